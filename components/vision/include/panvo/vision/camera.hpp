@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Geometry>
+#include <array>
+#include <string>
+#include <vector>
+
+/// Camera models. Camera frames are optical: X right, Y down, Z forward. Pixel centres lie at integer coordinates.
+namespace panvo::vision {
+
+/// Ideal perspective camera; focal lengths and principal point in pixels.
+struct PinholeCamera {
+  double fx = 0.0;
+  double fy = 0.0;
+  double cx = 0.0;
+  double cy = 0.0;
+  int width = 0;   ///< px
+  int height = 0;  ///< px
+
+  /// Pixel of a point in this camera's frame; the caller sees to it that the point is in front (z > 0).
+  Eigen::Vector2d project(const Eigen::Vector3d& point_in_camera) const {
+    return {fx * point_in_camera.x() / point_in_camera.z() + cx, fy * point_in_camera.y() / point_in_camera.z() + cy};
+  }
+
+  /// Ray through a pixel, scaled to z = 1.
+  Eigen::Vector3d unproject(const Eigen::Vector2d& pixel) const {
+    return {(pixel.x() - cx) / fx, (pixel.y() - cy) / fy, 1.0};
+  }
+
+  /// Whether a pixel lies in the image and at least margin_px away from its border.
+  bool contains(const Eigen::Vector2d& pixel, double margin_px = 0.0) const {
+    return pixel.x() >= margin_px && pixel.y() >= margin_px && pixel.x() <= width - 1 - margin_px &&
+           pixel.y() <= height - 1 - margin_px;
+  }
+};
+
+/// Pinhole with radial-tangential lens distortion, in OpenCV's and ROS's order ("plumb_bob").
+struct DistortedCamera {
+  PinholeCamera pinhole;
+  std::array<double, 5> distortion{};  ///< k1, k2, p1, p2, k3
+
+  /// Distorted pixel of a point in this camera's frame (z > 0).
+  Eigen::Vector2d project(const Eigen::Vector3d& point_in_camera) const;
+};
+
+/// Two raw cameras and the transform between their optical frames, as a calibration tool writes them.
+struct StereoCalibration {
+  DistortedCamera left;
+  DistortedCamera right;
+  Eigen::Isometry3d right_from_left = Eigen::Isometry3d::Identity();
+};
+
+/// A rectified pair: one pinhole for both images, rows aligned, the right camera baseline_m along +X of the left.
+/// Disparity d = u_left - u_right = fx * baseline_m / z, positive for every point in front.
+struct RectifiedStereo {
+  PinholeCamera camera;
+  double baseline_m = 0.0;
+  Eigen::Matrix3d rectified_left_from_left = Eigen::Matrix3d::Identity();     ///< rotation out of the raw left frame
+  Eigen::Matrix3d rectified_right_from_right = Eigen::Matrix3d::Identity();   ///< rotation out of the raw right frame
+};
+
+/// What is wrong with a calibration, one sentence a problem; empty when it can be used.
+/// Found are: focal lengths that are not positive numbers, sizes that differ or are not positive, a baseline that is
+/// zero, negative (left and right exchanged), not a number or not along the rows, rotations that are no rotations.
+std::vector<std::string> validate(const StereoCalibration& calibration);
+std::vector<std::string> validate(const RectifiedStereo& stereo);
+
+/// Rectified pair of a raw one, at the raw images' size, zoomed so that every rectified pixel has a source.
+/// Throws std::invalid_argument, naming each problem that validate() finds.
+RectifiedStereo rectify(const StereoCalibration& calibration);
+
+}  // namespace panvo::vision
