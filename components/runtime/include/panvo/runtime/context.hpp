@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <any>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <type_traits>
+#include <utility>
+
+#include "panvo/interfaces/topics.hpp"
+#include "panvo/runtime/bridge.hpp"
+#include "panvo/runtime/logger.hpp"
+#include "panvo/runtime/output.hpp"
+#include "panvo/runtime/parameters.hpp"
+#include "panvo/runtime/sample.hpp"
+#include "panvo/runtime/source.hpp"
+#include "panvo/runtime/stage.hpp"
+#include "panvo/runtime/stage_times.hpp"
+
+namespace panvo::runtime {
+
+/// All that a component knows of the world: its parameters, topics, log and time. The same component runs live (a thread and a bounded queue of
+/// its own) and in replay (one thread for all, messages in order of stamp) without knowing which. To be used in the component's constructor
+/// and, for time, log and outputs, in what it registered there.
+class Context {
+ public:
+  /// The component's name in the system: "binocular_odometry".
+  const std::string& name() const noexcept;
+
+  /// The component's parameters: defaults overridden by the configuration. A bad value is remembered, its default used, and the component
+  /// refused once constructed, with all that is wrong.
+  template <class Parameters>
+  Parameters parameters() {
+    return parameter_reader().read<Parameters>();
+  }
+
+  template <class Message>
+  Output<Message> output(const interfaces::Topic<Message>& topic) {
+    return Output<Message>(open_output(describe(topic)));
+  }
+
+  /// `callback(std::shared_ptr<const Message>)` runs to completion for each message; of those that wait, the newest `topic.qos.depth` are kept.
+  template <class Message, class Callback>
+  void input(const interfaces::Topic<Message>& topic, Callback callback) {
+    open_input(describe(topic), [callback = std::move(callback)](const SamplePtr& sample) mutable {
+      callback(Sample::as<Message>(sample));
+    });
+  }
+
+  /// `callback(first, second)` for each two messages of equal header stamp (the two images of a stereo pair). Those that stay without a partner
+  /// are dropped and counted.
+  template <class First, class Second, class Callback>
+  void input_pair(const interfaces::Topic<First>& first, const interfaces::Topic<Second>& second, Callback callback) {
+    open_input_pair(describe(first), describe(second), [callback = std::move(callback)](const SamplePtr& a, const SamplePtr& b) mutable {
+      callback(Sample::as<First>(a), Sample::as<Second>(b));
+    });
+  }
+
+  /// A second stage of the component: live on a thread of its own behind a queue of `capacity` items (push waits when it is full), in replay in
+  /// sequence; both call it with the same items in the same order. `callback(Item)`.
+  template <class Item, class Callback>
+  Stage<Item> stage(const std::string& stage_name, std::size_t capacity, Callback callback) {
+    return Stage<Item>(open_stage(stage_name, capacity, [callback = std::move(callback)](std::any& item) mutable {
+      callback(std::move(*std::any_cast<std::shared_ptr<Item>&>(item)));
+    }));
+  }
+
+  /// Has the runtime play `source`, which must live as long as the component.
+  void source(Source& source);
+
+  /// Every message of every topic that `wanted` accepts, those of other processes included, as samples: for recorders. Never dropped
+  /// before `depth` wait.
+  void tap(std::function<bool(const TopicDescription&)> wanted, std::size_t depth,
+           std::function<void(const TopicDescription&, const SamplePtr&)> callback);
+
+  /// Publishes samples of a type known by name only: for bag players.
+  std::shared_ptr<UntypedOutput> open_output(const TopicDescription& topic);
+
+  /// Whether another component of this container publishes the topic (name as recorded: "/odometry/binocular").
+  bool is_published(const std::string& resolved_name) const;
+
+  const Logger& log() const noexcept;
+  StageTimes& times() noexcept;
+
+  /// The stamp of what is being processed, ns: header stamp where the message has one. 0 before the first.
+  std::int64_t now_ns() const noexcept;
+
+  /// A seed for this component's random numbers: from the system's seed and the component's name.
+  std::uint64_t seed() const noexcept;
+
+  struct State;  // the runtime's side
+  explicit Context(std::unique_ptr<State> state);
+  ~Context();
+  Context(const Context&) = delete;
+  Context& operator=(const Context&) = delete;
+  State& state() noexcept { return *state_; }
+
+ private:
+  template <class Message>
+  static TopicDescription describe(const interfaces::Topic<Message>& topic) {
+    const auto& type = interfaces::message_type<Message>();
+    return {std::string(topic.name), std::string(type.name), topic.qos, &type};
+  }
+
+  ParameterReader& parameter_reader();
+  void open_input(const TopicDescription& topic, std::function<void(const SamplePtr&)> callback);
+  void open_input_pair(const TopicDescription& first, const TopicDescription& second,
+                       std::function<void(const SamplePtr&, const SamplePtr&)> callback);
+  std::shared_ptr<StageQueue> open_stage(const std::string& stage_name, std::size_t capacity, std::function<void(std::any&)> callback);
+
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace panvo::runtime

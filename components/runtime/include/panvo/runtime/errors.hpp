@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace panvo::runtime {
+
+/// Where a configured value stands: "stereo.yaml:17". Line 0: the place has no lines (a command line).
+struct Location {
+  std::string file;
+  int line = 0;
+
+  std::string to_string() const { return line > 0 ? file + ":" + std::to_string(line) : file; }
+};
+
+/// What is wrong with a configuration: every problem found, each naming file, line, key and remedy.
+class ConfigError : public std::runtime_error {
+ public:
+  explicit ConfigError(std::vector<std::string> problems);
+  explicit ConfigError(std::string problem) : ConfigError(std::vector<std::string>{std::move(problem)}) {}
+
+  const std::vector<std::string>& problems() const noexcept { return problems_; }
+
+ private:
+  std::vector<std::string> problems_;
+};
+
+}  // namespace panvo::runtime

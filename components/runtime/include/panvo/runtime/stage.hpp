@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <any>
+#include <memory>
+#include <utility>
+
+namespace panvo::runtime {
+
+/// The queue before a component's second stage, whatever its items.
+class StageQueue {
+ public:
+  virtual ~StageQueue() = default;
+  virtual void push(std::any item) = 0;
+};
+
+/// A component's second stage, see Context::stage.
+template <class Item>
+class Stage {
+ public:
+  explicit Stage(std::shared_ptr<StageQueue> queue) : queue_(std::move(queue)) {}
+
+  /// Hands an item on; waits while the queue is full, until the component stops.
+  void push(Item item) { queue_->push(std::make_shared<Item>(std::move(item))); }
+
+ private:
+  std::shared_ptr<StageQueue> queue_;
+};
+
+}  // namespace panvo::runtime

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <stdexcept>
+#include <string_view>
+#include <typeinfo>
+#include <vector>
+
+namespace panvo::interfaces {
+
+/// A serialised message as it goes over the wire and into a bag: XCDR1, led by its 4-byte encapsulation header.
+using Bytes = std::vector<std::uint8_t>;
+
+/// Thrown by MessageType::deserialize on bytes that are not a message of its type.
+class DecodeError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// What one needs to know of a message type to carry, store and read its messages without knowing their C++ class.
+/// The instances live in this library, which is never unloaded, so they may be referred to from anywhere.
+struct MessageType {
+  std::string_view name;        ///< as ROS 2 tools and bags print it: "nav_msgs/msg/Odometry"
+  std::string_view dds_name;    ///< as it is matched on the wire: "nav_msgs::msg::dds_::Odometry_"
+  std::string_view hash;        ///< ROS 2 type description hash: "RIHS01_" and 64 hexadecimal digits
+  std::string_view definition;  ///< the type and all it contains in ROS 2's .msg notation ("ros2msg")
+  const std::type_info* cpp_type;
+
+  std::size_t (*serialized_size)(const void* message);
+  /// Writes exactly serialized_size(message) bytes, encapsulation included.
+  void (*serialize)(const void* message, std::span<std::uint8_t> out);
+  /// A new message; throws DecodeError. Either byte order is read.
+  std::shared_ptr<void> (*deserialize)(std::span<const std::uint8_t> bytes);
+  /// The stamp of the message's header in ns; nullopt for a type without one.
+  std::optional<std::int64_t> (*stamp_ns)(const void* message);
+};
+
+/// The type of a generated message class: message_type<nav_msgs::msg::Odometry>(). Defined in this library for every generated message.
+template <class Message>
+const MessageType& message_type();
+
+/// The type of that ROS 2 name ("nav_msgs/msg/Odometry"), or nullptr.
+const MessageType* find_message_type(std::string_view name);
+
+/// Every known type, sorted by name.
+std::span<const MessageType* const> message_types();
+
+}  // namespace panvo::interfaces

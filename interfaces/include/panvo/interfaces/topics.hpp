@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string_view>
+
+#include "diagnostic_msgs/msg/DiagnosticArray.h"
+#include "nav_msgs/msg/Odometry.h"
+#include "nav_msgs/msg/Path.h"
+#include "panvo/interfaces/qos.hpp"
+#include "panvo_msgs/msg/OdometryQuality.h"
+#include "rcl_interfaces/msg/Log.h"
+#include "sensor_msgs/msg/CameraInfo.h"
+#include "sensor_msgs/msg/Image.h"
+#include "tf2_msgs/msg/TFMessage.h"
+
+namespace panvo::interfaces {
+
+/// A topic: name, message type and quality of service as one thing. The name is relative and may be remapped by a deployment.
+template <class MessageT>
+struct Topic {
+  using Message = MessageT;
+  std::string_view name;
+  Qos qos = qos::kDefault;
+};
+
+}  // namespace panvo::interfaces
+
+/// Every topic of panvo. Components refer to these, never to names of their own.
+namespace panvo::topics {
+
+using interfaces::Topic;
+namespace qos = interfaces::qos;
+
+inline constexpr Topic<sensor_msgs::msg::Image> kStereoLeftImageRaw{"stereo/left/image_raw", qos::kSensorData};
+inline constexpr Topic<sensor_msgs::msg::Image> kStereoRightImageRaw{"stereo/right/image_raw", qos::kSensorData};
+inline constexpr Topic<sensor_msgs::msg::Image> kStereoLeftImageRect{"stereo/left/image_rect", qos::kSensorData};
+inline constexpr Topic<sensor_msgs::msg::Image> kStereoRightImageRect{"stereo/right/image_rect", qos::kSensorData};
+inline constexpr Topic<sensor_msgs::msg::CameraInfo> kStereoLeftCameraInfo{"stereo/left/camera_info", qos::kSensorData};
+inline constexpr Topic<sensor_msgs::msg::CameraInfo> kStereoRightCameraInfo{"stereo/right/camera_info", qos::kSensorData};
+inline constexpr Topic<sensor_msgs::msg::Image> kPanorama{"panorama/image", qos::kSensorData};
+
+inline constexpr Topic<nav_msgs::msg::Odometry> kOdometryBinocular{"odometry/binocular", qos::kResult};
+inline constexpr Topic<panvo_msgs::msg::OdometryQuality> kOdometryQuality{"odometry/quality", qos::kResult};
+inline constexpr Topic<nav_msgs::msg::Odometry> kOdometryEnhanced{"odometry/enhanced", qos::kResult};
+inline constexpr Topic<nav_msgs::msg::Odometry> kGroundTruth{"ground_truth/odometry", qos::kResult};
+
+inline constexpr Topic<tf2_msgs::msg::TFMessage> kTf{"/tf", {.depth = 100}};
+inline constexpr Topic<tf2_msgs::msg::TFMessage> kTfStatic{"/tf_static", qos::kLatched};
+inline constexpr Topic<diagnostic_msgs::msg::DiagnosticArray> kDiagnostics{"/diagnostics", qos::kDefault};
+inline constexpr Topic<rcl_interfaces::msg::Log> kRosout{"/rosout", qos::kLog};
+
+}  // namespace panvo::topics
