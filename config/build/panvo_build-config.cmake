@@ -1,0 +1,128 @@
+# What every panvo package shares: compiler settings, install layout, exported targets, tests.
+# Used from the installed tree (colcon) and straight from the source tree (root CMakeLists.txt) alike.
+include_guard(DIRECTORY)
+include(CMakePackageConfigHelpers)
+include(CTest)
+include(GNUInstallDirs)
+
+option(PANVO_WARNINGS_AS_ERRORS "Treat compiler warnings as errors" OFF)
+set(PANVO_SANITIZE "" CACHE STRING "Sanitizers to build with: address, undefined, thread, or a comma-separated list")
+
+if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
+  set(CMAKE_BUILD_TYPE Release CACHE STRING "Release, RelWithDebInfo or Debug" FORCE)
+endif()
+
+# Plugins and libraries find each other next to where they were installed, whatever the prefix.
+set(CMAKE_INSTALL_RPATH "$ORIGIN;$ORIGIN/../${CMAKE_INSTALL_LIBDIR};$ORIGIN/../../${CMAKE_INSTALL_LIBDIR}")
+set(CMAKE_INSTALL_RPATH_USE_LINK_PATH ON)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+
+function(_panvo_compile_settings target)
+  target_compile_features(${target} PUBLIC cxx_std_20)
+  set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF POSITION_INDEPENDENT_CODE ON)
+  # -ffp-contract=off: the same sums on every machine, so that a replay is the same bit for bit.
+  # -fno-gnu-unique: a STB_GNU_UNIQUE symbol would pin a plugin in memory and unloading would do nothing.
+  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -ffp-contract=off
+    $<$<CXX_COMPILER_ID:GNU>:-fno-gnu-unique> $<$<BOOL:${PANVO_WARNINGS_AS_ERRORS}>:-Werror>)
+  if(PANVO_SANITIZE)
+    target_compile_options(${target} PRIVATE -fsanitize=${PANVO_SANITIZE} -fno-omit-frame-pointer -g)
+    target_link_options(${target} PRIVATE -fsanitize=${PANVO_SANITIZE})
+  endif()
+endfunction()
+
+# panvo_add_library(panvo_<name> SOURCES ... [LINK ...] [PRIVATE_LINK ...]): a shared library, known to others as panvo::<name>.
+function(panvo_add_library target)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;LINK;PRIVATE_LINK")
+  string(REGEX REPLACE "^panvo_" "" short ${target})
+  if(arg_SOURCES)
+    add_library(${target} SHARED ${arg_SOURCES})
+    target_include_directories(${target} PUBLIC
+      $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+    target_link_libraries(${target} PUBLIC ${arg_LINK} PRIVATE ${arg_PRIVATE_LINK})
+    set_target_properties(${target} PROPERTIES VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR})
+    _panvo_compile_settings(${target})
+  else()
+    add_library(${target} INTERFACE)
+    target_include_directories(${target} INTERFACE
+      $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+    target_link_libraries(${target} INTERFACE ${arg_LINK})
+  endif()
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${short})
+  add_library(panvo::${short} ALIAS ${target})
+  set_property(DIRECTORY APPEND PROPERTY PANVO_EXPORTED ${target})
+endfunction()
+
+# panvo_add_component(panvo_<name>_component SOURCES ... [LINK ...]): a plugin that the container loads by file name.
+function(panvo_add_component target)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;LINK")
+  add_library(${target} MODULE ${arg_SOURCES})
+  target_link_libraries(${target} PRIVATE panvo::runtime ${arg_LINK})
+  set_target_properties(${target} PROPERTIES CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON
+    LIBRARY_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/panvo_plugins)
+  _panvo_compile_settings(${target})
+  install(TARGETS ${target} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/panvo)
+endfunction()
+
+# panvo_add_executable(<name> SOURCES ... [LINK ...] [NO_INSTALL])
+function(panvo_add_executable target)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "NO_INSTALL" "" "SOURCES;LINK")
+  add_executable(${target} ${arg_SOURCES})
+  target_link_libraries(${target} PRIVATE ${arg_LINK})
+  _panvo_compile_settings(${target})
+  set_target_properties(${target} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/panvo_bin)
+  if(NOT arg_NO_INSTALL)
+    install(TARGETS ${target} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+  endif()
+endfunction()
+
+# panvo_add_test(<name> SOURCES ... [LINK ...] [LABELS ...] [TIMEOUT seconds] [DEFINITIONS ...] [ENVIRONMENT ...]): each TEST() becomes a ctest.
+# The tests read recordings from $PANVO_DATA, or from the folder shared/data beside the checkout.
+function(panvo_add_test target)
+  if(NOT BUILD_TESTING)
+    return()
+  endif()
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "TIMEOUT" "SOURCES;LINK;LABELS;DEFINITIONS;ENVIRONMENT")
+  find_package(GTest REQUIRED)
+  include(GoogleTest)
+  add_executable(${target} ${arg_SOURCES})
+  target_link_libraries(${target} PRIVATE ${arg_LINK} GTest::gmock GTest::gtest_main)
+  target_compile_definitions(${target} PRIVATE ${arg_DEFINITIONS})
+  _panvo_compile_settings(${target})
+  if(NOT arg_TIMEOUT)
+    set(arg_TIMEOUT 120)
+  endif()
+  set(properties TIMEOUT ${arg_TIMEOUT})
+  if(arg_LABELS)
+    list(APPEND properties LABELS ${arg_LABELS})
+  endif()
+  if(arg_ENVIRONMENT)
+    list(APPEND properties ENVIRONMENT ${arg_ENVIRONMENT})
+  endif()
+  gtest_discover_tests(${target} DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60 PROPERTIES ${properties})
+endfunction()
+
+# panvo_package(DEPENDENCIES <package> ...): installs headers, exports what panvo_add_library made, and writes the package's config file.
+# A dependency may carry components: "OpenCV COMPONENTS core imgproc" as one quoted argument.
+function(panvo_package)
+  cmake_parse_arguments(PARSE_ARGV 0 arg "" "" "DEPENDENCIES")
+  set(destination ${CMAKE_INSTALL_DATADIR}/${PROJECT_NAME}/cmake)
+  if(EXISTS ${CMAKE_CURRENT_SOURCE_DIR}/include)
+    install(DIRECTORY include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+  endif()
+  install(FILES package.xml DESTINATION ${CMAKE_INSTALL_DATADIR}/${PROJECT_NAME})
+  get_property(targets DIRECTORY PROPERTY PANVO_EXPORTED)
+  if(targets)
+    set(finds "")
+    foreach(dependency IN LISTS arg_DEPENDENCIES)
+      string(APPEND finds "find_dependency(${dependency})\n")
+    endforeach()
+    file(WRITE ${CMAKE_CURRENT_BINARY_DIR}/${PROJECT_NAME}-config.cmake
+      "include(CMakeFindDependencyMacro)\n${finds}include(\${CMAKE_CURRENT_LIST_DIR}/${PROJECT_NAME}-targets.cmake)\n")
+    write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/${PROJECT_NAME}-config-version.cmake COMPATIBILITY SameMajorVersion)
+    install(TARGETS ${targets} EXPORT ${PROJECT_NAME}-targets
+      LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+    install(EXPORT ${PROJECT_NAME}-targets NAMESPACE panvo:: DESTINATION ${destination})
+    install(FILES ${CMAKE_CURRENT_BINARY_DIR}/${PROJECT_NAME}-config.cmake
+      ${CMAKE_CURRENT_BINARY_DIR}/${PROJECT_NAME}-config-version.cmake DESTINATION ${destination})
+  endif()
+endfunction()
