@@ -1,0 +1,249 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Reads message definitions written in the part of OMG IDL that ROS 2 uses: one struct a file, in modules <package>::msg."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass, field
+from pathlib import Path
+
+PRIMITIVES = ("boolean", "octet", "int8", "uint8", "int16", "uint16", "int32", "uint32", "int64", "uint64", "float", "double")
+
+_TOKEN = re.compile(r"\s+|(?P<comment>//[^\n]*)|(?P<directive>\#[^\n]*)|(?P<word>[A-Za-z_]\w*(?:::\w+)*|-?[\d.]+)|(?P<sign>[{}()<>\[\];,=@])")
+
+
+class IdlError(Exception):
+    """A definition that cannot be used; the message names file, line and remedy."""
+
+
+@dataclass(frozen=True)
+class Type:
+    """The type of a field: a primitive, "string" or the name of a message ("std_msgs/msg/Header"), possibly many of it."""
+
+    base: str
+    string_bound: int = 0  # longest string in bytes; 0: no limit
+    array_size: int = 0  # elements of a fixed array; 0: not an array
+    is_sequence: bool = False
+
+    @property
+    def is_message(self) -> bool:
+        return "/" in self.base
+
+
+@dataclass(frozen=True)
+class Field:
+    name: str
+    type: Type
+    default: str = ""
+    comment: str = ""
+
+
+@dataclass(frozen=True)
+class Constant:
+    name: str
+    type: str
+    value: str
+
+
+@dataclass
+class Message:
+    package: str
+    name: str
+    comment: str = ""
+    fields: list[Field] = field(default_factory=list)
+    constants: list[Constant] = field(default_factory=list)
+
+    @property
+    def full_name(self) -> str:
+        return f"{self.package}/msg/{self.name}"
+
+    @property
+    def cpp_name(self) -> str:
+        return f"{self.package}::msg::{self.name}"
+
+    @property
+    def direct_dependencies(self) -> list[str]:
+        """Names of the messages its fields are of, each once, in order of first use."""
+        return list(dict.fromkeys(f.type.base for f in self.fields if f.type.is_message))
+
+
+def dependencies(message: Message, messages: dict[str, Message]) -> list[str]:
+    """Names of all messages it contains, at any depth, each once, in order of first use."""
+    found: dict[str, None] = {}
+
+    def visit(current: Message) -> None:
+        for name in current.direct_dependencies:
+            if name not in found:
+                found[name] = None
+                visit(messages[name])
+
+    visit(message)
+    return list(found)
+
+
+class _Parser:
+    def __init__(self, path: Path, text: str):
+        self.path = path
+        self.tokens: list[tuple[str, str, int]] = []  # kind, text, line
+        line, end = 1, 0
+        for match in _TOKEN.finditer(text):
+            if match.start() != end:
+                break
+            if match.lastgroup and match.lastgroup != "directive":
+                self.tokens.append((match.lastgroup, match.group(), line))
+            line += match.group().count("\n")
+            end = match.end()
+        if end != len(text):
+            raise IdlError(f"{path}:{line}: cannot read {text[end:end + 20]!r}; see README.md for the IDL that is understood")
+        self.at = 0
+
+    def error(self, message: str) -> IdlError:
+        line = self.tokens[min(self.at, len(self.tokens) - 1)][2] if self.tokens else 1
+        return IdlError(f"{self.path}:{line}: {message}")
+
+    def skip_comments(self) -> str:
+        """Passes over comments and returns their text, a line each."""
+        lines = []
+        while self.at < len(self.tokens) and self.tokens[self.at][0] == "comment":
+            lines.append(self.tokens[self.at][1].removeprefix("//").strip())
+            self.at += 1
+        return "\n".join(lines)
+
+    def peek(self) -> str:
+        self.skip_comments()
+        return self.tokens[self.at][1] if self.at < len(self.tokens) else ""
+
+    def take(self, expected: str = "") -> str:
+        found = self.peek()
+        if not found or (expected and found != expected):
+            raise self.error(f"expected {expected or 'more'}, found {found or 'the end of the file'}")
+        self.at += 1
+        return found
+
+    def trailing_comment(self) -> str:
+        """The comment on the line of the token taken last."""
+        kind, text, line = self.tokens[self.at] if self.at < len(self.tokens) else ("", "", 0)
+        if kind != "comment" or line != self.tokens[self.at - 1][2]:
+            return ""
+        self.at += 1
+        return text.removeprefix("//").strip()
+
+    def message(self) -> Message:
+        self.skip_comments()
+        self.take("module")
+        message = Message(package=self.take(), name="")
+        self.take("{")
+        self.take("module")
+        self.take("msg")
+        self.take("{")
+        if self.peek() == "module":
+            message.constants = self.constants()
+        message.comment = self.skip_comments_before("struct")
+        self.take("struct")
+        message.name = self.take()
+        self.take("{")
+        while self.peek() != "}":
+            message.fields.append(self.field(message.fields))
+        for closing in ("}", ";") * 3:
+            self.take(closing)
+        if self.peek():
+            raise self.error(f"{self.peek()} after the message: one struct a file")
+        if not message.fields:
+            raise self.error("a struct needs a member: ROS 2 puts uint8 structure_needs_at_least_one_member")
+        return message
+
+    def skip_comments_before(self, keyword: str) -> str:
+        start = self.at
+        while start > 0 and self.tokens[start - 1][0] == "comment":
+            start -= 1
+        self.at = start
+        comment = self.skip_comments()
+        if self.peek() != keyword:
+            raise self.error(f"expected {keyword}, found {self.peek()}")
+        return comment
+
+    def constants(self) -> list[Constant]:
+        self.take("module")
+        self.take()
+        self.take("{")
+        constants = []
+        while self.peek() != "}":
+            self.take("const")
+            base, name = self.take(), self.take()
+            self.take("=")
+            constants.append(Constant(name, base, self.take()))
+            self.take(";")
+        self.take("}")
+        self.take(";")
+        return constants
+
+    def field(self, previous: list[Field]) -> Field:
+        default = self.default() if self.peek() == "@" else ""
+        base = self.type()
+        name = self.take()
+        if any(name == other.name for other in previous):
+            raise self.error(f"{name} is there twice")
+        if self.peek() == "[":
+            self.take("[")
+            if base.is_sequence:
+                raise self.error(f"{name}: an array of sequences is not understood; wrap the sequence in a message of its own")
+            base = Type(base.base, base.string_bound, array_size=self.number())
+            self.take("]")
+        self.take(";")
+        return Field(name, base, default, self.trailing_comment())
+
+    def default(self) -> str:
+        for expected in ("@", "default", "(", "value", "="):
+            self.take(expected)
+        value = self.take()
+        self.take(")")
+        return value
+
+    def number(self) -> int:
+        text = self.take()
+        if not text.isdigit() or int(text) == 0:
+            raise self.error(f"{text} is not a size; write it as a number, the generator needs a literal")
+        return int(text)
+
+    def type(self) -> Type:
+        base = self.take()
+        if base == "sequence":
+            self.take("<")
+            element = self.type()
+            if element.is_sequence:
+                raise self.error("a sequence of sequences is not understood; wrap the inner one in a message of its own")
+            self.take(">")
+            return Type(element.base, element.string_bound, is_sequence=True)
+        if base == "string":
+            bound = 0
+            if self.peek() == "<":
+                self.take("<")
+                bound = self.number()
+                self.take(">")
+            return Type("string", bound)
+        if base in PRIMITIVES:
+            return Type(base)
+        if re.fullmatch(r"\w+::msg::\w+", base):
+            return Type(base.replace("::", "/"))
+        raise self.error(f"{base} is not a type that is understood: {', '.join(PRIMITIVES)}, string, sequence<...> or package::msg::Name")
+
+
+def parse(path: Path, text: str) -> Message:
+    """The message that a file defines; its place, <package>/msg/<Name>.idl, must agree."""
+    message = _Parser(path, text).message()
+    if path.parts[-3:] != (message.package, "msg", f"{message.name}.idl"):
+        raise IdlError(f"{path}: defines {message.full_name}, so it must be {message.full_name}.idl")
+    return message
+
+
+def read_messages(root: Path) -> dict[str, Message]:
+    """Every message under a folder by its full name, sorted."""
+    messages = {}
+    for path in sorted(root.glob("*/msg/*.idl")):
+        message = parse(path, path.read_text(encoding="utf-8"))
+        messages[message.full_name] = message
+    for message in messages.values():
+        for name in message.direct_dependencies:
+            if name not in messages:
+                raise IdlError(f"{root / message.full_name}.idl: {name} is not defined; add {root / name}.idl")
+    return messages

@@ -1,0 +1,76 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Generates the C++ classes of messages with eProsima's fastddsgen."""
+
+from __future__ import annotations
+
+import re
+import subprocess
+import tempfile
+from pathlib import Path
+
+import idl
+
+
+class GeneratorError(Exception):
+    """fastddsgen did not do what was asked; the message holds what it said."""
+
+
+def _flat_name(full_name: str) -> str:
+    """fastddsgen writes all its output into one folder: the package has to be part of the file name."""
+    return full_name.replace("/", "__")
+
+
+def _write_flat_copies(messages: dict[str, idl.Message], source: Path, folder: Path) -> Path:
+    """Copies the definitions under their flat names. One file that includes them all lets one Java process do the whole work."""
+    include = re.compile(r'#include "(\w+/msg/\w+)\.idl"')
+    for name in messages:
+        text = (source / f"{name}.idl").read_text(encoding="utf-8")
+        text = include.sub(lambda match: f'#include "{_flat_name(match.group(1))}.idl"', text)
+        (folder / f"{_flat_name(name)}.idl").write_text(text, encoding="utf-8")
+    root = folder / "all_messages.idl"
+    root.write_text("".join(f'#include "{_flat_name(name)}.idl"\n' for name in messages), encoding="utf-8")
+    return root
+
+
+def _run_fastddsgen(fastddsgen: str, root: Path, output: Path) -> None:
+    command = [fastddsgen, "-cs", "-typeros2", "-replace", "-I", str(root.parent), "-d", str(output), str(root)]
+    result = subprocess.run(command, capture_output=True, text=True, check=False)
+    # Its exit status is 0 after some crashes: what it writes to stderr tells.
+    if result.returncode != 0 or result.stderr.strip():
+        raise GeneratorError(f"{' '.join(command)} failed with status {result.returncode}:\n{result.stdout}{result.stderr}")
+
+
+def _header(message: idl.Message, text: str) -> str:
+    """With includes of what its fields need, by their place, and visible to plugins that are built with hidden visibility."""
+    text = re.sub(r'#include "[^"]*"\n', "", text)
+    own_includes = "".join(f'#include "{name}.h"\n' for name in message.direct_dependencies)
+    anchor = "#include <fastrtps/utils/fixed_size_string.hpp>\n"
+    first, last = f"namespace {message.package} {{", f"}} // namespace {message.package}"
+    if text.count(anchor) != 1 or text.count(first) != 1 or text.count(last) != 1:
+        raise GeneratorError(f"{message.full_name}: the header that fastddsgen wrote is not laid out as version 2.3.0 does it")
+    text = text.replace(anchor, own_includes + anchor)
+    text = text.replace(first, f"#pragma GCC visibility push(default)\n{first}")
+    return text.replace(last, f"{last}\n#pragma GCC visibility pop").rstrip() + "\n"
+
+
+def _source(message: idl.Message, text: str) -> str:
+    """Without the comments that hold addresses of Java objects, which differ from run to run."""
+    text = re.sub(r"\n\s*// m_\w+ com\.eprosima\.[^\n]*", "", text)
+    return text.replace(f'#include "{_flat_name(message.full_name)}.h"', f'#include "{message.full_name}.h"').rstrip() + "\n"
+
+
+def generate(messages: dict[str, idl.Message], source: Path, fastddsgen: str) -> dict[str, str]:
+    """Contents of <package>/msg/<Name>.h and .cxx of every message, by path."""
+    files = {}
+    with tempfile.TemporaryDirectory() as temporary:
+        idl_folder, output = Path(temporary, "idl"), Path(temporary, "cpp")
+        idl_folder.mkdir()
+        output.mkdir()
+        _run_fastddsgen(fastddsgen, _write_flat_copies(messages, source, idl_folder), output)
+        for name, message in messages.items():
+            for suffix, adapt in ((".h", _header), (".cxx", _source)):
+                path = output / (_flat_name(name) + suffix)
+                if not path.exists():
+                    raise GeneratorError(f"{name}: fastddsgen wrote no {path.name}, and did not say why")
+                files[name + suffix] = adapt(message, path.read_text(encoding="utf-8"))
+    return files

@@ -1,0 +1,45 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Message definitions in ROS 2's .msg notation, as bags carry them so that tools can read messages of unknown type."""
+
+from __future__ import annotations
+
+import idl
+
+_NAMES = {"boolean": "bool", "octet": "byte", "float": "float32", "double": "float64"}
+_SEPARATOR = "=" * 80
+_PLACEHOLDER = "structure_needs_at_least_one_member"  # ROS 2 adds it to the IDL of an empty message
+
+
+def _type(type_: idl.Type, package: str) -> str:
+    base = _NAMES.get(type_.base, type_.base)
+    if type_.is_message:
+        other_package, _, name = type_.base.split("/")
+        base = name if other_package == package else f"{other_package}/{name}"
+    if type_.string_bound:
+        base += f"<={type_.string_bound}"
+    if type_.array_size:
+        base += f"[{type_.array_size}]"
+    elif type_.is_sequence:
+        base += "[]"
+    return base
+
+
+def _own_definition(message: idl.Message) -> str:
+    lines = [f"# {line}" for line in message.comment.splitlines()]
+    lines += [f"{_NAMES.get(constant.type, constant.type)} {constant.name}={constant.value}" for constant in message.constants]
+    for field in message.fields:
+        if field.name == _PLACEHOLDER:
+            continue
+        comment = f"  # {field.comment}" if field.comment else ""
+        default = f" {field.default}" if field.default else ""
+        lines.append(f"{_type(field.type, message.package)} {field.name}{default}{comment}")
+    return "\n".join(lines) + "\n"
+
+
+def definition(message: idl.Message, messages: dict[str, idl.Message]) -> str:
+    """The message, then each message it contains, separated as rosbag2 does it."""
+    parts = [_own_definition(message)]
+    for name in idl.dependencies(message, messages):
+        other = messages[name]
+        parts.append(f"MSG: {other.package}/{other.name}\n{_own_definition(other)}")
+    return f"\n{_SEPARATOR}\n".join(parts)
