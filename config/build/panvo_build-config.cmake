@@ -12,6 +12,13 @@ if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
   set(CMAKE_BUILD_TYPE Release CACHE STRING "Release, RelWithDebInfo or Debug" FORCE)
 endif()
 
+# Compiling the same file twice is free where ccache is there; a launcher of the caller's own choice stands.
+find_program(PANVO_CCACHE ccache)
+mark_as_advanced(PANVO_CCACHE)
+if(PANVO_CCACHE AND NOT DEFINED CMAKE_CXX_COMPILER_LAUNCHER)
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${PANVO_CCACHE})
+endif()
+
 # Plugins and libraries find each other next to where they were installed, whatever the prefix.
 set(CMAKE_INSTALL_RPATH "$ORIGIN;$ORIGIN/../${CMAKE_INSTALL_LIBDIR};$ORIGIN/../../${CMAKE_INSTALL_LIBDIR}")
 set(CMAKE_INSTALL_RPATH_USE_LINK_PATH ON)
@@ -52,15 +59,18 @@ function(panvo_add_library target)
   set_property(DIRECTORY APPEND PROPERTY PANVO_EXPORTED ${target})
 endfunction()
 
-# panvo_add_component(panvo_<name>_component SOURCES ... [LINK ...]): a plugin that the container loads by file name.
+# panvo_add_component(panvo_<name>_component SOURCES ... [LINK ...] [NO_INSTALL]): a plugin that the container loads by file name.
 function(panvo_add_component target)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;LINK")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "NO_INSTALL" "" "SOURCES;LINK")
   add_library(${target} MODULE ${arg_SOURCES})
   target_link_libraries(${target} PRIVATE panvo::runtime ${arg_LINK})
   set_target_properties(${target} PROPERTIES CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON
     LIBRARY_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/panvo_plugins)
   _panvo_compile_settings(${target})
-  install(TARGETS ${target} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/panvo)
+  if(NOT arg_NO_INSTALL)
+    install(TARGETS ${target} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/panvo)
+    set_property(GLOBAL APPEND PROPERTY PANVO_PROGRAMS ${target})
+  endif()
 endfunction()
 
 # panvo_add_executable(<name> SOURCES ... [LINK ...] [NO_INSTALL])
@@ -72,6 +82,7 @@ function(panvo_add_executable target)
   set_target_properties(${target} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/panvo_bin)
   if(NOT arg_NO_INSTALL)
     install(TARGETS ${target} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+    set_property(GLOBAL APPEND PROPERTY PANVO_PROGRAMS ${target})
   endif()
 endfunction()
 

@@ -1,0 +1,147 @@
+# SPDX-License-Identifier: Apache-2.0
+# shellcheck shell=bash
+# Builds under build/<name>, and knows where what was built lies.
+
+source "$PANVO_SCRIPTS/lib/packages.sh"
+
+# cmake_arguments NAME: how each kind of build is configured; the same as the presets of CMakePresets.json.
+cmake_arguments() {
+  case $1 in
+    release) echo -DCMAKE_BUILD_TYPE=Release ;;
+    debug) echo -DCMAKE_BUILD_TYPE=Debug ;;
+    asan) echo -DCMAKE_BUILD_TYPE=RelWithDebInfo -DPANVO_SANITIZE=address ;;
+    ubsan) echo -DCMAKE_BUILD_TYPE=RelWithDebInfo -DPANVO_SANITIZE=undefined ;;
+    tsan) echo -DCMAKE_BUILD_TYPE=RelWithDebInfo -DPANVO_SANITIZE=thread ;;
+    *) fail "there is no build called '$1'; there are release, debug, asan, ubsan and tsan" 2 ;;
+  esac
+}
+
+# sanitizer_build NAME: the build for `--sanitize NAME`.
+sanitizer_build() {
+  case $1 in
+    address | asan) echo asan ;;
+    undefined | ubsan) echo ubsan ;;
+    thread | tsan) echo tsan ;;
+    *) fail "there is no sanitizer '$1'; there are address, undefined and thread" 2 ;;
+  esac
+}
+
+build_folder() { printf '%s/build/%s' "$PANVO_HOME" "$PANVO_BUILD"; }
+
+# job_count: cores, but no more than memory carries (the largest sources take about 1.2 GB each to compile).
+job_count() {
+  local cores carried
+  cores=${PANVO_JOBS:-$(nproc)}
+  [[ $cores =~ ^[1-9][0-9]*$ ]] || fail "PANVO_JOBS is '$cores'; it takes a number from 1"
+  carried=$(awk '/^MemAvailable/ { print int($2 / 1200000) }' /proc/meminfo 2>/dev/null || echo "$cores")
+  [[ -n ${PANVO_JOBS:-} ]] || { ((carried >= cores)) || cores=$((carried > 1 ? carried : 1)); }
+  printf '%s' "$cores"
+}
+
+# build_targets TARGET...: configures when needed, then builds. Prints nothing when everything is up to date.
+build_targets() {
+  local folder configuration stamp
+  folder=$(build_folder)
+  configuration=$(cmake_arguments "$PANVO_BUILD")
+  [[ -z ${CI:-} ]] || configuration+=" -DPANVO_WARNINGS_AS_ERRORS=ON"
+  mkdir -p "$folder"
+  touch "$PANVO_HOME/build/COLCON_IGNORE"
+  # Two panvo at once take turns: ninja itself does not guard its folder.
+  exec {lock}>"$folder/.panvo_lock"
+  flock -n "$lock" || { note "waiting for another build of build/$PANVO_BUILD"; flock "$lock"; }
+
+  # The stamp is what this tree was configured from; another checkout or other arguments mean configuring anew.
+  stamp="$PANVO_HOME $configuration"
+  if [[ ! -f $folder/build.ninja || $(cat "$folder/.panvo_configured" 2>/dev/null) != "$stamp" ]]; then
+    note "configuring build/$PANVO_BUILD"
+    rm -f "$folder/.panvo_configured"
+    # shellcheck disable=SC2086  # a list of arguments without blanks
+    cmake -S "$PANVO_HOME" -B "$folder" -G Ninja $configuration >"$folder/configure.log" 2>&1 || {
+      tail -n 30 "$folder/configure.log" >&2
+      fail "configuring failed; the whole log is $folder/configure.log"
+    }
+    printf '%s\n' "$stamp" >"$folder/.panvo_configured"
+  fi
+
+  if ! is_up_to_date "$folder" "$@"; then
+    note "building build/$PANVO_BUILD: $*"
+    if is_terminal; then
+      NINJA_STATUS='[%f/%t, %es] ' ninja -C "$folder" -j "$(job_count)" "$@" >&2 || fail_to_build "$folder"
+    else
+      NINJA_STATUS='[%f/%t, %es] ' ninja -C "$folder" -j "$(job_count)" "$@" 2>&1 | thin_out_progress >&2 || fail_to_build "$folder"
+    fi
+  fi
+  exec {lock}>&-
+}
+
+is_up_to_date() {
+  local folder=$1
+  shift
+  [[ $(ninja -C "$folder" -n "$@" 2>/dev/null | tail -n 1) == "ninja: no work to do." ]]
+}
+
+fail_to_build() { fail "the build failed; the messages above say where. Once more, one job at a time: ninja -C $1 -j 1"; }
+
+# In a log file a line per twentieth part will do; everything that is no progress line is kept.
+thin_out_progress() {
+  awk '
+    /^ninja: Entering directory/ { next }
+    match($0, /^\[[0-9]+\/[0-9]+, /) {
+      split(substr($0, 2), part, /[\/,]/)
+      step = int(20 * part[1] / part[2])
+      if (step == shown && part[1] != part[2]) next
+      shown = step
+    }
+    { print; fflush() }'
+}
+
+# ensure_built TARGET...: what a verb needs before it can do its work; nothing to do once installed.
+ensure_built() {
+  in_checkout || return 0
+  ensure_packages build
+  build_targets "$@"
+}
+
+# program NAME: path of one of our executables, built or installed.
+program() {
+  local candidate
+  if in_checkout; then
+    candidate=$(build_folder)/panvo_bin/$1
+  else
+    candidate=$(readlink -m -- "$PANVO_HOME/../../bin/$1")
+    [[ -x $candidate ]] || candidate=$(command -v "$1" || true)
+  fi
+  [[ -n $candidate && -x $candidate ]] || fail "$1 is not there; $(in_checkout && echo "'panvo build' makes it" || echo "source the setup.bash of the installed workspace, or install panvo anew")"
+  printf '%s' "$candidate"
+}
+
+# use_plugins: programs started from here find the components, and a user's own ones first.
+use_plugins() {
+  in_checkout || return 0
+  local folder
+  folder=$(build_folder)
+  export PANVO_PLUGIN_PATH="${PANVO_PLUGIN_PATH:+$PANVO_PLUGIN_PATH:}$folder/panvo_plugins"
+  export PATH="$folder/panvo_bin:$PATH"
+}
+
+# start_program NAME ARGUMENT...: the verb becomes the program.
+start_program() {
+  local name=$1 path
+  shift
+  ensure_built panvo_programs
+  use_plugins
+  path=$(program "$name")
+  exec "$path" "$@"
+}
+
+# show_program_help NAME: the program's own words where it is built; --help never starts a build.
+show_program_help() {
+  local path
+  path=$(program "$1" 2>/dev/null) || {
+    printf '\n("panvo build" first, then this shows all options.)\n'
+    return 0
+  }
+  printf '\n'
+  use_plugins
+  "$path" --help
+}

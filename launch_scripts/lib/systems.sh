@@ -1,0 +1,51 @@
+# SPDX-License-Identifier: Apache-2.0
+# shellcheck shell=bash
+# System files: by path, or by the name they have in config/systems.
+
+list_systems() {
+  local file
+  for file in "$PANVO_HOME"/config/systems/*.yaml; do
+    [[ -e $file ]] && basename "$file" .yaml
+  done | xargs
+}
+
+# system_file NAME_OR_PATH
+system_file() {
+  local named=$PANVO_HOME/config/systems/${1%.yaml}.yaml
+  local -a known
+  if [[ -f $1 ]]; then
+    printf '%s' "$1"
+  elif [[ $1 != */* && -f $named ]]; then
+    printf '%s' "$named"
+  elif [[ $1 == */* || $1 == *.yaml ]]; then
+    fail "there is no system file '$1' (named ones: $(list_systems))"
+  else
+    read -r -a known <<<"$(list_systems)"
+    fail "there is no system '$1'; did you mean '$(nearest_word "$1" "${known[@]}")'? (there are: ${known[*]})" 2
+  fi
+}
+
+# resolve_system ARGUMENT...: the arguments for panvo_run in resolved_arguments; the first one that is no option is the system.
+resolve_system() {
+  local system=''
+  resolved_arguments=()
+  while (($#)); do
+    case $1 in
+      --dataset | --bag | --out | --rate | --set)
+        require_value "$@"
+        resolved_arguments+=("$1" "$2")
+        shift
+        ;;
+      -*) resolved_arguments+=("$1") ;;
+      *)
+        if [[ -z $system ]]; then
+          system=$(system_file "$1")
+          resolved_arguments+=("$system")
+        else
+          resolved_arguments+=("$1")
+        fi
+        ;;
+    esac
+    shift
+  done
+}

@@ -1,0 +1,52 @@
+# SPDX-License-Identifier: Apache-2.0
+# shellcheck shell=bash
+# summary: run the benchmarks
+
+source "$PANVO_SCRIPTS/lib/build.sh"
+
+verb_usage() {
+  cat <<'EOT'
+usage: panvo bench [NAME...] [-- argument...]
+
+Runs the programs of tests/benchmarks: all, or those whose name contains NAME. Arguments after -- go to Google Benchmark,
+for example: panvo bench odometry -- --benchmark_filter=klt --benchmark_format=json
+EOT
+}
+
+verb_main() {
+  require_checkout
+  local -a names=() arguments=()
+  while (($#)); do
+    case $1 in
+      --)
+        shift
+        arguments=("$@")
+        break
+        ;;
+      --benchmark_*) arguments+=("$1") ;;
+      -*) unknown_option "$1" ;;
+      *) names+=("$1") ;;
+    esac
+    shift
+  done
+  ensure_built all
+  use_plugins
+  local data path name wanted ran=0 failed=0
+  data=$(data_folder)
+  [[ -z $data ]] || export PANVO_DATA=$data
+  for path in "$(build_folder)"/panvo_bin/*_benchmark; do
+    [[ -x $path ]] || continue
+    wanted=$((${#names[@]} == 0))
+    for name in "${names[@]}"; do
+      [[ $(basename "$path") != *"$name"* ]] || wanted=1
+    done
+    ((wanted)) || continue
+    ran=$((ran + 1))
+    note "$(basename "$path")"
+    "$path" "${arguments[@]}" || failed=$((failed + 1))
+  done
+  ((ran)) || fail "no benchmark is called that; there are: $(list_benchmarks)"
+  ((failed == 0)) || fail "$failed of $ran benchmark programs failed"
+}
+
+list_benchmarks() { find "$(build_folder)/panvo_bin" -name '*_benchmark' -printf '%f ' 2>/dev/null; }

@@ -1,0 +1,118 @@
+# SPDX-License-Identifier: Apache-2.0
+# shellcheck shell=bash
+# summary: from nothing to a measured trajectory: install, build, play a recording, evaluate, plot
+
+source "$PANVO_SCRIPTS/lib/build.sh"
+source "$PANVO_SCRIPTS/lib/systems.sh"
+source "$PANVO_SCRIPTS/lib/datasets.sh"
+
+verb_usage() {
+  cat <<'EOT'
+usage: panvo demo [--dataset DIR] [--out DIR] [--replay]
+
+Installs and builds what is missing, plays a stereo recording through rectification and odometry in one container, records
+the topics into a bag, compares the path with ground truth where the recording has one, and says where plot, trajectory and
+bag lie.
+
+  --dataset DIR   the recording (default: kitti_03, else campus_clip, else the first one found in $PANVO_DATA or
+                  ../shared/data beside the checkout)
+  --out DIR       a new folder for the results (default: runs/demo-1, demo-2, ...)
+  --replay        one thread, in order of stamps, the same result bit for bit every time (default: live, threads, at the
+                  recorded rate)
+EOT
+  printf '\n'
+  dataset_layouts
+}
+
+verb_main() {
+  local dataset='' out='' system run
+  local -a mode=()
+  while (($#)); do
+    case $1 in
+      --dataset)
+        require_value "$@"
+        dataset=$2
+        shift
+        ;;
+      --out)
+        require_value "$@"
+        out=$2
+        shift
+        ;;
+      --replay) mode=(--replay) ;;
+      *) unknown_option "$1" ;;
+    esac
+    shift
+  done
+  # Before anything is installed or built: is there something to play?
+  if [[ -n $dataset ]]; then
+    [[ -n $(dataset_kind "$dataset") ]] || fail "'$dataset' is no recording that panvo understands.
+
+$(dataset_layouts)"
+  else
+    dataset=$(default_dataset)
+    [[ -n $dataset ]] || fail "there is no recording to play: neither \$PANVO_DATA nor ${PANVO_HOME%/*}/shared/data holds one.
+
+$(dataset_layouts)"
+  fi
+  dataset=$(readlink -f -- "$dataset")
+  out=$(claim_folder "$out")
+  system=$(system_file demo)
+
+  note "recording: $dataset ($(dataset_kind "$dataset"))"
+  ensure_built panvo_programs
+  use_plugins
+  run=$(program panvo_run)
+  "$run" "$system" --dataset "$dataset" --out "$out" "${mode[@]}" ||
+    fail "the run failed; what it said is in $out/run.log"
+  show_results "$dataset" "$out"
+}
+
+# claim_folder [DIR]: makes the folder for the results; one that has something in it is never written to.
+claim_folder() {
+  local out=$1 base n=1
+  if [[ -n $out ]]; then
+    [[ ! -e $out || -z $(ls -A -- "$out" 2>/dev/null || echo no) ]] ||
+      fail "'$out' is there already and not empty; name a new folder with --out"
+    mkdir -p -- "$out" || fail "'$out' cannot be made; name another folder with --out"
+  else
+    base=$PWD/runs
+    ! in_checkout || base=$PANVO_HOME/runs
+    mkdir -p -- "$base" || fail "'$base' cannot be made; name a folder with --out"
+    until mkdir -- "$base/demo-$n" 2>/dev/null; do n=$((n + 1)); done
+    out=$base/demo-$n
+  fi
+  readlink -f -- "$out"
+}
+
+show_results() {
+  local dataset=$1 out=$2 truth evaluate status=0
+  truth=$(dataset_ground_truth "$dataset")
+  if [[ -n $truth ]]; then
+    printf '\n'
+    evaluate=$(program panvo_evaluate)
+    "$evaluate" "$out" "$truth" || status=$?
+    # 3: everything was measured, only the plot could not be drawn.
+    ((status == 0 || status == 3)) || fail "evaluating failed; the run itself is in $out"
+  fi
+  cat <<EOT
+
+Results in $out
+$(result_line 'plot' "$out/evaluation.png")
+$(result_line 'trajectory' "$out/odometry_binocular.tum")
+$(result_line 'bag' "$out/bag")
+$(result_line 'times' "$out/timing.json")
+$(result_line 'summary' "$out/summary.json")
+
+What to try next:
+  panvo bag info $out/bag
+EOT
+  [[ -z $truth ]] || printf '  panvo evaluate %q %q\n' "$out" "$truth"
+  cat <<EOT
+  panvo run stereo --dataset $(printf %q "$dataset") --out runs/mine --replay
+  panvo component list
+EOT
+  [[ -n $truth ]] || note "this recording has no ground truth: nothing to compare with, so there is no plot of errors"
+}
+
+result_line() { [[ ! -e $2 ]] || printf '  %-11s %s' "$1" "$2"; }

@@ -1,0 +1,75 @@
+# SPDX-License-Identifier: Apache-2.0
+# shellcheck shell=bash
+# summary: check layout, naming and likely bugs in the sources
+
+source "$PANVO_SCRIPTS/lib/build.sh"
+
+verb_usage() {
+  cat <<'EOT'
+usage: panvo lint [--format | --naming | --tidy | --scripts] [--fix] [FILE...]
+
+Without an option: layout, naming rules and scripts, as CI does. FILE: only these (default: every tracked C++ source).
+
+  --format    layout, by clang-format and .clang-format
+  --naming    the naming rules of .clang-tidy alone, quickly
+  --tidy      every check of .clang-tidy; minutes for the whole tree
+  --scripts   shellcheck over the shell scripts
+  --fix       with --format: rewrite the files
+EOT
+}
+
+verb_main() {
+  require_checkout
+  local fix=no status=0 check
+  local -a checks=() files=()
+  while (($#)); do
+    case $1 in
+      --format | --naming | --tidy | --scripts) checks+=("${1#--}") ;;
+      --fix) fix=yes ;;
+      -*) unknown_option "$1" ;;
+      *)
+        [[ -f $1 ]] || fail "there is no file '$1'" 2
+        files+=("$(readlink -f -- "$1")")
+        ;;
+    esac
+    shift
+  done
+  ((${#checks[@]})) || checks=(format naming scripts)
+  ensure_packages build lint
+  ((${#files[@]})) || mapfile -t files < <(tracked_files '*.cpp' '*.hpp')
+  for check in "${checks[@]}"; do
+    "lint_$check" "${files[@]}" || status=1
+  done
+  ((status == 0)) || fail "see above; 'panvo lint --format --fix' mends layout, the rest is for you"
+  note "nothing to complain about: ${checks[*]}"
+}
+
+tracked_files() { git -C "$PANVO_HOME" ls-files -- "$@" | sed "s|^|$PANVO_HOME/|"; }
+
+lint_format() {
+  note "layout of $# files"
+  if [[ $fix == yes ]]; then
+    clang-format -i "$@"
+  else
+    clang-format --dry-run -Werror "$@"
+  fi
+}
+
+lint_naming() {
+  note "naming rules"
+  build_targets panvo_generated_sources
+  python3 "$PANVO_HOME/tests/lint/tidy.py" --build "$(build_folder)" --naming --jobs "$(job_count)" "$@"
+}
+
+lint_tidy() {
+  note "clang-tidy over $# files"
+  build_targets panvo_generated_sources
+  python3 "$PANVO_HOME/tests/lint/tidy.py" --build "$(build_folder)" --jobs "$(job_count)" "$@"
+}
+
+lint_scripts() {
+  local -a shell_files
+  mapfile -t shell_files < <(tracked_files 'launch_scripts/panvo' 'launch_scripts/*.sh' '.ci/run')
+  note "shellcheck over ${#shell_files[@]} scripts"
+  (cd "$PANVO_HOME" && shellcheck -x -P "$PANVO_HOME" "${shell_files[@]}")
+}

@@ -1,0 +1,29 @@
+# SPDX-License-Identifier: Apache-2.0
+# shellcheck shell=bash
+# summary: run a system file: live, on a data set or on a bag
+
+source "$PANVO_SCRIPTS/lib/build.sh"
+source "$PANVO_SCRIPTS/lib/systems.sh"
+
+verb_usage() {
+  cat <<'EOT'
+usage: panvo run SYSTEM [--dataset DIR | --bag DIR] [--out DIR] [--replay | --rate R] [--set component.parameter=value ...]
+
+SYSTEM is a system file, or the name of one in config/systems: `panvo run stereo`.
+
+  --dataset DIR   play a data set (KITTI, EuRoC/ASL, or left/right folders with a calibration)
+  --bag DIR       play a recorded bag
+  --out DIR       leave trajectory, times and summary there
+  --replay        deterministic: one thread, in order of stamps, as fast as it goes
+  --rate R        play at R times the recorded rate
+  --set C.P=V     set parameter P of component C
+
+EOT
+  printf 'Systems here: %s\n' "$(list_systems)"
+}
+
+verb_main() {
+  (($#)) || fail "which system? There are: $(list_systems) (panvo run --help)" 2
+  resolve_system "$@"
+  start_program panvo_run "${resolved_arguments[@]}"
+}

@@ -1,0 +1,75 @@
+# SPDX-License-Identifier: Apache-2.0
+# shellcheck shell=bash
+# summary: build and run all tests; the last line counts them
+
+source "$PANVO_SCRIPTS/lib/build.sh"
+
+verb_usage() {
+  cat <<'EOT'
+usage: panvo test [--sanitize KIND | --debug] [--colcon] [-R REGEX] [ctest argument...]
+
+Builds what changed and runs every test. The last line is "N passed, N failed, N skipped", the exit status 0 only when
+nothing failed. Tests that need recordings read $PANVO_DATA, or ../shared/data beside the checkout, and are skipped, with
+their reason shown, where neither is there.
+
+  --sanitize KIND   address, undefined or thread, in a build of its own
+  --debug           the build that is not optimised
+  --colcon          build and test every package on its own with colcon
+  -R REGEX          only tests whose name matches; other ctest arguments (-E, -L, --repeat ...) are passed on as well
+EOT
+}
+
+verb_main() {
+  require_checkout
+  local use_colcon=no folder status=0
+  local -a arguments=()
+  while (($#)); do
+    case $1 in
+      --sanitize)
+        require_value "$@"
+        PANVO_BUILD=$(sanitizer_build "$2")
+        shift
+        ;;
+      --debug) PANVO_BUILD=debug ;;
+      --colcon) use_colcon=yes ;;
+      *) arguments+=("$1") ;;
+    esac
+    shift
+  done
+  local data
+  data=$(data_folder)
+  [[ -z $data ]] || export PANVO_DATA=$data
+  set_sanitizer_options
+
+  if [[ $use_colcon == yes ]]; then
+    source "$PANVO_SCRIPTS/lib/colcon.sh"
+    # shellcheck disable=SC2119  # no arguments of ours for colcon build
+    colcon_build
+    colcon_test "${arguments[@]}" || status=$?
+    python3 "$PANVO_SCRIPTS/lib/test_report.py" --status "$status" "$colcon_build_base"/panvo_*/panvo_junit.xml
+    return
+  fi
+  ensure_built all
+  folder=$(build_folder)
+  rm -f "$folder/panvo_junit.xml"
+  # --test-dir keeps the caller's folder; ctest itself prints a line a test, or one that moves on a terminal.
+  local -a progress=()
+  [[ ! -t 1 ]] || progress=(--progress)
+  ctest --test-dir "$folder" --parallel "${PANVO_JOBS:-$(nproc)}" --output-on-failure --no-tests=error \
+    --output-junit "$folder/panvo_junit.xml" "${progress[@]}" "${arguments[@]}" || status=$?
+  python3 "$PANVO_SCRIPTS/lib/test_report.py" --status "$status" "$folder/panvo_junit.xml"
+}
+
+# What a sanitizer finds fails the test; the suppressions are ours to justify, one by one, in config/build.
+set_sanitizer_options() {
+  local suppressions=$PANVO_HOME/config/build/$PANVO_BUILD.supp with=''
+  [[ ! -f $suppressions ]] || with=":suppressions=$suppressions"
+  case $PANVO_BUILD in
+    asan)
+      export ASAN_OPTIONS="detect_stack_use_after_return=1:${ASAN_OPTIONS:-}"
+      export LSAN_OPTIONS="print_suppressions=0$with:${LSAN_OPTIONS:-}"
+      ;;
+    ubsan) export UBSAN_OPTIONS="print_stacktrace=1:halt_on_error=1$with:${UBSAN_OPTIONS:-}" ;;
+    tsan) export TSAN_OPTIONS="halt_on_error=1$with:${TSAN_OPTIONS:-}" ;;
+  esac
+}
