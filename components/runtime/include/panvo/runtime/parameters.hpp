@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <concepts>
 #include <cstdint>
-#include <functional>
 #include <initializer_list>
 #include <map>
 #include <optional>
 #include <string>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "panvo/runtime/errors.hpp"
+#include "panvo/runtime/problems.hpp"
 
 namespace panvo::runtime {
 
@@ -37,17 +37,22 @@ struct ParameterDescription {
   std::vector<std::string> choices;
 };
 
-/// Parses one written value as the declared type. On failure leaves `out` and returns what is wrong ("is not a whole number").
+/// Parses one written value as the declared type, all of it and whatever the locale. On failure leaves `out`
+/// as it is and returns what is wrong ("is not a whole number"). Numbers are finite; a whole number is a
+/// number, 7.0 no whole number.
 std::optional<std::string> parse(const WrittenValue& written, bool& out);
 std::optional<std::string> parse(const WrittenValue& written, std::int64_t& out);
 std::optional<std::string> parse(const WrittenValue& written, double& out);
 std::optional<std::string> parse(const WrittenValue& written, std::string& out);
 std::optional<std::string> parse(const WrittenValue& written, std::vector<double>& out);
 std::optional<std::string> parse(const WrittenValue& written, std::vector<std::string>& out);
+
+/// A value as it could have been written; parse() gives the same value back, numbers to the last bit.
 std::string to_text(bool value);
 std::string to_text(std::int64_t value);
 std::string to_text(double value);
 std::string to_text(const std::string& value);
+std::string to_text(const char*) = delete;  // would be taken for a bool
 std::string to_text(const std::vector<double>& value);
 std::string to_text(const std::vector<std::string>& value);
 
@@ -60,7 +65,8 @@ std::string to_text(const std::vector<std::string>& value);
 class ParameterReader {
  public:
   /// `owner` names the component in messages ("binocular_odometry").
-  ParameterReader(std::string owner, WrittenValues written) : owner_(std::move(owner)), written_(std::move(written)) {}
+  ParameterReader(std::string owner, WrittenValues written)
+      : owner_(std::move(owner)), written_(std::move(written)) {}
 
   /// The struct with its defaults overridden by what was written. Problems are remembered, see problems().
   template <class Parameters>
@@ -70,10 +76,12 @@ class ParameterReader {
     return parameters;
   }
 
+  /// In order of declaration, each name once.
   const std::vector<ParameterDescription>& declared() const noexcept { return declared_; }
 
-  /// Every bad value, and every written key that no read() declared (with the nearest declared name), each with file and line.
-  /// To be called when the component has been constructed, so that all it declares is known.
+  /// Every bad value, and every written key that no read() declared (with the nearest declared name), each
+  /// with file and line, in order of line. To be called when the component has been constructed, so that all
+  /// it declares is known.
   std::vector<std::string> problems() const;
 
  private:
@@ -84,8 +92,9 @@ class ParameterReader {
     std::string prefix;
 
     template <class Value>
-      requires std::is_arithmetic_v<Value>
-    void operator()(Value Parameters::*member, const char* name, const char* unit, const char* description, double min, double max) {
+    requires std::is_arithmetic_v<Value>
+    void operator()(Value Parameters::*member, const char* name, const char* unit, const char* description,
+                    double min, double max) {
       using Wide = std::conditional_t<std::is_integral_v<Value>, std::int64_t, double>;
       Wide value = parameters.*member;
       reader.read_number(prefix + name, unit, description, min, max, value);
@@ -95,8 +104,8 @@ class ParameterReader {
     void operator()(Value Parameters::*member, const char* name, const char* unit, const char* description) {
       reader.read_value(prefix + name, unit, description, parameters.*member);
     }
-    void operator()(std::string Parameters::*member, const char* name, const char* unit, const char* description,
-                    std::initializer_list<const char*> choices) {
+    void operator()(std::string Parameters::*member, const char* name, const char* unit,
+                    const char* description, std::initializer_list<const char*> choices) {
       reader.read_choice(prefix + name, unit, description, choices, parameters.*member);
     }
     template <class Nested>
@@ -105,23 +114,27 @@ class ParameterReader {
     }
   };
 
-  void read_number(const std::string& name, const char* unit, const char* description, double min, double max, std::int64_t& value);
-  void read_number(const std::string& name, const char* unit, const char* description, double min, double max, double& value);
+  void read_number(const std::string& name, const char* unit, const char* description, double min, double max,
+                   std::int64_t& value);
+  void read_number(const std::string& name, const char* unit, const char* description, double min, double max,
+                   double& value);
   void read_value(const std::string& name, const char* unit, const char* description, bool& value);
   void read_value(const std::string& name, const char* unit, const char* description, std::string& value);
-  void read_value(const std::string& name, const char* unit, const char* description, std::vector<double>& value);
-  void read_value(const std::string& name, const char* unit, const char* description, std::vector<std::string>& value);
-  void read_choice(const std::string& name, const char* unit, const char* description, std::initializer_list<const char*> choices,
-                   std::string& value);
+  void read_value(const std::string& name, const char* unit, const char* description,
+                  std::vector<double>& value);
+  void read_value(const std::string& name, const char* unit, const char* description,
+                  std::vector<std::string>& value);
+  void read_choice(const std::string& name, const char* unit, const char* description,
+                   std::initializer_list<const char*> choices, std::string& value);
 
+  /// Overrides `value` with what was written, if it is right, and remembers the declaration.
   template <class Value>
-  bool override_default(ParameterDescription& description, Value& value);  // parses the written value, if there is one
-  void problem(const std::string& name, const std::string& what);
+  void declare(ParameterDescription description, Value& value);
 
   std::string owner_;
   WrittenValues written_;
   std::vector<ParameterDescription> declared_;
-  std::vector<std::string> problems_;
+  Problems problems_;
 };
 
 }  // namespace panvo::runtime

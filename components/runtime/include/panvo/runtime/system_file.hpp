@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "panvo/runtime/errors.hpp"
+#include "panvo/runtime/parameters.hpp"
+
+namespace panvo::runtime {
+
+/// One component to load: a `composable_node`.
+struct ComponentDescription {
+  std::string package;     ///< "panvo_binocular_odometry"
+  std::string plugin;      ///< class name: "BinocularOdometryComponent"
+  std::string name;        ///< "binocular_odometry"
+  std::string name_space;  ///< absolute, root "/"
+  WrittenValues parameters;
+  std::map<std::string, std::string> remaps;  ///< from, to, as written; see resolve_topic
+  Location where;
+};
+
+/// One process: a `node_container`.
+struct ContainerDescription {
+  std::string name;
+  std::string name_space;  ///< absolute, root "/"
+  std::vector<ComponentDescription> components;
+  Location where;
+};
+
+/// Which processes there are and what each loads.
+struct SystemDescription {
+  std::string file;
+  std::vector<ContainerDescription>
+      containers;                  ///< in the order of the file, no two components of one full name
+  std::vector<std::string> notes;  ///< what was read and has no effect here, with file and line
+};
+
+/// Reads a system file: ROS 2's launch vocabulary in YAML.
+///
+///     launch:
+///     - arg: {name: rig, default: kitti, description: folder of the calibration}
+///     - node_container:
+///         name: stereo
+///         composable_node:
+///         - pkg: panvo_binocular_odometry
+///           plugin: BinocularOdometryComponent
+///           name: binocular_odometry
+///           param:
+///           - from: $(dirname)/../rigs/$(var rig)/odometry.yaml     # a ROS 2 parameter file
+///           - {name: tracker.max_features, value: 500}
+///           remap:
+///           - {from: stereo/left/image_rect, to: /camera/left/image_rect}
+///
+/// Also `let` (name, value), `include` (file, arg), `group` with `push_ros_namespace`, and `if`, `unless` on
+/// each. Paths are relative to the file that has them. Substitutions: $(var NAME), $(env NAME [DEFAULT]),
+/// $(dirname), $(find-pkg-share PACKAGE). `arguments` give the file's `arg`s. Throws ConfigError with every
+/// problem found, each with file and line.
+SystemDescription read_system_file(const std::filesystem::path& file,
+                                   const std::map<std::string, std::string>& arguments = {});
+
+/// Sets one parameter as the command line does: "binocular_odometry.tracker.max_features=500", a list as
+/// "name.list=[1, 2]". A component that is in a namespace may be called by its full name; a short name means
+/// each that has it. Throws ConfigError if there is none.
+void apply_setting(SystemDescription& system, const std::string& setting);
+
+}  // namespace panvo::runtime

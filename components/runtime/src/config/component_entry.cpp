@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "component_entry.hpp"
+
+#include <algorithm>
+
+#include "panvo/runtime/names.hpp"
+#include "parameter_file.hpp"
+
+namespace panvo::runtime {
+namespace {
+
+/// The list `param` of one component. Later entries override what files say; two entries of one name are a
+/// slip.
+class ParameterEntries {
+ public:
+  ParameterEntries(std::string node, const Scope& scope, Findings& findings, WrittenValues& parameters)
+      : node_(std::move(node)), scope_(scope), findings_(findings), parameters_(parameters) {}
+
+  void read(const YAML::Node& entry, const std::string& prefix = "") {
+    YamlMap map(entry, "param", scope_, findings_);
+    if (prefix.empty() && map.has("from")) {
+      read_file(map);
+    } else {
+      const auto name = prefix + map.required("name", "write {name: NAME, value: VALUE} or {from: FILE}");
+      if (map.has("param")) {
+        for (const auto& nested : map.list("param")) {
+          read(nested, name + ".");
+        }
+      } else {
+        read_value(map, name);
+      }
+    }
+    map.finish();
+  }
+
+ private:
+  void read_file(YamlMap& map) {
+    const auto file = map.required("from", "name a parameter file");
+    const bool substitutes = map.flag("allow_substs", false);
+    if (file.empty()) {
+      return;
+    }
+    auto values = read_parameter_file(beside(scope_.file, file), node_, substitutes ? &scope_ : nullptr,
+                                      map.where("from"), findings_);
+    for (auto& [name, value] : values) {
+      parameters_[name] = std::move(value);
+    }
+  }
+
+  void read_value(YamlMap& map, const std::string& name) {
+    const auto value = map.node("value");
+    if (!value) {
+      findings_.problems.add(map.where(), "param " + name + " lacks the key \"value\"");
+      return;
+    }
+    if (std::find(entered_.begin(), entered_.end(), name) != entered_.end()) {
+      findings_.problems.add(map.where("name"), "parameter " + name + " is given twice, first at " +
+                                                    parameters_[name].where.to_string() + "; keep one");
+      return;
+    }
+    if (auto written = written_value(*value, name, map.where("name"), &scope_, findings_)) {
+      parameters_[name] = std::move(*written);
+      entered_.push_back(name);
+    }
+  }
+
+  std::string node_;
+  const Scope& scope_;
+  Findings& findings_;
+  WrittenValues& parameters_;
+  std::vector<std::string> entered_;
+};
+
+std::string read_topic(YamlMap& map, const std::string& key, Findings& findings) {
+  auto topic = map.required(key, "write {from: TOPIC, to: TOPIC}");
+  if (const auto wrong = topic_name_problem(topic); wrong && !topic.empty()) {
+    findings.problems.add(map.where(key), "topic name \"" + topic + "\" " + *wrong);
+  }
+  return topic;
+}
+
+}  // namespace
+
+ComponentDescription read_component(YamlMap& map, const Scope& scope, Findings& findings) {
+  ComponentDescription component;
+  component.where = map.where();
+  component.package = map.required("pkg", "name the package that has the plugin");
+  component.plugin = map.required("plugin", "name the component's class");
+  component.name = read_name(map, "name the component", findings);
+  component.name_space = read_name_space(map, scope, findings);
+
+  ParameterEntries parameters(full_name(component.name_space, component.name), scope, findings,
+                              component.parameters);
+  for (const auto& entry : map.list("param")) {
+    parameters.read(entry);
+  }
+  for (const auto& entry : map.list("remap")) {
+    YamlMap remap(entry, "remap", scope, findings);
+    const auto from = read_topic(remap, "from", findings);
+    const auto to = read_topic(remap, "to", findings);
+    if (!component.remaps.emplace(from, to).second) {
+      findings.problems.add(remap.where(), "topic " + from + " is remapped twice; keep one");
+    }
+    remap.finish();
+  }
+  map.finish({"extra_arg"});
+  return component;
+}
+
+std::string read_name(YamlMap& map, const std::string& remedy, Findings& findings) {
+  auto name = map.required("name", remedy);
+  if (const auto wrong = node_name_problem(name); wrong && !name.empty()) {
+    findings.problems.add(map.where("name"), "name \"" + name + "\" " + *wrong);
+  }
+  return name;
+}
+
+std::string read_name_space(YamlMap& map, const Scope& scope, Findings& findings) {
+  const auto name_space = map.text("namespace").value_or("");
+  if (const auto wrong = name_space_problem(name_space)) {
+    findings.problems.add(map.where("namespace"), "namespace \"" + name_space + "\" " + *wrong);
+  }
+  return join_name_spaces(scope.name_space, name_space);
+}
+
+}  // namespace panvo::runtime

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "panvo/runtime/names.hpp"
+
+#include <algorithm>
+#include <cstddef>
+
+#include "panvo/runtime/errors.hpp"
+
+namespace panvo::runtime {
+namespace {
+
+constexpr std::size_t kLongestName =
+    247;  // what DDS takes (255), less the "rt/" and the like that ROS 2 puts before it
+
+// Not <cctype>: the locale has no say in what a name is.
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
+
+std::optional<std::string> word_problem(std::string_view word) {
+  if (word.empty()) {
+    return "has an empty part; write one '/' between words and none at the end";
+  }
+  if (is_digit(word.front())) {
+    return "has a part that begins with a digit; begin it with a letter";
+  }
+  const auto wrong =
+      std::find_if(word.begin(), word.end(), [](char c) { return !is_letter(c) && !is_digit(c); });
+  if (wrong != word.end()) {
+    return std::string("has the character '") + *wrong + "'; use letters, digits, '_' and '/' only";
+  }
+  return std::nullopt;
+}
+
+std::optional<std::string> words_problem(std::string_view words) {
+  while (true) {
+    const std::size_t slash = words.find('/');
+    if (auto wrong = word_problem(words.substr(0, slash))) {
+      return wrong;
+    }
+    if (slash == std::string_view::npos) {
+      return std::nullopt;
+    }
+    words.remove_prefix(slash + 1);
+  }
+}
+
+std::string expand(std::string_view name_space, std::string_view node_name, std::string_view topic) {
+  if (topic.starts_with("~/")) {
+    return full_name(full_name(name_space, node_name), topic.substr(2));
+  }
+  return full_name(name_space, topic);
+}
+
+void check_topic(std::string_view topic) {
+  if (const auto wrong = topic_name_problem(topic)) {
+    throw ConfigError("topic name \"" + std::string(topic) + "\" " + *wrong);
+  }
+}
+
+}  // namespace
+
+std::optional<std::string> topic_name_problem(std::string_view name) {
+  if (name.empty()) {
+    return "is empty";
+  }
+  if (name.size() > kLongestName) {
+    return "is longer than " + std::to_string(kLongestName) + " characters";
+  }
+  if (name.starts_with("~/")) {
+    return words_problem(name.substr(2));
+  }
+  return words_problem(name.starts_with('/') ? name.substr(1) : name);
+}
+
+std::optional<std::string> node_name_problem(std::string_view name) {
+  if (name.empty()) {
+    return "is empty";
+  }
+  if (name.find('/') != std::string_view::npos) {
+    return "has a '/'; put what is before it into the key namespace";
+  }
+  return word_problem(name);
+}
+
+std::optional<std::string> name_space_problem(std::string_view name_space) {
+  if (name_space.empty() || name_space == "/") {
+    return std::nullopt;
+  }
+  return words_problem(name_space.starts_with('/') ? name_space.substr(1) : name_space);
+}
+
+std::string join_name_spaces(std::string_view outer, std::string_view inner) {
+  return inner.empty() ? full_name("", outer.empty() ? "/" : outer) : full_name(outer, inner);
+}
+
+std::string full_name(std::string_view name_space, std::string_view name) {
+  if (name.starts_with('/')) {
+    return std::string(name);
+  }
+  if (name_space.empty() || name_space == "/") {
+    return "/" + std::string(name);
+  }
+  return (name_space.starts_with('/') ? "" : "/") + std::string(name_space) + "/" + std::string(name);
+}
+
+std::string resolve_topic(std::string_view name_space, std::string_view node_name,
+                          const std::map<std::string, std::string>& remaps, std::string_view topic) {
+  check_topic(topic);
+  const std::string resolved = expand(name_space, node_name, topic);
+  for (const auto& [from, to] : remaps) {
+    if (expand(name_space, node_name, from) == resolved) {
+      check_topic(to);
+      return expand(name_space, node_name, to);
+    }
+  }
+  return resolved;
+}
+
+}  // namespace panvo::runtime
