@@ -1,0 +1,45 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Every file by itself: licence line, include guard, no path of somebody's machine, no waiting in a test."""
+import re
+
+import workspace
+
+LICENCE = "SPDX-License-Identifier: Apache-2.0"
+TEXT_SUFFIXES = {".cpp", ".hpp", ".py", ".sh", ".md", ".txt", ".cmake", ".xml", ".yaml", ".yml", ".json", ".meta", ".idl", ".in", ".supp", ""}
+MACHINE_PATH = re.compile(r"(?<![\w.$}/-])/(?:work|home|root|Users)/\w|/tmp/[p]anvo\b|file:/[/]/")
+WAITING = re.compile(r"\bsleep_(?:for|until)\b|\b(?:u|nano)?sleep\s*\(|--repeat until-pass")
+
+
+def needs_licence(path):
+    return path.suffix in {".cpp", ".hpp", ".py", ".sh", ".idl"} or path.parts[0] == ".ci" or str(path) == "launch_scripts/panvo"
+
+
+def check(root):
+    complaints = []
+    for path in workspace.source_files(root):
+        if path.suffix not in TEXT_SUFFIXES or path.name == "LICENSE":
+            continue
+        text = workspace.read(root, path)
+        if "\0" in text:
+            continue
+        lines = text.splitlines()
+        if needs_licence(path) and not any(LICENCE in line for line in lines[:2]):
+            complaints.append(f"{path}:1: the file must begin with: {LICENCE}")
+        if path.suffix == ".hpp" and "#pragma once" not in lines[:12]:
+            complaints.append(f"{path}:1: a header has #pragma once at its top")
+        if lines and not text.endswith("\n"):
+            complaints.append(f"{path}:{len(lines)}: the last line has no end")
+        is_a_test = path.parts[0] != "launch_scripts" and path.suffix in (".cpp", ".hpp") and ("test" in path.parts or path.parts[0] == "tests")
+        code = workspace.without_comments(text).splitlines() if is_a_test else []
+        for number, line in enumerate(lines, 1):
+            if MACHINE_PATH.search(line):
+                complaints.append(f"{path}:{number}: a path of one machine: {MACHINE_PATH.search(line)[0]}")
+            if line != line.rstrip() and path.suffix != ".md":
+                complaints.append(f"{path}:{number}: blanks at the end of the line")
+            if is_a_test and WAITING.search(code[number - 1]):
+                complaints.append(f"{path}:{number}: a test waits for an event, not for time: {WAITING.search(code[number - 1])[0]}")
+    return complaints
+
+
+if __name__ == "__main__":
+    workspace.run(check)

@@ -1,0 +1,59 @@
+# SPDX-License-Identifier: Apache-2.0
+import floors
+import sample
+
+L = sample.LICENCE
+
+
+class FloorsTest(sample.RuleTest):
+    def test_a_whole_workspace_breaks_nothing(self):
+        self.assertEqual(self.complaints(floors), [])
+
+    def test_vision_knows_no_runtime(self):
+        self.assert_finds(floors, "components/vision/src/a.cpp:2: panvo/runtime/logger.hpp: the floor 'vision'",
+                          {"components/vision/src/a.cpp": L + '#include "panvo/runtime/logger.hpp"\n'})
+
+    def test_vision_knows_no_yaml_even_in_quotes(self):
+        self.assert_finds(floors, "does not use yaml", {"components/vision/src/a.cpp": L + '#include "yaml-cpp/yaml.h"\n'})
+
+    def test_an_algorithm_includes_no_generated_type(self):
+        self.assert_finds(floors, "does not use messages", {
+            "interfaces/idl/nav_msgs/msg/Odometry.idl": "", "components/compass/src/compass.cpp": L + '#include "nav_msgs/msg/Odometry.h"\n'})
+
+    def test_an_algorithm_includes_no_other_component(self):
+        self.assert_finds(floors, "may include of ours only: vision",
+                          {"components/compass/src/compass.cpp": L + '#include "panvo/landmarks/landmark.hpp"\n'})
+
+    def test_an_algorithm_has_no_thread_and_no_clock(self):
+        self.assert_finds(floors, "no threads of its own", {"components/compass/src/compass.cpp": L + "#include <thread>\n"})
+        self.assert_finds(floors, "reads no clock", {"components/compass/src/compass.cpp": L + "#include <chrono>\n"})
+        self.assert_finds(floors, "std::chrono::steady_clock".split("::")[2],
+                          {"components/compass/src/compass.cpp": L + "auto now() { return std::chrono::steady_clock::now(); }\n"})
+
+    def test_words_in_comments_and_strings_are_no_code(self):
+        self.assertEqual(self.complaints(floors, {
+            "components/compass/src/compass.cpp": L + '// no std::thread here\n/* nor a\n steady_clock */ const char* k = "std::async";\n'}), [])
+
+    def test_a_wrapper_includes_no_fastdds_and_no_other_component(self):
+        wrapper = "components/compass/src/compass_component.cpp"
+        self.assert_finds(floors, "does not use fastdds", {wrapper: L + "#include <fastdds/dds/domain/DomainParticipant.hpp>\n"})
+        self.assert_finds(floors, "the floor 'component wrapper'", {wrapper: L + '#include "panvo/localizer/localizer.hpp"\n'})
+
+    def test_the_runtime_keeps_dds_and_yaml_in_their_folders(self):
+        dds, yaml = L + "#include <fastdds/dds/topic/Topic.hpp>\n", L + "#include <yaml-cpp/yaml.h>\n"
+        self.assert_finds(floors, "does not use fastdds", {"components/runtime/src/context.cpp": dds})
+        self.assert_finds(floors, "does not use yaml", {"components/runtime/src/dds/bridge.cpp": yaml})
+        self.assertEqual(self.complaints(floors, {"components/runtime/src/dds/bridge.cpp": dds, "components/runtime/src/config/file.cpp": yaml}), [])
+
+    def test_a_driver_includes_no_component(self):
+        self.assert_finds(floors, "the floor 'driver'", {"drivers/camera/src/camera.cpp": L + '#include "panvo/stereo_rectifier/x.hpp"\n'})
+
+    def test_nobody_includes_the_evaluation(self):
+        self.assert_finds(floors, "nothing includes evaluation",
+                          {"components/compass/src/compass.cpp": L + '#include "panvo/evaluation/report.hpp"\n'})
+
+    def test_a_library_nobody_knows_is_asked_about(self):
+        self.assert_finds(floors, "belongs to no known library", {"components/compass/src/compass.cpp": L + "#include <boost/any.hpp>\n"})
+
+    def test_no_climbing_out_of_a_folder(self):
+        self.assert_finds(floors, "climbs out", {"components/compass/src/compass.cpp": L + '#include "../../vision/src/a.hpp"\n'})

@@ -1,0 +1,104 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Every package is whole: known to plain CMake, to colcon and its variants, and its two descriptions say the same."""
+import pathlib
+import re
+import xml.etree.ElementTree as ElementTree
+
+import workspace
+
+METAS = ["colcon.meta", "config/build/asan.meta", "config/build/ubsan.meta", "config/build/tsan.meta"]
+# CMake's name of a library -> the Debian package that brings it.
+DEBIAN = {
+    "Eigen3": "libeigen3-dev", "OpenCV": "libopencv-dev", "Ceres": "libceres-dev", "fastrtps": "libfastrtps-dev",
+    "fastcdr": "libfastcdr-dev", "yaml-cpp": "libyaml-cpp-dev", "spdlog": "libspdlog-dev", "CLI11": "libcli11-dev",
+    "nlohmann_json": "nlohmann-json3-dev", "SQLite3": "libsqlite3-dev", "GTest": "libgtest-dev", "benchmark": "libbenchmark-dev",
+    "fmt": "libfmt-dev",
+    "tinyxml2": "libtinyxml2-dev", "Python3": "python3", "Threads": "g++",
+}
+
+
+def cmake_text(root, folder):
+    """The CMakeLists.txt of a package and of the folders in it, without comments."""
+    files = sorted((root / folder).rglob("CMakeLists.txt"))
+    return re.sub(r"#[^\n]*", "", "\n".join(file.read_text(encoding="utf-8") for file in files))
+
+
+def check_package(root, folder, order, version):
+    complaints = []
+    name = "panvo_" + folder.name
+    manifest, lists = root / folder / "package.xml", root / folder / "CMakeLists.txt"
+    for file in (manifest, lists):
+        if not file.is_file():
+            complaints.append(f"{folder}: has no {file.name}: every folder of code is a package of its own")
+    if complaints:
+        return complaints
+    described = ElementTree.parse(manifest).getroot()
+    if described.findtext("name") != name:
+        complaints.append(f"{folder}/package.xml: is called {described.findtext('name')}, must be {name}")
+    if described.findtext("export/build_type") != "cmake":
+        complaints.append(f"{folder}/package.xml: build_type must be cmake")
+    if described.findtext("version") != version:
+        complaints.append(f"{folder}/package.xml: version {described.findtext('version')}, the workspace is {version}")
+    project = re.search(r"project\(\s*(\S+)\s+VERSION\s+([\d.]+)", lists.read_text(encoding="utf-8"))
+    if not project or project.groups() != (name, version):
+        complaints.append(f"{folder}/CMakeLists.txt: must say project({name} VERSION {version} ...)")
+    if folder.parts[0] in ("components", "drivers") and not (root / folder / "README.md").is_file():
+        complaints.append(f"{folder}: has no README.md")
+
+    if str(folder) not in order:
+        complaints.append(f"CMakeLists.txt: package_folders lacks {folder}")
+        return complaints
+    depends = {tag.text for tag in described if tag.tag.endswith("depend") and tag.text}
+    found = set(re.findall(r"find_package\(\s*([\w-]+)", cmake_text(root, folder)))
+    for used in sorted(found - depends):
+        if used.startswith("panvo_"):
+            complaints.append(f"{folder}/package.xml: CMakeLists.txt finds {used}, which no depend tag names; colcon would build in any order")
+    by_name = {"panvo_" + pathlib.Path(other).name: position for position, other in enumerate(order)}
+    for used in sorted(depends):
+        if used.startswith("panvo_") and used not in by_name:
+            complaints.append(f"{folder}/package.xml: depends on {used}, which is no package here")
+        elif used.startswith("panvo_") and by_name[used] >= by_name[name]:
+            complaints.append(f"CMakeLists.txt: package_folders has {folder} before {used}, which it needs")
+    return complaints
+
+
+def check_debian_packages(root):
+    list_file = root / "launch_scripts" / "packages.txt"
+    if not list_file.is_file():
+        return ["launch_scripts/packages.txt: is missing"]
+    listed = {line.split()[0] for line in list_file.read_text(encoding="utf-8").splitlines() if re.match(r"[a-z]", line)}
+    complaints = []
+    for folder in workspace.package_folders(root):
+        for used in sorted(set(re.findall(r"find_package\(\s*([\w-]+)", cmake_text(root, folder)))):
+            if used.startswith("panvo_"):
+                continue
+            if used not in DEBIAN:
+                complaints.append(f"{folder}/CMakeLists.txt: finds {used}; say in tests/lint/packages.py which Debian package brings it")
+            elif DEBIAN[used] not in listed:
+                complaints.append(f"launch_scripts/packages.txt: lacks {DEBIAN[used]}, which {folder} needs")
+    return complaints
+
+
+def check(root):
+    root = pathlib.Path(root)
+    top = (root / "CMakeLists.txt").read_text(encoding="utf-8")
+    version = re.search(r"project\(panvo VERSION ([\d.]+)", top)[1]
+    order = re.search(r"set\(package_folders([^)]*)\)", top)[1].split()
+    complaints = []
+    folders = workspace.package_folders(root)
+    for folder in folders:
+        complaints += check_package(root, folder, order, version)
+    for folder in order:
+        if pathlib.Path(folder) not in folders:
+            complaints.append(f"CMakeLists.txt: package_folders names {folder}, which is not there")
+    for meta in METAS:
+        text = (root / meta).read_text(encoding="utf-8") if (root / meta).is_file() else ""
+        for folder in folders:
+            compiles = "CXX" in (root / folder / "CMakeLists.txt").read_text(encoding="utf-8") if (root / folder / "CMakeLists.txt").is_file() else False
+            if compiles and not re.search(rf"^  panvo_{folder.name}:", text, re.MULTILINE):
+                complaints.append(f"{meta}: lacks panvo_{folder.name}")
+    return complaints + check_debian_packages(root)
+
+
+if __name__ == "__main__":
+    workspace.run(check)
