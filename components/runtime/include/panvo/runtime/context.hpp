@@ -41,6 +41,9 @@ class Context {
     return Output<Message>(open_output(describe(topic)));
   }
 
+  /// What parameters() has declared so far.
+  const std::vector<ParameterDescription>& declared_parameters() const noexcept;
+
   /// `callback(std::shared_ptr<const Message>)` runs to completion for each message; of those that wait, the newest `topic.qos.depth` are kept.
   template <class Message, class Callback>
   void input(const interfaces::Topic<Message>& topic, Callback callback) {

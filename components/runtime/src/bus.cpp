@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bus.hpp"
+
+#include <algorithm>
+
+#include "panvo/runtime/errors.hpp"
+
+namespace panvo::runtime {
+
+using interfaces::Durability;
+
+Channel::Channel(TopicDescription topic, Bridge* bridge, std::function<void(const std::string&)> warn)
+    : topic_(std::move(topic)), bridge_(bridge), warn_(std::move(warn)) {}
+
+void Channel::add_publisher(const void* owner, const std::string& owner_name) {
+  const std::unique_lock lock(mutex_);
+  publishers_[owner] = owner_name;
+  if (bridge_ && !writer_) writer_ = bridge_->open_writer(topic_);
+}
+
+void Channel::remove_publisher(const void* owner) {
+  std::unique_ptr<BridgeWriter> closed;
+  const std::unique_lock lock(mutex_);
+  publishers_.erase(owner);
+  if (publishers_.empty()) closed = std::move(writer_);
+}
+
+bool Channel::has_publisher_other_than(const void* owner) const {
+  const std::shared_lock lock(mutex_);
+  return std::any_of(publishers_.begin(), publishers_.end(), [&](const auto& entry) { return entry.first != owner; });
+}
+
+bool Channel::has_readers() const {
+  const std::shared_lock lock(mutex_);
+  return !readers_.empty();
+}
+
+void Channel::add_reader(const void* owner, Reader reader) {
+  {
+    const std::unique_lock lock(mutex_);
+    for (const auto& sample : history_) reader(topic_, sample);
+    readers_.emplace_back(owner, std::move(reader));
+  }
+  const std::lock_guard lock(bridge_reader_mutex_);
+  if (bridge_ && !bridge_reader_) bridge_reader_ = bridge_->open_reader(topic_, [this](const SamplePtr& sample) { deliver(sample); });
+}
+
+void Channel::remove_reader(const void* owner) {
+  bool last = false;
+  {
+    const std::unique_lock lock(mutex_);
+    std::erase_if(readers_, [&](const auto& entry) { return entry.first == owner; });
+    last = readers_.empty();
+  }
+  const std::lock_guard lock(bridge_reader_mutex_);
+  if (last) bridge_reader_.reset();
+}
+
+void Channel::add_observer(Reader observer) {
+  const std::unique_lock lock(mutex_);
+  observers_.push_back(std::move(observer));
+}
+
+void Channel::publish(const SamplePtr& sample) {
+  ++published_;
+  deliver(sample);
+  const std::shared_lock lock(mutex_);
+  for (const auto& observer : observers_) observer(topic_, sample);
+  if (writer_ && !writer_->write(sample)) ++not_sent_;
+}
+
+void Channel::deliver(const SamplePtr& sample) {
+  const std::shared_lock lock(mutex_);
+  if (topic_.qos.durability == Durability::kTransientLocal) remember(sample);
+  for (const auto& [owner, reader] : readers_) reader(topic_, sample);
+}
+
+void Channel::remember(const SamplePtr& sample) {
+  const std::lock_guard lock(history_mutex_);
+  history_.push_back(sample);
+  if (history_.size() > std::max<std::size_t>(topic_.qos.depth, 1)) history_.pop_front();
+}
+
+bool Channel::wait_for_acknowledgments(std::chrono::milliseconds limit) {
+  const std::shared_lock lock(mutex_);
+  return !writer_ || writer_->wait_for_acknowledgments(limit);
+}
+
+Channel::Counters Channel::counters() const {
+  Counters counters{.published = published_, .not_sent = not_sent_};
+  {
+    const std::shared_lock lock(mutex_);
+    if (writer_) counters.remote_readers = writer_->matched_readers();
+  }
+  const std::lock_guard lock(bridge_reader_mutex_);
+  if (bridge_reader_) {
+    counters.remote_writers = bridge_reader_->matched_writers();
+    counters.lost = bridge_reader_->counters().lost;
+  }
+  return counters;
+}
+
+Bus::Bus(std::unique_ptr<Bridge> bridge, std::function<void(const std::string&)> warn)
+    : warn_(std::move(warn)), bridge_(std::move(bridge)) {
+  if (bridge_) bridge_->on_warning(warn_);
+}
+
+Bus::~Bus() {
+  {
+    const std::lock_guard lock(mutex_);
+    channels_.clear();
+  }
+  bridge_.reset();
+}
+
+Channel& Bus::channel(const TopicDescription& topic) {
+  const std::lock_guard lock(mutex_);
+  if (const auto found = channels_.find(topic.name); found != channels_.end()) {
+    const auto& there = found->second->topic();
+    if (there.type_name != topic.type_name) {
+      throw ConfigError("topic " + topic.name + " carries " + there.type_name + " here, not " + topic.type_name +
+                        ": remap one of the two topics in the system file");
+    }
+    return *found->second;
+  }
+  auto& channel = *channels_.emplace(topic.name, std::make_unique<Channel>(topic, bridge_.get(), warn_)).first->second;
+  for (const auto& observer : observers_) {
+    if (observer.wanted(topic)) channel.add_observer(observer.reader);
+  }
+  for (const auto& tap : taps_) {
+    if (tap.wanted(topic)) channel.add_reader(tap.owner, tap.reader);
+  }
+  return channel;
+}
+
+std::vector<Channel*> Bus::channels() const {
+  const std::lock_guard lock(mutex_);
+  std::vector<Channel*> channels;
+  for (const auto& [name, channel] : channels_) channels.push_back(channel.get());
+  return channels;
+}
+
+void Bus::observe(std::function<bool(const TopicDescription&)> wanted, Channel::Reader observer) {
+  const std::lock_guard lock(mutex_);
+  for (const auto& [name, channel] : channels_) {
+    if (wanted(channel->topic())) channel->add_observer(observer);
+  }
+  observers_.push_back({nullptr, std::move(wanted), std::move(observer)});
+}
+
+void Bus::tap(const void* owner, std::function<bool(const TopicDescription&)> wanted, Channel::Reader reader) {
+  {
+    const std::lock_guard lock(mutex_);
+    for (const auto& [name, channel] : channels_) {
+      if (wanted(channel->topic())) channel->add_reader(owner, reader);
+    }
+    taps_.push_back({owner, std::move(wanted), std::move(reader)});
+  }
+  if (!bridge_ || watching_) return;
+  watching_ = true;
+  // The bridge calls back with locks of its own held: the topic is only noted here, and joined by join_discovered().
+  bridge_->watch_topics([this](const TopicDescription& topic) {
+    const std::lock_guard discovered_lock(discovered_mutex_);
+    discovered_.push_back(topic);
+  });
+}
+
+void Bus::join_discovered() {
+  std::vector<TopicDescription> discovered;
+  {
+    const std::lock_guard lock(discovered_mutex_);
+    discovered.swap(discovered_);
+  }
+  for (const auto& topic : discovered) {
+    try {
+      const std::lock_guard lock(mutex_);
+      const bool is_wanted = std::any_of(taps_.begin(), taps_.end(), [&](const Tap& tap) { return tap.wanted(topic); });
+      if (is_wanted) channel(topic);
+    } catch (const ConfigError& error) {
+      warn_(error.what());
+    }
+  }
+}
+
+void Bus::remove_tap(const void* owner) {
+  const std::lock_guard lock(mutex_);
+  std::erase_if(taps_, [&](const Tap& tap) { return tap.owner == owner; });
+  for (const auto& [name, channel] : channels_) channel->remove_reader(owner);
+}
+
+bool Bus::wait_for_acknowledgments(std::chrono::milliseconds limit) {
+  const auto deadline = std::chrono::steady_clock::now() + limit;
+  bool all = true;
+  for (Channel* channel : channels()) {
+    const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(deadline - std::chrono::steady_clock::now());
+    all = channel->wait_for_acknowledgments(std::max(left, std::chrono::milliseconds(0))) && all;
+  }
+  return all;
+}
+
+}  // namespace panvo::runtime

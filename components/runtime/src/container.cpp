@@ -1,0 +1,457 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "panvo/runtime/container.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+
+#include "clocks.hpp"
+#include "context_state.hpp"
+#include "diagnostics.hpp"
+#include "library.hpp"
+#include "panvo/runtime/errors.hpp"
+#include "source_runner.hpp"
+
+namespace panvo::runtime {
+namespace {
+
+void log_to_stderr(LogLevel level, const std::string& component, const std::string& text) {
+  if (level >= LogLevel::kWarning) std::fprintf(stderr, "%s: %s\n", component.c_str(), text.c_str());
+}
+
+/// A loaded component. Its members go in the order that keeps all code mapped that may still run: first the component, then what the
+/// runtime holds of it (callbacks are the plugin's code), then the plugin.
+struct Entry {
+  std::shared_ptr<Library> library;
+  std::unique_ptr<Context> context;
+  std::unique_ptr<Component, void (*)(Component*)> component{nullptr, nullptr};
+
+  ~Entry() {
+    if (context) context->state().stop();
+  }
+};
+
+}  // namespace
+
+class Container::Implementation {
+ public:
+  explicit Implementation(ContainerOptions options)
+      : options_(std::move(options)),
+        sink_(options_.log ? options_.log : Logger::Write(log_to_stderr)),
+        bus_(options_.dds && !options_.replay ? make_dds_bridge(*options_.dds) : nullptr,
+             [this](const std::string& text) { log(LogLevel::kWarning, "container", text); }),
+        host_{.bus = bus_,
+              .replay_order = options_.replay ? &replay_order_ : nullptr,
+              .log = [this](LogLevel level, const std::string& component, const std::string& text) { log(level, component, text); },
+              .seed = options_.seed,
+              .progressed = [this] { progressed(); }},
+        own_(std::make_unique<Context::State>(host_, own_description(), nullptr)),
+        diagnostics_output_(own_.open_output(describe(topics::kDiagnostics))) {
+    set_rosout(own_.open_output(describe(topics::kRosout)));
+  }
+
+  ~Implementation() {
+    set_rosout(nullptr);
+    if (runner_) runner_->stop();
+    stop_housekeeping();
+    while (!entries_.empty()) entries_.pop_back();  // the last loaded first: it may use what the others publish
+  }
+
+  void log(LogLevel level, const std::string& component, const std::string& text) {
+    sink_(level, component, text);
+    std::shared_ptr<UntypedOutput> rosout;
+    {
+      const std::lock_guard lock(rosout_mutex_);
+      rosout = rosout_;
+    }
+    if (!rosout) return;  // while the container is being made or ends
+    auto message = std::make_shared<rcl_interfaces::msg::Log>();
+    const std::int64_t now_ns = options_.replay ? current_stamp_ns() : clocks::system_ns();
+    message->stamp().sec(static_cast<std::int32_t>(now_ns / 1'000'000'000));
+    message->stamp().nanosec(static_cast<std::uint32_t>(now_ns % 1'000'000'000));
+    message->level(static_cast<std::uint8_t>(level));
+    message->name(component);
+    message->msg(text);
+    rosout->publish(std::shared_ptr<const void>(std::move(message)));
+  }
+
+  void add(const ComponentDescription& description, std::shared_ptr<Library> library,
+           const std::function<std::unique_ptr<Component, void (*)(Component*)>(Context&)>& create) {
+    if (find(description.name) != entries_.end()) {
+      throw ConfigError(description.where.to_string() + ": there already is a component " + description.name + "; give this one another name");
+    }
+    auto entry = std::make_unique<Entry>();
+    entry->library = library;
+    entry->context = std::make_unique<Context>(std::make_unique<Context::State>(host_, description, library));
+    Context::State& state = entry->context->state();
+    std::vector<std::string> problems;
+    try {
+      entry->component = create(*entry->context);
+    } catch (const ConfigError& error) {
+      problems = error.problems();
+    } catch (const std::exception& error) {
+      problems.push_back(description.name + " could not be made: " + error.what());
+    }
+    const auto append = [&](const std::vector<std::string>& more) { problems.insert(problems.end(), more.begin(), more.end()); };
+    append(state.reader.problems());
+    append(state.problems);
+    if (!problems.empty()) throw ConfigError(std::move(problems));
+    if (started_) state.start();
+    const std::lock_guard lock(entries_mutex_);
+    entries_.push_back(std::move(entry));
+  }
+
+  bool unload(const std::string& name) {
+    std::unique_ptr<Entry> entry;
+    {
+      const std::lock_guard lock(entries_mutex_);
+      const auto found = find(name);
+      if (found == entries_.end()) return false;
+      entry = std::move(*found);
+      entries_.erase(found);
+    }
+    return true;
+  }
+
+  void start() {
+    if (started_) return;
+    started_ = true;
+    for (const auto& entry : entries_) entry->context->state().start();
+    if (!options_.replay) housekeeping_ = std::thread([this] { keep_house(); });
+  }
+
+  std::vector<std::string> run() {
+    start();
+    std::vector<Source*> sources;
+    for (const auto& entry : entries_) {
+      if (Source* source = entry->context->state().source) sources.push_back(source);
+    }
+    if (options_.replay) {
+      replay(sources);
+    } else {
+      run_live(sources);
+    }
+    std::vector<std::string> problems = source_problems_;
+    for (const auto& entry : entries_) {
+      if (entry->context->state().failed()) problems.push_back(entry->context->name() + " stopped by an error, see the log");
+    }
+    return problems;
+  }
+
+  void run_until_quiet() {
+    while (replay_order_.run_one()) {
+    }
+  }
+
+  void request_stop() noexcept {
+    stop_requested_ = true;
+    stop_changed_.notify_all();
+  }
+
+  std::vector<std::unique_ptr<Entry>>::iterator find(const std::string& name) {
+    return std::find_if(entries_.begin(), entries_.end(), [&](const auto& entry) { return entry->context->name() == name; });
+  }
+
+  const std::vector<std::unique_ptr<Entry>>& entries() const { return entries_; }
+  Bus& bus() { return bus_; }
+  std::uint64_t source_steps() const { return source_steps_; }
+
+  std::function<void(Source::Progress)> on_progress = [](Source::Progress) {};
+
+ private:
+  static ComponentDescription own_description() {
+    ComponentDescription description;
+    description.name = "container";
+    return description;
+  }
+
+  template <class Message>
+  static TopicDescription describe(const interfaces::Topic<Message>& topic) {
+    const auto& type = interfaces::message_type<Message>();
+    return {std::string(topic.name), std::string(type.name), topic.qos, &type};
+  }
+
+  void set_rosout(std::shared_ptr<UntypedOutput> output) {
+    const std::lock_guard lock(rosout_mutex_);
+    rosout_ = std::move(output);
+  }
+
+  void progressed() {
+    if (SourceRunner* runner = active_runner_.load()) runner->wake();
+    stop_changed_.notify_all();
+  }
+
+  /// The source with the earliest stamp steps, then all that comes of it is handled, in the order in which it came.
+  void replay(const std::vector<Source*>& sources) {
+    std::int64_t shown_ns = 0;
+    run_until_quiet();
+    while (!stop_requested_) {
+      Source* earliest = nullptr;
+      std::int64_t earliest_ns = 0;
+      for (Source* source : sources) {
+        const auto stamp_ns = source->next_stamp_ns();
+        if (stamp_ns && (!earliest || *stamp_ns < earliest_ns)) {
+          earliest = source;
+          earliest_ns = *stamp_ns;
+        }
+      }
+      if (!earliest) break;
+      set_current_stamp_ns(earliest_ns);
+      try {
+        earliest->emit();
+      } catch (const std::exception& error) {
+        fail_source(error.what());
+        break;
+      }
+      ++source_steps_;
+      run_until_quiet();
+      if (const std::int64_t now_ns = clocks::monotonic_ns(); now_ns - shown_ns > 250'000'000) {
+        shown_ns = now_ns;
+        on_progress(earliest->progress());
+      }
+    }
+  }
+
+  void run_live(const std::vector<Source*>& sources) {
+    runner_ = std::make_unique<SourceRunner>(
+        sources, SourceRunner::Settings{.rate = options_.rate,
+                                        .queues_are_empty = [this] { return queues_are_empty(); },
+                                        .failed = [this](const std::string& what) { fail_source(what); },
+                                        .warn = [this](const std::string& text) { log(LogLevel::kWarning, "container", text); }});
+    active_runner_ = runner_.get();
+    runner_->start();
+    if (sources.empty()) {
+      std::unique_lock lock(stop_mutex_);
+      while (!stop_requested_) stop_changed_.wait_for(lock, std::chrono::milliseconds(100));
+    }
+    while (!sources.empty() && !stop_requested_ && !runner_->wait(250)) on_progress(runner_->progress());
+    runner_->stop();
+    drain();
+    source_steps_ += runner_->steps();
+    if (!sources.empty()) on_progress(runner_->progress());
+  }
+
+  /// Lets what is under way be handled, then what was sent be received. Gives up after 10 s without progress; after 10 s in all when it was
+  /// asked to stop, for other processes may go on sending.
+  void drain() {
+    using std::chrono::steady_clock;
+    constexpr auto kPatience = std::chrono::seconds(10);
+    std::unique_lock lock(stop_mutex_);
+    std::int64_t before = host_.in_flight;
+    auto give_up = steady_clock::now() + kPatience;
+    while (host_.in_flight != 0 && steady_clock::now() < give_up) {
+      stop_changed_.wait_for(lock, std::chrono::milliseconds(20));
+      if (host_.in_flight != before && !stop_requested_) give_up = steady_clock::now() + kPatience;
+      before = host_.in_flight;
+    }
+    lock.unlock();
+    if (before != 0) log(LogLevel::kWarning, "container", fmt::format("{} messages were still waiting at the end", before));
+    if (!bus_.wait_for_acknowledgments(std::chrono::seconds(3))) {
+      log(LogLevel::kWarning, "container", "another process has not acknowledged all that was sent to it");
+    }
+  }
+
+  bool queues_are_empty() {
+    const std::lock_guard lock(entries_mutex_);
+    for (const auto& entry : entries_) {
+      for (const auto& worker : entry->context->state().workers) {
+        if (!worker->queue_is_empty()) return false;
+      }
+    }
+    return true;
+  }
+
+  void fail_source(const std::string& what) {
+    log(LogLevel::kError, "container", what);
+    const std::lock_guard lock(stop_mutex_);
+    source_problems_.push_back(what);
+  }
+
+  void keep_house() {
+    std::int64_t last_ns = clocks::monotonic_ns();
+    std::unique_lock lock(housekeeping_mutex_);
+    while (!housekeeping_changed_.wait_for(lock, std::chrono::milliseconds(50), [this] { return housekeeping_ended_; })) {
+      bus_.join_discovered();
+      const std::int64_t now_ns = clocks::monotonic_ns();
+      if (now_ns - last_ns < 1'000'000'000) continue;
+      publish_diagnostics(static_cast<double>(now_ns - last_ns) * 1e-9);
+      last_ns = now_ns;
+    }
+  }
+
+  void publish_diagnostics(double interval_s) {
+    diagnostic_msgs::msg::DiagnosticArray array;
+    {
+      const std::lock_guard lock(entries_mutex_);
+      std::vector<const Context::State*> states;
+      for (const auto& entry : entries_) states.push_back(&entry->context->state());
+      array = diagnostics_.collect(states, clocks::system_ns(), interval_s);
+    }
+    diagnostics_output_->publish(std::make_shared<const diagnostic_msgs::msg::DiagnosticArray>(std::move(array)));
+  }
+
+  void stop_housekeeping() {
+    {
+      const std::lock_guard lock(housekeeping_mutex_);
+      housekeeping_ended_ = true;
+    }
+    housekeeping_changed_.notify_all();
+    if (housekeeping_.joinable()) housekeeping_.join();
+  }
+
+  const ContainerOptions options_;
+  const Logger::Write sink_;
+  ReplayOrder replay_order_;
+  Bus bus_;
+  Host host_;
+  std::unique_ptr<SourceRunner> runner_;  // outlives the workers, which wake it
+  std::atomic<SourceRunner*> active_runner_ = nullptr;
+  Context own_;  // the container's own outputs
+  std::shared_ptr<UntypedOutput> diagnostics_output_;
+  std::mutex rosout_mutex_;
+  std::shared_ptr<UntypedOutput> rosout_;
+  Diagnostics diagnostics_;
+
+  mutable std::mutex entries_mutex_;  // guards entries_ against the housekeeping and source threads; only the user's thread changes it
+  std::vector<std::unique_ptr<Entry>> entries_;
+  bool started_ = false;
+
+  std::atomic<bool> stop_requested_ = false;
+  std::mutex stop_mutex_;
+  std::condition_variable stop_changed_;
+  std::vector<std::string> source_problems_;
+  std::uint64_t source_steps_ = 0;
+
+  std::mutex housekeeping_mutex_;
+  std::condition_variable housekeeping_changed_;
+  bool housekeeping_ended_ = false;
+  std::thread housekeeping_;
+};
+
+Container::Container(ContainerOptions options) : implementation_(std::make_unique<Implementation>(std::move(options))) {}
+Container::~Container() = default;
+
+void Container::load(const ComponentDescription& description) {
+  const std::string where = description.where.file.empty() ? "" : description.where.to_string() + ": ";
+  try {
+    const auto library = std::make_shared<Library>(find_plugin(description.package));
+    const ComponentDescriptor* descriptor = library->find(description.plugin);
+    if (!descriptor) {
+      std::string known;
+      for (const auto* component : library->components()) known += (known.empty() ? "" : ", ") + std::string(component->class_name);
+      throw ConfigError(library->file().string() + " has no component " + description.plugin + "; it has " + known);
+    }
+    implementation_->add(description, library, [descriptor](Context& context) {
+      return std::unique_ptr<Component, void (*)(Component*)>(descriptor->create(context), descriptor->destroy);
+    });
+  } catch (const ConfigError& error) {
+    std::vector<std::string> problems;
+    for (const auto& problem : error.problems()) {
+      problems.push_back(problem.starts_with(description.where.file) && !where.empty() ? problem : where + problem);
+    }
+    throw ConfigError(std::move(problems));
+  }
+}
+
+void Container::add(const ComponentDescription& description, const Factory& factory) {
+  implementation_->add(description, nullptr, [&](Context& context) {
+    return std::unique_ptr<Component, void (*)(Component*)>(factory(context).release(), [](Component* component) { delete component; });
+  });
+}
+
+void Container::load_all(const std::vector<ComponentDescription>& descriptions) {
+  std::vector<std::string> problems;
+  for (const auto& description : descriptions) {
+    try {
+      load(description);
+    } catch (const ConfigError& error) {
+      problems.insert(problems.end(), error.problems().begin(), error.problems().end());
+    }
+  }
+  if (!problems.empty()) throw ConfigError(std::move(problems));
+}
+
+bool Container::unload(const std::string& name) { return implementation_->unload(name); }
+
+std::vector<std::string> Container::components() const {
+  std::vector<std::string> names;
+  for (const auto& entry : implementation_->entries()) names.push_back(entry->context->name());
+  return names;
+}
+
+void Container::start() { implementation_->start(); }
+std::vector<std::string> Container::run() { return implementation_->run(); }
+void Container::run_until_quiet() { implementation_->run_until_quiet(); }
+void Container::request_stop() noexcept { implementation_->request_stop(); }
+std::uint64_t Container::source_steps() const { return implementation_->source_steps(); }
+
+void Container::observe(std::function<bool(const TopicDescription&)> wanted,
+                        std::function<void(const TopicDescription&, const SamplePtr&)> observer) {
+  implementation_->bus().observe(std::move(wanted), std::move(observer));
+}
+
+Container::Links Container::links() const {
+  Links links;
+  for (const Channel* channel : implementation_->bus().channels()) {
+    if (channel->has_publisher_other_than(nullptr)) links.published.push_back(channel->topic().name);
+    if (channel->has_readers()) links.subscribed.push_back(channel->topic().name);
+  }
+  for (const auto& entry : implementation_->entries()) links.has_source |= entry->context->state().source != nullptr;
+  return links;
+}
+
+bool Container::wait_for_readers(const std::map<std::string, std::size_t>& readers, std::chrono::milliseconds limit) {
+  const auto give_up = std::chrono::steady_clock::now() + limit;
+  const auto all_there = [&] {
+    for (const Channel* channel : implementation_->bus().channels()) {
+      const auto wanted = readers.find(channel->topic().name);
+      if (wanted != readers.end() && channel->counters().remote_readers < wanted->second) return false;
+    }
+    return true;
+  };
+  while (!all_there()) {
+    if (std::chrono::steady_clock::now() >= give_up) return false;
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  return true;
+}
+
+void Container::on_progress(std::function<void(Source::Progress)> callback) { implementation_->on_progress = std::move(callback); }
+
+std::vector<QueueCounters> Container::queue_counters() const {
+  std::vector<QueueCounters> all;
+  for (const auto& entry : implementation_->entries()) {
+    for (const auto& worker : entry->context->state().workers) {
+      for (const auto& port : worker->counters()) {
+        all.push_back({entry->context->name(), port.input, port.received, port.handled, port.dropped});
+      }
+    }
+  }
+  return all;
+}
+
+std::map<std::string, std::map<std::string, StageTimes::Times>> Container::stage_times() const {
+  std::map<std::string, std::map<std::string, StageTimes::Times>> all;
+  for (const auto& entry : implementation_->entries()) {
+    auto& stages = all[entry->context->name()];
+    for (auto& [stage, times] : entry->context->times().snapshot()) stages.emplace(stage, times);
+  }
+  return all;
+}
+
+std::map<std::string, std::map<std::string, std::string>> Container::changed_parameters() const {
+  std::map<std::string, std::map<std::string, std::string>> all;
+  for (const auto& entry : implementation_->entries()) {
+    for (const auto& parameter : entry->context->state().reader.declared()) {
+      if (parameter.value != parameter.default_value) all[entry->context->name()][parameter.name] = parameter.value;
+    }
+  }
+  return all;
+}
+
+std::vector<ParameterDescription> Container::parameters_of(const std::string& component) const {
+  const auto found = implementation_->find(component);
+  return found == implementation_->entries().end() ? std::vector<ParameterDescription>{} : (*found)->context->state().reader.declared();
+}
+
+}  // namespace panvo::runtime

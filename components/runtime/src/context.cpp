@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "panvo/runtime/context.hpp"
+
+#include <map>
+
+#include "clocks.hpp"
+#include "context_state.hpp"
+#include "panvo/runtime/errors.hpp"
+#include "panvo/runtime/names.hpp"
+
+namespace panvo::runtime {
+namespace {
+
+/// The stamp a message is about: its header's, or that of what was being processed when it was published.
+std::int64_t stamp_of(const Sample& sample) {
+  if (!sample.type()) return sample.time_ns();
+  const void* message = sample.message();
+  return message ? sample.type()->stamp_ns(message).value_or(sample.time_ns()) : sample.time_ns();
+}
+
+class ChannelOutput final : public UntypedOutput {
+ public:
+  ChannelOutput(Channel& channel, Host& host, std::shared_ptr<const void> library, const std::string& owner)
+      : channel_(channel), host_(host), library_(std::move(library)) {
+    channel_.add_publisher(this, owner);
+  }
+  ~ChannelOutput() override { channel_.remove_publisher(this); }
+
+  void publish(std::shared_ptr<const void> message) override {
+    channel_.publish(Sample::of(*channel_.topic().type, std::move(message), time_ns(), library_));
+  }
+  void publish(interfaces::Bytes bytes) override {
+    channel_.publish(Sample::from_bytes(channel_.topic().type, channel_.topic().type_name, std::move(bytes), time_ns()));
+  }
+
+ private:
+  std::int64_t time_ns() const { return host_.replay_order ? current_stamp_ns() : clocks::system_ns(); }
+
+  Channel& channel_;
+  Host& host_;
+  std::shared_ptr<const void> library_;
+};
+
+/// An output that leads nowhere: given to a component that will be refused, so that its constructor can go on and find its other problems.
+class NoOutput final : public UntypedOutput {
+ public:
+  void publish(std::shared_ptr<const void>) override {}
+  void publish(interfaces::Bytes) override {}
+};
+
+class WorkerStage final : public StageQueue {
+ public:
+  WorkerStage(Worker& worker, Port& port) : worker_(worker), port_(port) {}
+  void push(std::any item) override { worker_.push(port_, {.item = std::move(item), .stamp_ns = current_stamp_ns()}); }
+
+ private:
+  Worker& worker_;
+  Port& port_;
+};
+
+/// Brings together the messages of two topics that bear the same stamp.
+class Pairing {
+ public:
+  Pairing(Worker& worker, Port& port) : worker_(worker), port_(port) {}
+
+  void take(int side, const SamplePtr& sample) {
+    const std::int64_t stamp = stamp_of(*sample);
+    SamplePtr partner;
+    {
+      const std::lock_guard lock(mutex_);
+      auto& own = waiting_[side];
+      auto& other = waiting_[1 - side];
+      if (const auto found = other.find(stamp); found != other.end()) {
+        partner = found->second;
+        other.erase(found);
+        // What waits and is older has lost its partner for good: each topic comes in its order.
+        give_up_before(own, stamp);
+        give_up_before(other, stamp);
+      } else {
+        own[stamp] = sample;
+        if (own.size() > port_.depth) {
+          own.erase(own.begin());
+          worker_.count_dropped(port_);
+        }
+      }
+    }
+    if (!partner) return;
+    Task task{.first = side == 0 ? sample : partner, .second = side == 0 ? partner : sample, .stamp_ns = stamp};
+    worker_.push(port_, std::move(task));
+  }
+
+ private:
+  void give_up_before(std::map<std::int64_t, SamplePtr>& waiting, std::int64_t stamp) {
+    while (!waiting.empty() && waiting.begin()->first < stamp) {
+      waiting.erase(waiting.begin());
+      worker_.count_dropped(port_);
+    }
+  }
+
+  Worker& worker_;
+  Port& port_;
+  std::mutex mutex_;
+  std::map<std::int64_t, SamplePtr> waiting_[2];
+};
+
+}  // namespace
+
+Context::State::State(Host& a_host, const ComponentDescription& a_description, std::shared_ptr<const void> a_library)
+    : host(a_host),
+      description(a_description),
+      library(std::move(a_library)),
+      reader(a_description.name, a_description.parameters),
+      logger(a_description.name, a_host.log) {
+  workers.push_back(make_worker(description.name));
+}
+
+std::unique_ptr<Worker> Context::State::make_worker(const std::string& worker_name) {
+  return std::make_unique<Worker>(
+      worker_name, times, host.replay_order,
+      Worker::Hooks{.failed = [this](const std::string& what) { logger.error("stopped by an error: {}", what); },
+                    .progressed = host.progressed,
+                    .in_flight = &host.in_flight});
+}
+
+TopicDescription Context::State::resolve(TopicDescription topic) const {
+  topic.name = resolve_topic(description.name_space, description.name, description.remaps, topic.name);
+  return topic;
+}
+
+void Context::State::start() {
+  for (const auto& worker : workers) worker->start();
+}
+
+void Context::State::stop() {
+  for (Channel* channel : inputs) channel->remove_reader(this);
+  inputs.clear();
+  if (taps) host.bus.remove_tap(this);
+  taps = false;
+  // Stages first: the component's own thread may wait for room in one of them.
+  for (auto worker = workers.rbegin(); worker != workers.rend(); ++worker) (*worker)->stop();
+}
+
+bool Context::State::failed() const {
+  for (const auto& worker : workers) {
+    if (worker->failed()) return true;
+  }
+  return false;
+}
+
+Context::Context(std::unique_ptr<State> state) : state_(std::move(state)) {}
+Context::~Context() { state_->stop(); }
+
+const std::string& Context::name() const noexcept { return state_->description.name; }
+const Logger& Context::log() const noexcept { return state_->logger; }
+StageTimes& Context::times() noexcept { return state_->times; }
+ParameterReader& Context::parameter_reader() { return state_->reader; }
+const std::vector<ParameterDescription>& Context::declared_parameters() const noexcept { return state_->reader.declared(); }
+std::int64_t Context::now_ns() const noexcept { return current_stamp_ns(); }
+
+std::uint64_t Context::seed() const noexcept {
+  std::uint64_t hash = 14695981039346656037ULL ^ state_->host.seed;  // FNV-1a over the name: the same on every machine
+  for (const char letter : state_->description.name) hash = (hash ^ static_cast<unsigned char>(letter)) * 1099511628211ULL;
+  return hash;
+}
+
+std::shared_ptr<UntypedOutput> Context::open_output(const TopicDescription& topic) {
+  try {
+    return std::make_shared<ChannelOutput>(state_->host.bus.channel(state_->resolve(topic)), state_->host, state_->library, name());
+  } catch (const ConfigError& error) {
+    state_->problems.push_back(name() + ": " + error.what());
+    return std::make_shared<NoOutput>();
+  }
+}
+
+void Context::open_input(const TopicDescription& topic, std::function<void(const SamplePtr&)> callback) {
+  try {
+    Channel& channel = state_->host.bus.channel(state_->resolve(topic));
+    Worker& worker = state_->main_worker();
+    Port& port = worker.add_port(topic.name, topic.qos.depth, false,
+                                 [callback = std::move(callback)](Task& task) { callback(task.first); });
+    state_->inputs.push_back(&channel);
+    channel.add_reader(state_.get(), [&worker, &port](const TopicDescription&, const SamplePtr& sample) {
+      try {
+        worker.push(port, {.first = sample, .stamp_ns = stamp_of(*sample)});
+      } catch (const interfaces::DecodeError&) {
+        worker.count_dropped(port);
+      }
+    });
+  } catch (const ConfigError& error) {
+    state_->problems.push_back(name() + ": " + error.what());
+  }
+}
+
+void Context::open_input_pair(const TopicDescription& first, const TopicDescription& second,
+                              std::function<void(const SamplePtr&, const SamplePtr&)> callback) {
+  try {
+    Channel* channels[2] = {&state_->host.bus.channel(state_->resolve(first)), &state_->host.bus.channel(state_->resolve(second))};
+    Worker& worker = state_->main_worker();
+    Port& port = worker.add_port(first.name + ", " + second.name, first.qos.depth, false,
+                                 [callback = std::move(callback)](Task& task) { callback(task.first, task.second); });
+    const auto pairing = std::make_shared<Pairing>(worker, port);
+    for (int side = 0; side < 2; ++side) {
+      state_->inputs.push_back(channels[side]);
+      channels[side]->add_reader(state_.get(), [pairing, side, &worker, &port](const TopicDescription&, const SamplePtr& sample) {
+        try {
+          pairing->take(side, sample);
+        } catch (const interfaces::DecodeError&) {
+          worker.count_dropped(port);
+        }
+      });
+    }
+  } catch (const ConfigError& error) {
+    state_->problems.push_back(name() + ": " + error.what());
+  }
+}
+
+std::shared_ptr<StageQueue> Context::open_stage(const std::string& stage_name, std::size_t capacity,
+                                                std::function<void(std::any&)> callback) {
+  Worker& worker = *state_->workers.emplace_back(state_->make_worker(stage_name));
+  Port& port = worker.add_port(stage_name, capacity, true, [callback = std::move(callback)](Task& task) { callback(task.item); });
+  return std::make_shared<WorkerStage>(worker, port);
+}
+
+void Context::source(Source& source) { state_->source = &source; }
+
+void Context::tap(std::function<bool(const TopicDescription&)> wanted, std::size_t depth,
+                  std::function<void(const TopicDescription&, const SamplePtr&)> callback) {
+  Worker& worker = state_->main_worker();
+  Port& port = worker.add_port("tap", depth, false, [callback = std::move(callback)](Task& task) { callback(*task.topic, task.first); });
+  state_->taps = true;
+  state_->host.bus.tap(state_.get(), std::move(wanted), [&worker, &port](const TopicDescription& topic, const SamplePtr& sample) {
+    worker.push(port, {.topic = &topic, .first = sample, .stamp_ns = sample->time_ns()});
+  });
+}
+
+bool Context::is_published(const std::string& resolved_name) const {
+  for (const Channel* channel : state_->host.bus.channels()) {
+    if (channel->topic().name == resolved_name) return channel->has_publisher_other_than(nullptr);
+  }
+  return false;
+}
+
+}  // namespace panvo::runtime

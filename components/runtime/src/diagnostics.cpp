@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "diagnostics.hpp"
+
+#include <spdlog/fmt/fmt.h>
+
+namespace panvo::runtime {
+namespace {
+
+constexpr std::uint8_t kOk = 0, kWarning = 1, kError = 2;  // diagnostic_msgs/msg/DiagnosticStatus's values
+
+void add(diagnostic_msgs::msg::DiagnosticStatus& status, const std::string& key, const std::string& value) {
+  diagnostic_msgs::msg::KeyValue entry;
+  entry.key(key);
+  entry.value(value);
+  status.values().push_back(entry);
+}
+
+}  // namespace
+
+diagnostic_msgs::msg::DiagnosticArray Diagnostics::collect(const std::vector<const Context::State*>& components, std::int64_t stamp_ns,
+                                                           double interval_s) {
+  diagnostic_msgs::msg::DiagnosticArray array;
+  array.header().stamp().sec(static_cast<std::int32_t>(stamp_ns / 1'000'000'000));
+  array.header().stamp().nanosec(static_cast<std::uint32_t>(stamp_ns % 1'000'000'000));
+  for (const Context::State* component : components) {
+    diagnostic_msgs::msg::DiagnosticStatus status;
+    status.name("panvo: " + component->description.name);
+    status.hardware_id("none");
+    std::uint64_t newly_dropped = 0;
+    for (const auto& worker : component->workers) {
+      for (const auto& port : worker->counters()) {
+        Previous& previous = previous_[component->description.name + "\n" + port.input];
+        newly_dropped += port.dropped - previous.dropped;
+        add(status, port.input + " rate", fmt::format("{:.1f} Hz", static_cast<double>(port.handled - previous.handled) / interval_s));
+        add(status, port.input + " latency",
+            fmt::format("median {:.2f} ms, p95 {:.2f} ms, max {:.2f} ms", port.latency.quantile_ms(0.5), port.latency.quantile_ms(0.95),
+                        port.latency.max_ms()));
+        add(status, port.input + " messages",
+            fmt::format("{} received, {} handled, {} dropped, {} waiting, {} undecodable", port.received, port.handled, port.dropped,
+                        port.waiting, port.undecodable));
+        previous = {port.handled, port.dropped};
+      }
+    }
+    for (const auto& [stage, times] : component->times.snapshot()) {
+      add(status, stage + " time",
+          fmt::format("mean {:.2f} ms, p95 {:.2f} ms, max {:.2f} ms, CPU mean {:.2f} ms", times.wall.mean_ms(), times.wall.quantile_ms(0.95),
+                      times.wall.max_ms(), times.cpu.mean_ms()));
+    }
+    if (component->failed()) {
+      status.level(kError);
+      status.message("stopped by an error, see the log");
+    } else if (newly_dropped > 0) {
+      status.level(kWarning);
+      status.message(fmt::format("too slow: {} messages dropped in the last {:.0f} s", newly_dropped, interval_s));
+    } else {
+      status.level(kOk);
+      status.message("runs");
+    }
+    array.status().push_back(std::move(status));
+  }
+  return array;
+}
+
+}  // namespace panvo::runtime

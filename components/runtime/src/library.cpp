@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "library.hpp"
+
+#include <dlfcn.h>
+
+#include <cstdlib>
+#include <sstream>
+
+#include "panvo/runtime/errors.hpp"
+
+namespace panvo::runtime {
+namespace fs = std::filesystem;
+
+Library::Library(const fs::path& file) : file_(file) {
+  // Local: two plugins may define the same names. Now: what is missing is said at load, not in the middle of a run.
+  handle_ = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
+  if (!handle_) throw ConfigError("cannot load plugin " + file.string() + ": " + dlerror());
+  const auto entry_point = reinterpret_cast<const ComponentDescriptor* (*)()>(dlsym(handle_, kPluginEntryPoint));
+  first_ = entry_point ? entry_point() : nullptr;
+  std::string problem;
+  if (!entry_point) {
+    problem = "is no component plugin: it has no function " + std::string(kPluginEntryPoint) +
+              "; register a component in it by PANVO_REGISTER_COMPONENT(Class)";
+  } else if (!first_) {
+    problem = "registers no component: add PANVO_REGISTER_COMPONENT(Class) to its source file";
+  } else if (first_->runtime_version != kRuntimeVersion) {
+    problem = "was built for panvo_runtime " + std::string(first_->runtime_version) + ", this is " + std::string(kRuntimeVersion) +
+              ": build it again";
+  }
+  if (!problem.empty()) {
+    dlclose(handle_);
+    throw ConfigError(file.string() + " " + problem);
+  }
+}
+
+Library::~Library() { dlclose(handle_); }
+
+const ComponentDescriptor* Library::find(const std::string& class_name) const {
+  const auto colons = class_name.rfind("::");
+  const std::string unqualified = colons == std::string::npos ? class_name : class_name.substr(colons + 2);
+  for (const ComponentDescriptor* descriptor = first_; descriptor; descriptor = descriptor->next) {
+    if (descriptor->class_name == unqualified) return descriptor;
+  }
+  return nullptr;
+}
+
+std::vector<const ComponentDescriptor*> Library::components() const {
+  std::vector<const ComponentDescriptor*> components;
+  for (const ComponentDescriptor* descriptor = first_; descriptor; descriptor = descriptor->next) components.push_back(descriptor);
+  return components;
+}
+
+std::vector<fs::path> plugin_folders() {
+  std::vector<fs::path> folders;
+  const auto add = [&](const char* variable, const char* below) {
+    const char* value = std::getenv(variable);
+    std::istringstream paths(value ? value : "");
+    for (std::string path; std::getline(paths, path, ':');) {
+      if (!path.empty()) folders.push_back(fs::path(path) / below);
+    }
+  };
+  add("PANVO_PLUGIN_PATH", "");
+  add("COLCON_PREFIX_PATH", "lib/panvo");
+  add("AMENT_PREFIX_PATH", "lib/panvo");
+  add("CMAKE_PREFIX_PATH", "lib/panvo");
+  std::error_code error;
+  const fs::path executable = fs::read_symlink("/proc/self/exe", error);
+  if (!error) {
+    const fs::path folder = executable.parent_path();
+    folders.push_back(folder / ".." / "lib" / "panvo");       // installed
+    folders.push_back(folder / ".." / "panvo_plugins");       // in the build folder
+  }
+  return folders;
+}
+
+fs::path find_plugin(const std::string& package) {
+  const std::string file_name = "lib" + package + "_component.so";
+  std::string looked_in;
+  for (const auto& folder : plugin_folders()) {
+    const fs::path file = folder / file_name;
+    std::error_code error;
+    if (fs::is_regular_file(file, error)) return fs::weakly_canonical(file, error);
+    looked_in += (looked_in.empty() ? "" : ", ") + folder.lexically_normal().string();
+  }
+  throw ConfigError("package " + package + " has no plugin: " + file_name + " is not in " + looked_in +
+                    "; build the package, or add its folder to PANVO_PLUGIN_PATH");
+}
+
+}  // namespace panvo::runtime

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "panvo/runtime/sample.hpp"
+
+namespace panvo::runtime {
+
+SamplePtr Sample::of(const MessageType& type, std::shared_ptr<const void> message, std::int64_t time_ns,
+                     std::shared_ptr<const void> keep_alive) {
+  std::shared_ptr<Sample> sample(new Sample);
+  sample->keep_alive_ = std::move(keep_alive);
+  sample->type_ = &type;
+  sample->type_name_ = type.name;
+  sample->time_ns_ = time_ns;
+  sample->message_ = std::move(message);
+  return sample;
+}
+
+SamplePtr Sample::from_bytes(const MessageType* type, std::string type_name, Bytes bytes, std::int64_t time_ns) {
+  std::shared_ptr<Sample> sample(new Sample);
+  sample->type_ = type;
+  sample->type_name_ = std::move(type_name);
+  sample->time_ns_ = time_ns;
+  sample->bytes_ = std::move(bytes);
+  return sample;
+}
+
+const void* Sample::message() const {
+  const std::lock_guard lock(mutex_);
+  if (!message_ && type_) message_ = type_->deserialize(bytes_);
+  return message_.get();
+}
+
+const Sample::Bytes& Sample::bytes() const {
+  const std::lock_guard lock(mutex_);
+  if (bytes_.empty()) {
+    Bytes bytes(type_->serialized_size(message_.get()));
+    type_->serialize(message_.get(), bytes);
+    bytes_ = std::move(bytes);
+  }
+  return bytes_;
+}
+
+}  // namespace panvo::runtime

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "panvo/runtime/errors.hpp"
+#include "panvo/runtime/testing.hpp"
+
+namespace panvo::runtime {
+namespace {
+
+using testing::HasSubstr;
+
+bool is_mapped(const std::string& library) {
+  std::ifstream maps("/proc/self/maps");
+  for (std::string line; std::getline(maps, line);) {
+    if (line.find(library) != std::string::npos) return true;
+  }
+  return false;
+}
+
+ComponentDescription relay() {
+  ComponentDescription description;
+  description.package = "panvo_test_relay";
+  description.plugin = "RelayComponent";
+  description.name = "relay";
+  description.name_space = "/";
+  return description;
+}
+
+std::string why_not(const ComponentDescription& description) {
+  Container container({.replay = true});
+  try {
+    container.load(description);
+  } catch (const ConfigError& error) {
+    return error.what();
+  }
+  return "loaded";
+}
+
+TEST(Plugin, LoadsAndUnloadsTwoHundredTimesInARunningContainer) {
+  Container container({.replay = false});
+  container.start();
+  for (int i = 0; i < 200; ++i) {
+    container.load(relay());
+    ASSERT_TRUE(is_mapped("panvo_test_relay"));
+    ASSERT_TRUE(container.unload("relay"));
+    ASSERT_FALSE(is_mapped("panvo_test_relay")) << "cycle " << i;
+  }
+}
+
+TEST(Plugin, StaysMappedAsLongAsAMessageOfItsMakingIsHeld) {
+  ComponentHarness harness;
+  harness.load("panvo_test_relay", "panvo::RelayComponent");  // ROS 2 names plugins with their namespace
+  std::shared_ptr<const sensor_msgs::msg::Image> held;
+  {
+    struct Keeper : Component {
+      Keeper(Context& context, std::shared_ptr<const sensor_msgs::msg::Image>& keep) {
+        context.input(topics::kStereoLeftImageRect, [&keep](std::shared_ptr<const sensor_msgs::msg::Image> image) { keep = std::move(image); });
+      }
+    };
+    ComponentDescription keeper = relay();
+    keeper.name = "keeper";
+    harness.container().add(keeper, [&](Context& context) { return std::make_unique<Keeper>(context, held); });
+  }
+  harness.publish(topics::kStereoLeftImageRaw, sensor_msgs::msg::Image{});
+  ASSERT_TRUE(held);
+  ASSERT_TRUE(harness.container().unload("test_relay"));
+  EXPECT_TRUE(is_mapped("panvo_test_relay"));
+  held.reset();
+  EXPECT_FALSE(is_mapped("panvo_test_relay"));
+}
+
+TEST(Plugin, ThatIsNoComponentIsRefusedAndSaysWhatIsMissing) {
+  ComponentDescription description = relay();
+  description.package = "panvo_test_no";
+  EXPECT_THAT(why_not(description), HasSubstr("is no component plugin: it has no function panvo_components"));
+  description.package = "panvo_test_unregistered";
+  EXPECT_THAT(why_not(description), HasSubstr("registers no component"));
+  EXPECT_FALSE(is_mapped("panvo_test_unregistered"));
+}
+
+TEST(Plugin, ThatIsNotThereIsRefusedAndSaysWhereItWasLookedFor) {
+  ComponentDescription description = relay();
+  description.package = "panvo_nonesuch";
+  EXPECT_THAT(why_not(description), HasSubstr("libpanvo_nonesuch_component.so is not in "));
+}
+
+TEST(Plugin, WithoutThatComponentIsRefusedAndSaysWhichItHas) {
+  ComponentDescription description = relay();
+  description.plugin = "RelyComponent";
+  EXPECT_THAT(why_not(description), HasSubstr("has no component RelyComponent; it has BrokenComponent, RelayComponent"));
+}
+
+TEST(Plugin, WhoseComponentCannotBeMadeSaysWhyAndIsUnloaded) {
+  ComponentDescription description = relay();
+  description.plugin = "BrokenComponent";
+  EXPECT_THAT(why_not(description), HasSubstr("no camera found"));
+  EXPECT_FALSE(is_mapped("panvo_test_relay"));
+}
+
+TEST(Plugin, WithBadParametersNamesEveryOneWithItsLine) {
+  ComponentDescription description = relay();
+  description.parameters["copies"] = {{"0"}, false, {"system.yaml", 12}};
+  description.parameters["copes"] = {{"2"}, false, {"system.yaml", 13}};
+  const std::string problems = why_not(description);
+  EXPECT_THAT(problems, HasSubstr("system.yaml:12"));
+  EXPECT_THAT(problems, HasSubstr("system.yaml:13"));
+  EXPECT_THAT(problems, HasSubstr("did you mean"));
+}
+
+}  // namespace
+}  // namespace panvo::runtime

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "panvo/runtime/component.hpp"
+
+namespace {
+
+using panvo::runtime::Component;
+using panvo::runtime::Context;
+
+/// Publishes on image_rect a new image with the stamp of each that comes on image_raw; keeps the last one, and publishes one at once.
+class RelayComponent final : public Component {
+ public:
+  struct Parameters {
+    std::int64_t copies = 1;
+    template <class Field>
+    static void describe(Field&& field) {
+      field(&Parameters::copies, "copies", "1", "images published for each that comes", 1, 100);
+    }
+  };
+
+  explicit RelayComponent(Context& context)
+      : parameters_(context.parameters<Parameters>()), output_(context.output(panvo::topics::kStereoLeftImageRect)) {
+    context.input(panvo::topics::kStereoLeftImageRaw, [this](std::shared_ptr<const sensor_msgs::msg::Image> image) {
+      last_ = image;
+      for (std::int64_t i = 0; i < parameters_.copies; ++i) {
+        sensor_msgs::msg::Image copy;
+        copy.header(image->header());
+        output_.publish(std::move(copy));
+      }
+    });
+  }
+
+ private:
+  Parameters parameters_;
+  panvo::runtime::Output<sensor_msgs::msg::Image> output_;
+  std::shared_ptr<const sensor_msgs::msg::Image> last_;
+};
+
+PANVO_REGISTER_COMPONENT(RelayComponent)
+
+/// A second component in the same plugin, which cannot be made.
+class BrokenComponent final : public Component {
+ public:
+  explicit BrokenComponent(Context&) { throw std::runtime_error("no camera found"); }
+};
+
+PANVO_REGISTER_COMPONENT(BrokenComponent)
+
+}  // namespace

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "worker.hpp"
+
+#include <gtest/gtest.h>
+
+#include <future>
+
+namespace panvo::runtime {
+namespace {
+
+/// A live worker whose first task waits until it is released, so that what comes after has to queue.
+struct BusyWorker {
+  StageTimes times;
+  std::atomic<std::int64_t> in_flight = 0;
+  std::string failure;
+  std::promise<void> failed, started, release;
+  Worker worker{"busy", times, nullptr,
+                {.failed = [this](const std::string& what) { failure = what; failed.set_value(); }, .progressed = [] {}, .in_flight = &in_flight}};
+
+  void block() {
+    Port& port = worker.add_port("block", 1, false, [this](Task&) {
+      started.set_value();
+      release.get_future().wait();
+    });
+    worker.start();
+    worker.push(port, {});
+    started.get_future().wait();
+  }
+};
+
+Task stamped(std::int64_t stamp_ns) { return {.stamp_ns = stamp_ns}; }
+
+TEST(Worker, KeepsTheNewestAndCountsWhatItDropped) {
+  BusyWorker busy;
+  std::vector<std::int64_t> handled;
+  std::promise<void> last;
+  Port& port = busy.worker.add_port("in", 2, false, [&](Task& task) {
+    handled.push_back(task.stamp_ns);
+    if (task.stamp_ns == 5) last.set_value();
+  });
+  busy.block();
+  for (int i = 1; i <= 5; ++i) busy.worker.push(port, stamped(i));
+  busy.release.set_value();
+  last.get_future().wait();
+  busy.worker.stop();
+  EXPECT_EQ(handled, (std::vector<std::int64_t>{4, 5}));
+  const auto counters = busy.worker.counters().front();
+  EXPECT_EQ(counters.received, 5U);
+  EXPECT_EQ(counters.handled, 2U);
+  EXPECT_EQ(counters.dropped, 3U);
+  EXPECT_EQ(busy.in_flight, 0);
+}
+
+TEST(Worker, OfOneInputDropsNothingForTheSakeOfAnother) {
+  BusyWorker busy;
+  std::vector<std::string> handled;
+  std::promise<void> last;
+  Port& slow = busy.worker.add_port("slow", 1, false, [&](Task&) { handled.push_back("slow"); });
+  Port& fast = busy.worker.add_port("fast", 1, false, [&](Task& task) {
+    handled.push_back("fast");
+    if (task.stamp_ns == 9) last.set_value();
+  });
+  busy.block();
+  busy.worker.push(slow, stamped(0));
+  for (int i = 1; i <= 9; ++i) busy.worker.push(fast, stamped(i));
+  busy.release.set_value();
+  last.get_future().wait();
+  busy.worker.stop();
+  EXPECT_EQ(handled, (std::vector<std::string>{"slow", "fast"}));
+}
+
+TEST(Worker, ReleasesWhoeverWaitsForRoomWhenItStops) {
+  BusyWorker busy;
+  Port& port = busy.worker.add_port("stage", 1, true, [](Task&) {});
+  busy.block();
+  busy.worker.push(port, {});
+  auto waiting = std::async(std::launch::async, [&] { busy.worker.push(port, {}); });
+  auto stopping = std::async(std::launch::async, [&] { busy.worker.stop(); });
+  busy.release.set_value();
+  waiting.get();  // would hang
+  stopping.get();
+  EXPECT_EQ(busy.in_flight, 0);
+}
+
+TEST(Worker, IsEndedByWhatATaskThrowsAndSaysWhat) {
+  BusyWorker busy;
+  Port& port = busy.worker.add_port("in", 4, false, [](Task&) { throw std::runtime_error("matrix is singular"); });
+  busy.worker.start();
+  busy.worker.push(port, {});
+  busy.failed.get_future().wait();
+  EXPECT_TRUE(busy.worker.failed());
+  EXPECT_EQ(busy.failure, "matrix is singular");
+}
+
+TEST(Worker, CountsUndecodableMessagesAndGoesOn) {
+  BusyWorker busy;
+  std::promise<void> done;
+  Port& port = busy.worker.add_port("in", 4, false, [&](Task& task) {
+    if (task.stamp_ns == 1) throw interfaces::DecodeError("truncated");
+    done.set_value();
+  });
+  busy.worker.start();
+  busy.worker.push(port, stamped(1));
+  busy.worker.push(port, stamped(2));
+  done.get_future().wait();
+  busy.worker.stop();
+  EXPECT_FALSE(busy.worker.failed());
+  EXPECT_EQ(busy.worker.counters().front().undecodable, 1U);
+}
+
+TEST(ReplayOrder, HandlesTasksOfAllWorkersFirstInFirstOut) {
+  StageTimes times;
+  std::atomic<std::int64_t> in_flight = 0;
+  ReplayOrder order;
+  std::string handled;
+  Worker first("first", times, &order, {.failed = {}, .progressed = [] {}, .in_flight = &in_flight});
+  Worker second("second", times, &order, {.failed = {}, .progressed = [] {}, .in_flight = &in_flight});
+  Port& out = second.add_port("out", 1, false, [&](Task&) { handled += "o"; });
+  Port& in = first.add_port("in", 1, false, [&](Task&) {
+    handled += "i";
+    second.push(out, {});
+  });
+  first.push(in, {});
+  first.push(in, {});
+  while (order.run_one()) {
+  }
+  EXPECT_EQ(handled, "iioo");
+  EXPECT_EQ(in_flight, 0);
+}
+
+}  // namespace
+}  // namespace panvo::runtime

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <filesystem>
+#include <iostream>
+#include <set>
+
+#include "library.hpp"
+#include "panvo/runtime/container.hpp"
+#include "panvo/runtime/errors.hpp"
+
+namespace panvo::runtime {
+namespace {
+
+/// The plugins that can be found, by package.
+std::set<std::string> packages() {
+  std::set<std::string> packages;
+  for (const auto& folder : plugin_folders()) {
+    std::error_code error;
+    for (const auto& file : std::filesystem::directory_iterator(folder, error)) {
+      const std::string name = file.path().filename().string();
+      constexpr std::string_view kEnd = "_component.so";
+      if (name.starts_with("lib") && name.ends_with(kEnd)) packages.insert(name.substr(3, name.size() - 3 - kEnd.size()));
+    }
+  }
+  return packages;
+}
+
+void list() {
+  for (const auto& package : packages()) {
+    for (const auto* component : Library(find_plugin(package)).components()) {
+      std::cout << package << " " << component->class_name << "\n";
+    }
+  }
+}
+
+void show(const std::string& package) {
+  const Library library(find_plugin(package));
+  for (const auto* component : library.components()) {
+    std::vector<ParameterDescription> parameters;
+    Container container({.replay = true, .log = [](LogLevel, const std::string&, const std::string&) {}});
+    ComponentDescription description;
+    description.package = package;
+    description.plugin = std::string(component->class_name);
+    description.name = package.starts_with("panvo_") ? package.substr(6) : package;
+    description.name_space = "/";
+    try {  // what it declares is known even if it cannot go on for want of a file or a device
+      container.add(description, [&](Context& context) -> std::unique_ptr<Component> {
+        std::unique_ptr<Component, void (*)(Component*)> made(nullptr, component->destroy);
+        try {
+          made.reset(component->create(context));
+        } catch (const std::exception&) {
+        }
+        parameters = context.declared_parameters();
+        return std::make_unique<Component>();
+      });
+    } catch (const ConfigError&) {
+    }
+    std::cout << component->class_name << " (" << package << ")\n";
+    for (const auto& parameter : parameters) {
+      std::cout << "  " << parameter.name << " = " << parameter.default_value;
+      if (!parameter.unit.empty()) std::cout << " [" << parameter.unit << "]";
+      if (parameter.min && parameter.max) std::cout << "  " << *parameter.min << " .. " << *parameter.max;
+      for (std::size_t i = 0; i < parameter.choices.size(); ++i) std::cout << (i == 0 ? "  " : " | ") << parameter.choices[i];
+      std::cout << "\n      " << parameter.type << ": " << parameter.description << "\n";
+    }
+  }
+}
+
+}  // namespace
+}  // namespace panvo::runtime
+
+int main(int argc, char** argv) {
+  using namespace panvo::runtime;
+  CLI::App app("Lists components and describes their parameters.", "panvo component");
+  app.require_subcommand(1);
+  app.add_subcommand("list", "every component that can be loaded: package and plugin")->callback(list);
+  auto* show_command = app.add_subcommand("show", "the parameters of a package's components, with units, defaults and ranges");
+  std::string package;
+  show_command->add_option("PACKAGE", package, "such as panvo_binocular_odometry")->required();
+  show_command->callback([&] { show(package); });
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 2;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "panvo component: %s\n", error.what());
+    return 1;
+  }
+  return 0;
+}

@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "launch.hpp"
+
+#include <fcntl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+#include <csignal>
+#include <cstdio>
+#include <filesystem>
+#include <map>
+#include <set>
+#include <stdexcept>
+#include <thread>
+
+#include "link.hpp"
+#include "panvo/runtime/errors.hpp"
+#include "panvo/runtime/run_files.hpp"
+#include "stop_signals.hpp"
+
+namespace panvo::runtime {
+namespace {
+
+struct Child {
+  std::string name, out;
+  pid_t pid = -1;
+  int to_child = -1, from_child = -1;
+  std::set<std::string> published, subscribed;
+  bool has_source = false, running = false;
+  int status = 0;
+};
+
+std::vector<std::string> command_line(const RunOptions& options, const Child& child, int link_in, int link_out) {
+  std::vector<std::string> words{std::filesystem::read_symlink("/proc/self/exe").string(), options.system_file};
+  for (const auto& [name, value] : options.arguments) words.push_back(name + ":=" + value);
+  const auto add = [&](const std::string& option, const std::string& value) {
+    if (!value.empty()) words.insert(words.end(), {option, value});
+  };
+  add("--dataset", options.dataset);
+  add("--bag", options.bag);
+  add("--out", child.out);
+  add("--rate", std::to_string(options.rate));
+  for (const auto& setting : options.settings) add("--set", setting);
+  add("--seed", std::to_string(options.seed));
+  add("--domain", std::to_string(options.domain));
+  add("--dds-profiles", options.dds_profiles);
+  if (options.verbose) words.push_back("--verbose");
+  add("--container", child.name);
+  add("--link-in", std::to_string(link_in));
+  add("--link-out", std::to_string(link_out));
+  return words;
+}
+
+void start(const RunOptions& options, Child& child) {
+  int down[2], up[2];
+  if (pipe2(down, O_CLOEXEC) != 0 || pipe2(up, O_CLOEXEC) != 0) throw std::runtime_error("cannot make a pipe: too many open files?");
+  const auto words = command_line(options, child, down[0], up[1]);
+  std::vector<char*> arguments;
+  for (const auto& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
+  arguments.push_back(nullptr);
+  child.pid = fork();
+  if (child.pid == 0) {
+    fcntl(down[0], F_SETFD, 0);
+    fcntl(up[1], F_SETFD, 0);
+    setpgid(0, 0);  // Ctrl-C goes to the launcher, which passes it on once
+    execv(arguments[0], arguments.data());
+    _exit(127);
+  }
+  if (child.pid < 0) throw std::runtime_error("cannot start a process for container " + child.name);
+  close(down[0]);
+  close(up[1]);
+  child.to_child = down[1];
+  child.from_child = up[0];
+  child.running = true;
+}
+
+/// Reads what the container says until `last`; false when it ended instead.
+bool read_until(Child& child, const std::string& last) {
+  while (const auto line = read_pipe_line(child.from_child)) {
+    if (*line == last) return true;
+    if (*line == "has_source") child.has_source = true;
+    if (line->starts_with("publishes ")) child.published.insert(line->substr(10));
+    if (line->starts_with("subscribes ")) child.subscribed.insert(line->substr(11));
+  }
+  return false;
+}
+
+bool connect(std::vector<Child>& children) {
+  for (auto& child : children) {
+    if (!read_until(child, "loaded")) return false;
+  }
+  for (auto& child : children) {
+    for (const auto& topic : child.published) {
+      std::size_t readers = 0;
+      for (const auto& other : children) readers += &other != &child && other.subscribed.contains(topic);
+      if (readers > 0) write_pipe_line(child.to_child, "await " + topic + " " + std::to_string(readers));
+    }
+    write_pipe_line(child.to_child, "connect");
+  }
+  for (auto& child : children) {
+    if (!read_until(child, "connected")) return false;
+  }
+  for (auto& child : children) write_pipe_line(child.to_child, "start");
+  return true;
+}
+
+void signal_all(const std::vector<Child>& children, int signal) {
+  for (const auto& child : children) {
+    if (child.running) kill(child.pid, signal);
+  }
+}
+
+/// Waits until all have ended. When the last that plays something has, or one has failed, or `stop` is set, the others are asked to stop.
+void supervise(std::vector<Child>& children, const std::atomic<bool>& stop, bool failed) {
+  bool asked = failed;
+  if (failed) signal_all(children, SIGTERM);
+  const bool has_source = [&] {
+    for (const auto& child : children) {
+      if (child.has_source) return true;
+    }
+    return false;
+  }();
+  while (true) {
+    bool running = false, playing = false;
+    for (auto& child : children) {
+      int status = 0;
+      if (child.running && waitpid(child.pid, &status, WNOHANG) == child.pid) {
+        child.running = false;
+        child.status = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+        if (WIFSIGNALED(status)) {
+          std::fprintf(stderr, "panvo run: container %s was ended by signal %d\n", child.name.c_str(), WTERMSIG(status));
+        }
+        failed |= child.status != 0;
+      }
+      running |= child.running;
+      playing |= child.running && child.has_source;
+    }
+    if (!running) return;
+    if (!asked && (stop || failed || (has_source && !playing))) {
+      asked = true;
+      signal_all(children, SIGTERM);  // each ends within its own limit, see StopSignals
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+}
+
+}  // namespace
+
+ExitStatus launch(const RunOptions& options, const SystemDescription& system) {
+  std::atomic<bool> stop = false;
+  std::vector<Child> children;
+  for (const auto& container : system.containers) {
+    Child child;
+    child.name = container.name;
+    if (!options.out.empty()) child.out = (std::filesystem::path(options.out) / container.name).string();
+    children.push_back(std::move(child));
+  }
+  for (auto& child : children) start(options, child);
+  const StopSignals signals([&stop] { stop = true; });
+  const bool connected = connect(children);
+  supervise(children, stop, !connected);
+
+  ExitStatus status = ExitStatus::kOk;
+  std::vector<std::filesystem::path> folders;
+  for (const auto& child : children) {
+    close(child.to_child);
+    close(child.from_child);
+    if (!child.out.empty()) folders.push_back(child.out);
+    if (child.status != 0) {
+      std::fprintf(stderr, "panvo run: container %s failed (exit status %d)\n", child.name.c_str(), child.status);
+      status = child.status == static_cast<int>(ExitStatus::kBadConfiguration) ? ExitStatus::kBadConfiguration : ExitStatus::kRunFailed;
+    }
+  }
+  if (!folders.empty() && status != ExitStatus::kBadConfiguration) merge_run_files(options.out, folders);
+  return status;
+}
+
+}  // namespace panvo::runtime

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+
+#include "launch.hpp"
+#include "panvo/runtime/errors.hpp"
+#include "run_container.hpp"
+
+namespace panvo::runtime {
+namespace {
+
+ExitStatus run(const RunOptions& options) {
+  const SystemDescription system = describe_system(options);
+  if (!options.container.empty()) {
+    std::string known;
+    for (const auto& container : system.containers) {
+      if (container.name == options.container) return run_container(options, container.components);
+      known += " " + container.name;
+    }
+    throw ConfigError(options.system_file + ": has no container " + options.container + "; it has" + known);
+  }
+  if (system.containers.size() > 1 && !options.replay) return launch(options, system);
+  std::vector<ComponentDescription> all;  // replay knows one process only
+  std::vector<ComponentDescription> players;
+  for (const auto& container : system.containers) {
+    for (const auto& component : container.components) {
+      (component.where.file.starts_with("--") ? players : all).push_back(component);
+    }
+  }
+  all.insert(all.end(), players.begin(), players.end());
+  return run_container(options, all);
+}
+
+}  // namespace
+}  // namespace panvo::runtime
+
+int main(int argc, char** argv) {
+  using namespace panvo::runtime;
+  // Components bring their own parallelism, one thread each: a pool below OpenCV's functions would fight with it for the same cores.
+  setenv("OPENCV_FOR_THREADS_NUM", "1", 0);
+  RunOptions options;
+  if (const auto status = RunOptions::parse(argc, argv, options)) return *status;
+  try {
+    return static_cast<int>(run(options));
+  } catch (const ConfigError& error) {
+    for (const auto& problem : error.problems()) std::fprintf(stderr, "panvo run: %s\n", problem.c_str());
+    return static_cast<int>(ExitStatus::kBadConfiguration);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "panvo run: %s\n", error.what());
+    return static_cast<int>(ExitStatus::kRunFailed);
+  }
+}

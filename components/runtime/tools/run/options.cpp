@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "options.hpp"
+
+#include <CLI/CLI.hpp>
+#include <cstdlib>
+#include <filesystem>
+
+namespace panvo::runtime {
+
+std::optional<int> RunOptions::parse(int argc, char** argv, RunOptions& options) {
+  CLI::App app("Runs a system of components: live, or on a data set or bag.", "panvo run");
+  std::vector<std::string> arguments;
+  app.add_option("SYSTEM", options.system_file, "system file (ROS 2 launch YAML: node_container, composable_node, param, remap)")->required();
+  app.add_option("ARGUMENT", arguments, "name:=value, an argument that the system file declares");
+  auto* dataset = app.add_option("--dataset", options.dataset, "play this data set: EuRoC/ASL, KITTI odometry, or left/right folders with a calibration");
+  app.add_option("--bag", options.bag, "play this rosbag2 folder")->excludes(dataset);
+  app.add_option("--out", options.out, "leave trajectories, timing.json, summary.json and run.log in this folder");
+  auto* replay = app.add_flag("--replay", options.replay, "deterministic: one thread, messages in order of stamp, as fast as it goes");
+  app.add_option("--rate", options.rate, "live: 1 as recorded, 2 twice as fast, 0 as fast as the components take it")
+      ->excludes(replay)
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  app.add_option("--set", options.settings, "component.parameter=value; may be repeated")->expected(1)->take_all();
+  app.add_option("--seed", options.seed, "of all random numbers")->capture_default_str();
+  app.add_option("--domain", options.domain, "DDS domain")->envname("ROS_DOMAIN_ID")->check(CLI::Range(0, 232))->capture_default_str();
+  app.add_option("--dds-profiles", options.dds_profiles, "Fast DDS XML profile file, see config/dds")->check(CLI::ExistingFile);
+  app.add_flag("--local", options.local, "keep to this process: no DDS");
+  app.add_flag("--verbose", options.verbose, "debug messages too");
+  app.add_option("--container", options.container, "run only this container of the system");
+  app.add_option("--link-in", options.link_in)->group("");
+  app.add_option("--link-out", options.link_out)->group("");
+  app.footer("Exit status: 0 well, 1 the run failed, 2 the configuration or command line is wrong.");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? static_cast<int>(ExitStatus::kOk) : static_cast<int>(ExitStatus::kBadConfiguration);
+  }
+  for (const auto& argument : arguments) {
+    const auto separator = argument.find(":=");
+    if (separator == std::string::npos || separator == 0) {
+      std::cerr << "panvo run: \"" << argument << "\" is no argument: write name:=value\n";
+      return static_cast<int>(ExitStatus::kBadConfiguration);
+    }
+    options.arguments[argument.substr(0, separator)] = argument.substr(separator + 2);
+  }
+  return std::nullopt;
+}
+
+SystemDescription describe_system(const RunOptions& options) {
+  SystemDescription system = read_system_file(options.system_file, options.arguments);
+  if (system.containers.empty()) throw ConfigError(options.system_file + ": has no node_container: nothing to run");
+  const auto add_player = [&](const std::string& package, const std::string& plugin, const std::string& name, const std::string& option,
+                              const std::string& directory) {
+    ComponentDescription player;
+    player.package = package;
+    player.plugin = plugin;
+    player.name = name;
+    player.where = {option, 0};
+    player.parameters["directory"] = {{std::filesystem::absolute(directory).string()}, false, player.where};
+    // The namespace of what it feeds: a system under a namespace plays data sets unchanged.
+    auto& components = system.containers.front().components;
+    if (!components.empty()) player.name_space = components.front().name_space;
+    components.push_back(std::move(player));  // last: a bag player leaves out what the others publish
+  };
+  if (!options.dataset.empty()) {
+    add_player("panvo_dataset_player", "DatasetPlayerComponent", "dataset_player", "--dataset", options.dataset);
+  }
+  if (!options.bag.empty()) add_player("panvo_recorder", "BagPlayerComponent", "bag_player", "--bag", options.bag);
+  for (const auto& setting : options.settings) apply_setting(system, setting);
+  return system;
+}
+
+}  // namespace panvo::runtime

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "panvo/runtime/system_file.hpp"
+
+namespace panvo::runtime {
+
+enum class ExitStatus : int { kOk = 0, kRunFailed = 1, kBadConfiguration = 2 };
+
+/// What `panvo run` was asked to do.
+struct RunOptions {
+  std::string system_file;
+  std::map<std::string, std::string> arguments;  // name:=value
+  std::string dataset, bag, out;
+  bool replay = false;
+  double rate = 0;
+  std::vector<std::string> settings;  // component.parameter=value
+  std::uint64_t seed = 1;
+  int domain = 0;
+  std::string dds_profiles;
+  bool local = false;
+  bool verbose = false;
+  std::string container;       // only this one of the system's containers
+  std::optional<int> link_in, link_out;  // to the launching process
+
+  /// Parses a command line. Returns the exit status when there is nothing to run (`--help`, a mistake; it is said).
+  static std::optional<int> parse(int argc, char** argv, RunOptions& options);
+};
+
+/// The system as it is to be run: file, arguments and settings applied, the player of the data set or bag added. Throws ConfigError.
+SystemDescription describe_system(const RunOptions& options);
+
+}  // namespace panvo::runtime

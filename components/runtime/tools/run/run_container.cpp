@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "run_container.hpp"
+
+#include <sys/resource.h>
+
+#include <atomic>
+#include <chrono>
+#include <memory>
+#include <mutex>
+
+#include "console.hpp"
+#include "link.hpp"
+#include "panvo/runtime/container.hpp"
+#include "stop_signals.hpp"
+
+namespace panvo::runtime {
+namespace {
+
+bool ends_with_any(const std::string& name, std::initializer_list<const char*> ends) {
+  for (const char* end : ends) {
+    if (name.ends_with(end)) return true;
+  }
+  return false;
+}
+
+/// Counts stereo frames on their way in and poses on their way out, and writes what a run leaves behind.
+class Results {
+ public:
+  Results(Container& container, RunFiles* files, std::function<void(const std::string&)> failed)
+      : files_(files), failed_(std::move(failed)) {
+    container.observe(
+        [this](const TopicDescription& topic) {
+          return is_frame_in(topic) || is_frame_out(topic) || (files_ && files_->wants(topic));
+        },
+        [this](const TopicDescription& topic, const SamplePtr& sample) { take(topic, sample); });
+  }
+
+  std::uint64_t frames_in() const { return frames_in_; }
+  std::uint64_t frames_out() const { return frames_out_; }
+
+ private:
+  static bool is_frame_in(const TopicDescription& topic) { return ends_with_any(topic.name, {"stereo/left/image_rect"}); }
+  static bool is_frame_out(const TopicDescription& topic) { return ends_with_any(topic.name, {"odometry/binocular"}); }
+
+  void take(const TopicDescription& topic, const SamplePtr& sample) {
+    frames_in_ += is_frame_in(topic);
+    frames_out_ += is_frame_out(topic);
+    if (!files_ || !files_->wants(topic)) return;
+    const std::lock_guard lock(mutex_);
+    if (broken_) return;
+    try {
+      files_->write(topic, sample);
+    } catch (const std::exception& error) {
+      broken_ = true;
+      failed_(error.what());
+    }
+  }
+
+  RunFiles* files_;
+  std::function<void(const std::string&)> failed_;
+  std::atomic<std::uint64_t> frames_in_ = 0, frames_out_ = 0;
+  std::mutex mutex_;
+  bool broken_ = false;
+};
+
+double seconds(const timeval& time) { return static_cast<double>(time.tv_sec) + static_cast<double>(time.tv_usec) * 1e-6; }
+
+}  // namespace
+
+ExitStatus run_container(const RunOptions& options, const std::vector<ComponentDescription>& components) {
+  const auto start = std::chrono::steady_clock::now();
+  Container* running = nullptr;
+  std::atomic<bool> stop = false;
+  std::mutex running_mutex;
+  const StopSignals signals([&] {
+    stop = true;
+    const std::lock_guard lock(running_mutex);
+    if (running) running->request_stop();
+  });
+
+  std::unique_ptr<RunFiles> files;
+  if (!options.out.empty()) files = std::make_unique<RunFiles>(options.out);
+  Console console(files ? std::filesystem::path(options.out) / "run.log" : "", options.verbose ? LogLevel::kDebug : LogLevel::kInfo);
+  const Logger::Write log = [&](LogLevel level, const std::string& component, const std::string& text) { console.log(level, component, text); };
+
+  ContainerOptions container_options{.replay = options.replay, .rate = options.rate, .seed = options.seed, .log = log};
+  if (!options.local && !options.replay) {
+    container_options.dds = DdsSettings{.domain = options.domain, .profiles = options.dds_profiles,
+                                        .name = options.container.empty() ? "panvo" : options.container};
+  }
+  Container container(std::move(container_options));
+  std::vector<std::string> problems;
+  Results results(container, files.get(), [&](const std::string& what) {
+    console.log(LogLevel::kError, "container", what);
+    problems.push_back(what);
+    container.request_stop();
+  });
+  container.load_all(components);
+  {
+    const std::lock_guard lock(running_mutex);
+    running = &container;
+    if (stop) container.request_stop();
+  }
+  container.on_progress([&](Source::Progress progress) { console.progress(progress); });
+  container.start();
+  if (options.link_in && options.link_out) Link(*options.link_in, *options.link_out).meet(container, log);
+  for (auto& problem : container.run()) problems.push_back(std::move(problem));
+  console.end_progress();
+  {
+    const std::lock_guard lock(running_mutex);
+    running = nullptr;
+  }
+
+  const ExitStatus status = problems.empty() ? ExitStatus::kOk : ExitStatus::kRunFailed;
+  std::uint64_t dropped = 0;
+  for (const auto& queue : container.queue_counters()) {
+    dropped += queue.dropped;
+    if (queue.dropped > 0) {
+      console.log(LogLevel::kWarning, queue.component,
+                  fmt::format("dropped {} of {} messages of {}", queue.dropped, queue.received, queue.input));
+    }
+  }
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  const double wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const double cpu_s = seconds(usage.ru_utime) + seconds(usage.ru_stime);
+  const double peak_memory_mb = static_cast<double>(usage.ru_maxrss) / 1024.0;
+  if (results.frames_out() > 0) {
+    console.log(LogLevel::kInfo, "container",
+                fmt::format("{} stereo frames in, {} poses out, {} messages dropped; {:.1f} s, {:.1f} s CPU, {:.0f} MB peak", results.frames_in(),
+                            results.frames_out(), dropped, wall_s, cpu_s, peak_memory_mb));
+  }
+  if (files) {
+    RunSummary summary;
+    summary.frames_in = results.frames_in();
+    summary.frames_out = results.frames_out();
+    summary.queues = container.queue_counters();
+    summary.cpu_s = cpu_s;
+    summary.wall_s = wall_s;
+    summary.peak_memory_mb = peak_memory_mb;
+    summary.version = kRuntimeVersion;
+    summary.seed = options.seed;
+    summary.replay = options.replay;
+    summary.system_file = options.system_file;
+    summary.changed_parameters = container.changed_parameters();
+    summary.problems = problems;
+    summary.exit_status = static_cast<int>(status);
+    files->finish(summary, container.stage_times());
+  }
+  return status;
+}
+
+}  // namespace panvo::runtime
