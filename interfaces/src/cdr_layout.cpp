@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cdr_layout.hpp"
 
+#include <algorithm>
 #include <cstring>
 #include <string>
 
@@ -9,10 +10,12 @@
 namespace panvo::interfaces {
 namespace {
 
+/// Goes over the bytes of a message member by member. OnGap(begin, end) is told of the bytes that are only there for alignment.
+template <class OnGap>
 class Walk {
  public:
-  Walk(std::string_view type_name, std::span<const std::uint8_t> payload, std::endian order)
-      : type_name_(type_name), payload_(payload), order_(order) {}
+  Walk(std::string_view type_name, std::span<const std::uint8_t> payload, std::endian order, OnGap on_gap)
+      : type_name_(type_name), payload_(payload), order_(order), on_gap_(on_gap) {}
 
   void message(const CdrLayout& layout) {
     for (const CdrField& field : layout.fields) {
@@ -25,7 +28,7 @@ class Walk {
     const std::uint32_t count = field.is_sequence ? length(field) : field.array_size;
     if (field.size > 0) {
       if (count > 0) {  // an empty sequence is not followed by the alignment of its elements
-        align(field.size);
+        align(field, field.size);
         skip(field, std::uint64_t{count} * field.size);
       }
       return;
@@ -41,18 +44,24 @@ class Walk {
   }
 
   std::uint32_t length(const CdrField& field) {
-    align(sizeof(std::uint32_t));
+    align(field, sizeof(std::uint32_t));
     const std::size_t at = position_;
     skip(field, sizeof(std::uint32_t));
-    std::uint32_t value;
+    std::uint32_t value = 0;
     std::memcpy(&value, payload_.data() + at, sizeof value);
     return order_ == std::endian::native ? value : __builtin_bswap32(value);
   }
 
-  void align(std::size_t size) { position_ = (position_ + size - 1) / size * size; }
+  void align(const CdrField& field, std::size_t size) {
+    const std::size_t gap = (size - position_ % size) % size;
+    if (gap > 0) {
+      skip(field, gap);
+      on_gap_(position_ - gap, position_);
+    }
+  }
 
   void skip(const CdrField& field, std::uint64_t bytes) {
-    if (position_ > payload_.size() || bytes > payload_.size() - position_) {
+    if (bytes > payload_.size() - position_) {
       throw DecodeError(std::string(type_name_) + ": cut off or not of this type: member " + std::string(field.name) + " needs " +
                         std::to_string(bytes) + " bytes at " + std::to_string(position_) + " of " + std::to_string(payload_.size()));
     }
@@ -62,13 +71,20 @@ class Walk {
   std::string_view type_name_;
   std::span<const std::uint8_t> payload_;
   std::endian order_;
+  OnGap on_gap_;
   std::size_t position_ = 0;
 };
 
 }  // namespace
 
 void check_cdr(std::string_view type_name, const CdrLayout& layout, std::span<const std::uint8_t> payload, std::endian order) {
-  Walk(type_name, payload, order).message(layout);
+  Walk(type_name, payload, order, [](std::size_t, std::size_t) {}).message(layout);
+}
+
+void clear_padding(std::string_view type_name, const CdrLayout& layout, std::span<std::uint8_t> payload) {
+  Walk(type_name, payload, std::endian::little, [payload](std::size_t begin, std::size_t end) {
+    std::fill(payload.begin() + static_cast<std::ptrdiff_t>(begin), payload.begin() + static_cast<std::ptrdiff_t>(end), std::uint8_t{0});
+  }).message(layout);
 }
 
 }  // namespace panvo::interfaces

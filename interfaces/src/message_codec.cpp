@@ -12,33 +12,34 @@ namespace panvo::interfaces {
 using eprosima::fastcdr::Cdr;
 using eprosima::fastcdr::FastBuffer;
 
-void encode(const CdrBody& body, std::span<std::uint8_t> out) {
+void encode(const CdrType& type, const void* message, std::span<std::uint8_t> out) {
   FastBuffer buffer(reinterpret_cast<char*>(out.data()), out.size());
   Cdr cdr(buffer, Cdr::LITTLE_ENDIANNESS, Cdr::DDS_CDR);
   cdr.serialize_encapsulation();
-  body.write(body.writes, cdr);
-  // A text that holds a NUL ends there on the wire, so less than its length was written.
+  type.write(message, cdr);
+  // A text that holds a NUL ends there on the wire, so that less than its length is written.
   std::fill(out.begin() + static_cast<std::ptrdiff_t>(cdr.getSerializedDataLength()), out.end(), std::uint8_t{0});
+  clear_padding(type.name, *type.layout, out.subspan(kEncapsulationSize));
 }
 
-void decode(std::string_view type_name, const CdrLayout& layout, std::span<const std::uint8_t> bytes, const CdrBody& body) {
+void decode(const CdrType& type, std::span<const std::uint8_t> bytes, void* message) {
+  const std::string name(type.name);
   if (bytes.size() < kEncapsulationSize) {
-    throw DecodeError(std::string(type_name) + ": " + std::to_string(bytes.size()) + " bytes are too few for a message");
+    throw DecodeError(name + ": " + std::to_string(bytes.size()) + " bytes are too few for a message");
   }
   // 00 00: plain CDR, big endian; 00 01: little endian. Others are parameter lists or later encodings.
   if (bytes[0] != 0 || bytes[1] > 1) {
-    throw DecodeError(std::string(type_name) + ": encapsulation " + std::to_string(bytes[0]) + " " + std::to_string(bytes[1]) +
-                      " is not plain CDR");
+    throw DecodeError(name + ": encapsulation " + std::to_string(bytes[0]) + " " + std::to_string(bytes[1]) + " is not plain CDR");
   }
-  check_cdr(type_name, layout, bytes.subspan(kEncapsulationSize), bytes[1] == 1 ? std::endian::little : std::endian::big);
+  check_cdr(type.name, *type.layout, bytes.subspan(kEncapsulationSize), bytes[1] == 1 ? std::endian::little : std::endian::big);
   // Fast CDR takes a pointer to non-const for reading too.
   FastBuffer buffer(const_cast<char*>(reinterpret_cast<const char*>(bytes.data())), bytes.size());
   Cdr cdr(buffer, Cdr::DEFAULT_ENDIAN, Cdr::DDS_CDR);
   try {
     cdr.read_encapsulation();
-    body.read(body.reads, cdr);
+    type.read(message, cdr);
   } catch (const eprosima::fastcdr::exception::Exception& error) {
-    throw DecodeError(std::string(type_name) + ": " + error.what());
+    throw DecodeError(name + ": " + error.what());
   }
 }
 

@@ -22,21 +22,29 @@ struct Facts;
 
 inline constexpr std::size_t kEncapsulationSize = 4;
 
-/// A decoded or to be encoded message, seen as something that knows how to write and read itself.
-struct CdrBody {
-  const void* writes = nullptr;
-  void* reads = nullptr;
-  void (*write)(const void* message, eprosima::fastcdr::Cdr& cdr) = nullptr;
-  void (*read)(void* message, eprosima::fastcdr::Cdr& cdr) = nullptr;
+/// What encoding and decoding need to know of a message class.
+struct CdrType {
+  std::string_view name;
+  const CdrLayout* layout;
+  void (*write)(const void* message, eprosima::fastcdr::Cdr& cdr);
+  void (*read)(void* message, eprosima::fastcdr::Cdr& cdr);
 };
 
-/// Encapsulation header and body, XCDR1 little endian. What the body leaves of `out` is filled with zeros.
-void encode(const CdrBody& body, std::span<std::uint8_t> out);
+/// Encapsulation header and message, XCDR1 little endian. Every byte of `out` is written.
+void encode(const CdrType& type, const void* message, std::span<std::uint8_t> out);
 
-/// Reads the body. Throws DecodeError for bytes that are not a message of that name and layout.
-void decode(std::string_view type_name, const CdrLayout& layout, std::span<const std::uint8_t> bytes, const CdrBody& body);
+/// Throws DecodeError for bytes that are not a message of that type.
+void decode(const CdrType& type, std::span<const std::uint8_t> bytes, void* message);
 
 std::optional<std::int64_t> to_ns(const builtin_interfaces::msg::Time& time);
+
+template <class Message>
+constexpr CdrType kCdrType{
+    .name = Facts<Message>::name,
+    .layout = &Facts<Message>::layout,
+    .write = [](const void* message, eprosima::fastcdr::Cdr& cdr) { static_cast<const Message*>(message)->serialize(cdr); },
+    .read = [](void* message, eprosima::fastcdr::Cdr& cdr) { static_cast<Message*>(message)->deserialize(cdr); },
+};
 
 template <class Message>
 std::size_t serialized_size(const void* message) {
@@ -45,17 +53,13 @@ std::size_t serialized_size(const void* message) {
 
 template <class Message>
 void serialize(const void* message, std::span<std::uint8_t> out) {
-  encode({.writes = message,
-          .write = [](const void* m, eprosima::fastcdr::Cdr& cdr) { static_cast<const Message*>(m)->serialize(cdr); }},
-         out);
+  encode(kCdrType<Message>, message, out);
 }
 
 template <class Message>
 std::shared_ptr<void> deserialize(std::span<const std::uint8_t> bytes) {
   auto message = std::make_shared<Message>();
-  decode(Facts<Message>::name, Facts<Message>::layout, bytes,
-         {.reads = message.get(),
-          .read = [](void* m, eprosima::fastcdr::Cdr& cdr) { static_cast<Message*>(m)->deserialize(cdr); }});
+  decode(kCdrType<Message>, bytes, message.get());
   return message;
 }
 

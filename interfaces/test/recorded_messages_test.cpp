@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: Apache-2.0
+// Our messages against those in bags that ROS 2 tools wrote: bytes, type hashes and definitions.
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <memory>
+#include <set>
+#include <span>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+
+#include <gtest/gtest.h>
+#include <sqlite3.h>
+
+#include "cdr_layout.hpp"
+#include "panvo/interfaces/message_type.hpp"
+
+namespace panvo::interfaces {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A query over a bag's database, row by row.
+class Query {
+ public:
+  Query(const fs::path& database, const char* sql) {
+    // Immutable: the folder may be read-only, and nobody writes to it.
+    const std::string uri = "file:" + database.string() + "?mode=ro&immutable=1";
+    sqlite3* connection = nullptr;
+    const int opened = sqlite3_open_v2(uri.c_str(), &connection, SQLITE_OPEN_READONLY | SQLITE_OPEN_URI, nullptr);
+    connection_.reset(connection);
+    sqlite3_stmt* statement = nullptr;
+    // A bag of an older schema has not all columns: it then gives no rows.
+    if (opened == SQLITE_OK && sqlite3_prepare_v2(connection, sql, -1, &statement, nullptr) == SQLITE_OK) {
+      statement_.reset(statement);
+    }
+  }
+
+  bool next() { return statement_ && sqlite3_step(statement_.get()) == SQLITE_ROW; }
+
+  Bytes bytes(int column) const {
+    const auto* data = static_cast<const std::uint8_t*>(sqlite3_column_blob(statement_.get(), column));
+    return {data, data + sqlite3_column_bytes(statement_.get(), column)};
+  }
+
+  std::string text(int column) const {
+    const Bytes data = bytes(column);
+    return {data.begin(), data.end()};
+  }
+
+ private:
+  std::unique_ptr<sqlite3, decltype([](sqlite3* c) { sqlite3_close_v2(c); })> connection_;
+  std::unique_ptr<sqlite3_stmt, decltype([](sqlite3_stmt* s) { sqlite3_finalize(s); })> statement_;
+};
+
+fs::path bag_folder() {
+  const char* data = std::getenv("PANVO_DATA");
+  return fs::path(data != nullptr ? data : PANVO_DEFAULT_DATA) / "bags";
+}
+
+class RecordedMessages : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (!fs::is_directory(bag_folder())) {
+      GTEST_SKIP() << "no recordings at " << bag_folder() << "; set PANVO_DATA to the folder that holds bags/";
+    }
+    for (const auto& entry : fs::recursive_directory_iterator(bag_folder())) {
+      if (entry.path().extension() == ".db3") {
+        bags_.insert(entry.path());
+      }
+    }
+  }
+
+  std::set<fs::path> bags_;
+};
+
+/// "sensor_msgs/Image", as the first releases of ROS 2 wrote it, is the same type as "sensor_msgs/msg/Image".
+const MessageType* find(std::string name) {
+  if (name.find("/msg/") == std::string::npos && name.find('/') != std::string::npos) {
+    name.insert(name.find('/'), "/msg");
+  }
+  return find_message_type(name);
+}
+
+const CdrLayout& layout(const MessageType& type) {
+  const auto types = message_types();
+  return *cdr_layouts()[static_cast<std::size_t>(std::ranges::find(types, &type) - types.begin())];
+}
+
+/// A definition without what may differ: comments, white space, a default's notation, and a package that goes without saying.
+std::string normalised(const std::string& definition) {
+  std::istringstream lines(definition);
+  std::string line, package, result;
+  while (std::getline(lines, line)) {
+    line.erase(std::min(line.find('#'), line.size()));
+    std::istringstream words(line);
+    std::string type, name;
+    if (!(words >> type >> name)) {
+      continue;
+    }
+    const std::size_t slash = type.find('/');
+    result += (slash == std::string::npos ? type : type.substr(slash + 1)) + " " + name + "\n";
+  }
+  return result;
+}
+
+TEST_F(RecordedMessages, AreWrittenByteForByteAsTheyWereRead) {
+  std::set<std::string_view> types;
+  int messages = 0;
+  for (const fs::path& bag : bags_) {
+    Query query(bag, "SELECT topics.type, messages.data FROM messages JOIN topics ON topics.id = messages.topic_id");
+    while (query.next()) {
+      const MessageType* type = find(query.text(0));
+      if (type == nullptr) {
+        continue;
+      }
+      Bytes recorded = query.bytes(1);
+      const auto message = type->deserialize(recorded);
+      Bytes written(type->serialized_size(message.get()));
+      type->serialize(message.get(), written);
+      // What lies between members does not matter, and a recorder may keep the padding after the last one.
+      ASSERT_LE(written.size(), recorded.size()) << type->name << " in " << bag;
+      ASSERT_LE(recorded.size() - written.size(), 3U) << type->name << " in " << bag;
+      recorded.resize(written.size());
+      clear_padding(type->name, layout(*type), std::span(recorded).subspan(4));
+      ASSERT_EQ(written, recorded) << type->name << " in " << bag;
+      types.insert(type->name);
+      ++messages;
+    }
+  }
+  RecordProperty("messages", messages);
+  RecordProperty("types", static_cast<int>(types.size()));
+  EXPECT_GE(types.size(), 30U);
+  EXPECT_GE(messages, 3000);
+}
+
+TEST_F(RecordedMessages, HaveOurTypeHashes) {
+  std::set<std::string_view> types;
+  for (const fs::path& bag : bags_) {
+    Query query(bag, "SELECT type, type_description_hash FROM topics WHERE type_description_hash != ''");
+    while (query.next()) {
+      if (const MessageType* type = find(query.text(0))) {
+        EXPECT_EQ(type->hash, query.text(1)) << type->name << " in " << bag;
+        types.insert(type->name);
+      }
+    }
+  }
+  EXPECT_GE(types.size(), 30U);
+}
+
+TEST_F(RecordedMessages, HaveOurDefinitions) {
+  std::set<std::string_view> types;
+  for (const fs::path& bag : bags_) {
+    // Some of rosbag2's own test bags hold stubs for definitions; those have no type hash.
+    Query query(bag,
+                "SELECT topic_type, encoded_message_definition FROM message_definitions JOIN topics ON topics.type = topic_type "
+                "WHERE topics.type_description_hash != ''");
+    while (query.next()) {
+      const MessageType* type = find(query.text(0));
+      if (type != nullptr && !query.text(1).empty()) {
+        EXPECT_EQ(normalised(std::string(type->definition)), normalised(query.text(1))) << type->name << " in " << bag;
+        types.insert(type->name);
+      }
+    }
+  }
+  EXPECT_GE(types.size(), 30U);
+}
+
+}  // namespace
+}  // namespace panvo::interfaces
