@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "panvo/vision/camera.hpp"
+
+/// Recorded data sets, whatever their layout, as one description: which images, when, from which cameras.
+namespace panvo::dataset_player {
+
+/// The two images of one instant. A data set that states no capture times gets them from its frame rate.
+struct StereoFrame {
+  std::int64_t stamp_ns = 0;
+  std::filesystem::path left, right;
+};
+
+/// The stereo camera and its recording. `base_from_left` places the raw left optical frame on the vehicle (base_link: x
+/// forward, y left, z up).
+struct StereoRecording {
+  vision::StereoCalibration calibration;  ///< the images as they are stored
+  vision::RectifiedStereo rectified;      ///< the pair they are to be rectified to; rotations are identity if they are already
+  Eigen::Isometry3d base_from_left = Eigen::Isometry3d::Identity();
+  std::vector<StereoFrame> frames;  ///< stamps increase
+
+  Eigen::Isometry3d base_from_right() const { return base_from_left * calibration.right_from_left.inverse(); }
+};
+
+struct PanoramaFrame {
+  std::int64_t stamp_ns = 0;
+  std::filesystem::path image;
+};
+
+/// The equirectangular panorama and its recording.
+struct PanoramaRecording {
+  int width = 0, height = 0;  ///< px
+  Eigen::Isometry3d base_from_panorama = Eigen::Isometry3d::Identity();
+  std::vector<PanoramaFrame> frames;  ///< stamps increase
+};
+
+struct GroundTruthPose {
+  std::int64_t stamp_ns = 0;
+  Eigen::Isometry3d map_from_base = Eigen::Isometry3d::Identity();
+};
+
+struct Dataset {
+  std::string kind;  ///< "KITTI odometry", "EuRoC/ASL", "left/right folders"
+  std::filesystem::path directory;
+  std::optional<StereoRecording> stereo;
+  std::optional<PanoramaRecording> panorama;
+  std::vector<GroundTruthPose> ground_truth;  ///< stamps increase; empty where there is none
+  std::vector<std::string> notes;             ///< what people should know: frames left out, a frame rate assumed
+};
+
+/// A data set that cannot be used. what() names the file, the line where there is one, and what to do.
+class DatasetError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+struct ReadOptions {
+  /// Frame rate of data sets that state no capture times; 0: what is usual for the layout (KITTI 10, folders 30).
+  double rate_hz = 0.0;
+};
+
+/// Reads the description of the data set in `directory`, its kind found by its layout, and checks all of it but the
+/// pixels of images after the first. Throws DatasetError.
+Dataset open_dataset(const std::filesystem::path& directory, const ReadOptions& options = {});
+
+}  // namespace panvo::dataset_player

@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "calibration_values.hpp"
+#include "layouts.hpp"
+#include "panvo/dataset_player/image_file.hpp"
+#include "text_file.hpp"
+#include "yaml_file.hpp"
+
+namespace panvo::dataset_player {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct StampedImage {
+  std::int64_t stamp_ns = 0;
+  fs::path file;
+};
+
+fs::path mav0(const fs::path& directory) {
+  return fs::is_directory(directory / "mav0") ? directory / "mav0" : directory;
+}
+
+/// The images that data.csv lists, in order of time, whether their files are there or not.
+std::vector<StampedImage> read_image_list(const fs::path& camera_folder) {
+  const TextFile file(camera_folder / "data.csv", TextFile::Separator::kComma);
+  std::vector<StampedImage> images;
+  for (const auto& line : file.lines()) {
+    const auto stamp_ns = file.nanoseconds(line, 0);
+    if (!images.empty()) file.expect_later(line, images.back().stamp_ns, stamp_ns);
+    images.push_back({stamp_ns, camera_folder / "data" / file.text(line, 1)});
+  }
+  if (images.empty()) throw DatasetError(file.path().string() + ": lists no image; copy the data set again");
+  return images;
+}
+
+/// T_BS: base_link (EuRoC's body B) from a sensor.
+Eigen::Isometry3d read_base_from_sensor(const YamlFile& sensor) {
+  const RowMajor4d matrix = Eigen::Map<const RowMajor4d>(sensor.numbers("T_BS", 16).data());
+  const Eigen::Matrix3d rotation = matrix.topLeftCorner<3, 3>();
+  if (!((rotation * rotation.transpose() - Eigen::Matrix3d::Identity()).norm() < 1e-3) || rotation.determinant() < 0.0 ||
+      !matrix.allFinite()) {
+    sensor.fail("T_BS", "is no rigid transform: its upper left 3 x 3 block must be a rotation; correct it");
+  }
+  Eigen::Isometry3d base_from_sensor = Eigen::Isometry3d::Identity();
+  base_from_sensor.linear() = Eigen::Quaterniond(rotation).normalized().toRotationMatrix();
+  base_from_sensor.translation() = matrix.topRightCorner<3, 1>();
+  return base_from_sensor;
+}
+
+ImageSize read_resolution(const YamlFile& sensor) {
+  const auto resolution = sensor.numbers("resolution", 2);
+  return {static_cast<int>(resolution[0]), static_cast<int>(resolution[1])};
+}
+
+vision::DistortedCamera read_pinhole(const YamlFile& sensor) {
+  if (const auto model = sensor.text("camera_model", "pinhole"); model != "pinhole") {
+    sensor.fail("camera_model", "is '" + model + "'; the stereo cameras cam0 and cam1 must be pinhole");
+  }
+  const auto size = read_resolution(sensor);
+  const auto intrinsics = sensor.numbers("intrinsics", 4);
+  vision::DistortedCamera camera;
+  camera.pinhole = {intrinsics[0], intrinsics[1], intrinsics[2], intrinsics[3], size.width, size.height};
+  camera.distortion = distortion(sensor, "distortion_coefficients", sensor.text("distortion_model", "radial-tangential"));
+  return camera;
+}
+
+std::int64_t median_period_ns(const std::vector<StampedImage>& images) {
+  if (images.size() < 2) return 0;
+  std::vector<std::int64_t> periods;
+  for (std::size_t i = 1; i < images.size(); ++i) periods.push_back(images[i].stamp_ns - images[i - 1].stamp_ns);
+  const auto middle = periods.begin() + static_cast<std::ptrdiff_t>(periods.size() / 2);
+  std::nth_element(periods.begin(), middle, periods.end());
+  return *middle;
+}
+
+std::size_t nearest(const std::vector<StampedImage>& images, std::int64_t stamp_ns) {
+  const auto after = std::lower_bound(images.begin(), images.end(), stamp_ns,
+                                      [](const StampedImage& image, std::int64_t stamp) { return image.stamp_ns < stamp; });
+  if (after == images.begin()) return 0;
+  const auto index = static_cast<std::size_t>(after - images.begin());
+  if (after == images.end() || stamp_ns - images[index - 1].stamp_ns <= after->stamp_ns - stamp_ns) return index - 1;
+  return index;
+}
+
+/// Pairs of images that are each other's nearest and less than half a period apart; both get the left one's stamp. Images of equal
+/// stamp are the usual case; some recorders stamp each camera on its own.
+std::vector<StereoFrame> pair_by_stamp(const std::vector<StampedImage>& left, const std::vector<StampedImage>& right,
+                                       std::vector<std::string>& notes) {
+  const auto period_ns = median_period_ns(left);
+  std::vector<StereoFrame> frames;
+  std::size_t alone = right.size(), missing_files = 0;
+  std::int64_t largest_gap_ns = 0;
+  fs::path first_missing;
+  for (std::size_t l = 0; l < left.size(); ++l) {
+    const auto r = nearest(right, left[l].stamp_ns);
+    const auto gap_ns = std::abs(right[r].stamp_ns - left[l].stamp_ns);
+    if (nearest(left, right[r].stamp_ns) != l || (gap_ns > 0 && 2 * gap_ns >= period_ns)) {
+      ++alone;
+      continue;
+    }
+    --alone;
+    const bool left_is_there = fs::exists(left[l].file);
+    if (!left_is_there || !fs::exists(right[r].file)) {
+      if (missing_files++ == 0) first_missing = left_is_there ? right[r].file : left[l].file;
+      continue;
+    }
+    largest_gap_ns = std::max(largest_gap_ns, gap_ns);
+    frames.push_back({left[l].stamp_ns, left[l].file, right[r].file});
+  }
+  if (alone > 0) notes.push_back(fmt::format("{} images of cam0 and cam1 have no partner of their time and are left out", alone));
+  if (missing_files > 0) {
+    notes.push_back(fmt::format("{} pairs lack an image file and are left out, the first: {}", missing_files, first_missing.string()));
+  }
+  if (largest_gap_ns > 0) {
+    notes.push_back(fmt::format("the stamps of left and right differ by up to {:.3f} ms; both images of a pair get the left one's",
+                                static_cast<double>(largest_gap_ns) * 1e-6));
+  }
+  return frames;
+}
+
+StereoRecording read_stereo(const fs::path& root, std::vector<std::string>& notes) {
+  for (const char* camera : {"cam0", "cam1"}) {
+    if (!fs::is_directory(root / camera)) {
+      throw DatasetError((root / camera).string() + ": is missing; both eyes (cam0 left, cam1 right) are needed");
+    }
+  }
+  const YamlFile left(root / "cam0" / "sensor.yaml");
+  const YamlFile right(root / "cam1" / "sensor.yaml");
+  StereoRecording stereo;
+  stereo.frames = pair_by_stamp(read_image_list(root / "cam0"), read_image_list(root / "cam1"), notes);
+  if (stereo.frames.empty()) {
+    throw DatasetError((root / "cam0" / "data.csv").string() + ": no image has a partner of the same time in " +
+                       (root / "cam1" / "data.csv").string() + " with both files there; copy the data set again");
+  }
+  stereo.base_from_left = read_base_from_sensor(left);
+  stereo.calibration.left = read_pinhole(left);
+  stereo.calibration.right = read_pinhole(right);
+  stereo.calibration.right_from_left = read_base_from_sensor(right).inverse() * stereo.base_from_left;
+  stereo.rectified = rectified_geometry(stereo.calibration, right.path());
+  expect_image_size(stereo.calibration.left.pinhole, left.path(), stereo.frames);
+  return stereo;
+}
+
+/// cam2, if it is an equirectangular panorama.
+std::optional<PanoramaRecording> read_panorama(const fs::path& folder, std::vector<std::string>& notes) {
+  if (!fs::exists(folder / "sensor.yaml")) return std::nullopt;
+  const YamlFile sensor(folder / "sensor.yaml");
+  if (const auto model = sensor.text("camera_model", "none"); model != "equirectangular") {
+    notes.push_back(fmt::format("{}: camera_model is '{}', not 'equirectangular': cam2 is not played", sensor.path().string(), model));
+    return std::nullopt;
+  }
+  PanoramaRecording panorama;
+  const auto size = read_resolution(sensor);
+  panorama.width = size.width;
+  panorama.height = size.height;
+  panorama.base_from_panorama = read_base_from_sensor(sensor);
+  std::size_t missing_files = 0;
+  for (const auto& image : read_image_list(folder)) {
+    if (fs::exists(image.file)) {
+      panorama.frames.push_back({image.stamp_ns, image.file});
+    } else {
+      ++missing_files;
+    }
+  }
+  if (panorama.frames.empty()) throw DatasetError((folder / "data").string() + ": holds none of the images that data.csv lists; copy it again");
+  if (missing_files > 0) notes.push_back(fmt::format("{} panoramas of {} are not there and are left out", missing_files, folder.string()));
+  cv::Mat first;
+  ImageDecoder decoder;
+  if (const auto problem = decoder.decode(panorama.frames.front().image, Colour::kAsStored, first)) throw DatasetError(*problem + "; copy it again");
+  if (first.cols != panorama.width || first.rows != panorama.height) {
+    sensor.fail("resolution", fmt::format("is {} x {} px, but {} is {} x {} px; correct it", panorama.width, panorama.height,
+                                          panorama.frames.front().image.string(), first.cols, first.rows));
+  }
+  return panorama;
+}
+
+/// Lines of stamp, position, quaternion w x y z of a sensor S in the reference frame R.
+std::vector<GroundTruthPose> read_poses(const fs::path& folder) {
+  Eigen::Isometry3d sensor_from_base = Eigen::Isometry3d::Identity();  // the state is that of the body itself
+  if (fs::exists(folder / "sensor.yaml")) {
+    const YamlFile sensor(folder / "sensor.yaml");
+    if (sensor.has("T_BS")) sensor_from_base = read_base_from_sensor(sensor).inverse();
+  }
+  const TextFile file(folder / "data.csv", TextFile::Separator::kComma);
+  std::vector<GroundTruthPose> poses;
+  for (const auto& line : file.lines()) {
+    const auto stamp_ns = file.nanoseconds(line, 0);
+    if (!poses.empty()) file.expect_later(line, poses.back().stamp_ns, stamp_ns);
+    const auto value = [&](std::size_t field) { return file.number(line, field); };
+    const Eigen::Quaterniond rotation(value(4), value(5), value(6), value(7));
+    if (std::abs(rotation.norm() - 1.0) > 1e-2) file.fail(line, "holds a quaternion that is not of length 1; correct or remove the line");
+    Eigen::Isometry3d map_from_sensor = Eigen::Isometry3d::Identity();
+    map_from_sensor.linear() = rotation.normalized().toRotationMatrix();
+    map_from_sensor.translation() = Eigen::Vector3d(value(1), value(2), value(3));
+    poses.push_back({stamp_ns, map_from_sensor * sensor_from_base});
+  }
+  return poses;
+}
+
+std::vector<GroundTruthPose> read_ground_truth(const fs::path& root, std::vector<std::string>& notes) {
+  for (const char* folder : {"state_groundtruth_estimate0", "vicon0"}) {
+    if (fs::exists(root / folder / "data.csv")) return read_poses(root / folder);
+  }
+  if (fs::exists(root / "leica0")) {
+    notes.push_back("leica0 measures where a prism is, not how the body stands: it is not published as ground truth");
+  }
+  return {};
+}
+
+}  // namespace
+
+bool looks_like_euroc(const fs::path& directory) {
+  return fs::is_directory(directory / "mav0") || fs::exists(directory / "cam0" / "data.csv") ||
+         fs::exists(directory / "cam2" / "data.csv");
+}
+
+Dataset read_euroc(const fs::path& directory, const ReadOptions&) {
+  const auto root = mav0(directory);
+  Dataset dataset;
+  dataset.kind = "EuRoC/ASL";
+  dataset.directory = directory;
+  dataset.panorama = read_panorama(root / "cam2", dataset.notes);
+  // A recording of panoramas alone is one too; with neither eye nor panorama, read_stereo says what is missing.
+  if (!dataset.panorama || fs::exists(root / "cam0") || fs::exists(root / "cam1")) dataset.stereo = read_stereo(root, dataset.notes);
+  dataset.ground_truth = read_ground_truth(root, dataset.notes);
+  return dataset;
+}
+
+}  // namespace panvo::dataset_player

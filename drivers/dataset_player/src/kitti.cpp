@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <cmath>
+#include <functional>
+#include <map>
+
+#include "calibration_values.hpp"
+#include "layouts.hpp"
+#include "text_file.hpp"
+
+namespace panvo::dataset_player {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kUsualRateHz = 10.0;
+
+struct Eyes {
+  const char* left_folder;
+  const char* right_folder;
+  const char* left_projection;
+  const char* right_projection;
+};
+constexpr Eyes kGrey{"image_0", "image_1", "P0:", "P1:"};
+constexpr Eyes kColoured{"image_2", "image_3", "P2:", "P3:"};
+
+/// The projection matrices of calib.txt: pixels of each rectified camera from points of camera 0.
+std::map<std::string, RowMajor34d> read_projections(const TextFile& file) {
+  std::map<std::string, RowMajor34d> projections;
+  for (const auto& line : file.lines()) {
+    if (line.fields.front().size() != 3 || line.fields.front().front() != 'P') continue;
+    RowMajor34d projection;
+    for (int i = 0; i < 12; ++i) projection(i / 4, i % 4) = file.number(line, static_cast<std::size_t>(i) + 1);
+    if (projection(0, 0) == 0.0 || projection(1, 1) == 0.0) file.fail(line, "has a focal length of zero; copy calib.txt again");
+    projections[line.fields.front()] = projection;
+  }
+  return projections;
+}
+
+/// Where camera 0 lies in the frame of the camera of that matrix, m.
+Eigen::Vector3d translation(const RowMajor34d& projection) {
+  return projection.leftCols<3>().inverse() * projection.col(3);
+}
+
+/// Camera geometry. The pair is rectified as it is; base_link stands at camera 0, to which poses.txt refers.
+void read_calibration(const fs::path& path, const Eyes& eyes, StereoRecording& stereo) {
+  const TextFile file(path, TextFile::Separator::kBlank);
+  const auto projections = read_projections(file);
+  for (const char* name : {eyes.left_projection, eyes.right_projection}) {
+    if (!projections.contains(name)) throw DatasetError(fmt::format("{}: has no line {} for {}", path.string(), name, eyes.left_folder));
+  }
+  const auto& left = projections.at(eyes.left_projection);
+  const auto& right = projections.at(eyes.right_projection);
+  const auto size = stereo_image_size(stereo.frames);
+  const auto camera = [&](const RowMajor34d& p) {
+    return vision::PinholeCamera{p(0, 0), p(1, 1), p(0, 2), p(1, 2), size.width, size.height};
+  };
+  auto& calibration = stereo.calibration;
+  calibration.left.pinhole = camera(left);
+  calibration.right.pinhole = camera(right);
+  // The colour cameras stand some mm off camera 0's row and plane. The images are rectified nonetheless: only X separates the two.
+  calibration.right_from_left.translation().x() = translation(right).x() - translation(left).x();
+  stereo.rectified = rectified_geometry(calibration, path);
+  stereo.base_from_left = base_from_optical() * Eigen::Translation3d(-translation(left));
+}
+
+std::vector<std::int64_t> read_times(const fs::path& path) {
+  const TextFile file(path, TextFile::Separator::kBlank);
+  std::vector<std::int64_t> stamps_ns;
+  for (const auto& line : file.lines()) {
+    const auto stamp_ns = file.seconds_as_ns(line, 0);
+    if (!stamps_ns.empty()) file.expect_later(line, stamps_ns.back(), stamp_ns);
+    stamps_ns.push_back(stamp_ns);
+  }
+  return stamps_ns;
+}
+
+/// When each pair was taken: as times.txt says, line i for image i, or at the frame rate where there is no such file.
+std::function<std::int64_t(const NumberedPair&)> read_clock(const fs::path& times_path, const ReadOptions& options,
+                                                            std::vector<std::string>& notes) {
+  if (fs::exists(times_path)) {
+    return [times_path, stamps_ns = read_times(times_path)](const NumberedPair& pair) {
+      if (pair.number < stamps_ns.size()) return stamps_ns[pair.number];
+      throw DatasetError(fmt::format("{}: has {} times, none for image {}; copy the file again, or remove it to play at {} Hz",
+                                     times_path.string(), stamps_ns.size(), pair.left.filename().string(), kUsualRateHz));
+    };
+  }
+  if (options.rate_hz <= 0.0) notes.push_back(fmt::format("no times.txt: {} Hz is assumed (parameter rate_hz)", kUsualRateHz));
+  const double rate_hz = options.rate_hz > 0.0 ? options.rate_hz : kUsualRateHz;
+  return [rate_hz](const NumberedPair& pair) -> std::int64_t {
+    constexpr std::uint64_t kMostImages = 100'000'000;
+    if (pair.number < kMostImages) return std::llround(static_cast<double>(pair.number) * 1e9 / rate_hz);
+    throw DatasetError(pair.left.string() + ": its number counts no frames; number the images from 000000, or add times.txt");
+  };
+}
+
+/// base_from_camera_0 turns the axes of poses.txt (first camera frame, X right, Y down) into those of a vehicle, on both sides.
+std::vector<Eigen::Isometry3d> read_poses(const fs::path& path) {
+  const TextFile file(path, TextFile::Separator::kBlank);
+  const auto base_from_camera = base_from_optical();
+  std::vector<Eigen::Isometry3d> poses;
+  for (const auto& line : file.lines()) {
+    RowMajor34d matrix;
+    for (int i = 0; i < 12; ++i) matrix(i / 4, i % 4) = file.number(line, static_cast<std::size_t>(i));
+    const Eigen::Matrix3d rotation = matrix.leftCols<3>();
+    if ((rotation * rotation.transpose() - Eigen::Matrix3d::Identity()).norm() > 1e-3 || rotation.determinant() < 0.0) {
+      file.fail(line, "is no pose: its first three columns are no rotation; copy the file again");
+    }
+    Eigen::Isometry3d first_from_camera = Eigen::Isometry3d::Identity();
+    first_from_camera.linear() = Eigen::Quaterniond(rotation).normalized().toRotationMatrix();
+    first_from_camera.translation() = matrix.col(3);
+    poses.push_back(base_from_camera * first_from_camera * base_from_camera.inverse());
+  }
+  return poses;
+}
+
+std::optional<fs::path> find_poses(const fs::path& directory) {
+  // "sequences/03/" and "sequences/03" name the same folder, but only the latter ends in 03.
+  const auto folder = fs::weakly_canonical(directory);
+  const auto number = folder.filename().string();
+  for (const auto& path : {folder / "poses.txt", folder / ".." / "poses" / (number + ".txt"),
+                           folder / ".." / ".." / "poses" / (number + ".txt")}) {
+    if (fs::exists(path)) return path.lexically_normal();
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+bool looks_like_kitti(const fs::path& directory) {
+  return fs::exists(directory / "calib.txt") || fs::is_directory(directory / "image_0") || fs::is_directory(directory / "image_2");
+}
+
+Dataset read_kitti(const fs::path& directory, const ReadOptions& options) {
+  Dataset dataset;
+  dataset.kind = "KITTI odometry";
+  dataset.directory = directory;
+  const bool grey = fs::is_directory(directory / kGrey.left_folder) || fs::is_directory(directory / kGrey.right_folder);
+  const Eyes& eyes = grey ? kGrey : kColoured;
+  const auto folders = pair_by_number(directory / eyes.left_folder, directory / eyes.right_folder, dataset.notes);
+
+  const auto stamp_of = read_clock(directory / "times.txt", options, dataset.notes);
+  const auto poses_path = find_poses(directory);
+  const auto poses = poses_path ? read_poses(*poses_path) : std::vector<Eigen::Isometry3d>();
+
+  StereoRecording stereo;
+  for (const auto& pair : folders.pairs) {
+    const auto stamp_ns = stamp_of(pair);
+    stereo.frames.push_back({stamp_ns, pair.left, pair.right});
+    if (pair.number < poses.size()) dataset.ground_truth.push_back({stamp_ns, poses[pair.number]});
+  }
+  if (poses_path && dataset.ground_truth.size() < stereo.frames.size()) {
+    dataset.notes.push_back(fmt::format("{} has {} poses: the last {} of {} frames are without ground truth", poses_path->string(),
+                                        poses.size(), stereo.frames.size() - dataset.ground_truth.size(), stereo.frames.size()));
+  }
+  read_calibration(directory / "calib.txt", eyes, stereo);
+  dataset.stereo = std::move(stereo);
+  return dataset;
+}
+
+}  // namespace panvo::dataset_player

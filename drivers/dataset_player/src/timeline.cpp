@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "panvo/dataset_player/timeline.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+namespace panvo::dataset_player {
+
+std::vector<Event> timeline(const Dataset& dataset, const Selection& selection) {
+  std::vector<Event> images;
+  if (dataset.stereo && selection.stereo) {
+    const auto& frames = dataset.stereo->frames;
+    for (std::size_t i = 0; i < frames.size(); ++i) images.push_back({frames[i].stamp_ns, Event::Kind::kStereo, i});
+  }
+  if (dataset.panorama && selection.panorama) {
+    const auto& frames = dataset.panorama->frames;
+    for (std::size_t i = 0; i < frames.size(); ++i) images.push_back({frames[i].stamp_ns, Event::Kind::kPanorama, i});
+  }
+  const auto earlier = [](const Event& a, const Event& b) { return std::tie(a.stamp_ns, a.kind) < std::tie(b.stamp_ns, b.kind); };
+  std::sort(images.begin(), images.end(), earlier);
+  if (images.empty()) {
+    throw DatasetError(fmt::format("{}: has no image of the cameras that are to be played (parameter cameras)", dataset.directory.string()));
+  }
+
+  const auto length_ns = images.back().stamp_ns - images.front().stamp_ns;
+  const auto begin_ns = images.front().stamp_ns + std::llround(selection.start_s * 1e9);
+  const auto end_ns = selection.duration_s > 0.0 ? begin_ns + std::llround(selection.duration_s * 1e9) : images.back().stamp_ns;
+  std::erase_if(images, [&](const Event& event) { return event.stamp_ns < begin_ns || event.stamp_ns > end_ns; });
+  if (images.empty()) {
+    throw DatasetError(fmt::format("{}: no image is left between start_s = {} and the end of what is to be played; the recording lasts {} s",
+                                   dataset.directory.string(), selection.start_s, static_cast<double>(length_ns) * 1e-9));
+  }
+
+  const auto& poses = dataset.ground_truth;
+  const auto stamp_before = [](const GroundTruthPose& pose, std::int64_t stamp_ns) { return pose.stamp_ns < stamp_ns; };
+  const auto stamp_after = [](std::int64_t stamp_ns, const GroundTruthPose& pose) { return stamp_ns < pose.stamp_ns; };
+  auto first = std::upper_bound(poses.begin(), poses.end(), images.front().stamp_ns, stamp_after);
+  if (first != poses.begin()) --first;
+  auto last = std::lower_bound(poses.begin(), poses.end(), images.back().stamp_ns, stamp_before);
+  if (last != poses.end()) ++last;
+  std::vector<Event> events;
+  for (auto pose = first; pose < last; ++pose) {
+    events.push_back({pose->stamp_ns, Event::Kind::kGroundTruth, static_cast<std::size_t>(pose - poses.begin())});
+  }
+  std::vector<Event> merged(events.size() + images.size());
+  std::merge(events.begin(), events.end(), images.begin(), images.end(), merged.begin(), earlier);
+  return merged;
+}
+
+}  // namespace panvo::dataset_player
