@@ -62,8 +62,9 @@ class Walk {
 
   void skip(const CdrField& field, std::uint64_t bytes) {
     if (bytes > payload_.size() - position_) {
-      throw DecodeError(std::string(type_name_) + ": cut off or not of this type: member " + std::string(field.name) + " needs " +
-                        std::to_string(bytes) + " bytes at " + std::to_string(position_) + " of " + std::to_string(payload_.size()));
+      throw DecodeError(std::string(type_name_) + ": cut off or not of this type: member " + std::string(field.name) +
+                        " needs " + std::to_string(bytes) + " bytes at " + std::to_string(position_) + " of " +
+                        std::to_string(payload_.size()));
     }
     position_ += bytes;
   }
@@ -77,13 +78,15 @@ class Walk {
 
 }  // namespace
 
-void check_cdr(std::string_view type_name, const CdrLayout& layout, std::span<const std::uint8_t> payload, std::endian order) {
+void check_cdr(std::string_view type_name, const CdrLayout& layout, std::span<const std::uint8_t> payload,
+               std::endian order) {
   Walk(type_name, payload, order, [](std::size_t, std::size_t) {}).message(layout);
 }
 
 void clear_padding(std::string_view type_name, const CdrLayout& layout, std::span<std::uint8_t> payload) {
   Walk(type_name, payload, std::endian::little, [payload](std::size_t begin, std::size_t end) {
-    std::fill(payload.begin() + static_cast<std::ptrdiff_t>(begin), payload.begin() + static_cast<std::ptrdiff_t>(end), std::uint8_t{0});
+    std::fill(payload.begin() + static_cast<std::ptrdiff_t>(begin), payload.begin() + static_cast<std::ptrdiff_t>(end),
+              std::uint8_t{0});
   }).message(layout);
 }
 

@@ -29,9 +29,11 @@ void decode(const CdrType& type, std::span<const std::uint8_t> bytes, void* mess
   }
   // 00 00: plain CDR, big endian; 00 01: little endian. Others are parameter lists or later encodings.
   if (bytes[0] != 0 || bytes[1] > 1) {
-    throw DecodeError(name + ": encapsulation " + std::to_string(bytes[0]) + " " + std::to_string(bytes[1]) + " is not plain CDR");
+    throw DecodeError(name + ": encapsulation " + std::to_string(bytes[0]) + " " + std::to_string(bytes[1]) +
+                      " is not plain CDR");
   }
-  check_cdr(type.name, *type.layout, bytes.subspan(kEncapsulationSize), bytes[1] == 1 ? std::endian::little : std::endian::big);
+  check_cdr(type.name, *type.layout, bytes.subspan(kEncapsulationSize),
+            bytes[1] == 1 ? std::endian::little : std::endian::big);
   // Fast CDR takes a pointer to non-const for reading too.
   FastBuffer buffer(const_cast<char*>(reinterpret_cast<const char*>(bytes.data())), bytes.size());
   Cdr cdr(buffer, Cdr::DEFAULT_ENDIAN, Cdr::DDS_CDR);

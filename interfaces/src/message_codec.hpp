@@ -42,7 +42,8 @@ template <class Message>
 constexpr CdrType kCdrType{
     .name = Facts<Message>::name,
     .layout = &Facts<Message>::layout,
-    .write = [](const void* message, eprosima::fastcdr::Cdr& cdr) { static_cast<const Message*>(message)->serialize(cdr); },
+    .write = [](const void* message,
+                eprosima::fastcdr::Cdr& cdr) { static_cast<const Message*>(message)->serialize(cdr); },
     .read = [](void* message, eprosima::fastcdr::Cdr& cdr) { static_cast<Message*>(message)->deserialize(cdr); },
 };
 

@@ -81,7 +81,8 @@ TEST(MessageType, DefinitionIsRos2MsgWithAllThatIsContained) {
   EXPECT_THAT(definition, HasSubstr("\n" + std::string(80, '=') + "\nMSG: geometry_msgs/PoseWithCovariance\n"));
   EXPECT_THAT(definition, HasSubstr("\nfloat64[36] covariance"));
   EXPECT_THAT(message_type<rcl_interfaces::msg::Log>().definition, HasSubstr("\nuint8 WARN=30\n"));
-  EXPECT_THAT(message_type<diagnostic_msgs::msg::DiagnosticArray>().definition, HasSubstr("\nDiagnosticStatus[] status\n"));
+  EXPECT_THAT(message_type<diagnostic_msgs::msg::DiagnosticArray>().definition,
+              HasSubstr("\nDiagnosticStatus[] status\n"));
 }
 
 TEST(MessageType, SerialisesAsXcdr1LittleEndian) {
@@ -125,7 +126,8 @@ TEST(MessageType, RefusesALengthBeyondTheBytesWithoutAllocatingIt) {
   sensor_msgs::msg::Image image;
   Bytes bytes = encode(image);
   std::fill(bytes.end() - 4, bytes.end(), std::uint8_t{0xFF});  // the length of data comes last
-  EXPECT_THAT(decode_error<sensor_msgs::msg::Image>(bytes), testing::StartsWith("sensor_msgs/msg/Image: cut off or not of this type: member data"));
+  EXPECT_THAT(decode_error<sensor_msgs::msg::Image>(bytes),
+              testing::StartsWith("sensor_msgs/msg/Image: cut off or not of this type: member data"));
 
   Bytes path = encode(nav_msgs::msg::Path());
   std::fill(path.end() - 4, path.end(), std::uint8_t{0xFF});

@@ -154,7 +154,8 @@ TEST_F(RecordedMessages, HaveOurDefinitions) {
   for (const fs::path& bag : bags_) {
     // Some of rosbag2's own test bags hold stubs for definitions; those have no type hash.
     Query query(bag,
-                "SELECT topic_type, encoded_message_definition FROM message_definitions JOIN topics ON topics.type = topic_type "
+                "SELECT topic_type, encoded_message_definition FROM message_definitions JOIN topics ON topics.type = "
+                "topic_type "
                 "WHERE topics.type_description_hash != ''");
     while (query.next()) {
       const MessageType* type = find(query.text(0));

@@ -13,8 +13,9 @@ enum class Durability { kVolatile, kTransientLocal };
 struct Qos {
   Reliability requested = Reliability::kReliable;
   Durability durability = Durability::kVolatile;
-  std::size_t depth = 10;   ///< keep last; of each input of a component too: what is more is dropped, oldest first, and counted
-  bool keep_all = false;    ///< nothing is dropped: `depth` is then the bound at which a writer waits
+  /// Keep last; of each input of a component too: what is more is dropped, oldest first, and counted.
+  std::size_t depth = 10;
+  bool keep_all = false;  ///< nothing is dropped: `depth` is then the bound at which a writer waits
 };
 
 namespace qos {

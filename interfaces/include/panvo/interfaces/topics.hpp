@@ -36,7 +36,8 @@ inline constexpr Topic<sensor_msgs::msg::Image> kStereoRightImageRaw{"stereo/rig
 inline constexpr Topic<sensor_msgs::msg::Image> kStereoLeftImageRect{"stereo/left/image_rect", qos::kSensorData};
 inline constexpr Topic<sensor_msgs::msg::Image> kStereoRightImageRect{"stereo/right/image_rect", qos::kSensorData};
 inline constexpr Topic<sensor_msgs::msg::CameraInfo> kStereoLeftCameraInfo{"stereo/left/camera_info", qos::kSensorData};
-inline constexpr Topic<sensor_msgs::msg::CameraInfo> kStereoRightCameraInfo{"stereo/right/camera_info", qos::kSensorData};
+inline constexpr Topic<sensor_msgs::msg::CameraInfo> kStereoRightCameraInfo{"stereo/right/camera_info",
+                                                                            qos::kSensorData};
 inline constexpr Topic<sensor_msgs::msg::Image> kPanorama{"panorama/image", qos::kSensorData};
 
 inline constexpr Topic<nav_msgs::msg::Odometry> kOdometryBinocular{"odometry/binocular", qos::kResult};
