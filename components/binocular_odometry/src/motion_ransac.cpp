@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "motion_ransac.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <random>
+
+#include "observation_model.hpp"
+#include "panvo/vision/absolute_orientation.hpp"
+#include "panvo/vision/pose.hpp"
+#include "panvo/vision/robust_loss.hpp"
+#include "panvo/vision/stereo_geometry.hpp"
+
+namespace panvo::binocular_odometry {
+namespace {
+
+constexpr double kConfidence = 0.999;      // of having drawn one triple without an outlier
+constexpr double kSmallestDisparity = 1.0; // px: farther points are too uncertain in depth to be aligned in space
+constexpr int kPolishIterations = 3;
+
+class Consensus {
+ public:
+  Consensus(const vision::RectifiedStereo& stereo, std::span<const PointPair> pairs, const RansacOptions& options)
+      : stereo_(stereo), pairs_(pairs), options_(options) {
+    for (size_t i = 0; i < pairs.size(); ++i) {
+      points_.push_back(vision::inverse_depth_point(stereo, pairs[i].previous));
+      if (!pairs[i].has_current_disparity || pairs[i].current.z() < kSmallestDisparity) continue;
+      if (pairs[i].previous.z() < kSmallestDisparity) continue;
+      near_.push_back({*vision::triangulate(stereo, pairs[i].previous), *vision::triangulate(stereo, pairs[i].current)});
+    }
+  }
+
+  std::optional<RansacResult> run(std::span<const Eigen::Isometry3d> guesses) {
+    for (const auto& guess : guesses) consider(guess);
+    std::mt19937 random(options_.seed);
+    for (int i = 0; i < std::min(options_.max_iterations, iterations_needed()); ++i) {
+      if (const auto motion = draw(random)) consider(*motion);
+    }
+    if (best_.inliers < 3) return std::nullopt;
+    return best_;
+  }
+
+ private:
+  struct NearPoint {
+    Eigen::Vector3d in_previous;
+    Eigen::Vector3d in_current;
+  };
+
+  double error2(size_t i, const Eigen::Isometry3d& current_from_previous) const {
+    const auto pixel = predict(stereo_, current_from_previous, points_[i]);
+    if (!pixel) return std::numeric_limits<double>::infinity();
+    const Eigen::Vector3d error = *pixel - pairs_[i].current;
+    return std::max(error.head<2>().squaredNorm(), pairs_[i].has_current_disparity ? error.z() * error.z() : 0.0);
+  }
+
+  // Truncated squared error: also tells apart motions with the same inliers [Torr and Zisserman 2000].
+  double score(const Eigen::Isometry3d& motion) const {
+    const double threshold2 = options_.threshold_px * options_.threshold_px;
+    double sum = 0.0;
+    for (size_t i = 0; i < points_.size(); ++i) sum += std::min(error2(i, motion), threshold2);
+    return sum;
+  }
+
+  void consider(const Eigen::Isometry3d& motion) {
+    double now = score(motion);
+    if (now >= best_score_) return;
+    Eigen::Isometry3d improved = motion;
+    const Eigen::Isometry3d polished = polish(motion);
+    if (const double then = score(polished); then < now) {
+      improved = polished;
+      now = then;
+    }
+    best_score_ = now;
+    best_.current_from_previous = improved;
+    best_.is_inlier.assign(points_.size(), false);
+    best_.inliers = 0;
+    for (size_t i = 0; i < points_.size(); ++i) {
+      if (error2(i, improved) > options_.threshold_px * options_.threshold_px) continue;
+      best_.is_inlier[i] = true;
+      ++best_.inliers;
+    }
+  }
+
+  // Gauss-Newton on the reprojection of what is near enough to count, farther points with less and less weight.
+  Eigen::Isometry3d polish(Eigen::Isometry3d motion) const {
+    const vision::CauchyLoss loss(0.5 * options_.threshold_px);
+    const double reach2 = 9.0 * options_.threshold_px * options_.threshold_px;
+    for (int iteration = 0; iteration < kPolishIterations; ++iteration) {
+      vision::Matrix6d normal = 1e-6 * vision::Matrix6d::Identity();
+      vision::Vector6d gradient = vision::Vector6d::Zero();
+      for (size_t i = 0; i < points_.size(); ++i) {
+        const auto at = predict_with_jacobians(stereo_, motion, points_[i]);
+        if (!at) continue;
+        Eigen::Vector3d residual = at->pixel - pairs_[i].current;
+        if (!pairs_[i].has_current_disparity) residual.z() = 0.0;
+        if (residual.squaredNorm() > reach2) continue;
+        const double weight = loss.weight(residual.squaredNorm());
+        const int rows = pairs_[i].has_current_disparity ? 3 : 2;
+        const auto jacobian = at->by_pose.topRows(rows);
+        normal.noalias() += weight * jacobian.transpose() * jacobian;
+        gradient.noalias() += weight * jacobian.transpose() * residual.head(rows);
+      }
+      const Eigen::LLT<vision::Matrix6d> factor(normal);
+      if (factor.info() != Eigen::Success) break;
+      const vision::Vector6d step = factor.solve(-gradient);
+      if (!step.allFinite()) break;
+      motion = vision::se3_exp(step) * motion;
+    }
+    return motion;
+  }
+
+  std::optional<Eigen::Isometry3d> draw(std::mt19937& random) const {
+    if (near_.size() < 3) return std::nullopt;
+    std::array<size_t, 3> chosen{};
+    for (size_t k = 0; k < 3; ++k) {
+      // Plain modulo: the standard's distributions may differ between libraries, and the bias is 1e-7.
+      chosen[k] = random() % near_.size();
+    }
+    if (chosen[0] == chosen[1] || chosen[0] == chosen[2] || chosen[1] == chosen[2]) return std::nullopt;
+    std::array<Eigen::Vector3d, 3> in_previous, in_current;
+    for (size_t k = 0; k < 3; ++k) {
+      in_previous[k] = near_[chosen[k]].in_previous;
+      in_current[k] = near_[chosen[k]].in_current;
+    }
+    return vision::absolute_orientation(in_current, in_previous);
+  }
+
+  int iterations_needed() const {
+    if (points_.empty()) return 0;
+    const double ratio = static_cast<double>(best_.inliers) / static_cast<double>(points_.size());
+    const double clean = ratio * ratio * ratio;
+    if (clean <= 1e-9) return options_.max_iterations;
+    if (clean >= 1.0 - 1e-9) return 1;
+    return static_cast<int>(std::ceil(std::log(1.0 - kConfidence) / std::log1p(-clean)));
+  }
+
+  const vision::RectifiedStereo& stereo_;
+  std::span<const PointPair> pairs_;
+  const RansacOptions& options_;
+  std::vector<Eigen::Vector3d> points_;  // inverse depth, in the previous frame
+  std::vector<NearPoint> near_;
+  double best_score_ = std::numeric_limits<double>::infinity();
+  RansacResult best_;
+};
+
+}  // namespace
+
+std::optional<RansacResult> estimate_motion(const vision::RectifiedStereo& stereo, std::span<const PointPair> pairs,
+                                            std::span<const Eigen::Isometry3d> guesses, const RansacOptions& options) {
+  return Consensus(stereo, pairs, options).run(guesses);
+}
+
+}  // namespace panvo::binocular_odometry

@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "panvo/binocular_odometry/motion_stage.hpp"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <sstream>
+#include <stdexcept>
+
+#include "motion_model.hpp"
+#include "motion_ransac.hpp"
+#include "panvo/vision/pose.hpp"
+#include "two_stage_local_bundle_adjuster.hpp"
+
+namespace panvo::binocular_odometry {
+namespace {
+
+using vision::Matrix6d;
+using vision::Stage;
+
+// Covariance of exp(error) * a_from_b, as that of vision::pose_error.
+Matrix6d pose_covariance(const Eigen::Isometry3d& a_from_b, const Matrix6d& covariance) {
+  Matrix6d by_twist = Matrix6d::Identity();
+  by_twist.topRightCorner<3, 3>() = -vision::skew(a_from_b.translation());
+  return by_twist * covariance * by_twist.transpose();
+}
+
+Matrix6d previous_from_current_covariance(const MeasuredMotion& motion) {
+  return vision::invert_covariance(motion.current_from_previous,
+                                   pose_covariance(motion.current_from_previous, motion.covariance));
+}
+
+}  // namespace
+
+class MotionStage::Implementation {
+ public:
+  Implementation(const vision::RectifiedStereo& stereo, const MotionParameters& parameters, vision::StageObserver* observer)
+      : stereo_(stereo), parameters_(parameters), observer_(observer), adjuster_(stereo, parameters) {}
+
+  OdometryEstimate estimate(const TrackedFrame& frame) {
+    OdometryEstimate result;
+    result.stamp_ns = frame.stamp_ns;
+    result.quality.detected = frame.detected;
+    result.quality.tracked = frame.tracked;
+    result.quality.matched = frame.matched;
+    const std::int64_t since_last_ns = interval(frame.stamp_ns, last_stamp_ns_);
+    const std::int64_t since_good_ns = interval(frame.stamp_ns, good_stamp_ns_);
+    last_stamp_ns_ = frame.stamp_ns;
+
+    std::optional<MeasuredMotion> motion;
+    if (frame.fault.empty() && has_reference_) {
+      motion = estimate_and_refine(frame, motion_model_.predict(since_good_ns), result.quality);
+    } else if (!frame.fault.empty()) {
+      result.quality.reason = frame.fault;
+    }
+    if (!has_reference_) {
+      start(frame, result);
+    } else if (motion) {
+      follow(frame, *motion, since_good_ns, result);
+    } else {
+      carry_on(frame, since_last_ns, result);
+    }
+    published_odom_from_left_ = result.odom_from_left;
+    published_covariance_ = result.odom_from_left_covariance;
+    return result;
+  }
+
+ private:
+  static constexpr std::int64_t kUsualInterval_ns = 100'000'000;
+
+  static std::int64_t interval(std::int64_t stamp_ns, std::int64_t since_ns) {
+    return stamp_ns > since_ns && since_ns > 0 ? stamp_ns - since_ns : kUsualInterval_ns;
+  }
+
+  struct Pairs {
+    std::vector<PointPair> points;
+    std::vector<Observation> previous;
+    std::vector<Observation> current;
+  };
+
+  Pairs pair_up(const TrackedFrame& frame) const {
+    Pairs pairs;
+    auto known = reference_.begin();
+    for (const Observation& seen : frame.observations) {
+      while (known != reference_.end() && known->track_id < seen.track_id) ++known;
+      if (known == reference_.end()) break;
+      if (known->track_id != seen.track_id || !known->has_disparity) continue;
+      pairs.points.push_back({known->pixel, seen.pixel, seen.has_disparity});
+      pairs.previous.push_back(*known);
+      pairs.current.push_back(seen);
+    }
+    return pairs;
+  }
+
+  std::optional<MeasuredMotion> estimate_and_refine(const TrackedFrame& frame, const Eigen::Isometry3d& expected,
+                                                    Quality& quality) {
+    Pairs pairs = pair_up(frame);
+    const auto consensus = [&] {
+      const Stage stage(observer_, "ransac");
+      const std::array guesses{expected, Eigen::Isometry3d::Identity()};
+      return estimate_motion(stereo_, pairs.points, guesses,
+                             {parameters_.ransac_iterations, parameters_.ransac_threshold_px,
+                              static_cast<std::uint32_t>(parameters_.seed)});
+    }();
+    quality.inliers = consensus ? consensus->inliers : 0;
+    quality.inlier_ratio = pairs.points.empty() ? 0.0 : static_cast<double>(quality.inliers) / static_cast<double>(pairs.points.size());
+    std::ostringstream reason;
+    if (quality.inliers < parameters_.min_inliers) {
+      reason << quality.inliers << " inliers of " << parameters_.min_inliers << " needed";
+    } else if (quality.inlier_ratio < parameters_.min_inlier_ratio) {
+      reason << "inliers are " << quality.inlier_ratio << " of the candidates, " << parameters_.min_inlier_ratio << " needed";
+    }
+    quality.reason = reason.str();
+    if (!quality.reason.empty()) return std::nullopt;
+
+    const Stage stage(observer_, "refine_motion");
+    size_t kept = 0;
+    for (size_t i = 0; i < pairs.points.size(); ++i) {
+      if (!consensus->is_inlier[i]) continue;
+      pairs.previous[kept] = pairs.previous[i];
+      pairs.current[kept++] = pairs.current[i];
+    }
+    pairs.previous.resize(kept);
+    pairs.current.resize(kept);
+    MeasuredMotion motion = adjuster_.refine_motion(pairs.previous, pairs.current, consensus->current_from_previous);
+    quality.residual_px = motion.residual_px;
+    if (!motion.current_from_previous.matrix().allFinite() || !motion.covariance.allFinite()) {
+      quality.reason = "the refined motion is no number";
+      return std::nullopt;
+    }
+    return motion;
+  }
+
+  void start(const TrackedFrame& frame, OdometryEstimate& result) {
+    result.odom_from_left = published_odom_from_left_;
+    result.odom_from_left_covariance = published_covariance_;
+    if (!frame.fault.empty()) return;
+    if (frame.matched < parameters_.min_inliers) {
+      result.quality.reason = std::to_string(frame.matched) + " matched features of " +
+                              std::to_string(parameters_.min_inliers) + " needed to start";
+      return;
+    }
+    result.quality.reliable = true;
+    keyframe_covariance_ = published_covariance_;
+    head_ = {published_odom_from_left_.inverse(), frame.observations};
+    adjuster_.add_keyframe(head_);
+    remember(frame);
+  }
+
+  void follow(const TrackedFrame& frame, const MeasuredMotion& motion, std::int64_t since_good_ns, OdometryEstimate& result) {
+    head_ = {motion.current_from_previous * reference_left_from_odom_, frame.observations};
+    std::optional<MeasuredMotion> since_keyframe;
+    {
+      const Stage stage(observer_, "refine_window");
+      since_keyframe = adjuster_.refine_window(head_);
+    }
+    result.quality.reliable = true;
+    result.odom_from_left = head_.left_from_odom.inverse();
+    result.previous_from_current = published_odom_from_left_.inverse() * result.odom_from_left;
+    result.previous_from_current_covariance = previous_from_current_covariance(motion);
+    if (since_keyframe) {
+      result.odom_from_left_covariance = vision::compose_covariance(
+          adjuster_.last_keyframe().left_from_odom.inverse(), keyframe_covariance_,
+          since_keyframe->current_from_previous.inverse(), previous_from_current_covariance(*since_keyframe));
+    } else {
+      result.odom_from_left_covariance = vision::compose_covariance(
+          published_odom_from_left_, published_covariance_, result.previous_from_current, result.previous_from_current_covariance);
+    }
+    if (!since_keyframe || is_keyframe()) {
+      if (!since_keyframe) adjuster_.clear();
+      adjuster_.add_keyframe(head_);
+      keyframe_covariance_ = result.odom_from_left_covariance;
+    }
+    motion_model_.update(head_.left_from_odom * reference_left_from_odom_.inverse(), since_good_ns);
+    remember(frame);
+  }
+
+  bool is_keyframe() const {
+    const auto& seen = adjuster_.last_keyframe().observations;
+    std::vector<double> motion_px;
+    auto now = head_.observations.begin();
+    for (const Observation& then : seen) {
+      while (now != head_.observations.end() && now->track_id < then.track_id) ++now;
+      if (now == head_.observations.end()) break;
+      if (now->track_id == then.track_id) motion_px.push_back((now->pixel - then.pixel).head<2>().norm());
+    }
+    if (static_cast<double>(motion_px.size()) < parameters_.keyframe_shared_ratio * static_cast<double>(seen.size())) return true;
+    const auto median = motion_px.begin() + static_cast<std::ptrdiff_t>(motion_px.size() / 2);
+    std::nth_element(motion_px.begin(), median, motion_px.end());
+    return *median > parameters_.keyframe_parallax_px;
+  }
+
+  void remember(const TrackedFrame& frame) {
+    has_reference_ = true;
+    reference_ = frame.observations;
+    reference_left_from_odom_ = head_.left_from_odom;
+    good_stamp_ns_ = frame.stamp_ns;
+  }
+
+  void carry_on(const TrackedFrame& frame, std::int64_t since_last_ns, OdometryEstimate& result) {
+    const Eigen::Isometry3d current_from_previous = motion_model_.predict(since_last_ns);
+    result.previous_from_current = current_from_previous.inverse();
+    result.previous_from_current_covariance =
+        MotionModel::covariance(since_last_ns, parameters_.acceleration, parameters_.angular_acceleration);
+    result.odom_from_left = published_odom_from_left_ * result.previous_from_current;
+    result.odom_from_left_covariance =
+        vision::compose_covariance(published_odom_from_left_, published_covariance_, result.previous_from_current,
+                                   result.previous_from_current_covariance);
+    if (!frame.fault.empty()) return;
+    // The frame shows something, but nothing that goes with the last good one: odometry starts again from here.
+    head_ = {result.odom_from_left.inverse(), frame.observations};
+    adjuster_.clear();
+    adjuster_.add_keyframe(head_);
+    keyframe_covariance_ = result.odom_from_left_covariance;
+    remember(frame);
+  }
+
+  vision::RectifiedStereo stereo_;
+  MotionParameters parameters_;
+  vision::StageObserver* observer_;
+  TwoStageLocalBundleAdjuster adjuster_;
+  MotionModel motion_model_;
+
+  // The last good frame: what the next one is measured against.
+  bool has_reference_ = false;
+  std::vector<Observation> reference_;
+  Eigen::Isometry3d reference_left_from_odom_ = Eigen::Isometry3d::Identity();
+  std::int64_t good_stamp_ns_ = 0;
+
+  Keyframe head_;
+  Matrix6d keyframe_covariance_ = Matrix6d::Zero();
+  std::int64_t last_stamp_ns_ = 0;
+  Eigen::Isometry3d published_odom_from_left_ = Eigen::Isometry3d::Identity();
+  Matrix6d published_covariance_ = Matrix6d::Zero();
+};
+
+MotionStage::MotionStage(const vision::RectifiedStereo& stereo, const MotionParameters& parameters,
+                         vision::StageObserver* observer) {
+  if (const auto problems = vision::validate(stereo); !problems.empty()) {
+    std::string message = "rectified calibration cannot be used:";
+    for (const auto& problem : problems) message += "\n  - " + problem;
+    throw std::invalid_argument(message);
+  }
+  implementation_ = std::make_unique<Implementation>(stereo, parameters, observer);
+}
+
+MotionStage::~MotionStage() = default;
+MotionStage::MotionStage(MotionStage&&) noexcept = default;
+MotionStage& MotionStage::operator=(MotionStage&&) noexcept = default;
+
+OdometryEstimate MotionStage::estimate(const TrackedFrame& frame) { return implementation_->estimate(frame); }
+
+}  // namespace panvo::binocular_odometry

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sift_front_end.hpp"
+
+#include <limits>
+#include <map>
+
+namespace panvo::binocular_odometry {
+namespace {
+
+constexpr double kRadius = 0.12;         // of the image's width: a turn of some 10 degrees more than foreseen
+constexpr float kLargestRatio2 = 0.64F;  // Lowe's ratio of 0.8, squared
+constexpr float kLargestDistance2 = 300.0F * 300.0F;  // of descriptors whose length is 512
+
+float squared_distance(const cv::Mat& a, const cv::Mat& b, int row) {
+  return static_cast<float>(cv::norm(a, b.row(row), cv::NORM_L2SQR));
+}
+
+}  // namespace
+
+SiftFrontEnd::SiftFrontEnd(const TrackingParameters& parameters)
+    : detector_(cv::SIFT::create(2 * parameters.max_features, 3, 0.02)) {}
+
+void SiftFrontEnd::describe(const vision::ImagePyramid& image) {
+  const int level = std::min(1, image.levels() - 1);
+  const double scale = 1 << level;
+  std::vector<cv::KeyPoint> keypoints;
+  detector_->detectAndCompute(image[level], cv::noArray(), keypoints, descriptors_);
+  radius_px_ = kRadius * image[0].cols;
+  pixels_.clear();
+  responses_.clear();
+  for (const auto& keypoint : keypoints) {
+    pixels_.emplace_back(scale * keypoint.pt.x, scale * keypoint.pt.y);
+    responses_.push_back(keypoint.response);
+  }
+}
+
+std::optional<Whereabouts> SiftFrontEnd::match(Track& track, const Eigen::Vector2d& expected_pixel) {
+  if (track.descriptor.empty()) return std::nullopt;
+  float best = std::numeric_limits<float>::max(), second = best;
+  size_t found = 0;
+  for (size_t i = 0; i < pixels_.size(); ++i) {
+    if ((pixels_[i] - expected_pixel).squaredNorm() > radius_px_ * radius_px_) continue;
+    const float distance = squared_distance(track.descriptor, descriptors_, static_cast<int>(i));
+    // A place with two orientations has two descriptors: they do not compete.
+    const bool same_place = best < std::numeric_limits<float>::max() && (pixels_[i] - pixels_[found]).squaredNorm() < 4.0;
+    if (distance < best) {
+      if (!same_place) second = best;
+      best = distance;
+      found = i;
+    } else if (distance < second && !same_place) {
+      second = distance;
+    }
+  }
+  if (best > kLargestDistance2 || best > kLargestRatio2 * second) return std::nullopt;
+  track.descriptor = descriptors_.row(static_cast<int>(found)).clone();
+  return Whereabouts{pixels_[found], 1};
+}
+
+std::vector<Feature> SiftFrontEnd::detect(const vision::CellGrid& grid) {
+  std::map<size_t, size_t> strongest;  // of each cell
+  for (size_t i = 0; i < pixels_.size(); ++i) {
+    if (!grid.is_free(pixels_[i])) continue;
+    const auto [entry, is_new] = strongest.try_emplace(grid.cell(pixels_[i]), i);
+    if (!is_new && responses_[i] > responses_[entry->second]) entry->second = i;
+  }
+  std::vector<Feature> features;
+  for (const auto& [cell, i] : strongest) {
+    features.push_back({pixels_[i], descriptors_.row(static_cast<int>(i)).clone()});
+  }
+  return features;
+}
+
+}  // namespace panvo::binocular_odometry

@@ -1,0 +1,354 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "panvo/binocular_odometry/tracking_stage.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <sstream>
+#include <stdexcept>
+
+#include "front_end.hpp"
+#include "motion_model.hpp"
+#include "motion_ransac.hpp"
+#include "panvo/vision/image_check.hpp"
+#include "panvo/vision/patch_template.hpp"
+#include "panvo/vision/stereo_geometry.hpp"
+#include "panvo/vision/stereo_matcher.hpp"
+#include "track.hpp"
+
+namespace panvo::binocular_odometry {
+namespace {
+
+using vision::PatchTemplate;
+using vision::Stage;
+
+constexpr double kReachPerLevel_px = 6.0;      // half a patch: farther, and another structure would be locked on
+constexpr double kSecondLook_px = 3.0;         // off the coarse motion: looked for again where that motion has it
+constexpr double kFarOff_px = 6.0;             // off it still: not a point of the static scene
+constexpr double kFarthestDisparity_px = -0.5; // at infinity, give or take the error of a match
+constexpr double kLargestZoom = 1.5;           // of a patch against its host, before a new host is taken
+constexpr double kCrowded_px = 8;              // nearer tracks see the same patch
+constexpr double kNoiseFloor_px = 0.15;        // interpolation, calibration, surfaces that are not plane
+constexpr int kGuideInliers = 8;               // for a coarse motion to be worth following
+constexpr size_t kSwapSamples = 80;
+constexpr int kSwapMatches = 20;
+constexpr double kFewMatches = 0.4;            // of the features looked for in the right image: something is wrong
+
+std::string size_text(const cv::Mat& image) { return std::to_string(image.cols) + " x " + std::to_string(image.rows) + " px"; }
+
+vision::StereoMatcher::Range disparity_range(const vision::RectifiedStereo& stereo, const TrackingParameters& parameters) {
+  return {kFarthestDisparity_px, stereo.camera.fx / parameters.nearest_depth_baselines};
+}
+
+vision::StereoMatcher::Range mirrored(vision::StereoMatcher::Range range) { return {-range.to_px, -1.0}; }
+
+}  // namespace
+
+class TrackingStage::Implementation {
+ public:
+  Implementation(const vision::RectifiedStereo& stereo, const TrackingParameters& parameters, vision::StageObserver* observer)
+      : stereo_(stereo),
+        parameters_(parameters),
+        observer_(observer),
+        matcher_(disparity_range(stereo, parameters), parameters.smallest_correlation),
+        swapped_matcher_(mirrored(disparity_range(stereo, parameters)), parameters.smallest_correlation),
+        front_end_(make_front_end(parameters)),
+        cell_px_(static_cast<int>(std::ceil(std::sqrt(static_cast<double>(stereo.camera.width) * stereo.camera.height /
+                                                      parameters.max_features)))) {}
+
+  TrackedFrame track(const StereoFrame& frame) {
+    TrackedFrame result;
+    result.stamp_ns = frame.stamp_ns;
+    result.fault = check(frame);
+    if (!result.fault.empty()) return result;
+    build_pyramids(frame);
+    describe();
+
+    std::vector<Track> tracks = match_in_time();
+    match_left_right(tracks);
+    Eigen::Isometry3d current_from_previous = expected_motion_;
+    if (const auto motion = coarse_motion(tracks)) {
+      current_from_previous = *motion;
+      look_again(tracks, *motion);
+    } else {
+      tracks.clear();  // what agrees on no motion is no match: begin anew
+    }
+    result.tracked = static_cast<int>(tracks.size());
+    guide_from_current_ = guide_from_previous_ * current_from_previous.inverse();
+    thin_out(tracks);
+    renew_hosts(tracks);
+    detect(tracks);
+    result.detected = static_cast<int>(tracks.size());
+    result.matched = static_cast<int>(
+        std::count_if(tracks.begin(), tracks.end(), [](const Track& track) { return track.seen.has_disparity; }));
+    result.fault = check_for_swap(tracks);
+    if (!result.fault.empty()) return result;
+
+    for (const Track& track : tracks) result.observations.push_back(track.seen);
+    keep(frame.stamp_ns, std::move(tracks), current_from_previous);
+    return result;
+  }
+
+ private:
+  std::string check(const StereoFrame& frame) {
+    const Stage stage(observer_, "check");
+    std::ostringstream text;
+    const bool is_late = seen_any_ && frame.stamp_ns <= last_stamp_ns_;
+    if (is_late) {
+      text << "stamp " << frame.stamp_ns << " ns is not after the one before, " << last_stamp_ns_ << " ns";
+    }
+    // A recording started over goes on from here: only the first frame of the new run is lost.
+    last_stamp_ns_ = frame.stamp_ns;
+    seen_any_ = true;
+    if (is_late) return text.str();
+    for (const auto& [name, image] : {std::pair{"left image", &frame.left}, {"right image", &frame.right}}) {
+      if (const auto fault = vision::find_fault(*image)) return name + (" " + *fault);
+      if (image->cols != stereo_.camera.width || image->rows != stereo_.camera.height) {
+        text << name << " is " << size_text(*image) << ", the calibration is for " << stereo_.camera.width << " x "
+             << stereo_.camera.height << " px";
+        return text.str();
+      }
+    }
+    // Time since the last good frame; after a jump back in time, as between the two before it.
+    if (frame.stamp_ns > good_stamp_ns_) interval_ns_ = frame.stamp_ns - good_stamp_ns_;
+    expected_motion_ = has_tracks() ? motion_model_.predict(interval_ns_) : Eigen::Isometry3d::Identity();
+    return {};
+  }
+
+  bool has_tracks() const { return !tracks_.empty(); }
+
+  void build_pyramids(const StereoFrame& frame) {
+    const Stage stage(observer_, "pyramid");
+    left_ = vision::ImagePyramid(frame.left, parameters_.pyramid_levels);
+    right_ = vision::ImagePyramid(frame.right, std::min(2, parameters_.pyramid_levels));
+  }
+
+  void describe() {
+    const Stage stage(observer_, "describe");
+    front_end_->describe(left_);
+  }
+
+  std::vector<Track> match_in_time() {
+    const Stage stage(observer_, "match_in_time");
+    const Eigen::Isometry3d current_from_guide = expected_motion_ * guide_from_previous_.inverse();
+    std::vector<Track> found;
+    lost_.clear();
+    for (const Track& known : tracks_) {
+      Track track = known;
+      const auto expected = expect(stereo_, track, current_from_guide * track.guide_from_host);
+      const auto where = expected ? front_end_->match(track, expected->pixel) : std::nullopt;
+      if (where && align(track, *expected, *where)) {
+        found.push_back(std::move(track));
+      } else {
+        lost_.push_back(known);
+      }
+    }
+    return found;
+  }
+
+  // From the coarsest level down; a level that cannot be used (too near the border, no texture) is left out.
+  bool align(Track& track, const ExpectedPatch& expected, const Whereabouts& where) const {
+    const Eigen::Matrix2d host_from_current = expected.current_from_host.inverse();
+    Eigen::Vector2d pixel = where.pixel;
+    for (int level = std::min(where.level, left_.levels() - 1); level >= 0; --level) {
+      const double scale = 1 << level;
+      const auto patch = PatchTemplate::sample(track.host[level], track.host_pixel / scale, host_from_current);
+      const auto found = patch ? patch->align(left_[level], pixel / scale, PatchTemplate::Search::kPlane, kReachPerLevel_px)
+                               : std::nullopt;
+      if (found) pixel = found->position * scale;
+      if (level > 0) continue;
+      if (!found || found->correlation < parameters_.smallest_correlation) return false;
+      track.seen.sigma_px = std::sqrt(kNoiseFloor_px * kNoiseFloor_px + 0.5 * found->variance.sum());
+    }
+    track.seen.pixel.head<2>() = pixel;
+    track.seen.pixel.z() = expected.disparity_px;
+    track.gradient = expected.gradient;
+    return true;
+  }
+
+  void match_left_right(std::vector<Track>& tracks) const {
+    const Stage stage(observer_, "match_left_right");
+    for (Track& track : tracks) match_left_right(track);
+  }
+
+  void match_left_right(Track& track) const {
+    const Eigen::Vector2d pixel = track.seen.pixel.head<2>();
+    const auto match = matcher_.refine(left_, right_, pixel, track.seen.pixel.z(), track.gradient);
+    track.seen.has_disparity = match.has_value();
+    if (match) take(*match, track);
+  }
+
+  static void take(const vision::StereoMatch& match, Track& track) {
+    track.seen.has_disparity = true;
+    track.seen.pixel.z() = match.disparity_px;
+    track.seen.sigma_disparity_px = std::sqrt(kNoiseFloor_px * kNoiseFloor_px + match.variance_px2);
+    track.gradient = match.gradient;
+  }
+
+  // The tracking stage's own idea of the motion: enough to foretell where features go, never published.
+  std::optional<Eigen::Isometry3d> coarse_motion(const std::vector<Track>& tracks) const {
+    const Stage stage(observer_, "coarse_motion");
+    std::vector<PointPair> pairs;
+    auto known = tracks_.begin();
+    for (const Track& track : tracks) {
+      while (known->id < track.id) ++known;  // both ascending, and every track was known
+      if (known->seen.has_disparity) pairs.push_back({known->seen.pixel, track.seen.pixel, track.seen.has_disparity});
+    }
+    const std::array guesses{expected_motion_, Eigen::Isometry3d::Identity()};
+    const auto motion = estimate_motion(stereo_, pairs, guesses, {});
+    if (!motion || motion->inliers < kGuideInliers) return std::nullopt;
+    return motion->current_from_previous;
+  }
+
+  // What was lost or led astray is looked for once more, where the coarse motion has it.
+  void look_again(std::vector<Track>& tracks, const Eigen::Isometry3d& current_from_previous) {
+    const Stage stage(observer_, "look_again");
+    const Eigen::Isometry3d current_from_guide = current_from_previous * guide_from_previous_.inverse();
+    std::vector<Track> kept;
+    for (Track& track : tracks) {
+      const auto expected = expect(stereo_, track, current_from_guide * track.guide_from_host);
+      if (!expected) continue;
+      const bool is_astray = (expected->pixel - track.seen.pixel.head<2>()).norm() > kSecondLook_px;
+      if (is_astray && !find(track, *expected)) continue;
+      kept.push_back(std::move(track));
+    }
+    for (Track& track : lost_) {
+      const auto expected = expect(stereo_, track, current_from_guide * track.guide_from_host);
+      if (expected && find(track, *expected)) kept.push_back(std::move(track));
+    }
+    std::sort(kept.begin(), kept.end(), [](const Track& a, const Track& b) { return a.id < b.id; });
+    tracks.swap(kept);
+  }
+
+  bool find(Track& track, const ExpectedPatch& expected) const {
+    if (!align(track, expected, {expected.pixel, 1})) return false;
+    if ((track.seen.pixel.head<2>() - expected.pixel).norm() > kFarOff_px) return false;
+    match_left_right(track);
+    return true;
+  }
+
+  static void thin_out(std::vector<Track>& tracks, cv::Size size) {
+    vision::CellGrid grid(size, static_cast<int>(kCrowded_px));
+    std::erase_if(tracks, [&grid](const Track& track) {  // ascending id: the oldest stays
+      const Eigen::Vector2d pixel = track.seen.pixel.head<2>();
+      if (!grid.is_free(pixel)) return true;
+      grid.take(pixel);
+      return false;
+    });
+  }
+  void thin_out(std::vector<Track>& tracks) const { thin_out(tracks, left_[0].size()); }
+
+  // A patch that has grown or shrunk much is blurred or aliased against the image: the current frame becomes its host.
+  void renew_hosts(std::vector<Track>& tracks) const {
+    const Stage stage(observer_, "renew_hosts");
+    const Eigen::Isometry3d current_from_guide = guide_from_current_.inverse();
+    for (Track& track : tracks) {
+      if (!track.seen.has_disparity) continue;
+      const auto expected = expect(stereo_, track, current_from_guide * track.guide_from_host);
+      const double zoom = expected ? std::sqrt(expected->current_from_host.determinant()) : 0.0;
+      if (zoom < kLargestZoom && zoom > 1.0 / kLargestZoom) continue;
+      const auto match = matcher_.measure(left_, right_, track.seen.pixel.head<2>(), track.seen.pixel.z(), track.gradient);
+      if (match) host_here(track, *match);
+    }
+  }
+
+  void host_here(Track& track, const vision::StereoMatch& match) const {
+    take(match, track);
+    track.host = left_;
+    track.host_pixel = track.seen.pixel.head<2>();
+    track.host_plane = vision::surface_plane(stereo_, track.seen.pixel, match.gradient);
+    track.guide_from_host = guide_from_current_;
+  }
+
+  void detect(std::vector<Track>& tracks) {
+    const Stage stage(observer_, "detect");
+    vision::CellGrid grid(left_[0].size(), cell_px_);
+    for (const Track& track : tracks) grid.take(track.seen.pixel.head<2>());
+    attempts_ = 0;
+    for (const Feature& feature : front_end_->detect(grid)) {
+      ++attempts_;
+      const auto match = matcher_.search(left_, right_, feature.pixel);
+      if (!match) continue;
+      Track track;
+      track.id = next_id_ + static_cast<std::int64_t>(attempts_);
+      track.seen.track_id = track.id;
+      track.seen.pixel.head<2>() = feature.pixel;
+      track.seen.sigma_px = kNoiseFloor_px;
+      track.descriptor = feature.descriptor;
+      host_here(track, *match);
+      tracks.push_back(std::move(track));
+    }
+  }
+
+  // Left and right exchanged: features match, but to the wrong side.
+  std::string check_for_swap(const std::vector<Track>& tracks) const {
+    const Stage stage(observer_, "check_for_swap");
+    const auto matched = std::count_if(tracks.begin(), tracks.end(), [](const Track& t) { return t.seen.has_disparity; });
+    const auto tried = static_cast<double>(attempts_) + static_cast<double>(tracks_.size());
+    if (static_cast<double>(matched) > kFewMatches * tried) return {};
+    int samples = 0, right_way = 0, wrong_way = 0;
+    for (const Feature& feature : front_end_->detect(vision::CellGrid(left_[0].size(), cell_px_))) {
+      if (samples++ == kSwapSamples) break;
+      if (matcher_.search(left_, right_, feature.pixel)) ++right_way;
+      if (swapped_matcher_.search(left_, right_, feature.pixel)) ++wrong_way;
+    }
+    if (wrong_way < kSwapMatches || wrong_way < 2 * right_way) return {};
+    std::ostringstream text;
+    text << "left and right image seem to be exchanged: " << wrong_way << " features match with negative disparity, "
+         << right_way << " with positive";
+    return text.str();
+  }
+
+  void keep(std::int64_t stamp_ns, std::vector<Track> tracks, const Eigen::Isometry3d& current_from_previous) {
+    if (has_tracks()) motion_model_.update(current_from_previous, interval_ns_);
+    guide_from_previous_ = guide_from_current_;
+    next_id_ += attempts_ + 1;
+    good_stamp_ns_ = stamp_ns;
+    tracks_ = std::move(tracks);
+  }
+
+  vision::RectifiedStereo stereo_;
+  TrackingParameters parameters_;
+  vision::StageObserver* observer_;
+  vision::StereoMatcher matcher_;
+  vision::StereoMatcher swapped_matcher_;
+  std::unique_ptr<FrontEnd> front_end_;
+  int cell_px_;
+
+  // As of the last good frame.
+  std::vector<Track> tracks_;  // ascending id
+  MotionModel motion_model_;
+  Eigen::Isometry3d guide_from_previous_ = Eigen::Isometry3d::Identity();
+  std::int64_t good_stamp_ns_ = 0;
+  std::int64_t interval_ns_ = 100'000'000;
+  std::int64_t last_stamp_ns_ = 0;  // of any frame
+  bool seen_any_ = false;
+  std::int64_t next_id_ = 0;
+
+  // Of the frame at hand.
+  vision::ImagePyramid left_;
+  vision::ImagePyramid right_;
+  Eigen::Isometry3d expected_motion_ = Eigen::Isometry3d::Identity();
+  Eigen::Isometry3d guide_from_current_ = Eigen::Isometry3d::Identity();
+  std::vector<Track> lost_;
+  std::int64_t attempts_ = 0;
+};
+
+TrackingStage::TrackingStage(const vision::RectifiedStereo& stereo, const TrackingParameters& parameters,
+                             vision::StageObserver* observer) {
+  if (const auto problems = vision::validate(stereo); !problems.empty()) {
+    std::string message = "rectified calibration cannot be used:";
+    for (const auto& problem : problems) message += "\n  - " + problem;
+    throw std::invalid_argument(message);
+  }
+  implementation_ = std::make_unique<Implementation>(stereo, parameters, observer);
+}
+
+TrackingStage::~TrackingStage() = default;
+TrackingStage::TrackingStage(TrackingStage&&) noexcept = default;
+TrackingStage& TrackingStage::operator=(TrackingStage&&) noexcept = default;
+
+TrackedFrame TrackingStage::track(const StereoFrame& frame) { return implementation_->track(frame); }
+
+}  // namespace panvo::binocular_odometry

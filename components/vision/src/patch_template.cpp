@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "panvo/vision/patch_template.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <opencv2/core/hal/intrin.hpp>
+
+namespace panvo::vision {
+namespace {
+
+constexpr int kMaxIterations = 12;
+constexpr double kSettled_px = 0.01;
+constexpr double kLargestStep_px = 1.5;      // beyond, the template's gradients say nothing
+constexpr double kSmallestGain = 0.25;       // a fainter copy is no copy
+constexpr double kSmallestContrast = 2.0;    // grey levels, standard deviation: under it lies the noise of an 8-bit image
+
+float bilinear(const cv::Mat& image, float u, float v) {
+  const int column = static_cast<int>(u), row = static_cast<int>(v);
+  const float fu = u - static_cast<float>(column), fv = v - static_cast<float>(row);
+  const uchar* upper = image.ptr<uchar>(row) + column;
+  const uchar* lower = upper + image.step[0];
+  const float above = upper[0] + fu * static_cast<float>(upper[1] - upper[0]);
+  const float below = lower[0] + fu * static_cast<float>(lower[1] - lower[0]);
+  return above + fv * (below - above);
+}
+
+}  // namespace
+
+std::optional<PatchTemplate> PatchTemplate::sample(const cv::Mat& image, const Eigen::Vector2d& centre,
+                                                   const Eigen::Matrix2d& source_from_target) {
+  constexpr int kBordered = kSize + 2;  // one more on each side, for central differences
+  constexpr double kReach = 0.5 * (kBordered - 1);
+  const Eigen::Vector2d extent = kReach * source_from_target.cwiseAbs().rowwise().sum();
+  if (!(centre.x() - extent.x() >= 0.0 && centre.y() - extent.y() >= 0.0 &&
+        centre.x() + extent.x() < image.cols - 1 && centre.y() + extent.y() < image.rows - 1)) {
+    return std::nullopt;
+  }
+  const Eigen::Vector2f origin =
+      (centre - source_from_target * Eigen::Vector2d::Constant(kReach)).cast<float>();
+  const Eigen::Matrix2f step = source_from_target.cast<float>();
+  std::array<float, kBordered * kBordered> samples;
+  for (int row = 0; row < kBordered; ++row) {
+    const float u = origin.x() + step(0, 1) * static_cast<float>(row);
+    const float v = origin.y() + step(1, 1) * static_cast<float>(row);
+    for (int column = 0; column < kBordered; ++column) {
+      const auto across = static_cast<float>(column);
+      samples[static_cast<size_t>(row * kBordered + column)] =
+          bilinear(image, std::max(0.0F, u + step(0, 0) * across), std::max(0.0F, v + step(1, 0) * across));
+    }
+  }
+  PatchTemplate patch;
+  if (!patch.prepare(samples)) return std::nullopt;
+  return patch;
+}
+
+bool PatchTemplate::prepare(const std::array<float, (kSize + 2) * (kSize + 2)>& samples) {
+  constexpr int kBordered = kSize + 2;
+  std::array<float, 3> sums{};
+  for (int row = 0; row < kSize; ++row) {
+    for (int column = 0; column < kSize; ++column) {
+      const float* at = samples.data() + (row + 1) * kBordered + column + 1;
+      const auto pixel = static_cast<size_t>(row * kSize + column);
+      basis_[0][pixel] = at[0];
+      basis_[1][pixel] = 0.5F * (at[1] - at[-1]);
+      basis_[2][pixel] = 0.5F * (at[kBordered] - at[-kBordered]);
+      for (size_t k = 0; k < 3; ++k) sums[k] += basis_[k][pixel];
+    }
+  }
+  Eigen::Matrix3f normal = Eigen::Matrix3f::Zero();
+  for (size_t pixel = 0; pixel < kPixels; ++pixel) {
+    for (size_t k = 0; k < 3; ++k) basis_[k][pixel] -= sums[k] / kPixels;
+    const Eigen::Vector3f b(basis_[0][pixel], basis_[1][pixel], basis_[2][pixel]);
+    normal += b * b.transpose();
+  }
+  energy_ = normal(0, 0);
+  if (energy_ < kPixels * kSmallestContrast * kSmallestContrast) return false;
+  const Eigen::Matrix3d normal_plane = normal.cast<double>();
+  // A template without gradient along v (a vertical edge) can still be searched along its row.
+  const Eigen::Matrix3d damping = (1e-6 * energy_ * Eigen::Vector3d(0.0, 1.0, 1.0)).asDiagonal();
+  inverse_plane_ = (normal_plane + damping).inverse();
+  inverse_row_ = (normal_plane + damping).topLeftCorner<2, 2>().inverse();
+  return inverse_plane_.allFinite() && inverse_row_.allFinite();
+}
+
+PatchTemplate::Projections PatchTemplate::project(const cv::Mat& image, double left, double top) const {
+  const int column = static_cast<int>(left), row = static_cast<int>(top);
+  const cv::v_float32x4 right_weight = cv::v_setall_f32(static_cast<float>(left - column));
+  const cv::v_float32x4 lower_weight = cv::v_setall_f32(static_cast<float>(top - row));
+  cv::v_float32x4 sum = cv::v_setzero_f32(), square = sum;
+  std::array<cv::v_float32x4, 3> on_basis{sum, sum, sum};
+  std::array<cv::v_float32x4, kSize / 4> above;
+  for (int y = 0; y <= kSize; ++y) {
+    const uchar* pixels = image.ptr<uchar>(row + y) + column;
+    for (int block = 0; block < kSize / 4; ++block) {
+      const auto grey = [pixels, block](int shift) {
+        return cv::v_cvt_f32(cv::v_reinterpret_as_s32(cv::v_load_expand_q(pixels + 4 * block + shift)));
+      };
+      const cv::v_float32x4 here = grey(0);
+      const cv::v_float32x4 across = here + right_weight * (grey(1) - here);
+      if (y > 0) {
+        const cv::v_float32x4 upper = above[static_cast<size_t>(block)];
+        const cv::v_float32x4 value = upper + lower_weight * (across - upper);
+        sum += value;
+        square += value * value;
+        const int pixel = (y - 1) * kSize + 4 * block;
+        for (size_t k = 0; k < 3; ++k) on_basis[k] += value * cv::v_load(basis_[k].data() + pixel);
+      }
+      above[static_cast<size_t>(block)] = across;
+    }
+  }
+  return {cv::v_reduce_sum(sum),
+          cv::v_reduce_sum(square),
+          {cv::v_reduce_sum(on_basis[0]), cv::v_reduce_sum(on_basis[1]), cv::v_reduce_sum(on_basis[2])}};
+}
+
+std::optional<PatchAlignment> PatchTemplate::align(const cv::Mat& image, const Eigen::Vector2d& start, Search search,
+                                                   double reach_px) const {
+  constexpr double kHalf = 0.5 * (kSize - 1);
+  Eigen::Vector2d position = start;
+  for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
+    const double left = position.x() - kHalf, top = position.y() - kHalf;
+    if (!(left >= 0.0 && top >= 0.0 && left + kSize < image.cols - 1 && top + kSize < image.rows - 1)) return std::nullopt;
+    const Projections seen = project(image, left, top);
+
+    // seen = gain * (template moved by e) + offset, linear in (gain, gain * e).
+    Eigen::Vector3d solution = Eigen::Vector3d::Zero();
+    if (search == Search::kPlane) {
+      solution = inverse_plane_ * seen.on_basis;
+    } else {
+      solution.head<2>() = inverse_row_ * seen.on_basis.head<2>();
+    }
+    const double gain = solution.x();
+    if (!(gain > kSmallestGain)) return std::nullopt;
+    Eigen::Vector2d step = -solution.tail<2>() / gain;
+    const double length = step.norm();
+    if (length > kLargestStep_px) step *= kLargestStep_px / length;
+    position += step;
+    if ((position - start).squaredNorm() > reach_px * reach_px) return std::nullopt;
+    if (length > kSettled_px) continue;
+
+    const double variation = seen.square - seen.intensity * seen.intensity / kPixels;
+    const double residual = std::max(0.0, variation - solution.dot(seen.on_basis));
+    const double noise = residual / ((kPixels - 4) * gain * gain);
+    PatchAlignment alignment;
+    alignment.position = position;
+    alignment.correlation = seen.on_basis.x() / std::sqrt(std::max(variation * energy_, 1e-12));
+    alignment.variance = noise * (search == Search::kPlane ? Eigen::Vector2d(inverse_plane_(1, 1), inverse_plane_(2, 2))
+                                                           : Eigen::Vector2d(inverse_row_(1, 1), 0.0));
+    return alignment;
+  }
+  return std::nullopt;
+}
+
+}  // namespace panvo::vision
