@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "gnuplot.hpp"
+
+#include <fcntl.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+
+#include "panvo/evaluation/plot.hpp"
+
+namespace panvo::evaluation {
+namespace {
+
+constexpr const char* kRemedy = "install it with `apt-get install gnuplot-nox`, or give --no-plot";
+
+// What the child wrote to the pipe until it closed it.
+std::string read_all(int descriptor) {
+  std::string text;
+  std::array<char, 4096> buffer;
+  for (;;) {
+    const ssize_t count = ::read(descriptor, buffer.data(), buffer.size());
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0) return text;
+    text.append(buffer.data(), static_cast<std::size_t>(count));
+  }
+}
+
+int wait_for(pid_t child) {
+  int status = 0;
+  while (::waitpid(child, &status, 0) < 0) {
+    if (errno != EINTR) return -1;
+  }
+  return status;
+}
+
+}  // namespace
+
+std::string gnuplot_quoted(const std::string& text) {
+  std::string quoted = "'";
+  for (const char c : text) {
+    if (c == '\'') quoted += '\'';
+    quoted += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? ' ' : c;
+  }
+  return quoted + "'";
+}
+
+void run_gnuplot(const std::filesystem::path& folder, const std::string& script) {
+  std::array<int, 2> pipe_ends{};
+  if (::pipe2(pipe_ends.data(), O_CLOEXEC) != 0) {
+    throw PlotError(std::string("cannot start gnuplot: ") + std::strerror(errno) + "; " + kRemedy);
+  }
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+  posix_spawn_file_actions_adddup2(&actions, pipe_ends[1], STDOUT_FILENO);
+  posix_spawn_file_actions_adddup2(&actions, pipe_ends[1], STDERR_FILENO);
+  posix_spawn_file_actions_addchdir_np(&actions, folder.c_str());
+  std::string program = "gnuplot";
+  std::string no_start_up_files = "-d";
+  std::string file = script;
+  std::array<char*, 4> arguments{program.data(), no_start_up_files.data(), file.data(), nullptr};
+  pid_t child = 0;
+  const int error = posix_spawnp(&child, "gnuplot", &actions, nullptr, arguments.data(), environ);
+  posix_spawn_file_actions_destroy(&actions);
+  ::close(pipe_ends[1]);
+  const std::string said = error == 0 ? read_all(pipe_ends[0]) : "";
+  ::close(pipe_ends[0]);
+  if (error == ENOENT) throw PlotError(std::string("gnuplot is not installed; ") + kRemedy);
+  if (error != 0) throw PlotError(std::string("cannot start gnuplot: ") + std::strerror(error) + "; " + kRemedy);
+  const int status = wait_for(child);
+  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) {
+    throw PlotError("gnuplot failed on " + (folder / script).string() + ": " + said +
+                    "; run gnuplot on that file to see more, or give --no-plot");
+  }
+}
+
+}  // namespace panvo::evaluation

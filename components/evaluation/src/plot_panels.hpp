@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "panvo/evaluation/report.hpp"
+#include "plot_canvas.hpp"
+
+namespace panvo::evaluation {
+
+// The data blocks that the panels draw: $truth, and for each estimate k $errors<k> and $segments<k>.
+void add_data(PlotCanvas& canvas, const Report& report);
+
+// Paths over the ground truth, a metre as long on either axis.
+void add_plan(PlotCanvas& canvas, const Report& report, const Box& box);
+
+void add_error_over_distance(PlotCanvas& canvas, const Report& report, const Box& box);
+
+// `value` of each segment length; `column` is where it stands in $segments<k>.
+void add_segments(PlotCanvas& canvas, const Report& report, const Box& box, const std::string& title,
+                  const std::string& y_label, double SegmentError::*value, int column);
+
+// x, y, z and yaw, one below the other.
+void add_error_strips(PlotCanvas& canvas, const Report& report, const Box& box);
+
+// A bar a stage, the slowest first, and names 300 pixels to its left.
+void add_times(PlotCanvas& canvas, StageTimes times, const Box& box);
+
+}  // namespace panvo::evaluation

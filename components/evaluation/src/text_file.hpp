@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace panvo::evaluation {
+
+// A line with something on it, and its number in the file, from 1.
+struct Line {
+  std::size_t number = 0;
+  std::string text;
+};
+
+// Without blank lines and comments. Throws InputError if the file is missing, a folder, unreadable, or has no such line.
+std::vector<Line> read_lines(const std::filesystem::path& file);
+
+// The fields of one line, read with errors that name where they stand.
+class Fields {
+ public:
+  // ',' splits at commas; ' ' at any white space. Views into `line`, which must live longer.
+  Fields(const std::filesystem::path& file, const Line& line, char separator);
+
+  std::size_t size() const { return fields_.size(); }
+  // Throws InputError unless there are `count` fields, or more where `or_more`.
+  void expect(std::size_t count, bool or_more, std::string_view layout) const;
+
+  double number(std::size_t index) const;  // finite
+  std::int64_t integer(std::size_t index) const;
+  std::int64_t seconds_as_ns(std::size_t index) const;  // "1403636579.763555584" without loss
+  [[noreturn]] void fail(const std::string& problem, const std::string& remedy) const;
+
+ private:
+  const std::filesystem::path& file_;
+  const Line& line_;
+  std::vector<std::string_view> fields_;
+};
+
+// Whole text of a file. Throws InputError if it cannot be read.
+std::string read_text(const std::filesystem::path& file);
+
+}  // namespace panvo::evaluation

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+// Real files of the formats that are read: skipped where the recordings are absent.
+#include <gtest/gtest.h>
+
+#include "panvo/evaluation/evaluation.hpp"
+#include "panvo/evaluation/trajectory_files.hpp"
+#include "trajectories.hpp"
+
+namespace panvo::evaluation {
+namespace {
+
+TEST(RecordedGroundTruth, OfKittiGoesForwardAndTurnsToTheRight) {
+  const auto folder = recorded_data("kitti_03");
+  if (!folder) GTEST_SKIP() << "no recordings: set PANVO_DATA to the folder that holds kitti_03";
+  const Trajectory truth = read_trajectory(*folder);
+  ASSERT_EQ(truth.poses.size(), 99u);
+  EXPECT_NEAR(path_length_m(truth), 58.3, 0.1);
+  const Eigen::Isometry3d& end = truth.poses.back().world_from_base;
+  EXPECT_GT(end.translation().x(), 50.0);
+  EXPECT_LT(end.translation().y(), -1.0);
+  EXPECT_LT(rotation_vector(end.linear()).z(), -0.5);
+  EXPECT_NEAR(end.translation().z(), 0.0, 2.0);  // a road, not a flight
+  EXPECT_EQ(truth.poses.back().stamp_ns, 9'800'000'000);
+}
+
+TEST(RecordedGroundTruth, OfTheCampusClipIsReadToItsEnd) {
+  const auto folder = recorded_data("campus_clip");
+  if (!folder) GTEST_SKIP() << "no recordings: set PANVO_DATA to the folder that holds campus_clip";
+  const Trajectory truth = read_trajectory(*folder);
+  EXPECT_EQ(truth.poses.size(), 707u);
+  EXPECT_EQ(median_period_ns(truth), 40'000'000);
+  EXPECT_NEAR(path_length_m(truth), 92.0, 0.5);
+  // The body looks along its x: it moves where it looks.
+  const Eigen::Isometry3d step = truth.poses[300].world_from_base.inverse() * truth.poses[301].world_from_base;
+  EXPECT_GT(step.translation().x(), 0.99 * step.translation().norm());
+}
+
+TEST(RecordedGroundTruth, EvaluatesAgainstItselfWithoutError) {
+  const auto folder = recorded_data("kitti_03");
+  if (!folder) GTEST_SKIP() << "no recordings: set PANVO_DATA to the folder that holds kitti_03";
+  const Trajectory truth = read_trajectory(*folder);
+  const Evaluation e = evaluate(read_estimate(*folder), truth);
+  EXPECT_LT(e.ate_start_m->max, 1e-9);
+  ASSERT_TRUE(e.segments);
+  EXPECT_EQ(e.segments->by_length.size(), 5u);
+}
+
+}  // namespace
+}  // namespace panvo::evaluation

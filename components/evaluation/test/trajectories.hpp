@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+// Small trajectories with known answers, and a folder of its own for each test.
+#pragma once
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <optional>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "panvo/evaluation/association.hpp"
+#include "panvo/evaluation/input_error.hpp"
+#include "panvo/evaluation/trajectory.hpp"
+
+namespace panvo::evaluation {
+
+inline Eigen::Isometry3d make_pose(double x, double y, double z, double yaw = 0.0, double pitch = 0.0,
+                                   double roll = 0.0) {
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  pose.linear() =
+      (Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ()) * Eigen::AngleAxisd(pitch, Eigen::Vector3d::UnitY()) *
+       Eigen::AngleAxisd(roll, Eigen::Vector3d::UnitX()))
+          .toRotationMatrix();
+  pose.translation() = Eigen::Vector3d(x, y, z);
+  return pose;
+}
+
+// `count` poses 0.1 s and 1 m apart along x.
+inline Trajectory straight_line(std::size_t count, double step_m = 1.0) {
+  Trajectory line{{}, "line", "test"};
+  for (std::size_t i = 0; i < count; ++i) {
+    line.poses.push_back(
+        {static_cast<std::int64_t>(i) * 100'000'000, make_pose(step_m * static_cast<double>(i), 0, 0)});
+  }
+  return line;
+}
+
+// A path that turns about all axes, so that no direction is left undetermined.
+inline Trajectory winding_path(std::size_t count) {
+  Trajectory path{{}, "winding", "test"};
+  for (std::size_t i = 0; i < count; ++i) {
+    const double t = 0.05 * static_cast<double>(i);
+    path.poses.push_back({static_cast<std::int64_t>(i) * 50'000'000,
+                          make_pose(10.0 * t, 8.0 * std::sin(t), 2.0 * std::cos(1.3 * t), std::cos(t), 0.1 * t, 0.2)});
+  }
+  return path;
+}
+
+inline Trajectory transformed(Trajectory trajectory, const Eigen::Isometry3d& new_from_old, double scale = 1.0) {
+  for (StampedPose& pose : trajectory.poses) {
+    pose.world_from_base.translation() *= scale;
+    pose.world_from_base = new_from_old * pose.world_from_base;
+  }
+  return trajectory;
+}
+
+inline std::vector<PosePair> pairs_of(const Trajectory& estimate, const Trajectory& ground_truth) {
+  return associate(estimate, ground_truth).pairs;
+}
+
+// Where the recordings are: $PANVO_DATA, else shared/data beside the checkout. nullopt where they are not.
+inline std::optional<std::filesystem::path> recorded_data(const std::string& name) {
+  const char* folder = std::getenv("PANVO_DATA");
+  const auto beside = std::filesystem::path(__FILE__).parent_path() / "../../../../shared/data";
+  const auto path = (folder ? std::filesystem::path(folder) : beside) / name;
+  return std::filesystem::exists(path) ? std::optional(path.lexically_normal()) : std::nullopt;
+}
+
+class TemporaryFolder : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
+    folder_ = std::filesystem::temp_directory_path() /
+              ("panvo_" + std::string(test->test_suite_name()) + "_" + test->name() + "_" + std::to_string(::getpid()));
+    std::filesystem::create_directories(folder_);
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+
+  std::filesystem::path write(const std::string& name, const std::string& text) const {
+    const auto file = folder_ / name;
+    std::filesystem::create_directories(file.parent_path());
+    std::ofstream(file, std::ios::binary) << text;
+    return file;
+  }
+
+  std::filesystem::path folder_;
+};
+
+// What an InputError says; empty if there was none.
+template <class Action>
+std::string input_error_of(const Action& action) {
+  try {
+    action();
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+}  // namespace panvo::evaluation

@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "panvo/evaluation/trajectory_files.hpp"
+
+#include <gmock/gmock.h>
+
+#include "panvo/evaluation/run_folder.hpp"
+#include "trajectories.hpp"
+
+namespace panvo::evaluation {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+constexpr const char* kKittiStill = "1 0 0 0 0 1 0 0 0 0 1 0\n";
+
+class TrajectoryFiles : public TemporaryFolder {
+ protected:
+  std::string error_of(const std::string& name, const std::string& text) {
+    const auto file = write(name, text);
+    return input_error_of([&] { read_trajectory(file); });
+  }
+};
+
+TEST_F(TrajectoryFiles, TumKeepsNanosecondsAndTheOrderOfTheQuaternion) {
+  const auto file = write("a.tum",
+                          "# a comment\n\n1403636579.763555584 1 2 3 0 0 0.6 0.8\r\n"
+                          "1403636579.8 4 5 6 0 0 0 -1\n");
+  const Trajectory trajectory = read_trajectory(file);
+  EXPECT_EQ(trajectory.format, "TUM");
+  ASSERT_EQ(trajectory.poses.size(), 2u);
+  EXPECT_EQ(trajectory.poses[0].stamp_ns, 1403636579763555584);
+  EXPECT_EQ(trajectory.poses[1].stamp_ns, 1403636579800000000);
+  EXPECT_TRUE(trajectory.poses[0].world_from_base.isApprox(make_pose(1, 2, 3, 2.0 * std::asin(0.6)), 1e-12));
+  EXPECT_TRUE(trajectory.poses[1].world_from_base.isApprox(make_pose(4, 5, 6), 1e-12));
+}
+
+TEST_F(TrajectoryFiles, EurocHasTheScalarOfTheQuaternionFirst) {
+  const auto file = write("data.csv",
+                          "#timestamp [ns], p_RS_R_x [m], ...\n"
+                          "1700021000000000001,1,2,3,0.8,0,0,0.6,0,0,0,0,0,0,0,0,0\n"
+                          "1700021000040000001, 1, 2, 3, 1, 0, 0, 0\n");
+  const Trajectory trajectory = read_trajectory(file);
+  EXPECT_EQ(trajectory.format, "EuRoC");
+  ASSERT_EQ(trajectory.poses.size(), 2u);
+  EXPECT_EQ(trajectory.poses[0].stamp_ns, 1700021000000000001);
+  EXPECT_TRUE(trajectory.poses[0].world_from_base.isApprox(make_pose(1, 2, 3, 2.0 * std::asin(0.6)), 1e-12));
+}
+
+// The optical frame goes 5 m along its z, 1 m to its right (x), 2 m down (y), and turns 0.1 rad about its y, which points
+// down: to the right. In base axes: 5 m forward, 1 m to the right, 2 m down, heading -0.1 rad.
+TEST_F(TrajectoryFiles, KittiIsTurnedFromOpticalToBaseAxes) {
+  const double c = std::cos(0.1);
+  const double s = std::sin(0.1);
+  std::ostringstream second;
+  second.precision(17);
+  second << c << " 0 " << s << " 1  0 1 0 2  " << -s << " 0 " << c << " 5\n";
+  const auto file = write("poses.txt", kKittiStill + second.str());
+  const Trajectory trajectory = read_trajectory(file);
+  EXPECT_EQ(trajectory.format, "KITTI, nominal 10 Hz");
+  ASSERT_EQ(trajectory.poses.size(), 2u);
+  EXPECT_TRUE(trajectory.poses[1].world_from_base.isApprox(make_pose(5, -1, -2, -0.1), 1e-9));
+  EXPECT_EQ(trajectory.poses[1].stamp_ns, 100'000'000);
+}
+
+TEST_F(TrajectoryFiles, KittiTakesItsTimesFromBesideThePoses) {
+  write("poses.txt", std::string(kKittiStill) + kKittiStill);
+  write("times.txt", "0.000000e+00\n1.037875e-01\n2.1e-01\n");
+  const Trajectory trajectory = read_trajectory(folder_);
+  EXPECT_EQ(trajectory.format, "KITTI");
+  EXPECT_EQ(trajectory.poses.size(), 2u);
+  EXPECT_EQ(trajectory.poses[1].stamp_ns, 103'787'500);
+}
+
+TEST_F(TrajectoryFiles, KittiIsFoundInItsOwnLayout) {
+  write("poses/03.txt", std::string(kKittiStill) + kKittiStill);
+  write("sequences/03/times.txt", "0.5\n0.6\n");
+  EXPECT_EQ(read_trajectory(folder_ / "sequences/03").poses.at(1).stamp_ns, 600'000'000);
+  EXPECT_EQ(read_trajectory(folder_ / "sequences/03/").poses.at(1).stamp_ns, 600'000'000);
+  EXPECT_EQ(read_trajectory(folder_ / "poses/03.txt").poses.at(1).stamp_ns, 600'000'000);
+}
+
+TEST_F(TrajectoryFiles, ARunsEnhancedOdometryComesFirst) {
+  write("odometry_binocular.tum", "0 1 0 0 0 0 0 1\n");
+  EXPECT_EQ(read_trajectory(folder_).source.filename(), "odometry_binocular.tum");
+  write("odometry_enhanced.tum", "");  // the localizer has not said anything
+  EXPECT_EQ(read_trajectory(folder_).source.filename(), "odometry_binocular.tum");
+  write("odometry_enhanced.tum", "0 1 0 0 0 0 0 1\n");
+  EXPECT_EQ(read_trajectory(folder_).source.filename(), "odometry_enhanced.tum");
+}
+
+TEST_F(TrajectoryFiles, AslGroundTruthIsFoundFromAnyOfItsFolders) {
+  write("mav0/state_groundtruth_estimate0/data.csv", "1,0,0,0,1,0,0,0\n");
+  for (const char* part :
+       {"", "mav0", "mav0/state_groundtruth_estimate0", "mav0/state_groundtruth_estimate0/data.csv"}) {
+    EXPECT_EQ(read_trajectory(folder_ / part).format, "EuRoC") << part;
+  }
+}
+
+TEST_F(TrajectoryFiles, AFolderWithoutTrajectorySaysWhatItLookedFor) {
+  EXPECT_THAT(input_error_of([&] { read_trajectory(folder_); }),
+              AllOf(HasSubstr(folder_.string()), HasSubstr("odometry_binocular.tum"), HasSubstr("poses.txt")));
+}
+
+TEST_F(TrajectoryFiles, AMissingFileIsNamed) {
+  EXPECT_THAT(input_error_of([&] { read_trajectory(folder_ / "no.tum"); }),
+              HasSubstr("no.tum: no such file or folder"));
+}
+
+TEST_F(TrajectoryFiles, AnEmptyFileIsNamed) {
+  EXPECT_THAT(error_of("a.tum", ""), HasSubstr("a.tum: is empty"));
+  EXPECT_THAT(error_of("b.tum", "# only a comment\n\n"), HasSubstr("b.tum: is empty"));
+}
+
+TEST_F(TrajectoryFiles, ARunThatWroteNothingIsNamed) {
+  write("odometry_binocular.tum", "");
+  EXPECT_THAT(input_error_of([&] { read_trajectory(folder_); }), HasSubstr("odometry_binocular.tum: is empty"));
+}
+
+TEST_F(TrajectoryFiles, StampsThatGoBackOrStandStillAreNamedByLine) {
+  EXPECT_THAT(error_of("a.tum", "2 0 0 0 0 0 0 1\n3 0 0 0 0 0 0 1\n# x\n1 0 0 0 0 0 0 1\n"),
+              AllOf(HasSubstr("a.tum:4: the stamp 1000000000 ns is not after"), HasSubstr("sort the file")));
+  EXPECT_THAT(error_of("b.csv", "5,0,0,0,1,0,0,0\n5,0,0,0,1,0,0,0\n"), HasSubstr("b.csv:2: the stamp 5 ns"));
+  write("times.txt", "0\n0\n");
+  EXPECT_THAT(error_of("poses.txt", std::string(kKittiStill) + kKittiStill), HasSubstr("poses.txt:2: the stamp 0 ns"));
+}
+
+TEST_F(TrajectoryFiles, NumbersThatAreNoneAreNamedByField) {
+  EXPECT_THAT(error_of("a.tum", "0 0 nan 0 0 0 0 1\n"), HasSubstr("a.tum:1: field 3 is not a finite number: 'nan'"));
+  EXPECT_THAT(error_of("b.tum", "0 0 0 0 0 0 0 1\n1 0 0 inf 0 0 0 1\n"), HasSubstr("b.tum:2: field 4"));
+  EXPECT_THAT(error_of("c.tum", "0 0 0 0 0 0 0 1x\n"), HasSubstr("field 8 is not a finite number: '1x'"));
+  EXPECT_THAT(error_of("d.csv", "1.5,0,0,0,1,0,0,0\n"), HasSubstr("field 1 is not a whole number"));
+  EXPECT_THAT(error_of("e.csv", "1,,0,0,1,0,0,0\n"), HasSubstr("field 2 is not a finite number"));
+  EXPECT_THAT(error_of("f.tum", "-1 0 0 0 0 0 0 1\n"), HasSubstr("stamps are seconds from 0"));
+}
+
+TEST_F(TrajectoryFiles, QuaternionsThatAreNoRotationAreNamedByLine) {
+  EXPECT_THAT(error_of("a.tum", "0 0 0 0 0 0 0 1\n1 0 0 0 0 0 0 0.5\n"),
+              AllOf(HasSubstr("a.tum:2: the quaternion has length 0.5"), HasSubstr("order of the columns")));
+  EXPECT_THAT(error_of("b.tum", "0 0 0 0 0 0 0 0\n"), HasSubstr("the quaternion has length 0.0"));
+}
+
+TEST_F(TrajectoryFiles, MatricesThatAreNoRotationAreNamedByLine) {
+  EXPECT_THAT(error_of("a.txt", std::string(kKittiStill) + "2 0 0 0 0 1 0 0 0 0 1 0\n"),
+              HasSubstr("a.txt:2: the left 3x3 part is not a rotation"));
+  EXPECT_THAT(error_of("b.txt", "1 0 0 0 0 1 0 0 0 0 -1 0\n"), HasSubstr("not a rotation"));  // a mirror
+}
+
+TEST_F(TrajectoryFiles, LinesOfAnotherLengthAreNamed) {
+  EXPECT_THAT(error_of("a.tum", "0 0 0 0 0 0 0 1\n1 0 0\n"), HasSubstr("a.tum:2: 3 fields where 8 are needed"));
+  EXPECT_THAT(error_of("b.txt", "1 2 3\n"), HasSubstr("b.txt:1: no known trajectory format: 3 columns"));
+  EXPECT_THAT(error_of("c.png", std::string("\x89PNG\r\n\x1a\n\0\0\0", 11)), HasSubstr("no known trajectory format"));
+}
+
+TEST_F(TrajectoryFiles, TooFewKittiTimesAreNamed) {
+  write("times.txt", "0\n");
+  EXPECT_THAT(error_of("poses.txt", std::string(kKittiStill) + kKittiStill), HasSubstr("1 stamps for the 2 poses"));
+}
+
+TEST_F(TrajectoryFiles, ARunBringsItsTimesAndCovariances) {
+  write("run/odometry_binocular.tum", "0 1 0 0 0 0 0 1\n");
+  write("run/odometry_enhanced.tum", "0 2 0 0 0 0 0 1\n");
+  write("run/timing.json", R"({"components":{}})");
+  std::string covariance = "0";
+  for (int i = 0; i < 78; ++i) covariance += ",1";
+  write("run/odometry_binocular_covariance.csv", covariance + "\n");
+  for (const char* path : {"run", "run/", "run/odometry_binocular.tum"}) {
+    const Estimate estimate = read_estimate(folder_ / path);
+    EXPECT_EQ(estimate.name, std::string(path).ends_with("tum") ? "odometry_binocular" : "run");
+    EXPECT_TRUE(estimate.timing);
+    ASSERT_TRUE(estimate.covariances);
+    EXPECT_EQ(estimate.covariances->size(), 1u);
+    // They speak of the binocular odometry, whichever path is evaluated.
+    EXPECT_EQ(estimate.odometry.poses.at(0).world_from_base.translation().x(), 1.0);
+  }
+}
+
+TEST_F(TrajectoryFiles, ALoneTrajectoryHasNeitherTimesNorCovariances) {
+  write("timing.json", "broken, but none of this trajectory's business");
+  const Estimate estimate = read_estimate(write("other.tum", "0 1 0 0 0 0 0 1\n"));
+  EXPECT_EQ(estimate.name, "other");
+  EXPECT_FALSE(estimate.timing);
+  EXPECT_FALSE(estimate.covariances);
+}
+
+}  // namespace
+}  // namespace panvo::evaluation
