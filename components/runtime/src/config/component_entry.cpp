@@ -18,6 +18,9 @@ class ParameterEntries {
 
   void read(const YAML::Node& entry, const std::string& prefix = "") {
     YamlMap map(entry, "param", scope_, findings_);
+    if (!map.is_map()) {
+      return;
+    }
     if (prefix.empty() && map.has("from")) {
       read_file(map);
     } else {
@@ -89,13 +92,15 @@ ComponentDescription read_component(YamlMap& map, const Scope& scope, Findings& 
   component.name = read_name(map, "name the component", findings);
   component.name_space = read_name_space(map, scope, findings);
 
-  ParameterEntries parameters(full_name(component.name_space, component.name), scope, findings,
-                              component.parameters);
+  ParameterEntries parameters(full_name(component.name_space, component.name), scope, findings, component.parameters);
   for (const auto& entry : map.list("param")) {
     parameters.read(entry);
   }
   for (const auto& entry : map.list("remap")) {
     YamlMap remap(entry, "remap", scope, findings);
+    if (!remap.is_map()) {
+      continue;
+    }
     const auto from = read_topic(remap, "from", findings);
     const auto to = read_topic(remap, "to", findings);
     if (!component.remaps.emplace(from, to).second) {

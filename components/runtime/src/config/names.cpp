@@ -23,8 +23,7 @@ std::optional<std::string> word_problem(std::string_view word) {
   if (is_digit(word.front())) {
     return "has a part that begins with a digit; begin it with a letter";
   }
-  const auto wrong =
-      std::find_if(word.begin(), word.end(), [](char c) { return !is_letter(c) && !is_digit(c); });
+  const auto wrong = std::find_if(word.begin(), word.end(), [](char c) { return !is_letter(c) && !is_digit(c); });
   if (wrong != word.end()) {
     return std::string("has the character '") + *wrong + "'; use letters, digits, '_' and '/' only";
   }
@@ -97,10 +96,11 @@ std::string full_name(std::string_view name_space, std::string_view name) {
   if (name.starts_with('/')) {
     return std::string(name);
   }
-  if (name_space.empty() || name_space == "/") {
-    return "/" + std::string(name);
+  std::string full;
+  if (!name_space.empty() && name_space != "/") {
+    full.append(name_space.starts_with('/') ? "" : "/").append(name_space);
   }
-  return (name_space.starts_with('/') ? "" : "/") + std::string(name_space) + "/" + std::string(name);
+  return full.append("/").append(name);
 }
 
 std::string resolve_topic(std::string_view name_space, std::string_view node_name,

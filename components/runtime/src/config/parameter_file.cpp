@@ -9,8 +9,7 @@ constexpr int kDeepest = 16;  // YAML's aliases can make a map contain itself
 
 std::pair<std::string_view, std::string_view> split_word(std::string_view path) {
   const auto slash = path.find('/');
-  return {path.substr(0, slash),
-          slash == std::string_view::npos ? std::string_view{} : path.substr(slash + 1)};
+  return {path.substr(0, slash), slash == std::string_view::npos ? std::string_view{} : path.substr(slash + 1)};
 }
 
 bool words_match(std::string_view pattern, std::string_view name) {
@@ -27,8 +26,7 @@ bool words_match(std::string_view pattern, std::string_view name) {
 
 class ParameterFile {
  public:
-  ParameterFile(const std::filesystem::path& file, const std::string& node, const Scope* scope,
-                Findings& findings)
+  ParameterFile(const std::filesystem::path& file, const std::string& node, const Scope* scope, Findings& findings)
       : file_(file), node_(node), scope_(scope), findings_(findings) {}
 
   void read(const YAML::Node& root, const Location& named_at) {
@@ -38,8 +36,7 @@ class ParameterFile {
                              "has no parameters; write the node's name (or \"/**\") and a colon, below it " +
                                  std::string(kParameters) + ":, below that the parameters");
     } else if (!any_for_node_) {
-      findings_.note(named_at,
-                     file_.string() + " says nothing to " + node_ + "; its sections are for " + sections_);
+      findings_.note(named_at, file_.string() + " says nothing to " + node_ + "; its sections are for " + sections_);
     }
   }
 
@@ -82,8 +79,7 @@ class ParameterFile {
       names.push_back(name);
       if (pair.second.IsMap()) {
         read_values(pair.second, name + ".", depth + 1);
-      } else if (auto value =
-                     written_value(pair.second, name, location_of(file_, pair.first), scope_, findings_)) {
+      } else if (auto value = written_value(pair.second, name, location_of(file_, pair.first), scope_, findings_)) {
         values_[name] = std::move(*value);
       }
     }
@@ -113,8 +109,8 @@ bool section_is_for(std::string_view pattern, std::string_view node) {
   return words_match(slash == 0 ? pattern.substr(1) : pattern, node.substr(1));
 }
 
-WrittenValues read_parameter_file(const std::filesystem::path& file, const std::string& node,
-                                  const Scope* scope, const Location& named_at, Findings& findings) {
+WrittenValues read_parameter_file(const std::filesystem::path& file, const std::string& node, const Scope* scope,
+                                  const Location& named_at, Findings& findings) {
   const auto root = load_yaml(file, named_at, findings);
   if (!root) {
     return {};

@@ -16,7 +16,7 @@ bool section_is_for(std::string_view pattern, std::string_view node);
 /// Reads from a ROS 2 parameter file what it says to `node` (full name): sections in the order of the file,
 /// the later overriding the earlier, nested maps as dotted names. Notes when nothing in it is for that node.
 /// Substitutes if there is a scope.
-WrittenValues read_parameter_file(const std::filesystem::path& file, const std::string& node,
-                                  const Scope* scope, const Location& named_at, Findings& findings);
+WrittenValues read_parameter_file(const std::filesystem::path& file, const std::string& node, const Scope* scope,
+                                  const Location& named_at, Findings& findings);
 
 }  // namespace panvo::runtime

@@ -84,12 +84,11 @@ void ParameterReader::declare(ParameterDescription parameter, Value& value) {
     const std::string must = requirement(parameter);
     Value parsed{};
     if (const auto wrong = parse(written, parsed)) {
-      problems_.add(written.where, owner_ + "." + parameter.name + " = " + as_written(written) + ": " +
-                                       *wrong + (must.empty() ? "" : "; " + must) + " (" +
-                                       parameter.description + ")");
+      problems_.add(written.where, owner_ + "." + parameter.name + " = " + as_written(written) + ": " + *wrong +
+                                       (must.empty() ? "" : "; " + must) + " (" + parameter.description + ")");
     } else if (!allowed(parameter, parsed)) {
-      problems_.add(written.where, owner_ + "." + parameter.name + " = " + as_written(written) + ": " + must +
-                                       " (" + parameter.description + ")");
+      problems_.add(written.where, owner_ + "." + parameter.name + " = " + as_written(written) + ": " + must + " (" +
+                                       parameter.description + ")");
     } else {
       value = std::move(parsed);
     }
@@ -102,18 +101,17 @@ void ParameterReader::declare(ParameterDescription parameter, Value& value) {
   }
 }
 
-void ParameterReader::read_number(const std::string& name, const char* unit, const char* description,
-                                  double min, double max, std::int64_t& value) {
+void ParameterReader::read_number(const std::string& name, const char* unit, const char* description, double min,
+                                  double max, std::int64_t& value) {
   declare(described(name, unit, description, min, max), value);
 }
 
-void ParameterReader::read_number(const std::string& name, const char* unit, const char* description,
-                                  double min, double max, double& value) {
+void ParameterReader::read_number(const std::string& name, const char* unit, const char* description, double min,
+                                  double max, double& value) {
   declare(described(name, unit, description, min, max), value);
 }
 
-void ParameterReader::read_value(const std::string& name, const char* unit, const char* description,
-                                 bool& value) {
+void ParameterReader::read_value(const std::string& name, const char* unit, const char* description, bool& value) {
   declare(described(name, unit, description), value);
 }
 

@@ -19,9 +19,7 @@ std::string join_lines(const std::vector<std::string>& lines) {
 ConfigError::ConfigError(std::vector<std::string> problems)
     : std::runtime_error(join_lines(problems)), problems_(std::move(problems)) {}
 
-void Problems::add(Location where, std::string what) {
-  found_.emplace_back(std::move(where), std::move(what));
-}
+void Problems::add(Location where, std::string what) { found_.emplace_back(std::move(where), std::move(what)); }
 
 std::vector<std::string> Problems::sorted() const {
   std::vector<std::string> files;
@@ -34,8 +32,7 @@ std::vector<std::string> Problems::sorted() const {
     return std::pair(std::find(files.begin(), files.end(), problem.first.file), problem.first.line);
   };
   auto in_order = found_;
-  std::stable_sort(in_order.begin(), in_order.end(),
-                   [&key](const auto& a, const auto& b) { return key(a) < key(b); });
+  std::stable_sort(in_order.begin(), in_order.end(), [&key](const auto& a, const auto& b) { return key(a) < key(b); });
 
   std::vector<std::string> lines;
   for (const auto& [where, what] : in_order) {

@@ -46,8 +46,7 @@ void apply_setting(SystemDescription& system, const std::string& setting) {
   bool found = false;
   for (auto& container : system.containers) {
     for (auto& component : container.components) {
-      if (component.name == component_name ||
-          full_name(component.name_space, component.name) == component_name) {
+      if (component.name == component_name || full_name(component.name_space, component.name) == component_name) {
         component.parameters[parameter] = value;
         found = true;
       }

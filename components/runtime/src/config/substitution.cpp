@@ -19,16 +19,14 @@ std::string_view trim(std::string_view text) {
 }
 
 std::string unquoted(std::string_view text) {
-  const bool quoted =
-      text.size() >= 2 && (text.front() == '\'' || text.front() == '"') && text.front() == text.back();
+  const bool quoted = text.size() >= 2 && (text.front() == '\'' || text.front() == '"') && text.front() == text.back();
   return std::string(quoted ? text.substr(1, text.size() - 2) : text);
 }
 
 /// First word, and the rest without the blanks between.
 std::pair<std::string_view, std::string_view> split_first(std::string_view text) {
   const auto blank = text.find_first_of(" \t\n");
-  return {text.substr(0, blank),
-          blank == std::string_view::npos ? std::string_view{} : trim(text.substr(blank))};
+  return {text.substr(0, blank), blank == std::string_view::npos ? std::string_view{} : trim(text.substr(blank))};
 }
 
 std::string variable(const std::string& name, const Scope& scope) {

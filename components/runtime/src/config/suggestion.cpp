@@ -44,8 +44,9 @@ std::string suggestion(std::string_view wrong, const std::vector<std::string>& k
   };
   for (const auto& name : known) {
     consider(name, edit_distance(wrong, name), tolerated_edits(wrong));
-    // "max_feature" for "tracker.max_features": the group forgotten counts as one more edit.
-    consider(name, edit_distance(last_part(wrong), last_part(name)) + 1, tolerated_edits(last_part(wrong)));
+    if (wrong.find('.') == std::string_view::npos) {  // "max_feature" for "tracker.max_features"
+      consider(name, edit_distance(wrong, last_part(name)) + 1, tolerated_edits(wrong));
+    }
   }
   if (nearest != nullptr) {
     return "; did you mean \"" + *nearest + "\"?";

@@ -13,8 +13,8 @@ namespace panvo::runtime {
 std::size_t edit_distance(std::string_view a, std::string_view b);
 
 /// What to append to a message on an unknown name: `; did you mean "max_features"?` if one of the known names
-/// is near, else all of them: `; known are: a, b` (`; there are none` if there are none). Dotted names are
-/// also compared by their last part.
+/// is near, else all of them: `; known are: a, b` (`; there are none` if there are none). The group of a
+/// dotted name may have been forgotten.
 std::string suggestion(std::string_view wrong, const std::vector<std::string>& known);
 
 }  // namespace panvo::runtime

@@ -14,13 +14,11 @@ namespace {
 /// What ROS 2 knows of a process or node and a container of ours has no use for.
 const std::vector<std::string> kContainerKeysWithoutEffect = {
     "args", "ros_args", "output", "respawn", "respawn_delay", "env", "param", "launch-prefix", "remap"};
-const std::vector<std::string> kActions = {"node_container", "arg",   "let",
-                                           "include",        "group", "push_ros_namespace"};
+const std::vector<std::string> kActions = {"node_container", "arg", "let", "include", "group", "push_ros_namespace"};
 
 class SystemReader {
  public:
-  SystemDescription read(const std::filesystem::path& file,
-                         const std::map<std::string, std::string>& arguments) {
+  SystemDescription read(const std::filesystem::path& file, const std::map<std::string, std::string>& arguments) {
     Given given;
     for (const auto& [name, value] : arguments) {
       given[name] = {value, {file.string(), 0}};
@@ -28,8 +26,7 @@ class SystemReader {
     system_.file = file.string();
     read_file(file, {.file = file}, given, {file.string(), 0});
     if (findings_.problems.empty() && system_.containers.empty()) {
-      findings_.problems.add({file.string(), 0},
-                             "loads nothing; add a node_container with composable_node entries");
+      findings_.problems.add({file.string(), 0}, "loads nothing; add a node_container with composable_node entries");
     }
     findings_.problems.throw_if_any();
     system_.notes = std::move(findings_.notes);
@@ -49,15 +46,13 @@ class SystemReader {
     std::vector<std::string> declared;
   };
 
-  void read_file(const std::filesystem::path& path, Scope scope, const Given& given,
-                 const Location& named_at) {
+  void read_file(const std::filesystem::path& path, Scope scope, const Given& given, const Location& named_at) {
     if (std::find(open_files_.begin(), open_files_.end(), path) != open_files_.end()) {
       std::string chain;
       for (const auto& open : open_files_) {
         chain += open.string() + " -> ";
       }
-      findings_.problems.add(named_at,
-                             "the file includes itself: " + chain + path.string() + "; take out one include");
+      findings_.problems.add(named_at, "the file includes itself: " + chain + path.string() + "; take out one include");
       return;
     }
     const auto root = load_yaml(path, named_at, findings_);
@@ -65,9 +60,8 @@ class SystemReader {
       return;
     }
     if (!root->IsMap() || !(*root)["launch"]) {
-      findings_.problems.add(
-          {path.string(), 0},
-          "has no list \"launch\"; begin it with \"launch:\", below it \"- node_container:\"");
+      findings_.problems.add({path.string(), 0},
+                             "has no list \"launch\"; begin it with \"launch:\", below it \"- node_container:\"");
       return;
     }
     open_files_.push_back(path);
@@ -79,8 +73,8 @@ class SystemReader {
     top.finish();
     for (const auto& [name, argument] : given) {
       if (std::find(file.declared.begin(), file.declared.end(), name) == file.declared.end()) {
-        findings_.problems.add(argument.where, path.string() + " has no argument \"" + name + "\"" +
-                                                   suggestion(name, file.declared));
+        findings_.problems.add(argument.where,
+                               path.string() + " has no argument \"" + name + "\"" + suggestion(name, file.declared));
       }
     }
     open_files_.pop_back();
@@ -128,8 +122,7 @@ class SystemReader {
   /// What a group sets holds to its end.
   void read_group(const YAML::Node& body, Scope scope, File& file) {
     if (!body.IsSequence()) {
-      findings_.problems.add(location_of(scope.file, body),
-                             "group must be a list: lines that begin with \"- \"");
+      findings_.problems.add(location_of(scope.file, body), "group must be a list: lines that begin with \"- \"");
       return;
     }
     for (const auto& action : body) {
@@ -149,8 +142,7 @@ class SystemReader {
       scope.variables.emplace(name, *otherwise);  // an including file may have set it
     } else if (!scope.variables.contains(name) && !name.empty() && !map.has("default")) {
       findings_.problems.add(map.where(), "argument \"" + name + "\" is not given and has no default" +
-                                              (description ? " (" + *description + ")" : "") +
-                                              "; give it one");
+                                              (description ? " (" + *description + ")" : "") + "; give it one");
       scope.variables[name] = "";  // one problem is enough, its uses are none
     }
   }
@@ -160,6 +152,9 @@ class SystemReader {
     Given given;
     for (const auto& node : map.list("arg")) {
       YamlMap entry(node, "arg of an include", scope, findings_);
+      if (!entry.is_map()) {
+        continue;
+      }
       const auto name = entry.required("name", "name the argument");
       given[name] = {entry.text("value").value_or(""), entry.where("name")};
       entry.finish();
@@ -181,8 +176,8 @@ class SystemReader {
     map.text("pkg");  // ours is the only container there is
     map.text("exec");
     if (!map.has("composable_node")) {
-      findings_.problems.add(
-          map.where(), "node_container " + container.name + " loads nothing; add a list composable_node");
+      findings_.problems.add(map.where(),
+                             "node_container " + container.name + " loads nothing; add a list composable_node");
     }
     for (const auto& node : map.list("composable_node")) {
       YamlMap component(node, "composable_node", scope, findings_);
@@ -200,8 +195,8 @@ class SystemReader {
   void claim_name(const std::string& name, const std::string& what, const Location& where) {
     const auto [first, is_new] = taken_names_.emplace(name, where);
     if (!is_new && !name.ends_with('/')) {
-      findings_.problems.add(where, what + " " + name + " has the name of what is at " +
-                                        first->second.to_string() + "; give it another name or namespace");
+      findings_.problems.add(where, what + " " + name + " has the name of what is at " + first->second.to_string() +
+                                        "; give it another name or namespace");
     }
   }
 

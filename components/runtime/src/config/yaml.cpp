@@ -11,8 +11,7 @@
 
 namespace panvo::runtime {
 
-std::optional<YAML::Node> load_yaml(const std::filesystem::path& file, const Location& named_at,
-                                    Findings& findings) {
+std::optional<YAML::Node> load_yaml(const std::filesystem::path& file, const Location& named_at, Findings& findings) {
   const auto unreadable = [&](const std::string& why) {
     const auto who = named_at.file == file.string() ? "" : file.string() + ": ";
     findings.problems.add(named_at, who + why);
@@ -37,9 +36,8 @@ std::optional<YAML::Node> load_yaml(const std::filesystem::path& file, const Loc
     return YAML::Load(content.str());
   } catch (const YAML::Exception& exception) {
     const int line = exception.mark.is_null() ? 0 : exception.mark.line + 1;
-    findings.problems.add(
-        {file.string(), line},
-        "is not YAML: " + exception.msg + "; check indentation, colons, brackets and quotes near here");
+    findings.problems.add({file.string(), line}, "is not YAML: " + exception.msg +
+                                                     "; check indentation, colons, brackets and quotes near here");
     return std::nullopt;
   }
 }
@@ -49,14 +47,13 @@ Location location_of(const std::filesystem::path& file, const YAML::Node& node) 
   return {file.string(), mark.is_null() ? 0 : mark.line + 1};
 }
 
-std::optional<WrittenValue> written_value(const YAML::Node& node, const std::string& name,
-                                          const Location& where, const Scope* scope, Findings& findings) {
+std::optional<WrittenValue> written_value(const YAML::Node& node, const std::string& name, const Location& where,
+                                          const Scope* scope, Findings& findings) {
   WrittenValue written{.items = {}, .is_list = node.IsSequence(), .where = where};
   const auto add_item = [&](const YAML::Node& item) {
     if (!item.IsScalar()) {
-      const auto remedy = item.IsNull()
-                              ? " has no value; write \"\" for an empty text"
-                              : " must be one value or a list of values, not lists or maps within a list";
+      const auto remedy = item.IsNull() ? " has no value; write \"\" for an empty text"
+                                        : " must be one value or a list of values, not lists or maps within a list";
       findings.problems.add(where, "parameter " + name + remedy);
       return false;
     }
@@ -73,8 +70,12 @@ std::optional<WrittenValue> written_value(const YAML::Node& node, const std::str
 }
 
 YamlMap::YamlMap(const YAML::Node& node, std::string what, const Scope& scope, Findings& findings)
-    : what_(std::move(what)), scope_(scope), findings_(findings), where_(location_of(scope.file, node)) {
-  if (!node.IsMap()) {
+    : what_(std::move(what)),
+      scope_(scope),
+      findings_(findings),
+      where_(location_of(scope.file, node)),
+      is_map_(node.IsMap()) {
+  if (!is_map_) {
     problem(where_, "must be a map: lines \"key: value\"");
     return;
   }
@@ -100,8 +101,7 @@ std::optional<std::string> YamlMap::text(const std::string& key) {
     return std::nullopt;
   }
   if (!entry->value.IsScalar()) {
-    problem(where(key),
-            "key \"" + key + "\" " + (entry->value.IsNull() ? "has no value" : "must be one value"));
+    problem(where(key), "key \"" + key + "\" " + (entry->value.IsNull() ? "has no value" : "must be one value"));
     return std::nullopt;
   }
   try {
@@ -156,7 +156,7 @@ std::vector<YAML::Node> YamlMap::list(const std::string& key) {
 
 bool YamlMap::applies() {
   const bool wanted = flag("if", true);
-  return !flag("unless", false) && wanted;
+  return !flag("unless", false) && wanted && is_map_;
 }
 
 void YamlMap::finish(const std::vector<std::string>& without_effect) {
@@ -170,8 +170,7 @@ void YamlMap::finish(const std::vector<std::string>& without_effect) {
 }
 
 const YamlMap::Entry* YamlMap::find(const std::string& key) const {
-  const auto found =
-      std::find_if(entries_.begin(), entries_.end(), [&key](const Entry& e) { return e.key == key; });
+  const auto found = std::find_if(entries_.begin(), entries_.end(), [&key](const Entry& e) { return e.key == key; });
   return found == entries_.end() ? nullptr : &*found;
 }
 

@@ -174,28 +174,24 @@ TEST(ParameterReader, ListsEveryProblemInOrderOfLineAndKeepsTheDefaults) {
   const auto parameters = reader.read<Odometry>();
   EXPECT_EQ(parameters.front_end, "klt");
   EXPECT_EQ(parameters.tracker.max_features, 400);
-  EXPECT_THAT(
-      reader.problems(),
-      ElementsAre("stereo.yaml:9: binocular_odometry.subpixel = maybe: is not true or false (refine corners "
-                  "to sub-pixel)",
-                  "stereo.yaml:12: binocular_odometry.gain = high: is not a number; must be 0..1 (gain)",
-                  "stereo.yaml:17: binocular_odometry.tracker.max_features = 7: must be 50..5000 (features "
-                  "kept a frame)",
-                  "stereo.yaml:18: binocular_odometry has no parameter \"max_feature\"; did you mean "
-                  "\"tracker.max_features\"?",
-                  "stereo.yaml:20: binocular_odometry.tracker.search_radius = 0.4: must be 0.5..100 px (how "
-                  "far a feature "
-                  "may move)",
-                  "stereo.yaml:30: binocular_odometry.front_end = orb: must be one of klt, sift (feature "
-                  "front end)"));
+  EXPECT_THAT(reader.problems(),
+              ElementsAre("stereo.yaml:9: binocular_odometry.subpixel = maybe: is not true or false (refine corners "
+                          "to sub-pixel)",
+                          "stereo.yaml:12: binocular_odometry.gain = high: is not a number; must be 0..1 (gain)",
+                          "stereo.yaml:17: binocular_odometry.tracker.max_features = 7: must be 50..5000 (features "
+                          "kept a frame)",
+                          "stereo.yaml:18: binocular_odometry has no parameter \"max_feature\"; did you mean "
+                          "\"tracker.max_features\"?",
+                          "stereo.yaml:20: binocular_odometry.tracker.search_radius = 0.4: must be 0.5..100 px (how "
+                          "far a feature "
+                          "may move)",
+                          "stereo.yaml:30: binocular_odometry.front_end = orb: must be one of klt, sift (feature "
+                          "front end)"));
 }
 
 TEST(ParameterReader, AcceptsTheEndsOfARangeAndNothingBeyond) {
-  for (const auto& [text, good] : std::map<std::string, bool>{{"50", true},
-                                                              {"5000", true},
-                                                              {"49", false},
-                                                              {"5001", false},
-                                                              {"4294967346", false}}) {  // 50 in 32 bits
+  for (const auto& [text, good] : std::map<std::string, bool>{
+           {"50", true}, {"5000", true}, {"49", false}, {"5001", false}, {"4294967346", false}}) {  // 50 in 32 bits
     ParameterReader reader("odometry", {{"tracker.max_features", written(text)}});
     reader.read<Odometry>();
     EXPECT_EQ(reader.problems().empty(), good) << text;

@@ -65,8 +65,7 @@ std::string to_text(const std::vector<std::string>& value);
 class ParameterReader {
  public:
   /// `owner` names the component in messages ("binocular_odometry").
-  ParameterReader(std::string owner, WrittenValues written)
-      : owner_(std::move(owner)), written_(std::move(written)) {}
+  ParameterReader(std::string owner, WrittenValues written) : owner_(std::move(owner)), written_(std::move(written)) {}
 
   /// The struct with its defaults overridden by what was written. Problems are remembered, see problems().
   template <class Parameters>
@@ -93,8 +92,8 @@ class ParameterReader {
 
     template <class Value>
     requires std::is_arithmetic_v<Value>
-    void operator()(Value Parameters::*member, const char* name, const char* unit, const char* description,
-                    double min, double max) {
+    void operator()(Value Parameters::*member, const char* name, const char* unit, const char* description, double min,
+                    double max) {
       using Wide = std::conditional_t<std::is_integral_v<Value>, std::int64_t, double>;
       Wide value = parameters.*member;
       reader.read_number(prefix + name, unit, description, min, max, value);
@@ -104,8 +103,8 @@ class ParameterReader {
     void operator()(Value Parameters::*member, const char* name, const char* unit, const char* description) {
       reader.read_value(prefix + name, unit, description, parameters.*member);
     }
-    void operator()(std::string Parameters::*member, const char* name, const char* unit,
-                    const char* description, std::initializer_list<const char*> choices) {
+    void operator()(std::string Parameters::*member, const char* name, const char* unit, const char* description,
+                    std::initializer_list<const char*> choices) {
       reader.read_choice(prefix + name, unit, description, choices, parameters.*member);
     }
     template <class Nested>
@@ -120,10 +119,8 @@ class ParameterReader {
                    double& value);
   void read_value(const std::string& name, const char* unit, const char* description, bool& value);
   void read_value(const std::string& name, const char* unit, const char* description, std::string& value);
-  void read_value(const std::string& name, const char* unit, const char* description,
-                  std::vector<double>& value);
-  void read_value(const std::string& name, const char* unit, const char* description,
-                  std::vector<std::string>& value);
+  void read_value(const std::string& name, const char* unit, const char* description, std::vector<double>& value);
+  void read_value(const std::string& name, const char* unit, const char* description, std::vector<std::string>& value);
   void read_choice(const std::string& name, const char* unit, const char* description,
                    std::initializer_list<const char*> choices, std::string& value);
 

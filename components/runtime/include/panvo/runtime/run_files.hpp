@@ -31,8 +31,7 @@ struct RunSummary {
   std::uint64_t seed = 0;
   bool replay = false;
   std::string system_file;
-  std::map<std::string, std::map<std::string, std::string>>
-      changed_parameters;  ///< component, parameter, value
+  std::map<std::string, std::map<std::string, std::string>> changed_parameters;  ///< component, parameter, value
   std::vector<std::string> problems;
   int exit_status = 0;
 };

@@ -33,9 +33,8 @@ struct ContainerDescription {
 /// Which processes there are and what each loads.
 struct SystemDescription {
   std::string file;
-  std::vector<ContainerDescription>
-      containers;                  ///< in the order of the file, no two components of one full name
-  std::vector<std::string> notes;  ///< what was read and has no effect here, with file and line
+  std::vector<ContainerDescription> containers;  ///< in the order of the file, no two components of one full name
+  std::vector<std::string> notes;                ///< what was read and has no effect here, with file and line
 };
 
 /// Reads a system file: ROS 2's launch vocabulary in YAML.

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include <string>
+
+#include "panvo/runtime/run_files.hpp"
+
+namespace panvo::runtime {
+
+inline constexpr const char* kTimingFile = "timing.json";
+inline constexpr const char* kSummaryFile = "summary.json";
+
+using Json = nlohmann::ordered_json;
+
+/// {"components": {NAME: {"stages": {STAGE: {"count": n, "wall_ms": {"mean", "median", "p95", "p99", "max"},
+/// "cpu_ms": the same}}}}}
+Json timing_json(const ComponentTimes& times_by_component);
+
+Json summary_json(const RunSummary& summary);
+
+/// Throws nlohmann::json::exception when a key is missing or of another type.
+RunSummary summary_from(const Json& json);
+
+/// Indented, with an end of line. Bytes that are not UTF-8 are replaced.
+std::string to_text(const Json& json);
+
+}  // namespace panvo::runtime

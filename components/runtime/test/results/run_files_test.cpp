@@ -1,0 +1,340 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "panvo/runtime/run_files.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "../config/temporary_folder.hpp"
+#include "nav_msgs/msg/Odometry.h"
+#include "results/odometry_lines.hpp"
+
+namespace panvo::runtime {
+namespace {
+
+using nav_msgs::msg::Odometry;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+Odometry odometry_at(std::int32_t sec, std::uint32_t nanosec, double x) {
+  Odometry odometry;
+  odometry.header().stamp().sec(sec);
+  odometry.header().stamp().nanosec(nanosec);
+  odometry.pose().pose().position().x(x);
+  odometry.pose().pose().orientation().w(1.0);
+  odometry.pose().covariance()[7] = 0.25;
+  odometry.twist().covariance()[35] = 1e-6;
+  odometry.twist().twist().linear().x(2.0);
+  return odometry;
+}
+
+SamplePtr sample_of(const Odometry& odometry) {
+  return Sample::of(interfaces::message_type<Odometry>(), std::make_shared<const Odometry>(odometry), 0);
+}
+
+TopicDescription topic(const std::string& name) {
+  const auto& type = interfaces::message_type<Odometry>();
+  return {name, std::string(type.name), {}, &type};
+}
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::istringstream stream(text);
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(stream, line);) {
+    lines.push_back(line);
+  }
+  return lines;
+}
+
+std::size_t columns_of(const std::string& line) { return 1U + std::count(line.begin(), line.end(), ','); }
+
+const auto kBinocular = topic("/odometry/binocular");
+
+TEST(StampText, KeepsEveryNanosecond) {
+  EXPECT_EQ(stamp_text(1'317'046'452'003'070'009), "1317046452.003070009");
+  EXPECT_EQ(stamp_text(0), "0.000000000");
+  EXPECT_EQ(stamp_text(-500'000'000), "-0.500000000");
+  EXPECT_EQ(stamp_text(-1'000'000'001), "-1.000000001");
+}
+
+TEST(RunFiles, WantsTheOdometryTopicsAndNoOthers) {
+  const TemporaryFolder folder;
+  const RunFiles files(folder.path());
+  EXPECT_TRUE(files.wants(kBinocular));
+  EXPECT_TRUE(files.wants(topic("/odometry/enhanced")));
+  EXPECT_TRUE(files.wants(topic("/robot/ground_truth/odometry")));
+  EXPECT_FALSE(files.wants(topic("/odometry/quality")));
+  EXPECT_FALSE(files.wants(topic("/visual_odometry/binocular")));
+  auto other_type = kBinocular;
+  other_type.type_name = "sensor_msgs/msg/Image";
+  EXPECT_FALSE(files.wants(other_type));
+}
+
+TEST(RunFiles, WritesEachPoseAtOnceAndWithoutLoss) {
+  const TemporaryFolder folder;
+  RunFiles files((folder.path() / "a/b").string());
+  files.write(kBinocular, sample_of(odometry_at(1317046452, 3070009, 0.1 + 0.2)));
+  EXPECT_EQ(folder.read("a/b/odometry_binocular.tum"), "1317046452.003070009 0.30000000000000004 0 0 0 0 0 1\n");
+  files.write(kBinocular, sample_of(odometry_at(1317046453, 0, -1e-9)));
+  files.write(topic("/odometry/enhanced"), sample_of(odometry_at(0, 1, 2)));
+  files.write(topic("/ground_truth/odometry"), sample_of(odometry_at(0, 1, 3)));
+  EXPECT_THAT(lines_of(folder.read("a/b/odometry_binocular.tum")),
+              ElementsAre(HasSubstr("1317046452"), "1317046453.000000000 -1e-09 0 0 0 0 0 1"));
+  EXPECT_EQ(folder.read("a/b/odometry_enhanced.tum"), "0.000000001 2 0 0 0 0 0 1\n");
+  EXPECT_EQ(folder.read("a/b/ground_truth.tum"), "0.000000001 3 0 0 0 0 0 1\n");
+}
+
+TEST(RunFiles, WritesBothCovariancesAndTheTwist) {
+  const TemporaryFolder folder;
+  RunFiles files(folder.path());
+  files.write(kBinocular, sample_of(odometry_at(1, 5, 0)));
+  const auto lines = lines_of(folder.read("odometry_binocular_covariance.csv"));
+  ASSERT_EQ(lines.size(), 2U);
+  EXPECT_TRUE(lines[0].starts_with("stamp_ns,p00,p01,p02,p03,p04,p05,p10,"));
+  EXPECT_THAT(lines[0], HasSubstr(",p55,t00,"));
+  EXPECT_TRUE(lines[0].ends_with(",t55,vx,vy,vz,wx,wy,wz"));
+  EXPECT_EQ(columns_of(lines[0]), 1U + 36 + 36 + 6);
+  EXPECT_EQ(columns_of(lines[1]), columns_of(lines[0]));
+  EXPECT_TRUE(lines[1].starts_with("1000000005,0,0,0,0,0,0,0,0.25,0,")) << lines[1];
+  EXPECT_TRUE(lines[1].ends_with(",1e-06,2,0,0,0,0,0")) << lines[1];
+}
+
+TEST(RunFiles, LeavesOutWhatIsNotFiniteOrNoMessageAndSaysSo) {
+  const TemporaryFolder folder;
+  RunFiles files(folder.path());
+  files.write(kBinocular, sample_of(odometry_at(1, 0, std::numeric_limits<double>::quiet_NaN())));
+  auto unsure = odometry_at(2, 0, 0);
+  unsure.pose().covariance()[0] = std::numeric_limits<double>::infinity();
+  files.write(kBinocular, sample_of(unsure));
+  const auto& type = interfaces::message_type<Odometry>();
+  files.write(kBinocular, Sample::from_bytes(&type, std::string(type.name), {0, 1, 0, 0, 9}, 0));
+  EXPECT_THAT(lines_of(folder.read("odometry_binocular.tum")), ElementsAre(HasSubstr("2.000000000 ")));
+  EXPECT_EQ(lines_of(folder.read("odometry_binocular_covariance.csv")).size(), 2U) << "header and the first";
+  files.finish({}, {});
+  const auto problems = nlohmann::json::parse(folder.read("summary.json"))["problems"].get<std::vector<std::string>>();
+  EXPECT_THAT(problems,
+              ElementsAre("odometry_binocular.tum lacks 2 messages of /odometry/binocular: undecodable, or with "
+                          "numbers that are not finite",
+                          HasSubstr("odometry_binocular_covariance.csv lacks 2 messages")));
+}
+
+TEST(RunFiles, KeepsTheOdometryOfTwoRobotsApart) {
+  const TemporaryFolder folder;
+  RunFiles files(folder.path());
+  files.write(topic("/a/odometry/binocular"), sample_of(odometry_at(1, 0, 1)));
+  files.write(topic("/fleet/b/odometry/binocular"), sample_of(odometry_at(1, 0, 2)));
+  files.write(topic("/a/odometry/binocular"), sample_of(odometry_at(2, 0, 1)));
+  EXPECT_EQ(lines_of(folder.read("odometry_binocular.tum")).size(), 2U);
+  EXPECT_EQ(folder.read("fleet_b_odometry_binocular.tum"), "1.000000000 2 0 0 0 0 0 1\n");
+}
+
+TEST(RunFiles, RemovesWhatAnEarlierRunLeft) {
+  const TemporaryFolder folder;
+  for (const char* name :
+       {"odometry_binocular.tum", "odometry_binocular_covariance.csv", "summary.json", "timing.json"}) {
+    folder.write(name, "old");
+  }
+  folder.write("notes.txt", "mine");
+  const RunFiles files(folder.path());
+  std::vector<std::string> left;
+  for (const auto& entry : std::filesystem::directory_iterator(folder.path())) {
+    left.push_back(entry.path().filename());
+  }
+  EXPECT_THAT(left, ElementsAre("notes.txt"));
+}
+
+TEST(RunFiles, LeavesWhatItHadWhenTheProcessIsKilled) {
+  const TemporaryFolder folder;
+  const pid_t child = fork();
+  if (child == 0) {
+    RunFiles files(folder.path());
+    files.write(kBinocular, sample_of(odometry_at(1, 0, 1)));
+    files.write(kBinocular, sample_of(odometry_at(2, 0, 2)));
+    raise(SIGKILL);
+  }
+  int status = 0;
+  ASSERT_EQ(waitpid(child, &status, 0), child);
+  EXPECT_EQ(WTERMSIG(status), SIGKILL);
+  EXPECT_EQ(folder.read("odometry_binocular.tum"), "1.000000000 1 0 0 0 0 0 1\n2.000000000 2 0 0 0 0 0 1\n");
+}
+
+/// Files of this process cannot grow beyond a size while this lives: what a full disk does, without one.
+class FileSizeLimit {
+ public:
+  explicit FileSizeLimit(rlim_t bytes) {
+    signal(SIGXFSZ, SIG_IGN);
+    getrlimit(RLIMIT_FSIZE, &before_);
+    const rlimit limit{bytes, before_.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &limit);
+  }
+  ~FileSizeLimit() { setrlimit(RLIMIT_FSIZE, &before_); }
+
+ private:
+  rlimit before_{};
+};
+
+TEST(RunFiles, KeepsWholeLinesWhenTheDiskIsFull) {
+  const TemporaryFolder folder;
+  RunFiles files(folder.path());
+  const auto enhanced = topic("/odometry/enhanced");
+  files.write(enhanced, sample_of(odometry_at(1, 0, 1)));
+  {
+    const FileSizeLimit limit(40);  // within the second line
+    try {
+      files.write(enhanced, sample_of(odometry_at(2, 0, 2)));
+      FAIL() << "it fitted";
+    } catch (const std::runtime_error& error) {
+      EXPECT_THAT(error.what(), HasSubstr("cannot write " + (folder.path() / "odometry_enhanced.tum").string() + ": "));
+      EXPECT_THAT(error.what(), HasSubstr("free space there"));
+    }
+    EXPECT_EQ(folder.read("odometry_enhanced.tum"), "1.000000000 1 0 0 0 0 0 1\n");
+    EXPECT_THROW(files.finish({}, {}), std::runtime_error);
+    EXPECT_FALSE(std::filesystem::exists(folder.path() / "summary.json"));
+    EXPECT_FALSE(std::filesystem::exists(folder.path() / "summary.json.part"));
+  }
+  files.write(enhanced, sample_of(odometry_at(3, 0, 3)));
+  EXPECT_EQ(folder.read("odometry_enhanced.tum"), "1.000000000 1 0 0 0 0 0 1\n3.000000000 3 0 0 0 0 0 1\n");
+}
+
+TEST(RunFiles, RefusesAFolderThatCannotBeWrittenTo) {
+  const TemporaryFolder folder;
+  const auto file = folder.write("file", "");
+  for (const auto& bad : {file, file / "below", std::filesystem::path("/proc/panvo")}) {
+    try {
+      const RunFiles files(bad);
+      FAIL() << bad;
+    } catch (const std::runtime_error& error) {
+      EXPECT_THAT(error.what(), HasSubstr("cannot write " + bad.string()));
+      EXPECT_THAT(error.what(), HasSubstr("choose a folder that can be written to"));
+    }
+  }
+}
+
+RunSummary summary_of(const std::string& component, double wall_s) {
+  RunSummary summary;
+  summary.frames_in = 100;
+  summary.frames_out = 98;
+  summary.queues = {{component, "/stereo/left/image_rect", 100, 98, 2}};
+  summary.cpu_s = 1.5;
+  summary.wall_s = wall_s;
+  summary.peak_memory_mb = 120.5;
+  summary.version = "0.1.0";
+  summary.seed = 18446744073709551615U;
+  summary.replay = true;
+  summary.system_file = "stereo.yaml";
+  summary.changed_parameters = {{component, {{"tracker.max_features", "500"}}}};
+  summary.problems = {component + " was late"};
+  return summary;
+}
+
+TEST(RunFiles, FinishLeavesTimesAndSummary) {
+  const TemporaryFolder folder;
+  RunFiles files(folder.path());
+  StageTimes times;
+  times.add("track", 2'000'000, 1'000'000);
+  times.add("track", 4'000'000, 1'000'000);
+  files.finish(summary_of("odometry", 10), {{"odometry", times.snapshot()}, {"rectifier", {}}});
+
+  const auto timing = nlohmann::json::parse(folder.read("timing.json"));
+  EXPECT_EQ(timing["components"]["rectifier"]["stages"], nlohmann::json::object());
+  const auto& track = timing["components"]["odometry"]["stages"]["track"];
+  EXPECT_EQ(track["count"], 2);
+  EXPECT_DOUBLE_EQ(track["wall_ms"]["mean"], 3.0);
+  EXPECT_NEAR(track["wall_ms"]["median"], 2.0, 0.04);
+  EXPECT_DOUBLE_EQ(track["wall_ms"]["p95"], 4.0);
+  EXPECT_DOUBLE_EQ(track["wall_ms"]["p99"], 4.0);
+  EXPECT_DOUBLE_EQ(track["wall_ms"]["max"], 4.0);
+  EXPECT_DOUBLE_EQ(track["cpu_ms"]["max"], 1.0);
+
+  const auto summary = nlohmann::json::parse(folder.read("summary.json"));
+  EXPECT_EQ(summary["frames_in"], 100);
+  EXPECT_EQ(summary["frames_out"], 98);
+  EXPECT_EQ(summary["queues"][0]["component"], "odometry");
+  EXPECT_EQ(summary["queues"][0]["input"], "/stereo/left/image_rect");
+  EXPECT_EQ(summary["queues"][0]["dropped"], 2);
+  EXPECT_EQ(summary["cpu_s"], 1.5);
+  EXPECT_EQ(summary["wall_s"], 10.0);
+  EXPECT_EQ(summary["peak_memory_mb"], 120.5);
+  EXPECT_EQ(summary["version"], "0.1.0");
+  EXPECT_EQ(summary["seed"], 18446744073709551615U);
+  EXPECT_EQ(summary["replay"], true);
+  EXPECT_EQ(summary["changed_parameters"]["odometry"]["tracker.max_features"], "500");
+  EXPECT_EQ(summary["exit_status"], 0);
+}
+
+TEST(RunFiles, SummaryTakesTextThatIsNotUtf8) {
+  const TemporaryFolder folder;
+  RunFiles files(folder.path());
+  RunSummary summary;
+  summary.system_file = "stereo\xff.yaml";
+  files.finish(summary, {});
+  EXPECT_EQ(nlohmann::json::parse(folder.read("summary.json"))["system_file"], "stereo\xef\xbf\xbd.yaml");
+}
+
+TEST(MergeRunFiles, MakesOneRunOfSeveralContainers) {
+  const TemporaryFolder folder;
+  StageTimes times;
+  times.add("track", 2'000'000, 1'000'000);
+  {
+    RunFiles player(folder.path() / "player");
+    player.write(topic("/ground_truth/odometry"), sample_of(odometry_at(1, 0, 1)));
+    player.finish(summary_of("player", 10), {{"player", times.snapshot()}});
+    RunFiles odometry(folder.path() / "odometry");
+    odometry.write(kBinocular, sample_of(odometry_at(1, 0, 2)));
+    auto summary = summary_of("odometry", 12);
+    summary.exit_status = 3;
+    odometry.finish(summary, {{"odometry", times.snapshot()}});
+  }
+  folder.write("player/run.log", "player");
+  folder.write("odometry/run.log", "odometry");
+  folder.write("run.log", "of an earlier run");
+  merge_run_files(folder.path(), {"player", "odometry"});
+
+  const auto summary = nlohmann::json::parse(folder.read("summary.json"));
+  EXPECT_EQ(summary["frames_in"], 200);
+  EXPECT_EQ(summary["cpu_s"], 3.0);
+  EXPECT_EQ(summary["wall_s"], 12.0);
+  EXPECT_EQ(summary["peak_memory_mb"], 241.0);
+  EXPECT_EQ(summary["queues"].size(), 2U);
+  EXPECT_EQ(summary["changed_parameters"].size(), 2U);
+  EXPECT_EQ(summary["exit_status"], 3);
+  EXPECT_EQ(summary["version"], "0.1.0");
+  EXPECT_EQ(summary["problems"].size(), 2U);
+  const auto timing = nlohmann::json::parse(folder.read("timing.json"));
+  EXPECT_EQ(timing["components"].size(), 2U);
+  EXPECT_EQ(timing["components"]["player"]["stages"]["track"]["count"], 1);
+  EXPECT_EQ(folder.read("ground_truth.tum"), "1.000000000 1 0 0 0 0 0 1\n");
+  EXPECT_EQ(folder.read("odometry_binocular.tum"), "1.000000000 2 0 0 0 0 0 1\n");
+  EXPECT_EQ(folder.read("run.log"), "player");
+  EXPECT_EQ(folder.read("odometry_run.log"), "odometry");
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "player"));
+}
+
+TEST(MergeRunFiles, NamesContainersThatWereKilledAndKeepsWhatTheyLeft) {
+  const TemporaryFolder folder;
+  RunFiles(folder.path() / "player").finish(summary_of("player", 10), {});
+  RunFiles(folder.path() / "odometry").write(kBinocular, sample_of(odometry_at(1, 0, 2)));
+  folder.write("cut/summary.json", "{\"version\": \"0.1");
+  merge_run_files(folder.path(), {"odometry", "player", "cut", "none"});
+  const auto summary = nlohmann::json::parse(folder.read("summary.json"));
+  EXPECT_EQ(summary["exit_status"], 1);
+  EXPECT_EQ(summary["version"], "0.1.0");
+  EXPECT_THAT(summary["problems"].get<std::vector<std::string>>(),
+              ElementsAre("player was late", "container odometry left no summary.json: it did not come to its end",
+                          "container cut left no summary.json: it did not come to its end",
+                          "container none left no summary.json: it did not come to its end"));
+  EXPECT_EQ(folder.read("odometry_binocular.tum"), "1.000000000 2 0 0 0 0 0 1\n");
+  EXPECT_EQ(nlohmann::json::parse(folder.read("timing.json"))["components"], nlohmann::json::object());
+}
+
+}  // namespace
+}  // namespace panvo::runtime
