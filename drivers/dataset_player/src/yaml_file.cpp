@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "yaml_file.hpp"
 
+#include <fmt/format.h>
+
 #include <fstream>
 #include <sstream>
 
@@ -77,7 +79,7 @@ std::vector<double> YamlFile::numbers(const std::string& key, std::size_t count)
 void YamlFile::fail(const std::string& key, std::string_view what) const {
   std::string line;
   for (const auto& item : root_) {
-    if (item.first.Scalar() == key) line = ":" + std::to_string(item.first.Mark().line + 1);
+    if (item.first.Scalar() == key) line = fmt::format(":{}", item.first.Mark().line + 1);
   }
   throw DatasetError(path_.string() + line + ": " + key + " " + std::string(what));
 }

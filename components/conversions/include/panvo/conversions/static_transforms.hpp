@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Geometry>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tf2_msgs/msg/TFMessage.h"
+
+namespace panvo::conversions {
+
+/// The transforms of /tf_static that were received so far, and the chains they form.
+class StaticTransforms {
+ public:
+  /// Takes in a message; a transform received again replaces the one before. What cannot be used is left out and told, a sentence each.
+  std::vector<std::string> add(const tf2_msgs::msg::TFMessage& message);
+
+  /// target_from_source along the chain of parents between the two frames; nullopt while there is none.
+  std::optional<Eigen::Isometry3d> lookup(const std::string& target, const std::string& source) const;
+
+ private:
+  struct Edge {
+    std::string parent;
+    Eigen::Isometry3d parent_from_child = Eigen::Isometry3d::Identity();
+  };
+
+  struct Link {
+    std::string frame;
+    Eigen::Isometry3d frame_from_start = Eigen::Isometry3d::Identity();
+  };
+  std::vector<Link> ancestors(const std::string& frame) const;
+
+  std::map<std::string, Edge> by_child_;
+};
+
+}  // namespace panvo::conversions

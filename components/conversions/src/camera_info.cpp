@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "panvo/conversions/camera_info.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "panvo/conversions/time.hpp"
+
+namespace panvo::conversions {
+namespace {
+
+using RowMajor3d = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
+
+bool equal(const vision::PinholeCamera& a, const vision::PinholeCamera& b) {
+  return a.fx == b.fx && a.fy == b.fy && a.cx == b.cx && a.cy == b.cy && a.width == b.width && a.height == b.height;
+}
+
+template <std::size_t size>
+bool all_finite(const std::array<double, size>& values) {
+  return std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); });
+}
+
+PairedCamera paired(const vision::DistortedCamera& raw, const Eigen::Matrix3d& rotation, const vision::PinholeCamera& rectified,
+                    double baseline_m) {
+  return {raw, rotation, rectified, baseline_m};
+}
+
+}  // namespace
+
+bool PairedCamera::operator==(const PairedCamera& other) const {
+  return equal(raw.pinhole, other.raw.pinhole) && raw.distortion == other.raw.distortion &&
+         rectified_from_raw == other.rectified_from_raw && equal(rectified, other.rectified) && baseline_m == other.baseline_m;
+}
+
+bool is_rectified(const PairedCamera& camera) {
+  constexpr double kTolerance = 1e-9;  // far below what moves a pixel
+  const auto& raw = camera.raw.pinhole;
+  const auto& rectified = camera.rectified;
+  const double difference_px = std::max({std::abs(raw.fx - rectified.fx), std::abs(raw.fy - rectified.fy),
+                                         std::abs(raw.cx - rectified.cx), std::abs(raw.cy - rectified.cy)});
+  return std::all_of(camera.raw.distortion.begin(), camera.raw.distortion.end(), [](double value) { return value == 0.0; }) &&
+         camera.rectified_from_raw.isIdentity(kTolerance) && difference_px <= kTolerance * raw.fx && raw.width == rectified.width &&
+         raw.height == rectified.height;
+}
+
+PairedCamera left_camera(const vision::StereoCalibration& calibration, const vision::RectifiedStereo& rectified) {
+  return paired(calibration.left, rectified.rectified_left_from_left, rectified.camera, 0.0);
+}
+
+PairedCamera right_camera(const vision::StereoCalibration& calibration, const vision::RectifiedStereo& rectified) {
+  return paired(calibration.right, rectified.rectified_right_from_right, rectified.camera, rectified.baseline_m);
+}
+
+sensor_msgs::msg::CameraInfo to_camera_info(const PairedCamera& camera, std::int64_t stamp_ns, const std::string& frame_id) {
+  const auto& raw = camera.raw.pinhole;
+  const auto& rectified = camera.rectified;
+  sensor_msgs::msg::CameraInfo info;
+  info.header().stamp(to_stamp(stamp_ns));
+  info.header().frame_id(frame_id);
+  info.width(static_cast<std::uint32_t>(raw.width));
+  info.height(static_cast<std::uint32_t>(raw.height));
+  info.distortion_model("plumb_bob");
+  info.d().assign(camera.raw.distortion.begin(), camera.raw.distortion.end());
+  info.k({raw.fx, 0, raw.cx, 0, raw.fy, raw.cy, 0, 0, 1});
+  Eigen::Map<RowMajor3d>(info.r().data()) = camera.rectified_from_raw;
+  const double tx_px_m = camera.baseline_m == 0.0 ? 0.0 : -rectified.fx * camera.baseline_m;
+  info.p({rectified.fx, 0, rectified.cx, tx_px_m, 0, rectified.fy, rectified.cy, 0, 0, 0, 1, 0});
+  return info;
+}
+
+Result<PairedCamera> to_camera(const sensor_msgs::msg::CameraInfo& info) {
+  const auto& k = info.k();
+  const auto& p = info.p();
+  if (k[0] == 0.0) return Reason{"is not calibrated (K is zero); calibrate the camera"};
+  if (p[0] == 0.0 || info.r()[8] == 0.0) return Reason{"is calibrated alone (R or P is zero); calibrate both cameras as a stereo pair"};
+  if (!all_finite(k) || !all_finite(info.r()) || !all_finite(p)) return Reason{"holds a value in K, R or P that is not a number"};
+  if (info.binning_x() > 1 || info.binning_y() > 1 || info.roi().x_offset() != 0 || info.roi().y_offset() != 0) {
+    return Reason{"states binning or a region of interest, which is not supported; calibrate at the size that is sent"};
+  }
+  const Eigen::Matrix3d rotation = Eigen::Map<const RowMajor3d>(info.r().data());
+  if ((rotation * rotation.transpose() - Eigen::Matrix3d::Identity()).norm() > 1e-3 || rotation.determinant() < 0.0) {
+    return Reason{"has an R that is no rotation; calibrate again"};
+  }
+  PairedCamera camera;
+  const auto& d = info.d();
+  for (std::size_t i = 0; i < d.size(); ++i) {
+    if (!std::isfinite(d[i])) return Reason{"holds a value in D that is not a number"};
+    if (i < camera.raw.distortion.size()) camera.raw.distortion[i] = d[i];
+  }
+  const bool is_distorted = std::any_of(d.begin(), d.end(), [](double value) { return value != 0.0; });
+  const bool has_more = d.size() > 5 && std::any_of(d.begin() + 5, d.end(), [](double value) { return value != 0.0; });
+  const auto& model = info.distortion_model();
+  if (is_distorted && (has_more || (model != "plumb_bob" && model != "rational_polynomial"))) {
+    return Reason{fmt::format("has the distortion model '{}' with {} coefficients; only plumb_bob (k1 k2 p1 p2 k3) is supported: calibrate so",
+                              model, d.size())};
+  }
+  const int width = static_cast<int>(info.width());
+  const int height = static_cast<int>(info.height());
+  camera.raw.pinhole = {k[0], k[4], k[2], k[5], width, height};
+  camera.rectified_from_raw = rotation;
+  camera.rectified = {p[0], p[5], p[2], p[6], width, height};
+  camera.baseline_m = p[3] == 0.0 ? 0.0 : -p[3] / p[0];
+  return camera;
+}
+
+Result<vision::RectifiedStereo> to_stereo(const PairedCamera& left, const PairedCamera& right) {
+  if (!equal(left.rectified, right.rectified)) {
+    return Reason{"left and right rectify to different cameras (size or P differ); calibrate both as one stereo pair"};
+  }
+  vision::RectifiedStereo stereo;
+  stereo.camera = left.rectified;
+  stereo.baseline_m = right.baseline_m - left.baseline_m;
+  stereo.rectified_left_from_left = left.rectified_from_raw;
+  stereo.rectified_right_from_right = right.rectified_from_raw;
+  if (const auto problems = vision::validate(stereo); !problems.empty()) return Reason{problems.front()};
+  return stereo;
+}
+
+}  // namespace panvo::conversions
