@@ -13,7 +13,7 @@ import workspace
 LIBRARIES = {
     "Eigen": "eigen", "unsupported": "eigen", "opencv2": "opencv", "ceres": "ceres", "opengv": "opengv",
     "fastdds": "fastdds", "fastrtps": "fastdds", "fastcdr": "fastdds",
-    "yaml-cpp": "yaml", "spdlog": "log", "fmt": "log", "CLI": "command line", "nlohmann": "json", "sqlite3.h": "sqlite", "tinyxml2.h": "xml",
+    "yaml-cpp": "yaml", "spdlog": "log", "fmt": "text", "CLI": "command line", "nlohmann": "json", "sqlite3.h": "sqlite", "tinyxml2.h": "xml",
     "gtest": "test", "gmock": "test", "benchmark": "test",
 }
 THREAD_HEADERS = {"thread", "future", "stop_token", "condition_variable", "mutex", "shared_mutex", "semaphore", "latch", "barrier", "pthread.h"}
@@ -34,7 +34,7 @@ class Floor:
 
 
 def floor(name, packages="", libraries="", threads_and_clocks=True):
-    return Floor(name, frozenset(packages.split()), frozenset(filter(None, map(str.strip, libraries.split(",")))), threads_and_clocks)
+    return Floor(name, frozenset(packages.split()), frozenset(map(str.strip, libraries.split(","))) | {"text"}, threads_and_clocks)
 
 
 VISION = floor("vision", "", "eigen, opencv", False)
@@ -42,7 +42,7 @@ INTERFACES = floor("interfaces", "", "messages, fastdds")
 RUNTIME = floor("runtime", "interfaces", "messages, log, json, command line")
 RUNTIME_DDS = floor("runtime's dds", "interfaces", "messages, fastdds, log, json")
 RUNTIME_CONFIG = floor("runtime's config", "interfaces", "messages, yaml, log, json, command line")
-CONVERSIONS = floor("conversions", "interfaces vision", "messages, eigen, opencv", False)
+CONVERSIONS = floor("conversions", "interfaces vision runtime", "messages, eigen, opencv")
 ALGORITHM = floor("algorithm", "vision", "eigen, opencv, ceres, opengv", False)
 WRAPPER = floor("component wrapper", "runtime interfaces conversions vision", "messages, eigen, opencv", False)
 RECORDER = floor("recorder", "runtime interfaces", "messages, fastdds, yaml, sqlite, log, json, command line")
@@ -102,7 +102,7 @@ def is_local(root, path, include):
     depth = 2 if path.parts[0] in ("components", "drivers") else 1
     package = pathlib.Path(root, *path.parts[:depth])
     folders = [pathlib.Path(root) / path.parent, *(package / name for name in ("src", "test", "tools"))]
-    return any((folder / include).is_file() for folder in folders)
+    return any((folder / include).is_file() and (folder / include).resolve().is_relative_to(package.resolve()) for folder in folders)
 
 
 def is_test(path):
@@ -111,10 +111,10 @@ def is_test(path):
 
 def complaint_of_include(root, path, its_floor, quoted, include, messages):
     its_package = package_of(path)
-    if quoted and ".." in include.split("/"):
-        return 'climbs out of its folder; public headers are "panvo/<package>/..."'
     if quoted and is_local(root, path, include):
         return None
+    if quoted and ".." in include.split("/"):
+        return 'climbs out of its package; public headers are "panvo/<package>/..."'
     kind = belongs_to(include, messages)
     if kind is None:
         return "belongs to no known library; add it to LIBRARIES in tests/lint/floors.py, on the floors that may use it"

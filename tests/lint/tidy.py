@@ -1,0 +1,130 @@
+# SPDX-License-Identifier: Apache-2.0
+"""clang-tidy over many sources at once.
+
+Nearly all of clang-tidy's time goes into the headers of Eigen, OpenCV and the standard library, over and over for every source.
+So sources compiled with the same flags are joined into few translation units, as unity builds do. Sources that would clash in one
+unit (the same name at file scope) go into different ones; should a clash remain, the unit is taken apart and tried again in halves.
+What is checked, and how, is .clang-tidy's business alone.
+"""
+import argparse
+import concurrent.futures
+import json
+import pathlib
+import re
+import shlex
+import subprocess
+import sys
+
+UNKNOWN_TO_CLANG = {"-fno-gnu-unique"}
+# At column 0: a type, or a function or constant whose name is not qualified (Class::member clashes with nothing).
+FILE_SCOPE_TYPE = re.compile(r"^(?:struct|class|enum(?: class)?|union)\s+(\w+)", re.MULTILINE)
+FILE_SCOPE_NAME = re.compile(r"^(?!namespace|using|template|class|struct|enum|#|//|TEST|return|extern)\w[\w:<>,&* ]*?[ &*](\w+)\s*[(={\[]", re.MULTILINE)
+LARGEST_UNIT = 12  # sources; more would only make the last unit the one that all wait for
+
+
+def commands(build):
+    """source -> the flags it is compiled with, for clang: no compiler, no -c, no output."""
+    found = {}
+    for entry in json.loads((build / "compile_commands.json").read_text(encoding="utf-8")):
+        words = shlex.split(entry["command"])
+        while words and not re.search(r"(^|/)(c\+\+|g\+\+|clang\+\+)[\w.-]*$", words[0]):
+            words.pop(0)
+        flags, skip = [], False
+        for word in words[1:]:
+            if skip:
+                skip = False
+            elif word == "-o":
+                skip = True
+            elif word != "-c" and word not in UNKNOWN_TO_CLANG and word != entry["file"]:
+                flags.append(word)
+        found[pathlib.Path(entry["file"])] = tuple(flags)
+    return found
+
+
+def file_scope_names(text):
+    """Names that a source defines at column 0, where two sources of one unit could clash."""
+    return set(FILE_SCOPE_TYPE.findall(text)) | set(FILE_SCOPE_NAME.findall(text))
+
+
+def units(sources, flags_of):
+    """Sources in lists that can be one translation unit each: the same flags, no name twice."""
+    made = []  # [flags, names, sources]
+    for source in sources:
+        names = file_scope_names(source.read_text(encoding="utf-8"))
+        for unit in made:
+            if unit[0] == flags_of[source] and not unit[1] & names and len(unit[2]) < LARGEST_UNIT:
+                unit[1] |= names
+                unit[2].append(source)
+                break
+        else:
+            made.append([flags_of[source], set(names), [source]])
+    return [unit[2] for unit in made]
+
+
+def run_unit(sources, flags, folder, checks, root):
+    """clang-tidy's complaints on a unit: {(file, line, column, text)}."""
+    name = "_".join([sources[0].stem, str(len(sources)), format(abs(hash(tuple(map(str, sources)))), "x")])
+    if len(sources) == 1:
+        file = sources[0]
+    else:
+        file = folder / f"{name}.cpp"
+        file.write_text("".join(f'#include "{source}"\n' for source in sources), encoding="utf-8")
+    command = ["clang-tidy", "--quiet", f"--config-file={root / '.clang-tidy'}", *checks, str(file), "--", *flags]
+    done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True, check=False)
+    found = set(re.findall(r"^(/[^:\n]+):(\d+):(\d+): (?:error|warning): ([^\n]+)", done.stdout, re.MULTILINE))
+    broken = [complaint for complaint in found if "clang-diagnostic-error" in complaint[3]]
+    if len(sources) > 1 and broken:
+        half = len(sources) // 2
+        return run_unit(sources[:half], flags, folder, checks, root) | run_unit(sources[half:], flags, folder, checks, root)
+    if done.returncode != 0 and not found:
+        return {(str(file), "1", "1", f"clang-tidy failed: {done.stdout.strip()[-500:]}")}
+    return found
+
+
+def sources_of(files, known):
+    """The compiled ones among the files; for a header, the sources that include it by its last two names."""
+    wanted = set()
+    for file in files:
+        if file in known:
+            wanted.add(file)
+        elif file.suffix == ".hpp":
+            ending = "/".join(file.parts[-2:])
+            including = [source for source in known if ending in source.read_text(encoding="utf-8")]
+            wanted.update(including[:1])
+    return sorted(wanted)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--build", type=pathlib.Path, required=True, help="folder with compile_commands.json")
+    parser.add_argument("--naming", action="store_true", help="the naming rules only")
+    parser.add_argument("--jobs", type=int, default=1)
+    parser.add_argument("files", type=pathlib.Path, nargs="+")
+    arguments = parser.parse_args()
+
+    root = pathlib.Path(__file__).resolve().parents[2]
+    flags_of = commands(arguments.build)
+    # All files are asked for together: headers then come along with the sources that include them.
+    everything = len(arguments.files) > len(flags_of)
+    files = [file.resolve() for file in arguments.files]
+    sources = sorted(set(files) & set(flags_of)) if everything else sources_of(files, flags_of)
+    if not sources:
+        sys.exit("none of these files is compiled, or included by one that is")
+    folder = arguments.build / "lint"
+    folder.mkdir(exist_ok=True)
+    checks = ["--checks=-*,readability-identifier-naming"] if arguments.naming else []
+    complaints = set()
+    with concurrent.futures.ThreadPoolExecutor(arguments.jobs) as pool:
+        pending = [pool.submit(run_unit, unit, flags_of[unit[0]], folder, checks, root) for unit in units(sources, flags_of)]
+        for number, done in enumerate(concurrent.futures.as_completed(pending), 1):
+            complaints |= done.result()
+            print(f"  {number}/{len(pending)} units of {len(sources)} sources", file=sys.stderr, flush=True)
+    for file, line, column, text in sorted(complaints, key=lambda c: (c[0], int(c[1]), int(c[2]), c[3])):
+        shown = pathlib.Path(file)
+        shown = shown.relative_to(root) if shown.is_relative_to(root) else shown
+        print(f"{shown}:{line}:{column}: {text}", file=sys.stderr)
+    sys.exit(1 if complaints else 0)
+
+
+if __name__ == "__main__":
+    main()
