@@ -430,11 +430,10 @@ std::vector<QueueCounters> Container::queue_counters() const {
   return all;
 }
 
-std::map<std::string, std::map<std::string, StageTimes::Times>> Container::stage_times() const {
-  std::map<std::string, std::map<std::string, StageTimes::Times>> all;
+ComponentTimes Container::stage_times() const {
+  ComponentTimes all;
   for (const auto& entry : implementation_->entries()) {
-    auto& stages = all[entry->context->name()];
-    for (auto& [stage, times] : entry->context->times().snapshot()) stages.emplace(stage, times);
+    all[entry->context->name()] = entry->context->times().snapshot();
   }
   return all;
 }

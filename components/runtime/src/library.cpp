@@ -11,11 +11,26 @@
 namespace panvo::runtime {
 namespace fs = std::filesystem;
 
+namespace {
+
+using EntryPoint = const ComponentDescriptor* (*)();
+
+/// The plugin's own entry point; not that of a library it links, which dlsym finds too.
+EntryPoint entry_point_of(void* handle, const fs::path& file) {
+  void* symbol = dlsym(handle, kPluginEntryPoint);
+  Dl_info info{};
+  std::error_code error;
+  if (!symbol || dladdr(symbol, &info) == 0 || !fs::equivalent(info.dli_fname, file, error)) return nullptr;
+  return reinterpret_cast<EntryPoint>(symbol);
+}
+
+}  // namespace
+
 Library::Library(const fs::path& file) : file_(file) {
   // Local: two plugins may define the same names. Now: what is missing is said at load, not in the middle of a run.
   handle_ = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (!handle_) throw ConfigError("cannot load plugin " + file.string() + ": " + dlerror());
-  const auto entry_point = reinterpret_cast<const ComponentDescriptor* (*)()>(dlsym(handle_, kPluginEntryPoint));
+  const EntryPoint entry_point = entry_point_of(handle_, file);
   first_ = entry_point ? entry_point() : nullptr;
   std::string problem;
   if (!entry_point) {

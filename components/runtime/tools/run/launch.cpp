@@ -163,11 +163,11 @@ ExitStatus launch(const RunOptions& options, const SystemDescription& system) {
   supervise(children, stop, !connected);
 
   ExitStatus status = ExitStatus::kOk;
-  std::vector<std::filesystem::path> folders;
+  std::vector<std::string> folders;
   for (const auto& child : children) {
     close(child.to_child);
     close(child.from_child);
-    if (!child.out.empty()) folders.push_back(child.out);
+    if (!child.out.empty()) folders.push_back(child.name);
     if (child.status != 0) {
       std::fprintf(stderr, "panvo run: container %s failed (exit status %d)\n", child.name.c_str(), child.status);
       status = child.status == static_cast<int>(ExitStatus::kBadConfiguration) ? ExitStatus::kBadConfiguration : ExitStatus::kRunFailed;

@@ -21,8 +21,8 @@ struct ContainerOptions {
   bool replay = false;      ///< one thread, order of stamp, no bridge, no wall clock: the same result bit for bit
   double rate = 0;          ///< of sources, live: 1 as recorded, 2 twice as fast; 0: as fast as the components here take it, none dropped
   std::uint64_t seed = 1;   ///< of all random numbers
-  std::optional<DdsSettings> dds;  ///< absent: the container keeps to itself
-  Logger::Write log;        ///< absent: stderr
+  std::optional<DdsSettings> dds{};  ///< absent: the container keeps to itself
+  Logger::Write log{};      ///< absent: stderr
 };
 
 /// One process's components, and what runs them. Used by one thread, except request_stop().
@@ -77,7 +77,7 @@ class Container {
   void on_progress(std::function<void(Source::Progress)> callback);
 
   std::vector<QueueCounters> queue_counters() const;
-  std::map<std::string, std::map<std::string, StageTimes::Times>> stage_times() const;
+  ComponentTimes stage_times() const;
   /// Per component, the parameters that differ from their defaults.
   std::map<std::string, std::map<std::string, std::string>> changed_parameters() const;
   /// Every parameter a component declares.

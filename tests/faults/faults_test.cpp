@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a user gets who gives the whole something wrong: an error that names it, or poses that say they are unreliable; never a crash or a NaN.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <fstream>
+#include <opencv2/core.hpp>
+#include <sstream>
+#include <thread>
+
+#include "process.hpp"
+#include "rendered_walk.hpp"
+
+namespace panvo::test {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+const std::string kStereo = SYSTEMS "/stereo.yaml";
+constexpr int kBadConfiguration = 2;
+
+struct Fault : testing::Test {
+  TemporaryFolder folder;
+
+  std::string write_walk(const RenderedWalk& walk) const {
+    walk.write(folder.path() / "walk");
+    return folder / "walk";
+  }
+
+  std::string write(const std::string& name, const std::string& text) const {
+    std::ofstream(folder.path() / name) << text;
+    return folder / name;
+  }
+
+  Finished replay(const std::string& data, const std::vector<std::string>& more = {}) const {
+    std::vector<std::string> words{PANVO_RUN, kStereo, "--dataset", data, "--out", folder / "out", "--replay"};
+    words.insert(words.end(), more.begin(), more.end());
+    return run(words);
+  }
+
+  /// Lines of the trajectory; fails on a number that is none.
+  std::size_t count_sound_poses() const {
+    std::istringstream lines(read_file(folder.path() / "out" / "odometry_binocular.tum"));
+    std::size_t count = 0;
+    for (std::string line; std::getline(lines, line); ++count) {
+      EXPECT_THAT(line, AllOf(Not(HasSubstr("nan")), Not(HasSubstr("inf"))));
+    }
+    return count;
+  }
+};
+
+TEST_F(Fault, AMissingDataSetIsNamed) {
+  const Finished finished = replay(folder / "nowhere");
+  EXPECT_EQ(finished.status, kBadConfiguration);
+  EXPECT_THAT(finished.output, HasSubstr(folder / "nowhere"));
+}
+
+TEST_F(Fault, AnEmptyDataSetIsToldWhatWasLookedFor) {
+  std::filesystem::create_directories(folder.path() / "empty");
+  const Finished finished = replay(folder / "empty");
+  EXPECT_EQ(finished.status, kBadConfiguration);
+  EXPECT_THAT(finished.output, AllOf(HasSubstr("empty"), HasSubstr("calib.txt"), HasSubstr("mav0")));
+}
+
+TEST_F(Fault, ACalibrationWithoutBaselineIsRefused) {
+  const std::string data = write_walk({.frames = 2});
+  std::ofstream(folder.path() / "walk" / "calib.txt") << "P0: 240 0 160 0 0 240 120 0 0 0 1 0\nP1: 240 0 160 0 0 240 120 0 0 0 1 0\n";
+  const Finished finished = replay(data);
+  EXPECT_EQ(finished.status, kBadConfiguration);
+  EXPECT_THAT(finished.output, AllOf(HasSubstr("calib.txt"), HasSubstr("baseline")));
+}
+
+TEST_F(Fault, AMisspeltParameterIsNamedWithFileAndLineAndWhatWasMeant) {
+  const std::string system = write("system.yaml",
+                                   "launch:\n"
+                                   "- node_container:\n"
+                                   "    name: panvo\n"
+                                   "    composable_node:\n"
+                                   "    - pkg: panvo_stereo_rectifier\n"
+                                   "      plugin: StereoRectifierComponent\n"
+                                   "      name: stereo_rectifier\n"
+                                   "      param:\n"
+                                   "      - {name: outptu, value: mono8}\n");
+  const Finished finished = run({PANVO_RUN, system, "--dataset", write_walk({.frames = 2}), "--replay"});
+  EXPECT_EQ(finished.status, kBadConfiguration);
+  EXPECT_THAT(finished.output, AllOf(HasSubstr("system.yaml:9"), HasSubstr("outptu"), HasSubstr("did you mean"), HasSubstr("output")));
+}
+
+TEST_F(Fault, APluginThatIsNotThereIsNamed) {
+  const std::string system = write("system.yaml",
+                                   "launch:\n"
+                                   "- node_container:\n"
+                                   "    name: panvo\n"
+                                   "    composable_node:\n"
+                                   "    - {pkg: panvo_teleporter, plugin: TeleporterComponent, name: teleporter}\n");
+  const Finished finished = run({PANVO_RUN, system, "--replay"});
+  EXPECT_EQ(finished.status, kBadConfiguration);
+  EXPECT_THAT(finished.output, AllOf(HasSubstr("system.yaml:5"), HasSubstr("libpanvo_teleporter_component.so")));
+}
+
+TEST_F(Fault, AnUnknownSettingIsRefusedAndTheComponentsAreNamed) {
+  const Finished finished = replay(write_walk({.frames = 2}), {"--set", "odometer.speed=2"});
+  EXPECT_EQ(finished.status, kBadConfiguration);
+  EXPECT_THAT(finished.output, AllOf(HasSubstr("odometer"), HasSubstr("binocular_odometry")));
+}
+
+/// Frames 8 to 11 of 20 are spoilt; the odometry must say so of those, and be right again by the end.
+struct SpoiltFrames : Fault, testing::WithParamInterface<std::pair<const char*, std::function<void(cv::Mat&, cv::Mat&)>>> {};
+
+TEST_P(SpoiltFrames, AreCarriedWithoutNaNAndTheOdometryRecovers) {
+  RenderedWalk walk;
+  walk.spoil = [](int frame, cv::Mat& left, cv::Mat& right) {
+    if (frame >= 8 && frame < 12) GetParam().second(left, right);
+  };
+  const Finished finished = replay(write_walk(walk));
+  EXPECT_EQ(finished.status, 0) << finished.output;
+  EXPECT_EQ(count_sound_poses(), 20U);
+  std::istringstream lines(read_file(folder.path() / "out" / "odometry_binocular.tum"));
+  std::string line, last;
+  while (std::getline(lines, line)) last = line;
+  std::istringstream words(last);
+  double stamp = 0, x = 0, y = 0, z = 0;
+  words >> stamp >> x >> y >> z;
+  EXPECT_NEAR(x, 1.9, 0.1);  // carried by the motion model over the gap: this walk is steady
+  EXPECT_NEAR(y, 0, 0.1);
+  EXPECT_NEAR(z, 0, 0.1);
+}
+
+INSTANTIATE_TEST_SUITE_P(, SpoiltFrames,
+                         testing::Values(std::pair{"black", [](cv::Mat& left, cv::Mat& right) { left = 0, right = 0; }},
+                                         std::pair{"constant", [](cv::Mat& left, cv::Mat& right) { left = 128, right = 128; }},
+                                         std::pair{"saturated", [](cv::Mat& left, cv::Mat& right) { left = 255, right = 255; }},
+                                         std::pair{"swapped", [](cv::Mat& left, cv::Mat& right) { cv::swap(left, right); }}),
+                         [](const auto& spoilt) { return spoilt.param.first; });
+
+TEST_F(Fault, AnUndecodableImageIsNamedAndSkipped) {
+  const std::string data = write_walk({});
+  std::ofstream(folder.path() / "walk" / "image_0" / "000005.png") << "this is no picture";
+  const Finished finished = replay(data);
+  EXPECT_EQ(finished.status, 0) << finished.output;
+  EXPECT_THAT(finished.output, HasSubstr("000005.png"));
+  EXPECT_EQ(count_sound_poses(), 19U);
+}
+
+TEST_F(Fault, OneEyeMissingInAPairIsNamedAndThePairLeftOut) {
+  const std::string data = write_walk({});
+  std::filesystem::remove(folder.path() / "walk" / "image_1" / "000007.png");
+  const Finished finished = replay(data);
+  EXPECT_EQ(finished.status, 0) << finished.output;
+  EXPECT_THAT(finished.output, HasSubstr("000007.png"));
+  EXPECT_EQ(count_sound_poses(), 19U);
+}
+
+TEST_F(Fault, TimestampsThatGoBackwardsAreRefusedWithTheirLine) {
+  const std::string data = write_walk({.frames = 4});
+  std::ofstream(folder.path() / "walk" / "times.txt") << "0\n0.1\n0.05\n0.3\n";
+  const Finished finished = replay(data);
+  EXPECT_EQ(finished.status, kBadConfiguration);
+  EXPECT_THAT(finished.output, HasSubstr("times.txt:3"));
+}
+
+TEST_F(Fault, SigkillWhileRecordingLeavesAReadableBag) {
+  const std::string data = write_walk({.frames = 60});
+  const std::string bag = folder / "bag";
+  Process recording({PANVO_RUN, SYSTEMS "/record.yaml", "output:=" + bag, "--dataset", data, "--local", "--rate", "1"});
+  // Killed as soon as the database has grown beyond its empty tables: something is committed.
+  const auto give_up = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+  const auto bytes = [&] {
+    std::uintmax_t total = 0;
+    std::error_code error;
+    for (const auto& file : std::filesystem::directory_iterator(bag, error)) total += file.file_size(error);
+    return total;
+  };
+  while (bytes() < 1'000'000 && std::chrono::steady_clock::now() < give_up) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  recording.signal(SIGKILL);
+  EXPECT_EQ(recording.wait(), 128 + SIGKILL);
+  const Finished info = run({PANVO_BAG, "info", bag});
+  EXPECT_EQ(info.status, 0) << info.output;
+  EXPECT_THAT(info.output, HasSubstr("/stereo/left/image_raw"));
+  const Finished played = run({PANVO_RUN, kStereo, "--bag", bag, "--out", folder / "out", "--replay"});
+  EXPECT_EQ(played.status, 0) << played.output;
+  EXPECT_GT(count_sound_poses(), 2U);
+}
+
+TEST_F(Fault, ABagCutOffInItsMiddleIsPlayedAsFarAsItGoes) {
+  const std::string bag = folder / "bag";
+  ASSERT_EQ(run({PANVO_RUN, SYSTEMS "/record.yaml", "output:=" + bag, "--dataset", write_walk({}), "--replay"}).status, 0);
+  for (const auto& file : std::filesystem::directory_iterator(bag)) {
+    if (file.path().extension() == ".db3") std::filesystem::resize_file(file.path(), file.file_size() / 2);
+  }
+  const Finished played = run({PANVO_RUN, kStereo, "--bag", bag, "--out", folder / "out", "--replay"});
+  EXPECT_LT(played.status, 128) << played.output;  // no crash
+  EXPECT_THAT(played.output, HasSubstr(".db3"));
+  count_sound_poses();
+}
+
+TEST_F(Fault, SigintEndsARunSoonAndLeavesItsResults) {
+  const std::string data = write_walk({.frames = 100});
+  Process running({PANVO_RUN, kStereo, "--dataset", data, "--out", folder / "out", "--local", "--rate", "1"});
+  const auto give_up = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+  const auto trajectory = folder.path() / "out" / "odometry_binocular.tum";
+  while (read_file(trajectory).empty() && std::chrono::steady_clock::now() < give_up) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  running.signal(SIGINT);
+  EXPECT_EQ(running.wait(std::chrono::seconds(30)), 0) << running.output();
+  EXPECT_GT(count_sound_poses(), 0U);
+  EXPECT_TRUE(std::filesystem::exists(folder.path() / "out" / "summary.json"));
+}
+
+}  // namespace
+}  // namespace panvo::test

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+// The whole on recorded topics: from a data set into a bag, from the bag into odometry; replayed, live, and split over two processes.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <sstream>
+
+#include "process.hpp"
+#include "rendered_walk.hpp"
+
+namespace panvo::test {
+namespace {
+
+using std::chrono::seconds;
+
+const std::string kStereo = SYSTEMS "/stereo.yaml";
+
+struct Position {
+  double x, y, z;
+};
+
+/// stamp as written -> position.
+std::map<std::string, Position> read_tum(const std::filesystem::path& file) {
+  std::map<std::string, Position> positions;
+  std::istringstream lines(read_file(file));
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream words(line);
+    std::string stamp;
+    Position position{};
+    words >> stamp >> position.x >> position.y >> position.z;
+    positions[stamp] = position;
+  }
+  return positions;
+}
+
+double distance(const Position& a, const Position& b) { return std::hypot(a.x - b.x, a.y - b.y, a.z - b.z); }
+
+/// A bag of the raw images of a recording; made once for all tests of this process.
+class RecordedTopics : public testing::TestWithParam<std::string> {
+ protected:
+  void SetUp() override {
+    data_ = GetParam() == "rendered" ? folder_.path() / "rendered" : recording(GetParam());
+    if (data_.empty()) GTEST_SKIP() << "no recording " << GetParam() << " in $PANVO_DATA or shared/data beside the checkout";
+    if (GetParam() == "rendered") RenderedWalk{}.write(data_);
+    const Finished recorded = run({PANVO_RUN, SYSTEMS "/record.yaml", "output:=" + bag_, "--dataset", data_.string(), "--replay"});
+    ASSERT_EQ(recorded.status, 0) << recorded.output;
+  }
+
+  Finished play(const std::string& out, const std::vector<std::string>& more) const {
+    std::vector<std::string> words{PANVO_RUN, kStereo, "--bag", bag_, "--out", folder_ / out};
+    words.insert(words.end(), more.begin(), more.end());
+    return run(words, seconds(200));
+  }
+
+  TemporaryFolder folder_;
+  const std::string bag_ = folder_ / "bag";
+  std::filesystem::path data_;
+};
+
+TEST_P(RecordedTopics, ReplayToTheSameOdometryBitForBit) {
+  for (const char* out : {"first", "second"}) {
+    const Finished played = play(out, {"--replay"});
+    ASSERT_EQ(played.status, 0) << played.output;
+  }
+  for (const char* file : {"odometry_binocular.tum", "odometry_binocular_covariance.csv"}) {
+    const std::string first = read_file(folder_.path() / "first" / file);
+    EXPECT_FALSE(first.empty()) << file;
+    EXPECT_EQ(first, read_file(folder_.path() / "second" / file)) << file;
+  }
+}
+
+TEST_P(RecordedTopics, GiveTheSameOdometryLiveInOneContainerWhenNothingIsDropped) {
+  const Finished replayed = play("replayed", {"--replay"});
+  ASSERT_EQ(replayed.status, 0) << replayed.output;
+  const Finished live = play("live", {"--local", "--rate", "0"});
+  ASSERT_EQ(live.status, 0) << live.output;
+  EXPECT_EQ(read_file(folder_.path() / "replayed" / "odometry_binocular.tum"), read_file(folder_.path() / "live" / "odometry_binocular.tum"));
+}
+
+TEST_P(RecordedTopics, GiveTheSameOdometryInTwoProcessesOverDds) {
+  const Finished replayed = play("replayed", {"--replay"});
+  ASSERT_EQ(replayed.status, 0) << replayed.output;
+  // A domain of its own, so that nothing else that runs here is heard.
+  const std::string domain = std::to_string(100 + getpid() % 100);
+  const Finished split = run({PANVO_RUN, HERE "/two_processes.yaml", "--bag", bag_, "--out", folder_ / "split", "--rate", "1", "--domain", domain},
+                             seconds(200));
+  ASSERT_EQ(split.status, 0) << split.output;
+  const auto expected = read_tum(folder_.path() / "replayed" / "odometry_binocular.tum");
+  const auto got = read_tum(folder_.path() / "split" / "odometry_binocular.tum");
+  // Between processes a frame may be lost when the machine is busy, and the path then differs by what one frame more or less changes:
+  // far less than 5 cm over these few metres. All but one in ten must arrive.
+  EXPECT_GE(got.size(), expected.size() * 9 / 10) << split.output;
+  for (const auto& [stamp, position] : got) {
+    ASSERT_TRUE(expected.contains(stamp)) << stamp;
+    EXPECT_LT(distance(position, expected.at(stamp)), 0.05) << stamp;
+  }
+}
+
+TEST_P(RecordedTopics, RecordedTwiceAreTheSameBagMessageForMessage) {
+  const std::string again = folder_ / "again";
+  const Finished recorded = run({PANVO_RUN, SYSTEMS "/record.yaml", "output:=" + again, "--dataset", data_.string(), "--replay"});
+  ASSERT_EQ(recorded.status, 0) << recorded.output;
+  const Finished compared = run({PANVO_BAG, "diff", bag_, again});
+  EXPECT_EQ(compared.status, 0) << compared.output;
+}
+
+INSTANTIATE_TEST_SUITE_P(, RecordedTopics, testing::Values("rendered", "kitti_03"), [](const auto& name) { return name.param; });
+
+TEST(RenderedWalk, IsMeasuredToAFewCentimetres) {
+  TemporaryFolder folder;
+  RenderedWalk{.frames = 40}.write(folder.path() / "walk");
+  const Finished played = run({PANVO_RUN, kStereo, "--dataset", folder / "walk", "--out", folder / "out", "--replay"});
+  ASSERT_EQ(played.status, 0) << played.output;
+  const auto path = read_tum(folder.path() / "out" / "odometry_binocular.tum");
+  ASSERT_EQ(path.size(), 40U);
+  for (const auto& [stamp, position] : path) {  // base_link: x forward; 0.1 m every 0.1 s, so that x in m is the stamp in s
+    EXPECT_LT(distance(position, {std::stod(stamp), 0, 0}), 0.04) << stamp;  // 1 % of the whole way
+  }
+}
+
+}  // namespace
+}  // namespace panvo::test
