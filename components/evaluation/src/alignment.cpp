@@ -10,7 +10,8 @@ namespace {
 constexpr double kSmallestExtentM = 1e-6;
 
 double extent_m(const Eigen::Matrix3Xd& points) {
-  return (points.colwise() - points.rowwise().mean()).colwise().norm().maxCoeff();
+  const Eigen::Vector3d centre = points.rowwise().mean();  // evaluated once, not once a column
+  return (points.colwise() - centre).colwise().norm().maxCoeff();
 }
 
 std::optional<MapFromOdom> align_positions(std::span<const PosePair> pairs, bool with_scale) {

@@ -40,10 +40,15 @@ int wait_for(pid_t child) {
 }  // namespace
 
 std::string gnuplot_quoted(const std::string& text) {
+  // Doubling a quote would be the documented way, but at the start of a string gnuplot 5.4 takes it for the end.
+  constexpr const char* kApostrophe = "\u2019";
   std::string quoted = "'";
   for (const char c : text) {
-    if (c == '\'') quoted += '\'';
-    quoted += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? ' ' : c;
+    if (c == '\'') {
+      quoted += kApostrophe;
+    } else {
+      quoted += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? ' ' : c;
+    }
   }
   return quoted + "'";
 }

@@ -63,7 +63,7 @@ void describe(CLI::App& app, Arguments& arguments) {
       ->capture_default_str();
   app.add_option("--segments", arguments.lengths_m, "lengths of the KITTI segments, m: 10,20,30 (default: to suit)")
       ->delimiter(',')
-      ->expected(1)
+      ->allow_extra_args(false)
       ->check(CLI::PositiveNumber);
   app.add_option("--segment-step", arguments.options.segments.step,
                  "poses between the starts of segments (default: "

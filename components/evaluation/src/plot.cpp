@@ -95,9 +95,10 @@ std::string plot_script(const Report& report) {
   add_page(page, report);
   const std::string size = "size " + number(kWidthPx) + "," + number(height_px);
   const std::string font = std::string(" noenhanced font '") + kFont + ",14' background rgb 'white'\n";
-  return "# Drawn by panvo evaluate. `gnuplot -d evaluation.gp` in this folder draws it again.\n" + data.text() +
-         "set terminal pngcairo " + size + font + "set output 'evaluation.png'\n" + page.text() + "set terminal svg " +
-         size + " dynamic" + font + "set output 'evaluation.svg'\n" + page.text() + "unset output\n";
+  return "# Drawn by panvo evaluate. `gnuplot -d evaluation.gp` in this folder draws it again.\nset encoding utf8\n" +
+         data.text() + "set terminal pngcairo " + size + font + "set output 'evaluation.png'\n" + page.text() +
+         "set terminal svg " + size + " dynamic" + font + "set output 'evaluation.svg'\n" + page.text() +
+         "unset output\n";
 }
 
 void draw_plot(const Report& report, const std::filesystem::path& folder) {

@@ -54,6 +54,11 @@ TEST_F(Plot, RunsNothingThatATitleNameOrFolderSays) {
   EXPECT_EQ(files, 3u);
 }
 
+TEST_F(Plot, IsDrawnWithNamesInAnyBytes) {
+  draw_plot(small_report("Gr\u00fc\u00dfe", "no \xff\xfe UTF-8"), folder_);
+  EXPECT_EQ(start_of(folder_ / "evaluation.png", 8), "\x89PNG\r\n\x1a\n");
+}
+
 TEST_F(Plot, NamesTheRemedyIfGnuplotIsNotInstalled) {
   const std::string path = std::getenv("PATH");
   ::setenv("PATH", folder_.c_str(), 1);
@@ -95,8 +100,8 @@ TEST(PlotScript, ThinsOutALongPathAndKeepsItsEnd) {
   EXPECT_THAT(script, HasSubstr("\n4000 4000 4000 0 0 "));
 }
 
-TEST(GnuplotQuoted, DoublesQuotesAndBlanksOutControlCharacters) {
-  EXPECT_EQ(gnuplot_quoted("it's\n`x`"), "'it''s `x`'");
+TEST(GnuplotQuoted, LeavesNoQuoteAndNoControlCharacterInside) {
+  EXPECT_EQ(gnuplot_quoted("'it's\n`x`"), "'\u2019it\u2019s `x`'");
 }
 
 TEST(EqualScale, MakesAMetreAsLongOnEitherAxisAndKeepsTheMargin) {
