@@ -31,7 +31,7 @@ resolve_system() {
   resolved_arguments=()
   while (($#)); do
     case $1 in
-      --dataset | --bag | --out | --rate | --set)
+      --dataset | --bag | --out | --rate | --set | --seed | --domain | --dds-profiles | --container)
         require_value "$@"
         resolved_arguments+=("$1" "$2")
         shift

@@ -1,14 +1,14 @@
 # SPDX-License-Identifier: Apache-2.0
 # shellcheck shell=bash
-# summary: inspect recorded bags: panvo bag info BAG
+# summary: inspect, check, mend, copy and compare recorded bags
 
 source "$PANVO_SCRIPTS/lib/build.sh"
 
 verb_usage() {
   cat <<'EOT'
-usage: panvo bag info BAG
+usage: panvo bag info | check | reindex | copy | diff ...
 
-What a recorded bag holds: topics, types, counts, duration.
+Bags are rosbag2 folders: metadata.yaml and SQLite .db3 files.
 EOT
   show_program_help panvo_bag
 }

@@ -6,9 +6,9 @@ source "$PANVO_SCRIPTS/lib/build.sh"
 
 verb_usage() {
   cat <<'EOT'
-usage: panvo component list | panvo component info COMPONENT
+usage: panvo component list | panvo component show PACKAGE
 
-The components that are found, and their topics and parameters with units, defaults and ranges.
+The components that are found; the parameters of a package, with units, defaults and ranges.
 EOT
   show_program_help panvo_component
 }

@@ -63,7 +63,7 @@ $(dataset_layouts)"
   ensure_built panvo_programs
   use_plugins
   run=$(program panvo_run)
-  "$run" "$system" --dataset "$dataset" --out "$out" "${mode[@]}" ||
+  "$run" "$system" --dataset "$dataset" --out "$out" "bag:=$out/bag" "${mode[@]}" ||
     fail "the run failed; what it said is in $out/run.log"
   show_results "$dataset" "$out"
 }

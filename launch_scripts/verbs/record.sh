@@ -9,7 +9,7 @@ verb_usage() {
   cat <<'EOT'
 usage: panvo record --out DIR [--set recorder.parameter=value ...]
 
-Records what is on the network into a rosbag2 folder below DIR until Ctrl-C: `panvo run record`. `panvo component info`
+Records what is on the network into a rosbag2 folder below DIR until Ctrl-C: `panvo run record`. `panvo component show panvo_recorder`
 names the recorder's parameters, `panvo bag info` looks into the result.
 EOT
 }

@@ -7,7 +7,7 @@ source "$PANVO_SCRIPTS/lib/systems.sh"
 
 verb_usage() {
   cat <<'EOT'
-usage: panvo run SYSTEM [--dataset DIR | --bag DIR] [--out DIR] [--replay | --rate R] [--set component.parameter=value ...]
+usage: panvo run SYSTEM [--dataset DIR | --bag DIR] [--out DIR] [--replay | --rate R] [--set C.P=V ...] [NAME:=VALUE ...]
 
 SYSTEM is a system file, or the name of one in config/systems: `panvo run stereo`.
 
@@ -15,8 +15,9 @@ SYSTEM is a system file, or the name of one in config/systems: `panvo run stereo
   --bag DIR       play a recorded bag
   --out DIR       leave trajectory, times and summary there
   --replay        deterministic: one thread, in order of stamps, as fast as it goes
-  --rate R        play at R times the recorded rate
-  --set C.P=V     set parameter P of component C
+  --rate R        play at R times the recorded rate; 0: as fast as the components take it
+  --set C.P=V     set parameter P of component C (panvo component show lists them)
+  NAME:=VALUE     give an argument that the system file declares
 
 EOT
   printf 'Systems here: %s\n' "$(list_systems)"
