@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <optional>
+#include <string>
+
+#include "odometry_messages.hpp"
+#include "panvo/binocular_odometry/binocular_odometry.hpp"
+#include "panvo/conversions/camera_info.hpp"
+#include "panvo/conversions/image.hpp"
+#include "panvo/conversions/stage_timer.hpp"
+#include "panvo/conversions/static_transforms.hpp"
+#include "panvo/conversions/time.hpp"
+#include "panvo/runtime/component.hpp"
+
+namespace panvo::binocular_odometry {
+
+/// The algorithm's parameters and the names of the frames.
+struct ComponentParameters : Parameters {
+  std::string odom_frame = "odom";
+  std::string base_frame = "base_link";
+
+  template <class Field>
+  static void describe(Field&& field) {
+    using P = ComponentParameters;
+    field.group(static_cast<TrackingParameters P::*>(&P::tracking), "tracking");
+    field.group(static_cast<MotionParameters P::*>(&P::motion), "motion");
+    field(&P::odom_frame, "odom_frame", "", "frame that the poses are in: where base_frame was at the first image");
+    field(&P::base_frame, "base_frame", "", "frame whose motion is published; /tf_static says where on it the left camera sits");
+  }
+};
+
+/// stereo/{left,right}/image_rect with their camera_info, and /tf_static -> odometry/binocular, odometry/quality, of the images' stamp.
+/// Tracking runs on the component's own thread, motion on a second one; in replay both in turn.
+class BinocularOdometryComponent final : public runtime::Component {
+ public:
+  explicit BinocularOdometryComponent(runtime::Context& context)
+      : context_(context),
+        parameters_(context.parameters<ComponentParameters>()),
+        timer_(context.times()),
+        odometry_(context.output(topics::kOdometryBinocular)),
+        quality_(context.output(topics::kOdometryQuality)),
+        tracked_(context.stage<TrackedFrame>("motion", 2, [this](const TrackedFrame& frame) { on_tracked(frame); })) {
+    context.input(topics::kTfStatic, [this](const auto& message) { on_transforms(*message); });
+    context.input(topics::kStereoLeftCameraInfo, [this](const auto& info) { on_camera(left_, *info, topics::kStereoLeftCameraInfo.name); });
+    context.input(topics::kStereoRightCameraInfo, [this](const auto& info) { on_camera(right_, *info, topics::kStereoRightCameraInfo.name); });
+    context.input_pair(topics::kStereoLeftImageRect, topics::kStereoRightImageRect,
+                       [this](const auto& left, const auto& right) { on_images(*left, *right); });
+  }
+
+ private:
+  /// Both stages, made when the cameras are known.
+  struct Stages {
+    TrackingStage tracking;
+    MotionStage motion;
+    Eigen::Isometry3d base_from_left;  // the rectified left camera
+  };
+
+  struct Camera {
+    std::string frame_id;
+    std::optional<conversions::PairedCamera> camera;
+  };
+
+  void on_transforms(const tf2_msgs::msg::TFMessage& message) {
+    for (const auto& problem : transforms_.add(message)) context_.log().warn("{}: {}", topics::kTfStatic.name, problem);
+  }
+
+  void on_camera(Camera& camera, const sensor_msgs::msg::CameraInfo& info, std::string_view topic) {
+    const auto read = conversions::to_camera(info);
+    if (!read) return say_once(fmt::format("{} {}", topic, read.reason()));
+    if (stages_ && !(*camera.camera == *read)) {
+      return say_once(fmt::format("{} changed while running and is ignored; restart if the camera was exchanged", topic));
+    }
+    camera = {info.header().frame_id(), *read};
+  }
+
+  void on_images(const sensor_msgs::msg::Image& left, const sensor_msgs::msg::Image& right) {
+    if (!stages_ && !make_stages()) return;
+    const auto left_grey = conversions::grey(left);
+    const auto right_grey = conversions::grey(right);
+    if (!left_grey || !right_grey) {
+      const auto& topic = left_grey ? topics::kStereoRightImageRect : topics::kStereoLeftImageRect;
+      return say_once(fmt::format("{} {}; the pair is left out", topic.name, left_grey ? right_grey.reason() : left_grey.reason()));
+    }
+    tracked_.push(stages_->tracking.track({conversions::stamp_ns(left), *left_grey, *right_grey}));
+  }
+
+  void on_tracked(const TrackedFrame& frame) {
+    const OdometryEstimate estimate = stages_->motion.estimate(frame);
+    odometry_.publish(to_odometry(estimate, stages_->base_from_left, last_stamp_ns_, parameters_.odom_frame, parameters_.base_frame));
+    quality_.publish(to_quality(estimate, parameters_.base_frame));
+    if (estimate.quality.reliable != was_reliable_) {
+      was_reliable_ = estimate.quality.reliable;
+      if (was_reliable_) {
+        context_.log().info("reliable again");
+      } else {
+        context_.log().warn("unreliable: {}", estimate.quality.reason);
+      }
+    }
+    last_stamp_ns_ = estimate.stamp_ns;
+  }
+
+  /// Makes both stages once both cameras and the place of the left one are known; says what is still missing.
+  bool make_stages() {
+    if (!left_.camera || !right_.camera) {
+      say_once(fmt::format("images, but nothing usable on {} yet", (left_.camera ? topics::kStereoRightCameraInfo : topics::kStereoLeftCameraInfo).name));
+      return false;
+    }
+    const auto stereo = conversions::to_stereo(*left_.camera, *right_.camera);
+    if (!stereo) {
+      say_once(fmt::format("{} and {} are of no stereo pair: {}", topics::kStereoLeftCameraInfo.name, topics::kStereoRightCameraInfo.name,
+                           stereo.reason()));
+      return false;
+    }
+    const auto base_from_raw_left = transforms_.lookup(parameters_.base_frame, left_.frame_id);
+    if (!base_from_raw_left) {
+      say_once(fmt::format("{} has no chain from {} to {} yet: publish where the left camera sits on the vehicle", topics::kTfStatic.name,
+                           parameters_.base_frame, left_.frame_id));
+      return false;
+    }
+    const Eigen::Isometry3d raw_from_rectified(left_.camera->rectified_from_raw.transpose());
+    stages_.emplace(Stages{TrackingStage(*stereo, parameters_.tracking, &timer_), MotionStage(*stereo, parameters_.motion, &timer_),
+                           *base_from_raw_left * raw_from_rectified});
+    return true;
+  }
+
+  /// Says what is wrong when it begins, not with every message.
+  void say_once(const std::string& warning) {
+    if (warning == last_warning_) return;
+    last_warning_ = warning;
+    context_.log().warn("{}", warning);
+  }
+
+  runtime::Context& context_;
+  const ComponentParameters parameters_;
+  conversions::StageTimer timer_;
+  runtime::Output<nav_msgs::msg::Odometry> odometry_;
+  runtime::Output<panvo_msgs::msg::OdometryQuality> quality_;
+  runtime::Stage<TrackedFrame> tracked_;
+
+  conversions::StaticTransforms transforms_;
+  Camera left_, right_;
+  std::string last_warning_;
+  std::optional<Stages> stages_;
+
+  // The motion stage's own.
+  std::optional<std::int64_t> last_stamp_ns_;
+  bool was_reliable_ = true;
+};
+
+PANVO_REGISTER_COMPONENT(BinocularOdometryComponent)
+
+}  // namespace panvo::binocular_odometry
