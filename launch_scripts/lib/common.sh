@@ -55,10 +55,16 @@ edit_distance() {
   printf '%s' "${row[${#b}]}"
 }
 
-# nearest_word WORD CANDIDATE...: the candidate with the fewest edits; the first of several.
+# nearest_word WORD CANDIDATE...: the candidate that begins with the word, else the one with the fewest edits; the first of several.
 nearest_word() {
   local word=$1 candidate distance nearest='' fewest=1000
   shift
+  for candidate in "$@"; do
+    if [[ $candidate == "$word"* ]]; then
+      printf '%s' "$candidate"
+      return
+    fi
+  done
   for candidate in "$@"; do
     distance=$(edit_distance "$word" "$candidate")
     if ((distance < fewest)); then
