@@ -106,7 +106,7 @@ std::string full_name(std::string_view name_space, std::string_view name) {
 std::string resolve_topic(std::string_view name_space, std::string_view node_name,
                           const std::map<std::string, std::string>& remaps, std::string_view topic) {
   check_topic(topic);
-  const std::string resolved = expand(name_space, node_name, topic);
+  std::string resolved = expand(name_space, node_name, topic);
   for (const auto& [from, to] : remaps) {
     if (expand(name_space, node_name, from) == resolved) {
       check_topic(to);

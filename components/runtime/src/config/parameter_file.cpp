@@ -52,7 +52,7 @@ class ParameterFile {
     for (const auto& pair : map) {
       const std::string key = pair.first.IsScalar() ? pair.first.Scalar() : "";
       if (key != kParameters) {
-        read_sections(pair.second, name.empty() ? key : name + "/" + key, depth + 1);
+        read_sections(pair.second, name.empty() ? key : std::string(name).append(1, '/').append(key), depth + 1);
         continue;
       }
       any_section_ = true;

@@ -90,7 +90,7 @@ class SystemReader {
     }
     const YAML::Node name_node = node.begin()->first;
     const YAML::Node body = node.begin()->second;
-    const std::string name = name_node.Scalar();
+    const std::string& name = name_node.Scalar();
     if (name == "group") {
       return read_group(body, scope, file);
     }

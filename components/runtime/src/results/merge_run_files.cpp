@@ -46,6 +46,11 @@ void add(RunSummary& all, const RunSummary& one) {
   all.exit_status = all.exit_status != 0 ? all.exit_status : one.exit_status;
 }
 
+/// How the second of two things of one name is called.
+std::string apart(const std::string& container, char separator, const std::string& name) {
+  return std::string(container).append(1, separator).append(name);
+}
+
 /// Every container tells of its own components; one that two tell of keeps the container's name apart.
 void add_components(Json& all, const Json& timing, const std::string& container) {
   const auto components = timing.find("components");
@@ -53,7 +58,7 @@ void add_components(Json& all, const Json& timing, const std::string& container)
     return;
   }
   for (const auto& [name, component] : components->items()) {
-    all[all.contains(name) ? container + "/" + name : name] = component;
+    all[all.contains(name) ? apart(container, '/', name) : name] = component;
   }
 }
 
@@ -71,7 +76,7 @@ void move_up(const std::filesystem::path& folder, const std::string& subfolder, 
       continue;
     }
     if (!taken.insert(name).second) {
-      name = subfolder + "_" + name;
+      name = apart(subfolder, '_', name);
       taken.insert(name);
     }
     std::filesystem::rename(file, folder / name, error);

@@ -10,11 +10,11 @@
 namespace panvo::runtime {
 namespace {
 
-constexpr std::int64_t kSecond_ns = 1'000'000'000;
+constexpr std::int64_t kSecondNs = 1'000'000'000;
 
 std::int64_t stamp_ns(const nav_msgs::msg::Odometry& odometry) {
   const auto& stamp = odometry.header().stamp();
-  return std::int64_t{stamp.sec()} * kSecond_ns + stamp.nanosec();
+  return std::int64_t{stamp.sec()} * kSecondNs + stamp.nanosec();
 }
 
 /// Appends numbers until one is not finite.
@@ -41,8 +41,8 @@ class Line {
 }  // namespace
 
 std::string stamp_text(std::int64_t stamp_ns) {
-  const auto whole = std::to_string(std::abs(stamp_ns / kSecond_ns));
-  const auto decimals = std::to_string(std::abs(stamp_ns % kSecond_ns));
+  const auto whole = std::to_string(std::abs(stamp_ns / kSecondNs));
+  const auto decimals = std::to_string(std::abs(stamp_ns % kSecondNs));
   return (stamp_ns < 0 ? "-" : "") + whole + "." + std::string(9 - decimals.size(), '0') + decimals;
 }
 
