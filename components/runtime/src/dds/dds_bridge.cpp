@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <memory>
+#include <mutex>
+#include <utility>
+
+#include "discovery.hpp"
+#include "notifier.hpp"
+#include "panvo/runtime/bridge.hpp"
+#include "participant.hpp"
+#include "participant_qos.hpp"
+#include "reader.hpp"
+#include "writer.hpp"
+
+namespace panvo::runtime {
+namespace {
+
+/// Writers and readers are in a participant each, both of which ignore participants of their own process: that keeps endpoints of one
+/// process apart, for which Fast DDS 2.9 has no other means. A participant is nine threads, so each is made when it is first needed.
+class DdsBridge final : public Bridge {
+ public:
+  explicit DdsBridge(const DdsSettings& settings) : settings_(settings) { dds::load_profiles(settings_); }
+
+  // Endpoints that are still open keep their participant; nobody is called back about discovery any more.
+  ~DdsBridge() override { notifier_->stop(); }
+
+  std::unique_ptr<BridgeWriter> open_writer(const TopicDescription& topic) override {
+    return std::make_unique<dds::Writer>(topic, participant(dds::Role::kWriters), notifier_);
+  }
+
+  std::unique_ptr<BridgeReader> open_reader(const TopicDescription& topic,
+                                            std::function<void(SamplePtr)> on_sample) override {
+    return std::make_unique<dds::Reader>(topic, std::move(on_sample), participant(dds::Role::kReaders), notifier_);
+  }
+
+  void watch_topics(std::function<void(const TopicDescription&)> on_topic) override {
+    discovery_->watch(on_topic);
+    participant(dds::Role::kReaders);
+  }
+
+  void on_warning(std::function<void(const std::string&)> callback) override {
+    notifier_->on_warning(std::move(callback));
+  }
+
+ private:
+  std::shared_ptr<dds::Participant> participant(dds::Role role) {
+    const std::lock_guard lock(mutex_);
+    auto& participant = role == dds::Role::kWriters ? writers_ : readers_;
+    if (!participant) participant = std::make_shared<dds::Participant>(settings_, role, discovery_);
+    return participant;
+  }
+
+  const DdsSettings settings_;
+  const std::shared_ptr<dds::Notifier> notifier_ = std::make_shared<dds::Notifier>();
+  const std::shared_ptr<dds::Discovery> discovery_ = std::make_shared<dds::Discovery>(notifier_);
+  std::mutex mutex_;
+  std::shared_ptr<dds::Participant> writers_, readers_;
+};
+
+}  // namespace
+
+std::unique_ptr<Bridge> make_dds_bridge(const DdsSettings& settings) { return std::make_unique<DdsBridge>(settings); }
+
+}  // namespace panvo::runtime

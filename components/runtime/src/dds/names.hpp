@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace panvo::runtime::dds {
+
+/// How ROS 2 writes its names on the wire, there and back.
+
+/// "/stereo/left/image_rect" -> "rt/stereo/left/image_rect"
+std::string wire_topic_name(std::string_view name);
+
+/// "rt/odom" -> "/odom"; nullopt for what is no ROS 2 topic (services, discovery, other people's DDS).
+std::optional<std::string> topic_name_from_wire(std::string_view wire_name);
+
+/// "sensor_msgs/msg/Image" -> "sensor_msgs::msg::dds_::Image_"; nullopt for a name that is not of that form.
+std::optional<std::string> wire_type_name(std::string_view name);
+
+/// "sensor_msgs::msg::dds_::Image_" -> "sensor_msgs/msg/Image"; nullopt for what is no ROS 2 type.
+std::optional<std::string> type_name_from_wire(std::string_view wire_name);
+
+}  // namespace panvo::runtime::dds

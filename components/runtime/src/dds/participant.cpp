@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "participant.hpp"
+
+#include <spdlog/fmt/fmt.h>
+#include <fastdds/dds/domain/DomainParticipantFactory.hpp>
+#include <fastdds/dds/topic/TypeSupport.hpp>
+
+#include "names.hpp"
+#include "panvo/runtime/errors.hpp"
+#include "sample_data_type.hpp"
+
+namespace panvo::runtime::dds {
+
+namespace fdds = eprosima::fastdds::dds;
+
+Participant::Participant(const DdsSettings& settings, Role role, std::shared_ptr<Discovery> discovery)
+    : discovery_(std::move(discovery)) {
+  auto* factory = fdds::DomainParticipantFactory::get_instance();
+  // The mask is empty: endpoints have listeners of their own. Discovery is called in any case.
+  participant_ =
+      factory->create_participant(static_cast<fdds::DomainId_t>(settings.domain), participant_qos(settings, role),
+                                  discovery_.get(), fdds::StatusMask::none());
+  if (!participant_) {
+    throw ConfigError(fmt::format(
+        "no DDS participant could be made in domain {}: is there a network interface (lo will do), is /dev/shm "
+        "writable, and does the profile file fit this machine?",
+        settings.domain));
+  }
+  publisher_ = participant_->create_publisher(fdds::PUBLISHER_QOS_DEFAULT);
+  subscriber_ = participant_->create_subscriber(fdds::SUBSCRIBER_QOS_DEFAULT);
+}
+
+Participant::~Participant() {
+  participant_->delete_publisher(publisher_);
+  participant_->delete_subscriber(subscriber_);
+  fdds::DomainParticipantFactory::get_instance()->delete_participant(participant_);
+}
+
+void Participant::register_type(const std::string& wire_type_name) {
+  // A registered type stays: it is a name and a few words, and its code is this library's.
+  if (!participant_->find_type(wire_type_name).empty()) return;
+  fdds::TypeSupport(new SampleDataType(wire_type_name)).register_type(participant_);
+}
+
+std::shared_ptr<fdds::Topic> Participant::topic(const TopicDescription& description) {
+  const auto type_name =
+      description.type ? std::optional<std::string>(description.type->dds_name) : wire_type_name(description.type_name);
+  if (!type_name) {
+    throw ConfigError(fmt::format("topic {}: '{}' is no type name; write it as package/msg/Type", description.name,
+                                  description.type_name));
+  }
+  const std::string name = wire_topic_name(description.name);
+  const std::lock_guard lock(mutex_);
+  OpenTopic& open = topics_[name];
+  if (open.topic && open.topic->get_type_name() != *type_name) {
+    throw ConfigError(fmt::format(
+        "topic {}: is already open here with type {}, and cannot have type {} too; remap one of them", description.name,
+        type_name_from_wire(open.topic->get_type_name()).value_or("?"), description.type_name));
+  }
+  if (!open.topic) {
+    register_type(*type_name);
+    open.topic = participant_->create_topic(name, *type_name, fdds::TOPIC_QOS_DEFAULT);
+    if (!open.topic) {
+      topics_.erase(name);
+      throw ConfigError(
+          fmt::format("topic {}: Fast DDS refused it with type {}", description.name, description.type_name));
+    }
+    discovery_->topic_opened(name, *type_name);
+  }
+  ++open.users;
+  return {open.topic, [self = shared_from_this(), name](fdds::Topic*) { self->delete_topic(name); }};
+}
+
+void Participant::delete_topic(const std::string& wire_name) {
+  const std::lock_guard lock(mutex_);
+  const auto open = topics_.find(wire_name);
+  if (--open->second.users > 0) return;
+  discovery_->topic_closed(wire_name, open->second.topic->get_type_name());
+  participant_->delete_topic(open->second.topic);
+  topics_.erase(open);
+}
+
+}  // namespace panvo::runtime::dds

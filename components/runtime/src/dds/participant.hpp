@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <fastdds/dds/domain/DomainParticipant.hpp>
+#include <fastdds/dds/publisher/Publisher.hpp>
+#include <fastdds/dds/subscriber/Subscriber.hpp>
+#include <fastdds/dds/topic/Topic.hpp>
+
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+
+#include "discovery.hpp"
+#include "panvo/runtime/bridge.hpp"
+#include "participant_qos.hpp"
+
+namespace panvo::runtime::dds {
+
+/// A Fast DDS participant with what its endpoints share. Shared by the bridge and its endpoints: it goes with the last of them, so that
+/// no order of destruction leaves an endpoint without it. Safe to use from several threads.
+class Participant : public std::enable_shared_from_this<Participant> {
+ public:
+  /// Throws ConfigError when there can be none.
+  Participant(const DdsSettings& settings, Role role, std::shared_ptr<Discovery> discovery);
+  ~Participant();
+  Participant(const Participant&) = delete;
+  Participant& operator=(const Participant&) = delete;
+
+  eprosima::fastdds::dds::Publisher& publisher() { return *publisher_; }
+  eprosima::fastdds::dds::Subscriber& subscriber() { return *subscriber_; }
+
+  /// The topic of that name, which Fast DDS allows once a participant: every endpoint of it holds the same, the last one deletes it.
+  /// Throws ConfigError when it is already open with another type, or its type's name is none.
+  std::shared_ptr<eprosima::fastdds::dds::Topic> topic(const TopicDescription& description);
+
+ private:
+  void register_type(const std::string& wire_type_name);
+  void delete_topic(const std::string& wire_name);
+
+  const std::shared_ptr<Discovery> discovery_;  // Fast DDS calls it until the participant is gone
+  eprosima::fastdds::dds::DomainParticipant* participant_ = nullptr;
+  eprosima::fastdds::dds::Publisher* publisher_ = nullptr;
+  eprosima::fastdds::dds::Subscriber* subscriber_ = nullptr;
+
+  struct OpenTopic {
+    eprosima::fastdds::dds::Topic* topic = nullptr;
+    int users = 0;
+  };
+  std::mutex mutex_;
+  std::map<std::string, OpenTopic> topics_;  // by name on the wire
+};
+
+}  // namespace panvo::runtime::dds

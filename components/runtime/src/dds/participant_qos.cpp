@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "participant_qos.hpp"
+
+#include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
+#include <fastdds/rtps/transport/shared_mem/SharedMemTransportDescriptor.h>
+#include <spdlog/fmt/fmt.h>
+#include <fastdds/dds/domain/DomainParticipantFactory.hpp>
+
+#include <fstream>
+#include <string_view>
+#include <vector>
+
+#include "panvo/runtime/errors.hpp"
+
+namespace panvo::runtime::dds {
+
+namespace fdds = eprosima::fastdds::dds;
+using eprosima::fastrtps::types::ReturnCode_t;
+namespace rtps = eprosima::fastdds::rtps;
+
+namespace {
+
+// 32 MB hold 18 panoramas of 1.75 MB on their way; with Fast DDS's own 512 KB they come late, or not at all. All of it is resident from
+// the start, so who only reads, and sends no more than acknowledgements, has a small one. Messages go in fragments of what the smallest
+// transport takes, UDP's 64 KB; larger ones in shared memory were measured to be no faster and take 60 MB more.
+constexpr std::uint32_t kWriterSegmentSize = 32 * 1024 * 1024;
+constexpr std::uint32_t kReaderSegmentSize = 1024 * 1024;
+constexpr std::uint32_t kSocketBufferSize = 4 * 1024 * 1024;
+
+// A participant that comes answers the first announcement it hears of another only once; if that answer is lost, it is found at the
+// next periodic announcement. The default is 3 s, and is reached in one start of ten.
+constexpr std::int32_t kAnnouncementPeriod_ns = 500'000'000;
+
+constexpr int kMaxDomain = 232;  // the ports of a higher one would be past 65535
+
+bool names_transports(const fdds::DomainParticipantQos& qos) {
+  return !(qos.transport() == fdds::PARTICIPANT_QOS_DEFAULT.transport());
+}
+
+void use_our_transports(fdds::DomainParticipantQos& qos, Role role) {
+  const auto shared_memory = std::make_shared<rtps::SharedMemTransportDescriptor>();
+  shared_memory->segment_size(role == Role::kWriters ? kWriterSegmentSize : kReaderSegmentSize);
+  const auto udp = std::make_shared<rtps::UDPv4TransportDescriptor>();
+  udp->sendBufferSize = kSocketBufferSize;
+  udp->receiveBufferSize = kSocketBufferSize;
+  qos.transport().use_builtin_transports = false;
+  qos.transport().user_transports = {shared_memory, udp};
+}
+
+}  // namespace
+
+void load_profiles(const DdsSettings& settings) {
+  if (settings.domain < 0 || settings.domain > kMaxDomain) {
+    throw ConfigError(
+        fmt::format("DDS domain {}: must be 0 to {}; correct ROS_DOMAIN_ID", settings.domain, kMaxDomain));
+  }
+  auto* factory = fdds::DomainParticipantFactory::get_instance();
+  factory->load_profiles();
+  if (settings.profiles.empty()) return;
+  if (!std::ifstream(settings.profiles)) {
+    throw ConfigError(
+        fmt::format("{}: the DDS profile file cannot be read; correct its path or leave it out", settings.profiles));
+  }
+  if (factory->load_XML_profiles_file(settings.profiles) != ReturnCode_t::RETCODE_OK) {
+    throw ConfigError(
+        fmt::format("{}: is no valid Fast DDS profile file (the lines above say where); see config/dds for an example",
+                    settings.profiles));
+  }
+  // This makes the factory take its defaults from the profiles again.
+  factory->set_default_participant_qos(fdds::PARTICIPANT_QOS_DEFAULT);
+}
+
+fdds::DomainParticipantQos participant_qos(const DdsSettings& settings, Role role) {
+  fdds::DomainParticipantQos qos;
+  fdds::DomainParticipantFactory::get_instance()->get_default_participant_qos(qos);
+  if (!names_transports(qos)) use_our_transports(qos, role);
+  qos.name(settings.name + (role == Role::kWriters ? "_writers" : "_readers"));
+
+  // rmw puts the terminating zero on the wire too.
+  constexpr std::string_view enclave("enclave=/;\0", 11);
+  qos.user_data().setValue(std::vector<eprosima::fastrtps::rtps::octet>(enclave.begin(), enclave.end()));
+
+  auto& discovery = qos.wire_protocol().builtin.discovery_config;
+  const auto default_period =
+      fdds::PARTICIPANT_QOS_DEFAULT.wire_protocol().builtin.discovery_config.leaseDuration_announcementperiod;
+  if (discovery.leaseDuration_announcementperiod == default_period) {
+    discovery.leaseDuration_announcementperiod = eprosima::fastrtps::Duration_t(0, kAnnouncementPeriod_ns);
+  }
+  auto& flags = discovery.ignoreParticipantFlags;
+  flags = static_cast<eprosima::fastrtps::rtps::ParticipantFilteringFlags_t>(
+      flags | eprosima::fastrtps::rtps::ParticipantFilteringFlags_t::FILTER_SAME_PROCESS);
+  return qos;
+}
+
+}  // namespace panvo::runtime::dds

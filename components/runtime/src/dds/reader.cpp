@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "reader.hpp"
+
+#include <spdlog/fmt/fmt.h>
+#include <fastdds/dds/subscriber/SampleInfo.hpp>
+
+#include <exception>
+
+#include "endpoint_qos.hpp"
+#include "panvo/runtime/errors.hpp"
+
+namespace panvo::runtime::dds {
+
+namespace fdds = eprosima::fastdds::dds;
+using eprosima::fastrtps::types::ReturnCode_t;
+
+Reader::Reader(const TopicDescription& topic, OnSample on_sample, std::shared_ptr<Participant> participant,
+               std::shared_ptr<Notifier> notifier)
+    : description_(topic),
+      on_sample_(std::move(on_sample)),
+      participant_(std::move(participant)),
+      notifier_(std::move(notifier)),
+      topic_(participant_->topic(topic)) {
+  fdds::DataReaderQos qos = participant_->subscriber().get_default_datareader_qos();
+  apply(topic, qos);
+  reader_ = participant_->subscriber().create_datareader(topic_.get(), qos, this);
+  if (!reader_)
+    throw ConfigError(fmt::format("topic {}: Fast DDS made no reader; its message above says why", topic.name));
+}
+
+Reader::~Reader() {
+  {
+    const std::lock_guard lock(delivery_mutex_);  // waits for a callback under way
+    closed_ = true;
+  }
+  participant_->subscriber().delete_datareader(reader_);
+}
+
+BridgeReaderCounters Reader::counters() const { return {received_, lost_ + rejected_, undecodable_}; }
+
+void Reader::on_data_available(fdds::DataReader* reader) {
+  const std::lock_guard lock(delivery_mutex_);
+  fdds::SampleInfo info;
+  for (Incoming incoming; !closed_ && reader->take_next_sample(&incoming, &info) == ReturnCode_t::RETCODE_OK;
+       incoming = {}) {
+    if (info.valid_data) deliver(std::move(incoming), info.reception_timestamp.to_ns());
+  }
+}
+
+void Reader::deliver(Incoming incoming, std::int64_t time_ns) {
+  if (!incoming.readable) {
+    ++undecodable_;
+    return;
+  }
+  ++received_;
+  try {
+    on_sample_(Sample::from_bytes(description_.type, description_.type_name, std::move(incoming.bytes), time_ns));
+  } catch (const std::exception& error) {
+    // Past this is Fast DDS, which would end the process.
+    notifier_->warn(
+        fmt::format("topic {}: a received message could not be handed on: {}", description_.name, error.what()));
+  }
+}
+
+void Reader::on_subscription_matched(fdds::DataReader*, const fdds::SubscriptionMatchedStatus& status) {
+  matched_writers_ = static_cast<std::size_t>(status.current_count);
+}
+
+void Reader::on_requested_incompatible_qos(fdds::DataReader*, const fdds::RequestedIncompatibleQosStatus& status) {
+  notifier_->warn(describe_request_refused(description_.name, status.last_policy_id));
+}
+
+void Reader::on_sample_lost(fdds::DataReader*, const fdds::SampleLostStatus& status) {
+  lost_ = static_cast<std::uint64_t>(status.total_count);
+}
+
+void Reader::on_sample_rejected(fdds::DataReader*, const eprosima::fastrtps::SampleRejectedStatus& status) {
+  // A reliable writer sends a rejected sample again.
+  if (description_.qos.requested == interfaces::Reliability::kBestEffort) rejected_ = status.total_count;
+}
+
+}  // namespace panvo::runtime::dds

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <fastdds/dds/subscriber/DataReader.hpp>
+#include <fastdds/dds/subscriber/DataReaderListener.hpp>
+
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <mutex>
+
+#include "notifier.hpp"
+#include "panvo/runtime/bridge.hpp"
+#include "participant.hpp"
+#include "sample_data_type.hpp"
+
+namespace panvo::runtime::dds {
+
+/// A topic of other processes as this process reads it. Samples are taken and handed on from Fast DDS's receiving thread, one at a time;
+/// whoever gets them should be quick, and must not destroy this reader from the callback.
+class Reader final : public BridgeReader, private eprosima::fastdds::dds::DataReaderListener {
+ public:
+  using OnSample = std::function<void(SamplePtr)>;
+
+  /// Throws ConfigError when Fast DDS will not have the topic.
+  Reader(const TopicDescription& topic, OnSample on_sample, std::shared_ptr<Participant> participant,
+         std::shared_ptr<Notifier> notifier);
+  ~Reader() override;
+
+  std::size_t matched_writers() const override { return matched_writers_; }
+  BridgeReaderCounters counters() const override;
+
+ private:
+  void on_data_available(eprosima::fastdds::dds::DataReader* reader) override;
+  void on_subscription_matched(eprosima::fastdds::dds::DataReader* reader,
+                               const eprosima::fastdds::dds::SubscriptionMatchedStatus& status) override;
+  void on_requested_incompatible_qos(eprosima::fastdds::dds::DataReader* reader,
+                                     const eprosima::fastdds::dds::RequestedIncompatibleQosStatus& status) override;
+  void on_sample_lost(eprosima::fastdds::dds::DataReader* reader,
+                      const eprosima::fastdds::dds::SampleLostStatus& status) override;
+  void on_sample_rejected(eprosima::fastdds::dds::DataReader* reader,
+                          const eprosima::fastrtps::SampleRejectedStatus& status) override;
+  void deliver(Incoming incoming, std::int64_t time_ns);
+
+  const TopicDescription description_;
+  const OnSample on_sample_;
+  const std::shared_ptr<Participant> participant_;
+  const std::shared_ptr<Notifier> notifier_;
+  const std::shared_ptr<eprosima::fastdds::dds::Topic> topic_;
+
+  std::mutex delivery_mutex_;  // held while a sample is handed on
+  bool closed_ = false;
+
+  std::atomic<std::size_t> matched_writers_ = 0;
+  std::atomic<std::uint64_t> received_ = 0, lost_ = 0, rejected_ = 0, undecodable_ = 0;
+  eprosima::fastdds::dds::DataReader* reader_ = nullptr;  // uses all of the above
+};
+
+}  // namespace panvo::runtime::dds

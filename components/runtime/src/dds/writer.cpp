@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "writer.hpp"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+
+#include "endpoint_qos.hpp"
+#include "panvo/runtime/errors.hpp"
+#include "sample_data_type.hpp"
+
+namespace panvo::runtime::dds {
+
+namespace fdds = eprosima::fastdds::dds;
+using eprosima::fastrtps::types::ReturnCode_t;
+
+Writer::Writer(const TopicDescription& topic, std::shared_ptr<Participant> participant,
+               std::shared_ptr<Notifier> notifier)
+    : name_(topic.name),
+      keeps_for_late_joiners_(topic.qos.durability == interfaces::Durability::kTransientLocal),
+      participant_(std::move(participant)),
+      notifier_(std::move(notifier)),
+      topic_(participant_->topic(topic)) {
+  fdds::DataWriterQos qos = participant_->publisher().get_default_datawriter_qos();
+  apply(topic, qos);
+  writer_ = participant_->publisher().create_datawriter(topic_.get(), qos, this);
+  if (!writer_) throw ConfigError(fmt::format("topic {}: Fast DDS made no writer; its message above says why", name_));
+}
+
+Writer::~Writer() { participant_->publisher().delete_datawriter(writer_); }
+
+bool Writer::write(const SamplePtr& sample) {
+  if (matched_readers_ == 0 && !keeps_for_late_joiners_) return true;
+  Outgoing outgoing{sample->bytes()};
+  for (int attempt = 0; attempt < kWriteAttempts; ++attempt) {
+    if (writer_->write(&outgoing, fdds::HANDLE_NIL) == ReturnCode_t::RETCODE_OK) return true;
+  }
+  return false;
+}
+
+bool Writer::wait_for_acknowledgments(std::chrono::milliseconds limit) {
+  const std::chrono::nanoseconds wait = std::max(limit, std::chrono::milliseconds(0));
+  const auto seconds = std::chrono::duration_cast<std::chrono::seconds>(wait);
+  return writer_->wait_for_acknowledgments(
+             {static_cast<std::int32_t>(seconds.count()), static_cast<std::uint32_t>((wait - seconds).count())}) ==
+         ReturnCode_t::RETCODE_OK;
+}
+
+void Writer::on_publication_matched(fdds::DataWriter*, const fdds::PublicationMatchedStatus& status) {
+  matched_readers_ = static_cast<std::size_t>(status.current_count);
+}
+
+void Writer::on_offered_incompatible_qos(fdds::DataWriter*, const fdds::OfferedIncompatibleQosStatus& status) {
+  notifier_->warn(describe_offer_refused(name_, status.last_policy_id));
+}
+
+}  // namespace panvo::runtime::dds

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <fastdds/dds/publisher/DataWriter.hpp>
+#include <fastdds/dds/publisher/DataWriterListener.hpp>
+
+#include <atomic>
+#include <memory>
+
+#include "notifier.hpp"
+#include "panvo/runtime/bridge.hpp"
+#include "participant.hpp"
+
+namespace panvo::runtime::dds {
+
+/// A topic of this process as other processes read it.
+class Writer final : public BridgeWriter, private eprosima::fastdds::dds::DataWriterListener {
+ public:
+  /// Throws ConfigError when Fast DDS will not have the topic.
+  Writer(const TopicDescription& topic, std::shared_ptr<Participant> participant, std::shared_ptr<Notifier> notifier);
+  ~Writer() override;
+
+  bool write(const SamplePtr& sample) override;
+  std::size_t matched_readers() const override { return matched_readers_; }
+  bool wait_for_acknowledgments(std::chrono::milliseconds limit) override;
+
+ private:
+  void on_publication_matched(eprosima::fastdds::dds::DataWriter* writer,
+                              const eprosima::fastdds::dds::PublicationMatchedStatus& status) override;
+  void on_offered_incompatible_qos(eprosima::fastdds::dds::DataWriter* writer,
+                                   const eprosima::fastdds::dds::OfferedIncompatibleQosStatus& status) override;
+
+  const std::string name_;
+  const bool keeps_for_late_joiners_;
+  const std::shared_ptr<Participant> participant_;
+  const std::shared_ptr<Notifier> notifier_;
+  const std::shared_ptr<eprosima::fastdds::dds::Topic> topic_;
+  std::atomic<std::size_t> matched_readers_ = 0;
+  eprosima::fastdds::dds::DataWriter* writer_ = nullptr;  // uses all of the above
+};
+
+}  // namespace panvo::runtime::dds

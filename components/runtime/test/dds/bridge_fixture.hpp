@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <string>
+
+#include "inbox.hpp"
+#include "peer_process.hpp"
+#include "test_messages.hpp"
+
+namespace panvo::runtime::test {
+
+inline constexpr const char* kImageType = "sensor_msgs/msg/Image";
+inline constexpr const char* kStringType = "std_msgs/msg/String";
+
+/// A bridge of this process and one of another.
+class BetweenProcesses : public ::testing::Test {
+ protected:
+  BetweenProcesses() { bridge->on_warning(warnings.callback()); }
+
+  bool is_warned_of(const std::string& first, const std::string& second) {
+    return warnings.wait_for([&](const std::string& text) {
+      return text.find(first) != std::string::npos && text.find(second) != std::string::npos;
+    });
+  }
+
+  const int domain = test_domain();
+  PeerProcess peer{domain};
+  Inbox<std::string> warnings;
+  Inbox<SamplePtr> inbox;  // before the bridge, whose readers fill it
+  std::unique_ptr<Bridge> bridge = make_dds_bridge({.domain = domain, .profiles = "", .name = "panvo_test"});
+};
+
+}  // namespace panvo::runtime::test

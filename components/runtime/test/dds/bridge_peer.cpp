@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+// The other process of the bridge's tests. Reads commands from stdin, one a line, and answers each with a line that starts with `ok`, or
+// `error`; in between it says `received TOPIC SIZE HASH` for every message that comes. Ends with its input.
+#include <sys/prctl.h>
+
+#include <csignal>
+#include <exception>
+#include <iostream>
+#include <map>
+#include <mutex>
+#include <sstream>
+
+#include "dds/names.hpp"
+#include "panvo/runtime/bridge.hpp"
+#include "raw_writer.hpp"
+#include "test_messages.hpp"
+
+namespace panvo::runtime::test {
+namespace {
+
+class Peer {
+ public:
+  explicit Peer(int domain)
+      : domain_(domain), bridge_(make_dds_bridge({.domain = domain, .profiles = "", .name = "peer"})) {}
+
+  void run() {
+    for (std::string line; std::getline(std::cin, line);) {
+      try {
+        say("ok " + obey(line));
+      } catch (const std::exception& error) {
+        say(std::string("error ") + error.what());
+      }
+    }
+  }
+
+ private:
+  std::string obey(const std::string& line) {
+    std::istringstream words(line);
+    std::string verb, name;
+    words >> verb >> name;
+    if (verb == "open_writer") {
+      writers_[name] = bridge_->open_writer(read_topic(name, words));
+    } else if (verb == "open_reader") {
+      readers_[name] = bridge_->open_reader(read_topic(name, words), [this, name](const SamplePtr& sample) {
+        say("received " + name + " " + std::to_string(sample->bytes().size()) + " " +
+            std::to_string(hash(sample->bytes())));
+      });
+    } else if (verb == "open_raw_writer") {
+      std::string type_name, reliability, durability;
+      words >> type_name >> reliability >> durability;
+      raw_writers_[name] = std::make_unique<RawWriter>(
+          domain_, dds::wire_topic_name(name), dds::wire_type_name(type_name).value_or(type_name),
+          RawWriter::Offer{reliability == "reliable", durability == "transient_local"});
+    } else if (verb == "write_image") {
+      std::size_t size = 0;
+      std::uint32_t seed = 0;
+      words >> size >> seed;
+      return writers_.at(name)->write(image_sample(size, seed)) ? "written" : "refused";
+    } else if (verb == "write_text") {
+      std::string text;
+      words >> text;
+      return writers_.at(name)->write(text_sample(text)) ? "written" : "refused";
+    } else if (verb == "write_bytes") {  // as decimal numbers
+      std::vector<std::uint8_t> bytes;
+      for (int byte = 0; words >> byte;) bytes.push_back(static_cast<std::uint8_t>(byte));
+      if (const auto raw = raw_writers_.find(name); raw != raw_writers_.end())
+        return raw->second->write(bytes) ? "written" : "refused";
+      return writers_.at(name)->write(Sample::from_bytes(nullptr, "", bytes, 0)) ? "written" : "refused";
+    } else if (verb == "matched") {
+      if (const auto raw = raw_writers_.find(name); raw != raw_writers_.end())
+        return std::to_string(raw->second->matched_readers());
+      if (const auto writer = writers_.find(name); writer != writers_.end())
+        return std::to_string(writer->second->matched_readers());
+      return std::to_string(readers_.at(name)->matched_writers());
+    } else if (verb == "counters") {
+      const auto counters = readers_.at(name)->counters();
+      return std::to_string(counters.received) + " " + std::to_string(counters.lost) + " " +
+             std::to_string(counters.undecodable);
+    } else {
+      throw std::invalid_argument("no such command: " + line);
+    }
+    return verb;
+  }
+
+  // TYPE RELIABILITY DURABILITY DEPTH [keep_all]
+  static TopicDescription read_topic(const std::string& name, std::istringstream& words) {
+    std::string type_name, reliability, durability, history;
+    interfaces::Qos qos;
+    words >> type_name >> reliability >> durability >> qos.depth >> history;
+    qos.requested =
+        reliability == "best_effort" ? interfaces::Reliability::kBestEffort : interfaces::Reliability::kReliable;
+    qos.durability =
+        durability == "transient_local" ? interfaces::Durability::kTransientLocal : interfaces::Durability::kVolatile;
+    qos.keep_all = history == "keep_all";
+    return topic(name, type_name, qos);
+  }
+
+  void say(const std::string& line) {
+    const std::lock_guard lock(mutex_);
+    std::cout << line << std::endl;
+  }
+
+  const int domain_;
+  std::mutex mutex_;
+  std::unique_ptr<Bridge> bridge_;
+  std::map<std::string, std::unique_ptr<BridgeWriter>> writers_;
+  std::map<std::string, std::unique_ptr<BridgeReader>> readers_;
+  std::map<std::string, std::unique_ptr<RawWriter>> raw_writers_;
+};
+
+}  // namespace
+}  // namespace panvo::runtime::test
+
+int main(int argc, char** argv) {
+  prctl(PR_SET_PDEATHSIG, SIGKILL);  // a test that crashes leaves nobody behind
+  if (argc != 2) return 2;
+  panvo::runtime::test::Peer(std::stoi(argv[1])).run();
+}

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <sys/types.h>
+
+#include <chrono>
+#include <deque>
+#include <functional>
+#include <string>
+
+namespace panvo::runtime::test {
+
+/// Whether `condition` came true before the limit.
+bool eventually(const std::function<bool()>& condition);
+
+/// Another process with a bridge (bridge_peer.cpp). Ends with this object.
+class PeerProcess {
+ public:
+  explicit PeerProcess(int domain);
+  ~PeerProcess();
+  PeerProcess(const PeerProcess&) = delete;
+  PeerProcess& operator=(const PeerProcess&) = delete;
+
+  /// Sends a command and returns its answer, without the leading `ok `. Throws std::runtime_error on an error or when there is none.
+  std::string ask(const std::string& command);
+
+  /// The rest of the next line that starts with `received TOPIC `, which the peer says for every message: "SIZE HASH".
+  std::string next_received(const std::string& topic);
+
+  bool matches(const std::string& topic, int count);
+
+  void signal(int number) const;
+  /// Waits until a stop signal has taken effect.
+  void wait_until_stopped() const;
+
+ private:
+  std::string read_line();
+
+  pid_t pid_ = -1;
+  int commands_ = -1, answers_ = -1;
+  std::string buffer_;
+  std::deque<std::string> received_;
+};
+
+}  // namespace panvo::runtime::test

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "raw_writer.hpp"
+
+#include <fastdds/rtps/common/SerializedPayload.h>
+#include <fastdds/dds/domain/DomainParticipant.hpp>
+#include <fastdds/dds/domain/DomainParticipantFactory.hpp>
+#include <fastdds/dds/publisher/DataWriter.hpp>
+#include <fastdds/dds/publisher/Publisher.hpp>
+#include <fastdds/dds/topic/Topic.hpp>
+#include <fastdds/dds/topic/TopicDataType.hpp>
+#include <fastdds/dds/topic/TypeSupport.hpp>
+
+#include <algorithm>
+
+namespace panvo::runtime::test {
+
+using namespace eprosima::fastdds::dds;
+using eprosima::fastrtps::rtps::InstanceHandle_t;
+using eprosima::fastrtps::rtps::SerializedPayload_t;
+
+namespace {
+
+using Payload = std::vector<std::uint8_t>;
+
+class RawType final : public TopicDataType {
+ public:
+  explicit RawType(const std::string& name) {
+    setName(name.c_str());
+    m_typeSize = 64;
+  }
+  bool serialize(void* data, SerializedPayload_t* target) override {
+    const auto& payload = *static_cast<Payload*>(data);
+    std::copy(payload.begin(), payload.end(), target->data);
+    target->length = static_cast<std::uint32_t>(payload.size());
+    return true;
+  }
+  bool deserialize(SerializedPayload_t*, void*) override { return false; }
+  std::function<std::uint32_t()> getSerializedSizeProvider(void* data) override {
+    return [size = static_cast<std::uint32_t>(static_cast<Payload*>(data)->size())] { return std::max(size, 1U); };
+  }
+  void* createData() override { return new Payload; }
+  void deleteData(void* data) override { delete static_cast<Payload*>(data); }
+  bool getKey(void*, InstanceHandle_t*, bool) override { return false; }
+};
+
+}  // namespace
+
+struct RawWriter::Entities {
+  DomainParticipant* participant;
+  Publisher* publisher;
+  Topic* topic;
+  DataWriter* writer;
+};
+
+RawWriter::RawWriter(int domain, const std::string& wire_topic_name, const std::string& wire_type_name, Offer offer)
+    : entities_(std::make_unique<Entities>()) {
+  auto& [participant, publisher, topic, writer] = *entities_;
+  participant = DomainParticipantFactory::get_instance()->create_participant(static_cast<DomainId_t>(domain),
+                                                                             PARTICIPANT_QOS_DEFAULT);
+  TypeSupport(new RawType(wire_type_name)).register_type(participant);
+  topic = participant->create_topic(wire_topic_name, wire_type_name, TOPIC_QOS_DEFAULT);
+  publisher = participant->create_publisher(PUBLISHER_QOS_DEFAULT);
+  DataWriterQos qos = DATAWRITER_QOS_DEFAULT;
+  qos.reliability().kind = offer.reliable ? RELIABLE_RELIABILITY_QOS : BEST_EFFORT_RELIABILITY_QOS;
+  qos.durability().kind = offer.transient_local ? TRANSIENT_LOCAL_DURABILITY_QOS : VOLATILE_DURABILITY_QOS;
+  qos.history().depth = 100;
+  qos.data_sharing().off();
+  qos.endpoint().history_memory_policy = eprosima::fastrtps::rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
+  writer = publisher->create_datawriter(topic, qos);
+}
+
+RawWriter::~RawWriter() {
+  entities_->participant->delete_contained_entities();
+  DomainParticipantFactory::get_instance()->delete_participant(entities_->participant);
+}
+
+bool RawWriter::write(std::vector<std::uint8_t> payload) { return entities_->writer->write(&payload); }
+
+int RawWriter::matched_readers() const {
+  PublicationMatchedStatus status;
+  entities_->writer->get_publication_matched_status(status);
+  return status.current_count;
+}
+
+}  // namespace panvo::runtime::test

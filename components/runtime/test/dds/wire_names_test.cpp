@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include "dds/names.hpp"
+
+namespace panvo::runtime::dds {
+namespace {
+
+TEST(WireTopicName, IsRos2sAndBack) {
+  EXPECT_EQ(wire_topic_name("/stereo/left/image_rect"), "rt/stereo/left/image_rect");
+  EXPECT_EQ(wire_topic_name("odom"), "rt/odom");
+  EXPECT_EQ(topic_name_from_wire("rt/stereo/left/image_rect"), "/stereo/left/image_rect");
+}
+
+TEST(WireTopicName, OfAServiceOrDiscoveryIsNoTopic) {
+  EXPECT_FALSE(topic_name_from_wire("rq/node/get_parametersRequest"));
+  EXPECT_FALSE(topic_name_from_wire("ros_discovery_info"));
+}
+
+TEST(WireTypeName, IsRos2sAndBack) {
+  EXPECT_EQ(wire_type_name("nav_msgs/msg/Odometry"), "nav_msgs::msg::dds_::Odometry_");
+  EXPECT_EQ(type_name_from_wire("nav_msgs::msg::dds_::Odometry_"), "nav_msgs/msg/Odometry");
+}
+
+TEST(WireTypeName, OfAnotherFormIsNoTypeName) {
+  EXPECT_FALSE(wire_type_name("Odometry"));
+  EXPECT_FALSE(wire_type_name("nav_msgs/Odometry"));
+  EXPECT_FALSE(type_name_from_wire("HelloWorld"));
+}
+
+}  // namespace
+}  // namespace panvo::runtime::dds
