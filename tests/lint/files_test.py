@@ -24,6 +24,10 @@ class FilesTest(sample.RuleTest):
         self.assert_finds(files, "not for time", {"components/vision/test/a_test.cpp": L + line})
         self.assertEqual(self.complaints(files, {"components/vision/test/a_test.cpp": L + "// sleep_for( in words\n"}), [])
 
+    def test_a_test_that_looks_again_in_a_moment(self):
+        line = "void look() { std::this_thread::sleep_for(std::chrono::milliseconds(5)); }\n"
+        self.assertEqual(self.complaints(files, {"components/vision/test/a_test.cpp": L + line}), [])
+
     def test_blanks_at_the_end_and_a_last_line_without_end(self):
         self.assert_finds(files, "blanks at the end", {"components/vision/src/a.cpp": L + "int a; \n"})
         self.assert_finds(files, "has no end", {"components/vision/src/a.cpp": L + "int a;"})

@@ -65,8 +65,22 @@ FLOORS = [
 NOBODY_INCLUDES = {"evaluation", "tests"}
 
 
-def floor_of(path):
-    if path.parts[0] == "components" and re.search(r"_component(_test)?$", path.stem) and path.parts[1] not in ("runtime", "recorder"):
+OWN_FLOOR = {folder for folder, _ in FLOORS}
+
+
+def wrapper_sources(root):
+    """What the components' CMakeLists.txt compile into plugins, without suffix, so that a header goes with its source."""
+    found = set()
+    for lists in pathlib.Path(root).glob("components/*/CMakeLists.txt"):
+        for sources in re.findall(r"panvo_add_component\([^)]*?SOURCES((?:\s+[\w/.-]+)+?)(?:\s+(?:LINK|NO_INSTALL)\b|\s*\))", lists.read_text(encoding="utf-8")):
+            folder = lists.parent.relative_to(root)
+            found |= {(folder / source).with_suffix("") for source in sources.split()}
+    return found
+
+
+def floor_of(path, wrappers=frozenset()):
+    if path.parts[0] == "components" and "/".join(path.parts[:2]) not in OWN_FLOOR and (
+            path.stem.endswith("_component") or path.with_suffix("") in wrappers):
         return WRAPPER
     for folder, its_floor in FLOORS:
         if path.is_relative_to(folder):
@@ -140,10 +154,10 @@ def complaint_of_include(root, path, its_floor, quoted, include, messages):
 
 
 def check(root):
-    messages = message_packages(root)
+    messages, wrappers = message_packages(root), wrapper_sources(root)
     complaints = []
     for path in workspace.cpp_files(root):
-        its_floor = floor_of(path)
+        its_floor = floor_of(path, wrappers)
         if its_floor is None:
             continue
         text = workspace.read(root, path)

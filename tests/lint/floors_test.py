@@ -39,6 +39,15 @@ class FloorsTest(sample.RuleTest):
         self.assert_finds(floors, "does not use fastdds", {wrapper: L + "#include <fastdds/dds/domain/DomainParticipant.hpp>\n"})
         self.assert_finds(floors, "the floor 'component wrapper'", {wrapper: L + '#include "panvo/localizer/localizer.hpp"\n'})
 
+    def test_what_is_compiled_into_the_plugin_is_the_wrapper(self):
+        lists = sample.cmake_lists("panvo_compass") + (
+            "panvo_add_component(panvo_compass_component\n  SOURCES src/compass_component.cpp src/messages.cpp\n  LINK x)\n")
+        includes_runtime = L + '#pragma once\n#include "panvo/runtime/component.hpp"\n'
+        for file in ("src/messages.cpp", "src/messages.hpp"):
+            path = f"components/compass/{file}"
+            self.assertEqual(self.complaints(floors, {"components/compass/CMakeLists.txt": lists, path: includes_runtime}), [])
+            self.assert_finds(floors, "the floor 'algorithm'", {path: includes_runtime})
+
     def test_the_runtime_keeps_dds_and_yaml_in_their_folders(self):
         dds, yaml = L + "#include <fastdds/dds/topic/Topic.hpp>\n", L + "#include <yaml-cpp/yaml.h>\n"
         self.assert_finds(floors, "does not use fastdds", {"components/runtime/src/context.cpp": dds})

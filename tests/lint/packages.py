@@ -62,6 +62,16 @@ def check_package(root, folder, order, version):
     return complaints
 
 
+def check_test_folders(root):
+    """Each folder of tests/ with a CMakeLists.txt is named in the one above: a folder forgotten would be tests that never run."""
+    top = root / "tests" / "CMakeLists.txt"
+    if not top.is_file():
+        return []
+    named = set(re.findall(r"[\w]+", " ".join(re.findall(r"foreach\(folder IN ITEMS([^)]*)\)", top.read_text(encoding="utf-8")))))
+    return [f"tests/CMakeLists.txt: does not name the folder {lists.parent.name}"
+            for lists in sorted((root / "tests").glob("*/CMakeLists.txt")) if lists.parent.name not in named]
+
+
 def check_debian_packages(root):
     list_file = root / "launch_scripts" / "packages.txt"
     if not list_file.is_file():
@@ -97,7 +107,7 @@ def check(root):
             compiles = "CXX" in (root / folder / "CMakeLists.txt").read_text(encoding="utf-8") if (root / folder / "CMakeLists.txt").is_file() else False
             if compiles and not re.search(rf"^  panvo_{folder.name}:", text, re.MULTILINE):
                 complaints.append(f"{meta}: lacks panvo_{folder.name}")
-    return complaints + check_debian_packages(root)
+    return complaints + check_test_folders(root) + check_debian_packages(root)
 
 
 if __name__ == "__main__":

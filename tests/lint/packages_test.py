@@ -37,3 +37,7 @@ class PackagesTest(sample.RuleTest):
 
     def test_a_component_without_readme(self):
         self.assert_finds(packages, "components/compass: has no README.md", {"components/compass/README.md": None})
+
+    def test_a_folder_of_tests_that_nobody_adds(self):
+        self.assert_finds(packages, "does not name the folder faults", {
+            "tests/CMakeLists.txt": "foreach(folder IN ITEMS lint)\n", "tests/faults/CMakeLists.txt": "", "tests/lint/CMakeLists.txt": ""})
