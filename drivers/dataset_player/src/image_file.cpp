@@ -58,10 +58,12 @@ std::optional<std::string> ImageDecoder::decode(const std::filesystem::path& fil
   if (bytes_.empty()) return fail("is empty");
   if (is_cut_off_jpeg(bytes_)) return fail("is a JPEG that was cut off");
   const int flags = (colour == Colour::kGrey ? cv::IMREAD_GRAYSCALE : cv::IMREAD_ANYCOLOR) | cv::IMREAD_IGNORE_ORIENTATION;
+  // Not into the image that is there: OpenCV leaves that untouched when it finds no decoder, which looks like success.
+  image.release();
   try {
-    cv::imdecode(bytes_, flags, &image);
+    image = cv::imdecode(bytes_, flags);
   } catch (const cv::Exception&) {
-    image.release();
+    return fail("is no image that can be decoded");
   }
   if (image.empty()) return fail("is no image that can be decoded");
   return std::nullopt;

@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+#include <opencv2/core.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "panvo/conversions/camera_info.hpp"
+#include "panvo/conversions/image.hpp"
+#include "panvo/conversions/pose.hpp"
+#include "panvo/conversions/time.hpp"
+#include "panvo/dataset_player/dataset.hpp"
+#include "panvo/dataset_player/image_file.hpp"
+#include "panvo/dataset_player/timeline.hpp"
+#include "panvo/interfaces/topics.hpp"
+#include "panvo/runtime/component.hpp"
+
+namespace panvo::dataset_player {
+
+struct Parameters {
+  std::string directory;          // the data set; its kind is found by its layout
+  std::string cameras = "all";    // which of its cameras are played
+  bool grey = false;              // decode colour images as grey
+  double rate_hz = 0.0;           // 0: what is usual for the layout
+  double start_s = 0.0;
+  double duration_s = 0.0;        // 0: to the end
+  template <class Field>
+  static void describe(Field&& field) {
+    using P = Parameters;
+    field(&P::directory, "directory", "", "folder of the data set: KITTI odometry, EuRoC/ASL, or left/right folders with a calibration");
+    field(&P::cameras, "cameras", "", "which cameras are played", {"all", "stereo", "panorama"});
+    field(&P::grey, "grey", "", "decode the stereo images as grey even if they are stored in colour");
+    field(&P::rate_hz, "rate_hz", "Hz", "frame rate of data sets without times; 0: KITTI 10, folders 30", 0.0, 1000.0);
+    field(&P::start_s, "start_s", "s", "where to begin, after the first image", 0.0, 1e6);
+    field(&P::duration_s, "duration_s", "s", "how much to play; 0: to the end", 0.0, 1e6);
+  }
+};
+
+/// Plays a data set as if it were cameras: image_raw and camera_info of each eye, the panorama, the ground truth, and first of all where
+/// the cameras are on the vehicle.
+class DatasetPlayerComponent final : public runtime::Component, public runtime::Source {
+ public:
+  explicit DatasetPlayerComponent(runtime::Context& context);
+
+  std::optional<std::int64_t> next_stamp_ns() override;
+  void emit() override;
+  Progress progress() const override { return {steps_done_, steps_total_}; }
+
+ private:
+  /// A camera as it is played.
+  struct Camera {
+    std::string frame_id;
+    runtime::Output<sensor_msgs::msg::Image> images;
+    int width = 0, height = 0;
+    Colour colour = Colour::kAsStored;
+  };
+  struct Eye {
+    Camera camera;
+    runtime::Output<sensor_msgs::msg::CameraInfo> infos;
+    conversions::PairedCamera geometry;
+  };
+  using ImagePtr = std::shared_ptr<const sensor_msgs::msg::Image>;
+
+  void open(const Parameters& parameters);
+  void open_stereo(const StereoRecording& stereo, Colour colour);
+  void say_what_is_played() const;
+  void publish_static_transforms(std::int64_t stamp_ns);
+  void publish_ground_truth(const GroundTruthPose& pose);
+  void publish_stereo(const StereoFrame& frame);
+  void publish_panorama(const PanoramaFrame& frame);
+  ImagePtr load(const Camera& camera, const std::filesystem::path& file, std::int64_t stamp_ns);
+  void report_unreadable(const std::string& what);
+
+  runtime::Context& context_;
+  Dataset dataset_;
+  std::vector<Event> events_;
+  std::size_t next_ = 0;
+  std::optional<Eye> left_, right_;
+  std::optional<Camera> panorama_;
+  std::optional<runtime::Output<nav_msgs::msg::Odometry>> ground_truth_;
+  runtime::Output<tf2_msgs::msg::TFMessage> static_transforms_;
+  ImageDecoder decoder_;
+  bool is_placed_ = false;  ///< the static transforms are out
+  Event::Kind step_kind_ = Event::Kind::kStereo;
+  std::uint64_t steps_done_ = 0, steps_total_ = 0;
+  std::uint64_t unreadable_ = 0;
+};
+
+DatasetPlayerComponent::DatasetPlayerComponent(runtime::Context& context)
+    : context_(context), static_transforms_(context.output(topics::kTfStatic)) {
+  const auto parameters = context.parameters<Parameters>();
+  try {
+    open(parameters);
+  } catch (const DatasetError& error) {
+    throw runtime::ConfigError(error.what());
+  }
+  say_what_is_played();
+  context.source(*this);
+}
+
+void DatasetPlayerComponent::open(const Parameters& parameters) {
+  dataset_ = open_dataset(parameters.directory, {.rate_hz = parameters.rate_hz});
+  const Selection selection{.start_s = parameters.start_s,
+                            .duration_s = parameters.duration_s,
+                            .stereo = parameters.cameras != "panorama",
+                            .panorama = parameters.cameras != "stereo"};
+  events_ = timeline(dataset_, selection);
+  if (dataset_.stereo && selection.stereo) {
+    open_stereo(*dataset_.stereo, parameters.grey ? Colour::kGrey : Colour::kAsStored);
+  }
+  if (dataset_.panorama && selection.panorama) {
+    panorama_.emplace(Camera{"panorama_optical", context_.output(topics::kPanorama), dataset_.panorama->width, dataset_.panorama->height});
+  }
+  if (!dataset_.ground_truth.empty()) ground_truth_.emplace(context_.output(topics::kGroundTruth));
+  step_kind_ = left_ ? Event::Kind::kStereo : Event::Kind::kPanorama;
+  steps_total_ = static_cast<std::uint64_t>(
+      std::count_if(events_.begin(), events_.end(), [this](const Event& event) { return event.kind == step_kind_; }));
+}
+
+void DatasetPlayerComponent::open_stereo(const StereoRecording& stereo, Colour colour) {
+  const auto eye = [&](const char* frame_id, const auto& image_topic, const auto& info_topic, const conversions::PairedCamera& geometry) {
+    const auto& size = geometry.raw.pinhole;
+    return Eye{{frame_id, context_.output(image_topic), size.width, size.height, colour}, context_.output(info_topic), geometry};
+  };
+  left_.emplace(eye("stereo_left_optical", topics::kStereoLeftImageRaw, topics::kStereoLeftCameraInfo,
+                    conversions::left_camera(stereo.calibration, stereo.rectified)));
+  right_.emplace(eye("stereo_right_optical", topics::kStereoRightImageRaw, topics::kStereoRightCameraInfo,
+                     conversions::right_camera(stereo.calibration, stereo.rectified)));
+}
+
+void DatasetPlayerComponent::say_what_is_played() const {
+  const auto& log = context_.log();
+  const auto seconds = static_cast<double>(events_.back().stamp_ns - events_.front().stamp_ns) * 1e-9;
+  std::string content;
+  if (left_) {
+    content += fmt::format(", stereo of {} x {} px {}, baseline {:.4f} m", left_->camera.width, left_->camera.height,
+                           conversions::is_rectified(left_->geometry) && conversions::is_rectified(right_->geometry) ? "(rectified)" : "(raw)",
+                           dataset_.stereo->rectified.baseline_m);
+  }
+  if (panorama_) content += fmt::format(", panorama of {} x {} px", panorama_->width, panorama_->height);
+  log.info("{}: {}, {} frames in {:.2f} s{}{}", dataset_.directory.string(), dataset_.kind, steps_total_, seconds, content,
+           ground_truth_ ? ", ground truth" : "");
+  for (const auto& note : dataset_.notes) log.warn("{}", note);
+}
+
+std::optional<std::int64_t> DatasetPlayerComponent::next_stamp_ns() {
+  if (next_ == events_.size()) return std::nullopt;
+  return events_[next_].stamp_ns;
+}
+
+void DatasetPlayerComponent::emit() {
+  if (next_ == events_.size()) return;
+  const auto stamp_ns = events_[next_].stamp_ns;
+  if (!is_placed_) publish_static_transforms(stamp_ns);
+  for (; next_ < events_.size() && events_[next_].stamp_ns == stamp_ns; ++next_) {
+    const auto& [stamp, kind, index] = events_[next_];
+    switch (kind) {
+      case Event::Kind::kGroundTruth: publish_ground_truth(dataset_.ground_truth[index]); break;
+      case Event::Kind::kStereo: publish_stereo(dataset_.stereo->frames[index]); break;
+      case Event::Kind::kPanorama: publish_panorama(dataset_.panorama->frames[index]); break;
+    }
+    if (kind == step_kind_) ++steps_done_;
+  }
+  if (next_ == events_.size() && unreadable_ > 0) {
+    context_.log().warn("{} of {} frames could not be read and were left out", unreadable_, steps_total_);
+  }
+}
+
+void DatasetPlayerComponent::publish_static_transforms(std::int64_t stamp_ns) {
+  is_placed_ = true;
+  tf2_msgs::msg::TFMessage message;
+  const auto place = [&](const std::string& frame_id, const Eigen::Isometry3d& base_from_camera) {
+    auto& transform = message.transforms().emplace_back();
+    transform.header().stamp(conversions::to_stamp(stamp_ns));
+    transform.header().frame_id("base_link");
+    transform.child_frame_id(frame_id);
+    transform.transform(conversions::to_transform(base_from_camera));
+  };
+  if (left_) {
+    place(left_->camera.frame_id, dataset_.stereo->base_from_left);
+    place(right_->camera.frame_id, dataset_.stereo->base_from_right());
+  }
+  if (panorama_) place(panorama_->frame_id, dataset_.panorama->base_from_panorama);
+  static_transforms_.publish(std::move(message));
+}
+
+void DatasetPlayerComponent::publish_ground_truth(const GroundTruthPose& pose) {
+  nav_msgs::msg::Odometry message;
+  message.header().stamp(conversions::to_stamp(pose.stamp_ns));
+  message.header().frame_id("map");
+  message.child_frame_id("base_link");
+  message.pose().pose(conversions::to_pose(pose.map_from_base));
+  // The velocity is not recorded: the usual way to say so is a variance beyond all use.
+  constexpr double kNotMeasured = 1e6;
+  message.twist().covariance(conversions::to_array(kNotMeasured * vision::Matrix6d::Identity()));
+  ground_truth_->publish(std::move(message));
+}
+
+void DatasetPlayerComponent::publish_stereo(const StereoFrame& frame) {
+  const auto left = load(left_->camera, frame.left, frame.stamp_ns);
+  const auto right = left ? load(right_->camera, frame.right, frame.stamp_ns) : nullptr;
+  if (!left || !right) return;
+  for (auto* eye : {&*left_, &*right_}) {
+    eye->infos.publish(conversions::to_camera_info(eye->geometry, frame.stamp_ns, eye->camera.frame_id));
+  }
+  left_->camera.images.publish(left);
+  right_->camera.images.publish(right);
+}
+
+void DatasetPlayerComponent::publish_panorama(const PanoramaFrame& frame) {
+  if (const auto image = load(*panorama_, frame.image, frame.stamp_ns)) panorama_->images.publish(image);
+}
+
+/// The image of a file as a message. nullptr if it cannot be used: then that is reported.
+DatasetPlayerComponent::ImagePtr DatasetPlayerComponent::load(const Camera& camera, const std::filesystem::path& file,
+                                                              std::int64_t stamp_ns) {
+  const runtime::StageTimer timer(context_.times(), "decode");
+  cv::Mat pixels;
+  if (const auto problem = decoder_.decode(file, camera.colour, pixels)) {
+    report_unreadable(*problem);
+    return nullptr;
+  }
+  if (pixels.cols != camera.width || pixels.rows != camera.height) {
+    report_unreadable(fmt::format("{}: is {} x {} px, the images before are {} x {} px", file.string(), pixels.cols, pixels.rows,
+                                  camera.width, camera.height));
+    return nullptr;
+  }
+  const auto image = conversions::make_image(stamp_ns, camera.frame_id, conversions::encoding_of(pixels.type()), camera.width, camera.height);
+  pixels.copyTo(conversions::pixels(*image));
+  return image;
+}
+
+void DatasetPlayerComponent::report_unreadable(const std::string& what) {
+  constexpr std::uint64_t kMostReports = 10;
+  ++unreadable_;
+  if (unreadable_ <= kMostReports) context_.log().warn("{}; the frame is left out", what);
+  if (unreadable_ == kMostReports) context_.log().warn("more such frames are counted only");
+}
+
+PANVO_REGISTER_COMPONENT(DatasetPlayerComponent)
+
+}  // namespace panvo::dataset_player
