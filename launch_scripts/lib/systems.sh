@@ -25,27 +25,30 @@ system_file() {
   fi
 }
 
+# takes_value OPTION: whether this option of panvo_run has a value after it.
+takes_value() {
+  case $1 in
+    --dataset | --bag | --out | --rate | --set | --seed | --domain | --dds-profiles | --container) return 0 ;;
+    *) return 1 ;;
+  esac
+}
+
 # resolve_system ARGUMENT...: the arguments for panvo_run in resolved_arguments; the first one that is no option is the system.
 resolve_system() {
   local system=''
   resolved_arguments=()
   while (($#)); do
-    case $1 in
-      --dataset | --bag | --out | --rate | --set | --seed | --domain | --dds-profiles | --container)
-        require_value "$@"
-        resolved_arguments+=("$1" "$2")
-        shift
-        ;;
-      -*) resolved_arguments+=("$1") ;;
-      *)
-        if [[ -z $system ]]; then
-          system=$(system_file "$1")
-          resolved_arguments+=("$system")
-        else
-          resolved_arguments+=("$1")
-        fi
-        ;;
-    esac
+    if takes_value "$1"; then
+      require_value "$@"
+      resolved_arguments+=("$1" "$2")
+      shift
+    elif [[ -z $system && $1 != -* ]]; then
+      system=$(system_file "$1")
+      resolved_arguments+=("$system")
+    else
+      resolved_arguments+=("$1")
+    fi
     shift
   done
+  [[ -n $system ]] || fail "which system? There are: $(list_systems) (panvo run --help)" 2
 }

@@ -7,31 +7,41 @@ source "$PANVO_SCRIPTS/lib/systems.sh"
 
 verb_usage() {
   cat <<'EOT'
-usage: panvo play BAG [--rate R] [--set bag_player.parameter=value ...]
+usage: panvo play BAG [TOPIC...] [--rate R] [--exclude TOPIC] [option of panvo run ...]
 
-Publishes the messages of a rosbag2 folder under their recorded names, at the recorded rate or R times as fast.
+Publishes what the rosbag2 folder BAG holds, under the recorded names. TOPIC is a name or a regular expression for whole names;
+without one, everything is played.
+
+  --rate R          R times as fast as recorded; 0: as fast as it goes
+  --exclude TOPIC   not this one
 EOT
 }
 
 verb_main() {
-  local bag=''
+  local bag='' topics='' exclude=''
   local -a rest=()
   while (($#)); do
     case $1 in
-      --rate | --set | --out)
+      --exclude)
         require_value "$@"
-        rest+=("$1" "$2")
+        exclude+="${exclude:+ }$2"
         shift
         ;;
-      -*) rest+=("$1") ;;
-      *)
-        [[ -z $bag ]] || fail "one bag at a time: '$bag' or '$1'?" 2
-        bag=$1
+      -* | *:=*)
+        rest+=("$1")
+        if takes_value "$1"; then
+          require_value "$@"
+          rest+=("$2")
+          shift
+        fi
         ;;
+      *) if [[ -z $bag ]]; then bag=$1; else topics+="${topics:+ }$1"; fi ;;
     esac
     shift
   done
   [[ -n $bag ]] || fail "which bag? (panvo play --help)" 2
   [[ -e $bag ]] || fail "there is no bag '$bag'"
-  start_program panvo_run "$(system_file play)" --bag "$bag" "${rest[@]}"
+  local system
+  system=$(system_file play)
+  start_program panvo_run "$system" "bag:=$bag" "topics:=$topics" "exclude:=$exclude" "${rest[@]}"
 }

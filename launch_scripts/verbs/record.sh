@@ -7,11 +7,45 @@ source "$PANVO_SCRIPTS/lib/systems.sh"
 
 verb_usage() {
   cat <<'EOT'
-usage: panvo record --out DIR [--set recorder.parameter=value ...]
+usage: panvo record BAG [TOPIC...] [--exclude TOPIC] [--no-images] [--overwrite] [option of panvo run ...]
 
-Records what is on the network into a rosbag2 folder below DIR until Ctrl-C: `panvo run record`. `panvo component show panvo_recorder`
-names the recorder's parameters, `panvo bag info` looks into the result.
+Records topics of the network into the folder BAG (rosbag2, SQLite) until Ctrl-C. TOPIC is a name or a regular expression for
+whole names, such as '/stereo/.*'; without one, everything is recorded.
+
+  --exclude TOPIC   not this one
+  --no-images       no sensor_msgs/Image and CompressedImage
+  --overwrite       replace a bag that is already there
+
+`panvo bag info BAG` looks into the result, `panvo play BAG` plays it.
 EOT
 }
 
-verb_main() { start_program panvo_run "$(system_file record)" "$@"; }
+verb_main() {
+  local bag='' topics='' exclude=''
+  local -a rest=()
+  while (($#)); do
+    case $1 in
+      --exclude)
+        require_value "$@"
+        exclude+="${exclude:+ }$2"
+        shift
+        ;;
+      --no-images) rest+=(include_images:=false) ;;
+      --overwrite) rest+=(overwrite:=true) ;;
+      -* | *:=*)
+        rest+=("$1")
+        if takes_value "$1"; then
+          require_value "$@"
+          rest+=("$2")
+          shift
+        fi
+        ;;
+      *) if [[ -z $bag ]]; then bag=$1; else topics+="${topics:+ }$1"; fi ;;
+    esac
+    shift
+  done
+  [[ -n $bag ]] || fail "into which folder? (panvo record --help)" 2
+  local system
+  system=$(system_file record)
+  start_program panvo_run "$system" "output:=$bag" "topics:=$topics" "exclude:=$exclude" "${rest[@]}"
+}

@@ -24,7 +24,6 @@ EOT
 }
 
 verb_main() {
-  (($#)) || fail "which system? There are: $(list_systems) (panvo run --help)" 2
   resolve_system "$@"
   start_program panvo_run "${resolved_arguments[@]}"
 }
