@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "panvo/recorder/bag_reader.hpp"
+#include "panvo/recorder/topic_filter.hpp"
+#include "panvo/runtime/component.hpp"
+
+namespace panvo::recorder {
+namespace {
+
+struct Parameters {
+  std::string directory;             // the bag
+  std::vector<std::string> topics;   // what to play
+  std::vector<std::string> exclude;  // and what of it not
+
+  template <class Field>
+  static void describe(Field&& field) {
+    using P = Parameters;
+    field(&P::directory, "directory", "", "folder of the bag, or one .db3 file");
+    field(&P::topics, "topics", "", "topics to play, names or regular expressions for whole names; none: all");
+    field(&P::exclude, "exclude", "", "topics not to play, names or regular expressions");
+  }
+};
+
+std::string absolute_name(const std::string& name) { return name.starts_with('/') ? name : "/" + name; }
+
+std::string listed(const std::vector<std::string>& names) {
+  std::string text;
+  for (const auto& name : names) {
+    text += (text.empty() ? "" : ", ") + name;
+  }
+  return text;
+}
+
+/// Plays a bag: its messages, as recorded, at their recorded times. Topics that the system computes itself are left out, so that what was
+/// recorded of them is not mixed with what is being computed.
+class BagPlayerComponent final : public runtime::Component, public runtime::Source {
+ public:
+  explicit BagPlayerComponent(runtime::Context& context) : context_(context) {
+    const auto parameters = context.parameters<Parameters>();
+    if (parameters.directory.empty()) {
+      throw runtime::ConfigError(context.name() + ": parameter directory names no bag; write directory: FOLDER");
+    }
+    try {
+      open(parameters);
+    } catch (const BagError& error) {
+      throw runtime::ConfigError(context.name() + ": " + error.what());
+    }
+    context.source(*this);
+  }
+
+  std::optional<std::int64_t> next_stamp_ns() override {
+    if (!begun_) {
+      begun_ = true;
+      advance();
+    }
+    return message_ ? std::optional(message_->timestamp_ns) : std::nullopt;
+  }
+
+  void emit() override {
+    const auto stamp_ns = next_stamp_ns();
+    while (message_ && message_->timestamp_ns == stamp_ns) {
+      outputs_[message_->topic]->publish(std::move(message_->data));
+      ++progress_.done;
+      advance();
+    }
+  }
+
+  Progress progress() const override { return progress_; }
+
+ private:
+  void open(const Parameters& parameters) {
+    bag_ = std::make_unique<BagReader>(parameters.directory);
+    for (const auto& warning : bag_->warnings()) {
+      context_.log().warn("{}", warning);
+    }
+    warnings_told_ = bag_->warnings().size();
+    const auto& metadata = bag_->metadata();
+    if (metadata.message_count == 0) {
+      throw BagError(bag_->path().string() + ": holds no message; `panvo bag info` shows what is in a bag");
+    }
+    const TopicFilter filter(parameters.topics, parameters.exclude);
+    refuse_unmatched(filter);
+    std::vector<std::string> computed_here;
+    for (const auto& topic : metadata.topics) {
+      outputs_.push_back(filter.accepts(topic.name) ? open_output(topic, computed_here) : nullptr);
+      if (outputs_.back()) {
+        progress_.total += topic.message_count;
+      }
+    }
+    if (!computed_here.empty()) {
+      context_.log().info("not played, for this system publishes them itself: {}", listed(computed_here));
+    }
+    if (progress_.total == 0) {
+      throw BagError(bag_->path().string() +
+                     ": none of its messages is to be played; see the parameters topics and exclude");
+    }
+    bag_->select([&](const BagTopic& topic) {
+      // By name and type, as a name may have been recorded with two.
+      for (std::size_t i = 0; i < outputs_.size(); ++i) {
+        if (metadata.topics[i].name == topic.name && metadata.topics[i].type == topic.type) {
+          return outputs_[i] != nullptr;
+        }
+      }
+      return false;
+    });
+    context_.log().info("playing {} of the {} messages of {}", progress_.total, metadata.message_count,
+                        bag_->path().string());
+  }
+
+  void refuse_unmatched(const TopicFilter& filter) const {
+    std::vector<std::string> names;
+    for (const auto& topic : bag_->metadata().topics) {
+      names.push_back(topic.name);
+    }
+    if (const auto unmatched = filter.unmatched(names); !unmatched.empty()) {
+      throw BagError(bag_->path().string() + ": no topic matches " + listed(unmatched) + "; it has " + listed(names));
+    }
+  }
+
+  std::shared_ptr<runtime::UntypedOutput> open_output(const BagTopic& topic, std::vector<std::string>& computed_here) {
+    const auto name = absolute_name(topic.name);
+    if (context_.is_published(name)) {
+      computed_here.push_back(name);
+      return nullptr;
+    }
+    if (topic.serialization_format != "cdr") {
+      context_.log().warn("{} is not played: its messages are serialised as {}, not as cdr", name,
+                          topic.serialization_format);
+      return nullptr;
+    }
+    const auto type = full_type_name(topic.type);
+    return context_.open_output(
+        {name, type, replay_qos(topic.offered_qos_profiles, topic.message_count), interfaces::find_message_type(type)});
+  }
+
+  void advance() {
+    message_ = bag_->next();
+    const auto& warnings = bag_->warnings();
+    for (; warnings_told_ < warnings.size(); ++warnings_told_) {
+      context_.log().warn("{}", warnings[warnings_told_]);
+    }
+    if (!message_ && bag_->lost_messages() > 0) {
+      context_.log().warn("{}: {} of its messages could not be read", bag_->path().string(), bag_->lost_messages());
+    }
+  }
+
+  runtime::Context& context_;
+  std::unique_ptr<BagReader> bag_;
+  std::vector<std::shared_ptr<runtime::UntypedOutput>> outputs_;  // by the bag's topics; nullptr: not played
+  BagMessage* message_ = nullptr;                                 // what comes next
+  bool begun_ = false;
+  std::size_t warnings_told_ = 0;
+  Progress progress_;
+};
+
+}  // namespace
+}  // namespace panvo::recorder
+
+namespace {
+using panvo::recorder::BagPlayerComponent;
+}
+PANVO_REGISTER_COMPONENT(BagPlayerComponent)

@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "panvo/recorder/bag_reader.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <set>
+#include <utility>
+
+#include "bag_file_reader.hpp"
+#include "bag_files.hpp"
+
+namespace panvo::recorder {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string plural(std::uint64_t count, const char* what) {
+  return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
+}
+
+}  // namespace
+
+/// A database with its next message. Until that has been asked for, the file counts as being at its first one.
+struct BagReader::File {
+  File(fs::path path, std::vector<std::string>& warnings) : reader(std::move(path), warnings) {}
+
+  void advance() {
+    started = true;
+    at_end = !reader.next(entry, data);
+  }
+  std::int64_t next_ns() const { return started ? entry.timestamp_ns : reader.first_ns(); }
+
+  BagFileReader reader;
+  std::map<std::int64_t, std::size_t> topic_by_id;  // index into the bag's topics
+  bool started = false;
+  bool at_end = false;
+  BagFileReader::Entry entry;
+  interfaces::Bytes data;
+};
+
+BagReader::BagReader(const fs::path& bag, Trust trust) : bag_(fs::absolute(bag).lexically_normal()) {
+  if (bag_.filename().empty()) {
+    bag_ = bag_.parent_path();  // "bag/"
+  }
+  auto found = find_bag_files(bag_, trust == Trust::kMetadata, warnings_);
+  folder_ = found.folder;
+  for (const auto& file : found.databases) {
+    open_file(file);
+  }
+  if (files_.empty()) {
+    throw BagError(warnings_.back());
+  }
+  describe(found.metadata);
+  const bool incomplete =
+      found.missing > 0 || files_.size() < found.databases.size() ||
+      std::any_of(files_.begin(), files_.end(), [](const auto& file) { return file->reader.damaged(); });
+  if (incomplete && found.metadata && found.metadata->message_count > metadata_.message_count) {
+    lost_by_count_ = found.metadata->message_count - metadata_.message_count;
+  }
+  if (trust == Trust::kDatabases || !found.metadata || !agrees(*found.metadata)) {
+    count_messages();
+    if (trust == Trust::kMetadata && found.metadata) {
+      warnings_.push_back((bag_ / kMetadataFile).string() + ": says " +
+                          plural(found.metadata->message_count, "message") + ", the databases hold " +
+                          std::to_string(metadata_.message_count) +
+                          " or other times; theirs are taken, `panvo bag reindex` corrects it");
+    }
+  }
+  select([](const BagTopic&) { return true; });
+}
+
+BagReader::~BagReader() = default;
+
+void BagReader::open_file(const fs::path& file) {
+  try {
+    files_.push_back(std::make_unique<File>(file, warnings_));
+  } catch (const BagError& error) {
+    if (bag_ == file) {
+      throw;
+    }
+    warnings_.push_back(error.what());  // the bag's other files are read
+  }
+}
+
+/// Topics and files as the databases have them; what only metadata.yaml knows from there.
+void BagReader::describe(const std::optional<BagMetadata>& written) {
+  std::map<std::pair<std::string, std::string>, std::size_t> index_by_name_and_type;
+  for (const auto& file : files_) {
+    for (const auto& [id, topic] : file->reader.topics()) {
+      const auto [place, is_new] =
+          index_by_name_and_type.try_emplace({topic.name, topic.type}, metadata_.topics.size());
+      if (is_new) {
+        metadata_.topics.push_back(topic);
+      }
+      file->topic_by_id[id] = place->second;
+    }
+    const auto& reader = file->reader;
+    const bool empty = reader.message_count() == 0;
+    metadata_.files.push_back({.path = reader.path().lexically_relative(folder_).string(),
+                               .start_ns = reader.first_ns(),
+                               .duration_ns = empty ? 0 : reader.last_ns() - reader.first_ns(),
+                               .message_count = reader.message_count()});
+    metadata_.message_count += reader.message_count();
+    if (!empty) {
+      const auto end_ns = metadata_.start_ns == BagMetadata::kNoStart
+                              ? reader.last_ns()
+                              : std::max(reader.last_ns(), metadata_.start_ns + metadata_.duration_ns);
+      metadata_.start_ns = std::min(metadata_.start_ns, reader.first_ns());
+      metadata_.duration_ns = end_ns - metadata_.start_ns;
+    }
+  }
+  const auto& told = written ? written : files_.front()->reader.stored_metadata();
+  metadata_.ros_distro = told ? told->ros_distro : std::string();
+  if (metadata_.ros_distro.empty()) {
+    metadata_.ros_distro = files_.front()->reader.ros_distro();
+  }
+  if (told) {
+    metadata_.version = told->version;
+    metadata_.custom_data = told->custom_data;
+    for (auto& topic : metadata_.topics) {
+      const auto same = std::find_if(told->topics.begin(), told->topics.end(),
+                                     [&](const BagTopic& t) { return t.name == topic.name; });
+      topic.message_count = same != told->topics.end() ? same->message_count : 0;
+    }
+  }
+}
+
+/// Whether what was written is about the databases as they are; decided without reading them through.
+bool BagReader::agrees(const BagMetadata& written) const {
+  const auto sum =
+      std::accumulate(metadata_.topics.begin(), metadata_.topics.end(), std::uint64_t{0},
+                      [](std::uint64_t total, const BagTopic& topic) { return total + topic.message_count; });
+  return written.message_count == metadata_.message_count && sum == metadata_.message_count &&
+         (metadata_.message_count == 0 ||
+          (written.start_ns == metadata_.start_ns && written.duration_ns == metadata_.duration_ns));
+}
+
+void BagReader::count_messages() {
+  for (auto& topic : metadata_.topics) {
+    topic.message_count = 0;
+  }
+  for (const auto& file : files_) {
+    for (const auto& [id, count] : file->reader.count_by_topic()) {
+      if (const auto topic = file->topic_by_id.find(id); topic != file->topic_by_id.end()) {
+        metadata_.topics[topic->second].message_count += count;
+      }
+    }
+  }
+}
+
+std::uint64_t BagReader::size_bytes() const {
+  return std::accumulate(files_.begin(), files_.end(), std::uint64_t{0}, [](std::uint64_t sum, const auto& file) {
+    std::error_code error;
+    const auto size = fs::file_size(file->reader.path(), error);
+    return sum + (error ? 0 : size);
+  });
+}
+
+void BagReader::select(const std::function<bool(const BagTopic&)>& wanted) {
+  for (auto& file : files_) {
+    std::set<std::int64_t> ids;
+    for (const auto& [id, topic] : file->reader.topics()) {
+      if (wanted(topic)) {
+        ids.insert(id);
+      }
+    }
+    file->reader.select(std::move(ids));
+    file->started = false;
+    file->at_end = file->reader.message_count() == 0;
+  }
+}
+
+BagMessage* BagReader::next() {
+  while (true) {
+    File* first = nullptr;
+    for (const auto& file : files_) {
+      if (!file->at_end && (!first || file->next_ns() < first->next_ns())) {
+        first = file.get();
+      }
+    }
+    if (!first) {
+      return nullptr;
+    }
+    if (!first->started) {
+      first->advance();
+      continue;  // its first message may be of a topic that is not wanted, and another file's turn come
+    }
+    message_.topic = first->topic_by_id.at(first->entry.topic_id);
+    message_.timestamp_ns = first->entry.timestamp_ns;
+    std::swap(message_.data, first->data);
+    first->advance();
+    return &message_;
+  }
+}
+
+std::uint64_t BagReader::lost_messages() const {
+  const auto met = std::accumulate(files_.begin(), files_.end(), std::uint64_t{0},
+                                   [](std::uint64_t sum, const auto& file) { return sum + file->reader.lost(); });
+  return std::max(met, lost_by_count_);
+}
+
+std::vector<std::string> BagReader::check_integrity() {
+  std::vector<std::string> complaints;
+  for (const auto& file : files_) {
+    const auto found = file->reader.check_integrity();
+    complaints.insert(complaints.end(), found.begin(), found.end());
+  }
+  return complaints;
+}
+
+std::string full_type_name(const std::string& type) {
+  const auto slash = type.find('/');
+  const bool short_form = slash != std::string::npos && type.find('/', slash + 1) == std::string::npos;
+  return short_form ? type.substr(0, slash) + "/msg" + type.substr(slash) : type;
+}
+
+}  // namespace panvo::recorder

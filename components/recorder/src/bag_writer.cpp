@@ -1,0 +1,300 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "panvo/recorder/bag_writer.hpp"
+
+#include <algorithm>
+#include <ctime>
+#include <system_error>
+#include <utility>
+
+#include "bag_file_writer.hpp"
+#include "durable_file.hpp"
+
+namespace panvo::recorder {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// How long metadata.yaml may lag behind the database; a reader notices and counts for itself.
+constexpr std::chrono::seconds kMetadataPeriod{5};
+
+bool is_bag_file(const fs::path& file) {
+  const auto name = file.filename().string();
+  return name == kMetadataFile || name.ends_with(".db3") || name.ends_with(".db3-journal") ||
+         name.ends_with(".db3-wal") || name.ends_with(".db3-shm") || name.ends_with(".mcap");
+}
+
+/// Removes the bag, and nothing that is not one.
+void remove_bag(const fs::path& bag) {
+  for (const auto& entry : fs::directory_iterator(bag)) {
+    if (!entry.is_regular_file() || !is_bag_file(entry.path())) {
+      throw BagError(bag.string() + ": is not overwritten, for it holds " + entry.path().filename().string() +
+                     ", which is no part of a bag; choose another folder");
+    }
+  }
+  for (const auto& entry : fs::directory_iterator(bag)) {
+    fs::remove(entry.path());
+  }
+}
+
+void make_folder(const fs::path& bag, bool overwrite) {
+  try {
+    if (fs::exists(bag)) {
+      if (!fs::is_directory(bag)) {
+        throw BagError(bag.string() + ": is a file; a bag is a folder, choose another name");
+      }
+      if (!fs::is_empty(bag)) {
+        if (!overwrite) {
+          throw BagError(bag.string() + ": exists already; choose another folder, or allow to overwrite it");
+        }
+        remove_bag(bag);
+      }
+    }
+    fs::create_directories(bag);
+  } catch (const fs::filesystem_error& error) {
+    throw BagError(bag.string() + ": cannot be made (" + error.code().message() +
+                   "); choose a folder you may write to");
+  }
+}
+
+}  // namespace
+
+std::string dated_bag_name() {
+  const std::time_t now = std::time(nullptr);
+  std::tm local{};
+  localtime_r(&now, &local);
+  char text[64];
+  std::strftime(text, sizeof text, "rosbag2_%Y_%m_%d-%H_%M_%S", &local);
+  return text;
+}
+
+BagWriter::BagWriter(fs::path bag, Options options)
+    : bag_(fs::absolute(bag).lexically_normal()), options_(std::move(options)) {
+  make_folder(bag_, options_.overwrite);
+  const std::unique_lock lock(mutex_);
+  open_next_file();
+  write_metadata(bag_, metadata_, true);
+  metadata_saved_ = Clock::now();
+  idle_committer_ = std::jthread([this](std::stop_token stop) { commit_when_idle(stop); });
+}
+
+BagWriter::~BagWriter() {
+  try {
+    close();
+  } catch (const BagError&) {
+  }
+}
+
+int BagWriter::add_topic(const BagTopic& topic, std::string_view definition) {
+  const std::unique_lock lock(mutex_);
+  const int handle = static_cast<int>(topics_.size());
+  topics_.push_back({topic, std::string(definition), 0});
+  topics_.back().description.message_count = 0;
+  metadata_.topics.push_back(topics_.back().description);
+  topics_changed_ = true;
+  try {
+    begin_batch();
+    file_->add_topic(handle + 1, topics_.back().description, definition);
+  } catch (const DatabaseError& error) {
+    fail(error);
+  }
+  return handle;
+}
+
+void BagWriter::write(int topic, std::int64_t timestamp_ns, std::span<const std::uint8_t> data) {
+  const std::unique_lock lock(mutex_);
+  auto& written = topics_.at(static_cast<std::size_t>(topic));
+  try {
+    begin_batch();
+    file_->insert(topic + 1, timestamp_ns, data);
+  } catch (const DatabaseError& error) {
+    ++batch_messages_;
+    fail(error);
+  }
+  batch_first_ns_ = batch_messages_ == 0 ? timestamp_ns : std::min(batch_first_ns_, timestamp_ns);
+  batch_last_ns_ = batch_messages_ == 0 ? timestamp_ns : std::max(batch_last_ns_, timestamp_ns);
+  ++written.waiting;
+  ++batch_messages_;
+  batch_size_ += data.size();
+  if (batch_size_ >= options_.batch_bytes || Clock::now() >= batch_deadline_) {
+    commit_locked();
+  }
+}
+
+void BagWriter::count_dropped(const std::string& topic, std::uint64_t count) {
+  const std::unique_lock lock(mutex_);
+  set_dropped_messages(metadata_, topic, recorder::dropped_messages(metadata_, topic) + count);
+  set_dropped_messages(metadata_, "", recorder::dropped_messages(metadata_) + count);
+}
+
+void BagWriter::commit() {
+  const std::unique_lock lock(mutex_);
+  commit_locked();
+}
+
+void BagWriter::close() {
+  idle_committer_.request_stop();
+  const std::unique_lock lock(mutex_);
+  if (closed_) {
+    return;
+  }
+  closed_ = true;
+  if (failure_) {
+    file_.reset();
+    save_metadata(true);
+    if (!failure_told_) {
+      throw_failure();
+    }
+    return;
+  }
+  commit_locked();
+  finish_file();
+  save_metadata(true);
+}
+
+std::uint64_t BagWriter::committed_messages() const {
+  const std::unique_lock lock(mutex_);
+  return metadata_.message_count;
+}
+
+std::uint64_t BagWriter::lost_messages() const {
+  const std::unique_lock lock(mutex_);
+  return lost_;
+}
+
+std::uint64_t BagWriter::dropped_messages() const {
+  const std::unique_lock lock(mutex_);
+  return recorder::dropped_messages(metadata_);
+}
+
+void BagWriter::open_next_file() {
+  const auto name = bag_.filename().string() + "_" + std::to_string(metadata_.files.size()) + ".db3";
+  metadata_.files.push_back({.path = name, .start_ns = BagMetadata::kNoStart});
+  try {
+    file_ = std::make_unique<BagFileWriter>(bag_ / name, metadata_.ros_distro);
+    file_->begin();
+    for (std::size_t i = 0; i < topics_.size(); ++i) {
+      file_->add_topic(static_cast<int>(i) + 1, topics_[i].description, topics_[i].definition);
+    }
+    // Tells readers which notation this database's QoS profiles are in.
+    file_->insert_metadata(to_yaml(metadata_, true));
+    file_->commit();
+    sync_folder(bag_);
+  } catch (const DatabaseError& error) {
+    fail(error);
+  }
+}
+
+void BagWriter::begin_batch() {
+  throw_failure();
+  if (closed_) {
+    throw BagError(bag_.string() + ": is closed; nothing can be added to it");
+  }
+  if (!batch_open_) {
+    file_->begin();
+    batch_open_ = true;
+    batch_deadline_ = Clock::now() + options_.batch_time;
+    batch_begun_.notify_one();
+  }
+}
+
+void BagWriter::commit_locked() {
+  throw_failure();
+  if (!batch_open_) {
+    return;
+  }
+  try {
+    file_->commit();
+  } catch (const DatabaseError& error) {
+    fail(error);
+  }
+  batch_open_ = false;
+  if (batch_messages_ > 0) {
+    auto& file = metadata_.files.back();
+    const auto extend = [this](std::int64_t& start_ns, std::int64_t& duration_ns, bool empty) {
+      const auto end_ns = empty ? batch_last_ns_ : std::max(start_ns + duration_ns, batch_last_ns_);
+      start_ns = empty ? batch_first_ns_ : std::min(start_ns, batch_first_ns_);
+      duration_ns = end_ns - start_ns;
+    };
+    extend(file.start_ns, file.duration_ns, file.message_count == 0);
+    extend(metadata_.start_ns, metadata_.duration_ns, metadata_.message_count == 0);
+    file.message_count += batch_messages_;
+    metadata_.message_count += batch_messages_;
+    for (std::size_t i = 0; i < topics_.size(); ++i) {
+      metadata_.topics[i].message_count += std::exchange(topics_[i].waiting, 0);
+    }
+  }
+  batch_messages_ = 0;
+  batch_size_ = 0;
+  const bool full = options_.max_file_bytes > 0 && file_->size_bytes() >= options_.max_file_bytes;
+  if (full && !closed_) {
+    finish_file();
+    open_next_file();
+    save_metadata(true);
+  } else if (topics_changed_ || Clock::now() - metadata_saved_ >= kMetadataPeriod) {
+    save_metadata(false);
+  }
+}
+
+void BagWriter::finish_file() {
+  try {
+    file_->begin();
+    file_->insert_metadata(to_yaml(metadata_, true));
+    file_->commit();
+    file_.reset();
+  } catch (const DatabaseError& error) {
+    fail(error);
+  }
+}
+
+void BagWriter::save_metadata(bool durable) {
+  topics_changed_ = false;
+  metadata_saved_ = Clock::now();
+  try {
+    write_metadata(bag_, metadata_, durable);
+  } catch (const BagError&) {
+    // A full disk or the like: the older metadata.yaml stays, and readers believe the database more than it.
+  }
+}
+
+void BagWriter::fail(const DatabaseError& error) {
+  if (file_) {
+    file_->rollback();
+  }
+  batch_open_ = false;
+  lost_ += std::exchange(batch_messages_, 0);
+  std::string text = (bag_ / metadata_.files.back().path).string() + ": cannot be written (" + error.what() + ")";
+  if (metadata_.message_count + lost_ > 0) {
+    text += "; the " + std::to_string(metadata_.message_count) + " messages committed before stay readable, " +
+            std::to_string(lost_) + " are lost";
+  }
+  const bool is_disk = error.primary_code() == SQLITE_FULL || error.primary_code() == SQLITE_IOERR;
+  failure_ = text + (is_disk ? "; free some space or record to another disk" : "");
+  throw_failure();
+}
+
+void BagWriter::throw_failure() {
+  if (failure_) {
+    failure_told_ = true;
+    throw BagError(*failure_);
+  }
+}
+
+void BagWriter::commit_when_idle(std::stop_token stop) {
+  std::unique_lock lock(mutex_);
+  while (batch_begun_.wait(lock, stop, [this] { return batch_open_; })) {
+    batch_begun_.wait_until(lock, stop, batch_deadline_, [] { return false; });
+    if (stop.stop_requested()) {
+      return;  // close() commits
+    }
+    try {
+      if (batch_open_ && Clock::now() >= batch_deadline_) {
+        commit_locked();
+      }
+    } catch (const BagError&) {
+      failure_told_ = false;  // whoever writes or closes next is told
+      return;
+    }
+  }
+}
+
+}  // namespace panvo::recorder

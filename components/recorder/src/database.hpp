@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <sqlite3.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+namespace panvo::recorder {
+
+/// SQLite refused: its extended result code, and errno where the operating system was the reason (0 elsewhere).
+class DatabaseError : public std::runtime_error {
+ public:
+  DatabaseError(sqlite3* database, int result);
+
+  int code() const noexcept { return code_; }
+  int primary_code() const noexcept { return code_ & 0xff; }
+  int system_error() const noexcept { return system_error_; }
+
+ private:
+  int code_;
+  int system_error_;
+};
+
+/// An open SQLite database. Everything here throws DatabaseError.
+class Database {
+ public:
+  enum class Mode {
+    kCreate,  ///< must not exist
+    kReadWrite,
+    kRead,
+    kImmutable,  ///< read, and believe that nobody writes: no locks, journals ignored
+  };
+
+  /// `vfs`: SQLite's layer below, nullptr for the system's.
+  Database(const std::filesystem::path& file, Mode mode, const char* vfs = nullptr);
+
+  /// Runs statements that return nothing of interest.
+  void execute(const std::string& sql);
+
+  std::int64_t last_insert_id() const noexcept { return sqlite3_last_insert_rowid(handle_.get()); }
+  bool in_transaction() const noexcept { return sqlite3_get_autocommit(handle_.get()) == 0; }
+  sqlite3* handle() const noexcept { return handle_.get(); }
+
+ private:
+  struct Close {
+    void operator()(sqlite3* database) const noexcept { sqlite3_close_v2(database); }
+  };
+  std::unique_ptr<sqlite3, Close> handle_;
+};
+
+/// A prepared statement. Parameters count from 1, columns from 0, as in SQLite.
+class Statement {
+ public:
+  Statement(const Database& database, std::string_view sql);
+
+  Statement& bind(int parameter, std::int64_t value);
+  Statement& bind(int parameter, std::string_view value);
+  /// The bytes must stay until the statement is reset.
+  Statement& bind(int parameter, std::span<const std::uint8_t> value);
+
+  bool step();  ///< whether there is a row
+  void reset() noexcept;
+  void run();  ///< steps to the end and resets
+
+  std::int64_t integer(int column) const noexcept { return sqlite3_column_int64(handle_.get(), column); }
+  std::string text(int column) const;
+  bool is_null(int column) const noexcept { return sqlite3_column_type(handle_.get(), column) == SQLITE_NULL; }
+  /// Valid until the next step().
+  std::span<const std::uint8_t> blob(int column) const;
+
+ private:
+  void check(int result) const;
+
+  struct Finalize {
+    void operator()(sqlite3_stmt* statement) const noexcept { sqlite3_finalize(statement); }
+  };
+  sqlite3* database_;
+  std::unique_ptr<sqlite3_stmt, Finalize> handle_;
+};
+
+}  // namespace panvo::recorder

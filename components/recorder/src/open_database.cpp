@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "open_database.hpp"
+
+#include <array>
+#include <cstring>
+#include <fstream>
+#include <optional>
+#include <string_view>
+
+#include "panvo/recorder/bag_error.hpp"
+#include "whole_pages_vfs.hpp"
+
+namespace panvo::recorder {
+namespace {
+
+namespace fs = std::filesystem;
+using Header = std::array<char, 100>;  // SQLite's, see its file format
+
+std::size_t read_header(const fs::path& file, Header& header) {
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) {
+    throw BagError(file.string() + ": cannot be opened (" + std::strerror(errno) + ")");
+  }
+  stream.read(header.data(), header.size());
+  return static_cast<std::size_t>(stream.gcount());
+}
+
+std::uint32_t big_endian(const Header& header, std::size_t at, std::size_t bytes) {
+  std::uint32_t value = 0;
+  for (std::size_t i = 0; i < bytes; ++i) {
+    value = value << 8 | static_cast<std::uint8_t>(header[at + i]);
+  }
+  return value;
+}
+
+void check_kind(const fs::path& file) {
+  using namespace std::string_view_literals;
+  if (fs::is_directory(file)) {
+    throw BagError(file.string() + ": is a folder, not a database");
+  }
+  Header header{};
+  const std::size_t size = read_header(file, header);
+  const std::string_view start(header.data(), size);
+  if (start.empty()) {
+    throw BagError(file.string() + ": is empty; if it is one file of a bag, remove it and run `panvo bag reindex`");
+  }
+  if (start.starts_with("SQLite format 3\0"sv)) {
+    return;
+  }
+  if (start.starts_with("\x89MCAP"sv)) {
+    throw BagError(file.string() + ": is an MCAP file, which is not read here; " + how_to_convert(file));
+  }
+  if (start.starts_with("\x28\xb5\x2f\xfd"sv)) {
+    throw BagError(file.string() + ": is compressed with zstd; `zstd -d " + file.string() +
+                   "` unpacks it, then run `panvo bag reindex` on the bag");
+  }
+  if (start.starts_with("#ROSBAG"sv)) {
+    throw BagError(file.string() + ": is a bag of ROS 1; `rosbags-convert` makes a ROS 2 bag of it");
+  }
+  throw BagError(file.string() +
+                 ": is not a SQLite database (or its first bytes are lost); name a rosbag2 folder or its .db3 file");
+}
+
+/// Opens and reads a little, as SQLite opens nothing before it has to.
+Database open_and_look(const fs::path& file, Database::Mode mode) {
+  const bool is_cut = mode != Database::Mode::kReadWrite && expected_bytes_if_cut(file) > 0;
+  Database database(file, mode, is_cut ? whole_pages_vfs() : nullptr);
+  // Without this a file that is shorter than its header says cannot be read at all. Nothing is written, the mode sees to that.
+  database.execute("PRAGMA writable_schema=ON; PRAGMA trusted_schema=OFF; PRAGMA cell_size_check=ON;");
+  Statement(database, "SELECT count(*) FROM sqlite_master").step();
+  return database;
+}
+
+bool not_empty(fs::path file, const char* suffix) {
+  file += suffix;
+  std::error_code error;
+  const auto size = fs::file_size(file, error);
+  return !error && size > 0;
+}
+
+bool is_damage(const DatabaseError& error) {
+  return error.primary_code() == SQLITE_CORRUPT || error.primary_code() == SQLITE_NOTADB;
+}
+
+}  // namespace
+
+std::string how_to_convert(const fs::path& bag) {
+  return "convert it where ROS 2 is installed: `ros2 bag convert -i " + bag.string() +
+         " -o out.yaml` with out.yaml: `output_bags: [{uri: converted, storage_id: sqlite3, all_topics: true}]`";
+}
+
+std::uint64_t expected_bytes_if_cut(const fs::path& file) {
+  Header header{};
+  if (read_header(file, header) < header.size()) {
+    return header.size();
+  }
+  const std::uint32_t written_page_size = big_endian(header, 16, 2);
+  const std::uint64_t page_size = written_page_size == 1 ? 65536 : written_page_size;
+  const bool count_is_valid = big_endian(header, 24, 4) == big_endian(header, 92, 4);
+  const std::uint64_t expected = count_is_valid ? page_size * big_endian(header, 28, 4) : 0;
+  return fs::file_size(file) < expected ? expected : 0;
+}
+
+Database open_database(const fs::path& file, std::vector<std::string>& warnings) {
+  check_kind(file);
+  try {
+    return open_and_look(file, Database::Mode::kRead);
+  } catch (const DatabaseError& error) {
+    if (error.primary_code() == SQLITE_BUSY) {
+      throw BagError(file.string() + ": is being written by another program; stop the recording first");
+    }
+    if (is_damage(error)) {
+      throw BagError(file.string() + ": is damaged at its start (" + error.what() + "); nothing of it can be read");
+    }
+    // What is left: an unfinished commit must be rolled back, or a write-ahead log read, and either needs to write.
+  }
+  const bool unfinished = not_empty(file, "-journal") || not_empty(file, "-wal");
+  try {
+    open_and_look(file, Database::Mode::kReadWrite);
+    auto database = open_and_look(file, Database::Mode::kRead);
+    if (unfinished) {
+      warnings.push_back(file.string() +
+                         ": the recorder did not finish its last batch (was it killed?); this has been put in order");
+    }
+    return database;
+  } catch (const DatabaseError& error) {
+    if (is_damage(error)) {
+      throw BagError(file.string() + ": is damaged at its start (" + error.what() + "); nothing of it can be read");
+    }
+    if (unfinished) {
+      throw BagError(file.string() + ": has an unfinished batch and is write-protected (" + error.what() +
+                     "); copy the bag with all its files to where you may write, and open the copy");
+    }
+  }
+  try {
+    return open_and_look(file, Database::Mode::kImmutable);
+  } catch (const DatabaseError& error) {
+    throw BagError(file.string() + ": cannot be read (" + error.what() + ")");
+  }
+}
+
+}  // namespace panvo::recorder

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <yaml-cpp/yaml.h>
+
+#include <vector>
+
+#include "panvo/recorder/qos_profile.hpp"
+
+namespace panvo::recorder {
+
+/// Profiles as they are nested in metadata.yaml since version 9.
+YAML::Node to_node(const std::vector<QosProfile>& profiles, QosNotation notation);
+
+/// Either notation; throws YAML::Exception or std::out_of_range.
+std::vector<QosProfile> profiles_from_node(const YAML::Node& node);
+
+}  // namespace panvo::recorder

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <atomic>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "panvo/recorder/bag_writer.hpp"
+#include "panvo/recorder/topic_filter.hpp"
+#include "panvo/runtime/component.hpp"
+
+namespace panvo::recorder {
+namespace {
+
+using runtime::SamplePtr;
+using runtime::TopicDescription;
+
+struct Parameters {
+  std::string output;                // folder of the bag
+  bool overwrite = false;            // replace a bag that is there
+  std::vector<std::string> topics;   // what to record
+  std::vector<std::string> exclude;  // and what of it not
+  bool include_images = true;
+  bool include_hidden = false;
+  int max_file_mb = 0;  // size at which the next file is begun
+  int queue_mb = 100;   // what may wait for the disk
+
+  template <class Field>
+  static void describe(Field&& field) {
+    using P = Parameters;
+    field(&P::output, "output", "", "folder of the bag; empty: rosbag2_ with date and time, in the working directory");
+    field(&P::overwrite, "overwrite", "", "replace a bag that is already there");
+    field(&P::topics, "topics", "", "topics to record, names or regular expressions for whole names; none: all");
+    field(&P::exclude, "exclude", "", "topics not to record, names or regular expressions");
+    field(&P::include_images, "include_images", "", "record sensor_msgs/Image and CompressedImage too");
+    field(&P::include_hidden, "include_hidden", "",
+          "record hidden topics too: those with a name part that begins with _");
+    field(&P::max_file_mb, "max_file_mb", "MB", "begin the next file of the bag at this size; 0: one file", 0, 1e6);
+    field(&P::queue_mb, "queue_mb", "MB", "messages that may wait for the disk; what is more is dropped and counted", 1,
+          1e5);
+  }
+};
+
+bool is_image(const TopicDescription& topic) {
+  return topic.type_name == "sensor_msgs/msg/Image" || topic.type_name == "sensor_msgs/msg/CompressedImage";
+}
+
+bool is_hidden(const TopicDescription& topic) { return topic.name.find("/_") != std::string::npos; }
+
+/// Runs what throws BagError where only a ConfigError may be thrown.
+template <class Action>
+auto as_configuration(const std::string& component, Action action) {
+  try {
+    return action();
+  } catch (const BagError& error) {
+    throw runtime::ConfigError(component + ": " + error.what());
+  }
+}
+
+std::unique_ptr<BagWriter> make_writer(const Parameters& parameters) {
+  const BagWriter::Options options{.overwrite = parameters.overwrite,
+                                   .max_file_bytes = static_cast<std::uint64_t>(parameters.max_file_mb) * 1'000'000};
+  return std::make_unique<BagWriter>(parameters.output.empty() ? dated_bag_name() : parameters.output, options);
+}
+
+/// Records topics to a bag. What it must write waits in a queue that is bounded by its bytes; behind it a second stage writes, so that a disk
+/// that is slow for a moment delays nobody, and one that is slow for longer costs messages that are counted, topic by topic.
+class RecorderComponent final : public runtime::Component {
+ public:
+  explicit RecorderComponent(runtime::Context& context)
+      : context_(context),
+        parameters_(context.parameters<Parameters>()),
+        filter_(
+            as_configuration(context.name(), [this] { return TopicFilter(parameters_.topics, parameters_.exclude); })),
+        writer_(as_configuration(context.name(), [this] { return make_writer(parameters_); })),
+        writing_(context.stage<Waiting>("write", kMostWaiting, [this](Waiting message) { write(message); })) {
+    context.tap([this](const TopicDescription& topic) { return is_wanted(topic); }, kTapDepth,
+                [this](const TopicDescription& topic, const SamplePtr& sample) { take(topic, sample); });
+    context.log().info("recording to {}", writer_->path().string());
+  }
+
+  ~RecorderComponent() override {
+    for (const auto& [topic, count] : dropped_) {
+      writer_->count_dropped(topic, count);
+    }
+    try {
+      writer_->close();
+      context_.log().info("recorded {} messages to {}, {} dropped", writer_->committed_messages(),
+                          writer_->path().string(), writer_->dropped_messages());
+    } catch (const BagError& error) {
+      context_.log().error("{}", error.what());
+    }
+  }
+
+ private:
+  struct Waiting {
+    const TopicDescription* topic = nullptr;
+    SamplePtr sample;
+    std::uint64_t dropped_before = 0;  // of this topic, since the last one that was not
+  };
+
+  static constexpr std::size_t kTapDepth = 10'000;      // never reached: taking a message is quick
+  static constexpr std::size_t kMostWaiting = 100'000;  // of messages so small that they do not fill the queue
+
+  bool is_wanted(const TopicDescription& topic) const {
+    return filter_.accepts(topic.name) && (parameters_.include_images || !is_image(topic)) &&
+           (parameters_.include_hidden || !is_hidden(topic));
+  }
+
+  void take(const TopicDescription& topic, const SamplePtr& sample) {
+    if (waiting_bytes_ >= static_cast<std::size_t>(parameters_.queue_mb) * 1'000'000 ||
+        waiting_messages_ + 1 >= kMostWaiting) {
+      count_dropped(topic.name);
+      return;
+    }
+    waiting_bytes_ += sample->bytes().size();
+    ++waiting_messages_;
+    const auto dropped = dropped_.extract(topic.name);
+    writing_.push({&topic, sample, dropped ? dropped.mapped() : 0});
+  }
+
+  void count_dropped(const std::string& topic) {
+    ++dropped_[topic];
+    ++all_dropped_;
+    if ((all_dropped_ & (all_dropped_ - 1)) == 0) {  // the 1st, 2nd, 4th, 8th ...: heard, and not too often
+      context_.log().warn(
+          "{} messages dropped: {} is written to more slowly than they come; record fewer topics, or to a faster disk",
+          all_dropped_, writer_->path().string());
+    }
+  }
+
+  void write(const Waiting& message) {
+    const auto& bytes = message.sample->bytes();
+    const auto [place, is_new] = handles_.try_emplace(message.topic->name, -1);
+    if (is_new) {
+      place->second = add_topic(*message.topic);
+    }
+    if (message.dropped_before > 0) {
+      writer_->count_dropped(message.topic->name, message.dropped_before);
+    }
+    writer_->write(place->second, message.sample->time_ns(), bytes);  // a BagError ends this stage, not the system
+    waiting_bytes_ -= bytes.size();
+    --waiting_messages_;
+  }
+
+  int add_topic(const TopicDescription& topic) {
+    BagTopic description;
+    description.name = topic.name;
+    description.type = topic.type_name;
+    description.offered_qos_profiles = {offered_profile(topic.qos)};
+    if (topic.type) {
+      description.type_description_hash = topic.type->hash;
+    }
+    return writer_->add_topic(description, topic.type ? topic.type->definition : std::string_view());
+  }
+
+  runtime::Context& context_;
+  const Parameters parameters_;
+  const TopicFilter filter_;
+  const std::unique_ptr<BagWriter> writer_;
+  runtime::Stage<Waiting> writing_;
+
+  std::atomic<std::size_t> waiting_bytes_ = 0;
+  std::atomic<std::size_t> waiting_messages_ = 0;
+  std::map<std::string, std::uint64_t> dropped_;  // of the taking stage, not yet told to the writer
+  std::uint64_t all_dropped_ = 0;
+  std::map<std::string, int> handles_;  // of the writing stage
+};
+
+}  // namespace
+}  // namespace panvo::recorder
+
+namespace {
+using panvo::recorder::RecorderComponent;
+}
+PANVO_REGISTER_COMPONENT(RecorderComponent)

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "salvage.hpp"
+
+#include <algorithm>
+
+namespace panvo::recorder {
+namespace {
+
+constexpr std::int64_t kEndOfIds = std::int64_t{1} << 48;
+
+class Scan {
+ public:
+  explicit Scan(const Database& database)
+      : rows_(database, "SELECT timestamp, id, topic_id, data FROM messages WHERE id >= ? ORDER BY id") {}
+
+  /// Whether the first message from `id` on can be read, or there is none.
+  bool is_readable_from(std::int64_t id) {
+    rows_.reset();
+    rows_.bind(1, id);
+    try {
+      return !rows_.step() || rows_.integer(1) >= id;
+    } catch (const DatabaseError&) {
+      return false;
+    }
+  }
+
+  /// Collects from `id` on, up to the end (true) or to what cannot be read (false); `id` is then where that is.
+  bool collect(std::int64_t& id, std::vector<BagFileReader::Entry>& entries) {
+    rows_.reset();
+    rows_.bind(1, id);
+    try {
+      while (rows_.step()) {
+        if (rows_.integer(1) < id) {
+          return false;  // ids that do not rise: the tree bites its tail
+        }
+        if (rows_.integer(1) >= kEndOfIds) {
+          return true;
+        }
+        entries.push_back({rows_.integer(0), rows_.integer(1), rows_.integer(2)});
+        id = rows_.integer(1) + 1;
+      }
+      return true;
+    } catch (const DatabaseError&) {
+      return false;
+    }
+  }
+
+ private:
+  Statement rows_;
+};
+
+/// The first id after the unreadable `bad` from which on something can be read: found by leaps that double, then by halving the last one.
+std::int64_t after_damage(Scan& scan, std::int64_t bad) {
+  std::int64_t good = bad + 1;
+  for (std::int64_t leap = 1; good < kEndOfIds && !scan.is_readable_from(good); leap *= 2) {
+    bad = good;
+    good += leap;
+  }
+  while (good < kEndOfIds && good - bad > 1) {
+    const std::int64_t middle = bad + (good - bad) / 2;
+    (scan.is_readable_from(middle) ? good : bad) = middle;
+  }
+  return good;
+}
+
+}  // namespace
+
+Salvaged salvage_messages(const Database& database) {
+  Salvaged found;
+  Scan scan(database);
+  std::int64_t id = 0;
+  while (id < kEndOfIds && !scan.collect(id, found.entries)) {
+    id = after_damage(scan, id);
+  }
+  if (!found.entries.empty()) {
+    const auto span = static_cast<std::uint64_t>(found.entries.back().id - found.entries.front().id) + 1;
+    found.missing_ids = span - found.entries.size();
+  }
+  std::sort(found.entries.begin(), found.entries.end());
+  return found;
+}
+
+}  // namespace panvo::recorder

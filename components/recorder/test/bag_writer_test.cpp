@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "panvo/recorder/bag_writer.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sqlite3.h>
+
+#include "test_bag.hpp"
+
+namespace panvo::recorder {
+namespace {
+
+using namespace test;
+using testing::HasSubstr;
+
+TEST(BagWriter, WritesWhatTheReaderReads) {
+  const TemporaryFolder folder;
+  {
+    BagWriter writer(folder / "bag");
+    const int a = writer.add_topic(topic("/a", "a_msgs/msg/A"));
+    const int b = writer.add_topic(topic("/b", "b_msgs/msg/B"));
+    writer.write(b, kStart + 2, payload(1, 3'000'000));  // many pages
+    writer.write(a, kStart + 1, payload(2, 0));
+    writer.write(a, kStart + 2, payload(3, 17));
+    writer.close();
+    EXPECT_EQ(writer.committed_messages(), 3u);
+  }
+  BagReader reader(folder / "bag");
+  EXPECT_THAT(reader.warnings(), testing::IsEmpty());
+  EXPECT_EQ(read_all(reader), (std::vector<Read>{{"/a", kStart + 1, payload(2, 0)},
+                                                 {"/b", kStart + 2, payload(1, 3'000'000)},
+                                                 {"/a", kStart + 2, payload(3, 17)}}));
+  const auto& metadata = reader.metadata();
+  EXPECT_EQ(metadata.start_ns, kStart + 1);
+  EXPECT_EQ(metadata.duration_ns, 1);
+  EXPECT_EQ(metadata.message_count, 3u);
+  ASSERT_EQ(metadata.topics.size(), 2u);
+  EXPECT_EQ(metadata.topics[0].type, "a_msgs/msg/A");
+  EXPECT_EQ(metadata.topics[0].message_count, 2u);
+  EXPECT_EQ(metadata.topics[0].offered_qos_profiles, topic("").offered_qos_profiles);
+  EXPECT_EQ(metadata.topics[0].type_description_hash, topic("").type_description_hash);
+}
+
+TEST(BagWriter, StoresOurTypesWithHashAndDefinition) {
+  const TemporaryFolder folder;
+  const auto* type = interfaces::find_message_type("nav_msgs/msg/Odometry");
+  ASSERT_TRUE(type);
+  {
+    BagWriter writer(folder / "bag");
+    writer.add_topic(BagTopic::of("/odom", *type, interfaces::qos::kResult), type->definition);
+    writer.add_topic(BagTopic::of("/odom2", *type, interfaces::qos::kResult), type->definition);
+  }
+  sqlite3* database = nullptr;
+  ASSERT_EQ(sqlite3_open((folder / "bag" / "bag_0.db3").c_str(), &database), SQLITE_OK);
+  const auto value = [&](const char* sql) {
+    std::string text;
+    const auto take = [](void* out, int, char** values, char**) {
+      *static_cast<std::string*>(out) += std::string(values[0]) + ";";
+      return 0;
+    };
+    EXPECT_EQ(sqlite3_exec(database, sql, take, &text, nullptr), SQLITE_OK) << sql;
+    return text;
+  };
+  EXPECT_EQ(value("SELECT schema_version || ros_distro FROM schema"), "4jazzy;");
+  EXPECT_EQ(value("SELECT name FROM sqlite_master WHERE type = 'table' ORDER BY name"),
+            "message_definitions;messages;metadata;schema;topics;");
+  EXPECT_EQ(value("SELECT type_description_hash FROM topics LIMIT 1"), std::string(type->hash) + ";");
+  EXPECT_EQ(value("SELECT topic_type || encoding FROM message_definitions"), "nav_msgs/msg/Odometryros2msg;");
+  EXPECT_EQ(value("SELECT encoded_message_definition FROM message_definitions"), std::string(type->definition) + ";");
+  EXPECT_THAT(value("SELECT offered_qos_profiles FROM topics LIMIT 1"), HasSubstr("reliability: reliable"));
+  EXPECT_THAT(value("SELECT metadata FROM metadata ORDER BY id DESC LIMIT 1"), HasSubstr("version: 9"));
+  sqlite3_close(database);
+}
+
+TEST(BagWriter, KeepsNothingBesideTheDatabaseBetweenCommits) {
+  const TemporaryFolder folder;
+  BagWriter writer(folder / "bag");
+  write_numbered(writer, 20, 1000);
+  writer.commit();
+  EXPECT_EQ(writer.committed_messages(), 20u);
+  for (const auto& entry : std::filesystem::directory_iterator(folder / "bag")) {
+    const auto name = entry.path().filename().string();
+    EXPECT_TRUE(name == "metadata.yaml" || name == "bag_0.db3" || entry.file_size() == 0) << name;
+  }
+}
+
+TEST(BagWriter, CommitsWhenTheBatchIsFull) {
+  const TemporaryFolder folder;
+  BagWriter writer(folder / "bag", {.batch_time = std::chrono::hours(1), .batch_bytes = 10'000});
+  write_numbered(writer, 25, 1000);
+  EXPECT_EQ(writer.committed_messages(), 20u);
+}
+
+TEST(BagWriter, CommitsWhenTheBatchIsOld) {
+  const TemporaryFolder folder;
+  BagWriter writer(folder / "bag", {.batch_time = std::chrono::milliseconds(0)});
+  const int data = writer.add_topic(topic("/data"));
+  writer.write(data, kStart, payload(0, 10));
+  EXPECT_EQ(writer.committed_messages(), 1u);
+}
+
+TEST(BagWriter, StartsTheNextFileWhenOneIsFull) {
+  const TemporaryFolder folder;
+  constexpr std::size_t kSize = 100'000;
+  {
+    BagWriter writer(folder / "bag", {.max_file_bytes = 2'000'000, .batch_bytes = 500'000});
+    write_numbered(writer, 60, kSize);
+  }
+  BagReader reader(folder / "bag");
+  EXPECT_THAT(reader.warnings(), testing::IsEmpty());
+  EXPECT_GE(reader.metadata().files.size(), 3u);
+  EXPECT_TRUE(std::filesystem::exists(folder / "bag" / "bag_2.db3"));
+  const auto messages = read_all(reader);
+  EXPECT_EQ(messages.size(), 60u);
+  EXPECT_EQ(wrong_in_first_numbered(messages, kSize), "");
+}
+
+TEST(BagWriter, RemembersWhatWasDropped) {
+  const TemporaryFolder folder;
+  {
+    BagWriter writer(folder / "bag");
+    write_numbered(writer, 1, 10);
+    writer.count_dropped("/data", 3);
+    writer.count_dropped("/other", 1);
+    writer.count_dropped("/data", 2);
+  }
+  const BagReader reader(folder / "bag");
+  EXPECT_EQ(dropped_messages(reader.metadata()), 6u);
+  EXPECT_EQ(dropped_messages(reader.metadata(), "/data"), 5u);
+  EXPECT_EQ(dropped_messages(reader.metadata(), "/other"), 1u);
+}
+
+TEST(BagWriter, RefusesAFolderThatIsInUse) {
+  const TemporaryFolder folder;
+  { BagWriter writer(folder / "bag"); }
+  EXPECT_THAT(error_of([&] { BagWriter writer(folder / "bag"); }), HasSubstr("exists already"));
+  write_text(folder / "file", "x");
+  EXPECT_THAT(error_of([&] { BagWriter writer(folder / "file"); }), HasSubstr("is a file"));
+  EXPECT_THAT(error_of([&] { BagWriter writer(folder / "file" / "bag"); }), HasSubstr("cannot be made"));
+}
+
+TEST(BagWriter, OverwritesABagWhenToldToAndNothingElse) {
+  const TemporaryFolder folder;
+  {
+    BagWriter writer(folder / "bag");
+    write_numbered(writer, 5, 10);
+  }
+  {
+    BagWriter writer(folder / "bag", {.overwrite = true});
+    write_numbered(writer, 2, 10);
+  }
+  EXPECT_EQ(BagReader(folder / "bag").metadata().message_count, 2u);
+  write_text(folder / "bag" / "thesis.tex", "x");
+  EXPECT_THAT(error_of([&] { BagWriter writer(folder / "bag", {.overwrite = true}); }), HasSubstr("thesis.tex"));
+  EXPECT_EQ(BagReader(folder / "bag").metadata().message_count, 2u);
+}
+
+TEST(BagWriter, RefusesMessagesOnceClosed) {
+  const TemporaryFolder folder;
+  BagWriter writer(folder / "bag");
+  const int data = writer.add_topic(topic("/data"));
+  writer.close();
+  EXPECT_THAT(error_of([&] { writer.write(data, kStart, payload(0, 1)); }), HasSubstr("is closed"));
+  writer.close();
+}
+
+TEST(BagWriter, KeepsReadersAwayWhileItWrites) {
+  const TemporaryFolder folder;
+  BagWriter writer(folder / "bag");
+  write_numbered(writer, 5, 10);
+  writer.commit();
+  EXPECT_THAT(error_of([&] { BagReader reader(folder / "bag"); }), HasSubstr("being written"));
+  writer.close();
+  EXPECT_EQ(BagReader(folder / "bag").metadata().message_count, 5u);
+}
+
+}  // namespace
+}  // namespace panvo::recorder

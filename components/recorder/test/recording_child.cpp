@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+/// A process to be killed while it records, for interrupted_recording_test. Writes numbered messages for ever and says on stdout, after each
+/// commit, how many are committed. With a limit on the size of files it ends at the error, telling it on stdout.
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <optional>
+#include <string>
+
+#include "panvo/recorder/bag_writer.hpp"
+#include "test_bag.hpp"
+
+int main(int argc, char** argv) {
+  using namespace panvo::recorder;
+  if (argc < 3) {
+    std::fprintf(stderr, "usage: recording_child BAG MESSAGE_BYTES [FILE_SIZE_LIMIT]\n");
+    return 2;
+  }
+  const std::size_t size = std::stoul(argv[2]);
+  if (argc > 3) {
+    const rlim_t limit = std::stoul(argv[3]);
+    const rlimit limits{limit, limit};
+    setrlimit(RLIMIT_FSIZE, &limits);
+    std::signal(SIGXFSZ, SIG_IGN);
+  }
+  std::optional<BagWriter> writer;
+  try {
+    writer.emplace(argv[1], BagWriter::Options{.batch_bytes = 10 * size});
+    const int data = writer->add_topic(test::topic("/data"));
+    std::uint64_t told = 0;
+    for (std::uint64_t i = 0;; ++i) {
+      writer->write(data, test::kStart + static_cast<std::int64_t>(i) * test::kStep, test::payload(i, size));
+      if (writer->committed_messages() != told) {
+        told = writer->committed_messages();
+        std::printf("%llu\n", static_cast<unsigned long long>(told));
+        std::fflush(stdout);
+      }
+    }
+  } catch (const BagError& error) {
+    std::printf("%llu committed, %llu lost: %s\n",
+                static_cast<unsigned long long>(writer ? writer->committed_messages() : 0),
+                static_cast<unsigned long long>(writer ? writer->lost_messages() : 0), error.what());
+  }
+  return 1;
+}
