@@ -14,8 +14,9 @@
 namespace panvo::runtime {
 namespace {
 
-/// Writers and readers are in a participant each, both of which ignore participants of their own process: that keeps endpoints of one
-/// process apart, for which Fast DDS 2.9 has no other means. A participant is nine threads, so each is made when it is first needed.
+/// Writers and readers are in a participant each, both of which ignore participants of their own process:
+/// that keeps endpoints of one process apart, for which Fast DDS 2.9 has no other means. A participant is
+/// nine threads, so each is made when it is first needed.
 class DdsBridge final : public Bridge {
  public:
   explicit DdsBridge(const DdsSettings& settings) : settings_(settings) { dds::load_profiles(settings_); }

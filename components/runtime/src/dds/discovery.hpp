@@ -18,8 +18,9 @@
 
 namespace panvo::runtime::dds {
 
-/// Which topics other processes have: tells watchers of each that is written, and warns where the types of a topic differ, which DDS
-/// itself passes over in silence. Listens to both participants of a bridge. Safe to use from several threads.
+/// Which topics other processes have: tells watchers of each that is written, and warns where the types of a
+/// topic differ, which DDS itself passes over in silence. Listens to both participants of a bridge. Safe to
+/// use from several threads.
 class Discovery final : public eprosima::fastdds::dds::DomainParticipantListener {
  public:
   using Watcher = std::function<void(const TopicDescription&)>;

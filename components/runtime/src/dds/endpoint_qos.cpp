@@ -18,8 +18,8 @@ using interfaces::Reliability;
 
 namespace {
 
-// A lost fragment or acknowledgement is noticed at the next heartbeat, which has to come well within the time a write may wait. Fast DDS's
-// default is 3 s. Sent only while something is unacknowledged.
+// A lost fragment or acknowledgement is noticed at the next heartbeat, which has to come well within the time
+// a write may wait. Fast DDS's default is 3 s. Sent only while something is unacknowledged.
 constexpr std::int32_t kHeartbeatPeriod_ns = 20'000'000;
 constexpr int kPreallocatedSamples = 4;
 
@@ -79,13 +79,14 @@ void apply(const TopicDescription& topic, fdds::DataWriterQos& qos) {
   qos.reliability().kind = fdds::RELIABLE_RELIABILITY_QOS;
   qos.reliability().max_blocking_time =
       eprosima::fastrtps::Duration_t(0, static_cast<std::uint32_t>(std::chrono::nanoseconds(kMaxBlockingTime).count()));
-  // Topics of which only the newest counts carry images. Their fragments are sent from a thread of Fast DDS's, so that a network slower
-  // than the camera does not hold the publisher (at 100 Mbit/s a panorama of 1.75 MB held it for 122 ms, now 0.8 ms). Others are small and
-  // leave at once.
+  // Topics of which only the newest counts carry images. Their fragments are sent from a thread of Fast
+  // DDS's, so that a network slower than the camera does not hold the publisher (at 100 Mbit/s a panorama of
+  // 1.75 MB held it for 122 ms, now 0.8 ms). Others are small and leave at once.
   if (topic.qos.requested == Reliability::kBestEffort) qos.publish_mode().kind = fdds::ASYNCHRONOUS_PUBLISH_MODE;
   qos.reliable_writer_qos().times.heartbeatPeriod = eprosima::fastrtps::Duration_t(0, kHeartbeatPeriod_ns);
   qos.representation().m_value = {fdds::XCDR_DATA_REPRESENTATION};
-  // ROS 2 has data sharing off, and a reader of it that is slower than its writer would see its samples change.
+  // ROS 2 has data sharing off, and a reader of it that is slower than its writer would see its samples
+  // change.
   qos.data_sharing().off();
 }
 

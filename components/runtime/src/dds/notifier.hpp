@@ -12,9 +12,9 @@
 
 namespace panvo::runtime::dds {
 
-/// Calls users back on a thread of its own. Discovery and QoS events come from inside Fast DDS, which holds its locks then; a user who
-/// opens or writes a topic from there (a warning that goes to rosout does) could wait for himself. Here he holds nothing.
-/// Safe to use from several threads.
+/// Calls users back on a thread of its own. Discovery and QoS events come from inside Fast DDS, which holds
+/// its locks then; a user who opens or writes a topic from there (a warning that goes to rosout does) could
+/// wait for himself. Here he holds nothing. Safe to use from several threads.
 class Notifier {
  public:
   Notifier();

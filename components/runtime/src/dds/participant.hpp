@@ -17,8 +17,9 @@
 
 namespace panvo::runtime::dds {
 
-/// A Fast DDS participant with what its endpoints share. Shared by the bridge and its endpoints: it goes with the last of them, so that
-/// no order of destruction leaves an endpoint without it. Safe to use from several threads.
+/// A Fast DDS participant with what its endpoints share. Shared by the bridge and its endpoints: it goes with
+/// the last of them, so that no order of destruction leaves an endpoint without it. Safe to use from several
+/// threads.
 class Participant : public std::enable_shared_from_this<Participant> {
  public:
   /// Throws ConfigError when there can be none.
@@ -30,8 +31,9 @@ class Participant : public std::enable_shared_from_this<Participant> {
   eprosima::fastdds::dds::Publisher& publisher() { return *publisher_; }
   eprosima::fastdds::dds::Subscriber& subscriber() { return *subscriber_; }
 
-  /// The topic of that name, which Fast DDS allows once a participant: every endpoint of it holds the same, the last one deletes it.
-  /// Throws ConfigError when it is already open with another type, or its type's name is none.
+  /// The topic of that name, which Fast DDS allows once a participant: every endpoint of it holds the same,
+  /// the last one deletes it. Throws ConfigError when it is already open with another type, or its type's
+  /// name is none.
   std::shared_ptr<eprosima::fastdds::dds::Topic> topic(const TopicDescription& description);
 
  private:

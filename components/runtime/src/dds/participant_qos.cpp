@@ -20,15 +20,17 @@ namespace rtps = eprosima::fastdds::rtps;
 
 namespace {
 
-// 32 MB hold 18 panoramas of 1.75 MB on their way; with Fast DDS's own 512 KB they come late, or not at all. All of it is resident from
-// the start, so who only reads, and sends no more than acknowledgements, has a small one. Messages go in fragments of what the smallest
-// transport takes, UDP's 64 KB; larger ones in shared memory were measured to be no faster and take 60 MB more.
+// 32 MB hold 18 panoramas of 1.75 MB on their way; with Fast DDS's own 512 KB they come late, or not at all.
+// All of it is resident from the start, so who only reads, and sends no more than acknowledgements, has a
+// small one. Messages go in fragments of what the smallest transport takes, UDP's 64 KB; larger ones in
+// shared memory were measured to be no faster and take 60 MB more.
 constexpr std::uint32_t kWriterSegmentSize = 32 * 1024 * 1024;
 constexpr std::uint32_t kReaderSegmentSize = 1024 * 1024;
 constexpr std::uint32_t kSocketBufferSize = 4 * 1024 * 1024;
 
-// A participant that comes answers the first announcement it hears of another only once; if that answer is lost, it is found at the
-// next periodic announcement. The default is 3 s, and is reached in one start of ten.
+// A participant that comes answers the first announcement it hears of another only once; if that answer is
+// lost, it is found at the next periodic announcement. The default is 3 s, and is reached in one start of
+// ten.
 constexpr std::int32_t kAnnouncementPeriod_ns = 500'000'000;
 
 constexpr int kMaxDomain = 232;  // the ports of a higher one would be past 65535

@@ -16,8 +16,9 @@
 
 namespace panvo::runtime::dds {
 
-/// A topic of other processes as this process reads it. Samples are taken and handed on from Fast DDS's receiving thread, one at a time;
-/// whoever gets them should be quick, and must not destroy this reader from the callback.
+/// A topic of other processes as this process reads it. Samples are taken and handed on from Fast DDS's
+/// receiving thread, one at a time; whoever gets them should be quick, and must not destroy this reader from
+/// the callback.
 class Reader final : public BridgeReader, private eprosima::fastdds::dds::DataReaderListener {
  public:
   using OnSample = std::function<void(SamplePtr)>;

@@ -22,8 +22,8 @@ struct Incoming {
   bool readable = false;    ///< led by an XCDR1 encapsulation; false: of no use to anybody
 };
 
-/// The one data type that carries every topic: Fast DDS moves bytes and never sees a message class, so no code of a plugin is ever
-/// registered with it and plugins may be unloaded. Without keys.
+/// The one data type that carries every topic: Fast DDS moves bytes and never sees a message class, so no
+/// code of a plugin is ever registered with it and plugins may be unloaded. Without keys.
 class SampleDataType final : public eprosima::fastdds::dds::TopicDataType {
  public:
   explicit SampleDataType(const std::string& wire_type_name);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The other process of the bridge's tests. Reads commands from stdin, one a line, and answers each with a line that starts with `ok`, or
-// `error`; in between it says `received TOPIC SIZE HASH` for every message that comes. Ends with its input.
+// The other process of the bridge's tests. Reads commands from stdin, one a line, and answers each with a
+// line that starts with `ok`, or `error`; in between it says `received TOPIC SIZE HASH` for every message
+// that comes. Ends with its input.
 #include <sys/prctl.h>
 
 #include <csignal>

@@ -21,10 +21,12 @@ class PeerProcess {
   PeerProcess(const PeerProcess&) = delete;
   PeerProcess& operator=(const PeerProcess&) = delete;
 
-  /// Sends a command and returns its answer, without the leading `ok `. Throws std::runtime_error on an error or when there is none.
+  /// Sends a command and returns its answer, without the leading `ok `. Throws std::runtime_error on an error
+  /// or when there is none.
   std::string ask(const std::string& command);
 
-  /// The rest of the next line that starts with `received TOPIC `, which the peer says for every message: "SIZE HASH".
+  /// The rest of the next line that starts with `received TOPIC `, which the peer says for every message:
+  /// "SIZE HASH".
   std::string next_received(const std::string& topic);
 
   bool matches(const std::string& topic, int count);

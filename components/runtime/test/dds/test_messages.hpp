@@ -13,7 +13,8 @@ namespace panvo::runtime::test {
 /// Long past what anything here takes on a busy machine; reached only by what is broken.
 inline constexpr std::chrono::seconds kLimit{30};
 
-/// The DDS domain of the tests: PANVO_TEST_DOMAIN, or one that differs between processes that run at the same time.
+/// The DDS domain of the tests: PANVO_TEST_DOMAIN, or one that differs between processes that run at the same
+/// time.
 int test_domain();
 
 /// A topic name no other test has.
@@ -25,7 +26,8 @@ TopicDescription topic(const std::string& name, const std::string& type_name, in
 /// An image of `size` pixel bytes, a multiple of four, that follow from `seed`.
 SamplePtr image_sample(std::size_t size, std::uint32_t seed);
 
-/// A std_msgs/msg/String. Fast DDS sends a multiple of four bytes and fills up with zeros: three letters (or seven) arrive as they are.
+/// A std_msgs/msg/String. Fast DDS sends a multiple of four bytes and fills up with zeros: three letters (or
+/// seven) arrive as they are.
 SamplePtr text_sample(const std::string& text);
 
 /// FNV-1a, to compare messages across processes.
