@@ -92,10 +92,11 @@ show_apt_progress() {
     /^Need to get/ { show("downloading " $4 " " $5); next }
     /newly installed/ { total = 0 + $3 }
     /^Get:/ && terminal { show("downloading: " $4 " " $5); next }
-    /^Setting up / {
-      ++count
-      step = int(10 * count / (total ? total : 1))
-      if (terminal || step > shown) { show("set up " count " of " total); shown = step }
+    function advance(what, count) {
+      step = int(5 * count / (total ? total : 1))
+      if (terminal || step > shown[what]) { show(what " " count " of " total); shown[what] = step }
     }
+    /^Unpacking / { advance("unpacked", ++unpacked); next }
+    /^Setting up / { advance("set up", ++set_up) }
     END { if (terminal) printf "\r\033[K" > "/dev/stderr" }'
 }

@@ -57,13 +57,13 @@ lint_format() {
 
 lint_naming() {
   note "naming rules"
-  build_targets panvo_generated_sources
+  build_targets panvo_interfaces_generate
   python3 "$PANVO_HOME/tests/lint/tidy.py" --build "$(build_folder)" --naming --jobs "$(job_count)" "$@"
 }
 
 lint_tidy() {
   note "clang-tidy over $# files"
-  build_targets panvo_generated_sources
+  build_targets panvo_interfaces_generate
   python3 "$PANVO_HOME/tests/lint/tidy.py" --build "$(build_folder)" --jobs "$(job_count)" "$@"
 }
 
