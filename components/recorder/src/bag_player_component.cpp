@@ -26,7 +26,9 @@ struct Parameters {
   }
 };
 
-std::string absolute_name(const std::string& name) { return name.starts_with('/') ? name : "/" + name; }
+std::string absolute_name(const std::string& name) {
+  return name.starts_with('/') ? name : std::string("/").append(name);
+}
 
 std::string listed(const std::vector<std::string>& names) {
   std::string text;

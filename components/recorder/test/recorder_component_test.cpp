@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "panvo/interfaces/topics.hpp"
+#include "panvo/recorder/bag_reader.hpp"
+#include "panvo/runtime/testing.hpp"
+#include "test_bag.hpp"
+
+namespace panvo::recorder {
+namespace {
+
+using namespace test;
+using runtime::ComponentHarness;
+using testing::HasSubstr;
+
+nav_msgs::msg::Odometry odometry(std::int32_t sec) {
+  nav_msgs::msg::Odometry message;
+  message.header().stamp().sec(sec);
+  message.header().frame_id("odom");
+  return message;
+}
+
+sensor_msgs::msg::Image image(std::size_t bytes) {
+  sensor_msgs::msg::Image message;
+  message.data().resize(bytes, 7);
+  return message;
+}
+
+template <class Message>
+interfaces::Bytes bytes_of(const Message& message) {
+  const auto& type = interfaces::message_type<Message>();
+  interfaces::Bytes bytes(type.serialized_size(&message));
+  type.serialize(&message, bytes);
+  return bytes;
+}
+
+/// Answers an odometry with three images at once.
+class ThreeImages final : public runtime::Component {
+ public:
+  explicit ThreeImages(runtime::Context& context) : images_(context.output(topics::kStereoLeftImageRaw)) {
+    context.input(topics::kOdometryBinocular, [this](const std::shared_ptr<const nav_msgs::msg::Odometry>&) {
+      for (int i = 0; i < 3; ++i) {
+        images_.publish(image(600'000));
+      }
+    });
+  }
+
+ private:
+  runtime::Output<sensor_msgs::msg::Image> images_;
+};
+
+class Recorder : public testing::Test {
+ protected:
+  using ParameterTexts = std::map<std::string, std::string>;
+
+  void record(ParameterTexts parameters = {}) {
+    parameters.emplace("output", bag_.string());
+    harness_.emplace();
+    harness_->load("panvo_recorder", "RecorderComponent", parameters);
+  }
+  std::string refusal(const ParameterTexts& parameters) {
+    try {
+      record(parameters);
+    } catch (const runtime::ConfigError& error) {
+      return error.what();
+    }
+    return "";
+  }
+  std::vector<std::string> recorded_topics() {
+    harness_.reset();
+    const BagReader reader(bag_);
+    std::vector<std::string> names;
+    for (const auto& topic : reader.metadata().topics) {
+      names.push_back(topic.name);
+    }
+    return names;
+  }
+
+  TemporaryFolder folder_;
+  const std::filesystem::path bag_ = folder_ / "bag";
+  std::optional<ComponentHarness> harness_;
+};
+
+TEST_F(Recorder, WritesWhatIsPublished) {
+  record();
+  harness_->publish(topics::kOdometryBinocular, odometry(1));
+  harness_->publish(topics::kStereoLeftImageRaw, image(1000));
+  harness_->publish(topics::kOdometryBinocular, odometry(2));
+  harness_.reset();
+  BagReader reader(bag_);
+  EXPECT_THAT(reader.warnings(), testing::IsEmpty());
+  std::vector<interfaces::Bytes> odometries;
+  while (const auto* message = reader.next()) {
+    const auto& topic = reader.metadata().topics[message->topic];
+    if (topic.name == "/odometry/binocular") {
+      EXPECT_EQ(topic.type, "nav_msgs/msg/Odometry");
+      EXPECT_EQ(topic.type_description_hash, interfaces::message_type<nav_msgs::msg::Odometry>().hash);
+      odometries.push_back(message->data);
+    }
+  }
+  EXPECT_THAT(odometries, testing::ElementsAre(bytes_of(odometry(1)), bytes_of(odometry(2))));
+}
+
+TEST_F(Recorder, TakesTheTopicsItIsToldTo) {
+  record({{"topics", "[/odometry/.*, /tf_static]"}, {"exclude", "[.*/enhanced]"}});
+  harness_->publish(topics::kOdometryBinocular, odometry(1));
+  harness_->publish(topics::kOdometryEnhanced, odometry(1));
+  harness_->publish(topics::kStereoLeftImageRaw, image(10));
+  harness_->publish(topics::kTfStatic, tf2_msgs::msg::TFMessage());
+  EXPECT_THAT(recorded_topics(), testing::UnorderedElementsAre("/odometry/binocular", "/tf_static"));
+}
+
+TEST_F(Recorder, LeavesImagesOutWhenToldTo) {
+  record({{"include_images", "false"}, {"exclude", "[/rosout]"}});
+  harness_->publish(topics::kOdometryBinocular, odometry(1));
+  harness_->publish(topics::kStereoLeftImageRaw, image(10));
+  EXPECT_THAT(recorded_topics(), testing::ElementsAre("/odometry/binocular"));
+}
+
+TEST_F(Recorder, RemembersThatATopicIsLatched) {
+  record({{"topics", "[/tf_static]"}});
+  harness_->publish(topics::kTfStatic, tf2_msgs::msg::TFMessage());
+  harness_.reset();
+  const BagReader reader(bag_);
+  const auto& profiles = reader.metadata().topics.at(0).offered_qos_profiles;
+  ASSERT_EQ(profiles.size(), 1u);
+  EXPECT_EQ(profiles[0].durability, QosProfile::Durability::kTransientLocal);
+}
+
+TEST_F(Recorder, CountsWhatItDropsWhenTheDiskIsTooSlow) {
+  // In replay what is published by one step waits until the step is done: three images of 600 kB are more than the queue may hold.
+  record({{"queue_mb", "1"}, {"topics", "[/stereo/.*]"}});
+  harness_->add<ThreeImages>("three_images");
+  harness_->publish(topics::kOdometryBinocular, odometry(1));
+  EXPECT_TRUE(harness_->log_contains("dropped"));
+  harness_.reset();
+  BagReader reader(bag_);
+  const auto messages = read_all(reader);
+  EXPECT_EQ(messages.size() + dropped_messages(reader.metadata()), 3u);
+  EXPECT_GT(dropped_messages(reader.metadata(), "/stereo/left/image_raw"), 0u);
+}
+
+TEST_F(Recorder, IsRefusedWithABadFolderOrPattern) {
+  EXPECT_THAT(refusal({{"topics", "[/stereo/[]"}}), HasSubstr("/stereo/["));
+  EXPECT_THAT(refusal({{"output", "/proc/bag"}}), HasSubstr("/proc/bag"));
+  record();
+  harness_.reset();
+  EXPECT_THAT(refusal({}), HasSubstr("exists already"));
+  EXPECT_EQ(refusal({{"overwrite", "true"}}), "");
+}
+
+}  // namespace
+}  // namespace panvo::recorder
