@@ -52,8 +52,8 @@ Matrix6d adjoint_of_inverse(const Eigen::Isometry3d& motion) {
 
 // Covariance of the motion from pairs[first] to pairs[last], in the axes of base_link at its end.
 std::optional<Matrix6d> motion_covariance(std::span<const PosePair> pairs, std::size_t first, std::size_t last,
-                                          const MotionCovariances& covariances) {
-  Matrix6d sum = Matrix6d::Zero();
+                                          const MotionCovariances& covariances, const Matrix6d& truth_noise) {
+  Matrix6d sum = truth_noise;
   for (std::size_t i = first + 1; i <= last; ++i) {
     const auto line = covariances.find(pairs[i].stamp_ns);
     // The twist speaks of the motion since the estimate's own pose before, so that one must be among the pairs.
@@ -64,7 +64,7 @@ std::optional<Matrix6d> motion_covariance(std::span<const PosePair> pairs, std::
     const Matrix6d adjoint = adjoint_of_inverse(pairs[i - 1].odom_from_base.inverse() * pairs[i].odom_from_base);
     sum = (adjoint * sum * adjoint.transpose() + twist * (dt_s * dt_s)).eval();
   }
-  return sum;
+  return sum + truth_noise;
 }
 
 Vector6d motion_error(const PosePair& from, const PosePair& to) {
@@ -120,15 +120,19 @@ MotionCovariances read_motion_covariances(const std::filesystem::path& file) {
 }
 
 std::optional<Consistency> consistency(std::span<const PosePair> pairs, const MotionCovariances& covariances,
-                                       std::size_t steps) {
+                                       const ConsistencyOptions& options) {
+  const std::size_t steps = options.steps;
   if (steps == 0) throw InputError("NEES over 0 steps; give 1 or more");
   Consistency result;
-  result.steps = steps;
+  result.options = options;
+  Matrix6d truth_noise = Matrix6d::Zero();
+  truth_noise.diagonal().head<3>().setConstant(options.truth_noise_m * options.truth_noise_m);
+  truth_noise.diagonal().tail<3>().setConstant(options.truth_noise_rad * options.truth_noise_rad);
   std::vector<double> full;
   std::vector<double> translation;
   std::vector<double> rotation;
   for (std::size_t last = steps; last < pairs.size(); last += steps) {
-    const auto covariance = motion_covariance(pairs, last - steps, last, covariances);
+    const auto covariance = motion_covariance(pairs, last - steps, last, covariances, truth_noise);
     const Vector6d error = motion_error(pairs[last - steps], pairs[last]);
     const auto value = covariance ? squared_error<6>(error, *covariance) : std::nullopt;
     const auto moved = covariance ? squared_error<3>(error.head<3>(), covariance->topLeftCorner<3, 3>()) : std::nullopt;
@@ -151,7 +155,8 @@ std::optional<Consistency> consistency(std::span<const PosePair> pairs, const Mo
   for (const PosePair& pair : pairs.subspan(1)) {
     const auto line = covariances.find(pair.stamp_ns);
     if (line == covariances.end()) continue;
-    if (const auto value = squared_error<6>(accumulated_error(pairs.front(), pair), line->second.pose)) {
+    if (const auto value =
+            squared_error<6>(accumulated_error(pairs.front(), pair), line->second.pose + 2.0 * truth_noise)) {
       accumulated.push_back(*value);
     }
   }

@@ -39,7 +39,7 @@ std::optional<Consistency> evaluate_consistency(const Estimate& estimate, const 
                                                 const Options& options) {
   if (!estimate.covariances) return std::nullopt;
   const Association association = associate(estimate.odometry, ground_truth, options.association);
-  return consistency(association.pairs, *estimate.covariances, options.nees_steps);
+  return consistency(association.pairs, *estimate.covariances, options.consistency);
 }
 
 }  // namespace

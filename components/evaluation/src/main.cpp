@@ -7,6 +7,7 @@
 #include <fstream>
 #include <iostream>
 #include <map>
+#include <numbers>
 #include <set>
 #include <string>
 #include <vector>
@@ -36,6 +37,7 @@ struct Arguments {
   std::string method = "interpolate";
   std::vector<double> lengths_m;
   double tolerance_s = 0.0;
+  double truth_noise_deg = 0.0;
   bool json = false;
   bool no_plot = false;
   Options options;
@@ -77,10 +79,16 @@ void describe(CLI::App& app, Arguments& arguments) {
                  "widest gap that is interpolated over, or largest difference to "
                  "the nearest, s (default: 2.5 or 0.5 of its periods)")
       ->check(CLI::Range(1e-9, 1e6));
-  app.add_option("--nees-steps", arguments.options.nees_steps,
+  app.add_option("--nees-steps", arguments.options.consistency.steps,
                  "steps of the motion whose covariance is checked "
                  "(default: 1)")
       ->check(CLI::Range(1, 1000000));
+  app.add_option("--truth-noise-m", arguments.options.consistency.truth_noise_m,
+                 "how far a pose of the ground truth is off by itself, m, one standard deviation an axis, for the "
+                 "NEES (default: 0)")
+      ->check(CLI::NonNegativeNumber);
+  app.add_option("--truth-noise-deg", arguments.truth_noise_deg, "the same for its orientation, degrees (default: 0)")
+      ->check(CLI::NonNegativeNumber);
   app.add_option("--title", arguments.title, "heading of the table and the plot (default: the ground truth's name)");
   app.add_flag("--json", arguments.json, "print evaluation.json instead of the table");
   app.add_flag("--no-plot", arguments.no_plot, "draw no plot");
@@ -164,6 +172,7 @@ int main(int argc, char** argv) {
   arguments.options.alignment = kAlignments.at(arguments.alignment);
   arguments.options.association.method = kMethods.at(arguments.method);
   arguments.options.segments.lengths_m = arguments.lengths_m;
+  arguments.options.consistency.truth_noise_rad = arguments.truth_noise_deg * std::numbers::pi / 180.0;
   arguments.options.association.tolerance_ns = std::llround(arguments.tolerance_s * 1e9);
   try {
     return run(arguments);

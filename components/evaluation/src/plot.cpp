@@ -47,8 +47,8 @@ std::string headline(const Evaluation& e) {
 void add_heading(PlotCanvas& canvas, const Report& report) {
   const auto legend = [&](std::size_t row, const std::string& text, const std::string& mark) {
     canvas.line("set label " + std::to_string(2 + row) + " " + gnuplot_quoted(text) + " " +
-                canvas.at_screen(50, kLegendTopPx + kLegendRowPx * static_cast<double>(row)) +
-                " left point pt 5 ps 2 lc " + mark + " offset 1.6,0" + ink());
+                canvas.at_screen(50, kLegendTopPx + kLegendRowPx * static_cast<double>(row)) + " left point pt 5" +
+                mark_size(2) + " lc " + mark + " offset 1.6,0" + ink());
   };
   canvas.line("set label 1 " + gnuplot_quoted(report.title) + " " + canvas.at_screen(40, 46) + " left" + bold(24) +
               ink());
@@ -73,14 +73,14 @@ void add_page(PlotCanvas& canvas, const Report& report) {
   add_plan(canvas, report, {122, 40, 870, 660});
   add_error_over_distance(canvas, report, {1022, 40, 1760, 270});
   add_segments(canvas, report, {1022, 390, 1345, 660}, "Segments: translation", "error (%)",
-               &SegmentError::translation_percent, 2);
-  add_segments(canvas, report, {1472, 390, 1760, 660}, "Segments: rotation", "error (deg/m)",
-               &SegmentError::rotation_deg_per_m, 3);
+               {&SegmentError::translation_percent, 2, 1.0});
+  add_segments(canvas, report, {1472, 390, 1760, 660}, "Segments: rotation", "error (deg/100 m)",
+               {&SegmentError::rotation_deg_per_m, 3, 100.0});
   const auto timed = std::find_if(report.evaluations.begin(), report.evaluations.end(),
                                   [](const Evaluation& e) { return e.timing && !e.timing->empty(); });
   const bool with_times = timed != report.evaluations.end();
   add_error_strips(canvas, report, {122, 790, with_times ? 870.0 : 1760.0, 1260});
-  if (with_times) add_times(canvas, *timed->timing, {1270, 790, 1760, 1260});
+  if (with_times) add_times(canvas, *timed->timing, {1300, 790, 1760, 1260});
   canvas.line("unset multiplot");
 }
 
@@ -94,11 +94,14 @@ std::string plot_script(const Report& report) {
   PlotCanvas page(body_top_px, height_px);
   add_page(page, report);
   const std::string size = "size " + number(kWidthPx) + "," + number(height_px);
-  const std::string font = std::string(" noenhanced font '") + kFont + ",14' background rgb 'white'\n";
+  const std::string common = std::string(" noenhanced font '") + kFont + ",14' background rgb 'white'\n";
+  // The two terminals differ in how large a point of type or a mark is, and only cairo knows a bold face by name.
+  const std::string png = "set terminal pngcairo " + size + common + "bold = '" + kFont + ":Bold'; marks = 1\n";
+  const std::string svg =
+      "set terminal svg " + size + " dynamic fontscale 1.3" + common + "bold = '" + kFont + "'; marks = 0.6\n";
   return "# Drawn by panvo evaluate. `gnuplot -d evaluation.gp` in this folder draws it again.\nset encoding utf8\n" +
-         data.text() + "set terminal pngcairo " + size + font + "set output 'evaluation.png'\n" + page.text() +
-         "set terminal svg " + size + " dynamic" + font + "set output 'evaluation.svg'\n" + page.text() +
-         "unset output\n";
+         data.text() + png + "set output 'evaluation.png'\n" + page.text() + svg + "set output 'evaluation.svg'\n" +
+         page.text() + "unset output\n";
 }
 
 void draw_plot(const Report& report, const std::filesystem::path& folder) {

@@ -51,7 +51,9 @@ std::string PlotCanvas::at_screen(double x_px, double y_px) const {
 
 std::string ink() { return std::string(" textcolor rgb '") + kInk + "'"; }
 
-std::string bold(int size) { return std::string(" font '") + kFont + ":Bold," + std::to_string(size) + "'"; }
+std::string bold(int size) { return std::string(" font bold.',") + std::to_string(size) + "'"; }
+
+std::string mark_size(double size) { return " ps marks*" + number(size); }
 
 std::string colour(std::size_t estimate) { return std::string("rgb '") + kColours[estimate % kColours.size()] + "'"; }
 

@@ -56,7 +56,8 @@ class PlotCanvas {
 
 // Parts of gnuplot commands.
 std::string ink();                                            // colour of text
-std::string bold(int size);                                   // font
+std::string bold(int size);                                   // font, by the page's variable `bold`
+std::string mark_size(double size);                           // of points, by the page's variable `marks`
 std::string colour(std::size_t estimate);                     // of an estimate
 std::string curve(std::size_t estimate, double width = 2.0);  // line style of an estimate
 std::string block(const char* kind, std::size_t estimate);    // name of a data block

@@ -15,9 +15,31 @@ constexpr std::size_t kMostStages = 14;
 constexpr std::size_t kMostLengths = 8;
 constexpr double kDegrees = 180.0 / std::numbers::pi;
 
+// A unit in which the largest of the errors has few digits before and after the point.
+struct LengthUnit {
+  const char* name;
+  double per_m;
+};
+
+LengthUnit error_unit(const Report& report) {
+  constexpr double kLargestInCentimetresM = 0.5;
+  double largest_m = 0.0;
+  for (const Evaluation& e : report.evaluations) {
+    for (const PoseError& error : e.errors) largest_m = std::max(largest_m, error.translation_m.norm());
+  }
+  return largest_m < kLargestInCentimetresM ? LengthUnit{"cm", 100.0} : LengthUnit{"m", 1.0};
+}
+
+// `column` of a data block, times `factor`.
+std::string scaled(int column, double factor) {
+  return std::string("($") + std::to_string(column) + "*" + number(factor) + ")";
+}
+
 std::string shortened(const std::string& name) {
-  constexpr std::size_t kLongest = 34;
-  return name.size() <= kLongest ? name : ".." + name.substr(name.size() - kLongest + 2);
+  constexpr std::size_t kLongest = 38;
+  constexpr std::size_t kEnd = 17;
+  if (name.size() <= kLongest) return name;
+  return name.substr(0, kLongest - kEnd - 2) + ".." + name.substr(name.size() - kEnd);
 }
 
 std::string rectangle(double from_y, double to_y, double length, const char* fill) {
@@ -28,21 +50,24 @@ std::string rectangle(double from_y, double to_y, double length, const char* fil
 }  // namespace
 
 void add_error_over_distance(PlotCanvas& canvas, const Report& report, const Box& box) {
-  canvas.panel(box, "Translation error over distance travelled", "distance (m)", "error (m)");
+  const LengthUnit unit = error_unit(report);
+  canvas.panel(box, "Translation error over distance travelled", "distance (m)",
+               std::string("error (") + unit.name + ")");
   double highest = 0.0;
   std::string plot;
   for (std::size_t i = 0; i < report.evaluations.size(); ++i) {
     for (const PoseError& error : report.evaluations[i].errors) {
-      highest = std::max(highest, error.translation_m.norm());
+      highest = std::max(highest, unit.per_m * error.translation_m.norm());
     }
-    plot += (i == 0 ? "plot " : ", ") + block("errors", i) + " using 2:5 with lines " + curve(i, 2.5);
+    plot += (i == 0 ? "plot " : ", ") + block("errors", i) + " using 2:" + scaled(5, unit.per_m) + " with lines " +
+            curve(i, 2.5);
   }
   canvas.y_from_zero(highest);
   canvas.line("set xrange [0:*] noextend").line(plot);
 }
 
 void add_segments(PlotCanvas& canvas, const Report& report, const Box& box, const std::string& title,
-                  const std::string& y_label, double SegmentError::*value, int column) {
+                  const std::string& y_label, const SegmentValue& value) {
   canvas.panel(box, title, "length (m)", y_label);
   double highest = 0.0;
   std::set<double> lengths;
@@ -51,10 +76,10 @@ void add_segments(PlotCanvas& canvas, const Report& report, const Box& box, cons
     if (!report.evaluations[i].segments) continue;
     for (const SegmentError& segment : report.evaluations[i].segments->by_length) {
       lengths.insert(segment.length_m);
-      highest = std::max(highest, segment.*value);
+      highest = std::max(highest, value.factor * segment.*value.member);
     }
-    plot += (plot.empty() ? "plot " : ", ") + block("segments", i) + " using 1:" + std::to_string(column) +
-            " with linespoints pt 7 ps 1.2 " + curve(i);
+    plot += (plot.empty() ? "plot " : ", ") + block("segments", i) + " using 1:" + scaled(value.column, value.factor) +
+            " with linespoints pt 7" + mark_size(1.2) + " " + curve(i);
   }
   if (plot.empty()) {
     canvas.line("set xrange [0:1]; set yrange [0:1]; set xtics ('' 0); set ytics ('' 0); set label 101 " +
@@ -76,7 +101,9 @@ void add_segments(PlotCanvas& canvas, const Report& report, const Box& box, cons
 
 void add_error_strips(PlotCanvas& canvas, const Report& report, const Box& box) {
   constexpr double kGapPx = 22.0;
-  const std::array<const char*, 4> names{"x (m)", "y (m)", "z (m)", "yaw (deg)"};
+  const LengthUnit unit = error_unit(report);
+  const std::array<std::string, 4> names{std::string("x (") + unit.name + ")", std::string("y (") + unit.name + ")",
+                                         std::string("z (") + unit.name + ")", "yaw (deg)"};
   const double height = (box.height() - kGapPx * 3.0) / 4.0;
   for (std::size_t strip = 0; strip < names.size(); ++strip) {
     const double top = box.top + static_cast<double>(strip) * (height + kGapPx);
@@ -87,9 +114,11 @@ void add_error_strips(PlotCanvas& canvas, const Report& report, const Box& box) 
     std::string plot = std::string("plot 0 with lines lw 1 lc rgb '") + kSoft + "'";
     for (std::size_t i = 0; i < report.evaluations.size(); ++i) {
       for (const PoseError& error : report.evaluations[i].errors) {
-        range.add(strip < 3 ? error.translation_m[static_cast<int>(strip)] : error.yaw_rad * kDegrees);
+        range.add(strip < 3 ? unit.per_m * error.translation_m[static_cast<int>(strip)] : error.yaw_rad * kDegrees);
       }
-      plot += ", " + block("errors", i) + " using 1:" + std::to_string(6 + strip) + " with lines " + curve(i);
+      plot += ", " + block("errors", i) +
+              " using 1:" + scaled(6 + static_cast<int>(strip), strip < 3 ? unit.per_m : 1.0) + " with lines " +
+              curve(i);
     }
     const double size = std::max(range.size(), 1e-6);
     canvas.line("set yrange [" + number(range.low - 0.08 * size) + ":" + number(range.high + 0.08 * size) +
@@ -102,11 +131,12 @@ void add_error_strips(PlotCanvas& canvas, const Report& report, const Box& box) 
 void add_times(PlotCanvas& canvas, StageTimes times, const Box& box) {
   std::stable_sort(times.begin(), times.end(),
                    [](const StageTime& a, const StageTime& b) { return a.wall.median_ms > b.wall.median_ms; });
-  const bool all = times.size() <= kMostStages;
-  if (!all) times.resize(kMostStages);
+  const std::size_t told = times.size();
+  if (told > kMostStages) times.resize(kMostStages);
+  const bool all = told == times.size();
   canvas.panel(box,
                std::string(all ? "Time of each stage" : "Time of the slowest stages") + ": median (dark), 95 % (light)",
-               "wall time (ms)", "", box.left - 300.0);
+               "wall time (ms)", "", box.left - 330.0);
   double longest = 1e-3;
   std::string names;
   for (std::size_t i = 0; i < times.size(); ++i) {
@@ -123,7 +153,7 @@ void add_times(PlotCanvas& canvas, StageTimes times, const Box& box) {
         (i == 0 ? "" : ", ") + gnuplot_quoted(shortened(times[i].component + "/" + times[i].stage)) + " " + number(y);
   }
   canvas.line("set xrange [0:" + number(1.3 * longest) + "]; set yrange [" +
-              number(-static_cast<double>(times.size()) + 0.3) + ":0.7]; set ytics (" + names + ") font ',12'");
+              number(-static_cast<double>(times.size()) + 0.3) + ":0.7]; set ytics (" + names + ") font ',11'");
   canvas.line("plot NaN");
 }
 

@@ -19,14 +19,19 @@ void add_plan(PlotCanvas& canvas, const Report& report, const Box& box);
 
 void add_error_over_distance(PlotCanvas& canvas, const Report& report, const Box& box);
 
-// `value` of each segment length; `column` is where it stands in $segments<k>.
+// What is drawn of the segments: a member, where it stands in $segments<k>, and the factor of the unit shown.
+struct SegmentValue {
+  double SegmentError::*member;
+  int column;
+  double factor;
+};
 void add_segments(PlotCanvas& canvas, const Report& report, const Box& box, const std::string& title,
-                  const std::string& y_label, double SegmentError::*value, int column);
+                  const std::string& y_label, const SegmentValue& value);
 
 // x, y, z and yaw, one below the other.
 void add_error_strips(PlotCanvas& canvas, const Report& report, const Box& box);
 
-// A bar a stage, the slowest first, and names 300 pixels to its left.
+// A bar a stage, the slowest first, and names 330 pixels to its left.
 void add_times(PlotCanvas& canvas, StageTimes times, const Box& box);
 
 }  // namespace panvo::evaluation

@@ -31,8 +31,8 @@ void add_place(PlotCanvas& canvas, int tag, const char* name, const Eigen::Vecto
   const char* where = sideways ? (way.x() > 0.0 ? "right offset -1.4,0" : "left offset 1.4,0")
                                : (way.y() > 0.0 ? "center offset 0,-1.2" : "center offset 0,1.2");
   canvas.line("set label " + std::to_string(tag) + " " + gnuplot_quoted(name) + " at " + number(place.x()) + "," +
-              number(place.y()) + " " + where + " front point pt " + std::to_string(point_type) + " ps 1.6 lc rgb '" +
-              kInk + "'" + ink());
+              number(place.y()) + " " + where + " front point pt " + std::to_string(point_type) + mark_size(1.6) +
+              " lc rgb '" + kInk + "'" + ink());
 }
 
 // In the corner that the paths touch least.

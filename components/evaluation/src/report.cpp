@@ -41,7 +41,9 @@ Json to_json(const Nees& nees) {
 }
 
 Json to_json(const Consistency& consistency) {
-  return {{"steps", consistency.steps},
+  return {{"steps", consistency.options.steps},
+          {"truth_noise_m", consistency.options.truth_noise_m},
+          {"truth_noise_deg", consistency.options.truth_noise_rad * kDegrees},
           {"unusable", consistency.unusable},
           {"motion", to_json(consistency.motion)},
           {"motion_translation", to_json(consistency.motion_translation)},

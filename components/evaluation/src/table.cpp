@@ -3,6 +3,7 @@
 #include <cmath>
 #include <functional>
 #include <map>
+#include <numbers>
 
 #include "format.hpp"
 #include "panvo/evaluation/report.hpp"
@@ -156,12 +157,18 @@ void add_relative(Table& table, const std::vector<Evaluation>& evaluations) {
   relative("rotation per metre", "deg/m", 4, &Evaluation::per_metre, &RelativePoseError::rotation_deg);
 }
 
+std::string truth_noise_of(const ConsistencyOptions& options) {
+  if (options.truth_noise_m == 0.0 && options.truth_noise_rad == 0.0) return "";
+  return ", ground truth taken to be within " + to_text(options.truth_noise_m, 4) + " m and " +
+         to_text(options.truth_noise_rad * 180.0 / std::numbers::pi, 4) + " deg";
+}
+
 void add_consistency(Table& table, const std::vector<Evaluation>& evaluations) {
   const auto with_nees = std::find_if(evaluations.begin(), evaluations.end(), [](const auto& e) { return e.nees; });
   if (with_nees == evaluations.end()) return;
-  const std::size_t steps = with_nees->nees->steps;
+  const std::size_t steps = with_nees->nees->options.steps;
   table.section("normalised estimation error squared of the motion over " + std::to_string(steps) +
-                (steps == 1 ? " step" : " steps"));
+                (steps == 1 ? " step" : " steps") + truth_noise_of(with_nees->nees->options));
   const auto row = [&](const char* label, Nees Consistency::*part) {
     table.row(label, "",
               [=](const Evaluation& e) { return e.nees ? Cell(to_text(((*e.nees).*part).mean, 2)) : std::nullopt; });

@@ -81,7 +81,7 @@ TEST(Nees, OfErrorsDrawnFromTheStatedCovarianceIsTheDimension) {
 TEST(Nees, OverSeveralStepsIsTheDimensionToo) {
   const Trajectory truth = true_path(10001);
   const Walk walk = disturbed(truth, 2);
-  const auto result = consistency(pairs_of(walk.estimate, truth), walk.covariances, 10);
+  const auto result = consistency(pairs_of(walk.estimate, truth), walk.covariances, {10, 0.0, 0.0});
   ASSERT_TRUE(result);
   EXPECT_EQ(result->motion.samples, 1000u);
   EXPECT_NEAR(result->motion.mean, 6.0, 0.33);  // three standard deviations of the mean
@@ -113,6 +113,48 @@ TEST(Nees, OfTheAccumulatedPoseIsMeasuredInOdomAxes) {
   const auto result = consistency(pairs_of(estimate, truth), covariances);
   ASSERT_TRUE(result && result->pose);
   EXPECT_NEAR(result->pose->mean, 9.0, 1e-6);
+}
+
+TEST(Nees, OfTheAccumulatedPoseHasItsRotationAboutOdomAxes) {
+  // Turned by 0.3 rad about odom's y; variance 0.01 rad^2 about that axis, 1 about the others: 9.
+  const Trajectory truth = transformed(straight_line(3), make_pose(9, 8, 7, 2.0));
+  Trajectory estimate = straight_line(3);
+  MotionCovariances covariances;
+  for (StampedPose& pose : estimate.poses) {
+    Matrix6d pose_covariance = Matrix6d::Identity();
+    pose_covariance(4, 4) = 0.01;
+    covariances[pose.stamp_ns] = {pose_covariance, Matrix6d::Identity()};
+  }
+  const Eigen::Matrix3d tilted = make_pose(0, 0, 0, 0, 0.3).linear();
+  Trajectory turned_truth = truth;
+  for (std::size_t i : {1u, 2u}) {
+    // The true heading is 1 rad off the start's, so that axes of odom and of the base are not the same.
+    const Eigen::Matrix3d turn = make_pose(0, 0, 0, 1.0).linear();
+    turned_truth.poses[i].world_from_base.linear() = truth.poses[0].world_from_base.linear() * turn;
+    estimate.poses[i].world_from_base.linear() = tilted * turn;
+  }
+  const auto result = consistency(pairs_of(estimate, turned_truth), covariances);
+  ASSERT_TRUE(result && result->pose);
+  EXPECT_NEAR(result->pose->mean, 9.0, 1e-6);
+}
+
+// The truth is what trembles here: without saying so, an exact estimate looks overconfident.
+TEST(Nees, CountsTheStatedNoiseOfTheGroundTruth) {
+  const Trajectory truth = true_path(10001);
+  const Walk walk = disturbed(truth, 5);
+  Trajectory trembling = truth;
+  std::mt19937 generator(6);
+  std::normal_distribution<double> normal;
+  for (StampedPose& pose : trembling.poses) {
+    const Eigen::Vector3d turn = 0.003 * Eigen::Vector3d(normal(generator), normal(generator), normal(generator));
+    const Eigen::Vector3d move = 0.02 * Eigen::Vector3d(normal(generator), normal(generator), normal(generator));
+    pose.world_from_base =
+        pose.world_from_base * Eigen::Translation3d(move) * Eigen::AngleAxisd(turn.norm(), turn.normalized());
+  }
+  const auto pairs = pairs_of(walk.estimate, trembling);
+  EXPECT_GT(consistency(pairs, walk.covariances)->motion.mean, 30.0);
+  EXPECT_NEAR(consistency(pairs, walk.covariances, {1, 0.02, 0.003})->motion.mean, 6.0, 0.15);
+  EXPECT_NEAR(consistency(pairs, walk.covariances, {10, 0.02, 0.003})->motion.mean, 6.0, 0.35);
 }
 
 TEST(Nees, LeavesOutStretchesWithoutAUsableCovariance) {

@@ -38,19 +38,27 @@ struct Nees {
   double inside_95 = 0.0;  // share of the single samples below their own 95 % bound
 };
 
+struct ConsistencyOptions {
+  std::size_t steps = 1;
+  // Standard deviations of one pose of the ground truth along and about each axis, independent from pose to pose: what
+  // a receiver or a tracking system trembles by. They are part of the error, so they join its covariance.
+  double truth_noise_m = 0.0;
+  double truth_noise_rad = 0.0;
+};
+
 struct Consistency {
   Nees motion;              // of the relative pose over `steps` steps, 6 dimensions
   Nees motion_translation;  // its parts, to see which one is off
   Nees motion_rotation;
   std::optional<Nees> pose;  // of the accumulated pose. Its samples depend on each other: bounds are those of one
-  std::size_t steps = 1;
+  ConsistencyOptions options;
   std::size_t unusable = 0;  // stretches left out: no line for a stamp, or a covariance that is not positive definite
 };
 
 // Relative motion D from pose to pose, error D_true^-1 D_estimated: translation and rotation vector in the axes of
 // base_link at the end of the stretch. Covariance: the twist's times dt^2, carried over `steps` independent steps by the
-// adjoint. The stretches do not overlap. nullopt if none is usable.
+// adjoint, plus the ground truth's noise at both ends. The stretches do not overlap. nullopt if none is usable.
 std::optional<Consistency> consistency(std::span<const PosePair> pairs, const MotionCovariances& covariances,
-                                       std::size_t steps = 1);
+                                       const ConsistencyOptions& options = {});
 
 }  // namespace panvo::evaluation

@@ -22,7 +22,7 @@ struct Options {
   Alignment alignment = Alignment::kStart;  // of the error series: errors.csv and plot. The table gives both ATEs
   AssociationOptions association;
   SegmentOptions segments;
-  std::size_t nees_steps = 1;
+  ConsistencyOptions consistency;
 };
 
 // Everything that is said about one estimate. What could not be computed is nullopt.
