@@ -136,8 +136,11 @@ class BagPlayerComponent final : public runtime::Component, public runtime::Sour
       return nullptr;
     }
     const auto type = full_type_name(topic.type);
-    return context_.open_output(
-        {name, type, replay_qos(topic.offered_qos_profiles, topic.message_count), interfaces::find_message_type(type)});
+    // Bags of early and of other tools do not tell how a topic was offered; of this one everybody knows.
+    const bool is_known_latched = topic.offered_qos_profiles.empty() && name == topics::kTfStatic.name;
+    const auto qos =
+        is_known_latched ? interfaces::qos::kLatched : replay_qos(topic.offered_qos_profiles, topic.message_count);
+    return context_.open_output({name, type, qos, interfaces::find_message_type(type)});
   }
 
   void advance() {

@@ -3,6 +3,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "panvo/recorder/bag_writer.hpp"
@@ -73,7 +74,8 @@ class RecorderComponent final : public runtime::Component {
         filter_(
             as_configuration(context.name(), [this] { return TopicFilter(parameters_.topics, parameters_.exclude); })),
         writer_(as_configuration(context.name(), [this] { return make_writer(parameters_); })),
-        writing_(context.stage<Waiting>("write", kMostWaiting, [this](Waiting message) { write(message); })) {
+        writing_(
+            context.stage<Waiting>("write", kMostWaiting, [this](Waiting message) { write(std::move(message)); })) {
     context.tap([this](const TopicDescription& topic) { return is_wanted(topic); }, kTapDepth,
                 [this](const TopicDescription& topic, const SamplePtr& sample) { take(topic, sample); });
     context.log().info("recording to {}", writer_->path().string());
@@ -84,6 +86,7 @@ class RecorderComponent final : public runtime::Component {
       writer_->count_dropped(topic, count);
     }
     try {
+      store_early(0);
       writer_->close();
       context_.log().info("recorded {} messages to {}, {} dropped", writer_->committed_messages(),
                           writer_->path().string(), writer_->dropped_messages());
@@ -129,7 +132,24 @@ class RecorderComponent final : public runtime::Component {
     }
   }
 
-  void write(const Waiting& message) {
+  void write(Waiting message) {
+    const auto time_ns = message.sample->time_ns();
+    if (time_ns == 0) {
+      early_.push_back(std::move(message));
+      return;
+    }
+    store_early(time_ns);
+    store(message, time_ns);
+  }
+
+  /// In replay there is no time before the first source has stepped: what was published until then bears the time of the first that has one.
+  void store_early(std::int64_t time_ns) {
+    for (const auto& message : std::exchange(early_, {})) {
+      store(message, time_ns);
+    }
+  }
+
+  void store(const Waiting& message, std::int64_t time_ns) {
     const auto& bytes = message.sample->bytes();
     const auto [place, is_new] = handles_.try_emplace(message.topic->name, -1);
     if (is_new) {
@@ -138,7 +158,7 @@ class RecorderComponent final : public runtime::Component {
     if (message.dropped_before > 0) {
       writer_->count_dropped(message.topic->name, message.dropped_before);
     }
-    writer_->write(place->second, message.sample->time_ns(), bytes);  // a BagError ends this stage, not the system
+    writer_->write(place->second, time_ns, bytes);  // a BagError ends this stage, not the system
     waiting_bytes_ -= bytes.size();
     --waiting_messages_;
   }
@@ -164,7 +184,8 @@ class RecorderComponent final : public runtime::Component {
   std::atomic<std::size_t> waiting_messages_ = 0;
   std::map<std::string, std::uint64_t> dropped_;  // of the taking stage, not yet told to the writer
   std::uint64_t all_dropped_ = 0;
-  std::map<std::string, int> handles_;  // of the writing stage
+  std::map<std::string, int> handles_;  // of the writing stage, as is what follows
+  std::vector<Waiting> early_;
 };
 
 }  // namespace

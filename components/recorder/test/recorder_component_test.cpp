@@ -2,6 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <thread>
+
 #include "panvo/interfaces/topics.hpp"
 #include "panvo/recorder/bag_reader.hpp"
 #include "panvo/runtime/testing.hpp"
@@ -48,6 +50,24 @@ class ThreeImages final : public runtime::Component {
 
  private:
   runtime::Output<sensor_msgs::msg::Image> images_;
+};
+
+/// Plays one odometry at kStart.
+class OneStep final : public runtime::Component, public runtime::Source {
+ public:
+  explicit OneStep(runtime::Context& context) : odometry_(context.output(topics::kOdometryBinocular)) {
+    context.source(*this);
+  }
+  std::optional<std::int64_t> next_stamp_ns() override { return done_ ? std::nullopt : std::optional(kStart); }
+  void emit() override {
+    done_ = true;
+    odometry_.publish(odometry(1));
+  }
+  Progress progress() const override { return {}; }
+
+ private:
+  runtime::Output<nav_msgs::msg::Odometry> odometry_;
+  bool done_ = false;
 };
 
 class Recorder : public testing::Test {
@@ -139,6 +159,23 @@ TEST_F(Recorder, CountsWhatItDropsWhenTheDiskIsTooSlow) {
   const auto messages = read_all(reader);
   EXPECT_EQ(messages.size() + dropped_messages(reader.metadata()), 3u);
   EXPECT_GT(dropped_messages(reader.metadata(), "/stereo/left/image_raw"), 0u);
+}
+
+TEST_F(Recorder, GivesWhatCameBeforeTheReplaysFirstTimeThatTime) {
+  // On a thread of its own, as the time of a replay is the thread's and other tests have left theirs.
+  std::thread([this] {
+    record({{"topics", "[/odometry/.*, /tf]"}});
+    harness_->publish(topics::kTf, tf2_msgs::msg::TFMessage());  // while the time is still 0
+    harness_->add<OneStep>("one_step");
+    harness_->container().run();
+    harness_.reset();
+  }).join();
+  BagReader reader(bag_);
+  const auto messages = read_all(reader);
+  ASSERT_EQ(messages.size(), 2u);
+  EXPECT_EQ(messages[0].topic, "/tf");
+  EXPECT_EQ(messages[0].timestamp_ns, kStart);
+  EXPECT_EQ(messages[1].timestamp_ns, kStart);
 }
 
 TEST_F(Recorder, IsRefusedWithABadFolderOrPattern) {
