@@ -85,7 +85,6 @@ class BinocularOdometryComponent final : public runtime::Component {
 
   void on_tracked(const TrackedFrame& frame) {
     const OdometryEstimate estimate = stages_->motion.estimate(frame);
-    odometry_.publish(to_odometry(estimate, stages_->base_from_left, last_stamp_ns_, parameters_.odom_frame, parameters_.base_frame));
     quality_.publish(to_quality(estimate, parameters_.base_frame));
     if (estimate.quality.reliable != was_reliable_) {
       was_reliable_ = estimate.quality.reliable;
@@ -95,6 +94,10 @@ class BinocularOdometryComponent final : public runtime::Component {
         context_.log().warn("unreliable: {}", estimate.quality.reason);
       }
     }
+    // A pair that comes late has its quality, but no place in a path that has gone on.
+    const bool is_late = last_stamp_ns_ && estimate.stamp_ns <= *last_stamp_ns_;
+    if (is_late && !estimate.quality.reliable) return;
+    odometry_.publish(to_odometry(estimate, stages_->base_from_left, last_stamp_ns_, parameters_.odom_frame, parameters_.base_frame));
     last_stamp_ns_ = estimate.stamp_ns;
   }
 

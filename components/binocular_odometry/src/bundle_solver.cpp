@@ -14,34 +14,14 @@ namespace panvo::binocular_odometry {
 namespace {
 
 using vision::Matrix6d;
-using vision::Vector6d;
-using Matrix36d = Eigen::Matrix<double, 3, 6>;
 using Matrix63d = Eigen::Matrix<double, 6, 3>;
 
 constexpr double kFirstDamping = 1e-5;
 constexpr double kLargestDamping = 1e3;
-constexpr double kPointPrior = 1e-6;       // keeps a point seen along one ray solvable; far too weak to move another
+constexpr double kPointPrior = 1e-6;  // keeps a point seen along one ray solvable; far too weak to move another
 
-struct Linearised {
-  bool is_in_front = false;
-  Eigen::Vector3d residual;
-  Eigen::Matrix3d by_point;
-  Matrix36d by_pose;
-};
-
-Linearised linearise(const vision::RectifiedStereo& stereo, const Eigen::Isometry3d& left_from_world,
-                     const BundlePoint& point, const BundleObservation& observation) {
-  Linearised result;
-  const auto prediction = predict_with_jacobians(stereo, left_from_world * point.world_from_anchor, point.inverse_depth);
-  if (!prediction) return result;
-  const auto whitening = observation.inverse_sigma.asDiagonal();
-  result.is_in_front = true;
-  result.residual = whitening * (prediction->pixel - observation.pixel);
-  result.by_point = whitening * prediction->by_point;
-  result.by_pose = whitening * prediction->by_pose;
-  return result;
-}
-
+/// Unknowns are the free poses (six each), then the disparity offset (one), then the points (three each). Points meet
+/// only through what sees them, so they are eliminated one by one; what is left is small and dense.
 class Solver {
  public:
   Solver(const vision::RectifiedStereo& stereo, BundleProblem& problem, const BundleOptions& options)
@@ -57,25 +37,24 @@ class Solver {
 
   BundleSummary run() {
     BundleSummary summary;
-    summary.initial_cost = summary.final_cost = cost(problem_.left_from_world, problem_.points);
+    summary.initial_cost = summary.final_cost = cost(problem_);
     double damping = kFirstDamping;
-    bool settled = false;
-    while (summary.iterations < options_.max_iterations && !settled && damping < kLargestDamping) {
+    for (bool settled = false; summary.iterations < options_.max_iterations && !settled;) {
       ++summary.iterations;
       build_normal_equations();
       for (settled = true; damping < kLargestDamping; damping *= 10.0) {
         if (!try_step(damping)) continue;
-        const double improved = cost(moved_frames_, moved_points_);
+        const double improved = cost(moved_);
         if (!(improved <= summary.final_cost)) continue;
         settled = summary.final_cost - improved < options_.smallest_improvement * summary.final_cost;
-        problem_.left_from_world.swap(moved_frames_);
-        problem_.points.swap(moved_points_);
+        std::swap(problem_.left_from_world, moved_.left_from_world);
+        std::swap(problem_.points, moved_.points);
+        problem_.disparity_offset_px = moved_.disparity_offset_px;
         summary.final_cost = improved;
         damping = std::max(kFirstDamping, 0.1 * damping);
         break;
       }
     }
-    build_normal_equations();
     summarise(summary);
     return summary;
   }
@@ -84,14 +63,24 @@ class Solver {
   struct PointBlock {
     Eigen::Matrix3d normal;
     Eigen::Vector3d gradient;
+    Eigen::Vector3d by_offset;
   };
 
-  double cost(const std::vector<Eigen::Isometry3d>& frames, const std::vector<BundlePoint>& points) const {
-    double sum = 0.0;
+  // What a step changes.
+  struct State {
+    std::vector<Eigen::Isometry3d> left_from_world;
+    std::vector<BundlePoint> points;
+    double disparity_offset_px = 0.0;
+  };
+
+  template <class StateOrProblem>
+  double cost(const StateOrProblem& state) const {
+    double sum = problem_.offset_information * std::pow(state.disparity_offset_px - problem_.expected_offset_px, 2);
     for (const auto& observation : problem_.observations) {
-      const double square = whitened_residual(stereo_, frames[static_cast<size_t>(observation.frame)],
-                                              points[static_cast<size_t>(observation.point)], observation)
-                                .squaredNorm();
+      const double square =
+          whitened_residual(stereo_, state.left_from_world[static_cast<size_t>(observation.frame)],
+                            state.points[static_cast<size_t>(observation.point)], observation, state.disparity_offset_px)
+              .squaredNorm();
       if (!std::isfinite(square)) return std::numeric_limits<double>::infinity();
       sum += loss_.cost(square);
     }
@@ -99,58 +88,81 @@ class Solver {
   }
 
   int free_index(int frame) const { return frame - problem_.fixed_frames; }
+  int offset_index() const { return 6 * free_frames_; }
 
   void build_normal_equations() {
-    frame_normal_.assign(static_cast<size_t>(free_frames_), Matrix6d::Zero());
-    frame_gradient_ = Eigen::VectorXd::Zero(6 * free_frames_);
-    point_blocks_.assign(problem_.points.size(), {kPointPrior * Eigen::Matrix3d::Identity(), Eigen::Vector3d::Zero()});
+    normal_ = Eigen::MatrixXd::Zero(offset_index() + 1, offset_index() + 1);
+    gradient_ = Eigen::VectorXd::Zero(offset_index() + 1);
+    point_blocks_.assign(problem_.points.size(),
+                         {kPointPrior * Eigen::Matrix3d::Identity(), Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()});
     cross_.resize(problem_.observations.size());
-    weighted_squares_ = 0.0;
-    weighted_count_ = 0.0;
-    for (size_t i = 0; i < problem_.observations.size(); ++i) {
-      const auto& observation = problem_.observations[i];
-      const Linearised at = linearise(stereo_, problem_.left_from_world[static_cast<size_t>(observation.frame)],
-                                      problem_.points[static_cast<size_t>(observation.point)], observation);
-      cross_[i].setZero();
-      if (!at.is_in_front) continue;
-      const double square = at.residual.squaredNorm(), weight = loss_.weight(square);
-      weighted_squares_ += weight * square;
-      weighted_count_ += weight * (observation.inverse_sigma.z() > 0.0 ? 3.0 : 2.0);
-      PointBlock& point = point_blocks_[static_cast<size_t>(observation.point)];
-      const Eigen::Matrix3d weighted_by_point = weight * at.by_point;
-      point.normal.noalias() += at.by_point.transpose() * weighted_by_point;
-      point.gradient.noalias() += weighted_by_point.transpose() * at.residual;
-      const int frame = free_index(observation.frame);
-      if (frame < 0) continue;
-      frame_normal_[static_cast<size_t>(frame)].noalias() += weight * at.by_pose.transpose() * at.by_pose;
-      frame_gradient_.segment<6>(6 * frame).noalias() += weight * at.by_pose.transpose() * at.residual;
-      cross_[i].noalias() = at.by_pose.transpose() * weighted_by_point;
-    }
+    normal_(offset_index(), offset_index()) = problem_.offset_information;
+    gradient_(offset_index()) =
+        problem_.offset_information * (problem_.disparity_offset_px - problem_.expected_offset_px);
+    weighted_squares_ = weighted_count_ = 0.0;
+    for (size_t i = 0; i < problem_.observations.size(); ++i) add(i);
   }
 
-  // Schur complement of the points: what the poses are left with.
+  void add(size_t i) {
+    const BundleObservation& observation = problem_.observations[i];
+    const BundlePoint& point = problem_.points[static_cast<size_t>(observation.point)];
+    cross_[i].setZero();
+    const auto prediction = predict_with_jacobians(
+        stereo_, problem_.left_from_world[static_cast<size_t>(observation.frame)] * point.world_from_anchor, point.inverse_depth);
+    if (!prediction) return;
+    const Eigen::Vector3d& whitening = observation.inverse_sigma;
+    Eigen::Vector3d residual = prediction->pixel - observation.pixel;
+    residual.z() += problem_.disparity_offset_px;
+    residual.array() *= whitening.array();
+    const double square = residual.squaredNorm(), weight = loss_.weight(square);
+    weighted_squares_ += weight * square;
+    weighted_count_ += weight * (whitening.z() > 0.0 ? 3.0 : 2.0);
+
+    // Everything from here on is in units of the weighted standard deviation.
+    const Eigen::Vector3d scale = std::sqrt(weight) * whitening;
+    residual *= std::sqrt(weight);
+    const Eigen::Matrix3d by_point = scale.asDiagonal() * prediction->by_point;
+    PointBlock& block = point_blocks_[static_cast<size_t>(observation.point)];
+    block.normal.noalias() += by_point.transpose() * by_point;
+    block.gradient.noalias() += by_point.transpose() * residual;
+    block.by_offset.noalias() += scale.z() * by_point.row(2).transpose();
+    normal_(offset_index(), offset_index()) += scale.z() * scale.z();
+    gradient_(offset_index()) += scale.z() * residual.z();
+
+    const int row = 6 * free_index(observation.frame);
+    if (row < 0) return;
+    const Eigen::Matrix<double, 3, 6> by_pose = scale.asDiagonal() * prediction->by_pose;
+    normal_.block<6, 6>(row, row).noalias() += by_pose.transpose() * by_pose;
+    normal_.block<1, 6>(offset_index(), row).noalias() += scale.z() * by_pose.row(2);
+    gradient_.segment<6>(row).noalias() += by_pose.transpose() * residual;
+    cross_[i].noalias() = by_pose.transpose() * by_point;
+  }
+
+  // Schur complement of the points, lower triangle.
   void eliminate_points(double damping) {
-    reduced_ = Eigen::MatrixXd::Zero(6 * free_frames_, 6 * free_frames_);
-    reduced_gradient_ = frame_gradient_;
-    for (int frame = 0; frame < free_frames_; ++frame) {
-      Matrix6d block = frame_normal_[static_cast<size_t>(frame)];
-      block.diagonal() *= 1.0 + damping;
-      reduced_.block<6, 6>(6 * frame, 6 * frame) = block;
-    }
+    reduced_ = normal_;
+    reduced_.diagonal() *= 1.0 + damping;
+    reduced_gradient_ = gradient_;
     inverse_point_normal_.resize(problem_.points.size());
+    const int offset = offset_index();
     for (size_t p = 0; p < problem_.points.size(); ++p) {
-      Eigen::Matrix3d normal = point_blocks_[p].normal;
-      normal.diagonal() *= 1.0 + damping;
-      inverse_point_normal_[p] = normal.inverse();
+      const PointBlock& block = point_blocks_[p];
+      Eigen::Matrix3d damped = block.normal;
+      damped.diagonal() *= 1.0 + damping;
+      inverse_point_normal_[p] = damped.inverse();
+      const Eigen::Vector3d offset_by_inverse = inverse_point_normal_[p] * block.by_offset;
+      reduced_(offset, offset) -= offset_by_inverse.dot(block.by_offset);
+      reduced_gradient_(offset) -= offset_by_inverse.dot(block.gradient);
       for (size_t i = first_observation_[p]; i < first_observation_[p + 1]; ++i) {
-        const int row = free_index(problem_.observations[i].frame);
+        const int row = 6 * free_index(problem_.observations[i].frame);
         if (row < 0) continue;
         const Matrix63d by_inverse = cross_[i] * inverse_point_normal_[p];
-        reduced_gradient_.segment<6>(6 * row).noalias() -= by_inverse * point_blocks_[p].gradient;
-        for (size_t j = first_observation_[p]; j < first_observation_[p + 1]; ++j) {
-          const int column = free_index(problem_.observations[j].frame);
-          if (column < 0 || column > row) continue;  // the lower triangle will do
-          reduced_.block<6, 6>(6 * row, 6 * column).noalias() -= by_inverse * cross_[j].transpose();
+        reduced_gradient_.segment<6>(row).noalias() -= by_inverse * block.gradient;
+        reduced_.block<1, 6>(offset, row).noalias() -= (cross_[i] * offset_by_inverse).transpose();
+        for (size_t j = first_observation_[p]; j <= i; ++j) {  // frames ascend within a point
+          const int column = 6 * free_index(problem_.observations[j].frame);
+          if (column < 0) continue;
+          reduced_.block<6, 6>(row, column).noalias() -= by_inverse * cross_[j].transpose();
         }
       }
     }
@@ -162,34 +174,36 @@ class Solver {
     if (factor.info() != Eigen::Success) return false;
     const Eigen::VectorXd step = factor.solve(-reduced_gradient_);
     if (!step.allFinite()) return false;
-    moved_frames_ = problem_.left_from_world;
+    moved_.left_from_world = problem_.left_from_world;
     for (int frame = 0; frame < free_frames_; ++frame) {
-      Eigen::Isometry3d& pose = moved_frames_[static_cast<size_t>(frame + problem_.fixed_frames)];
+      Eigen::Isometry3d& pose = moved_.left_from_world[static_cast<size_t>(frame + problem_.fixed_frames)];
       pose = vision::se3_exp(step.segment<6>(6 * frame)) * pose;
       pose.linear() = vision::nearest_rotation(pose.linear());
     }
-    moved_points_ = problem_.points;
+    const double offset_step = step(offset_index());
+    moved_.disparity_offset_px = problem_.disparity_offset_px + offset_step;
+    moved_.points = problem_.points;
     for (size_t p = 0; p < problem_.points.size(); ++p) {
-      Eigen::Vector3d gradient = point_blocks_[p].gradient;
+      Eigen::Vector3d gradient = point_blocks_[p].gradient + offset_step * point_blocks_[p].by_offset;
       for (size_t i = first_observation_[p]; i < first_observation_[p + 1]; ++i) {
-        const int frame = free_index(problem_.observations[i].frame);
-        if (frame >= 0) gradient.noalias() += cross_[i].transpose() * step.segment<6>(6 * frame);
+        const int row = 6 * free_index(problem_.observations[i].frame);
+        if (row >= 0) gradient.noalias() += cross_[i].transpose() * step.segment<6>(row);
       }
-      moved_points_[p].inverse_depth.noalias() -= inverse_point_normal_[p] * gradient;
+      moved_.points[p].inverse_depth.noalias() -= inverse_point_normal_[p] * gradient;
     }
     return true;
   }
 
+  // By the normal equations of the last step: that step was small, or it would not have been the last.
   void summarise(BundleSummary& summary) {
     const double unknowns = 6.0 * free_frames_ + 3.0 * static_cast<double>(problem_.points.size());
     // A redescending loss takes weight from the tails; dividing by the same weights keeps the mean square comparable.
     summary.variance = weighted_squares_ / std::max(1.0, weighted_count_ - unknowns);
-    eliminate_points(0.0);
     const Eigen::MatrixXd symmetric = reduced_.selfadjointView<Eigen::Lower>();
     const Eigen::LLT<Eigen::MatrixXd> factor(symmetric);
-    if (factor.info() == Eigen::Success) {
-      summary.covariance = factor.solve(Eigen::MatrixXd::Identity(symmetric.rows(), symmetric.cols()));
-    }
+    if (factor.info() != Eigen::Success) return;
+    const Eigen::MatrixXd inverse = factor.solve(Eigen::MatrixXd::Identity(symmetric.rows(), symmetric.cols()));
+    summary.covariance = inverse.topLeftCorner(offset_index(), offset_index());
   }
 
   const vision::RectifiedStereo& stereo_;
@@ -198,15 +212,14 @@ class Solver {
   vision::CauchyLoss loss_;
   int free_frames_;
   std::vector<size_t> first_observation_;  // of each point, and one past the last
-  std::vector<Matrix6d> frame_normal_;
-  Eigen::VectorXd frame_gradient_;
+  Eigen::MatrixXd normal_;                 // poses and offset; poses meet the offset in its last row
+  Eigen::VectorXd gradient_;
   std::vector<PointBlock> point_blocks_;
   std::vector<Matrix63d> cross_;  // pose by point, one an observation
   std::vector<Eigen::Matrix3d> inverse_point_normal_;
   Eigen::MatrixXd reduced_;
   Eigen::VectorXd reduced_gradient_;
-  std::vector<Eigen::Isometry3d> moved_frames_;
-  std::vector<BundlePoint> moved_points_;
+  State moved_;
   double weighted_squares_ = 0.0;
   double weighted_count_ = 0.0;
 };
@@ -214,10 +227,13 @@ class Solver {
 }  // namespace
 
 Eigen::Vector3d whitened_residual(const vision::RectifiedStereo& stereo, const Eigen::Isometry3d& left_from_world,
-                                  const BundlePoint& point, const BundleObservation& observation) {
+                                  const BundlePoint& point, const BundleObservation& observation,
+                                  double disparity_offset_px) {
   const auto pixel = predict(stereo, left_from_world * point.world_from_anchor, point.inverse_depth);
   if (!pixel) return Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity());
-  return (*pixel - observation.pixel).cwiseProduct(observation.inverse_sigma);
+  Eigen::Vector3d residual = *pixel - observation.pixel;
+  residual.z() += disparity_offset_px;
+  return residual.cwiseProduct(observation.inverse_sigma);
 }
 
 BundleSummary solve(const vision::RectifiedStereo& stereo, BundleProblem& problem, const BundleOptions& options) {

@@ -31,6 +31,12 @@ struct BundleProblem {
   int fixed_frames = 1;
   std::vector<BundlePoint> points;
   std::vector<BundleObservation> observations;     ///< ordered by point
+
+  /// What the calibration leaves over, mostly a small turn of one camera against the other: every measured disparity is this
+  /// much too large. Estimated along with the rest; near and far points that move past tell it from the motion.
+  double disparity_offset_px = 0.0;
+  double expected_offset_px = 0.0;
+  double offset_information = 1e12;  ///< 1 / px^2, of the expectation: this large keeps the offset as it is
 };
 
 struct BundleOptions {
@@ -49,7 +55,8 @@ struct BundleSummary {
 
 /// Whitened residual of an observation; squared norm infinite for a point that is not in front.
 Eigen::Vector3d whitened_residual(const vision::RectifiedStereo& stereo, const Eigen::Isometry3d& left_from_world,
-                                  const BundlePoint& point, const BundleObservation& observation);
+                                  const BundlePoint& point, const BundleObservation& observation,
+                                  double disparity_offset_px = 0.0);
 
 /// Improves poses and points in place.
 BundleSummary solve(const vision::RectifiedStereo& stereo, BundleProblem& problem, const BundleOptions& options);

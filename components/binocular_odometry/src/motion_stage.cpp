@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <optional>
 #include <sstream>
 #include <stdexcept>
@@ -67,6 +68,9 @@ class MotionStage::Implementation {
 
  private:
   static constexpr std::int64_t kUsualInterval_ns = 100'000'000;
+  static constexpr double kPersistence_m = 5.0;  // an error of calibration shows alike until the scene has changed
+  static constexpr int kKeyframeIterations = 4;  // they start near the solution; what is left comes with the next frame
+  static constexpr int kFrameIterations = 2;
 
   static std::int64_t interval(std::int64_t stamp_ns, std::int64_t since_ns) {
     return stamp_ns > since_ns && since_ns > 0 ? stamp_ns - since_ns : kUsualInterval_ns;
@@ -80,12 +84,13 @@ class MotionStage::Implementation {
 
   Pairs pair_up(const TrackedFrame& frame) const {
     Pairs pairs;
+    const Eigen::Vector3d offset(0.0, 0.0, adjuster_.disparity_offset_px());
     auto known = reference_.begin();
     for (const Observation& seen : frame.observations) {
       while (known != reference_.end() && known->track_id < seen.track_id) ++known;
       if (known == reference_.end()) break;
       if (known->track_id != seen.track_id || !known->has_disparity) continue;
-      pairs.points.push_back({known->pixel, seen.pixel, seen.has_disparity});
+      pairs.points.push_back({known->pixel - offset, seen.pixel - offset, seen.has_disparity});
       pairs.previous.push_back(*known);
       pairs.current.push_back(seen);
     }
@@ -150,29 +155,45 @@ class MotionStage::Implementation {
   void follow(const TrackedFrame& frame, const MeasuredMotion& motion, std::int64_t since_good_ns, OdometryEstimate& result) {
     head_ = {motion.current_from_previous * reference_left_from_odom_, frame.observations};
     std::optional<MeasuredMotion> since_keyframe;
+    bool becomes_keyframe = true;
     {
       const Stage stage(observer_, "refine_window");
-      since_keyframe = adjuster_.refine_window(head_);
+      becomes_keyframe = is_keyframe();
+      since_keyframe = adjuster_.refine_window(head_, becomes_keyframe ? kKeyframeIterations : kFrameIterations);
     }
     result.quality.reliable = true;
     result.odom_from_left = head_.left_from_odom.inverse();
     result.previous_from_current = published_odom_from_left_.inverse() * result.odom_from_left;
-    result.previous_from_current_covariance = previous_from_current_covariance(motion);
+    result.previous_from_current_covariance =
+        previous_from_current_covariance(motion) + model_error(result.previous_from_current, 0.0);
     if (since_keyframe) {
+      const Eigen::Isometry3d keyframe_from_current = since_keyframe->current_from_previous.inverse();
       result.odom_from_left_covariance = vision::compose_covariance(
           adjuster_.last_keyframe().left_from_odom.inverse(), keyframe_covariance_,
-          since_keyframe->current_from_previous.inverse(), previous_from_current_covariance(*since_keyframe));
+          keyframe_from_current, previous_from_current_covariance(*since_keyframe) + model_error(keyframe_from_current, kPersistence_m));
     } else {
       result.odom_from_left_covariance = vision::compose_covariance(
           published_odom_from_left_, published_covariance_, result.previous_from_current, result.previous_from_current_covariance);
     }
-    if (!since_keyframe || is_keyframe()) {
+    if (!since_keyframe || becomes_keyframe) {
       if (!since_keyframe) adjuster_.clear();
       adjuster_.add_keyframe(head_);
       keyframe_covariance_ = result.odom_from_left_covariance;
     }
     motion_model_.update(head_.left_from_odom * reference_left_from_odom_.inverse(), since_good_ns);
     remember(frame);
+  }
+
+  // What the residuals cannot show, since it is the same in all of them: in proportion to the motion. Along the path it adds up
+  // like steps of independent errors, each as long as the error persists.
+  Matrix6d model_error(const Eigen::Isometry3d& a_from_b, double persistence_m) const {
+    const double moved = a_from_b.translation().norm();
+    const double distance = std::sqrt(moved * std::max(moved, persistence_m));
+    const double angle = vision::so3_log(a_from_b.linear()).norm();
+    vision::Vector6d sigma;
+    sigma << Eigen::Vector3d::Constant(parameters_.motion_error_ratio * distance),
+        Eigen::Vector3d::Constant(parameters_.motion_error_ratio * angle + parameters_.rotation_error_rad_per_m * distance);
+    return sigma.cwiseAbs2().asDiagonal();
   }
 
   bool is_keyframe() const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <memory>
 #include <opencv2/core.hpp>
 #include <optional>
 
@@ -15,7 +16,7 @@ namespace panvo::binocular_odometry {
 /// host), so that errors do not add up from frame to frame.
 struct Track {
   std::int64_t id = 0;
-  vision::ImagePyramid host;               ///< left image of the host frame
+  std::shared_ptr<const vision::ImagePyramid> host;  ///< left image of the host frame
   Eigen::Vector2d host_pixel;
   Eigen::Vector3d host_plane;              ///< n with n . X = 1 around the point, in the host's left frame
   Eigen::Isometry3d guide_from_host;       ///< the tracking stage's own dead reckoning

@@ -24,13 +24,15 @@ using vision::PatchTemplate;
 using vision::Stage;
 
 constexpr double kReachPerLevel_px = 6.0;      // half a patch: farther, and another structure would be locked on
-constexpr double kSecondLook_px = 3.0;         // off the coarse motion: looked for again where that motion has it
+constexpr size_t kScouts = 80;                 // as many as a coarse motion needs, with a margin for those that go astray
+constexpr double kAstray_px = 3.0;             // off the coarse motion: looked for again where that motion has it
 constexpr double kFarOff_px = 6.0;             // off it still: not a point of the static scene
 constexpr double kFarthestDisparity_px = -0.5; // at infinity, give or take the error of a match
 constexpr double kLargestZoom = 1.5;           // of a patch against its host, before a new host is taken
 constexpr double kCrowded_px = 8;              // nearer tracks see the same patch
 constexpr double kNoiseFloor_px = 0.15;        // interpolation, calibration, surfaces that are not plane
 constexpr int kGuideInliers = 8;               // for a coarse motion to be worth following
+constexpr double kEnough = 0.9;                // of the features wanted: until then, no new ones are sought
 constexpr size_t kSwapSamples = 80;
 constexpr int kSwapMatches = 20;
 constexpr double kFewMatches = 0.4;            // of the features looked for in the right image: something is wrong
@@ -65,12 +67,13 @@ class TrackingStage::Implementation {
     build_pyramids(frame);
     describe();
 
-    std::vector<Track> tracks = match_in_time();
+    // A part of the tracks goes ahead, looked for far and wide; the motion they agree on says where to find the others.
+    std::vector<Track> tracks = match_scouts();
     match_left_right(tracks);
     Eigen::Isometry3d current_from_previous = expected_motion_;
     if (const auto motion = coarse_motion(tracks)) {
       current_from_previous = *motion;
-      look_again(tracks, *motion);
+      match_others(tracks, *motion);
     } else {
       tracks.clear();  // what agrees on no motion is no match: begin anew
     }
@@ -120,28 +123,29 @@ class TrackingStage::Implementation {
 
   void build_pyramids(const StereoFrame& frame) {
     const Stage stage(observer_, "pyramid");
-    left_ = vision::ImagePyramid(frame.left, parameters_.pyramid_levels);
+    left_ = std::make_shared<const vision::ImagePyramid>(frame.left, parameters_.pyramid_levels);
     right_ = vision::ImagePyramid(frame.right, std::min(2, parameters_.pyramid_levels));
   }
 
   void describe() {
     const Stage stage(observer_, "describe");
-    front_end_->describe(left_);
+    front_end_->describe(*left_);
   }
 
-  std::vector<Track> match_in_time() {
-    const Stage stage(observer_, "match_in_time");
+  std::vector<Track> match_scouts() {
+    const Stage stage(observer_, "match_scouts");
     const Eigen::Isometry3d current_from_guide = expected_motion_ * guide_from_previous_.inverse();
+    const size_t stride = std::max<size_t>(1, tracks_.size() / kScouts);
     std::vector<Track> found;
-    lost_.clear();
-    for (const Track& known : tracks_) {
-      Track track = known;
-      const auto expected = expect(stereo_, track, current_from_guide * track.guide_from_host);
+    others_.clear();
+    for (size_t i = 0; i < tracks_.size(); ++i) {
+      Track track = tracks_[i];
+      const auto expected = i % stride == 0 ? expect(stereo_, track, current_from_guide * track.guide_from_host) : std::nullopt;
       const auto where = expected ? front_end_->match(track, expected->pixel) : std::nullopt;
       if (where && align(track, *expected, *where)) {
         found.push_back(std::move(track));
       } else {
-        lost_.push_back(known);
+        others_.push_back(tracks_[i]);
       }
     }
     return found;
@@ -151,10 +155,10 @@ class TrackingStage::Implementation {
   bool align(Track& track, const ExpectedPatch& expected, const Whereabouts& where) const {
     const Eigen::Matrix2d host_from_current = expected.current_from_host.inverse();
     Eigen::Vector2d pixel = where.pixel;
-    for (int level = std::min(where.level, left_.levels() - 1); level >= 0; --level) {
+    for (int level = std::min(where.level, left_->levels() - 1); level >= 0; --level) {
       const double scale = 1 << level;
-      const auto patch = PatchTemplate::sample(track.host[level], track.host_pixel / scale, host_from_current);
-      const auto found = patch ? patch->align(left_[level], pixel / scale, PatchTemplate::Search::kPlane, kReachPerLevel_px)
+      const auto patch = PatchTemplate::sample((*track.host)[level], track.host_pixel / scale, host_from_current);
+      const auto found = patch ? patch->align((*left_)[level], pixel / scale, PatchTemplate::Search::kPlane, kReachPerLevel_px)
                                : std::nullopt;
       if (found) pixel = found->position * scale;
       if (level > 0) continue;
@@ -174,7 +178,7 @@ class TrackingStage::Implementation {
 
   void match_left_right(Track& track) const {
     const Eigen::Vector2d pixel = track.seen.pixel.head<2>();
-    const auto match = matcher_.refine(left_, right_, pixel, track.seen.pixel.z(), track.gradient);
+    const auto match = matcher_.refine(*left_, right_, pixel, track.seen.pixel.z(), track.gradient);
     track.seen.has_disparity = match.has_value();
     if (match) take(*match, track);
   }
@@ -201,19 +205,18 @@ class TrackingStage::Implementation {
     return motion->current_from_previous;
   }
 
-  // What was lost or led astray is looked for once more, where the coarse motion has it.
-  void look_again(std::vector<Track>& tracks, const Eigen::Isometry3d& current_from_previous) {
-    const Stage stage(observer_, "look_again");
+  // All others, where the scouts' motion has them; and those scouts anew that were led astray.
+  void match_others(std::vector<Track>& tracks, const Eigen::Isometry3d& current_from_previous) {
+    const Stage stage(observer_, "match_others");
     const Eigen::Isometry3d current_from_guide = current_from_previous * guide_from_previous_.inverse();
     std::vector<Track> kept;
     for (Track& track : tracks) {
       const auto expected = expect(stereo_, track, current_from_guide * track.guide_from_host);
       if (!expected) continue;
-      const bool is_astray = (expected->pixel - track.seen.pixel.head<2>()).norm() > kSecondLook_px;
-      if (is_astray && !find(track, *expected)) continue;
-      kept.push_back(std::move(track));
+      const bool is_astray = (expected->pixel - track.seen.pixel.head<2>()).norm() > kAstray_px;
+      if (!is_astray || find(track, *expected)) kept.push_back(std::move(track));
     }
-    for (Track& track : lost_) {
+    for (Track& track : others_) {
       const auto expected = expect(stereo_, track, current_from_guide * track.guide_from_host);
       if (expected && find(track, *expected)) kept.push_back(std::move(track));
     }
@@ -221,8 +224,9 @@ class TrackingStage::Implementation {
     tracks.swap(kept);
   }
 
+  // The scouts' motion is good to about a pixel: full resolution finds nearly all, half of it the rest.
   bool find(Track& track, const ExpectedPatch& expected) const {
-    if (!align(track, expected, {expected.pixel, 1})) return false;
+    if (!align(track, expected, {expected.pixel, 0}) && !align(track, expected, {expected.pixel, 1})) return false;
     if ((track.seen.pixel.head<2>() - expected.pixel).norm() > kFarOff_px) return false;
     match_left_right(track);
     return true;
@@ -237,7 +241,7 @@ class TrackingStage::Implementation {
       return false;
     });
   }
-  void thin_out(std::vector<Track>& tracks) const { thin_out(tracks, left_[0].size()); }
+  void thin_out(std::vector<Track>& tracks) const { thin_out(tracks, (*left_)[0].size()); }
 
   // A patch that has grown or shrunk much is blurred or aliased against the image: the current frame becomes its host.
   void renew_hosts(std::vector<Track>& tracks) const {
@@ -248,7 +252,7 @@ class TrackingStage::Implementation {
       const auto expected = expect(stereo_, track, current_from_guide * track.guide_from_host);
       const double zoom = expected ? std::sqrt(expected->current_from_host.determinant()) : 0.0;
       if (zoom < kLargestZoom && zoom > 1.0 / kLargestZoom) continue;
-      const auto match = matcher_.measure(left_, right_, track.seen.pixel.head<2>(), track.seen.pixel.z(), track.gradient);
+      const auto match = matcher_.measure(*left_, right_, track.seen.pixel.head<2>(), track.seen.pixel.z(), track.gradient);
       if (match) host_here(track, *match);
     }
   }
@@ -263,12 +267,14 @@ class TrackingStage::Implementation {
 
   void detect(std::vector<Track>& tracks) {
     const Stage stage(observer_, "detect");
-    vision::CellGrid grid(left_[0].size(), cell_px_);
+    vision::CellGrid grid((*left_)[0].size(), cell_px_);
     for (const Track& track : tracks) grid.take(track.seen.pixel.head<2>());
     attempts_ = 0;
+    const auto enough = static_cast<size_t>(kEnough * parameters_.max_features);
+    if (tracks.size() >= enough) return;
     for (const Feature& feature : front_end_->detect(grid)) {
       ++attempts_;
-      const auto match = matcher_.search(left_, right_, feature.pixel);
+      const auto match = matcher_.search(*left_, right_, feature.pixel);
       if (!match) continue;
       Track track;
       track.id = next_id_ + static_cast<std::int64_t>(attempts_);
@@ -288,10 +294,10 @@ class TrackingStage::Implementation {
     const auto tried = static_cast<double>(attempts_) + static_cast<double>(tracks_.size());
     if (static_cast<double>(matched) > kFewMatches * tried) return {};
     int samples = 0, right_way = 0, wrong_way = 0;
-    for (const Feature& feature : front_end_->detect(vision::CellGrid(left_[0].size(), cell_px_))) {
+    for (const Feature& feature : front_end_->detect(vision::CellGrid((*left_)[0].size(), cell_px_))) {
       if (samples++ == kSwapSamples) break;
-      if (matcher_.search(left_, right_, feature.pixel)) ++right_way;
-      if (swapped_matcher_.search(left_, right_, feature.pixel)) ++wrong_way;
+      if (matcher_.search(*left_, right_, feature.pixel)) ++right_way;
+      if (swapped_matcher_.search(*left_, right_, feature.pixel)) ++wrong_way;
     }
     if (wrong_way < kSwapMatches || wrong_way < 2 * right_way) return {};
     std::ostringstream text;
@@ -327,11 +333,11 @@ class TrackingStage::Implementation {
   std::int64_t next_id_ = 0;
 
   // Of the frame at hand.
-  vision::ImagePyramid left_;
+  std::shared_ptr<const vision::ImagePyramid> left_;
   vision::ImagePyramid right_;
   Eigen::Isometry3d expected_motion_ = Eigen::Isometry3d::Identity();
   Eigen::Isometry3d guide_from_current_ = Eigen::Isometry3d::Identity();
-  std::vector<Track> lost_;
+  std::vector<Track> others_;
   std::int64_t attempts_ = 0;
 };
 

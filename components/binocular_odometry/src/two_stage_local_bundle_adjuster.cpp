@@ -10,6 +10,7 @@ namespace panvo::binocular_odometry {
 namespace {
 
 constexpr double kContradiction2 = 25.0;  // whitened squared error, five standard deviations
+constexpr double kLargestOffset_px = 0.5;  // more is no remainder, but another calibration
 constexpr int kFewestShared = 10;         // points that tie the head to the window
 
 Eigen::Vector3d inverse_sigma(const Observation& seen) {
@@ -25,7 +26,7 @@ double root_mean_square_px(const vision::RectifiedStereo& stereo, const BundlePr
   for (const auto& observation : problem.observations) {
     const Eigen::Vector3d whitened =
         whitened_residual(stereo, problem.left_from_world[static_cast<size_t>(observation.frame)],
-                          problem.points[static_cast<size_t>(observation.point)], observation);
+                          problem.points[static_cast<size_t>(observation.point)], observation, problem.disparity_offset_px);
     if (whitened.squaredNorm() > kContradiction2) continue;
     sum += whitened.head<2>().cwiseQuotient(observation.inverse_sigma.head<2>()).squaredNorm();
     count += 1.0;
@@ -35,19 +36,24 @@ double root_mean_square_px(const vision::RectifiedStereo& stereo, const BundlePr
 
 }  // namespace
 
+Eigen::Vector3d TwoStageLocalBundleAdjuster::point_of(const Observation& seen) const {
+  return vision::inverse_depth_point(stereo_, {seen.pixel.x(), seen.pixel.y(), seen.pixel.z() - disparity_offset_px_});
+}
+
 MeasuredMotion TwoStageLocalBundleAdjuster::refine_motion(std::span<const Observation> previous,
                                                           std::span<const Observation> current,
                                                           const Eigen::Isometry3d& current_from_previous) const {
   BundleProblem problem;
   problem.left_from_world = {Eigen::Isometry3d::Identity(), current_from_previous};
+  problem.disparity_offset_px = problem.expected_offset_px = disparity_offset_px_;
   for (size_t i = 0; i < previous.size(); ++i) {
-    problem.points.push_back({Eigen::Isometry3d::Identity(), vision::inverse_depth_point(stereo_, previous[i].pixel)});
+    problem.points.push_back({Eigen::Isometry3d::Identity(), point_of(previous[i])});
     problem.observations.push_back(bundle_observation(previous[i], 0, i));
     problem.observations.push_back(bundle_observation(current[i], 1, i));
   }
   BundleOptions options;
   options.loss_scale = parameters_.loss_scale;
-  options.max_iterations = 5;
+  options.max_iterations = 3;
   const BundleSummary summary = solve(stereo_, problem, options);
   MeasuredMotion motion;
   motion.current_from_previous = problem.left_from_world[1];
@@ -69,6 +75,8 @@ BundleProblem TwoStageLocalBundleAdjuster::assemble(const Keyframe& head, std::v
   // A young window has fewer keyframes: the first one holds it.
   const int spare = static_cast<int>(keyframes_.size()) - (parameters_.window_keyframes - parameters_.fixed_keyframes);
   problem.fixed_frames = std::max(1, spare);
+  problem.disparity_offset_px = problem.expected_offset_px = disparity_offset_px_;
+  problem.offset_information = 1.0 / std::pow(parameters_.disparity_offset_step_px, 2);
 
   std::vector<size_t> next(frames, 0);  // observations and points ascend alike: one walk meets them all
   for (const auto& [id, window_point] : points_) {
@@ -94,7 +102,7 @@ BundleProblem TwoStageLocalBundleAdjuster::assemble(const Keyframe& head, std::v
   return problem;
 }
 
-std::optional<MeasuredMotion> TwoStageLocalBundleAdjuster::refine_window(Keyframe& head) {
+std::optional<MeasuredMotion> TwoStageLocalBundleAdjuster::refine_window(Keyframe& head, int max_iterations) {
   if (keyframes_.empty()) return std::nullopt;
   std::vector<std::int64_t> ids;
   BundleProblem problem = assemble(head, ids);
@@ -105,18 +113,20 @@ std::optional<MeasuredMotion> TwoStageLocalBundleAdjuster::refine_window(Keyfram
 
   BundleOptions options;
   options.loss_scale = parameters_.loss_scale;
-  options.max_iterations = 4;
+  options.max_iterations = max_iterations;
   const BundleSummary summary = solve(stereo_, problem, options);
 
   for (size_t frame = 0; frame < keyframes_.size(); ++frame) {
     keyframes_[frame].left_from_odom = problem.left_from_world[frame];
   }
   head.left_from_odom = problem.left_from_world.back();
+  disparity_offset_px_ = std::clamp(problem.disparity_offset_px, -kLargestOffset_px, kLargestOffset_px);
   for (size_t i = 0; i < ids.size(); ++i) points_.at(ids[i]).point = problem.points[i];
 
   for (const auto& observation : problem.observations) {
     const double square = whitened_residual(stereo_, problem.left_from_world[static_cast<size_t>(observation.frame)],
-                                            problem.points[static_cast<size_t>(observation.point)], observation)
+                                            problem.points[static_cast<size_t>(observation.point)], observation,
+                                            problem.disparity_offset_px)
                               .squaredNorm();
     if (square < kContradiction2 * std::max(1.0, summary.variance)) continue;
     const std::int64_t id = ids[static_cast<size_t>(observation.point)];
@@ -151,7 +161,7 @@ void TwoStageLocalBundleAdjuster::add_keyframe(Keyframe frame) {
   for (const Observation& seen : frame.observations) {
     if (!seen.has_disparity) continue;
     points_.try_emplace(seen.track_id,
-                        WindowPoint{{odom_from_left, vision::inverse_depth_point(stereo_, seen.pixel)}});
+                        WindowPoint{{odom_from_left, point_of(seen)}});
   }
   keyframes_.push_back(std::move(frame));
   if (static_cast<int>(keyframes_.size()) > parameters_.window_keyframes) keyframes_.pop_front();

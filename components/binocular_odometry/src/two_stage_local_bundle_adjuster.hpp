@@ -44,13 +44,16 @@ class TwoStageLocalBundleAdjuster {
   /// Stage two: improves the window's keyframes and points and the pose of `head`, the frame at hand; takes observations
   /// that contradict the rest out of all of them. Returns the motion from the last keyframe to the head;
   /// nullopt when the head sees too little of the window.
-  std::optional<MeasuredMotion> refine_window(Keyframe& head);
+  std::optional<MeasuredMotion> refine_window(Keyframe& head, int max_iterations);
 
   /// Makes the frame a keyframe: its new tracks become points of the window, the oldest keyframe leaves.
   void add_keyframe(Keyframe frame);
 
   /// Forgets everything: the next keyframe starts a new window.
   void clear();
+
+  /// What to take off a measured disparity, as far as it is known by now (px); see BundleProblem.
+  double disparity_offset_px() const { return disparity_offset_px_; }
 
   bool is_empty() const { return keyframes_.empty(); }
   const Keyframe& last_keyframe() const { return keyframes_.back(); }
@@ -62,6 +65,7 @@ class TwoStageLocalBundleAdjuster {
     bool is_refuted = false;  ///< contradicts the camera's motion: on something that moves, or mismatched
   };
 
+  Eigen::Vector3d point_of(const Observation& seen) const;
   BundleProblem assemble(const Keyframe& head, std::vector<std::int64_t>& ids) const;
   void forget_unseen_points();
 
@@ -69,6 +73,7 @@ class TwoStageLocalBundleAdjuster {
   MotionParameters parameters_;
   std::deque<Keyframe> keyframes_;
   std::map<std::int64_t, WindowPoint> points_;
+  double disparity_offset_px_ = 0.0;
 };
 
 }  // namespace panvo::binocular_odometry

@@ -37,6 +37,9 @@ struct MotionParameters {
   double loss_scale = 2.0;
   int window_keyframes = 10;
   int fixed_keyframes = 3;
+  double disparity_offset_step_px = 0.004;
+  double motion_error_ratio = 0.012;
+  double rotation_error_rad_per_m = 0.0003;
   double keyframe_parallax_px = 15.0;
   double keyframe_shared_ratio = 0.75;
   double acceleration = 3.0;
@@ -53,6 +56,11 @@ struct MotionParameters {
     field(&P::loss_scale, "loss_scale", "1", "scale of Cauchy's robust loss, in standard deviations", 0.5, 20.0);
     field(&P::window_keyframes, "window_keyframes", "1", "keyframes adjusted together", 2, 50);
     field(&P::fixed_keyframes, "fixed_keyframes", "1", "of these, the oldest, which hold the others and stay as they are", 1, 49);
+    field(&P::disparity_offset_step_px, "disparity_offset_step_px", "px",
+          "how far a constant error of the disparity, left over by the calibration and estimated along, may move a frame", 1e-6, 1.0);
+    field(&P::motion_error_ratio, "motion_error_ratio", "1",
+          "standard deviation per distance and per angle of what image noise does not explain (calibration, shutter)", 0.0, 1.0);
+    field(&P::rotation_error_rad_per_m, "rotation_error_rad_per_m", "rad/m", "as motion_error_ratio, rotation by distance", 0.0, 1.0);
     field(&P::keyframe_parallax_px, "keyframe_parallax_px", "px", "median motion of the features that makes a keyframe", 1.0, 200.0);
     field(&P::keyframe_shared_ratio, "keyframe_shared_ratio", "1", "share of the last keyframe's features still seen, below which one is made", 0.1, 1.0);
     field(&P::acceleration, "acceleration", "m/s^2", "standard deviation of what the camera may do unseen", 0.01, 100.0);
