@@ -89,8 +89,9 @@ TEST_P(RecordedTopics, GiveTheSameOdometryInTwoProcessesOverDds) {
   ASSERT_EQ(split.status, 0) << split.output;
   const auto expected = read_tum(folder_.path() / "replayed" / "odometry_binocular.tum");
   const auto got = read_tum(folder_.path() / "split" / "odometry_binocular.tum");
-  // Between processes a frame may be lost when the machine is busy, and the path then differs by what one frame more or less changes:
-  // far less than 5 cm over these few metres. All but one in ten must arrive.
+  // Between processes a frame may be lost when the machine is busy, and the path then differs by what a frame more or less changes:
+  // less than 5 cm over these metres. The first must be there, for it is the origin, and nine of ten in all.
+  EXPECT_TRUE(got.contains(expected.begin()->first)) << split.output;
   EXPECT_GE(got.size(), expected.size() * 9 / 10) << split.output;
   for (const auto& [stamp, position] : got) {
     ASSERT_TRUE(expected.contains(stamp)) << stamp;
@@ -102,7 +103,7 @@ TEST_P(RecordedTopics, RecordedTwiceAreTheSameBagMessageForMessage) {
   const std::string again = folder_ / "again";
   const Finished recorded = run({PANVO_RUN, SYSTEMS "/record.yaml", "output:=" + again, "--dataset", data_.string(), "--replay"});
   ASSERT_EQ(recorded.status, 0) << recorded.output;
-  const Finished compared = run({PANVO_BAG, "diff", bag_, again});
+  const Finished compared = run({PANVO_BAG, "diff", bag_, again, "--times", "--exclude", "/rosout"});  // which names the folder
   EXPECT_EQ(compared.status, 0) << compared.output;
 }
 

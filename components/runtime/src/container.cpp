@@ -400,12 +400,14 @@ Container::Links Container::links() const {
   return links;
 }
 
-bool Container::wait_for_readers(const std::map<std::string, std::size_t>& readers, std::chrono::milliseconds limit) {
+bool Container::wait_for_peers(const std::map<std::string, Peers>& peers, std::chrono::milliseconds limit) {
   const auto give_up = std::chrono::steady_clock::now() + limit;
   const auto all_there = [&] {
     for (const Channel* channel : implementation_->bus().channels()) {
-      const auto wanted = readers.find(channel->topic().name);
-      if (wanted != readers.end() && channel->counters().remote_readers < wanted->second) return false;
+      const auto wanted = peers.find(channel->topic().name);
+      if (wanted == peers.end()) continue;
+      const auto there = channel->counters();
+      if (there.remote_readers < wanted->second.readers || there.remote_writers < wanted->second.writers) return false;
     }
     return true;
   };

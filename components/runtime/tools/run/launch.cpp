@@ -92,10 +92,14 @@ bool connect(std::vector<Child>& children) {
     if (!read_until(child, "loaded")) return false;
   }
   for (auto& child : children) {
-    for (const auto& topic : child.published) {
-      std::size_t readers = 0;
-      for (const auto& other : children) readers += &other != &child && other.subscribed.contains(topic);
-      if (readers > 0) write_pipe_line(child.to_child, "await " + topic + " " + std::to_string(readers));
+    std::map<std::string, Container::Peers> peers;
+    for (const auto& other : children) {
+      if (&other == &child) continue;
+      for (const auto& topic : child.published) peers[topic].readers += other.subscribed.contains(topic);
+      for (const auto& topic : child.subscribed) peers[topic].writers += other.published.contains(topic);
+    }
+    for (const auto& [topic, wanted] : peers) {
+      write_pipe_line(child.to_child, fmt::format("await {} {} {}", topic, wanted.readers, wanted.writers));
     }
     write_pipe_line(child.to_child, "connect");
   }

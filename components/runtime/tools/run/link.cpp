@@ -38,16 +38,16 @@ void Link::meet(Container& container, const Logger::Write& log) {
   for (const auto& topic : links.subscribed) write_line("subscribes " + topic);
   if (links.has_source) write_line("has_source");
   write_line("loaded");
-  std::map<std::string, std::size_t> readers;
+  std::map<std::string, Container::Peers> peers;
   for (std::string line = read_line(); line != "connect"; line = read_line()) {
     std::istringstream words(line);
     std::string verb, topic;
-    std::size_t count = 0;
-    words >> verb >> topic >> count;
-    readers[topic] = count;
+    Container::Peers wanted;
+    words >> verb >> topic >> wanted.readers >> wanted.writers;
+    peers[topic] = wanted;
   }
   constexpr std::chrono::seconds kLimit(10);  // discovery takes well under one; a firewall, for ever
-  if (!container.wait_for_readers(readers, kLimit)) {
+  if (!container.wait_for_peers(peers, kLimit)) {
     log(LogLevel::kWarning, "container",
         fmt::format("another container of this system did not connect within {} s: is multicast or shared memory blocked?", kLimit.count()));
   }

@@ -12,7 +12,7 @@ namespace panvo::runtime {
 
 /// How a container process meets those of the same system, through two pipes to the process that launched it: it reports its topics once
 /// loaded, is told which of them the others read, waits until they are connected, and starts when all are.
-/// Lines of text; to the launcher: "publishes NAME", "subscribes NAME", "has_source", "loaded", then "connected"; from it: "await NAME COUNT",
+/// Lines of text; to the launcher: "publishes NAME", "subscribes NAME", "has_source", "loaded", then "connected"; from it: "await NAME READERS WRITERS",
 /// "connect", then "start".
 class Link {
  public:

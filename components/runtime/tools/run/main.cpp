@@ -15,7 +15,7 @@ ExitStatus run(const RunOptions& options) {
   if (!options.container.empty()) {
     std::string known;
     for (const auto& container : system.containers) {
-      if (container.name == options.container) return run_container(options, container.components);
+      if (container.name == options.container) return run_container(options, container.components, system.notes);
       known += " " + container.name;
     }
     throw ConfigError(options.system_file + ": has no container " + options.container + "; it has" + known);
@@ -29,7 +29,7 @@ ExitStatus run(const RunOptions& options) {
     }
   }
   all.insert(all.end(), players.begin(), players.end());
-  return run_container(options, all);
+  return run_container(options, all, system.notes);
 }
 
 }  // namespace

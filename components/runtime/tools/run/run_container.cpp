@@ -67,7 +67,8 @@ double seconds(const timeval& time) { return static_cast<double>(time.tv_sec) + 
 
 }  // namespace
 
-ExitStatus run_container(const RunOptions& options, const std::vector<ComponentDescription>& components) {
+ExitStatus run_container(const RunOptions& options, const std::vector<ComponentDescription>& components,
+                         const std::vector<std::string>& notes) {
   const auto start = std::chrono::steady_clock::now();
   Container* running = nullptr;
   std::atomic<bool> stop = false;
@@ -95,6 +96,7 @@ ExitStatus run_container(const RunOptions& options, const std::vector<ComponentD
     problems.push_back(what);
     container.request_stop();
   });
+  for (const auto& note : notes) console.log(LogLevel::kWarning, "container", note);
   container.load_all(components);
   {
     const std::lock_guard lock(running_mutex);

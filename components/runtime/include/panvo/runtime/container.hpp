@@ -70,8 +70,13 @@ class Container {
     bool has_source = false;
   };
   Links links() const;
-  /// Waits until each of these topics has that many readers in other processes; false when `limit` has passed.
-  bool wait_for_readers(const std::map<std::string, std::size_t>& readers, std::chrono::milliseconds limit);
+  /// How many readers and writers in other processes a topic is to have.
+  struct Peers {
+    std::size_t readers = 0, writers = 0;
+  };
+  /// Waits until these topics have them; false when `limit` has passed. Both ends must know of each other before a first message is sent: what
+  /// reaches a best-effort reader that does not know the writer yet is lost.
+  bool wait_for_peers(const std::map<std::string, Peers>& peers, std::chrono::milliseconds limit);
 
   /// Called about 4 times a second while sources run.
   void on_progress(std::function<void(Source::Progress)> callback);
