@@ -33,6 +33,7 @@ constexpr double kCrowded_px = 8;              // nearer tracks see the same pat
 constexpr double kNoiseFloor_px = 0.15;        // interpolation, calibration, surfaces that are not plane
 constexpr int kGuideInliers = 8;               // for a coarse motion to be worth following
 constexpr double kEnough = 0.9;                // of the features wanted: until then, no new ones are sought
+constexpr double kGuideRatio = 0.3;            // of the candidates
 constexpr size_t kSwapSamples = 80;
 constexpr int kSwapMatches = 20;
 constexpr double kFewMatches = 0.4;            // of the features looked for in the right image: something is wrong
@@ -68,10 +69,14 @@ class TrackingStage::Implementation {
     describe();
 
     // A part of the tracks goes ahead, looked for far and wide; the motion they agree on says where to find the others.
-    std::vector<Track> tracks = match_scouts();
-    match_left_right(tracks);
+    std::vector<Track> tracks = match_widely(kScouts);
+    auto motion = coarse_motion(tracks);
+    if (!motion && tracks_.size() > kScouts) {
+      tracks = match_widely(tracks_.size());
+      motion = coarse_motion(tracks);
+    }
     Eigen::Isometry3d current_from_previous = expected_motion_;
-    if (const auto motion = coarse_motion(tracks)) {
+    if (motion) {
       current_from_previous = *motion;
       match_others(tracks, *motion);
     } else {
@@ -132,10 +137,11 @@ class TrackingStage::Implementation {
     front_end_->describe(*left_);
   }
 
-  std::vector<Track> match_scouts() {
-    const Stage stage(observer_, "match_scouts");
+  // About `count` of the tracks, over all levels of the pyramid; the rest become others_.
+  std::vector<Track> match_widely(size_t count) {
+    const Stage stage(observer_, "match_widely");
     const Eigen::Isometry3d current_from_guide = expected_motion_ * guide_from_previous_.inverse();
-    const size_t stride = std::max<size_t>(1, tracks_.size() / kScouts);
+    const size_t stride = std::max<size_t>(1, tracks_.size() / std::max<size_t>(1, count));
     std::vector<Track> found;
     others_.clear();
     for (size_t i = 0; i < tracks_.size(); ++i) {
@@ -148,6 +154,7 @@ class TrackingStage::Implementation {
         others_.push_back(tracks_[i]);
       }
     }
+    for (Track& track : found) match_left_right(track);
     return found;
   }
 
@@ -169,11 +176,6 @@ class TrackingStage::Implementation {
     track.seen.pixel.z() = expected.disparity_px;
     track.gradient = expected.gradient;
     return true;
-  }
-
-  void match_left_right(std::vector<Track>& tracks) const {
-    const Stage stage(observer_, "match_left_right");
-    for (Track& track : tracks) match_left_right(track);
   }
 
   void match_left_right(Track& track) const {
@@ -202,6 +204,7 @@ class TrackingStage::Implementation {
     const std::array guesses{expected_motion_, Eigen::Isometry3d::Identity()};
     const auto motion = estimate_motion(stereo_, pairs, guesses, {});
     if (!motion || motion->inliers < kGuideInliers) return std::nullopt;
+    if (static_cast<double>(motion->inliers) < kGuideRatio * static_cast<double>(pairs.size())) return std::nullopt;
     return motion->current_from_previous;
   }
 
