@@ -23,8 +23,8 @@ bool all_finite(const std::array<double, size>& values) {
   return std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); });
 }
 
-PairedCamera paired(const vision::DistortedCamera& raw, const Eigen::Matrix3d& rotation, const vision::PinholeCamera& rectified,
-                    double baseline_m) {
+PairedCamera paired(const vision::DistortedCamera& raw, const Eigen::Matrix3d& rotation,
+                    const vision::PinholeCamera& rectified, double baseline_m) {
   return {raw, rotation, rectified, baseline_m};
 }
 
@@ -32,7 +32,8 @@ PairedCamera paired(const vision::DistortedCamera& raw, const Eigen::Matrix3d& r
 
 bool PairedCamera::operator==(const PairedCamera& other) const {
   return equal(raw.pinhole, other.raw.pinhole) && raw.distortion == other.raw.distortion &&
-         rectified_from_raw == other.rectified_from_raw && equal(rectified, other.rectified) && baseline_m == other.baseline_m;
+         rectified_from_raw == other.rectified_from_raw && equal(rectified, other.rectified) &&
+         baseline_m == other.baseline_m;
 }
 
 bool is_rectified(const PairedCamera& camera) {
@@ -41,9 +42,10 @@ bool is_rectified(const PairedCamera& camera) {
   const auto& rectified = camera.rectified;
   const double difference_px = std::max({std::abs(raw.fx - rectified.fx), std::abs(raw.fy - rectified.fy),
                                          std::abs(raw.cx - rectified.cx), std::abs(raw.cy - rectified.cy)});
-  return std::all_of(camera.raw.distortion.begin(), camera.raw.distortion.end(), [](double value) { return value == 0.0; }) &&
-         camera.rectified_from_raw.isIdentity(kTolerance) && difference_px <= kTolerance * raw.fx && raw.width == rectified.width &&
-         raw.height == rectified.height;
+  return std::all_of(camera.raw.distortion.begin(), camera.raw.distortion.end(),
+                     [](double value) { return value == 0.0; }) &&
+         camera.rectified_from_raw.isIdentity(kTolerance) && difference_px <= kTolerance * raw.fx &&
+         raw.width == rectified.width && raw.height == rectified.height;
 }
 
 PairedCamera left_camera(const vision::StereoCalibration& calibration, const vision::RectifiedStereo& rectified) {
@@ -54,7 +56,8 @@ PairedCamera right_camera(const vision::StereoCalibration& calibration, const vi
   return paired(calibration.right, rectified.rectified_right_from_right, rectified.camera, rectified.baseline_m);
 }
 
-sensor_msgs::msg::CameraInfo to_camera_info(const PairedCamera& camera, std::int64_t stamp_ns, const std::string& frame_id) {
+sensor_msgs::msg::CameraInfo to_camera_info(const PairedCamera& camera, std::int64_t stamp_ns,
+                                            const std::string& frame_id) {
   const auto& raw = camera.raw.pinhole;
   const auto& rectified = camera.rectified;
   sensor_msgs::msg::CameraInfo info;
@@ -75,8 +78,10 @@ Result<PairedCamera> to_camera(const sensor_msgs::msg::CameraInfo& info) {
   const auto& k = info.k();
   const auto& p = info.p();
   if (k[0] == 0.0) return Reason{"is not calibrated (K is zero); calibrate the camera"};
-  if (p[0] == 0.0 || info.r()[8] == 0.0) return Reason{"is calibrated alone (R or P is zero); calibrate both cameras as a stereo pair"};
-  if (!all_finite(k) || !all_finite(info.r()) || !all_finite(p)) return Reason{"holds a value in K, R or P that is not a number"};
+  if (p[0] == 0.0 || info.r()[8] == 0.0)
+    return Reason{"is calibrated alone (R or P is zero); calibrate both cameras as a stereo pair"};
+  if (!all_finite(k) || !all_finite(info.r()) || !all_finite(p))
+    return Reason{"holds a value in K, R or P that is not a number"};
   if (info.binning_x() > 1 || info.binning_y() > 1 || info.roi().x_offset() != 0 || info.roi().y_offset() != 0) {
     return Reason{"states binning or a region of interest, which is not supported; calibrate at the size that is sent"};
   }
@@ -94,8 +99,10 @@ Result<PairedCamera> to_camera(const sensor_msgs::msg::CameraInfo& info) {
   const bool has_more = d.size() > 5 && std::any_of(d.begin() + 5, d.end(), [](double value) { return value != 0.0; });
   const auto& model = info.distortion_model();
   if (is_distorted && (has_more || (model != "plumb_bob" && model != "rational_polynomial"))) {
-    return Reason{fmt::format("has the distortion model '{}' with {} coefficients; only plumb_bob (k1 k2 p1 p2 k3) is supported: calibrate so",
-                              model, d.size())};
+    return Reason{
+        fmt::format("has the distortion model '{}' with {} coefficients; only plumb_bob (k1 k2 p1 p2 k3) is supported: "
+                    "calibrate so",
+                    model, d.size())};
   }
   const int width = static_cast<int>(info.width());
   const int height = static_cast<int>(info.height());

@@ -22,12 +22,15 @@ struct Encoding {
   int to_grey;  ///< OpenCV's conversion code
 };
 
-constexpr std::array kEncodings{
-    Encoding{"mono8", CV_8UC1, kIsGrey},       Encoding{"mono16", CV_16UC1, kIsGrey},
-    Encoding{"bgr8", CV_8UC3, cv::COLOR_BGR2GRAY},   Encoding{"rgb8", CV_8UC3, cv::COLOR_RGB2GRAY},
-    Encoding{"bgra8", CV_8UC4, cv::COLOR_BGRA2GRAY}, Encoding{"rgba8", CV_8UC4, cv::COLOR_RGBA2GRAY},
-    Encoding{"8UC1", CV_8UC1, kIsGrey},        Encoding{"8UC3", CV_8UC3, cv::COLOR_BGR2GRAY},
-    Encoding{"16UC1", CV_16UC1, kIsGrey}};
+constexpr std::array kEncodings{Encoding{"mono8", CV_8UC1, kIsGrey},
+                                Encoding{"mono16", CV_16UC1, kIsGrey},
+                                Encoding{"bgr8", CV_8UC3, cv::COLOR_BGR2GRAY},
+                                Encoding{"rgb8", CV_8UC3, cv::COLOR_RGB2GRAY},
+                                Encoding{"bgra8", CV_8UC4, cv::COLOR_BGRA2GRAY},
+                                Encoding{"rgba8", CV_8UC4, cv::COLOR_RGBA2GRAY},
+                                Encoding{"8UC1", CV_8UC1, kIsGrey},
+                                Encoding{"8UC3", CV_8UC3, cv::COLOR_BGR2GRAY},
+                                Encoding{"16UC1", CV_16UC1, kIsGrey}};
 
 const Encoding* find(std::string_view name) {
   for (const auto& encoding : kEncodings) {
@@ -41,8 +44,10 @@ const Encoding* find(std::string_view name) {
 Result<cv::Mat> view(const sensor_msgs::msg::Image& image) {
   const auto* encoding = find(image.encoding());
   if (encoding == nullptr) {
-    return Reason{fmt::format("has the encoding '{}'; mono8, mono16, rgb8, bgr8, rgba8 and bgra8 are read: set the camera driver to one of them",
-                              image.encoding())};
+    return Reason{
+        fmt::format("has the encoding '{}'; mono8, mono16, rgb8, bgr8, rgba8 and bgra8 are read: set the camera driver "
+                    "to one of them",
+                    image.encoding())};
   }
   constexpr std::uint32_t kLargest = 1U << 16;
   if (image.width() == 0 || image.height() == 0 || image.width() > kLargest || image.height() > kLargest) {
@@ -52,12 +57,13 @@ Result<cv::Mat> view(const sensor_msgs::msg::Image& image) {
   const std::size_t row_bytes = image.width() * pixel_bytes;
   const std::size_t step = image.step();
   if (step < row_bytes || step % static_cast<std::size_t>(CV_ELEM_SIZE1(encoding->type)) != 0) {
-    return Reason{fmt::format("has a step of {} bytes, but {} px of {} need {}", step, image.width(), image.encoding(), row_bytes)};
+    return Reason{fmt::format("has a step of {} bytes, but {} px of {} need {}", step, image.width(), image.encoding(),
+                              row_bytes)};
   }
   const std::size_t needed = step * (image.height() - 1) + row_bytes;  // the last row may lack its padding
   if (image.data().size() < needed) {
-    return Reason{fmt::format("holds {} bytes where {} x {} px of {} need {}", image.data().size(), image.width(), image.height(),
-                              image.encoding(), needed)};
+    return Reason{fmt::format("holds {} bytes where {} x {} px of {} need {}", image.data().size(), image.width(),
+                              image.height(), image.encoding(), needed)};
   }
   if (pixel_bytes == 2 && (image.is_bigendian() != 0) != (std::endian::native == std::endian::big)) {
     return Reason{"has 16-bit pixels in the byte order of another machine; send mono8 instead"};
@@ -80,11 +86,12 @@ Result<cv::Mat> grey(const sensor_msgs::msg::Image& image) {
   return grey;
 }
 
-std::shared_ptr<sensor_msgs::msg::Image> make_image(std::int64_t stamp_ns, const std::string& frame_id, const std::string& encoding_name,
-                                                    int width, int height) {
+std::shared_ptr<sensor_msgs::msg::Image> make_image(std::int64_t stamp_ns, const std::string& frame_id,
+                                                    const std::string& encoding_name, int width, int height) {
   const auto* encoding = find(encoding_name);
   if (encoding == nullptr) throw std::invalid_argument("no image can be made in the encoding '" + encoding_name + "'");
-  if (width <= 0 || height <= 0) throw std::invalid_argument(fmt::format("no image can be made of {} x {} px", width, height));
+  if (width <= 0 || height <= 0)
+    throw std::invalid_argument(fmt::format("no image can be made of {} x {} px", width, height));
   auto image = std::make_shared<sensor_msgs::msg::Image>();
   image->header().stamp(to_stamp(stamp_ns));
   image->header().frame_id(frame_id);

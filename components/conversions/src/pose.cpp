@@ -58,7 +58,9 @@ geometry_msgs::msg::Transform to_transform(const Eigen::Isometry3d& parent_from_
   return transform;
 }
 
-Result<Eigen::Isometry3d> to_isometry(const geometry_msgs::msg::Pose& pose) { return isometry(pose.position(), pose.orientation()); }
+Result<Eigen::Isometry3d> to_isometry(const geometry_msgs::msg::Pose& pose) {
+  return isometry(pose.position(), pose.orientation());
+}
 
 Result<Eigen::Isometry3d> to_isometry(const geometry_msgs::msg::Transform& transform) {
   return isometry(transform.translation(), transform.rotation());
@@ -70,6 +72,8 @@ std::array<double, 36> to_array(const vision::Matrix6d& covariance) {
   return values;
 }
 
-vision::Matrix6d to_matrix(const std::array<double, 36>& covariance) { return Eigen::Map<const RowMajor6d>(covariance.data()); }
+vision::Matrix6d to_matrix(const std::array<double, 36>& covariance) {
+  return Eigen::Map<const RowMajor6d>(covariance.data());
+}
 
 }  // namespace panvo::conversions

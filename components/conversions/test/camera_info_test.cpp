@@ -32,7 +32,8 @@ TEST(CameraInfo, ComesBackAsItWas) {
   const auto left = left_camera(pair, rectified);
   const auto right = right_camera(pair, rectified);
   EXPECT_TRUE(*to_camera(to_camera_info(left, 0, "left")) == left);
-  const auto stereo = to_stereo(*to_camera(to_camera_info(left, 0, "left")), *to_camera(to_camera_info(right, 0, "right")));
+  const auto stereo =
+      to_stereo(*to_camera(to_camera_info(left, 0, "left")), *to_camera(to_camera_info(right, 0, "right")));
   ASSERT_TRUE(stereo);
   EXPECT_NEAR(stereo->baseline_m, rectified.baseline_m, 1e-12);
   EXPECT_TRUE(stereo->rectified_right_from_right.isApprox(rectified.rectified_right_from_right));
@@ -65,7 +66,11 @@ TEST(CameraInfo, SaysWhyItCannotBeUsed) {
   EXPECT_THAT(reason([](auto& i) { i.r({2, 0, 0, 0, 1, 0, 0, 0, 1}); }), HasSubstr("no rotation"));
   EXPECT_THAT(reason([](auto& i) { i.k()[2] = kNan; }), HasSubstr("not a number"));
   EXPECT_THAT(reason([](auto& i) { i.d()[1] = kNan; }), HasSubstr("not a number"));
-  EXPECT_THAT(reason([](auto& i) { i.distortion_model("equidistant"); i.d({0.1, 0, 0, 0}); }), HasSubstr("'equidistant'"));
+  EXPECT_THAT(reason([](auto& i) {
+                i.distortion_model("equidistant");
+                i.d({0.1, 0, 0, 0});
+              }),
+              HasSubstr("'equidistant'"));
   EXPECT_THAT(reason([](auto& i) { i.d({0.1, 0, 0, 0, 0, 0.2, 0, 0}); }), HasSubstr("plumb_bob"));
   EXPECT_THAT(reason([](auto& i) { i.binning_x(2); }), HasSubstr("binning"));
 }

@@ -40,7 +40,8 @@ TEST(ImageView, SaysWhyThereIsNone) {
     EXPECT_FALSE(pixels);
     return pixels.reason();
   };
-  EXPECT_THAT(reason([](auto& i) { i.encoding("bayer_rggb8"); }), AllOf(HasSubstr("'bayer_rggb8'"), HasSubstr("mono8")));
+  EXPECT_THAT(reason([](auto& i) { i.encoding("bayer_rggb8"); }),
+              AllOf(HasSubstr("'bayer_rggb8'"), HasSubstr("mono8")));
   EXPECT_THAT(reason([](auto& i) { i.width(0); }), HasSubstr("0 x 3 px"));
   EXPECT_THAT(reason([](auto& i) { i.width(0x7fffffff); }), HasSubstr("no image"));
   EXPECT_THAT(reason([](auto& i) { i.step(11); }), AllOf(HasSubstr("step of 11"), HasSubstr("need 12")));
@@ -66,7 +67,8 @@ TEST(GreyImage, IsTheViewOfAGreyOne) {
 TEST(GreyImage, WeighsTheColoursInTheirOrder) {
   for (const auto& [encoding, red] : {std::pair{"rgb8", 0}, {"rgba8", 0}, {"bgr8", 2}, {"bgra8", 2}}) {
     const auto image = make_image(0, "left", encoding, 4, 3);
-    for (std::size_t i = static_cast<std::size_t>(red); i < image->data().size(); i += image->step() / 4) image->data()[i] = 200;
+    for (std::size_t i = static_cast<std::size_t>(red); i < image->data().size(); i += image->step() / 4)
+      image->data()[i] = 200;
     const auto result = grey(*image);
     ASSERT_TRUE(result);
     EXPECT_EQ(result->type(), CV_8UC1);

@@ -13,10 +13,12 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
 Eigen::Isometry3d transform(double x, double yaw_rad) {
-  return Eigen::Translation3d(x, 0, 0) * Eigen::AngleAxisd(yaw_rad, Eigen::Vector3d::UnitZ()) * Eigen::Isometry3d::Identity();
+  return Eigen::Translation3d(x, 0, 0) * Eigen::AngleAxisd(yaw_rad, Eigen::Vector3d::UnitZ()) *
+         Eigen::Isometry3d::Identity();
 }
 
-tf2_msgs::msg::TFMessage message(const std::string& parent, const std::string& child, const Eigen::Isometry3d& parent_from_child) {
+tf2_msgs::msg::TFMessage message(const std::string& parent, const std::string& child,
+                                 const Eigen::Isometry3d& parent_from_child) {
   tf2_msgs::msg::TFMessage tf;
   tf.transforms().resize(1);
   tf.transforms()[0].header().frame_id(parent);
@@ -41,7 +43,9 @@ TEST(StaticTransforms, FollowAChainEitherWay) {
   EXPECT_TRUE(vehicle().lookup("lidar", "left")->isApprox(transform(-1.0, 3.0).inverse() * base_from_left));
 }
 
-TEST(StaticTransforms, OfAFrameToItselfAreIdentity) { EXPECT_TRUE(StaticTransforms().lookup("left", "left")->isApprox(Eigen::Isometry3d::Identity())); }
+TEST(StaticTransforms, OfAFrameToItselfAreIdentity) {
+  EXPECT_TRUE(StaticTransforms().lookup("left", "left")->isApprox(Eigen::Isometry3d::Identity()));
+}
 
 TEST(StaticTransforms, ThatAreNotThereAreNotIdentity) {
   EXPECT_FALSE(vehicle().lookup("base_link", "right"));

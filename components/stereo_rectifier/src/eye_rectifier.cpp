@@ -10,9 +10,9 @@ namespace panvo::stereo_rectifier {
 namespace {
 
 bool describes_the_same(const sensor_msgs::msg::CameraInfo& a, const sensor_msgs::msg::CameraInfo& b) {
-  return a.width() == b.width() && a.height() == b.height() && a.k() == b.k() && a.d() == b.d() && a.r() == b.r() && a.p() == b.p() &&
-         a.distortion_model() == b.distortion_model() && a.binning_x() == b.binning_x() && a.binning_y() == b.binning_y() &&
-         a.roi() == b.roi();
+  return a.width() == b.width() && a.height() == b.height() && a.k() == b.k() && a.d() == b.d() && a.r() == b.r() &&
+         a.p() == b.p() && a.distortion_model() == b.distortion_model() && a.binning_x() == b.binning_x() &&
+         a.binning_y() == b.binning_y() && a.roi() == b.roi();
 }
 
 bool is_grey(const sensor_msgs::msg::Image& image) { return image.encoding() == "mono8" || image.encoding() == "8UC1"; }
@@ -34,8 +34,9 @@ conversions::Result<EyeRectifier::ImagePtr> EyeRectifier::rectify(const ImagePtr
   const auto& camera = **camera_;
   const auto& size = camera.raw.pinhole;
   if (static_cast<int>(raw->width()) != size.width || static_cast<int>(raw->height()) != size.height) {
-    return conversions::Reason{fmt::format("is of {} x {} px, but its camera_info is for {} x {} px; calibrate at the size that is sent",
-                                           raw->width(), raw->height(), size.width, size.height)};
+    return conversions::Reason{
+        fmt::format("is of {} x {} px, but its camera_info is for {} x {} px; calibrate at the size that is sent",
+                    raw->width(), raw->height(), size.width, size.height)};
   }
   const bool is_wanted_encoding = output_ == Output::kSame || is_grey(*raw);
   if (is_wanted_encoding && conversions::is_rectified(camera)) {
@@ -46,12 +47,13 @@ conversions::Result<EyeRectifier::ImagePtr> EyeRectifier::rectify(const ImagePtr
   return remap(*raw, camera);
 }
 
-conversions::Result<EyeRectifier::ImagePtr> EyeRectifier::remap(const sensor_msgs::msg::Image& raw, const conversions::PairedCamera& camera) {
+conversions::Result<EyeRectifier::ImagePtr> EyeRectifier::remap(const sensor_msgs::msg::Image& raw,
+                                                                const conversions::PairedCamera& camera) {
   const auto source = output_ == Output::kMono8 ? conversions::grey(raw) : conversions::view(raw);
   if (!source) return conversions::Reason{source.reason()};
   const auto rectified = conversions::make_image(conversions::stamp_ns(raw), raw.header().frame_id(),
-                                                 output_ == Output::kMono8 ? "mono8" : raw.encoding(), camera.rectified.width,
-                                                 camera.rectified.height);
+                                                 output_ == Output::kMono8 ? "mono8" : raw.encoding(),
+                                                 camera.rectified.width, camera.rectified.height);
   cv::Mat destination = conversions::pixels(*rectified);
   if (conversions::is_rectified(camera)) {
     source->copyTo(destination);

@@ -31,8 +31,8 @@ class EyeRectifier {
   /// The camera, or why its camera_info cannot be used; nullopt before the first camera_info.
   const std::optional<conversions::Result<conversions::PairedCamera>>& camera() const noexcept { return camera_; }
 
-  /// The rectified image: `raw` itself if it is that already. To be called when camera() has a value; the reason says what is wrong with
-  /// the image or camera_info.
+  /// The rectified image: `raw` itself if it is that already. To be called when camera() has a value; the reason says
+  /// what is wrong with the image or camera_info.
   conversions::Result<ImagePtr> rectify(const ImagePtr& raw);
 
  private:

@@ -15,29 +15,36 @@ struct Parameters {
   template <class Field>
   static void describe(Field&& field) {
     using P = Parameters;
-    field(&P::output, "output", "", "encoding of the rectified images: grey, or the same as the raw images'", {"mono8", "same"});
+    field(&P::output, "output", "", "encoding of the rectified images: grey, or the same as the raw images'",
+          {"mono8", "same"});
   }
 };
 
-/// stereo/{left,right}/{image_raw,camera_info} -> stereo/{left,right}/image_rect, of the same stamp and frame. Each eye for itself: who
-/// needs pairs joins them by stamp.
+/// stereo/{left,right}/{image_raw,camera_info} -> stereo/{left,right}/image_rect, of the same stamp and frame. Each
+/// eye for itself: who needs pairs joins them by stamp.
 class StereoRectifierComponent final : public runtime::Component {
  public:
   explicit StereoRectifierComponent(runtime::Context& context)
       : context_(context),
         output_(context.parameters<Parameters>().output == "same" ? Output::kSame : Output::kMono8),
-        left_(context, output_, topics::kStereoLeftImageRaw, topics::kStereoLeftCameraInfo, topics::kStereoLeftImageRect),
-        right_(context, output_, topics::kStereoRightImageRaw, topics::kStereoRightCameraInfo, topics::kStereoRightImageRect) {
+        left_(context, output_, topics::kStereoLeftImageRaw, topics::kStereoLeftCameraInfo,
+              topics::kStereoLeftImageRect),
+        right_(context, output_, topics::kStereoRightImageRaw, topics::kStereoRightCameraInfo,
+               topics::kStereoRightImageRect) {
     for (Eye* eye : {&left_, &right_}) {
-      context.input(eye->info_topic, [this, eye](const std::shared_ptr<const sensor_msgs::msg::CameraInfo>& info) { on_info(*eye, *info); });
-      context.input(eye->raw_topic, [this, eye](const std::shared_ptr<const sensor_msgs::msg::Image>& raw) { on_image(*eye, raw); });
+      context.input(eye->info_topic, [this, eye](const std::shared_ptr<const sensor_msgs::msg::CameraInfo>& info) {
+        on_info(*eye, *info);
+      });
+      context.input(eye->raw_topic,
+                    [this, eye](const std::shared_ptr<const sensor_msgs::msg::Image>& raw) { on_image(*eye, raw); });
     }
   }
 
  private:
   struct Eye {
     Eye(runtime::Context& context, Output output, const interfaces::Topic<sensor_msgs::msg::Image>& raw,
-        const interfaces::Topic<sensor_msgs::msg::CameraInfo>& info, const interfaces::Topic<sensor_msgs::msg::Image>& rect)
+        const interfaces::Topic<sensor_msgs::msg::CameraInfo>& info,
+        const interfaces::Topic<sensor_msgs::msg::Image>& rect)
         : raw_topic(raw), info_topic(info), rectifier(output), rectified(context.output(rect)) {}
 
     interfaces::Topic<sensor_msgs::msg::Image> raw_topic;
@@ -52,8 +59,10 @@ class StereoRectifierComponent final : public runtime::Component {
     const auto change = eye.rectifier.set_camera(info);
     if (change == EyeRectifier::Change::kNone) return;
     if (change == EyeRectifier::Change::kChanged) {
-      context_.log().warn("{} changed while running; what follows is rectified as it now says. Restart if the camera was moved or exchanged",
-                          eye.info_topic.name);
+      context_.log().warn(
+          "{} changed while running; what follows is rectified as it now says. Restart if the camera was moved or "
+          "exchanged",
+          eye.info_topic.name);
     }
     pair_problem_.clear();
     const auto& left = left_.rectifier.camera();
@@ -68,13 +77,16 @@ class StereoRectifierComponent final : public runtime::Component {
       // Drivers may send the first images before the first camera_info.
       constexpr int kPatience = 10;
       if (++eye.images_without_info == kPatience) {
-        context_.log().warn("{} images on {}, but nothing on {}: they cannot be rectified; have the driver publish its calibration, or remap",
-                            kPatience, eye.raw_topic.name, eye.info_topic.name);
+        context_.log().warn(
+            "{} images on {}, but nothing on {}: they cannot be rectified; have the driver publish its calibration, or "
+            "remap",
+            kPatience, eye.raw_topic.name, eye.info_topic.name);
       }
       return;
     }
     if (!pair_problem_.empty()) {
-      warn_once(eye, fmt::format("{} and {} are of no stereo pair: {}", left_.info_topic.name, right_.info_topic.name, pair_problem_));
+      warn_once(eye, fmt::format("{} and {} are of no stereo pair: {}", left_.info_topic.name, right_.info_topic.name,
+                                 pair_problem_));
       return;
     }
     const auto rectified = [&] {

@@ -22,7 +22,8 @@ vision::StereoCalibration raw_pair() {
   pair.right.pinhole = {264, 265, 160, 121, kWidth, kHeight};
   pair.left.distortion = {-0.36, 0.17, 0.001, -0.0005, 0.0};
   pair.right.distortion = {-0.35, 0.16, -0.0008, 0.0004, 0.0};
-  pair.right_from_left.linear() = Eigen::AngleAxisd(0.04, Eigen::Vector3d(0.5, 0.3, 0.8).normalized()).toRotationMatrix();
+  pair.right_from_left.linear() =
+      Eigen::AngleAxisd(0.04, Eigen::Vector3d(0.5, 0.3, 0.8).normalized()).toRotationMatrix();
   pair.right_from_left.translation() = Eigen::Vector3d(-0.12, 0.006, -0.004);
   return pair;
 }
@@ -73,7 +74,8 @@ std::shared_ptr<const sensor_msgs::msg::Image> spots(const std::vector<Eigen::Ve
       for (int u = static_cast<int>(pixel.x()) - 7; u <= static_cast<int>(pixel.x()) + 8; ++u) {
         if (u < 0 || v < 0 || u >= kWidth || v >= kHeight) continue;
         const double squared = (u - pixel.x()) * (u - pixel.x()) + (v - pixel.y()) * (v - pixel.y());
-        view.at<std::uint8_t>(v, u) = cv::saturate_cast<std::uint8_t>(view.at<std::uint8_t>(v, u) + 220.0 * std::exp(-squared / 8.0));
+        view.at<std::uint8_t>(v, u) =
+            cv::saturate_cast<std::uint8_t>(view.at<std::uint8_t>(v, u) + 220.0 * std::exp(-squared / 8.0));
       }
     }
   }
@@ -131,7 +133,8 @@ TEST(EyeRectifier, AlignsTheRowsOfAPairToATenthOfAPixel) {
 
 TEST(EyeRectifier, HandsOnARectifiedImageItself) {
   auto rectifier = rectifier_of(rectified_infos().right);
-  const auto raw = std::shared_ptr<const sensor_msgs::msg::Image>(conversions::make_image(7, "right", "mono8", kWidth, kHeight));
+  const auto raw =
+      std::shared_ptr<const sensor_msgs::msg::Image>(conversions::make_image(7, "right", "mono8", kWidth, kHeight));
   EXPECT_EQ(*rectifier.rectify(raw), raw);
 }
 
@@ -173,7 +176,8 @@ TEST(EyeRectifier, SaysWhyAnImageCannotBeRectified) {
     return std::shared_ptr<sensor_msgs::msg::Image>(conversions::make_image(7, "left", encoding, width, kHeight));
   };
   auto rectifier = rectifier_of(rectified_infos().left);
-  EXPECT_THAT(rectifier.rectify(image(64, "mono8")).reason(), AllOf(HasSubstr("64 x 240"), HasSubstr("320 x 240"), HasSubstr("calibrate")));
+  EXPECT_THAT(rectifier.rectify(image(64, "mono8")).reason(),
+              AllOf(HasSubstr("64 x 240"), HasSubstr("320 x 240"), HasSubstr("calibrate")));
   const auto cut_off = image(kWidth, "mono8");
   cut_off->data().resize(100);
   EXPECT_THAT(rectifier.rectify(cut_off).reason(), HasSubstr("holds 100 bytes"));

@@ -30,11 +30,14 @@ class StereoRectifier : public ::testing::Test {
     harness_.load("panvo_stereo_rectifier", "StereoRectifierComponent", parameters);
   }
   void publish_infos() {
-    harness_.publish(topics::kStereoLeftCameraInfo, conversions::to_camera_info(conversions::left_camera(calibration_, rectified_), 1, "left"));
-    harness_.publish(topics::kStereoRightCameraInfo, conversions::to_camera_info(conversions::right_camera(calibration_, rectified_), 1, "right"));
+    harness_.publish(topics::kStereoLeftCameraInfo,
+                     conversions::to_camera_info(conversions::left_camera(calibration_, rectified_), 1, "left"));
+    harness_.publish(topics::kStereoRightCameraInfo,
+                     conversions::to_camera_info(conversions::right_camera(calibration_, rectified_), 1, "right"));
   }
   std::shared_ptr<const sensor_msgs::msg::Image> publish_left_image(std::int64_t stamp_ns = 1, int width = kWidth) {
-    std::shared_ptr<const sensor_msgs::msg::Image> image = conversions::make_image(stamp_ns, "left", "mono8", width, kHeight);
+    std::shared_ptr<const sensor_msgs::msg::Image> image =
+        conversions::make_image(stamp_ns, "left", "mono8", width, kHeight);
     harness_.publish(topics::kStereoLeftImageRaw, image);
     return image;
   }
@@ -44,8 +47,10 @@ class StereoRectifier : public ::testing::Test {
   }
 
   runtime::ComponentHarness harness_;
-  const std::vector<std::shared_ptr<const sensor_msgs::msg::Image>>& left_rect_ = harness_.collect(topics::kStereoLeftImageRect);
-  const std::vector<std::shared_ptr<const sensor_msgs::msg::Image>>& right_rect_ = harness_.collect(topics::kStereoRightImageRect);
+  const std::vector<std::shared_ptr<const sensor_msgs::msg::Image>>& left_rect_ =
+      harness_.collect(topics::kStereoLeftImageRect);
+  const std::vector<std::shared_ptr<const sensor_msgs::msg::Image>>& right_rect_ =
+      harness_.collect(topics::kStereoRightImageRect);
   vision::StereoCalibration calibration_;
   vision::RectifiedStereo rectified_;
 };

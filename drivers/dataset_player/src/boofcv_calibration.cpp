@@ -14,12 +14,14 @@ class XmlReader {
   explicit XmlReader(std::filesystem::path file) : file_(std::move(file)) {
     if (document_.LoadFile(file_.c_str()) != tinyxml2::XML_SUCCESS) {
       const auto line = document_.ErrorLineNum() > 0 ? ":" + std::to_string(document_.ErrorLineNum()) : std::string();
-      throw DatasetError(file_.string() + line + ": cannot be read as XML (" + document_.ErrorName() + "); was the file cut off?");
+      throw DatasetError(file_.string() + line + ": cannot be read as XML (" + document_.ErrorName() +
+                         "); was the file cut off?");
     }
   }
 
   const tinyxml2::XMLElement& root() const {
-    if (document_.RootElement() == nullptr) throw DatasetError(file_.string() + ": holds no element; was the file cut off?");
+    if (document_.RootElement() == nullptr)
+      throw DatasetError(file_.string() + ": holds no element; was the file cut off?");
     return *document_.RootElement();
   }
 
@@ -28,7 +30,8 @@ class XmlReader {
   }
 
   /// The child of that name in either spelling: BoofCV changed the case of some names between versions.
-  const tinyxml2::XMLElement& child(const tinyxml2::XMLElement& parent, const char* name, const char* other_name = nullptr) const {
+  const tinyxml2::XMLElement& child(const tinyxml2::XMLElement& parent, const char* name,
+                                    const char* other_name = nullptr) const {
     const auto* element = parent.FirstChildElement(name);
     if (element == nullptr && other_name != nullptr) element = parent.FirstChildElement(other_name);
     if (element == nullptr) fail(parent, std::string("has no element <") + name + ">");
@@ -43,15 +46,16 @@ class XmlReader {
 
   std::vector<double> list(const tinyxml2::XMLElement& parent) const {
     std::vector<double> values;
-    for (const auto* item = parent.FirstChildElement("double"); item != nullptr; item = item->NextSiblingElement("double")) {
+    for (const auto* item = parent.FirstChildElement("double"); item != nullptr;
+         item = item->NextSiblingElement("double")) {
       values.push_back(number(*item));
     }
     return values;
   }
 
   [[noreturn]] void fail(const tinyxml2::XMLElement& element, const std::string& what) const {
-    throw DatasetError(file_.string() + ":" + std::to_string(element.GetLineNum()) + ": <" + element.Name() + "> " + what +
-                       "; a BoofCV StereoParameters file is expected");
+    throw DatasetError(file_.string() + ":" + std::to_string(element.GetLineNum()) + ": <" + element.Name() + "> " +
+                       what + "; a BoofCV StereoParameters file is expected");
   }
 
  private:
@@ -62,7 +66,11 @@ class XmlReader {
 vision::DistortedCamera read_camera(const XmlReader& xml, const tinyxml2::XMLElement& element) {
   const auto value = [&](const char* name) { return xml.number(xml.child(element, name)); };
   vision::DistortedCamera camera;
-  camera.pinhole = {value("fx"), value("fy"), value("cx"), value("cy"), static_cast<int>(value("width")),
+  camera.pinhole = {value("fx"),
+                    value("fy"),
+                    value("cx"),
+                    value("cy"),
+                    static_cast<int>(value("width")),
                     static_cast<int>(value("height"))};
   if (xml.find(element, "skew") != nullptr && value("skew") != 0.0) {
     xml.fail(xml.child(element, "skew"), "is not zero: skewed pixels are not supported; calibrate with zero skew");

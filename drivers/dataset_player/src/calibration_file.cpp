@@ -17,7 +17,8 @@ std::array<double, 5> distortion(const YamlFile& file, const std::string& key, c
   if (model == "none") return coefficients;
   if (model != "plumb_bob" && model != "radial-tangential" && model != "radtan" && model != "rational_polynomial") {
     file.fail(key, "belongs to the lens model '" + model +
-                       "', which is not read; calibrate with the radial-tangential model (plumb_bob), or undistort the images first");
+                       "', which is not read; calibrate with the radial-tangential model (plumb_bob), or undistort the "
+                       "images first");
   }
   const auto values = file.numbers(key);
   for (std::size_t i = 0; i < values.size(); ++i) {
@@ -55,7 +56,8 @@ bool is_rectified(const vision::StereoCalibration& calibration) {
          t.tail<2>().cwiseAbs().maxCoeff() <= 10.0 * kTolerance * std::abs(t.x());
 }
 
-vision::RectifiedStereo rectified_geometry(const vision::StereoCalibration& calibration, const std::filesystem::path& file) {
+vision::RectifiedStereo rectified_geometry(const vision::StereoCalibration& calibration,
+                                           const std::filesystem::path& file) {
   expect_no_problems(vision::validate(calibration), file);
   if (!is_rectified(calibration)) return vision::rectify(calibration);
   vision::RectifiedStereo rectified;

@@ -19,8 +19,8 @@ using RowMajor34d = Eigen::Matrix<double, 3, 4, Eigen::RowMajor>;
 /// Pinhole of a row-major 3x3 camera matrix.
 vision::PinholeCamera pinhole(const std::vector<double>& matrix, ImageSize size);
 
-/// Coefficients k1 k2 p1 p2 k3 of the value `key`, which may hold fewer, or more that are zero. `model` is how the file calls
-/// its lens model; one that is not radial-tangential ("plumb_bob") is an error.
+/// Coefficients k1 k2 p1 p2 k3 of the value `key`, which may hold fewer, or more that are zero. `model` is how the
+/// file calls its lens model; one that is not radial-tangential ("plumb_bob") is an error.
 std::array<double, 5> distortion(const YamlFile& file, const std::string& key, const std::string& model);
 
 /// Throws DatasetError naming `file` and every problem.

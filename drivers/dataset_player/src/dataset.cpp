@@ -21,13 +21,14 @@ Dataset open_dataset(const fs::path& directory, const ReadOptions& options) {
   if (looks_like_euroc(directory)) return read_euroc(directory, options);
   if (looks_like_kitti(directory)) return read_kitti(directory, options);
   if (looks_like_folders(directory)) return read_folders(directory, options);
-  throw DatasetError(fmt::format(
-      "{}: holds no data set of a known layout; looked for\n"
-      "  - EuRoC/ASL: mav0/cam0/data.csv\n"
-      "  - KITTI odometry: calib.txt, image_0 and image_1 (or image_2 and image_3)\n"
-      "  - left/right folders: left/*.png or *.jpg, right/*, and a calibration (stereo_params.xml, left.yaml and right.yaml, or "
-      "stereo.yaml)",
-      directory.string()));
+  throw DatasetError(
+      fmt::format("{}: holds no data set of a known layout; looked for\n"
+                  "  - EuRoC/ASL: mav0/cam0/data.csv\n"
+                  "  - KITTI odometry: calib.txt, image_0 and image_1 (or image_2 and image_3)\n"
+                  "  - left/right folders: left/*.png or *.jpg, right/*, and a calibration (stereo_params.xml, "
+                  "left.yaml and right.yaml, or "
+                  "stereo.yaml)",
+                  directory.string()));
 }
 
 Eigen::Isometry3d base_from_optical() {
@@ -51,37 +52,43 @@ ImageSize stereo_image_size(const std::vector<StereoFrame>& frames) {
     cv::Mat left, right;
     if (!decode(frames[i].left, left) || !decode(frames[i].right, right)) continue;
     if (left.size() != right.size()) {
-      throw DatasetError(fmt::format("{}: is {} x {} px, but {} is {} x {} px; both cameras of a pair must record one size",
-                                     frames[i].left.string(), left.cols, left.rows, frames[i].right.string(), right.cols, right.rows));
+      throw DatasetError(
+          fmt::format("{}: is {} x {} px, but {} is {} x {} px; both cameras of a pair must record one size",
+                      frames[i].left.string(), left.cols, left.rows, frames[i].right.string(), right.cols, right.rows));
     }
     return {left.cols, left.rows};
   }
   throw DatasetError(first_problem + "; nor can any other of the first pairs be decoded: copy the data set again");
 }
 
-void expect_image_size(const vision::PinholeCamera& camera, const fs::path& calibration_file, const std::vector<StereoFrame>& frames) {
+void expect_image_size(const vision::PinholeCamera& camera, const fs::path& calibration_file,
+                       const std::vector<StereoFrame>& frames) {
   const auto size = stereo_image_size(frames);
   if (size.width == camera.width && size.height == camera.height) return;
-  throw DatasetError(fmt::format("{}: the calibration is for images of {} x {} px, but those of {} are {} x {} px; use the calibration "
-                                 "of this camera at this size",
-                                 calibration_file.string(), camera.width, camera.height,
-                                 frames.front().left.parent_path().string(), size.width, size.height));
+  throw DatasetError(fmt::format(
+      "{}: the calibration is for images of {} x {} px, but those of {} are {} x {} px; use the calibration "
+      "of this camera at this size",
+      calibration_file.string(), camera.width, camera.height, frames.front().left.parent_path().string(), size.width,
+      size.height));
 }
 
 namespace {
 
 /// Images of one folder by number; each must have one of its own.
 std::vector<ImageFile> numbered_images(const fs::path& folder) {
-  if (!fs::is_directory(folder)) throw DatasetError(fmt::format("{}: is missing; both eyes are needed", folder.string()));
+  if (!fs::is_directory(folder))
+    throw DatasetError(fmt::format("{}: is missing; both eyes are needed", folder.string()));
   auto images = list_images(folder);
-  if (images.empty()) throw DatasetError(fmt::format("{}: holds no image (png, jpg, pgm, ppm, bmp, tif)", folder.string()));
+  if (images.empty())
+    throw DatasetError(fmt::format("{}: holds no image (png, jpg, pgm, ppm, bmp, tif)", folder.string()));
   for (std::size_t i = 0; i < images.size(); ++i) {
     if (!images[i].number) {
       throw DatasetError(fmt::format("{}: its name ends in no number; number the images of both folders alike",
                                      images[i].path.string()));
     }
     if (i > 0 && images[i].number == images[i - 1].number) {
-      throw DatasetError(fmt::format("{}: has the same number as {}; remove one", images[i].path.string(), images[i - 1].path.string()));
+      throw DatasetError(fmt::format("{}: has the same number as {}; remove one", images[i].path.string(),
+                                     images[i - 1].path.string()));
     }
   }
   return images;
@@ -89,7 +96,8 @@ std::vector<ImageFile> numbered_images(const fs::path& folder) {
 
 }  // namespace
 
-PairedFolders pair_by_number(const fs::path& left_folder, const fs::path& right_folder, std::vector<std::string>& notes) {
+PairedFolders pair_by_number(const fs::path& left_folder, const fs::path& right_folder,
+                             std::vector<std::string>& notes) {
   const auto left = numbered_images(left_folder);
   const auto right = numbered_images(right_folder);
   PairedFolders folders;
@@ -111,8 +119,8 @@ PairedFolders pair_by_number(const fs::path& left_folder, const fs::path& right_
                                    left_folder.string(), right_folder.string()));
   }
   if (alone > 0) {
-    notes.push_back(fmt::format("{} of {} frames have one image only and are left out, the first: {}", alone, folders.places,
-                                first_alone.string()));
+    notes.push_back(fmt::format("{} of {} frames have one image only and are left out, the first: {}", alone,
+                                folders.places, first_alone.string()));
   }
   return folders;
 }

@@ -21,16 +21,20 @@
 namespace panvo::dataset_player {
 
 struct Parameters {
-  std::string directory;          // the data set; its kind is found by its layout
-  std::string cameras = "all";    // which of its cameras are played
-  bool grey = false;              // decode colour images as grey
-  double rate_hz = 0.0;           // 0: what is usual for the layout
+  std::string directory;        // the data set; its kind is found by its layout
+  std::string calibration;      // of left/right folders that hold none
+  std::string cameras = "all";  // which of its cameras are played
+  bool grey = false;            // decode colour images as grey
+  double rate_hz = 0.0;         // 0: what is usual for the layout
   double start_s = 0.0;
-  double duration_s = 0.0;        // 0: to the end
+  double duration_s = 0.0;  // 0: to the end
   template <class Field>
   static void describe(Field&& field) {
     using P = Parameters;
-    field(&P::directory, "directory", "", "folder of the data set: KITTI odometry, EuRoC/ASL, or left/right folders with a calibration");
+    field(&P::directory, "directory", "",
+          "folder of the data set: KITTI odometry, EuRoC/ASL, or left/right folders with a calibration");
+    field(&P::calibration, "calibration", "",
+          "folder of the calibration of left/right folders, as in config/rigs; empty: the data set's own");
     field(&P::cameras, "cameras", "", "which cameras are played", {"all", "stereo", "panorama"});
     field(&P::grey, "grey", "", "decode the stereo images as grey even if they are stored in colour");
     field(&P::rate_hz, "rate_hz", "Hz", "frame rate of data sets without times; 0: KITTI 10, folders 30", 0.0, 1000.0);
@@ -39,8 +43,8 @@ struct Parameters {
   }
 };
 
-/// Plays a data set as if it were cameras: image_raw and camera_info of each eye, the panorama, the ground truth, and first of all where
-/// the cameras are on the vehicle.
+/// Plays a data set as if it were cameras: image_raw and camera_info of each eye, the panorama, the ground truth, and
+/// first of all where the cameras are on the vehicle.
 class DatasetPlayerComponent final : public runtime::Component, public runtime::Source {
  public:
   explicit DatasetPlayerComponent(runtime::Context& context);
@@ -102,7 +106,7 @@ DatasetPlayerComponent::DatasetPlayerComponent(runtime::Context& context)
 }
 
 void DatasetPlayerComponent::open(const Parameters& parameters) {
-  dataset_ = open_dataset(parameters.directory, {.rate_hz = parameters.rate_hz});
+  dataset_ = open_dataset(parameters.directory, {.rate_hz = parameters.rate_hz, .calibration = parameters.calibration});
   const Selection selection{.start_s = parameters.start_s,
                             .duration_s = parameters.duration_s,
                             .stereo = parameters.cameras != "panorama",
@@ -112,7 +116,8 @@ void DatasetPlayerComponent::open(const Parameters& parameters) {
     open_stereo(*dataset_.stereo, parameters.grey ? Colour::kGrey : Colour::kAsStored);
   }
   if (dataset_.panorama && selection.panorama) {
-    panorama_.emplace(Camera{"panorama_optical", context_.output(topics::kPanorama), dataset_.panorama->width, dataset_.panorama->height});
+    panorama_.emplace(Camera{"panorama_optical", context_.output(topics::kPanorama), dataset_.panorama->width,
+                             dataset_.panorama->height});
   }
   if (!dataset_.ground_truth.empty()) ground_truth_.emplace(context_.output(topics::kGroundTruth));
   step_kind_ = left_ ? Event::Kind::kStereo : Event::Kind::kPanorama;
@@ -121,9 +126,12 @@ void DatasetPlayerComponent::open(const Parameters& parameters) {
 }
 
 void DatasetPlayerComponent::open_stereo(const StereoRecording& stereo, Colour colour) {
-  const auto eye = [&](const char* frame_id, const auto& image_topic, const auto& info_topic, const conversions::PairedCamera& geometry) {
+  const auto eye = [&](const char* frame_id, const auto& image_topic, const auto& info_topic,
+                       const conversions::PairedCamera& geometry) {
     const auto& size = geometry.raw.pinhole;
-    return Eye{{frame_id, context_.output(image_topic), size.width, size.height, colour}, context_.output(info_topic), geometry};
+    return Eye{{frame_id, context_.output(image_topic), size.width, size.height, colour},
+               context_.output(info_topic),
+               geometry};
   };
   left_.emplace(eye("stereo_left_optical", topics::kStereoLeftImageRaw, topics::kStereoLeftCameraInfo,
                     conversions::left_camera(stereo.calibration, stereo.rectified)));
@@ -137,12 +145,14 @@ void DatasetPlayerComponent::say_what_is_played() const {
   std::string content;
   if (left_) {
     content += fmt::format(", stereo of {} x {} px {}, baseline {:.4f} m", left_->camera.width, left_->camera.height,
-                           conversions::is_rectified(left_->geometry) && conversions::is_rectified(right_->geometry) ? "(rectified)" : "(raw)",
+                           conversions::is_rectified(left_->geometry) && conversions::is_rectified(right_->geometry)
+                               ? "(rectified)"
+                               : "(raw)",
                            dataset_.stereo->rectified.baseline_m);
   }
   if (panorama_) content += fmt::format(", panorama of {} x {} px", panorama_->width, panorama_->height);
-  log.info("{}: {}, {} frames in {:.2f} s{}{}", dataset_.directory.string(), dataset_.kind, steps_total_, seconds, content,
-           ground_truth_ ? ", ground truth" : "");
+  log.info("{}: {}, {} frames in {:.2f} s{}{}", dataset_.directory.string(), dataset_.kind, steps_total_, seconds,
+           content, ground_truth_ ? ", ground truth" : "");
   for (const auto& note : dataset_.notes) log.warn("{}", note);
 }
 
@@ -158,9 +168,15 @@ void DatasetPlayerComponent::emit() {
   for (; next_ < events_.size() && events_[next_].stamp_ns == stamp_ns; ++next_) {
     const auto& [stamp, kind, index] = events_[next_];
     switch (kind) {
-      case Event::Kind::kGroundTruth: publish_ground_truth(dataset_.ground_truth[index]); break;
-      case Event::Kind::kStereo: publish_stereo(dataset_.stereo->frames[index]); break;
-      case Event::Kind::kPanorama: publish_panorama(dataset_.panorama->frames[index]); break;
+      case Event::Kind::kGroundTruth:
+        publish_ground_truth(dataset_.ground_truth[index]);
+        break;
+      case Event::Kind::kStereo:
+        publish_stereo(dataset_.stereo->frames[index]);
+        break;
+      case Event::Kind::kPanorama:
+        publish_panorama(dataset_.panorama->frames[index]);
+        break;
     }
     if (kind == step_kind_) ++steps_done_;
   }
@@ -224,11 +240,12 @@ DatasetPlayerComponent::ImagePtr DatasetPlayerComponent::load(const Camera& came
     return nullptr;
   }
   if (pixels.cols != camera.width || pixels.rows != camera.height) {
-    report_unreadable(fmt::format("{}: is {} x {} px, the images before are {} x {} px", file.string(), pixels.cols, pixels.rows,
-                                  camera.width, camera.height));
+    report_unreadable(fmt::format("{}: is {} x {} px, the images before are {} x {} px", file.string(), pixels.cols,
+                                  pixels.rows, camera.width, camera.height));
     return nullptr;
   }
-  const auto image = conversions::make_image(stamp_ns, camera.frame_id, conversions::encoding_of(pixels.type()), camera.width, camera.height);
+  const auto image = conversions::make_image(stamp_ns, camera.frame_id, conversions::encoding_of(pixels.type()),
+                                             camera.width, camera.height);
   pixels.copyTo(conversions::pixels(*image));
   return image;
 }

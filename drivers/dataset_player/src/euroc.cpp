@@ -41,8 +41,8 @@ std::vector<StampedImage> read_image_list(const fs::path& camera_folder) {
 Eigen::Isometry3d read_base_from_sensor(const YamlFile& sensor) {
   const RowMajor4d matrix = Eigen::Map<const RowMajor4d>(sensor.numbers("T_BS", 16).data());
   const Eigen::Matrix3d rotation = matrix.topLeftCorner<3, 3>();
-  if (!((rotation * rotation.transpose() - Eigen::Matrix3d::Identity()).norm() < 1e-3) || rotation.determinant() < 0.0 ||
-      !matrix.allFinite()) {
+  if (!((rotation * rotation.transpose() - Eigen::Matrix3d::Identity()).norm() < 1e-3) ||
+      rotation.determinant() < 0.0 || !matrix.allFinite()) {
     sensor.fail("T_BS", "is no rigid transform: its upper left 3 x 3 block must be a rotation; correct it");
   }
   Eigen::Isometry3d base_from_sensor = Eigen::Isometry3d::Identity();
@@ -64,7 +64,8 @@ vision::DistortedCamera read_pinhole(const YamlFile& sensor) {
   const auto intrinsics = sensor.numbers("intrinsics", 4);
   vision::DistortedCamera camera;
   camera.pinhole = {intrinsics[0], intrinsics[1], intrinsics[2], intrinsics[3], size.width, size.height};
-  camera.distortion = distortion(sensor, "distortion_coefficients", sensor.text("distortion_model", "radial-tangential"));
+  camera.distortion =
+      distortion(sensor, "distortion_coefficients", sensor.text("distortion_model", "radial-tangential"));
   return camera;
 }
 
@@ -78,16 +79,17 @@ std::int64_t median_period_ns(const std::vector<StampedImage>& images) {
 }
 
 std::size_t nearest(const std::vector<StampedImage>& images, std::int64_t stamp_ns) {
-  const auto after = std::lower_bound(images.begin(), images.end(), stamp_ns,
-                                      [](const StampedImage& image, std::int64_t stamp) { return image.stamp_ns < stamp; });
+  const auto after =
+      std::lower_bound(images.begin(), images.end(), stamp_ns,
+                       [](const StampedImage& image, std::int64_t stamp) { return image.stamp_ns < stamp; });
   if (after == images.begin()) return 0;
   const auto index = static_cast<std::size_t>(after - images.begin());
   if (after == images.end() || stamp_ns - images[index - 1].stamp_ns <= after->stamp_ns - stamp_ns) return index - 1;
   return index;
 }
 
-/// Pairs of images that are each other's nearest and less than half a period apart; both get the left one's stamp. Images of equal
-/// stamp are the usual case; some recorders stamp each camera on its own.
+/// Pairs of images that are each other's nearest and less than half a period apart; both get the left one's stamp.
+/// Images of equal stamp are the usual case; some recorders stamp each camera on its own.
 std::vector<StereoFrame> pair_by_stamp(const std::vector<StampedImage>& left, const std::vector<StampedImage>& right,
                                        std::vector<std::string>& notes) {
   const auto period_ns = median_period_ns(left);
@@ -111,13 +113,16 @@ std::vector<StereoFrame> pair_by_stamp(const std::vector<StampedImage>& left, co
     largest_gap_ns = std::max(largest_gap_ns, gap_ns);
     frames.push_back({left[l].stamp_ns, left[l].file, right[r].file});
   }
-  if (alone > 0) notes.push_back(fmt::format("{} images of cam0 and cam1 have no partner of their time and are left out", alone));
+  if (alone > 0)
+    notes.push_back(fmt::format("{} images of cam0 and cam1 have no partner of their time and are left out", alone));
   if (missing_files > 0) {
-    notes.push_back(fmt::format("{} pairs lack an image file and are left out, the first: {}", missing_files, first_missing.string()));
+    notes.push_back(fmt::format("{} pairs lack an image file and are left out, the first: {}", missing_files,
+                                first_missing.string()));
   }
   if (largest_gap_ns > 0) {
-    notes.push_back(fmt::format("the stamps of left and right differ by up to {:.3f} ms; both images of a pair get the left one's",
-                                static_cast<double>(largest_gap_ns) * 1e-6));
+    notes.push_back(
+        fmt::format("the stamps of left and right differ by up to {:.3f} ms; both images of a pair get the left one's",
+                    static_cast<double>(largest_gap_ns) * 1e-6));
   }
   return frames;
 }
@@ -150,7 +155,8 @@ std::optional<PanoramaRecording> read_panorama(const fs::path& folder, std::vect
   if (!fs::exists(folder / "sensor.yaml")) return std::nullopt;
   const YamlFile sensor(folder / "sensor.yaml");
   if (const auto model = sensor.text("camera_model", "none"); model != "equirectangular") {
-    notes.push_back(fmt::format("{}: camera_model is '{}', not 'equirectangular': cam2 is not played", sensor.path().string(), model));
+    notes.push_back(fmt::format("{}: camera_model is '{}', not 'equirectangular': cam2 is not played",
+                                sensor.path().string(), model));
     return std::nullopt;
   }
   PanoramaRecording panorama;
@@ -166,14 +172,18 @@ std::optional<PanoramaRecording> read_panorama(const fs::path& folder, std::vect
       ++missing_files;
     }
   }
-  if (panorama.frames.empty()) throw DatasetError((folder / "data").string() + ": holds none of the images that data.csv lists; copy it again");
-  if (missing_files > 0) notes.push_back(fmt::format("{} panoramas of {} are not there and are left out", missing_files, folder.string()));
+  if (panorama.frames.empty())
+    throw DatasetError((folder / "data").string() + ": holds none of the images that data.csv lists; copy it again");
+  if (missing_files > 0)
+    notes.push_back(fmt::format("{} panoramas of {} are not there and are left out", missing_files, folder.string()));
   cv::Mat first;
   ImageDecoder decoder;
-  if (const auto problem = decoder.decode(panorama.frames.front().image, Colour::kAsStored, first)) throw DatasetError(*problem + "; copy it again");
+  if (const auto problem = decoder.decode(panorama.frames.front().image, Colour::kAsStored, first))
+    throw DatasetError(*problem + "; copy it again");
   if (first.cols != panorama.width || first.rows != panorama.height) {
-    sensor.fail("resolution", fmt::format("is {} x {} px, but {} is {} x {} px; correct it", panorama.width, panorama.height,
-                                          panorama.frames.front().image.string(), first.cols, first.rows));
+    sensor.fail("resolution",
+                fmt::format("is {} x {} px, but {} is {} x {} px; correct it", panorama.width, panorama.height,
+                            panorama.frames.front().image.string(), first.cols, first.rows));
   }
   return panorama;
 }
@@ -192,7 +202,8 @@ std::vector<GroundTruthPose> read_poses(const fs::path& folder) {
     if (!poses.empty()) file.expect_later(line, poses.back().stamp_ns, stamp_ns);
     const auto value = [&](std::size_t field) { return file.number(line, field); };
     const Eigen::Quaterniond rotation(value(4), value(5), value(6), value(7));
-    if (std::abs(rotation.norm() - 1.0) > 1e-2) file.fail(line, "holds a quaternion that is not of length 1; correct or remove the line");
+    if (std::abs(rotation.norm() - 1.0) > 1e-2)
+      file.fail(line, "holds a quaternion that is not of length 1; correct or remove the line");
     Eigen::Isometry3d map_from_sensor = Eigen::Isometry3d::Identity();
     map_from_sensor.linear() = rotation.normalized().toRotationMatrix();
     map_from_sensor.translation() = Eigen::Vector3d(value(1), value(2), value(3));
@@ -225,7 +236,8 @@ Dataset read_euroc(const fs::path& directory, const ReadOptions&) {
   dataset.directory = directory;
   dataset.panorama = read_panorama(root / "cam2", dataset.notes);
   // A recording of panoramas alone is one too; with neither eye nor panorama, read_stereo says what is missing.
-  if (!dataset.panorama || fs::exists(root / "cam0") || fs::exists(root / "cam1")) dataset.stereo = read_stereo(root, dataset.notes);
+  if (!dataset.panorama || fs::exists(root / "cam0") || fs::exists(root / "cam1"))
+    dataset.stereo = read_stereo(root, dataset.notes);
   dataset.ground_truth = read_ground_truth(root, dataset.notes);
   return dataset;
 }

@@ -17,7 +17,7 @@ struct FoundCalibration {
   fs::path file;
 };
 
-/// The calibration of the folder in the first of the formats that is there.
+/// The calibration in a folder, in the first of the formats that is there.
 FoundCalibration find_calibration(const fs::path& directory, const std::vector<StereoFrame>& frames) {
   const auto path = [&](const char* name) { return directory / name; };
   if (fs::exists(path("stereo_params.xml"))) {
@@ -30,12 +30,14 @@ FoundCalibration find_calibration(const fs::path& directory, const std::vector<S
     if (fs::exists(file)) return {read_opencv_calibration(file, file, stereo_image_size(frames)), file};
   }
   if (fs::exists(path("intrinsics.yml")) && fs::exists(path("extrinsics.yml"))) {
-    return {read_opencv_calibration(path("intrinsics.yml"), path("extrinsics.yml"), stereo_image_size(frames)), path("intrinsics.yml")};
+    return {read_opencv_calibration(path("intrinsics.yml"), path("extrinsics.yml"), stereo_image_size(frames)),
+            path("intrinsics.yml")};
   }
-  throw DatasetError(fmt::format(
-      "{}: holds no calibration; looked for stereo_params.xml (BoofCV), left.yaml and right.yaml (ROS camera_info), stereo.yaml or "
-      "stereo.yml (OpenCV: M1 D1 M2 D2 R T), intrinsics.yml and extrinsics.yml (OpenCV's sample)",
-      directory.string()));
+  throw DatasetError(
+      fmt::format("{}: holds no calibration; looked for stereo_params.xml (BoofCV), left.yaml and right.yaml (ROS "
+                  "camera_info), stereo.yaml or "
+                  "stereo.yml (OpenCV: M1 D1 M2 D2 R T), intrinsics.yml and extrinsics.yml (OpenCV's sample)",
+                  directory.string()));
 }
 
 }  // namespace
@@ -51,13 +53,15 @@ Dataset read_folders(const fs::path& directory, const ReadOptions& options) {
   const auto folders = pair_by_number(directory / "left", directory / "right", dataset.notes);
   const double rate_hz = options.rate_hz > 0.0 ? options.rate_hz : kUsualRateHz;
   if (options.rate_hz <= 0.0) {
-    dataset.notes.push_back(fmt::format("the frame rate is not recorded: {} Hz is assumed (parameter rate_hz)", kUsualRateHz));
+    dataset.notes.push_back(
+        fmt::format("the frame rate is not recorded: {} Hz is assumed (parameter rate_hz)", kUsualRateHz));
   }
   StereoRecording stereo;
   for (const auto& pair : folders.pairs) {
     stereo.frames.push_back({std::llround(static_cast<double>(pair.place) * 1e9 / rate_hz), pair.left, pair.right});
   }
-  const auto [calibrated, file] = find_calibration(directory, stereo.frames);
+  const auto [calibrated, file] =
+      find_calibration(options.calibration.empty() ? directory : options.calibration, stereo.frames);
   stereo.calibration = calibrated.calibration;
   stereo.rectified = calibrated.rectified;
   stereo.base_from_left = base_from_optical();

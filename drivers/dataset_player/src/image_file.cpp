@@ -34,7 +34,8 @@ bool is_cut_off_jpeg(const std::vector<std::uint8_t>& bytes) {
 }
 
 std::string lower_case(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return text;
 }
 
@@ -57,7 +58,8 @@ std::optional<std::string> ImageDecoder::decode(const std::filesystem::path& fil
   if (!read_bytes(file, bytes_)) return fail("cannot be read");
   if (bytes_.empty()) return fail("is empty");
   if (is_cut_off_jpeg(bytes_)) return fail("is a JPEG that was cut off");
-  const int flags = (colour == Colour::kGrey ? cv::IMREAD_GRAYSCALE : cv::IMREAD_ANYCOLOR) | cv::IMREAD_IGNORE_ORIENTATION;
+  const int flags =
+      (colour == Colour::kGrey ? cv::IMREAD_GRAYSCALE : cv::IMREAD_ANYCOLOR) | cv::IMREAD_IGNORE_ORIENTATION;
   // Not into the image that is there: OpenCV leaves that untouched when it finds no decoder, which looks like success.
   image.release();
   try {

@@ -32,7 +32,8 @@ std::map<std::string, RowMajor34d> read_projections(const TextFile& file) {
     if (line.fields.front().size() != 3 || line.fields.front().front() != 'P') continue;
     RowMajor34d projection;
     for (int i = 0; i < 12; ++i) projection(i / 4, i % 4) = file.number(line, static_cast<std::size_t>(i) + 1);
-    if (projection(0, 0) == 0.0 || projection(1, 1) == 0.0) file.fail(line, "has a focal length of zero; copy calib.txt again");
+    if (projection(0, 0) == 0.0 || projection(1, 1) == 0.0)
+      file.fail(line, "has a focal length of zero; copy calib.txt again");
     projections[line.fields.front()] = projection;
   }
   return projections;
@@ -48,7 +49,8 @@ void read_calibration(const fs::path& path, const Eyes& eyes, StereoRecording& s
   const TextFile file(path, TextFile::Separator::kBlank);
   const auto projections = read_projections(file);
   for (const char* name : {eyes.left_projection, eyes.right_projection}) {
-    if (!projections.contains(name)) throw DatasetError(fmt::format("{}: has no line {} for {}", path.string(), name, eyes.left_folder));
+    if (!projections.contains(name))
+      throw DatasetError(fmt::format("{}: has no line {} for {}", path.string(), name, eyes.left_folder));
   }
   const auto& left = projections.at(eyes.left_projection);
   const auto& right = projections.at(eyes.right_projection);
@@ -59,7 +61,8 @@ void read_calibration(const fs::path& path, const Eyes& eyes, StereoRecording& s
   auto& calibration = stereo.calibration;
   calibration.left.pinhole = camera(left);
   calibration.right.pinhole = camera(right);
-  // The colour cameras stand some mm off camera 0's row and plane. The images are rectified nonetheless: only X separates the two.
+  // The colour cameras stand some mm off camera 0's row and plane. The images are rectified nonetheless: only X
+  // separates the two.
   calibration.right_from_left.translation().x() = translation(right).x() - translation(left).x();
   stereo.rectified = rectified_geometry(calibration, path);
   stereo.base_from_left = base_from_optical() * Eigen::Translation3d(-translation(left));
@@ -82,20 +85,24 @@ std::function<std::int64_t(const NumberedPair&)> read_clock(const fs::path& time
   if (fs::exists(times_path)) {
     return [times_path, stamps_ns = read_times(times_path)](const NumberedPair& pair) {
       if (pair.number < stamps_ns.size()) return stamps_ns[pair.number];
-      throw DatasetError(fmt::format("{}: has {} times, none for image {}; copy the file again, or remove it to play at {} Hz",
-                                     times_path.string(), stamps_ns.size(), pair.left.filename().string(), kUsualRateHz));
+      throw DatasetError(
+          fmt::format("{}: has {} times, none for image {}; copy the file again, or remove it to play at {} Hz",
+                      times_path.string(), stamps_ns.size(), pair.left.filename().string(), kUsualRateHz));
     };
   }
-  if (options.rate_hz <= 0.0) notes.push_back(fmt::format("no times.txt: {} Hz is assumed (parameter rate_hz)", kUsualRateHz));
+  if (options.rate_hz <= 0.0)
+    notes.push_back(fmt::format("no times.txt: {} Hz is assumed (parameter rate_hz)", kUsualRateHz));
   const double rate_hz = options.rate_hz > 0.0 ? options.rate_hz : kUsualRateHz;
   return [rate_hz](const NumberedPair& pair) -> std::int64_t {
     constexpr std::uint64_t kMostImages = 100'000'000;
     if (pair.number < kMostImages) return std::llround(static_cast<double>(pair.number) * 1e9 / rate_hz);
-    throw DatasetError(pair.left.string() + ": its number counts no frames; number the images from 000000, or add times.txt");
+    throw DatasetError(pair.left.string() +
+                       ": its number counts no frames; number the images from 000000, or add times.txt");
   };
 }
 
-/// base_from_camera_0 turns the axes of poses.txt (first camera frame, X right, Y down) into those of a vehicle, on both sides.
+/// base_from_camera_0 turns the axes of poses.txt (first camera frame, X right, Y down) into those of a vehicle, on
+/// both sides.
 std::vector<Eigen::Isometry3d> read_poses(const fs::path& path) {
   const TextFile file(path, TextFile::Separator::kBlank);
   const auto base_from_camera = base_from_optical();
@@ -129,7 +136,8 @@ std::optional<fs::path> find_poses(const fs::path& directory) {
 }  // namespace
 
 bool looks_like_kitti(const fs::path& directory) {
-  return fs::exists(directory / "calib.txt") || fs::is_directory(directory / "image_0") || fs::is_directory(directory / "image_2");
+  return fs::exists(directory / "calib.txt") || fs::is_directory(directory / "image_0") ||
+         fs::is_directory(directory / "image_2");
 }
 
 Dataset read_kitti(const fs::path& directory, const ReadOptions& options) {
@@ -151,8 +159,9 @@ Dataset read_kitti(const fs::path& directory, const ReadOptions& options) {
     if (pair.number < poses.size()) dataset.ground_truth.push_back({stamp_ns, poses[pair.number]});
   }
   if (poses_path && dataset.ground_truth.size() < stereo.frames.size()) {
-    dataset.notes.push_back(fmt::format("{} has {} poses: the last {} of {} frames are without ground truth", poses_path->string(),
-                                        poses.size(), stereo.frames.size() - dataset.ground_truth.size(), stereo.frames.size()));
+    dataset.notes.push_back(fmt::format("{} has {} poses: the last {} of {} frames are without ground truth",
+                                        poses_path->string(), poses.size(),
+                                        stereo.frames.size() - dataset.ground_truth.size(), stereo.frames.size()));
   }
   read_calibration(directory / "calib.txt", eyes, stereo);
   dataset.stereo = std::move(stereo);

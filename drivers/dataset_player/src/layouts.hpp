@@ -37,7 +37,8 @@ void expect_image_size(const vision::PinholeCamera& camera, const std::filesyste
 
 /// Two images of the same number in their names.
 struct NumberedPair {
-  std::size_t place = 0;  ///< among the frames that either folder has, so that a gap in one keeps the time of the others
+  std::size_t place =
+      0;  ///< among the frames that either folder has, so that a gap in one keeps the time of the others
   std::uint64_t number = 0;
   std::filesystem::path left, right;
 };
@@ -45,7 +46,8 @@ struct PairedFolders {
   std::vector<NumberedPair> pairs;
   std::size_t places = 0;
 };
-/// Says in `notes` how many images stay without a partner. Throws DatasetError when a folder is missing or no pair is left.
+/// Says in `notes` how many images stay without a partner. Throws DatasetError when a folder is missing or no pair is
+/// left.
 PairedFolders pair_by_number(const std::filesystem::path& left_folder, const std::filesystem::path& right_folder,
                              std::vector<std::string>& notes);
 

@@ -19,14 +19,15 @@ ImageSize image_size(const YamlFile& file, ImageSize when_absent) {
     const auto values = file.numbers(*key, 2);
     return {static_cast<int>(values[0]), static_cast<int>(values[1])};
   }
-  if (file.has("image_width") && file.has("image_height")) return {file.integer("image_width"), file.integer("image_height")};
+  if (file.has("image_width") && file.has("image_height"))
+    return {file.integer("image_width"), file.integer("image_height")};
   return when_absent;
 }
 
 }  // namespace
 
-CalibratedStereo read_opencv_calibration(const std::filesystem::path& intrinsics_file, const std::filesystem::path& extrinsics_file,
-                                         ImageSize size_when_absent) {
+CalibratedStereo read_opencv_calibration(const std::filesystem::path& intrinsics_file,
+                                         const std::filesystem::path& extrinsics_file, ImageSize size_when_absent) {
   const YamlFile intrinsics(intrinsics_file);
   const YamlFile extrinsics(extrinsics_file);
   const auto size = image_size(intrinsics, size_when_absent);

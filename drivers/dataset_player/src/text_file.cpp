@@ -52,7 +52,8 @@ TextFile::TextFile(std::filesystem::path path, Separator separator) : path_(std:
 double TextFile::number(const TextLine& line, std::size_t field) const {
   double value = 0.0;
   if (!parse(text(line, field), value) || !std::isfinite(value)) {
-    fail(line, "field " + std::to_string(field + 1) + " '" + line.fields[field] + "' is not a finite number; correct or remove the line");
+    fail(line, "field " + std::to_string(field + 1) + " '" + line.fields[field] +
+                   "' is not a finite number; correct or remove the line");
   }
   return value;
 }
@@ -83,7 +84,8 @@ const std::string& TextFile::text(const TextLine& line, std::size_t field) const
 
 void TextFile::expect_later(const TextLine& line, std::int64_t previous_ns, std::int64_t stamp_ns) const {
   if (stamp_ns > previous_ns) return;
-  fail(line, "stamp " + std::to_string(stamp_ns) + " ns is not later than the one before it (" + std::to_string(previous_ns) +
+  fail(line, "stamp " + std::to_string(stamp_ns) + " ns is not later than the one before it (" +
+                 std::to_string(previous_ns) +
                  " ns); times must increase: sort the file, or cut the recording where its clock was set");
 }
 

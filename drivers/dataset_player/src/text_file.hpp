@@ -26,7 +26,8 @@ class TextFile {
   const std::vector<TextLine>& lines() const noexcept { return lines_; }
   const std::filesystem::path& path() const noexcept { return path_; }
 
-  /// A finite number, a stamp in whole nanoseconds, a time in seconds as nanoseconds. Throw DatasetError naming the line.
+  /// A finite number, a stamp in whole nanoseconds, a time in seconds as nanoseconds. Throw DatasetError naming the
+  /// line.
   double number(const TextLine& line, std::size_t field) const;
   std::int64_t nanoseconds(const TextLine& line, std::size_t field) const;
   std::int64_t seconds_as_ns(const TextLine& line, std::size_t field) const;

@@ -19,19 +19,24 @@ std::vector<Event> timeline(const Dataset& dataset, const Selection& selection) 
     const auto& frames = dataset.panorama->frames;
     for (std::size_t i = 0; i < frames.size(); ++i) images.push_back({frames[i].stamp_ns, Event::Kind::kPanorama, i});
   }
-  const auto earlier = [](const Event& a, const Event& b) { return std::tie(a.stamp_ns, a.kind) < std::tie(b.stamp_ns, b.kind); };
+  const auto earlier = [](const Event& a, const Event& b) {
+    return std::tie(a.stamp_ns, a.kind) < std::tie(b.stamp_ns, b.kind);
+  };
   std::sort(images.begin(), images.end(), earlier);
   if (images.empty()) {
-    throw DatasetError(fmt::format("{}: has no image of the cameras that are to be played (parameter cameras)", dataset.directory.string()));
+    throw DatasetError(fmt::format("{}: has no image of the cameras that are to be played (parameter cameras)",
+                                   dataset.directory.string()));
   }
 
   const auto length_ns = images.back().stamp_ns - images.front().stamp_ns;
   const auto begin_ns = images.front().stamp_ns + std::llround(selection.start_s * 1e9);
-  const auto end_ns = selection.duration_s > 0.0 ? begin_ns + std::llround(selection.duration_s * 1e9) : images.back().stamp_ns;
+  const auto end_ns =
+      selection.duration_s > 0.0 ? begin_ns + std::llround(selection.duration_s * 1e9) : images.back().stamp_ns;
   std::erase_if(images, [&](const Event& event) { return event.stamp_ns < begin_ns || event.stamp_ns > end_ns; });
   if (images.empty()) {
-    throw DatasetError(fmt::format("{}: no image is left between start_s = {} and the end of what is to be played; the recording lasts {} s",
-                                   dataset.directory.string(), selection.start_s, static_cast<double>(length_ns) * 1e-9));
+    throw DatasetError(fmt::format(
+        "{}: no image is left between start_s = {} and the end of what is to be played; the recording lasts {} s",
+        dataset.directory.string(), selection.start_s, static_cast<double>(length_ns) * 1e-9));
   }
 
   const auto& poses = dataset.ground_truth;

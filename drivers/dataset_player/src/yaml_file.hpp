@@ -14,8 +14,8 @@
 
 namespace panvo::dataset_player {
 
-/// A YAML file of calibration values, plain or as OpenCV writes it (%YAML:1.0, !!opencv-matrix). Failures throw DatasetError
-/// that names file, line and key.
+/// A YAML file of calibration values, plain or as OpenCV writes it (%YAML:1.0, !!opencv-matrix). Failures throw
+/// DatasetError that names file, line and key.
 class YamlFile {
  public:
   explicit YamlFile(std::filesystem::path path);

@@ -15,7 +15,8 @@ using ::testing::HasSubstr;
 using CalibrationFile = testing::WrittenDataset;
 
 constexpr const char* kOpencvCameras =
-    "%YAML:1.0\n---\nM1: !!opencv-matrix\n   rows: 3\n   cols: 3\n   dt: d\n   data: [ 50., 0., 32., 0., 51., 24., 0., 0., 1. ]\n"
+    "%YAML:1.0\n---\nM1: !!opencv-matrix\n   rows: 3\n   cols: 3\n   dt: d\n   data: [ 50., 0., 32., 0., 51., 24., 0., "
+    "0., 1. ]\n"
     "D1: !!opencv-matrix\n   rows: 1\n   cols: 5\n   dt: d\n   data: [ -0.1, 0.02, 0.001, 0.002, 0.003 ]\n"
     "M2: !!opencv-matrix\n   rows: 3\n   cols: 3\n   dt: d\n   data: [ 52., 0., 33., 0., 53., 25., 0., 0., 1. ]\n"
     "D2: !!opencv-matrix\n   rows: 1\n   cols: 8\n   dt: d\n   data: [ -0.1, 0.02, 0., 0., 0., 0., 0., 0. ]\n";
@@ -24,10 +25,14 @@ constexpr const char* kOpencvExtrinsics =
     "T: !!opencv-matrix\n   rows: 3\n   cols: 1\n   dt: d\n   data: [ -0.12, 0., 0. ]\n";
 
 std::string camera_info(double tx_px, const std::string& model = "plumb_bob") {
-  return "image_width: 64\nimage_height: 48\ncamera_name: stereo\ncamera_matrix:\n  rows: 3\n  cols: 3\n  data: [50, 0, 32, 0, 50, 24, 0, 0, 1]\n"
-         "distortion_model: " + model + "\ndistortion_coefficients:\n  rows: 1\n  cols: 5\n  data: [-0.1, 0.02, 0.0, 0.0, 0.0]\n"
+  return "image_width: 64\nimage_height: 48\ncamera_name: stereo\ncamera_matrix:\n  rows: 3\n  cols: 3\n  data: [50, "
+         "0, 32, 0, 50, 24, 0, 0, 1]\n"
+         "distortion_model: " +
+         model +
+         "\ndistortion_coefficients:\n  rows: 1\n  cols: 5\n  data: [-0.1, 0.02, 0.0, 0.0, 0.0]\n"
          "rectification_matrix:\n  rows: 3\n  cols: 3\n  data: [0.8, 0, 0.6, 0, 1, 0, -0.6, 0, 0.8]\n"
-         "projection_matrix:\n  rows: 3\n  cols: 4\n  data: [40, 0, 30, " + std::to_string(tx_px) + ", 0, 40, 20, 0, 0, 0, 1, 0]\n";
+         "projection_matrix:\n  rows: 3\n  cols: 4\n  data: [40, 0, 30, " +
+         std::to_string(tx_px) + ", 0, 40, 20, 0, 0, 0, 1, 0]\n";
 }
 
 template <class Read>
@@ -52,7 +57,8 @@ TEST_F(CalibrationFile, OfBoofcvStatesRightToLeft) {
 
 TEST_F(CalibrationFile, OfBoofcvIsReadInEitherSpelling) {
   auto text = boofcv_calibration();
-  for (auto [from, to] : {std::pair{"<R>", "<r>"}, {"</R>", "</r>"}, {"<T>", "<t>"}, {"</T>", "</t>"}}) text.replace(text.find(from), std::strlen(from), to);
+  for (auto [from, to] : {std::pair{"<R>", "<r>"}, {"</R>", "</r>"}, {"<T>", "<t>"}, {"</T>", "</t>"}})
+    text.replace(text.find(from), std::strlen(from), to);
   write("c.xml", text);
   EXPECT_NEAR(read_boofcv_calibration(root_ / "c.xml").rectified.baseline_m, 0.12, 1e-12);
 }
@@ -61,17 +67,20 @@ TEST_F(CalibrationFile, OfBoofcvNamesTheLineOfWhatIsMissing) {
   auto text = boofcv_calibration();
   text.replace(text.find("<fy>50</fy>"), 11, "");
   write("c.xml", text);
-  EXPECT_THAT(error_of([&] { read_boofcv_calibration(root_ / "c.xml"); }), AllOf(HasSubstr("c.xml:2:"), HasSubstr("<fy>")));
+  EXPECT_THAT(error_of([&] { read_boofcv_calibration(root_ / "c.xml"); }),
+              AllOf(HasSubstr("c.xml:2:"), HasSubstr("<fy>")));
 }
 
 TEST_F(CalibrationFile, OfBoofcvThatWasCutOffIsRefused) {
   write("c.xml", boofcv_calibration().substr(0, 300));
-  EXPECT_THAT(error_of([&] { read_boofcv_calibration(root_ / "c.xml"); }), AllOf(HasSubstr("c.xml"), HasSubstr("cut off")));
+  EXPECT_THAT(error_of([&] { read_boofcv_calibration(root_ / "c.xml"); }),
+              AllOf(HasSubstr("c.xml"), HasSubstr("cut off")));
 }
 
 TEST_F(CalibrationFile, WithABaselineOfZeroIsRefused) {
   write("c.xml", boofcv_calibration(0.0));
-  EXPECT_THAT(error_of([&] { read_boofcv_calibration(root_ / "c.xml"); }), AllOf(HasSubstr("c.xml"), HasSubstr("baseline")));
+  EXPECT_THAT(error_of([&] { read_boofcv_calibration(root_ / "c.xml"); }),
+              AllOf(HasSubstr("c.xml"), HasSubstr("baseline")));
 }
 
 TEST_F(CalibrationFile, WithExchangedCamerasIsRefused) {
@@ -99,6 +108,11 @@ TEST_F(CalibrationFile, OfRosKeepsItsRectification) {
   EXPECT_TRUE(stereo.calibration.right_from_left.translation().isApprox(-0.12 * Eigen::Vector3d(0.8, 0, 0.6), 1e-12));
 }
 
+TEST_F(CalibrationFile, OfTheExampleRigIsRead) {
+  const fs::path rig = PANVO_EXAMPLE_RIG;
+  EXPECT_DOUBLE_EQ(read_ros_calibration(rig / "left.yaml", rig / "right.yaml").rectified.baseline_m, 0.12);
+}
+
 TEST_F(CalibrationFile, OfRosForSingleCamerasIsNoStereoCalibration) {
   write("left.yaml", camera_info(0.0));
   write("right.yaml", camera_info(0.0));
@@ -108,7 +122,8 @@ TEST_F(CalibrationFile, OfRosForSingleCamerasIsNoStereoCalibration) {
 
 TEST_F(CalibrationFile, OfRosNamesTheFileThatIsMissing) {
   write("left.yaml", camera_info(0.0));
-  EXPECT_THAT(error_of([&] { read_ros_calibration(root_ / "left.yaml", root_ / "right.yaml"); }), HasSubstr("right.yaml: cannot be opened"));
+  EXPECT_THAT(error_of([&] { read_ros_calibration(root_ / "left.yaml", root_ / "right.yaml"); }),
+              HasSubstr("right.yaml: cannot be opened"));
 }
 
 TEST_F(CalibrationFile, OfRosWithAnUnknownLensIsRefused) {
@@ -133,13 +148,17 @@ TEST_F(CalibrationFile, OfOpencvIsReadFromOneFileOrTwo) {
 
 TEST_F(CalibrationFile, OfOpencvNamesWhatIsMissing) {
   write("stereo.yaml", kOpencvCameras);
-  EXPECT_THAT(error_of([&] { read_opencv_calibration(root_ / "stereo.yaml", root_ / "stereo.yaml", {64, 48}); }),
+  EXPECT_THAT(error_of([&] {
+                read_opencv_calibration(root_ / "stereo.yaml", root_ / "stereo.yaml", {64, 48});
+              }),
               AllOf(HasSubstr("stereo.yaml"), HasSubstr("R is missing")));
 }
 
 TEST_F(CalibrationFile, ThatIsNoYamlNamesTheLine) {
   write("stereo.yaml", "%YAML:1.0\nM1: [1, 2\nM2: }\n");
-  EXPECT_THAT(error_of([&] { read_opencv_calibration(root_ / "stereo.yaml", root_ / "stereo.yaml", {64, 48}); }),
+  EXPECT_THAT(error_of([&] {
+                read_opencv_calibration(root_ / "stereo.yaml", root_ / "stereo.yaml", {64, 48});
+              }),
               AllOf(HasSubstr("stereo.yaml:"), HasSubstr("is not YAML")));
 }
 

@@ -26,13 +26,18 @@ class DatasetPlayer : public testing::WrittenDataset {
   }
 
   runtime::ComponentHarness harness_;
-  const std::vector<std::shared_ptr<const sensor_msgs::msg::Image>>& left_ = harness_.collect(topics::kStereoLeftImageRaw);
-  const std::vector<std::shared_ptr<const sensor_msgs::msg::Image>>& right_ = harness_.collect(topics::kStereoRightImageRaw);
-  const std::vector<std::shared_ptr<const sensor_msgs::msg::CameraInfo>>& left_info_ = harness_.collect(topics::kStereoLeftCameraInfo);
-  const std::vector<std::shared_ptr<const sensor_msgs::msg::CameraInfo>>& right_info_ = harness_.collect(topics::kStereoRightCameraInfo);
+  const std::vector<std::shared_ptr<const sensor_msgs::msg::Image>>& left_ =
+      harness_.collect(topics::kStereoLeftImageRaw);
+  const std::vector<std::shared_ptr<const sensor_msgs::msg::Image>>& right_ =
+      harness_.collect(topics::kStereoRightImageRaw);
+  const std::vector<std::shared_ptr<const sensor_msgs::msg::CameraInfo>>& left_info_ =
+      harness_.collect(topics::kStereoLeftCameraInfo);
+  const std::vector<std::shared_ptr<const sensor_msgs::msg::CameraInfo>>& right_info_ =
+      harness_.collect(topics::kStereoRightCameraInfo);
   const std::vector<std::shared_ptr<const sensor_msgs::msg::Image>>& panorama_ = harness_.collect(topics::kPanorama);
   const std::vector<std::shared_ptr<const tf2_msgs::msg::TFMessage>>& tf_ = harness_.collect(topics::kTfStatic);
-  const std::vector<std::shared_ptr<const nav_msgs::msg::Odometry>>& ground_truth_ = harness_.collect(topics::kGroundTruth);
+  const std::vector<std::shared_ptr<const nav_msgs::msg::Odometry>>& ground_truth_ =
+      harness_.collect(topics::kGroundTruth);
 };
 
 TEST_F(DatasetPlayer, PublishesWhatARobotWithTheseCamerasWould) {
@@ -54,15 +59,20 @@ TEST_F(DatasetPlayer, PublishesWhatARobotWithTheseCamerasWould) {
     EXPECT_EQ(conversions::stamp_ns(*left_info_[i]), stamp_ns);
     EXPECT_EQ(conversions::stamp_ns(*right_info_[i]), stamp_ns);
   }
-  const auto stereo = conversions::to_stereo(*conversions::to_camera(*left_info_[0]), *conversions::to_camera(*right_info_[0]));
+  const auto stereo =
+      conversions::to_stereo(*conversions::to_camera(*left_info_[0]), *conversions::to_camera(*right_info_[0]));
   ASSERT_TRUE(stereo);
   EXPECT_NEAR(stereo->baseline_m, 0.2, 1e-9);
 
   ASSERT_THAT(tf_, SizeIs(1));
   conversions::StaticTransforms transforms;
   EXPECT_THAT(transforms.add(*tf_[0]), IsEmpty());
-  EXPECT_TRUE(transforms.lookup("base_link", left_[0]->header().frame_id())->translation().isApprox(Eigen::Vector3d(2.0, 0.1, 1.5)));
-  EXPECT_TRUE(transforms.lookup("base_link", right_[0]->header().frame_id())->translation().isApprox(Eigen::Vector3d(2.0, -0.1, 1.5)));
+  EXPECT_TRUE(transforms.lookup("base_link", left_[0]->header().frame_id())
+                  ->translation()
+                  .isApprox(Eigen::Vector3d(2.0, 0.1, 1.5)));
+  EXPECT_TRUE(transforms.lookup("base_link", right_[0]->header().frame_id())
+                  ->translation()
+                  .isApprox(Eigen::Vector3d(2.0, -0.1, 1.5)));
 
   ASSERT_THAT(panorama_, SizeIs(1));
   EXPECT_EQ(panorama_[0]->encoding(), "bgr8");
@@ -71,7 +81,8 @@ TEST_F(DatasetPlayer, PublishesWhatARobotWithTheseCamerasWould) {
   ASSERT_THAT(ground_truth_, SizeIs(2));
   EXPECT_EQ(ground_truth_[1]->header().frame_id(), "map");
   EXPECT_EQ(ground_truth_[1]->child_frame_id(), "base_link");
-  EXPECT_TRUE(conversions::to_isometry(ground_truth_[1]->pose().pose())->translation().isApprox(Eigen::Vector3d(2, 2, 3)));
+  EXPECT_TRUE(
+      conversions::to_isometry(ground_truth_[1]->pose().pose())->translation().isApprox(Eigen::Vector3d(2, 2, 3)));
 }
 
 TEST_F(DatasetPlayer, DescribesARawPairAndWhatItRectifiesTo) {
@@ -102,7 +113,8 @@ TEST_F(DatasetPlayer, LeavesOutAFrameThatCannotBeDecodedAndGoesOn) {
   ASSERT_THAT(left_, SizeIs(3));
   EXPECT_THAT(right_, SizeIs(3));
   EXPECT_EQ(conversions::stamp_ns(*left_[1]), 1'100'000'000);
-  EXPECT_TRUE(harness_.log_contains("cam1/data/1050000000.png: is no image that can be decoded; the frame is left out"));
+  EXPECT_TRUE(
+      harness_.log_contains("cam1/data/1050000000.png: is no image that can be decoded; the frame is left out"));
   EXPECT_TRUE(harness_.log_contains("1 of 4 frames could not be read and were left out"));
 }
 

@@ -24,7 +24,8 @@ TEST_F(OpenDataset, SaysThatAFileIsNoFolder) {
 }
 
 TEST_F(OpenDataset, NamesAllItLookedForInAnEmptyFolder) {
-  EXPECT_THAT(error(), AllOf(HasSubstr(root_.string()), HasSubstr("mav0/cam0"), HasSubstr("calib.txt"), HasSubstr("left/right")));
+  EXPECT_THAT(error(), AllOf(HasSubstr(root_.string()), HasSubstr("mav0/cam0"), HasSubstr("calib.txt"),
+                             HasSubstr("left/right")));
 }
 
 TEST_F(OpenDataset, FindsTheKindByTheLayout) {
@@ -42,7 +43,8 @@ TEST_F(OpenDataset, FindsTheKindByTheLayout) {
 TEST_F(OpenDataset, RefusesEyesOfDifferentSize) {
   write_kitti();
   write_image("image_1/000000.png", 32, 48);
-  EXPECT_THAT(error(), AllOf(HasSubstr("image_0/000000.png"), HasSubstr("64 x 48"), HasSubstr("32 x 48"), HasSubstr("one size")));
+  EXPECT_THAT(error(), AllOf(HasSubstr("image_0/000000.png"), HasSubstr("64 x 48"), HasSubstr("32 x 48"),
+                             HasSubstr("one size")));
 }
 
 TEST_F(OpenDataset, RefusesImagesOfAnotherSizeThanTheCalibration) {

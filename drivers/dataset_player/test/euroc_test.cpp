@@ -53,7 +53,8 @@ TEST_F(EurocDataset, PairsTheNearestWhereCamerasAreStampedOnTheirOwn) {
 
 TEST_F(EurocDataset, LeavesOutImagesWithoutPartner) {
   write_euroc(4);
-  write("mav0/cam1/data.csv", "#timestamp [ns],filename\n1000000000,1000000000.png\n1100000000,1100000000.png\n1150000000,1150000000.png\n");
+  write("mav0/cam1/data.csv",
+        "#timestamp [ns],filename\n1000000000,1000000000.png\n1100000000,1100000000.png\n1150000000,1150000000.png\n");
   const auto dataset = open_dataset(root_);
   ASSERT_EQ(dataset.stereo->frames.size(), 3u);
   EXPECT_EQ(dataset.stereo->frames[1].stamp_ns, 1'100'000'000);
@@ -147,8 +148,9 @@ TEST_F(EurocDataset, MayHaveThePanoramaAlone) {
 
 TEST_F(EurocDataset, TakesItsGroundTruthFromTheState) {
   write_euroc();
-  write("mav0/state_groundtruth_estimate0/data.csv",
-        "#timestamp, p_RS_R_x [m], ...\n1000000000,1,2,3,0.7071067811865476,0,0,0.7071067811865476,0,0,0,0,0,0,0,0,0\n");
+  write(
+      "mav0/state_groundtruth_estimate0/data.csv",
+      "#timestamp, p_RS_R_x [m], ...\n1000000000,1,2,3,0.7071067811865476,0,0,0.7071067811865476,0,0,0,0,0,0,0,0,0\n");
   const auto poses = open_dataset(root_).ground_truth;
   ASSERT_EQ(poses.size(), 1u);
   EXPECT_TRUE(poses[0].map_from_base.translation().isApprox(Eigen::Vector3d(1, 2, 3)));
@@ -157,7 +159,8 @@ TEST_F(EurocDataset, TakesItsGroundTruthFromTheState) {
 
 TEST_F(EurocDataset, MovesTheGroundTruthOfAMarkerToTheBody) {
   write_euroc();
-  write("mav0/vicon0/sensor.yaml", "T_BS:\n  cols: 4\n  rows: 4\n  data: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0.5, 0, 0, 0, 1]\n");
+  write("mav0/vicon0/sensor.yaml",
+        "T_BS:\n  cols: 4\n  rows: 4\n  data: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0.5, 0, 0, 0, 1]\n");
   write("mav0/vicon0/data.csv", "1000000000,1,2,3,1,0,0,0\n");
   EXPECT_TRUE(open_dataset(root_).ground_truth.at(0).map_from_base.translation().isApprox(Eigen::Vector3d(1, 2, 2.5)));
 }

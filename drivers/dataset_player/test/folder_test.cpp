@@ -70,7 +70,15 @@ TEST_F(Folders, MustNumberTheirImages) {
 TEST_F(Folders, NameTheCalibrationsLookedFor) {
   write_folders(2);
   fs::remove(root_ / "stereo_params.xml");
-  EXPECT_THAT(error(), AllOf(HasSubstr("stereo_params.xml"), HasSubstr("left.yaml"), HasSubstr("stereo.yaml"), HasSubstr("extrinsics.yml")));
+  EXPECT_THAT(error(), AllOf(HasSubstr("stereo_params.xml"), HasSubstr("left.yaml"), HasSubstr("stereo.yaml"),
+                             HasSubstr("extrinsics.yml")));
+}
+
+TEST_F(Folders, MayBeCalibratedElsewhere) {
+  write_folders(2);
+  fs::create_directories(root_ / "rig");
+  fs::rename(root_ / "stereo_params.xml", root_ / "rig" / "stereo_params.xml");
+  EXPECT_NEAR(open_dataset(root_, {.calibration = root_ / "rig"}).stereo->rectified.baseline_m, 0.12, 1e-12);
 }
 
 }  // namespace

@@ -27,7 +27,8 @@ TEST_F(ImageFiles, ThatCannotBeDecodedAreNamed) {
   write("empty.png", "");
   cv::Mat image(kHeight, kWidth, CV_8UC1);  // of the frame before: must not pass for this one
   ImageDecoder decoder;
-  EXPECT_THAT(*decoder.decode(root_ / "text.png", Colour::kAsStored, image), AllOf(HasSubstr("text.png"), HasSubstr("no image")));
+  EXPECT_THAT(*decoder.decode(root_ / "text.png", Colour::kAsStored, image),
+              AllOf(HasSubstr("text.png"), HasSubstr("no image")));
   EXPECT_TRUE(image.empty());
   EXPECT_THAT(*decoder.decode(root_ / "empty.png", Colour::kAsStored, image), HasSubstr("is empty"));
   EXPECT_THAT(*decoder.decode(root_ / "nowhere.png", Colour::kAsStored, image), HasSubstr("cannot be read"));

@@ -60,7 +60,8 @@ TEST_F(KittiDataset, RefusesTimesThatEndBeforeTheImages) {
 
 TEST_F(KittiDataset, TurnsItsPosesIntoTheAxesOfAVehicle) {
   write_kitti();
-  // The second camera pose: 1 m forward (Z), 0.5 m to the right (X), turned to the right by 90 degrees (about Y, which points down).
+  // The second camera pose: 1 m forward (Z), 0.5 m to the right (X), turned to the right by 90 degrees (about Y,
+  // which points down).
   write("poses.txt", "1 0 0 0 0 1 0 0 0 0 1 0\n0 0 1 0.5 0 1 0 0 -1 0 0 1\n0 0 1 0.5 0 1 0 0 -1 0 0 1\n");
   const auto pose = open_dataset(root_).ground_truth.at(1).map_from_base;
   EXPECT_TRUE(pose.translation().isApprox(Eigen::Vector3d(1.0, -0.5, 0.0)));

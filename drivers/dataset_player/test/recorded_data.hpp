@@ -15,5 +15,6 @@ inline std::filesystem::path recorded_data(const char* name) {
 }  // namespace panvo::dataset_player::testing
 
 /// Skips the test, saying so, where the recording is not there.
-#define PANVO_NEEDS_RECORDING(path) \
-  if (!std::filesystem::exists(path)) GTEST_SKIP() << (path).string() << " is not here; set PANVO_DATA to the folder of recordings"
+#define PANVO_NEEDS_RECORDING(path)   \
+  if (!std::filesystem::exists(path)) \
+  GTEST_SKIP() << (path).string() << " is not here; set PANVO_DATA to the folder of recordings"

@@ -3,9 +3,9 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <array>
 #include <cmath>
+#include <cstdio>
+#include <numeric>
 #include <opencv2/features2d.hpp>
 
 #include "panvo/dataset_player/dataset.hpp"
@@ -15,7 +15,7 @@
 namespace panvo::dataset_player {
 namespace {
 
-/// Absolute differences in row of features that match between the two images, px, sorted.
+/// Absolute differences in row of features that match between the two images, px.
 std::vector<double> row_errors_px(const cv::Mat& left, const cv::Mat& right) {
   const auto orb = cv::ORB::create(800, 1.2F, 4);
   std::vector<cv::KeyPoint> left_keypoints, right_keypoints;
@@ -29,13 +29,16 @@ std::vector<double> row_errors_px(const cv::Mat& left, const cv::Mat& right) {
     const auto& a = left_keypoints[static_cast<std::size_t>(match.queryIdx)].pt;
     const auto& b = right_keypoints[static_cast<std::size_t>(match.trainIdx)].pt;
     // What differs by more is no match; so wide a gate favours neither image pair.
-    if (match.distance < 40 && std::abs(a.y - b.y) < 10 && a.x - b.x > -10 && a.x - b.x < 80) errors.push_back(std::abs(a.y - b.y));
+    if (match.distance < 40 && std::abs(a.y - b.y) < 10 && a.x - b.x > -10 && a.x - b.x < 80)
+      errors.push_back(std::abs(a.y - b.y));
   }
-  std::sort(errors.begin(), errors.end());
   return errors;
 }
 
-double median(const std::vector<double>& sorted) { return sorted[sorted.size() / 2]; }
+// The features stand on whole pixels of a level of the image pyramid: the mean tells more than the median.
+double mean(const std::vector<double>& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
 
 TEST(RectificationOfARealPair, BringsMatchingFeaturesToOneRow) {
   for (const char* name : {"boofcv_stereo/library", "boofcv_stereo/backyard"}) {
@@ -44,8 +47,10 @@ TEST(RectificationOfARealPair, BringsMatchingFeaturesToOneRow) {
     const auto dataset = open_dataset(path);
     const auto& stereo = *dataset.stereo;
     const auto& rectified = stereo.rectified;
-    const vision::RectificationMap left_map(stereo.calibration.left, rectified.rectified_left_from_left, rectified.camera);
-    const vision::RectificationMap right_map(stereo.calibration.right, rectified.rectified_right_from_right, rectified.camera);
+    const vision::RectificationMap left_map(stereo.calibration.left, rectified.rectified_left_from_left,
+                                            rectified.camera);
+    const vision::RectificationMap right_map(stereo.calibration.right, rectified.rectified_right_from_right,
+                                             rectified.camera);
     std::vector<double> raw, corrected;
     ImageDecoder decoder;
     for (std::size_t i = 0; i < stereo.frames.size(); i += 20) {
@@ -59,14 +64,10 @@ TEST(RectificationOfARealPair, BringsMatchingFeaturesToOneRow) {
     }
     ASSERT_GT(raw.size(), 200u);
     ASSERT_GT(corrected.size(), 200u);
-    std::sort(raw.begin(), raw.end());
-    std::sort(corrected.begin(), corrected.end());
-    RecordProperty(std::string("raw_median_px_") + (name + 14), std::to_string(median(raw)));
-    RecordProperty(std::string("rectified_median_px_") + (name + 14), std::to_string(median(corrected)));
-    EXPECT_LT(median(corrected), 0.6) << name;
-    EXPECT_LT(median(corrected), 0.6 * median(raw)) << name;
-    std::printf("%s: row error of matches, median %.2f px raw (%zu), %.2f px rectified (%zu)\n", name, median(raw), raw.size(),
-                median(corrected), corrected.size());
+    std::printf("%s: mean row error of matches %.2f px raw (%zu), %.2f px rectified (%zu)\n", name, mean(raw),
+                raw.size(), mean(corrected), corrected.size());
+    EXPECT_LT(mean(corrected), 0.6) << name;
+    EXPECT_LT(mean(corrected), 0.4 * mean(raw)) << name;
   }
 }
 

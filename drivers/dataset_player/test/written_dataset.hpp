@@ -36,7 +36,8 @@ class WrittenDataset : public ::testing::Test {
   }
 
   /// An image whose every pixel has the value `grey`.
-  void write_image(const fs::path& name, int width = kWidth, int height = kHeight, int channels = 1, int grey = 100) const {
+  void write_image(const fs::path& name, int width = kWidth, int height = kHeight, int channels = 1,
+                   int grey = 100) const {
     fs::create_directories((root_ / name).parent_path());
     const cv::Mat image(height, width, CV_8UC(channels), cv::Scalar::all(grey));
     ASSERT_TRUE(cv::imwrite((root_ / name).string(), image)) << name;
@@ -56,10 +57,13 @@ class WrittenDataset : public ::testing::Test {
   static std::string euroc_sensor(double x_m, double y_m, const std::string& model = "pinhole",
                                   const std::string& distortion = "[0, 0, 0, 0]") {
     // A camera that looks along +x of the body.
-    return "#Default camera sensor yaml file\nsensor_type: camera\ncomment: VI-Sensor cam (MT9M034)\n\nT_BS:\n  cols: 4\n  rows: 4\n  data: "
-           "[0, 0, 1, " + std::to_string(x_m) + ",\n         -1, 0, 0, " + std::to_string(y_m) +
-           ",\n         0, -1, 0, 1.5,\n         0, 0, 0, 1]\nrate_hz: 20\nresolution: [64, 48]\ncamera_model: " + model +
-           "\nintrinsics: [50, 50, 32, 24]\ndistortion_model: radial-tangential\ndistortion_coefficients: " + distortion + "\n";
+    return "#Default camera sensor yaml file\nsensor_type: camera\ncomment: VI-Sensor cam (MT9M034)\n\nT_BS:\n  cols: "
+           "4\n  rows: 4\n  data: "
+           "[0, 0, 1, " +
+           std::to_string(x_m) + ",\n         -1, 0, 0, " + std::to_string(y_m) +
+           ",\n         0, -1, 0, 1.5,\n         0, 0, 0, 1]\nrate_hz: 20\nresolution: [64, 48]\ncamera_model: " +
+           model + "\nintrinsics: [50, 50, 32, 24]\ndistortion_model: radial-tangential\ndistortion_coefficients: " +
+           distortion + "\n";
   }
 
   /// Stamps 1000000000 + i * 50 ms, those of the right eye later by `right_delay_ns`.
@@ -78,13 +82,17 @@ class WrittenDataset : public ::testing::Test {
   }
 
   static std::string boofcv_camera(const std::string& element, double fx) {
-    return "<" + element + "><cx>32</cx><cy>24</cy><fx>" + std::to_string(fx) + "</fx><fy>50</fy><height>48</height>\n<radial><double>-0.1</double>"
-           "<double>0.02</double></radial><skew>0.0</skew><width>64</width></" + element + ">\n";
+    return "<" + element + "><cx>32</cx><cy>24</cy><fx>" + std::to_string(fx) +
+           "</fx><fy>50</fy><height>48</height>\n<radial><double>-0.1</double>"
+           "<double>0.02</double></radial><skew>0.0</skew><width>64</width></" +
+           element + ">\n";
   }
   static std::string boofcv_calibration(double baseline_m = 0.12) {
     return "<boofcv.struct.calib.StereoParameters>\n" + boofcv_camera("left", 50) + boofcv_camera("right", 51) +
-           "<rightToLeft><R><data><double>1</double><double>0</double><double>0</double><double>0</double><double>1</double>"
-           "<double>0</double><double>0</double><double>0</double><double>1</double></data></R>\n<T><x>" + std::to_string(baseline_m) +
+           "<rightToLeft><R><data><double>1</double><double>0</double><double>0</double><double>0</double><double>1</"
+           "double>"
+           "<double>0</double><double>0</double><double>0</double><double>1</double></data></R>\n<T><x>" +
+           std::to_string(baseline_m) +
            "</x><y>0</y><z>0</z></T></rightToLeft>\n</boofcv.struct.calib.StereoParameters>\n";
   }
 

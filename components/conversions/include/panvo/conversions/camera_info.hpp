@@ -9,8 +9,8 @@
 #include "panvo/vision/camera.hpp"
 #include "sensor_msgs/msg/CameraInfo.h"
 
-/// ROS's description of a camera in a rectified pair: K and D of the raw image, R from the raw to the rectified frame, P of the
-/// rectified image, whose last column holds -fx * baseline for the right camera.
+/// ROS's description of a camera in a rectified pair: K and D of the raw image, R from the raw to the rectified
+/// frame, P of the rectified image, whose last column holds -fx * baseline for the right camera.
 namespace panvo::conversions {
 
 /// One camera of a pair.
@@ -29,12 +29,14 @@ bool is_rectified(const PairedCamera& camera);
 PairedCamera left_camera(const vision::StereoCalibration& calibration, const vision::RectifiedStereo& rectified);
 PairedCamera right_camera(const vision::StereoCalibration& calibration, const vision::RectifiedStereo& rectified);
 
-sensor_msgs::msg::CameraInfo to_camera_info(const PairedCamera& camera, std::int64_t stamp_ns, const std::string& frame_id);
+sensor_msgs::msg::CameraInfo to_camera_info(const PairedCamera& camera, std::int64_t stamp_ns,
+                                            const std::string& frame_id);
 
 /// The reason says what is not calibrated (K, R or P are zero), not a number, or of a lens model that is not plumb_bob.
 Result<PairedCamera> to_camera(const sensor_msgs::msg::CameraInfo& info);
 
-/// The pair of two cameras. The reason says why they are none: sizes or focal lengths of the rectified images differ, no baseline.
+/// The pair of two cameras. The reason says why they are none: sizes or focal lengths of the rectified images differ,
+/// no baseline.
 Result<vision::RectifiedStereo> to_stereo(const PairedCamera& left, const PairedCamera& right);
 
 }  // namespace panvo::conversions

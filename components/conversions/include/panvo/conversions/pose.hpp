@@ -9,7 +9,8 @@
 #include "panvo/conversions/result.hpp"
 #include "panvo/vision/pose.hpp"
 
-/// Poses and their covariances. A Pose in frame a of something in frame b, and a Transform from parent a to child b, are a_from_b.
+/// Poses and their covariances. A Pose in frame a of something in frame b, and a Transform from parent a to child b,
+/// are a_from_b.
 namespace panvo::conversions {
 
 geometry_msgs::msg::Pose to_pose(const Eigen::Isometry3d& a_from_b);

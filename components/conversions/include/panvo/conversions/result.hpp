@@ -7,7 +7,8 @@
 
 namespace panvo::conversions {
 
-/// Why there is no result: a sentence without its subject ("is of 10 bytes where 30 are needed"), for a message that names the topic.
+/// Why there is no result: a sentence without its subject ("is of 10 bytes where 30 are needed"), for a message that
+/// names the topic.
 struct Reason {
   std::string text;
 };
@@ -16,8 +17,9 @@ struct Reason {
 template <class Value>
 class Result {
  public:
-  Result(Value value) : value_(std::move(value)) {}          // NOLINT(google-explicit-constructor): `return value;`
-  Result(Reason reason) : reason_(std::move(reason.text)) {}  // NOLINT(google-explicit-constructor): `return Reason{...};`
+  Result(Value value) : value_(std::move(value)) {}  // NOLINT(google-explicit-constructor): `return value;`
+  Result(Reason reason)
+      : reason_(std::move(reason.text)) {}  // NOLINT(google-explicit-constructor): `return Reason{...};`
 
   explicit operator bool() const noexcept { return value_.has_value(); }
   /// To be used only where there is a value; throws std::bad_optional_access otherwise.

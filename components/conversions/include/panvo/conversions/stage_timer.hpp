@@ -13,8 +13,8 @@
 
 namespace panvo::conversions {
 
-/// Measures the stages that an algorithm tells of, for the component's times: wall clock, and CPU of the thread that runs the stage.
-/// Nested stages count in themselves and in those around them. May be given to several threads.
+/// Measures the stages that an algorithm tells of, for the component's times: wall clock, and CPU of the thread that
+/// runs the stage. Nested stages count in themselves and in those around them. May be given to several threads.
 class StageTimer final : public vision::StageObserver {
  public:
   explicit StageTimer(runtime::StageTimes& times) : times_(times) {}

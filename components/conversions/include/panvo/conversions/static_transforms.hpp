@@ -14,7 +14,8 @@ namespace panvo::conversions {
 /// The transforms of /tf_static that were received so far, and the chains they form.
 class StaticTransforms {
  public:
-  /// Takes in a message; a transform received again replaces the one before. What cannot be used is left out and told, a sentence each.
+  /// Takes in a message; a transform received again replaces the one before. What cannot be used is left out and
+  /// told, a sentence each.
   std::vector<std::string> add(const tf2_msgs::msg::TFMessage& message);
 
   /// target_from_source along the chain of parents between the two frames; nullopt while there is none.

@@ -24,16 +24,19 @@ CalibratedStereo read_boofcv_calibration(const std::filesystem::path& file);
 /// A pair of ROS camera_info files as camera_calibration writes them; its R and P are kept as they are.
 CalibratedStereo read_ros_calibration(const std::filesystem::path& left_file, const std::filesystem::path& right_file);
 
-/// OpenCV stereo calibration: M1 D1 M2 D2 R T (also spelt K1, cameraMatrix1, distCoeffs1 ...) in one file, or intrinsics and
-/// extrinsics in two as OpenCV's stereo_calib sample leaves them. `image_size` is used where the file has none.
-CalibratedStereo read_opencv_calibration(const std::filesystem::path& intrinsics_file, const std::filesystem::path& extrinsics_file,
-                                         ImageSize image_size);
+/// OpenCV stereo calibration: M1 D1 M2 D2 R T (also spelt K1, cameraMatrix1, distCoeffs1 ...) in one file, or
+/// intrinsics and extrinsics in two as OpenCV's stereo_calib sample leaves them. `image_size` is used where the file
+/// has none.
+CalibratedStereo read_opencv_calibration(const std::filesystem::path& intrinsics_file,
+                                         const std::filesystem::path& extrinsics_file, ImageSize image_size);
 
-/// Whether the images of that pair are rectified as they are: no distortion, no rotation, one camera matrix, baseline along X.
+/// Whether the images of that pair are rectified as they are: no distortion, no rotation, one camera matrix, baseline
+/// along X.
 bool is_rectified(const vision::StereoCalibration& calibration);
 
-/// The pair that `calibration` rectifies to: itself when it is rectified already. Throws DatasetError naming `file` and every
-/// problem of the calibration.
-vision::RectifiedStereo rectified_geometry(const vision::StereoCalibration& calibration, const std::filesystem::path& file);
+/// The pair that `calibration` rectifies to: itself when it is rectified already. Throws DatasetError naming `file`
+/// and every problem of the calibration.
+vision::RectifiedStereo rectified_geometry(const vision::StereoCalibration& calibration,
+                                           const std::filesystem::path& file);
 
 }  // namespace panvo::dataset_player

@@ -24,7 +24,8 @@ struct StereoFrame {
 /// forward, y left, z up).
 struct StereoRecording {
   vision::StereoCalibration calibration;  ///< the images as they are stored
-  vision::RectifiedStereo rectified;      ///< the pair they are to be rectified to; rotations are identity if they are already
+  vision::RectifiedStereo
+      rectified;  ///< the pair they are to be rectified to; rotations are identity if they are already
   Eigen::Isometry3d base_from_left = Eigen::Isometry3d::Identity();
   std::vector<StereoFrame> frames;  ///< stamps increase
 
@@ -66,6 +67,8 @@ class DatasetError : public std::runtime_error {
 struct ReadOptions {
   /// Frame rate of data sets that state no capture times; 0: what is usual for the layout (KITTI 10, folders 30).
   double rate_hz = 0.0;
+  /// Folder of the calibration of left/right folders; empty: the data set's own.
+  std::filesystem::path calibration = {};
 };
 
 /// Reads the description of the data set in `directory`, its kind found by its layout, and checks all of it but the

@@ -3,8 +3,8 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <optional>
 #include <opencv2/core.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,8 +15,8 @@ enum class Colour { kAsStored, kGrey };
 /// Decodes image files (whatever OpenCV reads) to 8-bit grey or BGR. Keeps its read buffer from one file to the next.
 class ImageDecoder {
  public:
-  /// Decodes `file` into `image`, newly allocated. On failure `image` is empty and the answer says what is wrong with the file; a
-  /// JPEG that was cut off counts as failure.
+  /// Decodes `file` into `image`, newly allocated. On failure `image` is empty and the answer says what is wrong with
+  /// the file; a JPEG that was cut off counts as failure.
   std::optional<std::string> decode(const std::filesystem::path& file, Colour colour, cv::Mat& image);
 
  private:

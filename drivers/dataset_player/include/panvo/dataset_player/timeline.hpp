@@ -24,8 +24,9 @@ struct Selection {
   bool panorama = true;
 };
 
-/// The selected images in order of time, and the ground truth from the last pose before the first of them to the first pose
-/// after the last. At equal stamps ground truth comes first, then stereo. Throws DatasetError when no image is left.
+/// The selected images in order of time, and the ground truth from the last pose before the first of them to the
+/// first pose after the last. At equal stamps ground truth comes first, then stereo. Throws DatasetError when no
+/// image is left.
 std::vector<Event> timeline(const Dataset& dataset, const Selection& selection);
 
 }  // namespace panvo::dataset_player
