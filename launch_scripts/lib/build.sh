@@ -63,36 +63,34 @@ build_targets() {
     printf '%s\n' "$stamp" >"$folder/.panvo_configured"
   fi
 
-  if ! is_up_to_date "$folder" "$@"; then
-    note "building build/$PANVO_BUILD: $*"
-    if is_terminal; then
-      NINJA_STATUS='[%f/%t, %es] ' ninja -C "$folder" -j "$(job_count)" "$@" >&2 || fail_to_build "$folder"
-    else
-      NINJA_STATUS='[%f/%t, %es] ' ninja -C "$folder" -j "$(job_count)" "$@" 2>&1 | thin_out_progress >&2 || fail_to_build "$folder"
-    fi
-  fi
+  NINJA_STATUS='[%f/%t, %es] ' ninja -C "$folder" -j "$(job_count)" "$@" 2>&1 | show_build_progress >&2 ||
+    fail "the build failed; the messages above say where. Once more, one job at a time: ninja -C $folder -j 1"
   exec {lock}>&-
 }
 
-is_up_to_date() {
-  local folder=$1
-  shift
-  [[ $(ninja -C "$folder" -n "$@" 2>/dev/null | tail -n 1) == "ninja: no work to do." ]]
-}
-
-fail_to_build() { fail "the build failed; the messages above say where. Once more, one job at a time: ninja -C $1 -j 1"; }
-
-# In a log file a line per twentieth part will do; everything that is no progress line is kept.
-thin_out_progress() {
-  awk '
-    /^ninja: Entering directory/ { next }
+# Nothing when there is nothing to do; one line that moves on a terminal, in a log file one for every twentieth part. What is no
+# progress (warnings, errors) is kept whole.
+show_build_progress() {
+  awk -v terminal="$(is_terminal && echo 1 || echo 0)" -v name="build/$PANVO_BUILD" '
+    /^ninja: (Entering directory|no work to do)/ || /Re-(checking globbed directories|running CMake)/ || /^-- / { next }
     match($0, /^\[[0-9]+\/[0-9]+, /) {
       split(substr($0, 2), part, /[\/,]/)
+      if (!begun++) print "panvo: building " name ": " part[2] " steps"
       step = int(20 * part[1] / part[2])
-      if (step == shown && part[1] != part[2]) next
-      shown = step
+      if (terminal) printf "\r\033[K%s", substr($0, 1, 110)
+      else if (step > shown) print
+      if (step > shown) shown = step
+      moving = terminal
+      fflush()
+      next
     }
-    { print; fflush() }'
+    {
+      if (moving) printf "\r\033[K"
+      moving = 0
+      print
+      fflush()
+    }
+    END { if (moving) printf "\r\033[K" }'
 }
 
 # ensure_built TARGET...: what a verb needs before it can do its work; nothing to do once installed.
