@@ -48,7 +48,10 @@ def check_package(root, folder, order, version):
     if str(folder) not in order:
         complaints.append(f"CMakeLists.txt: package_folders lacks {folder}")
         return complaints
-    depends = {tag.text for tag in described if tag.tag.endswith("depend") and tag.text}
+    tags = [(tag.tag, tag.text) for tag in described if tag.tag.endswith("depend") and tag.text]
+    depends = {text for _, text in tags}
+    for tag, text in sorted({pair for pair in tags if tags.count(pair) > 1}):
+        complaints.append(f"{folder}/package.xml: says <{tag}>{text} twice; colcon then ignores the whole file")
     found = set(re.findall(r"find_package\(\s*([\w-]+)", cmake_text(root, folder)))
     for used in sorted(found - depends):
         if used.startswith("panvo_"):

@@ -28,6 +28,10 @@ class PackagesTest(sample.RuleTest):
         self.assert_finds(packages, "finds panvo_vision, which no depend tag names",
                           {"components/compass/package.xml": sample.package_xml("panvo_compass")})
 
+    def test_a_dependency_named_twice(self):
+        self.assert_finds(packages, "says <depend>panvo_vision twice",
+                          {"components/compass/package.xml": sample.package_xml("panvo_compass", ["panvo_vision", "panvo_vision"])})
+
     def test_a_package_the_sanitizer_builds_do_not_know(self):
         self.assert_finds(packages, "config/build/tsan.meta: lacks panvo_compass", {"config/build/tsan.meta": "names:\n  panvo_vision: {}\n"})
 
