@@ -12,6 +12,7 @@ namespace {
 constexpr int kMaxIterations = 12;
 constexpr double kSettled_px = 0.01;
 constexpr double kLargestStep_px = 1.5;      // beyond, the template's gradients say nothing
+constexpr double kCorrelation = 3.0;         // interpolation spreads a pixel's noise: residuals shrink, what they do to the position does not
 constexpr double kSmallestGain = 0.25;       // a fainter copy is no copy
 constexpr double kSmallestContrast = 2.0;    // grey levels, standard deviation: under it lies the noise of an 8-bit image
 
@@ -141,7 +142,7 @@ std::optional<PatchAlignment> PatchTemplate::align(const cv::Mat& image, const E
 
     const double variation = seen.square - seen.intensity * seen.intensity / kPixels;
     const double residual = std::max(0.0, variation - solution.dot(seen.on_basis));
-    const double noise = residual / ((kPixels - 4) * gain * gain);
+    const double noise = kCorrelation * residual / ((kPixels - 4) * gain * gain);
     PatchAlignment alignment;
     alignment.position = position;
     alignment.correlation = seen.on_basis.x() / std::sqrt(std::max(variation * energy_, 1e-12));
