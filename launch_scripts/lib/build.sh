@@ -63,7 +63,7 @@ build_targets() {
     printf '%s\n' "$stamp" >"$folder/.panvo_configured"
   fi
 
-  NINJA_STATUS='[%f/%t, %es] ' ninja -C "$folder" -j "$(job_count)" "$@" 2>&1 | show_build_progress >&2 ||
+  NINJA_STATUS='[%f/%t, %es] ' ninja -C "$folder" -j "$(job_count)" "$@" 2>&1 | show_build_progress ||
     fail "the build failed; the messages above say where. Once more, one job at a time: ninja -C $folder -j 1"
   exec {lock}>&-
 }
@@ -71,26 +71,30 @@ build_targets() {
 # Nothing when there is nothing to do; one line that moves on a terminal, in a log file one for every twentieth part. What is no
 # progress (warnings, errors) is kept whole.
 show_build_progress() {
-  awk -v terminal="$(is_terminal && echo 1 || echo 0)" -v name="build/$PANVO_BUILD" '
-    /^ninja: (Entering directory|no work to do)/ || /Re-(checking globbed directories|running CMake)/ || /^-- / { next }
-    match($0, /^\[[0-9]+\/[0-9]+, /) {
-      split(substr($0, 2), part, /[\/,]/)
-      if (!begun++) print "panvo: building " name ": " part[2] " steps"
-      step = int(20 * part[1] / part[2])
-      if (terminal) printf "\r\033[K%s", substr($0, 1, 110)
-      else if (step > shown) print
-      if (step > shown) shown = step
-      moving = terminal
-      fflush()
-      next
-    }
-    {
-      if (moving) printf "\r\033[K"
-      moving = 0
-      print
-      fflush()
-    }
-    END { if (moving) printf "\r\033[K" }'
+  local line step shown=0 moving=no begun=no edge='^\[([0-9]+)/([0-9]+), '
+  # Not awk: Debian's smallest one waits for a whole block of input before it looks at the first line.
+  while IFS= read -r line; do
+    case $line in
+      'ninja: Entering directory'* | 'ninja: no work to do.' | *'Re-checking globbed directories'* | *'Re-running CMake'* | '-- '*) continue ;;
+    esac
+    if [[ $line =~ $edge ]]; then
+      [[ $begun == yes ]] || note "building build/$PANVO_BUILD: ${BASH_REMATCH[2]} steps"
+      begun=yes
+      step=$((20 * BASH_REMATCH[1] / BASH_REMATCH[2]))
+      if is_terminal; then
+        printf '\r\033[K%s' "${line:0:110}" >&2
+        moving=yes
+      elif ((step > shown)); then
+        printf '%s\n' "$line" >&2
+      fi
+      ((step <= shown)) || shown=$step
+    else
+      [[ $moving == no ]] || printf '\r\033[K' >&2
+      moving=no
+      printf '%s\n' "$line" >&2
+    fi
+  done
+  [[ $moving == no ]] || printf '\r\033[K' >&2
 }
 
 # ensure_built TARGET...: what a verb needs before it can do its work; nothing to do once installed.

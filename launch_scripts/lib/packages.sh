@@ -83,20 +83,27 @@ package_lists_know() {
 
 # One line that counts up on a terminal, a line for every tenth part elsewhere.
 show_apt_progress() {
-  awk -v terminal="$(is_terminal && echo 1 || echo 0)" '
-    function show(text) {
-      if (terminal) printf "\r\033[K  %s", text > "/dev/stderr"
-      else printf "  %s\n", text > "/dev/stderr"
-      fflush("/dev/stderr")
-    }
-    /^Need to get/ { show("downloading " $4 " " $5); next }
-    /newly installed/ { total = 0 + $3 }
-    /^Get:/ && terminal { show("downloading: " $4 " " $5); next }
-    function advance(what, count) {
-      step = int(5 * count / (total ? total : 1))
-      if (terminal || step > shown[what]) { show(what " " count " of " total); shown[what] = step }
-    }
-    /^Unpacking / { advance("unpacked", ++unpacked); next }
-    /^Setting up / { advance("set up", ++set_up) }
-    END { if (terminal) printf "\r\033[K" > "/dev/stderr" }'
+  local line total=1 unpacked=0 set_up=0 last=''
+  # Not awk: Debian's smallest one waits for a whole block of input before it looks at the first line.
+  while IFS= read -r line; do
+    case $line in
+      'Need to get '*) show_step "downloading ${line#Need to get }" ;;
+      *' newly installed,'*) [[ $line =~ ([0-9]+)' newly installed' ]] && total=${BASH_REMATCH[1]} ;;
+      'Get:'*) ! is_terminal || show_step "downloading: ${line#* }" ;;
+      'Unpacking '*) unpacked=$((unpacked + 1)) && show_count unpacked "$unpacked" ;;
+      'Setting up '*) set_up=$((set_up + 1)) && show_count 'set up' "$set_up" ;;
+    esac
+  done
+  ! is_terminal || printf '\r\033[K' >&2
+}
+
+show_step() {
+  if is_terminal; then printf '\r\033[K  %s' "${1:0:100}" >&2; else printf '  %s\n' "$1" >&2; fi
+}
+
+# show_count WHAT N: of the caller's total; in a log file only every fifth part.
+show_count() {
+  local step="$1 $((5 * $2 / (total > 0 ? total : 1)))"
+  if is_terminal || [[ $step != "$last" ]]; then show_step "$1 $2 of $total"; fi
+  last=$step
 }
