@@ -10,8 +10,8 @@ namespace panvo::evaluation {
 // shell is involved. Throws PlotError, with what gnuplot said, if it is not installed or fails.
 void run_gnuplot(const std::filesystem::path& folder, const std::string& script);
 
-// A gnuplot string: between single quotes, where gnuplot substitutes nothing. A quote inside becomes an apostrophe (UTF-8),
-// a control character a blank.
+// A gnuplot string: between single quotes, where gnuplot substitutes nothing. A quote inside becomes an apostrophe
+// (UTF-8), a control character a blank.
 std::string gnuplot_quoted(const std::string& text);
 
 }  // namespace panvo::evaluation

@@ -39,7 +39,11 @@ std::string headline(const Evaluation& e) {
     text += "segments " + to_text(e.segments->translation_percent, 2) + " %, " +
             to_text(e.segments->rotation_deg_per_m, 4) + " deg/m; ";
   }
-  if (e.nees) text += "NEES " + to_text(e.nees->motion.mean, 1) + " of 6; ";
+  if (e.nees) {
+    const ConsistencyOptions& options = e.nees->options;
+    const bool noisy = options.truth_noise_m > 0.0 || options.truth_noise_rad > 0.0;
+    text += "NEES " + to_text(e.nees->motion.mean, 1) + " of 6" + (noisy ? " with noise of the truth; " : "; ");
+  }
   return text.substr(0, text.size() - 2);
 }
 

@@ -29,7 +29,7 @@ std::optional<Summary> summarize(std::vector<double> values) {
 }
 
 double chi_square_quantile(double degrees_of_freedom, double probability) {
-  // The distribution function is the regularised lower incomplete gamma function; bisection inverts it to the last digit.
+  // The distribution function is the regularised lower incomplete gamma function; bisection inverts it.
   const auto distribution = [&](double x) { return Eigen::numext::igamma(0.5 * degrees_of_freedom, 0.5 * x); };
   double low = 0.0;
   double high = degrees_of_freedom + 10.0;

@@ -16,7 +16,7 @@ struct Line {
   std::string text;
 };
 
-// Without blank lines and comments. Throws InputError if the file is missing, a folder, unreadable, or has no such line.
+// Without blank lines and comments. Throws InputError if the file is missing, a folder, unreadable, or has no line.
 std::vector<Line> read_lines(const std::filesystem::path& file);
 
 // The fields of one line, read with errors that name where they stand.

@@ -40,8 +40,8 @@ TEST(SegmentErrors, CountEverySegmentThatFits) {
   EXPECT_EQ(result->count, 51u + 41u + 31u + 21u + 11u);
 }
 
-// By hand: a left turn of c rad a metre where the truth is straight. After n steps of 1 m the heading is off by n c, so the
-// rotation error is c a metre, and the end lies at the sum of n unit steps with headings 0, c, ... (n - 1) c.
+// By hand: a left turn of c rad a metre where the truth is straight. After n steps of 1 m the heading is off by n c, so
+// the rotation error is c a metre, and the end lies at the sum of n unit steps with headings 0, c, ... (n - 1) c.
 TEST(SegmentErrors, OfAConstantTurnAreAsReckonedByHand) {
   const double c = 0.002;
   const int n = 20;

@@ -48,8 +48,8 @@ TEST_F(TrajectoryFiles, EurocHasTheScalarOfTheQuaternionFirst) {
   EXPECT_TRUE(trajectory.poses[0].world_from_base.isApprox(make_pose(1, 2, 3, 2.0 * std::asin(0.6)), 1e-12));
 }
 
-// The optical frame goes 5 m along its z, 1 m to its right (x), 2 m down (y), and turns 0.1 rad about its y, which points
-// down: to the right. In base axes: 5 m forward, 1 m to the right, 2 m down, heading -0.1 rad.
+// The optical frame goes 5 m along its z, 1 m to its right (x), 2 m down (y), and turns 0.1 rad about its y, which
+// points down: to the right. In base axes: 5 m forward, 1 m to the right, 2 m down, heading -0.1 rad.
 TEST_F(TrajectoryFiles, KittiIsTurnedFromOpticalToBaseAxes) {
   const double c = std::cos(0.1);
   const double s = std::sin(0.1);

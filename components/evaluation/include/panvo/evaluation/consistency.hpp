@@ -56,8 +56,9 @@ struct Consistency {
 };
 
 // Relative motion D from pose to pose, error D_true^-1 D_estimated: translation and rotation vector in the axes of
-// base_link at the end of the stretch. Covariance: the twist's times dt^2, carried over `steps` independent steps by the
-// adjoint, plus the ground truth's noise at both ends. The stretches do not overlap. nullopt if none is usable.
+// base_link at the end of the stretch. Covariance: the twist's times dt^2, carried over `steps` independent steps by
+// the adjoint, plus the ground truth's noise at both ends. The stretches do not overlap. nullopt if none is usable;
+// throws InputError for 0 steps.
 std::optional<Consistency> consistency(std::span<const PosePair> pairs, const MotionCovariances& covariances,
                                        const ConsistencyOptions& options = {});
 
