@@ -51,6 +51,13 @@ TEST_F(EurocDataset, PairsTheNearestWhereCamerasAreStampedOnTheirOwn) {
   EXPECT_THAT(dataset.notes, ElementsAre(HasSubstr("differ by up to 2.000 ms")));
 }
 
+TEST_F(EurocDataset, PairsEachImageOnce) {
+  write_euroc(3);
+  write("mav0/cam0/data.csv",
+        "1000000000,1000000000.png\n1010000000,1000000000.png\n1050000000,1050000000.png\n1100000000,1100000000.png\n");
+  EXPECT_EQ(open_dataset(root_).stereo->frames.size(), 3u) << "two left images are near the first right one";
+}
+
 TEST_F(EurocDataset, LeavesOutImagesWithoutPartner) {
   write_euroc(4);
   write("mav0/cam1/data.csv",
