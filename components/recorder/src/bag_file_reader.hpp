@@ -25,7 +25,8 @@ class BagFileReader {
     auto operator<=>(const Entry&) const = default;
   };
 
-  /// Throws BagError: not a database, not a bag, compressed, MCAP, being written, or damaged at its start. Keeps `warnings` and adds to them.
+  /// Throws BagError: not a database, not a bag, compressed, MCAP, being written, or damaged at its start. Keeps
+  /// `warnings` and adds to them.
   BagFileReader(std::filesystem::path file, std::vector<std::string>& warnings);
 
   const std::filesystem::path& path() const noexcept { return path_; }
@@ -44,7 +45,8 @@ class BagFileReader {
 
   /// From now on next() begins anew, with these topics only.
   void select(std::set<std::int64_t> topic_ids);
-  /// The next message in order of timestamp, then id; false at the end. Messages that cannot be read are counted and passed over.
+  /// The next message in order of timestamp, then id; false at the end. Messages that cannot be read are counted and
+  /// passed over.
   bool next(Entry& entry, interfaces::Bytes& data);
 
   std::vector<std::string> check_integrity();

@@ -4,9 +4,10 @@
 namespace panvo::recorder {
 namespace {
 
-// Pages of 64 KiB: an image is 27 pages, not 430, which costs half the processor time; and the messages of a bag of usual size then hang from
-// one root page near the start of the file, so that of a file that was cut off everything before the cut is found.
-// An exclusive lock, so that no reader can keep the recorder from committing. Never spilling, so that the file changes within commits only.
+// Pages of 64 KiB: an image is 27 pages, not 430, which costs half the processor time; and the messages of a bag of
+// usual size then hang from one root page near the start of the file, so that of a file that was cut off everything
+// before the cut is found. An exclusive lock, so that no reader can keep the recorder from committing. Never
+// spilling, so that the file changes within commits only.
 constexpr const char* kSettings =
     "PRAGMA page_size=65536;"
     "PRAGMA locking_mode=EXCLUSIVE;"

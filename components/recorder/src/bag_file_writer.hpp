@@ -14,11 +14,13 @@
 
 namespace panvo::recorder {
 
-/// One .db3 file being written, in rosbag2's schema 4. Throws DatabaseError; what to make of it is the caller's business.
+/// One .db3 file being written, in rosbag2's schema 4. Throws DatabaseError; what to make of it is the caller's
+/// business.
 ///
-/// How it survives: with a rollback journal every message is written once, into the database itself, and between commits nothing that
-/// belongs to the bag is anywhere else, so that tools that know the .db3 only read all of it. (A write-ahead log writes every image twice and
-/// keeps the newest part in a file that gets lost when bags are copied.) The journal of a commit is small, as appending changes few old pages.
+/// How it survives: with a rollback journal every message is written once, into the database itself, and between
+/// commits nothing that belongs to the bag is anywhere else, so that tools that know the .db3 only read all of it. (A
+/// write-ahead log writes every image twice and keeps the newest part in a file that gets lost when bags are copied.)
+/// The journal of a commit is small, as appending changes few old pages.
 class BagFileWriter {
  public:
   BagFileWriter(const std::filesystem::path& file, const std::string& ros_distro);

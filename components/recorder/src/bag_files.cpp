@@ -55,7 +55,8 @@ void refuse_other_storage(const fs::path& bag, const BagMetadata& metadata) {
                                  : how_to_convert(bag)));
 }
 
-/// A path in metadata.yaml is relative to the bag; early versions wrote it relative to the bag's parent. Never outside the bag.
+/// A path in metadata.yaml is relative to the bag; early versions wrote it relative to the bag's parent. Never
+/// outside the bag.
 fs::path locate(const fs::path& bag, const std::string& written) {
   const auto inside = (bag / written).lexically_normal();
   const auto relative = inside.lexically_relative(bag.lexically_normal());

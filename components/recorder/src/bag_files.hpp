@@ -18,8 +18,9 @@ struct BagFiles {
   std::optional<BagMetadata> metadata;  ///< what metadata.yaml says, where it is there and can be understood
 };
 
-/// Finds them: by metadata.yaml where `use_metadata`, and in the folder. What is not as it should be is added to `warnings`. Throws BagError
-/// when there is nothing to read: no such folder, no bag, MCAP, compressed, every file missing.
+/// Finds them: by metadata.yaml where `use_metadata`, and in the folder. What is not as it should be is added to
+/// `warnings`. Throws BagError when there is nothing to read: no such folder, no bag, MCAP, compressed, every file
+/// missing.
 BagFiles find_bag_files(const std::filesystem::path& bag, bool use_metadata, std::vector<std::string>& warnings);
 
 }  // namespace panvo::recorder

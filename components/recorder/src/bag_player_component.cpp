@@ -38,8 +38,8 @@ std::string listed(const std::vector<std::string>& names) {
   return text;
 }
 
-/// Plays a bag: its messages, as recorded, at their recorded times. Topics that the system computes itself are left out, so that what was
-/// recorded of them is not mixed with what is being computed.
+/// Plays a bag: its messages, as recorded, at their recorded times. Topics that the system computes itself are left
+/// out, so that what was recorded of them is not mixed with what is being computed.
 class BagPlayerComponent final : public runtime::Component, public runtime::Source {
  public:
   explicit BagPlayerComponent(runtime::Context& context) : context_(context) {

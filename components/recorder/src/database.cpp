@@ -7,7 +7,8 @@
 namespace panvo::recorder {
 namespace {
 
-/// Why the operating system refused. SQLite forgets it where a commit fails; errno then still has it, see forget_errors().
+/// Why the operating system refused. SQLite forgets it where a commit fails; errno then still has it, see
+/// forget_errors().
 int system_error_of(sqlite3* database) {
   const int known = database ? sqlite3_system_errno(database) : 0;
   return known != 0 ? known : errno;

@@ -6,8 +6,8 @@
 
 namespace panvo::recorder {
 
-/// Puts `content` in the place of a file in one step: whoever opens it sees the old content or the new, never a part. `durable`: it has
-/// reached the disk when this returns. Throws BagError naming the file.
+/// Puts `content` in the place of a file in one step: whoever opens it sees the old content or the new, never a part.
+/// `durable`: it has reached the disk when this returns. Throws BagError naming the file.
 void replace_file(const std::filesystem::path& file, std::string_view content, bool durable);
 
 /// Has the entries of a folder reach the disk; where the file system cannot, nothing happens.

@@ -65,7 +65,8 @@ void check_kind(const fs::path& file) {
 Database open_and_look(const fs::path& file, Database::Mode mode) {
   const bool is_cut = mode != Database::Mode::kReadWrite && expected_bytes_if_cut(file) > 0;
   Database database(file, mode, is_cut ? whole_pages_vfs() : nullptr);
-  // Without this a file that is shorter than its header says cannot be read at all. Nothing is written, the mode sees to that.
+  // Without this a file that is shorter than its header says cannot be read at all. Nothing is written, the mode sees
+  // to that.
   database.execute("PRAGMA writable_schema=ON; PRAGMA trusted_schema=OFF; PRAGMA cell_size_check=ON;");
   Statement(database, "SELECT count(*) FROM sqlite_master").step();
   return database;

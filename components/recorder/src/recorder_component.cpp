@@ -64,8 +64,9 @@ std::unique_ptr<BagWriter> make_writer(const Parameters& parameters) {
   return std::make_unique<BagWriter>(parameters.output.empty() ? dated_bag_name() : parameters.output, options);
 }
 
-/// Records topics to a bag. What it must write waits in a queue that is bounded by its bytes; behind it a second stage writes, so that a disk
-/// that is slow for a moment delays nobody, and one that is slow for longer costs messages that are counted, topic by topic.
+/// Records topics to a bag. What it must write waits in a queue that is bounded by its bytes; behind it a second
+/// stage writes, so that a disk that is slow for a moment delays nobody, and one that is slow for longer costs
+/// messages that are counted, topic by topic.
 class RecorderComponent final : public runtime::Component {
  public:
   explicit RecorderComponent(runtime::Context& context)
@@ -142,7 +143,8 @@ class RecorderComponent final : public runtime::Component {
     store(message, time_ns);
   }
 
-  /// In replay there is no time before the first source has stepped: what was published until then bears the time of the first that has one.
+  /// In replay there is no time before the first source has stepped: what was published until then bears the time of
+  /// the first that has one.
   void store_early(std::int64_t time_ns) {
     for (const auto& message : std::exchange(early_, {})) {
       store(message, time_ns);

@@ -49,7 +49,8 @@ class Scan {
   Statement rows_;
 };
 
-/// The first id after the unreadable `bad` from which on something can be read: found by leaps that double, then by halving the last one.
+/// The first id after the unreadable `bad` from which on something can be read: found by leaps that double, then by
+/// halving the last one.
 std::int64_t after_damage(Scan& scan, std::int64_t bad) {
   std::int64_t good = bad + 1;
   for (std::int64_t leap = 1; good < kEndOfIds && !scan.is_readable_from(good); leap *= 2) {

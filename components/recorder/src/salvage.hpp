@@ -14,8 +14,8 @@ struct Salvaged {
   std::uint64_t missing_ids = 0;              ///< gaps between them; how many followed the last one nobody knows
 };
 
-/// Reads through a damaged table of messages by id, leaping over what cannot be read: one stretch of damage after another is passed,
-/// readable messages in the midst of one may be missed. Reads all data once.
+/// Reads through a damaged table of messages by id, leaping over what cannot be read: one stretch of damage after
+/// another is passed, readable messages in the midst of one may be missed. Reads all data once.
 Salvaged salvage_messages(const Database& database);
 
 }  // namespace panvo::recorder

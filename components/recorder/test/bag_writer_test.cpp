@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sqlite3.h>
+#include <sys/inotify.h>
 
 #include "test_bag.hpp"
 
@@ -96,6 +97,19 @@ TEST(BagWriter, CommitsWhenTheBatchIsOld) {
   BagWriter writer(folder / "bag", {.batch_time = std::chrono::milliseconds(0)});
   const int data = writer.add_topic(topic("/data"));
   writer.write(data, kStart, payload(0, 10));
+  EXPECT_EQ(writer.committed_messages(), 1u);
+}
+
+TEST(BagWriter, CommitsWhatWaitsThoughNothingMoreComes) {
+  const TemporaryFolder folder;
+  BagWriter writer(folder / "bag", {.batch_time = std::chrono::milliseconds(20)});
+  // With a commit that brings a new topic comes a new metadata.yaml, which is moved into the place of the old one.
+  const int notifier = inotify_init1(IN_CLOEXEC);
+  ASSERT_GE(inotify_add_watch(notifier, (folder / "bag").c_str(), IN_MOVED_TO), 0);
+  writer.write(writer.add_topic(topic("/data")), kStart, payload(0, 10));
+  char event[4096];
+  EXPECT_GT(::read(notifier, event, sizeof event), 0);
+  ::close(notifier);
   EXPECT_EQ(writer.committed_messages(), 1u);
 }
 

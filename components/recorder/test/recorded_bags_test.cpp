@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Bags that ROS 2's own tools wrote: each opens, with as many messages as are in it, or is refused for the right reason.
+/// Bags that ROS 2's own tools wrote: each opens, with as many messages as are in it, or is refused for the right
+/// reason.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

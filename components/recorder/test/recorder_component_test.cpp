@@ -149,7 +149,8 @@ TEST_F(Recorder, RemembersThatATopicIsLatched) {
 }
 
 TEST_F(Recorder, CountsWhatItDropsWhenTheDiskIsTooSlow) {
-  // In replay what is published by one step waits until the step is done: three images of 600 kB are more than the queue may hold.
+  // In replay what is published by one step waits until the step is done: three images of 600 kB are more than the
+  // queue may hold.
   record({{"queue_mb", "1"}, {"topics", "[/stereo/.*]"}});
   harness_->add<ThreeImages>("three_images");
   harness_->publish(topics::kOdometryBinocular, odometry(1));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/// A process to be killed while it records, for interrupted_recording_test. Writes numbered messages for ever and says on stdout, after each
-/// commit, how many are committed. With a limit on the size of files it ends at the error, telling it on stdout.
+/// A process to be killed while it records, for interrupted_recording_test. Writes numbered messages for ever and
+/// says on stdout, after each commit, how many are committed. With a limit on the size of files it ends at the error,
+/// telling it on stdout.
 #include <sys/resource.h>
 #include <unistd.h>
 

@@ -12,8 +12,9 @@
 
 namespace panvo::recorder {
 
-/// Writes metadata.yaml anew from what the databases hold. What only metadata.yaml knows (custom data, ROS distribution) is kept if the
-/// present one can be read. Returns what was written; `warnings` tells of files that could not be read. Throws BagError.
+/// Writes metadata.yaml anew from what the databases hold. What only metadata.yaml knows (custom data, ROS
+/// distribution) is kept if the present one can be read. Returns what was written; `warnings` tells of files that
+/// could not be read. Throws BagError.
 BagMetadata reindex_bag(const std::filesystem::path& bag, std::vector<std::string>& warnings);
 
 struct CopyResult {
@@ -22,8 +23,8 @@ struct CopyResult {
   std::vector<std::string> warnings;
 };
 
-/// Writes the readable messages of a bag to a new one, with their times: takes out topics, makes a sound bag of a damaged one and a Jazzy bag
-/// of an older one. Throws BagError.
+/// Writes the readable messages of a bag to a new one, with their times: takes out topics, makes a sound bag of a
+/// damaged one and a Jazzy bag of an older one. Throws BagError.
 CopyResult copy_bag(const std::filesystem::path& from, const std::filesystem::path& to, const TopicFilter& topics = {},
                     const BagWriter::Options& options = {});
 

@@ -23,9 +23,9 @@ struct DiffOptions {
   bool times = false;  ///< recording times must be equal too
 };
 
-/// Compares the bytes of the messages of each topic, in the order in which they were recorded. How the topics' messages lie between each
-/// other does not count: in a live run it is a matter of chance. Topics without a message in either bag are left out. Sorted by name.
-/// Throws BagError when a bag cannot be read, or not all of it.
+/// Compares the bytes of the messages of each topic, in the order in which they were recorded. How the topics'
+/// messages lie between each other does not count: in a live run it is a matter of chance. Topics without a message
+/// in either bag are left out. Sorted by name. Throws BagError when a bag cannot be read, or not all of it.
 std::vector<TopicComparison> compare_bags(const std::filesystem::path& first, const std::filesystem::path& second,
                                           const DiffOptions& options = {});
 

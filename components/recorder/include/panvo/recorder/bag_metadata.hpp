@@ -54,14 +54,15 @@ struct BagMetadata {
 std::uint64_t dropped_messages(const BagMetadata& metadata, const std::string& topic = "");
 void set_dropped_messages(BagMetadata& metadata, const std::string& topic, std::uint64_t count);
 
-/// metadata.yaml's text, in version 9 whatever `metadata.version` says. `in_database`: as it stands in a database's table `metadata`,
-/// without its outermost key.
+/// metadata.yaml's text, in version 9 whatever `metadata.version` says. `in_database`: as it stands in a database's
+/// table `metadata`, without its outermost key.
 std::string to_yaml(const BagMetadata& metadata, bool in_database = false);
 
 /// Reads any version up to 9; what a version lacks stays empty. `file` is for messages. Throws BagError.
 BagMetadata parse_metadata(const std::string& yaml, const std::filesystem::path& file);
 
-/// Reads or replaces BAG/metadata.yaml. Replacing is atomic; with `durable` it also survives a power failure. Both throw BagError.
+/// Reads or replaces BAG/metadata.yaml. Replacing is atomic; with `durable` it also survives a power failure. Both
+/// throw BagError.
 BagMetadata read_metadata(const std::filesystem::path& bag);
 void write_metadata(const std::filesystem::path& bag, const BagMetadata& metadata, bool durable);
 

@@ -23,9 +23,10 @@ struct BagMessage {
 
 /// Reads a rosbag2 folder, or a single .db3 file, as written by ROS 2 Dashing to Jazzy and by BagWriter.
 ///
-/// What is not as it should be but can be helped is remembered as a warning: metadata.yaml that is missing, unreadable or stale (rebuilt from
-/// the databases), a file of a split bag that is missing, a database that was cut off or is damaged (what is readable is read, what is not is
-/// counted). What cannot be helped is a BagError that names the file and the remedy: not a bag, not a database, stored as MCAP, compressed.
+/// What is not as it should be but can be helped is remembered as a warning: metadata.yaml that is missing,
+/// unreadable or stale (rebuilt from the databases), a file of a split bag that is missing, a database that was cut
+/// off or is damaged (what is readable is read, what is not is counted). What cannot be helped is a BagError that
+/// names the file and the remedy: not a bag, not a database, stored as MCAP, compressed.
 ///
 /// Memory is bounded: messages are read one at a time; of a damaged database 24 bytes a message are held.
 class BagReader {
@@ -46,8 +47,8 @@ class BagReader {
   /// From now on next() starts anew and gives only messages of topics that `wanted` accepts.
   void select(const std::function<bool(const BagTopic&)>& wanted);
 
-  /// The message after the last one, in order of timestamp, then file, then id; nullptr at the end. Valid until the following
-  /// call; its data may be moved away.
+  /// The message after the last one, in order of timestamp, then file, then id; nullptr at the end. Valid until the
+  /// following call; its data may be moved away.
   BagMessage* next();
 
   /// Messages that were recorded but cannot be read, as far as is known now. Grows while next() meets damage.

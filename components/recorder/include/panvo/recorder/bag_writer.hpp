@@ -27,9 +27,10 @@ std::string dated_bag_name();
 
 /// Writes a rosbag2 folder: metadata.yaml (version 9) and NAME_0.db3, NAME_1.db3 ... (ROS 2 Jazzy's schema 4).
 ///
-/// Messages are committed in batches. When the process is killed or the power fails, the bag holds every committed batch and opens at once: in
-/// every other tool too, for between commits all of it is in the .db3 file (a rollback journal, no write-ahead log). A killed process loses
-/// at most the last batch: Options::batch_time or batch_bytes, whichever comes first.
+/// Messages are committed in batches. When the process is killed or the power fails, the bag holds every committed
+/// batch and opens at once: in every other tool too, for between commits all of it is in the .db3 file (a rollback
+/// journal, no write-ahead log). A killed process loses at most the last batch: Options::batch_time or batch_bytes,
+/// whichever comes first.
 ///
 /// Safe to use from several threads; a thread of the writer's commits what has waited when no further message comes.
 class BagWriter {
@@ -41,8 +42,8 @@ class BagWriter {
     std::size_t batch_bytes = 16u << 20;        ///< size at which it is; also what the writer holds in memory
   };
 
-  /// Creates the bag and its first metadata.yaml. Throws BagError: the folder exists and is not to be overwritten or is no bag, cannot be
-  /// made, or is not writable.
+  /// Creates the bag and its first metadata.yaml. Throws BagError: the folder exists and is not to be overwritten or
+  /// is no bag, cannot be made, or is not writable.
   explicit BagWriter(std::filesystem::path bag) : BagWriter(std::move(bag), Options{}) {}
   BagWriter(std::filesystem::path bag, Options options);
 
@@ -51,11 +52,12 @@ class BagWriter {
   BagWriter(const BagWriter&) = delete;
   BagWriter& operator=(const BagWriter&) = delete;
 
-  /// Declares a topic, once. `definition` is the type in ROS 2's .msg notation, empty where not known. Returns its handle for write().
+  /// Declares a topic, once. `definition` is the type in ROS 2's .msg notation, empty where not known. Returns its
+  /// handle for write().
   int add_topic(const BagTopic& topic, std::string_view definition = {});
 
-  /// Adds a message. Throws BagError when the bag cannot be written (disk full): what was committed stays readable, the batch being written
-  /// is lost, and every later call throws the same.
+  /// Adds a message. Throws BagError when the bag cannot be written (disk full): what was committed stays readable,
+  /// the batch being written is lost, and every later call throws the same.
   void write(int topic, std::int64_t timestamp_ns, std::span<const std::uint8_t> data);
 
   /// Says that messages of a topic were dropped before they could be written; kept in the metadata's custom_data.

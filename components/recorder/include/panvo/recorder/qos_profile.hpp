@@ -11,8 +11,8 @@
 
 namespace panvo::recorder {
 
-/// The quality of service that one recorded publisher offered, as rosbag2 stores it. The values are those of ROS 2's rmw layer: bags up to
-/// metadata version 8 hold them as numbers, later ones as names.
+/// The quality of service that one recorded publisher offered, as rosbag2 stores it. The values are those of ROS 2's
+/// rmw layer: bags up to metadata version 8 hold them as numbers, later ones as names.
 struct QosProfile {
   enum class History { kSystemDefault = 0, kKeepLast = 1, kKeepAll = 2, kUnknown = 3 };
   enum class Reliability { kSystemDefault = 0, kReliable = 1, kBestEffort = 2, kUnknown = 3, kBestAvailable = 4 };
@@ -50,8 +50,9 @@ enum class QosNotation { kNames, kNumbers };
 /// What our publishers of a topic with this quality of service offer.
 QosProfile offered_profile(const interfaces::Qos& qos);
 
-/// What to publish a recorded topic with, so that whoever subscribed to the original publishers matches the replay. `message_count` is the
-/// number of recorded messages: of a latched topic all are kept for late joiners, as they may have come from several publishers.
+/// What to publish a recorded topic with, so that whoever subscribed to the original publishers matches the replay.
+/// `message_count` is the number of recorded messages: of a latched topic all are kept for late joiners, as they may
+/// have come from several publishers.
 interfaces::Qos replay_qos(const std::vector<QosProfile>& offered, std::uint64_t message_count);
 
 /// The profiles as the YAML sequence that a bag holds; "" for none.

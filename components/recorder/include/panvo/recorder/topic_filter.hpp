@@ -7,15 +7,16 @@
 
 namespace panvo::recorder {
 
-/// Which topics to record, play or compare. A pattern is a topic's name ("/tf", or "tf" for it) or an ECMAScript regular expression that
-/// matches the whole name ("/stereo/.*"); one text may hold several, with blanks between them, as a launch argument does. Excluding wins.
+/// Which topics to record, play or compare. A pattern is a topic's name ("/tf", or "tf" for it) or an ECMAScript
+/// regular expression that matches the whole name ("/stereo/.*"); one text may hold several, with blanks between
+/// them, as a launch argument does. Excluding wins.
 class TopicFilter {
  public:
   /// Accepts everything.
   TopicFilter() = default;
 
-  /// Accepts what one of `topics` matches (everything where there is none) and none of `exclude`. Throws BagError naming a pattern that is
-  /// no regular expression.
+  /// Accepts what one of `topics` matches (everything where there is none) and none of `exclude`. Throws BagError
+  /// naming a pattern that is no regular expression.
   explicit TopicFilter(const std::vector<std::string>& topics, const std::vector<std::string>& exclude = {});
 
   bool accepts(const std::string& topic) const;
