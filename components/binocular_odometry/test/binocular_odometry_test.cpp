@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "panvo/binocular_odometry/binocular_odometry.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <Eigen/Cholesky>
+#include <condition_variable>
+#include <deque>
+#include <future>
+#include <mutex>
+#include <opencv2/imgproc.hpp>
+#include <optional>
+
+#include "synthetic_scene.hpp"
+
+namespace panvo::binocular_odometry {
+namespace {
+
+using ::testing::HasSubstr;
+
+Parameters with_front_end(const std::string& front_end) {
+  Parameters parameters;
+  parameters.tracking.front_end = front_end;
+  return parameters;
+}
+
+const std::vector<StereoFrame>& drive() {
+  static const std::vector<StereoFrame> frames = SyntheticScene::drive(16);
+  return frames;
+}
+
+Eigen::Isometry3d truth(int frame) { return SyntheticScene::world_from_left(frame); }
+
+class EitherFrontEnd : public ::testing::TestWithParam<std::string> {};
+
+TEST_P(EitherFrontEnd, FollowsAKnownPath) {
+  BinocularOdometry odometry(SyntheticScene::stereo(), with_front_end(GetParam()));
+  OdometryEstimate last;
+  for (const auto& frame : drive()) {
+    last = odometry.step(frame);
+    ASSERT_TRUE(last.quality.reliable) << last.quality.reason;
+  }
+  const Eigen::Isometry3d expected = truth(15);
+  EXPECT_LT((last.odom_from_left.translation() - expected.translation()).norm(), 0.006 * expected.translation().norm());
+  EXPECT_LT(vision::so3_log(last.odom_from_left.linear() * expected.linear().transpose()).norm(), 0.002);
+  EXPECT_GT(last.quality.inlier_ratio, 0.8);
+  EXPECT_LT(last.quality.residual_px, 0.5);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, EitherFrontEnd, ::testing::Values("klt", "sift"));
+
+TEST(BinocularOdometry, BeginsAtTheOriginWithoutUncertainty) {
+  BinocularOdometry odometry(SyntheticScene::stereo(), {});
+  const OdometryEstimate first = odometry.step(drive()[0]);
+  EXPECT_TRUE(first.quality.reliable);
+  EXPECT_EQ(first.odom_from_left.matrix(), Eigen::Isometry3d::Identity().matrix());
+  EXPECT_EQ(first.odom_from_left_covariance.norm(), 0.0);
+}
+
+TEST(BinocularOdometry, IsLessCertainTheFartherItGoes) {
+  BinocularOdometry odometry(SyntheticScene::stereo(), {});
+  double last = -1.0;
+  for (int i = 0; i < 16; i += 5) {
+    for (int k = std::max(0, i - 4); k < i; ++k) odometry.step(drive()[static_cast<size_t>(k)]);
+    const double now = odometry.step(drive()[static_cast<size_t>(i)]).odom_from_left_covariance.trace();
+    EXPECT_GT(now, last);
+    last = now;
+  }
+}
+
+TEST(BinocularOdometry, ItsErrorLiesWithinItsCovariance) {
+  BinocularOdometry odometry(SyntheticScene::stereo(), {});
+  double nees = 0.0;
+  for (int i = 0; i < 16; ++i) {
+    const OdometryEstimate estimate = odometry.step(drive()[static_cast<size_t>(i)]);
+    if (i == 0) continue;
+    const vision::Vector6d error = vision::pose_error(estimate.previous_from_current, truth(i - 1).inverse() * truth(i));
+    nees += error.dot(estimate.previous_from_current_covariance.ldlt().solve(error)) / 15.0;
+  }
+  EXPECT_LT(nees, 12.0);
+}
+
+TEST(BinocularOdometry, MotionsAddUpToThePose) {
+  BinocularOdometry odometry(SyntheticScene::stereo(), {});
+  Eigen::Isometry3d sum = Eigen::Isometry3d::Identity(), pose = sum;
+  for (int i = 0; i < 8; ++i) {
+    const OdometryEstimate estimate = odometry.step(drive()[static_cast<size_t>(i)]);
+    sum = sum * estimate.previous_from_current;
+    pose = estimate.odom_from_left;
+  }
+  EXPECT_TRUE(sum.isApprox(pose, 1e-9));
+}
+
+// Bounded hand-over between two threads, as a runtime would do it.
+class Queue {
+ public:
+  void push(std::optional<TrackedFrame> frame) {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [this] { return frames_.size() < 2; });
+    frames_.push_back(std::move(frame));
+    changed_.notify_all();
+  }
+  std::optional<TrackedFrame> pop() {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [this] { return !frames_.empty(); });
+    auto frame = std::move(frames_.front());
+    frames_.pop_front();
+    changed_.notify_all();
+    return frame;
+  }
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::deque<std::optional<TrackedFrame>> frames_;
+};
+
+TEST(BinocularOdometry, BothStagesInParallelGiveTheSameBitForBit) {
+  BinocularOdometry in_turn(SyntheticScene::stereo(), {});
+  std::vector<OdometryEstimate> expected;
+  for (const auto& frame : drive()) expected.push_back(in_turn.step(frame));
+
+  Queue queue;
+  auto motion = std::async(std::launch::async, [&queue] {
+    MotionStage stage(SyntheticScene::stereo(), {});
+    std::vector<OdometryEstimate> estimates;
+    while (const auto frame = queue.pop()) estimates.push_back(stage.estimate(*frame));
+    return estimates;
+  });
+  TrackingStage tracking(SyntheticScene::stereo(), {});
+  for (const auto& frame : drive()) queue.push(tracking.track(frame));
+  queue.push(std::nullopt);
+
+  const auto estimates = motion.get();
+  ASSERT_EQ(estimates.size(), expected.size());
+  for (size_t i = 0; i < estimates.size(); ++i) {
+    EXPECT_EQ(estimates[i].odom_from_left.matrix(), expected[i].odom_from_left.matrix()) << i;
+    EXPECT_EQ(estimates[i].odom_from_left_covariance, expected[i].odom_from_left_covariance) << i;
+    EXPECT_EQ(estimates[i].quality.inliers, expected[i].quality.inliers) << i;
+  }
+}
+
+// One bad frame among good ones: said to be unreliable and why, carried on by the motion so far, and made up for by the next.
+class BadFrame : public ::testing::Test {
+ protected:
+  void expect_fault(StereoFrame bad, const std::string& reason) {
+    BinocularOdometry odometry(SyntheticScene::stereo(), {});
+    OdometryEstimate before;
+    for (int i = 0; i < 6; ++i) before = odometry.step(drive()[static_cast<size_t>(i)]);
+    const OdometryEstimate during = odometry.step(bad);
+    EXPECT_FALSE(during.quality.reliable);
+    EXPECT_THAT(during.quality.reason, HasSubstr(reason));
+    EXPECT_TRUE(during.odom_from_left.matrix().allFinite());
+    EXPECT_TRUE(during.odom_from_left_covariance.allFinite());
+    EXPECT_GT(during.odom_from_left_covariance.trace(), before.odom_from_left_covariance.trace());
+    EXPECT_FALSE(during.previous_from_current.isApprox(Eigen::Isometry3d::Identity(), 1e-3));
+    EXPECT_LT((during.odom_from_left.translation() - truth(6).translation()).norm(), 0.05);
+    OdometryEstimate after;
+    for (int i = 7; i < 10; ++i) {
+      after = odometry.step(drive()[static_cast<size_t>(i)]);
+      EXPECT_TRUE(after.quality.reliable) << i << ": " << after.quality.reason;
+    }
+    EXPECT_LT((after.odom_from_left.translation() - truth(9).translation()).norm(), 0.012);
+  }
+
+  StereoFrame frame_ = drive()[6];
+};
+
+TEST_F(BadFrame, Empty) {
+  frame_.right = cv::Mat();
+  expect_fault(frame_, "right image is empty");
+}
+
+TEST_F(BadFrame, Black) {
+  frame_.left = cv::Mat(240, 320, CV_8UC1, cv::Scalar(0));
+  expect_fault(frame_, "left image is black");
+}
+
+TEST_F(BadFrame, Constant) {
+  frame_.left = cv::Mat(240, 320, CV_8UC1, cv::Scalar(127));
+  expect_fault(frame_, "left image is constant");
+}
+
+TEST_F(BadFrame, Saturated) {
+  frame_.right = cv::Mat(240, 320, CV_8UC1, cv::Scalar(255));
+  expect_fault(frame_, "right image is saturated");
+}
+
+TEST_F(BadFrame, OfAnotherSize) {
+  cv::resize(frame_.left, frame_.left, {160, 120});
+  expect_fault(frame_, "left image is 160 x 120 px, the calibration is for 320 x 240 px");
+}
+
+TEST_F(BadFrame, LeftAndRightExchanged) {
+  std::swap(frame_.left, frame_.right);
+  expect_fault(frame_, "exchanged");
+}
+
+TEST_F(BadFrame, StampGoesBack) {
+  frame_.stamp_ns -= 300'000'000;
+  expect_fault(frame_, "is not after the one before");
+}
+
+TEST(BinocularOdometry, SaysFromTheFirstFrameOnThatTheCamerasAreExchanged) {
+  BinocularOdometry odometry(SyntheticScene::stereo(), {});
+  for (int i = 0; i < 3; ++i) {
+    StereoFrame frame = drive()[static_cast<size_t>(i)];
+    std::swap(frame.left, frame.right);
+    const OdometryEstimate estimate = odometry.step(frame);
+    EXPECT_FALSE(estimate.quality.reliable);
+    EXPECT_THAT(estimate.quality.reason, HasSubstr("exchanged"));
+  }
+}
+
+TEST(BinocularOdometry, CarriesOnWhereTheSceneIsAnotherOne) {
+  // A cut: nothing of the last frame is seen again. One frame is carried on, then odometry goes on from there.
+  BinocularOdometry odometry(SyntheticScene::stereo(), {});
+  for (int i = 0; i < 6; ++i) odometry.step(drive()[static_cast<size_t>(i)]);
+  const auto elsewhere = [](int i) {
+    Eigen::Isometry3d turned(vision::so3_exp({0.0, 1.4, 0.0}));
+    turned.translation().z() = 4.0;
+    return SyntheticScene::frame(i, turned * truth(i - 6));
+  };
+  const OdometryEstimate at_cut = odometry.step(elsewhere(6));
+  EXPECT_FALSE(at_cut.quality.reliable);
+  EXPECT_THAT(at_cut.quality.reason, HasSubstr("of 20 needed"));
+  const OdometryEstimate after = odometry.step(elsewhere(7));
+  EXPECT_TRUE(after.quality.reliable) << after.quality.reason;
+  const Eigen::Isometry3d moved = truth(0).inverse() * truth(1);
+  EXPECT_LT((after.previous_from_current.translation() - moved.translation()).norm(), 0.01);
+}
+
+TEST(BinocularOdometry, GoesOnThroughAChangeOfLight) {
+  BinocularOdometry odometry(SyntheticScene::stereo(), {});
+  OdometryEstimate last;
+  for (int i = 0; i < 10; ++i) {
+    StereoFrame frame = drive()[static_cast<size_t>(i)];
+    const double gain = i < 4 ? 1.0 : std::max(0.35, 1.0 - 0.25 * (i - 3));  // a cloud within a few frames
+    frame.left.convertTo(frame.left, CV_8U, gain, 5.0);
+    frame.right.convertTo(frame.right, CV_8U, 0.95 * gain, 3.0);
+    last = odometry.step(frame);
+    EXPECT_TRUE(last.quality.reliable) << last.quality.reason;
+  }
+  EXPECT_LT((last.odom_from_left.translation() - truth(9).translation()).norm(), 0.012);
+}
+
+TEST(BinocularOdometry, RefusesACalibrationThatCannotBeUsed) {
+  vision::RectifiedStereo stereo = SyntheticScene::stereo();
+  stereo.baseline_m = 0.0;
+  EXPECT_THROW(BinocularOdometry(stereo, {}), std::invalid_argument);
+  EXPECT_THROW(BinocularOdometry(SyntheticScene::stereo(), with_front_end("surf")), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace panvo::binocular_odometry
