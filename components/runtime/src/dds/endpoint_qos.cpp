@@ -13,14 +13,13 @@ namespace panvo::runtime::dds {
 
 namespace fdds = eprosima::fastdds::dds;
 using interfaces::Durability;
-using interfaces::Qos;
 using interfaces::Reliability;
 
 namespace {
 
 // A lost fragment or acknowledgement is noticed at the next heartbeat, which has to come well within the time
 // a write may wait. Fast DDS's default is 3 s. Sent only while something is unacknowledged.
-constexpr std::int32_t kHeartbeatPeriod_ns = 20'000'000;
+constexpr std::int32_t kHeartbeatPeriodNs = 20'000'000;
 constexpr int kPreallocatedSamples = 4;
 
 fdds::DurabilityQosPolicyKind durability_kind(Durability durability) {
@@ -83,7 +82,7 @@ void apply(const TopicDescription& topic, fdds::DataWriterQos& qos) {
   // DDS's, so that a network slower than the camera does not hold the publisher (at 100 Mbit/s a panorama of
   // 1.75 MB held it for 122 ms, now 0.8 ms). Others are small and leave at once.
   if (topic.qos.requested == Reliability::kBestEffort) qos.publish_mode().kind = fdds::ASYNCHRONOUS_PUBLISH_MODE;
-  qos.reliable_writer_qos().times.heartbeatPeriod = eprosima::fastrtps::Duration_t(0, kHeartbeatPeriod_ns);
+  qos.reliable_writer_qos().times.heartbeatPeriod = eprosima::fastrtps::Duration_t(0, kHeartbeatPeriodNs);
   qos.representation().m_value = {fdds::XCDR_DATA_REPRESENTATION};
   // ROS 2 has data sharing off, and a reader of it that is slower than its writer would see its samples
   // change.

@@ -28,13 +28,13 @@ std::optional<std::string> topic_name_from_wire(std::string_view wire_name) {
 }
 
 std::optional<std::string> wire_type_name(std::string_view name) {
-  static const std::regex form(R"((\w+)/(\w+)/(\w+))");
-  return rewrite(name, form, "$1::$2::dds_::$3_");
+  static const std::regex kForm(R"((\w+)/(\w+)/(\w+))");
+  return rewrite(name, kForm, "$1::$2::dds_::$3_");
 }
 
 std::optional<std::string> type_name_from_wire(std::string_view wire_name) {
-  static const std::regex form(R"((\w+)::(\w+)::dds_::(\w+)_)");
-  return rewrite(wire_name, form, "$1/$2/$3");
+  static const std::regex kForm(R"((\w+)::(\w+)::dds_::(\w+)_)");
+  return rewrite(wire_name, kForm, "$1/$2/$3");
 }
 
 }  // namespace panvo::runtime::dds

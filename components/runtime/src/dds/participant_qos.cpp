@@ -31,7 +31,7 @@ constexpr std::uint32_t kSocketBufferSize = 4 * 1024 * 1024;
 // A participant that comes answers the first announcement it hears of another only once; if that answer is
 // lost, it is found at the next periodic announcement. The default is 3 s, and is reached in one start of
 // ten.
-constexpr std::int32_t kAnnouncementPeriod_ns = 500'000'000;
+constexpr std::int32_t kAnnouncementPeriodNs = 500'000'000;
 
 constexpr int kMaxDomain = 232;  // the ports of a higher one would be past 65535
 
@@ -79,14 +79,14 @@ fdds::DomainParticipantQos participant_qos(const DdsSettings& settings, Role rol
   qos.name(settings.name + (role == Role::kWriters ? "_writers" : "_readers"));
 
   // rmw puts the terminating zero on the wire too.
-  constexpr std::string_view enclave("enclave=/;\0", 11);
-  qos.user_data().setValue(std::vector<eprosima::fastrtps::rtps::octet>(enclave.begin(), enclave.end()));
+  constexpr std::string_view kEnclave("enclave=/;\0", 11);
+  qos.user_data().setValue(std::vector<eprosima::fastrtps::rtps::octet>(kEnclave.begin(), kEnclave.end()));
 
   auto& discovery = qos.wire_protocol().builtin.discovery_config;
   const auto default_period =
       fdds::PARTICIPANT_QOS_DEFAULT.wire_protocol().builtin.discovery_config.leaseDuration_announcementperiod;
   if (discovery.leaseDuration_announcementperiod == default_period) {
-    discovery.leaseDuration_announcementperiod = eprosima::fastrtps::Duration_t(0, kAnnouncementPeriod_ns);
+    discovery.leaseDuration_announcementperiod = eprosima::fastrtps::Duration_t(0, kAnnouncementPeriodNs);
   }
   auto& flags = discovery.ignoreParticipantFlags;
   flags = static_cast<eprosima::fastrtps::rtps::ParticipantFilteringFlags_t>(
