@@ -282,7 +282,8 @@ void BagWriter::throw_failure() {
 void BagWriter::commit_when_idle(std::stop_token stop) {
   std::unique_lock lock(mutex_);
   while (batch_begun_.wait(lock, stop, [this] { return batch_open_; })) {
-    batch_begun_.wait_until(lock, stop, batch_deadline_, [] { return false; });
+    const auto deadline = batch_deadline_;  // a copy: it is read while the lock is not held
+    batch_begun_.wait_until(lock, stop, deadline, [] { return false; });
     if (stop.stop_requested()) {
       return;  // close() commits
     }
