@@ -74,9 +74,14 @@ void run_gnuplot(const std::filesystem::path& folder, const std::string& script)
   ::close(pipe_ends[1]);
   const std::string said = error == 0 ? read_all(pipe_ends[0]) : "";
   ::close(pipe_ends[0]);
-  if (error == ENOENT) throw PlotError(std::string("gnuplot is not installed; ") + kRemedy);
-  if (error != 0) throw PlotError(std::string("cannot start gnuplot: ") + std::strerror(error) + "; " + kRemedy);
-  const int status = wait_for(child);
+  if (error != 0 && error != ENOENT) {
+    throw PlotError(std::string("cannot start gnuplot: ") + std::strerror(error) + "; " + kRemedy);
+  }
+  // POSIX leaves it open whether a program that is not there fails the call or makes the child exit with 127.
+  const int status = error == 0 ? wait_for(child) : 0;
+  if (error == ENOENT || (WIFEXITED(status) && WEXITSTATUS(status) == 127)) {
+    throw PlotError(std::string("gnuplot is not installed; ") + kRemedy);
+  }
   if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) {
     throw PlotError("gnuplot failed on " + (folder / script).string() + ": " + said +
                     "; run gnuplot on that file to see more, or give --no-plot");
