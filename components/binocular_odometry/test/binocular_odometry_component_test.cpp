@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "panvo/conversions/camera_info.hpp"
+#include "panvo/conversions/image.hpp"
+#include "panvo/conversions/pose.hpp"
+#include "panvo/conversions/time.hpp"
+#include "panvo/runtime/testing.hpp"
+#include "synthetic_scene.hpp"
+
+namespace panvo::binocular_odometry {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::SizeIs;
+
+// A camera on a mast, looking ahead: optical axes turned into those of the robot.
+Eigen::Isometry3d base_from_left() {
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  pose.linear() << 0, 0, 1, -1, 0, 0, 0, -1, 0;
+  pose.translation() << 0.3, 0.1, 1.2;
+  return pose;
+}
+
+class BinocularOdometryComponent : public ::testing::Test {
+ protected:
+  void load(const std::map<std::string, std::string>& parameters = {}) {
+    harness_.load("panvo_binocular_odometry", "BinocularOdometryComponent", parameters);
+  }
+
+  void publish_infos() {
+    vision::StereoCalibration calibration;
+    calibration.left.pinhole = calibration.right.pinhole = SyntheticScene::stereo().camera;
+    calibration.right_from_left.translation().x() = -SyntheticScene::stereo().baseline_m;
+    harness_.publish(topics::kStereoLeftCameraInfo,
+                     conversions::to_camera_info(conversions::left_camera(calibration, SyntheticScene::stereo()), 1, "left_optical"));
+    harness_.publish(topics::kStereoRightCameraInfo,
+                     conversions::to_camera_info(conversions::right_camera(calibration, SyntheticScene::stereo()), 1, "right_optical"));
+  }
+
+  void publish_mounting() {
+    geometry_msgs::msg::TransformStamped transform;
+    transform.header().frame_id("base_link");
+    transform.child_frame_id("left_optical");
+    transform.transform(conversions::to_transform(base_from_left()));
+    tf2_msgs::msg::TFMessage message;
+    message.transforms({transform});
+    harness_.publish(topics::kTfStatic, message);
+  }
+
+  void publish_pair(const StereoFrame& frame) {
+    publish_image(topics::kStereoLeftImageRect, frame.stamp_ns, "left_optical", frame.left);
+    publish_image(topics::kStereoRightImageRect, frame.stamp_ns, "right_optical", frame.right);
+  }
+
+  void publish_image(const interfaces::Topic<sensor_msgs::msg::Image>& topic, std::int64_t stamp_ns, const std::string& frame_id,
+                     const cv::Mat& pixels) {
+    auto message = conversions::make_image(stamp_ns, frame_id, "mono8", pixels.cols, pixels.rows);
+    pixels.copyTo(conversions::pixels(*message));
+    harness_.publish(topic, std::shared_ptr<const sensor_msgs::msg::Image>(message));
+  }
+
+  runtime::ComponentHarness harness_;
+  const std::vector<std::shared_ptr<const nav_msgs::msg::Odometry>>& odometry_ = harness_.collect(topics::kOdometryBinocular);
+  const std::vector<std::shared_ptr<const panvo_msgs::msg::OdometryQuality>>& quality_ = harness_.collect(topics::kOdometryQuality);
+};
+
+TEST_F(BinocularOdometryComponent, PublishesTheRobotsMotionUnderTheImagesStamp) {
+  load();
+  publish_infos();
+  publish_mounting();
+  for (int i = 0; i < 5; ++i) publish_pair(SyntheticScene::frame(i));
+  ASSERT_THAT(odometry_, SizeIs(5));
+  ASSERT_THAT(quality_, SizeIs(5));
+  const auto& last = *odometry_.back();
+  EXPECT_EQ(conversions::stamp_ns(last), 1'400'000'000);
+  EXPECT_EQ(last.header().frame_id(), "odom");
+  EXPECT_EQ(last.child_frame_id(), "base_link");
+  const Eigen::Isometry3d expected = base_from_left() * SyntheticScene::world_from_left(4) * base_from_left().inverse();
+  const auto pose = conversions::to_isometry(last.pose().pose());
+  ASSERT_TRUE(pose) << pose.reason();
+  EXPECT_LT((pose->translation() - expected.translation()).norm(), 0.005);
+  EXPECT_NEAR(last.twist().twist().linear().x(), 1.2, 0.02);  // 0.12 m a frame of 0.1 s, forward
+  EXPECT_NEAR(last.twist().twist().angular().z(), -0.06, 0.005);  // to the right
+  EXPECT_GT(last.pose().covariance()[0], 0.0);
+  EXPECT_GT(last.twist().covariance()[0], 0.0);
+  EXPECT_TRUE(quality_.back()->reliable()) << quality_.back()->reason();
+}
+
+TEST_F(BinocularOdometryComponent, WaitsForTheMountingAndSaysSo) {
+  load();
+  publish_infos();
+  publish_pair(SyntheticScene::frame(0));
+  EXPECT_THAT(odometry_, IsEmpty());
+  EXPECT_TRUE(harness_.log_contains("/tf_static"));
+  publish_mounting();
+  publish_pair(SyntheticScene::frame(1));
+  EXPECT_THAT(odometry_, SizeIs(1));
+}
+
+TEST_F(BinocularOdometryComponent, WaitsForTheCalibrationAndSaysSo) {
+  load();
+  publish_mounting();
+  publish_pair(SyntheticScene::frame(0));
+  EXPECT_THAT(odometry_, IsEmpty());
+  EXPECT_TRUE(harness_.log_contains("camera_info"));
+}
+
+TEST_F(BinocularOdometryComponent, SaysWhyAPoseIsUnreliableAndWhenItIsReliableAgain) {
+  load();
+  publish_infos();
+  publish_mounting();
+  publish_pair(SyntheticScene::frame(0));
+  publish_pair(SyntheticScene::frame(1));
+  StereoFrame black = SyntheticScene::frame(2);
+  black.left.setTo(0);
+  publish_pair(black);
+  ASSERT_THAT(quality_, SizeIs(3));
+  EXPECT_FALSE(quality_.back()->reliable());
+  EXPECT_THAT(quality_.back()->reason(), HasSubstr("left image is black"));
+  EXPECT_TRUE(harness_.log_contains("unreliable: left image is black"));
+  publish_pair(SyntheticScene::frame(3));
+  EXPECT_TRUE(quality_.back()->reliable());
+  EXPECT_TRUE(harness_.log_contains("reliable again"));
+  EXPECT_THAT(odometry_, SizeIs(4));
+}
+
+TEST_F(BinocularOdometryComponent, APairThatComesLateHasItsQualityButNoPose) {
+  load();
+  publish_infos();
+  publish_mounting();
+  publish_pair(SyntheticScene::frame(1));
+  publish_pair(SyntheticScene::frame(2));
+  publish_pair(SyntheticScene::frame(0));
+  EXPECT_THAT(odometry_, SizeIs(2));
+  ASSERT_THAT(quality_, SizeIs(3));
+  EXPECT_FALSE(quality_.back()->reliable());
+}
+
+TEST_F(BinocularOdometryComponent, RefusesAParameterOutOfItsRange) {
+  EXPECT_ANY_THROW(load({{"tracking.front_end", "surf"}}));
+  EXPECT_ANY_THROW(load({{"tracking.max_feature", "100"}}));
+}
+
+}  // namespace
+}  // namespace panvo::binocular_odometry
