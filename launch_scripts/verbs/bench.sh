@@ -29,7 +29,7 @@ verb_main() {
     esac
     shift
   done
-  ensure_built all
+  ensure_built panvo_programs panvo_benchmarks
   use_plugins
   local data path name wanted ran=0 failed=0
   data=$(data_folder)
