@@ -111,7 +111,24 @@ class RecorderComponent final : public runtime::Component {
            (parameters_.include_hidden || !is_hidden(topic));
   }
 
+  /// What the recorder says itself is not recorded: two recordings of one thing are to be equal, though they lie in
+  /// two folders.
+  bool is_own_log(const TopicDescription& topic, const SamplePtr& sample) const {
+    if (topic.type_name != "rcl_interfaces/msg/Log") {
+      return false;
+    }
+    try {
+      const auto log = runtime::Sample::as<rcl_interfaces::msg::Log>(sample);
+      return log && log->name() == context_.name();
+    } catch (const interfaces::DecodeError&) {
+      return false;
+    }
+  }
+
   void take(const TopicDescription& topic, const SamplePtr& sample) {
+    if (is_own_log(topic, sample)) {
+      return;
+    }
     if (waiting_bytes_ >= static_cast<std::size_t>(parameters_.queue_mb) * 1'000'000 ||
         waiting_messages_ + 1 >= kMostWaiting) {
       count_dropped(topic.name);

@@ -132,10 +132,16 @@ TEST_F(Recorder, TakesTheTopicsItIsToldTo) {
 }
 
 TEST_F(Recorder, LeavesImagesOutWhenToldTo) {
-  record({{"include_images", "false"}, {"exclude", "[/rosout]"}});
+  record({{"include_images", "false"}});
   harness_->publish(topics::kOdometryBinocular, odometry(1));
   harness_->publish(topics::kStereoLeftImageRaw, image(10));
   EXPECT_THAT(recorded_topics(), testing::ElementsAre("/odometry/binocular"));
+}
+
+TEST_F(Recorder, DoesNotRecordWhatItSaysItself) {
+  record({{"topics", "[/rosout]"}});
+  EXPECT_TRUE(harness_->log_contains("recording to"));
+  EXPECT_THAT(recorded_topics(), testing::IsEmpty());
 }
 
 TEST_F(Recorder, RemembersThatATopicIsLatched) {
