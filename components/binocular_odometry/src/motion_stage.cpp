@@ -69,8 +69,8 @@ class MotionStage::Implementation {
  private:
   static constexpr std::int64_t kUsualInterval_ns = 100'000'000;
   static constexpr double kPersistence_m = 5.0;  // an error of calibration shows alike until the scene has changed
-  static constexpr int kKeyframeIterations = 4;  // they start near the solution; what is left comes with the next frame
-  static constexpr int kFrameIterations = 2;
+  static constexpr int kKeyframeIterations = 3;  // they start near the solution; what is left comes with the next frame
+  static constexpr int kFrameIterations = 1;
 
   static std::int64_t interval(std::int64_t stamp_ns, std::int64_t since_ns) {
     return stamp_ns > since_ns && since_ns > 0 ? stamp_ns - since_ns : kUsualInterval_ns;

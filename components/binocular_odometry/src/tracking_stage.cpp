@@ -24,7 +24,7 @@ using vision::PatchTemplate;
 using vision::Stage;
 
 constexpr double kReachPerLevel_px = 6.0;      // half a patch: farther, and another structure would be locked on
-constexpr size_t kScouts = 80;                 // as many as a coarse motion needs, with a margin for those that go astray
+constexpr size_t kScouts = 60;                 // as many as a coarse motion needs, with a margin for those that go astray
 constexpr double kAstray_px = 3.0;             // off the coarse motion: looked for again where that motion has it
 constexpr double kFarOff_px = 6.0;             // off it still: not a point of the static scene
 constexpr double kFarthestDisparity_px = -0.5; // at infinity, give or take the error of a match

@@ -53,7 +53,7 @@ MeasuredMotion TwoStageLocalBundleAdjuster::refine_motion(std::span<const Observ
   }
   BundleOptions options;
   options.loss_scale = parameters_.loss_scale;
-  options.max_iterations = 3;
+  options.max_iterations = 2;
   const BundleSummary summary = solve(stereo_, problem, options);
   MeasuredMotion motion;
   motion.current_from_previous = problem.left_from_world[1];

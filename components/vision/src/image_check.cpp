@@ -9,7 +9,7 @@
 namespace panvo::vision {
 namespace {
 
-constexpr int kGridStep_px = 4;
+constexpr int kGridStep_px = 8;
 constexpr int kDark = 8;               // grey level: what a capped lens still shows
 constexpr int kBright = 250;           // grey level: full well, allowing for smoothing
 constexpr double kFaultyShare = 0.98;  // a night scene's lamps, a sign before a white sky

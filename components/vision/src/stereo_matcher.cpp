@@ -21,15 +21,25 @@ constexpr double kNoise = 4.0;               // grey levels: weight of that prio
 constexpr double kCoarseCorrelation = 0.6;   // of a window that ignores the slant
 constexpr double kReach_px = 3.0;
 
-float grey(const cv::Mat& image, double u, double v) {
-  const int column = static_cast<int>(u), row = static_cast<int>(v);
-  const auto fu = static_cast<float>(u - column), fv = static_cast<float>(v - row);
-  const uchar* upper = image.ptr<uchar>(row) + column;
-  const uchar* lower = upper + image.step[0];
-  const float above = static_cast<float>(upper[0]) + fu * static_cast<float>(upper[1] - upper[0]);
-  const float below = static_cast<float>(lower[0]) + fu * static_cast<float>(lower[1] - lower[0]);
-  return above + fv * (below - above);
-}
+// One row of the image at a height between two pixel rows.
+class Row {
+ public:
+  Row(const cv::Mat& image, double v)
+      : upper_(image.ptr<uchar>(static_cast<int>(v))), lower_(upper_ + image.step[0]), fraction_(static_cast<float>(v - std::floor(v))) {}
+
+  float operator()(float u) const {
+    const int column = static_cast<int>(u);
+    const float fu = u - static_cast<float>(column);
+    const float above = static_cast<float>(upper_[column]) + fu * static_cast<float>(upper_[column + 1] - upper_[column]);
+    const float below = static_cast<float>(lower_[column]) + fu * static_cast<float>(lower_[column + 1] - lower_[column]);
+    return above + fraction_ * (below - above);
+  }
+
+ private:
+  const uchar* upper_;
+  const uchar* lower_;
+  float fraction_;
+};
 
 bool inside(const cv::Mat& image, double u, double v) {
   return u >= 0.0 && v >= 0.0 && u < image.cols - 1 && v < image.rows - 1;
@@ -44,18 +54,20 @@ class SlantedPatch {
     }
     SlantedPatch patch(centre);
     Basis mean = Basis::Zero();
-    for (int pixel = 0; pixel < kSize * kSize; ++pixel) {
-      const Eigen::Vector2d offset = offset_of(pixel);
-      const Eigen::Vector2d at = centre + offset;
-      const double slope = 0.5 * (grey(left, at.x() + 1, at.y()) - grey(left, at.x() - 1, at.y()));
-      patch.basis_[static_cast<size_t>(pixel)] =
-          Basis(grey(left, at.x(), at.y()), slope, slope * offset.x(), slope * offset.y());
-      mean += patch.basis_[static_cast<size_t>(pixel)] / (kSize * kSize);
+    for (int y = 0; y < kSize; ++y) {
+      const Row row(left, centre.y() + y - kHalf);
+      for (int x = 0; x < kSize; ++x) {
+        const auto u = static_cast<float>(centre.x() + x - kHalf);
+        const float slope = 0.5F * (row(u + 1.0F) - row(u - 1.0F));
+        Basis& basis = patch.basis_[static_cast<size_t>(y * kSize + x)];
+        basis = Basis(row(u), slope, slope * static_cast<float>(x - kHalf), slope * static_cast<float>(y - kHalf));
+        mean += basis / (kSize * kSize);
+      }
     }
     patch.normal_.setZero();
     for (Basis& b : patch.basis_) {
       b -= mean;
-      patch.normal_ += b * b.transpose();
+      patch.normal_ += (b * b.transpose()).cast<double>();
     }
     return patch;
   }
@@ -64,28 +76,32 @@ class SlantedPatch {
   bool align(const cv::Mat& right, StereoMatch& match) const {
     constexpr double kPriorWeight = kNoise * kNoise / (kGradientSigma * kGradientSigma);
     for (int iteration = 0; iteration < kIterations; ++iteration) {
-      double sum = 0.0, square = 0.0;
-      Basis projection = Basis::Zero();
-      for (int pixel = 0; pixel < kSize * kSize; ++pixel) {
-        const Eigen::Vector2d offset = offset_of(pixel);
-        const double u = centre_.x() + offset.x() - match.disparity_px - match.gradient.dot(offset);
-        const double v = centre_.y() + offset.y();
-        if (!inside(right, u, v)) return false;
-        const double value = grey(right, u, v);
-        sum += value;
-        square += value * value;
-        projection += value * basis_[static_cast<size_t>(pixel)];
+      if (!fits(right, match)) return false;
+      float sum = 0.0F, square = 0.0F;
+      Basis on_basis = Basis::Zero();
+      const auto step_u = static_cast<float>(1.0 - match.gradient.x());
+      for (int y = 0; y < kSize; ++y) {
+        const Row row(right, centre_.y() + y - kHalf);
+        auto u = static_cast<float>(centre_.x() - match.disparity_px - match.gradient.y() * (y - kHalf)) -
+                 static_cast<float>(kHalf) * step_u;
+        for (int x = 0; x < kSize; ++x, u += step_u) {
+          const float value = row(u);
+          sum += value;
+          square += value * value;
+          on_basis += value * basis_[static_cast<size_t>(y * kSize + x)];
+        }
       }
-      const double variation = square - sum * sum / (kSize * kSize);
+      const Eigen::Vector4d projection = on_basis.cast<double>();
+      const double variation = square - static_cast<double>(sum) * sum / (kSize * kSize);
       match.correlation = projection.x() / std::sqrt(std::max(variation * normal_(0, 0), 1e-12));
 
       Eigen::Matrix4d normal = normal_;
-      Basis target = projection;
+      Eigen::Vector4d target = projection;
       normal(1, 1) += 1e-6 * normal_(0, 0);
       normal.diagonal().tail<2>().array() += kPriorWeight;
       target.tail<2>() -= kPriorWeight * match.gradient;
       const Eigen::Matrix4d inverse = normal.inverse();
-      const Basis solution = inverse * target;
+      const Eigen::Vector4d solution = inverse * target;
       const double gain = solution.x();
       if (!(gain > 0.25) || !solution.allFinite()) return false;
       const double step = solution.y() / gain;
@@ -100,10 +116,22 @@ class SlantedPatch {
   }
 
  private:
-  using Basis = Eigen::Vector4d;  // intensity, du, du * x, du * y; means removed
+  using Basis = Eigen::Vector4f;  // intensity, du, du * x, du * y; means removed
 
   explicit SlantedPatch(const Eigen::Vector2d& centre) : centre_(centre) {}
-  static Eigen::Vector2d offset_of(int pixel) { return {pixel % kSize - kHalf, pixel / kSize - kHalf}; }
+
+  // Whether the patch, where the match has it, lies in the image: its corners do.
+  bool fits(const cv::Mat& right, const StereoMatch& match) const {
+    for (const double y : {-kHalf, kHalf}) {
+      for (const double x : {-kHalf, kHalf}) {
+        const double shift = match.disparity_px + match.gradient.dot(Eigen::Vector2d(x, y));
+        // One column to spare: steps are summed up in single precision.
+        if (!inside(right, centre_.x() + x - shift - 1.0, centre_.y() + y)) return false;
+        if (!inside(right, centre_.x() + x - shift + 1.0, centre_.y() + y)) return false;
+      }
+    }
+    return true;
+  }
 
   Eigen::Vector2d centre_;
   std::array<Basis, kSize * kSize> basis_;
