@@ -240,7 +240,12 @@ void BagWriter::finish_file() {
     file_->begin();
     file_->insert_metadata(to_yaml(metadata_, true));
     file_->commit();
+    const auto journal = file_->path().string() + "-journal";
     file_.reset();
+    std::error_code error;
+    if (fs::file_size(journal, error) == 0 && !error) {
+      fs::remove(journal, error);  // nothing is in it, and one should be able to see that
+    }
   } catch (const DatabaseError& error) {
     fail(error);
   }

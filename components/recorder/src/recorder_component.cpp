@@ -106,6 +106,8 @@ class RecorderComponent final : public runtime::Component {
   static constexpr std::size_t kTapDepth = 10'000;      // never reached: taking a message is quick
   static constexpr std::size_t kMostWaiting = 100'000;  // of messages so small that they do not fill the queue
 
+  static constexpr std::int64_t kRelativeTimes = 86'400'000'000'000;  // a day from 0: no time of the system clock
+
   bool is_wanted(const TopicDescription& topic) const {
     return filter_.accepts(topic.name) && (parameters_.include_images || !is_image(topic)) &&
            (parameters_.include_hidden || !is_hidden(topic));
@@ -160,9 +162,10 @@ class RecorderComponent final : public runtime::Component {
     store(message, time_ns);
   }
 
-  /// In replay there is no time before the first source has stepped: what was published until then bears the time of
-  /// the first that has one.
-  void store_early(std::int64_t time_ns) {
+  /// In replay there is no time before the first source has stepped. What was published until then bears the time of the
+  /// first message that has one, unless that is near 0 itself, as in data sets whose times are relative.
+  void store_early(std::int64_t first_ns) {
+    const auto time_ns = first_ns < kRelativeTimes ? 0 : first_ns;
     for (const auto& message : std::exchange(early_, {})) {
       store(message, time_ns);
     }

@@ -26,6 +26,8 @@ TEST(BagWriter, WritesWhatTheReaderReads) {
     writer.close();
     EXPECT_EQ(writer.committed_messages(), 3u);
   }
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder / "bag"), {}), 2)
+      << "the database and metadata.yaml";
   BagReader reader(folder / "bag");
   EXPECT_THAT(reader.warnings(), testing::IsEmpty());
   EXPECT_EQ(read_all(reader), (std::vector<Read>{{"/a", kStart + 1, payload(2, 0)},

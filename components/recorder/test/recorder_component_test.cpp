@@ -52,13 +52,14 @@ class ThreeImages final : public runtime::Component {
   runtime::Output<sensor_msgs::msg::Image> images_;
 };
 
-/// Plays one odometry at kStart.
+/// Plays one odometry at a time.
+template <std::int64_t kTime>
 class OneStep final : public runtime::Component, public runtime::Source {
  public:
   explicit OneStep(runtime::Context& context) : odometry_(context.output(topics::kOdometryBinocular)) {
     context.source(*this);
   }
-  std::optional<std::int64_t> next_stamp_ns() override { return done_ ? std::nullopt : std::optional(kStart); }
+  std::optional<std::int64_t> next_stamp_ns() override { return done_ ? std::nullopt : std::optional(kTime); }
   void emit() override {
     done_ = true;
     odometry_.publish(odometry(1));
@@ -86,6 +87,24 @@ class Recorder : public testing::Test {
       return error.what();
     }
     return "";
+  }
+  /// The recorded times of a message that comes before the source has stepped, and of the one it then plays.
+  template <class SourceClass>
+  std::vector<std::int64_t> times_of_early_and_first() {
+    // On a thread of its own, as the time of a replay is the thread's and other tests have left theirs.
+    std::thread([this] {
+      record({{"topics", "[/odometry/.*, /tf]"}});
+      harness_->publish(topics::kTf, tf2_msgs::msg::TFMessage());
+      harness_->add<SourceClass>("one_step");
+      harness_->container().run();
+      harness_.reset();
+    }).join();
+    BagReader reader(bag_);
+    std::vector<std::int64_t> times;
+    for (const auto& message : read_all(reader)) {
+      times.push_back(message.timestamp_ns);
+    }
+    return times;
   }
   std::vector<std::string> recorded_topics() {
     harness_.reset();
@@ -169,20 +188,11 @@ TEST_F(Recorder, CountsWhatItDropsWhenTheDiskIsTooSlow) {
 }
 
 TEST_F(Recorder, GivesWhatCameBeforeTheReplaysFirstTimeThatTime) {
-  // On a thread of its own, as the time of a replay is the thread's and other tests have left theirs.
-  std::thread([this] {
-    record({{"topics", "[/odometry/.*, /tf]"}});
-    harness_->publish(topics::kTf, tf2_msgs::msg::TFMessage());  // while the time is still 0
-    harness_->add<OneStep>("one_step");
-    harness_->container().run();
-    harness_.reset();
-  }).join();
-  BagReader reader(bag_);
-  const auto messages = read_all(reader);
-  ASSERT_EQ(messages.size(), 2u);
-  EXPECT_EQ(messages[0].topic, "/tf");
-  EXPECT_EQ(messages[0].timestamp_ns, kStart);
-  EXPECT_EQ(messages[1].timestamp_ns, kStart);
+  EXPECT_THAT(times_of_early_and_first<OneStep<kStart>>(), testing::ElementsAre(kStart, kStart));
+}
+
+TEST_F(Recorder, LeavesTimesAloneThatBeginAtZero) {
+  EXPECT_THAT(times_of_early_and_first<OneStep<100'000'000>>(), testing::ElementsAre(0, 100'000'000));
 }
 
 TEST_F(Recorder, IsRefusedWithABadFolderOrPattern) {
