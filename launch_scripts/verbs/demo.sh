@@ -17,8 +17,8 @@ bag lie.
   --dataset DIR   the recording (default: kitti_03, else campus_clip, else the first one found in $PANVO_DATA or
                   ../shared/data beside the checkout)
   --out DIR       a new folder for the results (default: runs/demo-1, demo-2, ...)
-  --replay        one thread, in order of stamps, the same result bit for bit every time (default: live, threads, at the
-                  recorded rate)
+  --replay        one thread, in order of stamps, the same result bit for bit every time (default: a thread for each
+                  component, as fast as they take it)
 EOT
   printf '\n'
   dataset_layouts

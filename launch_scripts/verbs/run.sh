@@ -15,7 +15,7 @@ SYSTEM is a system file, or the name of one in config/systems: `panvo run stereo
   --bag DIR       play a recorded bag
   --out DIR       leave trajectory, times and summary there
   --replay        deterministic: one thread, in order of stamps, as fast as it goes
-  --rate R        play at R times the recorded rate; 0: as fast as the components take it
+  --rate R        play at R times the recorded rate (default 0: as fast as the components take it)
   --set C.P=V     set parameter P of component C (panvo component show lists them)
   NAME:=VALUE     give an argument that the system file declares
 
