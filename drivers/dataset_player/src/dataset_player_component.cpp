@@ -80,7 +80,7 @@ class DatasetPlayerComponent final : public runtime::Component, public runtime::
 
   runtime::Context& context_;
   Dataset dataset_;
-  std::vector<Event> events_;
+  std::vector<TimelineEvent> events_;
   std::size_t next_ = 0;
   std::optional<Eye> left_, right_;
   std::optional<Camera> panorama_;
@@ -88,7 +88,7 @@ class DatasetPlayerComponent final : public runtime::Component, public runtime::
   runtime::Output<tf2_msgs::msg::TFMessage> static_transforms_;
   ImageDecoder decoder_;
   bool is_placed_ = false;  ///< the static transforms are out
-  Event::Kind step_kind_ = Event::Kind::kStereo;
+  TimelineEvent::Kind step_kind_ = TimelineEvent::Kind::kStereo;
   std::uint64_t steps_done_ = 0, steps_total_ = 0;
   std::uint64_t unreadable_ = 0;
 };
@@ -120,9 +120,9 @@ void DatasetPlayerComponent::open(const Parameters& parameters) {
                              dataset_.panorama->height});
   }
   if (!dataset_.ground_truth.empty()) ground_truth_.emplace(context_.output(topics::kGroundTruth));
-  step_kind_ = left_ ? Event::Kind::kStereo : Event::Kind::kPanorama;
-  steps_total_ = static_cast<std::uint64_t>(
-      std::count_if(events_.begin(), events_.end(), [this](const Event& event) { return event.kind == step_kind_; }));
+  step_kind_ = left_ ? TimelineEvent::Kind::kStereo : TimelineEvent::Kind::kPanorama;
+  steps_total_ = static_cast<std::uint64_t>(std::count_if(
+      events_.begin(), events_.end(), [this](const TimelineEvent& event) { return event.kind == step_kind_; }));
 }
 
 void DatasetPlayerComponent::open_stereo(const StereoRecording& stereo, Colour colour) {
@@ -168,13 +168,13 @@ void DatasetPlayerComponent::emit() {
   for (; next_ < events_.size() && events_[next_].stamp_ns == stamp_ns; ++next_) {
     const auto& [stamp, kind, index] = events_[next_];
     switch (kind) {
-      case Event::Kind::kGroundTruth:
+      case TimelineEvent::Kind::kGroundTruth:
         publish_ground_truth(dataset_.ground_truth[index]);
         break;
-      case Event::Kind::kStereo:
+      case TimelineEvent::Kind::kStereo:
         publish_stereo(dataset_.stereo->frames[index]);
         break;
-      case Event::Kind::kPanorama:
+      case TimelineEvent::Kind::kPanorama:
         publish_panorama(dataset_.panorama->frames[index]);
         break;
     }

@@ -9,17 +9,19 @@
 
 namespace panvo::dataset_player {
 
-std::vector<Event> timeline(const Dataset& dataset, const Selection& selection) {
-  std::vector<Event> images;
+std::vector<TimelineEvent> timeline(const Dataset& dataset, const Selection& selection) {
+  std::vector<TimelineEvent> images;
   if (dataset.stereo && selection.stereo) {
     const auto& frames = dataset.stereo->frames;
-    for (std::size_t i = 0; i < frames.size(); ++i) images.push_back({frames[i].stamp_ns, Event::Kind::kStereo, i});
+    for (std::size_t i = 0; i < frames.size(); ++i)
+      images.push_back({frames[i].stamp_ns, TimelineEvent::Kind::kStereo, i});
   }
   if (dataset.panorama && selection.panorama) {
     const auto& frames = dataset.panorama->frames;
-    for (std::size_t i = 0; i < frames.size(); ++i) images.push_back({frames[i].stamp_ns, Event::Kind::kPanorama, i});
+    for (std::size_t i = 0; i < frames.size(); ++i)
+      images.push_back({frames[i].stamp_ns, TimelineEvent::Kind::kPanorama, i});
   }
-  const auto earlier = [](const Event& a, const Event& b) {
+  const auto earlier = [](const TimelineEvent& a, const TimelineEvent& b) {
     return std::tie(a.stamp_ns, a.kind) < std::tie(b.stamp_ns, b.kind);
   };
   std::sort(images.begin(), images.end(), earlier);
@@ -32,7 +34,8 @@ std::vector<Event> timeline(const Dataset& dataset, const Selection& selection) 
   const auto begin_ns = images.front().stamp_ns + std::llround(selection.start_s * 1e9);
   const auto end_ns =
       selection.duration_s > 0.0 ? begin_ns + std::llround(selection.duration_s * 1e9) : images.back().stamp_ns;
-  std::erase_if(images, [&](const Event& event) { return event.stamp_ns < begin_ns || event.stamp_ns > end_ns; });
+  std::erase_if(images,
+                [&](const TimelineEvent& event) { return event.stamp_ns < begin_ns || event.stamp_ns > end_ns; });
   if (images.empty()) {
     throw DatasetError(fmt::format(
         "{}: no image is left between start_s = {} and the end of what is to be played; the recording lasts {} s",
@@ -46,11 +49,12 @@ std::vector<Event> timeline(const Dataset& dataset, const Selection& selection) 
   if (first != poses.begin()) --first;
   auto last = std::lower_bound(poses.begin(), poses.end(), images.back().stamp_ns, stamp_before);
   if (last != poses.end()) ++last;
-  std::vector<Event> events;
+  std::vector<TimelineEvent> events;
   for (auto pose = first; pose < last; ++pose) {
-    events.push_back({pose->stamp_ns, Event::Kind::kGroundTruth, static_cast<std::size_t>(pose - poses.begin())});
+    events.push_back(
+        {pose->stamp_ns, TimelineEvent::Kind::kGroundTruth, static_cast<std::size_t>(pose - poses.begin())});
   }
-  std::vector<Event> merged(events.size() + images.size());
+  std::vector<TimelineEvent> merged(events.size() + images.size());
   std::merge(events.begin(), events.end(), images.begin(), images.end(), merged.begin(), earlier);
   return merged;
 }

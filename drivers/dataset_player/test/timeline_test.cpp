@@ -8,7 +8,7 @@ namespace {
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
-using Kind = Event::Kind;
+using Kind = TimelineEvent::Kind;
 
 MATCHER_P3(IsEvent, stamp_s, kind, index, "") {
   return arg.stamp_ns == static_cast<std::int64_t>(stamp_s * 1e9) && arg.kind == kind &&

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -74,10 +75,10 @@ class WrittenDataset : public ::testing::Test {
       std::string list = "#timestamp [ns],filename\r\n";
       for (int i = 0; i < frames; ++i) {
         const auto stamp = std::to_string(1'000'000'000 + i * 50'000'000 + (camera == "cam1" ? right_delay_ns : 0));
-        list += stamp + "," + stamp + ".png\r\n";
-        write_image("mav0/" + camera + "/data/" + stamp + ".png");
+        list += fmt::format("{0},{0}.png\r\n", stamp);
+        write_image(fmt::format("mav0/{}/data/{}.png", camera, stamp));
       }
-      write("mav0/" + camera + "/data.csv", list);
+      write(fmt::format("mav0/{}/data.csv", camera), list);
     }
   }
 

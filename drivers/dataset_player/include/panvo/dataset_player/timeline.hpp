@@ -9,7 +9,7 @@
 namespace panvo::dataset_player {
 
 /// Something of a data set that is to be published, and when.
-struct Event {
+struct TimelineEvent {
   enum class Kind { kGroundTruth, kStereo, kPanorama };
   std::int64_t stamp_ns = 0;
   Kind kind = Kind::kStereo;
@@ -27,6 +27,6 @@ struct Selection {
 /// The selected images in order of time, and the ground truth from the last pose before the first of them to the
 /// first pose after the last. At equal stamps ground truth comes first, then stereo. Throws DatasetError when no
 /// image is left.
-std::vector<Event> timeline(const Dataset& dataset, const Selection& selection);
+std::vector<TimelineEvent> timeline(const Dataset& dataset, const Selection& selection);
 
 }  // namespace panvo::dataset_player
