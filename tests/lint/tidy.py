@@ -14,12 +14,13 @@ import re
 import shlex
 import subprocess
 import sys
+import threading
 
-UNKNOWN_TO_CLANG = {"-fno-gnu-unique"}
+WITHOUT_MEANING = re.compile(r"-fno-gnu-unique|-f(?:PIC|PIE)|-O\d|-g|-W.*|-D\w+_EXPORTS")  # for the check, or for clang at all
 # At column 0: a type, or a function or constant whose name is not qualified (Class::member clashes with nothing).
 FILE_SCOPE_TYPE = re.compile(r"^(?:struct|class|enum(?: class)?|union)\s+(\w+)", re.MULTILINE)
 FILE_SCOPE_NAME = re.compile(r"^(?!namespace|using|template|class|struct|enum|#|//|TEST|return|extern)\w[\w:<>,&* ]*?[ &*](\w+)\s*[(={\[]", re.MULTILINE)
-LARGEST_UNIT = 12  # sources; more would only make the last unit the one that all wait for
+LARGEST_UNIT = 30  # sources; more would only make the last unit the one that all wait for
 
 
 def commands(build):
@@ -28,14 +29,14 @@ def commands(build):
     for entry in json.loads((build / "compile_commands.json").read_text(encoding="utf-8")):
         words = shlex.split(entry["command"])
         while words and not re.search(r"(^|/)(c\+\+|g\+\+|clang\+\+)[\w.-]*$", words[0]):
-            words.pop(0)
-        flags, skip = [], False
-        for word in words[1:]:
-            if skip:
-                skip = False
-            elif word == "-o":
-                skip = True
-            elif word != "-c" and word not in UNKNOWN_TO_CLANG and word != entry["file"]:
+            words.pop(0)  # ccache
+        flags, rest = [], iter(words[1:])
+        for word in rest:
+            if word == "-o":
+                next(rest)
+            elif word == "-isystem":
+                flags.append(word + next(rest))
+            elif word != "-c" and not WITHOUT_MEANING.fullmatch(word) and word != entry["file"]:
                 flags.append(word)
         found[pathlib.Path(entry["file"])] = tuple(flags)
     return found
@@ -46,36 +47,40 @@ def file_scope_names(text):
     return set(FILE_SCOPE_TYPE.findall(text)) | set(FILE_SCOPE_NAME.findall(text))
 
 
+def is_search_path(flag):
+    return flag.startswith(("-I", "-isystem"))
+
+
 def units(sources, flags_of):
-    """Sources in lists that can be one translation unit each: the same flags, no name twice."""
+    """Sources in lists that can be one translation unit each: the same flags but for the search paths, no name twice."""
     made = []  # [flags, names, sources]
     for source in sources:
         names = file_scope_names(source.read_text(encoding="utf-8"))
+        flags = {flag for flag in flags_of[source] if not is_search_path(flag)}
         for unit in made:
-            if unit[0] == flags_of[source] and not unit[1] & names and len(unit[2]) < LARGEST_UNIT:
+            if unit[0] == flags and not unit[1] & names and len(unit[2]) < LARGEST_UNIT:
                 unit[1] |= names
                 unit[2].append(source)
                 break
         else:
-            made.append([flags_of[source], set(names), [source]])
+            made.append([flags, set(names), [source]])
     return [unit[2] for unit in made]
 
 
-def run_unit(sources, flags, folder, checks, root):
+def run_unit(sources, flags_of, folder, checks, root):
     """clang-tidy's complaints on a unit: {(file, line, column, text)}."""
-    name = "_".join([sources[0].stem, str(len(sources)), format(abs(hash(tuple(map(str, sources)))), "x")])
-    if len(sources) == 1:
-        file = sources[0]
-    else:
-        file = folder / f"{name}.cpp"
+    flags = list(dict.fromkeys(flag for source in sources for flag in flags_of[source]))
+    file = sources[0]
+    if len(sources) > 1:
+        file = folder / f"{sources[0].stem}_and_{len(sources) - 1}_{threading.get_ident()}.cpp"
         file.write_text("".join(f'#include "{source}"\n' for source in sources), encoding="utf-8")
     command = ["clang-tidy", "--quiet", f"--config-file={root / '.clang-tidy'}", *checks, str(file), "--", *flags]
     done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True, check=False)
     found = set(re.findall(r"^(/[^:\n]+):(\d+):(\d+): (?:error|warning): ([^\n]+)", done.stdout, re.MULTILINE))
     broken = [complaint for complaint in found if "clang-diagnostic-error" in complaint[3]]
-    if len(sources) > 1 and broken:
+    if len(sources) > 1 and (broken or done.returncode != 0 and not found):
         half = len(sources) // 2
-        return run_unit(sources[:half], flags, folder, checks, root) | run_unit(sources[half:], flags, folder, checks, root)
+        return run_unit(sources[:half], flags_of, folder, checks, root) | run_unit(sources[half:], flags_of, folder, checks, root)
     if done.returncode != 0 and not found:
         return {(str(file), "1", "1", f"clang-tidy failed: {done.stdout.strip()[-500:]}")}
     return found
@@ -115,7 +120,7 @@ def main():
     checks = ["--checks=-*,readability-identifier-naming"] if arguments.naming else []
     complaints = set()
     with concurrent.futures.ThreadPoolExecutor(arguments.jobs) as pool:
-        pending = [pool.submit(run_unit, unit, flags_of[unit[0]], folder, checks, root) for unit in units(sources, flags_of)]
+        pending = [pool.submit(run_unit, unit, flags_of, folder, checks, root) for unit in units(sources, flags_of)]
         for number, done in enumerate(concurrent.futures.as_completed(pending), 1):
             complaints |= done.result()
             print(f"  {number}/{len(pending)} units of {len(sources)} sources", file=sys.stderr, flush=True)
