@@ -63,7 +63,7 @@ void Console::progress(Source::Progress progress) {
     clear_progress();
     constexpr int kWidth = 30;
     const int filled = static_cast<int>(fraction * kWidth);
-    progress_line_ = "[" + std::string(filled, '#') + std::string(kWidth - filled, '.') + "] " + text;
+    progress_line_ = fmt::format("[{:#<{}}{:.<{}}] {}", "", filled, "", kWidth - filled, text);
     std::fputs(progress_line_.c_str(), stderr);
     std::fflush(stderr);
   } else if (const int tenth = static_cast<int>(fraction * 10); tenth > last_tenth_) {

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "diagnostics.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace panvo::runtime {
+namespace {
+
+using testing::HasSubstr;
+
+/// A component with one input, in replay: it does what the test pushes.
+struct Diagnosed : testing::Test {
+  ReplayOrder order;
+  Bus bus{nullptr, [](const std::string&) {}};
+  Host host{.bus = bus,
+            .replay_order = &order,
+            .log = [](LogLevel, const std::string&, const std::string&) {},
+            .seed = 1,
+            .progressed = [] {}};
+  Context::State state{host, description(), nullptr};
+  Diagnostics diagnostics;
+
+  static ComponentDescription description() {
+    ComponentDescription description;
+    description.name = "rectifier";
+    description.name_space = "/";
+    return description;
+  }
+
+  diagnostic_msgs::msg::DiagnosticStatus collect(double interval_s) {
+    const auto array = diagnostics.collect({&state}, 5'000'000'007, interval_s);
+    EXPECT_EQ(array.header().stamp().sec(), 5);
+    EXPECT_EQ(array.header().stamp().nanosec(), 7U);
+    return array.status().at(0);
+  }
+
+  static std::string value(const diagnostic_msgs::msg::DiagnosticStatus& status, const std::string& key) {
+    for (const auto& entry : status.values()) {
+      if (entry.key() == key) return entry.value();
+    }
+    return "no such key";
+  }
+
+  void handle(Port& port, int count) {
+    for (int i = 0; i < count; ++i) state.main_worker().push(port, {});
+    while (order.run_one()) {
+    }
+  }
+};
+
+TEST_F(Diagnosed, TellsTheRateSinceTheLastTimeAndTheCountsSinceTheStart) {
+  Port& port = state.main_worker().add_port("image", 5, false, [](Task&) {});
+  handle(port, 10);
+  EXPECT_EQ(value(collect(2.0), "image rate"), "5.0 Hz");
+  handle(port, 5);
+  const auto status = collect(1.0);
+  EXPECT_EQ(status.name(), "panvo: rectifier");
+  EXPECT_EQ(status.level(), 0);
+  EXPECT_EQ(value(status, "image rate"), "5.0 Hz");
+  EXPECT_THAT(value(status, "image messages"), HasSubstr("15 received, 15 handled, 0 dropped, 0 waiting"));
+  EXPECT_THAT(value(status, "image time"), HasSubstr("CPU mean"));
+}
+
+TEST_F(Diagnosed, WarnsWhileMessagesAreDroppedAndNoLonger) {
+  Port& port = state.main_worker().add_port("image", 5, false, [](Task&) {});
+  state.main_worker().count_dropped(port);
+  EXPECT_EQ(collect(1.0).level(), 1);
+  EXPECT_EQ(collect(1.0).level(), 0);
+}
+
+TEST_F(Diagnosed, IsInErrorOnceItHasStopped) {
+  Port& port = state.main_worker().add_port("image", 5, false, [](Task&) { throw std::logic_error("broken"); });
+  handle(port, 1);
+  EXPECT_EQ(collect(1.0).level(), 2);
+}
+
+}  // namespace
+}  // namespace panvo::runtime
