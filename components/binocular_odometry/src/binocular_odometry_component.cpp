@@ -24,7 +24,8 @@ struct ComponentParameters : Parameters {
     field.group(static_cast<TrackingParameters P::*>(&P::tracking), "tracking");
     field.group(static_cast<MotionParameters P::*>(&P::motion), "motion");
     field(&P::odom_frame, "odom_frame", "", "frame that the poses are in: where base_frame was at the first image");
-    field(&P::base_frame, "base_frame", "", "frame whose motion is published; /tf_static says where on it the left camera sits");
+    field(&P::base_frame, "base_frame", "",
+          "frame whose motion is published; /tf_static says where on it the left camera sits");
   }
 };
 
@@ -40,8 +41,10 @@ class BinocularOdometryComponent final : public runtime::Component {
         quality_(context.output(topics::kOdometryQuality)),
         tracked_(context.stage<TrackedFrame>("motion", 2, [this](const TrackedFrame& frame) { on_tracked(frame); })) {
     context.input(topics::kTfStatic, [this](const auto& message) { on_transforms(*message); });
-    context.input(topics::kStereoLeftCameraInfo, [this](const auto& info) { on_camera(left_, *info, topics::kStereoLeftCameraInfo.name); });
-    context.input(topics::kStereoRightCameraInfo, [this](const auto& info) { on_camera(right_, *info, topics::kStereoRightCameraInfo.name); });
+    context.input(topics::kStereoLeftCameraInfo,
+                  [this](const auto& info) { on_camera(left_, *info, topics::kStereoLeftCameraInfo.name); });
+    context.input(topics::kStereoRightCameraInfo,
+                  [this](const auto& info) { on_camera(right_, *info, topics::kStereoRightCameraInfo.name); });
     context.input_pair(topics::kStereoLeftImageRect, topics::kStereoRightImageRect,
                        [this](const auto& left, const auto& right) { on_images(*left, *right); });
   }
@@ -67,7 +70,8 @@ class BinocularOdometryComponent final : public runtime::Component {
     const auto read = conversions::to_camera(info);
     if (!read) return say_once(fmt::format("{} {}", topic, read.reason()));
     if (stages_ && !(*camera.camera == *read)) {
-      return say_once(fmt::format("{} changed while running and is ignored; restart if the camera was exchanged", topic));
+      return say_once(
+          fmt::format("{} changed while running and is ignored; restart if the camera was exchanged", topic));
     }
     camera = {info.header().frame_id(), *read};
   }
@@ -78,7 +82,8 @@ class BinocularOdometryComponent final : public runtime::Component {
     const auto right_grey = conversions::grey(right);
     if (!left_grey || !right_grey) {
       const auto& topic = left_grey ? topics::kStereoRightImageRect : topics::kStereoLeftImageRect;
-      return say_once(fmt::format("{} {}; the pair is left out", topic.name, left_grey ? right_grey.reason() : left_grey.reason()));
+      return say_once(
+          fmt::format("{} {}; the pair is left out", topic.name, left_grey ? right_grey.reason() : left_grey.reason()));
     }
     tracked_.push(stages_->tracking.track({conversions::stamp_ns(left), *left_grey, *right_grey}));
   }
@@ -97,30 +102,33 @@ class BinocularOdometryComponent final : public runtime::Component {
     // A pair that comes late has its quality, but no place in a path that has gone on.
     const bool is_late = last_stamp_ns_ && estimate.stamp_ns <= *last_stamp_ns_;
     if (is_late && !estimate.quality.reliable) return;
-    odometry_.publish(to_odometry(estimate, stages_->base_from_left, last_stamp_ns_, parameters_.odom_frame, parameters_.base_frame));
+    odometry_.publish(
+        to_odometry(estimate, stages_->base_from_left, last_stamp_ns_, parameters_.odom_frame, parameters_.base_frame));
     last_stamp_ns_ = estimate.stamp_ns;
   }
 
   /// Makes both stages once both cameras and the place of the left one are known; says what is still missing.
   bool make_stages() {
     if (!left_.camera || !right_.camera) {
-      say_once(fmt::format("images, but nothing usable on {} yet", (left_.camera ? topics::kStereoRightCameraInfo : topics::kStereoLeftCameraInfo).name));
+      say_once(fmt::format("images, but nothing usable on {} yet",
+                           (left_.camera ? topics::kStereoRightCameraInfo : topics::kStereoLeftCameraInfo).name));
       return false;
     }
     const auto stereo = conversions::to_stereo(*left_.camera, *right_.camera);
     if (!stereo) {
-      say_once(fmt::format("{} and {} are of no stereo pair: {}", topics::kStereoLeftCameraInfo.name, topics::kStereoRightCameraInfo.name,
-                           stereo.reason()));
+      say_once(fmt::format("{} and {} are of no stereo pair: {}", topics::kStereoLeftCameraInfo.name,
+                           topics::kStereoRightCameraInfo.name, stereo.reason()));
       return false;
     }
     const auto base_from_raw_left = transforms_.lookup(parameters_.base_frame, left_.frame_id);
     if (!base_from_raw_left) {
-      say_once(fmt::format("{} has no chain from {} to {} yet: publish where the left camera sits on the vehicle", topics::kTfStatic.name,
-                           parameters_.base_frame, left_.frame_id));
+      say_once(fmt::format("{} has no chain from {} to {} yet: publish where the left camera sits on the vehicle",
+                           topics::kTfStatic.name, parameters_.base_frame, left_.frame_id));
       return false;
     }
     const Eigen::Isometry3d raw_from_rectified(left_.camera->rectified_from_raw.transpose());
-    stages_.emplace(Stages{TrackingStage(*stereo, parameters_.tracking, &timer_), MotionStage(*stereo, parameters_.motion, &timer_),
+    stages_.emplace(Stages{TrackingStage(*stereo, parameters_.tracking, &timer_),
+                           MotionStage(*stereo, parameters_.motion, &timer_),
                            *base_from_raw_left * raw_from_rectified});
     return true;
   }

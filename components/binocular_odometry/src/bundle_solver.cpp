@@ -31,7 +31,8 @@ class Solver {
         loss_(options.loss_scale),
         free_frames_(static_cast<int>(problem.left_from_world.size()) - problem.fixed_frames) {
     first_observation_.assign(problem.points.size() + 1, 0);
-    for (const auto& observation : problem.observations) ++first_observation_[static_cast<size_t>(observation.point) + 1];
+    for (const auto& observation : problem.observations)
+      ++first_observation_[static_cast<size_t>(observation.point) + 1];
     for (size_t i = 0; i < problem.points.size(); ++i) first_observation_[i + 1] += first_observation_[i];
   }
 
@@ -77,10 +78,10 @@ class Solver {
   double cost(const StateOrProblem& state) const {
     double sum = problem_.offset_information * std::pow(state.disparity_offset_px - problem_.expected_offset_px, 2);
     for (const auto& observation : problem_.observations) {
-      const double square =
-          whitened_residual(stereo_, state.left_from_world[static_cast<size_t>(observation.frame)],
-                            state.points[static_cast<size_t>(observation.point)], observation, state.disparity_offset_px)
-              .squaredNorm();
+      const double square = whitened_residual(stereo_, state.left_from_world[static_cast<size_t>(observation.frame)],
+                                              state.points[static_cast<size_t>(observation.point)], observation,
+                                              state.disparity_offset_px)
+                                .squaredNorm();
       if (!std::isfinite(square)) return std::numeric_limits<double>::infinity();
       sum += loss_.cost(square);
     }
@@ -108,7 +109,8 @@ class Solver {
     const BundlePoint& point = problem_.points[static_cast<size_t>(observation.point)];
     cross_[i].setZero();
     const auto prediction = predict_with_jacobians(
-        stereo_, problem_.left_from_world[static_cast<size_t>(observation.frame)] * point.world_from_anchor, point.inverse_depth);
+        stereo_, problem_.left_from_world[static_cast<size_t>(observation.frame)] * point.world_from_anchor,
+        point.inverse_depth);
     if (!prediction) return;
     const Eigen::Vector3d& whitening = observation.inverse_sigma;
     Eigen::Vector3d residual = prediction->pixel - observation.pixel;

@@ -30,7 +30,7 @@ struct BundleProblem {
   std::vector<Eigen::Isometry3d> left_from_world;  ///< the first `fixed_frames` stay as they are
   int fixed_frames = 1;
   std::vector<BundlePoint> points;
-  std::vector<BundleObservation> observations;     ///< ordered by point
+  std::vector<BundleObservation> observations;  ///< ordered by point
 
   /// What the calibration leaves over, mostly a small turn of one camera against the other: every measured disparity is this
   /// much too large. Estimated along with the rest; near and far points that move past tell it from the motion.
@@ -41,16 +41,18 @@ struct BundleProblem {
 
 struct BundleOptions {
   int max_iterations = 8;
-  double loss_scale = 2.0;               ///< of Cauchy's loss, in standard deviations
-  double smallest_improvement = 1e-4;    ///< relative decrease of the cost that is worth another iteration
+  double loss_scale = 2.0;             ///< of Cauchy's loss, in standard deviations
+  double smallest_improvement = 1e-4;  ///< relative decrease of the cost that is worth another iteration
 };
 
 struct BundleSummary {
   double initial_cost = 0.0;
   double final_cost = 0.0;
   int iterations = 0;
-  double variance = 0.0;       ///< robust mean square of the whitened residuals per degree of freedom: 1 when sigmas are right
-  Eigen::MatrixXd covariance;  ///< 6 n x 6 n, of the n free poses, each as exp(error) * left_from_world; not scaled by variance
+  double variance =
+      0.0;  ///< robust mean square of the whitened residuals per degree of freedom: 1 when sigmas are right
+  Eigen::MatrixXd
+      covariance;  ///< 6 n x 6 n, of the n free poses, each as exp(error) * left_from_world; not scaled by variance
 };
 
 /// Whitened residual of an observation; squared norm infinite for a point that is not in front.

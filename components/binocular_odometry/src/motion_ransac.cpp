@@ -16,8 +16,8 @@
 namespace panvo::binocular_odometry {
 namespace {
 
-constexpr double kConfidence = 0.999;      // of having drawn one triple without an outlier
-constexpr double kSmallestDisparity = 1.0; // px: farther points are too uncertain in depth to be aligned in space
+constexpr double kConfidence = 0.999;       // of having drawn one triple without an outlier
+constexpr double kSmallestDisparity = 1.0;  // px: farther points are too uncertain in depth to be aligned in space
 constexpr int kPolishIterations = 3;
 
 class Consensus {
@@ -28,7 +28,8 @@ class Consensus {
       points_.push_back(vision::inverse_depth_point(stereo, pairs[i].previous));
       if (!pairs[i].has_current_disparity || pairs[i].current.z() < kSmallestDisparity) continue;
       if (pairs[i].previous.z() < kSmallestDisparity) continue;
-      near_.push_back({*vision::triangulate(stereo, pairs[i].previous), *vision::triangulate(stereo, pairs[i].current)});
+      near_.push_back(
+          {*vision::triangulate(stereo, pairs[i].previous), *vision::triangulate(stereo, pairs[i].current)});
     }
   }
 

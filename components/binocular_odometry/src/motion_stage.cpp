@@ -35,7 +35,8 @@ Matrix6d previous_from_current_covariance(const MeasuredMotion& motion) {
 
 class MotionStage::Implementation {
  public:
-  Implementation(const vision::RectifiedStereo& stereo, const MotionParameters& parameters, vision::StageObserver* observer)
+  Implementation(const vision::RectifiedStereo& stereo, const MotionParameters& parameters,
+                 vision::StageObserver* observer)
       : stereo_(stereo), parameters_(parameters), observer_(observer), adjuster_(stereo, parameters) {}
 
   OdometryEstimate estimate(const TrackedFrame& frame) {
@@ -108,12 +109,14 @@ class MotionStage::Implementation {
                               static_cast<std::uint32_t>(parameters_.seed)});
     }();
     quality.inliers = consensus ? consensus->inliers : 0;
-    quality.inlier_ratio = pairs.points.empty() ? 0.0 : static_cast<double>(quality.inliers) / static_cast<double>(pairs.points.size());
+    quality.inlier_ratio =
+        pairs.points.empty() ? 0.0 : static_cast<double>(quality.inliers) / static_cast<double>(pairs.points.size());
     std::ostringstream reason;
     if (quality.inliers < parameters_.min_inliers) {
       reason << quality.inliers << " inliers of " << parameters_.min_inliers << " needed";
     } else if (quality.inlier_ratio < parameters_.min_inlier_ratio) {
-      reason << "inliers are " << quality.inlier_ratio << " of the candidates, " << parameters_.min_inlier_ratio << " needed";
+      reason << "inliers are " << quality.inlier_ratio << " of the candidates, " << parameters_.min_inlier_ratio
+             << " needed";
     }
     quality.reason = reason.str();
     if (!quality.reason.empty()) return std::nullopt;
@@ -152,7 +155,8 @@ class MotionStage::Implementation {
     remember(frame);
   }
 
-  void follow(const TrackedFrame& frame, const MeasuredMotion& motion, std::int64_t since_good_ns, OdometryEstimate& result) {
+  void follow(const TrackedFrame& frame, const MeasuredMotion& motion, std::int64_t since_good_ns,
+              OdometryEstimate& result) {
     head_ = {motion.current_from_previous * reference_left_from_odom_, frame.observations};
     std::optional<MeasuredMotion> since_keyframe;
     bool becomes_keyframe = true;
@@ -169,11 +173,12 @@ class MotionStage::Implementation {
     if (since_keyframe) {
       const Eigen::Isometry3d keyframe_from_current = since_keyframe->current_from_previous.inverse();
       result.odom_from_left_covariance = vision::compose_covariance(
-          adjuster_.last_keyframe().left_from_odom.inverse(), keyframe_covariance_,
-          keyframe_from_current, previous_from_current_covariance(*since_keyframe) + model_error(keyframe_from_current, kPersistence_m));
+          adjuster_.last_keyframe().left_from_odom.inverse(), keyframe_covariance_, keyframe_from_current,
+          previous_from_current_covariance(*since_keyframe) + model_error(keyframe_from_current, kPersistence_m));
     } else {
-      result.odom_from_left_covariance = vision::compose_covariance(
-          published_odom_from_left_, published_covariance_, result.previous_from_current, result.previous_from_current_covariance);
+      result.odom_from_left_covariance =
+          vision::compose_covariance(published_odom_from_left_, published_covariance_, result.previous_from_current,
+                                     result.previous_from_current_covariance);
     }
     if (!since_keyframe || becomes_keyframe) {
       if (!since_keyframe) adjuster_.clear();
@@ -192,7 +197,8 @@ class MotionStage::Implementation {
     const double angle = vision::so3_log(a_from_b.linear()).norm();
     vision::Vector6d sigma;
     sigma << Eigen::Vector3d::Constant(parameters_.motion_error_ratio * distance),
-        Eigen::Vector3d::Constant(parameters_.motion_error_ratio * angle + parameters_.rotation_error_rad_per_m * distance);
+        Eigen::Vector3d::Constant(parameters_.motion_error_ratio * angle +
+                                  parameters_.rotation_error_rad_per_m * distance);
     return sigma.cwiseAbs2().asDiagonal();
   }
 
@@ -205,7 +211,8 @@ class MotionStage::Implementation {
       if (now == head_.observations.end()) break;
       if (now->track_id == then.track_id) motion_px.push_back((now->pixel - then.pixel).head<2>().norm());
     }
-    if (static_cast<double>(motion_px.size()) < parameters_.keyframe_shared_ratio * static_cast<double>(seen.size())) return true;
+    if (static_cast<double>(motion_px.size()) < parameters_.keyframe_shared_ratio * static_cast<double>(seen.size()))
+      return true;
     const auto median = motion_px.begin() + static_cast<std::ptrdiff_t>(motion_px.size() / 2);
     std::nth_element(motion_px.begin(), median, motion_px.end());
     return *median > parameters_.keyframe_parallax_px;

@@ -17,7 +17,8 @@ struct UncertainPose {
 };
 
 /// A motion of the camera as the same motion of the vehicle it is fixed to.
-UncertainPose of_base(const Eigen::Isometry3d& base_from_left, const Eigen::Isometry3d& motion_of_left, const Matrix6d& covariance) {
+UncertainPose of_base(const Eigen::Isometry3d& base_from_left, const Eigen::Isometry3d& motion_of_left,
+                      const Matrix6d& covariance) {
   const Matrix6d exact = Matrix6d::Zero();
   const Eigen::Isometry3d base_from_moved_left = base_from_left * motion_of_left;
   const Matrix6d moved_covariance = vision::compose_covariance(base_from_left, exact, motion_of_left, covariance);
@@ -36,19 +37,23 @@ nav_msgs::msg::Odometry to_odometry(const OdometryEstimate& estimate, const Eige
   odometry.header().frame_id(odom_frame);
   odometry.child_frame_id(base_frame);
 
-  const UncertainPose odom_from_base = of_base(base_from_left, estimate.odom_from_left, estimate.odom_from_left_covariance);
+  const UncertainPose odom_from_base =
+      of_base(base_from_left, estimate.odom_from_left, estimate.odom_from_left_covariance);
   odometry.pose().pose(conversions::to_pose(odom_from_base.pose));
   odometry.pose().covariance(conversions::to_array(odom_from_base.covariance));
 
-  const double interval_s = previous_stamp_ns ? static_cast<double>(estimate.stamp_ns - *previous_stamp_ns) * 1e-9 : 0.0;
+  const double interval_s =
+      previous_stamp_ns ? static_cast<double>(estimate.stamp_ns - *previous_stamp_ns) * 1e-9 : 0.0;
   if (interval_s <= 0.0) return odometry;
-  const UncertainPose motion = of_base(base_from_left, estimate.previous_from_current, estimate.previous_from_current_covariance);
+  const UncertainPose motion =
+      of_base(base_from_left, estimate.previous_from_current, estimate.previous_from_current_covariance);
   const Vector6d twist = vision::se3_log(motion.pose) / interval_s;
   // The covariance comes in the axes of where base_frame was; the twist is in those of where it is.
   Matrix6d current_from_previous = Matrix6d::Zero();
   current_from_previous.topLeftCorner<3, 3>() = motion.pose.linear().transpose();
   current_from_previous.bottomRightCorner<3, 3>() = motion.pose.linear().transpose();
-  const Matrix6d covariance = current_from_previous * motion.covariance * current_from_previous.transpose() / (interval_s * interval_s);
+  const Matrix6d covariance =
+      current_from_previous * motion.covariance * current_from_previous.transpose() / (interval_s * interval_s);
   auto& message = odometry.twist().twist();
   message.linear().x(twist[0]);
   message.linear().y(twist[1]);

@@ -14,7 +14,8 @@ namespace panvo::binocular_odometry {
 /// The estimate as ROS has it (REP 103, REP 105): pose of `base_frame` in `odom_frame`, which is where base_frame was at the first image; twist in
 /// base_frame's axes, the mean since the estimate at `previous_stamp_ns` (nullopt: this is the first, which stands still). Covariances are turned along.
 nav_msgs::msg::Odometry to_odometry(const OdometryEstimate& estimate, const Eigen::Isometry3d& base_from_left,
-                                    std::optional<std::int64_t> previous_stamp_ns, const std::string& odom_frame, const std::string& base_frame);
+                                    std::optional<std::int64_t> previous_stamp_ns, const std::string& odom_frame,
+                                    const std::string& base_frame);
 
 panvo_msgs::msg::OdometryQuality to_quality(const OdometryEstimate& estimate, const std::string& base_frame);
 

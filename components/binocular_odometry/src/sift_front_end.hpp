@@ -21,7 +21,7 @@ class SiftFrontEnd final : public FrontEnd {
  private:
   cv::Ptr<cv::SIFT> detector_;
   double radius_px_ = 0.0;
-  std::vector<Eigen::Vector2d> pixels_;   // of the features of this frame, full size
+  std::vector<Eigen::Vector2d> pixels_;  // of the features of this frame, full size
   std::vector<float> responses_;
   cv::Mat descriptors_;
 };

@@ -18,19 +18,19 @@ struct Track {
   std::int64_t id = 0;
   std::shared_ptr<const vision::ImagePyramid> host;  ///< left image of the host frame
   Eigen::Vector2d host_pixel;
-  Eigen::Vector3d host_plane;              ///< n with n . X = 1 around the point, in the host's left frame
-  Eigen::Isometry3d guide_from_host;       ///< the tracking stage's own dead reckoning
-  Eigen::Vector2d gradient;                ///< disparity gradient expected in the last frame
-  Observation seen;                        ///< in the last frame
-  cv::Mat descriptor;                      ///< of a described feature; else empty
+  Eigen::Vector3d host_plane;         ///< n with n . X = 1 around the point, in the host's left frame
+  Eigen::Isometry3d guide_from_host;  ///< the tracking stage's own dead reckoning
+  Eigen::Vector2d gradient;           ///< disparity gradient expected in the last frame
+  Observation seen;                   ///< in the last frame
+  cv::Mat descriptor;                 ///< of a described feature; else empty
 };
 
 /// Where a track's patch is expected in another image, and how it is warped there.
 struct ExpectedPatch {
   Eigen::Vector2d pixel;
-  Eigen::Matrix2d current_from_host;       ///< of offsets from the centre
+  Eigen::Matrix2d current_from_host;  ///< of offsets from the centre
   double disparity_px = 0.0;
-  Eigen::Vector2d gradient;                ///< of the disparity there
+  Eigen::Vector2d gradient;  ///< of the disparity there
 };
 
 /// By the plane around the point and the motion since the host frame; nullopt when the point is behind, seen from the

@@ -23,24 +23,27 @@ namespace {
 using vision::PatchTemplate;
 using vision::Stage;
 
-constexpr double kReachPerLevel_px = 6.0;      // half a patch: farther, and another structure would be locked on
-constexpr size_t kScouts = 60;                 // as many as a coarse motion needs, with a margin for those that go astray
-constexpr double kAstray_px = 3.0;             // off the coarse motion: looked for again where that motion has it
-constexpr double kFarOff_px = 6.0;             // off it still: not a point of the static scene
-constexpr double kFarthestDisparity_px = -0.5; // at infinity, give or take the error of a match
-constexpr double kLargestZoom = 1.5;           // of a patch against its host, before a new host is taken
-constexpr double kCrowded_px = 8;              // nearer tracks see the same patch
-constexpr double kNoiseFloor_px = 0.15;        // interpolation, calibration, surfaces that are not plane
-constexpr int kGuideInliers = 8;               // for a coarse motion to be worth following
-constexpr double kEnough = 0.9;                // of the features wanted: until then, no new ones are sought
-constexpr double kGuideRatio = 0.4;            // of the candidates
+constexpr double kReachPerLevel_px = 6.0;  // half a patch: farther, and another structure would be locked on
+constexpr size_t kScouts = 60;             // as many as a coarse motion needs, with a margin for those that go astray
+constexpr double kAstray_px = 3.0;         // off the coarse motion: looked for again where that motion has it
+constexpr double kFarOff_px = 6.0;         // off it still: not a point of the static scene
+constexpr double kFarthestDisparity_px = -0.5;  // at infinity, give or take the error of a match
+constexpr double kLargestZoom = 1.5;            // of a patch against its host, before a new host is taken
+constexpr double kCrowded_px = 8;               // nearer tracks see the same patch
+constexpr double kNoiseFloor_px = 0.15;         // interpolation, calibration, surfaces that are not plane
+constexpr int kGuideInliers = 8;                // for a coarse motion to be worth following
+constexpr double kEnough = 0.9;                 // of the features wanted: until then, no new ones are sought
+constexpr double kGuideRatio = 0.4;             // of the candidates
 constexpr size_t kSwapSamples = 80;
 constexpr int kSwapMatches = 20;
-constexpr double kFewMatches = 0.4;            // of the features looked for in the right image: something is wrong
+constexpr double kFewMatches = 0.4;  // of the features looked for in the right image: something is wrong
 
-std::string size_text(const cv::Mat& image) { return std::to_string(image.cols) + " x " + std::to_string(image.rows) + " px"; }
+std::string size_text(const cv::Mat& image) {
+  return std::to_string(image.cols) + " x " + std::to_string(image.rows) + " px";
+}
 
-vision::StereoMatcher::Range disparity_range(const vision::RectifiedStereo& stereo, const TrackingParameters& parameters) {
+vision::StereoMatcher::Range disparity_range(const vision::RectifiedStereo& stereo,
+                                             const TrackingParameters& parameters) {
   return {kFarthestDisparity_px, stereo.camera.fx / parameters.nearest_depth_baselines};
 }
 
@@ -50,15 +53,16 @@ vision::StereoMatcher::Range mirrored(vision::StereoMatcher::Range range) { retu
 
 class TrackingStage::Implementation {
  public:
-  Implementation(const vision::RectifiedStereo& stereo, const TrackingParameters& parameters, vision::StageObserver* observer)
+  Implementation(const vision::RectifiedStereo& stereo, const TrackingParameters& parameters,
+                 vision::StageObserver* observer)
       : stereo_(stereo),
         parameters_(parameters),
         observer_(observer),
         matcher_(disparity_range(stereo, parameters), parameters.smallest_correlation),
         swapped_matcher_(mirrored(disparity_range(stereo, parameters)), parameters.smallest_correlation),
         front_end_(make_front_end(parameters)),
-        cell_px_(static_cast<int>(std::ceil(std::sqrt(static_cast<double>(stereo.camera.width) * stereo.camera.height /
-                                                      parameters.max_features)))) {}
+        cell_px_(static_cast<int>(std::ceil(
+            std::sqrt(static_cast<double>(stereo.camera.width) * stereo.camera.height / parameters.max_features)))) {}
 
   TrackedFrame track(const StereoFrame& frame) {
     TrackedFrame result;
@@ -146,7 +150,8 @@ class TrackingStage::Implementation {
     others_.clear();
     for (size_t i = 0; i < tracks_.size(); ++i) {
       Track track = tracks_[i];
-      const auto expected = i % stride == 0 ? expect(stereo_, track, current_from_guide * track.guide_from_host) : std::nullopt;
+      const auto expected =
+          i % stride == 0 ? expect(stereo_, track, current_from_guide * track.guide_from_host) : std::nullopt;
       const auto where = expected ? front_end_->match(track, expected->pixel) : std::nullopt;
       if (where && align(track, *expected, *where)) {
         found.push_back(std::move(track));
@@ -165,8 +170,9 @@ class TrackingStage::Implementation {
     for (int level = std::min(where.level, left_->levels() - 1); level >= 0; --level) {
       const double scale = 1 << level;
       const auto patch = PatchTemplate::sample((*track.host)[level], track.host_pixel / scale, host_from_current);
-      const auto found = patch ? patch->align((*left_)[level], pixel / scale, PatchTemplate::Search::kPlane, kReachPerLevel_px)
-                               : std::nullopt;
+      const auto found =
+          patch ? patch->align((*left_)[level], pixel / scale, PatchTemplate::Search::kPlane, kReachPerLevel_px)
+                : std::nullopt;
       if (found) pixel = found->position * scale;
       if (level > 0) continue;
       if (!found || found->correlation < parameters_.smallest_correlation) return false;
@@ -255,7 +261,8 @@ class TrackingStage::Implementation {
       const auto expected = expect(stereo_, track, current_from_guide * track.guide_from_host);
       const double zoom = expected ? std::sqrt(expected->current_from_host.determinant()) : 0.0;
       if (zoom < kLargestZoom && zoom > 1.0 / kLargestZoom) continue;
-      const auto match = matcher_.measure(*left_, right_, track.seen.pixel.head<2>(), track.seen.pixel.z(), track.gradient);
+      const auto match =
+          matcher_.measure(*left_, right_, track.seen.pixel.head<2>(), track.seen.pixel.z(), track.gradient);
       if (match) host_here(track, *match);
     }
   }
@@ -293,7 +300,8 @@ class TrackingStage::Implementation {
   // Left and right exchanged: features match, but to the wrong side.
   std::string check_for_swap(const std::vector<Track>& tracks) const {
     const Stage stage(observer_, "check_for_swap");
-    const auto matched = std::count_if(tracks.begin(), tracks.end(), [](const Track& t) { return t.seen.has_disparity; });
+    const auto matched =
+        std::count_if(tracks.begin(), tracks.end(), [](const Track& t) { return t.seen.has_disparity; });
     const auto tried = static_cast<double>(attempts_) + static_cast<double>(tracks_.size());
     if (static_cast<double>(matched) > kFewMatches * tried) return {};
     int samples = 0, right_way = 0, wrong_way = 0;

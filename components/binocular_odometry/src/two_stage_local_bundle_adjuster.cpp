@@ -9,9 +9,9 @@
 namespace panvo::binocular_odometry {
 namespace {
 
-constexpr double kContradiction2 = 25.0;  // whitened squared error, five standard deviations
+constexpr double kContradiction2 = 25.0;   // whitened squared error, five standard deviations
 constexpr double kLargestOffset_px = 0.5;  // more is no remainder, but another calibration
-constexpr int kFewestShared = 10;         // points that tie the head to the window
+constexpr int kFewestShared = 10;          // points that tie the head to the window
 
 Eigen::Vector3d inverse_sigma(const Observation& seen) {
   return {1.0 / seen.sigma_px, 1.0 / seen.sigma_px, seen.has_disparity ? 1.0 / seen.sigma_disparity_px : 0.0};
@@ -24,9 +24,9 @@ BundleObservation bundle_observation(const Observation& seen, size_t frame, size
 double root_mean_square_px(const vision::RectifiedStereo& stereo, const BundleProblem& problem) {
   double sum = 0.0, count = 0.0;
   for (const auto& observation : problem.observations) {
-    const Eigen::Vector3d whitened =
-        whitened_residual(stereo, problem.left_from_world[static_cast<size_t>(observation.frame)],
-                          problem.points[static_cast<size_t>(observation.point)], observation, problem.disparity_offset_px);
+    const Eigen::Vector3d whitened = whitened_residual(
+        stereo, problem.left_from_world[static_cast<size_t>(observation.frame)],
+        problem.points[static_cast<size_t>(observation.point)], observation, problem.disparity_offset_px);
     if (whitened.squaredNorm() > kContradiction2) continue;
     sum += whitened.head<2>().cwiseQuotient(observation.inverse_sigma.head<2>()).squaredNorm();
     count += 1.0;
@@ -87,7 +87,8 @@ BundleProblem TwoStageLocalBundleAdjuster::assemble(const Keyframe& head, std::v
       while (next[frame] < seen.size() && seen[next[frame]].track_id < id) ++next[frame];
       if (next[frame] == seen.size() || seen[next[frame]].track_id != id) continue;
       const auto observation = bundle_observation(seen[next[frame]], frame, ids.size());
-      if (!std::isfinite(whitened_residual(stereo_, problem.left_from_world[frame], window_point.point, observation).squaredNorm())) {
+      if (!std::isfinite(whitened_residual(stereo_, problem.left_from_world[frame], window_point.point, observation)
+                             .squaredNorm())) {
         continue;
       }
       problem.observations.push_back(observation);
@@ -130,8 +131,9 @@ std::optional<MeasuredMotion> TwoStageLocalBundleAdjuster::refine_window(Keyfram
                               .squaredNorm();
     if (square < kContradiction2 * std::max(1.0, summary.variance)) continue;
     const std::int64_t id = ids[static_cast<size_t>(observation.point)];
-    auto& observations = observation.frame == head_frame ? head.observations
-                                                         : keyframes_[static_cast<size_t>(observation.frame)].observations;
+    auto& observations = observation.frame == head_frame
+                             ? head.observations
+                             : keyframes_[static_cast<size_t>(observation.frame)].observations;
     std::erase_if(observations, [id](const Observation& seen) { return seen.track_id == id; });
     WindowPoint& point = points_.at(id);
     if (++point.contradictions >= 2) point.is_refuted = true;
@@ -148,8 +150,8 @@ std::optional<MeasuredMotion> TwoStageLocalBundleAdjuster::refine_window(Keyfram
     if (size >= 12) {
       const vision::Matrix6d last_last = summary.covariance.block<6, 6>(size - 12, size - 12);
       const vision::Matrix6d head_last = summary.covariance.block<6, 6>(size - 6, size - 12);
-      motion.covariance += by_last * last_last * by_last.transpose() + head_last * by_last.transpose() +
-                           by_last * head_last.transpose();
+      motion.covariance +=
+          by_last * last_last * by_last.transpose() + head_last * by_last.transpose() + by_last * head_last.transpose();
     }
     motion.covariance *= summary.variance;
   }
@@ -160,8 +162,7 @@ void TwoStageLocalBundleAdjuster::add_keyframe(Keyframe frame) {
   const Eigen::Isometry3d odom_from_left = frame.left_from_odom.inverse();
   for (const Observation& seen : frame.observations) {
     if (!seen.has_disparity) continue;
-    points_.try_emplace(seen.track_id,
-                        WindowPoint{{odom_from_left, point_of(seen)}});
+    points_.try_emplace(seen.track_id, WindowPoint{{odom_from_left, point_of(seen)}});
   }
   keyframes_.push_back(std::move(frame));
   if (static_cast<int>(keyframes_.size()) > parameters_.window_keyframes) keyframes_.pop_front();

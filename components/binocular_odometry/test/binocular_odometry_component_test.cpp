@@ -35,9 +35,11 @@ class BinocularOdometryComponent : public ::testing::Test {
     calibration.left.pinhole = calibration.right.pinhole = SyntheticScene::stereo().camera;
     calibration.right_from_left.translation().x() = -SyntheticScene::stereo().baseline_m;
     harness_.publish(topics::kStereoLeftCameraInfo,
-                     conversions::to_camera_info(conversions::left_camera(calibration, SyntheticScene::stereo()), 1, "left_optical"));
+                     conversions::to_camera_info(conversions::left_camera(calibration, SyntheticScene::stereo()), 1,
+                                                 "left_optical"));
     harness_.publish(topics::kStereoRightCameraInfo,
-                     conversions::to_camera_info(conversions::right_camera(calibration, SyntheticScene::stereo()), 1, "right_optical"));
+                     conversions::to_camera_info(conversions::right_camera(calibration, SyntheticScene::stereo()), 1,
+                                                 "right_optical"));
   }
 
   void publish_mounting() {
@@ -55,16 +57,18 @@ class BinocularOdometryComponent : public ::testing::Test {
     publish_image(topics::kStereoRightImageRect, frame.stamp_ns, "right_optical", frame.right);
   }
 
-  void publish_image(const interfaces::Topic<sensor_msgs::msg::Image>& topic, std::int64_t stamp_ns, const std::string& frame_id,
-                     const cv::Mat& pixels) {
+  void publish_image(const interfaces::Topic<sensor_msgs::msg::Image>& topic, std::int64_t stamp_ns,
+                     const std::string& frame_id, const cv::Mat& pixels) {
     auto message = conversions::make_image(stamp_ns, frame_id, "mono8", pixels.cols, pixels.rows);
     pixels.copyTo(conversions::pixels(*message));
     harness_.publish(topic, std::shared_ptr<const sensor_msgs::msg::Image>(message));
   }
 
   runtime::ComponentHarness harness_;
-  const std::vector<std::shared_ptr<const nav_msgs::msg::Odometry>>& odometry_ = harness_.collect(topics::kOdometryBinocular);
-  const std::vector<std::shared_ptr<const panvo_msgs::msg::OdometryQuality>>& quality_ = harness_.collect(topics::kOdometryQuality);
+  const std::vector<std::shared_ptr<const nav_msgs::msg::Odometry>>& odometry_ =
+      harness_.collect(topics::kOdometryBinocular);
+  const std::vector<std::shared_ptr<const panvo_msgs::msg::OdometryQuality>>& quality_ =
+      harness_.collect(topics::kOdometryQuality);
 };
 
 TEST_F(BinocularOdometryComponent, PublishesTheRobotsMotionUnderTheImagesStamp) {
@@ -82,7 +86,7 @@ TEST_F(BinocularOdometryComponent, PublishesTheRobotsMotionUnderTheImagesStamp) 
   const auto pose = conversions::to_isometry(last.pose().pose());
   ASSERT_TRUE(pose) << pose.reason();
   EXPECT_LT((pose->translation() - expected.translation()).norm(), 0.005);
-  EXPECT_NEAR(last.twist().twist().linear().x(), 1.2, 0.02);  // 0.12 m a frame of 0.1 s, forward
+  EXPECT_NEAR(last.twist().twist().linear().x(), 1.2, 0.02);      // 0.12 m a frame of 0.1 s, forward
   EXPECT_NEAR(last.twist().twist().angular().z(), -0.06, 0.005);  // to the right
   EXPECT_GT(last.pose().covariance()[0], 0.0);
   EXPECT_GT(last.twist().covariance()[0], 0.0);

@@ -75,7 +75,8 @@ TEST(BinocularOdometry, ItsErrorLiesWithinItsCovariance) {
   for (int i = 0; i < 16; ++i) {
     const OdometryEstimate estimate = odometry.step(drive()[static_cast<size_t>(i)]);
     if (i == 0) continue;
-    const vision::Vector6d error = vision::pose_error(estimate.previous_from_current, truth(i - 1).inverse() * truth(i));
+    const vision::Vector6d error =
+        vision::pose_error(estimate.previous_from_current, truth(i - 1).inverse() * truth(i));
     nees += error.dot(estimate.previous_from_current_covariance.ldlt().solve(error)) / 15.0;
   }
   EXPECT_LT(nees, 12.0);

@@ -27,14 +27,16 @@ class Drive {
       return from + (to - from) * static_cast<double>(random() % 1000000) / 1e6;
     };
     for (int i = 0; i < frames; ++i) {
-      truth.left_from_world.push_back(vision::se3_exp((Vector6d() << 0.05 * i, 0.0, -0.5 * i, 0.0, 0.02 * i, 0.0).finished()));
+      truth.left_from_world.push_back(
+          vision::se3_exp((Vector6d() << 0.05 * i, 0.0, -0.5 * i, 0.0, 0.02 * i, 0.0).finished()));
     }
     truth.fixed_frames = 1;
     for (int p = 0; p < points; ++p) {
       const double z = p % 4 == 0 ? uniform(30.0, 200.0) : uniform(5.0, 15.0);
       truth.points.push_back({Eigen::Isometry3d::Identity(), {uniform(-0.6, 0.6), uniform(-0.4, 0.4), 1.0 / z}});
       for (int i = 0; i < frames; ++i) {
-        const auto seen = predict(kStereo, truth.left_from_world[static_cast<size_t>(i)], truth.points.back().inverse_depth);
+        const auto seen =
+            predict(kStereo, truth.left_from_world[static_cast<size_t>(i)], truth.points.back().inverse_depth);
         if (!seen) continue;
         truth.observations.push_back(
             {i, p, *seen + Eigen::Vector3d(0.0, 0.0, disparity_offset_px), Eigen::Vector3d::Constant(1.0 / kSigma_px)});
@@ -121,9 +123,12 @@ struct CeresResidual {
     T h[3];
     ceres::AngleAxisRotatePoint(pose, ray, h);
     for (int k = 0; k < 3; ++k) h[k] += point[2] * pose[3 + k];
-    residual[0] = (kStereo.camera.fx * h[0] / h[2] + kStereo.camera.cx - observation.pixel.x()) * observation.inverse_sigma.x();
-    residual[1] = (kStereo.camera.fy * h[1] / h[2] + kStereo.camera.cy - observation.pixel.y()) * observation.inverse_sigma.y();
-    residual[2] = (kStereo.camera.fx * kStereo.baseline_m * point[2] / h[2] - observation.pixel.z()) * observation.inverse_sigma.z();
+    residual[0] =
+        (kStereo.camera.fx * h[0] / h[2] + kStereo.camera.cx - observation.pixel.x()) * observation.inverse_sigma.x();
+    residual[1] =
+        (kStereo.camera.fy * h[1] / h[2] + kStereo.camera.cy - observation.pixel.y()) * observation.inverse_sigma.y();
+    residual[2] = (kStereo.camera.fx * kStereo.baseline_m * point[2] / h[2] - observation.pixel.z()) *
+                  observation.inverse_sigma.z();
     return true;
   }
 };

@@ -12,18 +12,22 @@ namespace panvo::binocular_odometry {
 namespace {
 
 const vision::RectifiedStereo kStereo{{400.0, 400.0, 320.0, 240.0, 640, 480}, 0.3};
-const Eigen::Isometry3d kMotion = vision::se3_exp((vision::Vector6d() << 0.05, -0.02, -0.9, 0.01, 0.08, -0.02).finished());
+const Eigen::Isometry3d kMotion =
+    vision::se3_exp((vision::Vector6d() << 0.05, -0.02, -0.9, 0.01, 0.08, -0.02).finished());
 
 // Points seen before and after kMotion with small errors; the first `outliers` of them move on their own.
 std::vector<PointPair> pairs(int count, int outliers) {
   std::mt19937 random(2);
-  const auto uniform = [&random](double from, double to) { return from + (to - from) * static_cast<double>(random() % 100000) / 1e5; };
+  const auto uniform = [&random](double from, double to) {
+    return from + (to - from) * static_cast<double>(random() % 100000) / 1e5;
+  };
   std::vector<PointPair> pairs;
   for (int i = 0; i < count; ++i) {
     const double z = uniform(4.0, 40.0);
     const Eigen::Vector3d point(uniform(-0.6, 0.6) * z, uniform(-0.4, 0.4) * z, z);
     Eigen::Vector3d moved = kMotion * point;
-    if (i < outliers) moved += Eigen::Vector3d(0.6 + uniform(0.0, 1.0), uniform(-0.5, 0.5), uniform(-1.0, 1.0)) * 0.2 * z;
+    if (i < outliers)
+      moved += Eigen::Vector3d(0.6 + uniform(0.0, 1.0), uniform(-0.5, 0.5), uniform(-1.0, 1.0)) * 0.2 * z;
     const auto error = [&] { return Eigen::Vector3d(uniform(-0.2, 0.2), uniform(-0.2, 0.2), uniform(-0.2, 0.2)); };
     pairs.push_back({vision::observe(kStereo, point) + error(), vision::observe(kStereo, moved) + error(), true});
   }

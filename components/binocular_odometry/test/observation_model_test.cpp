@@ -10,7 +10,8 @@ namespace panvo::binocular_odometry {
 namespace {
 
 const vision::RectifiedStereo kStereo{{400.0, 410.0, 320.0, 240.0, 640, 480}, 0.12};
-const Eigen::Isometry3d kLeftFromAnchor = vision::se3_exp((vision::Vector6d() << 0.3, -0.2, -0.8, 0.1, -0.2, 0.05).finished());
+const Eigen::Isometry3d kLeftFromAnchor =
+    vision::se3_exp((vision::Vector6d() << 0.3, -0.2, -0.8, 0.1, -0.2, 0.05).finished());
 
 TEST(ObservationModel, SeesAPointAsTheCameraDoes) {
   const Eigen::Vector3d point_in_anchor(0.8, -0.5, 6.0);
@@ -44,7 +45,8 @@ TEST(ObservationModel, DerivativesAgreeWithDifferences) {
     for (int k = 0; k < 3; ++k) {
       const Eigen::Vector3d step = kStep * Eigen::Vector3d::Unit(k);
       const Eigen::Vector3d difference =
-          (*predict(kStereo, kLeftFromAnchor, point + step) - *predict(kStereo, kLeftFromAnchor, point - step)) / (2.0 * kStep);
+          (*predict(kStereo, kLeftFromAnchor, point + step) - *predict(kStereo, kLeftFromAnchor, point - step)) /
+          (2.0 * kStep);
       EXPECT_LT((at->by_point.col(k) - difference).norm(), 1e-5 * (1.0 + difference.norm())) << k;
     }
     for (int k = 0; k < 6; ++k) {

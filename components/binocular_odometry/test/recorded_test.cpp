@@ -36,7 +36,8 @@ struct Drive {
 
   void add(const OdometryEstimate& estimate, const Eigen::Isometry3d& world_from_left) {
     if (!truth.empty()) {
-      const vision::Vector6d error = vision::pose_error(estimate.previous_from_current, truth.back().inverse() * world_from_left);
+      const vision::Vector6d error =
+          vision::pose_error(estimate.previous_from_current, truth.back().inverse() * world_from_left);
       nees_sum_ += error.dot(estimate.previous_from_current_covariance.ldlt().solve(error));
       nees = nees_sum_ / static_cast<double>(truth.size());
     }
@@ -89,7 +90,8 @@ Drive drive_kitti_03(const Parameters& parameters) {
     const auto index = static_cast<std::int64_t>(run.truth.size());
     char name[16];
     std::snprintf(name, sizeof name, "%06d.png", static_cast<int>(index));
-    run.add(odometry.step({1 + index * 100'000'000, grey(folder / "image_0" / name), grey(folder / "image_1" / name)}), pose);
+    run.add(odometry.step({1 + index * 100'000'000, grey(folder / "image_0" / name), grey(folder / "image_1" / name)}),
+            pose);
   }
   return run;
 }
@@ -149,11 +151,13 @@ TEST_P(RecordedBoofCv, IsFollowedWithoutLosingAFrame) {
   const fs::path folder = recordings() / "boofcv_stereo" / GetParam();
   PANVO_NEEDS_RECORDING(folder);
   vision::StereoCalibration calibration;  // stereo_params.xml
-  calibration.left = {{262.3070778, 263.4601134, 156.2254286, 123.7008161, 320, 240}, {-0.3625365821, 0.1753275439, 0, 0, 0}};
-  calibration.right = {{263.2186548, 264.3262398, 159.2020283, 122.9675210, 320, 240}, {-0.3529996949, 0.1629746673, 0, 0, 0}};
+  calibration.left = {{262.3070778, 263.4601134, 156.2254286, 123.7008161, 320, 240},
+                      {-0.3625365821, 0.1753275439, 0, 0, 0}};
+  calibration.right = {{263.2186548, 264.3262398, 159.2020283, 122.9675210, 320, 240},
+                       {-0.3529996949, 0.1629746673, 0, 0, 0}};
   Eigen::Isometry3d left_from_right = Eigen::Isometry3d::Identity();
-  left_from_right.matrix().topRows<3>() << 0.9999694757, -0.0021676589, 0.0075065916, 0.1200437426, 0.0021447608, 0.9999930270,
-      0.0030571062, 0.0008974418, -0.0075131658, -0.0030409130, 0.9999671521, -0.0009149583;
+  left_from_right.matrix().topRows<3>() << 0.9999694757, -0.0021676589, 0.0075065916, 0.1200437426, 0.0021447608,
+      0.9999930270, 0.0030571062, 0.0008974418, -0.0075131658, -0.0030409130, 0.9999671521, -0.0009149583;
   left_from_right.linear() = vision::nearest_rotation(left_from_right.linear());
   calibration.right_from_left = left_from_right.inverse();
   const vision::RectifiedStereo stereo = vision::rectify(calibration);

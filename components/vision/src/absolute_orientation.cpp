@@ -5,7 +5,8 @@
 
 namespace panvo::vision {
 namespace {
-constexpr double kSmallestGap = 1e-6;  // between the two largest eigenvalues, relative: below, any turn about the line fits
+constexpr double kSmallestGap =
+    1e-6;  // between the two largest eigenvalues, relative: below, any turn about the line fits
 }
 
 std::optional<Eigen::Isometry3d> absolute_orientation(std::span<const Eigen::Vector3d> points_in_a,

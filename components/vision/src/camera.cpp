@@ -32,7 +32,8 @@ void check_camera(const std::string& name, const PinholeCamera& camera, std::vec
 void check_rotation(const std::string& name, const Eigen::Matrix3d& rotation, std::vector<std::string>& problems) {
   const double deviation = (rotation * rotation.transpose() - Eigen::Matrix3d::Identity()).norm();
   if (!(deviation < kRotationTolerance) || rotation.determinant() < 0.0) {
-    problems.push_back(name + ": the matrix is no rotation (R * R^T differs from the identity, or its determinant is -1)");
+    problems.push_back(name +
+                       ": the matrix is no rotation (R * R^T differs from the identity, or its determinant is -1)");
   }
 }
 
@@ -119,8 +120,12 @@ RectifiedStereo rectify(const StereoCalibration& calibration) {
                     cv::Mat(3, 1, CV_64F, const_cast<double*>(translation.data())), rectified_left, rectified_right,
                     projection_left, projection_right, disparity_to_depth, cv::CALIB_ZERO_DISPARITY, 0.0);
   RectifiedStereo stereo;
-  stereo.camera = {projection_left.at<double>(0, 0), projection_left.at<double>(1, 1), projection_left.at<double>(0, 2),
-                   projection_left.at<double>(1, 2), left.pinhole.width,               left.pinhole.height};
+  stereo.camera = {projection_left.at<double>(0, 0),
+                   projection_left.at<double>(1, 1),
+                   projection_left.at<double>(0, 2),
+                   projection_left.at<double>(1, 2),
+                   left.pinhole.width,
+                   left.pinhole.height};
   stereo.baseline_m = -projection_right.at<double>(0, 3) / projection_right.at<double>(0, 0);
   stereo.rectified_left_from_left = to_eigen(rectified_left);
   stereo.rectified_right_from_right = to_eigen(rectified_right);

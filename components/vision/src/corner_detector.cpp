@@ -24,7 +24,8 @@ size_t CellGrid::cell(const Eigen::Vector2d& pixel) const {
 
 int CellGrid::free_cells() const { return static_cast<int>(std::count(taken_.begin(), taken_.end(), false)); }
 
-std::vector<Corner> detect_corners(const ImagePyramid& image, const CellGrid& grid, double smallest_gradient, int margin_px) {
+std::vector<Corner> detect_corners(const ImagePyramid& image, const CellGrid& grid, double smallest_gradient,
+                                   int margin_px) {
   if (image.levels() == 0) return {};
   const int level = std::min(1, image.levels() - 1);
   const double scale = 1 << level;
@@ -49,7 +50,8 @@ std::vector<Corner> detect_corners(const ImagePyramid& image, const CellGrid& gr
       cv::Point place;
       cv::minMaxLoc(eigenvalues(cv::Rect(from, to)), nullptr, &strongest, nullptr, &place);
       if (strongest < threshold || strongest <= 0.0) continue;
-      corners.push_back({scale * Eigen::Vector2d(from.x + place.x, from.y + place.y), 0.5 * 255.0 * std::sqrt(strongest)});
+      corners.push_back(
+          {scale * Eigen::Vector2d(from.x + place.x, from.y + place.y), 0.5 * 255.0 * std::sqrt(strongest)});
     }
   }
   return corners;

@@ -12,10 +12,11 @@ namespace {
 
 constexpr int kMaxIterations = 12;
 constexpr double kSettled_px = 0.01;
-constexpr double kLargestStep_px = 1.5;      // beyond, the template's gradients say nothing
-constexpr double kCorrelation = 3.0;         // interpolation spreads a pixel's noise: residuals shrink, what they do to the position does not
-constexpr double kSmallestGain = 0.25;       // a fainter copy is no copy
-constexpr double kSmallestContrast = 2.0;    // grey levels, standard deviation: under it lies the noise of an 8-bit image
+constexpr double kLargestStep_px = 1.5;  // beyond, the template's gradients say nothing
+constexpr double kCorrelation =
+    3.0;  // interpolation spreads a pixel's noise: residuals shrink, what they do to the position does not
+constexpr double kSmallestGain = 0.25;     // a fainter copy is no copy
+constexpr double kSmallestContrast = 2.0;  // grey levels, standard deviation: under it lies the noise of an 8-bit image
 
 // Places in the image as integers, 1/65536 px: sampling is most of the work, and integers are the fastest at it.
 constexpr int kPlaceBits = 16;
@@ -26,7 +27,8 @@ int to_place(double px) { return static_cast<int>(std::lround(px * (1 << kPlaceB
 float bilinear(const cv::Mat& image, int u, int v) {
   constexpr int kMask = (1 << kWeightBits) - 1;
   const int fu = (u >> (kPlaceBits - kWeightBits)) & kMask, fv = (v >> (kPlaceBits - kWeightBits)) & kMask;
-  const uchar* upper = image.data + static_cast<std::ptrdiff_t>(v >> kPlaceBits) * static_cast<std::ptrdiff_t>(image.step[0]) +
+  const uchar* upper = image.data +
+                       static_cast<std::ptrdiff_t>(v >> kPlaceBits) * static_cast<std::ptrdiff_t>(image.step[0]) +
                        (u >> kPlaceBits);
   const uchar* lower = upper + image.step[0];
   const int above = (upper[0] << kWeightBits) + fu * (upper[1] - upper[0]);
@@ -41,8 +43,8 @@ std::optional<PatchTemplate> PatchTemplate::sample(const cv::Mat& image, const E
   constexpr int kBordered = kSize + 2;  // one more on each side, for central differences
   constexpr double kReach = 0.5 * (kBordered - 1);
   const Eigen::Vector2d extent = kReach * source_from_target.cwiseAbs().rowwise().sum();
-  if (!(centre.x() - extent.x() >= 0.0 && centre.y() - extent.y() >= 0.0 &&
-        centre.x() + extent.x() < image.cols - 1 && centre.y() + extent.y() < image.rows - 1)) {
+  if (!(centre.x() - extent.x() >= 0.0 && centre.y() - extent.y() >= 0.0 && centre.x() + extent.x() < image.cols - 1 &&
+        centre.y() + extent.y() < image.rows - 1)) {
     return std::nullopt;
   }
   const Eigen::Vector2d origin = centre - source_from_target * Eigen::Vector2d::Constant(kReach);
@@ -127,7 +129,8 @@ std::optional<PatchAlignment> PatchTemplate::align(const cv::Mat& image, const E
   Eigen::Vector2d position = start;
   for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
     const double left = position.x() - kHalf, top = position.y() - kHalf;
-    if (!(left >= 0.0 && top >= 0.0 && left + kSize < image.cols - 1 && top + kSize < image.rows - 1)) return std::nullopt;
+    if (!(left >= 0.0 && top >= 0.0 && left + kSize < image.cols - 1 && top + kSize < image.rows - 1))
+      return std::nullopt;
     const Projections seen = project(image, left, top);
 
     // seen = gain * (template moved by e) + offset, linear in (gain, gain * e).

@@ -86,7 +86,8 @@ Matrix6d compose_covariance(const Eigen::Isometry3d& a_from_b, const Matrix6d& c
   Matrix6d by_second = Matrix6d::Zero();
   by_second.topLeftCorner<3, 3>() = a_from_b.linear();
   by_second.bottomRightCorner<3, 3>() = a_from_b.linear();
-  return by_first * covariance_a_from_b * by_first.transpose() + by_second * covariance_b_from_c * by_second.transpose();
+  return by_first * covariance_a_from_b * by_first.transpose() +
+         by_second * covariance_b_from_c * by_second.transpose();
 }
 
 Matrix6d invert_covariance(const Eigen::Isometry3d& a_from_b, const Matrix6d& covariance_a_from_b) {

@@ -16,22 +16,26 @@ constexpr double kHalf = 0.5 * (kSize - 1);
 constexpr int kIterations = 5;
 constexpr double kSettled_px = 0.01;
 constexpr double kLargestStep_px = 2.0;
-constexpr double kGradientSigma = 0.3;       // prior: facing walls have 0, a road baseline over camera height, 0.1 to 0.35
-constexpr double kNoise = 4.0;               // grey levels: weight of that prior against the image
-constexpr double kCoarseCorrelation = 0.6;   // of a window that ignores the slant
+constexpr double kGradientSigma = 0.3;  // prior: facing walls have 0, a road baseline over camera height, 0.1 to 0.35
+constexpr double kNoise = 4.0;          // grey levels: weight of that prior against the image
+constexpr double kCoarseCorrelation = 0.6;  // of a window that ignores the slant
 constexpr double kReach_px = 3.0;
 
 // One row of the image at a height between two pixel rows.
 class Row {
  public:
   Row(const cv::Mat& image, double v)
-      : upper_(image.ptr<uchar>(static_cast<int>(v))), lower_(upper_ + image.step[0]), fraction_(static_cast<float>(v - std::floor(v))) {}
+      : upper_(image.ptr<uchar>(static_cast<int>(v))),
+        lower_(upper_ + image.step[0]),
+        fraction_(static_cast<float>(v - std::floor(v))) {}
 
   float operator()(float u) const {
     const int column = static_cast<int>(u);
     const float fu = u - static_cast<float>(column);
-    const float above = static_cast<float>(upper_[column]) + fu * static_cast<float>(upper_[column + 1] - upper_[column]);
-    const float below = static_cast<float>(lower_[column]) + fu * static_cast<float>(lower_[column + 1] - lower_[column]);
+    const float above =
+        static_cast<float>(upper_[column]) + fu * static_cast<float>(upper_[column + 1] - upper_[column]);
+    const float below =
+        static_cast<float>(lower_[column]) + fu * static_cast<float>(lower_[column + 1] - lower_[column]);
     return above + fraction_ * (below - above);
   }
 
@@ -49,7 +53,8 @@ bool inside(const cv::Mat& image, double u, double v) {
 class SlantedPatch {
  public:
   static std::optional<SlantedPatch> sample(const cv::Mat& left, const Eigen::Vector2d& centre) {
-    if (!inside(left, centre.x() - kHalf - 1, centre.y() - kHalf) || !inside(left, centre.x() + kHalf + 1, centre.y() + kHalf)) {
+    if (!inside(left, centre.x() - kHalf - 1, centre.y() - kHalf) ||
+        !inside(left, centre.x() + kHalf + 1, centre.y() + kHalf)) {
       return std::nullopt;
     }
     SlantedPatch patch(centre);
@@ -144,9 +149,11 @@ std::optional<StereoMatch> StereoMatcher::search(const ImagePyramid& left, const
                                                  const Eigen::Vector2d& pixel) const {
   const int coarse = std::min(1, left.levels() - 1);
   const double scale = 1 << coarse;
-  const cv::Point place(static_cast<int>(std::lround(pixel.x() / scale)), static_cast<int>(std::lround(pixel.y() / scale)));
-  const auto found = search_row(left[coarse], right[coarse], place, static_cast<int>(std::floor(range_.from_px / scale)),
-                                static_cast<int>(std::ceil(range_.to_px / scale)), kCoarseCorrelation);
+  const cv::Point place(static_cast<int>(std::lround(pixel.x() / scale)),
+                        static_cast<int>(std::lround(pixel.y() / scale)));
+  const auto found =
+      search_row(left[coarse], right[coarse], place, static_cast<int>(std::floor(range_.from_px / scale)),
+                 static_cast<int>(std::ceil(range_.to_px / scale)), kCoarseCorrelation);
   if (!found) return std::nullopt;
 
   StereoMatch match;
@@ -183,7 +190,8 @@ std::optional<StereoMatch> StereoMatcher::refine(const ImagePyramid& left, const
   if (right_from_left(0, 0) < 0.25) return std::nullopt;  // seen almost edge-on
   const auto patch = PatchTemplate::sample(left[0], pixel, right_from_left.inverse());
   if (!patch) return std::nullopt;
-  const auto found = patch->align(right[0], {pixel.x() - expected_disparity_px, pixel.y()}, PatchTemplate::Search::kRow, kReach_px);
+  const auto found =
+      patch->align(right[0], {pixel.x() - expected_disparity_px, pixel.y()}, PatchTemplate::Search::kRow, kReach_px);
   if (!found) return std::nullopt;
   const StereoMatch match{pixel.x() - found->position.x(), gradient, found->correlation, found->variance.x()};
   if (!accepts(match)) return std::nullopt;

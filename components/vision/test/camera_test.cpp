@@ -87,7 +87,8 @@ TEST(RectificationMap, BringsADistortedPointToItsRectifiedPixel) {
   cv::Mat image(240, 320, CV_32F);
   for (int v = 0; v < image.rows; ++v) {
     for (int u = 0; u < image.cols; ++u) {
-      image.at<float>(v, u) = static_cast<float>(255.0 * std::exp(-(Eigen::Vector2d(u, v) - raw_pixel).squaredNorm() / 8.0));
+      image.at<float>(v, u) =
+          static_cast<float>(255.0 * std::exp(-(Eigen::Vector2d(u, v) - raw_pixel).squaredNorm() / 8.0));
     }
   }
   cv::Mat rectified;

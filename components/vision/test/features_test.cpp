@@ -25,7 +25,8 @@ TEST(ImagePyramid, HalvesItsCoordinatesFromLevelToLevel) {
   }
   const ImagePyramid pyramid(image, 4);
   ASSERT_EQ(pyramid.levels(), 4);
-  for (int level = 0; level < 4; ++level) EXPECT_NEAR(pyramid[level].at<uchar>(64 >> level, 128 >> level), 80, 1) << level;
+  for (int level = 0; level < 4; ++level)
+    EXPECT_NEAR(pyramid[level].at<uchar>(64 >> level, 128 >> level), 80, 1) << level;
 }
 
 TEST(ImagePyramid, HasNoLevelTooSmallToHoldAPatch) { EXPECT_EQ(ImagePyramid(draw({100, 80}), 6).levels(), 2); }
@@ -82,7 +83,8 @@ class AbsoluteOrientation : public ::testing::Test {
 TEST_F(AbsoluteOrientation, IsExactForThreePointsAndForMore) {
   for (const size_t count : {3u, 4u}) {
     const auto in_a = moved();
-    const auto found = absolute_orientation(std::span(in_a).first(count), std::span<const Eigen::Vector3d>(in_b_).first(count));
+    const auto found =
+        absolute_orientation(std::span(in_a).first(count), std::span<const Eigen::Vector3d>(in_b_).first(count));
     ASSERT_TRUE(found);
     EXPECT_TRUE(found->isApprox(a_from_b_, 1e-9));
   }

@@ -31,8 +31,10 @@ TEST(PatchTemplate, FindsASubPixelShiftWithoutBias) {
 
 TEST(PatchTemplate, DoesNotMindGainAndOffset) {
   const cv::Mat source = draw(kSize);
-  const cv::Mat darker = draw(kSize, [](double u, double v) { return cv::Point2d(u - 0.7, v); }, 0.5, 20.0);
-  const auto found = PatchTemplate::sample(source, {60.0, 50.0})->align(darker, {60.0, 50.0}, PatchTemplate::Search::kPlane, kReach_px);
+  const cv::Mat darker = draw(
+      kSize, [](double u, double v) { return cv::Point2d(u - 0.7, v); }, 0.5, 20.0);
+  const auto found = PatchTemplate::sample(source, {60.0, 50.0})
+                         ->align(darker, {60.0, 50.0}, PatchTemplate::Search::kPlane, kReach_px);
   ASSERT_TRUE(found);
   EXPECT_NEAR(found->position.x(), 60.7, 0.05);
   EXPECT_NEAR(found->position.y(), 50.0, 0.05);
@@ -56,7 +58,8 @@ TEST(PatchTemplate, FollowsAWarpThatItIsTold) {
 TEST(PatchTemplate, SearchedAlongItsRowStaysOnIt) {
   const cv::Mat source = draw(kSize);
   const cv::Mat moved = draw(kSize, [](double u, double v) { return cv::Point2d(u + 1.4, v); });
-  const auto found = PatchTemplate::sample(source, {60.0, 50.0})->align(moved, {60.0, 50.0}, PatchTemplate::Search::kRow, kReach_px);
+  const auto found =
+      PatchTemplate::sample(source, {60.0, 50.0})->align(moved, {60.0, 50.0}, PatchTemplate::Search::kRow, kReach_px);
   ASSERT_TRUE(found);
   EXPECT_NEAR(found->position.x(), 58.6, 0.03);
   EXPECT_EQ(found->position.y(), 50.0);
@@ -71,7 +74,8 @@ TEST(PatchTemplate, RefusesAPatchWithoutTextureOrBeyondTheBorder) {
 TEST(PatchTemplate, DoesNotTakeTheNegativeForThePicture) {
   const cv::Mat source = draw(kSize);
   const cv::Mat negative = 255 - source;
-  EXPECT_FALSE(PatchTemplate::sample(source, {60.0, 50.0})->align(negative, {60.0, 50.0}, PatchTemplate::Search::kPlane, kReach_px));
+  EXPECT_FALSE(PatchTemplate::sample(source, {60.0, 50.0})
+                   ->align(negative, {60.0, 50.0}, PatchTemplate::Search::kPlane, kReach_px));
 }
 
 TEST(PatchTemplate, VarianceIsThatOfItsErrorsUnderNoise) {
@@ -84,7 +88,8 @@ TEST(PatchTemplate, VarianceIsThatOfItsErrorsUnderNoise) {
   for (int trial = 0; trial < kTrials; ++trial) {
     cv::Mat noisy = source.clone();
     for (int v = 40; v < 62; ++v) {
-      for (int u = 50; u < 72; ++u) noisy.at<uchar>(v, u) = cv::saturate_cast<uchar>(noisy.at<uchar>(v, u) + noise(random));
+      for (int u = 50; u < 72; ++u)
+        noisy.at<uchar>(v, u) = cv::saturate_cast<uchar>(noisy.at<uchar>(v, u) + noise(random));
     }
     const auto found = patch->align(noisy, {60.0, 50.0}, PatchTemplate::Search::kPlane, kReach_px);
     ASSERT_TRUE(found);

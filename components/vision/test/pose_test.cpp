@@ -68,7 +68,8 @@ TEST(NearestRotation, UndoesRounding) {
   const Eigen::Matrix3d rotation = so3_exp({0.4, -0.2, 1.0});
   const Eigen::Matrix3d rounded = rotation + 1e-6 * Eigen::Matrix3d::Random();
   EXPECT_LT((nearest_rotation(rounded) - rotation).norm(), 1e-5);
-  EXPECT_LT((nearest_rotation(rounded) * nearest_rotation(rounded).transpose() - Eigen::Matrix3d::Identity()).norm(), 1e-14);
+  EXPECT_LT((nearest_rotation(rounded) * nearest_rotation(rounded).transpose() - Eigen::Matrix3d::Identity()).norm(),
+            1e-14);
 }
 
 TEST(ComposeCovariance, AgreesWithMonteCarlo) {
@@ -78,7 +79,8 @@ TEST(ComposeCovariance, AgreesWithMonteCarlo) {
   Matrix6d sampled = Matrix6d::Zero();
   constexpr int kSamples = 20000;
   for (int i = 0; i < kSamples; ++i) {
-    const Vector6d error = pose_error(a_from_b * b_from_c, sampler.disturb(a_from_b, first) * sampler.disturb(b_from_c, second));
+    const Vector6d error =
+        pose_error(a_from_b * b_from_c, sampler.disturb(a_from_b, first) * sampler.disturb(b_from_c, second));
     sampled += error * error.transpose() / kSamples;
   }
   const Matrix6d predicted = compose_covariance(a_from_b, first, b_from_c, second);

@@ -88,7 +88,8 @@ INSTANTIATE_TEST_SUITE_P(FromWallToRoad, SlantedStereo, ::testing::Values(0.0, 0
 TEST(StereoMatcher, FindsNothingInAnotherPicture) {
   const cv::Size size(200, 120);
   const ImagePyramid left(draw(size), 2);
-  const ImagePyramid other(draw(size, [](double u, double v) { return cv::Point2d(1.7 * v + 900.0, 0.6 * u - 500.0); }), 2);
+  const ImagePyramid other(draw(size, [](double u, double v) { return cv::Point2d(1.7 * v + 900.0, 0.6 * u - 500.0); }),
+                           2);
   EXPECT_FALSE(StereoMatcher({-0.5, 60.0}, 0.8).search(left, other, {100.0, 60.0}));
 }
 

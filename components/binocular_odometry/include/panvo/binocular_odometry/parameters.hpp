@@ -17,14 +17,19 @@ struct TrackingParameters {
   template <class Field>
   static void describe(Field&& field) {
     using P = TrackingParameters;
-    field(&P::front_end, "front_end", "",
-          "how features are followed: klt (corners, patches aligned over a pyramid) or sift (described and matched anew)",
-          {"klt", "sift"});
-    field(&P::max_features, "max_features", "1", "features kept a frame; sets the size of the cells that hold one each", 50, 5000);
-    field(&P::pyramid_levels, "pyramid_levels", "1", "levels of half size each; each doubles the motion that is followed unforeseen", 2, 6);
-    field(&P::smallest_gradient, "smallest_gradient", "1/px", "grey levels per pixel that a corner needs in its weakest direction", 0.1, 50.0);
+    field(
+        &P::front_end, "front_end", "",
+        "how features are followed: klt (corners, patches aligned over a pyramid) or sift (described and matched anew)",
+        {"klt", "sift"});
+    field(&P::max_features, "max_features", "1", "features kept a frame; sets the size of the cells that hold one each",
+          50, 5000);
+    field(&P::pyramid_levels, "pyramid_levels", "1",
+          "levels of half size each; each doubles the motion that is followed unforeseen", 2, 6);
+    field(&P::smallest_gradient, "smallest_gradient", "1/px",
+          "grey levels per pixel that a corner needs in its weakest direction", 0.1, 50.0);
     field(&P::smallest_correlation, "smallest_correlation", "1", "normalised correlation that a match needs", 0.0, 1.0);
-    field(&P::nearest_depth_baselines, "nearest_depth_baselines", "1", "depth of the nearest point, in baselines: bounds the disparity", 1.0, 100.0);
+    field(&P::nearest_depth_baselines, "nearest_depth_baselines", "1",
+          "depth of the nearest point, in baselines: bounds the disparity", 1.0, 100.0);
   }
 };
 
@@ -55,15 +60,23 @@ struct MotionParameters {
     field(&P::min_inlier_ratio, "min_inlier_ratio", "1", "share of the candidates that inliers must make up", 0.0, 1.0);
     field(&P::loss_scale, "loss_scale", "1", "scale of Cauchy's robust loss, in standard deviations", 0.5, 20.0);
     field(&P::window_keyframes, "window_keyframes", "1", "keyframes adjusted together", 2, 50);
-    field(&P::fixed_keyframes, "fixed_keyframes", "1", "of these, the oldest, which hold the others and stay as they are", 1, 49);
-    field(&P::disparity_offset_step_px, "disparity_offset_step_px", "px",
-          "how far a constant error of the disparity, left over by the calibration and estimated along, may move a frame", 1e-6, 1.0);
+    field(&P::fixed_keyframes, "fixed_keyframes", "1",
+          "of these, the oldest, which hold the others and stay as they are", 1, 49);
+    field(
+        &P::disparity_offset_step_px, "disparity_offset_step_px", "px",
+        "how far a constant error of the disparity, left over by the calibration and estimated along, may move a frame",
+        1e-6, 1.0);
     field(&P::motion_error_ratio, "motion_error_ratio", "1",
-          "standard deviation per distance and per angle of what image noise does not explain (calibration, shutter)", 0.0, 1.0);
-    field(&P::rotation_error_rad_per_m, "rotation_error_rad_per_m", "rad/m", "as motion_error_ratio, rotation by distance", 0.0, 1.0);
-    field(&P::keyframe_parallax_px, "keyframe_parallax_px", "px", "median motion of the features that makes a keyframe", 1.0, 200.0);
-    field(&P::keyframe_shared_ratio, "keyframe_shared_ratio", "1", "share of the last keyframe's features still seen, below which one is made", 0.1, 1.0);
-    field(&P::acceleration, "acceleration", "m/s^2", "standard deviation of what the camera may do unseen", 0.01, 100.0);
+          "standard deviation per distance and per angle of what image noise does not explain (calibration, shutter)",
+          0.0, 1.0);
+    field(&P::rotation_error_rad_per_m, "rotation_error_rad_per_m", "rad/m",
+          "as motion_error_ratio, rotation by distance", 0.0, 1.0);
+    field(&P::keyframe_parallax_px, "keyframe_parallax_px", "px", "median motion of the features that makes a keyframe",
+          1.0, 200.0);
+    field(&P::keyframe_shared_ratio, "keyframe_shared_ratio", "1",
+          "share of the last keyframe's features still seen, below which one is made", 0.1, 1.0);
+    field(&P::acceleration, "acceleration", "m/s^2", "standard deviation of what the camera may do unseen", 0.01,
+          100.0);
     field(&P::angular_acceleration, "angular_acceleration", "rad/s^2", "as acceleration, for rotation", 0.01, 100.0);
     field(&P::seed, "seed", "1", "of the random triples: the same seed, the same result", 0, 1000000);
   }

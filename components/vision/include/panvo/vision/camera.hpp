@@ -56,8 +56,8 @@ struct StereoCalibration {
 struct RectifiedStereo {
   PinholeCamera camera;
   double baseline_m = 0.0;
-  Eigen::Matrix3d rectified_left_from_left = Eigen::Matrix3d::Identity();     ///< rotation out of the raw left frame
-  Eigen::Matrix3d rectified_right_from_right = Eigen::Matrix3d::Identity();   ///< rotation out of the raw right frame
+  Eigen::Matrix3d rectified_left_from_left = Eigen::Matrix3d::Identity();    ///< rotation out of the raw left frame
+  Eigen::Matrix3d rectified_right_from_right = Eigen::Matrix3d::Identity();  ///< rotation out of the raw right frame
 };
 
 /// What is wrong with a calibration, one sentence a problem; empty when it can be used.

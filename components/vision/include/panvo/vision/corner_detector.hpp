@@ -33,12 +33,13 @@ class CellGrid {
 /// A place whose neighbourhood can be found again in both directions of the image.
 struct Corner {
   Eigen::Vector2d position;  ///< px
-  double gradient = 0.0;     ///< grey levels per px of the half-size image, root mean square along the weakest direction
+  double gradient = 0.0;  ///< grey levels per px of the half-size image, root mean square along the weakest direction
 };
 
 /// The strongest corner of each free cell [Shi and Tomasi 1994], row by row, with a gradient of at least `smallest_gradient`
 /// and at least `margin_px` from the border. Corners are sought in the half-size image: what is textured there can be
 /// followed over the levels of the pyramid, and the exact place of a feature is of no importance.
-std::vector<Corner> detect_corners(const ImagePyramid& image, const CellGrid& grid, double smallest_gradient, int margin_px);
+std::vector<Corner> detect_corners(const ImagePyramid& image, const CellGrid& grid, double smallest_gradient,
+                                   int margin_px);
 
 }  // namespace panvo::vision

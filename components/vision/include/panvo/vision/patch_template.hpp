@@ -10,9 +10,9 @@ namespace panvo::vision {
 
 /// Where a template was found in an image.
 struct PatchAlignment {
-  Eigen::Vector2d position;           ///< px, of the template's centre
-  double correlation = 0.0;           ///< zero-mean normalised cross-correlation, -1 to 1
-  Eigen::Vector2d variance;           ///< px^2, of the position along u and v, by the image noise left over
+  Eigen::Vector2d position;  ///< px, of the template's centre
+  double correlation = 0.0;  ///< zero-mean normalised cross-correlation, -1 to 1
+  Eigen::Vector2d variance;  ///< px^2, of the position along u and v, by the image noise left over
 };
 
 /// A small square of an image, warped to how another view is expected to show it, and found there to sub-pixel accuracy

@@ -12,7 +12,8 @@ namespace panvo::vision {
 class RectificationMap {
  public:
   /// Maps images of `raw` to images of `rectified`, whose frame is turned by `rectified_from_raw`.
-  RectificationMap(const DistortedCamera& raw, const Eigen::Matrix3d& rectified_from_raw, const PinholeCamera& rectified);
+  RectificationMap(const DistortedCamera& raw, const Eigen::Matrix3d& rectified_from_raw,
+                   const PinholeCamera& rectified);
 
   /// Writes the rectified image into `destination` (allocated when size or type differ); any depth, 1 to 4 channels.
   /// Throws std::invalid_argument when the image is not of the raw camera's size.

@@ -10,10 +10,10 @@ namespace panvo::vision {
 
 /// Where a left pixel's neighbourhood lies in the right image.
 struct StereoMatch {
-  double disparity_px = 0.0;                             ///< u_left - u_right
-  Eigen::Vector2d gradient = Eigen::Vector2d::Zero();    ///< of the disparity along u and v: the slant of the surface
-  double correlation = 0.0;                              ///< zero-mean normalised, at full resolution
-  double variance_px2 = 0.0;                             ///< of the disparity, by the image noise left over
+  double disparity_px = 0.0;                           ///< u_left - u_right
+  Eigen::Vector2d gradient = Eigen::Vector2d::Zero();  ///< of the disparity along u and v: the slant of the surface
+  double correlation = 0.0;                            ///< zero-mean normalised, at full resolution
+  double variance_px2 = 0.0;                           ///< of the disparity, by the image noise left over
 };
 
 /// Matches along the rows of a rectified pair, to sub-pixel accuracy and on slanted surfaces: under a road the disparity
@@ -25,10 +25,12 @@ class StereoMatcher {
     double to_px = 0.0;
   };
 
-  StereoMatcher(Range range, double smallest_correlation) : range_(range), smallest_correlation_(smallest_correlation) {}
+  StereoMatcher(Range range, double smallest_correlation)
+      : range_(range), smallest_correlation_(smallest_correlation) {}
 
   /// Over the whole range. nullopt where nothing resembles the pixel's neighbourhood, or two places do.
-  std::optional<StereoMatch> search(const ImagePyramid& left, const ImagePyramid& right, const Eigen::Vector2d& pixel) const;
+  std::optional<StereoMatch> search(const ImagePyramid& left, const ImagePyramid& right,
+                                    const Eigen::Vector2d& pixel) const;
 
   /// Near an expected match, disparity and gradient both measured anew.
   std::optional<StereoMatch> measure(const ImagePyramid& left, const ImagePyramid& right, const Eigen::Vector2d& pixel,
