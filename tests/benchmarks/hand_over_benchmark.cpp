@@ -83,7 +83,8 @@ void container(benchmark::State& state) {
   });
   add("writer", [&](Context& context) {
     const auto& type = panvo::interfaces::message_type<Image>();
-    output = context.open_output({std::string(panvo::topics::kPanorama.name), std::string(type.name), panvo::topics::kPanorama.qos, &type});
+    output = context.open_output(
+        {std::string(panvo::topics::kPanorama.name), std::string(type.name), panvo::topics::kPanorama.qos, &type});
   });
   container.start();
   for (auto _ : state) {

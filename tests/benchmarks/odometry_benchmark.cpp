@@ -105,7 +105,8 @@ int main(int argc, char** argv) {
     benchmark::RegisterBenchmark(("decoding/" + name).c_str(), decoding, name)->Unit(benchmark::kMillisecond);
     for (const std::string front_end : {"klt", "sift"}) {
       const std::string which = name + "/" + front_end;
-      benchmark::RegisterBenchmark(("tracking/" + which).c_str(), tracking, name, front_end)->Unit(benchmark::kMillisecond);
+      benchmark::RegisterBenchmark(("tracking/" + which).c_str(), tracking, name, front_end)
+          ->Unit(benchmark::kMillisecond);
       benchmark::RegisterBenchmark(("motion/" + which).c_str(), motion, name, front_end)->Unit(benchmark::kMillisecond);
     }
   }

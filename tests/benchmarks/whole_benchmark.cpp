@@ -19,8 +19,15 @@ void whole(benchmark::State& state, const std::string& name, const std::string& 
   const TemporaryFolder folder;
   nlohmann::json summary, timing;
   for (auto _ : state) {
-    std::vector<std::string> words{PANVO_RUN, SYSTEMS "/stereo.yaml", "--dataset", data.string(), "--out", folder / "out", "--local",
-                                   "--set", "binocular_odometry.tracking.front_end=" + front_end};
+    std::vector<std::string> words{PANVO_RUN,
+                                   SYSTEMS "/stereo.yaml",
+                                   "--dataset",
+                                   data.string(),
+                                   "--out",
+                                   folder / "out",
+                                   "--local",
+                                   "--set",
+                                   "binocular_odometry.tracking.front_end=" + front_end};
     if (replay) words.push_back("--replay");
     const Finished finished = run(words, std::chrono::seconds(600));
     if (finished.status != 0) {
@@ -43,7 +50,8 @@ int main(int argc, char** argv) {
   for (const std::string name : {"campus_clip", "kitti_03"}) {
     for (const std::string front_end : {"klt", "sift"}) {
       for (const bool replay : {true, false}) {
-        benchmark::RegisterBenchmark(("whole/" + name + "/" + front_end + (replay ? "/replay" : "/live")).c_str(), whole, name, front_end, replay)
+        benchmark::RegisterBenchmark(("whole/" + name + "/" + front_end + (replay ? "/replay" : "/live")).c_str(),
+                                     whole, name, front_end, replay)
             ->UseManualTime()
             ->Iterations(1)
             ->Unit(benchmark::kSecond);

@@ -67,7 +67,8 @@ TEST_F(Fault, AnEmptyDataSetIsToldWhatWasLookedFor) {
 
 TEST_F(Fault, ACalibrationWithoutBaselineIsRefused) {
   const std::string data = write_walk({.frames = 2});
-  std::ofstream(folder.path() / "walk" / "calib.txt") << "P0: 240 0 160 0 0 240 120 0 0 0 1 0\nP1: 240 0 160 0 0 240 120 0 0 0 1 0\n";
+  std::ofstream(folder.path() / "walk" / "calib.txt")
+      << "P0: 240 0 160 0 0 240 120 0 0 0 1 0\nP1: 240 0 160 0 0 240 120 0 0 0 1 0\n";
   const Finished finished = replay(data);
   EXPECT_EQ(finished.status, kBadConfiguration);
   EXPECT_THAT(finished.output, AllOf(HasSubstr("calib.txt"), HasSubstr("baseline")));
@@ -86,7 +87,8 @@ TEST_F(Fault, AMisspeltParameterIsNamedWithFileAndLineAndWhatWasMeant) {
                                    "      - {name: outptu, value: mono8}\n");
   const Finished finished = run({PANVO_RUN, system, "--dataset", write_walk({.frames = 2}), "--replay"});
   EXPECT_EQ(finished.status, kBadConfiguration);
-  EXPECT_THAT(finished.output, AllOf(HasSubstr("system.yaml:9"), HasSubstr("outptu"), HasSubstr("did you mean"), HasSubstr("output")));
+  EXPECT_THAT(finished.output,
+              AllOf(HasSubstr("system.yaml:9"), HasSubstr("outptu"), HasSubstr("did you mean"), HasSubstr("output")));
 }
 
 TEST_F(Fault, APluginThatIsNotThereIsNamed) {
@@ -108,7 +110,8 @@ TEST_F(Fault, AnUnknownSettingIsRefusedAndTheComponentsAreNamed) {
 }
 
 /// Frames 8 to 11 of 20 are spoilt; the odometry must say so of those, and be right again by the end.
-struct SpoiltFrames : Fault, testing::WithParamInterface<std::pair<const char*, std::function<void(cv::Mat&, cv::Mat&)>>> {};
+struct SpoiltFrames : Fault,
+                      testing::WithParamInterface<std::pair<const char*, std::function<void(cv::Mat&, cv::Mat&)>>> {};
 
 TEST_P(SpoiltFrames, AreCarriedWithoutNaNAndTheOdometryRecovers) {
   RenderedWalk walk;
@@ -129,12 +132,13 @@ TEST_P(SpoiltFrames, AreCarriedWithoutNaNAndTheOdometryRecovers) {
   EXPECT_NEAR(z, 0, 0.1);
 }
 
-INSTANTIATE_TEST_SUITE_P(, SpoiltFrames,
-                         testing::Values(std::pair{"black", [](cv::Mat& left, cv::Mat& right) { left = 0, right = 0; }},
-                                         std::pair{"constant", [](cv::Mat& left, cv::Mat& right) { left = 128, right = 128; }},
-                                         std::pair{"saturated", [](cv::Mat& left, cv::Mat& right) { left = 255, right = 255; }},
-                                         std::pair{"swapped", [](cv::Mat& left, cv::Mat& right) { cv::swap(left, right); }}),
-                         [](const auto& spoilt) { return spoilt.param.first; });
+INSTANTIATE_TEST_SUITE_P(
+    , SpoiltFrames,
+    testing::Values(std::pair{"black", [](cv::Mat& left, cv::Mat& right) { left = 0, right = 0; }},
+                    std::pair{"constant", [](cv::Mat& left, cv::Mat& right) { left = 128, right = 128; }},
+                    std::pair{"saturated", [](cv::Mat& left, cv::Mat& right) { left = 255, right = 255; }},
+                    std::pair{"swapped", [](cv::Mat& left, cv::Mat& right) { cv::swap(left, right); }}),
+    [](const auto& spoilt) { return spoilt.param.first; });
 
 TEST_F(Fault, AnUndecodableImageIsNamedAndSkipped) {
   const std::string data = write_walk({});
@@ -174,7 +178,8 @@ TEST_F(Fault, SigkillWhileRecordingLeavesAReadableBag) {
     for (const auto& file : std::filesystem::directory_iterator(bag, error)) total += file.file_size(error);
     return total;
   };
-  while (bytes() < 1'000'000 && std::chrono::steady_clock::now() < give_up) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  while (bytes() < 1'000'000 && std::chrono::steady_clock::now() < give_up)
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
   recording.signal(SIGKILL);
   EXPECT_EQ(recording.wait(), 128 + SIGKILL);
   const Finished info = run({PANVO_BAG, "info", bag});
@@ -187,7 +192,8 @@ TEST_F(Fault, SigkillWhileRecordingLeavesAReadableBag) {
 
 TEST_F(Fault, ABagCutOffInItsMiddleIsPlayedAsFarAsItGoes) {
   const std::string bag = folder / "bag";
-  ASSERT_EQ(run({PANVO_RUN, SYSTEMS "/record.yaml", "output:=" + bag, "--dataset", write_walk({}), "--replay"}).status, 0);
+  ASSERT_EQ(run({PANVO_RUN, SYSTEMS "/record.yaml", "output:=" + bag, "--dataset", write_walk({}), "--replay"}).status,
+            0);
   for (const auto& file : std::filesystem::directory_iterator(bag)) {
     if (file.path().extension() == ".db3") std::filesystem::resize_file(file.path(), file.file_size() / 2);
   }

@@ -42,9 +42,11 @@ class RecordedTopics : public testing::TestWithParam<std::string> {
  protected:
   void SetUp() override {
     data_ = GetParam() == "rendered" ? folder_.path() / "rendered" : recording(GetParam());
-    if (data_.empty()) GTEST_SKIP() << "no recording " << GetParam() << " in $PANVO_DATA or shared/data beside the checkout";
+    if (data_.empty())
+      GTEST_SKIP() << "no recording " << GetParam() << " in $PANVO_DATA or shared/data beside the checkout";
     if (GetParam() == "rendered") RenderedWalk{}.write(data_);
-    const Finished recorded = run({PANVO_RUN, SYSTEMS "/record.yaml", "output:=" + bag_, "--dataset", data_.string(), "--replay"});
+    const Finished recorded =
+        run({PANVO_RUN, SYSTEMS "/record.yaml", "output:=" + bag_, "--dataset", data_.string(), "--replay"});
     ASSERT_EQ(recorded.status, 0) << recorded.output;
   }
 
@@ -76,7 +78,8 @@ TEST_P(RecordedTopics, GiveTheSameOdometryLiveInOneContainerWhenNothingIsDropped
   ASSERT_EQ(replayed.status, 0) << replayed.output;
   const Finished live = play("live", {"--local", "--rate", "0"});
   ASSERT_EQ(live.status, 0) << live.output;
-  EXPECT_EQ(read_file(folder_.path() / "replayed" / "odometry_binocular.tum"), read_file(folder_.path() / "live" / "odometry_binocular.tum"));
+  EXPECT_EQ(read_file(folder_.path() / "replayed" / "odometry_binocular.tum"),
+            read_file(folder_.path() / "live" / "odometry_binocular.tum"));
 }
 
 TEST_P(RecordedTopics, GiveTheSameOdometryInTwoProcessesOverDds) {
@@ -84,7 +87,8 @@ TEST_P(RecordedTopics, GiveTheSameOdometryInTwoProcessesOverDds) {
   ASSERT_EQ(replayed.status, 0) << replayed.output;
   // A domain of its own, so that nothing else that runs here is heard.
   const std::string domain = std::to_string(100 + getpid() % 100);
-  const Finished split = run({PANVO_RUN, HERE "/two_processes.yaml", "--bag", bag_, "--out", folder_ / "split", "--rate", "1", "--domain", domain},
+  const Finished split = run({PANVO_RUN, HERE "/two_processes.yaml", "--bag", bag_, "--out", folder_ / "split",
+                              "--rate", "1", "--domain", domain},
                              seconds(200));
   ASSERT_EQ(split.status, 0) << split.output;
   const auto expected = read_tum(folder_.path() / "replayed" / "odometry_binocular.tum");
@@ -101,13 +105,16 @@ TEST_P(RecordedTopics, GiveTheSameOdometryInTwoProcessesOverDds) {
 
 TEST_P(RecordedTopics, RecordedTwiceAreTheSameBagMessageForMessage) {
   const std::string again = folder_ / "again";
-  const Finished recorded = run({PANVO_RUN, SYSTEMS "/record.yaml", "output:=" + again, "--dataset", data_.string(), "--replay"});
+  const Finished recorded =
+      run({PANVO_RUN, SYSTEMS "/record.yaml", "output:=" + again, "--dataset", data_.string(), "--replay"});
   ASSERT_EQ(recorded.status, 0) << recorded.output;
-  const Finished compared = run({PANVO_BAG, "diff", bag_, again, "--times", "--exclude", "/rosout"});  // which names the folder
+  const Finished compared =
+      run({PANVO_BAG, "diff", bag_, again, "--times", "--exclude", "/rosout"});  // which names the folder
   EXPECT_EQ(compared.status, 0) << compared.output;
 }
 
-INSTANTIATE_TEST_SUITE_P(, RecordedTopics, testing::Values("rendered", "kitti_03"), [](const auto& name) { return name.param; });
+INSTANTIATE_TEST_SUITE_P(, RecordedTopics, testing::Values("rendered", "kitti_03"),
+                         [](const auto& name) { return name.param; });
 
 TEST(RenderedWalk, IsMeasuredToAFewCentimetres) {
   TemporaryFolder folder;
@@ -116,7 +123,8 @@ TEST(RenderedWalk, IsMeasuredToAFewCentimetres) {
   ASSERT_EQ(played.status, 0) << played.output;
   const auto path = read_tum(folder.path() / "out" / "odometry_binocular.tum");
   ASSERT_EQ(path.size(), 40U);
-  for (const auto& [stamp, position] : path) {  // base_link: x forward; 0.1 m every 0.1 s, so that x in m is the stamp in s
+  for (const auto& [stamp, position] :
+       path) {  // base_link: x forward; 0.1 m every 0.1 s, so that x in m is the stamp in s
     EXPECT_LT(distance(position, {std::stod(stamp), 0, 0}), 0.04) << stamp;  // 1 % of the whole way
   }
 }

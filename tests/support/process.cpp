@@ -25,7 +25,8 @@ fs::path temporary_path(const char* pattern) {
 
 }  // namespace
 
-Process::Process(const std::vector<std::string>& words) : output_file_(temporary_path("panvo_process_XXXXXX") / "output") {
+Process::Process(const std::vector<std::string>& words)
+    : output_file_(temporary_path("panvo_process_XXXXXX") / "output") {
   std::vector<char*> arguments;
   for (const auto& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
   arguments.push_back(nullptr);
@@ -87,7 +88,8 @@ std::string read_file(const fs::path& file) {
 
 fs::path recording(const std::string& name) {
   const char* data = std::getenv("PANVO_DATA");
-  const fs::path folder = (data && *data ? fs::path(data) : fs::path(PANVO_SOURCE_DIR) / ".." / "shared" / "data") / name;
+  const fs::path folder =
+      (data && *data ? fs::path(data) : fs::path(PANVO_SOURCE_DIR) / ".." / "shared" / "data") / name;
   return fs::is_directory(folder) ? fs::weakly_canonical(folder) : fs::path();
 }
 

@@ -38,7 +38,8 @@ cv::Mat render(const cv::Mat textures[3], double x, double z) {
       const int surface = depth == side ? 0 : depth == level ? 1 : 2;
       which.at<uchar>(row, column) = static_cast<uchar>(surface);
       map_u.at<float>(row, column) = static_cast<float>(std::fmod((surface == 0 ? pz : px + 100) / kTexel_m, 1000.0));
-      map_v.at<float>(row, column) = static_cast<float>(std::fmod((surface == 1 ? pz + 100 * dy / std::abs(dy) : py + 100) / kTexel_m + 2e4, 1000.0));
+      map_v.at<float>(row, column) = static_cast<float>(
+          std::fmod((surface == 1 ? pz + 100 * dy / std::abs(dy) : py + 100) / kTexel_m + 2e4, 1000.0));
     }
   }
   cv::Mat image(kHeight, kWidth, CV_8U, cv::Scalar(0));
@@ -55,7 +56,8 @@ cv::Mat render(const cv::Mat textures[3], double x, double z) {
 void RenderedWalk::write(const std::filesystem::path& folder) const {
   std::filesystem::create_directories(folder / "image_0");
   std::filesystem::create_directories(folder / "image_1");
-  std::ofstream(folder / "calib.txt") << "P0: 240 0 160 0 0 240 120 0 0 0 1 0\nP1: 240 0 160 " << -kFocal_px * kBaseline_m << " 0 240 120 0 0 0 1 0\n";
+  std::ofstream(folder / "calib.txt") << "P0: 240 0 160 0 0 240 120 0 0 0 1 0\nP1: 240 0 160 "
+                                      << -kFocal_px * kBaseline_m << " 0 240 120 0 0 0 1 0\n";
   std::ofstream times(folder / "times.txt"), poses(folder / "poses.txt");
   const cv::Mat textures[3] = {texture(1), texture(2), texture(3)};
   for (int frame = 0; frame < frames; ++frame) {

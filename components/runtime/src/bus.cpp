@@ -42,7 +42,8 @@ void Channel::add_reader(const void* owner, Reader reader) {
     readers_.emplace_back(owner, std::move(reader));
   }
   const std::lock_guard lock(bridge_reader_mutex_);
-  if (bridge_ && !bridge_reader_) bridge_reader_ = bridge_->open_reader(topic_, [this](const SamplePtr& sample) { deliver(sample); });
+  if (bridge_ && !bridge_reader_)
+    bridge_reader_ = bridge_->open_reader(topic_, [this](const SamplePtr& sample) { deliver(sample); });
 }
 
 void Channel::remove_reader(const void* owner) {
@@ -192,7 +193,8 @@ bool Bus::wait_for_acknowledgments(std::chrono::milliseconds limit) {
   const auto deadline = std::chrono::steady_clock::now() + limit;
   bool all = true;
   for (Channel* channel : channels()) {
-    const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(deadline - std::chrono::steady_clock::now());
+    const auto left =
+        std::chrono::duration_cast<std::chrono::milliseconds>(deadline - std::chrono::steady_clock::now());
     all = channel->wait_for_acknowledgments(std::max(left, std::chrono::milliseconds(0))) && all;
   }
   return all;

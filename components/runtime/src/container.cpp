@@ -42,7 +42,8 @@ class Container::Implementation {
              [this](const std::string& text) { log(LogLevel::kWarning, "container", text); }),
         host_{.bus = bus_,
               .replay_order = options_.replay ? &replay_order_ : nullptr,
-              .log = [this](LogLevel level, const std::string& component, const std::string& text) { log(level, component, text); },
+              .log = [this](LogLevel level, const std::string& component,
+                            const std::string& text) { log(level, component, text); },
               .seed = options_.seed,
               .progressed = [this] { progressed(); }},
         own_(std::make_unique<Context::State>(host_, own_description(), nullptr)),
@@ -78,7 +79,8 @@ class Container::Implementation {
   void add(const ComponentDescription& description, std::shared_ptr<Library> library,
            const std::function<std::unique_ptr<Component, void (*)(Component*)>(Context&)>& create) {
     if (find(description.name) != entries_.end()) {
-      throw ConfigError(description.where.to_string() + ": there already is a component " + description.name + "; give this one another name");
+      throw ConfigError(description.where.to_string() + ": there already is a component " + description.name +
+                        "; give this one another name");
     }
     auto entry = std::make_unique<Entry>();
     entry->library = library;
@@ -92,7 +94,9 @@ class Container::Implementation {
     } catch (const std::exception& error) {
       problems.push_back(description.name + " could not be made: " + error.what());
     }
-    const auto append = [&](const std::vector<std::string>& more) { problems.insert(problems.end(), more.begin(), more.end()); };
+    const auto append = [&](const std::vector<std::string>& more) {
+      problems.insert(problems.end(), more.begin(), more.end());
+    };
     append(state.reader.problems());
     append(state.problems);
     if (!problems.empty()) throw ConfigError(std::move(problems));
@@ -133,7 +137,8 @@ class Container::Implementation {
     }
     std::vector<std::string> problems = source_problems_;
     for (const auto& entry : entries_) {
-      if (entry->context->state().failed()) problems.push_back(entry->context->name() + " stopped by an error, see the log");
+      if (entry->context->state().failed())
+        problems.push_back(entry->context->name() + " stopped by an error, see the log");
     }
     return problems;
   }
@@ -149,7 +154,8 @@ class Container::Implementation {
   }
 
   std::vector<std::unique_ptr<Entry>>::iterator find(const std::string& name) {
-    return std::find_if(entries_.begin(), entries_.end(), [&](const auto& entry) { return entry->context->name() == name; });
+    return std::find_if(entries_.begin(), entries_.end(),
+                        [&](const auto& entry) { return entry->context->name() == name; });
   }
 
   const std::vector<std::unique_ptr<Entry>>& entries() const { return entries_; }
@@ -214,10 +220,11 @@ class Container::Implementation {
 
   void run_live(const std::vector<Source*>& sources) {
     runner_ = std::make_unique<SourceRunner>(
-        sources, SourceRunner::Settings{.rate = options_.rate,
-                                        .queues_are_empty = [this] { return queues_are_empty(); },
-                                        .failed = [this](const std::string& what) { fail_source(what); },
-                                        .warn = [this](const std::string& text) { log(LogLevel::kWarning, "container", text); }});
+        sources, SourceRunner::Settings{
+                     .rate = options_.rate,
+                     .queues_are_empty = [this] { return queues_are_empty(); },
+                     .failed = [this](const std::string& what) { fail_source(what); },
+                     .warn = [this](const std::string& text) { log(LogLevel::kWarning, "container", text); }});
     active_runner_ = runner_.get();
     runner_->start();
     if (sources.empty()) {
@@ -245,7 +252,8 @@ class Container::Implementation {
       before = host_.in_flight;
     }
     lock.unlock();
-    if (before != 0) log(LogLevel::kWarning, "container", fmt::format("{} messages were still waiting at the end", before));
+    if (before != 0)
+      log(LogLevel::kWarning, "container", fmt::format("{} messages were still waiting at the end", before));
     if (!bus_.wait_for_acknowledgments(std::chrono::seconds(3))) {
       log(LogLevel::kWarning, "container", "another process has not acknowledged all that was sent to it");
     }
@@ -270,7 +278,8 @@ class Container::Implementation {
   void keep_house() {
     std::int64_t last_ns = clocks::monotonic_ns();
     std::unique_lock lock(housekeeping_mutex_);
-    while (!housekeeping_changed_.wait_for(lock, std::chrono::milliseconds(50), [this] { return housekeeping_ended_; })) {
+    while (
+        !housekeeping_changed_.wait_for(lock, std::chrono::milliseconds(50), [this] { return housekeeping_ended_; })) {
       bus_.join_discovered();
       const std::int64_t now_ns = clocks::monotonic_ns();
       if (now_ns - last_ns < 1'000'000'000) continue;
@@ -312,7 +321,8 @@ class Container::Implementation {
   std::shared_ptr<UntypedOutput> rosout_;
   Diagnostics diagnostics_;
 
-  mutable std::mutex entries_mutex_;  // guards entries_ against the housekeeping and source threads; only the user's thread changes it
+  mutable std::mutex
+      entries_mutex_;  // guards entries_ against the housekeeping and source threads; only the user's thread changes it
   std::vector<std::unique_ptr<Entry>> entries_;
   bool started_ = false;
 
@@ -328,7 +338,8 @@ class Container::Implementation {
   std::thread housekeeping_;
 };
 
-Container::Container(ContainerOptions options) : implementation_(std::make_unique<Implementation>(std::move(options))) {}
+Container::Container(ContainerOptions options)
+    : implementation_(std::make_unique<Implementation>(std::move(options))) {}
 Container::~Container() = default;
 
 void Container::load(const ComponentDescription& description) {
@@ -338,7 +349,8 @@ void Container::load(const ComponentDescription& description) {
     const ComponentDescriptor* descriptor = library->find(description.plugin);
     if (!descriptor) {
       std::string known;
-      for (const auto* component : library->components()) known += (known.empty() ? "" : ", ") + std::string(component->class_name);
+      for (const auto* component : library->components())
+        known += (known.empty() ? "" : ", ") + std::string(component->class_name);
       throw ConfigError(library->file().string() + " has no component " + description.plugin + "; it has " + known);
     }
     implementation_->add(description, library, [descriptor](Context& context) {
@@ -355,7 +367,8 @@ void Container::load(const ComponentDescription& description) {
 
 void Container::add(const ComponentDescription& description, const Factory& factory) {
   implementation_->add(description, nullptr, [&](Context& context) {
-    return std::unique_ptr<Component, void (*)(Component*)>(factory(context).release(), [](Component* component) { delete component; });
+    return std::unique_ptr<Component, void (*)(Component*)>(factory(context).release(),
+                                                            [](Component* component) { delete component; });
   });
 }
 
@@ -418,7 +431,9 @@ bool Container::wait_for_peers(const std::map<std::string, Peers>& peers, std::c
   return true;
 }
 
-void Container::on_progress(std::function<void(Source::Progress)> callback) { implementation_->on_progress = std::move(callback); }
+void Container::on_progress(std::function<void(Source::Progress)> callback) {
+  implementation_->on_progress = std::move(callback);
+}
 
 std::vector<QueueCounters> Container::queue_counters() const {
   std::vector<QueueCounters> all;
@@ -452,7 +467,8 @@ std::map<std::string, std::map<std::string, std::string>> Container::changed_par
 
 std::vector<ParameterDescription> Container::parameters_of(const std::string& component) const {
   const auto found = implementation_->find(component);
-  return found == implementation_->entries().end() ? std::vector<ParameterDescription>{} : (*found)->context->state().reader.declared();
+  return found == implementation_->entries().end() ? std::vector<ParameterDescription>{}
+                                                   : (*found)->context->state().reader.declared();
 }
 
 }  // namespace panvo::runtime

@@ -30,7 +30,8 @@ class ChannelOutput final : public UntypedOutput {
     channel_.publish(Sample::of(*channel_.topic().type, std::move(message), time_ns(), library_));
   }
   void publish(interfaces::Bytes bytes) override {
-    channel_.publish(Sample::from_bytes(channel_.topic().type, channel_.topic().type_name, std::move(bytes), time_ns()));
+    channel_.publish(
+        Sample::from_bytes(channel_.topic().type, channel_.topic().type_name, std::move(bytes), time_ns()));
   }
 
  private:
@@ -154,18 +155,22 @@ const std::string& Context::name() const noexcept { return state_->description.n
 const Logger& Context::log() const noexcept { return state_->logger; }
 StageTimes& Context::times() noexcept { return state_->times; }
 ParameterReader& Context::parameter_reader() { return state_->reader; }
-const std::vector<ParameterDescription>& Context::declared_parameters() const noexcept { return state_->reader.declared(); }
+const std::vector<ParameterDescription>& Context::declared_parameters() const noexcept {
+  return state_->reader.declared();
+}
 std::int64_t Context::now_ns() const noexcept { return current_stamp_ns(); }
 
 std::uint64_t Context::seed() const noexcept {
   std::uint64_t hash = 14695981039346656037ULL ^ state_->host.seed;  // FNV-1a over the name: the same on every machine
-  for (const char letter : state_->description.name) hash = (hash ^ static_cast<unsigned char>(letter)) * 1099511628211ULL;
+  for (const char letter : state_->description.name)
+    hash = (hash ^ static_cast<unsigned char>(letter)) * 1099511628211ULL;
   return hash;
 }
 
 std::shared_ptr<UntypedOutput> Context::open_output(const TopicDescription& topic) {
   try {
-    return std::make_shared<ChannelOutput>(state_->host.bus.channel(state_->resolve(topic)), state_->host, state_->library, name());
+    return std::make_shared<ChannelOutput>(state_->host.bus.channel(state_->resolve(topic)), state_->host,
+                                           state_->library, name());
   } catch (const ConfigError& error) {
     state_->problems.push_back(name() + ": " + error.what());
     return std::make_shared<NoOutput>();
@@ -194,20 +199,22 @@ void Context::open_input(const TopicDescription& topic, std::function<void(const
 void Context::open_input_pair(const TopicDescription& first, const TopicDescription& second,
                               std::function<void(const SamplePtr&, const SamplePtr&)> callback) {
   try {
-    Channel* channels[2] = {&state_->host.bus.channel(state_->resolve(first)), &state_->host.bus.channel(state_->resolve(second))};
+    Channel* channels[2] = {&state_->host.bus.channel(state_->resolve(first)),
+                            &state_->host.bus.channel(state_->resolve(second))};
     Worker& worker = state_->main_worker();
     Port& port = worker.add_port(first.name + ", " + second.name, first.qos.depth, false,
                                  [callback = std::move(callback)](Task& task) { callback(task.first, task.second); });
     const auto pairing = std::make_shared<Pairing>(worker, port);
     for (int side = 0; side < 2; ++side) {
       state_->inputs.push_back(channels[side]);
-      channels[side]->add_reader(state_.get(), [pairing, side, &worker, &port](const TopicDescription&, const SamplePtr& sample) {
-        try {
-          pairing->take(side, sample);
-        } catch (const interfaces::DecodeError&) {
-          worker.count_dropped(port);
-        }
-      });
+      channels[side]->add_reader(state_.get(),
+                                 [pairing, side, &worker, &port](const TopicDescription&, const SamplePtr& sample) {
+                                   try {
+                                     pairing->take(side, sample);
+                                   } catch (const interfaces::DecodeError&) {
+                                     worker.count_dropped(port);
+                                   }
+                                 });
     }
   } catch (const ConfigError& error) {
     state_->problems.push_back(name() + ": " + error.what());
@@ -217,7 +224,8 @@ void Context::open_input_pair(const TopicDescription& first, const TopicDescript
 std::shared_ptr<StageQueue> Context::open_stage(const std::string& stage_name, std::size_t capacity,
                                                 std::function<void(std::any&)> callback) {
   Worker& worker = *state_->workers.emplace_back(state_->make_worker(stage_name));
-  Port& port = worker.add_port(stage_name, capacity, true, [callback = std::move(callback)](Task& task) { callback(task.item); });
+  Port& port = worker.add_port(stage_name, capacity, true,
+                               [callback = std::move(callback)](Task& task) { callback(task.item); });
   return std::make_shared<WorkerStage>(worker, port);
 }
 
@@ -226,11 +234,13 @@ void Context::source(Source& source) { state_->source = &source; }
 void Context::tap(std::function<bool(const TopicDescription&)> wanted, std::size_t depth,
                   std::function<void(const TopicDescription&, const SamplePtr&)> callback) {
   Worker& worker = state_->main_worker();
-  Port& port = worker.add_port("tap", depth, false, [callback = std::move(callback)](Task& task) { callback(*task.topic, task.first); });
+  Port& port = worker.add_port("tap", depth, false,
+                               [callback = std::move(callback)](Task& task) { callback(*task.topic, task.first); });
   state_->taps = true;
-  state_->host.bus.tap(state_.get(), std::move(wanted), [&worker, &port](const TopicDescription& topic, const SamplePtr& sample) {
-    worker.push(port, {.topic = &topic, .first = sample, .stamp_ns = sample->time_ns()});
-  });
+  state_->host.bus.tap(state_.get(), std::move(wanted),
+                       [&worker, &port](const TopicDescription& topic, const SamplePtr& sample) {
+                         worker.push(port, {.topic = &topic, .first = sample, .stamp_ns = sample->time_ns()});
+                       });
 }
 
 bool Context::is_published(const std::string& resolved_name) const {

@@ -17,8 +17,8 @@ void add(diagnostic_msgs::msg::DiagnosticStatus& status, const std::string& key,
 
 }  // namespace
 
-diagnostic_msgs::msg::DiagnosticArray Diagnostics::collect(const std::vector<const Context::State*>& components, std::int64_t stamp_ns,
-                                                           double interval_s) {
+diagnostic_msgs::msg::DiagnosticArray Diagnostics::collect(const std::vector<const Context::State*>& components,
+                                                           std::int64_t stamp_ns, double interval_s) {
   diagnostic_msgs::msg::DiagnosticArray array;
   array.header().stamp().sec(static_cast<std::int32_t>(stamp_ns / 1'000'000'000));
   array.header().stamp().nanosec(static_cast<std::uint32_t>(stamp_ns % 1'000'000'000));
@@ -31,20 +31,21 @@ diagnostic_msgs::msg::DiagnosticArray Diagnostics::collect(const std::vector<con
       for (const auto& port : worker->counters()) {
         Previous& previous = previous_[component->description.name + "\n" + port.input];
         newly_dropped += port.dropped - previous.dropped;
-        add(status, port.input + " rate", fmt::format("{:.1f} Hz", static_cast<double>(port.handled - previous.handled) / interval_s));
+        add(status, port.input + " rate",
+            fmt::format("{:.1f} Hz", static_cast<double>(port.handled - previous.handled) / interval_s));
         add(status, port.input + " latency",
-            fmt::format("median {:.2f} ms, p95 {:.2f} ms, max {:.2f} ms", port.latency.quantile_ms(0.5), port.latency.quantile_ms(0.95),
-                        port.latency.max_ms()));
+            fmt::format("median {:.2f} ms, p95 {:.2f} ms, max {:.2f} ms", port.latency.quantile_ms(0.5),
+                        port.latency.quantile_ms(0.95), port.latency.max_ms()));
         add(status, port.input + " messages",
-            fmt::format("{} received, {} handled, {} dropped, {} waiting, {} undecodable", port.received, port.handled, port.dropped,
-                        port.waiting, port.undecodable));
+            fmt::format("{} received, {} handled, {} dropped, {} waiting, {} undecodable", port.received, port.handled,
+                        port.dropped, port.waiting, port.undecodable));
         previous = {port.handled, port.dropped};
       }
     }
     for (const auto& [stage, times] : component->times.snapshot()) {
       add(status, stage + " time",
-          fmt::format("mean {:.2f} ms, p95 {:.2f} ms, max {:.2f} ms, CPU mean {:.2f} ms", times.wall.mean_ms(), times.wall.quantile_ms(0.95),
-                      times.wall.max_ms(), times.cpu.mean_ms()));
+          fmt::format("mean {:.2f} ms, p95 {:.2f} ms, max {:.2f} ms, CPU mean {:.2f} ms", times.wall.mean_ms(),
+                      times.wall.quantile_ms(0.95), times.wall.max_ms(), times.cpu.mean_ms()));
     }
     if (component->failed()) {
       status.level(kError);

@@ -15,7 +15,8 @@ namespace panvo::runtime {
 class Diagnostics {
  public:
   /// `interval_s`: since the last call, for rates.
-  diagnostic_msgs::msg::DiagnosticArray collect(const std::vector<const Context::State*>& components, std::int64_t stamp_ns, double interval_s);
+  diagnostic_msgs::msg::DiagnosticArray collect(const std::vector<const Context::State*>& components,
+                                                std::int64_t stamp_ns, double interval_s);
 
  private:
   struct Previous {

@@ -39,8 +39,8 @@ Library::Library(const fs::path& file) : file_(file) {
   } else if (!first_) {
     problem = "registers no component: add PANVO_REGISTER_COMPONENT(Class) to its source file";
   } else if (first_->runtime_version != kRuntimeVersion) {
-    problem = "was built for panvo_runtime " + std::string(first_->runtime_version) + ", this is " + std::string(kRuntimeVersion) +
-              ": build it again";
+    problem = "was built for panvo_runtime " + std::string(first_->runtime_version) + ", this is " +
+              std::string(kRuntimeVersion) + ": build it again";
   }
   if (!problem.empty()) {
     dlclose(handle_);
@@ -61,7 +61,8 @@ const ComponentDescriptor* Library::find(const std::string& class_name) const {
 
 std::vector<const ComponentDescriptor*> Library::components() const {
   std::vector<const ComponentDescriptor*> components;
-  for (const ComponentDescriptor* descriptor = first_; descriptor; descriptor = descriptor->next) components.push_back(descriptor);
+  for (const ComponentDescriptor* descriptor = first_; descriptor; descriptor = descriptor->next)
+    components.push_back(descriptor);
   return components;
 }
 
@@ -82,8 +83,8 @@ std::vector<fs::path> plugin_folders() {
   const fs::path executable = fs::read_symlink("/proc/self/exe", error);
   if (!error) {
     const fs::path folder = executable.parent_path();
-    folders.push_back(folder / ".." / "lib" / "panvo");       // installed
-    folders.push_back(folder / ".." / "panvo_plugins");       // in the build folder
+    folders.push_back(folder / ".." / "lib" / "panvo");  // installed
+    folders.push_back(folder / ".." / "panvo_plugins");  // in the build folder
   }
   return folders;
 }

@@ -73,7 +73,8 @@ bool SourceRunner::wait_for_turn(std::size_t index, std::int64_t stamp_ns) {
 
 bool SourceRunner::wait(int limit_ms) {
   std::unique_lock lock(mutex_);
-  return changed_.wait_for(lock, std::chrono::milliseconds(limit_ms), [&] { return playing_ == 0 || stopping_; }) && playing_ == 0;
+  return changed_.wait_for(lock, std::chrono::milliseconds(limit_ms), [&] { return playing_ == 0 || stopping_; }) &&
+         playing_ == 0;
 }
 
 void SourceRunner::stop() {

@@ -18,7 +18,7 @@ namespace panvo::runtime {
 class SourceRunner {
  public:
   struct Settings {
-    double rate = 1;                           // 0: as fast as the consumers take it
+    double rate = 1;  // 0: as fast as the consumers take it
     std::function<bool()> queues_are_empty;
     std::function<void(const std::string&)> failed;
     std::function<void(const std::string&)> warn;

@@ -61,7 +61,8 @@ void Worker::push(Port& port, Task task) {
       return;
     }
   } else if (port.waiting >= port.depth) {
-    const auto oldest = std::find_if(tasks_.begin(), tasks_.end(), [&](const auto& entry) { return entry.first == &port; });
+    const auto oldest =
+        std::find_if(tasks_.begin(), tasks_.end(), [&](const auto& entry) { return entry.first == &port; });
     tasks_.erase(oldest);
     --port.waiting;
     ++port.dropped;
@@ -90,7 +91,8 @@ void Worker::stop() {
   room_or_stop_.notify_all();
   if (thread_.joinable()) thread_.join();
   if (replay_) replay_->forget(*this);
-  std::deque<std::pair<Port*, Task>> discarded;  // destroyed outside the lock: the last owner of a message may free much
+  std::deque<std::pair<Port*, Task>>
+      discarded;  // destroyed outside the lock: the last owner of a message may free much
   const std::lock_guard lock(mutex_);
   for (const auto& entry : tasks_) {
     ++entry.first->dropped;
@@ -167,7 +169,8 @@ std::vector<Worker::PortCounters> Worker::counters() const {
   const std::lock_guard lock(mutex_);
   std::vector<PortCounters> counters;
   for (const auto& port : ports_) {
-    counters.push_back({port->name, port->waiting, port->received, port->handled, port->dropped, port->undecodable, port->latency});
+    counters.push_back(
+        {port->name, port->waiting, port->received, port->handled, port->dropped, port->undecodable, port->latency});
   }
   return counters;
 }

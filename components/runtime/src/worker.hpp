@@ -62,7 +62,7 @@ class Worker {
  public:
   struct Hooks {
     std::function<void(const std::string& what)> failed;
-    std::function<void()> progressed;  // a task was handled: for those who wait for room
+    std::function<void()> progressed;                // a task was handled: for those who wait for room
     std::atomic<std::int64_t>* in_flight = nullptr;  // tasks queued or running, over all workers: 0 when all is quiet
   };
 

@@ -51,7 +51,8 @@ class Player : public Component, public Source {
 
 /// Notes what it gets.
 struct Sink : Component {
-  explicit Sink(Context& context, const interfaces::Topic<Image>& topic, std::function<void(std::shared_ptr<const Image>)> take) {
+  explicit Sink(Context& context, const interfaces::Topic<Image>& topic,
+                std::function<void(std::shared_ptr<const Image>)> take) {
     context.input(topic, std::move(take));
   }
 };
@@ -89,12 +90,17 @@ TEST(Container, ReplaysSourcesInOrderOfStamp) {
   Container container({.replay = true});
   std::vector<std::int64_t> seen;
   for (const auto* topic : {&topics::kStereoLeftImageRaw, &topics::kPanorama}) {
-    container.add(named("sink" + std::to_string(seen.capacity()) + std::string(topic->name.substr(0, 4))), [&](Context& context) {
-      return std::make_unique<Sink>(context, *topic, [&](std::shared_ptr<const Image> image) { seen.push_back(stamp_of(*image)); });
-    });
+    container.add(named("sink" + std::to_string(seen.capacity()) + std::string(topic->name.substr(0, 4))),
+                  [&](Context& context) {
+                    return std::make_unique<Sink>(
+                        context, *topic, [&](std::shared_ptr<const Image> image) { seen.push_back(stamp_of(*image)); });
+                  });
   }
-  container.add(named("slow"), [](Context& context) { return std::make_unique<Player>(context, topics::kPanorama, stamps(0, 5, 3)); });
-  container.add(named("quick"), [](Context& context) { return std::make_unique<Player>(context, topics::kStereoLeftImageRaw, stamps(1, 3, 4)); });
+  container.add(named("slow"),
+                [](Context& context) { return std::make_unique<Player>(context, topics::kPanorama, stamps(0, 5, 3)); });
+  container.add(named("quick"), [](Context& context) {
+    return std::make_unique<Player>(context, topics::kStereoLeftImageRaw, stamps(1, 3, 4));
+  });
   EXPECT_TRUE(container.run().empty());
   EXPECT_THAT(seen, ElementsAre(0, 1, 4, 5, 7, 10, 10));
 }
@@ -102,7 +108,9 @@ TEST(Container, ReplaysSourcesInOrderOfStamp) {
 TEST(Container, AtFullSpeedDropsNothingHoweverSlowAComponentIs) {
   Container container({.replay = false, .rate = 0});
   std::atomic<int> handled = 0;
-  container.add(named("player"), [](Context& context) { return std::make_unique<Player>(context, topics::kStereoLeftImageRaw, stamps(0, 1, 200)); });
+  container.add(named("player"), [](Context& context) {
+    return std::make_unique<Player>(context, topics::kStereoLeftImageRaw, stamps(0, 1, 200));
+  });
   container.add(named("sink"), [&](Context& context) {
     return std::make_unique<Sink>(context, topics::kStereoLeftImageRaw, [&](std::shared_ptr<const Image>) {
       volatile double work = 0;
@@ -112,7 +120,8 @@ TEST(Container, AtFullSpeedDropsNothingHoweverSlowAComponentIs) {
   });
   EXPECT_TRUE(container.run().empty());
   EXPECT_EQ(handled, 200);
-  for (const auto& queue : container.queue_counters()) EXPECT_EQ(queue.dropped, 0U) << queue.component << " " << queue.input;
+  for (const auto& queue : container.queue_counters())
+    EXPECT_EQ(queue.dropped, 0U) << queue.component << " " << queue.input;
 }
 
 TEST(Container, PairsMessagesOfOneStampAndCountsThoseLeftAlone) {
@@ -139,8 +148,10 @@ TEST(Container, PairsMessagesOfOneStampAndCountsThoseLeftAlone) {
 /// Two stages, the second of which depends on the order of what it gets.
 struct TwoStages : Component {
   TwoStages(Context& context, std::uint64_t& hash)
-      : second(context.stage<std::int64_t>("second", 2, [&hash](std::int64_t stamp) { hash = (hash ^ stamp) * 1099511628211ULL; })) {
-    context.input(topics::kStereoLeftImageRaw, [this](std::shared_ptr<const Image> image) { second.push(stamp_of(*image)); });
+      : second(context.stage<std::int64_t>("second", 2,
+                                           [&hash](std::int64_t stamp) { hash = (hash ^ stamp) * 1099511628211ULL; })) {
+    context.input(topics::kStereoLeftImageRaw,
+                  [this](std::shared_ptr<const Image> image) { second.push(stamp_of(*image)); });
   }
   Stage<std::int64_t> second;
 };
@@ -149,8 +160,11 @@ TEST(Container, GivesStagesTheSameItemsInTheSameOrderLiveAndInReplay) {
   std::uint64_t hashes[2] = {1, 1};
   for (const bool replay : {false, true}) {
     Container container({.replay = replay});
-    container.add(named("player"), [](Context& context) { return std::make_unique<Player>(context, topics::kStereoLeftImageRaw, stamps(0, 1, 500)); });
-    container.add(named("stages"), [&](Context& context) { return std::make_unique<TwoStages>(context, hashes[replay]); });
+    container.add(named("player"), [](Context& context) {
+      return std::make_unique<Player>(context, topics::kStereoLeftImageRaw, stamps(0, 1, 500));
+    });
+    container.add(named("stages"),
+                  [&](Context& context) { return std::make_unique<TwoStages>(context, hashes[replay]); });
     EXPECT_TRUE(container.run().empty());
   }
   EXPECT_NE(hashes[0], 1U);
@@ -165,7 +179,8 @@ TEST(Container, GoesOnWhenOneComponentFailsAndSaysSoAtTheEnd) {
                                   [](std::shared_ptr<const Image>) { throw std::logic_error("index out of range"); });
   });
   harness.container().add(named("sound"), [&](Context& context) {
-    return std::make_unique<Sink>(context, topics::kStereoLeftImageRaw, [&](std::shared_ptr<const Image>) { ++handled; });
+    return std::make_unique<Sink>(context, topics::kStereoLeftImageRaw,
+                                  [&](std::shared_ptr<const Image>) { ++handled; });
   });
   for (const int stamp : {1, 2, 3}) harness.publish(topics::kStereoLeftImageRaw, image_at(stamp));
   EXPECT_EQ(handled, 3);
@@ -179,13 +194,16 @@ TEST(Container, RefusesATopicOfAnotherTypeAndNamesBoth) {
     return std::make_unique<Sink>(context, topics::kStereoLeftImageRaw, [](std::shared_ptr<const Image>) {});
   });
   struct Wrong : Component {
-    explicit Wrong(Context& context) { context.output(interfaces::Topic<nav_msgs::msg::Odometry>{"stereo/left/image_raw"}); }
+    explicit Wrong(Context& context) {
+      context.output(interfaces::Topic<nav_msgs::msg::Odometry>{"stereo/left/image_raw"});
+    }
   };
   try {
     container.add(named("second"), [](Context& context) { return std::make_unique<Wrong>(context); });
     FAIL() << "accepted";
   } catch (const ConfigError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("/stereo/left/image_raw carries sensor_msgs/msg/Image here, not nav_msgs/msg/Odometry"));
+    EXPECT_THAT(error.what(),
+                HasSubstr("/stereo/left/image_raw carries sensor_msgs/msg/Image here, not nav_msgs/msg/Odometry"));
   }
   EXPECT_THAT(container.components(), ElementsAre("first"));
 }

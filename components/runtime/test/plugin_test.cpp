@@ -57,7 +57,8 @@ TEST(Plugin, StaysMappedAsLongAsAMessageOfItsMakingIsHeld) {
   {
     struct Keeper : Component {
       Keeper(Context& context, std::shared_ptr<const sensor_msgs::msg::Image>& keep) {
-        context.input(topics::kStereoLeftImageRect, [&keep](std::shared_ptr<const sensor_msgs::msg::Image> image) { keep = std::move(image); });
+        context.input(topics::kStereoLeftImageRect,
+                      [&keep](std::shared_ptr<const sensor_msgs::msg::Image> image) { keep = std::move(image); });
       }
     };
     ComponentDescription keeper = relay();
@@ -90,7 +91,8 @@ TEST(Plugin, ThatIsNotThereIsRefusedAndSaysWhereItWasLookedFor) {
 TEST(Plugin, WithoutThatComponentIsRefusedAndSaysWhichItHas) {
   ComponentDescription description = relay();
   description.plugin = "RelyComponent";
-  EXPECT_THAT(why_not(description), HasSubstr("has no component RelyComponent; it has BrokenComponent, RelayComponent"));
+  EXPECT_THAT(why_not(description),
+              HasSubstr("has no component RelyComponent; it has BrokenComponent, RelayComponent"));
 }
 
 TEST(Plugin, WhoseComponentCannotBeMadeSaysWhyAndIsUnloaded) {

@@ -62,7 +62,8 @@ TEST(Sample, KeepsItsPluginUntilTheMessageIsGone) {
   auto plugin = std::make_shared<int>(1);
   const std::weak_ptr<int> alive = plugin;
   auto message = Sample::as<sensor_msgs::msg::Image>(Sample::of(interfaces::message_type<sensor_msgs::msg::Image>(),
-                                                                std::make_shared<const sensor_msgs::msg::Image>(), 0, std::move(plugin)));
+                                                                std::make_shared<const sensor_msgs::msg::Image>(), 0,
+                                                                std::move(plugin)));
   EXPECT_FALSE(alive.expired());
   message.reset();
   EXPECT_TRUE(alive.expired());

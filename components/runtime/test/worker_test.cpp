@@ -14,8 +14,16 @@ struct BusyWorker {
   std::atomic<std::int64_t> in_flight = 0;
   std::string failure;
   std::promise<void> failed, started, release;
-  Worker worker{"busy", times, nullptr,
-                {.failed = [this](const std::string& what) { failure = what; failed.set_value(); }, .progressed = [] {}, .in_flight = &in_flight}};
+  Worker worker{"busy",
+                times,
+                nullptr,
+                {.failed =
+                     [this](const std::string& what) {
+                       failure = what;
+                       failed.set_value();
+                     },
+                 .progressed = [] {},
+                 .in_flight = &in_flight}};
 
   void block() {
     Port& port = worker.add_port("block", 1, false, [this](Task&) {

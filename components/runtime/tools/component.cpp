@@ -20,7 +20,8 @@ std::set<std::string> packages() {
     for (const auto& file : std::filesystem::directory_iterator(folder, error)) {
       const std::string name = file.path().filename().string();
       constexpr std::string_view kEnd = "_component.so";
-      if (name.starts_with("lib") && name.ends_with(kEnd)) packages.insert(name.substr(3, name.size() - 3 - kEnd.size()));
+      if (name.starts_with("lib") && name.ends_with(kEnd))
+        packages.insert(name.substr(3, name.size() - 3 - kEnd.size()));
     }
   }
   return packages;
@@ -61,7 +62,8 @@ void show(const std::string& package) {
       std::cout << "  " << parameter.name << " = " << parameter.default_value;
       if (!parameter.unit.empty()) std::cout << " [" << parameter.unit << "]";
       if (parameter.min && parameter.max) std::cout << "  " << *parameter.min << " .. " << *parameter.max;
-      for (std::size_t i = 0; i < parameter.choices.size(); ++i) std::cout << (i == 0 ? "  " : " | ") << parameter.choices[i];
+      for (std::size_t i = 0; i < parameter.choices.size(); ++i)
+        std::cout << (i == 0 ? "  " : " | ") << parameter.choices[i];
       std::cout << "\n      " << parameter.type << ": " << parameter.description << "\n";
     }
   }
@@ -75,7 +77,8 @@ int main(int argc, char** argv) {
   CLI::App app("Lists components and describes their parameters.", "panvo component");
   app.require_subcommand(1);
   app.add_subcommand("list", "every component that can be loaded: package and plugin")->callback(list);
-  auto* show_command = app.add_subcommand("show", "the parameters of a package's components, with units, defaults and ranges");
+  auto* show_command =
+      app.add_subcommand("show", "the parameters of a package's components, with units, defaults and ranges");
   std::string package;
   show_command->add_option("PACKAGE", package, "such as panvo_binocular_odometry")->required();
   show_command->callback([&] { show(package); });

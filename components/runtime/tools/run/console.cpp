@@ -16,10 +16,14 @@ std::int64_t now_ns() { return std::chrono::steady_clock::now().time_since_epoch
 
 const char* name_of(LogLevel level) {
   switch (level) {
-    case LogLevel::kDebug: return "debug";
-    case LogLevel::kInfo: return "info";
-    case LogLevel::kWarning: return "warning";
-    case LogLevel::kError: return "error";
+    case LogLevel::kDebug:
+      return "debug";
+    case LogLevel::kInfo:
+      return "info";
+    case LogLevel::kWarning:
+      return "warning";
+    case LogLevel::kError:
+      return "error";
   }
   return "";
 }
@@ -30,7 +34,8 @@ Console::Console(const std::filesystem::path& log_file, LogLevel show)
     : show_(show), is_terminal_(isatty(STDERR_FILENO) == 1), start_ns_(now_ns()) {
   if (log_file.empty()) return;
   try {
-    file_ = std::make_shared<spdlog::logger>("run", std::make_shared<spdlog::sinks::basic_file_sink_mt>(log_file.string(), true));
+    file_ = std::make_shared<spdlog::logger>(
+        "run", std::make_shared<spdlog::sinks::basic_file_sink_mt>(log_file.string(), true));
   } catch (const spdlog::spdlog_ex& error) {
     throw std::runtime_error("cannot write the log " + log_file.string() + ": " + error.what());
   }
@@ -46,9 +51,12 @@ void Console::log(LogLevel level, const std::string& component, const std::strin
   if (file_) file_->info("{} [{}] {}", name_of(level), component, text);
   if (level < show_) return;
   clear_progress();
-  const char* colour = !is_terminal_ ? "" : level == LogLevel::kError ? "\033[31m" : level == LogLevel::kWarning ? "\033[33m" : "";
-  std::fprintf(stderr, "%s[%s] %s: %s%s\n%s", colour, component.c_str(), name_of(level), text.c_str(), *colour ? "\033[0m" : "",
-               progress_line_.c_str());
+  const char* colour = !is_terminal_                 ? ""
+                       : level == LogLevel::kError   ? "\033[31m"
+                       : level == LogLevel::kWarning ? "\033[33m"
+                                                     : "";
+  std::fprintf(stderr, "%s[%s] %s: %s%s\n%s", colour, component.c_str(), name_of(level), text.c_str(),
+               *colour ? "\033[0m" : "", progress_line_.c_str());
   std::fflush(stderr);
 }
 
@@ -57,8 +65,9 @@ void Console::progress(Source::Progress progress) {
   const std::lock_guard lock(mutex_);
   const double elapsed_s = static_cast<double>(now_ns() - start_ns_) * 1e-9;
   const double fraction = static_cast<double>(progress.done) / static_cast<double>(progress.total);
-  const std::string text = fmt::format("{}/{} frames, {:.0f} %, {:.1f} frames/s", progress.done, progress.total, 100 * fraction,
-                                       elapsed_s > 0 ? static_cast<double>(progress.done) / elapsed_s : 0.0);
+  const std::string text =
+      fmt::format("{}/{} frames, {:.0f} %, {:.1f} frames/s", progress.done, progress.total, 100 * fraction,
+                  elapsed_s > 0 ? static_cast<double>(progress.done) / elapsed_s : 0.0);
   if (is_terminal_) {
     clear_progress();
     constexpr int kWidth = 30;

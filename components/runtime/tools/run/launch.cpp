@@ -55,7 +55,8 @@ std::vector<std::string> command_line(const RunOptions& options, const Child& ch
 
 void start(const RunOptions& options, Child& child) {
   int down[2], up[2];
-  if (pipe2(down, O_CLOEXEC) != 0 || pipe2(up, O_CLOEXEC) != 0) throw std::runtime_error("cannot make a pipe: too many open files?");
+  if (pipe2(down, O_CLOEXEC) != 0 || pipe2(up, O_CLOEXEC) != 0)
+    throw std::runtime_error("cannot make a pipe: too many open files?");
   const auto words = command_line(options, child, down[0], up[1]);
   std::vector<char*> arguments;
   for (const auto& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
@@ -134,7 +135,8 @@ void supervise(std::vector<Child>& children, const std::atomic<bool>& stop, bool
         child.running = false;
         child.status = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
         if (WIFSIGNALED(status)) {
-          std::fprintf(stderr, "panvo run: container %s was ended by signal %d\n", child.name.c_str(), WTERMSIG(status));
+          std::fprintf(stderr, "panvo run: container %s was ended by signal %d\n", child.name.c_str(),
+                       WTERMSIG(status));
         }
         failed |= child.status != 0;
       }
@@ -174,7 +176,8 @@ ExitStatus launch(const RunOptions& options, const SystemDescription& system) {
     if (!child.out.empty()) folders.push_back(child.name);
     if (child.status != 0) {
       std::fprintf(stderr, "panvo run: container %s failed (exit status %d)\n", child.name.c_str(), child.status);
-      status = child.status == static_cast<int>(ExitStatus::kBadConfiguration) ? ExitStatus::kBadConfiguration : ExitStatus::kRunFailed;
+      status = child.status == static_cast<int>(ExitStatus::kBadConfiguration) ? ExitStatus::kBadConfiguration
+                                                                               : ExitStatus::kRunFailed;
     }
   }
   if (!folders.empty() && status != ExitStatus::kBadConfiguration) merge_run_files(options.out, folders);

@@ -49,7 +49,9 @@ void Link::meet(Container& container, const Logger::Write& log) {
   constexpr std::chrono::seconds kLimit(10);  // discovery takes well under one; a firewall, for ever
   if (!container.wait_for_peers(peers, kLimit)) {
     log(LogLevel::kWarning, "container",
-        fmt::format("another container of this system did not connect within {} s: is multicast or shared memory blocked?", kLimit.count()));
+        fmt::format(
+            "another container of this system did not connect within {} s: is multicast or shared memory blocked?",
+            kLimit.count()));
   }
   write_line("connected");
   while (read_line() != "start") {

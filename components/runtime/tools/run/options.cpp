@@ -10,20 +10,29 @@ namespace panvo::runtime {
 std::optional<int> RunOptions::parse(int argc, char** argv, RunOptions& options) {
   CLI::App app("Runs a system of components: live, or on a data set or bag.", "panvo run");
   std::vector<std::string> arguments;
-  app.add_option("SYSTEM", options.system_file, "system file (ROS 2 launch YAML: node_container, composable_node, param, remap)")->required();
+  app.add_option("SYSTEM", options.system_file,
+                 "system file (ROS 2 launch YAML: node_container, composable_node, param, remap)")
+      ->required();
   app.add_option("ARGUMENT", arguments, "name:=value, an argument that the system file declares");
-  auto* dataset = app.add_option("--dataset", options.dataset, "play this data set: EuRoC/ASL, KITTI odometry, or left/right folders with a calibration");
+  auto* dataset =
+      app.add_option("--dataset", options.dataset,
+                     "play this data set: EuRoC/ASL, KITTI odometry, or left/right folders with a calibration");
   app.add_option("--bag", options.bag, "play this rosbag2 folder")->excludes(dataset);
   app.add_option("--out", options.out, "leave trajectories, timing.json, summary.json and run.log in this folder");
-  auto* replay = app.add_flag("--replay", options.replay, "deterministic: one thread, messages in order of stamp, as fast as it goes");
+  auto* replay = app.add_flag("--replay", options.replay,
+                              "deterministic: one thread, messages in order of stamp, as fast as it goes");
   app.add_option("--rate", options.rate, "live: 1 as recorded, 2 twice as fast, 0 as fast as the components take it")
       ->excludes(replay)
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
   app.add_option("--set", options.settings, "component.parameter=value; may be repeated")->expected(1)->take_all();
   app.add_option("--seed", options.seed, "of all random numbers")->capture_default_str();
-  app.add_option("--domain", options.domain, "DDS domain")->envname("ROS_DOMAIN_ID")->check(CLI::Range(0, 232))->capture_default_str();
-  app.add_option("--dds-profiles", options.dds_profiles, "Fast DDS XML profile file, see config/dds")->check(CLI::ExistingFile);
+  app.add_option("--domain", options.domain, "DDS domain")
+      ->envname("ROS_DOMAIN_ID")
+      ->check(CLI::Range(0, 232))
+      ->capture_default_str();
+  app.add_option("--dds-profiles", options.dds_profiles, "Fast DDS XML profile file, see config/dds")
+      ->check(CLI::ExistingFile);
   app.add_flag("--local", options.local, "keep to this process: no DDS");
   app.add_flag("--verbose", options.verbose, "debug messages too");
   app.add_option("--container", options.container, "run only this container of the system");
@@ -49,8 +58,8 @@ std::optional<int> RunOptions::parse(int argc, char** argv, RunOptions& options)
 SystemDescription describe_system(const RunOptions& options) {
   SystemDescription system = read_system_file(options.system_file, options.arguments);
   if (system.containers.empty()) throw ConfigError(options.system_file + ": has no node_container: nothing to run");
-  const auto add_player = [&](const std::string& package, const std::string& plugin, const std::string& name, const std::string& option,
-                              const std::string& directory) {
+  const auto add_player = [&](const std::string& package, const std::string& plugin, const std::string& name,
+                              const std::string& option, const std::string& directory) {
     ComponentDescription player;
     player.package = package;
     player.plugin = plugin;

@@ -26,7 +26,7 @@ struct RunOptions {
   std::string dds_profiles;
   bool local = false;
   bool verbose = false;
-  std::string container;       // only this one of the system's containers
+  std::string container;                 // only this one of the system's containers
   std::optional<int> link_in, link_out;  // to the launching process
 
   /// Parses a command line. Returns the exit status when there is nothing to run (`--help`, a mistake; it is said).

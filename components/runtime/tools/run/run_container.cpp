@@ -39,7 +39,9 @@ class Results {
   std::uint64_t frames_out() const { return frames_out_; }
 
  private:
-  static bool is_frame_in(const TopicDescription& topic) { return ends_with_any(topic.name, {"stereo/left/image_rect"}); }
+  static bool is_frame_in(const TopicDescription& topic) {
+    return ends_with_any(topic.name, {"stereo/left/image_rect"});
+  }
   static bool is_frame_out(const TopicDescription& topic) { return ends_with_any(topic.name, {"odometry/binocular"}); }
 
   void take(const TopicDescription& topic, const SamplePtr& sample) {
@@ -63,7 +65,9 @@ class Results {
   bool broken_ = false;
 };
 
-double seconds(const timeval& time) { return static_cast<double>(time.tv_sec) + static_cast<double>(time.tv_usec) * 1e-6; }
+double seconds(const timeval& time) {
+  return static_cast<double>(time.tv_sec) + static_cast<double>(time.tv_usec) * 1e-6;
+}
 
 }  // namespace
 
@@ -81,12 +85,16 @@ ExitStatus run_container(const RunOptions& options, const std::vector<ComponentD
 
   std::unique_ptr<RunFiles> files;
   if (!options.out.empty()) files = std::make_unique<RunFiles>(options.out);
-  Console console(files ? std::filesystem::path(options.out) / "run.log" : "", options.verbose ? LogLevel::kDebug : LogLevel::kInfo);
-  const Logger::Write log = [&](LogLevel level, const std::string& component, const std::string& text) { console.log(level, component, text); };
+  Console console(files ? std::filesystem::path(options.out) / "run.log" : "",
+                  options.verbose ? LogLevel::kDebug : LogLevel::kInfo);
+  const Logger::Write log = [&](LogLevel level, const std::string& component, const std::string& text) {
+    console.log(level, component, text);
+  };
 
   ContainerOptions container_options{.replay = options.replay, .rate = options.rate, .seed = options.seed, .log = log};
   if (!options.local && !options.replay) {
-    container_options.dds = DdsSettings{.domain = options.domain, .profiles = options.dds_profiles,
+    container_options.dds = DdsSettings{.domain = options.domain,
+                                        .profiles = options.dds_profiles,
                                         .name = options.container.empty() ? "panvo" : options.container};
   }
   Container container(std::move(container_options));
@@ -128,9 +136,10 @@ ExitStatus run_container(const RunOptions& options, const std::vector<ComponentD
   const double cpu_s = seconds(usage.ru_utime) + seconds(usage.ru_stime);
   const double peak_memory_mb = static_cast<double>(usage.ru_maxrss) / 1024.0;
   if (results.frames_out() > 0) {
-    console.log(LogLevel::kInfo, "container",
-                fmt::format("{} stereo frames in, {} poses out, {} messages dropped; {:.1f} s, {:.1f} s CPU, {:.0f} MB peak", results.frames_in(),
-                            results.frames_out(), dropped, wall_s, cpu_s, peak_memory_mb));
+    console.log(
+        LogLevel::kInfo, "container",
+        fmt::format("{} stereo frames in, {} poses out, {} messages dropped; {:.1f} s, {:.1f} s CPU, {:.0f} MB peak",
+                    results.frames_in(), results.frames_out(), dropped, wall_s, cpu_s, peak_memory_mb));
   }
   if (files) {
     RunSummary summary;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "stop_signals.hpp"
 
+#include <unistd.h>
 #include <csignal>
 #include <cstdio>
 #include <ctime>
-#include <unistd.h>
 
 #include <utility>
 

@@ -50,7 +50,8 @@ class Bridge {
  public:
   virtual ~Bridge() = default;
   virtual std::unique_ptr<BridgeWriter> open_writer(const TopicDescription& topic) = 0;
-  virtual std::unique_ptr<BridgeReader> open_reader(const TopicDescription& topic, std::function<void(SamplePtr)> on_sample) = 0;
+  virtual std::unique_ptr<BridgeReader> open_reader(const TopicDescription& topic,
+                                                    std::function<void(SamplePtr)> on_sample) = 0;
 
   /// Calls back once for every topic that another process writes, those already known included. For recording and `topic list`.
   virtual void watch_topics(std::function<void(const TopicDescription&)> on_topic) = 0;
@@ -60,9 +61,9 @@ class Bridge {
 };
 
 struct DdsSettings {
-  int domain = 0;            ///< from ROS_DOMAIN_ID
-  std::string profiles;      ///< XML profile file, empty: our defaults
-  std::string name = "panvo";///< participant name seen by other tools
+  int domain = 0;              ///< from ROS_DOMAIN_ID
+  std::string profiles;        ///< XML profile file, empty: our defaults
+  std::string name = "panvo";  ///< participant name seen by other tools
 };
 
 /// The bridge over Fast DDS. Throws ConfigError when no participant can be made (bad profile file, no network at all).

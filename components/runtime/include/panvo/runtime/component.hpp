@@ -49,11 +49,11 @@ extern "C" __attribute__((weak, visibility("default"))) const panvo::runtime::Co
 }
 
 /// Makes a component class loadable; at namespace scope in its source file, with an unqualified class name.
-#define PANVO_REGISTER_COMPONENT(Class)                                                                              \
-  namespace {                                                                                                        \
-  ::panvo::runtime::ComponentDescriptor panvo_descriptor_of_##Class{                                                 \
-      ::panvo::runtime::kRuntimeVersion, #Class,                                                                     \
-      [](::panvo::runtime::Context& context) -> ::panvo::runtime::Component* { return new Class(context); },         \
-      [](::panvo::runtime::Component* component) { delete component; }, nullptr};                                    \
-  const ::panvo::runtime::detail::Registrar panvo_registrar_of_##Class{panvo_descriptor_of_##Class};                 \
+#define PANVO_REGISTER_COMPONENT(Class)                                                                      \
+  namespace {                                                                                                \
+  ::panvo::runtime::ComponentDescriptor panvo_descriptor_of_##Class{                                         \
+      ::panvo::runtime::kRuntimeVersion, #Class,                                                             \
+      [](::panvo::runtime::Context& context) -> ::panvo::runtime::Component* { return new Class(context); }, \
+      [](::panvo::runtime::Component* component) { delete component; }, nullptr};                            \
+  const ::panvo::runtime::detail::Registrar panvo_registrar_of_##Class{panvo_descriptor_of_##Class};         \
   }

@@ -18,11 +18,12 @@
 namespace panvo::runtime {
 
 struct ContainerOptions {
-  bool replay = false;      ///< one thread, order of stamp, no bridge, no wall clock: the same result bit for bit
-  double rate = 0;          ///< of sources, live: 1 as recorded, 2 twice as fast; 0: as fast as the components here take it, none dropped
-  std::uint64_t seed = 1;   ///< of all random numbers
+  bool replay = false;  ///< one thread, order of stamp, no bridge, no wall clock: the same result bit for bit
+  double rate =
+      0;  ///< of sources, live: 1 as recorded, 2 twice as fast; 0: as fast as the components here take it, none dropped
+  std::uint64_t seed = 1;            ///< of all random numbers
   std::optional<DdsSettings> dds{};  ///< absent: the container keeps to itself
-  Logger::Write log{};      ///< absent: stderr
+  Logger::Write log{};               ///< absent: stderr
 };
 
 /// One process's components, and what runs them. Used by one thread, except request_stop().

@@ -56,9 +56,10 @@ class Context {
   /// are dropped and counted.
   template <class First, class Second, class Callback>
   void input_pair(const interfaces::Topic<First>& first, const interfaces::Topic<Second>& second, Callback callback) {
-    open_input_pair(describe(first), describe(second), [callback = std::move(callback)](const SamplePtr& a, const SamplePtr& b) mutable {
-      callback(Sample::as<First>(a), Sample::as<Second>(b));
-    });
+    open_input_pair(describe(first), describe(second),
+                    [callback = std::move(callback)](const SamplePtr& a, const SamplePtr& b) mutable {
+                      callback(Sample::as<First>(a), Sample::as<Second>(b));
+                    });
   }
 
   /// A second stage of the component: live on a thread of its own behind a queue of `capacity` items (push waits when it is full), in replay in
@@ -111,7 +112,8 @@ class Context {
   void open_input(const TopicDescription& topic, std::function<void(const SamplePtr&)> callback);
   void open_input_pair(const TopicDescription& first, const TopicDescription& second,
                        std::function<void(const SamplePtr&, const SamplePtr&)> callback);
-  std::shared_ptr<StageQueue> open_stage(const std::string& stage_name, std::size_t capacity, std::function<void(std::any&)> callback);
+  std::shared_ptr<StageQueue> open_stage(const std::string& stage_name, std::size_t capacity,
+                                         std::function<void(std::any&)> callback);
 
   std::unique_ptr<State> state_;
 };

@@ -11,7 +11,12 @@
 
 namespace panvo::runtime {
 
-enum class LogLevel : std::uint8_t { kDebug = 10, kInfo = 20, kWarning = 30, kError = 40 };  // rcl_interfaces/msg/Log's values
+enum class LogLevel : std::uint8_t {
+  kDebug = 10,
+  kInfo = 20,
+  kWarning = 30,
+  kError = 40
+};  // rcl_interfaces/msg/Log's values
 
 /// What a component says to people: to stderr, the run's log file and rosout. Safe to use from several threads.
 class Logger {

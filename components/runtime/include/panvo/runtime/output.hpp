@@ -24,7 +24,9 @@ class Output {
  public:
   explicit Output(std::shared_ptr<UntypedOutput> output) : output_(std::move(output)) {}
 
-  void publish(std::shared_ptr<const Message> message) { output_->publish(std::shared_ptr<const void>(std::move(message))); }
+  void publish(std::shared_ptr<const Message> message) {
+    output_->publish(std::shared_ptr<const void>(std::move(message)));
+  }
   void publish(Message message) { publish(std::make_shared<const Message>(std::move(message))); }
 
  private:

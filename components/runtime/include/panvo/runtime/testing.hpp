@@ -34,14 +34,16 @@ class ComponentHarness {
   }
 
   /// A list parameter is written "[a, b]". Throws ConfigError as the container does.
-  void load(const std::string& package, const std::string& plugin, const std::map<std::string, std::string>& parameters = {}) {
+  void load(const std::string& package, const std::string& plugin,
+            const std::map<std::string, std::string>& parameters = {}) {
     container_.load(describe(package, plugin, parameters));
   }
 
   /// Adds a component class of the test's own.
   template <class ComponentClass>
   void add(const std::string& name, const std::map<std::string, std::string>& parameters = {}) {
-    container_.add(describe("panvo_" + name, "", parameters), [](Context& context) { return std::make_unique<ComponentClass>(context); });
+    container_.add(describe("panvo_" + name, "", parameters),
+                   [](Context& context) { return std::make_unique<ComponentClass>(context); });
   }
 
   /// All messages published on a topic from now on, in order; grows.
@@ -51,7 +53,9 @@ class ComponentHarness {
     kept_.push_back(messages);
     const std::string name = topic.name.starts_with('/') ? std::string(topic.name) : "/" + std::string(topic.name);
     container_.observe([name](const TopicDescription& there) { return there.name == name; },
-                       [messages](const TopicDescription&, const SamplePtr& sample) { messages->push_back(Sample::as<Message>(sample)); });
+                       [messages](const TopicDescription&, const SamplePtr& sample) {
+                         messages->push_back(Sample::as<Message>(sample));
+                       });
     return *messages;
   }
 
@@ -65,10 +69,11 @@ class ComponentHarness {
     auto& output = outputs_[std::string(topic.name)];
     if (!output) {
       const auto& type = interfaces::message_type<Message>();
-      container_.add(describe("panvo_test_publisher_" + std::to_string(outputs_.size()), "", {}), [&](Context& context) {
-        output = context.open_output({std::string(topic.name), std::string(type.name), topic.qos, &type});
-        return std::make_unique<Component>();
-      });
+      container_.add(
+          describe("panvo_test_publisher_" + std::to_string(outputs_.size()), "", {}), [&](Context& context) {
+            output = context.open_output({std::string(topic.name), std::string(type.name), topic.qos, &type});
+            return std::make_unique<Component>();
+          });
     }
     output->publish(std::shared_ptr<const void>(std::move(message)));
     container_.run_until_quiet();
