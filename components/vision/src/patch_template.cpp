@@ -21,6 +21,7 @@ constexpr double kSmallestContrast = 2.0;  // grey levels, standard deviation: u
 // Places in the image as integers, 1/65536 px: sampling is most of the work, and integers are the fastest at it.
 constexpr int kPlaceBits = 16;
 constexpr int kWeightBits = 10;
+constexpr double kRounding_px = 0.01;  // more than a row of such places can go astray
 
 int to_place(double px) { return static_cast<int>(std::lround(px * (1 << kPlaceBits))); }
 
@@ -42,7 +43,7 @@ std::optional<PatchTemplate> PatchTemplate::sample(const cv::Mat& image, const E
                                                    const Eigen::Matrix2d& source_from_target) {
   constexpr int kBordered = kSize + 2;  // one more on each side, for central differences
   constexpr double kReach = 0.5 * (kBordered - 1);
-  const Eigen::Vector2d extent = kReach * source_from_target.cwiseAbs().rowwise().sum();
+  const Eigen::Vector2d extent = (kReach * source_from_target.cwiseAbs().rowwise().sum()).array() + kRounding_px;
   if (!(centre.x() - extent.x() >= 0.0 && centre.y() - extent.y() >= 0.0 && centre.x() + extent.x() < image.cols - 1 &&
         centre.y() + extent.y() < image.rows - 1)) {
     return std::nullopt;
@@ -51,9 +52,8 @@ std::optional<PatchTemplate> PatchTemplate::sample(const cv::Mat& image, const E
   const int across_u = to_place(source_from_target(0, 0)), across_v = to_place(source_from_target(1, 0));
   std::array<float, kBordered * kBordered> samples;
   for (int row = 0; row < kBordered; ++row) {
-    // Rounding may lead a hair's breadth out of the image at its upper left.
-    int u = std::max(to_place(origin.x() + source_from_target(0, 1) * row), std::max(0, -(kBordered - 1) * across_u));
-    int v = std::max(to_place(origin.y() + source_from_target(1, 1) * row), std::max(0, -(kBordered - 1) * across_v));
+    int u = to_place(origin.x() + source_from_target(0, 1) * row);
+    int v = to_place(origin.y() + source_from_target(1, 1) * row);
     for (int column = 0; column < kBordered; ++column, u += across_u, v += across_v) {
       samples[static_cast<size_t>(row * kBordered + column)] = bilinear(image, u, v);
     }

@@ -53,8 +53,8 @@ bool inside(const cv::Mat& image, double u, double v) {
 class SlantedPatch {
  public:
   static std::optional<SlantedPatch> sample(const cv::Mat& left, const Eigen::Vector2d& centre) {
-    if (!inside(left, centre.x() - kHalf - 1, centre.y() - kHalf) ||
-        !inside(left, centre.x() + kHalf + 1, centre.y() + kHalf)) {
+    if (!inside(left, centre.x() - kHalf - 1.1, centre.y() - kHalf) ||
+        !inside(left, centre.x() + kHalf + 1.1, centre.y() + kHalf)) {
       return std::nullopt;
     }
     SlantedPatch patch(centre);
