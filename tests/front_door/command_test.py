@@ -118,7 +118,7 @@ class Anywhere(unittest.TestCase):
     def test_once_installed(self):
         with tempfile.TemporaryDirectory() as folder:
             build, prefix = pathlib.Path(folder, "build"), pathlib.Path(folder, "pre fix")
-            subprocess.run(["cmake", "-S", ROOT / "launch_scripts", "-B", build, f"-DCMAKE_INSTALL_PREFIX={prefix}"], check=True, capture_output=True)
+            subprocess.run(["cmake", "-G", "Ninja", "-S", ROOT / "launch_scripts", "-B", build, f"-DCMAKE_INSTALL_PREFIX={prefix}"], check=True, capture_output=True)
             subprocess.run(["cmake", "--install", build], check=True, capture_output=True)
             command = prefix / "bin" / "panvo"
             self.assertIn("usage: panvo", panvo("--help", command=command, cwd=folder).stdout)
