@@ -162,8 +162,8 @@ class RecorderComponent final : public runtime::Component {
     store(message, time_ns);
   }
 
-  /// In replay there is no time before the first source has stepped. What was published until then bears the time of the
-  /// first message that has one, unless that is near 0 itself, as in data sets whose times are relative.
+  /// In replay there is no time before the first source has stepped. What was published until then bears the time of
+  /// the first message that has one, unless that is near 0 itself, as in data sets whose times are relative.
   void store_early(std::int64_t first_ns) {
     const auto time_ns = first_ns < kRelativeTimes ? 0 : first_ns;
     for (const auto& message : std::exchange(early_, {})) {
