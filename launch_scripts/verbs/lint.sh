@@ -8,10 +8,10 @@ verb_usage() {
   cat <<'EOT'
 usage: panvo lint [--format | --naming | --tidy | --scripts] [--fix] [FILE...]
 
-Without an option: layout, naming rules and scripts, as CI does. FILE: only these (default: every tracked C++ source).
+Without an option: layout and scripts, as CI does; what can be read off the text of names is among the tests. FILE: only these (default: every tracked C++ source).
 
   --format    layout, by clang-format and .clang-format
-  --naming    the naming rules of .clang-tidy alone, quickly
+  --naming    the naming rules of .clang-tidy alone, sources joined to be quicker; minutes for the whole tree
   --tidy      every check of .clang-tidy; minutes for the whole tree
   --scripts   shellcheck over the shell scripts
   --fix       with --format: rewrite the files
@@ -34,7 +34,7 @@ verb_main() {
     esac
     shift
   done
-  ((${#checks[@]})) || checks=(format naming scripts)
+  ((${#checks[@]})) || checks=(format scripts)
   ensure_packages build lint
   ((${#files[@]})) || mapfile -t files < <(tracked_files '*.cpp' '*.hpp')
   for check in "${checks[@]}"; do
