@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstring>
 #include <opencv2/core/hal/intrin.hpp>
 
 namespace panvo::vision {
@@ -35,6 +36,13 @@ float bilinear(const cv::Mat& image, int u, int v) {
   const int above = (upper[0] << kWeightBits) + fu * (upper[1] - upper[0]);
   const int below = (lower[0] << kWeightBits) + fu * (lower[1] - lower[0]);
   return static_cast<float>((above << kWeightBits) + fv * (below - above)) * (1.0F / (1 << (2 * kWeightBits)));
+}
+
+// By way of a copy, which costs nothing: OpenCV's load would read a misaligned integer.
+cv::v_float32x4 load_four(const uchar* pixels) {
+  alignas(4) std::array<uchar, 4> four;
+  std::memcpy(four.data(), pixels, four.size());
+  return cv::v_cvt_f32(cv::v_reinterpret_as_s32(cv::v_load_expand_q(four.data())));
 }
 
 }  // namespace
@@ -102,9 +110,7 @@ PatchTemplate::Projections PatchTemplate::project(const cv::Mat& image, double l
   for (int y = 0; y <= kSize; ++y) {
     const uchar* pixels = image.ptr<uchar>(row + y) + column;
     for (int block = 0; block < kSize / 4; ++block) {
-      const auto grey = [pixels, block](int shift) {
-        return cv::v_cvt_f32(cv::v_reinterpret_as_s32(cv::v_load_expand_q(pixels + 4 * block + shift)));
-      };
+      const auto grey = [pixels, block](int shift) { return load_four(pixels + 4 * block + shift); };
       const cv::v_float32x4 here = grey(0);
       const cv::v_float32x4 across = here + right_weight * (grey(1) - here);
       if (y > 0) {
