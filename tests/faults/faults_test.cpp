@@ -170,16 +170,18 @@ TEST_F(Fault, SigkillWhileRecordingLeavesAReadableBag) {
   const std::string data = write_walk({.frames = 60});
   const std::string bag = folder / "bag";
   Process recording({PANVO_RUN, SYSTEMS "/record.yaml", "output:=" + bag, "--dataset", data, "--local", "--rate", "1"});
-  // Killed as soon as the database has grown beyond its empty tables: something is committed.
-  const auto give_up = std::chrono::steady_clock::now() + std::chrono::seconds(60);
-  const auto bytes = [&] {
-    std::uintmax_t total = 0;
+  // Killed once a first batch is committed: the database has grown beyond its empty tables, and the journal of that
+  // commit is empty again.
+  const auto size_of = [&](const char* file) {
     std::error_code error;
-    for (const auto& file : std::filesystem::directory_iterator(bag, error)) total += file.file_size(error);
-    return total;
+    const auto size = std::filesystem::file_size(std::filesystem::path(bag) / file, error);
+    return error ? std::uintmax_t{0} : size;
   };
-  while (bytes() < 1'000'000 && std::chrono::steady_clock::now() < give_up)
+  const auto give_up = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+  while ((size_of("bag_0.db3") < 1'500'000 || size_of("bag_0.db3-journal") > 0) &&
+         std::chrono::steady_clock::now() < give_up) {
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
   recording.signal(SIGKILL);
   EXPECT_EQ(recording.wait(), 128 + SIGKILL);
   const Finished info = run({PANVO_BAG, "info", bag});
