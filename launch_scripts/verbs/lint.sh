@@ -8,7 +8,7 @@ verb_usage() {
   cat <<'EOT'
 usage: panvo lint [--format | --naming | --tidy | --scripts] [--fix] [FILE...]
 
-Without an option: layout and scripts, as CI does; what can be read off the text of names is among the tests. FILE: only these (default: every tracked C++ source).
+Without an option: layout and scripts, as CI does; what can be read off the text of names is among the tests. FILE: only these (default: every C++ source).
 
   --format    layout, by clang-format and .clang-format
   --naming    the naming rules of .clang-tidy alone, sources joined to be quicker; minutes for the whole tree
@@ -36,7 +36,7 @@ verb_main() {
   done
   ((${#checks[@]})) || checks=(format scripts)
   ensure_packages build lint
-  ((${#files[@]})) || mapfile -t files < <(tracked_files '*.cpp' '*.hpp')
+  ((${#files[@]})) || mapfile -t files < <(sources -name '*.cpp' -o -name '*.hpp')
   for check in "${checks[@]}"; do
     "lint_$check" "${files[@]}" || status=1
   done
@@ -44,7 +44,13 @@ verb_main() {
   note "nothing to complain about: ${checks[*]}"
 }
 
-tracked_files() { git -C "$PANVO_HOME" ls-files -- "$@" | sed "s|^|$PANVO_HOME/|"; }
+# sources FIND_EXPRESSION...: files of the checkout, without what builds and runs leave; git need not be there.
+sources() {
+  local name
+  local -a left=(-path "$PANVO_HOME/.git")
+  for name in build install log runs; do left+=(-o -path "$PANVO_HOME/$name"); done
+  find "$PANVO_HOME" \( "${left[@]}" \) -prune -o -type f \( "$@" \) -print | sort
+}
 
 lint_format() {
   note "layout of $# files"
@@ -69,7 +75,7 @@ lint_tidy() {
 
 lint_scripts() {
   local -a shell_files
-  mapfile -t shell_files < <(tracked_files 'launch_scripts/panvo' 'launch_scripts/*.sh' '.ci/run')
+  mapfile -t shell_files < <(sources -path '*/launch_scripts/panvo' -o -name '*.sh' -o -path '*/.ci/run')
   note "shellcheck over ${#shell_files[@]} scripts"
   (cd "$PANVO_HOME" && shellcheck -x -P "$PANVO_HOME" "${shell_files[@]}")
 }
