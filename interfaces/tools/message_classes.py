@@ -36,7 +36,8 @@ def _write_flat_copies(messages: dict[str, idl.Message], source: Path, folder: P
     return root
 
 
-def _run_fastddsgen(fastddsgen: str, root: Path, output: Path) -> None:
+def _run_fastddsgen(fastddsgen: str, root: Path, output: Path) -> str:
+    """Returns what it said on stdout."""
     command = [fastddsgen, "-cs", "-typeros2", "-replace", "-I", str(root.parent), "-d", str(output), str(root)]
     environment = {**os.environ, "JDK_JAVA_OPTIONS": _JAVA_OPTIONS}
     result = subprocess.run(command, capture_output=True, text=True, check=False, env=environment)
@@ -45,6 +46,7 @@ def _run_fastddsgen(fastddsgen: str, root: Path, output: Path) -> None:
     # Its exit status is 0 after some crashes: what it writes to stderr tells.
     if result.returncode != 0 or complaints:
         raise GeneratorError("\n".join([f"{' '.join(command)} failed with status {result.returncode}:", result.stdout, *complaints]))
+    return result.stdout
 
 
 def _header(message: idl.Message, text: str) -> str:
@@ -70,11 +72,11 @@ def generate(messages: dict[str, idl.Message], source: Path, fastddsgen: str) ->
         idl_folder, output = Path(temporary, "idl"), Path(temporary, "cpp")
         idl_folder.mkdir()
         output.mkdir()
-        _run_fastddsgen(fastddsgen, _write_flat_copies(messages, source, idl_folder), output)
+        said = _run_fastddsgen(fastddsgen, _write_flat_copies(messages, source, idl_folder), output)
         for name, message in messages.items():
             for suffix, adapt in ((".h", _header), (".cxx", _source)):
                 path = output / (_flat_name(name) + suffix)
                 if not path.exists():
-                    raise GeneratorError(f"{name}: fastddsgen wrote no {path.name}, and did not say why")
+                    raise GeneratorError(f"{name}: fastddsgen wrote no {path.name}; it said:\n{said}")
                 files[name + suffix] = adapt(message, path.read_text(encoding="utf-8"))
     return files
