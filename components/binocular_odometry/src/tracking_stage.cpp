@@ -8,6 +8,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "coarse_turn.hpp"
 #include "front_end.hpp"
 #include "motion_model.hpp"
 #include "motion_ransac.hpp"
@@ -75,7 +76,8 @@ class TrackingStage::Implementation {
     // A part of the tracks goes ahead, looked for far and wide; the motion they agree on says where to find the others.
     std::vector<Track> tracks = match_widely(kScouts);
     auto motion = coarse_motion(tracks);
-    if (!motion && tracks_.size() > kScouts) {
+    if (!motion && has_tracks()) {  // a jerk, perhaps: all of them, from where the picture as a whole has gone
+      expected_motion_.linear() = coarse_turn(stereo_.camera, *previous_left_, *left_);
       tracks = match_widely(tracks_.size());
       motion = coarse_motion(tracks);
     }
@@ -323,6 +325,7 @@ class TrackingStage::Implementation {
     next_id_ += attempts_ + 1;
     good_stamp_ns_ = stamp_ns;
     tracks_ = std::move(tracks);
+    previous_left_ = left_;
   }
 
   vision::RectifiedStereo stereo_;
@@ -342,6 +345,8 @@ class TrackingStage::Implementation {
   std::int64_t last_stamp_ns_ = 0;  // of any frame
   bool seen_any_ = false;
   std::int64_t next_id_ = 0;
+
+  std::shared_ptr<const vision::ImagePyramid> previous_left_;
 
   // Of the frame at hand.
   std::shared_ptr<const vision::ImagePyramid> left_;

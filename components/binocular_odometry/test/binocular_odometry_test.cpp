@@ -232,6 +232,17 @@ TEST(BinocularOdometry, CarriesOnWhereTheSceneIsAnotherOne) {
   EXPECT_LT((after.previous_from_current.translation() - moved.translation()).norm(), 0.01);
 }
 
+TEST(BinocularOdometry, FollowsAJerkThatNothingForetold) {
+  BinocularOdometry odometry(SyntheticScene::stereo(), {});
+  for (int i = 0; i < 6; ++i) odometry.step(drive()[static_cast<size_t>(i)]);
+  // 12 degrees to the left within a frame: 47 px, farther than any level of the pyramid reaches.
+  const Eigen::Isometry3d jerked = truth(6) * Eigen::Isometry3d(vision::so3_exp({0.02, -0.21, 0.0}));
+  const OdometryEstimate estimate = odometry.step(SyntheticScene::frame(6, jerked));
+  EXPECT_TRUE(estimate.quality.reliable) << estimate.quality.reason;
+  EXPECT_LT((estimate.odom_from_left.translation() - jerked.translation()).norm(), 0.015);
+  EXPECT_LT(vision::so3_log(estimate.odom_from_left.linear() * jerked.linear().transpose()).norm(), 0.003);
+}
+
 TEST(BinocularOdometry, GoesOnThroughAChangeOfLight) {
   BinocularOdometry odometry(SyntheticScene::stereo(), {});
   OdometryEstimate last;
