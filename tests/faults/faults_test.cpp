@@ -20,7 +20,7 @@ using testing::HasSubstr;
 using testing::Not;
 
 const std::string kStereo = SYSTEMS "/stereo.yaml";
-constexpr int kBadConfiguration = 2;
+constexpr int kRunFailed = 1, kBadConfiguration = 2;
 
 struct Fault : testing::Test {
   TemporaryFolder folder;
@@ -101,6 +101,15 @@ TEST_F(Fault, APluginThatIsNotThereIsNamed) {
   const Finished finished = run({PANVO_RUN, system, "--replay"});
   EXPECT_EQ(finished.status, kBadConfiguration);
   EXPECT_THAT(finished.output, AllOf(HasSubstr("system.yaml:5"), HasSubstr("libpanvo_teleporter_component.so")));
+}
+
+TEST_F(Fault, APackageWithoutComponentsIsNamedBesideThoseThatHaveSome) {
+  const Finished listed = run({PANVO_COMPONENT, "list"});
+  EXPECT_EQ(listed.status, 0) << listed.output;
+  EXPECT_THAT(listed.output, HasSubstr("panvo_stereo_rectifier StereoRectifierComponent\n"));
+  const Finished shown = run({PANVO_COMPONENT, "show", "panvo_teleporter"});
+  EXPECT_EQ(shown.status, kRunFailed);
+  EXPECT_THAT(shown.output, HasSubstr("libpanvo_teleporter_component.so"));
 }
 
 TEST_F(Fault, AnUnknownSettingIsRefusedAndTheComponentsAreNamed) {

@@ -29,9 +29,8 @@ std::set<std::string> packages() {
 
 void list() {
   for (const auto& package : packages()) {
-    for (const auto* component : Library(find_plugin(package)).components()) {
-      std::cout << package << " " << component->class_name << "\n";
-    }
+    const Library library(find_plugin(package));  // outlives the descriptors, which lie in it
+    for (const auto* component : library.components()) std::cout << package << " " << component->class_name << "\n";
   }
 }
 
