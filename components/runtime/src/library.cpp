@@ -4,6 +4,7 @@
 #include <dlfcn.h>
 
 #include <cstdlib>
+#include <set>
 #include <sstream>
 
 #include "panvo/runtime/errors.hpp"
@@ -75,8 +76,22 @@ std::vector<fs::path> plugin_folders() {
       if (!path.empty()) folders.push_back(fs::path(path) / below);
     }
   };
+  const auto add_isolated = [&](const char* variable) {
+    const char* value = std::getenv(variable);
+    std::istringstream paths(value ? value : "");
+    for (std::string path; std::getline(paths, path, ':');) {
+      std::error_code error;
+      std::set<fs::path> packages;
+      for (const auto& package : fs::directory_iterator(path, error)) {
+        if (fs::is_directory(package.path() / "lib" / "panvo", error))
+          packages.insert(package.path() / "lib" / "panvo");
+      }
+      folders.insert(folders.end(), packages.begin(), packages.end());
+    }
+  };
   add("PANVO_PLUGIN_PATH", "");
-  add("COLCON_PREFIX_PATH", "lib/panvo");
+  add("COLCON_PREFIX_PATH", "lib/panvo");  // merged: one prefix for all
+  add_isolated("COLCON_PREFIX_PATH");      // colcon's default: a prefix for each package, below this one
   add("AMENT_PREFIX_PATH", "lib/panvo");
   add("CMAKE_PREFIX_PATH", "lib/panvo");
   std::error_code error;

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
+#include <cstdlib>
+#include <filesystem>
 #include <fstream>
 
 #include "panvo/runtime/errors.hpp"
@@ -80,6 +83,22 @@ TEST(Plugin, ThatIsNoComponentIsRefusedAndSaysWhatIsMissing) {
   description.package = "panvo_test_unregistered";
   EXPECT_THAT(why_not(description), HasSubstr("registers no component"));
   EXPECT_FALSE(is_mapped("panvo_test_unregistered"));
+}
+
+TEST(Plugin, IsFoundWhereColconInstallsEachPackageByItself) {
+  const std::filesystem::path install =
+      std::filesystem::temp_directory_path() / ("panvo_install_" + std::to_string(getpid()));
+  const std::filesystem::path folder = install / "panvo_moved_relay" / "lib" / "panvo";
+  std::filesystem::create_directories(folder);
+  const std::filesystem::path built =
+      std::filesystem::path(std::getenv("PANVO_PLUGIN_PATH")) / "libpanvo_test_relay_component.so";
+  std::filesystem::copy(built, folder / "libpanvo_moved_relay_component.so");
+  setenv("COLCON_PREFIX_PATH", install.c_str(), 1);
+  ComponentDescription description = relay();
+  description.package = "panvo_moved_relay";
+  EXPECT_EQ(why_not(description), "loaded");
+  unsetenv("COLCON_PREFIX_PATH");
+  std::filesystem::remove_all(install);
 }
 
 TEST(Plugin, ThatIsNotThereIsRefusedAndSaysWhereItWasLookedFor) {
