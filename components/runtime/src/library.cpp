@@ -67,33 +67,36 @@ std::vector<const ComponentDescriptor*> Library::components() const {
   return components;
 }
 
+namespace {
+
+/// The folders that an environment variable lists, separated by colons.
+std::vector<fs::path> listed_in(const char* variable) {
+  const char* value = std::getenv(variable);
+  std::istringstream list(value ? value : "");
+  std::vector<fs::path> paths;
+  for (std::string path; std::getline(list, path, ':');) {
+    if (!path.empty()) paths.emplace_back(path);
+  }
+  return paths;
+}
+
+}  // namespace
+
 std::vector<fs::path> plugin_folders() {
-  std::vector<fs::path> folders;
-  const auto add = [&](const char* variable, const char* below) {
-    const char* value = std::getenv(variable);
-    std::istringstream paths(value ? value : "");
-    for (std::string path; std::getline(paths, path, ':');) {
-      if (!path.empty()) folders.push_back(fs::path(path) / below);
+  const fs::path below_prefix = fs::path("lib") / "panvo";
+  std::vector<fs::path> folders = listed_in("PANVO_PLUGIN_PATH");
+  for (const auto& prefix : listed_in("COLCON_PREFIX_PATH")) {
+    folders.push_back(prefix / below_prefix);  // merged: one prefix for all
+    std::set<fs::path> isolated;               // colcon's default: a prefix for each package, below this one
+    std::error_code error;
+    for (const auto& package : fs::directory_iterator(prefix, error)) {
+      if (fs::is_directory(package.path() / below_prefix, error)) isolated.insert(package.path() / below_prefix);
     }
-  };
-  const auto add_isolated = [&](const char* variable) {
-    const char* value = std::getenv(variable);
-    std::istringstream paths(value ? value : "");
-    for (std::string path; std::getline(paths, path, ':');) {
-      std::error_code error;
-      std::set<fs::path> packages;
-      for (const auto& package : fs::directory_iterator(path, error)) {
-        if (fs::is_directory(package.path() / "lib" / "panvo", error))
-          packages.insert(package.path() / "lib" / "panvo");
-      }
-      folders.insert(folders.end(), packages.begin(), packages.end());
-    }
-  };
-  add("PANVO_PLUGIN_PATH", "");
-  add("COLCON_PREFIX_PATH", "lib/panvo");  // merged: one prefix for all
-  add_isolated("COLCON_PREFIX_PATH");      // colcon's default: a prefix for each package, below this one
-  add("AMENT_PREFIX_PATH", "lib/panvo");
-  add("CMAKE_PREFIX_PATH", "lib/panvo");
+    folders.insert(folders.end(), isolated.begin(), isolated.end());
+  }
+  for (const char* variable : {"AMENT_PREFIX_PATH", "CMAKE_PREFIX_PATH"}) {
+    for (const auto& prefix : listed_in(variable)) folders.push_back(prefix / below_prefix);
+  }
   std::error_code error;
   const fs::path executable = fs::read_symlink("/proc/self/exe", error);
   if (!error) {
