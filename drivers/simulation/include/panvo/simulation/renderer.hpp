@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <memory>
+#include <opencv2/core.hpp>
+#include <span>
+
+#include "panvo/simulation/camera_rays.hpp"
+#include "panvo/simulation/scene.hpp"
+
+namespace panvo::simulation {
+
+/// A camera while its shutter is open: it moves from `opened` to `closed`, at even speed.
+struct Shot {
+  Eigen::Isometry3d world_from_camera_opened = Eigen::Isometry3d::Identity();
+  Eigen::Isometry3d world_from_camera_closed = Eigen::Isometry3d::Identity();
+  std::uint32_t visibility = kToStereo;  ///< what kind of camera it is
+};
+
+/// A mover while the shutter is open.
+struct MovingPlacement {
+  Placement at_opening;
+  Eigen::Affine3f world_from_model_closed = Eigen::Affine3f::Identity();
+};
+
+/// Traces pictures of a scene with Embree: one ray through each pixel with textures averaged over the pixel's
+/// footprint, more where an edge or a hole crosses it; sunlight with shadows, skylight with ambient occlusion,
+/// reflections of the sky, haze. Uses OpenCV's pool of threads; the same picture bit for bit whatever their number.
+class Renderer {
+ public:
+  /// Takes what it needs of the scene, whose palette and sky it shares. Throws std::runtime_error when Embree fails.
+  explicit Renderer(std::shared_ptr<const Scene> scene);
+  ~Renderer();
+
+  struct Quality {
+    int edge_samples = 4;  ///< more rays in a pixel that an edge crosses
+    int texture_taps = 4;  ///< probes along the longer side of a footprint
+  };
+
+  /// Radiance of each pixel, CV_32FC3, linear RGB in the units of Light; black where the camera sees nothing.
+  /// Statistics of the last call: rays traced.
+  cv::Mat render(const CameraRays& rays, const Shot& shot, const Light& light, std::span<const MovingPlacement> movers,
+                 const Quality& quality);
+
+  /// Distance (m) along the ray of each pixel's centre at the shutter's opening, CV_32FC1; infinity: the sky.
+  cv::Mat render_range(const CameraRays& rays, const Shot& shot, std::span<const MovingPlacement> movers);
+
+  struct Statistics {
+    std::uint64_t pixels = 0, primary_rays = 0, shadow_rays = 0, triangles = 0;
+  };
+  Statistics statistics() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace panvo::simulation

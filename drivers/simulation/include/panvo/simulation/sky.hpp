@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <memory>
+
+#include "panvo/simulation/texture.hpp"
+
+namespace panvo::simulation {
+
+/// The light out of doors, in units in which a white matte surface square to the sun has radiance about 1.
+struct Light {
+  Eigen::Vector3f to_sun{0.4f, 0.3f, 0.86f};    ///< unit, world frame
+  Eigen::Vector3f sun{0.8f, 0.77f, 0.7f};       ///< of a white surface square to the sun
+  Eigen::Vector3f sky{0.22f, 0.26f, 0.34f};     ///< of a white surface that sees the whole upper half
+  Eigen::Vector3f ground{0.10f, 0.09f, 0.08f};  ///< of a white surface that sees the whole lower half
+  float haze_per_m = 4e-4f;                     ///< how fast things fade into the sky's horizon
+};
+
+/// The sun's light at an hour of the day, 6 (sunrise, east = +x) to 18, and how much of the sun a cloud covers (0..1).
+Light light_at(double hour, double cloud_cover);
+
+/// The sky with its clouds and, at the horizon, the hills and trees far beyond the campus; made from a seed.
+class Sky {
+ public:
+  explicit Sky(std::uint64_t seed);
+
+  /// Radiance from `direction` (unit, world frame) under that light, averaged over a cone of `spread_rad`; the sun's
+  /// disc and glow included.
+  Eigen::Vector3f radiance(const Eigen::Vector3f& direction, const Light& light, float spread_rad) const;
+
+ private:
+  std::shared_ptr<const Texture> clouds_;  // equirectangular, alpha: cloud density
+};
+
+}  // namespace panvo::simulation
