@@ -25,15 +25,21 @@ struct Junction {
 struct Road {
   int from = 0, to = 0;  ///< junctions
   std::vector<Eigen::Vector2d>
-      centre_line;       ///< m; smooth, a point about every metre, both junctions' positions included
-  double width_m = 6.5;  ///< between the kerbs
+      centre_line;              ///< m; smooth, a point about every metre, both junctions' positions included
+  double width_m = 6.5;         ///< between the kerbs
+  double longest_step_m = 0.0;  ///< between neighbouring points of the centre line; 0: unknown, searches take longer
 };
+
+/// Asphalt around the end of a cul-de-sac (a junction of one road), in which a vehicle turns.
+inline constexpr double kTurningCircleRadius_m = 8.0;
 
 struct RoadNetwork {
   std::vector<Junction> junctions;
   std::vector<Road> roads;
 
   std::optional<int> find(std::string_view junction_name) const;
+  /// Fills in the junctions' roads, counter-clockwise from +x, from the roads' ends.
+  void join();
   /// Distance (m) from `point` to the nearest road's centre line, and which road and how far along it (m).
   struct Nearest {
     double distance_m = 0.0, along_m = 0.0;

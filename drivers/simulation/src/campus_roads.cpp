@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+#include <string>
+
+#include "panvo/simulation/random.hpp"
+#include "panvo/simulation/road_network.hpp"
+
+namespace panvo::simulation {
+
+namespace {
+
+using Eigen::Vector2d;
+
+struct PlannedJunction {
+  const char* name;
+  double east_m, north_m;
+  bool has_weak_texture = false;
+};
+
+struct PlannedRoad {
+  const char *from, *to;
+  double width_m;
+  std::vector<Vector2d> bends;  // that it passes on its way
+};
+
+// North is up. Rows from north to south; names as on a campus's signposts.
+constexpr std::array kJunctions{
+    PlannedJunction{"sports_hall", -185, 140},   PlannedJunction{"stadium", -100, 148},
+    PlannedJunction{"library", -12, 132},        PlannedJunction{"observatory", 75, 145},
+    PlannedJunction{"park", 150, 105},           PlannedJunction{"boiler_house", -205, 58},
+    PlannedJunction{"canteen", -112, 68},        PlannedJunction{"auditorium", -34, 54},
+    PlannedJunction{"museum", 52, 70},           PlannedJunction{"hospital", 138, 42},
+    PlannedJunction{"east_gate", 218, 40},       PlannedJunction{"workshop", -192, -25},
+    PlannedJunction{"gymnasium", -108, -12},     PlannedJunction{"clock_tower", -22, -24},
+    PlannedJunction{"bookshop", 62, -8},         PlannedJunction{"post_office", 146, -36},
+    PlannedJunction{"nursery", -200, -108},      PlannedJunction{"laboratory", -118, -92, true},
+    PlannedJunction{"dormitory", -42, -106},     PlannedJunction{"chapel", 48, -92},
+    PlannedJunction{"bank", 130, -110},          PlannedJunction{"pond", 210, -84},
+    PlannedJunction{"gate", -84, -168},          PlannedJunction{"garage", 16, -160},
+    PlannedJunction{"printing_house", 96, -168},
+};
+
+const std::vector<PlannedRoad>& planned_roads() {
+  static const std::vector<PlannedRoad> kRoads{
+      {"sports_hall", "stadium", 7.0, {}},
+      {"stadium", "library", 7.0, {}},
+      {"library", "observatory", 7.0, {{32, 150}}},
+      {"observatory", "park", 6.5, {}},
+      {"park", "park", 6.5, {{172, 138}, {208, 138}, {204, 104}}},
+      {"sports_hall", "boiler_house", 6.5, {}},
+      {"stadium", "canteen", 7.0, {}},
+      {"library", "auditorium", 8.0, {}},
+      {"observatory", "museum", 7.0, {}},
+      {"park", "hospital", 6.5, {}},
+      {"boiler_house", "canteen", 6.5, {}},
+      {"canteen", "auditorium", 7.0, {}},
+      {"auditorium", "museum", 7.0, {}},
+      {"museum", "hospital", 7.0, {}},
+      {"hospital", "east_gate", 8.0, {}},
+      {"boiler_house", "workshop", 6.5, {}},
+      {"canteen", "gymnasium", 7.0, {}},
+      {"auditorium", "clock_tower", 8.0, {}},
+      {"museum", "bookshop", 7.0, {}},
+      {"hospital", "post_office", 8.0, {}},
+      {"workshop", "gymnasium", 6.5, {}},
+      {"gymnasium", "clock_tower", 7.0, {}},
+      {"clock_tower", "bookshop", 8.0, {}},
+      {"bookshop", "post_office", 8.0, {}},
+      {"workshop", "nursery", 6.0, {{-214, -70}}},
+      {"gymnasium", "laboratory", 7.0, {}},
+      {"clock_tower", "dormitory", 7.0, {}},
+      {"clock_tower", "chapel", 7.0, {}},
+      {"bookshop", "chapel", 7.0, {}},
+      {"post_office", "bank", 7.0, {}},
+      {"post_office", "pond", 6.5, {}},
+      {"nursery", "laboratory", 6.0, {}},
+      {"laboratory", "dormitory", 7.0, {}},
+      {"dormitory", "chapel", 7.0, {}},
+      {"chapel", "bank", 7.0, {}},
+      {"laboratory", "gate", 7.0, {}},
+      {"dormitory", "garage", 6.5, {}},
+      {"gate", "garage", 6.5, {}},
+      {"garage", "printing_house", 6.5, {}},
+      {"printing_house", "bank", 6.5, {}},
+      {"printing_house", "pond", 6.5, {{165, -165}}},
+  };
+  return kRoads;
+}
+
+Vector2d turned(const Vector2d& way, double angle) {
+  return {std::cos(angle) * way.x() - std::sin(angle) * way.y(), std::sin(angle) * way.x() + std::cos(angle) * way.y()};
+}
+
+double angle_between(const Vector2d& a, const Vector2d& b) {
+  return std::atan2(a.x() * b.y() - a.y() * b.x(), a.dot(b));
+}
+
+// Directions in which a curve through `points` passes them: as a circle through three neighbours would.
+std::vector<Vector2d> ways_through(const std::vector<Vector2d>& points) {
+  std::vector<Vector2d> ways(points.size());
+  for (std::size_t i = 1; i + 1 < points.size(); ++i) {
+    const Vector2d before = points[i] - points[i - 1], after = points[i + 1] - points[i];
+    const double turn = angle_between(before, after) * before.norm() / (before.norm() + after.norm());
+    ways[i] = turned(before.normalized(), turn);
+  }
+  const auto mirrored = [](const Vector2d& chord, const Vector2d& way) {
+    return turned(chord.normalized(), angle_between(way, chord));
+  };
+  if (points.size() == 2) return {(points[1] - points[0]).normalized(), (points[1] - points[0]).normalized()};
+  ways.front() = mirrored(points[1] - points[0], ways[1]);
+  ways.back() = mirrored(points.back() - points[points.size() - 2], ways[points.size() - 2]);
+  return ways;
+}
+
+// A smooth curve through `points` in these directions, with points evenly apart, at most a metre.
+std::vector<Vector2d> curve(const std::vector<Vector2d>& points, const std::vector<Vector2d>& ways) {
+  constexpr int kFine = 400;  // per piece: their chords are as long as the curve to a millimetre
+  std::vector<Vector2d> fine{points.front()};
+  for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+    const double length = (points[i + 1] - points[i]).norm();
+    // an arc's Hermite tangents are longer than its chord, the more it turns
+    const double turn = std::abs(angle_between(ways[i], ways[i + 1])) / 4.0;
+    const double speed = length / (std::cos(turn) * std::cos(turn));
+    for (int k = 1; k <= kFine; ++k) {
+      const double u = static_cast<double>(k) / kFine, v = 1.0 - u;
+      fine.emplace_back(v * v * (1.0 + 2.0 * u) * points[i] + u * u * (3.0 - 2.0 * u) * points[i + 1] +
+                        speed * u * v * (v * ways[i] - u * ways[i + 1]));
+    }
+  }
+  std::vector<double> along(fine.size(), 0.0);
+  for (std::size_t i = 1; i < fine.size(); ++i) along[i] = along[i - 1] + (fine[i] - fine[i - 1]).norm();
+  const auto steps = static_cast<std::size_t>(std::ceil(along.back()));
+  std::vector<Vector2d> even{fine.front()};
+  std::size_t j = 1;
+  for (std::size_t k = 1; k < steps; ++k) {
+    const double at = along.back() * static_cast<double>(k) / static_cast<double>(steps);
+    while (along[j] < at) ++j;
+    const double share = (at - along[j - 1]) / (along[j] - along[j - 1]);
+    even.emplace_back(fine[j - 1] + share * (fine[j] - fine[j - 1]));
+  }
+  even.push_back(fine.back());
+  return even;
+}
+
+// The plan with everything moved by up to some metres, times `scale`.
+RoadNetwork moved_plan(const Random& random, double scale) {
+  constexpr double kJunctionShift_m = 6.0, kBendShift_m = 4.0, kStraightBend_m = 2.5, kArmTurn_rad = 0.035;
+  RoadNetwork network;
+  std::vector<Vector2d> shifts;
+  for (const PlannedJunction& planned : kJunctions) {
+    Random own = random.part(shifts.size());
+    const double distance = scale * kJunctionShift_m * std::sqrt(own.uniform());
+    shifts.push_back(turned({distance, 0.0}, own.uniform(0.0, 2.0 * std::numbers::pi)));
+    network.junctions.push_back(
+        {planned.name, Vector2d(planned.east_m, planned.north_m) + shifts.back(), {}, planned.has_weak_texture});
+  }
+  for (const PlannedRoad& planned : planned_roads()) {
+    Random own = random.part(1000 + network.roads.size());
+    const int from = network.find(planned.from).value(), to = network.find(planned.to).value();
+    const Vector2d shift_from = shifts[static_cast<std::size_t>(from)], shift_to = shifts[static_cast<std::size_t>(to)];
+    std::vector<Vector2d> points{network.junctions[static_cast<std::size_t>(from)].position - shift_from};
+    points.insert(points.end(), planned.bends.begin(), planned.bends.end());
+    points.push_back(network.junctions[static_cast<std::size_t>(to)].position - shift_to);
+    const std::vector<Vector2d> planned_ways = ways_through(points);
+
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const double share = static_cast<double>(i) / static_cast<double>(points.size() - 1);
+      points[i] += (1.0 - share) * shift_from + share * shift_to;
+      if (i > 0 && i + 1 < points.size()) {
+        points[i] += scale * kBendShift_m * Vector2d(own.uniform(-1.0, 1.0), own.uniform(-1.0, 1.0));
+      }
+    }
+    if (planned.bends.empty()) {
+      const Vector2d across = turned((points[1] - points[0]).normalized(), std::numbers::pi / 2.0);
+      const Vector2d middle = 0.5 * (points[0] + points[1]) + scale * kStraightBend_m * own.uniform(-1.0, 1.0) * across;
+      points.insert(points.begin() + 1, middle);
+    }
+    std::vector<Vector2d> ways = ways_through(points);
+    // arms keep near to their planned directions, on which the angles of the routes' revisits depend
+    for (const bool at_start : {true, false}) {
+      Vector2d& way = at_start ? ways.front() : ways.back();
+      const Vector2d& plan = at_start ? planned_ways.front() : planned_ways.back();
+      way = turned(plan, 0.3 * angle_between(plan, way) + scale * kArmTurn_rad * own.uniform(-1.0, 1.0));
+    }
+    network.roads.push_back({from, to, curve(points, ways), planned.width_m, 1.001});
+  }
+  network.join();
+  return network;
+}
+
+}  // namespace
+
+RoadNetwork campus_roads(std::uint64_t seed) { return moved_plan(Random(seed, "campus roads"), 1.0); }
+
+}  // namespace panvo::simulation
