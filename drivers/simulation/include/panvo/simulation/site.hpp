@@ -3,6 +3,8 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <memory>
+#include <vector>
 
 #include "panvo/simulation/road_network.hpp"
 #include "panvo/simulation/scene.hpp"
@@ -17,12 +19,19 @@ struct SiteParameters {
   bool weak_texture = false;  ///< the junctions marked so in the network get it
 };
 
+class KerbField;
+
 /// The campus as it stands: roads, land and materials; the parts below build on it.
 struct Site {
+  /// Lays out the kerbs of `roads`, which takes some tenths of a second for a campus. Throws std::invalid_argument for
+  /// a network without roads.
+  Site(const SiteParameters& parameters, RoadNetwork roads, std::shared_ptr<const Palette> palette);
+
   SiteParameters parameters;
   RoadNetwork roads;
   Terrain terrain;
   std::shared_ptr<const Palette> palette;
+  std::shared_ptr<const KerbField> kerbs;  ///< of `roads`
 
   /// Signed distance (m) from the nearest kerb: negative on the road, positive beside it. Smooth around the corners of
   /// junctions, whose kerbs are rounded.
