@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string_view>
+
+#include "panvo/simulation/scene.hpp"
+#include "panvo/simulation/site.hpp"
+
+namespace panvo::simulation {
+
+/// A whole campus, ready to be looked at.
+struct Campus {
+  std::shared_ptr<const Site> site;
+  std::shared_ptr<const Scene> scene;
+  MoverModels movers;
+};
+
+/// Builds everything from the seed; `assets` may name a folder of photographs (see Palette), or be empty.
+Campus build_campus(const SiteParameters& parameters, const std::filesystem::path& assets = {});
+
+}  // namespace panvo::simulation

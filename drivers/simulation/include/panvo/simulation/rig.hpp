@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "panvo/simulation/camera_rays.hpp"
+#include "panvo/simulation/sensor.hpp"
+#include "panvo/vision/camera.hpp"
+#include "panvo/vision/pose.hpp"
+
+namespace panvo::simulation {
+
+enum class PanoramaKind { kEquirectangular, kSixHead, kDualFisheye };
+
+/// The two eyes: equal cameras side by side.
+struct StereoCamera {
+  vision::StereoCalibration calibration;                             ///< raw images, distortion included
+  Eigen::Isometry3d base_from_left = Eigen::Isometry3d::Identity();  ///< of the left optical frame
+  double rate_hz = 25.0;
+  double exposure_s = 0.003;
+  SensorParameters sensor;
+
+  Eigen::Isometry3d base_from_right() const { return base_from_left * calibration.right_from_left.inverse(); }
+};
+
+/// One camera of the 360-degree camera: its only one, or a head of several.
+struct PanoramaHead {
+  std::string frame_id;                                              ///< "panorama_optical", "panorama_head_0_optical"
+  FisheyeCamera fisheye;                                             ///< of a head; unused by an equirectangular one
+  Eigen::Isometry3d base_from_head = Eigen::Isometry3d::Identity();  ///< of its optical frame
+  int width = 0, height = 0;                                         ///< px
+};
+
+struct PanoramicCamera {
+  PanoramaKind kind = PanoramaKind::kEquirectangular;
+  Eigen::Isometry3d base_from_panorama = Eigen::Isometry3d::Identity();
+  std::vector<PanoramaHead> heads;  ///< one, two or six
+  double rate_hz = 5.0;
+  double exposure_s = 0.003;
+  SensorParameters sensor;
+};
+
+/// The cameras on the vehicle (base_link: x forward, y left, z up, on the ground below its middle).
+struct Rig {
+  StereoCamera stereo;
+  PanoramicCamera panorama;
+};
+
+/// The rig of [Lu2015, section 7]: stereo of 640 x 480 px at 25 Hz with a baseline of 0.12 m that looks forward and
+/// down, panorama of 1080 x 540 px at 5 Hz above the roof.
+Rig paper_rig();
+
+/// Reads a rig file (config/rigs/paper/rig.yaml shows all it may say; what it does not say is as in paper_rig()).
+/// Throws std::runtime_error with every problem found, each with file, line and key: unknown keys, a baseline of zero,
+/// a field of view that no such lens has, rates and sizes that are not positive.
+Rig read_rig(const std::filesystem::path& file);
+
+CameraRays rays_of(const PanoramicCamera& camera, const PanoramaHead& head);
+
+}  // namespace panvo::simulation

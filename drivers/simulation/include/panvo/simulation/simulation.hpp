@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <opencv2/core.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "panvo/simulation/campus.hpp"
+#include "panvo/simulation/effects.hpp"
+#include "panvo/simulation/renderer.hpp"
+#include "panvo/simulation/revisits.hpp"
+#include "panvo/simulation/rig.hpp"
+#include "panvo/simulation/route.hpp"
+#include "panvo/simulation/traffic.hpp"
+#include "panvo/simulation/weather.hpp"
+
+namespace panvo::simulation {
+
+struct SimulationParameters {
+  Route route;
+  Rig rig = paper_rig();
+  Effects effects;
+  MotionParameters motion;
+  std::uint64_t seed = 1;
+  double hilliness = 0.0;
+  double hour = 10.5;            ///< of the day at the start, 6 to 18
+  std::filesystem::path assets;  ///< photographs in place of painted textures; empty: none
+  double start_s = 0.0;          ///< where to begin
+  double duration_s = 0.0;       ///< how long; 0: to the end
+  bool stereo = true, panorama = true;
+  std::int64_t start_stamp_ns = 1'700'000'000'000'000'000;
+  Renderer::Quality quality;
+};
+
+/// What happens at one stamp: an exposure of the stereo camera, of the panoramic camera, or of both, whose middle is at
+/// `t_s` (the panorama's may be off by the effect time_offset), and where the vehicle is at the stamp.
+struct Instant {
+  std::int64_t stamp_ns = 0;
+  double t_s = 0.0;
+  std::optional<std::uint64_t> stereo_frame, panorama_frame;  ///< counted with those that are dropped
+};
+
+/// The vehicle with its rig on its route, instant by instant.
+class Simulation {
+ public:
+  /// Plans the journey and builds the campus: takes some seconds. Throws std::invalid_argument or std::runtime_error
+  /// saying what is wrong with route, rig, assets.
+  explicit Simulation(const SimulationParameters& parameters);
+  ~Simulation();
+
+  const SimulationParameters& parameters() const { return parameters_; }
+  const Campus& campus() const { return campus_; }
+  const VehicleMotion& motion() const { return *motion_; }
+  const Weather& weather() const { return *weather_; }
+  const Traffic* traffic() const { return traffic_ ? &*traffic_ : nullptr; }  ///< null: the effect is off
+
+  /// All that will be rendered, in order of time.
+  const std::vector<Instant>& instants() const { return instants_; }
+
+  struct StereoImages {
+    cv::Mat left, right;
+  };
+  /// Images of an instant, grey or RGB. Exposure control makes them depend on those before: render in order, from the
+  /// first, for the same images every time.
+  StereoImages render_stereo(const Instant& instant);
+  std::vector<cv::Mat> render_panorama(const Instant& instant);  ///< one image a head
+
+  Renderer& renderer() { return *renderer_; }
+
+ private:
+  struct Camera {
+    CameraRays rays;
+    Eigen::Isometry3d base_from_camera;
+    Sensor sensor;
+  };
+  void plan_instants();
+  cv::Mat expose(Camera& camera, double middle_s, double exposure_s, std::uint32_t visibility, std::uint64_t frame);
+
+  SimulationParameters parameters_;
+  Campus campus_;
+  std::unique_ptr<VehicleMotion> motion_;
+  std::unique_ptr<Weather> weather_;
+  std::optional<Traffic> traffic_;
+  std::unique_ptr<Renderer> renderer_;
+  std::vector<Camera> eyes_, heads_;
+  std::vector<Instant> instants_;
+};
+
+}  // namespace panvo::simulation

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "panvo/simulation/effects.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace panvo::simulation {
+
+const std::array<EffectName, 8> kEffectNames{{
+    {"sudden_light", "a cloud takes or gives back the sun within half a second", &Effects::sudden_light},
+    {"sun_drift", "the sun goes on by two hours of the day over the journey", &Effects::sun_drift},
+    {"movers", "cars and people, some of which fill half of the stereo view", &Effects::movers},
+    {"weak_texture", "even asphalt and plain walls about some junctions", &Effects::weak_texture},
+    {"rain", "streaks of drops", &Effects::rain},
+    {"smear", "dirt on the lenses", &Effects::smear},
+    {"dropped_frames", "one stereo frame and one panorama in fifty are missing", &Effects::dropped_frames},
+    {"time_offset", "the panorama's clock is 20 ms late", &Effects::time_offset},
+}};
+
+Effects effects_of(const std::vector<std::string>& names) {
+  Effects effects;
+  for (const auto& name : names) {
+    if (name.empty() || name == "none") continue;
+    const auto is_meant = [&](const EffectName& effect) { return name == "all" || name == effect.name; };
+    if (std::none_of(kEffectNames.begin(), kEffectNames.end(), is_meant)) {
+      std::string known;
+      for (const auto& effect : kEffectNames) known += fmt::format("{}, ", effect.name);
+      throw std::invalid_argument(fmt::format("there is no effect '{}'; there are {}all, none", name, known));
+    }
+    for (const auto& effect : kEffectNames) {
+      if (is_meant(effect)) effects.*effect.member = true;
+    }
+  }
+  return effects;
+}
+
+std::vector<std::string> names_of(const Effects& effects) {
+  std::vector<std::string> names;
+  for (const auto& effect : kEffectNames) {
+    if (effects.*effect.member) names.emplace_back(effect.name);
+  }
+  return names;
+}
+
+}  // namespace panvo::simulation

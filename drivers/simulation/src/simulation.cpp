@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "panvo/simulation/simulation.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "panvo/simulation/random.hpp"
+
+namespace panvo::simulation {
+namespace {
+
+constexpr double kPanoramaClockOffset_s = 0.02;
+constexpr double kDroppedShare = 1.0 / 50.0;
+
+std::int64_t nanoseconds(double seconds) { return static_cast<std::int64_t>(std::llround(seconds * 1e9)); }
+
+/// Numbers of the exposures of a camera of `rate_hz` between two times.
+std::vector<std::uint64_t> frames_between(double from_s, double to_s, double rate_hz) {
+  std::vector<std::uint64_t> frames;
+  constexpr double kRounding = 1e-9;
+  for (auto frame = static_cast<std::uint64_t>(std::ceil(from_s * rate_hz - kRounding));
+       static_cast<double>(frame) / rate_hz <= to_s + kRounding; ++frame) {
+    frames.push_back(frame);
+  }
+  return frames;
+}
+
+}  // namespace
+
+Simulation::Simulation(const SimulationParameters& parameters) : parameters_(parameters) {
+  // Everything that may be refused comes before the campus, which takes its time.
+  const auto& [route, rig, effects, motion, seed, hilliness, hour, assets, start_s, duration_s, stereo, panorama, stamp,
+               quality] = parameters_;
+  const auto path = drive(campus_roads(seed), route);
+  motion_ = std::make_unique<VehicleMotion>(path, Terrain(seed, hilliness), motion, seed);
+  weather_ = std::make_unique<Weather>(hour, motion_->duration_s(), effects, seed);
+  plan_instants();
+
+  const LensEffects lens{effects.rain ? 0.6 : 0.0, effects.smear ? 0.7 : 0.0};
+  const auto add_camera = [&](std::vector<Camera>& cameras, CameraRays rays, const Eigen::Isometry3d& base_from_camera,
+                              const SensorParameters& sensor, std::string_view name) {
+    const cv::Size size(rays.width, rays.height);
+    cameras.push_back({std::move(rays), base_from_camera, Sensor(sensor, lens, size, Random(seed, name).bits())});
+  };
+  if (stereo) {
+    add_camera(eyes_, pinhole_rays(rig.stereo.calibration.left), rig.stereo.base_from_left, rig.stereo.sensor, "left");
+    add_camera(eyes_, pinhole_rays(rig.stereo.calibration.right), rig.stereo.base_from_right(), rig.stereo.sensor,
+               "right");
+  }
+  if (panorama) {
+    for (const auto& head : rig.panorama.heads) {
+      add_camera(heads_, rays_of(rig.panorama, head), head.base_from_head, rig.panorama.sensor, head.frame_id);
+    }
+  }
+  campus_ = build_campus({.seed = seed, .hilliness = hilliness, .weak_texture = effects.weak_texture}, assets);
+  if (effects.movers) traffic_.emplace(*campus_.site, *motion_, campus_.movers, seed);
+  renderer_ = std::make_unique<Renderer>(campus_.scene);
+}
+
+Simulation::~Simulation() = default;
+
+void Simulation::plan_instants() {
+  const auto& p = parameters_;
+  const double end_s =
+      p.duration_s > 0.0 ? std::min(p.start_s + p.duration_s, motion_->duration_s()) : motion_->duration_s();
+  const Random drops(p.seed, "dropped frames");
+  const auto is_dropped = [&](std::uint64_t stream, std::uint64_t frame) {
+    return p.effects.dropped_frames && drops.part(stream).part(frame).chance(kDroppedShare);
+  };
+  const auto instant_at = [&](double t_s) -> Instant& {
+    Instant instant;
+    instant.t_s = t_s;
+    instant.stamp_ns = p.start_stamp_ns + nanoseconds(t_s);
+    const auto place =
+        std::lower_bound(instants_.begin(), instants_.end(), instant.stamp_ns,
+                         [](const Instant& other, std::int64_t stamp_ns) { return other.stamp_ns < stamp_ns; });
+    return place != instants_.end() && place->stamp_ns == instant.stamp_ns ? *place : *instants_.insert(place, instant);
+  };
+  if (p.stereo) {
+    for (const auto frame : frames_between(p.start_s, end_s, p.rig.stereo.rate_hz)) {
+      if (!is_dropped(0, frame)) instant_at(static_cast<double>(frame) / p.rig.stereo.rate_hz).stereo_frame = frame;
+    }
+  }
+  if (p.panorama) {
+    for (const auto frame : frames_between(p.start_s, end_s, p.rig.panorama.rate_hz)) {
+      if (!is_dropped(1, frame)) instant_at(static_cast<double>(frame) / p.rig.panorama.rate_hz).panorama_frame = frame;
+    }
+  }
+  if (instants_.empty()) {
+    throw std::invalid_argument(
+        fmt::format("nothing to render: the journey lasts {:.1f} s and the part asked for begins at "
+                    "{:.1f} s with {}; choose another start or duration",
+                    motion_->duration_s(), p.start_s, p.stereo || p.panorama ? "its cameras" : "no camera"));
+  }
+}
+
+cv::Mat Simulation::expose(Camera& camera, double middle_s, double exposure_s, std::uint32_t visibility,
+                           std::uint64_t frame) {
+  const auto within = [&](double t_s) { return std::clamp(t_s, 0.0, motion_->duration_s()); };
+  const double opened_s = within(middle_s - 0.5 * exposure_s);
+  const double closed_s = within(middle_s + 0.5 * exposure_s);
+  const auto world_from_base_opened = motion_->world_from_base(opened_s);
+  const auto world_from_base_closed = motion_->world_from_base(closed_s);
+
+  std::vector<MovingPlacement> movers;
+  if (traffic_) movers = traffic_->at(opened_s, closed_s);
+  MovingPlacement own;
+  own.at_opening.model = campus_.movers.own_vehicle;
+  own.at_opening.world_from_model = world_from_base_opened.cast<float>();
+  own.at_opening.visibility = kToPanorama | kToShadow;
+  own.world_from_model_closed = world_from_base_closed.cast<float>();
+  movers.push_back(own);
+
+  const Shot shot{world_from_base_opened * camera.base_from_camera, world_from_base_closed * camera.base_from_camera,
+                  visibility};
+  auto radiance = renderer_->render(camera.rays, shot, weather_->light(middle_s), movers, parameters_.quality);
+  return camera.sensor.expose(radiance, frame);
+}
+
+Simulation::StereoImages Simulation::render_stereo(const Instant& instant) {
+  const auto& stereo = parameters_.rig.stereo;
+  const auto frame = instant.stereo_frame.value();
+  auto& left = eyes_.at(0);
+  auto& right = eyes_.at(1);
+  right.sensor.set_gain(left.sensor.gain());  // one exposure for both eyes
+  StereoImages images;
+  images.left = expose(left, instant.t_s, stereo.exposure_s, kToStereo, frame);
+  images.right = expose(right, instant.t_s, stereo.exposure_s, kToStereo, frame);
+  return images;
+}
+
+std::vector<cv::Mat> Simulation::render_panorama(const Instant& instant) {
+  const auto& panorama = parameters_.rig.panorama;
+  const double late_s = parameters_.effects.time_offset ? kPanoramaClockOffset_s : 0.0;
+  const double gain = heads_.front().sensor.gain();
+  std::vector<cv::Mat> images;
+  for (auto& head : heads_) {
+    head.sensor.set_gain(gain);  // one exposure for all heads
+    images.push_back(
+        expose(head, instant.t_s - late_s, panorama.exposure_s, kToPanorama, instant.panorama_frame.value()));
+  }
+  return images;
+}
+
+}  // namespace panvo::simulation

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "panvo/simulation/weather.hpp"
+
+#include <algorithm>
+
+#include "panvo/simulation/random.hpp"
+
+namespace panvo::simulation {
+namespace {
+
+constexpr double kEdgeOfCloud_s = 0.5;
+constexpr double kFairWeatherCover = 0.05;
+
+double smooth_step(double from, double to, double value) {
+  const double share = std::clamp((value - from) / (to - from), 0.0, 1.0);
+  return share * share * (3.0 - 2.0 * share);
+}
+
+}  // namespace
+
+Weather::Weather(double hour, double duration_s, const Effects& effects, std::uint64_t seed) : hour_(hour) {
+  constexpr double kDriftHours = 2.0;
+  hours_per_s_ = effects.sun_drift && duration_s > 0.0 ? kDriftHours / duration_s : 0.0;
+  if (!effects.sudden_light) return;
+  Random random(seed, "clouds");
+  for (double t_s = random.uniform(6.0, 14.0); t_s < duration_s; t_s += random.uniform(12.0, 30.0)) {
+    const double length_s = random.uniform(4.0, 12.0);
+    clouds_.push_back({t_s, t_s + length_s, random.uniform(0.7, 0.95)});
+    t_s += length_s;
+  }
+}
+
+double Weather::hour(double t_s) const { return hour_ + hours_per_s_ * t_s; }
+
+double Weather::cloud_cover(double t_s) const {
+  double cover = kFairWeatherCover;
+  for (const auto& cloud : clouds_) {
+    const double share = smooth_step(cloud.from_s, cloud.from_s + kEdgeOfCloud_s, t_s) -
+                         smooth_step(cloud.to_s, cloud.to_s + kEdgeOfCloud_s, t_s);
+    cover += share * (cloud.cover - kFairWeatherCover);
+  }
+  return cover;
+}
+
+Light Weather::light(double t_s) const { return light_at(hour(t_s), cloud_cover(t_s)); }
+
+}  // namespace panvo::simulation

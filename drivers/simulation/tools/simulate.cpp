@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: Apache-2.0
+// panvo_simulate: renders a journey through the simulated campus into a data set, or a few pictures of it.
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "panvo/simulation/euroc_writer.hpp"
+#include "panvo/simulation/sequence_file.hpp"
+#include "panvo/simulation/simulation.hpp"
+
+namespace panvo::simulation {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+struct Options {
+  fs::path route, rig, out;
+  std::vector<std::string> junctions, effects;
+  int random_junctions = 0;
+  std::string cameras = "all", format = "jpg";
+  std::vector<double> pictures_s;
+  bool truth_only = false;
+  SimulationParameters simulation;
+};
+
+double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+/// The line that says how far it is: rewritten in place on a terminal, a line every tenth of the way elsewhere.
+class Progress {
+ public:
+  explicit Progress(const Simulation& simulation)
+      : from_s_(simulation.instants().front().t_s),
+        length_s_(std::max(simulation.instants().back().t_s - from_s_, 1e-3)),
+        is_terminal_(isatty(STDERR_FILENO) != 0) {}
+
+  void show(double t_s) {
+    const double share = (t_s - from_s_) / length_s_;
+    const double wall_s = seconds_since(start_);
+    if (is_terminal_ ? wall_s - last_wall_s_ < 0.5 : share - last_share_ < 0.1) return;
+    last_wall_s_ = wall_s;
+    last_share_ = share;
+    fmt::print(stderr, "{}  rendered {:5.1f} of {:.1f} s, {:.0f} s to go{}", is_terminal_ ? "\r" : "", t_s - from_s_,
+               length_s_, share > 0.0 ? wall_s / share * (1.0 - share) : 0.0, is_terminal_ ? "   " : "\n");
+  }
+
+  /// Ends the line; how long it took.
+  double finish() {
+    if (is_terminal_) fmt::print(stderr, "\r\033[K");
+    return seconds_since(start_);
+  }
+
+ private:
+  Clock::time_point start_ = Clock::now();
+  double from_s_, length_s_, last_wall_s_ = 0.0, last_share_ = 0.0;
+  bool is_terminal_;
+};
+
+void describe_options(CLI::App& app, Options& options) {
+  auto& s = options.simulation;
+  app.add_option("--route", options.route, "route file, as those in config/routes");
+  app.add_option("--junctions", options.junctions, "a route of one's own: junctions with commas between them")
+      ->delimiter(',');
+  app.add_option("--random", options.random_junctions, "a route through that many junctions, drawn from the seed")
+      ->check(CLI::Range(2, 1000));
+  app.add_option("--out", options.out, "the folder to make");
+  app.add_option("--seed", s.seed, "of the world, the motion and the noise")->capture_default_str();
+  app.add_option("--effects", options.effects, "what makes it hard, with commas between; all, none")->delimiter(',');
+  app.add_option("--rig", options.rig, "rig file, as config/rigs/paper/rig.yaml");
+  app.add_option("--hilliness", s.hilliness, "0 flat ... 1 hills of 8 m")
+      ->check(CLI::Range(0.0, 2.0))
+      ->capture_default_str();
+  app.add_option("--hour", s.hour, "of the day at the start, 6 to 18")->check(CLI::Range(6.0, 18.0));
+  app.add_option("--vibration", s.motion.vibration, "of the vehicle; 0: as on rails")
+      ->check(CLI::Range(0.0, 10.0))
+      ->capture_default_str();
+  app.add_option("--assets", s.assets, "folder of photographs, MATERIAL.jpg, in place of painted textures")
+      ->check(CLI::ExistingDirectory);
+  app.add_option("--start", s.start_s, "where to begin, s")->check(CLI::Range(0.0, 1e6));
+  app.add_option("--duration", s.duration_s, "how much, s; 0: to the end")->check(CLI::Range(0.0, 1e6));
+  app.add_option("--cameras", options.cameras, "which are rendered")
+      ->check(CLI::IsMember({"all", "stereo", "panorama"}))
+      ->capture_default_str();
+  app.add_option("--format", options.format, "of the images: jpg (quality 95) or png (lossless, twice the size)")
+      ->check(CLI::IsMember({"jpg", "png"}))
+      ->capture_default_str();
+  app.add_option("--pictures", options.pictures_s, "only pictures of these times (s), as PNG, into the folder")
+      ->delimiter(',');
+  app.add_flag("--truth-only", options.truth_only, "only sequence.yaml: what is true of the journey");
+}
+
+/// Puts together what the options say. Throws with what cannot be.
+void complete(Options& options) {
+  auto& s = options.simulation;
+  s.effects = effects_of(options.effects);
+  s.stereo = options.cameras != "panorama";
+  s.panorama = options.cameras != "stereo";
+  if (!options.rig.empty()) s.rig = read_rig(options.rig);
+  if (!options.junctions.empty()) {
+    s.route = {"custom", options.junctions, ""};
+  } else if (options.random_junctions > 0) {
+    s.route = random_route(campus_roads(s.seed), options.random_junctions, s.seed);
+  } else if (!options.route.empty()) {
+    s.route = read_route(options.route);
+  } else {
+    throw std::runtime_error("which route? Name a file with --route, junctions with --junctions, or --random N");
+  }
+}
+
+void write_picture(const fs::path& file, const cv::Mat& image) {
+  cv::Mat bgr = image;
+  if (image.channels() == 3) cv::cvtColor(image, bgr, cv::COLOR_RGB2BGR);
+  if (!cv::imwrite(file.string(), bgr)) throw std::runtime_error(file.string() + ": cannot be written");
+}
+
+/// Single views: each is exposed a few times, so that exposure control has settled.
+void write_pictures(Simulation& simulation, const Options& options) {
+  constexpr int kExposures = 8;
+  fs::create_directories(options.out);
+  for (const double t_s : options.pictures_s) {
+    Instant instant;
+    instant.t_s = t_s;
+    Simulation::StereoImages eyes;
+    std::vector<cv::Mat> heads;
+    for (instant.stereo_frame = instant.panorama_frame = 0; *instant.stereo_frame < kExposures;
+         ++*instant.stereo_frame, ++*instant.panorama_frame) {
+      if (options.simulation.stereo) eyes = simulation.render_stereo(instant);
+      if (options.simulation.panorama) heads = simulation.render_panorama(instant);
+    }
+    if (options.simulation.stereo) write_picture(options.out / fmt::format("{:07.2f}_left.png", t_s), eyes.left);
+    for (std::size_t i = 0; i < heads.size(); ++i) {
+      write_picture(
+          options.out / fmt::format("{:07.2f}_panorama{}.png", t_s, heads.size() > 1 ? fmt::format("_{}", i) : ""),
+          heads[i]);
+    }
+  }
+}
+
+/// Asks for room before anything is rendered.
+void check_space(const Simulation& simulation, const fs::path& folder, ImageFormat format) {
+  const auto needed = estimated_bytes(simulation, format);
+  std::error_code error;
+  const auto space = fs::space(fs::absolute(folder).parent_path(), error);
+  if (!error && space.available < needed) {
+    throw std::runtime_error(
+        fmt::format("{}: about {} MB are needed, {} MB are free; name another folder, --cameras stereo or "
+                    "a shorter --duration",
+                    folder.string(), needed / 1'000'000, space.available / 1'000'000));
+  }
+}
+
+void write_data_set(Simulation& simulation, const Options& options) {
+  const auto format = options.format == "jpg" ? ImageFormat::kJpeg : ImageFormat::kPng;
+  check_space(simulation, options.out, format);
+  // Under another name until it is whole: whoever finds the folder finds all of it.
+  const fs::path partial = options.out.string() + ".partial";
+  fs::remove_all(partial);
+  EurocWriter writer(partial, simulation, format);
+  Progress progress(simulation);
+  for (const auto& instant : simulation.instants()) {
+    if (instant.stereo_frame) writer.write(instant, simulation.render_stereo(instant));
+    if (instant.panorama_frame) writer.write(instant, simulation.render_panorama(instant));
+    progress.show(instant.t_s);
+  }
+  writer.finish();
+  const double wall_s = progress.finish();
+  fs::remove(options.out);  // an empty folder that was there
+  fs::rename(partial, options.out);
+
+  const auto& instants = simulation.instants();
+  const double length_s = instants.back().t_s - instants.front().t_s;
+  const auto statistics = simulation.renderer().statistics();
+  fmt::print(
+      "{}: {} s of {} in {:.0f} s ({:.1f} s a second): {:.2f} million pixels and {:.2f} million rays a second, "
+      "{:.2f} million triangles\n",
+      options.out.string(), fmt::format("{:.1f}", length_s), options.simulation.route.name, wall_s,
+      wall_s / std::max(length_s, 1e-3), 1e-6 * static_cast<double>(statistics.pixels) / wall_s,
+      1e-6 * static_cast<double>(statistics.primary_rays + statistics.shadow_rays) / wall_s,
+      1e-6 * static_cast<double>(statistics.triangles));
+}
+
+void run(Options& options) {
+  complete(options);
+  if (options.out.empty()) throw std::runtime_error("where to? Name a new folder with --out");
+  if (options.out.filename().empty()) options.out = options.out.parent_path();  // a slash at the end
+  if (options.pictures_s.empty() && !options.truth_only && fs::exists(options.out) &&
+      !(fs::is_directory(options.out) && fs::is_empty(options.out))) {
+    throw std::runtime_error(options.out.string() + ": is there already and not empty; name a new folder");
+  }
+  if (const auto parent = fs::absolute(options.out).parent_path(); !fs::is_directory(parent)) {
+    std::error_code error;
+    fs::create_directories(parent, error);
+    if (error) throw std::runtime_error(parent.string() + ": cannot be made (" + error.message() + ")");
+  }
+  const auto start = Clock::now();
+  fmt::print(stderr, "  building the campus of seed {} ...", options.simulation.seed);
+  Simulation simulation(options.simulation);
+  fmt::print(stderr, " {:.1f} s; {}: {:.0f} m in {:.0f} s, {} instants\n", seconds_since(start),
+             options.simulation.route.name, simulation.motion().travelled_m(simulation.motion().duration_s()),
+             simulation.motion().duration_s(), simulation.instants().size());
+  if (options.truth_only) {
+    fs::create_directories(options.out);
+    std::ofstream file(options.out / "sequence.yaml");
+    file << sequence_yaml(simulation) << std::flush;
+    if (!file) throw std::runtime_error((options.out / "sequence.yaml").string() + ": cannot be written");
+  } else if (!options.pictures_s.empty()) {
+    write_pictures(simulation, options);
+  } else {
+    write_data_set(simulation, options);
+  }
+}
+
+}  // namespace
+}  // namespace panvo::simulation
+
+int main(int argc, char** argv) {
+  CLI::App app(
+      "Renders a journey through a simulated campus: stereo pairs, panoramas and the truth, as an EuRoC/ASL data set");
+  panvo::simulation::Options options;
+  panvo::simulation::describe_options(app, options);
+  CLI11_PARSE(app, argc, argv);
+  try {
+    panvo::simulation::run(options);
+  } catch (const std::exception& error) {
+    std::cerr << "panvo_simulate: " << error.what() << '\n';
+    return 1;
+  }
+  return 0;
+}
