@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "panvo/simulation/road_network.hpp"
+
+namespace panvo::simulation {
+
+/// Where the kerbs of a road network run, and how far from them any place is.
+///
+/// The carriageway is the union of the roads' strips and of the turning circles at their dead ends, closed by a disc:
+/// what no disc of kCornerRadius that keeps off the strips can reach is road too. That rounds every corner of a
+/// junction to that radius and leaves straight kerbs where they are. Distances are kept on a grid.
+class KerbField {
+ public:
+  static constexpr double kCornerRadius_m = 5.0;
+  static constexpr double kTurningCircleRadius_m = 7.0;
+
+  explicit KerbField(const RoadNetwork& roads);
+
+  /// Signed distance (m): negative on the road.
+  double distance_m(const Eigen::Vector2d& point) const;
+
+  /// Unit vector along which the distance grows: away from the road.
+  Eigen::Vector2d outwards(const Eigen::Vector2d& point) const;
+
+  /// As RoadNetwork::nearest_road, without looking at every road: exact near roads, and within centimetres far off.
+  RoadNetwork::Nearest nearest_road(const Eigen::Vector2d& point) const;
+
+  /// Length (m) of a road's centre line.
+  double length_m(int road) const { return lengths_m_[static_cast<std::size_t>(road)]; }
+
+  /// The kerbs: closed polylines (the last point is the first one's neighbour) with the road on their left, a point
+  /// every half metre or nearer.
+  std::vector<std::vector<Eigen::Vector2d>> kerb_lines() const;
+
+ private:
+  struct Segment {
+    Eigen::Vector2d start, along;  ///< unit direction
+    double length_m, half_width_m, start_along_m;
+    int road;
+
+    double distance_to_middle_m(const Eigen::Vector2d& point) const;
+    double distance_m(const Eigen::Vector2d& point) const { return distance_to_middle_m(point) - half_width_m; }
+  };
+  struct Crossing;
+
+  Eigen::Vector2d node(int column, int row) const;
+  std::size_t index(int column, int row) const { return static_cast<std::size_t>(row) * columns_ + column; }
+  std::vector<std::int32_t> nearest_segments(const std::vector<Segment>& segments, double reach_m) const;
+  template <typename Visit>
+  void march(const std::vector<float>& field, float level, const Visit& visit) const;
+
+  Eigen::Vector2d corner_;  ///< of the grid
+  int columns_ = 0, rows_ = 0;
+  std::vector<Segment> segments_;
+  std::vector<double> lengths_m_;
+  std::vector<std::int32_t> nearest_;  ///< segment of each node
+  std::vector<float> distance_m_;      ///< of each node
+};
+
+}  // namespace panvo::simulation
