@@ -5,8 +5,7 @@ namespace panvo::simulation {
 
 Campus build_campus(const SiteParameters& parameters, const std::filesystem::path& assets) {
   auto palette = std::make_shared<const Palette>(parameters.seed, assets);
-  auto site = std::make_shared<const Site>(
-      Site{parameters, campus_roads(parameters.seed), Terrain(parameters.seed, parameters.hilliness), palette});
+  auto site = std::make_shared<const Site>(parameters, campus_roads(parameters.seed), palette);
   auto scene = std::make_shared<Scene>();
   scene->palette = palette;
   scene->sky = std::make_shared<const Sky>(parameters.seed);

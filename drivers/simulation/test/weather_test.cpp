@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "panvo/simulation/weather.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace panvo::simulation {
+namespace {
+
+TEST(Weather, IsSteadyWithoutEffects) {
+  const Weather weather(10.0, 600.0, {}, 1);
+  EXPECT_TRUE(weather.clouds().empty());
+  EXPECT_EQ(weather.cloud_cover(0.0), weather.cloud_cover(500.0));
+  EXPECT_EQ(weather.hour(600.0), 10.0);
+}
+
+TEST(Weather, TheSunGoesOnByTwoHoursOverTheJourney) {
+  Effects effects;
+  effects.sun_drift = true;
+  const Weather weather(10.0, 600.0, effects, 1);
+  EXPECT_DOUBLE_EQ(weather.hour(600.0), 12.0);
+}
+
+TEST(Weather, ACloudTakesTheSunWithinHalfASecondAndGivesItBack) {
+  Effects effects;
+  effects.sudden_light = true;
+  const Weather weather(10.0, 600.0, effects, 3);
+  ASSERT_GE(weather.clouds().size(), 10u);
+  for (const auto& cloud : weather.clouds()) {
+    const double before = weather.cloud_cover(cloud.from_s);
+    EXPECT_LT(before, 0.1);
+    EXPECT_NEAR(weather.cloud_cover(cloud.from_s + 0.5), cloud.cover, 1e-12);
+    EXPECT_NEAR(weather.cloud_cover(cloud.to_s), cloud.cover, 1e-12);
+    EXPECT_NEAR(weather.cloud_cover(cloud.to_s + 0.5), before, 1e-12);
+  }
+}
+
+}  // namespace
+}  // namespace panvo::simulation
