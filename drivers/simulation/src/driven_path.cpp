@@ -1,0 +1,305 @@
+// SPDX-License-Identifier: Apache-2.0
+// From a route to the line a vehicle drives: right-hand lanes, joined by arcs at the junctions, all smoothed.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <stdexcept>
+
+#include "panvo/simulation/route.hpp"
+
+namespace panvo::simulation {
+
+namespace {
+
+using Eigen::Vector2d;
+
+constexpr double kStep_m = 0.1;              // of the path's points
+constexpr double kLeastRadius_m = 5.0;       // of turns
+constexpr double kMostUsed = 0.45;           // of a road, by the turn at one of its ends
+constexpr double kSmoothing_m = 1.2;         // deviation: curvature comes and goes over some 4 m
+constexpr double kClearOfCrossing_m = 12.0;  // where the path begins and ends, off the first and the last junction
+constexpr double kClearOfEnd_m = 3.0;        // the same in a cul-de-sac
+
+Vector2d left_of(const Vector2d& way) { return {-way.y(), way.x()}; }
+
+double angle_between(const Vector2d& a, const Vector2d& b) {
+  return std::atan2(a.x() * b.y() - a.y() * b.x(), a.dot(b));
+}
+
+// One road as it is driven.
+struct Leg {
+  int road = 0, from = 0, to = 0;
+  std::vector<Vector2d> lane, ways;  // and its unit direction at each point
+  double length_m = 0.0;
+  double offset_m = 0.0;  // right of the centre line
+  double begin_m = 0.0, end_m = 0.0;
+
+  // `along` may lie before the beginning or after the end, where the lane goes on straight.
+  Vector2d at(double along) const {
+    const auto [i, share] = place(along);
+    return (1.0 - share) * lane[i] + share * lane[i + 1];
+  }
+  Vector2d way(double along) const {
+    const auto [i, share] = place(along);
+    const double inside = std::clamp(share, 0.0, 1.0);
+    return ((1.0 - inside) * ways[i] + inside * ways[i + 1]).normalized();
+  }
+
+ private:
+  std::pair<std::size_t, double> place(double along) const {
+    const double at = along / length_m * static_cast<double>(lane.size() - 1);
+    const double i = std::clamp(std::floor(at), 0.0, static_cast<double>(lane.size() - 2));
+    return {static_cast<std::size_t>(i), at - i};
+  }
+};
+
+Leg leg_of(const RoadNetwork& roads, int number, int from) {
+  const Road& road = roads.roads[static_cast<std::size_t>(number)];
+  Leg leg;
+  leg.road = number;
+  leg.from = from;
+  leg.to = road.from == from ? road.to : road.from;
+  leg.lane = road.centre_line;
+  if (road.from != from) std::reverse(leg.lane.begin(), leg.lane.end());
+  leg.offset_m = road.width_m / 4.0;
+  const auto last = leg.lane.size() - 1;
+  for (std::size_t i = 0; i <= last; ++i) {
+    leg.ways.push_back((leg.lane[std::min(i + 1, last)] - leg.lane[i > 0 ? i - 1 : 0]).normalized());
+    if (i > 0) leg.length_m += (leg.lane[i] - leg.lane[i - 1]).norm();
+  }
+  for (std::size_t i = 0; i <= last; ++i) leg.lane[i] -= leg.offset_m * left_of(leg.ways[i]);
+  leg.end_m = leg.length_m;
+  return leg;
+}
+
+std::string names_of(const RoadNetwork& roads) {
+  std::string names;
+  for (const Junction& junction : roads.junctions) names += (names.empty() ? "" : ", ") + junction.name;
+  return names;
+}
+
+std::vector<Leg> legs_of(const RoadNetwork& roads, const Route& route) {
+  if (route.junctions.size() < 2) {
+    throw std::invalid_argument(
+        fmt::format("route {}: needs at least two junctions, has {}", route.name, route.junctions.size()));
+  }
+  std::vector<int> numbers;
+  for (const std::string& name : route.junctions) {
+    const auto number = roads.find(name);
+    if (!number) {
+      throw std::invalid_argument(
+          fmt::format("route {}: there is no junction {}; there are {}", route.name, name, names_of(roads)));
+    }
+    numbers.push_back(*number);
+  }
+  std::vector<Leg> legs;
+  for (std::size_t i = 0; i + 1 < numbers.size(); ++i) {
+    const int from = numbers[i], to = numbers[i + 1];
+    std::optional<int> joining;
+    std::string neighbours;
+    for (const int number : roads.junctions[static_cast<std::size_t>(from)].roads) {
+      const Road& road = roads.roads[static_cast<std::size_t>(number)];
+      const int other = road.from == from ? road.to : road.from;
+      if (other == to && !joining) joining = number;
+      neighbours += (neighbours.empty() ? "" : ", ") + roads.junctions[static_cast<std::size_t>(other)].name;
+    }
+    if (!joining) {
+      throw std::invalid_argument(fmt::format("route {}: no road joins {} and {}; from {} roads lead to {}", route.name,
+                                              route.junctions[i], route.junctions[i + 1], route.junctions[i],
+                                              neighbours));
+    }
+    if (!legs.empty() && legs.back().road == *joining && from != to &&
+        roads.junctions[static_cast<std::size_t>(from)].roads.size() > 1) {
+      throw std::invalid_argument(
+          fmt::format("route {}: turns back at {}, which is no cul-de-sac; go on to another of {}", route.name,
+                      route.junctions[i], neighbours));
+    }
+    legs.push_back(leg_of(roads, *joining, from));
+  }
+  return legs;
+}
+
+void add_arc(std::vector<Vector2d>& points, const Vector2d& centre, const Vector2d& from, double angle) {
+  const auto steps = static_cast<int>(std::ceil(std::abs(angle) * from.norm() / kStep_m));
+  for (int i = 0; i <= steps; ++i) {
+    const double turned = angle * i / steps, c = std::cos(turned), s = std::sin(turned);
+    points.emplace_back(centre + Vector2d(c * from.x() - s * from.y(), s * from.x() + c * from.y()));
+  }
+}
+
+// Where a circle of this radius touches both lanes, on their `side` (+1 left, -1 right): nullopt if nowhere within
+// reach. Both lanes moved by the radius cross at its centre.
+struct Touch {
+  Vector2d centre;
+  double on_in_m, on_out_m;
+};
+std::optional<Touch> touching_circle(const Leg& in, const Leg& out, double radius, double side) {
+  constexpr double kBeyond_m = 12.0, kStride_m = 0.5;
+  const auto moved = [&](const Leg& leg, double along) -> Vector2d {
+    return leg.at(along) + side * radius * left_of(leg.way(along));
+  };
+  const double reach_in = kMostUsed * in.length_m, reach_out = kMostUsed * out.length_m;
+  std::vector<Vector2d> line_in, line_out;
+  for (double back = -kBeyond_m; back < reach_in; back += kStride_m) line_in.push_back(moved(in, in.length_m - back));
+  for (double on = -kBeyond_m; on < reach_out; on += kStride_m) line_out.push_back(moved(out, on));
+  for (std::size_t i = 0; i + 1 < line_in.size(); ++i) {
+    for (std::size_t j = 0; j + 1 < line_out.size(); ++j) {
+      const Vector2d a = line_in[i + 1] - line_in[i], b = line_out[j + 1] - line_out[j];
+      const Vector2d between = line_out[j] - line_in[i];
+      const double cross = a.x() * b.y() - a.y() * b.x();
+      if (std::abs(cross) < 1e-9) continue;
+      const double u = (between.x() * b.y() - between.y() * b.x()) / cross;
+      const double v = (between.x() * a.y() - between.y() * a.x()) / cross;
+      if (u < 0.0 || u > 1.0 || v < 0.0 || v > 1.0) continue;
+      return Touch{line_in[i] + u * a, in.length_m + kBeyond_m - kStride_m * (static_cast<double>(i) + u),
+                   kStride_m * (static_cast<double>(j) + v) - kBeyond_m};
+    }
+  }
+  return std::nullopt;
+}
+
+// Nearly straight on: a cubic from lane to lane.
+std::vector<Vector2d> straight_on(Leg& in, Leg& out) {
+  constexpr double kBlend_m = 9.0;
+  in.end_m = in.length_m - std::min(kBlend_m, kMostUsed * in.length_m);
+  out.begin_m = std::min(kBlend_m, kMostUsed * out.length_m);
+  const Vector2d a = in.at(in.end_m), b = out.at(out.begin_m);
+  const double length = (b - a).norm();
+  const Vector2d at_a = length * in.way(in.end_m), at_b = length * out.way(out.begin_m);
+  std::vector<Vector2d> points;
+  const auto steps = static_cast<int>(std::ceil(length / kStep_m));
+  for (int i = 0; i <= steps; ++i) {
+    const double u = static_cast<double>(i) / steps, v = 1.0 - u;
+    points.emplace_back(v * v * (1.0 + 2.0 * u) * a + u * u * (3.0 - 2.0 * u) * b + u * v * (v * at_a - u * at_b));
+  }
+  return points;
+}
+
+// Through a junction, as an arc. A right turn keeps close to the kerb, whose corner is rounded; a left turn is wider.
+std::vector<Vector2d> turn(Leg& in, Leg& out) {
+  constexpr double kStraight_rad = 0.7, kRightReach_m = 6.0, kLeftReach_m = 8.5, kMost_m = 16.0;
+  const double angle = angle_between(in.way(in.length_m - 5.0), out.way(5.0));
+  if (std::abs(angle) < kStraight_rad) return straight_on(in, out);
+  const double side = angle > 0.0 ? 1.0 : -1.0;
+  const double reach = angle > 0.0 ? kLeftReach_m : kRightReach_m;
+  double radius = std::clamp(reach / std::tan(std::abs(angle) / 2.0), kLeastRadius_m, kMost_m);
+  std::optional<Touch> touch;
+  while (!(touch = touching_circle(in, out, radius, side)) && radius > kLeastRadius_m) {
+    radius = std::max(0.9 * radius, kLeastRadius_m);
+  }
+  if (!touch) return straight_on(in, out);
+  in.end_m = touch->on_in_m;
+  out.begin_m = touch->on_out_m;
+  const Vector2d from = in.at(in.end_m) - touch->centre, to = out.at(out.begin_m) - touch->centre;
+  double swept = angle_between(from, to);
+  if (side * swept < 0.0) swept += side * 2.0 * std::numbers::pi;
+  std::vector<Vector2d> points;
+  add_arc(points, touch->centre, from, swept);
+  return points;
+}
+
+// Back at the end of a cul-de-sac: a swing to the right, most of a circle to the left, a swing to the right again.
+std::vector<Vector2d> turn_back(Leg& in, Leg& out) {
+  constexpr double kCircle_m = 5.2, kSwing_m = 8.0;
+  const double from_axis = in.offset_m + kSwing_m, both = kCircle_m + kSwing_m;
+  const double before = std::sqrt(both * both - from_axis * from_axis);
+  const double swing = std::acos(from_axis / both);
+  in.end_m = in.length_m - before;
+  out.begin_m = before;
+  const Vector2d way = in.way(in.end_m), left = left_of(way);
+  const Vector2d centre = in.at(in.end_m) + before * way + in.offset_m * left;
+  const Vector2d right_centre = centre - before * way - from_axis * left;
+  const Vector2d left_centre = centre - before * way + from_axis * left;
+  std::vector<Vector2d> points;
+  add_arc(points, right_centre, kSwing_m * left, -swing);
+  add_arc(points, centre, (right_centre - centre).normalized() * kCircle_m, std::numbers::pi + 2.0 * swing);
+  add_arc(points, left_centre, (centre - left_centre).normalized() * kSwing_m, -swing);
+  return points;
+}
+
+// At even steps of about kStep_m along the line through `points`.
+std::vector<Vector2d> evenly(const std::vector<Vector2d>& points) {
+  std::vector<double> along(points.size(), 0.0);
+  for (std::size_t i = 1; i < points.size(); ++i) along[i] = along[i - 1] + (points[i] - points[i - 1]).norm();
+  const auto steps = static_cast<std::size_t>(std::ceil(along.back() / kStep_m));
+  std::vector<Vector2d> even;
+  std::size_t j = 1;
+  for (std::size_t k = 0; k <= steps; ++k) {
+    const double at = along.back() * static_cast<double>(k) / static_cast<double>(steps);
+    while (j + 1 < along.size() && along[j] < at) ++j;
+    const double length = along[j] - along[j - 1];
+    const double share = length > 0.0 ? (at - along[j - 1]) / length : 0.0;
+    even.emplace_back(points[j - 1] + share * (points[j] - points[j - 1]));
+  }
+  return even;
+}
+
+// Convolved with a Gaussian; before its beginning and after its end the line goes on as its point reflection.
+std::vector<Vector2d> smoothed(const std::vector<Vector2d>& points) {
+  const auto reach = static_cast<int>(std::ceil(4.0 * kSmoothing_m / kStep_m));
+  std::vector<double> weights;
+  double sum = 0.0;
+  for (int k = -reach; k <= reach; ++k) {
+    weights.push_back(std::exp(-0.5 * std::pow(k * kStep_m / kSmoothing_m, 2)));
+    sum += weights.back();
+  }
+  const auto last = static_cast<int>(points.size()) - 1;
+  const auto at = [&](int i) -> Vector2d {
+    const auto point = [&](int k) { return points[static_cast<std::size_t>(std::clamp(k, 0, last))]; };
+    if (i < 0) return 2.0 * points.front() - point(-i);
+    if (i > last) return 2.0 * points.back() - point(2 * last - i);
+    return point(i);
+  };
+  std::vector<Vector2d> smooth;
+  for (int i = 0; i <= last; ++i) {
+    Vector2d mean = Vector2d::Zero();
+    for (int k = -reach; k <= reach; ++k) mean += weights[static_cast<std::size_t>(k + reach)] / sum * at(i + k);
+    smooth.push_back(mean);
+  }
+  return smooth;
+}
+
+}  // namespace
+
+DrivenPath drive(const RoadNetwork& roads, const Route& route) {
+  std::vector<Leg> legs = legs_of(roads, route);
+  std::vector<std::vector<Vector2d>> joints;
+  for (std::size_t i = 0; i + 1 < legs.size(); ++i) {
+    const bool back = roads.junctions[static_cast<std::size_t>(legs[i].to)].roads.size() == 1;
+    joints.push_back(back ? turn_back(legs[i], legs[i + 1]) : turn(legs[i], legs[i + 1]));
+  }
+  const auto clear_of = [&](int junction, double length) {
+    const bool end = roads.junctions[static_cast<std::size_t>(junction)].roads.size() == 1;
+    return std::min(end ? kClearOfEnd_m : kClearOfCrossing_m, kMostUsed * length);
+  };
+  legs.front().begin_m = clear_of(legs.front().from, legs.front().length_m);
+  legs.back().end_m = legs.back().length_m - clear_of(legs.back().to, legs.back().length_m);
+
+  std::vector<Vector2d> points;
+  for (std::size_t i = 0; i < legs.size(); ++i) {
+    for (double along = legs[i].begin_m; along < legs[i].end_m; along += kStep_m) points.push_back(legs[i].at(along));
+    if (i < joints.size()) points.insert(points.end(), joints[i].begin(), joints[i].end());
+  }
+  points.push_back(legs.back().at(legs.back().end_m));
+
+  DrivenPath path;
+  path.points = evenly(smoothed(evenly(points)));
+  const std::size_t count = path.points.size();
+  path.along_m.assign(count, 0.0);
+  path.curvature_per_m.assign(count, 0.0);
+  for (std::size_t i = 1; i < count; ++i) {
+    path.along_m[i] = path.along_m[i - 1] + (path.points[i] - path.points[i - 1]).norm();
+  }
+  // over two points on each side: the path's steps are so short that rounding would show
+  constexpr std::size_t kApart = 2;
+  for (std::size_t i = kApart; i + kApart < count; ++i) {
+    const Vector2d before = path.points[i] - path.points[i - kApart], after = path.points[i + kApart] - path.points[i];
+    path.curvature_per_m[i] = 2.0 * angle_between(before, after) / (before.norm() + after.norm());
+  }
+  return path;
+}
+
+}  // namespace panvo::simulation
