@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "traced_scene.hpp"
+
+#include <fmt/format.h>
+
+#include <bit>
+#include <cmath>
+#include <stdexcept>
+
+namespace panvo::simulation {
+namespace {
+
+constexpr std::size_t kMostMaterials = 256;  // a surface record has eight bits for it
+
+std::uint32_t pack_tint(const Tint& tint) {
+  return tint.red | static_cast<std::uint32_t>(tint.green) << 8 | static_cast<std::uint32_t>(tint.blue) << 16 |
+         static_cast<std::uint32_t>(tint.contrast) << 24;
+}
+
+/// The upper half of a float, rounded.
+std::uint32_t bfloat16(float value) { return (std::bit_cast<std::uint32_t>(value) + 0x8000u) >> 16; }
+
+SurfaceRecord surface_record(const Mesh& mesh, const Triangle& triangle) {
+  const auto& first = mesh.vertices.at(triangle.corners[0]);
+  const auto& second = mesh.vertices.at(triangle.corners[1]);
+  const auto& third = mesh.vertices.at(triangle.corners[2]);
+  SurfaceRecord record;
+  record.normals = {pack_normal(first.normal), pack_normal(second.normal), pack_normal(third.normal)};
+  const Eigen::Vector2f to_second = second.uv - first.uv;
+  const Eigen::Vector2f to_third = third.uv - first.uv;
+  record.uv = {first.uv.x(), first.uv.y(), to_second.x(), to_second.y(), to_third.x(), to_third.y()};
+  record.tints = {pack_tint(first.tint), pack_tint(second.tint), pack_tint(third.tint)};
+  record.material_occlusion = triangle.material | 0xffffff00u;
+  // the barycentric coordinates' gradients: perpendicular to the opposite edge, in the triangle's plane
+  const Eigen::Vector3f edge1 = second.position - first.position;
+  const Eigen::Vector3f edge2 = third.position - first.position;
+  const Eigen::Vector3f normal = edge1.cross(edge2);
+  const float square = std::max(normal.squaredNorm(), 1e-20f);
+  const Eigen::Vector3f of_second = edge2.cross(normal) / square;
+  const Eigen::Vector3f of_third = normal.cross(edge1) / square;
+  const Eigen::Vector3f u = to_second.x() * of_second + to_third.x() * of_third;
+  const Eigen::Vector3f v = to_second.y() * of_second + to_third.y() * of_third;
+  record.gradients = {bfloat16(u.x()) | bfloat16(u.y()) << 16, bfloat16(u.z()) | bfloat16(v.x()) << 16,
+                      bfloat16(v.y()) | bfloat16(v.z()) << 16};
+  return record;
+}
+
+std::array<float, 12> to_array(const Eigen::Affine3f& transform) {
+  std::array<float, 12> values{};
+  Eigen::Map<Eigen::Matrix<float, 3, 4>>(values.data()) = transform.affine();
+  return values;
+}
+
+}  // namespace
+
+std::uint32_t pack_normal(const Eigen::Vector3f& normal) {
+  const float sum = normal.cwiseAbs().sum();
+  Eigen::Vector2f folded = normal.head<2>() / std::max(sum, 1e-20f);
+  if (normal.z() < 0.0f) {
+    folded = {(1.0f - std::abs(folded.y())) * (folded.x() >= 0.0f ? 1.0f : -1.0f),
+              (1.0f - std::abs(folded.x())) * (folded.y() >= 0.0f ? 1.0f : -1.0f)};
+  }
+  const auto pack = [](float value) {
+    return static_cast<std::uint32_t>(static_cast<std::int32_t>(std::lround(value * 32767.0f))) & 0xffffu;
+  };
+  return pack(folded.x()) | pack(folded.y()) << 16;
+}
+
+Eigen::Vector3f unpack_normal(std::uint32_t packed) {
+  const float x = static_cast<float>(static_cast<std::int16_t>(packed & 0xffffu)) / 32767.0f;
+  const float y = static_cast<float>(static_cast<std::int16_t>(packed >> 16)) / 32767.0f;
+  Eigen::Vector3f normal(x, y, 1.0f - std::abs(x) - std::abs(y));
+  const float over = std::max(-normal.z(), 0.0f);
+  normal.x() += normal.x() >= 0.0f ? -over : over;
+  normal.y() += normal.y() >= 0.0f ? -over : over;
+  return normal.normalized();
+}
+
+struct TracedScene::Part {
+  std::vector<Eigen::Vector3f> positions;  // and one more, for Embree reads 16 bytes at each
+  std::vector<std::array<std::uint32_t, 3>> corners;
+  const std::vector<SurfaceRecord>* surfaces = nullptr;
+  const std::vector<Material>* materials = nullptr;
+  std::uint32_t first_surface = 0;
+
+  /// Embree's filter: takes away the hits that lie in a hole.
+  static void let_through_holes(const RTCFilterFunctionNArguments* arguments) {
+    const auto& part = *static_cast<const Part*>(arguments->geometryUserPtr);
+    for (unsigned i = 0; i < arguments->N; ++i) {
+      if (arguments->valid[i] == 0) continue;
+      const std::uint32_t triangle = RTCHitN_primID(arguments->hit, arguments->N, i);
+      const float second = RTCHitN_u(arguments->hit, arguments->N, i);
+      const float third = RTCHitN_v(arguments->hit, arguments->N, i);
+      const auto& surface = (*part.surfaces)[part.first_surface + triangle];
+      const auto& material = (*part.materials)[surface.material_occlusion & 0xffu];
+      const Eigen::Vector2f uv(surface.uv[0] + second * surface.uv[2] + third * surface.uv[4],
+                               surface.uv[1] + second * surface.uv[3] + third * surface.uv[5]);
+      if (material.albedo->alpha(uv / material.period_m) < 0.5f) arguments->valid[i] = 0;
+    }
+  }
+};
+
+TracedScene::TracedScene(std::shared_ptr<const Scene> scene) : scene_(std::move(scene)) {
+  if (!scene_ || !scene_->palette || !scene_->sky) {
+    throw std::invalid_argument("renderer: the scene lacks its palette or its sky");
+  }
+  if (scene_->palette->materials().size() > kMostMaterials) {
+    throw std::invalid_argument(fmt::format("renderer: the palette has {} materials, more than {}",
+                                            scene_->palette->materials().size(), kMostMaterials));
+  }
+  device_.reset(rtcNewDevice(nullptr));
+  if (!device_) throw std::runtime_error("renderer: Embree has no device");
+  std::size_t surface_count = 0;
+  for (const auto& mesh : scene_->fixed) surface_count += mesh.triangles.size();
+  for (const auto& mesh : scene_->models) surface_count += mesh.triangles.size();
+  surfaces_.reserve(surface_count);
+
+  for (const auto& model : scene_->models) {
+    Prototype prototype{ScenePointer(rtcNewScene(device_.get())), {}, model.triangles.size()};
+    rtcSetSceneBuildQuality(prototype.scene.get(), RTC_BUILD_QUALITY_HIGH);
+    prototype.first_surface = add_mesh(model, prototype.scene.get(), 0, true);
+    rtcCommitScene(prototype.scene.get());
+    prototypes_.push_back(std::move(prototype));
+  }
+  standing_.reset(rtcNewScene(device_.get()));
+  rtcSetSceneBuildQuality(standing_.get(), RTC_BUILD_QUALITY_HIGH);
+  // Embree's numbers: 2 i and 2 i + 1 for the fixed meshes; the standing models follow with their objects' numbers,
+  // which must not be smaller than these
+  for (const auto& mesh : scene_->fixed) {
+    ObjectRecord object;
+    object.first_surface = add_mesh(mesh, standing_.get(), static_cast<std::uint32_t>(2 * objects_.size()), false);
+    object.world_from_model = to_array(Eigen::Affine3f::Identity());
+    objects_.push_back(object);
+    triangle_count_ += mesh.triangles.size();
+  }
+  objects_.resize(2 * objects_.size());
+  for (const auto& placement : scene_->standing) {
+    objects_.push_back(placed(placement));
+    const RTCGeometry geometry = instance(placement, 1);
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometryByID(standing_.get(), geometry, static_cast<std::uint32_t>(objects_.size() - 1));
+    rtcReleaseGeometry(geometry);
+    triangle_count_ += prototypes_[placement.model].triangle_count;
+  }
+  moving_first_ = static_cast<std::uint32_t>(objects_.size());
+  rtcCommitScene(standing_.get());
+  if (rtcGetDeviceError(device_.get()) != RTC_ERROR_NONE) {
+    throw std::runtime_error("renderer: Embree could not build the scene (out of memory?)");
+  }
+}
+
+TracedScene::~TracedScene() = default;
+
+std::array<std::uint32_t, 2> TracedScene::add_mesh(const Mesh& mesh, RTCScene scene, std::uint32_t first_geometry,
+                                                   bool) {
+  const auto& materials = scene_->palette->materials();
+  std::array<std::uint32_t, 2> first_surface{};
+  for (const bool has_holes : {false, true}) {
+    auto part = std::make_unique<Part>();
+    part->surfaces = &surfaces_;
+    part->materials = &materials;
+    part->first_surface = static_cast<std::uint32_t>(surfaces_.size());
+    first_surface[has_holes ? 1 : 0] = part->first_surface;
+    for (const auto& triangle : mesh.triangles) {
+      if (triangle.material >= materials.size()) {
+        throw std::invalid_argument(fmt::format("renderer: a triangle is of material {}, the palette has {}",
+                                                triangle.material, materials.size()));
+      }
+      if (materials[triangle.material].has_holes != has_holes) continue;
+      surfaces_.push_back(surface_record(mesh, triangle));
+      part->corners.push_back(triangle.corners);
+    }
+    if (part->corners.empty()) continue;
+    part->positions.reserve(mesh.vertices.size() + 1);
+    for (const auto& vertex : mesh.vertices) part->positions.push_back(vertex.position);
+    part->positions.emplace_back(Eigen::Vector3f::Zero());
+    const RTCGeometry geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
+    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, part->positions.data(), 0,
+                               sizeof(Eigen::Vector3f), mesh.vertices.size());
+    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, part->corners.data(), 0,
+                               sizeof(part->corners[0]), part->corners.size());
+    rtcSetGeometryMask(geometry, 0xffffffffu);
+    if (has_holes) {
+      rtcSetGeometryUserData(geometry, part.get());
+      rtcSetGeometryIntersectFilterFunction(geometry, Part::let_through_holes);
+      rtcSetGeometryOccludedFilterFunction(geometry, Part::let_through_holes);
+    }
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometryByID(scene, geometry, first_geometry + (has_holes ? 1 : 0));
+    rtcReleaseGeometry(geometry);
+    parts_.push_back(std::move(part));
+  }
+  return first_surface;
+}
+
+ObjectRecord TracedScene::placed(const Placement& placement) const {
+  if (placement.model >= prototypes_.size()) {
+    throw std::invalid_argument(
+        fmt::format("renderer: model {} is placed, the scene has {}", placement.model, prototypes_.size()));
+  }
+  ObjectRecord object;
+  object.first_surface = prototypes_[placement.model].first_surface;
+  object.world_from_model = to_array(placement.world_from_model);
+  object.tint = {static_cast<float>(placement.tint.red) / 255.0f, static_cast<float>(placement.tint.green) / 255.0f,
+                 static_cast<float>(placement.tint.blue) / 255.0f};
+  return object;
+}
+
+RTCGeometry TracedScene::instance(const Placement& placement, int time_steps) const {
+  const RTCGeometry geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_INSTANCE);
+  rtcSetGeometryInstancedScene(geometry, prototypes_[placement.model].scene.get());
+  rtcSetGeometryTimeStepCount(geometry, static_cast<unsigned>(time_steps));
+  rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, to_array(placement.world_from_model).data());
+  rtcSetGeometryMask(geometry, placement.visibility);
+  return geometry;
+}
+
+void TracedScene::place_movers(std::span<const MovingPlacement> movers) {
+  objects_.resize(moving_first_);
+  moving_.reset();
+  if (movers.empty()) return;
+  moving_.reset(rtcNewScene(device_.get()));
+  for (const auto& mover : movers) {
+    ObjectRecord object = placed(mover.at_opening);
+    const auto closed = to_array(mover.world_from_model_closed);
+    for (std::size_t i = 0; i < closed.size(); ++i) object.motion[i] = closed[i] - object.world_from_model[i];
+    object.moves = 1;
+    const RTCGeometry geometry = instance(mover.at_opening, 2);
+    rtcSetGeometryTransform(geometry, 1, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, closed.data());
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometryByID(moving_.get(), geometry, static_cast<std::uint32_t>(objects_.size()) - moving_first_);
+    rtcReleaseGeometry(geometry);
+    objects_.push_back(object);
+  }
+  rtcCommitScene(moving_.get());
+}
+
+}  // namespace panvo::simulation

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <embree3/rtcore.h>
+
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "panvo/simulation/renderer.hpp"
+#include "panvo/simulation/scene.hpp"
+
+namespace panvo::simulation {
+
+/// A triangle as shading reads it: one cache line.
+struct alignas(64) SurfaceRecord {
+  std::array<std::uint32_t, 3> normals{};    ///< of the corners, octahedral, 16 + 16 bits
+  std::array<float, 6> uv{};                 ///< m: of the first corner, then what the second and third have more
+  std::array<std::uint32_t, 3> tints{};      ///< of the corners: red, green, blue, contrast from the low byte up
+  std::uint32_t material_occlusion = 0;      ///< material in the low byte, then the corners' share of open sky
+  std::array<std::uint32_t, 3> gradients{};  ///< of u and v by place in the model, six bfloat16: m per m
+};
+static_assert(sizeof(SurfaceRecord) == 64);
+
+/// A fixed mesh or a placed model, as shading reads it.
+struct ObjectRecord {
+  std::array<std::uint32_t, 2> first_surface{};  ///< into the surfaces: without and with holes
+  std::array<float, 12> world_from_model{};      ///< column by column, when the shutter opens
+  std::array<float, 12> motion{};                ///< what it has more when the shutter closes
+  std::array<float, 3> tint{1.0f, 1.0f, 1.0f};
+  std::uint32_t moves = 0;
+};
+
+/// Numbers of 16 bits a half each: a unit vector's octahedral map [Cigolle et al. 2014].
+std::uint32_t pack_normal(const Eigen::Vector3f& normal);
+Eigen::Vector3f unpack_normal(std::uint32_t packed);
+
+struct SceneDeleter {
+  void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
+};
+struct DeviceDeleter {
+  void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
+};
+using ScenePointer = std::unique_ptr<RTCSceneTy, SceneDeleter>;
+using DevicePointer = std::unique_ptr<RTCDeviceTy, DeviceDeleter>;
+
+/// The scene in Embree's structures, with what shading needs to know of each hit.
+class TracedScene {
+ public:
+  explicit TracedScene(std::shared_ptr<const Scene> scene);
+  ~TracedScene();
+  TracedScene(const TracedScene&) = delete;
+  TracedScene& operator=(const TracedScene&) = delete;
+
+  /// Puts the movers where they are now; they replace the last call's.
+  void place_movers(std::span<const MovingPlacement> movers);
+
+  RTCScene standing() const { return standing_.get(); }
+  /// Null where nothing moves.
+  RTCScene moving() const { return moving_.get(); }
+
+  /// Number of the object that was hit, given Embree's numbers of instance and geometry.
+  std::uint32_t object(std::uint32_t instance, std::uint32_t geometry, bool is_moving) const {
+    const std::uint32_t number = instance == RTC_INVALID_GEOMETRY_ID ? geometry >> 1 : instance;
+    return is_moving ? number + moving_first_ : number;
+  }
+  const std::vector<SurfaceRecord>& surfaces() const { return surfaces_; }
+  const std::vector<ObjectRecord>& objects() const { return objects_; }
+  std::uint64_t triangle_count() const { return triangle_count_; }
+
+ private:
+  struct Part;  // triangles of one mesh, all with holes or all without
+  struct Prototype {
+    ScenePointer scene;
+    std::array<std::uint32_t, 2> first_surface{};
+    std::uint64_t triangle_count = 0;
+  };
+
+  std::array<std::uint32_t, 2> add_mesh(const Mesh& mesh, RTCScene scene, std::uint32_t first_geometry,
+                                        bool is_instanced);
+  ObjectRecord placed(const Placement& placement) const;
+  RTCGeometry instance(const Placement& placement, int time_steps) const;
+
+  std::shared_ptr<const Scene> scene_;
+  DevicePointer device_;
+  std::vector<std::unique_ptr<Part>> parts_;
+  std::vector<Prototype> prototypes_;
+  std::vector<SurfaceRecord> surfaces_;
+  std::vector<ObjectRecord> objects_;  // fixed meshes, standing models, movers
+  std::uint32_t moving_first_ = 0;
+  std::uint64_t triangle_count_ = 0;
+  ScenePointer standing_, moving_;
+};
+
+}  // namespace panvo::simulation
