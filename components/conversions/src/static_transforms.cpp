@@ -2,6 +2,7 @@
 #include "panvo/conversions/static_transforms.hpp"
 
 #include "panvo/conversions/pose.hpp"
+#include "panvo/conversions/time.hpp"
 
 namespace panvo::conversions {
 namespace {
@@ -10,6 +11,17 @@ namespace {
 std::string plain(const std::string& frame) { return frame.starts_with('/') ? frame.substr(1) : frame; }
 
 }  // namespace
+
+geometry_msgs::msg::TransformStamped to_static_transform(std::int64_t stamp_ns, const std::string& parent,
+                                                         const std::string& child,
+                                                         const Eigen::Isometry3d& parent_from_child) {
+  geometry_msgs::msg::TransformStamped transform;
+  transform.header().stamp(to_stamp(stamp_ns));
+  transform.header().frame_id(parent);
+  transform.child_frame_id(child);
+  transform.transform(to_transform(parent_from_child));
+  return transform;
+}
 
 std::vector<std::string> StaticTransforms::add(const tf2_msgs::msg::TFMessage& message) {
   std::vector<std::string> problems;

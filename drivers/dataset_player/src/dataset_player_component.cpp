@@ -11,6 +11,7 @@
 #include "panvo/conversions/camera_info.hpp"
 #include "panvo/conversions/image.hpp"
 #include "panvo/conversions/pose.hpp"
+#include "panvo/conversions/static_transforms.hpp"
 #include "panvo/conversions/time.hpp"
 #include "panvo/dataset_player/dataset.hpp"
 #include "panvo/dataset_player/image_file.hpp"
@@ -189,11 +190,7 @@ void DatasetPlayerComponent::publish_static_transforms(std::int64_t stamp_ns) {
   is_placed_ = true;
   tf2_msgs::msg::TFMessage message;
   const auto place = [&](const std::string& frame_id, const Eigen::Isometry3d& base_from_camera) {
-    auto& transform = message.transforms().emplace_back();
-    transform.header().stamp(conversions::to_stamp(stamp_ns));
-    transform.header().frame_id("base_link");
-    transform.child_frame_id(frame_id);
-    transform.transform(conversions::to_transform(base_from_camera));
+    message.transforms().push_back(conversions::to_static_transform(stamp_ns, "base_link", frame_id, base_from_camera));
   };
   if (left_) {
     place(left_->camera.frame_id, dataset_.stereo->base_from_left);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <string_view>
 
 #include "diagnostic_msgs/msg/DiagnosticArray.h"
@@ -9,6 +10,7 @@
 #include "panvo/interfaces/qos.hpp"
 #include "panvo_msgs/msg/OdometryQuality.h"
 #include "rcl_interfaces/msg/Log.h"
+#include "rosgraph_msgs/msg/Clock.h"
 #include "sensor_msgs/msg/CameraInfo.h"
 #include "sensor_msgs/msg/Image.h"
 #include "tf2_msgs/msg/TFMessage.h"
@@ -39,6 +41,21 @@ inline constexpr Topic<sensor_msgs::msg::CameraInfo> kStereoLeftCameraInfo{"ster
 inline constexpr Topic<sensor_msgs::msg::CameraInfo> kStereoRightCameraInfo{"stereo/right/camera_info",
                                                                             qos::kSensorData};
 inline constexpr Topic<sensor_msgs::msg::Image> kPanorama{"panorama/image", qos::kSensorData};
+/// The raw images of a panoramic camera of several heads, from which a stitcher makes the panorama.
+inline constexpr std::array<Topic<sensor_msgs::msg::Image>, 6> kPanoramaHeadImageRaw{
+    {{"panorama/head_0/image_raw", qos::kSensorData},
+     {"panorama/head_1/image_raw", qos::kSensorData},
+     {"panorama/head_2/image_raw", qos::kSensorData},
+     {"panorama/head_3/image_raw", qos::kSensorData},
+     {"panorama/head_4/image_raw", qos::kSensorData},
+     {"panorama/head_5/image_raw", qos::kSensorData}}};
+inline constexpr std::array<Topic<sensor_msgs::msg::CameraInfo>, 6> kPanoramaHeadCameraInfo{
+    {{"panorama/head_0/camera_info", qos::kSensorData},
+     {"panorama/head_1/camera_info", qos::kSensorData},
+     {"panorama/head_2/camera_info", qos::kSensorData},
+     {"panorama/head_3/camera_info", qos::kSensorData},
+     {"panorama/head_4/camera_info", qos::kSensorData},
+     {"panorama/head_5/camera_info", qos::kSensorData}}};
 
 inline constexpr Topic<nav_msgs::msg::Odometry> kOdometryBinocular{"odometry/binocular", qos::kResult};
 inline constexpr Topic<panvo_msgs::msg::OdometryQuality> kOdometryQuality{"odometry/quality", qos::kResult};
@@ -48,6 +65,8 @@ inline constexpr Topic<nav_msgs::msg::Odometry> kGroundTruth{"ground_truth/odome
 inline constexpr Topic<tf2_msgs::msg::TFMessage> kTf{"/tf", {.depth = 100}};
 inline constexpr Topic<tf2_msgs::msg::TFMessage> kTfStatic{"/tf_static", qos::kLatched};
 inline constexpr Topic<diagnostic_msgs::msg::DiagnosticArray> kDiagnostics{"/diagnostics", qos::kDefault};
+/// Simulated time, for ROS 2 nodes with use_sim_time.
+inline constexpr Topic<rosgraph_msgs::msg::Clock> kClock{"/clock", qos::kSensorData};
 inline constexpr Topic<rcl_interfaces::msg::Log> kRosout{"/rosout", qos::kLog};
 
 }  // namespace panvo::topics

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <string>
@@ -10,6 +11,11 @@
 #include "tf2_msgs/msg/TFMessage.h"
 
 namespace panvo::conversions {
+
+/// The transform of a frame that is fixed to its parent, for /tf_static.
+geometry_msgs::msg::TransformStamped to_static_transform(std::int64_t stamp_ns, const std::string& parent,
+                                                         const std::string& child,
+                                                         const Eigen::Isometry3d& parent_from_child);
 
 /// The transforms of /tf_static that were received so far, and the chains they form.
 class StaticTransforms {
