@@ -18,10 +18,9 @@ constexpr int kQuantiles = 4096;
 constexpr int kCurveEntries = 4096;
 constexpr float kCurveSteps = kCurveEntries - 1;
 constexpr int kRowsPerStripe = 32;
-constexpr cv::Vec3f kLuminance{0.2126f, 0.7152f, 0.0722f};  // of linear RGB [ITU-R BT.709]
+constexpr std::array<float, 3> kLuminance{0.2126f, 0.7152f, 0.0722f};  // of linear RGB [ITU-R BT.709]
 
-/// The value that a standard normal variable stays below with a probability of 0..1 (Acklam's rational approximation
-/// is not needed: Newton's method on erfc is exact and runs once).
+/// The value that a standard normal variable stays below with that probability, by Newton's method.
 double normal_quantile(double probability) {
   double value = 0.0;
   for (int i = 0; i < 60; ++i) {
