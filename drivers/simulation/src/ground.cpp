@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ground_surface.hpp"
+#include "panvo/simulation/site.hpp"
+
+namespace panvo::simulation {
+
+void build_ground(const Site& site, Scene& scene) {
+  const GroundZones zones(site);
+  const GroundPaint paint(site);
+  scene.fixed.push_back(ground_surface(site, zones, paint));
+  scene.fixed.push_back(kerb_stones(site, paint));
+}
+
+}  // namespace panvo::simulation

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "panvo/simulation/site.hpp"
+
+namespace panvo::simulation {
+
+/// A strip of ground along the kerb.
+struct Band {
+  double to_m = 0.0;  ///< from the kerb, where the next begins
+  std::uint16_t material = 0;
+  bool follows_road = false;  ///< the texture runs along the road: slabs, setts
+  Eigen::Vector3f tint = Eigen::Vector3f::Ones();
+};
+
+enum class CentreLine { kNone, kDashed, kLongDashed, kDouble };
+
+/// How a street, or a crossing, is built.
+struct Zone {
+  int road = -1;      ///< of a street, its first one
+  int junction = -1;  ///< of a crossing
+  std::uint16_t asphalt = 0, gutter = 0;
+  bool has_gutter = false;  ///< of a material of its own
+  Eigen::Vector3f asphalt_tint = Eigen::Vector3f::Ones();
+  float wear = 0.0f;         ///< of the wheel tracks, -1..1: darker or lighter than the rest
+  float damage = 0.5f;       ///< 0..1: how many repairs and cracks
+  std::vector<Band> beside;  ///< beyond the kerb's top; then grass
+  Eigen::Vector2d origin = Eigen::Vector2d::Zero(), forward = Eigen::Vector2d::UnitX();  ///< of a crossing's textures
+  CentreLine centre_line = CentreLine::kNone;
+  bool has_edge_lines = false, has_parking_on_left = false, has_parking_on_right = false;
+};
+
+/// Which zone is where. Streets end where the kerb's curve into a crossing begins: at the crossing's mouths.
+class GroundZones {
+ public:
+  explicit GroundZones(const Site& site);
+
+  struct Place {
+    int zone = 0;
+    double into_street_m = 0.0;  ///< from the crossing's mouth; negative on the crossing
+    RoadNetwork::Nearest nearest;
+  };
+  Place at(const Eigen::Vector2d& point) const;
+
+  const Zone& zone(int number) const { return zones_[static_cast<std::size_t>(number)]; }
+  int street_of(int road) const { return street_of_[static_cast<std::size_t>(road)]; }
+  /// How far (m) along a road its street begins and ends.
+  const std::array<double, 2>& reach_m(int road) const { return reach_m_[static_cast<std::size_t>(road)]; }
+
+ private:
+  const Site& site_;
+  std::vector<Zone> zones_;
+  std::vector<int> street_of_, crossing_of_;  ///< zones; -1: no crossing
+  std::vector<std::array<double, 2>> reach_m_;
+};
+
+}  // namespace panvo::simulation
