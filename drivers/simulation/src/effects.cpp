@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <utility>
 
 namespace panvo::simulation {
 
@@ -19,10 +20,30 @@ const std::array<EffectName, 8> kEffectNames{{
     {"time_offset", "the panorama's clock is 20 ms late", &Effects::time_offset},
 }};
 
+namespace {
+
+/// "rain,smear" and "rain smear" are two names.
+std::vector<std::string> split(const std::vector<std::string>& names) {
+  std::vector<std::string> parts;
+  for (const auto& name : names) {
+    std::string part;
+    for (const char letter : name + ",") {
+      if (letter != ',' && letter != ' ') {
+        part += letter;
+      } else if (!part.empty()) {
+        parts.push_back(std::exchange(part, {}));
+      }
+    }
+  }
+  return parts;
+}
+
+}  // namespace
+
 Effects effects_of(const std::vector<std::string>& names) {
   Effects effects;
-  for (const auto& name : names) {
-    if (name.empty() || name == "none") continue;
+  for (const auto& name : split(names)) {
+    if (name == "none") continue;
     const auto is_meant = [&](const EffectName& effect) { return name == "all" || name == effect.name; };
     if (std::none_of(kEffectNames.begin(), kEffectNames.end(), is_meant)) {
       std::string known;

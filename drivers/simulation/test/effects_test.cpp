@@ -20,6 +20,10 @@ TEST(Effects, AreSwitchedOnByName) {
   EXPECT_THAT(names_of(effects), ElementsAre("movers", "rain"));
 }
 
+TEST(Effects, SeveralMayStandInOneName) {
+  EXPECT_THAT(names_of(effects_of({"rain, smear", "movers"})), ElementsAre("movers", "rain", "smear"));
+}
+
 TEST(Effects, AllMeansEveryOneAndNoneMeansNoOne) {
   EXPECT_EQ(names_of(effects_of({"all"})).size(), kEffectNames.size());
   EXPECT_TRUE(names_of(effects_of({"none"})).empty());

@@ -28,7 +28,7 @@ struct EffectName {
 /// Every effect with its name, in a fixed order.
 extern const std::array<EffectName, 8> kEffectNames;
 
-/// The effects of these names; "all" means every one, "none" or nothing no one. Throws std::invalid_argument naming the
+/// The effects of these names (one may hold several, with commas or blanks between); "all" means every one, "none" or nothing no one. Throws std::invalid_argument naming the
 /// effect that there is not, and those there are.
 Effects effects_of(const std::vector<std::string>& names);
 

@@ -1,0 +1,34 @@
+# SPDX-License-Identifier: Apache-2.0
+# shellcheck shell=bash
+# Routes of the simulated campus: by path, or by the name they have in config/routes.
+
+list_routes() {
+  local file
+  for file in "$PANVO_HOME"/config/routes/*.yaml; do
+    [[ -e $file ]] && basename "$file" .yaml
+  done | xargs
+}
+
+# describe_routes: each with the line that says what it is for.
+describe_routes() {
+  local file
+  for file in "$PANVO_HOME"/config/routes/*.yaml; do
+    [[ -e $file ]] && printf '  %-12s %s\n' "$(basename "$file" .yaml)" "$(sed -n 's/^description: *"\{0,1\}\(.*[^"]\)"\{0,1\}$/\1/p' "$file")"
+  done
+}
+
+# route_file NAME_OR_PATH
+route_file() {
+  local named=$PANVO_HOME/config/routes/${1%.yaml}.yaml
+  local -a known
+  if [[ -f $1 ]]; then
+    readlink -f -- "$1"
+  elif [[ $1 != */* && -f $named ]]; then
+    printf '%s' "$named"
+  elif [[ $1 == */* || $1 == *.yaml ]]; then
+    fail "there is no route file '$1' (named ones: $(list_routes))"
+  else
+    read -r -a known <<<"$(list_routes)"
+    fail "there is no route '$1'; did you mean '$(nearest_word "$1" "${known[@]}")'? (there are: ${known[*]}; panvo simulate --help)" 2
+  fi
+}

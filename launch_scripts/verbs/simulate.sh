@@ -1,0 +1,77 @@
+# SPDX-License-Identifier: Apache-2.0
+# shellcheck shell=bash
+# summary: render a journey through the simulated campus into a data set or a bag
+
+source "$PANVO_SCRIPTS/lib/build.sh"
+source "$PANVO_SCRIPTS/lib/routes.sh"
+source "$PANVO_SCRIPTS/lib/systems.sh"
+
+verb_usage() {
+  cat <<'EOT'
+usage: panvo simulate ROUTE --out DIR [--bag] [--seed N] [--effects LIST] [option ...]
+       panvo simulate ROUTE --out DIR --pictures 0,5.2,30       a few views as PNG
+       panvo simulate ROUTE --out DIR --map                     the plan of the campus with the route as PNG
+       panvo simulate --junctions gate,library,... --out DIR    a route of one's own
+       panvo simulate --random 12 --seed 7 --out DIR            a route drawn from the seed
+
+Renders what the stereo and the panoramic camera of a vehicle see on a journey, with the exact truth, as an EuRoC/ASL data
+set (or with --bag as a bag of topics). The same arguments give the same pixels.
+
+EOT
+  printf 'Routes here (each a file in config/routes; a path of another does as well):\n'
+  describe_routes
+  show_program_help panvo_simulate
+}
+
+verb_main() {
+  local route='' as_bag=no
+  local -a rest=()
+  while (($#)); do
+    case $1 in
+      --bag) as_bag=yes ;;
+      --truth-only | --map) rest+=("$1") ;;
+      -*=*) rest+=("${1%%=*}" "${1#*=}") ;;
+      -*)
+        require_value "$@"
+        rest+=("$1" "$2")
+        shift
+        ;;
+      *)
+        [[ -z $route ]] || fail "one route at a time: '$route' or '$1'?" 2
+        route=$(route_file "$1")
+        ;;
+    esac
+    shift
+  done
+  [[ -z $route ]] || rest=(--route "$route" "${rest[@]}")
+  if [[ $as_bag == yes ]]; then simulate_bag "${rest[@]}"; else start_program panvo_simulate "${rest[@]}"; fi
+}
+
+# simulate_bag OPTION VALUE ...: the same journey played by the component and recorded, and the truth beside the bag.
+simulate_bag() {
+  local out='' name run simulate
+  local -a parameters=() given=("$@")
+  while (($#)); do
+    name=${1#--}
+    case $name in
+      out) out=$2 ;;
+      route | rig | assets) parameters+=(--set "simulation.$name=$(readlink -m -- "$2")") ;;
+      seed | hilliness | hour | vibration | cameras) parameters+=(--set "simulation.$name=$2") ;;
+      start | duration) parameters+=(--set "simulation.${name}_s=$2") ;;
+      random) parameters+=(--set "simulation.random_junctions=$2") ;;
+      effects | junctions) parameters+=(--set "simulation.$name=[$2]") ;;
+      *) fail "$1 and --bag do not go together (panvo simulate --help)" 2 ;;
+    esac
+    shift 2
+  done
+  [[ -n $out ]] || fail "where to? Name a new folder with --out" 2
+  [[ ! -e $out || -z $(ls -A -- "$out" 2>/dev/null || echo no) ]] || fail "'$out' is there already and not empty; name a new folder"
+  ensure_built panvo_programs
+  use_plugins
+  run=$(program panvo_run)
+  simulate=$(program panvo_simulate)
+  # The truth first: it refuses at once what cannot be simulated.
+  "$simulate" "${given[@]}" --truth-only || exit 1
+  "$run" "$(system_file simulate_bag)" --replay "bag:=$out/bag" "${parameters[@]}" || fail "the run failed; the messages above say why"
+  note "bag: $out/bag, what is true of it: $out/sequence.yaml"
+}
