@@ -30,21 +30,3 @@ dataset_kind() {
 dataset_ground_truth() {
   if [[ -f $1/poses.txt || -d $1/mav0/state_groundtruth_estimate0 ]]; then printf '%s' "$1"; fi
 }
-
-default_dataset() {
-  local data name
-  data=$(data_folder)
-  [[ -n $data ]] || return 0
-  for name in kitti_03 campus_clip; do
-    if [[ -n $(dataset_kind "$data/$name") ]]; then
-      printf '%s' "$data/$name"
-      return
-    fi
-  done
-  while IFS= read -r name; do
-    if [[ -n $(dataset_kind "$name") ]]; then
-      printf '%s' "$name"
-      return
-    fi
-  done < <(find "$data" -mindepth 1 -maxdepth 3 -type d ! -name 'image_*' ! -name 'cam*' | sort)
-}

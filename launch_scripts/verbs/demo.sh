@@ -5,17 +5,17 @@
 source "$PANVO_SCRIPTS/lib/build.sh"
 source "$PANVO_SCRIPTS/lib/systems.sh"
 source "$PANVO_SCRIPTS/lib/datasets.sh"
+source "$PANVO_SCRIPTS/lib/routes.sh"
 
 verb_usage() {
   cat <<'EOT'
 usage: panvo demo [--dataset DIR] [--out DIR] [--replay]
 
-Installs and builds what is missing, plays a stereo recording through rectification and odometry in one container, records
-the topics into a bag, compares the path with ground truth where the recording has one, and says where plot, trajectory and
-bag lie.
+Installs and builds what is missing, drives the route 'short' through the simulated campus (rendered once, some minutes, and
+kept for the next time), plays it through rectification and odometry in one container, records the topics into a bag,
+compares the path with the truth, and says where plot, trajectory and bag lie.
 
-  --dataset DIR   the recording (default: kitti_03, else campus_clip, else the first one found in $PANVO_DATA or
-                  ../shared/data beside the checkout)
+  --dataset DIR   a recording of your own instead of the simulation
   --out DIR       a new folder for the results (default: runs/demo-1, demo-2, ...)
   --replay        one thread, in order of stamps, the same result bit for bit every time (default: a thread for each
                   component, as fast as they take it)
@@ -49,24 +49,42 @@ verb_main() {
     [[ -n $(dataset_kind "$dataset") ]] || fail "'$dataset' is no recording that panvo understands.
 
 $(dataset_layouts)"
-  else
-    dataset=$(default_dataset)
-    [[ -n $dataset ]] || fail "there is no recording to play: neither \$PANVO_DATA nor ${PANVO_HOME%/*}/shared/data holds one.
-
-$(dataset_layouts)"
+    dataset=$(readlink -f -- "$dataset")
   fi
-  dataset=$(readlink -f -- "$dataset")
   out=$(claim_folder "$out")
   system=$(system_file demo)
 
-  note "recording: $dataset ($(dataset_kind "$dataset"))"
   ensure_built panvo_programs
   use_plugins
+  [[ -n $dataset ]] || dataset=$(simulated_dataset short)
+  note "recording: $dataset ($(dataset_kind "$dataset"))"
   run=$(program panvo_run)
   "$run" "$system" --dataset "$dataset" --out "$out" "bag:=$out/bag" "${mode[@]}" ||
     fail "the run failed; what it said is in $out/run.log"
   show_results "$dataset" "$out"
 }
+
+# simulated_dataset ROUTE: the data set of a journey through the simulated campus, rendered when it is not there yet. It is named
+# by what it was rendered with, and one that another panvo rendered makes room for it.
+simulated_dataset() {
+  local route simulate folder key dataset
+  route=$(route_file "$1")
+  simulate=$(program panvo_simulate)
+  folder=${XDG_CACHE_HOME:-$HOME/.cache}/panvo/simulated
+  ! in_checkout || folder=$PANVO_HOME/runs/simulated
+  key=$(cat "$route" "$simulate" "$(simulation_library "$simulate")" | sha256sum | cut -c 1-12)
+  dataset=$folder/$1-$key
+  if [[ ! -f $dataset/sequence.yaml ]]; then
+    mkdir -p -- "$folder" || fail "'$folder' cannot be made; name a recording with --dataset"
+    find "$folder" -maxdepth 1 -name "$1-*" -exec rm -rf {} +
+    note "simulating the route '$1'; it is kept in $dataset"
+    "$simulate" --route "$route" --out "$dataset" >&2 || fail "the simulation failed; the message above says why"
+  fi
+  printf '%s' "$dataset"
+}
+
+# simulation_library PROGRAM: the library that the program renders with.
+simulation_library() { ldd "$1" | sed -n 's/.*libpanvo_simulation[^ ]* => \([^ ]*\).*/\1/p'; }
 
 # claim_folder [DIR]: makes the folder for the results; one that has something in it is never written to.
 claim_folder() {

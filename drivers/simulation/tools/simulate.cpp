@@ -15,6 +15,7 @@
 #include "panvo/simulation/euroc_writer.hpp"
 #include "panvo/simulation/sequence_file.hpp"
 #include "panvo/simulation/simulation.hpp"
+#include "plan_picture.hpp"
 
 namespace panvo::simulation {
 namespace {
@@ -28,7 +29,7 @@ struct Options {
   int random_junctions = 0;
   std::string cameras = "all", format = "jpg";
   std::vector<double> pictures_s;
-  bool truth_only = false;
+  bool truth_only = false, map = false;
   SimulationParameters simulation;
 };
 
@@ -94,6 +95,7 @@ void describe_options(CLI::App& app, Options& options) {
       ->capture_default_str();
   app.add_option("--pictures", options.pictures_s, "only pictures of these times (s), as PNG, into the folder")
       ->delimiter(',');
+  app.add_flag("--map", options.map, "only plan.png: the campus from above with the route");
   app.add_flag("--truth-only", options.truth_only, "only sequence.yaml: what is true of the journey");
 }
 
@@ -191,7 +193,7 @@ void run(Options& options) {
   complete(options);
   if (options.out.empty()) throw std::runtime_error("where to? Name a new folder with --out");
   if (options.out.filename().empty()) options.out = options.out.parent_path();  // a slash at the end
-  if (options.pictures_s.empty() && !options.truth_only && fs::exists(options.out) &&
+  if (options.pictures_s.empty() && !options.truth_only && !options.map && fs::exists(options.out) &&
       !(fs::is_directory(options.out) && fs::is_empty(options.out))) {
     throw std::runtime_error(options.out.string() + ": is there already and not empty; name a new folder");
   }
@@ -199,6 +201,12 @@ void run(Options& options) {
     std::error_code error;
     fs::create_directories(parent, error);
     if (error) throw std::runtime_error(parent.string() + ": cannot be made (" + error.message() + ")");
+  }
+  if (options.map) {
+    fs::create_directories(options.out);
+    const auto roads = campus_roads(options.simulation.seed);
+    write_picture(options.out / "plan.png", plan_picture(roads, drive(roads, options.simulation.route)));
+    return;
   }
   const auto start = Clock::now();
   fmt::print(stderr, "  building the campus of seed {} ...", options.simulation.seed);
