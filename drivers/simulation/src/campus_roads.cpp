@@ -49,7 +49,7 @@ const std::vector<PlannedRoad>& planned_roads() {
       {"stadium", "library", 7.0, {{-82, 136}}},
       {"library", "theatre", 7.0, {}},
       {"theatre", "park", 6.5, {{92, 128}}},
-      {"park", "park", 6.0, {{172, 107}, {193, 127}, {180, 152}, {154, 140}}},  // a loop
+      {"park", "park", 6.0, {{168, 105}, {187, 120}, {178, 143}, {157, 138}}},  // a loop
       {"stadium", "canteen", 7.0, {}},
       {"library", "auditorium", 7.0, {}},
       {"theatre", "auditorium", 7.0, {}},

@@ -30,9 +30,6 @@ struct Road {
   double longest_step_m = 0.0;  ///< between neighbouring points of the centre line; 0: unknown, searches take longer
 };
 
-/// Asphalt around the end of a cul-de-sac (a junction of one road), in which a vehicle turns.
-inline constexpr double kTurningCircleRadius_m = 8.0;
-
 struct RoadNetwork {
   std::vector<Junction> junctions;
   std::vector<Road> roads;

@@ -26,6 +26,8 @@ struct MotionParameters {
 /// The vehicle's motion along a path: smooth (twice differentiable in time), exact at every instant.
 class VehicleMotion {
  public:
+  /// Throws std::invalid_argument naming the parameter that makes no sense, or for a path whose points are not evenly
+  /// apart.
   VehicleMotion(const DrivenPath& path, const Terrain& terrain, const MotionParameters& parameters, std::uint64_t seed);
 
   double duration_s() const;
@@ -38,16 +40,23 @@ class VehicleMotion {
   const DrivenPath& path() const;
 
  private:
-  // knots of the arc length over time, and the vibration's waves
   struct Wave {
     double per_s, phase_rad, amplitude;
   };
+  struct Place {
+    Eigen::Vector2d position;
+    double heading_rad;
+  };
+  Place place(double arc_m) const;
+  double sum(const std::vector<Wave>& waves, double t_s) const;
+  void plan_speed(const MotionParameters& parameters);
+
   DrivenPath path_;
   Terrain terrain_;
+  double cruise_speed_m_per_s_;
+  double path_step_m_ = 0.0;
   double duration_s_ = 0.0;
-  double standstill_s_ = 0.0;
-  double step_s_ = 0.0;
-  std::vector<double> arc_m_;  // at multiples of step_s_
+  std::vector<double> arc_m_;  // control points of a uniform cubic B-spline over time
   std::vector<Wave> pitch_, roll_, height_;
 };
 
