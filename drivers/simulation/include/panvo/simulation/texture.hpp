@@ -25,6 +25,10 @@ class Texture {
   Eigen::Vector4f sample(const Eigen::Vector2f& uv, const Eigen::Vector2f& du, const Eigen::Vector2f& dv,
                          int taps) const;
 
+  /// RGBA of all levels of the pyramid, each half as wide and high (at least 1) as the one before, row by row; bytes
+  /// are square roots of linear values.
+  const std::vector<std::uint8_t>& texels() const { return texels_; }
+
   /// Alpha only, bilinear, in the pyramid's level 0: for what only asks whether there is a hole.
   float alpha(const Eigen::Vector2f& uv) const;
 
