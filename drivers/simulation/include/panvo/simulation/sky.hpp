@@ -21,6 +21,9 @@ struct Light {
 /// The sun's light at an hour of the day, 6 (sunrise, east = +x) to 18, and how much of the sun a cloud covers (0..1).
 Light light_at(double hour, double cloud_cover);
 
+/// Radiance of the sky just above the horizon, what far things fade into with `haze_per_m`.
+Eigen::Vector3f haze(const Light& light);
+
 /// The sky with its clouds and, at the horizon, the hills and trees far beyond the campus; made from a seed.
 class Sky {
  public:
@@ -31,7 +34,8 @@ class Sky {
   Eigen::Vector3f radiance(const Eigen::Vector3f& direction, const Light& light, float spread_rad) const;
 
  private:
-  std::shared_ptr<const Texture> clouds_;  // equirectangular, alpha: cloud density
+  std::shared_ptr<const Texture> clouds_;   ///< on a plane overhead; alpha: density, red: how lit
+  std::shared_ptr<const Texture> horizon_;  ///< by azimuth and elevation; alpha: hills and trees
 };
 
 }  // namespace panvo::simulation

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <opencv2/core.hpp>
+#include <vector>
+
+#include "noise.hpp"
+
+namespace panvo::simulation {
+
+// Painters: each paints one kind of surface as one sees it (row 0 on top). Colours are linear RGB reflectances, CV_32FC3;
+// overlays CV_32FC1 with mean 1, the factor by which they change what is below.
+using Colour = cv::Vec3f;
+
+/// The picture as a Texture wants it: sRGB RGBA, row 0 at v = 0 (the bottom). `alpha` (CV_32FC1, 0..1) may be empty.
+cv::Mat encoded_picture(const cv::Mat3f& linear, const cv::Mat1f& alpha = {});
+/// An overlay as a Texture: half its value.
+cv::Mat encoded_overlay(const cv::Mat1f& factor);
+
+/// A colour near `colour`: its brightness and hue varied by the share given.
+Colour varied(const Colour& colour, float brightness, float hue, Random random);
+
+/// Darkens crevices and lightens ridges: `height` in px, against its own blur of `reach_px`.
+void add_relief(cv::Mat3f& picture, const cv::Mat1f& height, float reach_px, float strength);
+
+/// Where a shape with that bounding box must be drawn so that the picture of `size` stays tileable: offsets in px.
+std::vector<cv::Point> tiling_offsets(const cv::Rect& box, int size);
+
+/// A line that wanders from `start` (px) in `direction_rad`: its corners, `step_px` apart.
+std::vector<cv::Point2f> wandering_line(cv::Point2f start, float direction_rad, float length_px, float step_px,
+                                        float unrest_rad, Random random);
+
+/// Draws a line of corners with that value around the borders.
+void draw_line(cv::Mat1f& picture, const std::vector<cv::Point2f>& line, float value, float width_px);
+
+// Ground
+cv::Mat3f paint_asphalt(float mm_per_px, const Colour& stone, const Colour& binder, float contrast, Random random);
+cv::Mat1f paint_road_wear(float amount, Random random);
+cv::Mat3f paint_concrete(const Colour& colour, float grain, Random random);
+cv::Mat3f paint_slabs(int rows, int columns, bool staggered, const Colour& colour, Random random);
+cv::Mat3f paint_cobbles(int cells, const Colour& colour, Random random);
+cv::Mat3f paint_gravel(int cells, const Colour& colour, Random random);
+cv::Mat3f paint_grass(Random random);
+cv::Mat3f paint_soil(Random random);
+cv::Mat3f paint_marking(Random random);
+cv::Mat3f paint_manhole(Random random);
+cv::Mat3f paint_far_land(Random random);
+cv::Mat1f paint_ground_wear(float amount, Random random);
+
+// Walls
+cv::Mat3f paint_bricks(const Colour& brick, const Colour& mortar, float variety, Random random);
+cv::Mat3f paint_plaster(const Colour& colour, float roughness, Random random);
+cv::Mat3f paint_stone_blocks(const Colour& colour, Random random);
+cv::Mat3f paint_rubble(const Colour& colour, Random random);
+cv::Mat3f paint_concrete_panels(const Colour& colour, Random random);
+cv::Mat3f paint_boards(const Colour& colour, int boards, bool upright, Random random);
+cv::Mat3f paint_sheet(const Colour& colour, int ribs, Random random);
+cv::Mat3f paint_roof_tiles(const Colour& colour, int rows, int columns, bool slate, Random random);
+cv::Mat1f paint_wall_wear(float streaks, float repairs, Random random);
+
+// Plants
+struct Cutout {
+  cv::Mat3f colour;
+  cv::Mat1f alpha;
+};
+struct LeafShape {
+  int leaves = 90;
+  float length_m = 0.1f;
+  float width_share = 0.6f;  ///< of the length
+  int needles = 0;           ///< per twig instead of leaves
+};
+Cutout paint_leaves(const LeafShape& shape, const Colour& colour, Random random);
+cv::Mat3f paint_hedge(const Colour& colour, Random random);
+cv::Mat3f paint_flowers(Random random);
+cv::Mat3f paint_bark(const Colour& colour, Random random);
+
+// Things
+cv::Mat3f paint_plain(const Colour& colour, float blotches, float grain, Random random);
+cv::Mat3f paint_glass(Random random);
+cv::Mat3f paint_curtain(const Colour& colour, Random random);
+cv::Mat3f paint_door(const Colour& colour, Random random);
+cv::Mat3f paint_shutter(const Colour& colour, Random random);
+cv::Mat3f paint_sign(const Colour& face, const Colour& border, Random random);
+cv::Mat3f paint_poster(Random random);
+cv::Mat3f paint_plate(Random random);
+cv::Mat3f paint_tyre(Random random);
+cv::Mat3f paint_cloth(const Colour& colour, int threads, Random random);
+cv::Mat3f paint_hair(Random random);
+
+}  // namespace panvo::simulation
