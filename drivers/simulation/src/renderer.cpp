@@ -1,217 +1,349 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "panvo/simulation/renderer.hpp"
 
-#include <atomic>
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <mutex>
 #include <opencv2/core/utility.hpp>
+#include <stdexcept>
 
+#if defined(__SSE__)
+#include <xmmintrin.h>
+#endif
+
+#include "edge_finder.hpp"
+#include "packet_tracer.hpp"
+#include "shading_materials.hpp"
 #include "traced_scene.hpp"
 
 namespace panvo::simulation {
+namespace {
+
+constexpr int kBlock = 4;  // a packet is 4 x 4 pixels
+constexpr int kMostEdgeSamples = 16;
+
+/// Numbers too small to be normal count as zero meanwhile: Embree asks for it, and every thread must do the same.
+class FlushDenormals {
+ public:
+#if defined(__SSE__)
+  FlushDenormals() : before_(_mm_getcsr()) { _mm_setcsr(before_ | 0x8040u); }
+  ~FlushDenormals() { _mm_setcsr(before_); }
+
+ private:
+  unsigned before_;
+#else
+  FlushDenormals() = default;
+#endif
+ public:
+  FlushDenormals(const FlushDenormals&) = delete;
+  FlushDenormals& operator=(const FlushDenormals&) = delete;
+};
+
+/// Offsets inside a pixel, -0.5..0.5, and moments, 0..1, of the samples of an edge: evenly spread in each of the three
+/// (the additive recurrence of the golden ratio's relatives [Roberts 2018]).
+struct EdgeSample {
+  float column, row, time;
+};
+std::vector<EdgeSample> edge_samples(int count) {
+  std::vector<EdgeSample> samples;
+  for (int i = 0; i < count; ++i) {
+    const auto part = [](double value) { return value - std::floor(value); };
+    const double n = i + 0.5;
+    samples.push_back({static_cast<float>(n / count - 0.5),
+                       static_cast<float>(part(0.5 + 0.6180339887498949 * (i + 1)) - 0.5),
+                       static_cast<float>(part(0.5 + 0.4142135623730951 * (i + 1)))});
+  }
+  // each evenly spread about its middle, whatever the count: the picture must not shift
+  const auto centre = [&](auto member, float middle) {
+    float sum = 0.0f;
+    for (const auto& sample : samples) sum += sample.*member;
+    const float shift = middle - sum / static_cast<float>(std::max(count, 1));
+    for (auto& sample : samples) sample.*member += shift;
+  };
+  centre(&EdgeSample::row, 0.0f);
+  centre(&EdgeSample::time, 0.5f);
+  for (auto& sample : samples) sample.time = std::clamp(sample.time, 0.0f, 1.0f);
+  return samples;
+}
+
+ShutterPose pose_at(const Shot& shot, double time) {
+  const Eigen::Quaterniond opened(shot.world_from_camera_opened.linear());
+  const Eigen::Quaterniond closed(shot.world_from_camera_closed.linear());
+  const Eigen::Matrix3f rotation = opened.slerp(time, closed).toRotationMatrix().cast<float>();
+  const Eigen::Vector3f origin =
+      ((1.0 - time) * shot.world_from_camera_opened.translation() + time * shot.world_from_camera_closed.translation())
+          .cast<float>();
+  ShutterPose pose;
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column) {
+      pose.world_from_camera[static_cast<std::size_t>(3 * row + column)] = rotation(row, column);
+    }
+    pose.origin[static_cast<std::size_t>(row)] = origin[row];
+  }
+  pose.time = static_cast<float>(time);
+  return pose;
+}
+
+std::array<float, 3> to_array(const Eigen::Vector3f& vector) { return {vector.x(), vector.y(), vector.z()}; }
+
+/// The rays of a camera in blocks, with the steps from one pixel to the next.
+class BlockRays {
+ public:
+  explicit BlockRays(const CameraRays& rays) : rays_(rays) {}
+
+  /// The centres of the pixels of a block; lanes beyond the image or where the camera sees nothing are left out.
+  void fill(int left, int top, SampleRays& samples) const {
+    samples.lanes = 0;
+    for (int i = 0; i < kPacket; ++i) {
+      const int column = left + i % kBlock;
+      const int row = top + i / kBlock;
+      const auto& direction = at(std::min(column, rays_.width - 1), std::min(row, rays_.height - 1));
+      samples.directions[static_cast<std::size_t>(i)] = direction;
+      const bool is_there =
+          column < rays_.width && row < rays_.height &&
+          direction.z() * direction.z() + direction.y() * direction.y() + direction.x() * direction.x() > 0.5f;
+      if (is_there) samples.lanes |= 1u << i;
+    }
+    const auto [across, down] = steps(left, top);
+    samples.across.fill(across);
+    samples.down.fill(down);
+    samples.moments.fill(0);
+    samples.share = 1.0f;
+  }
+
+  /// What the direction gains per column and per row, on the average of the block.
+  std::pair<Eigen::Vector3f, Eigen::Vector3f> steps(int left, int top) const {
+    const int x0 = std::clamp(left, 0, std::max(0, rays_.width - kBlock));
+    const int y0 = std::clamp(top, 0, std::max(0, rays_.height - kBlock));
+    const int x1 = std::min(x0 + kBlock - 1, rays_.width - 1);
+    const int y1 = std::min(y0 + kBlock - 1, rays_.height - 1);
+    const auto& top_left = at(x0, y0);
+    const auto& top_right = at(x1, y0);
+    const auto& low_left = at(x0, y1);
+    const auto& low_right = at(x1, y1);
+    const auto step = [](const Eigen::Vector3f& a, const Eigen::Vector3f& b, int count) {
+      const bool sees = !a.isZero() && !b.isZero() && count > 0;
+      return sees ? Eigen::Vector3f((b - a) / static_cast<float>(count)) : Eigen::Vector3f(Eigen::Vector3f::Zero());
+    };
+    const auto either = [](const Eigen::Vector3f& a, const Eigen::Vector3f& b) {
+      if (a.isZero()) return b;
+      return b.isZero() ? a : Eigen::Vector3f(0.5f * (a + b));
+    };
+    return {either(step(top_left, top_right, x1 - x0), step(low_left, low_right, x1 - x0)),
+            either(step(top_left, low_left, y1 - y0), step(top_right, low_right, y1 - y0))};
+  }
+
+ private:
+  const Eigen::Vector3f& at(int column, int row) const {
+    return rays_.directions[static_cast<std::size_t>(row) * static_cast<std::size_t>(rays_.width) +
+                            static_cast<std::size_t>(column)];
+  }
+  const CameraRays& rays_;
+};
+
+/// What is needed to find the edges.
+struct Picture {
+  Picture(int height, int width)
+      : radiance(height, width, CV_32FC3, cv::Scalar::all(0.0)),
+        inverse_range(height, width, CV_32FC1),
+        key(height, width, CV_32SC1),
+        normal(height, width, CV_32SC1) {}
+  cv::Mat radiance, inverse_range, key, normal;
+};
+
+void trace_centres(const PacketTracer& tracer, const CameraRays& rays, int top, Picture& picture,
+                   Renderer::Statistics& statistics) {
+  const BlockRays blocks(rays);
+  SampleRays samples;
+  SampleResults results;
+  for (int left = 0; left < rays.width; left += kBlock) {
+    blocks.fill(left, top, samples);
+    if (samples.lanes != 0) tracer.trace(samples, results, statistics);
+    for (int i = 0; i < kPacket; ++i) {
+      const int row = top + i / kBlock;
+      const int column = left + i % kBlock;
+      if (row >= rays.height || column >= rays.width) continue;
+      const auto lane = static_cast<std::size_t>(i);
+      const bool sees = (samples.lanes >> i & 1u) != 0;
+      if (sees) std::copy_n(results.radiance[lane].data(), 3, picture.radiance.ptr<float>(row, column));
+      picture.inverse_range.at<float>(row, column) = sees ? 1.0f / results.distance[lane] : 0.0f;
+      picture.key.at<std::int32_t>(row, column) = sees ? static_cast<std::int32_t>(results.key[lane]) : 0;
+      picture.normal.at<std::int32_t>(row, column) = sees ? static_cast<std::int32_t>(results.normal[lane]) : 0;
+    }
+  }
+}
+
+/// Adds the samples of the edges in four rows of pixels, whose edges `is_edge` marks.
+void trace_edges(const PacketTracer& tracer, const CameraRays& rays, const std::vector<EdgeSample>& offsets, int top,
+                 const cv::Mat& is_edge, cv::Mat& radiance, Renderer::Statistics& statistics) {
+  const BlockRays blocks(rays);
+  SampleRays samples;
+  SampleResults results;
+  std::array<float*, kPacket> pixels{};
+  samples.share = 0.5f;
+  const float weight = 1.0f / static_cast<float>(offsets.size() + 1);
+  int count = 0;
+  const auto flush = [&] {
+    if (count == 0) return;
+    samples.lanes = (1u << count) - 1u;
+    for (int i = count; i < kPacket; ++i) {
+      samples.directions[static_cast<std::size_t>(i)] = samples.directions[0];
+      samples.moments[static_cast<std::size_t>(i)] = samples.moments[0];
+    }
+    tracer.trace(samples, results, statistics);
+    for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
+      for (std::size_t c = 0; c < 3; ++c) pixels[i][c] += weight * results.radiance[i][c];
+    }
+    count = 0;
+  };
+  for (int left = 0; left < rays.width; left += kBlock) {
+    bool has_steps = false;
+    std::pair<Eigen::Vector3f, Eigen::Vector3f> steps;
+    for (int i = 0; i < kPacket; ++i) {
+      const int row = top + i / kBlock;
+      const int column = left + i % kBlock;
+      if (row >= rays.height || column >= rays.width || is_edge.at<std::uint8_t>(row, column) == 0) continue;
+      if (!has_steps) {
+        steps = blocks.steps(left, top);
+        steps.first *= samples.share;
+        steps.second *= samples.share;
+        has_steps = true;
+      }
+      auto* pixel = radiance.ptr<float>(row, column);
+      for (int c = 0; c < 3; ++c) pixel[c] *= weight;
+      for (std::size_t s = 0; s < offsets.size(); ++s) {
+        const Eigen::Vector3f direction =
+            rays.direction(static_cast<float>(column) + offsets[s].column, static_cast<float>(row) + offsets[s].row);
+        const auto lane = static_cast<std::size_t>(count);
+        samples.directions[lane] = direction;
+        samples.moments[lane] = static_cast<int>(s) + 1;
+        samples.across[lane] = steps.first;
+        samples.down[lane] = steps.second;
+        pixels[lane] = pixel;
+        if (++count == kPacket) flush();
+      }
+    }
+  }
+  flush();
+}
+
+}  // namespace
 
 struct Renderer::State {
-  explicit State(std::shared_ptr<const Scene> seen) : scene(std::move(seen)), traced(scene) {}
+  explicit State(std::shared_ptr<const Scene> seen)
+      : scene(std::move(seen)),
+        materials(*checked(*this).palette),
+        environment(*scene->sky),
+        traced(scene, materials) {}
+
+  static const Scene& checked(const State& state) {
+    if (!state.scene || !state.scene->palette || !state.scene->sky) {
+      throw std::invalid_argument("renderer: the scene lacks its palette or its sky");
+    }
+    return *state.scene;
+  }
 
   std::shared_ptr<const Scene> scene;
+  ShadingMaterials materials;
+  Environment environment;
   TracedScene traced;
   Statistics statistics;
 };
 
-Renderer::Renderer(std::shared_ptr<const Scene> scene) : state_(std::make_unique<State>(std::move(scene))) {
-  state_->statistics.triangles = state_->traced.triangle_count();
+Renderer::Renderer(std::shared_ptr<const Scene> scene) {
+  const FlushDenormals flush;
+  state_ = std::make_unique<State>(std::move(scene));
 }
 Renderer::~Renderer() = default;
 
-namespace {
-
-struct Hit {
-  RTCRayHit ray{};
-  bool is_moving = false;
-  bool is_hit() const { return ray.hit.geomID != RTC_INVALID_GEOMETRY_ID; }
-};
-
-Hit trace(const TracedScene& traced, const Eigen::Vector3f& origin, const Eigen::Vector3f& direction, float time,
-          std::uint32_t mask) {
-  Hit hit;
-  auto& ray = hit.ray.ray;
-  ray = {origin.x(),
-         origin.y(),
-         origin.z(),
-         0.0f,
-         direction.x(),
-         direction.y(),
-         direction.z(),
-         time,
-         std::numeric_limits<float>::infinity(),
-         mask,
-         0,
-         0};
-  hit.ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-  hit.ray.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-  rtcIntersect1(traced.standing(), &context, &hit.ray);
-  if (traced.moving()) {
-    const float before = ray.tfar;
-    rtcIntersect1(traced.moving(), &context, &hit.ray);
-    hit.is_moving = ray.tfar < before;
-  }
-  return hit;
-}
-
-bool is_shadowed(const TracedScene& traced, const Eigen::Vector3f& origin, const Eigen::Vector3f& to_sun, float time) {
-  RTCRay ray = {origin.x(), origin.y(), origin.z(),
-                0.0f,       to_sun.x(), to_sun.y(),
-                to_sun.z(), time,       std::numeric_limits<float>::infinity(),
-                kToShadow,  0,          0};
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  rtcOccluded1(traced.standing(), &context, &ray);
-  if (ray.tfar > 0.0f && traced.moving()) rtcOccluded1(traced.moving(), &context, &ray);
-  return ray.tfar < 0.0f;
-}
-
-struct Shading {
-  const Scene& scene;
-  const TracedScene& traced;
-  const Light& light;
-  int taps;
-
-  Eigen::Vector3f radiance(const Eigen::Vector3f& origin, const Eigen::Vector3f& direction,
-                           const Eigen::Vector3f& across, const Eigen::Vector3f& down, float time,
-                           std::uint32_t mask) const {
-    const float spread = 0.5f * (across.norm() + down.norm());
-    const Hit hit = trace(traced, origin, direction, time, mask);
-    if (!hit.is_hit()) return scene.sky->radiance(direction, light, spread);
-    const auto& object = traced.objects()[traced.object(hit.ray.hit.instID[0], hit.ray.hit.geomID, hit.is_moving)];
-    const auto& surface = traced.surfaces()[object.first_surface[hit.ray.hit.geomID & 1u] + hit.ray.hit.primID];
-    const auto& material = scene.palette->materials()[surface.material_occlusion & 0xffu];
-    const float second = hit.ray.hit.u;
-    const float third = hit.ray.hit.v;
-    const float first = 1.0f - second - third;
-    const Eigen::Map<const Eigen::Matrix<float, 3, 4>> transform(object.world_from_model.data());
-    const Eigen::Matrix3f world_from_model = transform.leftCols<3>();
-    const float distance = hit.ray.ray.tfar;
-    const Eigen::Vector3f point = origin + distance * direction;
-    Eigen::Vector3f flat(hit.ray.hit.Ng_x, hit.ray.hit.Ng_y, hit.ray.hit.Ng_z);
-    flat = (world_from_model * flat).normalized();
-    Eigen::Vector3f normal =
-        world_from_model * (first * unpack_normal(surface.normals[0]) + second * unpack_normal(surface.normals[1]) +
-                            third * unpack_normal(surface.normals[2]));
-    normal.normalize();
-    if (flat.dot(direction) > 0.0f) flat = -flat;
-    if (normal.dot(flat) < 0.0f) normal = -normal;
-
-    Eigen::Vector4f tint = Eigen::Vector4f::Zero();
-    for (int i = 0; i < 3; ++i) {
-      const float weight = i == 0 ? first : i == 1 ? second : third;
-      for (int c = 0; c < 4; ++c) {
-        tint[c] +=
-            weight * static_cast<float>((surface.tints[static_cast<std::size_t>(i)] >> (8 * c)) & 0xffu) / 255.0f;
-      }
-    }
-    const bool is_painted = material.name.ends_with("_paint") || material.name.starts_with("leaves");
-    Eigen::Vector3f albedo = material.tint.cwiseProduct(tint.head<3>());
-    if (is_painted) albedo = albedo.cwiseProduct(Eigen::Vector3f(object.tint[0], object.tint[1], object.tint[2]));
-    const Eigen::Vector2f uv(surface.uv[0] + second * surface.uv[2] + third * surface.uv[4],
-                             surface.uv[1] + second * surface.uv[3] + third * surface.uv[5]);
-    const auto half = [&](int i) {
-      const std::uint32_t word = surface.gradients[static_cast<std::size_t>(i / 2)];
-      return std::bit_cast<float>(i % 2 == 0 ? word << 16 : word & 0xffff0000u);
-    };
-    const float square = world_from_model.col(0).squaredNorm();
-    const Eigen::Vector3f u_gradient = world_from_model * Eigen::Vector3f(half(0), half(1), half(2)) / square;
-    const Eigen::Vector3f v_gradient = world_from_model * Eigen::Vector3f(half(3), half(4), half(5)) / square;
-    const auto step = [&](const Eigen::Vector3f& change) {
-      const float slope = std::min(direction.dot(flat), -0.02f);
-      const Eigen::Vector3f on_plane = distance * (change - direction * (change.dot(flat) / slope));
-      return Eigen::Vector2f(u_gradient.dot(on_plane), v_gradient.dot(on_plane));
-    };
-    const Eigen::Vector2f du = step(across);
-    const Eigen::Vector2f dv = step(down);
-    if (material.albedo) {
-      const Eigen::Vector4f texel =
-          material.albedo->sample(uv / material.period_m, du / material.period_m, dv / material.period_m, taps);
-      const Eigen::Vector3f mean = material.albedo->mean().head<3>();
-      albedo = albedo.cwiseProduct(mean + tint[3] * (texel.head<3>() - mean));
-    }
-    if (material.overlay) {
-      const float period = material.overlay_period_m;
-      const Eigen::Vector3f texel = material.overlay->sample(uv / period, du / period, dv / period, 1).head<3>();
-      albedo = albedo.cwiseProduct(2.0f * texel);
-    }
-    const float open = (first * static_cast<float>((surface.material_occlusion >> 8) & 0xffu) +
-                        second * static_cast<float>((surface.material_occlusion >> 16) & 0xffu) +
-                        third * static_cast<float>((surface.material_occlusion >> 24) & 0xffu)) /
-                       255.0f;
-    Eigen::Vector3f irradiance =
-        open * (light.sky * (0.5f + 0.5f * normal.z()) + light.ground * (0.5f - 0.5f * normal.z()));
-    const float facing = normal.dot(light.to_sun);
-    const float direct = facing > 0.0f ? (1.0f - material.translucency) * facing : -material.translucency * facing;
-    if (direct > 0.0f) {
-      const float offset = 1e-3f + 2e-4f * distance;
-      const Eigen::Vector3f above = point + flat * (flat.dot(light.to_sun) > 0.0f ? offset : -offset);
-      if (!is_shadowed(traced, above, light.to_sun, time)) irradiance += direct * light.sun;
-    }
-    Eigen::Vector3f radiance = albedo.cwiseProduct(irradiance);
-    if (material.gloss > 0.0f) {
-      const float cosine = std::clamp(-normal.dot(direction), 0.0f, 1.0f);
-      const float fresnel = material.gloss + (1.0f - material.gloss) * std::pow(1.0f - cosine, 5.0f);
-      const Eigen::Vector3f mirrored = direction + 2.0f * cosine * normal;
-      const Eigen::Vector3f seen =
-          mirrored.z() > 0.0f ? scene.sky->radiance(mirrored, light, 0.02f) : Eigen::Vector3f(light.ground);
-      radiance += fresnel * (open * seen - radiance);
-    }
-    const Eigen::Vector3f level = Eigen::Vector3f(direction.x(), direction.y(), 0.05f).normalized();
-    const float haze = 1.0f - std::exp(-light.haze_per_m * distance);
-    if (haze > 0.01f) radiance += haze * (scene.sky->radiance(level, light, 0.1f) - radiance);
-    return radiance;
-  }
-};
-
-}  // namespace
-
 cv::Mat Renderer::render(const CameraRays& rays, const Shot& shot, const Light& light,
                          std::span<const MovingPlacement> movers, const Quality& quality) {
-  state_->traced.place_movers(movers);
-  const Shading shading{*state_->scene, state_->traced, light, quality.texture_taps};
-  cv::Mat image(rays.height, rays.width, CV_32FC3, cv::Scalar::all(0));
-  const Eigen::Matrix3f rotation = shot.world_from_camera_opened.linear().cast<float>();
-  const Eigen::Vector3f origin = shot.world_from_camera_opened.translation().cast<float>();
-  cv::parallel_for_(cv::Range(0, rays.height), [&](const cv::Range& range) {
-    for (int row = range.start; row < range.end; ++row) {
-      for (int column = 0; column < rays.width; ++column) {
-        const auto x = static_cast<float>(column);
-        const auto y = static_cast<float>(row);
-        const Eigen::Vector3f direction = rays.direction(x, y);
-        if (direction.isZero()) continue;
-        const Eigen::Vector3f across = rotation * (rays.direction(x + 0.5f, y) - rays.direction(x - 0.5f, y));
-        const Eigen::Vector3f down = rotation * (rays.direction(x, y + 0.5f) - rays.direction(x, y - 0.5f));
-        Eigen::Map<Eigen::Vector3f>(image.ptr<float>(row, column)) =
-            shading.radiance(origin, rotation * direction, across, down, 0.0f, shot.visibility);
-      }
-    }
+  auto& state = *state_;
+  const FlushDenormals flush;
+  state.traced.place_movers(movers);
+  ShadingTables tables;
+  state.traced.fill(tables);
+  state.materials.fill(tables);
+  tables.environment = state.environment.update(light);
+  tables.to_sun = to_array(light.to_sun);
+  tables.sun = to_array(light.sun);
+  tables.sky = to_array(light.sky);
+  tables.ground = to_array(light.ground);
+  tables.haze_per_m = light.haze_per_m;
+  tables.texture_taps = std::clamp(quality.texture_taps, 1, 16);
+  const Eigen::Vector3d moved =
+      shot.world_from_camera_closed.translation() - shot.world_from_camera_opened.translation();
+  tables.camera_motion = to_array(moved.cast<float>());
+  const Eigen::Matrix3d turned =
+      (shot.world_from_camera_closed.linear() * shot.world_from_camera_opened.linear().transpose()) -
+      Eigen::Matrix3d::Identity();
+  for (int i = 0; i < 9; ++i) {
+    tables.camera_rotation[static_cast<std::size_t>(i)] = static_cast<float>(turned(i / 3, i % 3));
+  }
+
+  const auto offsets = edge_samples(std::clamp(quality.edge_samples, 0, kMostEdgeSamples));
+  std::vector<ShutterPose> moments{pose_at(shot, 0.5)};
+  for (const auto& offset : offsets) moments.push_back(pose_at(shot, offset.time));
+  const PacketTracer tracer(state.traced, *state.scene->sky, light, tables, shot.visibility, std::move(moments));
+
+  Picture picture(rays.height, rays.width);
+  state.statistics = {};
+  state.statistics.pixels = static_cast<std::uint64_t>(rays.width) * static_cast<std::uint64_t>(rays.height);
+  state.statistics.triangles = state.traced.triangle_count();
+  std::mutex mutex;
+  const int strips = (rays.height + kBlock - 1) / kBlock;
+  const auto in_strips = [&](const auto& work) {
+    cv::parallel_for_(
+        cv::Range(0, strips),
+        [&](const cv::Range& range) {
+          const FlushDenormals flush_here;
+          Statistics counted;
+          for (int strip = range.start; strip < range.end; ++strip) work(strip * kBlock, counted);
+          const std::lock_guard lock(mutex);
+          state.statistics.primary_rays += counted.primary_rays;
+          state.statistics.shadow_rays += counted.shadow_rays;
+        },
+        strips);
+  };
+  in_strips([&](int top, Statistics& counted) { trace_centres(tracer, rays, top, picture, counted); });
+  if (offsets.empty()) return picture.radiance;
+  cv::Mat is_edge(rays.height, rays.width, CV_8UC1);
+  const SeenSurfaces seen{picture.radiance, picture.inverse_range, picture.key, picture.normal, rays.wraps};
+  in_strips([&](int top, Statistics&) { find_edges(seen, top, std::min(top + kBlock, rays.height), is_edge); });
+  in_strips([&](int top, Statistics& counted) {
+    trace_edges(tracer, rays, offsets, top, is_edge, picture.radiance, counted);
   });
-  return image;
+  return picture.radiance;
 }
 
 cv::Mat Renderer::render_range(const CameraRays& rays, const Shot& shot, std::span<const MovingPlacement> movers) {
-  state_->traced.place_movers(movers);
+  auto& state = *state_;
+  const FlushDenormals flush;
+  state.traced.place_movers(movers);
+  const Light light;
+  const PacketTracer tracer(state.traced, *state.scene->sky, light, {}, shot.visibility, {pose_at(shot, 0.0)});
   cv::Mat range(rays.height, rays.width, CV_32FC1);
-  const Eigen::Matrix3f rotation = shot.world_from_camera_opened.linear().cast<float>();
-  const Eigen::Vector3f origin = shot.world_from_camera_opened.translation().cast<float>();
-  for (int row = 0; row < rays.height; ++row) {
-    for (int column = 0; column < rays.width; ++column) {
-      const Eigen::Vector3f direction =
-          rotation * rays.directions[static_cast<std::size_t>(row) * static_cast<std::size_t>(rays.width) +
-                                     static_cast<std::size_t>(column)];
-      const bool sees = !direction.isZero();
-      range.at<float>(row, column) = sees ? trace(state_->traced, origin, direction, 0.0f, shot.visibility).ray.ray.tfar
-                                          : std::numeric_limits<float>::infinity();
+  const BlockRays blocks(rays);
+  const int strips = (rays.height + kBlock - 1) / kBlock;
+  cv::parallel_for_(cv::Range(0, strips), [&](const cv::Range& part) {
+    const FlushDenormals flush_here;
+    SampleRays samples;
+    std::array<float, kPacket> distances{};
+    for (int top = part.start * kBlock; top < std::min(part.end * kBlock, rays.height); top += kBlock) {
+      for (int left = 0; left < rays.width; left += kBlock) {
+        blocks.fill(left, top, samples);
+        distances.fill(std::numeric_limits<float>::infinity());
+        if (samples.lanes != 0) tracer.trace_range(samples, distances.data());
+        for (int i = 0; i < kPacket; ++i) {
+          const int row = top + i / kBlock;
+          const int column = left + i % kBlock;
+          if (row >= rays.height || column >= rays.width) continue;
+          range.at<float>(row, column) = distances[static_cast<std::size_t>(i)];
+        }
+      }
     }
-  }
+  });
   return range;
 }
 

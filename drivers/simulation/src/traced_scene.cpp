@@ -10,8 +10,6 @@
 namespace panvo::simulation {
 namespace {
 
-constexpr std::size_t kMostMaterials = 256;  // a surface record has eight bits for it
-
 std::uint32_t pack_tint(const Tint& tint) {
   return tint.red | static_cast<std::uint32_t>(tint.green) << 8 | static_cast<std::uint32_t>(tint.blue) << 16 |
          static_cast<std::uint32_t>(tint.contrast) << 24;
@@ -80,34 +78,29 @@ struct TracedScene::Part {
   std::vector<Eigen::Vector3f> positions;  // and one more, for Embree reads 16 bytes at each
   std::vector<std::array<std::uint32_t, 3>> corners;
   const std::vector<SurfaceRecord>* surfaces = nullptr;
-  const std::vector<Material>* materials = nullptr;
+  const ShadingMaterials* materials = nullptr;
   std::uint32_t first_surface = 0;
 
   /// Embree's filter: takes away the hits that lie in a hole.
   static void let_through_holes(const RTCFilterFunctionNArguments* arguments) {
     const auto& part = *static_cast<const Part*>(arguments->geometryUserPtr);
+    const float spread = reinterpret_cast<const TraceContext*>(arguments->context)->spread;
     for (unsigned i = 0; i < arguments->N; ++i) {
       if (arguments->valid[i] == 0) continue;
       const std::uint32_t triangle = RTCHitN_primID(arguments->hit, arguments->N, i);
       const float second = RTCHitN_u(arguments->hit, arguments->N, i);
       const float third = RTCHitN_v(arguments->hit, arguments->N, i);
       const auto& surface = (*part.surfaces)[part.first_surface + triangle];
-      const auto& material = (*part.materials)[surface.material_occlusion & 0xffu];
       const Eigen::Vector2f uv(surface.uv[0] + second * surface.uv[2] + third * surface.uv[4],
                                surface.uv[1] + second * surface.uv[3] + third * surface.uv[5]);
-      if (material.albedo->alpha(uv / material.period_m) < 0.5f) arguments->valid[i] = 0;
+      const float width = spread * RTCRayN_tfar(arguments->ray, arguments->N, i);
+      if (part.materials->is_hole(surface.material_occlusion & 0xffu, uv, width)) arguments->valid[i] = 0;
     }
   }
 };
 
-TracedScene::TracedScene(std::shared_ptr<const Scene> scene) : scene_(std::move(scene)) {
-  if (!scene_ || !scene_->palette || !scene_->sky) {
-    throw std::invalid_argument("renderer: the scene lacks its palette or its sky");
-  }
-  if (scene_->palette->materials().size() > kMostMaterials) {
-    throw std::invalid_argument(fmt::format("renderer: the palette has {} materials, more than {}",
-                                            scene_->palette->materials().size(), kMostMaterials));
-  }
+TracedScene::TracedScene(std::shared_ptr<const Scene> scene, const ShadingMaterials& materials)
+    : scene_(std::move(scene)), materials_(materials) {
   device_.reset(rtcNewDevice(nullptr));
   if (!device_) throw std::runtime_error("renderer: Embree has no device");
   std::size_t surface_count = 0;
@@ -118,7 +111,7 @@ TracedScene::TracedScene(std::shared_ptr<const Scene> scene) : scene_(std::move(
   for (const auto& model : scene_->models) {
     Prototype prototype{ScenePointer(rtcNewScene(device_.get())), {}, model.triangles.size()};
     rtcSetSceneBuildQuality(prototype.scene.get(), RTC_BUILD_QUALITY_HIGH);
-    prototype.first_surface = add_mesh(model, prototype.scene.get(), 0, true);
+    prototype.first_surface = add_mesh(model, prototype.scene.get(), 0);
     rtcCommitScene(prototype.scene.get());
     prototypes_.push_back(std::move(prototype));
   }
@@ -128,7 +121,7 @@ TracedScene::TracedScene(std::shared_ptr<const Scene> scene) : scene_(std::move(
   // which must not be smaller than these
   for (const auto& mesh : scene_->fixed) {
     ObjectRecord object;
-    object.first_surface = add_mesh(mesh, standing_.get(), static_cast<std::uint32_t>(2 * objects_.size()), false);
+    object.first_surface = add_mesh(mesh, standing_.get(), static_cast<std::uint32_t>(2 * objects_.size()));
     object.world_from_model = to_array(Eigen::Affine3f::Identity());
     objects_.push_back(object);
     triangle_count_ += mesh.triangles.size();
@@ -151,14 +144,13 @@ TracedScene::TracedScene(std::shared_ptr<const Scene> scene) : scene_(std::move(
 
 TracedScene::~TracedScene() = default;
 
-std::array<std::uint32_t, 2> TracedScene::add_mesh(const Mesh& mesh, RTCScene scene, std::uint32_t first_geometry,
-                                                   bool) {
+std::array<std::uint32_t, 2> TracedScene::add_mesh(const Mesh& mesh, RTCScene scene, std::uint32_t first_geometry) {
   const auto& materials = scene_->palette->materials();
   std::array<std::uint32_t, 2> first_surface{};
   for (const bool has_holes : {false, true}) {
     auto part = std::make_unique<Part>();
     part->surfaces = &surfaces_;
-    part->materials = &materials;
+    part->materials = &materials_;
     part->first_surface = static_cast<std::uint32_t>(surfaces_.size());
     first_surface[has_holes ? 1 : 0] = part->first_surface;
     for (const auto& triangle : mesh.triangles) {

@@ -11,6 +11,7 @@
 
 #include "panvo/simulation/renderer.hpp"
 #include "panvo/simulation/scene.hpp"
+#include "shading_materials.hpp"
 
 namespace panvo::simulation {
 
@@ -31,6 +32,14 @@ struct ObjectRecord {
   std::array<float, 12> motion{};                ///< what it has more when the shutter closes
   std::array<float, 3> tint{1.0f, 1.0f, 1.0f};
   std::uint32_t moves = 0;
+  std::array<std::uint32_t, 2> padding{};
+};
+static_assert(sizeof(ObjectRecord) == 32 * sizeof(std::uint32_t));
+
+/// What Embree hands on to the filter of holes.
+struct TraceContext {
+  RTCIntersectContext embree;
+  float spread = 0.0f;  ///< rad: how fast the rays get wider
 };
 
 /// Numbers of 16 bits a half each: a unit vector's octahedral map [Cigolle et al. 2014].
@@ -49,7 +58,8 @@ using DevicePointer = std::unique_ptr<RTCDeviceTy, DeviceDeleter>;
 /// The scene in Embree's structures, with what shading needs to know of each hit.
 class TracedScene {
  public:
-  explicit TracedScene(std::shared_ptr<const Scene> scene);
+  /// `materials` must outlive it.
+  TracedScene(std::shared_ptr<const Scene> scene, const ShadingMaterials& materials);
   ~TracedScene();
   TracedScene(const TracedScene&) = delete;
   TracedScene& operator=(const TracedScene&) = delete;
@@ -61,13 +71,11 @@ class TracedScene {
   /// Null where nothing moves.
   RTCScene moving() const { return moving_.get(); }
 
-  /// Number of the object that was hit, given Embree's numbers of instance and geometry.
-  std::uint32_t object(std::uint32_t instance, std::uint32_t geometry, bool is_moving) const {
-    const std::uint32_t number = instance == RTC_INVALID_GEOMETRY_ID ? geometry >> 1 : instance;
-    return is_moving ? number + moving_first_ : number;
+  void fill(ShadingTables& tables) const {
+    tables.surfaces = surfaces_.data();
+    tables.objects = objects_.data();
+    tables.first_moving_object = moving_first_;
   }
-  const std::vector<SurfaceRecord>& surfaces() const { return surfaces_; }
-  const std::vector<ObjectRecord>& objects() const { return objects_; }
   std::uint64_t triangle_count() const { return triangle_count_; }
 
  private:
@@ -78,12 +86,12 @@ class TracedScene {
     std::uint64_t triangle_count = 0;
   };
 
-  std::array<std::uint32_t, 2> add_mesh(const Mesh& mesh, RTCScene scene, std::uint32_t first_geometry,
-                                        bool is_instanced);
+  std::array<std::uint32_t, 2> add_mesh(const Mesh& mesh, RTCScene scene, std::uint32_t first_geometry);
   ObjectRecord placed(const Placement& placement) const;
   RTCGeometry instance(const Placement& placement, int time_steps) const;
 
   std::shared_ptr<const Scene> scene_;
+  const ShadingMaterials& materials_;
   DevicePointer device_;
   std::vector<std::unique_ptr<Part>> parts_;
   std::vector<Prototype> prototypes_;

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <opencv2/core.hpp>
+
+namespace panvo::simulation {
+
+/// What the centres of the pixels see.
+struct SeenSurfaces {
+  const cv::Mat& radiance;       ///< CV_32FC3
+  const cv::Mat& inverse_range;  ///< CV_32FC1, 1/m; 0: the sky
+  const cv::Mat& key;            ///< CV_32SC1, object and material
+  const cv::Mat& normal;         ///< CV_32SC1: x, y, z as signed bytes, then material flags and, on top, sunshine
+  bool wraps = false;
+};
+
+/// Marks (1, else 0) the pixels in these rows that an edge may cross: a neighbour belongs to something else, faces
+/// elsewhere, lies behind or before, or in other light, and looks different, too.
+void find_edges(const SeenSurfaces& seen, int first_row, int end_row, cv::Mat& is_edge);
+
+}  // namespace panvo::simulation

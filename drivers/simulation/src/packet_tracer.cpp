@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "packet_tracer.hpp"
+
+#include <bit>
+#include <limits>
+
+namespace panvo::simulation {
+namespace {
+
+constexpr float kSunSpread = 0.01f;  // rad: the sun's disc, so that far leaves cast soft-edged gaps of its size
+
+TraceContext trace_context(float spread, RTCIntersectContextFlags flags) {
+  TraceContext context;
+  rtcInitIntersectContext(&context.embree);
+  context.embree.flags = flags;
+  context.spread = spread;
+  return context;
+}
+
+void set_lanes(std::uint32_t lanes, std::int32_t* valid) {
+  for (int i = 0; i < kPacket; ++i) valid[i] = (lanes >> i & 1u) != 0 ? -1 : 0;
+}
+
+}  // namespace
+
+PacketTracer::PacketTracer(const TracedScene& scene, const Sky& sky, const Light& light, const ShadingTables& tables,
+                           std::uint32_t visibility, std::vector<ShutterPose> moments)
+    : scene_(scene),
+      sky_(sky),
+      light_(light),
+      tables_(tables),
+      visibility_(visibility),
+      moments_(std::move(moments)),
+      shade_(fastest_shade_packet()) {}
+
+void PacketTracer::intersect(const SampleRays& samples, TracedPacket& packet) const {
+  auto& rays = packet.rays.ray;
+  auto& hits = packet.rays.hit;
+  for (std::size_t i = 0; i < kPacket; ++i) {
+    const auto& pose = moments_[static_cast<std::size_t>(samples.moments[i])];
+    const auto& m = pose.world_from_camera;
+    const auto& direction = samples.directions[i];
+    rays.org_x[i] = pose.origin[0];
+    rays.org_y[i] = pose.origin[1];
+    rays.org_z[i] = pose.origin[2];
+    rays.dir_x[i] = m[0] * direction.x() + m[1] * direction.y() + m[2] * direction.z();
+    rays.dir_y[i] = m[3] * direction.x() + m[4] * direction.y() + m[5] * direction.z();
+    rays.dir_z[i] = m[6] * direction.x() + m[7] * direction.y() + m[8] * direction.z();
+    rays.time[i] = pose.time;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const float* row = &m[3 * axis];
+      packet.across[axis][i] =
+          row[0] * samples.across[i].x() + row[1] * samples.across[i].y() + row[2] * samples.across[i].z();
+      packet.down[axis][i] = row[0] * samples.down[i].x() + row[1] * samples.down[i].y() + row[2] * samples.down[i].z();
+    }
+    rays.tnear[i] = 0.0f;
+    rays.tfar[i] = std::numeric_limits<float>::infinity();
+    rays.mask[i] = visibility_;
+    rays.flags[i] = 0;
+    rays.id[i] = static_cast<unsigned>(i);
+    hits.geomID[i] = RTC_INVALID_GEOMETRY_ID;
+    hits.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
+    hits.primID[i] = 0;
+    packet.is_moving[i] = 0;
+  }
+  packet.motion_share = samples.share;
+  alignas(64) std::int32_t valid[kPacket];
+  set_lanes(samples.lanes, valid);
+  const auto first_lane = static_cast<std::size_t>(std::countr_zero(samples.lanes));
+  auto context = trace_context(samples.across[first_lane].norm(), RTC_INTERSECT_CONTEXT_FLAG_COHERENT);
+  rtcIntersect16(valid, scene_.standing(), &context.embree, &packet.rays);
+  if (scene_.moving() == nullptr) return;
+  alignas(64) float before[kPacket];
+  std::copy_n(rays.tfar, kPacket, before);
+  rtcIntersect16(valid, scene_.moving(), &context.embree, &packet.rays);
+  for (int i = 0; i < kPacket; ++i) packet.is_moving[i] = rays.tfar[i] < before[i] ? -1 : 0;
+}
+
+void PacketTracer::trace(const SampleRays& samples, SampleResults& results, Renderer::Statistics& statistics) const {
+  TracedPacket packet;
+  intersect(samples, packet);
+  const auto& rays = packet.rays.ray;
+  statistics.primary_rays += static_cast<std::uint64_t>(std::popcount(samples.lanes));
+  std::uint32_t hit = 0;
+  for (unsigned i = 0; i < kPacket; ++i) {
+    if (packet.rays.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID) hit |= 1u << i;
+  }
+  hit &= samples.lanes;
+  ShadedPacket shaded;
+  if (hit != 0) {
+    shade_(tables_, packet, shaded);
+    alignas(64) std::int32_t valid[kPacket];
+    set_lanes(samples.lanes, valid);
+    std::uint32_t shadow_lanes = 0;
+    for (unsigned i = 0; i < kPacket; ++i) {
+      valid[i] &= shaded.wants_shadow[i];
+      if (valid[i] != 0) shadow_lanes |= 1u << i;
+    }
+    if (shadow_lanes != 0) {
+      statistics.shadow_rays += static_cast<std::uint64_t>(std::popcount(shadow_lanes));
+      auto context = trace_context(kSunSpread, RTC_INTERSECT_CONTEXT_FLAG_COHERENT);
+      for (unsigned i = 0; i < kPacket; ++i) shaded.shadow.id[i] = i;
+      rtcOccluded16(valid, scene_.standing(), &context.embree, &shaded.shadow);
+      if (scene_.moving() != nullptr) {
+        for (int i = 0; i < kPacket; ++i) valid[i] &= shaded.shadow.tfar[i] >= 0.0f ? -1 : 0;
+        rtcOccluded16(valid, scene_.moving(), &context.embree, &shaded.shadow);
+      }
+    }
+  }
+  for (unsigned i = 0; i < kPacket; ++i) {
+    if ((samples.lanes >> i & 1u) == 0) continue;
+    auto& radiance = results.radiance[i];
+    if ((hit >> i & 1u) == 0) {
+      const float spread = samples.share * samples.across[i].norm();
+      const Eigen::Vector3f seen =
+          sky_.radiance(Eigen::Vector3f(rays.dir_x[i], rays.dir_y[i], rays.dir_z[i]), light_, spread);
+      radiance = {seen.x(), seen.y(), seen.z()};
+      results.distance[i] = std::numeric_limits<float>::infinity();
+      results.key[i] = 0;
+      results.normal[i] = 0;
+      continue;
+    }
+    const bool is_sunny = shaded.wants_shadow[i] != 0 && shaded.shadow.tfar[i] >= 0.0f;
+    const float sun = is_sunny ? 1.0f : 0.0f;
+    for (std::size_t c = 0; c < 3; ++c) radiance[c] = shaded.base[c][i] + sun * shaded.sun[c][i];
+    results.distance[i] = rays.tfar[i];
+    results.key[i] = shaded.key[i];
+    results.normal[i] = (shaded.normal[i] & 0x7fffffffu) | (is_sunny ? 0x80000000u : 0u);
+  }
+}
+
+void PacketTracer::trace_range(const SampleRays& samples, float* distances) const {
+  TracedPacket packet;
+  intersect(samples, packet);
+  std::copy_n(packet.rays.ray.tfar, kPacket, distances);
+}
+
+}  // namespace panvo::simulation

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#if defined(__x86_64__)
+#include <immintrin.h>
+
+#include <array>
+#include <cstdint>
+#include <limits>
+
+#include "panvo/simulation/scene.hpp"
+#include "shade_packet.hpp"
+#include "traced_scene.hpp"
+
+#pragma GCC diagnostic ignored "-Wpsabi"
+#pragma GCC push_options
+#pragma GCC target("avx2,fma,bmi,bmi2")
+namespace panvo::simulation::avx2 {
+#include "packet_math.inl"
+//
+#include "shade_packet.inl"
+}  // namespace panvo::simulation::avx2
+#pragma GCC pop_options
+#endif
