@@ -140,10 +140,24 @@ GroundZones::GroundZones(const Site& site) : site_(site) {
       }
       return std::min(last_curved_m + 1.0, longest_m);
     };
-    const bool starts_at_crossing = crossing_of_[static_cast<std::size_t>(road.from)] >= 0;
-    const bool ends_at_crossing = crossing_of_[static_cast<std::size_t>(road.to)] >= 0;
-    reach_m_.push_back({starts_at_crossing ? mouth(false) : -1e6,
-                        ends_at_crossing ? line.length_m() - mouth(true) : line.length_m() + 1e6});
+    mouths_m_.push_back({mouth(false), line.length_m() - mouth(true)});
+  }
+  // the same for all roads of a crossing: where two of them are equally near, both are as far from it
+  std::vector<double> reach_of_crossing(site.roads.junctions.size(), 0.0);
+  for (std::size_t i = 0; i < site.roads.roads.size(); ++i) {
+    const Road& road = site.roads.roads[i];
+    double &from = reach_of_crossing[static_cast<std::size_t>(road.from)],
+           &to = reach_of_crossing[static_cast<std::size_t>(road.to)];
+    from = std::max(from, mouths_m_[i][0] + 0.5);
+    to = std::max(to, site.kerbs->length_m(static_cast<int>(i)) - mouths_m_[i][1] + 0.5);
+  }
+  for (std::size_t i = 0; i < site.roads.roads.size(); ++i) {
+    const Road& road = site.roads.roads[i];
+    const double length_m = site.kerbs->length_m(static_cast<int>(i)), longest_m = 0.48 * length_m;
+    const auto reach = [&](int junction) {
+      return has_crossing(junction) ? std::min(longest_m, reach_of_crossing[static_cast<std::size_t>(junction)]) : -1e6;
+    };
+    reach_m_.push_back({reach(road.from), length_m - reach(road.to)});
   }
 }
 

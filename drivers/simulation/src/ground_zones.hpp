@@ -35,28 +35,31 @@ struct Zone {
   bool has_edge_lines = false, has_parking_on_left = false, has_parking_on_right = false;
 };
 
-/// Which zone is where. Streets end where the kerb's curve into a crossing begins: at the crossing's mouths.
+/// Which zone is where. A crossing reaches as far along each of its roads as the longest of its kerbs' corners.
 class GroundZones {
  public:
   explicit GroundZones(const Site& site);
 
   struct Place {
     int zone = 0;
-    double into_street_m = 0.0;  ///< from the crossing's mouth; negative on the crossing
+    double into_street_m = 0.0;  ///< from where the crossing ends; negative on the crossing
     RoadNetwork::Nearest nearest;
   };
   Place at(const Eigen::Vector2d& point) const;
 
   const Zone& zone(int number) const { return zones_[static_cast<std::size_t>(number)]; }
   int street_of(int road) const { return street_of_[static_cast<std::size_t>(road)]; }
-  /// How far (m) along a road its street begins and ends.
+  /// How far (m) along a road its street begins and ends. Beyond: a crossing, or another road of the same street.
   const std::array<double, 2>& reach_m(int road) const { return reach_m_[static_cast<std::size_t>(road)]; }
+  /// How far (m) along a road its kerbs begin and end to run beside it: here one stops before a crossing.
+  const std::array<double, 2>& mouths_m(int road) const { return mouths_m_[static_cast<std::size_t>(road)]; }
+  bool has_crossing(int junction) const { return crossing_of_[static_cast<std::size_t>(junction)] >= 0; }
 
  private:
   const Site& site_;
   std::vector<Zone> zones_;
   std::vector<int> street_of_, crossing_of_;  ///< zones; -1: no crossing
-  std::vector<std::array<double, 2>> reach_m_;
+  std::vector<std::array<double, 2>> reach_m_, mouths_m_;
 };
 
 }  // namespace panvo::simulation

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "ground_paint.hpp"
+#include "panvo/simulation/mesh.hpp"
+#include "panvo/simulation/random.hpp"
+
+namespace panvo::simulation {
+
+/// What is laid on the ground, and how.
+struct Cloth {
+  std::uint16_t material = 0;
+  double lift_m = 0.003;  ///< above the ground
+  Eigen::Vector3f tint = Eigen::Vector3f::Ones();
+  double contrast = 1.0;
+  Eigen::Vector2d origin = Eigen::Vector2d::Zero();    ///< of the texture, m
+  Eigen::Vector2d forward = Eigen::Vector2d::UnitX();  ///< along the texture's u
+};
+
+/// A box on the plan: where, which way, half its length and width.
+struct Rectangle {
+  Eigen::Vector2d middle = Eigen::Vector2d::Zero(), forward = Eigen::Vector2d::UnitX();
+  double half_length_m = 0.5, half_width_m = 0.5;
+
+  Eigen::Vector2d at(double forward_m, double left_m) const {
+    return middle + forward_m * forward + left_m * Eigen::Vector2d(-forward.y(), forward.x());
+  }
+};
+
+/// Lays flat things on the ground so that they follow it.
+class Drape {
+ public:
+  Drape(const Site& site, const GroundPaint& paint) : site_(site), paint_(paint) {}
+
+  /// Between two lines with as many points, a metre apart at most; `right` lies on the right when looking along them.
+  void ribbon(std::span<const Eigen::Vector2d> right, std::span<const Eigen::Vector2d> left, const Cloth& cloth);
+  /// A small convex outline, counter-clockwise.
+  void polygon(std::span<const Eigen::Vector2d> outline, const Cloth& cloth);
+  void rectangle(const Rectangle& where, const Cloth& cloth);
+  void disc(const Eigen::Vector2d& middle, double radius_m, int sides, const Cloth& cloth);
+  /// A rectangle whose outline wavers by some `ragged_m`.
+  void ragged(const Rectangle& where, double ragged_m, const Cloth& cloth, Random random);
+  /// A line of changing width, at most `width_m`.
+  void thread(const std::vector<Eigen::Vector2d>& line, double width_m, const Cloth& cloth, Random random);
+
+  Mesh take() { return std::move(mesh_); }
+
+ private:
+  std::uint32_t vertex(const Eigen::Vector2d& point, const Cloth& cloth);
+
+  const Site& site_;
+  const GroundPaint& paint_;
+  Mesh mesh_;
+};
+
+}  // namespace panvo::simulation
