@@ -49,7 +49,7 @@ const std::vector<PlannedRoad>& planned_roads() {
       {"stadium", "library", 7.0, {{-82, 136}}},
       {"library", "theatre", 7.0, {}},
       {"theatre", "park", 6.5, {{92, 128}}},
-      {"park", "park", 6.0, {{168, 105}, {187, 120}, {178, 143}, {157, 138}}},  // a loop
+      {"park", "park", 6.0, {{170, 107}, {188, 124}, {179, 146}, {160, 147}, {150, 130}}},  // a loop
       {"stadium", "canteen", 7.0, {}},
       {"library", "auditorium", 7.0, {}},
       {"theatre", "auditorium", 7.0, {}},
@@ -148,7 +148,7 @@ std::vector<Vector2d> curve(const std::vector<Vector2d>& points, const std::vect
 
 // The plan with everything moved by up to some metres, times `scale`.
 RoadNetwork moved_plan(const Random& random, double scale) {
-  constexpr double kJunctionShift_m = 6.0, kBendShift_m = 4.0, kStraightBend_m = 2.5, kArmTurn_rad = 0.035;
+  constexpr double kJunctionShift_m = 6.0, kBendShift_m = 2.5, kStraightBend_m = 2.5, kArmTurn_rad = 0.035;
   RoadNetwork network;
   std::vector<Vector2d> shifts;
   for (const PlannedJunction& planned : kJunctions) {
