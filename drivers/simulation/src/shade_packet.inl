@@ -255,7 +255,8 @@ void shade_packet(const ShadingTables& tables, const TracedPacket& traced, Shade
   // the texture over the pixel's footprint: its neighbours' rays and its own later rays meet the surface's plane
   const Float slope = minimum(dot(direction, flat), all(-0.02f));
   const Float per_slope = 1.0f / slope;
-  const auto on_plane = [&](const Vector3& change) PANVO_ALWAYS { return change - (dot(change, flat) * per_slope) * direction; };
+  const auto on_plane = [&](const Vector3& change)
+                            PANVO_ALWAYS { return change - (dot(change, flat) * per_slope) * direction; };
   const Vector3 across = on_plane(distance * load3(traced.across));
   const Vector3 down = on_plane(distance * load3(traced.down));
   const Vector3 moved = all(share) * on_plane(motion);

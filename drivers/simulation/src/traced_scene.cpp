@@ -3,9 +3,12 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <bit>
 #include <cmath>
 #include <stdexcept>
+
+#include "ambient_occlusion.hpp"
 
 namespace panvo::simulation {
 namespace {
@@ -140,9 +143,47 @@ TracedScene::TracedScene(std::shared_ptr<const Scene> scene, const ShadingMateri
   if (rtcGetDeviceError(device_.get()) != RTC_ERROR_NONE) {
     throw std::runtime_error("renderer: Embree could not build the scene (out of memory?)");
   }
+  bake_ambient_light();
 }
 
 TracedScene::~TracedScene() = default;
+
+void TracedScene::bake_ambient_light() {
+  for (std::size_t i = 0; i < scene_->fixed.size(); ++i) {
+    set_ambient_light(scene_->fixed[i], objects_[i].first_surface, ambient_light(standing_.get(), scene_->fixed[i]));
+  }
+  // a model stands alone on a plain: it is the same wherever it stands
+  alignas(16) const std::array<float, 13> plain_corners{-50, -50, 0, 50, -50, 0, 50, 50, 0, -50, 50, 0, 0};
+  const std::array<std::uint32_t, 6> plain_triangles{0, 1, 2, 0, 2, 3};
+  const RTCGeometry plain = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
+  rtcSetSharedGeometryBuffer(plain, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, plain_corners.data(), 0, 12, 4);
+  rtcSetSharedGeometryBuffer(plain, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, plain_triangles.data(), 0, 12, 2);
+  rtcCommitGeometry(plain);
+  for (std::size_t i = 0; i < prototypes_.size(); ++i) {
+    const ScenePointer alone(rtcNewScene(device_.get()));
+    rtcAttachGeometryByID(alone.get(), plain, 0);
+    const RTCGeometry geometry = instance({static_cast<std::uint32_t>(i), Eigen::Affine3f::Identity(), {}, kToAll}, 1);
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometryByID(alone.get(), geometry, 1);
+    rtcReleaseGeometry(geometry);
+    rtcCommitScene(alone.get());
+    set_ambient_light(scene_->models[i], prototypes_[i].first_surface, ambient_light(alone.get(), scene_->models[i]));
+  }
+  rtcReleaseGeometry(plain);
+}
+
+void TracedScene::set_ambient_light(const Mesh& mesh, const std::array<std::uint32_t, 2>& first_surface,
+                                    const std::vector<std::uint8_t>& light) {
+  auto next = first_surface;
+  for (const auto& triangle : mesh.triangles) {
+    const bool has_holes = scene_->palette->materials()[triangle.material].has_holes;
+    auto& surface = surfaces_[next[has_holes ? 1 : 0]++];
+    surface.material_occlusion = triangle.material;
+    for (std::size_t corner = 0; corner < 3; ++corner) {
+      surface.material_occlusion |= static_cast<std::uint32_t>(light[triangle.corners[corner]]) << (8 * corner + 8);
+    }
+  }
+}
 
 std::array<std::uint32_t, 2> TracedScene::add_mesh(const Mesh& mesh, RTCScene scene, std::uint32_t first_geometry) {
   const auto& materials = scene_->palette->materials();
