@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "furniture_planner.hpp"
+
+namespace panvo::simulation {
+
+void build_furniture(const Site& site, const std::vector<Plot>& plots, Scene& scene) {
+  const FurnitureModels models = build_furniture_models(*site.palette, site.parameters.seed, scene);
+  FurniturePlanner planner(site, plots, models, scene);
+  // what has the least choice of places comes first
+  planner.furnish_open_plots();
+  planner.furnish_kerbs();
+  planner.edge_gardens();
+  planner.plant_rows();
+  planner.plant_at_walls();
+  planner.scatter_trees();
+}
+
+}  // namespace panvo::simulation

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <map>
+#include <vector>
+
+#include "furniture_models.hpp"
+#include "plants.hpp"
+#include "plots.hpp"
+
+namespace panvo::simulation {
+
+/// Indices into Scene::models.
+struct FurnitureModels {
+  std::vector<std::uint32_t> street_trees, lawn_trees, conifers, shrubs, flower_beds, hedges, low_hedges, fences, cars,
+      vans, signs, stop_signs;
+  std::uint32_t lamp = 0, lantern = 0, litter_bin = 0, wheelie_bin = 0, bench = 0, bollard = 0, hydrant = 0,
+                cabinet = 0, bicycles = 0, notice_board = 0;
+};
+FurnitureModels build_furniture_models(const Palette& palette, std::uint64_t seed, Scene& scene);
+
+/// Decides what stands where, and puts it there.
+class FurniturePlanner {
+ public:
+  FurniturePlanner(const Site& site, const std::vector<Plot>& plots, const FurnitureModels& models, Scene& scene);
+
+  void furnish_open_plots();  ///< car parks, plazas and groves
+  void furnish_kerbs();       ///< lamps, signs, bins, parked cars
+  void edge_gardens();        ///< hedges, fences and walls before the buildings
+  void plant_rows();          ///< trees along roads
+  void plant_at_walls();      ///< shrubs and flowers
+  void scatter_trees();       ///< on lawns, and a belt about the campus
+
+ private:
+  /// Whether a thing of that radius (m) finds room: off the road, off buildings, clear of what stands there already.
+  bool has_room(const Eigen::Vector2d& point, double radius_m, double least_from_kerb_m) const;
+  void occupy(const Eigen::Vector2d& point, double radius_m);
+  /// Stands a model there, its x axis along `heading_rad`.
+  void stand(std::uint32_t model, const Eigen::Vector2d& point, double heading_rad, double scale = 1.0, Tint tint = {});
+  /// As stand() if there is room, and keeps it.
+  bool try_to_stand(std::uint32_t model, const Eigen::Vector2d& point, double heading_rad, double radius_m,
+                    double least_from_kerb_m, double scale = 1.0, Tint tint = {});
+  void plant(const std::vector<std::uint32_t>& kinds, const Eigen::Vector2d& point, double least_from_kerb_m,
+             double spacing_m, Random& random);
+  void park_car(const Eigen::Vector2d& point, double heading_rad, Random& random);
+  void park_along(int road, bool is_left, double length_m, Random& random);
+  void furnish_car_park(const PlannedPlot& planned, Random& random);
+  void furnish_plaza(const PlannedPlot& planned, Random& random);
+  void furnish_grove(const PlannedPlot& planned, Random& random);
+  /// Covers a plot with a surface a little above the ground.
+  void pave(const Plot& plot, std::uint16_t material, Tint tint);
+
+  struct Disc {
+    Eigen::Vector2d centre;
+    double radius_m;
+  };
+  using Cell = std::pair<int, int>;
+  static Cell cell_of(const Eigen::Vector2d& point);
+
+  const Site& site_;
+  const std::vector<Plot>& plots_;
+  std::vector<PlannedPlot> planned_;
+  const FurnitureModels& models_;
+  Scene& scene_;
+  Random random_;
+  std::map<Cell, std::vector<Disc>> taken_;
+};
+
+}  // namespace panvo::simulation
