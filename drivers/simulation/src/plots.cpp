@@ -196,4 +196,6 @@ bool overlap(const Plot& first, const Plot& second, double margin_m) {
   return true;
 }
 
+std::vector<PlannedPlot> plan_plots(const Site& site) { return Planner(site).plan(); }
+
 }  // namespace panvo::simulation
