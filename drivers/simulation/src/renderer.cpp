@@ -270,6 +270,7 @@ cv::Mat Renderer::render(const CameraRays& rays, const Shot& shot, const Light& 
   tables.sun = to_array(light.sun);
   tables.sky = to_array(light.sky);
   tables.ground = to_array(light.ground);
+  tables.haze = to_array(haze(light));
   tables.haze_per_m = light.haze_per_m;
   tables.texture_taps = std::clamp(quality.texture_taps, 1, 16);
   const Eigen::Vector3d moved =

@@ -46,7 +46,7 @@ struct ShadingTables {
   const std::uint32_t* texels = nullptr;
   std::uint32_t first_moving_object = 0;
   const float* environment = nullptr;  ///< octahedral map: red, green, blue planes
-  std::array<float, 3> to_sun{}, sun{}, sky{}, ground{};
+  std::array<float, 3> to_sun{}, sun{}, sky{}, ground{}, haze{};
   float haze_per_m = 0.0f;
   std::array<float, 3> camera_motion{};    ///< while the shutter is open, m
   std::array<float, 9> camera_rotation{};  ///< what a direction in the world gains meanwhile, row by row

@@ -313,8 +313,7 @@ void shade_packet(const ShadingTables& tables, const TracedPacket& traced, Shade
     sun = (1.0f - mirrored) * sun;
   }
   const Float clear = rough_exp2(maximum(distance * (-1.442695f * tables.haze_per_m), all(-100.0f)));
-  const Vector3 level{direction.x, direction.y, all(0.06f)};
-  base = clear * base + (1.0f - clear) * seen_in_mirror(tables, level);
+  base = clear * base + (1.0f - clear) * all(tables.haze);
   sun = clear * sun;
 
   store3(shaded.base, base);

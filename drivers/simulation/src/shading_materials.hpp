@@ -31,7 +31,7 @@ class ShadingMaterials {
   std::vector<std::uint32_t> texels_;  // of all textures and levels: red in the low byte
 };
 
-/// What reflecting things and the haze take from the sky: a coarse octahedral map, made anew when the light changes.
+/// What shiny things mirror of the sky: a coarse octahedral map, made anew when the light changes.
 class Environment {
  public:
   explicit Environment(const Sky& sky) : sky_(&sky) {}
