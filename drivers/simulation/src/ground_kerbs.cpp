@@ -28,7 +28,7 @@ std::vector<Eigen::Vector2d> evenly(const std::vector<Eigen::Vector2d>& line, do
 
 // A stone's outline from the road's side over its top, across the kerb: {outwards, up} m.
 constexpr std::array<std::array<double, 2>, 4> kProfile{
-    {{0.0, -0.03}, {0.008, 0.095}, {0.03, 0.122}, {kKerbStoneWidth_m + 0.01, 0.124}}};
+    {{0.0, -0.03}, {0.008, 0.097}, {0.03, 0.124}, {kKerbStoneWidth_m + 0.01, 0.126}}};
 
 }  // namespace
 
@@ -47,7 +47,7 @@ Mesh kerb_stones(const Site& site, const GroundPaint& paint) {
       const Eigen::Vector2d& end = is_straight ? over : next;
       i += is_straight ? 2 : 1;
       // not laid quite true
-      const double sunk_m = random.uniform(-0.004, 0.002), out_m = random.uniform(-0.004, 0.004);
+      const double sunk_m = random.uniform(-0.003, 0.002), out_m = random.uniform(-0.004, 0.004);
       const float shade = static_cast<float>(random.uniform(0.78, 1.0));
       const float length_m = static_cast<float>((end - start).norm());
       for (std::size_t k = 0; k + 1 < kProfile.size(); ++k) {

@@ -55,11 +55,11 @@ Tint GroundPaint::tint(const Eigen::Vector2d& point, const Eigen::Vector3f& colo
   return {byte(colour.x()), byte(colour.y()), byte(colour.z()), byte(contrast * (1.0 - 0.9 * site_.weakness(point)))};
 }
 
-Tint GroundPaint::carriageway(const Eigen::Vector2d& point, double kerb_m, const GroundZones::Place& place,
+Tint GroundPaint::carriageway(const Eigen::Vector2d& point, double kerb_m, double into_street_m,
                               const Zone& zone) const {
   const double strength = 1.0 - site_.weakness(point);
-  const double lanes = std::clamp(place.into_street_m / 12.0, 0.0, 1.0) * zone.wear;
-  const double tracks = lanes * wear_at(kerb_m) * (0.07 + 0.03 * medium_.at(point));
+  const double lanes = std::clamp(into_street_m / 8.0, 0.0, 1.0) * zone.wear;
+  const double tracks = lanes * wear_at(kerb_m) * (0.11 + 0.05 * medium_.at(point));
   // dirt gathers against the kerb, more in some places
   const double gutter =
       std::clamp(1.0 + kerb_m / 0.7, 0.0, 1.0) * (0.2 + 0.12 * fine_.at(point) + 0.12 * dirt_.at(point));

@@ -15,9 +15,8 @@ class GroundPaint {
  public:
   explicit GroundPaint(const Site& site);
 
-  /// Of the carriageway, `kerb_m` from the kerb (negative), in a zone.
-  Tint carriageway(const Eigen::Vector2d& point, double kerb_m, const GroundZones::Place& place,
-                   const Zone& zone) const;
+  /// Of the carriageway, `kerb_m` from the kerb (negative) and so far into the street, in a zone.
+  Tint carriageway(const Eigen::Vector2d& point, double kerb_m, double into_street_m, const Zone& zone) const;
   /// Of a band beside it.
   Tint beside(const Eigen::Vector2d& point, double kerb_m, const Eigen::Vector3f& tint) const;
   Tint grass(const Eigen::Vector2d& point, double kerb_m) const;

@@ -41,16 +41,16 @@ class RoadMender {
   /// A crack, or a joint, filled with tar, from `start` on, until it meets a kerb or is `length_m` long.
   void crack(const Eigen::Vector2d& start, double heading_rad, double length_m, double waver_rad, double width_m,
              Random random, int branches) {
-    constexpr double kStep_m = 0.3;
+    constexpr double kStep_m = 0.16;
     std::vector<Eigen::Vector2d> line{start};
     double heading = heading_rad;
     for (double m = 0.0; m < length_m; m += kStep_m) {
       // wanders, and comes back to its course
-      heading += waver_rad * random.gaussian() - 0.25 * std::remainder(heading - heading_rad, 2.0 * kPi);
+      heading += waver_rad * random.gaussian() - 0.15 * std::remainder(heading - heading_rad, 2.0 * kPi);
       const Eigen::Vector2d next = line.back() + kStep_m * Eigen::Vector2d(std::cos(heading), std::sin(heading));
       if (site_.kerbs->distance_m(next) > -0.1 || is_bare(site_, next)) break;
       line.push_back(next);
-      if (branches > 0 && random.chance(0.04)) {
+      if (branches > 0 && random.chance(0.025)) {
         --branches;
         crack(next, heading + (random.chance(0.5) ? 0.9 : -0.9), random.uniform(0.6, 2.5), waver_rad, 0.8 * width_m,
               random.part(static_cast<std::uint64_t>(branches)), 0);
@@ -139,8 +139,8 @@ void mend_road(const Site& site, const GroundZones& zones, int number, RoadMende
     const double way = heading(along_m) + (is_across            ? (side_m < 0.0 ? 0.5 : -0.5) * kPi
                                            : random.chance(0.5) ? 0.0
                                                                 : kPi);
-    mender.crack(line.beside(along_m, side_m), way, random.uniform(1.5, is_across ? 6.5 : 12.0), 0.22,
-                 random.uniform(0.035, 0.07), random.part(1000 + static_cast<std::uint64_t>(i)), 3);
+    mender.crack(line.beside(along_m, side_m), way, random.uniform(1.5, is_across ? 6.5 : 12.0), 0.26,
+                 random.uniform(0.025, 0.055), random.part(1000 + static_cast<std::uint64_t>(i)), 3);
   }
   // the joint between the two lanes' asphalt, sealed here and there
   if (random.chance(0.6)) {
@@ -155,7 +155,7 @@ void mend_road(const Site& site, const GroundZones& zones, int number, RoadMende
 
 void mend_crossing(const Site& site, const GroundZones& zones, int number, RoadMender& mender, Random random) {
   const Junction& junction = site.roads.junctions[static_cast<std::size_t>(number)];
-  const double damage = zones.zone(zones.at(junction.position).zone).damage;
+  const double damage = zones.zone(zones.at(junction.position).crossing).damage;
   const int things = static_cast<int>(std::lround(damage * random.uniform(4.0, 9.0)));
   for (int i = 0; i < things; ++i) {
     const Eigen::Vector2d point =
@@ -170,7 +170,7 @@ void mend_crossing(const Site& site, const GroundZones& zones, int number, RoadM
     if (random.chance(0.6)) {
       mender.fill(where, i % 5, random.part(static_cast<std::uint64_t>(i)));
     } else {
-      mender.crack(point, random.uniform(-kPi, kPi), random.uniform(3.0, 10.0), 0.2, random.uniform(0.035, 0.07),
+      mender.crack(point, random.uniform(-kPi, kPi), random.uniform(3.0, 10.0), 0.2, random.uniform(0.025, 0.055),
                    random.part(static_cast<std::uint64_t>(i)), 3);
     }
   }

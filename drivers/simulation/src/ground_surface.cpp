@@ -16,13 +16,13 @@ namespace {
 constexpr double kStepUp_m = 0.08;  // from the kerb: under its stones
 constexpr double kGutter_m = -0.3;
 // lines along the carriageway at which its tint bends
-constexpr std::array kCarriagewayLines_m{-3.0, -2.3, -1.6, -0.9, kGutter_m, kStepUp_m};
+constexpr std::array kCarriagewayLines_m{-3.0, -2.3, -1.6, -0.9, kGutter_m};
 constexpr double kStreetNear_m = 8.0;  // no street's bands reach farther from the kerb
 
-// A corner of a piece of ground, with the two distances that it is cut at.
+// A corner of a piece of ground, with the distances that it is cut at.
 struct Corner {
   Eigen::Vector2d point;
-  double kerb_m, into_street_m;
+  double kerb_m, into_street_m, off_crossing_m;
 };
 using Piece = std::vector<Corner>;
 
@@ -45,8 +45,11 @@ class Surface {
     const GroundGrid grid = make_grid();
     corners_.reserve(grid.points.size());
     for (const Eigen::Vector2d& point : grid.points) {
-      corners_.push_back({point, site_.kerbs->distance_m(point), 0.0});
-      if (corners_.back().kerb_m < kStreetNear_m) corners_.back().into_street_m = zones_.at(point).into_street_m;
+      corners_.push_back({point, site_.kerbs->distance_m(point), 0.0, 0.0});
+      if (corners_.back().kerb_m >= kStreetNear_m) continue;
+      const GroundZones::Place place = zones_.at(point);
+      corners_.back().into_street_m = place.into_street_m;
+      corners_.back().off_crossing_m = place.off_crossing_m;
     }
     mesh_.triangles.reserve(2 * grid.triangles.size());
     mesh_.vertices.reserve(grid.points.size());
@@ -105,7 +108,8 @@ class Surface {
       if (std::isfinite(better)) share = std::clamp(better, 0.0, 1.0);
     }
     Corner crossing{a.point + share * (b.point - a.point), a.kerb_m + share * (b.kerb_m - a.kerb_m),
-                    a.into_street_m + share * (b.into_street_m - a.into_street_m)};
+                    a.into_street_m + share * (b.into_street_m - a.into_street_m),
+                    a.off_crossing_m + share * (b.off_crossing_m - a.off_crossing_m)};
     crossing.*value = at;
     return crossing;
   }
@@ -117,68 +121,61 @@ class Surface {
       add_land(triangle);
       return;
     }
-    const bool is_street = triangle[0].into_street_m >= 0.0;
-    const bool is_mixed = std::any_of(triangle.begin(), triangle.end(),
-                                      [&](const Corner& corner) { return (corner.into_street_m >= 0.0) != is_street; });
-    if (!is_mixed) {
-      add_zoned(triangle);
-      return;
+    const auto [road, beside] = split(triangle, &Corner::kerb_m, kStepUp_m);
+    for (const Piece& part : split(road, &Corner::into_street_m, 0.0)) {
+      if (!part.empty()) add_carriageway(part);
     }
-    for (const Piece& part : cut(triangle, &Corner::into_street_m, 0.0)) {
-      if (!part.empty()) add_zoned(part);
+    for (const Piece& part : split(beside, &Corner::off_crossing_m, 0.0)) {
+      if (!part.empty()) add_beside(part);
     }
   }
 
   void add_land(const Piece& piece) {
-    const auto is_far = [](const Corner& corner) { return corner.kerb_m > GroundPaint::kFieldsBegin_m; };
-    const bool is_field = std::all_of(piece.begin(), piece.end(), is_far);
-    if (!is_field && std::any_of(piece.begin(), piece.end(), is_far)) {
-      const std::array<Piece, 2> parts = cut(piece, &Corner::kerb_m, GroundPaint::kFieldsBegin_m);
-      if (!parts[0].empty()) emit_grass(parts[0], false);
-      if (!parts[1].empty()) emit_grass(parts[1], true);
-    } else {
-      emit_grass(piece, is_field);
-    }
+    const auto [near, far] = split(piece, &Corner::kerb_m, GroundPaint::kFieldsBegin_m);
+    if (!near.empty()) emit_grass(near, false);
+    if (!far.empty()) emit_grass(far, true);
   }
 
-  void add_zoned(const Piece& piece) {
+  GroundZones::Place place_of(const Piece& piece) const {
     Eigen::Vector2d middle = Eigen::Vector2d::Zero();
-    double into_street_m = 0.0;
-    for (const Corner& corner : piece) {
-      middle += corner.point / static_cast<double>(piece.size());
-      into_street_m += corner.into_street_m;
-    }
-    GroundZones::Place place = zones_.at(middle);
-    const Zone& zone = zones_.zone(place.zone);
+    for (const Corner& corner : piece) middle += corner.point / static_cast<double>(piece.size());
+    return zones_.at(middle);
+  }
+
+  void add_carriageway(const Piece& piece) {
+    const GroundZones::Place place = place_of(piece);
+    const int zone = place.into_street_m < 0.0 ? place.crossing : place.street;
     Piece rest = piece;
-    double from_m = -1e9;
-    // the carriageway, then the bands beside it, then grass
     for (const double line_m : kCarriagewayLines_m) {
-      const auto [inner, outer] = split(rest, line_m);
-      if (!inner.empty()) emit_carriageway(inner, place, zone, from_m >= kGutter_m);
+      const auto [inner, outer] = split(rest, &Corner::kerb_m, line_m);
+      if (!inner.empty()) emit_carriageway(inner, place, zone, line_m > kGutter_m);
       rest = outer;
-      from_m = line_m;
-      if (rest.empty()) return;
     }
-    for (const Band& band : zone.beside) {
-      const auto [inner, outer] = split(rest, band.to_m);
+    if (!rest.empty()) emit_carriageway(rest, place, zone, true);
+  }
+
+  void add_beside(const Piece& piece) {
+    const GroundZones::Place place = place_of(piece);
+    const int zone = place.off_crossing_m < 0.0 ? place.crossing : place.street;
+    Piece rest = piece;
+    for (const Band& band : zones_.zone(zone).beside) {
+      const auto [inner, outer] = split(rest, &Corner::kerb_m, band.to_m);
       if (!inner.empty()) emit_beside(inner, place, zone, band);
       rest = outer;
-      if (rest.empty()) return;
     }
-    emit_grass(rest, false);
+    if (!rest.empty()) emit_grass(rest, false);
   }
 
-  std::array<Piece, 2> split(const Piece& piece, double line_m) const {
-    const auto is_below = [&](const Corner& corner) { return corner.kerb_m < line_m; };
+  std::array<Piece, 2> split(const Piece& piece, double Corner::*value, double at) const {
+    const auto is_below = [&](const Corner& corner) { return corner.*value < at; };
     if (std::all_of(piece.begin(), piece.end(), is_below)) return {piece, {}};
     if (std::none_of(piece.begin(), piece.end(), is_below)) return {Piece{}, piece};
-    return cut(piece, &Corner::kerb_m, line_m);
+    return cut(piece, value, at);
   }
 
-  Chart chart_of(const GroundZones::Place& place, const Zone& zone, bool follows_road) const {
+  Chart chart_of(const GroundZones::Place& place, int zone, bool follows_road) const {
     if (!follows_road) return {};
-    return zone.junction >= 0 ? Chart{-1, place.zone} : Chart{place.nearest.road, -1};
+    return zones_.zone(zone).junction >= 0 ? Chart{-1, zone} : Chart{place.nearest.road, -1};
   }
 
   Eigen::Vector2f uv(const Eigen::Vector2d& point, const Chart& chart, const RoadNetwork::Nearest& nearest) const {
@@ -193,21 +190,20 @@ class Surface {
     return point.cast<float>();
   }
 
-  void emit_carriageway(const Piece& piece, const GroundZones::Place& place, const Zone& zone, bool is_gutter) {
-    const Chart chart = chart_of(place, zone, is_gutter && zone.has_gutter);
+  void emit_carriageway(const Piece& piece, const GroundZones::Place& place, int number, bool is_gutter) {
+    const Zone& zone = zones_.zone(number);
+    const Chart chart = chart_of(place, number, is_gutter && zone.has_gutter);
     const std::uint16_t material = is_gutter ? zone.gutter : zone.asphalt;
-    emit(piece, material, layer(material, chart, place.zone), [&](const Corner& corner) {
-      GroundZones::Place here = place;
-      here.into_street_m = corner.into_street_m;
+    emit(piece, material, layer(material, chart, number), [&](const Corner& corner) {
       return vertex(corner, 0.0, uv(corner.point, chart, site_.kerbs->nearest_road(corner.point)),
-                    paint_.carriageway(corner.point, corner.kerb_m, here, zone));
+                    paint_.carriageway(corner.point, corner.kerb_m, corner.into_street_m, zone));
     });
   }
 
-  void emit_beside(const Piece& piece, const GroundZones::Place& place, const Zone& zone, const Band& band) {
+  void emit_beside(const Piece& piece, const GroundZones::Place& place, int zone, const Band& band) {
     const Chart chart = chart_of(place, zone, band.follows_road);
     const bool is_grass = band.material == grass_;
-    emit(piece, band.material, layer(band.material, chart, is_grass ? -1 : place.zone), [&](const Corner& corner) {
+    emit(piece, band.material, layer(band.material, chart, is_grass ? -1 : zone), [&](const Corner& corner) {
       return vertex(
           corner, kKerbHeight_m, uv(corner.point, chart, site_.kerbs->nearest_road(corner.point)),
           is_grass ? paint_.grass(corner.point, corner.kerb_m) : paint_.beside(corner.point, corner.kerb_m, band.tint));

@@ -71,7 +71,7 @@ Zone street_zone(const Site& site, int road, const Random& all) {
   Zone zone;
   zone.road = road;
   zone.asphalt = palette.find("asphalt");
-  zone.asphalt_tint = grey(random.uniform(0.66, 1.0), random.uniform(-0.015, 0.03));
+  zone.asphalt_tint = grey(random.uniform(0.78, 1.0), random.uniform(-0.015, 0.03));
   zone.wear = static_cast<float>(random.uniform(-1.0, 1.0));
   zone.damage = static_cast<float>(random.uniform(0.15, 1.0));
   zone.has_gutter = random.chance(0.55);
@@ -96,7 +96,7 @@ Zone crossing_zone(const Site& site, int junction, const Random& all) {
   Zone zone;
   zone.junction = junction;
   zone.asphalt = palette.find(is_weak ? "asphalt_smooth" : "asphalt");
-  zone.asphalt_tint = grey(random.uniform(0.7, 1.0), random.uniform(-0.01, 0.02));
+  zone.asphalt_tint = grey(random.uniform(0.8, 1.0), random.uniform(-0.01, 0.02));
   zone.damage = is_weak ? 0.0f : static_cast<float>(random.uniform(0.2, 1.0));
   zone.gutter = zone.asphalt;
   zone.beside = is_weak ? std::vector<Band>{{2.2, palette.find("asphalt_smooth"), false, grey(0.95)}}
@@ -168,10 +168,17 @@ GroundZones::Place GroundZones::at(const Eigen::Vector2d& point) const {
   const double after_m = place.nearest.along_m - reach_m_[road][0],
                before_m = reach_m_[road][1] - place.nearest.along_m;
   place.into_street_m = std::min(after_m, before_m);
+  place.street = street_of_[road];
   const Road& here = site_.roads.roads[road];
-  place.zone = place.into_street_m >= 0.0
-                   ? street_of_[road]
-                   : crossing_of_[static_cast<std::size_t>(after_m < before_m ? here.from : here.to)];
+  const bool is_at_start = after_m < before_m;
+  const auto junction = static_cast<std::size_t>(is_at_start ? here.from : here.to);
+  place.crossing = crossing_of_[junction];
+  place.off_crossing_m = place.into_street_m;
+  if (place.crossing >= 0) {
+    const double reach_m =
+        is_at_start ? reach_m_[road][0] : site_.kerbs->length_m(place.nearest.road) - reach_m_[road][1];
+    place.off_crossing_m = (point - site_.roads.junctions[junction].position).norm() - reach_m;
+  }
   return place;
 }
 

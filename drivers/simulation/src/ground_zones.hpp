@@ -41,8 +41,10 @@ class GroundZones {
   explicit GroundZones(const Site& site);
 
   struct Place {
-    int zone = 0;
-    double into_street_m = 0.0;  ///< from where the crossing ends; negative on the crossing
+    int street = 0, crossing = -1;  ///< zones: of the nearest road and of its nearer end
+    double into_street_m = 0.0;     ///< along the road from where the crossing ends; negative on the crossing
+    /// The same beside the road, by the distance from the crossing's middle: even where two roads are equally near.
+    double off_crossing_m = 0.0;
     RoadNetwork::Nearest nearest;
   };
   Place at(const Eigen::Vector2d& point) const;
