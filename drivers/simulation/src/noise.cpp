@@ -33,6 +33,29 @@ cv::Mat1f unscaled_smooth_noise(int size, cv::Size cells, Random random) {
   return result;
 }
 
+/// Twice as large, around the borders.
+cv::Mat1f enlarged(const cv::Mat1f& picture) {
+  cv::Mat1f padded;
+  cv::copyMakeBorder(picture, padded, 1, 1, 1, 1, cv::BORDER_WRAP);
+  cv::resize(padded, padded, {}, 2.0, 2.0, cv::INTER_LINEAR);
+  return padded(cv::Rect(2, 2, 2 * picture.cols, 2 * picture.rows));
+}
+
+/// The sum of octaves, not yet scaled. Those that are smooth at half the size are made there: it saves most of the time.
+cv::Mat1f octaves_from(int first, int octaves, int size, cv::Size cells, float gain, const Random& random) {
+  int coarse = first;
+  while (coarse < octaves && std::max(cells.width, cells.height) << coarse <= size / 8) ++coarse;
+  const bool halves = coarse > first && size >= 128 && size % 2 == 0;
+  cv::Mat1f sum = halves ? enlarged(octaves_from(first, coarse, size / 2, cells, gain, random)).clone()
+                         : cv::Mat1f(cv::Mat1f::zeros(size, size));
+  for (int octave = halves ? coarse : first; octave < octaves; ++octave) {
+    const cv::Size lattice(cells.width << octave, cells.height << octave);
+    if (octave > 0 && std::min(lattice.width, lattice.height) > size) break;
+    sum += std::pow(gain, static_cast<float>(octave)) * unscaled_smooth_noise(size, lattice, random.part(octave));
+  }
+  return sum;
+}
+
 }  // namespace
 
 cv::Mat1f white_noise(int size, Random random) {
@@ -48,14 +71,7 @@ cv::Mat1f smooth_noise(int size, cv::Size cells, Random random) {
 }
 
 cv::Mat1f fractal_noise(int size, cv::Size cells, int octaves, float gain, Random random) {
-  cv::Mat1f sum = cv::Mat1f::zeros(size, size);
-  float weight = 1.0f;
-  for (int octave = 0; octave < octaves; ++octave) {
-    sum += weight * unscaled_smooth_noise(size, cells, random.part(octave));
-    cells = cells * 2;
-    weight *= gain;
-    if (std::min(cells.width, cells.height) > size) break;
-  }
+  cv::Mat1f sum = octaves_from(0, octaves, size, cells, gain, random);
   standardise(sum);
   return sum;
 }

@@ -66,6 +66,26 @@ void add_relief(cv::Mat3f& picture, const cv::Mat1f& height, float reach_px, flo
   }
 }
 
+void flatten(cv::Mat3f& picture, float share) {
+  constexpr int kCoarse = 32;
+  cv::Mat3f coarse;
+  cv::resize(picture, coarse, {kCoarse, kCoarse}, 0.0, 0.0, cv::INTER_AREA);
+  const cv::Scalar mean = cv::mean(coarse);
+  cv::copyMakeBorder(coarse, coarse, 8, 8, 8, 8, cv::BORDER_WRAP);
+  cv::GaussianBlur(coarse, coarse, {9, 9}, 1.6);
+  const int scale = picture.cols / kCoarse;
+  cv::resize(coarse, coarse, {}, scale, scale, cv::INTER_CUBIC);
+  const cv::Mat3f uneven = coarse(cv::Rect(8 * scale, 8 * scale, picture.cols, picture.rows));
+  for (int row = 0; row < picture.rows; ++row) {
+    for (int column = 0; column < picture.cols; ++column) {
+      for (int channel = 0; channel < 3; ++channel) {
+        const float there = uneven(row, column)[channel] / static_cast<float>(mean[channel]);
+        picture(row, column)[channel] /= 1.0f + share * (there - 1.0f);
+      }
+    }
+  }
+}
+
 std::vector<cv::Point> tiling_offsets(const cv::Rect& box, int size) {
   std::vector<cv::Point> offsets;
   for (int y = -size; y <= size; y += size) {

@@ -33,6 +33,9 @@ std::vector<cv::Point2f> wandering_line(cv::Point2f start, float direction_rad, 
 /// Draws a line of corners with that value around the borders.
 void draw_line(cv::Mat1f& picture, const std::vector<cv::Point2f>& line, float value, float width_px);
 
+/// Takes `share` of what is uneven over more than a tenth of the picture out of it: the eye finds a period by that.
+void flatten(cv::Mat3f& picture, float share);
+
 // Ground
 cv::Mat3f paint_asphalt(float mm_per_px, const Colour& stone, const Colour& binder, float contrast, Random random);
 cv::Mat1f paint_road_wear(float amount, Random random);

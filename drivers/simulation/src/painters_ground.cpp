@@ -36,9 +36,9 @@ cv::Mat3f paint_asphalt(float mm_per_px, const Colour& stone, const Colour& bind
   // Chippings of two sizes in the binder; which of them show is uneven over decimetres: the road is worn unevenly.
   const Paving large = crazy_paving(kSize, static_cast<int>(width_mm / 15.0f), 0.95f, random.part(0));
   const Paving small = crazy_paving(kSize, static_cast<int>(width_mm / 7.0f), 0.95f, random.part(1));
-  const cv::Mat1f wear = fractal_noise(kSize, {5, 5}, 4, 0.6f, random.part(2));
+  const cv::Mat1f wear = fractal_noise(kSize, {9, 9}, 4, 0.8f, random.part(2));
   const cv::Mat1f sand = white_noise(kSize, random.part(3));
-  const cv::Mat1f blotch = fractal_noise(kSize, {9, 9}, 5, 0.7f, random.part(4));
+  const cv::Mat1f blotch = fractal_noise(kSize, {14, 14}, 5, 0.7f, random.part(4));
   const Random of_large = random.part(5);
   const Random of_small = random.part(6);
   cv::Mat3f picture(kSize, kSize);
@@ -47,13 +47,13 @@ cv::Mat3f paint_asphalt(float mm_per_px, const Colour& stone, const Colour& bind
                             float& brightness) {
     const int number = paving.stone(row, column);
     const float luck = chance_of(chances, number);
-    const float exposed = share + 0.12f * wear(row, column);
+    const float exposed = share + 0.10f * wear(row, column);
     if (luck > exposed) return 0.0f;
     const float shade = chance_of(chances, number, 1);
     // Most chippings are grey like the rest, a few of them pale quartz or black basalt.
-    brightness = shade > 0.9f ? 1.6f + 8.0f * (shade - 0.9f) : 0.55f + 0.95f * shade;
+    brightness = shade > 0.93f ? 1.35f + 9.0f * (shade - 0.93f) : 0.5f + 0.95f * shade;
     brightness *= 1.15f - 0.35f * paving.to_seed(row, column);
-    return smooth_step(0.02f, 0.16f, paving.to_edge(row, column));
+    return smooth_step(0.0f, 0.26f, paving.to_edge(row, column));
   };
   for (int row = 0; row < kSize; ++row) {
     for (int column = 0; column < kSize; ++column) {
@@ -74,6 +74,7 @@ cv::Mat3f paint_asphalt(float mm_per_px, const Colour& stone, const Colour& bind
     }
   }
   add_relief(picture, height, 14.0f / mm_per_px, 0.5f * contrast);
+  flatten(picture, 1.0f);
   return picture;
 }
 
@@ -81,7 +82,7 @@ cv::Mat1f paint_road_wear(float amount, Random random) {
   constexpr int kSize = 1024;
   const cv::Mat1f broad = fractal_noise(kSize, {3, 3}, 6, 0.55f, random.part(0));
   const cv::Mat1f fine = fractal_noise(kSize, {24, 24}, 4, 0.7f, random.part(1));
-  cv::Mat1f deviation = 0.06f * broad + 0.05f * fine;
+  cv::Mat1f deviation = 0.09f * broad + 0.06f * fine;
 
   // Oil and water stains.
   const cv::Mat1f stain = fractal_noise(kSize, {7, 7}, 5, 0.5f, random.part(2));
@@ -208,6 +209,7 @@ cv::Mat3f paint_concrete(const Colour& colour, float grain, Random random) {
                              (1.0f + grain * 1.1f * (sand(row, column) - 0.5f)) * (1.0f - 0.55f * pore);
     }
   }
+  flatten(picture, 0.9f);
   return picture;
 }
 
@@ -271,6 +273,7 @@ cv::Mat3f paint_cobbles(int cells, const Colour& colour, Random random) {
     }
   }
   add_relief(picture, height, 10.0f, 0.5f);
+  flatten(picture, 0.7f);
   return picture;
 }
 
@@ -305,6 +308,7 @@ cv::Mat3f paint_gravel(int cells, const Colour& colour, Random random) {
     }
   }
   add_relief(picture, height, 9.0f, 0.5f);
+  flatten(picture, 0.9f);
   return picture;
 }
 
@@ -353,6 +357,7 @@ cv::Mat3f paint_grass(Random random) {
       cv::line(picture, (root + shifted) * 8.0f, (tip + shifted) * 8.0f, ink, thickness, cv::LINE_8, kShift);
     }
   }
+  flatten(picture, 0.6f);
   return picture;
 }
 
@@ -366,6 +371,7 @@ cv::Mat3f paint_soil(Random random) {
     }
   }
   add_relief(picture, lumps, 8.0f, 0.4f);
+  flatten(picture, 0.8f);
   return picture;
 }
 
@@ -378,7 +384,8 @@ cv::Mat3f paint_marking(Random random) {
   cv::Mat3f picture(kSize, kSize);
   for (int row = 0; row < kSize; ++row) {
     for (int column = 0; column < kSize; ++column) {
-      const float worn = smooth_step(1.35f, 1.75f, flakes(row, column) + 0.55f * areas(row, column));
+      const float tip = 3.5f * (road(row, column)[1] - 0.11f);
+      const float worn = smooth_step(1.5f, 1.9f, flakes(row, column) + 0.4f * areas(row, column) + tip);
       const float dirt = 1.0f - 0.12f * smooth_step(-0.5f, 2.0f, areas(row, column)) - 0.08f * flakes(row, column);
       // The road's grain shows through the thin paint as shading.
       const float grain = 0.75f + 1.6f * road(row, column)[1];
@@ -435,7 +442,8 @@ cv::Mat3f paint_far_land(Random random) {
   constexpr int kSize = 512;
   const cv::Mat1f broad = fractal_noise(kSize, {5, 5}, 7, 0.65f, random.part(0));
   const cv::Mat1f dry = fractal_noise(kSize, {4, 4}, 5, 0.6f, random.part(1));
-  const Paving fields = crazy_paving(kSize, 6, 0.9f, random.part(2));
+  const Paving fields = crazy_paving(kSize, 5, 0.7f, random.part(2));
+  const cv::Mat1f woods = fractal_noise(kSize, {4, 4}, 7, 0.6f, random.part(5));
   const cv::Mat1f sand = white_noise(kSize, random.part(3));
   const Random of_field = random.part(4);
   cv::Mat3f picture(kSize, kSize);
@@ -446,8 +454,11 @@ cv::Mat3f paint_far_land(Random random) {
       const Colour green(0.075f, 0.115f, 0.035f);
       const Colour yellow(0.19f, 0.17f, 0.08f);
       const float hedge = 1.0f - 0.5f * (1.0f - smooth_step(0.01f, 0.03f, fields.to_edge(row, column)));
-      picture(row, column) = (green + (yellow - green) * straw) * hedge * (1.0f + 0.15f * broad(row, column)) *
-                             (0.75f + 0.5f * sand(row, column));
+      const Colour meadow = (green + (yellow - green) * straw) * hedge;
+      const float wooded = smooth_step(0.1f, 0.25f, woods(row, column));
+      const Colour wood = Colour(0.035f, 0.058f, 0.022f) * (0.4f + 1.2f * sand(row, column));
+      picture(row, column) = (meadow * (0.75f + 0.5f * sand(row, column)) + (wood - meadow) * wooded) *
+                             (1.0f + 0.12f * broad(row, column));
     }
   }
   return picture;

@@ -213,21 +213,24 @@ cv::Mat3f paint_flowers(Random random) {
 
 cv::Mat3f paint_bark(const Colour& colour, Random random) {
   constexpr int kSize = 512;
-  const cv::Mat1f bend = 14.0f * fractal_noise(kSize, {6, 6}, 4, 0.6f, random.part(0));
-  const cv::Mat1f none = cv::Mat1f::zeros(kSize, kSize);
-  // Ridges: the folds of a noise stretched upright.
-  const cv::Mat1f plain = fractal_noise(kSize, {22, 5}, 4, 0.6f, random.part(1));
-  const cv::Mat1f ridges = displaced(cv::abs(plain), bend, none);
+  const cv::Mat1f bend_x = 7.0f * fractal_noise(kSize, {5, 7}, 3, 0.5f, random.part(0));
+  const cv::Mat1f bend_y = 10.0f * fractal_noise(kSize, {9, 5}, 2, 0.5f, random.part(4));
+  // Plates of cork, long and upright, between furrows: a paving stretched by half, and fissures across.
+  const Paving plates = crazy_paving(kSize, 17, 0.9f, random.part(1));
+  cv::Mat1f tall;
+  cv::resize(plates.to_edge(cv::Rect(0, 0, kSize, kSize / 2)), tall, {kSize, kSize}, 0.0, 0.0, cv::INTER_LINEAR);
+  const cv::Mat1f fibres = fractal_noise(kSize, {70, 10}, 3, 0.7f, random.part(5));
+  const cv::Mat1f ridges = displaced(tall, bend_x, bend_y);
   const cv::Mat1f broad = fractal_noise(kSize, {5, 5}, 5, 0.6f, random.part(2));
   const cv::Mat1f sand = white_noise(kSize, random.part(3));
   cv::Mat3f picture(kSize, kSize);
   cv::Mat1f height(kSize, kSize);
   for (int row = 0; row < kSize; ++row) {
     for (int column = 0; column < kSize; ++column) {
-      const float ridge = smooth_step(0.0f, 1.0f, ridges(row, column));
+      const float ridge = smooth_step(0.02f, 0.32f, ridges(row, column) + 0.05f * fibres(row, column));
       const float lichen = 0.4f * smooth_step(1.0f, 2.0f, broad(row, column));
-      const Colour wood =
-          colour * (0.3f + 1.0f * ridge) * (0.8f + 0.4f * sand(row, column)) * (1.0f + 0.1f * broad(row, column));
+      const Colour wood = colour * (0.3f + 1.0f * ridge) * (0.8f + 0.4f * sand(row, column)) *
+                          (1.0f + 0.1f * broad(row, column) + 0.15f * fibres(row, column));
       picture(row, column) = wood + (Colour(0.14f, 0.16f, 0.1f) * (0.4f + 0.6f * ridge) - wood) * lichen;
       height(row, column) = ridge;
     }

@@ -87,7 +87,7 @@ cv::Mat3f paint_door(const Colour& colour, Random random) {
     }
   }
   const cv::Mat1f soft = blurred(height, 2.0);
-  add_relief(wood, soft, 9.0f, 0.9f);
+  add_relief(wood, soft, 6.0f, 2.2f);
   return wood;
 }
 
@@ -139,9 +139,9 @@ cv::Mat3f paint_poster(Random random) {
     cv::Mat3f page = picture(cv::Rect(number % kSheets * size + 5, number / kSheets * size + 5, size - 10, size - 10));
     const auto vivid = [&sheet] {
       const auto hue = static_cast<float>(sheet.uniform(0.0, 2.0 * std::numbers::pi));
-      const auto light = static_cast<float>(sheet.uniform(0.08, 0.45));
-      return Colour(light * (1.0f + 0.8f * std::cos(hue)), light * (1.0f + 0.8f * std::cos(hue - 2.09f)),
-                    light * (1.0f + 0.8f * std::cos(hue + 2.09f)));
+      const auto light = static_cast<float>(sheet.uniform(0.05, 0.30));
+      return Colour(light * (1.0f + 0.6f * std::cos(hue)), light * (1.0f + 0.6f * std::cos(hue - 2.09f)),
+                    light * (1.0f + 0.6f * std::cos(hue + 2.09f)));
     };
     const Colour ground = sheet.chance(0.5) ? Colour(0.62f, 0.6f, 0.55f) : vivid();
     page.setTo(ink(ground));

@@ -50,6 +50,7 @@ cv::Mat3f paint_bricks(const Colour& brick, const Colour& mortar, float variety,
     }
   }
   add_relief(picture, height, 5.0f, 0.4f);
+  flatten(picture, 0.5f);
   return picture;
 }
 
@@ -71,6 +72,7 @@ cv::Mat3f paint_plaster(const Colour& colour, float roughness, Random random) {
     }
   }
   add_relief(picture, height, 3.0f, 0.45f * roughness);
+  flatten(picture, 0.9f);
   return picture;
 }
 
@@ -138,6 +140,7 @@ cv::Mat3f paint_rubble(const Colour& colour, Random random) {
     for (int column = 0; column < kSize; ++column) picture(row, column) *= 1.0f + 0.14f * hewn(row, column);
   }
   add_relief(picture, hewn, 6.0f, 0.25f);
+  flatten(picture, 0.6f);
   return picture;
 }
 

@@ -37,7 +37,7 @@ std::vector<Recipe> make_recipes() {
   const auto add = [&recipes](std::string name, float period_m, const Colour& colour, Painter paint,
                               Wear wear = Wear::kNone, float gloss = 0.0f) {
     auto painted = [colour, paint = std::move(paint)](const Random& random) {
-      return encoded_picture(paint(varied(colour, 0.12f, 0.06f, random.part(1000)), random));
+      return encoded_picture(paint(varied(colour, 0.12f, 0.04f, random.part(1000)), random));
     };
     recipes.push_back({std::move(name), period_m, painted, wear, gloss, 0.0f, false});
   };
@@ -241,9 +241,9 @@ cv::Mat read_photograph(const std::filesystem::path& file) {
 }
 
 /// The photographs of the folder by the material's name.
-std::map<std::string, std::filesystem::path> find_photographs(const std::filesystem::path& assets,
-                                                              const std::vector<Recipe>& recipes) {
-  std::map<std::string, std::filesystem::path> photographs;
+std::map<std::string, cv::Mat> read_photographs(const std::filesystem::path& assets,
+                                                const std::vector<Recipe>& recipes) {
+  std::map<std::string, cv::Mat> photographs;
   if (assets.empty()) return photographs;
   if (!std::filesystem::is_directory(assets)) {
     throw std::runtime_error(fmt::format("{}: no such folder of photographs", assets.string()));
@@ -255,7 +255,7 @@ std::map<std::string, std::filesystem::path> find_photographs(const std::filesys
     if (std::ranges::none_of(recipes, [&](const Recipe& recipe) { return recipe.name == name; })) {
       throw std::runtime_error(fmt::format("{}: there is no material named '{}'", file.string(), name));
     }
-    if (!photographs.emplace(name, file).second) {
+    if (!photographs.emplace(name, read_photograph(file)).second) {
       throw std::runtime_error(fmt::format("{}: there is another photograph of '{}'; remove one", file.string(), name));
     }
   }
@@ -266,7 +266,7 @@ std::map<std::string, std::filesystem::path> find_photographs(const std::filesys
 
 Palette::Palette(std::uint64_t seed, const std::filesystem::path& assets) {
   const std::vector<Recipe> recipes = make_recipes();
-  const auto photographs = find_photographs(assets, recipes);
+  const auto photographs = read_photographs(assets, recipes);
   constexpr std::array kWears{Wear::kNone, Wear::kRoad, Wear::kNewRoad, Wear::kGround, Wear::kWall, Wear::kPlaster};
   std::vector<Overlay> overlays(kWears.size());
   materials_.resize(recipes.size());
@@ -281,7 +281,7 @@ Palette::Palette(std::uint64_t seed, const std::filesystem::path& assets) {
     const Recipe& recipe = recipes[job - overlays.size()];
     const auto photograph = photographs.find(recipe.name);
     const cv::Mat picture =
-        photograph != photographs.end() ? read_photograph(photograph->second) : recipe.paint(Random(seed, recipe.name));
+        photograph != photographs.end() ? photograph->second : recipe.paint(Random(seed, recipe.name));
     Material& material = materials_[job - overlays.size()];
     material.name = recipe.name;
     material.albedo = std::make_shared<const Texture>(picture);

@@ -14,7 +14,7 @@ namespace {
 constexpr float kPi = std::numbers::pi_v<float>;
 constexpr float kHighestSun = 56.0f * kPi / 180.0f;  ///< at noon, a summer's day in middle latitudes
 constexpr float kSunRadius = 0.0047f;                ///< rad
-constexpr float kCloudPeriods = 0.30f;               ///< of the cloud plane, per unit of its height
+constexpr float kCloudPeriods = 0.40f;               ///< of the cloud plane, per unit of its height
 constexpr float kCloudCurve = 0.10f;                 ///< keeps the cloud plane finite at the horizon
 constexpr float kHorizonTop = 0.080f;                ///< rad, highest hill
 constexpr float kHorizonBottom = -0.020f;            ///< rad
@@ -26,11 +26,11 @@ Eigen::Array3f mixed(const Eigen::Array3f& from, const Eigen::Array3f& to, float
 /// Clouds on a plane: billows that are dense and grey in the middle, bright and ragged at their borders.
 cv::Mat paint_clouds(const Random& random) {
   constexpr int kSize = 1024;
-  const cv::Mat1f shapes = fractal_noise(kSize, {5, 5}, 8, 0.55f, random.part(0));
+  const cv::Mat1f shapes = fractal_noise(kSize, {5, 5}, 6, 0.5f, random.part(0));
   const cv::Mat1f groups = fractal_noise(kSize, {2, 2}, 3, 0.5f, random.part(1));
-  const cv::Mat1f veil = fractal_noise(kSize, {3, 9}, 7, 0.6f, random.part(2));
+  const cv::Mat1f veil = fractal_noise(kSize, {3, 9}, 5, 0.55f, random.part(2));
   // Folded noise bulges upwards like cumulus does.
-  const cv::Mat1f billow = fractal_noise(kSize, {11, 11}, 6, 0.5f, random.part(3));
+  const cv::Mat1f billow = fractal_noise(kSize, {11, 11}, 5, 0.5f, random.part(3));
   cv::Mat3f picture(kSize, kSize);
   cv::Mat1f density(kSize, kSize);
   for (int row = 0; row < kSize; ++row) {
@@ -42,7 +42,19 @@ cv::Mat paint_clouds(const Random& random) {
       density(row, column) = std::max(thick, wisp);
       const float depth = smooth_step(0.15f, 1.9f, body);
       const float lit = 1.0f - 0.55f * depth + 0.07f * billow(row, column) * thick;
-      picture(row, column) = Colour(lit, lit, lit);
+      picture(row, column)[0] = lit;
+    }
+  }
+  // Green and blue: how the density grows along x and y (v grows as rows fall), from which side the sun lights it.
+  const cv::Mat1f soft = blurred(density, 2.5);
+  for (int row = 0; row < kSize; ++row) {
+    for (int column = 0; column < kSize; ++column) {
+      const int ahead = (column + 6) % kSize;
+      const int back = (column + kSize - 6) % kSize;
+      const int above = (row + kSize - 6) % kSize;
+      const int below = (row + 6) % kSize;
+      picture(row, column)[1] = 0.5f + 0.5f * (soft(row, ahead) - soft(row, back));
+      picture(row, column)[2] = 0.5f + 0.5f * (soft(above, column) - soft(below, column));
     }
   }
   return encoded_picture(picture, density);
@@ -66,9 +78,9 @@ cv::Mat paint_horizon(const Random& random) {
       const float elevation = kHorizonTop - (static_cast<float>(row) + 0.5f) * per_row;
       const auto below = [&](float top) { return smooth_step(-0.6f * per_row, 0.6f * per_row, top - elevation); };
       const float leafy = 1.0f + 0.25f * crowns(row * 6, column);
-      const Colour of_far(0.20f, 0.24f, 0.27f);
-      const Colour of_near = Colour(0.11f, 0.145f, 0.12f) * (1.0f + 0.10f * crowns(row * 5 + 400, column));
-      const Colour of_trees = Colour(0.055f, 0.08f, 0.04f) * leafy;
+      const Colour of_far(0.30f, 0.36f, 0.44f);
+      const Colour of_near = Colour(0.13f, 0.17f, 0.155f) * (1.0f + 0.14f * crowns(row * 5 + 400, column));
+      const Colour of_trees = Colour(0.045f, 0.07f, 0.03f) * leafy;
       Colour colour = of_far;
       colour += (of_near - colour) * below(near);
       colour += (of_trees - colour) * below(trees);
@@ -94,7 +106,7 @@ Light light_at(double hour, double cloud_cover) {
   const Eigen::Array3f depth(0.12f, 0.17f, 0.27f);
   const Eigen::Array3f clear_sun = 0.98f * (-depth * air).exp();
   const Eigen::Array3f scattered = (0.98f - clear_sun) * std::sqrt(up + 0.02f);
-  const Eigen::Array3f clear_sky = 0.04f * std::sqrt(up + 0.01f) + scattered * Eigen::Array3f(0.95f, 0.98f, 1.02f);
+  const Eigen::Array3f clear_sky = 0.04f * std::sqrt(up + 0.01f) + scattered * Eigen::Array3f(1.12f, 1.14f, 1.17f);
   // A cloud lets a third of the light through, to all sides.
   const float all = (clear_sun * up + clear_sky).mean();
   const Eigen::Array3f clouded = 0.5f * all * Eigen::Array3f(0.97f, 1.0f, 1.05f);
@@ -108,7 +120,7 @@ Light light_at(double hour, double cloud_cover) {
 Eigen::Vector3f haze(const Light& light) {
   // A long path of air: whiter and brighter than the sky overhead.
   const float grey = light.sky.mean();
-  return (mixed(light.sky.array(), Eigen::Array3f::Constant(grey), 0.55f) * 1.45f + 0.06f * light.sun.array()).matrix();
+  return (mixed(light.sky.array(), Eigen::Array3f::Constant(grey), 0.45f) * 1.9f + 0.16f * light.sun.array()).matrix();
 }
 
 Sky::Sky(std::uint64_t seed)
@@ -126,7 +138,7 @@ Eigen::Vector3f Sky::radiance(const Eigen::Vector3f& direction, const Light& lig
     // Whitish at the horizon, deeper and bluer overhead.
     const float height = std::min(up, 1.0f);
     const float lower = 1.0f - height;
-    const Eigen::Array3f zenith = sky * Eigen::Array3f(0.62f, 0.76f, 0.98f);
+    const Eigen::Array3f zenith = sky * Eigen::Array3f(0.66f, 0.80f, 0.98f);
     const float fall = lower * lower * lower;
     colour = mixed(zenith, far, fall * (0.35f + 0.65f * lower * lower));
     // Light scattered forward around the sun, wide and narrow.
@@ -143,13 +155,12 @@ Eigen::Vector3f Sky::radiance(const Eigen::Vector3f& direction, const Light& lig
     const float along = across / (height + kCloudCurve);
     const Eigen::Vector2f outwards = direction.head<2>().normalized();
     const Eigen::Vector2f sideways(-outwards.y(), outwards.x());
-    const Eigen::Vector4f cloud = clouds_->sample(uv, outwards * along, sideways * across, 2);
+    const Eigen::Vector4f cloud = clouds_->sample(uv, outwards * along, sideways * across, 1);
     // The side towards the sun is lit, the far one lies in the cloud's own shadow.
-    const Eigen::Vector2f to_sun = light.to_sun.head<2>();
-    const float sunward = clouds_->sample(uv + to_sun * 0.012f, outwards * along, sideways * across, 1).w();
-    const float lit = std::clamp(cloud.x() + 0.45f * (cloud.w() - sunward), 0.25f, 1.15f);
-    const Eigen::Array3f white = light.sun.array() * (0.72f + 0.35f * wide * wide) + sky * 0.9f;
-    const Eigen::Array3f shaded = sky * 1.15f + 0.10f * light.sun.array();
+    const float sunward = (cloud.y() - 0.5f) * light.to_sun.x() + (cloud.z() - 0.5f) * light.to_sun.y();
+    const float lit = std::clamp(cloud.x() - 0.9f * sunward, 0.2f, 1.2f);
+    const Eigen::Array3f white = light.sun.array() * (0.95f + 0.4f * wide * wide) + sky;
+    const Eigen::Array3f shaded = sky * 1.3f + 0.16f * light.sun.array();
     const Eigen::Array3f of_cloud = mixed(shaded, white, std::clamp(1.4f * lit - 0.4f, 0.0f, 1.0f));
     colour = mixed(colour, of_cloud, cloud.w() * std::min(1.0f, 6.0f * height));
 
@@ -171,11 +182,11 @@ Eigen::Vector3f Sky::radiance(const Eigen::Vector3f& direction, const Light& lig
     constexpr float kRange = kHorizonTop - kHorizonBottom;
     const Eigen::Vector2f uv(azimuth, (up - kHorizonBottom) / kRange);
     const Eigen::Vector4f land = horizon_->sample(uv, {spread_rad * 0.5f / kPi, 0.0f}, {0.0f, spread_rad / kRange}, 2);
-    // Half of what one sees of hills some kilometres off is the air before them.
+    // The farther hills are painted pale already; a fifth of all that is so far is the air before it.
     const Eigen::Array3f lit = land.head<3>().array() * (light.sun.array() * 0.5f + sky);
     const float inside = std::min(1.0f, (kHorizonTop - up) / (0.05f * kRange));
     const float lower = up < 0.0f ? 1.0f + up / kHorizonBottom * -1.0f : 1.0f;
-    colour = mixed(colour, mixed(lit, far, 0.42f), land.w() * inside * std::clamp(lower, 0.0f, 1.0f));
+    colour = mixed(colour, mixed(lit, far, 0.22f), land.w() * inside * std::clamp(lower, 0.0f, 1.0f));
   }
   return (colour * std::min(1.0f, day * 1e3f)).matrix();
 }

@@ -6,6 +6,7 @@
 #include <bit>
 #include <cmath>
 #include <opencv2/core/hal/intrin.hpp>
+#include <opencv2/imgproc.hpp>
 #include <stdexcept>
 
 namespace panvo::simulation {
@@ -58,21 +59,47 @@ double coverage(const cv::Mat4f& level, float threshold) {
   return static_cast<double>(covered) / static_cast<double>(level.total());
 }
 
-/// The alpha that as large a share of the level reaches as of the whole picture reaches 0.5: leaves that are averaged
-/// with the gaps between them would else fall below it, and the tree dissolve with distance.
+/// The alpha that as large a share of the level, seen between its texels too, reaches as of the whole picture reaches
+/// 0.5: leaves that are averaged with the gaps between them would else fall below it, and the tree dissolve with
+/// distance [Castano 2010].
 float threshold_of_coverage(const cv::Mat4f& level, double wanted) {
-  float low = 0.02f;
-  float high = 1.0f;
-  for (int step = 0; step < 12; ++step) {
-    const float middle = 0.5f * (low + high);
-    (coverage(level, middle) > wanted ? low : high) = middle;
+  constexpr int kFiner = 4;
+  cv::Mat1f alpha;
+  cv::extractChannel(level, alpha, 3);
+  cv::copyMakeBorder(alpha, alpha, 1, 1, 1, 1, cv::BORDER_WRAP);
+  cv::resize(alpha, alpha, {}, kFiner, kFiner, cv::INTER_LINEAR);
+  std::vector<float> values;
+  for (int row = kFiner; row < alpha.rows - kFiner; ++row) {
+    values.insert(values.end(), alpha[row] + kFiner, alpha[row] + alpha.cols - kFiner);
   }
-  return 0.5f * (low + high);
+  const auto place = values.begin() + static_cast<std::ptrdiff_t>((1.0 - wanted) * static_cast<double>(values.size()));
+  if (place == values.end()) return 1.0f;
+  std::ranges::nth_element(values, place);
+  return std::clamp(*place, 0.02f, 1.0f);
 }
 
 /// Colour and alpha as square roots in 8 bits: as fine as sRGB in the dark, and squaring is all the decoding it takes.
 std::uint8_t encoded(float value) {
-  return static_cast<std::uint8_t>(std::lround(255.0f * std::sqrt(std::clamp(value, 0.0f, 1.0f))));
+  return static_cast<std::uint8_t>(255.0f * std::sqrt(std::clamp(value, 0.0f, 1.0f)) + 0.5f);
+}
+
+/// The bytes of level 0, straight through tables.
+void encode_finest(const cv::Mat& albedo, std::uint8_t* to) {
+  static const auto tables = [] {
+    const std::array<float, 256> linear = make_linear_from_srgb();
+    std::array<std::array<std::uint8_t, 256>, 2> entries{};
+    for (int value = 0; value < 256; ++value) {
+      entries[0][value] = encoded(linear[value]);
+      entries[1][value] = encoded(static_cast<float>(value) / 255.0f);
+    }
+    return entries;
+  }();
+  for (int row = 0; row < albedo.rows; ++row) {
+    const auto* from = albedo.ptr<cv::Vec4b>(row);
+    for (int column = 0; column < albedo.cols; ++column) {
+      for (int channel = 0; channel < 4; ++channel) *to++ = tables[channel / 3][from[column][channel]];
+    }
+  }
 }
 
 /// log2 to 0.01, enough to choose a level of detail.
@@ -133,14 +160,14 @@ Texture::Texture(const cv::Mat& albedo) {
 
   const cv::Scalar total = cv::mean(level);
   mean_ = Eigen::Vector4d(total[0] / total[3], total[1] / total[3], total[2] / total[3], total[3]).cast<float>();
-  for (std::size_t number = 0; number < levels_.size(); ++number) {
-    if (number > 0) level = halved(level);
-    // Below 64 texels the share is too coarse a measure.
-    const bool keeps_coverage = has_holes && number > 0 && level.total() >= 64;
-    const float alpha_scale = keeps_coverage ? 0.5f / threshold_of_coverage(level, wanted) : 1.0f;
+  encode_finest(albedo, texels_.data());
+  for (std::size_t number = 1; number < levels_.size(); ++number) {
+    level = halved(level);
+    const float alpha_scale = has_holes ? 0.5f / threshold_of_coverage(level, wanted) : 1.0f;
     std::uint8_t* to = texels_.data() + levels_[number].offset;
     for (const cv::Vec4f& from : level) {
-      for (int channel = 0; channel < 3; ++channel) *to++ = encoded(from[channel] / from[3]);
+      const float whole = 1.0f / from[3];
+      for (int channel = 0; channel < 3; ++channel) *to++ = encoded(from[channel] * whole);
       *to++ = encoded(from[3] * alpha_scale);
     }
   }
@@ -164,7 +191,9 @@ Eigen::Vector4f Texture::sample(const Eigen::Vector2f& uv, const Eigen::Vector2f
 
   int probes = 1;
   float width = longer;  // squared, of what one probe must cover
-  if (taps > 1 && longer > shorter) {
+  // What spans many periods is the mean, whatever its shape.
+  constexpr float kVeryLong = 1e9f;
+  if (taps > 1 && longer > shorter && longer < kVeryLong) {
     const float ratio = std::sqrt(longer / shorter);
     probes = longer <= 1.0f ? 1 : std::min(taps, static_cast<int>(std::min(ratio, 64.0f) + 0.999f));
     width = std::max(shorter, longer / static_cast<float>(probes * probes));
