@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "footprint.hpp"
+#include "panvo/simulation/random.hpp"
+#include "panvo/simulation/revisits.hpp"
+#include "panvo/simulation/traffic.hpp"
+
+namespace panvo::simulation {
+
+/// Draws movers that the vehicle would meet, one proposal after the other, and keeps those that touch nobody and that
+/// neither appear nor vanish before its eyes.
+class TrafficPlanner {
+ public:
+  TrafficPlanner(const Site& site, const VehicleMotion& motion, const MoverModels& models, std::uint64_t seed);
+
+  void plan();
+
+  std::vector<Mover> movers;
+  std::vector<Traffic::Episode> episodes;
+
+ private:
+  void plan_ahead();
+  void plan_crossing();
+  void plan_oncoming();
+  void plan_road_crossers();
+  void plan_strollers();
+
+  std::optional<Mover> ahead(double near_middle_s, Random random) const;
+  std::optional<Mover> passing(const std::vector<int>& junctions, const Eigen::Vector2d& meeting, double meeting_s,
+                               bool is_van, Random random) const;
+  std::optional<Mover> road_crosser(double t_s, Random random) const;
+  std::optional<Mover> stroller(double t_s, Random random) const;
+
+  Mover vehicle_of(bool is_van, Random& random) const;
+  Mover person(Random& random) const;
+  /// Appends up to `count` junctions to a walk whose last two are given; false at a dead end.
+  void walk_on(std::vector<int>& junctions, int count, Random& random) const;
+  /// Sets from_s, to_s and start_m so that the mover is at `along` at `t_s` and there as long as it is about.
+  bool live(Mover& mover, double along, double t_s) const;
+
+  /// The same for somebody who waits at the path's ends, as people do at corners.
+  void live_waiting(Mover& mover, double along, double t_s) const;
+
+  Footprint own(double t_s) const;
+  Footprint of(const Mover& mover, double t_s) const;
+  bool keeps_clear(const Mover& mover, double of_vehicle_m, double of_movers_m) const;
+  bool accept(const std::optional<Mover>& mover, double of_vehicle_m, double of_movers_m, const char* kind,
+              double episode_m);
+
+  const Site& site_;
+  const VehicleMotion& motion_;
+  const MoverModels& models_;
+  Random random_;
+  std::vector<Footprint> own_;  // every kStep_s
+  std::vector<Visit> visits_;
+};
+
+}  // namespace panvo::simulation
