@@ -20,7 +20,7 @@ class RoadMender {
     old_patch_.material = site.palette->find("asphalt");
     tar_.material = patch_.material;
     tar_.contrast = 0.35;
-    tar_.lift_m = 0.004;
+    tar_.lift_m = 0.003;
   }
 
   /// A filled hole or trench. `layer` counts up: later ones lie on earlier ones.

@@ -27,7 +27,8 @@ class KerbField {
   /// Unit vector along which the distance grows: away from the road.
   Eigen::Vector2d outwards(const Eigen::Vector2d& point) const;
 
-  /// As RoadNetwork::nearest_road, without looking at every road: exact near roads, and within centimetres far off.
+  /// As RoadNetwork::nearest_road, but the road whose edge is nearest, and without looking at every road: exact near
+  /// roads, and within centimetres far off.
   RoadNetwork::Nearest nearest_road(const Eigen::Vector2d& point) const;
 
   /// Length (m) of a road's centre line.
