@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstring>
 #include <map>
 #include <opencv2/core/utility.hpp>
 #include <stdexcept>
@@ -30,6 +31,14 @@ ShadingMaterials::ShadingMaterials(const Palette& palette) {
     if (is_new) found->second = add(texture);
     return found->second;
   };
+  std::size_t texel_count = 0;
+  for (const auto& material : palette.materials()) {
+    for (const auto& texture : {material.albedo, material.overlay}) {
+      if (texture && numbers.try_emplace(texture.get(), 0).second) texel_count += texture->texels().size() / 4;
+    }
+  }
+  texels_.reserve(texel_count);
+  numbers.clear();
   for (const auto& material : palette.materials()) {
     if (!material.albedo) {
       throw std::invalid_argument(fmt::format("renderer: the material {} has no albedo", material.name));
@@ -66,13 +75,12 @@ std::uint32_t ShadingMaterials::add(const Texture& texture) {
     record.offsets[level] = offset;
     offset += 1u << (std::max(record.log2_width, level) - level + std::max(record.log2_height, level) - level);
   }
-  texels_.reserve(offset);
   const auto& bytes = texture.texels();
-  for (std::size_t i = 0; i + 3 < bytes.size(); i += 4) {
-    texels_.push_back(bytes[i] | static_cast<std::uint32_t>(bytes[i + 1]) << 8 |
-                      static_cast<std::uint32_t>(bytes[i + 2]) << 16 | static_cast<std::uint32_t>(bytes[i + 3]) << 24);
-  }
-  if (texels_.size() != offset) throw std::logic_error("renderer: a texture's pyramid is not as it says");
+  const std::size_t first = texels_.size();
+  if (first + bytes.size() / 4 != offset) throw std::logic_error("renderer: a texture's pyramid is not as it says");
+  static_assert(std::endian::native == std::endian::little, "red is the low byte");
+  texels_.resize(offset);
+  std::memcpy(texels_.data() + first, bytes.data(), bytes.size());
   textures_.push_back(record);
   return static_cast<std::uint32_t>(textures_.size() - 1);
 }

@@ -14,7 +14,7 @@ struct CameraRays {
   std::vector<Eigen::Vector3f>
       directions;  ///< row by row: unit, optical frame (x right, y down, z forward); zero: sees nothing
   /// The ray through any place of the image, for samples inside a pixel; (0, 0) is the centre of the first pixel.
-  /// Bilinear between the table's entries: exact to 1e-4 px for the cameras below.
+  /// Bilinear between the table's entries: exact to 1e-3 px for the cameras below.
   Eigen::Vector3f direction(float column, float row) const;
   bool wraps = false;  ///< the last column is the first one's neighbour: a panorama
 };
