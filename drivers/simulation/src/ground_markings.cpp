@@ -98,8 +98,8 @@ class Marker {
   }
 
   // What is painted where a road comes to a crossing at `mouth_m`; `inwards` is the sign of the way into the street.
-  // Cars keep right: those that come to the crossing have it on their left when seen along `inwards`... that is, they
-  // drive on the side of positive inwards * side. Returns where the street's own lines begin.
+  // Cars keep right, so those that come to the crossing drive on the left of the way into the street. Returns where the
+  // street's own lines begin.
   double mark_arm(const Road& road, const RoadLine& line, const Zone& zone, double mouth_m, double inwards,
                   Random random) {
     const double half_m = 0.5 * road.width_m;
@@ -182,10 +182,11 @@ class Marker {
              {x + 0.5 * length_m, y + 0.5 * width_m},
              {x - 0.5 * length_m, y + 0.5 * width_m}});
     };
-    for (const double x : {-1.05, 0.0, 1.05}) bar(x, 0.5, 0.3, x == 0.0 ? 0.5 : 0.64);  // 3
-    bar(0.0, 0.24, 2.4, 0.14);
-    for (const double y : {-0.24, -0.76}) bar(0.0, y, 2.4, 0.14);  // 0
-    for (const double x : {-1.05, 1.05}) bar(x, -0.5, 0.3, 0.38);
+    constexpr double kHalf_m = 1.7;
+    for (const double x : {-kHalf_m + 0.15, 0.0, kHalf_m - 0.15}) bar(x, 0.5, 0.3, 0.4);  // 3
+    bar(0.0, 0.23, 2.0 * kHalf_m, 0.14);
+    for (const double y : {-0.24, -0.76}) bar(0.0, y, 2.0 * kHalf_m, 0.14);  // 0
+    for (const double x : {-kHalf_m + 0.15, kHalf_m - 0.15}) bar(x, -0.5, 0.3, 0.38);
   }
 
   void mark_bays(const RoadLine& line, const std::array<double, 2>& reach, double kerb_m, Random random) {

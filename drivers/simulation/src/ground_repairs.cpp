@@ -140,14 +140,14 @@ void mend_road(const Site& site, const GroundZones& zones, int number, RoadMende
                                            : random.chance(0.5) ? 0.0
                                                                 : kPi);
     mender.crack(line.beside(along_m, side_m), way, random.uniform(1.5, is_across ? 6.5 : 12.0), 0.26,
-                 random.uniform(0.025, 0.055), random.part(1000 + static_cast<std::uint64_t>(i)), 3);
+                 random.uniform(0.02, 0.045), random.part(1000 + static_cast<std::uint64_t>(i)), 3);
   }
   // the joint between the two lanes' asphalt, sealed here and there
   if (random.chance(0.6)) {
     const double joint_m = random.uniform(-0.3, 0.3);
     for (double m = from_m + random.uniform(0.0, 8.0); m < to_m - 3.0; m += random.uniform(6.0, 22.0)) {
       const double piece_m = std::min(random.uniform(3.0, 12.0), to_m - m);
-      mender.crack(line.beside(m, joint_m), heading(m + 0.5 * piece_m), piece_m, 0.04, random.uniform(0.04, 0.07),
+      mender.crack(line.beside(m, joint_m), heading(m + 0.5 * piece_m), piece_m, 0.04, random.uniform(0.025, 0.05),
                    random.part(2000 + static_cast<std::uint64_t>(m)), 0);
     }
   }
@@ -170,7 +170,7 @@ void mend_crossing(const Site& site, const GroundZones& zones, int number, RoadM
     if (random.chance(0.6)) {
       mender.fill(where, i % 5, random.part(static_cast<std::uint64_t>(i)));
     } else {
-      mender.crack(point, random.uniform(-kPi, kPi), random.uniform(3.0, 10.0), 0.2, random.uniform(0.025, 0.055),
+      mender.crack(point, random.uniform(-kPi, kPi), random.uniform(3.0, 10.0), 0.2, random.uniform(0.02, 0.045),
                    random.part(static_cast<std::uint64_t>(i)), 3);
     }
   }

@@ -109,57 +109,30 @@ TEST(GroundGrid, CoversItsSquareOnceHoweverUneven) {
   EXPECT_LT(grid.triangles.size(), 4000u);
 }
 
-TEST(Ground, HasNoHolesAndLiesWhereTheSiteSaysOnFlatAndHillyLand) {
-  for (const double hilliness : {0.0, 1.0}) {
-    const Site site = crossing({.seed = 2, .hilliness = hilliness});
-    const Scene scene = ground_of(site);
-    Mesh all = scene.fixed[0];
-    all.append(scene.fixed[1], Eigen::Affine3f::Identity());
-    const Plan plan(all);
-    Random random(2, "ground test");
-    for (int i = 0; i < 20000; ++i) {
-      const Vector2d point(random.uniform(-75.0, 75.0), random.uniform(-75.0, 75.0));
-      const auto hit = plan.highest(point);
-      ASSERT_TRUE(hit) << point.transpose();
-      const double kerb_m = site.distance_from_kerb(point);
-      if (std::abs(kerb_m) < 0.05 || std::abs(kerb_m - 0.15) < 0.03) continue;  // a kerb stone's edges
-      EXPECT_NEAR(hit->height_m, site.ground_m(point), 0.02) << point.transpose() << ", from kerb " << kerb_m;
-    }
-    for (int i = 0; i < 2000; ++i) {
-      const Vector2d point(random.uniform(-350.0, 350.0), random.uniform(-350.0, 350.0));
-      const auto hit = plan.highest(point);
-      ASSERT_TRUE(hit) << point.transpose();
-      EXPECT_NEAR(hit->height_m, site.ground_m(point), 0.25) << point.transpose();
-    }
-  }
-}
+// Each of the tests below paints a palette of its own, which takes seconds: they are few.
 
-TEST(Ground, IsMadeOfWhatBelongsThere) {
-  const Site site = crossing({.seed = 2});
-  const Scene scene = ground_of(site);
-  const Plan plan(scene.fixed[0]);
-  const auto name_at = [&](const Vector2d& point) {
-    return palette()->materials()[plan.highest(point)->material].name;
-  };
+void expect_whole(const Site& site, const Scene& scene) {
+  Mesh all = scene.fixed[0];
+  all.append(scene.fixed[1], Eigen::Affine3f::Identity());
+  const Plan plan(all);
   Random random(2, "ground test");
-  for (int i = 0; i < 3000; ++i) {
-    const Vector2d point(random.uniform(-120.0, 120.0), random.uniform(-120.0, 120.0));
+  for (int i = 0; i < 20000; ++i) {
+    const Vector2d point(random.uniform(-75.0, 75.0), random.uniform(-75.0, 75.0));
+    const auto hit = plan.highest(point);
+    ASSERT_TRUE(hit) << point.transpose();
     const double kerb_m = site.distance_from_kerb(point);
-    if (kerb_m < -0.4) {
-      EXPECT_EQ(name_at(point), "asphalt") << point.transpose();
-    }
-    if (kerb_m > 6.5 && kerb_m < 40.0) {
-      EXPECT_EQ(name_at(point), "grass") << point.transpose();
-    }
-    if (kerb_m > 50.0) {
-      EXPECT_EQ(name_at(point), "far_land") << point.transpose();
-    }
+    if (std::abs(kerb_m) < 0.05 || std::abs(kerb_m - 0.15) < 0.03) continue;  // a kerb stone's edges
+    EXPECT_NEAR(hit->height_m, site.ground_m(point), 0.02) << point.transpose() << ", from kerb " << kerb_m;
+  }
+  for (int i = 0; i < 2000; ++i) {
+    const Vector2d point(random.uniform(-350.0, 350.0), random.uniform(-350.0, 350.0));
+    const auto hit = plan.highest(point);
+    ASSERT_TRUE(hit) << point.transpose();
+    EXPECT_NEAR(hit->height_m, site.ground_m(point), 0.25) << point.transpose();
   }
 }
 
-TEST(Ground, FacesUpwards) {
-  const Site site = crossing({.seed = 2, .hilliness = 1.0});
-  const Scene scene = ground_of(site);
+void expect_facing_up(const Scene& scene) {
   for (const Mesh& mesh : scene.fixed) {
     for (const Triangle& triangle : mesh.triangles) {
       const auto& [a, b, c] = triangle.corners;
@@ -171,39 +144,63 @@ TEST(Ground, FacesUpwards) {
   }
 }
 
-TEST(Ground, LaysThingsAFewMillimetresAboveIt) {
-  const Site site = crossing({.seed = 2, .hilliness = 1.0});
-  const Scene scene = ground_of(site);
-  const Mesh& laid = scene.fixed.at(2);
+void expect_laid_closely(const Site& site, const Mesh& laid) {
   ASSERT_GT(laid.vertices.size(), 500u);
   for (const Vertex& vertex : laid.vertices) {
     const Vector2d point = vertex.position.head<2>().cast<double>();
     double above_m = vertex.position.z() - site.terrain.height_m(point);
     if (site.distance_from_kerb(point) > 0.2) above_m -= 0.12;
-    EXPECT_GT(above_m, 0.001) << point.transpose();
-    EXPECT_LT(above_m, 0.008) << point.transpose();
+    ASSERT_GT(above_m, 0.001) << point.transpose();
+    ASSERT_LT(above_m, 0.008) << point.transpose();
   }
 }
 
-TEST(Ground, IsPlainAtTheHeartOfAJunctionWithWeakTexture) {
+void expect_materials(const Site& site, const Scene& scene) {
+  const Plan plan(scene.fixed[0]);
+  Random random(3, "ground test");
+  for (int i = 0; i < 3000; ++i) {
+    const Vector2d point(random.uniform(-120.0, 120.0), random.uniform(-120.0, 120.0));
+    const double kerb_m = site.distance_from_kerb(point);
+    const std::string name = palette()->materials()[plan.highest(point)->material].name;
+    const char* expected = kerb_m < -0.4                   ? "asphalt"
+                           : kerb_m > 6.5 && kerb_m < 40.0 ? "grass"
+                           : kerb_m > 50.0                 ? "far_land"
+                                                           : nullptr;
+    if (expected) {
+      EXPECT_EQ(name, expected) << point.transpose();
+    }
+  }
+}
+
+TEST(Ground, IsWholeOnFlatAndHillyLandAndMadeOfWhatBelongsThere) {
+  for (const double hilliness : {0.0, 1.0}) {
+    const Site site = crossing({.seed = 2, .hilliness = hilliness});
+    const Scene scene = ground_of(site);
+    expect_whole(site, scene);
+    expect_facing_up(scene);
+    expect_laid_closely(site, scene.fixed.at(2));
+    expect_materials(site, scene);
+  }
+}
+
+TEST(Ground, IsPlainAtTheHeartOfAJunctionWithWeakTextureAndTheSameForTheSameSeed) {
   const Site site = crossing({.seed = 2, .weak_texture = true});
   const Scene scene = ground_of(site);
   for (const Mesh& mesh : {scene.fixed[0], scene.fixed[1]}) {
     for (const Vertex& vertex : mesh.vertices) {
-      if (vertex.position.head<2>().norm() < 18.0f) {
+      const float away_m = vertex.position.head<2>().norm();
+      if (away_m < 18.0f) {
         ASSERT_LT(vertex.tint.contrast, 40);
       }
-      if (vertex.position.head<2>().norm() > 40.0f) {
+      if (away_m > 40.0f) {
         ASSERT_EQ(vertex.tint.contrast, 255);
       }
     }
   }
-  for (const Vertex& vertex : scene.fixed[2].vertices) EXPECT_GT(vertex.position.head<2>().norm(), 18.0f);
+  for (const Vertex& vertex : scene.fixed[2].vertices) ASSERT_GT(vertex.position.head<2>().norm(), 18.0f);
   const Plan plan(scene.fixed[0]);
   EXPECT_EQ(plan.highest({2.0, 1.0})->material, palette()->find("asphalt_smooth"));
-}
 
-TEST(Ground, IsTheSameForTheSameSeedAndNotForAnother) {
   const auto look = [](std::uint64_t seed) {
     const Site site = crossing({.seed = seed});
     const Scene scene = ground_of(site);
