@@ -101,7 +101,7 @@ std::vector<cv::Point2f> wandering_line(cv::Point2f start, float direction_rad, 
   std::vector<cv::Point2f> line{start};
   float turn = 0.0f;
   for (float done = 0.0f; done < length_px; done += step_px) {
-    turn = 0.6f * turn + unrest_rad * static_cast<float>(random.uniform(-1.0, 1.0));
+    turn = 0.75f * turn + unrest_rad * static_cast<float>(random.uniform(-1.0, 1.0));
     const float heading = direction_rad + turn;
     start += cv::Point2f(std::cos(heading), std::sin(heading)) * step_px;
     line.push_back(start);

@@ -100,9 +100,10 @@ cv::Mat1f paint_road_wear(float amount, Random random) {
     const cv::Point2f centre = somewhere(kSize, places);
     const int count = 5 + places.below(18);
     for (int drip = 0; drip < count; ++drip) {
-      const cv::Point2f at = centre + cv::Point2f(static_cast<float>(40.0 * places.gaussian()),
-                                                  static_cast<float>(40.0 * places.gaussian()));
-      cv::circle(drips, at, 1 + places.below(5), 0.15 + 0.3 * places.uniform(), cv::FILLED);
+      const auto aside = static_cast<float>(40.0 * places.gaussian());
+      const cv::Point2f at = centre + cv::Point2f(aside, static_cast<float>(40.0 * places.gaussian()));
+      const int radius = 1 + places.below(5);
+      cv::circle(drips, at, radius, 0.15 + 0.3 * places.uniform(), cv::FILLED);
     }
   }
   deviation -= blurred(drips, 1.2);
@@ -115,22 +116,24 @@ cv::Mat1f paint_road_wear(float amount, Random random) {
   for (int number = 0; number < crack_count; ++number) {
     const auto direction = static_cast<float>(lines.uniform(0.0, kTurn));
     const auto length = static_cast<float>(lines.uniform(150.0, 620.0));
-    const auto trunk = wandering_line(somewhere(kSize, lines), direction, length, 6.0f, 0.55f, lines.part(number));
+    const cv::Point2f start = somewhere(kSize, lines);
+    const auto trunk = wandering_line(start, direction, length, 6.0f, 0.45f, random.part(100 + number));
     draw_line(cracks, trunk, 1.0f, lines.chance(0.4) ? 2.0f : 1.0f);
     const int branches = lines.below(5);
     for (int branch = 0; branch < branches; ++branch) {
       const cv::Point2f from = trunk[lines.below(static_cast<int>(trunk.size()))];
-      const float side = direction + (lines.chance(0.5) ? 1.0f : -1.0f) * static_cast<float>(lines.uniform(0.5, 1.3));
+      const float sign = lines.chance(0.5) ? 1.0f : -1.0f;
+      const float side = direction + sign * static_cast<float>(lines.uniform(0.5, 1.3));
       const auto reach = static_cast<float>(lines.uniform(30.0, 170.0));
-      draw_line(cracks, wandering_line(from, side, reach, 6.0f, 0.7f, lines.part(100 + number * 8 + branch)), 1.0f,
+      draw_line(cracks, wandering_line(from, side, reach, 6.0f, 0.7f, random.part(200 + number * 8 + branch)), 1.0f,
                 1.0f);
     }
   }
   for (int number = 0; number < 3; ++number) {
     const auto direction = static_cast<float>(lines.uniform(0.0, kTurn));
-    const auto seam =
-        wandering_line(somewhere(kSize, lines), direction, static_cast<float>(lines.uniform(250.0, 700.0)), 14.0f,
-                       0.35f, lines.part(50 + number));
+    const cv::Point2f start = somewhere(kSize, lines);
+    const auto length = static_cast<float>(lines.uniform(250.0, 700.0));
+    const auto seam = wandering_line(start, direction, length, 7.0f, 0.11f, random.part(50 + number));
     draw_line(seams, seam, 1.0f, static_cast<float>(lines.uniform(4.0, 7.0)));
   }
   // Alligator cracks where the ground below gave way.
@@ -155,7 +158,7 @@ cv::Mat1f paint_road_wear(float amount, Random random) {
     const cv::Point2f aside = cv::Point2f(-std::sin(direction), std::cos(direction)) * 125.0f;
     const auto length = static_cast<float>(lines.uniform(200.0, 500.0));
     for (const cv::Point2f& from : {start, start + aside}) {
-      draw_line(skids, wandering_line(from, direction, length, 30.0f, 0.08f, lines.part(70 + number)), 1.0f, 14.0f);
+      draw_line(skids, wandering_line(from, direction, length, 30.0f, 0.08f, random.part(70 + number)), 1.0f, 14.0f);
     }
   }
   const cv::Mat1f skid_soft = blurred(skids, 4.0);
@@ -177,7 +180,8 @@ cv::Mat1f paint_ground_wear(float amount, Random random) {
   Random places = random.part(2);
   for (int spot = 0; spot < 90; ++spot) {
     const double shade = places.chance(0.75) ? places.uniform(0.2, 0.5) : -places.uniform(0.2, 0.4);
-    cv::circle(spots, somewhere(kSize, places), 1 + places.below(3), shade, cv::FILLED);
+    const cv::Point2f at = somewhere(kSize, places);
+    cv::circle(spots, at, 1 + places.below(3), shade, cv::FILLED);
   }
   for (int row = 0; row < kSize; ++row) {
     for (int column = 0; column < kSize; ++column) {
@@ -316,12 +320,12 @@ cv::Mat3f paint_grass(Random random) {
   constexpr int kSize = 1024;
   const cv::Mat1f clumps = fractal_noise(kSize, {9, 9}, 5, 0.65f, random.part(0));
   const cv::Mat1f dry = fractal_noise(kSize, {4, 4}, 5, 0.6f, random.part(1));
-  const cv::Mat1f bare = fractal_noise(kSize, {5, 5}, 5, 0.6f, random.part(2));
+  const cv::Mat1f bare = fractal_noise(kSize, {11, 11}, 5, 0.7f, random.part(2));
   const cv::Mat1f sand = white_noise(kSize, random.part(3));
   cv::Mat3f picture(kSize, kSize);
   for (int row = 0; row < kSize; ++row) {
     for (int column = 0; column < kSize; ++column) {
-      const float earth = smooth_step(1.4f, 2.2f, bare(row, column));
+      const float earth = smooth_step(2.0f, 2.8f, bare(row, column));
       const Colour thatch = Colour(0.035f, 0.045f, 0.014f) * (0.5f + sand(row, column));
       const Colour soil = Colour(0.10f, 0.075f, 0.048f) * (0.6f + 0.8f * sand(row, column));
       picture(row, column) = thatch + (soil - thatch) * earth;
@@ -340,7 +344,7 @@ cv::Mat3f paint_grass(Random random) {
     const auto length = static_cast<float>(blades.uniform(5.0, 19.0));
     const auto shade = static_cast<float>(blades.uniform(0.65, 1.35));
     const auto yellow = static_cast<float>(blades.uniform());
-    const float density = 1.0f - 0.93f * smooth_step(1.2f, 2.0f, bare(row, column));
+    const float density = 1.0f - 0.93f * smooth_step(1.8f, 2.6f, bare(row, column));
     if (luck > density * (0.75f + 0.25f * clumps(row, column))) continue;
     const float layer = static_cast<float>(number) / kBlades;
     const float straw = yellow < 0.06f ? 1.0f : std::clamp(0.25f * dry(row, column) + 0.15f, 0.0f, 0.7f);
@@ -357,7 +361,7 @@ cv::Mat3f paint_grass(Random random) {
       cv::line(picture, (root + shifted) * 8.0f, (tip + shifted) * 8.0f, ink, thickness, cv::LINE_8, kShift);
     }
   }
-  flatten(picture, 0.6f);
+  flatten(picture, 1.0f);
   return picture;
 }
 

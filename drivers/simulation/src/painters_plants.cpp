@@ -81,12 +81,12 @@ Cutout paint_leaves(const LeafShape& shape, const Colour& colour, Random random)
   // Twigs fan out from the card's lower middle and carry the leaves.
   Random random_twigs = random.part(0);
   std::vector<std::vector<cv::Point2f>> twigs;
-  const int twig_count = shape.needles > 0 ? 26 : 11;
+  const int twig_count = shape.needles > 0 ? 26 : 16;
   for (int twig = 0; twig < twig_count; ++twig) {
     const float spread = (static_cast<float>(twig) + 0.5f) / static_cast<float>(twig_count) - 0.5f;
-    const float direction = -0.25f * kTurn + 2.3f * spread;
+    const float direction = -0.25f * kTurn + (shape.needles > 0 ? 2.3f : 3.3f) * spread;
     const auto length = static_cast<float>(random_twigs.uniform(0.5, 0.86)) * kFine * (1.0f - 0.5f * std::abs(spread));
-    const cv::Point2f from = stem + cv::Point2f(0.0f, -static_cast<float>(random_twigs.uniform(0.0, 0.45)) * kFine);
+    const cv::Point2f from = stem + cv::Point2f(0.0f, -static_cast<float>(random_twigs.uniform(0.0, 0.5)) * kFine);
     auto line = wandering_line(from, direction, length, 24.0f, 0.35f, random_twigs.part(twig));
     for (std::size_t corner = 1; corner < line.size(); ++corner) {
       ink.line(line[corner - 1], line[corner], bark, line.size() - corner > 8 ? 5 : 3);
@@ -190,8 +190,9 @@ cv::Mat3f paint_flowers(Random random) {
   const Colour petals[] = {
       {0.55f, 0.06f, 0.07f}, {0.62f, 0.48f, 0.06f}, {0.6f, 0.58f, 0.55f}, {0.35f, 0.1f, 0.42f}, {0.6f, 0.2f, 0.3f}};
   for (int flower = 0; flower < 260; ++flower) {
-    const cv::Point centre(places.below(size), places.below(size));
-    const Colour petal = varied(petals[places.below(5)], 0.25f, 0.1f, places.part(flower));
+    const cv::Point centre{places.below(size), places.below(size)};  // braces: in that order
+    const int kind = places.below(5);
+    const Colour petal = varied(petals[kind], 0.25f, 0.1f, random.part(100 + flower));
     const int radius = 7 + places.below(9);
     const auto turn = static_cast<float>(places.uniform(0.0, kTurn));
     const cv::Rect box(centre.x - 30, centre.y - 30, 60, 60);
@@ -215,10 +216,11 @@ cv::Mat3f paint_bark(const Colour& colour, Random random) {
   constexpr int kSize = 512;
   const cv::Mat1f bend_x = 7.0f * fractal_noise(kSize, {5, 7}, 3, 0.5f, random.part(0));
   const cv::Mat1f bend_y = 10.0f * fractal_noise(kSize, {9, 5}, 2, 0.5f, random.part(4));
-  // Plates of cork, long and upright, between furrows: a paving stretched by half, and fissures across.
-  const Paving plates = crazy_paving(kSize, 17, 0.9f, random.part(1));
+  // Plates of cork, long and upright, between furrows: a paving pressed together.
+  const Paving plates = crazy_paving(kSize, 12, 0.9f, random.part(1));
   cv::Mat1f tall;
-  cv::resize(plates.to_edge(cv::Rect(0, 0, kSize, kSize / 2)), tall, {kSize, kSize}, 0.0, 0.0, cv::INTER_LINEAR);
+  cv::resize(plates.to_edge, tall, {kSize / 2, kSize}, 0.0, 0.0, cv::INTER_AREA);
+  tall = cv::repeat(tall, 1, 2);
   const cv::Mat1f fibres = fractal_noise(kSize, {70, 10}, 3, 0.7f, random.part(5));
   const cv::Mat1f ridges = displaced(tall, bend_x, bend_y);
   const cv::Mat1f broad = fractal_noise(kSize, {5, 5}, 5, 0.6f, random.part(2));
@@ -227,9 +229,9 @@ cv::Mat3f paint_bark(const Colour& colour, Random random) {
   cv::Mat1f height(kSize, kSize);
   for (int row = 0; row < kSize; ++row) {
     for (int column = 0; column < kSize; ++column) {
-      const float ridge = smooth_step(0.02f, 0.32f, ridges(row, column) + 0.05f * fibres(row, column));
+      const float ridge = smooth_step(0.0f, 0.24f, ridges(row, column) + 0.05f * fibres(row, column));
       const float lichen = 0.4f * smooth_step(1.0f, 2.0f, broad(row, column));
-      const Colour wood = colour * (0.3f + 1.0f * ridge) * (0.8f + 0.4f * sand(row, column)) *
+      const Colour wood = colour * (0.45f + 0.75f * ridge) * (0.8f + 0.4f * sand(row, column)) *
                           (1.0f + 0.1f * broad(row, column) + 0.15f * fibres(row, column));
       picture(row, column) = wood + (Colour(0.14f, 0.16f, 0.1f) * (0.4f + 0.6f * ridge) - wood) * lichen;
       height(row, column) = ridge;

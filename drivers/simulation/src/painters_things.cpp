@@ -146,7 +146,7 @@ cv::Mat3f paint_poster(Random random) {
     const Colour ground = sheet.chance(0.5) ? Colour(0.62f, 0.6f, 0.55f) : vivid();
     page.setTo(ink(ground));
     for (int shape = 0; shape < 7; ++shape) {
-      const cv::Point at(sheet.below(page.cols), 50 + sheet.below(page.rows));
+      const cv::Point at{sheet.below(page.cols), 50 + sheet.below(page.rows)};
       const int extent = 15 + sheet.below(55);
       if (sheet.chance(0.5)) {
         cv::circle(page, at, extent, ink(vivid()), cv::FILLED, cv::LINE_AA);

@@ -322,7 +322,7 @@ cv::Mat1f paint_wall_wear(float streaks, float repairs, Random random) {
   for (int patch = 0; patch < patches; ++patch) {
     const int width = 20 + places.below(80);
     const int height = 20 + places.below(60);
-    const cv::Rect box(places.below(kSize), places.below(kSize), width, height);
+    const cv::Rect box{places.below(kSize), places.below(kSize), width, height};
     const auto step = static_cast<float>(places.uniform(-0.12, 0.12));
     for (const cv::Point& offset : tiling_offsets(box, kSize)) {
       const cv::Rect shown = (box + offset) & cv::Rect(0, 0, kSize, kSize);
@@ -331,8 +331,8 @@ cv::Mat1f paint_wall_wear(float streaks, float repairs, Random random) {
   }
   cv::Mat1f cracks = cv::Mat1f::zeros(kSize, kSize);
   for (int crack = 0; crack < static_cast<int>(5.0f * repairs); ++crack) {
-    const cv::Point2f from(static_cast<float>(places.uniform(0.0, kSize)),
-                           static_cast<float>(places.uniform(0.0, kSize)));
+    const cv::Point2f from{static_cast<float>(places.uniform(0.0, kSize)),
+                           static_cast<float>(places.uniform(0.0, kSize))};
     const auto direction = static_cast<float>(places.uniform(0.8, 2.3));
     draw_line(cracks,
               wandering_line(from, direction, static_cast<float>(places.uniform(60.0, 260.0)), 5.0f, 0.8f,

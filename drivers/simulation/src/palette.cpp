@@ -72,7 +72,7 @@ std::vector<Recipe> make_recipes() {
       "gravel", 1.6f, {0.25f, 0.235f, 0.205f}, [](const Colour& c, const Random& r) { return paint_gravel(70, c, r); },
       Wear::kGround);
   add(
-      "grass", 2.0f, {}, [](const Colour&, const Random& r) { return paint_grass(r); }, Wear::kGround);
+      "grass", 2.6f, {}, [](const Colour&, const Random& r) { return paint_grass(r); }, Wear::kGround);
   add(
       "soil", 2.0f, {}, [](const Colour&, const Random& r) { return paint_soil(r); }, Wear::kGround);
   add("marking", 2.5f, {}, [](const Colour&, const Random& r) { return paint_marking(r); });
@@ -143,9 +143,9 @@ std::vector<Recipe> make_recipes() {
     };
     recipes.push_back({std::move(name), 1.0f, painted, Wear::kNone, 0.0f, 0.35f, true});
   };
-  add_leaves("leaves_broad", {0.085f, 0.145f, 0.035f}, {.leaves = 100, .length_m = 0.135f, .width_share = 0.72f});
-  add_leaves("leaves_small", {0.105f, 0.16f, 0.045f}, {.leaves = 190, .length_m = 0.085f, .width_share = 0.5f});
-  add_leaves("leaves_needle", {0.045f, 0.08f, 0.035f}, {.leaves = 0, .length_m = 0.075f, .needles = 70});
+  add_leaves("leaves_broad", {0.105f, 0.17f, 0.045f}, {.leaves = 190, .length_m = 0.11f, .width_share = 0.72f});
+  add_leaves("leaves_small", {0.125f, 0.185f, 0.055f}, {.leaves = 360, .length_m = 0.072f, .width_share = 0.55f});
+  add_leaves("leaves_needle", {0.055f, 0.095f, 0.045f}, {.leaves = 0, .length_m = 0.075f, .needles = 70});
   add("hedge", 1.4f, {0.06f, 0.105f, 0.028f}, [](const Colour& c, const Random& r) { return paint_hedge(c, r); });
   add("flowers", 1.4f, {}, [](const Colour&, const Random& r) { return paint_flowers(r); });
 

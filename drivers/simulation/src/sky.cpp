@@ -36,7 +36,7 @@ cv::Mat paint_clouds(const Random& random) {
   for (int row = 0; row < kSize; ++row) {
     for (int column = 0; column < kSize; ++column) {
       const float body =
-          shapes(row, column) + 0.8f * groups(row, column) + 0.35f * std::abs(billow(row, column)) - 0.75f;
+          shapes(row, column) + 0.45f * groups(row, column) + 0.22f * std::abs(billow(row, column)) - 0.75f;
       const float thick = smooth_step(0.0f, 0.75f, body);
       const float wisp = 0.3f * smooth_step(0.6f, 2.4f, veil(row, column));
       density(row, column) = std::max(thick, wisp);
