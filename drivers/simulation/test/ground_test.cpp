@@ -83,7 +83,7 @@ class Plan {
 
 TEST(GroundGrid, CoversItsSquareOnceHoweverUneven) {
   const GroundGrid grid = adaptive_grid({3.0, 4.0}, 0.3, 1.0, 6, [](const Vector2d& middle, double edge_m) {
-    return edge_m > 0.4 * (middle - Vector2d(10.0, -5.0)).norm();
+    return (middle - Vector2d(10.0, -5.0)).norm() < 0.5 * edge_m + 0.01;  // only what the point lies in
   });
   double area = 0.0;
   std::set<std::pair<std::uint32_t, std::uint32_t>> edges;
@@ -105,8 +105,8 @@ TEST(GroundGrid, CoversItsSquareOnceHoweverUneven) {
     ++at_border;
   }
   EXPECT_GE(at_border, 4);
-  EXPECT_GT(grid.triangles.size(), 500u);
-  EXPECT_LT(grid.triangles.size(), 4000u);
+  EXPECT_GT(grid.triangles.size(), 20u);
+  EXPECT_LT(grid.triangles.size(), 200u);
 }
 
 // Each of the tests below paints a palette of its own, which takes seconds: they are few.
