@@ -86,6 +86,11 @@ void flatten(cv::Mat3f& picture, float share) {
   }
 }
 
+cv::Point2f somewhere(int size, Random& random) {
+  const auto x = static_cast<float>(random.uniform(0.0, size));
+  return {x, static_cast<float>(random.uniform(0.0, size))};
+}
+
 std::vector<cv::Point> tiling_offsets(const cv::Rect& box, int size) {
   std::vector<cv::Point> offsets;
   for (int y = -size; y <= size; y += size) {

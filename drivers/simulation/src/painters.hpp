@@ -23,6 +23,9 @@ Colour varied(const Colour& colour, float brightness, float hue, Random random);
 /// Darkens crevices and lightens ridges: `height` in px, against its own blur of `reach_px`.
 void add_relief(cv::Mat3f& picture, const cv::Mat1f& height, float reach_px, float strength);
 
+/// A chance place (px) in a picture of `size`.
+cv::Point2f somewhere(int size, Random& random);
+
 /// Where a shape with that bounding box must be drawn so that the picture of `size` stays tileable: offsets in px.
 std::vector<cv::Point> tiling_offsets(const cv::Rect& box, int size);
 
@@ -38,7 +41,6 @@ void flatten(cv::Mat3f& picture, float share);
 
 // Ground
 cv::Mat3f paint_asphalt(float mm_per_px, const Colour& stone, const Colour& binder, float contrast, Random random);
-cv::Mat1f paint_road_wear(float amount, Random random);
 cv::Mat3f paint_concrete(const Colour& colour, float grain, Random random);
 cv::Mat3f paint_slabs(int rows, int columns, bool staggered, const Colour& colour, Random random);
 cv::Mat3f paint_cobbles(int cells, const Colour& colour, Random random);
@@ -48,7 +50,6 @@ cv::Mat3f paint_soil(Random random);
 cv::Mat3f paint_marking(Random random);
 cv::Mat3f paint_manhole(Random random);
 cv::Mat3f paint_far_land(Random random);
-cv::Mat1f paint_ground_wear(float amount, Random random);
 
 // Walls
 cv::Mat3f paint_bricks(const Colour& brick, const Colour& mortar, float variety, Random random);
@@ -59,7 +60,11 @@ cv::Mat3f paint_concrete_panels(const Colour& colour, Random random);
 cv::Mat3f paint_boards(const Colour& colour, int boards, bool upright, Random random);
 cv::Mat3f paint_sheet(const Colour& colour, int ribs, Random random);
 cv::Mat3f paint_roof_tiles(const Colour& colour, int rows, int columns, bool slate, Random random);
-cv::Mat1f paint_wall_wear(float streaks, float repairs, Random random);
+
+// Overlays
+cv::Mat1f paint_road_wear(float amount, Random random);    ///< cracks, seams, stains, skid marks; fades at its borders
+cv::Mat1f paint_ground_wear(float amount, Random random);  ///< stains and spots; fades at its borders
+cv::Mat1f paint_wall_wear(float streaks, float repairs, Random random);  ///< rain, splashes at the foot; over 16 m
 
 // Plants
 struct Cutout {
