@@ -16,12 +16,13 @@ namespace panvo::simulation {
 namespace {
 
 constexpr int kMostPackets = 2;                   // of sixteen rays a place
-constexpr std::size_t kManyPlaces = 250'000;      // a mesh of more gets half the rays
+constexpr std::size_t kManyPlaces = 4'000;        // a mesh of more gets half the rays
 constexpr int kChunk = 128;                       // places that a thread takes at a time
+constexpr float kCell = 0.08f;                    // m: vertices nearer than this share their light
 constexpr float kLift = 0.02f, kInwards = 0.05f;  // m: out of the surface, and away from the corner it may lie in
 constexpr float kFromWalls = 0.12f;               // light that gets everywhere: what shuts out the sky is itself bright
 
-/// Vertices that look the same: at one place, with one normal.
+/// Vertices that look about the same: near one place, facing about the same way.
 struct Place {
   Eigen::Vector3f position = Eigen::Vector3f::Zero(), normal = Eigen::Vector3f::UnitZ();
   Eigen::Vector3f middle = Eigen::Vector3f::Zero();  // of its triangles, summed
@@ -45,11 +46,15 @@ std::vector<Eigen::Vector3f> hemisphere(int packets) {
 std::vector<std::uint32_t> join(const Mesh& mesh, std::vector<Place>& places) {
   const auto key = [&](std::uint32_t i) {
     const auto& vertex = mesh.vertices[i];
-    const Eigen::Vector3f millimetres = 1000.0f * vertex.position;
-    return std::array<std::int64_t, 4>{std::lround(millimetres.x()), std::lround(millimetres.y()),
-                                       std::lround(millimetres.z()), pack_normal(vertex.normal)};
+    std::uint64_t bits = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto cell = static_cast<std::int64_t>(std::floor(vertex.position[axis] / kCell));
+      const auto facing = static_cast<std::int64_t>(std::lround(3.0f * vertex.normal[axis])) + 3;
+      bits = bits << 21 | static_cast<std::uint64_t>((cell << 3 | facing) & 0x1fffff);
+    }
+    return bits;
   };
-  std::vector<std::pair<std::array<std::int64_t, 4>, std::uint32_t>> order(mesh.vertices.size());
+  std::vector<std::pair<std::uint64_t, std::uint32_t>> order(mesh.vertices.size());
   for (std::uint32_t i = 0; i < order.size(); ++i) order[i] = {key(i), i};
   std::sort(order.begin(), order.end());
   std::vector<std::uint32_t> place_of(order.size());
