@@ -202,10 +202,9 @@ TEST(Ground, IsPlainAtTheHeartOfAJunctionWithWeakTextureAndTheSameForTheSameSeed
   EXPECT_EQ(plan.highest({2.0, 1.0})->material, palette()->find("asphalt_smooth"));
 
   const auto look = [](std::uint64_t seed) {
-    const Site site = crossing({.seed = seed});
-    const Scene scene = ground_of(site);
+    const Scene ground = ground_of(crossing({.seed = seed}));
     std::uint64_t sum = 0;
-    for (const Mesh& mesh : scene.fixed) {
+    for (const Mesh& mesh : ground.fixed) {
       for (const Vertex& vertex : mesh.vertices) {
         for (const float coordinate : {vertex.position.x(), vertex.position.y(), vertex.position.z(), vertex.uv.x()}) {
           sum = mix(sum + static_cast<std::uint64_t>(static_cast<std::int64_t>(coordinate * 1e4f)));
