@@ -162,10 +162,10 @@ std::optional<Touch> touching_circle(const Leg& in, const Leg& out, double radiu
 }
 
 // Nearly straight on: a cubic from lane to lane.
-std::vector<Vector2d> straight_on(Leg& in, Leg& out) {
-  constexpr double kBlend_m = 9.0;
-  in.end_m = in.length_m - std::min(kBlend_m, kMostUsed * in.length_m);
-  out.begin_m = std::min(kBlend_m, kMostUsed * out.length_m);
+std::vector<Vector2d> straight_on(Leg& in, Leg& out, double angle) {
+  const double blend = angle < 0.0 ? 6.0 : 9.0;  // m; to the right the kerb is near
+  in.end_m = in.length_m - std::min(blend, kMostUsed * in.length_m);
+  out.begin_m = std::min(blend, kMostUsed * out.length_m);
   const Vector2d a = in.at(in.end_m), b = out.at(out.begin_m);
   const double length = (b - a).norm();
   const Vector2d at_a = length * in.way(in.end_m), at_b = length * out.way(out.begin_m);
@@ -182,7 +182,7 @@ std::vector<Vector2d> straight_on(Leg& in, Leg& out) {
 std::vector<Vector2d> turn(Leg& in, Leg& out) {
   constexpr double kStraight_rad = 0.7, kRightReach_m = 6.0, kLeftReach_m = 8.5, kMost_m = 16.0;
   const double angle = angle_between(in.way(in.length_m - 5.0), out.way(5.0));
-  if (std::abs(angle) < kStraight_rad) return straight_on(in, out);
+  if (std::abs(angle) < kStraight_rad) return straight_on(in, out, angle);
   const double side = angle > 0.0 ? 1.0 : -1.0;
   const double reach = angle > 0.0 ? kLeftReach_m : kRightReach_m;
   double radius = std::clamp(reach / std::tan(std::abs(angle) / 2.0), kLeastRadius_m, kMost_m);
@@ -190,7 +190,7 @@ std::vector<Vector2d> turn(Leg& in, Leg& out) {
   while (!(touch = touching_circle(in, out, radius, side)) && radius > kLeastRadius_m) {
     radius = std::max(0.9 * radius, kLeastRadius_m);
   }
-  if (!touch) return straight_on(in, out);
+  if (!touch) return straight_on(in, out, angle);
   in.end_m = touch->on_in_m;
   out.begin_m = touch->on_out_m;
   const Vector2d from = in.at(in.end_m) - touch->centre, to = out.at(out.begin_m) - touch->centre;

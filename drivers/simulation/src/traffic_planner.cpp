@@ -14,8 +14,9 @@ using Eigen::Vector2d;
 
 constexpr double kStep_s = 0.1;
 constexpr double kOwnLength_m = 4.3, kOwnWidth_m = 1.85;
-constexpr double kAbout_m = 75.0;   // movers live while they are so near
-constexpr double kHidden_m = 42.0;  // and may begin or end no nearer than that
+constexpr double kAbout_m = 75.0;        // movers live while they are so near
+constexpr double kHidden_m = 42.0;       // and may begin or end no nearer than that
+constexpr double kLeastHidden_m = 26.0;  // or, ahead on our own winding road, than that
 
 Vector2d left_of(double heading) { return {-std::sin(heading), std::cos(heading)}; }
 Vector2d along(double heading) { return {std::cos(heading), std::sin(heading)}; }
@@ -144,38 +145,33 @@ void TrafficPlanner::walk_on(std::vector<int>& junctions, int count, Random& ran
 }
 
 bool TrafficPlanner::live(Mover& mover, double at_m, double t_s) const {
-  const auto far_off = [&](double t, double limit) {
-    const double where = at_m + mover.speed_m_per_s * (t - t_s);
-    const std::size_t i = static_cast<std::size_t>(
-        std::lower_bound(mover.along_m.begin(), mover.along_m.end() - 1, where) - mover.along_m.begin());
-    return (mover.path[i] - own(t).centre).norm() > limit;
-  };
+  mover.from_s = t_s;
+  mover.start_m = at_m;
+  const Mover fixed = mover;
+  const auto metres_off = [&](double t) { return (of(fixed, t).centre - own(t).centre).norm(); };
   const double starts = t_s - at_m / mover.speed_m_per_s;
   const double ends = t_s + (mover.along_m.back() - at_m) / mover.speed_m_per_s;
-  mover.from_s = t_s;
-  while (mover.from_s > starts && mover.from_s > -1.0 && !far_off(mover.from_s, kAbout_m)) mover.from_s -= kStep_s;
-  mover.to_s = t_s;
-  while (mover.to_s < ends && mover.to_s < motion_.duration_s() + 1.0 && !far_off(mover.to_s, kAbout_m)) {
-    mover.to_s += kStep_s;
-  }
-  mover.from_s = std::max(mover.from_s, starts);
-  mover.to_s = std::min(mover.to_s, ends);
+  double from = t_s, to = t_s;
+  while (from > starts && from > -1.0 && metres_off(from) <= kAbout_m) from -= kStep_s;
+  while (to < ends && to < motion_.duration_s() + 1.0 && metres_off(to) <= kAbout_m) to += kStep_s;
+  mover.from_s = std::max(from, starts);
+  mover.to_s = std::min(to, ends);
   mover.start_m = at_m - mover.speed_m_per_s * (t_s - mover.from_s);
-  return (mover.from_s < 0.0 || far_off(mover.from_s, kHidden_m)) &&
-         (mover.to_s > motion_.duration_s() || far_off(mover.to_s, kHidden_m));
+  return (mover.from_s < 0.0 || metres_off(mover.from_s) > kHidden_m) &&
+         (mover.to_s > motion_.duration_s() || metres_off(mover.to_s) > kHidden_m);
 }
 
 void TrafficPlanner::live_waiting(Mover& mover, double at_m, double t_s) const {
-  const auto far_off = [&](double t) {
-    const double where = std::clamp(at_m + mover.speed_m_per_s * (t - t_s), 0.0, mover.along_m.back());
-    const auto i = static_cast<std::size_t>(std::lower_bound(mover.along_m.begin(), mover.along_m.end() - 1, where) -
-                                            mover.along_m.begin());
-    return (mover.path[i] - own(t).centre).norm() > kHidden_m;
-  };
-  mover.from_s = mover.to_s = t_s;
-  while (mover.from_s > -1.0 && !far_off(mover.from_s)) mover.from_s -= kStep_s;
-  while (mover.to_s < motion_.duration_s() + 1.0 && !far_off(mover.to_s)) mover.to_s += kStep_s;
-  mover.start_m = at_m - mover.speed_m_per_s * (t_s - mover.from_s);
+  mover.from_s = t_s;
+  mover.start_m = at_m;
+  const Mover fixed = mover;
+  const auto near = [&](double t) { return (of(fixed, t).centre - own(t).centre).norm() <= kHidden_m; };
+  double from = t_s, to = t_s;
+  while (from > -1.0 && near(from)) from -= kStep_s;
+  while (to < motion_.duration_s() + 1.0 && near(to)) to += kStep_s;
+  mover.from_s = from;
+  mover.to_s = to;
+  mover.start_m = at_m - mover.speed_m_per_s * (t_s - from);
 }
 
 // Along these junctions, so that it is at the point of its path that is nearest to `meeting` at that time.
@@ -228,6 +224,10 @@ std::optional<Mover> TrafficPlanner::ahead(double near_middle_s, Random random) 
   }
   measure(mover);
   if (mover.near_from_s < 0.0 || mover.near_to_s > motion_.duration_s()) return std::nullopt;
+  for (const double t : {mover.from_s, mover.to_s}) {
+    const bool is_seen = t >= 0.0 && t <= motion_.duration_s();
+    if (is_seen && (of(mover, t).centre - own(t).centre).norm() < kLeastHidden_m) return std::nullopt;
+  }
   const double last = motion_.travelled_m(std::min(mover.to_s, motion_.duration_s())) + mover.far_m;
   if (last > mover.along_m.back() && mover.to_s < motion_.duration_s()) return std::nullopt;
   return mover;

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "panvo/simulation/route.hpp"
+#include "panvo/simulation/site.hpp"
+
+namespace panvo::simulation {
+namespace {
+
+std::string problem_of(const std::vector<std::string>& junctions) {
+  try {
+    drive(campus_roads(1), Route{"test", junctions, ""});
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  return "none";
+}
+
+TEST(DrivenPath, ProblemsNameTheJunctions) {
+  EXPECT_NE(problem_of({"library", "moon"}).find("no junction moon; there are stadium, library"), std::string::npos);
+  EXPECT_NE(problem_of({"library", "gate"}).find("no road joins library and gate"), std::string::npos);
+  EXPECT_NE(problem_of({"library", "theatre", "library"}).find("turns back at theatre"), std::string::npos);
+  EXPECT_NE(problem_of({"library"}).find("at least two"), std::string::npos);
+}
+
+TEST(DrivenPath, KeepsToTheRightHandLane) {
+  const RoadNetwork roads = campus_roads(2);
+  const DrivenPath path = drive(roads, {"test", {"clock_tower", "bookshop"}, ""});
+  for (std::size_t i = 0; i < path.points.size(); i += 50) {
+    const auto nearest = roads.nearest_road(path.points[i]);
+    EXPECT_NEAR(nearest.side_m, -2.0, 0.1);  // the road leads that way and is 8 m wide
+  }
+  const DrivenPath back = drive(roads, {"test", {"bookshop", "clock_tower"}, ""});
+  EXPECT_NEAR(roads.nearest_road(back.points[300]).side_m, 2.0, 0.1);
+}
+
+TEST(DrivenPath, StaysOnTheRoadWithAVehiclesWidthAndTurnsNoTighterThanItCan) {
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    const Site site({seed, 0.0, false}, campus_roads(seed), nullptr);
+    for (std::uint64_t walk = 0; walk < 6; ++walk) {
+      const Route route = random_route(site.roads, 25, walk);
+      const DrivenPath path = drive(site.roads, route);
+      double nearest_kerb = -1e9, most_curved = 0.0;
+      std::size_t where = 0;
+      for (std::size_t i = 0; i < path.points.size(); ++i) {
+        const double off = site.distance_from_kerb(path.points[i]);
+        if (off > nearest_kerb) where = i;
+        nearest_kerb = std::max(nearest_kerb, off);
+        most_curved = std::max(most_curved, std::abs(path.curvature_per_m[i]));
+      }
+      EXPECT_LT(nearest_kerb, -0.9) << "seed " << seed << " walk " << walk << " at " << path.points[where].transpose();
+      EXPECT_LT(most_curved, 1.0 / 4.5) << "seed " << seed << " walk " << walk;
+    }
+  }
+}
+
+TEST(DrivenPath, IsEvenAndItsCurvatureIsContinuous) {
+  const DrivenPath path = drive(campus_roads(1), {"test", {"hospital", "east_gate", "hospital", "museum"}, ""});
+  const double step = path.along_m.back() / static_cast<double>(path.points.size() - 1);
+  EXPECT_NEAR(step, 0.1, 0.001);
+  double turned = 0.0;
+  for (std::size_t i = 1; i < path.points.size(); ++i) {
+    ASSERT_NEAR((path.points[i] - path.points[i - 1]).norm(), step, 1e-4);
+    ASSERT_NEAR(path.along_m[i] - path.along_m[i - 1], step, 1e-4);
+    if (i > 4 && i + 4 < path.points.size()) {
+      ASSERT_LT(std::abs(path.curvature_per_m[i] - path.curvature_per_m[i - 1]), 0.02) << i;
+    }
+    turned += path.curvature_per_m[i] * step;
+  }
+  // what curvature says must be what the path does
+  const Eigen::Vector2d first = path.points[1] - path.points[0], last = path.points.back() - *(path.points.end() - 2);
+  const double expected = std::atan2(first.x() * last.y() - first.y() * last.x(), first.dot(last));
+  EXPECT_NEAR(std::remainder(turned - expected, 2.0 * M_PI), 0.0, 0.01);
+}
+
+}  // namespace
+}  // namespace panvo::simulation
