@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Arithmetic on sixteen rays at a time. Included once per instruction set, inside a namespace of its own, under
-// "#pragma GCC target": the compiler then makes the best of the vector types in each. No includes here.
+// "#pragma GCC target": the compiler then makes the best of the vector types in each. PANVO_PACKET_ISA is 512 for AVX-512, 2 for AVX2,
+// else 0: the compiler's own macros do not follow the pragma. No includes here.
 
 #define PANVO_ALWAYS __attribute__((always_inline))
 #define PANVO_INLINE inline PANVO_ALWAYS
@@ -32,16 +33,25 @@ PANVO_INLINE Float choose(const Int& mask, const Float& then, const Float& other
   return mask ? then : otherwise;
 }
 
+#if PANVO_PACKET_ISA == 2
+struct FloatHalves {
+  __m256 low, high;
+};
+struct IntHalves {
+  __m256i low, high;
+};
+#endif
+
 PANVO_INLINE Float minimum(const Float& a, const Float& b) {
-#if defined(__AVX512F__)
-  return (Float)_mm512_min_ps((__m512)a, (__m512)b);
+#if PANVO_PACKET_ISA == 512
+  return (Float)_mm512_maskz_min_ps(0xffff, (__m512)a, (__m512)b);
 #else
   return a < b ? a : b;
 #endif
 }
 PANVO_INLINE Float maximum(const Float& a, const Float& b) {
-#if defined(__AVX512F__)
-  return (Float)_mm512_max_ps((__m512)a, (__m512)b);
+#if PANVO_PACKET_ISA == 512
+  return (Float)_mm512_maskz_max_ps(0xffff, (__m512)a, (__m512)b);
 #else
   return a > b ? a : b;
 #endif
@@ -52,8 +62,11 @@ PANVO_INLINE Float clamped(const Float& value, float low, float high) {
 PANVO_INLINE Float absolute(const Float& value) { return bits_of(bits_of(value) & 0x7fffffffu); }
 
 PANVO_INLINE Float root(const Float& value) {
-#if defined(__AVX512F__)
-  return (Float)_mm512_sqrt_ps((__m512)value);
+#if PANVO_PACKET_ISA == 512
+  return (Float)_mm512_maskz_sqrt_ps(0xffff, (__m512)value);
+#elif PANVO_PACKET_ISA == 2
+  const auto halves = __builtin_bit_cast(FloatHalves, value);
+  return __builtin_bit_cast(Float, FloatHalves{_mm256_sqrt_ps(halves.low), _mm256_sqrt_ps(halves.high)});
 #else
   Float result;
   for (int i = 0; i < 16; ++i) result[i] = __builtin_sqrtf(value[i]);
@@ -62,7 +75,7 @@ PANVO_INLINE Float root(const Float& value) {
 }
 
 PANVO_INLINE bool any(const Int& mask) {
-#if defined(__AVX512F__)
+#if PANVO_PACKET_ISA == 512
   return _mm512_test_epi32_mask((__m512i)mask, (__m512i)mask) != 0;
 #else
   std::int32_t found = 0;
@@ -72,8 +85,13 @@ PANVO_INLINE bool any(const Int& mask) {
 }
 
 PANVO_INLINE Word gather(const std::uint32_t* from, const Word& index) {
-#if defined(__AVX512F__)
-  return (Word)_mm512_i32gather_epi32((__m512i)index, from, 4);
+#if PANVO_PACKET_ISA == 512
+  return (Word)_mm512_mask_i32gather_epi32(_mm512_setzero_si512(), 0xffff, (__m512i)index, from, 4);
+#elif PANVO_PACKET_ISA == 2
+  const auto at = __builtin_bit_cast(IntHalves, index);
+  const auto* base = (const int*)from;
+  return __builtin_bit_cast(
+      Word, IntHalves{_mm256_i32gather_epi32(base, at.low, 4), _mm256_i32gather_epi32(base, at.high, 4)});
 #else
   Word result;
   for (int i = 0; i < 16; ++i) result[i] = from[index[i]];
@@ -81,13 +99,7 @@ PANVO_INLINE Word gather(const std::uint32_t* from, const Word& index) {
 #endif
 }
 PANVO_INLINE Float gather(const float* from, const Word& index) {
-#if defined(__AVX512F__)
-  return (Float)_mm512_i32gather_ps((__m512i)index, from, 4);
-#else
-  Float result;
-  for (int i = 0; i < 16; ++i) result[i] = from[index[i]];
-  return result;
-#endif
+  return bits_of(gather((const std::uint32_t*)from, index));
 }
 
 /// Largest whole number not above; |value| < 2^31.

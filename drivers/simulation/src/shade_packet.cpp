@@ -8,6 +8,7 @@
 #include "panvo/simulation/scene.hpp"
 #include "traced_scene.hpp"
 
+#define PANVO_PACKET_ISA 0
 #pragma GCC diagnostic ignored "-Wpsabi"
 
 namespace panvo::simulation {

@@ -10,6 +10,7 @@
 #include "shade_packet.hpp"
 #include "traced_scene.hpp"
 
+#define PANVO_PACKET_ISA 2
 #pragma GCC diagnostic ignored "-Wpsabi"
 #pragma GCC push_options
 #pragma GCC target("avx2,fma,bmi,bmi2")

@@ -10,6 +10,7 @@
 #include "shade_packet.hpp"
 #include "traced_scene.hpp"
 
+#define PANVO_PACKET_ISA 512
 #pragma GCC diagnostic ignored "-Wpsabi"
 #pragma GCC push_options
 #pragma GCC target("avx512f,avx512dq,avx512vl,avx512bw,avx512cd,avx2,fma,bmi,bmi2")
