@@ -21,7 +21,7 @@ class FacadeBuilder {
     door_bay_ = style.use == BuildingUse::kTown || style.use == BuildingUse::kInstitute ? bays_ / 2 : bays_ / 3;
     uv_shift_ = static_cast<float>(lights_.uniform(0.0, 20.0));
     for (int bay = 0; bay < bays_; ++bay) {
-      blank_.push_back(side != FacadeSide::kFront && lights_.chance(style.blank_bays));
+      blank_.push_back(side != FacadeSide::kFront && bay != bays_ / 2 && lights_.chance(style.blank_bays));
     }
   }
 
@@ -42,6 +42,8 @@ class FacadeBuilder {
 
  private:
   bool is_simple() const { return side_ == FacadeSide::kBack; }
+  /// Away from the road, window frames are flat.
+  bool is_flat() const { return side_ != FacadeSide::kFront; }
 
   Cell cell_kind(int floor, int bay) const {
     if (blank_[static_cast<std::size_t>(bay)]) return Cell::kBlank;
@@ -139,7 +141,7 @@ class FacadeBuilder {
       add_wall_box(mesh_, frame_, opening.left, opening.right, opening.bottom, opening.top, -0.2f, -0.08f,
                    materials_.metal_sheet, style_.shutter_tint);
     } else {
-      build_window(style_, materials_, frame_, opening, is_simple(), lights_, mesh_);
+      build_window(style_, materials_, frame_, opening, is_flat(), lights_, mesh_);
       if (kind == Cell::kShop) add_shop_sign(opening);
       if (kind == Cell::kBalcony) add_balcony(opening, floor);
     }
@@ -392,13 +394,13 @@ class FacadeBuilder {
     add_wall_box(mesh_, frame_, left, right, z - 0.16f, z, 0.0f, reach, style_.trim, style_.trim_tint, 1);
     const Tint iron = style_.use == BuildingUse::kHouse ? style_.shutter_tint : grey(0.2f);
     const auto rail = [&](float u, float out) {
-      add_tube(mesh_, frame_.at(u, out, z), frame_.at(u, out, z + 0.95f), 0.012f, 0.012f, 4, materials_.metal_painted,
+      add_tube(mesh_, frame_.at(u, out, z), frame_.at(u, out, z + 0.95f), 0.012f, 0.012f, 3, materials_.metal_painted,
                iron);
     };
-    const int count = static_cast<int>((right - left) / 0.16f);
+    const int count = static_cast<int>((right - left) / 0.2f);
     for (int i = 0; i <= count; ++i)
       rail(left + 0.04f + (right - left - 0.08f) * static_cast<float>(i) / static_cast<float>(count), reach - 0.05f);
-    for (float out = 0.2f; out < reach - 0.1f; out += 0.18f) {
+    for (float out = 0.2f; out < reach - 0.1f; out += 0.25f) {
       rail(left + 0.04f, out);
       rail(right - 0.04f, out);
     }
@@ -460,13 +462,18 @@ class FacadeBuilder {
 
 void add_wall_box(Mesh& mesh, const WallFrame& frame, float u0, float u1, float z0, float z1, float behind, float front,
                   std::uint16_t material, Tint tint) {
+  constexpr float kAboveEyes = 3.2f, kBelowEyes = 0.6f;  // of those who drive by: what looks away is left out
   const auto at = [&](float u, float out, float z) { return frame.at(u, out, z); };
   const Eigen::Vector2f low(u0, z0);
   mesh.add_quad(at(u0, front, z0), at(u1, front, z0), at(u1, front, z1), at(u0, front, z1), material, low, tint);
   mesh.add_quad(at(u1, front, z0), at(u1, behind, z0), at(u1, behind, z1), at(u1, front, z1), material, low, tint);
   mesh.add_quad(at(u0, behind, z0), at(u0, front, z0), at(u0, front, z1), at(u0, behind, z1), material, low, tint);
-  mesh.add_quad(at(u0, front, z1), at(u1, front, z1), at(u1, behind, z1), at(u0, behind, z1), material, low, tint);
-  mesh.add_quad(at(u0, behind, z0), at(u1, behind, z0), at(u1, front, z0), at(u0, front, z0), material, low, tint);
+  if (z1 < kAboveEyes) {
+    mesh.add_quad(at(u0, front, z1), at(u1, front, z1), at(u1, behind, z1), at(u0, behind, z1), material, low, tint);
+  }
+  if (z0 > kBelowEyes) {
+    mesh.add_quad(at(u0, behind, z0), at(u1, behind, z0), at(u1, front, z0), at(u0, front, z0), material, low, tint);
+  }
 }
 
 void build_facade(const FacadeStyle& style, const BuildingMaterials& materials, const WallFrame& frame, FacadeSide side,

@@ -68,7 +68,7 @@ void draw_house(FacadeStyle& style, const BuildingMaterials& materials, Random& 
   style.cornice = 0.0f;
   style.balconies = random.chance(0.25);
   style.ivy = random.chance(0.25);
-  style.blank_bays = 0.35f;
+  style.blank_bays = 0.2f;
   style.two_tone = random.chance(0.2);
   if (style.two_tone) style.ground_wall = materials.stone_rubble;
 }
@@ -113,7 +113,7 @@ void draw_institute(FacadeStyle& style, const BuildingMaterials& materials, Rand
   style.pilasters = random.chance(0.45);
   style.cornice = between(random, 0.08, 0.2);
   style.gutters = false;
-  style.blank_bays = 0.5f;
+  style.blank_bays = 0.3f;
   const float dark = between(random, 0.25, 0.9);
   style.frame_tint = tint_of(dark, dark, dark);
   style.wall = random.chance(0.6) ? materials.concrete_panels : style.wall;

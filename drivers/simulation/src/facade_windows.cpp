@@ -146,7 +146,22 @@ void build_window(const FacadeStyle& style, const BuildingMaterials& materials, 
     if (is_simple) {
       add_flat(mesh, frame, u0, u1, z0, z1, face_out - 0.01f, materials.window_frame, style.frame_tint);
     } else {
-      add_wall_box(mesh, frame, u0, u1, z0, z1, glass_out, face_out - 0.005f, materials.window_frame, style.frame_tint);
+      // its face and its two long sides
+      const bool is_upright = z1 - z0 > u1 - u0;
+      const float out = face_out - 0.005f;
+      add_flat(mesh, frame, u0, u1, z0, z1, out, materials.window_frame, style.frame_tint);
+      const auto side = [&](float au, float az, float bu, float bz) {
+        mesh.add_quad(frame.at(au, glass_out, az), frame.at(bu, glass_out, bz), frame.at(bu, out, bz),
+                      frame.at(au, out, az), materials.window_frame, Eigen::Vector2f::Zero(),
+                      shaded(style.frame_tint, 0.9f));
+      };
+      if (is_upright) {
+        side(u0, z1, u0, z0);
+        side(u1, z0, u1, z1);
+      } else {
+        side(u0, z0, u1, z0);
+        side(u1, z1, u0, z1);
+      }
     }
   };
   for (int i = 1; i < bars.columns; ++i) {

@@ -9,6 +9,7 @@ void build_furniture(const Site& site, const std::vector<Plot>& plots, Scene& sc
   // what has the least choice of places comes first
   planner.furnish_open_plots();
   planner.furnish_kerbs();
+  planner.fill_drives();
   planner.edge_gardens();
   planner.plant_rows();
   planner.plant_at_walls();

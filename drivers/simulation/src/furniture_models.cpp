@@ -69,9 +69,8 @@ Mesh build_sign(const FurnitureMaterials& materials, SignKind kind) {
     case SignKind::kStop:
       plate(8, 0.4f, kPi / 8.0f, 2.4f, materials.sign_red, 0.045f, {});
       break;
-    case SignKind::kRound:
-      plate(20, 0.32f, 0.0f, 2.45f, materials.sign_red, 0.045f, {});
-      plate(20, 0.23f, 0.0f, 2.45f, materials.sign_white, 0.05f, {});
+    case SignKind::kSquare:
+      plate(4, 0.42f, kPi / 4.0f, 2.4f, materials.sign_blue, 0.045f, {});
       break;
     case SignKind::kPlace:
       add_block(mesh, {-0.65f, -0.06f, 2.1f}, {0.65f, -0.03f, 2.6f}, materials.sign_blue);

@@ -17,7 +17,7 @@ struct FurnitureMaterials {
 
 // All stand at the origin; what is seen from the road looks along -y, as a building's front does. Lengths in m.
 Mesh build_lamp_post(const FurnitureMaterials& materials, float height, bool is_lantern);
-enum class SignKind { kStop, kRound, kPlace, kArrow };
+enum class SignKind { kStop, kSquare, kPlace, kArrow };
 Mesh build_sign(const FurnitureMaterials& materials, SignKind kind);
 Mesh build_litter_bin(const FurnitureMaterials& materials);
 Mesh build_wheelie_bin(const FurnitureMaterials& materials);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include "mover_models.hpp"
 #include "shapes.hpp"
@@ -76,7 +77,7 @@ FurnitureModels build_furniture_models(const Palette& palette, std::uint64_t see
   for (const auto& shape : car_shapes()) models.cars.push_back(add(build_car(shape, movers)));
   models.vans.push_back(add(build_car(van_shapes().front(), movers)));
   models.stop_signs = {add(build_sign(things, SignKind::kStop))};
-  for (const auto kind : {SignKind::kRound, SignKind::kPlace, SignKind::kArrow})
+  for (const auto kind : {SignKind::kSquare, SignKind::kPlace, SignKind::kArrow})
     models.signs.push_back(add(build_sign(things, kind)));
   models.lamp = add(build_lamp_post(things, 6.5f, false));
   models.lantern = add(build_lamp_post(things, 3.6f, true));
@@ -98,7 +99,8 @@ FurniturePlanner::FurniturePlanner(const Site& site, const std::vector<Plot>& pl
       planned_(plan_plots(site)),
       models_(models),
       scene_(scene),
-      random_(site.parameters.seed, "furniture") {}
+      random_(site.parameters.seed, "furniture"),
+      zones_(site) {}
 
 FurniturePlanner::Cell FurniturePlanner::cell_of(const Eigen::Vector2d& point) {
   return {static_cast<int>(std::floor(point.x() / kCell_m)), static_cast<int>(std::floor(point.y() / kCell_m))};
@@ -156,9 +158,10 @@ void FurniturePlanner::plant(const std::vector<std::uint32_t>& kinds, const Eige
 
 void FurniturePlanner::park_car(const Eigen::Vector2d& point, double heading_rad, Random& random) {
   const std::uint32_t model = random.chance(0.1) ? pick(random, models_.vans) : pick(random, models_.cars);
-  stand(model, point, heading_rad + random.uniform(-0.03, 0.03) + (random.chance(0.25) ? 3.14159265 : 0.0), 1.0,
+  stand(model, point, heading_rad + random.uniform(-0.03, 0.03) + (random.chance(0.25) ? std::numbers::pi : 0.0), 1.0,
         car_colour(random));
-  occupy(point, 2.4);
+  const Eigen::Vector2d along(std::cos(heading_rad), std::sin(heading_rad));
+  for (const double offset : {-1.5, 0.0, 1.5}) occupy(point + offset * along, 1.0);
 }
 
 void FurniturePlanner::furnish_kerbs() {
@@ -177,7 +180,7 @@ void FurniturePlanner::furnish_kerbs() {
       // for those who come to the junction on the right-hand side
       const double sign_along = is_left ? 9.0 : length - 9.0;
       const Roadside sign_place = roadside(site_.roads, road, sign_along, is_left);
-      const double to_driver = heading_of(sign_place.along) + (is_left ? 0.5 : -0.5) * 3.14159265;
+      const double to_driver = heading_of(sign_place.along) + (is_left ? 0.5 : -0.5) * std::numbers::pi;
       if (random.chance(0.7)) {
         try_to_stand(random.chance(0.4) ? models_.stop_signs.front() : pick(random, models_.signs), sign_place.at(0.5),
                      to_driver, 0.4, 0.35);
@@ -213,18 +216,67 @@ void FurniturePlanner::furnish_kerbs() {
   }
 }
 
+double FurniturePlanner::pavement_m(const Eigen::Vector2d& point) const {
+  const GroundZones::Place place = zones_.at(point);
+  double width_m = kPavementWidth_m;
+  // near a crossing its own pavement counts too
+  for (const int number : {place.street, place.into_street_m < 3.0 ? place.crossing : -1}) {
+    if (number < 0) continue;
+    const Zone& zone = zones_.zone(number);
+    if (!zone.beside.empty()) width_m = std::max(width_m, zone.beside.back().to_m);
+  }
+  return width_m;
+}
+
+bool FurniturePlanner::has_room_for_car(const Eigen::Vector2d& point, double heading_rad,
+                                        double least_from_kerb_m) const {
+  const Eigen::Vector2d along(std::cos(heading_rad), std::sin(heading_rad));
+  for (const double offset : {-1.5, 0.0, 1.5}) {
+    if (!has_room(point + offset * along, 1.0, least_from_kerb_m)) return false;
+  }
+  return true;
+}
+
 void FurniturePlanner::park_along(int road, bool is_left, double length_m, Random& random) {
+  // at the kerb where the road is wide, else on the verge behind the pavement, and there fewer
   const bool is_wide = site_.roads.roads[static_cast<std::size_t>(road)].width_m >= 8.0;
-  // at the kerb where there is room on the road, else on the verge, and there fewer
-  const double from_kerb = is_wide ? -1.0 : 1.15;
-  if (!is_wide && !random.chance(0.55)) return;
-  const double density = random.uniform(0.25, 0.75) * (is_wide ? 1.0 : 0.6);
+  const Roadside halfway = roadside(site_.roads, road, 0.5 * length_m, is_left);
+  const double from_kerb = is_wide ? -1.0 : pavement_m(halfway.at(1.0)) + 1.15;
+  if (!is_wide && !random.chance(0.4)) return;
+  const double density = random.uniform(0.3, 0.8) * (is_wide ? 1.0 : 0.6);
   for (double along = 17.0; along < length_m - 17.0; along += random.uniform(5.4, 6.6)) {
     if (!random.chance(density)) continue;
     const Roadside place = roadside(site_.roads, road, along, is_left);
     const Eigen::Vector2d point = place.at(from_kerb);
-    if (std::abs(site_.distance_from_kerb(point) - from_kerb) > 0.2 || !has_room(point, 2.3, from_kerb - 0.2)) continue;
-    park_car(point, heading_of(place.along) + (is_left ? 3.14159265 : 0.0), random);
+    const double heading = heading_of(place.along) + (is_left ? std::numbers::pi : 0.0);
+    if (std::abs(site_.distance_from_kerb(point) - from_kerb) > 0.2 ||
+        !has_room_for_car(point, heading, from_kerb - 0.3))
+      continue;
+    park_car(point, heading, random);
+  }
+}
+
+void FurniturePlanner::fill_drives() {
+  const std::uint16_t paved[] = {site_.palette->find("slabs"), site_.palette->find("asphalt_patch"),
+                                 site_.palette->find("gravel"), site_.palette->find("cobbles")};
+  for (std::size_t number = 0; number < planned_.size(); ++number) {
+    const PlannedPlot& planned = planned_[number];
+    Random random = random_.part(7).part(number);
+    if (planned.use == PlotUse::kOpen || !random.chance(0.55)) continue;
+    const double front = -0.5 * planned.plot.size.y(), side = random.chance(0.5) ? 1.0 : -1.0;
+    const double x = side * (0.5 * planned.plot.size.x() + 1.5);
+    const double kerb_y =
+        front - site_.distance_from_kerb(on(planned.plot, 0.0, front)) + pavement_m(planned.place.at(1.0));
+    const double y = kerb_y + 3.4;
+    const double heading = planned.plot.heading_rad + 0.5 * std::numbers::pi;
+    if (!has_room_for_car(on(planned.plot, x, y), heading, kPavementWidth_m)) continue;
+    Plot drive;
+    drive.heading_rad = planned.plot.heading_rad;
+    drive.size = {2.7, 7.0};
+    drive.centre = on(planned.plot, x, kerb_y + 3.5);
+    pave(drive, paved[random.below(4)], grey(1.0f));
+    for (double step = 0.6; step < 7.0; step += 1.6) occupy(on(planned.plot, x, kerb_y + step), 1.0);
+    if (random.chance(0.75)) park_car(on(planned.plot, x, y), heading, random);
   }
 }
 
@@ -250,13 +302,14 @@ void FurniturePlanner::edge_gardens() {
       const double along = planned.place.along_m + offset * (right.dot(planned.place.along) > 0.0 ? 1.0 : -1.0);
       if (along < 1.0 || along > length - 1.0) continue;
       const Roadside place = roadside(site_.roads, planned.place.road, along, is_left);
-      const Eigen::Vector2d point = place.at(kPavementWidth_m + 0.35);
-      if (std::abs(site_.distance_from_kerb(point) - kPavementWidth_m - 0.35) > 0.25) continue;
+      const double from_kerb = pavement_m(place.at(1.0)) + 0.35;
+      const Eigen::Vector2d point = place.at(from_kerb);
+      if (std::abs(site_.distance_from_kerb(point) - from_kerb) > 0.25) continue;
       const std::uint32_t model = &segments == &models_.fences ? fence : pick(random, segments);
       const bool is_turned = &segments != &models_.fences && random.chance(0.5);
       const float bright = between(random, 0.9, 1.0);
       if (!has_room(point, 0.75, 1.5)) continue;
-      stand(model, point, facing_road(place) + (is_turned ? 3.14159265 : 0.0), 1.0, grey(bright));
+      stand(model, point, facing_road(place) + (is_turned ? std::numbers::pi : 0.0), 1.0, grey(bright));
       occupy(point, 0.5);
       occupy(point + 0.8 * place.along, 0.4);
       occupy(point - 0.8 * place.along, 0.15);
@@ -323,7 +376,7 @@ void FurniturePlanner::scatter_trees() {
       const Eigen::Vector2d point(x + random.uniform(-4.0, 4.0), y + random.uniform(-4.0, 4.0));
       const double from_kerb = site_.distance_from_kerb(point);
       // a belt of wood behind the outermost buildings, single trees inside
-      const double density = from_kerb > 38.0 ? 0.75 : from_kerb > 6.0 ? 0.3 : 0.12;
+      const double density = from_kerb > 38.0 ? 0.8 : from_kerb > 6.0 ? 0.45 : 0.3;
       Random own = random.part(
           static_cast<std::uint64_t>(static_cast<std::int64_t>(x * 8.0) * 100003 + static_cast<std::int64_t>(y * 8.0)));
       if (!own.chance(density)) continue;
@@ -386,7 +439,7 @@ void FurniturePlanner::furnish_car_park(const PlannedPlot& planned, Random& rand
       lines.add_quad(height(on(plot, x - 0.06, y - 2.3)), height(on(plot, x + 0.06, y - 2.3)),
                      height(on(plot, x + 0.06, y + 2.3)), height(on(plot, x - 0.06, y + 2.3)), marking);
       if (x + 2.6 > half.x() - 0.5 || !random.chance(0.62)) continue;
-      park_car(on(plot, x + 1.3, y + random.uniform(-0.25, 0.25)), plot.heading_rad + 1.5707963, random);
+      park_car(on(plot, x + 1.3, y + random.uniform(-0.25, 0.25)), plot.heading_rad + 0.5 * std::numbers::pi, random);
     }
   }
   scene_.fixed.push_back(std::move(lines));
@@ -404,8 +457,8 @@ void FurniturePlanner::furnish_plaza(const PlannedPlot& planned, Random& random)
   for (double x = -half.x() + 2.0; x < half.x() - 1.0; x += 5.0) {
     for (const double y : {-0.6, 0.6}) {
       plant({models_.street_trees[random.chance(0.5) ? 0 : 4]}, on(plot, x, y * half.y()), 1.8, 1.0, random);
-      try_to_stand(models_.bench, on(plot, x + 2.4, y * half.y()), plot.heading_rad + (y > 0.0 ? 0.0 : 3.14159265), 0.9,
-                   1.8);
+      try_to_stand(models_.bench, on(plot, x + 2.4, y * half.y()),
+                   plot.heading_rad + (y > 0.0 ? 0.0 : std::numbers::pi), 0.9, 1.8);
     }
     if (random.chance(0.4)) try_to_stand(models_.lantern, on(plot, x, 0.0), plot.heading_rad, 0.5, 1.8);
   }

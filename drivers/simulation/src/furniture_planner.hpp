@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "furniture_models.hpp"
+#include "ground_zones.hpp"
 #include "plants.hpp"
 #include "plots.hpp"
 
@@ -26,6 +27,7 @@ class FurniturePlanner {
 
   void furnish_open_plots();  ///< car parks, plazas and groves
   void furnish_kerbs();       ///< lamps, signs, bins, parked cars
+  void fill_drives();         ///< beside buildings, with a car on most
   void edge_gardens();        ///< hedges, fences and walls before the buildings
   void plant_rows();          ///< trees along roads
   void plant_at_walls();      ///< shrubs and flowers
@@ -34,6 +36,9 @@ class FurniturePlanner {
  private:
   /// Whether a thing of that radius (m) finds room: off the road, off buildings, clear of what stands there already.
   bool has_room(const Eigen::Vector2d& point, double radius_m, double least_from_kerb_m) const;
+  bool has_room_for_car(const Eigen::Vector2d& point, double heading_rad, double least_from_kerb_m) const;
+  /// How wide (m) the pavement is beside that point of it.
+  double pavement_m(const Eigen::Vector2d& point) const;
   void occupy(const Eigen::Vector2d& point, double radius_m);
   /// Stands a model there, its x axis along `heading_rad`.
   void stand(std::uint32_t model, const Eigen::Vector2d& point, double heading_rad, double scale = 1.0, Tint tint = {});
@@ -63,6 +68,7 @@ class FurniturePlanner {
   const FurnitureModels& models_;
   Scene& scene_;
   Random random_;
+  GroundZones zones_;
   std::map<Cell, std::vector<Disc>> taken_;
 };
 

@@ -17,7 +17,7 @@ void add_rig_rack(Mesh& mesh, const CarShape& shape, const MoverMaterials& mater
     for (const float y : {-0.55f, 0.55f})
       add_tube(mesh, {x, y, roof - 0.08f}, {x, y, roof + 0.06f}, 0.03f, 0.025f, 6, materials.car_trim, grey(0.6f));
   }
-  add_block(mesh, {-0.4f, -0.15f, roof + 0.02f}, {-0.1f, 0.15f, roof + 0.1f}, materials.car_trim, grey(0.5f));
+  mesh.add_column({-0.25f, 0.0f, roof - 0.05f}, 0.09f, 0.06f, 0.2f, 12, materials.car_trim, grey(0.5f));
 }
 
 }  // namespace
@@ -144,7 +144,7 @@ CarShape own_vehicle_shape() {
   shape.rear_top = -1.85f;
   shape.lean = 0.88f;
   shape.panes = {{0.06f, 0.28f}, {0.32f, 0.57f}, {0.61f, 0.9f}};
-  shape.body = tint_of(0.3f, 0.45f, 0.62f);
+  shape.body = tint_of(0.1f, 0.19f, 0.33f);
   return shape;
 }
 

@@ -282,7 +282,7 @@ class CarBuilder {
     const float low = bottom(x), high = top(x), rise = high - low;
     for (const float side : {-1.0f, 1.0f}) {
       const Vector3f lamp(x + 0.05f, side * 0.86f * width, low + 0.76f * rise);
-      add_ellipsoid(mesh_, lamp, {0.09f, 0.13f, 0.15f * rise}, 10, 6, materials_.lamp_rear, grey(1.0f));
+      add_ellipsoid(mesh_, lamp, {0.07f, 0.12f, 0.2f * rise}, 10, 6, materials_.lamp_rear, grey(1.0f));
     }
     add_block(mesh_, {x - 0.02f, -0.26f, low + 0.55f * rise}, {x + 0.02f, 0.26f, low + 0.55f * rise + 0.11f},
               materials_.plate, grey(1.0f));

@@ -37,9 +37,24 @@ Mesh build_person(const MoverMaterials& materials, Random random) {
     return std::array{materials.cloth_a, materials.cloth_b,
                       materials.cloth_c}[static_cast<std::size_t>(random.below(3))];
   };
-  const auto colour = [&] { return tint_of(between(0.35, 1.0), between(0.35, 1.0), between(0.35, 1.0)); };
+  // what people wear: mostly muted, now and then bright
+  const auto colour = [&] {
+    constexpr std::array<std::array<float, 3>, 10> kColours{{{0.07f, 0.09f, 0.16f},
+                                                             {0.05f, 0.05f, 0.055f},
+                                                             {0.25f, 0.25f, 0.26f},
+                                                             {0.8f, 0.8f, 0.78f},
+                                                             {0.5f, 0.4f, 0.26f},
+                                                             {0.16f, 0.2f, 0.11f},
+                                                             {0.15f, 0.25f, 0.5f},
+                                                             {0.55f, 0.08f, 0.07f},
+                                                             {0.28f, 0.17f, 0.1f},
+                                                             {0.65f, 0.5f, 0.1f}}};
+    const auto& chosen = kColours[static_cast<std::size_t>(random.below(10))];
+    const float bright = between(0.8, 1.2);
+    return tint_of(bright * chosen[0], bright * chosen[1], bright * chosen[2]);
+  };
   const std::uint16_t upper = cloth(), lower = cloth();
-  const Tint upper_tint = colour(), lower_tint = shaded(colour(), 0.7f);
+  const Tint upper_tint = colour(), lower_tint = shaded(colour(), 0.8f);
   const Tint skin = grey(between(0.55, 1.0)), hair = grey(between(0.4, 1.0));
   const float stout = between(0.9, 1.2), stride = between(0.16, 0.32);
   const bool has_coat = random.chance(0.35), has_skirt = !has_coat && random.chance(0.25), has_bag = random.chance(0.4);
@@ -59,22 +74,32 @@ Mesh build_person(const MoverMaterials& materials, Random random) {
     const Vector3f arm[] = {shoulder, 0.5f * (shoulder + elbow), elbow, wrist};
     const float arm_thick[] = {0.06f, 0.055f, 0.045f, 0.035f};
     add_bent_tube(mesh, arm, arm_thick, 7, upper, upper_tint);
-    add_ellipsoid(mesh, shoulder - Vector3f(0, 0.01f * side, 0.01f), {0.07f, 0.075f, 0.065f}, 8, 5, upper, upper_tint);
+    add_ellipsoid(mesh, shoulder - Vector3f(0, 0.03f * side, 0.0f), {0.07f, 0.085f, 0.06f}, 8, 5, upper, upper_tint);
     add_ellipsoid(mesh, wrist + Vector3f(0.02f, 0, -0.05f), {0.035f, 0.025f, 0.06f}, 7, 5, materials.skin, skin);
   }
-  std::vector<Ring> torso{{{0, 0, 0.86f}, 0.11f, 0.165f},   {{0, 0, 0.97f}, 0.125f, 0.18f},
-                          {{0, 0, 1.1f}, 0.105f, 0.155f},   {{0, 0, 1.27f}, 0.125f, 0.19f},
-                          {{0, 0, 1.4f}, 0.11f, 0.21f},     {{-0.01f, 0, 1.47f}, 0.075f, 0.15f},
-                          {{-0.01f, 0, 1.5f}, 0.05f, 0.06f}};
-  if (has_coat) torso.insert(torso.begin(), Ring{{0, 0, 0.6f}, 0.17f, 0.2f});
+  std::vector<Ring> torso{{{0, 0, 0.86f}, 0.11f, 0.165f},      {{0, 0, 0.97f}, 0.125f, 0.18f},
+                          {{0, 0, 1.1f}, 0.105f, 0.155f},      {{0, 0, 1.27f}, 0.125f, 0.19f},
+                          {{0, 0, 1.4f}, 0.11f, 0.205f},       {{-0.01f, 0, 1.455f}, 0.085f, 0.175f},
+                          {{-0.01f, 0, 1.485f}, 0.065f, 0.1f}, {{-0.01f, 0, 1.5f}, 0.05f, 0.06f}};
+  if (!has_coat) {  // the trousers' seat
+    add_rings(mesh,
+              {{{0.01f, 0, 0.78f}, 0.09f * stout, 0.13f * stout},
+               {{0, 0, 0.86f}, 0.125f * stout, 0.18f * stout},
+               {{0, 0, 0.98f}, 0.122f * stout, 0.178f * stout}},
+              12, lower, lower_tint);
+    torso.front() = {{0, 0, 0.93f}, 0.13f, 0.185f};
+  }
+  if (has_coat) torso.insert(torso.begin(), Ring{{0, 0, 0.6f}, 0.15f + 0.4f * stride, 0.2f});
   for (auto& ring : torso) {
     ring.deep *= stout;
     ring.wide *= stout;
   }
   add_rings(mesh, torso, 12, upper, upper_tint);
   if (has_skirt) {
-    add_rings(mesh, {{{0, 0, 0.52f}, 0.24f, 0.24f}, {{0, 0, 0.75f}, 0.18f, 0.21f}, {{0, 0, 1.0f}, 0.125f, 0.18f}}, 12,
-              lower, lower_tint);
+    add_rings(
+        mesh,
+        {{{0, 0, 0.52f}, 0.16f + 0.5f * stride, 0.24f}, {{0, 0, 0.75f}, 0.18f, 0.21f}, {{0, 0, 1.0f}, 0.125f, 0.18f}},
+        12, lower, lower_tint);
   }
   add_tube(mesh, {-0.005f, 0, 1.45f}, {0.01f, 0, 1.58f}, 0.055f, 0.05f, 8, materials.skin, skin);
   add_ellipsoid(mesh, {0.02f, 0, 1.66f}, {0.095f, 0.075f, 0.12f}, 12, 8, materials.skin, skin);
