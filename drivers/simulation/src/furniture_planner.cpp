@@ -242,7 +242,7 @@ void FurniturePlanner::park_along(int road, bool is_left, double length_m, Rando
   const bool is_wide = site_.roads.roads[static_cast<std::size_t>(road)].width_m >= 8.0;
   const Roadside halfway = roadside(site_.roads, road, 0.5 * length_m, is_left);
   const double from_kerb = is_wide ? -1.0 : pavement_m(halfway.at(1.0)) + 1.15;
-  if (!is_wide && !random.chance(0.4)) return;
+  if (!is_wide && !random.chance(0.25)) return;
   const double density = random.uniform(0.3, 0.8) * (is_wide ? 1.0 : 0.6);
   for (double along = 17.0; along < length_m - 17.0; along += random.uniform(5.4, 6.6)) {
     if (!random.chance(density)) continue;

@@ -281,8 +281,12 @@ class CarBuilder {
     const float width = half_width(x);
     const float low = bottom(x), high = top(x), rise = high - low;
     for (const float side : {-1.0f, 1.0f}) {
-      const Vector3f lamp(x + 0.05f, side * 0.86f * width, low + 0.76f * rise);
-      add_ellipsoid(mesh_, lamp, {0.07f, 0.12f, 0.2f * rise}, 10, 6, materials_.lamp_rear, grey(1.0f));
+      // a tall lamp that goes round the corner
+      const Vector3f lamp(x + 0.1f, side * 0.93f * width, low + 0.74f * rise);
+      add_block(mesh_, lamp - Vector3f(0.115f, 0.075f, 0.17f * rise), lamp + Vector3f(0.12f, 0.075f, 0.17f * rise),
+                materials_.lamp_rear, grey(1.0f));
+      add_block(mesh_, lamp - Vector3f(0.118f, 0.06f, 0.04f * rise), lamp + Vector3f(0.12f, 0.06f, 0.03f * rise),
+                materials_.lamp_head, tint_of(0.9f, 0.75f, 0.7f));
     }
     add_block(mesh_, {x - 0.02f, -0.26f, low + 0.55f * rise}, {x + 0.02f, 0.26f, low + 0.55f * rise + 0.11f},
               materials_.plate, grey(1.0f));
@@ -309,7 +313,7 @@ class CarBuilder {
           const auto profile = section(x);
           for (std::size_t i = 0; i < 6; ++i) {
             points.emplace_back(profile[i].x(), side * (profile[i].y() + 0.0005f), profile[i].z());
-            radii.push_back(0.007f);
+            radii.push_back(0.0045f);
           }
           add_bent_tube(mesh_, points, radii, 4, materials_.car_trim, grey(0.4f));
         }
