@@ -53,6 +53,7 @@ StereoCamera build(const StereoSettings& settings) {
   stereo.rate_hz = settings.rate_hz;
   stereo.exposure_s = 1e-3 * settings.exposure_ms;
   stereo.sensor.colour = settings.colour;
+  stereo.sensor.metered_from = 0.35;  // the road and what stands beside it
   return stereo;
 }
 
@@ -106,6 +107,10 @@ PanoramicCamera build(const PanoramaSettings& settings) {
   panorama.rate_hz = settings.rate_hz;
   panorama.exposure_s = 1e-3 * settings.exposure_ms;
   panorama.sensor.colour = settings.colour;
+  if (settings.kind == PanoramaKind::kEquirectangular) {  // neither the sky nor the vehicle's own roof
+    panorama.sensor.metered_from = 0.38;
+    panorama.sensor.metered_to = 0.62;
+  }
   panorama.base_from_panorama = looking(settings.position_m, kRadians * settings.yaw_deg, kRadians * settings.pitch_deg,
                                         kRadians * settings.roll_deg);
   Eigen::Isometry3d base_from_mount = panorama.base_from_panorama;

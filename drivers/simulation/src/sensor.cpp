@@ -151,6 +151,10 @@ Sensor::Sensor(const SensorParameters& parameters, const LensEffects& effects, c
   if (!(parameters.target_brightness > 0.0 && parameters.target_brightness < 1.0)) {
     throw std::invalid_argument("sensor: target_brightness must lie between 0 and 1");
   }
+  if (!(parameters.metered_from >= 0.0 && parameters.metered_from < parameters.metered_to &&
+        parameters.metered_to <= 1.0)) {
+    throw std::invalid_argument("sensor: metered_from must lie below metered_to, both in [0, 1]");
+  }
   if (!(parameters.exposure_lag >= 0.0 && parameters.exposure_lag <= 1.0)) {
     throw std::invalid_argument("sensor: exposure_lag must lie in [0, 1]");
   }
@@ -192,6 +196,8 @@ cv::Mat Sensor::expose(cv::Mat& radiance, std::uint64_t frame) {
   const auto electrons_per_light = static_cast<float>(gain_ * parameters_.full_well);
   const std::uint64_t noise = mix(mix(seed_ ^ 0x6e6f697365ULL) + frame);
   const int stripes = (light.rows + kRowsPerStripe - 1) / kRowsPerStripe;
+  const cv::Range metered(static_cast<int>(parameters_.metered_from * light.rows),
+                          std::max(1, static_cast<int>(parameters_.metered_to * light.rows)));
   std::vector<std::uint64_t> sums(static_cast<std::size_t>(stripes), 0);
   cv::parallel_for_(cv::Range(0, stripes), [&](const cv::Range& range) {
     const int width = light.cols * channels;
@@ -239,14 +245,14 @@ cv::Mat Sensor::expose(cv::Mat& radiance, std::uint64_t frame) {
         to[i] = curve[static_cast<std::size_t>(places[i])];
         sum += to[i];
       }
-      sums[static_cast<std::size_t>(row / kRowsPerStripe)] += sum;
+      if (metered.start <= row && row < metered.end) sums[static_cast<std::size_t>(row / kRowsPerStripe)] += sum;
     }
   });
 
   if (parameters_.exposure_lag > 0.0) {
     double brightness = 0.0;
     for (const auto sum : sums) brightness += static_cast<double>(sum);
-    brightness = std::max(brightness / (255.0 * static_cast<double>(image.total()) * channels), 0.01);
+    brightness = std::max(brightness / (255.0 * metered.size() * image.cols * channels), 0.01);
     gain_ *= std::pow(parameters_.target_brightness / brightness, parameters_.gamma * parameters_.exposure_lag);
     gain_ = std::clamp(gain_, 0.05, 50.0);
   }

@@ -8,13 +8,14 @@ namespace panvo::simulation {
 
 /// How an imaging sensor and its lens turn radiance into numbers.
 struct SensorParameters {
-  bool colour = true;               ///< RGB, else grey
-  double vignetting = 0.25;         ///< share of the light that is lost in the corners
-  double full_well = 9000.0;        ///< electrons of a white pixel: shot noise is their square root
-  double read_noise = 6.0;          ///< electrons, rms
-  double blur_px = 0.45;            ///< deviation of the lens's point spread
-  double target_brightness = 0.42;  ///< mean of the image, 0..1, that exposure control aims at
-  double exposure_lag = 0.15;       ///< share of the way to it that it goes from frame to frame; 0: fixed
+  bool colour = true;                           ///< RGB, else grey
+  double vignetting = 0.25;                     ///< share of the light that is lost in the corners
+  double full_well = 9000.0;                    ///< electrons of a white pixel: shot noise is their square root
+  double read_noise = 6.0;                      ///< electrons, rms
+  double blur_px = 0.45;                        ///< deviation of the lens's point spread
+  double target_brightness = 0.45;              ///< mean of the metered rows, 0..1, that exposure control aims at
+  double metered_from = 0.0, metered_to = 1.0;  ///< the rows that are metered, as shares of the height: not the sky
+  double exposure_lag = 0.15;                   ///< share of the way to it that it goes from frame to frame; 0: fixed
   double gamma = 2.2;
 };
 
