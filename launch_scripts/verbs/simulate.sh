@@ -57,6 +57,7 @@ simulate_bag() {
       out) out=$2 ;;
       route | rig | assets) parameters+=(--set "simulation.$name=$(readlink -m -- "$2")") ;;
       seed | hilliness | hour | vibration | cameras) parameters+=(--set "simulation.$name=$2") ;;
+      calibration-error) parameters+=(--set "simulation.calibration_error=$2") ;;
       start | duration) parameters+=(--set "simulation.${name}_s=$2") ;;
       random) parameters+=(--set "simulation.random_junctions=$2") ;;
       effects | junctions) parameters+=(--set "simulation.$name=[$2]") ;;

@@ -9,7 +9,7 @@
 
 namespace panvo::simulation {
 
-const std::array<EffectName, 9> kEffectNames{{
+const std::array<EffectName, 8> kEffectNames{{
     {"sudden_light", "a cloud takes or gives back the sun within half a second", &Effects::sudden_light},
     {"sun_drift", "the sun goes on by two hours of the day over the journey", &Effects::sun_drift},
     {"movers", "cars and people, some of which fill half of the stereo view", &Effects::movers},
@@ -18,7 +18,6 @@ const std::array<EffectName, 9> kEffectNames{{
     {"smear", "dirt on the lenses", &Effects::smear},
     {"dropped_frames", "one stereo frame and one panorama in fifty are missing", &Effects::dropped_frames},
     {"time_offset", "the panorama's clock is 20 ms late", &Effects::time_offset},
-    {"old_calibration", "the stereo camera has moved a little since it was calibrated", &Effects::old_calibration},
 }};
 
 namespace {

@@ -78,9 +78,10 @@ std::string sequence_yaml(const Simulation& simulation) {
       "# what is true of this recording; headings in degrees, counter-clockwise, 0 = +x of the world; times in ns like "
       "the images' stamps\n";
   text += fmt::format(
-      "route: {}\nseed: {}\nhilliness: {:g}\nhour: {:g}\neffects: [{}]\ntraveled_m: {:.3f}\nduration_s: {:.2f}\n"
+      "route: {}\nseed: {}\nhilliness: {:g}\ncalibration_error: {:g}\nhour: {:g}\neffects: [{}]\ntraveled_m: "
+      "{:.3f}\nduration_s: {:.2f}\n"
       "stereo_frames: {}\npanorama_frames: {}\nstart_ns: {}\nplace_kind: road junction\n",
-      p.route.name, p.seed, p.hilliness, p.hour, fmt::join(names_of(p.effects), ", "),
+      p.route.name, p.seed, p.hilliness, p.calibration_error, p.hour, fmt::join(names_of(p.effects), ", "),
       simulation.motion().travelled_m(to_s) - simulation.motion().travelled_m(from_s), to_s - from_s, stereo_frames,
       panorama_frames, instants.front().stamp_ns);
   text += fmt::format("route_junctions: [{}]\n", fmt::join(p.route.junctions, ", "));

@@ -30,20 +30,21 @@ std::vector<std::uint64_t> frames_between(double from_s, double to_s, double rat
 
 /// What the stereo camera has become since its calibration was written: as far off as a good calibration is after some
 /// months of driving (focal length 0.1 %, principal point half a pixel, the right eye turned by a fiftieth of a degree).
-vision::StereoCalibration aged(const vision::StereoCalibration& published, std::uint64_t seed) {
-  constexpr double kFocalLength = 1e-3, kPrincipalPoint_px = 0.5, kDistortion = 2e-3, kRotation_rad = 3.5e-4;
+vision::StereoCalibration aged(const vision::StereoCalibration& published, double error, std::uint64_t seed) {
+  const double focal_length = 1e-3 * error, principal_point_px = 0.5 * error, distortion = 2e-3 * error;
+  const double rotation_deviation_rad = 3.5e-4 * error;
   Random random(seed, "old calibration");
   vision::StereoCalibration actual = published;
   for (auto* eye : {&actual.left, &actual.right}) {
-    const double focal = 1.0 + kFocalLength * random.gaussian();
+    const double focal = 1.0 + focal_length * random.gaussian();
     eye->pinhole.fx *= focal;
     eye->pinhole.fy *= focal;
-    eye->pinhole.cx += kPrincipalPoint_px * random.gaussian();
-    eye->pinhole.cy += kPrincipalPoint_px * random.gaussian();
-    eye->distortion[0] += kDistortion * random.gaussian();
+    eye->pinhole.cx += principal_point_px * random.gaussian();
+    eye->pinhole.cy += principal_point_px * random.gaussian();
+    eye->distortion[0] += distortion * random.gaussian();
   }
   Eigen::Vector3d rotation_rad;
-  for (auto& value : rotation_rad) value = kRotation_rad * random.gaussian();
+  for (auto& value : rotation_rad) value = rotation_deviation_rad * random.gaussian();
   actual.right_from_left.linear() = vision::so3_exp(rotation_rad) * published.right_from_left.linear();
   return actual;
 }
@@ -52,8 +53,8 @@ vision::StereoCalibration aged(const vision::StereoCalibration& published, std::
 
 Simulation::Simulation(const SimulationParameters& parameters) : parameters_(parameters) {
   // Everything that may be refused comes before the campus, which takes its time.
-  const auto& [route, rig, effects, motion, seed, hilliness, hour, assets, start_s, duration_s, stereo, panorama, stamp,
-               quality] = parameters_;
+  const auto& [route, rig, effects, motion, seed, hilliness, calibration_error, hour, assets, start_s, duration_s,
+               stereo, panorama, stamp, quality] = parameters_;
   const auto path = drive(campus_roads(seed), route);
   motion_ = std::make_unique<VehicleMotion>(path, Terrain(seed, hilliness), motion, seed);
   weather_ = std::make_unique<Weather>(hour, motion_->duration_s(), effects, seed);
@@ -67,7 +68,7 @@ Simulation::Simulation(const SimulationParameters& parameters) : parameters_(par
   };
   if (stereo) {
     auto eyes = rig.stereo;
-    if (effects.old_calibration) eyes.calibration = aged(eyes.calibration, seed);
+    if (calibration_error > 0.0) eyes.calibration = aged(eyes.calibration, calibration_error, seed);
     add_camera(eyes_, pinhole_rays(eyes.calibration.left), eyes.base_from_left, eyes.sensor, "left");
     add_camera(eyes_, pinhole_rays(eyes.calibration.right), eyes.base_from_right(), eyes.sensor, "right");
   }

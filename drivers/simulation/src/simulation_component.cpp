@@ -30,6 +30,7 @@ struct ComponentParameters {
   double hilliness = 0.0;
   double hour = 10.5;
   double vibration = 1.0;
+  double calibration_error = 0.0;
   double start_s = 0.0;
   double duration_s = 0.0;
   template <class Field>
@@ -50,6 +51,9 @@ struct ComponentParameters {
     field(&P::hilliness, "hilliness", "1", "0 flat ... 1 hills of 8 m", 0.0, 2.0);
     field(&P::hour, "hour", "h", "of the day at the start", 6.0, 18.0);
     field(&P::vibration, "vibration", "1", "of the vehicle; 0: as on rails", 0.0, 10.0);
+    field(&P::calibration_error, "calibration_error", "1",
+          "of what is published of the stereo camera; 0: exact, 1: as of a good calibration after months of driving",
+          0.0, 100.0);
     field(&P::start_s, "start_s", "s", "where on the journey to begin", 0.0, 1e6);
     field(&P::duration_s, "duration_s", "s", "how much of it; 0: to the end", 0.0, 1e6);
   }
@@ -73,6 +77,7 @@ SimulationParameters to_simulation(const ComponentParameters& parameters) {
   if (!parameters.rig.empty()) simulation.rig = read_rig(parameters.rig);
   simulation.effects = effects_of(parameters.effects);
   simulation.motion.vibration = parameters.vibration;
+  simulation.calibration_error = parameters.calibration_error;
   simulation.seed = static_cast<std::uint64_t>(parameters.seed);
   simulation.hilliness = parameters.hilliness;
   simulation.hour = parameters.hour;

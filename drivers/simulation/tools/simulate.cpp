@@ -83,6 +83,10 @@ void describe_options(CLI::App& app, Options& options) {
   app.add_option("--vibration", s.motion.vibration, "of the vehicle; 0: as on rails")
       ->check(CLI::Range(0.0, 10.0))
       ->capture_default_str();
+  app.add_option("--calibration-error", s.calibration_error,
+                 "of the published stereo calibration; 1: as of a good one after months of driving")
+      ->check(CLI::Range(0.0, 100.0))
+      ->capture_default_str();
   app.add_option("--assets", s.assets, "folder of photographs, MATERIAL.jpg, in place of painted textures")
       ->check(CLI::ExistingDirectory);
   app.add_option("--start", s.start_s, "where to begin, s")->check(CLI::Range(0.0, 1e6));

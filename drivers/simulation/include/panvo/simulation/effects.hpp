@@ -10,15 +10,14 @@ namespace panvo::simulation {
 
 /// What makes life hard for a vision system; all off: a calm sunny day.
 struct Effects {
-  bool sudden_light = false;     ///< a cloud takes or gives back the sun within half a second, now and then
-  bool sun_drift = false;        ///< the sun goes on by two hours of the day over the journey
-  bool movers = false;           ///< cars and people
-  bool weak_texture = false;     ///< even asphalt and plain walls about the junctions marked so
-  bool rain = false;             ///< streaks of drops
-  bool smear = false;            ///< dirt on the lenses
-  bool dropped_frames = false;   ///< one stereo frame and one panorama in fifty are missing
-  bool time_offset = false;      ///< the panorama's clock is 20 ms late
-  bool old_calibration = false;  ///< the stereo camera has moved a little since it was calibrated
+  bool sudden_light = false;    ///< a cloud takes or gives back the sun within half a second, now and then
+  bool sun_drift = false;       ///< the sun goes on by two hours of the day over the journey
+  bool movers = false;          ///< cars and people
+  bool weak_texture = false;    ///< even asphalt and plain walls about the junctions marked so
+  bool rain = false;            ///< streaks of drops
+  bool smear = false;           ///< dirt on the lenses
+  bool dropped_frames = false;  ///< one stereo frame and one panorama in fifty are missing
+  bool time_offset = false;     ///< the panorama's clock is 20 ms late
 };
 
 struct EffectName {
@@ -27,7 +26,7 @@ struct EffectName {
 };
 
 /// Every effect with its name, in a fixed order.
-extern const std::array<EffectName, 9> kEffectNames;
+extern const std::array<EffectName, 8> kEffectNames;
 
 /// The effects of these names (one may hold several, with commas or blanks between); "all" means every one, "none" or nothing no one. Throws std::invalid_argument naming the
 /// effect that there is not, and those there are.

@@ -26,10 +26,11 @@ struct SimulationParameters {
   MotionParameters motion;
   std::uint64_t seed = 1;
   double hilliness = 0.0;
-  double hour = 10.5;            ///< of the day at the start, 6 to 18
-  std::filesystem::path assets;  ///< photographs in place of painted textures; empty: none
-  double start_s = 0.0;          ///< where to begin
-  double duration_s = 0.0;       ///< how long; 0: to the end
+  double calibration_error = 0.0;  ///< of the published stereo calibration; 1: as of a good one after months of driving
+  double hour = 10.5;              ///< of the day at the start, 6 to 18
+  std::filesystem::path assets;    ///< photographs in place of painted textures; empty: none
+  double start_s = 0.0;            ///< where to begin
+  double duration_s = 0.0;         ///< how long; 0: to the end
   bool stereo = true, panorama = true;
   std::int64_t start_stamp_ns = 1'700'000'000'000'000'000;
   Renderer::Quality quality;
