@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "panvo/conversions/camera_info.hpp"
+#include "panvo/conversions/static_transforms.hpp"
+#include "panvo/conversions/time.hpp"
+#include "panvo/runtime/testing.hpp"
+
+namespace panvo::simulation {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::SizeIs;
+
+constexpr const char* kPackage = "panvo_simulation";
+constexpr const char* kPlugin = "SimulationComponent";
+
+class SimulationComponent : public ::testing::Test {
+ protected:
+  static std::string rig(const std::string& panorama) {
+    const auto file = std::filesystem::path(::testing::TempDir()) /
+                      (std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()) + "_rig.yaml");
+    std::ofstream(file) << "stereo: {size_px: [80, 60]}\npanorama: " << panorama << "\n";
+    return file.string();
+  }
+  std::map<std::string, std::string> parameters(const std::string& panorama) const {
+    return {
+        {"route", PANVO_CONFIG "/routes/short.yaml"}, {"rig", rig(panorama)}, {"start_s", "8"}, {"duration_s", "0.4"}};
+  }
+
+  runtime::ComponentHarness harness_;
+};
+
+TEST_F(SimulationComponent, PublishesWhatAVehicleWithThisRigWould) {
+  const auto& left = harness_.collect(topics::kStereoLeftImageRaw);
+  const auto& right = harness_.collect(topics::kStereoRightImageRaw);
+  const auto& left_info = harness_.collect(topics::kStereoLeftCameraInfo);
+  const auto& right_info = harness_.collect(topics::kStereoRightCameraInfo);
+  const auto& panorama = harness_.collect(topics::kPanorama);
+  const auto& truth = harness_.collect(topics::kGroundTruth);
+  const auto& clock = harness_.collect(topics::kClock);
+  const auto& tf = harness_.collect(topics::kTfStatic);
+  harness_.load(kPackage, kPlugin, parameters("{size_px: [128, 64]}"));
+  EXPECT_THAT(harness_.container().run(), IsEmpty());
+
+  ASSERT_THAT(left, SizeIs(11));  // 25 Hz for 0.4 s, both ends
+  ASSERT_THAT(right, SizeIs(11));
+  ASSERT_THAT(left_info, SizeIs(11));
+  ASSERT_THAT(panorama, SizeIs(3));
+  ASSERT_THAT(truth, SizeIs(11));
+  ASSERT_THAT(clock, SizeIs(11));
+  EXPECT_EQ(left[0]->encoding(), "mono8");
+  EXPECT_EQ(panorama[0]->encoding(), "rgb8");
+  EXPECT_EQ(panorama[0]->width(), 128u);
+  for (std::size_t i = 0; i < left.size(); ++i) {
+    EXPECT_EQ(conversions::stamp_ns(*left[i]), conversions::stamp_ns(*right[i]));
+    EXPECT_EQ(conversions::stamp_ns(*left[i]), conversions::stamp_ns(*left_info[i]));
+    EXPECT_EQ(conversions::stamp_ns(*left[i]), conversions::stamp_ns(*truth[i]));
+    EXPECT_EQ(conversions::stamp_ns(*left[i]), conversions::to_ns(clock[i]->clock()));
+  }
+  EXPECT_EQ(conversions::stamp_ns(*left[1]) - conversions::stamp_ns(*left[0]), 40'000'000);
+  // It drives at some metres a second, along its own x axis.
+  EXPECT_GT(truth[5]->twist().twist().linear().x(), 2.0);
+  EXPECT_NEAR(truth[5]->twist().twist().linear().y(), 0.0, 0.2);
+
+  const auto stereo =
+      conversions::to_stereo(*conversions::to_camera(*left_info[0]), *conversions::to_camera(*right_info[0]));
+  ASSERT_TRUE(stereo);
+  EXPECT_NEAR(stereo->baseline_m, 0.12, 1e-9);
+  ASSERT_THAT(tf, SizeIs(1));
+  conversions::StaticTransforms transforms;
+  EXPECT_THAT(transforms.add(*tf[0]), IsEmpty());
+  EXPECT_TRUE(transforms.lookup("base_link", left[0]->header().frame_id())
+                  ->translation()
+                  .isApprox(Eigen::Vector3d(1.9, 0.06, 1.3)));
+  EXPECT_TRUE(transforms.lookup("base_link", panorama[0]->header().frame_id()));
+}
+
+TEST_F(SimulationComponent, PublishesEachHeadOfARigOfSeveral) {
+  const auto& whole = harness_.collect(topics::kPanorama);
+  const auto& second = harness_.collect(topics::kPanoramaHeadImageRaw[1]);
+  const auto& info = harness_.collect(topics::kPanoramaHeadCameraInfo[1]);
+  const auto& third = harness_.collect(topics::kPanoramaHeadImageRaw[2]);
+  harness_.load(kPackage, kPlugin, parameters("{kind: dual_fisheye, size_px: [96, 96]}"));
+  EXPECT_THAT(harness_.container().run(), IsEmpty());
+  EXPECT_THAT(whole, IsEmpty());
+  EXPECT_THAT(third, IsEmpty());
+  ASSERT_THAT(second, SizeIs(3));
+  ASSERT_THAT(info, SizeIs(3));
+  EXPECT_EQ(info[0]->distortion_model(), "equidistant");
+  EXPECT_EQ(info[0]->header().frame_id(), second[0]->header().frame_id());
+}
+
+TEST_F(SimulationComponent, SaysWhatItCannotSimulate) {
+  const auto refusal = [&](std::map<std::string, std::string> parameters) -> std::string {
+    try {
+      harness_.load(kPackage, kPlugin, parameters);
+    } catch (const runtime::ConfigError& error) {
+      return error.what();
+    }
+    return "taken";
+  };
+  EXPECT_THAT(refusal({}), HasSubstr("route"));
+  EXPECT_THAT(refusal({{"junctions", "[gate, moon]"}}), HasSubstr("moon"));
+  EXPECT_THAT(refusal({{"route", PANVO_CONFIG "/routes/short.yaml"}, {"effects", "[snow]"}}),
+              AllOf(HasSubstr("snow"), HasSubstr("rain")));
+}
+
+}  // namespace
+}  // namespace panvo::simulation
