@@ -52,13 +52,22 @@ void find_edges(const SeenSurfaces& seen, int first_row, int end_row, cv::Mat& i
           std::abs(2.0f * here - seen.inverse_range.at<float>(row, left) - seen.inverse_range.at<float>(row, right)),
           std::abs(2.0f * here - seen.inverse_range.at<float>(above, column) -
                    seen.inverse_range.at<float>(below, column)));
-      const bool jumps = bend > kRangeJump * here || (normal >> 24 & kHasHoles) != 0;
+      const bool is_leaf = (normal >> 24 & kHasHoles) != 0;
+      const bool jumps = bend > kRangeJump * here || is_leaf;
+      struct {
+        std::uint32_t all = 3;  // bit 0: all in the sun, bit 1: none
+        void add(std::int32_t of_key, std::uint32_t of_normal) {
+          if (of_key != 0) all &= (of_normal & kSunny) != 0 ? 1u : 2u;
+        }
+      } counted_sun;
+      counted_sun.add(key, normal);
       const float light = brightness(seen.radiance, row, column);
       bool found = false;
       const auto compare = [&](int other_row, int other_column) {
         const auto other_normal = static_cast<std::uint32_t>(seen.normal.at<std::int32_t>(other_row, other_column));
-        const bool differs = jumps || seen.key.at<std::int32_t>(other_row, other_column) != key ||
-                             ((normal ^ other_normal) & kSunny) != 0 ||
+        const auto other_key = seen.key.at<std::int32_t>(other_row, other_column);
+        counted_sun.add(other_key, other_normal);
+        const bool differs = jumps || other_key != key || ((normal ^ other_normal) & kSunny) != 0 ||
                              (key != 0 && faces_elsewhere(normal, other_normal));
         if (!differs) return;
         const float other_light = brightness(seen.radiance, other_row, other_column);
@@ -68,7 +77,13 @@ void find_edges(const SeenSurfaces& seen, int first_row, int end_row, cv::Mat& i
       compare(row, right);
       compare(above, column);
       compare(below, column);
-      marked[column] = found ? 1 : 0;
+      if (!found) {
+        marked[column] = 0;
+        continue;
+      }
+      const std::uint32_t together = counted_sun.all;
+      marked[column] = static_cast<std::uint8_t>(kCrossed | (is_leaf ? kInLeaves : 0) |
+                                                 (together == 1 ? kAllInSun : 0) | (together == 2 ? kAllInShadow : 0));
     }
   }
 }

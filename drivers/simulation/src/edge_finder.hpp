@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <opencv2/core.hpp>
 
 namespace panvo::simulation {
@@ -14,7 +15,15 @@ struct SeenSurfaces {
   bool wraps = false;
 };
 
-/// Marks (1, else 0) the pixels in these rows that an edge may cross: a neighbour belongs to something else, faces
+/// What find_edges() tells of a pixel.
+enum EdgeMark : std::uint8_t {
+  kCrossed = 1,      ///< an edge may cross it
+  kInLeaves = 2,     ///< it lies among leaves, where nobody sees a single edge
+  kAllInSun = 4,     ///< it and its neighbours, as far as they are not sky, are in the sun
+  kAllInShadow = 8,  ///< none of them is
+};
+
+/// Marks (0, or EdgeMark's bits) the pixels in these rows that an edge may cross: a neighbour belongs to something else, faces
 /// elsewhere, lies behind or before, or in other light, and looks different, too.
 void find_edges(const SeenSurfaces& seen, int first_row, int end_row, cv::Mat& is_edge);
 

@@ -2,11 +2,13 @@
 #include "packet_tracer.hpp"
 
 #include <bit>
+#include <cmath>
 #include <limits>
 
 namespace panvo::simulation {
 namespace {
 
+constexpr float kEvenSky = 0.01f;    // of its brightness: less cannot be seen
 constexpr float kSunSpread = 0.01f;  // rad: the sun's disc, so that far leaves cast soft-edged gaps of its size
 
 TraceContext trace_context(float spread, RTCIntersectContextFlags flags) {
@@ -93,6 +95,9 @@ void PacketTracer::trace(const SampleRays& samples, SampleResults& results, Rend
     set_lanes(samples.lanes, valid);
     std::uint32_t shadow_lanes = 0;
     for (unsigned i = 0; i < kPacket; ++i) {
+      if (((samples.in_sun | samples.in_shadow) >> i & 1u) != 0) valid[i] = 0;
+      if ((samples.in_shadow >> i & 1u) != 0) shaded.wants_shadow[i] = 0;
+      shaded.shadow.tfar[i] = std::numeric_limits<float>::infinity();
       valid[i] &= shaded.wants_shadow[i];
       if (valid[i] != 0) shadow_lanes |= 1u << i;
     }
@@ -107,14 +112,11 @@ void PacketTracer::trace(const SampleRays& samples, SampleResults& results, Rend
       }
     }
   }
+  if (hit != samples.lanes) see_sky(samples, rays, hit, results);
   for (unsigned i = 0; i < kPacket; ++i) {
     if ((samples.lanes >> i & 1u) == 0) continue;
     auto& radiance = results.radiance[i];
     if ((hit >> i & 1u) == 0) {
-      const float spread = samples.share * samples.across[i].norm();
-      const Eigen::Vector3f seen =
-          sky_.radiance(Eigen::Vector3f(rays.dir_x[i], rays.dir_y[i], rays.dir_z[i]), light_, spread);
-      radiance = {seen.x(), seen.y(), seen.z()};
       results.distance[i] = std::numeric_limits<float>::infinity();
       results.key[i] = 0;
       results.normal[i] = 0;
@@ -126,6 +128,46 @@ void PacketTracer::trace(const SampleRays& samples, SampleResults& results, Rend
     results.distance[i] = rays.tfar[i];
     results.key[i] = shaded.key[i];
     results.normal[i] = (shaded.normal[i] & 0x7fffffffu) | (is_sunny ? 0x80000000u : 0u);
+  }
+}
+
+void PacketTracer::see_sky(const SampleRays& samples, const RTCRay16& rays, std::uint32_t hit,
+                           SampleResults& results) const {
+  const auto see = [&](std::size_t i) {
+    const float spread = samples.across[i].norm();
+    const Eigen::Vector3f direction(rays.dir_x[i], rays.dir_y[i], rays.dir_z[i]);
+    Eigen::Map<Eigen::Vector3f>(results.radiance[i].data()) = sky_.radiance(direction, light_, spread);
+  };
+  const std::uint32_t missed = samples.lanes & ~hit;
+  const bool is_block = samples.share == 1.0f && missed == 0xffffu;
+  if (is_block) {
+    // where a block's corners and its middle look alike, the rest lies between them
+    constexpr std::array<std::size_t, 4> kCorners{0, 3, 12, 15};
+    for (const auto corner : kCorners) see(corner);
+    const auto brightness = [&](std::size_t i) { return results.radiance[i][0] + results.radiance[i][2]; };
+    see(5);
+    const float mean = 0.25f * (brightness(0) + brightness(3) + brightness(12) + brightness(15));
+    const float expected =
+        (4.0f * brightness(0) + 2.0f * (brightness(3) + brightness(12)) + brightness(15)) / 9.0f;  // one third on
+    bool is_even = std::abs(brightness(5) - expected) < kEvenSky * mean;
+    for (const auto corner : kCorners)
+      is_even = is_even && std::abs(brightness(corner) - mean) < 2.0f * kEvenSky * mean;
+    if (is_even) {
+      for (std::size_t i = 0; i < kPacket; ++i) {
+        const float across = static_cast<float>(i % 4) / 3.0f;
+        const float down = static_cast<float>(i / 4) / 3.0f;
+        for (std::size_t c = 0; c < 3; ++c) {
+          const auto at = [&](std::size_t corner) { return results.radiance[corner][c]; };
+          const float upper = at(0) + across * (at(3) - at(0));
+          const float lower = at(12) + across * (at(15) - at(12));
+          if (i != 0 && i != 3 && i != 12 && i != 15) results.radiance[i][c] = upper + down * (lower - upper);
+        }
+      }
+      return;
+    }
+  }
+  for (std::size_t i = 0; i < kPacket; ++i) {
+    if ((missed >> i & 1u) != 0) see(i);
   }
 }
 

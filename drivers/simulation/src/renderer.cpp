@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <mutex>
+#include <numeric>
 #include <opencv2/core/utility.hpp>
 #include <stdexcept>
 
@@ -40,31 +41,43 @@ class FlushDenormals {
   FlushDenormals& operator=(const FlushDenormals&) = delete;
 };
 
-/// Offsets inside a pixel, -0.5..0.5, and moments, 0..1, of the samples of an edge: evenly spread in each of the three
-/// (the additive recurrence of the golden ratio's relatives [Roberts 2018]).
+/// Offsets inside a pixel, -0.5..0.5, and moments, 0..1, of the samples of an edge.
 struct EdgeSample {
   float column, row, time;
 };
+
+/// The samples of an edge beside the pixel's centre: their mean is the centre, in place and time, so that the picture
+/// does not shift, and along any edge that is about level or upright no two of them are as far.
 std::vector<EdgeSample> edge_samples(int count) {
+  constexpr int kMostInARing = 5;
+  constexpr double kTurn = 15.0 * CV_PI / 180.0;
   std::vector<EdgeSample> samples;
   for (int i = 0; i < count; ++i) {
-    const auto part = [](double value) { return value - std::floor(value); };
-    const double n = i + 0.5;
-    samples.push_back({static_cast<float>(n / count - 0.5),
-                       static_cast<float>(part(0.5 + 0.6180339887498949 * (i + 1)) - 0.5),
-                       static_cast<float>(part(0.5 + 0.4142135623730951 * (i + 1)))});
+    const bool is_ring = count <= kMostInARing;
+    const double angle = kTurn + (is_ring ? 2.0 * CV_PI * i / count : i * CV_PI * (3.0 - std::sqrt(5.0)));
+    const double radius = is_ring ? 0.41 : 0.56 * std::sqrt((i + 0.5) / count);
+    const double moment = ((2 * i) % count + (count % 2 == 0 && 2 * i >= count ? 1 : 0) + 0.5) / count;
+    samples.push_back({static_cast<float>(radius * std::cos(angle)), static_cast<float>(radius * std::sin(angle)),
+                       static_cast<float>(moment)});
   }
-  // each evenly spread about its middle, whatever the count: the picture must not shift
-  const auto centre = [&](auto member, float middle) {
-    float sum = 0.0f;
-    for (const auto& sample : samples) sum += sample.*member;
-    const float shift = middle - sum / static_cast<float>(std::max(count, 1));
-    for (auto& sample : samples) sample.*member += shift;
-  };
-  centre(&EdgeSample::row, 0.0f);
-  centre(&EdgeSample::time, 0.5f);
-  for (auto& sample : samples) sample.time = std::clamp(sample.time, 0.0f, 1.0f);
+  Eigen::Vector2f mean = Eigen::Vector2f::Zero();
+  for (const auto& sample : samples) mean += Eigen::Vector2f(sample.column, sample.row) / static_cast<float>(count);
+  for (auto& sample : samples) {
+    sample.column -= mean.x();
+    sample.row -= mean.y();
+  }
   return samples;
+}
+
+/// Which of the samples are traced among leaves, where fewer will do: sets that pixels take in turns.
+std::vector<std::vector<std::size_t>> samples_among_leaves(std::size_t count) {
+  std::vector<std::vector<std::size_t>> sets;
+  if (count == 3) return {{0, 1}, {1, 2}, {2, 0}};
+  for (std::size_t first = 0; first < (count > 3 ? 2u : 1u); ++first) {
+    sets.emplace_back();
+    for (std::size_t i = first; i<count; i += count> 3 ? 2 : 1) sets.back().push_back(i);
+  }
+  return sets;
 }
 
 ShutterPose pose_at(const Shot& shot, double time) {
@@ -182,7 +195,10 @@ void trace_edges(const PacketTracer& tracer, const CameraRays& rays, const std::
   SampleResults results;
   std::array<float*, kPacket> pixels{};
   samples.share = 0.5f;
-  const float weight = 1.0f / static_cast<float>(offsets.size() + 1);
+  const auto among_leaves = samples_among_leaves(offsets.size());
+  std::vector<std::size_t> all(offsets.size());
+  std::iota(all.begin(), all.end(), 0);
+  std::array<float, kPacket> weights{};
   int count = 0;
   const auto flush = [&] {
     if (count == 0) return;
@@ -193,9 +209,10 @@ void trace_edges(const PacketTracer& tracer, const CameraRays& rays, const std::
     }
     tracer.trace(samples, results, statistics);
     for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
-      for (std::size_t c = 0; c < 3; ++c) pixels[i][c] += weight * results.radiance[i][c];
+      for (std::size_t c = 0; c < 3; ++c) pixels[i][c] += weights[i] * results.radiance[i][c];
     }
     count = 0;
+    samples.in_sun = samples.in_shadow = 0;
   };
   for (int left = 0; left < rays.width; left += kBlock) {
     bool has_steps = false;
@@ -203,16 +220,22 @@ void trace_edges(const PacketTracer& tracer, const CameraRays& rays, const std::
     for (int i = 0; i < kPacket; ++i) {
       const int row = top + i / kBlock;
       const int column = left + i % kBlock;
-      if (row >= rays.height || column >= rays.width || is_edge.at<std::uint8_t>(row, column) == 0) continue;
+      if (row >= rays.height || column >= rays.width || (is_edge.at<std::uint8_t>(row, column) & kCrossed) == 0)
+        continue;
+      const auto mark = is_edge.at<std::uint8_t>(row, column);
       if (!has_steps) {
         steps = blocks.steps(left, top);
         steps.first *= samples.share;
         steps.second *= samples.share;
         has_steps = true;
       }
+      const bool is_leaf = (mark & kInLeaves) != 0;
+      const auto& chosen =
+          is_leaf ? among_leaves[static_cast<std::size_t>(row + 2 * column) % among_leaves.size()] : all;
+      const float weight = 1.0f / static_cast<float>(chosen.size() + 1);
       auto* pixel = radiance.ptr<float>(row, column);
       for (int c = 0; c < 3; ++c) pixel[c] *= weight;
-      for (std::size_t s = 0; s < offsets.size(); ++s) {
+      for (const auto s : chosen) {
         const Eigen::Vector3f direction =
             rays.direction(static_cast<float>(column) + offsets[s].column, static_cast<float>(row) + offsets[s].row);
         const auto lane = static_cast<std::size_t>(count);
@@ -221,6 +244,9 @@ void trace_edges(const PacketTracer& tracer, const CameraRays& rays, const std::
         samples.across[lane] = steps.first;
         samples.down[lane] = steps.second;
         pixels[lane] = pixel;
+        weights[lane] = weight;
+        if ((mark & kAllInSun) != 0) samples.in_sun |= 1u << count;
+        if ((mark & kAllInShadow) != 0) samples.in_shadow |= 1u << count;
         if (++count == kPacket) flush();
       }
     }

@@ -26,10 +26,17 @@ PANVO_INLINE Vector3 bilinear(const std::uint32_t* texels, const Word& offset, c
   const Int row = floored(y);
   const Float right = x - to_float(column);
   const Float low = y - to_float(row);
-  const Word left_index = (Word)column & (width - 1);
-  const Word right_index = (Word)(column + 1) & (width - 1);
-  const Word upper = offset + (((Word)row & (height - 1)) << log2_width);
-  const Word lower = offset + (((Word)(row + 1) & (height - 1)) << log2_width);
+  // texels lie in tiles of 4 x 4, a cache line each, wherever the level is that large
+  const Word tile = (Word)((log2_width > 1u) & (log2_height > 1u)) & 2u;
+  const Word inside = (all_word(1) << tile) - 1u;
+  const auto column_part = [&](const Word& at) PANVO_ALWAYS { return ((at >> tile) << (tile + tile)) + (at & inside); };
+  const auto row_part = [&](const Word& at) PANVO_ALWAYS {
+    return offset + ((at >> tile) << (log2_width + tile)) + ((at & inside) << tile);
+  };
+  const Word left_index = column_part((Word)column & (width - 1));
+  const Word right_index = column_part((Word)(column + 1) & (width - 1));
+  const Word upper = row_part((Word)row & (height - 1));
+  const Word lower = row_part((Word)(row + 1) & (height - 1));
   const Vector3 upper_left = texel(texels, upper + left_index);
   const Vector3 lower_left = texel(texels, lower + left_index);
   const Vector3 up = upper_left + right * (texel(texels, upper + right_index) - upper_left);
@@ -241,8 +248,9 @@ void shade_packet(const ShadingTables& tables, const TracedPacket& traced, Shade
   const auto* material_numbers = (const float*)tables.materials;
   const Word flags = gather(material_words + 12, material_index);
   const auto interpolated = [&](const Word& a, const Word& b, const Word& c) PANVO_ALWAYS {
-    return (1.0f / 255.0f) * (first * to_float((Int)(a & 0xffu)) + second * to_float((Int)(b & 0xffu)) +
-                              third * to_float((Int)(c & 0xffu)));
+    const Float value =
+        first * to_float((Int)(a & 0xffu)) + second * to_float((Int)(b & 0xffu)) + third * to_float((Int)(c & 0xffu));
+    return clamped((1.0f / 255.0f) * value, 0.0f, 1.0f);  // a card's fourth corner is extrapolated
   };
   const Float open = interpolated(material_occlusion >> 8, material_occlusion >> 16, material_occlusion >> 24);
   const Word tint_0 = gather(surface_words + 9, surface);

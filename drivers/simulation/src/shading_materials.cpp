@@ -18,6 +18,24 @@ constexpr std::size_t kMostMaterials = 256;  // a surface record has eight bits 
 constexpr std::uint32_t kOpaque = 181;       // the square root of 0.5, of 255
 constexpr float kEnvironmentSpread = 0.05f;  // rad: about an entry
 
+/// A level of a texture's pyramid: its texels lie in tiles of 4 x 4, a cache line each, where it is that large.
+struct LevelShape {
+  LevelShape(const TextureRecord& texture, std::uint32_t level)
+      : log2_width(std::max(texture.log2_width, level) - level),
+        log2_height(std::max(texture.log2_height, level) - level),
+        tile(log2_width > 1 && log2_height > 1 ? 2 : 0),
+        columns((1u << log2_width) - 1),
+        rows((1u << log2_height) - 1) {}
+
+  std::uint32_t index(std::uint32_t x, std::uint32_t y) const {
+    const std::uint32_t inside = (1u << tile) - 1;
+    return ((y >> tile) << (log2_width + tile)) + ((x >> tile) << (2 * tile)) + ((y & inside) << tile) + (x & inside);
+  }
+
+  std::uint32_t log2_width, log2_height, tile;
+  std::uint32_t columns, rows;  ///< less one: masks
+};
+
 }  // namespace
 
 ShadingMaterials::ShadingMaterials(const Palette& palette) {
@@ -80,7 +98,15 @@ std::uint32_t ShadingMaterials::add(const Texture& texture) {
   if (first + bytes.size() / 4 != offset) throw std::logic_error("renderer: a texture's pyramid is not as it says");
   static_assert(std::endian::native == std::endian::little, "red is the low byte");
   texels_.resize(offset);
-  std::memcpy(texels_.data() + first, bytes.data(), bytes.size());
+  const std::uint8_t* from = bytes.data();
+  for (std::uint32_t level = 0; level <= record.last_level; ++level) {
+    const LevelShape shape(record, level);
+    for (std::uint32_t y = 0; y <= shape.rows; ++y) {
+      for (std::uint32_t x = 0; x <= shape.columns; ++x, from += 4) {
+        std::memcpy(&texels_[record.offsets[level] + shape.index(x, y)], from, 4);
+      }
+    }
+  }
   textures_.push_back(record);
   return static_cast<std::uint32_t>(textures_.size() - 1);
 }
@@ -98,28 +124,27 @@ bool ShadingMaterials::is_hole(std::uint32_t material, const Eigen::Vector2f& uv
   const float texels = width_m * record.periods_per_m * static_cast<float>(1u << texture.log2_width);
   const int exponent = static_cast<int>(std::bit_cast<std::uint32_t>(texels * 1.41421356f) >> 23) - 127;
   const auto level = static_cast<std::uint32_t>(std::clamp(exponent, 0, static_cast<int>(texture.last_level)));
-  const std::uint32_t log2_width = std::max(texture.log2_width, level) - level;
-  const std::uint32_t log2_height = std::max(texture.log2_height, level) - level;
-  const float x = uv.x() * record.periods_per_m * static_cast<float>(1u << log2_width) - 0.5f;
-  const float y = uv.y() * record.periods_per_m * static_cast<float>(1u << log2_height) - 0.5f;
+  const LevelShape shape(texture, level);
+  const float x = uv.x() * record.periods_per_m * static_cast<float>(shape.columns + 1) - 0.5f;
+  const float y = uv.y() * record.periods_per_m * static_cast<float>(shape.rows + 1) - 0.5f;
   const auto floored = [](float value) {
     const int whole = static_cast<int>(value);
     return whole - static_cast<int>(value < static_cast<float>(whole));
   };
   const int column = floored(x);
   const int row = floored(y);
-  const std::uint32_t columns = (1u << log2_width) - 1;
-  const std::uint32_t rows = (1u << log2_height) - 1;
   const std::uint32_t* first = texels_.data() + texture.offsets[level];
   const auto alpha = [&](int i, int j) {
-    return static_cast<float>(
-        first[((static_cast<std::uint32_t>(j) & rows) << log2_width) + (static_cast<std::uint32_t>(i) & columns)] >>
-        24);
+    const std::uint32_t texel =
+        first[shape.index(static_cast<std::uint32_t>(i) & shape.columns, static_cast<std::uint32_t>(j) & shape.rows)];
+    return static_cast<float>(texel >> 24);
   };
   const float right = x - static_cast<float>(column);
   const float low = y - static_cast<float>(row);
-  const float upper = alpha(column, row) + right * (alpha(column + 1, row) - alpha(column, row));
-  const float lower = alpha(column, row + 1) + right * (alpha(column + 1, row + 1) - alpha(column, row + 1));
+  const float upper_left = alpha(column, row);
+  const float lower_left = alpha(column, row + 1);
+  const float upper = upper_left + right * (alpha(column + 1, row) - upper_left);
+  const float lower = lower_left + right * (alpha(column + 1, row + 1) - lower_left);
   return upper + low * (lower - upper) < static_cast<float>(kOpaque);
 }
 

@@ -46,6 +46,31 @@ SurfaceRecord surface_record(const Mesh& mesh, const Triangle& triangle) {
   return record;
 }
 
+/// Joins triangles that all come in pairs (a, b, c), (a, c, d) of parallelograms, as leaves on cards do: half as many to
+/// trace. Their surfaces then hang on the corners a, b and d. False, and nothing done, where they do not.
+bool join_cards(const Mesh& mesh, std::vector<Triangle>& triangles, std::vector<std::uint32_t>& corners) {
+  if (triangles.size() % 2 != 0) return false;
+  std::vector<Triangle> bases;
+  std::vector<std::uint32_t> quads;
+  for (std::size_t i = 0; i < triangles.size(); i += 2) {
+    const auto [a, b, c] = triangles[i].corners;
+    const auto& other = triangles[i + 1];
+    const std::uint32_t d = other.corners[2];
+    if (other.corners[0] != a || other.corners[1] != c || other.material != triangles[i].material) return false;
+    const auto& vertices = mesh.vertices;
+    const float size = (vertices[c].position - vertices[a].position).norm();
+    const Eigen::Vector3f gap =
+        vertices[a].position - vertices[b].position + vertices[c].position - vertices[d].position;
+    const Eigen::Vector2f uv_gap = vertices[a].uv - vertices[b].uv + vertices[c].uv - vertices[d].uv;
+    if (gap.norm() > 1e-3f * size || uv_gap.norm() > 1e-3f * (vertices[c].uv - vertices[a].uv).norm()) return false;
+    bases.push_back({{a, b, d}, other.material});
+    quads.insert(quads.end(), {a, b, c, d});
+  }
+  triangles = std::move(bases);
+  corners = std::move(quads);
+  return true;
+}
+
 std::array<float, 12> to_array(const Eigen::Affine3f& transform) {
   std::array<float, 12> values{};
   Eigen::Map<Eigen::Matrix<float, 3, 4>>(values.data()) = transform.affine();
@@ -78,8 +103,10 @@ Eigen::Vector3f unpack_normal(std::uint32_t packed) {
 }
 
 struct TracedScene::Part {
+  const Mesh* mesh = nullptr;
   std::vector<Eigen::Vector3f> positions;  // and one more, for Embree reads 16 bytes at each
-  std::vector<std::array<std::uint32_t, 3>> corners;
+  std::vector<std::uint32_t> corners;      // of the triangles, or of the parallelograms
+  std::vector<Triangle> bases;  // of the surface records: of a parallelogram its first, second and last corner
   const std::vector<SurfaceRecord>* surfaces = nullptr;
   const ShadingMaterials* materials = nullptr;
   std::uint32_t first_surface = 0;
@@ -150,7 +177,7 @@ TracedScene::~TracedScene() = default;
 
 void TracedScene::bake_ambient_light() {
   for (std::size_t i = 0; i < scene_->fixed.size(); ++i) {
-    set_ambient_light(scene_->fixed[i], objects_[i].first_surface, ambient_light(standing_.get(), scene_->fixed[i]));
+    set_ambient_light(scene_->fixed[i], ambient_light(standing_.get(), scene_->fixed[i]));
   }
   // a model stands alone on a plain: it is the same wherever it stands
   alignas(16) const std::array<float, 13> plain_corners{-50, -50, 0, 50, -50, 0, 50, 50, 0, -50, 50, 0, 0};
@@ -167,20 +194,20 @@ void TracedScene::bake_ambient_light() {
     rtcAttachGeometryByID(alone.get(), geometry, 1);
     rtcReleaseGeometry(geometry);
     rtcCommitScene(alone.get());
-    set_ambient_light(scene_->models[i], prototypes_[i].first_surface, ambient_light(alone.get(), scene_->models[i]));
+    set_ambient_light(scene_->models[i], ambient_light(alone.get(), scene_->models[i]));
   }
   rtcReleaseGeometry(plain);
 }
 
-void TracedScene::set_ambient_light(const Mesh& mesh, const std::array<std::uint32_t, 2>& first_surface,
-                                    const std::vector<std::uint8_t>& light) {
-  auto next = first_surface;
-  for (const auto& triangle : mesh.triangles) {
-    const bool has_holes = scene_->palette->materials()[triangle.material].has_holes;
-    auto& surface = surfaces_[next[has_holes ? 1 : 0]++];
-    surface.material_occlusion = triangle.material;
-    for (std::size_t corner = 0; corner < 3; ++corner) {
-      surface.material_occlusion |= static_cast<std::uint32_t>(light[triangle.corners[corner]]) << (8 * corner + 8);
+void TracedScene::set_ambient_light(const Mesh& mesh, const std::vector<std::uint8_t>& light) {
+  for (const auto& part : parts_) {
+    if (part->mesh != &mesh) continue;
+    for (std::size_t i = 0; i < part->bases.size(); ++i) {
+      auto& word = surfaces_[part->first_surface + i].material_occlusion;
+      word = part->bases[i].material;
+      for (std::size_t corner = 0; corner < 3; ++corner) {
+        word |= static_cast<std::uint32_t>(light[part->bases[i].corners[corner]]) << (8 * corner + 8);
+      }
     }
   }
 }
@@ -190,6 +217,7 @@ std::array<std::uint32_t, 2> TracedScene::add_mesh(const Mesh& mesh, RTCScene sc
   std::array<std::uint32_t, 2> first_surface{};
   for (const bool has_holes : {false, true}) {
     auto part = std::make_unique<Part>();
+    part->mesh = &mesh;
     part->surfaces = &surfaces_;
     part->materials = &materials_;
     part->first_surface = static_cast<std::uint32_t>(surfaces_.size());
@@ -199,19 +227,26 @@ std::array<std::uint32_t, 2> TracedScene::add_mesh(const Mesh& mesh, RTCScene sc
         throw std::invalid_argument(fmt::format("renderer: a triangle is of material {}, the palette has {}",
                                                 triangle.material, materials.size()));
       }
-      if (materials[triangle.material].has_holes != has_holes) continue;
-      surfaces_.push_back(surface_record(mesh, triangle));
-      part->corners.push_back(triangle.corners);
+      if (materials[triangle.material].has_holes == has_holes) part->bases.push_back(triangle);
     }
-    if (part->corners.empty()) continue;
+    if (part->bases.empty()) continue;
+    const bool is_cards = has_holes && join_cards(mesh, part->bases, part->corners);
+    if (!is_cards) {
+      for (const auto& triangle : part->bases) {
+        part->corners.insert(part->corners.end(), triangle.corners.begin(), triangle.corners.end());
+      }
+    }
+    for (const auto& base : part->bases) surfaces_.push_back(surface_record(mesh, base));
     part->positions.reserve(mesh.vertices.size() + 1);
     for (const auto& vertex : mesh.vertices) part->positions.push_back(vertex.position);
     part->positions.emplace_back(Eigen::Vector3f::Zero());
-    const RTCGeometry geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
+    const RTCGeometry geometry =
+        rtcNewGeometry(device_.get(), is_cards ? RTC_GEOMETRY_TYPE_QUAD : RTC_GEOMETRY_TYPE_TRIANGLE);
     rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, part->positions.data(), 0,
                                sizeof(Eigen::Vector3f), mesh.vertices.size());
-    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, part->corners.data(), 0,
-                               sizeof(part->corners[0]), part->corners.size());
+    const std::size_t sides = is_cards ? 4 : 3;
+    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, is_cards ? RTC_FORMAT_UINT4 : RTC_FORMAT_UINT3,
+                               part->corners.data(), 0, sides * sizeof(std::uint32_t), part->bases.size());
     rtcSetGeometryMask(geometry, 0xffffffffu);
     if (has_holes) {
       rtcSetGeometryUserData(geometry, part.get());

@@ -87,8 +87,7 @@ class TracedScene {
   };
 
   std::array<std::uint32_t, 2> add_mesh(const Mesh& mesh, RTCScene scene, std::uint32_t first_geometry);
-  void set_ambient_light(const Mesh& mesh, const std::array<std::uint32_t, 2>& first_surface,
-                         const std::vector<std::uint8_t>& light);
+  void set_ambient_light(const Mesh& mesh, const std::vector<std::uint8_t>& light);
   void bake_ambient_light();
   ObjectRecord placed(const Placement& placement) const;
   RTCGeometry instance(const Placement& placement, int time_steps) const;

@@ -35,7 +35,7 @@ class Renderer {
   ~Renderer();
 
   struct Quality {
-    int edge_samples = 4;  ///< more rays in a pixel that an edge crosses
+    int edge_samples = 3;  ///< more rays in a pixel that an edge crosses; up to 16
     int texture_taps = 4;  ///< probes along the longer side of a footprint
   };
 
