@@ -205,7 +205,8 @@ void shade_packet(const ShadingTables& tables, const TracedPacket& traced, Shade
                                       turn[6] * direction.x + turn[7] * direction.y + turn[8] * direction.z};
   Vector3 object_tint{all(1.0f), all(1.0f), all(1.0f)};
 
-  const Int is_placed = ~is_fixed & is_hit;
+  const Int is_instance = ~is_fixed & is_hit;  // a mover; what stands was copied to its place
+  const Int is_placed = ((Int)gather(object_words + 30, object_index) != 0) & is_hit;
   if (any(is_placed)) {
     const Int moves = (Int)gather(object_words + 29, object_index) != 0;
     Vector3 axis_x = gather3(object_numbers + 2, object_index);
@@ -225,14 +226,14 @@ void shade_packet(const ShadingTables& tables, const TracedPacket& traced, Shade
                           dot(axis_y, from_foot) * moved_y + dot(axis_z, from_foot) * moved_z;
       motion = choose(moves & is_placed, motion - own, motion);
     }
-    const auto placed = [&](const Vector3& vector) PANVO_ALWAYS {
-      return choose(is_placed, vector.x * axis_x + vector.y * axis_y + vector.z * axis_z, vector);
+    const auto turned = [&](const Int& which, const Vector3& vector) PANVO_ALWAYS {
+      return choose(which, vector.x * axis_x + vector.y * axis_y + vector.z * axis_z, vector);
     };
-    flat = placed(flat);
-    normal = placed(normal);
+    flat = turned(is_instance, flat);
+    normal = turned(is_placed, normal);
     const Float shrunk = 1.0f / choose(is_placed, dot(axis_x, axis_x), all(1.0f));
-    u_gradient = shrunk * placed(u_gradient);
-    v_gradient = shrunk * placed(v_gradient);
+    u_gradient = shrunk * turned(is_placed, u_gradient);
+    v_gradient = shrunk * turned(is_placed, v_gradient);
     object_tint = gather3(object_numbers + 26, object_index);
   }
   flat = normalized(flat);

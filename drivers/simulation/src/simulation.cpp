@@ -139,6 +139,11 @@ cv::Mat Simulation::expose(Camera& camera, double middle_s, double exposure_s, s
   const Shot shot{world_from_base_opened * camera.base_from_camera, world_from_base_closed * camera.base_from_camera,
                   visibility};
   auto radiance = renderer_->render(camera.rays, shot, weather_->light(middle_s), movers, parameters_.quality);
+  const auto traced = renderer_->statistics();
+  statistics_.pixels += traced.pixels;
+  statistics_.primary_rays += traced.primary_rays;
+  statistics_.shadow_rays += traced.shadow_rays;
+  statistics_.triangles = traced.triangles;
   return camera.sensor.expose(radiance, frame);
 }
 

@@ -110,6 +110,7 @@ struct TracedScene::Part {
   const std::vector<SurfaceRecord>* surfaces = nullptr;
   const ShadingMaterials* materials = nullptr;
   std::uint32_t first_surface = 0;
+  bool is_cards = false, has_holes = false;
 
   /// Embree's filter: takes away the hits that lie in a hole.
   static void let_through_holes(const RTCFilterFunctionNArguments* arguments) {
@@ -139,16 +140,17 @@ TracedScene::TracedScene(std::shared_ptr<const Scene> scene, const ShadingMateri
   surfaces_.reserve(surface_count);
 
   for (const auto& model : scene_->models) {
-    Prototype prototype{ScenePointer(rtcNewScene(device_.get())), {}, model.triangles.size()};
+    Prototype prototype{ScenePointer(rtcNewScene(device_.get())), {}, model.triangles.size(), {}};
     rtcSetSceneBuildQuality(prototype.scene.get(), RTC_BUILD_QUALITY_HIGH);
+    const std::size_t first_part = parts_.size();
     prototype.first_surface = add_mesh(model, prototype.scene.get(), 0);
+    for (std::size_t i = first_part; i < parts_.size(); ++i) prototype.parts.push_back(parts_[i].get());
     rtcCommitScene(prototype.scene.get());
     prototypes_.push_back(std::move(prototype));
   }
   standing_.reset(rtcNewScene(device_.get()));
   rtcSetSceneBuildQuality(standing_.get(), RTC_BUILD_QUALITY_HIGH);
-  // Embree's numbers: 2 i and 2 i + 1 for the fixed meshes; the standing models follow with their objects' numbers,
-  // which must not be smaller than these
+  // Embree's numbers: 2 i for the surfaces without holes of object i, 2 i + 1 for those with
   for (const auto& mesh : scene_->fixed) {
     ObjectRecord object;
     object.first_surface = add_mesh(mesh, standing_.get(), static_cast<std::uint32_t>(2 * objects_.size()));
@@ -156,14 +158,18 @@ TracedScene::TracedScene(std::shared_ptr<const Scene> scene, const ShadingMateri
     objects_.push_back(object);
     triangle_count_ += mesh.triangles.size();
   }
-  objects_.resize(2 * objects_.size());
+  // models that stand are copied, not instanced: packets stay together, which is worth the memory
   for (const auto& placement : scene_->standing) {
+    const auto first_geometry = static_cast<std::uint32_t>(2 * objects_.size());
     objects_.push_back(placed(placement));
-    const RTCGeometry geometry = instance(placement, 1);
-    rtcCommitGeometry(geometry);
-    rtcAttachGeometryByID(standing_.get(), geometry, static_cast<std::uint32_t>(objects_.size() - 1));
-    rtcReleaseGeometry(geometry);
-    triangle_count_ += prototypes_[placement.model].triangle_count;
+    const auto& prototype = prototypes_[placement.model];
+    triangle_count_ += prototype.triangle_count;
+    if (prototype.parts.empty()) continue;
+    auto& positions = placed_positions_.emplace_back(prototype.parts.front()->positions);
+    for (auto& position : positions) position = placement.world_from_model * position;
+    for (const auto* part : prototype.parts) {
+      attach(*part, positions, placement.visibility, standing_.get(), first_geometry);
+    }
   }
   moving_first_ = static_cast<std::uint32_t>(objects_.size());
   rtcCommitScene(standing_.get());
@@ -240,25 +246,32 @@ std::array<std::uint32_t, 2> TracedScene::add_mesh(const Mesh& mesh, RTCScene sc
     part->positions.reserve(mesh.vertices.size() + 1);
     for (const auto& vertex : mesh.vertices) part->positions.push_back(vertex.position);
     part->positions.emplace_back(Eigen::Vector3f::Zero());
-    const RTCGeometry geometry =
-        rtcNewGeometry(device_.get(), is_cards ? RTC_GEOMETRY_TYPE_QUAD : RTC_GEOMETRY_TYPE_TRIANGLE);
-    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, part->positions.data(), 0,
-                               sizeof(Eigen::Vector3f), mesh.vertices.size());
-    const std::size_t sides = is_cards ? 4 : 3;
-    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, is_cards ? RTC_FORMAT_UINT4 : RTC_FORMAT_UINT3,
-                               part->corners.data(), 0, sides * sizeof(std::uint32_t), part->bases.size());
-    rtcSetGeometryMask(geometry, 0xffffffffu);
-    if (has_holes) {
-      rtcSetGeometryUserData(geometry, part.get());
-      rtcSetGeometryIntersectFilterFunction(geometry, Part::let_through_holes);
-      rtcSetGeometryOccludedFilterFunction(geometry, Part::let_through_holes);
-    }
-    rtcCommitGeometry(geometry);
-    rtcAttachGeometryByID(scene, geometry, first_geometry + (has_holes ? 1 : 0));
-    rtcReleaseGeometry(geometry);
+    part->is_cards = is_cards;
+    part->has_holes = has_holes;
+    attach(*part, part->positions, kToAll, scene, first_geometry);
     parts_.push_back(std::move(part));
   }
   return first_surface;
+}
+
+void TracedScene::attach(const Part& part, const std::vector<Eigen::Vector3f>& positions, std::uint32_t visibility,
+                         RTCScene scene, std::uint32_t first_geometry) const {
+  const RTCGeometry geometry =
+      rtcNewGeometry(device_.get(), part.is_cards ? RTC_GEOMETRY_TYPE_QUAD : RTC_GEOMETRY_TYPE_TRIANGLE);
+  rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, positions.data(), 0,
+                             sizeof(Eigen::Vector3f), positions.size() - 1);
+  const std::size_t sides = part.is_cards ? 4 : 3;
+  rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, part.is_cards ? RTC_FORMAT_UINT4 : RTC_FORMAT_UINT3,
+                             part.corners.data(), 0, sides * sizeof(std::uint32_t), part.corners.size() / sides);
+  rtcSetGeometryMask(geometry, visibility);
+  if (part.has_holes) {
+    rtcSetGeometryUserData(geometry, const_cast<Part*>(&part));
+    rtcSetGeometryIntersectFilterFunction(geometry, Part::let_through_holes);
+    rtcSetGeometryOccludedFilterFunction(geometry, Part::let_through_holes);
+  }
+  rtcCommitGeometry(geometry);
+  rtcAttachGeometryByID(scene, geometry, first_geometry + (part.has_holes ? 1 : 0));
+  rtcReleaseGeometry(geometry);
 }
 
 ObjectRecord TracedScene::placed(const Placement& placement) const {
@@ -269,6 +282,7 @@ ObjectRecord TracedScene::placed(const Placement& placement) const {
   ObjectRecord object;
   object.first_surface = prototypes_[placement.model].first_surface;
   object.world_from_model = to_array(placement.world_from_model);
+  object.is_placed = 1;
   object.tint = {static_cast<float>(placement.tint.red) / 255.0f, static_cast<float>(placement.tint.green) / 255.0f,
                  static_cast<float>(placement.tint.blue) / 255.0f};
   return object;

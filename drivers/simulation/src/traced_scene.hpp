@@ -32,7 +32,8 @@ struct ObjectRecord {
   std::array<float, 12> motion{};                ///< what it has more when the shutter closes
   std::array<float, 3> tint{1.0f, 1.0f, 1.0f};
   std::uint32_t moves = 0;
-  std::array<std::uint32_t, 2> padding{};
+  std::uint32_t is_placed = 0;
+  std::uint32_t padding = 0;
 };
 static_assert(sizeof(ObjectRecord) == 32 * sizeof(std::uint32_t));
 
@@ -84,9 +85,12 @@ class TracedScene {
     ScenePointer scene;
     std::array<std::uint32_t, 2> first_surface{};
     std::uint64_t triangle_count = 0;
+    std::vector<const Part*> parts;
   };
 
   std::array<std::uint32_t, 2> add_mesh(const Mesh& mesh, RTCScene scene, std::uint32_t first_geometry);
+  void attach(const Part& part, const std::vector<Eigen::Vector3f>& positions, std::uint32_t visibility, RTCScene scene,
+              std::uint32_t first_geometry) const;
   void set_ambient_light(const Mesh& mesh, const std::vector<std::uint8_t>& light);
   void bake_ambient_light();
   ObjectRecord placed(const Placement& placement) const;
@@ -96,6 +100,7 @@ class TracedScene {
   const ShadingMaterials& materials_;
   DevicePointer device_;
   std::vector<std::unique_ptr<Part>> parts_;
+  std::vector<std::vector<Eigen::Vector3f>> placed_positions_;  // of the models that stand, in the world
   std::vector<Prototype> prototypes_;
   std::vector<SurfaceRecord> surfaces_;
   std::vector<ObjectRecord> objects_;  // fixed meshes, standing models, movers

@@ -183,7 +183,7 @@ void write_data_set(Simulation& simulation, const Options& options) {
 
   const auto& instants = simulation.instants();
   const double length_s = instants.back().t_s - instants.front().t_s;
-  const auto statistics = simulation.renderer().statistics();
+  const auto statistics = simulation.statistics();
   fmt::print(
       "{}: {} s of {} in {:.0f} s ({:.1f} s a second): {:.2f} million pixels and {:.2f} million rays a second, "
       "{:.2f} million triangles\n",

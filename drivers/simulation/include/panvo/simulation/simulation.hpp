@@ -69,7 +69,8 @@ class Simulation {
   StereoImages render_stereo(const Instant& instant);
   std::vector<cv::Mat> render_panorama(const Instant& instant);  ///< one image a head
 
-  Renderer& renderer() { return *renderer_; }
+  /// Of all that was rendered so far.
+  const Renderer::Statistics& statistics() const { return statistics_; }
 
  private:
   struct Camera {
@@ -86,6 +87,7 @@ class Simulation {
   std::unique_ptr<Weather> weather_;
   std::optional<Traffic> traffic_;
   std::unique_ptr<Renderer> renderer_;
+  Renderer::Statistics statistics_;
   std::vector<Camera> eyes_, heads_;
   std::vector<Instant> instants_;
 };
