@@ -14,6 +14,7 @@ LIBRARIES = {
     "Eigen": "eigen", "unsupported": "eigen", "opencv2": "opencv", "ceres": "ceres", "opengv": "opengv",
     "fastdds": "fastdds", "fastrtps": "fastdds", "fastcdr": "fastdds",
     "yaml-cpp": "yaml", "spdlog": "log", "fmt": "text", "CLI": "command line", "nlohmann": "json", "sqlite3.h": "sqlite", "tinyxml2.h": "xml",
+    "embree3": "embree",
     "gtest": "test", "gmock": "test", "benchmark": "test",
 }
 THREAD_HEADERS = {"thread", "future", "stop_token", "condition_variable", "mutex", "shared_mutex", "semaphore", "latch", "barrier", "pthread.h"}
@@ -47,6 +48,7 @@ ALGORITHM = floor("algorithm", "vision", "eigen, opencv, ceres, opengv", False)
 WRAPPER = floor("component wrapper", "runtime interfaces conversions vision", "messages, eigen, opencv", False)
 RECORDER = floor("recorder", "runtime interfaces", "messages, fastdds, yaml, sqlite, log, json, command line")
 DRIVER = floor("driver", "runtime interfaces conversions vision", "messages, eigen, opencv, yaml, xml, json, log")
+SIMULATION = floor("simulation", "runtime interfaces conversions vision", "messages, eigen, opencv, embree, yaml, log, command line")
 EVALUATION = None  # may include anything
 
 # Folders whose files are not an algorithm and its wrapper.
@@ -59,6 +61,7 @@ FLOORS = [
     ("components/conversions", CONVERSIONS),
     ("components/recorder", RECORDER),
     ("components/evaluation", EVALUATION),
+    ("drivers/simulation", SIMULATION),
     ("drivers", DRIVER),
     ("tests", EVALUATION),
 ]

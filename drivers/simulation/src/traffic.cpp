@@ -72,9 +72,9 @@ Eigen::Affine3f Traffic::place(const Mover& mover, double t_s) const {
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
   pose.linear() = Eigen::AngleAxisd(heading, Eigen::Vector3d::UnitZ()).toRotationMatrix();
   if (mover.walks) {
-    constexpr double kSteps_rad_per_m = 4.2, kBob_m = 0.02, kSway_rad = 0.06;  // a step every 0.75 m
+    constexpr double kPhasePerMetre = 4.2, kBob_m = 0.02, kSway_rad = 0.06;  // a step every 0.75 m
     const double along = mover.start_m + mover.speed_m_per_s * (t_s - mover.from_s);
-    const double phase = kSteps_rad_per_m * std::clamp(along, 0.0, mover.along_m.back());
+    const double phase = kPhasePerMetre * std::clamp(along, 0.0, mover.along_m.back());
     pose.translation() << position, site_->ground_m(position) + kBob_m * std::abs(std::sin(phase));
     pose.linear() = pose.linear() * Eigen::AngleAxisd(kSway_rad * std::sin(phase), Eigen::Vector3d::UnitZ());
     return pose.cast<float>();
