@@ -242,8 +242,8 @@ void shade_packet(const ShadingTables& tables, const TracedPacket& traced, Shade
   normal = choose(dot(normal, flat) < 0.0f, all(-1.0f) * normal, normal);
 
   // the material, the tint and how much of the sky is open
-  const Word material_occlusion = gather(surface_words + 12, surface);
-  const Word material = material_occlusion & 0xffu;
+  const Word material_light = gather(surface_words + 12, surface);
+  const Word material = material_light & 0xffu;
   const Word material_index = material * 16u;
   const auto* material_words = (const std::uint32_t*)tables.materials;
   const auto* material_numbers = (const float*)tables.materials;
@@ -253,7 +253,10 @@ void shade_packet(const ShadingTables& tables, const TracedPacket& traced, Shade
         first * to_float((Int)(a & 0xffu)) + second * to_float((Int)(b & 0xffu)) + third * to_float((Int)(c & 0xffu));
     return clamped((1.0f / 255.0f) * value, 0.0f, 1.0f);  // a card's fourth corner is extrapolated
   };
-  const Float open = interpolated(material_occlusion >> 8, material_occlusion >> 16, material_occlusion >> 24);
+  const auto corner_light = [&](int bit) PANVO_ALWAYS { return to_float((Int)((material_light >> bit) & 0x3fu)); };
+  const Float open =
+      (1.0f / 63.0f) * ((1.0f - third) * ((1.0f - second) * corner_light(8) + second * corner_light(14)) +
+                        third * ((1.0f - second) * corner_light(20) + second * corner_light(26)));
   const Word tint_0 = gather(surface_words + 9, surface);
   const Word tint_1 = gather(surface_words + 10, surface);
   const Word tint_2 = gather(surface_words + 11, surface);

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
@@ -31,7 +32,7 @@ SurfaceRecord surface_record(const Mesh& mesh, const Triangle& triangle) {
   const Eigen::Vector2f to_third = third.uv - first.uv;
   record.uv = {first.uv.x(), first.uv.y(), to_second.x(), to_second.y(), to_third.x(), to_third.y()};
   record.tints = {pack_tint(first.tint), pack_tint(second.tint), pack_tint(third.tint)};
-  record.material_occlusion = triangle.material | 0xffffff00u;
+  record.material_light = triangle.material | 0xffffff00u;
   // the barycentric coordinates' gradients: perpendicular to the opposite edge, in the triangle's plane
   const Eigen::Vector3f edge1 = second.position - first.position;
   const Eigen::Vector3f edge2 = third.position - first.position;
@@ -46,29 +47,22 @@ SurfaceRecord surface_record(const Mesh& mesh, const Triangle& triangle) {
   return record;
 }
 
-/// Joins triangles that all come in pairs (a, b, c), (a, c, d) of parallelograms, as leaves on cards do: half as many to
-/// trace. Their surfaces then hang on the corners a, b and d. False, and nothing done, where they do not.
-bool join_cards(const Mesh& mesh, std::vector<Triangle>& triangles, std::vector<std::uint32_t>& corners) {
-  if (triangles.size() % 2 != 0) return false;
-  std::vector<Triangle> bases;
-  std::vector<std::uint32_t> quads;
-  for (std::size_t i = 0; i < triangles.size(); i += 2) {
-    const auto [a, b, c] = triangles[i].corners;
-    const auto& other = triangles[i + 1];
-    const std::uint32_t d = other.corners[2];
-    if (other.corners[0] != a || other.corners[1] != c || other.material != triangles[i].material) return false;
-    const auto& vertices = mesh.vertices;
-    const float size = (vertices[c].position - vertices[a].position).norm();
-    const Eigen::Vector3f gap =
-        vertices[a].position - vertices[b].position + vertices[c].position - vertices[d].position;
-    const Eigen::Vector2f uv_gap = vertices[a].uv - vertices[b].uv + vertices[c].uv - vertices[d].uv;
-    if (gap.norm() > 1e-3f * size || uv_gap.norm() > 1e-3f * (vertices[c].uv - vertices[a].uv).norm()) return false;
-    bases.push_back({{a, b, d}, other.material});
-    quads.insert(quads.end(), {a, b, c, d});
-  }
-  triangles = std::move(bases);
-  corners = std::move(quads);
-  return true;
+/// Whether a, b, c, d, the corners of one surface, form a parallelogram over which everything changes evenly.
+bool is_even(const Mesh& mesh, const std::array<std::uint32_t, 4>& corners, bool has_holes) {
+  const auto& a = mesh.vertices[corners[0]];
+  const auto& b = mesh.vertices[corners[1]];
+  const auto& c = mesh.vertices[corners[2]];
+  const auto& d = mesh.vertices[corners[3]];
+  const Eigen::Vector3f gap = a.position - b.position + c.position - d.position;
+  if (gap.norm() > 1e-3f * (c.position - a.position).norm()) return false;
+  if ((a.uv - b.uv + c.uv - d.uv).norm() > 1e-3f * (c.uv - a.uv).norm()) return false;
+  if (has_holes) return true;  // nobody sees how a single leaf is lit
+  if ((a.normal - b.normal + c.normal - d.normal).norm() > 0.05f) return false;
+  const auto differs = [](int p, int q, int r, int s) { return std::abs(p - q + r - s) > 3; };
+  return !differs(a.tint.red, b.tint.red, c.tint.red, d.tint.red) &&
+         !differs(a.tint.green, b.tint.green, c.tint.green, d.tint.green) &&
+         !differs(a.tint.blue, b.tint.blue, c.tint.blue, d.tint.blue) &&
+         !differs(a.tint.contrast, b.tint.contrast, c.tint.contrast, d.tint.contrast);
 }
 
 std::array<float, 12> to_array(const Eigen::Affine3f& transform) {
@@ -104,13 +98,13 @@ Eigen::Vector3f unpack_normal(std::uint32_t packed) {
 
 struct TracedScene::Part {
   const Mesh* mesh = nullptr;
-  std::vector<Eigen::Vector3f> positions;  // and one more, for Embree reads 16 bytes at each
-  std::vector<std::uint32_t> corners;      // of the triangles, or of the parallelograms
-  std::vector<Triangle> bases;  // of the surface records: of a parallelogram its first, second and last corner
+  std::vector<Eigen::Vector3f> positions;             // and one more, for Embree reads 16 bytes at each
+  std::vector<std::array<std::uint32_t, 4>> corners;  // of parallelograms; a triangle's last is there twice
+  std::vector<std::uint16_t> of_material;
   const std::vector<SurfaceRecord>* surfaces = nullptr;
   const ShadingMaterials* materials = nullptr;
   std::uint32_t first_surface = 0;
-  bool is_cards = false, has_holes = false;
+  bool has_holes = false;
 
   /// Embree's filter: takes away the hits that lie in a hole.
   static void let_through_holes(const RTCFilterFunctionNArguments* arguments) {
@@ -125,7 +119,7 @@ struct TracedScene::Part {
       const Eigen::Vector2f uv(surface.uv[0] + second * surface.uv[2] + third * surface.uv[4],
                                surface.uv[1] + second * surface.uv[3] + third * surface.uv[5]);
       const float width = spread * RTCRayN_tfar(arguments->ray, arguments->N, i);
-      if (part.materials->is_hole(surface.material_occlusion & 0xffu, uv, width)) arguments->valid[i] = 0;
+      if (part.materials->is_hole(surface.material_light & 0xffu, uv, width)) arguments->valid[i] = 0;
     }
   }
 };
@@ -187,10 +181,10 @@ void TracedScene::bake_ambient_light() {
   }
   // a model stands alone on a plain: it is the same wherever it stands
   alignas(16) const std::array<float, 13> plain_corners{-50, -50, 0, 50, -50, 0, 50, 50, 0, -50, 50, 0, 0};
-  const std::array<std::uint32_t, 6> plain_triangles{0, 1, 2, 0, 2, 3};
-  const RTCGeometry plain = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
+  const std::array<std::uint32_t, 4> plain_quad{0, 1, 2, 3};
+  const RTCGeometry plain = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_QUAD);
   rtcSetSharedGeometryBuffer(plain, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, plain_corners.data(), 0, 12, 4);
-  rtcSetSharedGeometryBuffer(plain, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, plain_triangles.data(), 0, 12, 2);
+  rtcSetSharedGeometryBuffer(plain, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT4, plain_quad.data(), 0, 16, 1);
   rtcCommitGeometry(plain);
   for (std::size_t i = 0; i < prototypes_.size(); ++i) {
     const ScenePointer alone(rtcNewScene(device_.get()));
@@ -208,12 +202,16 @@ void TracedScene::bake_ambient_light() {
 void TracedScene::set_ambient_light(const Mesh& mesh, const std::vector<std::uint8_t>& light) {
   for (const auto& part : parts_) {
     if (part->mesh != &mesh) continue;
-    for (std::size_t i = 0; i < part->bases.size(); ++i) {
-      auto& word = surfaces_[part->first_surface + i].material_occlusion;
-      word = part->bases[i].material;
-      for (std::size_t corner = 0; corner < 3; ++corner) {
-        word |= static_cast<std::uint32_t>(light[part->bases[i].corners[corner]]) << (8 * corner + 8);
+    for (std::size_t i = 0; i < part->corners.size(); ++i) {
+      const auto [a, b, c, d] = part->corners[i];
+      // of a triangle the parallelogram that goes on as it does
+      const int opposite = c == d ? light[b] + light[c] - light[a] : light[c];
+      std::uint32_t word = part->of_material[i];
+      const std::array<int, 4> corners{light[a], light[b], light[d], opposite};
+      for (std::size_t corner = 0; corner < 4; ++corner) {
+        word |= (static_cast<std::uint32_t>(std::clamp(corners[corner], 0, 255)) >> 2) << (6 * corner + 8);
       }
+      surfaces_[part->first_surface + i].material_light = word;
     }
   }
 }
@@ -228,26 +226,32 @@ std::array<std::uint32_t, 2> TracedScene::add_mesh(const Mesh& mesh, RTCScene sc
     part->materials = &materials_;
     part->first_surface = static_cast<std::uint32_t>(surfaces_.size());
     first_surface[has_holes ? 1 : 0] = part->first_surface;
-    for (const auto& triangle : mesh.triangles) {
+    part->has_holes = has_holes;
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+      const auto& triangle = mesh.triangles[i];
       if (triangle.material >= materials.size()) {
         throw std::invalid_argument(fmt::format("renderer: a triangle is of material {}, the palette has {}",
                                                 triangle.material, materials.size()));
       }
-      if (materials[triangle.material].has_holes == has_holes) part->bases.push_back(triangle);
+      if (materials[triangle.material].has_holes != has_holes) continue;
+      const auto [a, b, c] = triangle.corners;
+      surfaces_.push_back(surface_record(mesh, triangle));
+      part->corners.push_back({a, b, c, c});
+      part->of_material.push_back(triangle.material);
+      // a, b, c and a, c, d: half as much to trace
+      if (i + 1 == mesh.triangles.size()) continue;
+      const auto& next = mesh.triangles[i + 1];
+      const std::uint32_t d = next.corners[2];
+      if (next.material != triangle.material || next.corners[0] != a || next.corners[1] != c) continue;
+      if (!is_even(mesh, {a, b, c, d}, has_holes)) continue;
+      surfaces_.back() = surface_record(mesh, {{a, b, d}, triangle.material});
+      part->corners.back() = {a, b, c, d};
+      ++i;
     }
-    if (part->bases.empty()) continue;
-    const bool is_cards = has_holes && join_cards(mesh, part->bases, part->corners);
-    if (!is_cards) {
-      for (const auto& triangle : part->bases) {
-        part->corners.insert(part->corners.end(), triangle.corners.begin(), triangle.corners.end());
-      }
-    }
-    for (const auto& base : part->bases) surfaces_.push_back(surface_record(mesh, base));
+    if (part->corners.empty()) continue;
     part->positions.reserve(mesh.vertices.size() + 1);
     for (const auto& vertex : mesh.vertices) part->positions.push_back(vertex.position);
     part->positions.emplace_back(Eigen::Vector3f::Zero());
-    part->is_cards = is_cards;
-    part->has_holes = has_holes;
     attach(*part, part->positions, kToAll, scene, first_geometry);
     parts_.push_back(std::move(part));
   }
@@ -256,13 +260,11 @@ std::array<std::uint32_t, 2> TracedScene::add_mesh(const Mesh& mesh, RTCScene sc
 
 void TracedScene::attach(const Part& part, const std::vector<Eigen::Vector3f>& positions, std::uint32_t visibility,
                          RTCScene scene, std::uint32_t first_geometry) const {
-  const RTCGeometry geometry =
-      rtcNewGeometry(device_.get(), part.is_cards ? RTC_GEOMETRY_TYPE_QUAD : RTC_GEOMETRY_TYPE_TRIANGLE);
+  const RTCGeometry geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_QUAD);
   rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, positions.data(), 0,
                              sizeof(Eigen::Vector3f), positions.size() - 1);
-  const std::size_t sides = part.is_cards ? 4 : 3;
-  rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, part.is_cards ? RTC_FORMAT_UINT4 : RTC_FORMAT_UINT3,
-                             part.corners.data(), 0, sides * sizeof(std::uint32_t), part.corners.size() / sides);
+  rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT4, part.corners.data(), 0,
+                             sizeof(part.corners[0]), part.corners.size());
   rtcSetGeometryMask(geometry, visibility);
   if (part.has_holes) {
     rtcSetGeometryUserData(geometry, const_cast<Part*>(&part));

@@ -15,12 +15,14 @@
 
 namespace panvo::simulation {
 
-/// A triangle as shading reads it: one cache line.
+/// A triangle or parallelogram as shading reads it: one cache line. Of a parallelogram a, b, c, d the corners a, b and
+/// d; what is at c follows from them, but for the light.
 struct alignas(64) SurfaceRecord {
-  std::array<std::uint32_t, 3> normals{};    ///< of the corners, octahedral, 16 + 16 bits
-  std::array<float, 6> uv{};                 ///< m: of the first corner, then what the second and third have more
-  std::array<std::uint32_t, 3> tints{};      ///< of the corners: red, green, blue, contrast from the low byte up
-  std::uint32_t material_occlusion = 0;      ///< material in the low byte, then the corners' share of open sky
+  std::array<std::uint32_t, 3> normals{};  ///< of the corners, octahedral, 16 + 16 bits
+  std::array<float, 6> uv{};               ///< m: of the first corner, then what the second and third have more
+  std::array<std::uint32_t, 3> tints{};    ///< of the corners: red, green, blue, contrast from the low byte up
+  /// Material in the low byte, then the light from all round, six bits a corner: a, b, d, c.
+  std::uint32_t material_light = 0;
   std::array<std::uint32_t, 3> gradients{};  ///< of u and v by place in the model, six bfloat16: m per m
 };
 static_assert(sizeof(SurfaceRecord) == 64);
