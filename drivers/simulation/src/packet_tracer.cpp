@@ -19,6 +19,11 @@ TraceContext trace_context(float spread, RTCIntersectContextFlags flags) {
   return context;
 }
 
+float turned(const ShutterPose& pose, std::size_t axis, const Eigen::Vector3f& vector) {
+  const float* row = &pose.world_from_camera[3 * axis];
+  return row[0] * vector.x() + row[1] * vector.y() + row[2] * vector.z();
+}
+
 void set_lanes(std::uint32_t lanes, std::int32_t* valid) {
   for (int i = 0; i < kPacket; ++i) valid[i] = (lanes >> i & 1u) != 0 ? -1 : 0;
 }
@@ -50,10 +55,9 @@ void PacketTracer::intersect(const SampleRays& samples, TracedPacket& packet) co
     rays.dir_z[i] = m[6] * direction.x() + m[7] * direction.y() + m[8] * direction.z();
     rays.time[i] = pose.time;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      const float* row = &m[3 * axis];
-      packet.across[axis][i] =
-          row[0] * samples.across[i].x() + row[1] * samples.across[i].y() + row[2] * samples.across[i].z();
-      packet.down[axis][i] = row[0] * samples.down[i].x() + row[1] * samples.down[i].y() + row[2] * samples.down[i].z();
+      const bool is_known = samples.is_block && i > 0;
+      packet.across[axis][i] = is_known ? packet.across[axis][0] : turned(pose, axis, samples.across[i]);
+      packet.down[axis][i] = is_known ? packet.down[axis][0] : turned(pose, axis, samples.down[i]);
     }
     rays.tnear[i] = 0.0f;
     rays.tfar[i] = std::numeric_limits<float>::infinity();
@@ -139,8 +143,7 @@ void PacketTracer::see_sky(const SampleRays& samples, const RTCRay16& rays, std:
     Eigen::Map<Eigen::Vector3f>(results.radiance[i].data()) = sky_.radiance(direction, light_, spread);
   };
   const std::uint32_t missed = samples.lanes & ~hit;
-  const bool is_block = samples.share == 1.0f && missed == 0xffffu;
-  if (is_block) {
+  if (samples.is_block && missed == 0xffffu) {
     // where a block's corners and its middle look alike, the rest lies between them
     constexpr std::array<std::size_t, 4> kCorners{0, 3, 12, 15};
     for (const auto corner : kCorners) see(corner);

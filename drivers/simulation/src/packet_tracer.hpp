@@ -26,6 +26,7 @@ struct SampleRays {
   std::array<int, kPacket> moments{};
   std::uint32_t lanes = 0;                                ///< bit by bit: which of the sixteen there are
   std::array<Eigen::Vector3f, kPacket> across{}, down{};  ///< what the direction gains per column and row
+  bool is_block = false;                                  ///< 4 x 4 pixels' centres: one moment and one step for all
   std::uint32_t in_sun = 0, in_shadow = 0;                ///< lanes, bit by bit, of which this is known
   float share = 1.0f;                                     ///< of the pixel and of the shutter's time
 };

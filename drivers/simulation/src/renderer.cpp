@@ -121,6 +121,7 @@ class BlockRays {
     const auto [across, down] = steps(left, top);
     samples.across.fill(across);
     samples.down.fill(down);
+    samples.is_block = true;
     samples.moments.fill(0);
     samples.share = 1.0f;
   }
@@ -147,11 +148,12 @@ class BlockRays {
             either(step(top_left, low_left, y1 - y0), step(top_right, low_right, y1 - y0))};
   }
 
- private:
   const Eigen::Vector3f& at(int column, int row) const {
     return rays_.directions[static_cast<std::size_t>(row) * static_cast<std::size_t>(rays_.width) +
                             static_cast<std::size_t>(column)];
   }
+
+ private:
   const CameraRays& rays_;
 };
 
@@ -173,16 +175,21 @@ void trace_centres(const PacketTracer& tracer, const CameraRays& rays, int top, 
   for (int left = 0; left < rays.width; left += kBlock) {
     blocks.fill(left, top, samples);
     if (samples.lanes != 0) tracer.trace(samples, results, statistics);
-    for (int i = 0; i < kPacket; ++i) {
-      const int row = top + i / kBlock;
-      const int column = left + i % kBlock;
-      if (row >= rays.height || column >= rays.width) continue;
-      const auto lane = static_cast<std::size_t>(i);
-      const bool sees = (samples.lanes >> i & 1u) != 0;
-      if (sees) std::copy_n(results.radiance[lane].data(), 3, picture.radiance.ptr<float>(row, column));
-      picture.inverse_range.at<float>(row, column) = sees ? 1.0f / results.distance[lane] : 0.0f;
-      picture.key.at<std::int32_t>(row, column) = sees ? static_cast<std::int32_t>(results.key[lane]) : 0;
-      picture.normal.at<std::int32_t>(row, column) = sees ? static_cast<std::int32_t>(results.normal[lane]) : 0;
+    const int columns = std::min(kBlock, rays.width - left);
+    for (int y = 0; y < std::min(kBlock, rays.height - top); ++y) {
+      auto* radiance = picture.radiance.ptr<float>(top + y) + 3 * left;
+      auto* inverse_range = picture.inverse_range.ptr<float>(top + y) + left;
+      auto* key = picture.key.ptr<std::uint32_t>(top + y) + left;
+      auto* normal = picture.normal.ptr<std::uint32_t>(top + y) + left;
+      for (int x = 0; x < columns; ++x) {
+        const auto lane = static_cast<std::size_t>(kBlock * y + x);
+        const bool sees = (samples.lanes >> lane & 1u) != 0;
+        for (std::size_t c = 0; c < 3; ++c)
+          radiance[3 * x + static_cast<int>(c)] = sees ? results.radiance[lane][c] : 0;
+        inverse_range[x] = sees ? 1.0f / results.distance[lane] : 0.0f;
+        key[x] = sees ? results.key[lane] : 0;
+        normal[x] = sees ? results.normal[lane] : 0;
+      }
     }
   }
 }
@@ -195,6 +202,7 @@ void trace_edges(const PacketTracer& tracer, const CameraRays& rays, const std::
   SampleResults results;
   std::array<float*, kPacket> pixels{};
   samples.share = 0.5f;
+  samples.is_block = false;
   const auto among_leaves = samples_among_leaves(offsets.size());
   std::vector<std::size_t> all(offsets.size());
   std::iota(all.begin(), all.end(), 0);
@@ -216,7 +224,8 @@ void trace_edges(const PacketTracer& tracer, const CameraRays& rays, const std::
   };
   for (int left = 0; left < rays.width; left += kBlock) {
     bool has_steps = false;
-    std::pair<Eigen::Vector3f, Eigen::Vector3f> steps;
+    std::pair<Eigen::Vector3f, Eigen::Vector3f> full_steps{Eigen::Vector3f::Zero(), Eigen::Vector3f::Zero()};
+    auto steps = full_steps;
     for (int i = 0; i < kPacket; ++i) {
       const int row = top + i / kBlock;
       const int column = left + i % kBlock;
@@ -224,9 +233,8 @@ void trace_edges(const PacketTracer& tracer, const CameraRays& rays, const std::
         continue;
       const auto mark = is_edge.at<std::uint8_t>(row, column);
       if (!has_steps) {
-        steps = blocks.steps(left, top);
-        steps.first *= samples.share;
-        steps.second *= samples.share;
+        full_steps = blocks.steps(left, top);
+        steps = {samples.share * full_steps.first, samples.share * full_steps.second};
         has_steps = true;
       }
       const bool is_leaf = (mark & kInLeaves) != 0;
@@ -235,9 +243,10 @@ void trace_edges(const PacketTracer& tracer, const CameraRays& rays, const std::
       const float weight = 1.0f / static_cast<float>(chosen.size() + 1);
       auto* pixel = radiance.ptr<float>(row, column);
       for (int c = 0; c < 3; ++c) pixel[c] *= weight;
+      const auto& centre = blocks.at(column, row);
       for (const auto s : chosen) {
         const Eigen::Vector3f direction =
-            rays.direction(static_cast<float>(column) + offsets[s].column, static_cast<float>(row) + offsets[s].row);
+            centre + offsets[s].column * full_steps.first + offsets[s].row * full_steps.second;
         const auto lane = static_cast<std::size_t>(count);
         samples.directions[lane] = direction;
         samples.moments[lane] = static_cast<int>(s) + 1;

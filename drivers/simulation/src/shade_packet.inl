@@ -66,9 +66,14 @@ PANVO_INLINE Vector3 sample(const ShadingTables& tables, const Word& texture, co
   const Float probes = to_float(truncated(minimum(ratio + 0.99f, all((float)taps))));
   const Float one_probe = maximum(shorter, longer / (probes * probes));
   const Float detail = minimum(maximum(0.5f * rough_log2(maximum(all(1.0f), one_probe)), all(0.0f)), last_level);
-  const Int fine = truncated(detail);
-  const Int coarse = truncated(minimum(to_float(fine) + 1.0f, last_level));
-  const Float coarse_share = detail - to_float(fine);
+  // two levels are mixed about half way between them only; elsewhere the nearer one is all there is to fetch
+  const Float below = to_float(truncated(detail));
+  const Float mixed = clamped((detail - below - 0.3f) * 2.5f, 0.0f, 1.0f);
+  const Int is_coarse = mixed >= 1.0f;
+  const Int fine = truncated(choose(is_coarse, minimum(below + 1.0f, last_level), below));
+  const Int coarse = truncated(minimum(below + 1.0f, last_level));
+  const Float coarse_share = choose(is_coarse, all(0.0f), mixed);
+  const bool has_two = any(coarse_share > 0.0f);
   const Word fine_offset = gather(records + 4, record + (Word)fine);
   const Word coarse_offset = gather(records + 4, record + (Word)coarse);
   const auto at_level = [](const Word& log2_size, const Int& level) PANVO_ALWAYS {
@@ -94,8 +99,11 @@ PANVO_INLINE Vector3 sample(const ShadingTables& tables, const Word& texture, co
     const Float u = at.u + along * step_u;
     const Float v = at.v + along * step_v;
     const Vector3 sharp = bilinear(tables.texels, fine_offset, fine_width, fine_height, u, v);
-    const Vector3 soft = bilinear(tables.texels, coarse_offset, coarse_width, coarse_height, u, v);
-    const Vector3 colour = sharp + coarse_share * (soft - sharp);
+    Vector3 colour = sharp;
+    if (has_two) {
+      const Vector3 soft = bilinear(tables.texels, coarse_offset, coarse_width, coarse_height, u, v);
+      colour = sharp + coarse_share * (soft - sharp);
+    }
     sum = sum + choose(counts, colour, {all(0.0f), all(0.0f), all(0.0f)});
   }
   return (1.0f / (65025.0f * probes)) * sum;

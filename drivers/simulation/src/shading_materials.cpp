@@ -139,6 +139,8 @@ bool ShadingMaterials::is_hole(std::uint32_t material, const Eigen::Vector2f& uv
         first[shape.index(static_cast<std::uint32_t>(i) & shape.columns, static_cast<std::uint32_t>(j) & shape.rows)];
     return static_cast<float>(texel >> 24);
   };
+  // far away the nearest texel will do
+  if (level > 0) return alpha(floored(x + 0.5f), floored(y + 0.5f)) < static_cast<float>(kOpaque);
   const float right = x - static_cast<float>(column);
   const float low = y - static_cast<float>(row);
   const float upper_left = alpha(column, row);
