@@ -82,11 +82,14 @@ void PacketTracer::intersect(const SampleRays& samples, TracedPacket& packet) co
   for (int i = 0; i < kPacket; ++i) packet.is_moving[i] = rays.tfar[i] < before[i] ? -1 : 0;
 }
 
-void PacketTracer::trace(const SampleRays& samples, SampleResults& results, Renderer::Statistics& statistics) const {
-  TracedPacket packet;
+void PacketTracer::meet(const SampleRays& samples, TracedPacket& packet, Renderer::Statistics& statistics) const {
   intersect(samples, packet);
-  const auto& rays = packet.rays.ray;
   statistics.primary_rays += static_cast<std::uint64_t>(std::popcount(samples.lanes));
+}
+
+void PacketTracer::shade(const SampleRays& samples, const TracedPacket& packet, SampleResults& results,
+                         Renderer::Statistics& statistics) const {
+  const auto& rays = packet.rays.ray;
   std::uint32_t hit = 0;
   for (unsigned i = 0; i < kPacket; ++i) {
     if (packet.rays.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID) hit |= 1u << i;
@@ -172,6 +175,24 @@ void PacketTracer::see_sky(const SampleRays& samples, const RTCRay16& rays, std:
   for (std::size_t i = 0; i < kPacket; ++i) {
     if ((missed >> i & 1u) != 0) see(i);
   }
+}
+
+SeenSurface PacketTracer::surface(const TracedPacket& packet, std::size_t lane) const {
+  const auto& hits = packet.rays.hit;
+  const auto& rays = packet.rays.ray;
+  const std::uint32_t geometry = hits.geomID[lane];
+  if (geometry == RTC_INVALID_GEOMETRY_ID) return {};
+  const std::uint32_t instance = hits.instID[0][lane];
+  const bool is_instance = instance != RTC_INVALID_GEOMETRY_ID;
+  const std::uint32_t number =
+      (is_instance ? instance : geometry >> 1) + (packet.is_moving[lane] != 0 ? tables_.first_moving_object : 0);
+  const auto& object = tables_.objects[number];
+  const auto& record = tables_.surfaces[object.first_surface[geometry & 1u] + hits.primID[lane]];
+  Eigen::Vector3f normal(hits.Ng_x[lane], hits.Ng_y[lane], hits.Ng_z[lane]);
+  if (is_instance) normal = Eigen::Map<const Eigen::Matrix3f>(object.world_from_model.data()) * normal;
+  const float facing = normal.x() * rays.dir_x[lane] + normal.y() * rays.dir_y[lane] + normal.z() * rays.dir_z[lane];
+  return {(number << 8 | (record.material_light & 0xffu)) + 1u, (facing > 0.0f ? -1.0f : 1.0f) / normal.norm() * normal,
+          1.0f / rays.tfar[lane]};
 }
 
 void PacketTracer::trace_range(const SampleRays& samples, float* distances) const {

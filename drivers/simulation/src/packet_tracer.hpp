@@ -39,6 +39,13 @@ struct SampleResults {
   std::array<std::uint32_t, kPacket> normal{};  ///< as ShadedPacket's, and the top bit: in the sun
 };
 
+/// What a sample meets, without its light.
+struct SeenSurface {
+  std::uint32_t key = 0;                             ///< as SampleResults'
+  Eigen::Vector3f normal = Eigen::Vector3f::Zero();  ///< of the flat surface: unit, world frame, towards the camera
+  float inverse_range = 0.0f;                        ///< 1/m
+};
+
 /// Traces and shades the samples of one frame. Safe to use from many threads at once.
 class PacketTracer {
  public:
@@ -46,7 +53,19 @@ class PacketTracer {
                std::uint32_t visibility, std::vector<ShutterPose> moments);
 
   /// Counts the rays in `statistics`.
-  void trace(const SampleRays& samples, SampleResults& results, Renderer::Statistics& statistics) const;
+  void trace(const SampleRays& samples, SampleResults& results, Renderer::Statistics& statistics) const {
+    TracedPacket packet;
+    meet(samples, packet, statistics);
+    shade(samples, packet, results, statistics);
+  }
+
+  /// trace() in two: what the samples meet, and how that looks.
+  void meet(const SampleRays& samples, TracedPacket& packet, Renderer::Statistics& statistics) const;
+  void shade(const SampleRays& samples, const TracedPacket& packet, SampleResults& results,
+             Renderer::Statistics& statistics) const;
+
+  /// Which surface a lane met.
+  SeenSurface surface(const TracedPacket& packet, std::size_t lane) const;
 
   /// The distances only, m; at the moment of each lane.
   void trace_range(const SampleRays& samples, float* distances) const;

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <cstring>
 #include <limits>
 
 #include "panvo/simulation/scene.hpp"
@@ -26,6 +27,23 @@ namespace avx2 {
 void shade_packet(const ShadingTables& tables, const TracedPacket& traced, ShadedPacket& shaded);
 }
 #endif
+
+void copy_lane(const TracedPacket& from, std::size_t lane, TracedPacket& to, std::size_t to_lane) {
+  // all members of Embree's packets are arrays of sixteen words
+  static_assert(sizeof(RTCRayHit16) % (kPacket * sizeof(std::uint32_t)) == 0);
+  constexpr std::size_t kWords = sizeof(RTCRayHit16) / (kPacket * sizeof(std::uint32_t));
+  const auto* source = reinterpret_cast<const unsigned char*>(&from.rays);
+  auto* target = reinterpret_cast<unsigned char*>(&to.rays);
+  for (std::size_t i = 0; i < kWords; ++i) {
+    std::memcpy(target + (i * kPacket + to_lane) * 4, source + (i * kPacket + lane) * 4, 4);
+  }
+  to.is_moving[to_lane] = from.is_moving[lane];
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    to.across[axis][to_lane] = from.across[axis][lane];
+    to.down[axis][to_lane] = from.down[axis][lane];
+  }
+  to.motion_share = from.motion_share;
+}
 
 ShadePacket fastest_shade_packet() {
 #if defined(__x86_64__)

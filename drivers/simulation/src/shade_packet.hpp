@@ -62,6 +62,9 @@ struct alignas(64) TracedPacket {
   float motion_share = 1.0f;        ///< of the shutter's time that this sample stands for
 };
 
+/// Copies a ray with what it met from one packet to another.
+void copy_lane(const TracedPacket& from, std::size_t lane, TracedPacket& to, std::size_t to_lane);
+
 /// What is seen along sixteen rays that hit something: base + (sun, where nothing shadows it).
 struct alignas(64) ShadedPacket {
   float base[3][kPacket];

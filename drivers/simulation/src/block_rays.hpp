@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <utility>
+
+#include "packet_tracer.hpp"
+#include "panvo/simulation/camera_rays.hpp"
+
+namespace panvo::simulation {
+
+inline constexpr int kBlock = 4;  ///< a packet is 4 x 4 pixels
+
+/// The rays of a camera in blocks, with the steps from one pixel to the next.
+class BlockRays {
+ public:
+  explicit BlockRays(const CameraRays& rays) : rays_(rays) {}
+
+  /// The centres of the pixels of a block; lanes beyond the image or where the camera sees nothing are left out.
+  void fill(int left, int top, SampleRays& samples) const;
+
+  /// What the direction gains per column and per row, on the average of the block.
+  struct Steps {
+    Eigen::Vector3f across = Eigen::Vector3f::Zero(), down = Eigen::Vector3f::Zero();
+  };
+  Steps steps(int left, int top) const;
+
+  const Eigen::Vector3f& at(int column, int row) const {
+    return rays_.directions[static_cast<std::size_t>(row) * static_cast<std::size_t>(rays_.width) +
+                            static_cast<std::size_t>(column)];
+  }
+
+ private:
+  const CameraRays& rays_;
+};
+
+}  // namespace panvo::simulation
