@@ -8,7 +8,7 @@
 namespace panvo::simulation {
 namespace {
 
-constexpr float kEvenSky = 0.01f;    // of its brightness: less cannot be seen
+constexpr float kEvenSky = 0.015f;   // of its brightness: less cannot be seen
 constexpr float kSunSpread = 0.01f;  // rad: the sun's disc, so that far leaves cast soft-edged gaps of its size
 
 TraceContext trace_context(float spread, RTCIntersectContextFlags flags) {
@@ -147,17 +147,17 @@ void PacketTracer::see_sky(const SampleRays& samples, const RTCRay16& rays, std:
   };
   const std::uint32_t missed = samples.lanes & ~hit;
   if (samples.is_block && missed == 0xffffu) {
-    // where a block's corners and its middle look alike, the rest lies between them
+    // where a block's middle looks as its corners tell, so does the rest
     constexpr std::array<std::size_t, 4> kCorners{0, 3, 12, 15};
     for (const auto corner : kCorners) see(corner);
     const auto brightness = [&](std::size_t i) { return results.radiance[i][0] + results.radiance[i][2]; };
-    see(5);
-    const float mean = 0.25f * (brightness(0) + brightness(3) + brightness(12) + brightness(15));
-    const float expected =
-        (4.0f * brightness(0) + 2.0f * (brightness(3) + brightness(12)) + brightness(15)) / 9.0f;  // one third on
-    bool is_even = std::abs(brightness(5) - expected) < kEvenSky * mean;
-    for (const auto corner : kCorners)
-      is_even = is_even && std::abs(brightness(corner) - mean) < 2.0f * kEvenSky * mean;
+    const auto lies_between = [&](std::size_t lane, std::size_t near, std::size_t far) {  // a third of the way
+      see(lane);
+      const float expected =
+          (4.0f * brightness(near) + 2.0f * (brightness(3) + brightness(12)) + brightness(far)) / 9.0f;
+      return std::abs(brightness(lane) - expected) < kEvenSky * expected;
+    };
+    const bool is_even = lies_between(5, 0, 15) && lies_between(10, 15, 0);
     if (is_even) {
       for (std::size_t i = 0; i < kPacket; ++i) {
         const float across = static_cast<float>(i % 4) / 3.0f;
