@@ -18,7 +18,7 @@ namespace {
 constexpr int kMostPackets = 2;                   // of sixteen rays a place
 constexpr std::size_t kManyPlaces = 4'000;        // a mesh of more gets half the rays
 constexpr int kChunk = 128;                       // places that a thread takes at a time
-constexpr float kCell = 0.08f;                    // m: vertices nearer than this share their light
+constexpr float kCell = 0.15f;                    // m: vertices nearer than this share their light
 constexpr float kLift = 0.02f, kInwards = 0.05f;  // m: out of the surface, and away from the corner it may lie in
 constexpr float kFromWalls = 0.12f;               // light that gets everywhere: what shuts out the sky is itself bright
 
