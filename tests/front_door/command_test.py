@@ -64,19 +64,6 @@ class Mistakes(unittest.TestCase):
 
 
 class Demo(unittest.TestCase):
-    def test_without_recordings_says_what_to_provide(self):
-        with tempfile.TemporaryDirectory() as empty:
-            done = panvo("demo", PANVO_DATA=empty)
-        self.assertEqual(done.returncode, 1)
-        for words in ("KITTI", "EuRoC", "calib.txt", "--dataset"):
-            self.assertIn(words, done.stderr)
-
-    def test_a_data_folder_that_is_not_there_is_named(self):
-        done = panvo("demo", PANVO_DATA="/nowhere/at/all")
-        self.assertEqual(done.returncode, 1)
-        self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
-        self.assertIn("/nowhere/at/all", done.stderr)
-
     def test_a_folder_that_is_no_recording_is_named(self):
         with tempfile.TemporaryDirectory() as folder:
             done = panvo("demo", "--dataset", folder)
@@ -95,6 +82,30 @@ class Demo(unittest.TestCase):
             self.assertEqual(done.returncode, 1)
             self.assertIn("not empty", done.stderr)
             self.assertEqual([file.name for file in out.iterdir()], ["precious"])
+
+
+class Simulate(unittest.TestCase):
+    def test_help_lists_the_routes_with_what_they_are_for(self):
+        done = panvo("simulate", "--help")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        for name in ("short", "corner", "dataset_i", "dataset_ii"):
+            self.assertRegex(done.stdout, rf"(?m)^  {name} +\w.{{20}}")
+
+    def test_an_unknown_route_gets_the_nearest_one(self):
+        done = panvo("simulate", "shrot", "--out", "/nowhere")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("did you mean 'short'", done.stderr)
+        self.assertEqual(done.stdout, "")
+
+    def test_an_option_without_its_value_is_named(self):
+        done = panvo("simulate", "short", "--out")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("--out needs a value", done.stderr)
+
+    def test_what_a_bag_cannot_have_is_named(self):
+        done = panvo("simulate", "short", "--bag", "--out", "/nowhere", "--pictures", "3")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("--pictures", done.stderr)
 
 
 class Setup(unittest.TestCase):
