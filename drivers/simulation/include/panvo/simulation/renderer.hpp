@@ -35,8 +35,8 @@ class Renderer {
   ~Renderer();
 
   struct Quality {
-    int edge_samples = 3;  ///< more rays in a pixel that an edge crosses; up to 16
-    int texture_taps = 4;  ///< probes along the longer side of a footprint
+    int edge_samples = 2;  ///< more rays in a pixel that an edge crosses; up to 16
+    int texture_taps = 3;  ///< probes along the longer side of a footprint
   };
 
   /// Radiance of each pixel, CV_32FC3, linear RGB in the units of Light; black where the camera sees nothing.
