@@ -44,8 +44,10 @@ RUNTIME = floor("runtime", "interfaces", "messages, log, json, command line")
 RUNTIME_DDS = floor("runtime's dds", "interfaces", "messages, fastdds, log, json")
 RUNTIME_CONFIG = floor("runtime's config", "interfaces", "messages, yaml, log, json, command line")
 CONVERSIONS = floor("conversions", "interfaces vision runtime", "messages, eigen, opencv")
-ALGORITHM = floor("algorithm", "vision", "eigen, opencv, ceres, opengv", False)
-WRAPPER = floor("component wrapper", "runtime interfaces conversions vision", "messages, eigen, opencv", False)
+ALGORITHM = floor("algorithm", "vision landmarks", "eigen, opencv, ceres, opengv", False)
+WRAPPER = floor("component wrapper", "runtime interfaces conversions vision landmarks", "messages, eigen, opencv", False)
+# places, the store that keeps them and their messages
+LANDMARKS = floor("landmarks", "vision interfaces conversions", "messages, eigen, opencv, sqlite", False)
 RECORDER = floor("recorder", "runtime interfaces", "messages, fastdds, yaml, sqlite, log, json, command line")
 DRIVER = floor("driver", "runtime interfaces conversions vision", "messages, eigen, opencv, yaml, xml, json, log")
 SIMULATION = floor("simulation", "runtime interfaces conversions vision", "messages, eigen, opencv, embree, yaml, log, command line")
@@ -59,6 +61,7 @@ FLOORS = [
     ("components/runtime/src/config", RUNTIME_CONFIG),
     ("components/runtime", RUNTIME),
     ("components/conversions", CONVERSIONS),
+    ("components/landmarks", LANDMARKS),
     ("components/recorder", RECORDER),
     ("components/evaluation", EVALUATION),
     ("drivers/simulation", SIMULATION),
