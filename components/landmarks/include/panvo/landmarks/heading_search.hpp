@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "panvo/landmarks/landmark_distance.hpp"
+
+namespace panvo::landmarks {
+
+/// Third level [Lu2015 Alg. 1]: the heading of the smallest small-scale D within 30 degrees of a start, as printed: steps of
+/// 10, 3.33 and 1.11 degrees. `second_distance` is that of `start_rad` ... of the best tried heading farther than 10 degrees away.
+HeadingMatch search_heading_grid(const QueryDescription& query, const PanoramaDescription& landmark, double start_rad);
+
+/// The same, and then beyond: down to the nearest column, and between the columns by a parabola over D.
+HeadingMatch search_heading(const QueryDescription& query, const PanoramaDescription& landmark, double start_rad);
+
+}  // namespace panvo::landmarks

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <opencv2/core.hpp>
+#include <span>
+#include <vector>
+
+#include "panvo/landmarks/panoramic_landmark.hpp"
+#include "panvo/vision/adaptive_selection.hpp"
+#include "panvo/vision/compressive_features.hpp"
+#include "panvo/vision/cyclic_integral_images.hpp"
+#include "panvo/vision/measurement_matrix.hpp"
+
+namespace panvo::landmarks {
+
+/// How a panorama is described. Two descriptions can be compared when these and the seed are the same for both.
+struct DescriptionParameters {
+  double top_deg = 35.0;     ///< band's upper border, above the horizon
+  double bottom_deg = 15.0;  ///< its lower border, below the horizon
+  int patches = 200;
+  int features = 100;
+  int headings = 72;
+  int histogram_bins = 64;
+  int fewest_rectangles = 2;
+  int most_rectangles = 4;
+  double spread = 0.1;
+
+  template <class Field>
+  static void describe(Field&& field) {
+    using P = DescriptionParameters;
+    field(&P::top_deg, "top_deg", "deg", "upper border of the band that is described, above the horizon", 5.0, 90.0);
+    field(&P::bottom_deg, "bottom_deg", "deg", "lower border of the band, below the horizon", 0.0, 90.0);
+    field(&P::patches, "patches", "1", "patches drawn at each scale", 10, 10000);
+    field(&P::features, "features", "1", "features kept of them, n'", 5, 10000);
+    field(&P::headings, "headings", "1", "headings tried over the full turn at the large scale; a divisor of 1080", 4,
+          1080);
+    field(&P::histogram_bins, "histogram_bins", "1", "bins of the intensity histogram", 4, 256);
+    field(&P::fewest_rectangles, "fewest_rectangles", "1", "rectangles that a feature is made of, at least", 1, 16);
+    field(&P::most_rectangles, "most_rectangles", "1", "rectangles that a feature is made of, at most", 1, 16);
+    field(&P::spread, "spread", "1", "how far a feature's rectangles lie apart, of a full turn", 0.0, 1.0);
+  }
+
+  bool operator==(const DescriptionParameters&) const = default;
+};
+
+/// What all descriptions of a describer have in common: where the band lies, and the two measurement matrices.
+struct DescriptionBasis {
+  static constexpr int kColumns = 1080;  ///< px, of every panorama when it is described
+  static constexpr int kRows = 540;
+
+  DescriptionParameters parameters;
+  std::uint64_t seed = 0;
+  int first_row = 0;  ///< of the band
+  vision::MeasurementMatrix large, small;
+};
+
+/// A panorama to be recognised: its histogram, its responses at every heading of the grid, and its integral images, from which
+/// any heading between them is read.
+struct QueryDescription {
+  std::shared_ptr<const DescriptionBasis> basis;
+  std::vector<float> histogram;
+  vision::CyclicIntegralImages images;
+  vision::BandNormalisation normalisation;
+  std::vector<float>
+      large_responses;  ///< 2 rows x headings: heading i is i full turns / headings; first intensity, then SURF
+};
+
+/// Describes panoramas: those that become landmarks, and those that are looked for. One matrix, drawn from the seed, for all.
+class PanoramaDescriber {
+ public:
+  /// Throws std::invalid_argument for parameters that contradict each other.
+  PanoramaDescriber(const DescriptionParameters& parameters, std::uint64_t seed);
+
+  /// Histogram and adaptive compressive features at both scales [Lu2015 4.2], of a panorama (CV_8UC1 or CV_8UC3, 2:1; other
+  /// sizes than 1080x540 are resized). Throws std::invalid_argument with the reason for one that find_fault() rejects.
+  PanoramaDescription describe(const cv::Mat& panorama) const;
+
+  /// The same panoramas, prepared to be compared with any number of landmarks at all headings [Lu2015 5.1].
+  QueryDescription query(const cv::Mat& panorama) const;
+
+  const DescriptionBasis& basis() const { return *basis_; }
+
+ private:
+  std::shared_ptr<const DescriptionBasis> basis_;
+};
+
+/// The panorama as it is described: grey, 1080x540 (shares the pixels where it is that already).
+cv::Mat to_described_size(const cv::Mat& panorama);
+
+}  // namespace panvo::landmarks

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "panvo/landmarks/landmark_distance.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "panvo/vision/equirectangular.hpp"
+#include "panvo/vision/intensity_histogram.hpp"
+
+namespace panvo::landmarks {
+namespace {
+
+constexpr float kTruncation = 1.5F;  // spreads: a difference beyond counts as one that is covered or somewhere else
+constexpr float kSmallestSpread = 0.05F;
+constexpr double kNeighbourhood_rad = 20.0 * std::numbers::pi / 180.0;  // of a minimum over the headings
+
+float difference(float value, float landmark_value, float scale) {
+  return std::min(1.0F, std::abs(value - landmark_value) / (kTruncation * std::max(kSmallestSpread, scale)));
+}
+
+float distance(const QueryDescription& query, const vision::MeasurementMatrix& matrix,
+               const std::vector<AdaptiveFeature>& features, double heading_rad) {
+  const int shift = static_cast<int>(std::lround(heading_rad * matrix.band().width / (2.0 * std::numbers::pi)));
+  const vision::ResponseReader reader(query.images, matrix, query.normalisation);
+  float sum = 0.0F, weights = 0.0F;
+  for (const AdaptiveFeature& feature : features) {
+    const bool is_intensity = feature.row < matrix.rows();
+    const float value = is_intensity ? reader.read_intensity(feature.row, shift)
+                                     : reader.read_gradient(feature.row - matrix.rows(), shift);
+    sum += feature.weight * difference(value, feature.value, feature.scale);
+    weights += feature.weight;
+  }
+  return weights > 0.0F ? sum / weights : 1.0F;
+}
+
+}  // namespace
+
+float histogram_distance(const QueryDescription& query, const PanoramaDescription& landmark) {
+  return vision::histogram_distance(query.histogram, landmark.histogram);
+}
+
+float large_scale_distance(const QueryDescription& query, const PanoramaDescription& landmark, double heading_rad) {
+  return distance(query, query.basis->large, landmark.large, heading_rad);
+}
+
+float small_scale_distance(const QueryDescription& query, const PanoramaDescription& landmark, double heading_rad) {
+  return distance(query, query.basis->small, landmark.small, heading_rad);
+}
+
+HeadingMatch match_large_scale(const QueryDescription& query, const PanoramaDescription& landmark) {
+  const auto headings = static_cast<std::size_t>(query.basis->parameters.headings);
+  const double step_rad = 2.0 * std::numbers::pi / static_cast<double>(headings);
+  std::vector<float> sums(headings, 0.0F);
+  float weights = 0.0F;
+  for (const AdaptiveFeature& feature : landmark.large) {
+    const float* responses = &query.large_responses[feature.row * headings];
+    const float factor = 1.0F / (kTruncation * std::max(kSmallestSpread, feature.scale));
+    for (std::size_t i = 0; i < headings; ++i) {
+      sums[i] += feature.weight * std::min(1.0F, std::abs(responses[i] - feature.value) * factor);
+    }
+    weights += feature.weight;
+  }
+  if (weights <= 0.0F) return {};
+  const auto best = static_cast<std::size_t>(std::min_element(sums.begin(), sums.end()) - sums.begin());
+  const auto heading = [&](std::size_t i) {
+    return vision::wrap(static_cast<double>(i) * step_rad, 2.0 * std::numbers::pi);
+  };
+  HeadingMatch match{heading(best), sums[best] / weights, 1.0F};
+  for (std::size_t i = 0; i < headings; ++i) {
+    const double apart = vision::wrap(heading(i) - match.heading_rad, 2.0 * std::numbers::pi);
+    if (std::abs(apart) > kNeighbourhood_rad)
+      match.second_distance = std::min(match.second_distance, sums[i] / weights);
+  }
+  return match;
+}
+
+}  // namespace panvo::landmarks

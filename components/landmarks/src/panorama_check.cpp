@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "panvo/landmarks/panorama_check.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <sstream>
+#include <vector>
+
+namespace panvo::landmarks {
+namespace {
+
+constexpr int kSmallestColumns = 256;  // px: below, the smallest rectangles are a few pixels
+constexpr int kGridRows = 96, kGridColumns = 192;
+constexpr int kDark = 8;                                   // grey level: what a capped lens still shows
+constexpr int kBright = 250;                               // grey level: full well, allowing for smoothing
+constexpr double kFaultyShare = 0.9;                       // night has lamps, and a bright sky fills no more than half
+constexpr double kSmallestContrast = 3.0;                  // grey levels, standard deviation: an even wall's noise
+constexpr double kBandTop = 1.0 / 3.0, kBandBottom = 0.6;  // rows where a place shows: 30 degrees above to 18 below
+constexpr double kCoveredContrast = 2.0;                   // grey levels, of a column of the band
+constexpr double kMostCovered = 1.0 / 3.0;
+
+/// Grey level of a pixel of either type; near enough for a check.
+int grey_at(const cv::Mat& image, int row, int column) {
+  const uchar* pixel = image.ptr<uchar>(row) + column * image.channels();
+  return image.channels() == 1 ? pixel[0] : (pixel[0] + 2 * pixel[1] + pixel[2]) / 4;
+}
+
+struct Levels {
+  double count = 0.0, dark = 0.0, bright = 0.0, sum = 0.0, square = 0.0;
+
+  void add(int grey) {
+    count += 1.0;
+    dark += grey <= kDark ? 1.0 : 0.0;
+    bright += grey >= kBright ? 1.0 : 0.0;
+    sum += grey;
+    square += grey * grey;
+  }
+  double deviation() const { return std::sqrt(std::max(0.0, square / count - sum * sum / (count * count))); }
+};
+
+}  // namespace
+
+std::optional<std::string> find_fault(const cv::Mat& panorama) {
+  std::ostringstream text;
+  text.precision(3);
+  if (panorama.empty()) return "is empty";
+  if (panorama.type() != CV_8UC1 && panorama.type() != CV_8UC3) return "is not an 8-bit image of 1 or 3 channels";
+  if (panorama.cols != 2 * panorama.rows) {
+    text << "is not twice as wide as high: " << panorama.cols << "x" << panorama.rows << " px";
+    return text.str();
+  }
+  if (panorama.cols < kSmallestColumns) {
+    text << "is too small: " << panorama.cols << "x" << panorama.rows << " px, " << kSmallestColumns
+         << " columns needed";
+    return text.str();
+  }
+  Levels all;
+  int covered = 0;
+  for (int i = 0; i < kGridColumns; ++i) {
+    const int column = i * panorama.cols / kGridColumns;
+    Levels of_column;
+    for (int j = 0; j < kGridRows; ++j) {
+      const double place = kBandTop + (kBandBottom - kBandTop) * (j + 0.5) / kGridRows;
+      const int grey = grey_at(panorama, static_cast<int>(place * panorama.rows), column);
+      all.add(grey);
+      of_column.add(grey);
+    }
+    covered += of_column.deviation() < kCoveredContrast ? 1 : 0;
+  }
+  if (all.dark > kFaultyShare * all.count) {
+    text << "is black: " << 100.0 * all.dark / all.count << " % of the view about the horizon at grey level " << kDark
+         << " or below";
+  } else if (all.bright > kFaultyShare * all.count) {
+    text << "is saturated: " << 100.0 * all.bright / all.count << " % of the view about the horizon at grey level "
+         << kBright << " or above";
+  } else if (all.deviation() < kSmallestContrast) {
+    text << "is constant: grey levels about the horizon deviate by " << all.deviation() << " from their mean, "
+         << kSmallestContrast << " needed";
+  } else if (covered > kMostCovered * kGridColumns) {
+    text << "is covered: " << 100.0 * covered / kGridColumns << " % of the full turn show nothing";
+  } else {
+    return std::nullopt;
+  }
+  return text.str();
+}
+
+}  // namespace panvo::landmarks

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "panvo/vision/adaptive_selection.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+#include "seeded_random.hpp"
+
+namespace panvo::vision {
+namespace {
+
+struct Displacement {
+  int du = 0;
+  int dv = 0;
+};
+
+/// Places in the ring between two radii (px), evenly over its area.
+std::vector<Displacement> draw_ring(double inner_px, double outer_px, int count, SeededRandom& random) {
+  std::vector<Displacement> places;
+  while (static_cast<int>(places.size()) < count) {
+    const double radius = std::sqrt(random.between(inner_px * inner_px, outer_px * outer_px));
+    const double angle = random.between(0.0, 2.0 * std::numbers::pi);
+    places.push_back({static_cast<int>(std::lround(radius * std::cos(angle))),
+                      static_cast<int>(std::lround(radius * std::sin(angle)))});
+  }
+  return places;
+}
+
+/// What a patch shows nearby and farther away: the two Gaussians of one kind of feature.
+struct Discrimination {
+  Gaussian positive, negative;
+
+  double hellinger() const { return hellinger_distance(positive, negative); }
+  bool varies(double smallest_deviation) const {
+    return positive.deviation >= smallest_deviation || negative.deviation >= smallest_deviation;
+  }
+  float spread() const {
+    const double variance = 0.5 * (positive.deviation * positive.deviation + negative.deviation * negative.deviation);
+    const double between = 0.5 * (positive.mean - negative.mean);
+    return static_cast<float>(std::sqrt(variance + between * between));
+  }
+};
+
+}  // namespace
+
+Gaussian fit_gaussian(std::span<const float> samples) {
+  if (samples.empty()) return {};
+  double sum = 0.0, square = 0.0;
+  for (const float sample : samples) sum += sample;
+  const double mean = sum / static_cast<double>(samples.size());
+  for (const float sample : samples) square += (sample - mean) * (sample - mean);
+  return {mean, std::sqrt(square / static_cast<double>(samples.size()))};
+}
+
+double hellinger_distance(const Gaussian& a, const Gaussian& b) {
+  const double variances = a.deviation * a.deviation + b.deviation * b.deviation;
+  const double apart = a.mean - b.mean;
+  if (variances <= 0.0) return apart == 0.0 ? 0.0 : 1.0;
+  const double overlap =
+      std::sqrt(2.0 * a.deviation * b.deviation / variances) * std::exp(-0.25 * apart * apart / variances);
+  return std::sqrt(std::max(0.0, 1.0 - overlap));
+}
+
+std::vector<SelectedFeature> select_features(const CyclicIntegralImages& images, const MeasurementMatrix& matrix,
+                                             const BandNormalisation& normalisation,
+                                             const SelectionParameters& parameters, std::uint64_t seed) {
+  if (!(parameters.alpha_px > 0.0 && parameters.alpha_px < parameters.beta_px &&
+        parameters.beta_px < parameters.gamma_px) ||
+      parameters.samples < 2 || parameters.kept < 1) {
+    throw std::invalid_argument(
+        "adaptive selection: 0 < alpha < beta < gamma, at least 2 samples and 1 feature needed");
+  }
+  SeededRandom random(seed);
+  const std::vector<Displacement> nearby = draw_ring(0.0, parameters.alpha_px, parameters.samples, random);
+  const std::vector<Displacement> farther =
+      draw_ring(parameters.beta_px, parameters.gamma_px, parameters.samples, random);
+
+  const ResponseReader reader(images, matrix, normalisation);
+  const auto samples = static_cast<std::size_t>(parameters.samples);
+  std::vector<float> intensity(samples), gradient(samples);
+  const auto fit = [&](int row, const std::vector<Displacement>& places) {
+    for (std::size_t i = 0; i < samples; ++i) {
+      const CompressiveFeature feature = reader.read(row, places[i].du, places[i].dv);
+      intensity[i] = feature.intensity;
+      gradient[i] = feature.gradient;
+    }
+    return std::array{fit_gaussian(intensity), fit_gaussian(gradient)};
+  };
+
+  std::vector<SelectedFeature> features;
+  for (int row = 0; row < matrix.rows(); ++row) {
+    const auto positive = fit(row, nearby);
+    const auto negative = fit(row, farther);
+    const Discrimination by_intensity{positive[0], negative[0]}, by_gradient{positive[1], negative[1]};
+    if (!by_intensity.varies(parameters.smallest_deviation) && !by_gradient.varies(parameters.smallest_deviation)) {
+      continue;  // an even background: found everywhere
+    }
+    const CompressiveFeature here = reader.read(row);
+    features.push_back({row, here.intensity, by_intensity.spread(), static_cast<float>(by_intensity.hellinger())});
+    features.push_back(
+        {row + matrix.rows(), here.gradient, by_gradient.spread(), static_cast<float>(by_gradient.hellinger())});
+  }
+  std::stable_sort(features.begin(), features.end(),
+                   [](const SelectedFeature& a, const SelectedFeature& b) { return a.weight > b.weight; });
+  if (features.size() > static_cast<std::size_t>(parameters.kept))
+    features.resize(static_cast<std::size_t>(parameters.kept));
+  return features;
+}
+
+}  // namespace panvo::vision

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "panvo/vision/equirectangular.hpp"
+
+#include <cmath>
+#include <numbers>
+
+namespace panvo::vision {
+
+using std::numbers::pi;
+
+double wrap(double difference, double turn) {
+  const double wrapped = difference - turn * std::floor(difference / turn);  // [0, turn)
+  return wrapped > 0.5 * turn ? wrapped - turn : wrapped;
+}
+
+double Equirectangular::azimuth_rad(double u) const { return 2.0 * pi * u / columns - pi; }
+double Equirectangular::elevation_rad(double v) const { return pi * v / rows - 0.5 * pi; }
+double Equirectangular::column(double azimuth_rad) const { return (azimuth_rad + pi) * columns / (2.0 * pi); }
+double Equirectangular::row(double elevation_rad) const { return (elevation_rad + 0.5 * pi) * rows / pi; }
+
+Eigen::Vector2d Equirectangular::project(const Eigen::Vector3d& direction) const {
+  const double theta = std::atan2(direction.x(), direction.z());
+  const double phi = std::atan2(direction.y(), std::hypot(direction.x(), direction.z()));
+  const double u = column(theta);
+  return {u < columns ? u : 0.0, row(phi)};  // theta = pi looks where -pi looks
+}
+
+Eigen::Vector3d Equirectangular::unproject(const Eigen::Vector2d& pixel) const {
+  const double theta = azimuth_rad(pixel.x());
+  const double phi = elevation_rad(pixel.y());
+  return {std::cos(phi) * std::sin(theta), std::sin(phi), std::cos(phi) * std::cos(theta)};
+}
+
+}  // namespace panvo::vision

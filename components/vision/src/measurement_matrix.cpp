@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "panvo/vision/measurement_matrix.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+
+#include "seeded_random.hpp"
+
+namespace panvo::vision {
+namespace {
+
+/// The whole sizes in [from, to): what the paper's bounds, fractions of the band, leave.
+int first_whole(double bound) { return std::max(1, static_cast<int>(std::ceil(bound))); }
+
+/// r-bar of [Eq. 5], each of the four with probability 1/4. It can choose none of them, and the feature would be zero: drawn
+/// again.
+std::array<float, 4> draw_statistics(SeededRandom& random) {
+  std::array<float, 4> chosen{};
+  while (std::all_of(chosen.begin(), chosen.end(), [](float choice) { return choice == 0.0F; })) {
+    for (float& choice : chosen) choice = random.share() < 0.25 ? 1.0F : 0.0F;
+  }
+  return chosen;
+}
+
+}  // namespace
+
+RectangleBounds large_scale(cv::Size band) {
+  return {{first_whole(band.width / 20.0), first_whole(band.height / 8.0)}, band};
+}
+
+RectangleBounds small_scale(cv::Size band) {
+  return {{first_whole(band.width / 40.0), first_whole(band.height / 10.0)},
+          {first_whole(band.width / 20.0), first_whole(band.height / 8.0)}};
+}
+
+MeasurementMatrix::MeasurementMatrix(cv::Size band, const RectangleBounds& bounds, const MatrixParameters& parameters,
+                                     std::uint64_t seed)
+    : band_(band) {
+  if (bounds.from.width < 1 || bounds.from.height < 1 || bounds.to.width <= bounds.from.width ||
+      bounds.to.height <= bounds.from.height || bounds.to.width > band.width || bounds.to.height > band.height) {
+    std::ostringstream text;
+    text << "rectangles from " << bounds.from << " to " << bounds.to << " px have no room in a band of " << band;
+    throw std::invalid_argument(text.str());
+  }
+  if (parameters.rows < 1 || parameters.fewest_rectangles < 1 ||
+      parameters.most_rectangles < parameters.fewest_rectangles ||
+      !(parameters.spread >= 0.0 && parameters.spread <= 1.0)) {
+    throw std::invalid_argument("measurement matrix: rows, rectangles or spread out of range");
+  }
+  SeededRandom random(seed);
+  for (int row = 0; row < parameters.rows; ++row) {
+    const int count = random.whole(parameters.fewest_rectangles, parameters.most_rectangles + 1);
+    const int anchor = random.whole(0, band.width);
+    for (int i = 0; i < count; ++i) {
+      Element element;
+      BandRectangle& r = element.rectangle;
+      r.width = random.whole(bounds.from.width, bounds.to.width);
+      r.height = random.whole(bounds.from.height, bounds.to.height);
+      const double centre = anchor + random.between(-0.5, 0.5) * parameters.spread * band.width;
+      const int left = static_cast<int>(std::floor(centre - 0.5 * r.width));
+      r.x = ((left % band.width) + band.width) % band.width;
+      r.y = random.whole(0, band.height - r.height + 1);
+      element.sign = random.share() < 0.5 ? 1.0F : -1.0F;
+      element.statistics = draw_statistics(random);
+      elements_.push_back(element);
+    }
+    begins_.push_back(elements_.size());
+  }
+}
+
+MeasurementMatrix::MeasurementMatrix(cv::Size band, const std::vector<std::vector<Element>>& rows) : band_(band) {
+  for (const std::vector<Element>& row : rows) {
+    for (const Element& element : row) {
+      const BandRectangle& r = element.rectangle;
+      if (r.x < 0 || r.x >= band.width || r.width < 1 || r.width > band.width || r.y < 0 || r.height < 1 ||
+          r.y + r.height > band.height) {
+        throw std::invalid_argument("measurement matrix: a rectangle lies outside of the band");
+      }
+      elements_.push_back(element);
+    }
+    if (row.empty()) throw std::invalid_argument("measurement matrix: a row without rectangles");
+    begins_.push_back(elements_.size());
+  }
+}
+
+std::span<const MeasurementMatrix::Element> MeasurementMatrix::row(int index) const {
+  const auto i = static_cast<std::size_t>(index);
+  return std::span(elements_).subspan(begins_[i], begins_[i + 1] - begins_[i]);
+}
+
+}  // namespace panvo::vision
