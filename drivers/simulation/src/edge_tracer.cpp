@@ -17,7 +17,7 @@ constexpr std::uint32_t kSunny = 0x80000000u;
 /// Which of the samples are traced among leaves, where fewer will do: sets that pixels take in turns.
 std::vector<std::vector<std::size_t>> samples_among_leaves(std::size_t count) {
   if (count == 3) return {{0, 1}, {1, 2}, {2, 0}};
-  const std::size_t stride = count > 3 ? 2 : 1;
+  const std::size_t stride = count > 1 ? 2 : 1;
   std::vector<std::vector<std::size_t>> sets(stride);
   for (std::size_t i = 0; i < count; ++i) sets[i % stride].push_back(i);
   return sets;

@@ -170,28 +170,28 @@ PlantMaterials::PlantMaterials(const Palette& palette) {
 }
 
 Mesh build_tree(TreeKind kind, const PlantMaterials& materials, Random random) {
-  const Foliage broad{materials.leaves_broad, materials.broad_period_m, 1.15f, 0.0f};
-  const Foliage small{materials.leaves_small, materials.small_period_m, 1.0f, 0.35f};
+  const Foliage broad{materials.leaves_broad, materials.broad_period_m, 1.45f, 0.0f};
+  const Foliage small{materials.leaves_small, materials.small_period_m, 1.25f, 0.35f};
   const Tint bark = grey(between(random, 0.75, 1.0));
   switch (kind) {
     case TreeKind::kBroad:
-      return build_broad({9.0f, 2.4f, 3.1f, 6.4f, 9, 420, 0.2f}, broad, materials.bark, bark, random);
+      return build_broad({9.0f, 2.4f, 3.1f, 6.4f, 9, 240, 0.2f}, broad, materials.bark, bark, random);
     case TreeKind::kSpreading:
-      return build_broad({10.0f, 2.8f, 4.4f, 6.6f, 12, 560, 0.3f},
-                         {materials.leaves_broad, materials.broad_period_m, 1.3f, 0.0f}, materials.bark, bark, random);
+      return build_broad({10.0f, 2.8f, 4.4f, 6.6f, 12, 310, 0.3f},
+                         {materials.leaves_broad, materials.broad_period_m, 1.6f, 0.0f}, materials.bark, bark, random);
     case TreeKind::kBirch:
-      return build_broad({10.5f, 2.8f, 2.3f, 7.8f, 10, 380, 0.14f}, small, materials.bark, tint_of(1.0f, 1.0f, 1.0f),
+      return build_broad({10.5f, 2.8f, 2.3f, 7.8f, 10, 210, 0.14f}, small, materials.bark, tint_of(1.0f, 1.0f, 1.0f),
                          random);
     case TreeKind::kPoplar:
-      return build_broad({13.0f, 1.6f, 1.7f, 11.4f, 11, 420, 0.19f}, small, materials.bark, bark, random);
+      return build_broad({13.0f, 1.6f, 1.7f, 11.4f, 11, 240, 0.19f}, small, materials.bark, bark, random);
     case TreeKind::kYoung:
-      return build_broad({5.2f, 2.0f, 1.5f, 3.3f, 5, 170, 0.07f},
-                         {materials.leaves_broad, materials.broad_period_m, 0.85f, 0.0f}, materials.bark, bark, random);
+      return build_broad({5.2f, 2.0f, 1.5f, 3.3f, 5, 95, 0.07f},
+                         {materials.leaves_broad, materials.broad_period_m, 1.05f, 0.0f}, materials.bark, bark, random);
     case TreeKind::kSpruce:
       return build_conifer(between(random, 10.5, 12.5), 2.6f, 0.7f, 20, materials, random);
     case TreeKind::kPine: {
-      Mesh mesh = build_broad({11.5f, 5.2f, 2.6f, 6.0f, 8, 300, 0.2f},
-                              {materials.leaves_needle, materials.needle_period_m, 1.1f, 0.1f}, materials.bark,
+      Mesh mesh = build_broad({11.5f, 5.2f, 2.6f, 6.0f, 8, 170, 0.2f},
+                              {materials.leaves_needle, materials.needle_period_m, 1.35f, 0.1f}, materials.bark,
                               tint_of(1.0f, 0.8f, 0.62f), random);
       return mesh;
     }
@@ -212,8 +212,8 @@ Mesh build_shrub(const PlantMaterials& materials, float height_m, bool is_flower
     add_branch(mesh, {0, 0, -0.05f}, clusters.back().centre, 0.03f, materials.bark, grey(0.7f));
   }
   const Foliage foliage{random.chance(0.5) ? materials.leaves_small : materials.leaves_broad, materials.small_period_m,
-                        0.45f + 0.18f * height_m, 0.0f};
-  add_crown(mesh, clusters, crown - Vector3f(0, 0, 0.3f * height_m), radius, 110, foliage, random);
+                        0.55f + 0.22f * height_m, 0.0f};
+  add_crown(mesh, clusters, crown - Vector3f(0, 0, 0.3f * height_m), radius, 65, foliage, random);
   if (is_flowering) {
     for (int i = 0; i < 40; ++i) {
       Vector3f out = direction(random);
