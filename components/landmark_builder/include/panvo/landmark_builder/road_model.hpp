@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <opencv2/core.hpp>
+
+#include "panvo/landmark_builder/colour_mixture.hpp"
+
+namespace panvo::landmark_builder {
+
+struct RoadModelParameters {
+  int gaussians = 5;
+  double learning_rate = 0.05;
+  double least_weight = 0.02;
+  double threshold = -4.5;
+
+  template <class Field>
+  static void describe(Field&& field) {
+    using P = RoadModelParameters;
+    field(&P::gaussians, "gaussians", "1", "modes of the road's colour: asphalt in sun and shadow, patches, markings",
+          1, 20);
+    field(&P::learning_rate, "learning_rate", "1", "share of the model that one panorama replaces", 0.001, 1.0);
+    field(&P::least_weight, "least_weight", "1", "share of the samples below which a mode is not believed", 0.0, 0.5);
+    field(&P::threshold, "threshold", "1",
+          "log density, relative to the best colour of the road, below which a colour is not the road's", -50.0, 0.0);
+  }
+};
+
+/// How the road looks, learned as the vehicle goes from ground that is known to be road [Lu2015 4.1].
+class RoadModel {
+ public:
+  explicit RoadModel(const RoadModelParameters& parameters);
+
+  /// Learns from the pixels of a bird's-eye view (8UC1 or 8UC3) that `certain` (8UC1, same size) marks.
+  void learn(const cv::Mat& view, const cv::Mat& certain);
+
+  /// For every pixel how much more it looks like road than not, as a log ratio in [-3, 3] (32FC1); all 0 before anything was
+  /// learned.
+  cv::Mat segment(const cv::Mat& view) const;
+
+  const ColourMixture& road() const noexcept { return road_; }
+  const ColourMixture& surroundings() const noexcept { return surroundings_; }
+
+ private:
+  RoadModelParameters parameters_;
+  ColourMixture road_, surroundings_;
+  bool has_colour_ = false;
+};
+
+}  // namespace panvo::landmark_builder

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "panvo/landmark_builder/junction_filter.hpp"
+
+#include <algorithm>
+
+namespace panvo::landmark_builder {
+namespace {
+
+constexpr double kRememberedPath_m = 60.0;
+constexpr std::size_t kMostPlaces = 2000;  // a vehicle that stands still
+
+}  // namespace
+
+std::vector<PassedJunction> JunctionFilter::add(std::int64_t stamp_ns, const Eigen::Vector2d& position_in_odom,
+                                                const std::optional<Eigen::Vector2d>& centre_in_odom) {
+  const double travelled_m =
+      path_.empty() ? 0.0 : path_.back().travelled_m + (position_in_odom - path_.back().position).norm();
+  path_.push_back({stamp_ns, position_in_odom, travelled_m});
+  while (path_.size() > kMostPlaces || travelled_m - path_.front().travelled_m > kRememberedPath_m) path_.pop_front();
+
+  Candidate* shown = nullptr;
+  if (centre_in_odom) {
+    double best_m = parameters_.merge_radius_m;
+    for (Candidate& candidate : candidates_) {
+      const double distance_m = (candidate.centre() - *centre_in_odom).norm();
+      if (distance_m >= best_m) continue;
+      best_m = distance_m;
+      shown = &candidate;
+    }
+    if (shown == nullptr) {
+      shown = &candidates_.emplace_back();
+      shown->first_m = travelled_m;
+    }
+    shown->sum += *centre_in_odom;
+    ++shown->seen;
+    shown->last_m = travelled_m;
+  }
+  std::vector<PassedJunction> passed;
+  for (auto candidate = candidates_.begin(); candidate != candidates_.end();) {
+    const auto closest = nearest(candidate->centre(), candidate->first_m);
+    const double now_m = (position_in_odom - candidate->centre()).norm();
+    const double closest_m = closest ? (closest->position - candidate->centre()).norm() : now_m;
+    const double gone_m = std::max(parameters_.passed_m, parameters_.merge_radius_m - closest_m);
+    if (now_m - closest_m < gone_m) {
+      ++candidate;
+      continue;
+    }
+    if (const auto junction = conclude(*candidate)) passed.push_back(*junction);
+    candidate = candidates_.erase(candidate);
+  }
+  return passed;
+}
+
+std::vector<PassedJunction> JunctionFilter::finish() {
+  std::vector<PassedJunction> passed;
+  for (const Candidate& candidate : candidates_) {
+    if (const auto junction = conclude(candidate)) passed.push_back(*junction);
+  }
+  candidates_.clear();
+  return passed;
+}
+
+std::optional<JunctionFilter::Place> JunctionFilter::nearest(const Eigen::Vector2d& centre, double since_m) const {
+  std::optional<Place> best;
+  for (const Place& place : path_) {
+    if (place.travelled_m < since_m - kRememberedPath_m) continue;
+    if (!best || (place.position - centre).squaredNorm() < (best->position - centre).squaredNorm()) best = place;
+  }
+  return best;
+}
+
+std::optional<PassedJunction> JunctionFilter::conclude(const Candidate& candidate) const {
+  if (candidate.last_m - candidate.first_m < parameters_.least_seen_m) return std::nullopt;
+  const auto closest = nearest(candidate.centre(), candidate.first_m);
+  if (!closest) return std::nullopt;
+  const double nearest_m = (closest->position - candidate.centre()).norm();
+  if (nearest_m > parameters_.farthest_pass_m) return std::nullopt;
+  const auto along = std::count_if(path_.begin(), path_.end(), [&](const Place& place) {
+    return place.travelled_m >= candidate.first_m && place.travelled_m <= candidate.last_m;
+  });
+  if (candidate.seen < parameters_.least_share * static_cast<double>(along)) return std::nullopt;
+  return PassedJunction{candidate.centre(), closest->stamp_ns, nearest_m, candidate.seen};
+}
+
+}  // namespace panvo::landmark_builder

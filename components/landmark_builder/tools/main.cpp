@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+// Road junctions of a data set: what the detector finds, pictures of how, and the score against the listed ones.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <opencv2/core/utility.hpp>
+#include <opencv2/imgcodecs.hpp>
+#include <set>
+
+#include "junction_score.hpp"
+#include "panvo/landmark_builder/drawing.hpp"
+#include "panvo/landmark_builder/junction_filter.hpp"
+#include "panvo/landmark_builder/road_junction_detector.hpp"
+#include "recording.hpp"
+
+namespace panvo::landmark_builder {
+namespace {
+
+struct Options {
+  std::string dataset, out, criterion = "arms";
+  std::vector<int> frames;
+  int every = 0;
+  bool grey = false, single = false, is_verbose = false;
+  double radius_m = 8.5;
+};
+
+int run(const Options& options) {
+  const Recording recording = read_recording(options.dataset);
+  if (!options.out.empty()) std::filesystem::create_directories(options.out);
+  const std::set<int> chosen(options.frames.begin(), options.frames.end());
+  JunctionDetectorParameters parameters;
+  parameters.criterion = options.criterion;
+  parameters.gather = !options.single;
+  JunctionFilter filter({});
+  std::optional<RoadJunctionDetector> detector;
+  std::vector<PassedJunction> detections;
+  std::vector<double> times_ms;
+  for (std::size_t i = 0; i < recording.panoramas.size(); ++i) {
+    const auto& frame = recording.panoramas[i];
+    const cv::Mat panorama = cv::imread(frame.image.string(), options.grey ? cv::IMREAD_GRAYSCALE : cv::IMREAD_COLOR);
+    if (panorama.empty()) throw std::runtime_error(frame.image.string() + " is no image that can be read");
+    if (!detector) detector.emplace(parameters, recording.base_from_panorama, panorama.size());
+    cv::TickMeter timer;
+    timer.start();
+    const JunctionView view = detector->detect(panorama, frame.map_from_base);
+    std::optional<Eigen::Vector2d> centre;
+    if (view.is_junction) centre = view.centre_in_odom;
+    const auto passed = filter.add(frame.stamp_ns, frame.map_from_base.translation().head<2>(), centre);
+    timer.stop();
+    times_ms.push_back(timer.getTimeMilli());
+    detections.insert(detections.end(), passed.begin(), passed.end());
+    if (options.is_verbose) {
+      std::printf("%4zu %d arms at (%.1f, %.1f), vehicle (%.1f, %.1f)%s\n", i, static_cast<int>(view.arms.arms.size()),
+                  view.centre_in_odom.x(), view.centre_in_odom.y(), frame.map_from_base.translation().x(),
+                  frame.map_from_base.translation().y(), passed.empty() ? "" : "  passed");
+    }
+    const bool is_wanted =
+        chosen.contains(static_cast<int>(i)) || (options.every > 0 && static_cast<int>(i) % options.every == 0);
+    if (!options.out.empty() && is_wanted) {
+      char name[32];
+      std::snprintf(name, sizeof name, "%05zu.png", i);
+      cv::imwrite((std::filesystem::path(options.out) / name).string(), draw_junction_view(view, parameters));
+    }
+  }
+  const auto rest = filter.finish();
+  detections.insert(detections.end(), rest.begin(), rest.end());
+
+  for (const PassedJunction& detection : detections) {
+    std::printf("%lld  junction at (%.1f, %.1f), passed at %.1f m, seen in %d panoramas\n",
+                static_cast<long long>(detection.nearest_stamp_ns), detection.centre_in_odom.x(),
+                detection.centre_in_odom.y(), detection.nearest_m, detection.panoramas);
+  }
+  std::sort(times_ms.begin(), times_ms.end());
+  std::printf("%zu panoramas, %zu junctions; time a panorama: median %.2f ms, 95 %% %.2f ms\n", times_ms.size(),
+              detections.size(), times_ms[times_ms.size() / 2], times_ms[times_ms.size() * 95 / 100]);
+  if (recording.junctions.empty()) return 0;
+  const JunctionScore score = score_junctions(recording, detections, options.radius_m);
+  for (const auto& visit : score.visits) {
+    if (visit.detections == 1 || visit.is_cut) continue;
+    std::printf("visit of junction %d, %lld to %lld ns, nearest %.1f m: %s\n", visit.junction,
+                static_cast<long long>(visit.from_ns), static_cast<long long>(visit.to_ns), visit.nearest_m,
+                visit.detections == 0 ? "missed" : "found more than once");
+  }
+  for (const auto& wrong : score.wrong) {
+    std::printf("false: %lld at (%.1f, %.1f)\n", static_cast<long long>(wrong.nearest_stamp_ns),
+                wrong.centre_in_odom.x(), wrong.centre_in_odom.y());
+  }
+  std::printf("%d found, %d missed, %zu false: precision %.3f, recall %.3f\n", score.found, score.missed,
+              score.wrong.size(), score.precision(), score.recall());
+  return 0;
+}
+
+}  // namespace
+}  // namespace panvo::landmark_builder
+
+int main(int argc, char** argv) {
+  panvo::landmark_builder::Options options;
+  CLI::App app{
+      "Finds the road junctions of a data set (EuRoC/ASL: cam2 with ground truth) and scores them against "
+      "sequence.yaml.",
+      "panvo landmarks junctions"};
+  app.add_option("dataset", options.dataset, "folder with mav0")->required()->check(CLI::ExistingDirectory);
+  app.add_option("--out", options.out, "folder for pictures of the chosen frames");
+  app.add_option("--frames", options.frames, "numbers of the panoramas to draw, from 0")->delimiter(',');
+  app.add_option("--every", options.every, "draw every n-th panorama")->check(CLI::NonNegativeNumber);
+  app.add_option("--criterion", options.criterion, "arms, or radon as in the paper")
+      ->check(CLI::IsMember({"arms", "radon"}));
+  app.add_option("--radius", options.radius_m, "of a visit, m")->check(CLI::PositiveNumber)->capture_default_str();
+  app.add_flag("--grey", options.grey, "take the panoramas as grey");
+  app.add_flag("--single", options.single, "judge each panorama by itself, as the paper does");
+  app.add_flag("--verbose", options.is_verbose, "a line for each panorama");
+  CLI11_PARSE(app, argc, argv);
+  cv::setNumThreads(1);
+  try {
+    return panvo::landmark_builder::run(options);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "panvo landmarks junctions: %s\n", error.what());
+    return 1;
+  }
+}
