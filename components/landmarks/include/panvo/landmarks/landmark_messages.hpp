@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "panvo/conversions/result.hpp"
+#include "panvo/landmarks/description_settings.hpp"
+#include "panvo/landmarks/panoramic_landmark.hpp"
+#include "panvo_msgs/msg/PanoramicLandmark.h"
+
+/// Landmarks as messages, for the topic `landmarks`.
+namespace panvo::landmarks {
+
+/// Exact but for the rounding of rotations to quaternions. `settings`: what it was described with; `map_frame`: the frame of
+/// its pose, "map".
+panvo_msgs::msg::PanoramicLandmark to_message(const PanoramicLandmark& landmark, const DescriptionSettings& settings,
+                                              const std::string& map_frame);
+
+/// The reason says what cannot be used: it was described with other settings than `settings` (each key that differs, with
+/// both values), has no id, a value that is not finite, a quaternion or bearing that is not of length 1, a covariance that
+/// is not symmetric or has a negative variance, a histogram whose shares do not add up to 1, features that are not in
+/// order of their weights.
+conversions::Result<PanoramicLandmark> to_landmark(const panvo_msgs::msg::PanoramicLandmark& message,
+                                                   const DescriptionSettings& settings);
+
+}  // namespace panvo::landmarks

@@ -1,0 +1,291 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "panvo/landmarks/landmark_store.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sqlite3.h>
+#include <unistd.h>
+
+#include <limits>
+
+#include "made_up_landmark.hpp"
+#include "panvo/landmarks/landmark_library.hpp"
+
+namespace panvo::landmarks {
+namespace {
+
+using namespace test;
+using testing::HasSubstr;
+using testing::Not;
+
+/// Runs SQL on a file, as other programs may.
+void tamper(const std::filesystem::path& file, const std::string& sql) {
+  sqlite3* database = nullptr;
+  sqlite3_open(file.c_str(), &database);
+  ASSERT_EQ(sqlite3_exec(database, sql.c_str(), nullptr, nullptr, nullptr), SQLITE_OK) << sqlite3_errmsg(database);
+  sqlite3_close(database);
+}
+
+class Store : public testing::Test {
+ protected:
+  void write(std::uint32_t count, std::size_t keypoints = 20) {
+    LandmarkStore store(file_, made_up_settings());
+    for (std::uint32_t id = 1; id <= count; ++id) store.add(made_up_landmark(id, keypoints));
+  }
+  std::string error_of_reading() {
+    return error_of<StoreError>([&] {
+      const LandmarkStore store(file_);
+      for (const auto& landmark : store.landmarks()) {
+        store.keypoints(landmark.id);
+        store.thumbnail(landmark.id);
+      }
+    });
+  }
+  std::string error_of_writing(const DescriptionSettings& settings = made_up_settings()) {
+    return error_of<StoreError>([&] { LandmarkStore(file_, settings).add(made_up_landmark(77)); });
+  }
+
+  TemporaryFolder folder_;
+  const std::filesystem::path file_ = folder_ / "places.landmarks";
+};
+
+TEST_F(Store, GivesBackWhatWasAdded) {
+  write(5);
+  const LandmarkStore store(file_);
+  EXPECT_EQ(store.size(), 5u);
+  EXPECT_EQ(store.settings(), made_up_settings());
+  std::uint32_t id = 0;
+  for (auto landmark : store.landmarks()) {
+    EXPECT_TRUE(landmark.keypoints.empty());
+    landmark.keypoints = store.keypoints(landmark.id);
+    landmark.thumbnail = store.thumbnail(landmark.id);
+    EXPECT_EQ(difference(landmark, made_up_landmark(++id)), "");
+  }
+  EXPECT_EQ(id, 5u);
+  EXPECT_TRUE(store.keypoints(6).empty());
+  EXPECT_TRUE(store.thumbnail(6).empty());
+  EXPECT_EQ(store.find_damage(), std::nullopt);
+}
+
+TEST_F(Store, IsContinuedByASecondSession) {
+  write(3);
+  LandmarkStore store(file_, made_up_settings());
+  auto next = made_up_landmark(9);
+  next.id = 0;
+  EXPECT_EQ(store.add(next), 4u);
+  EXPECT_EQ(LandmarkStore(file_).size(), 4u);
+}
+
+TEST_F(Store, FillsALibraryThatReadsKeypointsFromIt) {
+  write(4);
+  const auto store = std::make_shared<LandmarkStore>(file_);
+  LandmarkLibrary library(store);
+  for (auto& landmark : store->landmarks()) library.add(std::move(landmark));
+  EXPECT_EQ(library.next_id(), 5u);
+  EXPECT_EQ(library.keypoints(3), made_up_landmark(3).keypoints);
+}
+
+TEST_F(Store, MovesLandmarksAllOrNone) {
+  write(3);
+  LandmarkStore store(file_, made_up_settings());
+  std::vector<LandmarkPose> poses(2);
+  poses[0] = {2, made_up_landmark(20).map_from_base, made_up_landmark(20).covariance};
+  poses[1].id = 99;
+  store.set_poses(poses);
+  auto expected = made_up_landmark(2);
+  expected.map_from_base = made_up_landmark(20).map_from_base;
+  expected.covariance = made_up_landmark(20).covariance;
+  EXPECT_EQ(difference(store.landmarks().at(1), expected, false), "");
+  EXPECT_EQ(difference(store.landmarks().at(0), made_up_landmark(1), false), "");
+  EXPECT_EQ(store.size(), 3u);
+
+  poses[1].map_from_base.translation().x() = std::nan("");
+  poses[0].map_from_base = Eigen::Isometry3d::Identity();
+  EXPECT_THROW(store.set_poses(poses), std::invalid_argument);
+  EXPECT_EQ(difference(store.landmarks().at(1), expected, false), "");
+}
+
+TEST_F(Store, KeepsTwoLandmarksAtOnePlace) {
+  LandmarkStore store(file_, made_up_settings());
+  auto landmark = made_up_landmark(1);
+  store.add(landmark);
+  landmark.id = 2;
+  store.add(landmark);
+  EXPECT_EQ(store.size(), 2u);
+}
+
+TEST_F(Store, RefusesATakenIdAndValuesThatAreNone) {
+  LandmarkStore store(file_, made_up_settings());
+  store.add(made_up_landmark(1));
+  EXPECT_THAT(error_of<StoreError>([&] { store.add(made_up_landmark(1)); }),
+              HasSubstr("has a landmark 1 already; does another process write to it?"));
+  auto broken = made_up_landmark(2);
+  broken.description.small[5].value = std::nanf("");
+  EXPECT_THROW(store.add(broken), std::invalid_argument);
+  broken = made_up_landmark(2);
+  broken.covariance(3, 3) = std::numeric_limits<double>::infinity();
+  EXPECT_THROW(store.add(broken), std::invalid_argument);
+  EXPECT_EQ(store.size(), 1u);
+}
+
+TEST_F(Store, OfOtherSettingsIsRefusedWithWhatDiffers) {
+  write(1);
+  const auto error = error_of_writing({{"band_rows", "150"}, {"seed", "2"}, {"kind", "cf"}});
+  EXPECT_THAT(error, HasSubstr("places.landmarks: its landmarks are described in another way: "
+                               "kind is not set there, cf here; seed is 1 there, 2 here."));
+  EXPECT_THAT(error, HasSubstr("Set the parameters as they are there, or use another file"));
+  EXPECT_THAT(error, Not(HasSubstr("band_rows")));
+  EXPECT_EQ(LandmarkStore(file_).size(), 1u);
+}
+
+TEST_F(Store, OfAnotherVersionIsRefused) {
+  write(1);
+  tamper(file_, "PRAGMA user_version=7");
+  for (const auto& error : {error_of_reading(), error_of_writing()}) {
+    EXPECT_THAT(error, HasSubstr("places.landmarks: is of layout 7, and this panvo reads layout 1; use the panvo"));
+  }
+}
+
+TEST_F(Store, ThatIsNoneIsRefusedAndLeftAlone) {
+  tamper(file_, "CREATE TABLE messages(id INTEGER)");
+  const auto before = read_text(file_);
+  EXPECT_THAT(error_of_reading(), HasSubstr("is a database, but no landmark store"));
+  EXPECT_THAT(error_of_writing(), HasSubstr("is a database, but no landmark store"));
+  EXPECT_EQ(read_text(file_), before);
+  write_text(file_, "a letter to somebody, longer than the header of a database would be, whatever that may be");
+  EXPECT_THAT(error_of_reading(), HasSubstr("is no landmark store"));
+  EXPECT_THAT(error_of_writing(), HasSubstr("is no landmark store"));
+  EXPECT_THAT(read_text(file_), HasSubstr("a letter"));
+}
+
+TEST_F(Store, ThatIsMissingOrEmptyIsToldToReadersAndMadeByWriters) {
+  EXPECT_THAT(error_of_reading(), HasSubstr("places.landmarks: does not exist"));
+  write_text(file_, "");
+  EXPECT_THAT(error_of_reading(), HasSubstr("places.landmarks: is empty"));
+  EXPECT_EQ(error_of_writing(), "");
+  EXPECT_EQ(error_of_reading(), "");
+}
+
+TEST_F(Store, InAPlaceThatIsNoneIsRefused) {
+  EXPECT_THAT(error_of<StoreError>([&] { LandmarkStore(folder_.path(), made_up_settings()); }),
+              HasSubstr("is a folder"));
+  EXPECT_THAT(error_of<StoreError>([&] { LandmarkStore(folder_ / "no/such", made_up_settings()); }),
+              HasSubstr("no/such: cannot be made: there is no such folder; make it first"));
+}
+
+TEST_F(Store, CutOffAnywhereIsRefusedWithWhatIsLeftToDo) {
+  write(5);
+  const auto whole = read_text(file_);
+  for (int part = 1; part < 40; ++part) {
+    const auto size = whole.size() * static_cast<std::size_t>(part) / 40 + static_cast<std::size_t>(part % 3);
+    write_text(file_, whole.substr(0, size));
+    const auto expected = "is damaged: it is cut off after " + std::to_string(size) + " of " +
+                          std::to_string(whole.size()) + " bytes; go back to a copy of it, or save";
+    EXPECT_THAT(error_of_reading(), HasSubstr(expected));
+    EXPECT_THAT(error_of_writing(), HasSubstr(expected));
+  }
+}
+
+TEST_F(Store, WithBytesFlippedNeverCrashesAndNamesTheFile) {
+  write(5);
+  const auto whole = read_text(file_);
+  std::mt19937_64 random(1);
+  int refused = 0;
+  for (int round = 0; round < 200; ++round) {
+    auto damaged = whole;
+    for (int i = 0; i < 100; ++i) damaged[random() % whole.size()] = static_cast<char>(random() >> 56);
+    write_text(file_, damaged);
+    const auto error = error_of_reading();
+    if (error.empty()) continue;
+    ++refused;
+    EXPECT_THAT(error, HasSubstr("places.landmarks: "));
+  }
+  EXPECT_GT(refused, 50);
+}
+
+TEST_F(Store, WithAHoleIsFoundDamagedByItsCheck) {
+  write(20);
+  auto damaged = read_text(file_);
+  std::fill(damaged.begin() + static_cast<std::ptrdiff_t>(damaged.size() / 2), damaged.end() - 5000, '\0');
+  write_text(file_, damaged);
+  EXPECT_NE(LandmarkStore(file_).find_damage(), std::nullopt);
+}
+
+TEST_F(Store, HoldingValuesThatAreNoneIsRefusedByLandmark) {
+  write(3);
+  tamper(file_, "UPDATE landmark SET covariance = x'00' WHERE id = 2");
+  EXPECT_THAT(error_of_reading(), HasSubstr("is damaged: landmark 2 holds values that are none"));
+}
+
+/// Tests run as root may write to everything: as somebody else, for a while.
+class AsNobody {
+ public:
+  AsNobody() { is_root_ = ::geteuid() == 0 && ::seteuid(65534) == 0; }
+  ~AsNobody() {
+    if (is_root_ && ::seteuid(0) != 0) std::abort();
+  }
+  AsNobody(const AsNobody&) = delete;
+  AsNobody& operator=(const AsNobody&) = delete;
+
+ private:
+  bool is_root_ = false;
+};
+
+TEST_F(Store, ThatIsWriteProtectedCanBeReadAndSaysSoToWriters) {
+  namespace fs = std::filesystem;
+  write(2);
+  for (const bool folder_too : {false, true}) {
+    fs::permissions(file_, fs::perms::owner_read | fs::perms::group_read | fs::perms::others_read);
+    fs::permissions(folder_.path(), folder_too ? fs::perms(0555) : fs::perms(0777));
+    {
+      const AsNobody nobody;
+      EXPECT_EQ(error_of_reading(), "");
+      EXPECT_EQ(LandmarkStore(file_).size(), 2u);
+      EXPECT_THAT(error_of_writing(), HasSubstr("places.landmarks: is write-protected; let it be written to, or copy"));
+      if (folder_too) {
+        EXPECT_THAT(error_of<StoreError>([&] { LandmarkStore(folder_ / "new", made_up_settings()); }),
+                    HasSubstr("new: cannot be opened or made; check that you may use it, and write in its folder"));
+      }
+    }
+    fs::permissions(folder_.path(), fs::perms::owner_all);
+  }
+}
+
+TEST_F(Store, TakesAnotherStoresLandmarksBitForBitWithNewIds) {
+  write(3);
+  LandmarkStore other(folder_ / "other", made_up_settings());
+  for (const std::uint32_t id : {12u, 15u}) other.add(made_up_landmark(id));
+  LandmarkStore store(file_, made_up_settings());
+  EXPECT_EQ(store.append(other), 4u);
+  EXPECT_EQ(store.size(), 5u);
+  const auto landmarks = store.landmarks();
+  for (const auto& [id, number] : {std::pair{4u, 12u}, std::pair{5u, 15u}}) {
+    auto expected = made_up_landmark(number);
+    expected.id = id;
+    auto found = landmarks.at(id - 1);
+    found.keypoints = store.keypoints(id);
+    found.thumbnail = store.thumbnail(id);
+    EXPECT_EQ(difference(found, expected), "");
+    EXPECT_EQ(found.map_from_base.matrix(), other.landmarks().at(id - 4).map_from_base.matrix());
+  }
+  LandmarkStore third(folder_ / "third", {{"seed", "3"}});
+  EXPECT_THAT(error_of<StoreError>([&] { store.append(third); }), HasSubstr("seed is 1 there, 3 here"));
+}
+
+TEST_F(Store, TellsWhatTakesItsRoom) {
+  write(10, 300);
+  const LandmarkStore store(file_);
+  const auto bytes = store.stored_bytes();
+  EXPECT_EQ(bytes.histogram, 10u * 64u * 4u);
+  EXPECT_EQ(bytes.large, 10u * 1400u);
+  EXPECT_EQ(bytes.small, 10u * 1400u);
+  EXPECT_EQ(bytes.keypoints, 10u * 150u * (145u + 161u));
+  EXPECT_EQ(bytes.thumbnail, 10u * 1000u);
+  EXPECT_EQ(bytes.file, std::filesystem::file_size(file_));
+  EXPECT_EQ(store.keypoint_count(), 3000u);
+  // With a thumbnail of 25 kB it stays below 100 kB a landmark, the database's own structure included.
+  EXPECT_LT(bytes.file / 10 + 25'000, 100'000u);
+}
+
+}  // namespace
+}  // namespace panvo::landmarks

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+/// A process to be killed while it adds landmarks, for interrupted_store_test: says on stdout, after each, which id it
+/// has; with a limit on the size of files it ends at the error, telling it. With "lock" it locks a store until it is killed.
+#include <sqlite3.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <cstdio>
+#include <string>
+
+#include "made_up_landmark.hpp"
+#include "panvo/landmarks/landmark_store.hpp"
+
+namespace {
+
+int lock(const char* file) {
+  sqlite3* database = nullptr;
+  sqlite3_open(file, &database);
+  if (sqlite3_exec(database, "BEGIN EXCLUSIVE", nullptr, nullptr, nullptr) != SQLITE_OK) return 1;
+  std::printf("locked\n");
+  std::fflush(stdout);
+  ::pause();
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  using namespace panvo::landmarks;
+  if (argc < 3) {
+    std::fprintf(stderr, "usage: storing_child STORE KEYPOINTS|lock [FILE_SIZE_LIMIT]\n");
+    return 2;
+  }
+  if (std::string(argv[2]) == "lock") return lock(argv[1]);
+  if (argc > 3) {
+    const rlim_t limit = std::stoul(argv[3]);
+    const rlimit limits{limit, limit};
+    setrlimit(RLIMIT_FSIZE, &limits);
+    std::signal(SIGXFSZ, SIG_IGN);
+  }
+  try {
+    LandmarkStore store(argv[1], test::made_up_settings());
+    for (std::uint32_t id = 1;; ++id) {
+      store.add(test::made_up_landmark(id, std::stoul(argv[2])));
+      std::printf("%u\n", id);
+      std::fflush(stdout);
+    }
+  } catch (const StoreError& error) {
+    std::printf("%s\n", error.what());
+  }
+  return 1;
+}
