@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "panvo/position_corrector/panorama_pose.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <opengv/absolute_pose/CentralAbsoluteAdapter.hpp>
+#include <opengv/sac/Ransac.hpp>
+#include <opengv/sac_problems/absolute_pose/AbsolutePoseSacProblem.hpp>
+#include <vector>
+
+#include "panvo/landmarks/keypoints.hpp"
+#include "panvo/position_corrector/pose_refinement.hpp"
+#include "panvo/vision/equirectangular.hpp"
+
+namespace panvo::position_corrector {
+namespace {
+
+using landmarks::Keypoint;
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+constexpr int kFewestForRansac = 5;
+constexpr double kGate = 9.21;              // 99 % of a chi-square of two degrees of freedom
+constexpr double kSureDescriptors = 260.0;  // Euclidean, of 512: two views of one thing lie closer, nine times of ten
+
+SightedPoint sighting(const Keypoint& seen, const Keypoint& known, double bearing_sigma_rad) {
+  const Eigen::Vector3d point = known.point_in_panorama.cast<double>();
+  const double range = point.norm();
+  const Eigen::Vector3d along = point / range;
+  const double along_sigma = range * range * static_cast<double>(known.inverse_range_sigma);
+  const double across_sigma = range * bearing_sigma_rad;
+  const Eigen::Matrix3d projection = along * along.transpose();
+  return {
+      point,
+      along_sigma * along_sigma * projection + across_sigma * across_sigma * (Eigen::Matrix3d::Identity() - projection),
+      seen.bearing.cast<double>().normalized()};
+}
+
+std::optional<Eigen::Isometry3d> three_point_ransac(std::span<const SightedPoint> sightings,
+                                                    const PanoramaPoseParameters& parameters) {
+  opengv::bearingVectors_t bearings;
+  opengv::points_t points;
+  for (const auto& seen : sightings) {
+    bearings.push_back(seen.bearing);
+    points.push_back(seen.point);
+  }
+  const opengv::absolute_pose::CentralAbsoluteAdapter adapter(bearings, points);
+  using Problem = opengv::sac_problems::absolute_pose::AbsolutePoseSacProblem;
+  opengv::sac::Ransac<Problem> ransac;
+  auto copy = adapter;
+  ransac.sac_model_.reset(new Problem(copy, Problem::KNEIP, false));  // its own, constant seed
+  ransac.threshold_ = 1.0 - std::cos(parameters.inlier_angle_deg * kDegree);
+  ransac.max_iterations_ = parameters.iterations;
+  if (!ransac.computeModel() || !ransac.model_coefficients_.allFinite()) return std::nullopt;
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  pose.linear() = vision::nearest_rotation(ransac.model_coefficients_.leftCols<3>());
+  pose.translation() = ransac.model_coefficients_.col(3);
+  return pose;
+}
+
+double descriptor_distance(const Keypoint& a, const Keypoint& b) {
+  int sum = 0;
+  for (std::size_t i = 0; i < a.descriptor.size(); ++i) {
+    const int difference = static_cast<int>(a.descriptor[i]) - static_cast<int>(b.descriptor[i]);
+    sum += difference * difference;
+  }
+  return std::sqrt(static_cast<double>(sum));
+}
+
+/// Every point of the landmark with the keypoint that lies where the pose puts it, and looks most like it.
+std::vector<SightedPoint> guided_sightings(std::span<const Keypoint> panorama, std::span<const Keypoint> landmark,
+                                           const Eigen::Isometry3d& landmark_from_panorama,
+                                           const PanoramaPoseParameters& parameters) {
+  const double sigma_rad = parameters.bearing_sigma_deg * kDegree;
+  const double near = std::cos(3.0 * parameters.inlier_angle_deg * kDegree);
+  const Eigen::Isometry3d panorama_from_landmark = landmark_from_panorama.inverse();
+  std::vector<double> best_of(panorama.size(), kSureDescriptors);
+  std::vector<int> point_of(panorama.size(), -1);
+  for (std::size_t j = 0; j < landmark.size(); ++j) {
+    if (!landmark[j].has_point) continue;
+    const Eigen::Vector3f expected =
+        (panorama_from_landmark * landmark[j].point_in_panorama.cast<double>()).normalized().cast<float>();
+    double best = std::numeric_limits<double>::infinity();
+    std::size_t chosen = 0;
+    for (std::size_t i = 0; i < panorama.size(); ++i) {
+      if (static_cast<double>(panorama[i].bearing.dot(expected)) < near) continue;
+      const double distance = descriptor_distance(panorama[i], landmark[j]);
+      if (distance >= best) continue;
+      best = distance;
+      chosen = i;
+    }
+    if (best >= kSureDescriptors || best >= best_of[chosen]) continue;
+    best_of[chosen] = best;
+    point_of[chosen] = static_cast<int>(j);
+  }
+  std::vector<SightedPoint> sightings;
+  for (std::size_t i = 0; i < panorama.size(); ++i) {
+    if (point_of[i] < 0) continue;
+    const auto seen = sighting(panorama[i], landmark[static_cast<std::size_t>(point_of[i])], sigma_rad);
+    if (squared_residual(seen, landmark_from_panorama, sigma_rad) < 4.0 * kGate) sightings.push_back(seen);
+  }
+  return sightings;
+}
+
+std::vector<SightedPoint> agreeing(std::span<const SightedPoint> sightings, const Eigen::Isometry3d& pose,
+                                   double sigma_rad) {
+  std::vector<SightedPoint> kept;
+  std::copy_if(sightings.begin(), sightings.end(), std::back_inserter(kept),
+               [&](const SightedPoint& seen) { return squared_residual(seen, pose, sigma_rad) < kGate; });
+  return kept;
+}
+
+/// What speaks against a pose; empty when nothing does.
+std::string objection(const Eigen::Isometry3d& pose, double heading_rad, const PanoramaPoseParameters& parameters) {
+  const double offset_m = pose.translation().norm();
+  if (offset_m > parameters.largest_offset_m) {
+    return fmt::format("{:.1f} m from the landmark, {:.0f} at most", offset_m, parameters.largest_offset_m);
+  }
+  const double turn_deg =
+      std::abs(vision::wrap(heading_of(pose.linear()) - heading_rad, 2.0 * std::numbers::pi)) / kDegree;
+  if (turn_deg > parameters.largest_turn_deg) {
+    return fmt::format("turned by {:.0f} deg from the heading found, {:.0f} at most", turn_deg,
+                       parameters.largest_turn_deg);
+  }
+  const double tilt_deg = std::acos(std::clamp(pose.linear()(1, 1), -1.0, 1.0)) / kDegree;
+  if (tilt_deg > parameters.largest_tilt_deg) {
+    return fmt::format("tilted by {:.0f} deg, {:.0f} at most", tilt_deg, parameters.largest_tilt_deg);
+  }
+  return {};
+}
+
+}  // namespace
+
+double heading_of(const Eigen::Matrix3d& landmark_from_panorama) {
+  const Eigen::Vector3d forward = landmark_from_panorama.col(2);
+  return vision::wrap(-std::atan2(forward.x(), forward.z()), 2.0 * std::numbers::pi);
+}
+
+PanoramaPoseResult estimate_panorama_pose(std::span<const Keypoint> panorama, std::span<const Keypoint> landmark,
+                                          double heading_rad, const PanoramaPoseParameters& parameters) {
+  const double sigma_rad = parameters.bearing_sigma_deg * kDegree;
+  const landmarks::AzimuthWindow window{heading_rad, parameters.azimuth_window_deg * kDegree};
+  std::vector<SightedPoint> matched;
+  for (const auto& match :
+       match_keypoints(panorama, landmark, static_cast<float>(parameters.descriptor_ratio), window)) {
+    const auto& known = landmark[static_cast<std::size_t>(match.landmark)];
+    if (known.has_point) matched.push_back(sighting(panorama[static_cast<std::size_t>(match.query)], known, sigma_rad));
+  }
+  PanoramaPoseResult result;
+  result.matches = static_cast<int>(matched.size());
+  const int needed = std::max(parameters.fewest_inliers,
+                              static_cast<int>(std::ceil(parameters.fewest_inliers_share * result.matches)));
+  const auto few = [&](std::string_view what, int count) {
+    result.reason = fmt::format("{} {} of {} needed", count, what, needed);
+    return result;
+  };
+  if (result.matches < std::max(needed, kFewestForRansac)) return few("matched points", result.matches);
+  const auto start = three_point_ransac(matched, parameters);
+  if (!start) return few("inliers", 0);
+
+  std::vector<SightedPoint> inliers;
+  const double cosine = std::cos(parameters.inlier_angle_deg * kDegree);
+  for (const auto& seen : matched) {
+    const Eigen::Vector3d expected = (start->inverse() * seen.point).normalized();
+    if (expected.dot(seen.bearing) > cosine) inliers.push_back(seen);
+  }
+  result.inliers = static_cast<int>(inliers.size());
+  if (result.inliers < needed) return few("inliers", result.inliers);
+
+  // once the pose is about known, points are found by where they must be
+  auto refined = refine_pose(*start, inliers, sigma_rad);
+  auto guided = guided_sightings(panorama, landmark, refined.landmark_from_panorama, parameters);
+  if (guided.size() < inliers.size()) guided = inliers;
+  refined = refine_pose(refined.landmark_from_panorama, guided, sigma_rad);
+  guided = agreeing(guided, refined.landmark_from_panorama, sigma_rad);
+  result.inliers = static_cast<int>(guided.size());
+  if (result.inliers < needed) return few("inliers", result.inliers);
+  refined = refine_pose(refined.landmark_from_panorama, guided, sigma_rad);
+
+  result.reason = objection(refined.landmark_from_panorama, heading_rad, parameters);
+  if (!result.reason.empty()) return result;
+  result.pose = PanoramaPose{refined.landmark_from_panorama, refined.covariance,
+                             heading_of(refined.landmark_from_panorama.linear())};
+  return result;
+}
+
+}  // namespace panvo::position_corrector

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "panvo/position_corrector/panorama_pose.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+#include <vector>
+
+namespace panvo::position_corrector {
+namespace {
+
+using landmarks::Keypoint;
+
+/// A landmark's keypoints with points, and the same things seen from elsewhere.
+class Place {
+ public:
+  Place() {
+    seen_from.translation() = Eigen::Vector3d(2.0, 0.05, 3.0);
+    seen_from.linear() = vision::so3_exp(Eigen::Vector3d(0.0, -kHeading_rad, 0.0));
+    for (int i = 0; i < 120; ++i) add();
+  }
+
+  static constexpr double kHeading_rad = 2.2;  // to the left: about -Y
+
+  std::vector<Keypoint> landmark, panorama;
+  Eigen::Isometry3d seen_from = Eigen::Isometry3d::Identity();
+
+ private:
+  void add() {
+    std::uniform_real_distribution<double> any(-1.0, 1.0);
+    const double azimuth = M_PI * any(random_);
+    const double range = 18.0 + 10.0 * any(random_);
+    const Eigen::Vector3d point(range * std::sin(azimuth), -3.0 + 4.0 * any(random_), range * std::cos(azimuth));
+    Keypoint known;
+    known.bearing = point.normalized().cast<float>();
+    known.has_point = true;
+    known.point_in_panorama = point.cast<float>();
+    known.inverse_range_sigma = 0.002F;
+    for (auto& byte : known.descriptor) byte = static_cast<std::uint8_t>(random_() % 90);
+    landmark.push_back(known);
+    Keypoint seen = known;
+    seen.has_point = false;
+    std::normal_distribution<double> normal;
+    const Eigen::Vector3d noise(normal(random_), normal(random_), normal(random_));
+    seen.bearing = ((seen_from.inverse() * point).normalized() + 0.003 * noise).normalized().cast<float>();
+    panorama.push_back(seen);
+  }
+
+  std::mt19937_64 random_{7};
+};
+
+TEST(PanoramaPose, HasTheTurnLeftAsItsHeading) {
+  const Eigen::Matrix3d left = vision::so3_exp(Eigen::Vector3d(0.0, -0.5, 0.0));  // Y is down: left is about -Y
+  EXPECT_NEAR(heading_of(left), 0.5, 1e-12);
+  EXPECT_NEAR(heading_of(left.transpose()), -0.5, 1e-12);
+}
+
+TEST(PanoramaPose, IsFoundFromThePointsOfALandmarkSeenElsewhereUnderAnotherHeading) {
+  const Place place;
+  const auto result = estimate_panorama_pose(place.panorama, place.landmark, Place::kHeading_rad + 0.05, {});
+  ASSERT_TRUE(result.pose) << result.reason;
+  const auto error = vision::pose_error(result.pose->landmark_from_panorama, place.seen_from);
+  EXPECT_LT(error.head<3>().norm(), 0.1);
+  EXPECT_LT(error.tail<3>().norm(), 0.005);
+  EXPECT_NEAR(result.pose->heading_rad, Place::kHeading_rad, 0.005);
+  EXPECT_LT(error.dot(result.pose->covariance.ldlt().solve(error)), 22.5);  // 99.9 % of a chi-square of six
+  EXPECT_GE(result.inliers, 100);
+}
+
+TEST(PanoramaPose, IsTheSameBitForBit) {
+  const Place place;
+  const auto first = estimate_panorama_pose(place.panorama, place.landmark, Place::kHeading_rad, {});
+  const auto second = estimate_panorama_pose(place.panorama, place.landmark, Place::kHeading_rad, {});
+  ASSERT_TRUE(first.pose && second.pose);
+  EXPECT_TRUE(
+      (first.pose->landmark_from_panorama.matrix().array() == second.pose->landmark_from_panorama.matrix().array())
+          .all());
+}
+
+TEST(PanoramaPose, IsRefusedWhereThingsLookAlikeButLieElsewhere) {
+  Place place;
+  // the same descriptors in another order: as if facades repeated
+  std::mt19937_64 random(11);
+  for (auto& seen : place.panorama) {
+    const double azimuth = M_PI * (2.0 * static_cast<double>(random() % 1000) / 999.0 - 1.0);
+    seen.bearing = Eigen::Vector3d(std::sin(azimuth), -0.1, std::cos(azimuth)).normalized().cast<float>();
+  }
+  const auto result = estimate_panorama_pose(place.panorama, place.landmark, Place::kHeading_rad, {});
+  EXPECT_FALSE(result.pose);
+  EXPECT_NE(result.reason.find("needed"), std::string::npos) << result.reason;
+}
+
+TEST(PanoramaPose, IsRefusedWhereThePoseTurnsAwayFromTheHeading) {
+  const Place place;
+  PanoramaPoseParameters parameters;
+  parameters.azimuth_window_deg = 90.0;
+  const auto result = estimate_panorama_pose(place.panorama, place.landmark, Place::kHeading_rad + 0.7, parameters);
+  EXPECT_FALSE(result.pose);
+  EXPECT_NE(result.reason.find("heading"), std::string::npos) << result.reason;
+}
+
+TEST(PanoramaPose, SaysThatALandmarkWithoutPointsGivesNone) {
+  Place place;
+  for (auto& known : place.landmark) known.has_point = false;
+  const auto result = estimate_panorama_pose(place.panorama, place.landmark, Place::kHeading_rad, {});
+  EXPECT_FALSE(result.pose);
+  EXPECT_EQ(result.reason, "0 matched points of 10 needed");
+}
+
+}  // namespace
+}  // namespace panvo::position_corrector
