@@ -7,6 +7,8 @@ namespace panvo::landmark_builder {
 namespace {
 
 constexpr double kRememberedPath_m = 60.0;
+constexpr double kOutOfSight_m = 25.0;
+constexpr double kNear_m = 2.0;            // nearer makes a centre no surer
 constexpr std::size_t kMostPlaces = 2000;  // a vehicle that stands still
 
 }  // namespace
@@ -31,7 +33,9 @@ std::vector<PassedJunction> JunctionFilter::add(std::int64_t stamp_ns, const Eig
       shown = &candidates_.emplace_back();
       shown->first_m = travelled_m;
     }
-    shown->sum += *centre_in_odom;
+    const double weight = 1.0 / (kNear_m * kNear_m + (position_in_odom - *centre_in_odom).squaredNorm());
+    shown->sum += weight * *centre_in_odom;
+    shown->weight += weight;
     ++shown->seen;
     shown->last_m = travelled_m;
   }
@@ -40,23 +44,15 @@ std::vector<PassedJunction> JunctionFilter::add(std::int64_t stamp_ns, const Eig
     const auto closest = nearest(candidate->centre(), candidate->first_m);
     const double now_m = (position_in_odom - candidate->centre()).norm();
     const double closest_m = closest ? (closest->position - candidate->centre()).norm() : now_m;
-    const double gone_m = std::max(parameters_.passed_m, parameters_.merge_radius_m - closest_m);
-    if (now_m - closest_m < gone_m) {
-      ++candidate;
-      continue;
+    if (!candidate->is_passed && now_m - closest_m >= parameters_.passed_m) {
+      if (const auto junction = conclude(*candidate)) {
+        passed.push_back(*junction);
+        candidate->is_passed = true;
+      }
     }
-    if (const auto junction = conclude(*candidate)) passed.push_back(*junction);
-    candidate = candidates_.erase(candidate);
+    candidate = now_m > kOutOfSight_m && now_m > closest_m + parameters_.passed_m ? candidates_.erase(candidate)
+                                                                                  : std::next(candidate);
   }
-  return passed;
-}
-
-std::vector<PassedJunction> JunctionFilter::finish() {
-  std::vector<PassedJunction> passed;
-  for (const Candidate& candidate : candidates_) {
-    if (const auto junction = conclude(candidate)) passed.push_back(*junction);
-  }
-  candidates_.clear();
   return passed;
 }
 

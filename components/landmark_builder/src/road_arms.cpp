@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
@@ -87,15 +88,21 @@ std::vector<RoadArm> find_arms(const std::vector<float>& reach_m, const RoadArms
   };
   std::vector<Run> runs;
   const double gap_steps = parameters.smallest_gap_m / (parameters.arm_length_m * step_rad);
+  // two runs are one arm where what lies between them is narrow, or all but as long as they are
+  const auto is_one_arm = [&](int last, int next) {
+    float shortest = std::numeric_limits<float>::max();
+    for (int i = last + 1; i < next; ++i) shortest = std::min(shortest, reach_m[static_cast<std::size_t>(i % count)]);
+    return next - last - 1 < gap_steps || shortest > parameters.deepest_gap * parameters.arm_length_m;
+  };
   for (int i = start; i < start + count; ++i) {
     if (!is_long(i)) continue;
-    if (!runs.empty() && i - runs.back().last - 1 < gap_steps) {
+    if (!runs.empty() && is_one_arm(runs.back().last, i)) {
       runs.back().last = i;
     } else {
       runs.push_back({i, i});
     }
   }
-  if (runs.size() > 1 && runs.front().first + count - runs.back().last - 1 < gap_steps) {
+  if (runs.size() > 1 && is_one_arm(runs.back().last, runs.front().first + count)) {
     runs.front().first = runs.back().first - count;
     runs.pop_back();
   }

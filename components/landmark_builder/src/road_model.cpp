@@ -13,6 +13,8 @@ namespace {
 constexpr float kDark = 10.0F;             // grey levels, added so that noise of dark pixels does not count as colour
 constexpr std::size_t kMostSamples = 500;  // of one picture
 constexpr float kLimit = 3.0F;             // one picture never decides alone
+constexpr float kMarking = 0.3F;           // log brightness above the road's main mode
+constexpr float kColourless = 0.12F;       // log ratio of two colours
 constexpr GroundColour kSmallestVariance{0.06F * 0.06F, 0.015F * 0.015F, 0.02F * 0.02F};
 
 struct LogTable {
@@ -98,9 +100,14 @@ cv::Mat compare(const Planes& planes, const ColourMixture& road, const ColourMix
   if (!surroundings.empty()) {
     surroundings.log_density(planes.pointers(), count, parameters.least_weight, other.data());
   }
+  const auto values = planes.pointers();
   for (int i = 0; i < count; ++i) {
     const float rival = std::max(other[static_cast<std::size_t>(i)], anything);
     out[i] = std::clamp(out[i] - rival, -kLimit, kLimit);
+    // a marking, or a kerb: brighter than the road and of no colour of its own; its neighbours say what it is
+    const bool is_marking = values[0][i] > main.mean[0] + kMarking && std::abs(values[1][i]) < kColourless &&
+                            std::abs(values[2][i]) < kColourless;
+    if (is_marking && out[i] < 0.0F) out[i] = 0.0F;
   }
   return ratio;
 }

@@ -61,8 +61,6 @@ int run(const Options& options) {
       cv::imwrite((std::filesystem::path(options.out) / name).string(), draw_junction_view(view, parameters));
     }
   }
-  const auto rest = filter.finish();
-  detections.insert(detections.end(), rest.begin(), rest.end());
 
   for (const PassedJunction& detection : detections) {
     std::printf("%lld  junction at (%.1f, %.1f), passed at %.1f m, seen in %d panoramas\n",

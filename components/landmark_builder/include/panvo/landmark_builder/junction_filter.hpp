@@ -10,7 +10,7 @@
 namespace panvo::landmark_builder {
 
 struct JunctionFilterParameters {
-  double merge_radius_m = 9.0;
+  double merge_radius_m = 12.0;
   double passed_m = 4.0;
   double farthest_pass_m = 9.0;
   double least_seen_m = 2.0;
@@ -48,9 +48,6 @@ class JunctionFilter {
   std::vector<PassedJunction> add(std::int64_t stamp_ns, const Eigen::Vector2d& position_in_odom,
                                   const std::optional<Eigen::Vector2d>& centre_in_odom);
 
-  /// Those that are near at the end of the journey.
-  std::vector<PassedJunction> finish();
-
  private:
   struct Place {
     std::int64_t stamp_ns;
@@ -58,10 +55,12 @@ class JunctionFilter {
     double travelled_m;
   };
   struct Candidate {
-    Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+    Eigen::Vector2d sum = Eigen::Vector2d::Zero();  // of the centres, those seen from nearby weighing more
+    double weight = 0.0;
     int seen = 0;
     double first_m = 0.0, last_m = 0.0;  // travelled, when it was seen
-    Eigen::Vector2d centre() const { return sum / seen; }
+    bool is_passed = false;              // and has been told; kept while it is still being seen
+    Eigen::Vector2d centre() const { return sum / weight; }
   };
 
   std::optional<PassedJunction> conclude(const Candidate& candidate) const;

@@ -6,7 +6,7 @@
 namespace panvo::landmark_builder {
 
 struct PassableRegionParameters {
-  double close_m = 0.5;
+  double close_m = 1.0;
   double narrowest_m = 2.4;
   double smallest_hole_m2 = 12.0;
 

@@ -13,7 +13,8 @@ struct RoadArmsParameters {
   double widest_m = 13.0;
   double narrowest_m = 2.2;
   double smallest_gap_m = 2.0;
-  double search_radius_m = 9.0;
+  double deepest_gap = 0.8;
+  double search_radius_m = 7.0;
   double search_step_m = 0.75;
   double smallest_room_m = 2.2;
   double longest_gap_m = 1.0;
@@ -27,6 +28,8 @@ struct RoadArmsParameters {
     field(&P::widest_m, "widest_m", "m", "width of the widest arm, there; a wider one is a square", 2.0, 50.0);
     field(&P::narrowest_m, "narrowest_m", "m", "width of the narrowest arm, there", 0.5, 20.0);
     field(&P::smallest_gap_m, "smallest_gap_m", "m", "width of what lies between two arms, there, at least", 0.1, 20.0);
+    field(&P::deepest_gap, "deepest_gap", "1", "share of arm_length_m that road may reach at most between two arms",
+          0.1, 1.0);
     field(&P::search_radius_m, "search_radius_m", "m", "how far from the vehicle a junction's centre is sought", 0.0,
           30.0);
     field(&P::search_step_m, "search_step_m", "m", "spacing of the places that are tried as its centre", 0.1, 5.0);
