@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "panvo/position_corrector/landmark_matcher.hpp"
+#include "panvo_msgs/msg/LandmarkMatch.hpp"
+
+namespace panvo::position_corrector {
+
+/// searching, locked, matched, rejected or unusable
+std::string to_text(MatchState state);
+
+panvo_msgs::msg::LandmarkMatch to_message(const LandmarkMatch& match, const std::string& panorama_frame);
+
+}  // namespace panvo::position_corrector
