@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: Apache-2.0
+/// panvo_landmarks, as scripts call it.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sqlite3.h>
+#include <sys/wait.h>
+
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <opencv2/imgcodecs.hpp>
+
+#include "made_up_landmark.hpp"
+#include "panvo/landmarks/landmark_store.hpp"
+#include "panvo/landmarks/panorama_describer.hpp"
+
+namespace panvo::landmarks {
+namespace {
+
+using namespace test;
+using testing::HasSubstr;
+using testing::Not;
+
+struct Finished {
+  int status = -1;
+  std::string output;  // with that to stderr
+};
+
+Finished run(const std::string& arguments) {
+  Finished finished;
+  std::FILE* pipe = ::popen((std::string(PANVO_LANDMARKS) + " " + arguments + " 2>&1").c_str(), "r");
+  char part[4096];
+  while (std::fgets(part, sizeof part, pipe)) finished.output += part;
+  finished.status = WEXITSTATUS(::pclose(pipe));
+  return finished;
+}
+
+class Command : public testing::Test {
+ protected:
+  void SetUp() override {
+    write(store_, {1, 2, 3});
+    write(other_, {7, 8});
+  }
+  /// Landmarks of these numbers, and at the end the first one's place again.
+  void write(const std::string& file, const std::vector<std::uint32_t>& numbers) {
+    LandmarkStore store(file, settings_);
+    std::uint32_t id = 0;
+    for (const auto number : numbers) {
+      auto landmark = made_up_landmark(number, 300);
+      landmark.id = ++id;
+      store.add(landmark);
+    }
+    auto again = made_up_landmark(100, 300);
+    again.map_from_base = made_up_landmark(numbers.front()).map_from_base;
+    again.map_from_base.translation().x() += 2.0;
+    again.id = ++id;
+    store.add(again);
+  }
+
+  TemporaryFolder folder_;
+  const DescriptionSettings settings_ = description_settings(DescriptionParameters{}, 5);
+  const std::string store_ = folder_ / "store", other_ = folder_ / "other", out_ = folder_ / "out";
+};
+
+TEST_F(Command, InfoTellsWhatIsInAStore) {
+  const auto finished = run("info " + store_);
+  EXPECT_EQ(finished.status, 0);
+  for (const char* part :
+       {"Landmarks:     4, ", "100 features large, 100 small, 300 keypoints;", "keypoints     45900 bytes",
+        "large          1400 bytes", "histogram       256 bytes", "First, last:   1700000010.000000001, ", "seed = 5\n",
+        "One place:     landmarks 1 and 4 are 2.00 m apart\n", "Extent:        x "}) {
+    EXPECT_THAT(finished.output, HasSubstr(part));
+  }
+}
+
+TEST_F(Command, InfoTellsItToScripts) {
+  const auto json = nlohmann::json::parse(run("info --json " + store_).output);
+  EXPECT_EQ(json["landmarks"], 4);
+  EXPECT_EQ(json["keypoints"], 1200);
+  EXPECT_EQ(json["bytes_per_landmark"]["keypoints"], 45900.0);
+  EXPECT_EQ(json["file_bytes"], std::filesystem::file_size(store_));
+  EXPECT_EQ(json["settings"]["seed"], "5");
+  EXPECT_EQ(json["close"].size(), 1u);
+  EXPECT_EQ(json["close"][0]["second"], 4);
+  EXPECT_EQ(json["first_stamp_ns"], made_up_landmark(1).stamp_ns);
+  EXPECT_TRUE(json["damage"].is_null());
+}
+
+TEST_F(Command, InfoOfAnEmptyStoreHasNoExtent) {
+  { LandmarkStore empty(folder_ / "empty", settings_); }
+  EXPECT_THAT(run("info " + (folder_ / "empty").string()).output, HasSubstr("Landmarks:     0, 0 of them"));
+  EXPECT_TRUE(
+      nlohmann::json::parse(run("info --json " + (folder_ / "empty").string()).output)["first_stamp_ns"].is_null());
+}
+
+TEST_F(Command, InfoWithCheckEndsWithOneForADamagedStore) {
+  EXPECT_EQ(run("info --check " + store_).status, 0);
+  auto damaged = read_text(store_);
+  std::fill(damaged.begin() + static_cast<std::ptrdiff_t>(damaged.size() / 2), damaged.end() - 5000, '\0');
+  write_text(store_, damaged);
+  const auto finished = run("info --check " + store_);
+  EXPECT_EQ(finished.status, 1);
+  EXPECT_THAT(finished.output, HasSubstr("Damaged:"));
+}
+
+TEST_F(Command, MergeRenumbersAndKeepsEverything) {
+  const auto finished = run("merge " + store_ + " " + other_ + " --out " + out_);
+  EXPECT_EQ(finished.status, 0) << finished.output;
+  EXPECT_THAT(finished.output, HasSubstr("store: 4 landmarks, now 1 to 4\n"));
+  EXPECT_THAT(finished.output, HasSubstr("other: 3 landmarks, now 5 to 7\n"));
+  EXPECT_THAT(finished.output, HasSubstr("out: 7 landmarks; 2 pairs are closer than 3 m"));
+  const LandmarkStore merged(out_);
+  EXPECT_EQ(merged.size(), 7u);
+  auto expected = made_up_landmark(7, 300);
+  expected.id = 5;
+  EXPECT_EQ(difference(merged.landmarks().at(4), expected, false), "");
+  EXPECT_EQ(merged.keypoints(5), expected.keypoints);
+  EXPECT_EQ(merged.thumbnail(5), expected.thumbnail);
+  EXPECT_FALSE(std::filesystem::exists(out_ + ".unfinished"));
+}
+
+TEST_F(Command, MergeRefusesOtherSettingsAndLeavesNothingBehind) {
+  { LandmarkStore foreign(folder_ / "foreign", description_settings(DescriptionParameters{}, 6)); }
+  const auto finished = run("merge " + store_ + " " + (folder_ / "foreign").string() + " --out " + out_);
+  EXPECT_EQ(finished.status, 2);
+  EXPECT_THAT(finished.output,
+              HasSubstr("foreign: its landmarks are described in another way: seed is 6 there, 5 here"));
+  EXPECT_FALSE(std::filesystem::exists(out_));
+}
+
+TEST_F(Command, MergeThatFailsHalfWayLosesNothing) {
+  const auto before = read_text(store_);
+  write_text(out_, read_text(other_));
+  auto damaged = read_text(other_);
+  std::fill(damaged.begin() + static_cast<std::ptrdiff_t>(damaged.size() / 2), damaged.end() - 3000, '\0');
+  write_text(other_, damaged);
+  const auto finished = run("merge --overwrite " + store_ + " " + other_ + " --out " + out_);
+  EXPECT_EQ(finished.status, 2) << finished.output;
+  EXPECT_THAT(finished.output, HasSubstr("other: is damaged"));
+  EXPECT_EQ(LandmarkStore(out_).size(), 3u) << "the store that was to be replaced is as it was";
+  EXPECT_EQ(read_text(store_), before);
+  EXPECT_FALSE(std::filesystem::exists(out_ + ".unfinished"));
+}
+
+TEST_F(Command, MergeReplacesOnlyStoresAndOnlyWhenTold) {
+  write_text(out_, "precious");
+  EXPECT_THAT(run("merge " + store_ + " " + other_ + " --out " + out_).output, HasSubstr("out: is there already"));
+  EXPECT_EQ(run("merge --overwrite " + store_ + " " + other_ + " --out " + out_).status, 2);
+  EXPECT_EQ(read_text(out_), "precious");
+  EXPECT_EQ(run("merge --overwrite " + store_ + " " + other_ + " --out " + store_).status, 0)
+      << "even into one of them";
+  EXPECT_EQ(LandmarkStore(store_).size(), 7u);
+}
+
+TEST_F(Command, MergeBeginsAnewWhereOneWasKilled) {
+  { LandmarkStore left(out_ + ".unfinished", settings_); }
+  EXPECT_EQ(run("merge " + store_ + " " + other_ + " --out " + out_).status, 0);
+  EXPECT_EQ(LandmarkStore(out_).size(), 7u);
+}
+
+TEST_F(Command, ShowDrawsTheMapAndTheLandmarksAskedFor) {
+  const auto finished = run("show " + store_ + " --out " + out_ + " --id 2 --id 4");
+  EXPECT_EQ(finished.status, 0) << finished.output;
+  EXPECT_THAT(finished.output, HasSubstr("map.png and 2 landmarks drawn"));
+  EXPECT_FALSE(cv::imread(out_ + "/map.png").empty());
+  EXPECT_FALSE(cv::imread(out_ + "/landmark_0002.png").empty());
+  EXPECT_FALSE(cv::imread(out_ + "/landmark_0004.png").empty());
+  EXPECT_FALSE(std::filesystem::exists(out_ + "/landmark_0001.png"));
+}
+
+// [Lu2015 Fig. 3]: red rectangles for intensity, blue ones for SURF statistics, where the matrix has them.
+TEST_F(Command, ShowDrawsRectanglesRedForIntensityAndBlueForSurf) {
+  const PanoramaDescriber describer(DescriptionParameters{}, 5);
+  const auto& basis = describer.basis();
+  const auto rows = static_cast<std::uint16_t>(basis.large.rows());
+  auto landmark = made_up_landmark(1);
+  landmark.description.large = {{3, 0.0f, 1.0f, 0.9f}};
+  landmark.description.small = {{static_cast<std::uint16_t>(rows + 3), 0.0f, 1.0f, 0.9f}};
+  landmark.thumbnail.clear();
+  LandmarkStore(folder_ / "one", settings_).add(landmark);
+  ASSERT_EQ(run("show " + (folder_ / "one").string() + " --out " + out_).status, 0);
+  const cv::Mat picture = cv::imread(out_ + "/landmark_0001.png");
+  ASSERT_EQ(picture.cols, 1080);
+  const int title = picture.rows / 2 - 540;
+  const auto middle_of_left_edge = [&](const vision::MeasurementMatrix& matrix, int panel) {
+    const auto& rectangle = matrix.row(3).front().rectangle;
+    const int row = panel * (540 + title) + title + basis.first_row + rectangle.y + rectangle.height / 2;
+    return picture.at<cv::Vec3b>(row, rectangle.x);
+  };
+  const auto intensity = middle_of_left_edge(basis.large, 0);
+  EXPECT_GT(intensity[2], intensity[0] + 100) << "red";
+  const auto surf = middle_of_left_edge(basis.small, 1);
+  EXPECT_GT(surf[0], surf[2] + 100) << "blue";
+}
+
+TEST_F(Command, EndsWithTwoAndANameWhereItCannotBeDone) {
+  const auto finished = run("info " + (folder_ / "none").string());
+  EXPECT_EQ(finished.status, 2);
+  EXPECT_THAT(finished.output, HasSubstr("panvo landmarks: "));
+  EXPECT_THAT(finished.output, HasSubstr("none: does not exist"));
+  EXPECT_THAT(run("show " + store_ + " --out " + out_ + " --id 9").output, HasSubstr("store: has no landmark 9"));
+  EXPECT_EQ(run("show " + store_).status, 2);
+  EXPECT_EQ(run("merge " + store_ + " --out " + out_).status, 2);
+  EXPECT_EQ(run("inform " + store_).status, 2);
+  EXPECT_EQ(run("--help").status, 0);
+  { LandmarkStore foreign(folder_ / "foreign", made_up_settings()); }
+  EXPECT_THAT(run("show " + (folder_ / "foreign").string() + " --out " + out_).output,
+              HasSubstr("foreign: its settings are not those of this panvo"));
+}
+
+}  // namespace
+}  // namespace panvo::landmarks

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <opencv2/imgcodecs.hpp>
+#include <string>
+#include <vector>
+
+#include "panvo/landmarks/landmark_store.hpp"
+#include "panvo/landmarks/panorama_describer.hpp"
+#include "store_info.hpp"
+#include "store_merge.hpp"
+#include "store_pictures.hpp"
+
+namespace {
+
+using namespace panvo::landmarks;
+namespace fs = std::filesystem;
+
+enum ExitStatus { kWell = 0, kNotSo = 1, kError = 2 };
+
+constexpr double kClose_m = 3.0;
+
+int info(const std::string& path, bool as_json, bool check) {
+  const auto found = inspect(LandmarkStore(path), kClose_m, check);
+  std::fputs((as_json ? describe_as_json(found) : describe_as_text(found)).c_str(), stdout);
+  return found.damage ? kNotSo : kWell;
+}
+
+void write_picture(const fs::path& file, const cv::Mat& picture) {
+  if (!cv::imwrite(file.string(), picture)) {
+    throw StoreError(file.string() + ": cannot be written; check its folder and the room on the disk");
+  }
+}
+
+int show(const std::string& path, const fs::path& out, const std::vector<std::uint32_t>& ids, int count) {
+  const LandmarkStore store(path);
+  const auto settings = from_settings<DescriptionParameters>(store.settings());
+  if (!settings) {
+    throw StoreError(path +
+                     ": its settings are not those of this panvo (see `panvo landmarks info`), so nobody knows "
+                     "where its features lie; use the panvo that made it");
+  }
+  const PanoramaDescriber describer(settings->first, settings->second);
+  auto landmarks = store.landmarks();
+  for (const auto id : ids) {
+    if (std::none_of(landmarks.begin(), landmarks.end(), [&](const auto& landmark) { return landmark.id == id; })) {
+      throw StoreError(path + ": has no landmark " + std::to_string(id));
+    }
+  }
+  fs::create_directories(out);
+  write_picture(out / "map.png", draw_map(landmarks));
+  std::size_t drawn = 0;
+  for (auto& landmark : landmarks) {
+    if (!ids.empty() && std::find(ids.begin(), ids.end(), landmark.id) == ids.end()) continue;
+    landmark.thumbnail = store.thumbnail(landmark.id);
+    char name[40];
+    std::snprintf(name, sizeof name, "landmark_%04u.png", landmark.id);
+    write_picture(out / name, draw_landmark(landmark, describer.basis(), count));
+    landmark.thumbnail = {};
+    ++drawn;
+  }
+  std::printf("%s: map.png and %zu landmarks drawn\n", out.c_str(), drawn);
+  return kWell;
+}
+
+int merge(const std::vector<fs::path>& stores, const std::string& out, bool replace) {
+  for (const auto& part : merge_stores(stores, out, replace)) {
+    std::printf("%s: %zu landmarks", part.store.c_str(), part.landmarks);
+    if (part.landmarks > 0) {
+      std::printf(", now %u to %zu", part.first, part.first + part.landmarks - 1);
+    }
+    std::printf("\n");
+  }
+  const auto found = inspect(LandmarkStore(out), kClose_m, false);
+  std::printf("%s: %zu landmarks", out.c_str(), found.landmarks);
+  if (!found.close.empty()) {
+    std::printf("; %zu pairs are closer than %g m (panvo landmarks info)", found.close.size(), kClose_m);
+  }
+  std::printf("\n");
+  return kWell;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("Looks into libraries of landmarks, draws and merges them.", "panvo landmarks");
+  app.require_subcommand(1);
+  app.footer("Exit status: 0 well, 1 the store is damaged (info --check), 2 it could not be done.");
+  std::string store, out;
+  std::vector<fs::path> stores;
+  std::vector<std::uint32_t> ids;
+  bool as_json = false, check = false, overwrite = false;
+  int count = 4;
+
+  auto* info_command = app.add_subcommand(
+      "info", "what is in a store: landmarks, bytes of each part, extent, settings, places closer than 3 m");
+  info_command->add_option("STORE", store, "file of landmarks")->required();
+  info_command->add_flag("--json", as_json, "for scripts; lengths in m, times in ns");
+  info_command->add_flag("--check", check, "read all of the file and tell what is damaged");
+
+  auto* show_command = app.add_subcommand(
+      "show", "draw each landmark's panorama with its most discriminative features, and where all of them lie");
+  show_command->add_option("STORE", store, "file of landmarks")->required();
+  show_command->add_option("--out", out, "folder for the pictures, PNG")->required();
+  show_command->add_option("--id", ids, "only this landmark; may be repeated")->expected(1)->take_all();
+  show_command->add_option("--features", count, "features drawn at each scale")
+      ->check(CLI::Range(1, 10000))
+      ->capture_default_str();
+
+  auto* merge_command = app.add_subcommand(
+      "merge",
+      "put the landmarks of stores of one map and of equal settings into a new one, with new ids in their order");
+  merge_command->add_option("STORES", stores, "files of landmarks, two or more")->required()->expected(2, 1000);
+  merge_command->add_option("--out", out, "file of the new store")->required();
+  merge_command->add_flag("--overwrite", overwrite, "replace a store that is there");
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? kWell : kError;
+  }
+  try {
+    if (*info_command) return info(store, as_json, check);
+    if (*show_command) return show(store, out, ids, count);
+    return merge(stores, out, overwrite);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "panvo landmarks: %s\n", error.what());
+    return kError;
+  }
+}
