@@ -12,7 +12,8 @@
 namespace panvo::landmarks {
 namespace {
 
-constexpr float kTruncation = 1.5F;  // spreads: a difference beyond counts as one that is covered or somewhere else
+constexpr float kTruncation =
+    1.0F;  // spreads: beyond, a patch is covered or shows something else, and how much does not matter
 constexpr float kSmallestSpread = 0.05F;
 constexpr double kNeighbourhood_rad = 20.0 * std::numbers::pi / 180.0;  // of a minimum over the headings
 

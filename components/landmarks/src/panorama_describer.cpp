@@ -20,7 +20,8 @@ struct Band {
 
   Band(const cv::Mat& panorama, const DescriptionBasis& basis) {
     if (const auto fault = find_fault(panorama)) throw std::invalid_argument("a panorama that " + *fault);
-    grey = to_described_size(panorama).rowRange(basis.first_row, basis.first_row + basis.large.band().height);
+    const int last_row = basis.first_row + basis.large.band().height;
+    grey = vision::prepare_band(to_described_size(panorama).rowRange(basis.first_row, last_row));
     images = vision::CyclicIntegralImages(grey);
     normalisation = vision::BandNormalisation::of(grey, images);
   }
@@ -35,7 +36,32 @@ std::vector<AdaptiveFeature> to_adaptive(const std::vector<vision::SelectedFeatu
   return features;
 }
 
+vision::SelectionParameters selection(const DescriptionParameters& parameters, double alpha_deg, double beta_deg,
+                                      double gamma_deg) {
+  constexpr double kColumnsPerDegree = DescriptionBasis::kColumns / 360.0;
+  vision::SelectionParameters selection;
+  selection.kept = parameters.features;
+  selection.alpha_px = alpha_deg * kColumnsPerDegree;
+  selection.beta_px = beta_deg * kColumnsPerDegree;
+  selection.gamma_px = gamma_deg * kColumnsPerDegree;
+  selection.upright = parameters.upright;
+  return selection;
+}
+
 }  // namespace
+
+DescriptionParameters DescriptionParameters::paper() {
+  DescriptionParameters parameters;
+  parameters.patches = 200;
+  parameters.features = 100;
+  parameters.rectangles = 4;
+  parameters.balanced = false;
+  parameters.spread = 1.0;
+  parameters.widest = 1.0;
+  parameters.headings = 12;
+  parameters.upright = 1.0;
+  return parameters;
+}
 
 cv::Mat to_described_size(const cv::Mat& panorama) {
   const cv::Size size(DescriptionBasis::kColumns, DescriptionBasis::kRows);
@@ -63,23 +89,25 @@ PanoramaDescriber::PanoramaDescriber(const DescriptionParameters& parameters, st
   basis->first_row = static_cast<int>(std::lround((90.0 - parameters.top_deg) * rows_per_deg));
   const int last_row = static_cast<int>(std::lround((90.0 + parameters.bottom_deg) * rows_per_deg));
   const cv::Size band(DescriptionBasis::kColumns, last_row - basis->first_row);
-  const vision::MatrixParameters matrix{parameters.patches, parameters.fewest_rectangles, parameters.most_rectangles,
+  const vision::MatrixParameters matrix{parameters.patches, parameters.rectangles, parameters.balanced,
                                         parameters.spread};
-  basis->large = vision::MeasurementMatrix(band, vision::large_scale(band), matrix, seed);
+  basis->large = vision::MeasurementMatrix(band, vision::large_scale(band, parameters.widest), matrix, seed);
   basis->small = vision::MeasurementMatrix(band, vision::small_scale(band), matrix, seed + 1);
+  basis->select_large =
+      selection(parameters, parameters.large_alpha_deg, parameters.large_beta_deg, parameters.large_gamma_deg);
+  basis->select_small =
+      selection(parameters, parameters.small_alpha_deg, parameters.small_beta_deg, parameters.small_gamma_deg);
   basis_ = std::move(basis);
 }
 
 PanoramaDescription PanoramaDescriber::describe(const cv::Mat& panorama) const {
   const Band band(panorama, *basis_);
-  vision::SelectionParameters selection;
-  selection.kept = basis_->parameters.features;
   PanoramaDescription description;
   description.histogram = vision::intensity_histogram(band.grey, band.normalisation, basis_->parameters.histogram_bins);
-  description.large =
-      to_adaptive(vision::select_features(band.images, basis_->large, band.normalisation, selection, basis_->seed));
-  description.small =
-      to_adaptive(vision::select_features(band.images, basis_->small, band.normalisation, selection, basis_->seed));
+  description.large = to_adaptive(
+      vision::select_features(band.images, basis_->large, band.normalisation, basis_->select_large, basis_->seed));
+  description.small = to_adaptive(
+      vision::select_features(band.images, basis_->small, band.normalisation, basis_->select_small, basis_->seed));
   return description;
 }
 

@@ -12,19 +12,21 @@
 namespace panvo::vision {
 namespace {
 
+constexpr int kTurnSamples = 36;
+
 struct Displacement {
   int du = 0;
   int dv = 0;
 };
 
 /// Places in the ring between two radii (px), evenly over its area.
-std::vector<Displacement> draw_ring(double inner_px, double outer_px, int count, SeededRandom& random) {
+std::vector<Displacement> draw_ring(double inner_px, double outer_px, double upright, int count, SeededRandom& random) {
   std::vector<Displacement> places;
   while (static_cast<int>(places.size()) < count) {
     const double radius = std::sqrt(random.between(inner_px * inner_px, outer_px * outer_px));
     const double angle = random.between(0.0, 2.0 * std::numbers::pi);
     places.push_back({static_cast<int>(std::lround(radius * std::cos(angle))),
-                      static_cast<int>(std::lround(radius * std::sin(angle)))});
+                      static_cast<int>(std::lround(upright * radius * std::sin(angle)))});
   }
   return places;
 }
@@ -37,12 +39,18 @@ struct Discrimination {
   bool varies(double smallest_deviation) const {
     return positive.deviation >= smallest_deviation || negative.deviation >= smallest_deviation;
   }
-  float spread() const {
-    const double variance = 0.5 * (positive.deviation * positive.deviation + negative.deviation * negative.deviation);
-    const double between = 0.5 * (positive.mean - negative.mean);
-    return static_cast<float>(std::sqrt(variance + between * between));
-  }
 };
+
+/// How much a feature varies over the full turn, a measure of how different it is at other places that needs no training.
+float deviation_over_turn(const ResponseReader& reader, int row, bool is_intensity, int columns) {
+  std::array<float, kTurnSamples> responses{};
+  for (int i = 0; i < kTurnSamples; ++i) {
+    const int du = i * columns / kTurnSamples;
+    responses[static_cast<std::size_t>(i)] =
+        is_intensity ? reader.read_intensity(row, du) : reader.read_gradient(row, du);
+  }
+  return static_cast<float>(fit_gaussian(responses).deviation);
+}
 
 }  // namespace
 
@@ -74,9 +82,10 @@ std::vector<SelectedFeature> select_features(const CyclicIntegralImages& images,
         "adaptive selection: 0 < alpha < beta < gamma, at least 2 samples and 1 feature needed");
   }
   SeededRandom random(seed);
-  const std::vector<Displacement> nearby = draw_ring(0.0, parameters.alpha_px, parameters.samples, random);
+  const std::vector<Displacement> nearby =
+      draw_ring(0.0, parameters.alpha_px, parameters.upright, parameters.samples, random);
   const std::vector<Displacement> farther =
-      draw_ring(parameters.beta_px, parameters.gamma_px, parameters.samples, random);
+      draw_ring(parameters.beta_px, parameters.gamma_px, parameters.upright, parameters.samples, random);
 
   const ResponseReader reader(images, matrix, normalisation);
   const auto samples = static_cast<std::size_t>(parameters.samples);
@@ -99,14 +108,18 @@ std::vector<SelectedFeature> select_features(const CyclicIntegralImages& images,
       continue;  // an even background: found everywhere
     }
     const CompressiveFeature here = reader.read(row);
-    features.push_back({row, here.intensity, by_intensity.spread(), static_cast<float>(by_intensity.hellinger())});
-    features.push_back(
-        {row + matrix.rows(), here.gradient, by_gradient.spread(), static_cast<float>(by_gradient.hellinger())});
+    features.push_back({row, here.intensity, 1.0F, static_cast<float>(by_intensity.hellinger())});
+    features.push_back({row + matrix.rows(), here.gradient, 1.0F, static_cast<float>(by_gradient.hellinger())});
   }
   std::stable_sort(features.begin(), features.end(),
                    [](const SelectedFeature& a, const SelectedFeature& b) { return a.weight > b.weight; });
   if (features.size() > static_cast<std::size_t>(parameters.kept))
     features.resize(static_cast<std::size_t>(parameters.kept));
+  for (SelectedFeature& feature : features) {
+    const bool is_intensity = feature.row < matrix.rows();
+    const int row = is_intensity ? feature.row : feature.row - matrix.rows();
+    feature.spread = deviation_over_turn(reader, row, is_intensity, images.columns());
+  }
   return features;
 }
 

@@ -4,12 +4,22 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <opencv2/imgproc.hpp>
 
 namespace panvo::vision {
 namespace {
 
 constexpr float kSmallestIntensityScale = 4.0F;  // grey levels: an even view must not be blown up to its noise
 constexpr float kSmallestGradientScale = 0.5F;   // grey levels per px
+
+constexpr int kSectors = 24;  // of 15 degrees
+constexpr double kSmoothing_px = 1.0;
+constexpr double kLinearBelow = 16.0;  // grey levels: the scale is linear where noise is more than shade
+
+float median(std::array<float, kSectors> values) {
+  std::sort(values.begin(), values.end());
+  return 0.5F * (values[kSectors / 2 - 1] + values[kSectors / 2]);
+}
 
 /// An element's rectangle, displaced.
 BandRectangle displace(BandRectangle r, int du, int dv, int columns, int rows) {
@@ -26,26 +36,37 @@ int wrapped(int du, int columns) {
 
 }  // namespace
 
-BandNormalisation BandNormalisation::of(const cv::Mat& band, const CyclicIntegralImages& images) {
-  std::array<int, 256> counts{};
-  for (int y = 0; y < band.rows; ++y) {
-    const uchar* grey = band.ptr<uchar>(y);
-    for (int x = 0; x < band.cols; ++x) ++counts[grey[x]];
-  }
-  double sum = 0.0, square = 0.0, count = 0.0;
+cv::Mat prepare_band(const cv::Mat& band) {
+  constexpr int kMargin = 4;  // px, the reach of the filter
+  cv::Mat round, smooth, prepared;
+  cv::copyMakeBorder(band, round, 0, 0, kMargin, kMargin, cv::BORDER_WRAP | cv::BORDER_ISOLATED);
+  cv::GaussianBlur(round, smooth, cv::Size(5, 5), kSmoothing_px, kSmoothing_px, cv::BORDER_REPLICATE);
+  cv::Mat table(1, 256, CV_8UC1);
   for (int grey = 0; grey < 256; ++grey) {
-    const double n = counts[static_cast<std::size_t>(grey)];
-    count += n;
-    sum += n * grey;
-    square += n * grey * grey;
+    table.at<uchar>(grey) =
+        static_cast<uchar>(std::lround(255.0 * std::log1p(grey / kLinearBelow) / std::log1p(255.0 / kLinearBelow)));
   }
-  const double mean = sum / count;
-  const GradientStatistics gradients = images.mean_gradients({0, 0, images.columns(), images.rows()});
+  cv::LUT(smooth.colRange(kMargin, kMargin + band.cols), table, prepared);
+  return prepared;
+}
+
+BandNormalisation BandNormalisation::of(const cv::Mat& band, const CyclicIntegralImages& images) {
+  std::array<float, kSectors> means{}, deviations{}, gradients{};
+  for (int i = 0; i < kSectors; ++i) {
+    const int begin = i * band.cols / kSectors;
+    const int width = std::max(1, (i + 1) * band.cols / kSectors - begin);
+    cv::Scalar mean, deviation;
+    cv::meanStdDev(band.colRange(begin, begin + width), mean, deviation);
+    const GradientStatistics statistics = images.mean_gradients({begin, 0, width, band.rows});
+    const auto sector = static_cast<std::size_t>(i);
+    means[sector] = static_cast<float>(mean[0]);
+    deviations[sector] = static_cast<float>(deviation[0]);
+    gradients[sector] = 0.5F * (statistics[1] + statistics[3]);
+  }
   BandNormalisation normalisation;
-  normalisation.offset = static_cast<float>(mean);
-  normalisation.intensity_scale =
-      std::max(kSmallestIntensityScale, static_cast<float>(std::sqrt(std::max(0.0, square / count - mean * mean))));
-  normalisation.gradient_scale = std::max(kSmallestGradientScale, 0.5F * (gradients[1] + gradients[3]));
+  normalisation.offset = median(means);
+  normalisation.intensity_scale = std::max(kSmallestIntensityScale, median(deviations));
+  normalisation.gradient_scale = std::max(kSmallestGradientScale, median(gradients));
   return normalisation;
 }
 

@@ -26,8 +26,16 @@ std::array<float, 4> draw_statistics(SeededRandom& random) {
 
 }  // namespace
 
-RectangleBounds large_scale(cv::Size band) {
-  return {{first_whole(band.width / 20.0), first_whole(band.height / 8.0)}, band};
+/// Evenly on a logarithmic scale: of sizes drawn evenly nearly all would be about as large as the band.
+int draw_size(int from, int to, SeededRandom& random) {
+  const double size = from * std::pow(static_cast<double>(to) / from, random.share());
+  return std::clamp(static_cast<int>(size), from, to - 1);
+}
+
+int draw_left(int anchor, double spread, int width, int columns, SeededRandom& random) {
+  const double centre = anchor + random.between(-0.5, 0.5) * spread * columns;
+  const int left = static_cast<int>(std::floor(centre - 0.5 * width)) % columns;
+  return left < 0 ? left + columns : left;
 }
 
 RectangleBounds small_scale(cv::Size band) {
@@ -44,25 +52,24 @@ MeasurementMatrix::MeasurementMatrix(cv::Size band, const RectangleBounds& bound
     text << "rectangles from " << bounds.from << " to " << bounds.to << " px have no room in a band of " << band;
     throw std::invalid_argument(text.str());
   }
-  if (parameters.rows < 1 || parameters.fewest_rectangles < 1 ||
-      parameters.most_rectangles < parameters.fewest_rectangles ||
-      !(parameters.spread >= 0.0 && parameters.spread <= 1.0)) {
+  if (parameters.rows < 1 || parameters.rectangles < 1 || !(parameters.spread >= 0.0 && parameters.spread <= 1.0)) {
     throw std::invalid_argument("measurement matrix: rows, rectangles or spread out of range");
+  }
+  if (parameters.balanced && parameters.rectangles % 2 != 0) {
+    throw std::invalid_argument("measurement matrix: a balanced row needs an even number of rectangles");
   }
   SeededRandom random(seed);
   for (int row = 0; row < parameters.rows; ++row) {
-    const int count = random.whole(parameters.fewest_rectangles, parameters.most_rectangles + 1);
     const int anchor = random.whole(0, band.width);
-    for (int i = 0; i < count; ++i) {
+    for (int i = 0; i < parameters.rectangles; ++i) {
       Element element;
       BandRectangle& r = element.rectangle;
-      r.width = random.whole(bounds.from.width, bounds.to.width);
-      r.height = random.whole(bounds.from.height, bounds.to.height);
-      const double centre = anchor + random.between(-0.5, 0.5) * parameters.spread * band.width;
-      const int left = static_cast<int>(std::floor(centre - 0.5 * r.width));
-      r.x = ((left % band.width) + band.width) % band.width;
+      r.width = draw_size(bounds.from.width, bounds.to.width, random);
+      r.height = draw_size(bounds.from.height, bounds.to.height, random);
+      r.x = draw_left(anchor, parameters.spread, r.width, band.width, random);
       r.y = random.whole(0, band.height - r.height + 1);
-      element.sign = random.share() < 0.5 ? 1.0F : -1.0F;
+      const bool plus = random.share() < 0.5;  // [Eq. 3]
+      element.sign = (parameters.balanced ? i % 2 == 0 : plus) ? 1.0F : -1.0F;
       element.statistics = draw_statistics(random);
       elements_.push_back(element);
     }

@@ -15,17 +15,28 @@
 
 namespace panvo::landmarks {
 
-/// How a panorama is described. Two descriptions can be compared when these and the seed are the same for both.
+/// How a panorama is described. Two descriptions can be compared when these and the seed are the same for both. The defaults
+/// are what recognises a place best from some metres aside; paper() are those of the paper, where it gives any.
 struct DescriptionParameters {
-  double top_deg = 35.0;     ///< band's upper border, above the horizon
-  double bottom_deg = 15.0;  ///< its lower border, below the horizon
-  int patches = 200;
-  int features = 100;
+  double top_deg = 35.0;
+  double bottom_deg = 15.0;
+  int patches = 400;
+  int features = 200;
+  int rectangles = 2;
+  bool balanced = true;
+  double spread = 0.07;
+  double widest = 0.2;
   int headings = 72;
   int histogram_bins = 64;
-  int fewest_rectangles = 2;
-  int most_rectangles = 4;
-  double spread = 0.1;
+  double large_alpha_deg = 10.0;
+  double large_beta_deg = 20.0;
+  double large_gamma_deg = 60.0;
+  double small_alpha_deg = 2.7;
+  double small_beta_deg = 5.3;
+  double small_gamma_deg = 21.0;
+  double upright = 0.2;
+
+  static DescriptionParameters paper();
 
   template <class Field>
   static void describe(Field&& field) {
@@ -33,13 +44,25 @@ struct DescriptionParameters {
     field(&P::top_deg, "top_deg", "deg", "upper border of the band that is described, above the horizon", 5.0, 90.0);
     field(&P::bottom_deg, "bottom_deg", "deg", "lower border of the band, below the horizon", 0.0, 90.0);
     field(&P::patches, "patches", "1", "patches drawn at each scale", 10, 10000);
-    field(&P::features, "features", "1", "features kept of them, n'", 5, 10000);
+    field(&P::features, "features", "1", "features kept of them at each scale, n'", 5, 10000);
+    field(&P::rectangles, "rectangles", "1", "rectangles that a patch is made of", 1, 16);
+    field(&P::balanced, "balanced", "", "as many rectangles with a plus as with a minus, so that brightness cancels");
+    field(&P::spread, "spread", "1", "how far a patch's rectangles lie apart, of a full turn", 0.0, 1.0);
+    field(&P::widest, "widest", "1", "bound of the width of large-scale rectangles, of a full turn", 0.06, 1.0);
     field(&P::headings, "headings", "1", "headings tried over the full turn at the large scale; a divisor of 1080", 4,
           1080);
     field(&P::histogram_bins, "histogram_bins", "1", "bins of the intensity histogram", 4, 256);
-    field(&P::fewest_rectangles, "fewest_rectangles", "1", "rectangles that a feature is made of, at least", 1, 16);
-    field(&P::most_rectangles, "most_rectangles", "1", "rectangles that a feature is made of, at most", 1, 16);
-    field(&P::spread, "spread", "1", "how far a feature's rectangles lie apart, of a full turn", 0.0, 1.0);
+    field(&P::large_alpha_deg, "large_alpha_deg", "deg", "large-scale features: positive samples lie nearer", 0.5,
+          90.0);
+    field(&P::large_beta_deg, "large_beta_deg", "deg", "large scale: negative samples lie farther than this", 0.5,
+          90.0);
+    field(&P::large_gamma_deg, "large_gamma_deg", "deg", "large scale: and nearer than this", 0.5, 180.0);
+    field(&P::small_alpha_deg, "small_alpha_deg", "deg", "small-scale features: positive samples lie nearer", 0.5,
+          90.0);
+    field(&P::small_beta_deg, "small_beta_deg", "deg", "small scale: negative samples lie farther than this", 0.5,
+          90.0);
+    field(&P::small_gamma_deg, "small_gamma_deg", "deg", "small scale: and nearer than this", 0.5, 180.0);
+    field(&P::upright, "upright", "1", "vertical share of these radii: a vehicle's view moves sideways", 0.0, 1.0);
   }
 
   bool operator==(const DescriptionParameters&) const = default;
@@ -54,6 +77,7 @@ struct DescriptionBasis {
   std::uint64_t seed = 0;
   int first_row = 0;  ///< of the band
   vision::MeasurementMatrix large, small;
+  vision::SelectionParameters select_large, select_small;
 };
 
 /// A panorama to be recognised: its histogram, its responses at every heading of the grid, and its integral images, from which

@@ -25,6 +25,7 @@ struct SelectionParameters {
   double alpha_px = 8.0;   ///< positive samples lie nearer than this
   double beta_px = 16.0;   ///< negative samples lie farther than this ...
   double gamma_px = 64.0;  ///< ... and nearer than this
+  double upright = 1.0;    ///< vertical share of these radii; 1: circles, as in the paper
   int samples = 16;        ///< of each of the two sets
   double smallest_deviation =
       0.02;  ///< of normalised responses: a patch whose four Gaussians are all narrower is dropped
@@ -34,7 +35,7 @@ struct SelectionParameters {
 struct SelectedFeature {
   int row = 0;          ///< of the matrix: its intensity; plus the number of rows: its SURF statistics
   float value = 0.0F;   ///< normalised response
-  float spread = 1.0F;  ///< deviation of the response over positive and negative samples together
+  float spread = 1.0F;  ///< deviation of the response over the full turn: how different it is elsewhere
   float weight = 0.0F;  ///< h
 };
 

@@ -8,14 +8,19 @@
 
 namespace panvo::vision {
 
-/// Gain and offset of a band's grey levels, and the gain of its gradients: what exposure and clouds change and features must not
-/// depend on. Applied to responses, not to pixels.
+/// The band (CV_8UC1) that features are read from: smoothed by a Gaussian of 1 px, so that pixel noise does not pass for texture,
+/// and on a logarithmic scale of grey levels. There, what exposure and shade do to a part of the view is an offset, and cancels
+/// in every feature that has as many plus as minus signs, whatever happens in other parts. Cyclic, like the band.
+cv::Mat prepare_band(const cv::Mat& band);
+
+/// Offset and gain of a band: what haze and clouds change and features must not depend on. Applied to responses, not to pixels.
 struct BandNormalisation {
   float offset = 0.0F;           ///< grey levels
   float intensity_scale = 1.0F;  ///< grey levels
   float gradient_scale = 1.0F;   ///< grey levels per px
 
-  /// Of a band (CV_8UC1) and its integral images: mean and deviation of its grey levels, and the mean absolute gradient.
+  /// Of a prepared band and its integral images: medians over the sectors of the full turn of their mean, of their deviation and
+  /// of their mean absolute gradient. Whatever covers less than half of the view leaves them nearly as they are.
   static BandNormalisation of(const cv::Mat& band, const CyclicIntegralImages& images);
 };
 

@@ -19,14 +19,16 @@ struct RectangleBounds {
 };
 
 /// [Lu2015 4.2] of a band w x h: large h/8 <= height < h, w/20 <= width < w; small h/10 <= height < h/8, w/40 <= width < w/20.
-RectangleBounds large_scale(cv::Size band);
+/// `widest`, of w, lowers the upper bound of the large widths: what spans more than a fifth of the full turn changes little
+/// from place to place, and whatever covers a part of the view touches most of such rectangles.
+RectangleBounds large_scale(cv::Size band, double widest = 1.0);
 RectangleBounds small_scale(cv::Size band);
 
 struct MatrixParameters {
-  int rows = 200;             ///< patches drawn
-  int fewest_rectangles = 2;  ///< non-zero elements of a row; the paper's are 4 on average
-  int most_rectangles = 4;
-  double spread = 0.1;  ///< how far a row's rectangles lie apart, of a full turn; 1: anywhere
+  int rows = 200;         ///< patches drawn
+  int rectangles = 4;     ///< non-zero elements of a row: s = m/4 leaves 4 on average [Lu2015 Eq. 3]
+  bool balanced = false;  ///< as many plus as minus signs, so that brightness cancels, instead of each drawn by itself
+  double spread = 1.0;    ///< how far the centres of a row's rectangles lie apart, of a full turn; 1: anywhere
 };
 
 /// Very sparse random matrix R that takes the responses of all rectangle filters of a band to a few compressive features
@@ -42,7 +44,7 @@ class MeasurementMatrix {
 
   MeasurementMatrix() = default;
 
-  /// Draws the matrix, the same from the same seed on every machine. Throws std::invalid_argument for a band that has no room
+  /// Draws the matrix, the same from the same seed on every machine; sizes evenly on a logarithmic scale, places evenly. Throws std::invalid_argument for a band that has no room
   /// for the bounds, or parameters out of range.
   MeasurementMatrix(cv::Size band, const RectangleBounds& bounds, const MatrixParameters& parameters,
                     std::uint64_t seed);
