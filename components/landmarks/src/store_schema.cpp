@@ -53,9 +53,7 @@ std::string cut_off(const Database& database) {
 }
 
 std::string damaged(const fs::path& file, const std::string& how) {
-  return file.string() + ": is damaged: " + how +
-         "; go back to a copy of it, or save what can still be read: sqlite3 '" + file.string() +
-         "' .recover | sqlite3 saved.db";
+  return file.string() + ": is damaged: " + how + "; go back to a copy of it, or begin a new file";
 }
 
 void check_kind(const fs::path& file) {

@@ -180,7 +180,7 @@ TEST_F(Store, CutOffAnywhereIsRefusedWithWhatIsLeftToDo) {
     const auto size = whole.size() * static_cast<std::size_t>(part) / 40 + static_cast<std::size_t>(part % 3);
     write_text(file_, whole.substr(0, size));
     const auto expected = "is damaged: it is cut off after " + std::to_string(size) + " of " +
-                          std::to_string(whole.size()) + " bytes; go back to a copy of it, or save";
+                          std::to_string(whole.size()) + " bytes; go back to a copy of it, or begin";
     EXPECT_THAT(error_of_reading(), HasSubstr(expected));
     EXPECT_THAT(error_of_writing(), HasSubstr(expected));
   }

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+// A library of 10,000 landmarks with all they have: opening its store, finding those around a position, reading the SIFT
+// features of one, and the memory that the library takes.
+#include <benchmark/benchmark.h>
+#include <malloc.h>
+
+#include <filesystem>
+#include <memory>
+
+#include "made_up_landmark.hpp"
+#include "panvo/landmarks/landmark_library.hpp"
+#include "panvo/landmarks/landmark_store.hpp"
+#include "process.hpp"
+
+namespace {
+
+using namespace panvo::landmarks;
+
+constexpr std::uint32_t kLandmarks = 10'000;
+constexpr std::size_t kKeypoints = 250;
+constexpr double kExtent_m = 3000.0;  // a landmark every 30 m or so, as on a campus of roads
+
+/// A store of made-up landmarks that all benchmarks read.
+const std::filesystem::path& store_file() {
+  static const panvo::test::TemporaryFolder folder;
+  static const std::filesystem::path file = [] {
+    // Added to one and put into the other at once: a commit each would take minutes.
+    const std::filesystem::path part = folder / "part", whole = folder / "whole";
+    {
+      LandmarkStore store(part, test::made_up_settings());
+      for (std::uint32_t id = 1; id <= 100; ++id) {
+        auto landmark = test::made_up_landmark(id, kKeypoints, kExtent_m);
+        landmark.thumbnail.resize(25'000);
+        store.add(landmark);
+      }
+    }
+    LandmarkStore store(whole, test::made_up_settings());
+    const LandmarkStore hundred(part);
+    for (std::uint32_t i = 0; i < kLandmarks / 100; ++i) store.append(hundred);
+    std::vector<LandmarkPose> poses;
+    for (std::uint32_t id = 1; id <= kLandmarks; ++id) {
+      const auto landmark = test::made_up_landmark(id, 0, kExtent_m);
+      poses.push_back({id, landmark.map_from_base, landmark.covariance});
+    }
+    store.set_poses(poses);
+    return whole;
+  }();
+  return file;
+}
+
+LandmarkLibrary load(const std::shared_ptr<LandmarkStore>& store) {
+  LandmarkLibrary library(store);
+  for (auto& landmark : store->landmarks()) library.add(std::move(landmark));
+  return library;
+}
+
+void open_and_load(benchmark::State& state) {
+  const auto file = store_file();
+  for (auto _ : state) {
+    const auto library = load(std::make_shared<LandmarkStore>(file));
+    benchmark::DoNotOptimize(library.size());
+  }
+  const auto before = ::mallinfo2().uordblks;
+  const auto library = load(std::make_shared<LandmarkStore>(file));
+  state.counters["memory_MB"] = static_cast<double>(::mallinfo2().uordblks - before) / 1e6;
+  state.counters["kB_a_landmark_on_disk"] = static_cast<double>(std::filesystem::file_size(file)) / 1e3 / kLandmarks;
+}
+BENCHMARK(open_and_load)->Unit(benchmark::kMillisecond);
+
+void within_a_prior(benchmark::State& state) {
+  const auto library = load(std::make_shared<LandmarkStore>(store_file()));
+  std::mt19937_64 random(1);
+  std::size_t found = 0;
+  for (auto _ : state) {
+    const Eigen::Vector3d position(kExtent_m * (test::share(random) - 0.5), kExtent_m * (test::share(random) - 0.5), 0);
+    found += library.within(position, static_cast<double>(state.range(0))).size();
+  }
+  state.counters["found"] = static_cast<double>(found) / static_cast<double>(state.iterations());
+}
+BENCHMARK(within_a_prior)->Arg(30)->Arg(100)->Arg(1000)->Unit(benchmark::kMicrosecond);
+
+void nearest(benchmark::State& state) {
+  const auto library = load(std::make_shared<LandmarkStore>(store_file()));
+  std::mt19937_64 random(1);
+  for (auto _ : state) {
+    const Eigen::Vector3d position(kExtent_m * (test::share(random) - 0.5), kExtent_m * (test::share(random) - 0.5), 0);
+    benchmark::DoNotOptimize(library.nearest(position));
+  }
+}
+BENCHMARK(nearest)->Unit(benchmark::kMicrosecond);
+
+void move_all(benchmark::State& state) {
+  auto library = load(std::make_shared<LandmarkStore>(store_file()));
+  for (auto _ : state) {
+    for (const auto* landmark : library.all()) {
+      auto pose = landmark->map_from_base;
+      pose.translation().x() += 1.0;
+      library.set_pose(landmark->id, pose, landmark->covariance);
+    }
+  }
+}
+BENCHMARK(move_all)->Unit(benchmark::kMillisecond);
+
+void keypoints_of_one(benchmark::State& state) {
+  const auto library = load(std::make_shared<LandmarkStore>(store_file()));
+  std::mt19937_64 random(1);
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(library.keypoints(1 + static_cast<std::uint32_t>(random() % kLandmarks)));
+  }
+}
+BENCHMARK(keypoints_of_one)->Unit(benchmark::kMicrosecond);
+
+void add_one_to_the_store(benchmark::State& state) {
+  const panvo::test::TemporaryFolder folder;
+  LandmarkStore store(folder / "store", test::made_up_settings());
+  auto landmark = test::made_up_landmark(1, kKeypoints, kExtent_m);
+  landmark.id = 0;
+  for (auto _ : state) store.add(landmark);
+}
+BENCHMARK(add_one_to_the_store)->Unit(benchmark::kMillisecond)->UseRealTime();
+
+}  // namespace
+
+BENCHMARK_MAIN();
