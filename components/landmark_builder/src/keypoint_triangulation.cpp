@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "panvo/landmark_builder/keypoint_triangulation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include "panvo/landmarks/keypoints.hpp"
+
+namespace panvo::landmark_builder {
+namespace {
+
+using landmarks::Keypoint;
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+constexpr double kMatchWindow_rad = 40.0 * kDegree;  // parallax of what lies at arm's length of the way
+constexpr int kMostSteps = 10;
+
+/// A neighbour's bearing of the keypoint, turned into the landmark's axes, and where it was taken.
+struct Observation {
+  Eigen::Vector3d bearing;
+  Eigen::Vector3d from;
+};
+
+struct Range {
+  double inverse = 0.0;
+  double sigma = 0.0;
+};
+
+/// Error of a bearing across it, for the point bearing / inverse: the vector from the seen to the expected direction.
+struct Residual {
+  Eigen::Vector3d value;
+  Eigen::Vector3d by_inverse;
+};
+
+std::optional<Residual> residual(const Eigen::Vector3d& bearing, const Observation& seen, double inverse) {
+  const Eigen::Vector3d away = bearing - inverse * seen.from;  // times the range
+  const double length = away.norm();
+  const Eigen::Vector3d expected = away / length;
+  if (length < 1e-9 || expected.dot(seen.bearing) <= 0.0) return std::nullopt;
+  const Eigen::Matrix3d across = Eigen::Matrix3d::Identity() - seen.bearing * seen.bearing.transpose();
+  const Eigen::Vector3d change = -(Eigen::Matrix3d::Identity() - expected * expected.transpose()) * seen.from / length;
+  return Residual{across * expected, across * change};
+}
+
+std::optional<Range> fit(const Eigen::Vector3d& bearing, const std::vector<Observation>& seen, double sigma_rad) {
+  Range range;
+  double information = 0.0;
+  for (int step = 0; step < kMostSteps; ++step) {
+    double gradient = 0.0;
+    information = 0.0;
+    for (const auto& one : seen) {
+      const auto term = residual(bearing, one, range.inverse);
+      if (!term) return std::nullopt;
+      information += term->by_inverse.squaredNorm();
+      gradient += term->by_inverse.dot(term->value);
+    }
+    if (information <= 0.0) return std::nullopt;
+    const double change = -gradient / information;
+    range.inverse += change;
+    if (std::abs(change) < 1e-7) break;
+  }
+  if (!std::isfinite(range.inverse)) return std::nullopt;
+  // the landmark's own bearing errs as each of the others does, and alike against all of them
+  range.sigma = sigma_rad * std::sqrt((1.0 + static_cast<double>(seen.size())) / information);
+  return range;
+}
+
+double largest_error(const Eigen::Vector3d& bearing, const std::vector<Observation>& seen, double inverse,
+                     std::size_t& worst) {
+  double largest = -1.0;
+  for (std::size_t i = 0; i < seen.size(); ++i) {
+    const auto term = residual(bearing, seen[i], inverse);
+    const double error = term ? term->value.norm() : std::numbers::pi;
+    if (error <= largest) continue;
+    largest = error;
+    worst = i;
+  }
+  return largest;
+}
+
+double yaw_of(const Eigen::Matrix3d& rotation) { return -std::atan2(rotation(0, 2), rotation(2, 2)); }
+
+}  // namespace
+
+int triangulate_keypoints(std::span<Keypoint> landmark, std::span<const NeighbourPanorama> neighbours,
+                          const TriangulationParameters& parameters) {
+  const double sigma_rad = parameters.bearing_sigma_deg * kDegree;
+  const double gate_rad = parameters.gate_sigmas * std::numbers::sqrt2 * sigma_rad;
+  std::vector<std::vector<Observation>> observations(landmark.size());
+  for (const auto& neighbour : neighbours) {
+    const Eigen::Matrix3d rotation = neighbour.landmark_from_neighbour.linear();
+    const landmarks::AzimuthWindow window{yaw_of(rotation), kMatchWindow_rad};
+    for (const auto& match :
+         match_keypoints(neighbour.keypoints, landmark, static_cast<float>(parameters.descriptor_ratio), window)) {
+      const auto& seen = neighbour.keypoints[static_cast<std::size_t>(match.query)];
+      observations[static_cast<std::size_t>(match.landmark)].push_back(
+          {rotation * seen.bearing.cast<double>().normalized(), neighbour.landmark_from_neighbour.translation()});
+    }
+  }
+
+  int count = 0;
+  for (std::size_t i = 0; i < landmark.size(); ++i) {
+    auto& keypoint = landmark[i];
+    auto& seen = observations[i];
+    keypoint.has_point = false;
+    const Eigen::Vector3d bearing = keypoint.bearing.cast<double>().normalized();
+    auto range = fit(bearing, seen, sigma_rad);
+    // one wrong match among several right ones must not cost the point
+    std::size_t worst = 0;
+    while (range && seen.size() > 2 && largest_error(bearing, seen, range->inverse, worst) > gate_rad) {
+      seen.erase(seen.begin() + static_cast<std::ptrdiff_t>(worst));
+      range = fit(bearing, seen, sigma_rad);
+    }
+    if (!range || largest_error(bearing, seen, range->inverse, worst) > gate_rad) continue;
+    if (range->inverse < parameters.fewest_sigmas * range->sigma || range->inverse * parameters.farthest_m < 1.0) {
+      continue;
+    }
+    keypoint.has_point = true;
+    keypoint.point_in_panorama = (bearing / range->inverse).cast<float>();
+    keypoint.inverse_range_sigma = static_cast<float>(range->sigma);
+    ++count;
+  }
+  return count;
+}
+
+}  // namespace panvo::landmark_builder
