@@ -24,8 +24,6 @@ std::array<float, 4> draw_statistics(SeededRandom& random) {
   return chosen;
 }
 
-}  // namespace
-
 /// Evenly on a logarithmic scale: of sizes drawn evenly nearly all would be about as large as the band.
 int draw_size(int from, int to, SeededRandom& random) {
   const double size = from * std::pow(static_cast<double>(to) / from, random.share());
@@ -36,6 +34,13 @@ int draw_left(int anchor, double spread, int width, int columns, SeededRandom& r
   const double centre = anchor + random.between(-0.5, 0.5) * spread * columns;
   const int left = static_cast<int>(std::floor(centre - 0.5 * width)) % columns;
   return left < 0 ? left + columns : left;
+}
+
+}  // namespace
+
+RectangleBounds large_scale(cv::Size band, double widest) {
+  const int to = std::min(band.width, static_cast<int>(std::lround(widest * band.width)));
+  return {{first_whole(band.width / 20.0), first_whole(band.height / 8.0)}, {to, band.height}};
 }
 
 RectangleBounds small_scale(cv::Size band) {
