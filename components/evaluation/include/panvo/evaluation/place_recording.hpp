@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <filesystem>
+#include <opencv2/core.hpp>
+#include <vector>
+
+#include "panvo/evaluation/trajectory.hpp"
+
+namespace panvo::evaluation {
+
+/// A panorama of a recording and where it was taken.
+struct RecordedPanorama {
+  std::int64_t stamp_ns = 0;
+  std::filesystem::path file;
+  Eigen::Isometry3d world_from_base = Eigen::Isometry3d::Identity();
+  double travelled_m = 0.0;  ///< since the first panorama
+};
+
+/// A pass by a junction, as the recording's author lists it.
+struct RecordedVisit {
+  int place = 0;              ///< the junction's number
+  std::int64_t stamp_ns = 0;  ///< of the closest approach
+  std::size_t panorama = 0;   ///< the nearest to that stamp
+};
+
+/// Panoramas with ground truth and a list of the places passed: an EuRoC/ASL data set (cam2) with a sequence.yaml.
+struct PlaceRecording {
+  std::filesystem::path folder;
+  Eigen::Isometry3d base_from_panorama = Eigen::Isometry3d::Identity();
+  std::vector<RecordedPanorama> panoramas;  ///< in order of stamps
+  std::vector<RecordedVisit> visits;        ///< in order of stamps
+};
+
+/// Throws InputError (file, problem, remedy) where anything is missing or cannot be understood. Images are not opened.
+PlaceRecording read_place_recording(const std::filesystem::path& folder);
+
+/// The image of a panorama, grey, 1080x540. Throws InputError for one that cannot be decoded or is not 2:1.
+cv::Mat read_panorama(const RecordedPanorama& panorama);
+
+}  // namespace panvo::evaluation

@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: Apache-2.0
+// panvo_evaluate_places: how well places are told apart, and recognised on the way, on a recording with known revisits.
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "panvo/evaluation/compressive_places.hpp"
+#include "panvo/evaluation/input_error.hpp"
+#include "panvo/evaluation/place_journey.hpp"
+#include "panvo/evaluation/place_plots.hpp"
+#include "panvo/evaluation/place_table.hpp"
+#include "panvo/evaluation/plot.hpp"
+
+namespace {
+
+namespace fs = std::filesystem;
+using namespace panvo::evaluation;
+
+enum ExitStatus { kSuccess = 0, kFailed = 1, kNoPlot = 3 };
+
+constexpr double kDegrees = 180.0 / std::numbers::pi;
+
+struct Arguments {
+  std::string recording;
+  std::string library_from;
+  std::string out = "places";
+  std::uint64_t seed = 1;
+  double position_sigma_m = -1.0;
+  bool only_table = false;
+  int curves = 3;
+};
+
+void describe(CLI::App& app, Arguments& arguments) {
+  app.add_option("recording", arguments.recording, "EuRoC/ASL data set with panoramas (cam2), truth and sequence.yaml")
+      ->required();
+  app.add_option("--library-from", arguments.library_from,
+                 "an earlier recording in the same place: its places are the library");
+  app.add_option("--out", arguments.out, "folder for tables and pictures")->capture_default_str();
+  app.add_option("--seed", arguments.seed, "of the measurement matrices")->capture_default_str();
+  app.add_option("--position-sigma", arguments.position_sigma_m,
+                 "tell the matcher the position with this standard deviation, m; negative: search the whole library")
+      ->capture_default_str();
+  app.add_option("--curves", arguments.curves, "pictures of distances along the way past a place, Fig. 7, at most")
+      ->capture_default_str();
+  app.add_flag("--only-table", arguments.only_table, "Table 1 and its pictures, without going along the journey");
+}
+
+std::vector<std::unique_ptr<PlaceMethod>> all_methods(std::uint64_t seed) {
+  std::vector<std::unique_ptr<PlaceMethod>> methods;
+  for (const auto scale : {FeatureScale::kLarge, FeatureScale::kSmall}) {
+    for (const auto selection : {FeatureSelection::kPlain, FeatureSelection::kAdaptive}) {
+      methods.push_back(compressive_places(scale, selection, {}, seed));
+    }
+  }
+  return methods;
+}
+
+void print_journey(const JourneyScore& score, const PlaceTask& task, const PlaceRecording& then) {
+  std::cout << "\nOn the way, every panorama through the matcher:\n"
+            << fmt::format("{:>7} {:>6} {:>9} {:>9} {:>9} {:>9} {:>6} {:>6}\n", "place", "", "way (m)", "offset",
+                           "error", "heading", "D_l", "D_s");
+  for (const auto& match : score.matches) {
+    std::cout << fmt::format("{:>7} {:>6} {:>9.1f} {:>7.2f} m {:>7.2f} m {:>5.2f} deg {:>6.2f} {:>6.2f}\n",
+                             task.places[match.known].place, match.is_right ? "right" : "WRONG",
+                             then.panoramas[match.panorama].travelled_m, match.offset_m, match.position_error_m,
+                             match.heading_error_rad * kDegrees, match.match.large_distance,
+                             match.match.small_distance);
+  }
+  for (std::size_t i = 0; i < task.revisits.size(); ++i) {
+    if (score.found[i]) continue;
+    const auto& revisit = task.revisits[i];
+    std::cout << fmt::format("{:>7} missed {:>8.1f} {:>7.2f} m, entrance {:+.0f} deg\n",
+                             task.places[revisit.known].place, then.panoramas[revisit.panorama].travelled_m,
+                             revisit.offset_m, revisit.entrance_rad * kDegrees);
+  }
+  const auto found = std::count(score.found.begin(), score.found.end(), true);
+  std::cout << fmt::format("revisits found {} of {}, wrong matches {}\n", found, task.revisits.size(), score.wrong);
+}
+
+nlohmann::json to_json(const std::vector<PlaceScore>& scores, const std::optional<JourneyScore>& journey,
+                       const PlaceTask& task) {
+  nlohmann::json json;
+  json["places"] = task.places.size();
+  json["revisits"] = task.revisits.size();
+  for (const auto& score : scores) {
+    json["methods"].push_back({{"method", score.method},
+                               {"v_sc", score.separation},
+                               {"true_positives", score.true_positives},
+                               {"false_positives", score.false_positives},
+                               {"recall", score.recall},
+                               {"precision", score.precision},
+                               {"median_heading_error_deg", score.median_heading_error_rad * kDegrees}});
+  }
+  if (journey) {
+    json["journey"] = {{"found", std::count(journey->found.begin(), journey->found.end(), true)},
+                       {"wrong", journey->wrong},
+                       {"matches", nlohmann::json::array()}};
+    for (const auto& match : journey->matches) {
+      json["journey"]["matches"].push_back({{"place", task.places[match.known].place},
+                                            {"stamp_ns", match.match.stamp_ns},
+                                            {"right", match.is_right},
+                                            {"offset_m", match.offset_m},
+                                            {"position_error_m", match.position_error_m},
+                                            {"heading_deg", match.match.heading_rad * kDegrees},
+                                            {"heading_error_deg", match.heading_error_rad * kDegrees}});
+    }
+  }
+  return json;
+}
+
+int run(const Arguments& arguments) {
+  const auto recording = read_place_recording(arguments.recording);
+  std::optional<PlaceRecording> earlier;
+  if (!arguments.library_from.empty()) earlier = read_place_recording(arguments.library_from);
+  const auto& first = earlier ? *earlier : recording;
+  const auto task = place_task(first, earlier ? &recording : nullptr);
+  if (task.revisits.empty()) {
+    throw InputError(recording.folder / "sequence.yaml", "lists no place that is visited twice",
+                     "give a recording with revisits, or an earlier one of the same places with --library-from");
+  }
+  std::cout << fmt::format("{} places, {} revisits, {} panoramas\n\n", task.places.size(), task.revisits.size(),
+                           recording.panoramas.size());
+
+  const auto methods = all_methods(arguments.seed);
+  std::vector<PlaceScore> scores;
+  scores.reserve(methods.size());
+  for (const auto& method : methods) scores.push_back(score_places(*method, task, first, recording));
+  std::cout << place_table(scores) << std::flush;
+
+  std::optional<JourneyScore> journey;
+  if (!arguments.only_table) {
+    JourneySettings settings;
+    settings.seed = arguments.seed;
+    if (arguments.position_sigma_m >= 0.0) settings.position_sigma_m = arguments.position_sigma_m;
+    const bool is_terminal = isatty(STDERR_FILENO) != 0;
+    journey = match_journey(task, first, recording, settings, [&](std::size_t i, std::size_t count) {
+      if (is_terminal && i % 20 == 0) std::cerr << fmt::format("\r  panorama {} of {}", i, count) << std::flush;
+    });
+    if (is_terminal) std::cerr << "\r";
+    print_journey(*journey, task, recording);
+  }
+
+  const fs::path out = arguments.out;
+  fs::create_directories(out);
+  std::ofstream(out / "places.json") << to_json(scores, journey, task).dump(2) << '\n';
+  draw_separation(scores, out);
+  std::vector<const PlaceMethod*> compared;
+  for (const auto& method : methods) compared.push_back(method.get());
+  constexpr double kReach_m = 20.0;
+  const auto curves =
+      std::min<std::size_t>(task.revisits.size(), static_cast<std::size_t>(std::max(0, arguments.curves)));
+  for (std::size_t i = 0; i < curves; ++i) {
+    const auto& revisit = task.revisits[i];
+    draw_local_curves(local_curves(compared, task, revisit, first, recording, kReach_m),
+                      fmt::format("place {}, passed {:.1f} m beside, entrance {:+.0f} deg",
+                                  task.places[revisit.known].place, revisit.offset_m, revisit.entrance_rad * kDegrees),
+                      static_cast<int>(i + 1), out);
+  }
+  std::cout << fmt::format("\npictures and places.json: {}\n", out.string());
+  return kSuccess;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Arguments arguments;
+  CLI::App app(
+      "How well places are told apart by their panoramas, and recognised on the way: Table 1, Fig. 6 and 7 of [Lu2015] "
+      "on a "
+      "recording with known revisits",
+      "panvo evaluate places");
+  describe(app, arguments);
+  CLI11_PARSE(app, argc, argv);
+  try {
+    return run(arguments);
+  } catch (const PlotError& error) {
+    std::cerr << "panvo evaluate places: " << error.what() << '\n';
+    return kNoPlot;
+  } catch (const std::exception& error) {
+    std::cerr << "panvo evaluate places: " << error.what() << '\n';
+    return kFailed;
+  }
+}
