@@ -47,14 +47,17 @@ std::optional<Residual> residual(const Eigen::Vector3d& bearing, const Observati
 std::optional<Range> fit(const Eigen::Vector3d& bearing, const std::vector<Observation>& seen, double sigma_rad) {
   Range range;
   double information = 0.0;
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (int step = 0; step < kMostSteps; ++step) {
     double gradient = 0.0;
     information = 0.0;
+    sum.setZero();
     for (const auto& one : seen) {
       const auto term = residual(bearing, one, range.inverse);
       if (!term) return std::nullopt;
       information += term->by_inverse.squaredNorm();
       gradient += term->by_inverse.dot(term->value);
+      sum += term->by_inverse;
     }
     if (information <= 0.0) return std::nullopt;
     const double change = -gradient / information;
@@ -62,8 +65,8 @@ std::optional<Range> fit(const Eigen::Vector3d& bearing, const std::vector<Obser
     if (std::abs(change) < 1e-7) break;
   }
   if (!std::isfinite(range.inverse)) return std::nullopt;
-  // the landmark's own bearing errs as each of the others does, and alike against all of them
-  range.sigma = sigma_rad * std::sqrt((1.0 + static_cast<double>(seen.size())) / information);
+  // the error of the landmark's own bearing is one and the same against all of them: from both sides it cancels
+  range.sigma = sigma_rad * std::sqrt(1.0 / information + sum.squaredNorm() / (information * information));
   return range;
 }
 
