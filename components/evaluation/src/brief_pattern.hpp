@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <opencv2/core.hpp>
+#include <vector>
+
+namespace panvo::evaluation {
+
+/// BRIEF of a square patch: 256 comparisons of two smoothed pixels each, drawn about the centre from an isotropic Gaussian of
+/// variance S^2/25 (Calonder et al. 2010).
+class BriefPattern {
+ public:
+  static constexpr int kPatch_px = 60;  ///< S
+  static constexpr int kBits = 256;
+  using Bits = std::array<std::uint64_t, kBits / 64>;
+
+  /// The same comparisons from the same seed on every machine.
+  explicit BriefPattern(std::uint64_t seed);
+
+  /// Of the patch whose left column is `left`, over all rows of a smoothed image of kPatch_px rows (CV_8UC1); columns beyond the
+  /// right border go on at the left.
+  Bits describe(const cv::Mat& smoothed, int left) const;
+
+ private:
+  struct Comparison {
+    cv::Point first, second;
+  };
+  std::vector<Comparison> comparisons_;
+};
+
+/// Bits that differ.
+int hamming_distance(const BriefPattern::Bits& a, const BriefPattern::Bits& b);
+
+/// The band of a panorama (CV_8UC1, 1080x540) that all methods look at, from 35 degrees above the horizon to 15 below.
+cv::Mat described_band(const cv::Mat& panorama);
+
+/// That band, scaled to kPatch_px rows and `columns`, smoothed as BRIEF needs it, across the seam.
+cv::Mat smoothed_band(const cv::Mat& panorama, int columns);
+
+}  // namespace panvo::evaluation
