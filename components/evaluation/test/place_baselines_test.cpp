@@ -124,7 +124,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{"cyclic_brief_gist", [] { return cyclic_brief_gist(1); }, true, 2.5, 0.03},
                     Case{"histogram", [] { return histogram_places({}); }, false, 0.0, 0.03},
                     Case{"fourier_signature", [] { return fourier_signature(); }, true, 0.2, 0.03}),
-    [](const auto& info) { return info.param.name; });
+    [](const auto& baseline) { return baseline.param.name; });
 
 TEST(BriefGist, KnowsNothingOfHeadings) {
   const auto method = brief_gist(1);
