@@ -132,7 +132,7 @@ LandmarkMatch LandmarkMatcher::search(const PanoramaFrame& frame, const landmark
     match.reason = fmt::format("{} of {} points agree", found.inliers, found.matches);
     match.heading_rad = found.pose->heading_rad;
     match.pose = std::move(found.pose);
-    lock_ = Lock{match.landmark_id, match.heading_rad, match, frame.travelled_m};
+    lock_ = Lock{match.landmark_id, match.heading_rad, match, match.small_distance, frame.travelled_m, frame.stamp_ns};
     return match;
   }
   match.state = MatchState::kRejected;
@@ -163,13 +163,15 @@ LandmarkMatch LandmarkMatcher::follow(const PanoramaFrame& frame, const landmark
     if (found.pose) {
       match.heading_rad = lock.heading_rad = found.pose->heading_rad;
       match.pose = std::move(found.pose);
-      if (match.small_distance < lock.best.small_distance) {
-        lock.best = match;
-        lock.best_at_m = frame.travelled_m;
-      }
+      if (match.small_distance < lock.best.small_distance) lock.best = match;
     }
-    const bool is_past = frame.travelled_m - lock.best_at_m > parameters_.window_m ||
-                         static_cast<double>(frame.stamp_ns - lock.best.stamp_ns) > parameters_.window_s * kSecond;
+    if (match.small_distance < lock.smallest_distance) {
+      lock.smallest_distance = match.small_distance;
+      lock.smallest_at_m = frame.travelled_m;
+      lock.smallest_at_ns = frame.stamp_ns;
+    }
+    const bool is_past = frame.travelled_m - lock.smallest_at_m > parameters_.window_m ||
+                         static_cast<double>(frame.stamp_ns - lock.smallest_at_ns) > parameters_.window_s * kSecond;
     if (!is_past) return match;
   }
   match = lock.best;

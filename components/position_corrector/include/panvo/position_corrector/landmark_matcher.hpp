@@ -119,8 +119,10 @@ class LandmarkMatcher {
     std::uint32_t landmark_id = 0;
     double heading_rad = 0.0;
     LandmarkMatch best;  ///< of those with a pose, the one of the smallest small-scale distance
-    double best_at_m = 0.0;
-    bool is_over = false;
+    /// Of all, the smallest distance, and where it was: on the way to it poses may be missing.
+    double smallest_distance = 1.0;
+    double smallest_at_m = 0.0;
+    std::int64_t smallest_at_ns = 0;
   };
 
   LandmarkMatch search(const PanoramaFrame& frame, const landmarks::QueryDescription& query,
