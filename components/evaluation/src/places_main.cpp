@@ -17,7 +17,11 @@
 #include <string>
 #include <vector>
 
+#include "panvo/evaluation/brief_gist.hpp"
 #include "panvo/evaluation/compressive_places.hpp"
+#include "panvo/evaluation/cyclic_brief_gist.hpp"
+#include "panvo/evaluation/fourier_signature.hpp"
+#include "panvo/evaluation/histogram_places.hpp"
 #include "panvo/evaluation/input_error.hpp"
 #include "panvo/evaluation/place_journey.hpp"
 #include "panvo/evaluation/place_plots.hpp"
@@ -60,6 +64,10 @@ void describe(CLI::App& app, Arguments& arguments) {
 
 std::vector<std::unique_ptr<PlaceMethod>> all_methods(std::uint64_t seed) {
   std::vector<std::unique_ptr<PlaceMethod>> methods;
+  methods.push_back(brief_gist(seed));
+  methods.push_back(cyclic_brief_gist(seed));
+  methods.push_back(fourier_signature());
+  methods.push_back(histogram_places({}));
   for (const auto scale : {FeatureScale::kLarge, FeatureScale::kSmall}) {
     for (const auto selection : {FeatureSelection::kPlain, FeatureSelection::kAdaptive}) {
       methods.push_back(compressive_places(scale, selection, {}, seed));
