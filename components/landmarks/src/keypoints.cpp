@@ -5,10 +5,10 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <opencv2/core/hal/intrin.hpp>
 #include <opencv2/features2d.hpp>
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
-#include <tuple>
 
 #include "panvo/landmarks/panorama_describer.hpp"
 #include "panvo/vision/equirectangular.hpp"
@@ -16,134 +16,160 @@
 namespace panvo::landmarks {
 namespace {
 
-constexpr vision::Equirectangular kPanorama{DescriptionBasis::kColumns, DescriptionBasis::kRows};
-constexpr int kMargin = 60;         // px beyond the seam: as far as a descriptor of usual size reaches
-constexpr double kContrast = 0.02;  // of grey levels 0 to 1: half of the usual, for skies leave little to buildings
-constexpr int kSectors = 24;        // of the full turn, 15 degrees each
-constexpr int kMostOfSector = 2;    // times its even share
-constexpr int kDescriptor = 128;
+constexpr double kTurn = 2.0 * std::numbers::pi;
+constexpr int kMargin_px = 32;              // beyond the seam: what a descriptor of the half-size image needs
+constexpr int kSectors = 24;                // of the full turn, each with its share of the keypoints
+constexpr int kSurplus = 2;                 // found per keypoint kept, so that there is a choice in every sector
+constexpr double kSmallestContrast = 0.02;  // of SIFT; OpenCV's 0.04 leaves cloudy days with few
 
-/// The band with margins from beyond the seam.
-cv::Mat padded_band(const cv::Mat& grey, int first_row, int end_row) {
-  const cv::Mat band = grey.rowRange(first_row, end_row);
-  cv::Mat padded;
-  cv::hconcat(std::vector<cv::Mat>{band.colRange(band.cols - kMargin, band.cols), band, band.colRange(0, kMargin)},
-              padded);
-  return padded;
-}
+/// The part of the panorama where keypoints are sought, a piece of its other end on each side, and how its pixels lie.
+struct Section {
+  cv::Mat image;
+  double scale = 1.0;            // px of the panorama per px of the section
+  double left = 0.0, top = 0.0;  // px of the panorama where the section's first pixel begins
 
-int squared_distance(const Keypoint& a, const Keypoint& b) {
-  int sum = 0;
-  for (int i = 0; i < kDescriptor; ++i) {
-    const auto k = static_cast<std::size_t>(i);
-    const int difference = static_cast<int>(a.descriptor[k]) - static_cast<int>(b.descriptor[k]);
-    sum += difference * difference;
+  /// Centre of the panorama's pixels; the section's lie between them where it is half the size.
+  Eigen::Vector2d to_panorama(const cv::Point2f& p) const {
+    return {left + (p.x + 0.5) * scale - 0.5, top + (p.y + 0.5) * scale - 0.5};
   }
-  return sum;
+};
+
+Section cut_section(const cv::Mat& panorama, const KeypointParameters& parameters) {
+  const vision::Equirectangular sphere{panorama.cols, panorama.rows};
+  const auto row_at = [&](double elevation_deg) {
+    const double v = sphere.row(elevation_deg * std::numbers::pi / 180.0);
+    return std::clamp(2 * static_cast<int>(std::lround(0.5 * v)), 0, panorama.rows);
+  };
+  Section section;
+  section.top = row_at(-parameters.top_deg);
+  section.left = -kMargin_px;
+  const cv::Mat band = panorama.rowRange(row_at(-parameters.top_deg), row_at(parameters.bottom_deg));
+  cv::copyMakeBorder(band, section.image, 0, 0, kMargin_px, kMargin_px, cv::BORDER_WRAP | cv::BORDER_ISOLATED);
+  if (parameters.half_size) {
+    cv::Mat half;
+    cv::resize(section.image, half, section.image.size() / 2, 0.0, 0.0, cv::INTER_AREA);
+    section.image = half;
+    section.scale = 2.0;
+  }
+  return section;
 }
 
-std::vector<double> azimuths(std::span<const Keypoint> keypoints) {
-  std::vector<double> azimuths;
-  azimuths.reserve(keypoints.size());
-  for (const auto& keypoint : keypoints) {
-    azimuths.push_back(
-        std::atan2(static_cast<double>(keypoint.bearing.x()), static_cast<double>(keypoint.bearing.z())));
-  }
-  return azimuths;
+/// By descending strength, whatever the order they were found in; of equal ones the first in the image.
+bool is_stronger(const cv::KeyPoint& a, const cv::KeyPoint& b) {
+  if (a.response != b.response) return a.response > b.response;
+  if (a.pt.y != b.pt.y) return a.pt.y < b.pt.y;
+  if (a.pt.x != b.pt.x) return a.pt.x < b.pt.x;
+  return a.angle < b.angle;
 }
+
+/// The strongest, each sector of the full turn first its share; without what lies beyond the seam, which is found at the
+/// other end as well.
+std::vector<cv::KeyPoint> choose(std::vector<cv::KeyPoint> found, const Section& section, int columns, int most) {
+  std::erase_if(found, [&](const cv::KeyPoint& k) {
+    const double u = section.to_panorama(k.pt).x();
+    return u < -0.5 || u >= columns - 0.5;
+  });
+  std::sort(found.begin(), found.end(), is_stronger);
+  const int share = (most + kSectors - 1) / kSectors;
+  std::vector<int> taken(kSectors, 0);
+  std::vector<cv::KeyPoint> chosen, others;
+  for (const cv::KeyPoint& k : found) {
+    const int sector = static_cast<int>((section.to_panorama(k.pt).x() + 0.5) * kSectors / columns);
+    int& of_sector = taken[static_cast<std::size_t>(std::clamp(sector, 0, kSectors - 1))];
+    (of_sector++ < share ? chosen : others).push_back(k);
+  }
+  chosen.insert(chosen.end(), others.begin(), others.end());
+  if (chosen.size() > static_cast<std::size_t>(most)) chosen.resize(static_cast<std::size_t>(most));
+  std::sort(chosen.begin(), chosen.end(), is_stronger);
+  return chosen;
+}
+
+/// Squared Euclidean distance of two descriptors: exact in whole numbers.
+int squared_distance(const std::array<std::uint8_t, 128>& a, const std::array<std::uint8_t, 128>& b) {
+  cv::v_uint32x4 sum = cv::v_setzero_u32();
+  for (std::size_t i = 0; i < a.size(); i += 16) {
+    const cv::v_uint8x16 difference = cv::v_absdiff(cv::v_load(&a[i]), cv::v_load(&b[i]));
+    sum = cv::v_dotprod_expand(difference, difference, sum);
+  }
+  return static_cast<int>(cv::v_reduce_sum(sum));
+}
+
+double azimuth(const Keypoint& keypoint) { return std::atan2(keypoint.bearing.x(), keypoint.bearing.z()); }
+
+struct Nearest {
+  int index = -1;
+  int best = std::numeric_limits<int>::max();
+  int second = std::numeric_limits<int>::max();
+
+  void see(int candidate, int distance) {
+    if (distance < best) {
+      second = best;
+      best = distance;
+      index = candidate;
+    } else {
+      second = std::min(second, distance);
+    }
+  }
+};
 
 }  // namespace
 
 std::vector<Keypoint> detect_keypoints(const cv::Mat& panorama, const KeypointParameters& parameters) {
   if (panorama.empty() || (panorama.type() != CV_8UC1 && panorama.type() != CV_8UC3) ||
       panorama.cols != 2 * panorama.rows) {
-    throw std::invalid_argument("keypoints: a panorama must be CV_8UC1 or CV_8UC3 and twice as wide as high");
+    throw std::invalid_argument("keypoints: a panorama of type CV_8UC1 or CV_8UC3, twice as wide as high, is needed");
   }
-  const int first_row = static_cast<int>(kPanorama.row(-parameters.top_deg * std::numbers::pi / 180.0));
-  const int end_row = static_cast<int>(kPanorama.row(parameters.bottom_deg * std::numbers::pi / 180.0));
-  cv::Mat band = padded_band(to_described_size(panorama), first_row, end_row);
-  double scale = 1.0;
-  if (parameters.half_size) {
-    cv::Mat half;
-    cv::resize(band, half, {}, 0.5, 0.5, cv::INTER_AREA);
-    band = half;
-    scale = 2.0;
-  }
-  const auto sift = cv::SIFT::create(0, 3, kContrast, 10.0, 1.6, CV_8U);
+  const cv::Mat grey = to_described_size(panorama);
+  const vision::Equirectangular sphere{grey.cols, grey.rows};
+  const Section section = cut_section(grey, parameters);
+  const auto sift = cv::SIFT::create(0, 3, kSmallestContrast);
   std::vector<cv::KeyPoint> found;
-  sift->detect(band, found);
-  std::sort(found.begin(), found.end(), [](const cv::KeyPoint& a, const cv::KeyPoint& b) {
-    return std::tuple(-a.response, a.pt.x, a.pt.y, a.angle) < std::tuple(-b.response, b.pt.x, b.pt.y, b.angle);
-  });
-
-  // the strongest, but no sector may take what the others need: a pose wants bearings all around
-  const auto column_of = [&](const cv::KeyPoint& keypoint) {
-    return (static_cast<double>(keypoint.pt.x) + 0.5) * scale - 0.5 - kMargin;
-  };
-  const int most_of_sector = std::max(1, kMostOfSector * parameters.most / kSectors);
-  std::vector<int> taken(kSectors, 0);
-  std::vector<cv::KeyPoint> chosen;
-  for (const auto& keypoint : found) {
-    const double column = column_of(keypoint);
-    if (column < -0.5 || column >= kPanorama.columns - 0.5) continue;
-    const auto sector = static_cast<std::size_t>((column + 0.5) * kSectors / kPanorama.columns);
-    if (taken[sector] >= most_of_sector) continue;
-    ++taken[sector];
-    chosen.push_back(keypoint);
-    if (static_cast<int>(chosen.size()) == parameters.most) break;
-  }
-  std::vector<Keypoint> keypoints(chosen.size());
-  if (chosen.empty()) return keypoints;
-  // SIFT drops none here and changes no order: each keypoint carries its octave
+  sift->detect(section.image, found);
+  cv::KeyPointsFilter::retainBest(found, std::max(kSurplus * parameters.most, 1));
+  std::vector<cv::KeyPoint> chosen = choose(std::move(found), section, grey.cols, parameters.most);
   cv::Mat descriptors;
-  sift->compute(band, chosen, descriptors);
-  keypoints.resize(chosen.size());
+  sift->compute(section.image, chosen, descriptors);
+
+  std::vector<Keypoint> keypoints(chosen.size());
   for (std::size_t i = 0; i < chosen.size(); ++i) {
-    const double row = (static_cast<double>(chosen[i].pt.y) + 0.5) * scale - 0.5 + first_row;
-    keypoints[i].bearing = kPanorama.unproject({column_of(chosen[i]), row}).cast<float>();
-    keypoints[i].size_px = chosen[i].size * static_cast<float>(scale);
-    std::copy_n(descriptors.ptr<std::uint8_t>(static_cast<int>(i)), kDescriptor, keypoints[i].descriptor.begin());
+    keypoints[i].bearing = sphere.unproject(section.to_panorama(chosen[i].pt)).cast<float>();
+    keypoints[i].size_px = static_cast<float>(chosen[i].size * section.scale);
+    const float* row = descriptors.ptr<float>(static_cast<int>(i));
+    std::transform(row, row + 128, keypoints[i].descriptor.begin(),
+                   [](float value) { return cv::saturate_cast<uchar>(value); });
   }
   return keypoints;
 }
 
 std::vector<KeypointMatch> match_keypoints(std::span<const Keypoint> query, std::span<const Keypoint> landmark,
                                            float ratio, const std::optional<AzimuthWindow>& window) {
-  constexpr int kNone = std::numeric_limits<int>::max();
-  struct Best {
-    int index = -1;
-    int distance = kNone;
-    int second = kNone;
-  };
-  std::vector<Best> of_query(query.size());
-  std::vector<Best> of_landmark(landmark.size());
-  const auto query_azimuths = azimuths(query);
-  const auto landmark_azimuths = azimuths(landmark);
+  std::vector<double> query_azimuths(query.size()), landmark_azimuths(landmark.size());
+  std::transform(query.begin(), query.end(), query_azimuths.begin(), azimuth);
+  std::transform(landmark.begin(), landmark.end(), landmark_azimuths.begin(), azimuth);
+  std::vector<Nearest> of_query(query.size()), of_landmark(landmark.size());
   for (std::size_t i = 0; i < query.size(); ++i) {
-    auto& best = of_query[i];
     for (std::size_t j = 0; j < landmark.size(); ++j) {
-      if (window) {
-        // a vehicle turned left sees everything farther to the right
-        const double apart = query_azimuths[i] - landmark_azimuths[j] - window->heading_rad;
-        if (std::abs(vision::wrap(apart, 2.0 * std::numbers::pi)) > window->half_width_rad) continue;
+      // Azimuths grow to the right: what the landmark saw at theta, a vehicle turned left by the heading sees at theta + heading.
+      if (window && std::abs(vision::wrap(query_azimuths[i] - landmark_azimuths[j] - window->heading_rad, kTurn)) >
+                        window->half_width_rad) {
+        continue;
       }
-      const int distance = squared_distance(query[i], landmark[j]);
-      if (distance < best.distance) {
-        best = {static_cast<int>(j), distance, best.distance};
-      } else {
-        best.second = std::min(best.second, distance);
-      }
-      if (distance < of_landmark[j].distance) of_landmark[j] = {static_cast<int>(i), distance, kNone};
+      const int distance = squared_distance(query[i].descriptor, landmark[j].descriptor);
+      of_query[i].see(static_cast<int>(j), distance);
+      of_landmark[j].see(static_cast<int>(i), distance);
     }
   }
   std::vector<KeypointMatch> matches;
-  const double ratio2 = static_cast<double>(ratio) * static_cast<double>(ratio);
   for (std::size_t i = 0; i < query.size(); ++i) {
-    const auto& best = of_query[i];
-    if (best.index < 0 || of_landmark[static_cast<std::size_t>(best.index)].index != static_cast<int>(i)) continue;
-    if (best.second != kNone && static_cast<double>(best.distance) >= ratio2 * static_cast<double>(best.second))
+    const Nearest& nearest = of_query[i];
+    if (nearest.index < 0 || of_landmark[static_cast<std::size_t>(nearest.index)].index != static_cast<int>(i))
       continue;
-    matches.push_back({static_cast<int>(i), best.index, std::sqrt(static_cast<float>(best.distance))});
+    const float best = std::sqrt(static_cast<float>(nearest.best));
+    if (nearest.second != std::numeric_limits<int>::max() &&
+        best > ratio * std::sqrt(static_cast<float>(nearest.second))) {
+      continue;
+    }
+    matches.push_back({static_cast<int>(i), nearest.index, best});
   }
   return matches;
 }

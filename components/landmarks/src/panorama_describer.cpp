@@ -36,15 +36,15 @@ std::vector<AdaptiveFeature> to_adaptive(const std::vector<vision::SelectedFeatu
   return features;
 }
 
-vision::SelectionParameters selection(const DescriptionParameters& parameters, double alpha_deg, double beta_deg,
-                                      double gamma_deg) {
+vision::SelectionParameters selection_of(const DescriptionParameters& parameters) {
   constexpr double kColumnsPerDegree = DescriptionBasis::kColumns / 360.0;
   vision::SelectionParameters selection;
   selection.kept = parameters.features;
-  selection.alpha_px = alpha_deg * kColumnsPerDegree;
-  selection.beta_px = beta_deg * kColumnsPerDegree;
-  selection.gamma_px = gamma_deg * kColumnsPerDegree;
+  selection.alpha_px = parameters.alpha_deg * kColumnsPerDegree;
+  selection.beta_px = parameters.beta_deg * kColumnsPerDegree;
+  selection.gamma_px = parameters.gamma_deg * kColumnsPerDegree;
   selection.upright = parameters.upright;
+  selection.sectors = parameters.sectors;
   return selection;
 }
 
@@ -52,6 +52,8 @@ vision::SelectionParameters selection(const DescriptionParameters& parameters, d
 
 DescriptionParameters DescriptionParameters::paper() {
   DescriptionParameters parameters;
+  parameters.top_deg = 35.0;
+  parameters.bottom_deg = 15.0;
   parameters.patches = 200;
   parameters.features = 100;
   parameters.rectangles = 4;
@@ -60,6 +62,7 @@ DescriptionParameters DescriptionParameters::paper() {
   parameters.widest = 1.0;
   parameters.headings = 12;
   parameters.upright = 1.0;
+  parameters.sectors = 1;
   return parameters;
 }
 
@@ -93,10 +96,7 @@ PanoramaDescriber::PanoramaDescriber(const DescriptionParameters& parameters, st
                                         parameters.spread};
   basis->large = vision::MeasurementMatrix(band, vision::large_scale(band, parameters.widest), matrix, seed);
   basis->small = vision::MeasurementMatrix(band, vision::small_scale(band), matrix, seed + 1);
-  basis->select_large =
-      selection(parameters, parameters.large_alpha_deg, parameters.large_beta_deg, parameters.large_gamma_deg);
-  basis->select_small =
-      selection(parameters, parameters.small_alpha_deg, parameters.small_beta_deg, parameters.small_gamma_deg);
+  basis->selection = selection_of(parameters);
   basis_ = std::move(basis);
 }
 
@@ -105,9 +105,9 @@ PanoramaDescription PanoramaDescriber::describe(const cv::Mat& panorama) const {
   PanoramaDescription description;
   description.histogram = vision::intensity_histogram(band.grey, band.normalisation, basis_->parameters.histogram_bins);
   description.large = to_adaptive(
-      vision::select_features(band.images, basis_->large, band.normalisation, basis_->select_large, basis_->seed));
+      vision::select_features(band.images, basis_->large, band.normalisation, basis_->selection, basis_->seed));
   description.small = to_adaptive(
-      vision::select_features(band.images, basis_->small, band.normalisation, basis_->select_small, basis_->seed));
+      vision::select_features(band.images, basis_->small, band.normalisation, basis_->selection, basis_->seed));
   return description;
 }
 

@@ -52,6 +52,45 @@ float deviation_over_turn(const ResponseReader& reader, int row, bool is_intensi
   return static_cast<float>(fit_gaussian(responses).deviation);
 }
 
+/// Sector of the full turn in which the middle of a row's rectangles lies.
+std::size_t sector_of(const MeasurementMatrix& matrix, int row, int sectors) {
+  double along = 0.0, across = 0.0;
+  for (const MeasurementMatrix::Element& element : matrix.row(row)) {
+    const BandRectangle& r = element.rectangle;
+    const double angle = (r.x + 0.5 * r.width) * 2.0 * std::numbers::pi / matrix.band().width;
+    along += std::cos(angle);
+    across += std::sin(angle);
+  }
+  const double share = std::atan2(across, along) / (2.0 * std::numbers::pi) + 0.5;
+  return static_cast<std::size_t>(std::min(sectors - 1, static_cast<int>(share * sectors)));
+}
+
+/// Of features by descending weight: the best of each sector up to its share, then the best of the others.
+std::vector<SelectedFeature> take_best(const std::vector<SelectedFeature>& ranked, const MeasurementMatrix& matrix,
+                                       const SelectionParameters& parameters) {
+  const int share = (parameters.kept + parameters.sectors - 1) / parameters.sectors;
+  const auto kept = std::min(ranked.size(), static_cast<std::size_t>(parameters.kept));
+  std::vector<int> taken(static_cast<std::size_t>(parameters.sectors), 0);
+  std::vector<bool> is_taken(ranked.size(), false);
+  std::size_t count = 0;
+  for (const bool by_sector : {true, false}) {
+    for (std::size_t i = 0; i < ranked.size() && count < kept; ++i) {
+      if (is_taken[i]) continue;
+      int& of_sector = taken[sector_of(matrix, ranked[i].row % matrix.rows(), parameters.sectors)];
+      if (by_sector && of_sector >= share) continue;
+      ++of_sector;
+      ++count;
+      is_taken[i] = true;
+    }
+  }
+  std::vector<SelectedFeature> best;
+  best.reserve(kept);
+  for (std::size_t i = 0; i < ranked.size(); ++i) {
+    if (is_taken[i]) best.push_back(ranked[i]);
+  }
+  return best;
+}
+
 }  // namespace
 
 Gaussian fit_gaussian(std::span<const float> samples) {
@@ -77,9 +116,9 @@ std::vector<SelectedFeature> select_features(const CyclicIntegralImages& images,
                                              const SelectionParameters& parameters, std::uint64_t seed) {
   if (!(parameters.alpha_px > 0.0 && parameters.alpha_px < parameters.beta_px &&
         parameters.beta_px < parameters.gamma_px) ||
-      parameters.samples < 2 || parameters.kept < 1) {
+      parameters.samples < 2 || parameters.kept < 1 || parameters.sectors < 1) {
     throw std::invalid_argument(
-        "adaptive selection: 0 < alpha < beta < gamma, at least 2 samples and 1 feature needed");
+        "adaptive selection: 0 < alpha < beta < gamma, at least 2 samples, 1 feature and 1 sector needed");
   }
   SeededRandom random(seed);
   const std::vector<Displacement> nearby =
@@ -113,8 +152,7 @@ std::vector<SelectedFeature> select_features(const CyclicIntegralImages& images,
   }
   std::stable_sort(features.begin(), features.end(),
                    [](const SelectedFeature& a, const SelectedFeature& b) { return a.weight > b.weight; });
-  if (features.size() > static_cast<std::size_t>(parameters.kept))
-    features.resize(static_cast<std::size_t>(parameters.kept));
+  features = take_best(features, matrix, parameters);
   for (SelectedFeature& feature : features) {
     const bool is_intensity = feature.row < matrix.rows();
     const int row = is_intensity ? feature.row : feature.row - matrix.rows();

@@ -18,23 +18,21 @@ namespace panvo::landmarks {
 /// How a panorama is described. Two descriptions can be compared when these and the seed are the same for both. The defaults
 /// are what recognises a place best from some metres aside; paper() are those of the paper, where it gives any.
 struct DescriptionParameters {
-  double top_deg = 35.0;
-  double bottom_deg = 15.0;
+  double top_deg = 30.0;
+  double bottom_deg = 8.0;
   int patches = 400;
   int features = 200;
   int rectangles = 2;
   bool balanced = true;
-  double spread = 0.07;
+  double spread = 0.05;
   double widest = 0.2;
   int headings = 72;
   int histogram_bins = 64;
-  double large_alpha_deg = 10.0;
-  double large_beta_deg = 20.0;
-  double large_gamma_deg = 60.0;
-  double small_alpha_deg = 2.7;
-  double small_beta_deg = 5.3;
-  double small_gamma_deg = 21.0;
+  double alpha_deg = 10.0;
+  double beta_deg = 20.0;
+  double gamma_deg = 60.0;
   double upright = 0.2;
+  int sectors = 24;
 
   static DescriptionParameters paper();
 
@@ -52,17 +50,12 @@ struct DescriptionParameters {
     field(&P::headings, "headings", "1", "headings tried over the full turn at the large scale; a divisor of 1080", 4,
           1080);
     field(&P::histogram_bins, "histogram_bins", "1", "bins of the intensity histogram", 4, 256);
-    field(&P::large_alpha_deg, "large_alpha_deg", "deg", "large-scale features: positive samples lie nearer", 0.5,
-          90.0);
-    field(&P::large_beta_deg, "large_beta_deg", "deg", "large scale: negative samples lie farther than this", 0.5,
-          90.0);
-    field(&P::large_gamma_deg, "large_gamma_deg", "deg", "large scale: and nearer than this", 0.5, 180.0);
-    field(&P::small_alpha_deg, "small_alpha_deg", "deg", "small-scale features: positive samples lie nearer", 0.5,
-          90.0);
-    field(&P::small_beta_deg, "small_beta_deg", "deg", "small scale: negative samples lie farther than this", 0.5,
-          90.0);
-    field(&P::small_gamma_deg, "small_gamma_deg", "deg", "small scale: and nearer than this", 0.5, 180.0);
+    field(&P::alpha_deg, "alpha_deg", "deg", "a patch is to look the same nearer than this", 0.5, 90.0);
+    field(&P::beta_deg, "beta_deg", "deg", "and different farther than this ...", 0.5, 90.0);
+    field(&P::gamma_deg, "gamma_deg", "deg", "... and nearer than this", 0.5, 180.0);
     field(&P::upright, "upright", "1", "vertical share of these radii: a vehicle's view moves sideways", 0.0, 1.0);
+    field(&P::sectors, "sectors", "1", "sectors of the full turn that share the kept features equally; 1: anywhere", 1,
+          90);
   }
 
   bool operator==(const DescriptionParameters&) const = default;
@@ -77,7 +70,7 @@ struct DescriptionBasis {
   std::uint64_t seed = 0;
   int first_row = 0;  ///< of the band
   vision::MeasurementMatrix large, small;
-  vision::SelectionParameters select_large, select_small;
+  vision::SelectionParameters selection;
 };
 
 /// A panorama to be recognised: its histogram, its responses at every heading of the grid, and its integral images, from which

@@ -26,6 +26,7 @@ struct SelectionParameters {
   double beta_px = 16.0;   ///< negative samples lie farther than this ...
   double gamma_px = 64.0;  ///< ... and nearer than this
   double upright = 1.0;    ///< vertical share of these radii; 1: circles, as in the paper
+  int sectors = 1;         ///< of the full turn: each gives its best kept/sectors first, so that no side is left out
   int samples = 16;        ///< of each of the two sets
   double smallest_deviation =
       0.02;  ///< of normalised responses: a patch whose four Gaussians are all narrower is dropped
