@@ -72,17 +72,17 @@ cv::Mat draw_road(const JunctionView& view, double resolution_m, int scale) {
   cv::circle(picture, at(view.vehicle_px, scale), 3 * scale, kBlue, cv::FILLED);
   for (const RoadArm& arm : view.arms.arms) {
     const Eigen::Vector2d end = view.arms.centre_px + arm.reach_m / resolution_m * ray(arm.direction_rad);
-    cv::line(picture, at(view.arms.centre_px, scale), at(end, scale), view.is_junction ? kGreen : kRed, scale);
+    cv::line(picture, at(view.arms.centre_px, scale), at(end, scale), view.seen ? kGreen : kRed, scale);
   }
   if (!view.arms.reach_m.empty()) {
-    cv::circle(picture, at(view.arms.centre_px, scale), 3 * scale, view.is_junction ? kGreen : kRed, scale);
+    cv::circle(picture, at(view.arms.centre_px, scale), 3 * scale, view.seen ? kGreen : kRed, scale);
   }
   const Eigen::Vector2d middle(view.road.cols / 2, view.road.rows / 2);
   for (const RadonPeak& peak : view.peaks) {
     const Eigen::Vector2d along = ray(peak.direction_rad), across(along.y(), -along.x());
     const Eigen::Vector2d foot = middle + peak.offset_m / resolution_m * across;
     const double half = view.road.rows;
-    cv::line(picture, at(foot - half * along, scale), at(foot + half * along, scale), view.is_junction ? kGreen : kRed);
+    cv::line(picture, at(foot - half * along, scale), at(foot + half * along, scale), view.seen ? kGreen : kRed);
   }
   return picture;
 }
@@ -124,8 +124,7 @@ cv::Mat draw_junction_view(const JunctionView& view, const JunctionDetectorParam
   const int side = pictures.front().rows;
   pictures.push_back(parameters.criterion == "radon" ? draw_radon(view, side)
                                                      : draw_ray_radon(view, parameters.arms.arm_length_m, side));
-  const char* const labels[] = {"bird's eye", "road ratio", view.is_junction ? "road: junction" : "road",
-                                "Radon field"};
+  const char* const labels[] = {"bird's eye", "road ratio", view.seen ? "road: junction" : "road", "Radon field"};
   for (std::size_t i = 0; i < pictures.size(); ++i) {
     if (pictures[i].rows != side) cv::resize(pictures[i], pictures[i], {side, side}, 0, 0, cv::INTER_AREA);
     label(pictures[i], labels[i]);

@@ -8,23 +8,23 @@ namespace {
 
 constexpr double kRememberedPath_m = 60.0;
 constexpr double kOutOfSight_m = 25.0;
-constexpr double kNear_m = 2.0;            // nearer makes a centre no surer
+constexpr double kStandingStep_m = 0.01;
 constexpr std::size_t kMostPlaces = 2000;  // a vehicle that stands still
 
 }  // namespace
 
 std::vector<PassedJunction> JunctionFilter::add(std::int64_t stamp_ns, const Eigen::Vector2d& position_in_odom,
-                                                const std::optional<Eigen::Vector2d>& centre_in_odom) {
-  const double travelled_m =
-      path_.empty() ? 0.0 : path_.back().travelled_m + (position_in_odom - path_.back().position).norm();
+                                                const std::optional<SeenJunction>& seen) {
+  const double step_m = path_.empty() ? 0.0 : (position_in_odom - path_.back().position).norm();
+  const double travelled_m = path_.empty() ? 0.0 : path_.back().travelled_m + step_m;
   path_.push_back({stamp_ns, position_in_odom, travelled_m});
   while (path_.size() > kMostPlaces || travelled_m - path_.front().travelled_m > kRememberedPath_m) path_.pop_front();
 
   Candidate* shown = nullptr;
-  if (centre_in_odom) {
+  if (seen) {
     double best_m = parameters_.merge_radius_m;
     for (Candidate& candidate : candidates_) {
-      const double distance_m = (candidate.centre() - *centre_in_odom).norm();
+      const double distance_m = (candidate.centre() - seen->centre_in_odom).norm();
       if (distance_m >= best_m) continue;
       best_m = distance_m;
       shown = &candidate;
@@ -33,8 +33,8 @@ std::vector<PassedJunction> JunctionFilter::add(std::int64_t stamp_ns, const Eig
       shown = &candidates_.emplace_back();
       shown->first_m = travelled_m;
     }
-    const double weight = 1.0 / (kNear_m * kNear_m + (position_in_odom - *centre_in_odom).squaredNorm());
-    shown->sum += weight * *centre_in_odom;
+    const double weight = std::max(step_m, kStandingStep_m);  // a vehicle that waits learns nothing more
+    shown->sum += weight * seen->centre_in_odom;
     shown->weight += weight;
     ++shown->seen;
     shown->last_m = travelled_m;
@@ -44,7 +44,9 @@ std::vector<PassedJunction> JunctionFilter::add(std::int64_t stamp_ns, const Eig
     const auto closest = nearest(candidate->centre(), candidate->first_m);
     const double now_m = (position_in_odom - candidate->centre()).norm();
     const double closest_m = closest ? (closest->position - candidate->centre()).norm() : now_m;
-    if (!candidate->is_passed && now_m - closest_m >= parameters_.passed_m) {
+    const bool is_behind = now_m - closest_m >= parameters_.passed_m;
+    const bool is_over = travelled_m - candidate->last_m >= parameters_.longest_gap_m || now_m > kOutOfSight_m;
+    if (!candidate->is_passed && is_behind && is_over) {
       if (const auto junction = conclude(*candidate)) {
         passed.push_back(*junction);
         candidate->is_passed = true;

@@ -11,7 +11,11 @@
 namespace panvo::landmark_builder {
 namespace {
 
-constexpr double kBeyondArm = 1.25;  // how far past an arm's length half-lines are followed
+constexpr double kFarther = 1.35;   // a large junction's roads lie apart only farther out
+constexpr double kWidestFan = 2.0;  // roads that leave side by side are one arm, twice as wide, beside two of their own
+constexpr double kScoreOfArm = 1.5;  // what one road more is worth, m of room
+constexpr double kScoreOfJunction = 1000.0;
+constexpr double kBeyondArm = 1.45;  // how far, in arms' lengths, half-lines are followed
 
 /// Steps along all half-lines, the same for every centre.
 class RayTable {
@@ -108,13 +112,17 @@ std::vector<RoadArm> find_arms(const std::vector<float>& reach_m, const RoadArms
   }
   for (const Run& run : runs) {
     const double width_m = (run.last - run.first + 1) * step_rad * parameters.arm_length_m;
-    if (width_m < parameters.narrowest_m || width_m > parameters.widest_m) continue;
+    if (width_m < parameters.narrowest_m || width_m > kWidestFan * parameters.widest_m) continue;
     RoadArm arm{std::fmod(0.5 * (run.first + run.last) * step_rad + 2.0 * std::numbers::pi, 2.0 * std::numbers::pi),
                 width_m, 0.0};
     for (int i = run.first; i <= run.last; ++i) {
       arm.reach_m = std::max<double>(arm.reach_m, reach_m[static_cast<std::size_t>((i % count + count) % count)]);
     }
     arms.push_back(arm);
+  }
+  const auto is_wide = [&](const RoadArm& arm) { return arm.width_m > parameters.widest_m; };
+  if (std::count_if(arms.begin(), arms.end(), is_wide) + 2 > static_cast<std::ptrdiff_t>(arms.size())) {
+    std::erase_if(arms, is_wide);
   }
   std::sort(arms.begin(), arms.end(), [](const auto& a, const auto& b) { return a.direction_rad < b.direction_rad; });
   return arms;
@@ -132,6 +140,8 @@ RoadArms find_best_centre(const cv::Mat& mask, const Eigen::Vector2d& vehicle_px
   const int gap = in_pixels(parameters.longest_gap_m, resolution_m);
   const int steps = static_cast<int>(parameters.search_radius_m / parameters.search_step_m);
   const double step_px = parameters.search_step_m / resolution_m;
+  RoadArmsParameters farther_out = parameters;
+  farther_out.arm_length_m *= kFarther;
   std::vector<float> reach_m;
   for (int row = -steps; row <= steps; ++row) {
     for (int column = -steps; column <= steps; ++column) {
@@ -143,8 +153,10 @@ RoadArms find_best_centre(const cv::Mat& mask, const Eigen::Vector2d& vehicle_px
       if (room_m < parameters.smallest_room_m) continue;
       rays.reach(mask, pixel, gap, reach_m, resolution_m);
       std::vector<RoadArm> arms = find_arms(reach_m, parameters);
-      double score = 10.0 * static_cast<double>(arms.size()) + room_m;
-      for (const RoadArm& arm : arms) score += 0.5 * arm.width_m / static_cast<double>(arms.size());
+      std::vector<RoadArm> farther = find_arms(reach_m, farther_out);
+      if (farther.size() > arms.size()) arms = std::move(farther);
+      const double score =
+          kScoreOfArm * static_cast<double>(arms.size()) + room_m + (arms.size() > 2 ? kScoreOfJunction : 0.0);
       if (score <= best_score) continue;
       best_score = score;
       best = {centre, room_m, std::move(arms), reach_m};

@@ -87,13 +87,12 @@ void RoadJunctionDetector::judge(JunctionView& view, const PlanarPose& pose) con
     view.radon = radon_transform(view.passable, map_.resolution_m(), kRadonDirections);
     view.peaks =
         local_maxima(view.radon, parameters_.radon_share, parameters_.radon_separation_deg * std::numbers::pi / 180.0);
-    view.is_junction = view.peaks.size() > 1;
-    view.centre_in_odom = pose.position;
+    if (view.peaks.size() > 1) view.seen = {pose.position, 2 * static_cast<int>(view.peaks.size())};
     return;
   }
   view.arms = find_best_centre(view.passable, view.vehicle_px, map_.resolution_m(), parameters_.arms);
-  view.is_junction = static_cast<int>(view.arms.arms.size()) >= parameters_.fewest_arms;
-  view.centre_in_odom = map_.point(view.arms.centre_px);
+  const int roads = static_cast<int>(view.arms.arms.size());
+  if (roads >= parameters_.fewest_arms) view.seen = {map_.point(view.arms.centre_px), roads};
 }
 
 void RoadJunctionDetector::remember(const PlanarPose& pose) {

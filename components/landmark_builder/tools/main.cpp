@@ -42,16 +42,15 @@ int run(const Options& options) {
     cv::TickMeter timer;
     timer.start();
     const JunctionView view = detector->detect(panorama, frame.map_from_base);
-    std::optional<Eigen::Vector2d> centre;
-    if (view.is_junction) centre = view.centre_in_odom;
-    const auto passed = filter.add(frame.stamp_ns, frame.map_from_base.translation().head<2>(), centre);
+    const auto passed = filter.add(frame.stamp_ns, frame.map_from_base.translation().head<2>(), view.seen);
     timer.stop();
     times_ms.push_back(timer.getTimeMilli());
     detections.insert(detections.end(), passed.begin(), passed.end());
     if (options.is_verbose) {
-      std::printf("%4zu %d arms at (%.1f, %.1f), vehicle (%.1f, %.1f)%s\n", i, static_cast<int>(view.arms.arms.size()),
-                  view.centre_in_odom.x(), view.centre_in_odom.y(), frame.map_from_base.translation().x(),
-                  frame.map_from_base.translation().y(), passed.empty() ? "" : "  passed");
+      const SeenJunction seen = view.seen.value_or(SeenJunction{{0.0, 0.0}, 0});
+      std::printf("%4zu  %d roads at (%.1f, %.1f), vehicle at (%.1f, %.1f)%s\n", i, seen.roads, seen.centre_in_odom.x(),
+                  seen.centre_in_odom.y(), frame.map_from_base.translation().x(), frame.map_from_base.translation().y(),
+                  passed.empty() ? "" : ", passed");
     }
     const bool is_wanted =
         chosen.contains(static_cast<int>(i)) || (options.every > 0 && static_cast<int>(i) % options.every == 0);

@@ -10,6 +10,7 @@
 
 #include "panvo/landmark_builder/body_mask.hpp"
 #include "panvo/landmark_builder/ground_projection.hpp"
+#include "panvo/landmark_builder/junction_filter.hpp"
 #include "panvo/landmark_builder/passable_region.hpp"
 #include "panvo/landmark_builder/radon_field.hpp"
 #include "panvo/landmark_builder/road_arms.hpp"
@@ -59,8 +60,7 @@ struct JunctionDetectorParameters {
 
 /// What was seen in one panorama, with every step on the way, so that people can look at it. Masks are 8UC1, 0 or 255.
 struct JunctionView {
-  bool is_junction = false;
-  Eigen::Vector2d centre_in_odom = Eigen::Vector2d::Zero();  ///< m; the vehicle's own place by the paper's criterion
+  std::optional<SeenJunction> seen;  ///< by the paper's criterion: where the vehicle is, two roads to a maximum
 
   cv::Mat birds_eye;           ///< as the panorama; ahead is up
   cv::Mat body, learned_from;  ///< of it: the vehicle's own body; what was taken for road to learn from
