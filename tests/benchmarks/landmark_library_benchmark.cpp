@@ -31,6 +31,9 @@ const std::filesystem::path& store_file() {
       for (std::uint32_t id = 1; id <= 100; ++id) {
         auto landmark = test::made_up_landmark(id, kKeypoints, kExtent_m);
         landmark.thumbnail.resize(25'000);
+        for (auto* features : {&landmark.description.large, &landmark.description.small}) {
+          features->insert(features->end(), features->begin(), features->end());  // to the 200 that are the default
+        }
         store.add(landmark);
       }
     }

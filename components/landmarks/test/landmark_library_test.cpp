@@ -126,6 +126,9 @@ TEST(LandmarkLibrary, FindsALandmarkWhereItWasMovedTo) {
   EXPECT_THAT(ids(library.within({39 * 50.0, 0.0, 0.0}, 10.0)), IsEmpty());
   EXPECT_EQ(library.nearest(moved.translation())->landmark->id, 40u);
   EXPECT_EQ(library.find(40)->covariance(0, 0), 1.0);
+  moved.translation() = Eigen::Vector3d(-4975.0, 7000.0, 1.0);  // into the next cell: in both it would be found twice
+  EXPECT_TRUE(library.set_pose(40, moved, Eigen::Matrix<double, 6, 6>::Identity()));
+  EXPECT_THAT(ids(library.within(moved.translation(), 60.0)), ElementsAre(40));
   EXPECT_FALSE(library.set_pose(101, moved, Eigen::Matrix<double, 6, 6>::Identity()));
 }
 

@@ -21,7 +21,7 @@ namespace panvo::landmarks {
 /// odometry knows the height least and a vehicle needs it least. Every list it gives is in order of ids, whatever the
 /// order in which they came.
 ///
-/// With a source for keypoints it keeps 4 kB a landmark, without one all of it.
+/// With a source for keypoints it keeps 8 kB a landmark, without one all of it.
 class LandmarkLibrary {
  public:
   struct Near {
