@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <opencv2/core/hal/intrin.hpp>
 #include <vector>
 
 #include "panvo/vision/equirectangular.hpp"
@@ -19,6 +20,18 @@ constexpr double kNeighbourhood_rad = 20.0 * std::numbers::pi / 180.0;  // of a 
 
 float difference(float value, float landmark_value, float scale) {
   return std::min(1.0F, std::abs(value - landmark_value) / (kTruncation * std::max(kSmallestSpread, scale)));
+}
+
+/// [Lu2015 Eq. 11] of one feature at all headings: weight * min(1, |response - value| * factor), added to the sums.
+void add_differences(const float* responses, float value, float factor, float weight, std::vector<float>& sums) {
+  const cv::v_float32x4 values = cv::v_setall_f32(value), factors = cv::v_setall_f32(factor);
+  const cv::v_float32x4 weights = cv::v_setall_f32(weight), one = cv::v_setall_f32(1.0F);
+  std::size_t i = 0;
+  for (; i + 4 <= sums.size(); i += 4) {
+    const cv::v_float32x4 difference = cv::v_min(one, cv::v_absdiff(cv::v_load(responses + i), values) * factors);
+    cv::v_store(&sums[i], cv::v_load(&sums[i]) + weights * difference);
+  }
+  for (; i < sums.size(); ++i) sums[i] += weight * std::min(1.0F, std::abs(responses[i] - value) * factor);
 }
 
 float distance(const QueryDescription& query, const vision::MeasurementMatrix& matrix,
@@ -58,9 +71,7 @@ HeadingMatch match_large_scale(const QueryDescription& query, const PanoramaDesc
   for (const AdaptiveFeature& feature : landmark.large) {
     const float* responses = &query.large_responses[feature.row * headings];
     const float factor = 1.0F / (kTruncation * std::max(kSmallestSpread, feature.scale));
-    for (std::size_t i = 0; i < headings; ++i) {
-      sums[i] += feature.weight * std::min(1.0F, std::abs(responses[i] - feature.value) * factor);
-    }
+    add_differences(responses, feature.value, factor, feature.weight, sums);
     weights += feature.weight;
   }
   if (weights <= 0.0F) return {};

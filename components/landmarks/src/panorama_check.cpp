@@ -11,7 +11,7 @@ namespace panvo::landmarks {
 namespace {
 
 constexpr int kSmallestColumns = 256;  // px: below, the smallest rectangles are a few pixels
-constexpr int kGridRows = 96, kGridColumns = 192;
+constexpr int kGridRows = 40, kGridColumns = 120;
 constexpr int kDark = 8;                                   // grey level: what a capped lens still shows
 constexpr int kBright = 250;                               // grey level: full well, allowing for smoothing
 constexpr double kFaultyShare = 0.9;                       // night has lamps, and a bright sky fills no more than half

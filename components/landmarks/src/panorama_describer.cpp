@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "panvo/landmarks/panorama_describer.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
@@ -12,6 +13,13 @@
 namespace panvo::landmarks {
 namespace {
 
+cv::Mat to_grey(const cv::Mat& image) {
+  if (image.channels() == 1) return image;
+  cv::Mat grey;
+  cv::cvtColor(image, grey, cv::COLOR_BGR2GRAY);
+  return grey;
+}
+
 /// A band of a panorama, all that both descriptions begin with.
 struct Band {
   cv::Mat grey;
@@ -21,8 +29,12 @@ struct Band {
   Band(const cv::Mat& panorama, const DescriptionBasis& basis) {
     if (const auto fault = find_fault(panorama)) throw std::invalid_argument("a panorama that " + *fault);
     const int last_row = basis.first_row + basis.large.band().height;
-    grey = vision::prepare_band(to_described_size(panorama).rowRange(basis.first_row, last_row));
-    images = vision::CyclicIntegralImages(grey);
+    const bool is_of_size =
+        panorama.cols == DescriptionBasis::kColumns;  // then no more than the band need be made grey
+    const cv::Mat all = is_of_size ? panorama.rowRange(basis.first_row, last_row) : to_described_size(panorama);
+    grey = is_of_size ? to_grey(all) : all.rowRange(basis.first_row, last_row);
+    grey = vision::prepare_band(grey);
+    images = vision::CyclicIntegralImages(grey, std::max(basis.large.widest(), basis.small.widest()));
     normalisation = vision::BandNormalisation::of(grey, images);
   }
 };
@@ -68,8 +80,7 @@ DescriptionParameters DescriptionParameters::paper() {
 
 cv::Mat to_described_size(const cv::Mat& panorama) {
   const cv::Size size(DescriptionBasis::kColumns, DescriptionBasis::kRows);
-  cv::Mat grey = panorama;
-  if (panorama.channels() == 3) cv::cvtColor(panorama, grey, cv::COLOR_BGR2GRAY);
+  cv::Mat grey = to_grey(panorama);
   if (grey.size() != size) {
     cv::Mat resized;
     cv::resize(grey, resized, size, 0.0, 0.0, cv::INTER_AREA);

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <opencv2/core/hal/intrin.hpp>
 #include <opencv2/imgproc.hpp>
+#include <stdexcept>
 
 namespace panvo::vision {
 namespace {
@@ -12,21 +14,14 @@ namespace {
 constexpr float kSmallestIntensityScale = 4.0F;  // grey levels: an even view must not be blown up to its noise
 constexpr float kSmallestGradientScale = 0.5F;   // grey levels per px
 
-constexpr int kSectors = 24;  // of 15 degrees
+constexpr float kSobelSum = 8.0F;  // of the integral images, which hold the filter's whole numbers
+constexpr int kSectors = 24;       // of 15 degrees
 constexpr double kSmoothing_px = 1.0;
 constexpr double kLinearBelow = 16.0;  // grey levels: the scale is linear where noise is more than shade
 
 float median(std::array<float, kSectors> values) {
   std::sort(values.begin(), values.end());
   return 0.5F * (values[kSectors / 2 - 1] + values[kSectors / 2]);
-}
-
-/// An element's rectangle, displaced.
-BandRectangle displace(BandRectangle r, int du, int dv, int columns, int rows) {
-  r.x += du;
-  if (r.x >= columns) r.x -= columns;
-  r.y = std::clamp(r.y + dv, 0, rows - r.height);
-  return r;
 }
 
 int wrapped(int du, int columns) {
@@ -70,27 +65,59 @@ BandNormalisation BandNormalisation::of(const cv::Mat& band, const CyclicIntegra
   return normalisation;
 }
 
+/// Where a displaced rectangle begins in the integral images, and the way to its other corners.
+struct ResponseReader::Cell {
+  std::ptrdiff_t first, right, down;
+};
+
+ResponseReader::ResponseReader(const CyclicIntegralImages& images, const MeasurementMatrix& matrix,
+                               const BandNormalisation& normalisation)
+    : images_(images),
+      matrix_(matrix),
+      normalisation_(normalisation),
+      per_intensity_(1.0F / normalisation.intensity_scale),
+      per_gradient_(1.0F / (kSobelSum * normalisation.gradient_scale)) {
+  if (matrix.band() != cv::Size(images.columns(), images.rows()) || matrix.widest() > images.widest()) {
+    throw std::invalid_argument("measurement matrix and integral images are of different bands");
+  }
+}
+
+inline ResponseReader::Cell ResponseReader::displace(const MeasurementMatrix::Element& element, int shift,
+                                                     int dv) const {
+  const BandRectangle& r = element.rectangle;
+  int x = r.x + shift;
+  if (x >= images_.columns()) x -= images_.columns();
+  const int y = std::clamp(r.y + dv, 0, images_.rows() - r.height);
+  return {images_.at(x, y), r.width, r.height * images_.stride_};
+}
+
+inline float ResponseReader::intensity_sum(const Cell& cell) const {
+  const std::int32_t* sums = images_.intensity_.data() + cell.first;
+  return static_cast<float>(sums[cell.right + cell.down] - sums[cell.down] - sums[cell.right] + sums[0]);
+}
+
 float ResponseReader::read_intensity(int row, int du, int dv) const {
   const int shift = wrapped(du, images_.columns());
   float response = 0.0F;
   for (const MeasurementMatrix::Element& element : matrix_.row(row)) {
-    const BandRectangle r = displace(element.rectangle, shift, dv, images_.columns(), images_.rows());
-    response += element.sign * (images_.mean_intensity(r) - normalisation_.offset);
+    const float mean = intensity_sum(displace(element, shift, dv)) * element.share;
+    response += element.sign * (mean - normalisation_.offset);
   }
-  return response / normalisation_.intensity_scale;
+  return response * per_intensity_;
 }
 
 float ResponseReader::read_gradient(int row, int du, int dv) const {
   const int shift = wrapped(du, images_.columns());
-  float response = 0.0F;
+  cv::v_float32x4 response = cv::v_setzero_f32();
   for (const MeasurementMatrix::Element& element : matrix_.row(row)) {
-    const BandRectangle r = displace(element.rectangle, shift, dv, images_.columns(), images_.rows());
-    const GradientStatistics means = images_.mean_gradients(r);
-    const std::array<float, 4>& chosen = element.statistics;
-    response +=
-        element.sign * (chosen[0] * means[0] + chosen[1] * means[1] + chosen[2] * means[2] + chosen[3] * means[3]);
+    const Cell cell = displace(element, shift, dv);
+    const std::int32_t* sums = images_.gradients_.data() + 4 * cell.first;
+    const cv::v_int32x4 sum = cv::v_load(sums + 4 * (cell.right + cell.down)) - cv::v_load(sums + 4 * cell.down) -
+                              cv::v_load(sums + 4 * cell.right) + cv::v_load(sums);
+    response = response + cv::v_cvt_f32(sum) * cv::v_load(element.statistics.data()) *
+                              cv::v_setall_f32(element.sign * element.share);
   }
-  return response / normalisation_.gradient_scale;
+  return cv::v_reduce_sum(response) * per_gradient_;
 }
 
 CompressiveFeature ResponseReader::read(int row, int du, int dv) const {

@@ -78,7 +78,7 @@ MeasurementMatrix::MeasurementMatrix(cv::Size band, const RectangleBounds& bound
       element.statistics = draw_statistics(random);
       elements_.push_back(element);
     }
-    begins_.push_back(elements_.size());
+    finish_row();
   }
 }
 
@@ -93,8 +93,22 @@ MeasurementMatrix::MeasurementMatrix(cv::Size band, const std::vector<std::vecto
       elements_.push_back(element);
     }
     if (row.empty()) throw std::invalid_argument("measurement matrix: a row without rectangles");
-    begins_.push_back(elements_.size());
+    finish_row();
   }
+}
+
+void MeasurementMatrix::finish_row() {
+  for (std::size_t i = begins_.back(); i < elements_.size(); ++i) {
+    const BandRectangle& r = elements_[i].rectangle;
+    elements_[i].share = 1.0F / static_cast<float>(r.width * r.height);
+  }
+  begins_.push_back(elements_.size());
+}
+
+int MeasurementMatrix::widest() const {
+  int widest = 0;
+  for (const Element& element : elements_) widest = std::max(widest, element.rectangle.width);
+  return widest;
 }
 
 std::span<const MeasurementMatrix::Element> MeasurementMatrix::row(int index) const {

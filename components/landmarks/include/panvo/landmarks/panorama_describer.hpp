@@ -26,7 +26,7 @@ struct DescriptionParameters {
   bool balanced = true;
   double spread = 0.05;
   double widest = 0.2;
-  int headings = 72;
+  int headings = 36;
   int histogram_bins = 64;
   double alpha_deg = 10.0;
   double beta_deg = 20.0;

@@ -32,21 +32,26 @@ struct CompressiveFeature {
 };
 
 /// Reads features of a matrix from a band, its rectangles displaced by (du, dv) px: du any number of columns, dv so that they
-/// stay within the band's rows (clamped a rectangle). Refers to its arguments.
+/// stay within the band's rows (clamped a rectangle). Refers to its arguments. Throws std::invalid_argument when matrix and
+/// integral images are not of the same band or the matrix has wider rectangles than these were made for.
 class ResponseReader {
  public:
   ResponseReader(const CyclicIntegralImages& images, const MeasurementMatrix& matrix,
-                 const BandNormalisation& normalisation)
-      : images_(images), matrix_(matrix), normalisation_(normalisation) {}
+                 const BandNormalisation& normalisation);
 
   CompressiveFeature read(int row, int du = 0, int dv = 0) const;
   float read_intensity(int row, int du = 0, int dv = 0) const;
   float read_gradient(int row, int du = 0, int dv = 0) const;
 
  private:
+  struct Cell;
+  Cell displace(const MeasurementMatrix::Element& element, int shift, int dv) const;
+  float intensity_sum(const Cell& cell) const;
+
   const CyclicIntegralImages& images_;
   const MeasurementMatrix& matrix_;
-  const BandNormalisation& normalisation_;
+  BandNormalisation normalisation_;
+  float per_intensity_, per_gradient_;  // 1 / scale
 };
 
 }  // namespace panvo::vision

@@ -40,6 +40,7 @@ class MeasurementMatrix {
     BandRectangle rectangle;
     float sign = 1.0F;                            ///< r_ij / sqrt(s): 1 or -1
     std::array<float, 4> statistics{1, 0, 0, 0};  ///< r-bar: 1 where dx, |dx|, dy, |dy| enters; at least one does
+    float share = 0.0F;                           ///< of one pixel in the rectangle's mean; filled in by the matrix
   };
 
   MeasurementMatrix() = default;
@@ -55,8 +56,11 @@ class MeasurementMatrix {
   cv::Size band() const { return band_; }
   int rows() const { return static_cast<int>(begins_.size()) - 1; }
   std::span<const Element> row(int index) const;
+  int widest() const;  ///< rectangle, px
 
  private:
+  void finish_row();
+
   cv::Size band_;
   std::vector<Element> elements_;
   std::vector<std::size_t> begins_{0};  // of each row's elements, and the end
