@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "made_up_landmark.hpp"
+#include "panvo/landmarks/landmark_messages.hpp"
+#include "panvo/landmarks/landmark_store.hpp"
+#include "panvo/runtime/testing.hpp"
+
+namespace panvo::landmarks {
+namespace {
+
+using namespace test;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+class LandmarkStoreComponent : public testing::Test {
+ protected:
+  /// A session: the component with what comes on the topic.
+  struct Session {
+    runtime::ComponentHarness harness;
+    const std::vector<std::shared_ptr<const panvo_msgs::msg::PanoramicLandmark>>& published =
+        harness.collect(topics::kLandmarks);
+
+    explicit Session(const std::string& file, bool read_only = false) {
+      harness.load("panvo_landmarks", "LandmarkStoreComponent",
+                   {{"file", file}, {"read_only", read_only ? "true" : "false"}});
+    }
+    void publish(const PanoramicLandmark& landmark, const DescriptionSettings& settings = made_up_settings()) {
+      harness.publish(topics::kLandmarks, to_message(landmark, settings, "map"));
+    }
+  };
+
+  TemporaryFolder folder_;
+  const std::string file_ = folder_ / "store";
+};
+
+TEST_F(LandmarkStoreComponent, KeepsWhatIsPublished) {
+  {
+    Session session(file_);
+    EXPECT_FALSE(std::filesystem::exists(file_)) << "nothing to keep yet";
+    session.publish(made_up_landmark(1));
+    session.publish(made_up_landmark(2));
+  }
+  const LandmarkStore store(file_);
+  ASSERT_EQ(store.size(), 2U);
+  EXPECT_EQ(store.settings(), made_up_settings());
+  EXPECT_EQ(difference(store.landmarks()[1], made_up_landmark(2), false), "");
+  EXPECT_EQ(store.keypoints(2), made_up_landmark(2).keypoints);
+  EXPECT_EQ(store.thumbnail(2), made_up_landmark(2).thumbnail);
+}
+
+TEST_F(LandmarkStoreComponent, BeginsWithTheLandmarksOfEarlierSessionsAndGoesOn) {
+  { Session(file_).publish(made_up_landmark(1)); }
+  {
+    Session session(file_);
+    session.publish(made_up_landmark(2));
+    ASSERT_EQ(session.published.size(), 2U);
+    auto expected = made_up_landmark(1);
+    expected.thumbnail.clear();
+    const auto first = to_landmark(*session.published[0], made_up_settings());
+    ASSERT_TRUE(first) << first.reason();
+    EXPECT_EQ(difference(*first, expected), "");
+    EXPECT_THAT(session.harness.log(), testing::Contains(HasSubstr("1 landmarks of earlier sessions")));
+  }
+  const LandmarkStore store(file_);
+  EXPECT_EQ(store.size(), 2U);
+  EXPECT_EQ(store.thumbnail(1), made_up_landmark(1).thumbnail) << "what it published itself is not stored again";
+}
+
+TEST_F(LandmarkStoreComponent, MovesALandmarkThatComesAgain) {
+  Session session(file_);
+  auto landmark = made_up_landmark(1);
+  session.publish(landmark);
+  landmark.map_from_base.translation().x() += 5.0;
+  session.publish(landmark);
+  const LandmarkStore store(file_);
+  ASSERT_EQ(store.size(), 1U);
+  EXPECT_EQ(difference(store.landmarks()[0], landmark, false), "");
+}
+
+TEST_F(LandmarkStoreComponent, KeepsNothingOfOtherSettingsAndSaysWhatDiffers) {
+  Session session(file_);
+  session.publish(made_up_landmark(1));
+  session.publish(made_up_landmark(2), {{"band_rows", "150"}, {"seed", "2"}});
+  EXPECT_TRUE(session.harness.log_contains("error landmarks: " + file_ +
+                                           ": its landmarks are described in another way: seed is 1 there, 2 here"));
+  EXPECT_EQ(LandmarkStore(file_).size(), 1U);
+}
+
+TEST_F(LandmarkStoreComponent, LeavesAStoreAloneThatIsToBeRead) {
+  { Session(file_).publish(made_up_landmark(1)); }
+  const auto before = read_text(file_);
+  Session session(file_, true);
+  session.publish(made_up_landmark(2));
+  EXPECT_EQ(session.published.size(), 2U);
+  EXPECT_EQ(read_text(file_), before);
+}
+
+TEST_F(LandmarkStoreComponent, LeavesOutAMalformedLandmarkAndSaysWhy) {
+  Session session(file_);
+  auto message = to_message(made_up_landmark(1), made_up_settings(), "map");
+  message.histogram().clear();
+  session.harness.publish(topics::kLandmarks, message);
+  EXPECT_TRUE(session.harness.log_contains("a landmark has a histogram whose shares do not add up to 1"));
+  session.publish(made_up_landmark(2));
+  EXPECT_EQ(LandmarkStore(file_).size(), 1U);
+}
+
+TEST_F(LandmarkStoreComponent, IsRefusedWithAFileThatIsNone) {
+  write_text(file_, "a letter to somebody, longer than the header of a database would be, whatever that may be");
+  EXPECT_THAT(error_of<std::runtime_error>([&] { const Session session(file_); }),
+              HasSubstr("store: is no landmark store"));
+  EXPECT_THAT(error_of<std::runtime_error>([&] { const Session session(""); }), HasSubstr("file: name the file"));
+}
+
+}  // namespace
+}  // namespace panvo::landmarks
