@@ -7,34 +7,12 @@
 #include <opencv2/imgproc.hpp>
 #include <random>
 
+#include "synthetic_place.hpp"
+
 namespace panvo::position_corrector {
 namespace {
 
-constexpr int kColumns = 1080;
-constexpr int kRows = 540;
 constexpr std::int64_t kPeriod_ns = 200'000'000;
-
-/// A panorama of nothing in particular, unlike that of any other seed, without a seam.
-cv::Mat place(unsigned seed) {
-  std::mt19937_64 random(seed);
-  cv::Mat panorama(kRows, kColumns, CV_8UC1, cv::Scalar(110));
-  for (int i = 0; i < 900; ++i) {
-    const int width = 4 + static_cast<int>(random() % 50);
-    const int height = 4 + static_cast<int>(random() % 40);
-    const cv::Rect box(static_cast<int>(random() % kColumns), 120 + static_cast<int>(random() % 220), width, height);
-    const cv::Scalar grey(static_cast<double>(20 + random() % 210));
-    cv::rectangle(panorama, box, grey, cv::FILLED);
-    cv::rectangle(panorama, box - cv::Point(kColumns, 0), grey, cv::FILLED);
-  }
-  return panorama;
-}
-
-/// As a vehicle turned to the left sees it: everything farther to the right.
-cv::Mat turned(const cv::Mat& panorama, int columns) {
-  cv::Mat result(panorama.size(), panorama.type());
-  for (int u = 0; u < kColumns; ++u) panorama.col(u).copyTo(result.col((u + columns) % kColumns));
-  return result;
-}
 
 class LandmarkMatching : public testing::Test {
  protected:
@@ -43,16 +21,7 @@ class LandmarkMatching : public testing::Test {
   }
 
   std::uint32_t add(const cv::Mat& panorama, const Eigen::Vector3d& position) {
-    landmarks::PanoramicLandmark landmark;
-    landmark.map_from_base.translation() = position;
-    landmark.description = describer.describe(panorama);
-    landmark.keypoints = detect_keypoints(panorama, keypoints);
-    for (auto& keypoint : landmark.keypoints) {  // all 20 m away
-      keypoint.has_point = true;
-      keypoint.point_in_panorama = 20.0F * keypoint.bearing;
-      keypoint.inverse_range_sigma = 0.001F;
-    }
-    const auto id = library.add(landmark);
+    const auto id = library.add(landmark_of(panorama, describer, position));
     matcher.added(id);
     return id;
   }
