@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <numeric>
 #include <opencv2/core/hal/intrin.hpp>
 #include <opencv2/features2d.hpp>
 #include <opencv2/imgproc.hpp>
@@ -62,25 +63,26 @@ bool is_stronger(const cv::KeyPoint& a, const cv::KeyPoint& b) {
   return a.angle < b.angle;
 }
 
-/// The strongest, each sector of the full turn first its share; without what lies beyond the seam, which is found at the
-/// other end as well.
-std::vector<cv::KeyPoint> choose(std::vector<cv::KeyPoint> found, const Section& section, int columns, int most) {
-  std::erase_if(found, [&](const cv::KeyPoint& k) {
-    const double u = section.to_panorama(k.pt).x();
-    return u < -0.5 || u >= columns - 0.5;
-  });
-  std::sort(found.begin(), found.end(), is_stronger);
+/// Indices of the strongest, each sector of the full turn first its share; without what lies beyond the seam, which is found
+/// at the other end as well.
+std::vector<int> choose(const std::vector<cv::KeyPoint>& found, const Section& section, int columns, int most) {
+  const auto column = [&](int i) { return section.to_panorama(found[static_cast<std::size_t>(i)].pt).x(); };
+  const auto stronger = [&](int a, int b) {
+    return is_stronger(found[static_cast<std::size_t>(a)], found[static_cast<std::size_t>(b)]);
+  };
+  std::vector<int> ranked(found.size());
+  std::iota(ranked.begin(), ranked.end(), 0);
+  std::erase_if(ranked, [&](int i) { return column(i) < -0.5 || column(i) >= columns - 0.5; });
+  std::sort(ranked.begin(), ranked.end(), stronger);
   const int share = (most + kSectors - 1) / kSectors;
-  std::vector<int> taken(kSectors, 0);
-  std::vector<cv::KeyPoint> chosen, others;
-  for (const cv::KeyPoint& k : found) {
-    const int sector = static_cast<int>((section.to_panorama(k.pt).x() + 0.5) * kSectors / columns);
-    int& of_sector = taken[static_cast<std::size_t>(std::clamp(sector, 0, kSectors - 1))];
-    (of_sector++ < share ? chosen : others).push_back(k);
+  std::vector<int> taken(kSectors, 0), chosen, others;
+  for (const int i : ranked) {
+    const int sector = std::clamp(static_cast<int>((column(i) + 0.5) * kSectors / columns), 0, kSectors - 1);
+    (taken[static_cast<std::size_t>(sector)]++ < share ? chosen : others).push_back(i);
   }
   chosen.insert(chosen.end(), others.begin(), others.end());
   if (chosen.size() > static_cast<std::size_t>(most)) chosen.resize(static_cast<std::size_t>(most));
-  std::sort(chosen.begin(), chosen.end(), is_stronger);
+  std::sort(chosen.begin(), chosen.end(), stronger);
   return chosen;
 }
 
@@ -122,20 +124,19 @@ std::vector<Keypoint> detect_keypoints(const cv::Mat& panorama, const KeypointPa
   const cv::Mat grey = to_described_size(panorama);
   const vision::Equirectangular sphere{grey.cols, grey.rows};
   const Section section = cut_section(grey, parameters);
-  const auto sift = cv::SIFT::create(0, 3, kSmallestContrast);
+  const auto sift = cv::SIFT::create(kSurplus * parameters.most, 3, kSmallestContrast);
   std::vector<cv::KeyPoint> found;
-  sift->detect(section.image, found);
-  cv::KeyPointsFilter::retainBest(found, std::max(kSurplus * parameters.most, 1));
-  std::vector<cv::KeyPoint> chosen = choose(std::move(found), section, grey.cols, parameters.most);
   cv::Mat descriptors;
-  sift->compute(section.image, chosen, descriptors);
+  sift->detectAndCompute(section.image, cv::noArray(), found, descriptors);
 
-  std::vector<Keypoint> keypoints(chosen.size());
-  for (std::size_t i = 0; i < chosen.size(); ++i) {
-    keypoints[i].bearing = sphere.unproject(section.to_panorama(chosen[i].pt)).cast<float>();
-    keypoints[i].size_px = static_cast<float>(chosen[i].size * section.scale);
-    const float* row = descriptors.ptr<float>(static_cast<int>(i));
-    std::transform(row, row + 128, keypoints[i].descriptor.begin(),
+  std::vector<Keypoint> keypoints;
+  for (const int i : choose(found, section, grey.cols, parameters.most)) {
+    const cv::KeyPoint& chosen = found[static_cast<std::size_t>(i)];
+    Keypoint& keypoint = keypoints.emplace_back();
+    keypoint.bearing = sphere.unproject(section.to_panorama(chosen.pt)).cast<float>();
+    keypoint.size_px = static_cast<float>(chosen.size * section.scale);
+    const float* row = descriptors.ptr<float>(i);
+    std::transform(row, row + 128, keypoint.descriptor.begin(),
                    [](float value) { return cv::saturate_cast<uchar>(value); });
   }
   return keypoints;

@@ -25,6 +25,7 @@ float median(std::array<float, kSectors> values) {
 }
 
 int wrapped(int du, int columns) {
+  if (du >= 0 && du < columns) return du;
   const int remainder = du % columns;
   return remainder < 0 ? remainder + columns : remainder;
 }
@@ -96,6 +97,12 @@ inline float ResponseReader::intensity_sum(const Cell& cell) const {
   return static_cast<float>(sums[cell.right + cell.down] - sums[cell.down] - sums[cell.right] + sums[0]);
 }
 
+inline cv::v_float32x4 ResponseReader::gradient_sums(const Cell& cell) const {
+  const std::int32_t* sums = images_.gradients_.data() + 4 * cell.first;
+  return cv::v_cvt_f32(cv::v_load(sums + 4 * (cell.right + cell.down)) - cv::v_load(sums + 4 * cell.down) -
+                       cv::v_load(sums + 4 * cell.right) + cv::v_load(sums));
+}
+
 float ResponseReader::read_intensity(int row, int du, int dv) const {
   const int shift = wrapped(du, images_.columns());
   float response = 0.0F;
@@ -110,18 +117,24 @@ float ResponseReader::read_gradient(int row, int du, int dv) const {
   const int shift = wrapped(du, images_.columns());
   cv::v_float32x4 response = cv::v_setzero_f32();
   for (const MeasurementMatrix::Element& element : matrix_.row(row)) {
-    const Cell cell = displace(element, shift, dv);
-    const std::int32_t* sums = images_.gradients_.data() + 4 * cell.first;
-    const cv::v_int32x4 sum = cv::v_load(sums + 4 * (cell.right + cell.down)) - cv::v_load(sums + 4 * cell.down) -
-                              cv::v_load(sums + 4 * cell.right) + cv::v_load(sums);
-    response = response + cv::v_cvt_f32(sum) * cv::v_load(element.statistics.data()) *
-                              cv::v_setall_f32(element.sign * element.share);
+    const cv::v_float32x4 sums = gradient_sums(displace(element, shift, dv));
+    response =
+        response + sums * (cv::v_load(element.statistics.data()) * cv::v_setall_f32(element.sign * element.share));
   }
   return cv::v_reduce_sum(response) * per_gradient_;
 }
 
 CompressiveFeature ResponseReader::read(int row, int du, int dv) const {
-  return {read_intensity(row, du, dv), read_gradient(row, du, dv)};
+  const int shift = wrapped(du, images_.columns());
+  float intensity = 0.0F;
+  cv::v_float32x4 gradient = cv::v_setzero_f32();
+  for (const MeasurementMatrix::Element& element : matrix_.row(row)) {
+    const Cell cell = displace(element, shift, dv);
+    intensity += element.sign * (intensity_sum(cell) * element.share - normalisation_.offset);
+    gradient = gradient + gradient_sums(cell) *
+                              (cv::v_load(element.statistics.data()) * cv::v_setall_f32(element.sign * element.share));
+  }
+  return {intensity * per_intensity_, cv::v_reduce_sum(gradient) * per_gradient_};
 }
 
 }  // namespace panvo::vision

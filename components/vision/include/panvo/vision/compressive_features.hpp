@@ -2,6 +2,7 @@
 #pragma once
 
 #include <opencv2/core.hpp>
+#include <opencv2/core/hal/intrin.hpp>
 
 #include "panvo/vision/cyclic_integral_images.hpp"
 #include "panvo/vision/measurement_matrix.hpp"
@@ -47,6 +48,7 @@ class ResponseReader {
   struct Cell;
   Cell displace(const MeasurementMatrix::Element& element, int shift, int dv) const;
   float intensity_sum(const Cell& cell) const;
+  cv::v_float32x4 gradient_sums(const Cell& cell) const;
 
   const CyclicIntegralImages& images_;
   const MeasurementMatrix& matrix_;
