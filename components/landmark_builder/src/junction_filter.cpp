@@ -58,6 +58,11 @@ std::vector<PassedJunction> JunctionFilter::add(std::int64_t stamp_ns, const Eig
   return passed;
 }
 
+bool JunctionFilter::is_pending() const {
+  return std::any_of(candidates_.begin(), candidates_.end(),
+                     [](const auto& candidate) { return !candidate.is_passed; });
+}
+
 std::optional<JunctionFilter::Place> JunctionFilter::nearest(const Eigen::Vector2d& centre, double since_m) const {
   std::optional<Place> best;
   for (const Place& place : path_) {

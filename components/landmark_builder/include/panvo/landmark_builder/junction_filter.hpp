@@ -57,6 +57,9 @@ class JunctionFilter {
   std::vector<PassedJunction> add(std::int64_t stamp_ns, const Eigen::Vector2d& position_in_odom,
                                   const std::optional<SeenJunction>& seen);
 
+  /// Whether a junction is being seen that is not told of yet.
+  bool is_pending() const;
+
  private:
   struct Place {
     std::int64_t stamp_ns;

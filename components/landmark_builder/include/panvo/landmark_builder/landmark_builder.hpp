@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <deque>
+#include <opencv2/core.hpp>
+#include <optional>
+#include <vector>
+
+#include "panvo/landmark_builder/junction_filter.hpp"
+#include "panvo/landmark_builder/keypoint_triangulation.hpp"
+#include "panvo/landmark_builder/landmark_rule.hpp"
+#include "panvo/landmark_builder/road_junction_detector.hpp"
+#include "panvo/landmarks/keypoints.hpp"
+#include "panvo/landmarks/panorama_describer.hpp"
+#include "panvo/landmarks/panoramic_landmark.hpp"
+#include "panvo/vision/pose.hpp"
+#include "panvo/vision/stage_observer.hpp"
+
+namespace panvo::landmark_builder {
+
+struct BuilderParameters {
+  JunctionDetectorParameters junction;
+  JunctionFilterParameters filter;
+  LandmarkRuleParameters rule;
+  TriangulationParameters triangulation;
+  landmarks::DescriptionParameters description;
+  landmarks::KeypointParameters keypoints;
+  int neighbours = 4;
+  double farthest_neighbour_m = 3.5;
+  int thumbnail_quality = 60;
+
+  template <class Field>
+  static void describe(Field&& field) {
+    using P = BuilderParameters;
+    field.group(&P::junction, "junction");
+    field.group(&P::filter, "filter");
+    field.group(&P::rule, "rule");
+    field.group(&P::triangulation, "triangulation");
+    field.group(&P::description, "description");
+    field.group(&P::keypoints, "keypoints");
+    field(&P::neighbours, "neighbours", "1",
+          "panoramas before and after a landmark's that give its keypoints their points", 0, 20);
+    field(&P::farthest_neighbour_m, "farthest_neighbour_m", "m",
+          "how far from the landmark the farthest of them is taken", 0.5, 50.0);
+    field(&P::thumbnail_quality, "thumbnail_quality", "1", "of a landmark's small picture, JPEG; 0: none", 0, 100);
+  }
+};
+
+/// A panorama and where the vehicle was then.
+struct PosedPanorama {
+  std::int64_t stamp_ns = 0;
+  cv::Mat image;  ///< 8UC1 or 8UC3 (BGR), 2:1
+  Eigen::Isometry3d odom_from_base = Eigen::Isometry3d::Identity();
+  vision::Matrix6d covariance = vision::Matrix6d::Zero();  ///< of odom_from_base, as vision::pose_error
+};
+
+/// Builds panoramic landmarks as the vehicle goes [Lu2015 4]: detects junctions, chooses the panorama nearest to each one's centre
+/// once it is passed, describes it, and gives its keypoints metric points from the panoramas around it.
+class LandmarkBuilder {
+ public:
+  /// For panoramas of one camera and size. `seed` draws the measurement matrices. Throws as RoadJunctionDetector and
+  /// PanoramaDescriber do.
+  LandmarkBuilder(const BuilderParameters& parameters, std::uint64_t seed, const Eigen::Isometry3d& base_from_panorama,
+                  cv::Size panorama_size, vision::StageObserver* observer = nullptr);
+
+  /// Panoramas in order of time; returns the landmarks that they make, with ids, each of an earlier panorama. A panorama that
+  /// shows nothing (landmarks::find_fault) must not be given.
+  std::vector<landmarks::PanoramicLandmark> step(const PosedPanorama& panorama);
+
+  /// A landmark of another source (an earlier journey), or one that was moved.
+  void set_landmark(std::uint32_t id, const Eigen::Vector2d& position) { rule_.set_landmark(id, position); }
+  /// The place of the last panorama was recognised.
+  void recognised() { rule_.recognised(travelled_m_); }
+
+  /// What the last panorama showed of the road.
+  const JunctionView& view() const noexcept { return view_; }
+  double travelled_m() const noexcept { return travelled_m_; }
+
+ private:
+  struct Kept {
+    std::int64_t stamp_ns;
+    cv::Mat grey, thumbnail;
+    Eigen::Isometry3d odom_from_base;
+    vision::Matrix6d covariance;
+    double travelled_m;
+  };
+
+  void keep(const PosedPanorama& panorama);
+  const Kept& nearest_to_stamp(std::int64_t stamp_ns) const;
+  const Kept& nearest_to_travelled(double travelled_m) const;
+  std::vector<const Kept*> neighbours_of(const Kept& chosen) const;
+  std::optional<landmarks::PanoramicLandmark> build(const Kept& chosen, bool is_junction);
+
+  BuilderParameters parameters_;
+  vision::StageObserver* observer_;
+  Eigen::Isometry3d base_from_panorama_;
+  RoadJunctionDetector detector_;
+  JunctionFilter filter_;
+  LandmarkRule rule_;
+  landmarks::PanoramaDescriber describer_;
+  JunctionView view_;
+  std::deque<Kept> kept_;
+  std::optional<Eigen::Vector3d> last_position_;
+  double travelled_m_ = 0.0;
+};
+
+}  // namespace panvo::landmark_builder

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "panvo/landmark_builder/landmark_builder.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "panvo/landmarks/panorama_check.hpp"
+
+namespace panvo::landmark_builder {
+namespace {
+
+constexpr double kKeepStep_m = 0.6;   // between two panoramas that are kept
+constexpr double kKeepPath_m = 35.0;  // a junction is told of when it is passed
+constexpr double kNearNeighbour_m = 0.5;
+const cv::Size kThumbnail(540, 270);
+
+cv::Mat to_grey(const cv::Mat& image) {
+  if (image.channels() == 1) return image.clone();
+  cv::Mat grey;
+  cv::cvtColor(image, grey, cv::COLOR_BGR2GRAY);
+  return grey;
+}
+
+}  // namespace
+
+LandmarkBuilder::LandmarkBuilder(const BuilderParameters& parameters, std::uint64_t seed,
+                                 const Eigen::Isometry3d& base_from_panorama, cv::Size panorama_size,
+                                 vision::StageObserver* observer)
+    : parameters_(parameters),
+      observer_(observer),
+      base_from_panorama_(base_from_panorama),
+      detector_(parameters.junction, base_from_panorama, panorama_size, observer),
+      filter_(parameters.filter),
+      rule_(parameters.rule),
+      describer_(parameters.description, seed) {}
+
+std::vector<landmarks::PanoramicLandmark> LandmarkBuilder::step(const PosedPanorama& panorama) {
+  const Eigen::Vector3d position = panorama.odom_from_base.translation();
+  if (last_position_) travelled_m_ += (position - *last_position_).norm();
+  last_position_ = position;
+  keep(panorama);
+  view_ = detector_.detect(panorama.image, panorama.odom_from_base);
+  std::vector<landmarks::PanoramicLandmark> built;
+  const auto take = [&](const Kept& chosen, bool is_junction) {
+    if (!rule_.takes(chosen.odom_from_base.translation().head<2>(), chosen.travelled_m)) return;
+    if (auto landmark = build(chosen, is_junction)) built.push_back(std::move(*landmark));
+  };
+  for (const PassedJunction& junction : filter_.add(panorama.stamp_ns, position.head<2>(), view_.seen)) {
+    take(nearest_to_stamp(junction.nearest_stamp_ns), true);
+  }
+  // by the distance rule, so far back that there are panoramas on both sides of it; not on the way through a junction
+  const double back_m = travelled_m_ - parameters_.farthest_neighbour_m;
+  if (!filter_.is_pending() && rule_.is_due(back_m)) take(nearest_to_travelled(back_m), false);
+  return built;
+}
+
+void LandmarkBuilder::keep(const PosedPanorama& panorama) {
+  if (!kept_.empty() && travelled_m_ - kept_.back().travelled_m < kKeepStep_m) return;
+  Kept kept{panorama.stamp_ns, to_grey(panorama.image), {}, panorama.odom_from_base, panorama.covariance, travelled_m_};
+  if (parameters_.thumbnail_quality > 0) cv::resize(panorama.image, kept.thumbnail, kThumbnail, 0, 0, cv::INTER_AREA);
+  kept_.push_back(std::move(kept));
+  while (travelled_m_ - kept_.front().travelled_m > kKeepPath_m) kept_.pop_front();
+}
+
+const LandmarkBuilder::Kept& LandmarkBuilder::nearest_to_stamp(std::int64_t stamp_ns) const {
+  return *std::min_element(kept_.begin(), kept_.end(), [&](const Kept& a, const Kept& b) {
+    return std::abs(a.stamp_ns - stamp_ns) < std::abs(b.stamp_ns - stamp_ns);
+  });
+}
+
+const LandmarkBuilder::Kept& LandmarkBuilder::nearest_to_travelled(double travelled_m) const {
+  return *std::min_element(kept_.begin(), kept_.end(), [&](const Kept& a, const Kept& b) {
+    return std::abs(a.travelled_m - travelled_m) < std::abs(b.travelled_m - travelled_m);
+  });
+}
+
+std::vector<const LandmarkBuilder::Kept*> LandmarkBuilder::neighbours_of(const Kept& chosen) const {
+  std::vector<const Kept*> neighbours;
+  for (int i = 0; i < parameters_.neighbours; ++i) {
+    // before and after in turn, the far ones first
+    const double pairs = std::ceil(0.5 * parameters_.neighbours);
+    const double distance_m = parameters_.farthest_neighbour_m * (pairs - i / 2) / pairs;
+    const Kept& neighbour = nearest_to_travelled(chosen.travelled_m + (i % 2 == 0 ? -distance_m : distance_m));
+    const double apart_m = std::abs(neighbour.travelled_m - chosen.travelled_m);
+    if (apart_m < kNearNeighbour_m || apart_m > parameters_.farthest_neighbour_m + 1.0) continue;
+    if (std::find(neighbours.begin(), neighbours.end(), &neighbour) == neighbours.end())
+      neighbours.push_back(&neighbour);
+  }
+  return neighbours;
+}
+
+std::optional<landmarks::PanoramicLandmark> LandmarkBuilder::build(const Kept& chosen, bool is_junction) {
+  if (landmarks::find_fault(chosen.grey)) return std::nullopt;
+  const vision::Stage all(observer_, "build");
+  landmarks::PanoramicLandmark landmark;
+  landmark.id = rule_.next_id();
+  landmark.stamp_ns = chosen.stamp_ns;
+  landmark.map_from_base = chosen.odom_from_base;
+  landmark.covariance = chosen.covariance;
+  landmark.base_from_panorama = base_from_panorama_;
+  landmark.is_junction = is_junction;
+  {
+    const vision::Stage stage(observer_, "describe");
+    landmark.description = describer_.describe(chosen.grey);
+  }
+  {
+    const vision::Stage stage(observer_, "keypoints");
+    landmark.keypoints = landmarks::detect_keypoints(chosen.grey, parameters_.keypoints);
+  }
+  {
+    const vision::Stage stage(observer_, "triangulate");
+    const Eigen::Isometry3d landmark_from_odom = (chosen.odom_from_base * base_from_panorama_).inverse();
+    std::vector<NeighbourPanorama> neighbours;
+    for (const Kept* kept : neighbours_of(chosen)) {
+      neighbours.push_back({landmark_from_odom * kept->odom_from_base * base_from_panorama_,
+                            landmarks::detect_keypoints(kept->grey, parameters_.keypoints)});
+    }
+    triangulate_keypoints(landmark.keypoints, neighbours, parameters_.triangulation);
+  }
+  if (!chosen.thumbnail.empty()) {
+    cv::imencode(".jpg", chosen.thumbnail, landmark.thumbnail,
+                 {cv::IMWRITE_JPEG_QUALITY, parameters_.thumbnail_quality});
+  }
+  rule_.set_landmark(landmark.id, chosen.odom_from_base.translation().head<2>());
+  rule_.taken(chosen.travelled_m);
+  return landmark;
+}
+
+}  // namespace panvo::landmark_builder

@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <deque>
+#include <opencv2/imgproc.hpp>
+#include <optional>
+#include <string>
+
+#include "panvo/conversions/image.hpp"
+#include "panvo/conversions/pose.hpp"
+#include "panvo/conversions/stage_timer.hpp"
+#include "panvo/conversions/static_transforms.hpp"
+#include "panvo/conversions/time.hpp"
+#include "panvo/landmark_builder/landmark_builder.hpp"
+#include "panvo/landmarks/description_settings.hpp"
+#include "panvo/landmarks/landmark_messages.hpp"
+#include "panvo/landmarks/panorama_check.hpp"
+#include "panvo/runtime/component.hpp"
+
+namespace panvo::landmark_builder {
+
+/// The algorithm's parameters and the names of the frames.
+struct ComponentParameters : BuilderParameters {
+  int description_seed = 1;
+  std::string map_frame = "map";
+  std::string base_frame = "base_link";
+
+  template <class Field>
+  static void describe(Field&& field) {
+    using P = ComponentParameters;
+    field.group(static_cast<JunctionDetectorParameters P::*>(&P::junction), "junction");
+    field.group(static_cast<JunctionFilterParameters P::*>(&P::filter), "filter");
+    field.group(static_cast<LandmarkRuleParameters P::*>(&P::rule), "rule");
+    field.group(static_cast<TriangulationParameters P::*>(&P::triangulation), "triangulation");
+    field.group(static_cast<landmarks::DescriptionParameters P::*>(&P::description), "description");
+    field.group(static_cast<landmarks::KeypointParameters P::*>(&P::keypoints), "keypoints");
+    field(static_cast<int P::*>(&P::neighbours), "neighbours", "1",
+          "panoramas before and after a landmark's that give its keypoints their points", 0, 20);
+    field(static_cast<double P::*>(&P::farthest_neighbour_m), "farthest_neighbour_m", "m",
+          "how far from the landmark the farthest of them is taken", 0.5, 50.0);
+    field(static_cast<int P::*>(&P::thumbnail_quality), "thumbnail_quality", "1",
+          "of a landmark's small picture, JPEG; 0: none", 0, 100);
+    field(&P::description_seed, "description_seed", "",
+          "draws the measurement matrices; the same for all that describe panoramas", 0, 1'000'000'000);
+    field(&P::map_frame, "map_frame", "", "frame that landmarks are placed in; the odometry's frame when it began");
+    field(&P::base_frame, "base_frame", "", "the vehicle; /tf_static says where on it the panoramic camera sits");
+  }
+};
+
+/// panorama/image, odometry/binocular, /tf_static, landmarks/match -> landmarks, of the stamp of the panorama that each was made
+/// of; and landmarks, of which others (a store) may publish those of earlier journeys.
+class LandmarkBuilderComponent final : public runtime::Component {
+ public:
+  explicit LandmarkBuilderComponent(runtime::Context& context)
+      : context_(context),
+        parameters_(context.parameters<ComponentParameters>()),
+        settings_(landmarks::description_settings(parameters_.description,
+                                                  static_cast<std::uint64_t>(parameters_.description_seed))),
+        timer_(context.times()),
+        landmarks_(context.output(topics::kLandmarks)) {
+    context.input(topics::kTfStatic, [this](const auto& message) { on_transforms(*message); });
+    context.input(topics::kLandmarks, [this](const auto& message) { on_landmark(*message); });
+    context.input(topics::kLandmarkMatch, [this](const auto& message) { on_match(*message); });
+    context.input(topics::kOdometryBinocular, [this](const auto& message) { on_odometry(*message); });
+    context.input(topics::kPanorama, [this](const auto& message) { on_panorama(message); });
+  }
+
+ private:
+  struct Odometry {
+    std::int64_t stamp_ns;
+    Eigen::Isometry3d odom_from_base;
+    vision::Matrix6d covariance;
+  };
+
+  static constexpr std::size_t kMostOdometry = 200;  // poses kept for panoramas that come late
+  static constexpr std::size_t kMostWaiting = 10;    // panoramas whose odometry is still being computed
+  static constexpr std::int64_t kLongestGap_ns = 1'000'000'000;
+
+  void on_transforms(const tf2_msgs::msg::TFMessage& message) {
+    for (const auto& problem : transforms_.add(message)) context_.log().warn("{}: {}", topics::kTfStatic.name, problem);
+  }
+
+  void on_landmark(const panvo_msgs::msg::PanoramicLandmark& message) {
+    const auto& position = message.pose().pose().position();
+    known_[message.id()] = {position.x(), position.y()};
+    if (builder_) builder_->set_landmark(message.id(), known_[message.id()]);
+  }
+
+  void on_match(const panvo_msgs::msg::LandmarkMatch& message) {
+    if (builder_ && message.landmark_id() != 0 && message.state() == "matched") builder_->recognised();
+  }
+
+  void on_odometry(const nav_msgs::msg::Odometry& message) {
+    const auto pose = conversions::to_isometry(message.pose().pose());
+    if (!pose) return say_once(fmt::format("{} {}", topics::kOdometryBinocular.name, pose.reason()));
+    const std::int64_t stamp_ns = conversions::stamp_ns(message);
+    if (!odometry_.empty() && stamp_ns <= odometry_.back().stamp_ns) return;
+    odometry_.push_back({stamp_ns, *pose, conversions::to_matrix(message.pose().covariance())});
+    if (odometry_.size() > kMostOdometry) odometry_.pop_front();
+    work_off();
+  }
+
+  void on_panorama(const std::shared_ptr<const sensor_msgs::msg::Image>& message) {
+    waiting_.push_back(message);
+    work_off();
+    if (waiting_.size() <= kMostWaiting) return;
+    waiting_.pop_front();
+    say_once(fmt::format("panoramas, but nothing on {} as late as they are: no landmarks without it",
+                         topics::kOdometryBinocular.name));
+  }
+
+  /// Panoramas whose pose is known by now.
+  void work_off() {
+    while (!waiting_.empty() && !odometry_.empty() &&
+           conversions::stamp_ns(*waiting_.front()) <= odometry_.back().stamp_ns) {
+      const auto message = waiting_.front();
+      waiting_.pop_front();
+      build(*message);
+    }
+  }
+
+  void build(const sensor_msgs::msg::Image& message) {
+    const std::int64_t stamp_ns = conversions::stamp_ns(message);
+    if (last_stamp_ns_ && stamp_ns <= *last_stamp_ns_) {
+      return say_once(
+          fmt::format("{} came with a stamp that is not after the last; it is left out", topics::kPanorama.name));
+    }
+    const auto pose = pose_at(stamp_ns);
+    if (!pose) {
+      return say_once(fmt::format("{} has no pose near a panorama's stamp; the panorama is left out",
+                                  topics::kOdometryBinocular.name));
+    }
+    const auto pixels = conversions::view(message);
+    if (!pixels) return say_once(fmt::format("{} {}; no landmark", topics::kPanorama.name, pixels.reason()));
+    const cv::Mat panorama = to_bgr(*pixels, message);
+    if (const auto fault = landmarks::find_fault(panorama)) {
+      return say_once(fmt::format("{}: {}; no landmark", topics::kPanorama.name, *fault));
+    }
+    if (!make_builder(message, panorama.size())) return;
+    if (panorama.size() != size_) {
+      return say_once(fmt::format("{} changed its size from {} x {} to {} x {} px; restart if the camera was exchanged",
+                                  topics::kPanorama.name, size_.width, size_.height, panorama.cols, panorama.rows));
+    }
+    last_stamp_ns_ = stamp_ns;
+    for (const auto& landmark : builder_->step({stamp_ns, panorama, pose->odom_from_base, pose->covariance})) {
+      const auto points = std::count_if(landmark.keypoints.begin(), landmark.keypoints.end(),
+                                        [](const auto& keypoint) { return keypoint.has_point; });
+      context_.log().info("landmark {}: {}, {} keypoints, {} of them with points", landmark.id,
+                          landmark.is_junction ? "a junction" : "by distance", landmark.keypoints.size(), points);
+      landmarks_.publish(landmarks::to_message(landmark, settings_, parameters_.map_frame));
+    }
+  }
+
+  /// The pose between the two odometry messages around a stamp; the covariance of the later one.
+  std::optional<Odometry> pose_at(std::int64_t stamp_ns) const {
+    const auto after = std::find_if(odometry_.begin(), odometry_.end(),
+                                    [&](const Odometry& odometry) { return odometry.stamp_ns >= stamp_ns; });
+    if (after == odometry_.end()) return std::nullopt;
+    if (after->stamp_ns == stamp_ns) return *after;
+    if (after == odometry_.begin() || after->stamp_ns - std::prev(after)->stamp_ns > kLongestGap_ns)
+      return std::nullopt;
+    const auto before = std::prev(after);
+    const double share =
+        static_cast<double>(stamp_ns - before->stamp_ns) / static_cast<double>(after->stamp_ns - before->stamp_ns);
+    const vision::Vector6d step = vision::se3_log(before->odom_from_base.inverse() * after->odom_from_base);
+    return Odometry{stamp_ns, before->odom_from_base * vision::se3_exp(share * step), after->covariance};
+  }
+
+  static cv::Mat to_bgr(const cv::Mat& pixels, const sensor_msgs::msg::Image& message) {
+    cv::Mat image;
+    if (message.encoding() == "rgb8") {
+      cv::cvtColor(pixels, image, cv::COLOR_RGB2BGR);
+    } else if (message.encoding() == "rgba8") {
+      cv::cvtColor(pixels, image, cv::COLOR_RGBA2BGR);
+    } else if (pixels.channels() == 4) {
+      cv::cvtColor(pixels, image, cv::COLOR_BGRA2BGR);
+    } else if (pixels.depth() == CV_16U) {
+      pixels.convertTo(image, CV_8U, 1.0 / 256.0);
+    } else {
+      image = pixels;
+    }
+    return image;
+  }
+
+  bool make_builder(const sensor_msgs::msg::Image& message, cv::Size size) {
+    if (builder_) return true;
+    const std::string& frame = message.header().frame_id();
+    const auto base_from_panorama = transforms_.lookup(parameters_.base_frame, frame);
+    if (!base_from_panorama) {
+      say_once(fmt::format("{} has no chain from {} to {} yet: publish where the panoramic camera sits on the vehicle",
+                           topics::kTfStatic.name, parameters_.base_frame, frame));
+      return false;
+    }
+    try {
+      builder_.emplace(parameters_, static_cast<std::uint64_t>(parameters_.description_seed), *base_from_panorama, size,
+                       &timer_);
+    } catch (const std::invalid_argument& error) {
+      say_once(fmt::format("no landmarks: {}", error.what()));
+      return false;
+    }
+    size_ = size;
+    for (const auto& [id, position] : known_) builder_->set_landmark(id, position);
+    return true;
+  }
+
+  /// Says what is wrong when it begins, not with every message.
+  void say_once(const std::string& warning) {
+    if (warning == last_warning_) return;
+    last_warning_ = warning;
+    context_.log().warn("{}", warning);
+  }
+
+  runtime::Context& context_;
+  const ComponentParameters parameters_;
+  const landmarks::DescriptionSettings settings_;
+  conversions::StageTimer timer_;
+  runtime::Output<panvo_msgs::msg::PanoramicLandmark> landmarks_;
+
+  conversions::StaticTransforms transforms_;
+  std::optional<LandmarkBuilder> builder_;
+  cv::Size size_;
+  std::map<std::uint32_t, Eigen::Vector2d> known_;  // landmarks that were published, by whomever
+  std::deque<Odometry> odometry_;
+  std::deque<std::shared_ptr<const sensor_msgs::msg::Image>> waiting_;
+  std::optional<std::int64_t> last_stamp_ns_;
+  std::string last_warning_;
+};
+
+PANVO_REGISTER_COMPONENT(LandmarkBuilderComponent)
+
+}  // namespace panvo::landmark_builder

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "panvo/landmark_builder/landmark_rule.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace panvo::landmark_builder {
+
+void LandmarkRule::set_landmark(std::uint32_t id, const Eigen::Vector2d& position) { positions_[id] = position; }
+
+void LandmarkRule::recognised(double travelled_m) {
+  recognised_m_ = travelled_m;
+  last_m_ = std::max(last_m_, travelled_m);
+}
+
+bool LandmarkRule::takes(const Eigen::Vector2d& position, double place_travelled_m) const {
+  if (recognised_m_ && std::abs(place_travelled_m - *recognised_m_) <= parameters_.known_m) return false;
+  return std::none_of(positions_.begin(), positions_.end(), [&](const auto& landmark) {
+    return (landmark.second - position).norm() <= parameters_.nearby_m;
+  });
+}
+
+bool LandmarkRule::is_due(double travelled_m) const {
+  return parameters_.longest_without_m > 0.0 && travelled_m - last_m_ >= parameters_.longest_without_m;
+}
+
+}  // namespace panvo::landmark_builder
