@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bitset>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -23,6 +24,7 @@ using landmarks::Keypoint;
 
 constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr int kFewestForRansac = 5;
+constexpr std::size_t kSectors = 12;
 constexpr double kGate = 9.21;              // 99 % of a chi-square of two degrees of freedom
 constexpr double kSureDescriptors = 260.0;  // Euclidean, of 512: two views of one thing lie closer, nine times of ten
 
@@ -113,6 +115,16 @@ std::vector<SightedPoint> agreeing(std::span<const SightedPoint> sightings, cons
   return kept;
 }
 
+/// How many of twelve sectors of the full turn hold a bearing: what stands in one of them may stand elsewhere, too.
+int sectors(std::span<const SightedPoint> sightings) {
+  std::bitset<kSectors> seen;
+  for (const auto& sighting : sightings) {
+    const double turns = std::atan2(sighting.bearing.x(), sighting.bearing.z()) / (2.0 * std::numbers::pi) + 0.5;
+    seen.set(std::min<std::size_t>(kSectors - 1, static_cast<std::size_t>(turns * kSectors)));
+  }
+  return static_cast<int>(seen.count());
+}
+
 /// What speaks against a pose; empty when nothing does.
 std::string objection(const Eigen::Isometry3d& pose, double heading_rad, const PanoramaPoseParameters& parameters) {
   const double offset_m = pose.translation().norm();
@@ -169,6 +181,11 @@ PanoramaPoseResult estimate_panorama_pose(std::span<const Keypoint> panorama, st
   }
   result.inliers = static_cast<int>(inliers.size());
   if (result.inliers < needed) return few("inliers", result.inliers);
+  if (const int held = sectors(inliers); held < parameters.fewest_sectors) {
+    result.reason = fmt::format("{} inliers, but in {} of 12 sectors only, {} needed", result.inliers, held,
+                                parameters.fewest_sectors);
+    return result;
+  }
 
   // once the pose is about known, points are found by where they must be
   auto refined = refine_pose(*start, inliers, sigma_rad);

@@ -100,12 +100,24 @@ TEST(PanoramaPose, IsRefusedWhereThePoseTurnsAwayFromTheHeading) {
   EXPECT_NE(result.reason.find("heading"), std::string::npos) << result.reason;
 }
 
+TEST(PanoramaPose, IsRefusedWhereAllThatAgreesStandsInOneDirection) {
+  Place place;
+  std::vector<Keypoint> seen;
+  for (const auto& keypoint : place.panorama) {  // one building of that shape, and nothing else
+    if (std::abs(std::atan2(keypoint.bearing.x(), keypoint.bearing.z())) < 0.5F) seen.push_back(keypoint);
+  }
+  ASSERT_GE(seen.size(), 12U);
+  const auto result = estimate_panorama_pose(seen, place.landmark, Place::kHeading_rad, {});
+  EXPECT_FALSE(result.pose);
+  EXPECT_NE(result.reason.find("sectors"), std::string::npos) << result.reason;
+}
+
 TEST(PanoramaPose, SaysThatALandmarkWithoutPointsGivesNone) {
   Place place;
   for (auto& known : place.landmark) known.has_point = false;
   const auto result = estimate_panorama_pose(place.panorama, place.landmark, Place::kHeading_rad, {});
   EXPECT_FALSE(result.pose);
-  EXPECT_EQ(result.reason, "0 matched points of 10 needed");
+  EXPECT_EQ(result.reason, "0 matched points of 12 needed");
 }
 
 }  // namespace

@@ -17,8 +17,9 @@ struct PanoramaPoseParameters {
   double bearing_sigma_deg = 0.25;
   double inlier_angle_deg = 0.8;
   int iterations = 200;
-  int fewest_inliers = 10;
-  double fewest_inliers_share = 0.15;
+  int fewest_inliers = 12;
+  double fewest_inliers_share = 0.25;
+  int fewest_sectors = 4;
   double largest_turn_deg = 25.0;
   double largest_tilt_deg = 20.0;
   double largest_offset_m = 25.0;
@@ -38,8 +39,11 @@ struct PanoramaPoseParameters {
           0.05, 5.0);
     field(&P::iterations, "iterations", "1", "samples of three that RANSAC draws, at most", 10, 10000);
     field(&P::fewest_inliers, "fewest_inliers", "1",
-          "points that agree on the pose, at least; pictures of other places reach 6", 4, 1000);
+          "points that agree on the pose, at least; other places of the same building style reach 10", 4, 1000);
     field(&P::fewest_inliers_share, "fewest_inliers_share", "1", "the same, of all matched points", 0.0, 1.0);
+    field(&P::fewest_sectors, "fewest_sectors", "1",
+          "of twelve sectors of the full turn, how many must hold inliers: one building may stand elsewhere, too", 1,
+          12);
     field(&P::largest_turn_deg, "largest_turn_deg", "deg",
           "how far the pose's heading may lie from that of the compressive features", 1.0, 180.0);
     field(&P::largest_tilt_deg, "largest_tilt_deg", "deg", "how far the vehicle may be tilted against then", 1.0, 90.0);
