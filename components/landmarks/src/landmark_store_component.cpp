@@ -22,7 +22,8 @@ struct Parameters {
   template <class Field>
   static void describe(Field&& field) {
     using P = Parameters;
-    field(&P::file, "file", "", "the store: made with the first landmark if it is not there");
+    field(&P::file, "file", "",
+          "the store: made with the first landmark if it is not there; empty: none, landmarks are forgotten");
     field(&P::read_only, "read_only", "", "publish what is in the store, and add nothing");
     field(&P::map_frame, "map_frame", "", "frame of the poses of the landmarks in the store");
   }
@@ -33,8 +34,11 @@ class LandmarkStoreComponent final : public runtime::Component {
  public:
   explicit LandmarkStoreComponent(runtime::Context& context)
       : context_(context), parameters_(context.parameters<Parameters>()), output_(context.output(topics::kLandmarks)) {
+    if (parameters_.file.empty()) {
+      context.log().info("no file is named: the landmarks of this session are forgotten at its end");
+      return;
+    }
     context.input(topics::kLandmarks, [this](const auto& message) { on_landmark(*message); });
-    if (parameters_.file.empty()) throw runtime::ConfigError("file: name the file that keeps the landmarks");
     try {
       if (parameters_.read_only || std::filesystem::exists(parameters_.file)) open();
     } catch (const StoreError& error) {

@@ -111,7 +111,12 @@ TEST_F(LandmarkStoreComponent, IsRefusedWithAFileThatIsNone) {
   write_text(file_, "a letter to somebody, longer than the header of a database would be, whatever that may be");
   EXPECT_THAT(error_of<std::runtime_error>([&] { const Session session(file_); }),
               HasSubstr("store: is no landmark store"));
-  EXPECT_THAT(error_of<std::runtime_error>([&] { const Session session(""); }), HasSubstr("file: name the file"));
+}
+
+TEST_F(LandmarkStoreComponent, KeepsNothingWithoutAFileAndSaysSo) {
+  Session session("");
+  session.publish(made_up_landmark(1));
+  EXPECT_TRUE(session.harness.log_contains("forgotten"));
 }
 
 }  // namespace

@@ -59,9 +59,8 @@ class PositionCorrectorComponent final : public runtime::Component {
   void on_landmark(const panvo_msgs::msg::PanoramicLandmark& message) {
     auto landmark = landmarks::to_landmark(message, settings_);
     if (!landmark) return say_once(fmt::format("a landmark {} and is left out", landmark.reason()));
-    if (library_.find(landmark->id) != nullptr) {
-      return say_once(fmt::format("landmark {} came twice; the first is kept", landmark->id));
-    }
+    // one that comes again is where it is known to be by now
+    if (library_.set_pose(landmark->id, landmark->map_from_base, landmark->covariance)) return;
     matcher_.added(library_.add(*landmark));
   }
 
