@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "panvo/evaluation/place_table.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <opencv2/core.hpp>
+
+#include "panvo/evaluation/input_error.hpp"
+#include "place_recording_fixture.hpp"
+
+namespace panvo::evaluation {
+namespace {
+
+/// Tells places apart by how bright they are.
+class Brightness final : public PlaceMethod {
+ public:
+  struct Mean final : PlaceDescriptor {
+    double value = 0.0;
+  };
+  std::string name() const override { return "brightness"; }
+  std::unique_ptr<PlaceDescriptor> describe_landmark(const cv::Mat& panorama) const override {
+    auto mean = std::make_unique<Mean>();
+    mean->value = cv::mean(panorama)[0];
+    return mean;
+  }
+  PlaceDistance distance(const PlaceDescriptor& query, const PlaceDescriptor& landmark) const override {
+    return {std::abs(static_cast<const Mean&>(query).value - static_cast<const Mean&>(landmark).value), 0.1};
+  }
+};
+
+TEST(PlaceTask, TakesFirstVisitsForPlacesAndLaterOnesForRevisits) {
+  const PlainRecording made("task", {10, 60, 110, 160, 210}, {{7, 1}, {8, 3}, {7, 4}});
+  const auto recording = read_place_recording(made.folder);
+  const auto task = place_task(recording);
+  ASSERT_EQ(task.places.size(), 2U);
+  EXPECT_EQ(task.places[0].place, 7);
+  EXPECT_EQ(task.places[0].panorama, 1U);
+  ASSERT_EQ(task.revisits.size(), 1U);
+  EXPECT_EQ(task.revisits[0].known, 0U);
+  // of the panoramas of the pass the one nearest to the place; here the drive never turned back
+  EXPECT_EQ(task.revisits[0].panorama, 1U);
+  EXPECT_DOUBLE_EQ(task.revisits[0].offset_m, 0.0);
+}
+
+TEST(PlaceTask, TakesAllVisitsOfALaterRecordingForRevisits) {
+  const PlainRecording first("earlier", {10, 60, 110}, {{1, 0}, {2, 2}});
+  const PlainRecording second("later", {12, 64, 118}, {{2, 2}, {9, 1}});
+  const auto earlier = read_place_recording(first.folder);
+  const auto later = read_place_recording(second.folder);
+  const auto task = place_task(earlier, &later);
+  ASSERT_EQ(task.places.size(), 2U);
+  ASSERT_EQ(task.revisits.size(), 1U);  // place 9 is not known
+  EXPECT_EQ(task.revisits[0].known, 1U);
+}
+
+TEST(PlaceScore, IsThatOfSeparationsDoneByHand) {
+  // places 10, 100, 200; revisits 18 of the first (right) and 160 of the second (nearer to the third: wrong)
+  const PlainRecording first("score", {10, 100, 200}, {{1, 0}, {2, 1}, {3, 2}});
+  const PlainRecording second("score_then", {18, 160, 0}, {{1, 0}, {2, 1}});
+  const auto earlier = read_place_recording(first.folder);
+  const auto later = read_place_recording(second.folder);
+  const auto score = score_places(Brightness(), place_task(earlier, &later), earlier, later);
+  // negatives 90, 90, 100; positives 8, 40: D' = (D - 8) / 92 [Lu2015 Eq. 14]
+  EXPECT_NEAR(score.separation, (82.0 + 82.0 + 92.0) / 3.0 / 92.0 - (0.0 + 32.0) / 2.0 / 92.0,
+              1e-9);  // [Lu2015 Eq. 13]
+  EXPECT_EQ(score.revisits, 2);
+  EXPECT_EQ(score.true_positives, 1);
+  EXPECT_EQ(score.false_positives, 0);
+  EXPECT_DOUBLE_EQ(score.recall, 0.5);
+  EXPECT_DOUBLE_EQ(score.precision, 1.0);
+  EXPECT_NEAR(score.median_heading_error_rad, 0.1, 1e-9);
+  EXPECT_NE(place_table({score}).find("brightness"), std::string::npos);
+}
+
+TEST(PlaceScore, CountsNegativesThatNoThresholdKeepsOut) {
+  // the revisit differs by 50, and two of the places by 20 only
+  const PlainRecording first("negatives", {10, 100, 120}, {{1, 0}, {2, 1}, {3, 2}});
+  const PlainRecording second("negatives_then", {50, 0}, {{1, 0}});
+  const auto earlier = read_place_recording(first.folder);
+  const auto later = read_place_recording(second.folder);
+  const auto score = score_places(Brightness(), place_task(earlier, &later), earlier, later);
+  EXPECT_EQ(score.true_positives, 1);
+  EXPECT_EQ(score.false_positives, 2);
+  EXPECT_NEAR(score.precision, 1.0 / 3.0, 1e-12);
+}
+
+TEST(PlaceRecording, SaysWhatIsMissing) {
+  const PlainRecording made("missing", {10, 60}, {{1, 0}});
+  const auto error_without = [&](const std::string& file) {
+    const auto path = made.folder / file;
+    std::filesystem::rename(path, made.folder / "away");
+    std::string message;
+    try {
+      read_place_recording(made.folder);
+    } catch (const InputError& error) {
+      message = error.what();
+    }
+    std::filesystem::rename(made.folder / "away", path);
+    return message;
+  };
+  EXPECT_NE(error_without("sequence.yaml").find("sequence.yaml: cannot be read"), std::string::npos);
+  EXPECT_NE(error_without("mav0/cam2/sensor.yaml").find("sensor.yaml: cannot be read"), std::string::npos);
+  EXPECT_NE(error_without("mav0/cam2/data").find("holds no image"), std::string::npos);
+  EXPECT_NE(error_without("mav0/state_groundtruth_estimate0/data.csv"), "");
+  EXPECT_NO_THROW(read_place_recording(made.folder));
+}
+
+TEST(PlaceRecording, NamesTheImageThatCannotBeDecoded) {
+  const PlainRecording made("torn", {10, 60}, {{1, 0}});
+  const auto recording = read_place_recording(made.folder);
+  std::ofstream(recording.panoramas[1].file) << "not a picture";
+  EXPECT_EQ(read_panorama(recording.panoramas[0]).size(), cv::Size(1080, 540));
+  EXPECT_THROW(read_panorama(recording.panoramas[1]), InputError);
+}
+
+}  // namespace
+}  // namespace panvo::evaluation
