@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "painted_town.hpp"
+#include "panvo/conversions/image.hpp"
+#include "panvo/conversions/pose.hpp"
+#include "panvo/conversions/static_transforms.hpp"
+#include "panvo/conversions/time.hpp"
+#include "panvo/runtime/testing.hpp"
+
+namespace panvo::landmark_builder {
+namespace {
+
+using ::testing::IsEmpty;
+using ::testing::SizeIs;
+
+class LandmarkBuilderComponent : public ::testing::Test {
+ protected:
+  void load(const std::map<std::string, std::string>& parameters = {}) {
+    harness_.load("panvo_landmark_builder", "LandmarkBuilderComponent", parameters);
+  }
+
+  void publish_mounting() {
+    tf2_msgs::msg::TFMessage message;
+    message.transforms(
+        {conversions::to_static_transform(1, "base_link", "panorama_optical", PaintedTown::base_from_panorama())});
+    harness_.publish(topics::kTfStatic, message);
+  }
+
+  void publish_odometry(std::int64_t stamp_ns, const Eigen::Isometry3d& pose) {
+    nav_msgs::msg::Odometry odometry;
+    odometry.header().stamp(conversions::to_stamp(stamp_ns));
+    odometry.header().frame_id("odom");
+    odometry.child_frame_id("base_link");
+    odometry.pose().pose(conversions::to_pose(pose));
+    harness_.publish(topics::kOdometryBinocular, odometry);
+  }
+
+  void publish_panorama(std::int64_t stamp_ns, const cv::Mat& pixels) {
+    auto message = conversions::make_image(stamp_ns, "panorama_optical", "bgr8", pixels.cols, pixels.rows);
+    pixels.copyTo(conversions::pixels(*message));
+    harness_.publish(topics::kPanorama, std::shared_ptr<const sensor_msgs::msg::Image>(message));
+  }
+
+  /// Through the crossing at the origin; odometry 20 ms before and after each panorama.
+  void drive() {
+    for (double x = -28.0; x < 24.0; x += 1.0) {
+      const auto stamp_ns = static_cast<std::int64_t>(1e9 * (100.0 + 0.2 * x));
+      publish_odometry(stamp_ns - 20'000'000, PaintedTown::at(x - 0.1, -1.5, 0.0));
+      publish_panorama(stamp_ns, town_.panorama(PaintedTown::at(x, -1.5, 0.0)));
+      publish_odometry(stamp_ns + 20'000'000, PaintedTown::at(x + 0.1, -1.5, 0.0));
+    }
+  }
+
+  const PaintedTown town_ = PaintedTown::star({0.0, 0.5 * M_PI, M_PI, 1.5 * M_PI});
+  runtime::ComponentHarness harness_;
+  const std::vector<std::shared_ptr<const panvo_msgs::msg::PanoramicLandmark>>& landmarks_ =
+      harness_.collect(topics::kLandmarks);
+};
+
+TEST_F(LandmarkBuilderComponent, PublishesALandmarkOfThePanoramaNearestToTheCrossing) {
+  load();
+  publish_mounting();
+  drive();
+  ASSERT_THAT(landmarks_, SizeIs(1));
+  const auto& landmark = *landmarks_[0];
+  EXPECT_EQ(landmark.id(), 1U);
+  EXPECT_TRUE(landmark.is_junction());
+  EXPECT_EQ(landmark.header().frame_id(), "map");
+  const double x = landmark.pose().pose().position().x();
+  EXPECT_LT(std::abs(x), 4.0);
+  EXPECT_NEAR(static_cast<double>(conversions::stamp_ns(landmark)) * 1e-9, 100.0 + 0.2 * x, 1e-3);
+}
+
+TEST_F(LandmarkBuilderComponent, SaysThatThereIsNoOdometry) {
+  load();
+  publish_mounting();
+  const cv::Mat panorama = town_.panorama(PaintedTown::at(0.0, 0.0, 0.0), 200);
+  for (int i = 1; i < 20; ++i) publish_panorama(i * 200'000'000LL, panorama);
+  EXPECT_THAT(landmarks_, IsEmpty());
+  EXPECT_TRUE(harness_.log_contains("no landmarks without it"));
+  EXPECT_THAT(harness_.log(), SizeIs(1));
+}
+
+TEST_F(LandmarkBuilderComponent, SaysThatTheMountingIsMissing) {
+  load();
+  publish_panorama(1'000'000'000, town_.panorama(PaintedTown::at(0.0, 0.0, 0.0), 400));
+  publish_odometry(1'000'000'000, PaintedTown::at(0.0, 0.0, 0.0));
+  EXPECT_TRUE(harness_.log_contains("/tf_static"));
+}
+
+TEST_F(LandmarkBuilderComponent, SaysWhatIsWrongWithAPanoramaAndGoesOn) {
+  load();
+  publish_mounting();
+  const auto publish = [&](std::int64_t stamp_ns, const cv::Mat& pixels) {
+    publish_panorama(stamp_ns, pixels);
+    publish_odometry(stamp_ns, PaintedTown::at(static_cast<double>(stamp_ns) * 1e-9, 0.0, 0.0));
+  };
+  publish(1'000'000'000, cv::Mat(540, 1080, CV_8UC3, cv::Scalar(0, 0, 0)));
+  EXPECT_TRUE(harness_.log_contains("black"));
+  publish(2'000'000'000, cv::Mat(480, 640, CV_8UC3, cv::Scalar(90, 100, 110)));
+  EXPECT_TRUE(harness_.log_contains("twice as wide"));
+  publish(3'000'000'000, town_.panorama(PaintedTown::at(3.0, 0.0, 0.0)));
+  publish(4'000'000'000, town_.panorama(PaintedTown::at(4.0, 0.0, 0.0), 720));
+  EXPECT_TRUE(harness_.log_contains("changed its size"));
+  EXPECT_THAT(landmarks_, IsEmpty());
+}
+
+TEST_F(LandmarkBuilderComponent, MakesNoneBesideALandmarkOfAnEarlierJourney) {
+  load();
+  publish_mounting();
+  panvo_msgs::msg::PanoramicLandmark earlier;
+  earlier.id(12);
+  earlier.pose().pose().position().x(3.0);
+  harness_.publish(topics::kLandmarks, earlier);
+  drive();
+  EXPECT_THAT(landmarks_, SizeIs(1));  // that one
+}
+
+TEST_F(LandmarkBuilderComponent, RefusesAParameterOutOfItsRange) {
+  EXPECT_ANY_THROW(load({{"junction.criterion", "hough"}}));
+  EXPECT_ANY_THROW(load({{"junction.arms.directions", "3"}}));
+}
+
+}  // namespace
+}  // namespace panvo::landmark_builder

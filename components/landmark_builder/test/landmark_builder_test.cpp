@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "panvo/landmark_builder/landmark_builder.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "painted_town.hpp"
+
+namespace panvo::landmark_builder {
+namespace {
+
+using ::testing::IsEmpty;
+using ::testing::SizeIs;
+
+constexpr int kColumns = 1080;
+
+PosedPanorama posed(const PaintedTown& town, double x) {
+  const auto pose = PaintedTown::at(x, -1.5, 0.0);
+  vision::Matrix6d covariance = vision::Matrix6d::Identity();
+  return {static_cast<std::int64_t>(1e9 * (100.0 + x)), town.panorama(pose, kColumns), pose, 0.01 * covariance};
+}
+
+std::vector<landmarks::PanoramicLandmark> drive(LandmarkBuilder& builder, const PaintedTown& town, double from,
+                                                double to) {
+  std::vector<landmarks::PanoramicLandmark> all;
+  for (double x = from; x < to; x += 1.0) {
+    for (auto& landmark : builder.step(posed(town, x))) all.push_back(std::move(landmark));
+  }
+  return all;
+}
+
+LandmarkBuilder make_builder(const BuilderParameters& parameters = {}) {
+  return {parameters, 1, PaintedTown::base_from_panorama(), {kColumns, kColumns / 2}};
+}
+
+TEST(LandmarkBuilder, MakesOneLandmarkOfACrossingWithAllItsLevels) {  // [Lu2015 4.1, 4.2]
+  const PaintedTown town = PaintedTown::star({0.0, 0.5 * M_PI, M_PI, 1.5 * M_PI});
+  LandmarkBuilder builder = make_builder();
+  const auto built = drive(builder, town, -30.0, 25.0);
+  ASSERT_THAT(built, SizeIs(1));
+  const auto& landmark = built[0];
+  EXPECT_EQ(landmark.id, 1U);
+  EXPECT_TRUE(landmark.is_junction);
+  EXPECT_LT(std::abs(landmark.map_from_base.translation().x()), 4.0);
+  EXPECT_EQ(landmark.stamp_ns, static_cast<std::int64_t>(1e9 * (100.0 + landmark.map_from_base.translation().x())));
+  EXPECT_DOUBLE_EQ(landmark.covariance(0, 0), 0.01);
+  EXPECT_TRUE(landmark.base_from_panorama.isApprox(PaintedTown::base_from_panorama()));
+  EXPECT_FALSE(landmark.description.large.empty());
+  EXPECT_FALSE(landmark.description.small.empty());
+  EXPECT_FALSE(landmark.thumbnail.empty());
+  int right = 0, points = 0;
+  for (const auto& keypoint : landmark.keypoints) {
+    if (!keypoint.has_point) continue;
+    const Eigen::Vector3d in_base = landmark.base_from_panorama * keypoint.point_in_panorama.cast<double>();
+    ++points;
+    if (std::abs(in_base.z()) < 0.3) ++right;  // all there is lies on the ground
+  }
+  EXPECT_GE(points, 5);
+  EXPECT_GE(right, 8 * points / 10);
+}
+
+TEST(LandmarkBuilder, MakesNoneWhereThePlaceWasRecognised) {
+  const PaintedTown town = PaintedTown::star({0.0, 0.5 * M_PI, M_PI, 1.5 * M_PI});
+  LandmarkBuilder builder = make_builder();
+  auto built = drive(builder, town, -30.0, 1.0);
+  builder.recognised();
+  for (auto& landmark : drive(builder, town, 1.0, 25.0)) built.push_back(landmark);
+  EXPECT_THAT(built, IsEmpty());
+}
+
+TEST(LandmarkBuilder, MakesNoneBesideOneThatIsThere) {
+  LandmarkBuilder builder = make_builder();
+  builder.set_landmark(5, {2.0, 4.0});
+  EXPECT_THAT(drive(builder, PaintedTown::star({0.0, 0.5 * M_PI, M_PI, 1.5 * M_PI}), -30.0, 25.0), IsEmpty());
+}
+
+TEST(LandmarkBuilder, MakesOneByDistanceWhereThereIsNoJunction) {  // [Lu2015 4.1]
+  BuilderParameters parameters;
+  parameters.rule.longest_without_m = 20.0;
+  LandmarkBuilder builder = make_builder(parameters);
+  builder.set_landmark(5, {-200.0, 0.0});
+  const auto built = drive(builder, PaintedTown::star({0.0, M_PI}), -30.0, 18.0);
+  ASSERT_THAT(built, SizeIs(2));
+  EXPECT_EQ(built[0].id, 6U);
+  EXPECT_FALSE(built[0].is_junction);
+  EXPECT_NEAR((built[1].map_from_base.translation() - built[0].map_from_base.translation()).norm(), 20.0, 1.5);
+}
+
+}  // namespace
+}  // namespace panvo::landmark_builder

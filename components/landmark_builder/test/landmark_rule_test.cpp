@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "panvo/landmark_builder/landmark_rule.hpp"
+
+#include <gtest/gtest.h>
+
+namespace panvo::landmark_builder {
+namespace {
+
+TEST(LandmarkRule, TakesNoneBesideAnother) {  // [Lu2015 4.1]
+  LandmarkRule rule({});
+  EXPECT_TRUE(rule.takes({0.0, 0.0}, 0.0));
+  rule.set_landmark(rule.next_id(), {0.0, 0.0});
+  EXPECT_FALSE(rule.takes({5.0, -5.0}, 300.0));
+  EXPECT_TRUE(rule.takes({50.0, 0.0}, 300.0));
+}
+
+TEST(LandmarkRule, TakesNoneWhereOneWasRecognisedThoughThePositionHasDrifted) {
+  LandmarkRule rule({});
+  rule.set_landmark(1, {0.0, 0.0});
+  rule.recognised(400.0);
+  EXPECT_FALSE(rule.takes({60.0, 0.0}, 395.0));
+  EXPECT_FALSE(rule.takes({60.0, 0.0}, 410.0));
+  EXPECT_TRUE(rule.takes({60.0, 0.0}, 440.0));
+}
+
+TEST(LandmarkRule, IsDueAfterALongWayWithoutOne) {  // [Lu2015 4.1]
+  LandmarkRule rule({});
+  EXPECT_FALSE(rule.is_due(99.0));
+  EXPECT_TRUE(rule.is_due(100.0));
+  rule.taken(100.0);
+  EXPECT_FALSE(rule.is_due(150.0));
+  rule.recognised(160.0);
+  EXPECT_FALSE(rule.is_due(240.0));
+  EXPECT_TRUE(rule.is_due(260.0));
+  EXPECT_FALSE(LandmarkRule({.longest_without_m = 0.0}).is_due(1e6));
+}
+
+TEST(LandmarkRule, NumbersOnFromThoseThatAreThere) {
+  LandmarkRule rule({});
+  EXPECT_EQ(rule.next_id(), 1U);
+  rule.set_landmark(7, {0.0, 0.0});
+  EXPECT_EQ(rule.next_id(), 8U);
+}
+
+}  // namespace
+}  // namespace panvo::landmark_builder
