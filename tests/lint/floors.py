@@ -47,7 +47,9 @@ CONVERSIONS = floor("conversions", "interfaces vision runtime", "messages, eigen
 ALGORITHM = floor("algorithm", "vision landmarks", "eigen, opencv, ceres, opengv", False)
 WRAPPER = floor("component wrapper", "runtime interfaces conversions vision landmarks", "messages, eigen, opencv", False)
 # places, the store that keeps them and their messages
-LANDMARKS = floor("landmarks", "vision interfaces conversions", "messages, eigen, opencv, sqlite", False)
+LANDMARKS = floor("landmarks", "vision interfaces conversions runtime", "messages, eigen, opencv, sqlite, json", False)
+# programs of a package, beside its algorithm and its component
+TOOL = floor("tool", "vision landmarks", "eigen, opencv, yaml, json, command line")
 RECORDER = floor("recorder", "runtime interfaces", "messages, fastdds, yaml, sqlite, log, json, command line")
 DRIVER = floor("driver", "runtime interfaces conversions vision", "messages, eigen, opencv, yaml, xml, json, log")
 SIMULATION = floor("simulation", "runtime interfaces conversions vision", "messages, eigen, opencv, embree, yaml, log, command line")
@@ -88,6 +90,8 @@ def floor_of(path, wrappers=frozenset()):
     if path.parts[0] == "components" and "/".join(path.parts[:2]) not in OWN_FLOOR and (
             path.stem.endswith("_component") or path.with_suffix("") in wrappers):
         return WRAPPER
+    if path.parts[0] == "components" and "/".join(path.parts[:2]) not in OWN_FLOOR and path.parts[2:3] == ("tools",):
+        return TOOL
     for folder, its_floor in FLOORS:
         if path.is_relative_to(folder):
             return its_floor

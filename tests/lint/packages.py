@@ -9,7 +9,7 @@ import workspace
 METAS = ["colcon.meta", "config/build/asan.meta", "config/build/ubsan.meta", "config/build/tsan.meta"]
 # CMake's name of a library -> the Debian package that brings it.
 DEBIAN = {
-    "Eigen3": "libeigen3-dev", "OpenCV": "libopencv-dev", "Ceres": "libceres-dev", "fastrtps": "libfastrtps-dev",
+    "Eigen3": "libeigen3-dev", "OpenCV": "libopencv-dev", "Ceres": "libceres-dev", "opengv": "libopengv-dev", "fastrtps": "libfastrtps-dev",
     "fastcdr": "libfastcdr-dev", "yaml-cpp": "libyaml-cpp-dev", "spdlog": "libspdlog-dev", "CLI11": "libcli11-dev",
     "nlohmann_json": "nlohmann-json3-dev", "SQLite3": "libsqlite3-dev", "GTest": "libgtest-dev", "benchmark": "libbenchmark-dev",
     "fmt": "libfmt-dev",

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "panvo/position_corrector/landmark_matcher.hpp"
-#include "panvo_msgs/msg/LandmarkMatch.hpp"
+#include "panvo_msgs/msg/LandmarkMatch.h"
 
 namespace panvo::position_corrector {
 

@@ -2,76 +2,89 @@
 #include "panvo/runtime/run_files.hpp"
 
 #include <algorithm>
-#include <array>
 #include <optional>
 #include <string_view>
+#include <vector>
 
 #include "odometry_lines.hpp"
 #include "output_file.hpp"
+#include "place_lines.hpp"
 #include "run_json.hpp"
 
 namespace panvo::runtime {
 namespace {
 
-struct OdometryKind {
+using Line = std::optional<std::string>;
+
+/// What becomes of the messages of a topic: a file, and a line for each of them.
+struct FileKind {
   std::string_view topic_ending;
-  std::string_view file_stem;
-  bool has_covariances;
+  std::string_view type_name;
+  std::string_view file_stem, file_ending;
+  std::string (*header)();         ///< nullptr: none
+  Line (*line)(const SamplePtr&);  ///< nullopt: nothing that can be written; throws DecodeError
 };
 
-constexpr std::array<OdometryKind, 3> kKinds{{{"/odometry/binocular", "odometry_binocular", true},
-                                              {"/odometry/enhanced", "odometry_enhanced", false},
-                                              {"/ground_truth/odometry", "ground_truth", false}}};
+template <class Message, Line (*kLine)(const Message&)>
+Line line_of(const SamplePtr& sample) {
+  return kLine(*Sample::as<Message>(sample));
+}
 
-const OdometryKind* kind_of(const TopicDescription& topic) {
-  if (topic.type_name != interfaces::message_type<nav_msgs::msg::Odometry>().name) {
-    return nullptr;
-  }
-  const auto found = std::find_if(kKinds.begin(), kKinds.end(),
-                                  [&](const auto& kind) { return topic.name.ends_with(kind.topic_ending); });
-  return found == kKinds.end() ? nullptr : &*found;
+const std::vector<FileKind>& file_kinds() {
+  using interfaces::message_type;
+  using nav_msgs::msg::Odometry;
+  using panvo_msgs::msg::LandmarkMatch;
+  using panvo_msgs::msg::PanoramicLandmark;
+  static const std::string_view odometry = message_type<Odometry>().name;
+  static const std::string_view landmark = message_type<PanoramicLandmark>().name;
+  static const std::string_view match = message_type<LandmarkMatch>().name;
+  constexpr auto kPose = line_of<Odometry, tum_line>;
+  static const std::vector<FileKind> kinds{
+      {"/odometry/binocular", odometry, "odometry_binocular", ".tum", nullptr, kPose},
+      {"/odometry/binocular", odometry, "odometry_binocular", "_covariance.csv", covariance_header,
+       line_of<Odometry, covariance_line>},
+      {"/odometry/enhanced", odometry, "odometry_enhanced", ".tum", nullptr, kPose},
+      {"/ground_truth/odometry", odometry, "ground_truth", ".tum", nullptr, kPose},
+      {"/landmarks", landmark, "landmarks", ".csv", landmark_header, line_of<PanoramicLandmark, landmark_line>},
+      {"/landmarks/match", match, "matches", ".csv", match_header, line_of<LandmarkMatch, match_line>}};
+  return kinds;
+}
+
+bool is_of(const TopicDescription& topic, const FileKind& kind) {
+  return topic.type_name == kind.type_name && topic.name.ends_with(kind.topic_ending);
 }
 
 /// "/fleet/robot/odometry/binocular" -> "fleet_robot_"
-std::string prefix_of(std::string_view topic, const OdometryKind& kind) {
+std::string prefix_of(std::string_view topic, const FileKind& kind) {
   topic.remove_suffix(kind.topic_ending.size() - 1);
   std::string prefix(topic.substr(topic.starts_with('/') ? 1 : 0));
   std::replace(prefix.begin(), prefix.end(), '/', '_');
   return prefix;
 }
 
-/// nullptr if the bytes are no Odometry.
-std::shared_ptr<const nav_msgs::msg::Odometry> odometry_of(const SamplePtr& sample) {
-  try {
-    return Sample::as<nav_msgs::msg::Odometry>(sample);
-  } catch (const interfaces::DecodeError&) {
-    return nullptr;
-  }
-}
-
 }  // namespace
 
-struct RunFiles::OdometryFiles {
-  OdometryFiles(const std::filesystem::path& folder, const std::string& stem, const OdometryKind& kind_of_topic)
-      : kind(&kind_of_topic), poses(folder / (stem + ".tum")) {
-    if (kind->has_covariances) {
-      covariances.emplace(folder / (stem + "_covariance.csv"));
-      covariances->append(covariance_header());
-    }
+struct RunFiles::TopicFile {
+  TopicFile(const std::filesystem::path& path, const FileKind& kind_of_file) : kind(&kind_of_file), lines(path) {
+    if (kind->header != nullptr) lines.append(kind->header());
   }
 
-  static void append(LineFile& file, const std::optional<std::string>& line, std::uint64_t& left_out) {
+  void append(const SamplePtr& sample) {
+    Line line;
+    try {
+      line = kind->line(sample);
+    } catch (const interfaces::DecodeError&) {  // the bytes are no such message
+    }
     if (line) {
-      file.append(*line);
+      lines.append(*line);
     } else {
       ++left_out;
     }
   }
 
-  const OdometryKind* kind;
-  LineFile poses;
-  std::optional<LineFile> covariances;
-  std::uint64_t poses_left_out = 0, covariances_left_out = 0;
+  const FileKind* kind;
+  LineFile lines;
+  std::uint64_t left_out = 0;
 };
 
 RunFiles::RunFiles(std::filesystem::path folder) : folder_(std::move(folder)) {
@@ -80,9 +93,8 @@ RunFiles::RunFiles(std::filesystem::path folder) : folder_(std::move(folder)) {
   if (error) {
     throw_cannot_write(folder_, error.value());
   }
-  for (const auto& kind : kKinds) {
-    std::filesystem::remove(folder_ / (std::string(kind.file_stem) + ".tum"), error);
-    std::filesystem::remove(folder_ / (std::string(kind.file_stem) + "_covariance.csv"), error);
+  for (const auto& kind : file_kinds()) {
+    std::filesystem::remove(folder_ / (std::string(kind.file_stem) + std::string(kind.file_ending)), error);
   }
   std::filesystem::remove(folder_ / kSummaryFile, error);
   std::filesystem::remove(folder_ / kTimingFile, error);
@@ -93,46 +105,36 @@ RunFiles::RunFiles(std::filesystem::path folder) : folder_(std::move(folder)) {
 
 RunFiles::~RunFiles() = default;
 
-bool RunFiles::wants(const TopicDescription& topic) const { return kind_of(topic) != nullptr; }
+bool RunFiles::wants(const TopicDescription& topic) const {
+  return std::any_of(file_kinds().begin(), file_kinds().end(), [&](const auto& kind) { return is_of(topic, kind); });
+}
 
 void RunFiles::write(const TopicDescription& topic, const SamplePtr& sample) {
-  const OdometryKind* kind = kind_of(topic);
-  if (kind == nullptr) {
-    return;
-  }
-  const auto odometry = odometry_of(sample);
-
   const std::lock_guard lock(mutex_);
-  auto& files = files_by_topic_[topic.name];
-  if (files == nullptr) {
-    const bool taken = std::any_of(files_by_topic_.begin(), files_by_topic_.end(), [&](const auto& other) {
-      return other.second != nullptr && other.second->kind == kind;
-    });
-    const auto stem = (taken ? prefix_of(topic.name, *kind) : "") + std::string(kind->file_stem);
-    files = std::make_unique<OdometryFiles>(folder_, stem, *kind);
+  const auto [found, is_new] = files_by_topic_.try_emplace(topic.name);
+  if (is_new) {
+    for (const auto& kind : file_kinds()) {
+      if (!is_of(topic, kind)) continue;
+      const auto name = std::string(kind.file_stem) + std::string(kind.file_ending);
+      const bool is_taken = std::any_of(files_by_topic_.begin(), files_by_topic_.end(), [&](const auto& other) {
+        return std::any_of(other.second.begin(), other.second.end(),
+                           [&](const auto& file) { return file->kind == &kind; });
+      });
+      found->second.push_back(
+          std::make_unique<TopicFile>(folder_ / ((is_taken ? prefix_of(topic.name, kind) : "") + name), kind));
+    }
   }
-  OdometryFiles::append(files->poses, odometry ? tum_line(*odometry) : std::nullopt, files->poses_left_out);
-  if (files->covariances) {
-    OdometryFiles::append(*files->covariances, odometry ? covariance_line(*odometry) : std::nullopt,
-                          files->covariances_left_out);
-  }
+  for (const auto& file : found->second) file->append(sample);
 }
 
 void RunFiles::finish(const RunSummary& summary, const ComponentTimes& times_by_component) {
   RunSummary complete = summary;
-  const auto report = [&complete](const LineFile& file, std::uint64_t left_out, const std::string& topic) {
-    if (left_out > 0) {
-      complete.problems.push_back(file.path().filename().string() + " lacks " + std::to_string(left_out) +
-                                  " messages of " + topic + ": undecodable, or with numbers that are not finite");
-    }
-  };
   const std::lock_guard lock(mutex_);
   for (const auto& [topic, files] : files_by_topic_) {
-    if (files != nullptr) {
-      report(files->poses, files->poses_left_out, topic);
-    }
-    if (files != nullptr && files->covariances) {
-      report(*files->covariances, files->covariances_left_out, topic);
+    for (const auto& file : files) {
+      if (file->left_out == 0) continue;
+      complete.problems.push_back(file->lines.path().filename().string() + " lacks " + std::to_string(file->left_out) +
+                                  " messages of " + topic + ": undecodable, or with numbers that are not finite");
     }
   }
   write_atomically(folder_ / kTimingFile, to_text(timing_json(times_by_component)));

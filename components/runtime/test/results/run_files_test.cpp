@@ -15,6 +15,8 @@
 
 #include "../config/temporary_folder.hpp"
 #include "nav_msgs/msg/Odometry.h"
+#include "panvo_msgs/msg/LandmarkMatch.h"
+#include "panvo_msgs/msg/PanoramicLandmark.h"
 #include "results/odometry_lines.hpp"
 
 namespace panvo::runtime {
@@ -91,6 +93,52 @@ TEST(RunFiles, WritesEachPoseAtOnceAndWithoutLoss) {
               ElementsAre(HasSubstr("1317046452"), "1317046453.000000000 -1e-09 0 0 0 0 0 1"));
   EXPECT_EQ(folder.read("a/b/odometry_enhanced.tum"), "0.000000001 2 0 0 0 0 0 1\n");
   EXPECT_EQ(folder.read("a/b/ground_truth.tum"), "0.000000001 3 0 0 0 0 0 1\n");
+}
+
+template <class Message>
+TopicDescription topic_of(const std::string& name) {
+  const auto& type = interfaces::message_type<Message>();
+  return {name, std::string(type.name), {}, &type};
+}
+
+template <class Message>
+SamplePtr sample_of_message(const Message& message) {
+  return Sample::of(interfaces::message_type<Message>(), std::make_shared<const Message>(message), 0);
+}
+
+TEST(RunFiles, WritesLandmarksAndMatches) {
+  const TemporaryFolder folder;
+  RunFiles files(folder.path());
+  panvo_msgs::msg::PanoramicLandmark landmark;
+  landmark.header().stamp().sec(2);
+  landmark.id(7);
+  landmark.is_junction(true);
+  landmark.pose().pose().position().x(1.5);
+  landmark.pose().pose().orientation().w(1.0);
+  landmark.pose().covariance()[0] = 0.04;
+  landmark.keypoints().resize(3);
+  landmark.keypoints()[1].has_point(true);
+  const auto landmarks = topic_of<panvo_msgs::msg::PanoramicLandmark>("/landmarks");
+  ASSERT_TRUE(files.wants(landmarks));
+  files.write(landmarks, sample_of_message(landmark));
+  EXPECT_THAT(lines_of(folder.read("landmarks.csv")),
+              ElementsAre(HasSubstr("stamp_ns,id,"), "2000000000,7,1,1.5,0,0,0,0,0,1,0.2,0,3,1"));
+
+  panvo_msgs::msg::LandmarkMatch match;
+  match.header().stamp().nanosec(5);
+  match.state("rejected");
+  match.reason("8 inliers, \"12\" needed");
+  match.landmark_id(7);
+  match.large_distance(0.5);
+  match.small_distance(std::numeric_limits<double>::quiet_NaN());
+  match.candidates(4);
+  const auto matches = topic_of<panvo_msgs::msg::LandmarkMatch>("/robot/landmarks/match");
+  ASSERT_TRUE(files.wants(matches));
+  files.write(matches, sample_of_message(match));
+  const auto lines = lines_of(folder.read("matches.csv"));
+  ASSERT_EQ(lines.size(), 2U);
+  EXPECT_EQ(lines[1], "5,rejected,7,0,0,0.5,,4,0,0,\"8 inliers, \"\"12\"\" needed\"");
+  EXPECT_EQ(columns_of(lines[0]), 11U);
 }
 
 TEST(RunFiles, WritesBothCovariancesAndTheTwist) {

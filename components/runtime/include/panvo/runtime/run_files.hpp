@@ -39,7 +39,7 @@ struct RunSummary {
 /// Stage times by component and stage.
 using ComponentTimes = std::map<std::string, std::map<std::string, StageTimes::Times, std::less<>>>;
 
-/// The files that a run leaves in its folder: each odometry as it is published, line by line, so that a run
+/// The files that a run leaves in its folder: odometry, landmarks and matches as they are published, line by line, so that a run
 /// that is killed leaves what it had; and, at the end, timing.json and summary.json, whole or not at all.
 /// What an earlier run left under these names is removed. Every method throws std::runtime_error, naming the
 /// file, when it cannot be written (full disk, folder not writable); what was written before stays and is
@@ -58,7 +58,7 @@ class RunFiles {
   RunFiles& operator=(const RunFiles&) = delete;
 
   /// nav_msgs/msg/Odometry topics that end in /odometry/binocular, /odometry/enhanced and
-  /// /ground_truth/odometry.
+  /// /ground_truth/odometry, landmarks on /landmarks and what panoramas matched on /landmarks/match.
   bool wants(const TopicDescription& topic) const;
 
   /// Appends a message of a topic that wants() accepts; ignores any other. Two topics of one ending (two
@@ -68,11 +68,11 @@ class RunFiles {
   void finish(const RunSummary& summary, const ComponentTimes& times_by_component);
 
  private:
-  struct OdometryFiles;
+  struct TopicFile;
 
   std::filesystem::path folder_;
   std::mutex mutex_;
-  std::map<std::string, std::unique_ptr<OdometryFiles>> files_by_topic_;
+  std::map<std::string, std::vector<std::unique_ptr<TopicFile>>> files_by_topic_;
 };
 
 /// Makes one run of what several containers left in `subfolders` of `folder` (names): joins the components of
