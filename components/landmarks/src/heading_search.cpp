@@ -15,44 +15,65 @@ constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr int kGridSize = 2;  // [Lu2015 Alg. 1]
 constexpr double kReach_rad = 30.0 * kDegree;
 constexpr double kSmallestStep_rad = 0.5 * kDegree;
+constexpr double kNeighbourhood_rad = 15.0 * kDegree;  // of the start: farther is another heading
+constexpr int kMostColumns = 16;                       // downhill: more than the grid's last step
 
-}  // namespace
+/// D over the columns around a place, to go downhill.
+struct Valley {
+  int column;
+  float left, here, right;
+};
 
-HeadingMatch search_heading_grid(const QueryDescription& query, const PanoramaDescription& landmark, double start_rad) {
+/// [Alg. 1]; `distance` is D.
+HeadingMatch search_grid(const QueryDescription& query, const PanoramaDescription& landmark, double start_rad) {
   HeadingMatch best{start_rad, small_scale_distance(query, landmark, start_rad), 1.0F};
   for (double step = kReach_rad / (kGridSize + 1); step > kSmallestStep_rad; step /= kGridSize + 1) {
     const double start = best.heading_rad;
     for (int i = -kGridSize; i <= kGridSize; ++i) {
       const double heading = start + i * step;
       const float distance = small_scale_distance(query, landmark, heading);
+      const bool is_far = std::abs(heading - start_rad) > kNeighbourhood_rad;
+      if (is_far) best.second_distance = std::min(best.second_distance, distance);
       if (distance < best.distance) {
         best.heading_rad = heading;
         best.distance = distance;
       }
     }
   }
-  best.heading_rad = vision::wrap(best.heading_rad, kTurn);
   return best;
 }
 
+HeadingMatch relative(HeadingMatch match, float mean) {
+  match.heading_rad = vision::wrap(match.heading_rad, kTurn);
+  match.distance = std::min(1.0F, match.distance / mean);
+  match.second_distance = std::min(1.0F, match.second_distance / mean);
+  return match;
+}
+
+}  // namespace
+
+HeadingMatch search_heading_grid(const QueryDescription& query, const PanoramaDescription& landmark, double start_rad) {
+  return relative(search_grid(query, landmark, start_rad), mean_small_scale_distance(query, landmark));
+}
+
 HeadingMatch search_heading(const QueryDescription& query, const PanoramaDescription& landmark, double start_rad) {
-  HeadingMatch match = search_heading_grid(query, landmark, start_rad);
+  HeadingMatch match = search_grid(query, landmark, start_rad);
   const double column_rad = kTurn / query.images.columns();
-  int column = static_cast<int>(std::lround(match.heading_rad / column_rad));
   const auto at = [&](int u) { return small_scale_distance(query, landmark, u * column_rad); };
-  float here = at(column), left = at(column - 1), right = at(column + 1);
-  for (int i = 0; i < 16 && (left < here || right < here); ++i) {  // downhill, column by column
-    if (left < right) {
-      right = here, here = left, left = at(--column - 1);
+  const int nearest = static_cast<int>(std::lround(match.heading_rad / column_rad));
+  Valley valley{nearest, at(nearest - 1), at(nearest), at(nearest + 1)};
+  for (int i = 0; i < kMostColumns && (valley.left < valley.here || valley.right < valley.here); ++i) {
+    if (valley.left < valley.right) {
+      valley = {valley.column - 1, at(valley.column - 2), valley.left, valley.here};
     } else {
-      left = here, here = right, right = at(++column + 1);
+      valley = {valley.column + 1, valley.here, valley.right, at(valley.column + 2)};
     }
   }
-  const float curvature = left - 2.0F * here + right;
-  const double between = curvature > 0.0F ? std::clamp(0.5 * (left - right) / curvature, -0.5, 0.5) : 0.0;
-  match.heading_rad = vision::wrap((column + between) * column_rad, kTurn);
-  match.distance = here;
-  return match;
+  const float curvature = valley.left - 2.0F * valley.here + valley.right;
+  const double between = curvature > 0.0F ? std::clamp(0.5 * (valley.left - valley.right) / curvature, -0.5, 0.5) : 0.0;
+  match.heading_rad = (valley.column + between) * column_rad;
+  match.distance = valley.here;
+  return relative(match, mean_small_scale_distance(query, landmark));
 }
 
 }  // namespace panvo::landmarks

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <opencv2/core/hal/intrin.hpp>
 #include <vector>
 
@@ -16,6 +17,8 @@ namespace {
 constexpr float kTruncation =
     1.0F;  // spreads: beyond, a patch is covered or shows something else, and how much does not matter
 constexpr float kSmallestSpread = 0.05F;
+constexpr float kSmallestMean = 0.01F;
+constexpr int kMeanHeadings = 12;
 constexpr double kNeighbourhood_rad = 20.0 * std::numbers::pi / 180.0;  // of a minimum over the headings
 
 float difference(float value, float landmark_value, float scale) {
@@ -63,27 +66,33 @@ float small_scale_distance(const QueryDescription& query, const PanoramaDescript
   return distance(query, query.basis->small, landmark.small, heading_rad);
 }
 
+float mean_small_scale_distance(const QueryDescription& query, const PanoramaDescription& landmark) {
+  float sum = 0.0F;
+  for (int i = 0; i < kMeanHeadings; ++i) {
+    sum += small_scale_distance(query, landmark, i * 2.0 * std::numbers::pi / kMeanHeadings);
+  }
+  return std::max(kSmallestMean, sum / kMeanHeadings);
+}
+
 HeadingMatch match_large_scale(const QueryDescription& query, const PanoramaDescription& landmark) {
   const auto headings = static_cast<std::size_t>(query.basis->parameters.headings);
   const double step_rad = 2.0 * std::numbers::pi / static_cast<double>(headings);
   std::vector<float> sums(headings, 0.0F);
-  float weights = 0.0F;
   for (const AdaptiveFeature& feature : landmark.large) {
     const float* responses = &query.large_responses[feature.row * headings];
     const float factor = 1.0F / (kTruncation * std::max(kSmallestSpread, feature.scale));
     add_differences(responses, feature.value, factor, feature.weight, sums);
-    weights += feature.weight;
   }
-  if (weights <= 0.0F) return {};
+  const float mean = std::accumulate(sums.begin(), sums.end(), 0.0F) / static_cast<float>(headings);
+  if (mean <= 0.0F) return {};  // no features, or none that varies: nothing can be told
   const auto best = static_cast<std::size_t>(std::min_element(sums.begin(), sums.end()) - sums.begin());
   const auto heading = [&](std::size_t i) {
     return vision::wrap(static_cast<double>(i) * step_rad, 2.0 * std::numbers::pi);
   };
-  HeadingMatch match{heading(best), sums[best] / weights, 1.0F};
+  HeadingMatch match{heading(best), sums[best] / mean, 1.0F};
   for (std::size_t i = 0; i < headings; ++i) {
     const double apart = vision::wrap(heading(i) - match.heading_rad, 2.0 * std::numbers::pi);
-    if (std::abs(apart) > kNeighbourhood_rad)
-      match.second_distance = std::min(match.second_distance, sums[i] / weights);
+    if (std::abs(apart) > kNeighbourhood_rad) match.second_distance = std::min(match.second_distance, sums[i] / mean);
   }
   return match;
 }

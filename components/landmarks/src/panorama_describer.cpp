@@ -48,13 +48,13 @@ std::vector<AdaptiveFeature> to_adaptive(const std::vector<vision::SelectedFeatu
   return features;
 }
 
-vision::SelectionParameters selection_of(const DescriptionParameters& parameters) {
-  constexpr double kColumnsPerDegree = DescriptionBasis::kColumns / 360.0;
+vision::SelectionParameters selection_of(const DescriptionParameters& parameters, double radii) {
+  const double columns_per_degree = radii * DescriptionBasis::kColumns / 360.0;
   vision::SelectionParameters selection;
   selection.kept = parameters.features;
-  selection.alpha_px = parameters.alpha_deg * kColumnsPerDegree;
-  selection.beta_px = parameters.beta_deg * kColumnsPerDegree;
-  selection.gamma_px = parameters.gamma_deg * kColumnsPerDegree;
+  selection.alpha_px = parameters.alpha_deg * columns_per_degree;
+  selection.beta_px = parameters.beta_deg * columns_per_degree;
+  selection.gamma_px = parameters.gamma_deg * columns_per_degree;
   selection.upright = parameters.upright;
   selection.sectors = parameters.sectors;
   return selection;
@@ -107,7 +107,8 @@ PanoramaDescriber::PanoramaDescriber(const DescriptionParameters& parameters, st
                                         parameters.spread};
   basis->large = vision::MeasurementMatrix(band, vision::large_scale(band, parameters.widest), matrix, seed);
   basis->small = vision::MeasurementMatrix(band, vision::small_scale(band), matrix, seed + 1);
-  basis->selection = selection_of(parameters);
+  basis->select_large = selection_of(parameters, 1.0);
+  basis->select_small = selection_of(parameters, parameters.small_radii);
   basis_ = std::move(basis);
 }
 
@@ -116,9 +117,9 @@ PanoramaDescription PanoramaDescriber::describe(const cv::Mat& panorama) const {
   PanoramaDescription description;
   description.histogram = vision::intensity_histogram(band.grey, band.normalisation, basis_->parameters.histogram_bins);
   description.large = to_adaptive(
-      vision::select_features(band.images, basis_->large, band.normalisation, basis_->selection, basis_->seed));
+      vision::select_features(band.images, basis_->large, band.normalisation, basis_->select_large, basis_->seed));
   description.small = to_adaptive(
-      vision::select_features(band.images, basis_->small, band.normalisation, basis_->selection, basis_->seed));
+      vision::select_features(band.images, basis_->small, band.normalisation, basis_->select_small, basis_->seed));
   return description;
 }
 

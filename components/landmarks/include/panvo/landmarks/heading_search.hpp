@@ -6,7 +6,7 @@
 namespace panvo::landmarks {
 
 /// Third level [Lu2015 Alg. 1]: the heading of the smallest small-scale D within 30 degrees of a start, as printed: steps of
-/// 10, 3.33 and 1.11 degrees. `second_distance` is that of `start_rad` ... of the best tried heading farther than 10 degrees away.
+/// 10, 3.33 and 1.11 degrees. `second_distance` is that of the best heading tried more than 15 degrees from the start.
 HeadingMatch search_heading_grid(const QueryDescription& query, const PanoramaDescription& landmark, double start_rad);
 
 /// The same, and then beyond: down to the nearest column, and between the columns by a parabola over D.

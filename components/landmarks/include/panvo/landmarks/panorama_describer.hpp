@@ -31,6 +31,7 @@ struct DescriptionParameters {
   double alpha_deg = 10.0;
   double beta_deg = 20.0;
   double gamma_deg = 60.0;
+  double small_radii = 0.3;
   double upright = 0.2;
   int sectors = 24;
 
@@ -53,6 +54,8 @@ struct DescriptionParameters {
     field(&P::alpha_deg, "alpha_deg", "deg", "a patch is to look the same nearer than this", 0.5, 90.0);
     field(&P::beta_deg, "beta_deg", "deg", "and different farther than this ...", 0.5, 90.0);
     field(&P::gamma_deg, "gamma_deg", "deg", "... and nearer than this", 0.5, 180.0);
+    field(&P::small_radii, "small_radii", "1",
+          "the same radii at the small scale, which is to find the heading, of these", 0.05, 1.0);
     field(&P::upright, "upright", "1", "vertical share of these radii: a vehicle's view moves sideways", 0.0, 1.0);
     field(&P::sectors, "sectors", "1", "sectors of the full turn that share the kept features equally; 1: anywhere", 1,
           90);
@@ -70,7 +73,7 @@ struct DescriptionBasis {
   std::uint64_t seed = 0;
   int first_row = 0;  ///< of the band
   vision::MeasurementMatrix large, small;
-  vision::SelectionParameters selection;
+  vision::SelectionParameters select_large, select_small;
 };
 
 /// A panorama to be recognised: its histogram, its responses at every heading of the grid, and its integral images, from which
