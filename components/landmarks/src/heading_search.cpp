@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "heading_alignment.hpp"
 #include "panvo/vision/equirectangular.hpp"
 
 namespace panvo::landmarks {
@@ -71,7 +72,7 @@ HeadingMatch search_heading(const QueryDescription& query, const PanoramaDescrip
   }
   const float curvature = valley.left - 2.0F * valley.here + valley.right;
   const double between = curvature > 0.0F ? std::clamp(0.5 * (valley.left - valley.right) / curvature, -0.5, 0.5) : 0.0;
-  match.heading_rad = (valley.column + between) * column_rad;
+  match.heading_rad = align_heading(query, landmark, (valley.column + between) * column_rad);
   match.distance = valley.here;
   return relative(match, mean_small_scale_distance(query, landmark));
 }
