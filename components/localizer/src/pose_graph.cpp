@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "panvo/localizer/pose_graph.hpp"
+
+#include <ceres/ceres.h>
+#include <fmt/format.h>
+
+#include <Eigen/Cholesky>
+#include <array>
+#include <cmath>
+#include <stdexcept>
+
+namespace panvo::localizer {
+namespace {
+
+constexpr double kLossScale = 3.0;  // standard deviations
+constexpr int kMostSteps = 50;
+
+/// Translation, then the quaternion as Eigen stores it: x y z w.
+using Block = std::array<double, 7>;
+using Manifold = ceres::ProductManifold<ceres::EuclideanManifold<3>, ceres::EigenQuaternionManifold>;
+
+Block to_block(const Eigen::Isometry3d& pose) {
+  Block block{};
+  Eigen::Map<Eigen::Vector3d>(block.data()) = pose.translation();
+  Eigen::Map<Eigen::Quaterniond>(block.data() + 3) = Eigen::Quaterniond(pose.linear()).normalized();
+  return block;
+}
+
+Eigen::Isometry3d to_pose(const Block& block) {
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  pose.translation() = Eigen::Map<const Eigen::Vector3d>(block.data());
+  pose.linear() = Eigen::Map<const Eigen::Quaterniond>(block.data() + 3).normalized().toRotationMatrix();
+  return pose;
+}
+
+vision::Matrix6d whitening(const vision::Matrix6d& covariance) {
+  const Eigen::LLT<vision::Matrix6d> factor(covariance);
+  if (factor.info() != Eigen::Success) throw std::invalid_argument("pose graph: a covariance is not positive definite");
+  return factor.matrixL().solve(vision::Matrix6d::Identity());
+}
+
+/// The pose error, vision::pose_error, between a_from_b as it is and as it was measured, whitened.
+template <class T>
+void whitened_error(const Eigen::Matrix<T, 3, 1>& translation, const Eigen::Quaternion<T>& rotation,
+                    const Eigen::Isometry3d& measured, const vision::Matrix6d& whiten, T* residual) {
+  Eigen::Matrix<T, 6, 1> error;
+  error.template head<3>() = translation - measured.translation().cast<T>();
+  const Eigen::Quaternion<T> turn = rotation * Eigen::Quaterniond(measured.linear()).conjugate().cast<T>();
+  const T sign = turn.w() < T(0) ? T(-2) : T(2);
+  error.template tail<3>() = sign * turn.vec();  // of a small angle; monotonous up to half a turn
+  Eigen::Map<Eigen::Matrix<T, 6, 1>> result(residual);
+  result = whiten.cast<T>() * error;
+}
+
+struct EdgeCost {
+  Eigen::Isometry3d measured;
+  vision::Matrix6d whiten;
+
+  template <class T>
+  bool operator()(const T* from, const T* to, T* residual) const {
+    const Eigen::Map<const Eigen::Matrix<T, 3, 1>> from_translation(from), to_translation(to);
+    const Eigen::Map<const Eigen::Quaternion<T>> from_rotation(from + 3), to_rotation(to + 3);
+    const Eigen::Quaternion<T> back = from_rotation.conjugate();
+    const Eigen::Matrix<T, 3, 1> translation = back * (to_translation - from_translation);
+    whitened_error<T>(translation, back * to_rotation, measured, whiten, residual);
+    return true;
+  }
+};
+
+struct PriorCost {
+  Eigen::Isometry3d known;
+  vision::Matrix6d whiten;
+
+  template <class T>
+  bool operator()(const T* pose, T* residual) const {
+    const Eigen::Map<const Eigen::Matrix<T, 3, 1>> translation(pose);
+    const Eigen::Map<const Eigen::Quaternion<T>> rotation(pose + 3);
+    whitened_error<T>(translation, rotation, known, whiten, residual);
+    return true;
+  }
+};
+
+/// The graph as Ceres has it.
+struct Problem {
+  explicit Problem(const PoseGraph& graph) {
+    const auto check = [&](std::size_t pose) {
+      if (pose >= graph.poses.size()) {
+        throw std::invalid_argument(fmt::format("pose graph: there is no pose {} of {}", pose, graph.poses.size()));
+      }
+    };
+    blocks.reserve(graph.poses.size());
+    for (const auto& pose : graph.poses) {
+      blocks.push_back(to_block(pose));
+      problem.AddParameterBlock(blocks.back().data(), 7, new Manifold);
+    }
+    for (const auto& edge : graph.edges) {
+      check(edge.from);
+      check(edge.to);
+      problem.AddResidualBlock(new ceres::AutoDiffCostFunction<EdgeCost, 6, 7, 7>(
+                                   new EdgeCost{edge.from_from_to, whitening(edge.covariance)}),
+                               edge.is_robust ? new ceres::CauchyLoss(kLossScale) : nullptr, blocks[edge.from].data(),
+                               blocks[edge.to].data());
+    }
+    for (const auto& prior : graph.priors) {
+      check(prior.pose);
+      problem.AddResidualBlock(new ceres::AutoDiffCostFunction<PriorCost, 6, 7>(
+                                   new PriorCost{prior.map_from_pose, whitening(prior.covariance)}),
+                               nullptr, blocks[prior.pose].data());
+    }
+  }
+
+  std::vector<Block> blocks;  // never grows: Ceres holds their addresses
+  ceres::Problem problem;
+};
+
+}  // namespace
+
+void PoseGraph::optimise() {
+  Problem problem(*this);
+  ceres::Solver::Options options;
+  options.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
+  options.max_num_iterations = kMostSteps;
+  options.num_threads = 1;
+  options.logging_type = ceres::SILENT;
+  ceres::Solver::Summary summary;
+  ceres::Solve(options, &problem.problem, &summary);
+  if (!summary.IsSolutionUsable()) return;
+  for (std::size_t i = 0; i < poses.size(); ++i) poses[i] = to_pose(problem.blocks[i]);
+}
+
+std::optional<std::vector<vision::Matrix6d>> PoseGraph::covariances() const {
+  Problem problem(*this);
+  ceres::Covariance::Options options;
+  options.algorithm_type = ceres::SPARSE_QR;
+  options.num_threads = 1;
+  ceres::Covariance covariance(options);
+  std::vector<std::pair<const double*, const double*>> wanted;
+  for (const auto& block : problem.blocks) wanted.emplace_back(block.data(), block.data());
+  if (!covariance.Compute(wanted, &problem.problem)) return std::nullopt;
+  std::vector<vision::Matrix6d> result;
+  for (const auto& block : problem.blocks) {
+    Eigen::Matrix<double, 6, 6, Eigen::RowMajor> tangent;
+    if (!covariance.GetCovarianceBlockInTangentSpace(block.data(), block.data(), tangent.data())) return std::nullopt;
+    // Ceres' step of a quaternion is half of the rotation vector, about the map's axes
+    tangent.bottomRows<3>() *= 2.0;
+    tangent.rightCols<3>() *= 2.0;
+    result.emplace_back(0.5 * (tangent + tangent.transpose()));
+    if (!result.back().allFinite()) return std::nullopt;
+  }
+  return result;
+}
+
+}  // namespace panvo::localizer
