@@ -29,8 +29,9 @@ TEST(GroundGrid, HasAheadUpAndLeftLeft) {
 TEST(GroundProjection, ShowsAPointOfTheGroundWhereItIsThoughTheCameraIsTilted) {  // [Lu2015 4.1]
   const vision::Equirectangular equirectangular{2160, 1080};
   const GroundProjection projection({}, tilted(), {2160, 1080});
-  for (const Eigen::Vector2d point : {Eigen::Vector2d(6.0, 0.0), Eigen::Vector2d(-4.0, 5.0), Eigen::Vector2d(3.0, -9.0),
-                                      Eigen::Vector2d(-12.0, 0.02), Eigen::Vector2d(-8.0, -8.0)}) {
+  for (const Eigen::Vector2d& point :
+       {Eigen::Vector2d(6.0, 0.0), Eigen::Vector2d(-4.0, 5.0), Eigen::Vector2d(3.0, -9.0), Eigen::Vector2d(-12.0, 0.02),
+        Eigen::Vector2d(-8.0, -8.0)}) {
     cv::Mat panorama(1080, 2160, CV_8UC1, cv::Scalar(0));
     const Eigen::Vector2d seen =
         equirectangular.project(tilted().inverse() * Eigen::Vector3d(point.x(), point.y(), 0.0));

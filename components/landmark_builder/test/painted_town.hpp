@@ -104,7 +104,10 @@ class PaintedTown {
     };
     if (beside < 0.0) return shade(92, 92, 95);
     if (beside < kKerb_m) return shade(170, 170, 170);
-    return shade(50, 105, 70);
+    // flower beds, so that there is something to recognise
+    const double bed = 70.0 * noise(static_cast<std::int64_t>(std::floor(point.x() / 1.3)),
+                                    static_cast<std::int64_t>(std::floor(point.y() / 1.3)) + 77);
+    return shade(30 + 0.5 * bed, 80 + bed, 45 + 0.6 * bed);
   }
 
   std::vector<Road> roads_;
