@@ -8,14 +8,14 @@
 namespace panvo::landmark_builder {
 
 struct RoadArmsParameters {
-  int directions = 144;
+  int directions = 120;
   double arm_length_m = 13.0;
   double widest_m = 13.0;
   double narrowest_m = 2.2;
   double smallest_gap_m = 2.0;
   double deepest_gap = 0.8;
   double search_radius_m = 7.0;
-  double search_step_m = 0.75;
+  double search_step_m = 1.0;
   double smallest_room_m = 2.2;
   double longest_gap_m = 1.0;
 
