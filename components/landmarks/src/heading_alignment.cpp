@@ -14,8 +14,8 @@ constexpr double kTurn = 2.0 * std::numbers::pi;
 constexpr int kIterations = 10;
 constexpr int kHalfStep = 3;  // columns, of the response's derivative
 constexpr double kSmallestSpread = 0.05;
-constexpr double kLossScale = 0.15;   // spreads: about what noise does to a response
-constexpr double kParallax = 20.0;    // columns: step aside that is as likely as not
+constexpr double kLossScale = 0.3;    // spreads: about what noise and a little parallax do to a response
+constexpr double kParallax = 12.0;    // columns: step aside that is as likely as not
 constexpr double kMostChange = 15.0;  // columns an iteration
 constexpr double kReach = 60.0;       // columns from the start: farther is another heading
 

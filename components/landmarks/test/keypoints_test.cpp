@@ -1,2 +1,48 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "panvo/landmarks/keypoints.hpp"
+
 #include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "painted_panorama.hpp"
+
+namespace panvo::landmarks {
+namespace {
+
+double azimuth(const Keypoint& keypoint) { return std::atan2(keypoint.bearing.x(), keypoint.bearing.z()); }
+
+TEST(DetectKeypoints, FindsAsManyAsAskedForAndUnitBearings) {
+  const auto keypoints = detect_keypoints(paint_panorama(1), {});
+  ASSERT_GT(keypoints.size(), 100U);
+  EXPECT_LE(keypoints.size(), 250U);
+  for (const Keypoint& keypoint : keypoints) EXPECT_NEAR(keypoint.bearing.norm(), 1.0, 1e-5);
+  EXPECT_EQ(keypoints, detect_keypoints(paint_panorama(1), {}));
+}
+
+TEST(MatchKeypoints, FindsThemAgainTurnedByTheHeading) {
+  const auto landmark = detect_keypoints(paint_panorama(1), {});
+  const double heading = 2.0 * std::numbers::pi * 300 / 1080;
+  const auto query = detect_keypoints(turn_left(paint_panorama(1), 300), {});
+  for (const auto& window : {std::optional<AzimuthWindow>(), std::optional(AzimuthWindow{heading, 0.1})}) {
+    const auto matches = match_keypoints(query, landmark, 0.8F, window);
+    EXPECT_GT(matches.size(), landmark.size() / 2);
+    int right = 0;
+    for (const KeypointMatch& match : matches) {
+      const double turned = azimuth(query[static_cast<std::size_t>(match.query)]) -
+                            azimuth(landmark[static_cast<std::size_t>(match.landmark)]);
+      right += std::abs(vision::wrap(turned - heading, 2.0 * std::numbers::pi)) < 0.003 ? 1 : 0;
+    }
+    EXPECT_GT(right, 0.95 * static_cast<double>(matches.size()));
+  }
+  EXPECT_TRUE(match_keypoints(query, {}).empty());
+}
+
+TEST(DetectKeypoints, RefusesWhatIsNoPanorama) {
+  EXPECT_THROW(detect_keypoints(cv::Mat(), {}), std::invalid_argument);
+  EXPECT_THROW(detect_keypoints(cv::Mat(500, 900, CV_8UC1), {}), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace panvo::landmarks
