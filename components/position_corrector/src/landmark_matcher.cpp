@@ -148,7 +148,7 @@ LandmarkMatch LandmarkMatcher::follow(const PanoramaFrame& frame, const landmark
     match.stamp_ns = frame.stamp_ns;
     match.pose.reset();
     match.histogram_distance = histogram_distance(query, landmark->description);
-    match.large_distance = large_scale_distance(query, landmark->description, lock.heading_rad);
+    match.large_distance = match_large_scale(query, landmark->description).distance;
     {
       const vision::Stage stage(observer_, "small_scale");
       const auto small = search_heading(query, landmark->description, lock.heading_rad);

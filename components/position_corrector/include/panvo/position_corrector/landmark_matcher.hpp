@@ -24,8 +24,8 @@ struct MatchingParameters {
   double radius_m = 15.0;
   double radius_sigmas = 3.0;
   double largest_histogram_distance = 0.6;  ///< T_h
-  double largest_large_distance = 0.75;     ///< T_fl
-  double largest_small_distance = 0.85;     ///< T_fs
+  double largest_large_distance = 0.85;     ///< T_fl
+  double largest_small_distance = 0.9;      ///< T_fs
   int most_verified = 3;
   double window_m = 3.0;
   double window_s = 3.0;
@@ -41,10 +41,12 @@ struct MatchingParameters {
     field(&P::radius_sigmas, "radius_sigmas", "1", "and those within so many standard deviations of the position more",
           0.0, 10.0);
     field(&P::largest_histogram_distance, "largest_histogram_distance", "1", "T_h [Lu2015 5.1]", 0.0, 1.0);
-    field(&P::largest_large_distance, "largest_large_distance", "1", "T_fl, of the large-scale features [Lu2015 5.1]",
+    field(&P::largest_large_distance, "largest_large_distance", "1",
+          "T_fl, of the large-scale features, of their mean over all headings [Lu2015 5.1]: other places have 0.9 +- "
+          "0.05",
           0.0, 1.0);
-    field(&P::largest_small_distance, "largest_small_distance", "1", "T_fs, of the small-scale features [Lu2015 5.1]",
-          0.0, 1.0);
+    field(&P::largest_small_distance, "largest_small_distance", "1",
+          "T_fs, of the small-scale features, the same way [Lu2015 5.1]", 0.0, 1.0);
     field(&P::most_verified, "most_verified", "1",
           "candidates, the most similar, whose geometry is looked at in one panorama", 1, 100);
     field(&P::window_m, "window_m", "m", "a smallest distance is the smallest once nothing smaller came over this way",
