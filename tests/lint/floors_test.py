@@ -21,8 +21,8 @@ class FloorsTest(sample.RuleTest):
             "interfaces/idl/nav_msgs/msg/Odometry.idl": "", "components/compass/src/compass.cpp": L + '#include "nav_msgs/msg/Odometry.h"\n'})
 
     def test_an_algorithm_includes_no_other_component(self):
-        self.assert_finds(floors, "may include of ours only: vision",
-                          {"components/compass/src/compass.cpp": L + '#include "panvo/landmarks/landmark.hpp"\n'})
+        self.assert_finds(floors, "may include of ours only: landmarks, vision",
+                          {"components/compass/src/compass.cpp": L + '#include "panvo/localizer/localizer.hpp"\n'})
 
     def test_an_algorithm_has_no_thread_and_no_clock(self):
         self.assert_finds(floors, "no threads of its own", {"components/compass/src/compass.cpp": L + "#include <thread>\n"})

@@ -80,7 +80,7 @@ TEST_F(PositionCorrectorComponent, SearchesEverythingWithoutOdometryAndSaysSo) {
 
 TEST_F(PositionCorrectorComponent, LeavesOutALandmarkThatWasDescribedOtherwise) {
   auto parameters = landmarks::DescriptionParameters{};
-  parameters.top_deg = 30.0;
+  parameters.top_deg = 45.0;
   publish_landmark(1, 1, landmarks::description_settings(parameters, 1));
   publish_panorama(place(1));
   EXPECT_TRUE(harness.log_contains("top_deg"));
