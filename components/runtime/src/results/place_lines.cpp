@@ -6,29 +6,10 @@
 #include <cstdint>
 #include <numbers>
 
+#include "csv_fields.hpp"
 #include "panvo/runtime/parameters.hpp"
 
 namespace panvo::runtime {
-namespace {
-
-template <class Message>
-std::string stamp_of(const Message& message) {
-  const auto& stamp = message.header().stamp();
-  return std::to_string(std::int64_t{stamp.sec()} * 1'000'000'000 + stamp.nanosec());
-}
-
-std::string quoted(const std::string& text) {
-  std::string result = "\"";
-  for (const char c : text) {
-    if (c == '"') result += '"';
-    result += c == '\n' ? ' ' : c;
-  }
-  return result + '"';
-}
-
-std::string number_or_nothing(double number) { return std::isfinite(number) ? to_text(number) : std::string(); }
-
-}  // namespace
 
 std::string landmark_header() {
   return "stamp_ns,id,is_junction,x,y,z,qx,qy,qz,qw,sigma_x_m,sigma_y_m,keypoints,points";

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "localization_lines.hpp"
 #include "odometry_lines.hpp"
 #include "output_file.hpp"
 #include "place_lines.hpp"
@@ -33,20 +34,38 @@ Line line_of(const SamplePtr& sample) {
 const std::vector<FileKind>& file_kinds() {
   using interfaces::message_type;
   using nav_msgs::msg::Odometry;
+  using panvo_msgs::msg::AzimuthChange;
+  using panvo_msgs::msg::CorrectionOutcome;
   using panvo_msgs::msg::LandmarkMatch;
+  using panvo_msgs::msg::LocalizationState;
+  using panvo_msgs::msg::OdometryQuality;
   using panvo_msgs::msg::PanoramicLandmark;
+  using panvo_msgs::msg::PositionCorrection;
   static const std::string_view odometry = message_type<Odometry>().name;
   static const std::string_view landmark = message_type<PanoramicLandmark>().name;
   static const std::string_view match = message_type<LandmarkMatch>().name;
+  static const std::string_view azimuth = message_type<AzimuthChange>().name;
+  static const std::string_view correction = message_type<PositionCorrection>().name;
+  static const std::string_view outcome = message_type<CorrectionOutcome>().name;
+  static const std::string_view quality = message_type<OdometryQuality>().name;
+  static const std::string_view state = message_type<LocalizationState>().name;
   constexpr auto kPose = line_of<Odometry, tum_line>;
   static const std::vector<FileKind> kinds{
       {"/odometry/binocular", odometry, "odometry_binocular", ".tum", nullptr, kPose},
       {"/odometry/binocular", odometry, "odometry_binocular", "_covariance.csv", covariance_header,
        line_of<Odometry, covariance_line>},
       {"/odometry/enhanced", odometry, "odometry_enhanced", ".tum", nullptr, kPose},
+      {"/odometry/enhanced", odometry, "odometry_enhanced", "_covariance.csv", covariance_header,
+       line_of<Odometry, covariance_line>},
+      {"/odometry/quality", quality, "quality", ".csv", quality_header, line_of<OdometryQuality, quality_line>},
+      {"/compass/azimuth_change", azimuth, "azimuth", ".csv", azimuth_header, line_of<AzimuthChange, azimuth_line>},
       {"/ground_truth/odometry", odometry, "ground_truth", ".tum", nullptr, kPose},
       {"/landmarks", landmark, "landmarks", ".csv", landmark_header, line_of<PanoramicLandmark, landmark_line>},
-      {"/landmarks/match", match, "matches", ".csv", match_header, line_of<LandmarkMatch, match_line>}};
+      {"/landmarks/match", match, "matches", ".csv", match_header, line_of<LandmarkMatch, match_line>},
+      {"/correction", correction, "corrections", ".csv", correction_header,
+       line_of<PositionCorrection, correction_line>},
+      {"/correction/outcome", outcome, "outcomes", ".csv", outcome_header, line_of<CorrectionOutcome, outcome_line>},
+      {"/localization/state", state, "states", ".csv", state_header, line_of<LocalizationState, state_line>}};
   return kinds;
 }
 

@@ -23,6 +23,7 @@ namespace panvo::runtime {
 namespace {
 
 using nav_msgs::msg::Odometry;
+using testing::_;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -74,7 +75,7 @@ TEST(RunFiles, WantsTheOdometryTopicsAndNoOthers) {
   EXPECT_TRUE(files.wants(kBinocular));
   EXPECT_TRUE(files.wants(topic("/odometry/enhanced")));
   EXPECT_TRUE(files.wants(topic("/robot/ground_truth/odometry")));
-  EXPECT_FALSE(files.wants(topic("/odometry/quality")));
+  EXPECT_FALSE(files.wants(topic("/odometry/visual")));
   EXPECT_FALSE(files.wants(topic("/visual_odometry/binocular")));
   auto other_type = kBinocular;
   other_type.type_name = "sensor_msgs/msg/Image";
@@ -139,6 +140,47 @@ TEST(RunFiles, WritesLandmarksAndMatches) {
   ASSERT_EQ(lines.size(), 2U);
   EXPECT_EQ(lines[1], "5,rejected,7,0,0,0.5,,4,0,0,\"8 inliers, \"\"12\"\" needed\"");
   EXPECT_EQ(columns_of(lines[0]), 11U);
+}
+
+TEST(RunFiles, WritesWhatTheLocalizerIsToldAndSays) {
+  const TemporaryFolder folder;
+  RunFiles files(folder.path());
+  panvo_msgs::msg::AzimuthChange change;
+  change.header().stamp().sec(3);
+  change.from_stamp().sec(2);
+  change.azimuth_change_rad(0.5);
+  change.variance_rad2(0.04);
+  change.valid(true);
+  files.write(topic_of<panvo_msgs::msg::AzimuthChange>("/compass/azimuth_change"), sample_of_message(change));
+  EXPECT_THAT(lines_of(folder.read("azimuth.csv")), ElementsAre(_, "3000000000,2000000000,0.5,0.2,0,1,\"\""));
+
+  panvo_msgs::msg::PositionCorrection correction;
+  correction.landmark_id(4);
+  correction.state("full");
+  correction.inliers(31);
+  correction.landmark_from_base().pose().position().y(-2.0);
+  correction.landmark_from_base().pose().orientation().w(1.0);
+  correction.landmark_from_base().covariance()[35] = 0.25;
+  files.write(topic_of<panvo_msgs::msg::PositionCorrection>("/correction"), sample_of_message(correction));
+  EXPECT_THAT(lines_of(folder.read("corrections.csv")), ElementsAre(_, "0,4,full,31,0,-2,0,0,0,0,1,0,0,0.5,\"\""));
+
+  panvo_msgs::msg::CorrectionOutcome outcome;
+  outcome.landmark_id(4);
+  outcome.outcome("rejected");
+  outcome.reason("too far");
+  outcome.chi_square(99.5);
+  outcome.after().position().x(1.25);
+  files.write(topic_of<panvo_msgs::msg::CorrectionOutcome>("/correction/outcome"), sample_of_message(outcome));
+  const auto outcomes = lines_of(folder.read("outcomes.csv"));
+  ASSERT_EQ(outcomes.size(), 2U);
+  EXPECT_EQ(outcomes[1], "0,4,rejected,99.5,0,0,0,0,0,0,0,1.25,0,0,0,0,0,0,\"too far\"");
+  EXPECT_EQ(columns_of(outcomes[0]), columns_of(outcomes[1]));
+
+  panvo_msgs::msg::LocalizationState state;
+  state.state("lost");
+  state.position_sigma_m(std::numeric_limits<double>::infinity());
+  files.write(topic_of<panvo_msgs::msg::LocalizationState>("/localization/state"), sample_of_message(state));
+  EXPECT_THAT(lines_of(folder.read("states.csv")), ElementsAre(_, "0,lost,,0,\"\""));
 }
 
 TEST(RunFiles, WritesBothCovariancesAndTheTwist) {

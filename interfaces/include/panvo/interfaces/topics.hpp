@@ -8,9 +8,14 @@
 #include "nav_msgs/msg/Odometry.h"
 #include "nav_msgs/msg/Path.h"
 #include "panvo/interfaces/qos.hpp"
+#include "panvo_msgs/msg/AzimuthChange.h"
+#include "panvo_msgs/msg/CorrectionOutcome.h"
 #include "panvo_msgs/msg/LandmarkMatch.h"
+#include "panvo_msgs/msg/LandmarkPoses.h"
+#include "panvo_msgs/msg/LocalizationState.h"
 #include "panvo_msgs/msg/OdometryQuality.h"
 #include "panvo_msgs/msg/PanoramicLandmark.h"
+#include "panvo_msgs/msg/PositionCorrection.h"
 #include "rcl_interfaces/msg/Log.h"
 #include "rosgraph_msgs/msg/Clock.h"
 #include "sensor_msgs/msg/CameraInfo.h"
@@ -62,9 +67,17 @@ inline constexpr std::array<Topic<sensor_msgs::msg::CameraInfo>, 6> kPanoramaHea
 inline constexpr Topic<nav_msgs::msg::Odometry> kOdometryBinocular{"odometry/binocular", qos::kResult};
 inline constexpr Topic<panvo_msgs::msg::OdometryQuality> kOdometryQuality{"odometry/quality", qos::kResult};
 inline constexpr Topic<nav_msgs::msg::Odometry> kOdometryEnhanced{"odometry/enhanced", qos::kResult};
-/// Places that can be recognised: each when it is made, and again when it is moved.
+inline constexpr Topic<panvo_msgs::msg::AzimuthChange> kAzimuthChange{"compass/azimuth_change", qos::kResult};
+/// Places that can be recognised, each when it is made.
 inline constexpr Topic<panvo_msgs::msg::PanoramicLandmark> kLandmarks{"landmarks", qos::kHistory};
 inline constexpr Topic<panvo_msgs::msg::LandmarkMatch> kLandmarkMatch{"landmarks/match", qos::kResult};
+/// Where they are known to be by now.
+inline constexpr Topic<panvo_msgs::msg::LandmarkPoses> kLandmarkPoses{"landmarks/poses", qos::kLatched};
+inline constexpr Topic<panvo_msgs::msg::PositionCorrection> kCorrection{"correction", qos::kResult};
+inline constexpr Topic<panvo_msgs::msg::CorrectionOutcome> kCorrectionOutcome{"correction/outcome", qos::kResult};
+inline constexpr Topic<panvo_msgs::msg::LocalizationState> kLocalizationState{"localization/state", qos::kLatched};
+inline constexpr Topic<nav_msgs::msg::Path> kPathBinocular{"path/binocular", qos::kResult};
+inline constexpr Topic<nav_msgs::msg::Path> kPathEnhanced{"path/enhanced", qos::kResult};
 inline constexpr Topic<nav_msgs::msg::Odometry> kGroundTruth{"ground_truth/odometry", qos::kResult};
 
 inline constexpr Topic<tf2_msgs::msg::TFMessage> kTf{"/tf", {.depth = 100}};
