@@ -15,8 +15,12 @@
 
 #include "../config/temporary_folder.hpp"
 #include "nav_msgs/msg/Odometry.h"
+#include "panvo_msgs/msg/AzimuthChange.h"
+#include "panvo_msgs/msg/CorrectionOutcome.h"
 #include "panvo_msgs/msg/LandmarkMatch.h"
+#include "panvo_msgs/msg/LocalizationState.h"
 #include "panvo_msgs/msg/PanoramicLandmark.h"
+#include "panvo_msgs/msg/PositionCorrection.h"
 #include "results/odometry_lines.hpp"
 
 namespace panvo::runtime {
