@@ -177,7 +177,7 @@ TEST(RunFiles, WritesWhatTheLocalizerIsToldAndSays) {
   files.write(topic_of<panvo_msgs::msg::CorrectionOutcome>("/correction/outcome"), sample_of_message(outcome));
   const auto outcomes = lines_of(folder.read("outcomes.csv"));
   ASSERT_EQ(outcomes.size(), 2U);
-  EXPECT_EQ(outcomes[1], "0,4,rejected,99.5,0,0,0,0,0,0,0,1.25,0,0,0,0,0,0,\"too far\"");
+  EXPECT_EQ(outcomes[1], "0,4,rejected,99.5,0,0,0,0,0,0,1,1.25,0,0,0,0,0,1,\"too far\"");
   EXPECT_EQ(columns_of(outcomes[0]), columns_of(outcomes[1]));
 
   panvo_msgs::msg::LocalizationState state;
