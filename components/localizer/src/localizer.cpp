@@ -5,9 +5,7 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
-#include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <numbers>
 #include <utility>
 
@@ -16,75 +14,88 @@ namespace {
 
 constexpr double kSecond_ns = 1e9;
 constexpr double kDegree = std::numbers::pi / 180.0;
-constexpr double kLeastVariance = 1e-8;  // of an edge: a tenth of a millimetre, a tenth of a millirad
+constexpr double kSlew = 0.2;  // of the turn that is owed, with each step: made up for within half a second at 25 Hz
+constexpr double kUnknownPosition_m = 1e4;  // standard deviations of a start that is not known
+constexpr double kUnknownYaw_rad = 3.0;
+constexpr double kDriftRatio = 0.03;  // two landmarks agree within the drift on the way between them
 
-/// Covariance of a_from_b that odometry gained on the way from a to b, in the axes of a.
-vision::Matrix6d gained(const OdometryPose& a, const OdometryPose& b) {
-  const Eigen::Isometry3d a_from_b = a.odom_from_base.inverse() * b.odom_from_base;
-  const vision::Matrix6d inherited =
-      vision::compose_covariance(a.odom_from_base, a.covariance, a_from_b, vision::Matrix6d::Zero());
-  vision::Matrix6d turn = vision::Matrix6d::Zero();
-  turn.topLeftCorner<3, 3>() = turn.bottomRightCorner<3, 3>() = a.odom_from_base.linear().transpose();
-  const vision::Matrix6d difference = turn * (b.covariance - inherited) * turn.transpose();
-  // rounding, and covariances that were reset, must not make it negative
-  const Eigen::SelfAdjointEigenSolver<vision::Matrix6d> parts(0.5 * (difference + difference.transpose()));
-  return parts.eigenvectors() * parts.eigenvalues().cwiseMax(kLeastVariance).asDiagonal() *
-         parts.eigenvectors().transpose();
+double wrapped(double angle_rad) { return std::remainder(angle_rad, 2.0 * std::numbers::pi); }
+
+double horizontal_sigma(const vision::Matrix6d& covariance) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> spread(covariance.topLeftCorner<2, 2>());
+  return std::sqrt(std::max(0.0, spread.eigenvalues().maxCoeff()));
 }
 
-bool is_finite(const Eigen::Isometry3d& pose, const vision::Matrix6d& covariance) {
-  return pose.matrix().allFinite() && covariance.allFinite();
-}
-
-double position_variance(const vision::Matrix6d& covariance) { return covariance.topLeftCorner<3, 3>().trace(); }
+double seconds(std::int64_t from_ns, std::int64_t to_ns) { return static_cast<double>(to_ns - from_ns) / kSecond_ns; }
 
 }  // namespace
 
-Localizer::Localizer(const Parameters& parameters) : parameters_(parameters) {}
+Localizer::Localizer(const Parameters& parameters)
+    : parameters_(parameters),
+      chain_(parameters.history_s),
+      clock_(parameters.clock_sigma_s),
+      graph_(parameters.start_sigma_m, parameters.start_sigma_deg * kDegree) {}
 
 LocalizedPose Localizer::add(const OdometryPose& odometry) {
-  const bool is_late = !history_.empty() && odometry.stamp_ns <= history_.back().pose.stamp_ns;
-  if (is_late || !is_finite(odometry.odom_from_base, odometry.covariance)) return latest_;
-  Remembered now{odometry, 0.0};
-  if (history_.empty()) {
-    Node start;
-    start.at = now;
-    start.map_from_base = odometry.odom_from_base;
-    nodes_.push_back(start);
+  if (!chain_.add(odometry)) return latest_;
+  if (graph_.has_started()) {
+    slew(last_raw_.inverse() * odometry.odom_from_base);
   } else {
-    const auto& before = history_.back();
-    now.way_m =
-        before.way_m + (odometry.odom_from_base.translation() - before.pose.odom_from_base.translation()).norm();
+    graph_.start(chain_.latest());
+    smooth_ = odometry.odom_from_base;
   }
-  history_.push_back(now);
-  while (static_cast<double>(odometry.stamp_ns - history_.front().pose.stamp_ns) > parameters_.history_s * kSecond_ns) {
-    history_.pop_front();
+  last_raw_ = odometry.odom_from_base;
+  if (odometry.is_reliable) {
+    unreliable_since_ns_.reset();
+  } else {
+    if (!unreliable_since_ns_) unreliable_since_ns_ = odometry.stamp_ns;
+    doubtful_ns_ = odometry.stamp_ns;
   }
-  return latest_ = carried(odometry);
+  return latest_ = localized(chain_.latest().pose);
+}
+
+AzimuthUse Localizer::add(const AzimuthMeasurement& azimuth) {
+  const std::int64_t from_ns = in_odometry_time(azimuth.from_ns);
+  const std::int64_t to_ns = in_odometry_time(azimuth.to_ns);
+  const auto turn = chain_.turn(from_ns, to_ns);
+  if (!turn || !std::isfinite(azimuth.change_rad) || !(azimuth.variance_rad2 > 0.0)) return AzimuthUse::kNotUsed;
+  const double disagreement = wrapped(azimuth.change_rad - turn->change_rad);
+  const auto rate_then = chain_.yaw_rate(from_ns);
+  const auto rate_now = chain_.yaw_rate(to_ns);
+  const double rate_change = rate_then && rate_now ? *rate_now - *rate_then : 0.0;
+  const double compass_variance = azimuth.variance_rad2 + rate_change * rate_change * clock_.variance_s2();
+  const double spread = compass_variance + turn->variance_rad2;
+  const double excess =
+      disagreement * disagreement / (spread * parameters_.contradiction_sigmas * parameters_.contradiction_sigmas);
+  double odometry_variance = turn->variance_rad2;
+  if (excess > 1.0) {
+    // Panoramas see all around, and movers cover little of them: it is the odometry that followed something else [Lu2015 6].
+    const double factor = disagreement * disagreement / std::max(turn->variance_rad2, 1e-12);
+    chain_.distrust(from_ns, to_ns, factor);
+    odometry_variance *= factor;
+    doubtful_ns_ = to_ns;
+  } else {
+    clock_.add(disagreement, rate_change, azimuth.variance_rad2 + turn->variance_rad2);
+  }
+  const double gain = odometry_variance / (odometry_variance + compass_variance);
+  chain_.turn_more(from_ns, to_ns, gain * disagreement, 1.0 - gain);
+  owed_rad_ += gain * disagreement;
+  azimuth_ns_ = to_ns;
+  graph_.refresh(chain_, from_ns);
+  latest_ = localized(chain_.latest().pose);
+  return excess > 1.0 ? AzimuthUse::kContradicted : AzimuthUse::kFused;
 }
 
 void Localizer::add_known(const KnownLandmark& landmark) {
-  Node node;
-  node.landmark_id = landmark.id;
-  node.is_of_earlier_day = true;
-  node.known = landmark;
-  node.map_from_base = landmark.map_from_base;
-  node.covariance = landmark.covariance;
-  nodes_.push_back(node);
-  if (!has_relocalised_) is_located_ = false;
+  if (!graph_.has_known() && !found_at_way_m_) is_located_ = false;
+  graph_.add_known(landmark);
 }
 
-std::optional<KnownLandmark> Localizer::add_built(std::uint32_t id, std::int64_t stamp_ns) {
-  const auto at = remembered(stamp_ns);
-  if (!at) return std::nullopt;
-  Node node;
-  node.landmark_id = id;
-  node.at = *at;
-  const auto here = carried(at->pose);
-  node.map_from_base = here.map_from_base;
-  node.covariance = here.covariance;
-  nodes_.push_back(node);
-  return KnownLandmark{id, stamp_ns, node.map_from_base, node.covariance};
+bool Localizer::add_built(std::uint32_t id, std::int64_t stamp_ns) {
+  const auto at = chain_.at(in_odometry_time(stamp_ns));
+  if (!at) return false;
+  graph_.add_built(id, *at);
+  return true;
 }
 
 Correction Localizer::add(const LandmarkSighting& sighting) {
@@ -94,205 +105,158 @@ Correction Localizer::add(const LandmarkSighting& sighting) {
     correction.reason = std::move(reason);
     return correction;
   };
-  if (!is_finite(sighting.landmark_from_base, sighting.covariance)) return rejected("numbers that are none");
-  const auto at = remembered(sighting.stamp_ns);
-  if (!at) return rejected("no odometry is remembered of that time");
-  const auto* const known = landmark(sighting.landmark_id);
-  if (known == nullptr) return rejected(fmt::format("landmark {} is not known", sighting.landmark_id));
-  correction.map_from_base_before = correction.map_from_base_after = carried(at->pose).map_from_base;
-  const auto reason = doubt(sighting, *known, at->pose, correction);
-  if (!reason.empty()) return rejected(reason);
-
-  if (!is_located_) {
-    place_journey(known->map_from_base * sighting.landmark_from_base * at->pose.odom_from_base.inverse());
-    is_located_ = has_relocalised_ = true;
+  if (!sighting.landmark_from_base.matrix().allFinite() || !sighting.covariance.allFinite()) {
+    return rejected("numbers that are none");
   }
-  if (!take(sighting, *at)) {
+  const auto at = chain_.at(in_odometry_time(sighting.stamp_ns));
+  if (!at) return rejected("no odometry is remembered of that time");
+  const auto landmark = graph_.landmark(sighting.landmark_id);
+  if (!landmark) return rejected(fmt::format("landmark {} is not known", sighting.landmark_id));
+  correction.map_from_base_before = correction.map_from_base_after = graph_.carried(at->pose).map_from_base;
+  auto reason = doubt(sighting, *landmark, *at, correction);
+  if (!reason.empty()) return rejected(std::move(reason));
+
+  const bool was_unknown = !is_located_ || latest_.state == State::kLost;
+  if (!is_located_ && graph_.is_known(sighting.landmark_id)) {
+    const Eigen::Isometry3d measured = landmark->map_from_base * sighting.landmark_from_base;
+    graph_.place(measured * correction.map_from_base_before.inverse());
+    is_located_ = true;
+  }
+  if (!graph_.add_pass(sighting, *at, parameters_.same_pass_m)) {
     correction.kind = CorrectionKind::kBetterKnown;
     correction.reason = "a panorama of the same pass tells it better";
     return correction;
   }
-  solve();
+  graph_.solve();
+  doubtful_ns_.reset();
+  if (was_unknown) found_at_way_m_ = at->way_m;
   correction.kind = CorrectionKind::kApplied;
-  correction.map_from_base_after = carried(at->pose).map_from_base;
-  if (!history_.empty()) latest_ = carried(history_.back().pose);
+  correction.map_from_base_after = graph_.carried(at->pose).map_from_base;
+  latest_ = localized(chain_.latest().pose);
   return correction;
 }
 
+bool Localizer::reaches(std::int64_t panorama_stamp_ns) const {
+  return !chain_.empty() && chain_.latest().pose.stamp_ns >= in_odometry_time(panorama_stamp_ns);
+}
+
 std::vector<KnownLandmark> Localizer::landmarks() const {
-  std::vector<KnownLandmark> all;
-  for (const auto& node : nodes_) {
-    if (node.landmark_id == 0 || node.is_sighting) continue;
-    all.push_back({node.landmark_id, node.is_of_earlier_day ? node.known.stamp_ns : node.at.pose.stamp_ns,
-                   node.map_from_base, node.covariance});
+  auto landmarks = graph_.landmarks();
+  if (is_located_) return landmarks;
+  for (auto& landmark : landmarks) {  // where they lie in the map is not known yet
+    landmark.covariance.topLeftCorner<3, 3>() += kUnknownPosition_m * kUnknownPosition_m * Eigen::Matrix3d::Identity();
+    landmark.covariance(5, 5) += kUnknownYaw_rad * kUnknownYaw_rad;
   }
-  return all;
+  return landmarks;
 }
 
-/// Odometry at a time, between the two poses around it.
-std::optional<Remembered> Localizer::remembered(std::int64_t stamp_ns) const {
-  const auto after = std::lower_bound(history_.begin(), history_.end(), stamp_ns,
-                                      [](const Remembered& one, std::int64_t at) { return one.pose.stamp_ns < at; });
-  if (after == history_.end()) return std::nullopt;
-  if (after->pose.stamp_ns == stamp_ns) return *after;
-  if (after == history_.begin()) return std::nullopt;
-  const auto& before = *std::prev(after);
-  const double share = static_cast<double>(stamp_ns - before.pose.stamp_ns) /
-                       static_cast<double>(after->pose.stamp_ns - before.pose.stamp_ns);
-  Remembered between = before;
-  between.pose.stamp_ns = stamp_ns;
-  between.pose.odom_from_base =
-      before.pose.odom_from_base *
-      vision::se3_exp(share * vision::se3_log(before.pose.odom_from_base.inverse() * after->pose.odom_from_base));
-  between.pose.covariance = (1.0 - share) * before.pose.covariance + share * after->pose.covariance;
-  between.way_m = (1.0 - share) * before.way_m + share * after->way_m;
-  return between;
+std::int64_t Localizer::in_odometry_time(std::int64_t panorama_stamp_ns) const {
+  return panorama_stamp_ns - clock_.estimate_ns();
 }
 
-const Localizer::Node* Localizer::landmark(std::uint32_t id) const {
-  const auto found = std::find_if(nodes_.begin(), nodes_.end(), [&](const Node& node) {
-    return node.landmark_id == id && id != 0 && !node.is_sighting;
-  });
-  return found == nodes_.end() ? nullptr : &*found;
-}
-
-/// The last node of this journey up to a time, else its first.
-const Localizer::Node& Localizer::anchor(std::int64_t stamp_ns) const {
-  const Node* last = nullptr;
-  const Node* first = nullptr;
-  for (const auto& node : nodes_) {
-    if (node.is_of_earlier_day) continue;
-    if (first == nullptr || node.at.pose.stamp_ns < first->at.pose.stamp_ns) first = &node;
-    if (node.at.pose.stamp_ns > stamp_ns) continue;
-    if (last == nullptr || node.at.pose.stamp_ns >= last->at.pose.stamp_ns) last = &node;
-  }
-  return last != nullptr ? *last : *first;
-}
-
-LocalizedPose Localizer::carried(const OdometryPose& odometry) const {
-  const auto& from = anchor(odometry.stamp_ns);
-  const Eigen::Isometry3d way = from.at.pose.odom_from_base.inverse() * odometry.odom_from_base;
+LocalizedPose Localizer::localized(const OdometryPose& odometry) const {
+  const auto here = expected(odometry);
   LocalizedPose pose;
   pose.stamp_ns = odometry.stamp_ns;
-  pose.state = !is_located_ ? State::kUnlocated : has_relocalised_ ? State::kRelocalised : State::kTracking;
-  pose.map_from_base = from.map_from_base * way;
-  pose.map_from_odom = pose.map_from_base * odometry.odom_from_base.inverse();
-  pose.covariance =
-      vision::compose_covariance(from.map_from_base, from.covariance, way, gained(from.at.pose, odometry));
+  pose.map_from_base = here.map_from_base;
+  pose.covariance = here.covariance;
+  pose.odom_from_base = smooth_;
+  pose.map_from_odom = here.map_from_base * smooth_.inverse();
+  tell_state(pose);
   return pose;
 }
 
+PoseInMap Localizer::expected(const OdometryPose& odometry) const {
+  auto here = graph_.carried(odometry);
+  if (is_located_) return here;
+  here.covariance.topLeftCorner<3, 3>() += kUnknownPosition_m * kUnknownPosition_m * Eigen::Matrix3d::Identity();
+  here.covariance(5, 5) += kUnknownYaw_rad * kUnknownYaw_rad;
+  return here;
+}
+
+void Localizer::tell_state(LocalizedPose& pose) const {
+  const auto tell = [&](State state, std::string reason) {
+    pose.state = state;
+    pose.reason = std::move(reason);
+  };
+  if (!is_located_) return tell(State::kUnlocated, "no place of earlier days was recognised yet");
+  if (unreliable_since_ns_) {
+    const bool has_azimuth = azimuth_ns_ && seconds(*azimuth_ns_, pose.stamp_ns) < parameters_.patience_s;
+    const double since_s = seconds(*unreliable_since_ns_, pose.stamp_ns);
+    if (has_azimuth) return tell(State::kCompassOnly, fmt::format("odometry unreliable for {:.1f} s", since_s));
+    if (since_s > parameters_.patience_s) {
+      return tell(State::kLost, fmt::format("odometry unreliable for {:.1f} s, and no compass", since_s));
+    }
+  }
+  const double sigma_m = horizontal_sigma(pose.covariance);
+  if (sigma_m > parameters_.lost_sigma_m) {
+    return tell(State::kLost, fmt::format("the position is known to {:.0f} m only", sigma_m));
+  }
+  if (doubtful_ns_ && dissent_) {
+    return tell(State::kLost, fmt::format("landmark {} says that the vehicle was moved while odometry was unreliable",
+                                          dissent_->sighting.landmark_id));
+  }
+  const bool was_just_found = found_at_way_m_ && chain_.latest().way_m - *found_at_way_m_ < parameters_.same_pass_m;
+  tell(was_just_found ? State::kRelocalised : State::kTracking, {});
+}
+
 /// What speaks against a sighting; empty when nothing does.
-std::string Localizer::doubt(const LandmarkSighting& sighting, const Node& landmark, const OdometryPose& odometry,
+std::string Localizer::doubt(const LandmarkSighting& sighting, const KnownLandmark& landmark, const Remembered& at,
                              Correction& correction) {
   const Eigen::Isometry3d measured = landmark.map_from_base * sighting.landmark_from_base;
-  const Eigen::Isometry3d map_from_odom = measured * odometry.odom_from_base.inverse();
-  if (is_located_) {
-    const auto expected = carried(odometry);
-    const vision::Vector6d error = vision::pose_error(expected.map_from_base, measured);
+  const bool is_placed = is_located_ || !graph_.is_known(sighting.landmark_id);
+  if (is_placed) {
+    const auto here = graph_.carried(at.pose);
+    const vision::Vector6d error = vision::pose_error(here.map_from_base, measured);
     const vision::Matrix6d spread =
-        expected.covariance + vision::compose_covariance(landmark.map_from_base, landmark.covariance,
-                                                         sighting.landmark_from_base, sighting.covariance);
+        here.covariance + vision::compose_covariance(landmark.map_from_base, landmark.covariance,
+                                                     sighting.landmark_from_base, sighting.covariance);
     correction.chi_square = error.dot(spread.ldlt().solve(error));
     if (correction.chi_square <= parameters_.gate_chi_square) {
-      pending_.reset();
+      asking_.reset();
+      dissent_.reset();
       return {};
     }
   }
-  if (is_asked_for_twice(sighting, map_from_odom)) return {};
-  return is_located_
-             ? fmt::format("{:.0f} from what was expected, {:.0f} at most, until a second panorama asks for it, too",
-                           correction.chi_square, parameters_.gate_chi_square)
-             : "the first sighting: a second panorama must agree";
+  const Asking now{sighting, measured * at.pose.odom_from_base.inverse(), at.way_m};
+  const auto before = std::exchange(asking_, now);
+  const bool is_asked_twice = before && before->sighting.landmark_id == sighting.landmark_id &&
+                              before->sighting.stamp_ns < sighting.stamp_ns && agree(*before, now);
+  if (!is_placed) return is_asked_twice ? "" : "the first sighting: a second panorama must agree";
+  const auto far =
+      fmt::format("{:.0f} from what was expected, {:.0f} at most", correction.chi_square, parameters_.gate_chi_square);
+  if (!is_asked_twice) return far + ", until a second panorama asks for it, too";
+  if (correction.chi_square <= parameters_.second_look_gate_ratio * parameters_.gate_chi_square) return {};
+  // So far off odometry is not, unless it missed how the vehicle was moved. But a landmark in the wrong place would ask for this, too:
+  // only two landmarks together are believed.
+  const bool is_other = dissent_ && dissent_->sighting.landmark_id != sighting.landmark_id;
+  if (!is_other || !agree(*dissent_, now)) {
+    dissent_ = now;
+    return far + ", until a second landmark asks for it, too";
+  }
+  graph_.cut(doubtful_ns_ ? *doubtful_ns_ : at.pose.stamp_ns);
+  asking_.reset();
+  dissent_.reset();
+  return {};
 }
 
-bool Localizer::is_asked_for_twice(const LandmarkSighting& sighting, const Eigen::Isometry3d& map_from_odom) {
-  const auto before = std::exchange(pending_, Pending{sighting, map_from_odom});
-  if (!before || before->sighting.landmark_id != sighting.landmark_id ||
-      before->sighting.stamp_ns >= sighting.stamp_ns) {
-    return false;
-  }
-  const auto odometry = remembered(sighting.stamp_ns);
-  const auto now = map_from_odom * odometry->pose.odom_from_base;
-  const auto then = before->map_from_odom * odometry->pose.odom_from_base;
-  const auto apart = vision::pose_error(then, now);
-  return apart.head<3>().norm() < parameters_.second_look_m &&
+/// Whether two sightings ask for the same place of the odometry in the map, but for the drift between them.
+bool Localizer::agree(const Asking& before, const Asking& now) const {
+  const auto at = chain_.at(in_odometry_time(now.sighting.stamp_ns));
+  if (!at) return false;
+  const auto apart =
+      vision::pose_error(before.map_from_odom * at->pose.odom_from_base, now.map_from_odom * at->pose.odom_from_base);
+  const double drift_m = kDriftRatio * std::abs(now.way_m - before.way_m);
+  return apart.head<3>().norm() < parameters_.second_look_m + drift_m &&
          apart.tail<3>().norm() < parameters_.second_look_deg * kDegree;
 }
 
-/// Where the whole journey lies in a map of earlier days.
-void Localizer::place_journey(const Eigen::Isometry3d& map_from_odom) {
-  for (auto& node : nodes_) {
-    if (!node.is_of_earlier_day) node.map_from_base = map_from_odom * node.at.pose.odom_from_base;
-  }
-}
-
-/// Makes a node of a sighting; false where the pass has a better one.
-bool Localizer::take(const LandmarkSighting& sighting, const Remembered& at) {
-  Node node;
-  node.landmark_id = sighting.landmark_id;
-  node.is_sighting = true;
-  node.at = at;
-  node.sighting = sighting;
-  node.map_from_base = carried(at.pose).map_from_base;
-  const auto same_pass = std::find_if(nodes_.begin(), nodes_.end(), [&](const Node& other) {
-    return other.is_sighting && other.landmark_id == sighting.landmark_id &&
-           std::abs(other.at.way_m - at.way_m) < parameters_.same_pass_m;
-  });
-  if (same_pass == nodes_.end()) {
-    nodes_.push_back(node);
-    return true;
-  }
-  if (position_variance(same_pass->sighting.covariance) <= position_variance(sighting.covariance)) return false;
-  *same_pass = node;
-  return true;
-}
-
-std::vector<std::size_t> Localizer::journey_order() const {
-  std::vector<std::size_t> order;
-  for (std::size_t i = 0; i < nodes_.size(); ++i) {
-    if (!nodes_[i].is_of_earlier_day) order.push_back(i);
-  }
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return nodes_[a].at.pose.stamp_ns < nodes_[b].at.pose.stamp_ns;
-  });
-  return order;
-}
-
-void Localizer::solve() {
-  PoseGraph graph;
-  for (const auto& node : nodes_) graph.poses.push_back(node.map_from_base);
-  const auto order = journey_order();
-  for (std::size_t i = 1; i < order.size(); ++i) {
-    const auto& a = nodes_[order[i - 1]].at.pose;
-    const auto& b = nodes_[order[i]].at.pose;
-    graph.edges.push_back({order[i - 1], order[i], a.odom_from_base.inverse() * b.odom_from_base, gained(a, b), false});
-  }
-  bool has_earlier_days = false;
-  for (std::size_t i = 0; i < nodes_.size(); ++i) {
-    const auto& node = nodes_[i];
-    if (node.is_of_earlier_day) {
-      has_earlier_days = true;
-      const vision::Matrix6d covariance = node.known.covariance + kLeastVariance * vision::Matrix6d::Identity();
-      graph.priors.push_back({i, node.known.map_from_base, covariance});
-    }
-    if (!node.is_sighting) continue;
-    const auto seen = static_cast<std::size_t>(landmark(node.landmark_id) - nodes_.data());
-    const vision::Matrix6d covariance = node.sighting.covariance + kLeastVariance * vision::Matrix6d::Identity();
-    graph.edges.push_back({seen, i, node.sighting.landmark_from_base, covariance, true});
-  }
-  if (!has_earlier_days) {  // the map begins where the journey does
-    vision::Matrix6d covariance = vision::Matrix6d::Identity();
-    covariance.topLeftCorner<3, 3>() *= parameters_.start_sigma_m * parameters_.start_sigma_m;
-    covariance.bottomRightCorner<3, 3>() *= std::pow(parameters_.start_sigma_deg * kDegree, 2);
-    graph.priors.push_back({order.front(), nodes_[order.front()].at.pose.odom_from_base, covariance});
-  }
-  graph.optimise();
-  const auto covariances = graph.covariances();
-  for (std::size_t i = 0; i < nodes_.size(); ++i) {
-    nodes_[i].map_from_base = graph.poses[i];
-    if (covariances) nodes_[i].covariance = (*covariances)[i];
-  }
+/// Takes odom_from_base on by a step of the odometry, and makes up for a part of the turn that it owes.
+void Localizer::slew(const Eigen::Isometry3d& step) {
+  const double turn_rad = kSlew * owed_rad_;
+  owed_rad_ -= turn_rad;
+  smooth_ = smooth_ * step * Eigen::Isometry3d(vision::so3_exp(Eigen::Vector3d(0.0, 0.0, turn_rad)));
+  smooth_.linear() = vision::nearest_rotation(smooth_.linear());
 }
 
 }  // namespace panvo::localizer

@@ -19,14 +19,19 @@ class Drive {
  public:
   explicit Drive(unsigned seed) : random_(seed) { poses.push_back(now()); }
 
-  OdometryPose now() const { return {static_cast<std::int64_t>(steps_) * kPeriod_ns, odom_, covariance_}; }
+  OdometryPose now() const { return {static_cast<std::int64_t>(steps_) * kPeriod_ns, odom_, covariance_, true}; }
 
-  OdometryPose step() {
+  /// `missed_rad`: turned more than odometry says; `missed_m`: carried to the left by so much.
+  OdometryPose step(double missed_rad = 0.0, double missed_m = 0.0) {
     ++steps_;
     Eigen::Isometry3d move = Eigen::Isometry3d::Identity();
     move.translation().x() = kStep_m;
     move.linear() = vision::so3_exp(Eigen::Vector3d(0.0, 0.0, 2.0 * M_PI / 200.0));
+    const double yaw_before = yaw_rad;
     truth = truth * move;
+    truth.linear() = truth.linear() * vision::so3_exp(Eigen::Vector3d(0.0, 0.0, missed_rad));
+    truth.translation() += truth.linear() * Eigen::Vector3d(0.0, missed_m, 0.0);
+    yaw_rad = yaw_before + 2.0 * M_PI / 200.0 + missed_rad;
     Eigen::Isometry3d measured = move;
     measured.translation() += kSigma_m * noise();
     measured.linear() = vision::so3_exp(kSigma_rad * noise()) * measured.linear();
@@ -37,6 +42,11 @@ class Drive {
     odom_ = odom_ * measured;
     poses.push_back(now());
     return now();
+  }
+
+  /// The turn since the last step, by the panoramas, with the given error.
+  AzimuthMeasurement azimuth(double turn_rad, double sigma_rad) const {
+    return {now().stamp_ns - kPeriod_ns, now().stamp_ns, turn_rad, sigma_rad * sigma_rad};
   }
 
   LandmarkSighting sight(std::uint32_t id, const Eigen::Isometry3d& landmark, double sigma_m = 0.05) {
@@ -51,6 +61,7 @@ class Drive {
     return sighting;
   }
 
+  double yaw_rad = 0.0;
   Eigen::Isometry3d truth = Eigen::Isometry3d::Identity();
   std::vector<OdometryPose> poses;
 
@@ -63,6 +74,11 @@ class Drive {
   Eigen::Isometry3d odom_ = Eigen::Isometry3d::Identity();
   vision::Matrix6d covariance_ = vision::Matrix6d::Zero();
 };
+
+double nees_of(const LocalizedPose& pose, const Drive& drive) {
+  const auto error = vision::pose_error(pose.map_from_base, drive.truth);
+  return error.dot(pose.covariance.ldlt().solve(error)) / 6.0;
+}
 
 double error_m(const LocalizedPose& pose, const Drive& drive) {
   return (pose.map_from_base.translation() - drive.truth.translation()).norm();
@@ -84,7 +100,7 @@ struct Round {
   Drive drive;
   Localizer localizer;
   Eigen::Isometry3d landmark;
-  std::optional<KnownLandmark> built;
+  bool built = false;
 };
 
 TEST(Localizer, IsOdometryWhereNothingIsSeen) {
@@ -121,14 +137,9 @@ TEST(Localizer, HasACovarianceThatErrorsFollowBeforeAndAfter) {
   constexpr int kTrials = 60;
   for (unsigned seed = 1; seed <= kTrials; ++seed) {
     Round round(seed);
-    const auto nees = [&] {
-      const auto& pose = round.localizer.latest();
-      const auto error = vision::pose_error(pose.map_from_base, round.drive.truth);
-      return error.dot(pose.covariance.ldlt().solve(error)) / 6.0;
-    };
-    before += nees() / kTrials;
+    before += nees_of(round.localizer.latest(), round.drive) / kTrials;
     round.localizer.add(round.drive.sight(1, round.landmark));
-    after += nees() / kTrials;
+    after += nees_of(round.localizer.latest(), round.drive) / kTrials;
   }
   EXPECT_NEAR(before, 1.0, 0.4);
   EXPECT_NEAR(after, 1.0, 0.4);
@@ -218,6 +229,182 @@ TEST(Localizer, FindsItselfInTheMapOfAnEarlierDay) {
   EXPECT_EQ(localizer.latest().state, State::kRelocalised);
   const Eigen::Isometry3d expected = known.map_from_base * landmark.inverse() * drive.truth;
   EXPECT_LT((localizer.latest().map_from_base.translation() - expected.translation()).norm(), 0.3);
+}
+
+TEST(Localizer, BelievesTheCompassWhereOdometryFollowsAMover) {
+  Drive drive(11);
+  Parameters one_clock;
+  one_clock.clock_sigma_s = 0.0;
+  Localizer localizer(one_clock);
+  localizer.add(drive.now());
+  double compass_rad = 0.0;
+  for (int i = 0; i < 30; ++i) {
+    const double yaw_before = drive.yaw_rad;
+    // half a second of it, as when a bus fills the stereo view at a bend
+    const auto odometry = drive.step(i >= 10 && i < 13 ? 0.05 : 0.0);
+    localizer.add(odometry);
+    compass_rad = drive.yaw_rad - yaw_before;
+    const auto use = localizer.add(drive.azimuth(compass_rad, 0.002));
+    EXPECT_EQ(use, i >= 10 && i < 13 ? AzimuthUse::kContradicted : AzimuthUse::kFused) << i;
+  }
+  const auto& pose = localizer.latest();
+  const double error_rad = yaw_of(drive.truth.linear().transpose() * pose.map_from_base.linear());
+  EXPECT_LT(std::abs(error_rad), 0.02) << "of 0.15 rad that odometry missed";
+  EXPECT_LT(error_m(pose, drive), 0.8);
+}
+
+TEST(Localizer, HasACovarianceThatErrorsFollowAlsoWithACompass) {
+  double nees = 0.0;
+  constexpr int kTrials = 60;
+  for (unsigned seed = 1; seed <= kTrials; ++seed) {
+    Drive drive(seed);
+    std::mt19937_64 random(seed + 1000);
+    std::normal_distribution<double> normal;
+    Localizer localizer({});
+    localizer.add(drive.now());
+    for (int i = 0; i < 100; ++i) {
+      localizer.add(drive.step());
+      localizer.add(drive.azimuth(2.0 * M_PI / 200.0 + 0.001 * normal(random), 0.001));
+    }
+    nees += nees_of(localizer.latest(), drive) / kTrials;
+  }
+  EXPECT_NEAR(nees, 1.0, 0.4);
+}
+
+TEST(Localizer, KeepsOdometryFreeOfJumpsWhileTheMapIsCorrected) {
+  Round round(12);
+  auto last = round.localizer.latest().odom_from_base;
+  round.localizer.add(round.drive.sight(1, round.landmark));
+  EXPECT_TRUE(round.localizer.latest().odom_from_base.isApprox(last));
+  // a turn that odometry missed comes bit by bit
+  double largest_rad = 0.0;
+  for (int i = 0; i < 40; ++i) {
+    round.localizer.add(round.drive.step(i == 0 ? 0.1 : 0.0));
+    if (i == 0) round.localizer.add(round.drive.azimuth(2.0 * M_PI / 200.0 + 0.1, 0.001));
+    const auto& pose = round.localizer.latest();
+    largest_rad =
+        std::max(largest_rad, std::abs(yaw_of((last.inverse() * pose.odom_from_base).linear()) - 2.0 * M_PI / 200.0));
+    EXPECT_TRUE((pose.map_from_odom * pose.odom_from_base).isApprox(pose.map_from_base, 1e-9));
+    last = pose.odom_from_base;
+  }
+  EXPECT_LT(largest_rad, 0.035);
+  EXPECT_GT(largest_rad, 0.015);  // that is, there was something to make up for
+}
+
+TEST(Localizer, FindsByHowMuchThePanoramasClockIsOff) {
+  Drive drive(13);
+  Localizer localizer({});
+  localizer.add(drive.now());
+  constexpr double kOffset_s = 0.06;
+  // odometry and truth at any time, of a drive that turns to and fro
+  const auto yaw = [](double t) { return 0.3 * std::sin(1.3 * t); };
+  const auto pose = [&](double t) {
+    OdometryPose odometry;
+    odometry.stamp_ns = static_cast<std::int64_t>(std::llround(t * 1e9));
+    odometry.odom_from_base.linear() = vision::so3_exp(Eigen::Vector3d(0.0, 0.0, yaw(t)));
+    odometry.covariance = 1e-6 * (1.0 + t) * vision::Matrix6d::Identity();
+    return odometry;
+  };
+  for (int i = 1; i < 500; ++i) {
+    const double t = 100.0 + 0.04 * i;
+    localizer.add(pose(t));
+    if (i % 5 != 0 || i < 20) continue;
+    const double taken = t - 0.2;  // stamped later than taken
+    const auto stamp = [&](double at) { return static_cast<std::int64_t>(std::llround((at + kOffset_s) * 1e9)); };
+    EXPECT_EQ(localizer.add(AzimuthMeasurement{stamp(taken - 0.2), stamp(taken), yaw(taken) - yaw(taken - 0.2), 1e-6}),
+              AzimuthUse::kFused);
+  }
+  EXPECT_NEAR(localizer.panorama_clock().estimate_s(), kOffset_s, 0.003);
+  EXPECT_LT(localizer.panorama_clock().variance_s2(), 0.003 * 0.003);
+}
+
+TEST(Localizer, DoesNotFollowALandmarkThatIsInTheWrongPlace) {
+  Drive drive(14);
+  Localizer localizer({});
+  localizer.add(drive.now());
+  for (int i = 0; i < 4; ++i) localizer.add(drive.step());
+  const Eigen::Isometry3d place = drive.truth;
+  ASSERT_TRUE(localizer.add_built(1, drive.now().stamp_ns));
+  for (int i = 0; i < 20; ++i) {
+    localizer.add(drive.step());
+    auto moved = drive.sight(1, place);
+    moved.landmark_from_base.translation() += Eigen::Vector3d(20.0, 0.0, 0.0);
+    EXPECT_EQ(localizer.add(moved).kind, CorrectionKind::kRejected) << i;
+  }
+  EXPECT_LT(error_m(localizer.latest(), drive), 1.5);
+}
+
+TEST(Localizer, IsFoundAgainAfterItWasCarriedAway) {
+  Drive drive(15);
+  Localizer localizer({});
+  localizer.add(drive.now());
+  std::vector<Eigen::Isometry3d> places;
+  for (int i = 0; i < 100; ++i) {
+    localizer.add(drive.step());
+    if (i % 30 != 10) continue;
+    places.push_back(drive.truth);
+    ASSERT_TRUE(localizer.add_built(static_cast<std::uint32_t>(places.size()), drive.now().stamp_ns));
+  }
+  auto lifted = drive.step(0.4, 25.0);  // and odometry knows only that it saw nothing for a moment
+  lifted.is_reliable = false;
+  localizer.add(lifted);
+  localizer.add(drive.step());
+  EXPECT_GT(error_m(localizer.latest(), drive), 20.0);
+  EXPECT_EQ(localizer.add(drive.sight(1, places[0])).kind, CorrectionKind::kRejected);
+  localizer.add(drive.step());
+  EXPECT_EQ(localizer.add(drive.sight(1, places[0])).kind, CorrectionKind::kRejected)
+      << "it could be in the wrong place";
+  EXPECT_EQ(localizer.add(drive.step()).state, State::kLost);
+  for (int i = 0; i < 20; ++i) localizer.add(drive.step());
+  EXPECT_EQ(localizer.add(drive.sight(2, places[1])).kind, CorrectionKind::kRejected);
+  localizer.add(drive.step());
+  const auto correction = localizer.add(drive.sight(2, places[1]));
+  EXPECT_EQ(correction.kind, CorrectionKind::kApplied) << correction.reason;
+  EXPECT_LT(error_m(localizer.latest(), drive), 1.5);
+  EXPECT_EQ(localizer.latest().state, State::kRelocalised);
+  for (int i = 0; i < 50; ++i) localizer.add(drive.step());
+  EXPECT_EQ(localizer.latest().state, State::kTracking);
+  // landmarks of before the lift stay where they were
+  const auto first = localizer.landmarks().front();
+  EXPECT_LT((first.map_from_base.translation() - places[0].translation()).norm(), 1.0);
+}
+
+TEST(Localizer, SaysWhenItHasOnlyTheCompassAndWhenNothing) {
+  Drive drive(16);
+  Localizer localizer({});
+  localizer.add(drive.now());
+  for (int i = 0; i < 10; ++i) localizer.add(drive.step());
+  for (int i = 0; i < 10; ++i) {
+    auto unreliable = drive.step();
+    unreliable.is_reliable = false;
+    localizer.add(unreliable);
+    localizer.add(drive.azimuth(2.0 * M_PI / 200.0, 0.002));
+    EXPECT_EQ(localizer.latest().state, State::kCompassOnly);
+  }
+  State last = State::kStarting;
+  for (int i = 0; i < 10; ++i) {
+    auto unreliable = drive.step();
+    unreliable.is_reliable = false;
+    last = localizer.add(unreliable).state;
+  }
+  EXPECT_EQ(last, State::kLost);
+  EXPECT_NE(localizer.latest().reason.find("odometry unreliable for"), std::string::npos);
+  EXPECT_EQ(localizer.add(drive.step()).state, State::kTracking);
+}
+
+TEST(Localizer, DoesNotSayWhereItIsInAMapInWhichItWasNotFound) {
+  Drive drive(17);
+  Localizer localizer({});
+  KnownLandmark known;
+  known.id = 3;
+  known.covariance = 1e-4 * vision::Matrix6d::Identity();
+  localizer.add_known(known);
+  localizer.add(drive.now());
+  for (int i = 0; i < 10; ++i) localizer.add(drive.step());
+  EXPECT_GT(localizer.latest().covariance(0, 0), 1e6);
+  ASSERT_TRUE(localizer.add_built(4, drive.now().stamp_ns));
+  ASSERT_EQ(localizer.landmarks().size(), 1U) << "the other was not seen";
+  EXPECT_GT(localizer.landmarks().front().covariance(0, 0), 1e6);
 }
 
 TEST(Localizer, SaysWhatIsWrongWithASighting) {

@@ -3,70 +3,34 @@
 
 #include <Eigen/Geometry>
 #include <cstdint>
-#include <deque>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "panvo/localizer/pose_graph.hpp"
-#include "panvo/vision/pose.hpp"
+#include "panvo/localizer/clock_offset.hpp"
+#include "panvo/localizer/journey_graph.hpp"
+#include "panvo/localizer/localizer_parameters.hpp"
+#include "panvo/localizer/odometry_chain.hpp"
 
 namespace panvo::localizer {
 
-struct Parameters {
-  double gate_chi_square = 22.5;
-  double second_look_m = 0.7;
-  double second_look_deg = 3.0;
-  double same_pass_m = 40.0;
-  double history_s = 60.0;
-  double start_sigma_m = 0.01;
-  double start_sigma_deg = 0.1;
-
-  template <class Field>
-  static void describe(Field&& field) {
-    using P = Parameters;
-    field(&P::gate_chi_square, "gate_chi_square", "1",
-          "squared Mahalanobis distance up to which a correction is believed at once: 99.9 % of six degrees of freedom",
-          1.0, 1e6);
-    field(&P::second_look_m, "second_look_m", "m",
-          "a correction beyond the gate is believed when the next panorama asks for the same within this", 0.01, 100.0);
-    field(&P::second_look_deg, "second_look_deg", "deg", "and within this angle", 0.01, 180.0);
-    field(&P::same_pass_m, "same_pass_m", "m",
-          "panoramas of one landmark within this way are one pass: they err alike, and only the best of them counts",
-          1.0, 1000.0);
-    field(&P::history_s, "history_s", "s", "how late a correction may come", 1.0, 3600.0);
-    field(&P::start_sigma_m, "start_sigma_m", "m", "of the pose that the map begins with", 1e-6, 10.0);
-    field(&P::start_sigma_deg, "start_sigma_deg", "deg", "of the pose that the map begins with", 1e-6, 90.0);
-  }
+enum class State {
+  kStarting,     ///< no odometry yet
+  kUnlocated,    ///< odometry, but a map of earlier days in which the start is not known
+  kTracking,     ///< in the map
+  kCompassOnly,  ///< the odometry cannot be relied on; the panoramas say how the vehicle turns, nobody how far it goes
+  kLost,         ///< neither can be relied on, or the position has become too uncertain
+  kRelocalised,  ///< a sighting has just said where the vehicle is, after it was unlocated or lost
 };
 
-/// A pose that the stereo odometry published; covariance as of vision::pose_error, growing from the start.
-struct OdometryPose {
+struct LocalizedPose {
   std::int64_t stamp_ns = 0;
-  Eigen::Isometry3d odom_from_base = Eigen::Isometry3d::Identity();
-  vision::Matrix6d covariance = vision::Matrix6d::Zero();
-};
-
-/// Odometry with the way behind it.
-struct Remembered {
-  OdometryPose pose;
-  double way_m = 0.0;
-};
-
-/// A known place.
-struct KnownLandmark {
-  std::uint32_t id = 0;
-  std::int64_t stamp_ns = 0;  ///< of its panorama
+  State state = State::kStarting;
+  std::string reason;                                                ///< of the state; may be empty
+  Eigen::Isometry3d map_from_odom = Eigen::Isometry3d::Identity();   ///< jumps when a place corrects the position
+  Eigen::Isometry3d odom_from_base = Eigen::Isometry3d::Identity();  ///< never jumps
   Eigen::Isometry3d map_from_base = Eigen::Isometry3d::Identity();
-  vision::Matrix6d covariance = vision::Matrix6d::Zero();
-};
-
-/// Where a panorama was taken, seen from a landmark: base_link now in the axes of base_link then.
-struct LandmarkSighting {
-  std::int64_t stamp_ns = 0;
-  std::uint32_t landmark_id = 0;
-  Eigen::Isometry3d landmark_from_base = Eigen::Isometry3d::Identity();
-  vision::Matrix6d covariance = vision::Matrix6d::Zero();
+  vision::Matrix6d covariance = vision::Matrix6d::Zero();  ///< of map_from_base, as of vision::pose_error
 };
 
 enum class CorrectionKind { kApplied, kBetterKnown, kRejected };
@@ -74,29 +38,27 @@ enum class CorrectionKind { kApplied, kBetterKnown, kRejected };
 struct Correction {
   CorrectionKind kind = CorrectionKind::kRejected;
   std::string reason;       ///< why it was not applied
-  double chi_square = 0.0;  ///< of the sighting against what was expected
-  Eigen::Isometry3d map_from_base_before = Eigen::Isometry3d::Identity();  ///< at the sighting's stamp
+  double chi_square = 0.0;  ///< of the sighting against what was expected; 6 degrees of freedom
+  Eigen::Isometry3d map_from_base_before = Eigen::Isometry3d::Identity();  ///< at the sighting's time
   Eigen::Isometry3d map_from_base_after = Eigen::Isometry3d::Identity();
 };
 
-enum class State {
-  kStarting,     ///< no odometry yet
-  kUnlocated,    ///< odometry, but a map of earlier days in which the start is not known
-  kTracking,     ///< in the map
-  kRelocalised,  ///< in a map of earlier days, since a first sighting
+/// A turn that the panoramic compass measured [Lu2015 6].
+struct AzimuthMeasurement {
+  std::int64_t from_ns = 0, to_ns = 0;  ///< stamps of the two panoramas
+  double change_rad = 0.0;              ///< left positive
+  double variance_rad2 = 0.0;
 };
 
-struct LocalizedPose {
-  std::int64_t stamp_ns = 0;
-  State state = State::kStarting;
-  Eigen::Isometry3d map_from_odom = Eigen::Isometry3d::Identity();
-  Eigen::Isometry3d map_from_base = Eigen::Isometry3d::Identity();
-  vision::Matrix6d covariance = vision::Matrix6d::Zero();  ///< of map_from_base, as of vision::pose_error
+enum class AzimuthUse {
+  kFused,         ///< with the odometry's own, by their variances
+  kContradicted,  ///< the odometry's own was too far off to be right: it was taken for wrong
+  kNotUsed,       ///< no odometry of that time, or no finite number
 };
 
-/// One pose from odometry and places: odometry carries it, sightings of landmarks correct it, at their own stamp, and pull the
-/// landmarks and the way between them straight [beyond Lu2015 5.2]. The graph has a node for each landmark of this journey and one
-/// for each pass by a known one; it stays small.
+/// One pose from odometry, compass and places: odometry carries it; the compass straightens its azimuth, most where odometry
+/// is least sure; sightings of landmarks correct it at their own stamp, and pull the landmarks and the way between them straight.
+/// Stamps of panoramas may be off by a constant, which it finds by itself.
 class Localizer {
  public:
   explicit Localizer(const Parameters& parameters);
@@ -104,54 +66,55 @@ class Localizer {
   /// In order of stamps; one that is not after the last, or not finite, changes nothing.
   LocalizedPose add(const OdometryPose& odometry);
 
+  AzimuthUse add(const AzimuthMeasurement& azimuth);
+
   /// A landmark of an earlier day, with its pose and uncertainty; before any sighting of it.
   void add_known(const KnownLandmark& landmark);
 
-  /// A landmark that was built on this journey at `stamp_ns`. Returns where it is, by all that is known; nullopt when odometry of
-  /// that time is not remembered.
-  std::optional<KnownLandmark> add_built(std::uint32_t id, std::int64_t stamp_ns);
+  /// A landmark that was built on this journey of the panorama of `stamp_ns`. False when odometry of that time is not remembered.
+  bool add_built(std::uint32_t id, std::int64_t stamp_ns);
 
   Correction add(const LandmarkSighting& sighting);
 
-  const LocalizedPose& latest() const { return latest_; }
-  /// All landmarks as they are known by now, in the order in which they were added.
+  const LocalizedPose& latest() const noexcept { return latest_; }
+  /// True when odometry reaches as far as a panorama's stamp: what is to be said of it can be said.
+  bool reaches(std::int64_t panorama_stamp_ns) const;
+  /// Where the landmarks of this journey, and those seen on it, are by now; by ascending id.
   std::vector<KnownLandmark> landmarks() const;
+  const ClockOffset& panorama_clock() const noexcept { return clock_; }
 
  private:
-  /// A moment of this journey, or a landmark of an earlier day.
-  struct Node {
-    std::uint32_t landmark_id = 0;   ///< built or passed there; 0: the start
-    bool is_sighting = false;        ///< passed
-    bool is_of_earlier_day = false;  ///< no part of this journey's way
-    Remembered at;                   ///< odometry then
-    LandmarkSighting sighting;
-    KnownLandmark known;  ///< of an earlier day's landmark
-    Eigen::Isometry3d map_from_base = Eigen::Isometry3d::Identity();
-    vision::Matrix6d covariance = vision::Matrix6d::Zero();
-  };
-  struct Pending {
+  struct Asking {  // a sighting that was not believed
     LandmarkSighting sighting;
     Eigen::Isometry3d map_from_odom;
+    double way_m;
   };
 
-  std::optional<Remembered> remembered(std::int64_t stamp_ns) const;
-  const Node* landmark(std::uint32_t id) const;
-  const Node& anchor(std::int64_t stamp_ns) const;
-  LocalizedPose carried(const OdometryPose& odometry) const;
-  bool is_asked_for_twice(const LandmarkSighting& sighting, const Eigen::Isometry3d& map_from_odom);
-  std::string doubt(const LandmarkSighting& sighting, const Node& landmark, const OdometryPose& odometry,
+  std::int64_t in_odometry_time(std::int64_t panorama_stamp_ns) const;
+  LocalizedPose localized(const OdometryPose& odometry) const;
+  void tell_state(LocalizedPose& pose) const;
+  PoseInMap expected(const OdometryPose& odometry) const;
+  std::string doubt(const LandmarkSighting& sighting, const KnownLandmark& landmark, const Remembered& at,
                     Correction& correction);
-  void place_journey(const Eigen::Isometry3d& map_from_odom);
-  bool take(const LandmarkSighting& sighting, const Remembered& at);
-  std::vector<std::size_t> journey_order() const;
-  void solve();
+  bool agree(const Asking& before, const Asking& now) const;
+  void slew(const Eigen::Isometry3d& step);
 
   const Parameters parameters_;
-  std::deque<Remembered> history_;
-  std::vector<Node> nodes_;
-  std::optional<Pending> pending_;
+  OdometryChain chain_;
+  ClockOffset clock_;
+  JourneyGraph graph_;
+
+  Eigen::Isometry3d last_raw_ = Eigen::Isometry3d::Identity();
+  Eigen::Isometry3d smooth_ = Eigen::Isometry3d::Identity();  // odom_from_base as it is told
+  double owed_rad_ = 0.0;                                     // turn that it has yet to make up for
+
   bool is_located_ = true;
-  bool has_relocalised_ = false;
+  std::optional<std::int64_t> unreliable_since_ns_;  // odometry, up to now
+  std::optional<std::int64_t> doubtful_ns_;  // the last time since a correction that odometry may have missed a move
+  std::optional<std::int64_t> azimuth_ns_;   // the last that was used
+  std::optional<double> found_at_way_m_;     // where the vehicle was found last, after it was not known where
+  std::optional<Asking> asking_;             // the last sighting that was not believed
+  std::optional<Asking> dissent_;            // the last pair of them, of another landmark
   LocalizedPose latest_;
 };
 

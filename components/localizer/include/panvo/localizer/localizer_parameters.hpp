@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+namespace panvo::localizer {
+
+struct Parameters {
+  double gate_chi_square = 22.5;
+  double second_look_gate_ratio = 10.0;
+  double second_look_m = 0.7;
+  double second_look_deg = 3.0;
+  double same_pass_m = 40.0;
+  double history_s = 120.0;
+  double contradiction_sigmas = 4.0;
+  double clock_sigma_s = 0.05;
+  double patience_s = 1.0;
+  double lost_sigma_m = 50.0;
+  double start_sigma_m = 0.01;
+  double start_sigma_deg = 0.1;
+
+  template <class Field>
+  static void describe(Field&& field) {
+    using P = Parameters;
+    field(&P::gate_chi_square, "gate_chi_square", "1",
+          "squared Mahalanobis distance up to which a correction is believed at once: 99.9 % of six degrees of freedom",
+          1.0, 1e6);
+    field(&P::second_look_gate_ratio, "second_look_gate_ratio", "1",
+          "times the gate, and up to there when the next panorama asks for the same: odometry whose calibration is off "
+          "drifts up to three times as fast as it says",
+          1.0, 1e6);
+    field(&P::second_look_m, "second_look_m", "m", "two sightings ask for the same within this", 0.01, 100.0);
+    field(&P::second_look_deg, "second_look_deg", "deg", "and within this angle", 0.01, 180.0);
+    field(&P::same_pass_m, "same_pass_m", "m",
+          "panoramas of one landmark within this way are one pass: they err alike, and only the best of them counts",
+          1.0, 1000.0);
+    field(&P::history_s, "history_s", "s", "how late a landmark or a correction may come", 1.0, 3600.0);
+    field(&P::contradiction_sigmas, "contradiction_sigmas", "1",
+          "odometry whose turn is farther than this from the compass's is taken for wrong", 1.0, 100.0);
+    field(&P::clock_sigma_s, "clock_sigma_s", "s",
+          "standard deviation of the offset between the cameras' clocks before it is known; 0: they are one", 0.0, 1.0);
+    field(&P::patience_s, "patience_s", "s",
+          "how long neither odometry nor compass need be reliable before the vehicle counts as lost", 0.0, 60.0);
+    field(&P::lost_sigma_m, "lost_sigma_m", "m",
+          "standard deviation of the position from which on it counts as lost, too", 1.0, 1e6);
+    field(&P::start_sigma_m, "start_sigma_m", "m", "of the pose that the map begins with", 1e-6, 10.0);
+    field(&P::start_sigma_deg, "start_sigma_deg", "deg", "of the pose that the map begins with", 1e-6, 90.0);
+  }
+};
+
+}  // namespace panvo::localizer

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <deque>
+#include <optional>
+
+#include "panvo/vision/pose.hpp"
+
+namespace panvo::localizer {
+
+/// A pose that odometry published; covariance as of vision::pose_error, growing from the start.
+struct OdometryPose {
+  std::int64_t stamp_ns = 0;
+  Eigen::Isometry3d odom_from_base = Eigen::Isometry3d::Identity();
+  vision::Matrix6d covariance = vision::Matrix6d::Zero();
+  bool is_reliable = true;  ///< false: carried on without being measured
+};
+
+/// Odometry with the way behind it.
+struct Remembered {
+  OdometryPose pose;
+  double way_m = 0.0;
+};
+
+/// By how much the vehicle turned, left positive.
+struct Turn {
+  double change_rad = 0.0;
+  double variance_rad2 = 0.0;
+};
+
+/// The odometry of the last while, step by step, so that what is learned late (a turn measured otherwise) can be put where it
+/// belongs: into those steps that were least sure.
+class OdometryChain {
+ public:
+  explicit OdometryChain(double history_s) : history_s_(history_s) {}
+
+  /// In order of stamps; false, and nothing is done, for one that is not after the last or not finite.
+  bool add(const OdometryPose& odometry);
+
+  bool empty() const noexcept { return entries_.empty(); }
+  /// Precondition: not empty.
+  const Remembered& latest() const { return entries_.back().now; }
+  /// Between the two poses around a time; nullopt where it is not remembered.
+  std::optional<Remembered> at(std::int64_t stamp_ns) const;
+
+  /// Of the stretch from one remembered time to a later one.
+  std::optional<Turn> turn(std::int64_t from_ns, std::int64_t to_ns) const;
+  /// rad/s, left positive.
+  std::optional<double> yaw_rate(std::int64_t stamp_ns) const;
+
+  /// Takes a stretch for less sure than it said: multiplies its covariance.
+  void distrust(std::int64_t from_ns, std::int64_t to_ns, double factor);
+  /// Makes a stretch turn by so much more, each step by its share of the variance, and multiplies the variance of its yaw.
+  void turn_more(std::int64_t from_ns, std::int64_t to_ns, double by_rad, double variance_factor);
+
+ private:
+  struct Entry {
+    OdometryPose raw;                                             // as it came
+    Eigen::Isometry3d step = Eigen::Isometry3d::Identity();       // the one before from this
+    vision::Matrix6d step_covariance = vision::Matrix6d::Zero();  // in the axes of the one before
+    Remembered now;                                               // all steps up to this
+  };
+
+  std::size_t first_after(std::int64_t stamp_ns) const;
+  double share(std::size_t index, std::int64_t from_ns, std::int64_t to_ns) const;
+  void compose_from(std::size_t index);
+
+  const double history_s_;
+  std::deque<Entry> entries_;
+};
+
+/// Covariance of a_from_b that odometry gained on the way from a to b, in the axes of a; at least `least_variance` along every direction.
+vision::Matrix6d gained_covariance(const OdometryPose& a, const OdometryPose& b, double least_variance);
+
+/// Yaw of a rotation about the upward z axis, rad, (-pi, pi].
+double yaw_of(const Eigen::Matrix3d& rotation);
+
+}  // namespace panvo::localizer

@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "panvo/localizer/journey_graph.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "panvo/localizer/pose_graph.hpp"
+
+namespace panvo::localizer {
+namespace {
+
+constexpr double kLeastVariance = 1e-8;  // of an edge: a tenth of a millimetre, a tenth of a millirad
+// What is left of odometry over a cut: carried anywhere within a kilometre, turned anyhow, but upright.
+constexpr double kCutPosition_m = 1000.0;
+constexpr double kCutTilt_rad = 0.2;
+constexpr double kCutYaw_rad = 3.0;
+
+double position_variance(const vision::Matrix6d& covariance) { return covariance.topLeftCorner<3, 3>().trace(); }
+
+vision::Matrix6d cut_covariance() {
+  vision::Vector6d sigma;
+  sigma << kCutPosition_m, kCutPosition_m, kCutPosition_m, kCutTilt_rad, kCutTilt_rad, kCutYaw_rad;
+  return sigma.cwiseAbs2().asDiagonal();
+}
+
+vision::Matrix6d at_least(const vision::Matrix6d& covariance) {
+  return covariance + kLeastVariance * vision::Matrix6d::Identity();
+}
+
+}  // namespace
+
+JourneyGraph::JourneyGraph(double start_sigma_m, double start_sigma_rad)
+    : start_sigma_m_(start_sigma_m), start_sigma_rad_(start_sigma_rad) {}
+
+void JourneyGraph::start(const Remembered& at) {
+  Node node;
+  node.at = at;
+  node.map_from_base = at.pose.odom_from_base;
+  node.covariance.topLeftCorner<3, 3>() = start_sigma_m_ * start_sigma_m_ * Eigen::Matrix3d::Identity();
+  node.covariance.bottomRightCorner<3, 3>() = start_sigma_rad_ * start_sigma_rad_ * Eigen::Matrix3d::Identity();
+  nodes_.push_back(node);
+}
+
+void JourneyGraph::add_built(std::uint32_t id, const Remembered& at) {
+  Node node;
+  node.landmark_id = id;
+  node.at = at;
+  const auto here = carried(at.pose);
+  node.map_from_base = here.map_from_base;
+  node.covariance = here.covariance;
+  nodes_.push_back(node);
+}
+
+bool JourneyGraph::add_pass(const LandmarkSighting& sighting, const Remembered& at, double same_pass_m) {
+  Node node;
+  node.landmark_id = sighting.landmark_id;
+  node.is_pass = true;
+  node.at = at;
+  node.sighting = sighting;
+  const auto here = carried(at.pose);
+  node.map_from_base = here.map_from_base;
+  node.covariance = here.covariance;
+  const auto same_pass = std::find_if(nodes_.begin(), nodes_.end(), [&](const Node& other) {
+    return other.is_pass && other.landmark_id == sighting.landmark_id &&
+           std::abs(other.at.way_m - at.way_m) < same_pass_m;
+  });
+  if (same_pass != nodes_.end()) {
+    if (position_variance(same_pass->sighting.covariance) <= position_variance(sighting.covariance)) return false;
+    *same_pass = node;
+    return true;
+  }
+  if (landmark_node(sighting.landmark_id) == nullptr) {
+    const auto& known = known_.at(sighting.landmark_id);
+    Node seen;
+    seen.landmark_id = known.id;
+    seen.is_of_earlier_day = true;
+    seen.at.pose.stamp_ns = known.stamp_ns;
+    seen.map_from_base = known.map_from_base;
+    seen.covariance = known.covariance;
+    nodes_.push_back(seen);
+  }
+  nodes_.push_back(node);
+  return true;
+}
+
+std::optional<KnownLandmark> JourneyGraph::landmark(std::uint32_t id) const {
+  if (const auto* const node = landmark_node(id)) {
+    return KnownLandmark{id, node->at.pose.stamp_ns, node->map_from_base, node->covariance};
+  }
+  const auto known = known_.find(id);
+  return known == known_.end() ? std::nullopt : std::optional(known->second);
+}
+
+std::vector<KnownLandmark> JourneyGraph::landmarks() const {
+  std::vector<KnownLandmark> all;
+  for (const auto& node : nodes_) {
+    if (node.landmark_id == 0 || node.is_pass) continue;
+    all.push_back({node.landmark_id, node.at.pose.stamp_ns, node.map_from_base, node.covariance});
+  }
+  std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
+  return all;
+}
+
+PoseInMap JourneyGraph::carried(const OdometryPose& odometry) const {
+  const auto& from = anchor(odometry.stamp_ns);
+  const bool is_back = odometry.stamp_ns < from.at.pose.stamp_ns;  // before the journey's first node
+  const Eigen::Isometry3d way = from.at.pose.odom_from_base.inverse() * odometry.odom_from_base;
+  const vision::Matrix6d covariance =
+      is_back ? vision::Matrix6d(vision::Matrix6d::Zero()) : way_covariance(from.at.pose, odometry);
+  return {from.map_from_base * way, vision::compose_covariance(from.map_from_base, from.covariance, way, covariance)};
+}
+
+void JourneyGraph::place(const Eigen::Isometry3d& map_from_former_map) {
+  vision::Matrix6d turn = vision::Matrix6d::Zero();
+  turn.topLeftCorner<3, 3>() = turn.bottomRightCorner<3, 3>() = map_from_former_map.linear();
+  for (auto& node : nodes_) {
+    if (node.is_of_earlier_day) continue;
+    node.map_from_base = map_from_former_map * node.map_from_base;
+    node.covariance = turn * node.covariance * turn.transpose();
+  }
+}
+
+void JourneyGraph::refresh(const OdometryChain& chain, std::int64_t since_ns) {
+  for (auto& node : nodes_) {
+    if (node.is_of_earlier_day || node.at.pose.stamp_ns <= since_ns) continue;
+    if (const auto at = chain.at(node.at.pose.stamp_ns)) node.at = *at;
+  }
+}
+
+void JourneyGraph::solve() {
+  PoseGraph graph;
+  for (const auto& node : nodes_) graph.poses.push_back(node.map_from_base);
+  const auto order = journey_order();
+  for (std::size_t i = 1; i < order.size(); ++i) {
+    const auto& a = nodes_[order[i - 1]].at.pose;
+    const auto& b = nodes_[order[i]].at.pose;
+    graph.edges.push_back(
+        {order[i - 1], order[i], a.odom_from_base.inverse() * b.odom_from_base, at_least(way_covariance(a, b)), false});
+  }
+  bool has_earlier_days = false;
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    const auto& node = nodes_[i];
+    if (node.is_of_earlier_day) {
+      has_earlier_days = true;
+      const auto& known = known_.at(node.landmark_id);
+      graph.priors.push_back({i, known.map_from_base, at_least(known.covariance)});
+    }
+    if (!node.is_pass) continue;
+    const auto seen = static_cast<std::size_t>(landmark_node(node.landmark_id) - nodes_.data());
+    graph.edges.push_back({seen, i, node.sighting.landmark_from_base, at_least(node.sighting.covariance), true});
+  }
+  if (!has_earlier_days) {  // the map begins where the journey does
+    vision::Vector6d sigma;
+    sigma << Eigen::Vector3d::Constant(start_sigma_m_), Eigen::Vector3d::Constant(start_sigma_rad_);
+    graph.priors.push_back(
+        {order.front(), nodes_[order.front()].at.pose.odom_from_base, sigma.cwiseAbs2().asDiagonal()});
+  }
+  graph.optimise();
+  const auto covariances = graph.covariances();
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    nodes_[i].map_from_base = graph.poses[i];
+    if (covariances) nodes_[i].covariance = (*covariances)[i];
+  }
+}
+
+const JourneyGraph::Node* JourneyGraph::landmark_node(std::uint32_t id) const {
+  const auto found = std::find_if(nodes_.begin(), nodes_.end(),
+                                  [&](const Node& node) { return node.landmark_id == id && id != 0 && !node.is_pass; });
+  return found == nodes_.end() ? nullptr : &*found;
+}
+
+/// The last node of this journey up to a time, else its first.
+const JourneyGraph::Node& JourneyGraph::anchor(std::int64_t stamp_ns) const {
+  const Node* last = nullptr;
+  const Node* first = nullptr;
+  for (const auto& node : nodes_) {
+    if (node.is_of_earlier_day) continue;
+    if (first == nullptr || node.at.pose.stamp_ns < first->at.pose.stamp_ns) first = &node;
+    if (node.at.pose.stamp_ns > stamp_ns) continue;
+    if (last == nullptr || node.at.pose.stamp_ns >= last->at.pose.stamp_ns) last = &node;
+  }
+  return last != nullptr ? *last : *first;
+}
+
+std::vector<std::size_t> JourneyGraph::journey_order() const {
+  std::vector<std::size_t> order;
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    if (!nodes_[i].is_of_earlier_day) order.push_back(i);
+  }
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return nodes_[a].at.pose.stamp_ns < nodes_[b].at.pose.stamp_ns;
+  });
+  return order;
+}
+
+/// Covariance that odometry gained between two times, in the axes of the first.
+vision::Matrix6d JourneyGraph::way_covariance(const OdometryPose& from, const OdometryPose& to) const {
+  const bool is_cut = std::any_of(cuts_ns_.begin(), cuts_ns_.end(),
+                                  [&](std::int64_t cut_ns) { return from.stamp_ns < cut_ns && cut_ns <= to.stamp_ns; });
+  const vision::Matrix6d gained = gained_covariance(from, to, 0.0);
+  return is_cut ? vision::Matrix6d(gained + cut_covariance()) : gained;
+}
+
+}  // namespace panvo::localizer

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "panvo/localizer/odometry_chain.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+namespace panvo::localizer {
+namespace {
+
+constexpr double kSecond_ns = 1e9;
+constexpr double kLeastStepVariance = 1e-12;  // what rounding leaves
+constexpr int kYaw = 5;
+
+double between(std::int64_t stamp_ns, std::int64_t from_ns, std::int64_t to_ns) {
+  return static_cast<double>(stamp_ns - from_ns) / static_cast<double>(to_ns - from_ns);
+}
+
+}  // namespace
+
+vision::Matrix6d gained_covariance(const OdometryPose& a, const OdometryPose& b, double least_variance) {
+  const Eigen::Isometry3d a_from_b = a.odom_from_base.inverse() * b.odom_from_base;
+  const vision::Matrix6d inherited =
+      vision::compose_covariance(a.odom_from_base, a.covariance, a_from_b, vision::Matrix6d::Zero());
+  vision::Matrix6d turn = vision::Matrix6d::Zero();
+  turn.topLeftCorner<3, 3>() = turn.bottomRightCorner<3, 3>() = a.odom_from_base.linear().transpose();
+  const vision::Matrix6d difference = turn * (b.covariance - inherited) * turn.transpose();
+  // rounding, and covariances that were reset, must not make it negative
+  const Eigen::SelfAdjointEigenSolver<vision::Matrix6d> parts(0.5 * (difference + difference.transpose()));
+  return parts.eigenvectors() * parts.eigenvalues().cwiseMax(least_variance).asDiagonal() *
+         parts.eigenvectors().transpose();
+}
+
+double yaw_of(const Eigen::Matrix3d& rotation) { return std::atan2(rotation(1, 0), rotation(0, 0)); }
+
+bool OdometryChain::add(const OdometryPose& odometry) {
+  if (!odometry.odom_from_base.matrix().allFinite() || !odometry.covariance.allFinite()) return false;
+  if (!entries_.empty() && odometry.stamp_ns <= entries_.back().raw.stamp_ns) return false;
+  Entry entry;
+  entry.raw = odometry;
+  entry.now.pose = odometry;
+  if (!entries_.empty()) {
+    const auto& before = entries_.back();
+    entry.step = before.raw.odom_from_base.inverse() * odometry.odom_from_base;
+    entry.step_covariance = gained_covariance(before.raw, odometry, kLeastStepVariance);
+  }
+  entries_.push_back(entry);
+  compose_from(entries_.size() - 1);
+  while (static_cast<double>(odometry.stamp_ns - entries_.front().raw.stamp_ns) > history_s_ * kSecond_ns) {
+    entries_.pop_front();
+  }
+  return true;
+}
+
+std::optional<Remembered> OdometryChain::at(std::int64_t stamp_ns) const {
+  const std::size_t index = first_after(stamp_ns - 1);  // the first that is not before
+  if (index == entries_.size()) return std::nullopt;
+  const auto& after = entries_[index].now;
+  if (after.pose.stamp_ns == stamp_ns) return after;
+  if (index == 0) return std::nullopt;
+  const auto& before = entries_[index - 1].now;
+  const double share = between(stamp_ns, before.pose.stamp_ns, after.pose.stamp_ns);
+  Remembered here = after;
+  here.pose.stamp_ns = stamp_ns;
+  here.pose.odom_from_base =
+      before.pose.odom_from_base * vision::se3_exp(share * vision::se3_log(entries_[index].step));
+  here.pose.covariance = (1.0 - share) * before.pose.covariance + share * after.pose.covariance;
+  here.way_m = (1.0 - share) * before.way_m + share * after.way_m;
+  return here;
+}
+
+std::optional<Turn> OdometryChain::turn(std::int64_t from_ns, std::int64_t to_ns) const {
+  const auto from = at(from_ns);
+  const auto to = at(to_ns);
+  if (!from || !to || from_ns >= to_ns) return std::nullopt;
+  Turn turn;
+  turn.change_rad = yaw_of((from->pose.odom_from_base.inverse() * to->pose.odom_from_base).linear());
+  for (std::size_t i = first_after(from_ns); i < entries_.size(); ++i) {
+    const double part = share(i, from_ns, to_ns);
+    if (part <= 0.0) break;
+    turn.variance_rad2 += part * entries_[i].step_covariance(kYaw, kYaw);
+  }
+  return turn;
+}
+
+std::optional<double> OdometryChain::yaw_rate(std::int64_t stamp_ns) const {
+  const std::size_t index = first_after(stamp_ns - 1);
+  if (index == 0 || index >= entries_.size()) return std::nullopt;
+  const auto& entry = entries_[index];
+  return yaw_of(entry.step.linear()) * kSecond_ns /
+         static_cast<double>(entry.raw.stamp_ns - entries_[index - 1].raw.stamp_ns);
+}
+
+void OdometryChain::distrust(std::int64_t from_ns, std::int64_t to_ns, double factor) {
+  const std::size_t first = first_after(from_ns);
+  for (std::size_t i = first; i < entries_.size(); ++i) {
+    const double part = share(i, from_ns, to_ns);
+    if (part <= 0.0) break;
+    entries_[i].step_covariance *= 1.0 + part * (factor - 1.0);
+  }
+  compose_from(first);
+}
+
+void OdometryChain::turn_more(std::int64_t from_ns, std::int64_t to_ns, double by_rad, double variance_factor) {
+  const auto stretch = turn(from_ns, to_ns);
+  if (!stretch || !(stretch->variance_rad2 > 0.0)) return;
+  const std::size_t first = first_after(from_ns);
+  for (std::size_t i = first; i < entries_.size(); ++i) {
+    const double part = share(i, from_ns, to_ns);
+    if (part <= 0.0) break;
+    auto& entry = entries_[i];
+    const double weight = part * entry.step_covariance(kYaw, kYaw) / stretch->variance_rad2;
+    const Eigen::Matrix3d more = vision::so3_exp(Eigen::Vector3d(0.0, 0.0, weight * by_rad));
+    // half of the turn before the way, half after it
+    const Eigen::Matrix3d half = vision::so3_exp(Eigen::Vector3d(0.0, 0.0, 0.5 * weight * by_rad));
+    entry.step.translation() = half * entry.step.translation();
+    entry.step.linear() = more * entry.step.linear();
+    const double scale = std::sqrt(1.0 + part * (variance_factor - 1.0));
+    entry.step_covariance.row(kYaw) *= scale;
+    entry.step_covariance.col(kYaw) *= scale;
+  }
+  compose_from(first);
+}
+
+/// Index of the first entry later than a time.
+std::size_t OdometryChain::first_after(std::int64_t stamp_ns) const {
+  const auto found =
+      std::upper_bound(entries_.begin(), entries_.end(), stamp_ns,
+                       [](std::int64_t at_ns, const Entry& entry) { return at_ns < entry.raw.stamp_ns; });
+  return static_cast<std::size_t>(std::distance(entries_.begin(), found));
+}
+
+/// How much of a step lies within a stretch, [0, 1].
+double OdometryChain::share(std::size_t index, std::int64_t from_ns, std::int64_t to_ns) const {
+  if (index == 0) return 0.0;
+  const std::int64_t begin_ns = entries_[index - 1].raw.stamp_ns;
+  const std::int64_t end_ns = entries_[index].raw.stamp_ns;
+  const auto overlap_ns = static_cast<double>(std::min(end_ns, to_ns) - std::max(begin_ns, from_ns));
+  return std::clamp(overlap_ns / static_cast<double>(end_ns - begin_ns), 0.0, 1.0);
+}
+
+/// Puts the steps together again from an entry on.
+void OdometryChain::compose_from(std::size_t index) {
+  for (std::size_t i = std::max<std::size_t>(index, 1); i < entries_.size(); ++i) {
+    const auto& before = entries_[i - 1].now;
+    auto& entry = entries_[i];
+    entry.now.pose.odom_from_base = before.pose.odom_from_base * entry.step;
+    entry.now.pose.odom_from_base.linear() = vision::nearest_rotation(entry.now.pose.odom_from_base.linear());
+    entry.now.pose.covariance = vision::compose_covariance(before.pose.odom_from_base, before.pose.covariance,
+                                                           entry.step, entry.step_covariance);
+    entry.now.way_m = before.way_m + entry.step.translation().norm();
+  }
+}
+
+}  // namespace panvo::localizer

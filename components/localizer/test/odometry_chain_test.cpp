@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "panvo/localizer/odometry_chain.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+namespace panvo::localizer {
+namespace {
+
+constexpr std::int64_t kPeriod_ns = 40'000'000;
+
+/// Straight on, 0.2 m a step; the yaw of each step known with its own variance.
+OdometryChain straight(const std::vector<double>& yaw_variances) {
+  OdometryChain chain(60.0);
+  OdometryPose pose;
+  chain.add(pose);
+  for (const double variance : yaw_variances) {
+    vision::Matrix6d gained = 1e-8 * vision::Matrix6d::Identity();
+    gained(5, 5) = variance;
+    Eigen::Isometry3d step = Eigen::Isometry3d::Identity();
+    step.translation().x() = 0.2;
+    pose.covariance = vision::compose_covariance(pose.odom_from_base, pose.covariance, step, gained);
+    pose.odom_from_base = pose.odom_from_base * step;
+    pose.stamp_ns += kPeriod_ns;
+    chain.add(pose);
+  }
+  return chain;
+}
+
+TEST(OdometryChain, RemembersWhatItWasGivenAndWhatLiesBetween) {
+  const auto chain = straight({1e-4, 1e-4, 1e-4});
+  ASSERT_TRUE(chain.at(kPeriod_ns + kPeriod_ns / 2));
+  EXPECT_NEAR(chain.at(kPeriod_ns + kPeriod_ns / 2)->pose.odom_from_base.translation().x(), 0.3, 1e-12);
+  EXPECT_NEAR(chain.at(kPeriod_ns + kPeriod_ns / 2)->way_m, 0.3, 1e-12);
+  EXPECT_NEAR(chain.latest().pose.covariance(5, 5), 3e-4, 1e-9);
+  EXPECT_FALSE(chain.at(4 * kPeriod_ns));
+  EXPECT_FALSE(chain.at(-1));
+}
+
+TEST(OdometryChain, ForgetsWhatIsTooLongAgo) {
+  OdometryChain chain(1.0);
+  OdometryPose pose;
+  for (int i = 0; i < 100; ++i) {
+    pose.stamp_ns = i * kPeriod_ns;
+    ASSERT_TRUE(chain.add(pose));
+  }
+  EXPECT_FALSE(chain.at(70 * kPeriod_ns));
+  EXPECT_TRUE(chain.at(75 * kPeriod_ns));
+}
+
+TEST(OdometryChain, RefusesWhatIsLateOrNoNumber) {
+  auto chain = straight({1e-4});
+  OdometryPose pose;
+  pose.stamp_ns = kPeriod_ns;
+  EXPECT_FALSE(chain.add(pose));
+  pose.stamp_ns = 2 * kPeriod_ns;
+  pose.covariance(3, 3) = std::nan("");
+  EXPECT_FALSE(chain.add(pose));
+}
+
+TEST(OdometryChain, PutsATurnIntoTheStepThatWasLeastSure) {
+  auto chain = straight({1e-6, 1e-6, 1e-2, 1e-6, 1e-6});
+  const auto before = chain.turn(0, 5 * kPeriod_ns);
+  ASSERT_TRUE(before);
+  EXPECT_NEAR(before->change_rad, 0.0, 1e-12);
+  EXPECT_NEAR(before->variance_rad2, 1e-2 + 4e-6, 1e-8);
+  chain.turn_more(0, 5 * kPeriod_ns, 0.1, 0.01);
+  EXPECT_NEAR(chain.turn(0, 5 * kPeriod_ns)->change_rad, 0.1, 1e-9);
+  EXPECT_NEAR(chain.turn(0, 2 * kPeriod_ns)->change_rad, 0.0, 1e-4);
+  EXPECT_NEAR(chain.turn(2 * kPeriod_ns, 3 * kPeriod_ns)->change_rad, 0.1, 1e-4);
+  EXPECT_NEAR(chain.turn(0, 5 * kPeriod_ns)->variance_rad2, 0.01 * before->variance_rad2, 1e-8);
+  // straight, a bend of 0.1 rad in the middle of the third step, straight
+  EXPECT_NEAR(chain.latest().pose.odom_from_base.translation().y(), 0.2 * std::sin(0.05) + 0.4 * std::sin(0.1), 1e-4);
+  EXPECT_NEAR(chain.latest().pose.covariance(5, 5), 0.01 * before->variance_rad2, 1e-6);
+}
+
+TEST(OdometryChain, TakesOnlyThePartOfAStepThatLiesInTheStretch) {
+  auto chain = straight({1e-4, 1e-4});
+  EXPECT_NEAR(chain.turn(kPeriod_ns / 2, kPeriod_ns)->variance_rad2, 0.5e-4, 1e-10);
+  chain.turn_more(kPeriod_ns / 2, kPeriod_ns + kPeriod_ns / 2, 0.02, 1.0);
+  EXPECT_NEAR(chain.turn(0, 2 * kPeriod_ns)->change_rad, 0.02, 1e-9);
+  EXPECT_NEAR(chain.turn(0, kPeriod_ns)->change_rad, 0.01, 1e-9);
+}
+
+TEST(OdometryChain, DistrustsAStretch) {
+  auto chain = straight({1e-4, 1e-4, 1e-4});
+  chain.distrust(kPeriod_ns, 2 * kPeriod_ns, 25.0);
+  EXPECT_NEAR(chain.turn(kPeriod_ns, 2 * kPeriod_ns)->variance_rad2, 25e-4, 1e-8);
+  EXPECT_NEAR(chain.turn(0, kPeriod_ns)->variance_rad2, 1e-4, 1e-8);
+  EXPECT_NEAR(chain.latest().pose.covariance(5, 5), 27e-4, 1e-8);
+}
+
+TEST(OdometryChain, KnowsTheYawRate) {
+  OdometryChain chain(60.0);
+  OdometryPose pose;
+  chain.add(pose);
+  pose.stamp_ns = kPeriod_ns;
+  pose.odom_from_base.linear() = vision::so3_exp(Eigen::Vector3d(0.0, 0.0, 0.02));
+  chain.add(pose);
+  ASSERT_TRUE(chain.yaw_rate(kPeriod_ns));
+  EXPECT_NEAR(*chain.yaw_rate(kPeriod_ns), 0.5, 1e-9);
+  EXPECT_NEAR(*chain.yaw_rate(kPeriod_ns / 3), 0.5, 1e-9);
+  EXPECT_FALSE(chain.yaw_rate(2 * kPeriod_ns));
+}
+
+}  // namespace
+}  // namespace panvo::localizer
