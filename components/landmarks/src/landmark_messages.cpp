@@ -155,4 +155,23 @@ conversions::Result<PanoramicLandmark> to_landmark(const panvo_msgs::msg::Panora
   return landmark;
 }
 
+conversions::Result<std::vector<LandmarkPose>> to_landmark_poses(const panvo_msgs::msg::LandmarkPoses& message) {
+  if (message.ids().size() != message.poses().size()) {
+    return Reason{"has " + std::to_string(message.ids().size()) + " ids, but " +
+                  std::to_string(message.poses().size()) + " poses"};
+  }
+  std::vector<LandmarkPose> poses;
+  poses.reserve(message.ids().size());
+  for (std::size_t i = 0; i < message.ids().size(); ++i) {
+    const auto where = " in poses[" + std::to_string(i) + "]";
+    const auto pose = conversions::to_isometry(message.poses()[i].pose());
+    if (!pose) return Reason{pose.reason() + where};
+    if (message.ids()[i] == 0) return Reason{"has an id that is 0" + where};
+    const LandmarkPose moved{message.ids()[i], *pose, conversions::to_matrix(message.poses()[i].covariance())};
+    if (const auto wrong = wrong_with_covariance(moved.covariance)) return Reason{*wrong + where};
+    poses.push_back(moved);
+  }
+  return poses;
+}
+
 }  // namespace panvo::landmarks

@@ -118,21 +118,27 @@ LandmarkMatch LandmarkMatcher::search(const PanoramaFrame& frame, const landmark
     return match;
   }
 
-  const auto keypoints = keypoints_of(frame.panorama);
+  auto keypoints = keypoints_of(frame.panorama);
   for (const auto& candidate : near) {
     const vision::Stage stage(observer_, "verify");
     auto found = estimate_panorama_pose(keypoints, library.keypoints(candidate.landmark->id),
                                         candidate.large.heading_rad, parameters_.pose);
     if (!found.pose) {
-      if (match.reason.empty()) match.reason = fmt::format("landmark {}: {}", candidate.landmark->id, found.reason);
+      if (match.reason.empty()) {
+        match.reason = fmt::format("landmark {}: {}", candidate.landmark->id, found.reason);
+        match.inliers = found.inliers;
+      }
       continue;
     }
     tell(candidate);
     match.state = MatchState::kLocked;
     match.reason = fmt::format("{} of {} points agree", found.inliers, found.matches);
+    match.inliers = found.inliers;
     match.heading_rad = found.pose->heading_rad;
     match.pose = std::move(found.pose);
-    lock_ = Lock{match.landmark_id, match.heading_rad, match, match.small_distance, frame.travelled_m, frame.stamp_ns};
+    lock_ =
+        Lock{match.landmark_id, match.heading_rad, match, match.small_distance, frame.travelled_m, frame.stamp_ns, {}};
+    lock_->pass = {{{frame.travelled_m, match.small_distance}}, std::move(keypoints)};
     return match;
   }
   match.state = MatchState::kRejected;
@@ -155,15 +161,20 @@ LandmarkMatch LandmarkMatcher::follow(const PanoramaFrame& frame, const landmark
       match.small_distance = small.distance;
       match.heading_rad = small.heading_rad;
     }
-    const auto keypoints = keypoints_of(frame.panorama);
+    auto keypoints = keypoints_of(frame.panorama);
     const vision::Stage stage(observer_, "verify");
     auto found =
         estimate_panorama_pose(keypoints, library.keypoints(lock.landmark_id), match.heading_rad, parameters_.pose);
     match.reason = found.pose ? fmt::format("{} of {} points agree", found.inliers, found.matches) : found.reason;
+    match.inliers = found.inliers;
+    lock.pass.curve.push_back({frame.travelled_m, match.small_distance});
     if (found.pose) {
       match.heading_rad = lock.heading_rad = found.pose->heading_rad;
       match.pose = std::move(found.pose);
-      if (match.small_distance < lock.best.small_distance) lock.best = match;
+      if (match.small_distance < lock.best.small_distance) {
+        lock.best = match;
+        lock.pass.keypoints = std::move(keypoints);
+      }
     }
     if (match.small_distance < lock.smallest_distance) {
       lock.smallest_distance = match.small_distance;
@@ -177,6 +188,7 @@ LandmarkMatch LandmarkMatcher::follow(const PanoramaFrame& frame, const landmark
   match = lock.best;
   match.state = MatchState::kMatched;
   match.reason.clear();
+  match.pass = std::move(lock.pass);
   seen_at_m_[lock.landmark_id] = frame.travelled_m;
   lock_.reset();
   return match;

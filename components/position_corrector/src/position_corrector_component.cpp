@@ -3,42 +3,81 @@
 
 #include <Eigen/Eigenvalues>
 #include <cmath>
+#include <map>
+#include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 
+#include "correction_messages.hpp"
 #include "match_messages.hpp"
+#include "odometry_trail.hpp"
 #include "panvo/conversions/image.hpp"
 #include "panvo/conversions/pose.hpp"
 #include "panvo/conversions/stage_timer.hpp"
+#include "panvo/conversions/static_transforms.hpp"
 #include "panvo/conversions/time.hpp"
 #include "panvo/landmarks/description_settings.hpp"
 #include "panvo/landmarks/landmark_messages.hpp"
 #include "panvo/position_corrector/landmark_matcher.hpp"
+#include "panvo/position_corrector/paper_correction.hpp"
+#include "panvo/position_corrector/position_correction.hpp"
+#include "panvo/position_corrector/spilled_keypoints.hpp"
 #include "panvo/runtime/component.hpp"
 
 namespace panvo::position_corrector {
 
+struct CorrectionParameters {
+  std::string method = "metric";
+  double stamp_sigma_ms = 10.0;
+  PaperCorrectionParameters paper;
+
+  template <class Field>
+  static void describe(Field&& field) {
+    using P = CorrectionParameters;
+    field(
+        &P::method, "method", "",
+        "metric: six degrees of freedom from the landmark's points, of each panorama that shows it; paper: five-point "
+        "motion at the nearest one [Lu2015 5.2]",
+        {"metric", "paper"});
+    field(
+        &P::stamp_sigma_ms, "stamp_sigma_ms", "ms",
+        "standard deviation of a panorama's stamp against the odometry's: a camera of its own, stamped when its image "
+        "arrives; 0 where one trigger releases all",
+        0.0, 1000.0);
+    field.group(&P::paper, "paper");
+  }
+};
+
 struct ComponentParameters {
   MatchingParameters matching;
+  CorrectionParameters correction;
   landmarks::DescriptionParameters description;
   landmarks::KeypointParameters keypoints;
   int description_seed = 1;
   bool use_position = true;
+  std::string base_frame = "base_link";
+  std::string spill_folder = "/var/tmp";
 
   template <class Field>
   static void describe(Field&& field) {
     using P = ComponentParameters;
     field.group(&P::matching, "matching");
+    field.group(&P::correction, "correction");
     field.group(&P::description, "description");
     field.group(&P::keypoints, "keypoints");
     field(&P::description_seed, "description_seed", "",
           "draws the measurement matrices; the same for all that describe panoramas", 0, 1'000'000'000);
     field(&P::use_position, "use_position", "",
           "look only for landmarks near the odometry's position; false: in the whole library, always");
+    field(&P::base_frame, "base_frame", "", "the vehicle; /tf_static says where on it the panoramic camera sits");
+    field(&P::spill_folder, "spill_folder", "",
+          "folder on a disk for a nameless file of the landmarks' keypoints, 40 kB each; empty: they stay in memory");
   }
 };
 
-/// panorama/image, odometry/binocular, landmarks -> landmarks/match, one message for each panorama, and why it was no match.
+/// panorama/image, odometry/binocular, landmarks, landmarks/poses, /tf_static -> landmarks/match, one message for each panorama,
+/// and why it was no match; correction, one for each panorama that a landmark gives a pose, or that its geometry rejects.
 class PositionCorrectorComponent final : public runtime::Component {
  public:
   explicit PositionCorrectorComponent(runtime::Context& context)
@@ -48,42 +87,82 @@ class PositionCorrectorComponent final : public runtime::Component {
         describer_(parameters_.description, static_cast<std::uint64_t>(parameters_.description_seed)),
         settings_(landmarks::description_settings(parameters_.description,
                                                   static_cast<std::uint64_t>(parameters_.description_seed))),
+        keypoints_(std::make_shared<SpilledKeypoints>(parameters_.spill_folder)),
+        library_(keypoints_),
         matcher_(parameters_.matching, parameters_.keypoints, describer_, &timer_),
-        match_(context.output(topics::kLandmarkMatch)) {
+        match_(context.output(topics::kLandmarkMatch)),
+        correction_(context.output(topics::kCorrection)) {
+    context.input(topics::kTfStatic, [this](const auto& message) { on_transforms(*message); });
     context.input(topics::kLandmarks, [this](const auto& message) { on_landmark(*message); });
+    context.input(topics::kLandmarkPoses, [this](const auto& message) { on_poses(*message); });
     context.input(topics::kOdometryBinocular, [this](const auto& message) { on_odometry(*message); });
     context.input(topics::kPanorama, [this](const auto& message) { on_panorama(*message); });
   }
 
  private:
+  void on_transforms(const tf2_msgs::msg::TFMessage& message) {
+    for (const auto& problem : transforms_.add(message)) context_.log().warn("{}: {}", topics::kTfStatic.name, problem);
+  }
+
   void on_landmark(const panvo_msgs::msg::PanoramicLandmark& message) {
-    auto landmark = landmarks::to_landmark(message, settings_);
-    if (!landmark) return say_once(fmt::format("a landmark {} and is left out", landmark.reason()));
+    const auto read = landmarks::to_landmark(message, settings_);
+    if (!read) return say_once(fmt::format("a landmark {} and is left out", read.reason()));
     // one that comes again is where it is known to be by now
-    if (library_.set_pose(landmark->id, landmark->map_from_base, landmark->covariance)) return;
-    matcher_.added(library_.add(*landmark));
+    if (library_.set_pose(read->id, read->map_from_base, read->covariance)) return;
+    auto landmark = *read;
+    if (const auto moved = moved_.find(landmark.id); moved != moved_.end()) {
+      landmark.map_from_base = moved->second.map_from_base;
+      landmark.covariance = moved->second.covariance;
+    }
+    keypoints_->put(landmark.id, landmark.keypoints);
+    if (!keypoints_->problem().empty()) {
+      say_once(fmt::format("{}: keypoints of landmarks stay in memory", keypoints_->problem()));
+    }
+    matcher_.added(library_.add(std::move(landmark)));
+  }
+
+  void on_poses(const panvo_msgs::msg::LandmarkPoses& message) {
+    const auto poses = landmarks::to_landmark_poses(message);
+    if (!poses)
+      return say_once(fmt::format("{} {}; landmarks stay where they are", topics::kLandmarkPoses.name, poses.reason()));
+    moved_.clear();
+    for (const auto& pose : *poses) {
+      // a landmark may still be on its way
+      if (!library_.set_pose(pose.id, pose.map_from_base, pose.covariance)) moved_[pose.id] = pose;
+    }
   }
 
   void on_odometry(const nav_msgs::msg::Odometry& message) {
     const auto pose = conversions::to_isometry(message.pose().pose());
     if (!pose) return say_once(fmt::format("{} {}", topics::kOdometryBinocular.name, pose.reason()));
-    if (prior_) travelled_m_ += (pose->translation() - prior_->position).norm();
     const auto covariance = conversions::to_matrix(message.pose().covariance());
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> spread(covariance.topLeftCorner<2, 2>());
-    prior_ = PositionPrior{pose->translation(), std::sqrt(std::max(0.0, spread.eigenvalues().maxCoeff()))};
+    const auto& linear = message.twist().twist().linear();
+    const auto& angular = message.twist().twist().angular();
+    OdometrySample sample{conversions::stamp_ns(message),
+                          {pose->translation(), std::sqrt(std::max(0.0, spread.eigenvalues().maxCoeff()))},
+                          {}};
+    sample.twist << linear.x(), linear.y(), linear.z(), angular.x(), angular.y(), angular.z();
+    if (!sample.twist.allFinite()) {
+      return say_once(fmt::format("{} has a twist that is not finite", topics::kOdometryBinocular.name));
+    }
+    trail_.add(sample);
   }
 
   void on_panorama(const sensor_msgs::msg::Image& message) {
     const auto panorama = conversions::grey(message);
     if (!panorama) return say_once(fmt::format("{} {}", topics::kPanorama.name, panorama.reason()));
-    if (!prior_ && parameters_.use_position) {
+    const std::int64_t stamp_ns = conversions::stamp_ns(message);
+    const auto here = trail_.at(stamp_ns);
+    if (!here && parameters_.use_position) {
       say_once(fmt::format("nothing on {} yet: the whole library is searched", topics::kOdometryBinocular.name));
     }
-    const auto match = matcher_.match({.stamp_ns = conversions::stamp_ns(message),
-                                       .panorama = *panorama,
-                                       .travelled_m = travelled_m_,
-                                       .prior = parameters_.use_position ? prior_ : std::nullopt},
-                                      library_);
+    PanoramaFrame frame;
+    frame.stamp_ns = stamp_ns;
+    frame.panorama = *panorama;
+    if (here) frame.travelled_m = here->travelled_m;
+    if (here && parameters_.use_position) frame.prior = here->prior;
+    const auto match = matcher_.match(frame, library_);
     match_.publish(to_message(match, message.header().frame_id()));
     if (match.state == MatchState::kMatched) {
       context_.log().info("landmark {} passed, heading {:+.1f} deg against the first time", match.landmark_id,
@@ -91,6 +170,41 @@ class PositionCorrectorComponent final : public runtime::Component {
     } else if (match.state == MatchState::kUnusable) {
       say_once(fmt::format("{} {}", topics::kPanorama.name, match.reason));
     }
+    if (const auto correction = correction_of(match, message.header().frame_id())) {
+      correction_.publish(to_message(*correction, message.header().frame_id()));
+    }
+  }
+
+  std::optional<PositionCorrection> correction_of(const LandmarkMatch& match, const std::string& panorama_frame) {
+    const auto* landmark = library_.find(match.landmark_id);
+    if (landmark == nullptr) return std::nullopt;
+    const auto mountings = mountings_of(*landmark, panorama_frame);
+    const bool is_paper = parameters_.correction.method == "paper";
+    std::optional<PositionCorrection> correction;
+    if (!is_paper || match.state == MatchState::kRejected) {
+      correction = metric_correction(match, mountings);
+    } else if (match.state == MatchState::kMatched) {
+      const vision::Stage stage(&timer_, "five_point");
+      correction =
+          paper_correction(match, library_.keypoints(match.landmark_id), mountings, parameters_.correction.paper);
+    }
+    const auto then = correction ? trail_.at(correction->stamp_ns) : std::nullopt;
+    if (then) {
+      correction->pose =
+          with_uncertain_stamp(correction->pose, then->twist, 1e-3 * parameters_.correction.stamp_sigma_ms);
+    }
+    return correction;
+  }
+
+  Mountings mountings_of(const landmarks::PanoramicLandmark& landmark, const std::string& panorama_frame) {
+    const auto now = transforms_.lookup(parameters_.base_frame, panorama_frame);
+    if (!now && !has_told_mounting_) {
+      has_told_mounting_ = true;
+      context_.log().warn(
+          "{} has no chain from {} to {} yet: the camera counts as mounted as it was when the landmark was made",
+          topics::kTfStatic.name, parameters_.base_frame, panorama_frame);
+    }
+    return {landmark.base_from_panorama, now.value_or(landmark.base_from_panorama)};
   }
 
   /// Says what is wrong when it begins, not with every message.
@@ -105,13 +219,17 @@ class PositionCorrectorComponent final : public runtime::Component {
   conversions::StageTimer timer_;
   const landmarks::PanoramaDescriber describer_;
   const landmarks::DescriptionSettings settings_;
+  std::shared_ptr<SpilledKeypoints> keypoints_;
   landmarks::LandmarkLibrary library_;
   LandmarkMatcher matcher_;
   runtime::Output<panvo_msgs::msg::LandmarkMatch> match_;
+  runtime::Output<panvo_msgs::msg::PositionCorrection> correction_;
 
-  std::optional<PositionPrior> prior_;
-  double travelled_m_ = 0.0;
+  conversions::StaticTransforms transforms_;
+  std::map<std::uint32_t, landmarks::LandmarkPose> moved_;  // of landmarks that did not come yet
+  OdometryTrail trail_;
   std::string last_warning_;
+  bool has_told_mounting_ = false;
 };
 
 PANVO_REGISTER_COMPONENT(PositionCorrectorComponent)

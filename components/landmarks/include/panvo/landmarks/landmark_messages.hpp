@@ -2,10 +2,13 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "panvo/conversions/result.hpp"
 #include "panvo/landmarks/description_settings.hpp"
+#include "panvo/landmarks/landmark_store.hpp"
 #include "panvo/landmarks/panoramic_landmark.hpp"
+#include "panvo_msgs/msg/LandmarkPoses.h"
 #include "panvo_msgs/msg/PanoramicLandmark.h"
 
 /// Landmarks as messages, for the topic `landmarks`.
@@ -22,5 +25,9 @@ panvo_msgs::msg::PanoramicLandmark to_message(const PanoramicLandmark& landmark,
 /// order of their weights.
 conversions::Result<PanoramicLandmark> to_landmark(const panvo_msgs::msg::PanoramicLandmark& message,
                                                    const DescriptionSettings& settings);
+
+/// Where landmarks are known to be by now. The reason names what cannot be used: not as many poses as ids, an id of 0, a pose or
+/// a covariance as above.
+conversions::Result<std::vector<LandmarkPose>> to_landmark_poses(const panvo_msgs::msg::LandmarkPoses& message);
 
 }  // namespace panvo::landmarks

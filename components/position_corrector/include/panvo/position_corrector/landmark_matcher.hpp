@@ -80,6 +80,18 @@ struct PanoramaFrame {
   std::optional<PositionPrior> prior;
 };
 
+/// D(f_s, f_ss) at one panorama of a pass [Lu2015 5.1, Fig. 7].
+struct DistanceSample {
+  double travelled_m = 0.0;  ///< way since the start
+  double distance = 1.0;     ///< relative, of the small-scale features, to the locked landmark
+};
+
+/// What was kept of a pass by a landmark, for the correction at its nearest point [Lu2015 5.2].
+struct LandmarkPass {
+  std::vector<DistanceSample> curve;           ///< of all its panoramas, in their order
+  std::vector<landmarks::Keypoint> keypoints;  ///< of the panorama that was matched
+};
+
 /// What a panorama shows of the landmarks, and how it came to that.
 struct LandmarkMatch {
   MatchState state = MatchState::kSearching;
@@ -93,6 +105,8 @@ struct LandmarkMatch {
   double small_distance = std::numeric_limits<double>::quiet_NaN();
   int candidates = 0, kept_after_histogram = 0, kept_after_large = 0;
   std::optional<PanoramaPose> pose;  ///< where it was taken, seen from the landmark
+  int inliers = 0;  ///< keypoints that agree on the pose, or the most that did where geometry rejected it
+  std::optional<LandmarkPass> pass;  ///< when matched
 };
 
 /// Recognises landmarks at any heading [Lu2015 5.1]: candidates by the position and its uncertainty, or all where there is none; histogram;
@@ -125,6 +139,7 @@ class LandmarkMatcher {
     double smallest_distance = 1.0;
     double smallest_at_m = 0.0;
     std::int64_t smallest_at_ns = 0;
+    LandmarkPass pass;  // with the keypoints of `best`
   };
 
   LandmarkMatch search(const PanoramaFrame& frame, const landmarks::QueryDescription& query,

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+
+#include "panvo/position_corrector/curve_steepness.hpp"
+#include "panvo/position_corrector/five_point_motion.hpp"
+#include "panvo/position_corrector/landmark_matcher.hpp"
+#include "panvo/position_corrector/position_correction.hpp"
+
+namespace panvo::position_corrector {
+
+struct PaperCorrectionParameters {
+  FivePointParameters five_point;
+  SteepnessParameters steepness;
+  double position_sigma_m = 1.0;
+
+  template <class Field>
+  static void describe(Field&& field) {
+    using P = PaperCorrectionParameters;
+    field.group(&P::five_point, "five_point");
+    field.group(&P::steepness, "steepness");
+    field(&P::position_sigma_m, "position_sigma_m", "m",
+          "standard deviation of the position where the curve is steep: how far from a landmark that happens", 0.01,
+          100.0);
+  }
+};
+
+/// Variance of a position of which nothing is said, m^2.
+inline constexpr double kUnknownPosition_m2 = 1e6;
+
+/// The paper's correction of a matched landmark [Lu2015 5.2], of the panorama at the minimum of D(f_s, f_ss): its rotation by
+/// the five-point motion, and its position, which is then that of the landmark, only where the curve is steep. Rejected where
+/// the five-point motion is not found. `landmark`: its keypoints. Throws std::invalid_argument for a match that is no
+/// matched one.
+PositionCorrection paper_correction(const LandmarkMatch& match, std::span<const landmarks::Keypoint> landmark,
+                                    const Mountings& mountings, const PaperCorrectionParameters& parameters);
+
+}  // namespace panvo::position_corrector

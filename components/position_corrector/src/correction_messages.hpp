@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "panvo/position_corrector/position_correction.hpp"
+#include "panvo_msgs/msg/PositionCorrection.h"
+
+namespace panvo::position_corrector {
+
+/// full, rotation_only or rejected
+std::string to_text(CorrectionState state);
+
+panvo_msgs::msg::PositionCorrection to_message(const PositionCorrection& correction, const std::string& panorama_frame);
+
+}  // namespace panvo::position_corrector

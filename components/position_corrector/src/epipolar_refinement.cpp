@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "epipolar_refinement.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Geometry>
+#include <cmath>
+
+#include "panvo/vision/pose.hpp"
+#include "panvo/vision/robust_loss.hpp"
+
+namespace panvo::position_corrector {
+namespace {
+
+constexpr int kSteps = 10;
+constexpr double kLossScale = 2.5;  // standard deviations
+constexpr double kSmallest = 1e-9;  // both bearings along the way: on every plane
+
+using Vector5d = Eigen::Matrix<double, 5, 1>;
+using Matrix5d = Eigen::Matrix<double, 5, 5>;
+using Basis = Eigen::Matrix<double, 3, 2>;
+
+/// Two directions across the way, as columns.
+Basis across(const Eigen::Vector3d& direction) {
+  Basis basis;
+  basis.col(0) = direction.unitOrthogonal();
+  basis.col(1) = direction.cross(basis.col(0));
+  return basis;
+}
+
+struct Whitened {
+  double residual = 0.0;
+  Vector5d jacobian = Vector5d::Zero();  // by the rotation's error (landmark's axes), by the direction's across it
+};
+
+/// Distance of a pair from the epipolar plane, of either bearing its share, in standard deviations.
+Whitened whitened(const BearingPair& pair, const EpipolarMotion& motion, const Basis& basis, double sigma_rad) {
+  const Eigen::Vector3d turned = motion.rotation * pair.panorama;
+  const Eigen::Vector3d normal_of_landmark = pair.landmark.cross(motion.direction);
+  const Eigen::Vector3d normal_of_panorama = motion.direction.cross(turned);
+  const double residual = pair.landmark.dot(normal_of_panorama);
+  // how the residual changes when a bearing moves across itself
+  const double slope2 = normal_of_panorama.squaredNorm() + normal_of_landmark.squaredNorm() - 2.0 * residual * residual;
+  Whitened result;
+  if (slope2 < kSmallest) return result;
+  const double scale = 1.0 / (sigma_rad * std::sqrt(slope2));
+  result.residual = scale * residual;
+  result.jacobian.head<3>() = scale * turned.cross(normal_of_landmark);
+  result.jacobian.tail<2>() = scale * basis.transpose() * turned.cross(pair.landmark);
+  return result;
+}
+
+}  // namespace
+
+EpipolarMotion refine_epipolar_motion(const EpipolarMotion& start, std::span<const BearingPair> pairs,
+                                      double bearing_sigma_rad) {
+  const vision::CauchyLoss loss(kLossScale);
+  EpipolarMotion motion = start;
+  Matrix5d information;
+  for (int step = 0; step < kSteps; ++step) {
+    const Basis basis = across(motion.direction);
+    // a radian is all that is known beforehand of the direction: enough to keep it where nothing else does
+    information = Vector5d(0.0, 0.0, 0.0, 1.0, 1.0).asDiagonal();
+    Vector5d gradient = Vector5d::Zero();
+    for (const auto& pair : pairs) {
+      const auto term = whitened(pair, motion, basis, bearing_sigma_rad);
+      const double weight = loss.weight(term.residual * term.residual);
+      information += weight * term.jacobian * term.jacobian.transpose();
+      gradient += weight * term.residual * term.jacobian;
+    }
+    const Vector5d change = -information.ldlt().solve(gradient);
+    if (!change.allFinite()) return start;
+    motion.rotation = vision::so3_exp(change.head<3>()) * motion.rotation;
+    motion.direction = (motion.direction + basis * change.tail<2>()).normalized();
+  }
+  motion.covariance = information.inverse().topLeftCorner<3, 3>();
+  return motion;
+}
+
+}  // namespace panvo::position_corrector
