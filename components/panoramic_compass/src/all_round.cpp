@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <opencv2/imgproc.hpp>
+#include <sstream>
+#include <utility>
+
+#include "compass_method.hpp"
+#include "panvo/panoramic_compass/point_field.hpp"
+#include "panvo/panoramic_compass/turn_fit.hpp"
+#include "panvo/vision/equirectangular.hpp"
+#include "panvo/vision/pose.hpp"
+#include "sector_patches.hpp"
+
+namespace panvo::panoramic_compass {
+namespace {
+
+constexpr double kPerRadian = BandCutter::kColumns / (2.0 * std::numbers::pi);  // columns, and rows, of the full size
+constexpr int kHalf = 2;                 // sector patches are sought at half size
+constexpr int kMostFailures = 3;         // then the reference is of another world
+constexpr double kSideSector_rad = 0.6;  // to either side of abeam
+constexpr double kZenithShare = 0.2;     // of the rows: what is overhead
+constexpr double kSkyQuantile = 0.2;     // of overhead grey levels
+constexpr double kSkyShare = 0.75;       // of it: what is darker is no sky
+
+double median(std::vector<double>& values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// Grey level that the sky does not fall below; 256 where what is overhead is not brighter than the band.
+double darkest_sky(const cv::Mat& panorama, const cv::Mat& band) {
+  constexpr int kStep = 12;
+  std::vector<int> overhead;
+  for (int row = 0; row < kZenithShare * panorama.rows; row += kStep) {
+    for (int column = 0; column < panorama.cols; column += kStep) {
+      const uchar* pixel = panorama.ptr<uchar>(row) + column * panorama.channels();
+      overhead.push_back(panorama.channels() == 1 ? pixel[0] : (pixel[0] + 2 * pixel[1] + pixel[2]) / 4);
+    }
+  }
+  const auto low = overhead.begin() + static_cast<std::ptrdiff_t>(kSkyQuantile * static_cast<double>(overhead.size()));
+  std::nth_element(overhead.begin(), low, overhead.end());
+  return *low > cv::mean(band)[0] ? kSkyShare * *low : 256.0;
+}
+
+/// Points all round, against a reference panorama kept over several.
+class AllRound final : public PanoramicCompass::Method {
+ public:
+  AllRound(const CompassParameters& parameters, std::uint64_t seed, const Eigen::Matrix3d& base_from_panorama,
+           vision::StageObserver* observer)
+      : parameters_(parameters),
+        cutter_(BandCutter::between(parameters.points.top_deg, parameters.points.bottom_deg)),
+        base_from_panorama_(base_from_panorama),
+        sectors_({BandCutter::kColumns / kHalf, cutter_.rows / kHalf}, parameters.patches, seed),
+        observer_(observer) {}
+
+  std::optional<AzimuthChange> track(std::int64_t stamp_ns, const cv::Mat& panorama,
+                                     double expected_turn_rad) override {
+    expected_rad_ += expected_turn_rad;
+    const auto fault = find_fault(panorama);
+    if (fault) return has_reference_ ? std::optional(invalid(stamp_ns, "the panorama " + *fault)) : std::nullopt;
+    const cv::Mat band = prepare(panorama);
+    if (!has_reference_) {
+      refer_to(stamp_ns);
+      return std::nullopt;
+    }
+    AzimuthChange change = measure(stamp_ns);
+    failures_ = change.valid ? 0 : failures_ + 1;
+    if (failures_ >= kMostFailures || needs_reference_) refer_to(stamp_ns);
+    return change;
+  }
+
+ private:
+  cv::Mat prepare(const cv::Mat& panorama) {
+    const vision::Stage stage(observer_, "prepare");
+    cv::Mat band = cutter_.cut(panorama);
+    now_ = RoundBand(band, darkest_sky(panorama, band));
+    const cv::Mat& half = now_.pyramid[1];
+    const int margin = RoundBand::kMargin_px / kHalf;
+    features_.emplace(sectors_.prepare(half.colRange(margin, margin + band.cols / kHalf)));
+    return band;
+  }
+
+  AzimuthChange measure(std::int64_t stamp_ns) {
+    std::ostringstream reason;
+    reason.precision(3);
+    const SectorShifts shifts = find_turn();
+    if (!shifts.reason.empty()) return invalid(stamp_ns, shifts.reason);
+    const std::vector<BearingPair> pairs = find_points(shifts);
+    describe_sectors();
+    const vision::Stage stage(observer_, "fit");
+    const double turned_rad = kHalf * shifts.turn_px / kPerRadian;
+    now_from_reference_ = vision::so3_exp({0.0, 0.0, -turned_rad}) * now_from_reference_;
+    const auto fit = fit_turn(pairs, now_from_reference_);
+    const AgreementParameters& demand = parameters_.agreement;
+    if (!fit || fit->agreeing < demand.fewest_points) {
+      reason << (fit ? fit->agreeing : 0) << " points agree on a turn, " << demand.fewest_points << " needed";
+      needs_reference_ = failures_ + 1 >= kMostFailures;
+      return invalid(stamp_ns, reason.str());
+    }
+    const double share = fit->agreeing / static_cast<double>(pairs.size());
+    const double systematic_rad = demand.systematic_deg * std::numbers::pi / 180.0;
+    AzimuthChange change{.from_stamp_ns = reference_ns_, .stamp_ns = stamp_ns};
+    change.change_rad = fit->yaw_rad;
+    change.variance_rad2 = fit->yaw_variance_rad2 + systematic_rad * systematic_rad;
+    change.side_parallax_rad = side_parallax(pairs, *fit);
+    const double sigma_deg = std::sqrt(change.variance_rad2) * 180.0 / std::numbers::pi;
+    if (share < demand.smallest_share) {
+      reason << "the points contradict each other: " << fit->agreeing << " of " << pairs.size() << " agree";
+    } else if (sigma_deg > demand.largest_sigma_deg) {
+      reason << "uncertain: standard deviation " << sigma_deg << " deg";
+    }
+    change.reason = reason.str();
+    change.valid = change.reason.empty();
+    if (change.valid) now_from_reference_ = fit->now_from_then;
+    needs_reference_ = change.valid && (++age_ >= demand.longest_reference ||
+                                        fit->agreeing < demand.kept_share * static_cast<double>(points_at_first_));
+    return change;
+  }
+
+  SectorShifts find_turn() {
+    const vision::Stage stage(observer_, "sectors");
+    const double range_px = parameters_.largest_turn_deg * BandCutter::kColumns / 360.0 / kHalf;
+    return sectors_.track(*features_, expected_rad_ * kPerRadian / kHalf, static_cast<int>(std::ceil(range_px)),
+                          parameters_.patches.largest_distance);
+  }
+
+  std::vector<BearingPair> find_points(const SectorShifts& shifts) {
+    const vision::Stage stage(observer_, "points");
+    constexpr int kSectors = SectorShifts::kSectors;
+    const auto shift_px = [&](double u) {
+      const int sector = std::clamp(static_cast<int>(u * kSectors / BandCutter::kColumns), 0, kSectors - 1);
+      return kHalf * shifts.sector_px[static_cast<std::size_t>(sector)];
+    };
+    std::vector<BearingPair> pairs;
+    for (const FoundPoint& found : field_.follow(now_, shift_px)) {
+      const double cosine = std::cos((found.now.y() + cutter_.first_row - 0.5 * BandCutter::kRows) / kPerRadian);
+      const Eigen::Vector2d per_pixel(cosine / kPerRadian, 1.0 / kPerRadian);
+      pairs.push_back(
+          {bearing(found.then), bearing(found.now), found.variance_px2.cwiseProduct(per_pixel.cwiseAbs2())});
+    }
+    return pairs;
+  }
+
+  Eigen::Vector3d bearing(const Eigen::Vector2d& in_band) const {
+    const vision::Equirectangular panorama{BandCutter::kColumns, BandCutter::kRows};
+    return base_from_panorama_ * panorama.unproject({in_band.x(), in_band.y() + cutter_.first_row});
+  }
+
+  /// What lies abeam, once the turn is taken out [Lu2015 6].
+  static double side_parallax(const std::vector<BearingPair>& pairs, const TurnFit& fit) {
+    std::vector<double> left, right;
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+      if (!fit.agrees[i]) continue;
+      const Eigen::Vector3d far = fit.now_from_then * pairs[i].then;
+      const double azimuth = std::atan2(far.y(), far.x());
+      const double moved =
+          vision::wrap(std::atan2(pairs[i].now.y(), pairs[i].now.x()) - azimuth, 2.0 * std::numbers::pi);
+      if (std::abs(std::abs(azimuth) - 0.5 * std::numbers::pi) > kSideSector_rad) continue;
+      if (azimuth > 0.0) left.push_back(moved);
+      if (azimuth < 0.0) right.push_back(-moved);
+    }
+    if (left.empty() || right.empty()) return left.empty() ? right.empty() ? 0.0 : median(right) : median(left);
+    return 0.5 * (median(left) + median(right));
+  }
+
+  void describe_sectors() {
+    const vision::Stage stage(observer_, "describe");
+    expected_rad_ = 0.0;
+    sectors_.describe(*features_);
+  }
+
+  void refer_to(std::int64_t stamp_ns) {
+    const vision::Stage stage(observer_, "reference");
+    field_ = PointField(now_, parameters_.points);
+    points_at_first_ = field_.size();
+    reference_ns_ = stamp_ns;
+    now_from_reference_ = Eigen::Matrix3d::Identity();
+    has_reference_ = true;
+    needs_reference_ = false;
+    failures_ = age_ = 0;
+    describe_sectors();
+  }
+
+  AzimuthChange invalid(std::int64_t stamp_ns, std::string reason) const {
+    AzimuthChange change{.from_stamp_ns = reference_ns_, .stamp_ns = stamp_ns};
+    change.reason = std::move(reason);
+    return change;
+  }
+
+  const CompassParameters parameters_;
+  const BandCutter cutter_;
+  const Eigen::Matrix3d base_from_panorama_;
+  SectorPatches sectors_;
+  vision::StageObserver* observer_;
+
+  RoundBand now_;
+  std::optional<FeatureBand> features_;
+  PointField field_;
+  std::size_t points_at_first_ = 0;
+  std::int64_t reference_ns_ = 0;
+  bool has_reference_ = false, needs_reference_ = false;
+  int age_ = 0, failures_ = 0;
+  double expected_rad_ = 0.0;  // since the panorama that the sectors were described of
+  Eigen::Matrix3d now_from_reference_ =
+      Eigen::Matrix3d::Identity();  // as of the panorama that the sectors were described of
+};
+
+}  // namespace
+
+std::unique_ptr<PanoramicCompass::Method> make_all_round(const CompassParameters& parameters, std::uint64_t seed,
+                                                         const Eigen::Matrix3d& base_from_panorama,
+                                                         vision::StageObserver* observer) {
+  return std::make_unique<AllRound>(parameters, seed, base_from_panorama, observer);
+}
+
+}  // namespace panvo::panoramic_compass

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+
+#include "panvo/panoramic_compass/panoramic_compass.hpp"
+
+namespace panvo::panoramic_compass {
+
+/// One of the compass's methods.
+class PanoramicCompass::Method {
+ public:
+  virtual ~Method() = default;
+  virtual std::optional<AzimuthChange> track(std::int64_t stamp_ns, const cv::Mat& panorama,
+                                             double expected_turn_rad) = 0;
+};
+
+std::unique_ptr<PanoramicCompass::Method> make_two_patches(const CompassParameters& parameters, std::uint64_t seed,
+                                                           const Eigen::Matrix3d& base_from_panorama,
+                                                           vision::StageObserver* observer);
+std::unique_ptr<PanoramicCompass::Method> make_all_round(const CompassParameters& parameters, std::uint64_t seed,
+                                                         const Eigen::Matrix3d& base_from_panorama,
+                                                         vision::StageObserver* observer);
+
+/// Rows of a panorama of 1080x540 px between two elevations, grey.
+struct BandCutter {
+  static constexpr int kColumns = 1080, kRows = 540;
+  static constexpr double kRowsPerDegree = kRows / 180.0;
+
+  int first_row = 0;
+  int rows = 0;
+
+  /// Degrees above and below the horizon; `rows` even.
+  static BandCutter between(double top_deg, double bottom_deg);
+
+  /// CV_8UC1, kColumns x rows; shares the pixels where it can. Of a panorama that find_fault() lets through.
+  cv::Mat cut(const cv::Mat& panorama) const;
+};
+
+}  // namespace panvo::panoramic_compass

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "panvo/panoramic_compass/panoramic_compass.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+#include <sstream>
+#include <stdexcept>
+#include <utility>
+
+#include "compass_method.hpp"
+#include "panvo/vision/image_check.hpp"
+
+namespace panvo::panoramic_compass {
+namespace {
+
+constexpr int kSmallestColumns = 256;                  // px: below, the smallest rectangles are a few pixels
+constexpr double kViewTop = 0.25, kViewBottom = 0.55;  // rows that the compass may look at: 45 degrees above to 9 below
+
+cv::Mat to_grey(const cv::Mat& image) {
+  if (image.channels() == 1) return image;
+  cv::Mat grey;
+  cv::cvtColor(image, grey, cv::COLOR_BGR2GRAY);
+  return grey;
+}
+
+void check(const CompassParameters& parameters) {
+  const auto demand = [](bool met, const char* what) {
+    if (!met) throw std::invalid_argument(std::string("panoramic compass: ") + what);
+  };
+  const PatchParameters& patches = parameters.patches;
+  demand(parameters.method == "all_round" || parameters.method == "two_patches",
+         "method must be all_round or two_patches");
+  demand(patches.kept <= 2 * patches.drawn, "patches.kept must not be more than twice patches.drawn");
+  demand(patches.alpha_deg < patches.beta_deg && patches.beta_deg < patches.gamma_deg,
+         "patches: alpha_deg < beta_deg < gamma_deg needed");
+  demand(patches.elevation_deg + 0.5 * patches.height_deg <= 85.0 &&
+             patches.elevation_deg - 0.5 * patches.height_deg >= -45.0,
+         "patches must lie between 85 degrees above and 45 below the horizon");
+  demand(parameters.points.top_deg + parameters.points.bottom_deg >= 24.0,
+         "points: a band of 24 degrees or more needed");
+}
+
+}  // namespace
+
+Eigen::Matrix3d upright_base_from_panorama() { return (Eigen::Matrix3d() << 0, 0, 1, -1, 0, 0, 0, -1, 0).finished(); }
+
+std::optional<std::string> find_fault(const cv::Mat& panorama) {
+  std::ostringstream text;
+  if (panorama.empty()) return "is empty";
+  if (panorama.type() != CV_8UC1 && panorama.type() != CV_8UC3) return "is not an 8-bit image of 1 or 3 channels";
+  if (panorama.cols != 2 * panorama.rows) {
+    text << "is not twice as wide as high: " << panorama.cols << "x" << panorama.rows << " px";
+    return text.str();
+  }
+  if (panorama.cols < kSmallestColumns) {
+    text << "is too small: " << panorama.cols << "x" << panorama.rows << " px, " << kSmallestColumns
+         << " columns needed";
+    return text.str();
+  }
+  // one channel says as much of darkness and contrast as three
+  cv::Mat view =
+      panorama.rowRange(static_cast<int>(kViewTop * panorama.rows), static_cast<int>(kViewBottom * panorama.rows));
+  if (view.channels() == 3) {
+    cv::Mat green;
+    cv::extractChannel(view, green, 1);
+    view = green;
+  }
+  return vision::find_fault(view);
+}
+
+BandCutter BandCutter::between(double top_deg, double bottom_deg) {
+  const int first = std::clamp(static_cast<int>(std::lround((90.0 - top_deg) * kRowsPerDegree)), 0, kRows - 2);
+  const int last = std::clamp(static_cast<int>(std::lround((90.0 + bottom_deg) * kRowsPerDegree)), first + 2, kRows);
+  return {first, (last - first) / 2 * 2};
+}
+
+cv::Mat BandCutter::cut(const cv::Mat& panorama) const {
+  if (panorama.cols == kColumns) return to_grey(panorama.rowRange(first_row, first_row + rows));
+  cv::Mat resized;
+  cv::resize(to_grey(panorama), resized, cv::Size(kColumns, kRows), 0.0, 0.0, cv::INTER_AREA);
+  return resized.rowRange(first_row, first_row + rows);
+}
+
+PanoramicCompass::PanoramicCompass(const CompassParameters& parameters, std::uint64_t seed,
+                                   const Eigen::Matrix3d& base_from_panorama, vision::StageObserver* observer) {
+  check(parameters);
+  method_ = parameters.method == "two_patches" ? make_two_patches(parameters, seed, base_from_panorama, observer)
+                                               : make_all_round(parameters, seed, base_from_panorama, observer);
+}
+
+PanoramicCompass::~PanoramicCompass() = default;
+PanoramicCompass::PanoramicCompass(PanoramicCompass&&) noexcept = default;
+
+std::optional<AzimuthChange> PanoramicCompass::track(std::int64_t stamp_ns, const cv::Mat& panorama,
+                                                     std::optional<double> expected_turn_rad) {
+  return method_->track(stamp_ns, panorama, expected_turn_rad.value_or(0.0));
+}
+
+}  // namespace panvo::panoramic_compass

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "panvo/panoramic_compass/point_field.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "panvo/vision/corner_detector.hpp"
+
+namespace panvo::panoramic_compass {
+namespace {
+
+using vision::PatchTemplate;
+
+constexpr int kRowMargin_px = 16;  // a template at half size, with its border
+constexpr double kHalfReach_px = 8.0, kFullReach_px = 3.0;
+constexpr double kPlaceVariance_px2 = 0.03 * 0.03;  // of any point: interpolation
+constexpr int kMostMissed = 3;
+
+double wrapped(double u, int columns) { return u - columns * std::floor(u / columns); }
+
+/// Whether a point's neighbourhood holds something darker than the sky.
+bool is_solid(const RoundBand& band, const Eigen::Vector2d& in_margin) {
+  if (band.sky_grey > 255.0) return true;
+  constexpr int kHalf = PatchTemplate::kSize / 2;
+  const cv::Rect around(static_cast<int>(in_margin.x()) - kHalf, static_cast<int>(in_margin.y()) - kHalf, 2 * kHalf,
+                        2 * kHalf);
+  double darkest = 0.0;
+  const cv::Mat& image = band.pyramid[0];
+  cv::minMaxLoc(image(around & cv::Rect(0, 0, image.cols, image.rows)), &darkest, nullptr);
+  return darkest < band.sky_grey;
+}
+
+}  // namespace
+
+RoundBand::RoundBand(const cv::Mat& band, double darkest_sky) : columns(band.cols), sky_grey(darkest_sky) {
+  cv::Mat round;
+  cv::copyMakeBorder(band, round, 0, 0, kMargin_px, kMargin_px, cv::BORDER_WRAP | cv::BORDER_ISOLATED);
+  pyramid = vision::ImagePyramid(round, 2);
+}
+
+PointField::PointField(const RoundBand& reference, const PointParameters& parameters) : parameters_(parameters) {
+  if (reference.pyramid.levels() < 2) return;
+  const vision::CellGrid grid(reference.pyramid[0].size(), parameters.spacing_px);
+  for (const vision::Corner& corner :
+       vision::detect_corners(reference.pyramid, grid, parameters.smallest_gradient, kRowMargin_px)) {
+    const Eigen::Vector2d place = corner.position - Eigen::Vector2d(RoundBand::kMargin_px, 0.0);
+    if (place.x() < 0.0 || place.x() >= reference.columns || !is_solid(reference, corner.position)) continue;
+    const auto full = PatchTemplate::sample(reference.pyramid[0], corner.position);
+    const auto half = PatchTemplate::sample(reference.pyramid[1], 0.5 * corner.position);
+    if (full && half) points_.push_back({place, place, *full, *half});
+  }
+}
+
+std::vector<FoundPoint> PointField::find(const RoundBand& now) {
+  std::vector<FoundPoint> found;
+  found.reserve(points_.size());
+  for (Point& point : points_) {
+    point.at.x() = wrapped(point.at.x(), now.columns);
+    ++point.missed;
+    const Eigen::Vector2d start = point.at + Eigen::Vector2d(RoundBand::kMargin_px, 0.0);
+    const auto coarse = point.half.align(now.pyramid[1], 0.5 * start, PatchTemplate::Search::kPlane, kHalfReach_px);
+    if (!coarse) continue;
+    const auto fine =
+        point.full.align(now.pyramid[0], 2.0 * coarse->position, PatchTemplate::Search::kPlane, kFullReach_px);
+    if (!fine || fine->correlation < parameters_.smallest_correlation) continue;
+    point.missed = 0;
+    point.at = fine->position - Eigen::Vector2d(RoundBand::kMargin_px, 0.0);
+    point.at.x() = wrapped(point.at.x(), now.columns);
+    found.push_back({point.then, point.at, fine->variance + Eigen::Vector2d::Constant(kPlaceVariance_px2)});
+  }
+  std::erase_if(points_, [](const Point& point) { return point.missed >= kMostMissed; });
+  return found;
+}
+
+}  // namespace panvo::panoramic_compass

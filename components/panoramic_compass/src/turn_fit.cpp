@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "panvo/panoramic_compass/turn_fit.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "panvo/vision/pose.hpp"
+#include "panvo/vision/robust_loss.hpp"
+
+namespace panvo::panoramic_compass {
+namespace {
+
+using Vector5d = Eigen::Matrix<double, 5, 1>;
+using Matrix5d = Eigen::Matrix<double, 5, 5>;
+
+constexpr int kDirections = 4;       // of drift that are tried: opposite ones are one
+constexpr int kTrialIterations = 4;  // enough to tell the right one
+constexpr int kMostIterations = 15;
+constexpr double kSettled_rad = 1e-6;
+constexpr double kLossScale = 2.0;       // standard deviations
+constexpr double kAgrees = 3.0;          // standard deviations
+constexpr double kNearPole = 0.05;       // sine: points this near to the direction of drift have no great circle
+constexpr double kTiltSigma_rad = 0.05;  // of roll and pitch between two panoramas: a vehicle on a road
+constexpr double kSlopeSigma = 0.2;      // of the drift, up or down: the same
+constexpr double kSmallestSpread_rad = 3e-4;
+
+/// The state of the fit: the rotation and the direction of drift with the two tangents that it is changed along.
+struct Motion {
+  Eigen::Matrix3d rotation;
+  Eigen::Vector3d drift;
+
+  std::array<Eigen::Vector3d, 2> tangents() const {
+    const Eigen::Vector3d level = Eigen::Vector3d::UnitZ().cross(drift).normalized();
+    return {level, drift.cross(level)};
+  }
+  Motion moved(const Vector5d& step) const {
+    const auto [level, upright] = tangents();
+    const Eigen::Vector3d turned = drift + step(3) * level + step(4) * upright;
+    return {vision::so3_exp(step.head<3>()) * rotation, turned.normalized()};
+  }
+};
+
+/// Where a point lies against its great circle.
+struct Deviation {
+  double across = 0.0, along = 0.0;                    // rad
+  double across_variance = 1.0, along_variance = 1.0;  // of the measurement alone
+  double sine = 0.0;                                   // of the angle to the direction of drift
+  Eigen::Vector3d normal;                              // of the circle's plane
+  Eigen::Vector3d lever;                               // the derivative's: c_m
+  Eigen::Vector3d predicted;                           // far point
+};
+
+double median(std::vector<double>& values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+std::optional<Deviation> deviation_of(const BearingPair& pair, const Motion& motion) {
+  Deviation d;
+  d.predicted = motion.rotation * pair.then;
+  const Eigen::Vector3d cross = d.predicted.cross(motion.drift);
+  d.sine = cross.norm();
+  if (d.sine < kNearPole) return std::nullopt;
+  d.normal = cross / d.sine;
+  const double q = pair.now.dot(d.normal);
+  d.across = std::asin(std::clamp(q, -1.0, 1.0));
+  d.along = std::atan2(pair.now.dot(d.normal.cross(d.predicted)), pair.now.dot(d.predicted));
+  d.lever = (pair.now - q * d.normal) / d.sine;
+  const Eigen::Vector3d azimuth = Eigen::Vector3d::UnitZ().cross(pair.now).normalized();
+  const Eigen::Vector3d elevation = pair.now.cross(azimuth);
+  const Eigen::Vector3d forward = d.normal.cross(pair.now);
+  const auto variance = [&](const Eigen::Vector3d& direction) {
+    return pair.variance_rad2.x() * std::pow(direction.dot(azimuth), 2) +
+           pair.variance_rad2.y() * std::pow(direction.dot(elevation), 2);
+  };
+  d.across_variance = variance(d.normal);
+  d.along_variance = variance(forward);
+  return d;
+}
+
+class Solver {
+ public:
+  Solver(std::span<const BearingPair> pairs, const Eigen::Matrix3d& start) : pairs_(pairs), start_(start) {}
+
+  /// Gauss-Newton steps on the robust cost; the cost of the last, or infinity where it is singular.
+  double iterate(Motion& motion, int iterations) {
+    double cost = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < iterations; ++i) {
+      gauge(motion);
+      Matrix5d hessian = Matrix5d::Zero();
+      Vector5d gradient = Vector5d::Zero();
+      cost = accumulate(motion, hessian, gradient);
+      const Eigen::LDLT<Matrix5d> solver(hessian);
+      if (solver.info() != Eigen::Success || !solver.isPositive()) return std::numeric_limits<double>::infinity();
+      Vector5d step = -solver.solve(gradient);
+      if (!step.allFinite()) return std::numeric_limits<double>::infinity();
+      const double length = step.norm();
+      if (length > 0.5) step *= 0.5 / length;
+      motion = motion.moved(step);
+      hessian_ = hessian;
+      if (length < kSettled_rad) break;
+    }
+    return cost;
+  }
+
+  /// How noisy the points are against what is said of them, and how far they move along their circles.
+  void gauge(const Motion& motion) {
+    std::vector<double> across, parallax;
+    for (const BearingPair& pair : pairs_) {
+      const auto d = deviation_of(pair, motion);
+      if (!d) continue;
+      across.push_back(d->across * d->across / d->across_variance);
+      if (d->sine > 0.3) parallax.push_back(std::abs(d->along) / d->sine);
+    }
+    // 0.455: median of a squared normal number
+    noise_ = across.empty() ? 1.0 : std::max(1.0, median(across) / 0.455);
+    typical_ = parallax.empty() ? 0.0 : median(parallax);
+    spread_ = std::max(kSmallestSpread_rad, 3.0 * typical_);
+  }
+
+  double accumulate(const Motion& motion, Matrix5d& hessian, Vector5d& gradient) const {
+    const vision::CauchyLoss loss(kLossScale);
+    const auto tangents = motion.tangents();
+    double cost = 0.0;
+    const auto add = [&](double residual, double variance, const Vector5d& jacobian) {
+      const double square = residual * residual / variance;
+      const double weight = loss.weight(square) / variance;
+      cost += loss.cost(square);
+      hessian.noalias() += weight * jacobian * jacobian.transpose();
+      gradient.noalias() += weight * residual * jacobian;
+    };
+    for (const BearingPair& pair : pairs_) {
+      const auto d = deviation_of(pair, motion);
+      if (!d) continue;
+      Vector5d jacobian = Vector5d::Zero();
+      jacobian.head<3>() = d->lever.dot(d->predicted) * motion.drift - motion.drift.dot(d->predicted) * d->lever;
+      const Eigen::Vector3d by_drift = d->lever.cross(d->predicted);
+      jacobian(3) = by_drift.dot(tangents[0]);
+      jacobian(4) = by_drift.dot(tangents[1]);
+      add(d->across, noise_ * d->across_variance, jacobian);
+      jacobian.setZero();
+      jacobian.head<3>() = -d->normal;
+      add(d->along, noise_ * d->along_variance + std::pow(spread_ * d->sine, 2), jacobian);
+    }
+    // What is known beforehand: the vehicle drives on a road.
+    const Eigen::Vector3d tilt = vision::so3_log(motion.rotation * start_.transpose());
+    for (int axis = 0; axis < 2; ++axis) {
+      hessian(axis, axis) += 1.0 / (kTiltSigma_rad * kTiltSigma_rad);
+      gradient(axis) += tilt(axis) / (kTiltSigma_rad * kTiltSigma_rad);
+    }
+    hessian(3, 3) += 1.0;  // where nothing moves the direction stays what it is
+    hessian(4, 4) += 1.0 / (kSlopeSigma * kSlopeSigma);
+    gradient(4) += motion.drift.z() * tangents[1].z() / (kSlopeSigma * kSlopeSigma);
+    return cost;
+  }
+
+  double noise() const { return noise_; }
+  double spread() const { return spread_; }
+  double typical() const { return typical_; }
+  const Matrix5d& hessian() const { return hessian_; }
+
+ private:
+  std::span<const BearingPair> pairs_;
+  Eigen::Matrix3d start_;
+  Matrix5d hessian_ = Matrix5d::Identity();
+  double noise_ = 1.0, spread_ = 1.0, typical_ = 0.0;
+};
+
+/// Near things move towards the drift, not away from it.
+void orient(std::span<const BearingPair> pairs, Motion& motion) {
+  double sum = 0.0;
+  for (const BearingPair& pair : pairs) {
+    const auto d = deviation_of(pair, motion);
+    if (d && d->across * d->across < 9.0 * d->across_variance) sum += std::clamp(d->along, -0.1, 0.1);
+  }
+  if (sum < 0.0) motion.drift = -motion.drift;
+}
+
+}  // namespace
+
+std::optional<TurnFit> fit_turn(std::span<const BearingPair> pairs, const Eigen::Matrix3d& start_now_from_then) {
+  if (pairs.size() < 6) return std::nullopt;
+  Solver solver(pairs, start_now_from_then);
+  Motion best;
+  double lowest = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < kDirections; ++i) {
+    const double azimuth = i * std::numbers::pi / kDirections;
+    Motion trial{start_now_from_then, {-std::cos(azimuth), -std::sin(azimuth), 0.0}};
+    const double cost = solver.iterate(trial, kTrialIterations);
+    if (cost < lowest) {
+      lowest = cost;
+      best = trial;
+    }
+  }
+  if (!std::isfinite(lowest) || !std::isfinite(solver.iterate(best, kMostIterations))) return std::nullopt;
+  orient(pairs, best);
+  solver.gauge(best);
+
+  TurnFit fit;
+  fit.now_from_then = best.rotation;
+  fit.drift = best.drift;
+  fit.yaw_rad = std::atan2(best.rotation(0, 1), best.rotation(0, 0));
+  fit.typical_parallax = solver.typical();
+  for (const BearingPair& pair : pairs) {
+    const auto d = deviation_of(pair, best);
+    const bool agrees = !d || (d->across * d->across < kAgrees * kAgrees * solver.noise() * d->across_variance &&
+                               d->along > -kAgrees * std::sqrt(solver.noise() * d->along_variance));
+    fit.agrees.push_back(agrees);
+    fit.agreeing += agrees ? 1 : 0;
+  }
+  const Matrix5d covariance = solver.hessian().inverse();
+  fit.yaw_variance_rad2 = covariance(2, 2);
+  return fit;
+}
+
+}  // namespace panvo::panoramic_compass

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "compass_score.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <opencv2/imgcodecs.hpp>
+
+#include "panvo/vision/equirectangular.hpp"
+
+namespace panvo::panoramic_compass {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+
+}  // namespace
+
+CompassScore score(const CompassRecording& recording, const CompassParameters& parameters,
+                   const std::function<void(const AzimuthChange&, double)>& look) {
+  PanoramicCompass compass(parameters, 1, recording.base_from_panorama);
+  CompassScore score;
+  std::map<std::int64_t, const RecordedPanorama*> by_stamp;
+  std::vector<double> errors;
+  double squares = 0.0, whitened = 0.0, step_squares = 0.0, last_error = 0.0;
+  int steps = 0;
+  std::int64_t last_from = -1;
+  for (const RecordedPanorama& panorama : recording.panoramas) {
+    by_stamp[panorama.stamp_ns] = &panorama;
+    const auto change = compass.track(panorama.stamp_ns, cv::imread(panorama.image.string()));
+    if (!change) continue;
+    ++score.changes;
+    const double truth = true_change_rad(*by_stamp.at(change->from_stamp_ns), panorama);
+    if (look) look(*change, truth);
+    if (!change->valid) {
+      last_from = -1;
+      continue;
+    }
+    ++score.valid;
+    const double error = vision::wrap(change->change_rad - truth, 2.0 * std::numbers::pi);
+    squares += error * error;
+    whitened += error * error / change->variance_rad2;
+    if (errors.empty() || std::abs(error) > *std::max_element(errors.begin(), errors.end())) {
+      score.worst_ns = panorama.stamp_ns;
+    }
+    errors.push_back(std::abs(error));
+    const double step_error = change->from_stamp_ns == last_from ? error - last_error : error;
+    step_squares += step_error * step_error;
+    ++steps;
+    last_from = change->from_stamp_ns;
+    last_error = error;
+  }
+  if (errors.empty()) return score;
+  const auto count = static_cast<double>(errors.size());
+  std::sort(errors.begin(), errors.end());
+  score.rms_deg = std::sqrt(squares / count) / kDegree;
+  score.p95_deg = errors[errors.size() * 95 / 100] / kDegree;
+  score.worst_deg = errors.back() / kDegree;
+  score.consistency = whitened / count;
+  score.step_rms_deg = std::sqrt(step_squares / steps) / kDegree;
+  return score;
+}
+
+}  // namespace panvo::panoramic_compass

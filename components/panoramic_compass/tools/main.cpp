@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+// How well the compass tells the turn on recordings with ground truth.
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <cstdio>
+#include <exception>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "compass_recording.hpp"
+#include "compass_score.hpp"
+
+int main(int argc, char** argv) {
+  using namespace panvo::panoramic_compass;
+  CLI::App app{
+      "RMS, p95 and worst error of the panoramic compass, share of valid changes, and mean error^2 / variance"};
+  std::vector<std::string> recordings;
+  CompassParameters parameters;
+  double late_ms = 0.0;
+  bool list = false;
+  app.add_option("recording", recordings, "folders with mav0/cam2 and mav0/state_groundtruth_estimate0")->required();
+  app.add_option("--method", parameters.method, "all_round or two_patches");
+  app.add_option("--longest-reference", parameters.agreement.longest_reference, "panoramas against one reference");
+  app.add_option("--late", late_ms, "ms that a panorama was taken later than its stamp says");
+  app.add_flag("--list", list, "every change: stamps, change and truth in deg, sigma, parallax, validity");
+  CLI11_PARSE(app, argc, argv);
+  constexpr double kDegrees = 180.0 / std::numbers::pi;
+  for (const std::string& folder : recordings) {
+    try {
+      const auto look = [&](const AzimuthChange& change, double truth) {
+        if (!list) return;
+        std::printf("%lld %lld %.4f %.4f %.4f %.4f %d %s\n", static_cast<long long>(change.from_stamp_ns),
+                    static_cast<long long>(change.stamp_ns), change.change_rad * kDegrees, truth * kDegrees,
+                    std::sqrt(change.variance_rad2) * kDegrees, change.side_parallax_rad, change.valid ? 1 : 0,
+                    change.reason.c_str());
+      };
+      const auto recording = read_compass_recording(folder, static_cast<std::int64_t>(late_ms * 1e6));
+      const CompassScore s = score(recording, parameters, look);
+      std::printf("%s: %d of %d valid, RMS %.4f deg, p95 %.4f, worst %.3f (at %lld), step RMS %.4f, consistency %.2f\n",
+                  folder.c_str(), s.valid, s.changes, s.rms_deg, s.p95_deg, s.worst_deg,
+                  static_cast<long long>(s.worst_ns), s.step_rms_deg, s.consistency);
+    } catch (const std::exception& error) {
+      std::fprintf(stderr, "%s\n", error.what());
+      return 1;
+    }
+  }
+  return 0;
+}
