@@ -40,11 +40,13 @@ std::vector<landmarks::PanoramicLandmark> LandmarkBuilder::step(const PosedPanor
   const Eigen::Vector3d position = panorama.odom_from_base.translation();
   if (last_position_) travelled_m_ += (position - *last_position_).norm();
   last_position_ = position;
+  map_from_odom_ = panorama.map_from_odom;
   keep(panorama);
   view_ = detector_.detect(panorama.image, panorama.odom_from_base);
   std::vector<landmarks::PanoramicLandmark> built;
   const auto take = [&](const Kept& chosen, bool is_junction) {
-    if (!rule_.takes(chosen.odom_from_base.translation().head<2>(), chosen.travelled_m)) return;
+    const Eigen::Vector3d place = map_from_odom_ * chosen.odom_from_base.translation();
+    if (!rule_.takes(place.head<2>(), chosen.travelled_m)) return;
     if (auto landmark = build(chosen, is_junction)) built.push_back(std::move(*landmark));
   };
   for (const PassedJunction& junction : filter_.add(panorama.stamp_ns, position.head<2>(), view_.seen)) {
@@ -97,8 +99,10 @@ std::optional<landmarks::PanoramicLandmark> LandmarkBuilder::build(const Kept& c
   landmarks::PanoramicLandmark landmark;
   landmark.id = rule_.next_id();
   landmark.stamp_ns = chosen.stamp_ns;
-  landmark.map_from_base = chosen.odom_from_base;
-  landmark.covariance = chosen.covariance;
+  landmark.map_from_base = map_from_odom_ * chosen.odom_from_base;
+  vision::Matrix6d turn = vision::Matrix6d::Zero();
+  turn.topLeftCorner<3, 3>() = turn.bottomRightCorner<3, 3>() = map_from_odom_.linear();
+  landmark.covariance = turn * chosen.covariance * turn.transpose();
   landmark.base_from_panorama = base_from_panorama_;
   landmark.is_junction = is_junction;
   {
@@ -123,7 +127,7 @@ std::optional<landmarks::PanoramicLandmark> LandmarkBuilder::build(const Kept& c
     cv::imencode(".jpg", chosen.thumbnail, landmark.thumbnail,
                  {cv::IMWRITE_JPEG_QUALITY, parameters_.thumbnail_quality});
   }
-  rule_.set_landmark(landmark.id, chosen.odom_from_base.translation().head<2>());
+  rule_.set_landmark(landmark.id, landmark.map_from_base.translation().head<2>());
   rule_.taken(chosen.travelled_m);
   return landmark;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <deque>
 #include <opencv2/imgproc.hpp>
 #include <optional>
@@ -42,13 +43,15 @@ struct ComponentParameters : BuilderParameters {
           "of a landmark's small picture, JPEG; 0: none", 0, 100);
     field(&P::description_seed, "description_seed", "",
           "draws the measurement matrices; the same for all that describe panoramas", 0, 1'000'000'000);
-    field(&P::map_frame, "map_frame", "", "frame that landmarks are placed in; the odometry's frame when it began");
+    field(&P::map_frame, "map_frame", "", "frame that landmarks are placed in; without a localizer the odometry's");
     field(&P::base_frame, "base_frame", "", "the vehicle; /tf_static says where on it the panoramic camera sits");
   }
 };
 
 /// panorama/image, odometry/binocular, /tf_static, landmarks/match -> landmarks, of the stamp of the panorama that each was made
-/// of; and landmarks, of which others (a store) may publish those of earlier journeys.
+/// of; and landmarks, of which others (a store) may publish those of earlier journeys. Where there is a localizer, odometry/enhanced and
+/// landmarks/poses say where vehicle and landmarks are in the map; distances between panoramas are always the stereo odometry's,
+/// which does not jump.
 class LandmarkBuilderComponent final : public runtime::Component {
  public:
   explicit LandmarkBuilderComponent(runtime::Context& context)
@@ -60,6 +63,8 @@ class LandmarkBuilderComponent final : public runtime::Component {
         landmarks_(context.output(topics::kLandmarks)) {
     context.input(topics::kTfStatic, [this](const auto& message) { on_transforms(*message); });
     context.input(topics::kLandmarks, [this](const auto& message) { on_landmark(*message); });
+    context.input(topics::kLandmarkPoses, [this](const auto& message) { on_poses(*message); });
+    context.input(topics::kOdometryEnhanced, [this](const auto& message) { on_enhanced(*message); });
     context.input(topics::kLandmarkMatch, [this](const auto& message) { on_match(*message); });
     context.input(topics::kOdometryBinocular, [this](const auto& message) { on_odometry(*message); });
     context.input(topics::kPanorama, [this](const auto& message) { on_panorama(message); });
@@ -81,9 +86,23 @@ class LandmarkBuilderComponent final : public runtime::Component {
   }
 
   void on_landmark(const panvo_msgs::msg::PanoramicLandmark& message) {
-    const auto& position = message.pose().pose().position();
-    known_[message.id()] = {position.x(), position.y()};
-    if (builder_) builder_->set_landmark(message.id(), known_[message.id()]);
+    set_landmark(message.id(), message.pose().pose().position());
+  }
+
+  void on_poses(const panvo_msgs::msg::LandmarkPoses& message) {
+    const std::size_t count = std::min(message.ids().size(), message.poses().size());
+    for (std::size_t i = 0; i < count; ++i) set_landmark(message.ids()[i], message.poses()[i].pose().position());
+  }
+
+  void set_landmark(std::uint32_t id, const geometry_msgs::msg::Point& position) {
+    known_[id] = {position.x(), position.y()};
+    if (builder_) builder_->set_landmark(id, known_[id]);
+  }
+
+  void on_enhanced(const nav_msgs::msg::Odometry& message) {
+    const auto map_from_base = conversions::to_isometry(message.pose().pose());
+    const auto odometry = pose_at(conversions::stamp_ns(message));
+    if (map_from_base && odometry) map_from_odom_ = *map_from_base * odometry->odom_from_base.inverse();
   }
 
   void on_match(const panvo_msgs::msg::LandmarkMatch& message) {
@@ -142,7 +161,8 @@ class LandmarkBuilderComponent final : public runtime::Component {
                                   topics::kPanorama.name, size_.width, size_.height, panorama.cols, panorama.rows));
     }
     last_stamp_ns_ = stamp_ns;
-    for (const auto& landmark : builder_->step({stamp_ns, panorama, pose->odom_from_base, pose->covariance})) {
+    for (const auto& landmark :
+         builder_->step({stamp_ns, panorama, pose->odom_from_base, pose->covariance, map_from_odom_})) {
       const auto points = std::count_if(landmark.keypoints.begin(), landmark.keypoints.end(),
                                         [](const auto& keypoint) { return keypoint.has_point; });
       context_.log().info("landmark {}: {}, {} keypoints, {} of them with points", landmark.id,
@@ -221,6 +241,7 @@ class LandmarkBuilderComponent final : public runtime::Component {
   cv::Size size_;
   std::map<std::uint32_t, Eigen::Vector2d> known_;  // landmarks that were published, by whomever
   std::deque<Odometry> odometry_;
+  Eigen::Isometry3d map_from_odom_ = Eigen::Isometry3d::Identity();
   std::deque<std::shared_ptr<const sensor_msgs::msg::Image>> waiting_;
   std::optional<std::int64_t> last_stamp_ns_;
   std::string last_warning_;

@@ -118,6 +118,42 @@ TEST_F(LandmarkBuilderComponent, MakesNoneBesideALandmarkOfAnEarlierJourney) {
   EXPECT_THAT(landmarks_, SizeIs(1));  // that one
 }
 
+TEST_F(LandmarkBuilderComponent, PlacesLandmarksWhereTheLocalizerSaysThatTheVehicleIs) {
+  load();
+  publish_mounting();
+  // the map lies 100 m off and a quarter turn from where odometry began
+  Eigen::Isometry3d map_from_odom = Eigen::Isometry3d::Identity();
+  map_from_odom.translation() = Eigen::Vector3d(100.0, 50.0, 0.0);
+  map_from_odom.linear() = Eigen::AngleAxisd(0.5 * M_PI, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  const auto begin = PaintedTown::at(-40.0, -1.5, 0.0);
+  publish_odometry(80'000'000'000, begin);
+  nav_msgs::msg::Odometry enhanced;
+  enhanced.header().stamp(conversions::to_stamp(80'000'000'000));
+  enhanced.pose().pose(conversions::to_pose(map_from_odom * begin));
+  harness_.publish(topics::kOdometryEnhanced, enhanced);
+  drive();
+  ASSERT_THAT(landmarks_, SizeIs(1));
+  const auto& position = landmarks_[0]->pose().pose().position();
+  EXPECT_NEAR(position.x(), 100.0 + 1.5, 0.5);
+  EXPECT_NEAR(position.y(), 50.0, 4.0);
+}
+
+TEST_F(LandmarkBuilderComponent, TakesNoticeOfLandmarksThatWereMoved) {
+  load();
+  publish_mounting();
+  panvo_msgs::msg::PanoramicLandmark earlier;
+  earlier.id(12);
+  earlier.pose().pose().position().x(500.0);
+  harness_.publish(topics::kLandmarks, earlier);
+  panvo_msgs::msg::LandmarkPoses moved;  // it is at the crossing after all
+  moved.ids({12});
+  moved.poses().resize(1);
+  moved.poses()[0].pose().position().x(3.0);
+  harness_.publish(topics::kLandmarkPoses, moved);
+  drive();
+  EXPECT_THAT(landmarks_, SizeIs(1));  // that one
+}
+
 TEST_F(LandmarkBuilderComponent, RefusesAParameterOutOfItsRange) {
   EXPECT_ANY_THROW(load({{"junction.criterion", "hough"}}));
   EXPECT_ANY_THROW(load({{"junction.arms.directions", "3"}}));

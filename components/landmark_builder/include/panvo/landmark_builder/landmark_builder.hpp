@@ -54,6 +54,8 @@ struct PosedPanorama {
   cv::Mat image;  ///< 8UC1 or 8UC3 (BGR), 2:1
   Eigen::Isometry3d odom_from_base = Eigen::Isometry3d::Identity();
   vision::Matrix6d covariance = vision::Matrix6d::Zero();  ///< of odom_from_base, as vision::pose_error
+  /// Where the odometry's frame lies in the map by now: it drifts, and jumps where a place corrects it, while odometry does not.
+  Eigen::Isometry3d map_from_odom = Eigen::Isometry3d::Identity();
 };
 
 /// Builds panoramic landmarks as the vehicle goes [Lu2015 4]: detects junctions, chooses the panorama nearest to each one's centre
@@ -69,7 +71,7 @@ class LandmarkBuilder {
   /// shows nothing (landmarks::find_fault) must not be given.
   std::vector<landmarks::PanoramicLandmark> step(const PosedPanorama& panorama);
 
-  /// A landmark of another source (an earlier journey), or one that was moved.
+  /// A landmark of another source (an earlier journey), or one that was moved; in the map.
   void set_landmark(std::uint32_t id, const Eigen::Vector2d& position) { rule_.set_landmark(id, position); }
   /// The place of the last panorama was recognised.
   void recognised() { rule_.recognised(travelled_m_); }
@@ -101,6 +103,7 @@ class LandmarkBuilder {
   LandmarkRule rule_;
   landmarks::PanoramaDescriber describer_;
   JunctionView view_;
+  Eigen::Isometry3d map_from_odom_ = Eigen::Isometry3d::Identity();
   std::deque<Kept> kept_;
   std::optional<Eigen::Vector3d> last_position_;
   double travelled_m_ = 0.0;

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "localizer_messages.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+#include "panvo/conversions/pose.hpp"
+#include "panvo/conversions/time.hpp"
+
+namespace panvo::localizer {
+namespace {
+
+geometry_msgs::msg::TransformStamped transform(std::int64_t stamp_ns, const std::string& parent,
+                                               const std::string& child, const Eigen::Isometry3d& parent_from_child) {
+  geometry_msgs::msg::TransformStamped stamped;
+  stamped.header().stamp(conversions::to_stamp(stamp_ns));
+  stamped.header().frame_id(parent);
+  stamped.child_frame_id(child);
+  stamped.transform(conversions::to_transform(parent_from_child));
+  return stamped;
+}
+
+}  // namespace
+
+std::string to_text(State state) {
+  switch (state) {
+    case State::kStarting:
+      return "starting";
+    case State::kUnlocated:
+      return "unlocated";
+    case State::kTracking:
+      return "tracking";
+    case State::kCompassOnly:
+      return "compass_only";
+    case State::kLost:
+      return "lost";
+    case State::kRelocalised:
+      return "relocalised";
+  }
+  throw std::logic_error("a state without a name");
+}
+
+std::string to_text(CorrectionKind kind) {
+  switch (kind) {
+    case CorrectionKind::kApplied:
+      return "applied";
+    case CorrectionKind::kBetterKnown:
+      return "better_known";
+    case CorrectionKind::kRejected:
+      return "rejected";
+  }
+  throw std::logic_error("an outcome without a name");
+}
+
+nav_msgs::msg::Odometry to_odometry(const LocalizedPose& pose, const nav_msgs::msg::Odometry& stereo,
+                                    const std::string& map_frame) {
+  nav_msgs::msg::Odometry odometry;
+  odometry.header().stamp(stereo.header().stamp());
+  odometry.header().frame_id(map_frame);
+  odometry.child_frame_id(stereo.child_frame_id());
+  odometry.pose().pose(conversions::to_pose(pose.map_from_base));
+  odometry.pose().covariance(conversions::to_array(pose.covariance));
+  odometry.twist(stereo.twist());
+  return odometry;
+}
+
+tf2_msgs::msg::TFMessage to_transforms(const LocalizedPose& pose, const std::string& map_frame,
+                                       const std::string& odom_frame, const std::string& base_frame) {
+  tf2_msgs::msg::TFMessage message;
+  message.transforms({transform(pose.stamp_ns, map_frame, odom_frame, pose.map_from_odom),
+                      transform(pose.stamp_ns, odom_frame, base_frame, pose.odom_from_base)});
+  return message;
+}
+
+panvo_msgs::msg::CorrectionOutcome to_message(const Correction& correction, const LandmarkSighting& sighting,
+                                              const std::string& map_frame) {
+  panvo_msgs::msg::CorrectionOutcome message;
+  message.header().stamp(conversions::to_stamp(sighting.stamp_ns));
+  message.header().frame_id(map_frame);
+  message.landmark_id(sighting.landmark_id);
+  message.outcome(to_text(correction.kind));
+  message.reason(correction.reason);
+  message.chi_square(correction.chi_square);
+  message.before(conversions::to_pose(correction.map_from_base_before));
+  message.after(conversions::to_pose(correction.map_from_base_after));
+  return message;
+}
+
+panvo_msgs::msg::LandmarkPoses to_message(const std::vector<KnownLandmark>& landmarks, std::int64_t stamp_ns,
+                                          const std::string& map_frame) {
+  panvo_msgs::msg::LandmarkPoses message;
+  message.header().stamp(conversions::to_stamp(stamp_ns));
+  message.header().frame_id(map_frame);
+  for (const auto& landmark : landmarks) {
+    message.ids().push_back(landmark.id);
+    geometry_msgs::msg::PoseWithCovariance pose;
+    pose.pose(conversions::to_pose(landmark.map_from_base));
+    pose.covariance(conversions::to_array(landmark.covariance));
+    message.poses().push_back(std::move(pose));
+  }
+  return message;
+}
+
+panvo_msgs::msg::LocalizationState to_state(const LocalizedPose& pose, const std::string& map_frame) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> spread(pose.covariance.topLeftCorner<2, 2>());
+  panvo_msgs::msg::LocalizationState message;
+  message.header().stamp(conversions::to_stamp(pose.stamp_ns));
+  message.header().frame_id(map_frame);
+  message.state(to_text(pose.state));
+  message.reason(pose.reason);
+  message.position_sigma_m(std::sqrt(std::max(0.0, spread.eigenvalues().maxCoeff())));
+  message.heading_sigma_rad(std::sqrt(std::max(0.0, pose.covariance(5, 5))));
+  return message;
+}
+
+conversions::Result<LandmarkSighting> to_sighting(const panvo_msgs::msg::PositionCorrection& message) {
+  const auto pose = conversions::to_isometry(message.landmark_from_base().pose());
+  if (!pose) return conversions::Reason{pose.reason()};
+  LandmarkSighting sighting;
+  sighting.stamp_ns = conversions::stamp_ns(message);
+  sighting.landmark_id = message.landmark_id();
+  sighting.landmark_from_base = *pose;
+  sighting.covariance = conversions::to_matrix(message.landmark_from_base().covariance());
+  return sighting;
+}
+
+AzimuthMeasurement to_azimuth(const panvo_msgs::msg::AzimuthChange& message) {
+  return {conversions::to_ns(message.from_stamp()), conversions::stamp_ns(message), message.azimuth_change_rad(),
+          message.variance_rad2()};
+}
+
+}  // namespace panvo::localizer

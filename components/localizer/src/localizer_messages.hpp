@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "nav_msgs/msg/Odometry.h"
+#include "panvo/conversions/result.hpp"
+#include "panvo/localizer/localizer.hpp"
+#include "panvo_msgs/msg/AzimuthChange.h"
+#include "panvo_msgs/msg/CorrectionOutcome.h"
+#include "panvo_msgs/msg/LandmarkPoses.h"
+#include "panvo_msgs/msg/LocalizationState.h"
+#include "panvo_msgs/msg/PositionCorrection.h"
+#include "tf2_msgs/msg/TFMessage.h"
+
+/// The localizer's quantities as messages, and back.
+namespace panvo::localizer {
+
+/// starting, unlocated, tracking, compass_only, lost or relocalised
+std::string to_text(State state);
+/// applied, better_known or rejected
+std::string to_text(CorrectionKind kind);
+
+/// The pose in the map with the twist of the stereo odometry that it was made of.
+nav_msgs::msg::Odometry to_odometry(const LocalizedPose& pose, const nav_msgs::msg::Odometry& stereo,
+                                    const std::string& map_frame);
+
+/// map -> odom and odom -> base_link.
+tf2_msgs::msg::TFMessage to_transforms(const LocalizedPose& pose, const std::string& map_frame,
+                                       const std::string& odom_frame, const std::string& base_frame);
+
+panvo_msgs::msg::CorrectionOutcome to_message(const Correction& correction, const LandmarkSighting& sighting,
+                                              const std::string& map_frame);
+panvo_msgs::msg::LandmarkPoses to_message(const std::vector<KnownLandmark>& landmarks, std::int64_t stamp_ns,
+                                          const std::string& map_frame);
+panvo_msgs::msg::LocalizationState to_state(const LocalizedPose& pose, const std::string& map_frame);
+
+/// The reason names numbers that are none.
+conversions::Result<LandmarkSighting> to_sighting(const panvo_msgs::msg::PositionCorrection& message);
+AzimuthMeasurement to_azimuth(const panvo_msgs::msg::AzimuthChange& message);
+
+}  // namespace panvo::localizer
