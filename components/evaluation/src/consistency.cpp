@@ -2,6 +2,7 @@
 #include "panvo/evaluation/consistency.hpp"
 
 #include <Eigen/Cholesky>
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -76,9 +77,8 @@ Vector6d motion_error(const PosePair& from, const PosePair& to) {
   return result;
 }
 
-// Start-aligned, in the axes of odom, as nav_msgs/Odometry has its pose covariance.
-Vector6d accumulated_error(const PosePair& start, const PosePair& pair) {
-  const Eigen::Isometry3d odom_from_map = start.odom_from_base * start.map_from_base.inverse();
+// In the axes of odom, as nav_msgs/Odometry has its pose covariance.
+Vector6d accumulated_error(const Eigen::Isometry3d& odom_from_map, const PosePair& pair) {
   const Eigen::Isometry3d truth = odom_from_map * pair.map_from_base;
   Vector6d result;
   result << pair.odom_from_base.translation() - truth.translation(),
@@ -151,16 +151,40 @@ std::optional<Consistency> consistency(std::span<const PosePair> pairs, const Mo
   result.motion_translation = summarize_nees(3, translation, true);
   result.motion_rotation = summarize_nees(3, rotation, true);
 
+  const Eigen::Isometry3d odom_from_map = pairs.front().odom_from_base * pairs.front().map_from_base.inverse();
   std::vector<double> accumulated;
   for (const PosePair& pair : pairs.subspan(1)) {
     const auto line = covariances.find(pair.stamp_ns);
     if (line == covariances.end()) continue;
     if (const auto value =
-            squared_error<6>(accumulated_error(pairs.front(), pair), line->second.pose + 2.0 * truth_noise)) {
+            squared_error<6>(accumulated_error(odom_from_map, pair), line->second.pose + 2.0 * truth_noise)) {
       accumulated.push_back(*value);
     }
   }
   if (!accumulated.empty()) result.pose = summarize_nees(6, accumulated, false);
+  return result;
+}
+
+std::optional<PoseConsistency> pose_consistency(std::span<const PosePair> pairs, const MotionCovariances& covariances,
+                                                const Eigen::Isometry3d& truth_from_estimate) {
+  constexpr std::array kPlane{0, 1, 5};
+  const Eigen::Isometry3d estimate_from_truth = truth_from_estimate.inverse();
+  PoseConsistency result;
+  std::vector<double> full;
+  std::vector<double> plane;
+  for (const PosePair& pair : pairs) {
+    const auto line = covariances.find(pair.stamp_ns);
+    const Vector6d error = accumulated_error(estimate_from_truth, pair);
+    const auto value = line == covariances.end() ? std::nullopt : squared_error<6>(error, line->second.pose);
+    const auto flat =
+        line == covariances.end() ? std::nullopt : squared_error<3>(error(kPlane), line->second.pose(kPlane, kPlane));
+    if (value) full.push_back(*value);
+    if (flat) plane.push_back(*flat);
+    if (!flat) ++result.unusable;
+  }
+  if (plane.empty()) return std::nullopt;
+  if (!full.empty()) result.full = summarize_nees(6, full, false);
+  result.plane = summarize_nees(3, plane, false);
   return result;
 }
 

@@ -9,6 +9,7 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
+#include <fstream>
 
 #include "panvo/evaluation/plot.hpp"
 
@@ -86,6 +87,14 @@ void run_gnuplot(const std::filesystem::path& folder, const std::string& script)
     throw PlotError("gnuplot failed on " + (folder / script).string() + ": " + said +
                     "; run gnuplot on that file to see more, or give --no-plot");
   }
+}
+
+void write_and_run_gnuplot(const std::filesystem::path& folder, const std::string& script, const std::string& text) {
+  std::ofstream stream(folder / script);
+  stream << text;
+  stream.close();
+  if (!stream) throw PlotError((folder / script).string() + " cannot be written; check the folder and the disk");
+  run_gnuplot(folder, script);
 }
 
 }  // namespace panvo::evaluation

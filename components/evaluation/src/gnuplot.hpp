@@ -10,6 +10,9 @@ namespace panvo::evaluation {
 // shell is involved. Throws PlotError, with what gnuplot said, if it is not installed or fails.
 void run_gnuplot(const std::filesystem::path& folder, const std::string& script);
 
+// Writes `text` as `script` into `folder` first. Throws PlotError also if that fails.
+void write_and_run_gnuplot(const std::filesystem::path& folder, const std::string& script, const std::string& text);
+
 // A gnuplot string: between single quotes, where gnuplot substitutes nothing. A quote inside becomes an apostrophe
 // (UTF-8), a control character a blank.
 std::string gnuplot_quoted(const std::string& text);

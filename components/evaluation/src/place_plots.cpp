@@ -5,24 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 
 #include "gnuplot.hpp"
-#include "panvo/evaluation/plot.hpp"
 
 namespace panvo::evaluation {
-namespace {
-
-void run_script(const std::filesystem::path& folder, const std::string& name, const std::string& script) {
-  std::ofstream stream(folder / name);
-  stream << script;
-  stream.close();
-  if (!stream) throw PlotError((folder / name).string() + " cannot be written; check the folder and the disk");
-  run_gnuplot(folder, name);
-}
-
-}  // namespace
-
 std::vector<LocalCurve> local_curves(const std::vector<const PlaceMethod*>& methods, const PlaceTask& task,
                                      const PlaceRevisit& revisit, const PlaceRecording& first,
                                      const PlaceRecording& then, double reach_m) {
@@ -83,7 +69,7 @@ void draw_separation(const std::vector<PlaceScore>& scores, const std::filesyste
                                    score.recall, score.precision)),
         i, i, i);
   }
-  run_script(folder, "separation.gp", script + "unset multiplot\n");
+  write_and_run_gnuplot(folder, "separation.gp", script + "unset multiplot\n");
 }
 
 void draw_local_curves(const std::vector<LocalCurve>& curves, const std::string& title, int number,
@@ -105,7 +91,7 @@ void draw_local_curves(const std::vector<LocalCurve>& curves, const std::string&
     plot += fmt::format("{}$curve{} using 1:2 with lines lw 2 title {}", i == 0 ? "plot " : ", ", i,
                         gnuplot_quoted(curves[i].method));
   }
-  run_script(folder, fmt::format("local_{}.gp", number), script + plot + "\n");
+  write_and_run_gnuplot(folder, fmt::format("local_{}.gp", number), script + plot + "\n");
 }
 
 }  // namespace panvo::evaluation

@@ -62,4 +62,17 @@ struct Consistency {
 std::optional<Consistency> consistency(std::span<const PosePair> pairs, const MotionCovariances& covariances,
                                        const ConsistencyOptions& options = {});
 
+// Whether the covariance of a pose, as it was published, says what its error is. Neighbouring samples depend on each
+// other, so the bounds are those of one.
+struct PoseConsistency {
+  Nees full;                 // position and orientation, 6 dimensions
+  Nees plane;                // x, y and the rotation about z, 3 dimensions
+  std::size_t unusable = 0;  // poses with no line, or with a covariance that is not positive definite
+};
+
+// Errors of the estimate against the truth carried into its frame by `truth_from_estimate`, with the pose's covariance as
+// in nav_msgs/Odometry. nullopt if no pose is usable.
+std::optional<PoseConsistency> pose_consistency(std::span<const PosePair> pairs, const MotionCovariances& covariances,
+                                                const Eigen::Isometry3d& truth_from_estimate);
+
 }  // namespace panvo::evaluation

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+// panvo_evaluate_journey: a journey with the enhanced odometry against the truth: Tables 2 to 4, paths, azimuth, one page of it all.
+#include <CLI/CLI.hpp>
+#include <exception>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <optional>
+#include <string>
+
+#include "panvo/evaluation/input_error.hpp"
+#include "panvo/evaluation/journey_evaluation.hpp"
+#include "panvo/evaluation/journey_page.hpp"
+#include "panvo/evaluation/plot.hpp"
+
+namespace {
+
+namespace fs = std::filesystem;
+using namespace panvo::evaluation;
+
+enum ExitStatus { kSuccess = 0, kFailed = 1, kUsage = 2, kNoPlot = 3 };
+
+struct Arguments {
+  std::string run;
+  std::string recording;
+  std::string earlier;
+  std::string paper_run;
+  std::string out;
+  std::string title;
+  bool only_table = false;
+};
+
+void describe(CLI::App& app, Arguments& arguments) {
+  app.add_option("run", arguments.run, "folder of a run of enhanced_vo, as `panvo run --out` leaves it")->required();
+  app.add_option("--recording", arguments.recording,
+                 "what the run was made of: EuRoC/ASL data set with truth, and for revisits and pictures sequence.yaml "
+                 "and cam2 (default: the truth that the run left)");
+  app.add_option("--earlier", arguments.earlier,
+                 "the recording on which the landmark library was made, for a second journey: its start is the map's");
+  app.add_option("--paper-run", arguments.paper_run,
+                 "another run of the same recording, with the paper's own correction, to be put beside");
+  app.add_option("--out", arguments.out, "folder for report.html, journey.json and pictures (default: the run's)");
+  app.add_option("--title", arguments.title, "heading (default: name of recording and run)");
+  app.add_flag("--only-table", arguments.only_table, "print the tables, write nothing");
+}
+
+void write(const fs::path& file, const std::string& text) {
+  std::ofstream stream(file, std::ios::binary);
+  if (!(stream << text).flush()) throw InputError(file, "cannot be written", "choose a writable folder with --out");
+}
+
+std::string default_title(const JourneyRun& run, const JourneyRecording& recording) {
+  const auto name = fs::weakly_canonical(recording.folder).filename().string();
+  return name == run.name ? name : name + ", run " + run.name;
+}
+
+int run(const Arguments& arguments) {
+  const auto journey = read_journey_run(arguments.run);
+  const auto recording = read_journey_recording(arguments.recording.empty() ? arguments.run : arguments.recording);
+  std::optional<JourneyRecording> earlier;
+  if (!arguments.earlier.empty()) earlier = read_journey_recording(arguments.earlier);
+  std::optional<JourneyRun> paper;
+  if (!arguments.paper_run.empty()) paper = read_journey_run(arguments.paper_run);
+
+  const auto* library = earlier ? &*earlier : nullptr;
+  JourneyReport report{arguments.title.empty() ? default_title(journey, recording) : arguments.title,
+                       evaluate_run(journey, recording, library),
+                       {},
+                       earlier.has_value()};
+  if (paper) report.paper_run.emplace(evaluate_run(*paper, recording, library));
+  std::cout << journey_table(report) << std::flush;
+  if (arguments.only_table) return kSuccess;
+
+  const fs::path folder = arguments.out.empty() ? arguments.run : arguments.out;
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) throw InputError(folder, "cannot be made: " + error.message(), "choose another folder with --out");
+  write(folder / "journey.json", journey_json(report));
+  write(folder / "report.html", journey_page(report));
+  std::cout << "\nwritten: " << (folder / "report.html").string() << " (opens in any browser), journey.json\n"
+            << std::flush;
+  draw_journey(report, folder);
+  return kSuccess;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Arguments arguments;
+  CLI::App app(
+      "A journey with the enhanced odometry against the truth: what each revisit did to the error, times, paths and "
+      "azimuth, Tables 2 to 4 of [Lu2015], and one page of it all",
+      "panvo evaluate journey");
+  describe(app, arguments);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? kSuccess : kUsage;
+  }
+  try {
+    return run(arguments);
+  } catch (const PlotError& error) {
+    std::cerr << "panvo evaluate journey: no pictures: " << error.what() << '\n';
+    return kNoPlot;
+  } catch (const std::exception& error) {
+    std::cerr << "panvo evaluate journey: " << error.what() << '\n';
+    return kFailed;
+  }
+}

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "panvo/evaluation/journey_paths.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace panvo::evaluation {
+namespace {
+
+PathScore score(const std::string& name, const std::vector<PosePair>& pairs, const Eigen::Isometry3d& world_from_map,
+                double travelled_m) {
+  PathScore score;
+  score.name = name;
+  score.errors = pose_errors(pairs, {1.0, world_from_map});
+  std::vector<double> flat, heading;
+  for (const auto& error : score.errors) {
+    flat.push_back(error.translation_m.head<2>().norm());
+    heading.push_back(std::abs(error.yaw_rad));
+  }
+  score.final_m = flat.back();
+  const auto worst = std::max_element(flat.begin(), flat.end());
+  score.worst_m = *worst;
+  score.worst_at_m = score.errors[static_cast<std::size_t>(worst - flat.begin())].distance_m;
+  score.ate_m = *absolute_trajectory_error(score.errors);
+  score.flat_m = *summarize(std::move(flat));
+  score.heading_rad = *summarize(std::move(heading));
+  if (const auto aligned = align(pairs, Alignment::kSe3)) {
+    score.ate_se3_m = absolute_trajectory_error(pose_errors(pairs, *aligned));
+  }
+  score.percent_of_way = travelled_m > 0.0 ? 100.0 * score.flat_m.rmse / travelled_m : 0.0;
+  return score;
+}
+
+}  // namespace
+
+PathScores score_paths(const JourneyFrames& frames) {
+  const auto binocular = associate(frames.run.binocular, frames.recording.truth);
+  const auto enhanced = associate(frames.run.enhanced, frames.recording.truth);
+  PathScores scores;
+  scores.travelled_m = distances_m(binocular.pairs).back();
+  scores.duration_s = static_cast<double>(binocular.pairs.back().stamp_ns - binocular.pairs.front().stamp_ns) * 1e-9;
+  scores.binocular = score("binocular", binocular.pairs, frames.world_from_odom, scores.travelled_m);
+  scores.enhanced = score("enhanced", enhanced.pairs, frames.world_from_map, scores.travelled_m);
+  if (scores.binocular.flat_m.rmse > 0.0) scores.ratio = scores.enhanced.flat_m.rmse / scores.binocular.flat_m.rmse;
+  if (frames.run.enhanced_covariances) {
+    scores.consistency = pose_consistency(enhanced.pairs, *frames.run.enhanced_covariances, frames.world_from_map);
+  }
+  return scores;
+}
+
+}  // namespace panvo::evaluation
