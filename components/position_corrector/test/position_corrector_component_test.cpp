@@ -2,9 +2,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
+#include <string>
 
 #include "panvo/conversions/image.hpp"
 #include "panvo/conversions/pose.hpp"
+#include "panvo/conversions/static_transforms.hpp"
 #include "panvo/conversions/time.hpp"
 #include "panvo/landmarks/landmark_messages.hpp"
 #include "panvo/runtime/testing.hpp"
@@ -17,11 +20,14 @@ constexpr std::int64_t kPeriod_ns = 200'000'000;
 
 class PositionCorrectorComponent : public testing::Test {
  protected:
-  PositionCorrectorComponent() { harness.load("panvo_position_corrector", "PositionCorrectorComponent"); }
+  explicit PositionCorrectorComponent(const std::map<std::string, std::string>& parameters = {}) {
+    harness.load("panvo_position_corrector", "PositionCorrectorComponent", parameters);
+  }
 
   void publish_landmark(std::uint32_t id, unsigned seed, const landmarks::DescriptionSettings& settings) {
     auto landmark = landmark_of(place(seed), describer, Eigen::Vector3d(100.0 * id, 0.0, 0.0));
     landmark.id = id;
+    landmark.base_from_panorama = mounted(2.0);
     harness.publish(topics::kLandmarks, to_message(landmark, settings, "map"));
   }
   void publish_landmark(std::uint32_t id, unsigned seed) {
@@ -35,8 +41,11 @@ class PositionCorrectorComponent : public testing::Test {
     harness.publish(topics::kPanorama, std::shared_ptr<const sensor_msgs::msg::Image>(message));
   }
 
-  void publish_odometry(double x_m, double sigma_m) {
+  /// At the stamp of the next panorama.
+  void publish_odometry(double x_m, double sigma_m, double speed_m_s = 0.0) {
     nav_msgs::msg::Odometry odometry;
+    odometry.header().stamp(conversions::to_stamp((frames + 1) * kPeriod_ns));
+    odometry.twist().twist().linear().x(speed_m_s);
     Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
     pose.translation().x() = x_m;
     odometry.pose().pose(conversions::to_pose(pose));
@@ -44,11 +53,55 @@ class PositionCorrectorComponent : public testing::Test {
     harness.publish(topics::kOdometryBinocular, odometry);
   }
 
+  void publish_mounting(double up_m) {
+    tf2_msgs::msg::TFMessage message;
+    message.transforms().push_back(conversions::to_static_transform(0, "base_link", "panorama", mounted(up_m)));
+    harness.publish(topics::kTfStatic, message);
+  }
+
+  void publish_poses(const std::map<std::uint32_t, double>& x_by_id) {
+    panvo_msgs::msg::LandmarkPoses message;
+    for (const auto& [id, x_m] : x_by_id) {
+      Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+      pose.translation().x() = x_m;
+      message.ids().push_back(id);
+      message.poses().emplace_back();
+      message.poses().back().pose(conversions::to_pose(pose));
+      message.poses().back().covariance(conversions::to_array(vision::Matrix6d::Identity()));
+    }
+    harness.publish(topics::kLandmarkPoses, message);
+  }
+
+  /// Past place 2: nearly it, it, and nearly it for four metres more, a metre a panorama.
+  void pass() {
+    cv::Mat nearly = place(2);
+    cv::rectangle(nearly, {100, 150, 120, 150}, 30, cv::FILLED);
+    for (int i = 0; i < 6; ++i) {
+      publish_odometry(200.0, 5.0, 5.0);
+      publish_panorama(i == 1 ? place(2) : nearly);
+    }
+  }
+
+  /// Of a camera that looks forward (X right, Y down, Z forward), above the base.
+  static Eigen::Isometry3d mounted(double up_m) {
+    Eigen::Isometry3d base_from_panorama = Eigen::Isometry3d::Identity();
+    base_from_panorama.linear() << 0, 0, 1, -1, 0, 0, 0, -1, 0;
+    base_from_panorama.translation().z() = up_m;
+    return base_from_panorama;
+  }
+
   landmarks::PanoramaDescriber describer{{}, 1};
   runtime::ComponentHarness harness;
   const std::vector<std::shared_ptr<const panvo_msgs::msg::LandmarkMatch>>& matches =
       harness.collect(topics::kLandmarkMatch);
+  const std::vector<std::shared_ptr<const panvo_msgs::msg::PositionCorrection>>& corrections =
+      harness.collect(topics::kCorrection);
   int frames = 0;
+};
+
+class PaperPositionCorrector : public PositionCorrectorComponent {
+ protected:
+  PaperPositionCorrector() : PositionCorrectorComponent({{"correction.method", "paper"}}) {}
 };
 
 TEST_F(PositionCorrectorComponent, TellsOfEachPanoramaWhatItShows) {
@@ -94,6 +147,169 @@ TEST_F(PositionCorrectorComponent, SaysThatAPanoramaIsOfNoUse) {
   ASSERT_EQ(matches.size(), 1U);
   EXPECT_EQ(matches[0]->state(), "unusable");
   EXPECT_TRUE(harness.log_contains("panorama/image"));
+}
+
+TEST_F(PositionCorrectorComponent, SaysWhereTheVehicleIsSeenFromTheLandmark) {
+  publish_mounting(1.5);
+  publish_landmark(2, 2);
+  publish_panorama(turned(place(2), 270));
+  ASSERT_EQ(corrections.size(), 1U);
+  const auto& correction = *corrections[0];
+  EXPECT_EQ(correction.state(), "full") << correction.reason();
+  EXPECT_EQ(correction.reason(), "");
+  EXPECT_EQ(correction.landmark_id(), 2U);
+  EXPECT_GE(correction.inliers(), 12U);
+  EXPECT_EQ(conversions::to_ns(correction.header().stamp()), kPeriod_ns);
+  const auto pose = conversions::to_isometry(correction.landmark_from_base().pose());
+  ASSERT_TRUE(pose);
+  // turned left by a quarter, at the same spot; the camera sits half a metre lower than it did then
+  EXPECT_LT((pose->linear() - vision::so3_exp(Eigen::Vector3d(0.0, 0.0, M_PI / 2.0))).norm(), 0.01);
+  EXPECT_LT((pose->translation() - Eigen::Vector3d(0.0, 0.0, 0.5)).norm(), 0.1);
+  const auto covariance = conversions::to_matrix(correction.landmark_from_base().covariance());
+  EXPECT_GT(covariance(0, 0), 0.0);
+  EXPECT_LT(covariance(0, 0), 0.1);
+}
+
+TEST_F(PositionCorrectorComponent, TakesTheLandmarksMountingForItsOwnAndSaysSoOnce) {
+  publish_landmark(2, 2);
+  publish_panorama(place(2));
+  publish_panorama(place(2));
+  ASSERT_EQ(corrections.size(), 2U);
+  const auto pose = conversions::to_isometry(corrections[0]->landmark_from_base().pose());
+  ASSERT_TRUE(pose);
+  EXPECT_LT(pose->translation().norm(), 0.1);
+  int said = 0;
+  for (const auto& line : harness.log()) said += line.find("as it was when the landmark was made") != std::string::npos;
+  EXPECT_EQ(said, 1);
+}
+
+TEST_F(PositionCorrectorComponent, SendsAPanoramasPoseOnce) {
+  publish_landmark(2, 2);
+  pass();
+  ASSERT_EQ(matches.back()->state(), "matched");
+  EXPECT_EQ(conversions::to_ns(matches.back()->header().stamp()), 2 * kPeriod_ns);
+  ASSERT_GE(corrections.size(), 4U);
+  for (std::size_t i = 1; i < corrections.size(); ++i) {
+    EXPECT_LT(conversions::to_ns(corrections[i - 1]->header().stamp()),
+              conversions::to_ns(corrections[i]->header().stamp()));
+  }
+}
+
+TEST_F(PositionCorrectorComponent, IsLessSureAlongTheWayOfAVehicleThatDrivesFast) {
+  publish_landmark(2, 2);
+  publish_odometry(200.0, 1.0, 0.0);
+  publish_panorama(place(2));
+  publish_odometry(200.0, 1.0, 10.0);
+  publish_panorama(place(2));
+  ASSERT_EQ(corrections.size(), 2U);
+  // 10 ms then and now at 10 m/s
+  EXPECT_NEAR(
+      corrections[1]->landmark_from_base().covariance()[0] - corrections[0]->landmark_from_base().covariance()[0],
+      2.0 * 0.1 * 0.1, 1e-3);
+}
+
+TEST_F(PositionCorrectorComponent, TellsThatGeometryRejectedALandmark) {
+  auto landmark = landmark_of(place(2), describer, Eigen::Vector3d::Zero());
+  landmark.id = 2;
+  for (std::size_t i = 0; i < landmark.keypoints.size(); ++i) {  // depths as nowhere else
+    landmark.keypoints[i].point_in_panorama =
+        Eigen::AngleAxisf(0.3F * static_cast<float>(i % 7), Eigen::Vector3f::UnitY()) *
+        landmark.keypoints[i].point_in_panorama;
+  }
+  harness.publish(topics::kLandmarks,
+                  to_message(landmark, landmarks::description_settings(landmarks::DescriptionParameters{}, 1), "map"));
+  cv::Mat disturbed = place(2);
+  publish_panorama(disturbed);
+  ASSERT_EQ(corrections.size(), 1U);
+  EXPECT_EQ(corrections[0]->state(), "rejected");
+  EXPECT_EQ(corrections[0]->landmark_id(), 2U);
+  EXPECT_NE(corrections[0]->reason().find("needed"), std::string::npos) << corrections[0]->reason();
+}
+
+TEST_F(PositionCorrectorComponent, SaysNothingOfAPanoramaWithoutLandmarks) {
+  publish_landmark(1, 1);
+  publish_panorama(place(80));
+  EXPECT_TRUE(corrections.empty());
+}
+
+TEST_F(PositionCorrectorComponent, LooksForALandmarkWhereItWasMovedTo) {
+  publish_landmark(2, 2);
+  publish_poses({{2, 500.0}});
+  publish_odometry(200.0, 1.0);
+  publish_panorama(place(2));
+  EXPECT_EQ(matches.back()->candidates(), 0U);
+  publish_odometry(500.0, 1.0);
+  publish_panorama(place(2));
+  EXPECT_EQ(matches.back()->state(), "locked") << matches.back()->reason();
+}
+
+TEST_F(PositionCorrectorComponent, MovesALandmarkThatComesAfterItsPose) {
+  publish_poses({{2, 500.0}});
+  publish_landmark(2, 2);
+  publish_odometry(500.0, 1.0);
+  publish_panorama(place(2));
+  EXPECT_EQ(matches.back()->candidates(), 1U);
+}
+
+TEST_F(PositionCorrectorComponent, LeavesLandmarksWhereTheyAreWhenTheirPosesAreMalformed) {
+  publish_landmark(2, 2);
+  panvo_msgs::msg::LandmarkPoses message;
+  message.ids({2});
+  harness.publish(topics::kLandmarkPoses, message);
+  EXPECT_TRUE(harness.log_contains("landmarks/poses has 1 ids, but 0 poses"));
+  publish_odometry(200.0, 1.0);
+  publish_panorama(place(2));
+  EXPECT_EQ(matches.back()->candidates(), 1U);
+}
+
+TEST_F(PositionCorrectorComponent, DoesNotTakeACorrectionsJumpForWayThatLeavesALandmark) {
+  publish_odometry(0.0, 1.0, 1.0);
+  publish_panorama(place(80));
+  publish_landmark(2, 2);
+  publish_odometry(200.0, 1.0, 1.0);  // 200 m at once, at walking pace: corrected
+  publish_panorama(place(2));
+  EXPECT_EQ(matches.back()->candidates(), 0U) << "built a moment ago";
+}
+
+TEST_F(PositionCorrectorComponent, LooksWhereTheVehicleWasWhenALatePanoramaWasTaken) {
+  publish_landmark(2, 2);
+  publish_odometry(200.0, 1.0, 20.0);
+  frames += 20;
+  publish_odometry(400.0, 1.0, 20.0);
+  frames -= 20;
+  publish_panorama(place(2));
+  EXPECT_EQ(matches.back()->state(), "locked") << matches.back()->reason();
+}
+
+TEST_F(PositionCorrectorComponent, KeepsKeypointsInMemoryWhereThereIsNoFolderForThem) {
+  runtime::ComponentHarness other;
+  const auto& found = other.collect(topics::kLandmarkMatch);
+  other.load("panvo_position_corrector", "PositionCorrectorComponent", {{"spill_folder", "/no/such/folder"}});
+  auto landmark = landmark_of(place(2), describer, Eigen::Vector3d::Zero());
+  landmark.id = 2;
+  other.publish(topics::kLandmarks,
+                to_message(landmark, landmarks::description_settings(landmarks::DescriptionParameters{}, 1), "map"));
+  EXPECT_TRUE(other.log_contains("keypoints of landmarks stay in memory"));
+  auto message = conversions::make_image(kPeriod_ns, "panorama", "mono8", kColumns, kRows);
+  place(2).copyTo(conversions::pixels(*message));
+  other.publish(topics::kPanorama, std::shared_ptr<const sensor_msgs::msg::Image>(message));
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0]->state(), "locked") << found[0]->reason();
+}
+
+// [Lu2015 5.2]
+TEST_F(PaperPositionCorrector, CorrectsOnceAPassAtTheNearestPoint) {
+  publish_landmark(2, 2);
+  pass();
+  ASSERT_EQ(matches.back()->state(), "matched");
+  ASSERT_EQ(corrections.size(), 1U);
+  const auto& correction = *corrections[0];
+  EXPECT_NE(correction.state(), "rejected") << correction.reason();
+  EXPECT_EQ(conversions::to_ns(correction.header().stamp()), 2 * kPeriod_ns);
+  EXPECT_EQ(correction.landmark_id(), 2U);
+  const auto pose = conversions::to_isometry(correction.landmark_from_base().pose());
+  ASSERT_TRUE(pose);
+  EXPECT_LT((pose->linear() - Eigen::Matrix3d::Identity()).norm(), 0.01);
 }
 
 }  // namespace

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "panvo/position_corrector/spilled_keypoints.hpp"
+
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+
+#include <csignal>
+
+#include <random>
+
+namespace panvo::position_corrector {
+namespace {
+
+std::vector<landmarks::Keypoint> some_keypoints(unsigned seed, std::size_t count) {
+  std::mt19937_64 random(seed);
+  const auto any = [&] { return static_cast<float>(random() % 100'000) * 1e-3F; };
+  std::vector<landmarks::Keypoint> keypoints(count);
+  for (auto& keypoint : keypoints) {
+    keypoint.bearing = Eigen::Vector3f(any(), any(), any()).normalized();
+    keypoint.size_px = any();
+    for (auto& byte : keypoint.descriptor) byte = static_cast<std::uint8_t>(random());
+    keypoint.has_point = random() % 2 == 0;
+    keypoint.point_in_panorama = Eigen::Vector3f(any(), -any(), any());
+    keypoint.inverse_range_sigma = any();
+  }
+  return keypoints;
+}
+
+TEST(SpilledKeypoints, ComeBackBitForBit) {
+  SpilledKeypoints spilled(testing::TempDir());
+  ASSERT_EQ(spilled.problem(), "");
+  for (unsigned id = 1; id <= 20; ++id) spilled.put(id, some_keypoints(id, 10 * id));
+  for (unsigned id = 20; id >= 1; --id) EXPECT_EQ(spilled.keypoints(id), some_keypoints(id, 10 * id)) << id;
+  EXPECT_EQ(spilled.bytes_in_file(), 2100U * 164U);
+}
+
+TEST(SpilledKeypoints, AreThoseThatWerePutLast) {
+  SpilledKeypoints spilled(testing::TempDir());
+  spilled.put(1, some_keypoints(1, 50));
+  spilled.put(2, some_keypoints(2, 50));
+  spilled.put(1, some_keypoints(3, 70));
+  EXPECT_EQ(spilled.keypoints(1), some_keypoints(3, 70));
+  EXPECT_EQ(spilled.keypoints(2), some_keypoints(2, 50));
+}
+
+TEST(SpilledKeypoints, AreNoneOfALandmarkThatHasNoneOrIsNotKnown) {
+  SpilledKeypoints spilled(testing::TempDir());
+  spilled.put(1, {});
+  EXPECT_TRUE(spilled.keypoints(1).empty());
+  EXPECT_TRUE(spilled.keypoints(2).empty());
+}
+
+TEST(SpilledKeypoints, StayInMemoryWhereNoFileCanBeMadeAndSayWhy) {
+  SpilledKeypoints spilled(testing::TempDir() + "/there/is/no/such/folder");
+  EXPECT_NE(spilled.problem().find("no/such/folder (No such file or directory)"), std::string::npos)
+      << spilled.problem();
+  spilled.put(1, some_keypoints(1, 50));
+  EXPECT_EQ(spilled.keypoints(1), some_keypoints(1, 50));
+  EXPECT_EQ(spilled.bytes_in_file(), 0U);
+}
+
+TEST(SpilledKeypoints, StayInMemoryWhenTheDiskIsFullAndThoseBeforeCanStillBeRead) {
+  struct Limit {  // the kernel's word for a file that may not grow
+    rlimit before{};
+    explicit Limit(rlim_t bytes) {
+      ::getrlimit(RLIMIT_FSIZE, &before);
+      const rlimit small{bytes, before.rlim_max};
+      ::setrlimit(RLIMIT_FSIZE, &small);
+      ::signal(SIGXFSZ, SIG_IGN);
+    }
+    ~Limit() {
+      ::setrlimit(RLIMIT_FSIZE, &before);
+      ::signal(SIGXFSZ, SIG_DFL);
+    }
+  };
+  SpilledKeypoints spilled(testing::TempDir());
+  spilled.put(1, some_keypoints(1, 50));
+  {
+    const Limit limit(50 * 164 + 1000);
+    spilled.put(2, some_keypoints(2, 50));
+  }
+  EXPECT_NE(spilled.problem().find("takes no more"), std::string::npos) << spilled.problem();
+  spilled.put(3, some_keypoints(3, 50));
+  for (unsigned id = 1; id <= 3; ++id) EXPECT_EQ(spilled.keypoints(id), some_keypoints(id, 50)) << id;
+}
+
+TEST(SpilledKeypoints, StayInMemoryWhereNoFolderIsNamed) {
+  SpilledKeypoints spilled("");
+  spilled.put(1, some_keypoints(1, 5));
+  EXPECT_EQ(spilled.keypoints(1), some_keypoints(1, 5));
+  EXPECT_EQ(spilled.problem(), "");
+}
+
+}  // namespace
+}  // namespace panvo::position_corrector
