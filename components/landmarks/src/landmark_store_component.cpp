@@ -5,6 +5,7 @@
 #include <span>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "panvo/landmarks/landmark_messages.hpp"
 #include "panvo/landmarks/landmark_store.hpp"
@@ -29,7 +30,8 @@ struct Parameters {
   }
 };
 
-/// landmarks <-> a file: publishes at the start what earlier sessions left there, and keeps what is built or moved.
+/// landmarks <-> a file: publishes at the start what earlier sessions left there, and keeps what is built or moved, be it by
+/// landmarks/poses, all of them at once, or by a landmark that comes again.
 class LandmarkStoreComponent final : public runtime::Component {
  public:
   explicit LandmarkStoreComponent(runtime::Context& context)
@@ -39,6 +41,7 @@ class LandmarkStoreComponent final : public runtime::Component {
       return;
     }
     context.input(topics::kLandmarks, [this](const auto& message) { on_landmark(*message); });
+    context.input(topics::kLandmarkPoses, [this](const auto& message) { on_poses(*message); });
     try {
       if (parameters_.read_only || std::filesystem::exists(parameters_.file)) open();
     } catch (const StoreError& error) {
@@ -61,7 +64,7 @@ class LandmarkStoreComponent final : public runtime::Component {
     }
     for (auto& landmark : store_->landmarks()) {
       landmark.keypoints = store_->keypoints(landmark.id);  // its picture stays in the file: it is for people
-      remember(landmark);
+      remember({landmark.id, landmark.map_from_base, landmark.covariance});
       // Latched, so it does not matter which components are there already.
       output_.publish(to_message(landmark, store_->settings(), parameters_.map_frame));
     }
@@ -86,26 +89,60 @@ class LandmarkStoreComponent final : public runtime::Component {
     }
   }
 
-  void keep(const PanoramicLandmark& landmark) {
-    const auto known = known_.find(landmark.id);
-    if (known == known_.end()) {
-      store_->add(landmark);
-    } else if (is_moved(known->second, landmark)) {
-      const LandmarkPose moved{landmark.id, landmark.map_from_base, landmark.covariance};
-      store_->set_poses(std::span(&moved, 1));
+  void on_poses(const panvo_msgs::msg::LandmarkPoses& message) {
+    if (parameters_.read_only || has_failed_) return;
+    const auto poses = to_landmark_poses(message);
+    if (!poses) {
+      context_.log().warn("{} {}; landmarks stay where they are", topics::kLandmarkPoses.name, poses.reason());
+      return;
     }
-    remember(landmark);
+    try {
+      early_.clear();
+      move(*poses);
+    } catch (const StoreError& error) {
+      has_failed_ = true;
+      context_.log().error("{}. No more landmarks are kept", error.what());
+    }
   }
 
-  static bool is_moved(const Known& known, const PanoramicLandmark& landmark) {
+  void keep(PanoramicLandmark landmark) {
+    if (known_.contains(landmark.id)) {
+      const LandmarkPose pose{landmark.id, landmark.map_from_base, landmark.covariance};
+      return move(std::span(&pose, 1));
+    }
+    if (const auto early = early_.find(landmark.id); early != early_.end()) {
+      landmark.map_from_base = early->second.map_from_base;
+      landmark.covariance = early->second.covariance;
+    }
+    store_->add(landmark);
+    remember({landmark.id, landmark.map_from_base, landmark.covariance});
+  }
+
+  /// All at once: a map that is half straightened is none.
+  void move(std::span<const LandmarkPose> poses) {
+    std::vector<LandmarkPose> moved;
+    for (const auto& pose : poses) {
+      const auto known = known_.find(pose.id);
+      if (known == known_.end()) {
+        early_[pose.id] = pose;
+      } else if (is_moved(known->second, pose)) {
+        moved.push_back(pose);
+      }
+    }
+    if (moved.empty()) return;
+    store_->set_poses(moved);
+    for (const auto& pose : moved) remember(pose);
+  }
+
+  static bool is_moved(const Known& known, const LandmarkPose& pose) {
     constexpr double kRounding =
         1e-9;  // of a rotation on its way through quaternions; what is published here comes back
-    return (known.map_from_base - landmark.map_from_base.matrix()).cwiseAbs().maxCoeff() > kRounding ||
-           known.covariance != landmark.covariance;
+    return (known.map_from_base - pose.map_from_base.matrix()).cwiseAbs().maxCoeff() > kRounding ||
+           known.covariance != pose.covariance;
   }
 
-  void remember(const PanoramicLandmark& landmark) {
-    known_.insert_or_assign(landmark.id, Known{landmark.map_from_base.matrix(), landmark.covariance});
+  void remember(const LandmarkPose& pose) {
+    known_.insert_or_assign(pose.id, Known{pose.map_from_base.matrix(), pose.covariance});
   }
 
   runtime::Context& context_;
@@ -113,6 +150,7 @@ class LandmarkStoreComponent final : public runtime::Component {
   runtime::Output<panvo_msgs::msg::PanoramicLandmark> output_;
   std::unique_ptr<LandmarkStore> store_;
   std::map<std::uint32_t, Known> known_;
+  std::map<std::uint32_t, LandmarkPose> early_;  // of landmarks that did not come yet
   bool has_failed_ = false;
 };
 

@@ -29,6 +29,15 @@ class LandmarkStoreComponent : public testing::Test {
     void publish(const PanoramicLandmark& landmark, const DescriptionSettings& settings = made_up_settings()) {
       harness.publish(topics::kLandmarks, to_message(landmark, settings, "map"));
     }
+    void publish_poses(const std::vector<PanoramicLandmark>& landmarks) {
+      panvo_msgs::msg::LandmarkPoses message;
+      for (const auto& landmark : landmarks) {
+        const auto whole = to_message(landmark, made_up_settings(), "map");
+        message.ids().push_back(landmark.id);
+        message.poses().push_back(whole.pose());
+      }
+      harness.publish(topics::kLandmarkPoses, message);
+    }
   };
 
   TemporaryFolder folder_;
@@ -77,6 +86,63 @@ TEST_F(LandmarkStoreComponent, MovesALandmarkThatComesAgain) {
   const LandmarkStore store(file_);
   ASSERT_EQ(store.size(), 1U);
   EXPECT_EQ(difference(store.landmarks()[0], landmark, false), "");
+}
+
+PanoramicLandmark moved(PanoramicLandmark landmark, double by_m) {
+  landmark.map_from_base.translation().x() += by_m;
+  landmark.covariance *= 0.5;
+  return landmark;
+}
+
+TEST_F(LandmarkStoreComponent, LetsTheNextSessionBeginWithTheStraightenedMap) {
+  {
+    Session session(file_);
+    for (std::uint32_t id = 1; id <= 3; ++id) session.publish(made_up_landmark(id));
+    session.publish_poses({moved(made_up_landmark(1), 2.0), moved(made_up_landmark(3), -3.0)});
+    session.publish_poses({moved(made_up_landmark(1), 4.0), moved(made_up_landmark(3), -3.0)});
+  }
+  const Session next(file_);
+  ASSERT_EQ(next.published.size(), 3U);
+  const std::vector<PanoramicLandmark> expected{moved(made_up_landmark(1), 4.0), made_up_landmark(2),
+                                                moved(made_up_landmark(3), -3.0)};
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    const auto published = to_landmark(*next.published[i], made_up_settings());
+    ASSERT_TRUE(published) << published.reason();
+    EXPECT_TRUE(published->map_from_base.isApprox(expected[i].map_from_base, 1e-12)) << i + 1;
+    EXPECT_TRUE(published->covariance.isApprox(expected[i].covariance, 1e-12)) << i + 1;
+  }
+}
+
+TEST_F(LandmarkStoreComponent, MovesALandmarkThatComesAfterItsPose) {
+  Session session(file_);
+  session.publish_poses({moved(made_up_landmark(1), 2.0)});
+  EXPECT_FALSE(std::filesystem::exists(file_)) << "a pose is no landmark";
+  session.publish(made_up_landmark(1));
+  EXPECT_TRUE(
+      LandmarkStore(file_).landmarks()[0].map_from_base.isApprox(moved(made_up_landmark(1), 2.0).map_from_base, 1e-12));
+}
+
+TEST_F(LandmarkStoreComponent, MovesNothingByAMalformedMessageAndSaysWhy) {
+  Session session(file_);
+  session.publish(made_up_landmark(1));
+  panvo_msgs::msg::LandmarkPoses message;
+  message.ids({1});
+  session.harness.publish(topics::kLandmarkPoses, message);
+  EXPECT_TRUE(session.harness.log_contains("landmarks/poses has 1 ids, but 0 poses; landmarks stay where they are"));
+  auto broken = made_up_landmark(1);
+  broken.covariance(2, 2) = -1.0;
+  session.publish_poses({broken});
+  EXPECT_TRUE(
+      session.harness.log_contains("has a covariance that is not symmetric or has a negative variance in poses[0]"));
+  EXPECT_EQ(difference(LandmarkStore(file_).landmarks()[0], made_up_landmark(1), false), "");
+}
+
+TEST_F(LandmarkStoreComponent, MovesNothingInAStoreThatIsToBeRead) {
+  { Session(file_).publish(made_up_landmark(1)); }
+  const auto before = read_text(file_);
+  Session session(file_, true);
+  session.publish_poses({moved(made_up_landmark(1), 2.0)});
+  EXPECT_EQ(read_text(file_), before);
 }
 
 TEST_F(LandmarkStoreComponent, KeepsNothingOfOtherSettingsAndSaysWhatDiffers) {

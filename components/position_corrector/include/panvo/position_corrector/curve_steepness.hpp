@@ -10,14 +10,16 @@ namespace panvo::position_corrector {
 
 struct SteepnessParameters {
   double way_m = 3.0;
-  double smallest_slope = 0.06;
+  double smallest_slope = 0.08;
 
   template <class Field>
   static void describe(Field&& field) {
     using P = SteepnessParameters;
     field(&P::way_m, "way_m", "m", "of the curve on either side of its minimum that is looked at", 0.5, 20.0);
     field(&P::smallest_slope, "smallest_slope", "1/m",
-          "rise of the distance per metre of way from which on a curve is steep", 0.0, 1.0);
+          "rise of the distance per metre of way from which on a curve is steep: landmarks passed within 2 m have "
+          "more, farther ones less",
+          0.0, 1.0);
   }
 };
 

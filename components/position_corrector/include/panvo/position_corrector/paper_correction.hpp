@@ -21,7 +21,7 @@ struct PaperCorrectionParameters {
     field.group(&P::five_point, "five_point");
     field.group(&P::steepness, "steepness");
     field(&P::position_sigma_m, "position_sigma_m", "m",
-          "standard deviation of the position where the curve is steep: how far from a landmark that happens", 0.01,
+          "standard deviation of the position where the curve is steep, as it is up to 2 m from the landmark", 0.01,
           100.0);
   }
 };
