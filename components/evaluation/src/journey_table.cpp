@@ -128,10 +128,12 @@ std::string journey_table(const JourneyReport& report) {
                      revisits_text(report.run.revisits,
                                    fmt::format("Revisits, as Table {} [Lu2015 7.3]", report.is_second_journey ? 4 : 2));
   if (report.paper_run) {
-    text += "\n" + revisits_text(report.paper_run->revisits, "The same with the paper's own correction [Lu2015 5.2]");
+    text.append("\n").append(
+        revisits_text(report.paper_run->revisits, "The same with the paper's own correction [Lu2015 5.2]"));
   }
-  text += "\n" + paper_text(report.is_second_journey) + "\n" + stages_text(report.run.stages) + "\n" +
-          azimuth_text(report.run.azimuth);
+  text.append("\n").append(paper_text(report.is_second_journey));
+  text.append("\n").append(stages_text(report.run.stages));
+  text.append("\n").append(azimuth_text(report.run.azimuth));
   for (const auto& name : report.run.frames.run.missing) {
     text += "note: " + name + " is not in the run's folder; what it would tell is left out\n";
   }

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+
+#include "html_sections.hpp"
+#include "html_text.hpp"
+#include "journey_text.hpp"
+#include "svg_chart.hpp"
+
+namespace panvo::evaluation {
+namespace {
+
+using Points = std::vector<Eigen::Vector2d>;
+
+constexpr double kWidth_px = 1060.0;
+
+Points over_distance(const std::vector<PoseError>& errors) {
+  Points points;
+  for (const auto& error : errors) points.emplace_back(error.distance_m, error.translation_m.head<2>().norm());
+  return points;
+}
+
+double highest(const Points& points) {
+  double high = 0.0;
+  for (const auto& point : points) high = std::max(high, point.y());
+  return high;
+}
+
+SvgChart chart(double height_px, double travelled_m, double high, const std::string& description) {
+  return {
+      kWidth_px,       height_px,  {46.0, 24.0, kWidth_px - 12.0, height_px - 42.0}, {0.0, std::max(travelled_m, 1.0)},
+      from_zero(high), description};
+}
+
+/// Twice the standard deviation that the localizer itself gave.
+Points own_bound(const RunEvaluation& run) {
+  const TruePath truth(run.frames.recording.truth);
+  Points points;
+  for (const auto& state : run.frames.run.states) {
+    if (!state.position_sigma_m || !truth.pose(state.stamp_ns)) continue;
+    points.emplace_back(truth.travelled_m(state.stamp_ns), 2.0 * *state.position_sigma_m);
+  }
+  return points;
+}
+
+void mark_corrections(SvgChart& chart, const RevisitScore& score) {
+  for (const auto& applied : score.applied) {
+    const std::string wrong = applied.is_wrong ? " wrong" : "";
+    const auto tip = fmt::format(
+        "after {:.0f} m, landmark {}: {:.2f} m before, {:.2f} m after{}", applied.travelled_m, applied.landmark,
+        applied.before_m, applied.after_m,
+        applied.landmark_m ? fmt::format("; the landmark itself is {:.2f} m off", *applied.landmark_m) : std::string());
+    chart.line({applied.travelled_m, applied.before_m}, {applied.travelled_m, applied.after_m}, "jump" + wrong, tip);
+    chart.dot({applied.travelled_m, applied.before_m}, 3.0, "before", tip);
+    chart.dot({applied.travelled_m, applied.after_m}, 4.0, "corrected" + wrong, tip);
+  }
+  for (const auto& revisit : score.revisits) {
+    if (revisit.corrections > 0 || !revisit.before_m) continue;
+    chart.dot({revisit.travelled_m, *revisit.before_m}, 4.0, "missed",
+              fmt::format("{} {}: {}", to_string(revisit.result), revisit.name, revisit.reason));
+  }
+}
+
+}  // namespace
+
+std::string error_section(const JourneyReport& report) {
+  const auto& run = report.run;
+  const auto binocular = over_distance(run.paths.binocular.errors);
+  const auto enhanced = over_distance(run.paths.enhanced.errors);
+  auto both = chart(300.0, run.paths.travelled_m, std::max(highest(binocular), highest(enhanced)),
+                    "Horizontal error of both odometries over the distance travelled");
+  both.grid("distance travelled (m)", "error (m)");
+  both.curve(binocular, "binocular");
+  both.curve(enhanced, "enhanced");
+
+  auto close = chart(340.0, run.paths.travelled_m, highest(enhanced),
+                     "Horizontal error of the enhanced odometry, with its corrections");
+  close.grid("distance travelled (m)", "error (m)");
+  auto bound = own_bound(run);
+  for (auto& point : bound) point.y() = std::min(point.y(), 1.06 * std::max(highest(enhanced), 1e-6));
+  close.curve(bound, "sigma");
+  if (report.paper_run) {
+    auto papers = over_distance(report.paper_run->paths.enhanced.errors);
+    for (auto& point : papers) point.y() = std::min(point.y(), 1.06 * std::max(highest(enhanced), 1e-6));
+    close.curve(papers, "paper");
+  }
+  close.curve(enhanced, "enhanced");
+  mark_corrections(close, run.revisits);
+  std::vector<std::pair<std::string, std::string>> keys{{"enhanced", "enhanced odometry"},
+                                                        {"sigma", "twice its own standard deviation"},
+                                                        {"dot jump", "correction, from before (ring) to after"},
+                                                        {"dot missed", "revisit without one"}};
+  if (report.paper_run) keys.emplace_back("paper", "with the paper's own correction");
+  return html_section("Error over the distance travelled",
+                      "Horizontal. Odometry adds up its errors; a place that is recognised takes out what has added up "
+                      "since it was first "
+                      "seen. Below, the enhanced odometry alone, on a scale of its own.",
+                      "<figure>" +
+                          legend({{"binocular", "binocular odometry alone"}, {"enhanced", "enhanced odometry"}}) +
+                          both.text() + "</figure>\n<figure>" + legend(keys) + close.text() + "</figure>\n");
+}
+
+}  // namespace panvo::evaluation

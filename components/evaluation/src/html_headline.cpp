@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+
+#include "html_sections.hpp"
+#include "html_text.hpp"
+#include "journey_text.hpp"
+
+namespace panvo::evaluation {
+namespace {
+
+std::string tile(const std::string& figure, const std::string& words) {
+  return "<div class=\"tile\"><b>" + figure + "</b><small>" + words + "</small></div>\n";
+}
+
+std::string joined(const std::vector<std::string>& words) {
+  std::string text;
+  for (const auto& word : words) text.append(text.empty() ? "" : ", ").append(word);
+  return text;
+}
+
+std::string what_it_is(const JourneyRecording& recording, const PathScores& paths) {
+  auto text = fmt::format("{:.0f} m in {:.0f} min", paths.travelled_m, paths.duration_s / 60.0);
+  if (!recording.route.empty()) text = "route " + recording.route + ", " + text;
+  if (!recording.effects.empty()) text += "; made hard by " + joined(recording.effects);
+  return text;
+}
+
+}  // namespace
+
+std::string page_headline(const JourneyReport& report) {
+  const auto& paths = report.run.paths;
+  const auto& revisits = report.run.revisits;
+  const bool is_better = paths.ratio < 1.0;
+  std::string text = "<header>\n<p class=\"kicker\">" + html(report.title) + "</p>\n";
+  text += fmt::format(
+      "<h1>After {:.1f} km, <b class=\"e\">{:.1f} m</b> off with landmarks, <b class=\"b\">{:.1f} m</b> without</h1>\n",
+      1e-3 * paths.travelled_m, paths.enhanced.final_m, paths.binocular.final_m);
+  text +=
+      "<p class=\"lead\">" + html(what_it_is(report.run.frames.recording, paths)) +
+      ". Every figure is of the pose as it was published at that moment, from the common start: nothing is smoothed "
+      "or aligned afterwards.</p>\n<div class=\"tiles\">\n";
+  text += tile(
+      metres(paths.enhanced.flat_m.rmse) + " m",
+      fmt::format("2D error along the way, rms; binocular odometry alone: {} m", metres(paths.binocular.flat_m.rmse)));
+  text += tile(fmt::format("{:.1f} %", 100.0 * paths.ratio),
+               is_better ? "of the binocular error is left" : "of the binocular error: worse than without");
+  text += tile(metres(paths.enhanced.percent_of_way, 3) + " %",
+               "of the distance travelled; binocular: " + metres(paths.binocular.percent_of_way, 3) + " %");
+  text += tile(fmt::format("{} of {}", revisits.corrected + revisits.heading_only, revisits.listed),
+               fmt::format("revisited places corrected the pose; {} given up, {} rejected, {} missed",
+                           revisits.given_up, revisits.rejected, revisits.missed));
+  text += tile(fmt::format("<span class=\"{}\">{}</span>", revisits.wrong == 0 ? "good" : "bad", revisits.wrong),
+               fmt::format("wrong of {} corrections applied", revisits.applied.size()));
+  text += tile(turn(paths.enhanced.heading_rad.rmse) + "°",
+               "heading error, rms; binocular: " + turn(paths.binocular.heading_rad.rmse) + "°");
+  text += tile(metres(paths.enhanced.worst_m) + " m",
+               fmt::format("worst error, after {:.0f} m; binocular: {} m", paths.enhanced.worst_at_m,
+                           metres(paths.binocular.worst_m)));
+  if (paths.consistency) {
+    text += tile(fmt::format("{:.0f} %", 100.0 * paths.consistency->plane.inside_95),
+                 fmt::format("of the journey inside the pose's own 95 % bound; mean NEES {:.1f} of 3",
+                             paths.consistency->plane.mean));
+  }
+  return text + "</div>\n</header>\n";
+}
+
+}  // namespace panvo::evaluation

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "panvo/evaluation/journey_evaluation.hpp"
+
+/// The parts of the page, each with its heading; empty where the run left nothing to show.
+namespace panvo::evaluation {
+
+std::string page_style();
+std::string page_headline(const JourneyReport& report);
+std::string paths_section(const JourneyReport& report);
+std::string error_section(const JourneyReport& report);
+std::string tables_section(const JourneyReport& report);
+std::string revisits_section(const JourneyReport& report);
+std::string azimuth_section(const JourneyReport& report);
+std::string states_section(const JourneyReport& report);
+std::string times_section(const JourneyReport& report);
+std::string facts_section(const JourneyReport& report);
+
+}  // namespace panvo::evaluation
