@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "panvo/conversions/pose.hpp"
+#include "panvo/conversions/time.hpp"
+#include "panvo/runtime/testing.hpp"
+
+namespace panvo::localizer {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+using ::testing::SizeIs;
+
+constexpr std::int64_t kBegin_ns = 1'700'000'000'000'000'000;
+constexpr std::int64_t kPeriod_ns = 40'000'000;
+
+Eigen::Isometry3d at(double x, double y, double yaw) {
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  pose.translation() = Eigen::Vector3d(x, y, 0.0);
+  pose.linear() = Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  return pose;
+}
+
+class LocalizerComponent : public ::testing::Test {
+ protected:
+  void load(const std::map<std::string, std::string>& parameters = {}) {
+    harness_.load("panvo_localizer", "LocalizerComponent", parameters);
+  }
+
+  static std::int64_t stamp(int frame) { return kBegin_ns + frame * kPeriod_ns; }
+
+  void publish_odometry(int frame, const Eigen::Isometry3d& pose, double variance) {
+    nav_msgs::msg::Odometry odometry;
+    odometry.header().stamp(conversions::to_stamp(stamp(frame)));
+    odometry.header().frame_id("odom");
+    odometry.child_frame_id("base_link");
+    odometry.pose().pose(conversions::to_pose(pose));
+    odometry.pose().covariance(conversions::to_array(variance * vision::Matrix6d::Identity()));
+    odometry.twist().twist().linear().x(5.0);
+    harness_.publish(topics::kOdometryBinocular, odometry);
+  }
+
+  /// Straight on, 0.2 m a frame.
+  void drive(int from, int to) {
+    for (int i = from; i < to; ++i) publish_odometry(i, at(0.2 * i, 0.0, 0.0), 1e-4 + 1e-3 * i);
+  }
+
+  void publish_landmark(std::uint32_t id, std::int64_t stamp_ns, const Eigen::Isometry3d& pose) {
+    panvo_msgs::msg::PanoramicLandmark landmark;
+    landmark.header().stamp(conversions::to_stamp(stamp_ns));
+    landmark.id(id);
+    landmark.pose().pose(conversions::to_pose(pose));
+    landmark.pose().covariance(conversions::to_array(1e-4 * vision::Matrix6d::Identity()));
+    harness_.publish(topics::kLandmarks, landmark);
+  }
+
+  void publish_correction(std::uint32_t id, std::int64_t stamp_ns, const Eigen::Isometry3d& landmark_from_base,
+                          const std::string& state = "full") {
+    panvo_msgs::msg::PositionCorrection correction;
+    correction.header().stamp(conversions::to_stamp(stamp_ns));
+    correction.landmark_id(id);
+    correction.state(state);
+    correction.landmark_from_base().pose(conversions::to_pose(landmark_from_base));
+    correction.landmark_from_base().covariance(conversions::to_array(1e-4 * vision::Matrix6d::Identity()));
+    harness_.publish(topics::kCorrection, correction);
+  }
+
+  void publish_azimuth(std::int64_t from_ns, std::int64_t to_ns, double change_rad) {
+    panvo_msgs::msg::AzimuthChange change;
+    change.header().stamp(conversions::to_stamp(to_ns));
+    change.from_stamp(conversions::to_stamp(from_ns));
+    change.azimuth_change_rad(change_rad);
+    change.variance_rad2(1e-6);
+    change.valid(true);
+    harness_.publish(topics::kAzimuthChange, change);
+  }
+
+  runtime::ComponentHarness harness_;
+  const std::vector<std::shared_ptr<const nav_msgs::msg::Odometry>>& enhanced_ =
+      harness_.collect(topics::kOdometryEnhanced);
+  const std::vector<std::shared_ptr<const tf2_msgs::msg::TFMessage>>& tf_ = harness_.collect(topics::kTf);
+  const std::vector<std::shared_ptr<const panvo_msgs::msg::LocalizationState>>& states_ =
+      harness_.collect(topics::kLocalizationState);
+  const std::vector<std::shared_ptr<const panvo_msgs::msg::CorrectionOutcome>>& outcomes_ =
+      harness_.collect(topics::kCorrectionOutcome);
+  const std::vector<std::shared_ptr<const panvo_msgs::msg::LandmarkPoses>>& poses_ =
+      harness_.collect(topics::kLandmarkPoses);
+  const std::vector<std::shared_ptr<const nav_msgs::msg::Path>>& paths_ = harness_.collect(topics::kPathEnhanced);
+};
+
+TEST_F(LocalizerComponent, PublishesPoseAndFramesWithEachOdometry) {
+  load();
+  drive(0, 51);
+  ASSERT_THAT(enhanced_, SizeIs(51));
+  EXPECT_EQ(enhanced_.back()->header().frame_id(), "map");
+  EXPECT_EQ(enhanced_.back()->child_frame_id(), "base_link");
+  EXPECT_EQ(conversions::stamp_ns(*enhanced_.back()), stamp(50));
+  EXPECT_NEAR(enhanced_.back()->pose().pose().position().x(), 10.0, 1e-9);
+  EXPECT_NEAR(enhanced_.back()->twist().twist().linear().x(), 5.0, 1e-12);
+  ASSERT_THAT(tf_, SizeIs(51));
+  ASSERT_THAT(tf_.back()->transforms(), SizeIs(2));
+  EXPECT_EQ(tf_.back()->transforms()[0].header().frame_id(), "map");
+  EXPECT_EQ(tf_.back()->transforms()[0].child_frame_id(), "odom");
+  EXPECT_EQ(tf_.back()->transforms()[1].child_frame_id(), "base_link");
+  EXPECT_NEAR(tf_.back()->transforms()[1].transform().translation().x(), 10.0, 1e-9);
+  ASSERT_THAT(paths_, Not(IsEmpty()));
+  EXPECT_EQ(paths_.back()->header().frame_id(), "map");
+  ASSERT_THAT(states_, Not(IsEmpty()));
+  EXPECT_EQ(states_.back()->state(), "tracking");
+}
+
+TEST_F(LocalizerComponent, CorrectsThePositionAndSaysByHowMuch) {
+  load();
+  drive(0, 51);
+  publish_landmark(1, stamp(25), at(5.0, 0.0, 0.0));
+  ASSERT_THAT(poses_, SizeIs(1));
+  EXPECT_EQ(poses_[0]->ids().at(0), 1U);
+  drive(51, 151);
+  // 30 m on, the vehicle sees the place 24 m behind it and 0.5 m to the left: it has not come as far as odometry says
+  publish_correction(1, stamp(150), at(24.5, -0.5, 0.0));
+  ASSERT_THAT(outcomes_, SizeIs(1));
+  EXPECT_EQ(outcomes_[0]->outcome(), "applied") << outcomes_[0]->reason();
+  EXPECT_NEAR(outcomes_[0]->before().position().x(), 30.0, 1e-6);
+  EXPECT_NEAR(outcomes_[0]->after().position().x(), 29.5, 0.1);
+  EXPECT_NEAR(outcomes_[0]->after().position().y(), -0.5, 0.1);
+  drive(151, 152);
+  EXPECT_NEAR(enhanced_.back()->pose().pose().position().x(), 29.7, 0.1);
+  EXPECT_NEAR(tf_.back()->transforms()[1].transform().translation().x(), 30.2, 1e-6) << "odom does not jump";
+  EXPECT_NEAR(tf_.back()->transforms()[0].transform().translation().x(), -0.5, 0.1) << "the map does";
+}
+
+TEST_F(LocalizerComponent, WaitsForOdometryThatIsBehindAPanorama) {
+  load();
+  drive(0, 10);
+  publish_landmark(1, stamp(5), at(1.0, 0.0, 0.0));
+  publish_correction(1, stamp(12), at(1.4, 0.0, 0.0));
+  EXPECT_THAT(outcomes_, IsEmpty());
+  drive(10, 13);
+  ASSERT_THAT(outcomes_, SizeIs(1));
+}
+
+TEST_F(LocalizerComponent, TakesNoRejectedCorrection) {
+  load();
+  drive(0, 10);
+  publish_landmark(1, stamp(5), at(1.0, 0.0, 0.0));
+  publish_correction(1, stamp(8), at(0.6, 0.0, 0.0), "rejected");
+  EXPECT_THAT(outcomes_, IsEmpty());
+}
+
+TEST_F(LocalizerComponent, DoesNotKnowWhereItIsInAMapOfAnEarlierDayUntilTwoPanoramasSaySo) {
+  load();
+  publish_landmark(9, kBegin_ns - 86'400'000'000'000, at(300.0, 100.0, 1.0));
+  drive(0, 20);
+  ASSERT_THAT(states_, Not(IsEmpty()));
+  EXPECT_EQ(states_.back()->state(), "unlocated");
+  EXPECT_GT(enhanced_.back()->pose().covariance()[0], 1e6);
+  publish_correction(9, stamp(14), at(1.0, 0.0, 0.0));
+  publish_correction(9, stamp(19), at(2.0, 0.0, 0.0));
+  ASSERT_THAT(outcomes_, SizeIs(2));
+  EXPECT_EQ(outcomes_[0]->outcome(), "rejected");
+  EXPECT_EQ(outcomes_[1]->outcome(), "applied");
+  drive(20, 21);
+  EXPECT_EQ(states_.back()->state(), "relocalised");
+  const Eigen::Vector3d expected = at(300.0, 100.0, 1.0) * Eigen::Vector3d(2.2, 0.0, 0.0);
+  EXPECT_NEAR(enhanced_.back()->pose().pose().position().x(), expected.x(), 0.1);
+  EXPECT_NEAR(enhanced_.back()->pose().pose().position().y(), expected.y(), 0.1);
+}
+
+TEST_F(LocalizerComponent, SaysThatTheCamerasClocksDisagree) {
+  load();
+  drive(0, 10);
+  for (int i = 0; i < 150; ++i) {
+    publish_azimuth(stamp(5 * i) + 3'600'000'000'000, stamp(5 * i + 5) + 3'600'000'000'000, 0.0);
+  }
+  EXPECT_TRUE(harness_.log_contains("the clocks of the cameras disagree"));
+}
+
+TEST_F(LocalizerComponent, SaysThatAClockBehindByAnHourDisagrees) {
+  load();
+  drive(0, 10);
+  for (int i = 0; i < 20; ++i) {
+    publish_azimuth(stamp(5 * i) - 3'600'000'000'000, stamp(5 * i + 5) - 3'600'000'000'000, 0.0);
+  }
+  EXPECT_TRUE(harness_.log_contains("the clocks of the cameras disagree"));
+}
+
+TEST_F(LocalizerComponent, SaysThatThereIsNoOdometryAnyMore) {
+  load();
+  drive(0, 10);
+  for (int i = 1; i < 10; ++i) publish_azimuth(stamp(10 * i), stamp(10 * i + 10), 0.0);
+  ASSERT_THAT(states_, Not(IsEmpty()));
+  EXPECT_EQ(states_.back()->state(), "lost");
+  EXPECT_THAT(states_.back()->reason(), HasSubstr("no odometry/binocular for"));
+}
+
+TEST_F(LocalizerComponent, SaysThatThereAreNoPanoramasAnyMore) {
+  load();
+  drive(0, 10);
+  publish_azimuth(stamp(0), stamp(5), 0.0);
+  drive(10, 300);
+  EXPECT_TRUE(harness_.log_contains("no panorama for 10 s"));
+  EXPECT_EQ(states_.back()->state(), "tracking") << "it drifts, but it knows where it is";
+}
+
+TEST_F(LocalizerComponent, TellsOfUnreliableOdometryAndOfTheCompass) {
+  load();
+  drive(0, 50);
+  panvo_msgs::msg::OdometryQuality quality;
+  quality.reliable(false);
+  quality.header().stamp(conversions::to_stamp(stamp(50)));
+  harness_.publish(topics::kOdometryQuality, quality);
+  drive(50, 60);
+  publish_azimuth(stamp(50), stamp(55), 0.0);
+  drive(60, 61);
+  EXPECT_EQ(states_.back()->state(), "compass_only");
+  drive(61, 120);
+  EXPECT_EQ(states_.back()->state(), "lost");
+  quality.reliable(true);
+  harness_.publish(topics::kOdometryQuality, quality);
+  drive(120, 121);
+  EXPECT_EQ(states_.back()->state(), "tracking");
+}
+
+TEST_F(LocalizerComponent, KeepsItsPathsShort) {
+  load({{"path_step_m", "0.01"}});
+  for (int i = 0; i < 9000; ++i) publish_odometry(i, at(0.2 * i, 0.0, 0.0), 1e-3);
+  ASSERT_THAT(paths_, Not(IsEmpty()));
+  EXPECT_LE(paths_.back()->poses().size(), 4000U);
+  EXPECT_GE(paths_.back()->poses().size(), 1900U);
+  EXPECT_NEAR(paths_.back()->poses().front().pose().position().x(), 0.0, 1e-9);
+}
+
+}  // namespace
+}  // namespace panvo::localizer
