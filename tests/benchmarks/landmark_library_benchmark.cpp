@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A library of 10,000 landmarks with all they have: opening its store, finding those around a position, reading the SIFT
-// features of one, and the memory that the library takes.
+// features of one, and the memory that the library takes; and the same for landmarks that come as messages.
 #include <benchmark/benchmark.h>
 #include <malloc.h>
 
@@ -10,6 +10,7 @@
 #include "made_up_landmark.hpp"
 #include "panvo/landmarks/landmark_library.hpp"
 #include "panvo/landmarks/landmark_store.hpp"
+#include "panvo/position_corrector/spilled_keypoints.hpp"
 #include "process.hpp"
 
 namespace {
@@ -69,6 +70,37 @@ void open_and_load(benchmark::State& state) {
   state.counters["kB_a_landmark_on_disk"] = static_cast<double>(std::filesystem::file_size(file)) / 1e3 / kLandmarks;
 }
 BENCHMARK(open_and_load)->Unit(benchmark::kMillisecond);
+
+/// As position_corrector keeps them: keypoints in a file of its own.
+void take_from_messages(benchmark::State& state) {
+  const LandmarkStore store(store_file());
+  for (auto _ : state) {
+    const auto before = ::mallinfo2();
+    const auto keypoints = std::make_shared<panvo::position_corrector::SpilledKeypoints>("/var/tmp");
+    LandmarkLibrary library(keypoints);
+    for (auto& landmark : store.landmarks()) {
+      keypoints->put(landmark.id, store.keypoints(landmark.id));
+      library.add(std::move(landmark));
+    }
+    const auto after = ::mallinfo2();
+    state.counters["memory_MB"] = static_cast<double>(after.uordblks - before.uordblks) / 1e6;
+    state.counters["file_MB"] = static_cast<double>(keypoints->bytes_in_file()) / 1e6;
+    if (!keypoints->problem().empty()) state.SkipWithError(keypoints->problem().c_str());
+  }
+}
+BENCHMARK(take_from_messages)->Unit(benchmark::kMillisecond);
+
+void spilled_keypoints_of_one(benchmark::State& state) {
+  panvo::position_corrector::SpilledKeypoints keypoints("/var/tmp");
+  for (std::uint32_t id = 1; id <= kLandmarks; ++id) {
+    keypoints.put(id, test::made_up_landmark(id % 100, kKeypoints, kExtent_m).keypoints);
+  }
+  std::mt19937_64 random(1);
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(keypoints.keypoints(1 + static_cast<std::uint32_t>(random() % kLandmarks)));
+  }
+}
+BENCHMARK(spilled_keypoints_of_one)->Unit(benchmark::kMicrosecond);
 
 void within_a_prior(benchmark::State& state) {
   const auto library = load(std::make_shared<LandmarkStore>(store_file()));

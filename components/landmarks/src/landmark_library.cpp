@@ -40,8 +40,9 @@ std::uint32_t LandmarkLibrary::add(PanoramicLandmark landmark) {
     throw std::invalid_argument("landmark " + std::to_string(landmark.id) + " is in the library already");
   }
   if (source_) {
-    landmark.keypoints = {};
-    landmark.thumbnail = {};
+    // their memory, too: `= {}` would keep it
+    std::vector<Keypoint>().swap(landmark.keypoints);
+    std::vector<std::uint8_t>().swap(landmark.thumbnail);
   }
   auto& kept = landmarks_.emplace_back(std::move(landmark));
   by_id_.insert(by_id_.begin() + static_cast<std::ptrdiff_t>(at), &kept);

@@ -163,6 +163,8 @@ TEST(LandmarkLibrary, KeepsKeypointsOnlyWhereItHasNoSource) {
   with_source.add(landmark);
   EXPECT_THAT(with_source.find(4)->keypoints, IsEmpty());
   EXPECT_THAT(with_source.find(4)->thumbnail, IsEmpty());
+  EXPECT_EQ(with_source.find(4)->keypoints.capacity() + with_source.find(4)->thumbnail.capacity(), 0U)
+      << "nor their memory";
   EXPECT_EQ(with_source.keypoints(4).at(0).size_px, 4.0f);
   EXPECT_EQ(with_source.find(4)->description, landmark.description);
 }
