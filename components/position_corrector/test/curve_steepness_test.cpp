@@ -34,6 +34,14 @@ TEST(CurveSteepness, IsThatOfOneSideWhereTheOtherWasNotSeen) {
 }
 
 // [Lu2015 5.2]
+TEST(CurveSteepness, IsThatNearTheMinimum) {
+  const auto kinked = [](double way_m) { return std::min(0.65, vee(way_m)); };  // another place from 3 m on
+  const auto slope = curve_slope(curve(40.0, 60.01, kinked), 3.0);
+  ASSERT_TRUE(slope);
+  EXPECT_NEAR(*slope, 0.15, 1e-9);
+}
+
+// [Lu2015 5.2]
 TEST(CurveSteepness, TellsALandmarkPassedThroughFromOnePassedAtADistance) {
   // an even scene: the distance goes with how far the landmark is, aside of it or along the way, and has an end
   const auto passed = [](double beside_m) {

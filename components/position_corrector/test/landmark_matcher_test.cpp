@@ -65,6 +65,13 @@ TEST_F(LandmarkMatching, TellsThePlaceOnceItIsPastAndNamesTheMostSimilarPanorama
   EXPECT_EQ(match.stamp_ns, nearest * kPeriod_ns);
   EXPECT_TRUE(match.reason.empty());
   EXPECT_TRUE(match.pose);
+  // what the pass showed: the distance of each panorama, and the keypoints of the nearest
+  ASSERT_TRUE(match.pass);
+  ASSERT_EQ(match.pass->curve.size(), static_cast<std::size_t>(frames - nearest + 2));
+  EXPECT_LT(match.pass->curve[1].distance, match.pass->curve[0].distance);
+  EXPECT_LT(match.pass->curve[1].distance, match.pass->curve[2].distance);
+  EXPECT_DOUBLE_EQ(match.pass->curve[1].travelled_m, nearest);
+  EXPECT_EQ(match.pass->keypoints, detect_keypoints(place(2), keypoints));
 }
 
 TEST_F(LandmarkMatching, KnowsNoPlaceThatIsNotInTheLibrary) {
