@@ -47,7 +47,7 @@ class LocalizerComponent : public ::testing::Test {
 
   /// Straight on, 0.2 m a frame.
   void drive(int from, int to) {
-    for (int i = from; i < to; ++i) publish_odometry(i, at(0.2 * i, 0.0, 0.0), 1e-4 + 1e-3 * i);
+    for (int i = from; i < to; ++i) publish_odometry(i, at(0.2 * i, 0.0, 0.0), 1e-4 + 1e-4 * i);
   }
 
   void publish_landmark(std::uint32_t id, std::int64_t stamp_ns, const Eigen::Isometry3d& pose) {
