@@ -48,7 +48,9 @@ TEST(DriftingOdometry, IsTheSameForTheSameSeed) {
     const auto pose = a.step(truth(i));
     EXPECT_EQ(pose.odom_from_base.matrix(), b.step(truth(i)).odom_from_base.matrix());
     const auto other = c.step(truth(i));
-    if (i > 0) EXPECT_NE(pose.odom_from_base.matrix(), other.odom_from_base.matrix());
+    if (i > 0) {
+      EXPECT_NE(pose.odom_from_base.matrix(), other.odom_from_base.matrix());
+    }
   }
 }
 

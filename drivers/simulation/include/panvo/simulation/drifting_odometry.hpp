@@ -52,6 +52,8 @@ class DriftingOdometry {
 
   const DriftParameters parameters_;
   Random random_;
+  vision::Vector6d persisting_;  // errors of this stretch, in standard deviations
+  double since_change_m_ = 0.0;
   std::optional<Eigen::Isometry3d> last_truth_;
   Pose pose_;
 };
