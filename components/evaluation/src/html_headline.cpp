@@ -12,6 +12,9 @@ std::string tile(const std::string& figure, const std::string& words) {
   return "<div class=\"tile\"><b>" + figure + "</b><small>" + words + "</small></div>\n";
 }
 
+/// Two digits that count, as far as that goes.
+std::string legible(double value_m) { return metres(value_m, value_m < 1.0 ? 2 : 1); }
+
 std::string joined(const std::vector<std::string>& words) {
   std::string text;
   for (const auto& word : words) text.append(text.empty() ? "" : ", ").append(word);
@@ -33,8 +36,8 @@ std::string page_headline(const JourneyReport& report) {
   const bool is_better = paths.ratio < 1.0;
   std::string text = "<header>\n<p class=\"kicker\">" + html(report.title) + "</p>\n";
   text += fmt::format(
-      "<h1>After {:.1f} km, <b class=\"e\">{:.1f} m</b> off with landmarks, <b class=\"b\">{:.1f} m</b> without</h1>\n",
-      1e-3 * paths.travelled_m, paths.enhanced.final_m, paths.binocular.final_m);
+      "<h1>After {:.1f} km, <b class=\"e\">{} m</b> off with landmarks, <b class=\"b\">{} m</b> without</h1>\n",
+      1e-3 * paths.travelled_m, legible(paths.enhanced.final_m), legible(paths.binocular.final_m));
   text +=
       "<p class=\"lead\">" + html(what_it_is(report.run.frames.recording, paths)) +
       ". Every figure is of the pose as it was published at that moment, from the common start: nothing is smoothed "

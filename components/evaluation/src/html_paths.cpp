@@ -98,7 +98,7 @@ std::string paths_section(const JourneyReport& report) {
                       "As Figs. 10 and 11 of the paper: where the vehicle was, and where it took itself to be. Rings "
                       "are crossings by their "
                       "number. Point at a mark to read what it is.",
-                      "<figure>" +
+                      "<figure class=\"plan\">" +
                           legend({{"truth", "truth"},
                                   {"binocular", "binocular odometry alone"},
                                   {"enhanced", "enhanced odometry"},

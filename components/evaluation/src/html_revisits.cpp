@@ -43,11 +43,11 @@ std::string error_words(const Revisit& revisit) {
                             metres(revisit.before_m), metres(revisit.after_m), degrees(revisit.before_heading_rad),
                             degrees(revisit.after_heading_rad), metres(revisit.binocular_m));
     if (revisit.landmark_m) {
-      text += fmt::format("; the landmark was placed with {} m when it was made", metres(revisit.landmark_m));
+      text += fmt::format("; the landmark itself was {} m off when it was made", metres(revisit.landmark_m));
     }
     return text;
   }
-  return fmt::format("<b>{} m</b> off as before; binocular odometry alone {} m", metres(revisit.before_m),
+  return fmt::format("The pose was <b>{} m</b> off, binocular odometry alone {} m", metres(revisit.before_m),
                      metres(revisit.binocular_m));
 }
 
@@ -79,8 +79,9 @@ std::string card(const JourneyFrames& frames, const Revisit& revisit) {
   const auto pair = panorama_pair(then->file, now->file, revisit.heading_rad.value_or(revisit.true_heading_rad));
   text += picture(pair);
   text += fmt::format(
-      "<p>Above: when the {} was made. Below: now, turned by {}°{} so that what is far stands below itself. {}</p>\n",
-      revisit.landmark ? "landmark" : "first pass", degrees(revisit.heading_rad.value_or(revisit.true_heading_rad)),
+      "<p>Above: {}. Below: now, turned by {}°{} so that what is far stands below itself. {}</p>\n",
+      revisit.landmark ? "when the landmark was made" : "at the first pass",
+      degrees(revisit.heading_rad.value_or(revisit.true_heading_rad)),
       revisit.heading_rad ? fmt::format(" as it was found (true: {}°)", degrees(revisit.true_heading_rad))
                           : ", the true turn,",
       pair.inliers.empty()

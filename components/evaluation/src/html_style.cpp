@@ -29,7 +29,7 @@ h1 b.e { color: var(--enhanced); font-weight: inherit; } h1 b.b { color: var(--b
 h2 { font-size: 1.35rem; letter-spacing: -.01em; margin: 0 0 .3rem; }
 section { margin-top: 3.5rem; }
 p.lead { color: var(--soft); margin: 0 0 1.1rem; max-width: 78ch; }
-.tiles { display: grid; grid-template-columns: repeat(auto-fit, minmax(165px, 1fr)); gap: .8rem; margin-top: 1.8rem; }
+.tiles { display: grid; grid-template-columns: repeat(4, 1fr); gap: .8rem; margin-top: 1.8rem; }
 .tile { background: var(--card); border: 1px solid var(--line); border-radius: 10px; padding: .9rem 1rem; }
 .tile b { display: block; font-size: 1.6rem; line-height: 1.2; font-weight: 620; letter-spacing: -.01em; }
 .tile small { color: var(--soft); font-size: .82rem; line-height: 1.35; display: block; }
@@ -73,7 +73,7 @@ td:first-child, th:first-child { padding-left: 0; }
 .good { color: var(--good); } .bad { color: var(--bad); } .soft { color: var(--soft); }
 .card h3 { margin: 0 0 .15rem; font-size: 1.08rem; display: flex; gap: .7rem; align-items: center; flex-wrap: wrap; }
 .card p { margin: 0 0 .6rem; color: var(--soft); font-size: .92rem; } .card p b { color: var(--ink); font-weight: 600; }
-.card svg { border-radius: 6px; }
+.card svg { border-radius: 6px; margin-bottom: .6rem; } .card p:last-child { margin-bottom: 0; font-size: .85rem; }
 .bar { height: 9px; border-radius: 2px; margin: 2px 0; min-width: 1px; } .bar.ours { background: var(--enhanced); }
 .bar.theirs { background: var(--truth); } .bars { display: grid; grid-template-columns: minmax(9rem, 15rem) 1fr 9rem; gap: .55rem 1rem;
   align-items: center; font-size: .88rem; } .bars .n { text-align: right; } .bars h3 { grid-column: 1 / -1; margin: .7rem 0 0;
@@ -86,13 +86,16 @@ i.state-starting, i.state-unlocated, i.state-other { background: var(--truth); }
 dl { display: grid; grid-template-columns: max-content 1fr; gap: .25rem 1.3rem; margin: 0; font-size: .92rem; }
 dt { color: var(--soft); } dd { margin: 0; overflow-wrap: anywhere; }
 code { font: .9em ui-monospace, "DejaVu Sans Mono", monospace; }
+@page { size: A4; margin: 12mm; }
 @media print {
   :root { --page: #fff; --card: #fff; --ink: #000; --soft: #444; --line: #bbb; --truth: #bbb; --binocular: #d55e00;
     --enhanced: #0072b2; --compass: #009e73; --landmark: #e69f00; --good: #00664a; --bad: #b00; --correction: #009e73; }
-  body { font-size: 10.5pt; -webkit-print-color-adjust: exact; print-color-adjust: exact; } main { padding: 0; max-width: none; }
-  section { margin-top: 1.6rem; } h2 { break-after: avoid; } figure, .card, .tile, tr { break-inside: avoid; }
+  body { font-size: 9.5pt; -webkit-print-color-adjust: exact; print-color-adjust: exact; } main { padding: 0; max-width: none; }
+  section { margin-top: 1.6rem; } h2, section > p.lead { break-after: avoid; } .plan svg { max-height: 17cm; }
+  .tiles { grid-template-columns: repeat(4, 1fr); } figure, .card, .tile, tr { break-inside: avoid; }
   .wide { overflow: visible; } table { font-size: 7.5pt; } th { font-size: 7pt; } th, td { padding: .2rem .3rem; }
 }
+@media (max-width: 860px) { .tiles { grid-template-columns: 1fr 1fr; } }
 @media (max-width: 640px) { .bars { grid-template-columns: 1fr 1fr; } .bars .b { grid-column: 1 / -1; grid-row: auto; } }
 )";
 }

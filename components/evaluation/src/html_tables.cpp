@@ -40,6 +40,16 @@ std::string revisits_table(const RevisitScore& score, const std::string& caption
       rows, 3, caption);
 }
 
+std::string compared_table(const JourneyReport& report) {
+  Rows rows;
+  for (const auto& [ours, papers] : side_by_side(report)) {
+    rows.push_back({std::to_string(ours->number), place_of(*ours), chip(*ours), metres(ours->before_m),
+                    metres(ours->after_m), chip(*papers), metres(papers->before_m), metres(papers->after_m)});
+  }
+  return html_table({"", "place", "ours", "before<br>m", "after<br>m", "the paper's", "before<br>m", "after<br>m"},
+                    rows, 3, "Our correction and the paper's own, side by side");
+}
+
 std::string paper_table(bool is_second_journey) {
   Rows rows;
   for (const auto& row : is_second_journey ? paper::table_4() : paper::table_2()) {
@@ -78,6 +88,7 @@ std::string tables_section(const JourneyReport& report) {
   const auto& revisits = report.run.revisits;
   auto body = paths_table(report) + revisits_table(revisits, fmt::format("Revisits, in the form of Table {}", number));
   if (report.paper_run) {
+    body += compared_table(report);
     body +=
         revisits_table(report.paper_run->revisits, "The same journey with the paper's own correction (section 5.2)");
   }

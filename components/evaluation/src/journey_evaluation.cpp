@@ -26,6 +26,23 @@ std::vector<StageRow> stage_rows(const StageTimes& times) {
   return rows;
 }
 
+std::vector<ComparedRevisit> side_by_side(const JourneyReport& report) {
+  std::vector<ComparedRevisit> compared;
+  if (!report.paper_run) return compared;
+  // The same passes are listed for both, in order of the passes but for those that lie closer than the reach of a revisit.
+  const auto& papers = report.paper_run->revisits.revisits;
+  auto next = papers.begin();
+  for (const auto& ours : report.run.revisits.revisits) {
+    if (!ours.place) continue;
+    const auto found =
+        std::find_if(next, papers.end(), [&](const Revisit& revisit) { return revisit.place == ours.place; });
+    if (found == papers.end()) continue;
+    compared.push_back({&ours, &*found});
+    next = std::next(found);
+  }
+  return compared;
+}
+
 RunEvaluation evaluate_run(const JourneyRun& run, const JourneyRecording& recording, const JourneyRecording* earlier) {
   const auto frames = journey_frames(run, recording, earlier);
   return {frames, score_revisits(frames), score_paths(frames), score_azimuth(frames), stage_rows(run.times)};

@@ -55,6 +55,15 @@ std::string revisits_text(const RevisitScore& score, const std::string& heading)
   return text;
 }
 
+std::string compared_text(const JourneyReport& report) {
+  TextTable table({"place", "ours", "before", "after", "the paper's", "before", "after"}, 2);
+  for (const auto& [ours, papers] : side_by_side(report)) {
+    table.add({place_of(*ours), result_of(*ours), metres(ours->before_m), metres(ours->after_m), result_of(*papers),
+               metres(papers->before_m), metres(papers->after_m)});
+  }
+  return "Our correction and the paper's own, side by side (m)\n" + table.text();
+}
+
 std::string paper_text(bool is_second_journey) {
   TextTable table({"no.", "landmark", "correction", "route", "entrance", "binocular", "enhanced", "travelled"}, 4);
   table.add({"", "", "", "", "deg", "m", "m", "m"});
@@ -128,6 +137,7 @@ std::string journey_table(const JourneyReport& report) {
                      revisits_text(report.run.revisits,
                                    fmt::format("Revisits, as Table {} [Lu2015 7.3]", report.is_second_journey ? 4 : 2));
   if (report.paper_run) {
+    text.append("\n").append(compared_text(report));
     text.append("\n").append(
         revisits_text(report.paper_run->revisits, "The same with the paper's own correction [Lu2015 5.2]"));
   }

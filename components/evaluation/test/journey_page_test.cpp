@@ -109,7 +109,8 @@ TEST_F(JourneyPage, IsWrittenByTheProgram) {
 TEST_F(JourneyPage, IsNotWrittenWhereOnlyTheTableIsWanted) {
   ASSERT_EQ(call("run --recording recording --only-table --paper-run run"), 0) << text_of(folder_ / "err.txt");
   EXPECT_FALSE(std::filesystem::exists(folder_ / "run/report.html"));
-  EXPECT_THAT(text_of(folder_ / "out.txt"), HasSubstr("the paper's own correction"));
+  EXPECT_THAT(text_of(folder_ / "out.txt"),
+              HasSubstr("7 corner <7>  corrected    1.80   0.25    corrected    1.80   0.25"));
 }
 
 TEST_F(JourneyPage, FailsNamingWhatIsAtFault) {

@@ -43,6 +43,13 @@ struct JourneyReport {
   bool is_second_journey = false;  ///< Table 4 is its match in the paper, else Table 2
 };
 
+/// A listed revisit as this run and as the paper's own correction took it. Empty without a `paper_run`.
+struct ComparedRevisit {
+  const Revisit* ours = nullptr;
+  const Revisit* papers = nullptr;
+};
+std::vector<ComparedRevisit> side_by_side(const JourneyReport& report);
+
 /// Tables 2 or 4, 3, the paths and the azimuths, for people.
 std::string journey_table(const JourneyReport& report);
 
