@@ -17,12 +17,13 @@ namespace panvo::panoramic_compass {
 namespace {
 
 constexpr double kPerRadian = BandCutter::kColumns / (2.0 * std::numbers::pi);  // columns, and rows, of the full size
-constexpr int kHalf = 2;                 // sector patches are sought at half size
-constexpr int kMostFailures = 3;         // then the reference is of another world
-constexpr double kSideSector_rad = 0.6;  // to either side of abeam
-constexpr double kZenithShare = 0.2;     // of the rows: what is overhead
-constexpr double kSkyQuantile = 0.2;     // of overhead grey levels
-constexpr double kSkyShare = 0.75;       // of it: what is darker is no sky
+constexpr int kHalf = 2;                     // sector patches are sought at half size
+constexpr double kSmallestFoundShare = 0.2;  // of the points sought: fewer agree by chance
+constexpr int kMostFailures = 3;             // then the reference is of another world
+constexpr double kSideSector_rad = 0.6;      // to either side of abeam
+constexpr double kZenithShare = 0.2;         // of the rows: what is overhead
+constexpr double kSkyQuantile = 0.2;         // of overhead grey levels
+constexpr double kSkyShare = 0.75;           // of it: what is darker is no sky
 
 double median(std::vector<double>& values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -87,7 +88,7 @@ class AllRound final : public PanoramicCompass::Method {
     std::ostringstream reason;
     reason.precision(3);
     const SectorShifts shifts = find_turn();
-    if (!shifts.reason.empty()) return invalid(stamp_ns, shifts.reason);
+    if (shifts.beyond_range) return invalid(stamp_ns, shifts.reason);
     const std::vector<BearingPair> pairs = find_points(shifts);
     describe_sectors();
     const vision::Stage stage(observer_, "fit");
@@ -95,9 +96,11 @@ class AllRound final : public PanoramicCompass::Method {
     now_from_reference_ = vision::so3_exp({0.0, 0.0, -turned_rad}) * now_from_reference_;
     const auto fit = fit_turn(pairs, now_from_reference_);
     const AgreementParameters& demand = parameters_.agreement;
-    if (!fit || fit->agreeing < demand.fewest_points) {
-      reason << (fit ? fit->agreeing : 0) << " points agree on a turn, " << demand.fewest_points << " needed";
-      needs_reference_ = failures_ + 1 >= kMostFailures;
+    const int needed =
+        std::max(demand.fewest_points, static_cast<int>(kSmallestFoundShare * static_cast<double>(field_.size())));
+    if (!fit || fit->agreeing < needed) {
+      reason << (fit ? fit->agreeing : 0) << " points agree on a turn, " << needed << " needed";
+      if (!shifts.reason.empty()) reason << "; " << shifts.reason;
       return invalid(stamp_ns, reason.str());
     }
     const double share = fit->agreeing / static_cast<double>(pairs.size());
@@ -115,9 +118,15 @@ class AllRound final : public PanoramicCompass::Method {
     change.reason = reason.str();
     change.valid = change.reason.empty();
     if (change.valid) now_from_reference_ = fit->now_from_then;
-    needs_reference_ = change.valid && (++age_ >= demand.longest_reference ||
-                                        fit->agreeing < demand.kept_share * static_cast<double>(points_at_first_));
+    if (change.valid) needs_reference_ = ++age_ >= demand.longest_reference || has_left(*fit);
     return change;
+  }
+
+  /// Whether the reference panorama shows another place by now.
+  bool has_left(const TurnFit& fit) const {
+    const AgreementParameters& demand = parameters_.agreement;
+    return fit.agreeing < demand.kept_share * static_cast<double>(points_at_first_) ||
+           fit.typical_parallax > demand.largest_parallax_deg * std::numbers::pi / 180.0;
   }
 
   SectorShifts find_turn() {

@@ -41,12 +41,13 @@ FeaturePatch::FeaturePatch(cv::Size band, const cv::Rect& place, const FeaturePa
     : matrix_(draw(band, place, parameters, seed)), selection_(parameters.selection), seed_(seed) {}
 
 void FeaturePatch::describe(const FeatureBand& band) {
+  normalisation_ = band.normalisation;
   features_ = vision::select_features(band.images, matrix_, band.normalisation, selection_, seed_);
 }
 
 DistanceCurve FeaturePatch::distances(const FeatureBand& band, int first, int count, int dv) const {
   DistanceCurve curve{first, std::vector<float>(static_cast<std::size_t>(std::max(0, count)), 0.0F)};
-  const vision::ResponseReader reader(band.images, matrix_, band.normalisation);
+  const vision::ResponseReader reader(band.images, matrix_, normalisation_);
   float weights = 0.0F;
   for (const vision::SelectedFeature& feature : features_) {
     const bool is_intensity = feature.row < matrix_.rows();

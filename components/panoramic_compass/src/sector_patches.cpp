@@ -61,6 +61,7 @@ SectorShifts SectorPatches::track(const FeatureBand& band, double expected_px, i
     return shifts;
   }
   shifts.turn_px = minimum->displacement;
+  shifts.beyond_range = minimum->at_border;
   if (minimum->at_border) {
     reason << "the turn is beyond the search range of " << range_px * 360.0 / band_.width << " deg";
   } else if (minimum->relative > largest_distance) {

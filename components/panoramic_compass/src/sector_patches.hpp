@@ -18,6 +18,7 @@ struct SectorShifts {
 
   double turn_px = 0.0;                      ///< all sectors together
   std::array<double, kSectors> sector_px{};  ///< each by itself, near the common one: its parallax included
+  bool beyond_range = false;                 ///< the smallest distance lies at the border of the search
   std::string reason;                        ///< why the common one is not clear; empty when it is
 };
 

@@ -18,11 +18,16 @@ using Vector5d = Eigen::Matrix<double, 5, 1>;
 using Matrix5d = Eigen::Matrix<double, 5, 5>;
 
 constexpr int kDirections = 4;       // of drift that are tried: opposite ones are one
-constexpr int kTrialIterations = 4;  // enough to tell the right one
+constexpr int kTrialIterations = 6;  // enough to tell the right one
 constexpr int kMostIterations = 15;
+constexpr double kEnough = 0.8;  // share of points: what is left are single movers
+constexpr std::array<double, 4> kOtherStarts_rad{-0.08, -0.04, 0.04, 0.08};
+constexpr double kFirstNoise = 1600.0, kNoiseFall = 0.25;  // allowed in the first step, and how it falls
+constexpr int kSectors = 16;
 constexpr double kSettled_rad = 1e-6;
 constexpr double kLossScale = 2.0;       // standard deviations
 constexpr double kAgrees = 3.0;          // standard deviations
+constexpr double kMostNoise = 9.0;       // of the variances said: points farther off are not noisy, but wrong
 constexpr double kNearPole = 0.05;       // sine: points this near to the direction of drift have no great circle
 constexpr double kTiltSigma_rad = 0.05;  // of roll and pitch between two panoramas: a vehicle on a road
 constexpr double kSlopeSigma = 0.2;      // of the drift, up or down: the same
@@ -83,6 +88,32 @@ std::optional<Deviation> deviation_of(const BearingPair& pair, const Motion& mot
   return d;
 }
 
+/// Near things move towards the drift, not away from it.
+void orient(std::span<const BearingPair> pairs, Motion& motion) {
+  double sum = 0.0;
+  for (const BearingPair& pair : pairs) {
+    const auto d = deviation_of(pair, motion);
+    if (d && d->across * d->across < kAgrees * kAgrees * d->across_variance) sum += std::clamp(d->along, -0.1, 0.1);
+  }
+  if (sum < 0.0) motion.drift = -motion.drift;
+}
+
+/// How far a point is off its great circle, or behind its beginning: squared, in standard deviations.
+double disagreement(const Deviation& d, double noise) {
+  const double across = d.across * d.across / (noise * d.across_variance);
+  const double behind = d.along < 0.0 ? d.along * d.along / (noise * d.along_variance) : 0.0;
+  return std::max(across, behind);
+}
+
+/// Of all points, each no more than what makes it disagree: comparable between motions, as the cost of a fit is not.
+double total_disagreement(std::span<const BearingPair> pairs, const Motion& motion, double noise) {
+  double total = 0.0;
+  for (const BearingPair& pair : pairs) {
+    if (const auto d = deviation_of(pair, motion)) total += std::min(disagreement(*d, noise), kAgrees * kAgrees);
+  }
+  return total;
+}
+
 class Solver {
  public:
   Solver(std::span<const BearingPair> pairs, const Eigen::Matrix3d& start) : pairs_(pairs), start_(start) {}
@@ -92,9 +123,12 @@ class Solver {
     double cost = std::numeric_limits<double>::infinity();
     for (int i = 0; i < iterations; ++i) {
       gauge(motion);
+      // At first all may be off; later what is far off is wrong, and must not make the rest look noisy.
+      noise_ = std::min(noise_, std::max(kMostNoise, kFirstNoise * std::pow(kNoiseFall, i)));
       Matrix5d hessian = Matrix5d::Zero();
       Vector5d gradient = Vector5d::Zero();
-      cost = accumulate(motion, hessian, gradient);
+      cost = accumulate(motion, hessian, [&](const Deviation&) -> Vector5d& { return gradient; });
+      add_prior(motion, hessian, gradient);
       const Eigen::LDLT<Matrix5d> solver(hessian);
       if (solver.info() != Eigen::Success || !solver.isPositive()) return std::numeric_limits<double>::infinity();
       Vector5d step = -solver.solve(gradient);
@@ -123,11 +157,13 @@ class Solver {
     spread_ = std::max(kSmallestSpread_rad, 3.0 * typical_);
   }
 
-  double accumulate(const Motion& motion, Matrix5d& hessian, Vector5d& gradient) const {
+  /// `gradient_of` takes a deviation to the gradient that it adds to.
+  template <class GradientOf>
+  double accumulate(const Motion& motion, Matrix5d& hessian, const GradientOf& gradient_of) const {
     const vision::CauchyLoss loss(kLossScale);
     const auto tangents = motion.tangents();
     double cost = 0.0;
-    const auto add = [&](double residual, double variance, const Vector5d& jacobian) {
+    const auto add = [&](double residual, double variance, const Vector5d& jacobian, Vector5d& gradient) {
       const double square = residual * residual / variance;
       const double weight = loss.weight(square) / variance;
       cost += loss.cost(square);
@@ -142,12 +178,16 @@ class Solver {
       const Eigen::Vector3d by_drift = d->lever.cross(d->predicted);
       jacobian(3) = by_drift.dot(tangents[0]);
       jacobian(4) = by_drift.dot(tangents[1]);
-      add(d->across, noise_ * d->across_variance, jacobian);
+      add(d->across, noise_ * d->across_variance, jacobian, gradient_of(*d));
       jacobian.setZero();
       jacobian.head<3>() = -d->normal;
-      add(d->along, noise_ * d->along_variance + std::pow(spread_ * d->sine, 2), jacobian);
+      add(d->along, noise_ * d->along_variance + std::pow(spread_ * d->sine, 2), jacobian, gradient_of(*d));
     }
-    // What is known beforehand: the vehicle drives on a road.
+    return cost;
+  }
+
+  /// What is known beforehand: the vehicle drives on a road.
+  void add_prior(const Motion& motion, Matrix5d& hessian, Vector5d& gradient) const {
     const Eigen::Vector3d tilt = vision::so3_log(motion.rotation * start_.transpose());
     for (int axis = 0; axis < 2; ++axis) {
       hessian(axis, axis) += 1.0 / (kTiltSigma_rad * kTiltSigma_rad);
@@ -155,8 +195,52 @@ class Solver {
     }
     hessian(3, 3) += 1.0;  // where nothing moves the direction stays what it is
     hessian(4, 4) += 1.0 / (kSlopeSigma * kSlopeSigma);
-    gradient(4) += motion.drift.z() * tangents[1].z() / (kSlopeSigma * kSlopeSigma);
-    return cost;
+    gradient(4) += motion.drift.z() * motion.tangents()[1].z() / (kSlopeSigma * kSlopeSigma);
+  }
+
+  /// The best of short fits from each start, in several directions of drift.
+  Motion search(const std::vector<Eigen::Matrix3d>& starts) {
+    std::vector<Motion> trials;
+    double noise = kMostNoise;
+    for (const Eigen::Matrix3d& rotation : starts) {
+      for (int i = 0; i < kDirections; ++i) {
+        const double azimuth = i * std::numbers::pi / kDirections;
+        Motion trial{rotation, {-std::cos(azimuth), -std::sin(azimuth), 0.0}};
+        if (!std::isfinite(iterate(trial, kTrialIterations))) continue;
+        orient(pairs_, trial);
+        gauge(trial);
+        noise = std::min(noise, noise_);
+        trials.push_back(trial);
+      }
+    }
+    if (trials.empty()) return {starts.front(), -Eigen::Vector3d::UnitX()};
+    return *std::min_element(trials.begin(), trials.end(), [&](const Motion& a, const Motion& b) {
+      return total_disagreement(pairs_, a, noise) < total_disagreement(pairs_, b, noise);
+    });
+  }
+
+  double share_that_agrees(const Motion& motion) const {
+    const auto agreeing = std::count_if(pairs_.begin(), pairs_.end(), [&](const BearingPair& pair) {
+      const auto d = deviation_of(pair, motion);
+      return !d || disagreement(*d, kMostNoise) < kAgrees * kAgrees;
+    });
+    return static_cast<double>(agreeing) / static_cast<double>(pairs_.size());
+  }
+
+  /// Covariance of rotation and drift that takes neighbouring points to err together: the spread of what the sectors of the
+  /// full turn pull at the result.
+  Matrix5d covariance_by_sectors(const Motion& motion) const {
+    std::array<Vector5d, kSectors> pulls;
+    pulls.fill(Vector5d::Zero());
+    Matrix5d hessian = Matrix5d::Zero();
+    accumulate(motion, hessian, [&](const Deviation& d) -> Vector5d& {
+      const double turn = std::atan2(d.predicted.y(), d.predicted.x()) / (2.0 * std::numbers::pi) + 0.5;
+      return pulls[static_cast<std::size_t>(std::clamp(static_cast<int>(turn * kSectors), 0, kSectors - 1))];
+    });
+    Matrix5d spread = Matrix5d::Zero();
+    for (const Vector5d& pull : pulls) spread += pull * pull.transpose();
+    const Matrix5d inverse = hessian.inverse();
+    return kSectors / (kSectors - 3.0) * inverse * spread * inverse;
   }
 
   double noise() const { return noise_; }
@@ -171,33 +255,21 @@ class Solver {
   double noise_ = 1.0, spread_ = 1.0, typical_ = 0.0;
 };
 
-/// Near things move towards the drift, not away from it.
-void orient(std::span<const BearingPair> pairs, Motion& motion) {
-  double sum = 0.0;
-  for (const BearingPair& pair : pairs) {
-    const auto d = deviation_of(pair, motion);
-    if (d && d->across * d->across < 9.0 * d->across_variance) sum += std::clamp(d->along, -0.1, 0.1);
-  }
-  if (sum < 0.0) motion.drift = -motion.drift;
-}
-
 }  // namespace
 
 std::optional<TurnFit> fit_turn(std::span<const BearingPair> pairs, const Eigen::Matrix3d& start_now_from_then) {
   if (pairs.size() < 6) return std::nullopt;
   Solver solver(pairs, start_now_from_then);
-  Motion best;
-  double lowest = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < kDirections; ++i) {
-    const double azimuth = i * std::numbers::pi / kDirections;
-    Motion trial{start_now_from_then, {-std::cos(azimuth), -std::sin(azimuth), 0.0}};
-    const double cost = solver.iterate(trial, kTrialIterations);
-    if (cost < lowest) {
-      lowest = cost;
-      best = trial;
+  Motion best = solver.search({start_now_from_then});
+  if (solver.share_that_agrees(best) < kEnough) {  // something large moves by itself: perhaps the start is its turn
+    std::vector<Eigen::Matrix3d> starts;
+    for (const double offset_rad : kOtherStarts_rad) {
+      starts.push_back(vision::so3_exp({0.0, 0.0, offset_rad}) * start_now_from_then);
     }
+    const Motion other = solver.search(starts);
+    if (solver.share_that_agrees(other) > solver.share_that_agrees(best)) best = other;
   }
-  if (!std::isfinite(lowest) || !std::isfinite(solver.iterate(best, kMostIterations))) return std::nullopt;
+  if (!std::isfinite(solver.iterate(best, kMostIterations))) return std::nullopt;
   orient(pairs, best);
   solver.gauge(best);
 
@@ -208,13 +280,13 @@ std::optional<TurnFit> fit_turn(std::span<const BearingPair> pairs, const Eigen:
   fit.typical_parallax = solver.typical();
   for (const BearingPair& pair : pairs) {
     const auto d = deviation_of(pair, best);
-    const bool agrees = !d || (d->across * d->across < kAgrees * kAgrees * solver.noise() * d->across_variance &&
-                               d->along > -kAgrees * std::sqrt(solver.noise() * d->along_variance));
+    const double allowed = std::min(solver.noise(), kMostNoise);
+    const bool agrees = !d || disagreement(*d, allowed) < kAgrees * kAgrees;
     fit.agrees.push_back(agrees);
     fit.agreeing += agrees ? 1 : 0;
   }
-  const Matrix5d covariance = solver.hessian().inverse();
-  fit.yaw_variance_rad2 = covariance(2, 2);
+  const double by_points = solver.hessian().inverse()(2, 2), by_sectors = solver.covariance_by_sectors(best)(2, 2);
+  fit.yaw_variance_rad2 = std::max(by_points, 0.5 * (by_points + by_sectors));
   return fit;
 }
 

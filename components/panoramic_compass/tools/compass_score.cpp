@@ -13,6 +13,7 @@ namespace panvo::panoramic_compass {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
+constexpr std::size_t kDriftPanoramas = 50;
 
 }  // namespace
 
@@ -25,6 +26,8 @@ CompassScore score(const CompassRecording& recording, const CompassParameters& p
   double squares = 0.0, whitened = 0.0, step_squares = 0.0, last_error = 0.0;
   int steps = 0;
   std::int64_t last_from = -1;
+  std::map<std::int64_t, double> error_at;  // of the heading, changes one upon another
+  std::vector<double> headings;
   for (const RecordedPanorama& panorama : recording.panoramas) {
     by_stamp[panorama.stamp_ns] = &panorama;
     const auto change = compass.track(panorama.stamp_ns, cv::imread(panorama.image.string()));
@@ -45,6 +48,9 @@ CompassScore score(const CompassRecording& recording, const CompassParameters& p
     }
     errors.push_back(std::abs(error));
     const double step_error = change->from_stamp_ns == last_from ? error - last_error : error;
+    const double heading_error = error_at[change->from_stamp_ns] + error;
+    error_at[panorama.stamp_ns] = heading_error;
+    headings.push_back(heading_error);
     step_squares += step_error * step_error;
     ++steps;
     last_from = change->from_stamp_ns;
@@ -57,6 +63,12 @@ CompassScore score(const CompassRecording& recording, const CompassParameters& p
   score.p95_deg = errors[errors.size() * 95 / 100] / kDegree;
   score.worst_deg = errors.back() / kDegree;
   score.consistency = whitened / count;
+  double drift = 0.0;
+  for (std::size_t i = kDriftPanoramas; i < headings.size(); ++i) {
+    drift += std::pow(headings[i] - headings[i - kDriftPanoramas], 2);
+  }
+  const auto windows = static_cast<double>(std::max(headings.size(), kDriftPanoramas + 1) - kDriftPanoramas);
+  score.drift_rms_deg = std::sqrt(drift / windows) / kDegree;
   score.step_rms_deg = std::sqrt(step_squares / steps) / kDegree;
   return score;
 }

@@ -17,6 +17,8 @@ struct CompassScore {
   double consistency = 0.0;  ///< mean of error^2 / variance: about 1 where the variance is honest
   /// The same of the changes from each panorama to the next, made of two changes against one reference where it is kept.
   double step_rms_deg = 0.0;
+  /// RMS of what the changes, one upon another, are wrong by over 50 panoramas.
+  double drift_rms_deg = 0.0;
   std::int64_t worst_ns = 0;  ///< stamp of the worst
 };
 

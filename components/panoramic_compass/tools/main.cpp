@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // How well the compass tells the turn on recordings with ground truth.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <exception>
@@ -19,10 +20,15 @@ int main(int argc, char** argv) {
   CompassParameters parameters;
   double late_ms = 0.0;
   bool list = false;
+  std::size_t first = 0, count = 0;
   app.add_option("recording", recordings, "folders with mav0/cam2 and mav0/state_groundtruth_estimate0")->required();
   app.add_option("--method", parameters.method, "all_round or two_patches");
   app.add_option("--longest-reference", parameters.agreement.longest_reference, "panoramas against one reference");
+  app.add_option("--largest-parallax", parameters.agreement.largest_parallax_deg, "deg, before a new reference");
+  app.add_option("--spacing", parameters.points.spacing_px, "px between points");
   app.add_option("--late", late_ms, "ms that a panorama was taken later than its stamp says");
+  app.add_option("--first", first, "panorama to begin with");
+  app.add_option("--count", count, "panoramas; 0: all");
   app.add_flag("--list", list, "every change: stamps, change and truth in deg, sigma, parallax, validity");
   CLI11_PARSE(app, argc, argv);
   constexpr double kDegrees = 180.0 / std::numbers::pi;
@@ -35,11 +41,16 @@ int main(int argc, char** argv) {
                     std::sqrt(change.variance_rad2) * kDegrees, change.side_parallax_rad, change.valid ? 1 : 0,
                     change.reason.c_str());
       };
-      const auto recording = read_compass_recording(folder, static_cast<std::int64_t>(late_ms * 1e6));
+      auto recording = read_compass_recording(folder, static_cast<std::int64_t>(late_ms * 1e6));
+      auto& all = recording.panoramas;
+      all.erase(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(std::min(first, all.size())));
+      if (count > 0 && count < all.size()) all.resize(count);
       const CompassScore s = score(recording, parameters, look);
-      std::printf("%s: %d of %d valid, RMS %.4f deg, p95 %.4f, worst %.3f (at %lld), step RMS %.4f, consistency %.2f\n",
-                  folder.c_str(), s.valid, s.changes, s.rms_deg, s.p95_deg, s.worst_deg,
-                  static_cast<long long>(s.worst_ns), s.step_rms_deg, s.consistency);
+      std::printf(
+          "%s: %d of %d valid, RMS %.4f deg, p95 %.4f, worst %.3f (at %lld), step RMS %.4f, drift over 50 %.4f, "
+          "consistency %.2f\n",
+          folder.c_str(), s.valid, s.changes, s.rms_deg, s.p95_deg, s.worst_deg, static_cast<long long>(s.worst_ns),
+          s.step_rms_deg, s.drift_rms_deg, s.consistency);
     } catch (const std::exception& error) {
       std::fprintf(stderr, "%s\n", error.what());
       return 1;

@@ -68,7 +68,8 @@ struct AgreementParameters {
   double largest_sigma_deg = 0.5;
   double systematic_deg = 0.01;
   double kept_share = 0.5;
-  int longest_reference = 10;
+  double largest_parallax_deg = 6.0;
+  int longest_reference = 25;
 
   template <class Field>
   static void describe(Field&& field) {
@@ -81,6 +82,9 @@ struct AgreementParameters {
           "standard deviation of what no number of points averages out: stitching, lens, shutter", 0.0, 5.0);
     field(&P::kept_share, "kept_share", "1", "a new reference is taken when fewer of the reference's points are left",
           0.05, 1.0);
+    field(&P::largest_parallax_deg, "largest_parallax_deg", "deg",
+          "and when the points have moved by this, median, beside their turn: near things look different then", 0.1,
+          45.0);
     field(&P::longest_reference, "longest_reference", "1", "panoramas measured against one reference, at most", 1,
           1000);
   }

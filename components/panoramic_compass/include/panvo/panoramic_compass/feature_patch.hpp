@@ -52,6 +52,7 @@ class FeaturePatch {
   vision::MeasurementMatrix matrix_;
   vision::SelectionParameters selection_;
   std::uint64_t seed_;
+  vision::BandNormalisation normalisation_;  // of the band described; another's differs by what came into view, too
   std::vector<vision::SelectedFeature> features_;
 };
 

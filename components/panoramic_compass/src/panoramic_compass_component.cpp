@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <optional>
+#include <stdexcept>
+#include <string>
+
+#include "panvo/conversions/image.hpp"
+#include "panvo/conversions/stage_timer.hpp"
+#include "panvo/conversions/static_transforms.hpp"
+#include "panvo/conversions/time.hpp"
+#include "panvo/panoramic_compass/panoramic_compass.hpp"
+#include "panvo/runtime/component.hpp"
+
+namespace panvo::panoramic_compass {
+
+/// The algorithm's parameters, and where the camera sits.
+struct ComponentParameters : CompassParameters {
+  int seed = 1;
+  std::string base_frame = "base_link";
+
+  template <class Field>
+  static void describe(Field&& field) {
+    using P = ComponentParameters;
+    field(static_cast<std::string P::*>(&P::method), "method", "",
+          "all_round: points all round, rotation and direction of motion fitted together, against a reference kept "
+          "over several panoramas; two_patches: the paper's front and rear patch, from one panorama to the next "
+          "[Lu2015 6]",
+          {"all_round", "two_patches"});
+    field(static_cast<double P::*>(&P::largest_turn_deg), "largest_turn_deg", "deg",
+          "searched to either side, from one panorama to the next: 150 deg/s at 5 Hz", 1.0, 180.0);
+    field.group(static_cast<PatchParameters P::*>(&P::patches), "patches");
+    field.group(static_cast<PointParameters P::*>(&P::points), "points");
+    field.group(static_cast<AgreementParameters P::*>(&P::agreement), "agreement");
+    field(&P::seed, "seed", "", "draws the measurement matrices", 0, 1'000'000'000);
+    field(&P::base_frame, "base_frame", "",
+          "the vehicle, whose turn is told; /tf_static says how the panoramic camera sits on it");
+  }
+};
+
+/// panorama/image, /tf_static -> compass/azimuth_change, one message for each panorama but the first, and why it is not valid
+/// where it is not.
+class PanoramicCompassComponent final : public runtime::Component {
+ public:
+  explicit PanoramicCompassComponent(runtime::Context& context)
+      : context_(context),
+        parameters_(context.parameters<ComponentParameters>()),
+        timer_(context.times()),
+        azimuth_change_(context.output(topics::kAzimuthChange)) {
+    context.input(topics::kTfStatic, [this](const auto& message) { on_transforms(*message); });
+    context.input(topics::kPanorama, [this](const auto& message) { on_panorama(*message); });
+    make_compass(upright_base_from_panorama());
+  }
+
+ private:
+  void on_transforms(const tf2_msgs::msg::TFMessage& message) {
+    for (const auto& problem : transforms_.add(message)) context_.log().warn("{}: {}", topics::kTfStatic.name, problem);
+  }
+
+  void make_compass(const Eigen::Matrix3d& base_from_panorama) {
+    base_from_panorama_ = base_from_panorama;
+    try {
+      compass_.emplace(parameters_, static_cast<std::uint64_t>(parameters_.seed), base_from_panorama, &timer_);
+    } catch (const std::invalid_argument& error) {
+      throw runtime::ConfigError(context_.name() + ": " + error.what());
+    }
+  }
+
+  void on_panorama(const sensor_msgs::msg::Image& message) {
+    const std::int64_t stamp_ns = conversions::stamp_ns(message);
+    if (last_stamp_ns_ && stamp_ns <= *last_stamp_ns_) {
+      return say_once(
+          fmt::format("{} came with a stamp that is not after the last; it is left out", topics::kPanorama.name));
+    }
+    const auto panorama = pixels_of(message);
+    if (!panorama) return say_once(fmt::format("{} {}; it is left out", topics::kPanorama.name, panorama.reason()));
+    last_stamp_ns_ = stamp_ns;
+    take_mounting(message.header().frame_id());
+    const auto change = compass_->track(stamp_ns, *panorama);
+    if (change) return tell(*change, message.header().frame_id());
+    if (const auto fault = find_fault(*panorama)) say_once(fmt::format("{} {}", topics::kPanorama.name, *fault));
+  }
+
+  /// Grey or of three channels; which of them is red does not matter to the compass.
+  static conversions::Result<cv::Mat> pixels_of(const sensor_msgs::msg::Image& message) {
+    auto pixels = conversions::view(message);
+    if (pixels && pixels->type() != CV_8UC1 && pixels->type() != CV_8UC3) return conversions::grey(message);
+    return pixels;
+  }
+
+  /// The camera's place on the vehicle, when it is known, or known otherwise than before.
+  void take_mounting(const std::string& frame) {
+    const auto base_from_panorama = transforms_.lookup(parameters_.base_frame, frame);
+    if (!base_from_panorama) {
+      return say_once(
+          fmt::format("{} has no chain from {} to {}: the panoramic camera is taken to be upright and to look ahead",
+                      topics::kTfStatic.name, parameters_.base_frame, frame));
+    }
+    if (!base_from_panorama->linear().isApprox(base_from_panorama_, 1e-9)) make_compass(base_from_panorama->linear());
+  }
+
+  void tell(const AzimuthChange& change, const std::string& frame) {
+    panvo_msgs::msg::AzimuthChange message;
+    message.header().stamp(conversions::to_stamp(change.stamp_ns));
+    message.header().frame_id(frame);
+    message.from_stamp(conversions::to_stamp(change.from_stamp_ns));
+    message.azimuth_change_rad(change.change_rad);
+    message.variance_rad2(change.variance_rad2);
+    message.side_parallax_rad(change.side_parallax_rad);
+    message.valid(change.valid);
+    message.reason(change.reason);
+    azimuth_change_.publish(std::move(message));
+    if (!change.valid && is_valid_) context_.log().warn("no turn told: {}", change.reason);
+    if (change.valid && !is_valid_) context_.log().info("turns are told again");
+    is_valid_ = change.valid;
+  }
+
+  /// Says what is wrong when it begins, not with every message.
+  void say_once(const std::string& warning) {
+    if (warning == last_warning_) return;
+    last_warning_ = warning;
+    context_.log().warn("{}", warning);
+  }
+
+  runtime::Context& context_;
+  const ComponentParameters parameters_;
+  conversions::StageTimer timer_;
+  runtime::Output<panvo_msgs::msg::AzimuthChange> azimuth_change_;
+
+  conversions::StaticTransforms transforms_;
+  Eigen::Matrix3d base_from_panorama_;
+  std::optional<PanoramicCompass> compass_;
+  std::optional<std::int64_t> last_stamp_ns_;
+  bool is_valid_ = true;
+  std::string last_warning_;
+};
+
+PANVO_REGISTER_COMPONENT(PanoramicCompassComponent)
+
+}  // namespace panvo::panoramic_compass

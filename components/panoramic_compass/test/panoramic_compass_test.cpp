@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "panvo/panoramic_compass/panoramic_compass.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <stdexcept>
+
+#include "painted_panorama.hpp"
+
+namespace panvo::panoramic_compass {
+namespace {
+
+using std::numbers::pi;
+
+CompassParameters with_method(const std::string& method) {
+  CompassParameters parameters;
+  parameters.method = method;
+  return parameters;
+}
+
+/// What both methods must do.
+class EitherMethod : public testing::TestWithParam<std::string> {
+ protected:
+  AzimuthChange change(const cv::Mat& then, const cv::Mat& now, std::optional<double> expected_rad = std::nullopt) {
+    PanoramicCompass compass(with_method(GetParam()));
+    EXPECT_FALSE(compass.track(1'000, then));
+    return compass.track(2'000, now, expected_rad).value();
+  }
+  double tolerance_rad() const { return (GetParam() == "all_round" ? 0.05 : 0.4) * kColumn_rad; }
+
+  const cv::Mat street = paint_panorama();
+};
+
+TEST_P(EitherMethod, FindsNoTurnBetweenTwoIdenticalPanoramas) {
+  const AzimuthChange same = change(street, street);
+  EXPECT_TRUE(same.valid) << same.reason;
+  EXPECT_NEAR(same.change_rad, 0.0, 0.05 * kColumn_rad);
+  EXPECT_NEAR(same.side_parallax_rad, 0.0, 0.05 * kColumn_rad);
+  EXPECT_EQ(same.from_stamp_ns, 1'000);
+  EXPECT_EQ(same.stamp_ns, 2'000);
+}
+
+// [Lu2015 Eq. 12]: a turn to the left moves the scene to the right.
+TEST_P(EitherMethod, CallsATurnToTheLeftPositive) {
+  const AzimuthChange left = change(street, turned_left(street, 20.0));
+  EXPECT_TRUE(left.valid) << left.reason;
+  EXPECT_NEAR(left.change_rad, 20.0 * kColumn_rad, tolerance_rad());
+  const AzimuthChange right = change(street, turned_left(street, -20.0));
+  EXPECT_NEAR(right.change_rad, -20.0 * kColumn_rad, tolerance_rad());
+}
+
+TEST_P(EitherMethod, FindsTurnsOfFractionsOfAColumn) {
+  for (const double columns : {-61.4, -7.75, -0.5, 0.3, 3.25, 44.6}) {
+    const AzimuthChange turn = change(street, turned_left(street, columns));
+    EXPECT_TRUE(turn.valid) << columns << ": " << turn.reason;
+    EXPECT_NEAR(turn.change_rad, columns * kColumn_rad, tolerance_rad()) << columns;
+  }
+}
+
+TEST_P(EitherMethod, WrapsAtHalfATurn) {
+  const AzimuthChange beyond = change(street, turned_left(street, 545.0), pi);
+  EXPECT_TRUE(beyond.valid) << beyond.reason;
+  EXPECT_NEAR(beyond.change_rad, -535.0 * kColumn_rad, tolerance_rad());
+}
+
+TEST_P(EitherMethod, SearchesAboutTheExpectedTurn) {
+  const cv::Mat now = turned_left(street, 200.0);
+  const AzimuthChange blind = change(street, now);
+  EXPECT_FALSE(blind.valid && std::abs(blind.change_rad - 200.0 * kColumn_rad) > 0.01);
+  const AzimuthChange expected = change(street, now, 190.0 * kColumn_rad);
+  EXPECT_TRUE(expected.valid) << expected.reason;
+  EXPECT_NEAR(expected.change_rad, 200.0 * kColumn_rad, tolerance_rad());
+}
+
+TEST_P(EitherMethod, SaysThatATurnIsBeyondItsRange) {
+  const AzimuthChange beyond = change(street, turned_left(street, 200.0));
+  EXPECT_FALSE(beyond.valid);
+  EXPECT_FALSE(beyond.reason.empty());
+}
+
+TEST_P(EitherMethod, DoesNotMindExposureOrNoise) {
+  cv::Mat now, noise(street.size(), CV_8SC1);
+  turned_left(street, 12.4).convertTo(now, CV_8U, 0.6, 15.0);
+  cv::RNG random(7);
+  random.fill(noise, cv::RNG::NORMAL, 0.0, 3.0);
+  cv::add(now, noise, now, cv::noArray(), CV_8U);
+  const AzimuthChange turn = change(street, now);
+  EXPECT_TRUE(turn.valid) << turn.reason;
+  EXPECT_NEAR(turn.change_rad, 12.4 * kColumn_rad, 2.0 * tolerance_rad());
+}
+
+TEST_P(EitherMethod, SaysWhyAPanoramaIsOfNoUse) {
+  const auto of = [&](const cv::Mat& now) { return change(street, now).reason; };
+  EXPECT_NE(of(cv::Mat::zeros(street.size(), CV_8UC1)).find("is black"), std::string::npos);
+  EXPECT_NE(of(cv::Mat(street.size(), CV_8UC1, cv::Scalar(255))).find("is saturated"), std::string::npos);
+  EXPECT_NE(of(cv::Mat(street.size(), CV_8UC1, cv::Scalar(120))).find("is constant"), std::string::npos);
+  EXPECT_NE(of(street.colRange(0, 900)).find("twice as wide"), std::string::npos);
+  EXPECT_NE(of(cv::Mat()).find("is empty"), std::string::npos);
+}
+
+TEST_P(EitherMethod, IsNotSureOfAnotherPlace) {
+  const AzimuthChange jump = change(street, paint_panorama(2));
+  EXPECT_FALSE(jump.valid);
+  EXPECT_FALSE(jump.reason.empty());
+}
+
+TEST_P(EitherMethod, WaitsForAFirstPanoramaThatShowsSomething) {
+  PanoramicCompass compass(with_method(GetParam()));
+  EXPECT_FALSE(compass.track(1, cv::Mat::zeros(kRows, kColumns, CV_8UC1)));
+  EXPECT_FALSE(compass.track(2, street));
+  EXPECT_TRUE(compass.track(3, street));
+}
+
+TEST_P(EitherMethod, GoesOnAfterDarkPanoramas) {
+  PanoramicCompass compass(with_method(GetParam()));
+  compass.track(1, street);
+  EXPECT_FALSE(compass.track(2, cv::Mat::zeros(street.size(), CV_8UC1), 5.0 * kColumn_rad)->valid);
+  const auto after = compass.track(3, turned_left(street, 10.0), 5.0 * kColumn_rad);
+  EXPECT_TRUE(after->valid) << after->reason;
+  EXPECT_EQ(after->from_stamp_ns, 1);
+  EXPECT_NEAR(after->change_rad, 10.0 * kColumn_rad, tolerance_rad());
+}
+
+TEST_P(EitherMethod, TakesColourAndOtherSizes) {
+  cv::Mat colour, large;
+  cv::cvtColor(turned_left(street, 9.0), colour, cv::COLOR_GRAY2BGR);
+  EXPECT_NEAR(change(street, colour).change_rad, 9.0 * kColumn_rad, tolerance_rad());
+  cv::resize(colour, large, cv::Size(2160, 1080), 0.0, 0.0, cv::INTER_CUBIC);
+  EXPECT_NEAR(change(street, large).change_rad, 9.0 * kColumn_rad, 2.0 * tolerance_rad() + 0.3 * kColumn_rad);
+}
+
+TEST_P(EitherMethod, IsTheSameBitForBit) {
+  const cv::Mat now = driven(street, 0.05, 0.03);
+  const AzimuthChange first = change(street, now), second = change(street, now);
+  EXPECT_EQ(first.change_rad, second.change_rad);
+  EXPECT_EQ(first.variance_rad2, second.variance_rad2);
+  EXPECT_EQ(first.side_parallax_rad, second.side_parallax_rad);
+}
+
+// [Lu2015 6]: the offsets of the left and right patches give the rough translation.
+TEST_P(EitherMethod, TellsHowFarWhatIsAbeamFellBehind) {
+  const AzimuthChange ahead = change(street, driven(street, 0.1, 0.05));
+  EXPECT_TRUE(ahead.valid) << ahead.reason;
+  EXPECT_NEAR(ahead.side_parallax_rad, 0.1, 0.02);
+  const AzimuthChange back = change(street, driven(street, -0.1, 0.05));
+  EXPECT_NEAR(back.side_parallax_rad, -0.1, 0.02);
+}
+
+INSTANTIATE_TEST_SUITE_P(Methods, EitherMethod, testing::Values("all_round", "two_patches"),
+                         [](const auto& test) { return test.param; });
+
+AzimuthChange change_all_round(const cv::Mat& then, const cv::Mat& now) {
+  PanoramicCompass compass(CompassParameters{});
+  compass.track(1, then);
+  return compass.track(2, now).value();
+}
+
+TEST(PointsAllRound, AreNotMisledByAMoverThatCoversAThirdOfTheView) {
+  const cv::Mat street = paint_panorama(), bus = paint_panorama(5);
+  cv::Mat then = street.clone(), now = turned_left(street, 10.0);
+  bus.colRange(300, 660).copyTo(then.colRange(300, 660));
+  bus.colRange(300, 660).copyTo(now.colRange(330, 690));  // its own way, over what lies ahead
+  const AzimuthChange turn = change_all_round(then, now);
+  EXPECT_TRUE(turn.valid) << turn.reason;
+  EXPECT_NEAR(turn.change_rad, 10.0 * kColumn_rad, 0.1 * kColumn_rad);
+}
+
+TEST(PointsAllRound, TellATurnFromADriveAhead) {
+  const cv::Mat street = paint_panorama();
+  for (const double turn_rad : {-0.2, 0.0, 0.1}) {
+    const AzimuthChange turn = change_all_round(street, driven(street, 0.08, turn_rad));
+    EXPECT_TRUE(turn.valid) << turn.reason;
+    EXPECT_NEAR(turn.change_rad, turn_rad, 0.1 * kColumn_rad);
+  }
+}
+
+TEST(PointsAllRound, DoNotMindASuddenShadowOverHalfTheView) {
+  const cv::Mat street = paint_panorama();
+  cv::Mat now = turned_left(street, 6.5);
+  now.colRange(200, 740).convertTo(now.colRange(200, 740), CV_8U, 0.4);
+  const AzimuthChange turn = change_all_round(street, now);
+  EXPECT_TRUE(turn.valid) << turn.reason;
+  EXPECT_NEAR(turn.change_rad, 6.5 * kColumn_rad, 0.1 * kColumn_rad);
+}
+
+TEST(PointsAllRound, AreMeasuredAgainstOneReferenceAsLongAsItLasts) {
+  const cv::Mat street = paint_panorama();
+  CompassParameters parameters;
+  parameters.agreement.longest_reference = 5;
+  PanoramicCompass compass(parameters);
+  compass.track(0, street);
+  for (int i = 1; i <= 12; ++i) {
+    const auto turn = compass.track(i, turned_left(street, 4.3 * i));
+    ASSERT_TRUE(turn && turn->valid) << i << ": " << turn->reason;
+    const int reference = (i - 1) / 5 * 5;
+    EXPECT_EQ(turn->from_stamp_ns, reference);
+    EXPECT_NEAR(turn->change_rad, 4.3 * (i - reference) * kColumn_rad, 0.1 * kColumn_rad);
+  }
+}
+
+TEST(PointsAllRound, SayThatTheyContradictEachOther) {
+  const cv::Mat street = paint_panorama();
+  cv::Mat now = turned_left(street, 4.0);
+  for (int i = 0; i < 8; ++i) {  // sectors that each go their own way
+    const int columns = 40 * (i * 5 % 8) - 150;
+    turned_left(street, columns).colRange(135 * i, 135 * i + 135).copyTo(now.colRange(135 * i, 135 * i + 135));
+  }
+  const AzimuthChange turn = change_all_round(street, now);
+  EXPECT_FALSE(turn.valid) << turn.change_rad / kColumn_rad;
+  EXPECT_FALSE(turn.reason.empty());
+}
+
+TEST(PointsAllRound, DoNotFollowTheSky) {
+  cv::Mat then = paint_panorama(), now = turned_left(then, 8.0);
+  cv::RNG random(3);
+  for (cv::Mat* panorama : {&then, &now}) {  // clouds, another way than the walls
+    const int drift = panorama == &now ? 40 : 0;
+    cv::RNG same(11);
+    for (int i = 0; i < 60; ++i) {
+      const cv::Point place(same.uniform(0, kColumns), same.uniform(0, 250));
+      for (const int turn : {-kColumns, 0}) {
+        cv::Mat mask = *panorama > 200;
+        cv::Mat clouds = panorama->clone();
+        cv::circle(clouds, place + cv::Point(drift + turn, 0), 12, cv::Scalar(250), -1);
+        clouds.copyTo(*panorama, mask);
+      }
+    }
+  }
+  const AzimuthChange turn = change_all_round(then, now);
+  EXPECT_TRUE(turn.valid) << turn.reason;
+  EXPECT_NEAR(turn.change_rad, 8.0 * kColumn_rad, 0.1 * kColumn_rad);
+}
+
+TEST(PointsAllRound, TurnAboutTheVehiclesAxisWhereTheCameraIsTilted) {
+  const cv::Mat street = paint_panorama();
+  // looks left: the panorama's forward is the vehicle's left; a turn stays a turn, the way ahead lies elsewhere
+  const Eigen::Matrix3d base_from_panorama =
+      Eigen::AngleAxisd(pi / 2.0, Eigen::Vector3d::UnitZ()).toRotationMatrix() * upright_base_from_panorama();
+  PanoramicCompass compass(CompassParameters{}, 1, base_from_panorama);
+  compass.track(1, turned_left(street, 270.0));
+  const auto turn = compass.track(2, turned_left(driven(street, 0.1, 0.05), 270.0));
+  ASSERT_TRUE(turn && turn->valid) << turn->reason;
+  EXPECT_NEAR(turn->change_rad, 0.05, 0.1 * kColumn_rad);
+  EXPECT_NEAR(turn->side_parallax_rad, 0.1, 0.03);
+}
+
+TEST(CompassParameters, ThatContradictEachOtherAreAProgrammingError) {
+  CompassParameters parameters;
+  parameters.patches.beta_deg = 1.0;
+  EXPECT_THROW(PanoramicCompass{parameters}, std::invalid_argument);
+  EXPECT_THROW(PanoramicCompass{with_method("magnetic")}, std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace panvo::panoramic_compass

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "panvo/panoramic_compass/turn_fit.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <vector>
+
+#include "panvo/vision/pose.hpp"
+
+namespace panvo::panoramic_compass {
+namespace {
+
+constexpr double kNoise_rad = 0.0005;
+
+/// Points all round at 4 to 40 m, up to 35 degrees above and 6 below the horizon, seen from two places.
+class Scene {
+ public:
+  explicit Scene(std::uint64_t seed) : random_(seed) {}
+
+  double between(double from, double to) {
+    return from + (to - from) * static_cast<double>(random_() >> 11U) * 0x1p-53;
+  }
+  double normal() {
+    double sum = -6.0;
+    for (int i = 0; i < 12; ++i) sum += between(0.0, 1.0);
+    return sum;
+  }
+  Eigen::Vector3d direction(double from_azimuth = -std::numbers::pi, double to_azimuth = std::numbers::pi) {
+    const double azimuth = between(from_azimuth, to_azimuth), elevation = between(-0.1, 0.6);
+    return {std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth), std::sin(elevation)};
+  }
+  BearingPair pair(const Eigen::Vector3d& point, const Eigen::Isometry3d& now_from_then) {
+    const Eigen::Vector3d noise(kNoise_rad * normal(), kNoise_rad * normal(), kNoise_rad * normal());
+    return {point.normalized(), ((now_from_then * point).normalized() + noise).normalized(),
+            Eigen::Vector2d::Constant(kNoise_rad * kNoise_rad)};
+  }
+  std::vector<BearingPair> pairs(int count, const Eigen::Isometry3d& now_from_then) {
+    std::vector<BearingPair> all;
+    for (int i = 0; i < count; ++i) all.push_back(pair(between(4.0, 40.0) * direction(), now_from_then));
+    return all;
+  }
+
+ private:
+  std::mt19937_64 random_;
+};
+
+/// Of a vehicle that drove so far, along a direction, and then turned left, pitched and rolled.
+Eigen::Isometry3d moved(const Eigen::Vector3d& way_m, double yaw, double pitch = 0.0, double roll = 0.0) {
+  Eigen::Isometry3d then_from_now = Eigen::Isometry3d::Identity();
+  then_from_now.linear() =
+      (Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ()) * Eigen::AngleAxisd(pitch, Eigen::Vector3d::UnitY()) *
+       Eigen::AngleAxisd(roll, Eigen::Vector3d::UnitX()))
+          .toRotationMatrix();
+  then_from_now.translation() = way_m;
+  return then_from_now.inverse();
+}
+
+TEST(TurnFit, IsExactWhateverTheDistancesAndTheTilt) {
+  Scene scene(1);
+  for (const auto& way :
+       {Eigen::Vector3d(1.0, 0.0, 0.0), Eigen::Vector3d(-0.5, 0.1, 0.0), Eigen::Vector3d(0.6, 0.7, 0.0)}) {
+    const auto fit = fit_turn(scene.pairs(150, moved(way, 0.2, 0.02, -0.01)), vision::so3_exp({0.0, 0.0, -0.17}));
+    ASSERT_TRUE(fit);
+    EXPECT_NEAR(fit->yaw_rad, 0.2, 4.0 * std::sqrt(fit->yaw_variance_rad2));
+    EXPECT_NEAR(fit->yaw_rad, 0.2, 0.0005);
+    const Eigen::Vector3d drift = -(fit->now_from_then * way).normalized();
+    EXPECT_GT(fit->drift.dot(drift), 0.999);
+    EXPECT_GT(fit->agreeing, 145);
+  }
+}
+
+TEST(TurnFit, OfAStandingVehicleUsesAllThatThePointsTell) {
+  Scene scene(2);
+  const auto standing = fit_turn(scene.pairs(100, moved({0.0, 0.0, 0.0}, 0.01)), Eigen::Matrix3d::Identity());
+  ASSERT_TRUE(standing);
+  EXPECT_NEAR(standing->yaw_rad, 0.01, 0.0002);
+  EXPECT_LT(standing->typical_parallax, 0.001);
+}
+
+TEST(TurnFit, LeavesOutAThirdThatMovesByItself) {
+  Scene scene(3);
+  auto pairs = scene.pairs(120, moved({0.8, 0.0, 0.0}, 0.05));
+  const auto away = moved({0.8, 0.0, 0.0}, 0.12);
+  for (int i = 0; i < 60; ++i) pairs.push_back(scene.pair(8.0 * scene.direction(-1.0, 1.0), away));
+  const auto fit = fit_turn(pairs, vision::so3_exp({0.0, 0.0, -0.06}));
+  ASSERT_TRUE(fit);
+  EXPECT_NEAR(fit->yaw_rad, 0.05, 0.0005);
+  int wrong = 0;
+  for (std::size_t i = 120; i < pairs.size(); ++i) wrong += fit->agrees[i] ? 1 : 0;
+  EXPECT_LT(wrong, 15);
+}
+
+TEST(TurnFit, HasAnHonestVariance) {
+  double whitened = 0.0;
+  constexpr int kRuns = 200;
+  Scene scene(4);
+  for (int i = 0; i < kRuns; ++i) {
+    const auto fit = fit_turn(scene.pairs(80, moved({0.7, 0.05, 0.0}, 0.03, 0.01)), Eigen::Matrix3d::Identity());
+    ASSERT_TRUE(fit);
+    whitened += std::pow(fit->yaw_rad - 0.03, 2) / fit->yaw_variance_rad2;
+  }
+  EXPECT_GT(whitened / kRuns, 0.5);
+  EXPECT_LT(whitened / kRuns, 1.5);
+}
+
+TEST(TurnFit, NeedsSixPoints) {
+  Scene scene(5);
+  EXPECT_FALSE(fit_turn(scene.pairs(5, moved({1.0, 0.0, 0.0}, 0.0)), Eigen::Matrix3d::Identity()));
+}
+
+}  // namespace
+}  // namespace panvo::panoramic_compass
