@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "painted_panorama.hpp"
+#include "panvo/conversions/image.hpp"
+#include "panvo/conversions/static_transforms.hpp"
+#include "panvo/conversions/time.hpp"
+#include "panvo/panoramic_compass/panoramic_compass.hpp"
+#include "panvo/runtime/testing.hpp"
+
+namespace panvo::panoramic_compass {
+namespace {
+
+constexpr std::int64_t kPeriod_ns = 200'000'000;
+
+class PanoramicCompassComponent : public testing::Test {
+ protected:
+  void load(const std::map<std::string, std::string>& parameters = {}) {
+    harness.load("panvo_panoramic_compass", "PanoramicCompassComponent", parameters);
+  }
+  void publish(const cv::Mat& panorama, const std::string& encoding = "mono8") {
+    ++frames;
+    auto message = conversions::make_image(frames * kPeriod_ns, "panorama", encoding, panorama.cols, panorama.rows);
+    panorama.copyTo(conversions::pixels(*message));
+    harness.publish(topics::kPanorama, std::shared_ptr<const sensor_msgs::msg::Image>(message));
+  }
+  void publish_mounting(const Eigen::Matrix3d& base_from_panorama) {
+    Eigen::Isometry3d mounting = Eigen::Isometry3d::Identity();
+    mounting.linear() = base_from_panorama;
+    tf2_msgs::msg::TFMessage message;
+    message.transforms({conversions::to_static_transform(0, "base_link", "panorama", mounting)});
+    harness.publish(topics::kTfStatic, message);
+  }
+
+  runtime::ComponentHarness harness;
+  const std::vector<std::shared_ptr<const panvo_msgs::msg::AzimuthChange>>& changes =
+      harness.collect(topics::kAzimuthChange);
+  const cv::Mat street = paint_panorama();
+  int frames = 0;
+};
+
+TEST_F(PanoramicCompassComponent, TellsTheTurnOfEachPanoramaButTheFirst) {
+  load();
+  publish_mounting(upright_base_from_panorama());
+  publish(street);
+  EXPECT_TRUE(changes.empty());
+  publish(turned_left(street, 10.0));
+  publish(turned_left(street, 25.0));
+  ASSERT_EQ(changes.size(), 2U);
+  EXPECT_TRUE(changes[1]->valid()) << changes[1]->reason();
+  EXPECT_NEAR(changes[1]->azimuth_change_rad(), 25.0 * kColumn_rad, 0.1 * kColumn_rad);
+  EXPECT_GT(changes[1]->variance_rad2(), 0.0);
+  EXPECT_EQ(conversions::to_ns(changes[1]->from_stamp()), kPeriod_ns);
+  EXPECT_EQ(conversions::to_ns(changes[1]->header().stamp()), 3 * kPeriod_ns);
+  EXPECT_EQ(changes[1]->header().frame_id(), "panorama");
+  EXPECT_FALSE(harness.log_contains("warning"));
+}
+
+TEST_F(PanoramicCompassComponent, HasThePapersMethodToo) {
+  load({{"method", "two_patches"}});
+  publish(street);
+  publish(turned_left(street, 10.0));
+  publish(turned_left(street, 25.0));
+  ASSERT_EQ(changes.size(), 2U);
+  EXPECT_NEAR(changes[1]->azimuth_change_rad(), 15.0 * kColumn_rad, 0.5 * kColumn_rad);
+  EXPECT_EQ(conversions::to_ns(changes[1]->from_stamp()), 2 * kPeriod_ns);
+}
+
+TEST_F(PanoramicCompassComponent, TakesColour) {
+  load();
+  cv::Mat colour;
+  for (const double columns : {0.0, 10.0}) {
+    cv::cvtColor(turned_left(street, columns), colour, cv::COLOR_GRAY2BGR);
+    publish(colour, "rgb8");
+  }
+  ASSERT_EQ(changes.size(), 1U);
+  EXPECT_NEAR(changes[0]->azimuth_change_rad(), 10.0 * kColumn_rad, 0.1 * kColumn_rad);
+}
+
+TEST_F(PanoramicCompassComponent, SaysThatItDoesNotKnowHowTheCameraSits) {
+  load();
+  publish(street);
+  EXPECT_TRUE(harness.log_contains("no chain from base_link to panorama"));
+}
+
+TEST_F(PanoramicCompassComponent, SaysWhyThereIsNoTurnAndWhenThereIsAgain) {
+  load();
+  publish(street);
+  publish(cv::Mat(kRows, kColumns, CV_8UC1, cv::Scalar(0)));
+  publish(turned_left(street, 3.0));
+  ASSERT_EQ(changes.size(), 2U);
+  EXPECT_FALSE(changes[0]->valid());
+  EXPECT_NE(changes[0]->reason().find("is black"), std::string::npos);
+  EXPECT_TRUE(changes[1]->valid());
+  EXPECT_TRUE(harness.log_contains("is black"));
+  EXPECT_TRUE(harness.log_contains("told again"));
+}
+
+TEST_F(PanoramicCompassComponent, SaysThatItWaitsForAFirstUsablePanorama) {
+  load();
+  publish(street.colRange(0, 600));
+  EXPECT_TRUE(changes.empty());
+  EXPECT_TRUE(harness.log_contains("twice as wide"));
+}
+
+TEST_F(PanoramicCompassComponent, LeavesOutWhatComesOutOfOrder) {
+  load();
+  publish(street);
+  frames = 0;
+  publish(street);
+  EXPECT_TRUE(changes.empty());
+  EXPECT_TRUE(harness.log_contains("not after the last"));
+}
+
+TEST_F(PanoramicCompassComponent, RefusesParametersThatContradictEachOther) {
+  EXPECT_THROW(load({{"patches.beta_deg", "1.0"}}), runtime::ConfigError);
+}
+
+}  // namespace
+}  // namespace panvo::panoramic_compass
