@@ -23,19 +23,17 @@ BasePose with_uncertain_stamp(const BasePose& pose, const vision::Vector6d& twis
 }
 
 std::optional<PositionCorrection> metric_correction(const LandmarkMatch& match, const Mountings& mountings) {
-  const bool is_rejected =
-      match.state == MatchState::kRejected || (match.state == MatchState::kLocked && !match.pose.has_value());
-  if (!is_rejected && match.state != MatchState::kLocked) return std::nullopt;
+  if (match.state != MatchState::kLocked && match.state != MatchState::kRejected) return std::nullopt;
   PositionCorrection correction;
   correction.stamp_ns = match.stamp_ns;
   correction.landmark_id = match.landmark_id;
   correction.inliers = match.inliers;
-  if (is_rejected) {
+  if (match.state == MatchState::kLocked && match.pose) {
+    correction.state = CorrectionState::kFull;
+    correction.pose = to_base(*match.pose, mountings);
+  } else {
     correction.reason = match.reason;
-    return correction;
   }
-  correction.state = CorrectionState::kFull;
-  correction.pose = to_base(*match.pose, mountings);
   return correction;
 }
 

@@ -188,8 +188,8 @@ class PositionCorrectorComponent final : public runtime::Component {
       correction =
           paper_correction(match, library_.keypoints(match.landmark_id), mountings, parameters_.correction.paper);
     }
-    const auto then = correction ? trail_.at(correction->stamp_ns) : std::nullopt;
-    if (then) {
+    if (!correction) return std::nullopt;
+    if (const auto then = trail_.at(correction->stamp_ns)) {
       correction->pose =
           with_uncertain_stamp(correction->pose, then->twist, 1e-3 * parameters_.correction.stamp_sigma_ms);
     }
