@@ -99,9 +99,13 @@ std::string tables_section(const JourneyReport& report) {
           "{} passes by places known before: {} corrected the pose, {} only its heading, {} were given up because "
           "the pose was known better, {} rejected, {} missed. {} corrections in all, {} wrong: away from the truth "
           "by more than 1 m beyond what the landmark's own error explains. Errors are horizontal; a landmark's own is "
-          "that of its pose when it was made, which no revisit can undercut.",
+          "that of its pose when it was made: seeing it again makes the pose hardly better than that.{}",
           revisits.listed, revisits.corrected, revisits.heading_only, revisits.given_up, revisits.rejected,
-          revisits.missed, revisits.applied.size(), revisits.wrong),
+          revisits.missed, revisits.applied.size(), revisits.wrong,
+          revisits.not_reached > 0
+              ? fmt::format(" {} more were not reached: the run covers only a part of the recording.",
+                            revisits.not_reached)
+              : std::string()),
       body);
 }
 

@@ -43,10 +43,10 @@ Json revisits_json(const RevisitScore& score) {
                     {"beyond_landmark_m", known(revisit.beyond_m)},
                     {"wrong", revisit.is_wrong}});
   }
-  return {{"listed", score.listed},       {"corrected", score.corrected},    {"heading_only", score.heading_only},
-          {"given_up", score.given_up},   {"rejected", score.rejected},      {"missed", score.missed},
-          {"elsewhere", score.elsewhere}, {"applied", score.applied.size()}, {"wrong", score.wrong},
-          {"rows", std::move(rows)}};
+  return {{"listed", score.listed},       {"corrected", score.corrected},     {"heading_only", score.heading_only},
+          {"given_up", score.given_up},   {"rejected", score.rejected},       {"missed", score.missed},
+          {"elsewhere", score.elsewhere}, {"not_reached", score.not_reached}, {"applied", score.applied.size()},
+          {"wrong", score.wrong},         {"rows", std::move(rows)}};
 }
 
 Json path_json(const PathScore& path) {

@@ -68,7 +68,7 @@ class Scorer {
 
   RevisitScore score() {
     read_applied();
-    const auto listed = listed_revisits(frames_);
+    const auto listed = within_run(listed_revisits(frames_));
     assign(listed);
     for (std::size_t i = 0; i < listed.size(); ++i) score_.revisits.push_back(at_place(listed[i], of_listed_[i]));
     for (const auto& outcomes : elsewhere_) score_.revisits.push_back(elsewhere(outcomes));
@@ -77,6 +77,14 @@ class Scorer {
   }
 
  private:
+  std::vector<ListedRevisit> within_run(std::vector<ListedRevisit> listed) {
+    const auto& poses = frames_.run.enhanced.poses;
+    score_.not_reached = static_cast<int>(std::erase_if(listed, [&](const ListedRevisit& revisit) {
+      return revisit.stamp_ns < poses.front().stamp_ns || revisit.stamp_ns > poses.back().stamp_ns;
+    }));
+    return listed;
+  }
+
   using Outcomes = std::vector<const RunOutcome*>;
 
   void read_applied() {

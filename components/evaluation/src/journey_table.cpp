@@ -49,6 +49,9 @@ std::string revisits_text(const RevisitScore& score, const std::string& heading)
       "corrections applied, {} wrong\n",
       score.listed, score.corrected, score.heading_only, score.given_up, score.rejected, score.missed, score.elsewhere,
       score.applied.size(), score.wrong);
+  if (score.not_reached > 0) {
+    text += fmt::format("  {} more were not reached: the run covers only a part of the recording\n", score.not_reached);
+  }
   if (score.before_start > 0) {
     text += fmt::format("  {} outcomes lie outside of the truth's time and are left out\n", score.before_start);
   }

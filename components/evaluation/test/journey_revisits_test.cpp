@@ -89,6 +89,17 @@ TEST_F(JourneyRevisits, AreMissedInTheMatchersWords) {
   EXPECT_FALSE(found.revisits[0].after_m);
 }
 
+TEST_F(JourneyRevisits, AreNotMissedByARunThatEndedBefore) {
+  auto run = read_journey_run(folder_ / "run");
+  run.enhanced.poses.resize(80);
+  run.outcomes.clear();
+  const auto recording = read_journey_recording(folder_ / "recording");
+  const auto found = score_revisits(journey_frames(run, recording, nullptr));
+  EXPECT_TRUE(found.revisits.empty());
+  EXPECT_EQ(found.missed, 0);
+  EXPECT_EQ(found.not_reached, 1);
+}
+
 TEST_F(JourneyRevisits, AreRejectedInTheCorrectorsWords) {
   write_outcomes("");
   write_corrections(
