@@ -56,6 +56,9 @@ void add_scale(SvgChart& plan, const Points& truth) {
 
 void add_places(SvgChart& plan, const JourneyRecording& recording) {
   for (const auto& [number, place] : recording.places) {
+    const bool is_passed = std::any_of(recording.visits.begin(), recording.visits.end(),
+                                       [&, wanted = number](const auto& visit) { return visit.place == wanted; });
+    if (!is_passed) continue;
     plan.dot(place.position_m, 9.0, "place", fmt::format("crossing {} {}", number, place.name));
     plan.label(place.position_m, 12.0, 14.0, "start", std::to_string(number));
   }

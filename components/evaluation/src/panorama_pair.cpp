@@ -40,6 +40,7 @@ int columns_of(double heading_rad) {
 }
 
 cv::Mat turned_back(const cv::Mat& image, int shift) {
+  if (shift == 0) return image;  // there is no empty image to put beside it
   cv::Mat turned;
   cv::hconcat(image.colRange(shift, image.cols), image.colRange(0, shift), turned);
   return turned;

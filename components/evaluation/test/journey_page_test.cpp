@@ -96,6 +96,12 @@ TEST_F(JourneyPage, AlignsPanoramasByTheHeading) {
   for (const auto& match : pair.inliers) EXPECT_LT((match.landmark_px - match.revisit_px).norm(), 3.0);
 }
 
+TEST_F(JourneyPage, LeavesPanoramasOfOneHeadingAsTheyAre) {
+  const auto image = folder_ / "recording/mav0/cam2/data" / (std::to_string(stamp(10)) + ".png");
+  const auto pair = panorama_pair(image, image, 1e-4);
+  EXPECT_EQ(pair.landmark_jpeg, pair.revisit_jpeg);
+}
+
 TEST_F(JourneyPage, IsWrittenByTheProgram) {
   ASSERT_EQ(call("run --recording recording --out result", "PATH=/nonexistent"), 3) << text_of(folder_ / "err.txt");
   EXPECT_THAT(text_of(folder_ / "err.txt"), HasSubstr("gnuplot"));
