@@ -42,20 +42,22 @@ Points own_bound(const RunEvaluation& run) {
   return points;
 }
 
-void mark_corrections(SvgChart& chart, const RevisitScore& score) {
+/// What lies above the picture is drawn at its border.
+void mark_corrections(SvgChart& chart, const RevisitScore& score, double highest_m) {
   for (const auto& applied : score.applied) {
     const std::string wrong = applied.is_wrong ? " wrong" : "";
     const auto tip = fmt::format(
         "after {:.0f} m, landmark {}: {:.2f} m before, {:.2f} m after{}", applied.travelled_m, applied.landmark,
         applied.before_m, applied.after_m,
         applied.landmark_m ? fmt::format("; the landmark itself is {:.2f} m off", *applied.landmark_m) : std::string());
-    chart.line({applied.travelled_m, applied.before_m}, {applied.travelled_m, applied.after_m}, "jump" + wrong, tip);
-    chart.dot({applied.travelled_m, applied.before_m}, 3.0, "before", tip);
-    chart.dot({applied.travelled_m, applied.after_m}, 4.0, "corrected" + wrong, tip);
+    chart.line({applied.travelled_m, std::min(applied.before_m, highest_m)},
+               {applied.travelled_m, std::min(applied.after_m, highest_m)}, "jump" + wrong, tip);
+    chart.dot({applied.travelled_m, std::min(applied.before_m, highest_m)}, 3.0, "before", tip);
+    chart.dot({applied.travelled_m, std::min(applied.after_m, highest_m)}, 4.0, "corrected" + wrong, tip);
   }
   for (const auto& revisit : score.revisits) {
     if (revisit.corrections > 0 || !revisit.before_m) continue;
-    chart.dot({revisit.travelled_m, *revisit.before_m}, 4.0, "missed",
+    chart.dot({revisit.travelled_m, std::min(*revisit.before_m, highest_m)}, 4.0, "missed",
               fmt::format("{} {}: {}", to_string(revisit.result), revisit.name, revisit.reason));
   }
 }
@@ -75,16 +77,17 @@ std::string error_section(const JourneyReport& report) {
   auto close = chart(340.0, run.paths.travelled_m, highest(enhanced),
                      "Horizontal error of the enhanced odometry, with its corrections");
   close.grid("distance travelled (m)", "error (m)");
+  const double top_m = from_zero(highest(enhanced)).high;
   auto bound = own_bound(run);
-  for (auto& point : bound) point.y() = std::min(point.y(), 1.06 * std::max(highest(enhanced), 1e-6));
+  for (auto& point : bound) point.y() = std::min(point.y(), top_m);
   close.curve(bound, "sigma");
   if (report.paper_run) {
     auto papers = over_distance(report.paper_run->paths.enhanced.errors);
-    for (auto& point : papers) point.y() = std::min(point.y(), 1.06 * std::max(highest(enhanced), 1e-6));
+    for (auto& point : papers) point.y() = std::min(point.y(), top_m);
     close.curve(papers, "paper");
   }
   close.curve(enhanced, "enhanced");
-  mark_corrections(close, run.revisits);
+  mark_corrections(close, run.revisits, top_m);
   std::vector<std::pair<std::string, std::string>> keys{{"enhanced", "enhanced odometry"},
                                                         {"sigma", "twice its own standard deviation"},
                                                         {"dot jump", "correction, from before (ring) to after"},

@@ -40,6 +40,12 @@ std::string page_headline(const JourneyReport& report) {
       1e-3 * paths.travelled_m, legible(paths.enhanced.final_m), legible(paths.binocular.final_m));
   text +=
       "<p class=\"lead\">" + html(what_it_is(report.run.frames.recording, paths)) +
+      (paths.unlocated_m > 0.0
+           ? fmt::format(
+                 ". For the first {:.0f} m the place in the map was not known, and was said not to be: the enhanced "
+                 "path is scored from then on",
+                 paths.unlocated_m)
+           : std::string()) +
       ". Every figure is of the pose as it was published at that moment, from the common start: nothing is smoothed "
       "or aligned afterwards.</p>\n<div class=\"tiles\">\n";
   text += tile(

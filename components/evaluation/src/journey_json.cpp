@@ -71,6 +71,7 @@ Json paths_json(const PathScores& paths) {
             {"binocular", path_json(paths.binocular)},
             {"enhanced", path_json(paths.enhanced)},
             {"ratio", paths.ratio},
+            {"unlocated_m", paths.unlocated_m},
             {"nees", nullptr}};
   if (paths.consistency) {
     json["nees"] = {{"plane", nees_json(paths.consistency->plane)}, {"full", nees_json(paths.consistency->full)}};

@@ -4,16 +4,43 @@
 #include <algorithm>
 #include <cmath>
 
+#include "panvo/evaluation/input_error.hpp"
+
 namespace panvo::evaluation {
 namespace {
 
+/// Without the poses of which the localizer said that they are none in the map.
+std::vector<PosePair> located(const std::vector<PosePair>& pairs, const JourneyRun& run, double& unlocated_m) {
+  std::vector<PosePair> kept;
+  const auto way_m = distances_m(pairs);
+  auto state = run.states.begin();
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    while (state != run.states.end() && std::next(state) != run.states.end() &&
+           std::next(state)->stamp_ns <= pairs[i].stamp_ns) {
+      ++state;
+    }
+    const bool is_unlocated = state != run.states.end() && state->stamp_ns <= pairs[i].stamp_ns &&
+                              (state->state == "unlocated" || state->state == "starting");
+    if (!is_unlocated) kept.push_back(pairs[i]);
+    if (is_unlocated && i + 1 < pairs.size()) unlocated_m += way_m[i + 1] - way_m[i];
+  }
+  if (kept.size() < kFewestPairs) {
+    throw InputError(run.folder / "states.csv", "the vehicle was never located in the map",
+                     "give a library of landmarks from the same place, or none");
+  }
+  return kept;
+}
+
 PathScore score(const std::string& name, const std::vector<PosePair>& pairs, const Eigen::Isometry3d& world_from_map,
-                double travelled_m) {
+                const Trajectory& truth, double travelled_m) {
   PathScore score;
   score.name = name;
   score.errors = pose_errors(pairs, {1.0, world_from_map});
+  const TruePath path(truth);
+  const double before_m = path.travelled_m(pairs.front().stamp_ns);  // where a path begins later
   std::vector<double> flat, heading;
-  for (const auto& error : score.errors) {
+  for (auto& error : score.errors) {
+    error.distance_m += before_m;
     flat.push_back(error.translation_m.head<2>().norm());
     heading.push_back(std::abs(error.yaw_rad));
   }
@@ -37,13 +64,15 @@ PathScores score_paths(const JourneyFrames& frames) {
   const auto binocular = associate(frames.run.binocular, frames.recording.truth);
   const auto enhanced = associate(frames.run.enhanced, frames.recording.truth);
   PathScores scores;
+  const auto in_map = located(enhanced.pairs, frames.run, scores.unlocated_m);
   scores.travelled_m = distances_m(binocular.pairs).back();
   scores.duration_s = static_cast<double>(binocular.pairs.back().stamp_ns - binocular.pairs.front().stamp_ns) * 1e-9;
-  scores.binocular = score("binocular", binocular.pairs, frames.world_from_odom, scores.travelled_m);
-  scores.enhanced = score("enhanced", enhanced.pairs, frames.world_from_map, scores.travelled_m);
+  scores.binocular =
+      score("binocular", binocular.pairs, frames.world_from_odom, frames.recording.truth, scores.travelled_m);
+  scores.enhanced = score("enhanced", in_map, frames.world_from_map, frames.recording.truth, scores.travelled_m);
   if (scores.binocular.flat_m.rmse > 0.0) scores.ratio = scores.enhanced.flat_m.rmse / scores.binocular.flat_m.rmse;
   if (frames.run.enhanced_covariances) {
-    scores.consistency = pose_consistency(enhanced.pairs, *frames.run.enhanced_covariances, frames.world_from_map);
+    scores.consistency = pose_consistency(in_map, *frames.run.enhanced_covariances, frames.world_from_map);
   }
   return scores;
 }

@@ -109,6 +109,10 @@ std::string paths_text(const JourneyReport& report) {
   auto text = fmt::format("Whole path, {:.0f} m, {:.0f} s, from the common start, as published\n", paths.travelled_m,
                           paths.duration_s) +
               table.text() + fmt::format("  enhanced / binocular, 2D rms: {:.3f}\n", paths.ratio);
+  if (paths.unlocated_m > 0.0) {
+    text += fmt::format("  not yet located in the map for {:.0f} m, which the enhanced path is scored without\n",
+                        paths.unlocated_m);
+  }
   if (const auto& nees = paths.consistency) {
     text += fmt::format(
         "  NEES of the enhanced pose: {:.2f} of {} (x, y, heading), {:.2f} of {} (all); inside 95 %: {:.1f} % and "

@@ -40,6 +40,17 @@ TEST_F(Journey, HasTheErrorsOfBothPaths) {
   EXPECT_LT(paths.binocular.ate_se3_m->rmse, paths.binocular.ate_m.rmse);
 }
 
+TEST_F(Journey, IsScoredFromWhereItWasLocated) {
+  run_.states = {{stamp(0), "unlocated", "", {}, {}}, {stamp(41), "relocalised", "", {}, {}}};
+  const auto paths = score_paths(frames());
+  EXPECT_NEAR(paths.unlocated_m, 41.0, 1e-6);
+  ASSERT_EQ(paths.enhanced.errors.size(), 60U);
+  EXPECT_NEAR(paths.enhanced.errors.front().distance_m, 41.0, 1e-6);
+  EXPECT_EQ(paths.binocular.errors.size(), 101U);
+  run_.states.resize(1);
+  EXPECT_NE(input_error_of([&] { score_paths(frames()); }), "");
+}
+
 TEST_F(Journey, HasTheConsistencyOfThePublishedPose) {
   const auto nees = score_paths(frames()).consistency;
   ASSERT_TRUE(nees);

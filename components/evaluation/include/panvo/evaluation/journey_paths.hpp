@@ -33,6 +33,8 @@ struct PathScores {
   PathScore binocular, enhanced;
   double ratio = 0.0;  ///< 2D root mean square of the enhanced path as a share of the binocular one's
   std::optional<PoseConsistency> consistency;
+  /// Way in which the localizer said that it does not know yet where in the map it is. The enhanced path is scored without it.
+  double unlocated_m = 0.0;
 };
 
 PathScores score_paths(const JourneyFrames& frames);

@@ -81,7 +81,7 @@ struct RevisitScore {
   int listed = 0, corrected = 0, heading_only = 0, given_up = 0, rejected = 0, missed = 0;  ///< of the listed ones
   int elsewhere = 0;     ///< rows of places that are not listed
   int wrong = 0;         ///< corrections
-  int not_reached = 0;  ///< listed passes before the run began or after it ended: no lines
+  int not_reached = 0;   ///< listed passes before the run began or after it ended: no lines
   int before_start = 0;  ///< outcomes outside of the truth's time, left out
 };
 
