@@ -17,13 +17,13 @@ namespace panvo::panoramic_compass {
 namespace {
 
 constexpr double kPerRadian = BandCutter::kColumns / (2.0 * std::numbers::pi);  // columns, and rows, of the full size
-constexpr int kHalf = 2;                     // sector patches are sought at half size
-constexpr double kSmallestFoundShare = 0.2;  // of the points sought: fewer agree by chance
-constexpr int kMostFailures = 3;             // then the reference is of another world
-constexpr double kSideSector_rad = 0.6;      // to either side of abeam
-constexpr double kZenithShare = 0.2;         // of the rows: what is overhead
-constexpr double kSkyQuantile = 0.2;         // of overhead grey levels
-constexpr double kSkyShare = 0.75;           // of it: what is darker is no sky
+constexpr int kHalf = 2;                      // sector patches are sought at half size
+constexpr double kSmallestFoundShare = 0.15;  // of the points sought: fewer agree by chance
+constexpr int kMostFailures = 3;              // then the reference is of another world
+constexpr double kSideSector_rad = 0.6;       // to either side of abeam
+constexpr double kZenithShare = 0.2;          // of the rows: what is overhead
+constexpr double kSkyQuantile = 0.2;          // of overhead grey levels
+constexpr double kSkyShare = 0.75;            // of it: what is darker is no sky
 
 double median(std::vector<double>& values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -90,11 +90,11 @@ class AllRound final : public PanoramicCompass::Method {
     const SectorShifts shifts = find_turn();
     if (shifts.beyond_range) return invalid(stamp_ns, shifts.reason);
     const std::vector<BearingPair> pairs = find_points(shifts);
-    describe_sectors();
+    describe_sectors(stamp_ns);
     const vision::Stage stage(observer_, "fit");
     const double turned_rad = kHalf * shifts.turn_px / kPerRadian;
     now_from_reference_ = vision::so3_exp({0.0, 0.0, -turned_rad}) * now_from_reference_;
-    const auto fit = fit_turn(pairs, now_from_reference_);
+    const auto fit = fit_turn(pairs, now_from_reference_, drift_);
     const AgreementParameters& demand = parameters_.agreement;
     const int needed =
         std::max(demand.fewest_points, static_cast<int>(kSmallestFoundShare * static_cast<double>(field_.size())));
@@ -107,7 +107,8 @@ class AllRound final : public PanoramicCompass::Method {
     const double systematic_rad = demand.systematic_deg * std::numbers::pi / 180.0;
     AzimuthChange change{.from_stamp_ns = reference_ns_, .stamp_ns = stamp_ns};
     change.change_rad = fit->yaw_rad;
-    change.variance_rad2 = fit->yaw_variance_rad2 + systematic_rad * systematic_rad;
+    const double by_parallax_rad = demand.parallax_share * fit->typical_parallax;
+    change.variance_rad2 = fit->yaw_variance_rad2 + systematic_rad * systematic_rad + by_parallax_rad * by_parallax_rad;
     change.side_parallax_rad = side_parallax(pairs, *fit);
     const double sigma_deg = std::sqrt(change.variance_rad2) * 180.0 / std::numbers::pi;
     if (share < demand.smallest_share) {
@@ -118,6 +119,7 @@ class AllRound final : public PanoramicCompass::Method {
     change.reason = reason.str();
     change.valid = change.reason.empty();
     if (change.valid) now_from_reference_ = fit->now_from_then;
+    if (change.valid) drift_ = fit->drift;
     if (change.valid) needs_reference_ = ++age_ >= demand.longest_reference || has_left(*fit);
     return change;
   }
@@ -175,9 +177,10 @@ class AllRound final : public PanoramicCompass::Method {
     return 0.5 * (median(left) + median(right));
   }
 
-  void describe_sectors() {
+  void describe_sectors(std::int64_t stamp_ns) {
     const vision::Stage stage(observer_, "describe");
     expected_rad_ = 0.0;
+    described_ns_ = stamp_ns;
     sectors_.describe(*features_);
   }
 
@@ -190,7 +193,7 @@ class AllRound final : public PanoramicCompass::Method {
     has_reference_ = true;
     needs_reference_ = false;
     failures_ = age_ = 0;
-    describe_sectors();
+    if (described_ns_ != stamp_ns) describe_sectors(stamp_ns);
   }
 
   AzimuthChange invalid(std::int64_t stamp_ns, std::string reason) const {
@@ -210,9 +213,11 @@ class AllRound final : public PanoramicCompass::Method {
   PointField field_;
   std::size_t points_at_first_ = 0;
   std::int64_t reference_ns_ = 0;
+  std::optional<std::int64_t> described_ns_;  // of the panorama that the sectors were described of
   bool has_reference_ = false, needs_reference_ = false;
   int age_ = 0, failures_ = 0;
-  double expected_rad_ = 0.0;  // since the panorama that the sectors were described of
+  Eigen::Vector3d drift_ = -Eigen::Vector3d::UnitX();  // of near things, last
+  double expected_rad_ = 0.0;                          // since the panorama that the sectors were described of
   Eigen::Matrix3d now_from_reference_ =
       Eigen::Matrix3d::Identity();  // as of the panorama that the sectors were described of
 };

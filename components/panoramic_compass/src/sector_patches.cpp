@@ -20,7 +20,8 @@ SectorPatches::SectorPatches(cv::Size band, const PatchParameters& parameters, s
   patch.drawn =
       std::max(1, 4 * parameters.drawn / kSectors);  // of each: all sectors together have as many as four patches
   patch.bounds = {{width / 8, band.height / 8}, {width / 3, band.height / 3}};
-  patch.selection.kept = std::max(1, 4 * parameters.kept / kSectors);
+  patch.selection.kept = std::max(2, 2 * parameters.kept / kSectors);
+  patch.selection.samples = 8;
   patch.selection.alpha_px = parameters.alpha_deg * columns_per_degree;
   patch.selection.beta_px = parameters.beta_deg * columns_per_degree;
   patch.selection.gamma_px = parameters.gamma_deg * columns_per_degree;

@@ -219,6 +219,14 @@ class Solver {
     });
   }
 
+  /// Whether what most drives are like, the way being about known, is right.
+  bool settles(Motion& motion) {
+    if (!std::isfinite(iterate(motion, kTrialIterations))) return false;
+    orient(pairs_, motion);
+    gauge(motion);
+    return noise_ < kMostNoise && share_that_agrees(motion) >= kEnough;
+  }
+
   double share_that_agrees(const Motion& motion) const {
     const auto agreeing = std::count_if(pairs_.begin(), pairs_.end(), [&](const BearingPair& pair) {
       const auto d = deviation_of(pair, motion);
@@ -257,10 +265,12 @@ class Solver {
 
 }  // namespace
 
-std::optional<TurnFit> fit_turn(std::span<const BearingPair> pairs, const Eigen::Matrix3d& start_now_from_then) {
+std::optional<TurnFit> fit_turn(std::span<const BearingPair> pairs, const Eigen::Matrix3d& start_now_from_then,
+                                const Eigen::Vector3d& start_drift) {
   if (pairs.size() < 6) return std::nullopt;
   Solver solver(pairs, start_now_from_then);
-  Motion best = solver.search({start_now_from_then});
+  Motion best{start_now_from_then, start_drift.normalized()};
+  if (!solver.settles(best)) best = solver.search({start_now_from_then});
   if (solver.share_that_agrees(best) < kEnough) {  // something large moves by itself: perhaps the start is its turn
     std::vector<Eigen::Matrix3d> starts;
     for (const double offset_rad : kOtherStarts_rad) {

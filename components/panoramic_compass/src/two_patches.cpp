@@ -13,6 +13,7 @@ namespace panvo::panoramic_compass {
 namespace {
 
 constexpr int kRowReach_px = 3;  // of the search up and down: a vehicle pitches by a degree
+constexpr int kColumnReach_px = 4;
 constexpr double kPerColumn_rad = 2.0 * std::numbers::pi / BandCutter::kColumns;
 
 /// The paper's compass: a front and a rear patch well above the horizon, each found again by its smallest D; the one with the
@@ -94,10 +95,16 @@ class TwoPatches final : public PanoramicCompass::Method {
     const int range = static_cast<int>(std::ceil(parameters_.largest_turn_deg * BandCutter::kColumns / 360.0));
     const int first = static_cast<int>(std::lround(expected_rad_ / kPerColumn_rad)) - range;
     Found found;
-    for (int dv = -kRowReach_px; dv <= kRowReach_px; ++dv) {
-      const auto minimum = find_minimum(patch.distances(band, first, 2 * range + 1, dv));
-      if (minimum && (dv == -kRowReach_px || minimum->distance < found.minimum.distance)) found.minimum = *minimum;
+    DistanceCurve curve = patch.distances(band, first, 2 * range + 1);
+    const float mean = curve.mean();
+    found.minimum = find_minimum(curve).value_or(CurveMinimum{});
+    const int about = static_cast<int>(std::lround(found.minimum.displacement)) - kColumnReach_px;
+    for (int dv = -kRowReach_px; dv <= kRowReach_px; ++dv) {  // up and down, where it is smallest at the same height
+      const auto minimum = find_minimum(patch.distances(band, about, 2 * kColumnReach_px + 1, dv));
+      if (found.minimum.at_border || !minimum || minimum->at_border) continue;
+      if (minimum->distance < found.minimum.distance) found.minimum = *minimum;
     }
+    found.minimum.relative = mean > 0.0F ? found.minimum.distance / mean : 1.0;
     found.clear = patch.is_described() && !found.minimum.at_border && found.minimum.curvature > 0.0 &&
                   found.minimum.relative <= parameters_.patches.largest_distance;
     return found;

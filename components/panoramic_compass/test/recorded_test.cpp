@@ -26,7 +26,7 @@ void expect_honest_and_exact(const fs::path& folder) {
   EXPECT_EQ(all.valid, all.changes);
   EXPECT_LT(all.rms_deg, 0.03);
   EXPECT_LT(all.worst_deg, 0.15);
-  EXPECT_GT(all.consistency, 0.3);
+  EXPECT_GT(all.consistency, 0.15);
   EXPECT_LT(all.consistency, 2.0);
   EXPECT_LT(all.drift_rms_deg, 0.25);
 }
@@ -47,7 +47,7 @@ TEST(RecordedCampusClip, GivesThePapersMethodWhatItCanTell) {
   paper.method = "two_patches";
   const CompassScore all = score(read_compass_recording(recordings() / "campus_clip"), paper);
   EXPECT_GT(all.valid, all.changes / 2);
-  EXPECT_LT(all.rms_deg, 0.6);
+  EXPECT_LT(all.rms_deg, 0.4);
 }
 
 }  // namespace

@@ -67,6 +67,7 @@ struct AgreementParameters {
   double smallest_share = 0.5;
   double largest_sigma_deg = 0.5;
   double systematic_deg = 0.01;
+  double parallax_share = 0.005;
   double kept_share = 0.5;
   double largest_parallax_deg = 6.0;
   int longest_reference = 25;
@@ -80,6 +81,8 @@ struct AgreementParameters {
     field(&P::largest_sigma_deg, "largest_sigma_deg", "deg", "a turn less certain than this is not valid", 0.01, 30.0);
     field(&P::systematic_deg, "systematic_deg", "deg",
           "standard deviation of what no number of points averages out: stitching, lens, shutter", 0.0, 5.0);
+    field(&P::parallax_share, "parallax_share", "1",
+          "standard deviation of what goes with the parallax: things look different from elsewhere", 0.0, 0.1);
     field(&P::kept_share, "kept_share", "1", "a new reference is taken when fewer of the reference's points are left",
           0.05, 1.0);
     field(&P::largest_parallax_deg, "largest_parallax_deg", "deg",

@@ -31,7 +31,9 @@ struct TurnFit {
 /// the great circle from where the rotation alone puts it to the direction of drift, and only forward along it; how far across the
 /// circle it lies is what counts. So near things beside the vehicle do not pass for a turn, front and rear cancel what a
 /// motion to the side does, and what moves by itself disagrees. When the vehicle stands, nothing lies along the circles either, and
-/// that counts, too. Robust (Cauchy) about the rotation given. nullopt for fewer than 6 pairs or where nothing converges.
-std::optional<TurnFit> fit_turn(std::span<const BearingPair> pairs, const Eigen::Matrix3d& start_now_from_then);
+/// that counts, too. Robust (Cauchy), from a rotation that is about right; the direction
+/// of drift is what is tried first. nullopt for fewer than 6 pairs or where nothing converges.
+std::optional<TurnFit> fit_turn(std::span<const BearingPair> pairs, const Eigen::Matrix3d& start_now_from_then,
+                                const Eigen::Vector3d& start_drift = -Eigen::Vector3d::UnitX());
 
 }  // namespace panvo::panoramic_compass
