@@ -113,6 +113,7 @@ Correction Localizer::add(const LandmarkSighting& sighting) {
   const auto landmark = graph_.landmark(sighting.landmark_id);
   if (!landmark) return rejected(fmt::format("landmark {} is not known", sighting.landmark_id));
   correction.map_from_base_before = correction.map_from_base_after = graph_.carried(at->pose).map_from_base;
+  mounting_.add(sighting, *at);
   auto reason = doubt(sighting, *landmark, *at, correction);
   if (!reason.empty()) return rejected(std::move(reason));
 

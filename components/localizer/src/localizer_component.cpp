@@ -208,6 +208,19 @@ class LocalizerComponent final : public runtime::Component {
     } else if (correction.kind == CorrectionKind::kRejected) {
       say_once(fmt::format("landmark {} seen, not believed: {}", sighting.landmark_id, correction.reason));
     }
+    check_mounting();
+  }
+
+  void check_mounting() {
+    const auto misalignment = localizer_.mounting().misalignment();
+    if (!misalignment || has_told_mounting_) return;
+    has_told_mounting_ = true;
+    constexpr double kDegrees = 180.0 / M_PI;
+    context_.log().warn(
+        "the panoramic camera looks {:+.1f} deg to the left and {:+.1f} deg down of where {} says, or the stereo "
+        "camera as "
+        "much the other way: calibrate their extrinsics",
+        kDegrees * misalignment->yaw_rad, kDegrees * misalignment->pitch_rad, topics::kTfStatic.name);
   }
 
   void take(const Built& built) {
@@ -287,6 +300,7 @@ class LocalizerComponent final : public runtime::Component {
   int unused_ = 0;
   bool was_contradicted_ = false;
   bool has_told_offset_ = false;
+  bool has_told_mounting_ = false;
   std::string last_warning_;
 };
 

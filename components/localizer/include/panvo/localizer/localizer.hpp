@@ -10,6 +10,7 @@
 #include "panvo/localizer/clock_offset.hpp"
 #include "panvo/localizer/journey_graph.hpp"
 #include "panvo/localizer/localizer_parameters.hpp"
+#include "panvo/localizer/mounting_check.hpp"
 #include "panvo/localizer/odometry_chain.hpp"
 
 namespace panvo::localizer {
@@ -82,6 +83,7 @@ class Localizer {
   /// Where the landmarks of this journey, and those seen on it, are by now; by ascending id.
   std::vector<KnownLandmark> landmarks() const;
   const ClockOffset& panorama_clock() const noexcept { return clock_; }
+  const MountingCheck& mounting() const noexcept { return mounting_; }
 
  private:
   struct Asking {  // a sighting that was not believed
@@ -103,6 +105,7 @@ class Localizer {
   OdometryChain chain_;
   ClockOffset clock_;
   JourneyGraph graph_;
+  MountingCheck mounting_;
 
   Eigen::Isometry3d last_raw_ = Eigen::Isometry3d::Identity();
   Eigen::Isometry3d smooth_ = Eigen::Isometry3d::Identity();  // odom_from_base as it is told
