@@ -54,10 +54,11 @@ class MadeJourney : public TemporaryFolder {
     write_run();
   }
 
-  void write_recording(const std::string& name) const {
+  /// `left_m`: as if driven that far to the left of the street, at the same time.
+  void write_recording(const std::string& name, double left_m = 0.0) const {
     std::string truth = "#timestamp, x, y, z, qw, qx, qy, qz\n";
     for (int s = 0; s <= kSeconds; ++s) {
-      const auto pose = world_from_map() * map_from_base(s);
+      const auto pose = world_from_map() * make_pose(0.0, left_m, 0.0) * map_from_base(s);
       const Eigen::Quaterniond turn(pose.linear());
       truth += fmt::format("{},{:.12f},{:.12f},0,{:.12f},{:.12f},{:.12f},{:.12f}\n", stamp(s), pose.translation().x(),
                            pose.translation().y(), turn.w(), turn.x(), turn.y(), turn.z());

@@ -61,6 +61,20 @@ TEST_F(JourneyPage, ShowsEveryRevisitWithBothPanoramas) {
   EXPECT_THAT(text, HasSubstr("landmark_store.file = kept.sqlite"));
 }
 
+TEST_F(JourneyPage, PutsThePapersOwnCorrectionBeside) {
+  const auto run = read_journey_run(folder_ / "run");
+  const auto recording = read_journey_recording(folder_ / "recording");
+  auto papers = run;
+  papers.outcomes.clear();
+  JourneyReport report{"street", evaluate_run(run, recording, nullptr), {}, false};
+  report.paper_run.emplace(evaluate_run(papers, recording, nullptr));
+  const auto compared = side_by_side(report);
+  ASSERT_EQ(compared.size(), 1U);
+  EXPECT_EQ(compared[0].ours->result, RevisitResult::kCorrected);
+  EXPECT_EQ(compared[0].papers->result, RevisitResult::kMissed);
+  EXPECT_THAT(journey_page(report), HasSubstr("side by side"));
+}
+
 TEST_F(JourneyPage, IsTheSameEveryTime) { EXPECT_EQ(page(), page()); }
 
 TEST_F(JourneyPage, SaysWhatItWasGivenAndNoMarkup) {

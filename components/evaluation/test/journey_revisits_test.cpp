@@ -149,6 +149,26 @@ TEST_F(JourneyRevisits, OfASecondJourneyAreThoseOfTheFirst) {
   EXPECT_EQ(found.revisits[1].result, RevisitResult::kCorrected);
 }
 
+TEST_F(JourneyRevisits, TellLandmarksOfTwoJourneysApartThoughTheirClocksAreOne) {
+  // The map begins where the earlier journey did, 30 m to the left; its landmark 3 has the stamp of a pose of this journey, too.
+  write_recording("earlier", 30.0);
+  auto run = read_journey_run(folder_ / "run");
+  const auto in_map = make_pose(0.0, -30.0, 0.0);
+  for (auto& pose : run.enhanced.poses) pose.world_from_base = in_map * pose.world_from_base;
+  run.outcomes[0].map_from_base_before = in_map * run.outcomes[0].map_from_base_before;
+  run.outcomes[0].map_from_base_after = in_map * run.outcomes[0].map_from_base_after;
+  const auto recording = read_journey_recording(folder_ / "recording");
+  const auto earlier = read_journey_recording(folder_ / "earlier");
+  const auto found = score_revisits(journey_frames(run, recording, &earlier));
+  ASSERT_EQ(found.revisits.size(), 2U);
+  const auto& revisit = found.revisits[1];
+  EXPECT_TRUE(revisit.landmark_was_earlier);
+  EXPECT_NEAR(*revisit.landmark_m, 0.2, 1e-6);
+  EXPECT_NEAR(*revisit.before_m, 1.8, 1e-6);
+  EXPECT_NEAR(*revisit.after_m, 0.25, 1e-6);
+  EXPECT_NEAR(revisit.distance_m, 30.0, 1e-6);
+}
+
 TEST_F(JourneyRevisits, NeedTheTruthOfTheSameClock) {
   auto later = outcome(90, "applied", binocular(90), enhanced(90));
   later.replace(0, 4, "1800");
