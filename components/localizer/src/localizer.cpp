@@ -63,7 +63,12 @@ AzimuthUse Localizer::add(const AzimuthMeasurement& azimuth) {
   const auto rate_then = chain_.yaw_rate(from_ns);
   const auto rate_now = chain_.yaw_rate(to_ns);
   const double rate_change = rate_then && rate_now ? *rate_now - *rate_then : 0.0;
-  const double compass_variance = azimuth.variance_rad2 + rate_change * rate_change * clock_.variance_s2();
+  // Turns against the same panorama err alike: the second of them tells half as much as the first, and so on.
+  repeats_ = last_from_ns_ == azimuth.from_ns ? repeats_ + 1 : 1;
+  last_from_ns_ = azimuth.from_ns;
+  const double missed_rad = parameters_.compass_turn_error_ratio * azimuth.change_rad;
+  const double measured_variance = repeats_ * azimuth.variance_rad2 + missed_rad * missed_rad;
+  const double compass_variance = measured_variance + rate_change * rate_change * clock_.variance_s2();
   const double spread = compass_variance + turn->variance_rad2;
   const double excess =
       disagreement * disagreement / (spread * parameters_.contradiction_sigmas * parameters_.contradiction_sigmas);
@@ -75,7 +80,7 @@ AzimuthUse Localizer::add(const AzimuthMeasurement& azimuth) {
     odometry_variance *= factor;
     doubtful_ns_ = to_ns;
   } else {
-    clock_.add(disagreement, rate_change, azimuth.variance_rad2 + turn->variance_rad2);
+    clock_.add(disagreement, rate_change, measured_variance + turn->variance_rad2);
   }
   const double gain = odometry_variance / (odometry_variance + compass_variance);
   chain_.turn_more(from_ns, to_ns, gain * disagreement, 1.0 - gain);

@@ -11,6 +11,7 @@ struct Parameters {
   double same_pass_m = 40.0;
   double history_s = 120.0;
   double contradiction_sigmas = 4.0;
+  double compass_turn_error_ratio = 0.007;
   double clock_sigma_s = 0.05;
   double patience_s = 1.0;
   double lost_sigma_m = 50.0;
@@ -35,6 +36,11 @@ struct Parameters {
     field(&P::history_s, "history_s", "s", "how late a landmark or a correction may come", 1.0, 3600.0);
     field(&P::contradiction_sigmas, "contradiction_sigmas", "1",
           "odometry whose turn is farther than this from the compass's is taken for wrong", 1.0, 100.0);
+    field(
+        &P::compass_turn_error_ratio, "compass_turn_error_ratio", "1",
+        "share of a turn that the compass may miss every time: of drops on the lens and parts of the vehicle, which do "
+        "not turn against the camera",
+        0.0, 0.5);
     field(&P::clock_sigma_s, "clock_sigma_s", "s",
           "standard deviation of the offset between the cameras' clocks before it is known; 0: they are one", 0.0, 1.0);
     field(&P::patience_s, "patience_s", "s",
