@@ -110,6 +110,19 @@ PoseInMap JourneyGraph::carried(const OdometryPose& odometry) const {
   return {from.map_from_base * way, vision::compose_covariance(from.map_from_base, from.covariance, way, covariance)};
 }
 
+vision::Matrix6d JourneyGraph::common_covariance(const Eigen::Vector3d& position, double scale_sigma) const {
+  const Node* last = nullptr;
+  for (const auto& node : nodes_) {
+    if (!node.is_pass || !known_.contains(node.landmark_id)) continue;
+    if (last == nullptr || node.at.pose.stamp_ns > last->at.pose.stamp_ns) last = &node;
+  }
+  if (last != nullptr) return known_.at(last->landmark_id).covariance;
+  vision::Matrix6d covariance = vision::Matrix6d::Zero();
+  const Eigen::Vector3d way = position - nodes_.front().map_from_base.translation();
+  covariance.topLeftCorner<3, 3>() = scale_sigma * scale_sigma * way * way.transpose();
+  return covariance;
+}
+
 void JourneyGraph::place(const Eigen::Isometry3d& map_from_former_map) {
   vision::Matrix6d turn = vision::Matrix6d::Zero();
   turn.topLeftCorner<3, 3>() = turn.bottomRightCorner<3, 3>() = map_from_former_map.linear();

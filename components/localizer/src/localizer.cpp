@@ -148,10 +148,8 @@ bool Localizer::reaches(std::int64_t panorama_stamp_ns) const {
 
 std::vector<KnownLandmark> Localizer::landmarks() const {
   auto landmarks = graph_.landmarks();
-  if (is_located_) return landmarks;
-  for (auto& landmark : landmarks) {  // where they lie in the map is not known yet
-    landmark.covariance.topLeftCorner<3, 3>() += kUnknownPosition_m * kUnknownPosition_m * Eigen::Matrix3d::Identity();
-    landmark.covariance(5, 5) += kUnknownYaw_rad * kUnknownYaw_rad;
+  for (auto& landmark : landmarks) {
+    landmark.covariance += common_covariance(landmark.map_from_base.translation());
   }
   return landmarks;
 }
@@ -174,10 +172,17 @@ LocalizedPose Localizer::localized(const OdometryPose& odometry) const {
 
 PoseInMap Localizer::expected(const OdometryPose& odometry) const {
   auto here = graph_.carried(odometry);
-  if (is_located_) return here;
-  here.covariance.topLeftCorner<3, 3>() += kUnknownPosition_m * kUnknownPosition_m * Eigen::Matrix3d::Identity();
-  here.covariance(5, 5) += kUnknownYaw_rad * kUnknownYaw_rad;
+  here.covariance += common_covariance(here.map_from_base.translation());
   return here;
+}
+
+/// Of what is the same for all poses of the journey, so that no sighting of its own landmarks shows it.
+vision::Matrix6d Localizer::common_covariance(const Eigen::Vector3d& position) const {
+  if (is_located_) return graph_.common_covariance(position, parameters_.scale_sigma);
+  vision::Matrix6d covariance = vision::Matrix6d::Zero();
+  covariance.topLeftCorner<3, 3>() = kUnknownPosition_m * kUnknownPosition_m * Eigen::Matrix3d::Identity();
+  covariance(5, 5) = kUnknownYaw_rad * kUnknownYaw_rad;
+  return covariance;
 }
 
 void Localizer::tell_state(LocalizedPose& pose) const {

@@ -84,9 +84,16 @@ double error_m(const LocalizedPose& pose, const Drive& drive) {
   return (pose.map_from_base.translation() - drive.truth.translation()).norm();
 }
 
+/// The odometry of these drives has no error of scale.
+Parameters of_known_scale() {
+  Parameters parameters;
+  parameters.scale_sigma = 0.0;
+  return parameters;
+}
+
 /// Drives a round with a landmark at metre 20, and comes past it again.
 struct Round {
-  explicit Round(unsigned seed, const Parameters& parameters = {}) : drive(seed), localizer(parameters) {
+  explicit Round(unsigned seed, const Parameters& parameters = of_known_scale()) : drive(seed), localizer(parameters) {
     localizer.add(drive.now());
     for (int i = 0; i < 220; ++i) {
       localizer.add(drive.step());
@@ -260,7 +267,7 @@ TEST(Localizer, HasACovarianceThatErrorsFollowAlsoWithACompass) {
     Drive drive(seed);
     std::mt19937_64 random(seed + 1000);
     std::normal_distribution<double> normal;
-    Localizer localizer({});
+    Localizer localizer(of_known_scale());
     localizer.add(drive.now());
     for (int i = 0; i < 100; ++i) {
       localizer.add(drive.step());
@@ -405,6 +412,56 @@ TEST(Localizer, DoesNotSayWhereItIsInAMapInWhichItWasNotFound) {
   ASSERT_TRUE(localizer.add_built(4, drive.now().stamp_ns));
   ASSERT_EQ(localizer.landmarks().size(), 1U) << "the other was not seen";
   EXPECT_GT(localizer.landmarks().front().covariance(0, 0), 1e6);
+}
+
+TEST(Localizer, IsNoSurerThanTheMapItIsIn) {
+  Drive drive(18);
+  Localizer localizer({});
+  std::vector<Eigen::Isometry3d> places;
+  for (std::uint32_t id = 1; id <= 4; ++id) {  // a map that is off as a whole by as much as its covariance says
+    KnownLandmark known;
+    known.id = id;
+    Drive ahead(18);
+    for (std::uint32_t i = 0; i < 10 * id; ++i) ahead.step();
+    places.push_back(ahead.truth);
+    known.map_from_base = ahead.truth;
+    known.map_from_base.translation().x() += 1.0;
+    known.covariance = 1e-4 * vision::Matrix6d::Identity();
+    known.covariance.topLeftCorner<3, 3>() = Eigen::Matrix3d::Identity();
+    localizer.add_known(known);
+  }
+  localizer.add(drive.now());
+  for (int i = 1; i <= 42; ++i) {
+    localizer.add(drive.step());
+    if (i % 10 < 3 && i >= 10) {
+      const auto id = static_cast<std::uint32_t>(i / 10);
+      localizer.add(drive.sight(id, places[id - 1]));
+    }
+  }
+  const auto& pose = localizer.latest();
+  ASSERT_EQ(pose.state, State::kRelocalised);
+  EXPECT_NEAR(error_m(pose, drive), 1.0, 0.3);
+  EXPECT_GT(pose.covariance(0, 0), 1.0);
+}
+
+TEST(Localizer, DoesNotKnowItsScale) {
+  Drive drive(19);
+  Parameters parameters;
+  Parameters exact;
+  exact.scale_sigma = 0.0;
+  parameters.scale_sigma = 0.02;
+  Localizer unsure(parameters);
+  Localizer sure(exact);
+  unsure.add(drive.now());
+  sure.add(drive.now());
+  for (int i = 0; i < 50; ++i) {
+    const auto odometry = drive.step();
+    unsure.add(odometry);
+    sure.add(odometry);
+  }
+  const double way_m = unsure.latest().map_from_base.translation().norm();
+  const double more = (unsure.latest().covariance - sure.latest().covariance).topLeftCorner<3, 3>().trace();
+  EXPECT_NEAR(more, std::pow(0.02 * way_m, 2), 1e-6);
 }
 
 TEST(Localizer, SaysWhatIsWrongWithASighting) {

@@ -96,6 +96,7 @@ class Localizer {
   LocalizedPose localized(const OdometryPose& odometry) const;
   void tell_state(LocalizedPose& pose) const;
   PoseInMap expected(const OdometryPose& odometry) const;
+  vision::Matrix6d common_covariance(const Eigen::Vector3d& position) const;
   std::string doubt(const LandmarkSighting& sighting, const KnownLandmark& landmark, const Remembered& at,
                     Correction& correction);
   bool agree(const Asking& before, const Asking& now) const;
