@@ -85,6 +85,7 @@ class LocalizerComponent final : public runtime::Component {
   static constexpr std::size_t kMostWaiting = 100;  // things said of panoramas that odometry has not come to
   static constexpr double kStatePeriod_s = 1.0;
   static constexpr double kNoPanorama_s = 10.0;
+  static constexpr double kUnlocatedFor_m = 500.0;  // by then a place would have been passed again
   static constexpr double kNotableOffset_s = 0.02;
   static constexpr double kSureOffset_s = 0.004;
 
@@ -110,6 +111,10 @@ class LocalizerComponent final : public runtime::Component {
     tf_.publish(to_transforms(localized, parameters_.map_frame, parameters_.odom_frame, message.child_frame_id()));
     tell_paths(stamp_ns, *pose);
     tell_state(localized);
+    if (localized.state == State::kUnlocated && localizer_.way_m() > kUnlocatedFor_m) {
+      say_once(fmt::format("no place of earlier days was recognised in {:.0f} m: are they of another place?",
+                           kUnlocatedFor_m));
+    }
     if (azimuth_ns_ && seconds(*azimuth_ns_, stamp_ns) > kNoPanorama_s) {
       say_once(fmt::format("no panorama for {:.0f} s: the pose drifts as the stereo odometry does", kNoPanorama_s));
     }

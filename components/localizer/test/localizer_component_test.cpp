@@ -171,6 +171,15 @@ TEST_F(LocalizerComponent, DoesNotKnowWhereItIsInAMapOfAnEarlierDayUntilTwoPanor
   EXPECT_NEAR(enhanced_.back()->pose().pose().position().y(), expected.y(), 0.1);
 }
 
+TEST_F(LocalizerComponent, SaysThatTheLandmarksMayBeOfAnotherPlace) {
+  load();
+  publish_landmark(9, kBegin_ns - 86'400'000'000'000, at(300.0, 100.0, 1.0));
+  drive(0, 2450);
+  EXPECT_FALSE(harness_.log_contains("are they of another place?"));
+  drive(2450, 2550);
+  EXPECT_TRUE(harness_.log_contains("are they of another place?"));
+}
+
 TEST_F(LocalizerComponent, SaysThatTheCamerasClocksDisagree) {
   load();
   drive(0, 10);

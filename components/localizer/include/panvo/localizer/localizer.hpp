@@ -78,6 +78,8 @@ class Localizer {
   Correction add(const LandmarkSighting& sighting);
 
   const LocalizedPose& latest() const noexcept { return latest_; }
+  /// Way of the odometry since the start, m.
+  double way_m() const { return chain_.empty() ? 0.0 : chain_.latest().way_m; }
   /// True when odometry reaches as far as a panorama's stamp: what is to be said of it can be said.
   bool reaches(std::int64_t panorama_stamp_ns) const;
   /// Where the landmarks of this journey, and those seen on it, are by now; by ascending id.
