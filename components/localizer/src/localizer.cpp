@@ -223,7 +223,7 @@ std::string Localizer::doubt(const LandmarkSighting& sighting, const KnownLandma
         here.covariance + vision::compose_covariance(landmark.map_from_base, landmark.covariance,
                                                      sighting.landmark_from_base, sighting.covariance);
     correction.chi_square = error.dot(spread.ldlt().solve(error));
-    if (correction.chi_square <= parameters_.gate_chi_square) {
+    if (sighting.stands_alone && correction.chi_square <= parameters_.gate_chi_square) {
       asking_.reset();
       dissent_.reset();
       return {};
@@ -231,8 +231,14 @@ std::string Localizer::doubt(const LandmarkSighting& sighting, const KnownLandma
   }
   const Asking now{sighting, measured * at.pose.odom_from_base.inverse(), at.way_m};
   const auto before = std::exchange(asking_, now);
-  const bool is_asked_twice = before && before->sighting.landmark_id == sighting.landmark_id &&
+  const bool is_weaker = before && sighting.stands_alone && !before->sighting.stands_alone;
+  const bool is_asked_twice = before && !is_weaker && before->sighting.landmark_id == sighting.landmark_id &&
                               before->sighting.stamp_ns < sighting.stamp_ns && agree(*before, now);
+  if (!sighting.stands_alone) {
+    if (!is_placed) return "of few points, and where the vehicle is expected is not known";
+    if (correction.chi_square > parameters_.gate_chi_square) return "of few points, and not where it was expected";
+    return is_asked_twice ? "" : "of few points: the next panorama must agree";
+  }
   if (!is_placed) return is_asked_twice ? "" : "the first sighting: a second panorama must agree";
   const auto far =
       fmt::format("{:.0f} from what was expected, {:.0f} at most", correction.chi_square, parameters_.gate_chi_square);

@@ -124,6 +124,7 @@ conversions::Result<LandmarkSighting> to_sighting(const panvo_msgs::msg::Positio
   sighting.landmark_id = message.landmark_id();
   sighting.landmark_from_base = *pose;
   sighting.covariance = conversions::to_matrix(message.landmark_from_base().covariance());
+  sighting.stands_alone = message.state() != "weak";
   return sighting;
 }
 

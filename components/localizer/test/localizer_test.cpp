@@ -414,6 +414,26 @@ TEST(Localizer, DoesNotSayWhereItIsInAMapInWhichItWasNotFound) {
   EXPECT_GT(localizer.landmarks().front().covariance(0, 0), 1e6);
 }
 
+TEST(Localizer, BelievesFewPointsOnlyWhereTwoPanoramasAgreeAndTheVehicleIsExpected) {
+  Round round(20);
+  const auto weak = [&] {
+    auto sighting = round.drive.sight(1, round.landmark);
+    sighting.stands_alone = false;
+    return sighting;
+  };
+  EXPECT_EQ(round.localizer.add(weak()).kind, CorrectionKind::kRejected);
+  round.localizer.add(round.drive.step());
+  EXPECT_EQ(round.localizer.add(weak()).kind, CorrectionKind::kApplied);
+  Round other(21);
+  for (int i = 0; i < 5; ++i) {  // all of them agree on a place that is elsewhere
+    auto far = other.drive.sight(1, other.landmark);
+    far.stands_alone = false;
+    far.landmark_from_base.translation() += Eigen::Vector3d(15.0, -10.0, 0.0);
+    EXPECT_EQ(other.localizer.add(far).kind, CorrectionKind::kRejected) << i;
+    other.localizer.add(other.drive.step());
+  }
+}
+
 TEST(Localizer, IsNoSurerThanTheMapItIsIn) {
   Drive drive(18);
   Localizer localizer({});

@@ -13,6 +13,8 @@ std::string to_text(CorrectionState state) {
   switch (state) {
     case CorrectionState::kFull:
       return "full";
+    case CorrectionState::kWeak:
+      return "weak";
     case CorrectionState::kRotationOnly:
       return "rotation_only";
     case CorrectionState::kRejected:

@@ -127,10 +127,12 @@ LandmarkMatch LandmarkMatcher::search(const PanoramaFrame& frame, const landmark
       if (match.reason.empty()) {
         match.reason = fmt::format("landmark {}: {}", candidate.landmark->id, found.reason);
         match.inliers = found.inliers;
+        match.weak_pose = std::move(found.weak_pose);
       }
       continue;
     }
     tell(candidate);
+    match.weak_pose.reset();
     match.state = MatchState::kLocked;
     match.reason = fmt::format("{} of {} points agree", found.inliers, found.matches);
     match.inliers = found.inliers;
@@ -167,6 +169,7 @@ LandmarkMatch LandmarkMatcher::follow(const PanoramaFrame& frame, const landmark
         estimate_panorama_pose(keypoints, library.keypoints(lock.landmark_id), match.heading_rad, parameters_.pose);
     match.reason = found.pose ? fmt::format("{} of {} points agree", found.inliers, found.matches) : found.reason;
     match.inliers = found.inliers;
+    match.weak_pose = std::move(found.weak_pose);
     lock.pass.curve.push_back({frame.travelled_m, match.small_distance});
     if (found.pose) {
       match.heading_rad = lock.heading_rad = found.pose->heading_rad;

@@ -169,7 +169,8 @@ PanoramaPoseResult estimate_panorama_pose(std::span<const Keypoint> panorama, st
     result.reason = fmt::format("{} {} of {} needed", count, what, needed);
     return result;
   };
-  if (result.matches < std::max(needed, kFewestForRansac)) return few("matched points", result.matches);
+  const int needed_weakly = std::min(needed, std::max(parameters.fewest_weak_inliers, kFewestForRansac));
+  if (result.matches < needed_weakly) return few("matched points", result.matches);
   const auto start = three_point_ransac(matched, parameters);
   if (!start) return few("inliers", 0);
 
@@ -180,7 +181,7 @@ PanoramaPoseResult estimate_panorama_pose(std::span<const Keypoint> panorama, st
     if (expected.dot(seen.bearing) > cosine) inliers.push_back(seen);
   }
   result.inliers = static_cast<int>(inliers.size());
-  if (result.inliers < needed) return few("inliers", result.inliers);
+  if (result.inliers < needed_weakly) return few("inliers", result.inliers);
   if (const int held = sectors(inliers); held < parameters.fewest_sectors) {
     result.reason = fmt::format("{} inliers, but in {} of 12 sectors only, {} needed", result.inliers, held,
                                 parameters.fewest_sectors);
@@ -194,13 +195,18 @@ PanoramaPoseResult estimate_panorama_pose(std::span<const Keypoint> panorama, st
   refined = refine_pose(refined.landmark_from_panorama, guided, sigma_rad);
   guided = agreeing(guided, refined.landmark_from_panorama, sigma_rad);
   result.inliers = static_cast<int>(guided.size());
-  if (result.inliers < needed) return few("inliers", result.inliers);
+  if (result.inliers < needed_weakly) return few("inliers", result.inliers);
   refined = refine_pose(refined.landmark_from_panorama, guided, sigma_rad);
 
   result.reason = objection(refined.landmark_from_panorama, heading_rad, parameters);
+  const PanoramaPose pose{refined.landmark_from_panorama, refined.covariance,
+                          heading_of(refined.landmark_from_panorama.linear())};
+  if (result.inliers < needed) {
+    if (result.reason.empty()) result.weak_pose = pose;
+    return few("inliers", result.inliers);
+  }
   if (!result.reason.empty()) return result;
-  result.pose = PanoramaPose{refined.landmark_from_panorama, refined.covariance,
-                             heading_of(refined.landmark_from_panorama.linear())};
+  result.pose = pose;
   return result;
 }
 

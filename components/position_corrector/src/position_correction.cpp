@@ -33,6 +33,10 @@ std::optional<PositionCorrection> metric_correction(const LandmarkMatch& match, 
     correction.pose = to_base(*match.pose, mountings);
   } else {
     correction.reason = match.reason;
+    if (match.weak_pose) {
+      correction.state = CorrectionState::kWeak;
+      correction.pose = to_base(*match.weak_pose, mountings);
+    }
   }
   return correction;
 }

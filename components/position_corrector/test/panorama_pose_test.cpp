@@ -112,6 +112,19 @@ TEST(PanoramaPose, IsRefusedWhereAllThatAgreesStandsInOneDirection) {
   EXPECT_NE(result.reason.find("sectors"), std::string::npos) << result.reason;
 }
 
+TEST(PanoramaPose, OfFewPointsIsAWeakOne) {
+  Place place;
+  place.panorama.resize(10);
+  const auto result = estimate_panorama_pose(place.panorama, place.landmark, Place::kHeading_rad, {});
+  EXPECT_FALSE(result.pose);
+  EXPECT_NE(result.reason.find("of 12 needed"), std::string::npos) << result.reason;
+  ASSERT_TRUE(result.weak_pose);
+  const auto error = vision::pose_error(result.weak_pose->landmark_from_panorama, place.seen_from);
+  EXPECT_LT(error.head<3>().norm(), 0.5);
+  place.panorama.resize(6);
+  EXPECT_FALSE(estimate_panorama_pose(place.panorama, place.landmark, Place::kHeading_rad, {}).weak_pose);
+}
+
 TEST(PanoramaPose, SaysThatALandmarkWithoutPointsGivesNone) {
   Place place;
   for (auto& known : place.landmark) known.has_point = false;

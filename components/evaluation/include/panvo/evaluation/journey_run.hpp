@@ -35,7 +35,7 @@ struct RunMatch {
 struct RunCorrection {
   std::int64_t stamp_ns = 0;
   std::int64_t landmark = 0;
-  std::string state;  ///< full, rotation_only or rejected
+  std::string state;  ///< full, weak, rotation_only or rejected
   std::int64_t inliers = 0;
   Eigen::Isometry3d landmark_from_base = Eigen::Isometry3d::Identity();
   std::string reason;

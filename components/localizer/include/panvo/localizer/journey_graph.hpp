@@ -26,6 +26,7 @@ struct LandmarkSighting {
   std::uint32_t landmark_id = 0;
   Eigen::Isometry3d landmark_from_base = Eigen::Isometry3d::Identity();
   vision::Matrix6d covariance = vision::Matrix6d::Zero();
+  bool stands_alone = true;  ///< false: of so few points that another must agree
 };
 
 struct PoseInMap {

@@ -104,7 +104,8 @@ struct LandmarkMatch {
   double large_distance = std::numeric_limits<double>::quiet_NaN();
   double small_distance = std::numeric_limits<double>::quiet_NaN();
   int candidates = 0, kept_after_histogram = 0, kept_after_large = 0;
-  std::optional<PanoramaPose> pose;  ///< where it was taken, seen from the landmark
+  std::optional<PanoramaPose> pose;       ///< where it was taken, seen from the landmark
+  std::optional<PanoramaPose> weak_pose;  ///< instead of it: one that must not stand alone
   int inliers = 0;  ///< keypoints that agree on the pose, or the most that did where geometry rejected it
   std::optional<LandmarkPass> pass;  ///< when matched
 };

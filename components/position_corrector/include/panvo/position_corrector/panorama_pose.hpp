@@ -18,6 +18,7 @@ struct PanoramaPoseParameters {
   double inlier_angle_deg = 0.8;
   int iterations = 200;
   int fewest_inliers = 12;
+  int fewest_weak_inliers = 7;
   double fewest_inliers_share = 0.25;
   int fewest_sectors = 4;
   double largest_turn_deg = 25.0;
@@ -40,6 +41,9 @@ struct PanoramaPoseParameters {
     field(&P::iterations, "iterations", "1", "samples of three that RANSAC draws, at most", 10, 10000);
     field(&P::fewest_inliers, "fewest_inliers", "1",
           "points that agree on the pose, at least; other places of the same building style reach 10", 4, 1000);
+    field(&P::fewest_weak_inliers, "fewest_weak_inliers", "1",
+          "and for a pose that does not stand alone: the next panorama must agree, and the vehicle be expected there",
+          4, 1000);
     field(&P::fewest_inliers_share, "fewest_inliers_share", "1", "the same, of all matched points", 0.0, 1.0);
     field(&P::fewest_sectors, "fewest_sectors", "1",
           "of twelve sectors of the full turn, how many must hold inliers: one building may stand elsewhere, too", 1,
@@ -60,9 +64,10 @@ struct PanoramaPose {
 
 struct PanoramaPoseResult {
   std::optional<PanoramaPose> pose;
-  int matches = 0;     ///< keypoints matched with points of the landmark
-  int inliers = 0;     ///< of these, those that agree on one pose
-  std::string reason;  ///< why there is no pose; empty when there is one
+  std::optional<PanoramaPose> weak_pose;  ///< one that too few points agree on; instead of `pose`
+  int matches = 0;                        ///< keypoints matched with points of the landmark
+  int inliers = 0;                        ///< of these, those that agree on one pose
+  std::string reason;                     ///< why there is no pose; empty when there is one
 };
 
 /// The six degrees of freedom in metres, from the landmark's points and the bearings they are seen at now: matches near

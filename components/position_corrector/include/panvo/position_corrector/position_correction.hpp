@@ -13,6 +13,7 @@ namespace panvo::position_corrector {
 
 enum class CorrectionState {
   kFull,          ///< all six degrees of freedom
+  kWeak,          ///< the same, but of so few points that it must not stand alone
   kRotationOnly,  ///< how the vehicle is turned; of its position nothing is said
   kRejected,      ///< it looked like the landmark, and geometry says it is not seen so that anything could be said
 };
