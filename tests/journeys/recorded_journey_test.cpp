@@ -88,7 +88,7 @@ void RecordedJourney::gets_its_position_back() {
   const Finished evaluated = run({PANVO_EVALUATE_JOURNEY, out("replayed").string(), "--recording", folder_ / "data",
                                   "--out", out("report").string()});
   ASSERT_EQ(evaluated.status, 0) << evaluated.output;
-  const Json journey = Json::parse(read_file(out("report") / "journey.json"));
+  const Json journey = Json::parse(read_file(out("report") / "journey.json")).at("run");
   const Json& revisits = journey.at("revisits");
   EXPECT_EQ(revisits.at("listed"), 1) << revisits;
   EXPECT_EQ(revisits.at("corrected"), 1) << revisits;
