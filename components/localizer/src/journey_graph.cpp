@@ -95,7 +95,9 @@ std::vector<KnownLandmark> JourneyGraph::landmarks() const {
   std::vector<KnownLandmark> all;
   for (const auto& node : nodes_) {
     if (node.landmark_id == 0 || node.is_pass) continue;
-    all.push_back({node.landmark_id, node.at.pose.stamp_ns, node.map_from_base, node.covariance});
+    // Landmarks of one earlier day err alike: having seen several of them makes none surer.
+    const auto& covariance = node.is_of_earlier_day ? known_.at(node.landmark_id).covariance : node.covariance;
+    all.push_back({node.landmark_id, node.at.pose.stamp_ns, node.map_from_base, covariance});
   }
   std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
   return all;

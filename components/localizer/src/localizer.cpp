@@ -149,7 +149,7 @@ bool Localizer::reaches(std::int64_t panorama_stamp_ns) const {
 std::vector<KnownLandmark> Localizer::landmarks() const {
   auto landmarks = graph_.landmarks();
   for (auto& landmark : landmarks) {
-    landmark.covariance += common_covariance(landmark.map_from_base.translation());
+    if (!graph_.is_known(landmark.id)) landmark.covariance += common_covariance(landmark.map_from_base.translation());
   }
   return landmarks;
 }

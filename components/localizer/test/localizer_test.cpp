@@ -462,6 +462,12 @@ TEST(Localizer, IsNoSurerThanTheMapItIsIn) {
   ASSERT_EQ(pose.state, State::kRelocalised);
   EXPECT_NEAR(error_m(pose, drive), 1.0, 0.3);
   EXPECT_GT(pose.covariance(0, 0), 1.0);
+  ASSERT_TRUE(localizer.add_built(5, drive.now().stamp_ns));
+  const auto landmarks = localizer.landmarks();
+  ASSERT_EQ(landmarks.size(), 5U);
+  // day after day, those of the map stay as sure as they are, and new ones are no surer
+  EXPECT_EQ(landmarks[0].covariance(0, 0), 1.0);
+  EXPECT_GT(landmarks[4].covariance(0, 0), 1.0);
 }
 
 TEST(Localizer, DoesNotKnowItsScale) {
