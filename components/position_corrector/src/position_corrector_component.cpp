@@ -154,7 +154,7 @@ class PositionCorrectorComponent final : public runtime::Component {
     if (!panorama) return say_once(fmt::format("{} {}", topics::kPanorama.name, panorama.reason()));
     const std::int64_t stamp_ns = conversions::stamp_ns(message);
     const auto here = trail_.at(stamp_ns);
-    if (!here && parameters_.use_position) {
+    if (!here && parameters_.use_position && !library_.empty()) {
       say_once(fmt::format("nothing on {} yet: the whole library is searched", topics::kOdometryBinocular.name));
     }
     PanoramaFrame frame;
