@@ -120,11 +120,11 @@ void RecordedJourney::ends_at_the_same_place_in_two_processes() {
   const std::string domain = std::to_string(100 + getpid() % 100);
   const Finished split = play("split", {"--rate", "2", "--domain", domain}, HERE "/two_processes.yaml");
   ASSERT_EQ(split.status, 0) << split.output;
-  // Panoramas may be lost on the way when the machine is busy: another one of the pass then gives the correction, off by as much as
-  // one panorama is, some decimetres at most.
+  // Panoramas may be lost on the way when the machine is busy: others of the pass then give the corrections, each off by some decimetres,
+  // and what the odometry missed in between stays: well below the metres that it had missed by the revisit.
   EXPECT_LT(distance(last_position(out("replayed") / "odometry_enhanced.tum"),
                      last_position(out("split") / "odometry_enhanced.tum")),
-            0.30)
+            0.80)
       << split.output;
 }
 

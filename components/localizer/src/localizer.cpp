@@ -15,6 +15,7 @@ namespace {
 constexpr double kSecond_ns = 1e9;
 constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kSlew = 0.2;  // of the turn that is owed, with each step: made up for within half a second at 25 Hz
+constexpr double kClockCaution = 9.0;       // odometry errs by more than it says now and then, and just while turning
 constexpr double kUnknownPosition_m = 1e4;  // standard deviations of a start that is not known
 constexpr double kUnknownYaw_rad = 3.0;
 constexpr double kDriftRatio = 0.03;  // two landmarks agree within the drift on the way between them
@@ -34,6 +35,7 @@ Localizer::Localizer(const Parameters& parameters)
     : parameters_(parameters),
       chain_(parameters.history_s),
       clock_(parameters.clock_sigma_s),
+      lean_(parameters.lean_window_s, parameters.lean_sigmas),
       graph_(parameters.start_sigma_m, parameters.start_sigma_deg * kDegree) {}
 
 LocalizedPose Localizer::add(const OdometryPose& odometry) {
@@ -72,23 +74,48 @@ AzimuthUse Localizer::add(const AzimuthMeasurement& azimuth) {
   const double spread = compass_variance + turn->variance_rad2;
   const double excess =
       disagreement * disagreement / (spread * parameters_.contradiction_sigmas * parameters_.contradiction_sigmas);
-  double odometry_variance = turn->variance_rad2;
-  if (excess > 1.0) {
+  const bool is_contradicted = excess > 1.0;
+  if (is_contradicted) {
     // Panoramas see all around, and movers cover little of them: it is the odometry that followed something else [Lu2015 6].
-    const double factor = disagreement * disagreement / std::max(turn->variance_rad2, 1e-12);
-    chain_.distrust(from_ns, to_ns, factor);
-    odometry_variance *= factor;
+    chain_.distrust(from_ns, to_ns, disagreement * disagreement / std::max(turn->variance_rad2, 1e-12));
     doubtful_ns_ = to_ns;
-  } else {
-    clock_.add(disagreement, rate_change, measured_variance + turn->variance_rad2);
   }
-  const double gain = odometry_variance / (odometry_variance + compass_variance);
-  chain_.turn_more(from_ns, to_ns, gain * disagreement, 1.0 - gain);
-  owed_rad_ += gain * disagreement;
+  fuse(from_ns, to_ns, azimuth.change_rad, compass_variance);
+
+  std::optional<AzimuthLean::Stretch> lean;
+  if (is_contradicted) {
+    lean_.forget();
+  } else if (const auto raw_rad = chain_.raw_turn(from_ns, to_ns)) {
+    const double variance =
+        azimuth.variance_rad2 + missed_rad * missed_rad + rate_change * rate_change * clock_.variance_s2();
+    lean = lean_.add(
+        {from_ns, to_ns, wrapped(azimuth.change_rad - *raw_rad), azimuth.change_rad, turn->variance_rad2, variance});
+  }
+  if (lean) {
+    const auto leaning = chain_.turn(lean->from_ns, lean->to_ns);
+    const double wrong_rad2 = lean->disagreement_rad * lean->disagreement_rad;
+    if (leaning && leaning->variance_rad2 < wrong_rad2) {
+      chain_.distrust(lean->from_ns, lean->to_ns, wrong_rad2 / std::max(leaning->variance_rad2, 1e-12));
+    }
+    fuse(lean->from_ns, lean->to_ns, lean->compass_rad, lean->compass_variance_rad2);
+    graph_.refresh(chain_, lean->from_ns);
+  } else if (!is_contradicted) {
+    clock_.add(disagreement, rate_change, kClockCaution * (measured_variance + turn->variance_rad2));
+  }
   azimuth_ns_ = to_ns;
   graph_.refresh(chain_, from_ns);
   latest_ = localized(chain_.latest().pose);
-  return excess > 1.0 ? AzimuthUse::kContradicted : AzimuthUse::kFused;
+  return is_contradicted || lean ? AzimuthUse::kContradicted : AzimuthUse::kFused;
+}
+
+/// Joins a turn with the odometry's own, by their variances.
+void Localizer::fuse(std::int64_t from_ns, std::int64_t to_ns, double change_rad, double variance_rad2) {
+  const auto turn = chain_.turn(from_ns, to_ns);
+  if (!turn) return;
+  const double gain = turn->variance_rad2 / (turn->variance_rad2 + variance_rad2);
+  const double by_rad = gain * wrapped(change_rad - turn->change_rad);
+  chain_.turn_more(from_ns, to_ns, by_rad, 1.0 - gain);
+  owed_rad_ += by_rad;
 }
 
 void Localizer::add_known(const KnownLandmark& landmark) {

@@ -84,6 +84,25 @@ std::optional<Turn> OdometryChain::turn(std::int64_t from_ns, std::int64_t to_ns
   return turn;
 }
 
+std::optional<double> OdometryChain::raw_turn(std::int64_t from_ns, std::int64_t to_ns) const {
+  const auto from = raw_at(from_ns);
+  const auto to = raw_at(to_ns);
+  if (!from || !to) return std::nullopt;
+  return yaw_of((from->inverse() * *to).linear());
+}
+
+std::optional<Eigen::Isometry3d> OdometryChain::raw_at(std::int64_t stamp_ns) const {
+  const std::size_t index = first_after(stamp_ns - 1);
+  if (index == entries_.size()) return std::nullopt;
+  const auto& after = entries_[index].raw;
+  if (after.stamp_ns == stamp_ns) return after.odom_from_base;
+  if (index == 0) return std::nullopt;
+  const auto& before = entries_[index - 1].raw;
+  const double share = between(stamp_ns, before.stamp_ns, after.stamp_ns);
+  return before.odom_from_base *
+         vision::se3_exp(share * vision::se3_log(before.odom_from_base.inverse() * after.odom_from_base));
+}
+
 std::optional<double> OdometryChain::yaw_rate(std::int64_t stamp_ns) const {
   const std::size_t index = first_after(stamp_ns - 1);
   if (index == 0 || index >= entries_.size()) return std::nullopt;

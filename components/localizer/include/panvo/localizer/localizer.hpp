@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "panvo/localizer/azimuth_lean.hpp"
 #include "panvo/localizer/clock_offset.hpp"
 #include "panvo/localizer/journey_graph.hpp"
 #include "panvo/localizer/localizer_parameters.hpp"
@@ -102,11 +103,13 @@ class Localizer {
   std::string doubt(const LandmarkSighting& sighting, const KnownLandmark& landmark, const Remembered& at,
                     Correction& correction);
   bool agree(const Asking& before, const Asking& now) const;
+  void fuse(std::int64_t from_ns, std::int64_t to_ns, double change_rad, double variance_rad2);
   void slew(const Eigen::Isometry3d& step);
 
   const Parameters parameters_;
   OdometryChain chain_;
   ClockOffset clock_;
+  AzimuthLean lean_;
   JourneyGraph graph_;
   MountingCheck mounting_;
 

@@ -47,6 +47,8 @@ class OdometryChain {
 
   /// Of the stretch from one remembered time to a later one.
   std::optional<Turn> turn(std::int64_t from_ns, std::int64_t to_ns) const;
+  /// The same of the odometry as it came, before anything was put right.
+  std::optional<double> raw_turn(std::int64_t from_ns, std::int64_t to_ns) const;
   /// rad/s, left positive.
   std::optional<double> yaw_rate(std::int64_t stamp_ns) const;
 
@@ -64,6 +66,7 @@ class OdometryChain {
   };
 
   std::size_t first_after(std::int64_t stamp_ns) const;
+  std::optional<Eigen::Isometry3d> raw_at(std::int64_t stamp_ns) const;
   double share(std::size_t index, std::int64_t from_ns, std::int64_t to_ns) const;
   void compose_from(std::size_t index);
 

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "panvo/localizer/azimuth_lean.hpp"
+
+#include <gtest/gtest.h>
+
+namespace panvo::localizer {
+namespace {
+
+constexpr std::int64_t kPeriod_ns = 400'000'000;
+
+AzimuthLean::Stretch turn(int i, double disagreement_rad) {
+  return {i * kPeriod_ns, (i + 1) * kPeriod_ns, disagreement_rad, 0.1, 1e-6, 1e-6};
+}
+
+TEST(AzimuthLean, IsNoneWhereErrorsAreOfBothSigns) {
+  AzimuthLean lean(6.0, 3.0);
+  for (int i = 0; i < 100; ++i) EXPECT_FALSE(lean.add(turn(i, i % 2 == 0 ? 0.002 : -0.002))) << i;
+}
+
+TEST(AzimuthLean, IsSeenInErrorsThatAreSmallButAllToOneSide) {
+  AzimuthLean lean(6.0, 3.0);
+  int seen_at = -1;
+  for (int i = 0; i < 15 && seen_at < 0; ++i) {
+    const auto found = lean.add(turn(i, 0.0017));  // 1.2 standard deviations each
+    if (!found) continue;
+    seen_at = i;
+    EXPECT_EQ(found->from_ns, 0);
+    EXPECT_EQ(found->to_ns, (i + 1) * kPeriod_ns);
+    EXPECT_NEAR(found->disagreement_rad, 0.0017 * (i + 1), 1e-12);
+    EXPECT_NEAR(found->compass_rad, 0.1 * (i + 1), 1e-12);
+  }
+  EXPECT_GE(seen_at, 4);
+  EXPECT_LE(seen_at, 8);
+}
+
+TEST(AzimuthLean, CountsTheLastOfSeveralTurnsAgainstOnePanorama) {
+  AzimuthLean lean(6.0, 3.0);
+  for (int i = 0; i < 20; ++i) EXPECT_FALSE(lean.add(turn(0, 0.003))) << i;
+}
+
+TEST(AzimuthLean, BeginsAnewAfterAGap) {
+  AzimuthLean lean(6.0, 3.0);
+  for (int i = 0; i < 3; ++i) lean.add(turn(i, 0.0017));
+  for (int i = 5; i < 8; ++i) EXPECT_FALSE(lean.add(turn(i, 0.0017)));
+}
+
+}  // namespace
+}  // namespace panvo::localizer
