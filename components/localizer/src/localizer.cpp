@@ -15,6 +15,7 @@ namespace {
 constexpr double kSecond_ns = 1e9;
 constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kSlew = 0.2;  // of the turn that is owed, with each step: made up for within half a second at 25 Hz
+constexpr double kMostElse = 25.0;          // odometry that turns wrongly goes wrong, too, by five times what it says
 constexpr double kClockCaution = 9.0;       // odometry errs by more than it says now and then, and just while turning
 constexpr double kUnknownPosition_m = 1e4;  // standard deviations of a start that is not known
 constexpr double kUnknownYaw_rad = 3.0;
@@ -77,7 +78,7 @@ AzimuthUse Localizer::add(const AzimuthMeasurement& azimuth) {
   const bool is_contradicted = excess > 1.0;
   if (is_contradicted) {
     // Panoramas see all around, and movers cover little of them: it is the odometry that followed something else [Lu2015 6].
-    chain_.distrust(from_ns, to_ns, disagreement * disagreement / std::max(turn->variance_rad2, 1e-12));
+    chain_.distrust(from_ns, to_ns, disagreement * disagreement / std::max(turn->variance_rad2, 1e-12), kMostElse);
     doubtful_ns_ = to_ns;
   }
   fuse(from_ns, to_ns, azimuth.change_rad, compass_variance);
@@ -95,7 +96,7 @@ AzimuthUse Localizer::add(const AzimuthMeasurement& azimuth) {
     const auto leaning = chain_.turn(lean->from_ns, lean->to_ns);
     const double wrong_rad2 = lean->disagreement_rad * lean->disagreement_rad;
     if (leaning && leaning->variance_rad2 < wrong_rad2) {
-      chain_.distrust(lean->from_ns, lean->to_ns, wrong_rad2 / std::max(leaning->variance_rad2, 1e-12));
+      chain_.distrust(lean->from_ns, lean->to_ns, wrong_rad2 / std::max(leaning->variance_rad2, 1e-12), 1.0);
     }
     fuse(lean->from_ns, lean->to_ns, lean->compass_rad, lean->compass_variance_rad2);
     graph_.refresh(chain_, lean->from_ns);

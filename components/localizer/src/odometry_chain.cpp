@@ -111,12 +111,14 @@ std::optional<double> OdometryChain::yaw_rate(std::int64_t stamp_ns) const {
          static_cast<double>(entry.raw.stamp_ns - entries_[index - 1].raw.stamp_ns);
 }
 
-void OdometryChain::distrust(std::int64_t from_ns, std::int64_t to_ns, double factor) {
+void OdometryChain::distrust(std::int64_t from_ns, std::int64_t to_ns, double factor, double most_else) {
   const std::size_t first = first_after(from_ns);
   for (std::size_t i = first; i < entries_.size(); ++i) {
     const double part = share(i, from_ns, to_ns);
     if (part <= 0.0) break;
-    entries_[i].step_covariance *= 1.0 + part * (factor - 1.0);
+    vision::Vector6d scale = vision::Vector6d::Constant(std::sqrt(1.0 + part * (std::min(factor, most_else) - 1.0)));
+    scale[kYaw] = std::sqrt(1.0 + part * (factor - 1.0));
+    entries_[i].step_covariance = scale.asDiagonal() * entries_[i].step_covariance * scale.asDiagonal();
   }
   compose_from(first);
 }

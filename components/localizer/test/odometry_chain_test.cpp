@@ -86,10 +86,12 @@ TEST(OdometryChain, TakesOnlyThePartOfAStepThatLiesInTheStretch) {
 
 TEST(OdometryChain, DistrustsAStretch) {
   auto chain = straight({1e-4, 1e-4, 1e-4});
-  chain.distrust(kPeriod_ns, 2 * kPeriod_ns, 25.0);
+  const double before = chain.latest().pose.covariance(2, 2);
+  chain.distrust(kPeriod_ns, 2 * kPeriod_ns, 25.0, 4.0);
   EXPECT_NEAR(chain.turn(kPeriod_ns, 2 * kPeriod_ns)->variance_rad2, 25e-4, 1e-8);
   EXPECT_NEAR(chain.turn(0, kPeriod_ns)->variance_rad2, 1e-4, 1e-8);
   EXPECT_NEAR(chain.latest().pose.covariance(5, 5), 27e-4, 1e-8);
+  EXPECT_NEAR(chain.latest().pose.covariance(2, 2), before + 3.0 * 1e-8, 1e-9);
 }
 
 TEST(OdometryChain, KnowsTheYawRate) {

@@ -52,8 +52,9 @@ class OdometryChain {
   /// rad/s, left positive.
   std::optional<double> yaw_rate(std::int64_t stamp_ns) const;
 
-  /// Takes a stretch for less sure than it said: multiplies its covariance.
-  void distrust(std::int64_t from_ns, std::int64_t to_ns, double factor);
+  /// Takes the turns of a stretch for less sure than they said: multiplies the variance of the yaw by `factor`, and that of all else by
+  /// `factor`, too, but not by more than `most_else`.
+  void distrust(std::int64_t from_ns, std::int64_t to_ns, double factor, double most_else);
   /// Makes a stretch turn by so much more, each step by its share of the variance, and multiplies the variance of its yaw.
   void turn_more(std::int64_t from_ns, std::int64_t to_ns, double by_rad, double variance_factor);
 
