@@ -11,8 +11,8 @@ struct Parameters {
   double same_pass_m = 40.0;
   double history_s = 120.0;
   double contradiction_sigmas = 4.0;
-  double lean_window_s = 12.0;
-  double lean_sigmas = 2.5;
+  double lean_window_s = 8.0;
+  double lean_sigmas = 3.0;
   double compass_turn_error_ratio = 0.007;
   double scale_sigma = 0.007;
   double clock_sigma_s = 0.05;
