@@ -110,6 +110,7 @@ class Localizer {
   OdometryChain chain_;
   ClockOffset clock_;
   AzimuthLean lean_;
+  bool is_leaning_ = false;
   JourneyGraph graph_;
   MountingCheck mounting_;
 
