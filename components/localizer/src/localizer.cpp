@@ -9,6 +9,8 @@
 #include <numbers>
 #include <utility>
 
+#include "panvo/vision/equirectangular.hpp"
+
 namespace panvo::localizer {
 namespace {
 
@@ -21,7 +23,7 @@ constexpr double kUnknownPosition_m = 1e4;  // standard deviations of a start th
 constexpr double kUnknownYaw_rad = 3.0;
 constexpr double kDriftRatio = 0.03;  // two landmarks agree within the drift on the way between them
 
-double wrapped(double angle_rad) { return std::remainder(angle_rad, 2.0 * std::numbers::pi); }
+double wrapped(double angle_rad) { return vision::wrap(angle_rad, 2.0 * std::numbers::pi); }
 
 double horizontal_sigma(const vision::Matrix6d& covariance) {
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> spread(covariance.topLeftCorner<2, 2>());

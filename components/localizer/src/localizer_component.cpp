@@ -95,15 +95,14 @@ class LocalizerComponent final : public runtime::Component {
     const auto pose = conversions::to_isometry(message.pose().pose());
     if (!pose) return say_once(fmt::format("{} {}", topics::kOdometryBinocular.name, pose.reason()));
     const std::int64_t stamp_ns = conversions::stamp_ns(message);
-    if (has_odometry_ && stamp_ns <= localizer_.latest().stamp_ns) {
+    if (begin_ns_ && stamp_ns <= localizer_.latest().stamp_ns) {
       return say_once(fmt::format("{} came with a stamp that is not after the last; it is left out",
                                   topics::kOdometryBinocular.name));
     }
-    if (!has_odometry_) begin_ns_ = stamp_ns;
     {
       const vision::Stage stage(&timer_, "localize");
       localizer_.add(OdometryPose{stamp_ns, *pose, conversions::to_matrix(message.pose().covariance()), is_reliable_});
-      has_odometry_ = true;
+      if (!begin_ns_) begin_ns_ = stamp_ns;
       work_off();
     }
     const auto& localized = localizer_.latest();
@@ -124,7 +123,7 @@ class LocalizerComponent final : public runtime::Component {
   void on_landmark(const panvo_msgs::msg::PanoramicLandmark& message) {
     if (!landmarks_.insert(message.id()).second) return;
     const std::int64_t stamp_ns = conversions::stamp_ns(message);
-    if (has_odometry_ && stamp_ns >= begin_ns_) return wait(Built{message.id(), stamp_ns});
+    if (begin_ns_ && stamp_ns >= *begin_ns_) return wait(Built{message.id(), stamp_ns});
     const auto pose = conversions::to_isometry(message.pose().pose());
     if (!pose) return say_once(fmt::format("landmark {} {}", message.id(), pose.reason()));
     localizer_.add_known({message.id(), stamp_ns, *pose, conversions::to_matrix(message.pose().covariance())});
@@ -132,7 +131,7 @@ class LocalizerComponent final : public runtime::Component {
 
   void on_azimuth(const panvo_msgs::msg::AzimuthChange& message) {
     azimuth_ns_ = conversions::stamp_ns(message);
-    const double ahead_s = has_odometry_ ? seconds(localizer_.latest().stamp_ns, *azimuth_ns_) : 0.0;
+    const double ahead_s = begin_ns_ ? seconds(localizer_.latest().stamp_ns, *azimuth_ns_) : 0.0;
     if (ahead_s > parameters_.fusion.patience_s) tell_no_odometry(*azimuth_ns_, ahead_s);
     if (parameters_.use_compass && message.valid()) wait(to_azimuth(message));
   }
@@ -151,7 +150,7 @@ class LocalizerComponent final : public runtime::Component {
       say_once(fmt::format(
           "stamps of panoramas are {:.1f} s ahead of {}: the clocks of the cameras disagree, or there is no "
           "odometry; no correction",
-          has_odometry_ ? seconds(localizer_.latest().stamp_ns, stamp_of(waiting_.back())) : 0.0,
+          begin_ns_ ? seconds(localizer_.latest().stamp_ns, stamp_of(waiting_.back())) : 0.0,
           topics::kOdometryBinocular.name));
     }
     work_off();
@@ -296,9 +295,8 @@ class LocalizerComponent final : public runtime::Component {
 
   std::deque<Waiting> waiting_;
   std::set<std::uint32_t> landmarks_;
-  bool has_odometry_ = false;
   bool is_reliable_ = true;
-  std::int64_t begin_ns_ = 0;
+  std::optional<std::int64_t> begin_ns_;  // of the odometry
   std::optional<std::int64_t> azimuth_ns_;
   std::optional<State> told_state_;
   std::int64_t told_state_ns_ = 0;

@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "panvo/localizer/localizer.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include "drive.hpp"
+
+namespace panvo::localizer {
+namespace {
+
+TEST(LocalizerBelief, DoesNotBelieveAFarJumpBeforeASecondPanoramaAsksForIt) {
+  Round round(4);
+  auto wrong = round.drive.sight(1, round.landmark);
+  wrong.landmark_from_base.translation() += Eigen::Vector3d(30.0, -10.0, 0.0);
+  const auto before = round.localizer.latest();
+  const auto correction = round.localizer.add(wrong);
+  EXPECT_EQ(correction.kind, CorrectionKind::kRejected);
+  EXPECT_NE(correction.reason.find("second panorama"), std::string::npos) << correction.reason;
+  EXPECT_TRUE(round.localizer.latest().map_from_base.isApprox(before.map_from_base));
+  // another that says something else does not support it
+  round.localizer.add(round.drive.step());
+  auto other = round.drive.sight(1, round.landmark);
+  other.landmark_from_base.translation() += Eigen::Vector3d(-20.0, 15.0, 0.0);
+  EXPECT_EQ(round.localizer.add(other).kind, CorrectionKind::kRejected);
+  // the right one is believed at once
+  EXPECT_EQ(round.localizer.add(round.drive.sight(1, round.landmark)).kind, CorrectionKind::kApplied);
+}
+
+TEST(LocalizerBelief, FindsItselfInTheMapOfAnEarlierDay) {
+  Drive drive(6);
+  Localizer localizer({});
+  KnownLandmark known;
+  known.id = 9;
+  known.map_from_base.translation() = Eigen::Vector3d(500.0, 300.0, 2.0);
+  known.map_from_base.linear() = vision::so3_exp(Eigen::Vector3d(0.0, 0.0, 1.0));
+  known.covariance = 1e-4 * vision::Matrix6d::Identity();
+  localizer.add_known(known);
+  localizer.add(drive.now());
+  for (int i = 0; i < 10; ++i) EXPECT_EQ(localizer.add(drive.step()).state, State::kUnlocated);
+  const Eigen::Isometry3d landmark = drive.truth;                                      // the place is here
+  EXPECT_EQ(localizer.add(drive.sight(9, landmark)).kind, CorrectionKind::kRejected);  // one look is none
+  localizer.add(drive.step());
+  const auto correction = localizer.add(drive.sight(9, landmark));
+  ASSERT_EQ(correction.kind, CorrectionKind::kApplied) << correction.reason;
+  EXPECT_EQ(localizer.latest().state, State::kRelocalised);
+  const Eigen::Isometry3d expected = known.map_from_base * landmark.inverse() * drive.truth;
+  EXPECT_LT((localizer.latest().map_from_base.translation() - expected.translation()).norm(), 0.3);
+}
+
+TEST(LocalizerBelief, DoesNotFollowALandmarkThatIsInTheWrongPlace) {
+  Drive drive(14);
+  Localizer localizer({});
+  localizer.add(drive.now());
+  for (int i = 0; i < 4; ++i) localizer.add(drive.step());
+  const Eigen::Isometry3d place = drive.truth;
+  ASSERT_TRUE(localizer.add_built(1, drive.now().stamp_ns));
+  for (int i = 0; i < 20; ++i) {
+    localizer.add(drive.step());
+    auto moved = drive.sight(1, place);
+    moved.landmark_from_base.translation() += Eigen::Vector3d(20.0, 0.0, 0.0);
+    EXPECT_EQ(localizer.add(moved).kind, CorrectionKind::kRejected) << i;
+  }
+  EXPECT_LT(error_m(localizer.latest(), drive), 1.5);
+}
+
+TEST(LocalizerBelief, IsFoundAgainAfterItWasCarriedAway) {
+  Drive drive(15);
+  Localizer localizer({});
+  localizer.add(drive.now());
+  std::vector<Eigen::Isometry3d> places;
+  for (int i = 0; i < 100; ++i) {
+    localizer.add(drive.step());
+    if (i % 30 != 10) continue;
+    places.push_back(drive.truth);
+    ASSERT_TRUE(localizer.add_built(static_cast<std::uint32_t>(places.size()), drive.now().stamp_ns));
+  }
+  auto lifted = drive.step(0.4, 25.0);  // and odometry knows only that it saw nothing for a moment
+  lifted.is_reliable = false;
+  localizer.add(lifted);
+  localizer.add(drive.step());
+  EXPECT_GT(error_m(localizer.latest(), drive), 20.0);
+  EXPECT_EQ(localizer.add(drive.sight(1, places[0])).kind, CorrectionKind::kRejected);
+  localizer.add(drive.step());
+  EXPECT_EQ(localizer.add(drive.sight(1, places[0])).kind, CorrectionKind::kRejected)
+      << "it could be in the wrong place";
+  EXPECT_EQ(localizer.add(drive.step()).state, State::kLost);
+  for (int i = 0; i < 20; ++i) localizer.add(drive.step());
+  EXPECT_EQ(localizer.add(drive.sight(2, places[1])).kind, CorrectionKind::kRejected);
+  localizer.add(drive.step());
+  const auto correction = localizer.add(drive.sight(2, places[1]));
+  EXPECT_EQ(correction.kind, CorrectionKind::kApplied) << correction.reason;
+  EXPECT_LT(error_m(localizer.latest(), drive), 1.5);
+  EXPECT_EQ(localizer.latest().state, State::kRelocalised);
+  for (int i = 0; i < 50; ++i) localizer.add(drive.step());
+  EXPECT_EQ(localizer.latest().state, State::kTracking);
+  // landmarks of before the lift stay where they were
+  const auto first = localizer.landmarks().front();
+  EXPECT_LT((first.map_from_base.translation() - places[0].translation()).norm(), 1.0);
+}
+
+TEST(LocalizerBelief, DoesNotSayWhereItIsInAMapInWhichItWasNotFound) {
+  Drive drive(17);
+  Localizer localizer({});
+  KnownLandmark known;
+  known.id = 3;
+  known.covariance = 1e-4 * vision::Matrix6d::Identity();
+  localizer.add_known(known);
+  localizer.add(drive.now());
+  for (int i = 0; i < 10; ++i) localizer.add(drive.step());
+  EXPECT_GT(localizer.latest().covariance(0, 0), 1e6);
+  ASSERT_TRUE(localizer.add_built(4, drive.now().stamp_ns));
+  ASSERT_EQ(localizer.landmarks().size(), 1U) << "the other was not seen";
+  EXPECT_GT(localizer.landmarks().front().covariance(0, 0), 1e6);
+}
+
+TEST(LocalizerBelief, BelievesFewPointsOnlyWhereTwoPanoramasAgreeAndTheVehicleIsExpected) {
+  Round round(20);
+  const auto weak = [&] {
+    auto sighting = round.drive.sight(1, round.landmark);
+    sighting.stands_alone = false;
+    return sighting;
+  };
+  EXPECT_EQ(round.localizer.add(weak()).kind, CorrectionKind::kRejected);
+  round.localizer.add(round.drive.step());
+  EXPECT_EQ(round.localizer.add(weak()).kind, CorrectionKind::kApplied);
+  Round other(21);
+  for (int i = 0; i < 5; ++i) {  // all of them agree on a place that is elsewhere
+    auto far = other.drive.sight(1, other.landmark);
+    far.stands_alone = false;
+    far.landmark_from_base.translation() += Eigen::Vector3d(15.0, -10.0, 0.0);
+    EXPECT_EQ(other.localizer.add(far).kind, CorrectionKind::kRejected) << i;
+    other.localizer.add(other.drive.step());
+  }
+}
+
+TEST(LocalizerBelief, IsNoSurerThanTheMapItIsIn) {
+  Drive drive(18);
+  Localizer localizer({});
+  std::vector<Eigen::Isometry3d> places;
+  for (std::uint32_t id = 1; id <= 4; ++id) {  // a map that is off as a whole by as much as its covariance says
+    KnownLandmark known;
+    known.id = id;
+    Drive ahead(18);
+    for (std::uint32_t i = 0; i < 10 * id; ++i) ahead.step();
+    places.push_back(ahead.truth);
+    known.map_from_base = ahead.truth;
+    known.map_from_base.translation().x() += 1.0;
+    known.covariance = 1e-4 * vision::Matrix6d::Identity();
+    known.covariance.topLeftCorner<3, 3>() = Eigen::Matrix3d::Identity();
+    localizer.add_known(known);
+  }
+  localizer.add(drive.now());
+  for (int i = 1; i <= 42; ++i) {
+    localizer.add(drive.step());
+    if (i % 10 < 3 && i >= 10) {
+      const auto id = static_cast<std::uint32_t>(i / 10);
+      localizer.add(drive.sight(id, places[id - 1]));
+    }
+  }
+  const auto& pose = localizer.latest();
+  ASSERT_EQ(pose.state, State::kRelocalised);
+  EXPECT_NEAR(error_m(pose, drive), 1.0, 0.3);
+  EXPECT_GT(pose.covariance(0, 0), 1.0);
+  ASSERT_TRUE(localizer.add_built(5, drive.now().stamp_ns));
+  const auto landmarks = localizer.landmarks();
+  ASSERT_EQ(landmarks.size(), 5U);
+  // day after day, those of the map stay as sure as they are, and new ones are no surer
+  EXPECT_EQ(landmarks[0].covariance(0, 0), 1.0);
+  EXPECT_GT(landmarks[4].covariance(0, 0), 1.0);
+}
+
+TEST(LocalizerBelief, SaysWhatIsWrongWithASighting) {
+  Round round(7);
+  auto unknown = round.drive.sight(77, round.landmark);
+  EXPECT_EQ(round.localizer.add(unknown).reason, "landmark 77 is not known");
+  auto early = round.drive.sight(1, round.landmark);
+  early.stamp_ns -= 3'600'000'000'000;
+  EXPECT_EQ(round.localizer.add(early).reason, "no odometry is remembered of that time");
+  auto broken = round.drive.sight(1, round.landmark);
+  broken.covariance(2, 2) = std::nan("");
+  EXPECT_EQ(round.localizer.add(broken).reason, "numbers that are none");
+}
+
+}  // namespace
+}  // namespace panvo::localizer

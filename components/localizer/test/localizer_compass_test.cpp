@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "panvo/localizer/localizer.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include "drive.hpp"
+
+namespace panvo::localizer {
+namespace {
+
+TEST(LocalizerWithCompass, BelievesTheCompassWhereOdometryFollowsAMover) {
+  Drive drive(11);
+  Parameters one_clock;
+  one_clock.clock_sigma_s = 0.0;
+  Localizer localizer(one_clock);
+  localizer.add(drive.now());
+  double compass_rad = 0.0;
+  for (int i = 0; i < 30; ++i) {
+    const double yaw_before = drive.yaw_rad;
+    // half a second of it, as when a bus fills the stereo view at a bend
+    const auto odometry = drive.step(i >= 10 && i < 13 ? 0.05 : 0.0);
+    localizer.add(odometry);
+    compass_rad = drive.yaw_rad - yaw_before;
+    const auto use = localizer.add(drive.azimuth(compass_rad, 0.002));
+    EXPECT_EQ(use, i >= 10 && i < 13 ? AzimuthUse::kContradicted : AzimuthUse::kFused) << i;
+  }
+  const auto& pose = localizer.latest();
+  const double error_rad = yaw_of(drive.truth.linear().transpose() * pose.map_from_base.linear());
+  EXPECT_LT(std::abs(error_rad), 0.02) << "of 0.15 rad that odometry missed";
+  EXPECT_LT(error_m(pose, drive), 0.8);
+}
+
+TEST(LocalizerWithCompass, HasACovarianceThatErrorsFollowAlsoWithACompass) {
+  double nees = 0.0;
+  constexpr int kTrials = 60;
+  for (unsigned seed = 1; seed <= kTrials; ++seed) {
+    Drive drive(seed);
+    std::mt19937_64 random(seed + 1000);
+    std::normal_distribution<double> normal;
+    Localizer localizer(of_known_scale());
+    localizer.add(drive.now());
+    for (int i = 0; i < 100; ++i) {
+      localizer.add(drive.step());
+      localizer.add(drive.azimuth(2.0 * M_PI / 200.0 + 0.001 * normal(random), 0.001));
+    }
+    nees += nees_of(localizer.latest(), drive) / kTrials;
+  }
+  EXPECT_NEAR(nees, 1.0, 0.4);
+}
+
+TEST(LocalizerWithCompass, FindsByHowMuchThePanoramasClockIsOff) {
+  Drive drive(13);
+  Localizer localizer({});
+  localizer.add(drive.now());
+  constexpr double kOffset_s = 0.06;
+  // odometry and truth at any time, of a drive that turns to and fro
+  const auto yaw = [](double t) { return 0.3 * std::sin(1.3 * t); };
+  const auto pose = [&](double t) {
+    OdometryPose odometry;
+    odometry.stamp_ns = static_cast<std::int64_t>(std::llround(t * 1e9));
+    odometry.odom_from_base.linear() = vision::so3_exp(Eigen::Vector3d(0.0, 0.0, yaw(t)));
+    odometry.covariance = 1e-6 * (1.0 + t) * vision::Matrix6d::Identity();
+    return odometry;
+  };
+  for (int i = 1; i < 500; ++i) {
+    const double t = 100.0 + 0.04 * i;
+    localizer.add(pose(t));
+    if (i % 5 != 0 || i < 20) continue;
+    const double taken = t - 0.2;  // stamped later than taken
+    const auto stamp = [&](double at) { return static_cast<std::int64_t>(std::llround((at + kOffset_s) * 1e9)); };
+    EXPECT_EQ(localizer.add(AzimuthMeasurement{stamp(taken - 0.2), stamp(taken), yaw(taken) - yaw(taken - 0.2), 1e-6}),
+              AzimuthUse::kFused);
+  }
+  EXPECT_NEAR(localizer.panorama_clock().estimate_s(), kOffset_s, 0.003);
+  EXPECT_LT(localizer.panorama_clock().variance_s2(), 0.006 * 0.006);
+}
+
+TEST(LocalizerWithCompass, SaysWhenItHasOnlyTheCompassAndWhenNothing) {
+  Drive drive(16);
+  Localizer localizer({});
+  localizer.add(drive.now());
+  for (int i = 0; i < 10; ++i) localizer.add(drive.step());
+  for (int i = 0; i < 10; ++i) {
+    auto unreliable = drive.step();
+    unreliable.is_reliable = false;
+    localizer.add(unreliable);
+    localizer.add(drive.azimuth(2.0 * M_PI / 200.0, 0.002));
+    EXPECT_EQ(localizer.latest().state, State::kCompassOnly);
+  }
+  State last = State::kStarting;
+  for (int i = 0; i < 10; ++i) {
+    auto unreliable = drive.step();
+    unreliable.is_reliable = false;
+    last = localizer.add(unreliable).state;
+  }
+  EXPECT_EQ(last, State::kLost);
+  EXPECT_NE(localizer.latest().reason.find("odometry unreliable for"), std::string::npos);
+  EXPECT_EQ(localizer.add(drive.step()).state, State::kTracking);
+}
+
+}  // namespace
+}  // namespace panvo::localizer
