@@ -4,9 +4,6 @@
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
-#include <filesystem>
-#include <opencv2/core/utility.hpp>
-#include <opencv2/imgcodecs.hpp>
 #include <vector>
 
 #include "panvo/landmark_builder/road_junction_detector.hpp"
@@ -15,36 +12,11 @@
 #include "panvo/landmarks/landmark_distance.hpp"
 #include "panvo/landmarks/panorama_describer.hpp"
 #include "panvo/position_corrector/panorama_pose.hpp"
+#include "recorded_panoramas.hpp"
 
 namespace {
 
-namespace fs = std::filesystem;
 using namespace panvo;
-
-/// Some seconds of panoramas; empty where there are no recordings.
-const std::vector<cv::Mat>& panoramas() {
-  static const std::vector<cv::Mat> all = [] {
-    std::vector<cv::Mat> images;
-    const char* const data = std::getenv("PANVO_DATA");
-    const fs::path folder = fs::path(data != nullptr ? data : "") / "campus_journey/mav0/cam2/data";
-    std::vector<fs::path> files;
-    std::error_code error;
-    for (const auto& entry : fs::directory_iterator(folder, error)) files.push_back(entry.path());
-    std::sort(files.begin(), files.end());
-    for (std::size_t i = 0; i < std::min<std::size_t>(files.size(), 100); ++i) {
-      images.push_back(cv::imread(files[i].string()));
-    }
-    cv::setNumThreads(1);
-    return images;
-  }();
-  return all;
-}
-
-bool lack_panoramas(benchmark::State& state) {
-  if (!panoramas().empty()) return false;
-  state.SkipWithError("no panoramas: set PANVO_DATA to a folder that holds campus_journey");
-  return true;
-}
 
 const landmarks::PanoramaDescriber& describer() {
   static const landmarks::PanoramaDescriber describer({}, 1);
@@ -54,7 +26,8 @@ const landmarks::PanoramaDescriber& describer() {
 void describe(benchmark::State& state) {
   if (lack_panoramas(state)) return;
   std::size_t i = 0;
-  for (auto _ : state) benchmark::DoNotOptimize(describer().describe(panoramas()[i++ % panoramas().size()]));
+  for (auto _ : state)
+    benchmark::DoNotOptimize(describer().describe(recorded_panoramas()[i++ % recorded_panoramas().size()]));
 }
 BENCHMARK(describe)->Unit(benchmark::kMillisecond);
 
@@ -62,12 +35,12 @@ BENCHMARK(describe)->Unit(benchmark::kMillisecond);
 void search(benchmark::State& state) {
   if (lack_panoramas(state)) return;
   std::vector<landmarks::PanoramaDescription> known;
-  for (std::size_t i = 0; i < 20; ++i) known.push_back(describer().describe(panoramas()[5 * i]));
+  for (std::size_t i = 0; i < 20; ++i) known.push_back(describer().describe(recorded_panoramas()[5 * i]));
   std::vector<landmarks::PanoramaDescription> candidates;
   for (int i = 0; i < state.range(0); ++i) candidates.push_back(known[static_cast<std::size_t>(i) % known.size()]);
   std::size_t i = 0;
   for (auto _ : state) {
-    const auto query = describer().query(panoramas()[i++ % panoramas().size()]);
+    const auto query = describer().query(recorded_panoramas()[i++ % recorded_panoramas().size()]);
     float best = 1.0F;
     for (const auto& candidate : candidates) best = std::min(best, match_large_scale(query, candidate).distance);
     benchmark::DoNotOptimize(best);
@@ -78,8 +51,8 @@ BENCHMARK(search)->Arg(0)->Arg(100)->Arg(10'000)->Unit(benchmark::kMillisecond);
 /// Algorithm 1 and what refines it, one landmark.
 void small_scale(benchmark::State& state) {
   if (lack_panoramas(state)) return;
-  const auto known = describer().describe(panoramas()[0]);
-  const auto query = describer().query(panoramas()[2]);
+  const auto known = describer().describe(recorded_panoramas()[0]);
+  const auto query = describer().query(recorded_panoramas()[2]);
   for (auto _ : state) benchmark::DoNotOptimize(search_heading(query, known, 0.1));
 }
 BENCHMARK(small_scale)->Unit(benchmark::kMillisecond);
@@ -90,7 +63,8 @@ void keypoints(benchmark::State& state) {
   parameters.half_size = state.range(0) != 0;
   std::size_t i = 0;
   for (auto _ : state) {
-    benchmark::DoNotOptimize(landmarks::detect_keypoints(panoramas()[i++ % panoramas().size()], parameters));
+    benchmark::DoNotOptimize(
+        landmarks::detect_keypoints(recorded_panoramas()[i++ % recorded_panoramas().size()], parameters));
   }
 }
 BENCHMARK(keypoints)->ArgName("half_size")->Arg(1)->Arg(0)->Unit(benchmark::kMillisecond);
@@ -98,13 +72,13 @@ BENCHMARK(keypoints)->ArgName("half_size")->Arg(1)->Arg(0)->Unit(benchmark::kMil
 /// Matching, RANSAC and refinement against a landmark whose points are all 15 m away.
 void pose(benchmark::State& state) {
   if (lack_panoramas(state)) return;
-  auto known = landmarks::detect_keypoints(panoramas()[0], {});
+  auto known = landmarks::detect_keypoints(recorded_panoramas()[0], {});
   for (auto& keypoint : known) {
     keypoint.has_point = true;
     keypoint.point_in_panorama = 15.0F * keypoint.bearing;
     keypoint.inverse_range_sigma = 0.003F;
   }
-  const auto seen = landmarks::detect_keypoints(panoramas()[1], {});
+  const auto seen = landmarks::detect_keypoints(recorded_panoramas()[1], {});
   for (auto _ : state) {
     benchmark::DoNotOptimize(position_corrector::estimate_panorama_pose(seen, known, 0.0, {}));
   }
@@ -116,12 +90,12 @@ void junction(benchmark::State& state) {
   Eigen::Isometry3d base_from_panorama = Eigen::Isometry3d::Identity();
   base_from_panorama.linear() << 0, 0, 1, -1, 0, 0, 0, -1, 0;
   base_from_panorama.translation() << -0.25, 0.0, 2.0;
-  landmark_builder::RoadJunctionDetector detector({}, base_from_panorama, panoramas()[0].size());
+  landmark_builder::RoadJunctionDetector detector({}, base_from_panorama, recorded_panoramas()[0].size());
   Eigen::Isometry3d odom_from_base = Eigen::Isometry3d::Identity();
   std::size_t i = 0;
   for (auto _ : state) {
     odom_from_base.translation().x() += 0.9;
-    benchmark::DoNotOptimize(detector.detect(panoramas()[i++ % panoramas().size()], odom_from_base));
+    benchmark::DoNotOptimize(detector.detect(recorded_panoramas()[i++ % recorded_panoramas().size()], odom_from_base));
   }
 }
 BENCHMARK(junction)->Unit(benchmark::kMillisecond);

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <opencv2/core/utility.hpp>
+#include <opencv2/imgcodecs.hpp>
+#include <vector>
+
+/// The first half minute of the recording campus_journey, a corner within; empty where there are no recordings. Sets OpenCV to one thread.
+inline const std::vector<cv::Mat>& recorded_panoramas() {
+  static const std::vector<cv::Mat> all = [] {
+    constexpr std::size_t kMost = 150;
+    std::vector<cv::Mat> images;
+    const char* const data = std::getenv("PANVO_DATA");
+    const auto folder = std::filesystem::path(data != nullptr ? data : "") / "campus_journey/mav0/cam2/data";
+    std::vector<std::filesystem::path> files;
+    std::error_code error;
+    for (const auto& entry : std::filesystem::directory_iterator(folder, error)) files.push_back(entry.path());
+    std::sort(files.begin(), files.end());
+    files.resize(std::min(files.size(), kMost));
+    for (const auto& file : files) images.push_back(cv::imread(file.string()));
+    cv::setNumThreads(1);
+    return images;
+  }();
+  return all;
+}
+
+/// True, and the benchmark is marked as skipped, where there are none.
+inline bool lack_panoramas(benchmark::State& state) {
+  if (!recorded_panoramas().empty()) return false;
+  state.SkipWithError("no panoramas: set PANVO_DATA to a folder that holds campus_journey");
+  return true;
+}
