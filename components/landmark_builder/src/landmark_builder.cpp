@@ -100,9 +100,7 @@ std::optional<landmarks::PanoramicLandmark> LandmarkBuilder::build(const Kept& c
   landmark.id = rule_.next_id();
   landmark.stamp_ns = chosen.stamp_ns;
   landmark.map_from_base = map_from_odom_ * chosen.odom_from_base;
-  vision::Matrix6d turn = vision::Matrix6d::Zero();
-  turn.topLeftCorner<3, 3>() = turn.bottomRightCorner<3, 3>() = map_from_odom_.linear();
-  landmark.covariance = turn * chosen.covariance * turn.transpose();
+  landmark.covariance = vision::rotate_covariance(map_from_odom_.linear(), chosen.covariance);
   landmark.base_from_panorama = base_from_panorama_;
   landmark.is_junction = is_junction;
   {

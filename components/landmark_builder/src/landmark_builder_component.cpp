@@ -182,8 +182,8 @@ class LandmarkBuilderComponent final : public runtime::Component {
     const auto before = std::prev(after);
     const double share =
         static_cast<double>(stamp_ns - before->stamp_ns) / static_cast<double>(after->stamp_ns - before->stamp_ns);
-    const vision::Vector6d step = vision::se3_log(before->odom_from_base.inverse() * after->odom_from_base);
-    return Odometry{stamp_ns, before->odom_from_base * vision::se3_exp(share * step), after->covariance};
+    return Odometry{stamp_ns, vision::interpolate(before->odom_from_base, after->odom_from_base, share),
+                    after->covariance};
   }
 
   static cv::Mat to_bgr(const cv::Mat& pixels, const sensor_msgs::msg::Image& message) {

@@ -7,6 +7,8 @@
 #include <sstream>
 #include <vector>
 
+#include "panvo/vision/equirectangular.hpp"
+
 namespace panvo::landmarks {
 namespace {
 
@@ -42,19 +44,9 @@ struct Levels {
 }  // namespace
 
 std::optional<std::string> find_fault(const cv::Mat& panorama) {
+  if (auto fault = vision::find_layout_fault(panorama, kSmallestColumns)) return fault;
   std::ostringstream text;
   text.precision(3);
-  if (panorama.empty()) return "is empty";
-  if (panorama.type() != CV_8UC1 && panorama.type() != CV_8UC3) return "is not an 8-bit image of 1 or 3 channels";
-  if (panorama.cols != 2 * panorama.rows) {
-    text << "is not twice as wide as high: " << panorama.cols << "x" << panorama.rows << " px";
-    return text.str();
-  }
-  if (panorama.cols < kSmallestColumns) {
-    text << "is too small: " << panorama.cols << "x" << panorama.rows << " px, " << kSmallestColumns
-         << " columns needed";
-    return text.str();
-  }
   Levels all;
   int covered = 0;
   for (int i = 0; i < kGridColumns; ++i) {

@@ -126,12 +126,10 @@ vision::Matrix6d JourneyGraph::common_covariance(const Eigen::Vector3d& position
 }
 
 void JourneyGraph::place(const Eigen::Isometry3d& map_from_former_map) {
-  vision::Matrix6d turn = vision::Matrix6d::Zero();
-  turn.topLeftCorner<3, 3>() = turn.bottomRightCorner<3, 3>() = map_from_former_map.linear();
   for (auto& node : nodes_) {
     if (node.is_of_earlier_day) continue;
     node.map_from_base = map_from_former_map * node.map_from_base;
-    node.covariance = turn * node.covariance * turn.transpose();
+    node.covariance = vision::rotate_covariance(map_from_former_map.linear(), node.covariance);
   }
 }
 

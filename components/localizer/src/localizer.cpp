@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -24,11 +23,6 @@ constexpr double kUnknownYaw_rad = 3.0;
 constexpr double kDriftRatio = 0.03;  // two landmarks agree within the drift on the way between them
 
 double wrapped(double angle_rad) { return vision::wrap(angle_rad, 2.0 * std::numbers::pi); }
-
-double horizontal_sigma(const vision::Matrix6d& covariance) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> spread(covariance.topLeftCorner<2, 2>());
-  return std::sqrt(std::max(0.0, spread.eigenvalues().maxCoeff()));
-}
 
 double seconds(std::int64_t from_ns, std::int64_t to_ns) { return static_cast<double>(to_ns - from_ns) / kSecond_ns; }
 
@@ -231,7 +225,7 @@ void Localizer::tell_state(LocalizedPose& pose) const {
       return tell(State::kLost, fmt::format("odometry unreliable for {:.1f} s, and no compass", since_s));
     }
   }
-  const double sigma_m = horizontal_sigma(pose.covariance);
+  const double sigma_m = vision::horizontal_sigma(pose.covariance);
   if (sigma_m > parameters_.lost_sigma_m) {
     return tell(State::kLost, fmt::format("the position is known to {:.0f} m only", sigma_m));
   }

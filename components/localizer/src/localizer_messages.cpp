@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "localizer_messages.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -105,13 +104,12 @@ panvo_msgs::msg::LandmarkPoses to_message(const std::vector<KnownLandmark>& land
 }
 
 panvo_msgs::msg::LocalizationState to_state(const LocalizedPose& pose, const std::string& map_frame) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> spread(pose.covariance.topLeftCorner<2, 2>());
   panvo_msgs::msg::LocalizationState message;
   message.header().stamp(conversions::to_stamp(pose.stamp_ns));
   message.header().frame_id(map_frame);
   message.state(to_text(pose.state));
   message.reason(pose.reason);
-  message.position_sigma_m(std::sqrt(std::max(0.0, spread.eigenvalues().maxCoeff())));
+  message.position_sigma_m(vision::horizontal_sigma(pose.covariance));
   message.heading_sigma_rad(std::sqrt(std::max(0.0, pose.covariance(5, 5))));
   return message;
 }

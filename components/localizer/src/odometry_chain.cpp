@@ -13,12 +13,6 @@ constexpr double kSecond_ns = 1e9;
 constexpr double kLeastStepVariance = 1e-12;  // what rounding leaves
 constexpr int kYaw = 5;
 
-/// Between two poses, the share of the way from one to the other.
-Eigen::Isometry3d interpolated(const OdometryPose& before, const OdometryPose& after, double share) {
-  const Eigen::Isometry3d step = before.odom_from_base.inverse() * after.odom_from_base;
-  return before.odom_from_base * vision::se3_exp(share * vision::se3_log(step));
-}
-
 double between(std::int64_t stamp_ns, std::int64_t from_ns, std::int64_t to_ns) {
   return static_cast<double>(stamp_ns - from_ns) / static_cast<double>(to_ns - from_ns);
 }
@@ -29,9 +23,8 @@ vision::Matrix6d gained_covariance(const OdometryPose& a, const OdometryPose& b,
   const Eigen::Isometry3d a_from_b = a.odom_from_base.inverse() * b.odom_from_base;
   const vision::Matrix6d inherited =
       vision::compose_covariance(a.odom_from_base, a.covariance, a_from_b, vision::Matrix6d::Zero());
-  vision::Matrix6d turn = vision::Matrix6d::Zero();
-  turn.topLeftCorner<3, 3>() = turn.bottomRightCorner<3, 3>() = a.odom_from_base.linear().transpose();
-  const vision::Matrix6d difference = turn * (b.covariance - inherited) * turn.transpose();
+  const vision::Matrix6d difference =
+      vision::rotate_covariance(a.odom_from_base.linear().transpose(), b.covariance - inherited);
   // rounding, and covariances that were reset, must not make it negative
   const Eigen::SelfAdjointEigenSolver<vision::Matrix6d> parts(0.5 * (difference + difference.transpose()));
   return parts.eigenvectors() * parts.eigenvalues().cwiseMax(least_variance).asDiagonal() *
@@ -69,7 +62,7 @@ std::optional<Remembered> OdometryChain::at(std::int64_t stamp_ns) const {
   const double share = between(stamp_ns, before.pose.stamp_ns, after.pose.stamp_ns);
   Remembered here = after;
   here.pose.stamp_ns = stamp_ns;
-  here.pose.odom_from_base = interpolated(before.pose, after.pose, share);
+  here.pose.odom_from_base = vision::interpolate(before.pose.odom_from_base, after.pose.odom_from_base, share);
   here.pose.covariance = (1.0 - share) * before.pose.covariance + share * after.pose.covariance;
   here.way_m = (1.0 - share) * before.way_m + share * after.way_m;
   return here;
@@ -103,7 +96,8 @@ std::optional<Eigen::Isometry3d> OdometryChain::raw_at(std::int64_t stamp_ns) co
   if (after.stamp_ns == stamp_ns) return after.odom_from_base;
   if (index == 0) return std::nullopt;
   const auto& before = entries_[index - 1].raw;
-  return interpolated(before, after, between(stamp_ns, before.stamp_ns, after.stamp_ns));
+  return vision::interpolate(before.odom_from_base, after.odom_from_base,
+                             between(stamp_ns, before.stamp_ns, after.stamp_ns));
 }
 
 std::optional<double> OdometryChain::yaw_rate(std::int64_t stamp_ns) const {

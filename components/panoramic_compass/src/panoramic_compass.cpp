@@ -47,18 +47,7 @@ void check(const CompassParameters& parameters) {
 Eigen::Matrix3d upright_base_from_panorama() { return (Eigen::Matrix3d() << 0, 0, 1, -1, 0, 0, 0, -1, 0).finished(); }
 
 std::optional<std::string> find_fault(const cv::Mat& panorama) {
-  std::ostringstream text;
-  if (panorama.empty()) return "is empty";
-  if (panorama.type() != CV_8UC1 && panorama.type() != CV_8UC3) return "is not an 8-bit image of 1 or 3 channels";
-  if (panorama.cols != 2 * panorama.rows) {
-    text << "is not twice as wide as high: " << panorama.cols << "x" << panorama.rows << " px";
-    return text.str();
-  }
-  if (panorama.cols < kSmallestColumns) {
-    text << "is too small: " << panorama.cols << "x" << panorama.rows << " px, " << kSmallestColumns
-         << " columns needed";
-    return text.str();
-  }
+  if (auto fault = vision::find_layout_fault(panorama, kSmallestColumns)) return fault;
   // one channel says as much of darkness and contrast as three
   cv::Mat view =
       panorama.rowRange(static_cast<int>(kViewTop * panorama.rows), static_cast<int>(kViewBottom * panorama.rows));

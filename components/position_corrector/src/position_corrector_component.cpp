@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <map>
 #include <memory>
@@ -136,12 +135,10 @@ class PositionCorrectorComponent final : public runtime::Component {
     const auto pose = conversions::to_isometry(message.pose().pose());
     if (!pose) return say_once(fmt::format("{} {}", topics::kOdometryBinocular.name, pose.reason()));
     const auto covariance = conversions::to_matrix(message.pose().covariance());
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> spread(covariance.topLeftCorner<2, 2>());
     const auto& linear = message.twist().twist().linear();
     const auto& angular = message.twist().twist().angular();
-    OdometrySample sample{conversions::stamp_ns(message),
-                          {pose->translation(), std::sqrt(std::max(0.0, spread.eigenvalues().maxCoeff()))},
-                          {}};
+    OdometrySample sample{
+        conversions::stamp_ns(message), {pose->translation(), vision::horizontal_sigma(covariance)}, {}};
     sample.twist << linear.x(), linear.y(), linear.z(), angular.x(), angular.y(), angular.z();
     if (!sample.twist.allFinite()) {
       return say_once(fmt::format("{} has a twist that is not finite", topics::kOdometryBinocular.name));

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <sstream>
 
 namespace panvo::vision {
 
@@ -11,6 +12,23 @@ using std::numbers::pi;
 double wrap(double difference, double turn) {
   const double wrapped = difference - turn * std::floor(difference / turn);  // [0, turn)
   return wrapped > 0.5 * turn ? wrapped - turn : wrapped;
+}
+
+std::optional<std::string> find_layout_fault(const cv::Mat& panorama, int smallest_columns) {
+  std::ostringstream text;
+  if (panorama.empty()) {
+    text << "is empty";
+  } else if (panorama.type() != CV_8UC1 && panorama.type() != CV_8UC3) {
+    text << "is not an 8-bit image of 1 or 3 channels";
+  } else if (panorama.cols != 2 * panorama.rows) {
+    text << "is not twice as wide as high: " << panorama.cols << "x" << panorama.rows << " px";
+  } else if (panorama.cols < smallest_columns) {
+    text << "is too small: " << panorama.cols << "x" << panorama.rows << " px, " << smallest_columns
+         << " columns needed";
+  } else {
+    return std::nullopt;
+  }
+  return text.str();
 }
 
 double Equirectangular::azimuth_rad(double u) const { return 2.0 * pi * u / columns - pi; }

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "panvo/vision/pose.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/SVD>
+#include <algorithm>
 #include <cmath>
 
 namespace panvo::vision {
@@ -57,6 +59,10 @@ Vector6d se3_log(const Eigen::Isometry3d& a_from_b) {
   return twist;
 }
 
+Eigen::Isometry3d interpolate(const Eigen::Isometry3d& a_from_b, const Eigen::Isometry3d& a_from_c, double share) {
+  return a_from_b * se3_exp(share * se3_log(a_from_b.inverse() * a_from_c));
+}
+
 Matrix6d adjoint(const Eigen::Isometry3d& a_from_b) {
   Matrix6d matrix = Matrix6d::Zero();
   matrix.topLeftCorner<3, 3>() = a_from_b.linear();
@@ -88,6 +94,18 @@ Matrix6d compose_covariance(const Eigen::Isometry3d& a_from_b, const Matrix6d& c
   by_second.bottomRightCorner<3, 3>() = a_from_b.linear();
   return by_first * covariance_a_from_b * by_first.transpose() +
          by_second * covariance_b_from_c * by_second.transpose();
+}
+
+Matrix6d rotate_covariance(const Eigen::Matrix3d& b_from_a, const Matrix6d& covariance) {
+  Matrix6d rotation = Matrix6d::Zero();
+  rotation.topLeftCorner<3, 3>() = b_from_a;
+  rotation.bottomRightCorner<3, 3>() = b_from_a;
+  return rotation * covariance * rotation.transpose();
+}
+
+double horizontal_sigma(const Matrix6d& covariance) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> spread(covariance.topLeftCorner<2, 2>());
+  return std::sqrt(std::max(0.0, spread.eigenvalues().maxCoeff()));
 }
 
 Matrix6d invert_covariance(const Eigen::Isometry3d& a_from_b, const Matrix6d& covariance_a_from_b) {

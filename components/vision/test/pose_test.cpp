@@ -87,6 +87,27 @@ TEST(ComposeCovariance, AgreesWithMonteCarlo) {
   EXPECT_LT((sampled - predicted).norm(), 0.03 * predicted.norm());
 }
 
+TEST(Interpolate, GoesAtConstantTwistFromOneToTheOther) {
+  const Vector6d twist = (Vector6d() << 1.0, 2.0, -0.5, 0.1, -0.2, 0.9).finished();
+  const Eigen::Isometry3d from = se3_exp((Vector6d() << 0.3, 0.0, 1.0, 0.5, 0.2, 0.0).finished());
+  EXPECT_TRUE(interpolate(from, from * se3_exp(twist), 0.0).isApprox(from, 1e-12));
+  EXPECT_TRUE(interpolate(from, from * se3_exp(twist), 0.25).isApprox(from * se3_exp(0.25 * twist), 1e-12));
+  EXPECT_TRUE(interpolate(from, from * se3_exp(twist), 1.0).isApprox(from * se3_exp(twist), 1e-12));
+}
+
+TEST(RotateCovariance, TurnsTranslationAndRotation) {
+  const Matrix6d covariance = (Vector6d() << 1.0, 4.0, 9.0, 0.1, 0.2, 0.3).finished().asDiagonal();
+  const Matrix6d turned = rotate_covariance(so3_exp(Eigen::Vector3d(0.0, 0.0, 0.5 * M_PI)), covariance);
+  const Matrix6d expected = (Vector6d() << 4.0, 1.0, 9.0, 0.2, 0.1, 0.3).finished().asDiagonal();
+  EXPECT_TRUE(turned.isApprox(expected, 1e-12));
+}
+
+TEST(HorizontalSigma, IsThatOfTheWorstDirection) {
+  Matrix6d covariance = (Vector6d() << 4.0, 1.0, 100.0, 0.0, 0.0, 0.0).finished().asDiagonal();
+  EXPECT_NEAR(horizontal_sigma(covariance), 2.0, 1e-12);
+  EXPECT_NEAR(horizontal_sigma(rotate_covariance(so3_exp(Eigen::Vector3d(0.0, 0.0, 0.7)), covariance)), 2.0, 1e-12);
+}
+
 TEST(InvertCovariance, AgreesWithMonteCarlo) {
   const Eigen::Isometry3d a_from_b = se3_exp(kTwist);
   const Matrix6d covariance = some_covariance(0.02, 0.004);

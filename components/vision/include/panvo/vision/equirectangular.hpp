@@ -2,6 +2,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <opencv2/core.hpp>
+#include <optional>
+#include <string>
 
 namespace panvo::vision {
 
@@ -25,6 +28,10 @@ struct Equirectangular {
   double column(double azimuth_rad) const;  ///< not wrapped
   double row(double elevation_rad) const;
 };
+
+/// What keeps an image from being an equirectangular panorama of 8 bits, in words that follow its name ("is not twice as wide as high:
+/// ..."); nullopt for one that is at least `smallest_columns` wide.
+std::optional<std::string> find_layout_fault(const cv::Mat& panorama, int smallest_columns);
 
 /// The same difference of columns, or angle, modulo a full turn: in (-turn/2, turn/2].
 double wrap(double difference, double turn);

@@ -27,6 +27,9 @@ Matrix6d adjoint(const Eigen::Isometry3d& a_from_b);
 /// Nearest proper rotation (smallest Frobenius distance): undoes the rounding of many products.
 Eigen::Matrix3d nearest_rotation(const Eigen::Matrix3d& matrix);
 
+/// The pose at `share` [0, 1] of the way from one to another, at constant twist.
+Eigen::Isometry3d interpolate(const Eigen::Isometry3d& a_from_b, const Eigen::Isometry3d& a_from_c, double share);
+
 /// Error of an estimated pose, the quantity whose covariance every pose of panvo carries: the translation t_true - t_estimate
 /// (m) and the rotation vector of R_true * R_estimate^T (rad), both in the axes of the parent frame a.
 Vector6d pose_error(const Eigen::Isometry3d& estimated_a_from_b, const Eigen::Isometry3d& true_a_from_b);
@@ -34,6 +37,12 @@ Vector6d pose_error(const Eigen::Isometry3d& estimated_a_from_b, const Eigen::Is
 /// Covariance of a_from_c = a_from_b * b_from_c for independent errors of the two (each as of pose_error).
 Matrix6d compose_covariance(const Eigen::Isometry3d& a_from_b, const Matrix6d& covariance_a_from_b,
                             const Eigen::Isometry3d& b_from_c, const Matrix6d& covariance_b_from_c);
+
+/// A covariance in the axes of frame a, in those of frame b.
+Matrix6d rotate_covariance(const Eigen::Matrix3d& b_from_a, const Matrix6d& covariance);
+
+/// Standard deviation of the horizontal position along its worst direction, m.
+double horizontal_sigma(const Matrix6d& covariance);
 
 /// Covariance of b_from_a, given that of a_from_b.
 Matrix6d invert_covariance(const Eigen::Isometry3d& a_from_b, const Matrix6d& covariance_a_from_b);
