@@ -22,8 +22,8 @@ void encode(const CdrType& type, const void* message, std::span<std::uint8_t> ou
   clear_padding(type.name, *type.layout, out.subspan(kEncapsulationSize));
 }
 
-void decode(const CdrType& type, std::span<const std::uint8_t> bytes, void* message) {
-  const std::string name(type.name);
+std::endian check_encapsulation(std::string_view type_name, std::span<const std::uint8_t> bytes) {
+  const std::string name(type_name);
   if (bytes.size() < kEncapsulationSize) {
     throw DecodeError(name + ": " + std::to_string(bytes.size()) + " bytes are too few for a message");
   }
@@ -32,8 +32,12 @@ void decode(const CdrType& type, std::span<const std::uint8_t> bytes, void* mess
     throw DecodeError(name + ": encapsulation " + std::to_string(bytes[0]) + " " + std::to_string(bytes[1]) +
                       " is not plain CDR");
   }
-  check_cdr(type.name, *type.layout, bytes.subspan(kEncapsulationSize),
-            bytes[1] == 1 ? std::endian::little : std::endian::big);
+  return bytes[1] == 1 ? std::endian::little : std::endian::big;
+}
+
+void decode(const CdrType& type, std::span<const std::uint8_t> bytes, void* message) {
+  const auto order = check_encapsulation(type.name, bytes);
+  check_cdr(type.name, *type.layout, bytes.subspan(kEncapsulationSize), order);
   // Fast CDR takes a pointer to non-const for reading too.
   FastBuffer buffer(const_cast<char*>(reinterpret_cast<const char*>(bytes.data())), bytes.size());
   Cdr cdr(buffer, Cdr::DEFAULT_ENDIAN, Cdr::DDS_CDR);
@@ -41,7 +45,7 @@ void decode(const CdrType& type, std::span<const std::uint8_t> bytes, void* mess
     cdr.read_encapsulation();
     type.read(message, cdr);
   } catch (const eprosima::fastcdr::exception::Exception& error) {
-    throw DecodeError(name + ": " + error.what());
+    throw DecodeError(std::string(type.name) + ": " + error.what());
   }
 }
 
@@ -53,6 +57,13 @@ const MessageType* find_message_type(std::string_view name) {
   const auto types = message_types();
   const auto found = std::ranges::lower_bound(types, name, {}, [](const MessageType* type) { return type->name; });
   return found != types.end() && (*found)->name == name ? *found : nullptr;
+}
+
+const CdrLayout& layout_of(const MessageType& type) {
+  const auto types = message_types();
+  const auto found =
+      std::ranges::lower_bound(types, type.name, {}, [](const MessageType* known) { return known->name; });
+  return *cdr_layouts()[static_cast<std::size_t>(found - types.begin())];
 }
 
 }  // namespace panvo::interfaces

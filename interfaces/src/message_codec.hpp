@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <bit>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -32,6 +33,9 @@ struct CdrType {
 
 /// Encapsulation header and message, XCDR1 little endian. Every byte of `out` is written.
 void encode(const CdrType& type, const void* message, std::span<std::uint8_t> out);
+
+/// The byte order that the encapsulation header tells; throws DecodeError for one that is not plain CDR's.
+std::endian check_encapsulation(std::string_view type_name, std::span<const std::uint8_t> bytes);
 
 /// Throws DecodeError for bytes that are not a message of that type.
 void decode(const CdrType& type, std::span<const std::uint8_t> bytes, void* message);

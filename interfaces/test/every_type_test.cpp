@@ -97,7 +97,9 @@ TEST_P(EveryType, HasAStampIfItHasAHeader) {
 
 TEST_P(EveryType, HasNamesThatAgree) {
   std::string dds_name(type().name);
-  dds_name.replace(dds_name.find("/msg/"), 5, "::msg::dds_::");
+  const bool is_of_a_service = dds_name.find("/srv/") != std::string::npos;
+  dds_name.replace(dds_name.find(is_of_a_service ? "/srv/" : "/msg/"), 5,
+                   is_of_a_service ? "::srv::dds_::" : "::msg::dds_::");
   EXPECT_EQ(type().dds_name, dds_name + "_");
   EXPECT_EQ(type().hash.size(), 71U);
   EXPECT_TRUE(type().hash.starts_with("RIHS01_"));

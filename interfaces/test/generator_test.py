@@ -60,7 +60,25 @@ class Parsing(unittest.TestCase):
         self.assert_refuses("struct Thing { double a; double a; };", "a is there twice")
         self.assert_refuses("enum Thing { A };", "expected struct, found enum")
         self.assert_refuses("struct Thing { double a; }; struct Other { double a; };", "expected }")
+        
         self.assert_refuses("struct Thing { double $a; };", "cannot read")
+
+    def test_reads_a_bounded_sequence(self):
+        message = parse("struct Thing { sequence<std_msgs::msg::String, 1> names; };")
+        self.assertEqual(message.fields[0].type, idl.Type("std_msgs/msg/String", is_sequence=True, sequence_bound=1))
+
+    def test_reads_a_service_as_request_and_response(self):
+        body = "module Add_Request_Constants { const uint8 ONE = 1; }; struct Add_Request { double a; }; struct Add_Response { double sum; };"
+        request, response = idl.parse_file(Path("a_msgs/srv/Add.idl"), wrapped(body).replace("module msg", "module srv"))
+        self.assertEqual((request.full_name, response.full_name), ("a_msgs/srv/Add_Request", "a_msgs/srv/Add_Response"))
+        self.assertEqual((request.file_name, response.file_name), ("a_msgs/srv/Add", "a_msgs/srv/Add"))
+        self.assertEqual(request.constants, [idl.Constant("ONE", "uint8", "1")])
+        self.assertEqual(request.cpp_name, "a_msgs::srv::Add_Request")
+
+    def test_refuses_a_service_without_its_response(self):
+        for body, message in (("struct Add_Request { double a; };", "expected struct"), ("struct Add_Request { double a; }; struct Sum { double s; };", "must end in _Response")):
+            with self.assertRaisesRegex(idl.IdlError, message):
+                idl.parse_file(Path("a_msgs/srv/Add.idl"), wrapped(body).replace("module msg", "module srv"))
 
     def test_names_the_line(self):
         self.assert_refuses("struct Thing {\n  double a;\n  long b;\n};", "Thing.idl:4: long")
@@ -91,6 +109,11 @@ class Output(unittest.TestCase):
         expected += "\n" + "=" * 80 + "\nMSG: a_msgs/Inner\nbyte level\nbool on\n"
         self.assertEqual(definition(self.messages["a_msgs/msg/Outer"], self.messages), expected)
 
+    def test_bounded_sequence_is_in_ros2_notation_and_has_a_hash_of_its_own(self):
+        bounded = parse("struct Thing { sequence<double, 1> a; };")
+        self.assertIn("float64[<=1] a\n", definition(bounded, {}))
+        self.assertNotEqual(type_hash(bounded, {}), type_hash(parse("struct Thing { sequence<double> a; };"), {}))
+
     def test_hash_changes_with_fields_but_not_with_comments(self):
         first = parse("struct Thing { double a; };")
         commented = parse("// Why.\nstruct Thing { double a; };")
@@ -101,7 +124,7 @@ class Output(unittest.TestCase):
     def test_table_lays_out_what_is_contained_first(self):
         text = message_table.table(self.messages)
         self.assertLess(text.index("k_a_msgs_Inner_layout{"), text.index("k_a_msgs_Outer_layout{"))
-        self.assertIn('{.name = "scale", .size = 4, .array_size = 3},', text)
+        self.assertIn('{.name = "scale", .size = 4, .number = CdrNumber::kFloat, .array_size = 3, .is_array = true},', text)
         self.assertIn('{.name = "inner", .nested = &k_a_msgs_Inner_layout, .is_sequence = true},', text)
 
     def test_failure_of_the_generator_is_reported(self):

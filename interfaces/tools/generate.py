@@ -26,8 +26,8 @@ def _write_if_changed(path: Path, text: str) -> None:
 
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--idl", type=Path, required=True, help="folder with <package>/msg/<Name>.idl")
-    parser.add_argument("--output", type=Path, required=True, help="folder for <package>/msg/<Name>.{h,cxx} and message_table.cpp")
+    parser.add_argument("--idl", type=Path, required=True, help="folder with <package>/msg/<Name>.idl and <package>/srv/<Name>.idl")
+    parser.add_argument("--output", type=Path, required=True, help="folder for <package>/{msg,srv}/<Name>.{h,cxx} and message_table.cpp")
     parser.add_argument("--fastddsgen", default="fastddsgen", help="the generator of the classes")
     arguments = parser.parse_args()
     try:

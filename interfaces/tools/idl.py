@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Reads message definitions written in the part of OMG IDL that ROS 2 uses: one struct a file, in modules <package>::msg."""
+"""Reads definitions written in the part of OMG IDL that ROS 2 uses: a message is one struct a file, in modules <package>::msg; a service is two,
+<Name>_Request and <Name>_Response, in modules <package>::srv."""
 
 from __future__ import annotations
 
@@ -24,6 +25,7 @@ class Type:
     string_bound: int = 0  # longest string in bytes; 0: no limit
     array_size: int = 0  # elements of a fixed array; 0: not an array
     is_sequence: bool = False
+    sequence_bound: int = 0  # most elements of a sequence; 0: no limit
 
     @property
     def is_message(self) -> bool:
@@ -52,14 +54,21 @@ class Message:
     comment: str = ""
     fields: list[Field] = field(default_factory=list)
     constants: list[Constant] = field(default_factory=list)
+    kind: str = "msg"  # or "srv", of a service's request or response
 
     @property
     def full_name(self) -> str:
-        return f"{self.package}/msg/{self.name}"
+        return f"{self.package}/{self.kind}/{self.name}"
+
+    @property
+    def file_name(self) -> str:
+        """Of its definition and its class, without suffix: a service's request and response share one."""
+        name = self.name if self.kind == "msg" else self.name.rsplit("_", 1)[0]
+        return f"{self.package}/{self.kind}/{name}"
 
     @property
     def cpp_name(self) -> str:
-        return f"{self.package}::msg::{self.name}"
+        return f"{self.package}::{self.kind}::{self.name}"
 
     @property
     def direct_dependencies(self) -> list[str]:
@@ -128,14 +137,26 @@ class _Parser:
         self.at += 1
         return text.removeprefix("//").strip()
 
-    def message(self) -> Message:
+    def messages(self) -> list[Message]:
+        """The message of a file, or the request and the response of a service."""
         self.skip_comments()
         self.take("module")
-        message = Message(package=self.take(), name="")
+        package = self.take()
         self.take("{")
         self.take("module")
-        self.take("msg")
+        kind = self.take()
+        if kind not in ("msg", "srv"):
+            raise self.error(f"module {kind} is not understood: msg for messages, srv for services")
         self.take("{")
+        messages = [self.struct(package, kind) for _ in range(1 if kind == "msg" else 2)]
+        for closing in ("}", ";") * 2:
+            self.take(closing)
+        if self.peek():
+            raise self.error(f"{self.peek()} after the definition: one message or service a file")
+        return messages
+
+    def struct(self, package: str, kind: str) -> Message:
+        message = Message(package=package, name="", kind=kind)
         if self.peek() == "module":
             message.constants = self.constants()
         message.comment = self.skip_comments_before("struct")
@@ -144,10 +165,8 @@ class _Parser:
         self.take("{")
         while self.peek() != "}":
             message.fields.append(self.field(message.fields))
-        for closing in ("}", ";") * 3:
+        for closing in ("}", ";"):
             self.take(closing)
-        if self.peek():
-            raise self.error(f"{self.peek()} after the message: one struct a file")
         if not message.fields:
             raise self.error("a struct needs a member: ROS 2 puts uint8 structure_needs_at_least_one_member")
         return message
@@ -212,8 +231,12 @@ class _Parser:
             element = self.type()
             if element.is_sequence:
                 raise self.error("a sequence of sequences is not understood; wrap the inner one in a message of its own")
+            bound = 0
+            if self.peek() == ",":
+                self.take(",")
+                bound = self.number()
             self.take(">")
-            return Type(element.base, element.string_bound, is_sequence=True)
+            return Type(element.base, element.string_bound, is_sequence=True, sequence_bound=bound)
         if base == "string":
             bound = 0
             if self.peek() == "<":
@@ -228,22 +251,28 @@ class _Parser:
         raise self.error(f"{base} is not a type that is understood: {', '.join(PRIMITIVES)}, string, sequence<...> or package::msg::Name")
 
 
+def parse_file(path: Path, text: str) -> list[Message]:
+    """What a file defines; its place, <package>/msg/<Name>.idl or <package>/srv/<Name>.idl, must agree."""
+    messages = _Parser(path, text).messages()
+    for message, part in zip(messages, ("_Request", "_Response")):
+        if message.kind == "srv" and not message.name.endswith(part):
+            raise IdlError(f"{path}: {message.name} must end in {part}: a service is its request, then its response")
+        if path.parts[-3:] != (message.package, message.kind, f"{message.file_name.split('/')[-1]}.idl"):
+            raise IdlError(f"{path}: defines {message.full_name}, so it must be {message.file_name}.idl")
+    return messages
+
+
 def parse(path: Path, text: str) -> Message:
-    """The message that a file defines; its place, <package>/msg/<Name>.idl, must agree."""
-    message = _Parser(path, text).message()
-    if path.parts[-3:] != (message.package, "msg", f"{message.name}.idl"):
-        raise IdlError(f"{path}: defines {message.full_name}, so it must be {message.full_name}.idl")
-    return message
+    """The message that a file defines."""
+    return parse_file(path, text)[0]
 
 
 def read_messages(root: Path) -> dict[str, Message]:
-    """Every message under a folder by its full name, sorted."""
-    messages = {}
-    for path in sorted(root.glob("*/msg/*.idl")):
-        message = parse(path, path.read_text(encoding="utf-8"))
-        messages[message.full_name] = message
+    """Every message, request and response under a folder by its full name, sorted."""
+    found = [message for path in root.glob("*/*/*.idl") for message in parse_file(path, path.read_text(encoding="utf-8"))]
+    messages = {message.full_name: message for message in sorted(found, key=lambda message: message.full_name)}
     for message in messages.values():
         for name in message.direct_dependencies:
             if name not in messages:
-                raise IdlError(f"{root / message.full_name}.idl: {name} is not defined; add {root / name}.idl")
+                raise IdlError(f"{root / message.file_name}.idl: {name} is not defined; add {root / name}.idl")
     return messages

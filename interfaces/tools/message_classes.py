@@ -7,6 +7,7 @@ import os
 import re
 import subprocess
 import tempfile
+from collections.abc import Iterable
 from pathlib import Path
 
 import idl
@@ -19,20 +20,29 @@ class GeneratorError(Exception):
     """fastddsgen did not do what was asked; the message holds what it said."""
 
 
-def _flat_name(full_name: str) -> str:
+def _flat_name(file_name: str) -> str:
     """fastddsgen writes all its output into one folder: the package has to be part of the file name."""
-    return full_name.replace("/", "__")
+    return file_name.replace("/", "__")
 
 
-def _write_flat_copies(messages: dict[str, idl.Message], source: Path, folder: Path) -> Path:
+def _by_file(messages: dict[str, idl.Message]) -> dict[str, list[idl.Message]]:
+    """A service's request and response are in one file."""
+    files: dict[str, list[idl.Message]] = {}
+    for message in messages.values():
+        files.setdefault(message.file_name, []).append(message)
+    return files
+
+
+def _write_flat_copies(names: Iterable[str], source: Path, folder: Path) -> Path:
     """Copies the definitions under their flat names. One file that includes them all lets one Java process do the whole work."""
     include = re.compile(r'#include "(\w+/msg/\w+)\.idl"')
-    for name in messages:
+    names = list(names)
+    for name in names:
         text = (source / f"{name}.idl").read_text(encoding="utf-8")
         text = include.sub(lambda match: f'#include "{_flat_name(match.group(1))}.idl"', text)
         (folder / f"{_flat_name(name)}.idl").write_text(text, encoding="utf-8")
     root = folder / "all_messages.idl"
-    root.write_text("".join(f'#include "{_flat_name(name)}.idl"\n' for name in messages), encoding="utf-8")
+    root.write_text("".join(f'#include "{_flat_name(name)}.idl"\n' for name in names), encoding="utf-8")
     return root
 
 
@@ -49,34 +59,36 @@ def _run_fastddsgen(fastddsgen: str, root: Path, output: Path) -> str:
     return result.stdout
 
 
-def _header(message: idl.Message, text: str) -> str:
+def _header(file_name: str, messages: list[idl.Message], text: str) -> str:
     """With includes of what its fields need, by their place."""
     text = re.sub(r'#include "[^"]*"\n', "", text)
-    own_includes = "".join(f'#include "{name}.h"\n' for name in message.direct_dependencies)
+    needed = dict.fromkeys(name for message in messages for name in message.direct_dependencies)
+    own_includes = "".join(f'#include "{name}.h"\n' for name in needed)
     anchor = "#include <fastrtps/utils/fixed_size_string.hpp>\n"
     if text.count(anchor) != 1:
-        raise GeneratorError(f"{message.full_name}: the header that fastddsgen wrote is not laid out as version 2.3.0 does it")
+        raise GeneratorError(f"{file_name}: the header that fastddsgen wrote is not laid out as version 2.3.0 does it")
     return text.replace(anchor, own_includes + anchor).rstrip() + "\n"
 
 
-def _source(message: idl.Message, text: str) -> str:
+def _source(file_name: str, _: list[idl.Message], text: str) -> str:
     """Without the comments that hold addresses of Java objects, which differ from run to run."""
     text = re.sub(r"\n\s*// m_\w+ com\.eprosima\.[^\n]*", "", text)
-    return text.replace(f'#include "{_flat_name(message.full_name)}.h"', f'#include "{message.full_name}.h"').rstrip() + "\n"
+    return text.replace(f'#include "{_flat_name(file_name)}.h"', f'#include "{file_name}.h"').rstrip() + "\n"
 
 
 def generate(messages: dict[str, idl.Message], source: Path, fastddsgen: str) -> dict[str, str]:
-    """Contents of <package>/msg/<Name>.h and .cxx of every message, by path."""
+    """Contents of <package>/msg/<Name>.h and .cxx of every message, <package>/srv/... of every service, by path."""
     files = {}
+    by_file = _by_file(messages)
     with tempfile.TemporaryDirectory() as temporary:
         idl_folder, output = Path(temporary, "idl"), Path(temporary, "cpp")
         idl_folder.mkdir()
         output.mkdir()
-        said = _run_fastddsgen(fastddsgen, _write_flat_copies(messages, source, idl_folder), output)
-        for name, message in messages.items():
+        said = _run_fastddsgen(fastddsgen, _write_flat_copies(by_file, source, idl_folder), output)
+        for name, defined in by_file.items():
             for suffix, adapt in ((".h", _header), (".cxx", _source)):
                 path = output / (_flat_name(name) + suffix)
                 if not path.exists():
                     raise GeneratorError(f"{name}: fastddsgen wrote no {path.name}; it said:\n{said}")
-                files[name + suffix] = adapt(message, path.read_text(encoding="utf-8"))
+                files[name + suffix] = adapt(name, defined, path.read_text(encoding="utf-8"))
     return files

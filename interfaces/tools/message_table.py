@@ -13,12 +13,13 @@ _SIZES = {
     "boolean": 1, "octet": 1, "int8": 1, "uint8": 1, "int16": 2, "uint16": 2, "int32": 4, "uint32": 4, "int64": 8, "uint64": 8,
     "float": 4, "double": 8,
 }
+_FLOATS = ("float", "double")
 _TIME = "builtin_interfaces/msg/Time"
 _HEADER = "std_msgs/msg/Header"
 
 
 def _identifier(message: idl.Message) -> str:
-    return f"{message.package}_{message.name}"
+    return f"{message.package}_{message.name}" if message.kind == "msg" else f"{message.package}_srv_{message.name}"
 
 
 def _field(field: idl.Field, messages: dict[str, idl.Message]) -> str:
@@ -29,7 +30,13 @@ def _field(field: idl.Field, messages: dict[str, idl.Message]) -> str:
         element = ".is_string = true"
     else:
         element = f".size = {_SIZES[type_.base]}"
-    count = f", .array_size = {type_.array_size}" if type_.array_size else ""
+        if type_.base in _FLOATS:
+            element += ", .number = CdrNumber::kFloat"
+        elif type_.base == "boolean":
+            element += ", .number = CdrNumber::kBool"
+        elif type_.base.startswith("int"):
+            element += ", .number = CdrNumber::kSigned"
+    count = f", .array_size = {type_.array_size}, .is_array = true" if type_.array_size else ""
     sequence = ", .is_sequence = true" if type_.is_sequence else ""
     return f'    {{.name = "{field.name}", {element}{count}{sequence}}},'
 
@@ -72,7 +79,7 @@ def _facts(message: idl.Message, messages: dict[str, idl.Message]) -> str:
     return f"""template <>
 struct Facts<{cpp}> {{
   static constexpr std::string_view name = "{message.full_name}";
-  static constexpr std::string_view dds_name = "{message.package}::msg::dds_::{message.name}_";
+  static constexpr std::string_view dds_name = "{message.package}::{message.kind}::dds_::{message.name}_";
   static constexpr std::string_view hash = "{type_hash(message, messages)}";
   static constexpr std::string_view definition =
 {text};
@@ -98,7 +105,7 @@ def _bottom_up(messages: dict[str, idl.Message]) -> list[idl.Message]:
 
 def table(messages: dict[str, idl.Message]) -> str:
     """The source file."""
-    includes = "".join(f'#include "{name}.h"\n' for name in messages)
+    includes = "".join(f'#include "{name}.h"\n' for name in dict.fromkeys(m.file_name for m in messages.values()))
     layouts = "\n".join(_layout(message, messages) for message in _bottom_up(messages))
     facts = "\n".join(_facts(message, messages) for message in messages.values())
     instances = "".join(f"template const MessageType& message_type<::{m.cpp_name}>();\n" for m in messages.values())

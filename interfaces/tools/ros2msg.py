@@ -20,7 +20,7 @@ def _type(type_: idl.Type, package: str) -> str:
     if type_.array_size:
         base += f"[{type_.array_size}]"
     elif type_.is_sequence:
-        base += "[]"
+        base += f"[<={type_.sequence_bound}]" if type_.sequence_bound else "[]"
     return base
 
 

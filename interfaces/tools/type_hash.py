@@ -16,6 +16,7 @@ _TYPE_IDS = {
 _NESTED_TYPE_ID = 1
 _BOUNDED_STRING_ID = 21
 _ARRAY_OFFSET = 48
+_BOUNDED_SEQUENCE_OFFSET = 96
 _SEQUENCE_OFFSET = 144
 
 
@@ -29,10 +30,10 @@ def _field_type(type_: idl.Type) -> dict:
     if type_.array_size:
         type_id += _ARRAY_OFFSET
     elif type_.is_sequence:
-        type_id += _SEQUENCE_OFFSET
+        type_id += _BOUNDED_SEQUENCE_OFFSET if type_.sequence_bound else _SEQUENCE_OFFSET
     return {
         "type_id": type_id,
-        "capacity": type_.array_size,
+        "capacity": type_.array_size or type_.sequence_bound,
         "string_capacity": type_.string_bound,
         "nested_type_name": type_.base if type_.is_message else "",
     }
