@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
+#include <sstream>
 #include <stdexcept>
 #include <thread>
 
@@ -73,6 +74,25 @@ Finished run(const std::vector<std::string>& words, std::chrono::seconds limit) 
   Process process(words);
   const int status = process.wait(limit);
   return {status, process.output()};
+}
+
+bool eventually(const std::function<bool()>& condition, std::chrono::seconds limit) {
+  const auto give_up = std::chrono::steady_clock::now() + limit;
+  while (!condition()) {
+    if (std::chrono::steady_clock::now() > give_up) return false;
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  return true;
+}
+
+std::string find_program(const std::string& name) {
+  const char* path = std::getenv("PATH");
+  std::istringstream folders((path ? std::string(path) : std::string()) + ":/usr/sbin:/sbin");
+  for (std::string folder; std::getline(folders, folder, ':');) {
+    const fs::path program = fs::path(folder) / name;
+    if (access(program.c_str(), X_OK) == 0) return program.string();
+  }
+  return "";
 }
 
 TemporaryFolder::TemporaryFolder() : path_(temporary_path("panvo_test_XXXXXX")) {}

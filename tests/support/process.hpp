@@ -5,6 +5,7 @@
 
 #include <chrono>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,7 @@ class Process {
   Process& operator=(const Process&) = delete;
 
   void signal(int number) const;
+  pid_t id() const noexcept { return pid_; }
 
   /// Exit status, or 128 + signal. Kills the process and returns -1 when `limit` has passed.
   int wait(std::chrono::seconds limit = std::chrono::seconds(100));
@@ -39,6 +41,12 @@ struct Finished {
 
 /// Runs a program to its end.
 Finished run(const std::vector<std::string>& words, std::chrono::seconds limit = std::chrono::seconds(100));
+
+/// Looks every few milliseconds whether `condition` holds; false when it did not before the limit.
+bool eventually(const std::function<bool()>& condition, std::chrono::seconds limit = std::chrono::seconds(60));
+
+/// The path of a program of the system's, looked for in $PATH and where administrators have theirs; empty: not installed.
+std::string find_program(const std::string& name);
 
 /// A folder that is removed with its owner.
 class TemporaryFolder {
