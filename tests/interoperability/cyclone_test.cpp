@@ -48,7 +48,7 @@ Subject subject(const interfaces::Topic<Message>& topic) {
           [](const SamplePtr& received, int n) { return *Sample::as<Message>(received) == made<Message>(n); }};
 }
 
-void PrintTo(const Subject& subject, std::ostream* out) { *out << subject.topic; }
+std::ostream& operator<<(std::ostream& out, const Subject& subject) { return out << subject.topic; }
 
 /// A process with our bridge (this one) and one with Cyclone DDS, on the loopback interface alone.
 class Cyclone : public testing::TestWithParam<Subject> {
