@@ -91,8 +91,11 @@ void apply(const TopicDescription& topic, fdds::DataWriterQos& qos) {
 
 void apply(const TopicDescription& topic, fdds::DataReaderQos& qos) {
   apply_common(topic, qos);
-  qos.reliability().kind = topic.qos.requested == Reliability::kReliable ? fdds::RELIABLE_RELIABILITY_QOS
-                                                                         : fdds::BEST_EFFORT_RELIABILITY_QOS;
+  // A profile may ask for more than a topic needs: where the network loses packets, an image hardly ever comes whole at the first attempt.
+  const bool is_reliable_by_profile = qos.reliability().kind == fdds::RELIABLE_RELIABILITY_QOS;
+  qos.reliability().kind = topic.qos.requested == Reliability::kReliable || is_reliable_by_profile
+                               ? fdds::RELIABLE_RELIABILITY_QOS
+                               : fdds::BEST_EFFORT_RELIABILITY_QOS;
   qos.type_consistency().representation.m_value = {fdds::XCDR_DATA_REPRESENTATION};
   qos.data_sharing().off();
 }

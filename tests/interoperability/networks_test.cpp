@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+// A system split over two hosts gives the odometry of one container: on one subnet, across a router, and where packets get lost.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <csignal>
+#include <map>
+#include <sstream>
+
+#include "process.hpp"
+#include "rendered_walk.hpp"
+#include "two_hosts.hpp"
+
+namespace panvo::test {
+namespace {
+
+using Words = std::vector<std::string>;
+
+constexpr std::chrono::seconds kLimit(100);
+// Both sides must know of each other before the first image is sent.
+const Words kAwaitReaders{"--await", "/stereo/left/image_rect", "--await", "/stereo/right/image_rect",
+                          "--await", "/stereo/left/camera_info"};
+
+struct Position {
+  double x, y, z;
+};
+
+/// stamp as written -> position.
+std::map<std::string, Position> read_tum(const std::filesystem::path& file) {
+  std::map<std::string, Position> positions;
+  std::istringstream lines(read_file(file));
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream words(line);
+    std::string stamp;
+    Position position{};
+    words >> stamp >> position.x >> position.y >> position.z;
+    positions[stamp] = position;
+  }
+  return positions;
+}
+
+class AcrossHosts : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (const auto reason = TwoHosts::why_not(); !reason.empty()) GTEST_SKIP() << reason;
+    RenderedWalk{.frames = 30}.write(folder_.path() / "walk");
+    const Finished replayed =
+        run({PANVO_RUN, CONFIG "/systems/stereo.yaml", "--dataset", walk_, "--out", folder_ / "one", "--replay"});
+    ASSERT_EQ(replayed.status, 0) << replayed.output;
+  }
+
+  /// stereo_split with its cameras on host a and its odometry on host b. `before`: words before the command, for its environment.
+  void run_split(const TwoHosts& hosts, const Words& before, const Words& more) {
+    const auto words = [&](const Words& own) {
+      Words all = before;
+      all.insert(all.end(), {PANVO_RUN, CONFIG "/systems/stereo_split.yaml"});
+      all.insert(all.end(), more.begin(), more.end());
+      all.insert(all.end(), own.begin(), own.end());
+      return all;
+    };
+    Process odometry(hosts.on_b(words({"--container", "odometry", "--out", folder_ / "split"})));
+    Words camera_words =
+        words({"--container", "cameras", "--dataset", walk_, "--rate", "1", "--out", folder_ / "cameras"});
+    camera_words.insert(camera_words.end(), kAwaitReaders.begin(), kAwaitReaders.end());
+    Process cameras(hosts.on_a(camera_words));
+    EXPECT_EQ(cameras.wait(kLimit), 0) << cameras.output() << odometry.output();
+    odometry.signal(SIGINT);
+    EXPECT_EQ(odometry.wait(kLimit), 0) << odometry.output();
+    said_ = cameras.output() + odometry.output();
+  }
+
+  /// As tests/recorded_topics has it for two processes: a frame or two may get lost, which changes the path by less than 5 cm.
+  void expect_the_odometry_of_one_container() {
+    const auto expected = read_tum(folder_.path() / "one" / "odometry_binocular.tum");
+    const auto got = read_tum(folder_.path() / "split" / "odometry_binocular.tum");
+    ASSERT_EQ(expected.size(), 30U);
+    EXPECT_TRUE(got.contains(expected.begin()->first)) << "the first frame is missing\n" << said_;
+    EXPECT_GE(got.size(), expected.size() * 9 / 10) << said_;
+    for (const auto& [stamp, position] : got) {
+      ASSERT_TRUE(expected.contains(stamp)) << stamp;
+      const Position& wanted = expected.at(stamp);
+      EXPECT_LT(std::hypot(position.x - wanted.x, position.y - wanted.y, position.z - wanted.z), 0.05) << stamp;
+    }
+  }
+
+  TemporaryFolder folder_;
+  const std::string walk_ = folder_ / "walk";
+  std::string said_;
+};
+
+TEST_F(AcrossHosts, OnOneSubnetGiveTheOdometryOfOneContainerWithoutAnySetting) {
+  const TwoHosts hosts({});
+  run_split(hosts, {}, {});
+  expect_the_odometry_of_one_container();
+}
+
+TEST_F(AcrossHosts, ThroughARouterGiveTheOdometryOfOneContainerByADiscoveryServer) {
+  const std::string server_program = find_program("fast-discovery-server");
+  if (server_program.empty()) GTEST_SKIP() << "there is no fast-discovery-server (package fastdds-tools)";
+  const TwoHosts hosts({.routed = true});
+  const Process server(hosts.on_a({server_program, "-i", "0", "-l", hosts.address_of_a(), "-p", "11811"}));
+  run_split(hosts, {find_program("env"), "ROS_DISCOVERY_SERVER=" + hosts.address_of_a() + ":11811"}, {});
+  expect_the_odometry_of_one_container();
+}
+
+TEST_F(AcrossHosts, ThatLoseOnePacketOfAHundredGiveTheOdometryOfOneContainer) {
+  TwoHosts hosts({.loss = 0.01});
+  run_split(hosts, {}, {"--dds-profiles", CONFIG "/dds/lossy_network.xml"});
+  expect_the_odometry_of_one_container();
+  const std::string losses = hosts.say_losses();
+  RecordProperty("losses", losses);
+  EXPECT_THAT(losses, testing::Not(testing::HasSubstr("lost 0 of")));
+}
+
+TEST_F(AcrossHosts, ThatLoseOnePacketOfAHundredHaveEveryPoseOnBoth) {
+  TwoHosts hosts({.loss = 0.01});
+  const auto record = [&](const std::string& bag) -> Words {
+    return {PANVO_RUN, CONFIG "/systems/record.yaml", "output:=" + (folder_ / bag), "topics:=/odometry/binocular"};
+  };
+  Process near(hosts.on_a(record("near"))), far(hosts.on_b(record("far")));
+  const Finished odometry = run(hosts.on_a({PANVO_RUN, CONFIG "/systems/stereo.yaml", "--dataset", walk_, "--rate", "1",
+                                            "--await", "/odometry/binocular:2"}),
+                                kLimit);
+  EXPECT_EQ(odometry.status, 0) << odometry.output;
+  for (Process* recorder : {&near, &far}) {
+    recorder->signal(SIGINT);
+    EXPECT_EQ(recorder->wait(kLimit), 0) << recorder->output();
+    EXPECT_THAT(recorder->output(), testing::HasSubstr("recorded 30 messages"));
+  }
+  const Finished compared = run({PANVO_BAG, "diff", folder_ / "near", folder_ / "far"});
+  EXPECT_EQ(compared.status, 0) << compared.output;
+  EXPECT_THAT(hosts.say_losses(), testing::Not(testing::HasSubstr("lost 0 of")));
+}
+
+}  // namespace
+}  // namespace panvo::test
