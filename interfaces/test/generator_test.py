@@ -60,7 +60,7 @@ class Parsing(unittest.TestCase):
         self.assert_refuses("struct Thing { double a; double a; };", "a is there twice")
         self.assert_refuses("enum Thing { A };", "expected struct, found enum")
         self.assert_refuses("struct Thing { double a; }; struct Other { double a; };", "expected }")
-        
+
         self.assert_refuses("struct Thing { double $a; };", "cannot read")
 
     def test_reads_a_bounded_sequence(self):

@@ -30,6 +30,17 @@ bool Channel::has_publisher_other_than(const void* owner) const {
   return std::any_of(publishers_.begin(), publishers_.end(), [&](const auto& entry) { return entry.first != owner; });
 }
 
+bool Channel::is_published_by(const std::string& owner_name) const {
+  const std::shared_lock lock(mutex_);
+  return std::any_of(publishers_.begin(), publishers_.end(),
+                     [&](const auto& entry) { return entry.second == owner_name; });
+}
+
+bool Channel::is_read_by(const void* owner) const {
+  const std::shared_lock lock(mutex_);
+  return std::any_of(readers_.begin(), readers_.end(), [&](const auto& entry) { return entry.first == owner; });
+}
+
 bool Channel::has_readers() const {
   const std::shared_lock lock(mutex_);
   return !readers_.empty();

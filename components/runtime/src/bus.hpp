@@ -32,6 +32,8 @@ class Channel {
   void add_publisher(const void* owner, const std::string& owner_name);
   void remove_publisher(const void* owner);
   bool has_publisher_other_than(const void* owner) const;
+  bool is_published_by(const std::string& owner_name) const;
+  bool is_read_by(const void* owner) const;
 
   bool has_readers() const;
 
@@ -93,6 +95,9 @@ class Bus {
   void observe(std::function<bool(const TopicDescription&)> wanted, Channel::Reader observer);
 
   bool wait_for_acknowledgments(std::chrono::milliseconds limit);
+
+  /// nullptr: none.
+  Bridge* bridge() const noexcept { return bridge_.get(); }
 
  private:
   struct Tap {

@@ -10,7 +10,11 @@
 #include "diagnostics.hpp"
 #include "library.hpp"
 #include "panvo/runtime/errors.hpp"
+#include "panvo/runtime/graph.hpp"
+#include "panvo/runtime/names.hpp"
 #include "source_runner.hpp"
+#include "steering/component_node.hpp"
+#include "steering/steered.hpp"
 
 namespace panvo::runtime {
 namespace {
@@ -22,18 +26,33 @@ void log_to_stderr(LogLevel level, const std::string& component, const std::stri
 /// A loaded component. Its members go in the order that keeps all code mapped that may still run: first the component, then what the
 /// runtime holds of it (callbacks are the plugin's code), then the plugin.
 struct Entry {
+  std::uint64_t id = 0;
   std::shared_ptr<Library> library;
   std::unique_ptr<Context> context;
   std::unique_ptr<Component, void (*)(Component*)> component{nullptr, nullptr};
+  std::unique_ptr<steering::ComponentNode> node;
+  std::vector<std::unique_ptr<BridgeService>> services;  // answer from the node
 
   ~Entry() {
+    services.clear();
     if (context) context->state().stop();
+  }
+
+  std::string full_name() const {
+    const auto& description = context->state().description;
+    return runtime::full_name(description.name_space, description.name);
   }
 };
 
+std::vector<std::string> names_of(const std::vector<steering::OfferedService>& services) {
+  std::vector<std::string> names;
+  for (const auto& service : services) names.push_back(service.description.name);
+  return names;
+}
+
 }  // namespace
 
-class Container::Implementation {
+class Container::Implementation final : public steering::SteeredContainer {
  public:
   explicit Implementation(ContainerOptions options)
       : options_(std::move(options)),
@@ -49,13 +68,19 @@ class Container::Implementation {
         own_(std::make_unique<Context::State>(host_, own_description(), nullptr)),
         diagnostics_output_(own_.open_output(describe(topics::kDiagnostics))) {
     set_rosout(own_.open_output(describe(topics::kRosout)));
+    if (!bus_.bridge()) return;
+    auto offered = steering::component_services(full_name(), *this);
+    own_service_names_ = names_of(offered);
+    services_ = serve(std::move(offered));
+    tell_nodes();
   }
 
-  ~Implementation() {
+  ~Implementation() override {
+    services_.clear();  // from now on nobody loads or unloads
     set_rosout(nullptr);
     if (runner_) runner_->stop();
     stop_housekeeping();
-    while (!entries_.empty()) entries_.pop_back();  // the last loaded first: it may use what the others publish
+    while (!entries_.empty()) take_last();  // the last loaded first: it may use what the others publish
   }
 
   void log(LogLevel level, const std::string& component, const std::string& text) {
@@ -76,8 +101,13 @@ class Container::Implementation {
     rosout->publish(std::shared_ptr<const void>(std::move(message)));
   }
 
-  void add(const ComponentDescription& description, std::shared_ptr<Library> library,
-           const std::function<std::unique_ptr<Component, void (*)(Component*)>(Context&)>& create) {
+  using Create = std::function<std::unique_ptr<Component, void (*)(Component*)>(Context&)>;
+  Loaded add(const ComponentDescription& description, std::shared_ptr<Library> library, const Create& create) {
+    const std::lock_guard change(change_mutex_);
+    if (bus_.bridge() && runtime::full_name(description.name_space, description.name) == full_name()) {
+      throw ConfigError(description.where.to_string() + ": " + full_name() +
+                        " is the container's name; give the component another");
+    }
     if (find(description.name) != entries_.end()) {
       throw ConfigError(description.where.to_string() + ": there already is a component " + description.name +
                         "; give this one another name");
@@ -99,25 +129,40 @@ class Container::Implementation {
     };
     append(state.reader.problems());
     append(state.problems);
+    if (state.source && running_) {
+      problems.push_back(description.name + " plays recorded data, which can only begin with the run: load it before");
+    }
     if (!problems.empty()) throw ConfigError(std::move(problems));
     if (started_) state.start();
-    const std::lock_guard lock(entries_mutex_);
-    entries_.push_back(std::move(entry));
+    entry->id = next_id_++;
+    const Loaded loaded{entry->id, entry->full_name()};
+    if (bus_.bridge()) offer_services(*entry);
+    {
+      const std::lock_guard lock(entries_mutex_);
+      entries_.push_back(std::move(entry));
+    }
+    tell_nodes();
+    return loaded;
   }
 
   bool unload(const std::string& name) {
-    std::unique_ptr<Entry> entry;
-    {
-      const std::lock_guard lock(entries_mutex_);
-      const auto found = find(name);
-      if (found == entries_.end()) return false;
-      entry = std::move(*found);
-      entries_.erase(found);
-    }
-    return true;
+    return unload_if([&](const Entry& entry) { return entry.context->name() == name; });
+  }
+
+  Loaded load_component(const ComponentDescription& description) override;
+  void unload_component(std::uint64_t id) override {
+    if (unload_if([id](const Entry& entry) { return entry.id == id; })) return;
+    throw ConfigError(fmt::format("there is no component of the id {}; list_nodes tells which there are", id));
+  }
+  std::vector<Loaded> loaded_components() const override {
+    const std::lock_guard lock(entries_mutex_);
+    std::vector<Loaded> loaded;
+    for (const auto& entry : entries_) loaded.push_back({entry->id, entry->full_name()});
+    return loaded;
   }
 
   void start() {
+    const std::lock_guard change(change_mutex_);
     if (started_) return;
     started_ = true;
     for (const auto& entry : entries_) entry->context->state().start();
@@ -127,15 +172,21 @@ class Container::Implementation {
   std::vector<std::string> run() {
     start();
     std::vector<Source*> sources;
-    for (const auto& entry : entries_) {
-      if (Source* source = entry->context->state().source) sources.push_back(source);
+    {
+      const std::lock_guard change(change_mutex_);
+      running_ = true;
+      for (const auto& entry : entries_) {
+        if (Source* source = entry->context->state().source) sources.push_back(source);
+      }
     }
     if (options_.replay) {
       replay(sources);
     } else {
       run_live(sources);
     }
+    running_ = false;
     std::vector<std::string> problems = source_problems_;
+    const std::lock_guard lock(entries_mutex_);
     for (const auto& entry : entries_) {
       if (entry->context->state().failed())
         problems.push_back(entry->context->name() + " stopped by an error, see the log");
@@ -158,7 +209,12 @@ class Container::Implementation {
                         [&](const auto& entry) { return entry->context->name() == name; });
   }
 
-  const std::vector<std::unique_ptr<Entry>>& entries() const { return entries_; }
+  /// What each of the components says, while none comes or goes.
+  template <class Say>
+  void for_each(const Say& say) const {
+    const std::lock_guard lock(entries_mutex_);
+    for (const auto& entry : entries_) say(entry->context->name(), entry->context->state());
+  }
   Bus& bus() { return bus_; }
   std::uint64_t source_steps() const { return source_steps_; }
 
@@ -175,6 +231,77 @@ class Container::Implementation {
   static TopicDescription describe(const interfaces::Topic<Message>& topic) {
     const auto& type = interfaces::message_type<Message>();
     return {std::string(topic.name), std::string(type.name), topic.qos, &type};
+  }
+
+  std::string full_name() const { return runtime::full_name(options_.name_space, options_.name); }
+
+  std::vector<std::unique_ptr<BridgeService>> serve(std::vector<steering::OfferedService> offered) {
+    std::vector<std::unique_ptr<BridgeService>> services;
+    for (auto& [description, handler] : offered)
+      services.push_back(bus_.bridge()->serve(description, std::move(handler)));
+    return services;
+  }
+
+  void offer_services(Entry& entry) {
+    entry.node = std::make_unique<steering::ComponentNode>(entry.context->state(), [this, id = entry.id] {
+      const std::lock_guard lock(housekeeping_mutex_);
+      to_unload_.push_back(id);
+    });
+    entry.services = serve(steering::parameter_services(entry.full_name(), *entry.node));
+    for (auto& service : serve(steering::lifecycle_services(entry.full_name(), *entry.node)))
+      entry.services.push_back(std::move(service));
+  }
+
+  /// Has the bridge tell other processes which nodes there are and what each has.
+  void tell_nodes() {
+    if (!bus_.bridge()) return;
+    const auto channels = bus_.channels();
+    std::vector<NodeDescription> nodes{{options_.name_space, options_.name, {}, {}, own_service_names_}};
+    const auto add_topics = [&](NodeDescription& node, const std::string& owner_name, const void* reader) {
+      for (const Channel* channel : channels) {
+        if (channel->is_published_by(owner_name)) node.publishes.push_back(channel->topic().name);
+        if (channel->is_read_by(reader)) node.subscribes.push_back(channel->topic().name);
+      }
+    };
+    add_topics(nodes.front(), own_.name(), &own_.state());
+    const std::lock_guard lock(entries_mutex_);
+    for (const auto& entry : entries_) {
+      Context::State& state = entry->context->state();
+      NodeDescription node{state.description.name_space, state.description.name, {}, {}, {}};
+      add_topics(node, state.description.name, &state);
+      node.serves = names_of(steering::parameter_services(entry->full_name(), *entry->node));
+      for (auto& name : names_of(steering::lifecycle_services(entry->full_name(), *entry->node)))
+        node.serves.push_back(std::move(name));
+      nodes.push_back(std::move(node));
+    }
+    told_channels_ = channels.size();
+    bus_.bridge()->set_nodes(std::move(nodes));
+  }
+
+  template <class IsIt>
+  bool unload_if(const IsIt& is_it) {
+    const std::lock_guard change(change_mutex_);
+    std::unique_ptr<Entry> entry;
+    {
+      const std::lock_guard lock(entries_mutex_);
+      const auto found =
+          std::find_if(entries_.begin(), entries_.end(), [&](const auto& there) { return is_it(*there); });
+      if (found == entries_.end()) return false;
+      if ((*found)->context->state().source && running_)
+        throw ConfigError((*found)->context->name() + " plays recorded data and goes with the end of the run");
+      entry = std::move(*found);
+      entries_.erase(found);
+    }
+    entry.reset();
+    tell_nodes();
+    return true;
+  }
+
+  void take_last() {
+    std::unique_ptr<Entry> entry;
+    const std::lock_guard lock(entries_mutex_);
+    entry.swap(entries_.back());
+    entries_.pop_back();
   }
 
   void set_rosout(std::shared_ptr<UntypedOutput> output) {
@@ -280,7 +407,14 @@ class Container::Implementation {
     std::unique_lock lock(housekeeping_mutex_);
     while (
         !housekeeping_changed_.wait_for(lock, std::chrono::milliseconds(50), [this] { return housekeeping_ended_; })) {
+      const auto to_unload = std::exchange(to_unload_, {});
+      lock.unlock();
       bus_.join_discovered();
+      for (const std::uint64_t id : to_unload) {
+        unload_if([id](const Entry& entry) { return entry.id == id; });
+      }
+      if (bus_.channels().size() != told_channels_) tell_nodes();  // a recorder has found topics
+      lock.lock();
       const std::int64_t now_ns = clocks::monotonic_ns();
       if (now_ns - last_ns < 1'000'000'000) continue;
       publish_diagnostics(static_cast<double>(now_ns - last_ns) * 1e-9);
@@ -321,10 +455,13 @@ class Container::Implementation {
   std::shared_ptr<UntypedOutput> rosout_;
   Diagnostics diagnostics_;
 
-  mutable std::mutex
-      entries_mutex_;  // guards entries_ against the housekeeping and source threads; only the user's thread changes it
+  std::mutex change_mutex_;           // one component comes or goes at a time
+  mutable std::mutex entries_mutex_;  // guards entries_, and that what is in it stays meanwhile
   std::vector<std::unique_ptr<Entry>> entries_;
+  std::uint64_t next_id_ = 1;
   bool started_ = false;
+  std::atomic<bool> running_ = false;
+  std::atomic<std::size_t> told_channels_ = 0;
 
   std::atomic<bool> stop_requested_ = false;
   std::mutex stop_mutex_;
@@ -335,14 +472,18 @@ class Container::Implementation {
   std::mutex housekeeping_mutex_;
   std::condition_variable housekeeping_changed_;
   bool housekeeping_ended_ = false;
+  std::vector<std::uint64_t> to_unload_;
   std::thread housekeeping_;
+
+  std::vector<std::string> own_service_names_;
+  std::vector<std::unique_ptr<BridgeService>> services_;  // last: they use all of the above
 };
 
 Container::Container(ContainerOptions options)
     : implementation_(std::make_unique<Implementation>(std::move(options))) {}
 Container::~Container() = default;
 
-void Container::load(const ComponentDescription& description) {
+Container::Implementation::Loaded Container::Implementation::load_component(const ComponentDescription& description) {
   const std::string where = description.where.file.empty() ? "" : description.where.to_string() + ": ";
   try {
     const auto library = std::make_shared<Library>(find_plugin(description.package));
@@ -353,7 +494,7 @@ void Container::load(const ComponentDescription& description) {
         known += (known.empty() ? "" : ", ") + std::string(component->class_name);
       throw ConfigError(library->file().string() + " has no component " + description.plugin + "; it has " + known);
     }
-    implementation_->add(description, library, [descriptor](Context& context) {
+    return add(description, library, [descriptor](Context& context) {
       return std::unique_ptr<Component, void (*)(Component*)>(descriptor->create(context), descriptor->destroy);
     });
   } catch (const ConfigError& error) {
@@ -364,6 +505,8 @@ void Container::load(const ComponentDescription& description) {
     throw ConfigError(std::move(problems));
   }
 }
+
+void Container::load(const ComponentDescription& description) { implementation_->load_component(description); }
 
 void Container::add(const ComponentDescription& description, const Factory& factory) {
   implementation_->add(description, nullptr, [&](Context& context) {
@@ -388,7 +531,7 @@ bool Container::unload(const std::string& name) { return implementation_->unload
 
 std::vector<std::string> Container::components() const {
   std::vector<std::string> names;
-  for (const auto& entry : implementation_->entries()) names.push_back(entry->context->name());
+  implementation_->for_each([&](const std::string& name, const Context::State&) { names.push_back(name); });
   return names;
 }
 
@@ -409,7 +552,8 @@ Container::Links Container::links() const {
     if (channel->has_publisher_other_than(nullptr)) links.published.push_back(channel->topic().name);
     if (channel->has_readers()) links.subscribed.push_back(channel->topic().name);
   }
-  for (const auto& entry : implementation_->entries()) links.has_source |= entry->context->state().source != nullptr;
+  implementation_->for_each(
+      [&](const std::string&, const Context::State& state) { links.has_source |= state.source != nullptr; });
   return links;
 }
 
@@ -437,38 +581,38 @@ void Container::on_progress(std::function<void(Source::Progress)> callback) {
 
 std::vector<QueueCounters> Container::queue_counters() const {
   std::vector<QueueCounters> all;
-  for (const auto& entry : implementation_->entries()) {
-    for (const auto& worker : entry->context->state().workers) {
-      for (const auto& port : worker->counters()) {
-        all.push_back({entry->context->name(), port.input, port.received, port.handled, port.dropped});
-      }
+  implementation_->for_each([&](const std::string& name, const Context::State& state) {
+    for (const auto& worker : state.workers) {
+      for (const auto& port : worker->counters())
+        all.push_back({name, port.input, port.received, port.handled, port.dropped});
     }
-  }
+  });
   return all;
 }
 
 ComponentTimes Container::stage_times() const {
   ComponentTimes all;
-  for (const auto& entry : implementation_->entries()) {
-    all[entry->context->name()] = entry->context->times().snapshot();
-  }
+  implementation_->for_each(
+      [&](const std::string& name, const Context::State& state) { all[name] = state.times.snapshot(); });
   return all;
 }
 
 std::map<std::string, std::map<std::string, std::string>> Container::changed_parameters() const {
   std::map<std::string, std::map<std::string, std::string>> all;
-  for (const auto& entry : implementation_->entries()) {
-    for (const auto& parameter : entry->context->state().reader.declared()) {
-      if (parameter.value != parameter.default_value) all[entry->context->name()][parameter.name] = parameter.value;
+  implementation_->for_each([&](const std::string& name, const Context::State& state) {
+    for (const auto& parameter : state.parameters()) {
+      if (parameter.value != parameter.default_value) all[name][parameter.name] = parameter.value;
     }
-  }
+  });
   return all;
 }
 
 std::vector<ParameterDescription> Container::parameters_of(const std::string& component) const {
-  const auto found = implementation_->find(component);
-  return found == implementation_->entries().end() ? std::vector<ParameterDescription>{}
-                                                   : (*found)->context->state().reader.declared();
+  std::vector<ParameterDescription> parameters;
+  implementation_->for_each([&](const std::string& name, const Context::State& state) {
+    if (name == component) parameters = state.parameters();
+  });
+  return parameters;
 }
 
 }  // namespace panvo::runtime

@@ -184,13 +184,15 @@ void Context::open_input(const TopicDescription& topic, std::function<void(const
     Port& port = worker.add_port(topic.name, topic.qos.depth, false,
                                  [callback = std::move(callback)](Task& task) { callback(task.first); });
     state_->inputs.push_back(&channel);
-    channel.add_reader(state_.get(), [&worker, &port](const TopicDescription&, const SamplePtr& sample) {
-      try {
-        worker.push(port, {.first = sample, .stamp_ns = stamp_of(*sample)});
-      } catch (const interfaces::DecodeError&) {
-        worker.count_dropped(port);
-      }
-    });
+    channel.add_reader(state_.get(),
+                       [state = state_.get(), &worker, &port](const TopicDescription&, const SamplePtr& sample) {
+                         if (!state->active) return;
+                         try {
+                           worker.push(port, {.first = sample, .stamp_ns = stamp_of(*sample)});
+                         } catch (const interfaces::DecodeError&) {
+                           worker.count_dropped(port);
+                         }
+                       });
   } catch (const ConfigError& error) {
     state_->problems.push_back(name() + ": " + error.what());
   }
@@ -207,14 +209,15 @@ void Context::open_input_pair(const TopicDescription& first, const TopicDescript
     const auto pairing = std::make_shared<Pairing>(worker, port);
     for (int side = 0; side < 2; ++side) {
       state_->inputs.push_back(channels[side]);
-      channels[side]->add_reader(state_.get(),
-                                 [pairing, side, &worker, &port](const TopicDescription&, const SamplePtr& sample) {
-                                   try {
-                                     pairing->take(side, sample);
-                                   } catch (const interfaces::DecodeError&) {
-                                     worker.count_dropped(port);
-                                   }
-                                 });
+      channels[side]->add_reader(state_.get(), [state = state_.get(), pairing, side, &worker, &port](
+                                                   const TopicDescription&, const SamplePtr& sample) {
+        if (!state->active) return;
+        try {
+          pairing->take(side, sample);
+        } catch (const interfaces::DecodeError&) {
+          worker.count_dropped(port);
+        }
+      });
     }
   } catch (const ConfigError& error) {
     state_->problems.push_back(name() + ": " + error.what());
@@ -229,6 +232,14 @@ std::shared_ptr<StageQueue> Context::open_stage(const std::string& stage_name, s
   return std::make_shared<WorkerStage>(worker, port);
 }
 
+void Context::take_parameters(std::function<std::function<void()>(ParameterReader&)> take) {
+  if (!state_->parameter_port) {
+    state_->parameter_port = &state_->main_worker().add_port(
+        "parameters", 1, false, [](Task& task) { std::any_cast<std::function<void()>&>(task.item)(); });
+  }
+  state_->parameter_takers.push_back(std::move(take));
+}
+
 void Context::source(Source& source) { state_->source = &source; }
 
 void Context::tap(std::function<bool(const TopicDescription&)> wanted, std::size_t depth,
@@ -238,7 +249,8 @@ void Context::tap(std::function<bool(const TopicDescription&)> wanted, std::size
                                [callback = std::move(callback)](Task& task) { callback(*task.topic, task.first); });
   state_->taps = true;
   state_->host.bus.tap(state_.get(), std::move(wanted),
-                       [&worker, &port](const TopicDescription& topic, const SamplePtr& sample) {
+                       [state = state_.get(), &worker, &port](const TopicDescription& topic, const SamplePtr& sample) {
+                         if (!state->active) return;
                          worker.push(port, {.topic = &topic, .first = sample, .stamp_ns = sample->time_ns()});
                        });
 }

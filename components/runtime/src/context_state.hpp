@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <atomic>
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -36,6 +38,11 @@ struct Context::State {
   void stop();
   bool failed() const;
 
+  /// What is declared, with the values in force and whether they may be set.
+  std::vector<ParameterDescription> parameters() const;
+  /// All or none: returns what is wrong. From any thread; the component takes them on its own, between two messages.
+  std::vector<std::string> set_parameters(const WrittenValues& wanted);
+
   Host& host;
   const ComponentDescription description;
   const std::shared_ptr<const void> library;
@@ -47,6 +54,19 @@ struct Context::State {
   std::vector<Channel*> inputs;
   bool taps = false;
   Source* source = nullptr;
+  std::atomic<bool> active = true;  // messages are handed to it
+
+  /// Reads a parameter struct that the component takes while it runs; what is returned hands it over.
+  using ParameterTaker = std::function<std::function<void()>(ParameterReader&)>;
+  std::vector<ParameterTaker> parameter_takers;
+  Port* parameter_port = nullptr;
+
+ private:
+  std::vector<std::string> hand_over(std::vector<std::function<void()>> calls);
+
+  std::mutex setting_mutex_;               // one request at a time
+  mutable std::mutex parameters_mutex_;    // guards set_
+  std::vector<ParameterDescription> set_;  // since the component was made
 };
 
 }  // namespace panvo::runtime

@@ -55,7 +55,7 @@ diagnostic_msgs::msg::DiagnosticArray Diagnostics::collect(const std::vector<con
       status.message(fmt::format("too slow: {} messages dropped in the last {:.0f} s", newly_dropped, interval_s));
     } else {
       status.level(kOk);
-      status.message("runs");
+      status.message(component->active ? "runs" : "inactive: messages are not handed to it");
     }
     array.status().push_back(std::move(status));
   }

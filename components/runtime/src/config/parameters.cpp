@@ -38,6 +38,17 @@ std::string requirement(const ParameterDescription& parameter) {
 }
 
 template <class Value>
+WrittenValue written_value(const Value& value) {
+  return {{to_text(value)}, false, {}};
+}
+template <class Item>
+WrittenValue written_value(const std::vector<Item>& values) {
+  WrittenValue written{{}, true, {}};
+  for (const auto& value : values) written.items.push_back(to_text(value));
+  return written;
+}
+
+template <class Value>
 bool allowed(const ParameterDescription& parameter, const Value& value) {
   if constexpr (std::is_same_v<Value, std::int64_t> || std::is_same_v<Value, double>) {
     const auto number = static_cast<double>(value);
@@ -94,6 +105,7 @@ void ParameterReader::declare(ParameterDescription parameter, Value& value) {
     }
   }
   parameter.value = to_text(value);
+  parameter.written = written_value(value);
 
   const auto same_name = [&parameter](const auto& other) { return other.name == parameter.name; };
   if (std::none_of(declared_.begin(), declared_.end(), same_name)) {  // a struct may be read twice

@@ -4,11 +4,17 @@
 #include <utility>
 
 #include "discovery.hpp"
+#include "local_endpoints.hpp"
+#include "node_graph.hpp"
+#include "node_info.hpp"
 #include "notifier.hpp"
 #include "panvo/runtime/bridge.hpp"
 #include "participant.hpp"
 #include "participant_qos.hpp"
 #include "reader.hpp"
+#include "service_client.hpp"
+#include "service_queue.hpp"
+#include "service_server.hpp"
 #include "writer.hpp"
 
 namespace panvo::runtime {
@@ -19,23 +25,57 @@ namespace {
 /// nine threads, so each is made when it is first needed.
 class DdsBridge final : public Bridge {
  public:
-  explicit DdsBridge(const DdsSettings& settings) : settings_(settings) { dds::load_profiles(settings_); }
+  explicit DdsBridge(const DdsSettings& settings) : settings_(settings) {
+    dds::load_profiles(settings_);
+    if (const auto warning = dds::shared_memory_warning()) notifier_->warn(*warning);
+    discovery_->on_participant_gone([graph = std::weak_ptr(graph_)](const auto& prefix) {
+      if (const auto known = graph.lock()) known->participant_gone(prefix);
+    });
+  }
 
   // Endpoints that are still open keep their participant; nobody is called back about discovery any more.
   ~DdsBridge() override { notifier_->stop(); }
 
   std::unique_ptr<BridgeWriter> open_writer(const TopicDescription& topic) override {
-    return std::make_unique<dds::Writer>(topic, participant(dds::Role::kWriters), notifier_);
+    return std::make_unique<dds::Writer>(topic, dds::wire_topic(topic), participant(dds::Role::kWriters), notifier_);
   }
 
   std::unique_ptr<BridgeReader> open_reader(const TopicDescription& topic,
                                             std::function<void(SamplePtr)> on_sample) override {
-    return std::make_unique<dds::Reader>(topic, std::move(on_sample), participant(dds::Role::kReaders), notifier_);
+    return std::make_unique<dds::Reader>(topic, dds::wire_topic(topic), std::move(on_sample),
+                                         participant(dds::Role::kReaders), notifier_);
   }
 
   void watch_topics(std::function<void(const TopicDescription&)> on_topic) override {
     discovery_->watch(on_topic);
     participant(dds::Role::kReaders);
+  }
+
+  std::unique_ptr<BridgeService> serve(const ServiceDescription& service, ServiceHandler handler) override {
+    return std::make_unique<dds::ServiceServer>(service, std::move(handler), participant(dds::Role::kReaders),
+                                                participant(dds::Role::kWriters), services_, notifier_);
+  }
+
+  std::unique_ptr<BridgeClient> open_client(const ServiceDescription& service) override {
+    return std::make_unique<dds::ServiceClient>(service, participant(dds::Role::kReaders),
+                                                participant(dds::Role::kWriters));
+  }
+
+  void set_nodes(std::vector<NodeDescription> nodes) override {
+    {
+      const std::lock_guard lock(graph_mutex_);
+      graph_->open_writer(participant(dds::Role::kWriters));
+      graph_->open_reader(participant(dds::Role::kReaders));
+    }
+    graph_->set_nodes(std::move(nodes));
+  }
+
+  Graph graph() override {
+    {
+      const std::lock_guard lock(graph_mutex_);
+      graph_->open_reader(participant(dds::Role::kReaders));
+    }
+    return {graph_->nodes(), discovery_->endpoints()};
   }
 
   void on_warning(std::function<void(const std::string&)> callback) override {
@@ -46,15 +86,21 @@ class DdsBridge final : public Bridge {
   std::shared_ptr<dds::Participant> participant(dds::Role role) {
     const std::lock_guard lock(mutex_);
     auto& participant = role == dds::Role::kWriters ? writers_ : readers_;
-    if (!participant) participant = std::make_shared<dds::Participant>(settings_, role, discovery_);
+    if (!participant) participant = std::make_shared<dds::Participant>(settings_, role, discovery_, endpoints_);
     return participant;
   }
 
   const DdsSettings settings_;
   const std::shared_ptr<dds::Notifier> notifier_ = std::make_shared<dds::Notifier>();
   const std::shared_ptr<dds::Discovery> discovery_ = std::make_shared<dds::Discovery>(notifier_);
+  const std::shared_ptr<dds::LocalEndpoints> endpoints_ = std::make_shared<dds::LocalEndpoints>();
+  const std::shared_ptr<dds::ServiceQueue> services_ = std::make_shared<dds::ServiceQueue>();
   std::mutex mutex_;
   std::shared_ptr<dds::Participant> writers_, readers_;
+  std::mutex graph_mutex_;
+  // After the participants: its endpoints go first.
+  const std::shared_ptr<dds::NodeGraph> graph_ =
+      std::make_shared<dds::NodeGraph>(notifier_, endpoints_, dds::gid_size_of(settings_.ros_distro));
 };
 
 }  // namespace

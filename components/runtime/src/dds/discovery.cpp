@@ -6,7 +6,10 @@
 #include <spdlog/fmt/fmt.h>
 #include <fastdds/dds/domain/DomainParticipant.hpp>
 
+#include <string_view>
+
 #include "names.hpp"
+#include "node_info.hpp"
 
 namespace panvo::runtime::dds {
 
@@ -24,14 +27,51 @@ bool is_of_this_process(const fdds::DomainParticipant& participant, const rtps::
   return participant.guid().is_on_same_process_as(endpoint);
 }
 
-// What a reader should ask for to get all that this writer offers.
-interfaces::Qos offered_qos(const eprosima::fastrtps::WriterQos& offered) {
+// Of a reader what it asks for; of a writer what a reader should ask for to get all that it offers.
+template <class EndpointQos>
+interfaces::Qos qos_of(const EndpointQos& endpoint) {
   interfaces::Qos qos;
-  qos.requested = offered.m_reliability.kind == fdds::RELIABLE_RELIABILITY_QOS ? interfaces::Reliability::kReliable
-                                                                               : interfaces::Reliability::kBestEffort;
-  qos.durability = offered.m_durability.kind == fdds::VOLATILE_DURABILITY_QOS ? interfaces::Durability::kVolatile
-                                                                              : interfaces::Durability::kTransientLocal;
+  qos.requested = endpoint.m_reliability.kind == fdds::RELIABLE_RELIABILITY_QOS ? interfaces::Reliability::kReliable
+                                                                                : interfaces::Reliability::kBestEffort;
+  qos.durability = endpoint.m_durability.kind == fdds::VOLATILE_DURABILITY_QOS
+                       ? interfaces::Durability::kVolatile
+                       : interfaces::Durability::kTransientLocal;
   return qos;
+}
+
+// ROS 2 puts "typehash=RIHS01_...;" into the user data.
+std::string type_hash(const std::vector<rtps::octet>& user_data) {
+  constexpr std::string_view kKey = "typehash=";
+  const std::string_view text(reinterpret_cast<const char*>(user_data.data()), user_data.size());
+  const auto begin = text.find(kKey);
+  if (begin == std::string_view::npos) return "";
+  const auto value = text.substr(begin + kKey.size());
+  return std::string(value.substr(0, value.find(';')));
+}
+
+// An endpoint as ROS 2 users know it.
+template <class Proxy>
+GraphEndpoint shown(Proxy& proxy, bool is_writer) {
+  const std::string wire_name = proxy.topicName().to_string(), wire_type = proxy.typeName().to_string();
+  GraphEndpoint endpoint{.kind = EndpointKind::kOther,
+                         .name = wire_name,
+                         .type_name = wire_type,
+                         .is_writer = is_writer,
+                         .qos = qos_of(proxy.m_qos),
+                         .type_hash = type_hash(proxy.m_qos.m_userData.data_vec()),
+                         .gid = hexadecimal(proxy.guid())};
+  const auto type_name = type_name_from_wire(wire_type);
+  if (!type_name) return endpoint;
+  const auto set = [&](EndpointKind kind, const std::optional<std::string>& name) {
+    if (!name) return;
+    endpoint.kind = kind;
+    endpoint.name = *name;
+    endpoint.type_name = kind == EndpointKind::kTopic ? *type_name : service_type_name(*type_name);
+  };
+  set(EndpointKind::kTopic, topic_name_from_wire(wire_name));
+  set(EndpointKind::kRequest, service_from_wire_request(wire_name));
+  set(EndpointKind::kReply, service_from_wire_reply(wire_name));
+  return endpoint;
 }
 
 }  // namespace
@@ -46,13 +86,40 @@ void Discovery::topic_opened(const std::string& wire_name, const std::string& wi
   const std::lock_guard lock(mutex_);
   const TypedTopic local{wire_name, wire_type_name};
   ++open_here_[local];
-  for (const auto& [guid, remote] : remote_endpoints_) warn_if_types_differ(local, remote);
+  for (const auto& [guid, remote] : remote_endpoints_) warn_if_types_differ(local, remote.topic);
 }
 
 void Discovery::topic_closed(const std::string& wire_name, const std::string& wire_type_name) {
   const std::lock_guard lock(mutex_);
   const auto open = open_here_.find({wire_name, wire_type_name});
   if (--open->second == 0) open_here_.erase(open);
+}
+
+std::vector<GraphEndpoint> Discovery::endpoints() const {
+  const std::lock_guard lock(mutex_);
+  std::vector<GraphEndpoint> endpoints;
+  for (const auto& [guid, endpoint] : remote_endpoints_) endpoints.push_back(endpoint.shown);
+  return endpoints;
+}
+
+void Discovery::on_participant_gone(std::function<void(const rtps::GuidPrefix_t&)> callback) {
+  const std::lock_guard lock(mutex_);
+  on_participant_gone_ = std::move(callback);
+}
+
+void Discovery::on_participant_discovery(fdds::DomainParticipant* participant, rtps::ParticipantDiscoveryInfo&& info) {
+  using Info = rtps::ParticipantDiscoveryInfo;
+  const auto prefix = info.info.m_guid.guidPrefix;
+  const std::lock_guard lock(mutex_);
+  if (info.status != Info::REMOVED_PARTICIPANT && info.status != Info::DROPPED_PARTICIPANT) {
+    seen_by_[prefix].insert(participant->guid());
+    return;
+  }
+  auto& seen_by = seen_by_[prefix];
+  seen_by.erase(participant->guid());
+  if (!seen_by.empty()) return;
+  seen_by_.erase(prefix);
+  if (on_participant_gone_) on_participant_gone_(prefix);
 }
 
 void Discovery::on_publisher_discovery(fdds::DomainParticipant* participant, rtps::WriterDiscoveryInfo&& info) {
@@ -62,14 +129,11 @@ void Discovery::on_publisher_discovery(fdds::DomainParticipant* participant, rtp
     remote_endpoints_.erase(info.info.guid());
     return;
   }
-  const TypedTopic remote{info.info.topicName().to_string(), info.info.typeName().to_string()};
+  const RemoteEndpoint remote{{info.info.topicName().to_string(), info.info.typeName().to_string()},
+                              shown(info.info, true)};
   remember(info.info.guid(), remote);
-
-  const auto name = topic_name_from_wire(remote.name);
-  const auto type_name = type_name_from_wire(remote.type_name);
-  if (name && type_name) {
-    announce({*name, *type_name, offered_qos(info.info.m_qos), interfaces::find_message_type(*type_name)});
-  }
+  const auto& [kind, name, type_name, is_writer, qos, hash, gid] = remote.shown;
+  if (kind == EndpointKind::kTopic) announce({name, type_name, qos, interfaces::find_message_type(type_name)});
 }
 
 void Discovery::on_subscriber_discovery(fdds::DomainParticipant* participant, rtps::ReaderDiscoveryInfo&& info) {
@@ -79,11 +143,12 @@ void Discovery::on_subscriber_discovery(fdds::DomainParticipant* participant, rt
     remote_endpoints_.erase(info.info.guid());
     return;
   }
-  remember(info.info.guid(), {info.info.topicName().to_string(), info.info.typeName().to_string()});
+  remember(info.info.guid(),
+           {{info.info.topicName().to_string(), info.info.typeName().to_string()}, shown(info.info, false)});
 }
 
-void Discovery::remember(const rtps::GUID_t& guid, TypedTopic remote) {
-  for (const auto& [local, participants] : open_here_) warn_if_types_differ(local, remote);
+void Discovery::remember(const rtps::GUID_t& guid, RemoteEndpoint remote) {
+  for (const auto& [local, participants] : open_here_) warn_if_types_differ(local, remote.topic);
   remote_endpoints_.insert_or_assign(guid, std::move(remote));
 }
 

@@ -9,18 +9,20 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "notifier.hpp"
 #include "panvo/runtime/bridge.hpp"
+#include "panvo/runtime/graph.hpp"
 
 namespace panvo::runtime::dds {
 
-/// Which topics other processes have: tells watchers of each that is written, and warns where the types of a
-/// topic differ, which DDS itself passes over in silence. Listens to both participants of a bridge. Safe to
-/// use from several threads.
+/// Which endpoints other processes have: tells watchers of each topic that is written, and warns where the
+/// types of a topic differ, which DDS itself passes over in silence. Listens to both participants of a bridge.
+/// Safe to use from several threads.
 class Discovery final : public eprosima::fastdds::dds::DomainParticipantListener {
  public:
   using Watcher = std::function<void(const TopicDescription&)>;
@@ -33,6 +35,13 @@ class Discovery final : public eprosima::fastdds::dds::DomainParticipantListener
   void topic_opened(const std::string& wire_name, const std::string& wire_type_name);
   void topic_closed(const std::string& wire_name, const std::string& wire_type_name);
 
+  std::vector<GraphEndpoint> endpoints() const;
+
+  /// Called when no participant of this process sees that one any more, which may come from inside Fast DDS.
+  void on_participant_gone(std::function<void(const eprosima::fastrtps::rtps::GuidPrefix_t&)> callback);
+
+  void on_participant_discovery(eprosima::fastdds::dds::DomainParticipant* participant,
+                                eprosima::fastrtps::rtps::ParticipantDiscoveryInfo&& info) override;
   void on_publisher_discovery(eprosima::fastdds::dds::DomainParticipant* participant,
                               eprosima::fastrtps::rtps::WriterDiscoveryInfo&& info) override;
   void on_subscriber_discovery(eprosima::fastdds::dds::DomainParticipant* participant,
@@ -44,14 +53,22 @@ class Discovery final : public eprosima::fastdds::dds::DomainParticipantListener
     auto operator<=>(const TypedTopic&) const = default;
   };
 
-  void remember(const eprosima::fastrtps::rtps::GUID_t& guid, TypedTopic remote);
+  struct RemoteEndpoint {
+    TypedTopic topic;
+    GraphEndpoint shown;
+  };
+
+  void remember(const eprosima::fastrtps::rtps::GUID_t& guid, RemoteEndpoint remote);
   void warn_if_types_differ(const TypedTopic& local, const TypedTopic& remote);
   void announce(const TopicDescription& written);
 
   const std::shared_ptr<Notifier> notifier_;
-  std::mutex mutex_;
+  mutable std::mutex mutex_;
   std::map<TypedTopic, int> open_here_;  // how many participants have it
-  std::map<eprosima::fastrtps::rtps::GUID_t, TypedTopic> remote_endpoints_;
+  std::map<eprosima::fastrtps::rtps::GUID_t, RemoteEndpoint> remote_endpoints_;
+  // By whom of us each remote participant is seen.
+  std::map<eprosima::fastrtps::rtps::GuidPrefix_t, std::set<eprosima::fastrtps::rtps::GUID_t>> seen_by_;
+  std::function<void(const eprosima::fastrtps::rtps::GuidPrefix_t&)> on_participant_gone_;
   std::map<std::string, TopicDescription> written_;  // by other processes, now or before
   std::vector<Watcher> watchers_;
 };

@@ -7,6 +7,12 @@
 
 namespace panvo::runtime::dds {
 
+/// A topic as DDS knows it, and as people do.
+struct WireTopic {
+  std::string name, type_name;
+  std::string shown;  // in messages
+};
+
 /// How ROS 2 writes its names on the wire, there and back.
 
 /// "/stereo/left/image_rect" -> "rt/stereo/left/image_rect"
@@ -20,5 +26,17 @@ std::optional<std::string> wire_type_name(std::string_view name);
 
 /// "sensor_msgs::msg::dds_::Image_" -> "sensor_msgs/msg/Image"; nullopt for what is no ROS 2 type.
 std::optional<std::string> type_name_from_wire(std::string_view wire_name);
+
+/// "/node/get_parameters" -> "rq/node/get_parametersRequest"
+std::string wire_request_name(std::string_view service);
+/// "/node/get_parameters" -> "rr/node/get_parametersReply"
+std::string wire_reply_name(std::string_view service);
+
+/// The service whose requests, or replies, go over that topic; nullopt: none.
+std::optional<std::string> service_from_wire_request(std::string_view wire_name);
+std::optional<std::string> service_from_wire_reply(std::string_view wire_name);
+
+/// "rcl_interfaces/srv/GetParameters_Request" -> "rcl_interfaces/srv/GetParameters", "_Response" likewise; others stay.
+std::string service_type_name(std::string_view type_name);
 
 }  // namespace panvo::runtime::dds

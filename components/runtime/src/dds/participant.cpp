@@ -13,8 +13,9 @@ namespace panvo::runtime::dds {
 
 namespace fdds = eprosima::fastdds::dds;
 
-Participant::Participant(const DdsSettings& settings, Role role, std::shared_ptr<Discovery> discovery)
-    : discovery_(std::move(discovery)) {
+Participant::Participant(const DdsSettings& settings, Role role, std::shared_ptr<Discovery> discovery,
+                         std::shared_ptr<LocalEndpoints> endpoints)
+    : discovery_(std::move(discovery)), endpoints_(std::move(endpoints)) {
   auto* factory = fdds::DomainParticipantFactory::get_instance();
   // The mask is empty: endpoints have listeners of their own. Discovery is called in any case.
   participant_ =
@@ -42,33 +43,37 @@ void Participant::register_type(const std::string& wire_type_name) {
   fdds::TypeSupport(new SampleDataType(wire_type_name)).register_type(participant_);
 }
 
-std::shared_ptr<fdds::Topic> Participant::topic(const TopicDescription& description) {
-  const auto type_name =
+WireTopic wire_topic(const TopicDescription& description) {
+  auto type_name =
       description.type ? std::optional<std::string>(description.type->dds_name) : wire_type_name(description.type_name);
   if (!type_name) {
     throw ConfigError(fmt::format("topic {}: '{}' is no type name; write it as package/msg/Type", description.name,
                                   description.type_name));
   }
-  const std::string name = wire_topic_name(description.name);
+  return {wire_topic_name(description.name), std::move(*type_name), description.name};
+}
+
+std::shared_ptr<fdds::Topic> Participant::topic(const WireTopic& topic) {
   const std::lock_guard lock(mutex_);
-  OpenTopic& open = topics_[name];
-  if (open.topic && open.topic->get_type_name() != *type_name) {
-    throw ConfigError(fmt::format(
-        "topic {}: is already open here with type {}, and cannot have type {} too; remap one of them", description.name,
-        type_name_from_wire(open.topic->get_type_name()).value_or("?"), description.type_name));
+  OpenTopic& open = topics_[topic.name];
+  const auto readable = [](const std::string& wire_type) { return type_name_from_wire(wire_type).value_or(wire_type); };
+  if (open.topic && open.topic->get_type_name() != topic.type_name) {
+    throw ConfigError(
+        fmt::format("topic {}: is already open here with type {}, and cannot have type {} too; remap one of them",
+                    topic.shown, readable(open.topic->get_type_name()), readable(topic.type_name)));
   }
   if (!open.topic) {
-    register_type(*type_name);
-    open.topic = participant_->create_topic(name, *type_name, fdds::TOPIC_QOS_DEFAULT);
+    register_type(topic.type_name);
+    open.topic = participant_->create_topic(topic.name, topic.type_name, fdds::TOPIC_QOS_DEFAULT);
     if (!open.topic) {
-      topics_.erase(name);
+      topics_.erase(topic.name);
       throw ConfigError(
-          fmt::format("topic {}: Fast DDS refused it with type {}", description.name, description.type_name));
+          fmt::format("topic {}: Fast DDS refused it with type {}", topic.shown, readable(topic.type_name)));
     }
-    discovery_->topic_opened(name, *type_name);
+    discovery_->topic_opened(topic.name, topic.type_name);
   }
   ++open.users;
-  return {open.topic, [self = shared_from_this(), name](fdds::Topic*) { self->delete_topic(name); }};
+  return {open.topic, [self = shared_from_this(), name = topic.name](fdds::Topic*) { self->delete_topic(name); }};
 }
 
 void Participant::delete_topic(const std::string& wire_name) {

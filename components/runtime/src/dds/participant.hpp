@@ -12,6 +12,8 @@
 #include <string>
 
 #include "discovery.hpp"
+#include "local_endpoints.hpp"
+#include "names.hpp"
 #include "panvo/runtime/bridge.hpp"
 #include "participant_qos.hpp"
 
@@ -23,7 +25,8 @@ namespace panvo::runtime::dds {
 class Participant : public std::enable_shared_from_this<Participant> {
  public:
   /// Throws ConfigError when there can be none.
-  Participant(const DdsSettings& settings, Role role, std::shared_ptr<Discovery> discovery);
+  Participant(const DdsSettings& settings, Role role, std::shared_ptr<Discovery> discovery,
+              std::shared_ptr<LocalEndpoints> endpoints);
   ~Participant();
   Participant(const Participant&) = delete;
   Participant& operator=(const Participant&) = delete;
@@ -31,16 +34,20 @@ class Participant : public std::enable_shared_from_this<Participant> {
   eprosima::fastdds::dds::Publisher& publisher() { return *publisher_; }
   eprosima::fastdds::dds::Subscriber& subscriber() { return *subscriber_; }
 
+  eprosima::fastrtps::rtps::GUID_t guid() const { return participant_->guid(); }
+  /// Where its endpoints are entered.
+  LocalEndpoints& endpoints() { return *endpoints_; }
+
   /// The topic of that name, which Fast DDS allows once a participant: every endpoint of it holds the same,
-  /// the last one deletes it. Throws ConfigError when it is already open with another type, or its type's
-  /// name is none.
-  std::shared_ptr<eprosima::fastdds::dds::Topic> topic(const TopicDescription& description);
+  /// the last one deletes it. Throws ConfigError when it is already open with another type.
+  std::shared_ptr<eprosima::fastdds::dds::Topic> topic(const WireTopic& topic);
 
  private:
   void register_type(const std::string& wire_type_name);
   void delete_topic(const std::string& wire_name);
 
   const std::shared_ptr<Discovery> discovery_;  // Fast DDS calls it until the participant is gone
+  const std::shared_ptr<LocalEndpoints> endpoints_;
   eprosima::fastdds::dds::DomainParticipant* participant_ = nullptr;
   eprosima::fastdds::dds::Publisher* publisher_ = nullptr;
   eprosima::fastdds::dds::Subscriber* subscriber_ = nullptr;
@@ -52,5 +59,8 @@ class Participant : public std::enable_shared_from_this<Participant> {
   std::mutex mutex_;
   std::map<std::string, OpenTopic> topics_;  // by name on the wire
 };
+
+/// How a topic is called on the wire. Throws ConfigError when its type's name is none.
+WireTopic wire_topic(const TopicDescription& description);
 
 }  // namespace panvo::runtime::dds

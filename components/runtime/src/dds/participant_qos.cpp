@@ -4,6 +4,7 @@
 #include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
 #include <fastdds/rtps/transport/shared_mem/SharedMemTransportDescriptor.h>
 #include <spdlog/fmt/fmt.h>
+#include <unistd.h>
 #include <fastdds/dds/domain/DomainParticipantFactory.hpp>
 
 #include <fstream>
@@ -35,18 +36,28 @@ constexpr std::int32_t kAnnouncementPeriodNs = 500'000'000;
 
 constexpr int kMaxDomain = 232;  // the ports of a higher one would be past 65535
 
+constexpr const char* kSharedMemoryFolder = "/dev/shm";
+
 bool names_transports(const fdds::DomainParticipantQos& qos) {
   return !(qos.transport() == fdds::PARTICIPANT_QOS_DEFAULT.transport());
 }
 
-void use_our_transports(fdds::DomainParticipantQos& qos, Role role) {
-  const auto shared_memory = std::make_shared<rtps::SharedMemTransportDescriptor>();
-  shared_memory->segment_size(role == Role::kWriters ? kWriterSegmentSize : kReaderSegmentSize);
+// In a container or a sandbox there may be none, or one that cannot be written.
+bool has_shared_memory() { return access(kSharedMemoryFolder, R_OK | W_OK | X_OK) == 0; }
+
+void use_our_transports(fdds::DomainParticipantQos& qos, const DdsSettings& settings, Role role) {
+  qos.transport().use_builtin_transports = false;
+  qos.transport().user_transports.clear();
+  if (has_shared_memory()) {
+    const auto shared_memory = std::make_shared<rtps::SharedMemTransportDescriptor>();
+    shared_memory->segment_size(role == Role::kWriters ? kWriterSegmentSize : kReaderSegmentSize);
+    qos.transport().user_transports.push_back(shared_memory);
+  }
   const auto udp = std::make_shared<rtps::UDPv4TransportDescriptor>();
   udp->sendBufferSize = kSocketBufferSize;
   udp->receiveBufferSize = kSocketBufferSize;
-  qos.transport().use_builtin_transports = false;
-  qos.transport().user_transports = {shared_memory, udp};
+  if (settings.localhost_only) udp->interfaceWhiteList.emplace_back("127.0.0.1");
+  qos.transport().user_transports.push_back(udp);
 }
 
 }  // namespace
@@ -72,10 +83,18 @@ void load_profiles(const DdsSettings& settings) {
   factory->set_default_participant_qos(fdds::PARTICIPANT_QOS_DEFAULT);
 }
 
+std::optional<std::string> shared_memory_warning() {
+  if (has_shared_memory()) return std::nullopt;
+  return fmt::format(
+      "{} is not there or cannot be written, so processes of this machine exchange images by UDP, which takes several "
+      "times as long. Remedy: mount it (for Docker: --ipc=host, or --shm-size=256m).",
+      kSharedMemoryFolder);
+}
+
 fdds::DomainParticipantQos participant_qos(const DdsSettings& settings, Role role) {
   fdds::DomainParticipantQos qos;
   fdds::DomainParticipantFactory::get_instance()->get_default_participant_qos(qos);
-  if (!names_transports(qos)) use_our_transports(qos, role);
+  if (!names_transports(qos)) use_our_transports(qos, settings, role);
   qos.name(settings.name + (role == Role::kWriters ? "_writers" : "_readers"));
 
   // rmw puts the terminating zero on the wire too.

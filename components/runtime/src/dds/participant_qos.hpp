@@ -3,6 +3,7 @@
 
 #include <fastdds/dds/domain/qos/DomainParticipantQos.hpp>
 
+#include <optional>
 #include <string>
 
 #include "panvo/runtime/bridge.hpp"
@@ -16,6 +17,9 @@ enum class Role { kWriters, kReaders };
 /// Throws ConfigError naming the file when it cannot be read or understood, or when the domain is out of
 /// range.
 void load_profiles(const DdsSettings& settings);
+
+/// What users should know when processes of this machine cannot share memory.
+std::optional<std::string> shared_memory_warning();
 
 /// A participant as a profile or else we configure it: shared memory and UDP transports sized for images,
 /// marked as ROS 2 participants are, and blind to participants of its own process.

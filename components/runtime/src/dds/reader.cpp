@@ -14,18 +14,19 @@ namespace panvo::runtime::dds {
 namespace fdds = eprosima::fastdds::dds;
 using eprosima::fastrtps::types::ReturnCode_t;
 
-Reader::Reader(const TopicDescription& topic, OnSample on_sample, std::shared_ptr<Participant> participant,
-               std::shared_ptr<Notifier> notifier)
+Reader::Reader(const TopicDescription& topic, const WireTopic& wire, OnSample on_sample,
+               std::shared_ptr<Participant> participant, std::shared_ptr<Notifier> notifier)
     : description_(topic),
       on_sample_(std::move(on_sample)),
       participant_(std::move(participant)),
       notifier_(std::move(notifier)),
-      topic_(participant_->topic(topic)) {
+      topic_(participant_->topic(wire)) {
   fdds::DataReaderQos qos = participant_->subscriber().get_default_datareader_qos();
   apply(topic, qos);
   reader_ = participant_->subscriber().create_datareader(topic_.get(), qos, this);
   if (!reader_)
     throw ConfigError(fmt::format("topic {}: Fast DDS made no reader; its message above says why", topic.name));
+  participant_->endpoints().add(wire.name, reader_->guid(), false);
 }
 
 Reader::~Reader() {
@@ -33,6 +34,7 @@ Reader::~Reader() {
     const std::lock_guard lock(delivery_mutex_);  // waits for a callback under way
     closed_ = true;
   }
+  participant_->endpoints().remove(reader_->guid());
   participant_->subscriber().delete_datareader(reader_);
 }
 

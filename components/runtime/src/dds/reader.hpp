@@ -23,9 +23,9 @@ class Reader final : public BridgeReader, private eprosima::fastdds::dds::DataRe
  public:
   using OnSample = std::function<void(SamplePtr)>;
 
-  /// Throws ConfigError when Fast DDS will not have the topic.
-  Reader(const TopicDescription& topic, OnSample on_sample, std::shared_ptr<Participant> participant,
-         std::shared_ptr<Notifier> notifier);
+  /// Throws ConfigError when Fast DDS will not have the topic. `wire` is how the topic is called there.
+  Reader(const TopicDescription& topic, const WireTopic& wire, OnSample on_sample,
+         std::shared_ptr<Participant> participant, std::shared_ptr<Notifier> notifier);
   ~Reader() override;
 
   std::size_t matched_writers() const override { return matched_writers_; }

@@ -14,20 +14,24 @@ namespace panvo::runtime::dds {
 namespace fdds = eprosima::fastdds::dds;
 using eprosima::fastrtps::types::ReturnCode_t;
 
-Writer::Writer(const TopicDescription& topic, std::shared_ptr<Participant> participant,
+Writer::Writer(const TopicDescription& topic, const WireTopic& wire, std::shared_ptr<Participant> participant,
                std::shared_ptr<Notifier> notifier)
     : name_(topic.name),
       keeps_for_late_joiners_(topic.qos.durability == interfaces::Durability::kTransientLocal),
       participant_(std::move(participant)),
       notifier_(std::move(notifier)),
-      topic_(participant_->topic(topic)) {
+      topic_(participant_->topic(wire)) {
   fdds::DataWriterQos qos = participant_->publisher().get_default_datawriter_qos();
   apply(topic, qos);
   writer_ = participant_->publisher().create_datawriter(topic_.get(), qos, this);
   if (!writer_) throw ConfigError(fmt::format("topic {}: Fast DDS made no writer; its message above says why", name_));
+  participant_->endpoints().add(wire.name, writer_->guid(), true);
 }
 
-Writer::~Writer() { participant_->publisher().delete_datawriter(writer_); }
+Writer::~Writer() {
+  participant_->endpoints().remove(writer_->guid());
+  participant_->publisher().delete_datawriter(writer_);
+}
 
 bool Writer::write(const SamplePtr& sample) {
   if (matched_readers_ == 0 && !keeps_for_late_joiners_) return true;

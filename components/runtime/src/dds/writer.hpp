@@ -16,8 +16,9 @@ namespace panvo::runtime::dds {
 /// A topic of this process as other processes read it.
 class Writer final : public BridgeWriter, private eprosima::fastdds::dds::DataWriterListener {
  public:
-  /// Throws ConfigError when Fast DDS will not have the topic.
-  Writer(const TopicDescription& topic, std::shared_ptr<Participant> participant, std::shared_ptr<Notifier> notifier);
+  /// Throws ConfigError when Fast DDS will not have the topic. `wire` is how the topic is called there.
+  Writer(const TopicDescription& topic, const WireTopic& wire, std::shared_ptr<Participant> participant,
+         std::shared_ptr<Notifier> notifier);
   ~Writer() override;
 
   bool write(const SamplePtr& sample) override;

@@ -13,7 +13,9 @@
 
 #include "dds/names.hpp"
 #include "panvo/runtime/bridge.hpp"
+#include "panvo/runtime/graph.hpp"
 #include "raw_writer.hpp"
+#include "service_messages.hpp"
 #include "test_messages.hpp"
 
 namespace panvo::runtime::test {
@@ -77,6 +79,38 @@ class Peer {
       const auto counters = readers_.at(name)->counters();
       return std::to_string(counters.received) + " " + std::to_string(counters.lost) + " " +
              std::to_string(counters.undecodable);
+    } else if (verb == "open_raw_client") {  // of a service of the type of service_messages.hpp
+      raw_writers_[name] = std::make_unique<RawWriter>(
+          domain_, dds::wire_request_name(name), dds::wire_type_name(std::string(kServiceType) + "_Request").value(),
+          RawWriter::Offer{.reliable = true});
+    } else if (verb == "serve") {
+      services_[name] = bridge_->serve({name, kServiceType}, [](const interfaces::Bytes& request) {
+        return response("peer:" + text_of_request(request));
+      });
+    } else if (verb == "stop_serving") {
+      services_.erase(name);
+    } else if (verb == "call") {
+      std::string text;
+      words >> text;
+      auto& client = clients_[name];
+      if (!client) client = bridge_->open_client({name, kServiceType});
+      if (!client->wait_for_service(kLimit)) return "nobody";
+      const auto answer = client->call(request(text), kLimit);
+      return answer ? text_of_response(*answer) : "nothing";
+    } else if (verb == "set_node") {  // publishing TOPIC, serving SERVICE
+      NodeDescription node{"/", name, {}, {}, {}};
+      std::string published, served;
+      words >> published >> served;
+      node.publishes = {published};
+      node.serves = {served};
+      bridge_->set_nodes({node});
+    } else if (verb == "nodes") {
+      std::string nodes;
+      for (const auto& node : bridge_->graph().nodes) {
+        nodes += " " + node.name_space + " " + node.name + " " + std::to_string(node.readers.size()) + " " +
+                 std::to_string(node.writers.size());
+      }
+      return "nodes" + nodes;
     } else {
       throw std::invalid_argument("no such command: " + line);
     }
@@ -107,6 +141,8 @@ class Peer {
   std::map<std::string, std::unique_ptr<BridgeWriter>> writers_;
   std::map<std::string, std::unique_ptr<BridgeReader>> readers_;
   std::map<std::string, std::unique_ptr<RawWriter>> raw_writers_;
+  std::map<std::string, std::unique_ptr<BridgeService>> services_;
+  std::map<std::string, std::unique_ptr<BridgeClient>> clients_;
 };
 
 }  // namespace

@@ -28,7 +28,7 @@ bool eventually(const std::function<bool()>& condition) {
   return true;
 }
 
-PeerProcess::PeerProcess(int domain) {
+PeerProcess::PeerProcess(int domain, std::string program) {
   ::signal(SIGPIPE, SIG_IGN);  // a peer that is gone is an error to report, not the end of the test
   std::array<int, 2> commands{}, answers{};
   if (pipe2(commands.data(), O_CLOEXEC) != 0 || pipe2(answers.data(), O_CLOEXEC) != 0)
@@ -37,7 +37,7 @@ PeerProcess::PeerProcess(int domain) {
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_adddup2(&actions, commands[0], STDIN_FILENO);
   posix_spawn_file_actions_adddup2(&actions, answers[1], STDOUT_FILENO);
-  std::string program = PANVO_BRIDGE_PEER, argument = std::to_string(domain);
+  std::string argument = std::to_string(domain);
   std::array<char*, 3> arguments{program.data(), argument.data(), nullptr};
   const int failure = posix_spawn(&pid_, program.c_str(), &actions, nullptr, arguments.data(), environ);
   posix_spawn_file_actions_destroy(&actions);

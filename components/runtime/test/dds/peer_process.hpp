@@ -13,10 +13,10 @@ namespace panvo::runtime::test {
 /// Whether `condition` came true before the limit.
 bool eventually(const std::function<bool()>& condition);
 
-/// Another process with a bridge (bridge_peer.cpp). Ends with this object.
+/// Another process: one with a bridge (bridge_peer.cpp), or another program. Ends with this object.
 class PeerProcess {
  public:
-  explicit PeerProcess(int domain);
+  explicit PeerProcess(int domain, std::string program = PANVO_BRIDGE_PEER);
   ~PeerProcess();
   PeerProcess(const PeerProcess&) = delete;
   PeerProcess& operator=(const PeerProcess&) = delete;

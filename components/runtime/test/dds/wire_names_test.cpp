@@ -17,6 +17,17 @@ TEST(WireTopicName, OfAServiceOrDiscoveryIsNoTopic) {
   EXPECT_FALSE(topic_name_from_wire("ros_discovery_info"));
 }
 
+TEST(WireServiceName, IsRos2sAndBack) {
+  EXPECT_EQ(wire_request_name("/node/get_parameters"), "rq/node/get_parametersRequest");
+  EXPECT_EQ(wire_reply_name("/node/get_parameters"), "rr/node/get_parametersReply");
+  EXPECT_EQ(service_from_wire_request("rq/node/get_parametersRequest"), "/node/get_parameters");
+  EXPECT_EQ(service_from_wire_reply("rr/node/get_parametersReply"), "/node/get_parameters");
+  for (const char* none : {"rt/odom", "rq/Request", "rq/node", "ros_discovery_info"})
+    EXPECT_FALSE(service_from_wire_request(none)) << none;
+  EXPECT_EQ(service_type_name("a/srv/Add_Request"), "a/srv/Add");
+  EXPECT_EQ(service_type_name("a/srv/Add_Response"), "a/srv/Add");
+}
+
 TEST(WireTypeName, IsRos2sAndBack) {
   EXPECT_EQ(wire_type_name("nav_msgs/msg/Odometry"), "nav_msgs::msg::dds_::Odometry_");
   EXPECT_EQ(type_name_from_wire("nav_msgs::msg::dds_::Odometry_"), "nav_msgs/msg/Odometry");

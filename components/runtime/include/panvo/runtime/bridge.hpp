@@ -6,11 +6,16 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "panvo/interfaces/qos.hpp"
 #include "panvo/runtime/sample.hpp"
+#include "panvo/runtime/service.hpp"
 
 namespace panvo::runtime {
+
+struct Graph;
+struct NodeDescription;
 
 /// A topic as a process offers or wants it.
 struct TopicDescription {
@@ -56,15 +61,31 @@ class Bridge {
   /// Calls back once for every topic that another process writes, those already known included. For recording and `topic list`.
   virtual void watch_topics(std::function<void(const TopicDescription&)> on_topic) = 0;
 
+  /// Offers a service. The handler runs on a thread that all services of the bridge share, so that a slow one holds no more than the others;
+  /// of requests that come faster than they are answered some are dropped and counted.
+  virtual std::unique_ptr<BridgeService> serve(const ServiceDescription& service, ServiceHandler handler) = 0;
+  virtual std::unique_ptr<BridgeClient> open_client(const ServiceDescription& service) = 0;
+
+  /// The nodes of this process from now on, with what they have, as ROS 2 tools list them. Endpoints that come later are added by themselves.
+  virtual void set_nodes(std::vector<NodeDescription> nodes) = 0;
+  /// What other processes have. What it tells grows for a while after the first call.
+  virtual Graph graph() = 0;
+
   /// Something users should know: a reader and writer that cannot meet (QoS or type differ), with topic name and remedy.
   virtual void on_warning(std::function<void(const std::string&)> callback) = 0;
 };
 
 struct DdsSettings {
-  int domain = 0;              ///< from ROS_DOMAIN_ID
-  std::string profiles;        ///< XML profile file, empty: our defaults
-  std::string name = "panvo";  ///< participant name seen by other tools
+  int domain = 0;
+  std::string profiles;              ///< XML profile file, empty: our defaults
+  std::string name = "panvo";        ///< participant name seen by other tools
+  std::string ros_distro = "jazzy";  ///< whose nodes are to see ours: "humble" wrote ros_discovery_info in another way
+  bool localhost_only = false;       ///< nothing leaves this machine
 };
+
+/// As ROS 2's environment variables say: ROS_DOMAIN_ID, ROS_DISTRO, ROS_LOCALHOST_ONLY, ROS_AUTOMATIC_DISCOVERY_RANGE. ROS_DISCOVERY_SERVER is
+/// read by Fast DDS. Throws ConfigError for a value that is none.
+DdsSettings dds_settings_from_environment();
 
 /// The bridge over Fast DDS. Throws ConfigError when no participant can be made (bad profile file, no network at all).
 std::unique_ptr<Bridge> make_dds_bridge(const DdsSettings& settings);

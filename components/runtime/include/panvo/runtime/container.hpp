@@ -24,9 +24,14 @@ struct ContainerOptions {
   std::uint64_t seed = 1;            ///< of all random numbers
   std::optional<DdsSettings> dds{};  ///< absent: the container keeps to itself
   Logger::Write log{};               ///< absent: stderr
+  /// Its own node's name and namespace as ROS 2 sees it; no component may have the same.
+  std::string name = "container";
+  std::string name_space = "/";
 };
 
-/// One process's components, and what runs them. Used by one thread, except request_stop().
+/// One process's components, and what runs them. With a bridge, other processes see each component as a ROS 2 node, with services for its parameters
+/// and states, and the container as one more, with services to load and unload. Loading and unloading may be done from any thread, and
+/// request_stop(); the rest is for one.
 class Container {
  public:
   explicit Container(ContainerOptions options);
@@ -44,7 +49,7 @@ class Container {
   /// Loads all, then throws one ConfigError with the problems of all, if there are any.
   void load_all(const std::vector<ComponentDescription>& descriptions);
 
-  /// Ends a component and lets go of its plugin. False if there is none of that name.
+  /// Ends a component and lets go of its plugin. False if there is none of that name. Throws ConfigError while it plays something in run().
   bool unload(const std::string& name);
   std::vector<std::string> components() const;
 

@@ -36,6 +36,16 @@ class Context {
     return parameter_reader().read<Parameters>();
   }
 
+  /// Has the component take new values of a parameter struct while it runs: `callback(Parameters)` gets all of the struct, checked as at the start,
+  /// between two messages and on the thread that handles them. A ConfigError that it throws refuses them. Without this, parameters are fixed once
+  /// the component is made.
+  template <class Parameters, class Callback>
+  void on_parameters(Callback callback) {
+    take_parameters([callback = std::move(callback)](ParameterReader& reader) -> std::function<void()> {
+      return [callback, parameters = reader.read<Parameters>()]() mutable { callback(std::move(parameters)); };
+    });
+  }
+
   template <class Message>
   Output<Message> output(const interfaces::Topic<Message>& topic) {
     return Output<Message>(open_output(describe(topic)));
@@ -109,6 +119,7 @@ class Context {
   }
 
   ParameterReader& parameter_reader();
+  void take_parameters(std::function<std::function<void()>(ParameterReader&)> take);
   void open_input(const TopicDescription& topic, std::function<void(const SamplePtr&)> callback);
   void open_input_pair(const TopicDescription& first, const TopicDescription& second,
                        std::function<void(const SamplePtr&, const SamplePtr&)> callback);

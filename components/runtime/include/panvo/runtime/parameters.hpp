@@ -35,6 +35,8 @@ struct ParameterDescription {
   std::string value;  ///< in force
   std::optional<double> min, max;
   std::vector<std::string> choices;
+  WrittenValue written;   ///< the value in force as it could have been written, a list's items apart
+  bool settable = false;  ///< while the component runs, see Context::on_parameters
 };
 
 /// Parses one written value as the declared type, all of it and whatever the locale. On failure leaves `out`

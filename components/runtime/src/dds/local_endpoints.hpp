@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <fastdds/rtps/common/Guid.h>
+
+#include <functional>
+#include <map>
+#include <mutex>
+#include <string>
+#include <vector>
+
+namespace panvo::runtime::dds {
+
+/// The readers and writers of this process by topic, for those who tell others which node has which. Safe to
+/// use from several threads.
+class LocalEndpoints {
+ public:
+  using Guid = eprosima::fastrtps::rtps::GUID_t;
+
+  void add(const std::string& wire_name, const Guid& guid, bool is_writer);
+  void remove(const Guid& guid);
+
+  std::vector<Guid> of(const std::string& wire_name, bool is_writer) const;
+
+  /// Called after each change, from whatever thread made it.
+  void on_change(std::function<void()> callback);
+
+ private:
+  struct Endpoint {
+    std::string wire_name;
+    bool is_writer = false;
+  };
+
+  void changed();
+
+  mutable std::mutex mutex_;
+  std::map<Guid, Endpoint> endpoints_;
+  std::function<void()> on_change_ = [] {};
+};
+
+}  // namespace panvo::runtime::dds

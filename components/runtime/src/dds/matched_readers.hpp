@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <fastdds/rtps/common/Guid.h>
+#include <fastdds/rtps/common/InstanceHandle.h>
+#include <fastdds/dds/publisher/DataWriter.hpp>
+#include <fastdds/dds/publisher/DataWriterListener.hpp>
+
+#include <chrono>
+#include <condition_variable>
+#include <mutex>
+#include <set>
+
+namespace panvo::runtime::dds {
+
+/// Which readers a writer is matched with. Safe to use from several threads.
+class MatchedReaders final : public eprosima::fastdds::dds::DataWriterListener {
+ public:
+  using Guid = eprosima::fastrtps::rtps::GUID_t;
+
+  bool wait_for(const Guid& reader, std::chrono::milliseconds limit) {
+    std::unique_lock lock(mutex_);
+    return changed_.wait_for(lock, limit, [&] { return readers_.contains(reader); });
+  }
+  bool wait_for_any(std::chrono::milliseconds limit) {
+    std::unique_lock lock(mutex_);
+    return changed_.wait_for(lock, limit, [&] { return !readers_.empty(); });
+  }
+
+ private:
+  void on_publication_matched(eprosima::fastdds::dds::DataWriter*,
+                              const eprosima::fastdds::dds::PublicationMatchedStatus& status) override {
+    const auto reader = eprosima::fastrtps::rtps::iHandle2GUID(status.last_subscription_handle);
+    const std::lock_guard lock(mutex_);
+    if (status.current_count_change > 0) {
+      readers_.insert(reader);
+    } else {
+      readers_.erase(reader);
+    }
+    changed_.notify_all();
+  }
+
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::set<Guid> readers_;
+};
+
+}  // namespace panvo::runtime::dds

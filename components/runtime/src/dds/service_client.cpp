@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "service_client.hpp"
+
+#include <fastdds/rtps/common/WriteParams.h>
+#include <spdlog/fmt/fmt.h>
+#include <fastdds/dds/subscriber/SampleInfo.hpp>
+
+#include <algorithm>
+
+#include "endpoint_qos.hpp"
+#include "panvo/runtime/errors.hpp"
+#include "sample_data_type.hpp"
+#include "service_server.hpp"
+
+namespace panvo::runtime::dds {
+
+namespace fdds = eprosima::fastdds::dds;
+using eprosima::fastrtps::types::ReturnCode_t;
+using std::chrono::steady_clock;
+
+namespace {
+
+constexpr std::size_t kMaxReplies = 64;
+
+std::int64_t number(const eprosima::fastrtps::rtps::SampleIdentity& identity) {
+  return static_cast<std::int64_t>(identity.sequence_number().to64long());
+}
+
+}  // namespace
+
+ServiceClient::ServiceClient(const ServiceDescription& service, std::shared_ptr<Participant> readers,
+                             std::shared_ptr<Participant> writers)
+    : readers_(std::move(readers)),
+      writers_(std::move(writers)),
+      request_topic_(writers_->topic(request_topic(service))),
+      reply_topic_(readers_->topic(reply_topic(service))) {
+  const TopicDescription described{service.name, service.type_name, kServiceQos, nullptr};
+  fdds::DataReaderQos reader_qos = readers_->subscriber().get_default_datareader_qos();
+  apply(described, reader_qos);
+  fdds::DataWriterQos writer_qos = writers_->publisher().get_default_datawriter_qos();
+  apply(described, writer_qos);
+  // The reader first, so that a server hears of it before it gets a request.
+  reader_ = readers_->subscriber().create_datareader(reply_topic_.get(), reader_qos, this);
+  if (reader_) writer_ = writers_->publisher().create_datawriter(request_topic_.get(), writer_qos, &servers_);
+  if (!writer_) {
+    if (reader_) readers_->subscriber().delete_datareader(reader_);
+    throw ConfigError(fmt::format("service {}: Fast DDS made no client; its message above says why", service.name));
+  }
+  const std::lock_guard lock(mutex_);
+  own_writer_ = writer_->guid();
+}
+
+ServiceClient::~ServiceClient() {
+  {
+    const std::lock_guard lock(mutex_);
+    closed_ = true;
+  }
+  writers_->publisher().delete_datawriter(writer_);
+  readers_->subscriber().delete_datareader(reader_);
+}
+
+bool ServiceClient::wait_for_service(std::chrono::milliseconds limit) {
+  const auto end = steady_clock::now() + limit;
+  {
+    std::unique_lock lock(mutex_);
+    if (!changed_.wait_until(lock, end, [this] { return matched_servers_ > 0; })) return false;
+  }
+  const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(end - steady_clock::now());
+  return servers_.wait_for_any(std::max(left, std::chrono::milliseconds(0)));
+}
+
+std::optional<interfaces::Bytes> ServiceClient::call(const interfaces::Bytes& request,
+                                                     std::chrono::milliseconds limit) {
+  const auto end = steady_clock::now() + limit;
+  eprosima::fastrtps::rtps::WriteParams params;
+  params.related_sample_identity().writer_guid(reader_->guid());
+  Outgoing outgoing{request};
+  if (!writer_->write(&outgoing, params)) return std::nullopt;
+  const auto mine = number(params.sample_identity());
+  std::unique_lock lock(mutex_);
+  if (!changed_.wait_until(lock, end, [&] { return replies_.contains(mine); })) return std::nullopt;
+  return std::move(replies_.extract(mine).mapped());
+}
+
+void ServiceClient::on_data_available(fdds::DataReader* reader) {
+  const std::lock_guard lock(mutex_);
+  fdds::SampleInfo info;
+  for (Incoming incoming; !closed_ && reader->take_next_sample(&incoming, &info) == ReturnCode_t::RETCODE_OK;
+       incoming = {}) {
+    if (!info.valid_data || !incoming.readable) continue;
+    const auto& asked_by = info.related_sample_identity.writer_guid();
+    // Every client of the service gets every reply. Servers of other kinds answer to the writer.
+    if (asked_by != reader->guid() && asked_by != own_writer_) continue;
+    replies_.insert_or_assign(number(info.related_sample_identity), std::move(incoming.bytes));
+    if (replies_.size() > kMaxReplies) replies_.erase(replies_.begin());  // too late for whoever asked
+  }
+  changed_.notify_all();
+}
+
+void ServiceClient::on_subscription_matched(fdds::DataReader*, const fdds::SubscriptionMatchedStatus& status) {
+  const std::lock_guard lock(mutex_);
+  matched_servers_ = status.current_count;
+  changed_.notify_all();
+}
+
+}  // namespace panvo::runtime::dds

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <fastdds/dds/subscriber/DataReader.hpp>
+#include <fastdds/dds/subscriber/DataReaderListener.hpp>
+
+#include <condition_variable>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <mutex>
+
+#include "matched_readers.hpp"
+#include "panvo/runtime/service.hpp"
+#include "participant.hpp"
+
+namespace panvo::runtime::dds {
+
+/// A service of another process, called as rmw_fastrtps does it; see ServiceServer.
+class ServiceClient final : public BridgeClient, private eprosima::fastdds::dds::DataReaderListener {
+ public:
+  /// Throws ConfigError when Fast DDS will not have its topics.
+  ServiceClient(const ServiceDescription& service, std::shared_ptr<Participant> readers,
+                std::shared_ptr<Participant> writers);
+  ~ServiceClient() override;
+
+  bool wait_for_service(std::chrono::milliseconds limit) override;
+  std::optional<interfaces::Bytes> call(const interfaces::Bytes& request, std::chrono::milliseconds limit) override;
+
+ private:
+  void on_data_available(eprosima::fastdds::dds::DataReader* reader) override;
+  void on_subscription_matched(eprosima::fastdds::dds::DataReader* reader,
+                               const eprosima::fastdds::dds::SubscriptionMatchedStatus& status) override;
+
+  const std::shared_ptr<Participant> readers_, writers_;
+  const std::shared_ptr<eprosima::fastdds::dds::Topic> request_topic_, reply_topic_;
+
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  bool closed_ = false;
+  int matched_servers_ = 0;
+  eprosima::fastrtps::rtps::GUID_t own_writer_;
+  std::map<std::int64_t, interfaces::Bytes> replies_;  // by the sequence number of the request; the newest few
+
+  MatchedReaders servers_;
+  eprosima::fastdds::dds::DataReader* reader_ = nullptr;
+  eprosima::fastdds::dds::DataWriter* writer_ = nullptr;
+};
+
+}  // namespace panvo::runtime::dds

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "service_server.hpp"
+
+#include <fastdds/rtps/common/WriteParams.h>
+#include <spdlog/fmt/fmt.h>
+#include <fastdds/dds/subscriber/SampleInfo.hpp>
+
+#include "endpoint_qos.hpp"
+#include "panvo/runtime/errors.hpp"
+
+namespace panvo::runtime::dds {
+
+namespace fdds = eprosima::fastdds::dds;
+using eprosima::fastrtps::rtps::GUID_t;
+using eprosima::fastrtps::types::ReturnCode_t;
+
+namespace {
+
+// Discovery of a client that is there takes a few milliseconds. One that is gone holds up the other services
+// of this process for no longer than this.
+constexpr std::chrono::milliseconds kClientLimit{500};
+
+bool is_reader(const GUID_t& guid) {
+  constexpr std::uint8_t kReaderBit = 0x04;
+  return (guid.entityId.value[3] & kReaderBit) != 0;
+}
+
+WireTopic service_topic(const ServiceDescription& service, std::string wire_name, const char* part) {
+  auto type_name = wire_type_name(service.type_name + part);
+  if (!type_name) {
+    throw ConfigError(
+        fmt::format("service {}: '{}' is no type name; write it as package/srv/Type", service.name, service.type_name));
+  }
+  return {std::move(wire_name), std::move(*type_name), service.name};
+}
+
+}  // namespace
+
+WireTopic request_topic(const ServiceDescription& service) {
+  return service_topic(service, wire_request_name(service.name), "_Request");
+}
+WireTopic reply_topic(const ServiceDescription& service) {
+  return service_topic(service, wire_reply_name(service.name), "_Response");
+}
+
+ServiceServer::ServiceServer(const ServiceDescription& service, ServiceHandler handler,
+                             std::shared_ptr<Participant> readers, std::shared_ptr<Participant> writers,
+                             std::shared_ptr<ServiceQueue> queue, std::shared_ptr<Notifier> notifier)
+    : name_(service.name),
+      handler_(std::move(handler)),
+      readers_(std::move(readers)),
+      writers_(std::move(writers)),
+      queue_(std::move(queue)),
+      notifier_(std::move(notifier)),
+      request_topic_(readers_->topic(request_topic(service))),
+      reply_topic_(writers_->topic(reply_topic(service))) {
+  const TopicDescription described{service.name, service.type_name, kServiceQos, nullptr};
+  fdds::DataWriterQos writer_qos = writers_->publisher().get_default_datawriter_qos();
+  apply(described, writer_qos);
+  fdds::DataReaderQos reader_qos = readers_->subscriber().get_default_datareader_qos();
+  apply(described, reader_qos);
+  writer_ = writers_->publisher().create_datawriter(reply_topic_.get(), writer_qos, &clients_);
+  if (writer_) reader_ = readers_->subscriber().create_datareader(request_topic_.get(), reader_qos, this);
+  if (!reader_) {
+    if (writer_) writers_->publisher().delete_datawriter(writer_);
+    throw ConfigError(fmt::format("service {}: Fast DDS did not make it; its message above says why", name_));
+  }
+  writers_->endpoints().add(reply_topic_->get_name(), writer_->guid(), true);
+  readers_->endpoints().add(request_topic_->get_name(), reader_->guid(), false);
+}
+
+ServiceServer::~ServiceServer() {
+  {
+    const std::lock_guard lock(taking_mutex_);  // waits for requests that are being taken
+    closed_ = true;
+  }
+  queue_->forget(this);
+  readers_->endpoints().remove(reader_->guid());
+  writers_->endpoints().remove(writer_->guid());
+  readers_->subscriber().delete_datareader(reader_);
+  writers_->publisher().delete_datawriter(writer_);
+}
+
+ServiceCounters ServiceServer::counters() const { return {received_, answered_, malformed_, dropped_, unanswered_}; }
+
+void ServiceServer::on_data_available(fdds::DataReader* reader) {
+  const std::lock_guard lock(taking_mutex_);
+  fdds::SampleInfo info;
+  for (Incoming incoming; !closed_ && reader->take_next_sample(&incoming, &info) == ReturnCode_t::RETCODE_OK;
+       incoming = {}) {
+    if (!info.valid_data) continue;
+    ++received_;
+    Identity identity = info.sample_identity;
+    const GUID_t& reply_reader = info.related_sample_identity.writer_guid();
+    if (reply_reader != GUID_t::unknown()) identity.writer_guid(reply_reader);
+    const bool posted =
+        queue_->post(this, [this, bytes = std::move(incoming.bytes), identity] { answer(bytes, identity); });
+    if (posted) continue;
+    ++dropped_;
+    notifier_->warn(fmt::format("service {}: requests come faster than they are answered, some were dropped", name_));
+  }
+}
+
+void ServiceServer::answer(const interfaces::Bytes& request, const Identity& identity) {
+  try {
+    const auto response = handler_(request);
+    if (send(response, identity)) {
+      ++answered_;
+      return;
+    }
+    ++unanswered_;
+  } catch (const interfaces::DecodeError& error) {
+    ++malformed_;
+    notifier_->warn(fmt::format("service {}: a request that is none was left unanswered: {}", name_, error.what()));
+  } catch (const std::exception& error) {
+    ++unanswered_;
+    notifier_->warn(fmt::format("service {}: a request could not be answered: {}", name_, error.what()));
+  }
+}
+
+bool ServiceServer::send(const interfaces::Bytes& response, const Identity& identity) {
+  if (is_reader(identity.writer_guid()) && !clients_.wait_for(identity.writer_guid(), kClientLimit)) {
+    notifier_->warn(
+        fmt::format("service {}: a client was gone, or could not be reached, before it got its answer", name_));
+    return false;
+  }
+  eprosima::fastrtps::rtps::WriteParams params;
+  params.related_sample_identity(identity);
+  Outgoing outgoing{response};
+  return writer_->write(&outgoing, params);
+}
+
+}  // namespace panvo::runtime::dds

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <fastdds/rtps/common/SampleIdentity.h>
+#include <fastdds/dds/subscriber/DataReader.hpp>
+#include <fastdds/dds/subscriber/DataReaderListener.hpp>
+
+#include <atomic>
+#include <memory>
+#include <mutex>
+
+#include "matched_readers.hpp"
+#include "notifier.hpp"
+#include "panvo/runtime/service.hpp"
+#include "participant.hpp"
+#include "sample_data_type.hpp"
+#include "service_queue.hpp"
+
+namespace panvo::runtime::dds {
+
+/// A service as rmw_fastrtps has it: requests and replies are topics, and a reply bears the identity of its
+/// request in `related_sample_identity`. A client puts the GUID of its reply reader there too, so that the
+/// server can wait until it has discovered that reader: before that a reply would go nowhere.
+class ServiceServer final : public BridgeService, private eprosima::fastdds::dds::DataReaderListener {
+ public:
+  /// Throws ConfigError when Fast DDS will not have its topics.
+  ServiceServer(const ServiceDescription& service, ServiceHandler handler, std::shared_ptr<Participant> readers,
+                std::shared_ptr<Participant> writers, std::shared_ptr<ServiceQueue> queue,
+                std::shared_ptr<Notifier> notifier);
+  ~ServiceServer() override;
+
+  ServiceCounters counters() const override;
+
+ private:
+  using Identity = eprosima::fastrtps::rtps::SampleIdentity;
+
+  void on_data_available(eprosima::fastdds::dds::DataReader* reader) override;
+  void answer(const interfaces::Bytes& request, const Identity& identity);
+  bool send(const interfaces::Bytes& response, const Identity& identity);
+
+  const std::string name_;
+  const ServiceHandler handler_;
+  const std::shared_ptr<Participant> readers_, writers_;
+  const std::shared_ptr<ServiceQueue> queue_;
+  const std::shared_ptr<Notifier> notifier_;
+  const std::shared_ptr<eprosima::fastdds::dds::Topic> request_topic_, reply_topic_;
+
+  std::mutex taking_mutex_;
+  bool closed_ = false;
+  std::atomic<std::uint64_t> received_ = 0, answered_ = 0, malformed_ = 0, dropped_ = 0, unanswered_ = 0;
+  MatchedReaders clients_;
+  eprosima::fastdds::dds::DataWriter* writer_ = nullptr;
+  eprosima::fastdds::dds::DataReader* reader_ = nullptr;  // last: requests may come from now on
+};
+
+/// The topic of a service's requests, or replies.
+WireTopic request_topic(const ServiceDescription& service);
+WireTopic reply_topic(const ServiceDescription& service);
+
+/// What ROS 2 asks of a service's topics.
+inline constexpr interfaces::Qos kServiceQos{.depth = 10};
+
+}  // namespace panvo::runtime::dds

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+// How a component takes new parameters while it runs.
+#include <algorithm>
+#include <chrono>
+#include <condition_variable>
+#include <optional>
+
+#include "config/suggestion.hpp"
+#include "context_state.hpp"
+#include "panvo/runtime/errors.hpp"
+
+namespace panvo::runtime {
+namespace {
+
+// A component that is busy with one message for longer is asked again by who asked first.
+constexpr std::chrono::seconds kLimit{5};
+
+/// What became of a call on the component's thread.
+struct Outcome {
+  std::mutex mutex;
+  std::condition_variable changed;
+  bool done = false;
+  bool given_up = false;
+  std::vector<std::string> problems;
+};
+
+std::vector<ParameterDescription>::const_iterator find(const std::vector<ParameterDescription>& parameters,
+                                                       const std::string& name) {
+  return std::ranges::find(parameters, name, &ParameterDescription::name);
+}
+
+/// What is wrong with asking for these at all.
+std::vector<std::string> not_settable(const std::vector<ParameterDescription>& known, const WrittenValues& wanted) {
+  std::vector<std::string> names, problems;
+  for (const auto& parameter : known) names.push_back(parameter.name);
+  for (const auto& [name, value] : wanted) {
+    const auto parameter = find(known, name);
+    if (parameter == known.end()) {
+      problems.push_back("there is no parameter \"" + name + "\"" + suggestion(name, names));
+    } else if (!parameter->settable) {
+      problems.push_back(name +
+                         " is fixed once the component is made: unload it and load it anew with the other value, or "
+                         "set it in the system file");
+    }
+  }
+  return problems;
+}
+
+void run(const std::vector<std::function<void()>>& calls, Outcome& outcome) {
+  try {
+    for (const auto& call : calls) call();
+  } catch (const ConfigError& error) {
+    outcome.problems = error.problems();
+  } catch (...) {
+    outcome.problems = {"the component was stopped by an error, see its log"};
+    outcome.done = true;
+    outcome.changed.notify_all();
+    throw;  // as from any other callback
+  }
+  outcome.done = true;
+  outcome.changed.notify_all();
+}
+
+}  // namespace
+
+std::vector<ParameterDescription> Context::State::parameters() const {
+  std::vector<ParameterDescription> parameters = reader.declared();
+  ParameterReader settable(description.name, {});
+  for (const auto& take : parameter_takers) take(settable);
+  const std::lock_guard lock(parameters_mutex_);
+  for (auto& parameter : parameters) {
+    if (const auto set = find(set_, parameter.name); set != set_.end()) parameter = *set;
+    parameter.settable = find(settable.declared(), parameter.name) != settable.declared().end();
+  }
+  return parameters;
+}
+
+std::vector<std::string> Context::State::set_parameters(const WrittenValues& wanted) {
+  const std::lock_guard one_at_a_time(setting_mutex_);
+  const auto known = parameters();
+  if (auto wrong = not_settable(known, wanted); !wrong.empty()) return wrong;
+  WrittenValues values = wanted;
+  for (const auto& parameter : known) {
+    if (parameter.settable) values.try_emplace(parameter.name, parameter.written);
+  }
+  ParameterReader trial(description.name, values);
+  std::vector<std::function<void()>> calls;
+  for (const auto& take : parameter_takers) calls.push_back(take(trial));
+  if (auto wrong = trial.problems(); !wrong.empty()) return wrong;
+  if (auto wrong = hand_over(std::move(calls)); !wrong.empty()) return wrong;
+  const std::lock_guard lock(parameters_mutex_);
+  set_ = trial.declared();
+  return {};
+}
+
+std::vector<std::string> Context::State::hand_over(std::vector<std::function<void()>> calls) {
+  const auto outcome = std::make_shared<Outcome>();
+  if (host.replay_order) {  // one thread for all, and it is here
+    run(calls, *outcome);
+    return outcome->problems;
+  }
+  if (failed()) return {"the component was stopped by an error, see its log"};
+  std::function<void()> task = [outcome, calls = std::move(calls)] {
+    const std::lock_guard lock(outcome->mutex);
+    if (!outcome->given_up) run(calls, *outcome);
+  };
+  main_worker().push(*parameter_port, {.item = std::move(task)});
+  std::unique_lock lock(outcome->mutex);
+  if (outcome->changed.wait_for(lock, kLimit, [&] { return outcome->done; })) return outcome->problems;
+  outcome->given_up = true;
+  return {"the component is busy with one message and did not take them; try again"};
+}
+
+}  // namespace panvo::runtime

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+
+#include "context_state.hpp"
+#include "steering/steered.hpp"
+
+namespace panvo::runtime::steering {
+
+/// A loaded component as requests steer it.
+class ComponentNode final : public SteeredNode {
+ public:
+  /// `shut_down` asks the container to unload it soon.
+  ComponentNode(Context::State& state, std::function<void()> shut_down)
+      : state_(state), shut_down_(std::move(shut_down)) {}
+
+  std::vector<ParameterDescription> parameters() const override { return state_.parameters(); }
+  std::vector<std::string> set_parameters(const WrittenValues& wanted) override {
+    return state_.set_parameters(wanted);
+  }
+  bool is_active() const override { return state_.active; }
+  /// What plays something recorded cannot pause: its place in time would be lost.
+  bool set_active(bool active) override {
+    if (state_.source) {
+      state_.logger.warn("cannot be deactivated: it plays recorded data");
+      return false;
+    }
+    state_.active = active;
+    state_.logger.info("{}", active ? "activated" : "deactivated: messages are not handed to it");
+    return true;
+  }
+  bool shut_down() override {
+    if (state_.source) {
+      state_.logger.warn("cannot be shut down: it plays recorded data");
+      return false;
+    }
+    shut_down_();
+    return true;
+  }
+
+ private:
+  Context::State& state_;
+  const std::function<void()> shut_down_;
+};
+
+}  // namespace panvo::runtime::steering

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a container loads, as rclcpp_components' containers answer for it.
+#include "composition_interfaces/srv/ListNodes.h"
+#include "composition_interfaces/srv/LoadNode.h"
+#include "composition_interfaces/srv/UnloadNode.h"
+#include "panvo/runtime/errors.hpp"
+#include "panvo/runtime/names.hpp"
+#include "steering/parameter_values.hpp"
+#include "steering/steered.hpp"
+
+namespace panvo::runtime::steering {
+namespace {
+
+using namespace composition_interfaces::srv;  // NOLINT(google-build-using-namespace): as in parameter_services.cpp
+
+constexpr const char* kWhere = "load_node";
+
+std::string default_name(const std::string& package) {
+  constexpr std::string_view kOurs = "panvo_";
+  return package.starts_with(kOurs) ? package.substr(kOurs.size()) : package;
+}
+
+/// The request as a system file would have it; adds what is wrong with it to `problems`.
+ComponentDescription description_of(const LoadNode_Request& request, std::vector<std::string>& problems) {
+  ComponentDescription description;
+  description.package = request.package_name();
+  description.plugin = request.plugin_name();
+  description.name = request.node_name().empty() ? default_name(request.package_name()) : request.node_name();
+  description.where = {kWhere, 0};
+  const auto complain = [&](const std::string& what) { problems.push_back(std::string(kWhere) + ": " + what); };
+  if (const auto wrong = node_name_problem(description.name))
+    complain("node name \"" + description.name + "\" " + *wrong);
+  if (const auto wrong = name_space_problem(request.node_namespace())) {
+    complain("namespace \"" + request.node_namespace() + "\" " + *wrong);
+  } else {
+    description.name_space = join_name_spaces("/", request.node_namespace());
+  }
+  for (const auto& rule : request.remap_rules()) {
+    const auto separator = rule.find(":=");
+    const std::string from = rule.substr(0, separator),
+                      to = separator == std::string::npos ? "" : rule.substr(separator + 2);
+    if (topic_name_problem(from) || topic_name_problem(to)) {
+      complain("remap rule \"" + rule + "\" is none; write from:=to, two topic names");
+    } else {
+      description.remaps[from] = to;
+    }
+  }
+  for (const auto& parameter : request.parameters()) {
+    auto value = written_value(parameter.value());
+    if (!value) {
+      complain("parameter " + parameter.name() + " has no value");
+      continue;
+    }
+    value->where = description.where;
+    description.parameters[parameter.name()] = std::move(*value);
+  }
+  return description;
+}
+
+std::string joined(const std::vector<std::string>& lines) {
+  std::string text;
+  for (const auto& line : lines) text += (text.empty() ? "" : "; ") + line;
+  return text;
+}
+
+LoadNode_Response load(SteeredContainer& container, const LoadNode_Request& request) {
+  LoadNode_Response response;
+  std::vector<std::string> problems;
+  const auto description = description_of(request, problems);
+  try {
+    if (!problems.empty()) throw ConfigError(problems);
+    const auto loaded = container.load_component(description);
+    response.success(true);
+    response.full_node_name(loaded.full_name);
+    response.unique_id(loaded.id);
+  } catch (const ConfigError& error) {
+    response.error_message(joined(error.problems()));
+  }
+  return response;
+}
+
+UnloadNode_Response unload(SteeredContainer& container, const UnloadNode_Request& request) {
+  UnloadNode_Response response;
+  try {
+    container.unload_component(request.unique_id());
+    response.success(true);
+  } catch (const ConfigError& error) {
+    response.error_message(joined(error.problems()));
+  }
+  return response;
+}
+
+ListNodes_Response list(SteeredContainer& container, const ListNodes_Request&) {
+  ListNodes_Response response;
+  for (const auto& [id, full_name] : container.loaded_components()) {
+    response.unique_ids().push_back(id);
+    response.full_node_names().push_back(full_name);
+  }
+  return response;
+}
+
+template <class Request, class Response>
+OfferedService offer(const std::string& name, const char* type, SteeredContainer& container,
+                     Response (*answer)(SteeredContainer&, const Request&)) {
+  return {{name, std::string("composition_interfaces/srv/") + type},
+          service_handler<Request, Response>(
+              [&container, answer](const Request& request) { return answer(container, request); })};
+}
+
+}  // namespace
+
+std::vector<OfferedService> component_services(const std::string& full_name, SteeredContainer& container) {
+  const std::string prefix = full_name + "/_container/";
+  return {offer(prefix + "load_node", "LoadNode", container, load),
+          offer(prefix + "unload_node", "UnloadNode", container, unload),
+          offer(prefix + "list_nodes", "ListNodes", container, list)};
+}
+
+}  // namespace panvo::runtime::steering

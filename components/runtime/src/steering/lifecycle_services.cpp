@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+// The states our components have, in the terms of ROS 2's managed nodes: a component is made configured and active; inactive, messages are not
+// handed to it; shut down, it is unloaded. There is nothing to configure anew or to clean up.
+#include <algorithm>
+#include <array>
+
+#include "lifecycle_msgs/srv/ChangeState.h"
+#include "lifecycle_msgs/srv/GetAvailableStates.h"
+#include "lifecycle_msgs/srv/GetAvailableTransitions.h"
+#include "lifecycle_msgs/srv/GetState.h"
+#include "steering/steered.hpp"
+
+namespace panvo::runtime::steering {
+namespace {
+
+using namespace lifecycle_msgs::srv;  // NOLINT(google-build-using-namespace): as in parameter_services.cpp
+
+// The constants of lifecycle_msgs/msg/State and Transition.
+enum class State : std::uint8_t { kInactive = 2, kActive = 3, kFinalized = 4 };
+enum class Change : std::uint8_t { kActivate, kDeactivate, kShutDown };
+
+struct Transition {
+  Change change;
+  std::uint8_t id;
+  const char* label;
+  State from, to;
+};
+constexpr std::array<Transition, 4> kTransitions{
+    {{Change::kActivate, 3, "activate", State::kInactive, State::kActive},
+     {Change::kDeactivate, 4, "deactivate", State::kActive, State::kInactive},
+     {Change::kShutDown, 6, "shutdown", State::kInactive, State::kFinalized},
+     {Change::kShutDown, 7, "shutdown", State::kActive, State::kFinalized}}};
+
+lifecycle_msgs::msg::State message_of(State state) {
+  lifecycle_msgs::msg::State message;
+  message.id(static_cast<std::uint8_t>(state));
+  message.label(state == State::kActive ? "active" : state == State::kInactive ? "inactive" : "finalized");
+  return message;
+}
+
+State state_of(const SteeredNode& node) { return node.is_active() ? State::kActive : State::kInactive; }
+
+GetState_Response get_state(SteeredNode& node, const GetState_Request&) {
+  GetState_Response response;
+  response.current_state(message_of(state_of(node)));
+  return response;
+}
+
+GetAvailableStates_Response get_states(SteeredNode&, const GetAvailableStates_Request&) {
+  GetAvailableStates_Response response;
+  for (const State state : {State::kInactive, State::kActive, State::kFinalized})
+    response.available_states().push_back(message_of(state));
+  return response;
+}
+
+GetAvailableTransitions_Response get_transitions(SteeredNode& node, const GetAvailableTransitions_Request&) {
+  GetAvailableTransitions_Response response;
+  for (const auto& transition : kTransitions) {
+    if (transition.from != state_of(node)) continue;
+    lifecycle_msgs::msg::TransitionDescription description;
+    description.transition().id(transition.id);
+    description.transition().label(transition.label);
+    description.start_state(message_of(transition.from));
+    description.goal_state(message_of(transition.to));
+    response.available_transitions().push_back(description);
+  }
+  return response;
+}
+
+bool carry_out(SteeredNode& node, Change change) {
+  return change == Change::kShutDown ? node.shut_down() : node.set_active(change == Change::kActivate);
+}
+
+/// By label where there is one, as rcl_lifecycle does.
+ChangeState_Response change_state(SteeredNode& node, const ChangeState_Request& request) {
+  const auto& wanted = request.transition();
+  const auto found = std::ranges::find_if(kTransitions, [&](const Transition& transition) {
+    const bool is_it = wanted.label().empty() ? transition.id == wanted.id() : transition.label == wanted.label();
+    return is_it && transition.from == state_of(node);
+  });
+  ChangeState_Response response;
+  response.success(found != kTransitions.end() && carry_out(node, found->change));
+  return response;
+}
+
+template <class Request, class Response>
+OfferedService offer(const std::string& name, const char* type, SteeredNode& node,
+                     Response (*answer)(SteeredNode&, const Request&)) {
+  return {
+      {name, std::string("lifecycle_msgs/srv/") + type},
+      service_handler<Request, Response>([&node, answer](const Request& request) { return answer(node, request); })};
+}
+
+}  // namespace
+
+std::vector<OfferedService> lifecycle_services(const std::string& full_name, SteeredNode& node) {
+  return {offer(full_name + "/change_state", "ChangeState", node, change_state),
+          offer(full_name + "/get_state", "GetState", node, get_state),
+          offer(full_name + "/get_available_states", "GetAvailableStates", node, get_states),
+          offer(full_name + "/get_available_transitions", "GetAvailableTransitions", node, get_transitions)};
+}
+
+}  // namespace panvo::runtime::steering

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "panvo/runtime/parameters.hpp"
+#include "rcl_interfaces/msg/ParameterDescriptor.h"
+#include "rcl_interfaces/msg/ParameterValue.h"
+
+namespace panvo::runtime::steering {
+
+/// The constants of rcl_interfaces/msg/ParameterType.
+enum class ParameterType : std::uint8_t {
+  kNotSet,
+  kBool,
+  kInteger,
+  kDouble,
+  kString,
+  kByteArray,
+  kBoolArray,
+  kIntegerArray,
+  kDoubleArray,
+  kStringArray
+};
+
+ParameterType ros_type(const ParameterDescription& parameter);
+rcl_interfaces::msg::ParameterValue ros_value(const ParameterDescription& parameter);
+rcl_interfaces::msg::ParameterDescriptor ros_descriptor(const ParameterDescription& parameter);
+
+/// A value as a system file could have it; nullopt when none is set, or its type is none.
+std::optional<WrittenValue> written_value(const rcl_interfaces::msg::ParameterValue& value);
+
+/// What is wrong with the type of a value for that parameter; nullopt: nothing. A whole number is a number.
+std::optional<std::string> type_problem(const ParameterDescription& parameter,
+                                        const rcl_interfaces::msg::ParameterValue& value);
+
+}  // namespace panvo::runtime::steering

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+// A container in a process of its own, for the tests that steer it from another. Its argument is the DDS domain; it ends with its input.
+#include <sys/prctl.h>
+
+#include <csignal>
+#include <iostream>
+#include <thread>
+
+#include "panvo/runtime/container.hpp"
+#include "panvo/runtime/errors.hpp"
+#include "steering_topics.hpp"
+
+namespace panvo::runtime::test {
+namespace {
+
+/// Sends on what comes, with what it may be told to put before it.
+class Echo final : public Component {
+ public:
+  struct Parameters {
+    std::string before;
+    std::int64_t size = 3;
+    template <class Field>
+    static void describe(Field&& field) {
+      field(&Parameters::before, "before", "", "put before each text");
+      field(&Parameters::size, "size", "1", "of nothing", 1, 9);
+    }
+  };
+  explicit Echo(Context& context) : parameters_(context.parameters<Parameters>()), output_(context.output(kEchoed)) {
+    context.input(kToEcho, [this](const std::shared_ptr<const std_msgs::msg::String>& text) {
+      std_msgs::msg::String echoed;
+      echoed.data(parameters_.before + text->data());
+      output_.publish(std::move(echoed));
+    });
+    context.on_parameters<Parameters>([this](const Parameters& wanted) { parameters_ = wanted; });
+  }
+
+ private:
+  Parameters parameters_;
+  Output<std_msgs::msg::String> output_;
+};
+
+}  // namespace
+}  // namespace panvo::runtime::test
+
+int main(int argc, char** argv) {
+  using namespace panvo::runtime;
+  prctl(PR_SET_PDEATHSIG, SIGKILL);  // a test that crashes leaves nobody behind
+  if (argc != 2) return 2;
+  Container container({.dds = DdsSettings{.domain = std::stoi(argv[1]), .name = "steered"}, .name = "steered"});
+  ComponentDescription echo;
+  echo.name = "echo";
+  echo.name_space = "/robot";
+  container.add(echo, [](Context& context) { return std::make_unique<test::Echo>(context); });
+  std::thread input([&] {
+    while (std::cin.get() != EOF) {
+    }
+    container.request_stop();
+  });
+  container.run();
+  input.join();
+}

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: Apache-2.0
+// Services between two processes.
+#include <future>
+#include <stdexcept>
+#include <thread>
+
+#include "bridge_fixture.hpp"
+#include "service_messages.hpp"
+
+namespace panvo::runtime::test {
+namespace {
+
+constexpr std::chrono::milliseconds kShort{50};
+
+std::string as_numbers(const interfaces::Bytes& bytes) {
+  std::string text;
+  for (const auto byte : bytes) text += " " + std::to_string(byte);
+  return text;
+}
+
+ServiceDescription service(const std::string& name) { return {name, kServiceType}; }
+
+interfaces::Bytes echo(const interfaces::Bytes& bytes) { return response("here:" + text_of_request(bytes)); }
+
+TEST_F(BetweenProcesses, ARequestIsAnsweredByTheOtherProcess) {
+  const auto name = unique_topic("service");
+  peer.ask("serve " + name);
+  const auto client = bridge->open_client(service(name));
+  ASSERT_TRUE(client->wait_for_service(kLimit));
+  for (const char* text : {"one", "two", "three"}) {
+    const auto answer = client->call(request(text), kLimit);
+    ASSERT_TRUE(answer);
+    EXPECT_EQ(text_of_response(*answer), std::string("peer:") + text);
+  }
+}
+
+TEST_F(BetweenProcesses, ARequestOfTheOtherProcessIsAnswered) {
+  const auto name = unique_topic("service");
+  const auto server = bridge->serve(service(name), echo);
+  EXPECT_EQ(peer.ask("call " + name + " one"), "here:one");
+  EXPECT_EQ(peer.ask("call " + name + " two"), "here:two");
+  EXPECT_EQ(server->counters().received, 2U);
+  EXPECT_EQ(server->counters().answered, 2U);
+}
+
+TEST_F(BetweenProcesses, EachClientGetsTheAnswersToItsOwnRequests) {
+  const auto name = unique_topic("service");
+  const auto server = bridge->serve(service(name), echo);
+  PeerProcess second_peer(domain);
+  std::future<void> second = std::async(std::launch::async, [&] {
+    for (int i = 0; i < 30; ++i)
+      EXPECT_EQ(second_peer.ask("call " + name + " b" + std::to_string(i)), "here:b" + std::to_string(i));
+  });
+  for (int i = 0; i < 30; ++i)
+    EXPECT_EQ(peer.ask("call " + name + " a" + std::to_string(i)), "here:a" + std::to_string(i));
+  second.get();
+  EXPECT_EQ(server->counters().answered, 60U);
+}
+
+TEST_F(BetweenProcesses, ACallThatNobodyAnswersEnds) {
+  const auto client = bridge->open_client(service(unique_topic("service")));
+  EXPECT_FALSE(client->wait_for_service(kShort));
+  EXPECT_FALSE(client->call(request("nobody"), kShort));
+}
+
+TEST_F(BetweenProcesses, AServiceThatEndedIsNotFoundAndOneThatComesBackIs) {
+  const auto name = unique_topic("service");
+  peer.ask("serve " + name);
+  const auto client = bridge->open_client(service(name));
+  ASSERT_TRUE(client->wait_for_service(kLimit));
+  peer.ask("stop_serving " + name);
+  EXPECT_TRUE(eventually([&] { return !client->wait_for_service(std::chrono::milliseconds(0)); }));
+  peer.ask("serve " + name);
+  ASSERT_TRUE(client->wait_for_service(kLimit));
+  EXPECT_TRUE(client->call(request("again"), kLimit));
+}
+
+TEST_F(BetweenProcesses, ARequestThatIsNoneIsCountedAndTheNextAnswered) {
+  const auto name = unique_topic("service");
+  const auto server = bridge->serve(service(name), echo);
+  peer.ask("open_raw_client " + name);
+  ASSERT_TRUE(peer.matches(name, 1));
+  ASSERT_EQ(peer.ask("write_bytes " + name + " 0 1 0 0 255 255 255 255"), "written");
+  ASSERT_EQ(peer.ask("write_bytes " + name + " 0 3 0 0 1 0 0 0"), "written");
+  EXPECT_TRUE(eventually([&] { return server->counters().malformed == 2; }));
+  EXPECT_TRUE(is_warned_of(name, "is none"));
+  EXPECT_EQ(peer.ask("call " + name + " next"), "here:next");
+}
+
+TEST_F(BetweenProcesses, AClientThatTellsNoReaderOfItsRepliesIsAnsweredAtOnce) {
+  const auto name = unique_topic("service");
+  const auto server = bridge->serve(service(name), echo);
+  peer.ask("open_raw_client " + name);
+  ASSERT_TRUE(peer.matches(name, 1));
+  ASSERT_EQ(peer.ask("write_bytes " + name + as_numbers(request("raw"))), "written");
+  EXPECT_TRUE(eventually([&] { return server->counters().answered == 1; }));
+}
+
+TEST_F(BetweenProcesses, AHandlerThatThrowsIsWarnedOfAndTheNextRequestAnswered) {
+  const auto name = unique_topic("service");
+  const auto server = bridge->serve(service(name), [](const interfaces::Bytes& bytes) {
+    if (text_of_request(bytes) == "bad") throw std::runtime_error("out of ideas");
+    return echo(bytes);
+  });
+  peer.ask("open_raw_client " + name);
+  ASSERT_TRUE(peer.matches(name, 1));
+  ASSERT_EQ(peer.ask("write_bytes " + name + as_numbers(request("bad"))), "written");
+  EXPECT_TRUE(is_warned_of(name, "out of ideas"));
+  EXPECT_EQ(peer.ask("call " + name + " good"), "here:good");
+  EXPECT_EQ(server->counters().unanswered, 1U);
+}
+
+TEST_F(BetweenProcesses, ASlowHandlerHoldsNoTopicAndWhatComesMeanwhileIsBounded) {
+  const auto name = unique_topic("service"), text = unique_topic("text");
+  std::promise<void> may_answer;
+  const auto open = may_answer.get_future().share();
+  const auto server = bridge->serve(service(name), [&](const interfaces::Bytes& bytes) {
+    open.wait();
+    return echo(bytes);
+  });
+  const auto reader = bridge->open_reader(topic(text, kStringType), inbox.callback());
+  peer.ask("open_raw_client " + name);
+  peer.ask("open_writer " + text + " " + kStringType + " reliable volatile 10");
+  ASSERT_TRUE(peer.matches(name, 1) && peer.matches(text, 1));
+  constexpr std::uint64_t kRequests = 100;
+  for (std::uint64_t i = 0; i < kRequests; ++i) peer.ask("write_bytes " + name + as_numbers(request("slow")));
+  EXPECT_TRUE(eventually([&] { return server->counters().received == kRequests; }));
+  peer.ask("write_text " + text + " yes");
+  EXPECT_EQ(inbox.wait_for_count(1).size(), 1U);
+
+  may_answer.set_value();
+  EXPECT_GT(server->counters().dropped, 0U);
+  EXPECT_TRUE(eventually([&] {
+    const auto counters = server->counters();
+    return counters.answered + counters.dropped == kRequests;
+  }));
+  EXPECT_TRUE(is_warned_of(name, "dropped"));
+}
+
+TEST_F(BetweenProcesses, TheHandlerDoesNotRunAnyMoreWhenTheServiceIsGone) {
+  const auto name = unique_topic("service");
+  std::atomic<bool> gone = false, called_after = false;
+  auto server = bridge->serve(service(name), [&](const interfaces::Bytes& bytes) {
+    if (gone) called_after = true;
+    return echo(bytes);
+  });
+  peer.ask("open_raw_client " + name);
+  ASSERT_TRUE(peer.matches(name, 1));
+  for (int i = 0; i < 20; ++i) peer.ask("write_bytes " + name + as_numbers(request("many")));
+  server.reset();
+  gone = true;
+  EXPECT_TRUE(peer.matches(name, 0));
+  EXPECT_FALSE(called_after);
+}
+
+TEST_F(BetweenProcesses, AServiceOfNoTypeIsRefused) {
+  EXPECT_THROW(bridge->serve({"/x", "no type"}, echo), std::runtime_error);
+  EXPECT_THROW(bridge->open_client({"/x", "GetParameters"}), std::runtime_error);
+}
+
+}  // namespace
+}  // namespace panvo::runtime::test

@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: Apache-2.0
+// A container in another process, steered by its services as ROS 2 tools do it.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "composition_interfaces/srv/ListNodes.h"
+#include "composition_interfaces/srv/LoadNode.h"
+#include "composition_interfaces/srv/UnloadNode.h"
+#include "inbox.hpp"
+#include "lifecycle_msgs/srv/ChangeState.h"
+#include "lifecycle_msgs/srv/GetState.h"
+#include "panvo/runtime/bridge.hpp"
+#include "panvo/runtime/graph.hpp"
+#include "peer_process.hpp"
+#include "rcl_interfaces/srv/GetParameters.h"
+#include "rcl_interfaces/srv/SetParameters.h"
+#include "steering_topics.hpp"
+
+namespace panvo::runtime::test {
+namespace {
+
+using composition_interfaces::srv::ListNodes_Request;
+using composition_interfaces::srv::ListNodes_Response;
+using composition_interfaces::srv::LoadNode_Request;
+using composition_interfaces::srv::LoadNode_Response;
+using composition_interfaces::srv::UnloadNode_Request;
+using composition_interfaces::srv::UnloadNode_Response;
+using testing::HasSubstr;
+
+class Steering : public testing::Test {
+ protected:
+  template <class Response, class Request>
+  Response ask(const std::string& name, const std::string& type, const Request& request) {
+    auto& client = clients[name];
+    if (!client) client = bridge->open_client({name, type});
+    if (!client->wait_for_service(kLimit)) throw std::runtime_error(name + " is not there");
+    const auto answer = client->call(to_bytes(request), kLimit);
+    if (!answer) throw std::runtime_error(name + " does not answer");
+    return from_bytes<Response>(*answer);
+  }
+  LoadNode_Response load(const LoadNode_Request& request) {
+    return ask<LoadNode_Response>("/steered/_container/load_node", "composition_interfaces/srv/LoadNode", request);
+  }
+  UnloadNode_Response unload(std::uint64_t id) {
+    UnloadNode_Request request;
+    request.unique_id(id);
+    return ask<UnloadNode_Response>("/steered/_container/unload_node", "composition_interfaces/srv/UnloadNode",
+                                    request);
+  }
+  std::vector<std::string> loaded() {
+    return ask<ListNodes_Response>("/steered/_container/list_nodes", "composition_interfaces/srv/ListNodes",
+                                   ListNodes_Request())
+        .full_node_names();
+  }
+  static LoadNode_Request relay() {
+    LoadNode_Request request;
+    request.package_name("panvo_test_relay");
+    request.plugin_name("RelayComponent");
+    request.node_name("relay");
+    return request;
+  }
+  bool change_state(const std::string& label) {
+    lifecycle_msgs::srv::ChangeState_Request request;
+    request.transition().label(label);
+    return ask<lifecycle_msgs::srv::ChangeState_Response>("/robot/echo/change_state", "lifecycle_msgs/srv/ChangeState",
+                                                          request)
+        .success();
+  }
+  std::string set_before(const std::string& text) {
+    rcl_interfaces::srv::SetParameters_Request request;
+    request.parameters().resize(1);
+    request.parameters()[0].name("before");
+    request.parameters()[0].value().type(4);  // a string
+    request.parameters()[0].value().string_value(text);
+    const auto results = ask<rcl_interfaces::srv::SetParameters_Response>("/robot/echo/set_parameters",
+                                                                          "rcl_interfaces/srv/SetParameters", request)
+                             .results();
+    return results.at(0).successful() ? "" : results.at(0).reason();
+  }
+
+  void open_topics() {
+    const auto describe = [](const interfaces::Topic<std_msgs::msg::String>& topic) {
+      return test::topic(std::string(topic.name), "std_msgs/msg/String", topic.qos);
+    };
+    reader = bridge->open_reader(describe(kEchoed), echoed.callback());
+    writer = bridge->open_writer(describe(kToEcho));
+    ASSERT_TRUE(eventually([&] { return writer->matched_readers() == 1 && reader->matched_writers() == 1; }));
+  }
+  static std::string text_of(const SamplePtr& sample) { return Sample::as<std_msgs::msg::String>(sample)->data(); }
+
+  const int domain = test_domain();
+  PeerProcess peer{domain, PANVO_CONTAINER_PEER};
+  Inbox<SamplePtr> echoed;
+  std::unique_ptr<Bridge> bridge = make_dds_bridge({.domain = domain, .profiles = "", .name = "panvo_test"});
+  std::map<std::string, std::unique_ptr<BridgeClient>> clients;
+  std::unique_ptr<BridgeReader> reader;
+  std::unique_ptr<BridgeWriter> writer;
+};
+
+TEST_F(Steering, LoadsListsAndUnloads) {
+  auto request = relay();
+  request.node_namespace("/robot");
+  request.parameters().resize(1);
+  request.parameters()[0].name("copies");
+  request.parameters()[0].value().type(2);  // an integer
+  request.parameters()[0].value().integer_value(7);
+  const auto response = load(request);
+  ASSERT_TRUE(response.success()) << response.error_message();
+  EXPECT_EQ(response.full_node_name(), "/robot/relay");
+  EXPECT_THAT(loaded(), testing::ElementsAre("/robot/echo", "/robot/relay"));
+
+  rcl_interfaces::srv::GetParameters_Request names;
+  names.names({"copies"});
+  const auto values = ask<rcl_interfaces::srv::GetParameters_Response>("/robot/relay/get_parameters",
+                                                                       "rcl_interfaces/srv/GetParameters", names)
+                          .values();
+  EXPECT_EQ(values.at(0).integer_value(), 7);
+
+  EXPECT_TRUE(unload(response.unique_id()).success());
+  EXPECT_THAT(loaded(), testing::ElementsAre("/robot/echo"));
+  EXPECT_THAT(unload(response.unique_id()).error_message(), HasSubstr("no component"));
+}
+
+TEST_F(Steering, SaysWhyAComponentCannotBeLoaded) {
+  auto request = relay();
+  request.package_name("panvo_nothing");
+  EXPECT_THAT(load(request).error_message(), HasSubstr("panvo_nothing has no plugin"));
+  request = relay();
+  request.parameters().resize(1);
+  request.parameters()[0].name("copies");
+  request.parameters()[0].value().type(2);
+  request.parameters()[0].value().integer_value(1000);
+  EXPECT_THAT(load(request).error_message(), HasSubstr("must be 1..100"));
+  request = relay();
+  request.node_name("echo");
+  EXPECT_THAT(load(request).error_message(), HasSubstr("already"));
+  EXPECT_THAT(loaded(), testing::ElementsAre("/robot/echo"));
+}
+
+TEST_F(Steering, SetsAParameterBetweenTwoMessages) {
+  open_topics();
+  ASSERT_TRUE(writer->write(text_sample("one")));
+  ASSERT_EQ(echoed.wait_for_count(1).size(), 1U);
+  EXPECT_EQ(set_before("new:"), "");
+  ASSERT_TRUE(writer->write(text_sample("two")));
+  const auto items = echoed.wait_for_count(2);
+  ASSERT_EQ(items.size(), 2U);
+  EXPECT_EQ(text_of(items[0]), "one");
+  EXPECT_EQ(text_of(items[1]), "new:two");
+}
+
+TEST_F(Steering, HandsNoMessagesToAnInactiveComponent) {
+  open_topics();
+  ASSERT_TRUE(change_state("deactivate"));
+  ASSERT_TRUE(writer->write(text_sample("off")));
+  ASSERT_TRUE(writer->wait_for_acknowledgments(kLimit));
+  EXPECT_EQ(ask<lifecycle_msgs::srv::GetState_Response>("/robot/echo/get_state", "lifecycle_msgs/srv/GetState",
+                                                        lifecycle_msgs::srv::GetState_Request())
+                .current_state()
+                .label(),
+            "inactive");
+  ASSERT_TRUE(change_state("activate"));
+  ASSERT_TRUE(writer->write(text_sample("yes")));
+  ASSERT_EQ(echoed.wait_for_count(1).size(), 1U);
+  EXPECT_EQ(text_of(echoed.items()[0]), "yes");
+}
+
+TEST_F(Steering, ShutsAComponentDownAfterItsAnswer) {
+  EXPECT_TRUE(change_state("shutdown"));
+  EXPECT_TRUE(eventually([&] { return loaded().empty(); }));
+}
+
+TEST_F(Steering, TellsRos2WhichNodesThereAreAndWhatTheyHave) {
+  open_topics();
+  const auto node = [&](const std::string& name) {
+    const auto nodes = bridge->graph().nodes;
+    const auto found = std::ranges::find(nodes, name, &GraphNode::name);
+    return found == nodes.end() ? GraphNode{} : *found;
+  };
+  // Ten services each; the component's two topics, /rosout and /diagnostics of the container.
+  EXPECT_TRUE(eventually([&] { return node("echo").readers.size() == 11 && node("echo").writers.size() == 11; }));
+  EXPECT_TRUE(eventually([&] { return node("steered").readers.size() == 3 && node("steered").writers.size() == 5; }));
+  EXPECT_EQ(node("echo").name_space, "/robot");
+  const auto id = load(relay()).unique_id();
+  EXPECT_TRUE(eventually([&] { return node("relay").name == "relay"; }));
+  EXPECT_TRUE(unload(id).success());
+  EXPECT_TRUE(eventually([&] { return node("relay").name.empty(); }));
+}
+
+TEST_F(Steering, LosesNothingElsewhereWhileComponentsComeAndGo) {
+  open_topics();
+  constexpr std::size_t kCycles = 50, kMessagesEach = 20;
+  std::size_t sent = 0;
+  const auto send = [&] {
+    for (std::size_t i = 0; i < kMessagesEach; ++i) ASSERT_TRUE(writer->write(text_sample(std::to_string(sent++))));
+  };
+  for (std::size_t cycle = 0; cycle < kCycles; ++cycle) {
+    send();
+    const auto response = load(relay());
+    ASSERT_TRUE(response.success()) << response.error_message();
+    send();
+    ASSERT_TRUE(unload(response.unique_id()).success());
+  }
+  const auto items = echoed.wait_for_count(sent);
+  ASSERT_EQ(items.size(), sent);
+  for (std::size_t i = 0; i < sent; ++i) ASSERT_EQ(text_of(items[i]), std::to_string(i));
+  EXPECT_THAT(loaded(), testing::ElementsAre("/robot/echo"));
+}
+
+}  // namespace
+}  // namespace panvo::runtime::test

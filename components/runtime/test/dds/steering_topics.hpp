@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "panvo/interfaces/topics.hpp"
+#include "std_msgs/msg/String.h"
+
+namespace panvo::runtime::test {
+
+/// What the steered container's component reads and writes: nothing may be lost.
+inline constexpr interfaces::Qos kAll{.depth = 1000, .keep_all = true};
+inline constexpr interfaces::Topic<std_msgs::msg::String> kToEcho{"/robot/to_echo", kAll};
+inline constexpr interfaces::Topic<std_msgs::msg::String> kEchoed{"/robot/echoed", kAll};
+
+}  // namespace panvo::runtime::test
