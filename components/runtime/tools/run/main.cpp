@@ -5,6 +5,7 @@
 
 #include "launch.hpp"
 #include "panvo/runtime/errors.hpp"
+#include "panvo/runtime/shm_leftovers.hpp"
 #include "run_container.hpp"
 
 namespace panvo::runtime {
@@ -15,15 +16,13 @@ ExitStatus run(const RunOptions& options) {
   if (!options.container.empty()) {
     std::string known;
     for (const auto& container : system.containers) {
-      if (container.name == options.container) return run_container(options, container, system.notes);
+      if (container.name == options.container) return run_container(options, container.components, system.notes);
       known += " " + container.name;
     }
     throw ConfigError(options.system_file + ": has no container " + options.container + "; it has" + known);
   }
   if (system.containers.size() > 1 && !options.replay) return launch(options, system);
-  ContainerDescription together = system.containers.front();  // replay knows one process only
-  std::vector<ComponentDescription>& all = together.components;
-  all.clear();
+  std::vector<ComponentDescription> all;  // replay knows one process only
   std::vector<ComponentDescription> players;
   for (const auto& container : system.containers) {
     for (const auto& component : container.components) {
@@ -31,7 +30,13 @@ ExitStatus run(const RunOptions& options) {
     }
   }
   all.insert(all.end(), players.begin(), players.end());
-  return run_container(options, together, system.notes);
+  return run_container(options, all, system.notes);
+}
+
+void tell_of(const ShmLeftovers& removed) {
+  if (removed.segments == 0) return;
+  std::fprintf(stderr, "panvo run: freed %zu MB of shared memory that %zu participants of killed processes had left\n",
+               static_cast<std::size_t>(removed.bytes >> 20), removed.segments);
 }
 
 }  // namespace
@@ -44,6 +49,7 @@ int main(int argc, char** argv) {
   RunOptions options;
   if (const auto status = RunOptions::parse(argc, argv, options)) return *status;
   try {
+    if (!options.local && !options.replay && !options.link_in) tell_of(remove_shm_leftovers());
     return static_cast<int>(run(options));
   } catch (const ConfigError& error) {
     for (const auto& problem : error.problems()) std::fprintf(stderr, "panvo run: %s\n", problem.c_str());

@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "panvo/runtime/bridge.hpp"
 #include "panvo/runtime/system_file.hpp"
 
 namespace panvo::runtime {
@@ -23,7 +22,8 @@ struct RunOptions {
   double rate = 0;
   std::vector<std::string> settings;  // component.parameter=value
   std::uint64_t seed = 1;
-  DdsSettings dds;  // domain, profiles and which ROS 2 there is
+  int domain = 0;
+  std::string dds_profiles;
   bool local = false;
   bool verbose = false;
   std::string container;                 // only this one of the system's containers

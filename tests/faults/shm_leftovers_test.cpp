@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a killed process leaves in /dev/shm is freed by the next that starts, and nothing else is.
+#include "panvo/runtime/shm_leftovers.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <fstream>
+#include <set>
+#include <sstream>
+
+#include "process.hpp"
+
+namespace panvo::test {
+namespace {
+
+namespace fs = std::filesystem;
+using runtime::remove_shm_leftovers;
+
+/// The segments that a process has in its memory, by path.
+std::set<std::string> segments_of(const Process& process) {
+  std::set<std::string> segments;
+  std::ifstream maps("/proc/" + std::to_string(process.id()) + "/maps");
+  for (std::string line; std::getline(maps, line);) {
+    const auto path = line.find("/dev/shm/fastrtps_");
+    if (path != std::string::npos && line.find("fastrtps_port") == std::string::npos)
+      segments.insert(line.substr(path));
+  }
+  return segments;
+}
+
+bool is_there(const std::set<std::string>& segments) {
+  for (const auto& segment : segments) {
+    if (!fs::exists(segment)) return false;
+  }
+  return true;
+}
+
+bool is_gone(const std::set<std::string>& segments) {
+  for (const auto& segment : segments) {
+    if (fs::exists(segment)) return false;
+  }
+  return true;
+}
+
+/// A container that runs until it is told to end, in a domain nobody else is in.
+std::vector<std::string> live_system() {
+  return {PANVO_RUN, SYSTEMS "/stereo.yaml", "--domain", std::to_string(1 + getpid() % 99)};
+}
+
+TEST(ShmLeftovers, OfAKilledProcessAreFreedAndThoseOfALivingOneStay) {
+  if (!fs::is_directory("/dev/shm")) GTEST_SKIP() << "there is no /dev/shm";
+  // Two participants a process, one that sends and one that receives, have a segment each; the second process maps the first one's too.
+  Process living(live_system());
+  ASSERT_TRUE(eventually([&] { return segments_of(living).size() == 2; })) << living.output();
+  const std::set<std::string> of_living = segments_of(living);
+  Process killed(live_system());
+  std::set<std::string> of_killed;
+  ASSERT_TRUE(eventually([&] {
+    of_killed = segments_of(killed);
+    for (const auto& others : of_living) of_killed.erase(others);
+    return of_killed.size() == 2;
+  })) << killed.output();
+  killed.signal(SIGKILL);
+  killed.wait();
+  EXPECT_TRUE(is_there(of_killed));
+  EXPECT_TRUE(eventually([&] {
+    remove_shm_leftovers();
+    return is_gone(of_killed);
+  }));
+  EXPECT_TRUE(is_there(of_living)) << "the memory of a living process was taken away";
+}
+
+TEST(ShmLeftovers, AreFreedByTheNextRunWhichSaysSo) {
+  if (!fs::is_directory("/dev/shm")) GTEST_SKIP() << "there is no /dev/shm";
+  Process killed(live_system());
+  ASSERT_TRUE(eventually([&] { return segments_of(killed).size() >= 2; })) << killed.output();
+  const auto left = segments_of(killed);
+  killed.signal(SIGKILL);
+  killed.wait();
+  ASSERT_TRUE(eventually([&] {  // not before it is some seconds old
+    Process next(live_system());
+    const bool has_begun = eventually([&] { return segments_of(next).size() >= 2; });
+    return has_begun && is_gone(left) && next.output().find("freed") != std::string::npos;
+  }));
+}
+
+TEST(ShmLeftovers, LeaveWhatIsOfSomethingElseOrJustBeingMade) {
+  const TemporaryFolder folder;
+  const std::vector<std::string> names{"fastrtps_0123456789abcdef", "fastrtps_0123456789abcdef_el",
+                                       "fastrtps_port7410_el", "fastrtps_0123456789abcdeX_el",
+                                       "sem.fastrtps_port7410_mutex"};
+  for (const auto& name : names) std::ofstream(folder / name) << "memory";
+  EXPECT_EQ(remove_shm_leftovers(folder.path()).segments, 0U);
+  for (const auto& name : names) EXPECT_TRUE(fs::exists(folder / name)) << name;
+}
+
+TEST(ShmLeftovers, WithoutAFolderAreNone) { EXPECT_EQ(remove_shm_leftovers("/nowhere").segments, 0U); }
+
+}  // namespace
+}  // namespace panvo::test
