@@ -44,8 +44,9 @@ std::vector<std::string> command_line(const RunOptions& options, const Child& ch
   add("--rate", std::to_string(options.rate));
   for (const auto& setting : options.settings) add("--set", setting);
   add("--seed", std::to_string(options.seed));
-  add("--domain", std::to_string(options.domain));
-  add("--dds-profiles", options.dds_profiles);
+  add("--domain", std::to_string(options.dds.domain));
+  add("--ros-distro", options.dds.ros_distro);
+  add("--dds-profiles", options.dds.profiles);
   if (options.verbose) words.push_back("--verbose");
   add("--container", child.name);
   add("--link-in", std::to_string(link_in));

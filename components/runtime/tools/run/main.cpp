@@ -16,13 +16,15 @@ ExitStatus run(const RunOptions& options) {
   if (!options.container.empty()) {
     std::string known;
     for (const auto& container : system.containers) {
-      if (container.name == options.container) return run_container(options, container.components, system.notes);
+      if (container.name == options.container) return run_container(options, container, system.notes);
       known += " " + container.name;
     }
     throw ConfigError(options.system_file + ": has no container " + options.container + "; it has" + known);
   }
   if (system.containers.size() > 1 && !options.replay) return launch(options, system);
-  std::vector<ComponentDescription> all;  // replay knows one process only
+  ContainerDescription together = system.containers.front();  // replay knows one process only
+  std::vector<ComponentDescription>& all = together.components;
+  all.clear();
   std::vector<ComponentDescription> players;
   for (const auto& container : system.containers) {
     for (const auto& component : container.components) {
@@ -30,7 +32,7 @@ ExitStatus run(const RunOptions& options) {
     }
   }
   all.insert(all.end(), players.begin(), players.end());
-  return run_container(options, all, system.notes);
+  return run_container(options, together, system.notes);
 }
 
 void tell_of(const ShmLeftovers& removed) {

@@ -4,10 +4,19 @@
 #include <CLI/CLI.hpp>
 #include <cstdlib>
 #include <filesystem>
+#include <iostream>
+
+#include "panvo/runtime/errors.hpp"
 
 namespace panvo::runtime {
 
 std::optional<int> RunOptions::parse(int argc, char** argv, RunOptions& options) {
+  try {
+    options.dds = dds_settings_from_environment();
+  } catch (const ConfigError& error) {
+    std::cerr << "panvo run: " << error.what() << "\n";
+    return static_cast<int>(ExitStatus::kBadConfiguration);
+  }
   CLI::App app("Runs a system of components: live, or on a data set or bag.", "panvo run");
   std::vector<std::string> arguments;
   app.add_option("SYSTEM", options.system_file,
@@ -27,24 +36,29 @@ std::optional<int> RunOptions::parse(int argc, char** argv, RunOptions& options)
       ->capture_default_str();
   app.add_option("--set", options.settings, "component.parameter=value; may be repeated")->expected(1)->take_all();
   app.add_option("--seed", options.seed, "of all random numbers")->capture_default_str();
-  app.add_option("--domain", options.domain, "DDS domain")
-      ->envname("ROS_DOMAIN_ID")
+  app.add_option("--domain", options.dds.domain, "DDS domain, before ROS_DOMAIN_ID")
       ->check(CLI::Range(0, 232))
       ->capture_default_str();
-  app.add_option("--dds-profiles", options.dds_profiles, "Fast DDS XML profile file, see config/dds")
+  app.add_option("--ros-distro", options.dds.ros_distro,
+                 "whose ROS 2 nodes are to list ours, before ROS_DISTRO: humble, or jazzy for all since")
+      ->capture_default_str();
+  app.add_option("--dds-profiles", options.dds.profiles, "Fast DDS XML profile file, see config/dds")
       ->check(CLI::ExistingFile);
   app.add_flag("--local", options.local, "keep to this process: no DDS");
   app.add_flag("--verbose", options.verbose, "debug messages too");
   app.add_option("--container", options.container, "run only this container of the system");
   app.add_option("--await", options.awaited,
                  "TOPIC or TOPIC:COUNT: begin once that many other processes (1) read or write this topic of ours; may "
-                 "be repeated. For systems over several computers")
+                 "be repeated. "
+                 "For systems over several computers")
       ->expected(1)
       ->take_all()
       ->excludes(replay);
   app.add_option("--link-in", options.link_in)->group("");
   app.add_option("--link-out", options.link_out)->group("");
-  app.footer("Exit status: 0 well, 1 the run failed, 2 the configuration or command line is wrong.");
+  app.footer(
+      "ROS_DOMAIN_ID, ROS_DISTRO, ROS_LOCALHOST_ONLY and ROS_DISCOVERY_SERVER are honoured. Exit status: 0 well, 1 the "
+      "run failed, 2 the configuration or command line is wrong.");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

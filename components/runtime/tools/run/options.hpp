@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "panvo/runtime/bridge.hpp"
 #include "panvo/runtime/system_file.hpp"
 
 namespace panvo::runtime {
@@ -22,8 +23,7 @@ struct RunOptions {
   double rate = 0;
   std::vector<std::string> settings;  // component.parameter=value
   std::uint64_t seed = 1;
-  int domain = 0;
-  std::string dds_profiles;
+  DdsSettings dds;  // domain, profiles and which ROS 2 there is
   bool local = false;
   bool verbose = false;
   std::string container;                 // only this one of the system's containers

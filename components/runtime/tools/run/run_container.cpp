@@ -12,6 +12,7 @@
 #include "console.hpp"
 #include "link.hpp"
 #include "panvo/runtime/container.hpp"
+#include "panvo/runtime/names.hpp"
 #include "stop_signals.hpp"
 
 namespace panvo::runtime {
@@ -70,9 +71,18 @@ double seconds(const timeval& time) {
   return static_cast<double>(time.tv_sec) + static_cast<double>(time.tv_usec) * 1e-6;
 }
 
+/// A system file may call a container like one of its components; two nodes cannot be.
+std::string node_name(const ContainerDescription& container) {
+  for (const auto& component : container.components) {
+    if (full_name(component.name_space, component.name) == full_name(container.name_space, container.name))
+      return container.name + "_container";
+  }
+  return container.name;
+}
+
 }  // namespace
 
-ExitStatus run_container(const RunOptions& options, const std::vector<ComponentDescription>& components,
+ExitStatus run_container(const RunOptions& options, const ContainerDescription& description,
                          const std::vector<std::string>& notes) {
   const auto start = std::chrono::steady_clock::now();
   Container* running = nullptr;
@@ -94,9 +104,10 @@ ExitStatus run_container(const RunOptions& options, const std::vector<ComponentD
 
   ContainerOptions container_options{.replay = options.replay, .rate = options.rate, .seed = options.seed, .log = log};
   if (!options.local && !options.replay) {
-    container_options.dds = DdsSettings{.domain = options.domain,
-                                        .profiles = options.dds_profiles,
-                                        .name = options.container.empty() ? "panvo" : options.container};
+    container_options.dds = options.dds;
+    container_options.dds->name = description.name;
+    container_options.name = node_name(description);
+    container_options.name_space = description.name_space;
   }
   Container container(std::move(container_options));
   std::vector<std::string> problems;
@@ -106,7 +117,7 @@ ExitStatus run_container(const RunOptions& options, const std::vector<ComponentD
     container.request_stop();
   });
   for (const auto& note : notes) console.log(LogLevel::kWarning, "container", note);
-  container.load_all(components);
+  container.load_all(description.components);
   {
     const std::lock_guard lock(running_mutex);
     running = &container;

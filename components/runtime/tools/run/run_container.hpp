@@ -5,8 +5,8 @@
 
 namespace panvo::runtime {
 
-/// Runs `components` in this process until the data end or a signal asks to stop; `notes` on the configuration are logged first. Throws ConfigError.
-ExitStatus run_container(const RunOptions& options, const std::vector<ComponentDescription>& components,
+/// Runs `container` in this process until the data end or a signal asks to stop; `notes` on the configuration are logged first. Throws ConfigError.
+ExitStatus run_container(const RunOptions& options, const ContainerDescription& container,
                          const std::vector<std::string>& notes);
 
 }  // namespace panvo::runtime
