@@ -99,8 +99,7 @@ class Builder {
   static double real(const std::string& text, const std::string& name) {
     double value = 0;
     if (text == ".nan") return std::numeric_limits<double>::quiet_NaN();
-    if (text == ".inf" || text == "-.inf")
-      return (text[0] == '-' ? -1 : 1) * std::numeric_limits<double>::infinity();
+    if (text == ".inf" || text == "-.inf") return (text[0] == '-' ? -1 : 1) * std::numeric_limits<double>::infinity();
     if (const auto wrong = parse({{text}, false, {}}, value)) throw ConfigError(name + " = " + text + ": " + *wrong);
     return value;
   }

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "topic_commands.hpp"
+
+#include <iostream>
+#include <map>
+#include <memory>
+#include <set>
+
+#include "commands.hpp"
+
+namespace panvo::runtime::graph {
+namespace {
+
+struct Counts {
+  std::set<std::string> types;
+  std::size_t writers = 0, readers = 0;
+};
+
+std::map<std::string, Counts> topics_of(const Graph& graph) {
+  std::map<std::string, Counts> topics;
+  for (const auto& endpoint : graph.endpoints) {
+    if (endpoint.kind != EndpointKind::kTopic) continue;
+    Counts& counts = topics[endpoint.name];
+    counts.types.insert(endpoint.type_name);
+    ++(endpoint.is_writer ? counts.writers : counts.readers);
+  }
+  return topics;
+}
+
+std::string joined(const std::set<std::string>& words) {
+  std::string text;
+  for (const auto& word : words) text += (text.empty() ? "" : ", ") + word;
+  return text;
+}
+
+void list(const SessionOptions& options, bool with_types) {
+  Session session(options);
+  for (const auto& [name, counts] : topics_of(session.settled_graph()))
+    std::cout << name << (with_types ? " [" + joined(counts.types) + "]" : "") << "\n";
+}
+
+void print(const Graph& graph, const GraphEndpoint& endpoint) {
+  const std::string node = node_of(graph, endpoint);
+  std::cout << "\nNode: " << (node.empty() ? "(of no ROS 2 node)" : node)
+            << "\nEndpoint: " << (endpoint.is_writer ? "publisher" : "subscription") << "\nType: " << endpoint.type_name
+            << "\nType hash: " << (endpoint.type_hash.empty() ? "(not told)" : endpoint.type_hash)
+            << "\nGID: " << endpoint.gid << "\nReliability: "
+            << (endpoint.qos.requested == interfaces::Reliability::kReliable ? "reliable" : "best effort")
+            << "\nDurability: "
+            << (endpoint.qos.durability == interfaces::Durability::kTransientLocal ? "transient local" : "volatile")
+            << "\n";
+}
+
+void info(const SessionOptions& options, const std::string& name, bool verbose) {
+  Session session(options);
+  const Graph graph = session.settled_graph();
+  const auto topics = topics_of(graph);
+  const auto found = topics.find(name);
+  if (found == topics.end()) throw Failure("there is no topic " + name + " (panvo topic list)");
+  const auto& [types, writers, readers] = found->second;
+  std::cout << "Type: " << joined(types) << "\nPublishers: " << writers << "\nSubscriptions: " << readers << "\n";
+  if (!verbose) return;
+  for (const bool is_writer : {true, false}) {
+    for (const auto& endpoint : graph.endpoints) {
+      if (endpoint.kind == EndpointKind::kTopic && endpoint.name == name && endpoint.is_writer == is_writer)
+        print(graph, endpoint);
+    }
+  }
+}
+
+}  // namespace
+
+void add_topic_commands(CLI::App& app, const SessionOptions& options) {
+  auto* topic = app.add_subcommand("topic", "the topics of the domain");
+  topic->require_subcommand(1);
+  const auto reading = std::make_shared<TopicReading>();
+  const auto flag = std::make_shared<bool>(false);
+  auto* list_command = topic->add_subcommand("list", "their names");
+  list_command->add_flag("-t,--show-types", *flag, "their types too");
+  list_command->callback([&options, flag] { list(options, *flag); });
+
+  auto* info_command = topic->add_subcommand("info", "type, publishers and subscriptions of one");
+  info_command->add_option("TOPIC", reading->topic, "such as /odometry/binocular")->required();
+  info_command->add_flag("-v,--verbose", *flag, "nodes, type hashes and quality of service too");
+  info_command->callback([&options, reading, flag] { info(options, absolute(reading->topic), *flag); });
+
+  const auto add = [&](const char* name, const char* what, void (*run)(const SessionOptions&, const TopicReading&)) {
+    auto* command = topic->add_subcommand(name, what);
+    command->add_option("TOPIC", reading->topic)->required();
+    command->add_option("--type", reading->type_name, "such as nav_msgs/msg/Odometry (default: the publisher's)");
+    command->callback([&options, reading, run] {
+      reading->topic = absolute(reading->topic);
+      run(options, *reading);
+    });
+    return command;
+  };
+  auto* echo_command = add("echo", "prints its messages as YAML, until Ctrl-C", echo);
+  echo_command->add_option("-n,--count", reading->count, "end after so many");
+  echo_command->add_flag_callback(
+      "--once", [reading] { reading->count = 1; }, "end after the first");
+  echo_command->add_flag("-f,--full-length", reading->whole, "long lists and texts whole");
+  for (auto* command : {add("hz", "how often its messages come, once a second until Ctrl-C", hz),
+                        add("bw", "how many bytes a second it takes, once a second until Ctrl-C", bw)}) {
+    command->add_option("-n,--count", reading->count, "end after so many reports");
+    command->add_option("-w,--window", reading->window, "messages a report looks back on")
+        ->check(CLI::Range(2, 1'000'000))
+        ->capture_default_str();
+  }
+}
+
+}  // namespace panvo::runtime::graph

@@ -1,0 +1,16 @@
+# SPDX-License-Identifier: Apache-2.0
+# shellcheck shell=bash
+# summary: list the services of running nodes, and call them
+
+source "$PANVO_SCRIPTS/lib/build.sh"
+
+verb_usage() {
+  cat <<'EOT'
+usage: panvo service list [-t] | call SERVICE [REQUEST]
+
+REQUEST is YAML: panvo service call /panvo/_container/list_nodes '{}'
+EOT
+  show_program_help panvo_graph
+}
+
+verb_main() { start_program panvo_graph service "$@"; }
