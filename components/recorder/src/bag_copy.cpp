@@ -1,44 +1,75 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "panvo/recorder/bag_copy.hpp"
 
+#include <algorithm>
 #include <optional>
+#include <vector>
 
 #include "panvo/recorder/bag_reader.hpp"
 
 namespace panvo::recorder {
+namespace {
 
-BagMetadata reindex_bag(const std::filesystem::path& bag, std::vector<std::string>& warnings) {
-  if (!std::filesystem::is_directory(bag)) {
-    throw BagError(bag.string() + ": is not a folder; name the bag's folder");
-  }
-  const BagReader reader(bag, BagReader::Trust::kDatabases);
-  warnings = reader.warnings();
-  write_metadata(bag, reader.metadata(), true);
-  return reader.metadata();
-}
-
-CopyResult copy_bag(const std::filesystem::path& from, const std::filesystem::path& to, const TopicFilter& topics,
-                    const BagWriter::Options& options) {
-  BagReader reader(from);
-  BagWriter writer(to, options);
+/// The new bag's topics, by those of the old one; none for those that are left out.
+std::vector<std::optional<int>> add_topics(const BagReader& reader, BagWriter& writer, const TopicFilter& topics) {
   std::vector<std::optional<int>> handles;
   for (auto topic : reader.metadata().topics) {
     if (!topics.accepts(topic.name)) {
       handles.emplace_back();
       continue;
     }
+    auto definition = reader.definition(topic);
     topic.type = full_type_name(topic.type);
-    const auto* type = interfaces::find_message_type(topic.type);
-    handles.emplace_back(writer.add_topic(topic, type ? type->definition : std::string_view()));
+    if (const auto* type = interfaces::find_message_type(topic.type); type && definition.text.empty()) {
+      definition = {"ros2msg", std::string(type->definition)};
+    }
+    handles.emplace_back(writer.add_topic(topic, definition));
     if (const auto dropped = dropped_messages(reader.metadata(), topic.name)) {
       writer.count_dropped(topic.name, dropped);
     }
   }
-  reader.select([&](const BagTopic& topic) { return topics.accepts(topic.name); });
+  return handles;
+}
+
+bool is_latched(const BagTopic& topic) {
+  const auto& profiles = topic.offered_qos_profiles;
+  return profiles.empty() ? topic.name == "/tf_static"  // bags of early versions do not tell; of this one all know
+                          : std::all_of(profiles.begin(), profiles.end(), [](const QosProfile& profile) {
+                              return profile.durability == QosProfile::Durability::kTransientLocal;
+                            });
+}
+
+}  // namespace
+
+BagMetadata reindex_bag(const std::filesystem::path& bag, std::vector<std::string>& warnings) {
+  if (!std::filesystem::is_directory(bag)) {
+    throw BagError(bag.string() + ": is not a folder; name the bag's folder");
+  }
+  const BagReader reader(bag, BagReader::Trust::kFiles);
+  warnings = reader.warnings();
+  write_metadata(bag, reader.metadata(), true);
+  return reader.metadata();
+}
+
+CopyResult copy_bag(const std::filesystem::path& from, const std::filesystem::path& to, const CopySelection& selection,
+                    const BagWriter::Options& options) {
+  BagReader reader(from);
+  BagWriter writer(to, options);
+  const auto handles = add_topics(reader, writer, selection.topics);
   CopyResult result;
-  while (const BagMessage* message = reader.next()) {
-    writer.write(*handles[message->topic], message->timestamp_ns, message->data);
+  const auto copy = [&](const BagMessage& message) {
+    writer.write(*handles[message.topic], std::max(message.timestamp_ns, selection.from_ns), message.data);
     ++result.copied;
+  };
+  if (selection.from_ns > reader.metadata().start_ns) {
+    reader.select([&](const BagTopic& topic) { return selection.topics.accepts(topic.name) && is_latched(topic); });
+    for (auto* message = reader.next(); message && message->timestamp_ns < selection.from_ns; message = reader.next()) {
+      copy(*message);
+    }
+  }
+  reader.select([&](const BagTopic& topic) { return selection.topics.accepts(topic.name); }, selection.from_ns);
+  for (auto* message = reader.next(); message && message->timestamp_ns < selection.to_ns; message = reader.next()) {
+    copy(*message);
   }
   writer.close();
   result.lost = reader.lost_messages();

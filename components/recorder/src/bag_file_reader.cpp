@@ -1,232 +1,109 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bag_file_reader.hpp"
 
-#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <string_view>
 
-#include "open_database.hpp"
+#include "mcap/mcap_file_reader.hpp"
 #include "panvo/recorder/bag_error.hpp"
-#include "salvage.hpp"
+#include "sqlite_file_reader.hpp"
+#include "unpacked_file.hpp"
 
 namespace panvo::recorder {
 namespace {
 
-std::set<std::string> columns_of(const Database& database, std::string_view table) {
-  std::set<std::string> columns;
-  Statement statement(database, "SELECT name FROM pragma_table_info(?)");
-  statement.bind(1, table);
-  while (statement.step()) {
-    columns.insert(statement.text(0));
+namespace fs = std::filesystem;
+
+enum class Kind { kSqlite, kMcap, kZstd };
+
+std::string first_bytes(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) {
+    throw BagError(file.string() + ": cannot be opened (" + std::strerror(errno) + ")");
   }
-  return columns;
+  std::array<char, 16> bytes{};
+  stream.read(bytes.data(), bytes.size());
+  return {bytes.data(), static_cast<std::size_t>(stream.gcount())};
 }
+
+Kind kind_of(const fs::path& file) {
+  using namespace std::string_view_literals;
+  if (fs::is_directory(file)) {
+    throw BagError(file.string() + ": is a folder, not a file of a bag");
+  }
+  const auto start = first_bytes(file);
+  if (start.empty()) {
+    throw BagError(file.string() + ": is empty; if it is one file of a bag, remove it and run `panvo bag reindex`");
+  }
+  if (start.starts_with("SQLite format 3\0"sv)) {
+    return Kind::kSqlite;
+  }
+  if (start.starts_with("\x89MCAP"sv)) {
+    return Kind::kMcap;
+  }
+  if (start.starts_with("\x28\xb5\x2f\xfd"sv)) {
+    return Kind::kZstd;
+  }
+  if (start.starts_with("#ROSBAG"sv)) {
+    throw BagError(file.string() + ": is a bag of ROS 1; `rosbags-convert` makes a ROS 2 bag of it");
+  }
+  if (file.extension() == ".mcap") {
+    return Kind::kMcap;  // whose first bytes are lost, but perhaps no others
+  }
+  throw BagError(
+      file.string() +
+      ": is neither a SQLite database nor MCAP (or its first bytes are lost); name a rosbag2 folder or a file of it");
+}
+
+/// A compressed file, and its unpacked copy as long as it is read.
+class PackedFileReader final : public BagFileReader {
+ public:
+  PackedFileReader(const fs::path& file, std::vector<std::string>& warnings)
+      : BagFileReader(file, warnings), unpacked_(file), reader_(open(warnings)) {
+    content_ = reader_->content();
+  }
+
+  Storage storage() const noexcept override { return reader_->storage(); }
+  bool damaged() const noexcept override { return reader_->damaged(); }
+  std::uint64_t lost() const noexcept override { return reader_->lost(); }
+  std::map<std::int64_t, std::uint64_t> count_by_topic() override { return reader_->count_by_topic(); }
+  void select(std::set<std::int64_t> topic_ids, std::int64_t begin_ns) override {
+    reader_->select(std::move(topic_ids), begin_ns);
+  }
+  bool next(Entry& entry, interfaces::Bytes& data) override { return reader_->next(entry, data); }
+  std::vector<std::string> check_integrity() override { return reader_->check_integrity(); }
+
+ private:
+  std::unique_ptr<BagFileReader> open(std::vector<std::string>& warnings) const {
+    try {
+      if (kind_of(unpacked_.path()) != Kind::kZstd) {
+        return open_bag_file(unpacked_.path(), warnings);
+      }
+    } catch (const BagError& error) {
+      throw BagError(path_.string() + ": what is packed in it cannot be read: " + error.what());
+    }
+    throw BagError(path_.string() + ": is packed twice; unpack it with `zstd -d`");
+  }
+
+  UnpackedFile unpacked_;
+  std::unique_ptr<BagFileReader> reader_;
+};
 
 }  // namespace
 
-BagFileReader::BagFileReader(std::filesystem::path file, std::vector<std::string>& warnings)
-    : path_(std::move(file)), warnings_(warnings), database_(open_database(path_, warnings)) {
-  try {
-    read_description();
-  } catch (const DatabaseError& error) {
-    throw BagError(path_.string() + ": its list of topics cannot be read (" + error.what() +
-                   "), so nothing of it can be used; is there another copy of the bag?");
+std::unique_ptr<BagFileReader> open_bag_file(const fs::path& file, std::vector<std::string>& warnings) {
+  switch (kind_of(file)) {
+    case Kind::kMcap:
+      return std::make_unique<mcap::McapFileReader>(file, warnings);
+    case Kind::kZstd:
+      return std::make_unique<PackedFileReader>(file, warnings);
+    case Kind::kSqlite:
+      break;
   }
-  if (const auto expected = expected_bytes_if_cut(path_)) {
-    salvage("is cut off: " + std::to_string(std::filesystem::file_size(path_)) + " of " + std::to_string(expected) +
-            " bytes are there");
-    return;
-  }
-  try {
-    read_extent();
-  } catch (const DatabaseError& error) {
-    salvage(std::string("is damaged (") + error.what() + ")");
-  }
-}
-
-void BagFileReader::read_description() {
-  const auto topic_columns = columns_of(database_, "topics");
-  const auto message_columns = columns_of(database_, "messages");
-  for (const char* column : {"id", "name", "type", "serialization_format"}) {
-    if (!topic_columns.contains(column)) {
-      throw BagError(path_.string() + ": is a SQLite database but not a bag: it has no table topics with column " +
-                     column);
-    }
-  }
-  for (const char* column : {"id", "topic_id", "timestamp", "data"}) {
-    if (!message_columns.contains(column)) {
-      throw BagError(path_.string() + ": is a SQLite database but not a bag: it has no table messages with column " +
-                     column);
-    }
-  }
-  const bool has_qos = topic_columns.contains("offered_qos_profiles");    // since schema 2 (Foxy)
-  const bool has_hash = topic_columns.contains("type_description_hash");  // since schema 4 (Iron)
-  Statement topics(database_, std::string("SELECT id, name, type, serialization_format, ") +
-                                  (has_qos ? "offered_qos_profiles, " : "'', ") +
-                                  (has_hash ? "type_description_hash" : "''") + " FROM topics ORDER BY id");
-  while (topics.step()) {
-    BagTopic topic;
-    topic.name = topics.text(1);
-    topic.type = topics.text(2);
-    topic.serialization_format = topics.text(3);
-    if (auto profiles = parse_qos_profiles(topics.text(4))) {
-      topic.offered_qos_profiles = std::move(*profiles);
-    } else {
-      warnings_.push_back(path_.string() + ": the QoS profiles of topic " + topic.name +
-                          " cannot be understood; ROS 2's default is taken");
-    }
-    topic.type_description_hash = topics.text(5);
-    topics_.emplace(topics.integer(0), std::move(topic));
-    wanted_.insert(topics.integer(0));
-  }
-  try {
-    if (!columns_of(database_, "schema").empty()) {
-      Statement schema(database_, "SELECT ros_distro FROM schema LIMIT 1");
-      ros_distro_ = schema.step() ? schema.text(0) : std::string();
-    }
-    if (!columns_of(database_, "metadata").empty()) {
-      Statement metadata(database_, "SELECT metadata FROM metadata ORDER BY id DESC LIMIT 1");
-      if (metadata.step()) {
-        stored_metadata_ = parse_metadata(metadata.text(0), path_);
-      }
-    }
-  } catch (const std::runtime_error&) {
-    // Of use only where metadata.yaml is missing, and not needed even there.
-  }
-}
-
-void BagFileReader::read_extent() {
-  Statement extent(database_, "SELECT count(*) FROM messages");
-  extent.step();
-  message_count_ = static_cast<std::uint64_t>(extent.integer(0));
-  if (message_count_ == 0) {
-    return;
-  }
-  // One at a time, as SQLite takes one of them from the index, but not both.
-  Statement first(database_, "SELECT min(timestamp) FROM messages");
-  first.step();
-  first_ns_ = first.integer(0);
-  Statement last(database_, "SELECT max(timestamp) FROM messages");
-  last.step();
-  last_ns_ = last.integer(0);
-}
-
-std::map<std::int64_t, std::uint64_t> BagFileReader::count_by_topic() {
-  std::map<std::int64_t, std::uint64_t> counts;
-  if (!damaged()) {
-    try {
-      Statement statement(database_, "SELECT topic_id, count(*) FROM messages GROUP BY topic_id");
-      while (statement.step()) {
-        counts[statement.integer(0)] = static_cast<std::uint64_t>(statement.integer(1));
-      }
-      return counts;
-    } catch (const DatabaseError& error) {
-      salvage(std::string("is damaged (") + error.what() + ")");
-      counts.clear();
-    }
-  }
-  for (const auto& entry : *salvaged_) {
-    ++counts[entry.topic_id];
-  }
-  return counts;
-}
-
-void BagFileReader::select(std::set<std::int64_t> topic_ids) {
-  wanted_ = std::move(topic_ids);
-  last_entry_.reset();
-  entries_.reset();
-  next_salvaged_ = 0;
-}
-
-bool BagFileReader::next(Entry& entry, interfaces::Bytes& data) {
-  while (next_entry(entry)) {
-    if (!wanted_.contains(entry.topic_id)) {
-      continue;
-    }
-    if (read_data(entry.id, data)) {
-      return true;
-    }
-    ++lost_;
-  }
-  return false;
-}
-
-bool BagFileReader::next_entry(Entry& entry) {
-  if (!damaged()) {
-    try {
-      if (!entries_) {
-        // Without the data: where the index is missing SQLite must sort, and should not have to sort images.
-        entries_.emplace(database_, "SELECT timestamp, id, topic_id FROM messages ORDER BY timestamp, id");
-      }
-      if (!entries_->step()) {
-        return false;
-      }
-      entry = {entries_->integer(0), entries_->integer(1), entries_->integer(2)};
-      if (!last_entry_ || *last_entry_ < entry) {
-        last_entry_ = entry;
-        return true;
-      }
-      salvage("is damaged (its index is out of order)");
-    } catch (const DatabaseError& error) {
-      salvage(std::string("is damaged (") + error.what() + ")");
-    }
-    next_salvaged_ =
-        !last_entry_ ? 0
-                     : static_cast<std::size_t>(std::upper_bound(salvaged_->begin(), salvaged_->end(), *last_entry_) -
-                                                salvaged_->begin());
-  }
-  if (next_salvaged_ == salvaged_->size()) {
-    return false;
-  }
-  entry = (*salvaged_)[next_salvaged_++];
-  return true;
-}
-
-bool BagFileReader::read_data(std::int64_t id, interfaces::Bytes& data) {
-  try {
-    if (!data_) {
-      data_.emplace(database_, "SELECT data FROM messages WHERE id = ?");
-    }
-    data_->reset();
-    data_->bind(1, id);
-    if (!data_->step()) {
-      return false;
-    }
-    const auto blob = data_->blob(0);
-    data.assign(blob.begin(), blob.end());
-    data_->reset();
-    return true;
-  } catch (const DatabaseError&) {
-    return false;
-  }
-}
-
-void BagFileReader::salvage(const std::string& reason) {
-  entries_.reset();
-  auto found = salvage_messages(database_);
-  std::erase_if(found.entries, [this](const Entry& entry) { return !topics_.contains(entry.topic_id); });
-  lost_ += found.missing_ids;
-  message_count_ = found.entries.size();
-  if (!found.entries.empty()) {
-    first_ns_ = found.entries.front().timestamp_ns;
-    last_ns_ = found.entries.back().timestamp_ns;
-  }
-  warnings_.push_back(path_.string() + ": " + reason + "; " + std::to_string(message_count_) +
-                      " messages of it can be read");
-  salvaged_ = std::move(found.entries);
-}
-
-std::vector<std::string> BagFileReader::check_integrity() {
-  std::vector<std::string> complaints;
-  try {
-    Statement check(database_, "PRAGMA integrity_check(20)");
-    while (check.step()) {
-      if (check.text(0) != "ok") {
-        complaints.push_back(path_.string() + ": " + check.text(0));
-      }
-    }
-  } catch (const DatabaseError& error) {
-    complaints.push_back(path_.string() + ": " + error.what());
-  }
-  return complaints;
+  return std::make_unique<SqliteFileReader>(file, warnings);
 }
 
 }  // namespace panvo::recorder

@@ -2,11 +2,10 @@
 #include "bag_files.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <set>
+#include <string_view>
 #include <utility>
 
-#include "open_database.hpp"
 #include "panvo/recorder/bag_error.hpp"
 
 namespace panvo::recorder {
@@ -14,19 +13,27 @@ namespace {
 
 namespace fs = std::filesystem;
 
+bool is_bag_file(const fs::path& file) {
+  auto name = file.filename().string();
+  if (name.ends_with(".zstd")) {
+    name.resize(name.size() - std::string_view(".zstd").size());
+  }
+  return name.ends_with(".db3") || name.ends_with(".mcap");
+}
+
 /// "bag_10.db3" after "bag_9.db3": by the number before the ending, then by name.
 std::pair<unsigned long long, std::string> recording_order(const fs::path& file) {
-  const auto stem = file.stem().string();
+  const auto stem = (file.extension() == ".zstd" ? file.stem().stem() : file.stem()).string();
   const auto last = stem.find_last_not_of("0123456789");
   const auto digits = stem.substr(last == std::string::npos ? 0 : last + 1);
   const bool numbered = !digits.empty() && digits.size() < 19;
   return {numbered ? std::stoull(digits) : 0, stem};
 }
 
-std::vector<fs::path> files_ending_in(const fs::path& folder, const std::string& ending) {
+std::vector<fs::path> bag_files_in(const fs::path& folder) {
   std::vector<fs::path> files;
   for (const auto& entry : fs::directory_iterator(folder)) {
-    if (entry.is_regular_file() && entry.path().filename().string().ends_with(ending)) {
+    if (entry.is_regular_file() && is_bag_file(entry.path())) {
       files.push_back(entry.path());
     }
   }
@@ -36,23 +43,18 @@ std::vector<fs::path> files_ending_in(const fs::path& folder, const std::string&
 }
 
 void refuse_other_storage(const fs::path& bag, const BagMetadata& metadata) {
-  if (metadata.storage_identifier == "mcap") {
-    throw BagError(bag.string() + ": is stored as MCAP, which is not read here; " + how_to_convert(bag));
-  }
-  if (metadata.storage_identifier != "sqlite3") {
+  const auto convert =
+      "convert it where ROS 2 is installed: `ros2 bag convert -i " + bag.string() +
+      " -o out.yaml` with out.yaml: `output_bags: [{uri: converted, storage_id: mcap, all_topics: true}]`";
+  if (metadata.storage_identifier != "sqlite3" && metadata.storage_identifier != "mcap") {
     throw BagError(bag.string() + ": is stored as '" + metadata.storage_identifier + "', which is not read here; " +
-                   how_to_convert(bag));
+                   convert);
   }
-  auto mode = metadata.compression_mode;
-  std::transform(mode.begin(), mode.end(), mode.begin(), [](unsigned char c) { return std::tolower(c); });
-  if (metadata.compression_format.empty() || mode.empty() || mode == "none") {
-    return;
+  if (!metadata.compression_format.empty() && metadata.compression_format != "zstd" &&
+      metadata.compression_format != "none") {
+    throw BagError(bag.string() + ": is compressed with '" + metadata.compression_format +
+                   "', which is not read here; " + convert);
   }
-  throw BagError(bag.string() + ": is compressed (" + metadata.compression_format + ", mode " + mode +
-                 "), which is not read here; " +
-                 (mode == "file" ? "unpack its files with `zstd -d --rm " + (bag / "*.zstd").string() +
-                                       "` and run `panvo bag reindex`"
-                                 : how_to_convert(bag)));
 }
 
 /// A path in metadata.yaml is relative to the bag; early versions wrote it relative to the bag's parent. Never
@@ -73,7 +75,7 @@ BagFiles find_bag_files(const fs::path& bag, bool use_metadata, std::vector<std:
   BagFiles found;
   if (!fs::is_directory(bag)) {
     found.folder = bag.parent_path();
-    found.databases = {bag};
+    found.files = {bag};
     return found;
   }
   found.folder = bag;
@@ -87,8 +89,7 @@ BagFiles find_bag_files(const fs::path& bag, bool use_metadata, std::vector<std:
       }
     }
   } else if (use_metadata) {
-    warnings.push_back(metadata_file.string() +
-                       ": is missing; taken from the databases, `panvo bag reindex` writes it");
+    warnings.push_back(metadata_file.string() + ": is missing; taken from the files, `panvo bag reindex` writes it");
   }
   if (use_metadata && found.metadata) {
     refuse_other_storage(bag, *found.metadata);
@@ -99,7 +100,7 @@ BagFiles find_bag_files(const fs::path& bag, bool use_metadata, std::vector<std:
     for (const auto& file : found.metadata->files) {
       const auto path = locate(bag, file.path);
       if (fs::exists(path)) {
-        found.databases.push_back(path);
+        found.files.push_back(path);
       } else {
         ++found.missing;
         warnings.push_back(path.string() + ": is missing; its messages are lost to this bag");
@@ -107,29 +108,25 @@ BagFiles find_bag_files(const fs::path& bag, bool use_metadata, std::vector<std:
       listed.insert(path);
     }
   }
-  for (const auto& path : files_ending_in(bag, ".db3")) {
-    if (listed.contains(path)) {
+  const auto is_copy_of_another = [&](const fs::path& path) {
+    return listed.contains(path.string() + ".zstd") || (path.extension() == ".zstd" && fs::exists(bag / path.stem()));
+  };
+  for (const auto& path : bag_files_in(bag)) {
+    if (listed.contains(path) || is_copy_of_another(path)) {
       continue;
     }
-    found.databases.push_back(path);
+    found.files.push_back(path);
     if (use_metadata && found.metadata) {
       warnings.push_back(path.string() + ": is not listed in " + kMetadataFile +
                          " (was the recorder killed?), but read all the same");
     }
   }
-  if (!found.databases.empty()) {
+  if (!found.files.empty()) {
     return found;
   }
-  if (!files_ending_in(bag, ".mcap").empty()) {
-    throw BagError(bag.string() + ": is stored as MCAP, which is not read here; " + how_to_convert(bag));
-  }
-  if (!files_ending_in(bag, ".db3.zstd").empty()) {
-    throw BagError(bag.string() + ": is compressed; unpack its files with `zstd -d --rm " + (bag / "*.zstd").string() +
-                   "` and run `panvo bag reindex`");
-  }
   throw BagError(bag.string() + (listed.empty()
-                                     ? ": is not a bag: it holds neither metadata.yaml nor a .db3 file"
-                                     : ": none of its database files is there; copy them beside metadata.yaml"));
+                                     ? ": is not a bag: it holds neither metadata.yaml nor a .db3 or .mcap file"
+                                     : ": none of its files is there; copy them beside metadata.yaml"));
 }
 
 }  // namespace panvo::recorder

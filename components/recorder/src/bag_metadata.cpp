@@ -134,7 +134,7 @@ void set_dropped_messages(BagMetadata& metadata, const std::string& topic, std::
   metadata.custom_data[dropped_key(topic)] = std::to_string(count);
 }
 
-std::string to_yaml(const BagMetadata& metadata, bool in_database) {
+std::string to_yaml(const BagMetadata& metadata, bool in_file) {
   YAML::Node bag;
   bag["version"] = BagMetadata::kCurrentVersion;
   bag["storage_identifier"] = metadata.storage_identifier;
@@ -158,7 +158,7 @@ std::string to_yaml(const BagMetadata& metadata, bool in_database) {
     bag["custom_data"][key] = value;
   }
   bag["ros_distro"] = metadata.ros_distro;
-  if (in_database) {
+  if (in_file) {
     return YAML::Dump(bag);
   }
   YAML::Node root;
@@ -168,7 +168,7 @@ std::string to_yaml(const BagMetadata& metadata, bool in_database) {
 
 BagMetadata parse_metadata(const std::string& yaml, const std::filesystem::path& file) {
   const auto fail = [&](const std::string& what) -> BagError {
-    return BagError(file.string() + ": " + what + "; `panvo bag reindex` makes it anew from the databases");
+    return BagError(file.string() + ": " + what + "; `panvo bag reindex` makes it anew from the files");
   };
   try {
     const auto root = YAML::Load(yaml);

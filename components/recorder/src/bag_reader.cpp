@@ -8,6 +8,7 @@
 
 #include "bag_file_reader.hpp"
 #include "bag_files.hpp"
+#include "packed_message.hpp"
 
 namespace panvo::recorder {
 namespace {
@@ -20,17 +21,23 @@ std::string plural(std::uint64_t count, const char* what) {
 
 }  // namespace
 
-/// A database with its next message. Until that has been asked for, the file counts as being at its first one.
+/// A file with its next message. Until that has been asked for, the file counts as being at its first one.
 struct BagReader::File {
-  File(fs::path path, std::vector<std::string>& warnings) : reader(std::move(path), warnings) {}
+  File(const fs::path& path, std::vector<std::string>& warnings) : reader(open_bag_file(path, warnings)) {}
 
   void advance() {
     started = true;
-    at_end = !reader.next(entry, data);
+    at_end = !reader->next(entry, data);
+    while (!at_end && !unpack_message(data)) {
+      ++packed_lost;
+      at_end = !reader->next(entry, data);
+    }
   }
-  std::int64_t next_ns() const { return started ? entry.timestamp_ns : reader.first_ns(); }
+  std::int64_t next_ns() const { return started ? entry.timestamp_ns : reader->content().first_ns; }
+  std::uint64_t lost() const { return reader->lost() + packed_lost; }
 
-  BagFileReader reader;
+  std::unique_ptr<BagFileReader> reader;
+  std::uint64_t packed_lost = 0;                    // messages that were compressed one by one, and are damaged
   std::map<std::int64_t, std::size_t> topic_by_id;  // index into the bag's topics
   bool started = false;
   bool at_end = false;
@@ -44,7 +51,7 @@ BagReader::BagReader(const fs::path& bag, Trust trust) : bag_(fs::absolute(bag).
   }
   auto found = find_bag_files(bag_, trust == Trust::kMetadata, warnings_);
   folder_ = found.folder;
-  for (const auto& file : found.databases) {
+  for (const auto& file : found.files) {
     open_file(file);
   }
   if (files_.empty()) {
@@ -52,16 +59,16 @@ BagReader::BagReader(const fs::path& bag, Trust trust) : bag_(fs::absolute(bag).
   }
   describe(found.metadata);
   const bool incomplete =
-      found.missing > 0 || files_.size() < found.databases.size() ||
-      std::any_of(files_.begin(), files_.end(), [](const auto& file) { return file->reader.damaged(); });
+      found.missing > 0 || files_.size() < found.files.size() ||
+      std::any_of(files_.begin(), files_.end(), [](const auto& file) { return file->reader->damaged(); });
   if (incomplete && found.metadata && found.metadata->message_count > metadata_.message_count) {
     lost_by_count_ = found.metadata->message_count - metadata_.message_count;
   }
-  if (trust == Trust::kDatabases || !found.metadata || !agrees(*found.metadata)) {
+  if (trust == Trust::kFiles || !found.metadata || !agrees(*found.metadata)) {
     count_messages();
     if (trust == Trust::kMetadata && found.metadata) {
       warnings_.push_back((bag_ / kMetadataFile).string() + ": says " +
-                          plural(found.metadata->message_count, "message") + ", the databases hold " +
+                          plural(found.metadata->message_count, "message") + ", the files hold " +
                           std::to_string(metadata_.message_count) +
                           " or other times; theirs are taken, `panvo bag reindex` corrects it");
     }
@@ -82,11 +89,11 @@ void BagReader::open_file(const fs::path& file) {
   }
 }
 
-/// Topics and files as the databases have them; what only metadata.yaml knows from there.
+/// Topics and files as the files have them; what only metadata.yaml knows from there.
 void BagReader::describe(const std::optional<BagMetadata>& written) {
   std::map<std::pair<std::string, std::string>, std::size_t> index_by_name_and_type;
   for (const auto& file : files_) {
-    for (const auto& [id, topic] : file->reader.topics()) {
+    for (const auto& [id, topic] : file->reader->content().topics) {
       const auto [place, is_new] =
           index_by_name_and_type.try_emplace({topic.name, topic.type}, metadata_.topics.size());
       if (is_new) {
@@ -94,25 +101,26 @@ void BagReader::describe(const std::optional<BagMetadata>& written) {
       }
       file->topic_by_id[id] = place->second;
     }
-    const auto& reader = file->reader;
-    const bool empty = reader.message_count() == 0;
-    metadata_.files.push_back({.path = reader.path().lexically_relative(folder_).string(),
-                               .start_ns = reader.first_ns(),
-                               .duration_ns = empty ? 0 : reader.last_ns() - reader.first_ns(),
-                               .message_count = reader.message_count()});
-    metadata_.message_count += reader.message_count();
+    const auto& content = file->reader->content();
+    const bool empty = content.message_count == 0;
+    metadata_.files.push_back({.path = file->reader->path().lexically_relative(folder_).string(),
+                               .start_ns = content.first_ns,
+                               .duration_ns = empty ? 0 : content.last_ns - content.first_ns,
+                               .message_count = content.message_count});
+    metadata_.message_count += content.message_count;
     if (!empty) {
       const auto end_ns = metadata_.start_ns == BagMetadata::kNoStart
-                              ? reader.last_ns()
-                              : std::max(reader.last_ns(), metadata_.start_ns + metadata_.duration_ns);
-      metadata_.start_ns = std::min(metadata_.start_ns, reader.first_ns());
+                              ? content.last_ns
+                              : std::max(content.last_ns, metadata_.start_ns + metadata_.duration_ns);
+      metadata_.start_ns = std::min(metadata_.start_ns, content.first_ns);
       metadata_.duration_ns = end_ns - metadata_.start_ns;
     }
   }
-  const auto& told = written ? written : files_.front()->reader.stored_metadata();
+  const auto& told = written ? written : files_.front()->reader->content().stored_metadata;
+  metadata_.storage_identifier = to_text(files_.front()->reader->storage());
   metadata_.ros_distro = told ? told->ros_distro : std::string();
   if (metadata_.ros_distro.empty()) {
-    metadata_.ros_distro = files_.front()->reader.ros_distro();
+    metadata_.ros_distro = files_.front()->reader->content().ros_distro;
   }
   if (told) {
     metadata_.version = told->version;
@@ -125,7 +133,7 @@ void BagReader::describe(const std::optional<BagMetadata>& written) {
   }
 }
 
-/// Whether what was written is about the databases as they are; decided without reading them through.
+/// Whether what was written is about the files as they are; decided without reading them through.
 bool BagReader::agrees(const BagMetadata& written) const {
   const auto sum =
       std::accumulate(metadata_.topics.begin(), metadata_.topics.end(), std::uint64_t{0},
@@ -140,7 +148,7 @@ void BagReader::count_messages() {
     topic.message_count = 0;
   }
   for (const auto& file : files_) {
-    for (const auto& [id, count] : file->reader.count_by_topic()) {
+    for (const auto& [id, count] : file->reader->count_by_topic()) {
       if (const auto topic = file->topic_by_id.find(id); topic != file->topic_by_id.end()) {
         metadata_.topics[topic->second].message_count += count;
       }
@@ -151,22 +159,22 @@ void BagReader::count_messages() {
 std::uint64_t BagReader::size_bytes() const {
   return std::accumulate(files_.begin(), files_.end(), std::uint64_t{0}, [](std::uint64_t sum, const auto& file) {
     std::error_code error;
-    const auto size = fs::file_size(file->reader.path(), error);
+    const auto size = fs::file_size(file->reader->path(), error);
     return sum + (error ? 0 : size);
   });
 }
 
-void BagReader::select(const std::function<bool(const BagTopic&)>& wanted) {
+void BagReader::select(const std::function<bool(const BagTopic&)>& wanted, std::int64_t begin_ns) {
   for (auto& file : files_) {
     std::set<std::int64_t> ids;
-    for (const auto& [id, topic] : file->reader.topics()) {
+    for (const auto& [id, topic] : file->reader->content().topics) {
       if (wanted(topic)) {
         ids.insert(id);
       }
     }
-    file->reader.select(std::move(ids));
+    file->reader->select(std::move(ids), begin_ns);
     file->started = false;
-    file->at_end = file->reader.message_count() == 0;
+    file->at_end = file->reader->content().message_count == 0;
   }
 }
 
@@ -193,16 +201,26 @@ BagMessage* BagReader::next() {
   }
 }
 
+TypeDefinition BagReader::definition(const BagTopic& topic) const {
+  for (const auto& file : files_) {
+    const auto& definitions = file->reader->content().definitions;
+    if (const auto found = definitions.find(topic.type); found != definitions.end() && !found->second.text.empty()) {
+      return found->second;
+    }
+  }
+  return {};
+}
+
 std::uint64_t BagReader::lost_messages() const {
   const auto met = std::accumulate(files_.begin(), files_.end(), std::uint64_t{0},
-                                   [](std::uint64_t sum, const auto& file) { return sum + file->reader.lost(); });
+                                   [](std::uint64_t sum, const auto& file) { return sum + file->lost(); });
   return std::max(met, lost_by_count_);
 }
 
 std::vector<std::string> BagReader::check_integrity() {
   std::vector<std::string> complaints;
   for (const auto& file : files_) {
-    const auto found = file->reader.check_integrity();
+    const auto found = file->reader->check_integrity();
     complaints.insert(complaints.end(), found.begin(), found.end());
   }
   return complaints;

@@ -8,19 +8,22 @@
 
 #include "bag_file_writer.hpp"
 #include "durable_file.hpp"
+#include "mcap/mcap_file_writer.hpp"
+#include "sqlite_file_writer.hpp"
 
 namespace panvo::recorder {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// How long metadata.yaml may lag behind the database; a reader notices and counts for itself.
+/// How long metadata.yaml may lag behind the files; a reader notices and counts for itself.
 constexpr std::chrono::seconds kMetadataPeriod{5};
 
 bool is_bag_file(const fs::path& file) {
   const auto name = file.filename().string();
   return name == kMetadataFile || name.ends_with(".db3") || name.ends_with(".db3-journal") ||
-         name.ends_with(".db3-wal") || name.ends_with(".db3-shm") || name.ends_with(".mcap");
+         name.ends_with(".db3-wal") || name.ends_with(".db3-shm") || name.ends_with(".mcap") ||
+         name.ends_with(".db3.zstd") || name.ends_with(".mcap.zstd");
 }
 
 /// Removes the bag, and nothing that is not one.
@@ -69,7 +72,12 @@ std::string dated_bag_name() {
 
 BagWriter::BagWriter(fs::path bag, Options options)
     : bag_(fs::absolute(bag).lexically_normal()), options_(std::move(options)) {
+  if (options_.storage == Storage::kSqlite3 && options_.compression != Compression::kNone) {
+    throw BagError(bag_.string() + ": the storage sqlite3 is not compressed here; choose the storage mcap for " +
+                   to_text(options_.compression));
+  }
   make_folder(bag_, options_.overwrite);
+  metadata_.storage_identifier = to_text(options_.storage);
   const std::unique_lock lock(mutex_);
   open_next_file();
   write_metadata(bag_, metadata_, true);
@@ -85,16 +93,20 @@ BagWriter::~BagWriter() {
 }
 
 int BagWriter::add_topic(const BagTopic& topic, std::string_view definition) {
+  return add_topic(topic, definition.empty() ? TypeDefinition{} : TypeDefinition{"ros2msg", std::string(definition)});
+}
+
+int BagWriter::add_topic(const BagTopic& topic, const TypeDefinition& definition) {
   const std::unique_lock lock(mutex_);
   const int handle = static_cast<int>(topics_.size());
-  topics_.push_back({topic, std::string(definition), 0});
+  topics_.push_back({topic, definition, 0});
   topics_.back().description.message_count = 0;
   metadata_.topics.push_back(topics_.back().description);
   topics_changed_ = true;
   try {
     begin_batch();
     file_->add_topic(handle + 1, topics_.back().description, definition);
-  } catch (const DatabaseError& error) {
+  } catch (const StorageError& error) {
     fail(error);
   }
   return handle;
@@ -106,7 +118,7 @@ void BagWriter::write(int topic, std::int64_t timestamp_ns, std::span<const std:
   try {
     begin_batch();
     file_->insert(topic + 1, timestamp_ns, data);
-  } catch (const DatabaseError& error) {
+  } catch (const StorageError& error) {
     ++batch_messages_;
     fail(error);
   }
@@ -166,20 +178,29 @@ std::uint64_t BagWriter::dropped_messages() const {
   return recorder::dropped_messages(metadata_);
 }
 
+std::unique_ptr<BagFileWriter> BagWriter::make_file(const fs::path& file) const {
+  if (options_.storage == Storage::kMcap) {
+    return std::make_unique<mcap::McapFileWriter>(
+        file, mcap::McapFileWriter::Options{options_.compression, options_.chunk_bytes});
+  }
+  return std::make_unique<SqliteFileWriter>(file, metadata_.ros_distro);
+}
+
 void BagWriter::open_next_file() {
-  const auto name = bag_.filename().string() + "_" + std::to_string(metadata_.files.size()) + ".db3";
+  const auto name = bag_.filename().string() + "_" + std::to_string(metadata_.files.size()) +
+                    (options_.storage == Storage::kMcap ? ".mcap" : ".db3");
   metadata_.files.push_back({.path = name, .start_ns = BagMetadata::kNoStart});
   try {
-    file_ = std::make_unique<BagFileWriter>(bag_ / name, metadata_.ros_distro);
+    file_ = make_file(bag_ / name);
     file_->begin();
     for (std::size_t i = 0; i < topics_.size(); ++i) {
       file_->add_topic(static_cast<int>(i) + 1, topics_[i].description, topics_[i].definition);
     }
-    // Tells readers which notation this database's QoS profiles are in.
+    // Tells readers which notation this file's QoS profiles are in.
     file_->insert_metadata(to_yaml(metadata_, true));
     file_->commit();
     sync_folder(bag_);
-  } catch (const DatabaseError& error) {
+  } catch (const StorageError& error) {
     fail(error);
   }
 }
@@ -204,7 +225,7 @@ void BagWriter::commit_locked() {
   }
   try {
     file_->commit();
-  } catch (const DatabaseError& error) {
+  } catch (const StorageError& error) {
     fail(error);
   }
   batch_open_ = false;
@@ -240,13 +261,9 @@ void BagWriter::finish_file() {
     file_->begin();
     file_->insert_metadata(to_yaml(metadata_, true));
     file_->commit();
-    const auto journal = file_->path().string() + "-journal";
+    file_->finish();
     file_.reset();
-    std::error_code error;
-    if (fs::file_size(journal, error) == 0 && !error) {
-      fs::remove(journal, error);  // nothing is in it, and one should be able to see that
-    }
-  } catch (const DatabaseError& error) {
+  } catch (const StorageError& error) {
     fail(error);
   }
 }
@@ -257,11 +274,11 @@ void BagWriter::save_metadata(bool durable) {
   try {
     write_metadata(bag_, metadata_, durable);
   } catch (const BagError&) {
-    // A full disk or the like: the older metadata.yaml stays, and readers believe the database more than it.
+    // A full disk or the like: the older metadata.yaml stays, and readers believe the files more than it.
   }
 }
 
-void BagWriter::fail(const DatabaseError& error) {
+void BagWriter::fail(const StorageError& error) {
   if (file_) {
     file_->rollback();
   }
@@ -272,8 +289,7 @@ void BagWriter::fail(const DatabaseError& error) {
     text += "; the " + std::to_string(metadata_.message_count) + " messages committed before stay readable, " +
             std::to_string(lost_) + " are lost";
   }
-  const bool is_disk = error.primary_code() == SQLITE_FULL || error.primary_code() == SQLITE_IOERR;
-  failure_ = text + (is_disk ? "; free some space or record to another disk" : "");
+  failure_ = text + (error.is_disk() ? "; free some space or record to another disk" : "");
   throw_failure();
 }
 

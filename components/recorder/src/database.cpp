@@ -56,7 +56,7 @@ int flags(Database::Mode mode) {
 }  // namespace
 
 DatabaseError::DatabaseError(sqlite3* database, int result)
-    : std::runtime_error(describe(database, result)),
+    : StorageError(describe(database, result), (result & 0xff) == SQLITE_FULL || (result & 0xff) == SQLITE_IOERR),
       code_(database ? sqlite3_extended_errcode(database) : result),
       system_error_(system_error_of(database)) {}
 

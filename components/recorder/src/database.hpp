@@ -7,14 +7,15 @@
 #include <filesystem>
 #include <memory>
 #include <span>
-#include <stdexcept>
 #include <string>
 #include <string_view>
+
+#include "storage_error.hpp"
 
 namespace panvo::recorder {
 
 /// SQLite refused: its extended result code, and errno where the operating system was the reason (0 elsewhere).
-class DatabaseError : public std::runtime_error {
+class DatabaseError : public StorageError {
  public:
   DatabaseError(sqlite3* database, int result);
 

@@ -5,7 +5,6 @@
 #include <cstring>
 #include <fstream>
 #include <optional>
-#include <string_view>
 
 #include "panvo/recorder/bag_error.hpp"
 #include "whole_pages_vfs.hpp"
@@ -33,34 +32,6 @@ std::uint32_t big_endian(const Header& header, std::size_t at, std::size_t bytes
   return value;
 }
 
-void check_kind(const fs::path& file) {
-  using namespace std::string_view_literals;
-  if (fs::is_directory(file)) {
-    throw BagError(file.string() + ": is a folder, not a database");
-  }
-  Header header{};
-  const std::size_t size = read_header(file, header);
-  const std::string_view start(header.data(), size);
-  if (start.empty()) {
-    throw BagError(file.string() + ": is empty; if it is one file of a bag, remove it and run `panvo bag reindex`");
-  }
-  if (start.starts_with("SQLite format 3\0"sv)) {
-    return;
-  }
-  if (start.starts_with("\x89MCAP"sv)) {
-    throw BagError(file.string() + ": is an MCAP file, which is not read here; " + how_to_convert(file));
-  }
-  if (start.starts_with("\x28\xb5\x2f\xfd"sv)) {
-    throw BagError(file.string() + ": is compressed with zstd; `zstd -d " + file.string() +
-                   "` unpacks it, then run `panvo bag reindex` on the bag");
-  }
-  if (start.starts_with("#ROSBAG"sv)) {
-    throw BagError(file.string() + ": is a bag of ROS 1; `rosbags-convert` makes a ROS 2 bag of it");
-  }
-  throw BagError(file.string() +
-                 ": is not a SQLite database (or its first bytes are lost); name a rosbag2 folder or its .db3 file");
-}
-
 /// Opens and reads a little, as SQLite opens nothing before it has to.
 Database open_and_look(const fs::path& file, Database::Mode mode) {
   const bool is_cut = mode != Database::Mode::kReadWrite && expected_bytes_if_cut(file) > 0;
@@ -85,11 +56,6 @@ bool is_damage(const DatabaseError& error) {
 
 }  // namespace
 
-std::string how_to_convert(const fs::path& bag) {
-  return "convert it where ROS 2 is installed: `ros2 bag convert -i " + bag.string() +
-         " -o out.yaml` with out.yaml: `output_bags: [{uri: converted, storage_id: sqlite3, all_topics: true}]`";
-}
-
 std::uint64_t expected_bytes_if_cut(const fs::path& file) {
   Header header{};
   if (read_header(file, header) < header.size()) {
@@ -103,7 +69,6 @@ std::uint64_t expected_bytes_if_cut(const fs::path& file) {
 }
 
 Database open_database(const fs::path& file, std::vector<std::string>& warnings) {
-  check_kind(file);
   try {
     return open_and_look(file, Database::Mode::kRead);
   } catch (const DatabaseError& error) {

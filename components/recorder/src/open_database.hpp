@@ -9,11 +9,8 @@
 
 namespace panvo::recorder {
 
-/// How a bag that is stored in another way than SQLite is made readable.
-std::string how_to_convert(const std::filesystem::path& bag);
-
 /// Opens a .db3 file for reading, so that a file that is cut off opens too. A recorder's unfinished last commit is
-/// rolled back. Throws BagError naming file and remedy: missing, not a database, compressed, MCAP, being written.
+/// rolled back. Throws BagError naming file and remedy: damaged at its start, being written.
 Database open_database(const std::filesystem::path& file, std::vector<std::string>& warnings);
 
 /// How many bytes the file should have by its own header when it has fewer; 0 when nothing is missing.

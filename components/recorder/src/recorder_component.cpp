@@ -25,6 +25,8 @@ struct Parameters {
   bool include_hidden = false;
   int max_file_mb = 0;  // size at which the next file is begun
   int queue_mb = 100;   // what may wait for the disk
+  std::string storage = "sqlite3";
+  std::string compression = "none";
 
   template <class Field>
   static void describe(Field&& field) {
@@ -37,6 +39,8 @@ struct Parameters {
     field(&P::include_hidden, "include_hidden", "",
           "record hidden topics too: those with a name part that begins with _");
     field(&P::max_file_mb, "max_file_mb", "MB", "begin the next file of the bag at this size; 0: one file", 0, 1e6);
+    field(&P::storage, "storage", "", "sqlite3 (.db3) or mcap");
+    field(&P::compression, "compression", "", "of the storage mcap: none, lz4 or zstd");
     field(&P::queue_mb, "queue_mb", "MB", "messages that may wait for the disk; what is more is dropped and counted", 1,
           1e5);
   }
@@ -60,7 +64,9 @@ auto as_configuration(const std::string& component, Action action) {
 
 std::unique_ptr<BagWriter> make_writer(const Parameters& parameters) {
   const BagWriter::Options options{.overwrite = parameters.overwrite,
-                                   .max_file_bytes = static_cast<std::uint64_t>(parameters.max_file_mb) * 1'000'000};
+                                   .max_file_bytes = static_cast<std::uint64_t>(parameters.max_file_mb) * 1'000'000,
+                                   .storage = storage_from_text(parameters.storage),
+                                   .compression = compression_from_text(parameters.compression)};
   return std::make_unique<BagWriter>(parameters.output.empty() ? dated_bag_name() : parameters.output, options);
 }
 

@@ -206,7 +206,7 @@ TEST(BagReader, NeverLeavesTheBagsFolder) {
   auto text = read_text(file);
   text.replace(text.find("path: humble_0.db3"), 18, "path: ../secret.db3");
   write_text(file, text);
-  EXPECT_THAT(error_of([&] { BagReader reader(folder / "bag"); }), HasSubstr("none of its database files"));
+  EXPECT_THAT(error_of([&] { BagReader reader(folder / "bag"); }), HasSubstr("none of its files"));
 }
 
 TEST(BagReader, OpensAnEmptyBag) {
@@ -223,22 +223,22 @@ TEST(BagReader, SaysWhatIsWrongWithWhatIsNoBag) {
   const auto error = [&](const std::string& name) { return error_of([&] { BagReader reader(folder / name); }); };
   EXPECT_THAT(error("none"), testing::AllOf(HasSubstr("none"), HasSubstr("does not exist")));
   std::filesystem::create_directories(folder / "folder");
-  EXPECT_THAT(error("folder"), HasSubstr("neither metadata.yaml nor a .db3 file"));
+  EXPECT_THAT(error("folder"), HasSubstr("neither metadata.yaml nor a .db3 or .mcap file"));
   write_text(folder / "text.db3", "This is no database, though it is long enough to be taken for one.");
-  EXPECT_THAT(error("text.db3"), HasSubstr("not a SQLite database"));
+  EXPECT_THAT(error("text.db3"), HasSubstr("neither a SQLite database nor MCAP"));
   write_text(folder / "empty.db3", "");
   EXPECT_THAT(error("empty.db3"), HasSubstr("is empty"));
-  write_text(folder / "bag.mcap", std::string("\x89MCAP0\r\n", 8));
-  EXPECT_THAT(error("bag.mcap"), testing::AllOf(HasSubstr("MCAP"), HasSubstr("ros2 bag convert")));
+  write_text(folder / "bag.mcap", "This is no MCAP file, though its name says so.");
+  EXPECT_THAT(error("bag.mcap"), HasSubstr("bag.mcap: nothing of it can be read"));
   write_text(folder / "bag.db3.zstd", "\x28\xb5\x2f\xfd....");
-  EXPECT_THAT(error("bag.db3.zstd"), HasSubstr("zstd -d"));
+  EXPECT_THAT(error("bag.db3.zstd"), HasSubstr("bag.db3.zstd: what is packed in it cannot be read"));
   write_text(folder / "ros1.bag", "#ROSBAG V2.0\n");
   EXPECT_THAT(error("ros1.bag"), HasSubstr("ROS 1"));
   run_sql(folder / "other.db3", "CREATE TABLE recipes(id INTEGER, text TEXT)");
   EXPECT_THAT(error("other.db3"), HasSubstr("not a bag: it has no table topics"));
 }
 
-TEST(BagReader, RefusesCompressedBagsAndOtherStorageWithARemedy) {
+TEST(BagReader, RefusesOtherStorageAndCompressionWithARemedy) {
   const TemporaryFolder folder;
   write_humble_bag(folder / "bag");
   const auto file = folder / "bag" / "metadata.yaml";
@@ -249,11 +249,10 @@ TEST(BagReader, RefusesCompressedBagsAndOtherStorageWithARemedy) {
     write_text(file, changed);
     return error_of([&] { BagReader reader(folder / "bag"); });
   };
-  EXPECT_THAT(error_with("storage_identifier: sqlite3", "storage_identifier: mcap"), HasSubstr("ros2 bag convert"));
-  EXPECT_THAT(error_with("storage_identifier: sqlite3", "storage_identifier: tape"), HasSubstr("'tape'"));
+  EXPECT_THAT(error_with("storage_identifier: sqlite3", "storage_identifier: tape"),
+              testing::AllOf(HasSubstr("'tape'"), HasSubstr("ros2 bag convert")));
   const std::string none = "compression_format: \"\"\n  compression_mode: \"\"";
-  EXPECT_THAT(error_with(none, "compression_format: zstd\n  compression_mode: FILE"), HasSubstr("zstd -d"));
-  EXPECT_THAT(error_with(none, "compression_format: zstd\n  compression_mode: MESSAGE"), HasSubstr("ros2 bag convert"));
+  EXPECT_THAT(error_with(none, "compression_format: bz2\n  compression_mode: MESSAGE"), HasSubstr("'bz2'"));
   EXPECT_EQ(error_with(none, "compression_format: \"\"\n  compression_mode: NONE"), "");
 }
 

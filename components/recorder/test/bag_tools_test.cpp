@@ -146,7 +146,7 @@ TEST_F(TwoBags, CopyTakesWhatIsWantedOfADamagedBag) {
   }
   const auto file = folder_ / "a" / "a_0.db3";
   std::filesystem::resize_file(file, std::filesystem::file_size(file) / 2);
-  const auto result = copy_bag(folder_ / "a", folder_ / "b", TopicFilter({"/data"}));
+  const auto result = copy_bag(folder_ / "a", folder_ / "b", {.topics = TopicFilter({"/data"})});
   EXPECT_GT(result.copied, 100u);
   EXPECT_EQ(result.copied + result.lost, 500u);
   BagReader reader(folder_ / "b");
@@ -154,6 +154,60 @@ TEST_F(TwoBags, CopyTakesWhatIsWantedOfADamagedBag) {
   const auto messages = read_all(reader);
   EXPECT_EQ(messages.size(), result.copied);
   EXPECT_EQ(wrong_in_numbered(messages, 2000), "");
+}
+
+TEST_F(TwoBags, AreEqualWhenOneIsConverted) {
+  write("a", messages_);
+  for (const auto compression : {Compression::kNone, Compression::kLz4, Compression::kZstd}) {
+    copy_bag(folder_ / "a", folder_ / "b", {},
+             {.overwrite = true, .storage = Storage::kMcap, .compression = compression});
+    EXPECT_EQ(difference({.times = true}), "");
+  }
+  copy_bag(folder_ / "b", folder_ / "c");
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "c" / "c_0.db3"));
+  BagReader original(folder_ / "a");
+  BagReader there_and_back(folder_ / "c");
+  EXPECT_EQ(read_all(there_and_back), read_all(original));
+}
+
+class Slice : public testing::TestWithParam<Storage> {};
+
+TEST_P(Slice, KeepsTheStretchAndWhatWasLatchedBeforeIt) {
+  const TemporaryFolder folder;
+  {
+    BagWriter writer(folder / "bag", {.storage = GetParam()});
+    auto latched = topic("/map");
+    latched.offered_qos_profiles = {offered_profile(interfaces::qos::kLatched)};
+    const int map = writer.add_topic(latched);
+    const int data = writer.add_topic(topic("/data"));
+    writer.write(map, 10, payload(1, 5));
+    for (std::int64_t time = 20; time <= 60; time += 10) {
+      writer.write(data, time, payload(static_cast<std::uint64_t>(time), 5));
+    }
+    writer.write(map, 50, payload(2, 5));
+  }
+  const auto result = copy_bag(folder / "bag", folder / "part", {.from_ns = 30, .to_ns = 60}, {.storage = GetParam()});
+  EXPECT_EQ(result.copied, 5u);
+  BagReader reader(folder / "part");
+  EXPECT_EQ(read_all(reader), (std::vector<Read>{{"/map", 30, payload(1, 5)},
+                                                 {"/data", 30, payload(30, 5)},
+                                                 {"/data", 40, payload(40, 5)},
+                                                 {"/data", 50, payload(50, 5)},
+                                                 {"/map", 50, payload(2, 5)}}));
+}
+
+INSTANTIATE_TEST_SUITE_P(Storages, Slice, testing::Values(Storage::kSqlite3, Storage::kMcap),
+                         [](const auto& storage) { return to_text(storage.param); });
+
+TEST(BagTime, IsSecondsFromTheBeginningOrAStamp) {
+  EXPECT_EQ(parse_bag_time("0", kStart), kStart);
+  EXPECT_EQ(parse_bag_time("12.5", kStart), kStart + 12'500'000'000);
+  EXPECT_EQ(parse_bag_time(".000000001", 0), 1);
+  EXPECT_EQ(parse_bag_time("1700000001.123456789", kStart), 1'700'000'001'123'456'789);
+  EXPECT_EQ(parse_bag_time("1700000001123456789", kStart), 1'700'000'001'123'456'789);
+  for (const char* text : {"", ".", "1.2.3", "-1", "now", "1e3", "99999999999999999999999"}) {
+    EXPECT_THAT(error_of([&] { parse_bag_time(text, 0); }), HasSubstr("is no time of a bag")) << text;
+  }
 }
 
 }  // namespace

@@ -75,6 +75,23 @@ TEST_F(Command, DiffEndsWithOneWhereBagsDiffer) {
   EXPECT_THAT(finished.output, HasSubstr("/data: ends after 10 equal messages"));
 }
 
+TEST_F(Command, ConvertMakesMcapOfSqliteAndBack) {
+  const auto converted = (folder_ / "converted").string();
+  EXPECT_EQ(run("convert --compression zstd " + bag_ + " " + converted).status, 0);
+  EXPECT_THAT(run("info " + converted).output,
+              testing::AllOf(HasSubstr("Storage id:        mcap"), HasSubstr("Dropped:           2\n")));
+  EXPECT_EQ(run("convert " + converted + " " + (folder_ / "back").string()).status, 0);
+  EXPECT_THAT(run("info " + (folder_ / "back").string()).output, HasSubstr("Storage id:        sqlite3"));
+  EXPECT_EQ(run("diff --times " + bag_ + " " + (folder_ / "back").string()).status, 0);
+  EXPECT_EQ(run("convert --storage tape " + bag_ + " " + (folder_ / "tape").string()).status, 2);
+}
+
+TEST_F(Command, SliceTakesSecondsAndStamps) {
+  const auto part = (folder_ / "part").string();
+  EXPECT_THAT(run("slice --from 0.02 --to 1700000000.05 " + bag_ + " " + part).output, HasSubstr("3 messages copied"));
+  EXPECT_EQ(run("slice --from 5 --to 4 " + bag_ + " " + (folder_ / "none").string()).status, 2);
+}
+
 TEST_F(Command, ReindexMakesACheckedBagSound) {
   std::filesystem::remove(folder_ / "bag" / "metadata.yaml");
   EXPECT_EQ(run("check " + bag_).status, 1);

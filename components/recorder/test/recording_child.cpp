@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// A process to be killed while it records, for interrupted_recording_test. Writes numbered messages for ever and
-/// says on stdout, after each commit, how many are committed. With a limit on the size of files it ends at the error,
-/// telling it on stdout.
+/// says on stdout, after each commit, how many are committed. With a limit on the size of files (0: none) it ends at
+/// the error, telling it on stdout.
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -16,20 +16,19 @@
 
 int main(int argc, char** argv) {
   using namespace panvo::recorder;
-  if (argc < 3) {
-    std::fprintf(stderr, "usage: recording_child BAG MESSAGE_BYTES [FILE_SIZE_LIMIT]\n");
+  if (argc < 5) {
+    std::fprintf(stderr, "usage: recording_child BAG MESSAGE_BYTES STORAGE FILE_SIZE_LIMIT\n");
     return 2;
   }
   const std::size_t size = std::stoul(argv[2]);
-  if (argc > 3) {
-    const rlim_t limit = std::stoul(argv[3]);
+  if (const rlim_t limit = std::stoul(argv[4]); limit > 0) {
     const rlimit limits{limit, limit};
     setrlimit(RLIMIT_FSIZE, &limits);
     std::signal(SIGXFSZ, SIG_IGN);
   }
   std::optional<BagWriter> writer;
   try {
-    writer.emplace(argv[1], BagWriter::Options{.batch_bytes = 10 * size});
+    writer.emplace(argv[1], BagWriter::Options{.batch_bytes = 10 * size, .storage = storage_from_text(argv[3])});
     const int data = writer->add_topic(test::topic("/data"));
     std::uint64_t told = 0;
     for (std::uint64_t i = 0;; ++i) {

@@ -61,8 +61,9 @@ int reindex(const std::string& path) {
   return kWell;
 }
 
-int copy(const std::string& from, const std::string& to, const TopicFilter& topics, const BagWriter::Options& options) {
-  const auto result = copy_bag(from, to, topics, options);
+int copy(const std::string& from, const std::string& to, const CopySelection& selection,
+         const BagWriter::Options& options) {
+  const auto result = copy_bag(from, to, selection, options);
   warn(result.warnings);
   std::printf("%s: %llu messages copied, %llu could not be read\n", to.c_str(),
               static_cast<unsigned long long>(result.copied), static_cast<unsigned long long>(result.lost));
@@ -81,47 +82,107 @@ int diff(const std::string& first, const std::string& second, const DiffOptions&
   return equal ? kWell : kNotSo;
 }
 
+/// Options that several commands have.
+struct Arguments {
+  std::string bag, other;
+  std::vector<std::string> topics, exclude;
+  std::string storage, compression, from, to;
+  bool as_json = false, times = false, overwrite = false;
+};
+
+void add_bag(CLI::App& command, Arguments& arguments, const char* what = "bag folder, or one .db3 or .mcap file") {
+  command.add_option("BAG", arguments.bag, what)->required();
+}
+
+void add_topics(CLI::App& command, Arguments& arguments) {
+  command
+      .add_option("--topic", arguments.topics,
+                  "only this topic, or those matching this regular expression; may be repeated")
+      ->expected(1)
+      ->take_all();
+  command.add_option("--exclude", arguments.exclude, "not these topics")->expected(1)->take_all();
+}
+
+void add_new_bag(CLI::App& command, Arguments& arguments) {
+  command.add_option("NEW", arguments.other, "folder of the new bag")->required();
+  add_topics(command, arguments);
+  command.add_option("--storage", arguments.storage, "of the new bag: sqlite3 or mcap");
+  command.add_option("--compression", arguments.compression, "of the storage mcap: none, lz4 or zstd");
+  command.add_flag("--overwrite", arguments.overwrite, "replace a bag that is there");
+}
+
+/// `as_it_is`: the new bag has the storage of the old one where nothing else is said; otherwise the other one.
+BagWriter::Options writing(const Arguments& arguments, bool as_it_is) {
+  BagWriter::Options options;
+  options.overwrite = arguments.overwrite;
+  if (!arguments.compression.empty()) {
+    options.compression = compression_from_text(arguments.compression);
+  }
+  if (!arguments.storage.empty()) {
+    options.storage = storage_from_text(arguments.storage);
+  } else {
+    const bool is_mcap = BagReader(arguments.bag).metadata().storage_identifier == to_text(Storage::kMcap);
+    const bool compressed = options.compression != Compression::kNone;
+    options.storage = is_mcap == as_it_is || compressed ? Storage::kMcap : Storage::kSqlite3;
+  }
+  return options;
+}
+
+CopySelection stretch(const Arguments& arguments) {
+  CopySelection selection{.topics = TopicFilter(arguments.topics, arguments.exclude)};
+  const auto start_ns = BagReader(arguments.bag).metadata().start_ns;
+  if (!arguments.from.empty()) {
+    selection.from_ns = parse_bag_time(arguments.from, start_ns);
+  }
+  if (!arguments.to.empty()) {
+    selection.to_ns = parse_bag_time(arguments.to, start_ns);
+  }
+  if (selection.from_ns >= selection.to_ns) {
+    throw BagError("--from " + arguments.from + " is not before --to " + arguments.to);
+  }
+  return selection;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Looks into rosbag2 bags (SQLite), repairs and compares them.", "panvo bag");
+  CLI::App app("Looks into rosbag2 bags (SQLite and MCAP), repairs, converts, cuts and compares them.", "panvo bag");
   app.require_subcommand(1);
   app.footer("Exit status: 0 well, 1 the bags differ or the bag is not sound, 2 it could not be done.");
-  std::string bag, other;
-  std::vector<std::string> topics, exclude;
-  bool as_json = false, times = false;
-  BagWriter::Options writing;
+  Arguments arguments;
 
   auto* info_command = app.add_subcommand("info", "what is in a bag: size, times, topics, dropped messages");
-  info_command->add_option("BAG", bag, "bag folder or .db3 file")->required();
-  info_command->add_flag("--json", as_json, "for scripts; times in ns");
+  add_bag(*info_command, arguments);
+  info_command->add_flag("--json", arguments.as_json, "for scripts; times in ns");
 
   auto* check_command = app.add_subcommand("check", "read all of a bag: damage, unreadable and undecodable messages");
-  check_command->add_option("BAG", bag, "bag folder or .db3 file")->required();
+  add_bag(*check_command, arguments);
 
-  auto* reindex_command = app.add_subcommand("reindex", "write metadata.yaml anew from the databases");
-  reindex_command->add_option("BAG", bag, "bag folder")->required();
+  auto* reindex_command = app.add_subcommand("reindex", "write metadata.yaml anew from the files");
+  add_bag(*reindex_command, arguments, "bag folder");
 
   auto* copy_command = app.add_subcommand(
       "copy", "write what is readable to a new bag: some topics, or of a damaged bag all that is left");
-  copy_command->add_option("BAG", bag, "bag folder or .db3 file")->required();
-  copy_command->add_option("NEW", other, "folder of the new bag")->required();
-  copy_command
-      ->add_option("--topic", topics, "only this topic, or those matching this regular expression; may be repeated")
-      ->expected(1)
-      ->take_all();
-  copy_command->add_option("--exclude", exclude, "not these topics")->expected(1)->take_all();
-  copy_command->add_flag("--overwrite", writing.overwrite, "replace a bag that is there");
+  add_bag(*copy_command, arguments);
+  add_new_bag(*copy_command, arguments);
+
+  auto* convert_command = app.add_subcommand("convert", "make an MCAP bag of a SQLite bag, or the other way");
+  add_bag(*convert_command, arguments);
+  add_new_bag(*convert_command, arguments);
+
+  auto* slice_command = app.add_subcommand(
+      "slice", "write a stretch of time to a new bag, and what was latched before it at its beginning");
+  add_bag(*slice_command, arguments);
+  add_new_bag(*slice_command, arguments);
+  const std::string time = " seconds from the bag's beginning, or this stamp in seconds or nanoseconds";
+  slice_command->add_option("--from", arguments.from, "from" + time);
+  slice_command->add_option("--to", arguments.to, "up to" + time + ", without it");
 
   auto* diff_command = app.add_subcommand("diff", "compare the messages of two bags, bit for bit and topic by topic");
-  diff_command->add_option("BAG1", bag, "bag folder or .db3 file")->required();
-  diff_command->add_option("BAG2", other, "the other")->required();
-  diff_command
-      ->add_option("--topic", topics, "only this topic, or those matching this regular expression; may be repeated")
-      ->expected(1)
-      ->take_all();
-  diff_command->add_option("--exclude", exclude, "not these topics")->expected(1)->take_all();
-  diff_command->add_flag("--times", times, "recording times must be equal too");
+  diff_command->add_option("BAG1", arguments.bag, "bag folder, or one .db3 or .mcap file")->required();
+  diff_command->add_option("BAG2", arguments.other, "the other")->required();
+  add_topics(*diff_command, arguments);
+  diff_command->add_flag("--times", arguments.times, "recording times must be equal too");
 
   try {
     app.parse(argc, argv);
@@ -130,16 +191,18 @@ int main(int argc, char** argv) {
   }
   try {
     if (*info_command) {
-      return info(bag, as_json);
+      return info(arguments.bag, arguments.as_json);
     }
     if (*check_command) {
-      return check(bag);
+      return check(arguments.bag);
     }
     if (*reindex_command) {
-      return reindex(bag);
+      return reindex(arguments.bag);
     }
-    const TopicFilter filter(topics, exclude);
-    return *copy_command ? copy(bag, other, filter, writing) : diff(bag, other, {filter, times});
+    if (*diff_command) {
+      return diff(arguments.bag, arguments.other, {TopicFilter(arguments.topics, arguments.exclude), arguments.times});
+    }
+    return copy(arguments.bag, arguments.other, stretch(arguments), writing(arguments, !*convert_command));
   } catch (const std::exception& error) {
     std::fprintf(stderr, "panvo bag: %s\n", error.what());
     return kError;

@@ -25,7 +25,13 @@ struct BagTopic {
   static BagTopic of(std::string name, const interfaces::MessageType& type, const interfaces::Qos& qos);
 };
 
-/// One database file of a bag. Times in ns since 1970; of an empty file start is kNoStart.
+/// A message type as a bag carries it, so that tools which do not know the type can decode its messages.
+struct TypeDefinition {
+  std::string encoding;  ///< "ros2msg" or "ros2idl"; "" or "unknown" where there is none
+  std::string text;      ///< the type, and all that it is made of
+};
+
+/// One file of a bag. Times in ns since 1970; of an empty file start is kNoStart.
 struct BagFile {
   std::string path;  ///< relative to the bag's folder
   std::int64_t start_ns = 0;
@@ -54,9 +60,9 @@ struct BagMetadata {
 std::uint64_t dropped_messages(const BagMetadata& metadata, const std::string& topic = "");
 void set_dropped_messages(BagMetadata& metadata, const std::string& topic, std::uint64_t count);
 
-/// metadata.yaml's text, in version 9 whatever `metadata.version` says. `in_database`: as it stands in a database's
-/// table `metadata`, without its outermost key.
-std::string to_yaml(const BagMetadata& metadata, bool in_database = false);
+/// metadata.yaml's text, in version 9 whatever `metadata.version` says. `in_file`: as it stands within a .db3 or .mcap
+/// file, without its outermost key.
+std::string to_yaml(const BagMetadata& metadata, bool in_file = false);
 
 /// Reads any version up to 9; what a version lacks stays empty. `file` is for messages. Throws BagError.
 BagMetadata parse_metadata(const std::string& yaml, const std::filesystem::path& file);

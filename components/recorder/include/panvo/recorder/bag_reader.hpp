@@ -21,35 +21,40 @@ struct BagMessage {
   interfaces::Bytes data;         ///< CDR, encapsulation included
 };
 
-/// Reads a rosbag2 folder, or a single .db3 file, as written by ROS 2 Dashing to Jazzy and by BagWriter.
+/// Reads a rosbag2 folder, or a single .db3 or .mcap file of one, as written by ROS 2 Dashing to Jazzy and by BagWriter;
+/// compressed with zstd, too, as files (which are unpacked to the folder for temporary files) or message by message.
 ///
 /// What is not as it should be but can be helped is remembered as a warning: metadata.yaml that is missing,
-/// unreadable or stale (rebuilt from the databases), a file of a split bag that is missing, a database that was cut
-/// off or is damaged (what is readable is read, what is not is counted). What cannot be helped is a BagError that
-/// names the file and the remedy: not a bag, not a database, stored as MCAP, compressed.
+/// unreadable or stale (rebuilt from the files), a file of a split bag that is missing, a file that was cut off or is
+/// damaged (what is readable is read, what is not is counted). What cannot be helped is a BagError that names the file
+/// and the remedy: not a bag, of ROS 1, compressed in another way.
 ///
-/// Memory is bounded: messages are read one at a time; of a damaged database 24 bytes a message are held.
+/// Memory is bounded: of SQLite messages are read one at a time, and of a damaged database 24 bytes a message are held;
+/// of MCAP the chunks of the moment.
 class BagReader {
  public:
-  /// Whether to believe a metadata.yaml that agrees with the databases, or to count everything anew.
-  enum class Trust { kMetadata, kDatabases };
+  /// Whether to believe a metadata.yaml that agrees with the files, or to count everything anew.
+  enum class Trust { kMetadata, kFiles };
 
   explicit BagReader(const std::filesystem::path& bag, Trust trust = Trust::kMetadata);
   ~BagReader();
   BagReader(const BagReader&) = delete;
   BagReader& operator=(const BagReader&) = delete;
 
-  /// Of the whole bag, true to what its databases hold.
+  /// Of the whole bag, true to what its files hold.
   const BagMetadata& metadata() const noexcept { return metadata_; }
   const std::filesystem::path& path() const noexcept { return bag_; }
   std::uint64_t size_bytes() const;
 
-  /// From now on next() starts anew and gives only messages of topics that `wanted` accepts.
-  void select(const std::function<bool(const BagTopic&)>& wanted);
+  /// From now on next() starts anew and gives only messages of topics that `wanted` accepts, from `begin_ns` on.
+  void select(const std::function<bool(const BagTopic&)>& wanted, std::int64_t begin_ns = INT64_MIN);
 
   /// The message after the last one, in order of timestamp, then file, then id; nullptr at the end. Valid until the
   /// following call; its data may be moved away.
   BagMessage* next();
+
+  /// What the bag tells of a topic's type; empty where it tells nothing.
+  TypeDefinition definition(const BagTopic& topic) const;
 
   /// Messages that were recorded but cannot be read, as far as is known now. Grows while next() meets damage.
   std::uint64_t lost_messages() const;
@@ -57,7 +62,7 @@ class BagReader {
   /// Everything worth telling, so far; each names its file.
   const std::vector<std::string>& warnings() const noexcept { return warnings_; }
 
-  /// SQLite's own check of every file: what it complains of. Reads everything.
+  /// What is wrong with the files, by SQLite's own check or MCAP's checksums and counts. Reads everything.
   std::vector<std::string> check_integrity();
 
  private:

@@ -16,20 +16,22 @@
 
 #include "panvo/recorder/bag_error.hpp"
 #include "panvo/recorder/bag_metadata.hpp"
+#include "panvo/recorder/storage.hpp"
 
 namespace panvo::recorder {
 
 class BagFileWriter;
-class DatabaseError;
+class StorageError;
 
 /// "rosbag2_2026_11_20-23_05_00": how `ros2 bag record` names a bag that was given no name. Local time.
 std::string dated_bag_name();
 
-/// Writes a rosbag2 folder: metadata.yaml (version 9) and NAME_0.db3, NAME_1.db3 ... (ROS 2 Jazzy's schema 4).
+/// Writes a rosbag2 folder: metadata.yaml (version 9) and NAME_0.db3, NAME_1.db3 ... (ROS 2 Jazzy's schema 4), or
+/// NAME_0.mcap ... (profile ros2).
 ///
 /// Messages are committed in batches. When the process is killed or the power fails, the bag holds every committed
-/// batch and opens at once: in every other tool too, for between commits all of it is in the .db3 file (a rollback
-/// journal, no write-ahead log). A killed process loses at most the last batch: Options::batch_time or batch_bytes,
+/// batch. A .db3 then opens at once in every other tool too, for between commits all of it is in the .db3 file (a
+/// rollback journal, no write-ahead log); of an .mcap the summary is missing, and readers read through it. A killed process loses at most the last batch: Options::batch_time or batch_bytes,
 /// whichever comes first.
 ///
 /// Safe to use from several threads; a thread of the writer's commits what has waited when no further message comes.
@@ -37,13 +39,16 @@ class BagWriter {
  public:
   struct Options {
     bool overwrite = false;                     ///< replace a bag that is already there
-    std::uint64_t max_file_bytes = 0;           ///< start the next .db3 when one has reached this size; 0: one file
+    std::uint64_t max_file_bytes = 0;           ///< start the next file when one has reached this size; 0: one file
     std::chrono::milliseconds batch_time{500};  ///< age at which a batch is committed
     std::size_t batch_bytes = 16u << 20;        ///< size at which it is; also what the writer holds in memory
+    Storage storage = Storage::kSqlite3;
+    Compression compression = Compression::kNone;  ///< of MCAP only
+    std::size_t chunk_bytes = 4u << 20;            ///< of MCAP: size at which a chunk ends; what a reader must hold
   };
 
   /// Creates the bag and its first metadata.yaml. Throws BagError: the folder exists and is not to be overwritten or
-  /// is no bag, cannot be made, or is not writable.
+  /// is no bag, cannot be made, or is not writable; the storage does not compress.
   explicit BagWriter(std::filesystem::path bag) : BagWriter(std::move(bag), Options{}) {}
   BagWriter(std::filesystem::path bag, Options options);
 
@@ -55,6 +60,8 @@ class BagWriter {
   /// Declares a topic, once. `definition` is the type in ROS 2's .msg notation, empty where not known. Returns its
   /// handle for write().
   int add_topic(const BagTopic& topic, std::string_view definition = {});
+  /// The same, in any notation.
+  int add_topic(const BagTopic& topic, const TypeDefinition& definition);
 
   /// Adds a message. Throws BagError when the bag cannot be written (disk full): what was committed stays readable,
   /// the batch being written is lost, and every later call throws the same.
@@ -77,17 +84,18 @@ class BagWriter {
  private:
   struct Topic {
     BagTopic description;
-    std::string definition;
+    TypeDefinition definition;
     std::uint64_t waiting = 0;  ///< messages of the batch
   };
   using Clock = std::chrono::steady_clock;
 
+  std::unique_ptr<BagFileWriter> make_file(const std::filesystem::path& file) const;
   void open_next_file();
   void begin_batch();
   void commit_locked();
   void finish_file();
   void save_metadata(bool durable);
-  void fail(const DatabaseError& error);
+  void fail(const StorageError& error);
   void throw_failure();
   void commit_when_idle(std::stop_token stop);
 
