@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+/// The fuzzers' function over some thousand damaged bags that are the same in every run. $PANVO_FUZZ_CASES asks for
+/// another number of each kind, $PANVO_FUZZ_SEED for others of them.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <optional>
+
+#include "../test_bag.hpp"
+#include "mutation.hpp"
+#include "read_bag.hpp"
+
+namespace panvo::recorder {
+namespace {
+
+using namespace test;
+
+std::uint64_t number_from(const char* variable, std::uint64_t otherwise) {
+  const char* text = std::getenv(variable);
+  return text ? std::strtoull(text, nullptr, 10) : otherwise;
+}
+
+/// A small bag with topics of several kinds.
+std::string written(const BagWriter::Options& options) {
+  const TemporaryFolder folder;
+  {
+    BagWriter writer(folder / "bag", options);
+    const auto* type = interfaces::find_message_type("std_msgs/msg/Header");
+    const int header = writer.add_topic(topic("/header", "std_msgs/msg/Header"), type ? type->definition : "");
+    write_numbered(writer, 40, 60);
+    for (int i = 0; i < 10; ++i) {
+      writer.write(header, kStart + i * 7 * kStep, payload(static_cast<std::uint64_t>(i), 30));
+    }
+  }
+  return read_text(folder / "bag" / (options.storage == Storage::kMcap ? "bag_0.mcap" : "bag_0.db3"));
+}
+
+void read_mutations(const char* name, const std::string& file, std::uint64_t count) {
+  const auto first = number_from("PANVO_FUZZ_SEED", 1);
+  count = number_from("PANVO_FUZZ_CASES", count);
+  std::uint64_t readable = 0;
+  for (std::uint64_t seed = first; seed < first + count; ++seed) {
+    const auto damaged = fuzz::mutated(file, seed);
+    const auto messages = fuzz::read_bag(name, reinterpret_cast<const std::uint8_t*>(damaged.data()), damaged.size());
+    ASSERT_LE(messages, 50u * 64) << "seed " << seed;
+    readable += messages > 0 ? 1 : 0;
+  }
+  EXPECT_GT(readable, count / 20) << "damage so heavy that nothing can be read tests little";
+}
+
+TEST(MutatedBag, OfMcapWithoutCompressionIsReadOrRefused) {
+  read_mutations("bag_0.mcap", written({.storage = Storage::kMcap, .chunk_bytes = 500}), 1500);
+}
+
+TEST(MutatedBag, OfMcapWithLz4IsReadOrRefused) {
+  read_mutations("bag_0.mcap",
+                 written({.storage = Storage::kMcap, .compression = Compression::kLz4, .chunk_bytes = 500}), 1500);
+}
+
+TEST(MutatedBag, OfMcapWithZstdIsReadOrRefused) {
+  read_mutations("bag_0.mcap",
+                 written({.storage = Storage::kMcap, .compression = Compression::kZstd, .chunk_bytes = 500}), 1500);
+}
+
+TEST(MutatedBag, OfSqliteIsReadOrRefused) { read_mutations("bag_0.db3", written({}), 300); }
+
+}  // namespace
+}  // namespace panvo::recorder

@@ -1,0 +1,8 @@
+// SPDX-License-Identifier: Apache-2.0
+/// For libFuzzer: clang++ -fsanitize=fuzzer,address ... test/fuzz/sqlite_fuzzer.cpp test/fuzz/read_bag.cpp
+#include "read_bag.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  panvo::recorder::fuzz::read_bag("bag_0.db3", data, size);
+  return 0;
+}
