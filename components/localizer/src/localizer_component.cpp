@@ -220,11 +220,18 @@ class LocalizerComponent final : public runtime::Component {
     if (!misalignment || has_told_mounting_) return;
     has_told_mounting_ = true;
     constexpr double kDegrees = 180.0 / M_PI;
-    context_.log().warn(
-        "the panoramic camera looks {:+.1f} deg to the left and {:+.1f} deg down of where {} says, or the stereo "
-        "camera as "
-        "much the other way: calibrate their extrinsics",
-        kDegrees * misalignment->yaw_rad, kDegrees * misalignment->pitch_rad, topics::kTfStatic.name);
+    if (misalignment->is_turned) {
+      context_.log().warn(
+          "the panoramic camera looks {:+.1f} deg to the left and {:+.1f} deg down of where {} says, or the stereo "
+          "camera as much the other way: calibrate their extrinsics",
+          kDegrees * misalignment->yaw_rad, kDegrees * misalignment->pitch_rad, topics::kTfStatic.name);
+    }
+    if (misalignment->is_displaced) {
+      context_.log().warn(
+          "the panoramic camera sits {:+.2f} m forward and {:+.2f} m to the left of where {} says, or the stereo "
+          "camera as much the other way: measure their extrinsics",
+          misalignment->forward_m, misalignment->left_m, topics::kTfStatic.name);
+    }
   }
 
   void take(const Built& built) {

@@ -1,39 +1,107 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "panvo/localizer/mounting_check.hpp"
 
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <cmath>
 
 namespace panvo::localizer {
 namespace {
 
-constexpr double kShortest_m = 0.3;  // a step that says something of its direction
-constexpr double kLongest_m = 5.0;   // within one pass
+constexpr double kShortest_m = 0.3;      // between two sightings that are compared
+constexpr double kLongestGap_m = 5.0;    // within a pass
+constexpr double kLongestPass_m = 40.0;  // then odometry has drifted by what is looked for
+
+// A sighting farther from the odometry than a camera turned by a dozen degrees would see it is another matter.
+constexpr double kMostTurned = 0.25;
+constexpr double kMostElse_m = 1.0;
+
+constexpr double kOdometry_m = 0.02;  // over some metres
+// The sightings of a pass share points, and so errors: three of them tell as much as one. With this the estimates of cameras that sit
+// as is said are as far from zero as their standard deviations say.
+constexpr double kAlike = 3.0;
+constexpr double kSureSigmas = 3.0;
+// Known so well by so many passes that one whose landmark is amiss does not decide.
+constexpr double kWellKnown = 0.5;
+// Before anything is measured: any camera is within a metre and half a turn.
+const Eigen::Vector4d kPriorSigma(3.0, 3.0, 1.0, 1.0);
+
+/// What a sighting's position counts for, 1/m^2.
+double weight_of(const LandmarkSighting& sighting) {
+  const double variance = sighting.covariance.topLeftCorner<2, 2>().trace() / 2.0;
+  return 1.0 / (kAlike * (variance + kOdometry_m * kOdometry_m));
+}
+
+double way_between(const Remembered& a, const Remembered& b) { return std::abs(b.way_m - a.way_m); }
+
+Eigen::Isometry3d step_between(const Remembered& a, const Remembered& b) {
+  return a.pose.odom_from_base.inverse() * b.pose.odom_from_base;
+}
 
 }  // namespace
 
 void MountingCheck::add(const LandmarkSighting& sighting, const Remembered& at) {
-  const auto before = last_;
-  if (before && before->sighting.landmark_id == sighting.landmark_id) {
-    const Eigen::Vector3d by_odometry = before->at.pose.odom_from_base.inverse() * at.pose.odom_from_base.translation();
-    const double moved_m = by_odometry.norm();
-    if (moved_m < kShortest_m) return;  // compared with a later one
-    if (moved_m < kLongest_m) {
-      const Eigen::Vector3d by_panoramas =
-          before->sighting.landmark_from_base.inverse() * sighting.landmark_from_base.translation();
-      cross_ += by_odometry.cross(by_panoramas);
-      dot_ += by_odometry.dot(by_panoramas);
-      way_m_ += moved_m;
-    }
+  if (!continues_pass(sighting, at)) {
+    ended_passes_ = with_current_pass();
+    pass_.emplace();
+    pass_->first = sighting;
+    pass_->first_at = pass_->last_at = at;
+    pass_->weight = weight_of(sighting);  // it differs from itself by nothing
+    return;
   }
-  last_ = Last{sighting, at};
+  if (way_between(pass_->last_at, at) < kShortest_m) return;
+  pass_->last_at = at;
+  const Eigen::Isometry3d by_odometry = step_between(pass_->first_at, at);
+  const Eigen::Vector3d way = by_odometry.translation();
+  const Eigen::Vector3d by_panoramas =
+      pass_->first.landmark_from_base.inverse() * sighting.landmark_from_base.translation();
+  const Eigen::Vector3d difference = by_panoramas - way;
+  if (difference.norm() > kMostElse_m + kMostTurned * way.norm()) return;
+  // The panoramas tell of a base_link that sits at t and is turned by w against the true one:
+  // way seen = way + way x w + (turn - 1) t.
+  Matrix34d jacobian;
+  jacobian.col(0) = way.cross(Eigen::Vector3d::UnitZ());
+  jacobian.col(1) = way.cross(Eigen::Vector3d::UnitY());
+  jacobian.rightCols<2>() = (by_odometry.linear() - Eigen::Matrix3d::Identity()).leftCols<2>();
+  const double weight = weight_of(sighting);
+  pass_->weight += weight;
+  pass_->jtj += weight * jacobian.transpose() * jacobian;
+  pass_->jtd += weight * jacobian.transpose() * difference;
+  pass_->j += weight * jacobian;
+  pass_->d += weight * difference;
 }
 
 std::optional<MountingCheck::Misalignment> MountingCheck::misalignment() const {
-  if (way_m_ < kEnough_m || dot_ <= 0.0) return std::nullopt;
-  // A camera that is turned to the left sees the way turned to the right.
-  const Misalignment found{-std::atan2(cross_.z(), dot_), -std::atan2(cross_.y(), dot_)};
-  if (std::hypot(found.yaw_rad, found.pitch_rad) < kNotable_rad) return std::nullopt;
-  return found;
+  const auto equations = with_current_pass();
+  const Matrix4d prior = kPriorSigma.cwiseAbs2().cwiseInverse().asDiagonal();
+  const Matrix4d covariance = (equations.left + prior).inverse();
+  const Eigen::Vector4d found = covariance * equations.right;
+  const auto is_notable = [&](Eigen::Index first, double notable) {
+    const Eigen::Vector2d size = found.segment<2>(first);
+    const Eigen::Matrix2d spread = covariance.block<2, 2>(first, first);
+    const double least_known = std::sqrt(Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(spread).eigenvalues()(1));
+    return size.norm() > notable && least_known < kWellKnown * notable &&
+           size.dot(spread.ldlt().solve(size)) > kSureSigmas * kSureSigmas;
+  };
+  Misalignment misalignment{found(0), found(1), found(2), found(3)};
+  misalignment.is_turned = is_notable(0, kNotable_rad);
+  misalignment.is_displaced = is_notable(2, kNotable_m);
+  if (!misalignment.is_turned && !misalignment.is_displaced) return std::nullopt;
+  return misalignment;
+}
+
+bool MountingCheck::continues_pass(const LandmarkSighting& sighting, const Remembered& at) const {
+  return pass_ && pass_->first.landmark_id == sighting.landmark_id && way_between(pass_->last_at, at) < kLongestGap_m &&
+         way_between(pass_->first_at, at) < kLongestPass_m;
+}
+
+/// What all passes say, each without the error that its first sighting brings into all its differences.
+MountingCheck::NormalEquations MountingCheck::with_current_pass() const {
+  NormalEquations all = ended_passes_;
+  if (!pass_) return all;
+  all.left += pass_->jtj - pass_->j.transpose() * pass_->j / pass_->weight;
+  all.right += pass_->jtd - pass_->j.transpose() * pass_->d / pass_->weight;
+  return all;
 }
 
 }  // namespace panvo::localizer
