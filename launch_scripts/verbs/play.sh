@@ -9,8 +9,8 @@ verb_usage() {
   cat <<'EOT'
 usage: panvo play BAG [TOPIC...] [--rate R] [--exclude TOPIC] [option of panvo run ...]
 
-Publishes what the rosbag2 folder BAG holds, under the recorded names. TOPIC is a name or a regular expression for whole names;
-without one, everything is played.
+Publishes what the rosbag2 folder BAG holds (or one .db3 or .mcap file), under the recorded names. TOPIC is a name or a regular
+expression for whole names; without one, everything is played.
 
   --rate R          R times as fast as recorded; 0: as fast as it goes
   --exclude TOPIC   not this one

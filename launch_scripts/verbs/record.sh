@@ -7,14 +7,16 @@ source "$PANVO_SCRIPTS/lib/systems.sh"
 
 verb_usage() {
   cat <<'EOT'
-usage: panvo record BAG [TOPIC...] [--exclude TOPIC] [--no-images] [--overwrite] [option of panvo run ...]
+usage: panvo record BAG [TOPIC...] [--exclude TOPIC] [--no-images] [--storage NAME] [--overwrite] [option of panvo run ...]
 
-Records topics of the network into the folder BAG (rosbag2, SQLite) until Ctrl-C. TOPIC is a name or a regular expression for
+Records topics of the network into the folder BAG (rosbag2) until Ctrl-C. TOPIC is a name or a regular expression for
 whole names, such as '/stereo/.*'; without one, everything is recorded.
 
-  --exclude TOPIC   not this one
-  --no-images       no sensor_msgs/Image and CompressedImage
-  --overwrite       replace a bag that is already there
+  --exclude TOPIC      not this one
+  --no-images          no sensor_msgs/Image and CompressedImage
+  --storage NAME       sqlite3 (.db3 files) or mcap
+  --compression NAME   none, lz4 or zstd; the storage is then mcap
+  --overwrite          replace a bag that is already there
 
 `panvo bag info BAG` looks into the result, `panvo play BAG` plays it.
 EOT
@@ -28,6 +30,17 @@ verb_main() {
       --exclude)
         require_value "$@"
         exclude+="${exclude:+ }$2"
+        shift
+        ;;
+      --storage)
+        require_value "$@"
+        rest+=("storage:=$2")
+        shift
+        ;;
+      --compression)
+        require_value "$@"
+        rest+=("compression:=$2")
+        [[ $2 == none ]] || rest+=(storage:=mcap)
         shift
         ;;
       --no-images) rest+=(include_images:=false) ;;

@@ -5,7 +5,7 @@ set -euo pipefail
 
 folder=$1
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
-if ! command -v npm node >/dev/null; then
+if ! command -v npm >/dev/null || ! command -v node >/dev/null; then
   echo "skipped: npm and node are not installed (Debian: apt install nodejs npm)"
   exit 77
 fi
