@@ -1,0 +1,86 @@
+# SPDX-License-Identifier: Apache-2.0
+# shellcheck shell=bash
+# summary: replay a recording of one's own, and compare with what it gave before
+
+source "$PANVO_SCRIPTS/lib/build.sh"
+source "$PANVO_SCRIPTS/lib/systems.sh"
+
+verb_usage() {
+  cat <<'EOT'
+usage: panvo test-bag BAG --expect RESULTS [--system SYSTEM] [--within-m M --within-deg D] [--set C.P=V ...] [--out DIR]
+       panvo test-bag BAG --record RESULTS [--system SYSTEM] [--set C.P=V ...]
+
+Replays BAG (a rosbag2 folder, an .mcap or .db3 file, or a data set) through a system, and compares the trajectories and events
+with those in RESULTS, which --record left there, or any `panvo run --replay --out RESULTS`.
+Exit status 0: as expected; 1: not; 2: nothing to compare.
+
+  --system SYSTEM   system file, or the name of one in config/systems (default: enhanced_vo)
+  --within-m M      how far a pose may be off; without --within-m and --within-deg, every bit must be the same
+  --within-deg D    and by what angle; give both where BAG was recorded or RESULTS made on another machine
+  --set C.P=V       set parameter P of component C
+  --out DIR         keep this run's results there (default: a temporary folder)
+
+EOT
+}
+
+verb_main() {
+  local bag='' expected='' recorded='' system=enhanced_vo out=''
+  local -a settings=() tolerances=()
+  while (($#)); do
+    case $1 in
+      --expect | --record | --system | --out | --set | --within-m | --within-deg)
+        require_value "$@"
+        case $1 in
+          --expect) expected=$2 ;;
+          --record) recorded=$2 ;;
+          --system) system=$2 ;;
+          --out) out=$2 ;;
+          --set) settings+=(--set "$2") ;;
+          *) tolerances+=("$1" "$2") ;;
+        esac
+        shift
+        ;;
+      -*) fail "unknown option '$1' (panvo test-bag --help)" 2 ;;
+      *)
+        [[ -z $bag ]] || fail "one recording at a time: '$bag', and then '$1'?" 2
+        bag=$1
+        ;;
+    esac
+    shift
+  done
+  [[ -n $bag ]] || fail "which recording? (panvo test-bag --help)" 2
+  [[ -e $bag ]] || fail "there is no recording '$bag'" 2
+  [[ -n $expected || -n $recorded ]] || fail "compare with what? --expect RESULTS; --record RESULTS makes them" 2
+  [[ -z $expected || -z $recorded ]] || fail "either --expect or --record" 2
+  [[ -z $expected || -d $expected ]] || fail "there are no results in '$expected'; --record $expected makes them" 2
+  system=$(system_file "$system")
+  replay_and_compare
+}
+
+replay_and_compare() {
+  ensure_built panvo_programs
+  use_plugins
+  if [[ -n $recorded ]]; then
+    out=$recorded
+  elif [[ -z $out ]]; then
+    out=$(mktemp -d "${TMPDIR:-/tmp}/panvo-test-bag.XXXXXX")
+    # shellcheck disable=SC2064  # the folder of now
+    trap "rm -rf '$out'" EXIT
+  fi
+  local kind=--bag
+  is_dataset "$bag" && kind=--dataset
+  note "replaying $bag through $(basename "$system" .yaml)"
+  "$(program panvo_run)" "$system" "$kind" "$bag" --replay --out "$out" "${settings[@]}" >&2 ||
+    fail "the replay failed; its messages are above"
+  if [[ -n $recorded ]]; then
+    note "recorded in $recorded; from now on: panvo test-bag $bag --expect $recorded"
+    return
+  fi
+  "$(program panvo_compare_runs)" "$out" "$expected" "${tolerances[@]}"
+}
+
+# is_dataset PATH: whether it is no bag, that is, neither a file nor a folder with metadata or messages.
+is_dataset() {
+  [[ -d $1 ]] || return 1
+  ! compgen -G "$1/metadata.yaml" >/dev/null && ! compgen -G "$1/*.db3" >/dev/null && ! compgen -G "$1/*.mcap" >/dev/null
+}
