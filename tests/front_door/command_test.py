@@ -54,6 +54,12 @@ class Mistakes(unittest.TestCase):
         self.assert_fails(2, "--dataset needs a value", "demo", "--dataset")
         self.assert_fails(2, "--sanitize needs a value", "test", "--sanitize")
 
+    def test_a_recording_is_compared_with_results_that_are_there(self):
+        self.assert_fails(2, "which recording?", "test-bag")
+        self.assert_fails(2, "there is no recording 'nowhere'", "test-bag", "nowhere", "--expect", "results")
+        self.assert_fails(2, "compare with what?", "test-bag", ROOT)
+        self.assert_fails(2, "--record nowhere makes them", "test-bag", ROOT, "--expect", "nowhere")
+
     def test_an_unknown_sanitizer_build_and_group(self):
         self.assert_fails(2, "there are address, undefined and thread", "build", "--sanitize", "memory")
         self.assert_fails(2, "there are: build", "setup", "nothing")
