@@ -28,7 +28,7 @@ system_file() {
 # takes_value OPTION: whether this option of panvo_run has a value after it.
 takes_value() {
   case $1 in
-    --dataset | --bag | --out | --rate | --set | --seed | --domain | --dds-profiles | --container) return 0 ;;
+    --dataset | --bag | --out | --rate | --set | --seed | --domain | --dds-profiles | --container | --await | --respawn-delay | --secure | --enclave | --ros-distro) return 0 ;;
     *) return 1 ;;
   esac
 }
