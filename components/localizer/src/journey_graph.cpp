@@ -51,6 +51,15 @@ void JourneyGraph::add_built(std::uint32_t id, const Remembered& at) {
   nodes_.push_back(node);
 }
 
+void JourneyGraph::add_said(const PoseInMap& pose, const Remembered& at) {
+  Node node;
+  node.at = at;
+  node.said = pose;
+  node.map_from_base = pose.map_from_base;
+  node.covariance = pose.covariance;
+  nodes_.push_back(node);
+}
+
 bool JourneyGraph::add_pass(const LandmarkSighting& sighting, const Remembered& at, double same_pass_m) {
   Node node;
   node.landmark_id = sighting.landmark_id;
@@ -150,19 +159,23 @@ void JourneyGraph::solve() {
     graph.edges.push_back(
         {order[i - 1], order[i], a.odom_from_base.inverse() * b.odom_from_base, at_least(way_covariance(a, b)), false});
   }
-  bool has_earlier_days = false;
+  bool is_anchored = false;  // by something else than where the journey began
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
     const auto& node = nodes_[i];
     if (node.is_of_earlier_day) {
-      has_earlier_days = true;
+      is_anchored = true;
       const auto& known = known_.at(node.landmark_id);
       graph.priors.push_back({i, known.map_from_base, at_least(known.covariance)});
+    }
+    if (node.said) {
+      graph.priors.push_back({i, node.said->map_from_base, at_least(node.said->covariance)});
+      is_anchored = is_anchored || cuts_ns_.empty();
     }
     if (!node.is_pass) continue;
     const auto seen = static_cast<std::size_t>(landmark_node(node.landmark_id) - nodes_.data());
     graph.edges.push_back({seen, i, node.sighting.landmark_from_base, at_least(node.sighting.covariance), true});
   }
-  if (!has_earlier_days) {  // the map begins where the journey does
+  if (!is_anchored) {  // the map begins where the journey does
     vision::Vector6d sigma;
     sigma << Eigen::Vector3d::Constant(start_sigma_m_), Eigen::Vector3d::Constant(start_sigma_rad_);
     graph.priors.push_back(

@@ -20,6 +20,9 @@ constexpr double kMostElse = 25.0;          // odometry that turns wrongly goes 
 constexpr double kClockCaution = 9.0;       // odometry errs by more than it says now and then, and just while turning
 constexpr double kUnknownPosition_m = 1e4;  // standard deviations of a start that is not known
 constexpr double kUnknownYaw_rad = 3.0;
+// Of what somebody who says where the vehicle is leaves open: he clicked on a flat map.
+constexpr double kUnsaidHeight_m = 10.0;
+constexpr double kUnsaidTilt_rad = 0.2;
 constexpr double kDriftRatio = 0.03;  // two landmarks agree within the drift on the way between them
 
 double wrapped(double angle_rad) { return vision::wrap(angle_rad, 2.0 * std::numbers::pi); }
@@ -166,6 +169,31 @@ Correction Localizer::add(const LandmarkSighting& sighting) {
   correction.map_from_base_after = graph_.carried(at->pose).map_from_base;
   latest_ = localized(chain_.latest().pose);
   return correction;
+}
+
+bool Localizer::add_said(const PoseInMap& pose, std::int64_t stamp_ns) {
+  const auto at = chain_.at(stamp_ns);
+  if (!at || !pose.map_from_base.matrix().allFinite() || !pose.covariance.allFinite()) return false;
+  PoseInMap said = pose;
+  vision::Vector6d unsaid_sigma;
+  unsaid_sigma << kUnsaidHeight_m, kUnsaidHeight_m, kUnsaidHeight_m, kUnsaidTilt_rad, kUnsaidTilt_rad, kUnknownYaw_rad;
+  for (Eigen::Index i = 0; i < 6; ++i) {
+    if (said.covariance(i, i) <= 0.0) said.covariance(i, i) = unsaid_sigma(i) * unsaid_sigma(i);
+  }
+  if (is_located_) {
+    graph_.cut(at->pose.stamp_ns);
+  } else {
+    graph_.place(said.map_from_base * graph_.carried(at->pose).map_from_base.inverse());
+    is_located_ = true;
+  }
+  graph_.add_said(said, *at);
+  graph_.solve();
+  doubtful_ns_.reset();
+  asking_.reset();
+  dissent_.reset();
+  found_at_way_m_ = at->way_m;
+  latest_ = localized(chain_.latest().pose);
+  return true;
 }
 
 bool Localizer::reaches(std::int64_t panorama_stamp_ns) const {

@@ -51,6 +51,62 @@ TEST(LocalizerBelief, FindsItselfInTheMapOfAnEarlierDay) {
   EXPECT_LT((localizer.latest().map_from_base.translation() - expected.translation()).norm(), 0.3);
 }
 
+/// As one says it who clicks on a flat map: half a metre, 15 degrees, and nothing of height and tilt.
+PoseInMap clicked(const Eigen::Isometry3d& map_from_base) {
+  PoseInMap said;
+  said.map_from_base = map_from_base;
+  said.map_from_base.translation().z() = 0.0;
+  said.covariance.diagonal() << 0.25, 0.25, 0.0, 0.0, 0.0, 0.0685;
+  return said;
+}
+
+TEST(LocalizerBelief, IsWhereSomebodySaysInTheMapOfAnEarlierDay) {
+  Drive drive(7);
+  Localizer localizer({});
+  KnownLandmark known;
+  known.id = 9;
+  known.map_from_base.translation() = Eigen::Vector3d(500.0, 300.0, 2.0);
+  known.covariance = 1e-4 * vision::Matrix6d::Identity();
+  localizer.add_known(known);
+  localizer.add(drive.now());
+  for (int i = 0; i < 10; ++i) localizer.add(drive.step());
+  ASSERT_EQ(localizer.latest().state, State::kUnlocated);
+  const Eigen::Isometry3d map_from_truth = known.map_from_base * drive.truth.inverse();  // it stands on the landmark
+  ASSERT_TRUE(localizer.add_said(clicked(known.map_from_base), drive.now().stamp_ns));
+  EXPECT_EQ(localizer.latest().state, State::kRelocalised);
+  EXPECT_LT((localizer.latest().map_from_base.translation() - Eigen::Vector3d(500.0, 300.0, 0.0)).norm(), 1e-6);
+  for (int i = 0; i < 5; ++i) localizer.add(drive.step());
+  // one look at a known place makes it exact: it is near what was said
+  const auto correction = localizer.add(drive.sight(9, map_from_truth.inverse() * known.map_from_base));
+  ASSERT_EQ(correction.kind, CorrectionKind::kApplied) << correction.reason;
+  const Eigen::Isometry3d expected = map_from_truth * drive.truth;
+  EXPECT_LT((localizer.latest().map_from_base.translation() - expected.translation()).norm(), 0.2);
+}
+
+TEST(LocalizerBelief, TakesAVehicleForMovedWhereSomebodySaysSo) {
+  Round round(8);
+  const auto before = round.localizer.landmarks();
+  Eigen::Isometry3d elsewhere = round.drive.truth;
+  elsewhere.translation() += Eigen::Vector3d(40.0, -25.0, 0.0);
+  const auto smooth_before = round.localizer.latest().odom_from_base;
+  ASSERT_TRUE(round.localizer.add_said(clicked(elsewhere), round.drive.now().stamp_ns));
+  const auto& now = round.localizer.latest();
+  EXPECT_LT((now.map_from_base.translation() - elsewhere.translation()).head<2>().norm(), 0.05);
+  EXPECT_GT(vision::horizontal_sigma(now.covariance), 0.4);
+  EXPECT_TRUE(now.odom_from_base.isApprox(smooth_before));  // odom never jumps
+  const auto after = round.localizer.landmarks();
+  ASSERT_EQ(after.size(), before.size());
+  EXPECT_LT((after[0].map_from_base.translation() - before[0].map_from_base.translation()).norm(), 0.05);
+}
+
+TEST(LocalizerBelief, IsNotToldWhereItIsByNumbersThatAreNone) {
+  Round round(9);
+  PoseInMap said = clicked(round.drive.truth);
+  said.map_from_base.translation().x() = std::nan("");
+  EXPECT_FALSE(round.localizer.add_said(said, round.drive.now().stamp_ns));
+  EXPECT_FALSE(round.localizer.add_said(clicked(round.drive.truth), round.drive.now().stamp_ns + 1'000'000'000'000));
+}
+
 TEST(LocalizerBelief, DoesNotFollowALandmarkThatIsInTheWrongPlace) {
   Drive drive(14);
   Localizer localizer({});

@@ -50,6 +50,8 @@ class JourneyGraph {
   bool is_known(std::uint32_t id) const { return known_.contains(id); }
 
   void add_built(std::uint32_t id, const Remembered& at);
+  /// Where somebody says that the vehicle is.
+  void add_said(const PoseInMap& pose, const Remembered& at);
   /// A sighting; false where a pass by the same landmark within `same_pass_m` of way has a better one.
   bool add_pass(const LandmarkSighting& sighting, const Remembered& at, double same_pass_m);
 
@@ -82,6 +84,7 @@ class JourneyGraph {
     bool is_of_earlier_day = false;  ///< no part of this journey's way
     Remembered at;                   ///< odometry then
     LandmarkSighting sighting;       ///< of a pass
+    std::optional<PoseInMap> said;   ///< where somebody said that the vehicle was
     Eigen::Isometry3d map_from_base = Eigen::Isometry3d::Identity();
     vision::Matrix6d covariance = vision::Matrix6d::Zero();
   };

@@ -78,6 +78,11 @@ class Localizer {
 
   Correction add(const LandmarkSighting& sighting);
 
+  /// Somebody says where the vehicle is at a time (in the odometry's clock), and with what certainty; what he leaves open, a variance
+  /// of 0, is not known. Where the vehicle was known to be, he says that it was moved. False when odometry of that time is not
+  /// remembered, or a number is none.
+  bool add_said(const PoseInMap& pose, std::int64_t stamp_ns);
+
   const LocalizedPose& latest() const noexcept { return latest_; }
   /// Way of the odometry since the start, m.
   double way_m() const { return chain_.empty() ? 0.0 : chain_.latest().way_m; }
