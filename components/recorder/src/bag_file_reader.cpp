@@ -64,6 +64,7 @@ class PackedFileReader final : public BagFileReader {
   PackedFileReader(const fs::path& file, std::vector<std::string>& warnings)
       : BagFileReader(file, warnings), unpacked_(file), reader_(open(warnings)) {
     content_ = reader_->content();
+    name_packed_file();
   }
 
   Storage storage() const noexcept override { return reader_->storage(); }
@@ -73,7 +74,11 @@ class PackedFileReader final : public BagFileReader {
   void select(std::set<std::int64_t> topic_ids, std::int64_t begin_ns) override {
     reader_->select(std::move(topic_ids), begin_ns);
   }
-  bool next(Entry& entry, interfaces::Bytes& data) override { return reader_->next(entry, data); }
+  bool next(Entry& entry, interfaces::Bytes& data) override {
+    const bool is_read = reader_->next(entry, data);
+    name_packed_file();
+    return is_read;
+  }
   std::vector<std::string> check_integrity() override { return reader_->check_integrity(); }
 
  private:
@@ -88,7 +93,18 @@ class PackedFileReader final : public BagFileReader {
     throw BagError(path_.string() + ": is packed twice; unpack it with `zstd -d`");
   }
 
+  /// Warnings are about the file that there is, not about the copy that will be gone.
+  void name_packed_file() {
+    for (; warnings_seen_ < warnings_.size(); ++warnings_seen_) {
+      auto& warning = warnings_[warnings_seen_];
+      if (warning.starts_with(unpacked_.path().string())) {
+        warning.replace(0, unpacked_.path().string().size(), path_.string());
+      }
+    }
+  }
+
   UnpackedFile unpacked_;
+  std::size_t warnings_seen_ = 0;
   std::unique_ptr<BagFileReader> reader_;
 };
 

@@ -28,11 +28,12 @@ struct BagReader::File {
   void advance() {
     started = true;
     at_end = !reader->next(entry, data);
-    while (!at_end && !unpack_message(data)) {
+    while (!at_end && is_cdr() && !unpack_message(data)) {
       ++packed_lost;
       at_end = !reader->next(entry, data);
     }
   }
+  bool is_cdr() const { return reader->content().topics.at(entry.topic_id).serialization_format == "cdr"; }
   std::int64_t next_ns() const { return started ? entry.timestamp_ns : reader->content().first_ns; }
   std::uint64_t lost() const { return reader->lost() + packed_lost; }
 
@@ -118,6 +119,10 @@ void BagReader::describe(const std::optional<BagMetadata>& written) {
   }
   const auto& told = written ? written : files_.front()->reader->content().stored_metadata;
   metadata_.storage_identifier = to_text(files_.front()->reader->storage());
+  if (files_.front()->reader->path().extension() == ".zstd") {
+    metadata_.compression_format = "zstd";
+    metadata_.compression_mode = "FILE";
+  }
   metadata_.ros_distro = told ? told->ros_distro : std::string();
   if (metadata_.ros_distro.empty()) {
     metadata_.ros_distro = files_.front()->reader->content().ros_distro;
@@ -125,6 +130,8 @@ void BagReader::describe(const std::optional<BagMetadata>& written) {
   if (told) {
     metadata_.version = told->version;
     metadata_.custom_data = told->custom_data;
+    metadata_.compression_format = told->compression_format;
+    metadata_.compression_mode = told->compression_mode;
     for (auto& topic : metadata_.topics) {
       const auto same = std::find_if(told->topics.begin(), told->topics.end(),
                                      [&](const BagTopic& t) { return t.name == topic.name; });

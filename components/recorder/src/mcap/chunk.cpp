@@ -153,7 +153,8 @@ Chunk read_chunk(const InputFile& file, std::uint64_t offset) {
     chunk.fault = "holds a record that is not one";
   }
   if (!chunk.fault.empty()) {
-    const auto indexes = read_message_indexes(file, content_offset + record.length);
+    const auto indexes =
+        is_cut ? std::vector<MessageIndex>() : read_message_indexes(file, content_offset + record.length);
     if (!indexes.empty()) {
       keep_indexed(chunk, indexes);
     } else if (!whole) {

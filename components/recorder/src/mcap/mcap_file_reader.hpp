@@ -14,7 +14,7 @@ namespace panvo::recorder::mcap {
 
 /// A .mcap file: by its index where it has one, by reading through it where it is cut off or damaged.
 ///
-/// Chunks are read when their time comes. Of those whose times overlap the messages' places are held, 24 bytes each,
+/// Chunks are read when their time comes. Of those whose times overlap the messages' places are held, 32 bytes each,
 /// and of their bytes as much as fits kMostHeldBytes; what more is needed is read again.
 class McapFileReader final : public BagFileReader {
  public:

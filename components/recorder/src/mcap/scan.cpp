@@ -79,7 +79,8 @@ class Scan {
     for (auto& channel : chunk.channels) {
       layout_.channels.try_emplace(channel.id, std::move(channel));
     }
-    const auto end = std::min(file_.size(), at + RecordHead::kBytes + head.length);
+    const auto rest = file_.size() - at - RecordHead::kBytes;
+    const auto end = head.length > rest ? file_.size() : at + RecordHead::kBytes + head.length;
     Block block{.is_chunk = true,
                 .begin = at,
                 .end = end,
