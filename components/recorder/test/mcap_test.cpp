@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "../src/mcap/crc32.hpp"
+#include "../src/mcap/mcap_file_reader.hpp"
 #include "../src/mcap/record.hpp"
 #include "panvo/recorder/bag_check.hpp"
 #include "test_bag.hpp"
@@ -193,6 +194,27 @@ TEST_P(Mcap, TakesNoMemoryForSizesThatAreNotThere) {
     write_text(file_, damaged);
     EXPECT_GE(read_file().size(), kCount - 2 * kCount / offsets.size());
   }
+}
+
+TEST_P(Mcap, ReadsChunksAgainWhereAllOverlapAndFewCanBeHeld) {
+  {
+    BagWriter writer(folder_ / "bag", options());
+    const int data = writer.add_topic(topic("/data"));
+    for (std::uint64_t i = 0; i < 100; ++i) {
+      const auto number = i * 37 % 100;  // early and late ones in every chunk
+      writer.write(data, kStart + static_cast<std::int64_t>(number) * kStep, payload(number, kSize));
+    }
+  }
+  std::vector<std::string> warnings;
+  mcap::McapFileReader reader(file_, warnings, 3000);
+  std::vector<Read> messages;
+  BagFileReader::Entry entry;
+  for (interfaces::Bytes bytes; reader.next(entry, bytes);) {
+    messages.push_back({"/data", entry.timestamp_ns, bytes});
+  }
+  EXPECT_EQ(messages.size(), 100u);
+  EXPECT_EQ(wrong_in_first_numbered(messages, kSize), "");
+  EXPECT_EQ(reader.lost(), 0u);
 }
 
 INSTANTIATE_TEST_SUITE_P(Compressions, Mcap, testing::Values(Compression::kNone, Compression::kLz4, Compression::kZstd),

@@ -39,8 +39,9 @@ bool McapFileReader::OpenBlock::comes_before(const OpenBlock& other) const {
   return key(*this) < key(other);
 }
 
-McapFileReader::McapFileReader(std::filesystem::path file, std::vector<std::string>& warnings)
-    : BagFileReader(std::move(file), warnings), file_(path_) {
+McapFileReader::McapFileReader(std::filesystem::path file, std::vector<std::string>& warnings,
+                               std::size_t most_held_bytes)
+    : BagFileReader(std::move(file), warnings), most_held_bytes_(most_held_bytes), file_(path_) {
   std::string reason;
   if (auto layout = read_summary(file_, reason)) {
     layout_ = std::move(*layout);
@@ -243,7 +244,7 @@ void McapFileReader::limit_held_bytes(const OpenBlock& keep) {
       return sum + (block.bytes ? block.bytes->size() : 0);
     });
   };
-  while (held() > kMostHeldBytes) {
+  while (held() > most_held_bytes_) {
     OpenBlock* oldest = nullptr;
     for (auto& block : open_) {
       if (&block != &keep && block.bytes && (!oldest || block.used < oldest->used)) {

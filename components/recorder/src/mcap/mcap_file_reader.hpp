@@ -18,8 +18,11 @@ namespace panvo::recorder::mcap {
 /// and of their bytes as much as fits kMostHeldBytes; what more is needed is read again.
 class McapFileReader final : public BagFileReader {
  public:
+  static constexpr std::size_t kMostHeldBytes = 256u << 20;
+
   /// Throws BagError when nothing of the file can be read.
-  McapFileReader(std::filesystem::path file, std::vector<std::string>& warnings);
+  McapFileReader(std::filesystem::path file, std::vector<std::string>& warnings,
+                 std::size_t most_held_bytes = kMostHeldBytes);
 
   Storage storage() const noexcept override { return Storage::kMcap; }
   bool damaged() const noexcept override { return !layout_.is_whole; }
@@ -32,8 +35,6 @@ class McapFileReader final : public BagFileReader {
   std::vector<std::string> check_integrity() override;
 
  private:
-  static constexpr std::size_t kMostHeldBytes = 256u << 20;
-
   struct Place {
     StoredMessage message;
     std::uint32_t number = 0;  ///< within its block
@@ -59,6 +60,7 @@ class McapFileReader final : public BagFileReader {
   bool read_data(OpenBlock& block, const StoredMessage& message, interfaces::Bytes& data);
   void limit_held_bytes(const OpenBlock& keep);
 
+  const std::size_t most_held_bytes_;
   InputFile file_;
   Layout layout_;
   std::vector<std::size_t> order_;                // of the blocks, by time
