@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "panvo/interfaces/topics.hpp"
+#include "panvo/recorder/bag_copy.hpp"
 #include "panvo/runtime/testing.hpp"
 #include "test_bag.hpp"
 
@@ -83,6 +84,20 @@ TEST_F(BagPlayer, PlaysInOrderOfTimeAndAtOneTimeInThatOfTheBag) {
   harness.load("panvo_recorder", "BagPlayerComponent", {{"directory", bag_.string()}});
   EXPECT_THAT(harness.container().run(), testing::IsEmpty());
   EXPECT_THAT(Witness::seen, ElementsAre("odometry 1", "odometry 2", "tf", "odometry 3"));
+}
+
+TEST_F(BagPlayer, PlaysMcapAlike) {
+  // In chunks of one message.
+  copy_bag(bag_, folder_ / "mcap", {},
+           {.storage = Storage::kMcap, .compression = Compression::kZstd, .chunk_bytes = 1});
+  for (const auto& bag : {folder_ / "mcap", folder_ / "mcap" / "mcap_0.mcap"}) {
+    Witness::seen.clear();
+    ComponentHarness harness;
+    harness.add<Witness>("witness");
+    harness.load("panvo_recorder", "BagPlayerComponent", {{"directory", bag.string()}});
+    EXPECT_THAT(harness.container().run(), testing::IsEmpty());
+    EXPECT_THAT(Witness::seen, ElementsAre("odometry 1", "odometry 2", "tf", "odometry 3"));
+  }
 }
 
 TEST_F(BagPlayer, DoesNotPlayWhatTheSystemComputesAndSaysSo) {
