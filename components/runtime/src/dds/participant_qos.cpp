@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "panvo/runtime/errors.hpp"
+#include "security_qos.hpp"
 
 namespace panvo::runtime::dds {
 
@@ -100,6 +101,8 @@ fdds::DomainParticipantQos participant_qos(const DdsSettings& settings, Role rol
   // rmw puts the terminating zero on the wire too.
   constexpr std::string_view kEnclave("enclave=/;\0", 11);
   qos.user_data().setValue(std::vector<eprosima::fastrtps::rtps::octet>(kEnclave.begin(), kEnclave.end()));
+
+  apply_security(security_settings_from_environment(), qos);
 
   auto& discovery = qos.wire_protocol().builtin.discovery_config;
   const auto default_period =

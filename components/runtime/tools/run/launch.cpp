@@ -7,10 +7,12 @@
 
 #include <atomic>
 #include <cerrno>
+#include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <set>
 #include <stdexcept>
 #include <thread>
@@ -30,6 +32,9 @@ struct Child {
   std::set<std::string> published, subscribed;
   bool has_source = false, running = false;
   int status = 0;
+
+  std::optional<std::chrono::steady_clock::time_point> starts_again;
+  std::vector<std::string> folders;  // where each of its processes left its results
 };
 
 std::vector<std::string> command_line(const RunOptions& options, const Child& child, int link_in, int link_out) {
@@ -47,6 +52,7 @@ std::vector<std::string> command_line(const RunOptions& options, const Child& ch
   add("--domain", std::to_string(options.dds.domain));
   add("--ros-distro", options.dds.ros_distro);
   add("--dds-profiles", options.dds.profiles);
+  if (options.local) words.push_back("--local");
   if (options.verbose) words.push_back("--verbose");
   add("--container", child.name);
   add("--link-in", std::to_string(link_in));
@@ -54,7 +60,16 @@ std::vector<std::string> command_line(const RunOptions& options, const Child& ch
   return words;
 }
 
+/// A process that takes another's place leaves what that one had to say.
+std::string next_folder(const Child& child) {
+  return child.folders.empty() ? child.name : child.name + "_" + std::to_string(child.folders.size() + 1);
+}
+
 void start(const RunOptions& options, Child& child) {
+  if (!options.out.empty()) {
+    child.folders.push_back(next_folder(child));
+    child.out = (std::filesystem::path(options.out) / child.folders.back()).string();
+  }
   int down[2], up[2];
   if (pipe2(down, O_CLOEXEC) != 0 || pipe2(up, O_CLOEXEC) != 0)
     throw std::runtime_error("cannot make a pipe: too many open files?");
@@ -89,27 +104,54 @@ bool read_until(Child& child, const std::string& last) {
   return false;
 }
 
+void tell_peers(const Child& child, const std::vector<Child>& children) {
+  std::map<std::string, Container::Peers> peers;
+  for (const auto& other : children) {
+    if (&other == &child || !other.running) continue;
+    for (const auto& topic : child.published) peers[topic].readers += other.subscribed.contains(topic);
+    for (const auto& topic : child.subscribed) peers[topic].writers += other.published.contains(topic);
+  }
+  for (const auto& [topic, wanted] : peers) {
+    write_pipe_line(child.to_child, fmt::format("await {} {} {}", topic, wanted.readers, wanted.writers));
+  }
+  write_pipe_line(child.to_child, "connect");
+}
+
 bool connect(std::vector<Child>& children) {
   for (auto& child : children) {
     if (!read_until(child, "loaded")) return false;
   }
-  for (auto& child : children) {
-    std::map<std::string, Container::Peers> peers;
-    for (const auto& other : children) {
-      if (&other == &child) continue;
-      for (const auto& topic : child.published) peers[topic].readers += other.subscribed.contains(topic);
-      for (const auto& topic : child.subscribed) peers[topic].writers += other.published.contains(topic);
-    }
-    for (const auto& [topic, wanted] : peers) {
-      write_pipe_line(child.to_child, fmt::format("await {} {} {}", topic, wanted.readers, wanted.writers));
-    }
-    write_pipe_line(child.to_child, "connect");
-  }
+  for (const auto& child : children) tell_peers(child, children);
   for (auto& child : children) {
     if (!read_until(child, "connected")) return false;
   }
   for (auto& child : children) write_pipe_line(child.to_child, "start");
   return true;
+}
+
+/// Puts a new process in the place of one that has crashed. If it crashes at once, its end is noticed as the first one's was.
+void start_again(const RunOptions& options, Child& child, const std::vector<Child>& children) {
+  child.starts_again.reset();
+  close(child.to_child);
+  close(child.from_child);
+  child.published.clear();
+  child.subscribed.clear();
+  start(options, child);
+  if (!read_until(child, "loaded")) return;
+  tell_peers(child, children);
+  if (read_until(child, "connected")) write_pipe_line(child.to_child, "start");
+}
+
+/// Whether a container that has ended like this is to be started again: not when its configuration is wrong, for it would be again.
+bool is_to_respawn(const RunOptions& options, const Child& child) {
+  return options.respawn && child.status != 0 && child.status != static_cast<int>(ExitStatus::kBadConfiguration);
+}
+
+void plan_respawn(const RunOptions& options, Child& child) {
+  const std::chrono::duration<double> delay_s(options.respawn_delay_s);
+  const auto delay = std::chrono::duration_cast<std::chrono::steady_clock::duration>(delay_s);
+  child.starts_again = std::chrono::steady_clock::now() + delay;
+  std::fprintf(stderr, "panvo run: container %s is started again in %.1f s\n", child.name.c_str(), delay_s.count());
 }
 
 void signal_all(const std::vector<Child>& children, int signal) {
@@ -118,8 +160,9 @@ void signal_all(const std::vector<Child>& children, int signal) {
   }
 }
 
-/// Waits until all have ended. When the last that plays something has, or one has failed, or `stop` is set, the others are asked to stop.
-void supervise(std::vector<Child>& children, const std::atomic<bool>& stop, bool failed) {
+/// Waits until all have ended. When the last that plays something has, or one has failed that is not to be started again, or `stop` is set,
+/// the others are asked to stop.
+void supervise(const RunOptions& options, std::vector<Child>& children, const std::atomic<bool>& stop, bool failed) {
   bool asked = failed;
   if (failed) signal_all(children, SIGTERM);
   const bool has_source = [&] {
@@ -139,10 +182,18 @@ void supervise(std::vector<Child>& children, const std::atomic<bool>& stop, bool
           std::fprintf(stderr, "panvo run: container %s was ended by signal %d\n", child.name.c_str(),
                        WTERMSIG(status));
         }
-        failed |= child.status != 0;
+        if (!asked && !stop && is_to_respawn(options, child)) {
+          plan_respawn(options, child);
+        } else {
+          failed |= child.status != 0;
+        }
       }
-      running |= child.running;
-      playing |= child.running && child.has_source;
+      if (child.starts_again && (asked || stop)) child.starts_again.reset();
+      if (child.starts_again && std::chrono::steady_clock::now() >= *child.starts_again) {
+        start_again(options, child, children);
+      }
+      running |= child.running || child.starts_again;
+      playing |= (child.running || child.starts_again) && child.has_source;
     }
     if (!running) return;
     if (!asked && (stop || failed || (has_source && !playing))) {
@@ -155,26 +206,27 @@ void supervise(std::vector<Child>& children, const std::atomic<bool>& stop, bool
 
 }  // namespace
 
-ExitStatus launch(const RunOptions& options, const SystemDescription& system) {
+ExitStatus launch(const RunOptions& given, const SystemDescription& system) {
+  RunOptions options = given;
+  options.local = given.local && system.containers.size() == 1;  // several have to talk to each other
   std::atomic<bool> stop = false;
   std::vector<Child> children;
   for (const auto& container : system.containers) {
     Child child;
     child.name = container.name;
-    if (!options.out.empty()) child.out = (std::filesystem::path(options.out) / container.name).string();
     children.push_back(std::move(child));
   }
   for (auto& child : children) start(options, child);
   const StopSignals signals([&stop] { stop = true; });
   const bool connected = connect(children);
-  supervise(children, stop, !connected);
+  supervise(options, children, stop, !connected);
 
   ExitStatus status = ExitStatus::kOk;
   std::vector<std::string> folders;
   for (const auto& child : children) {
     close(child.to_child);
     close(child.from_child);
-    if (!child.out.empty()) folders.push_back(child.name);
+    folders.insert(folders.end(), child.folders.begin(), child.folders.end());
     if (child.status != 0) {
       std::fprintf(stderr, "panvo run: container %s failed (exit status %d)\n", child.name.c_str(), child.status);
       status = child.status == static_cast<int>(ExitStatus::kBadConfiguration) ? ExitStatus::kBadConfiguration

@@ -21,7 +21,7 @@ ExitStatus run(const RunOptions& options) {
     }
     throw ConfigError(options.system_file + ": has no container " + options.container + "; it has" + known);
   }
-  if (system.containers.size() > 1 && !options.replay) return launch(options, system);
+  if ((system.containers.size() > 1 || options.respawn) && !options.replay) return launch(options, system);
   ContainerDescription together = system.containers.front();  // replay knows one process only
   std::vector<ComponentDescription>& all = together.components;
   all.clear();

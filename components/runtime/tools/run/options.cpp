@@ -9,6 +9,17 @@
 #include "panvo/runtime/errors.hpp"
 
 namespace panvo::runtime {
+namespace {
+
+/// ROS 2's environment variables, which every process that is started from here has too.
+void use_keystore(const std::string& keystore, const std::string& enclave) {
+  setenv("ROS_SECURITY_KEYSTORE", std::filesystem::absolute(keystore).c_str(), 1);
+  setenv("ROS_SECURITY_ENABLE", "true", 1);
+  setenv("ROS_SECURITY_STRATEGY", "Enforce", 1);
+  if (!enclave.empty()) setenv("ROS_SECURITY_ENCLAVE_OVERRIDE", enclave.c_str(), 1);
+}
+
+}  // namespace
 
 std::optional<int> RunOptions::parse(int argc, char** argv, RunOptions& options) {
   try {
@@ -47,6 +58,17 @@ std::optional<int> RunOptions::parse(int argc, char** argv, RunOptions& options)
   app.add_flag("--local", options.local, "keep to this process: no DDS");
   app.add_flag("--verbose", options.verbose, "debug messages too");
   app.add_option("--container", options.container, "run only this container of the system");
+  auto* respawn =
+      app.add_flag("--respawn", options.respawn, "start a container again when it crashes or fails")->excludes(replay);
+  app.add_option("--respawn-delay", options.respawn_delay_s, "how long after, s")
+      ->needs(respawn)
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  std::string keystore, enclave;
+  auto* secure = app.add_option("--secure", keystore,
+                                "speak and listen only to who has keys of this keystore (panvo secure makes one)")
+                     ->check(CLI::ExistingDirectory);
+  app.add_option("--enclave", enclave, "whose keys of the keystore to use")->needs(secure);
   app.add_option("--await", options.awaited,
                  "TOPIC or TOPIC:COUNT: begin once that many other processes (1) read or write this topic of ours; may "
                  "be repeated. "
@@ -64,6 +86,7 @@ std::optional<int> RunOptions::parse(int argc, char** argv, RunOptions& options)
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? static_cast<int>(ExitStatus::kOk) : static_cast<int>(ExitStatus::kBadConfiguration);
   }
+  if (!keystore.empty()) use_keystore(keystore, enclave);
   for (const auto& argument : arguments) {
     const auto separator = argument.find(":=");
     if (separator == std::string::npos || separator == 0) {

@@ -26,7 +26,9 @@ struct RunOptions {
   DdsSettings dds;  // domain, profiles and which ROS 2 there is
   bool local = false;
   bool verbose = false;
-  std::string container;                 // only this one of the system's containers
+  std::string container;  // only this one of the system's containers
+  bool respawn = false;   // start a container again that crashes or fails
+  double respawn_delay_s = 1;
   std::vector<std::string> awaited;      // topics that another process must have before this one begins
   std::optional<int> link_in, link_out;  // to the launching process
 

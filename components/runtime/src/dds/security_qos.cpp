@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "security_qos.hpp"
+
+#include <fastrtps/config.h>
+#include <spdlog/fmt/fmt.h>
+
+#include <array>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <utility>
+#include <vector>
+
+#include "panvo/runtime/errors.hpp"
+
+namespace panvo::runtime::dds {
+namespace {
+
+#if defined(HAVE_SECURITY) && HAVE_SECURITY
+constexpr bool kIsBuiltIn = true;
+#else
+constexpr bool kIsBuiltIn = false;
+#endif
+
+struct Property {
+  const char *name, *file;
+};
+/// What the DDS Security specification calls the files of an enclave.
+constexpr std::array<Property, 6> kFiles{
+    {{"dds.sec.auth.builtin.PKI-DH.identity_ca", "identity_ca.cert.pem"},
+     {"dds.sec.auth.builtin.PKI-DH.identity_certificate", "cert.pem"},
+     {"dds.sec.auth.builtin.PKI-DH.private_key", "key.pem"},
+     {"dds.sec.access.builtin.Access-Permissions.permissions_ca", "permissions_ca.cert.pem"},
+     {"dds.sec.access.builtin.Access-Permissions.governance", "governance.p7s"},
+     {"dds.sec.access.builtin.Access-Permissions.permissions", "permissions.p7s"}}};
+constexpr std::array<std::pair<const char*, const char*>, 3> kPlugins{
+    {{"dds.sec.auth.plugin", "builtin.PKI-DH"},
+     {"dds.sec.access.plugin", "builtin.Access-Permissions"},
+     {"dds.sec.crypto.plugin", "builtin.AES-GCM-GMAC"}}};
+
+std::string variable(const char* name) {
+  const char* value = std::getenv(name);
+  return value ? value : "";
+}
+
+}  // namespace
+
+SecuritySettings security_settings_from_environment() {
+  SecuritySettings settings;
+  settings.is_enabled = variable("ROS_SECURITY_ENABLE") == "true";
+  settings.is_enforced = variable("ROS_SECURITY_STRATEGY") == "Enforce";
+  settings.keystore = variable("ROS_SECURITY_KEYSTORE");
+  if (const auto enclave = variable("ROS_SECURITY_ENCLAVE_OVERRIDE"); !enclave.empty()) {
+    settings.enclave = enclave.front() == '/' ? enclave : "/" + enclave;
+  }
+  return settings;
+}
+
+void apply_security(const SecuritySettings& settings, eprosima::fastdds::dds::DomainParticipantQos& qos) {
+  if (!settings.is_enabled) return;
+  if (!kIsBuiltIn)
+    throw ConfigError("security is asked for, and this Fast DDS is built without; use one built with -DSECURITY=ON");
+  if (settings.keystore.empty())
+    throw ConfigError("ROS_SECURITY_ENABLE is true and ROS_SECURITY_KEYSTORE names no keystore; set both, or neither");
+  const auto folder = std::filesystem::path(settings.keystore) / "enclaves" / settings.enclave.substr(1);
+  if (!settings.is_enforced && !std::filesystem::exists(folder)) return;
+  auto& properties = qos.properties().properties();
+  for (const auto& [name, file] : kFiles) {
+    const auto path = folder / file;
+    if (!std::ifstream(path)) {
+      throw ConfigError(fmt::format("{}: cannot be read; `panvo secure {} {}` makes it, or name another enclave",
+                                    path.string(), settings.keystore, settings.enclave));
+    }
+    properties.emplace_back(name, "file://" + std::filesystem::absolute(path).string());
+  }
+  for (const auto& [name, plugin] : kPlugins) properties.emplace_back(name, plugin);
+  const std::string enclave = "enclave=" + settings.enclave + ";";
+  qos.user_data().setValue({enclave.c_str(), enclave.c_str() + enclave.size() + 1});  // rmw sends the zero too
+}
+
+}  // namespace panvo::runtime::dds

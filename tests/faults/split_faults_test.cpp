@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: Apache-2.0
+// Processes of a system that are killed, come again or stand still: the others go on, and data flow again.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <csignal>
+#include <sstream>
+
+#include "process.hpp"
+#include "rendered_walk.hpp"
+
+namespace panvo::test {
+namespace {
+
+using testing::HasSubstr;
+using Words = std::vector<std::string>;
+
+constexpr std::chrono::seconds kLimit(100);
+constexpr int kFrames = 150;  // at their own pace, fifteen seconds
+
+/// The process that `parent` started with `word` in its command line; 0: there is none.
+pid_t child_of(const Process& parent, const std::string& word) {
+  const std::string id = std::to_string(parent.id());
+  std::istringstream children(read_file("/proc/" + id + "/task/" + id + "/children"));
+  for (pid_t child = 0; children >> child;) {
+    if (read_file("/proc/" + std::to_string(child) + "/cmdline").find(word) != std::string::npos) return child;
+  }
+  return 0;
+}
+
+class SplitFaults : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    data_ = new TemporaryFolder;
+    RenderedWalk{.frames = kFrames}.write(data_->path() / "walk");
+  }
+  static void TearDownTestSuite() { delete data_; }
+
+  Words command(const Words& words) const {
+    Words all = before_;
+    all.push_back(PANVO_RUN);
+    all.insert(all.end(), words.begin(), words.end());
+    all.insert(all.end(), {"--domain", std::to_string(1 + getpid() % 99)});
+    return all;
+  }
+
+  Words cameras() const {
+    return command({SYSTEMS "/stereo_split.yaml", "--container", "cameras", "--dataset", *data_ / "walk", "--rate", "1",
+                    "--await", "/stereo/left/image_rect", "--await", "/stereo/right/image_rect"});
+  }
+  Words odometry(const std::string& out) const {
+    return command({SYSTEMS "/stereo_split.yaml", "--container", "odometry", "--out", folder_ / out});
+  }
+
+  std::size_t poses_in(const std::string& out) const {
+    const std::string poses = read_file(folder_.path() / out / "odometry_binocular.tum");
+    return static_cast<std::size_t>(std::count(poses.begin(), poses.end(), '\n'));
+  }
+  bool gets_poses(const std::string& out, std::size_t count) const {
+    return eventually([&] { return poses_in(out) >= count; }, kLimit);
+  }
+
+  inline static TemporaryFolder* data_ = nullptr;
+  TemporaryFolder folder_;
+  Words before_;  // the words before a command, for its environment
+};
+
+TEST_F(SplitFaults, AKilledReaderOfImagesDoesNotDisturbTheCamerasAndItsSuccessorGetsThem) {
+  Process first(odometry("first"));
+  Process source(cameras());
+  ASSERT_TRUE(gets_poses("first", 10)) << first.output() << source.output();
+  first.signal(SIGKILL);
+  first.wait();
+  Process second(odometry("second"));
+  EXPECT_TRUE(gets_poses("second", 10)) << second.output() << source.output();
+  EXPECT_EQ(source.wait(kLimit), 0) << source.output();
+  EXPECT_THAT(source.output(), HasSubstr(std::to_string(kFrames) + "/" + std::to_string(kFrames) + " frames"));
+}
+
+TEST_F(SplitFaults, KilledCamerasLeaveTheOdometryRunningAndTheirSuccessorsAreHeard) {
+  Process computing(odometry("out"));
+  Process first(cameras());
+  ASSERT_TRUE(gets_poses("out", 10)) << computing.output() << first.output();
+  first.signal(SIGKILL);
+  first.wait();
+  const std::size_t before = poses_in("out");
+  Process second(cameras());
+  EXPECT_TRUE(gets_poses("out", before + 10)) << computing.output() << second.output();
+  computing.signal(SIGINT);
+  EXPECT_EQ(computing.wait(kLimit), 0) << computing.output();
+}
+
+TEST_F(SplitFaults, AKilledDiscoveryServerStopsNoDataAndItsSuccessorBringsNewcomersTogether) {
+  const std::string program = find_program("fast-discovery-server");
+  if (program.empty()) GTEST_SKIP() << "there is no fast-discovery-server (package fastdds-tools)";
+  const std::string port = std::to_string(11811 + getpid() % 1000);
+  const Words serve{program, "-i", "0", "-l", "127.0.0.1", "-p", port};
+  before_ = {find_program("env"), "ROS_DISCOVERY_SERVER=127.0.0.1:" + port};
+  Process server(serve);
+  Process first(odometry("first"));
+  Process source(cameras());
+  ASSERT_TRUE(gets_poses("first", 10)) << first.output() << source.output();
+  server.signal(SIGKILL);
+  server.wait();
+  const std::size_t before = poses_in("first");
+  EXPECT_TRUE(gets_poses("first", before + 10)) << "without its server nothing flows\n" << first.output();
+  const Process successor(serve);
+  Process second(odometry("second"));
+  EXPECT_TRUE(gets_poses("second", 10)) << second.output() << source.output();
+}
+
+TEST_F(SplitFaults, ASubscriberOfEverythingThatStandsStillStopsNothing) {
+  Process recorder(command({SYSTEMS "/record.yaml", "output:=" + (folder_ / "bag")}));
+  // At rate 0 a frame is played when the one before is done with, and none is dropped.
+  Process computing(command({SYSTEMS "/stereo.yaml", "--dataset", *data_ / "walk", "--rate", "0", "--out",
+                             folder_ / "out", "--await", "/stereo/left/image_rect", "--await", "/odometry/binocular"}));
+  ASSERT_TRUE(gets_poses("out", 10)) << computing.output();
+  recorder.signal(SIGSTOP);
+  EXPECT_EQ(computing.wait(kLimit), 0) << computing.output();
+  recorder.signal(SIGCONT);
+  EXPECT_EQ(poses_in("out"), std::size_t{kFrames}) << computing.output();
+  EXPECT_THAT(computing.output(), HasSubstr("0 messages dropped"));
+  recorder.signal(SIGINT);
+  EXPECT_EQ(recorder.wait(kLimit), 0) << recorder.output();
+}
+
+TEST_F(SplitFaults, AContainerThatIsKilledIsStartedAgainWhereAskedFor) {
+  Process system(command({SYSTEMS "/stereo_split.yaml", "--dataset", *data_ / "walk", "--rate", "1", "--out",
+                          folder_ / "out", "--respawn"}));
+  ASSERT_TRUE(gets_poses("out/odometry", 10)) << system.output();
+  kill(child_of(system, "odometry"), SIGKILL);
+  EXPECT_TRUE(gets_poses("out/odometry_2", 10)) << system.output();
+  EXPECT_EQ(system.wait(kLimit), 0) << system.output();
+  EXPECT_THAT(system.output(), HasSubstr("odometry is started again"));
+  // What both had to say is there, each by itself.
+  EXPECT_GE(poses_in("out"), 10U);
+  EXPECT_FALSE(read_file(folder_.path() / "out" / "odometry_2_odometry_binocular.tum").empty());
+}
+
+TEST_F(SplitFaults, ALoneContainerIsStartedAgainToo) {
+  Process system(command({SYSTEMS "/stereo.yaml", "--dataset", *data_ / "walk", "--rate", "1", "--out", folder_ / "out",
+                          "--respawn", "--respawn-delay", "0.1"}));
+  ASSERT_TRUE(gets_poses("out/panvo", 10)) << system.output();
+  kill(child_of(system, "panvo"), SIGKILL);
+  EXPECT_TRUE(gets_poses("out/panvo_2", 10)) << system.output();
+  system.signal(SIGINT);
+  EXPECT_EQ(system.wait(kLimit), 0) << system.output();
+}
+
+}  // namespace
+}  // namespace panvo::test
