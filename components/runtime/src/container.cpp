@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <limits>
 
 #include "clocks.hpp"
 #include "context_state.hpp"
@@ -263,8 +264,9 @@ class Container::Implementation final : public steering::SteeredContainer {
         if (channel->is_read_by(reader)) node.subscribes.push_back(channel->topic().name);
       }
     };
-    add_topics(nodes.front(), own_.name(), &own_.state());
     const std::lock_guard lock(entries_mutex_);
+    add_topics(nodes.front(), own_.name(), &own_.state());
+    if (clock_) nodes.front().publishes.emplace_back(topics::kClock.name);
     for (const auto& entry : entries_) {
       Context::State& state = entry->context->state();
       NodeDescription node{state.description.name_space, state.description.name, {}, {}, {}};
@@ -346,10 +348,12 @@ class Container::Implementation final : public steering::SteeredContainer {
   }
 
   void run_live(const std::vector<Source*>& sources) {
+    if (!sources.empty()) open_clock();
     runner_ = std::make_unique<SourceRunner>(
         sources, SourceRunner::Settings{
                      .rate = options_.rate,
                      .queues_are_empty = [this] { return queues_are_empty(); },
+                     .reached = [this](std::int64_t stamp_ns) { publish_clock(stamp_ns); },
                      .failed = [this](const std::string& what) { fail_source(what); },
                      .warn = [this](const std::string& text) { log(LogLevel::kWarning, "container", text); }});
     active_runner_ = runner_.get();
@@ -363,6 +367,30 @@ class Container::Implementation final : public steering::SteeredContainer {
     drain();
     source_steps_ += runner_->steps();
     if (!sources.empty()) on_progress(runner_->progress());
+  }
+
+  /// What is played at its pace brings its time along for ROS 2's nodes with use_sim_time, unless a clock is played too. Components here go by
+  /// stamps and have no use for it, nor recorders, so that it only leaves the process.
+  void open_clock() {
+    const auto topic = describe(topics::kClock);
+    if (!bus_.bridge() || options_.rate <= 0) return;
+    for (const Channel* channel : bus_.channels()) {
+      if (channel->topic().name == topic.name && channel->has_publisher_other_than(nullptr)) return;
+    }
+    {
+      const std::lock_guard lock(entries_mutex_);
+      clock_ = bus_.bridge()->open_writer(topic);
+    }
+    tell_nodes();
+  }
+
+  void publish_clock(std::int64_t stamp_ns) {
+    std::int64_t last_ns = clock_ns_;  // of several sources: a clock that went back would unsettle who reads it
+    if (!clock_ || stamp_ns <= last_ns || !clock_ns_.compare_exchange_strong(last_ns, stamp_ns)) return;
+    auto clock = std::make_shared<rosgraph_msgs::msg::Clock>();
+    clock->clock().sec(static_cast<std::int32_t>(stamp_ns / 1'000'000'000));
+    clock->clock().nanosec(static_cast<std::uint32_t>(stamp_ns % 1'000'000'000));
+    clock_->write(Sample::of(interfaces::message_type<rosgraph_msgs::msg::Clock>(), std::move(clock), stamp_ns));
   }
 
   /// Lets what is under way be handled, then what was sent be received. Gives up after 10 s without progress; after 10 s in all when it was
@@ -454,6 +482,8 @@ class Container::Implementation final : public steering::SteeredContainer {
   std::mutex rosout_mutex_;
   std::shared_ptr<UntypedOutput> rosout_;
   Diagnostics diagnostics_;
+  std::unique_ptr<BridgeWriter> clock_;
+  std::atomic<std::int64_t> clock_ns_ = std::numeric_limits<std::int64_t>::min();
 
   std::mutex change_mutex_;           // one component comes or goes at a time
   mutable std::mutex entries_mutex_;  // guards entries_, and that what is in it stays meanwhile

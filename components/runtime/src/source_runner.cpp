@@ -33,6 +33,7 @@ void SourceRunner::play(std::size_t index) {
     while (const auto stamp_ns = source.next_stamp_ns()) {
       if (!wait_for_turn(index, *stamp_ns)) break;
       set_current_stamp_ns(*stamp_ns);
+      settings_.reached(*stamp_ns);
       source.emit();
       ++steps_;
       const std::lock_guard lock(mutex_);

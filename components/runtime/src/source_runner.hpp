@@ -20,6 +20,7 @@ class SourceRunner {
   struct Settings {
     double rate = 1;  // 0: as fast as the consumers take it
     std::function<bool()> queues_are_empty;
+    std::function<void(std::int64_t)> reached = [](std::int64_t) {};  // the stamp of what a source plays next
     std::function<void(const std::string&)> failed;
     std::function<void(const std::string&)> warn;
   };

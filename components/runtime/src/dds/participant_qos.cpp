@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "participant_qos.hpp"
 
+#include <fastdds/rtps/attributes/ServerAttributes.h>
 #include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
 #include <fastdds/rtps/transport/shared_mem/SharedMemTransportDescriptor.h>
 #include <spdlog/fmt/fmt.h>
@@ -41,6 +42,16 @@ constexpr const char* kSharedMemoryFolder = "/dev/shm";
 
 bool names_transports(const fdds::DomainParticipantQos& qos) {
   return !(qos.transport() == fdds::PARTICIPANT_QOS_DEFAULT.transport());
+}
+
+// Fast DDS makes a client of a participant itself where ROS_DISCOVERY_SERVER is set. A client is told of what
+// it matches only; one of ours has to hear of all, for recorders and for those who look at the graph.
+void hear_of_all_topics(eprosima::fastrtps::rtps::DiscoverySettings& discovery) {
+  eprosima::fastdds::rtps::RemoteServerList_t servers;
+  if (discovery.discoveryProtocol != eprosima::fastrtps::rtps::DiscoveryProtocol_t::SIMPLE) return;  // a profile says
+  if (!rtps::load_environment_server_info(servers) || servers.empty()) return;
+  discovery.discoveryProtocol = eprosima::fastrtps::rtps::DiscoveryProtocol_t::SUPER_CLIENT;
+  discovery.m_DiscoveryServers = servers;
 }
 
 // In a container or a sandbox there may be none, or one that cannot be written.
@@ -110,6 +121,7 @@ fdds::DomainParticipantQos participant_qos(const DdsSettings& settings, Role rol
   if (discovery.leaseDuration_announcementperiod == default_period) {
     discovery.leaseDuration_announcementperiod = eprosima::fastrtps::Duration_t(0, kAnnouncementPeriodNs);
   }
+  if (role == Role::kReaders) hear_of_all_topics(discovery);
   auto& flags = discovery.ignoreParticipantFlags;
   flags = static_cast<eprosima::fastrtps::rtps::ParticipantFilteringFlags_t>(
       flags | eprosima::fastrtps::rtps::ParticipantFilteringFlags_t::FILTER_SAME_PROCESS);

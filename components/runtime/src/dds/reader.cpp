@@ -45,7 +45,8 @@ void Reader::on_data_available(fdds::DataReader* reader) {
   fdds::SampleInfo info;
   for (Incoming incoming; !closed_ && reader->take_next_sample(&incoming, &info) == ReturnCode_t::RETCODE_OK;
        incoming = {}) {
-    if (info.valid_data) deliver(std::move(incoming), info.reception_timestamp.to_ns());
+    if (info.valid_data && !is_of_this_process(info.sample_identity.writer_guid()))
+      deliver(std::move(incoming), info.reception_timestamp.to_ns());
   }
 }
 
@@ -64,8 +65,13 @@ void Reader::deliver(Incoming incoming, std::int64_t time_ns) {
   }
 }
 
+bool Reader::is_of_this_process(const eprosima::fastrtps::rtps::GUID_t& writer) const {
+  return participant_->guid().is_on_same_process_as(writer);
+}
+
 void Reader::on_subscription_matched(fdds::DataReader*, const fdds::SubscriptionMatchedStatus& status) {
-  matched_writers_ = static_cast<std::size_t>(status.current_count);
+  if (is_of_this_process(eprosima::fastrtps::rtps::iHandle2GUID(status.last_publication_handle))) return;
+  matched_writers_ += static_cast<std::size_t>(status.current_count_change);  // wraps around as it should
 }
 
 void Reader::on_requested_incompatible_qos(fdds::DataReader*, const fdds::RequestedIncompatibleQosStatus& status) {

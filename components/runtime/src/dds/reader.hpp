@@ -42,6 +42,8 @@ class Reader final : public BridgeReader, private eprosima::fastdds::dds::DataRe
   void on_sample_rejected(eprosima::fastdds::dds::DataReader* reader,
                           const eprosima::fastrtps::SampleRejectedStatus& status) override;
   void deliver(Incoming incoming, std::int64_t time_ns);
+  /// With a discovery server Fast DDS does not keep participants of one process apart.
+  bool is_of_this_process(const eprosima::fastrtps::rtps::GUID_t& writer) const;
 
   const TopicDescription description_;
   const OnSample on_sample_;

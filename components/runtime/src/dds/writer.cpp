@@ -51,7 +51,10 @@ bool Writer::wait_for_acknowledgments(std::chrono::milliseconds limit) {
 }
 
 void Writer::on_publication_matched(fdds::DataWriter*, const fdds::PublicationMatchedStatus& status) {
-  matched_readers_ = static_cast<std::size_t>(status.current_count);
+  // With a discovery server Fast DDS does not keep participants of one process apart; our readers leave out what comes from here.
+  const auto reader = eprosima::fastrtps::rtps::iHandle2GUID(status.last_subscription_handle);
+  if (participant_->guid().is_on_same_process_as(reader)) return;
+  matched_readers_ += static_cast<std::size_t>(status.current_count_change);  // wraps around as it should
 }
 
 void Writer::on_offered_incompatible_qos(fdds::DataWriter*, const fdds::OfferedIncompatibleQosStatus& status) {

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <csignal>
+#include <fstream>
 #include <stdexcept>
 #include <thread>
 
@@ -87,6 +88,15 @@ std::string PeerProcess::next_received(const std::string& topic) {
 
 bool PeerProcess::matches(const std::string& topic, int count) {
   return eventually([&] { return ask("matched " + topic) == std::to_string(count); });
+}
+
+std::size_t PeerProcess::resident_kb() const {
+  std::ifstream status("/proc/" + std::to_string(pid_) + "/status");
+  for (std::string word; status >> word;) {
+    std::size_t size = 0;
+    if (word == "VmRSS:" && status >> size) return size;
+  }
+  throw std::runtime_error("the peer ended");
 }
 
 void PeerProcess::signal(int number) const { kill(pid_, number); }

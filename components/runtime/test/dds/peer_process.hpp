@@ -31,6 +31,9 @@ class PeerProcess {
 
   bool matches(const std::string& topic, int count);
 
+  /// Memory it has in use now.
+  std::size_t resident_kb() const;
+
   void signal(int number) const;
   /// Waits until a stop signal has taken effect.
   void wait_until_stopped() const;

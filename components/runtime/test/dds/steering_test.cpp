@@ -196,13 +196,17 @@ TEST_F(Steering, LosesNothingElsewhereWhileComponentsComeAndGo) {
   const auto send = [&] {
     for (std::size_t i = 0; i < kMessagesEach; ++i) ASSERT_TRUE(writer->write(text_sample(std::to_string(sent++))));
   };
+  std::size_t resident_kb = 0;
   for (std::size_t cycle = 0; cycle < kCycles; ++cycle) {
+    if (cycle == kCycles / 2) resident_kb = peer.resident_kb();  // caches and histories are full by then
     send();
     const auto response = load(relay());
     ASSERT_TRUE(response.success()) << response.error_message();
     send();
     ASSERT_TRUE(unload(response.unique_id()).success());
   }
+  RecordProperty("resident_kb_in_the_middle", static_cast<int>(resident_kb));
+  RecordProperty("resident_kb_at_the_end", static_cast<int>(peer.resident_kb()));
   const auto items = echoed.wait_for_count(sent);
   ASSERT_EQ(items.size(), sent);
   for (std::size_t i = 0; i < sent; ++i) ASSERT_EQ(text_of(items[i]), std::to_string(i));

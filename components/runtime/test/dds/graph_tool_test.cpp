@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+// What `panvo node`, `param`, `topic`, `service` and `component` say of a container in another process.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <array>
+#include <csignal>
+#include <cstdio>
+#include <string>
+
+#include "peer_process.hpp"
+#include "test_messages.hpp"
+
+namespace panvo::runtime::test {
+namespace {
+
+using testing::HasSubstr;
+
+struct Result {
+  int status = -1;
+  std::string said;
+};
+
+class GraphTool : public testing::Test {
+ protected:
+  /// Runs the program with these arguments, as a shell reads them.
+  Result run(const std::string& arguments) const {
+    const std::string command = std::string(PANVO_GRAPH_TOOL) + " --domain " + std::to_string(domain) + " " +
+                                (arguments.starts_with("--") ? "" : "--timeout 30 ") + arguments + " 2>&1";
+    Result result;
+    FILE* output = popen(command.c_str(), "r");
+    std::array<char, 4096> chunk{};
+    for (std::size_t size = 0; (size = fread(chunk.data(), 1, chunk.size(), output)) > 0;)
+      result.said.append(chunk.data(), size);
+    const int status = pclose(output);
+    result.status = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    return result;
+  }
+  /// What it says once it says so; discovery takes its time on a busy machine.
+  std::string eventually_says(const std::string& arguments, const std::string& wanted) const {
+    std::string said;
+    eventually([&] {
+      said = run(arguments).said;
+      return said.find(wanted) != std::string::npos;
+    });
+    return said;
+  }
+
+  const int domain = test_domain();
+  PeerProcess peer{domain, PANVO_CONTAINER_PEER};
+};
+
+TEST_F(GraphTool, ListsNodesTopicsServicesAndContainers) {
+  EXPECT_EQ(eventually_says("node list", "/steered"), "/robot/echo\n/steered\n");
+  EXPECT_THAT(eventually_says("node info robot/echo", "Service Servers"),
+              HasSubstr("/robot/echoed: std_msgs/msg/String"));
+  EXPECT_THAT(eventually_says("topic list -t", "/rosout"), HasSubstr("/robot/to_echo [std_msgs/msg/String]\n"));
+  EXPECT_THAT(eventually_says("topic info /robot/to_echo -v", "Node"), HasSubstr("Node: /robot/echo\n"));
+  EXPECT_THAT(eventually_says("service list", "list_nodes"), HasSubstr("/steered/_container/load_node\n"));
+  EXPECT_EQ(eventually_says("component running", "echo"), "/steered\n  1  /robot/echo\n");
+}
+
+TEST_F(GraphTool, GetsDescribesAndSetsParameters) {
+  EXPECT_EQ(run("param list /robot/echo").said, "before\nsize\n");
+  EXPECT_EQ(run("param get /robot/echo size").said, "3\n");
+  EXPECT_EQ(run("param set /robot/echo size 5").said, "set\n");
+  EXPECT_EQ(run("param get /robot/echo size").said, "5\n");
+  const auto refused = run("param set /robot/echo size 50");
+  EXPECT_EQ(refused.status, 1);
+  EXPECT_THAT(refused.said, HasSubstr("must be 1..9"));
+  EXPECT_THAT(run("param set /robot/echo size many").said, HasSubstr("size is an integer, a text was given"));
+  EXPECT_THAT(run("param describe /robot/echo size").said, HasSubstr("integer, 1 .. 9, may be set"));
+  EXPECT_EQ(run("param get /robot/echo nothing").status, 1);
+}
+
+TEST_F(GraphTool, LoadsAndUnloads) {
+  const auto loaded = run("component load /steered panvo_test_relay RelayComponent -n second -p copies:=5");
+  EXPECT_EQ(loaded.status, 0);
+  EXPECT_EQ(loaded.said, "2  /second\n");
+  EXPECT_EQ(run("param get /second copies").said, "5\n");
+  EXPECT_EQ(run("component unload /steered 2").said, "unloaded 2\n");
+  const auto refused = run("component load /steered panvo_nothing Nothing");
+  EXPECT_EQ(refused.status, 1);
+  EXPECT_THAT(refused.said, HasSubstr("panvo_nothing has no plugin"));
+}
+
+TEST_F(GraphTool, CallsServicesByTypeOfTheirServer) {
+  const auto answer = run("service call /robot/echo/get_parameters '{names: [size]}'");
+  EXPECT_EQ(answer.status, 0);
+  EXPECT_THAT(answer.said, HasSubstr("integer_value: 3\n"));
+  EXPECT_EQ(run("service call /robot/echo/get_parameters '{name: [size]}'").status, 2);
+}
+
+TEST_F(GraphTool, EchoesAndMeasuresTopics) {
+  EXPECT_THAT(run("topic echo /diagnostics --once").said, HasSubstr("  name: 'panvo: echo'\n"));
+  EXPECT_THAT(run("topic hz /diagnostics -n 3").said, HasSubstr("average rate: "));
+  EXPECT_THAT(run("topic bw /diagnostics -n 1").said, HasSubstr("KB/s from 1 messages"));
+}
+
+TEST_F(GraphTool, SaysWhatIsNotThereAndEndsInTime) {
+  const auto missing = run("--timeout 1 topic echo /nothing");
+  EXPECT_EQ(missing.status, 1);
+  EXPECT_THAT(missing.said, HasSubstr("nobody publishes /nothing"));
+  EXPECT_EQ(run("--timeout 1 param get /nobody size").status, 1);
+  EXPECT_EQ(run("--timeout 1 service call /nothing").status, 1);
+  EXPECT_EQ(run("topic").status, 2);
+  EXPECT_EQ(run("topic hz --help").status, 0);
+}
+
+}  // namespace
+}  // namespace panvo::runtime::test
