@@ -26,8 +26,8 @@ struct BagCheck {
   bool is_sound() const;
 };
 
-/// Reads all of a bag: SQLite's own check or MCAP's checksums and counts, every message, and every message decoded whose type is known. Throws
-/// BagError when there is no bag to read.
+/// Reads all of a bag: SQLite's own check or MCAP's checksums and counts, every message, and every message decoded
+/// whose type is known. Throws BagError when there is no bag to read.
 BagCheck check_bag(const std::filesystem::path& bag);
 
 }  // namespace panvo::recorder

@@ -21,8 +21,9 @@ struct BagMessage {
   interfaces::Bytes data;         ///< CDR, encapsulation included
 };
 
-/// Reads a rosbag2 folder, or a single .db3 or .mcap file of one, as written by ROS 2 Dashing to Jazzy and by BagWriter;
-/// compressed with zstd, too, as files (which are unpacked to the folder for temporary files) or message by message.
+/// Reads a rosbag2 folder, or a single .db3 or .mcap file, as written by ROS 2 Dashing to Jazzy and by BagWriter; also
+/// one that is compressed with zstd, as files (which are unpacked to the folder for temporary files) or message by
+/// message.
 ///
 /// What is not as it should be but can be helped is remembered as a warning: metadata.yaml that is missing,
 /// unreadable or stale (rebuilt from the files), a file of a split bag that is missing, a file that was cut off or is

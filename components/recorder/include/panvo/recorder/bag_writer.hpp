@@ -31,8 +31,8 @@ std::string dated_bag_name();
 ///
 /// Messages are committed in batches. When the process is killed or the power fails, the bag holds every committed
 /// batch. A .db3 then opens at once in every other tool too, for between commits all of it is in the .db3 file (a
-/// rollback journal, no write-ahead log); of an .mcap the summary is missing, and readers read through it. A killed process loses at most the last batch: Options::batch_time or batch_bytes,
-/// whichever comes first.
+/// rollback journal, no write-ahead log); of an .mcap the summary is missing, and readers read through it. A killed
+/// process loses at most the last batch: Options::batch_time or batch_bytes, whichever comes first.
 ///
 /// Safe to use from several threads; a thread of the writer's commits what has waited when no further message comes.
 class BagWriter {
