@@ -118,6 +118,12 @@ TEST_F(Fault, AnUnknownSettingIsRefusedAndTheComponentsAreNamed) {
   EXPECT_THAT(finished.output, AllOf(HasSubstr("odometer"), HasSubstr("binocular_odometry")));
 }
 
+TEST_F(Fault, ATopicThatIsAwaitedAndThatNobodyHereHasIsNamed) {
+  const Finished finished = run({PANVO_RUN, kStereo, "--await", "/nothing"});
+  EXPECT_EQ(finished.status, kBadConfiguration);
+  EXPECT_THAT(finished.output, AllOf(HasSubstr("/nothing"), HasSubstr("/odometry/binocular")));
+}
+
 /// Frames 8 to 11 of 20 are spoilt; the odometry must say so of those, and be right again by the end.
 struct SpoiltFrames : Fault,
                       testing::WithParamInterface<std::pair<const char*, std::function<void(cv::Mat&, cv::Mat&)>>> {};

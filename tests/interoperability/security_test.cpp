@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <csignal>
 
 #include "process.hpp"
@@ -100,6 +101,7 @@ TEST_F(Security, KeysThatAreNotThereAreNamedWithTheRemedy) {
   const Finished run_without = run(talker(keys("keys", "/nobody")), kLimit);
   EXPECT_EQ(run_without.status, 2);
   EXPECT_THAT(run_without.output, AllOf(HasSubstr("enclaves/nobody/"), HasSubstr("panvo secure")));
+  EXPECT_EQ(run_without.output.find("panvo secure"), run_without.output.rfind("panvo secure")) << "is said once";
 }
 
 TEST_F(Security, KeysThatAreThereAreKept) {

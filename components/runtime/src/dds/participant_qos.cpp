@@ -79,6 +79,9 @@ void load_profiles(const DdsSettings& settings) {
     throw ConfigError(
         fmt::format("DDS domain {}: must be 0 to {}; correct ROS_DOMAIN_ID", settings.domain, kMaxDomain));
   }
+  // Keys that are missing are told once, and not for each topic.
+  fdds::DomainParticipantQos tried;
+  apply_security(security_settings_from_environment(), tried);
   auto* factory = fdds::DomainParticipantFactory::get_instance();
   factory->load_profiles();
   if (settings.profiles.empty()) return;
