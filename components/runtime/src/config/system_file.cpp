@@ -12,8 +12,8 @@ namespace panvo::runtime {
 namespace {
 
 /// What ROS 2 knows of a process or node and a container of ours has no use for.
-const std::vector<std::string> kContainerKeysWithoutEffect = {"args",  "ros_args",      "output", "env",
-                                                              "param", "launch-prefix", "remap"};
+const std::vector<std::string> kContainerKeysWithoutEffect = {
+    "args", "ros_args", "output", "respawn", "respawn_delay", "env", "param", "launch-prefix", "remap"};
 const std::vector<std::string> kActions = {"node_container", "arg", "let", "include", "group", "push_ros_namespace"};
 
 class SystemReader {
@@ -175,7 +175,6 @@ class SystemReader {
     container.name_space = read_name_space(map, scope, findings_);
     map.text("pkg");  // ours is the only container there is
     map.text("exec");
-    read_respawn(map, container);
     if (!map.has("composable_node")) {
       findings_.problems.add(map.where(),
                              "node_container " + container.name + " loads nothing; add a list composable_node");
@@ -191,21 +190,6 @@ class SystemReader {
     map.finish(kContainerKeysWithoutEffect);
     claim_name(full_name(container.name_space, container.name), "container", container.where);
     system_.containers.push_back(std::move(container));
-  }
-
-  void read_respawn(YamlMap& map, ContainerDescription& container) {
-    if (const auto text = map.text("respawn")) {
-      if (const auto wrong = parse({{*text}, false, {}}, container.respawn)) {
-        findings_.problems.add(map.where("respawn"), "respawn: " + *wrong);
-      }
-    }
-    if (const auto text = map.text("respawn_delay")) {
-      const auto wrong = parse({{*text}, false, {}}, container.respawn_delay_s);
-      if (wrong || container.respawn_delay_s < 0) {
-        findings_.problems.add(map.where("respawn_delay"),
-                               "respawn_delay: " + wrong.value_or("must not be negative, s"));
-      }
-    }
   }
 
   void claim_name(const std::string& name, const std::string& what, const Location& where) {
