@@ -472,6 +472,8 @@ class Container::Implementation final : public steering::SteeredContainer {
 
   const ContainerOptions options_;
   const Logger::Write sink_;
+  std::mutex rosout_mutex_;  // before the bus, which may have a warning to log while it is made
+  std::shared_ptr<UntypedOutput> rosout_;
   ReplayOrder replay_order_;
   Bus bus_;
   Host host_;
@@ -479,8 +481,6 @@ class Container::Implementation final : public steering::SteeredContainer {
   std::atomic<SourceRunner*> active_runner_ = nullptr;
   Context own_;  // the container's own outputs
   std::shared_ptr<UntypedOutput> diagnostics_output_;
-  std::mutex rosout_mutex_;
-  std::shared_ptr<UntypedOutput> rosout_;
   Diagnostics diagnostics_;
   std::unique_ptr<BridgeWriter> clock_;
   std::atomic<std::int64_t> clock_ns_ = std::numeric_limits<std::int64_t>::min();
