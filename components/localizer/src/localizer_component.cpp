@@ -50,7 +50,7 @@ double seconds(std::int64_t from_ns, std::int64_t to_ns) { return static_cast<do
 
 }  // namespace
 
-/// odometry/binocular, odometry/quality, compass/azimuth_change, correction, landmarks -> odometry/enhanced, /tf, localization/state,
+/// odometry/binocular, odometry/quality, compass/azimuth_change, correction, landmarks, /initialpose -> odometry/enhanced, /tf, localization/state,
 /// correction/outcome, landmarks/poses, path/*. What is said of a panorama waits until odometry has come as far as its stamp.
 class LocalizerComponent final : public runtime::Component {
  public:
@@ -73,6 +73,7 @@ class LocalizerComponent final : public runtime::Component {
     context.input(topics::kLandmarks, [this](const auto& message) { on_landmark(*message); });
     context.input(topics::kAzimuthChange, [this](const auto& message) { on_azimuth(*message); });
     context.input(topics::kCorrection, [this](const auto& message) { on_correction(*message); });
+    context.input(topics::kInitialPose, [this](const auto& message) { on_initial_pose(*message); });
   }
 
  private:
@@ -117,6 +118,25 @@ class LocalizerComponent final : public runtime::Component {
     if (azimuth_ns_ && seconds(*azimuth_ns_, stamp_ns) > kNoPanorama_s) {
       say_once(fmt::format("no panorama for {:.0f} s: the pose drifts as the stereo odometry does", kNoPanorama_s));
     }
+  }
+
+  void on_initial_pose(const geometry_msgs::msg::PoseWithCovarianceStamped& message) {
+    const auto& frame = message.header().frame_id();
+    if (frame != parameters_.map_frame) {
+      return context_.log().warn("{} is in frame '{}' and was left out: give it in '{}'", topics::kInitialPose.name,
+                                 frame, parameters_.map_frame);
+    }
+    const auto pose = conversions::to_isometry(message.pose().pose());
+    if (!pose) return context_.log().warn("{} {}", topics::kInitialPose.name, pose.reason());
+    if (!begin_ns_) return context_.log().warn("{} was left out: there is no odometry yet", topics::kInitialPose.name);
+    // Who clicks on a map means now, and what his clock says is of no use.
+    const PoseInMap said{*pose, conversions::to_matrix(message.pose().covariance())};
+    if (!localizer_.add_said(said, localizer_.latest().stamp_ns)) {
+      return context_.log().warn("{} was left out: its covariance is none", topics::kInitialPose.name);
+    }
+    context_.log().info("{}: the vehicle is at ({:.1f}, {:.1f}) m in {}", topics::kInitialPose.name,
+                        pose->translation().x(), pose->translation().y(), parameters_.map_frame);
+    tell_state(localizer_.latest());
   }
 
   /// One of an earlier day comes before the journey begins, from a store; one of this journey is of a panorama that was taken on it.

@@ -11,6 +11,7 @@
 namespace panvo::localizer {
 namespace {
 
+using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
@@ -169,6 +170,30 @@ TEST_F(LocalizerComponent, DoesNotKnowWhereItIsInAMapOfAnEarlierDayUntilTwoPanor
   const Eigen::Vector3d expected = at(300.0, 100.0, 1.0) * Eigen::Vector3d(2.2, 0.0, 0.0);
   EXPECT_NEAR(enhanced_.back()->pose().pose().position().x(), expected.x(), 0.1);
   EXPECT_NEAR(enhanced_.back()->pose().pose().position().y(), expected.y(), 0.1);
+}
+
+TEST_F(LocalizerComponent, IsWhereAClickOnTheMapSays) {
+  load();
+  publish_landmark(9, kBegin_ns - 86'400'000'000'000, at(300.0, 100.0, 1.0));
+  geometry_msgs::msg::PoseWithCovarianceStamped click;
+  click.header().frame_id("map");
+  click.pose().pose(conversions::to_pose(at(310.0, 95.0, 0.5)));
+  click.pose().covariance()[0] = click.pose().covariance()[7] = 0.25;
+  click.pose().covariance()[35] = 0.0685;
+  harness_.publish(topics::kInitialPose, click);
+  EXPECT_THAT(harness_.log(), Contains(HasSubstr("there is no odometry yet")));
+  drive(0, 20);
+  EXPECT_EQ(states_.back()->state(), "unlocated");
+  click.header().frame_id("odom");
+  harness_.publish(topics::kInitialPose, click);
+  EXPECT_THAT(harness_.log(), Contains(HasSubstr("give it in 'map'")));
+  click.header().frame_id("map");
+  harness_.publish(topics::kInitialPose, click);
+  EXPECT_EQ(states_.back()->state(), "relocalised");
+  drive(20, 21);
+  const Eigen::Vector3d expected = at(310.0, 95.0, 0.5) * Eigen::Vector3d(0.2, 0.0, 0.0);
+  EXPECT_NEAR(enhanced_.back()->pose().pose().position().x(), expected.x(), 0.01);
+  EXPECT_NEAR(enhanced_.back()->pose().pose().position().y(), expected.y(), 0.01);
 }
 
 TEST_F(LocalizerComponent, SaysThatTheLandmarksMayBeOfAnotherPlace) {

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "diagnostic_msgs/msg/DiagnosticArray.h"
+#include "geometry_msgs/msg/PoseWithCovarianceStamped.h"
 #include "nav_msgs/msg/Odometry.h"
 #include "nav_msgs/msg/Path.h"
 #include "panvo/interfaces/qos.hpp"
@@ -76,6 +77,8 @@ inline constexpr Topic<panvo_msgs::msg::LandmarkPoses> kLandmarkPoses{"landmarks
 inline constexpr Topic<panvo_msgs::msg::PositionCorrection> kCorrection{"correction", qos::kResult};
 inline constexpr Topic<panvo_msgs::msg::CorrectionOutcome> kCorrectionOutcome{"correction/outcome", qos::kResult};
 inline constexpr Topic<panvo_msgs::msg::LocalizationState> kLocalizationState{"localization/state", qos::kLatched};
+/// Where somebody says that the vehicle is: RViz's "2D Pose Estimate".
+inline constexpr Topic<geometry_msgs::msg::PoseWithCovarianceStamped> kInitialPose{"/initialpose", qos::kDefault};
 inline constexpr Topic<nav_msgs::msg::Path> kPathBinocular{"path/binocular", qos::kResult};
 inline constexpr Topic<nav_msgs::msg::Path> kPathEnhanced{"path/enhanced", qos::kResult};
 inline constexpr Topic<nav_msgs::msg::Odometry> kGroundTruth{"ground_truth/odometry", qos::kResult};
