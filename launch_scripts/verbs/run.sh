@@ -18,7 +18,7 @@ SYSTEM is a system file, or the name of one in config/systems: `panvo run stereo
   --rate R        play at R times the recorded rate (default 0: as fast as the components take it)
   --set C.P=V     set parameter P of component C (panvo component show lists them)
   --container C   only this container of the system: the others run elsewhere
-  --await T[:N]   begin when N readers or writers elsewhere have topic T
+  --await T[:N]   begin when N other processes read or write topic T
   --respawn       start a container again that crashed (--respawn-delay S)
   --secure DIR    with the keys of a keystore (panvo secure)
   NAME:=VALUE     give an argument that the system file declares
