@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "compass_method.hpp"
+#include "panvo/vision/equirectangular.hpp"
 #include "panvo/vision/image_check.hpp"
 
 namespace panvo::panoramic_compass {
