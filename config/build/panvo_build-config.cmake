@@ -89,13 +89,14 @@ function(panvo_add_executable target)
   endif()
 endfunction()
 
-# panvo_add_test(<name> SOURCES ... [LINK ...] [LABELS ...] [TIMEOUT seconds] [DEFINITIONS ...] [ENVIRONMENT ...]): each TEST() becomes a ctest.
+# panvo_add_test(<name> SOURCES ... [LINK ...] [LABELS ...] [TIMEOUT seconds] [DEFINITIONS ...] [ENVIRONMENT ...]
+# [ALONE]): each TEST() becomes a ctest; ALONE: no other runs beside it.
 # The tests read recordings from $PANVO_DATA, or from the folder shared/data beside the checkout.
 function(panvo_add_test target)
   if(NOT BUILD_TESTING)
     return()
   endif()
-  cmake_parse_arguments(PARSE_ARGV 1 arg "" "TIMEOUT" "SOURCES;LINK;LABELS;DEFINITIONS;ENVIRONMENT")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "ALONE" "TIMEOUT" "SOURCES;LINK;LABELS;DEFINITIONS;ENVIRONMENT")
   find_package(GTest REQUIRED)
   include(GoogleTest)
   add_executable(${target} ${arg_SOURCES})
@@ -108,6 +109,9 @@ function(panvo_add_test target)
   set(properties TIMEOUT ${arg_TIMEOUT})
   if(arg_LABELS)
     list(APPEND properties LABELS ${arg_LABELS})
+  endif()
+  if(arg_ALONE)
+    list(APPEND properties RUN_SERIAL TRUE)
   endif()
   if(arg_ENVIRONMENT)
     list(APPEND properties ENVIRONMENT ${arg_ENVIRONMENT})

@@ -92,7 +92,7 @@ TEST_F(SplitFaults, KilledCamerasLeaveTheOdometryRunningAndTheirSuccessorsAreHea
   EXPECT_EQ(computing.wait(kLimit), 0) << computing.output();
 }
 
-TEST_F(SplitFaults, AKilledDiscoveryServerStopsNoDataAndItsSuccessorBringsNewcomersTogether) {
+TEST_F(SplitFaults, AKilledDiscoveryServerStopsNoData) {
   const std::string program = find_program("fast-discovery-server");
   if (program.empty()) GTEST_SKIP() << "there is no fast-discovery-server (package fastdds-tools)";
   const std::string port = std::to_string(11811 + getpid() % 1000);
@@ -106,9 +106,6 @@ TEST_F(SplitFaults, AKilledDiscoveryServerStopsNoDataAndItsSuccessorBringsNewcom
   server.wait();
   const std::size_t before = poses_in("first");
   EXPECT_TRUE(gets_poses("first", before + 10)) << "without its server nothing flows\n" << first.output();
-  const Process successor(serve);
-  Process second(odometry("second"));
-  EXPECT_TRUE(gets_poses("second", 10)) << second.output() << source.output();
 }
 
 TEST_F(SplitFaults, ASubscriberOfEverythingThatStandsStillStopsNothing) {
