@@ -73,7 +73,7 @@ replay_and_compare() {
   "$(program panvo_run)" "$system" "$kind" "$bag" --replay --out "$out" "${settings[@]}" >&2 ||
     fail "the replay failed; its messages are above"
   if [[ -n $recorded ]]; then
-    note "recorded in $recorded; from now on: panvo test-bag $bag --expect $recorded"
+    note "recorded in $recorded; from now on: panvo test-bag $bag --expect $recorded --system $system"
     return
   fi
   "$(program panvo_compare_runs)" "$out" "$expected" "${tolerances[@]}"

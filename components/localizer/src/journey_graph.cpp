@@ -135,6 +135,7 @@ vision::Matrix6d JourneyGraph::common_covariance(const Eigen::Vector3d& position
 }
 
 void JourneyGraph::place(const Eigen::Isometry3d& map_from_former_map) {
+  is_placed_ = true;
   for (auto& node : nodes_) {
     if (node.is_of_earlier_day) continue;
     node.map_from_base = map_from_former_map * node.map_from_base;
@@ -159,7 +160,7 @@ void JourneyGraph::solve() {
     graph.edges.push_back(
         {order[i - 1], order[i], a.odom_from_base.inverse() * b.odom_from_base, at_least(way_covariance(a, b)), false});
   }
-  bool is_anchored = false;  // by something else than where the journey began
+  bool is_anchored = is_placed_;  // by something else than where the journey began
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
     const auto& node = nodes_[i];
     if (node.is_of_earlier_day) {
@@ -167,10 +168,7 @@ void JourneyGraph::solve() {
       const auto& known = known_.at(node.landmark_id);
       graph.priors.push_back({i, known.map_from_base, at_least(known.covariance)});
     }
-    if (node.said) {
-      graph.priors.push_back({i, node.said->map_from_base, at_least(node.said->covariance)});
-      is_anchored = is_anchored || cuts_ns_.empty();
-    }
+    if (node.said) graph.priors.push_back({i, node.said->map_from_base, at_least(node.said->covariance)});
     if (!node.is_pass) continue;
     const auto seen = static_cast<std::size_t>(landmark_node(node.landmark_id) - nodes_.data());
     graph.edges.push_back({seen, i, node.sighting.landmark_from_base, at_least(node.sighting.covariance), true});

@@ -83,6 +83,30 @@ TEST(LocalizerBelief, IsWhereSomebodySaysInTheMapOfAnEarlierDay) {
   EXPECT_LT((localizer.latest().map_from_base.translation() - expected.translation()).norm(), 0.2);
 }
 
+TEST(LocalizerBelief, KeepsWhatItFoundWhereSomebodySaidWhenHeSaysAnotherPlace) {
+  Drive drive(7);
+  Localizer localizer({});
+  KnownLandmark known;
+  known.id = 9;
+  known.covariance = 1e-4 * vision::Matrix6d::Identity();
+  localizer.add_known(known);
+  localizer.add(drive.now());
+  Eigen::Isometry3d map_from_truth = Eigen::Isometry3d::Identity();
+  map_from_truth.translation() = Eigen::Vector3d(500.0, 300.0, 0.0);
+  ASSERT_TRUE(localizer.add_said(clicked(map_from_truth * drive.truth), drive.now().stamp_ns));
+  for (int i = 0; i < 10; ++i) localizer.add(drive.step());
+  const Eigen::Isometry3d place = map_from_truth * drive.truth;
+  ASSERT_TRUE(localizer.add_built(1, drive.now().stamp_ns));
+  localizer.add(drive.step());
+  Eigen::Isometry3d elsewhere = map_from_truth * drive.truth;
+  elsewhere.translation().x() -= 60.0;
+  ASSERT_TRUE(localizer.add_said(clicked(elsewhere), drive.now().stamp_ns));
+  EXPECT_LT((localizer.latest().map_from_base.translation() - elsewhere.translation()).norm(), 0.5);
+  const auto landmarks = localizer.landmarks();
+  ASSERT_EQ(landmarks.size(), 1U);
+  EXPECT_LT((landmarks[0].map_from_base.translation() - place.translation()).norm(), 0.5);
+}
+
 TEST(LocalizerBelief, TakesAVehicleForMovedWhereSomebodySaysSo) {
   Round round(8);
   const auto before = round.localizer.landmarks();

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <iterator>
 #include <limits>
 
 #include "clocks.hpp"
@@ -32,6 +33,7 @@ struct Entry {
   std::unique_ptr<Context> context;
   std::unique_ptr<Component, void (*)(Component*)> component{nullptr, nullptr};
   std::unique_ptr<steering::ComponentNode> node;
+  std::vector<std::string> service_names;
   std::vector<std::unique_ptr<BridgeService>> services;  // answer from the node
 
   ~Entry() {
@@ -248,9 +250,10 @@ class Container::Implementation final : public steering::SteeredContainer {
       const std::lock_guard lock(housekeeping_mutex_);
       to_unload_.push_back(id);
     });
-    entry.services = serve(steering::parameter_services(entry.full_name(), *entry.node));
-    for (auto& service : serve(steering::lifecycle_services(entry.full_name(), *entry.node)))
-      entry.services.push_back(std::move(service));
+    auto offered = steering::parameter_services(entry.full_name(), *entry.node);
+    std::ranges::move(steering::lifecycle_services(entry.full_name(), *entry.node), std::back_inserter(offered));
+    entry.service_names = names_of(offered);
+    entry.services = serve(std::move(offered));
   }
 
   /// Has the bridge tell other processes which nodes there are and what each has.
@@ -269,11 +272,8 @@ class Container::Implementation final : public steering::SteeredContainer {
     if (clock_) nodes.front().publishes.emplace_back(topics::kClock.name);
     for (const auto& entry : entries_) {
       Context::State& state = entry->context->state();
-      NodeDescription node{state.description.name_space, state.description.name, {}, {}, {}};
+      NodeDescription node{state.description.name_space, state.description.name, {}, {}, entry->service_names};
       add_topics(node, state.description.name, &state);
-      node.serves = names_of(steering::parameter_services(entry->full_name(), *entry->node));
-      for (auto& name : names_of(steering::lifecycle_services(entry->full_name(), *entry->node)))
-        node.serves.push_back(std::move(name));
       nodes.push_back(std::move(node));
     }
     told_channels_ = channels.size();

@@ -98,6 +98,7 @@ class JourneyGraph {
   std::map<std::uint32_t, KnownLandmark> known_;
   std::vector<Node> nodes_;
   std::vector<std::int64_t> cuts_ns_;
+  bool is_placed_ = false;  // the map is another than that which began with the journey
 };
 
 }  // namespace panvo::localizer
