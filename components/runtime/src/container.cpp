@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
-#include <iterator>
 #include <limits>
 
 #include "clocks.hpp"
@@ -33,7 +32,6 @@ struct Entry {
   std::unique_ptr<Context> context;
   std::unique_ptr<Component, void (*)(Component*)> component{nullptr, nullptr};
   std::unique_ptr<steering::ComponentNode> node;
-  std::vector<std::string> service_names;
   std::vector<std::unique_ptr<BridgeService>> services;  // answer from the node
 
   ~Entry() {
@@ -250,10 +248,9 @@ class Container::Implementation final : public steering::SteeredContainer {
       const std::lock_guard lock(housekeeping_mutex_);
       to_unload_.push_back(id);
     });
-    auto offered = steering::parameter_services(entry.full_name(), *entry.node);
-    std::ranges::move(steering::lifecycle_services(entry.full_name(), *entry.node), std::back_inserter(offered));
-    entry.service_names = names_of(offered);
-    entry.services = serve(std::move(offered));
+    entry.services = serve(steering::parameter_services(entry.full_name(), *entry.node));
+    for (auto& service : serve(steering::lifecycle_services(entry.full_name(), *entry.node)))
+      entry.services.push_back(std::move(service));
   }
 
   /// Has the bridge tell other processes which nodes there are and what each has.
@@ -272,8 +269,11 @@ class Container::Implementation final : public steering::SteeredContainer {
     if (clock_) nodes.front().publishes.emplace_back(topics::kClock.name);
     for (const auto& entry : entries_) {
       Context::State& state = entry->context->state();
-      NodeDescription node{state.description.name_space, state.description.name, {}, {}, entry->service_names};
+      NodeDescription node{state.description.name_space, state.description.name, {}, {}, {}};
       add_topics(node, state.description.name, &state);
+      node.serves = names_of(steering::parameter_services(entry->full_name(), *entry->node));
+      for (auto& name : names_of(steering::lifecycle_services(entry->full_name(), *entry->node)))
+        node.serves.push_back(std::move(name));
       nodes.push_back(std::move(node));
     }
     told_channels_ = channels.size();
