@@ -4,13 +4,13 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <csignal>
 #include <fstream>
 #include <set>
 #include <sstream>
 
+#include "panvo/runtime/test_domain.hpp"
 #include "process.hpp"
 
 namespace panvo::test {
@@ -47,7 +47,7 @@ bool is_gone(const std::set<std::string>& segments) {
 
 /// A container that runs until it is told to end, in a domain nobody else is in.
 std::vector<std::string> live_system() {
-  return {PANVO_RUN, SYSTEMS "/stereo.yaml", "--domain", std::to_string(1 + getpid() % 99)};
+  return {PANVO_RUN, SYSTEMS "/stereo.yaml", "--domain", std::to_string(runtime::test_domain())};
 }
 
 TEST(ShmLeftovers, OfAKilledProcessAreFreedAndThoseOfALivingOneStay) {

@@ -8,6 +8,7 @@
 #include <csignal>
 #include <sstream>
 
+#include "panvo/runtime/test_domain.hpp"
 #include "process.hpp"
 #include "rendered_walk.hpp"
 
@@ -42,7 +43,7 @@ class SplitFaults : public testing::Test {
     Words all = before_;
     all.push_back(PANVO_RUN);
     all.insert(all.end(), words.begin(), words.end());
-    all.insert(all.end(), {"--domain", std::to_string(1 + getpid() % 99)});
+    all.insert(all.end(), {"--domain", std::to_string(runtime::test_domain())});
     return all;
   }
 

@@ -3,7 +3,6 @@
 // writes what we read.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <condition_variable>
@@ -12,6 +11,7 @@
 
 #include "panvo/interfaces/topics.hpp"
 #include "panvo/runtime/bridge.hpp"
+#include "panvo/runtime/test_domain.hpp"
 #include "panvo_messages.hpp"
 #include "process.hpp"
 
@@ -104,7 +104,7 @@ class Cyclone : public testing::TestWithParam<Subject> {
     for (int n = 0; n < kMessages; ++n) EXPECT_TRUE(GetParam().equals(received_[n], n)) << "message " << n;
   }
 
-  const int domain_ = 1 + getpid() % 99;
+  const int domain_ = runtime::test_domain();
   std::mutex mutex_;
   std::condition_variable arrived_;
   std::vector<SamplePtr> received_;

@@ -2,11 +2,11 @@
 // Keys made by `panvo secure`: who has them hears and is heard; who has none, or another's, neither reads nor writes.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <csignal>
 
+#include "panvo/runtime/test_domain.hpp"
 #include "process.hpp"
 #include "rendered_walk.hpp"
 
@@ -63,7 +63,7 @@ class Security : public testing::Test {
   }
 
   TemporaryFolder folder_;
-  const std::string domain_ = std::to_string(1 + getpid() % 99);
+  const std::string domain_ = std::to_string(runtime::test_domain());
 };
 
 TEST_F(Security, OnlyWhoHasKeysOfTheSameKeystoreReadsWhatIsWrittenWithKeys) {

@@ -4,11 +4,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <unistd.h>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "panvo/runtime/test_domain.hpp"
 #include "process.hpp"
 
 namespace panvo::test {
@@ -116,8 +116,7 @@ void RecordedJourney::ends_at_the_same_place_live() {
 }
 
 void RecordedJourney::ends_at_the_same_place_in_two_processes() {
-  // A domain of its own, so that nothing else that runs here is heard.
-  const std::string domain = std::to_string(100 + getpid() % 100);
+  const std::string domain = std::to_string(runtime::test_domain());
   const Finished split = play("split", {"--rate", "2", "--domain", domain}, HERE "/two_processes.yaml");
   ASSERT_EQ(split.status, 0) << split.output;
   // Panoramas may be lost on the way when the machine is busy: others of the pass then give the corrections, each off by some decimetres,

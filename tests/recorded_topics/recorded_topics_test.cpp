@@ -7,6 +7,7 @@
 #include <map>
 #include <sstream>
 
+#include "panvo/runtime/test_domain.hpp"
 #include "process.hpp"
 #include "rendered_walk.hpp"
 
@@ -85,8 +86,7 @@ TEST_P(RecordedTopics, GiveTheSameOdometryLiveInOneContainerWhenNothingIsDropped
 TEST_P(RecordedTopics, GiveTheSameOdometryInTwoProcessesOverDds) {
   const Finished replayed = play("replayed", {"--replay"});
   ASSERT_EQ(replayed.status, 0) << replayed.output;
-  // A domain of its own, so that nothing else that runs here is heard.
-  const std::string domain = std::to_string(100 + getpid() % 100);
+  const std::string domain = std::to_string(runtime::test_domain());
   const Finished split = run({PANVO_RUN, HERE "/two_processes.yaml", "--bag", bag_, "--out", folder_ / "split",
                               "--rate", "1", "--domain", domain},
                              seconds(200));

@@ -3,19 +3,12 @@
 
 #include <unistd.h>
 
-#include <cstdlib>
 #include <random>
 
 #include "sensor_msgs/msg/Image.h"
 #include "std_msgs/msg/String.h"
 
 namespace panvo::runtime::test {
-
-int test_domain() {
-  if (const char* domain = std::getenv("PANVO_TEST_DOMAIN")) return std::atoi(domain);
-  return 1 +
-         static_cast<int>(getpid() % 99);  // the ports of higher domains reach into those the system gives to anybody
-}
 
 std::string unique_topic(const std::string& name) { return "/bridge_test_" + std::to_string(getpid()) + "/" + name; }
 

@@ -7,15 +7,12 @@
 #include <string>
 
 #include "panvo/runtime/bridge.hpp"
+#include "panvo/runtime/test_domain.hpp"
 
 namespace panvo::runtime::test {
 
 /// Long past what anything here takes on a busy machine; reached only by what is broken.
 inline constexpr std::chrono::seconds kLimit{30};
-
-/// The DDS domain of the tests: PANVO_TEST_DOMAIN, or one that differs between processes that run at the same
-/// time.
-int test_domain();
 
 /// A topic name no other test has.
 std::string unique_topic(const std::string& name);
