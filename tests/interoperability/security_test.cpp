@@ -14,6 +14,7 @@ namespace panvo::test {
 namespace {
 
 using testing::AllOf;
+using testing::ContainsRegex;
 using testing::HasSubstr;
 using Words = std::vector<std::string>;
 
@@ -56,10 +57,11 @@ class Security : public testing::Test {
                   with_keys);
   }
 
-  static void expect_heard(Process& listener, int count) {
+  /// Whether it heard anything. How much is not asked: who exchanges keys may miss the first messages.
+  static void expect_heard(Process& listener, bool is_heard) {
     listener.signal(SIGINT);
     EXPECT_EQ(listener.wait(kLimit), 0) << listener.output();
-    EXPECT_THAT(listener.output(), HasSubstr("recorded " + std::to_string(count) + " messages"));
+    EXPECT_THAT(listener.output(), ContainsRegex(is_heard ? "recorded [1-9][0-9]* messages" : "recorded 0 messages"));
   }
 
   TemporaryFolder folder_;
@@ -73,9 +75,9 @@ TEST_F(Security, OnlyWhoHasKeysOfTheSameKeystoreReadsWhatIsWrittenWithKeys) {
   Process with_others(listener("with_others", keys("others", "/listener")));
   const Finished talked = run(talker(keys("keys", "/talker")), kLimit);
   EXPECT_EQ(talked.status, 0) << talked.output;
-  expect_heard(with_keys, 20);
-  expect_heard(without, 0);
-  expect_heard(with_others, 0);
+  expect_heard(with_keys, true);
+  expect_heard(without, false);
+  expect_heard(with_others, false);
 }
 
 TEST_F(Security, WhatIsWrittenWithoutKeysIsReadOnlyByWhoHasNone) {
@@ -83,8 +85,8 @@ TEST_F(Security, WhatIsWrittenWithoutKeysIsReadOnlyByWhoHasNone) {
   Process without(listener("without", {}));
   const Finished talked = run(talker({}), kLimit);
   EXPECT_EQ(talked.status, 0) << talked.output;
-  expect_heard(without, 20);
-  expect_heard(with_keys, 0);
+  expect_heard(without, true);
+  expect_heard(with_keys, false);
 }
 
 TEST_F(Security, ASplitSystemWithKeysComputesItsOdometry) {

@@ -69,6 +69,21 @@ TEST_F(Diagnosed, WarnsWhileMessagesAreDroppedAndNoLonger) {
   EXPECT_EQ(collect(1.0).level(), 0);
 }
 
+TEST_F(Diagnosed, NamesWhatCouldNotBeUsedAndWhyAndWarnsWhileThatGoesOn) {
+  EXPECT_TRUE(state.rejections.add("image", "is cut off"));
+  EXPECT_FALSE(state.rejections.add("image", "is cut off"));
+  auto status = collect(1.0);
+  EXPECT_EQ(status.level(), 1);
+  EXPECT_EQ(status.message(), "2 messages could not be used in the last 1 s: image is cut off");
+  EXPECT_EQ(value(status, "image rejected"), "2 messages; the last is cut off");
+
+  state.rejections.accepted("image");
+  status = collect(1.0);
+  EXPECT_EQ(status.level(), 0);
+  EXPECT_EQ(value(status, "image rejected"), "2 messages; the last is cut off");
+  EXPECT_TRUE(state.rejections.add("image", "is cut off")) << "what goes wrong again is news";
+}
+
 TEST_F(Diagnosed, IsInErrorOnceItHasStopped) {
   Port& port = state.main_worker().add_port("image", 5, false, [](Task&) { throw std::logic_error("broken"); });
   handle(port, 1);

@@ -85,6 +85,18 @@ TEST(Plugin, ThatIsNoComponentIsRefusedAndSaysWhatIsMissing) {
   EXPECT_FALSE(is_mapped("panvo_test_unregistered"));
 }
 
+TEST(Plugin, BuiltWithOtherHeadersIsRefusedAndSaysWhichBeforeAnyOfItsCodeIsCalled) {
+  ComponentDescription description = relay();
+  description.package = "panvo_test_stale";
+  EXPECT_THAT(
+      why_not(description),
+      AllOf(HasSubstr("was built for panvo_runtime 0.1.0 (headers 000000000000, messages 000000000000), this is " +
+                      std::string(kRuntimeVersion)),
+            HasSubstr("build the plugin again")));
+  EXPECT_THAT(std::string(kRuntimeVersion),
+              testing::MatchesRegex("0\\.1\\.0 \\(headers [0-9a-f]+, messages [0-9a-f]+\\)"));
+}
+
 TEST(Plugin, IsFoundWhereColconInstallsEachPackageByItself) {
   const std::filesystem::path install =
       std::filesystem::temp_directory_path() / ("panvo_install_" + std::to_string(getpid()));

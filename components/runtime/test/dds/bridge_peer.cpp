@@ -75,6 +75,8 @@ class Peer {
       if (const auto writer = writers_.find(name); writer != writers_.end())
         return std::to_string(writer->second->matched_readers());
       return std::to_string(readers_.at(name)->matched_writers());
+    } else if (verb == "matched_writers") {  // where there is a writer of this name as well
+      return std::to_string(readers_.at(name)->matched_writers());
     } else if (verb == "counters") {
       const auto counters = readers_.at(name)->counters();
       return std::to_string(counters.received) + " " + std::to_string(counters.lost) + " " +

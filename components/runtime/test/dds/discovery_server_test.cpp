@@ -85,6 +85,8 @@ TEST_F(WithDiscoveryServer, AMessageOfAnotherProcessComesOnceAndNoneOfThisOne) {
   peer->ask("open_writer " + name + " " + kStringType + " reliable volatile 10");
   peer->ask("open_reader " + name + " " + kStringType + " reliable volatile 10");
   ASSERT_TRUE(eventually([&] { return reader->matched_writers() == 1 && writer->matched_readers() == 1; }));
+  ASSERT_TRUE(peer->matches(name, 1));
+  ASSERT_TRUE(eventually([&] { return peer->ask("matched_writers " + name) == "1"; }));
   ASSERT_TRUE(writer->write(text_sample("own")));
   ASSERT_TRUE(writer->wait_for_acknowledgments(kLimit));
   peer->next_received(name);  // the other process has it

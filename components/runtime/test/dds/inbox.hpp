@@ -36,6 +36,11 @@ class Inbox {
     return items_;
   }
 
+  void clear() {
+    const std::lock_guard lock(mutex_);
+    items_.clear();
+  }
+
   std::vector<Item> items() {
     const std::lock_guard lock(mutex_);
     return items_;

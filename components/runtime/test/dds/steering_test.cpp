@@ -87,6 +87,11 @@ class Steering : public testing::Test {
     reader = bridge->open_reader(describe(kEchoed), echoed.callback());
     writer = bridge->open_writer(describe(kToEcho));
     ASSERT_TRUE(eventually([&] { return writer->matched_readers() == 1 && reader->matched_writers() == 1; }));
+    // That they match here does not say that they match there yet, where what comes before is lost.
+    ASSERT_TRUE(eventually([&] { return writer->write(text_sample("any")) && !echoed.items().empty(); }));
+    ASSERT_TRUE(writer->write(text_sample("end")));
+    ASSERT_TRUE(echoed.wait_for([](const SamplePtr& sample) { return text_of(sample) == "end"; }));
+    echoed.clear();
   }
   static std::string text_of(const SamplePtr& sample) { return Sample::as<std_msgs::msg::String>(sample)->data(); }
 
