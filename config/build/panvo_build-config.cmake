@@ -59,6 +59,28 @@ function(panvo_add_library target)
   set_property(DIRECTORY APPEND PROPERTY PANVO_EXPORTED ${target})
 endfunction()
 
+# panvo_add_fingerprint(panvo_<name> HEADERS ...): "panvo/<name>/fingerprint.hpp", by which a binary can tell whether another was compiled with the
+# same public headers: PANVO_<NAME>_FINGERPRINT.
+function(panvo_add_fingerprint target)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "HEADERS;DEPENDS")
+  string(REGEX REPLACE "^panvo_" "" short ${target})
+  string(TOUPPER ${target}_FINGERPRINT macro)
+  set(folder ${CMAKE_CURRENT_BINARY_DIR}/fingerprint)
+  set(header ${folder}/panvo/${short}/fingerprint.hpp)
+  add_custom_command(
+    OUTPUT ${folder}/stamp
+    BYPRODUCTS ${header}
+    COMMAND ${CMAKE_COMMAND} -DMACRO=${macro} "-DHEADERS=${arg_HEADERS}" -DOUTPUT=${header} -P ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/panvo_fingerprint.cmake
+    COMMAND ${CMAKE_COMMAND} -E touch ${folder}/stamp
+    DEPENDS ${arg_HEADERS} ${arg_DEPENDS} ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/panvo_fingerprint.cmake
+    COMMENT "Taking the fingerprint of ${target}'s headers"
+    VERBATIM)
+  add_custom_target(${target}_fingerprint DEPENDS ${folder}/stamp)
+  add_dependencies(${target} ${target}_fingerprint)
+  target_include_directories(${target} PUBLIC $<BUILD_INTERFACE:${folder}>)
+  install(FILES ${header} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/panvo/${short})
+endfunction()
+
 # panvo_add_component(panvo_<name>_component SOURCES ... [LINK ...] [NO_INSTALL]): a plugin that the container loads by file name.
 function(panvo_add_component target)
   cmake_parse_arguments(PARSE_ARGV 1 arg "NO_INSTALL" "" "SOURCES;LINK")

@@ -154,6 +154,7 @@ Context::~Context() { state_->stop(); }
 const std::string& Context::name() const noexcept { return state_->description.name; }
 const Logger& Context::log() const noexcept { return state_->logger; }
 StageTimes& Context::times() noexcept { return state_->times; }
+Rejections& Context::rejections() noexcept { return state_->rejections; }
 ParameterReader& Context::parameter_reader() { return state_->reader; }
 const std::vector<ParameterDescription>& Context::declared_parameters() const noexcept {
   return state_->reader.declared();

@@ -49,6 +49,7 @@ struct Context::State {
   ParameterReader reader;
   Logger logger;
   StageTimes times;
+  Rejections rejections;
   std::vector<std::string> problems;             // of topics; those of parameters are the reader's
   std::vector<std::unique_ptr<Worker>> workers;  // the component's own, then its stages
   std::vector<Channel*> inputs;

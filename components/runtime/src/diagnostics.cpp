@@ -3,6 +3,8 @@
 
 #include <spdlog/fmt/fmt.h>
 
+#include <utility>
+
 namespace panvo::runtime {
 namespace {
 
@@ -26,22 +28,8 @@ diagnostic_msgs::msg::DiagnosticArray Diagnostics::collect(const std::vector<con
     diagnostic_msgs::msg::DiagnosticStatus status;
     status.name("panvo: " + component->description.name);
     status.hardware_id("none");
-    std::uint64_t newly_dropped = 0;
-    for (const auto& worker : component->workers) {
-      for (const auto& port : worker->counters()) {
-        Previous& previous = previous_[component->description.name + "\n" + port.input];
-        newly_dropped += port.dropped - previous.dropped;
-        add(status, port.input + " rate",
-            fmt::format("{:.1f} Hz", static_cast<double>(port.handled - previous.handled) / interval_s));
-        add(status, port.input + " latency",
-            fmt::format("median {:.2f} ms, p95 {:.2f} ms, max {:.2f} ms", port.latency.quantile_ms(0.5),
-                        port.latency.quantile_ms(0.95), port.latency.max_ms()));
-        add(status, port.input + " messages",
-            fmt::format("{} received, {} handled, {} dropped, {} waiting, {} undecodable", port.received, port.handled,
-                        port.dropped, port.waiting, port.undecodable));
-        previous = {port.handled, port.dropped};
-      }
-    }
+    const std::uint64_t dropped = tell_inputs(*component, interval_s, status);
+    const Rejected rejected = tell_rejections(*component, status);
     for (const auto& [stage, times] : component->times.snapshot()) {
       add(status, stage + " time",
           fmt::format("mean {:.2f} ms, p95 {:.2f} ms, max {:.2f} ms, CPU mean {:.2f} ms", times.wall.mean_ms(),
@@ -50,9 +38,13 @@ diagnostic_msgs::msg::DiagnosticArray Diagnostics::collect(const std::vector<con
     if (component->failed()) {
       status.level(kError);
       status.message("stopped by an error, see the log");
-    } else if (newly_dropped > 0) {
+    } else if (dropped > 0) {
       status.level(kWarning);
-      status.message(fmt::format("too slow: {} messages dropped in the last {:.0f} s", newly_dropped, interval_s));
+      status.message(fmt::format("too slow: {} messages dropped in the last {:.0f} s", dropped, interval_s));
+    } else if (rejected.messages > 0) {
+      status.level(kWarning);
+      status.message(fmt::format("{} messages could not be used in the last {:.0f} s: {}", rejected.messages,
+                                 interval_s, rejected.why));
     } else {
       status.level(kOk);
       status.message(component->active ? "runs" : "inactive: messages are not handed to it");
@@ -60,6 +52,42 @@ diagnostic_msgs::msg::DiagnosticArray Diagnostics::collect(const std::vector<con
     array.status().push_back(std::move(status));
   }
   return array;
+}
+
+std::uint64_t Diagnostics::tell_inputs(const Context::State& component, double interval_s,
+                                       diagnostic_msgs::msg::DiagnosticStatus& status) {
+  std::uint64_t newly_dropped = 0;
+  for (const auto& worker : component.workers) {
+    for (const auto& port : worker->counters()) {
+      Previous& previous = previous_[component.description.name + "\n" + port.input];
+      newly_dropped += port.dropped - previous.dropped;
+      add(status, port.input + " rate",
+          fmt::format("{:.1f} Hz", static_cast<double>(port.handled - previous.handled) / interval_s));
+      add(status, port.input + " latency",
+          fmt::format("median {:.2f} ms, p95 {:.2f} ms, max {:.2f} ms", port.latency.quantile_ms(0.5),
+                      port.latency.quantile_ms(0.95), port.latency.max_ms()));
+      add(status, port.input + " messages",
+          fmt::format("{} received, {} handled, {} dropped, {} waiting, {} undecodable", port.received, port.handled,
+                      port.dropped, port.waiting, port.undecodable));
+      previous.handled = port.handled;
+      previous.dropped = port.dropped;
+    }
+  }
+  return newly_dropped;
+}
+
+Diagnostics::Rejected Diagnostics::tell_rejections(const Context::State& component,
+                                                   diagnostic_msgs::msg::DiagnosticStatus& status) {
+  Rejected newly;
+  for (const auto& [topic, count] : component.rejections.snapshot()) {
+    add(status, topic + " rejected", fmt::format("{} messages; the last {}", count.messages, count.last_reason));
+    Previous& previous = previous_[component.description.name + "\n" + topic];
+    if (const auto more = count.messages - std::exchange(previous.rejected, count.messages); more > 0) {
+      newly.messages += more;
+      newly.why = topic + " " + count.last_reason;
+    }
+  }
+  return newly;
 }
 
 }  // namespace panvo::runtime

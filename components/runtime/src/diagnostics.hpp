@@ -11,7 +11,8 @@
 namespace panvo::runtime {
 
 /// How the components of a container are, as ROS 2's diagnostic tools show it: for each one a status with the rate, latency, waiting and dropped
-/// messages of each input and the times of each stage. Warns while messages are being dropped; an error is a component that has stopped.
+/// messages of each input, what it could not use and why, and the times of each stage. Warns while messages are being dropped or rejected; an error
+/// is a component that has stopped.
 class Diagnostics {
  public:
   /// `interval_s`: since the last call, for rates.
@@ -20,9 +21,20 @@ class Diagnostics {
 
  private:
   struct Previous {
-    std::uint64_t handled = 0, dropped = 0;
+    std::uint64_t handled = 0, dropped = 0, rejected = 0;
   };
-  std::map<std::string, Previous> previous_;  // by component and input
+  struct Rejected {
+    std::uint64_t messages = 0;
+    std::string why;
+  };
+
+  /// How many were dropped since the last call.
+  std::uint64_t tell_inputs(const Context::State& component, double interval_s,
+                            diagnostic_msgs::msg::DiagnosticStatus& status);
+  /// What was rejected since the last call, with the reason of one of them.
+  Rejected tell_rejections(const Context::State& component, diagnostic_msgs::msg::DiagnosticStatus& status);
+
+  std::map<std::string, Previous> previous_;  // by component and topic
 };
 
 }  // namespace panvo::runtime

@@ -41,7 +41,7 @@ Library::Library(const fs::path& file) : file_(file) {
     problem = "registers no component: add PANVO_REGISTER_COMPONENT(Class) to its source file";
   } else if (first_->runtime_version != kRuntimeVersion) {
     problem = "was built for panvo_runtime " + std::string(first_->runtime_version) + ", this is " +
-              std::string(kRuntimeVersion) + ": build it again";
+              std::string(kRuntimeVersion) + ": build the plugin again";
   }
   if (!problem.empty()) {
     dlclose(handle_);

@@ -3,7 +3,9 @@
 
 #include <string_view>
 
+#include "panvo/interfaces/fingerprint.hpp"
 #include "panvo/runtime/context.hpp"
+#include "panvo/runtime/fingerprint.hpp"
 
 namespace panvo::runtime {
 
@@ -19,14 +21,16 @@ class Component {
 
 /// What a plugin says of one component class in it.
 struct ComponentDescriptor {
-  std::string_view runtime_version;  ///< of the headers the plugin was built with; must equal the container's
+  std::string_view runtime_version;  ///< of what the plugin was built with; must equal the container's
   std::string_view class_name;       ///< "StereoRectifierComponent"
   Component* (*create)(Context&);
   void (*destroy)(Component*);
   const ComponentDescriptor* next;  ///< the plugin's other components
 };
 
-inline constexpr std::string_view kRuntimeVersion = "0.1.0";
+/// The version, and what tells apart two builds of one version whose headers differ: a plugin of the one would misread the other's memory.
+inline constexpr std::string_view kRuntimeVersion =
+    "0.1.0 (headers " PANVO_RUNTIME_FINGERPRINT ", messages " PANVO_INTERFACES_FINGERPRINT ")";
 
 /// The C function by which a container asks a plugin for its components.
 inline constexpr const char* kPluginEntryPoint = "panvo_components";

@@ -14,6 +14,7 @@
 #include "panvo/runtime/logger.hpp"
 #include "panvo/runtime/output.hpp"
 #include "panvo/runtime/parameters.hpp"
+#include "panvo/runtime/rejections.hpp"
 #include "panvo/runtime/sample.hpp"
 #include "panvo/runtime/source.hpp"
 #include "panvo/runtime/stage.hpp"
@@ -97,6 +98,9 @@ class Context {
 
   const Logger& log() const noexcept;
   StageTimes& times() noexcept;
+
+  /// Where the component tells of messages that it cannot use.
+  Rejections& rejections() noexcept;
 
   /// The stamp of what is being processed, ns: header stamp where the message has one. 0 before the first.
   std::int64_t now_ns() const noexcept;

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+// A plugin that was compiled long ago, with other headers.
+#include <cstdlib>
+
+#include "panvo/runtime/component.hpp"
+
+namespace {
+
+using panvo::runtime::Component;
+using panvo::runtime::Context;
+
+panvo::runtime::ComponentDescriptor stale{"0.1.0 (headers 000000000000, messages 000000000000)", "RelayComponent",
+                                          [](Context&) -> Component* { std::abort(); },
+                                          [](Component*) { std::abort(); }, nullptr};
+const panvo::runtime::detail::Registrar registrar{stale};
+
+}  // namespace
