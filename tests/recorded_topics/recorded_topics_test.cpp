@@ -103,6 +103,22 @@ TEST_P(RecordedTopics, GiveTheSameOdometryInTwoProcessesOverDds) {
   }
 }
 
+TEST_P(RecordedTopics, CompressedWithoutLossGiveTheSameOdometryBitForBit) {
+  const std::string compressed = folder_ / "compressed";
+  const Finished recorded = run({PANVO_RUN, SYSTEMS "/record_compressed.yaml", "output:=" + compressed, "format:=png",
+                                 "images:=/stereo/left/image_raw /stereo/right/image_raw",
+                                 "topics:=/stereo/.*/camera_info /tf_static", "--bag", bag_, "--replay"});
+  ASSERT_EQ(recorded.status, 0) << recorded.output;
+  const Finished replayed = play("replayed", {"--replay"});
+  ASSERT_EQ(replayed.status, 0) << replayed.output;
+  const Finished decoded =
+      run({PANVO_RUN, kStereo, "compressed:=true", "--bag", compressed, "--out", folder_ / "decoded", "--replay"});
+  ASSERT_EQ(decoded.status, 0) << decoded.output;
+  const std::string expected = read_file(folder_.path() / "replayed" / "odometry_binocular.tum");
+  EXPECT_FALSE(expected.empty());
+  EXPECT_EQ(expected, read_file(folder_.path() / "decoded" / "odometry_binocular.tum"));
+}
+
 TEST_P(RecordedTopics, RecordedTwiceAreTheSameBagMessageForMessage) {
   const std::string again = folder_ / "again";
   const Finished recorded =
