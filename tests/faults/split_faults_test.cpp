@@ -93,12 +93,14 @@ TEST_F(SplitFaults, KilledCamerasLeaveTheOdometryRunningAndTheirSuccessorsAreHea
   EXPECT_EQ(computing.wait(kLimit), 0) << computing.output();
 }
 
-TEST_F(SplitFaults, AKilledDiscoveryServerStopsNoData) {
+TEST_F(SplitFaults, AKilledDiscoveryServerStopsNoDataAndWithABackupItsSuccessorBringsNewcomersTogether) {
   const std::string program = find_program("fast-discovery-server");
   if (program.empty()) GTEST_SKIP() << "there is no fast-discovery-server (package fastdds-tools)";
   const std::string port = std::to_string(11811 + getpid() % 1000);
-  const Words serve{program, "-i", "0", "-l", "127.0.0.1", "-p", port};
-  before_ = {find_program("env"), "ROS_DISCOVERY_SERVER=127.0.0.1:" + port};
+  const std::string env = find_program("env");
+  // With a backup it keeps in its folder whom it knows: those cannot tell its successor from it, and do not introduce themselves again.
+  const Words serve{env, "--chdir=" + folder_.path().string(), program, "-i", "0", "-l", "127.0.0.1", "-p", port, "-b"};
+  before_ = {env, "ROS_DISCOVERY_SERVER=127.0.0.1:" + port};
   Process server(serve);
   Process first(odometry("first"));
   Process source(cameras());
@@ -107,6 +109,12 @@ TEST_F(SplitFaults, AKilledDiscoveryServerStopsNoData) {
   server.wait();
   const std::size_t before = poses_in("first");
   EXPECT_TRUE(gets_poses("first", before + 10)) << "without its server nothing flows\n" << first.output();
+  const Process successor(serve);
+  const Finished newcomer =
+      run({before_[0], before_[1], "ROS_DOMAIN_ID=" + std::to_string(runtime::test_domain()), PANVO_GRAPH, "topic",
+           "echo", "/diagnostics", "--once", "--timeout", std::to_string(kLimit.count())},
+          kLimit + std::chrono::seconds(10));
+  EXPECT_EQ(newcomer.status, 0) << newcomer.output;
 }
 
 TEST_F(SplitFaults, ASubscriberOfEverythingThatStandsStillStopsNothing) {
