@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <stdexcept>
 
 #include "panvo/conversions/time.hpp"
 
@@ -25,13 +26,14 @@ bool all_finite(const std::array<double, size>& values) {
 
 PairedCamera paired(const vision::DistortedCamera& raw, const Eigen::Matrix3d& rotation,
                     const vision::PinholeCamera& rectified, double baseline_m) {
-  return {raw, rotation, rectified, baseline_m};
+  return {vision::lens_camera(raw), rotation, rectified, baseline_m};
 }
 
 }  // namespace
 
 bool PairedCamera::operator==(const PairedCamera& other) const {
-  return equal(raw.pinhole, other.raw.pinhole) && raw.distortion == other.raw.distortion &&
+  return equal(raw.pinhole, other.raw.pinhole) && raw.model == other.raw.model &&
+         raw.distortion == other.raw.distortion && raw.xi == other.raw.xi &&
          rectified_from_raw == other.rectified_from_raw && equal(rectified, other.rectified) &&
          baseline_m == other.baseline_m;
 }
@@ -42,7 +44,10 @@ bool is_rectified(const PairedCamera& camera) {
   const auto& rectified = camera.rectified;
   const double difference_px = std::max({std::abs(raw.fx - rectified.fx), std::abs(raw.fy - rectified.fy),
                                          std::abs(raw.cx - rectified.cx), std::abs(raw.cy - rectified.cy)});
-  return std::all_of(camera.raw.distortion.begin(), camera.raw.distortion.end(),
+  const bool is_perspective =
+      camera.raw.model == vision::LensModel::kPlumbBob || camera.raw.model == vision::LensModel::kRational;
+  return is_perspective &&
+         std::all_of(camera.raw.distortion.begin(), camera.raw.distortion.end(),
                      [](double value) { return value == 0.0; }) &&
          camera.rectified_from_raw.isIdentity(kTolerance) && difference_px <= kTolerance * raw.fx &&
          raw.width == rectified.width && raw.height == rectified.height;
@@ -65,8 +70,8 @@ sensor_msgs::msg::CameraInfo to_camera_info(const PairedCamera& camera, std::int
   info.header().frame_id(frame_id);
   info.width(static_cast<std::uint32_t>(raw.width));
   info.height(static_cast<std::uint32_t>(raw.height));
-  info.distortion_model("plumb_bob");
-  info.d().assign(camera.raw.distortion.begin(), camera.raw.distortion.end());
+  info.distortion_model(std::string(vision::ros_name(camera.raw.model)));
+  info.d() = vision::ros_coefficients(camera.raw);
   info.k({raw.fx, 0, raw.cx, 0, raw.fy, raw.cy, 0, 0, 1});
   Eigen::Map<RowMajor3d>(info.r().data()) = camera.rectified_from_raw;
   const double tx_px_m = camera.baseline_m == 0.0 ? 0.0 : -rectified.fx * camera.baseline_m;
@@ -89,24 +94,14 @@ Result<PairedCamera> to_camera(const sensor_msgs::msg::CameraInfo& info) {
   if ((rotation * rotation.transpose() - Eigen::Matrix3d::Identity()).norm() > 1e-3 || rotation.determinant() < 0.0) {
     return Reason{"has an R that is no rotation; calibrate again"};
   }
-  PairedCamera camera;
-  const auto& d = info.d();
-  for (std::size_t i = 0; i < d.size(); ++i) {
-    if (!std::isfinite(d[i])) return Reason{"holds a value in D that is not a number"};
-    if (i < camera.raw.distortion.size()) camera.raw.distortion[i] = d[i];
-  }
-  const bool is_distorted = std::any_of(d.begin(), d.end(), [](double value) { return value != 0.0; });
-  const bool has_more = d.size() > 5 && std::any_of(d.begin() + 5, d.end(), [](double value) { return value != 0.0; });
-  const auto& model = info.distortion_model();
-  if (is_distorted && (has_more || (model != "plumb_bob" && model != "rational_polynomial"))) {
-    return Reason{
-        fmt::format("has the distortion model '{}' with {} coefficients; only plumb_bob (k1 k2 p1 p2 k3) is supported: "
-                    "calibrate so",
-                    model, d.size())};
-  }
   const int width = static_cast<int>(info.width());
   const int height = static_cast<int>(info.height());
-  camera.raw.pinhole = {k[0], k[4], k[2], k[5], width, height};
+  PairedCamera camera;
+  try {
+    camera.raw = vision::lens_camera(info.distortion_model(), info.d(), {k[0], k[4], k[2], k[5], width, height});
+  } catch (const std::invalid_argument& error) {
+    return Reason{error.what()};
+  }
   camera.rectified_from_raw = rotation;
   camera.rectified = {p[0], p[5], p[2], p[6], width, height};
   camera.baseline_m = p[3] == 0.0 ? 0.0 : -p[3] / p[0];

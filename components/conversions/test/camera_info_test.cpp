@@ -67,10 +67,10 @@ TEST(CameraInfo, SaysWhyItCannotBeUsed) {
   EXPECT_THAT(reason([](auto& i) { i.k()[2] = kNan; }), HasSubstr("not a number"));
   EXPECT_THAT(reason([](auto& i) { i.d()[1] = kNan; }), HasSubstr("not a number"));
   EXPECT_THAT(reason([](auto& i) {
-                i.distortion_model("equidistant");
+                i.distortion_model("division");
                 i.d({0.1, 0, 0, 0});
               }),
-              HasSubstr("'equidistant'"));
+              HasSubstr("'division'"));
   EXPECT_THAT(reason([](auto& i) { i.d({0.1, 0, 0, 0, 0, 0.2, 0, 0}); }), HasSubstr("plumb_bob"));
   EXPECT_THAT(reason([](auto& i) { i.binning_x(2); }), HasSubstr("binning"));
 }
@@ -80,6 +80,25 @@ TEST(CameraInfo, MayLeaveOutTheDistortionOfAPerfectLens) {
   info.d().clear();
   info.distortion_model("");
   EXPECT_TRUE(to_camera(info));
+}
+
+TEST(CameraInfo, ComesBackAsItWasWhateverTheLens) {
+  const auto pair = raw_pair();
+  auto camera = right_camera(pair, vision::rectify(pair));
+  camera.raw.model = vision::LensModel::kEquidistant;
+  camera.raw.distortion = {0.1, -0.02, 0.003, 0.0004};
+  const auto fisheye = to_camera_info(camera, 0, "right");
+  EXPECT_EQ(fisheye.distortion_model(), "equidistant");
+  EXPECT_EQ(fisheye.d().size(), 4u);
+  EXPECT_TRUE(*to_camera(fisheye) == camera);
+  camera.raw.model = vision::LensModel::kMei;
+  camera.raw.xi = 1.1;
+  EXPECT_TRUE(*to_camera(to_camera_info(camera, 0, "right")) == camera);
+  auto other = camera;
+  other.raw.xi = 1.2;
+  EXPECT_FALSE(other == camera);
+  camera.raw = {camera.raw.pinhole, vision::LensModel::kRational, {0.1, 0.2, 0.0, 0.0, 0.3, 0.4, 0.5, 0.6}};
+  EXPECT_TRUE(*to_camera(to_camera_info(camera, 0, "right")) == camera);
 }
 
 TEST(CameraPair, NeedsABaselineAndOneRectifiedCamera) {
@@ -103,6 +122,9 @@ TEST(RectifiedCamera, HasNothingToCorrect) {
   EXPECT_TRUE(is_rectified(camera));
   camera.raw.distortion[2] = 1e-6;
   EXPECT_FALSE(is_rectified(camera));
+  camera = right_camera(pair, rectified);
+  camera.raw.model = vision::LensModel::kEquidistant;
+  EXPECT_FALSE(is_rectified(camera)) << "a fisheye is bent without distortion, too";
   camera = right_camera(pair, rectified);
   camera.rectified.cx += 0.1;
   EXPECT_FALSE(is_rectified(camera));

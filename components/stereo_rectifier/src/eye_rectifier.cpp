@@ -3,8 +3,11 @@
 
 #include <fmt/format.h>
 
+#include <stdexcept>
+
 #include "panvo/conversions/image.hpp"
 #include "panvo/conversions/time.hpp"
+#include "panvo/vision/camera_model.hpp"
 
 namespace panvo::stereo_rectifier {
 namespace {
@@ -15,6 +18,18 @@ bool describes_the_same(const sensor_msgs::msg::CameraInfo& a, const sensor_msgs
          a.binning_y() == b.binning_y() && a.roi() == b.roi();
 }
 
+/// The camera of a camera_info, of a lens that can be straightened.
+conversions::Result<conversions::PairedCamera> usable_camera(const sensor_msgs::msg::CameraInfo& info) {
+  const auto camera = conversions::to_camera(info);
+  if (!camera) return camera;
+  try {
+    const vision::CameraModel model(camera->raw);
+  } catch (const std::invalid_argument& error) {
+    return conversions::Reason{error.what()};
+  }
+  return camera;
+}
+
 bool is_grey(const sensor_msgs::msg::Image& image) { return image.encoding() == "mono8" || image.encoding() == "8UC1"; }
 
 }  // namespace
@@ -23,7 +38,7 @@ EyeRectifier::Change EyeRectifier::set_camera(const sensor_msgs::msg::CameraInfo
   if (camera_ && describes_the_same(info, info_)) return Change::kNone;
   const auto change = camera_ ? Change::kChanged : Change::kFirst;
   info_ = info;
-  camera_ = conversions::to_camera(info);
+  camera_ = usable_camera(info);
   map_.reset();
   return change;
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "panvo/conversions/image.hpp"
+#include "panvo/vision/camera_model.hpp"
 
 namespace panvo::stereo_rectifier {
 namespace {
@@ -129,6 +130,50 @@ TEST(EyeRectifier, AlignsTheRowsOfAPairToATenthOfAPixel) {
   }
   EXPECT_GE(seen, 15);
   EXPECT_GT(largest_raw_row_error_px, 5.0) << "the raw pair must be one that needs rectification";
+}
+
+/// The pair of before seen through fisheyes: the rows are as straight.
+TEST(EyeRectifier, AlignsTheRowsOfAFisheyePair) {
+  const auto pair = raw_pair();
+  const auto stereo = vision::rectify(pair);
+  auto left_camera = conversions::left_camera(pair, stereo);
+  auto right_camera = conversions::right_camera(pair, stereo);
+  left_camera.raw = {pair.left.pinhole, vision::LensModel::kEquidistant, {-0.02, 0.004, -0.001, 0.0002}};
+  right_camera.raw = {pair.right.pinhole, vision::LensModel::kEquidistant, {-0.018, 0.003, -0.001, 0.0001}};
+  const vision::CameraModel left_model(left_camera.raw), right_model(right_camera.raw);
+  auto left_rectifier = rectifier_of(conversions::to_camera_info(left_camera, 0, "left"));
+  auto right_rectifier = rectifier_of(conversions::to_camera_info(right_camera, 0, "right"));
+  std::vector<Eigen::Vector2d> left_pixels, right_pixels;
+  for (const auto& point : points_in_left()) {
+    left_pixels.push_back(*left_model.project(point));
+    right_pixels.push_back(*right_model.project(pair.right_from_left * point));
+  }
+  const auto left = left_rectifier.rectify(spots(left_pixels));
+  const auto right = right_rectifier.rectify(spots(right_pixels));
+  ASSERT_TRUE(left && right);
+  int seen = 0;
+  for (const auto& point : points_in_left()) {
+    const Eigen::Vector3d point_in_rectified = stereo.rectified_left_from_left * point;
+    const auto expected_left = stereo.camera.project(point_in_rectified);
+    const double disparity_px = stereo.camera.fx * stereo.baseline_m / point_in_rectified.z();
+    const Eigen::Vector2d expected_right = expected_left - Eigen::Vector2d(disparity_px, 0.0);
+    if (!stereo.camera.contains(expected_left, 9.0) || !stereo.camera.contains(expected_right, 9.0)) continue;
+    const auto left_spot = centre_of_spot(*conversions::view(**left), expected_left);
+    const auto right_spot = centre_of_spot(*conversions::view(**right), expected_right);
+    EXPECT_NEAR(left_spot.y(), right_spot.y(), 0.15);
+    EXPECT_NEAR(left_spot.x() - right_spot.x(), disparity_px, 0.2);
+    ++seen;
+  }
+  EXPECT_GE(seen, 15);
+}
+
+TEST(EyeRectifier, RefusesALensThatFoldsTheImageOver) {
+  auto info = rectified_infos().left;
+  info.d({-0.9, 0.0, 0.0, 0.0, 0.0});
+  auto rectifier = rectifier_of(info);
+  const auto raw =
+      std::shared_ptr<const sensor_msgs::msg::Image>(conversions::make_image(7, "left", "mono8", kWidth, kHeight));
+  EXPECT_THAT(rectifier.rectify(raw).reason(), AllOf(HasSubstr("folds the image over"), HasSubstr("calibrate")));
 }
 
 TEST(EyeRectifier, HandsOnARectifiedImageItself) {

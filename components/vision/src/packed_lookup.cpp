@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "panvo/vision/packed_lookup.hpp"
+
+#include <stdexcept>
+#include <string>
+
+#include "packed_lookup_kernels.hpp"
+
+namespace panvo::vision {
+namespace {
+
+constexpr LookupKernels kGreyPlain{look_up_plain<1>, blend_plain<1>};
+constexpr LookupKernels kColourPlain{look_up_plain<3>, blend_plain<3>};
+
+/// What this processor runs.
+const LookupKernels& kernels(int channels) {
+  if (channels != 1 && channels != 3)
+    throw std::invalid_argument("images of " + std::to_string(channels) + " channels are not looked up; 1 or 3 are");
+#if defined(__x86_64__)
+  static const bool has_avx2 = __builtin_cpu_supports("avx2") != 0;
+  if (has_avx2) return channels == 1 ? kGreyLookupAvx2 : kColourLookupAvx2;
+#endif
+  return channels == 1 ? kGreyPlain : kColourPlain;
+}
+
+}  // namespace
+
+void look_up(const LookupSource& source, const std::uint32_t* lookups, int count, int channels,
+             std::uint8_t* destination) {
+  kernels(channels).one(source, lookups, count, destination);
+}
+
+void look_up_blended(const LookupSource& first, const std::uint32_t* first_lookups, const LookupSource& second,
+                     const std::uint32_t* second_lookups, const std::uint8_t* weights, int count, int channels,
+                     std::uint8_t* destination) {
+  kernels(channels).blended(first, first_lookups, second, second_lookups, weights, count, destination);
+}
+
+}  // namespace panvo::vision

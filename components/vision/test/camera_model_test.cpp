@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "panvo/vision/camera_model.hpp"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <numbers>
+#include <opencv2/calib3d.hpp>
+#include <stdexcept>
+#include <string>
+
+namespace panvo::vision {
+namespace {
+
+using std::numbers::pi;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+constexpr double kDegree = pi / 180.0;
+
+LensCamera plumb_bob() {
+  return {{400, 402, 318, 243, 640, 480}, LensModel::kPlumbBob, {-0.3, 0.11, 0.001, -0.0007, -0.01}};
+}
+LensCamera rational() {
+  return {{330, 331, 322, 238, 640, 480}, LensModel::kRational, {0.9, 0.2, 0.0004, -0.0003, 0.004, 1.25, 0.45, 0.03}};
+}
+LensCamera fisheye() {
+  return {{290, 291, 540, 545, 1088, 1088}, LensModel::kEquidistant, {-0.012, 0.004, -0.002, 0.0002}};
+}
+LensCamera mirror() { return {{380, 381, 512, 515, 1024, 1024}, LensModel::kMei, {-0.1, 0.05, 0.0005, -0.0004}, 1.2}; }
+LensCamera wide_mei() { return {{900, 905, 640, 480, 1280, 960}, LensModel::kMei, {-0.05, 0.02, 0.0, 0.0003}, 0.8}; }
+
+std::string refusal(const LensCamera& camera, double field_of_view_rad = 0.0) {
+  try {
+    const CameraModel model(camera, field_of_view_rad);
+    return "accepted up to " + std::to_string(model.widest_rad() / kDegree) + " degrees";
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+}
+
+class AnyLens : public ::testing::TestWithParam<LensCamera> {};
+
+TEST_P(AnyLens, TakesEveryPixelThatItShowsBackWithinAMillionth) {
+  const CameraModel model(GetParam());
+  const auto& size = GetParam().pinhole;
+  int seen = 0;
+  double worst_px = 0.0;
+  for (int v = 0; v < size.height; v += 7) {
+    for (int u = 0; u < size.width; u += 7) {
+      const auto direction = model.unproject({u, v});
+      if (!direction) continue;
+      ++seen;
+      EXPECT_NEAR(direction->norm(), 1.0, 1e-12);
+      const auto pixel = model.project(3.0 * *direction);
+      ASSERT_TRUE(pixel) << u << " " << v;
+      worst_px = std::max(worst_px, (*pixel - Eigen::Vector2d(u, v)).norm());
+    }
+  }
+  EXPECT_LT(worst_px, 1e-6);
+  EXPECT_GT(seen, 0.7 * (size.width / 7) * (size.height / 7));
+}
+
+TEST_P(AnyLens, TakesEveryDirectionThatItSeesBack) {
+  const CameraModel model(GetParam());
+  for (double theta = 0.0; theta < model.widest_rad(); theta += 0.05) {
+    for (double around = 0.0; around < 2.0 * pi; around += 0.7) {
+      const Eigen::Vector3d direction(std::sin(theta) * std::cos(around), std::sin(theta) * std::sin(around),
+                                      std::cos(theta));
+      const auto pixel = model.project(direction);
+      ASSERT_TRUE(pixel);
+      const auto back = model.unproject(*pixel);
+      ASSERT_TRUE(back) << theta / kDegree << " degrees";
+      EXPECT_LT((*back - direction).norm(), 1e-8) << theta / kDegree << " degrees";
+    }
+  }
+}
+
+TEST_P(AnyLens, SeesNothingBeyondItsWidestAngle) {
+  const CameraModel model(GetParam(), 60.0 * kDegree);
+  EXPECT_TRUE(model.project({std::sin(29.9 * kDegree), 0.0, std::cos(29.9 * kDegree)}));
+  EXPECT_FALSE(model.project({std::sin(30.1 * kDegree), 0.0, std::cos(30.1 * kDegree)}));
+  EXPECT_FALSE(
+      model.unproject(*CameraModel(GetParam()).project({0.0, -std::sin(30.1 * kDegree), std::cos(30.1 * kDegree)})));
+  EXPECT_FALSE(model.project({0.0, 0.0, -1.0}));
+  EXPECT_FALSE(model.project(Eigen::Vector3d::Zero()));
+}
+
+INSTANTIATE_TEST_SUITE_P(Lenses, AnyLens, ::testing::Values(plumb_bob(), rational(), fisheye(), mirror(), wide_mei()),
+                         [](const auto& lens) {
+                           const std::string name(ros_name(lens.param.model));
+                           return lens.param.xi > 1.0 ? name + "_mirror" : name;
+                         });
+
+TEST(CameraModel, ProjectsPerspectiveLensesAsOpenCvDoes) {
+  for (const auto& camera : {plumb_bob(), rational()}) {
+    const CameraModel model(camera);
+    const auto& p = camera.pinhole;
+    const std::vector<cv::Point3d> points{{0.3, -0.2, 1.0}, {-0.5, 0.4, 1.1}, {0.0, 0.1, 2.0}};
+    std::vector<cv::Point2d> pixels;
+    cv::projectPoints(points, cv::Vec3d::zeros(), cv::Vec3d::zeros(),
+                      cv::Matx33d(p.fx, 0, p.cx, 0, p.fy, p.cy, 0, 0, 1),
+                      cv::Mat(1, 8, CV_64F, const_cast<double*>(camera.distortion.data())), pixels);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const auto pixel = model.project({points[i].x, points[i].y, points[i].z});
+      ASSERT_TRUE(pixel);
+      EXPECT_NEAR(pixel->x(), pixels[i].x, 1e-9);
+      EXPECT_NEAR(pixel->y(), pixels[i].y, 1e-9);
+    }
+  }
+}
+
+TEST(CameraModel, ProjectsFisheyesAsOpenCvDoes) {
+  const auto camera = fisheye();
+  const CameraModel model(camera);
+  const auto& p = camera.pinhole;
+  const std::vector<cv::Point3d> points{{0.3, -0.2, 1.0}, {-2.5, 1.4, 1.1}};
+  std::vector<cv::Point2d> pixels;
+  cv::fisheye::projectPoints(points, pixels, cv::Vec3d::zeros(), cv::Vec3d::zeros(),
+                             cv::Matx33d(p.fx, 0, p.cx, 0, p.fy, p.cy, 0, 0, 1), cv::Vec4d(camera.distortion.data()));
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const auto pixel = model.project({points[i].x, points[i].y, points[i].z});
+    ASSERT_TRUE(pixel);
+    EXPECT_NEAR(pixel->x(), pixels[i].x, 1e-9);
+    EXPECT_NEAR(pixel->y(), pixels[i].y, 1e-9);
+  }
+}
+
+/// [Mei2007, section 2]: onto the unit sphere, from there out of a point xi above its centre.
+TEST(CameraModel, ProjectsThroughMeisSphere) {
+  LensCamera camera = mirror();
+  camera.distortion = {};
+  const auto pixel = CameraModel(camera).project({2.0, -1.0, -0.5});
+  ASSERT_TRUE(pixel);
+  const double length = std::sqrt(4.0 + 1.0 + 0.25);
+  EXPECT_NEAR(pixel->x(), 380.0 * (2.0 / length) / (-0.5 / length + 1.2) + 512.0, 1e-9);
+  EXPECT_NEAR(pixel->y(), 381.0 * (-1.0 / length) / (-0.5 / length + 1.2) + 515.0, 1e-9);
+}
+
+TEST(CameraModel, IsAPinholeWhereMeisXiIsZero) {
+  LensCamera mei = plumb_bob();
+  mei.model = LensModel::kMei;
+  mei.distortion[4] = 0.0;
+  LensCamera perspective = mei;
+  perspective.model = LensModel::kPlumbBob;
+  const Eigen::Vector3d point(0.4, -0.3, 1.2);
+  EXPECT_LT((*CameraModel(mei).project(point) - *CameraModel(perspective).project(point)).norm(), 1e-9);
+}
+
+TEST(CameraModel, RefusesADistortionThatFoldsTheImageOver) {
+  LensCamera camera = plumb_bob();
+  camera.distortion = {-0.9};  // the radius is largest at 0.61, the border at 0.8
+  EXPECT_THAT(refusal(camera), AllOf(HasSubstr("folds the image over 31.3"), HasSubstr("calibrate")));
+  camera = fisheye();
+  camera.distortion = {-0.2};  // largest at 1.29 rad, where the image ends at 1.86
+  EXPECT_THAT(refusal(camera), HasSubstr("folds the image over 73.9"));
+  EXPECT_THAT(refusal(camera, 180.0 * kDegree), AllOf(HasSubstr("folds"), HasSubstr("180 degrees")));
+  EXPECT_THAT(refusal(camera, 140.0 * kDegree), HasSubstr("accepted up to 70.0"));
+}
+
+TEST(CameraModel, RefusesWhatNoLensIs) {
+  EXPECT_THAT(refusal(plumb_bob(), 185.0 * kDegree), AllOf(HasSubstr("185 degrees"), HasSubstr("plumb_bob")));
+  EXPECT_THAT(refusal(fisheye(), 361.0 * kDegree), HasSubstr("361 degrees"));
+  LensCamera camera = fisheye();
+  camera.pinhole.fy = 0.0;
+  EXPECT_THAT(refusal(camera), HasSubstr("focal lengths"));
+  camera = fisheye();
+  camera.pinhole.height = 0;
+  EXPECT_THAT(refusal(camera), HasSubstr("1088 x 0 px"));
+  camera = mirror();
+  camera.xi = -0.5;
+  EXPECT_THAT(refusal(camera), HasSubstr("xi = -0.5"));
+}
+
+}  // namespace
+}  // namespace panvo::vision
