@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <csignal>
+#include <fstream>
 #include <sstream>
 
 #include "panvo/runtime/test_domain.hpp"
@@ -143,6 +144,25 @@ TEST_F(SplitFaults, AContainerThatIsKilledIsStartedAgainWhereAskedFor) {
   // What both had to say is there, each by itself.
   EXPECT_GE(poses_in("out"), 10U);
   EXPECT_FALSE(read_file(folder_.path() / "out" / "odometry_2_odometry_binocular.tum").empty());
+}
+
+TEST_F(SplitFaults, AContainerIsStartedAgainWhereItsSystemFileSaysSo) {
+  std::ofstream(folder_.path() / "again.yaml") << R"(launch:
+- node_container:
+    name: both
+    respawn: true
+    respawn_delay: 0.1
+    composable_node:
+    - {pkg: panvo_stereo_rectifier, plugin: StereoRectifierComponent, name: stereo_rectifier}
+    - {pkg: panvo_binocular_odometry, plugin: BinocularOdometryComponent, name: binocular_odometry}
+)";
+  Process system(command({folder_ / "again.yaml", "--container", "both", "--dataset", *data_ / "walk", "--rate", "1",
+                          "--out", folder_ / "out"}));
+  ASSERT_TRUE(gets_poses("out/both", 10)) << system.output();
+  kill(child_of(system, "both"), SIGKILL);
+  EXPECT_TRUE(gets_poses("out/both_2", 10)) << system.output();
+  system.signal(SIGINT);
+  EXPECT_EQ(system.wait(kLimit), 0) << system.output();
 }
 
 TEST_F(SplitFaults, ALoneContainerIsStartedAgainToo) {

@@ -39,9 +39,9 @@ Library::Library(const fs::path& file) : file_(file) {
               "; register a component in it by PANVO_REGISTER_COMPONENT(Class)";
   } else if (!first_) {
     problem = "registers no component: add PANVO_REGISTER_COMPONENT(Class) to its source file";
-  } else if (first_->runtime_version != kRuntimeVersion) {
-    problem = "was built for panvo_runtime " + std::string(first_->runtime_version) + ", this is " +
-              std::string(kRuntimeVersion) + ": build the plugin again";
+  } else if (first_->runtime_build != kRuntimeBuild) {
+    problem = "was built for panvo_runtime " + std::string(first_->runtime_build) + ", this is " +
+              std::string(kRuntimeBuild) + ": build the plugin again";
   }
   if (!problem.empty()) {
     dlclose(handle_);

@@ -91,9 +91,9 @@ TEST(Plugin, BuiltWithOtherHeadersIsRefusedAndSaysWhichBeforeAnyOfItsCodeIsCalle
   EXPECT_THAT(
       why_not(description),
       AllOf(HasSubstr("was built for panvo_runtime 0.1.0 (headers 000000000000, messages 000000000000), this is " +
-                      std::string(kRuntimeVersion)),
+                      std::string(kRuntimeBuild)),
             HasSubstr("build the plugin again")));
-  EXPECT_THAT(std::string(kRuntimeVersion),
+  EXPECT_THAT(std::string(kRuntimeBuild),
               testing::MatchesRegex("0\\.1\\.0 \\(headers [0-9a-f]+, messages [0-9a-f]+\\)"));
 }
 

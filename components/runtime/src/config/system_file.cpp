@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "panvo/runtime/system_file.hpp"
 
+#include <spdlog/fmt/fmt.h>
+
 #include <algorithm>
+#include <charconv>
 
 #include "component_entry.hpp"
 #include "panvo/runtime/names.hpp"
@@ -13,7 +16,8 @@ namespace {
 
 /// What ROS 2 knows of a process or node and a container of ours has no use for.
 const std::vector<std::string> kContainerKeysWithoutEffect = {
-    "args", "ros_args", "output", "respawn", "respawn_delay", "env", "param", "launch-prefix", "remap"};
+    "args", "ros_args", "output", "respawn_max_retries", "env", "param", "launch-prefix", "remap"};
+constexpr int kLongestDelayS = 3600;
 const std::vector<std::string> kActions = {"node_container", "arg", "let", "include", "group", "push_ros_namespace"};
 
 class SystemReader {
@@ -175,6 +179,8 @@ class SystemReader {
     container.name_space = read_name_space(map, scope, findings_);
     map.text("pkg");  // ours is the only container there is
     map.text("exec");
+    container.respawn = map.flag("respawn", false);
+    container.respawn_delay_s = read_delay(map);
     if (!map.has("composable_node")) {
       findings_.problems.add(map.where(),
                              "node_container " + container.name + " loads nothing; add a list composable_node");
@@ -190,6 +196,18 @@ class SystemReader {
     map.finish(kContainerKeysWithoutEffect);
     claim_name(full_name(container.name_space, container.name), "container", container.where);
     system_.containers.push_back(std::move(container));
+  }
+
+  std::optional<double> read_delay(YamlMap& map) {
+    const auto text = map.text("respawn_delay");
+    if (!text) return std::nullopt;
+    double delay_s = 0;
+    const auto [end, error] = std::from_chars(text->data(), text->data() + text->size(), delay_s);
+    if (error == std::errc() && end == text->data() + text->size() && delay_s >= 0 && delay_s <= kLongestDelayS)
+      return delay_s;
+    findings_.problems.add(map.where("respawn_delay"),
+                           fmt::format("respawn_delay is \"{}\"; write seconds, 0 to {}", *text, kLongestDelayS));
+    return std::nullopt;
   }
 
   void claim_name(const std::string& name, const std::string& what, const Location& where) {

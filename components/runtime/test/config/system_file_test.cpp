@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <spdlog/fmt/fmt.h>
 #include <stdlib.h>
 
 #include "temporary_folder.hpp"
@@ -111,6 +112,37 @@ TEST_F(SystemFile, SaysWhichProcessesLoadWhichComponents) {
   EXPECT_THAT(parameters.at("weights").items, ElementsAre("1", "2.5"));
   EXPECT_THAT(without_folder(system.notes),
               ElementsAre("stereo.yaml:24: composable_node key \"extra_arg\" has no effect here"));
+}
+
+TEST_F(SystemFile, SaysWhichProcessesAreStartedAgainAndHowSoon) {
+  const auto system = read_system_file(folder_.write("respawn.yaml", R"(launch:
+- node_container:
+    name: cameras
+    respawn: true
+    respawn_delay: 0.5
+    composable_node: [{pkg: panvo_a, plugin: A, name: a}]
+- node_container:
+    name: results
+    respawn: "true"
+    composable_node: [{pkg: panvo_a, plugin: A, name: b}]
+- node_container:
+    name: once
+    composable_node: [{pkg: panvo_a, plugin: A, name: c}]
+)"));
+  EXPECT_TRUE(system.containers[0].respawn);
+  EXPECT_EQ(system.containers[0].respawn_delay_s, 0.5);
+  EXPECT_TRUE(system.containers[1].respawn);
+  EXPECT_EQ(system.containers[1].respawn_delay_s, std::nullopt);
+  EXPECT_FALSE(system.containers[2].respawn);
+  EXPECT_THAT(system.notes, IsEmpty());
+  for (const char* delay : {"soon", "-1", "1s", "nan", "1e9"}) {
+    const auto file = fmt::format(
+        "launch:\n- node_container:\n    name: x\n    respawn_delay: {}\n    composable_node: [{{pkg: panvo_a, plugin: "
+        "A, name: a}}]\n",
+        delay);
+    EXPECT_THAT(problems(file),
+                ElementsAre(fmt::format("stereo.yaml:4: respawn_delay is \"{}\"; write seconds, 0 to 3600", delay)));
+  }
 }
 
 TEST_F(SystemFile, TakesArgumentsAndRefusesThoseItDoesNotDeclare) {

@@ -33,6 +33,8 @@ struct Child {
   bool has_source = false, running = false;
   int status = 0;
 
+  bool respawn = false;
+  double respawn_delay_s = 0;
   std::optional<std::chrono::steady_clock::time_point> starts_again;
   std::vector<std::string> folders;  // where each of its processes left its results
 };
@@ -55,6 +57,9 @@ std::vector<std::string> command_line(const RunOptions& options, const Child& ch
   if (options.local) words.push_back("--local");
   if (options.verbose) words.push_back("--verbose");
   add("--container", child.name);
+  if (!options.container.empty()) {  // what it waits for is not among those that are started here
+    for (const auto& topic : options.awaited) add("--await", topic);
+  }
   add("--link-in", std::to_string(link_in));
   add("--link-out", std::to_string(link_out));
   return words;
@@ -143,12 +148,12 @@ void start_again(const RunOptions& options, Child& child, const std::vector<Chil
 }
 
 /// Whether a container that has ended like this is to be started again: not when its configuration is wrong, for it would be again.
-bool is_to_respawn(const RunOptions& options, const Child& child) {
-  return options.respawn && child.status != 0 && child.status != static_cast<int>(ExitStatus::kBadConfiguration);
+bool is_to_respawn(const Child& child) {
+  return child.respawn && child.status != 0 && child.status != static_cast<int>(ExitStatus::kBadConfiguration);
 }
 
-void plan_respawn(const RunOptions& options, Child& child) {
-  const std::chrono::duration<double> delay_s(options.respawn_delay_s);
+void plan_respawn(Child& child) {
+  const std::chrono::duration<double> delay_s(child.respawn_delay_s);
   const auto delay = std::chrono::duration_cast<std::chrono::steady_clock::duration>(delay_s);
   child.starts_again = std::chrono::steady_clock::now() + delay;
   std::fprintf(stderr, "panvo run: container %s is started again in %.1f s\n", child.name.c_str(), delay_s.count());
@@ -182,8 +187,8 @@ void supervise(const RunOptions& options, std::vector<Child>& children, const st
           std::fprintf(stderr, "panvo run: container %s was ended by signal %d\n", child.name.c_str(),
                        WTERMSIG(status));
         }
-        if (!asked && !stop && is_to_respawn(options, child)) {
-          plan_respawn(options, child);
+        if (!asked && !stop && is_to_respawn(child)) {
+          plan_respawn(child);
         } else {
           failed |= child.status != 0;
         }
@@ -214,6 +219,8 @@ ExitStatus launch(const RunOptions& given, const SystemDescription& system) {
   for (const auto& container : system.containers) {
     Child child;
     child.name = container.name;
+    child.respawn = options.respawn || container.respawn;
+    child.respawn_delay_s = container.respawn_delay_s.value_or(options.respawn_delay_s);
     children.push_back(std::move(child));
   }
   for (auto& child : children) start(options, child);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -11,17 +12,23 @@
 namespace panvo::runtime {
 namespace {
 
+/// Only the container that the command line names.
+SystemDescription part(const SystemDescription& system, const std::string& name) {
+  SystemDescription part = system;
+  std::erase_if(part.containers, [&](const auto& container) { return container.name != name; });
+  if (!part.containers.empty()) return part;
+  std::string known;
+  for (const auto& container : system.containers) known += " " + container.name;
+  throw ConfigError(system.file + ": has no container " + name + "; it has" + known);
+}
+
 ExitStatus run(const RunOptions& options) {
-  const SystemDescription system = describe_system(options);
-  if (!options.container.empty()) {
-    std::string known;
-    for (const auto& container : system.containers) {
-      if (container.name == options.container) return run_container(options, container, system.notes);
-      known += " " + container.name;
-    }
-    throw ConfigError(options.system_file + ": has no container " + options.container + "; it has" + known);
-  }
-  if ((system.containers.size() > 1 || options.respawn) && !options.replay) return launch(options, system);
+  SystemDescription system = describe_system(options);
+  if (!options.container.empty()) system = part(system, options.container);
+  const bool is_launched = options.link_in.has_value();
+  const bool respawns = std::ranges::any_of(system.containers, &ContainerDescription::respawn);
+  if (!is_launched && !options.replay && (system.containers.size() > 1 || respawns || options.respawn))
+    return launch(options, system);
   ContainerDescription together = system.containers.front();  // replay knows one process only
   std::vector<ComponentDescription>& all = together.components;
   all.clear();

@@ -59,8 +59,10 @@ std::optional<int> RunOptions::parse(int argc, char** argv, RunOptions& options)
   app.add_flag("--verbose", options.verbose, "debug messages too");
   app.add_option("--container", options.container, "run only this container of the system");
   auto* respawn =
-      app.add_flag("--respawn", options.respawn, "start a container again when it crashes or fails")->excludes(replay);
-  app.add_option("--respawn-delay", options.respawn_delay_s, "how long after, s")
+      app.add_flag("--respawn", options.respawn,
+                   "start a container again when it crashes or fails; those that say respawn: true are in any case")
+          ->excludes(replay);
+  app.add_option("--respawn-delay", options.respawn_delay_s, "how long after, s, where the system file does not say")
       ->needs(respawn)
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();

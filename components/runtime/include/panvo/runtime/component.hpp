@@ -21,15 +21,17 @@ class Component {
 
 /// What a plugin says of one component class in it.
 struct ComponentDescriptor {
-  std::string_view runtime_version;  ///< of what the plugin was built with; must equal the container's
-  std::string_view class_name;       ///< "StereoRectifierComponent"
+  std::string_view runtime_build;  ///< of what the plugin was built with; must equal the container's
+  std::string_view class_name;     ///< "StereoRectifierComponent"
   Component* (*create)(Context&);
   void (*destroy)(Component*);
   const ComponentDescriptor* next;  ///< the plugin's other components
 };
 
-/// The version, and what tells apart two builds of one version whose headers differ: a plugin of the one would misread the other's memory.
-inline constexpr std::string_view kRuntimeVersion =
+inline constexpr std::string_view kRuntimeVersion = "0.1.0";
+
+/// Tells apart two builds of one version whose headers differ: a plugin of the one would misread the other's memory.
+inline constexpr std::string_view kRuntimeBuild =
     "0.1.0 (headers " PANVO_RUNTIME_FINGERPRINT ", messages " PANVO_INTERFACES_FINGERPRINT ")";
 
 /// The C function by which a container asks a plugin for its components.
@@ -56,7 +58,7 @@ extern "C" __attribute__((weak, visibility("default"))) const panvo::runtime::Co
 #define PANVO_REGISTER_COMPONENT(Class)                                                                      \
   namespace {                                                                                                \
   ::panvo::runtime::ComponentDescriptor panvo_descriptor_of_##Class{                                         \
-      ::panvo::runtime::kRuntimeVersion, #Class,                                                             \
+      ::panvo::runtime::kRuntimeBuild, #Class,                                                               \
       [](::panvo::runtime::Context& context) -> ::panvo::runtime::Component* { return new Class(context); }, \
       [](::panvo::runtime::Component* component) { delete component; }, nullptr};                            \
   const ::panvo::runtime::detail::Registrar panvo_registrar_of_##Class{panvo_descriptor_of_##Class};         \

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,8 @@ struct ContainerDescription {
   std::string name;
   std::string name_space;  ///< absolute, root "/"
   std::vector<ComponentDescription> components;
+  bool respawn = false;                   ///< to be started again when it crashes or fails
+  std::optional<double> respawn_delay_s;  ///< how long after
   Location where;
 };
 
@@ -43,6 +46,7 @@ struct SystemDescription {
 ///     - arg: {name: rig, default: kitti, description: folder of the calibration}
 ///     - node_container:
 ///         name: stereo
+///         respawn: true            # when it crashes, after respawn_delay: 1 s
 ///         composable_node:
 ///         - pkg: panvo_binocular_odometry
 ///           plugin: BinocularOdometryComponent
