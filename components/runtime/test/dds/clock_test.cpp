@@ -28,7 +28,7 @@ TEST(Clock, OfWhatIsPlayedLeavesTheProcess) {
   PeerProcess peer(domain);
   peer.ask("open_reader /clock rosgraph_msgs/msg/Clock best_effort volatile 10");
   Container container({.rate = 1,
-                       .dds = DdsSettings{.domain = domain},
+                       .dds = DdsSettings{.domain = domain, .profiles = ""},
                        .log = [](LogLevel, const std::string&, const std::string&) {}});
   ComponentDescription silence;
   silence.name = "silence";

@@ -98,6 +98,14 @@ TEST_F(GraphTool, EchoesAndMeasuresTopics) {
   EXPECT_THAT(run("topic bw /diagnostics -n 1").said, HasSubstr("KB/s from 1 messages"));
 }
 
+TEST_F(GraphTool, WritesNothingThatSteersATerminal) {
+  // The container takes any text for a parameter; the shell makes the escape sequence of it.
+  EXPECT_EQ(run("param set /robot/echo before \"$(printf '\\033[2Jhere\\233')\"").said, "set\n");
+  const auto got = run("param get /robot/echo before").said;
+  EXPECT_THAT(got, HasSubstr("\\x1b[2Jhere"));
+  EXPECT_EQ(got.find_first_of("\033\233"), std::string::npos) << got;
+}
+
 TEST_F(GraphTool, SaysWhatIsNotThereAndEndsInTime) {
   const auto missing = run("--timeout 1 topic echo /nothing");
   EXPECT_EQ(missing.status, 1);

@@ -5,10 +5,12 @@
 
 #include "commands.hpp"
 #include "panvo/runtime/errors.hpp"
+#include "printable_output.hpp"
 
 int main(int argc, char** argv) {
   using namespace panvo::runtime;
   constexpr int kFailed = 1, kBadCommandLine = 2, kInterrupted = 130;
+  const graph::PrintableOutput output;
   graph::SessionOptions options;
   CLI::App app("Looks at and steers the nodes of a DDS domain: panvo's own, and those of ROS 2.", "panvo");
   app.require_subcommand(1);
@@ -34,11 +36,11 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : kBadCommandLine;
   } catch (const ConfigError& error) {
-    for (const auto& problem : error.problems()) std::fprintf(stderr, "panvo: %s\n", problem.c_str());
+    for (const auto& problem : error.problems()) std::fprintf(stderr, "panvo: %s\n", printable(problem).c_str());
     return kBadCommandLine;
   } catch (const std::exception& error) {
     if (graph::is_stopped()) return kInterrupted;
-    std::fprintf(stderr, "panvo: %s\n", error.what());
+    std::fprintf(stderr, "panvo: %s\n", printable(error.what()).c_str());
     return kFailed;
   }
   return 0;

@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "panvo/runtime/names.hpp"
+#include "printable.hpp"
 
 namespace panvo::runtime::graph {
 namespace {
@@ -35,7 +36,7 @@ bool is_stopped() { return stopped != 0; }
 
 Session::Session(const SessionOptions& options)
     : timeout_(static_cast<milliseconds::rep>(options.timeout_s * 1000)), bridge_(make_dds_bridge(options.dds)) {
-  bridge_->on_warning([](const std::string& text) { std::fprintf(stderr, "panvo: %s\n", text.c_str()); });
+  bridge_->on_warning([](const std::string& text) { std::fprintf(stderr, "panvo: %s\n", printable(text).c_str()); });
 }
 
 Graph Session::settled_graph() {

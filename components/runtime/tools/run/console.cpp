@@ -9,6 +9,8 @@
 #include <cstdio>
 #include <stdexcept>
 
+#include "printable.hpp"
+
 namespace panvo::runtime {
 namespace {
 
@@ -46,7 +48,8 @@ Console::Console(const std::filesystem::path& log_file, LogLevel show)
 
 Console::~Console() { end_progress(); }
 
-void Console::log(LogLevel level, const std::string& component, const std::string& text) {
+void Console::log(LogLevel level, const std::string& component, const std::string& said) {
+  const std::string text = printable(said);  // names and texts of other processes may be in it
   const std::lock_guard lock(mutex_);
   if (file_) file_->info("{} [{}] {}", name_of(level), component, text);
   if (level < show_) return;

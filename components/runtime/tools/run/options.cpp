@@ -37,7 +37,7 @@ std::optional<int> RunOptions::parse(int argc, char** argv, RunOptions& options)
   auto* dataset =
       app.add_option("--dataset", options.dataset,
                      "play this data set: EuRoC/ASL, KITTI odometry, or left/right folders with a calibration");
-  app.add_option("--bag", options.bag, "play this rosbag2 folder")->excludes(dataset);
+  app.add_option("--bag", options.bag, "play this bag: a rosbag2 folder, or one .db3 or .mcap file")->excludes(dataset);
   app.add_option("--out", options.out, "leave trajectories, timing.json, summary.json and run.log in this folder");
   auto* replay = app.add_flag("--replay", options.replay,
                               "deterministic: one thread, messages in order of stamp, as fast as it goes");
