@@ -46,7 +46,8 @@ int main(int argc, char** argv) {
   using namespace panvo::runtime;
   prctl(PR_SET_PDEATHSIG, SIGKILL);  // a test that crashes leaves nobody behind
   if (argc != 2) return 2;
-  Container container({.dds = DdsSettings{.domain = std::stoi(argv[1]), .profiles = "", .name = "steered"}, .name = "steered"});
+  Container container(
+      {.dds = DdsSettings{.domain = std::stoi(argv[1]), .profiles = "", .name = "steered"}, .name = "steered"});
   ComponentDescription echo;
   echo.name = "echo";
   echo.name_space = "/robot";
