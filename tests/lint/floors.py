@@ -14,7 +14,7 @@ LIBRARIES = {
     "Eigen": "eigen", "unsupported": "eigen", "opencv2": "opencv", "ceres": "ceres", "opengv": "opengv",
     "fastdds": "fastdds", "fastrtps": "fastdds", "fastcdr": "fastdds",
     "yaml-cpp": "yaml", "spdlog": "log", "fmt": "text", "CLI": "command line", "nlohmann": "json", "sqlite3.h": "sqlite", "tinyxml2.h": "xml",
-    "embree3": "embree",
+    "embree3": "embree", "arv.h": "aravis", "glib.h": "aravis", "glib-object.h": "aravis",
     "gtest": "test", "gmock": "test", "benchmark": "test",
 }
 THREAD_HEADERS = {"thread", "future", "stop_token", "condition_variable", "mutex", "shared_mutex", "semaphore", "latch", "barrier", "pthread.h"}
@@ -52,6 +52,7 @@ LANDMARKS = floor("landmarks", "vision interfaces conversions runtime", "message
 TOOL = floor("tool", "vision landmarks", "eigen, opencv, yaml, json, command line")
 RECORDER = floor("recorder", "runtime interfaces", "messages, fastdds, yaml, sqlite, log, json, command line")
 DRIVER = floor("driver", "runtime interfaces conversions vision", "messages, eigen, opencv, yaml, xml, json, log")
+CAMERA_DRIVER = floor("camera driver", "runtime interfaces conversions vision camera_stream", "messages, eigen, opencv, aravis, yaml, json, log")
 SIMULATION = floor("simulation", "runtime interfaces conversions vision", "messages, eigen, opencv, embree, yaml, log, command line")
 EVALUATION = None  # may include anything
 
@@ -67,6 +68,7 @@ FLOORS = [
     ("components/recorder", RECORDER),
     ("components/evaluation", EVALUATION),
     ("drivers/simulation", SIMULATION),
+    ("drivers/aravis_camera", CAMERA_DRIVER),
     ("drivers", DRIVER),
     ("tests", EVALUATION),
 ]

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "panvo/aravis_camera/camera_settings.hpp"
+#include "panvo/camera_stream/raw_image.hpp"
+#include "panvo/camera_stream/stream_counters.hpp"
+#include "panvo/runtime/logger.hpp"
+
+namespace panvo::aravis_camera {
+
+/// Where stamps come from.
+enum class StampSource {
+  kMapped,   ///< the camera's clock, mapped to the host's
+  kPtp,      ///< the camera's clock, which follows the same master as the host's
+  kArrival,  ///< the host's clock at arrival
+};
+
+struct GrabberSettings {
+  std::string name;      ///< "left"
+  std::string frame_id;  ///< of the images
+  CameraSettings camera;
+  StampSource stamps = StampSource::kMapped;
+  camera_stream::ImageOutput output = camera_stream::ImageOutput::kReadable;
+  std::int64_t watchdog_ns = 1'000'000'000;  ///< without a frame for so long, the camera counts as lost; 0: never
+};
+
+/// One camera, kept streaming by a thread of its own: opens it, sets it, receives, notices that it is gone, closes it, and finds it again by its
+/// serial number. What happens is logged when it begins and counted.
+class CameraGrabber {
+ public:
+  struct Frame {
+    std::int64_t stamp_ns = 0;                       ///< host time
+    std::shared_ptr<sensor_msgs::msg::Image> image;  ///< without a stamp
+  };
+  using OnFrame = std::function<void(Frame)>;
+
+  /// `on_frame` is called on the grabber's thread.
+  CameraGrabber(GrabberSettings settings, const runtime::Logger& log, OnFrame on_frame);
+  /// Ends the thread and closes the camera.
+  ~CameraGrabber();
+  CameraGrabber(const CameraGrabber&) = delete;
+  CameraGrabber& operator=(const CameraGrabber&) = delete;
+
+  /// From any thread.
+  camera_stream::StreamReport report() const;
+
+ private:
+  class Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace panvo::aravis_camera

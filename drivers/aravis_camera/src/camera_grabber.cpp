@@ -1,0 +1,307 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "panvo/aravis_camera/camera_grabber.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <mutex>
+#include <optional>
+#include <thread>
+
+#include "closer.hpp"
+#include "frame_stamper.hpp"
+#include "gvcp_probe.hpp"
+#include "opened_camera.hpp"
+#include "panvo/camera_stream/frame_gaps.hpp"
+#include "panvo/camera_stream/reconnection.hpp"
+#include "pixel_formats.hpp"
+#include "software_trigger.hpp"
+
+namespace panvo::aravis_camera {
+namespace {
+
+using camera_stream::FrameGaps;
+using camera_stream::FrameNumbering;
+using camera_stream::Reconnection;
+
+std::int64_t steady_ns() {
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now().time_since_epoch())
+      .count();
+}
+std::int64_t system_ns() {
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::system_clock::now().time_since_epoch())
+      .count();
+}
+
+constexpr const char* kRemedy =
+    "packets are lost: give the camera's network an MTU of 9000, raise packet_delay_ns (several cameras on one line), "
+    "raise "
+    "net.core.rmem_max, or lower frame_rate_hz";
+
+}  // namespace
+
+class CameraGrabber::Implementation {
+ public:
+  Implementation(GrabberSettings settings, const runtime::Logger& log, OnFrame on_frame)
+      : settings_(std::move(settings)),
+        log_(log),
+        on_frame_(std::move(on_frame)),
+        machine_({.watchdog_ns = settings_.watchdog_ns}),
+        stamper_(settings_.stamps),
+        trigger_(settings_.camera.software_trigger_hz),
+        packet_socket_fails_(
+            settings_.camera.packet_socket == PacketSocket::kOff ||
+            (settings_.camera.packet_socket == PacketSocket::kAuto && settings_.camera.trigger == Trigger::kLine)),
+        thread_([this](const std::stop_token& stop) { run(stop); }) {}
+
+  camera_stream::StreamReport report() const {
+    const std::lock_guard lock(mutex_);
+    return report_;
+  }
+
+ private:
+  void run(const std::stop_token& stop) {
+    while (!stop.stop_requested()) {
+      switch (machine_.step(steady_ns())) {
+        case Reconnection::Action::kOpen:
+          open();
+          break;
+        case Reconnection::Action::kClose:
+          close();
+          break;
+        case Reconnection::Action::kNone:
+          camera_ ? receive() : wait(stop);
+          break;
+      }
+    }
+    if (camera_) closer_.close(std::move(camera_));
+  }
+
+  void wait(const std::stop_token& stop) {
+    constexpr auto kShort = std::chrono::milliseconds(20);
+    std::unique_lock lock(mutex_);
+    stopped_.wait_for(lock, stop, kShort, [] { return false; });
+  }
+
+  void open() {
+    try {
+      // A device that is away is asked for at its place; now and then everywhere, for its address may be another one by now.
+      constexpr int kTriesAtItsPlace = 8;
+      const bool is_gige = identity_ && !identity_->address.empty();
+      const bool everywhere = is_gige && ++tries_ % kTriesAtItsPlace == 0;
+      if (is_gige && !everywhere && !answers(identity_->address, std::chrono::milliseconds(200)))
+        throw OpenError(identity_->serial + " does not answer at " + identity_->address);
+      auto settings = settings_.camera;
+      if (identity_) settings.camera = identity_->serial;
+      camera_ = std::make_unique<OpenedCamera>(settings, !packet_socket_fails_, everywhere ? std::nullopt : identity_);
+      opened();
+    } catch (const OpenError& error) {
+      machine_.failed(steady_ns());
+      warn_once(error.what());
+      const std::lock_guard lock(mutex_);
+      ++report_.counters.failed_opens;
+      report_.state = std::string(name_of(machine_.state())) + ": " + error.what();
+    }
+  }
+
+  void opened() {
+    identity_ = camera_->identity();
+    tries_ = 0;
+    gaps_ = FrameGaps(camera_->is_gige() ? FrameNumbering::kGigEVision : FrameNumbering::kCounter64);
+    stamper_.restart();
+    const auto& negotiated = camera_->negotiated();
+    machine_.set_watchdog_ns(watchdog_ns(negotiated));
+    machine_.opened(steady_ns());
+    resent_of_stream_ = 0;
+    say_what_was_opened(negotiated);
+    const std::lock_guard lock(mutex_);
+    report_.serial = identity_->serial;
+    report_.is_streaming = true;
+    report_.state = "streaming";
+    report_.counters.refused_settings = negotiated.refused.size();
+    report_.details["camera"] = fmt::format("{} {} at {}", identity_->vendor, identity_->model, identity_->address);
+    report_.details["image"] =
+        fmt::format("{} x {} px {}", negotiated.width, negotiated.height, negotiated.pixel_format);
+    if (camera_->is_gige()) {
+      report_.details["packets"] =
+          fmt::format("{} bytes, {} socket", negotiated.packet_size, negotiated.uses_packet_socket ? "packet" : "UDP");
+    }
+  }
+
+  void say_what_was_opened(const Negotiated& negotiated) {
+    log_.info("{}: {} ({} {}{}{}): {} x {} px {}{}{}", settings_.name, identity_->serial, identity_->vendor,
+              identity_->model, identity_->address.empty() ? "" : " at ", identity_->address, negotiated.width,
+              negotiated.height, negotiated.pixel_format,
+              negotiated.frame_rate_hz > 0 ? fmt::format(", {:.4g} Hz", negotiated.frame_rate_hz) : "",
+              negotiated.packet_size > 0 ? fmt::format(", packets of {} bytes", negotiated.packet_size) : "");
+    for (const auto& refused : negotiated.refused) {
+      if (std::find(told_refusals_.begin(), told_refusals_.end(), refused) != told_refusals_.end()) continue;
+      log_.warn("{}: {} does not take {}", settings_.name, identity_->serial, refused);
+    }
+    told_refusals_ = negotiated.refused;
+  }
+
+  /// The time without frames that is in order: some frames' worth, or what is set if that is longer.
+  std::int64_t watchdog_ns(const Negotiated& negotiated) const {
+    if (settings_.watchdog_ns == 0 || settings_.camera.trigger == Trigger::kLine) return 0;
+    const bool is_software = settings_.camera.trigger == Trigger::kSoftware;
+    const double rate_hz = is_software ? settings_.camera.software_trigger_hz : negotiated.frame_rate_hz;
+    constexpr double kFrames = 3.0;
+    return rate_hz > 0 ? std::max(settings_.watchdog_ns, static_cast<std::int64_t>(kFrames / rate_hz * 1e9))
+                       : settings_.watchdog_ns;
+  }
+
+  void close() {
+    const bool is_gone = machine_.last_loss() == Reconnection::Loss::kDeviceGone;
+    const std::string why = is_gone ? "is gone" : "has sent nothing for too long";
+    warn_once(fmt::format("{} {}; looking for it", identity_->serial, why));
+    if (!is_gone && !machine_.has_streamed() && camera_->negotiated().uses_packet_socket &&
+        settings_.camera.packet_socket == PacketSocket::kAuto) {
+      packet_socket_fails_ = true;
+      log_.info("{}: nothing comes by the packet socket; a UDP socket from now on", settings_.name);
+    }
+    closer_.close(std::move(camera_));
+    const std::lock_guard lock(mutex_);
+    report_.is_streaming = false;
+    report_.state = "not connected: " + identity_->serial + " " + why;
+  }
+
+  void receive() {
+    constexpr std::chrono::microseconds kLongest(50'000);
+    auto limit = kLongest;
+    if (settings_.camera.trigger == Trigger::kSoftware) {
+      if (trigger_.is_due(system_ns())) camera_->trigger();
+      limit = std::min(limit, std::chrono::microseconds(trigger_.until_due_ns(system_ns()) / 1000 + 1));
+    }
+    const auto frame = camera_->receive(limit);
+    if (camera_->is_gone()) machine_.device_gone();
+    if (!frame) return;
+    machine_.frame(steady_ns());
+    take(*frame);
+  }
+
+  void take(const ReceivedFrame& frame) {
+    const std::int64_t missing = gaps_.missing_before(frame.number());
+    std::optional<Frame> whole;
+    std::string problem;
+    // An incomplete frame's size says nothing: its state is looked at first.
+    if (frame.status() == FrameStatus::kWhole) {
+      const std::int64_t stamp_ns = stamper_.stamp_ns(frame, system_ns());
+      auto image = image_of(frame);
+      if (image) {
+        whole = Frame{stamp_ns, *image};
+      } else {
+        problem = image.reason();
+      }
+    }
+    count(frame, missing, whole);
+    if (frame.status() == FrameStatus::kIncomplete) {
+      problem = fmt::format("sends frames that do not come whole ({}); {}", frame.status_text(), kRemedy);
+    } else if (frame.status() == FrameStatus::kDamaged) {
+      problem = "sends a frame that is " + frame.status_text();
+    }
+    if (problem.empty()) problem = stamper_.problem();
+    if (!problem.empty()) {
+      warn_once(identity_->serial + " " + problem);
+    } else if (const std::int64_t now_ns = steady_ns(); now_ns - last_warning_ns_ > kQuiet_ns) {
+      last_warning_.clear();
+    }
+    if (whole) on_frame_(std::move(*whole));
+  }
+
+  conversions::Result<std::shared_ptr<sensor_msgs::msg::Image>> image_of(const ReceivedFrame& frame) const {
+    ArvBuffer* buffer = frame.buffer();
+    const auto payload = arv_buffer_get_payload_type(buffer);
+    if (payload != ARV_BUFFER_PAYLOAD_TYPE_IMAGE && payload != ARV_BUFFER_PAYLOAD_TYPE_EXTENDED_CHUNK_DATA &&
+        payload != ARV_BUFFER_PAYLOAD_TYPE_MULTIPART)
+      return conversions::Reason{"sends what is no image: set pixel_format to an uncompressed one"};
+    const auto arv_format = arv_buffer_get_image_pixel_format(buffer);
+    const auto format = pixel_format_of(arv_format);
+    if (!format) {
+      return conversions::Reason{
+          fmt::format("sends the pixel format {} (0x{:08x}), which is not read: set pixel_format to one of {}",
+                      camera_->negotiated().pixel_format, arv_format, readable_formats())};
+    }
+    std::size_t size = 0;
+    const auto* data = static_cast<const std::uint8_t*>(arv_buffer_get_image_data(buffer, &size));
+    camera_stream::RawImage raw{
+        *format, arv_buffer_get_image_width(buffer), arv_buffer_get_image_height(buffer), 0, {data, size}};
+    gint gap = 0, below = 0;
+    arv_buffer_get_image_padding(buffer, &gap, &below);
+    if (gap > 0) {
+      const auto bits = ARV_PIXEL_FORMAT_BIT_PER_PIXEL(arv_format);
+      raw.step = static_cast<std::size_t>(raw.width) * bits / 8 + static_cast<std::size_t>(gap);
+    }
+    return camera_stream::to_image(raw, settings_.output, settings_.frame_id);
+  }
+
+  void count(const ReceivedFrame& frame, std::int64_t missing, const std::optional<Frame>& whole) {
+    const std::uint64_t resent = camera_->resent_packets();
+    auto chunk_data = camera_->chunk_data(frame);
+    const std::lock_guard lock(mutex_);
+    auto& counters = report_.counters;
+    counters.dropped += static_cast<std::uint64_t>(missing);  // less one for a frame that comes late
+    counters.resent += resent - std::min(resent, resent_of_stream_);
+    resent_of_stream_ = resent;
+    counters.reconnects = machine_.reconnects();
+    counters.clock_resets = stamper_.clock_resets();
+    if (whole) {
+      ++counters.frames;
+      counters.newest_stamp_ns = whole->stamp_ns;
+    } else {
+      ++(frame.status() == FrameStatus::kIncomplete ? counters.incomplete : counters.damaged);
+    }
+    report_.remedy = kRemedy;
+    if (auto clock = stamper_.description(); !clock.empty()) report_.details["clock"] = std::move(clock);
+    for (auto& [name, value] : chunk_data) report_.details["chunk " + name] = std::move(value);
+  }
+
+  /// Says what is wrong when it begins, and again when it begins once more after a while.
+  void warn_once(const std::string& what) {
+    last_warning_ns_ = steady_ns();
+    if (what == last_warning_) return;
+    last_warning_ = what;
+    log_.warn("{}: {}", settings_.name, what);
+  }
+
+  static constexpr std::int64_t kQuiet_ns = 10'000'000'000;
+
+  const GrabberSettings settings_;
+  const runtime::Logger& log_;
+  const OnFrame on_frame_;
+
+  // The thread's own.
+  Reconnection machine_;
+  FrameGaps gaps_{FrameNumbering::kGigEVision};
+  FrameStamper stamper_;
+  SoftwareTrigger trigger_;
+  bool packet_socket_fails_;
+  int tries_ = 0;
+  std::uint64_t resent_of_stream_ = 0;
+  std::optional<Identity> identity_;
+  std::vector<std::string> told_refusals_;
+  std::string last_warning_;
+  std::int64_t last_warning_ns_ = 0;
+  std::unique_ptr<OpenedCamera> camera_;
+  Closer<OpenedCamera> closer_;
+
+  mutable std::mutex mutex_;  // guards report_
+  std::condition_variable_any stopped_;
+  camera_stream::StreamReport report_{.name = settings_.name,
+                                      .serial = "",
+                                      .is_streaming = false,
+                                      .state = "not connected",
+                                      .remedy = "",
+                                      .counters = {},
+                                      .details = {}};
+  std::jthread thread_;  // last: it uses all of the above
+};
+
+CameraGrabber::CameraGrabber(GrabberSettings settings, const runtime::Logger& log, OnFrame on_frame)
+    : implementation_(std::make_unique<Implementation>(std::move(settings), log, std::move(on_frame))) {}
+CameraGrabber::~CameraGrabber() = default;
+
+camera_stream::StreamReport CameraGrabber::report() const { return implementation_->report(); }
+
+}  // namespace panvo::aravis_camera

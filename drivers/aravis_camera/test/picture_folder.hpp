@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <cstring>
+#include <filesystem>
+#include <mutex>
+#include <opencv2/imgcodecs.hpp>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace panvo::aravis_camera::testing {
+
+/// Pictures for simulated cameras, image_0, image_1 ... in a folder: all cameras show the same one at a time, in step with the clock. The first one
+/// stays until every camera has been asked for a while, the last one to the end.
+class PictureFolder {
+ public:
+  PictureFolder(const std::filesystem::path& folder, std::size_t cameras, double rate_hz)
+      : period_ns_(static_cast<std::int64_t>(1e9 / rate_hz)), pictures_(cameras), asked_(cameras) {
+    for (std::size_t i = 0; i < cameras; ++i) {
+      std::vector<std::filesystem::path> files;
+      for (const auto& entry : std::filesystem::directory_iterator(folder / ("image_" + std::to_string(i))))
+        files.push_back(entry.path());
+      std::sort(files.begin(), files.end());
+      for (const auto& file : files) pictures_[i].push_back(cv::imread(file.string(), cv::IMREAD_GRAYSCALE));
+      if (pictures_[i].empty()) throw std::runtime_error("no pictures in " + folder.string());
+    }
+  }
+
+  void draw(unsigned camera, std::int64_t now_ns, std::span<std::uint8_t> pixels) {
+    const cv::Mat& picture = pictures_[camera].at(index(camera, now_ns, pictures_[camera].size()));
+    std::memcpy(pixels.data(), picture.data, std::min(pixels.size(), picture.total()));
+  }
+
+ private:
+  /// The same for all cameras within a period, whose edges lie where the cameras take their frames: half a period away from them.
+  std::size_t index(unsigned camera, std::int64_t now_ns, std::size_t count) {
+    const std::lock_guard lock(mutex_);
+    const std::int64_t period = (now_ns + period_ns_ / 2) / period_ns_;
+    ++asked_[camera];
+    constexpr int kWhile = 10;
+    if (first_period_ == 0 && *std::min_element(asked_.begin(), asked_.end()) >= kWhile)
+      first_period_ = period + kWhile;
+    if (first_period_ == 0 || period < first_period_) return 0;
+    return std::min(static_cast<std::size_t>(period - first_period_), count - 1);
+  }
+
+  const std::int64_t period_ns_;
+  std::mutex mutex_;
+  std::vector<std::vector<cv::Mat>> pictures_;
+  std::vector<int> asked_;
+  std::int64_t first_period_ = 0;
+};
+
+}  // namespace panvo::aravis_camera::testing

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <csignal>
+#include <memory>
+
+#include "live_cameras.hpp"
+
+namespace panvo::aravis_camera::testing {
+namespace {
+
+class LostCameras : public LiveCameras {
+ protected:
+  static constexpr int kTimes = 3;
+
+  static std::vector<std::string> both() { return {"GVL@127.0.0.1", "GVR@127.0.0.2"}; }
+  static ParameterLines pair() {
+    return {{"layout", {"stereo"}},
+            {"cameras", {"GVL", "GVR"}},
+            {"width", {"160"}},
+            {"height", {"120"}},
+            {"frame_rate_hz", {"60"}}};
+  }
+  /// Waits until more pictures come on both topics than came by now.
+  bool more_come() {
+    const auto left = count(kLeft), right = count(kRight);
+    return eventually([&] { return count(kLeft) > left + 5 && count(kRight) > right + 5; });
+  }
+  void expect_stamps_to_increase() {
+    for (const char* topic : {kLeft, kRight}) {
+      const auto pictures = seen(topic);
+      for (std::size_t i = 1; i < pictures.size(); ++i)
+        ASSERT_GT(pictures[i].stamp_ns, pictures[i - 1].stamp_ns) << topic;
+    }
+  }
+};
+
+TEST_F(LostCameras, ComeBackWithTheirSettingsWhenTheyWereKilled) {
+  auto simulator = std::make_unique<Simulator>(both());
+  load(pair());
+  ASSERT_TRUE(more_come()) << log();
+  for (int i = 1; i <= kTimes; ++i) {
+    simulator->kill();
+    ASSERT_TRUE(eventually([&] { return diagnostics("left")["level"] == "2" && diagnostics("right")["level"] == "2"; }))
+        << log();
+    // A camera that was switched off and on has forgotten its settings: width, height and rate are its own again.
+    simulator = std::make_unique<Simulator>(both());
+    ASSERT_TRUE(more_come()) << "time " << i << "\n" << log();
+    EXPECT_EQ(seen(kLeft).back().width, 160);
+    EXPECT_EQ(seen(kRight).back().height, 120);
+    EXPECT_EQ(seen(kRight).back().picture.camera, 1u);
+    const auto times = static_cast<std::uint64_t>(i);
+    ASSERT_TRUE(eventually([&] {
+      return counter("left", "reconnects") == times && counter("right", "reconnects") == times;
+    })) << log();
+  }
+  EXPECT_EQ(diagnostics("left")["camera"], "Aravis Fake at 127.0.0.1") << "the same serial number, the same place";
+  unload();
+  expect_stamps_to_increase();
+}
+
+TEST_F(LostCameras, ComeBackWhenTheyWereStoppedForLongerThanTheWatchdogWaits) {
+  const auto& simulator = start(both());
+  load(pair());
+  for (int i = 1; i <= kTimes; ++i) {
+    ASSERT_TRUE(more_come()) << log();
+    ASSERT_TRUE(
+        eventually([&] { return diagnostics("left")["level"] != "2" && diagnostics("right")["level"] != "2"; }));
+    simulator.signal(SIGSTOP);
+    ASSERT_TRUE(eventually([&] { return diagnostics("left")["level"] == "2" && diagnostics("right")["level"] == "2"; }))
+        << log();
+    simulator.signal(SIGCONT);
+  }
+  ASSERT_TRUE(more_come()) << log();
+  ASSERT_TRUE(eventually([&] {
+    return counter("left", "reconnects") == kTimes && counter("right", "reconnects") == kTimes;
+  })) << log();
+  unload();
+  expect_stamps_to_increase();
+}
+
+TEST_F(LostCameras, LeaveTheOtherHalfOfThePairUnpairedUntilTheyComeBack) {
+  start({"GVL@127.0.0.1"});
+  auto right = std::make_unique<Simulator>(std::vector<std::string>{"GVR@127.0.0.2"});
+  load(pair());
+  ASSERT_TRUE(more_come()) << log();
+  right->kill();
+  ASSERT_TRUE(eventually([&] { return counter("left", "unpaired") > 20; })) << log();
+  EXPECT_EQ(diagnostics("left")["state"], "streaming");
+  EXPECT_EQ(counter("left", "reconnects"), 0u);
+  right = std::make_unique<Simulator>(std::vector<std::string>{"GVR@127.0.0.2"});
+  ASSERT_TRUE(more_come()) << log();
+  unload();
+  EXPECT_EQ(seen(kLeft).size(), seen(kRight).size());
+}
+
+TEST_F(LostCameras, AreAwaitedFromTheStart) {
+  load(pair());
+  ASSERT_TRUE(eventually([&] { return log_contains("there is no camera 'GVL'"); })) << log();
+  start(both());
+  EXPECT_TRUE(more_come()) << log();
+}
+
+TEST_F(LostCameras, AreFoundWhereTheyAreNow) {
+  auto simulator = std::make_unique<Simulator>(std::vector<std::string>{"GVL@127.0.0.1"});
+  load({{"cameras", {"GVL"}}});
+  ASSERT_TRUE(eventually([&] { return count(kMono) > 5; })) << log();
+  simulator->kill();
+  simulator = std::make_unique<Simulator>(std::vector<std::string>{"GVL@127.0.0.2"});
+  ASSERT_TRUE(eventually([&] { return diagnostics("camera")["camera"] == "Aravis Fake at 127.0.0.2"; })) << log();
+  const auto before = count(kMono);
+  EXPECT_TRUE(eventually([&] { return count(kMono) > before + 5; })) << log();
+}
+
+TEST_F(LostCameras, AreNotTakenForAnotherOneAtTheirPlace) {
+  auto simulator = std::make_unique<Simulator>(std::vector<std::string>{"GVL@127.0.0.1"});
+  load({{"cameras", {"GVL"}}});
+  ASSERT_TRUE(eventually([&] { return count(kMono) > 5; })) << log();
+  simulator->kill();
+  simulator = std::make_unique<Simulator>(std::vector<std::string>{"GVX@127.0.0.1"});
+  EXPECT_TRUE(eventually([&] { return log_contains("there is now the camera GVX, and GVL is awaited"); })) << log();
+}
+
+}  // namespace
+}  // namespace panvo::aravis_camera::testing
