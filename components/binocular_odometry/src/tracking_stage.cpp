@@ -28,7 +28,7 @@ constexpr double kReachPerLevel_px = 6.0;  // half a patch: farther, and another
 constexpr size_t kScouts = 60;             // as many as a coarse motion needs, with a margin for those that go astray
 constexpr double kAstray_px = 3.0;         // off the coarse motion: looked for again where that motion has it
 constexpr double kFarOff_px = 6.0;         // off it still: not a point of the static scene
-constexpr double kFarthestDisparity_px = -0.5;  // at infinity, give or take the error of a match
+constexpr double kFarthestDisparity_px = -1.0;  // at infinity, give or take what the calibration leaves over
 constexpr double kLargestZoom = 1.5;            // of a patch against its host, before a new host is taken
 constexpr double kCrowded_px = 8;               // nearer tracks see the same patch
 constexpr double kNoiseFloor_px = 0.15;         // interpolation, calibration, surfaces that are not plane
@@ -59,8 +59,9 @@ class TrackingStage::Implementation {
       : stereo_(stereo),
         parameters_(parameters),
         observer_(observer),
-        matcher_(disparity_range(stereo, parameters), parameters.smallest_correlation),
-        swapped_matcher_(mirrored(disparity_range(stereo, parameters)), parameters.smallest_correlation),
+        matcher_(stereo.camera, disparity_range(stereo, parameters), parameters.smallest_correlation),
+        swapped_matcher_(stereo.camera, mirrored(disparity_range(stereo, parameters)), parameters.smallest_correlation),
+        alignment_(stereo.camera),
         front_end_(make_front_end(parameters)),
         cell_px_(static_cast<int>(std::ceil(
             std::sqrt(static_cast<double>(stereo.camera.width) * stereo.camera.height / parameters.max_features)))) {}
@@ -93,6 +94,7 @@ class TrackingStage::Implementation {
     thin_out(tracks);
     renew_hosts(tracks);
     detect(tracks);
+    align_eyes();
     result.detected = static_cast<int>(tracks.size());
     result.matched = static_cast<int>(
         std::count_if(tracks.begin(), tracks.end(), [](const Track& track) { return track.seen.has_disparity; }));
@@ -255,7 +257,7 @@ class TrackingStage::Implementation {
   void thin_out(std::vector<Track>& tracks) const { thin_out(tracks, (*left_)[0].size()); }
 
   // A patch that has grown or shrunk much is blurred or aliased against the image: the current frame becomes its host.
-  void renew_hosts(std::vector<Track>& tracks) const {
+  void renew_hosts(std::vector<Track>& tracks) {
     const Stage stage(observer_, "renew_hosts");
     const Eigen::Isometry3d current_from_guide = guide_from_current_.inverse();
     for (Track& track : tracks) {
@@ -269,8 +271,9 @@ class TrackingStage::Implementation {
     }
   }
 
-  void host_here(Track& track, const vision::StereoMatch& match) const {
+  void host_here(Track& track, const vision::StereoMatch& match) {
     take(match, track);
+    row_errors_.push_back(matcher_.row_error(*left_, right_, track.seen.pixel.head<2>(), match));
     track.host = left_;
     track.host_pixel = track.seen.pixel.head<2>();
     track.host_plane = vision::surface_plane(stereo_, track.seen.pixel, match.gradient);
@@ -297,6 +300,17 @@ class TrackingStage::Implementation {
       host_here(track, *match);
       tracks.push_back(std::move(track));
     }
+  }
+
+  // Each patch is asked once, when it becomes a host: asked again it would err alike.
+  void align_eyes() {
+    const Stage stage(observer_, "align_eyes");
+    for (const auto& error : row_errors_) {
+      if (error) alignment_.add(error->ideal_right_pixel, error->error_px, std::hypot(kNoiseFloor_px, error->sigma_px));
+    }
+    row_errors_.clear();
+    alignment_.settle();
+    matcher_.allow_for(alignment_.misalignment());
   }
 
   // Left and right exchanged: features match, but to the wrong side.
@@ -333,6 +347,8 @@ class TrackingStage::Implementation {
   vision::StageObserver* observer_;
   vision::StereoMatcher matcher_;
   vision::StereoMatcher swapped_matcher_;
+  vision::EpipolarCalibration alignment_;
+  std::vector<std::optional<vision::RowError>> row_errors_;
   std::unique_ptr<FrontEnd> front_end_;
   int cell_px_;
 

@@ -10,7 +10,7 @@ namespace panvo::binocular_odometry {
 namespace {
 
 constexpr double kContradiction2 = 25.0;   // whitened squared error, five standard deviations
-constexpr double kLargestOffset_px = 0.5;  // more is no remainder, but another calibration
+constexpr double kLargestOffset_px = 2.0;  // more is no remainder, but another calibration
 constexpr int kFewestShared = 10;          // points that tie the head to the window
 
 Eigen::Vector3d inverse_sigma(const Observation& seen) {

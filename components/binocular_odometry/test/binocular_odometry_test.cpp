@@ -50,6 +50,27 @@ TEST_P(EitherFrontEnd, FollowsAKnownPath) {
 
 INSTANTIATE_TEST_SUITE_P(All, EitherFrontEnd, ::testing::Values("klt", "sift"));
 
+TEST(BinocularOdometry, LearnsHowTheRightCameraHasTurned) {
+  BinocularOdometry odometry(SyntheticScene::stereo(), {});
+  const Eigen::Matrix3d turned =
+      vision::so3_exp({1.0 / 220.0, 0.0, 6e-3});  // rows are off by a pixel, one more on one side
+  // There and back and there again: the first two teach, the third is measured.
+  constexpr int kFrames = 40;
+  Eigen::Isometry3d began = Eigen::Isometry3d::Identity(), ended = began;
+  for (int i = 0; i < 3 * kFrames; ++i) {
+    const int place = i % (2 * kFrames) < kFrames ? i % kFrames : kFrames - 1 - i % kFrames;
+    auto frame = SyntheticScene::frame(place, truth(place), turned);
+    frame.stamp_ns = 1 + i * SyntheticScene::kInterval_ns;
+    const OdometryEstimate estimate = odometry.step(frame);
+    ASSERT_TRUE(estimate.quality.reliable) << estimate.quality.reason;
+    if (i == 2 * kFrames) began = estimate.odom_from_left;
+    ended = estimate.odom_from_left;
+  }
+  const Eigen::Isometry3d moved = began.inverse() * ended, expected = truth(kFrames - 1);
+  EXPECT_LT((moved.translation() - expected.translation()).norm(), 0.005 * expected.translation().norm());
+  EXPECT_LT(vision::so3_log(moved.linear() * expected.linear().transpose()).norm(), 0.001);
+}
+
 TEST(BinocularOdometry, BeginsAtTheOriginWithoutUncertainty) {
   BinocularOdometry odometry(SyntheticScene::stereo(), {});
   const OdometryEstimate first = odometry.step(drive()[0]);

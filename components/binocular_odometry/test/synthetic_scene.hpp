@@ -29,8 +29,11 @@ class SyntheticScene {
 
   static StereoFrame frame(int index) { return frame(index, world_from_left(index)); }
 
-  static StereoFrame frame(int index, const Eigen::Isometry3d& world_from_left) {
+  /// `aligned_from_right`: how the right camera is turned against what its calibration says.
+  static StereoFrame frame(int index, const Eigen::Isometry3d& world_from_left,
+                           const Eigen::Matrix3d& aligned_from_right = Eigen::Matrix3d::Identity()) {
     Eigen::Isometry3d world_from_right = world_from_left;
+    world_from_right.linear() *= aligned_from_right;
     world_from_right.translation() += world_from_left.linear() * Eigen::Vector3d(stereo().baseline_m, 0.0, 0.0);
     return {1'000'000'000 + index * kInterval_ns, draw(world_from_left), draw(world_from_right)};
   }

@@ -21,10 +21,12 @@ cv::v_int16x8 load(const uchar* pixels) { return cv::v_reinterpret_as_s16(cv::v_
 
 }  // namespace
 
-std::optional<int> search_row(const cv::Mat& left, const cv::Mat& right, cv::Point pixel, int from, int to,
-                              double smallest_correlation) {
+std::optional<int> search_row(const cv::Mat& left, const cv::Mat& right, cv::Point pixel, int rows_below, int from,
+                              int to, double smallest_correlation) {
   const int top = pixel.y - kWindow / 2, column = pixel.x - kWindow / 2;
   if (top < 0 || column < 0 || top + kWindow > left.rows || column + kWindow > left.cols) return std::nullopt;
+  const int right_top = top + rows_below;
+  if (right_top < 0 || right_top + kWindow > right.rows) return std::nullopt;
   from = std::max(from, column + kWindow - right.cols);
   to = std::min(to, column);
   if (from > to) return std::nullopt;
@@ -46,7 +48,7 @@ std::optional<int> search_row(const cv::Mat& left, const cv::Mat& right, cv::Poi
   for (int disparity = from; disparity <= to; ++disparity) {
     cv::v_int32x4 sum = cv::v_setzero_s32(), square = sum, product = sum;
     for (int row = 0; row < kWindow; ++row) {
-      const auto values = load(right.ptr<uchar>(top + row) + column - disparity);
+      const auto values = load(right.ptr<uchar>(right_top + row) + column - disparity);
       sum = cv::v_dotprod(values, ones, sum);
       square = cv::v_dotprod(values, values, square);
       product = cv::v_dotprod(values, window[static_cast<size_t>(row)], product);

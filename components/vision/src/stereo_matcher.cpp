@@ -20,6 +20,8 @@ constexpr double kGradientSigma = 0.3;  // prior: facing walls have 0, a road ba
 constexpr double kNoise = 4.0;          // grey levels: weight of that prior against the image
 constexpr double kCoarseCorrelation = 0.6;  // of a window that ignores the slant
 constexpr double kReach_px = 3.0;
+constexpr double kRowReach_px = 3.0;         // off the row that is known by now
+constexpr double kLargestRowSigma_px = 0.5;  // more, and the neighbourhood has no edge along the row
 
 // One row of the image at a height between two pixel rows.
 class Row {
@@ -77,17 +79,19 @@ class SlantedPatch {
     return patch;
   }
 
-  // Improves `match` (in this level's px) in place; false when it leaves the image or does not resemble.
-  bool align(const cv::Mat& right, StereoMatch& match) const {
+  // Improves `match` (in this level's px) in place; false when it leaves the image or does not resemble. The right image is
+  // shifted by this much against an aligned one.
+  bool align(const cv::Mat& right, const Eigen::Vector2d& shift, StereoMatch& match) const {
+    const Eigen::Vector2d origin = centre_ + shift;
     constexpr double kPriorWeight = kNoise * kNoise / (kGradientSigma * kGradientSigma);
     for (int iteration = 0; iteration < kIterations; ++iteration) {
-      if (!fits(right, match)) return false;
+      if (!fits(right, origin, match)) return false;
       float sum = 0.0F, square = 0.0F;
       Basis on_basis = Basis::Zero();
       const auto step_u = static_cast<float>(1.0 - match.gradient.x());
       for (int y = 0; y < kSize; ++y) {
-        const Row row(right, centre_.y() + y - kHalf);
-        auto u = static_cast<float>(centre_.x() - match.disparity_px - match.gradient.y() * (y - kHalf)) -
+        const Row row(right, origin.y() + y - kHalf);
+        auto u = static_cast<float>(origin.x() - match.disparity_px - match.gradient.y() * (y - kHalf)) -
                  static_cast<float>(kHalf) * step_u;
         for (int x = 0; x < kSize; ++x, u += step_u) {
           const float value = row(u);
@@ -126,13 +130,13 @@ class SlantedPatch {
   explicit SlantedPatch(const Eigen::Vector2d& centre) : centre_(centre) {}
 
   // Whether the patch, where the match has it, lies in the image: its corners do.
-  bool fits(const cv::Mat& right, const StereoMatch& match) const {
+  static bool fits(const cv::Mat& right, const Eigen::Vector2d& origin, const StereoMatch& match) {
     for (const double y : {-kHalf, kHalf}) {
       for (const double x : {-kHalf, kHalf}) {
         const double shift = match.disparity_px + match.gradient.dot(Eigen::Vector2d(x, y));
         // One column to spare: steps are summed up in single precision.
-        if (!inside(right, centre_.x() + x - shift - 1.0, centre_.y() + y)) return false;
-        if (!inside(right, centre_.x() + x - shift + 1.0, centre_.y() + y)) return false;
+        if (!inside(right, origin.x() + x - shift - 1.0, origin.y() + y)) return false;
+        if (!inside(right, origin.x() + x - shift + 1.0, origin.y() + y)) return false;
       }
     }
     return true;
@@ -143,6 +147,15 @@ class SlantedPatch {
   Eigen::Matrix4d normal_;
 };
 
+/// The left image's neighbourhood of a pixel as the right image shows it, on a surface of that slant.
+std::optional<PatchTemplate> warped_patch(const ImagePyramid& left, const Eigen::Vector2d& pixel,
+                                          const Eigen::Vector2d& gradient) {
+  Eigen::Matrix2d right_from_left;
+  right_from_left << 1.0 - gradient.x(), -gradient.y(), 0.0, 1.0;
+  if (right_from_left(0, 0) < 0.25) return std::nullopt;  // seen almost edge-on
+  return PatchTemplate::sample(left[0], pixel, right_from_left.inverse());
+}
+
 }  // namespace
 
 std::optional<StereoMatch> StereoMatcher::search(const ImagePyramid& left, const ImagePyramid& right,
@@ -151,18 +164,20 @@ std::optional<StereoMatch> StereoMatcher::search(const ImagePyramid& left, const
   const double scale = 1 << coarse;
   const cv::Point place(static_cast<int>(std::lround(pixel.x() / scale)),
                         static_cast<int>(std::lround(pixel.y() / scale)));
-  const auto found =
-      search_row(left[coarse], right[coarse], place, static_cast<int>(std::floor(range_.from_px / scale)),
-                 static_cast<int>(std::ceil(range_.to_px / scale)), kCoarseCorrelation);
+  const Eigen::Vector2i shift_here = (shift(pixel, 0.0) / scale).array().round().cast<int>();
+  const auto found = search_row(left[coarse], right[coarse], place, shift_here.y(),
+                                static_cast<int>(std::floor(range_.from_px / scale)) - shift_here.x(),
+                                static_cast<int>(std::ceil(range_.to_px / scale)) - shift_here.x(), kCoarseCorrelation);
   if (!found) return std::nullopt;
 
   StereoMatch match;
-  match.disparity_px = *found;
+  match.disparity_px = *found + shift_here.x();
   for (int level = coarse; level >= 0; --level) {
     const auto patch = SlantedPatch::sample(left[level], pixel / (1 << level));
     // A coarse patch that does not fit (too near the border, say) leaves the finer one to try.
     StereoMatch improved = match;
-    if (patch && patch->align(right[level], improved)) {
+    const double level_px = 1 << level;
+    if (patch && patch->align(right[level], shift(pixel, match.disparity_px * level_px) / level_px, improved)) {
       match = improved;
     } else if (level == 0) {
       return std::nullopt;
@@ -178,24 +193,37 @@ std::optional<StereoMatch> StereoMatcher::measure(const ImagePyramid& left, cons
                                                   const Eigen::Vector2d& expected_gradient) const {
   StereoMatch match{expected_disparity_px, expected_gradient};
   const auto patch = SlantedPatch::sample(left[0], pixel);
-  if (!patch || !patch->align(right[0], match) || !accepts(match)) return std::nullopt;
+  if (!patch || !patch->align(right[0], shift(pixel, expected_disparity_px), match) || !accepts(match)) {
+    return std::nullopt;
+  }
   return match;
 }
 
 std::optional<StereoMatch> StereoMatcher::refine(const ImagePyramid& left, const ImagePyramid& right,
                                                  const Eigen::Vector2d& pixel, double expected_disparity_px,
                                                  const Eigen::Vector2d& gradient) const {
-  Eigen::Matrix2d right_from_left;
-  right_from_left << 1.0 - gradient.x(), -gradient.y(), 0.0, 1.0;
-  if (right_from_left(0, 0) < 0.25) return std::nullopt;  // seen almost edge-on
-  const auto patch = PatchTemplate::sample(left[0], pixel, right_from_left.inverse());
+  const auto patch = warped_patch(left, pixel, gradient);
   if (!patch) return std::nullopt;
+  const Eigen::Vector2d shift_here = shift(pixel, expected_disparity_px), origin = pixel + shift_here;
   const auto found =
-      patch->align(right[0], {pixel.x() - expected_disparity_px, pixel.y()}, PatchTemplate::Search::kRow, kReach_px);
+      patch->align(right[0], {origin.x() - expected_disparity_px, origin.y()}, PatchTemplate::Search::kRow, kReach_px);
   if (!found) return std::nullopt;
-  const StereoMatch match{pixel.x() - found->position.x(), gradient, found->correlation, found->variance.x()};
+  const StereoMatch match{origin.x() - found->position.x(), gradient, found->correlation, found->variance.x()};
   if (!accepts(match)) return std::nullopt;
   return match;
+}
+
+std::optional<RowError> StereoMatcher::row_error(const ImagePyramid& left, const ImagePyramid& right,
+                                                 const Eigen::Vector2d& pixel, const StereoMatch& match) const {
+  const auto patch = warped_patch(left, pixel, match.gradient);
+  if (!patch) return std::nullopt;
+  const Eigen::Vector2d ideal(pixel.x() - match.disparity_px, pixel.y());
+  const auto found =
+      patch->align(right[0], ideal + shift(pixel, match.disparity_px), PatchTemplate::Search::kPlane, kRowReach_px);
+  if (!found || found->correlation < smallest_correlation_) return std::nullopt;
+  const double sigma_px = std::sqrt(found->variance.y());
+  if (sigma_px > kLargestRowSigma_px) return std::nullopt;
+  return RowError{ideal, found->position.y() - pixel.y(), sigma_px};
 }
 
 bool StereoMatcher::accepts(const StereoMatch& match) const {

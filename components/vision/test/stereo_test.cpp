@@ -70,7 +70,7 @@ TEST_P(SlantedStereo, DisparityAndSlantAreFound) {
   const auto disparity = [slope](double v) { return 9.3 + slope * (v - 60.0); };
   const ImagePyramid left(draw(size), 2);
   const ImagePyramid right(draw(size, [&](double u, double v) { return cv::Point2d(u + disparity(v), v); }), 2);
-  const StereoMatcher matcher({-0.5, 60.0}, 0.8);
+  const StereoMatcher matcher(kStereo.camera, {-0.5, 60.0}, 0.8);
   const auto match = matcher.search(left, right, {100.0, 60.0});
   ASSERT_TRUE(match);
   // The pyramid's smoothing acts along the rows' own columns, which a slant shears: a few hundredths of a pixel remain.
@@ -90,7 +90,7 @@ TEST(StereoMatcher, FindsNothingInAnotherPicture) {
   const ImagePyramid left(draw(size), 2);
   const ImagePyramid other(draw(size, [](double u, double v) { return cv::Point2d(1.7 * v + 900.0, 0.6 * u - 500.0); }),
                            2);
-  EXPECT_FALSE(StereoMatcher({-0.5, 60.0}, 0.8).search(left, other, {100.0, 60.0}));
+  EXPECT_FALSE(StereoMatcher(kStereo.camera, {-0.5, 60.0}, 0.8).search(left, other, {100.0, 60.0}));
 }
 
 TEST(StereoMatcher, DoesNotChooseBetweenRepetitions) {
@@ -100,7 +100,7 @@ TEST(StereoMatcher, DoesNotChooseBetweenRepetitions) {
     for (int u = 0; u < size.width; ++u) fence.at<uchar>(v, u) = (u / 6) % 2 == 0 ? 60 : 180;
   }
   const ImagePyramid image(fence, 2);
-  EXPECT_FALSE(StereoMatcher({-0.5, 60.0}, 0.8).search(image, image, {100.0, 60.0}));
+  EXPECT_FALSE(StereoMatcher(kStereo.camera, {-0.5, 60.0}, 0.8).search(image, image, {100.0, 60.0}));
 }
 
 }  // namespace
