@@ -50,6 +50,8 @@ class BinocularOdometryComponent final : public runtime::Component {
   }
 
  private:
+  static constexpr double kStaleCalibration_px = 1.0;  // a good calibration leaves some tenths
+
   /// Both stages, made when the cameras are known.
   struct Stages {
     TrackingStage tracking;
@@ -89,6 +91,7 @@ class BinocularOdometryComponent final : public runtime::Component {
   }
 
   void on_tracked(const TrackedFrame& frame) {
+    if (frame.row_misalignment_px > kStaleCalibration_px) say_stale(frame.row_misalignment_px);
     const OdometryEstimate estimate = stages_->motion.estimate(frame);
     quality_.publish(to_quality(estimate, parameters_.base_frame));
     if (estimate.quality.reliable != was_reliable_) {
@@ -133,6 +136,17 @@ class BinocularOdometryComponent final : public runtime::Component {
     return true;
   }
 
+  /// Said once: it does not go away while driving.
+  void say_stale(double row_misalignment_px) {
+    if (is_said_stale_) return;
+    is_said_stale_ = true;
+    context_.log().warn(
+        "the right image's rows are {:.1f} px off the left's: the calibration is stale, or not of these cameras. It is "
+        "allowed for. Remedy: "
+        "calibrate the pair anew",
+        row_misalignment_px);
+  }
+
   /// Says what is wrong when it begins, not with every message.
   void say_once(const std::string& warning) {
     if (warning == last_warning_) return;
@@ -155,6 +169,7 @@ class BinocularOdometryComponent final : public runtime::Component {
   // The motion stage's own.
   std::optional<std::int64_t> last_stamp_ns_;
   bool was_reliable_ = true;
+  bool is_said_stale_ = false;
 };
 
 PANVO_REGISTER_COMPONENT(BinocularOdometryComponent)

@@ -95,6 +95,7 @@ class TrackingStage::Implementation {
     renew_hosts(tracks);
     detect(tracks);
     align_eyes();
+    result.row_misalignment_px = alignment_.misalignment().largest_row_shift_px(stereo_.camera);
     result.detected = static_cast<int>(tracks.size());
     result.matched = static_cast<int>(
         std::count_if(tracks.begin(), tracks.end(), [](const Track& track) { return track.seen.has_disparity; }));

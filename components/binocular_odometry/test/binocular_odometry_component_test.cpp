@@ -2,6 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "panvo/conversions/camera_info.hpp"
 #include "panvo/conversions/image.hpp"
 #include "panvo/conversions/pose.hpp"
@@ -129,6 +131,20 @@ TEST_F(BinocularOdometryComponent, SaysWhyAPoseIsUnreliableAndWhenItIsReliableAg
   EXPECT_TRUE(quality_.back()->reliable());
   EXPECT_TRUE(harness_.log_contains("reliable again"));
   EXPECT_THAT(odometry_, SizeIs(4));
+}
+
+TEST_F(BinocularOdometryComponent, WarnsOnceOfAStaleCalibration) {
+  load();
+  publish_infos();
+  publish_mounting();
+  const Eigen::Matrix3d turned = vision::so3_exp({2.0 / SyntheticScene::stereo().camera.fx, 0.0, 0.0});
+  for (int i = 0; i < 12; ++i) {
+    publish_pair(SyntheticScene::frame(i, SyntheticScene::world_from_left(i), turned));
+  }
+  const auto is_warning = [](const std::string& line) {
+    return line.find("calibrate the pair anew") != std::string::npos;
+  };
+  EXPECT_EQ(std::ranges::count_if(harness_.log(), is_warning), 1);
 }
 
 TEST_F(BinocularOdometryComponent, APairThatComesLateHasItsQualityButNoPose) {

@@ -2,6 +2,8 @@
 #include "panvo/vision/epipolar_misalignment.hpp"
 
 #include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
 
 #include "panvo/vision/robust_loss.hpp"
 
@@ -40,6 +42,17 @@ Eigen::Vector2d EpipolarMisalignment::shift(const PinholeCamera& camera,
   // Of a turn about Y the columns would show mostly what moves all pixels alike, which no row tells of: left to who knows how the points move.
   const Parts column_by_parts = (Parts() << 0.0, x * y, 0.0, y, x, at.squaredNorm() * x).finished() * camera.fx;
   return {column_by_parts.dot(parts), row_shift_px};
+}
+
+double EpipolarMisalignment::largest_row_shift_px(const PinholeCamera& camera) const {
+  const double right = camera.width - 1.0, bottom = camera.height - 1.0;
+  double largest_px = 0.0;
+  for (const Eigen::Vector2d& at :
+       {Eigen::Vector2d(0.0, 0.0), Eigen::Vector2d(right, 0.0), Eigen::Vector2d(0.0, bottom),
+        Eigen::Vector2d(right, bottom), Eigen::Vector2d(0.5 * right, 0.5 * bottom)}) {
+    largest_px = std::max(largest_px, std::abs(shift(camera, at).y()));
+  }
+  return largest_px;
 }
 
 EpipolarCalibration::EpipolarCalibration(const PinholeCamera& camera)

@@ -46,6 +46,11 @@ TEST(EpipolarMisalignment, ShiftsPixelsAsTheCameraWithItsErrorsDoes) {
   }
 }
 
+TEST(EpipolarMisalignment, IsAsLargeAsWhereRowsAreFarthestOff) {
+  const Parts roll = 1e-3 * Parts::Unit(3);
+  EXPECT_NEAR(EpipolarMisalignment{roll}.largest_row_shift_px(kCamera), 0.32, 1e-9);  // 320 px beside the middle
+}
+
 TEST(EpipolarCalibration, FindsTheErrorsOfAMisalignedCamera) {
   std::mt19937 random(2);
   std::normal_distribution<double> noise_px(0.0, 0.2);

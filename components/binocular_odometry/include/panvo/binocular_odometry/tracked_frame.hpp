@@ -24,6 +24,7 @@ struct TrackedFrame {
   int detected = 0;                       ///< features found in this frame, new or known
   int tracked = 0;                        ///< of these, known from before
   int matched = 0;                        ///< of all, found in the right image too
+  double row_misalignment_px = 0.0;       ///< how far the right image's rows are off the left's, as learned by now
   std::string fault;                      ///< why the frame cannot be used; empty when it can
 };
 

@@ -23,6 +23,9 @@ struct EpipolarMisalignment {
 
   /// From the pixel of a point in an aligned right image to where the right image has it (px).
   Eigen::Vector2d shift(const PinholeCamera& camera, const Eigen::Vector2d& ideal_right_pixel) const;
+
+  /// How far the rows are off where they are farthest off, in a corner or in the middle of the image (px).
+  double largest_row_shift_px(const PinholeCamera& camera) const;
 };
 
 /// Finds the misalignment while driving, from how far off their rows points are found: linear least squares that fade with the number of
