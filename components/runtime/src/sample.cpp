@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "panvo/runtime/sample.hpp"
 
+#include <algorithm>
+
 namespace panvo::runtime {
 
 SamplePtr Sample::of(const MessageType& type, std::shared_ptr<const void> message, std::int64_t time_ns,
@@ -37,6 +39,20 @@ const Sample::Bytes& Sample::bytes() const {
     bytes_ = std::move(bytes);
   }
   return bytes_;
+}
+
+std::size_t Sample::serialized_size() const {
+  const std::lock_guard lock(mutex_);
+  return bytes_.empty() ? type_->serialized_size(message_.get()) : bytes_.size();
+}
+
+void Sample::serialize_to(std::span<std::uint8_t> out) const {
+  const std::lock_guard lock(mutex_);
+  if (bytes_.empty()) {
+    type_->serialize(message_.get(), out);
+  } else {
+    std::ranges::copy(bytes_, out.begin());
+  }
 }
 
 }  // namespace panvo::runtime

@@ -42,6 +42,20 @@ TEST(Sample, IsSerialisedOnceHoweverManyWantItsBytes) {
   EXPECT_EQ(bytes.size(), type.serialized_size(sample->message()));
 }
 
+TEST(Sample, IsSerialisedIntoMemoryOfTheCallersAsItsBytesAre) {
+  sensor_msgs::msg::Image image;
+  image.encoding("mono8");
+  image.data({1, 2, 3});
+  const auto& type = interfaces::message_type<sensor_msgs::msg::Image>();
+  const SamplePtr sample = Sample::of(type, std::make_shared<const sensor_msgs::msg::Image>(image), 0);
+  interfaces::Bytes before(sample->serialized_size());
+  sample->serialize_to(before);
+  EXPECT_EQ(before, sample->bytes());
+  interfaces::Bytes after(sample->serialized_size());  // now there are bytes to copy
+  sample->serialize_to(after);
+  EXPECT_EQ(after, before);
+}
+
 TEST(Sample, ReadsItsMessageFromBytes) {
   sensor_msgs::msg::Image image;
   image.encoding("mono8");

@@ -4,6 +4,7 @@
 #include <fastdds/rtps/common/SerializedPayload.h>
 
 #include <algorithm>
+#include <exception>
 #include <new>
 
 namespace panvo::runtime::dds {
@@ -20,6 +21,14 @@ bool has_xcdr1_encapsulation(std::span<const std::uint8_t> bytes) {
 
 }  // namespace
 
+void Outgoing::write_to(std::span<std::uint8_t> out) const {
+  if (sample_) {
+    sample_->serialize_to(out);
+  } else {
+    std::ranges::copy(bytes_, out.begin());
+  }
+}
+
 SampleDataType::SampleDataType(const std::string& wire_type_name) {
   setName(wire_type_name.c_str());
   m_typeSize = kInitialPayloadSize;
@@ -30,11 +39,16 @@ SampleDataType::SampleDataType(const std::string& wire_type_name) {
 }
 
 bool SampleDataType::serialize(void* outgoing, eprosima::fastrtps::rtps::SerializedPayload_t* payload) {
-  const auto bytes = static_cast<const Outgoing*>(outgoing)->bytes;
-  if (bytes.size() < kEncapsulationSize || bytes.size() > payload->max_size) return false;
-  std::copy(bytes.begin(), bytes.end(), payload->data);
-  payload->length = static_cast<std::uint32_t>(bytes.size());
-  payload->encapsulation = bytes[1];
+  const auto& message = *static_cast<const Outgoing*>(outgoing);
+  const std::size_t size = message.size();
+  if (size < kEncapsulationSize || size > payload->max_size) return false;
+  try {
+    message.write_to({payload->data, size});
+  } catch (const std::exception&) {
+    return false;  // Fast DDS must not see an exception; the message was changed while it was being sent
+  }
+  payload->length = static_cast<std::uint32_t>(size);
+  payload->encapsulation = payload->data[1];
   return true;
 }
 
@@ -52,7 +66,7 @@ bool SampleDataType::deserialize(eprosima::fastrtps::rtps::SerializedPayload_t* 
 }
 
 std::function<std::uint32_t()> SampleDataType::getSerializedSizeProvider(void* outgoing) {
-  const auto size = static_cast<std::uint32_t>(static_cast<const Outgoing*>(outgoing)->bytes.size());
+  const auto size = static_cast<std::uint32_t>(static_cast<const Outgoing*>(outgoing)->size());
   return [size] { return size; };
 }
 

@@ -7,13 +7,22 @@
 #include <span>
 #include <string>
 
-#include "panvo/interfaces/message_type.hpp"
+#include "panvo/runtime/sample.hpp"
 
 namespace panvo::runtime::dds {
 
-/// What a writer gives to Fast DDS: a serialised message, encapsulation included.
-struct Outgoing {
-  std::span<const std::uint8_t> bytes;
+/// What a writer gives to Fast DDS: a serialised message, encapsulation included, or one that is serialised straight into the memory that is sent.
+class Outgoing {
+ public:
+  explicit Outgoing(std::span<const std::uint8_t> bytes) : bytes_(bytes) {}
+  explicit Outgoing(const Sample& sample) : sample_(&sample) {}
+
+  std::size_t size() const { return sample_ ? sample_->serialized_size() : bytes_.size(); }
+  void write_to(std::span<std::uint8_t> out) const;
+
+ private:
+  const Sample* sample_ = nullptr;
+  std::span<const std::uint8_t> bytes_;
 };
 
 /// What a reader gets from Fast DDS.

@@ -74,7 +74,7 @@ std::optional<interfaces::Bytes> ServiceClient::call(const interfaces::Bytes& re
   const auto end = steady_clock::now() + limit;
   eprosima::fastrtps::rtps::WriteParams params;
   params.related_sample_identity().writer_guid(reader_->guid());
-  Outgoing outgoing{request};
+  Outgoing outgoing(request);
   if (!writer_->write(&outgoing, params)) return std::nullopt;
   const auto mine = number(params.sample_identity());
   std::unique_lock lock(mutex_);

@@ -126,7 +126,7 @@ bool ServiceServer::send(const interfaces::Bytes& response, const Identity& iden
   }
   eprosima::fastrtps::rtps::WriteParams params;
   params.related_sample_identity(identity);
-  Outgoing outgoing{response};
+  Outgoing outgoing(response);
   return writer_->write(&outgoing, params);
 }
 

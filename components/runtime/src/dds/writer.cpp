@@ -35,7 +35,7 @@ Writer::~Writer() {
 
 bool Writer::write(const SamplePtr& sample) {
   if (matched_readers_ == 0 && !keeps_for_late_joiners_) return true;
-  Outgoing outgoing{sample->bytes()};
+  Outgoing outgoing(*sample);
   for (int attempt = 0; attempt < kWriteAttempts; ++attempt) {
     if (writer_->write(&outgoing, fdds::HANDLE_NIL) == ReturnCode_t::RETCODE_OK) return true;
   }

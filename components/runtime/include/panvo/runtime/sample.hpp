@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <mutex>
+#include <span>
 #include <string>
 
 #include "panvo/interfaces/message_type.hpp"
@@ -39,6 +40,10 @@ class Sample {
 
   /// The serialised message, encapsulation included; made at the first call.
   const Bytes& bytes() const;
+
+  /// The same for who has memory of its own for them: a copy of bytes(), or without these being made. `out` is of serialized_size() bytes.
+  std::size_t serialized_size() const;
+  void serialize_to(std::span<std::uint8_t> out) const;
 
   /// `sample`'s message as `Message`, sharing its ownership: no copy, and what made it stays loaded. The type must be right.
   template <class Message>

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+
+namespace panvo::bench {
+
+/// What is sent: an odometry of 720 B, reliable, or a colour panorama of 1.75 MB, best effort.
+enum class Message : std::uint8_t { kOdometry, kPanorama };
+
+constexpr std::uint32_t kPanoramaWidth = 1080, kPanoramaHeight = 540,
+                        kPanoramaBytes = kPanoramaWidth * kPanoramaHeight * 3;
+constexpr int kOdometryDepth = 50, kPanoramaDepth = 5;  // of the topics, as panvo has them
+constexpr const char* kOdometryTopic = "rt/bench/odometry";
+constexpr const char* kPanoramaTopic = "rt/bench/panorama";
+
+/// One process's side of a topic, by one implementation. The messages carry the time at which they were sent; `arrived` is called with it once
+/// the message is there as a struct, whole.
+class Transport {
+ public:
+  using Arrived = std::function<void(std::int64_t sent_ns)>;
+
+  virtual ~Transport() = default;
+  virtual void open_reader(Arrived arrived) = 0;
+  virtual void open_writer() = 0;
+  /// Whether a reader, of this process or another, is matched with the writer.
+  virtual bool is_matched() const = 0;
+  virtual void write(std::int64_t sent_ns) = 0;
+};
+
+/// Both ends of a process in a container of panvo's: pointers within the process, else what the bridge makes of it.
+std::unique_ptr<Transport> make_panvo_transport(Message message, int domain);
+/// One participant, generated types, shared memory and socket buffers as large as panvo's, listener threads.
+std::unique_ptr<Transport> make_fastdds_transport(Message message, int domain);
+/// The same with another vendor's DDS, which knows no shared memory as built for Debian; nullptr where it is not installed.
+std::unique_ptr<Transport> make_cyclone_transport(Message message, int domain);
+
+}  // namespace panvo::bench

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fastcdr/Cdr.h>
+#include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
+#include <fastdds/rtps/transport/shared_mem/SharedMemTransportDescriptor.h>
+
+#include <atomic>
+#include <fastdds/dds/domain/DomainParticipant.hpp>
+#include <fastdds/dds/domain/DomainParticipantFactory.hpp>
+#include <fastdds/dds/publisher/DataWriter.hpp>
+#include <fastdds/dds/publisher/Publisher.hpp>
+#include <fastdds/dds/subscriber/DataReader.hpp>
+#include <fastdds/dds/subscriber/DataReaderListener.hpp>
+#include <fastdds/dds/subscriber/SampleInfo.hpp>
+#include <fastdds/dds/subscriber/Subscriber.hpp>
+#include <fastdds/dds/topic/TopicDataType.hpp>
+#include <fastdds/dds/topic/TypeSupport.hpp>
+#include <stdexcept>
+#include <utility>
+
+#include "nav_msgs/msg/Odometry.h"
+#include "panvo/interfaces/message_type.hpp"
+#include "sensor_msgs/msg/Image.h"
+#include "transport.hpp"
+
+namespace panvo::bench {
+namespace {
+
+namespace fdds = eprosima::fastdds::dds;
+namespace rtps = eprosima::fastrtps::rtps;
+using eprosima::fastrtps::types::ReturnCode_t;
+
+/// As fastddsgen writes it for each type.
+template <class Type>
+class GeneratedType final : public fdds::TopicDataType {
+ public:
+  GeneratedType() {
+    setName(std::string(interfaces::message_type<Type>().dds_name).c_str());
+    m_typeSize = static_cast<std::uint32_t>(Type::getMaxCdrSerializedSize() + 4);
+    m_isGetKeyDefined = false;
+  }
+  bool serialize(void* data, rtps::SerializedPayload_t* payload) override {
+    eprosima::fastcdr::FastBuffer buffer(reinterpret_cast<char*>(payload->data), payload->max_size);
+    eprosima::fastcdr::Cdr cdr(buffer, eprosima::fastcdr::Cdr::DEFAULT_ENDIAN, eprosima::fastcdr::Cdr::DDS_CDR);
+    payload->encapsulation = CDR_LE;
+    cdr.serialize_encapsulation();
+    static_cast<Type*>(data)->serialize(cdr);
+    payload->length = static_cast<std::uint32_t>(cdr.getSerializedDataLength());
+    return true;
+  }
+  bool deserialize(rtps::SerializedPayload_t* payload, void* data) override {
+    eprosima::fastcdr::FastBuffer buffer(reinterpret_cast<char*>(payload->data), payload->length);
+    eprosima::fastcdr::Cdr cdr(buffer, eprosima::fastcdr::Cdr::DEFAULT_ENDIAN, eprosima::fastcdr::Cdr::DDS_CDR);
+    cdr.read_encapsulation();
+    static_cast<Type*>(data)->deserialize(cdr);
+    return true;
+  }
+  std::function<std::uint32_t()> getSerializedSizeProvider(void* data) override {
+    return [data] { return static_cast<std::uint32_t>(Type::getCdrSerializedSize(*static_cast<Type*>(data)) + 4); };
+  }
+  void* createData() override { return new Type; }
+  void deleteData(void* data) override { delete static_cast<Type*>(data); }
+  bool getKey(void*, rtps::InstanceHandle_t*, bool) override { return false; }
+};
+
+template <class Type>
+class FastddsTransport final : public Transport, fdds::DataReaderListener {
+ public:
+  FastddsTransport(const char* topic, int domain, Type message, int depth, bool is_image)
+      : message_(std::move(message)), depth_(depth), is_image_(is_image) {
+    participant_ = fdds::DomainParticipantFactory::get_instance()->create_participant(
+        static_cast<fdds::DomainId_t>(domain), participant_qos());
+    if (!participant_) throw std::runtime_error("no participant");
+    fdds::TypeSupport type(new GeneratedType<Type>());
+    type.register_type(participant_);
+    topic_ = participant_->create_topic(topic, type.get_type_name(), fdds::TOPIC_QOS_DEFAULT);
+  }
+
+  void open_reader(Arrived arrived) override {
+    arrived_ = std::move(arrived);
+    fdds::DataReaderQos qos;
+    qos.reliability().kind = is_image_ ? fdds::BEST_EFFORT_RELIABILITY_QOS : fdds::RELIABLE_RELIABILITY_QOS;
+    qos.history().depth = depth_;
+    qos.endpoint().history_memory_policy = rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
+    reader_ = participant_->create_subscriber(fdds::SUBSCRIBER_QOS_DEFAULT)->create_datareader(topic_, qos, this);
+  }
+
+  void open_writer() override {
+    fdds::DataWriterQos qos;
+    qos.reliability().kind = fdds::RELIABLE_RELIABILITY_QOS;
+    qos.history().depth = depth_;
+    qos.endpoint().history_memory_policy = rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
+    if (is_image_) qos.publish_mode().kind = fdds::ASYNCHRONOUS_PUBLISH_MODE;
+    writer_ = participant_->create_publisher(fdds::PUBLISHER_QOS_DEFAULT)->create_datawriter(topic_, qos);
+  }
+
+  bool is_matched() const override {
+    fdds::PublicationMatchedStatus status;
+    writer_->get_publication_matched_status(status);
+    return status.current_count > 0;
+  }
+
+  void write(std::int64_t sent_ns) override {
+    message_.header().stamp().sec(static_cast<std::int32_t>(sent_ns / 1'000'000'000));
+    message_.header().stamp().nanosec(static_cast<std::uint32_t>(sent_ns % 1'000'000'000));
+    writer_->write(&message_);
+  }
+
+  ~FastddsTransport() override {
+    participant_->delete_contained_entities();
+    fdds::DomainParticipantFactory::get_instance()->delete_participant(participant_);
+  }
+
+ private:
+  static fdds::DomainParticipantQos participant_qos() {
+    fdds::DomainParticipantQos qos;
+    qos.transport().use_builtin_transports = false;
+    const auto shared_memory = std::make_shared<eprosima::fastdds::rtps::SharedMemTransportDescriptor>();
+    shared_memory->segment_size(32 * 1024 * 1024);
+    qos.transport().user_transports.push_back(shared_memory);
+    const auto udp = std::make_shared<eprosima::fastdds::rtps::UDPv4TransportDescriptor>();
+    udp->sendBufferSize = udp->receiveBufferSize = 4 * 1024 * 1024;
+    qos.transport().user_transports.push_back(udp);
+    return qos;
+  }
+
+  void on_data_available(fdds::DataReader* reader) override {
+    fdds::SampleInfo info;
+    while (reader->take_next_sample(&received_, &info) == ReturnCode_t::RETCODE_OK) {
+      const auto& stamp = received_.header().stamp();
+      if (info.valid_data) arrived_(std::int64_t{stamp.sec()} * 1'000'000'000 + stamp.nanosec());
+    }
+  }
+
+  Type message_, received_;
+  const int depth_;
+  const bool is_image_;
+  Arrived arrived_;
+  fdds::DomainParticipant* participant_ = nullptr;
+  fdds::Topic* topic_ = nullptr;
+  fdds::DataReader* reader_ = nullptr;
+  fdds::DataWriter* writer_ = nullptr;
+};
+
+}  // namespace
+
+std::unique_ptr<Transport> make_fastdds_transport(Message message, int domain) {
+  if (message == Message::kOdometry) {
+    return std::make_unique<FastddsTransport<nav_msgs::msg::Odometry>>(
+        kOdometryTopic, domain, nav_msgs::msg::Odometry(), kOdometryDepth, false);
+  }
+  sensor_msgs::msg::Image image;
+  image.encoding("rgb8");
+  image.width(kPanoramaWidth);
+  image.height(kPanoramaHeight);
+  image.step(kPanoramaWidth * 3);
+  image.data().resize(kPanoramaBytes);
+  return std::make_unique<FastddsTransport<sensor_msgs::msg::Image>>(kPanoramaTopic, domain, std::move(image),
+                                                                     kPanoramaDepth, true);
+}
+
+}  // namespace panvo::bench
