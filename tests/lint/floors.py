@@ -50,6 +50,8 @@ WRAPPER = floor("component wrapper", "runtime interfaces conversions vision land
 LANDMARKS = floor("landmarks", "vision interfaces conversions runtime", "messages, eigen, opencv, sqlite, json", False)
 # programs of a package, beside its algorithm and its component
 TOOL = floor("tool", "vision landmarks", "eigen, opencv, yaml, json, command line")
+# rig files of a stitcher, beside its algorithm
+RIG_FILE = floor("rig file", "vision", "eigen, opencv, yaml", False)
 RECORDER = floor("recorder", "runtime interfaces", "messages, fastdds, yaml, sqlite, log, json, command line")
 DRIVER = floor("driver", "runtime interfaces conversions vision", "messages, eigen, opencv, yaml, xml, json, log")
 CAMERA_DRIVER = floor("camera driver", "runtime interfaces conversions vision camera_stream", "messages, eigen, opencv, aravis, yaml, json, log")
@@ -65,6 +67,7 @@ FLOORS = [
     ("components/runtime", RUNTIME),
     ("components/conversions", CONVERSIONS),
     ("components/landmarks", LANDMARKS),
+    ("components/panorama_stitcher/src/rig", RIG_FILE),
     ("components/recorder", RECORDER),
     ("components/evaluation", EVALUATION),
     ("drivers/simulation", SIMULATION),

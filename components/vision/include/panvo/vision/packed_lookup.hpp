@@ -42,4 +42,7 @@ void look_up_blended(const LookupSource& first, const std::uint32_t* first_looku
                      const std::uint32_t* second_lookups, const std::uint8_t* weights, int count, int channels,
                      std::uint8_t* destination);
 
+/// Has what these look-ups will read brought into the cache meanwhile.
+void prefetch_lookups(const LookupSource& source, const std::uint32_t* lookups, int count, int channels);
+
 }  // namespace panvo::vision

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "panvo/panorama_stitcher/head_sets.hpp"
+
+#include <gmock/gmock.h>
+
+#include <stdexcept>
+
+namespace panvo::panorama_stitcher {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+using ::testing::Optional;
+using ::testing::SizeIs;
+using Sets = HeadSets<int>;
+
+constexpr Sets::Settings kSettings{.tolerance_ns = 10, .depth = 3, .missing_after = 2};
+
+TEST(HeadSets, BringsTogetherWhatWasTakenAtOneMoment) {
+  Sets sets(3, kSettings);
+  EXPECT_THAT(sets.push(1, 1007, 11), IsEmpty());
+  EXPECT_THAT(sets.push(0, 1000, 10), IsEmpty());
+  EXPECT_THAT(sets.push(0, 2000, 20), IsEmpty());
+  const auto complete = sets.push(2, 1003, 12);
+  ASSERT_THAT(complete, SizeIs(1));
+  EXPECT_EQ(complete[0].stamp_ns, 1000);
+  EXPECT_THAT(complete[0].items, ElementsAre(Optional(10), Optional(11), Optional(12)));
+}
+
+TEST(HeadSets, DropsAndCountsWhatFindsNoSet) {
+  Sets sets(2, kSettings);
+  sets.push(0, 1000, 1);
+  sets.push(0, 2000, 2);
+  ASSERT_THAT(sets.push(1, 2005, 3), SizeIs(1));
+  EXPECT_EQ(sets.unpaired(0), 1u);
+  EXPECT_THAT(sets.push(1, 1001, 4), IsEmpty()) << "its set is gone";
+  EXPECT_EQ(sets.unpaired(1), 1u);
+  EXPECT_FALSE(sets.is_missing(1));
+}
+
+TEST(HeadSets, KeepsApartWhatIsFurtherApartThanTheTolerance) {
+  Sets sets(2, kSettings);
+  sets.push(0, 1000, 1);
+  EXPECT_THAT(sets.push(1, 1011, 2), IsEmpty());
+  EXPECT_THAT(sets.push(1, 2000, 3), IsEmpty());
+  EXPECT_THAT(sets.push(0, 2010, 4), SizeIs(1));
+}
+
+TEST(HeadSets, GoesOnWithoutAHeadThatStaysAway) {
+  Sets sets(2, kSettings);
+  std::size_t complete = 0;
+  for (int i = 0; i < 10; ++i) complete += sets.push(0, 1000 * i, i).size();
+  EXPECT_TRUE(sets.is_missing(1));
+  EXPECT_EQ(sets.unpaired(0), 2u) << "two sets without it are given up";
+  EXPECT_EQ(complete, 8u);
+}
+
+TEST(HeadSets, WaitsForAHeadThatCameBack) {
+  Sets sets(2, kSettings);
+  for (int i = 0; i < 10; ++i) sets.push(0, 1000 * i, i);
+  EXPECT_THAT(sets.push(1, 9000, 99), IsEmpty()) << "its set went without it";
+  EXPECT_FALSE(sets.is_missing(1));
+  EXPECT_EQ(sets.unpaired(1), 1u);
+  EXPECT_THAT(sets.push(0, 10'000, 10), IsEmpty());
+  const auto both = sets.push(1, 10'000, 100);
+  ASSERT_THAT(both, SizeIs(1));
+  EXPECT_THAT(both[0].items, ElementsAre(Optional(10), Optional(100)));
+}
+
+TEST(HeadSets, HoldsNoMoreThanItsDepth) {
+  Sets sets(2, {.tolerance_ns = 10, .depth = 3, .missing_after = 1000});
+  for (int i = 0; i < 100; ++i) EXPECT_THAT(sets.push(0, 1000 * i, i), IsEmpty());
+  EXPECT_EQ(sets.unpaired(0), 97u);
+}
+
+TEST(HeadSets, RefusesSettingsThatMakeNoSense) {
+  EXPECT_THROW(Sets(0, kSettings), std::invalid_argument);
+  EXPECT_THROW(Sets(2, {.tolerance_ns = -1}), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace panvo::panorama_stitcher
