@@ -8,6 +8,11 @@ include(GNUInstallDirs)
 option(PANVO_WARNINGS_AS_ERRORS "Treat compiler warnings as errors" OFF)
 set(PANVO_SANITIZE "" CACHE STRING "Sanitizers to build with: address, undefined, thread, or a comma-separated list")
 
+option(PANVO_FUZZ "Build the fuzzers, everything with libFuzzer's instrumentation and the address sanitizer: for clang" OFF)
+if(PANVO_FUZZ AND NOT CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
+  message(FATAL_ERROR "PANVO_FUZZ is for clang, this is ${CMAKE_CXX_COMPILER_ID}: configure with -DCMAKE_CXX_COMPILER=clang++ in a build folder of its own")
+endif()
+
 if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
   set(CMAKE_BUILD_TYPE Release CACHE STRING "Release, RelWithDebInfo or Debug" FORCE)
 endif()
@@ -29,8 +34,13 @@ function(_panvo_compile_settings target)
   set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF POSITION_INDEPENDENT_CODE ON)
   # -ffp-contract=off: the same sums on every machine, so that a replay is the same bit for bit.
   # -fno-gnu-unique: a STB_GNU_UNIQUE symbol would pin a plugin in memory and unloading would do nothing.
-  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -ffp-contract=off
+  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow $<$<COMPILE_LANGUAGE:CXX>:-Wnon-virtual-dtor>
+    -ffp-contract=off
     $<$<CXX_COMPILER_ID:GNU>:-fno-gnu-unique> $<$<BOOL:${PANVO_WARNINGS_AS_ERRORS}>:-Werror>)
+  if(PANVO_FUZZ)
+    target_compile_options(${target} PRIVATE -fsanitize=fuzzer-no-link,address -fno-omit-frame-pointer -g)
+    target_link_options(${target} PRIVATE -fsanitize=fuzzer-no-link,address)
+  endif()
   if(PANVO_SANITIZE)
     target_compile_options(${target} PRIVATE -fsanitize=${PANVO_SANITIZE} -fno-omit-frame-pointer -g)
     target_link_options(${target} PRIVATE -fsanitize=${PANVO_SANITIZE})
@@ -139,6 +149,20 @@ function(panvo_add_test target)
     list(APPEND properties ENVIRONMENT ${arg_ENVIRONMENT})
   endif()
   gtest_discover_tests(${target} DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60 PROPERTIES ${properties})
+endfunction()
+
+# panvo_add_fuzzer(<name>_fuzzer SOURCES ... [LINK ...]): with PANVO_FUZZ, a program of libFuzzer's; <name>_fuzzer -runs=1000000 CORPUS.
+function(panvo_add_fuzzer target)
+  if(NOT PANVO_FUZZ)
+    return()
+  endif()
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;LINK")
+  add_executable(${target} ${arg_SOURCES})
+  target_link_libraries(${target} PRIVATE ${arg_LINK})
+  _panvo_compile_settings(${target})
+  target_link_options(${target} PRIVATE -fsanitize=fuzzer)
+  set_target_properties(${target} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/panvo_bin)
+  set_property(GLOBAL APPEND PROPERTY PANVO_FUZZERS ${target})
 endfunction()
 
 # panvo_package(DEPENDENCIES <package> ...): installs headers, exports what panvo_add_library made, and writes the package's config file.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// For libFuzzer: clang++ -fsanitize=fuzzer,address ... test/fuzz/sqlite_fuzzer.cpp test/fuzz/read_bag.cpp
+/// For libFuzzer (PANVO_FUZZ).
 #include "read_bag.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
