@@ -49,6 +49,7 @@ class Mistakes(unittest.TestCase):
 
     def test_an_unknown_option_is_named(self):
         self.assert_fails(2, "unknown option '--sanitise'", "build", "--sanitise")
+        self.assert_fails(2, "unknown option '--all'", "devices", "--all")
 
     def test_an_option_without_its_value_is_named(self):
         self.assert_fails(2, "--dataset needs a value", "demo", "--dataset")

@@ -86,15 +86,7 @@ class CameraGrabber::Implementation {
 
   void open() {
     try {
-      // A device that is away is asked for at its place; now and then everywhere, for its address may be another one by now.
-      constexpr int kTriesAtItsPlace = 8;
-      const bool is_gige = identity_ && !identity_->address.empty();
-      const bool everywhere = is_gige && ++tries_ % kTriesAtItsPlace == 0;
-      if (is_gige && !everywhere && !answers(identity_->address, std::chrono::milliseconds(200)))
-        throw OpenError(identity_->serial + " does not answer at " + identity_->address);
-      auto settings = settings_.camera;
-      if (identity_) settings.camera = identity_->serial;
-      camera_ = std::make_unique<OpenedCamera>(settings, !packet_socket_fails_, everywhere ? std::nullopt : identity_);
+      camera_ = std::make_unique<OpenedCamera>(settings_.camera, !packet_socket_fails_, identity_, where_to_search());
       opened();
     } catch (const OpenError& error) {
       machine_.failed(steady_ns());
@@ -105,9 +97,19 @@ class CameraGrabber::Implementation {
     }
   }
 
+  /// A device that is away is asked for at its place, which takes no time; now and then everywhere, for it may have another address by now.
+  OpenedCamera::Search where_to_search() {
+    constexpr std::int64_t kEverywhereEach_ns = 5'000'000'000;
+    if (!identity_ || identity_->address.empty()) return OpenedCamera::Search::kEverywhere;
+    if (answers(identity_->address, std::chrono::milliseconds(200))) return OpenedCamera::Search::kAtItsPlace;
+    if (steady_ns() - searched_ns_ < kEverywhereEach_ns)
+      throw OpenError(identity_->serial + " does not answer at " + identity_->address);
+    searched_ns_ = steady_ns();
+    return OpenedCamera::Search::kEverywhere;
+  }
+
   void opened() {
     identity_ = camera_->identity();
-    tries_ = 0;
     gaps_ = FrameGaps(camera_->is_gige() ? FrameNumbering::kGigEVision : FrameNumbering::kCounter64);
     stamper_.restart();
     const auto& negotiated = camera_->negotiated();
@@ -162,6 +164,7 @@ class CameraGrabber::Implementation {
       log_.info("{}: nothing comes by the packet socket; a UDP socket from now on", settings_.name);
     }
     closer_.close(std::move(camera_));
+    searched_ns_ = steady_ns();
     const std::lock_guard lock(mutex_);
     report_.is_streaming = false;
     report_.state = "not connected: " + identity_->serial + " " + why;
@@ -277,7 +280,7 @@ class CameraGrabber::Implementation {
   FrameStamper stamper_;
   SoftwareTrigger trigger_;
   bool packet_socket_fails_;
-  int tries_ = 0;
+  std::int64_t searched_ns_ = 0;  // everywhere
   std::uint64_t resent_of_stream_ = 0;
   std::optional<Identity> identity_;
   std::vector<std::string> told_refusals_;

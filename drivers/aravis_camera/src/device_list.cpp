@@ -54,18 +54,23 @@ void learn(const Announced& announced, camera_stream::FoundDevice& device) {
 
 void enable_simulated_camera() { arv_enable_interface("Fake"); }
 
-std::vector<Announced> announced_devices() {
-  // Aravis guards the update of its list, not the list between two calls.
+std::vector<Announced> announced_devices(std::chrono::milliseconds age) {
+  using std::chrono::steady_clock;
+  // Aravis guards the update of its list, not the list between two calls. Who waits here gets what the one before has found.
   static std::mutex mutex;
+  static std::vector<Announced> devices;
+  static steady_clock::time_point found_at = steady_clock::time_point::min();
   const std::lock_guard lock(mutex);
+  if (found_at != steady_clock::time_point::min() && steady_clock::now() - found_at < age) return devices;
   arv_update_device_list();
-  std::vector<Announced> devices;
+  devices.clear();
   for (unsigned i = 0; i < arv_get_n_devices(); ++i) {
     devices.push_back({text_of(arv_get_device_id(i)), text_of(arv_get_device_vendor(i)),
                        text_of(arv_get_device_model(i)), text_of(arv_get_device_serial_nbr(i)),
                        text_of(arv_get_device_address(i)), text_of(arv_get_device_physical_id(i)),
                        text_of(arv_get_device_protocol(i))});
   }
+  found_at = steady_clock::now();
   return devices;
 }
 

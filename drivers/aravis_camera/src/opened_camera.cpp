@@ -24,9 +24,11 @@ std::string reason_of(const ErrorSlot& error) {
   return "cannot be opened: " + text;
 }
 
+constexpr std::chrono::milliseconds kStillTrue(1000);  // what was found for another camera
+
 /// What `camera` means among all that answer; the error says which there are.
 Announced find(const std::string& camera) {
-  const auto devices = announced_devices();
+  const auto devices = announced_devices(kStillTrue);
   if (camera.empty() && !devices.empty()) return devices.front();
   const auto found =
       std::find_if(devices.begin(), devices.end(), [&](const Announced& device) { return is_meant(device, camera); });
@@ -39,6 +41,16 @@ Announced find(const std::string& camera) {
   const ObjectPtr<ArvDevice> device(arv_open_device(camera.c_str(), error.slot()));
   if (!device) throw OpenError(fmt::format("there is no camera '{}'; there is: {}", camera, to_text(devices)));
   return by_name;
+}
+
+/// Where a camera is that was here before, by its serial number alone.
+std::string find_again(const Identity& known) {
+  const auto devices = announced_devices(kStillTrue);
+  const auto found = std::find_if(devices.begin(), devices.end(),
+                                  [&](const Announced& device) { return device.serial == known.serial; });
+  if (found == devices.end())
+    throw OpenError(fmt::format("{} does not answer; there is: {}", known.serial, to_text(devices)));
+  return found->id;
 }
 
 }  // namespace
@@ -74,9 +86,13 @@ std::string ReceivedFrame::status_text() const {
   }
 }
 
-OpenedCamera::OpenedCamera(const CameraSettings& settings, bool use_packet_socket,
-                           const std::optional<Identity>& known) {
-  open(settings, known);
+OpenedCamera::OpenedCamera(const CameraSettings& settings, bool use_packet_socket, const std::optional<Identity>& known,
+                           Search search) {
+  if (!known) {
+    open(find(settings.camera).id, known);
+  } else {
+    open(search == Search::kEverywhere ? find_again(*known) : known->id, known);
+  }
   start(settings, use_packet_socket);
 }
 
@@ -88,8 +104,7 @@ OpenedCamera::~OpenedCamera() {
   }
 }
 
-void OpenedCamera::open(const CameraSettings& settings, const std::optional<Identity>& known) {
-  const std::string id = known ? known->id : find(settings.camera).id;
+void OpenedCamera::open(const std::string& id, const std::optional<Identity>& known) {
   ErrorSlot error;
   camera_.reset(arv_camera_new(id.c_str(), error.slot()));
   if (!camera_) throw OpenError(id + " " + reason_of(error));

@@ -64,8 +64,10 @@ class ReceivedFrame {
 /// A camera that is open, set and streaming. Closing it may take seconds when the device does not answer.
 class OpenedCamera {
  public:
-  /// Opens the device of `known` where that is given, and otherwise the one that the settings mean. Throws OpenError.
-  OpenedCamera(const CameraSettings& settings, bool use_packet_socket, const std::optional<Identity>& known);
+  enum class Search { kAtItsPlace, kEverywhere };
+  /// Opens the device `known` where that is given, at its place or wherever it is by now; otherwise the one that the settings mean. Throws OpenError.
+  OpenedCamera(const CameraSettings& settings, bool use_packet_socket, const std::optional<Identity>& known,
+               Search search);
   ~OpenedCamera();
   OpenedCamera(const OpenedCamera&) = delete;
   OpenedCamera& operator=(const OpenedCamera&) = delete;
@@ -88,7 +90,7 @@ class OpenedCamera {
   std::map<std::string, std::string> chunk_data(const ReceivedFrame& frame) const;
 
  private:
-  void open(const CameraSettings& settings, const std::optional<Identity>& known);
+  void open(const std::string& id, const std::optional<Identity>& known);
   void start(const CameraSettings& settings, bool use_packet_socket);
   void take_in_identity(const std::string& id);
 

@@ -88,15 +88,12 @@ TEST(ClockMapping, IsNotMovedByAHostThatSleptForTwoSeconds) {
 TEST(ClockMapping, BeginsAnewWithAClockThatBeganAnew) {
   Camera camera;
   ClockMapping mapping;
-  std::int64_t last_ns = 0;
   const double error_ns = largest_error_ns(mapping, camera, 21.0, 30.0, [&](int i) {
     if (i == 20 * 60) camera.offset_ns = -camera.began_ns;  // the camera was switched off and on: its clock is at 20 s
     if (i == 25 * 60) camera.offset_ns = 3'000 * kSecond;   // and set forward
   });
   EXPECT_EQ(mapping.resets(), 2u);
   EXPECT_LT(error_ns, 45.0 * kMs);  // one frame may be held up just after a reset
-  EXPECT_GT(mapping.to_host_ns(camera.device_ns(camera.began_ns + 31 * kSecond), camera.began_ns + 31 * kSecond),
-            last_ns);
 }
 
 TEST(ClockMapping, GivesStampsThatIncrease) {
@@ -104,12 +101,17 @@ TEST(ClockMapping, GivesStampsThatIncrease) {
   ClockMapping mapping;
   std::int64_t last_ns = 0;
   for (int i = 0; i < 2000; ++i) {
-    if (i == 1000) camera.offset_ns -= 7 * kSecond;
+    const bool is_set_anew = i == 1000;
+    if (is_set_anew) camera.offset_ns -= 7 * kSecond;
     const std::int64_t taken_ns = camera.began_ns + i * kSecond / 60;
-    const std::int64_t mapped_ns = mapping.to_host_ns(camera.device_ns(taken_ns), camera.arrival_ns(taken_ns));
+    // The first frame of a clock is all that is known of it: held up, it puts its stamp after that of the next.
+    const std::int64_t held_up_ns = i == 0 || is_set_anew ? 90 * kMs : 0;
+    const std::int64_t mapped_ns =
+        mapping.to_host_ns(camera.device_ns(taken_ns), camera.arrival_ns(taken_ns) + held_up_ns);
     ASSERT_GT(mapped_ns, last_ns) << "frame " << i;
     last_ns = mapped_ns;
   }
+  EXPECT_EQ(mapping.resets(), 1u);
 }
 
 TEST(ClockMapping, TakesStampsALittleAheadAsTheyAre) {

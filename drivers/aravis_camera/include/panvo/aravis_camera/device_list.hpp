@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <chrono>
 #include <string>
 #include <vector>
 
@@ -20,8 +21,8 @@ struct Announced {
   std::string vendor, model, serial, address, physical_id, protocol;
 };
 
-/// All that announce themselves; about a second.
-std::vector<Announced> announced_devices();
+/// All that announce themselves. A search takes about a second, with whoever opens a camera waiting; one that ended no longer than `age` ago does.
+std::vector<Announced> announced_devices(std::chrono::milliseconds age = std::chrono::milliseconds(0));
 
 /// Whether a camera is meant by `selector`: serial number, IP or MAC address, Aravis's id, or model.
 bool is_meant(const Announced& device, const std::string& selector);
