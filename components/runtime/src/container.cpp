@@ -15,6 +15,7 @@
 #include "panvo/runtime/names.hpp"
 #include "source_runner.hpp"
 #include "steering/component_node.hpp"
+#include "steering/parameter_events.hpp"
 #include "steering/steered.hpp"
 
 namespace panvo::runtime {
@@ -70,6 +71,7 @@ class Container::Implementation final : public steering::SteeredContainer {
         diagnostics_output_(own_.open_output(describe(topics::kDiagnostics))) {
     set_rosout(own_.open_output(describe(topics::kRosout)));
     if (!bus_.bridge()) return;
+    parameter_events_ = own_.open_output(describe(steering::kParameterEvents));
     auto offered = steering::component_services(full_name(), *this);
     own_service_names_ = names_of(offered);
     services_ = serve(std::move(offered));
@@ -137,7 +139,10 @@ class Container::Implementation final : public steering::SteeredContainer {
     if (started_) state.start();
     entry->id = next_id_++;
     const Loaded loaded{entry->id, entry->full_name()};
-    if (bus_.bridge()) offer_services(*entry);
+    if (bus_.bridge()) {
+      offer_services(*entry);
+      tell_parameters(steering::new_parameters(loaded.full_name, state.parameters(), clocks::system_ns()));
+    }
     {
       const std::lock_guard lock(entries_mutex_);
       entries_.push_back(std::move(entry));
@@ -244,13 +249,22 @@ class Container::Implementation final : public steering::SteeredContainer {
   }
 
   void offer_services(Entry& entry) {
-    entry.node = std::make_unique<steering::ComponentNode>(entry.context->state(), [this, id = entry.id] {
+    Context::State& state = entry.context->state();
+    const auto shut_down = [this, id = entry.id] {
       const std::lock_guard lock(housekeeping_mutex_);
       to_unload_.push_back(id);
-    });
+    };
+    const auto parameters_set = [this, &state, name = entry.full_name()](const WrittenValues& set) {
+      tell_parameters(steering::changed_parameters(name, state.parameters(), set, clocks::system_ns()));
+    };
+    entry.node = std::make_unique<steering::ComponentNode>(state, shut_down, parameters_set);
     entry.services = serve(steering::parameter_services(entry.full_name(), *entry.node));
     for (auto& service : serve(steering::lifecycle_services(entry.full_name(), *entry.node)))
       entry.services.push_back(std::move(service));
+  }
+
+  void tell_parameters(rcl_interfaces::msg::ParameterEvent event) {
+    parameter_events_->publish(std::make_shared<const rcl_interfaces::msg::ParameterEvent>(std::move(event)));
   }
 
   /// Has the bridge tell other processes which nodes there are and what each has.
@@ -481,6 +495,7 @@ class Container::Implementation final : public steering::SteeredContainer {
   std::atomic<SourceRunner*> active_runner_ = nullptr;
   Context own_;  // the container's own outputs
   std::shared_ptr<UntypedOutput> diagnostics_output_;
+  std::shared_ptr<UntypedOutput> parameter_events_;  // nullptr without a bridge
   Diagnostics diagnostics_;
   std::unique_ptr<BridgeWriter> clock_;
   std::atomic<std::int64_t> clock_ns_ = std::numeric_limits<std::int64_t>::min();

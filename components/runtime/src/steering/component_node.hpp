@@ -11,13 +11,16 @@ namespace panvo::runtime::steering {
 /// A loaded component as requests steer it.
 class ComponentNode final : public SteeredNode {
  public:
-  /// `shut_down` asks the container to unload it soon.
-  ComponentNode(Context::State& state, std::function<void()> shut_down)
-      : state_(state), shut_down_(std::move(shut_down)) {}
+  /// `shut_down` asks the container to unload it soon; `parameters_set` is told which parameters have been set.
+  ComponentNode(Context::State& state, std::function<void()> shut_down,
+                std::function<void(const WrittenValues&)> parameters_set)
+      : state_(state), shut_down_(std::move(shut_down)), parameters_set_(std::move(parameters_set)) {}
 
   std::vector<ParameterDescription> parameters() const override { return state_.parameters(); }
   std::vector<std::string> set_parameters(const WrittenValues& wanted) override {
-    return state_.set_parameters(wanted);
+    auto problems = state_.set_parameters(wanted);
+    if (problems.empty()) parameters_set_(wanted);
+    return problems;
   }
   bool is_active() const override { return state_.active; }
   /// What plays something recorded cannot pause: its place in time would be lost.
@@ -42,6 +45,7 @@ class ComponentNode final : public SteeredNode {
  private:
   Context::State& state_;
   const std::function<void()> shut_down_;
+  const std::function<void(const WrittenValues&)> parameters_set_;
 };
 
 }  // namespace panvo::runtime::steering

@@ -14,6 +14,7 @@
 #include "panvo/runtime/bridge.hpp"
 #include "panvo/runtime/graph.hpp"
 #include "peer_process.hpp"
+#include "rcl_interfaces/msg/ParameterEvent.h"
 #include "rcl_interfaces/srv/GetParameters.h"
 #include "rcl_interfaces/srv/SetParameters.h"
 #include "steering_topics.hpp"
@@ -172,6 +173,34 @@ TEST_F(Steering, HandsNoMessagesToAnInactiveComponent) {
   EXPECT_EQ(text_of(echoed.items()[0]), "yes");
 }
 
+TEST_F(Steering, TellsOfParametersThatComeAndThatAreSet) {
+  Inbox<SamplePtr> events;
+  const auto listener = bridge->open_reader(
+      test::topic("/parameter_events", "rcl_interfaces/msg/ParameterEvent", {.depth = 1000}), events.callback());
+  const auto is_told = [&](const auto& is_it) {
+    return events.wait_for(
+        [&](const SamplePtr& sample) { return is_it(*Sample::as<rcl_interfaces::msg::ParameterEvent>(sample)); });
+  };
+  const auto tells_before = [](const std::string& text) {
+    return [text](const rcl_interfaces::msg::ParameterEvent& event) {
+      return event.node() == "/robot/echo" && event.changed_parameters().size() == 1 &&
+             event.changed_parameters()[0].name() == "before" &&
+             event.changed_parameters()[0].value().string_value() == text;
+    };
+  };
+  // That the reader matches here does not say that it matches there yet.
+  ASSERT_TRUE(eventually([&] { return set_before("any").empty() && !events.items().empty(); }));
+  EXPECT_EQ(set_before("> "), "");
+  EXPECT_TRUE(is_told(tells_before("> ")));
+  events.clear();
+  const auto id = load(relay()).unique_id();
+  EXPECT_TRUE(is_told([](const rcl_interfaces::msg::ParameterEvent& event) {
+    return event.node() == "/relay" && event.new_parameters().size() == 1 &&
+           event.new_parameters()[0].name() == "copies" && event.new_parameters()[0].value().integer_value() == 1;
+  }));
+  EXPECT_TRUE(unload(id).success());
+}
+
 TEST_F(Steering, ShutsAComponentDownAfterItsAnswer) {
   EXPECT_TRUE(change_state("shutdown"));
   EXPECT_TRUE(eventually([&] { return loaded().empty(); }));
@@ -184,9 +213,9 @@ TEST_F(Steering, TellsRos2WhichNodesThereAreAndWhatTheyHave) {
     const auto found = std::ranges::find(nodes, name, &GraphNode::name);
     return found == nodes.end() ? GraphNode{} : *found;
   };
-  // Ten services each; the component's two topics, /rosout and /diagnostics of the container.
+  // Ten services each; the component's two topics, /rosout, /diagnostics and /parameter_events of the container.
   EXPECT_TRUE(eventually([&] { return node("echo").readers.size() == 11 && node("echo").writers.size() == 11; }));
-  EXPECT_TRUE(eventually([&] { return node("steered").readers.size() == 3 && node("steered").writers.size() == 5; }));
+  EXPECT_TRUE(eventually([&] { return node("steered").readers.size() == 3 && node("steered").writers.size() == 6; }));
   EXPECT_EQ(node("echo").name_space, "/robot");
   const auto id = load(relay()).unique_id();
   EXPECT_TRUE(eventually([&] { return node("relay").name == "relay"; }));
