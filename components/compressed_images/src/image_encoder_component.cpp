@@ -14,16 +14,22 @@ namespace {
 using sensor_msgs::msg::CompressedImage;
 using sensor_msgs::msg::Image;
 
-struct EncoderParameters {
+struct EncoderTopics {
   std::vector<std::string> topics{std::string(topics::kStereoLeftImageRaw.name),
                                   std::string(topics::kStereoRightImageRaw.name), std::string(topics::kPanorama.name)};
+  template <class Field>
+  static void describe(Field&& field) {
+    field(&EncoderTopics::topics, "topics", "", "images to compress: TOPIC becomes TOPIC/compressed");
+  }
+};
+
+struct EncoderParameters {
   std::string format = "jpeg";
   int jpeg_quality = Encoding().jpeg_quality;
   int png_level = Encoding().png_level;
   template <class Field>
   static void describe(Field&& field) {
     using P = EncoderParameters;
-    field(&P::topics, "topics", "", "images to compress: TOPIC becomes TOPIC/compressed");
     field(&P::format, "format", "", "of the compressed images: small, or every pixel kept", {"jpeg", "png"});
     field(&P::jpeg_quality, "jpeg_quality", "", "of jpeg; colours are kept at full resolution from 90 on", 1, 100);
     field(&P::png_level, "png_level", "", "of png: higher is smaller and slower", 0, 9);
@@ -38,7 +44,8 @@ class ImageEncoderComponent final : public runtime::Component {
  public:
   explicit ImageEncoderComponent(runtime::Context& context)
       : context_(context), parameters_(context.parameters<EncoderParameters>()) {
-    for (const std::string& topic : separate_names(parameters_.topics)) {
+    context.on_parameters<EncoderParameters>([this](const EncoderParameters& wanted) { parameters_ = wanted; });
+    for (const std::string& topic : separate_names(context.parameters<EncoderTopics>().topics)) {
       const std::string compressed = topic + "/compressed";
       context.input(
           interfaces::Topic<Image>{topic, interfaces::qos::kSensorData},
@@ -63,7 +70,7 @@ class ImageEncoderComponent final : public runtime::Component {
   }
 
   runtime::Context& context_;
-  const EncoderParameters parameters_;
+  EncoderParameters parameters_;
 };
 
 }  // namespace
