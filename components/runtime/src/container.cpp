@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
-#include <limits>
 
 #include "clocks.hpp"
 #include "context_state.hpp"
@@ -13,6 +12,8 @@
 #include "panvo/runtime/errors.hpp"
 #include "panvo/runtime/graph.hpp"
 #include "panvo/runtime/names.hpp"
+#include "played_clock.hpp"
+#include "rosout.hpp"
 #include "source_runner.hpp"
 #include "steering/component_node.hpp"
 #include "steering/parameter_events.hpp"
@@ -69,7 +70,7 @@ class Container::Implementation final : public steering::SteeredContainer {
               .progressed = [this] { progressed(); }},
         own_(std::make_unique<Context::State>(host_, own_description(), nullptr)),
         diagnostics_output_(own_.open_output(describe(topics::kDiagnostics))) {
-    set_rosout(own_.open_output(describe(topics::kRosout)));
+    rosout_.open(own_.open_output(describe(topics::kRosout)));
     if (!bus_.bridge()) return;
     parameter_events_ = own_.open_output(describe(steering::kParameterEvents));
     auto offered = steering::component_services(full_name(), *this);
@@ -80,7 +81,7 @@ class Container::Implementation final : public steering::SteeredContainer {
 
   ~Implementation() override {
     services_.clear();  // from now on nobody loads or unloads
-    set_rosout(nullptr);
+    rosout_.close();
     if (runner_) runner_->stop();
     stop_housekeeping();
     while (!entries_.empty()) take_last();  // the last loaded first: it may use what the others publish
@@ -88,20 +89,7 @@ class Container::Implementation final : public steering::SteeredContainer {
 
   void log(LogLevel level, const std::string& component, const std::string& text) {
     sink_(level, component, text);
-    std::shared_ptr<UntypedOutput> rosout;
-    {
-      const std::lock_guard lock(rosout_mutex_);
-      rosout = rosout_;
-    }
-    if (!rosout) return;  // while the container is being made or ends
-    auto message = std::make_shared<rcl_interfaces::msg::Log>();
-    const std::int64_t now_ns = options_.replay ? current_stamp_ns() : clocks::system_ns();
-    message->stamp().sec(static_cast<std::int32_t>(now_ns / 1'000'000'000));
-    message->stamp().nanosec(static_cast<std::uint32_t>(now_ns % 1'000'000'000));
-    message->level(static_cast<std::uint8_t>(level));
-    message->name(component);
-    message->msg(text);
-    rosout->publish(std::shared_ptr<const void>(std::move(message)));
+    rosout_.publish(level, component, text, options_.replay ? current_stamp_ns() : clocks::system_ns());
   }
 
   using Create = std::function<std::unique_ptr<Component, void (*)(Component*)>(Context&)>;
@@ -320,11 +308,6 @@ class Container::Implementation final : public steering::SteeredContainer {
     entries_.pop_back();
   }
 
-  void set_rosout(std::shared_ptr<UntypedOutput> output) {
-    const std::lock_guard lock(rosout_mutex_);
-    rosout_ = std::move(output);
-  }
-
   void progressed() {
     if (SourceRunner* runner = active_runner_.load()) runner->wake();
     stop_changed_.notify_all();
@@ -367,7 +350,10 @@ class Container::Implementation final : public steering::SteeredContainer {
         sources, SourceRunner::Settings{
                      .rate = options_.rate,
                      .queues_are_empty = [this] { return queues_are_empty(); },
-                     .reached = [this](std::int64_t stamp_ns) { publish_clock(stamp_ns); },
+                     .reached =
+                         [this](std::int64_t stamp_ns) {
+                           if (clock_) clock_->reach(stamp_ns);
+                         },
                      .failed = [this](const std::string& what) { fail_source(what); },
                      .warn = [this](const std::string& text) { log(LogLevel::kWarning, "container", text); }});
     active_runner_ = runner_.get();
@@ -383,28 +369,17 @@ class Container::Implementation final : public steering::SteeredContainer {
     if (!sources.empty()) on_progress(runner_->progress());
   }
 
-  /// What is played at its pace brings its time along for ROS 2's nodes with use_sim_time, unless a clock is played too. Components here go by
-  /// stamps and have no use for it, nor recorders, so that it only leaves the process.
+  /// What is played at its pace brings its time along, unless a clock is played too.
   void open_clock() {
-    const auto topic = describe(topics::kClock);
     if (!bus_.bridge() || options_.rate <= 0) return;
     for (const Channel* channel : bus_.channels()) {
-      if (channel->topic().name == topic.name && channel->has_publisher_other_than(nullptr)) return;
+      if (channel->topic().name == topics::kClock.name && channel->has_publisher_other_than(nullptr)) return;
     }
     {
       const std::lock_guard lock(entries_mutex_);
-      clock_ = bus_.bridge()->open_writer(topic);
+      clock_ = std::make_unique<PlayedClock>(*bus_.bridge());
     }
     tell_nodes();
-  }
-
-  void publish_clock(std::int64_t stamp_ns) {
-    std::int64_t last_ns = clock_ns_;  // of several sources: a clock that went back would unsettle who reads it
-    if (!clock_ || stamp_ns <= last_ns || !clock_ns_.compare_exchange_strong(last_ns, stamp_ns)) return;
-    auto clock = std::make_shared<rosgraph_msgs::msg::Clock>();
-    clock->clock().sec(static_cast<std::int32_t>(stamp_ns / 1'000'000'000));
-    clock->clock().nanosec(static_cast<std::uint32_t>(stamp_ns % 1'000'000'000));
-    clock_->write(Sample::of(interfaces::message_type<rosgraph_msgs::msg::Clock>(), std::move(clock), stamp_ns));
   }
 
   /// Lets what is under way be handled, then what was sent be received. Gives up after 10 s without progress; after 10 s in all when it was
@@ -486,8 +461,7 @@ class Container::Implementation final : public steering::SteeredContainer {
 
   const ContainerOptions options_;
   const Logger::Write sink_;
-  std::mutex rosout_mutex_;  // before the bus, which may have a warning to log while it is made
-  std::shared_ptr<UntypedOutput> rosout_;
+  Rosout rosout_;  // before the bus, which may have a warning to log while it is made
   ReplayOrder replay_order_;
   Bus bus_;
   Host host_;
@@ -497,8 +471,7 @@ class Container::Implementation final : public steering::SteeredContainer {
   std::shared_ptr<UntypedOutput> diagnostics_output_;
   std::shared_ptr<UntypedOutput> parameter_events_;  // nullptr without a bridge
   Diagnostics diagnostics_;
-  std::unique_ptr<BridgeWriter> clock_;
-  std::atomic<std::int64_t> clock_ns_ = std::numeric_limits<std::int64_t>::min();
+  std::unique_ptr<PlayedClock> clock_;  // nullptr: none is to be told
 
   std::mutex change_mutex_;           // one component comes or goes at a time
   mutable std::mutex entries_mutex_;  // guards entries_, and that what is in it stays meanwhile
