@@ -101,12 +101,18 @@ void set_packets(ArvCamera* camera, const CameraSettings& settings, Refusals& re
 
 }  // namespace
 
+std::vector<std::string> apply(ArvCamera* camera, const std::vector<FeatureSetting>& features) {
+  std::vector<std::string> problems;
+  for (const auto& setting : features) {
+    if (const auto problem = apply(arv_camera_get_device(camera), setting); !problem.empty())
+      problems.push_back("features: " + problem);
+  }
+  return problems;
+}
+
 std::vector<std::string> apply(ArvCamera* camera, const CameraSettings& settings) {
   Refusals refusals;
-  for (const auto& setting : settings.features) {
-    if (auto problem = apply(arv_camera_get_device(camera), setting); !problem.empty())
-      refusals.add("features: " + problem);
-  }
+  for (auto& problem : apply(camera, settings.features)) refusals.add(std::move(problem));
   set_pixel_format(camera, settings.pixel_format, refusals);
   set_region(camera, settings, refusals);
   if (settings.frame_rate_hz > 0.0) {

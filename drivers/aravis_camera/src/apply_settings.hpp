@@ -12,4 +12,7 @@ namespace panvo::aravis_camera {
 /// Sets the camera; what it does not take is left as it is and returned, a sentence each.
 std::vector<std::string> apply(ArvCamera* camera, const CameraSettings& settings);
 
+/// The same for features alone.
+std::vector<std::string> apply(ArvCamera* camera, const std::vector<FeatureSetting>& features);
+
 }  // namespace panvo::aravis_camera

@@ -27,6 +27,8 @@ class AravisCameraComponent final : public runtime::Component {
     }
     if (parameters.simulated) enable_simulated_camera();
     group_.emplace(context, std::move(cameras), static_cast<std::int64_t>(parameters.pair_tolerance_ms * 1e6));
+    context.on_parameters<Parameters>(
+        [this, parameters](const Parameters& wanted) { on_parameters(parameters, wanted); });
     // Cameras are opened when the container starts, not while components are looked at or still to be loaded.
     begin_.push({std::this_thread::get_id()});
   }
@@ -44,6 +46,15 @@ class AravisCameraComponent final : public runtime::Component {
     }
     if (!mounting_.transforms().empty()) static_transforms_.publish(mounting_);
     group_->start();
+  }
+
+  void on_parameters(Parameters made_with, const Parameters& wanted) {
+    made_with.features = wanted.features;
+    if (wanted != made_with)
+      throw runtime::ConfigError("of aravis_camera only features can be set while it runs; load it anew for the rest");
+    std::vector<std::vector<FeatureSetting>> features;
+    for (const auto& camera : cameras_of(wanted)) features.push_back(camera.settings.camera.features);
+    group_->set_features(std::move(features));
   }
 
   static std::int64_t system_ns() {

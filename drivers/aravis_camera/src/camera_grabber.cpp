@@ -60,9 +60,15 @@ class CameraGrabber::Implementation {
     return report_;
   }
 
+  void set_features(std::vector<FeatureSetting> features) {
+    const std::lock_guard lock(mutex_);
+    new_features_ = std::move(features);
+  }
+
  private:
   void run(const std::stop_token& stop) {
     while (!stop.stop_requested()) {
+      take_new_features();
       switch (machine_.step(steady_ns())) {
         case Reconnection::Action::kOpen:
           open();
@@ -76,6 +82,19 @@ class CameraGrabber::Implementation {
       }
     }
     if (camera_) closer_.close(std::move(camera_));
+  }
+
+  void take_new_features() {
+    std::unique_lock lock(mutex_);
+    if (!new_features_) return;
+    settings_.camera.features = std::move(*new_features_);
+    new_features_.reset();
+    if (!camera_) return;
+    lock.unlock();
+    const auto refused = camera_->set(settings_.camera.features);
+    say_what_was_refused(refused);
+    lock.lock();
+    report_.counters.refused_settings = refused.size();
   }
 
   void wait(const std::stop_token& stop) {
@@ -137,11 +156,16 @@ class CameraGrabber::Implementation {
               negotiated.height, negotiated.pixel_format,
               negotiated.frame_rate_hz > 0 ? fmt::format(", {:.4g} Hz", negotiated.frame_rate_hz) : "",
               negotiated.packet_size > 0 ? fmt::format(", packets of {} bytes", negotiated.packet_size) : "");
-    for (const auto& refused : negotiated.refused) {
-      if (std::find(told_refusals_.begin(), told_refusals_.end(), refused) != told_refusals_.end()) continue;
-      log_.warn("{}: {} does not take {}", settings_.name, identity_->serial, refused);
+    say_what_was_refused(negotiated.refused);
+  }
+
+  /// Not again what was said when the camera was opened before.
+  void say_what_was_refused(const std::vector<std::string>& refused) {
+    for (const auto& text : refused) {
+      if (std::find(told_refusals_.begin(), told_refusals_.end(), text) != told_refusals_.end()) continue;
+      log_.warn("{}: {} does not take {}", settings_.name, identity_->serial, text);
     }
-    told_refusals_ = negotiated.refused;
+    told_refusals_ = refused;
   }
 
   /// The time without frames that is in order: some frames' worth, or what is set if that is longer.
@@ -270,7 +294,7 @@ class CameraGrabber::Implementation {
 
   static constexpr std::int64_t kQuiet_ns = 10'000'000'000;
 
-  const GrabberSettings settings_;
+  GrabberSettings settings_;  // its features are the thread's own, the rest never changes
   const runtime::Logger& log_;
   const OnFrame on_frame_;
 
@@ -289,7 +313,8 @@ class CameraGrabber::Implementation {
   std::unique_ptr<OpenedCamera> camera_;
   Closer<OpenedCamera> closer_;
 
-  mutable std::mutex mutex_;  // guards report_
+  mutable std::mutex mutex_;  // guards report_ and new_features_
+  std::optional<std::vector<FeatureSetting>> new_features_;
   std::condition_variable_any stopped_;
   camera_stream::StreamReport report_{.name = settings_.name,
                                       .serial = "",
@@ -306,5 +331,9 @@ CameraGrabber::CameraGrabber(GrabberSettings settings, const runtime::Logger& lo
 CameraGrabber::~CameraGrabber() = default;
 
 camera_stream::StreamReport CameraGrabber::report() const { return implementation_->report(); }
+
+void CameraGrabber::set_features(std::vector<FeatureSetting> features) {
+  implementation_->set_features(std::move(features));
+}
 
 }  // namespace panvo::aravis_camera

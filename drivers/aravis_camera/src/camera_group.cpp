@@ -36,12 +36,21 @@ CameraGroup::~CameraGroup() {
 }
 
 void CameraGroup::start() {
+  const std::lock_guard lock(grabbers_mutex_);
   for (std::size_t i = 0; i < cameras_.size(); ++i) {
     grabbers_.push_back(
         std::make_unique<CameraGrabber>(cameras_[i].description.settings, context_.log(),
                                         [this, i](CameraGrabber::Frame frame) { take(i, std::move(frame)); }));
   }
   reporter_ = std::jthread([this](const std::stop_token& stop) { report_each_second(stop); });
+}
+
+void CameraGroup::set_features(std::vector<std::vector<FeatureSetting>> features) {
+  const std::lock_guard lock(grabbers_mutex_);
+  for (std::size_t i = 0; i < cameras_.size(); ++i) {
+    cameras_[i].description.settings.camera.features = features[i];  // for those that are yet to be opened
+    if (i < grabbers_.size()) grabbers_[i]->set_features(std::move(features[i]));
+  }
 }
 
 void CameraGroup::take(std::size_t index, CameraGrabber::Frame frame) {

@@ -34,6 +34,9 @@ class CameraGroup {
   /// Begins to open the cameras. What they send is published from now on.
   void start();
 
+  /// Of each camera, in order; see CameraGrabber::set_features; from any thread.
+  void set_features(std::vector<std::vector<FeatureSetting>> features);
+
  private:
   using ImagePtr = std::shared_ptr<sensor_msgs::msg::Image>;
   struct Camera {
@@ -57,6 +60,7 @@ class CameraGroup {
   std::vector<Camera> cameras_;
   std::mutex report_mutex_;
   std::condition_variable_any stopped_;
+  std::mutex grabbers_mutex_;  // between start() and set_features(); the others come after start()
   std::vector<std::unique_ptr<CameraGrabber>> grabbers_;
   std::jthread reporter_;  // last: it uses the others
 };

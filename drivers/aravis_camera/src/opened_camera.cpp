@@ -180,6 +180,10 @@ std::unique_ptr<ReceivedFrame> OpenedCamera::receive(std::chrono::microseconds l
   return buffer != nullptr ? std::make_unique<ReceivedFrame>(stream_.get(), buffer) : nullptr;
 }
 
+std::vector<std::string> OpenedCamera::set(const std::vector<FeatureSetting>& features) {
+  return apply(camera_.get(), features);
+}
+
 bool OpenedCamera::trigger() {
   ErrorSlot error;
   arv_camera_software_trigger(camera_.get(), error.slot());

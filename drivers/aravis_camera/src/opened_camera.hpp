@@ -82,6 +82,9 @@ class OpenedCamera {
   /// nullptr: none came within `limit`.
   std::unique_ptr<ReceivedFrame> receive(std::chrono::microseconds limit);
 
+  /// Sets features now; returns what the camera does not take, and why.
+  std::vector<std::string> set(const std::vector<FeatureSetting>& features);
+
   /// False when the device does not take the command.
   bool trigger();
 

@@ -34,6 +34,8 @@ struct Parameters {
   std::vector<double> mount;
   bool simulated = false;
 
+  bool operator==(const Parameters&) const = default;
+
   template <class Field>
   static void describe(Field&& field) {
     using P = Parameters;
@@ -50,7 +52,9 @@ struct Parameters {
     field(&P::frame_rate_hz, "frame_rate_hz", "Hz", "0: as the camera has it", 0.0, 10000.0);
     field(&P::exposure_us, "exposure_us", "us", "0: as the camera has it", 0.0, 1e8);
     field(&P::features, "features", "",
-          "GenICam features to be set before all else, in order: Name=value, or left:Name=value for one camera");
+          "GenICam features to be set before all else, in order: Name=value, or left:Name=value for one camera; may be "
+          "set while "
+          "the cameras stream");
     field(&P::trigger, "trigger", "",
           "what begins a frame: the camera itself, a command from here, a signal on its line",
           {"off", "software", "line"});

@@ -3,6 +3,7 @@
 #include <fstream>
 
 #include "live_cameras.hpp"
+#include "panvo/aravis_camera/device_list.hpp"
 #include "panvo/runtime/errors.hpp"
 
 namespace panvo::aravis_camera::testing {
@@ -55,6 +56,24 @@ TEST_F(CamerasInTrouble, ACameraThatAnotherProgramHasIsSaidToBeInUseAndTakenWhen
   EXPECT_EQ(second.count(kMono), 0u);
   unload();
   EXPECT_TRUE(eventually([&] { return second.count(kMono) > 5; })) << second.log();
+}
+
+TEST_F(CamerasInTrouble, ACameraInUseIsListedAsSuchAndNotDisturbed) {
+  start({"GVL@127.0.0.1", "GVR@127.0.0.2"});
+  load({{"cameras", {"GVL"}}});
+  ASSERT_TRUE(eventually([&] { return count(kMono) > 5; })) << log();
+  std::map<std::string, camera_stream::FoundDevice> devices;
+  for (const auto& device : find_devices()) devices[device.serial] = device;
+  EXPECT_EQ(devices["GVL"].problem, "is in use: another program controls it");
+  EXPECT_EQ(devices["GVR"].problem, "");
+  EXPECT_EQ(devices["GVR"].address, "127.0.0.2");
+  EXPECT_EQ(devices["GVR"].protocol, "GigEVision");
+  EXPECT_THAT(devices["GVR"].formats, ::testing::IsSupersetOf({"Mono8", "Mono16", "BayerRG8", "RGB8"}));
+  EXPECT_EQ(devices["GVR"].sizes, "512 x 512, up to 2048 x 2048 px");
+  EXPECT_EQ(devices["GVR"].rates, "25 Hz, 0.1 to 1000 Hz");
+  const auto before = count(kMono);
+  EXPECT_TRUE(eventually([&] { return count(kMono) > before + 20; })) << log();
+  EXPECT_EQ(counter("camera", "reconnects"), 0u);
 }
 
 TEST_F(CamerasInTrouble, SettingsThatTheCameraRefusesAreNamedOneByOne) {

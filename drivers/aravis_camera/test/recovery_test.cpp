@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
 #include <csignal>
 #include <memory>
 
 #include "live_cameras.hpp"
+#include "panvo/aravis_camera/camera_grabber.hpp"
 
 namespace panvo::aravis_camera::testing {
 namespace {
@@ -75,6 +78,47 @@ TEST_F(LostCameras, ComeBackWhenTheyWereStoppedForLongerThanTheWatchdogWaits) {
   })) << log();
   unload();
   expect_stamps_to_increase();
+}
+
+TEST_F(LostCameras, AreSetWhileTheyStreamAndAgainWhenTheyComeBack) {
+  auto simulator = std::make_unique<Simulator>(std::vector<std::string>{"GVL@127.0.0.1"});
+  const runtime::Logger silent("test", [](runtime::LogLevel, const std::string&, const std::string&) {});
+  std::mutex mutex;
+  std::vector<std::int64_t> steps_ns;  // between pictures, as they were taken
+  std::int64_t last_ns = 0;
+  GrabberSettings settings;
+  settings.name = "left";
+  settings.camera.camera = "GVL";
+  settings.camera.frame_rate_hz = 0.0;
+  settings.camera.packet_socket = PacketSocket::kOff;
+  CameraGrabber grabber(settings, silent, [&](const CameraGrabber::Frame& frame) {
+    const auto picture = TestPicture::read(frame.image->data(), frame.image->step());
+    const std::lock_guard lock(mutex);
+    if (picture && last_ns != 0) steps_ns.push_back(picture->taken_ns - last_ns);
+    last_ns = picture ? picture->taken_ns : 0;
+  });
+  const auto takes_ten_pictures_each = [&](double period_ms) {
+    return eventually([&] {
+      const std::lock_guard lock(mutex);
+      if (steps_ns.size() < 10) return false;
+      std::vector<std::int64_t> newest(steps_ns.end() - 10, steps_ns.end());
+      std::nth_element(newest.begin(), newest.begin() + 5, newest.end());
+      return std::abs(static_cast<double>(newest[5]) * 1e-6 - period_ms) < 0.2 * period_ms;
+    });
+  };
+  EXPECT_TRUE(takes_ten_pictures_each(40.0)) << "the simulator's own 25 Hz";
+  grabber.set_features({{"AcquisitionFrameRate", "100"}, {"NoSuchThing", "1"}});
+  EXPECT_TRUE(takes_ten_pictures_each(10.0));
+  EXPECT_TRUE(eventually([&] { return grabber.report().counters.refused_settings == 1; }));
+  simulator->kill();
+  simulator = std::make_unique<Simulator>(std::vector<std::string>{"GVL@127.0.0.1"});
+  ASSERT_TRUE(eventually([&] { return grabber.report().counters.reconnects == 1; }));
+  {
+    const std::lock_guard lock(mutex);
+    steps_ns.clear();
+  }
+  EXPECT_TRUE(takes_ten_pictures_each(10.0)) << "as it was set last";
+  EXPECT_EQ(grabber.report().counters.refused_settings, 1u);
 }
 
 TEST_F(LostCameras, LeaveTheOtherHalfOfThePairUnpairedUntilTheyComeBack) {

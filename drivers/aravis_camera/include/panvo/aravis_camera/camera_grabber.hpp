@@ -5,6 +5,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "panvo/aravis_camera/camera_settings.hpp"
 #include "panvo/camera_stream/raw_image.hpp"
@@ -48,6 +49,9 @@ class CameraGrabber {
 
   /// From any thread.
   camera_stream::StreamReport report() const;
+
+  /// Sets features while the camera streams, and from now on whenever it is opened, instead of those before. From any thread; done soon.
+  void set_features(std::vector<FeatureSetting> features);
 
  private:
   class Implementation;
