@@ -8,6 +8,7 @@
 #include "known_answers.hpp"
 #include "nav_msgs/msg/Odometry.h"
 #include "panvo_msgs/msg/PanoramicLandmark.h"
+#include "sensor_msgs/msg/CompressedImage.h"
 #include "sensor_msgs/msg/Image.h"
 #include "tf2_msgs/msg/TFMessage.h"
 
@@ -148,6 +149,13 @@ void fields(Visit& visit, sensor_msgs_msg_Image& image, int n) {
 }
 
 template <class Visit>
+void fields(Visit& visit, sensor_msgs_msg_CompressedImage& image, int n) {
+  header(visit, image.header, 1, n);
+  visit("format", image.format, std::string("rgb8; jpeg compressed bgr8"));
+  bytes(visit, "data", image.data, answer::kThumbnailSize, n);
+}
+
+template <class Visit>
 void fields(Visit& visit, tf2_msgs_msg_TFMessage& message, int n) {
   visit.resize("transforms", message.transforms, answer::transforms(n));
   for (std::uint32_t i = 0; i < message.transforms._length; ++i) {
@@ -212,11 +220,14 @@ MessageKind kind(std::string_view name, const char* wire_name, const dds_topic_d
 }  // namespace
 
 const MessageKind* find_message_kind(std::string_view name) {
-  static const std::array<MessageKind, 4> kinds{
+  static const std::array<MessageKind, 5> kinds{
       kind<nav_msgs_msg_Odometry>("nav_msgs/msg/Odometry", "nav_msgs::msg::dds_::Odometry_",
                                   nav_msgs_msg_Odometry_desc),
       kind<sensor_msgs_msg_Image>("sensor_msgs/msg/Image", "sensor_msgs::msg::dds_::Image_",
                                   sensor_msgs_msg_Image_desc),
+      kind<sensor_msgs_msg_CompressedImage>("sensor_msgs/msg/CompressedImage",
+                                            "sensor_msgs::msg::dds_::CompressedImage_",
+                                            sensor_msgs_msg_CompressedImage_desc),
       kind<tf2_msgs_msg_TFMessage>("tf2_msgs/msg/TFMessage", "tf2_msgs::msg::dds_::TFMessage_",
                                    tf2_msgs_msg_TFMessage_desc),
       kind<panvo_msgs_msg_PanoramicLandmark>("panvo_msgs/msg/PanoramicLandmark",

@@ -154,9 +154,14 @@ std::string topic_in_a_name(const testing::TestParamInfo<Subject>& tested) {
   return name;
 }
 
+/// As image_transport names it.
+constexpr interfaces::Topic<sensor_msgs::msg::CompressedImage> kCompressed{"panorama/image/compressed",
+                                                                           interfaces::qos::kSensorData};
+
 INSTANTIATE_TEST_SUITE_P(, Cyclone,
                          testing::Values(subject(topics::kOdometryEnhanced), subject(topics::kPanorama),
-                                         subject(topics::kTf), subject(topics::kTfStatic), subject(topics::kLandmarks)),
+                                         subject(kCompressed), subject(topics::kTf), subject(topics::kTfStatic),
+                                         subject(topics::kLandmarks)),
                          topic_in_a_name);
 INSTANTIATE_TEST_SUITE_P(, CycloneOnKeptTopics,
                          testing::Values(subject(topics::kTfStatic), subject(topics::kLandmarks)), topic_in_a_name);

@@ -89,6 +89,16 @@ sensor_msgs::msg::Image made(int n) {
 }
 
 template <>
+sensor_msgs::msg::CompressedImage made(int n) {
+  sensor_msgs::msg::CompressedImage image;
+  image.header(header(1, n));
+  image.format("rgb8; jpeg compressed bgr8");
+  image.data().resize(answer::kThumbnailSize);
+  for (std::size_t i = 0; i < image.data().size(); ++i) image.data()[i] = answer::byte(i, n);
+  return image;
+}
+
+template <>
 tf2_msgs::msg::TFMessage made(int n) {
   tf2_msgs::msg::TFMessage message;
   message.transforms().resize(answer::transforms(n));

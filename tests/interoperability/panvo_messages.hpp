@@ -3,6 +3,7 @@
 
 #include "nav_msgs/msg/Odometry.h"
 #include "panvo_msgs/msg/PanoramicLandmark.h"
+#include "sensor_msgs/msg/CompressedImage.h"
 #include "sensor_msgs/msg/Image.h"
 #include "tf2_msgs/msg/TFMessage.h"
 
@@ -16,6 +17,8 @@ template <>
 nav_msgs::msg::Odometry made(int n);
 template <>
 sensor_msgs::msg::Image made(int n);
+template <>
+sensor_msgs::msg::CompressedImage made(int n);
 template <>
 tf2_msgs::msg::TFMessage made(int n);
 template <>
