@@ -110,6 +110,24 @@ TEST(PanoramaStitcher, TurnsAnEquirectangularImage) {
   EXPECT_LT(difference.largest, 5.0) << "where the image closes, too";
 }
 
+/// Turned by half a pixel, every pixel is the mean of two, where the image closes as well.
+TEST(PanoramaStitcher, JoinsTheEndsOfAnEquirectangularImage) {
+  const Head head{"camera",
+                  0,
+                  {kColumns, kColumns / 2},
+                  {0, 0, kColumns, kColumns / 2},
+                  kPanorama,
+                  0.0,
+                  looking(180.0 / kColumns, 0.0, 0.0, 0.0)};
+  PanoramaStitcher stitcher(rig_of({head}), settings());
+  cv::Mat image(kColumns / 2, kColumns, CV_8UC1, cv::Scalar(100)), panorama;
+  image.col(0).setTo(200);
+  stitcher.stitch(std::vector{image}, panorama);
+  const cv::Mat horizon = panorama.row(kColumns / 4);
+  EXPECT_EQ(cv::countNonZero(horizon == 150), 2) << "to both sides of the first column";
+  EXPECT_EQ(cv::countNonZero(horizon == 100), kColumns - 2);
+}
+
 TEST(PanoramaStitcher, UnrollsAMirror) {
   const vision::LensCamera lens{{260, 260, 399.5, 399.5, 800, 800}, vision::LensModel::kMei, {}, 1.0};
   Head mirror = head_of("mirror", 0, lens, 220.0, looking(0.0, 90.0, 0.0, 0.0));
