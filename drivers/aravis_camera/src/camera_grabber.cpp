@@ -8,6 +8,7 @@
 #include <mutex>
 #include <optional>
 #include <thread>
+#include <utility>
 
 #include "closer.hpp"
 #include "frame_stamper.hpp"
@@ -135,6 +136,7 @@ class CameraGrabber::Implementation {
     machine_.set_watchdog_ns(watchdog_ns(negotiated));
     machine_.opened(steady_ns());
     resent_of_stream_ = 0;
+    is_first_ = true;
     say_what_was_opened(negotiated);
     const std::lock_guard lock(mutex_);
     report_.serial = identity_->serial;
@@ -223,7 +225,9 @@ class CameraGrabber::Implementation {
       }
     }
     count(frame, missing, whole);
-    if (frame.status() == FrameStatus::kIncomplete) {
+    const bool is_first = std::exchange(is_first_, false);
+    // A stream may begin in the middle of a frame: that one is counted, and nothing is wrong with the network.
+    if (frame.status() == FrameStatus::kIncomplete && !is_first) {
       problem = fmt::format("sends frames that do not come whole ({}); {}", frame.status_text(), kRemedy);
     } else if (frame.status() == FrameStatus::kDamaged) {
       problem = "sends a frame that is " + frame.status_text();
@@ -306,6 +310,7 @@ class CameraGrabber::Implementation {
   bool packet_socket_fails_;
   std::int64_t searched_ns_ = 0;  // everywhere
   std::uint64_t resent_of_stream_ = 0;
+  bool is_first_ = true;  // frame of this stream
   std::optional<Identity> identity_;
   std::vector<std::string> told_refusals_;
   std::string last_warning_;
