@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <csignal>
+#include <iterator>
 #include <map>
 #include <sstream>
 
@@ -71,17 +72,25 @@ class AcrossHosts : public testing::Test {
     said_ = cameras.output() + odometry.output();
   }
 
-  /// As tests/recorded_topics has it for two processes: a frame or two may get lost, which changes the path by less than 5 cm.
-  void expect_the_odometry_of_one_container() {
+  /// As tests/recorded_topics has it for two processes: a frame or two may get lost, which changes the path by less than 5 cm. Of the first
+  /// `late` frames some may be missing, which is where the path then begins.
+  void expect_the_odometry_of_one_container(std::size_t late = 0) {
     const auto expected = read_tum(folder_.path() / "one" / "odometry_binocular.tum");
     const auto got = read_tum(folder_.path() / "split" / "odometry_binocular.tum");
     ASSERT_EQ(expected.size(), 30U);
-    EXPECT_TRUE(got.contains(expected.begin()->first)) << "the first frame is missing\n" << said_;
-    EXPECT_GE(got.size(), expected.size() * 9 / 10) << said_;
+    EXPECT_GE(got.size(), (expected.size() - late) * 9 / 10) << said_;
+    ASSERT_FALSE(got.empty());
+    ASSERT_TRUE(expected.contains(got.begin()->first)) << got.begin()->first;
+    const auto first = expected.find(got.begin()->first);
+    EXPECT_LE(std::distance(expected.begin(), first), static_cast<std::ptrdiff_t>(late)) << said_;
     for (const auto& [stamp, position] : got) {
       ASSERT_TRUE(expected.contains(stamp)) << stamp;
       const Position& wanted = expected.at(stamp);
-      EXPECT_LT(std::hypot(position.x - wanted.x, position.y - wanted.y, position.z - wanted.z), 0.05) << stamp;
+      const Position& origin = first->second;
+      EXPECT_LT(std::hypot(position.x - (wanted.x - origin.x), position.y - (wanted.y - origin.y),
+                           position.z - (wanted.z - origin.z)),
+                0.05)
+          << stamp;
     }
   }
 
@@ -108,7 +117,8 @@ TEST_F(AcrossHosts, ThroughARouterGiveTheOdometryOfOneContainerByADiscoveryServe
 TEST_F(AcrossHosts, ThatLoseOnePacketOfAHundredGiveTheOdometryOfOneContainer) {
   TwoHosts hosts({.loss = 0.01});
   run_split(hosts, {}, {"--dds-profiles", CONFIG "/dds/lossy_network.xml"});
-  expect_the_odometry_of_one_container();
+  // Where the announcement of a topic is lost, it comes with the next one, after a second or so.
+  expect_the_odometry_of_one_container(15);
   const std::string losses = hosts.say_losses();
   RecordProperty("losses", losses);
   EXPECT_THAT(losses, testing::Not(testing::HasSubstr("lost 0 of")));

@@ -137,7 +137,7 @@ class Marker {
 
   // Polygons in the driver's frame: x towards the crossing, y left.
   void shape(const RoadLine& line, double along_m, double side_m, double inwards,
-             std::initializer_list<Eigen::Vector2d> outline) {
+             const std::vector<Eigen::Vector2d>& outline) {
     const Eigen::Vector2d middle = line.beside(along_m, side_m);
     if (is_bare(site_, middle)) return;
     const Eigen::Vector2d forward = -inwards * line.forward(along_m);
@@ -150,7 +150,7 @@ class Marker {
   }
 
   void arrow(const RoadLine& line, double along_m, double side_m, double inwards, int kind) {
-    const auto add = [&](std::initializer_list<Eigen::Vector2d> outline) {
+    const auto add = [&](const std::vector<Eigen::Vector2d>& outline) {
       shape(line, along_m, side_m, inwards, outline);
     };
     add({{-2.2, -0.08}, {0.6, -0.08}, {0.6, 0.08}, {-2.2, 0.08}});
@@ -159,12 +159,10 @@ class Marker {
       add({{1.1, -0.32}, {2.4, 0.0}, {1.1, 0.32}});
     }
     const auto turn = [&](double left) {
-      const auto bend = [&](std::initializer_list<Eigen::Vector2d> outline) {
-        std::vector<Eigen::Vector2d> corners(outline);
+      const auto bend = [&](std::vector<Eigen::Vector2d> corners) {
         for (Eigen::Vector2d& corner : corners) corner.y() *= left;
         if (left < 0.0) std::reverse(corners.begin(), corners.end());
-        if (corners.size() == 4) add({corners[0], corners[1], corners[2], corners[3]});
-        if (corners.size() == 3) add({corners[0], corners[1], corners[2]});
+        add(corners);
       };
       bend({{0.3, 0.05}, {0.75, 0.05}, {1.35, 0.5}, {1.0, 0.5}});
       bend({{0.6, 0.5}, {1.75, 0.5}, {1.3, 1.1}});
