@@ -69,6 +69,7 @@ class TrackingStage::Implementation {
   TrackedFrame track(const StereoFrame& frame) {
     TrackedFrame result;
     result.stamp_ns = frame.stamp_ns;
+    row_errors_.clear();
     result.fault = check(frame);
     if (!result.fault.empty()) return result;
     build_pyramids(frame);
@@ -94,14 +95,14 @@ class TrackingStage::Implementation {
     thin_out(tracks);
     renew_hosts(tracks);
     detect(tracks);
-    align_eyes();
-    result.row_misalignment_px = alignment_.misalignment().largest_row_shift_px(stereo_.camera);
     result.detected = static_cast<int>(tracks.size());
     result.matched = static_cast<int>(
         std::count_if(tracks.begin(), tracks.end(), [](const Track& track) { return track.seen.has_disparity; }));
     result.fault = check_for_swap(tracks);
     if (!result.fault.empty()) return result;
 
+    align_eyes();
+    result.row_misalignment_px = alignment_.misalignment().largest_row_shift_px(stereo_.camera);
     for (const Track& track : tracks) result.observations.push_back(track.seen);
     keep(frame.stamp_ns, std::move(tracks), current_from_previous);
     return result;
@@ -309,7 +310,6 @@ class TrackingStage::Implementation {
     for (const auto& error : row_errors_) {
       if (error) alignment_.add(error->ideal_right_pixel, error->error_px, std::hypot(kNoiseFloor_px, error->sigma_px));
     }
-    row_errors_.clear();
     alignment_.settle();
     matcher_.allow_for(alignment_.misalignment());
   }

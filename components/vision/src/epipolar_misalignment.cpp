@@ -38,10 +38,14 @@ Eigen::Vector2d EpipolarMisalignment::shift(const PinholeCamera& camera,
   const Eigen::Vector2d at = normalised(camera, ideal_right_pixel);
   const double x = at.x(), y = at.y();
   const double row_shift_px = row_by_parts(camera, ideal_right_pixel).dot(parts);
-  if (!holds_for_columns) return {0.0, row_shift_px};
+  if (!holds_for_columns()) return {0.0, row_shift_px};
   // Of a turn about Y the columns would show mostly what moves all pixels alike, which no row tells of: left to who knows how the points move.
   const Parts column_by_parts = (Parts() << 0.0, x * y, 0.0, y, x, at.squaredNorm() * x).finished() * camera.fx;
   return {column_by_parts.dot(parts), row_shift_px};
+}
+
+bool EpipolarMisalignment::holds_for_columns() const {
+  return parts.cwiseQuotient(expected()).squaredNorm() < kPlausible;
 }
 
 double EpipolarMisalignment::largest_row_shift_px(const PinholeCamera& camera) const {
@@ -69,9 +73,6 @@ void EpipolarCalibration::add(const Eigen::Vector2d& ideal_right_pixel, double r
   weighted_sum_ = fading * weighted_sum_ + weight * row_error_px * by_parts;
 }
 
-void EpipolarCalibration::settle() {
-  misalignment_.parts = information_.ldlt().solve(weighted_sum_);
-  misalignment_.holds_for_columns = misalignment_.parts.cwiseQuotient(expected()).squaredNorm() < kPlausible;
-}
+void EpipolarCalibration::settle() { misalignment_.parts = information_.ldlt().solve(weighted_sum_); }
 
 }  // namespace panvo::vision

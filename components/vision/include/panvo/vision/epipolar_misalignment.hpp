@@ -16,7 +16,7 @@ struct EpipolarMisalignment {
   Parts parts = Parts::Zero();
   /// Whether the parts are those of a camera that has turned and a lens that has changed a little, so that they hold for columns too. Rows
   /// that are off in another way, of a lens that its model does not fit, tell of rows alone.
-  bool holds_for_columns = true;
+  bool holds_for_columns() const;
 
   /// How each part moves the pixel of a point along v (px), at the pixel where it would be without.
   static Parts row_by_parts(const PinholeCamera& camera, const Eigen::Vector2d& ideal_right_pixel);
