@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <random>
 
 #include "composition_interfaces/srv/ListNodes.h"
 #include "composition_interfaces/srv/LoadNode.h"
@@ -223,28 +224,39 @@ TEST_F(Steering, TellsRos2WhichNodesThereAreAndWhatTheyHave) {
   EXPECT_TRUE(eventually([&] { return node("relay").name.empty(); }));
 }
 
-TEST_F(Steering, LosesNothingElsewhereWhileComponentsComeAndGo) {
+TEST_F(Steering, LosesNothingElsewhereAndKeepsNoMemoryWhileComponentsComeAndGo) {
   open_topics();
-  constexpr std::size_t kCycles = 50, kMessagesEach = 20;
+  constexpr std::size_t kCycles = 200, kMessagesEach = 10;
   std::size_t sent = 0;
   const auto send = [&] {
     for (std::size_t i = 0; i < kMessagesEach; ++i) ASSERT_TRUE(writer->write(text_sample(std::to_string(sent++))));
   };
-  std::size_t resident_kb = 0;
-  for (std::size_t cycle = 0; cycle < kCycles; ++cycle) {
-    if (cycle == kCycles / 2) resident_kb = peer.resident_kb();  // caches and histories are full by then
-    send();
-    const auto response = load(relay());
-    ASSERT_TRUE(response.success()) << response.error_message();
-    send();
-    ASSERT_TRUE(unload(response.unique_id()).success());
+  std::mt19937 random(7);
+  // Names come again, as a user's do: Fast DDS 2.9 remembers a few kilobytes for each name of a topic that it ever heard.
+  std::map<std::string, std::uint64_t> there;
+  std::size_t loads = 0, resident_kb = 0;
+  while (loads < kCycles || !there.empty()) {
+    ASSERT_NO_FATAL_FAILURE(send());
+    auto request = relay();
+    request.node_name("relay" + std::to_string(random() % 5));
+    if (const auto one = there.find(request.node_name()); one != there.end()) {
+      ASSERT_TRUE(unload(one->second).success());
+      there.erase(one);
+    } else if (loads < kCycles) {
+      const auto response = load(request);
+      ASSERT_TRUE(response.success()) << response.error_message();
+      there[request.node_name()] = response.unique_id();
+      // Caches and histories are full by then.
+      if (++loads == kCycles / 4) resident_kb = peer.resident_kb();
+    }
   }
-  RecordProperty("resident_kb_in_the_middle", static_cast<int>(resident_kb));
-  RecordProperty("resident_kb_at_the_end", static_cast<int>(peer.resident_kb()));
   const auto items = echoed.wait_for_count(sent);
   ASSERT_EQ(items.size(), sent);
   for (std::size_t i = 0; i < sent; ++i) ASSERT_EQ(text_of(items[i]), std::to_string(i));
   EXPECT_THAT(loaded(), testing::ElementsAre("/robot/echo"));
+  RecordProperty("resident_kb_after_a_quarter", static_cast<int>(resident_kb));
+  RecordProperty("resident_kb_at_the_end", static_cast<int>(peer.resident_kb()));
+  EXPECT_LT(static_cast<double>(peer.resident_kb()), 1.05 * static_cast<double>(resident_kb));
 }
 
 }  // namespace
