@@ -68,10 +68,12 @@ FLOORS = [
     ("components/conversions", CONVERSIONS),
     ("components/landmarks", LANDMARKS),
     ("components/panorama_stitcher/src/rig", RIG_FILE),
+    ("components/calibration/src/files", RIG_FILE),
     ("components/recorder", RECORDER),
     ("components/evaluation", EVALUATION),
     ("drivers/simulation", SIMULATION),
     ("drivers/aravis_camera", CAMERA_DRIVER),
+    ("drivers/v4l2_camera", CAMERA_DRIVER),
     ("drivers", DRIVER),
     ("tests", EVALUATION),
 ]

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <opencv2/core.hpp>
+#include <string>
+#include <vector>
+
+#include "panvo/calibration/board.hpp"
+#include "panvo/calibration/observations.hpp"
+
+namespace panvo::calibration {
+
+/// The corners found in one image, or why there are none.
+struct Sighting {
+  std::vector<Corner> corners;
+  std::string missing;  ///< why the board is not used; empty: it is
+};
+
+/// Finds a board, with corners to a fraction of a pixel. A chessboard must be seen whole; of a ChArUco board a part is enough.
+class BoardDetector {
+ public:
+  /// Throws CalibrationError when the board cannot be: a dictionary that is unknown or too small.
+  explicit BoardDetector(const Board& board);
+  ~BoardDetector();
+
+  /// `grey`: CV_8UC1.
+  Sighting detect(const cv::Mat& grey) const;
+
+ private:
+  struct Markers;
+
+  Sighting detect_chessboard(const cv::Mat& grey) const;
+  Sighting detect_charuco(const cv::Mat& grey) const;
+  bool is_reversed(const cv::Mat& grey, const std::vector<cv::Point2f>& corners) const;
+
+  Board board_;
+  std::unique_ptr<Markers> markers_;  ///< of kCharuco
+};
+
+}  // namespace panvo::calibration

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "panvo/calibration/board_detector.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <opencv2/calib3d.hpp>
+#include <opencv2/imgproc.hpp>
+#include <set>
+
+#include "charuco.hpp"
+
+namespace panvo::calibration {
+namespace {
+
+constexpr std::size_t kFewestCorners = 8;  // of a ChArUco board: twice what a pose needs
+constexpr double kWidestWindow_px = 11.0;  // half the side of the neighbourhood in which a corner is refined
+constexpr double kWindowShare = 0.35;      // of a square's side in the image, so that no other corner is in it
+
+double shortest_step_px(const std::vector<cv::Point2f>& corners, int columns) {
+  double shortest = 1e9;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const auto column = static_cast<int>(i) % columns;
+    if (column + 1 < columns) shortest = std::min(shortest, cv::norm(corners[i + 1] - corners[i]));
+    const std::size_t below = i + static_cast<std::size_t>(columns);
+    if (below < corners.size()) shortest = std::min(shortest, cv::norm(corners[below] - corners[i]));
+  }
+  return shortest;
+}
+
+void refine(const cv::Mat& grey, double step_px, std::vector<cv::Point2f>& corners) {
+  const int half = static_cast<int>(std::clamp(kWindowShare * step_px, 2.0, kWidestWindow_px));
+  cv::cornerSubPix(grey, corners, {half, half}, {-1, -1}, {cv::TermCriteria::COUNT + cv::TermCriteria::EPS, 100, 1e-4});
+}
+
+double brightness(const cv::Mat& grey, cv::Point2f at) {
+  cv::Mat patch;
+  cv::getRectSubPix(grey, {3, 3}, at, patch);
+  return cv::mean(patch)[0];
+}
+
+}  // namespace
+
+struct BoardDetector::Markers {
+  cv::Ptr<cv::aruco::CharucoBoard> board;
+  cv::Ptr<cv::aruco::DetectorParameters> parameters = cv::aruco::DetectorParameters::create();
+};
+
+BoardDetector::BoardDetector(const Board& board) : board_(board) {
+  if (board.kind != Board::Kind::kCharuco) return;
+  markers_ = std::make_unique<Markers>();
+  markers_->board = charuco_board(board);
+}
+
+BoardDetector::~BoardDetector() = default;
+
+Sighting BoardDetector::detect(const cv::Mat& grey) const {
+  return board_.kind == Board::Kind::kChessboard ? detect_chessboard(grey) : detect_charuco(grey);
+}
+
+/// The upper left square is black, so corners begin there; a board that looks the same upside down is taken as it stands.
+bool BoardDetector::is_reversed(const cv::Mat& grey, const std::vector<cv::Point2f>& corners) const {
+  if (board_.is_symmetric()) {
+    const cv::Point2f direction = corners.back() - corners.front();
+    return direction.x + direction.y < 0.0F;
+  }
+  const auto columns = static_cast<std::size_t>(board_.columns);
+  const auto middle = [&](std::size_t first) {
+    return 0.25F * (corners[first] + corners[first + 1] + corners[first + columns] + corners[first + columns + 1]);
+  };
+  // the square beyond the first corner's is as black as the upper left one, its neighbour in the row is white
+  return brightness(grey, middle(0)) > brightness(grey, middle(1));
+}
+
+Sighting BoardDetector::detect_chessboard(const cv::Mat& grey) const {
+  std::vector<cv::Point2f> corners;
+  const cv::Size pattern(board_.columns, board_.rows);
+  const int flags = cv::CALIB_CB_ADAPTIVE_THRESH | cv::CALIB_CB_NORMALIZE_IMAGE | cv::CALIB_CB_FAST_CHECK;
+  if (!cv::findChessboardCorners(grey, pattern, corners, flags) &&
+      !cv::findChessboardCornersSB(grey, pattern, corners, cv::CALIB_CB_NORMALIZE_IMAGE | cv::CALIB_CB_ACCURACY))
+    return {{}, fmt::format("no chessboard of {} x {} corners is seen whole", board_.columns, board_.rows)};
+  refine(grey, shortest_step_px(corners, board_.columns), corners);
+  if (is_reversed(grey, corners)) std::reverse(corners.begin(), corners.end());
+  Sighting sighting;
+  for (const auto& corner : corners)
+    sighting.corners.push_back({static_cast<int>(sighting.corners.size()), {corner.x, corner.y}});
+  return sighting;
+}
+
+Sighting BoardDetector::detect_charuco(const cv::Mat& grey) const {
+  std::vector<std::vector<cv::Point2f>> markers;
+  std::vector<int> marker_ids, ids;
+  std::vector<cv::Point2f> corners;
+  cv::aruco::detectMarkers(grey, markers_->board->dictionary, markers, marker_ids, markers_->parameters);
+  if (marker_ids.empty()) return {{}, fmt::format("no marker of {} is seen", board_.dictionary)};
+  cv::aruco::interpolateCornersCharuco(markers, marker_ids, grey, markers_->board, corners, ids);
+  std::set<int> rows, columns;
+  for (const int id : ids) {
+    rows.insert(id / board_.columns);
+    columns.insert(id % board_.columns);
+  }
+  if (ids.size() < kFewestCorners || rows.size() < 2 || columns.size() < 2)
+    return {{},
+            fmt::format("{} markers and {} corners are seen, at least {} corners in two rows are needed",
+                        marker_ids.size(), ids.size(), kFewestCorners)};
+  Sighting sighting;
+  for (std::size_t i = 0; i < ids.size(); ++i) sighting.corners.push_back({ids[i], {corners[i].x, corners[i].y}});
+  return sighting;
+}
+
+}  // namespace panvo::calibration

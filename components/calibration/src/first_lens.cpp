@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "panvo/calibration/first_lens.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "panvo/calibration/planar_pose.hpp"
+#include "panvo/vision/camera_model.hpp"
+
+namespace panvo::calibration {
+namespace {
+
+constexpr double kShortest = 0.12;  // focal length over the longer side of the image
+constexpr double kLongest = 5.0;
+constexpr double kStep = 1.08;
+constexpr std::size_t kMostViews = 24;  // a start needs no more
+constexpr double kNotSeen_px = 1e3;     // what a corner counts that the lens would not show
+
+/// nullopt: the border of the image would be more than half a turn off the axis.
+std::optional<vision::CameraModel> model_of(const vision::LensCamera& lens) {
+  try {
+    return vision::CameraModel(lens);
+  } catch (const std::invalid_argument&) {
+    return std::nullopt;
+  }
+}
+
+/// Median distance between where a view's corners are and where the board as posed has them, px.
+std::optional<double> error_px(const vision::CameraModel& lens, const std::vector<Corner>& corners,
+                               const std::vector<Eigen::Vector3d>& board_points) {
+  const auto pose =
+      planar_pose(corners, board_points, [&](const Eigen::Vector2d& pixel) { return lens.unproject(pixel); });
+  if (!pose) return std::nullopt;
+  std::vector<double> errors;
+  for (const auto& corner : corners) {
+    const auto pixel = lens.project(*pose * board_points[static_cast<std::size_t>(corner.id)]);
+    errors.push_back(pixel ? (*pixel - corner.pixel).norm() : kNotSeen_px);
+  }
+  const auto middle = errors.begin() + static_cast<std::ptrdiff_t>(errors.size() / 2);
+  std::nth_element(errors.begin(), middle, errors.end());
+  return *middle;
+}
+
+}  // namespace
+
+std::optional<vision::LensCamera> first_lens(const std::vector<std::vector<Corner>>& views,
+                                             const std::vector<Eigen::Vector3d>& board_points, cv::Size image_size,
+                                             vision::LensModel model) {
+  vision::LensCamera lens;
+  lens.model = model;
+  lens.xi = model == vision::LensModel::kMei ? 1.0 : 0.0;
+  const double longer = std::max(image_size.width, image_size.height);
+  const std::size_t stride = std::max<std::size_t>(1, views.size() / kMostViews);
+  std::optional<vision::LensCamera> best;
+  double smallest = 0.0;
+  for (double share = kShortest; share < kLongest; share *= kStep) {
+    const double focal = share * longer;
+    lens.pinhole = {
+        focal, focal, 0.5 * (image_size.width - 1), 0.5 * (image_size.height - 1), image_size.width, image_size.height};
+    const auto camera = model_of(lens);
+    if (!camera) continue;
+    double sum = 0.0;
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < views.size(); i += stride) {
+      const auto error = views[i].empty() ? std::nullopt : error_px(*camera, views[i], board_points);
+      if (!error) continue;
+      sum += *error;
+      ++count;
+    }
+    if (count == 0) continue;
+    const double mean = sum / static_cast<double>(count);
+    if (best && mean >= smallest) continue;
+    best = lens;
+    smallest = mean;
+  }
+  return best;
+}
+
+}  // namespace panvo::calibration
