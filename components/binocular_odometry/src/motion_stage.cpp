@@ -69,7 +69,7 @@ class MotionStage::Implementation {
 
  private:
   static constexpr std::int64_t kUsualInterval_ns = 100'000'000;
-  static constexpr double kPersistence_m = 5.0;  // an error of calibration shows alike until the scene has changed
+  static constexpr double kPersistence_m = 1.0;  // an error of calibration shows alike until the points seen are others
   static constexpr int kKeyframeIterations = 3;  // they start near the solution; what is left comes with the next frame
   static constexpr int kFrameIterations = 1;
 

@@ -102,7 +102,7 @@ TEST(RecordedKitti03, KeepsToTheTruePathWithAnHonestCovariance) {
   EXPECT_EQ(run.unreliable, 0);
   EXPECT_LT(run.absolute_trajectory_error_m(), 0.09);
   EXPECT_GT(run.nees, 3.0);
-  EXPECT_LT(run.nees, 20.0);  // of 6, against a truth that is itself uncertain by a centimetre a frame
+  EXPECT_LT(run.nees, 12.0);  // of 6, against a truth that is itself uncertain by a centimetre a frame
 }
 
 TEST(RecordedKitti03, SiftKeepsToItAsWell) {

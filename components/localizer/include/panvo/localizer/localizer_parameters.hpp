@@ -14,7 +14,7 @@ struct Parameters {
   double lean_window_s = 8.0;
   double lean_sigmas = 3.0;
   double compass_turn_error_ratio = 0.007;
-  double scale_sigma = 0.007;
+  double scale_sigma = 0.002;
   double clock_sigma_s = 0.05;
   double patience_s = 1.0;
   double lost_sigma_m = 50.0;
@@ -45,8 +45,8 @@ struct Parameters {
         "not turn against the camera",
         0.0, 0.5);
     field(&P::scale_sigma, "scale_sigma", "1",
-          "standard deviation of the odometry's scale, the same all the way and so for all landmarks: of a good stereo "
-          "calibration after months; it shows in the covariance that is told",
+          "standard deviation of the odometry's scale, the same all the way and so for all landmarks: of an aged stereo "
+          "calibration, allowed for by the odometry; it shows in the covariance that is told",
           0.0, 0.5);
     field(&P::clock_sigma_s, "clock_sigma_s", "s",
           "standard deviation of the offset between the cameras' clocks before it is known; 0: they are one", 0.0, 1.0);
