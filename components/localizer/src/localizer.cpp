@@ -180,7 +180,7 @@ bool Localizer::add_said(const PoseInMap& pose, std::int64_t stamp_ns) {
   for (Eigen::Index i = 0; i < 6; ++i) {
     if (said.covariance(i, i) <= 0.0) said.covariance(i, i) = unsaid_sigma(i) * unsaid_sigma(i);
   }
-  if (is_located_) {
+  if (is_located_ && !graph_.is_bare()) {
     graph_.cut(at->pose.stamp_ns);
   } else {
     graph_.place(said.map_from_base * graph_.carried(at->pose).map_from_base.inverse());

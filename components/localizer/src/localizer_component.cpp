@@ -8,6 +8,7 @@
 #include <string>
 #include <variant>
 
+#include "last_pose.hpp"
 #include "localizer_messages.hpp"
 #include "panvo/conversions/pose.hpp"
 #include "panvo/conversions/stage_timer.hpp"
@@ -27,6 +28,8 @@ struct ComponentParameters {
   std::string odom_frame = "odom";
   double path_step_m = 1.0;
   double path_period_s = 2.0;
+  std::string last_pose_file;
+  double last_pose_s = 30.0;
 
   template <class Field>
   static void describe(Field&& field) {
@@ -39,6 +42,10 @@ struct ComponentParameters {
     field(&P::odom_frame, "odom_frame", "", "frame in which the vehicle's pose never jumps");
     field(&P::path_step_m, "path_step_m", "m", "between two poses of path/binocular and path/enhanced", 0.01, 1000.0);
     field(&P::path_period_s, "path_period_s", "s", "how often the paths are told", 0.1, 3600.0);
+    field(&P::last_pose_file, "last_pose_file", "",
+          "where the pose is kept from second to second, and from where a process that is started again goes on; "
+          "empty: nowhere");
+    field(&P::last_pose_s, "last_pose_s", "s", "how old it may be to go on from it", 0.0, 3600.0);
   }
 };
 
@@ -85,6 +92,7 @@ class LocalizerComponent final : public runtime::Component {
 
   static constexpr std::size_t kMostWaiting = 100;  // things said of panoramas that odometry has not come to
   static constexpr double kStatePeriod_s = 1.0;
+  static constexpr double kKeepPeriod_s = 1.0;
   static constexpr double kNoPanorama_s = 10.0;
   static constexpr double kUnlocatedFor_m = 500.0;  // by then a place would have been passed again
   static constexpr double kNotableOffset_s = 0.02;
@@ -103,7 +111,7 @@ class LocalizerComponent final : public runtime::Component {
     {
       const vision::Stage stage(&timer_, "localize");
       localizer_.add(OdometryPose{stamp_ns, *pose, conversions::to_matrix(message.pose().covariance()), is_reliable_});
-      if (!begin_ns_) begin_ns_ = stamp_ns;
+      if (!begin_ns_) begin(stamp_ns);
       work_off();
     }
     const auto& localized = localizer_.latest();
@@ -111,12 +119,50 @@ class LocalizerComponent final : public runtime::Component {
     tf_.publish(to_transforms(localized, parameters_.map_frame, parameters_.odom_frame, message.child_frame_id()));
     tell_paths(stamp_ns, *pose);
     tell_state(localized);
+    keep(localized, message.twist().twist());
     if (localized.state == State::kUnlocated && localizer_.way_m() > kUnlocatedFor_m) {
       say_once(fmt::format("no place of earlier days was recognised in {:.0f} m: are they of another place?",
                            kUnlocatedFor_m));
     }
     if (azimuth_ns_ && seconds(*azimuth_ns_, stamp_ns) > kNoPanorama_s) {
       say_once(fmt::format("no panorama for {:.0f} s: the pose drifts as the stereo odometry does", kNoPanorama_s));
+    }
+  }
+
+  void begin(std::int64_t stamp_ns) {
+    begin_ns_ = stamp_ns;
+    if (parameters_.last_pose_file.empty()) return;
+    try {
+      const auto last = read_last_pose(parameters_.last_pose_file);
+      if (!last) return;
+      const double gap_s = seconds(last->stamp_ns, stamp_ns);
+      if (last->map_frame != parameters_.map_frame || gap_s < 0.0 || gap_s > parameters_.last_pose_s) {
+        return context_.log().info("{}: not gone on from: in '{}', {:.1f} s before (last_pose_s: {:.1f})",
+                                   parameters_.last_pose_file, last->map_frame, gap_s, parameters_.last_pose_s);
+      }
+      const auto now = after_gap(*last, gap_s);
+      if (!localizer_.add_said(now, stamp_ns)) return;
+      const Eigen::Vector3d position = now.map_from_base.translation();
+      context_.log().info("{}: goes on from ({:.1f}, {:.1f}) m, of {:.1f} s before", parameters_.last_pose_file,
+                          position.x(), position.y(), gap_s);
+    } catch (const std::runtime_error& error) {
+      context_.log().warn("{}", error.what());
+    }
+  }
+
+  void keep(const LocalizedPose& pose, const geometry_msgs::msg::Twist& twist) {
+    const bool is_known = pose.state == State::kTracking || pose.state == State::kRelocalised;
+    if (parameters_.last_pose_file.empty() || !is_known) return;
+    if (kept_ns_ && seconds(*kept_ns_, pose.stamp_ns) < kKeepPeriod_s) return;
+    kept_ns_ = pose.stamp_ns;
+    const auto& speed = twist.linear();
+    try {
+      write_last_pose(parameters_.last_pose_file, {pose.stamp_ns,
+                                                   parameters_.map_frame,
+                                                   {pose.map_from_base, pose.covariance},
+                                                   std::hypot(speed.x(), speed.y(), speed.z())});
+    } catch (const std::runtime_error& error) {
+      say_once(error.what());
     }
   }
 
@@ -325,6 +371,7 @@ class LocalizerComponent final : public runtime::Component {
   bool is_reliable_ = true;
   std::optional<std::int64_t> begin_ns_;  // of the odometry
   std::optional<std::int64_t> azimuth_ns_;
+  std::optional<std::int64_t> kept_ns_;  // of the pose in last_pose_file
   std::optional<State> told_state_;
   std::int64_t told_state_ns_ = 0;
   int unused_ = 0;

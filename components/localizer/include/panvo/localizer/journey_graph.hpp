@@ -43,6 +43,8 @@ class JourneyGraph {
 
   void start(const Remembered& at);
   bool has_started() const noexcept { return !nodes_.empty(); }
+  /// Whether nothing hangs on where the map began.
+  bool is_bare() const noexcept { return nodes_.size() == 1; }
 
   /// A landmark of an earlier day. It enters the graph when it is seen.
   void add_known(const KnownLandmark& landmark) { known_.insert_or_assign(landmark.id, landmark); }

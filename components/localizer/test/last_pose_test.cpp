@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: Apache-2.0
+// A process that is started again goes on from where the one before it was.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <memory>
+
+#include "panvo/conversions/pose.hpp"
+#include "panvo/conversions/time.hpp"
+#include "panvo/runtime/testing.hpp"
+
+namespace panvo::localizer {
+namespace {
+
+using ::testing::Contains;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+constexpr std::int64_t kBegin_ns = 1'700'000'000'000'000'000;
+constexpr std::int64_t kSecond_ns = 1'000'000'000;
+
+/// A localizer in a container of its own, as a process has it.
+class Life {
+ public:
+  explicit Life(const std::map<std::string, std::string>& parameters) {
+    harness_.load("panvo_localizer", "LocalizerComponent", parameters);
+  }
+
+  /// Straight on at 5 m/s, from where its odometry begins.
+  void drive(std::int64_t begin_ns, int frames) {
+    for (int i = 0; i < frames; ++i) {
+      nav_msgs::msg::Odometry odometry;
+      odometry.header().stamp(conversions::to_stamp(begin_ns + i * kSecond_ns / 25));
+      odometry.header().frame_id("odom");
+      odometry.child_frame_id("base_link");
+      odometry.pose().pose().position().x(0.2 * i);
+      odometry.pose().covariance(conversions::to_array((1e-4 + 1e-4 * i) * vision::Matrix6d::Identity()));
+      odometry.twist().twist().linear().x(5.0);
+      harness_.publish(topics::kOdometryBinocular, odometry);
+    }
+  }
+  void know(std::uint32_t id, double x) {
+    panvo_msgs::msg::PanoramicLandmark landmark;
+    landmark.header().stamp(conversions::to_stamp(kBegin_ns - 1));
+    landmark.id(id);
+    landmark.pose().pose().position().x(x);
+    landmark.pose().covariance(conversions::to_array(1e-4 * vision::Matrix6d::Identity()));
+    harness_.publish(topics::kLandmarks, landmark);
+  }
+
+  double x() const { return enhanced_.back()->pose().pose().position().x(); }
+  double first_variance() const { return enhanced_.front()->pose().covariance()[0]; }
+  std::string state() const { return states_.back()->state(); }
+  auto log() { return harness_.log(); }
+
+ private:
+  runtime::ComponentHarness harness_;
+  const std::vector<std::shared_ptr<const nav_msgs::msg::Odometry>>& enhanced_ =
+      harness_.collect(topics::kOdometryEnhanced);
+  const std::vector<std::shared_ptr<const panvo_msgs::msg::LocalizationState>>& states_ =
+      harness_.collect(topics::kLocalizationState);
+};
+
+class LastPoseFile : public ::testing::Test {
+ protected:
+  void SetUp() override { std::filesystem::create_directory(folder_); }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+
+  /// 51 frames, so that the pose of 10 m is the last that was kept.
+  void live_once() const {
+    Life first(kept_);
+    first.drive(kBegin_ns, 51);
+    ASSERT_NEAR(first.x(), 10.0, 1e-9);
+  }
+
+  const std::filesystem::path folder_ =
+      std::filesystem::path(testing::TempDir()) / ("panvo_last_pose_" + std::to_string(::getpid()));
+  const std::string file_ = folder_ / "last_pose.json";
+  const std::map<std::string, std::string> kept_{{"last_pose_file", file_}};
+};
+
+TEST_F(LastPoseFile, IsWhereTheNextProcessGoesOn) {
+  live_once();
+  Life second(kept_);
+  second.drive(kBegin_ns + 4 * kSecond_ns, 6);
+  EXPECT_NEAR(second.x(), 11.0, 1e-6);
+  EXPECT_EQ(second.state(), "relocalised");
+  EXPECT_NEAR(second.first_variance(), 100.0, 1.0) << "2 s at 5 m/s may have brought it 10 m away";
+  EXPECT_THAT(second.log(), Contains(HasSubstr("goes on from (10.0, 0.0) m, of 2.0 s before")));
+}
+
+TEST_F(LastPoseFile, HoldsAmongLandmarksOfTheProcessBefore) {
+  live_once();
+  Life second(kept_);
+  second.know(3, 7.0);
+  second.drive(kBegin_ns + 4 * kSecond_ns, 6);
+  EXPECT_NEAR(second.x(), 11.0, 1e-6);
+  EXPECT_EQ(second.state(), "relocalised");
+}
+
+TEST_F(LastPoseFile, IsTooOldAfterAWhile) {
+  live_once();
+  Life second(kept_);
+  second.drive(kBegin_ns + 60 * kSecond_ns, 6);
+  EXPECT_NEAR(second.x(), 1.0, 1e-6);
+  EXPECT_THAT(second.log(), Contains(HasSubstr("58.0 s before (last_pose_s: 30.0)")));
+}
+
+TEST_F(LastPoseFile, OfALaterTimeIsOfAnotherJourney) {
+  live_once();
+  Life replay(kept_);
+  replay.drive(kBegin_ns - 60 * kSecond_ns, 6);
+  EXPECT_NEAR(replay.x(), 1.0, 1e-6);
+}
+
+TEST_F(LastPoseFile, ThatIsDamagedIsNamedWithTheRemedy) {
+  live_once();
+  std::filesystem::resize_file(file_, 40);
+  Life second(kept_);
+  second.drive(kBegin_ns + 4 * kSecond_ns, 6);
+  EXPECT_NEAR(second.x(), 1.0, 1e-6);
+  EXPECT_THAT(second.log(), Contains(testing::AllOf(HasSubstr(file_), HasSubstr("delete it"))));
+}
+
+TEST_F(LastPoseFile, OfNumbersThatAreNoPoseIsNotBelieved) {
+  live_once();
+  std::ofstream(file_) << R"({"stamp_ns": 1700000002000000000, "map_frame": "map", "speed_m_per_s": 5.0,
+    "position": [10, 0, 0], "orientation": [0, 0, 0, 0], "covariance": [0,0,0,0,0,0, 0,0,0,0,0,0, 0,0,0,0,0,0,
+    0,0,0,0,0,0, 0,0,0,0,0,0, 0,0,0,0,0,0]})";
+  Life second(kept_);
+  second.drive(kBegin_ns + 4 * kSecond_ns, 6);
+  EXPECT_NEAR(second.x(), 1.0, 1e-6);
+  EXPECT_THAT(second.log(), Contains(HasSubstr("'orientation' is not of length 1")));
+}
+
+TEST_F(LastPoseFile, ThatCannotBeWrittenDoesNotStopIt) {
+  Life only({{"last_pose_file", folder_ / "nowhere" / "last_pose.json"}});
+  only.drive(kBegin_ns, 51);
+  EXPECT_NEAR(only.x(), 10.0, 1e-9);
+  EXPECT_THAT(only.log(), Contains(HasSubstr("in a folder that is there")));
+}
+
+TEST_F(LastPoseFile, IsNotWrittenUnlessAskedFor) {
+  Life only({});
+  only.drive(kBegin_ns, 51);
+  EXPECT_FALSE(std::filesystem::exists(file_));
+  EXPECT_THAT(only.log(), Not(Contains(HasSubstr("goes on"))));
+}
+
+}  // namespace
+}  // namespace panvo::localizer
