@@ -2,75 +2,90 @@
 #include "last_pose.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
+#include <charconv>
 #include <cmath>
 #include <fstream>
-#include <nlohmann/json.hpp>
+#include <map>
 #include <numbers>
+#include <span>
 #include <stdexcept>
 #include <system_error>
+#include <vector>
 
 namespace panvo::localizer {
 namespace {
 
-using Json = nlohmann::json;
+constexpr double kLeastSpeed = 0.5;      // m/s: who stands may start
+constexpr double kClimb = 0.1;           // of the way, up or down
+constexpr double kTurnRate = 0.3;        // rad/s, of a vehicle in a bend
+constexpr double kTilt = 0.05;           // rad
+constexpr double kUnitTolerance = 1e-3;  // of a quaternion's length
 
-constexpr double kSlowest_m_per_s = 0.5;  // who stands may start
-constexpr double kClimb = 0.1;            // of the way, up or down
-constexpr double kTurn_rad_per_s = 0.3;   // of a vehicle in a bend
-constexpr double kTilt_rad = 0.05;
+/// "key value value ..." line by line.
+using Lines = std::map<std::string, std::string>;
 
-std::runtime_error unusable(const std::filesystem::path& file, const std::string& why) {
-  return std::runtime_error(fmt::format("{}: {}; delete it, and the next one is written", file.string(), why));
-}
-
-template <std::size_t kSize>
-std::array<double, kSize> numbers(const Json& json, const char* key) {
-  const auto values = json.at(key).get<std::array<double, kSize>>();
-  if (!std::ranges::all_of(values, [](double value) { return std::isfinite(value); })) {
-    throw std::runtime_error(fmt::format("'{}' has a number that is none", key));
+template <class Number>
+std::vector<Number> numbers(const Lines& lines, const std::string& key, std::size_t count) {
+  const auto line = lines.find(key);
+  if (line == lines.end()) throw std::runtime_error(fmt::format("there is no '{}'", key));
+  std::vector<Number> values;
+  const char* at = line->second.data();
+  const char* const end = at + line->second.size();
+  while (at != end) {
+    if (*at == ' ') {
+      ++at;
+      continue;
+    }
+    Number value{};
+    const auto [next, error] = std::from_chars(at, end, value);
+    if (error != std::errc()) throw std::runtime_error(fmt::format("'{}' has something that is no number", key));
+    values.push_back(value);
+    at = next;
+  }
+  const bool are_finite = std::ranges::all_of(values, [](auto value) { return std::isfinite(double(value)); });
+  if (values.size() != count || !are_finite) {
+    throw std::runtime_error(fmt::format("'{}' has {} finite numbers instead of {}", key, values.size(), count));
   }
   return values;
 }
 
-LastPose from_json(const Json& json) {
+LastPose from_lines(const Lines& lines) {
   LastPose last;
-  json.at("stamp_ns").get_to(last.stamp_ns);
-  json.at("map_frame").get_to(last.map_frame);
-  json.at("speed_m_per_s").get_to(last.speed_m_per_s);
-  const auto position = numbers<3>(json, "position");
-  const auto orientation = numbers<4>(json, "orientation");  // x, y, z, w
-  const auto covariance = numbers<36>(json, "covariance");
+  last.stamp_ns = numbers<std::int64_t>(lines, "stamp_ns", 1)[0];
+  last.speed_m_per_s = numbers<double>(lines, "speed_m_per_s", 1)[0];
+  const auto frame = lines.find("map_frame");
+  if (frame != lines.end()) last.map_frame = frame->second;
+  const auto position = numbers<double>(lines, "position", 3);
+  const auto orientation = numbers<double>(lines, "orientation", 4);  // x, y, z, w
+  const auto covariance = numbers<double>(lines, "covariance", 36);
   const Eigen::Map<const Eigen::Quaterniond> rotation(orientation.data());
-  if (std::abs(rotation.norm() - 1.0) > 1e-3) throw std::runtime_error("'orientation' is not of length 1");
+  if (std::abs(rotation.norm() - 1.0) > kUnitTolerance) throw std::runtime_error("'orientation' is not of length 1");
   last.pose.map_from_base = Eigen::Isometry3d(rotation.normalized());
   last.pose.map_from_base.translation() = Eigen::Map<const Eigen::Vector3d>(position.data());
   last.pose.covariance = Eigen::Map<const vision::Matrix6d>(covariance.data());
   return last;
 }
 
-Json to_json(const LastPose& last) {
+/// Each number as short as it comes back the same.
+std::string to_text(const LastPose& last) {
   const Eigen::Vector3d position = last.pose.map_from_base.translation();
   const Eigen::Quaterniond rotation(last.pose.map_from_base.linear());
-  std::array<double, 36> covariance{};
-  Eigen::Map<vision::Matrix6d>(covariance.data()) = last.pose.covariance;
-  return {{"stamp_ns", last.stamp_ns},
-          {"map_frame", last.map_frame},
-          {"position", {position.x(), position.y(), position.z()}},
-          {"orientation", {rotation.x(), rotation.y(), rotation.z(), rotation.w()}},
-          {"speed_m_per_s", last.speed_m_per_s},
-          {"covariance", covariance}};
+  return fmt::format(
+      "map_frame {}\nstamp_ns {}\nspeed_m_per_s {}\nposition {} {} {}\norientation {} {} {} {}\ncovariance {}\n",
+      last.map_frame, last.stamp_ns, last.speed_m_per_s, position.x(), position.y(), position.z(), rotation.x(),
+      rotation.y(), rotation.z(), rotation.w(), fmt::join(std::span(last.pose.covariance.data(), 36), " "));
 }
 
 }  // namespace
 
 PoseInMap after_gap(const LastPose& last, double gap_s) {
-  const double way_m = std::max(last.speed_m_per_s, kSlowest_m_per_s) * gap_s;
-  const double turn_rad = std::min(kTurn_rad_per_s * gap_s, std::numbers::pi);
+  const double way_m = std::max(last.speed_m_per_s, kLeastSpeed) * gap_s;
+  const double turn_rad = std::min(kTurnRate * gap_s, std::numbers::pi);
   vision::Vector6d sigma;
-  sigma << way_m, way_m, kClimb * way_m, kTilt_rad, kTilt_rad, turn_rad;
+  sigma << way_m, way_m, kClimb * way_m, kTilt, kTilt, turn_rad;
   PoseInMap now = last.pose;
   now.covariance.diagonal() += sigma.cwiseAbs2();
   return now;
@@ -80,7 +95,7 @@ void write_last_pose(const std::filesystem::path& file, const LastPose& last) {
   std::filesystem::path part = file;
   part += ".part";
   std::ofstream stream(part);
-  stream << to_json(last).dump(1) << '\n';
+  stream << to_text(last);
   stream.close();
   std::error_code error;
   if (stream) std::filesystem::rename(part, file, error);
@@ -93,13 +108,17 @@ void write_last_pose(const std::filesystem::path& file, const LastPose& last) {
 
 std::optional<LastPose> read_last_pose(const std::filesystem::path& file) {
   if (!std::filesystem::exists(file)) return std::nullopt;
+  std::ifstream stream(file);
+  Lines lines;
+  for (std::string line; std::getline(stream, line);) {
+    const auto space = std::min(line.find(' '), line.size() - 1);
+    lines[line.substr(0, space)] = line.substr(space + 1);
+  }
   try {
-    std::ifstream stream(file);
-    return from_json(Json::parse(stream));
-  } catch (const Json::exception& error) {
-    throw unusable(file, fmt::format("no pose is in it ({})", error.what()));
+    return from_lines(lines);
   } catch (const std::runtime_error& error) {
-    throw unusable(file, error.what());
+    throw std::runtime_error(
+        fmt::format("{} holds no pose: {}; delete it, and the next one is written", file.string(), error.what()));
   }
 }
 

@@ -78,7 +78,7 @@ class LastPoseFile : public ::testing::Test {
 
   const std::filesystem::path folder_ =
       std::filesystem::path(testing::TempDir()) / ("panvo_last_pose_" + std::to_string(::getpid()));
-  const std::string file_ = folder_ / "last_pose.json";
+  const std::string file_ = folder_ / "last_pose.txt";
   const std::map<std::string, std::string> kept_{{"last_pose_file", file_}};
 };
 
@@ -118,7 +118,7 @@ TEST_F(LastPoseFile, OfALaterTimeIsOfAnotherJourney) {
 
 TEST_F(LastPoseFile, ThatIsDamagedIsNamedWithTheRemedy) {
   live_once();
-  std::filesystem::resize_file(file_, 40);
+  std::filesystem::resize_file(file_, 100);
   Life second(kept_);
   second.drive(kBegin_ns + 4 * kSecond_ns, 6);
   EXPECT_NEAR(second.x(), 1.0, 1e-6);
@@ -127,9 +127,9 @@ TEST_F(LastPoseFile, ThatIsDamagedIsNamedWithTheRemedy) {
 
 TEST_F(LastPoseFile, OfNumbersThatAreNoPoseIsNotBelieved) {
   live_once();
-  std::ofstream(file_) << R"({"stamp_ns": 1700000002000000000, "map_frame": "map", "speed_m_per_s": 5.0,
-    "position": [10, 0, 0], "orientation": [0, 0, 0, 0], "covariance": [0,0,0,0,0,0, 0,0,0,0,0,0, 0,0,0,0,0,0,
-    0,0,0,0,0,0, 0,0,0,0,0,0, 0,0,0,0,0,0]})";
+  std::ofstream(file_) << "map_frame map\nstamp_ns 1700000002000000000\nspeed_m_per_s 5\nposition 10 0 0\n"
+                          "orientation 0 0 0 0\ncovariance 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 "
+                          "0 0 0 0 0 0 0\n";
   Life second(kept_);
   second.drive(kBegin_ns + 4 * kSecond_ns, 6);
   EXPECT_NEAR(second.x(), 1.0, 1e-6);
@@ -137,7 +137,7 @@ TEST_F(LastPoseFile, OfNumbersThatAreNoPoseIsNotBelieved) {
 }
 
 TEST_F(LastPoseFile, ThatCannotBeWrittenDoesNotStopIt) {
-  Life only({{"last_pose_file", folder_ / "nowhere" / "last_pose.json"}});
+  Life only({{"last_pose_file", folder_ / "nowhere" / "last_pose.txt"}});
   only.drive(kBegin_ns, 51);
   EXPECT_NEAR(only.x(), 10.0, 1e-9);
   EXPECT_THAT(only.log(), Contains(HasSubstr("in a folder that is there")));

@@ -44,10 +44,11 @@ struct Parameters {
         "share of a turn that the compass may miss every time: of drops on the lens and parts of the vehicle, which do "
         "not turn against the camera",
         0.0, 0.5);
-    field(&P::scale_sigma, "scale_sigma", "1",
-          "standard deviation of the odometry's scale, the same all the way and so for all landmarks: of an aged stereo "
-          "calibration, allowed for by the odometry; it shows in the covariance that is told",
-          0.0, 0.5);
+    field(
+        &P::scale_sigma, "scale_sigma", "1",
+        "standard deviation of the odometry's scale, the same all the way and so for all landmarks: of an aged stereo "
+        "calibration, allowed for by the odometry; it shows in the covariance that is told",
+        0.0, 0.5);
     field(&P::clock_sigma_s, "clock_sigma_s", "s",
           "standard deviation of the offset between the cameras' clocks before it is known; 0: they are one", 0.0, 1.0);
     field(&P::patience_s, "patience_s", "s",
