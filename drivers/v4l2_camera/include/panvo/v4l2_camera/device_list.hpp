@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "panvo/camera_stream/found_device.hpp"
+#include "panvo/v4l2_camera/camera_grabber.hpp"
+
+namespace panvo::v4l2_camera {
+
+/// The V4L2 cameras that are connected, each opened for a moment to learn what it can do; one that cannot be opened is listed with the reason.
+std::vector<camera_stream::FoundDevice> find_devices(const Devices& devices = {});
+
+}  // namespace panvo::v4l2_camera

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "panvo/v4l2_camera/camera_settings.hpp"
+#include "panvo/v4l2_camera/jpeg.hpp"
+#include "panvo/v4l2_camera/video_device.hpp"
+#include "sensor_msgs/msg/Image.h"
+
+namespace panvo::v4l2_camera {
+
+/// What became of a frame.
+struct ReadFrame {
+  enum class Outcome : std::uint8_t { kWhole, kIncomplete, kDamaged };
+  Outcome outcome = Outcome::kWhole;
+  std::string problem{};                                           ///< of one that is not whole
+  std::vector<std::shared_ptr<sensor_msgs::msg::Image>> images{};  ///< without stamps: one, or left and right
+};
+
+/// Makes images of the bytes of a camera's buffers: decoded, taken apart, converted.
+class FrameReader {
+ public:
+  FrameReader(const CameraSettings& settings, const ImageFormat& format);
+
+  ReadFrame read(const BufferedFrame& frame);
+
+ private:
+  std::vector<std::string> frame_ids_;
+  camera_stream::ImageOutput output_;
+  ImageFormat format_;
+  JpegDecoder jpeg_;
+  ImageSplitter splitter_;
+};
+
+}  // namespace panvo::v4l2_camera

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "panvo/v4l2_camera/control.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <optional>
+#include <stdexcept>
+
+namespace panvo::v4l2_camera {
+namespace {
+
+using conversions::Reason;
+
+std::string trimmed(std::string_view text) {
+  const auto is_space = [](unsigned char character) { return std::isspace(character) != 0; };
+  while (!text.empty() && is_space(static_cast<unsigned char>(text.front()))) text.remove_prefix(1);
+  while (!text.empty() && is_space(static_cast<unsigned char>(text.back()))) text.remove_suffix(1);
+  return std::string(text);
+}
+
+std::optional<std::int64_t> number_of(const std::string& text) {
+  std::int64_t number = 0;
+  const char* end = text.data() + text.size();
+  const auto [last, error] = std::from_chars(text.data(), end, number);
+  return error == std::errc() && last == end ? std::optional(number) : std::nullopt;
+}
+
+conversions::Result<std::int64_t> choice_of(const Control& control, const std::string& text) {
+  std::string known;
+  for (const auto& [value, name] : control.choices) {
+    if (control_name(name) == control_name(text) || number_of(text) == value) return value;
+    known += fmt::format("{}{} ({})", known.empty() ? "" : ", ", value, name);
+  }
+  return Reason{"is no choice here; there are: " + known};
+}
+
+}  // namespace
+
+std::string control_name(std::string_view name) {
+  std::string result;
+  for (const char character : name) {
+    const auto byte = static_cast<unsigned char>(character);
+    if (std::isalnum(byte) != 0) {
+      result += static_cast<char>(std::tolower(byte));
+    } else if (!result.empty() && result.back() != '_') {
+      result += '_';
+    }
+  }
+  if (!result.empty() && result.back() == '_') result.pop_back();
+  return result;
+}
+
+conversions::Result<std::int64_t> control_value(const Control& control, const std::string& text) {
+  if (control.is_read_only) return Reason{"can only be read"};
+  if (control.kind == Control::Kind::kButton) return std::int64_t{1};
+  if (control.kind == Control::Kind::kMenu) return choice_of(control, text);
+  if (control.kind == Control::Kind::kSwitch) {
+    if (text == "true" || text == "1") return std::int64_t{1};
+    if (text == "false" || text == "0") return std::int64_t{0};
+    return Reason{"is neither true nor false"};
+  }
+  const auto number = number_of(text);
+  if (!number) return Reason{"is no whole number"};
+  if (*number < control.least || *number > control.most)
+    return Reason{fmt::format("is out of range, {} to {}", control.least, control.most)};
+  if (control.step > 1 && (*number - control.least) % control.step != 0)
+    return Reason{
+        fmt::format("is between the camera's steps: {} and every {} from there", control.least, control.step)};
+  return *number;
+}
+
+std::vector<ControlSetting> settings_of(const std::vector<std::string>& lines, std::string_view device,
+                                        const std::vector<std::string>& devices) {
+  std::vector<ControlSetting> settings;
+  for (const auto& line : lines) {
+    const auto equals = line.find('=');
+    const std::string before = line.substr(0, equals);
+    const auto colon = before.find(':');
+    const std::string its_device = colon == std::string::npos ? std::string(device) : trimmed(before.substr(0, colon));
+    const std::string name = control_name(colon == std::string::npos ? before : before.substr(colon + 1));
+    if (equals == std::string::npos || name.empty()) {
+      throw std::invalid_argument(
+          fmt::format("controls: '{}' is no setting; write name=value, or {}:name=value for one camera", line, device));
+    }
+    if (std::find(devices.begin(), devices.end(), its_device) == devices.end()) {
+      throw std::invalid_argument(fmt::format("controls: '{}' is for '{}', which is no camera here; there are: {}",
+                                              line, its_device, fmt::join(devices, ", ")));
+    }
+    if (its_device == device) settings.push_back({name, trimmed(line.substr(equals + 1))});
+  }
+  return settings;
+}
+
+}  // namespace panvo::v4l2_camera
