@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include "panvo/calibration/coverage.hpp"
+#include "panvo/calibration/report.hpp"
+#include "report_rows.hpp"
+
+namespace panvo::calibration {
+namespace {
+
+constexpr std::size_t kManyViews = 15;
+constexpr double kWellCovered = 0.75;  // of the image's cells; the rest is the model's guess
+constexpr double kSharp_px = 0.8;      // rms of the distance, beyond which the lens model or the images are poor
+constexpr double kKnownFocal = 0.002;  // one sigma over the focal length
+constexpr double kRowsAgree_px = 0.3;  // what matching along rows bears without loss
+constexpr double kMostRejected = 0.3;
+
+void doubt_camera(const Report& report, std::size_t camera, std::vector<std::string>& found) {
+  const auto& [rig, used, residuals, rejections, strays, sigmas] = report.calibration;
+  const auto& name = used.cameras[camera];
+  const auto& lens = rig.cameras[camera].lens;
+  const std::size_t views = used_views(used, camera);
+  const std::size_t seen = used_views(report.seen, camera);
+  const bool is_held = sigmas && (*sigmas)[camera].lens.isZero();
+  if (const double rms = rms_px(residuals_of(report, camera)); rms > kSharp_px)
+    found.push_back(fmt::format(
+        "{}: corners are {:.2f} px off: is the board flat and measured right, are the images sharp, does the lens "
+        "need another --model than {}?",
+        name, rms, vision::ros_name(lens.model)));
+  if (static_cast<double>(seen - views) > kMostRejected * static_cast<double>(seen))
+    found.push_back(fmt::format(
+        "{}: {} of {} images do not fit the others: hold board and cameras still, and trigger them together", name,
+        seen - views, seen));
+  if (is_held) return;
+  if (views < kManyViews)
+    found.push_back(fmt::format(
+        "{}: only {} images are used; 20 or more, near and far, tilted to all sides, are better", name, views));
+  if (const double share = coverage(used, camera).share; share < kWellCovered)
+    found.push_back(
+        fmt::format("{}: corners cover {:.0f} % of the image: hold the board nearer to the borders, or use a ChArUco "
+                    "board, which may "
+                    "reach beyond them",
+                    name, 100.0 * share));
+  if (sigmas && (*sigmas)[camera].lens[0] > kKnownFocal * lens.pinhole.fx && lens.model != vision::LensModel::kMei)
+    found.push_back(fmt::format(
+        "{}: the focal length is known to {:.2f} % only: tilt the board by 30 to 45 degrees, and bring it nearer", name,
+        100.0 * (*sigmas)[camera].lens[0] / lens.pinhole.fx));
+}
+
+}  // namespace
+
+std::vector<std::string> doubts(const Report& report) {
+  std::vector<std::string> found;
+  for (std::size_t camera = 0; camera < report.calibration.used.cameras.size(); ++camera)
+    doubt_camera(report, camera, found);
+  if (!report.calibration.sigmas)
+    found.emplace_back(
+        "the images do not determine all parameters: take more, with the board tilted and all over the image, or "
+        "choose a model "
+        "with fewer coefficients");
+  if (report.pair) {
+    const auto summary = summarise(report.epipolar);
+    if (summary.corners == 0) {
+      found.emplace_back("no corner is in both rectified images, so their rows could not be compared");
+    } else if (summary.rms_px > kRowsAgree_px) {
+      found.push_back(fmt::format(
+          "rows of the rectified images are {:.2f} px off: do both cameras take their images at the same moment?",
+          summary.rms_px));
+    }
+  }
+  return found;
+}
+
+}  // namespace panvo::calibration

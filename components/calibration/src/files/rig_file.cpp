@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "panvo/calibration/rig_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "panvo/calibration/camera_info_file.hpp"
+#include "panvo/vision/camera_model.hpp"
+#include "panvo/vision/pose.hpp"
+#include "yaml_document.hpp"
+
+namespace panvo::calibration {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+
+/// Forward, left, up of a camera's body are z, -x, -y of its optical frame.
+Eigen::Matrix3d body_from_optical() {
+  Eigen::Matrix3d rotation;
+  rotation << 0, 0, 1, -1, 0, 0, 0, -1, 0;
+  return rotation;
+}
+
+Eigen::Isometry3d base_from_optical(const Eigen::Matrix<double, 6, 1>& mount) {
+  Eigen::Isometry3d base_from_camera = Eigen::Isometry3d::Identity();
+  base_from_camera.translation() = mount.head<3>();
+  base_from_camera.linear() = (Eigen::AngleAxisd(kDegree * mount[5], Eigen::Vector3d::UnitZ()) *
+                               Eigen::AngleAxisd(kDegree * mount[4], Eigen::Vector3d::UnitY()) *
+                               Eigen::AngleAxisd(kDegree * mount[3], Eigen::Vector3d::UnitX()))
+                                  .toRotationMatrix() *
+                              body_from_optical();
+  return base_from_camera;
+}
+
+Eigen::Matrix<double, 6, 1> mount_of(const Eigen::Isometry3d& base_from_camera) {
+  const Eigen::Matrix3d r = base_from_camera.linear() * body_from_optical().transpose();
+  Eigen::Matrix<double, 6, 1> mount;
+  mount << base_from_camera.translation(), std::atan2(r(2, 1), r(2, 2)) / kDegree,
+      std::asin(std::clamp(-r(2, 0), -1.0, 1.0)) / kDegree, std::atan2(r(1, 0), r(0, 0)) / kDegree;
+  return mount;
+}
+
+std::string numbers_of(const Eigen::Isometry3d& pose) {
+  std::string text;
+  for (int row = 0; row < 4; ++row) {
+    for (int column = 0; column < 4; ++column)
+      text += fmt::format("{}{:.10g}", text.empty() ? "" : ", ", pose.matrix()(row, column) + 0.0);
+  }
+  return "[" + text + "]";
+}
+
+bool is_seen(const std::vector<vision::CameraModel>& models, const std::vector<NamedCamera>& cameras,
+             const Eigen::Vector3d& direction) {
+  for (std::size_t i = 0; i < cameras.size(); ++i) {
+    const auto pixel = models[i].project(cameras[i].camera.camera_from_reference.linear() * direction);
+    if (pixel && cameras[i].camera.lens.pinhole.contains(*pixel)) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+std::optional<std::pair<double, double>> seen_elevations_deg(const std::vector<NamedCamera>& cameras) {
+  std::vector<vision::CameraModel> models;
+  for (const auto& camera : cameras) models.emplace_back(camera.camera.lens);
+  const auto is_ring_seen = [&](int elevation_deg) {
+    for (int azimuth_deg = 0; azimuth_deg < 360; azimuth_deg += 2) {
+      const double e = kDegree * elevation_deg;
+      const double a = kDegree * azimuth_deg;
+      if (!is_seen(models, cameras, {std::cos(e) * std::sin(a), -std::sin(e), std::cos(e) * std::cos(a)})) return false;
+    }
+    return true;
+  };
+  if (!is_ring_seen(0)) return std::nullopt;
+  int lowest = 0;
+  int highest = 0;
+  while (lowest > -90 && is_ring_seen(lowest - 1)) --lowest;
+  while (highest < 90 && is_ring_seen(highest + 1)) ++highest;
+  // a degree less: the stitcher looks more closely
+  return std::pair<double, double>(lowest == -90 ? -90 : lowest + 1, highest == 90 ? 90 : highest - 1);
+}
+
+std::string extrinsics_text(const std::vector<NamedCamera>& cameras, std::size_t reference,
+                            const Eigen::Matrix<double, 6, 1>& reference_mount) {
+  std::string text = fmt::format(
+      "# Where the cameras are. reference_from_camera: 4 x 4, row by row, optical frames (x right, y down, z forward), "
+      "m.\n"
+      "# mount: on base_link (x forward, y left, z up): x, y, z in m; roll, pitch, yaw in degrees, as the drivers' "
+      "parameter `mount`.\n"
+      "reference: {}\ncameras:\n",
+      cameras[reference].name);
+  for (const auto& [name, camera] : cameras) {
+    const Eigen::Isometry3d reference_from_camera = camera.camera_from_reference.inverse();
+    const auto mount = mount_of(base_from_optical(reference_mount) * reference_from_camera);
+    text += fmt::format(
+        "- name: {0}\n  camera_info: {0}.yaml\n  reference_from_camera: {1}\n  mount: [{2:.5f}, {3:.5f}, {4:.5f}, "
+        "{5:.4f}, {6:.4f}, {7:.4f}]\n",
+        name, numbers_of(reference_from_camera), mount[0], mount[1], mount[2], mount[3], mount[4], mount[5]);
+  }
+  return text;
+}
+
+std::vector<NamedCamera> read_extrinsics(const std::filesystem::path& file) {
+  const YamlDocument yaml(file, "an extrinsics.yaml of panvo calibrate");
+  const YAML::Node list = yaml.at("cameras");
+  if (!list.IsSequence() || list.size() == 0) yaml.fail("cameras", "must be a list of cameras");
+  std::vector<NamedCamera> cameras;
+  for (const auto& item : list) {
+    if (!item.IsMap()) yaml.fail("cameras", "must be a list of maps: name, camera_info, reference_from_camera");
+    const YamlDocument entry(file, item);
+    const auto values = entry.numbers("reference_from_camera", 16);
+    const Eigen::Matrix4d matrix = Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(values.data());
+    const Eigen::Matrix3d rotation = matrix.topLeftCorner<3, 3>();
+    if ((rotation * rotation.transpose() - Eigen::Matrix3d::Identity()).norm() > 1e-3 || rotation.determinant() < 0.0)
+      entry.fail("reference_from_camera", "is no rotation and translation; give the 4 x 4 matrix row by row");
+    Eigen::Isometry3d reference_from_camera = Eigen::Isometry3d::Identity();
+    reference_from_camera.linear() = vision::nearest_rotation(rotation);
+    reference_from_camera.translation() = matrix.topRightCorner<3, 1>();
+    const auto info = read_camera_info(file.parent_path() / entry.text("camera_info"));
+    cameras.push_back({entry.text("name"), {info.lens, reference_from_camera.inverse()}});
+  }
+  return cameras;
+}
+
+std::string panorama_text(const std::vector<NamedCamera>& cameras, std::size_t reference,
+                          std::pair<double, double> seen_elevation_deg) {
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+  for (const auto& camera : cameras) middle += camera.camera.camera_from_reference.inverse().translation();
+  middle /= static_cast<double>(cameras.size());
+  std::string text = fmt::format(
+      "# A panorama of calibrated heads: it looks where '{}' looks, from the middle of all. "
+      "components/panorama_stitcher lists every key.\n"
+      "panorama:\n  frame_id: panorama_optical\n  radius_m: 15\n  seen_elevation_deg: [{:g}, {:g}]\nheads:\n",
+      cameras[reference].name, seen_elevation_deg.first, seen_elevation_deg.second);
+  for (const auto& [name, camera] : cameras) {
+    Eigen::Isometry3d panorama_from_head = camera.camera_from_reference.inverse();
+    panorama_from_head.translation() -= middle;
+    text += fmt::format("- name: {0}\n  camera_info: {0}.yaml\n  panorama_from_head: {1}\n", name,
+                        numbers_of(panorama_from_head));
+  }
+  return text;
+}
+
+}  // namespace panvo::calibration

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+// panvo_calibrate: lenses and poses of cameras from images of a board.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+
+#include "commands.hpp"
+
+namespace {
+
+using namespace panvo::calibration;
+
+enum ExitStatus { kSuccess = 0, kFailed = 1, kUsage = 2, kStale = 3 };
+
+void add_board(CLI::App& command, Arguments& arguments) {
+  command
+      .add_option("--board", arguments.board,
+                  "chessboard:COLUMNSxROWS:SQUARE (corners inside, m), or "
+                  "charuco:COLUMNSxROWS:SQUARE:MARKER[:DICTIONARY] (squares, m)")
+      ->required();
+}
+
+void add_images(CLI::App& command, Arguments& arguments, const std::string& what) {
+  command.add_option("images", arguments.images, what)->required();
+  add_board(command, arguments);
+}
+
+void add_model(CLI::App& command, Arguments& arguments) {
+  command
+      .add_option("--model", arguments.model,
+                  "lens: plumb_bob, rational_polynomial, equidistant (fisheye) or mei (very wide, mirrors)")
+      ->check(CLI::IsMember({"plumb_bob", "rational_polynomial", "equidistant", "mei"}))
+      ->capture_default_str();
+}
+
+void add_out(CLI::App& command, Arguments& arguments, const std::string& what) {
+  command.add_option("--out", arguments.out, what)->required();
+}
+
+void add_reference(CLI::App& command, Arguments& arguments) {
+  command.add_option("--reference", arguments.reference,
+                     "camera in whose frame the others are told (default: the first)");
+  command.add_option("--cameras", arguments.cameras, "folders of IMAGES to use: left,right,head_0 (default: all)")
+      ->delimiter(',');
+  command
+      .add_option("--mount", arguments.mount,
+                  "the reference on base_link: x,y,z in m; roll,pitch,yaw in degrees. Then extrinsics.yaml holds the "
+                  "mount of each camera")
+      ->delimiter(',')
+      ->expected(6);
+}
+
+void describe(CLI::App& app, Arguments& arguments) {
+  app.require_subcommand(1);
+  auto* stereo =
+      app.add_subcommand("stereo", "both lenses of a pair and its rectification: left.yaml, right.yaml, report.html");
+  add_images(*stereo, arguments,
+             "folder of images: left*.png and right*.png, or folders left/ and right/ (or cam0/ and cam1/)");
+  add_model(*stereo, arguments);
+  add_out(*stereo, arguments, "folder for the result");
+  stereo->add_option("--start", arguments.calibration, "folder of an earlier left.yaml and right.yaml to begin with");
+
+  auto* rig = app.add_subcommand(
+      "rig",
+      "lenses and poses of a rig whose neighbours see the board together: NAME.yaml, extrinsics.yaml, panorama.yaml");
+  add_images(*rig, arguments,
+             "folder with a folder of images for each camera; files of the same name were taken at once");
+  add_model(*rig, arguments);
+  add_out(*rig, arguments, "folder for the result");
+  add_reference(*rig, arguments);
+
+  auto* extrinsics =
+      app.add_subcommand("extrinsics", "poses of cameras whose lenses are calibrated already: extrinsics.yaml");
+  add_images(*extrinsics, arguments,
+             "folder with a folder of images for each camera; files of the same name were taken at once");
+  extrinsics
+      ->add_option("--calibration", arguments.calibration, "folder with the camera_info file NAME.yaml of each camera")
+      ->required();
+  add_out(*extrinsics, arguments, "folder for the result");
+  add_reference(*extrinsics, arguments);
+
+  auto* check = app.add_subcommand("check", "whether a pair's calibration still holds; exit status 3 if not");
+  add_images(*check, arguments, "folder of images, as for stereo");
+  check->add_option("--calibration", arguments.calibration, "folder with left.yaml and right.yaml")->required();
+  check->add_option("--limit-px", arguments.limit_px, "largest epipolar residual (rms) that is borne")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+
+  auto* convert = app.add_subcommand(
+      "convert", "a camchain YAML of Kalibr's to camera_info files, or a folder of these to a camchain");
+  convert
+      ->add_option("input", arguments.images,
+                   "camchain YAML, or folder with left.yaml and right.yaml or extrinsics.yaml")
+      ->required();
+  add_out(*convert, arguments, "folder for the result, or the camchain YAML to write");
+
+  auto* board = app.add_subcommand("board", "the board as SVG in its true size, to print at 100 %");
+  add_board(*board, arguments);
+  add_out(*board, arguments, "file to write: board.svg");
+}
+
+int run(const CLI::App& app, const Arguments& arguments) {
+  if (app.got_subcommand("stereo")) calibrate_stereo(arguments);
+  if (app.got_subcommand("rig")) calibrate_rig(arguments);
+  if (app.got_subcommand("extrinsics")) calibrate_extrinsics(arguments);
+  if (app.got_subcommand("convert")) convert(arguments);
+  if (app.got_subcommand("board")) draw(arguments);
+  if (app.got_subcommand("check") && !check_stereo(arguments)) return kStale;
+  return kSuccess;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("Calibrates cameras from images of a chessboard or ChArUco board.", "panvo calibrate");
+  Arguments arguments;
+  describe(app, arguments);
+  try {
+    app.parse(argc, argv);
+    return run(app, arguments);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? kSuccess : kUsage;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "panvo calibrate: %s\n", error.what());
+    return kFailed;
+  }
+}

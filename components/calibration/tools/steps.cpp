@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "steps.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cstdio>
+
+#include "panvo/calibration/calibration_error.hpp"
+
+namespace panvo::calibration {
+
+namespace fs = std::filesystem;
+
+vision::LensModel model_of(const Arguments& arguments) {
+  using vision::LensModel;
+  for (const auto model : {LensModel::kPlumbBob, LensModel::kRational, LensModel::kEquidistant, LensModel::kMei}) {
+    if (arguments.model == vision::ros_name(model)) return model;
+  }
+  throw CalibrationError("--model " + arguments.model + ": there is no such lens model");
+}
+
+Observations detect(const ImageSets& images, const Board& board) {
+  const bool is_terminal = isatty(STDERR_FILENO) == 1;
+  auto observations = detect_boards(images, board, [&](std::size_t done, std::size_t of) {
+    if (is_terminal) std::fprintf(stderr, "\rlooking for the board: %zu of %zu", done, of);
+  });
+  if (is_terminal) std::fputs("\r\033[K", stderr);
+  return observations;
+}
+
+std::vector<CameraInfo> read_calibrations(const fs::path& folder, const Observations& observations) {
+  std::vector<CameraInfo> infos;
+  for (std::size_t i = 0; i < observations.cameras.size(); ++i) {
+    const fs::path file = folder / (observations.cameras[i] + ".yaml");
+    infos.push_back(read_camera_info(file));
+    const auto& size = observations.image_sizes[i];
+    const auto& pinhole = infos.back().lens.pinhole;
+    if (pinhole.width != size.width || pinhole.height != size.height)
+      throw CalibrationError(fmt::format(
+          "{}: image_width and image_height: is a calibration for {} x {} px, but the images of {} are of {} x {} px; "
+          "calibrate at the size that the camera sends",
+          file.string(), pinhole.width, pinhole.height, observations.cameras[i], size.width, size.height));
+  }
+  return infos;
+}
+
+void make_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error || !fs::is_directory(folder, error))
+    throw CalibrationError(fmt::format("{}: the folder cannot be made; choose another with --out", folder.string()));
+}
+
+std::vector<NamedCamera> named_cameras(const RigCalibration& calibration) {
+  std::vector<NamedCamera> cameras;
+  for (std::size_t i = 0; i < calibration.rig.cameras.size(); ++i)
+    cameras.push_back({calibration.used.cameras[i], calibration.rig.cameras[i]});
+  return cameras;
+}
+
+void write_report(const Report& report, const fs::path& folder) {
+  for (std::size_t i = 0; i < report.calibration.used.cameras.size(); ++i) {
+    const auto& name = report.calibration.used.cameras[i];
+    write_text(folder / ("coverage_" + name + ".svg"), coverage_svg(report, i));
+    write_text(folder / ("residuals_" + name + ".svg"), residual_svg(report, i));
+  }
+  write_text(folder / "report.html", to_page(report));
+  std::fputs(to_text(report).c_str(), stdout);
+}
+
+}  // namespace panvo::calibration
