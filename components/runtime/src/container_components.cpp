@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "clocks.hpp"
+#include "container_implementation.hpp"
+#include "panvo/runtime/errors.hpp"
+#include "panvo/runtime/graph.hpp"
+#include "steering/parameter_events.hpp"
+
+namespace panvo::runtime {
+namespace {
+
+std::vector<std::string> names_of(const std::vector<steering::OfferedService>& services) {
+  std::vector<std::string> names;
+  for (const auto& service : services) names.push_back(service.description.name);
+  return names;
+}
+
+template <class Message>
+TopicDescription describe(const interfaces::Topic<Message>& topic) {
+  const auto& type = interfaces::message_type<Message>();
+  return {std::string(topic.name), std::string(type.name), topic.qos, &type};
+}
+
+void log_to_stderr(LogLevel level, const std::string& component, const std::string& text) {
+  if (level >= LogLevel::kWarning) std::fprintf(stderr, "%s: %s\n", component.c_str(), text.c_str());
+}
+
+ComponentDescription own_description() {
+  ComponentDescription description;
+  description.name = "container";
+  return description;
+}
+
+}  // namespace
+
+Container::Implementation::Implementation(ContainerOptions options)
+    : options_(std::move(options)),
+      sink_(options_.log ? options_.log : Logger::Write(log_to_stderr)),
+      bus_(options_.dds && !options_.replay ? make_dds_bridge(*options_.dds) : nullptr,
+           [this](const std::string& text) { log(LogLevel::kWarning, "container", text); }),
+      host_{.bus = bus_,
+            .replay_order = options_.replay ? &replay_order_ : nullptr,
+            .log = [this](LogLevel level, const std::string& component,
+                          const std::string& text) { log(level, component, text); },
+            .seed = options_.seed,
+            .progressed = [this] { progressed(); }},
+      own_(std::make_unique<Context::State>(host_, own_description(), nullptr)),
+      diagnostics_output_(own_.open_output(describe(topics::kDiagnostics))) {
+  rosout_.open(own_.open_output(describe(topics::kRosout)));
+  if (!bus_.bridge()) return;
+  parameter_events_ = own_.open_output(describe(steering::kParameterEvents));
+  auto offered = steering::component_services(full_name(), *this);
+  own_service_names_ = names_of(offered);
+  services_ = serve(std::move(offered));
+  tell_nodes();
+}
+
+Container::Implementation::~Implementation() {
+  services_.clear();  // from now on nobody loads or unloads
+  rosout_.close();
+  if (runner_) runner_->stop();
+  stop_housekeeping();
+  while (!entries_.empty()) take_last();  // the last loaded first: it may use what the others publish
+}
+
+void Container::Implementation::log(LogLevel level, const std::string& component, const std::string& text) {
+  sink_(level, component, text);
+  rosout_.publish(level, component, text, options_.replay ? current_stamp_ns() : clocks::system_ns());
+}
+
+std::string Container::Implementation::full_name() const {
+  return runtime::full_name(options_.name_space, options_.name);
+}
+
+auto Container::Implementation::find(const std::string& name) -> Entries::iterator {
+  return std::find_if(entries_.begin(), entries_.end(),
+                      [&](const auto& entry) { return entry->context->name() == name; });
+}
+
+auto Container::Implementation::add(const ComponentDescription& description, std::shared_ptr<Library> library,
+                                    const Create& create) -> Loaded {
+  const std::lock_guard change(change_mutex_);
+  if (bus_.bridge() && runtime::full_name(description.name_space, description.name) == full_name()) {
+    throw ConfigError(description.where.to_string() + ": " + full_name() +
+                      " is the container's name; give the component another");
+  }
+  if (find(description.name) != entries_.end()) {
+    throw ConfigError(description.where.to_string() + ": there already is a component " + description.name +
+                      "; give this one another name");
+  }
+  auto entry = std::make_unique<LoadedComponent>();
+  entry->library = library;
+  entry->context = std::make_unique<Context>(std::make_unique<Context::State>(host_, description, library));
+  Context::State& state = entry->context->state();
+  std::vector<std::string> problems;
+  try {
+    entry->component = create(*entry->context);
+  } catch (const ConfigError& error) {
+    problems = error.problems();
+  } catch (const std::exception& error) {
+    problems.push_back(description.name + " could not be made: " + error.what());
+  }
+  const auto append = [&](const std::vector<std::string>& more) {
+    problems.insert(problems.end(), more.begin(), more.end());
+  };
+  append(state.reader.problems());
+  append(state.problems);
+  if (state.source && running_) {
+    problems.push_back(description.name + " plays recorded data, which can only begin with the run: load it before");
+  }
+  if (!problems.empty()) throw ConfigError(std::move(problems));
+  if (started_) state.start();
+  entry->id = next_id_++;
+  const Loaded loaded{entry->id, entry->full_name()};
+  if (bus_.bridge()) {
+    offer_services(*entry);
+    tell_parameters(steering::new_parameters(loaded.full_name, state.parameters(), clocks::system_ns()));
+  }
+  {
+    const std::lock_guard lock(entries_mutex_);
+    entries_.push_back(std::move(entry));
+  }
+  tell_nodes();
+  return loaded;
+}
+
+auto Container::Implementation::load_component(const ComponentDescription& description) -> Loaded {
+  const std::string where = description.where.file.empty() ? "" : description.where.to_string() + ": ";
+  try {
+    const auto library = std::make_shared<Library>(find_plugin(description.package));
+    const ComponentDescriptor* descriptor = library->find(description.plugin);
+    if (!descriptor) {
+      std::string known;
+      for (const auto* component : library->components())
+        known += (known.empty() ? "" : ", ") + std::string(component->class_name);
+      throw ConfigError(library->file().string() + " has no component " + description.plugin + "; it has " + known);
+    }
+    return add(description, library, [descriptor](Context& context) {
+      return std::unique_ptr<Component, void (*)(Component*)>(descriptor->create(context), descriptor->destroy);
+    });
+  } catch (const ConfigError& error) {
+    std::vector<std::string> problems;
+    for (const auto& problem : error.problems()) {
+      problems.push_back(problem.starts_with(description.where.file) && !where.empty() ? problem : where + problem);
+    }
+    throw ConfigError(std::move(problems));
+  }
+}
+
+bool Container::Implementation::unload(const std::string& name) {
+  return unload_if([&](const LoadedComponent& entry) { return entry.context->name() == name; });
+}
+
+bool Container::Implementation::unload_if(const std::function<bool(const LoadedComponent&)>& is_it) {
+  const std::lock_guard change(change_mutex_);
+  std::unique_ptr<LoadedComponent> entry;
+  {
+    const std::lock_guard lock(entries_mutex_);
+    const auto found = std::find_if(entries_.begin(), entries_.end(), [&](const auto& there) { return is_it(*there); });
+    if (found == entries_.end()) return false;
+    if ((*found)->context->state().source && running_)
+      throw ConfigError((*found)->context->name() + " plays recorded data and goes with the end of the run");
+    entry = std::move(*found);
+    entries_.erase(found);
+  }
+  entry.reset();
+  tell_nodes();
+  return true;
+}
+
+void Container::Implementation::unload_component(std::uint64_t id) {
+  if (unload_if([id](const LoadedComponent& entry) { return entry.id == id; })) return;
+  throw ConfigError(fmt::format("there is no component of the id {}; list_nodes tells which there are", id));
+}
+
+auto Container::Implementation::loaded_components() const -> std::vector<Loaded> {
+  const std::lock_guard lock(entries_mutex_);
+  std::vector<Loaded> loaded;
+  for (const auto& entry : entries_) loaded.push_back({entry->id, entry->full_name()});
+  return loaded;
+}
+
+std::vector<std::unique_ptr<BridgeService>> Container::Implementation::serve(
+    std::vector<steering::OfferedService> offered) {
+  std::vector<std::unique_ptr<BridgeService>> services;
+  for (auto& [description, handler] : offered)
+    services.push_back(bus_.bridge()->serve(description, std::move(handler)));
+  return services;
+}
+
+void Container::Implementation::offer_services(LoadedComponent& entry) {
+  Context::State& state = entry.context->state();
+  const auto shut_down = [this, id = entry.id] {
+    const std::lock_guard lock(housekeeping_mutex_);
+    to_unload_.push_back(id);
+  };
+  const auto parameters_set = [this, &state, name = entry.full_name()](const WrittenValues& set) {
+    tell_parameters(steering::changed_parameters(name, state.parameters(), set, clocks::system_ns()));
+  };
+  entry.node = std::make_unique<steering::ComponentNode>(state, shut_down, parameters_set);
+  entry.services = serve(steering::parameter_services(entry.full_name(), *entry.node));
+  for (auto& service : serve(steering::lifecycle_services(entry.full_name(), *entry.node)))
+    entry.services.push_back(std::move(service));
+}
+
+void Container::Implementation::tell_parameters(rcl_interfaces::msg::ParameterEvent event) {
+  parameter_events_->publish(std::make_shared<const rcl_interfaces::msg::ParameterEvent>(std::move(event)));
+}
+
+/// Has the bridge tell other processes which nodes there are and what each has.
+void Container::Implementation::tell_nodes() {
+  if (!bus_.bridge()) return;
+  const auto channels = bus_.channels();
+  std::vector<NodeDescription> nodes{{options_.name_space, options_.name, {}, {}, own_service_names_}};
+  const auto add_topics = [&](NodeDescription& node, const std::string& owner_name, const void* reader) {
+    for (const Channel* channel : channels) {
+      if (channel->is_published_by(owner_name)) node.publishes.push_back(channel->topic().name);
+      if (channel->is_read_by(reader)) node.subscribes.push_back(channel->topic().name);
+    }
+  };
+  const std::lock_guard lock(entries_mutex_);
+  add_topics(nodes.front(), own_.name(), &own_.state());
+  if (clock_) nodes.front().publishes.emplace_back(topics::kClock.name);
+  for (const auto& entry : entries_) {
+    Context::State& state = entry->context->state();
+    NodeDescription node{state.description.name_space, state.description.name, {}, {}, {}};
+    add_topics(node, state.description.name, &state);
+    node.serves = names_of(steering::parameter_services(entry->full_name(), *entry->node));
+    for (auto& name : names_of(steering::lifecycle_services(entry->full_name(), *entry->node)))
+      node.serves.push_back(std::move(name));
+    nodes.push_back(std::move(node));
+  }
+  told_channels_ = channels.size();
+  bus_.bridge()->set_nodes(std::move(nodes));
+}
+
+void Container::Implementation::take_last() {
+  std::unique_ptr<LoadedComponent> entry;
+  const std::lock_guard lock(entries_mutex_);
+  entry.swap(entries_.back());
+  entries_.pop_back();
+}
+
+}  // namespace panvo::runtime

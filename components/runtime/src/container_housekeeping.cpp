@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <chrono>
+#include <utility>
+
+#include "clocks.hpp"
+#include "container_implementation.hpp"
+
+namespace panvo::runtime {
+
+void Container::Implementation::keep_house() {
+  std::int64_t last_ns = clocks::monotonic_ns();
+  std::unique_lock lock(housekeeping_mutex_);
+  while (!housekeeping_changed_.wait_for(lock, std::chrono::milliseconds(50), [this] { return housekeeping_ended_; })) {
+    const auto to_unload = std::exchange(to_unload_, {});
+    lock.unlock();
+    bus_.join_discovered();
+    for (const std::uint64_t id : to_unload) {
+      unload_if([id](const LoadedComponent& entry) { return entry.id == id; });
+    }
+    if (bus_.channels().size() != told_channels_) tell_nodes();  // a recorder has found topics
+    lock.lock();
+    const std::int64_t now_ns = clocks::monotonic_ns();
+    if (now_ns - last_ns < 1'000'000'000) continue;
+    publish_diagnostics(static_cast<double>(now_ns - last_ns) * 1e-9);
+    last_ns = now_ns;
+  }
+}
+
+void Container::Implementation::publish_diagnostics(double interval_s) {
+  diagnostic_msgs::msg::DiagnosticArray array;
+  {
+    const std::lock_guard lock(entries_mutex_);
+    std::vector<const Context::State*> states;
+    for (const auto& entry : entries_) states.push_back(&entry->context->state());
+    array = diagnostics_.collect(states, clocks::system_ns(), interval_s);
+  }
+  diagnostics_output_->publish(std::make_shared<const diagnostic_msgs::msg::DiagnosticArray>(std::move(array)));
+}
+
+void Container::Implementation::stop_housekeeping() {
+  {
+    const std::lock_guard lock(housekeeping_mutex_);
+    housekeeping_ended_ = true;
+  }
+  housekeeping_changed_.notify_all();
+  if (housekeeping_.joinable()) housekeeping_.join();
+}
+
+}  // namespace panvo::runtime

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <atomic>
+#include <condition_variable>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "diagnostics.hpp"
+#include "loaded_component.hpp"
+#include "panvo/runtime/container.hpp"
+#include "played_clock.hpp"
+#include "rcl_interfaces/msg/ParameterEvent.h"
+#include "rosout.hpp"
+#include "source_runner.hpp"
+#include "steering/steered.hpp"
+
+namespace panvo::runtime {
+
+/// container_components.cpp: what comes and goes, and what other processes are told of it. container_run.cpp: replay and live.
+/// container_housekeeping.cpp: what is done from time to time.
+class Container::Implementation final : public steering::SteeredContainer {
+ public:
+  explicit Implementation(ContainerOptions options);
+  ~Implementation() override;
+
+  void log(LogLevel level, const std::string& component, const std::string& text);
+
+  using Create = std::function<std::unique_ptr<Component, void (*)(Component*)>(Context&)>;
+  Loaded add(const ComponentDescription& description, std::shared_ptr<Library> library, const Create& create);
+  bool unload(const std::string& name);
+  Loaded load_component(const ComponentDescription& description) override;
+  void unload_component(std::uint64_t id) override;
+  std::vector<Loaded> loaded_components() const override;
+
+  void start();
+  std::vector<std::string> run();
+  void run_until_quiet();
+  void request_stop() noexcept;
+
+  /// What each of the components says, while none comes or goes.
+  template <class Say>
+  void for_each(const Say& say) const {
+    const std::lock_guard lock(entries_mutex_);
+    for (const auto& entry : entries_) say(entry->context->name(), entry->context->state());
+  }
+  Bus& bus() { return bus_; }
+  std::uint64_t source_steps() const { return source_steps_; }
+
+  std::function<void(Source::Progress)> on_progress = [](Source::Progress) {};
+
+ private:
+  using Entries = std::vector<std::unique_ptr<LoadedComponent>>;
+
+  std::string full_name() const;
+  Entries::iterator find(const std::string& name);
+  bool unload_if(const std::function<bool(const LoadedComponent&)>& is_it);
+  void take_last();
+  std::vector<std::unique_ptr<BridgeService>> serve(std::vector<steering::OfferedService> offered);
+  void offer_services(LoadedComponent& entry);
+  void tell_parameters(rcl_interfaces::msg::ParameterEvent event);
+  void tell_nodes();
+
+  void progressed();
+  void replay(const std::vector<Source*>& sources);
+  void run_live(const std::vector<Source*>& sources);
+  void open_clock();
+  void drain();
+  bool queues_are_empty();
+  void fail_source(const std::string& what);
+
+  void keep_house();
+  void publish_diagnostics(double interval_s);
+  void stop_housekeeping();
+
+  const ContainerOptions options_;
+  const Logger::Write sink_;
+  Rosout rosout_;  // before the bus, which may have a warning to log while it is made
+  ReplayOrder replay_order_;
+  Bus bus_;
+  Host host_;
+  std::unique_ptr<SourceRunner> runner_;  // outlives the workers, which wake it
+  std::atomic<SourceRunner*> active_runner_ = nullptr;
+  Context own_;  // the container's own outputs
+  std::shared_ptr<UntypedOutput> diagnostics_output_;
+  std::shared_ptr<UntypedOutput> parameter_events_;  // nullptr without a bridge
+  Diagnostics diagnostics_;
+  std::unique_ptr<PlayedClock> clock_;  // nullptr: none is to be told
+
+  std::mutex change_mutex_;           // one component comes or goes at a time
+  mutable std::mutex entries_mutex_;  // guards entries_, and that what is in it stays meanwhile
+  Entries entries_;
+  std::uint64_t next_id_ = 1;
+  bool started_ = false;
+  std::atomic<bool> running_ = false;
+  std::atomic<std::size_t> told_channels_ = 0;
+
+  std::atomic<bool> stop_requested_ = false;
+  std::mutex stop_mutex_;
+  std::condition_variable stop_changed_;
+  std::vector<std::string> source_problems_;
+  std::uint64_t source_steps_ = 0;
+
+  std::mutex housekeeping_mutex_;
+  std::condition_variable housekeeping_changed_;
+  bool housekeeping_ended_ = false;
+  std::vector<std::uint64_t> to_unload_;
+  std::thread housekeeping_;
+
+  std::vector<std::string> own_service_names_;
+  std::vector<std::unique_ptr<BridgeService>> services_;  // last: they use all of the above
+};
+
+}  // namespace panvo::runtime

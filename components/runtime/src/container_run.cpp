@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <chrono>
+
+#include "clocks.hpp"
+#include "container_implementation.hpp"
+
+namespace panvo::runtime {
+
+void Container::Implementation::start() {
+  const std::lock_guard change(change_mutex_);
+  if (started_) return;
+  started_ = true;
+  for (const auto& entry : entries_) entry->context->state().start();
+  if (!options_.replay) housekeeping_ = std::thread([this] { keep_house(); });
+}
+
+std::vector<std::string> Container::Implementation::run() {
+  start();
+  std::vector<Source*> sources;
+  {
+    const std::lock_guard change(change_mutex_);
+    running_ = true;
+    for (const auto& entry : entries_) {
+      if (Source* source = entry->context->state().source) sources.push_back(source);
+    }
+  }
+  if (options_.replay) {
+    replay(sources);
+  } else {
+    run_live(sources);
+  }
+  running_ = false;
+  std::vector<std::string> problems = source_problems_;
+  const std::lock_guard lock(entries_mutex_);
+  for (const auto& entry : entries_) {
+    if (entry->context->state().failed())
+      problems.push_back(entry->context->name() + " stopped by an error, see the log");
+  }
+  return problems;
+}
+
+void Container::Implementation::request_stop() noexcept {
+  stop_requested_ = true;
+  stop_changed_.notify_all();
+}
+
+void Container::Implementation::run_until_quiet() {
+  while (replay_order_.run_one()) {
+  }
+}
+
+void Container::Implementation::progressed() {
+  if (SourceRunner* runner = active_runner_.load()) runner->wake();
+  stop_changed_.notify_all();
+}
+
+/// The source with the earliest stamp steps, then all that comes of it is handled, in the order in which it came.
+void Container::Implementation::replay(const std::vector<Source*>& sources) {
+  std::int64_t shown_ns = 0;
+  run_until_quiet();
+  while (!stop_requested_) {
+    Source* earliest = nullptr;
+    std::int64_t earliest_ns = 0;
+    for (Source* source : sources) {
+      const auto stamp_ns = source->next_stamp_ns();
+      if (stamp_ns && (!earliest || *stamp_ns < earliest_ns)) {
+        earliest = source;
+        earliest_ns = *stamp_ns;
+      }
+    }
+    if (!earliest) break;
+    set_current_stamp_ns(earliest_ns);
+    try {
+      earliest->emit();
+    } catch (const std::exception& error) {
+      fail_source(error.what());
+      break;
+    }
+    ++source_steps_;
+    run_until_quiet();
+    if (const std::int64_t now_ns = clocks::monotonic_ns(); now_ns - shown_ns > 250'000'000) {
+      shown_ns = now_ns;
+      on_progress(earliest->progress());
+    }
+  }
+}
+
+void Container::Implementation::run_live(const std::vector<Source*>& sources) {
+  if (!sources.empty()) open_clock();
+  runner_ = std::make_unique<SourceRunner>(
+      sources,
+      SourceRunner::Settings{.rate = options_.rate,
+                             .queues_are_empty = [this] { return queues_are_empty(); },
+                             .reached =
+                                 [this](std::int64_t stamp_ns) {
+                                   if (clock_) clock_->reach(stamp_ns);
+                                 },
+                             .failed = [this](const std::string& what) { fail_source(what); },
+                             .warn = [this](const std::string& text) { log(LogLevel::kWarning, "container", text); }});
+  active_runner_ = runner_.get();
+  runner_->start();
+  if (sources.empty()) {
+    std::unique_lock lock(stop_mutex_);
+    while (!stop_requested_) stop_changed_.wait_for(lock, std::chrono::milliseconds(100));
+  }
+  while (!sources.empty() && !stop_requested_ && !runner_->wait(250)) on_progress(runner_->progress());
+  runner_->stop();
+  drain();
+  source_steps_ += runner_->steps();
+  if (!sources.empty()) on_progress(runner_->progress());
+}
+
+/// What is played at its pace brings its time along, unless a clock is played too.
+void Container::Implementation::open_clock() {
+  if (!bus_.bridge() || options_.rate <= 0) return;
+  for (const Channel* channel : bus_.channels()) {
+    if (channel->topic().name == topics::kClock.name && channel->has_publisher_other_than(nullptr)) return;
+  }
+  {
+    const std::lock_guard lock(entries_mutex_);
+    clock_ = std::make_unique<PlayedClock>(*bus_.bridge());
+  }
+  tell_nodes();
+}
+
+/// Lets what is under way be handled, then what was sent be received. Gives up after 10 s without progress; after 10 s in all when it was
+/// asked to stop, for other processes may go on sending.
+void Container::Implementation::drain() {
+  using std::chrono::steady_clock;
+  constexpr auto kPatience = std::chrono::seconds(10);
+  std::unique_lock lock(stop_mutex_);
+  std::int64_t before = host_.in_flight;
+  auto give_up = steady_clock::now() + kPatience;
+  while (host_.in_flight != 0 && steady_clock::now() < give_up) {
+    stop_changed_.wait_for(lock, std::chrono::milliseconds(20));
+    if (host_.in_flight != before && !stop_requested_) give_up = steady_clock::now() + kPatience;
+    before = host_.in_flight;
+  }
+  lock.unlock();
+  if (before != 0)
+    log(LogLevel::kWarning, "container", fmt::format("{} messages were still waiting at the end", before));
+  if (!bus_.wait_for_acknowledgments(std::chrono::seconds(3))) {
+    log(LogLevel::kWarning, "container", "another process has not acknowledged all that was sent to it");
+  }
+}
+
+bool Container::Implementation::queues_are_empty() {
+  const std::lock_guard lock(entries_mutex_);
+  for (const auto& entry : entries_) {
+    for (const auto& worker : entry->context->state().workers) {
+      if (!worker->queue_is_empty()) return false;
+    }
+  }
+  return true;
+}
+
+void Container::Implementation::fail_source(const std::string& what) {
+  log(LogLevel::kError, "container", what);
+  const std::lock_guard lock(stop_mutex_);
+  source_problems_.push_back(what);
+}
+
+}  // namespace panvo::runtime
