@@ -13,24 +13,36 @@
 namespace panvo::calibration {
 namespace {
 
-constexpr std::size_t kFewestCorners = 8;  // of a ChArUco board: twice what a pose needs
-constexpr double kWidestWindow_px = 11.0;  // half the side of the neighbourhood in which a corner is refined
-constexpr double kWindowShare = 0.35;      // of a square's side in the image, so that no other corner is in it
+constexpr std::size_t kFewestCorners = 8;    // of a ChArUco board: twice what a pose needs
+constexpr double kNarrowestWindow_px = 2.0;  // half the side of the neighbourhood in which a corner is refined
+constexpr double kWidestWindow_px = 11.0;
+constexpr double kWindowShare = 0.35;  // of a square's side in the image, so that no other corner is in it
+constexpr double kMarginShare = 0.9;   // of the white about a marker, so that no corner of a marker is in it
 
-double shortest_step_px(const std::vector<cv::Point2f>& corners, int columns) {
-  double shortest = 1e9;
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    const auto column = static_cast<int>(i) % columns;
-    if (column + 1 < columns) shortest = std::min(shortest, cv::norm(corners[i + 1] - corners[i]));
-    const std::size_t below = i + static_cast<std::size_t>(columns);
-    if (below < corners.size()) shortest = std::min(shortest, cv::norm(corners[below] - corners[i]));
+/// The side of the squares about a corner, px: the distance to its nearest neighbour among those found.
+double side_px(const std::vector<Corner>& corners, const Corner& corner, int columns) {
+  double nearest = 1e9;
+  for (const auto& other : corners) {
+    const int steps =
+        std::abs(other.id / columns - corner.id / columns) + std::abs(other.id % columns - corner.id % columns);
+    if (steps == 1) nearest = std::min(nearest, (other.pixel - corner.pixel).norm());
   }
-  return shortest;
+  return nearest;
 }
 
-void refine(const cv::Mat& grey, double step_px, std::vector<cv::Point2f>& corners) {
-  const int half = static_cast<int>(std::clamp(kWindowShare * step_px, 2.0, kWidestWindow_px));
-  cv::cornerSubPix(grey, corners, {half, half}, {-1, -1}, {cv::TermCriteria::COUNT + cv::TermCriteria::EPS, 100, 1e-4});
+/// Each by itself: near ones are larger than far ones.
+void refine(const cv::Mat& grey, const Board& board, std::vector<Corner>& corners) {
+  const double margin = 0.5 * (board.square_m - board.marker_m) / board.square_m;
+  const double share =
+      board.kind == Board::Kind::kCharuco ? std::min(kWindowShare, kMarginShare * margin) : kWindowShare;
+  const auto rough = corners;
+  for (auto& corner : corners) {
+    const int half = static_cast<int>(
+        std::clamp(share * side_px(rough, corner, board.columns), kNarrowestWindow_px, kWidestWindow_px));
+    std::vector<cv::Point2f> place{{static_cast<float>(corner.pixel.x()), static_cast<float>(corner.pixel.y())}};
+    cv::cornerSubPix(grey, place, {half, half}, {-1, -1}, {cv::TermCriteria::COUNT + cv::TermCriteria::EPS, 100, 1e-4});
+    corner.pixel = {place[0].x, place[0].y};
+  }
 }
 
 double brightness(const cv::Mat& grey, cv::Point2f at) {
@@ -75,15 +87,14 @@ bool BoardDetector::is_reversed(const cv::Mat& grey, const std::vector<cv::Point
 Sighting BoardDetector::detect_chessboard(const cv::Mat& grey) const {
   std::vector<cv::Point2f> corners;
   const cv::Size pattern(board_.columns, board_.rows);
-  const int flags = cv::CALIB_CB_ADAPTIVE_THRESH | cv::CALIB_CB_NORMALIZE_IMAGE | cv::CALIB_CB_FAST_CHECK;
-  if (!cv::findChessboardCorners(grey, pattern, corners, flags) &&
-      !cv::findChessboardCornersSB(grey, pattern, corners, cv::CALIB_CB_NORMALIZE_IMAGE | cv::CALIB_CB_ACCURACY))
+  // the older findChessboardCorners takes ten seconds to say no
+  if (!cv::findChessboardCornersSB(grey, pattern, corners, cv::CALIB_CB_NORMALIZE_IMAGE))
     return {{}, fmt::format("no chessboard of {} x {} corners is seen whole", board_.columns, board_.rows)};
-  refine(grey, shortest_step_px(corners, board_.columns), corners);
   if (is_reversed(grey, corners)) std::reverse(corners.begin(), corners.end());
   Sighting sighting;
   for (const auto& corner : corners)
     sighting.corners.push_back({static_cast<int>(sighting.corners.size()), {corner.x, corner.y}});
+  refine(grey, board_, sighting.corners);
   return sighting;
 }
 
@@ -105,6 +116,7 @@ Sighting BoardDetector::detect_charuco(const cv::Mat& grey) const {
                         marker_ids.size(), ids.size(), kFewestCorners)};
   Sighting sighting;
   for (std::size_t i = 0; i < ids.size(); ++i) sighting.corners.push_back({ids[i], {corners[i].x, corners[i].y}});
+  refine(grey, board_, sighting.corners);
   return sighting;
 }
 

@@ -13,18 +13,18 @@ cv::Rect2d square(const Board& board, int column, int row) {
   return {board.square_m * (column - 1), board.square_m * (row - 1), board.square_m, board.square_m};
 }
 
-/// The white bits of a black marker; `corners`: its upper left one first, clockwise, Y up.
+/// The white bits of a black marker; `corners`: its upper left one first, clockwise, Y down.
 void paint_marker(const cv::Mat& bits, const std::vector<cv::Point3f>& corners, double square_m,
                   std::vector<Patch>& patches) {
   const double left = corners[0].x - square_m;
   const double top = corners[0].y - square_m;
   const double side = corners[1].x - corners[0].x;
   const double module = side / (bits.cols + 2);
-  patches.push_back({{left, top - side, side, side}, true});
+  patches.push_back({{left, top, side, side}, true});
   for (int row = 0; row < bits.rows; ++row) {
     for (int column = 0; column < bits.cols; ++column) {
       if (bits.at<uchar>(row, column) == 0) continue;
-      patches.push_back({{left + module * (column + 1), top - module * (row + 2), module, module}, false});
+      patches.push_back({{left + module * (column + 1), top + module * (row + 1), module, module}, false});
     }
   }
 }
@@ -58,13 +58,11 @@ std::string draw_board(const Board& board) {
       "{1:.3f}\" shape-rendering=\"crispEdges\">\n<title>{2}</title>\n<rect width=\"100%\" height=\"100%\" "
       "fill=\"#fff\"/>\n",
       width, height, to_string(board));
-  const bool is_y_up = board.kind == Board::Kind::kCharuco;
   for (const auto& [area, is_black] : paint(board)) {
     const double x = 2.0 * side + kMillimetres * area.x;
     const double y = 2.0 * side + kMillimetres * area.y;
-    svg += fmt::format("<rect x=\"{:.3f}\" y=\"{:.3f}\" width=\"{:.3f}\" height=\"{:.3f}\" fill=\"{}\"/>\n", x,
-                       is_y_up ? height - y - kMillimetres * area.height : y, kMillimetres * area.width,
-                       kMillimetres * area.height, is_black ? "#000" : "#fff");
+    svg += fmt::format("<rect x=\"{:.3f}\" y=\"{:.3f}\" width=\"{:.3f}\" height=\"{:.3f}\" fill=\"{}\"/>\n", x, y,
+                       kMillimetres * area.width, kMillimetres * area.height, is_black ? "#000" : "#fff");
   }
   return svg + "</svg>\n";
 }

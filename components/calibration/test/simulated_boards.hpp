@@ -61,9 +61,6 @@ inline Eigen::Isometry3d hold_board(const Board& board, const Eigen::Isometry3d&
   camera_from_board.linear() =
       towards * Eigen::AngleAxisd(kDegree * tilt_deg, axis).toRotationMatrix() *
       Eigen::AngleAxisd(kDegree * 20.0 * any(random), Eigen::Vector3d::UnitZ()).toRotationMatrix();
-  if (board.kind == Board::Kind::kCharuco)  // Y of its frame points up
-    camera_from_board.linear() =
-        camera_from_board.linear() * Eigen::AngleAxisd(180.0 * kDegree, Eigen::Vector3d::UnitX()).toRotationMatrix();
   const Eigen::Vector3d middle = 0.5 * (board.point(0) + board.point(board.corners() - 1));
   camera_from_board.translation() = distance_m * towards.col(2) - camera_from_board.linear() * middle;
   return camera_from_reference.inverse() * camera_from_board;

@@ -8,8 +8,8 @@
 
 namespace panvo::calibration {
 
-/// A flat board of black and white squares, with markers in the white ones (ChArUco) or without. Its frame has X along a row of corners and
-/// Y along a column, metres; the first corner is the origin.
+/// A flat board of black and white squares, with markers in the white ones (ChArUco) or without. As it is
+/// printed, its frame has X to the right along a row of corners and Y down along a column, metres; the first corner is the origin.
 struct Board {
   enum class Kind { kChessboard, kCharuco };
 
