@@ -35,6 +35,20 @@ std::string sizes_of(const std::vector<OfferedFormat>& offered) {
   return fmt::format("{}", fmt::join(parts, "; "));
 }
 
+/// Those that are read; of the others the names while they are few.
+std::vector<std::string> formats_of(const std::vector<OfferedFormat>& offered) {
+  constexpr std::size_t kFew = 4;
+  std::vector<std::string> read, others;
+  for (const auto& format : offered) {
+    const Coding coding = coding_of(format.pixels);
+    const bool is_read = coding == Coding::kRaw || coding == Coding::kJpeg;
+    is_read ? read.push_back(to_text(format.pixels)) : others.push_back(to_text(format.pixels) + " (not read)");
+  }
+  if (others.size() > kFew) others = {fmt::format("{} others (not read)", others.size())};
+  read.insert(read.end(), others.begin(), others.end());
+  return read;
+}
+
 std::string rates_of(const std::vector<OfferedFormat>& offered) {
   std::set<double> rates;
   for (const auto& format : offered) {
@@ -59,10 +73,7 @@ std::vector<camera_stream::FoundDevice> find_devices(const Devices& devices) {
     device.address = node.port.empty() ? node.path : node.path + ", USB port " + node.port;
     try {
       const auto offered = devices.open(node.path)->offered_formats();
-      for (const auto& format : offered) {
-        const bool is_read = coding_of(format.pixels) == Coding::kRaw || coding_of(format.pixels) == Coding::kJpeg;
-        device.formats.push_back(to_text(format.pixels) + (is_read ? "" : " (not read)"));
-      }
+      device.formats = formats_of(offered);
       device.sizes = sizes_of(offered);
       device.rates = rates_of(offered);
     } catch (const DeviceError& error) {
