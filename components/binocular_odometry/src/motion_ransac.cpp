@@ -26,10 +26,13 @@ class Consensus {
       : stereo_(stereo), pairs_(pairs), options_(options) {
     for (size_t i = 0; i < pairs.size(); ++i) {
       points_.push_back(vision::inverse_depth_point(stereo, pairs[i].previous));
+      all_votes_ += pairs[i].vote;
       if (!pairs[i].has_current_disparity || pairs[i].current.z() < kSmallestDisparity) continue;
       if (pairs[i].previous.z() < kSmallestDisparity) continue;
       near_.push_back(
           {*vision::triangulate(stereo, pairs[i].previous), *vision::triangulate(stereo, pairs[i].current)});
+      votes_ += pairs[i].vote;
+      votes_up_to_.push_back(votes_);
     }
   }
 
@@ -60,7 +63,7 @@ class Consensus {
   double score(const Eigen::Isometry3d& motion) const {
     const double threshold2 = options_.threshold_px * options_.threshold_px;
     double sum = 0.0;
-    for (size_t i = 0; i < points_.size(); ++i) sum += std::min(error2(i, motion), threshold2);
+    for (size_t i = 0; i < points_.size(); ++i) sum += pairs_[i].vote * std::min(error2(i, motion), threshold2);
     return sum;
   }
 
@@ -77,10 +80,12 @@ class Consensus {
     best_.current_from_previous = improved;
     best_.is_inlier.assign(points_.size(), false);
     best_.inliers = 0;
+    inlier_votes_ = 0.0;
     for (size_t i = 0; i < points_.size(); ++i) {
       if (error2(i, improved) > options_.threshold_px * options_.threshold_px) continue;
       best_.is_inlier[i] = true;
       ++best_.inliers;
+      inlier_votes_ += pairs_[i].vote;
     }
   }
 
@@ -97,7 +102,7 @@ class Consensus {
         Eigen::Vector3d residual = at->pixel - pairs_[i].current;
         if (!pairs_[i].has_current_disparity) residual.z() = 0.0;
         if (residual.squaredNorm() > reach2) continue;
-        const double weight = loss.weight(residual.squaredNorm());
+        const double weight = pairs_[i].vote * loss.weight(residual.squaredNorm());
         const int rows = pairs_[i].has_current_disparity ? 3 : 2;
         const auto jacobian = at->by_pose.topRows(rows);
         normal.noalias() += weight * jacobian.transpose() * jacobian;
@@ -116,8 +121,10 @@ class Consensus {
     if (near_.size() < 3) return std::nullopt;
     std::array<size_t, 3> chosen{};
     for (size_t k = 0; k < 3; ++k) {
-      // Plain modulo: the standard's distributions may differ between libraries, and the bias is 1e-7.
-      chosen[k] = random() % near_.size();
+      // By hand: the standard's distributions may differ between libraries. What has more votes is drawn as much more often.
+      const double at = votes_ * static_cast<double>(random()) / static_cast<double>(std::mt19937::max());
+      const auto found = std::lower_bound(votes_up_to_.begin(), votes_up_to_.end() - 1, at);
+      chosen[k] = static_cast<size_t>(found - votes_up_to_.begin());
     }
     if (chosen[0] == chosen[1] || chosen[0] == chosen[2] || chosen[1] == chosen[2]) return std::nullopt;
     std::array<Eigen::Vector3d, 3> in_previous, in_current;
@@ -130,7 +137,7 @@ class Consensus {
 
   int iterations_needed() const {
     if (points_.empty()) return 0;
-    const double ratio = static_cast<double>(best_.inliers) / static_cast<double>(points_.size());
+    const double ratio = inlier_votes_ / all_votes_;
     const double clean = ratio * ratio * ratio;
     if (clean <= 1e-9) return options_.max_iterations;
     if (clean >= 1.0 - 1e-9) return 1;
@@ -142,8 +149,11 @@ class Consensus {
   const RansacOptions& options_;
   std::vector<Eigen::Vector3d> points_;  // inverse depth, in the previous frame
   std::vector<NearPoint> near_;
+  std::vector<double> votes_up_to_;  // of near_, added up
+  double votes_ = 0.0, all_votes_ = 0.0;
   double best_score_ = std::numeric_limits<double>::infinity();
   RansacResult best_;
+  double inlier_votes_ = 0.0;
 };
 
 }  // namespace

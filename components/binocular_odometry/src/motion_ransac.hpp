@@ -11,11 +11,13 @@
 
 namespace panvo::binocular_odometry {
 
-/// One point in two frames: u, v, disparity (px). The disparity in the current frame may be missing.
+/// One point in two frames: u, v, disparity (px). The disparity in the current frame may be missing. `vote` is how much it counts in
+/// judging a motion, against those that are known to stand still.
 struct PointPair {
   Eigen::Vector3d previous;
   Eigen::Vector3d current;
   bool has_current_disparity = false;
+  double vote = 1.0;
 };
 
 struct RansacOptions {

@@ -83,6 +83,10 @@ class MotionStage::Implementation {
     std::vector<Observation> current;
   };
 
+  // A car ahead may fill the view, in points that are found on it anew again and again: what is new says little where there are points that have
+  // kept their place over two keyframes.
+  static double vote(int standing) { return standing == 0 ? 0.01 : standing == 1 ? 0.1 : 1.0; }
+
   Pairs pair_up(const TrackedFrame& frame) const {
     Pairs pairs;
     const Eigen::Vector3d offset(0.0, 0.0, adjuster_.disparity_offset_px());
@@ -91,7 +95,9 @@ class MotionStage::Implementation {
       while (known != reference_.end() && known->track_id < seen.track_id) ++known;
       if (known == reference_.end()) break;
       if (known->track_id != seen.track_id || !known->has_disparity) continue;
-      pairs.points.push_back({known->pixel - offset, seen.pixel - offset, seen.has_disparity});
+      const auto standing = adjuster_.standing(seen.track_id);
+      if (!standing) continue;
+      pairs.points.push_back({known->pixel - offset, seen.pixel - offset, seen.has_disparity, vote(*standing)});
       pairs.previous.push_back(*known);
       pairs.current.push_back(seen);
     }

@@ -161,12 +161,18 @@ std::optional<MeasuredMotion> TwoStageLocalBundleAdjuster::refine_window(Keyfram
 void TwoStageLocalBundleAdjuster::add_keyframe(Keyframe frame) {
   const Eigen::Isometry3d odom_from_left = frame.left_from_odom.inverse();
   for (const Observation& seen : frame.observations) {
-    if (!seen.has_disparity) continue;
-    points_.try_emplace(seen.track_id, WindowPoint{{odom_from_left, point_of(seen)}});
+    if (seen.has_disparity) points_.try_emplace(seen.track_id, WindowPoint{{odom_from_left, point_of(seen)}});
+    if (const auto known = points_.find(seen.track_id); known != points_.end()) ++known->second.keyframes;
   }
   keyframes_.push_back(std::move(frame));
   if (static_cast<int>(keyframes_.size()) > parameters_.window_keyframes) keyframes_.pop_front();
   forget_unseen_points();
+}
+
+std::optional<int> TwoStageLocalBundleAdjuster::standing(std::int64_t track_id) const {
+  const auto known = points_.find(track_id);
+  if (known == points_.end()) return 0;
+  return known->second.is_refuted ? std::nullopt : std::optional(known->second.keyframes);
 }
 
 void TwoStageLocalBundleAdjuster::forget_unseen_points() {

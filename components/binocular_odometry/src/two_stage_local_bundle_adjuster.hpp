@@ -55,12 +55,17 @@ class TwoStageLocalBundleAdjuster {
   /// What to take off a measured disparity, as far as it is known by now (px); see BundleProblem.
   double disparity_offset_px() const { return disparity_offset_px_; }
 
+  /// In how many keyframes a point was seen, standing still as the window has it; 0 for one that is in none. nullopt for a point that
+  /// contradicts the camera's motion.
+  std::optional<int> standing(std::int64_t track_id) const;
+
   bool is_empty() const { return keyframes_.empty(); }
   const Keyframe& last_keyframe() const { return keyframes_.back(); }
 
  private:
   struct WindowPoint {
     BundlePoint point;
+    int keyframes = 0;  ///< that saw it
     int contradictions = 0;
     bool is_refuted = false;  ///< contradicts the camera's motion: on something that moves, or mismatched
   };

@@ -59,6 +59,19 @@ TEST(MotionRansac, TakesAGoodGuessWithoutDrawing) {
   EXPECT_EQ(found->inliers, 50);
 }
 
+TEST(MotionRansac, BelievesWhatStandsStillMoreThanAMajority) {
+  auto points = pairs(100, 0);
+  const Eigen::Isometry3d other =
+      vision::se3_exp((vision::Vector6d() << 0.4, 0.0, 0.1, 0.0, 0.0, 0.0).finished()) * kMotion;
+  for (std::size_t i = 0; i < 70; ++i) {
+    points[i].current = vision::observe(kStereo, other * *vision::triangulate(kStereo, points[i].previous));
+    points[i].vote = 0.1;
+  }
+  const auto found = estimate_motion(kStereo, points, {}, {});
+  ASSERT_TRUE(found);
+  EXPECT_LT(vision::se3_log(found->current_from_previous * kMotion.inverse()).norm(), 0.01);
+}
+
 TEST(MotionRansac, HasNoMotionForNoPoints) { EXPECT_FALSE(estimate_motion(kStereo, {}, {}, {})); }
 
 }  // namespace
