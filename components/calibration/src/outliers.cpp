@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kMedianOfRayleigh = 1.1774;  // median length of a vector of two normal errors of deviation 1
 constexpr double kStraySigmas = 5.0;          // one good corner in 270 000
-constexpr double kStrayAlways_px = 0.25;      // what is so near is no stray, however good the others are
+constexpr double kStrayAlways_px = 0.5;       // what is so near is no stray, however good the others are
 constexpr double kBadViewTimes = 4.0;         // median of a view over that of its camera
 constexpr double kBadViewAlways_px = 0.5;
 constexpr double kMostStrays = 0.3;  // of a sighting, beyond which it goes as a whole

@@ -79,7 +79,7 @@ std::string to_page(const Report& report) {
                         report.pair->camera.fx, report.pair->baseline_m, epipolar_sentence(report));
   for (std::size_t camera = 0; camera < report.calibration.used.cameras.size(); ++camera)
     page += camera_section(report, camera);
-  if (const auto rejected = rejection_rows(report); rejected.size() > 1)
+  if (const auto rejected = rejection_rows(report, true); rejected.size() > 1)
     page += "<h2>Images that are not used</h2>\n" + table(rejected, "words");
   return page + "</main>\n</body>\n</html>\n";
 }

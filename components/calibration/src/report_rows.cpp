@@ -80,11 +80,11 @@ Rows pose_rows(const Report& report) {
   return rows;
 }
 
-Rows rejection_rows(const Report& report) {
+Rows rejection_rows(const Report& report, bool with_unseen) {
   Rows rows{{"image", "camera", "why it is not used"}};
   for (std::size_t view = 0; view < report.seen.views.size(); ++view) {
     const auto& [name, seen, missing] = report.seen.views[view];
-    for (std::size_t camera = 0; camera < missing.size(); ++camera) {
+    for (std::size_t camera = 0; with_unseen && camera < missing.size(); ++camera) {
       if (!missing[camera].empty()) rows.push_back({name, report.seen.cameras[camera], missing[camera]});
     }
     for (const auto& rejection : report.calibration.rejections) {

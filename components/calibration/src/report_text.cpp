@@ -36,7 +36,8 @@ std::string to_text(const Report& report) {
   const auto& calibration = report.calibration;
   std::string text =
       fmt::format("{}: board {}\n\n{}", report.title, to_string(report.board), table(camera_rows(report)));
-  auto rejected = rejection_rows(report);
+  // in a rig, most cameras do not see most boards
+  auto rejected = rejection_rows(report, calibration.used.cameras.size() <= 2);
   if (rejected.size() > 1) {
     const std::size_t left_out = rejected.size() - std::min(rejected.size(), kMostListed + 1);
     rejected.resize(rejected.size() - left_out);

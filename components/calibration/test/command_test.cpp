@@ -4,6 +4,7 @@
 
 #include <regex>
 
+#include "panvo/calibration/camchain_file.hpp"
 #include "panvo/calibration/camera_info_file.hpp"
 #include "panvo/calibration/rig_file.hpp"
 #include "written_images.hpp"
@@ -15,7 +16,6 @@ using test::camera_at;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
-using ::testing::Not;
 using ::testing::SizeIs;
 
 class StereoCommand : public test::CommandTest {
@@ -41,11 +41,11 @@ class StereoCommand : public test::CommandTest {
 TEST_F(StereoCommand, GivesBackAPairSeenWithAChessboardAndNoticesWhenItHasMoved) {
   const Board board = parse_board("chessboard:9x6:0.04");
   const auto truth = test::stereo_pair(test::plumb_bob());
-  photograph("images", board, {"left", "right"}, truth, test::hold_boards(board, truth, 36, 22.0, 0.5, 11));
+  photograph("images", board, {"left", "right"}, truth, test::hold_boards(board, truth, 26, 22.0, 0.5, 11));
+  photograph("later", board, {"left", "right"}, truth, test::hold_boards(board, truth, 4, 10.0, 0.6, 12));
   const auto outcome = call("stereo images --board chessboard:9x6:0.04 --out rig");
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_THAT(outcome.err, IsEmpty());
-  std::cout << outcome.out;
   expect_calibrated("rig", truth);
   EXPECT_LT(epipolar_rms_px(outcome.out), 0.2);
   EXPECT_THAT(outcome.out, AllOf(HasSubstr("std. deviation"), HasSubstr("reprojection rms"),
@@ -55,14 +55,14 @@ TEST_F(StereoCommand, GivesBackAPairSeenWithAChessboardAndNoticesWhenItHasMoved)
   EXPECT_THAT(text_of("rig/coverage_left.svg"), HasSubstr("<circle"));
   EXPECT_THAT(text_of("rig/residuals_right.svg"), HasSubstr("<circle"));
 
-  const auto holds = call("check images --calibration rig --board chessboard:9x6:0.04");
+  const auto holds = call("check later --calibration rig --board chessboard:9x6:0.04");
   EXPECT_EQ(holds.status, 0) << holds.err;
   EXPECT_LT(epipolar_rms_px(holds.out), 0.2);
 
   auto moved = read_camera_info(folder_ / "rig/right.yaml");
   moved.rectified_from_raw = vision::so3_exp({0.2 * test::kDegree, 0.0, 0.0}) * moved.rectified_from_raw;
   write_camera_info(folder_ / "rig/right.yaml", moved);
-  const auto stale = call("check images --calibration rig --board chessboard:9x6:0.04");
+  const auto stale = call("check later --calibration rig --board chessboard:9x6:0.04");
   EXPECT_EQ(stale.status, 3);
   EXPECT_NEAR(epipolar_rms_px(stale.out), 0.2 * test::kDegree * moved.projection(1, 1), 0.3);
   EXPECT_THAT(stale.err, AllOf(HasSubstr("rig"), HasSubstr("stale"), HasSubstr("calibrate again")));
@@ -71,11 +71,10 @@ TEST_F(StereoCommand, GivesBackAPairSeenWithAChessboardAndNoticesWhenItHasMoved)
 TEST_F(StereoCommand, GivesBackTwoFisheyesSeenWithACharucoBoardFromAnEarlierStart) {
   const Board board = parse_board("charuco:7x5:0.06:0.042:DICT_4X4_50");
   const auto truth = test::stereo_pair(test::fisheye());
-  photograph("images", board, {"cam0", "cam1"}, truth, test::hold_boards(board, truth, 40, 65.0, 0.28, 21));
+  photograph("images", board, {"cam0", "cam1"}, truth, test::hold_boards(board, truth, 36, 65.0, 0.28, 21));
   const std::string arguments = "stereo images --board charuco:7x5:0.06:0.042:DICT_4X4_50 --model equidistant ";
   const auto outcome = call(arguments + "--out rig");
   ASSERT_EQ(outcome.status, 0) << outcome.err;
-  std::cout << outcome.out;
   expect_calibrated("rig", truth);
   EXPECT_LT(epipolar_rms_px(outcome.out), 0.2);
   EXPECT_THAT(text_of("rig/left.yaml"), HasSubstr("distortion_model: equidistant"));
@@ -95,11 +94,10 @@ TEST_F(RigCommand, GivesBackFourFisheyesAllRoundAndTheirPosesAlone) {
                                       0.03 * std::cos(90.0 * i * test::kDegree) - 0.03},
                                      {0.0, 90.0 * i, 0.0})});
   const std::vector<std::string> names{"head_0", "head_1", "head_2", "head_3"};
-  photograph("images", board, names, truth, test::hold_boards(board, truth, 80, 65.0, 0.28, 31));
+  photograph("images", board, names, truth, test::hold_boards(board, truth, 64, 65.0, 0.28, 31));
   const auto outcome = call(
       "rig images --board charuco:7x5:0.06:0.042:DICT_4X4_50 --model equidistant --out rig --mount 0.1,0,1.2,0,0,0");
   ASSERT_EQ(outcome.status, 0) << outcome.err;
-  std::cout << outcome.out;
   const auto found = read_extrinsics(folder_ / "rig/extrinsics.yaml");
   ASSERT_THAT(found, SizeIs(4));
   for (std::size_t i = 0; i < 4; ++i) {
@@ -119,6 +117,122 @@ TEST_F(RigCommand, GivesBackFourFisheyesAllRoundAndTheirPosesAlone) {
   const auto poses = read_extrinsics(folder_ / "poses/extrinsics.yaml");
   ASSERT_THAT(poses, SizeIs(2));
   test::expect_same_pose(poses[1].camera.camera_from_reference, truth[1].camera_from_reference.inverse());
+}
+
+class CalibrateRefuses : public test::CommandTest {
+ protected:
+  /// Six pairs, too few of them with the board: a start for what may be wrong.
+  void few_pairs() const {
+    const Board board = parse_board("chessboard:9x6:0.04");
+    const auto truth = test::stereo_pair(test::plumb_bob());
+    photograph("images", board, {"left", "right"}, truth, test::hold_boards(board, truth, 4, 8.0, 0.7, 41));
+    std::filesystem::create_directories(folder_ / "rig");
+    write_camera_info(folder_ / "rig/left.yaml", single_camera_info("left", truth[0].lens));
+  }
+
+  void expect_refusal(const std::string& arguments, const ::testing::Matcher<std::string>& words) const {
+    const auto outcome = call(arguments);
+    EXPECT_EQ(outcome.status, 1) << arguments;
+    EXPECT_THAT(outcome.err, AllOf(::testing::StartsWith("panvo calibrate: "), words)) << arguments;
+    EXPECT_THAT(outcome.out, IsEmpty()) << arguments;
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "out")) << arguments;
+  }
+};
+
+TEST_F(CalibrateRefuses, FoldersWithoutPairs) {
+  const std::string rest = " --board chessboard:9x6:0.04 --out out";
+  expect_refusal("stereo nowhere" + rest, AllOf(HasSubstr("nowhere: is no folder"), HasSubstr("name the one")));
+  write("empty/readme.txt", "nothing");
+  expect_refusal("stereo empty" + rest, AllOf(HasSubstr("0 left and 0 right"), HasSubstr("left*.png")));
+  write("unpaired/left/1.png", "x");
+  write("unpaired/right/001.png", "x");
+  expect_refusal("stereo unpaired" + rest, AllOf(HasSubstr("'1.png' and '001.png'"), HasSubstr("alike")));
+  expect_refusal("rig unpaired --cameras left,middle" + rest,
+                 AllOf(HasSubstr("unpaired/middle"), HasSubstr("a folder for each camera")));
+  expect_refusal("rig empty" + rest, AllOf(HasSubstr("holds 0 folders"), HasSubstr("two or more")));
+  write("broken/left/1.png", "x");
+  write("broken/right/1.png", "x");
+  expect_refusal("stereo broken" + rest, AllOf(HasSubstr("left: none of its files can be read"), HasSubstr("whole?")));
+}
+
+TEST_F(CalibrateRefuses, TooFewImagesAndBoardsThatAreNotSeen) {
+  few_pairs();
+  expect_refusal("stereo images --board chessboard:9x6:0.04 --out out",
+                 AllOf(HasSubstr("used in 4 of 4 images"), HasSubstr("at least 5"), HasSubstr("take more")));
+  expect_refusal("stereo images --board chessboard:7x5:0.04 --out out",
+                 AllOf(HasSubstr("used in 0 of 4 images"), HasSubstr("counts")));
+  expect_refusal("stereo images --board charuco:9x6:0.04:0.03 --out out",
+                 AllOf(HasSubstr("used in 0 of 4 images"), HasSubstr("dictionary")));
+}
+
+TEST_F(CalibrateRefuses, ImagesOfDifferentSizesAndCalibrationsForOthers) {
+  few_pairs();
+  std::filesystem::create_directories(folder_ / "small");
+  write_camera_info(
+      folder_ / "small/left.yaml",
+      single_camera_info("left", test::lens(vision::LensModel::kPlumbBob, 215.0, {0, 0, 0, 0, 0}, 320, 240)));
+  std::filesystem::copy(folder_ / "small/left.yaml", folder_ / "small/right.yaml");
+  const std::string rest = " --board chessboard:9x6:0.04";
+  expect_refusal("check images --calibration small" + rest,
+                 AllOf(HasSubstr("small/left.yaml: image_width"), HasSubstr("320 x 240"), HasSubstr("640 x 480"),
+                       HasSubstr("calibrate at the size")));
+  cv::imwrite((folder_ / "images/left/900.png").string(), cv::Mat(240, 320, CV_8U, cv::Scalar(0)));
+  expect_refusal("stereo images --out out" + rest, AllOf(HasSubstr("left/900.png"), HasSubstr("320 x 240"),
+                                                         HasSubstr("left/000.png"), HasSubstr("one size")));
+}
+
+TEST_F(CalibrateRefuses, CalibrationsThatAreNone) {
+  few_pairs();
+  const std::string check = "check images --board chessboard:9x6:0.04 --calibration ";
+  expect_refusal(check + "rig", AllOf(HasSubstr("rig/right.yaml: cannot be opened"), HasSubstr("is it there")));
+  std::filesystem::copy(folder_ / "rig/left.yaml", folder_ / "rig/right.yaml");
+  expect_refusal(check + "rig", AllOf(HasSubstr("rig: baseline is"), HasSubstr("panvo calibrate stereo")));
+  write("rig/left.yaml", "- 1\n- 2\n");
+  expect_refusal(check + "rig",
+                 AllOf(HasSubstr("rig/left.yaml: holds no `key: value` lines"), HasSubstr("camera_info")));
+  write("rig/left.yaml", "image_width: [\n");
+  expect_refusal(check + "rig", AllOf(HasSubstr("rig/left.yaml:"), HasSubstr("is not YAML")));
+  expect_refusal("convert rig/right.yaml --out out",
+                 AllOf(HasSubstr("rig/right.yaml: cam0 is missing"), HasSubstr("camchain")));
+}
+
+TEST_F(CalibrateRefuses, WhatCannotBeAskedFor) {
+  few_pairs();
+  expect_refusal("rig images --board chessboard:8x6:0.04 --out out",
+                 AllOf(HasSubstr("chessboard:8x6:0.04"), HasSubstr("upside down"), HasSubstr("9x6")));
+  expect_refusal("rig images --reference up --board chessboard:9x6:0.04 --out out",
+                 AllOf(HasSubstr("--reference up"), HasSubstr("'left'")));
+  expect_refusal("stereo images --board chessboard:9x6 --out out", HasSubstr("'chessboard:9x6'"));
+  EXPECT_EQ(call("stereo images --board chessboard:9x6:0.04").status, 2);
+  EXPECT_EQ(call("stereo images --board chessboard:9x6:0.04 --out out --model pinhole").status, 2);
+  EXPECT_EQ(call("").status, 2);
+  const auto help = call("--help");
+  EXPECT_EQ(help.status, 0);
+  EXPECT_THAT(help.out, AllOf(HasSubstr("stereo"), HasSubstr("extrinsics"), HasSubstr("convert")));
+}
+
+class OtherCommands : public test::CommandTest {};
+
+TEST_F(OtherCommands, DrawABoard) {
+  EXPECT_EQ(call("board --board charuco:7x5:0.04:0.03 --out board.svg").status, 0);
+  EXPECT_THAT(text_of("board.svg"), AllOf(HasSubstr("<svg"), HasSubstr("360.000mm")));
+  EXPECT_EQ(call("board --board charuco:7x5:0.04:0.03 --out nowhere/board.svg").status, 1);
+}
+
+TEST_F(OtherCommands, TakeKalibrsCamchainAndGiveItBack) {
+  const auto truth = test::stereo_pair(test::fisheye());
+  write("camchain.yaml", camchain_text({{"left", truth[0]}, {"right", truth[1]}}));
+  const auto taken = call("convert camchain.yaml --out rig");
+  ASSERT_EQ(taken.status, 0) << taken.err;
+  EXPECT_THAT(taken.out, HasSubstr("left.yaml (cam0)"));
+  const auto left = read_camera_info(folder_ / "rig/left.yaml");
+  test::expect_same_focal_lengths(left.lens, truth[0].lens);
+  std::filesystem::remove(folder_ / "rig/extrinsics.yaml");  // from R and P alone
+  ASSERT_EQ(call("convert rig --out back.yaml").status, 0);
+  const auto back = read_camchain(folder_ / "back.yaml");
+  ASSERT_THAT(back, SizeIs(2));
+  EXPECT_TRUE(back[1].camera.camera_from_reference.isApprox(truth[1].camera_from_reference, 1e-8));
+  EXPECT_NEAR(back[1].camera.lens.distortion[1], truth[1].lens.distortion[1], 1e-10);
 }
 
 }  // namespace

@@ -43,6 +43,9 @@ Eigen::Matrix<double, 6, 1> mount_of(const Eigen::Isometry3d& base_from_camera) 
   return mount;
 }
 
+/// Rounded as it is written, so that nothing reads -0.
+double rounded(double value, double places) { return std::round(value * places) / places + 0.0; }
+
 std::string numbers_of(const Eigen::Isometry3d& pose) {
   std::string text;
   for (int row = 0; row < 4; ++row) {
@@ -98,7 +101,8 @@ std::string extrinsics_text(const std::vector<NamedCamera>& cameras, std::size_t
     text += fmt::format(
         "- name: {0}\n  camera_info: {0}.yaml\n  reference_from_camera: {1}\n  mount: [{2:.5f}, {3:.5f}, {4:.5f}, "
         "{5:.4f}, {6:.4f}, {7:.4f}]\n",
-        name, numbers_of(reference_from_camera), mount[0], mount[1], mount[2], mount[3], mount[4], mount[5]);
+        name, numbers_of(reference_from_camera), rounded(mount[0], 1e5), rounded(mount[1], 1e5), rounded(mount[2], 1e5),
+        rounded(mount[3], 1e4), rounded(mount[4], 1e4), rounded(mount[5], 1e4));
   }
   return text;
 }
