@@ -5,7 +5,7 @@
     virtual_machine.py run [--limit S] FOLDER WORDS  the command WORDS, with FOLDER as /exchange; its exit status, 124 when it took too long
 
 The command sees all files of this machine; what it writes is gone afterwards, but for what it writes into /exchange. The kernel is downloaded with
-apt-get once (70 MB), and what is needed of it (about 70 MB) is kept in the user's cache. Module arguments: --module vivid=n_devs=1;node_types=1
+apt-get once (70 MB), and what is needed of it (about 70 MB) is kept in the user's cache. Module arguments: --module vivid=n_devs=1;node_types=1; none of it: --module vivid=none
 """
 import argparse
 import contextlib

@@ -36,5 +36,10 @@ TEST_F(VirtualMachine, DriverHoldsOnTheKernelsSimulatedCameras) {
   EXPECT_EQ(finished.status, 0) << finished.output;
 }
 
+TEST_F(VirtualMachine, DriverHoldsOnUsbCameras) {
+  const Finished finished = inside({"vivid=none"}, {USB_SCENARIOS}, std::chrono::seconds(100));
+  EXPECT_EQ(finished.status, 0) << finished.output;
+}
+
 }  // namespace
 }  // namespace panvo::test

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: Apache-2.0
+// The driver on USB cameras that are simulated in user space and driven by the kernel's own uvcvideo: plugged in, set, damaged, pulled out.
+#include <algorithm>
+#include <chrono>
+
+#include "grabbed.hpp"
+#include "numbered_pictures.hpp"
+#include "panvo/v4l2_camera/device_list.hpp"
+#include "usb_camera.hpp"
+
+namespace panvo::test {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+using v4l2_camera::CameraSettings;
+using v4l2_camera::ImageParts;
+using Steady = std::chrono::steady_clock;
+
+class UsbStereoCamera : public ::testing::Test {
+ protected:
+  static constexpr int kWidth = 640, kHeight = 240;
+
+  UsbStereoCamera() { plug_in(); }
+
+  void plug_in(UsbCamera::Picture picture = {}) {
+    if (!picture) picture = [this](std::uint32_t number) { return pictures().file(number); };
+    camera_ = std::make_unique<UsbCamera>(0, CameraModel{.serial = "SBS001", .width = kWidth, .height = kHeight},
+                                          std::move(picture));
+  }
+  void unplug() { camera_.reset(); }
+
+  static CameraSettings settings() {
+    auto settings = camera("SBS001", ImageParts::kSideBySide);
+    settings.format = {"MJPG", kWidth, kHeight, 30.0};
+    settings.output = camera_stream::ImageOutput::kGrey;
+    settings.controls = {{"gain", "42"}};
+    return settings;
+  }
+
+  static const NumberedPictures& pictures() {
+    static const NumberedPictures pictures(kWidth, kHeight);
+    return pictures;
+  }
+
+  std::unique_ptr<UsbCamera> camera_;
+};
+
+/// How many of the pictures from the first to the last one were not delivered; -1: one shows no number, or another eye's.
+int missing(const std::vector<Grabbed::Frame>& frames) {
+  int missing = 0;
+  std::optional<std::uint32_t> last;
+  for (const auto& frame : frames) {
+    const auto left = read_number(*frame.images.at(0)), right = read_number(*frame.images.at(1));
+    if (!left || !right || left->is_right || !right->is_right || left->number != right->number) return -1;
+    if (last)
+      missing += static_cast<int>((left->number + NumberedPictures::kCount - *last - 1) % NumberedPictures::kCount);
+    last = left->number;
+  }
+  return missing;
+}
+
+TEST_F(UsbStereoCamera, DeliversSixtyOfSixtyAtThirtyHertz) {
+  const Grabbed grabbed(settings());
+  ASSERT_TRUE(grabbed.more_come(60)) << grabbed.log();
+  const auto all = grabbed.frames();
+  const std::vector<Grabbed::Frame> sixty(all.begin(), all.begin() + 60);
+  EXPECT_EQ(missing(sixty), 0);
+  const auto report = grabbed.report();
+  EXPECT_EQ(report.counters.dropped + report.counters.damaged + report.counters.incomplete, 0u) << grabbed.log();
+  EXPECT_EQ(report.serial, "SBS001");
+  EXPECT_EQ(report.details.at("given"), "MJPG 640 x 240 px, 30 Hz");
+  EXPECT_EQ(report.details.at("stamps"), "of the start of exposure");
+  EXPECT_EQ(camera_->value("gain"), 42);
+  const double seconds = static_cast<double>(sixty.back().stamp_ns - sixty.front().stamp_ns) * 1e-9;
+  std::printf("60 of 60 in %.2f s, %zu delivered\n", seconds, all.size());
+  EXPECT_NEAR(seconds, 59.0 / 30.0, 0.3);
+}
+
+TEST_F(UsbStereoCamera, IsListedByItsSerialNumberWithFormatsAndRates) {
+  ASSERT_TRUE(soon([] { return v4l2_camera::find_devices().size() == 1; }));
+  const auto device = v4l2_camera::find_devices().at(0);
+  EXPECT_EQ(device.serial, "SBS001");
+  EXPECT_EQ(device.vendor, "Simulated");
+  EXPECT_THAT(device.model, StartsWith("Stereo Camera"));
+  EXPECT_EQ(device.protocol, "UVC");
+  EXPECT_THAT(device.formats, ElementsAre("MJPG", "YUYV"));
+  EXPECT_EQ(device.sizes, "640 x 240 px");
+  EXPECT_EQ(device.rates, "5 to 30 Hz");
+}
+
+TEST_F(UsbStereoCamera, SendsRawImagesToBothEyes) {
+  auto wanted = settings();
+  wanted.format = {"YUYV", kWidth, kHeight, 5.0};
+  wanted.output = camera_stream::ImageOutput::kReadable;
+  const Grabbed grabbed(wanted);
+  ASSERT_TRUE(grabbed.more_come(2)) << grabbed.log();
+  EXPECT_EQ(grabbed.report().details.at("given"), "YUYV 640 x 240 px, 5 Hz");
+  for (const auto& image : grabbed.frames().back().images) {
+    EXPECT_EQ(image->encoding(), "bgr8");
+    EXPECT_EQ(image->width(), 320u);
+    for (const double level : mean_of(*image, 0.0, 1.0)) EXPECT_NEAR(level, (128 - 16) * 255.0 / 219.0, 2.0);
+  }
+}
+
+TEST_F(UsbStereoCamera, SurvivesFramesThatAreDamaged) {
+  const auto part = [](const Bytes& file, std::size_t bytes) {
+    return Bytes(file.begin(), file.begin() + static_cast<std::ptrdiff_t>(bytes));
+  };
+  const NumberedPictures small(320, 120);
+  unplug();
+  plug_in([&](std::uint32_t number) -> Bytes {
+    const Bytes& whole = pictures().file(number);
+    switch (number) {
+      case 20:
+        return part(whole, whole.size() / 2);
+      case 25:
+        return small.file(number);
+      case 30:
+        return part(whole, 40);
+      case 35:
+        return Bytes(5000, 0x5a);
+      default:
+        return whole;
+    }
+  });
+  const Grabbed grabbed(settings());
+  ASSERT_TRUE(soon([&] { return grabbed.counters().damaged == 4 && grabbed.count() >= 40; })) << grabbed.log();
+  EXPECT_EQ(missing(grabbed.frames()), 4) << "those, and no others";
+  EXPECT_TRUE(grabbed.log_contains("is a damaged JPEG file")) << grabbed.log();
+  EXPECT_TRUE(grabbed.log_contains("is a JPEG file of 320 x 120 px in a stream of 640 x 240 px")) << grabbed.log();
+  EXPECT_TRUE(grabbed.log_contains("is no JPEG file")) << grabbed.log();
+  EXPECT_EQ(grabbed.counters().reconnects, 0u);
+  // One that uvcvideo knows to be damaged is thrown away by it, and missing in its count.
+  camera_->damage_next();
+  EXPECT_TRUE(soon([&] { return grabbed.counters().dropped + grabbed.counters().damaged == 5; })) << grabbed.log();
+}
+
+TEST_F(UsbStereoCamera, ComesBackEachTimeItIsPluggedInAgain) {
+  const Grabbed grabbed(settings());
+  constexpr std::uint64_t kTimes = 20;
+  double longest_s = 0.0;
+  for (std::uint64_t time = 1; time <= kTimes; ++time) {
+    ASSERT_TRUE(grabbed.more_come(3)) << grabbed.log();
+    unplug();
+    ASSERT_TRUE(soon([&] { return !grabbed.report().is_streaming; })) << grabbed.log();
+    plug_in();
+    ASSERT_TRUE(soon([] { return !v4l2_camera::list_nodes().empty(); }));
+    const auto there = Steady::now();
+    ASSERT_TRUE(soon([&] { return grabbed.counters().reconnects == time; })) << time << "\n" << grabbed.log();
+    longest_s = std::max(longest_s, std::chrono::duration<double>(Steady::now() - there).count());
+    EXPECT_EQ(camera_->value("gain"), 42) << "set again";
+    EXPECT_EQ(grabbed.report().serial, "SBS001");
+  }
+  std::printf("plugged in again %d times; streaming at most %.2f s after its node was there\n",
+              static_cast<int>(kTimes), longest_s);
+  const auto frames = grabbed.frames();
+  for (std::size_t i = 1; i < frames.size(); ++i) ASSERT_GT(frames[i].stamp_ns, frames[i - 1].stamp_ns);
+  EXPECT_EQ(grabbed.counters().damaged, 0u) << grabbed.log();
+}
+
+TEST_F(UsbStereoCamera, IsNotTakenForAnotherAtItsPort) {
+  const Grabbed grabbed(settings());
+  ASSERT_TRUE(grabbed.more_come(3)) << grabbed.log();
+  unplug();
+  camera_ = std::make_unique<UsbCamera>(0, CameraModel{.serial = "OTHER1", .width = kWidth, .height = kHeight},
+                                        [](std::uint32_t number) { return pictures().file(number); });
+  ASSERT_TRUE(soon([&] { return grabbed.log_contains("SBS001 is not connected any more; there are: OTHER1"); }))
+      << grabbed.log();
+  unplug();
+  plug_in();
+  EXPECT_TRUE(soon([&] { return grabbed.counters().reconnects == 1; })) << grabbed.log();
+}
+
+}  // namespace
+}  // namespace panvo::test
