@@ -17,7 +17,9 @@ using ::testing::SizeIs;
 
 class LandmarkBuilderComponent : public ::testing::Test {
  protected:
-  void load(const std::map<std::string, std::string>& parameters = {}) {
+  /// None where the drive begins.
+  void load(std::map<std::string, std::string> parameters = {}) {
+    parameters.try_emplace("rule.first_m", "1000");
     harness_.load("panvo_landmark_builder", "LandmarkBuilderComponent", parameters);
   }
 

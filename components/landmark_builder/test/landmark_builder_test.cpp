@@ -29,7 +29,14 @@ std::vector<landmarks::PanoramicLandmark> drive(LandmarkBuilder& builder, const 
   return all;
 }
 
-LandmarkBuilder make_builder(const BuilderParameters& parameters = {}) {
+/// None where the drive begins, unless asked for.
+BuilderParameters on_the_way() {
+  BuilderParameters parameters;
+  parameters.rule.first_m = 1000.0;
+  return parameters;
+}
+
+LandmarkBuilder make_builder(const BuilderParameters& parameters = on_the_way()) {
   return {parameters, 1, PaintedTown::base_from_panorama(), {kColumns, kColumns / 2}};
 }
 
@@ -59,6 +66,16 @@ TEST(LandmarkBuilder, MakesOneLandmarkOfACrossingWithAllItsLevels) {  // [Lu2015
   }
   EXPECT_GE(points, 5);
   EXPECT_GE(right, 6 * points / 10) << points;  // coarse pixels near the horizon mislead some
+}
+
+TEST(LandmarkBuilder, MakesOneWhereANewMapBegins) {
+  const PaintedTown town = PaintedTown::star({0.0, 0.5 * M_PI, M_PI, 1.5 * M_PI});
+  LandmarkBuilder builder = make_builder({});
+  const auto built = drive(builder, town, -30.0, 25.0);
+  ASSERT_THAT(built, SizeIs(2));
+  EXPECT_FALSE(built[0].is_junction);
+  EXPECT_NEAR(built[0].map_from_base.translation().x(), -26.0, 1.0);
+  EXPECT_TRUE(built[1].is_junction);
 }
 
 TEST(LandmarkBuilder, MakesNoneWhereThePlaceWasRecognised) {

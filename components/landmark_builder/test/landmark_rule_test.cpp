@@ -25,6 +25,7 @@ TEST(LandmarkRule, TakesNoneWhereOneWasRecognisedThoughThePositionHasDrifted) {
 
 TEST(LandmarkRule, IsDueAfterALongWayWithoutOne) {  // [Lu2015 4.1]
   LandmarkRule rule({});
+  rule.set_landmark(1, {0.0, 0.0});
   EXPECT_FALSE(rule.is_due(99.0));
   EXPECT_TRUE(rule.is_due(100.0));
   rule.taken(100.0);
@@ -33,6 +34,18 @@ TEST(LandmarkRule, IsDueAfterALongWayWithoutOne) {  // [Lu2015 4.1]
   EXPECT_FALSE(rule.is_due(240.0));
   EXPECT_TRUE(rule.is_due(260.0));
   EXPECT_FALSE(LandmarkRule({.longest_without_m = 0.0}).is_due(1e6));
+}
+
+TEST(LandmarkRule, TakesTheFirstWhereANewMapBegins) {
+  LandmarkRule rule({});
+  EXPECT_FALSE(rule.is_due(3.9));
+  EXPECT_TRUE(rule.is_due(4.0));
+  rule.set_landmark(rule.next_id(), {4.0, 0.0});
+  rule.taken(4.0);
+  EXPECT_FALSE(rule.is_due(8.0));
+  LandmarkRule of_a_known_place({});
+  of_a_known_place.set_landmark(9, {300.0, 0.0});
+  EXPECT_FALSE(of_a_known_place.is_due(4.0));
 }
 
 TEST(LandmarkRule, NumbersOnFromThoseThatAreThere) {
