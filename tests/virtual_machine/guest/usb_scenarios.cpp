@@ -97,7 +97,8 @@ TEST_F(UsbStereoCamera, SendsRawImagesToBothEyes) {
   const Grabbed grabbed(wanted);
   ASSERT_TRUE(grabbed.more_come(2)) << grabbed.log();
   EXPECT_EQ(grabbed.report().details.at("given"), "YUYV 640 x 240 px, 5 Hz");
-  for (const auto& image : grabbed.frames().back().images) {
+  const auto images = grabbed.frames().back().images;
+  for (const auto& image : images) {
     EXPECT_EQ(image->encoding(), "bgr8");
     EXPECT_EQ(image->width(), 320u);
     for (const double level : mean_of(*image, 0.0, 1.0)) EXPECT_NEAR(level, (128 - 16) * 255.0 / 219.0, 2.0);
