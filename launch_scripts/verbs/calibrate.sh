@@ -7,6 +7,7 @@ source "$PANVO_SCRIPTS/lib/build.sh"
 verb_usage() {
   cat <<'EOT'
 usage: panvo calibrate board --board BOARD --out board.svg            print one
+       panvo calibrate images BAG --out IMAGES                        the images of a bag, one pair a second
        panvo calibrate stereo IMAGES --board BOARD --out RIG          both lenses of a pair, and its rectification
        panvo calibrate rig IMAGES --board BOARD --out RIG             lenses and poses of the heads of a rig
        panvo calibrate extrinsics IMAGES --calibration RIG --board BOARD --out RIG   only where calibrated cameras are
@@ -19,4 +20,11 @@ EOT
   show_program_help panvo_calibrate
 }
 
-verb_main() { start_program panvo_calibrate "$@"; }
+verb_main() {
+  if [[ ${1:-} == images ]]; then
+    shift
+    start_program panvo_calibration_images "$@"
+  else
+    start_program panvo_calibrate "$@"
+  fi
+}

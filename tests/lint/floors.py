@@ -52,6 +52,8 @@ LANDMARKS = floor("landmarks", "vision interfaces conversions runtime", "message
 TOOL = floor("tool", "vision landmarks", "eigen, opencv, yaml, json, command line")
 # rig files of a stitcher, beside its algorithm
 RIG_FILE = floor("rig file", "vision", "eigen, opencv, yaml", False)
+# images of a bag, beside an algorithm that takes files
+BAG_IMAGES = floor("images of a bag", "recorder interfaces conversions", "messages, opencv, command line", False)
 RECORDER = floor("recorder", "runtime interfaces", "messages, fastdds, yaml, sqlite, log, json, command line")
 DRIVER = floor("driver", "runtime interfaces conversions vision", "messages, eigen, opencv, yaml, xml, json, log")
 CAMERA_DRIVER = floor("camera driver", "runtime interfaces conversions vision camera_stream", "messages, eigen, opencv, aravis, yaml, json, log")
@@ -69,6 +71,7 @@ FLOORS = [
     ("components/landmarks", LANDMARKS),
     ("components/panorama_stitcher/src/rig", RIG_FILE),
     ("components/calibration/src/files", RIG_FILE),
+    ("components/calibration/src/bag", BAG_IMAGES),
     ("components/recorder", RECORDER),
     ("components/evaluation", EVALUATION),
     ("drivers/simulation", SIMULATION),

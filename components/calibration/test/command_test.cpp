@@ -94,7 +94,7 @@ TEST_F(RigCommand, GivesBackFourFisheyesAllRoundAndTheirPosesAlone) {
                                       0.03 * std::cos(90.0 * i * test::kDegree) - 0.03},
                                      {0.0, 90.0 * i, 0.0})});
   const std::vector<std::string> names{"head_0", "head_1", "head_2", "head_3"};
-  photograph("images", board, names, truth, test::hold_boards(board, truth, 64, 65.0, 0.28, 31));
+  photograph("images", board, names, truth, test::hold_boards(board, truth, 52, 65.0, 0.28, 31));
   const auto outcome = call(
       "rig images --board charuco:7x5:0.06:0.042:DICT_4X4_50 --model equidistant --out rig --mount 0.1,0,1.2,0,0,0");
   ASSERT_EQ(outcome.status, 0) << outcome.err;
