@@ -2,46 +2,15 @@
 // From cameras to odometry: two simulated GigE cameras show a rendered walk; what comes of it is compared with the same pictures played from files.
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <csignal>
-#include <fstream>
-#include <sstream>
 #include <vector>
 
 #include "process.hpp"
 #include "rendered_walk.hpp"
+#include "walk_paths.hpp"
 
 namespace panvo::test {
 namespace {
-
-struct Position {
-  double x, y, z;
-};
-
-std::vector<Position> read_tum(const std::string& file) {
-  std::vector<Position> positions;
-  std::istringstream lines(read_file(file));
-  for (std::string line; std::getline(lines, line);) {
-    std::istringstream words(line);
-    std::string stamp;
-    Position position{};
-    if (words >> stamp >> position.x >> position.y >> position.z) positions.push_back(position);
-  }
-  return positions;
-}
-
-double distance(const Position& a, const Position& b) { return std::hypot(a.x - b.x, a.y - b.y, a.z - b.z); }
-
-/// The rendered walk's camera as a camera_info file; `tx` is the last number of the projection's first row.
-void write_calibration(const std::string& file, double tx) {
-  std::ofstream(file) << "image_width: 320\nimage_height: 240\ncamera_name: rendered\n"
-                         "camera_matrix: {rows: 3, cols: 3, data: [240, 0, 160, 0, 240, 120, 0, 0, 1]}\n"
-                         "distortion_model: plumb_bob\n"
-                         "distortion_coefficients: {rows: 1, cols: 5, data: [0, 0, 0, 0, 0]}\n"
-                         "rectification_matrix: {rows: 3, cols: 3, data: [1, 0, 0, 0, 1, 0, 0, 0, 1]}\n"
-                         "projection_matrix: {rows: 3, cols: 4, data: [240, 0, 160, "
-                      << tx << ", 0, 240, 120, 0, 0, 0, 1, 0]}\n";
-}
 
 /// Runs a command line in a network of its own with 127.0.0.1 and 127.0.0.2.
 std::vector<std::string> in_own_network(const std::string& command) {
@@ -90,13 +59,8 @@ TEST(CamerasToOdometry, GiveThePathThatTheSamePicturesGiveFromFiles) {
   cameras.wait(std::chrono::seconds(30));
   ASSERT_TRUE(is_there) << cameras.output() << read_file(path);
 
-  double largest_m = 0.0;
   const auto seen = read_tum(path);
-  for (const auto& position : expected) {
-    double nearest_m = 1e9;
-    for (const auto& other : seen) nearest_m = std::min(nearest_m, distance(position, other));
-    largest_m = std::max(largest_m, nearest_m);
-  }
+  const double largest_m = largest_distance(expected, seen);
   std::printf("from cameras %zu poses, from files %zu; the paths differ by at most %.1f mm\n", seen.size(),
               expected.size(), 1e3 * largest_m);
   EXPECT_LT(largest_m, 0.02);

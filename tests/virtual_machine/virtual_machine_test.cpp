@@ -6,6 +6,8 @@
 #include <algorithm>
 
 #include "process.hpp"
+#include "rendered_walk.hpp"
+#include "walk_paths.hpp"
 
 namespace panvo::test {
 namespace {
@@ -39,6 +41,30 @@ TEST_F(VirtualMachine, DriverHoldsOnTheKernelsSimulatedCameras) {
 TEST_F(VirtualMachine, DriverHoldsOnUsbCameras) {
   const Finished finished = inside({"vivid=none"}, {USB_SCENARIOS}, std::chrono::seconds(100));
   EXPECT_EQ(finished.status, 0) << finished.output;
+}
+
+TEST_F(VirtualMachine, UsbCameraGivesThePathThatTheSamePicturesGiveFromFiles) {
+  const std::string walk = exchange_ / "walk", direct = exchange_ / "direct";
+  RenderedWalk{.frames = 30}.write(walk);
+  write_calibration(exchange_ / "left.yaml", 0.0);
+  write_calibration(exchange_ / "right.yaml", -240 * 0.2);
+  const Finished played = run({PANVO_RUN, SYSTEMS "/stereo.yaml", "--dataset", walk, "--replay", "--out", direct});
+  ASSERT_EQ(played.status, 0) << played.output;
+  const auto expected = read_tum(direct + "/odometry_binocular.tum");
+  ASSERT_EQ(expected.size(), 30u);
+  ASSERT_GT(expected.back().x, 2.5) << "29 steps of 0.1 m";
+
+  const Finished finished = inside({"vivid=none"}, {WALK_SCENARIO}, std::chrono::seconds(60));
+  ASSERT_EQ(finished.status, 0) << finished.output;
+  const std::string through = exchange_ / "through";
+  const Finished replayed =
+      run({PANVO_RUN, SYSTEMS "/stereo.yaml", "--bag", exchange_ / "bag", "--replay", "--out", through});
+  ASSERT_EQ(replayed.status, 0) << replayed.output;
+  const auto seen = read_tum(through + "/odometry_binocular.tum");
+  const double largest_m = largest_distance(expected, seen);
+  std::printf("from the USB camera %zu poses, from files %zu; the paths differ by at most %.1f mm\n", seen.size(),
+              expected.size(), 1e3 * largest_m);
+  EXPECT_LT(largest_m, 0.01) << finished.output;
 }
 
 }  // namespace

@@ -192,8 +192,11 @@ Bytes UsbCamera::next_payload(std::uint32_t room) {
   const std::size_t size = std::min<std::size_t>(room - kHeaderBytes, frame_.size() - position_);
   const bool is_last = position_ + size == frame_.size();
   constexpr std::uint8_t kEndOfHeader = 0x80, kError = 0x40, kLast = 0x02;
-  Bytes payload{static_cast<std::uint8_t>(kHeaderBytes),
-                static_cast<std::uint8_t>(kEndOfHeader | (is_damaged_ ? kError : 0) | (is_last ? kLast : 0) | toggle_)};
+  Bytes payload;
+  payload.reserve(kHeaderBytes + size);
+  payload.push_back(static_cast<std::uint8_t>(kHeaderBytes));
+  payload.push_back(
+      static_cast<std::uint8_t>(kEndOfHeader | (is_damaged_ ? kError : 0) | (is_last ? kLast : 0) | toggle_));
   const auto begin = frame_.begin() + static_cast<std::ptrdiff_t>(position_);
   payload.insert(payload.end(), begin, begin + static_cast<std::ptrdiff_t>(size));
   position_ += size;

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "process.hpp"
+
+namespace panvo::test {
+
+/// A point of a path, m.
+struct Position {
+  double x, y, z;
+};
+
+inline std::vector<Position> read_tum(const std::string& file) {
+  std::vector<Position> positions;
+  std::istringstream lines(read_file(file));
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream words(line);
+    std::string stamp;
+    Position position{};
+    if (words >> stamp >> position.x >> position.y >> position.z) positions.push_back(position);
+  }
+  return positions;
+}
+
+inline double distance(const Position& a, const Position& b) { return std::hypot(a.x - b.x, a.y - b.y, a.z - b.z); }
+
+/// How far the point of `expected` that is furthest from all of `seen` is from the nearest of them, m.
+inline double largest_distance(const std::vector<Position>& expected, const std::vector<Position>& seen) {
+  double largest_m = 0.0;
+  for (const auto& position : expected) {
+    double nearest_m = 1e9;
+    for (const auto& other : seen) nearest_m = std::min(nearest_m, distance(position, other));
+    largest_m = std::max(largest_m, nearest_m);
+  }
+  return largest_m;
+}
+
+/// The rendered walk's camera as a camera_info file; `tx` is the last number of the projection's first row.
+inline void write_calibration(const std::string& file, double tx) {
+  std::ofstream(file) << "image_width: 320\nimage_height: 240\ncamera_name: rendered\n"
+                         "camera_matrix: {rows: 3, cols: 3, data: [240, 0, 160, 0, 240, 120, 0, 0, 1]}\n"
+                         "distortion_model: plumb_bob\n"
+                         "distortion_coefficients: {rows: 1, cols: 5, data: [0, 0, 0, 0, 0]}\n"
+                         "rectification_matrix: {rows: 3, cols: 3, data: [1, 0, 0, 0, 1, 0, 0, 0, 1]}\n"
+                         "projection_matrix: {rows: 3, cols: 4, data: [240, 0, 160, "
+                      << tx << ", 0, 240, 120, 0, 0, 0, 1, 0]}\n";
+}
+
+}  // namespace panvo::test

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+// A USB stereo camera shows the rendered walk that lies in /exchange/walk, both eyes in one JPEG image; what the driver makes of it goes into a bag.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <csignal>
+#include <filesystem>
+#include <opencv2/imgcodecs.hpp>
+#include <vector>
+
+#include "process.hpp"
+#include "usb_camera.hpp"
+
+namespace panvo::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<Bytes> side_by_side(const fs::path& walk) {
+  std::vector<fs::path> names;
+  for (const auto& entry : fs::directory_iterator(walk / "image_0")) names.push_back(entry.path().filename());
+  std::sort(names.begin(), names.end());
+  std::vector<Bytes> files;
+  for (const auto& name : names) {
+    cv::Mat whole;
+    cv::hconcat(cv::imread((walk / "image_0" / name).string()), cv::imread((walk / "image_1" / name).string()), whole);
+    cv::imencode(".jpg", whole, files.emplace_back(), {cv::IMWRITE_JPEG_QUALITY, 95});
+  }
+  return files;
+}
+
+TEST(Walk, IsRecordedThroughAUsbStereoCamera) {
+  const auto pictures = side_by_side("/exchange/walk");
+  ASSERT_FALSE(pictures.empty());
+  constexpr std::uint32_t kBefore = 5, kAfter = 3;  // frames of the first and the last picture
+  UsbCamera camera(0, {.serial = "SBS001", .width = 640, .height = 240, .rate_hz = 10}, [&](std::uint32_t number) {
+    return pictures.at(std::min<std::size_t>(number - std::min(number, kBefore), pictures.size() - 1));
+  });
+  const TemporaryFolder folder;
+  const std::string bag = folder / "bag";
+  Process panvo({PANVO_RUN, CAMERA_TO_BAG, "rig:=/exchange", "bag:=" + bag});
+  EXPECT_TRUE(eventually([&] { return camera.sent() >= kBefore + pictures.size() + kAfter; })) << panvo.output();
+  panvo.signal(SIGINT);
+  EXPECT_EQ(panvo.wait(std::chrono::seconds(20)), 0) << panvo.output();
+  fs::copy(bag, "/exchange/bag", fs::copy_options::recursive);
+}
+
+}  // namespace
+}  // namespace panvo::test
