@@ -10,6 +10,7 @@
 #include "panvo/conversions/static_transforms.hpp"
 #include "panvo/conversions/time.hpp"
 #include "panvo/runtime/component.hpp"
+#include "panvo/runtime/new_warnings.hpp"
 
 namespace panvo::binocular_odometry {
 
@@ -70,9 +71,9 @@ class BinocularOdometryComponent final : public runtime::Component {
 
   void on_camera(Camera& camera, const sensor_msgs::msg::CameraInfo& info, std::string_view topic) {
     const auto read = conversions::to_camera(info);
-    if (!read) return say_once(fmt::format("{} {}", topic, read.reason()));
+    if (!read) return warnings_.say(fmt::format("{} {}", topic, read.reason()));
     if (stages_ && !(*camera.camera == *read)) {
-      return say_once(
+      return warnings_.say(
           fmt::format("{} changed while running and is ignored; restart if the camera was exchanged", topic));
     }
     camera = {info.header().frame_id(), *read};
@@ -84,7 +85,7 @@ class BinocularOdometryComponent final : public runtime::Component {
     const auto right_grey = conversions::grey(right);
     if (!left_grey || !right_grey) {
       const auto& topic = left_grey ? topics::kStereoRightImageRect : topics::kStereoLeftImageRect;
-      return say_once(
+      return warnings_.say(
           fmt::format("{} {}; the pair is left out", topic.name, left_grey ? right_grey.reason() : left_grey.reason()));
     }
     tracked_.push(stages_->tracking.track({conversions::stamp_ns(left), *left_grey, *right_grey}));
@@ -113,20 +114,20 @@ class BinocularOdometryComponent final : public runtime::Component {
   /// Makes both stages once both cameras and the place of the left one are known; says what is still missing.
   bool make_stages() {
     if (!left_.camera || !right_.camera) {
-      say_once(fmt::format("images, but nothing usable on {} yet",
-                           (left_.camera ? topics::kStereoRightCameraInfo : topics::kStereoLeftCameraInfo).name));
+      warnings_.say(fmt::format("images, but nothing usable on {} yet",
+                                (left_.camera ? topics::kStereoRightCameraInfo : topics::kStereoLeftCameraInfo).name));
       return false;
     }
     const auto stereo = conversions::to_stereo(*left_.camera, *right_.camera);
     if (!stereo) {
-      say_once(fmt::format("{} and {} are of no stereo pair: {}", topics::kStereoLeftCameraInfo.name,
-                           topics::kStereoRightCameraInfo.name, stereo.reason()));
+      warnings_.say(fmt::format("{} and {} are of no stereo pair: {}", topics::kStereoLeftCameraInfo.name,
+                                topics::kStereoRightCameraInfo.name, stereo.reason()));
       return false;
     }
     const auto base_from_raw_left = transforms_.lookup(parameters_.base_frame, left_.frame_id);
     if (!base_from_raw_left) {
-      say_once(fmt::format("{} has no chain from {} to {} yet: publish where the left camera sits on the vehicle",
-                           topics::kTfStatic.name, parameters_.base_frame, left_.frame_id));
+      warnings_.say(fmt::format("{} has no chain from {} to {} yet: publish where the left camera sits on the vehicle",
+                                topics::kTfStatic.name, parameters_.base_frame, left_.frame_id));
       return false;
     }
     const Eigen::Isometry3d raw_from_rectified(left_.camera->rectified_from_raw.transpose());
@@ -147,14 +148,8 @@ class BinocularOdometryComponent final : public runtime::Component {
         row_misalignment_px);
   }
 
-  /// Says what is wrong when it begins, not with every message.
-  void say_once(const std::string& warning) {
-    if (warning == last_warning_) return;
-    last_warning_ = warning;
-    context_.log().warn("{}", warning);
-  }
-
   runtime::Context& context_;
+  runtime::NewWarnings warnings_{context_.log()};
   const ComponentParameters parameters_;
   conversions::StageTimer timer_;
   runtime::Output<nav_msgs::msg::Odometry> odometry_;
@@ -163,7 +158,6 @@ class BinocularOdometryComponent final : public runtime::Component {
 
   conversions::StaticTransforms transforms_;
   Camera left_, right_;
-  std::string last_warning_;
   std::optional<Stages> stages_;
 
   // The motion stage's own.

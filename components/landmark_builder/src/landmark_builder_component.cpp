@@ -17,6 +17,7 @@
 #include "panvo/landmarks/landmark_messages.hpp"
 #include "panvo/landmarks/panorama_check.hpp"
 #include "panvo/runtime/component.hpp"
+#include "panvo/runtime/new_warnings.hpp"
 
 namespace panvo::landmark_builder {
 
@@ -111,7 +112,7 @@ class LandmarkBuilderComponent final : public runtime::Component {
 
   void on_odometry(const nav_msgs::msg::Odometry& message) {
     const auto pose = conversions::to_isometry(message.pose().pose());
-    if (!pose) return say_once(fmt::format("{} {}", topics::kOdometryBinocular.name, pose.reason()));
+    if (!pose) return warnings_.say(fmt::format("{} {}", topics::kOdometryBinocular.name, pose.reason()));
     const std::int64_t stamp_ns = conversions::stamp_ns(message);
     if (!odometry_.empty() && stamp_ns <= odometry_.back().stamp_ns) return;
     odometry_.push_back({stamp_ns, *pose, conversions::to_matrix(message.pose().covariance())});
@@ -124,8 +125,8 @@ class LandmarkBuilderComponent final : public runtime::Component {
     work_off();
     if (waiting_.size() <= kMostWaiting) return;
     waiting_.pop_front();
-    say_once(fmt::format("panoramas, but nothing on {} as late as they are: no landmarks without it",
-                         topics::kOdometryBinocular.name));
+    warnings_.say(fmt::format("panoramas, but nothing on {} as late as they are: no landmarks without it",
+                              topics::kOdometryBinocular.name));
   }
 
   /// Panoramas whose pose is known by now.
@@ -141,24 +142,25 @@ class LandmarkBuilderComponent final : public runtime::Component {
   void build(const sensor_msgs::msg::Image& message) {
     const std::int64_t stamp_ns = conversions::stamp_ns(message);
     if (last_stamp_ns_ && stamp_ns <= *last_stamp_ns_) {
-      return say_once(
+      return warnings_.say(
           fmt::format("{} came with a stamp that is not after the last; it is left out", topics::kPanorama.name));
     }
     const auto pose = pose_at(stamp_ns);
     if (!pose) {
-      return say_once(fmt::format("{} has no pose near a panorama's stamp; the panorama is left out",
-                                  topics::kOdometryBinocular.name));
+      return warnings_.say(fmt::format("{} has no pose near a panorama's stamp; the panorama is left out",
+                                       topics::kOdometryBinocular.name));
     }
     const auto pixels = conversions::view(message);
-    if (!pixels) return say_once(fmt::format("{} {}; no landmark", topics::kPanorama.name, pixels.reason()));
+    if (!pixels) return warnings_.say(fmt::format("{} {}; no landmark", topics::kPanorama.name, pixels.reason()));
     const cv::Mat panorama = to_bgr(*pixels, message);
     if (const auto fault = landmarks::find_fault(panorama)) {
-      return say_once(fmt::format("{}: {}; no landmark", topics::kPanorama.name, *fault));
+      return warnings_.say(fmt::format("{}: {}; no landmark", topics::kPanorama.name, *fault));
     }
     if (!make_builder(message, panorama.size())) return;
     if (panorama.size() != size_) {
-      return say_once(fmt::format("{} changed its size from {} x {} to {} x {} px; restart if the camera was exchanged",
-                                  topics::kPanorama.name, size_.width, size_.height, panorama.cols, panorama.rows));
+      return warnings_.say(
+          fmt::format("{} changed its size from {} x {} to {} x {} px; restart if the camera was exchanged",
+                      topics::kPanorama.name, size_.width, size_.height, panorama.cols, panorama.rows));
     }
     last_stamp_ns_ = stamp_ns;
     for (const auto& landmark :
@@ -207,15 +209,16 @@ class LandmarkBuilderComponent final : public runtime::Component {
     const std::string& frame = message.header().frame_id();
     const auto base_from_panorama = transforms_.lookup(parameters_.base_frame, frame);
     if (!base_from_panorama) {
-      say_once(fmt::format("{} has no chain from {} to {} yet: publish where the panoramic camera sits on the vehicle",
-                           topics::kTfStatic.name, parameters_.base_frame, frame));
+      warnings_.say(
+          fmt::format("{} has no chain from {} to {} yet: publish where the panoramic camera sits on the vehicle",
+                      topics::kTfStatic.name, parameters_.base_frame, frame));
       return false;
     }
     try {
       builder_.emplace(parameters_, static_cast<std::uint64_t>(parameters_.description_seed), *base_from_panorama, size,
                        &timer_);
     } catch (const std::invalid_argument& error) {
-      say_once(fmt::format("no landmarks: {}", error.what()));
+      warnings_.say(fmt::format("no landmarks: {}", error.what()));
       return false;
     }
     size_ = size;
@@ -223,14 +226,8 @@ class LandmarkBuilderComponent final : public runtime::Component {
     return true;
   }
 
-  /// Says what is wrong when it begins, not with every message.
-  void say_once(const std::string& warning) {
-    if (warning == last_warning_) return;
-    last_warning_ = warning;
-    context_.log().warn("{}", warning);
-  }
-
   runtime::Context& context_;
+  runtime::NewWarnings warnings_{context_.log()};
   const ComponentParameters parameters_;
   const landmarks::DescriptionSettings settings_;
   conversions::StageTimer timer_;
@@ -244,7 +241,6 @@ class LandmarkBuilderComponent final : public runtime::Component {
   Eigen::Isometry3d map_from_odom_ = Eigen::Isometry3d::Identity();
   std::deque<std::shared_ptr<const sensor_msgs::msg::Image>> waiting_;
   std::optional<std::int64_t> last_stamp_ns_;
-  std::string last_warning_;
 };
 
 PANVO_REGISTER_COMPONENT(LandmarkBuilderComponent)

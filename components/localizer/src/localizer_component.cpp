@@ -15,6 +15,7 @@
 #include "panvo/conversions/time.hpp"
 #include "panvo/localizer/localizer.hpp"
 #include "panvo/runtime/component.hpp"
+#include "panvo/runtime/new_warnings.hpp"
 #include "path_record.hpp"
 
 namespace panvo::localizer {
@@ -102,11 +103,11 @@ class LocalizerComponent final : public runtime::Component {
 
   void on_odometry(const nav_msgs::msg::Odometry& message) {
     const auto pose = conversions::to_isometry(message.pose().pose());
-    if (!pose) return say_once(fmt::format("{} {}", topics::kOdometryBinocular.name, pose.reason()));
+    if (!pose) return warnings_.say(fmt::format("{} {}", topics::kOdometryBinocular.name, pose.reason()));
     const std::int64_t stamp_ns = conversions::stamp_ns(message);
     if (begin_ns_ && stamp_ns <= localizer_.latest().stamp_ns) {
-      return say_once(fmt::format("{} came with a stamp that is not after the last; it is left out",
-                                  topics::kOdometryBinocular.name));
+      return warnings_.say(fmt::format("{} came with a stamp that is not after the last; it is left out",
+                                       topics::kOdometryBinocular.name));
     }
     {
       const vision::Stage stage(&timer_, "localize");
@@ -121,11 +122,12 @@ class LocalizerComponent final : public runtime::Component {
     tell_state(localized);
     keep(localized, message.twist().twist());
     if (localized.state == State::kUnlocated && localizer_.way_m() > kUnlocatedFor_m) {
-      say_once(fmt::format("no place of earlier days was recognised in {:.0f} m: are they of another place?",
-                           kUnlocatedFor_m));
+      warnings_.say(fmt::format("no place of earlier days was recognised in {:.0f} m: are they of another place?",
+                                kUnlocatedFor_m));
     }
     if (azimuth_ns_ && seconds(*azimuth_ns_, stamp_ns) > kNoPanorama_s) {
-      say_once(fmt::format("no panorama for {:.0f} s: the pose drifts as the stereo odometry does", kNoPanorama_s));
+      warnings_.say(
+          fmt::format("no panorama for {:.0f} s: the pose drifts as the stereo odometry does", kNoPanorama_s));
     }
   }
 
@@ -162,7 +164,7 @@ class LocalizerComponent final : public runtime::Component {
                                                    {pose.map_from_base, pose.covariance},
                                                    std::hypot(speed.x(), speed.y(), speed.z())});
     } catch (const std::runtime_error& error) {
-      say_once(error.what());
+      warnings_.say(error.what());
     }
   }
 
@@ -191,7 +193,7 @@ class LocalizerComponent final : public runtime::Component {
     const std::int64_t stamp_ns = conversions::stamp_ns(message);
     if (begin_ns_ && stamp_ns >= *begin_ns_) return wait(Built{message.id(), stamp_ns});
     const auto pose = conversions::to_isometry(message.pose().pose());
-    if (!pose) return say_once(fmt::format("landmark {} {}", message.id(), pose.reason()));
+    if (!pose) return warnings_.say(fmt::format("landmark {} {}", message.id(), pose.reason()));
     localizer_.add_known({message.id(), stamp_ns, *pose, conversions::to_matrix(message.pose().covariance())});
   }
 
@@ -205,7 +207,7 @@ class LocalizerComponent final : public runtime::Component {
   void on_correction(const panvo_msgs::msg::PositionCorrection& message) {
     if (!parameters_.use_corrections || message.state() == "rejected") return;
     const auto sighting = to_sighting(message);
-    if (!sighting) return say_once(fmt::format("{} {}", topics::kCorrection.name, sighting.reason()));
+    if (!sighting) return warnings_.say(fmt::format("{} {}", topics::kCorrection.name, sighting.reason()));
     wait(*sighting);
   }
 
@@ -213,7 +215,7 @@ class LocalizerComponent final : public runtime::Component {
     waiting_.push_back(std::move(item));
     if (waiting_.size() > kMostWaiting) {
       waiting_.pop_front();
-      say_once(fmt::format(
+      warnings_.say(fmt::format(
           "stamps of panoramas are {:.1f} s ahead of {}: the clocks of the cameras disagree, or there is no "
           "odometry; no correction",
           begin_ns_ ? seconds(localizer_.latest().stamp_ns, stamp_of(waiting_.back())) : 0.0,
@@ -245,7 +247,7 @@ class LocalizerComponent final : public runtime::Component {
       ++unused_;
       // Now and then a panorama has no odometry beside it; all of them have none when a clock is wrong.
       if (unused_ > 10) {
-        say_once(
+        warnings_.say(
             fmt::format("stamps of panoramas lie {:.1f} s before {}: the clocks of the cameras disagree; no correction",
                         seconds(azimuth.to_ns, localizer_.latest().stamp_ns), topics::kOdometryBinocular.name));
       }
@@ -276,7 +278,7 @@ class LocalizerComponent final : public runtime::Component {
       context_.log().info("landmark {} seen: the position moves by {:.2f} m", sighting.landmark_id, moved.norm());
       tell_landmarks(sighting.stamp_ns);
     } else if (correction.kind == CorrectionKind::kRejected) {
-      say_once(fmt::format("landmark {} seen, not believed: {}", sighting.landmark_id, correction.reason));
+      warnings_.say(fmt::format("landmark {} seen, not believed: {}", sighting.landmark_id, correction.reason));
     }
     check_mounting();
   }
@@ -304,7 +306,7 @@ class LocalizerComponent final : public runtime::Component {
     if (localizer_.add_built(built.id, built.stamp_ns)) {
       tell_landmarks(built.stamp_ns);
     } else {
-      say_once(fmt::format("landmark {} is of a time of which no odometry is remembered", built.id));
+      warnings_.say(fmt::format("landmark {} is of a time of which no odometry is remembered", built.id));
     }
   }
 
@@ -346,15 +348,8 @@ class LocalizerComponent final : public runtime::Component {
     tell_state(pose);
   }
 
-  /// Says what is wrong when it begins, not with every message.
-  void say_once(const std::string& warning) {
-    const auto kind = warning.substr(0, warning.find_first_of("0123456789"));
-    if (kind == last_warning_) return;
-    last_warning_ = kind;
-    context_.log().warn("{}", warning);
-  }
-
   runtime::Context& context_;
+  runtime::NewWarnings warnings_{context_.log()};
   const ComponentParameters parameters_;
   conversions::StageTimer timer_;
   Localizer localizer_;
@@ -378,7 +373,6 @@ class LocalizerComponent final : public runtime::Component {
   bool was_contradicted_ = false;
   bool has_told_offset_ = false;
   bool has_told_mounting_ = false;
-  std::string last_warning_;
 };
 
 PANVO_REGISTER_COMPONENT(LocalizerComponent)

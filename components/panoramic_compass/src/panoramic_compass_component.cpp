@@ -11,6 +11,7 @@
 #include "panvo/conversions/time.hpp"
 #include "panvo/panoramic_compass/panoramic_compass.hpp"
 #include "panvo/runtime/component.hpp"
+#include "panvo/runtime/new_warnings.hpp"
 
 namespace panvo::panoramic_compass {
 
@@ -69,16 +70,17 @@ class PanoramicCompassComponent final : public runtime::Component {
   void on_panorama(const sensor_msgs::msg::Image& message) {
     const std::int64_t stamp_ns = conversions::stamp_ns(message);
     if (last_stamp_ns_ && stamp_ns <= *last_stamp_ns_) {
-      return say_once(
+      return warnings_.say(
           fmt::format("{} came with a stamp that is not after the last; it is left out", topics::kPanorama.name));
     }
     const auto panorama = pixels_of(message);
-    if (!panorama) return say_once(fmt::format("{} {}; it is left out", topics::kPanorama.name, panorama.reason()));
+    if (!panorama)
+      return warnings_.say(fmt::format("{} {}; it is left out", topics::kPanorama.name, panorama.reason()));
     last_stamp_ns_ = stamp_ns;
     take_mounting(message.header().frame_id());
     const auto change = compass_->track(stamp_ns, *panorama);
     if (change) return tell(*change, message.header().frame_id());
-    if (const auto fault = find_fault(*panorama)) say_once(fmt::format("{} {}", topics::kPanorama.name, *fault));
+    if (const auto fault = find_fault(*panorama)) warnings_.say(fmt::format("{} {}", topics::kPanorama.name, *fault));
   }
 
   /// Grey or of three channels; which of them is red does not matter to the compass.
@@ -92,7 +94,7 @@ class PanoramicCompassComponent final : public runtime::Component {
   void take_mounting(const std::string& frame) {
     const auto base_from_panorama = transforms_.lookup(parameters_.base_frame, frame);
     if (!base_from_panorama) {
-      return say_once(
+      return warnings_.say(
           fmt::format("{} has no chain from {} to {}: the panoramic camera is taken to be upright and to look ahead",
                       topics::kTfStatic.name, parameters_.base_frame, frame));
     }
@@ -115,14 +117,8 @@ class PanoramicCompassComponent final : public runtime::Component {
     is_valid_ = change.valid;
   }
 
-  /// Says what is wrong when it begins, not with every message.
-  void say_once(const std::string& warning) {
-    if (warning == last_warning_) return;
-    last_warning_ = warning;
-    context_.log().warn("{}", warning);
-  }
-
   runtime::Context& context_;
+  runtime::NewWarnings warnings_{context_.log()};
   const ComponentParameters parameters_;
   conversions::StageTimer timer_;
   runtime::Output<panvo_msgs::msg::AzimuthChange> azimuth_change_;
@@ -132,7 +128,6 @@ class PanoramicCompassComponent final : public runtime::Component {
   std::optional<PanoramicCompass> compass_;
   std::optional<std::int64_t> last_stamp_ns_;
   bool is_valid_ = true;
-  std::string last_warning_;
 };
 
 PANVO_REGISTER_COMPONENT(PanoramicCompassComponent)

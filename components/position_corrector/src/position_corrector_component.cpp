@@ -23,6 +23,7 @@
 #include "panvo/position_corrector/position_correction.hpp"
 #include "panvo/position_corrector/spilled_keypoints.hpp"
 #include "panvo/runtime/component.hpp"
+#include "panvo/runtime/new_warnings.hpp"
 
 namespace panvo::position_corrector {
 
@@ -105,7 +106,7 @@ class PositionCorrectorComponent final : public runtime::Component {
 
   void on_landmark(const panvo_msgs::msg::PanoramicLandmark& message) {
     const auto read = landmarks::to_landmark(message, settings_);
-    if (!read) return say_once(fmt::format("a landmark {} and is left out", read.reason()));
+    if (!read) return warnings_.say(fmt::format("a landmark {} and is left out", read.reason()));
     // one that comes again is where it is known to be by now
     if (library_.set_pose(read->id, read->map_from_base, read->covariance)) return;
     auto landmark = *read;
@@ -115,7 +116,7 @@ class PositionCorrectorComponent final : public runtime::Component {
     }
     keypoints_->put(landmark.id, landmark.keypoints);
     if (!keypoints_->problem().empty()) {
-      say_once(fmt::format("{}: keypoints of landmarks stay in memory", keypoints_->problem()));
+      warnings_.say(fmt::format("{}: keypoints of landmarks stay in memory", keypoints_->problem()));
     }
     matcher_.added(library_.add(std::move(landmark)));
   }
@@ -123,7 +124,8 @@ class PositionCorrectorComponent final : public runtime::Component {
   void on_poses(const panvo_msgs::msg::LandmarkPoses& message) {
     const auto poses = landmarks::to_landmark_poses(message);
     if (!poses)
-      return say_once(fmt::format("{} {}; landmarks stay where they are", topics::kLandmarkPoses.name, poses.reason()));
+      return warnings_.say(
+          fmt::format("{} {}; landmarks stay where they are", topics::kLandmarkPoses.name, poses.reason()));
     moved_.clear();
     for (const auto& pose : *poses) {
       // a landmark may still be on its way
@@ -133,7 +135,7 @@ class PositionCorrectorComponent final : public runtime::Component {
 
   void on_odometry(const nav_msgs::msg::Odometry& message) {
     const auto pose = conversions::to_isometry(message.pose().pose());
-    if (!pose) return say_once(fmt::format("{} {}", topics::kOdometryBinocular.name, pose.reason()));
+    if (!pose) return warnings_.say(fmt::format("{} {}", topics::kOdometryBinocular.name, pose.reason()));
     const auto covariance = conversions::to_matrix(message.pose().covariance());
     const auto& linear = message.twist().twist().linear();
     const auto& angular = message.twist().twist().angular();
@@ -141,18 +143,18 @@ class PositionCorrectorComponent final : public runtime::Component {
         conversions::stamp_ns(message), {pose->translation(), vision::horizontal_sigma(covariance)}, {}};
     sample.twist << linear.x(), linear.y(), linear.z(), angular.x(), angular.y(), angular.z();
     if (!sample.twist.allFinite()) {
-      return say_once(fmt::format("{} has a twist that is not finite", topics::kOdometryBinocular.name));
+      return warnings_.say(fmt::format("{} has a twist that is not finite", topics::kOdometryBinocular.name));
     }
     trail_.add(sample);
   }
 
   void on_panorama(const sensor_msgs::msg::Image& message) {
     const auto panorama = conversions::grey(message);
-    if (!panorama) return say_once(fmt::format("{} {}", topics::kPanorama.name, panorama.reason()));
+    if (!panorama) return warnings_.say(fmt::format("{} {}", topics::kPanorama.name, panorama.reason()));
     const std::int64_t stamp_ns = conversions::stamp_ns(message);
     const auto here = trail_.at(stamp_ns);
     if (!here && parameters_.use_position && !library_.empty()) {
-      say_once(fmt::format("nothing on {} yet: the whole library is searched", topics::kOdometryBinocular.name));
+      warnings_.say(fmt::format("nothing on {} yet: the whole library is searched", topics::kOdometryBinocular.name));
     }
     PanoramaFrame frame;
     frame.stamp_ns = stamp_ns;
@@ -165,7 +167,7 @@ class PositionCorrectorComponent final : public runtime::Component {
       context_.log().info("landmark {} passed, heading {:+.1f} deg against the first time", match.landmark_id,
                           match.heading_rad * 180.0 / M_PI);
     } else if (match.state == MatchState::kUnusable) {
-      say_once(fmt::format("{} {}", topics::kPanorama.name, match.reason));
+      warnings_.say(fmt::format("{} {}", topics::kPanorama.name, match.reason));
     }
     if (const auto correction = correction_of(match, message.header().frame_id())) {
       correction_.publish(to_message(*correction, message.header().frame_id()));
@@ -204,14 +206,8 @@ class PositionCorrectorComponent final : public runtime::Component {
     return {landmark.base_from_panorama, now.value_or(landmark.base_from_panorama)};
   }
 
-  /// Says what is wrong when it begins, not with every message.
-  void say_once(const std::string& warning) {
-    if (warning == last_warning_) return;
-    last_warning_ = warning;
-    context_.log().warn("{}", warning);
-  }
-
   runtime::Context& context_;
+  runtime::NewWarnings warnings_{context_.log()};
   const ComponentParameters parameters_;
   conversions::StageTimer timer_;
   const landmarks::PanoramaDescriber describer_;
@@ -225,7 +221,6 @@ class PositionCorrectorComponent final : public runtime::Component {
   conversions::StaticTransforms transforms_;
   std::map<std::uint32_t, landmarks::LandmarkPose> moved_;  // of landmarks that did not come yet
   OdometryTrail trail_;
-  std::string last_warning_;
   bool has_told_mounting_ = false;
 };
 
