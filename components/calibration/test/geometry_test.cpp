@@ -84,7 +84,7 @@ TEST(CameraTree, JoinsCamerasThroughOthersAndIsNotMisledByOneWrongView) {
     poses[1][view] = b_from_a * a_from_board;
     if (view >= 3) poses[2][view] = c_from_a * a_from_board;
   }
-  poses[2][4]->translation().x() += 0.5;
+  poses[2][3]->translation().x() += 0.5;
   const auto joined = join_cameras(poses, 0, {"a", "b", "c"});
   EXPECT_TRUE(joined[1].isApprox(b_from_a, 1e-9));
   EXPECT_TRUE(joined[2].isApprox(c_from_a, 1e-9));
