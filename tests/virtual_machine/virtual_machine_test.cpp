@@ -3,7 +3,7 @@
 // QEMU, the kernel or what prepares it is not to be had.
 #include <gtest/gtest.h>
 
-#include <algorithm>
+#include <cstdlib>
 
 #include "process.hpp"
 #include "rendered_walk.hpp"
@@ -25,6 +25,8 @@ class VirtualMachine : public ::testing::Test {
     std::vector<std::string> command{PYTHON, "-B", VIRTUAL_MACHINE, "run", "--limit", std::to_string(limit.count())};
     for (const auto& module : modules) command.insert(command.end(), {"--module", module});
     command.push_back(exchange_.path().string());
+    if (const char* plugins = std::getenv("PANVO_PLUGIN_PATH"))
+      command.insert(command.end(), {"/usr/bin/env", std::string("PANVO_PLUGIN_PATH=") + plugins});
     command.insert(command.end(), words.begin(), words.end());
     return run(command, limit + std::chrono::seconds(20));
   }
