@@ -34,5 +34,5 @@ verb_main() {
     output=$("$path" "${arguments[@]}") || fail "panvo_devices_$name failed; the messages above say why"
     [[ -z $output ]] || { printf '%s\n' "$output"; found=yes; }
   done
-  [[ $found == yes ]] || note "no camera answers. Is it connected, powered, and for GigE in this network? (drivers/aravis_camera/README.md)"
+  [[ $found == yes ]] || note "no camera answers. Is it connected, powered, and for GigE in this network? (drivers/v4l2_camera/README.md, drivers/aravis_camera/README.md)"
 }
