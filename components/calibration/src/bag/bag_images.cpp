@@ -88,7 +88,7 @@ cv::Mat grey_of(const recorder::BagTopic& topic, const std::shared_ptr<void>& me
     return grey->clone();
   }
   const auto& compressed = *std::static_pointer_cast<CompressedImage>(message);
-  const cv::Mat grey = compressed.data().empty() ? cv::Mat() : cv::imdecode(compressed.data(), cv::IMREAD_GRAYSCALE);
+  cv::Mat grey = compressed.data().empty() ? cv::Mat() : cv::imdecode(compressed.data(), cv::IMREAD_GRAYSCALE);
   if (grey.empty())
     throw CalibrationError(
         fmt::format("{}: an image of format '{}' cannot be decompressed", topic.name, compressed.format()));
