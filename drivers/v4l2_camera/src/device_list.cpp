@@ -22,6 +22,7 @@ std::string sizes_of(const std::vector<OfferedFormat>& offered) {
   std::vector<std::string> order;
   for (const auto& format : offered) {
     std::vector<std::string> sizes;
+    sizes.reserve(format.sizes.size());
     for (const auto& size : format.sizes) sizes.push_back(text_of(size));
     const std::string text = fmt::format("{}", fmt::join(sizes, ", "));
     if (text.empty()) continue;
@@ -29,6 +30,7 @@ std::string sizes_of(const std::vector<OfferedFormat>& offered) {
     formats_of[text].push_back(to_text(format.pixels));
   }
   std::vector<std::string> parts;
+  parts.reserve(order.size());
   for (const auto& text : order) {
     parts.push_back(order.size() == 1 ? text + " px" : fmt::format("{} {} px", fmt::join(formats_of[text], "/"), text));
   }
