@@ -15,6 +15,8 @@ namespace {
 class VirtualMachine : public ::testing::Test {
  protected:
   void SetUp() override {
+    if (!std::string(SANITIZER).empty())
+      GTEST_SKIP() << "an emulated processor is too slow for the sanitizer " << SANITIZER;
     const Finished checked = run({PYTHON, "-B", VIRTUAL_MACHINE, "check"}, std::chrono::seconds(290));
     if (checked.status != 0) GTEST_SKIP() << "there can be no virtual machine here: " << checked.output;
   }
