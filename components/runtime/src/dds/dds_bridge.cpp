@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "discovery.hpp"
+#include "half_made_ports.hpp"
 #include "local_endpoints.hpp"
 #include "node_graph.hpp"
 #include "node_info.hpp"
@@ -27,6 +28,7 @@ class DdsBridge final : public Bridge {
  public:
   explicit DdsBridge(const DdsSettings& settings) : settings_(settings) {
     dds::load_profiles(settings_);
+    dds::remove_half_made_ports();
     if (const auto warning = dds::shared_memory_warning()) notifier_->warn(*warning);
     discovery_->on_participant_gone([graph = std::weak_ptr(graph_)](const auto& prefix) {
       if (const auto known = graph.lock()) known->participant_gone(prefix);

@@ -20,7 +20,7 @@ constexpr std::string_view kPrefix = "fastrtps_", kLockSuffix = "_el";
 constexpr std::size_t kIdDigits = 16;
 constexpr std::time_t kYouth_s = 5;
 
-/// "fastrtps_06468ace1751dcea_el". Not the ports, "fastrtps_port7410_el": these are small, and Fast DDS takes them over when it needs them.
+/// "fastrtps_06468ace1751dcea_el". Not the ports, "fastrtps_port7410_el": these are small, and Fast DDS takes them over when it needs them (see half_made_ports.hpp).
 bool is_lock_of_a_segment(std::string_view name) {
   if (name.size() != kPrefix.size() + kIdDigits + kLockSuffix.size()) return false;
   if (!name.starts_with(kPrefix) || !name.ends_with(kLockSuffix)) return false;
