@@ -107,7 +107,9 @@ Channel::Counters Channel::counters() const {
   const std::lock_guard lock(bridge_reader_mutex_);
   if (bridge_reader_) {
     counters.remote_writers = bridge_reader_->matched_writers();
-    counters.lost = bridge_reader_->counters().lost;
+    const auto of_bridge = bridge_reader_->counters();
+    counters.lost = of_bridge.lost;
+    counters.overwritten = of_bridge.overwritten;
   }
   return counters;
 }

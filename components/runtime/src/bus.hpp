@@ -48,7 +48,7 @@ class Channel {
 
   bool wait_for_acknowledgments(std::chrono::milliseconds limit);
   struct Counters {
-    std::uint64_t published = 0, not_sent = 0, lost = 0;
+    std::uint64_t published = 0, not_sent = 0, lost = 0, overwritten = 0;
     std::size_t remote_readers = 0, remote_writers = 0;
   };
   Counters counters() const;

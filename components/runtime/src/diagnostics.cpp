@@ -28,7 +28,7 @@ diagnostic_msgs::msg::DiagnosticArray Diagnostics::collect(const std::vector<con
     diagnostic_msgs::msg::DiagnosticStatus status;
     status.name("panvo: " + component->description.name);
     status.hardware_id("none");
-    const std::uint64_t dropped = tell_inputs(*component, interval_s, status);
+    const std::uint64_t dropped = tell_inputs(*component, interval_s, status) + tell_overwritten(*component, status);
     const Rejected rejected = tell_rejections(*component, status);
     for (const auto& [stage, times] : component->times.snapshot()) {
       add(status, stage + " time",
@@ -74,6 +74,20 @@ std::uint64_t Diagnostics::tell_inputs(const Context::State& component, double i
     }
   }
   return newly_dropped;
+}
+
+std::uint64_t Diagnostics::tell_overwritten(const Context::State& component,
+                                            diagnostic_msgs::msg::DiagnosticStatus& status) {
+  std::uint64_t newly_overwritten = 0;
+  for (const Channel* channel : component.inputs) {
+    const std::uint64_t overwritten = channel->counters().overwritten;
+    if (overwritten == 0) continue;
+    const std::string& topic = channel->topic().name;
+    add(status, topic + " overwritten", fmt::format("{} messages, in shared memory while they were read", overwritten));
+    Previous& previous = previous_[component.description.name + "\n" + topic];
+    newly_overwritten += overwritten - std::exchange(previous.overwritten, overwritten);
+  }
+  return newly_overwritten;
 }
 
 Diagnostics::Rejected Diagnostics::tell_rejections(const Context::State& component,

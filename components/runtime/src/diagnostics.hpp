@@ -21,7 +21,7 @@ class Diagnostics {
 
  private:
   struct Previous {
-    std::uint64_t handled = 0, dropped = 0, rejected = 0;
+    std::uint64_t handled = 0, dropped = 0, rejected = 0, overwritten = 0;
   };
   struct Rejected {
     std::uint64_t messages = 0;
@@ -31,6 +31,8 @@ class Diagnostics {
   /// How many were dropped since the last call.
   std::uint64_t tell_inputs(const Context::State& component, double interval_s,
                             diagnostic_msgs::msg::DiagnosticStatus& status);
+  /// How many were overwritten since the last call, in the memory that their writer shares, while they were read here.
+  std::uint64_t tell_overwritten(const Context::State& component, diagnostic_msgs::msg::DiagnosticStatus& status);
   /// What was rejected since the last call, with the reason of one of them.
   Rejected tell_rejections(const Context::State& component, diagnostic_msgs::msg::DiagnosticStatus& status);
 

@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "panvo/runtime/graph.hpp"
+
 namespace panvo::runtime {
 namespace {
 
@@ -67,6 +69,48 @@ TEST_F(Diagnosed, WarnsWhileMessagesAreDroppedAndNoLonger) {
   state.main_worker().count_dropped(port);
   EXPECT_EQ(collect(1.0).level(), 1);
   EXPECT_EQ(collect(1.0).level(), 0);
+}
+
+/// Brings nothing; of what was to come, `overwritten` messages were.
+class OverwritingBridge final : public Bridge {
+ public:
+  explicit OverwritingBridge(const std::uint64_t& overwritten) : overwritten_(overwritten) {}
+
+  std::unique_ptr<BridgeReader> open_reader(const TopicDescription&, std::function<void(SamplePtr)>) override {
+    return std::make_unique<Reader>(overwritten_);
+  }
+  std::unique_ptr<BridgeWriter> open_writer(const TopicDescription&) override { return nullptr; }
+  void watch_topics(std::function<void(const TopicDescription&)>) override {}
+  std::unique_ptr<BridgeService> serve(const ServiceDescription&, ServiceHandler) override { return nullptr; }
+  std::unique_ptr<BridgeClient> open_client(const ServiceDescription&) override { return nullptr; }
+  void set_nodes(std::vector<NodeDescription>) override {}
+  Graph graph() override { return {}; }
+  void on_warning(std::function<void(const std::string&)>) override {}
+
+ private:
+  struct Reader final : BridgeReader {
+    explicit Reader(const std::uint64_t& overwritten) : overwritten_(overwritten) {}
+    std::size_t matched_writers() const override { return 1; }
+    BridgeReaderCounters counters() const override { return {.overwritten = overwritten_}; }
+    const std::uint64_t& overwritten_;
+  };
+  const std::uint64_t& overwritten_;
+};
+
+TEST_F(Diagnosed, CountsWhatWasOverwrittenInSharedMemoryAsDropped) {
+  std::uint64_t overwritten = 0;
+  Bus shared{std::make_unique<OverwritingBridge>(overwritten), [](const std::string&) {}};
+  Channel& channel = shared.channel({"/image", "sensor_msgs/msg/Image", {}});
+  channel.add_reader(&state, [](const TopicDescription&, const SamplePtr&) {});
+  state.inputs.push_back(&channel);
+  EXPECT_EQ(value(collect(1.0), "/image overwritten"), "no such key");
+  overwritten = 3;
+  const auto status = collect(1.0);
+  EXPECT_EQ(status.level(), 1);
+  EXPECT_EQ(status.message(), "too slow: 3 messages dropped in the last 1 s");
+  EXPECT_EQ(value(status, "/image overwritten"), "3 messages, in shared memory while they were read");
+  EXPECT_EQ(collect(1.0).level(), 0);
+  state.stop();  // leaves the channel, which goes before it
 }
 
 TEST_F(Diagnosed, NamesWhatCouldNotBeUsedAndWhyAndWarnsWhileThatGoesOn) {

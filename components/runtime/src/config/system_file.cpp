@@ -18,6 +18,7 @@ namespace {
 const std::vector<std::string> kContainerKeysWithoutEffect = {
     "args", "ros_args", "output", "respawn_max_retries", "env", "param", "launch-prefix", "remap"};
 constexpr int kLongestDelayS = 3600;
+constexpr int kLargestImageMb = 64;
 const std::vector<std::string> kActions = {"node_container", "arg", "let", "include", "group", "push_ros_namespace"};
 
 class SystemReader {
@@ -180,7 +181,12 @@ class SystemReader {
     map.text("pkg");  // ours is the only container there is
     map.text("exec");
     container.respawn = map.flag("respawn", false);
-    container.respawn_delay_s = read_delay(map);
+    container.respawn_delay_s =
+        read_number(map, "respawn_delay", fmt::format("seconds, 0 to {}", kLongestDelayS), kLongestDelayS);
+    container.shared_images_mb =
+        read_number(map, "shared_images_mb", fmt::format("megabytes, 0 (none are shared) to {}", kLargestImageMb),
+                    kLargestImageMb)
+            .value_or(0);
     if (!map.has("composable_node")) {
       findings_.problems.add(map.where(),
                              "node_container " + container.name + " loads nothing; add a list composable_node");
@@ -198,15 +204,13 @@ class SystemReader {
     system_.containers.push_back(std::move(container));
   }
 
-  std::optional<double> read_delay(YamlMap& map) {
-    const auto text = map.text("respawn_delay");
+  std::optional<double> read_number(YamlMap& map, const std::string& key, const std::string& what, double largest) {
+    const auto text = map.text(key);
     if (!text) return std::nullopt;
-    double delay_s = 0;
-    const auto [end, error] = std::from_chars(text->data(), text->data() + text->size(), delay_s);
-    if (error == std::errc() && end == text->data() + text->size() && delay_s >= 0 && delay_s <= kLongestDelayS)
-      return delay_s;
-    findings_.problems.add(map.where("respawn_delay"),
-                           fmt::format("respawn_delay is \"{}\"; write seconds, 0 to {}", *text, kLongestDelayS));
+    double number = 0;
+    const auto [end, error] = std::from_chars(text->data(), text->data() + text->size(), number);
+    if (error == std::errc() && end == text->data() + text->size() && number >= 0 && number <= largest) return number;
+    findings_.problems.add(map.where(key), fmt::format("{} is \"{}\"; write {}", key, *text, what));
     return std::nullopt;
   }
 

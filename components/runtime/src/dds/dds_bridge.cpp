@@ -16,7 +16,7 @@
 #include "service_client.hpp"
 #include "service_queue.hpp"
 #include "service_server.hpp"
-#include "writer.hpp"
+#include "sharing_writer.hpp"
 
 namespace panvo::runtime {
 namespace {
@@ -39,7 +39,7 @@ class DdsBridge final : public Bridge {
   ~DdsBridge() override { notifier_->stop(); }
 
   std::unique_ptr<BridgeWriter> open_writer(const TopicDescription& topic) override {
-    return std::make_unique<dds::Writer>(topic, dds::wire_topic(topic), participant(dds::Role::kWriters), notifier_);
+    return dds::open_writer(topic, dds::wire_topic(topic), participant(dds::Role::kWriters), notifier_);
   }
 
   std::unique_ptr<BridgeReader> open_reader(const TopicDescription& topic,

@@ -5,6 +5,7 @@
 #include <fastdds/dds/domain/DomainParticipantFactory.hpp>
 #include <fastdds/dds/topic/TypeSupport.hpp>
 
+#include "image_sharing.hpp"
 #include "names.hpp"
 #include "panvo/runtime/errors.hpp"
 #include "sample_data_type.hpp"
@@ -15,7 +16,7 @@ namespace fdds = eprosima::fastdds::dds;
 
 Participant::Participant(const DdsSettings& settings, Role role, std::shared_ptr<Discovery> discovery,
                          std::shared_ptr<LocalEndpoints> endpoints)
-    : discovery_(std::move(discovery)), endpoints_(std::move(endpoints)) {
+    : settings_(settings), discovery_(std::move(discovery)), endpoints_(std::move(endpoints)) {
   auto* factory = fdds::DomainParticipantFactory::get_instance();
   // The mask is empty: endpoints have listeners of their own. Discovery is called in any case.
   participant_ =
@@ -40,7 +41,11 @@ Participant::~Participant() {
 void Participant::register_type(const std::string& wire_type_name) {
   // A registered type stays: it is a name and a few words, and its code is this library's.
   if (!participant_->find_type(wire_type_name).empty()) return;
-  fdds::TypeSupport(new SampleDataType(wire_type_name)).register_type(participant_);
+  fdds::TypeSupport(new SampleDataType(wire_type_name, shared_size(wire_type_name))).register_type(participant_);
+}
+
+std::uint32_t Participant::shared_size(const std::string& wire_type_name) const {
+  return dds::shared_size(settings_, wire_type_name);
 }
 
 WireTopic wire_topic(const TopicDescription& description) {

@@ -6,6 +6,7 @@
 #include <fastdds/dds/subscriber/Subscriber.hpp>
 #include <fastdds/dds/topic/Topic.hpp>
 
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -35,6 +36,8 @@ class Participant : public std::enable_shared_from_this<Participant> {
   eprosima::fastdds::dds::Subscriber& subscriber() { return *subscriber_; }
 
   eprosima::fastrtps::rtps::GUID_t guid() const { return participant_->guid(); }
+  /// Up to which size, serialised, messages of that type are shared with processes of this machine; 0: they are not.
+  std::uint32_t shared_size(const std::string& wire_type_name) const;
   /// Where its endpoints are entered.
   LocalEndpoints& endpoints() { return *endpoints_; }
 
@@ -46,6 +49,7 @@ class Participant : public std::enable_shared_from_this<Participant> {
   void register_type(const std::string& wire_type_name);
   void delete_topic(const std::string& wire_name);
 
+  const DdsSettings settings_;
   const std::shared_ptr<Discovery> discovery_;  // Fast DDS calls it until the participant is gone
   const std::shared_ptr<LocalEndpoints> endpoints_;
   eprosima::fastdds::dds::DomainParticipant* participant_ = nullptr;

@@ -38,8 +38,6 @@ constexpr std::int32_t kAnnouncementPeriodNs = 500'000'000;
 
 constexpr int kMaxDomain = 232;  // the ports of a higher one would be past 65535
 
-constexpr const char* kSharedMemoryFolder = "/dev/shm";
-
 bool names_transports(const fdds::DomainParticipantQos& qos) {
   return !(qos.transport() == fdds::PARTICIPANT_QOS_DEFAULT.transport());
 }
@@ -53,9 +51,6 @@ void hear_of_all_topics(eprosima::fastrtps::rtps::DiscoverySettings& discovery) 
   discovery.discoveryProtocol = eprosima::fastrtps::rtps::DiscoveryProtocol_t::SUPER_CLIENT;
   discovery.m_DiscoveryServers = servers;
 }
-
-// In a container or a sandbox there may be none, or one that cannot be written.
-bool has_shared_memory() { return access(kSharedMemoryFolder, R_OK | W_OK | X_OK) == 0; }
 
 void use_our_transports(fdds::DomainParticipantQos& qos, const DdsSettings& settings, Role role) {
   qos.transport().use_builtin_transports = false;
@@ -97,6 +92,8 @@ void load_profiles(const DdsSettings& settings) {
   // This makes the factory take its defaults from the profiles again.
   factory->set_default_participant_qos(fdds::PARTICIPANT_QOS_DEFAULT);
 }
+
+bool has_shared_memory() { return access(kSharedMemoryFolder, R_OK | W_OK | X_OK) == 0; }
 
 std::optional<std::string> shared_memory_warning() {
   if (has_shared_memory()) return std::nullopt;

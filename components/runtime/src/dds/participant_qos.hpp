@@ -18,6 +18,11 @@ enum class Role { kWriters, kReaders };
 /// range.
 void load_profiles(const DdsSettings& settings);
 
+inline constexpr const char* kSharedMemoryFolder = "/dev/shm";
+
+/// In a container or a sandbox there may be none, or one that cannot be written.
+bool has_shared_memory();
+
 /// What users should know when processes of this machine cannot share memory.
 std::optional<std::string> shared_memory_warning();
 

@@ -7,6 +7,7 @@
 #include <exception>
 
 #include "endpoint_qos.hpp"
+#include "image_sharing.hpp"
 #include "panvo/runtime/errors.hpp"
 
 namespace panvo::runtime::dds {
@@ -23,9 +24,12 @@ Reader::Reader(const TopicDescription& topic, const WireTopic& wire, OnSample on
       topic_(participant_->topic(wire)) {
   fdds::DataReaderQos qos = participant_->subscriber().get_default_datareader_qos();
   apply(topic, qos);
+  shares_ = topic.type && participant_->shared_size(wire.type_name) > 0;
+  if (shares_) share(qos);
   reader_ = participant_->subscriber().create_datareader(topic_.get(), qos, this);
   if (!reader_)
     throw ConfigError(fmt::format("topic {}: Fast DDS made no reader; its message above says why", topic.name));
+  if (shares_) segment_.emplace(reader_->guid());
   participant_->endpoints().add(wire.name, reader_->guid(), false);
 }
 
@@ -38,13 +42,17 @@ Reader::~Reader() {
   participant_->subscriber().delete_datareader(reader_);
 }
 
-BridgeReaderCounters Reader::counters() const { return {received_, lost_ + rejected_, undecodable_}; }
+BridgeReaderCounters Reader::counters() const { return {received_, lost_ + rejected_, undecodable_, overwritten_}; }
 
 void Reader::on_data_available(fdds::DataReader* reader) {
   const std::lock_guard lock(delivery_mutex_);
-  fdds::SampleInfo info;
-  for (Incoming incoming; !closed_ && reader->take_next_sample(&incoming, &info) == ReturnCode_t::RETCODE_OK;
-       incoming = {}) {
+  while (!closed_) {
+    fdds::SampleInfo info;
+    Incoming incoming{.wanted = shares_ ? description_.type : nullptr};
+    const bool is_taken = reader->take_next_sample(&incoming, &info) == ReturnCode_t::RETCODE_OK;
+    // What was overwritten while it was read is given up by Fast DDS, which goes on to the next.
+    overwritten_ += incoming.reads - (is_taken && info.valid_data ? 1 : 0);
+    if (!is_taken) return;
     if (info.valid_data && !is_of_this_process(info.sample_identity.writer_guid()))
       deliver(std::move(incoming), info.reception_timestamp.to_ns());
   }
@@ -57,7 +65,9 @@ void Reader::deliver(Incoming incoming, std::int64_t time_ns) {
   }
   ++received_;
   try {
-    on_sample_(Sample::from_bytes(description_.type, description_.type_name, std::move(incoming.bytes), time_ns));
+    on_sample_(incoming.message
+                   ? Sample::of(*description_.type, std::move(incoming.message), time_ns)
+                   : Sample::from_bytes(description_.type, description_.type_name, std::move(incoming.bytes), time_ns));
   } catch (const std::exception& error) {
     // Past this is Fast DDS, which would end the process.
     notifier_->warn(

@@ -8,11 +8,13 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <optional>
 
 #include "notifier.hpp"
 #include "panvo/runtime/bridge.hpp"
 #include "participant.hpp"
 #include "sample_data_type.hpp"
+#include "shared_segment.hpp"
 
 namespace panvo::runtime::dds {
 
@@ -55,7 +57,9 @@ class Reader final : public BridgeReader, private eprosima::fastdds::dds::DataRe
   bool closed_ = false;
 
   std::atomic<std::size_t> matched_writers_ = 0;
-  std::atomic<std::uint64_t> received_ = 0, lost_ = 0, rejected_ = 0, undecodable_ = 0;
+  std::atomic<std::uint64_t> received_ = 0, lost_ = 0, rejected_ = 0, undecodable_ = 0, overwritten_ = 0;
+  bool shares_ = false;  // messages may lie in memory that a writer goes on writing to
+  std::optional<SharedSegment> segment_;
   eprosima::fastdds::dds::DataReader* reader_ = nullptr;  // uses all of the above
 };
 

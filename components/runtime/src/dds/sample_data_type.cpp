@@ -19,6 +19,16 @@ bool has_xcdr1_encapsulation(std::span<const std::uint8_t> bytes) {
   return bytes.size() >= kEncapsulationSize && bytes[0] == 0 && (bytes[1] == CDR_BE || bytes[1] == CDR_LE);
 }
 
+/// nullptr: bytes are wanted, or they are no message of that type. Who wants the message then finds out why.
+std::shared_ptr<const void> decode(const interfaces::MessageType* type, std::span<const std::uint8_t> bytes) {
+  if (!type) return nullptr;
+  try {
+    return type->deserialize(bytes);
+  } catch (const interfaces::DecodeError&) {
+    return nullptr;
+  }
+}
+
 }  // namespace
 
 void Outgoing::write_to(std::span<std::uint8_t> out) const {
@@ -29,9 +39,9 @@ void Outgoing::write_to(std::span<std::uint8_t> out) const {
   }
 }
 
-SampleDataType::SampleDataType(const std::string& wire_type_name) {
+SampleDataType::SampleDataType(const std::string& wire_type_name, std::uint32_t max_size) : is_bounded_(max_size > 0) {
   setName(wire_type_name.c_str());
-  m_typeSize = kInitialPayloadSize;
+  m_typeSize = is_bounded_ ? max_size : kInitialPayloadSize;
   m_isGetKeyDefined = false;
   // We match by name, as ROS 2 does; there is nothing to say about the type's structure.
   auto_fill_type_object(false);
@@ -56,12 +66,15 @@ bool SampleDataType::deserialize(eprosima::fastrtps::rtps::SerializedPayload_t* 
   auto& target = *static_cast<Incoming*>(incoming);
   const std::span<const std::uint8_t> bytes(payload->data, payload->length);
   target.readable = has_xcdr1_encapsulation(bytes);
-  if (!target.readable) return true;  // the reader counts it
-  try {
-    target.bytes.assign(bytes.begin(), bytes.end());
-  } catch (const std::bad_alloc&) {
-    return false;  // Fast DDS must not see an exception; it drops the sample
+  if (target.readable) {  // otherwise the reader counts it
+    try {
+      target.message = decode(target.wanted, bytes);
+      if (!target.message) target.bytes.assign(bytes.begin(), bytes.end());
+    } catch (const std::bad_alloc&) {
+      return false;  // Fast DDS must not see an exception; it drops the sample
+    }
   }
+  ++target.reads;
   return true;
 }
 

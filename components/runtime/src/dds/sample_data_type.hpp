@@ -3,7 +3,9 @@
 
 #include <fastdds/dds/topic/TopicDataType.hpp>
 
+#include <cstdint>
 #include <functional>
+#include <memory>
 #include <span>
 #include <string>
 
@@ -25,17 +27,22 @@ class Outgoing {
   std::span<const std::uint8_t> bytes_;
 };
 
-/// What a reader gets from Fast DDS.
+/// What a reader gets from Fast DDS: bytes, or at once the message. What lies in memory that its writer goes on writing to may be nonsense; if so
+/// Fast DDS sees it afterwards, and reads the next sample into the same.
 struct Incoming {
-  interfaces::Bytes bytes;  ///< as received, encapsulation included
-  bool readable = false;    ///< led by an XCDR1 encapsulation; false: of no use to anybody
+  const interfaces::MessageType* wanted = nullptr;  ///< set by the reader: a message of that type, if the bytes are one
+  std::shared_ptr<const void> message{};            ///< nullptr: see `bytes`
+  interfaces::Bytes bytes{};                        ///< as received, encapsulation included
+  bool readable = false;                            ///< led by an XCDR1 encapsulation; false: of no use to anybody
+  unsigned reads = 0;  ///< how many samples were read into it, each in place of the one before
 };
 
 /// The one data type that carries every topic: Fast DDS moves bytes and never sees a message class, so no
-/// code of a plugin is ever registered with it and plugins may be unloaded. Without keys.
+/// code of a plugin is ever registered with it and plugins may be unloaded. Without keys. `max_size`: of messages that are written into
+/// memory reserved for them; 0: each gets what it needs.
 class SampleDataType final : public eprosima::fastdds::dds::TopicDataType {
  public:
-  explicit SampleDataType(const std::string& wire_type_name);
+  explicit SampleDataType(const std::string& wire_type_name, std::uint32_t max_size = 0);
 
   bool serialize(void* outgoing, eprosima::fastrtps::rtps::SerializedPayload_t* payload) override;
   bool deserialize(eprosima::fastrtps::rtps::SerializedPayload_t* payload, void* incoming) override;
@@ -43,6 +50,10 @@ class SampleDataType final : public eprosima::fastdds::dds::TopicDataType {
   void* createData() override { return new Incoming; }
   void deleteData(void* incoming) override { delete static_cast<Incoming*>(incoming); }
   bool getKey(void*, eprosima::fastrtps::rtps::InstanceHandle_t*, bool) override { return false; }
+  bool is_bounded() const override { return is_bounded_; }
+
+ private:
+  const bool is_bounded_;
 };
 
 }  // namespace panvo::runtime::dds

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "endpoint_qos.hpp"
+#include "image_sharing.hpp"
 #include "panvo/runtime/errors.hpp"
 #include "sample_data_type.hpp"
 
@@ -15,7 +16,7 @@ namespace fdds = eprosima::fastdds::dds;
 using eprosima::fastrtps::types::ReturnCode_t;
 
 Writer::Writer(const TopicDescription& topic, const WireTopic& wire, std::shared_ptr<Participant> participant,
-               std::shared_ptr<Notifier> notifier)
+               std::shared_ptr<Notifier> notifier, Way way)
     : name_(topic.name),
       keeps_for_late_joiners_(topic.qos.durability == interfaces::Durability::kTransientLocal),
       participant_(std::move(participant)),
@@ -23,8 +24,14 @@ Writer::Writer(const TopicDescription& topic, const WireTopic& wire, std::shared
       topic_(participant_->topic(wire)) {
   fdds::DataWriterQos qos = participant_->publisher().get_default_datawriter_qos();
   apply(topic, qos);
+  if (way == Way::kShared) {
+    share(qos);
+  } else if (participant_->shared_size(wire.type_name) > 0) {
+    send_any_size(qos);
+  }
   writer_ = participant_->publisher().create_datawriter(topic_.get(), qos, this);
   if (!writer_) throw ConfigError(fmt::format("topic {}: Fast DDS made no writer; its message above says why", name_));
+  if (way == Way::kShared) segment_.emplace(writer_->guid());
   participant_->endpoints().add(wire.name, writer_->guid(), true);
 }
 

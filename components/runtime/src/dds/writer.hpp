@@ -6,24 +6,31 @@
 
 #include <atomic>
 #include <memory>
+#include <optional>
 
 #include "notifier.hpp"
 #include "panvo/runtime/bridge.hpp"
 #include "participant.hpp"
+#include "shared_segment.hpp"
 
 namespace panvo::runtime::dds {
+
+/// How a writer's messages reach readers: sent, or where possible in memory that they share.
+enum class Way { kSent, kShared };
 
 /// A topic of this process as other processes read it.
 class Writer final : public BridgeWriter, private eprosima::fastdds::dds::DataWriterListener {
  public:
   /// Throws ConfigError when Fast DDS will not have the topic. `wire` is how the topic is called there.
   Writer(const TopicDescription& topic, const WireTopic& wire, std::shared_ptr<Participant> participant,
-         std::shared_ptr<Notifier> notifier);
+         std::shared_ptr<Notifier> notifier, Way way = Way::kSent);
   ~Writer() override;
 
   bool write(const SamplePtr& sample) override;
   std::size_t matched_readers() const override { return matched_readers_; }
   bool wait_for_acknowledgments(std::chrono::milliseconds limit) override;
+  /// Whether it has got memory that others may map.
+  bool shares() const { return segment_ && segment_->is_there(); }
 
  private:
   void on_publication_matched(eprosima::fastdds::dds::DataWriter* writer,
@@ -37,6 +44,7 @@ class Writer final : public BridgeWriter, private eprosima::fastdds::dds::DataWr
   const std::shared_ptr<Notifier> notifier_;
   const std::shared_ptr<eprosima::fastdds::dds::Topic> topic_;
   std::atomic<std::size_t> matched_readers_ = 0;
+  std::optional<SharedSegment> segment_;
   eprosima::fastdds::dds::DataWriter* writer_ = nullptr;  // uses all of the above
 };
 

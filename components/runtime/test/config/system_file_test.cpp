@@ -145,6 +145,24 @@ TEST_F(SystemFile, SaysWhichProcessesAreStartedAgainAndHowSoon) {
   }
 }
 
+TEST_F(SystemFile, SaysUpToWhichSizeProcessesShareImages) {
+  const auto file = [](const std::string& line) {
+    return fmt::format(
+        "launch:\n- node_container:\n    name: x\n{}    composable_node: [{{pkg: panvo_a, plugin: A, name: a}}]\n",
+        line);
+  };
+  EXPECT_EQ(read_system_file(folder_.write("unsaid.yaml", file(""))).containers[0].shared_images_mb, 0);
+  const auto shared = folder_.write("shared.yaml", file("    shared_images_mb: 1.75\n"));
+  EXPECT_EQ(read_system_file(shared).containers[0].shared_images_mb, 1.75);
+  for (const char* size : {"yes", "-1", "2 MB", "65"}) {
+    EXPECT_THAT(
+        problems(file(fmt::format("    shared_images_mb: {}\n", size))),
+        ElementsAre(fmt::format("stereo.yaml:4: shared_images_mb is \"{}\"; write megabytes, 0 (none are shared) "
+                                "to 64",
+                                size)));
+  }
+}
+
 TEST_F(SystemFile, TakesArgumentsAndRefusesThoseItDoesNotDeclare) {
   const auto file = folder_.write("stereo.yaml", kStereo);
   const auto system = read_system_file(file, {{"rig", "euroc"}});

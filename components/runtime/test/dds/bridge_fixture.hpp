@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdint>
 #include <memory>
 #include <string>
 
@@ -18,7 +19,9 @@ inline constexpr const char* kStringType = "std_msgs/msg/String";
 /// A bridge of this process and one of another.
 class BetweenProcesses : public ::testing::Test {
  protected:
-  BetweenProcesses() { bridge->on_warning(warnings.callback()); }
+  explicit BetweenProcesses(std::uint32_t shared_bytes = 0) : shared_image_bytes(shared_bytes) {
+    bridge->on_warning(warnings.callback());
+  }
 
   bool is_warned_of(const std::string& first, const std::string& second) {
     return warnings.wait_for([&](const std::string& text) {
@@ -27,10 +30,12 @@ class BetweenProcesses : public ::testing::Test {
   }
 
   const int domain = test_domain();
-  PeerProcess peer{domain};
+  const std::uint32_t shared_image_bytes;  // of both
+  PeerProcess peer{domain, PANVO_BRIDGE_PEER, shared_image_bytes};
   Inbox<std::string> warnings;
   Inbox<SamplePtr> inbox;  // before the bridge, whose readers fill it
-  std::unique_ptr<Bridge> bridge = make_dds_bridge({.domain = domain, .profiles = "", .name = "panvo_test"});
+  std::unique_ptr<Bridge> bridge = make_dds_bridge(
+      {.domain = domain, .profiles = "", .name = "panvo_test", .shared_image_bytes = shared_image_bytes});
 };
 
 }  // namespace panvo::runtime::test

@@ -23,8 +23,10 @@ namespace {
 
 class Peer {
  public:
-  explicit Peer(int domain)
-      : domain_(domain), bridge_(make_dds_bridge({.domain = domain, .profiles = "", .name = "peer"})) {}
+  Peer(int domain, std::uint32_t shared_image_bytes)
+      : domain_(domain),
+        bridge_(make_dds_bridge(
+            {.domain = domain, .profiles = "", .name = "peer", .shared_image_bytes = shared_image_bytes})) {}
 
   void run() {
     for (std::string line; std::getline(std::cin, line);) {
@@ -152,6 +154,6 @@ class Peer {
 
 int main(int argc, char** argv) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);  // a test that crashes leaves nobody behind
-  if (argc != 2) return 2;
-  panvo::runtime::test::Peer(std::stoi(argv[1])).run();
+  if (argc < 2 || argc > 3) return 2;
+  panvo::runtime::test::Peer(std::stoi(argv[1]), argc == 3 ? static_cast<std::uint32_t>(std::stoul(argv[2])) : 0).run();
 }

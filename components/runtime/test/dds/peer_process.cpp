@@ -29,7 +29,7 @@ bool eventually(const std::function<bool()>& condition) {
   return true;
 }
 
-PeerProcess::PeerProcess(int domain, std::string program) {
+PeerProcess::PeerProcess(int domain, std::string program, std::uint32_t shared_image_bytes) {
   ::signal(SIGPIPE, SIG_IGN);  // a peer that is gone is an error to report, not the end of the test
   std::array<int, 2> commands{}, answers{};
   if (pipe2(commands.data(), O_CLOEXEC) != 0 || pipe2(answers.data(), O_CLOEXEC) != 0)
@@ -38,8 +38,9 @@ PeerProcess::PeerProcess(int domain, std::string program) {
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_adddup2(&actions, commands[0], STDIN_FILENO);
   posix_spawn_file_actions_adddup2(&actions, answers[1], STDOUT_FILENO);
-  std::string argument = std::to_string(domain);
-  std::array<char*, 3> arguments{program.data(), argument.data(), nullptr};
+  std::string first = std::to_string(domain), second = std::to_string(shared_image_bytes);
+  std::array<char*, 4> arguments{program.data(), first.data(), shared_image_bytes > 0 ? second.data() : nullptr,
+                                 nullptr};
   const int failure = posix_spawn(&pid_, program.c_str(), &actions, nullptr, arguments.data(), environ);
   posix_spawn_file_actions_destroy(&actions);
   close(commands[0]);

@@ -4,6 +4,7 @@
 #include <sys/types.h>
 
 #include <chrono>
+#include <cstdint>
 #include <deque>
 #include <functional>
 #include <string>
@@ -13,10 +14,10 @@ namespace panvo::runtime::test {
 /// Whether `condition` came true before the limit.
 bool eventually(const std::function<bool()>& condition);
 
-/// Another process: one with a bridge (bridge_peer.cpp), or another program. Ends with this object.
+/// Another process: one with a bridge (bridge_peer.cpp), which may share images, or another program. Ends with this object.
 class PeerProcess {
  public:
-  explicit PeerProcess(int domain, std::string program = PANVO_BRIDGE_PEER);
+  explicit PeerProcess(int domain, std::string program = PANVO_BRIDGE_PEER, std::uint32_t shared_image_bytes = 0);
   ~PeerProcess();
   PeerProcess(const PeerProcess&) = delete;
   PeerProcess& operator=(const PeerProcess&) = delete;
@@ -34,6 +35,7 @@ class PeerProcess {
   /// Memory it has in use now.
   std::size_t resident_kb() const;
 
+  pid_t id() const { return pid_; }
   void signal(int number) const;
   /// Waits until a stop signal has taken effect.
   void wait_until_stopped() const;

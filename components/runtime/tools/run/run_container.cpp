@@ -106,6 +106,7 @@ ExitStatus run_container(const RunOptions& options, const ContainerDescription& 
   if (!options.local && !options.replay) {
     container_options.dds = options.dds;
     container_options.dds->name = description.name;
+    container_options.dds->shared_image_bytes = static_cast<std::uint32_t>(description.shared_images_mb * 1e6);
     container_options.name = node_name(description);
     container_options.name_space = description.name_space;
   }

@@ -39,6 +39,7 @@ class BridgeWriter {
 
 struct BridgeReaderCounters {
   std::uint64_t received = 0, lost = 0, undecodable = 0;
+  std::uint64_t overwritten = 0;  ///< in shared memory, by their writer, while they were read: dropped
 };
 
 /// A topic of other processes as this process reads it. Its callback is not running any more when the destructor has returned.
@@ -81,6 +82,9 @@ struct DdsSettings {
   std::string name = "panvo";        ///< participant name seen by other tools
   std::string ros_distro = "jazzy";  ///< whose nodes are to see ours: "humble" wrote ros_discovery_info in another way
   bool localhost_only = false;       ///< nothing leaves this machine
+  /// Images of up to so many bytes of pixels pass to processes of this machine that have set it too without being sent: they are written once, in
+  /// memory that both share. 0: none do.
+  std::uint32_t shared_image_bytes = 0;
 };
 
 /// As ROS 2's environment variables say: ROS_DOMAIN_ID, ROS_DISTRO, ROS_LOCALHOST_ONLY, ROS_AUTOMATIC_DISCOVERY_RANGE. ROS_DISCOVERY_SERVER is

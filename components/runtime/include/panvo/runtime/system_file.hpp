@@ -30,6 +30,7 @@ struct ContainerDescription {
   std::vector<ComponentDescription> components;
   bool respawn = false;                   ///< to be started again when it crashes or fails
   std::optional<double> respawn_delay_s;  ///< how long after
+  double shared_images_mb = 0;            ///< size of the largest images that are shared in memory, MB; 0: none are
   Location where;
 };
 
@@ -47,6 +48,7 @@ struct SystemDescription {
 ///     - node_container:
 ///         name: stereo
 ///         respawn: true            # when it crashes, after respawn_delay: 1 s
+///         shared_images_mb: 2      # images of up to 2 MB pass to other containers that say so in memory that both share
 ///         composable_node:
 ///         - pkg: panvo_binocular_odometry
 ///           plugin: BinocularOdometryComponent

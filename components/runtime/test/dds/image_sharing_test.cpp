@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: Apache-2.0
+// Images that processes of one machine share, and those that they cannot.
+#include <unistd.h>
+
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <semaphore>
+#include <set>
+
+#include "bridge_fixture.hpp"
+#include "panvo/runtime/shm_leftovers.hpp"
+#include "sensor_msgs/msg/Image.h"
+
+namespace panvo::runtime::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uint32_t kLargestShared = 2'000'000;
+constexpr std::size_t kGraySize = 640 * 480, kPanoramaSize = 1080 * 540 * 3, kTooLarge = 3'000'000;
+
+/// The memory of shared images that a process has mapped, by path.
+std::set<std::string> shared_by(pid_t process) {
+  std::set<std::string> segments;
+  std::ifstream maps("/proc/" + std::to_string(process) + "/maps");
+  for (std::string line; std::getline(maps, line);) {
+    if (const auto path = line.find("/dev/shm/fast_datasharing_"); path != std::string::npos)
+      segments.insert(line.substr(path));
+  }
+  return segments;
+}
+
+std::string size_and_hash(const Sample& sample) {
+  return std::to_string(sample.bytes().size()) + " " + std::to_string(hash(sample.bytes()));
+}
+
+std::string write_image(const std::string& topic, std::size_t size, std::uint32_t seed) {
+  return "write_image " + topic + " " + std::to_string(size) + " " + std::to_string(seed);
+}
+
+class SharedImages : public BetweenProcesses {
+ protected:
+  SharedImages() : BetweenProcesses(kLargestShared) {}
+
+  void SetUp() override {
+    if (access("/dev/shm", W_OK) != 0) GTEST_SKIP() << "there is no /dev/shm";
+  }
+
+  std::unique_ptr<BridgeReader> read_from_peer(const TopicDescription& wanted) {
+    auto reader = bridge->open_reader(wanted, inbox.callback());
+    peer.ask("open_writer " + wanted.name + " " + kImageType + " best_effort volatile 5");
+    EXPECT_TRUE(peer.matches(wanted.name, 1) && eventually([&] { return reader->matched_writers() == 1; }));
+    return reader;
+  }
+
+  std::unique_ptr<BridgeWriter> write_to(PeerProcess& reader, const std::string& name) {
+    auto writer = bridge->open_writer(topic(name, kImageType, interfaces::qos::kSensorData));
+    reader.ask("open_reader " + name + " " + kImageType + " best_effort volatile 5");
+    EXPECT_TRUE(eventually([&] { return writer->matched_readers() == 1; }) && reader.matches(name, 1));
+    return writer;
+  }
+};
+
+TEST_F(SharedImages, ArrivePixelForPixelUpToTheLargest) {
+  const auto name = unique_topic("image");
+  const auto reader = read_from_peer(topic(name, kImageType, interfaces::qos::kSensorData));
+  EXPECT_EQ(shared_by(getpid()).size(), 2U) << "what the peer writes to, and by what it tells of it";
+  std::size_t count = 0;
+  for (const std::size_t size : {std::size_t{4}, kGraySize, kPanoramaSize, std::size_t{kLargestShared}}) {
+    const auto seed = static_cast<std::uint32_t>(count);
+    ASSERT_EQ(peer.ask(write_image(name, size, seed)), "written");
+    const auto samples = inbox.wait_for_count(++count);
+    ASSERT_EQ(samples.size(), count);
+    EXPECT_TRUE(samples.back()->bytes() == image_sample(size, seed)->bytes()) << size << " pixels";
+    EXPECT_EQ(Sample::as<sensor_msgs::msg::Image>(samples.back())->header().frame_id(), "camera");
+  }
+  EXPECT_EQ(reader->counters().received, count);
+  EXPECT_EQ(reader->counters().overwritten, 0U);
+}
+
+TEST_F(SharedImages, ReachWhoDoesNotShareThemToo) {
+  const auto name = unique_topic("image");
+  PeerProcess other(domain);
+  const auto writer = write_to(other, name);
+  const auto sample = image_sample(kPanoramaSize, 3);
+  ASSERT_TRUE(writer->write(sample));
+  EXPECT_EQ(other.next_received(name), size_and_hash(*sample));
+  EXPECT_TRUE(shared_by(other.id()).empty());
+}
+
+TEST_F(SharedImages, AreReadBesideThoseOfWhoDoesNotShareThemOfAnySize) {
+  const auto name = unique_topic("image");
+  PeerProcess other(domain);
+  const auto reader = bridge->open_reader(topic(name, kImageType, interfaces::qos::kSensorData), inbox.callback());
+  other.ask("open_writer " + name + " " + kImageType + " best_effort volatile 5");
+  ASSERT_TRUE(other.matches(name, 1) && eventually([&] { return reader->matched_writers() == 1; }));
+  ASSERT_EQ(other.ask(write_image(name, kTooLarge, 5)), "written");
+  const auto samples = inbox.wait_for_count(1);
+  ASSERT_EQ(samples.size(), 1U);
+  EXPECT_TRUE(samples[0]->bytes() == image_sample(kTooLarge, 5)->bytes());
+}
+
+TEST_F(SharedImages, ComeOnceEach) {
+  const auto name = unique_topic("image");
+  const auto writer = write_to(peer, name);
+  const auto first = image_sample(kGraySize, 1), second = image_sample(kGraySize, 2);
+  ASSERT_TRUE(writer->write(first) && writer->write(second));
+  EXPECT_EQ(peer.next_received(name), size_and_hash(*first));
+  EXPECT_EQ(peer.next_received(name), size_and_hash(*second));
+  EXPECT_EQ(peer.ask("counters " + name), "2 0 0");
+}
+
+TEST_F(SharedImages, ThatAreTooLargeAreSentAndThatIsSaid) {
+  const auto name = unique_topic("image");
+  const auto writer = write_to(peer, name);
+  const auto large = image_sample(kTooLarge, 4);
+  // The first may be gone before the reader knows who sends it.
+  ASSERT_TRUE(eventually([&] { return writer->write(large) && !peer.ask("counters " + name).starts_with("0 "); }));
+  EXPECT_EQ(peer.next_received(name), size_and_hash(*large));
+  EXPECT_TRUE(is_warned_of(name, "too large to be shared"));
+}
+
+TEST_F(SharedImages, AreSentWhereThereIsNoMemoryForThemAndThatIsSaid) {
+  const auto name = unique_topic("image");
+  const auto generous =
+      make_dds_bridge({.domain = domain, .profiles = "", .name = "generous", .shared_image_bytes = 64'000'000});
+  Inbox<std::string> said;
+  generous->on_warning(said.callback());
+  const interfaces::Qos deep{.requested = interfaces::Reliability::kBestEffort, .depth = 100};  // more than 4 GB
+  const auto writer = generous->open_writer(topic(name, kImageType, deep));
+  peer.ask("open_reader " + name + " " + kImageType + " best_effort volatile 5");
+  ASSERT_TRUE(eventually([&] { return writer->matched_readers() == 1; }) && peer.matches(name, 1));
+  const auto sample = image_sample(kGraySize, 6);
+  ASSERT_TRUE(writer->write(sample));
+  EXPECT_EQ(peer.next_received(name), size_and_hash(*sample));
+  EXPECT_TRUE(said.wait_for([&](const std::string& text) {
+    return text.find(name) != std::string::npos && text.find("/dev/shm") != std::string::npos;
+  }));
+}
+
+// Reads the first half of a message, and the second when it may.
+std::binary_semaphore has_read_half{0}, may_read_on{0};
+std::atomic<bool> is_slow = false;
+interfaces::MessageType slowly_read_type() {
+  interfaces::MessageType type = *interfaces::find_message_type(kImageType);
+  type.deserialize = [](std::span<const std::uint8_t> bytes) {
+    const auto middle = bytes.begin() + static_cast<std::ptrdiff_t>(bytes.size() / 2);
+    interfaces::Bytes copy(bytes.begin(), middle);
+    if (is_slow.exchange(false)) {
+      has_read_half.release();
+      may_read_on.acquire();
+    }
+    copy.insert(copy.end(), middle, bytes.end());
+    return interfaces::find_message_type(kImageType)->deserialize(copy);
+  };
+  return type;
+}
+
+TEST_F(SharedImages, ThatAreOverwrittenWhileTheyAreReadAreDroppedAndCounted) {
+  constexpr std::uint32_t kEnough = 12;  // to go round in the memory for 6
+  const auto name = unique_topic("image");
+  const auto type = slowly_read_type();
+  const auto reader = read_from_peer({name, kImageType, interfaces::qos::kSensorData, &type});
+  is_slow = true;
+  ASSERT_EQ(peer.ask(write_image(name, kGraySize, 0)), "written");
+  ASSERT_TRUE(has_read_half.try_acquire_for(kLimit));
+  for (std::uint32_t seed = 1; seed <= kEnough; ++seed)
+    ASSERT_EQ(peer.ask(write_image(name, kGraySize, seed)), "written");
+  may_read_on.release();
+  ASSERT_TRUE(eventually([&] { return reader->counters().overwritten == 1; }));
+
+  ASSERT_EQ(peer.ask(write_image(name, kGraySize, kEnough + 1)), "written");
+  const auto stamp_s = [](const SamplePtr& sample) {
+    return static_cast<std::uint32_t>(Sample::as<sensor_msgs::msg::Image>(sample)->header().stamp().sec());
+  };
+  ASSERT_TRUE(inbox.wait_for([&](const SamplePtr& sample) { return stamp_s(sample) == kEnough + 1; }));
+  for (const auto& sample : inbox.items()) {
+    EXPECT_NE(stamp_s(sample), 0U);
+    EXPECT_TRUE(sample->bytes() == image_sample(kGraySize, stamp_s(sample))->bytes());
+  }
+  EXPECT_EQ(reader->counters().overwritten, 1U);
+}
+
+std::size_t files_of(const std::set<std::string>& segments) {
+  std::size_t count = 0;
+  for (const auto& segment : segments) count += fs::exists(segment) + fs::exists(segment + "_el");
+  return count;
+}
+
+TEST_F(SharedImages, OfAKilledProcessLeaveNoMemoryBehind) {
+  const auto reader = read_from_peer(topic(unique_topic("image"), kImageType, interfaces::qos::kSensorData));
+  const auto segments = shared_by(getpid());  // the reader's own, and the peer's
+  ASSERT_EQ(segments.size(), 2U);
+  EXPECT_EQ(files_of(segments), 4U);
+  peer.signal(SIGKILL);
+  EXPECT_TRUE(eventually([&] {
+    remove_shm_leftovers();
+    return files_of(segments) == 2;
+  }));
+  remove_shm_leftovers();
+  EXPECT_EQ(files_of(segments), 2U) << "the memory of a living process was taken away";
+}
+
+TEST_F(SharedImages, LeaveNoMemoryBehind) {
+  auto reader = read_from_peer(topic(unique_topic("image"), kImageType, interfaces::qos::kSensorData));
+  const auto segments = shared_by(getpid());
+  ASSERT_EQ(segments.size(), 2U);
+  reader.reset();
+  EXPECT_EQ(files_of(segments), 2U);
+}
+
+TEST_F(BetweenProcesses, ShareNoMemoryForImagesUnlessAsked) {
+  const auto name = unique_topic("image");
+  const auto reader = bridge->open_reader(topic(name, kImageType, interfaces::qos::kSensorData), inbox.callback());
+  peer.ask("open_writer " + name + " " + kImageType + " best_effort volatile 5");
+  ASSERT_TRUE(peer.matches(name, 1) && eventually([&] { return reader->matched_writers() == 1; }));
+  EXPECT_TRUE(shared_by(getpid()).empty());
+  EXPECT_TRUE(shared_by(peer.id()).empty());
+}
+
+}  // namespace
+}  // namespace panvo::runtime::test
