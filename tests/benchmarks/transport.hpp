@@ -8,14 +8,22 @@
 
 namespace panvo::bench {
 
-/// What is sent: an odometry of 720 B, reliable, or a colour panorama of 1.75 MB, best effort.
-enum class Message : std::uint8_t { kOdometry, kPanorama };
+/// What is sent: an odometry of 720 B, reliable, or an image, best effort: a gray one of 307 KB, a colour panorama of 1.75 MB.
+enum class Message : std::uint8_t { kOdometry, kGray, kPanorama };
 
-constexpr std::uint32_t kPanoramaWidth = 1080, kPanoramaHeight = 540,
-                        kPanoramaBytes = kPanoramaWidth * kPanoramaHeight * 3;
-constexpr int kOdometryDepth = 50, kPanoramaDepth = 5;  // of the topics, as panvo has them
+struct ImageFormat {
+  const char* encoding;
+  std::uint32_t width, height, channels;
+  std::uint32_t step() const { return width * channels; }
+  std::uint32_t bytes() const { return step() * height; }
+};
+constexpr ImageFormat image_format(Message message) {
+  return message == Message::kGray ? ImageFormat{"mono8", 640, 480, 1} : ImageFormat{"rgb8", 1080, 540, 3};
+}
+
+constexpr int kOdometryDepth = 50, kImageDepth = 5;  // of the topics, as panvo has them
 constexpr const char* kOdometryTopic = "rt/bench/odometry";
-constexpr const char* kPanoramaTopic = "rt/bench/panorama";
+constexpr const char* kImageTopic = "rt/bench/image";
 
 /// One process's side of a topic, by one implementation. The messages carry the time at which they were sent; `arrived` is called with it once
 /// the message is there as a struct, whole.
@@ -31,8 +39,9 @@ class Transport {
   virtual void write(std::int64_t sent_ns) = 0;
 };
 
-/// Both ends of a process in a container of panvo's: pointers within the process, else what the bridge makes of it.
-std::unique_ptr<Transport> make_panvo_transport(Message message, int domain);
+/// Both ends of a process in a container of panvo's: pointers within the process, else what the bridge makes of it. `shared_image_bytes`: up to
+/// which size processes share images; 0: they send them.
+std::unique_ptr<Transport> make_panvo_transport(Message message, int domain, std::uint32_t shared_image_bytes);
 /// One participant, generated types, shared memory and socket buffers as large as panvo's, listener threads.
 std::unique_ptr<Transport> make_fastdds_transport(Message message, int domain);
 /// The same with another vendor's DDS, which knows no shared memory as built for Debian; nullptr where it is not installed.

@@ -107,19 +107,20 @@ std::unique_ptr<Transport> make_cyclone_transport(Message message, int domain) {
     odometry->message().child_frame_id = dds_string_dup("");
     return odometry;
   }
-  auto panorama = std::make_unique<CycloneTransport<sensor_msgs_msg_Image>>(
-      sensor_msgs_msg_Image_desc, "sensor_msgs::msg::dds_::Image_", kPanoramaTopic, domain, kPanoramaDepth, true);
-  auto& image = panorama->message();
+  auto transport = std::make_unique<CycloneTransport<sensor_msgs_msg_Image>>(
+      sensor_msgs_msg_Image_desc, "sensor_msgs::msg::dds_::Image_", kImageTopic, domain, kImageDepth, true);
+  const ImageFormat format = image_format(message);
+  auto& image = transport->message();
   image.header.frame_id = dds_string_dup("");
-  image.encoding = dds_string_dup("rgb8");
-  image.width = kPanoramaWidth;
-  image.height = kPanoramaHeight;
-  image.step = kPanoramaWidth * 3;
-  image.data._buffer = static_cast<std::uint8_t*>(dds_alloc(kPanoramaBytes));
-  std::memset(image.data._buffer, 0, kPanoramaBytes);
-  image.data._length = image.data._maximum = kPanoramaBytes;
+  image.encoding = dds_string_dup(format.encoding);
+  image.width = format.width;
+  image.height = format.height;
+  image.step = format.step();
+  image.data._buffer = static_cast<std::uint8_t*>(dds_alloc(format.bytes()));
+  std::memset(image.data._buffer, 0, format.bytes());
+  image.data._length = image.data._maximum = format.bytes();
   image.data._release = true;
-  return panorama;
+  return transport;
 }
 
 }  // namespace panvo::bench

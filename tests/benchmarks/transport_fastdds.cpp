@@ -21,6 +21,7 @@
 #include "panvo/interfaces/message_type.hpp"
 #include "sensor_msgs/msg/Image.h"
 #include "transport.hpp"
+#include "transport_image.hpp"
 
 namespace panvo::bench {
 namespace {
@@ -148,14 +149,8 @@ std::unique_ptr<Transport> make_fastdds_transport(Message message, int domain) {
     return std::make_unique<FastddsTransport<nav_msgs::msg::Odometry>>(
         kOdometryTopic, domain, nav_msgs::msg::Odometry(), kOdometryDepth, false);
   }
-  sensor_msgs::msg::Image image;
-  image.encoding("rgb8");
-  image.width(kPanoramaWidth);
-  image.height(kPanoramaHeight);
-  image.step(kPanoramaWidth * 3);
-  image.data().resize(kPanoramaBytes);
-  return std::make_unique<FastddsTransport<sensor_msgs::msg::Image>>(kPanoramaTopic, domain, std::move(image),
-                                                                     kPanoramaDepth, true);
+  return std::make_unique<FastddsTransport<sensor_msgs::msg::Image>>(
+      kImageTopic, domain, make_image(image_format(message)), kImageDepth, true);
 }
 
 }  // namespace panvo::bench

@@ -7,6 +7,7 @@
 
 #include "panvo/runtime/container.hpp"
 #include "transport.hpp"
+#include "transport_image.hpp"
 
 namespace panvo::bench {
 namespace {
@@ -15,7 +16,7 @@ using namespace panvo::runtime;
 
 constexpr interfaces::Topic<nav_msgs::msg::Odometry> kOdometry{"/bench/odometry",
                                                                {.depth = static_cast<std::size_t>(kOdometryDepth)}};
-constexpr interfaces::Topic<sensor_msgs::msg::Image> kPanorama{"/bench/panorama", interfaces::qos::kSensorData};
+constexpr interfaces::Topic<sensor_msgs::msg::Image> kImage{"/bench/image", interfaces::qos::kSensorData};
 
 std::int64_t to_ns(const builtin_interfaces::msg::Time& time) {
   return std::int64_t{time.sec()} * 1'000'000'000 + time.nanosec();
@@ -24,10 +25,9 @@ std::int64_t to_ns(const builtin_interfaces::msg::Time& time) {
 template <class Type>
 class PanvoTransport final : public Transport {
  public:
-  PanvoTransport(const interfaces::Topic<Type>& topic, int domain, Type message)
+  PanvoTransport(const interfaces::Topic<Type>& topic, const DdsSettings& dds, Type message)
       : topic_(topic),
-        container_({.dds = DdsSettings{.domain = domain, .profiles = "", .name = "bench"},
-                    .name = "bench_" + std::to_string(getpid())}),
+        container_({.dds = dds, .name = "bench_" + std::to_string(getpid())}),
         message_(std::make_shared<Type>(std::move(message))) {
     container_.start();
   }
@@ -82,16 +82,11 @@ class PanvoTransport final : public Transport {
 
 }  // namespace
 
-std::unique_ptr<Transport> make_panvo_transport(Message message, int domain) {
+std::unique_ptr<Transport> make_panvo_transport(Message message, int domain, std::uint32_t shared_image_bytes) {
+  const DdsSettings dds{.domain = domain, .profiles = "", .name = "bench", .shared_image_bytes = shared_image_bytes};
   if (message == Message::kOdometry)
-    return std::make_unique<PanvoTransport<nav_msgs::msg::Odometry>>(kOdometry, domain, nav_msgs::msg::Odometry());
-  sensor_msgs::msg::Image image;
-  image.encoding("rgb8");
-  image.width(kPanoramaWidth);
-  image.height(kPanoramaHeight);
-  image.step(kPanoramaWidth * 3);
-  image.data().resize(kPanoramaBytes);
-  return std::make_unique<PanvoTransport<sensor_msgs::msg::Image>>(kPanorama, domain, std::move(image));
+    return std::make_unique<PanvoTransport<nav_msgs::msg::Odometry>>(kOdometry, dds, nav_msgs::msg::Odometry());
+  return std::make_unique<PanvoTransport<sensor_msgs::msg::Image>>(kImage, dds, make_image(image_format(message)));
 }
 
 }  // namespace panvo::bench

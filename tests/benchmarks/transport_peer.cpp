@@ -28,7 +28,12 @@ struct Rhythm {
 };
 
 Rhythm rhythm(Message message) {
-  return message == Message::kOdometry ? Rhythm{400, milliseconds(10)} : Rhythm{150, milliseconds(40)};
+  return message == Message::kPanorama ? Rhythm{150, milliseconds(40)} : Rhythm{400, milliseconds(10)};
+}
+
+Message message_called(const std::string& name) {
+  if (name == "odometry") return Message::kOdometry;
+  return name == "gray" ? Message::kGray : Message::kPanorama;
 }
 
 /// A clock that all processes of a machine share.
@@ -48,7 +53,8 @@ double cpu_us() {
 }
 
 std::unique_ptr<Transport> make_transport(const std::string& stack, Message message, int domain) {
-  if (stack == "panvo") return make_panvo_transport(message, domain);
+  if (stack == "panvo") return make_panvo_transport(message, domain, 0);
+  if (stack == "panvo_shared") return make_panvo_transport(message, domain, 2'000'000);
   if (stack == "fastdds") return make_fastdds_transport(message, domain);
   return make_cyclone_transport(message, domain);
 }
@@ -136,7 +142,7 @@ int run_peer(const std::vector<std::string>& words) {
   const sigset_t end = end_signal();
   pthread_sigmask(SIG_BLOCK, &end, nullptr);  // before any thread is there
   const std::string &role = words.at(0), &stack = words.at(1);
-  const Message message = words.at(2) == "odometry" ? Message::kOdometry : Message::kPanorama;
+  const Message message = message_called(words.at(2));
   const auto transport = make_transport(stack, message, std::stoi(words.at(3)));
   if (!transport) return 2;
   Log log;
