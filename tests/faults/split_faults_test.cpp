@@ -49,11 +49,12 @@ class SplitFaults : public testing::Test {
   }
 
   Words cameras() const {
-    return command({SYSTEMS "/stereo_split.yaml", "--container", "cameras", "--dataset", *data_ / "walk", "--rate", "1",
-                    "--await", "/stereo/left/image_rect", "--await", "/stereo/right/image_rect"});
+    return command({SYSTEMS "/stereo_split.yaml", shared_images_, "--container", "cameras", "--dataset",
+                    *data_ / "walk", "--rate", "1", "--await", "/stereo/left/image_rect", "--await",
+                    "/stereo/right/image_rect"});
   }
   Words odometry(const std::string& out) const {
-    return command({SYSTEMS "/stereo_split.yaml", "--container", "odometry", "--out", folder_ / out});
+    return command({SYSTEMS "/stereo_split.yaml", shared_images_, "--container", "odometry", "--out", folder_ / out});
   }
 
   std::size_t poses_in(const std::string& out) const {
@@ -67,9 +68,18 @@ class SplitFaults : public testing::Test {
   inline static TemporaryFolder* data_ = nullptr;
   TemporaryFolder folder_;
   Words before_;  // the words before a command, for its environment
+  std::string shared_images_ = "shared_images_mb:=0";
 };
 
-TEST_F(SplitFaults, AKilledReaderOfImagesDoesNotDisturbTheCamerasAndItsSuccessorGetsThem) {
+/// Images are sent, or lie in memory that both processes share.
+class SplitFaultsOfImages : public SplitFaults, public testing::WithParamInterface<const char*> {
+ protected:
+  SplitFaultsOfImages() { shared_images_ = GetParam(); }
+};
+INSTANTIATE_TEST_SUITE_P(Images, SplitFaultsOfImages, testing::Values("shared_images_mb:=0", "shared_images_mb:=2"),
+                         [](const auto& which) { return which.index == 0 ? "sent" : "shared"; });
+
+TEST_P(SplitFaultsOfImages, AKilledReaderOfImagesDoesNotDisturbTheCamerasAndItsSuccessorGetsThem) {
   Process first(odometry("first"));
   Process source(cameras());
   ASSERT_TRUE(gets_poses("first", 10)) << first.output() << source.output();
@@ -81,7 +91,7 @@ TEST_F(SplitFaults, AKilledReaderOfImagesDoesNotDisturbTheCamerasAndItsSuccessor
   EXPECT_THAT(source.output(), HasSubstr(std::to_string(kFrames) + "/" + std::to_string(kFrames) + " frames"));
 }
 
-TEST_F(SplitFaults, KilledCamerasLeaveTheOdometryRunningAndTheirSuccessorsAreHeard) {
+TEST_P(SplitFaultsOfImages, KilledCamerasLeaveTheOdometryRunningAndTheirSuccessorsAreHeard) {
   Process computing(odometry("out"));
   Process first(cameras());
   ASSERT_TRUE(gets_poses("out", 10)) << computing.output() << first.output();
