@@ -100,10 +100,12 @@ class Bundle {
     for (std::size_t i = 0; i < boards_.size(); ++i) {
       if (rig_.reference_from_board[i]) options.linear_solver_ordering->AddElementToGroup(boards_[i].data(), 0);
     }
+    // Each in a group of its own, for within one Ceres goes by where they lie in memory, and no two runs gave the same last digit.
+    int group = 0;
     for (std::size_t i = 0; i < lenses_.size(); ++i) {
       if (!problem_.HasParameterBlock(lenses_[i].data())) continue;
-      options.linear_solver_ordering->AddElementToGroup(lenses_[i].data(), 1);
-      options.linear_solver_ordering->AddElementToGroup(poses_[i].data(), 1);
+      options.linear_solver_ordering->AddElementToGroup(lenses_[i].data(), ++group);
+      options.linear_solver_ordering->AddElementToGroup(poses_[i].data(), ++group);
     }
     options.max_num_iterations = kMostSteps;
     options.max_trust_region_radius = kMostTrust;
