@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # shellcheck shell=bash
-# summary: calibrate a stereo pair, a rig, or where cameras are, from images of a board; check and convert calibrations
+# summary: calibrate a stereo pair, a rig, or where cameras are, from images or live topics with a board; check and convert calibrations
 
 source "$PANVO_SCRIPTS/lib/build.sh"
 
@@ -9,6 +9,7 @@ verb_usage() {
 usage: panvo calibrate board --board BOARD --out board.svg            print one
        panvo calibrate images BAG --out IMAGES                        the images of a bag, one pair a second
        panvo calibrate stereo IMAGES --board BOARD --out RIG          both lenses of a pair, and its rectification
+       panvo calibrate stereo --topics LEFT RIGHT --board BOARD --out RIG   the same from cameras that run; rig, extrinsics too
        panvo calibrate rig IMAGES --board BOARD --out RIG             lenses and poses of the heads of a rig
        panvo calibrate extrinsics IMAGES --calibration RIG --board BOARD --out RIG   only where calibrated cameras are
        panvo calibrate check IMAGES --calibration RIG --board BOARD   whether a pair's calibration still holds

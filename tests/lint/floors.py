@@ -54,6 +54,8 @@ TOOL = floor("tool", "vision landmarks", "eigen, opencv, yaml, json, command lin
 RIG_FILE = floor("rig file", "vision", "eigen, opencv, yaml", False)
 # images of a bag, beside an algorithm that takes files
 BAG_IMAGES = floor("images of a bag", "recorder interfaces conversions", "messages, opencv, command line", False)
+# and of live topics
+LIVE_IMAGES = floor("images of topics", "runtime interfaces conversions", "messages, opencv")
 RECORDER = floor("recorder", "runtime interfaces", "messages, fastdds, yaml, sqlite, log, json, command line")
 DRIVER = floor("driver", "runtime interfaces conversions vision", "messages, eigen, opencv, yaml, xml, json, log")
 CAMERA_DRIVER = floor("camera driver", "runtime interfaces conversions vision camera_stream", "messages, eigen, opencv, aravis, yaml, json, log")
@@ -72,6 +74,8 @@ FLOORS = [
     ("components/panorama_stitcher/src/rig", RIG_FILE),
     ("components/calibration/src/files", RIG_FILE),
     ("components/calibration/src/bag", BAG_IMAGES),
+    ("components/calibration/src/messages", BAG_IMAGES),
+    ("components/calibration/src/live", LIVE_IMAGES),
     ("components/recorder", RECORDER),
     ("components/evaluation", EVALUATION),
     ("drivers/simulation", SIMULATION),

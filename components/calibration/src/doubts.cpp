@@ -9,7 +9,6 @@ namespace panvo::calibration {
 namespace {
 
 constexpr std::size_t kManyViews = 15;
-constexpr double kWellCovered = 0.75;  // of the image's cells; the rest is the model's guess
 constexpr double kSharp_px = 0.8;      // rms of the distance, beyond which the lens model or the images are poor
 constexpr double kKnownFocal = 0.002;  // one sigma over the focal length
 constexpr double kRowsAgree_px = 0.3;  // what matching along rows bears without loss
@@ -35,7 +34,7 @@ void doubt_camera(const Report& report, std::size_t camera, std::vector<std::str
   if (views < kManyViews)
     found.push_back(fmt::format(
         "{}: only {} images are used; 20 or more, near and far, tilted to all sides, are better", name, views));
-  if (const double share = coverage(used, camera).share; share < kWellCovered)
+  if (const double share = coverage(used, camera).share; share < Coverage::kGood)
     found.push_back(
         fmt::format("{}: corners cover {:.0f} % of the image: hold the board nearer to the borders, or use a ChArUco "
                     "board, which may "

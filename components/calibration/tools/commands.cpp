@@ -75,9 +75,10 @@ void write_rig(const std::vector<NamedCamera>& cameras, std::size_t reference, c
 
 void calibrate_stereo(const Arguments& arguments) {
   Report report;
-  report.title = "Stereo calibration of " + fs::weakly_canonical(arguments.images).filename().string();
   report.board = parse_board(arguments.board);
-  report.seen = detect(find_stereo_images(arguments.images), report.board);
+  const auto folder = images_of(arguments, report.board, {}, {"left", "right"});
+  report.title = "Stereo calibration of " + fs::weakly_canonical(folder).filename().string();
+  report.seen = detect(find_stereo_images(folder), report.board);
   auto options = options_of(arguments, 2);
   if (!arguments.calibration.empty()) begin_with(read_calibrations(arguments.calibration, report.seen), options);
   report.calibration = calibrate(report.seen, options);
@@ -92,9 +93,10 @@ void calibrate_stereo(const Arguments& arguments) {
 
 void calibrate_rig(const Arguments& arguments) {
   Report report;
-  report.title = "Calibration of the rig " + fs::weakly_canonical(arguments.images).filename().string();
   report.board = unmistakable_board(arguments);
-  const auto images = find_rig_images(arguments.images, arguments.cameras);
+  const auto folder = images_of(arguments, report.board, {});
+  report.title = "Calibration of the rig " + fs::weakly_canonical(folder).filename().string();
+  const auto images = find_rig_images(folder, arguments.cameras);
   report.reference = reference_of(arguments, images.cameras);
   report.seen = detect(images, report.board);
   auto options = options_of(arguments, images.cameras.size());
@@ -113,9 +115,10 @@ void calibrate_rig(const Arguments& arguments) {
 
 void calibrate_extrinsics(const Arguments& arguments) {
   Report report;
-  report.title = "Poses of the cameras of " + fs::weakly_canonical(arguments.images).filename().string();
   report.board = unmistakable_board(arguments);
-  const auto images = find_rig_images(arguments.images, arguments.cameras);
+  const auto folder = images_of(arguments, report.board, ViewGoals::of_poses());
+  report.title = "Poses of the cameras of " + fs::weakly_canonical(folder).filename().string();
+  const auto images = find_rig_images(folder, arguments.cameras);
   report.reference = reference_of(arguments, images.cameras);
   report.seen = detect(images, report.board);
   auto options = options_of(arguments, images.cameras.size());

@@ -6,11 +6,14 @@
 #include <string>
 #include <vector>
 
+#include "live/live_images.hpp"
+
 namespace panvo::calibration {
 
 /// What the command line says; each command uses its part. All throw CalibrationError.
 struct Arguments {
-  std::filesystem::path images;  ///< or the file to convert
+  std::filesystem::path images;  ///< or the file to convert; empty: taken from `live`
+  LiveImages live;
   std::string board;
   std::string model = "plumb_bob";
   std::filesystem::path out;

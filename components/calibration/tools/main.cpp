@@ -25,6 +25,42 @@ void add_images(CLI::App& command, Arguments& arguments, const std::string& what
   add_board(command, arguments);
 }
 
+/// A folder of images, or live topics to take them from.
+void add_sources(CLI::App& command, Arguments& arguments, const std::string& what, const std::string& topics) {
+  auto* images = command.add_option("images", arguments.images, what);
+  add_board(command, arguments);
+  auto& live = arguments.live;
+  auto* option = command
+                     .add_option("--topics", live.topics,
+                                 topics +
+                                     ": take the images from live topics instead, until the board was seen enough; "
+                                     "they stay in OUT/images")
+                     ->delimiter(',')
+                     ->excludes(images);
+  command.add_option("--views", live.most_views, "of live topics: so many views at most")
+      ->check(CLI::Range(1, 10000))
+      ->needs(option)
+      ->capture_default_str();
+  command.add_option("--for", live.limit_s, "of live topics: seconds at most")
+      ->check(CLI::Range(1.0, 86400.0))
+      ->needs(option)
+      ->capture_default_str();
+  command.add_option("--timeout", live.timeout_s, "of live topics: seconds to wait for publishers, and for images")
+      ->check(CLI::Range(0.1, 3600.0))
+      ->needs(option)
+      ->capture_default_str();
+  command
+      .add_option("--tolerance-ms", live.tolerance_ms,
+                  "of live topics: largest difference of stamps of images taken at once")
+      ->check(CLI::Range(0.0, 1e6))
+      ->needs(option)
+      ->capture_default_str();
+  command.final_callback([&arguments] {
+    if (arguments.images.empty() && arguments.live.topics.empty())
+      throw CLI::RequiredError("images (a folder) or --topics (live)");
+  });
+}
+
 void add_model(CLI::App& command, Arguments& arguments) {
   command
       .add_option("--model", arguments.model,
@@ -54,8 +90,9 @@ void describe(CLI::App& app, Arguments& arguments) {
   app.require_subcommand(1);
   auto* stereo =
       app.add_subcommand("stereo", "both lenses of a pair and its rectification: left.yaml, right.yaml, report.html");
-  add_images(*stereo, arguments,
-             "folder of images: left*.png and right*.png, or folders left/ and right/ (or cam0/ and cam1/)");
+  add_sources(*stereo, arguments,
+              "folder of images: left*.png and right*.png, or folders left/ and right/ (or cam0/ and cam1/)",
+              "LEFT RIGHT, or left:=LEFT right:=RIGHT");
   add_model(*stereo, arguments);
   add_out(*stereo, arguments, "folder for the result");
   stereo->add_option("--start", arguments.calibration, "folder of an earlier left.yaml and right.yaml to begin with");
@@ -63,16 +100,18 @@ void describe(CLI::App& app, Arguments& arguments) {
   auto* rig = app.add_subcommand(
       "rig",
       "lenses and poses of a rig whose neighbours see the board together: NAME.yaml, extrinsics.yaml, panorama.yaml");
-  add_images(*rig, arguments,
-             "folder with a folder of images for each camera; files of the same name were taken at once");
+  add_sources(*rig, arguments,
+              "folder with a folder of images for each camera; files of the same name were taken at once",
+              "NAME:=TOPIC of each camera, or TOPIC where NAME stands before /image_raw");
   add_model(*rig, arguments);
   add_out(*rig, arguments, "folder for the result");
   add_reference(*rig, arguments);
 
   auto* extrinsics =
       app.add_subcommand("extrinsics", "poses of cameras whose lenses are calibrated already: extrinsics.yaml");
-  add_images(*extrinsics, arguments,
-             "folder with a folder of images for each camera; files of the same name were taken at once");
+  add_sources(*extrinsics, arguments,
+              "folder with a folder of images for each camera; files of the same name were taken at once",
+              "NAME:=TOPIC of each camera, or TOPIC where NAME stands before /image_raw");
   extrinsics
       ->add_option("--calibration", arguments.calibration, "folder with the camera_info file NAME.yaml of each camera")
       ->required();

@@ -20,6 +20,17 @@ vision::LensModel model_of(const Arguments& arguments) {
   throw CalibrationError("--model " + arguments.model + ": there is no such lens model");
 }
 
+fs::path images_of(const Arguments& arguments, const Board& board, const ViewGoals& goals,
+                   const std::vector<std::string>& names) {
+  if (!arguments.images.empty()) return arguments.images;
+  auto live = arguments.live;
+  live.out = arguments.out / "images";
+  live.names = names;
+  live.goals = goals;
+  gather_images(live, board);
+  return live.out;
+}
+
 Observations detect(const ImageSets& images, const Board& board) {
   const bool is_terminal = isatty(STDERR_FILENO) == 1;
   auto observations = detect_boards(images, board, [&](std::size_t done, std::size_t of) {

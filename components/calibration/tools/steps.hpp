@@ -17,6 +17,10 @@ namespace panvo::calibration {
 /// The lens model of --model. Mei's and the others' names are ROS's.
 vision::LensModel model_of(const Arguments& arguments);
 
+/// The folder of images: the one that was named, or OUT/images with pictures taken now from live topics.
+std::filesystem::path images_of(const Arguments& arguments, const Board& board, const ViewGoals& goals,
+                                const std::vector<std::string>& names = {});
+
 /// Looks for the board, saying on stderr how far it is.
 Observations detect(const ImageSets& images, const Board& board);
 

@@ -7,24 +7,15 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "frame_choice.hpp"
+#include "messages/grey_picture.hpp"
 #include "panvo/calibration/calibration_error.hpp"
-#include "panvo/conversions/image.hpp"
-#include "panvo/conversions/time.hpp"
 #include "panvo/interfaces/message_type.hpp"
 #include "panvo/recorder/bag_reader.hpp"
-#include "sensor_msgs/msg/CompressedImage.h"
-#include "sensor_msgs/msg/Image.h"
 
 namespace panvo::calibration {
 namespace {
 
-using sensor_msgs::msg::CompressedImage;
-using sensor_msgs::msg::Image;
-
-bool holds_images(const recorder::BagTopic& topic) {
-  const auto type = recorder::full_type_name(topic.type);
-  return type == interfaces::message_type<Image>().name || type == interfaces::message_type<CompressedImage>().name;
-}
+bool holds_images(const recorder::BagTopic& topic) { return is_image_type(recorder::full_type_name(topic.type)); }
 
 const interfaces::MessageType& type_of(const recorder::BagTopic& topic) {
   return *interfaces::find_message_type(recorder::full_type_name(topic.type));
@@ -36,13 +27,6 @@ std::string image_topics(const recorder::BagReader& bag) {
     if (holds_images(topic)) names += (names.empty() ? "" : ", ") + topic.name;
   }
   return names.empty() ? "none" : names;
-}
-
-/// "/stereo/left/image_raw" and "/stereo/left/image_raw/compressed" are of "left".
-std::string camera_of(const std::string& topic) {
-  const auto last = topic.find("/image_raw");
-  if (last == std::string::npos || last == 0) return "";
-  return topic.substr(topic.rfind('/', last - 1) + 1, last - topic.rfind('/', last - 1) - 1);
 }
 
 void find_cameras(const recorder::BagReader& bag, BagImages& settings) {
@@ -81,20 +65,6 @@ std::vector<std::int64_t> stamps_of(recorder::BagReader& bag, const std::string&
   return stamps;
 }
 
-cv::Mat grey_of(const recorder::BagTopic& topic, const std::shared_ptr<void>& message) {
-  if (&type_of(topic) == &interfaces::message_type<Image>()) {
-    const auto grey = conversions::grey(*std::static_pointer_cast<Image>(message));
-    if (!grey) throw CalibrationError(fmt::format("{}: an image {}", topic.name, grey.reason()));
-    return grey->clone();
-  }
-  const auto& compressed = *std::static_pointer_cast<CompressedImage>(message);
-  cv::Mat grey = compressed.data().empty() ? cv::Mat() : cv::imdecode(compressed.data(), cv::IMREAD_GRAYSCALE);
-  if (grey.empty())
-    throw CalibrationError(
-        fmt::format("{}: an image of format '{}' cannot be decompressed", topic.name, compressed.format()));
-  return grey;
-}
-
 }  // namespace
 
 std::vector<std::size_t> write_images(BagImages& settings) {
@@ -117,7 +87,7 @@ std::vector<std::size_t> write_images(BagImages& settings) {
     for (std::size_t i = 0; i < settings.cameras.size(); ++i) {
       if (settings.cameras[i].topic != topic.name) continue;
       const auto file = settings.out / settings.cameras[i].name / fmt::format("{}.png", *frame);
-      if (!cv::imwrite(file.string(), grey_of(topic, content)))
+      if (!cv::imwrite(file.string(), grey_picture(topic.name, type, content.get())))
         throw CalibrationError(file.string() + ": cannot be written; choose a writable folder with --out");
       ++written[i];
     }

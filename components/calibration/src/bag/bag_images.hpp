@@ -6,13 +6,9 @@
 #include <string>
 #include <vector>
 
-namespace panvo::calibration {
+#include "messages/camera_topic.hpp"
 
-/// A topic of images and the folder they go to.
-struct CameraTopic {
-  std::string name;   ///< of the camera
-  std::string topic;  ///< "/stereo/left/image_raw"
-};
+namespace panvo::calibration {
 
 struct BagImages {
   std::filesystem::path bag;

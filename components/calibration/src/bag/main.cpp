@@ -14,13 +14,6 @@ using namespace panvo::calibration;
 
 enum ExitStatus { kSuccess = 0, kFailed = 1, kUsage = 2 };
 
-CameraTopic parse_topic(const std::string& text) {
-  const auto at = text.find(":=");
-  if (at == 0 || at == std::string::npos || at + 2 == text.size())
-    throw CalibrationError("--topics " + text + ": is no NAME:=TOPIC; write for example left:=/stereo/left/image_raw");
-  return {text.substr(0, at), text.substr(at + 2)};
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -41,7 +34,7 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   try {
     app.parse(argc, argv);
-    for (const auto& topic : topics) settings.cameras.push_back(parse_topic(topic));
+    for (const auto& topic : topics) settings.cameras.push_back(parse_named_topic(topic));
     settings.every_ns = std::llround(1e9 * every_s);
     settings.tolerance_ns = std::llround(1e6 * tolerance_ms);
     const auto written = write_images(settings);

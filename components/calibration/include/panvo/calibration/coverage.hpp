@@ -11,6 +11,7 @@ namespace panvo::calibration {
 struct Coverage {
   static constexpr int kColumns = 8;
   static constexpr int kRows = 6;
+  static constexpr double kGood = 0.75;  ///< share that does; what the rest of the image shows is the model's guess
 
   std::array<int, kColumns * kRows> corners{};  ///< row by row
   double share = 0.0;                           ///< of cells with any

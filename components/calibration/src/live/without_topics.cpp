@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+// Of a program that is built without the runtime.
+#include "live_images.hpp"
+#include "panvo/calibration/calibration_error.hpp"
+
+namespace panvo::calibration {
+
+void gather_images(const LiveImages&, const Board&) {
+  throw CalibrationError(
+      "--topics: this program was built without panvo_runtime; build that too, or calibrate from IMAGES");
+}
+
+}  // namespace panvo::calibration
