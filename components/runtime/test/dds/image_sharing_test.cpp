@@ -9,6 +9,7 @@
 #include <set>
 
 #include "bridge_fixture.hpp"
+#include "dds/image_sharing.hpp"
 #include "panvo/runtime/shm_leftovers.hpp"
 #include "sensor_msgs/msg/Image.h"
 
@@ -180,6 +181,17 @@ TEST_F(SharedImages, ThatAreOverwrittenWhileTheyAreReadAreDroppedAndCounted) {
     EXPECT_TRUE(sample->bytes() == image_sample(kGraySize, stamp_s(sample))->bytes());
   }
   EXPECT_EQ(reader->counters().overwritten, 1U);
+}
+
+TEST(SharingNeighbourhood, IsTheSameInOneUsersProcessesAndNotInAnothers) {
+  const auto own = dds::sharing_neighbourhood();
+  EXPECT_EQ(dds::sharing_neighbourhood(), own);
+  constexpr uid_t kNobody = 65534;
+  if (geteuid() != 0) GTEST_SKIP() << "only root can be another user";
+  ASSERT_EQ(seteuid(kNobody), 0);
+  const auto others = dds::sharing_neighbourhood();
+  ASSERT_EQ(seteuid(0), 0);
+  EXPECT_NE(others, own);
 }
 
 std::size_t files_of(const std::set<std::string>& segments) {
