@@ -30,7 +30,7 @@ class SharingWriter final : public BridgeWriter {
   const std::shared_ptr<Notifier> notifier_;
   const std::uint32_t max_size_;
   const std::unique_ptr<Writer> shared_;
-  mutable std::mutex mutex_;
+  std::mutex mutex_;              // guards the making of sent_
   std::unique_ptr<Writer> sent_;  // nullptr: nothing has been too large
 };
 
