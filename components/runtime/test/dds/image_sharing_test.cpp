@@ -183,6 +183,27 @@ TEST_F(SharedImages, ThatAreOverwrittenWhileTheyAreReadAreDroppedAndCounted) {
   EXPECT_EQ(reader->counters().overwritten, 1U);
 }
 
+TEST_F(SharedImages, DoNotWaitForAReaderThatStandsStillAndComeWholeAfterwards) {
+  const auto name = unique_topic("image");
+  const auto writer = write_to(peer, name);
+  std::set<std::string> written;
+  const auto write = [&](std::uint32_t seed) {
+    const auto sample = image_sample(kGraySize, seed);
+    EXPECT_TRUE(writer->write(sample));
+    written.insert(size_and_hash(*sample));
+    return size_and_hash(*sample);
+  };
+  peer.signal(SIGSTOP);
+  peer.wait_until_stopped();
+  for (std::uint32_t seed = 0; seed < 20; ++seed) write(seed);
+  peer.signal(SIGCONT);
+  const auto last = write(20);
+  for (std::string received; received != last;) {
+    received = peer.next_received(name);
+    EXPECT_TRUE(written.contains(received)) << received;
+  }
+}
+
 TEST(SharingNeighbourhood, IsTheSameInOneUsersProcessesAndNotInAnothers) {
   const auto own = dds::sharing_neighbourhood();
   EXPECT_EQ(dds::sharing_neighbourhood(), own);
