@@ -7,6 +7,10 @@
 namespace panvo::recorder {
 namespace {
 
+constexpr int kStepsPerCall = 10'000;        // of SQLite's machine, between calls of the progress handler
+constexpr std::uint64_t kStepsPerByte = 10;  // a row has ten bytes at least, and sorting it takes fifty steps
+constexpr std::uint64_t kFewestCalls = 100;
+
 /// Why the operating system refused. SQLite forgets it where a commit fails; errno then still has it, see
 /// forget_errors().
 int system_error_of(sqlite3* database) {
@@ -19,6 +23,9 @@ void forget_errors() { errno = 0; }
 std::string describe(sqlite3* database, int result) {
   const int error = system_error_of(database);
   const int primary = result & 0xff;
+  if (primary == SQLITE_INTERRUPT) {
+    return "takes longer to read than a file of its size can";
+  }
   if (error != 0 && (primary == SQLITE_IOERR || primary == SQLITE_FULL || primary == SQLITE_CANTOPEN)) {
     return std::strerror(error);
   }
@@ -72,6 +79,16 @@ Database::Database(const std::filesystem::path& file, Mode mode, const char* vfs
   sqlite3_extended_result_codes(database, 1);
 }
 
+void Database::distrust(std::uint64_t bytes) {
+  patience_ = std::make_unique<Patience>();
+  patience_->most = kFewestCalls + bytes / kStepsPerCall * kStepsPerByte;
+  const auto is_over = [](void* known) {
+    const auto& patience = *static_cast<Patience*>(known);
+    return patience.spent && ++*patience.spent > patience.most ? 1 : 0;
+  };
+  sqlite3_progress_handler(handle_.get(), kStepsPerCall, is_over, patience_.get());
+}
+
 void Database::execute(const std::string& sql) {
   forget_errors();
   const int result = sqlite3_exec(handle_.get(), sql.c_str(), nullptr, nullptr, nullptr);
@@ -80,7 +97,8 @@ void Database::execute(const std::string& sql) {
   }
 }
 
-Statement::Statement(const Database& database, std::string_view sql) : database_(database.handle()) {
+Statement::Statement(const Database& database, std::string_view sql)
+    : database_(database.handle()), patience_(database.patience()) {
   sqlite3_stmt* statement = nullptr;
   check(sqlite3_prepare_v2(database_, sql.data(), static_cast<int>(sql.size()), &statement, nullptr));
   handle_.reset(statement);
@@ -106,14 +124,23 @@ Statement& Statement::bind(int parameter, std::span<const std::uint8_t> value) {
 
 bool Statement::step() {
   forget_errors();
+  if (patience_) {
+    patience_->spent = &spent_;
+  }
   const int result = sqlite3_step(handle_.get());
+  if (patience_) {
+    patience_->spent = nullptr;
+  }
   if (result != SQLITE_ROW && result != SQLITE_DONE) {
     throw DatabaseError(database_, result);
   }
   return result == SQLITE_ROW;
 }
 
-void Statement::reset() noexcept { sqlite3_reset(handle_.get()); }
+void Statement::reset() noexcept {
+  sqlite3_reset(handle_.get());
+  spent_ = 0;
+}
 
 void Statement::run() {
   try {

@@ -41,6 +41,10 @@ class Database {
   /// `vfs`: SQLite's layer below, nullptr for the system's.
   Database(const std::filesystem::path& file, Mode mode, const char* vfs = nullptr);
 
+  /// Of a file from who knows where: no statement may run longer than `bytes` of file can give reason for. A tree whose branches grow
+  /// together again would otherwise be walked for years.
+  void distrust(std::uint64_t bytes);
+
   /// Runs statements that return nothing of interest.
   void execute(const std::string& sql);
 
@@ -48,10 +52,18 @@ class Database {
   bool in_transaction() const noexcept { return sqlite3_get_autocommit(handle_.get()) == 0; }
   sqlite3* handle() const noexcept { return handle_.get(); }
 
+  /// How long a statement may run, in calls of SQLite's progress handler.
+  struct Patience {
+    std::uint64_t most = 0;
+    std::uint64_t* spent = nullptr;  ///< by the statement that runs now
+  };
+  Patience* patience() const noexcept { return patience_.get(); }  ///< nullptr: for ever
+
  private:
   struct Close {
     void operator()(sqlite3* database) const noexcept { sqlite3_close_v2(database); }
   };
+  std::unique_ptr<Patience> patience_;  // before the handle, which knows of it
   std::unique_ptr<sqlite3, Close> handle_;
 };
 
@@ -82,6 +94,8 @@ class Statement {
     void operator()(sqlite3_stmt* statement) const noexcept { sqlite3_finalize(statement); }
   };
   sqlite3* database_;
+  Database::Patience* patience_;
+  std::uint64_t spent_ = 0;  // since the last reset()
   std::unique_ptr<sqlite3_stmt, Finalize> handle_;
 };
 

@@ -32,22 +32,24 @@ std::uint32_t big_endian(const Header& header, std::size_t at, std::size_t bytes
   return value;
 }
 
+/// Of a file, or one beside it that is named after it; 0: there is none.
+std::uint64_t size_of(fs::path file, const char* suffix) {
+  file += suffix;
+  std::error_code error;
+  const auto size = fs::file_size(file, error);
+  return error ? 0 : size;
+}
+
 /// Opens and reads a little, as SQLite opens nothing before it has to.
 Database open_and_look(const fs::path& file, Database::Mode mode) {
   const bool is_cut = mode != Database::Mode::kReadWrite && expected_bytes_if_cut(file) > 0;
   Database database(file, mode, is_cut ? whole_pages_vfs() : nullptr);
+  database.distrust(size_of(file, "") + size_of(file, "-wal"));
   // Without this a file that is shorter than its header says cannot be read at all. Nothing is written, the mode sees
   // to that.
   database.execute("PRAGMA writable_schema=ON; PRAGMA trusted_schema=OFF; PRAGMA cell_size_check=ON;");
   Statement(database, "SELECT count(*) FROM sqlite_master").step();
   return database;
-}
-
-bool not_empty(fs::path file, const char* suffix) {
-  file += suffix;
-  std::error_code error;
-  const auto size = fs::file_size(file, error);
-  return !error && size > 0;
 }
 
 bool is_damage(const DatabaseError& error) {
@@ -80,7 +82,7 @@ Database open_database(const fs::path& file, std::vector<std::string>& warnings)
     }
     // What is left: an unfinished commit must be rolled back, or a write-ahead log read, and either needs to write.
   }
-  const bool unfinished = not_empty(file, "-journal") || not_empty(file, "-wal");
+  const bool unfinished = size_of(file, "-journal") > 0 || size_of(file, "-wal") > 0;
   try {
     open_and_look(file, Database::Mode::kReadWrite);
     auto database = open_and_look(file, Database::Mode::kRead);

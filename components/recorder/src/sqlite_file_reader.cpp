@@ -10,9 +10,14 @@
 namespace panvo::recorder {
 namespace {
 
+/// None of what is no table: a view may have rows without end, and a virtual table may be anything. Columns that are computed, to whatever
+/// size, are not among them either.
 std::set<std::string> columns_of(const Database& database, std::string_view table) {
   std::set<std::string> columns;
-  Statement statement(database, "SELECT name FROM pragma_table_info(?)");
+  Statement statement(
+      database,
+      "SELECT name FROM pragma_table_info(?1) WHERE EXISTS "
+      "(SELECT 1 FROM sqlite_master WHERE type = 'table' AND rootpage > 0 AND lower(name) = lower(?1))");
   statement.bind(1, table);
   while (statement.step()) {
     columns.insert(statement.text(0));
@@ -105,17 +110,18 @@ void SqliteFileReader::read_definitions() {
 }
 
 void SqliteFileReader::read_extent() {
-  Statement extent(database_, "SELECT count(*) FROM messages");
+  // Not count(*), which SQLite does in one go that cannot be ended.
+  Statement extent(database_, "SELECT count(timestamp) FROM messages WHERE timestamp >= 0");
   extent.step();
   content_.message_count = static_cast<std::uint64_t>(extent.integer(0));
   if (content_.message_count == 0) {
     return;
   }
   // One at a time, as SQLite takes one of them from the index, but not both.
-  Statement first(database_, "SELECT min(timestamp) FROM messages");
+  Statement first(database_, "SELECT min(timestamp) FROM messages WHERE timestamp >= 0");
   first.step();
   content_.first_ns = first.integer(0);
-  Statement last(database_, "SELECT max(timestamp) FROM messages");
+  Statement last(database_, "SELECT max(timestamp) FROM messages WHERE timestamp >= 0");
   last.step();
   content_.last_ns = last.integer(0);
 }
@@ -124,7 +130,7 @@ std::map<std::int64_t, std::uint64_t> SqliteFileReader::count_by_topic() {
   std::map<std::int64_t, std::uint64_t> counts;
   if (!damaged()) {
     try {
-      Statement statement(database_, "SELECT topic_id, count(*) FROM messages GROUP BY topic_id");
+      Statement statement(database_, "SELECT topic_id, count(*) FROM messages WHERE timestamp >= 0 GROUP BY topic_id");
       while (statement.step()) {
         counts[statement.integer(0)] = static_cast<std::uint64_t>(statement.integer(1));
       }
@@ -142,7 +148,7 @@ std::map<std::int64_t, std::uint64_t> SqliteFileReader::count_by_topic() {
 
 void SqliteFileReader::select(std::set<std::int64_t> topic_ids, std::int64_t begin_ns) {
   wanted_ = std::move(topic_ids);
-  begin_ns_ = begin_ns;
+  begin_ns_ = std::max<std::int64_t>(begin_ns, 0);
   last_entry_.reset();
   entries_.reset();
   next_salvaged_ = 0;
@@ -216,7 +222,9 @@ bool SqliteFileReader::read_data(std::int64_t id, interfaces::Bytes& data) {
 void SqliteFileReader::salvage(const std::string& reason) {
   entries_.reset();
   auto found = salvage_messages(database_);
-  std::erase_if(found.entries, [this](const Entry& entry) { return !content_.topics.contains(entry.topic_id); });
+  std::erase_if(found.entries, [this](const Entry& entry) {
+    return !content_.topics.contains(entry.topic_id) || entry.timestamp_ns < 0;
+  });
   lost_ += found.missing_ids;
   content_.message_count = found.entries.size();
   if (!found.entries.empty()) {

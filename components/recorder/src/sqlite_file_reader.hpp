@@ -34,7 +34,7 @@ class SqliteFileReader final : public BagFileReader {
   Database database_;
 
   std::set<std::int64_t> wanted_;
-  std::int64_t begin_ns_ = INT64_MIN;
+  std::int64_t begin_ns_ = 0;  // a stamp before 1970 is damage, and would make a bag longer than numbers go
   std::optional<Entry> last_entry_;
   std::optional<Statement> entries_;  // of a sound file
   std::optional<Statement> data_;

@@ -1,8 +1,27 @@
 // SPDX-License-Identifier: Apache-2.0
-/// For libFuzzer (PANVO_FUZZ).
+/// For libFuzzer (PANVO_FUZZ): an MCAP file of any bytes. An empty folder of cases begins with bags of our writer.
+#include "fuzzing.hpp"
+#include "mcap_mutator.hpp"
+#include "mutation.hpp"
 #include "read_bag.hpp"
+#include "seeds.hpp"
+
+using namespace panvo::recorder;
+
+extern "C" int LLVMFuzzerInitialize(int* argc, char*** argv) {
+  fuzz::plant_seeds(Storage::kMcap, *argc, *argv);
+  return 0;
+}
+
+extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size, std::size_t limit, unsigned seed) {
+  const std::string file(reinterpret_cast<const char*>(data), size);
+  const auto changed = seed % 3 == 0   ? fuzz::mutate_bytes(file, limit)
+                       : seed % 3 == 1 ? fuzz::mutated(file, seed)
+                                       : fuzz::mutate_record(file, seed, fuzz::mutate_bytes);
+  return fuzz::hand_back(changed, data, limit);
+}
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  panvo::recorder::fuzz::read_bag("bag_0.mcap", data, size);
+  fuzz::read_bag("bag_0.mcap", data, size);
   return 0;
 }

@@ -6,33 +6,18 @@
 #include <cstdlib>
 #include <optional>
 
-#include "../test_bag.hpp"
 #include "mutation.hpp"
 #include "read_bag.hpp"
+#include "seeds.hpp"
 
 namespace panvo::recorder {
 namespace {
 
-using namespace test;
+using fuzz::written;
 
 std::uint64_t number_from(const char* variable, std::uint64_t otherwise) {
   const char* text = std::getenv(variable);
   return text ? std::strtoull(text, nullptr, 10) : otherwise;
-}
-
-/// A small bag with topics of several kinds.
-std::string written(const BagWriter::Options& options) {
-  const TemporaryFolder folder;
-  {
-    BagWriter writer(folder / "bag", options);
-    const auto* type = interfaces::find_message_type("std_msgs/msg/Header");
-    const int header = writer.add_topic(topic("/header", "std_msgs/msg/Header"), type ? type->definition : "");
-    write_numbered(writer, 40, 60);
-    for (int i = 0; i < 10; ++i) {
-      writer.write(header, kStart + i * 7 * kStep, payload(static_cast<std::uint64_t>(i), 30));
-    }
-  }
-  return read_text(folder / "bag" / (options.storage == Storage::kMcap ? "bag_0.mcap" : "bag_0.db3"));
 }
 
 void read_mutations(const char* name, const std::string& file, std::uint64_t count) {
@@ -49,20 +34,20 @@ void read_mutations(const char* name, const std::string& file, std::uint64_t cou
 }
 
 TEST(MutatedBag, OfMcapWithoutCompressionIsReadOrRefused) {
-  read_mutations("bag_0.mcap", written({.storage = Storage::kMcap, .chunk_bytes = 500}), 1500);
+  read_mutations("bag_0.mcap", written({.storage = Storage::kMcap, .chunk_bytes = 500}, 40), 1500);
 }
 
 TEST(MutatedBag, OfMcapWithLz4IsReadOrRefused) {
   read_mutations("bag_0.mcap",
-                 written({.storage = Storage::kMcap, .compression = Compression::kLz4, .chunk_bytes = 500}), 1500);
+                 written({.storage = Storage::kMcap, .compression = Compression::kLz4, .chunk_bytes = 500}, 40), 1500);
 }
 
 TEST(MutatedBag, OfMcapWithZstdIsReadOrRefused) {
   read_mutations("bag_0.mcap",
-                 written({.storage = Storage::kMcap, .compression = Compression::kZstd, .chunk_bytes = 500}), 1500);
+                 written({.storage = Storage::kMcap, .compression = Compression::kZstd, .chunk_bytes = 500}, 40), 1500);
 }
 
-TEST(MutatedBag, OfSqliteIsReadOrRefused) { read_mutations("bag_0.db3", written({}), 300); }
+TEST(MutatedBag, OfSqliteIsReadOrRefused) { read_mutations("bag_0.db3", written({}, 40), 300); }
 
 }  // namespace
 }  // namespace panvo::recorder
