@@ -47,6 +47,10 @@ void write_file(const std::filesystem::path& file, const std::uint8_t* data, std
 
 std::size_t read_bag(const std::string& name, const std::uint8_t* data, std::size_t size) {
   const auto file = folder() / name;
+  for (const char* left : {"-journal", "-wal", "-shm"}) {  // by SQLite, of the case before
+    std::error_code error;
+    std::filesystem::remove(file.string() + left, error);
+  }
   write_file(file, data, size);
   std::size_t count = 0;
   try {
