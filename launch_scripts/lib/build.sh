@@ -8,7 +8,7 @@ source "$PANVO_SCRIPTS/lib/packages.sh"
 cmake_arguments() {
   case $1 in
     release) echo -DCMAKE_BUILD_TYPE=Release ;;
-    debug) echo -DCMAKE_BUILD_TYPE=Debug ;;
+    debug) echo -DCMAKE_BUILD_TYPE=Debug -DPANVO_UNITY=OFF ;;
     asan) echo -DCMAKE_BUILD_TYPE=RelWithDebInfo -DPANVO_SANITIZE=address ;;
     ubsan) echo -DCMAKE_BUILD_TYPE=RelWithDebInfo -DPANVO_SANITIZE=undefined ;;
     tsan) echo -DCMAKE_BUILD_TYPE=RelWithDebInfo -DPANVO_SANITIZE=thread ;;

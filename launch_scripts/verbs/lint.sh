@@ -63,12 +63,14 @@ lint_format() {
 
 lint_naming() {
   note "naming rules"
+  local PANVO_BUILD=debug  # whose compilation database names every source
   build_targets panvo_interfaces_generate
   python3 "$PANVO_HOME/tests/lint/tidy.py" --build "$(build_folder)" --naming --jobs "$(job_count)" "$@"
 }
 
 lint_tidy() {
   note "clang-tidy over $# files"
+  local PANVO_BUILD=debug  # whose compilation database names every source
   build_targets panvo_interfaces_generate
   python3 "$PANVO_HOME/tests/lint/tidy.py" --build "$(build_folder)" --jobs "$(job_count)" "$@"
 }

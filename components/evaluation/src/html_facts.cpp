@@ -10,12 +10,6 @@ void add(std::string& list, const std::string& name, const std::string& value) {
   if (!value.empty()) list += "<dt>" + html(name) + "</dt><dd>" + html(value) + "</dd>\n";
 }
 
-std::string joined(const std::vector<std::string>& words) {
-  std::string text;
-  for (const auto& word : words) text.append(text.empty() ? "" : ", ").append(word);
-  return text;
-}
-
 void add_facts(std::string& list, const RunFacts& facts) {
   add(list, "system",
       facts.system + (facts.is_replay ? ", replayed: the same input gives the same result" : ", not replayed"));

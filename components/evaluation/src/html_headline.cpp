@@ -15,12 +15,6 @@ std::string tile(const std::string& figure, const std::string& words) {
 /// Two digits that count, as far as that goes.
 std::string legible(double value_m) { return metres(value_m, value_m < 1.0 ? 2 : 1); }
 
-std::string joined(const std::vector<std::string>& words) {
-  std::string text;
-  for (const auto& word : words) text.append(text.empty() ? "" : ", ").append(word);
-  return text;
-}
-
 std::string what_it_is(const JourneyRecording& recording, const PathScores& paths) {
   auto text = fmt::format("{:.0f} m in {:.0f} min", paths.travelled_m, paths.duration_s / 60.0);
   if (!recording.route.empty()) text = "route " + recording.route + ", " + text;

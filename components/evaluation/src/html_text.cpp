@@ -45,6 +45,12 @@ std::string base64(std::string_view bytes) {
   return text;
 }
 
+std::string joined(const std::vector<std::string>& words) {
+  std::string text;
+  for (const auto& word : words) text.append(text.empty() ? "" : ", ").append(word);
+  return text;
+}
+
 std::string html_table(const std::vector<std::string>& header, const std::vector<std::vector<std::string>>& rows,
                        std::size_t left_columns, const std::string& caption) {
   const auto cells = [&](const std::vector<std::string>& row, const char* tag) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "angle_units.hpp"
 #include "panvo/evaluation/input_error.hpp"
 #include "panvo/evaluation/trajectory_files.hpp"
 #include "recording_files.hpp"
@@ -13,8 +14,6 @@ namespace panvo::evaluation {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr double kRadians = std::numbers::pi / 180.0;
 
 [[noreturn]] void fail(const fs::path& file, const YAML::Node& entry, const YAML::Exception& error,
                        const char* remedy) {

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "angle_units.hpp"
 #include "csv_table.hpp"
 #include "panvo/evaluation/input_error.hpp"
 #include "panvo/evaluation/trajectory_files.hpp"
@@ -14,8 +15,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
-
-constexpr double kRadians = std::numbers::pi / 180.0;
 
 RunLandmark landmark_of(const CsvRow& row) { return {row.integer(0), row.integer(1), row.flag(2), row.pose(3)}; }
 

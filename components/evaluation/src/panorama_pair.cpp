@@ -7,6 +7,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "angle_units.hpp"
 #include "panvo/evaluation/input_error.hpp"
 #include "panvo/landmarks/keypoints.hpp"
 #include "panvo/position_corrector/five_point_motion.hpp"
@@ -84,7 +85,6 @@ PanoramaPair panorama_pair(const std::filesystem::path& landmark, const std::fil
   const auto known = detect_keypoints(then, keypoints);
   const auto seen = detect_keypoints(now, keypoints);
   const position_corrector::FivePointParameters parameters;
-  constexpr double kRadians = std::numbers::pi / 180.0;
   const auto matches = match_keypoints(
       seen, known, static_cast<float>(parameters.descriptor_ratio),
       landmarks::AzimuthWindow{.heading_rad = heading_rad, .half_width_rad = parameters.azimuth_window_deg * kRadians});

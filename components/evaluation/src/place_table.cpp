@@ -9,6 +9,7 @@
 #include <map>
 #include <numbers>
 
+#include "angle_units.hpp"
 #include "panvo/vision/equirectangular.hpp"
 
 namespace panvo::evaluation {
@@ -155,7 +156,6 @@ PlaceScore score_places(const PlaceMethod& method, const PlaceTask& task, const 
 }
 
 std::string place_table(const std::vector<PlaceScore>& scores) {
-  constexpr double kDegrees = 180.0 / std::numbers::pi;
   std::string text = fmt::format("{:<28} {:>6} {:>4} {:>4} {:>7} {:>10} {:>14}\n", "Method", "V_sc", "TP", "FP",
                                  "Recall", "Precision", "heading (deg)");
   for (const auto& score : scores) {

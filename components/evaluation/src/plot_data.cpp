@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <numbers>
 
+#include "angle_units.hpp"
 #include "plot_panels.hpp"
 #include "plot_path.hpp"
 
 namespace panvo::evaluation {
-namespace {
-
-constexpr double kDegrees = 180.0 / std::numbers::pi;
-
-}  // namespace
+namespace {}  // namespace
 
 void add_data(PlotCanvas& canvas, const Report& report) {
   const std::vector<Eigen::Vector3d> truth = true_positions(report);

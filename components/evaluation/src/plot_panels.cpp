@@ -5,6 +5,7 @@
 #include <numbers>
 #include <set>
 
+#include "angle_units.hpp"
 #include "format.hpp"
 #include "gnuplot.hpp"
 
@@ -13,7 +14,6 @@ namespace {
 
 constexpr std::size_t kMostStages = 14;
 constexpr std::size_t kMostLengths = 8;
-constexpr double kDegrees = 180.0 / std::numbers::pi;
 
 // A unit in which the largest of the errors has few digits before and after the point.
 struct LengthUnit {

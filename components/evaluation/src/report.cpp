@@ -4,14 +4,13 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "angle_units.hpp"
 #include "format.hpp"
 
 namespace panvo::evaluation {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-constexpr double kDegrees = 180.0 / std::numbers::pi;
 
 Json to_json(const Summary& summary) {
   return {{"count", summary.count},

@@ -6,11 +6,11 @@
 #include <cmath>
 #include <numbers>
 #include <vector>
+#include "turn.hpp"
 
 namespace panvo::landmarks {
 namespace {
 
-constexpr double kTurn = 2.0 * std::numbers::pi;
 constexpr int kIterations = 10;
 constexpr int kHalfStep = 3;  // columns, of the response's derivative
 constexpr double kSmallestSpread = 0.05;

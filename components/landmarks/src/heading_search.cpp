@@ -7,11 +7,11 @@
 
 #include "heading_alignment.hpp"
 #include "panvo/vision/equirectangular.hpp"
+#include "turn.hpp"
 
 namespace panvo::landmarks {
 namespace {
 
-constexpr double kTurn = 2.0 * std::numbers::pi;
 constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr int kGridSize = 2;  // [Lu2015 Alg. 1]
 constexpr double kReach_rad = 30.0 * kDegree;

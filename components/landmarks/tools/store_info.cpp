@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "panvo/landmarks/landmark_library.hpp"
+#include "print.hpp"
 
 namespace panvo::landmarks {
 namespace {
@@ -26,13 +27,6 @@ std::vector<std::pair<const char*, std::uint64_t>> parts(const StoredBytes& byte
 
 double each(std::uint64_t total, std::size_t landmarks) {
   return landmarks == 0 ? 0.0 : static_cast<double>(total) / static_cast<double>(landmarks);
-}
-
-template <class... Values>
-std::string print(const char* format, Values... values) {
-  char text[256];
-  std::snprintf(text, sizeof text, format, values...);
-  return text;
 }
 
 std::string seconds(std::int64_t stamp_ns) {

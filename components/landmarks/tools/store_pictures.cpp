@@ -8,19 +8,13 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <string>
+#include "print.hpp"
 
 namespace panvo::landmarks {
 namespace {
 
 const cv::Scalar kRed(40, 40, 230), kBlue(230, 110, 20), kBlack(0, 0, 0), kWhite(255, 255, 255), kGrey(160, 160, 160);
 constexpr int kTitleRows = 36;
-
-template <class... Values>
-std::string print(const char* format, Values... values) {
-  char text[200];
-  std::snprintf(text, sizeof text, format, values...);
-  return text;
-}
 
 void write(cv::Mat& image, const std::string& text, cv::Point where, const cv::Scalar& colour, double size = 0.5) {
   cv::putText(image, text, where, cv::FONT_HERSHEY_SIMPLEX, size, colour, 1, cv::LINE_AA);

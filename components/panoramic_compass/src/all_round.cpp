@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "compass_method.hpp"
+#include "median.hpp"
 #include "panvo/panoramic_compass/point_field.hpp"
 #include "panvo/panoramic_compass/turn_fit.hpp"
 #include "panvo/vision/equirectangular.hpp"
@@ -24,12 +25,6 @@ constexpr double kSideSector_rad = 0.6;       // to either side of abeam
 constexpr double kZenithShare = 0.2;          // of the rows: what is overhead
 constexpr double kSkyQuantile = 0.2;          // of overhead grey levels
 constexpr double kSkyShare = 0.75;            // of it: what is darker is no sky
-
-double median(std::vector<double>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 /// Grey level that the sky does not fall below; 256 where what is overhead is not brighter than the band.
 double darkest_sky(const cv::Mat& panorama, const cv::Mat& band) {

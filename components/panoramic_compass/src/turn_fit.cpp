@@ -8,6 +8,7 @@
 #include <limits>
 #include <numbers>
 
+#include "median.hpp"
 #include "panvo/vision/pose.hpp"
 #include "panvo/vision/robust_loss.hpp"
 
@@ -58,12 +59,6 @@ struct Deviation {
   Eigen::Vector3d lever;                               // the derivative's: c_m
   Eigen::Vector3d predicted;                           // far point
 };
-
-double median(std::vector<double>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 std::optional<Deviation> deviation_of(const BearingPair& pair, const Motion& motion) {
   Deviation d;

@@ -18,8 +18,8 @@ using namespace test;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-constexpr std::size_t kSize = 100;
-constexpr std::uint64_t kCount = 35;
+constexpr std::size_t kPayloadSize = 100;
+constexpr std::uint64_t kMessageCount = 35;
 
 class Mcap : public testing::TestWithParam<Compression> {
  protected:
@@ -40,7 +40,7 @@ class Mcap : public testing::TestWithParam<Compression> {
   }
   void write_numbered_bag() {
     BagWriter writer(folder_ / "bag", options());
-    write_numbered(writer, kCount, kSize);
+    write_numbered(writer, kMessageCount, kPayloadSize);
     writer.close();
     whole_ = read_text(file_);
   }
@@ -111,13 +111,13 @@ TEST_P(Mcap, CutOffAtAnyByteKeepsWhatIsBeforeTheCut) {
   write_numbered_bag();
   const auto offsets = chunks();
   ASSERT_GE(offsets.size(), 5u);
-  const auto per_chunk = kCount / offsets.size();
+  const auto per_chunk = kMessageCount / offsets.size();
   for (std::size_t bytes = whole_.size() - 1; bytes > 0; --bytes) {
     std::filesystem::resize_file(file_, bytes);
     std::vector<std::string> warnings;
     std::vector<Read> messages;
     const auto error = error_of([&] { messages = read_file(&warnings); });
-    EXPECT_EQ(wrong_in_first_numbered(messages, kSize), "") << bytes;
+    EXPECT_EQ(wrong_in_first_numbered(messages, kPayloadSize), "") << bytes;
     const auto whole_chunks =
         static_cast<std::size_t>(std::upper_bound(offsets.begin(), offsets.end(), bytes) - offsets.begin());
     ASSERT_GE(messages.size() + per_chunk, whole_chunks * per_chunk) << bytes << " " << error;
@@ -134,13 +134,13 @@ TEST_P(Mcap, WithAFlippedBitLosesNothingOfOtherChunks) {
     write_text(file_, damaged);
     std::uint64_t lost = 0;
     const auto messages = read_file(nullptr, &lost);
-    EXPECT_GE(messages.size(), kCount - 2 * kCount / offsets.size()) << at;
-    EXPECT_LE(messages.size() + lost, kCount) << at;
+    EXPECT_GE(messages.size(), kMessageCount - 2 * kMessageCount / offsets.size()) << at;
+    EXPECT_LE(messages.size() + lost, kMessageCount) << at;
     std::size_t whole = 0;
     for (const auto& message : messages) {
-      whole += wrong_in_numbered({message}, kSize).empty() ? 1 : 0;
+      whole += wrong_in_numbered({message}, kPayloadSize).empty() ? 1 : 0;
     }
-    EXPECT_GE(whole + 2 * kCount / offsets.size(), kCount) << at;
+    EXPECT_GE(whole + 2 * kMessageCount / offsets.size(), kMessageCount) << at;
   }
 }
 
@@ -152,7 +152,7 @@ TEST_P(Mcap, TellsOfAChunkWhoseChecksumIsWrong) {
   write_text(file_, damaged);
   std::vector<std::string> warnings;
   std::uint64_t lost = 0;
-  EXPECT_EQ(read_file(&warnings, &lost).size(), kCount);
+  EXPECT_EQ(read_file(&warnings, &lost).size(), kMessageCount);
   EXPECT_EQ(lost, 0u);
   EXPECT_TRUE(any_contains(warnings, "bag_0.mcap: the chunk at byte " + std::to_string(chunks()[1])));
   EXPECT_FALSE(check_bag(folder_ / "bag").is_sound());
@@ -166,8 +166,8 @@ TEST_P(Mcap, ReadsThroughAFileWhoseSummaryIsDamaged) {
   write_text(file_, damaged);
   std::vector<std::string> warnings;
   const auto messages = read_file(&warnings);
-  EXPECT_EQ(messages.size(), kCount);
-  EXPECT_EQ(wrong_in_first_numbered(messages, kSize), "");
+  EXPECT_EQ(messages.size(), kMessageCount);
+  EXPECT_EQ(wrong_in_first_numbered(messages, kPayloadSize), "");
   EXPECT_TRUE(any_contains(warnings, "its summary has another checksum than it says; 35 messages"));
 }
 
@@ -180,8 +180,8 @@ TEST_P(Mcap, FindsWhatLiesBehindAHole) {
   write_text(file_, damaged);
   std::vector<std::string> warnings;
   const auto messages = read_file(&warnings);
-  EXPECT_GE(messages.size(), kCount - 3 * kCount / offsets.size());
-  EXPECT_EQ(wrong_in_numbered(messages, kSize), "");
+  EXPECT_GE(messages.size(), kMessageCount - 3 * kMessageCount / offsets.size());
+  EXPECT_EQ(wrong_in_numbered(messages, kPayloadSize), "");
   EXPECT_TRUE(any_contains(warnings, "are damaged and passed over"));
 }
 
@@ -192,7 +192,7 @@ TEST_P(Mcap, TakesNoMemoryForSizesThatAreNotThere) {
     auto damaged = whole_;
     damaged.replace(offsets[1] + field, 8, std::string("\xff\xff\xff\xff\xff\xff\xff\x0f", 8));
     write_text(file_, damaged);
-    EXPECT_GE(read_file().size(), kCount - 2 * kCount / offsets.size());
+    EXPECT_GE(read_file().size(), kMessageCount - 2 * kMessageCount / offsets.size());
   }
 }
 
@@ -202,7 +202,7 @@ TEST_P(Mcap, ReadsChunksAgainWhereAllOverlapAndFewCanBeHeld) {
     const int data = writer.add_topic(topic("/data"));
     for (std::uint64_t i = 0; i < 100; ++i) {
       const auto number = i * 37 % 100;  // early and late ones in every chunk
-      writer.write(data, kStart + static_cast<std::int64_t>(number) * kStep, payload(number, kSize));
+      writer.write(data, kStart + static_cast<std::int64_t>(number) * kStep, payload(number, kPayloadSize));
     }
   }
   std::vector<std::string> warnings;
@@ -213,7 +213,7 @@ TEST_P(Mcap, ReadsChunksAgainWhereAllOverlapAndFewCanBeHeld) {
     messages.push_back({"/data", entry.timestamp_ns, bytes});
   }
   EXPECT_EQ(messages.size(), 100u);
-  EXPECT_EQ(wrong_in_first_numbered(messages, kSize), "");
+  EXPECT_EQ(wrong_in_first_numbered(messages, kPayloadSize), "");
   EXPECT_EQ(reader.lost(), 0u);
 }
 

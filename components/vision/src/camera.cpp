@@ -6,12 +6,12 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "positive.hpp"
+
 namespace panvo::vision {
 namespace {
 
 constexpr double kRotationTolerance = 1e-3;  // calibration files hold six digits or more
-
-bool is_positive(double value) { return std::isfinite(value) && value > 0.0; }
 
 void check_camera(const std::string& name, const PinholeCamera& camera, std::vector<std::string>& problems) {
   std::ostringstream text;

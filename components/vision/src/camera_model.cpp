@@ -8,6 +8,8 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "positive.hpp"
+
 namespace panvo::vision {
 namespace {
 
@@ -24,8 +26,6 @@ constexpr int kNewtonSteps = 30;
 constexpr double kConverged = 1e-14;  // of the normalised image
 constexpr double kAccepted = 1e-11;   // of the normalised image: below 1e-7 px of any camera
 constexpr double kSlack = 1e-9;       // what lies on the limit belongs to it, rounding or not
-
-bool is_positive(double value) { return std::isfinite(value) && value > 0.0; }
 
 }  // namespace
 

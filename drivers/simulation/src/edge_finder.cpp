@@ -14,7 +14,6 @@ constexpr int kSameDirection = static_cast<int>(0.906 * 127 * 127);  // cosine o
 constexpr float kRangeJump = 0.02f;  // of the inverse range, off the line of its neighbours
 constexpr float kContrast = 0.04f;   // of the sum of both
 constexpr float kDarkness = 0.004f;  // radiance: below it nothing stands out
-constexpr std::uint32_t kSunny = 0x80000000u;
 
 float brightness(const float* colour) { return 0.25f * colour[0] + 0.5f * colour[1] + 0.25f * colour[2]; }
 

@@ -6,6 +6,8 @@
 
 namespace panvo::simulation {
 
+inline constexpr std::uint32_t kSunny = 0x80000000u;  ///< the top bit of a normal: it is in the sun
+
 /// What the centres of the pixels see.
 struct SeenSurfaces {
   const cv::Mat& radiance;       ///< CV_32FC3

@@ -12,7 +12,6 @@ namespace {
 constexpr float kSharpness = 0.5f;  // an edge's sample stands for about half of the pixel's width and of the time
 constexpr float kSameSurface = 0.85f * 127.0f;  // cosine of the angle up to which a surface is taken for the same
 constexpr float kSameRange = 0.08f;
-constexpr std::uint32_t kSunny = 0x80000000u;
 
 /// Which of the samples are traced among leaves, where fewer will do: sets that pixels take in turns.
 std::vector<std::vector<std::size_t>> samples_among_leaves(std::size_t count) {
@@ -32,12 +31,12 @@ Eigen::Vector3f unpacked(std::uint32_t normal) {
 
 std::vector<EdgeSample> edge_samples(int count) {
   constexpr int kMostInARing = 5;
-  constexpr double kTurn = std::numbers::pi / 12.0;
+  constexpr double kTurnStep = std::numbers::pi / 12.0;
   constexpr double kGoldenAngle = 2.399963229728653;
   std::vector<EdgeSample> samples;
   for (int i = 0; i < count; ++i) {
     const bool is_ring = count <= kMostInARing;
-    const double angle = kTurn + (is_ring ? 2.0 * std::numbers::pi * i / count : i * kGoldenAngle);
+    const double angle = kTurnStep + (is_ring ? 2.0 * std::numbers::pi * i / count : i * kGoldenAngle);
     const double radius = is_ring ? 0.41 : 0.56 * std::sqrt((i + 0.5) / count);
     // every other moment first, lest place and time go together
     const int order = (2 * i) % count + (count % 2 == 0 && 2 * i >= count ? 1 : 0);

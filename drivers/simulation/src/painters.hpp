@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <numbers>
 #include <opencv2/core.hpp>
 #include <vector>
 
 #include "noise.hpp"
 
 namespace panvo::simulation {
+
+inline constexpr float kTurn = 2.0f * std::numbers::pi_v<float>;  ///< once round, rad
 
 // Painters: each paints one kind of surface as one sees it (row 0 on top). Colours are linear RGB reflectances, CV_32FC3;
 // overlays CV_32FC1 with mean 1, the factor by which they change what is below.

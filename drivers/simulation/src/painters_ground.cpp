@@ -7,11 +7,7 @@
 #include "painters.hpp"
 
 namespace panvo::simulation {
-namespace {
-
-constexpr float kTurn = 2.0f * std::numbers::pi_v<float>;
-
-}  // namespace
+namespace {}  // namespace
 
 cv::Mat3f paint_asphalt(float mm_per_px, const Colour& stone, const Colour& binder, float contrast, Random random) {
   constexpr int kSize = 1024;

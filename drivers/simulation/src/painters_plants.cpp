@@ -9,7 +9,6 @@
 namespace panvo::simulation {
 namespace {
 
-constexpr float kTurn = 2.0f * std::numbers::pi_v<float>;
 constexpr int kShift = 4;
 
 cv::Point fixed(const cv::Point2f& point) { return {cvRound(point.x * 16.0f), cvRound(point.y * 16.0f)}; }

@@ -9,8 +9,6 @@
 namespace panvo::simulation {
 namespace {
 
-constexpr float kTurn = 2.0f * std::numbers::pi_v<float>;
-
 /// Softens a picture of marks near its borders towards 0, for overlays whose periods are turned by chance.
 void fade_at_borders(cv::Mat1f& deviation, float border_share) {
   const auto size = static_cast<float>(deviation.cols);

@@ -15,15 +15,15 @@
 namespace panvo::simulation {
 namespace {
 
-std::shared_ptr<const Palette> palette() {
+std::shared_ptr<const Palette> campus_palette() {
   static const auto made = std::make_shared<const Palette>(1, "");
   return made;
 }
-std::uint16_t material(std::string_view name) { return palette()->find(name); }
+std::uint16_t campus_material(std::string_view name) { return campus_palette()->find(name); }
 
 /// Matte and even but for its texture.
 std::uint16_t plain_material() {
-  const auto& all = palette()->materials();
+  const auto& all = campus_palette()->materials();
   const auto found = std::find_if(all.begin(), all.end(), [](const Material& one) {
     return !one.overlay && !one.has_holes && one.gloss == 0.0f && one.translucency == 0.0f;
   });
@@ -35,7 +35,7 @@ constexpr Tint kWhite{255, 255, 255, 0}, kBlack{0, 0, 0, 0};  // without texture
 std::shared_ptr<Scene> empty_scene() {
   static const auto sky = std::make_shared<const Sky>(1);
   auto scene = std::make_shared<Scene>();
-  scene->palette = palette();
+  scene->palette = campus_palette();
   scene->sky = sky;
   return scene;
 }
@@ -47,7 +47,7 @@ void add_square(Mesh& mesh, const Eigen::Vector3f& middle, const Eigen::Vector3f
       Eigen::AngleAxisf(angle, normal.normalized()) * Eigen::Vector3f(normal.unitOrthogonal() * (0.5f * side));
   const Eigen::Vector3f along = normal.normalized().cross(across);
   mesh.add_quad(middle - across - along, middle + across - along, middle + across + along, middle - across + along,
-                name.empty() ? plain_material() : material(name), Eigen::Vector2f::Zero(), tint);
+                name.empty() ? plain_material() : campus_material(name), Eigen::Vector2f::Zero(), tint);
 }
 
 /// A camera at `place` that looks along the world's +x, turned left by `yaw`.
@@ -158,12 +158,12 @@ std::shared_ptr<Scene> yard() {
   add_square(mesh, Eigen::Vector3f::Zero(), Eigen::Vector3f::UnitZ(), 200.0f, {}, 0.0f, "asphalt");
   Eigen::Isometry3f box = Eigen::Isometry3f::Identity();
   box.translation() = Eigen::Vector3f(8.0f, 0.5f, 1.0f);
-  mesh.add_box(box, {1.0f, 2.0f, 2.0f}, material("brick_red"));
+  mesh.add_box(box, {1.0f, 2.0f, 2.0f}, campus_material("brick_red"));
   scene->fixed.push_back(mesh);
   Mesh car;
   Eigen::Isometry3f body = Eigen::Isometry3f::Identity();
   body.translation() = Eigen::Vector3f(0.0f, 0.0f, 0.8f);
-  car.add_box(body, {4.0f, 1.8f, 1.2f}, material("car_paint"));
+  car.add_box(body, {4.0f, 1.8f, 1.2f}, campus_material("car_paint"));
   scene->models.push_back(car);
   return scene;
 }
@@ -213,7 +213,7 @@ TEST(Renderer, ShadesAWhiteSurfaceAsTheLightSays) {
   Light light = plain_light();
   light.to_sun = Eigen::Vector3f(0.6f, 0.0f, 0.8f);
   const auto image = renderer.render(pinhole_rays(camera()), still(pose), light, {}, {});
-  const auto& white = palette()->materials()[plain_material()];
+  const auto& white = campus_palette()->materials()[plain_material()];
   const Eigen::Vector3f expected =
       white.tint.cwiseProduct(white.albedo->mean().head<3>()).cwiseProduct(0.8f * light.sun + light.sky);
   for (int c = 0; c < 3; ++c) EXPECT_NEAR(image.at<cv::Vec3f>(120, 160)[c], expected[c], 0.01);
@@ -284,7 +284,7 @@ TEST(Renderer, LetsAnUnseenMoverCastItsShadow) {
 }
 
 TEST(Renderer, SeesThroughTheHolesOfLeaves) {
-  const auto& leaves = palette()->materials()[material("leaves_broad")];
+  const auto& leaves = campus_palette()->materials()[campus_material("leaves_broad")];
   ASSERT_TRUE(leaves.has_holes);
   // somewhere in the middle of a hole, and somewhere in the middle of a leaf
   const auto place_of = [&](bool is_hole) {

@@ -24,8 +24,8 @@ MoverModels some_models() {
 }
 
 // What a journey consists of; Traffic refers to it.
-struct Journey {
-  Journey(const std::string& name, std::uint64_t seed)
+struct TrafficDrive {
+  TrafficDrive(const std::string& name, std::uint64_t seed)
       : site({seed, 0.6, false}, campus_roads(seed), nullptr),
         motion(drive(site.roads, read_route(std::filesystem::path(PANVO_CONFIG) / "routes" / (name + ".yaml"))),
                site.terrain, {}, seed),
@@ -51,7 +51,7 @@ TEST_P(ShippedRoute, MeetsMoversOfEveryKindThatNeverTouchTheVehicleAndComeFromOu
   std::map<std::string, int> met;
   double minutes = 0.0;
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
-    const Journey journey(GetParam(), seed);
+    const TrafficDrive journey(GetParam(), seed);
     const double duration = journey.motion.duration_s();
     double least = 1e9;
     for (const Mover& mover : journey.traffic.movers()) {
@@ -80,7 +80,7 @@ TEST_P(ShippedRoute, MeetsMoversOfEveryKindThatNeverTouchTheVehicleAndComeFromOu
 INSTANTIATE_TEST_SUITE_P(Traffic, ShippedRoute, testing::Values("short", "corner", "dataset_i", "dataset_ii"));
 
 TEST(Traffic, IsTheSameForTheSameSeed) {
-  const Journey a("short", 2), b("short", 2);
+  const TrafficDrive a("short", 2), b("short", 2);
   for (double t = 0.0; t < a.motion.duration_s(); t += 3.1) {
     const auto one = a.traffic.at(t, t + 0.003), two = b.traffic.at(t, t + 0.003);
     ASSERT_EQ(one.size(), two.size());
@@ -92,7 +92,7 @@ TEST(Traffic, IsTheSameForTheSameSeed) {
 }
 
 TEST(Traffic, StandsOnTheGroundAndMovesOnSmoothly) {
-  const Journey journey("corner", 1);
+  const TrafficDrive journey("corner", 1);
   for (double t = 0.0; t < journey.motion.duration_s() - 0.2; t += 0.2) {
     for (const MovingPlacement& placement : journey.traffic.at(t, t + 0.04)) {
       const Eigen::Vector3f from = placement.at_opening.world_from_model.translation();
@@ -106,7 +106,7 @@ TEST(Traffic, StandsOnTheGroundAndMovesOnSmoothly) {
 
 TEST(Traffic, KeepsAVanAheadThroughTheWeaklyTexturedCorner) {
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
-    const Journey journey("corner", seed);
+    const TrafficDrive journey("corner", seed);
     bool ahead = false;
     for (const Visit& visit : find_visits(journey.site.roads, journey.motion)) {
       if (!journey.site.roads.junctions[static_cast<std::size_t>(visit.junction)].has_weak_texture) continue;
@@ -119,7 +119,7 @@ TEST(Traffic, KeepsAVanAheadThroughTheWeaklyTexturedCorner) {
 }
 
 TEST(Traffic, NeedsModelsOfEveryKind) {
-  const Journey journey("short", 1);
+  const TrafficDrive journey("short", 1);
   MoverModels none = some_models();
   none.people.clear();
   EXPECT_THROW(Traffic(journey.site, journey.motion, none, 1), std::invalid_argument);

@@ -7,8 +7,7 @@
 namespace panvo::recorder::mcap {
 namespace {
 
-constexpr std::uint64_t kMostRecordBytes = 64u << 20;  // of schemas and the like
-constexpr std::size_t kWindow = 1u << 20;              // read at a time when looking for the next record
+constexpr std::size_t kWindow = 1u << 20;  // read at a time when looking for the next record
 
 /// Goes from record to record. What it finds goes into a Layout.
 class Scan {

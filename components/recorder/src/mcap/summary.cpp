@@ -10,7 +10,6 @@ namespace {
 
 constexpr std::uint64_t kFooterAndMagic = RecordHead::kBytes + Footer::kBytes + kMagic.size();
 constexpr std::uint64_t kMostSummaryBytes = std::uint64_t{1} << 30;
-constexpr std::uint64_t kMostRecordBytes = 64u << 20;  // of schemas and the like
 
 /// A summary that does not say enough, though nothing of it need be wrong: writers may leave it out.
 class SparseSummary : public FormatError {

@@ -6,6 +6,8 @@
 
 #include "panvo/v4l2_camera/video_device.hpp"
 
+struct v4l2_fract;
+
 namespace panvo::v4l2_camera::kernel {
 
 /// What an operation's errno means for the user.
@@ -34,6 +36,9 @@ class DeviceFile {
 
 /// A text in a field of fixed size.
 std::string text_of(const std::uint8_t* text, std::size_t size);
+
+/// Frames a second of the time between two; 0 where none is said.
+double rate_of(const v4l2_fract& interval);
 
 /// All formats with their sizes and rates.
 std::vector<OfferedFormat> offered_formats(const DeviceFile& file);

@@ -9,10 +9,6 @@
 namespace panvo::v4l2_camera::kernel {
 namespace {
 
-double rate_of(const v4l2_fract& interval) {
-  return interval.numerator > 0 ? static_cast<double>(interval.denominator) / interval.numerator : 0.0;
-}
-
 std::vector<double> rates_of(const DeviceFile& file, PixelCode pixels, int width, int height) {
   std::vector<double> rates_hz;
   v4l2_frmivalenum interval{};
@@ -57,6 +53,10 @@ std::vector<OfferedSize> sizes_of(const DeviceFile& file, PixelCode pixels) {
 }
 
 }  // namespace
+
+double rate_of(const v4l2_fract& interval) {
+  return interval.numerator > 0 ? static_cast<double>(interval.denominator) / interval.numerator : 0.0;
+}
 
 std::vector<OfferedFormat> offered_formats(const DeviceFile& file) {
   std::vector<OfferedFormat> formats;

@@ -35,10 +35,6 @@ class Mapping {
   void* address_;
 };
 
-double rate_of(const v4l2_fract& interval) {
-  return interval.numerator > 0 ? static_cast<double>(interval.denominator) / interval.numerator : 0.0;
-}
-
 class KernelDevice final : public VideoDevice {
  public:
   explicit KernelDevice(const std::string& node) : file_(node) {
