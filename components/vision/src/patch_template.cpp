@@ -91,7 +91,7 @@ bool PatchTemplate::prepare(const std::array<float, (kSize + 2) * (kSize + 2)>& 
     normal += b * b.transpose();
   }
   energy_ = normal(0, 0);
-  if (energy_ < kPixels * kFaintestContrast * kSmallestContrast) return false;
+  if (energy_ < kPixels * kFaintestContrast * kFaintestContrast) return false;
   const Eigen::Matrix3d normal_plane = normal.cast<double>();
   // A template without gradient along v (a vertical edge) can still be searched along its row.
   const Eigen::Matrix3d damping = (1e-6 * energy_ * Eigen::Vector3d(0.0, 1.0, 1.0)).asDiagonal();
