@@ -15,7 +15,7 @@ endif()
 
 # Half of a compiler's time here goes into the headers of gtest, Eigen, OpenCV and Fast DDS: sources that are compiled together read them once.
 # For a build from nothing; who edits a file has less to wait with OFF (as the preset debug has it, which is clang-tidy's and clangd's too).
-option(PANVO_UNITY "Compile the sources of a test, program or plugin together, some at a time" ON)
+option(PANVO_UNITY "Compile the sources of a test together, some at a time" ON)
 set(CMAKE_UNITY_BUILD_BATCH_SIZE 8)
 
 if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
@@ -50,13 +50,6 @@ function(_panvo_compile_settings target)
   if(PANVO_SANITIZE)
     target_compile_options(${target} PRIVATE -fsanitize=${PANVO_SANITIZE} -fno-omit-frame-pointer -g)
     target_link_options(${target} PRIVATE -fsanitize=${PANVO_SANITIZE})
-  endif()
-endfunction()
-
-# Not for libraries: there a call must never find the function of another file that fits it better. APART: the sources define the same names.
-function(_panvo_compile_together target)
-  if(PANVO_UNITY AND NOT arg_APART)
-    set_target_properties(${target} PROPERTIES UNITY_BUILD ON)
   endif()
 endfunction()
 
@@ -104,15 +97,14 @@ function(panvo_add_fingerprint target)
   install(FILES ${header} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/panvo/${short})
 endfunction()
 
-# panvo_add_component(panvo_<name>_component SOURCES ... [LINK ...] [APART] [NO_INSTALL]): a plugin that the container loads by file name.
+# panvo_add_component(panvo_<name>_component SOURCES ... [LINK ...] [NO_INSTALL]): a plugin that the container loads by file name.
 function(panvo_add_component target)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "APART;NO_INSTALL" "" "SOURCES;LINK")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "NO_INSTALL" "" "SOURCES;LINK")
   add_library(${target} MODULE ${arg_SOURCES})
   target_link_libraries(${target} PRIVATE panvo::runtime ${arg_LINK})
   set_target_properties(${target} PROPERTIES CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON
     LIBRARY_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/panvo_plugins)
   _panvo_compile_settings(${target})
-  _panvo_compile_together(${target})
   if(NOT arg_NO_INSTALL)
     install(TARGETS ${target} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/panvo)
     set_property(GLOBAL APPEND PROPERTY PANVO_PROGRAMS ${target})
@@ -124,13 +116,12 @@ function(_panvo_optimise_little target)
   target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
 endfunction()
 
-# panvo_add_executable(<name> SOURCES ... [LINK ...] [APART] [NO_INSTALL]): a program; <name>_benchmark is one that `panvo bench` runs.
+# panvo_add_executable(<name> SOURCES ... [LINK ...] [NO_INSTALL]): a program; <name>_benchmark is one that `panvo bench` runs.
 function(panvo_add_executable target)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "APART;NO_INSTALL" "" "SOURCES;LINK")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "NO_INSTALL" "" "SOURCES;LINK")
   add_executable(${target} ${arg_SOURCES})
   target_link_libraries(${target} PRIVATE ${arg_LINK})
   _panvo_compile_settings(${target})
-  _panvo_compile_together(${target})
   set_target_properties(${target} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/panvo_bin)
   if(target MATCHES "_benchmark$")
     set_property(GLOBAL APPEND PROPERTY PANVO_BENCHMARKS ${target})
@@ -144,7 +135,8 @@ function(panvo_add_executable target)
 endfunction()
 
 # panvo_add_test(<name> SOURCES ... [LINK ...] [LABELS ...] [TIMEOUT seconds] [DEFINITIONS ...] [ENVIRONMENT ...]
-# [ALONE] [APART]): each TEST() becomes a ctest; ALONE: no other runs beside it.
+# [ALONE] [APART]): each TEST() becomes a ctest; ALONE: no other runs beside it; APART: its sources define the same names.
+# Only tests are compiled together: elsewhere a call must never find the function of another file that fits it better.
 # The tests read recordings from $PANVO_DATA, or from the folder shared/data beside the checkout.
 function(panvo_add_test target)
   if(NOT BUILD_TESTING)
@@ -157,7 +149,9 @@ function(panvo_add_test target)
   target_link_libraries(${target} PRIVATE ${arg_LINK} GTest::gmock GTest::gtest_main)
   target_compile_definitions(${target} PRIVATE ${arg_DEFINITIONS})
   _panvo_compile_settings(${target})
-  _panvo_compile_together(${target})
+  if(PANVO_UNITY AND NOT arg_APART)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON)
+  endif()
   _panvo_optimise_little(${target})
   if(NOT arg_TIMEOUT)
     set(arg_TIMEOUT 120)

@@ -18,10 +18,10 @@
 namespace panvo::landmarks {
 namespace {
 
-constexpr int kMargin_px = 32;          // beyond the seam: what a descriptor of the half-size image needs
-constexpr int kSectors = 24;            // of the full turn, each with its share of the keypoints
-constexpr int kSurplus = 2;             // found per keypoint kept, so that there is a choice in every sector
-constexpr double kSiftContrast = 0.02;  // of SIFT; OpenCV's 0.04 leaves cloudy days with few
+constexpr int kMargin_px = 32;              // beyond the seam: what a descriptor of the half-size image needs
+constexpr int kSectors = 24;                // of the full turn, each with its share of the keypoints
+constexpr int kSurplus = 2;                 // found per keypoint kept, so that there is a choice in every sector
+constexpr double kSmallestContrast = 0.02;  // of SIFT; OpenCV's 0.04 leaves cloudy days with few
 
 /// The part of the panorama where keypoints are sought, a piece of its other end on each side, and how its pixels lie.
 struct Section {
@@ -124,7 +124,7 @@ std::vector<Keypoint> detect_keypoints(const cv::Mat& panorama, const KeypointPa
   const cv::Mat grey = to_described_size(panorama);
   const vision::Equirectangular sphere{grey.cols, grey.rows};
   const Section section = cut_section(grey, parameters);
-  const auto sift = cv::SIFT::create(kSurplus * parameters.most, 3, kSiftContrast);
+  const auto sift = cv::SIFT::create(kSurplus * parameters.most, 3, kSmallestContrast);
   std::vector<cv::KeyPoint> found;
   cv::Mat descriptors;
   sift->detectAndCompute(section.image, cv::noArray(), found, descriptors);

@@ -12,14 +12,14 @@
 namespace panvo::recorder {
 namespace {
 
-struct PlayerParameters {
+struct Parameters {
   std::string directory;             // the bag
   std::vector<std::string> topics;   // what to play
   std::vector<std::string> exclude;  // and what of it not
 
   template <class Field>
   static void describe(Field&& field) {
-    using P = PlayerParameters;
+    using P = Parameters;
     field(&P::directory, "directory", "", "folder of the bag, or one .db3 or .mcap file");
     field(&P::topics, "topics", "", "topics to play, names or regular expressions for whole names; none: all");
     field(&P::exclude, "exclude", "", "topics not to play, names or regular expressions");
@@ -43,7 +43,7 @@ std::string listed(const std::vector<std::string>& names) {
 class BagPlayerComponent final : public runtime::Component, public runtime::Source {
  public:
   explicit BagPlayerComponent(runtime::Context& context) : context_(context) {
-    const auto parameters = context.parameters<PlayerParameters>();
+    const auto parameters = context.parameters<Parameters>();
     if (parameters.directory.empty()) {
       throw runtime::ConfigError(context.name() + ": parameter directory names no bag; write directory: FOLDER");
     }
@@ -75,7 +75,7 @@ class BagPlayerComponent final : public runtime::Component, public runtime::Sour
   Progress progress() const override { return progress_; }
 
  private:
-  void open(const PlayerParameters& parameters) {
+  void open(const Parameters& parameters) {
     bag_ = std::make_unique<BagReader>(parameters.directory);
     for (const auto& warning : bag_->warnings()) {
       context_.log().warn("{}", warning);

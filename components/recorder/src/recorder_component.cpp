@@ -16,7 +16,7 @@ namespace {
 using runtime::SamplePtr;
 using runtime::TopicDescription;
 
-struct RecorderParameters {
+struct Parameters {
   std::string output;                // folder of the bag
   bool overwrite = false;            // replace a bag that is there
   std::vector<std::string> topics;   // what to record
@@ -30,7 +30,7 @@ struct RecorderParameters {
 
   template <class Field>
   static void describe(Field&& field) {
-    using P = RecorderParameters;
+    using P = Parameters;
     field(&P::output, "output", "", "folder of the bag; empty: rosbag2_ with date and time, in the working directory");
     field(&P::overwrite, "overwrite", "", "replace a bag that is already there");
     field(&P::topics, "topics", "", "topics to record, names or regular expressions for whole names; none: all");
@@ -62,7 +62,7 @@ auto as_configuration(const std::string& component, Action action) {
   }
 }
 
-std::unique_ptr<BagWriter> make_writer(const RecorderParameters& parameters) {
+std::unique_ptr<BagWriter> make_writer(const Parameters& parameters) {
   const BagWriter::Options options{.overwrite = parameters.overwrite,
                                    .max_file_bytes = static_cast<std::uint64_t>(parameters.max_file_mb) * 1'000'000,
                                    .storage = storage_from_text(parameters.storage),
@@ -77,7 +77,7 @@ class RecorderComponent final : public runtime::Component {
  public:
   explicit RecorderComponent(runtime::Context& context)
       : context_(context),
-        parameters_(context.parameters<RecorderParameters>()),
+        parameters_(context.parameters<Parameters>()),
         filter_(
             as_configuration(context.name(), [this] { return TopicFilter(parameters_.topics, parameters_.exclude); })),
         writer_(as_configuration(context.name(), [this] { return make_writer(parameters_); })),
@@ -203,7 +203,7 @@ class RecorderComponent final : public runtime::Component {
   }
 
   runtime::Context& context_;
-  const RecorderParameters parameters_;
+  const Parameters parameters_;
   const TopicFilter filter_;
   const std::unique_ptr<BagWriter> writer_;
   runtime::Stage<Waiting> writing_;

@@ -12,12 +12,12 @@ namespace panvo::vision {
 namespace {
 
 constexpr int kMaxIterations = 12;
-constexpr double kSettledStep_px = 0.01;
-constexpr double kLongestStep_px = 1.5;  // beyond, the template's gradients say nothing
+constexpr double kSettled_px = 0.01;
+constexpr double kLargestStep_px = 1.5;  // beyond, the template's gradients say nothing
 constexpr double kCorrelation =
     3.0;  // interpolation spreads a pixel's noise: residuals shrink, what they do to the position does not
 constexpr double kSmallestGain = 0.25;     // a fainter copy is no copy
-constexpr double kFaintestContrast = 2.0;  // grey levels, standard deviation: under it lies the noise of an 8-bit image
+constexpr double kSmallestContrast = 2.0;  // grey levels, standard deviation: under it lies the noise of an 8-bit image
 
 // Places in the image as integers, 1/65536 px: sampling is most of the work, and integers are the fastest at it.
 constexpr int kPlaceBits = 16;
@@ -91,7 +91,7 @@ bool PatchTemplate::prepare(const std::array<float, (kSize + 2) * (kSize + 2)>& 
     normal += b * b.transpose();
   }
   energy_ = normal(0, 0);
-  if (energy_ < kPixels * kFaintestContrast * kFaintestContrast) return false;
+  if (energy_ < kPixels * kSmallestContrast * kSmallestContrast) return false;
   const Eigen::Matrix3d normal_plane = normal.cast<double>();
   // A template without gradient along v (a vertical edge) can still be searched along its row.
   const Eigen::Matrix3d damping = (1e-6 * energy_ * Eigen::Vector3d(0.0, 1.0, 1.0)).asDiagonal();
@@ -150,10 +150,10 @@ std::optional<PatchAlignment> PatchTemplate::align(const cv::Mat& image, const E
     if (!(gain > kSmallestGain)) return std::nullopt;
     Eigen::Vector2d step = -solution.tail<2>() / gain;
     const double length = step.norm();
-    if (length > kLongestStep_px) step *= kLongestStep_px / length;
+    if (length > kLargestStep_px) step *= kLargestStep_px / length;
     position += step;
     if ((position - start).squaredNorm() > reach_px * reach_px) return std::nullopt;
-    if (length > kSettledStep_px) continue;
+    if (length > kSettled_px) continue;
 
     const double variation = seen.square - seen.intensity * seen.intensity / kPixels;
     const double residual = std::max(0.0, variation - solution.dot(seen.on_basis));

@@ -31,12 +31,12 @@ Eigen::Vector3f unpacked(std::uint32_t normal) {
 
 std::vector<EdgeSample> edge_samples(int count) {
   constexpr int kMostInARing = 5;
-  constexpr double kTurnStep = std::numbers::pi / 12.0;
+  constexpr double kTurn = std::numbers::pi / 12.0;
   constexpr double kGoldenAngle = 2.399963229728653;
   std::vector<EdgeSample> samples;
   for (int i = 0; i < count; ++i) {
     const bool is_ring = count <= kMostInARing;
-    const double angle = kTurnStep + (is_ring ? 2.0 * std::numbers::pi * i / count : i * kGoldenAngle);
+    const double angle = kTurn + (is_ring ? 2.0 * std::numbers::pi * i / count : i * kGoldenAngle);
     const double radius = is_ring ? 0.41 : 0.56 * std::sqrt((i + 0.5) / count);
     // every other moment first, lest place and time go together
     const int order = (2 * i) % count + (count % 2 == 0 && 2 * i >= count ? 1 : 0);

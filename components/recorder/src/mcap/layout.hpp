@@ -13,7 +13,7 @@
 
 namespace panvo::recorder::mcap {
 
-constexpr std::uint64_t kMostRecordBytes = 64u << 20;  ///< of schemas, metadata and the like: more is damage
+inline constexpr std::uint64_t kMostRecordBytes = 64u << 20;  ///< of schemas, metadata and the like: more is damage
 
 /// A stretch of an MCAP file with messages in it: a chunk, or records of messages that lie in the file by themselves.
 struct Block {

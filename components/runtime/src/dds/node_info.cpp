@@ -9,7 +9,7 @@
 namespace panvo::runtime::dds {
 namespace {
 
-constexpr std::size_t kHeaderSize = 4;
+constexpr std::size_t kEncapsulationSize = 4;
 constexpr std::size_t kGuidSize = 16;
 constexpr std::size_t kPrefixSize = 12;
 
@@ -20,9 +20,9 @@ std::array<std::uint8_t, kGuidSize> bytes_of(const NodeInfo::Guid& guid) {
   return bytes;
 }
 
-class InfoWriter {
+class Writer {
  public:
-  explicit InfoWriter(std::size_t gid_size) : gid_size_(gid_size) {}
+  explicit Writer(std::size_t gid_size) : gid_size_(gid_size) {}
 
   void gid(const NodeInfo::Guid& guid) {
     const auto bytes = bytes_of(guid);
@@ -51,9 +51,9 @@ class InfoWriter {
 };
 
 /// Every length is compared with what is left before it is believed. `good()` tells in the end.
-class InfoReader {
+class Reader {
  public:
-  InfoReader(std::span<const std::uint8_t> bytes, std::size_t gid_size)
+  Reader(std::span<const std::uint8_t> bytes, std::size_t gid_size)
       : bytes_(bytes), gid_size_(gid_size), is_big_endian_(bytes[1] == 0) {}
 
   NodeInfo::Guid gid() {
@@ -104,12 +104,12 @@ class InfoReader {
   std::span<const std::uint8_t> bytes_;
   const std::size_t gid_size_;
   const bool is_big_endian_;
-  std::size_t position_ = kHeaderSize;
+  std::size_t position_ = kEncapsulationSize;
   bool good_ = true;
 };
 
 std::optional<NodeInfo> decode(std::span<const std::uint8_t> bytes, std::size_t gid_size) {
-  InfoReader reader(bytes, gid_size);
+  Reader reader(bytes, gid_size);
   NodeInfo info;
   info.participant = reader.gid();
   for (std::uint32_t left = reader.count(); left > 0 && reader.good(); --left) {
@@ -132,7 +132,7 @@ std::size_t gid_size_of(const std::string& ros_distro) {
 }
 
 interfaces::Bytes encode(const NodeInfo& info, std::size_t gid_size) {
-  InfoWriter writer(gid_size);
+  Writer writer(gid_size);
   writer.gid(info.participant);
   writer.count(info.nodes.size());
   for (const auto& node : info.nodes) {
@@ -145,7 +145,7 @@ interfaces::Bytes encode(const NodeInfo& info, std::size_t gid_size) {
 }
 
 std::optional<NodeInfo> decode_node_info(std::span<const std::uint8_t> bytes) {
-  if (bytes.size() < kHeaderSize || bytes[0] != 0 || bytes[1] > 1) return std::nullopt;
+  if (bytes.size() < kEncapsulationSize || bytes[0] != 0 || bytes[1] > 1) return std::nullopt;
   auto info = decode(bytes, kGidSize);
   return info ? info : decode(bytes, kHumbleGidSize);
 }

@@ -15,19 +15,19 @@
 namespace panvo::runtime {
 namespace {
 
-using LineIfAny = std::optional<std::string>;
+using Line = std::optional<std::string>;
 
 /// What becomes of the messages of a topic: a file, and a line for each of them.
 struct FileKind {
   std::string_view topic_ending;
   std::string_view type_name;
   std::string_view file_stem, file_ending;
-  std::string (*header)();              ///< nullptr: none
-  LineIfAny (*line)(const SamplePtr&);  ///< nullopt: nothing that can be written; throws DecodeError
+  std::string (*header)();         ///< nullptr: none
+  Line (*line)(const SamplePtr&);  ///< nullopt: nothing that can be written; throws DecodeError
 };
 
-template <class Message, LineIfAny (*kLine)(const Message&)>
-LineIfAny line_of(const SamplePtr& sample) {
+template <class Message, Line (*kLine)(const Message&)>
+Line line_of(const SamplePtr& sample) {
   return kLine(*Sample::as<Message>(sample));
 }
 
@@ -89,7 +89,7 @@ struct RunFiles::TopicFile {
   }
 
   void append(const SamplePtr& sample) {
-    LineIfAny line;
+    Line line;
     try {
       line = kind->line(sample);
     } catch (const interfaces::DecodeError&) {  // the bytes are no such message

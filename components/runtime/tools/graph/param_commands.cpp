@@ -59,12 +59,12 @@ std::set<std::string> nodes_with_parameters(Session& session) {
   return nodes;
 }
 
-struct ParamArguments {
+struct Arguments {
   std::string node, name, value;
   std::vector<std::string> prefixes;
 };
 
-void list(const SessionOptions& options, const ParamArguments& arguments) {
+void list(const SessionOptions& options, const Arguments& arguments) {
   Session session(options);
   if (!arguments.node.empty()) {
     for (const auto& name : names_of(session, absolute(arguments.node), arguments.prefixes)) std::cout << name << "\n";
@@ -76,7 +76,7 @@ void list(const SessionOptions& options, const ParamArguments& arguments) {
   }
 }
 
-void get(const SessionOptions& options, const ParamArguments& arguments) {
+void get(const SessionOptions& options, const Arguments& arguments) {
   Session session(options);
   const std::string node = absolute(arguments.node);
   const auto values = values_of(session, node, {arguments.name});
@@ -85,7 +85,7 @@ void get(const SessionOptions& options, const ParamArguments& arguments) {
   std::cout << shown(values[0]) << "\n";
 }
 
-void set(const SessionOptions& options, const ParamArguments& arguments) {
+void set(const SessionOptions& options, const Arguments& arguments) {
   SetParameters_Request request;
   request.parameters().resize(1);
   request.parameters()[0].name(arguments.name);
@@ -100,7 +100,7 @@ void set(const SessionOptions& options, const ParamArguments& arguments) {
   std::cout << "set\n";
 }
 
-void describe(const SessionOptions& options, const ParamArguments& arguments) {
+void describe(const SessionOptions& options, const Arguments& arguments) {
   Session session(options);
   const std::string node = absolute(arguments.node);
   DescribeParameters_Request request;
@@ -127,8 +127,8 @@ void describe(const SessionOptions& options, const ParamArguments& arguments) {
 void add_param_commands(CLI::App& app, const SessionOptions& options) {
   auto* param = app.add_subcommand("param", "the parameters of nodes");
   param->require_subcommand(1);
-  const auto arguments = std::make_shared<ParamArguments>();
-  const auto add = [&](const char* name, const char* what, void (*run)(const SessionOptions&, const ParamArguments&)) {
+  const auto arguments = std::make_shared<Arguments>();
+  const auto add = [&](const char* name, const char* what, void (*run)(const SessionOptions&, const Arguments&)) {
     auto* command = param->add_subcommand(name, what);
     command->callback([&options, arguments, run] { run(options, *arguments); });
     return command;

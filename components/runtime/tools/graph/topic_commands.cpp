@@ -33,7 +33,7 @@ std::string joined(const std::set<std::string>& words) {
   return text;
 }
 
-void list_topics(const SessionOptions& options, bool with_types) {
+void list(const SessionOptions& options, bool with_types) {
   Session session(options);
   for (const auto& [name, counts] : topics_of(session.settled_graph()))
     std::cout << name << (with_types ? " [" + joined(counts.types) + "]" : "") << "\n";
@@ -77,7 +77,7 @@ void add_topic_commands(CLI::App& app, const SessionOptions& options) {
   const auto flag = std::make_shared<bool>(false);
   auto* list_command = topic->add_subcommand("list", "their names");
   list_command->add_flag("-t,--show-types", *flag, "their types too");
-  list_command->callback([&options, flag] { list_topics(options, *flag); });
+  list_command->callback([&options, flag] { list(options, *flag); });
 
   auto* info_command = topic->add_subcommand("info", "type, publishers and subscriptions of one");
   info_command->add_option("TOPIC", reading->topic, "such as /odometry/binocular")->required();
