@@ -9,7 +9,7 @@ source "$PANVO_SCRIPTS/lib/routes.sh"
 
 verb_usage() {
   cat <<'EOT'
-usage: panvo demo [--full] [--dataset DIR] [--out DIR] [--replay]
+usage: panvo demo [--full] [--seed N] [--dataset DIR] [--out DIR] [--replay]
 
 Installs and builds what is missing, drives the route 'short' through the simulated campus (rendered once, some minutes, and
 kept for the next time) with stereo cameras whose calibration has aged, and runs the whole system on it in one container: stereo
@@ -17,7 +17,8 @@ odometry, places, compass, localizer, a recorder beside them. Then it compares b
 the one that places correct, and writes a page that shows it all.
 
   --full          the journeys of the paper instead: 'dataset_i' (3.1 km), then 'dataset_ii' (1.4 km) on the places of the first; to be
-                  rendered once, which takes two hours on two cores
+                  rendered once, which takes two hours on two cores (and goes on where it was when it is interrupted)
+  --seed N        another campus (default: 1)
   --dataset DIR   a recording of your own instead of the simulation
   --out DIR       a new folder for the results (default: runs/demo-1, demo-2, ...)
   --replay        one thread, in order of stamps, the same result bit for bit every time (default: a thread for each
@@ -28,7 +29,7 @@ EOT
 }
 
 verb_main() {
-  local dataset='' out='' full='' route
+  local dataset='' out='' full='' seed='' route
   local -a mode=() library=() earlier=()
   while (($#)); do
     case $1 in
@@ -42,12 +43,19 @@ verb_main() {
         out=$2
         shift
         ;;
+      --seed)
+        require_value "$@"
+        [[ $2 =~ ^[0-9]+$ ]] || fail "--seed takes a number, not '$2'" 2
+        seed=$2
+        shift
+        ;;
       --full) full=yes ;;
       --replay) mode=(--replay) ;;
       *) unknown_option "$1" ;;
     esac
     shift
   done
+  [[ -z $seed || -z $dataset ]] || fail "--seed is of the simulated journeys; it goes without --dataset" 2
   [[ -z $full || -z $dataset ]] || fail "--full is of the simulated journeys; it goes without --dataset" 2
   # Before anything is installed or built: is there something to play?
   if [[ -n $dataset ]]; then
@@ -63,12 +71,12 @@ $(dataset_layouts)"
   if [[ -n $dataset ]]; then
     play_and_show "$dataset" "$out"
   elif [[ -z $full ]]; then
-    dataset=$(simulated_dataset short)
+    dataset=$(simulated_dataset short "${seed:-1}")
     play_and_show "$dataset" "$out"
   else
     library=(--set "landmark_store.file=$out/places.sqlite")
     for route in dataset_i dataset_ii; do
-      dataset=$(simulated_dataset "$route")
+      dataset=$(simulated_dataset "$route" "${seed:-1}")
       play_and_show "$dataset" "$out/$route" "${library[@]}"
       earlier=(--earlier "$dataset")
     done
@@ -87,10 +95,10 @@ play_and_show() {
 # How the stereo camera of the demo was calibrated: as of a good calibration after months of driving. An exact one hardly drifts.
 demo_rig=(--calibration-error 1)
 
-# simulated_dataset ROUTE: the data set of a journey through the simulated campus, rendered when it is not there yet. It is named
-# by what it was rendered with, and one that another panvo rendered makes room for it.
+# simulated_dataset ROUTE SEED: the data set of a journey through the simulated campus, rendered when it is not there yet, or not
+# wholly. It is named by what it was rendered with, and one that another panvo rendered makes room for it.
 simulated_dataset() {
-  local route simulate folder key dataset
+  local seed=$2 route simulate folder key dataset
   route=$(route_file "$1")
   simulate=$(program panvo_simulate)
   folder=${XDG_CACHE_HOME:-$HOME/.cache}/panvo/simulated
@@ -99,12 +107,12 @@ simulated_dataset() {
     cat "$route" "$simulate" "$(simulation_library "$simulate")"
     echo "${demo_rig[@]}"
   } | sha256sum | cut -c 1-12)
-  dataset=$folder/$1-$key
+  dataset=$folder/$1-seed$seed-$key
   if [[ ! -f $dataset/sequence.yaml ]]; then
     mkdir -p -- "$folder" || fail "'$folder' cannot be made; name a recording with --dataset"
-    find "$folder" -maxdepth 1 -name "$1-*" -exec rm -rf {} +
+    find "$folder" -maxdepth 1 -name "$1-seed$seed-*" ! -name "*-$key*" -exec rm -rf {} +
     note "simulating the route '$1'; it is kept in $dataset"
-    "$simulate" --route "$route" "${demo_rig[@]}" --out "$dataset" >&2 || fail "the simulation failed; the message above says why"
+    "$simulate" --route "$route" "${demo_rig[@]}" --seed "$seed" --out "$dataset" >&2 || fail "the simulation failed; the message above says why"
   fi
   printf '%s' "$dataset"
 }

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <csignal>
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -49,26 +50,51 @@ class SimulatedJourney : public ::testing::Test {
   TemporaryFolder folder_;
 };
 
-TEST_F(SimulatedJourney, OfOneSeedIsTheSameByteForByteAndOfAnotherSeedAnotherWorld) {
+TEST_F(SimulatedJourney, OfOneSeedIsTheSameByteForByteEvenWhereItWasKilledAndOfAnotherSeedAnotherWorld) {
   const auto rig = small_rig();
-  const std::vector<std::pair<std::string, std::string>> runs{{"a", "1"}, {"b", "1"}, {"c", "2"}};
-  for (const auto& [out, seed] : runs) {
-    const auto finished = simulate({"--route", kShort, "--out", folder_ / out, "--rig", rig, "--seed", seed, "--start",
-                                    "9", "--duration", "0.4", "--effects", "movers,rain", "--format", "png"});
-    ASSERT_EQ(finished.status, 0) << finished.output;
+  const auto words = [&](const std::string& out, const std::string& seed) {
+    return std::vector<std::string>{
+        "--route",  kShort,    "--out", folder_ / out, "--rig", rig,         "--seed",
+        seed,       "--start", "9",     "--duration",  "3",     "--effects", "movers,rain,sudden_light",
+        "--format", "png"};
+  };
+  const auto whole = simulate(words("whole", "1"));
+  ASSERT_EQ(whole.status, 0) << whole.output;
+  const auto first = contents(folder_.path() / "whole");
+
+  auto to_be_killed = words("killed", "1");
+  to_be_killed.insert(to_be_killed.begin(), PANVO_SIMULATE);
+  {
+    Process process(to_be_killed);
+    const fs::path journal = folder_ / "killed.partial/rendered.csv";
+    ASSERT_TRUE(eventually([&] { return fs::exists(journal) && fs::file_size(journal) > 500; })) << process.output();
+    process.signal(SIGKILL);
+    ASSERT_EQ(process.wait(), 128 + SIGKILL) << process.output();
   }
-  const auto first = contents(folder_.path() / "a");
-  const auto again = contents(folder_.path() / "b");
+  EXPECT_FALSE(fs::exists(folder_ / "killed")) << "a data set in part must not look like a whole one";
+
+  const auto other = simulate(words("killed", "2"));
+  EXPECT_NE(other.status, 0) << "two worlds in one data set";
+  EXPECT_THAT(other.output, HasSubstr("'seed: 1' there, 'seed: 2' asked for"));
+
+  const auto resumed = simulate(words("killed", "1"));
+  ASSERT_EQ(resumed.status, 0) << resumed.output;
+  EXPECT_THAT(resumed.output, HasSubstr("of 76 instants: goes on"));
+  const auto again = contents(folder_.path() / "killed");
   ASSERT_EQ(first.size(), again.size());
   for (const auto& [name, bytes] : first) {
     ASSERT_TRUE(again.contains(name)) << name;
     EXPECT_TRUE(again.at(name) == bytes) << name << " differs";
   }
+
+  const auto another = simulate(words("another", "2"));
+  ASSERT_EQ(another.status, 0) << another.output;
   const auto image = std::find_if(first.begin(), first.end(), [](const auto& file) {
     return file.first.starts_with("mav0/cam0/data/") && file.first.ends_with(".png");
   });
   ASSERT_NE(image, first.end());
-  EXPECT_FALSE(contents(folder_.path() / "c").at(image->first) == image->second) << "two seeds gave the same picture";
+  EXPECT_FALSE(contents(folder_.path() / "another").at(image->first) == image->second)
+      << "two seeds gave the same picture";
 }
 
 TEST_F(SimulatedJourney, IsADataSetThatOdometryFollowsToTheCentimetre) {

@@ -3,18 +3,26 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
+#include <optional>
+#include <span>
+#include <sstream>
 #include <stdexcept>
 
 #include "panvo/simulation/sequence_file.hpp"
+#include "render_journal.hpp"
 
 namespace panvo::simulation {
 namespace {
 
 namespace fs = std::filesystem;
+
+// Of a data set that is not whole yet: what it will be of, and how far it has come.
+constexpr auto kAsked = "rendering.yaml", kJournal = "rendered.csv";
 
 [[noreturn]] void fail(const fs::path& file) {
   throw std::runtime_error(fmt::format("{}: cannot be written ({}); free space there or name another folder",
@@ -25,6 +33,32 @@ void write_text(const fs::path& file, const std::string& text) {
   std::ofstream stream(file, std::ios::binary);
   stream << text << std::flush;
   if (!stream) fail(file);
+}
+
+std::string read_text(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+void make_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) throw std::runtime_error(folder.string() + ": cannot be made (" + error.message() + ")");
+}
+
+const char* extension(ImageFormat format) { return format == ImageFormat::kJpeg ? "jpg" : "png"; }
+
+/// The first lines in which two texts differ.
+std::optional<std::pair<std::string, std::string>> first_difference(const std::string& a, const std::string& b) {
+  std::istringstream lines_a(a), lines_b(b);
+  for (std::string line_a, line_b; lines_a || lines_b;) {
+    line_a.clear();
+    line_b.clear();
+    std::getline(lines_a, line_a);
+    std::getline(lines_b, line_b);
+    if (line_a != line_b) return std::pair(line_a, line_b);
+  }
+  return {};
 }
 
 std::string matrix(const Eigen::Isometry3d& transform) {
@@ -94,13 +128,13 @@ std::string head_yaml(const PanoramicCamera& panorama, const PanoramaHead& head)
 
 }  // namespace
 
-std::uint64_t estimated_bytes(const Simulation& simulation, ImageFormat format) {
+std::uint64_t estimated_bytes(const Simulation& simulation, std::size_t first_instant, ImageFormat format) {
   // Measured on street scenes: what the two formats make of a pixel of one channel.
   const double bytes_per_sample = format == ImageFormat::kJpeg ? 0.35 : 0.75;
   const auto& rig = simulation.parameters().rig;
   const auto& eye = rig.stereo.calibration.left.pinhole;
   double bytes = 0.0;
-  for (const auto& instant : simulation.instants()) {
+  for (const auto& instant : std::span(simulation.instants()).subspan(first_instant)) {
     if (instant.stereo_frame) bytes += 2.0 * eye.width * eye.height * (rig.stereo.sensor.colour ? 3 : 1);
     if (instant.panorama_frame) {
       for (const auto& head : rig.panorama.heads) {
@@ -115,32 +149,89 @@ EurocWriter::EurocWriter(fs::path directory, const Simulation& simulation, Image
     : directory_(std::move(directory)), simulation_(simulation), format_(format) {
   const auto& parameters = simulation.parameters();
   const auto& [stereo, panorama] = parameters.rig;
-  if (fs::exists(directory_) && !fs::is_empty(directory_)) {
-    throw std::runtime_error(directory_.string() + ": is there already and not empty; name a new folder");
-  }
+  const auto add_camera = [this](bool is_panoramic, int number, std::string description) {
+    cameras_.push_back({is_panoramic, directory_ / "mav0" / fmt::format("cam{}", number), std::move(description), {}});
+  };
   if (parameters.stereo) {
-    add_camera("cam0", eye_yaml("left", stereo.calibration.left, stereo.base_from_left, stereo.rate_hz));
-    add_camera("cam1", eye_yaml("right", stereo.calibration.right, stereo.base_from_right(), stereo.rate_hz));
+    add_camera(false, 0, eye_yaml("left", stereo.calibration.left, stereo.base_from_left, stereo.rate_hz));
+    add_camera(false, 1, eye_yaml("right", stereo.calibration.right, stereo.base_from_right(), stereo.rate_hz));
   }
   if (parameters.panorama) {
-    for (std::size_t i = 0; i < panorama.heads.size(); ++i) {
-      add_camera(fmt::format("cam{}", i + 2), head_yaml(panorama, panorama.heads[i]));
-    }
+    int number = 2;
+    for (const auto& head : panorama.heads) add_camera(true, number++, head_yaml(panorama, head));
   }
+  make_folder(directory_);
+  journal_ = std::make_unique<RenderJournal>(directory_ / kJournal);
+  describe();
+  find_what_is_written();
   write_ground_truth();
 }
 
-void EurocWriter::add_camera(const std::string& name, const std::string& yaml) {
-  Camera camera;
-  camera.folder = directory_ / "mav0" / name;
-  std::error_code error;
-  fs::create_directories(camera.folder / "data", error);
-  if (error) throw std::runtime_error(camera.folder.string() + ": cannot be made (" + error.message() + ")");
-  write_text(camera.folder / "sensor.yaml", yaml);
-  camera.list.open(camera.folder / "data.csv", std::ios::binary);
-  camera.list << "#timestamp [ns],filename\n";
-  if (!camera.list) fail(camera.folder / "data.csv");
-  cameras_.push_back(std::move(camera));
+EurocWriter::~EurocWriter() = default;
+
+/// Says of what simulation the data set is, all that decides about a pixel, before there is one: two are not mixed.
+void EurocWriter::describe() {
+  const auto& parameters = simulation_.parameters();
+  std::string asked = fmt::format("format: {}\nassets: {}\nvibration: {:g}\n{}", extension(format_),
+                                  parameters.assets.string(), parameters.motion.vibration, sequence_yaml(simulation_));
+  for (const auto& camera : cameras_) asked += camera.description;
+  const auto file = directory_ / kAsked;
+  if (!fs::exists(file)) {
+    journal_->keep(0);
+    write_text(file.string() + ".new", asked);
+    fs::rename(file.string() + ".new", file);
+  } else if (const auto difference = first_difference(read_text(file), asked)) {
+    throw std::runtime_error(
+        fmt::format("{}: is the begun data set of another simulation ('{}' there, '{}' asked for); ask for the same, "
+                    "remove the folder, or name another",
+                    directory_.string(), difference->first, difference->second));
+  }
+}
+
+/// Lists the images that are there. A process that was killed leaves whole files; a computer without power may leave
+/// empty ones, and it goes on from the first of these.
+void EurocWriter::find_what_is_written() {
+  for (auto& camera : cameras_) {
+    make_folder(camera.folder / "data");
+    write_text(camera.folder / "sensor.yaml", camera.description);
+    camera.list.open(camera.folder / "data.csv", std::ios::binary);
+    camera.list << "#timestamp [ns],filename\n";
+  }
+  const auto& instants = simulation_.instants();
+  const auto is_written = [&](const Instant& instant) {
+    return std::ranges::all_of(cameras_, [&](const Camera& camera) {
+      std::error_code error;
+      const auto bytes = fs::file_size(camera.folder / "data" / image_name(instant), error);
+      return !exposes(camera, instant) || (!error && bytes > 0);
+    });
+  };
+  const auto& found = journal_->found();
+  while (written_before_ < std::min(found.size(), instants.size()) &&
+         found[written_before_].stamp_ns == instants[written_before_].stamp_ns &&
+         is_written(instants[written_before_])) {
+    list_images(instants[written_before_++]);
+  }
+  journal_->keep(written_before_);
+}
+
+Exposure EurocWriter::exposure_before() const {
+  return written_before_ > 0 ? journal_->found()[written_before_ - 1].exposure : Exposure{};
+}
+
+bool EurocWriter::exposes(const Camera& camera, const Instant& instant) {
+  return camera.is_panoramic ? instant.panorama_frame.has_value() : instant.stereo_frame.has_value();
+}
+
+std::string EurocWriter::image_name(const Instant& instant) const {
+  return fmt::format("{}.{}", instant.stamp_ns, extension(format_));
+}
+
+void EurocWriter::list_images(const Instant& instant) {
+  for (auto& camera : cameras_) {
+    if (!exposes(camera, instant)) continue;
+    camera.list << instant.stamp_ns << ',' << image_name(instant) << '\n';
+    if (!camera.list) fail(camera.folder / "data.csv");
+  }
 }
 
 void EurocWriter::write_ground_truth() {
@@ -162,33 +253,33 @@ void EurocWriter::write_ground_truth() {
 }
 
 void EurocWriter::write(const Instant& instant, const Simulation::StereoImages& images) {
-  write_image(cameras_.at(0), instant.stamp_ns, images.left);
-  write_image(cameras_.at(1), instant.stamp_ns, images.right);
+  write_image(cameras_.at(0), instant, images.left);
+  write_image(cameras_.at(1), instant, images.right);
 }
 
 void EurocWriter::write(const Instant& instant, const std::vector<cv::Mat>& panorama_heads) {
   const std::size_t first = cameras_.size() - panorama_heads.size();
-  for (std::size_t i = 0; i < panorama_heads.size(); ++i) {
-    write_image(cameras_.at(first + i), instant.stamp_ns, panorama_heads[i]);
-  }
+  for (std::size_t i = 0; i < panorama_heads.size(); ++i)
+    write_image(cameras_.at(first + i), instant, panorama_heads[i]);
 }
 
-void EurocWriter::write_image(Camera& camera, std::int64_t stamp_ns, const cv::Mat& image) {
-  const auto name = fmt::format("{}.{}", stamp_ns, format_ == ImageFormat::kJpeg ? "jpg" : "png");
-  const auto file = camera.folder / "data" / name;
+void EurocWriter::write_image(const Camera& camera, const Instant& instant, const cv::Mat& image) const {
+  const auto file = camera.folder / "data" / image_name(instant);
   cv::Mat bgr = image;
   if (image.channels() == 3) cv::cvtColor(image, bgr, cv::COLOR_RGB2BGR);
   std::vector<unsigned char> bytes;
-  const bool is_jpeg = format_ == ImageFormat::kJpeg;
-  cv::imencode(
-      is_jpeg ? ".jpg" : ".png", bgr, bytes,
-      is_jpeg ? std::vector<int>{cv::IMWRITE_JPEG_QUALITY, 95} : std::vector<int>{cv::IMWRITE_PNG_COMPRESSION, 1});
+  const auto quality = format_ == ImageFormat::kJpeg ? std::vector<int>{cv::IMWRITE_JPEG_QUALITY, 95}
+                                                     : std::vector<int>{cv::IMWRITE_PNG_COMPRESSION, 1};
+  cv::imencode(fmt::format(".{}", extension(format_)), bgr, bytes, quality);
   std::ofstream stream(file, std::ios::binary);
   stream.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
   stream.close();
   if (!stream) fail(file);
-  camera.list << stamp_ns << ',' << name << '\n';
-  if (!camera.list) fail(camera.folder / "data.csv");
+}
+
+void EurocWriter::complete(const Instant& instant, const Exposure& exposure) {
+  list_images(instant);
+  journal_->add({instant.stamp_ns, exposure});
 }
 
 void EurocWriter::finish() {
@@ -197,6 +288,8 @@ void EurocWriter::finish() {
     if (!camera.list) fail(camera.folder / "data.csv");
   }
   write_text(directory_ / "sequence.yaml", sequence_yaml(simulation_));
+  fs::remove(directory_ / kAsked);
+  fs::remove(directory_ / kJournal);
 }
 
 }  // namespace panvo::simulation

@@ -172,4 +172,17 @@ std::vector<cv::Mat> Simulation::render_panorama(const Instant& instant) {
   return images;
 }
 
+// The first of a group decides for all of it.
+Exposure Simulation::exposure() const {
+  Exposure exposure;
+  if (!eyes_.empty()) exposure.stereo_gain = eyes_.front().sensor.gain();
+  if (!heads_.empty()) exposure.panorama_gain = heads_.front().sensor.gain();
+  return exposure;
+}
+
+void Simulation::set_exposure(const Exposure& exposure) {
+  if (!eyes_.empty()) eyes_.front().sensor.set_gain(exposure.stereo_gain);
+  if (!heads_.empty()) heads_.front().sensor.set_gain(exposure.panorama_gain);
+}
+
 }  // namespace panvo::simulation

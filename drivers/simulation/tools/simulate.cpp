@@ -38,9 +38,11 @@ double seconds_since(Clock::time_point start) { return std::chrono::duration<dou
 /// The line that says how far it is: rewritten in place on a terminal, a line every tenth of the way elsewhere.
 class Progress {
  public:
-  explicit Progress(const Simulation& simulation)
+  /// Of what is to be rendered from instant `first` on.
+  Progress(const Simulation& simulation, std::size_t first)
       : from_s_(simulation.instants().front().t_s),
         length_s_(std::max(simulation.instants().back().t_s - from_s_, 1e-3)),
+        begun_s_(first < simulation.instants().size() ? simulation.instants()[first].t_s : from_s_ + length_s_),
         is_terminal_(isatty(STDERR_FILENO) != 0) {}
 
   void show(double t_s) {
@@ -50,7 +52,8 @@ class Progress {
     last_wall_s_ = wall_s;
     last_share_ = share;
     fmt::print(stderr, "{}  rendered {:5.1f} of {:.1f} s, {:.0f} s to go{}", is_terminal_ ? "\r" : "", t_s - from_s_,
-               length_s_, share > 0.0 ? wall_s / share * (1.0 - share) : 0.0, is_terminal_ ? "   " : "\n");
+               length_s_, t_s > begun_s_ ? wall_s / (t_s - begun_s_) * (from_s_ + length_s_ - t_s) : 0.0,
+               is_terminal_ ? "   " : "\n");
   }
 
   /// Ends the line; how long it took.
@@ -61,7 +64,7 @@ class Progress {
 
  private:
   Clock::time_point start_ = Clock::now();
-  double from_s_, length_s_, last_wall_s_ = 0.0, last_share_ = 0.0;
+  double from_s_, length_s_, begun_s_, last_wall_s_ = 0.0, last_share_ = 0.0;
   bool is_terminal_;
 };
 
@@ -72,7 +75,8 @@ void describe_options(CLI::App& app, Options& options) {
       ->delimiter(',');
   app.add_option("--random", options.random_junctions, "a route through that many junctions, drawn from the seed")
       ->check(CLI::Range(2, 1000));
-  app.add_option("--out", options.out, "the folder to make");
+  app.add_option("--out", options.out,
+                 "the folder to make; asked for again after an interruption, it goes on where it was");
   app.add_option("--seed", s.seed, "of the world, the motion and the noise")->capture_default_str();
   app.add_option("--effects", options.effects, "what makes it hard, with commas between; all, none")->delimiter(',');
   app.add_option("--rig", options.rig, "rig file, as config/rigs/paper/rig.yaml");
@@ -151,8 +155,8 @@ void write_pictures(Simulation& simulation, const Options& options) {
 }
 
 /// Asks for room before anything is rendered.
-void check_space(const Simulation& simulation, const fs::path& folder, ImageFormat format) {
-  const auto needed = estimated_bytes(simulation, format);
+void check_space(const Simulation& simulation, std::size_t first_instant, const fs::path& folder, ImageFormat format) {
+  const auto needed = estimated_bytes(simulation, first_instant, format);
   std::error_code error;
   const auto space = fs::space(fs::absolute(folder).parent_path(), error);
   if (!error && space.available < needed) {
@@ -165,15 +169,21 @@ void check_space(const Simulation& simulation, const fs::path& folder, ImageForm
 
 void write_data_set(Simulation& simulation, const Options& options) {
   const auto format = options.format == "jpg" ? ImageFormat::kJpeg : ImageFormat::kPng;
-  check_space(simulation, options.out, format);
   // Under another name until it is whole: whoever finds the folder finds all of it.
   const fs::path partial = options.out.string() + ".partial";
-  fs::remove_all(partial);
   EurocWriter writer(partial, simulation, format);
-  Progress progress(simulation);
-  for (const auto& instant : simulation.instants()) {
+  const auto& instants = simulation.instants();
+  const auto first = writer.written_before();
+  check_space(simulation, first, options.out, format);
+  if (first > 0)
+    fmt::print(stderr, "  {} is there, with {} of {} instants: goes on\n", partial.string(), first, instants.size());
+  simulation.set_exposure(writer.exposure_before());
+  Progress progress(simulation, first);
+  for (std::size_t i = first; i < instants.size(); ++i) {
+    const auto& instant = instants[i];
     if (instant.stereo_frame) writer.write(instant, simulation.render_stereo(instant));
     if (instant.panorama_frame) writer.write(instant, simulation.render_panorama(instant));
+    writer.complete(instant, simulation.exposure());
     progress.show(instant.t_s);
   }
   writer.finish();
@@ -181,8 +191,7 @@ void write_data_set(Simulation& simulation, const Options& options) {
   fs::remove(options.out);  // an empty folder that was there
   fs::rename(partial, options.out);
 
-  const auto& instants = simulation.instants();
-  const double length_s = instants.back().t_s - instants.front().t_s;
+  const double length_s = instants.back().t_s - instants[std::min(first, instants.size() - 1)].t_s;
   const auto statistics = simulation.statistics();
   fmt::print(
       "{}: {} s of {} in {:.0f} s ({:.1f} s a second): {:.2f} million pixels and {:.2f} million rays a second, "

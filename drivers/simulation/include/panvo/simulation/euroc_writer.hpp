@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -11,10 +12,12 @@
 
 namespace panvo::simulation {
 
+class RenderJournal;
+
 enum class ImageFormat { kJpeg, kPng };
 
-/// Bytes that the images of a simulation will take on disk, roughly (to ask the disk before anything is rendered).
-std::uint64_t estimated_bytes(const Simulation& simulation, ImageFormat format);
+/// Bytes that the images of a simulation from an instant on will take on disk, roughly (to ask the disk before anything is rendered).
+std::uint64_t estimated_bytes(const Simulation& simulation, std::size_t first_instant, ImageFormat format);
 
 /// Writes a simulation as a data set in the EuRoC/ASL layout: mav0/cam0 (left), cam1 (right), cam2 (panorama; cam2 to
 /// cam7 for the heads of a rig), each with data.csv, sensor.yaml and data/; state_groundtruth_estimate0 with the pose of
@@ -22,28 +25,46 @@ std::uint64_t estimated_bytes(const Simulation& simulation, ImageFormat format);
 /// throws std::runtime_error naming the file.
 class EurocWriter {
  public:
-  /// Makes the folders and writes what is known before the first image. `directory` must not be there, or be empty.
+  /// Makes the folders and writes what is known before the first image, or goes on with a data set that was begun in
+  /// `directory`. Throws when that is one of another simulation (with the line in which they differ), or when somebody
+  /// writes it now.
   EurocWriter(std::filesystem::path directory, const Simulation& simulation, ImageFormat format);
+  ~EurocWriter();
+
+  /// How many instants of the simulation were there already, and the exposure after them.
+  std::size_t written_before() const { return written_before_; }
+  Exposure exposure_before() const;
 
   void write(const Instant& instant, const Simulation::StereoImages& images);
   void write(const Instant& instant, const std::vector<cv::Mat>& panorama_heads);
+
+  /// All images of an instant are written, and `exposure` goes over to the next: from here an interrupted writing goes on.
+  void complete(const Instant& instant, const Exposure& exposure);
 
   /// Completes the data set. Without it there is no sequence.yaml: the mark of a data set that is whole.
   void finish();
 
  private:
   struct Camera {
+    bool is_panoramic;
     std::filesystem::path folder;
-    std::ofstream list;
+    std::string description;  // sensor.yaml
+    std::ofstream list;       // data.csv
   };
-  void add_camera(const std::string& name, const std::string& sensor_yaml);
+  static bool exposes(const Camera& camera, const Instant& instant);
+  std::string image_name(const Instant& instant) const;
+  void describe();
+  void find_what_is_written();
+  void list_images(const Instant& instant);
   void write_ground_truth();
-  void write_image(Camera& camera, std::int64_t stamp_ns, const cv::Mat& image);
+  void write_image(const Camera& camera, const Instant& instant, const cv::Mat& image) const;
 
   std::filesystem::path directory_;
   const Simulation& simulation_;
   ImageFormat format_;
   std::vector<Camera> cameras_;
+  std::unique_ptr<RenderJournal> journal_;
+  std::size_t written_before_ = 0;
 };
 
 }  // namespace panvo::simulation

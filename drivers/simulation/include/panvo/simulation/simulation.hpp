@@ -44,6 +44,11 @@ struct Instant {
   std::optional<std::uint64_t> stereo_frame, panorama_frame;  ///< counted with those that are dropped
 };
 
+/// What exposure control has come to: all that goes over from one instant to the next.
+struct Exposure {
+  double stereo_gain = 1.0, panorama_gain = 1.0;
+};
+
 /// The vehicle with its rig on its route, instant by instant.
 class Simulation {
  public:
@@ -68,6 +73,10 @@ class Simulation {
   /// first, for the same images every time.
   StereoImages render_stereo(const Instant& instant);
   std::vector<cv::Mat> render_panorama(const Instant& instant);  ///< one image a head
+
+  /// For a rendering that goes on where another ended: exposure() after the last instant of that one.
+  Exposure exposure() const;
+  void set_exposure(const Exposure& exposure);
 
   /// Of all that was rendered so far.
   const Renderer::Statistics& statistics() const { return statistics_; }
