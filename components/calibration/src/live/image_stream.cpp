@@ -64,24 +64,27 @@ ImageStream::ImageStream(const std::vector<CameraTopic>& cameras, milliseconds t
       received_(cameras.size(), 0),
       bridge_(runtime::make_dds_bridge(settings())) {
   bridge_->on_warning(warn);
-  await_publishers(timeout);
-  const auto types = published_topics(*bridge_);
+  const auto types = await_publishers(timeout);
   for (std::size_t camera = 0; camera < cameras_.size(); ++camera) {
-    const auto& type = types.at(cameras_[camera].topic);
+    const auto& type = types[camera];
     readers_.push_back(bridge_->open_reader(
         {cameras_[camera].topic, type, interfaces::qos::kSensorData, interfaces::find_message_type(type)},
         [this, camera](const runtime::SamplePtr& sample) { take(camera, sample); }));
   }
 }
 
-void ImageStream::await_publishers(milliseconds timeout) {
+std::vector<std::string> ImageStream::await_publishers(milliseconds timeout) {
   const auto end = Clock::now() + timeout;
   for (;;) {
     const auto types = published_topics(*bridge_);
     const auto lacking = std::find_if(cameras_.begin(), cameras_.end(), [&](const auto& camera) {
       return !types.contains(camera.topic) || !is_image_type(types.at(camera.topic));
     });
-    if (lacking == cameras_.end()) return;
+    if (lacking == cameras_.end()) {
+      std::vector<std::string> found;
+      for (const auto& camera : cameras_) found.push_back(types.at(camera.topic));
+      return found;
+    }
     if (Interruption::came() || Clock::now() >= end)
       throw CalibrationError(fmt::format("{}: {} ({}); does the driver run, on this ROS_DOMAIN_ID?", lacking->topic,
                                          types.contains(lacking->topic)
@@ -110,8 +113,7 @@ std::string ImageStream::why_none() const {
                        cameras_[static_cast<std::size_t>(silent - received_.begin())].topic);
   return fmt::format(
       "{}: no images of all topics have one stamp, the nearest are {:.1f} ms apart; trigger the cameras together, or "
-      "bear "
-      "more with --tolerance-ms",
+      "bear more with --tolerance-ms",
       cameras_.front().topic, static_cast<double>(sets_.closest_ns().value_or(0)) / kMillisecond_ns);
 }
 

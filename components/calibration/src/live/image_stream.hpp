@@ -32,7 +32,8 @@ class ImageStream {
   std::string why_none() const;
 
  private:
-  void await_publishers(std::chrono::milliseconds timeout);
+  /// The types of the topics, by camera.
+  std::vector<std::string> await_publishers(std::chrono::milliseconds timeout);
   void take(std::size_t camera, const runtime::SamplePtr& sample);
 
   std::vector<CameraTopic> cameras_;
