@@ -14,6 +14,7 @@
 #include "panvo/binocular_odometry/binocular_odometry.hpp"
 #include "panvo/vision/absolute_orientation.hpp"
 #include "panvo/vision/rectification.hpp"
+#include "panvo/vision/stereo_calibration.hpp"
 
 namespace panvo::binocular_odometry {
 namespace {
@@ -152,8 +153,10 @@ TEST_P(RecordedBoofCv, IsFollowedWithoutLosingAFrame) {
   PANVO_NEEDS_RECORDING(folder);
   vision::StereoCalibration calibration;  // stereo_params.xml
   calibration.left = {{262.3070778, 263.4601134, 156.2254286, 123.7008161, 320, 240},
+                      vision::LensModel::kPlumbBob,
                       {-0.3625365821, 0.1753275439, 0, 0, 0}};
   calibration.right = {{263.2186548, 264.3262398, 159.2020283, 122.9675210, 320, 240},
+                       vision::LensModel::kPlumbBob,
                        {-0.3529996949, 0.1629746673, 0, 0, 0}};
   Eigen::Isometry3d left_from_right = Eigen::Isometry3d::Identity();
   left_from_right.matrix().topRows<3>() << 0.9999694757, -0.0021676589, 0.0075065916, 0.1200437426, 0.0021447608,

@@ -1,105 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "panvo/calibration/rectified_pair.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
+#include <stdexcept>
 
 #include "panvo/calibration/calibration_error.hpp"
-#include "panvo/vision/camera_model.hpp"
-#include "panvo/vision/pose.hpp"
+#include "panvo/vision/stereo_calibration.hpp"
 
 namespace panvo::calibration {
-namespace {
-
-constexpr int kBorderSteps = 64;  // places looked at along each border
-constexpr int kShrinkings = 400;
-constexpr double kShrink = 0.99;
-
-/// A part of the plane z = 1 in the rectified frame.
-struct Window {
-  double left, top, right, bottom;
-};
-
-/// Whether the camera sees all of a window's border, in its image.
-bool sees(const vision::CameraModel& model, const Eigen::Matrix3d& rectified_from_raw, const Window& window) {
-  const auto& pinhole = model.camera().pinhole;
-  const auto is_seen = [&](double x, double y) {
-    const auto pixel = model.project(rectified_from_raw.transpose() * Eigen::Vector3d(x, y, 1.0));
-    return pixel && pinhole.contains(*pixel);
-  };
-  for (int i = 0; i <= kBorderSteps; ++i) {
-    const double share = static_cast<double>(i) / kBorderSteps;
-    const double x = std::lerp(window.left, window.right, share);
-    const double y = std::lerp(window.top, window.bottom, share);
-    if (!is_seen(x, window.top) || !is_seen(x, window.bottom) || !is_seen(window.left, y) || !is_seen(window.right, y))
-      return false;
-  }
-  return true;
-}
-
-/// The largest window of the image's shape about a centre that both see.
-std::optional<double> half_height(const std::vector<std::pair<const vision::CameraModel*, Eigen::Matrix3d>>& eyes,
-                                  const Eigen::Vector2d& centre, double aspect, double widest) {
-  double half = std::min(widest, widest / aspect);
-  for (int i = 0; i < kShrinkings; ++i, half *= kShrink) {
-    const Window window{centre.x() - aspect * half, centre.y() - half, centre.x() + aspect * half, centre.y() + half};
-    if (std::all_of(eyes.begin(), eyes.end(), [&](const auto& eye) { return sees(*eye.first, eye.second, window); }))
-      return half;
-  }
-  return std::nullopt;
-}
-
-/// Where the middle of an image is in the rectified plane.
-Eigen::Vector2d middle(const vision::CameraModel& model, const Eigen::Matrix3d& rectified_from_raw) {
-  const auto& pinhole = model.camera().pinhole;
-  const auto direction = model.unproject({0.5 * (pinhole.width - 1), 0.5 * (pinhole.height - 1)});
-  if (!direction) return Eigen::Vector2d::Zero();
-  const Eigen::Vector3d turned = rectified_from_raw * *direction;
-  return turned.z() > 0.2 ? Eigen::Vector2d(turned.head<2>() / turned.z()) : Eigen::Vector2d::Zero();
-}
-
-}  // namespace
 
 vision::RectifiedStereo rectify(const RigCamera& left, const RigCamera& right, double widest_rad) {
-  const auto& size = left.lens.pinhole;
-  if (size.width != right.lens.pinhole.width || size.height != right.lens.pinhole.height)
-    throw CalibrationError(
-        fmt::format("the left camera has {} x {} px, the right one {} x {} px; a stereo pair needs two of one size",
-                    size.width, size.height, right.lens.pinhole.width, right.lens.pinhole.height));
   const Eigen::Isometry3d right_from_left = right.camera_from_reference * left.camera_from_reference.inverse();
-  const Eigen::Vector3d half_turn = 0.5 * vision::so3_log(right_from_left.linear());
-  const Eigen::Matrix3d middle_from_left = vision::so3_exp(half_turn);
-  const Eigen::Matrix3d middle_from_right = vision::so3_exp(-half_turn);
-  const Eigen::Vector3d baseline = -(middle_from_right * right_from_left.translation());
-  if (!(baseline.x() > baseline.tail<2>().norm()))
-    throw CalibrationError(fmt::format(
-        "the right camera is {:.3f} m to the right of the left one, {:.3f} m below and {:.3f} m ahead of it; "
-        "a stereo pair stands side by side: are left and right exchanged?",
-        baseline.x(), baseline.y(), baseline.z()));
-  const Eigen::Matrix3d along_rows =
-      Eigen::Quaterniond::FromTwoVectors(baseline, Eigen::Vector3d::UnitX()).toRotationMatrix();
-  vision::RectifiedStereo pair;
-  pair.baseline_m = baseline.norm();
-  pair.rectified_left_from_left = along_rows * middle_from_left;
-  pair.rectified_right_from_right = along_rows * middle_from_right;
-
-  const vision::CameraModel left_model(left.lens), right_model(right.lens);
-  const Eigen::Vector2d centre =
-      0.5 * (middle(left_model, pair.rectified_left_from_left) + middle(right_model, pair.rectified_right_from_right));
-  const double aspect = static_cast<double>(size.width - 1) / (size.height - 1);
-  const auto half =
-      half_height({{&left_model, pair.rectified_left_from_left}, {&right_model, pair.rectified_right_from_right}},
-                  centre, aspect, std::tan(0.5 * widest_rad));
-  if (!half)
-    throw CalibrationError(
-        "the two cameras see no common direction that a flat image could show; do they look the same way?");
-  const double focal = 0.5 * (size.height - 1) / *half;
-  pair.camera = {
-      focal,      focal,      0.5 * (size.width - 1) - focal * centre.x(), 0.5 * (size.height - 1) - focal * centre.y(),
-      size.width, size.height};
-  return pair;
+  try {
+    return vision::rectify_view({left.lens, right.lens, right_from_left}, widest_rad);
+  } catch (const std::invalid_argument& error) {
+    throw CalibrationError(error.what());
+  }
 }
 
 }  // namespace panvo::calibration

@@ -24,11 +24,6 @@ bool all_finite(const std::array<double, size>& values) {
   return std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); });
 }
 
-PairedCamera paired(const vision::DistortedCamera& raw, const Eigen::Matrix3d& rotation,
-                    const vision::PinholeCamera& rectified, double baseline_m) {
-  return {vision::lens_camera(raw), rotation, rectified, baseline_m};
-}
-
 }  // namespace
 
 bool PairedCamera::operator==(const PairedCamera& other) const {
@@ -44,21 +39,16 @@ bool is_rectified(const PairedCamera& camera) {
   const auto& rectified = camera.rectified;
   const double difference_px = std::max({std::abs(raw.fx - rectified.fx), std::abs(raw.fy - rectified.fy),
                                          std::abs(raw.cx - rectified.cx), std::abs(raw.cy - rectified.cy)});
-  const bool is_perspective =
-      camera.raw.model == vision::LensModel::kPlumbBob || camera.raw.model == vision::LensModel::kRational;
-  return is_perspective &&
-         std::all_of(camera.raw.distortion.begin(), camera.raw.distortion.end(),
-                     [](double value) { return value == 0.0; }) &&
-         camera.rectified_from_raw.isIdentity(kTolerance) && difference_px <= kTolerance * raw.fx &&
-         raw.width == rectified.width && raw.height == rectified.height;
+  return vision::is_straight(camera.raw) && camera.rectified_from_raw.isIdentity(kTolerance) &&
+         difference_px <= kTolerance * raw.fx && raw.width == rectified.width && raw.height == rectified.height;
 }
 
 PairedCamera left_camera(const vision::StereoCalibration& calibration, const vision::RectifiedStereo& rectified) {
-  return paired(calibration.left, rectified.rectified_left_from_left, rectified.camera, 0.0);
+  return {calibration.left, rectified.rectified_left_from_left, rectified.camera, 0.0};
 }
 
 PairedCamera right_camera(const vision::StereoCalibration& calibration, const vision::RectifiedStereo& rectified) {
-  return paired(calibration.right, rectified.rectified_right_from_right, rectified.camera, rectified.baseline_m);
+  return {calibration.right, rectified.rectified_right_from_right, rectified.camera, rectified.baseline_m};
 }
 
 sensor_msgs::msg::CameraInfo to_camera_info(const PairedCamera& camera, std::int64_t stamp_ns,

@@ -101,11 +101,12 @@ TEST(EyeRectifier, AlignsTheRowsOfAPairToATenthOfAPixel) {
   const auto [left_info, right_info] = infos(pair, stereo);
   auto left_rectifier = rectifier_of(left_info);
   auto right_rectifier = rectifier_of(right_info);
+  const vision::CameraModel left_model(pair.left), right_model(pair.right);
 
   std::vector<Eigen::Vector2d> left_pixels, right_pixels;
   for (const auto& point : points_in_left()) {
-    left_pixels.push_back(pair.left.project(point));
-    right_pixels.push_back(pair.right.project(pair.right_from_left * point));
+    left_pixels.push_back(*left_model.project(point));
+    right_pixels.push_back(*right_model.project(pair.right_from_left * point));
   }
   const auto left = left_rectifier.rectify(spots(left_pixels));
   const auto right = right_rectifier.rectify(spots(right_pixels));

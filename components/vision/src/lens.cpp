@@ -72,11 +72,10 @@ LensCamera lens_camera(std::string_view distortion_model, std::span<const double
   return camera;
 }
 
-LensCamera lens_camera(const DistortedCamera& distorted) {
-  LensCamera camera;
-  camera.pinhole = distorted.pinhole;
-  std::copy(distorted.distortion.begin(), distorted.distortion.end(), camera.distortion.begin());
-  return camera;
+bool is_straight(const LensCamera& camera) {
+  const bool is_perspective = camera.model == LensModel::kPlumbBob || camera.model == LensModel::kRational;
+  return is_perspective &&
+         std::all_of(camera.distortion.begin(), camera.distortion.end(), [](double value) { return value == 0.0; });
 }
 
 std::string_view ros_name(LensModel model) {

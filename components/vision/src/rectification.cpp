@@ -12,13 +12,6 @@
 
 namespace panvo::vision {
 
-RectificationMap::RectificationMap(const DistortedCamera& raw, const Eigen::Matrix3d& rectified_from_raw,
-                                   const PinholeCamera& rectified)
-    : raw_size_(raw.pinhole.width, raw.pinhole.height) {
-  map_perspective(lens_camera(raw), rectified_from_raw, rectified);
-  pack();
-}
-
 RectificationMap::RectificationMap(const LensCamera& raw, const Eigen::Matrix3d& rectified_from_raw,
                                    const PinholeCamera& rectified)
     : raw_size_(raw.pinhole.width, raw.pinhole.height) {

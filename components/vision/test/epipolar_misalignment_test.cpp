@@ -5,6 +5,7 @@
 
 #include <random>
 
+#include "panvo/vision/camera_model.hpp"
 #include "panvo/vision/pose.hpp"
 
 namespace panvo::vision {
@@ -19,11 +20,11 @@ const Parts kParts = (Parts() << -1.3, 4e-4, 3e-5, -5e-4, 1e-3, 2e-3).finished()
 Eigen::Vector2d seen(const Parts& parts, const Eigen::Vector2d& ideal_pixel) {
   const Eigen::Matrix3d turned_from_aligned = so3_exp(-parts.segment<3>(1));
   const Eigen::Vector3d ray = turned_from_aligned * kCamera.unproject(ideal_pixel);
-  DistortedCamera camera{kCamera, {parts(5)}};
+  LensCamera camera{kCamera, LensModel::kPlumbBob, {parts(5)}};
   camera.pinhole.fx *= 1.0 + parts(4);
   camera.pinhole.fy *= 1.0 + parts(4);
   camera.pinhole.cy += parts(0);
-  return camera.project(ray);
+  return CameraModel(camera).project(ray).value();
 }
 
 Eigen::Vector2d random_pixel(std::mt19937& random) {

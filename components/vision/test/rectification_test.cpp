@@ -24,7 +24,7 @@ cv::Mat noise(int type) {
 
 /// Turned so far that a part of the rectified image lies outside of the raw one.
 TEST(RectificationMap, GivesThePixelsOfOpenCvsRemap) {
-  const DistortedCamera raw{{262.3, 263.5, 156.2, 123.7, 320, 240}, {-0.36, 0.17, 0.001, -0.002, 0.0}};
+  const LensCamera raw{{262.3, 263.5, 156.2, 123.7, 320, 240}, LensModel::kPlumbBob, {-0.36, 0.17, 0.001, -0.002, 0.0}};
   const Eigen::Matrix3d rotation = so3_exp({0.1, -0.15, 0.03});
   const RectificationMap map(raw, rotation, kRectified);
   cv::Mat coordinates, fractions;
@@ -44,7 +44,7 @@ TEST(RectificationMap, GivesThePixelsOfOpenCvsRemap) {
 }
 
 TEST(RectificationMap, ReadsAnImageWithGapsBetweenItsRows) {
-  const DistortedCamera raw{{262.3, 263.5, 156.2, 123.7, 320, 240}, {-0.3, 0.1, 0.0, 0.0, 0.0}};
+  const LensCamera raw{{262.3, 263.5, 156.2, 123.7, 320, 240}, LensModel::kPlumbBob, {-0.3, 0.1, 0.0, 0.0, 0.0}};
   const RectificationMap map(raw, Eigen::Matrix3d::Identity(), kRectified);
   const cv::Mat image = noise(CV_8UC3);
   cv::Mat wide(240, 333, CV_8UC3);

@@ -63,9 +63,9 @@ class XmlReader {
   tinyxml2::XMLDocument document_;
 };
 
-vision::DistortedCamera read_camera(const XmlReader& xml, const tinyxml2::XMLElement& element) {
+vision::LensCamera read_camera(const XmlReader& xml, const tinyxml2::XMLElement& element) {
   const auto value = [&](const char* name) { return xml.number(xml.child(element, name)); };
-  vision::DistortedCamera camera;
+  vision::LensCamera camera;
   camera.pinhole = {value("fx"),
                     value("fy"),
                     value("cx"),

@@ -56,17 +56,14 @@ ImageSize read_resolution(const YamlFile& sensor) {
   return {static_cast<int>(resolution[0]), static_cast<int>(resolution[1])};
 }
 
-vision::DistortedCamera read_pinhole(const YamlFile& sensor) {
+vision::LensCamera read_eye(const YamlFile& sensor) {
   if (const auto model = sensor.text("camera_model", "pinhole"); model != "pinhole") {
     sensor.fail("camera_model", "is '" + model + "'; the stereo cameras cam0 and cam1 must be pinhole");
   }
   const auto size = read_resolution(sensor);
   const auto intrinsics = sensor.numbers("intrinsics", 4);
-  vision::DistortedCamera camera;
-  camera.pinhole = {intrinsics[0], intrinsics[1], intrinsics[2], intrinsics[3], size.width, size.height};
-  camera.distortion =
-      distortion(sensor, "distortion_coefficients", sensor.text("distortion_model", "radial-tangential"));
-  return camera;
+  return lens(sensor, "distortion_coefficients", sensor.text("distortion_model", "radial-tangential"),
+              {intrinsics[0], intrinsics[1], intrinsics[2], intrinsics[3], size.width, size.height});
 }
 
 std::int64_t median_period_ns(const std::vector<StampedImage>& images) {
@@ -142,8 +139,8 @@ StereoRecording read_stereo(const fs::path& root, std::vector<std::string>& note
                        (root / "cam1" / "data.csv").string() + " with both files there; copy the data set again");
   }
   stereo.base_from_left = read_base_from_sensor(left);
-  stereo.calibration.left = read_pinhole(left);
-  stereo.calibration.right = read_pinhole(right);
+  stereo.calibration.left = read_eye(left);
+  stereo.calibration.right = read_eye(right);
   stereo.calibration.right_from_left = read_base_from_sensor(right).inverse() * stereo.base_from_left;
   stereo.rectified = rectified_geometry(stereo.calibration, right.path());
   expect_image_size(stereo.calibration.left.pinhole, left.path(), stereo.frames);

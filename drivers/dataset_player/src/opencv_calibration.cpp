@@ -38,10 +38,10 @@ CalibratedStereo read_opencv_calibration(const std::filesystem::path& intrinsics
   const auto right_matrix = require(intrinsics, {"M2", "K2", "cameraMatrix2", "camera_matrix_2"});
   const auto left_distortion = require(intrinsics, {"D1", "distCoeffs1", "distortion_coefficients_1"});
   const auto right_distortion = require(intrinsics, {"D2", "distCoeffs2", "distortion_coefficients_2"});
-  left.pinhole = pinhole(intrinsics.numbers(left_matrix, 9), size);
-  right.pinhole = pinhole(intrinsics.numbers(right_matrix, 9), size);
-  left.distortion = distortion(intrinsics, left_distortion, "plumb_bob");
-  right.distortion = distortion(intrinsics, right_distortion, "plumb_bob");
+  // OpenCV does not write the model: it is in the number of coefficients, but for its fisheye's four.
+  const auto model = intrinsics.text("distortion_model", "rational_polynomial");
+  left = lens(intrinsics, left_distortion, model, pinhole(intrinsics.numbers(left_matrix, 9), size));
+  right = lens(intrinsics, right_distortion, model, pinhole(intrinsics.numbers(right_matrix, 9), size));
   right_from_left.linear() = Eigen::Map<const RowMajor3d>(extrinsics.numbers("R", 9).data());
   right_from_left.translation() = Eigen::Map<const Eigen::Vector3d>(extrinsics.numbers("T", 3).data());
   stereo.rectified = rectified_geometry(stereo.calibration, extrinsics_file);

@@ -7,7 +7,7 @@ namespace panvo::dataset_player {
 namespace {
 
 struct CameraInfoFile {
-  vision::DistortedCamera raw;
+  vision::LensCamera raw;
   Eigen::Matrix3d rectified_from_raw;
   RowMajor34d projection;
 };
@@ -16,8 +16,8 @@ CameraInfoFile read_camera_info(const std::filesystem::path& path) {
   const YamlFile file(path);
   const ImageSize size{file.integer("image_width"), file.integer("image_height")};
   CameraInfoFile camera;
-  camera.raw.pinhole = pinhole(file.numbers("camera_matrix", 9), size);
-  camera.raw.distortion = distortion(file, "distortion_coefficients", file.text("distortion_model", "plumb_bob"));
+  camera.raw = lens(file, "distortion_coefficients", file.text("distortion_model", "plumb_bob"),
+                    pinhole(file.numbers("camera_matrix", 9), size));
   camera.rectified_from_raw = Eigen::Map<const RowMajor3d>(file.numbers("rectification_matrix", 9).data());
   camera.projection = Eigen::Map<const RowMajor34d>(file.numbers("projection_matrix", 12).data());
   return camera;

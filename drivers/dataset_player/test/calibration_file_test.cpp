@@ -24,12 +24,13 @@ constexpr const char* kOpencvExtrinsics =
     "R: !!opencv-matrix\n   rows: 3\n   cols: 3\n   dt: d\n   data: [ 1., 0., 0., 0., 1., 0., 0., 0., 1. ]\n"
     "T: !!opencv-matrix\n   rows: 3\n   cols: 1\n   dt: d\n   data: [ -0.12, 0., 0. ]\n";
 
-std::string camera_info(double tx_px, const std::string& model = "plumb_bob") {
+std::string camera_info(double tx_px, const std::string& model = "plumb_bob",
+                        const std::string& coefficients = "[-0.1, 0.02, 0.0, 0.0, 0.0]") {
   return "image_width: 64\nimage_height: 48\ncamera_name: stereo\ncamera_matrix:\n  rows: 3\n  cols: 3\n  data: [50, "
          "0, 32, 0, 50, 24, 0, 0, 1]\n"
          "distortion_model: " +
-         model +
-         "\ndistortion_coefficients:\n  rows: 1\n  cols: 5\n  data: [-0.1, 0.02, 0.0, 0.0, 0.0]\n"
+         model + "\ndistortion_coefficients:\n  rows: 1\n  cols: 5\n  data: " + coefficients +
+         "\n"
          "rectification_matrix:\n  rows: 3\n  cols: 3\n  data: [0.8, 0, 0.6, 0, 1, 0, -0.6, 0, 0.8]\n"
          "projection_matrix:\n  rows: 3\n  cols: 4\n  data: [40, 0, 30, " +
          std::to_string(tx_px) + ", 0, 40, 20, 0, 0, 0, 1, 0]\n";
@@ -139,11 +140,21 @@ TEST_F(CalibrationFile, OfRosNamesTheFileThatIsMissing) {
               HasSubstr("right.yaml: cannot be opened"));
 }
 
+TEST_F(CalibrationFile, OfRosMayBeOfAnyLens) {
+  write("left.yaml", camera_info(0.0, "equidistant", "[-0.01, 0.002, 0.0, 0.0005]"));
+  write("right.yaml", camera_info(-4.8, "rational_polynomial", "[0.1, 0.02, 0.0, 0.0, 0.0, 0.3, 0.0, 0.01]"));
+  const auto pair = read_ros_calibration(root_ / "left.yaml", root_ / "right.yaml").calibration;
+  EXPECT_EQ(pair.left.model, vision::LensModel::kEquidistant);
+  EXPECT_DOUBLE_EQ(pair.left.distortion[3], 0.0005);
+  EXPECT_EQ(pair.right.model, vision::LensModel::kRational);
+  EXPECT_DOUBLE_EQ(pair.right.distortion[7], 0.01);
+}
+
 TEST_F(CalibrationFile, OfRosWithAnUnknownLensIsRefused) {
-  write("left.yaml", camera_info(0.0, "equidistant"));
+  write("left.yaml", camera_info(0.0, "division"));
   write("right.yaml", camera_info(-4.8));
   EXPECT_THAT(error_of([&] { read_ros_calibration(root_ / "left.yaml", root_ / "right.yaml"); }),
-              AllOf(HasSubstr("left.yaml:9:"), HasSubstr("equidistant")));
+              AllOf(HasSubstr("left.yaml:9:"), HasSubstr("'division'"), HasSubstr("known are plumb_bob")));
 }
 
 TEST_F(CalibrationFile, OfOpencvIsReadFromOneFileOrTwo) {
@@ -157,6 +168,16 @@ TEST_F(CalibrationFile, OfOpencvIsReadFromOneFileOrTwo) {
     EXPECT_DOUBLE_EQ(stereo.calibration.right_from_left.translation().x(), -0.12);
     EXPECT_NEAR(stereo.rectified.baseline_m, 0.12, 1e-12);
   }
+}
+
+TEST_F(CalibrationFile, OfOpencvHasTheRationalModelWhereItHasEightCoefficients) {
+  std::string text = std::string(kOpencvCameras) + kOpencvExtrinsics;
+  text.replace(text.find("[ -0.1, 0.02, 0., 0., 0., 0., 0., 0. ]"), 38, "[ 0.1, 0.02, 0., 0., 0., 0.3, 0., 0.01 ]");
+  write("stereo.yaml", text);
+  const auto pair = read_opencv_calibration(root_ / "stereo.yaml", root_ / "stereo.yaml", {64, 48}).calibration;
+  EXPECT_EQ(pair.left.model, vision::LensModel::kPlumbBob);
+  EXPECT_EQ(pair.right.model, vision::LensModel::kRational);
+  EXPECT_DOUBLE_EQ(pair.right.distortion[7], 0.01);
 }
 
 TEST_F(CalibrationFile, OfOpencvNamesWhatIsMissing) {

@@ -119,12 +119,27 @@ TEST_F(EurocDataset, RefusesABaselineOfZero) {
   EXPECT_THAT(error(), AllOf(HasSubstr("cam1/sensor.yaml"), HasSubstr("baseline")));
 }
 
+TEST_F(EurocDataset, OfFisheyesIsRectifiedToAFlatView) {
+  write_euroc();
+  for (const char* camera : {"cam0", "cam1"}) {
+    auto text = euroc_sensor(2.0, camera[3] == '0' ? 0.1 : -0.1, "pinhole", "[0.01, -0.002, 0.0001, 0.0]");
+    text.replace(text.find("radial-tangential"), 17, "equidistant");
+    write(std::string("mav0/") + camera + "/sensor.yaml", text);
+  }
+  const auto stereo = open_dataset(root_).stereo.value();
+  EXPECT_EQ(stereo.calibration.right.model, vision::LensModel::kEquidistant);
+  EXPECT_DOUBLE_EQ(stereo.calibration.right.distortion[1], -0.002);
+  EXPECT_NEAR(stereo.rectified.baseline_m, 0.2, 1e-9);
+  EXPECT_GT(stereo.rectified.camera.fx, 20.0);
+  EXPECT_LT(stereo.rectified.camera.fx, 50.0) << "a flat image of the same width shows less of a fisheye's middle";
+}
+
 TEST_F(EurocDataset, RefusesALensModelItDoesNotKnow) {
   write_euroc();
-  auto text = euroc_sensor(2.0, 0.1);
-  text.replace(text.find("radial-tangential"), 17, "equidistant");
+  auto text = euroc_sensor(2.0, 0.1, "pinhole", "[0.9, 0, 0, 0]");
+  text.replace(text.find("radial-tangential"), 17, "field-of-view");
   write("mav0/cam0/sensor.yaml", text);
-  EXPECT_THAT(error(), AllOf(HasSubstr("cam0/sensor.yaml"), HasSubstr("equidistant"), HasSubstr("plumb_bob")));
+  EXPECT_THAT(error(), AllOf(HasSubstr("cam0/sensor.yaml"), HasSubstr("'field-of-view'"), HasSubstr("plumb_bob")));
 }
 
 TEST_F(EurocDataset, HasAPanoramaIfCam2IsOne) {

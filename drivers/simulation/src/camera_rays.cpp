@@ -113,10 +113,12 @@ Eigen::Vector3f CameraRays::direction(float column, float row) const {
   return (upper + down * (lower - upper)).normalized();
 }
 
-CameraRays pinhole_rays(const vision::DistortedCamera& camera) {
+CameraRays pinhole_rays(const vision::LensCamera& camera) {
   const auto& pinhole = camera.pinhole;
   check_camera(pinhole);
-  const Distortion distortion{camera.distortion};
+  if (camera.model != vision::LensModel::kPlumbBob) throw std::invalid_argument("camera: the lens must be plumb_bob");
+  Distortion distortion;
+  std::copy_n(camera.distortion.begin(), distortion.coefficients.size(), distortion.coefficients.begin());
   CameraRays rays = empty_rays(pinhole.width, pinhole.height);
   auto direction = rays.directions.begin();
   for (int row = 0; row < rays.height; ++row) {

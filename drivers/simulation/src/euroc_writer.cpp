@@ -95,12 +95,11 @@ std::string sensor_yaml(const std::string& comment, const Eigen::Isometry3d& bas
       comment, matrix(base_from_camera), rate_hz, width, height, model, lens);
 }
 
-std::string eye_yaml(const std::string& side, const vision::DistortedCamera& eye,
-                     const Eigen::Isometry3d& base_from_camera, double rate_hz) {
+std::string eye_yaml(const std::string& side, const vision::LensCamera& eye, const Eigen::Isometry3d& base_from_camera,
+                     double rate_hz) {
   const auto& p = eye.pinhole;
-  std::array<double, 4> distortion{};  // the layout has no place for k3 unless there is one
-  std::copy_n(eye.distortion.begin(), 4, distortion.begin());
-  const auto coefficients = eye.distortion[4] == 0.0 ? list(distortion) : list(eye.distortion);
+  // the layout has no place for k3 unless there is one
+  const auto coefficients = list(std::span(eye.distortion).first(eye.distortion[4] == 0.0 ? 4 : 5));
   return sensor_yaml(side + " eye of the stereo camera", base_from_camera, rate_hz, p.width, p.height, "pinhole",
                      fmt::format("intrinsics: [{}]  # fx fy cx cy; pixel centres at integer coordinates\n"
                                  "distortion_model: radial-tangential\ndistortion_coefficients: [{}]\n",

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -35,14 +36,14 @@ Eigen::Isometry3d looking(const Eigen::Vector3d& position_m, double yaw_rad, dou
 StereoCamera build(const StereoSettings& settings) {
   StereoCamera stereo;
   const double focal_px = 0.5 * settings.width / std::tan(0.5 * settings.field_of_view_deg * kRadians);
-  vision::DistortedCamera eye;
+  vision::LensCamera eye;
   eye.pinhole = {focal_px,
                  focal_px,
                  0.5 * (settings.width - 1) + settings.principal_point_offset_px[0],
                  0.5 * (settings.height - 1) + settings.principal_point_offset_px[1],
                  settings.width,
                  settings.height};
-  for (std::size_t i = 0; i < eye.distortion.size(); ++i) eye.distortion[i] = settings.distortion[i];
+  std::copy(settings.distortion.begin(), settings.distortion.end(), eye.distortion.begin());
   stereo.calibration.left = stereo.calibration.right = eye;
   Eigen::Isometry3d left_from_right = Eigen::Isometry3d::Identity();
   left_from_right.linear() = vision::so3_exp(kRadians * settings.right_rotation_deg);

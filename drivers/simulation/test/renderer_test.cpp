@@ -11,6 +11,7 @@
 #include <stdexcept>
 
 #include "panvo/simulation/camera_rays.hpp"
+#include "panvo/vision/camera_model.hpp"
 
 namespace panvo::simulation {
 namespace {
@@ -61,11 +62,16 @@ Eigen::Isometry3d looking(const Eigen::Vector3d& place, double yaw = 0.0) {
 }
 Shot still(const Eigen::Isometry3d& pose, std::uint32_t visibility = kToStereo) { return {pose, pose, visibility}; }
 
-vision::DistortedCamera camera() {
-  vision::DistortedCamera camera;
+vision::LensCamera camera() {
+  vision::LensCamera camera;
   camera.pinhole = {230.0, 231.0, 162.5, 118.25, 320, 240};
   camera.distortion = {-0.28, 0.074, 0.0002, -0.0003, 0.0};
   return camera;
+}
+
+/// Where that camera sees a point.
+Eigen::Vector2d pixel_of(const Eigen::Vector3d& point_in_camera) {
+  return vision::CameraModel(camera()).project(point_in_camera).value();
 }
 
 float grey(const cv::Mat& image, int row, int column) {
@@ -117,7 +123,7 @@ TEST(Renderer, ShowsAMarkerWhereItsCameraProjectsIt) {
     const Eigen::Vector3d across = in_camera.unitOrthogonal();
     const Eigen::Vector3d along = in_camera.normalized().cross(across);
     for (const double u : {-0.09, 0.09}) {
-      for (const double v : {-0.09, 0.09}) expected += 0.25 * camera().project(in_camera + u * across + v * along);
+      for (const double v : {-0.09, 0.09}) expected += 0.25 * pixel_of(in_camera + u * across + v * along);
     }
     const auto error = [&](const Renderer::Quality& quality) {
       const auto image = renderer.render(rays, still(pose), plain_light(), {}, quality);
@@ -148,7 +154,7 @@ TEST(Renderer, ShowsAMovingCamerasMarkerWhereItIsHalfWay) {
   const Eigen::Vector3d point(6.0, 0.2, 1.4);
   Renderer renderer(marker_scene(point.cast<float>(), -Eigen::Vector3f::UnitX(), 0.5f));
   const auto image = renderer.render(pinhole_rays(camera()), {opened, closed, kToStereo}, plain_light(), {}, {8, 4});
-  EXPECT_LT((centroid(image) - camera().project(half.inverse() * point)).norm(), 0.1);
+  EXPECT_LT((centroid(image) - pixel_of(half.inverse() * point)).norm(), 0.1);
 }
 
 /// A plain with a box on it, seen from both cameras of a pair.
@@ -170,7 +176,7 @@ std::shared_ptr<Scene> yard() {
 
 TEST(Renderer, RangesFitTheDisparityOfAStereoPair) {
   Renderer renderer(yard());
-  vision::DistortedCamera straight = camera();
+  vision::LensCamera straight = camera();
   straight.distortion = {};
   const auto rays = pinhole_rays(straight);
   const auto left = looking({0.0, 0.0, 1.5});
@@ -230,7 +236,7 @@ double relative_brightness(Renderer& renderer, const Eigen::Vector3d& place, con
     return std::make_unique<Renderer>(scene);
   }();
   auto pose = looking({0.0, 0.0, 1.5});
-  const Eigen::Vector2d pixel = camera().project(pose.inverse() * place);
+  const Eigen::Vector2d pixel = pixel_of(pose.inverse() * place);
   const auto rays = pinhole_rays(camera());
   const auto at = [&](Renderer& from, std::span<const MovingPlacement> with) {
     const auto image = from.render(rays, still(pose), light, with, {});
@@ -262,7 +268,7 @@ TEST(Renderer, PutsMoversWhereTheyAreAndThenSomewhereElse) {
   Renderer renderer(yard());
   const auto rays = pinhole_rays(camera());
   const auto pose = looking({0.0, -4.0, 1.0});
-  const Eigen::Vector2d ahead = camera().project({0.0, 0.0, 5.0});
+  const Eigen::Vector2d ahead = pixel_of({0.0, 0.0, 5.0});
   const auto range_with = [&](const std::vector<MovingPlacement>& movers) {
     const cv::Mat range = renderer.render_range(rays, still(pose), movers);
     return range.at<float>(static_cast<int>(std::lround(ahead.y())), static_cast<int>(std::lround(ahead.x())));

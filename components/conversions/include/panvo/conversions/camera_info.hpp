@@ -8,6 +8,7 @@
 #include "panvo/conversions/result.hpp"
 #include "panvo/vision/camera.hpp"
 #include "panvo/vision/lens.hpp"
+#include "panvo/vision/stereo_calibration.hpp"
 #include "sensor_msgs/msg/CameraInfo.h"
 
 /// ROS's description of a camera in a rectified pair: K and D of the raw image, R from the raw to the rectified

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <Eigen/Geometry>
-#include <array>
 #include <string>
 #include <vector>
 
@@ -35,22 +34,6 @@ struct PinholeCamera {
   }
 };
 
-/// Pinhole with radial-tangential lens distortion, in OpenCV's and ROS's order ("plumb_bob").
-struct DistortedCamera {
-  PinholeCamera pinhole;
-  std::array<double, 5> distortion{};  ///< k1, k2, p1, p2, k3
-
-  /// Distorted pixel of a point in this camera's frame (z > 0).
-  Eigen::Vector2d project(const Eigen::Vector3d& point_in_camera) const;
-};
-
-/// Two raw cameras and the transform between their optical frames, as a calibration tool writes them.
-struct StereoCalibration {
-  DistortedCamera left;
-  DistortedCamera right;
-  Eigen::Isometry3d right_from_left = Eigen::Isometry3d::Identity();
-};
-
 /// A rectified pair: one pinhole for both images, rows aligned, the right camera baseline_m along +X of the left.
 /// Disparity d = u_left - u_right = fx * baseline_m / z, positive for every point in front.
 struct RectifiedStereo {
@@ -60,14 +43,9 @@ struct RectifiedStereo {
   Eigen::Matrix3d rectified_right_from_right = Eigen::Matrix3d::Identity();  ///< rotation out of the raw right frame
 };
 
-/// What is wrong with a calibration, one sentence a problem; empty when it can be used.
-/// Found are: focal lengths that are not positive numbers, sizes that differ or are not positive, a baseline that is
-/// zero, negative (left and right exchanged), not a number or not along the rows, rotations that are no rotations.
-std::vector<std::string> validate(const StereoCalibration& calibration);
+/// What is wrong with a pair, one sentence a problem; empty when it can be used. Found are: focal lengths that are not positive
+/// numbers, sizes that are not positive, a baseline that is zero, negative (left and right exchanged) or not a number, rotations
+/// that are no rotations.
 std::vector<std::string> validate(const RectifiedStereo& stereo);
-
-/// Rectified pair of a raw one, at the raw images' size, zoomed so that every rectified pixel has a source.
-/// Throws std::invalid_argument, naming each problem that validate() finds.
-RectifiedStereo rectify(const StereoCalibration& calibration);
 
 }  // namespace panvo::vision

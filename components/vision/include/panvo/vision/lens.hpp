@@ -4,6 +4,7 @@
 #include <array>
 #include <span>
 #include <string_view>
+#include <vector>
 
 #include "panvo/vision/camera.hpp"
 
@@ -30,7 +31,9 @@ struct LensCamera {
 /// coefficients the model may be left out, too. Throws std::invalid_argument in words that follow the camera's name.
 LensCamera lens_camera(std::string_view distortion_model, std::span<const double> coefficients,
                        const PinholeCamera& pinhole);
-LensCamera lens_camera(const DistortedCamera& camera);
+
+/// Whether it bends nothing: a perspective lens without distortion.
+bool is_straight(const LensCamera& camera);
 
 /// The model's name in CameraInfo: "plumb_bob", "rational_polynomial", "equidistant", "mei".
 std::string_view ros_name(LensModel model);

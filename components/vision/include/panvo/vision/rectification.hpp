@@ -15,11 +15,8 @@ namespace panvo::vision {
 /// Images of 8 bits and 1 or 3 channels go through packed look-ups, others through remap itself.
 class RectificationMap {
  public:
-  /// Maps images of `raw` to images of `rectified`, whose frame is turned by `rectified_from_raw`.
-  RectificationMap(const DistortedCamera& raw, const Eigen::Matrix3d& rectified_from_raw,
-                   const PinholeCamera& rectified);
-
-  /// The same of a camera with any lens; what the lens does not see is black. Throws std::invalid_argument where CameraModel does.
+  /// Maps images of `raw` to images of `rectified`, whose frame is turned by `rectified_from_raw`. What a wide lens does not see is
+  /// black. Throws std::invalid_argument where CameraModel does.
   RectificationMap(const LensCamera& raw, const Eigen::Matrix3d& rectified_from_raw, const PinholeCamera& rectified);
 
   /// Writes the rectified image into `destination` (allocated when size or type differ); any depth, 1 to 4 channels.

@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "panvo/vision/camera.hpp"
+#include "panvo/vision/stereo_calibration.hpp"
 
 /// Stereo calibrations as the tools that people use write them. All throw DatasetError, naming file, line and key.
 namespace panvo::dataset_player {
@@ -29,10 +29,6 @@ CalibratedStereo read_ros_calibration(const std::filesystem::path& left_file, co
 /// has none.
 CalibratedStereo read_opencv_calibration(const std::filesystem::path& intrinsics_file,
                                          const std::filesystem::path& extrinsics_file, ImageSize image_size);
-
-/// Whether the images of that pair are rectified as they are: no distortion, no rotation, one camera matrix, baseline
-/// along X.
-bool is_rectified(const vision::StereoCalibration& calibration);
 
 /// The pair that `calibration` rectifies to: itself when it is rectified already. Throws DatasetError naming `file`
 /// and every problem of the calibration.

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "panvo/vision/camera.hpp"
+#include "panvo/vision/stereo_calibration.hpp"
 
 /// Recorded data sets, whatever their layout, as one description: which images, when, from which cameras.
 namespace panvo::dataset_player {

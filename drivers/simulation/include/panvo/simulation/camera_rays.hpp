@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "panvo/vision/camera.hpp"
+#include "panvo/vision/lens.hpp"
 
 namespace panvo::simulation {
 
@@ -19,9 +19,9 @@ struct CameraRays {
   bool wraps = false;  ///< the last column is the first one's neighbour: a panorama
 };
 
-/// Pinhole with radial-tangential distortion. Throws std::invalid_argument naming what is wrong: focal lengths that
-/// are not positive, a field of view of 180 degrees or more, a distortion that folds the image over.
-CameraRays pinhole_rays(const vision::DistortedCamera& camera);
+/// Pinhole with radial-tangential distortion (plumb_bob). Throws std::invalid_argument naming what is wrong: another lens, focal
+/// lengths that are not positive, a field of view of 180 degrees or more, a distortion that folds the image over.
+CameraRays pinhole_rays(const vision::LensCamera& camera);
 
 /// Equirectangular panorama [Lu2015 Eqs. 9, 10]: pixel (u, v) looks at azimuth 2 pi u / width - pi (clockwise from
 /// straight ahead) and elevation pi v / height - pi / 2 (downwards).

@@ -9,8 +9,8 @@
 
 #include "panvo/simulation/camera_rays.hpp"
 #include "panvo/simulation/sensor.hpp"
-#include "panvo/vision/camera.hpp"
 #include "panvo/vision/pose.hpp"
+#include "panvo/vision/stereo_calibration.hpp"
 
 namespace panvo::simulation {
 
