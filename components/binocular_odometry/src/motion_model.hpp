@@ -2,7 +2,9 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cstdint>
+#include <limits>
 
 #include "panvo/vision/pose.hpp"
 
@@ -13,12 +15,16 @@ class MotionModel {
  public:
   /// Takes over a measured motion that lasted duration_ns (> 0).
   void update(const Eigen::Isometry3d& current_from_previous, std::int64_t duration_ns) {
-    velocity_ = vision::se3_log(current_from_previous) / seconds(duration_ns);
+    // Stamps that tell when an image came, not when it was taken, may lie a millisecond apart: no motion was so fast.
+    const auto least_ns = static_cast<std::int64_t>(kLeastOfLast * static_cast<double>(last_ns_));
+    velocity_ = vision::se3_log(current_from_previous) / seconds(std::max(duration_ns, least_ns));
+    farthest_ns_ = last_ns_ == 0 ? kMostOfFirst * duration_ns : std::numeric_limits<std::int64_t>::max();
+    last_ns_ = duration_ns;
   }
 
   /// Motion over the next duration_ns (> 0).
   Eigen::Isometry3d predict(std::int64_t duration_ns) const {
-    return vision::se3_exp(velocity_ * seconds(duration_ns));
+    return vision::se3_exp(velocity_ * seconds(std::min(duration_ns, farthest_ns_)));
   }
 
   /// Covariance of such a prediction under white accelerations (standard deviations, m/s^2 and rad/s^2).
@@ -31,9 +37,14 @@ class MotionModel {
   }
 
  private:
+  static constexpr double kLeastOfLast = 0.25;  // of the time between the two frames before
+  static constexpr int kMostOfFirst = 2;        // times the first motion, with none before it to judge it by
+
   static double seconds(std::int64_t duration_ns) { return 1e-9 * static_cast<double>(duration_ns); }
 
   vision::Vector6d velocity_ = vision::Vector6d::Zero();
+  std::int64_t last_ns_ = 0;
+  std::int64_t farthest_ns_ = std::numeric_limits<std::int64_t>::max();
 };
 
 }  // namespace panvo::binocular_odometry

@@ -83,6 +83,14 @@ class TrackingStage::Implementation {
       tracks = match_widely(tracks_.size());
       motion = coarse_motion(tracks);
     }
+    if (!motion && has_tracks()) {
+      // Or what is expected is wrong altogether: then from rest, or it would never be right again.
+      const Eigen::Isometry3d expected = expected_motion_;
+      expected_motion_.translation().setZero();
+      tracks = match_widely(tracks_.size());
+      motion = coarse_motion(tracks);
+      if (!motion) expected_motion_ = expected;
+    }
     Eigen::Isometry3d current_from_previous = expected_motion_;
     if (motion) {
       current_from_previous = *motion;

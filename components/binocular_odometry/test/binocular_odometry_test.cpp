@@ -50,6 +50,20 @@ TEST_P(EitherFrontEnd, FollowsAKnownPath) {
 
 INSTANTIATE_TEST_SUITE_P(All, EitherFrontEnd, ::testing::Values("klt", "sift"));
 
+/// As of cameras that are stamped when an image comes, and now and then two of them come at once.
+TEST_P(EitherFrontEnd, FollowsThroughStampsThatJitter) {
+  for (const int late : {0, 1, 4}) {
+    BinocularOdometry odometry(SyntheticScene::stereo(), with_front_end(GetParam()));
+    for (int i = 0; i < 10; ++i) {
+      auto frame = drive()[static_cast<size_t>(i)];
+      if (i == late) frame.stamp_ns += SyntheticScene::kInterval_ns - 2'000'000;
+      const auto estimate = odometry.step(frame);
+      ASSERT_TRUE(estimate.quality.reliable) << "frame " << i << ": " << estimate.quality.reason;
+      ASSERT_LT((estimate.odom_from_left.translation() - truth(i).translation()).norm(), 0.01) << "frame " << i;
+    }
+  }
+}
+
 TEST(BinocularOdometry, LearnsHowTheRightCameraHasTurned) {
   BinocularOdometry odometry(SyntheticScene::stereo(), {});
   const Eigen::Matrix3d turned =
