@@ -31,14 +31,17 @@ inline std::vector<Position> read_tum(const std::string& file) {
 
 inline double distance(const Position& a, const Position& b) { return std::hypot(a.x - b.x, a.y - b.y, a.z - b.z); }
 
-/// How far the point of `expected` that is furthest from all of `seen` is from the nearest of them, m.
-inline double largest_distance(const std::vector<Position>& expected, const std::vector<Position>& seen) {
+/// How far a point is from the nearest of a path, m.
+inline double distance(const Position& point, const std::vector<Position>& path) {
+  double nearest_m = 1e9;
+  for (const auto& other : path) nearest_m = std::min(nearest_m, distance(point, other));
+  return nearest_m;
+}
+
+/// How far the point of `points` that is furthest from all of a path is from the nearest of it, m.
+inline double largest_distance(const std::vector<Position>& points, const std::vector<Position>& path) {
   double largest_m = 0.0;
-  for (const auto& position : expected) {
-    double nearest_m = 1e9;
-    for (const auto& other : seen) nearest_m = std::min(nearest_m, distance(position, other));
-    largest_m = std::max(largest_m, nearest_m);
-  }
+  for (const auto& point : points) largest_m = std::max(largest_m, distance(point, path));
   return largest_m;
 }
 

@@ -19,7 +19,7 @@ namespace panvo::aravis_camera::testing {
 class PictureFolder {
  public:
   PictureFolder(const std::filesystem::path& folder, std::size_t cameras, double rate_hz)
-      : period_ns_(static_cast<std::int64_t>(1e9 / rate_hz)), pictures_(cameras), asked_(cameras) {
+      : period_ns_(static_cast<std::int64_t>(1e9 / rate_hz)), pictures_(cameras), has_shown_(cameras) {
     for (std::size_t i = 0; i < cameras; ++i) {
       std::vector<std::filesystem::path> files;
       for (const auto& entry : std::filesystem::directory_iterator(folder / ("image_" + std::to_string(i))))
@@ -31,28 +31,32 @@ class PictureFolder {
   }
 
   void draw(unsigned camera, std::int64_t now_ns, std::span<std::uint8_t> pixels) {
-    const cv::Mat& picture = pictures_[camera].at(index(camera, now_ns, pictures_[camera].size()));
+    const cv::Mat& picture = pictures_[camera].at(index(camera, now_ns));
     std::memcpy(pixels.data(), picture.data, std::min(pixels.size(), picture.total()));
   }
 
  private:
-  /// The same for all cameras within a period, whose edges lie where the cameras take their frames: half a period away from them.
-  std::size_t index(unsigned camera, std::int64_t now_ns, std::size_t count) {
+  /// The same for all cameras within a period, whose edges lie where the cameras take no frames: half a period away from them. The next
+  /// one comes when all have shown it in one period, so that none is left out where a machine gives them no time.
+  std::size_t index(unsigned camera, std::int64_t now_ns) {
+    constexpr int kWhile = 20;  // periods of the first picture, until whoever looks at the cameras has begun
     const std::lock_guard lock(mutex_);
     const std::int64_t period = (now_ns + period_ns_ / 2) / period_ns_;
-    ++asked_[camera];
-    constexpr int kWhile = 10;
-    if (first_period_ == 0 && *std::min_element(asked_.begin(), asked_.end()) >= kWhile)
-      first_period_ = period + kWhile;
-    if (first_period_ == 0 || period < first_period_) return 0;
-    return std::min(static_cast<std::size_t>(period - first_period_), count - 1);
+    if (period > period_) {
+      if (std::count(has_shown_.begin(), has_shown_.end(), true) == std::ssize(has_shown_)) ++periods_of_all_;
+      has_shown_.assign(has_shown_.size(), false);
+      period_ = period;
+    }
+    has_shown_[camera] = true;
+    return static_cast<std::size_t>(
+        std::clamp<std::int64_t>(periods_of_all_ - kWhile, 0, std::ssize(pictures_[camera]) - 1));
   }
 
   const std::int64_t period_ns_;
   std::mutex mutex_;
   std::vector<std::vector<cv::Mat>> pictures_;
-  std::vector<int> asked_;
-  std::int64_t first_period_ = 0;
+  std::int64_t period_ = 0, periods_of_all_ = 0;
+  std::vector<bool> has_shown_;  // in this period, by camera
 };
 
 }  // namespace panvo::aravis_camera::testing

@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <csignal>
 #include <filesystem>
+#include <limits>
 #include <opencv2/imgcodecs.hpp>
 #include <vector>
 
@@ -33,13 +35,16 @@ TEST(Walk, IsRecordedThroughAUsbStereoCamera) {
   const auto pictures = side_by_side("/exchange/walk");
   ASSERT_FALSE(pictures.empty());
   constexpr std::uint32_t kBefore = 5, kAfter = 3;  // frames of the first and the last picture
+  std::atomic<std::uint32_t> begin = std::numeric_limits<std::uint32_t>::max();  // the frame of the first step
   UsbCamera camera(0, {.serial = "SBS001", .width = 640, .height = 240, .rate_hz = 10}, [&](std::uint32_t number) {
-    return pictures.at(std::min<std::size_t>(number - std::min(number, kBefore), pictures.size() - 1));
+    return pictures.at(std::min<std::size_t>(number - std::min(number, begin.load()), pictures.size() - 1));
   });
   const TemporaryFolder folder;
   const std::string bag = folder / "bag";
   Process panvo({PANVO_RUN, CAMERA_TO_BAG, "rig:=/exchange", "bag:=" + bag});
-  EXPECT_TRUE(eventually([&] { return camera.sent() >= kBefore + pictures.size() + kAfter; })) << panvo.output();
+  ASSERT_TRUE(eventually([&] { return fs::exists(bag) && camera.sent() > 0; })) << panvo.output();
+  begin = camera.sent() + kBefore;
+  EXPECT_TRUE(eventually([&] { return camera.sent() >= begin + pictures.size() + kAfter; })) << panvo.output();
   panvo.signal(SIGINT);
   EXPECT_EQ(panvo.wait(std::chrono::seconds(20)), 0) << panvo.output();
   fs::copy(bag, "/exchange/bag", fs::copy_options::recursive);
