@@ -13,7 +13,8 @@ constexpr std::size_t kMostRows = 4000;
 
 std::string head(const std::string& file, int width_px, int height_px, const std::string& title) {
   return fmt::format(
-      "set terminal pngcairo size {},{} font 'sans,11'\nset output '{}'\nset title {}\nset grid lc rgb '{}'\nset key "
+      "set terminal pngcairo noenhanced size {},{} font 'sans,11'\nset output '{}'\nset title {}\nset grid lc rgb "
+      "'{}'\nset key "
       "outside bottom center horizontal\n",
       width_px, height_px, file, gnuplot_quoted(title), kGridColour);
 }
