@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <limits>
+#include <utility>
 
 #include "panvo/vision/pose.hpp"
 
@@ -15,11 +16,13 @@ class MotionModel {
  public:
   /// Takes over a measured motion that lasted duration_ns (> 0).
   void update(const Eigen::Isometry3d& current_from_previous, std::int64_t duration_ns) {
-    // Stamps that tell when an image came, not when it was taken, may lie a millisecond apart: no motion was so fast.
-    const auto least_ns = static_cast<std::int64_t>(kLeastOfLast * static_cast<double>(last_ns_));
+    // Stamps that tell when an image came, not when it was taken, may lie a millisecond apart: no motion was so fast. The shorter of
+    // two intervals, as one of them may hold frames that were lost.
+    const std::int64_t usual_ns = before_last_ns_ == 0 ? last_ns_ : std::min(last_ns_, before_last_ns_);
+    const auto least_ns = static_cast<std::int64_t>(kLeastOfUsual * static_cast<double>(usual_ns));
     velocity_ = vision::se3_log(current_from_previous) / seconds(std::max(duration_ns, least_ns));
     farthest_ns_ = last_ns_ == 0 ? kMostOfFirst * duration_ns : std::numeric_limits<std::int64_t>::max();
-    last_ns_ = duration_ns;
+    before_last_ns_ = std::exchange(last_ns_, duration_ns);
   }
 
   /// Motion over the next duration_ns (> 0).
@@ -37,13 +40,13 @@ class MotionModel {
   }
 
  private:
-  static constexpr double kLeastOfLast = 0.25;  // of the time between the two frames before
+  static constexpr double kLeastOfUsual = 0.5;  // of the time between frames
   static constexpr int kMostOfFirst = 2;        // times the first motion, with none before it to judge it by
 
   static double seconds(std::int64_t duration_ns) { return 1e-9 * static_cast<double>(duration_ns); }
 
   vision::Vector6d velocity_ = vision::Vector6d::Zero();
-  std::int64_t last_ns_ = 0;
+  std::int64_t last_ns_ = 0, before_last_ns_ = 0;
   std::int64_t farthest_ns_ = std::numeric_limits<std::int64_t>::max();
 };
 

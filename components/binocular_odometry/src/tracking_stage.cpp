@@ -76,20 +76,18 @@ class TrackingStage::Implementation {
     describe();
 
     // A part of the tracks goes ahead, looked for far and wide; the motion they agree on says where to find the others.
-    std::vector<Track> tracks = match_widely(kScouts);
-    auto motion = coarse_motion(tracks);
+    std::vector<Track> tracks;
+    auto motion = follow_widely(kScouts, tracks);
     if (!motion && has_tracks()) {  // a jerk, perhaps: all of them, from where the picture as a whole has gone
       expected_motion_.linear() = coarse_turn(stereo_.camera, *previous_left_, *left_);
-      tracks = match_widely(tracks_.size());
-      motion = coarse_motion(tracks);
+      motion = follow_widely(tracks_.size(), tracks);
     }
-    if (!motion && has_tracks()) {
-      // Or what is expected is wrong altogether: then from rest, or it would never be right again.
-      const Eigen::Isometry3d expected = expected_motion_;
+    if (!motion &&
+        has_tracks()) {  // or what is expected is wrong altogether: from rest, or it would never be right again
+      const Eigen::Vector3d expected = expected_motion_.translation();
       expected_motion_.translation().setZero();
-      tracks = match_widely(tracks_.size());
-      motion = coarse_motion(tracks);
-      if (!motion) expected_motion_ = expected;
+      motion = follow_widely(tracks_.size(), tracks);
+      if (!motion) expected_motion_.translation() = expected;
     }
     Eigen::Isometry3d current_from_previous = expected_motion_;
     if (motion) {
@@ -153,6 +151,11 @@ class TrackingStage::Implementation {
   void describe() {
     const Stage stage(observer_, "describe");
     front_end_->describe(*left_);
+  }
+
+  std::optional<Eigen::Isometry3d> follow_widely(size_t count, std::vector<Track>& tracks) {
+    tracks = match_widely(count);
+    return coarse_motion(tracks);
   }
 
   // About `count` of the tracks, over all levels of the pyramid; the rest become others_.
