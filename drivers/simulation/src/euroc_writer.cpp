@@ -4,8 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <optional>
@@ -15,6 +13,7 @@
 
 #include "panvo/simulation/sequence_file.hpp"
 #include "render_journal.hpp"
+#include "write_failure.hpp"
 
 namespace panvo::simulation {
 namespace {
@@ -24,15 +23,10 @@ namespace fs = std::filesystem;
 // Of a data set that is not whole yet: what it will be of, and how far it has come.
 constexpr auto kAsked = "rendering.yaml", kJournal = "rendered.csv";
 
-[[noreturn]] void fail(const fs::path& file) {
-  throw std::runtime_error(fmt::format("{}: cannot be written ({}); free space there or name another folder",
-                                       file.string(), std::strerror(errno)));
-}
-
 void write_text(const fs::path& file, const std::string& text) {
   std::ofstream stream(file, std::ios::binary);
   stream << text << std::flush;
-  if (!stream) fail(file);
+  if (!stream) fail_to_write(file);
 }
 
 std::string read_text(const fs::path& file) {
@@ -229,7 +223,7 @@ void EurocWriter::list_images(const Instant& instant) {
   for (auto& camera : cameras_) {
     if (!exposes(camera, instant)) continue;
     camera.list << instant.stamp_ns << ',' << image_name(instant) << '\n';
-    if (!camera.list) fail(camera.folder / "data.csv");
+    if (!camera.list) fail_to_write(camera.folder / "data.csv");
   }
 }
 
@@ -273,7 +267,7 @@ void EurocWriter::write_image(const Camera& camera, const Instant& instant, cons
   std::ofstream stream(file, std::ios::binary);
   stream.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
   stream.close();
-  if (!stream) fail(file);
+  if (!stream) fail_to_write(file);
 }
 
 void EurocWriter::complete(const Instant& instant, const Exposure& exposure) {
@@ -284,7 +278,7 @@ void EurocWriter::complete(const Instant& instant, const Exposure& exposure) {
 void EurocWriter::finish() {
   for (auto& camera : cameras_) {
     camera.list.close();
-    if (!camera.list) fail(camera.folder / "data.csv");
+    if (!camera.list) fail_to_write(camera.folder / "data.csv");
   }
   write_text(directory_ / "sequence.yaml", sequence_yaml(simulation_));
   fs::remove(directory_ / kAsked);

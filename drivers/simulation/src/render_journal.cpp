@@ -6,20 +6,15 @@
 #include <sys/file.h>
 #include <unistd.h>
 
-#include <cerrno>
 #include <cstdio>
-#include <cstring>
 #include <fstream>
 #include <stdexcept>
 #include <string>
 
+#include "write_failure.hpp"
+
 namespace panvo::simulation {
 namespace {
-
-[[noreturn]] void fail(const std::filesystem::path& file) {
-  throw std::runtime_error(fmt::format("{}: cannot be written ({}); free space there or name another folder",
-                                       file.string(), std::strerror(errno)));
-}
 
 /// Gains in hexadecimal: to the last bit, or the pixels would not be the same.
 std::string line_of(const RenderJournal::Entry& entry) {
@@ -45,7 +40,7 @@ std::vector<RenderJournal::Entry> read_entries(const std::filesystem::path& file
 
 RenderJournal::RenderJournal(std::filesystem::path file)
     : path_(std::move(file)), file_(open(path_.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666)) {
-  if (file_ < 0) fail(path_);
+  if (file_ < 0) fail_to_write(path_);
   if (flock(file_, LOCK_EX | LOCK_NB) != 0) {
     close(file_);
     throw std::runtime_error(path_.string() + ": another process renders there; wait for it, or name another folder");
@@ -57,16 +52,14 @@ RenderJournal::~RenderJournal() { close(file_); }
 
 void RenderJournal::keep(std::size_t count) {
   if (count < found_.size()) found_.resize(count);
-  std::string text;
-  for (const auto& entry : found_) text += line_of(entry);
-  if (ftruncate(file_, 0) != 0) fail(path_);
-  append(text);
+  std::size_t bytes = 0;
+  for (const auto& entry : found_) bytes += line_of(entry).size();
+  if (ftruncate(file_, static_cast<off_t>(bytes)) != 0) fail_to_write(path_);
 }
 
-void RenderJournal::add(const Entry& entry) { append(line_of(entry)); }
-
-void RenderJournal::append(const std::string& text) {
-  if (write(file_, text.data(), text.size()) != static_cast<ssize_t>(text.size())) fail(path_);
+void RenderJournal::add(const Entry& entry) {
+  const auto line = line_of(entry);
+  if (write(file_, line.data(), line.size()) != static_cast<ssize_t>(line.size())) fail_to_write(path_);
 }
 
 }  // namespace panvo::simulation

@@ -34,8 +34,6 @@ class RenderJournal {
   void add(const Entry& entry);
 
  private:
-  void append(const std::string& text);
-
   std::filesystem::path path_;
   int file_;
   std::vector<Entry> found_;
