@@ -19,7 +19,7 @@ namespace {
 
 // A lost fragment or acknowledgement is noticed at the next heartbeat, which has to come well within the time
 // a write may wait. Fast DDS's default is 3 s. Sent only while something is unacknowledged.
-constexpr std::int32_t kHeartbeatPeriodNs = 20'000'000;
+constexpr std::chrono::milliseconds kHeartbeatPeriod{20};
 constexpr int kPreallocatedSamples = 4;
 
 fdds::DurabilityQosPolicyKind durability_kind(Durability durability) {
@@ -72,17 +72,22 @@ PolicyText describe(fdds::QosPolicyId_t policy) {
 
 }  // namespace
 
+eprosima::fastrtps::Duration_t to_dds(std::chrono::nanoseconds time) {
+  time = std::max(time, std::chrono::nanoseconds(0));
+  const auto seconds = std::chrono::duration_cast<std::chrono::seconds>(time);
+  return {static_cast<std::int32_t>(seconds.count()), static_cast<std::uint32_t>((time - seconds).count())};
+}
+
 void apply(const TopicDescription& topic, fdds::DataWriterQos& qos) {
   apply_common(topic, qos);
   // A reliable writer serves readers of either kind; who wants best effort is not slowed by it.
   qos.reliability().kind = fdds::RELIABLE_RELIABILITY_QOS;
-  qos.reliability().max_blocking_time =
-      eprosima::fastrtps::Duration_t(0, static_cast<std::uint32_t>(std::chrono::nanoseconds(kMaxBlockingTime).count()));
+  qos.reliability().max_blocking_time = to_dds(kMaxBlockingTime);
   // Topics of which only the newest counts carry images. Their fragments are sent from a thread of Fast
   // DDS's, so that a network slower than the camera does not hold the publisher (at 100 Mbit/s a panorama of
   // 1.75 MB held it for 122 ms, now 0.8 ms). Others are small and leave at once.
   if (topic.qos.requested == Reliability::kBestEffort) qos.publish_mode().kind = fdds::ASYNCHRONOUS_PUBLISH_MODE;
-  qos.reliable_writer_qos().times.heartbeatPeriod = eprosima::fastrtps::Duration_t(0, kHeartbeatPeriodNs);
+  qos.reliable_writer_qos().times.heartbeatPeriod = to_dds(kHeartbeatPeriod);
   qos.representation().m_value = {fdds::XCDR_DATA_REPRESENTATION};
   // ROS 2 has data sharing off, and a reader of it that is slower than its writer would see its samples
   // change.

@@ -18,6 +18,9 @@ namespace panvo::runtime::dds {
 inline constexpr int kWriteAttempts = 2;
 inline constexpr std::chrono::milliseconds kMaxBlockingTime{50};
 
+/// A time in the terms of DDS; negative times are none.
+eprosima::fastrtps::Duration_t to_dds(std::chrono::nanoseconds time);
+
 /// Sets what a topic's QoS says, and what ROS 2 expects of a writer or reader, on top of the participant's
 /// defaults (`qos`), which may come from a user's profile.
 void apply(const TopicDescription& topic, eprosima::fastdds::dds::DataWriterQos& qos);

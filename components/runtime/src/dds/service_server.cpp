@@ -19,6 +19,8 @@ namespace {
 // Discovery of a client that is there takes a few milliseconds. One that is gone holds up the other services
 // of this process for no longer than this.
 constexpr std::chrono::milliseconds kClientLimit{500};
+// How long a service that ends waits for its last answer to arrive; it takes a few milliseconds, unless the client is gone or stands still.
+constexpr std::chrono::seconds kLastAnswerLimit{2};
 
 bool is_reader(const GUID_t& guid) {
   constexpr std::uint8_t kReaderBit = 0x04;
@@ -78,6 +80,9 @@ ServiceServer::~ServiceServer() {
   readers_->endpoints().remove(reader_->guid());
   writers_->endpoints().remove(writer_->guid());
   readers_->subscriber().delete_datareader(reader_);
+  // An answer that is still on its way is dropped by a client that hears first that the writer is gone: so it is for a service that ends by
+  // what it was asked for. Where nothing is on its way, this does not wait.
+  writer_->wait_for_acknowledgments(to_dds(kLastAnswerLimit));
   writers_->publisher().delete_datawriter(writer_);
 }
 

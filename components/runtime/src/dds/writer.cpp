@@ -3,8 +3,6 @@
 
 #include <spdlog/fmt/fmt.h>
 
-#include <algorithm>
-
 #include "endpoint_qos.hpp"
 #include "image_sharing.hpp"
 #include "panvo/runtime/errors.hpp"
@@ -50,11 +48,7 @@ bool Writer::write(const SamplePtr& sample) {
 }
 
 bool Writer::wait_for_acknowledgments(std::chrono::milliseconds limit) {
-  const std::chrono::nanoseconds wait = std::max(limit, std::chrono::milliseconds(0));
-  const auto seconds = std::chrono::duration_cast<std::chrono::seconds>(wait);
-  return writer_->wait_for_acknowledgments(
-             {static_cast<std::int32_t>(seconds.count()), static_cast<std::uint32_t>((wait - seconds).count())}) ==
-         ReturnCode_t::RETCODE_OK;
+  return writer_->wait_for_acknowledgments(to_dds(limit)) == ReturnCode_t::RETCODE_OK;
 }
 
 void Writer::on_publication_matched(fdds::DataWriter*, const fdds::PublicationMatchedStatus& status) {
