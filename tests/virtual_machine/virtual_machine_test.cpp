@@ -38,12 +38,12 @@ class VirtualMachine : public ::testing::Test {
 
 TEST_F(VirtualMachine, DriverHoldsOnTheKernelsSimulatedCameras) {
   const Finished finished = inside({"vivid=n_devs=2;node_types=0x1,0x1;num_inputs=1,1;input_types=0x0,0x0"},
-                                   {VIVID_SCENARIOS}, std::chrono::seconds(75));
+                                   {VIVID_SCENARIOS}, std::chrono::seconds(250));
   EXPECT_EQ(finished.status, 0) << finished.output;
 }
 
 TEST_F(VirtualMachine, DriverHoldsOnUsbCameras) {
-  const Finished finished = inside({"vivid=none"}, {USB_SCENARIOS}, std::chrono::seconds(100));
+  const Finished finished = inside({"vivid=none"}, {USB_SCENARIOS}, std::chrono::seconds(250));
   EXPECT_EQ(finished.status, 0) << finished.output;
 }
 
@@ -58,7 +58,7 @@ TEST_F(VirtualMachine, UsbCameraGivesThePathThatTheSamePicturesGiveFromFiles) {
   ASSERT_EQ(expected.size(), 30u);
   ASSERT_GT(expected.back().x, 2.5) << "29 steps of 0.1 m";
 
-  const Finished finished = inside({"vivid=none"}, {WALK_SCENARIO}, std::chrono::seconds(60));
+  const Finished finished = inside({"vivid=none"}, {WALK_SCENARIO}, std::chrono::seconds(200));
   ASSERT_EQ(finished.status, 0) << finished.output;
   const std::string through = exchange_ / "through";
   const Finished replayed =

@@ -27,6 +27,15 @@ CameraSettings vivid(const std::string& pixel_format, const std::string& pattern
   return settings;
 }
 
+/// Under an emulated processor the simulated camera keeps its rate on the whole, not from frame to frame, and leaves out frames that it has no
+/// time for: they are missing between its stamps, and must be in our count.
+void expect_all_counted(const std::vector<Grabbed::Frame>& frames, const camera_stream::StreamCounters& counters) {
+  const double seconds = static_cast<double>(frames.back().stamp_ns - frames.front().stamp_ns) * 1e-9;
+  const auto counted = static_cast<double>(frames.size() - 1 + counters.dropped);
+  constexpr double kComeInBetween = 5.0;  // frames, while one after the other is asked for
+  EXPECT_NEAR(counted, seconds * 30.0, kComeInBetween) << counters.dropped << " dropped";
+}
+
 class VividCamera : public ::testing::TestWithParam<const char*> {};
 
 class VividColour : public VividCamera {};
@@ -84,12 +93,8 @@ TEST_F(VividCamera, DeliversAllFramesWithTheKernelsStamps) {
   ASSERT_TRUE(grabbed.more_come(60)) << grabbed.log();
   const auto frames = grabbed.frames();
   for (std::size_t i = 1; i < frames.size(); ++i) ASSERT_GT(frames[i].stamp_ns, frames[i - 1].stamp_ns);
-  // Under an emulated processor the simulated camera keeps its rate on the whole, not from frame to frame.
-  const double seconds = static_cast<double>(frames.back().stamp_ns - frames.front().stamp_ns) * 1e-9;
-  EXPECT_NEAR(seconds / static_cast<double>(frames.size() - 1), 1.0 / 30.0, 0.003);
   const auto report = grabbed.report();
-  constexpr std::uint64_t kOfABusyMachine = 3;  // the simulated camera leaves out frames that it has no time for
-  EXPECT_LE(report.counters.dropped, kOfABusyMachine);
+  expect_all_counted(frames, report.counters);
   EXPECT_EQ(report.counters.clock_resets, 0u);
   EXPECT_EQ(report.details.at("stamps"), "of the end of the frame");
 }
@@ -147,9 +152,10 @@ TEST_F(VividCamera, CountsFramesThatItDrops) {
   settings.controls.push_back({"percentage_of_dropped_buffers", "20"});
   const Grabbed grabbed(settings);
   ASSERT_TRUE(grabbed.more_come(60)) << grabbed.log();
+  const auto frames = grabbed.frames();
   const auto counters = grabbed.counters();
-  const double share = static_cast<double>(counters.dropped) / static_cast<double>(counters.dropped + counters.frames);
-  EXPECT_NEAR(share, 0.2, 0.15);
+  EXPECT_GE(counters.dropped, 5u) << "of a fifth of some 75 frames";
+  expect_all_counted(frames, counters);
   set_control(kFirst, "percentage_of_dropped_buffers", 0);
 }
 
