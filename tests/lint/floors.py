@@ -58,7 +58,7 @@ BAG_IMAGES = floor("images of a bag", "recorder interfaces conversions", "messag
 LIVE_IMAGES = floor("images of topics", "runtime interfaces conversions", "messages, opencv")
 RECORDER = floor("recorder", "runtime interfaces", "messages, fastdds, yaml, sqlite, log, json, command line")
 DRIVER = floor("driver", "runtime interfaces conversions vision", "messages, eigen, opencv, yaml, xml, json, log")
-CAMERA_DRIVER = floor("camera driver", "runtime interfaces conversions vision camera_stream", "messages, eigen, opencv, aravis, yaml, json, log")
+CAMERA_DRIVER = floor("camera driver", "runtime interfaces conversions vision camera_stream camera_group", "messages, eigen, opencv, aravis, yaml, json, log")
 SIMULATION = floor("simulation", "runtime interfaces conversions vision", "messages, eigen, opencv, embree, yaml, log, command line")
 EVALUATION = None  # may include anything
 
@@ -79,6 +79,7 @@ FLOORS = [
     ("components/recorder", RECORDER),
     ("components/evaluation", EVALUATION),
     ("drivers/simulation", SIMULATION),
+    ("drivers/camera_group", CAMERA_DRIVER),
     ("drivers/aravis_camera", CAMERA_DRIVER),
     ("drivers/v4l2_camera", CAMERA_DRIVER),
     ("drivers", DRIVER),

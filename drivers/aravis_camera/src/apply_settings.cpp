@@ -101,7 +101,7 @@ void set_packets(ArvCamera* camera, const CameraSettings& settings, Refusals& re
 
 }  // namespace
 
-std::vector<std::string> apply(ArvCamera* camera, const std::vector<FeatureSetting>& features) {
+std::vector<std::string> apply(ArvCamera* camera, const std::vector<camera_group::DeviceSetting>& features) {
   std::vector<std::string> problems;
   for (const auto& setting : features) {
     if (const auto problem = apply(arv_camera_get_device(camera), setting); !problem.empty())

@@ -13,6 +13,6 @@ namespace panvo::aravis_camera {
 std::vector<std::string> apply(ArvCamera* camera, const CameraSettings& settings);
 
 /// The same for features alone.
-std::vector<std::string> apply(ArvCamera* camera, const std::vector<FeatureSetting>& features);
+std::vector<std::string> apply(ArvCamera* camera, const std::vector<camera_group::DeviceSetting>& features);
 
 }  // namespace panvo::aravis_camera

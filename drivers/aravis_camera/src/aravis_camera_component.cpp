@@ -1,72 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <chrono>
-#include <optional>
-#include <thread>
-
-#include "camera_group.hpp"
-#include "mounting.hpp"
+#include "panvo/aravis_camera/camera_grabber.hpp"
 #include "panvo/aravis_camera/device_list.hpp"
-#include "panvo/runtime/component.hpp"
+#include "panvo/camera_group/camera_component.hpp"
 #include "parameters.hpp"
 
 namespace panvo::aravis_camera {
 
-/// GigE Vision and USB3 Vision cameras -> image_raw, camera_info of each, under one stamp; /tf_static; diagnostics.
-class AravisCameraComponent final : public runtime::Component {
- public:
-  explicit AravisCameraComponent(runtime::Context& context)
-      : context_(context),
-        begin_(context.stage<Begin>("begin", 1, [this](const Begin& begin) { on_begin(begin); })),
-        static_transforms_(context.output(topics::kTfStatic)) {
-    const auto parameters = context.parameters<Parameters>();
-    auto cameras = cameras_of(parameters);
-    try {
-      mounting_ = mounting(parameters.mount, cameras, system_ns());
-    } catch (const SettingsError& error) {
-      throw runtime::ConfigError(error.what());
-    }
+struct AravisDriver {
+  using Parameters = aravis_camera::Parameters;
+  using Grabber = CameraGrabber;
+  static constexpr auto kName = "aravis_camera";
+  static constexpr auto kSettable = &Parameters::features;
+  static constexpr auto kSettableName = "features";
+  static auto cameras_of(const Parameters& parameters) {
     if (parameters.simulated) enable_simulated_camera();
-    group_.emplace(context, std::move(cameras), static_cast<std::int64_t>(parameters.pair_tolerance_ms * 1e6));
-    context.on_parameters<Parameters>(
-        [this, parameters](const Parameters& wanted) { on_parameters(parameters, wanted); });
-    // Cameras are opened when the container starts, not while components are looked at or still to be loaded.
-    begin_.push({std::this_thread::get_id()});
+    return aravis_camera::cameras_of(parameters);
   }
+  static const auto& settings_of(const GrabberSettings& settings) { return settings.camera.features; }
+};
 
- private:
-  struct Begin {
-    std::thread::id made_by;
-  };
-
-  void on_begin(const Begin& begin) {
-    // A replay has one thread for all and time of its own: cameras have no place in it.
-    if (begin.made_by == std::this_thread::get_id()) {
-      context_.log().error("cameras cannot be replayed; run without --replay");
-      return;
-    }
-    if (!mounting_.transforms().empty()) static_transforms_.publish(mounting_);
-    group_->start();
-  }
-
-  void on_parameters(Parameters made_with, const Parameters& wanted) {
-    made_with.features = wanted.features;
-    if (wanted != made_with)
-      throw runtime::ConfigError("of aravis_camera only features can be set while it runs; load it anew for the rest");
-    std::vector<std::vector<FeatureSetting>> features;
-    for (const auto& camera : cameras_of(wanted)) features.push_back(camera.settings.camera.features);
-    group_->set_features(std::move(features));
-  }
-
-  static std::int64_t system_ns() {
-    return std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::system_clock::now().time_since_epoch())
-        .count();
-  }
-
-  runtime::Context& context_;
-  runtime::Stage<Begin> begin_;
-  runtime::Output<tf2_msgs::msg::TFMessage> static_transforms_;
-  tf2_msgs::msg::TFMessage mounting_;
-  std::optional<CameraGroup> group_;
+/// GigE Vision and USB3 Vision cameras.
+class AravisCameraComponent final : public camera_group::CameraComponent<AravisDriver> {
+ public:
+  using CameraComponent::CameraComponent;
 };
 
 PANVO_REGISTER_COMPONENT(AravisCameraComponent)

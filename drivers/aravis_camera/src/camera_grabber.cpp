@@ -61,7 +61,7 @@ class CameraGrabber::Implementation {
     return report_;
   }
 
-  void set_features(std::vector<FeatureSetting> features) {
+  void set(std::vector<camera_group::DeviceSetting> features) {
     const std::lock_guard lock(mutex_);
     new_features_ = std::move(features);
   }
@@ -219,7 +219,7 @@ class CameraGrabber::Implementation {
       const std::int64_t stamp_ns = stamper_.stamp_ns(frame, system_ns());
       auto image = image_of(frame);
       if (image) {
-        whole = Frame{stamp_ns, *image};
+        whole = Frame{stamp_ns, {*image}};
       } else {
         problem = image.reason();
       }
@@ -319,7 +319,7 @@ class CameraGrabber::Implementation {
   Closer<OpenedCamera> closer_;
 
   mutable std::mutex mutex_;  // guards report_ and new_features_
-  std::optional<std::vector<FeatureSetting>> new_features_;
+  std::optional<std::vector<camera_group::DeviceSetting>> new_features_;
   std::condition_variable_any stopped_;
   camera_stream::StreamReport report_{.name = settings_.name,
                                       .serial = "",
@@ -337,8 +337,8 @@ CameraGrabber::~CameraGrabber() = default;
 
 camera_stream::StreamReport CameraGrabber::report() const { return implementation_->report(); }
 
-void CameraGrabber::set_features(std::vector<FeatureSetting> features) {
-  implementation_->set_features(std::move(features));
+void CameraGrabber::set(std::vector<camera_group::DeviceSetting> features) {
+  implementation_->set(std::move(features));
 }
 
 }  // namespace panvo::aravis_camera

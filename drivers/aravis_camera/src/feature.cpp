@@ -20,7 +20,7 @@ std::optional<Number> number_of(const std::string& text) {
   return value;
 }
 
-std::string apply_integer(ArvDevice* device, const FeatureSetting& setting) {
+std::string apply_integer(ArvDevice* device, const camera_group::DeviceSetting& setting) {
   const auto value = number_of<std::int64_t>(setting.value);
   if (!value) return "is not a whole number";
   ErrorSlot error;
@@ -34,7 +34,7 @@ std::string apply_integer(ArvDevice* device, const FeatureSetting& setting) {
   return error.text();
 }
 
-std::string apply_float(ArvDevice* device, const FeatureSetting& setting) {
+std::string apply_float(ArvDevice* device, const camera_group::DeviceSetting& setting) {
   const auto value = number_of<double>(setting.value);
   if (!value) return "is not a number";
   ErrorSlot error;
@@ -45,7 +45,7 @@ std::string apply_float(ArvDevice* device, const FeatureSetting& setting) {
   return error.text();
 }
 
-std::string apply_boolean(ArvDevice* device, const FeatureSetting& setting) {
+std::string apply_boolean(ArvDevice* device, const camera_group::DeviceSetting& setting) {
   const bool is_true = setting.value == "true" || setting.value == "1";
   if (!is_true && setting.value != "false" && setting.value != "0") return "is neither true nor false";
   ErrorSlot error;
@@ -53,7 +53,7 @@ std::string apply_boolean(ArvDevice* device, const FeatureSetting& setting) {
   return error.text();
 }
 
-std::string apply_choice(ArvDevice* device, const FeatureSetting& setting) {
+std::string apply_choice(ArvDevice* device, const camera_group::DeviceSetting& setting) {
   ErrorSlot error;
   guint count = 0;
   const std::unique_ptr<const char*[], Free> choices(arv_device_dup_available_enumeration_feature_values_as_strings(
@@ -66,7 +66,7 @@ std::string apply_choice(ArvDevice* device, const FeatureSetting& setting) {
   return error.text();
 }
 
-std::string apply_known(ArvDevice* device, ArvGcNode* node, const FeatureSetting& setting) {
+std::string apply_known(ArvDevice* device, ArvGcNode* node, const camera_group::DeviceSetting& setting) {
   ErrorSlot error;
   if (ARV_IS_GC_COMMAND(node)) {
     arv_device_execute_command(device, setting.name.c_str(), error.slot());
@@ -85,7 +85,7 @@ std::string apply_known(ArvDevice* device, ArvGcNode* node, const FeatureSetting
 
 }  // namespace
 
-std::string apply(ArvDevice* device, const FeatureSetting& setting) {
+std::string apply(ArvDevice* device, const camera_group::DeviceSetting& setting) {
   ArvGcNode* node = arv_device_get_feature(device, setting.name.c_str());
   const std::string problem = node == nullptr
                                   ? "the camera has no feature of that name (`arv-tool-0.8 features` lists all)"

@@ -180,7 +180,7 @@ std::unique_ptr<ReceivedFrame> OpenedCamera::receive(std::chrono::microseconds l
   return buffer != nullptr ? std::make_unique<ReceivedFrame>(stream_.get(), buffer) : nullptr;
 }
 
-std::vector<std::string> OpenedCamera::set(const std::vector<FeatureSetting>& features) {
+std::vector<std::string> OpenedCamera::set(const std::vector<camera_group::DeviceSetting>& features) {
   return apply(camera_.get(), features);
 }
 

@@ -83,7 +83,7 @@ class OpenedCamera {
   std::unique_ptr<ReceivedFrame> receive(std::chrono::microseconds limit);
 
   /// Sets features now; returns what the camera does not take, and why.
-  std::vector<std::string> set(const std::vector<FeatureSetting>& features);
+  std::vector<std::string> set(const std::vector<camera_group::DeviceSetting>& features);
 
   /// False when the device does not take the command.
   bool trigger();

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "parameters.hpp"
 
-#include <filesystem>
 #include <stdexcept>
 
-#include "panvo/camera_stream/camera_info_file.hpp"
 #include "panvo/runtime/errors.hpp"
 
 namespace panvo::aravis_camera {
@@ -59,7 +57,7 @@ std::vector<std::string> names_of(const std::vector<camera_stream::CameraRole>& 
 
 }  // namespace
 
-std::vector<CameraOfGroup> cameras_of(const Parameters& parameters) {
+camera_group::CameraSet<GrabberSettings> cameras_of(const Parameters& parameters) {
   auto selectors = parameters.cameras;
   if (selectors.empty()) selectors.emplace_back();
   std::vector<camera_stream::CameraRole> roles;
@@ -69,25 +67,24 @@ std::vector<CameraOfGroup> cameras_of(const Parameters& parameters) {
     throw runtime::ConfigError(std::string("cameras: ") + error.what() +
                                "; name them by serial number (`panvo devices` lists them)");
   }
+  camera_group::CameraSet<GrabberSettings> cameras;
+  cameras.tolerance_ns = static_cast<std::int64_t>(parameters.pair_tolerance_ms * 1e6);
   std::vector<std::string> problems;
-  std::vector<CameraOfGroup> cameras;
   for (std::size_t i = 0; i < roles.size(); ++i) {
-    CameraOfGroup camera{roles[i], grabber_settings(parameters, roles[i]), std::nullopt};
-    camera.settings.camera.camera = selectors[i];
+    auto settings = grabber_settings(parameters, roles[i]);
+    settings.camera.camera = selectors[i];
     for (std::size_t other = 0; other < i; ++other) {
       if (selectors[other] == selectors[i]) problems.push_back("cameras: " + selectors[i] + " is named twice");
     }
     try {
-      camera.settings.camera.features = features_of(parameters.features, roles[i].name, names_of(roles));
-      if (!parameters.calibration.empty()) {
-        camera.calibration =
-            camera_stream::read_camera_info(std::filesystem::path(parameters.calibration) / (roles[i].name + ".yaml"));
-      }
-    } catch (const std::runtime_error& error) {  // SettingsError, CalibrationFileError
+      settings.camera.features =
+          camera_group::settings_of("features", parameters.features, settings.name, names_of(roles));
+    } catch (const std::invalid_argument& error) {
       problems.emplace_back(error.what());
     }
-    cameras.push_back(std::move(camera));
+    cameras.devices.push_back(std::move(settings));
   }
+  cameras.images = camera_group::images_of(roles, parameters.calibration, problems);
   if (!problems.empty()) throw runtime::ConfigError(std::move(problems));
   return cameras;
 }

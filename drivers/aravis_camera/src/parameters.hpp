@@ -4,7 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "camera_group.hpp"
+#include "panvo/aravis_camera/camera_grabber.hpp"
+#include "panvo/camera_group/camera_component.hpp"
 
 namespace panvo::aravis_camera {
 
@@ -96,6 +97,6 @@ struct Parameters {
 };
 
 /// The cameras that are meant. Throws runtime::ConfigError with every problem.
-std::vector<CameraOfGroup> cameras_of(const Parameters& parameters);
+camera_group::CameraSet<GrabberSettings> cameras_of(const Parameters& parameters);
 
 }  // namespace panvo::aravis_camera

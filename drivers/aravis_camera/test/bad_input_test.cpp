@@ -128,7 +128,7 @@ TEST_F(CamerasInTrouble, ParametersThatMakeNoSenseAreRefusedAtOnce) {
   EXPECT_THAT(load_error({{"layout", {"stereo"}}, {"cameras", {"GVL"}}}),
               AllOf(HasSubstr("two cameras"), HasSubstr("panvo devices")));
   EXPECT_THAT(load_error({{"layout", {"stereo"}}, {"cameras", {"GVL", "GVL"}}}), HasSubstr("GVL is named twice"));
-  EXPECT_THAT(load_error({{"features", {"Gain"}}}), HasSubstr("'Gain' is no setting; write Name=value"));
+  EXPECT_THAT(load_error({{"features", {"Gain"}}}), HasSubstr("'Gain' is no setting; write name=value"));
   EXPECT_THAT(load_error({{"features", {"left:Gain=1"}}}), HasSubstr("no camera here; there are: camera"));
   EXPECT_THAT(load_error({{"calibration", {"nowhere"}}}), HasSubstr("nowhere/camera.yaml: cannot be opened"));
   EXPECT_THAT(load_error({{"mount", {"1", "2"}}}), HasSubstr("mount: has 2 numbers"));

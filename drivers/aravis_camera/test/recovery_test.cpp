@@ -92,7 +92,7 @@ TEST_F(LostCameras, AreSetWhileTheyStreamAndAgainWhenTheyComeBack) {
   settings.camera.frame_rate_hz = 0.0;
   settings.camera.packet_socket = PacketSocket::kOff;
   CameraGrabber grabber(settings, silent, [&](const CameraGrabber::Frame& frame) {
-    const auto picture = TestPicture::read(frame.image->data(), frame.image->step());
+    const auto picture = TestPicture::read(frame.images[0]->data(), frame.images[0]->step());
     const std::lock_guard lock(mutex);
     if (picture && last_ns != 0) steps_ns.push_back(picture->taken_ns - last_ns);
     last_ns = picture ? picture->taken_ns : 0;
@@ -107,7 +107,7 @@ TEST_F(LostCameras, AreSetWhileTheyStreamAndAgainWhenTheyComeBack) {
     });
   };
   EXPECT_TRUE(takes_ten_pictures_each(40.0)) << "the simulator's own 25 Hz";
-  grabber.set_features({{"AcquisitionFrameRate", "100"}, {"NoSuchThing", "1"}});
+  grabber.set({{"AcquisitionFrameRate", "100"}, {"NoSuchThing", "1"}});
   EXPECT_TRUE(takes_ten_pictures_each(10.0));
   EXPECT_TRUE(eventually([&] { return grabber.report().counters.refused_settings == 1; }));
   simulator->kill();

@@ -3,10 +3,8 @@
 
 #include <cmath>
 
-#include "mounting.hpp"
 #include "panvo/aravis_camera/device_list.hpp"
 #include "panvo/aravis_camera/ptp_stamps.hpp"
-#include "panvo/conversions/pose.hpp"
 #include "parameters.hpp"
 #include "software_trigger.hpp"
 
@@ -17,22 +15,6 @@ using ::testing::HasSubstr;
 using ::testing::SizeIs;
 
 constexpr std::int64_t kSecond = 1'000'000'000;
-
-MATCHER_P2(Sets, name, value, "") { return arg.name == name && arg.value == value; }
-
-TEST(FeaturesOfACamera, KeepTheirOrderAndAreForAllOrForOne) {
-  const std::vector<std::string> lines{"UserSetLoad=", "left: Gain = 3", "right:Gain=4", "Name=a=b"};
-  EXPECT_THAT(features_of(lines, "left", {"left", "right"}),
-              testing::ElementsAre(Sets("UserSetLoad", ""), Sets("Gain", "3"), Sets("Name", "a=b")));
-  EXPECT_THAT(features_of(lines, "right", {"left", "right"}),
-              testing::ElementsAre(Sets("UserSetLoad", ""), Sets("Gain", "4"), Sets("Name", "a=b")));
-}
-
-TEST(FeaturesOfACamera, AreRefusedWhereTheyAreNone) {
-  EXPECT_THROW(features_of({"Gain"}, "left", {"left"}), SettingsError);
-  EXPECT_THROW(features_of({"=3"}, "left", {"left"}), SettingsError);
-  EXPECT_THROW(features_of({"middle:Gain=3"}, "left", {"left", "right"}), SettingsError);
-}
 
 TEST(PtpStamps, AreTheHostsButForTheLeapSeconds) {
   const std::int64_t host_ns = 1'700'000'000 * kSecond + 123'456'789;
@@ -90,43 +72,18 @@ TEST(Cameras, GetTheirSettingsFromTheParameters) {
   parameters.clock = "ptp";
   parameters.packet_delay_ns = 1000;
   const auto cameras = cameras_of(parameters);
-  ASSERT_THAT(cameras, SizeIs(2));
-  EXPECT_EQ(cameras[0].settings.camera.camera, "L");
-  EXPECT_EQ(cameras[1].role.name, "right");
-  EXPECT_THAT(cameras[0].settings.camera.features, SizeIs(0));
-  EXPECT_THAT(cameras[1].settings.camera.features, SizeIs(1));
-  EXPECT_EQ(cameras[0].settings.camera.trigger, Trigger::kLine);
-  EXPECT_EQ(cameras[0].settings.stamps, StampSource::kPtp);
-  EXPECT_TRUE(cameras[0].settings.camera.ptp);
-  EXPECT_EQ(cameras[0].settings.camera.packet_delay_ns, 1000);
-}
-
-TEST(Mounting, PlacesTheLeftCameraAndTheRightOneByTheCalibration) {
-  Parameters parameters;
-  parameters.layout = "stereo";
-  parameters.cameras = {"L", "R"};
-  parameters.calibration = PANVO_RIGS "/example";
-  const auto cameras = cameras_of(parameters);
-  const auto message = mounting({1.0, 0.06, 1.5, 0, 0, 90}, cameras, 7);
-  ASSERT_THAT(message.transforms(), SizeIs(2));
-  const auto left = *conversions::to_isometry(message.transforms()[0].transform());
-  const auto right = *conversions::to_isometry(message.transforms()[1].transform());
-  EXPECT_EQ(message.transforms()[1].child_frame_id(), "stereo_right_optical");
-  // Turned by 90 degrees to the left, the camera looks along +y; its right is +x, and the other camera 0.12 m that way.
-  EXPECT_TRUE((left.linear() * Eigen::Vector3d::UnitZ()).isApprox(Eigen::Vector3d::UnitY(), 1e-9));
-  EXPECT_TRUE(left.translation().isApprox(Eigen::Vector3d(1.0, 0.06, 1.5)));
-  EXPECT_TRUE((right.translation() - left.translation()).isApprox(Eigen::Vector3d(0.12, 0, 0), 1e-9))
-      << right.translation();
-}
-
-TEST(Mounting, TakesSixNumbersForEachCamera) {
-  Parameters parameters;
-  parameters.layout = "rig";
-  parameters.cameras = {"A", "B", "C"};
-  const auto cameras = cameras_of(parameters);
-  EXPECT_THAT(mounting({}, cameras, 0).transforms(), SizeIs(0));
-  EXPECT_THAT(mounting(std::vector<double>(18, 0.0), cameras, 0).transforms(), SizeIs(3));
-  EXPECT_THROW(mounting(std::vector<double>(12, 0.0), cameras, 0), SettingsError);
+  ASSERT_THAT(cameras.devices, SizeIs(2));
+  const auto& [left, right] = std::tie(cameras.devices[0], cameras.devices[1]);
+  EXPECT_EQ(left.camera.camera, "L");
+  EXPECT_EQ(right.name, "right");
+  EXPECT_THAT(left.camera.features, SizeIs(0));
+  EXPECT_THAT(right.camera.features, testing::ElementsAre(camera_group::DeviceSetting{"Gain", "4"}));
+  EXPECT_EQ(left.camera.trigger, Trigger::kLine);
+  EXPECT_EQ(left.stamps, StampSource::kPtp);
+  EXPECT_TRUE(left.camera.ptp);
+  EXPECT_EQ(left.camera.packet_delay_ns, 1000);
+  ASSERT_THAT(cameras.images, SizeIs(2));
+  EXPECT_EQ(cameras.images[1].role.name, "right");
 }
 
 }  // namespace

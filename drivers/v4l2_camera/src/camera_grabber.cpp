@@ -53,7 +53,7 @@ class CameraGrabber::Implementation {
     return report_;
   }
 
-  void set_controls(std::vector<ControlSetting> controls) {
+  void set(std::vector<camera_group::DeviceSetting> controls) {
     const std::lock_guard lock(mutex_);
     new_controls_ = std::move(controls);
   }
@@ -235,7 +235,7 @@ class CameraGrabber::Implementation {
 
   mutable std::mutex mutex_;  // guards report_ and new_controls_
   std::condition_variable_any stopped_;
-  std::optional<std::vector<ControlSetting>> new_controls_;
+  std::optional<std::vector<camera_group::DeviceSetting>> new_controls_;
   camera_stream::StreamReport report_{.name = settings_.name,
                                       .serial = "",
                                       .is_streaming = false,
@@ -253,8 +253,8 @@ CameraGrabber::~CameraGrabber() = default;
 
 camera_stream::StreamReport CameraGrabber::report() const { return implementation_->report(); }
 
-void CameraGrabber::set_controls(std::vector<ControlSetting> controls) {
-  implementation_->set_controls(std::move(controls));
+void CameraGrabber::set(std::vector<camera_group::DeviceSetting> controls) {
+  implementation_->set(std::move(controls));
 }
 
 }  // namespace panvo::v4l2_camera

@@ -2,25 +2,15 @@
 #include "panvo/v4l2_camera/control.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
-#include <algorithm>
 #include <cctype>
 #include <charconv>
 #include <optional>
-#include <stdexcept>
 
 namespace panvo::v4l2_camera {
 namespace {
 
 using conversions::Reason;
-
-std::string trimmed(std::string_view text) {
-  const auto is_space = [](unsigned char character) { return std::isspace(character) != 0; };
-  while (!text.empty() && is_space(static_cast<unsigned char>(text.front()))) text.remove_prefix(1);
-  while (!text.empty() && is_space(static_cast<unsigned char>(text.back()))) text.remove_suffix(1);
-  return std::string(text);
-}
 
 std::optional<std::int64_t> number_of(const std::string& text) {
   std::int64_t number = 0;
@@ -71,28 +61,6 @@ conversions::Result<std::int64_t> control_value(const Control& control, const st
     return Reason{
         fmt::format("is between the camera's steps: {} and every {} from there", control.least, control.step)};
   return *number;
-}
-
-std::vector<ControlSetting> settings_of(const std::vector<std::string>& lines, std::string_view device,
-                                        const std::vector<std::string>& devices) {
-  std::vector<ControlSetting> settings;
-  for (const auto& line : lines) {
-    const auto equals = line.find('=');
-    const std::string before = line.substr(0, equals);
-    const auto colon = before.find(':');
-    const std::string its_device = colon == std::string::npos ? std::string(device) : trimmed(before.substr(0, colon));
-    const std::string name = control_name(colon == std::string::npos ? before : before.substr(colon + 1));
-    if (equals == std::string::npos || name.empty()) {
-      throw std::invalid_argument(
-          fmt::format("controls: '{}' is no setting; write name=value, or {}:name=value for one camera", line, device));
-    }
-    if (std::find(devices.begin(), devices.end(), its_device) == devices.end()) {
-      throw std::invalid_argument(fmt::format("controls: '{}' is for '{}', which is no camera here; there are: {}",
-                                              line, its_device, fmt::join(devices, ", ")));
-    }
-    if (its_device == device) settings.push_back({name, trimmed(line.substr(equals + 1))});
-  }
-  return settings;
 }
 
 }  // namespace panvo::v4l2_camera

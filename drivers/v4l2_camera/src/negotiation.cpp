@@ -17,7 +17,7 @@ std::string names_of(const std::vector<Control>& controls) {
 
 /// Why it is not as it was to be; nullopt: it is. That the device is gone is another matter.
 std::optional<std::string> set(VideoDevice& device, const std::vector<Control>& controls,
-                               const ControlSetting& setting) {
+                               const camera_group::DeviceSetting& setting) {
   const auto control =
       std::find_if(controls.begin(), controls.end(), [&](const Control& each) { return each.name == setting.name; });
   if (control == controls.end()) return "the camera has no control of that name; it has " + names_of(controls);
@@ -36,7 +36,7 @@ std::optional<std::string> set(VideoDevice& device, const std::vector<Control>& 
 
 }  // namespace
 
-std::vector<std::string> set_controls(VideoDevice& device, const std::vector<ControlSetting>& settings) {
+std::vector<std::string> set_controls(VideoDevice& device, const std::vector<camera_group::DeviceSetting>& settings) {
   std::vector<std::string> refused;
   if (settings.empty()) return refused;
   const auto controls = device.controls();

@@ -4,12 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <stdexcept>
 #include <utility>
 
-#include "panvo/camera_stream/camera_info_file.hpp"
 #include "panvo/runtime/errors.hpp"
+#include "panvo/v4l2_camera/control.hpp"
 
 namespace panvo::v4l2_camera {
 namespace {
@@ -65,11 +64,11 @@ std::vector<std::vector<CameraRole>> by_device(const std::vector<CameraRole>& ro
 
 }  // namespace
 
-GroupDescription group_of(const Parameters& parameters) {
+camera_group::CameraSet<CameraSettings> cameras_of(const Parameters& parameters) {
   auto selectors = parameters.cameras;
   if (selectors.empty()) selectors.emplace_back();
-  GroupDescription group;
-  group.tolerance_ns = static_cast<std::int64_t>(parameters.pair_tolerance_ms * 1e6);
+  camera_group::CameraSet<CameraSettings> cameras;
+  cameras.tolerance_ns = static_cast<std::int64_t>(parameters.pair_tolerance_ms * 1e6);
   std::vector<CameraRole> roles;
   try {
     roles = roles_of(parameters.layout, selectors.size());
@@ -88,24 +87,16 @@ GroupDescription group_of(const Parameters& parameters) {
     settings.camera = selectors[i];
     for (const auto& role : of_devices[i]) settings.frame_ids.push_back(role.frame_id);
     try {
-      settings.controls = settings_of(parameters.controls, settings.name, devices);
+      settings.controls = camera_group::settings_of("controls", parameters.controls, settings.name, devices);
+      for (auto& control : settings.controls) control.name = control_name(control.name);
     } catch (const std::invalid_argument& error) {
       problems.emplace_back(error.what());
     }
-    group.devices.push_back(std::move(settings));
+    cameras.devices.push_back(std::move(settings));
   }
-  for (const auto& role : roles) {
-    group.images.push_back({role, std::nullopt});
-    if (parameters.calibration.empty()) continue;
-    try {
-      group.images.back().calibration =
-          camera_stream::read_camera_info(std::filesystem::path(parameters.calibration) / (role.name + ".yaml"));
-    } catch (const camera_stream::CalibrationFileError& error) {
-      problems.emplace_back(error.what());
-    }
-  }
+  cameras.images = camera_group::images_of(roles, parameters.calibration, problems);
   if (!problems.empty()) throw runtime::ConfigError(std::move(problems));
-  return group;
+  return cameras;
 }
 
 }  // namespace panvo::v4l2_camera

@@ -4,7 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "camera_group.hpp"
+#include "panvo/camera_group/camera_component.hpp"
+#include "panvo/v4l2_camera/camera_settings.hpp"
 
 namespace panvo::v4l2_camera {
 
@@ -75,6 +76,6 @@ struct Parameters {
 };
 
 /// What is meant. Throws runtime::ConfigError with every problem.
-GroupDescription group_of(const Parameters& parameters);
+camera_group::CameraSet<CameraSettings> cameras_of(const Parameters& parameters);
 
 }  // namespace panvo::v4l2_camera

@@ -222,7 +222,7 @@ TEST_F(GrabbedCamera, IsSetWhileItStreamsAndSaysWhatItRefuses) {
   ASSERT_TRUE(eventually([&] { return is_streaming(); }));
   EXPECT_THAT(log(), HasSubstr("format YUYV 4 x 2 px: the camera gives GREY 4 x 2 px"));
   EXPECT_EQ(grabber_->report().counters.refused_settings, 1u);
-  grabber_->set_controls({{"gain", "12"}, {"brightness", "101"}, {"zoom", "1"}});
+  grabber_->set({{"gain", "12"}, {"brightness", "101"}, {"zoom", "1"}});
   ASSERT_TRUE(eventually([&] { return grabber_->report().counters.refused_settings == 2; })) << log();
   EXPECT_EQ(usb_.with([&](auto&) { return camera->values["gain"]; }), 12);
   EXPECT_THAT(log(), HasSubstr("controls: brightness=101: is out of range, 0 to 100"));

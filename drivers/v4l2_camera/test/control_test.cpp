@@ -51,19 +51,5 @@ TEST(ControlValues, AreTrueOrFalseOfSwitchesAndNoneOfWhatCanOnlyBeRead) {
   EXPECT_EQ(*control_value({.name = "reset", .kind = Control::Kind::kButton}, ""), 1);
 }
 
-TEST(ControlsOfACamera, KeepTheirOrderAndAreForAllOrForOne) {
-  const std::vector<std::string> lines{"Auto Exposure = Manual Mode", "left: gain=15", "right:gain=20"};
-  EXPECT_THAT(settings_of(lines, "left", {"left", "right"}),
-              ElementsAre(Sets("auto_exposure", "Manual Mode"), Sets("gain", "15")));
-  EXPECT_THAT(settings_of(lines, "right", {"left", "right"}),
-              ElementsAre(Sets("auto_exposure", "Manual Mode"), Sets("gain", "20")));
-}
-
-TEST(ControlsOfACamera, AreRefusedWhereTheyAreNone) {
-  EXPECT_THROW(settings_of({"gain"}, "left", {"left"}), std::invalid_argument);
-  EXPECT_THROW(settings_of({"=3"}, "left", {"left"}), std::invalid_argument);
-  EXPECT_THROW(settings_of({"right:gain=3"}, "left", {"left"}), std::invalid_argument);
-}
-
 }  // namespace
 }  // namespace panvo::v4l2_camera

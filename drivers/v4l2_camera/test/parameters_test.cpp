@@ -3,8 +3,6 @@
 
 #include <gmock/gmock.h>
 
-#include "mounting.hpp"
-#include "panvo/conversions/pose.hpp"
 #include "panvo/runtime/errors.hpp"
 
 namespace panvo::v4l2_camera {
@@ -22,7 +20,7 @@ Parameters with_layout(const std::string& layout, const std::vector<std::string>
   return parameters;
 }
 
-std::vector<std::string> topics_of(const GroupDescription& group) {
+std::vector<std::string> topics_of(const camera_group::CameraSet<CameraSettings>& group) {
   std::vector<std::string> topics;
   for (const auto& image : group.images) topics.emplace_back(image.role.images.name);
   return topics;
@@ -30,7 +28,7 @@ std::vector<std::string> topics_of(const GroupDescription& group) {
 
 std::string problem_of(const Parameters& parameters) {
   try {
-    group_of(parameters);
+    cameras_of(parameters);
   } catch (const runtime::ConfigError& error) {
     return error.what();
   }
@@ -38,21 +36,21 @@ std::string problem_of(const Parameters& parameters) {
 }
 
 TEST(Layouts, SayWhatIsPublishedOfHowManyCameras) {
-  EXPECT_THAT(topics_of(group_of(with_layout("mono"))), ElementsAre("camera/image_raw"));
-  EXPECT_THAT(topics_of(group_of(with_layout("panorama"))), ElementsAre("panorama/image"));
-  EXPECT_THAT(topics_of(group_of(with_layout("dual_fisheye"))), ElementsAre("panorama/head_0/image_raw"));
+  EXPECT_THAT(topics_of(cameras_of(with_layout("mono"))), ElementsAre("camera/image_raw"));
+  EXPECT_THAT(topics_of(cameras_of(with_layout("panorama"))), ElementsAre("panorama/image"));
+  EXPECT_THAT(topics_of(cameras_of(with_layout("dual_fisheye"))), ElementsAre("panorama/head_0/image_raw"));
   for (const char* layout : {"side_by_side", "top_bottom", "byte_interleaved"}) {
-    const auto group = group_of(with_layout(layout, {"S1"}));
+    const auto group = cameras_of(with_layout(layout, {"S1"}));
     EXPECT_THAT(topics_of(group), ElementsAre("stereo/left/image_raw", "stereo/right/image_raw")) << layout;
     ASSERT_THAT(group.devices, SizeIs(1)) << layout;
     EXPECT_THAT(group.devices[0].frame_ids, ElementsAre("stereo_left_optical", "stereo_right_optical")) << layout;
     EXPECT_NE(group.devices[0].parts.parts, ImageParts::kOne) << layout;
   }
-  const auto pair = group_of(with_layout("stereo", {"S1", "S2"}));
+  const auto pair = cameras_of(with_layout("stereo", {"S1", "S2"}));
   ASSERT_THAT(pair.devices, SizeIs(2));
   EXPECT_EQ(pair.devices[1].name, "right");
   EXPECT_THAT(pair.devices[1].frame_ids, ElementsAre("stereo_right_optical"));
-  EXPECT_THAT(group_of(with_layout("rig", {"A", "B", "C"})).images, SizeIs(3));
+  EXPECT_THAT(cameras_of(with_layout("rig", {"A", "B", "C"})).images, SizeIs(3));
 }
 
 TEST(Layouts, AreRefusedWithTheWrongNumberOfCameras) {
@@ -70,8 +68,8 @@ TEST(ParametersOfCameras, BecomeTheirSettings) {
   parameters.encoding = "grey";
   parameters.clock = "arrival";
   parameters.watchdog_s = 0.5;
-  parameters.controls = {"gain=3"};
-  const auto settings = group_of(parameters).devices.at(0);
+  parameters.controls = {"White Balance, Automatic=3"};
+  const auto settings = cameras_of(parameters).devices.at(0);
   EXPECT_EQ(settings.parts.parts, ImageParts::kByteInterleaved);
   EXPECT_TRUE(settings.parts.swap);
   EXPECT_EQ(settings.parts.interleaved, camera_stream::PixelFormat::kBayerGB8);
@@ -80,7 +78,7 @@ TEST(ParametersOfCameras, BecomeTheirSettings) {
   EXPECT_EQ(settings.output, camera_stream::ImageOutput::kGrey);
   EXPECT_EQ(settings.stamps, StampSource::kArrival);
   EXPECT_EQ(settings.watchdog_ns, 500'000'000);
-  EXPECT_THAT(settings.controls, SizeIs(1));
+  EXPECT_THAT(settings.controls, ElementsAre(camera_group::DeviceSetting{"white_balance_automatic", "3"}));
 }
 
 TEST(ParametersOfCameras, AreRefusedWhereTheyMakeNoSense) {
@@ -91,28 +89,6 @@ TEST(ParametersOfCameras, AreRefusedWhereTheyMakeNoSense) {
                                             HasSubstr("nowhere/camera.yaml: cannot be opened")));
   parameters.controls = {"left:gain=3"};
   EXPECT_THAT(problem_of(parameters), HasSubstr("no camera here; there are: camera"));
-}
-
-TEST(Mounting, PlacesTheLeftEyeAndTheRightOneByTheCalibration) {
-  Parameters parameters = with_layout("side_by_side");
-  parameters.calibration = PANVO_RIGS "/example";
-  const auto images = group_of(parameters).images;
-  const auto message = mounting({1.0, 0.06, 1.5, 0, 0, 90}, images, 7);
-  ASSERT_THAT(message.transforms(), SizeIs(2));
-  const auto left = *conversions::to_isometry(message.transforms()[0].transform());
-  const auto right = *conversions::to_isometry(message.transforms()[1].transform());
-  EXPECT_EQ(message.transforms()[1].child_frame_id(), "stereo_right_optical");
-  // Turned by 90 degrees to the left, the camera looks along +y; its right is +x, and the other eye 0.12 m that way.
-  EXPECT_TRUE((left.linear() * Eigen::Vector3d::UnitZ()).isApprox(Eigen::Vector3d::UnitY(), 1e-9));
-  EXPECT_TRUE((left.linear() * Eigen::Vector3d::UnitY()).isApprox(-Eigen::Vector3d::UnitZ(), 1e-9));
-  EXPECT_TRUE((right.translation() - left.translation()).isApprox(Eigen::Vector3d(0.12, 0, 0), 1e-9));
-}
-
-TEST(Mounting, TakesSixNumbersForEachImage) {
-  const auto images = group_of(with_layout("rig", {"A", "B", "C"})).images;
-  EXPECT_THAT(mounting({}, images, 0).transforms(), SizeIs(0));
-  EXPECT_THAT(mounting(std::vector<double>(18, 0.0), images, 0).transforms(), SizeIs(3));
-  EXPECT_THROW(mounting(std::vector<double>(12, 0.0), images, 0), runtime::ConfigError);
 }
 
 }  // namespace

@@ -78,7 +78,8 @@ TEST_F(UsbStereoCamera, DeliversSixtyImagesAtThirtyHertzAndCountsWhatABusyMachin
   const auto counted = report.counters.dropped + report.counters.damaged + report.counters.incomplete;
   ASSERT_GE(lost, 0) << "no image shows what another eye or another time has";
   EXPECT_TRUE(std::cmp_less_equal(lost, counted)) << grabbed.log();
-  constexpr int kOfABusyMachine = 30;  // none where the emulated processor is left to work; a third where it gets half a real one
+  constexpr int kOfABusyMachine =
+      30;  // none where the emulated processor is left to work; a third where it gets half a real one
   EXPECT_LE(lost, kOfABusyMachine) << grabbed.log();
   EXPECT_EQ(report.serial, "SBS001");
   EXPECT_EQ(report.details.at("given"), "MJPG 640 x 240 px, 30 Hz");

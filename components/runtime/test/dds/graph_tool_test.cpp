@@ -95,7 +95,7 @@ TEST_F(GraphTool, CallsServicesByTypeOfTheirServer) {
 TEST_F(GraphTool, EchoesAndMeasuresTopics) {
   EXPECT_THAT(run("topic echo /diagnostics --once").said, HasSubstr("  name: 'panvo: echo'\n"));
   EXPECT_THAT(run("topic hz /diagnostics -n 3").said, HasSubstr("average rate: "));
-  EXPECT_THAT(run("topic bw /diagnostics -n 1").said, HasSubstr("KB/s from 1 messages"));
+  EXPECT_THAT(run("topic bw /diagnostics -n 1").said, testing::ContainsRegex("KB/s from [12] messages"));
 }
 
 TEST_F(GraphTool, WritesNothingThatSteersATerminal) {

@@ -2,14 +2,13 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "panvo/aravis_camera/camera_settings.hpp"
+#include "panvo/camera_group/grabber.hpp"
 #include "panvo/camera_stream/raw_image.hpp"
-#include "panvo/camera_stream/stream_counters.hpp"
 #include "panvo/runtime/logger.hpp"
 
 namespace panvo::aravis_camera {
@@ -32,26 +31,16 @@ struct GrabberSettings {
 
 /// One camera, kept streaming by a thread of its own: opens it, sets it, receives, notices that it is gone, closes it, and finds it again by its
 /// serial number. What happens is logged when it begins and counted.
-class CameraGrabber {
+class CameraGrabber final : public camera_group::Grabber {
  public:
-  struct Frame {
-    std::int64_t stamp_ns = 0;                       ///< host time
-    std::shared_ptr<sensor_msgs::msg::Image> image;  ///< without a stamp
-  };
-  using OnFrame = std::function<void(Frame)>;
+  using Frame = camera_group::GrabbedFrame;
 
-  /// `on_frame` is called on the grabber's thread.
   CameraGrabber(GrabberSettings settings, const runtime::Logger& log, OnFrame on_frame);
   /// Ends the thread and closes the camera.
-  ~CameraGrabber();
-  CameraGrabber(const CameraGrabber&) = delete;
-  CameraGrabber& operator=(const CameraGrabber&) = delete;
+  ~CameraGrabber() override;
 
-  /// From any thread.
-  camera_stream::StreamReport report() const;
-
-  /// Sets features while the camera streams, and from now on whenever it is opened, instead of those before. From any thread; done soon.
-  void set_features(std::vector<FeatureSetting> features);
+  camera_stream::StreamReport report() const override;
+  void set(std::vector<camera_group::DeviceSetting> features) override;
 
  private:
   class Implementation;

@@ -3,10 +3,10 @@
 
 #include <cstdint>
 #include <optional>
-#include <stdexcept>
 #include <string>
-#include <string_view>
 #include <vector>
+
+#include "panvo/camera_group/device_setting.hpp"
 
 namespace panvo::aravis_camera {
 
@@ -25,30 +25,14 @@ enum class PacketSocket {
   kOff,  ///< a UDP socket
 };
 
-/// A GenICam feature and the value it is to have, as text.
-struct FeatureSetting {
-  std::string name, value;
-};
-
-/// A parameter that makes no sense; what() says which and how to write it.
-class SettingsError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
-
-/// The settings for the camera `role` ("left") out of lines `Name=value` for all cameras and `role:Name=value` for one, in their order. `roles`
-/// are all there are. Throws SettingsError.
-std::vector<FeatureSetting> features_of(const std::vector<std::string>& lines, std::string_view role,
-                                        const std::vector<std::string>& roles);
-
 /// How one camera is found and set. What is zero, empty or absent stays as the camera has it.
 struct CameraSettings {
   std::string
       camera;  ///< serial number, user-defined name, IP or MAC address, or Aravis's id; empty: the first that is found
-  std::vector<FeatureSetting> features{};  ///< set before all else, in order
-  std::string pixel_format{};              ///< GenICam's name
-  int width = 0, height = 0;               ///< px
-  int offset_x = 0, offset_y = 0;          ///< px, with a width or height
+  std::vector<camera_group::DeviceSetting> features{};  ///< GenICam's; set before all else, in order
+  std::string pixel_format{};                           ///< GenICam's name
+  int width = 0, height = 0;                            ///< px
+  int offset_x = 0, offset_y = 0;                       ///< px, with a width or height
   double frame_rate_hz = 0.0;
   double exposure_us = 0.0;
   Trigger trigger = Trigger::kFreeRun;

@@ -1,18 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstdint>
 #include <functional>
 #include <memory>
 #include <string>
 #include <vector>
 
-#include "panvo/camera_stream/stream_counters.hpp"
+#include "panvo/camera_group/grabber.hpp"
 #include "panvo/runtime/logger.hpp"
 #include "panvo/v4l2_camera/camera_settings.hpp"
 #include "panvo/v4l2_camera/video_device.hpp"
 #include "panvo/v4l2_camera/video_node.hpp"
-#include "sensor_msgs/msg/Image.h"
 
 namespace panvo::v4l2_camera {
 
@@ -24,26 +22,16 @@ struct Devices {
 
 /// One camera, kept streaming by a thread of its own: finds it, sets it, receives, notices that it is gone, and finds it again by its serial number.
 /// What happens is logged when it begins and counted.
-class CameraGrabber {
+class CameraGrabber final : public camera_group::Grabber {
  public:
-  struct Frame {
-    std::int64_t stamp_ns = 0;                                     ///< host time
-    std::vector<std::shared_ptr<sensor_msgs::msg::Image>> images;  ///< without stamps: one, or left and right
-  };
-  using OnFrame = std::function<void(Frame)>;
+  using Frame = camera_group::GrabbedFrame;
 
-  /// `on_frame` is called on the grabber's thread.
   CameraGrabber(CameraSettings settings, const runtime::Logger& log, OnFrame on_frame, Devices devices = {});
   /// Ends the thread and closes the camera.
-  ~CameraGrabber();
-  CameraGrabber(const CameraGrabber&) = delete;
-  CameraGrabber& operator=(const CameraGrabber&) = delete;
+  ~CameraGrabber() override;
 
-  /// From any thread.
-  camera_stream::StreamReport report() const;
-
-  /// Sets controls while the camera streams, and from now on whenever it is opened, instead of those before. From any thread; done soon.
-  void set_controls(std::vector<ControlSetting> controls);
+  camera_stream::StreamReport report() const override;
+  void set(std::vector<camera_group::DeviceSetting> controls) override;
 
  private:
   class Implementation;

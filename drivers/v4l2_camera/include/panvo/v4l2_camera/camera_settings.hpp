@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "panvo/camera_group/device_setting.hpp"
 #include "panvo/camera_stream/raw_image.hpp"
-#include "panvo/v4l2_camera/control.hpp"
 #include "panvo/v4l2_camera/format_choice.hpp"
 #include "panvo/v4l2_camera/image_parts.hpp"
 
@@ -24,7 +24,7 @@ struct CameraSettings {
   std::string camera;                  ///< serial number, path, USB port or name; empty: the first that is found
   std::vector<std::string> frame_ids;  ///< of the images that come of each of its frames
   FormatWish format{};
-  std::vector<ControlSetting> controls{};  ///< set before it streams, in order
+  std::vector<camera_group::DeviceSetting> controls{};  ///< set before it streams, in order
   ImageSplitter::Settings parts{};
   camera_stream::ImageOutput output = camera_stream::ImageOutput::kReadable;
   StampSource stamps = StampSource::kDriver;

@@ -5,7 +5,6 @@
 #include <map>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "panvo/conversions/result.hpp"
 
@@ -29,15 +28,5 @@ std::string control_name(std::string_view name);
 
 /// The value that a text means: a number, true or false, a choice of a menu by its text or number. The reason says what may be written.
 conversions::Result<std::int64_t> control_value(const Control& control, const std::string& text);
-
-/// A control and what it is to be, as written.
-struct ControlSetting {
-  std::string name, value;
-};
-
-/// The settings for the device `device` ("left") out of lines `name=value` for all and `left:name=value` for one, in their order; `devices` are all
-/// there are. Throws std::invalid_argument, saying how to write it.
-std::vector<ControlSetting> settings_of(const std::vector<std::string>& lines, std::string_view device,
-                                        const std::vector<std::string>& devices);
 
 }  // namespace panvo::v4l2_camera

@@ -22,6 +22,6 @@ struct Negotiated {
 Negotiated start(VideoDevice& device, const std::string& node, const CameraSettings& settings);
 
 /// Sets controls now; returns what the camera does not take, and why.
-std::vector<std::string> set_controls(VideoDevice& device, const std::vector<ControlSetting>& settings);
+std::vector<std::string> set_controls(VideoDevice& device, const std::vector<camera_group::DeviceSetting>& settings);
 
 }  // namespace panvo::v4l2_camera

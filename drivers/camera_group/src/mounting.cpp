@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "mounting.hpp"
+#include "panvo/camera_group/mounting.hpp"
 
 #include <fmt/format.h>
 
@@ -7,12 +7,12 @@
 #include <numbers>
 #include <optional>
 #include <span>
+#include <stdexcept>
 
 #include "panvo/conversions/camera_info.hpp"
 #include "panvo/conversions/static_transforms.hpp"
-#include "panvo/runtime/errors.hpp"
 
-namespace panvo::v4l2_camera {
+namespace panvo::camera_group {
 namespace {
 
 using Placement = std::span<const double, 6>;
@@ -37,7 +37,7 @@ Isometry3d base_from_optical(Placement place) {
 }
 
 /// Rectified, the right camera stands a baseline to the right of the left one; both are turned back to how they are.
-std::optional<Isometry3d> left_from_right(const std::vector<ImageDescription>& images) {
+std::optional<Isometry3d> left_from_right(const std::vector<GroupImage>& images) {
   if (images.size() != 2 || !images[0].calibration || !images[1].calibration) return std::nullopt;
   const auto left = conversions::to_camera(*images[0].calibration),
              right = conversions::to_camera(*images[1].calibration);
@@ -48,14 +48,14 @@ std::optional<Isometry3d> left_from_right(const std::vector<ImageDescription>& i
 
 }  // namespace
 
-tf2_msgs::msg::TFMessage mounting(const std::vector<double>& mount, const std::vector<ImageDescription>& images,
+tf2_msgs::msg::TFMessage mounting(const std::vector<double>& mount, const std::vector<GroupImage>& images,
                                   std::int64_t stamp_ns) {
   constexpr std::size_t kEach = Placement::extent;
   tf2_msgs::msg::TFMessage message;
   if (mount.empty()) return message;
   const bool places_left_only = mount.size() == kEach && images.size() == 2;
   if (mount.size() != kEach * images.size() && !places_left_only) {
-    throw runtime::ConfigError(fmt::format(
+    throw std::invalid_argument(fmt::format(
         "mount: has {} numbers; write six (x, y, z in m; roll, pitch, yaw in degrees) for each of {} images, "
         "or six for the left one of a pair",
         mount.size(), images.size()));
@@ -73,4 +73,4 @@ tf2_msgs::msg::TFMessage mounting(const std::vector<double>& mount, const std::v
   return message;
 }
 
-}  // namespace panvo::v4l2_camera
+}  // namespace panvo::camera_group
