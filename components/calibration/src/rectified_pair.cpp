@@ -8,10 +8,10 @@
 
 namespace panvo::calibration {
 
-vision::RectifiedStereo rectify(const RigCamera& left, const RigCamera& right, double widest_rad) {
+vision::RectifiedStereo rectify(const RigCamera& left, const RigCamera& right) {
   const Eigen::Isometry3d right_from_left = right.camera_from_reference * left.camera_from_reference.inverse();
   try {
-    return vision::rectify_view({left.lens, right.lens, right_from_left}, widest_rad);
+    return vision::rectify_view({left.lens, right.lens, right_from_left});
   } catch (const std::invalid_argument& error) {
     throw CalibrationError(error.what());
   }

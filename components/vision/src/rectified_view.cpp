@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <optional>
 #include <sstream>
 #include <stdexcept>
@@ -12,6 +13,7 @@
 namespace panvo::vision {
 namespace {
 
+constexpr double kWidest_rad = 110.0 * std::numbers::pi / 180.0;
 constexpr int kBorderSteps = 64;  // places looked at along each border
 constexpr int kShrinkings = 400;
 constexpr double kShrink = 0.99;
@@ -85,7 +87,7 @@ CameraModel model_of(const char* name, const LensCamera& lens) {
 
 }  // namespace
 
-RectifiedStereo rectify_view(const StereoCalibration& calibration, double widest_rad) {
+RectifiedStereo rectify_view(const StereoCalibration& calibration) {
   const auto& [left, right, right_from_left] = calibration;
   const auto& size = left.pinhole;
   if (size.width != right.pinhole.width || size.height != right.pinhole.height) refuse_sizes(size, right.pinhole);
@@ -107,7 +109,7 @@ RectifiedStereo rectify_view(const StereoCalibration& calibration, double widest
   const double aspect = static_cast<double>(size.width - 1) / (size.height - 1);
   const auto half =
       half_height({{&left_model, pair.rectified_left_from_left}, {&right_model, pair.rectified_right_from_right}},
-                  centre, aspect, std::tan(0.5 * widest_rad));
+                  centre, aspect, std::tan(0.5 * kWidest_rad));
   if (!half)
     throw std::invalid_argument(
         "the two cameras see no common direction that a flat image could show; do they look the same way?");

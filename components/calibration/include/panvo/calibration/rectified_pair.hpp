@@ -7,6 +7,6 @@
 namespace panvo::calibration {
 
 /// vision::rectify_view() of two cameras of a rig. Throws CalibrationError where that finds that they are no stereo pair.
-vision::RectifiedStereo rectify(const RigCamera& left, const RigCamera& right, double widest_rad = 1.92);
+vision::RectifiedStereo rectify(const RigCamera& left, const RigCamera& right);
 
 }  // namespace panvo::calibration

@@ -33,9 +33,9 @@ RectifiedStereo rectify(const StereoCalibration& calibration);
 
 /// The rectified pair of two cameras side by side, whatever their lenses: both are turned by half of the rotation between them, then
 /// until the baseline lies along the rows [Bouguet]. The view is the widest of which every pixel is seen by both, and at most
-/// `widest_rad` across or down, beyond which a flat image shows little but stretched borders. Of the size of the raw images.
+/// 110 degrees across or down, beyond which a flat image shows little but stretched borders. Of the size of the raw images.
 /// Throws std::invalid_argument: sizes that differ, right camera not to the right, a lens that CameraModel refuses, no direction
 /// that both see.
-RectifiedStereo rectify_view(const StereoCalibration& calibration, double widest_rad = 1.92);
+RectifiedStereo rectify_view(const StereoCalibration& calibration);
 
 }  // namespace panvo::vision
