@@ -67,7 +67,8 @@ TEST_F(SimulatedJourney, OfOneSeedIsTheSameByteForByteEvenWhereItWasKilledAndOfA
   {
     Process process(to_be_killed);
     const fs::path journal = folder_ / "killed.partial/rendered.csv";
-    ASSERT_TRUE(eventually([&] { return fs::exists(journal) && fs::file_size(journal) > 500; })) << process.output();
+    ASSERT_TRUE(eventually([&] { return fs::exists(journal) && fs::file_size(journal) > 500; }, seconds(300)))
+        << process.output();
     process.signal(SIGKILL);
     ASSERT_EQ(process.wait(), 128 + SIGKILL) << process.output();
   }
