@@ -143,8 +143,8 @@ TEST_F(GigECameras, AreTriggeredFromHere) {
     steps_ns.push_back(pictures[i].picture.taken_ns - pictures[i - 1].picture.taken_ns);
   std::sort(steps_ns.begin(), steps_ns.end());
   const double median_ms = static_cast<double>(steps_ns[steps_ns.size() / 2]) * 1e-6;
-  EXPECT_GT(median_ms, 40.0) << "free running it would be 17 ms";
-  EXPECT_LT(median_ms, 90.0) << "50 ms, where nothing keeps the trigger's thread waiting";
+  EXPECT_GT(median_ms, 30.0) << "free running it would be 17 ms";
+  EXPECT_LT(median_ms, 90.0) << "50 ms, give or take the steps in which the simulated camera looks at its clock";
 }
 
 TEST_F(GigECameras, AreHeardWhetherOrNotThePacketSocketHearsThem) {
