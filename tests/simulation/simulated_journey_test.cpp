@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <yaml-cpp/yaml.h>
+
 #include <algorithm>
 #include <csignal>
 #include <fstream>
@@ -123,6 +125,20 @@ TEST_F(SimulatedJourney, IsADataSetThatOdometryFollowsToTheCentimetre) {
   // Exact calibration and an exact truth: a pixel's error in either would be centimetres here.
   const auto report = nlohmann::json::parse(read_file(fs::path(folder_ / "run") / "evaluation.json"));
   EXPECT_LT(report.at("estimates").at(0).at("ate_se3_m").at("rmse").get<double>(), 0.02) << report.dump(1);
+}
+
+TEST_F(SimulatedJourney, InPartListsTheVisitsOfThatPart) {
+  // The route comes by its crossing twice, the second time in its last third.
+  constexpr std::int64_t kBegin_ns = 1'700'000'000'000'000'000, kFrom_s = 30, kFor_s = 20;
+  const auto finished = simulate({"--route", kShort, "--truth-only", "--out", folder_ / "part", "--start",
+                                  std::to_string(kFrom_s), "--duration", std::to_string(kFor_s)});
+  ASSERT_EQ(finished.status, 0) << finished.output;
+  const auto sequence = YAML::LoadFile(folder_ / "part/sequence.yaml");
+  ASSERT_EQ(sequence["visits"].size(), 1u);
+  const auto after_s = (sequence["visits"][0]["t_ns"].as<std::int64_t>() - kBegin_ns) / 1'000'000'000;
+  EXPECT_GE(after_s, kFrom_s);
+  EXPECT_LT(after_s, kFrom_s + kFor_s);
+  EXPECT_EQ(sequence["revisits"].size(), 0u) << "the first visit is not in it";
 }
 
 struct Refusal {

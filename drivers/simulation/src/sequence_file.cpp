@@ -87,7 +87,9 @@ std::string sequence_yaml(const Simulation& simulation) {
   text += fmt::format("route_junctions: [{}]\n", fmt::join(p.route.junctions, ", "));
   text += junctions_yaml(roads);
 
-  const auto visits = find_visits(roads, simulation.motion());
+  auto visits = find_visits(roads, simulation.motion());
+  // Of a journey in part there is no truth elsewhere.
+  std::erase_if(visits, [&](const Visit& visit) { return visit.closest_s < from_s || visit.closest_s > to_s; });
   text += visits_yaml(visits, stamp);
   text += revisits_yaml(visits, find_revisits(visits), stamp);
 

@@ -122,32 +122,51 @@ TEST_F(UsbStereoCamera, SurvivesFramesThatAreDamaged) {
     return Bytes(file.begin(), file.begin() + static_cast<std::ptrdiff_t>(bytes));
   };
   const NumberedPictures small(320, 120);
+  // Four of sixteen, ten times: each kind comes through also where a busy machine loses a third of all.
+  constexpr std::uint32_t kRound = 16, kRounds = 10, kCut = 4, kSmall = 8, kHeader = 10, kNoise = 12;
+  static_assert(NumberedPictures::kCount % kRound == 0);
   unplug();
   plug_in([&](std::uint32_t number) -> Bytes {
     const Bytes& whole = pictures().file(number);
-    switch (number) {
-      case 20:
+    if (number >= kRound * kRounds) return whole;
+    switch (number % kRound) {
+      case kCut:
         return part(whole, whole.size() / 2);
-      case 25:
+      case kSmall:
         return small.file(number);
-      case 30:
+      case kHeader:
         return part(whole, 40);
-      case 35:
+      case kNoise:
         return Bytes(5000, 0x5a);
       default:
         return whole;
     }
   });
   const Grabbed grabbed(settings());
-  ASSERT_TRUE(soon([&] { return grabbed.counters().damaged == 4 && grabbed.count() >= 40; })) << grabbed.log();
-  EXPECT_EQ(missing(grabbed.frames()), 4) << "those, and no others";
-  EXPECT_TRUE(grabbed.log_contains("is a damaged JPEG file")) << grabbed.log();
+  const auto lost = [&] {
+    const auto counters = grabbed.counters();
+    return counters.dropped + counters.damaged + counters.incomplete;
+  };
+  ASSERT_TRUE(grabbed.more_come(kRound * kRounds / 2)) << grabbed.log();
+  const auto frames = grabbed.frames();
+  const int missed = missing(frames);
+  EXPECT_GE(missed, 0) << "no picture is a damaged one";
+  EXPECT_TRUE(std::cmp_less_equal(missed, lost())) << missed << "\n" << grabbed.log();
+  for (const auto& frame : frames) {
+    const auto number = read_number(*frame.images.at(0)).value().number % kRound;
+    EXPECT_TRUE(number != kCut && number != kSmall && number != kHeader && number != kNoise) << number;
+  }
+  EXPECT_TRUE(grabbed.log_contains("is a damaged JPEG file: Premature end of JPEG file")) << grabbed.log();
   EXPECT_TRUE(grabbed.log_contains("is a JPEG file of 320 x 120 px in a stream of 640 x 240 px")) << grabbed.log();
+  EXPECT_TRUE(grabbed.log_contains("is a damaged JPEG file: it ends before its picture")) << grabbed.log();
   EXPECT_TRUE(grabbed.log_contains("is no JPEG file")) << grabbed.log();
   EXPECT_EQ(grabbed.counters().reconnects, 0u);
   // One that uvcvideo knows to be damaged is thrown away by it, and missing in its count.
+  ASSERT_TRUE(soon([&] { return camera_->sent() > kRound * kRounds; }));
+  ASSERT_TRUE(grabbed.more_come(2)) << "all that were damaged are counted";
+  const auto before = lost();
   camera_->damage_next();
-  EXPECT_TRUE(soon([&] { return grabbed.counters().dropped + grabbed.counters().damaged == 5; })) << grabbed.log();
+  EXPECT_TRUE(soon([&] { return lost() > before; })) << grabbed.log();
 }
 
 TEST_F(UsbStereoCamera, ComesBackEachTimeItIsPluggedInAgain) {
