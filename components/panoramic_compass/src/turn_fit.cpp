@@ -137,12 +137,14 @@ class Solver {
     return cost;
   }
 
-  /// How noisy the points are against what is said of them, and how far they move along their circles.
+  /// Where the points lie, how noisy they are against what is said of them, and how far they move along their circles.
   void gauge(const Motion& motion) {
+    deviations_.clear();
     std::vector<double> across, parallax;
     for (const BearingPair& pair : pairs_) {
       const auto d = deviation_of(pair, motion);
       if (!d) continue;
+      deviations_.push_back(*d);
       across.push_back(d->across * d->across / d->across_variance);
       if (d->sine > 0.3) parallax.push_back(std::abs(d->along) / d->sine);
     }
@@ -152,7 +154,7 @@ class Solver {
     spread_ = std::max(kSmallestSpread_rad, 3.0 * typical_);
   }
 
-  /// `gradient_of` takes a deviation to the gradient that it adds to.
+  /// At the motion that was gauged last. `gradient_of` takes a deviation to the gradient that it adds to.
   template <class GradientOf>
   double accumulate(const Motion& motion, Matrix5d& hessian, const GradientOf& gradient_of) const {
     const vision::CauchyLoss loss(kLossScale);
@@ -165,18 +167,16 @@ class Solver {
       hessian.noalias() += weight * jacobian * jacobian.transpose();
       gradient.noalias() += weight * residual * jacobian;
     };
-    for (const BearingPair& pair : pairs_) {
-      const auto d = deviation_of(pair, motion);
-      if (!d) continue;
+    for (const Deviation& d : deviations_) {
       Vector5d jacobian = Vector5d::Zero();
-      jacobian.head<3>() = d->lever.dot(d->predicted) * motion.drift - motion.drift.dot(d->predicted) * d->lever;
-      const Eigen::Vector3d by_drift = d->lever.cross(d->predicted);
+      jacobian.head<3>() = d.lever.dot(d.predicted) * motion.drift - motion.drift.dot(d.predicted) * d.lever;
+      const Eigen::Vector3d by_drift = d.lever.cross(d.predicted);
       jacobian(3) = by_drift.dot(tangents[0]);
       jacobian(4) = by_drift.dot(tangents[1]);
-      add(d->across, noise_ * d->across_variance, jacobian, gradient_of(*d));
+      add(d.across, noise_ * d.across_variance, jacobian, gradient_of(d));
       jacobian.setZero();
-      jacobian.head<3>() = -d->normal;
-      add(d->along, noise_ * d->along_variance + std::pow(spread_ * d->sine, 2), jacobian, gradient_of(*d));
+      jacobian.head<3>() = -d.normal;
+      add(d.along, noise_ * d.along_variance + std::pow(spread_ * d.sine, 2), jacobian, gradient_of(d));
     }
     return cost;
   }
@@ -254,6 +254,7 @@ class Solver {
  private:
   std::span<const BearingPair> pairs_;
   Eigen::Matrix3d start_;
+  std::vector<Deviation> deviations_;
   Matrix5d hessian_ = Matrix5d::Identity();
   double noise_ = 1.0, spread_ = 1.0, typical_ = 0.0;
 };

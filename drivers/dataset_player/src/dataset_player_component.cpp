@@ -2,6 +2,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <deque>
 #include <memory>
 #include <opencv2/core.hpp>
 #include <optional>
@@ -68,14 +70,17 @@ class DatasetPlayerComponent final : public runtime::Component, public runtime::
     conversions::PairedCamera geometry;
   };
   using ImagePtr = std::shared_ptr<const sensor_msgs::msg::Image>;
+  /// Of a stereo frame both eyes, of a panorama one, of else none; nullptr where a file could not be used.
+  using Images = std::array<ImagePtr, 2>;
 
   void open(const Parameters& parameters);
   void open_stereo(const StereoRecording& stereo, Colour colour);
   void say_what_is_played() const;
   void publish_static_transforms(std::int64_t stamp_ns);
   void publish_ground_truth(const GroundTruthPose& pose);
-  void publish_stereo(const StereoFrame& frame);
-  void publish_panorama(const PanoramaFrame& frame);
+  void publish_stereo(const StereoFrame& frame, const Images& images);
+  void load_ahead();
+  Images load(const TimelineEvent& event);
   ImagePtr load(const Camera& camera, const std::filesystem::path& file, std::int64_t stamp_ns);
   void report_unreadable(const std::string& what);
 
@@ -83,6 +88,7 @@ class DatasetPlayerComponent final : public runtime::Component, public runtime::
   Dataset dataset_;
   std::vector<TimelineEvent> events_;
   std::size_t next_ = 0;
+  std::deque<Images> ahead_;  ///< of the events from the next one on
   std::optional<Eye> left_, right_;
   std::optional<Camera> panorama_;
   std::optional<runtime::Output<nav_msgs::msg::Odometry>> ground_truth_;
@@ -166,24 +172,34 @@ void DatasetPlayerComponent::emit() {
   if (next_ == events_.size()) return;
   const auto stamp_ns = events_[next_].stamp_ns;
   if (!is_placed_) publish_static_transforms(stamp_ns);
+  load_ahead();
   for (; next_ < events_.size() && events_[next_].stamp_ns == stamp_ns; ++next_) {
     const auto& [stamp, kind, index] = events_[next_];
+    const Images images = std::move(ahead_.front());
+    ahead_.pop_front();
     switch (kind) {
       case TimelineEvent::Kind::kGroundTruth:
         publish_ground_truth(dataset_.ground_truth[index]);
         break;
       case TimelineEvent::Kind::kStereo:
-        publish_stereo(dataset_.stereo->frames[index]);
+        publish_stereo(dataset_.stereo->frames[index], images);
         break;
       case TimelineEvent::Kind::kPanorama:
-        publish_panorama(dataset_.panorama->frames[index]);
+        if (images[0]) panorama_->images.publish(images[0]);
         break;
     }
     if (kind == step_kind_) ++steps_done_;
   }
+  load_ahead();
   if (next_ == events_.size() && unreadable_ > 0) {
     context_.log().warn("{} of {} frames could not be read and were left out", unreadable_, steps_total_);
   }
+}
+
+/// What the next step publishes, so that it is published at its time and not when it is decoded.
+void DatasetPlayerComponent::load_ahead() {
+  for (std::size_t i = next_ + ahead_.size(); i < events_.size() && events_[i].stamp_ns == events_[next_].stamp_ns; ++i)
+    ahead_.push_back(load(events_[i]));
 }
 
 void DatasetPlayerComponent::publish_static_transforms(std::int64_t stamp_ns) {
@@ -212,9 +228,8 @@ void DatasetPlayerComponent::publish_ground_truth(const GroundTruthPose& pose) {
   ground_truth_->publish(std::move(message));
 }
 
-void DatasetPlayerComponent::publish_stereo(const StereoFrame& frame) {
-  const auto left = load(left_->camera, frame.left, frame.stamp_ns);
-  const auto right = left ? load(right_->camera, frame.right, frame.stamp_ns) : nullptr;
+void DatasetPlayerComponent::publish_stereo(const StereoFrame& frame, const Images& images) {
+  const auto& [left, right] = images;
   if (!left || !right) return;
   for (auto* eye : {&*left_, &*right_}) {
     eye->infos.publish(conversions::to_camera_info(eye->geometry, frame.stamp_ns, eye->camera.frame_id));
@@ -223,8 +238,15 @@ void DatasetPlayerComponent::publish_stereo(const StereoFrame& frame) {
   right_->camera.images.publish(right);
 }
 
-void DatasetPlayerComponent::publish_panorama(const PanoramaFrame& frame) {
-  if (const auto image = load(*panorama_, frame.image, frame.stamp_ns)) panorama_->images.publish(image);
+DatasetPlayerComponent::Images DatasetPlayerComponent::load(const TimelineEvent& event) {
+  if (event.kind == TimelineEvent::Kind::kPanorama) {
+    const auto& frame = dataset_.panorama->frames[event.index];
+    return {load(*panorama_, frame.image, frame.stamp_ns), nullptr};
+  }
+  if (event.kind != TimelineEvent::Kind::kStereo) return {};
+  const auto& frame = dataset_.stereo->frames[event.index];
+  const auto left = load(left_->camera, frame.left, frame.stamp_ns);
+  return {left, left ? load(right_->camera, frame.right, frame.stamp_ns) : nullptr};
 }
 
 /// The image of a file as a message. nullptr if it cannot be used: then that is reported.
