@@ -127,18 +127,27 @@ TEST_F(SimulatedJourney, IsADataSetThatOdometryFollowsToTheCentimetre) {
   EXPECT_LT(report.at("estimates").at(0).at("ate_se3_m").at("rmse").get<double>(), 0.02) << report.dump(1);
 }
 
-TEST_F(SimulatedJourney, InPartListsTheVisitsOfThatPart) {
+TEST_F(SimulatedJourney, InPartListsWhatIsTrueOfThatPart) {
   // The route comes by its crossing twice, the second time in its last third.
-  constexpr std::int64_t kBegin_ns = 1'700'000'000'000'000'000, kFrom_s = 30, kFor_s = 20;
-  const auto finished = simulate({"--route", kShort, "--truth-only", "--out", folder_ / "part", "--start",
-                                  std::to_string(kFrom_s), "--duration", std::to_string(kFor_s)});
+  constexpr std::int64_t kFrom_s = 30, kFor_s = 20;
+  constexpr std::int64_t kFrom_ns = (1'700'000'000 + kFrom_s) * 1'000'000'000,
+                         kTo_ns = kFrom_ns + kFor_s * 1'000'000'000;
+  const auto finished = simulate({"--route", kShort, "--effects", "all", "--truth-only", "--out", folder_ / "part",
+                                  "--start", std::to_string(kFrom_s), "--duration", std::to_string(kFor_s)});
   ASSERT_EQ(finished.status, 0) << finished.output;
   const auto sequence = YAML::LoadFile(folder_ / "part/sequence.yaml");
   ASSERT_EQ(sequence["visits"].size(), 1u);
-  const auto after_s = (sequence["visits"][0]["t_ns"].as<std::int64_t>() - kBegin_ns) / 1'000'000'000;
-  EXPECT_GE(after_s, kFrom_s);
-  EXPECT_LT(after_s, kFrom_s + kFor_s);
+  EXPECT_GE(sequence["visits"][0]["t_ns"].as<std::int64_t>(), kFrom_ns);
+  EXPECT_LE(sequence["visits"][0]["t_ns"].as<std::int64_t>(), kTo_ns);
   EXPECT_EQ(sequence["revisits"].size(), 0u) << "the first visit is not in it";
+  ASSERT_GT(sequence["movers"].size(), 0u);
+  for (const auto* list : {"movers", "illumination_events"}) {
+    for (const auto& event : sequence[list]) {
+      EXPECT_GE(event["from_ns"].as<std::int64_t>(), kFrom_ns) << list;
+      EXPECT_LE(event["from_ns"].as<std::int64_t>(), event["to_ns"].as<std::int64_t>()) << list;
+      EXPECT_LE(event["to_ns"].as<std::int64_t>(), kTo_ns) << list;
+    }
+  }
 }
 
 struct Refusal {

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gmock/gmock.h>
 
+#include <algorithm>
+#include <filesystem>
+
 #include "panvo/conversions/camera_info.hpp"
 #include "panvo/conversions/pose.hpp"
 #include "panvo/conversions/static_transforms.hpp"
@@ -83,6 +86,25 @@ TEST_F(DatasetPlayer, PublishesWhatARobotWithTheseCamerasWould) {
   EXPECT_EQ(ground_truth_[1]->child_frame_id(), "base_link");
   EXPECT_TRUE(
       conversions::to_isometry(ground_truth_[1]->pose().pose())->translation().isApprox(Eigen::Vector3d(2, 2, 3)));
+}
+
+TEST_F(DatasetPlayer, HasReadWhatComesNextWhenItPublishes) {
+  write_euroc(3);
+  std::vector<std::string> files;
+  for (const auto& file : std::filesystem::directory_iterator(root_ / "mav0/cam0/data")) files.push_back(file.path());
+  std::ranges::sort(files);
+  ASSERT_THAT(files, SizeIs(3));
+  std::size_t seen = 0;
+  runtime::ComponentDescription remover;
+  remover.name = "remover";
+  harness_.container().add(remover, [&](runtime::Context& context) {
+    context.input(topics::kStereoLeftImageRaw, [&](const std::shared_ptr<const sensor_msgs::msg::Image>&) {
+      if (++seen < files.size()) std::filesystem::remove(files[seen]);
+    });
+    return std::make_unique<runtime::Component>();
+  });
+  play();
+  EXPECT_EQ(seen, 3u);
 }
 
 TEST_F(DatasetPlayer, DescribesARawPairAndWhatItRectifiesTo) {

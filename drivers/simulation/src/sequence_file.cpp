@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -89,20 +90,25 @@ std::string sequence_yaml(const Simulation& simulation) {
 
   auto visits = find_visits(roads, simulation.motion());
   // Of a journey in part there is no truth elsewhere.
-  std::erase_if(visits, [&](const Visit& visit) { return visit.closest_s < from_s || visit.closest_s > to_s; });
+  const auto is_outside = [&](double begin_s, double end_s) { return end_s < from_s || begin_s > to_s; };
+  std::erase_if(visits, [&](const Visit& visit) { return is_outside(visit.closest_s, visit.closest_s); });
   text += visits_yaml(visits, stamp);
   text += revisits_yaml(visits, find_revisits(visits), stamp);
 
+  const auto interval = [&](const auto& event) {
+    return fmt::format("from_ns: {}, to_ns: {}", stamp(std::max(event.from_s, from_s)),
+                       stamp(std::min(event.to_s, to_s)));
+  };
   text += "illumination_events:\n";
   for (const auto& cloud : simulation.weather().clouds()) {
-    text += fmt::format("  - {{from_ns: {}, to_ns: {}, cloud_cover: {:.2f}}}\n", stamp(cloud.from_s), stamp(cloud.to_s),
-                        cloud.cover);
+    if (is_outside(cloud.from_s, cloud.to_s)) continue;
+    text += fmt::format("  - {{{}, cloud_cover: {:.2f}}}\n", interval(cloud), cloud.cover);
   }
   text += "movers:\n";
   if (const auto* traffic = simulation.traffic()) {
     for (const auto& episode : traffic->episodes()) {
-      text += fmt::format("  - {{from_ns: {}, to_ns: {}, kind: {}}}\n", stamp(episode.from_s), stamp(episode.to_s),
-                          episode.kind);
+      if (!is_outside(episode.from_s, episode.to_s))
+        text += fmt::format("  - {{{}, kind: {}}}\n", interval(episode), episode.kind);
     }
   }
   text += "weak_texture_zones:\n";
