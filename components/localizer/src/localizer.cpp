@@ -59,17 +59,23 @@ LocalizedPose Localizer::add(const OdometryPose& odometry) {
 AzimuthUse Localizer::add(const AzimuthMeasurement& azimuth) {
   const std::int64_t from_ns = in_odometry_time(azimuth.from_ns);
   const std::int64_t to_ns = in_odometry_time(azimuth.to_ns);
+  if (!std::isfinite(azimuth.change_rad) || !(azimuth.variance_rad2 > 0.0)) return AzimuthUse::kNotUsed;
+  if (!chain_.turn(from_ns, to_ns)) return AzimuthUse::kNotUsed;
+  const double yaw_before_rad = yaw_of(chain_.latest().pose.odom_from_base.linear());
+  // Turns against the same panorama err alike: the last of them, which reaches farthest, takes the place of those before.
+  if (last_from_ns_ == azimuth.from_ns) {
+    chain_.revert();
+  } else {
+    chain_.mark(from_ns);
+  }
+  last_from_ns_ = azimuth.from_ns;
   const auto turn = chain_.turn(from_ns, to_ns);
-  if (!turn || !std::isfinite(azimuth.change_rad) || !(azimuth.variance_rad2 > 0.0)) return AzimuthUse::kNotUsed;
   const double disagreement = wrapped(azimuth.change_rad - turn->change_rad);
   const auto rate_then = chain_.yaw_rate(from_ns);
   const auto rate_now = chain_.yaw_rate(to_ns);
   const double rate_change = rate_then && rate_now ? *rate_now - *rate_then : 0.0;
-  // Turns against the same panorama err alike: the second of them tells half as much as the first, and so on.
-  repeats_ = last_from_ns_ == azimuth.from_ns ? repeats_ + 1 : 1;
-  last_from_ns_ = azimuth.from_ns;
   const double missed_rad = parameters_.compass_turn_error_ratio * azimuth.change_rad;
-  const double measured_variance = repeats_ * azimuth.variance_rad2 + missed_rad * missed_rad;
+  const double measured_variance = azimuth.variance_rad2 + missed_rad * missed_rad;
   const double compass_variance = measured_variance + rate_change * rate_change * clock_.variance_s2();
   const double spread = compass_variance + turn->variance_rad2;
   const double excess =
@@ -86,10 +92,8 @@ AzimuthUse Localizer::add(const AzimuthMeasurement& azimuth) {
   if (is_contradicted) {
     lean_.forget();
   } else if (const auto raw_rad = chain_.raw_turn(from_ns, to_ns)) {
-    const double variance =
-        azimuth.variance_rad2 + missed_rad * missed_rad + rate_change * rate_change * clock_.variance_s2();
-    lean = lean_.add(
-        {from_ns, to_ns, wrapped(azimuth.change_rad - *raw_rad), azimuth.change_rad, turn->variance_rad2, variance});
+    lean = lean_.add({from_ns, to_ns, wrapped(azimuth.change_rad - *raw_rad), azimuth.change_rad, turn->variance_rad2,
+                      compass_variance});
   }
   if (lean) {
     const auto leaning = chain_.turn(lean->from_ns, lean->to_ns);
@@ -105,6 +109,7 @@ AzimuthUse Localizer::add(const AzimuthMeasurement& azimuth) {
   }
   is_leaning_ = lean.has_value();
   azimuth_ns_ = to_ns;
+  owed_rad_ += wrapped(yaw_of(chain_.latest().pose.odom_from_base.linear()) - yaw_before_rad);
   graph_.refresh(chain_, from_ns);
   latest_ = localized(chain_.latest().pose);
   return is_contradicted || lean ? AzimuthUse::kContradicted : AzimuthUse::kFused;
@@ -117,7 +122,6 @@ void Localizer::fuse(std::int64_t from_ns, std::int64_t to_ns, double change_rad
   const double gain = turn->variance_rad2 / (turn->variance_rad2 + variance_rad2);
   const double by_rad = gain * wrapped(change_rad - turn->change_rad);
   chain_.turn_more(from_ns, to_ns, by_rad, 1.0 - gain);
-  owed_rad_ += by_rad;
 }
 
 void Localizer::add_known(const KnownLandmark& landmark) {

@@ -41,8 +41,9 @@ bool OdometryChain::add(const OdometryPose& odometry) {
   entry.now.pose = odometry;
   if (!entries_.empty()) {
     const auto& before = entries_.back();
-    entry.step = before.raw.odom_from_base.inverse() * odometry.odom_from_base;
-    entry.step_covariance = gained_covariance(before.raw, odometry, kLeastStepVariance);
+    entry.step.motion = before.raw.odom_from_base.inverse() * odometry.odom_from_base;
+    entry.step.covariance = gained_covariance(before.raw, odometry, kLeastStepVariance);
+    entry.marked = entry.step;
   }
   entries_.push_back(entry);
   compose_from(entries_.size() - 1);
@@ -77,7 +78,7 @@ std::optional<Turn> OdometryChain::turn(std::int64_t from_ns, std::int64_t to_ns
   for (std::size_t i = first_after(from_ns); i < entries_.size(); ++i) {
     const double part = share(i, from_ns, to_ns);
     if (part <= 0.0) break;
-    turn.variance_rad2 += part * entries_[i].step_covariance(kYaw, kYaw);
+    turn.variance_rad2 += part * entries_[i].step.covariance(kYaw, kYaw);
   }
   return turn;
 }
@@ -104,7 +105,7 @@ std::optional<double> OdometryChain::yaw_rate(std::int64_t stamp_ns) const {
   const std::size_t index = first_after(stamp_ns - 1);
   if (index == 0 || index >= entries_.size()) return std::nullopt;
   const auto& entry = entries_[index];
-  return yaw_of(entry.step.linear()) * kSecond_ns /
+  return yaw_of(entry.step.motion.linear()) * kSecond_ns /
          static_cast<double>(entry.raw.stamp_ns - entries_[index - 1].raw.stamp_ns);
 }
 
@@ -115,7 +116,7 @@ void OdometryChain::distrust(std::int64_t from_ns, std::int64_t to_ns, double fa
     if (part <= 0.0) break;
     vision::Vector6d scale = vision::Vector6d::Constant(std::sqrt(1.0 + part * (std::min(factor, most_else) - 1.0)));
     scale[kYaw] = std::sqrt(1.0 + part * (factor - 1.0));
-    entries_[i].step_covariance = scale.asDiagonal() * entries_[i].step_covariance * scale.asDiagonal();
+    entries_[i].step.covariance = scale.asDiagonal() * entries_[i].step.covariance * scale.asDiagonal();
   }
   compose_from(first);
 }
@@ -128,16 +129,27 @@ void OdometryChain::turn_more(std::int64_t from_ns, std::int64_t to_ns, double b
     const double part = share(i, from_ns, to_ns);
     if (part <= 0.0) break;
     auto& entry = entries_[i];
-    const double weight = part * entry.step_covariance(kYaw, kYaw) / stretch->variance_rad2;
+    const double weight = part * entry.step.covariance(kYaw, kYaw) / stretch->variance_rad2;
     const Eigen::Matrix3d more = vision::so3_exp(Eigen::Vector3d(0.0, 0.0, weight * by_rad));
     // half of the turn before the way, half after it
     const Eigen::Matrix3d half = vision::so3_exp(Eigen::Vector3d(0.0, 0.0, 0.5 * weight * by_rad));
-    entry.step.translation() = half * entry.step.translation();
-    entry.step.linear() = more * entry.step.linear();
+    entry.step.motion.translation() = half * entry.step.motion.translation();
+    entry.step.motion.linear() = more * entry.step.motion.linear();
     const double scale = std::sqrt(1.0 + part * (variance_factor - 1.0));
-    entry.step_covariance.row(kYaw) *= scale;
-    entry.step_covariance.col(kYaw) *= scale;
+    entry.step.covariance.row(kYaw) *= scale;
+    entry.step.covariance.col(kYaw) *= scale;
   }
+  compose_from(first);
+}
+
+void OdometryChain::mark(std::int64_t from_ns) {
+  marked_from_ns_ = from_ns;
+  for (std::size_t i = first_after(from_ns); i < entries_.size(); ++i) entries_[i].marked = entries_[i].step;
+}
+
+void OdometryChain::revert() {
+  const std::size_t first = first_after(marked_from_ns_);
+  for (std::size_t i = first; i < entries_.size(); ++i) entries_[i].step = entries_[i].marked;
   compose_from(first);
 }
 
@@ -163,11 +175,11 @@ void OdometryChain::compose_from(std::size_t index) {
   for (std::size_t i = std::max<std::size_t>(index, 1); i < entries_.size(); ++i) {
     const auto& before = entries_[i - 1].now;
     auto& entry = entries_[i];
-    entry.now.pose.odom_from_base = before.pose.odom_from_base * entry.step;
+    entry.now.pose.odom_from_base = before.pose.odom_from_base * entry.step.motion;
     entry.now.pose.odom_from_base.linear() = vision::nearest_rotation(entry.now.pose.odom_from_base.linear());
     entry.now.pose.covariance = vision::compose_covariance(before.pose.odom_from_base, before.pose.covariance,
-                                                           entry.step, entry.step_covariance);
-    entry.now.way_m = before.way_m + entry.step.translation().norm();
+                                                           entry.step.motion, entry.step.covariance);
+    entry.now.way_m = before.way_m + entry.step.motion.translation().norm();
   }
 }
 

@@ -52,6 +52,29 @@ TEST(LocalizerWithCompass, HasACovarianceThatErrorsFollowAlsoWithACompass) {
   EXPECT_NEAR(nees, 1.0, 0.4);
 }
 
+TEST(LocalizerWithCompass, TakesTheLastOfTheTurnsAgainstOnePanorama) {
+  constexpr double kTurn_rad = 2.0 * M_PI / 200.0;  // of a step
+  constexpr double kOff_rad = 0.001;                // of all turns against one panorama alike
+  const auto drive_on = [](bool tells_all) {
+    Drive drive(12);
+    Parameters one_clock;
+    one_clock.clock_sigma_s = 0.0;
+    Localizer localizer(one_clock);
+    localizer.add(drive.now());
+    for (int i = 0; i < 40; ++i) {
+      localizer.add(drive.step());
+      const int since = i % 4 + 1;
+      if (!tells_all && since < 4) continue;
+      const std::int64_t now_ns = drive.now().stamp_ns;
+      localizer.add(AzimuthMeasurement{now_ns - since * kPeriod_ns, now_ns, since * kTurn_rad + kOff_rad, 1e-6});
+    }
+    return localizer.latest();
+  };
+  const auto all = drive_on(true), last = drive_on(false);
+  EXPECT_LT(vision::pose_error(all.map_from_base, last.map_from_base).norm(), 1e-6);
+  EXPECT_NEAR(all.covariance(5, 5), last.covariance(5, 5), 1e-9);
+}
+
 TEST(LocalizerWithCompass, FindsByHowMuchThePanoramasClockIsOff) {
   Drive drive(13);
   Localizer localizer({});

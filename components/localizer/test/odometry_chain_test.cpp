@@ -95,6 +95,20 @@ TEST(OdometryChain, DistrustsAStretch) {
               1e-10);  // height, and pitch over the 0.2 m that follow
 }
 
+TEST(OdometryChain, TakesBackWhatWasPutRightSinceTheMark) {
+  auto chain = straight({1e-4, 1e-4, 1e-4, 1e-4});
+  chain.turn_more(0, 2 * kPeriod_ns, 0.02, 0.5);
+  chain.mark(kPeriod_ns);
+  const Remembered before = chain.latest();
+  chain.distrust(kPeriod_ns, 4 * kPeriod_ns, 9.0, 2.0);
+  chain.turn_more(kPeriod_ns, 4 * kPeriod_ns, 0.1, 0.1);
+  EXPECT_NEAR(chain.turn(0, 4 * kPeriod_ns)->change_rad, 0.12, 1e-9);
+  chain.revert();
+  EXPECT_NEAR(chain.turn(0, 4 * kPeriod_ns)->change_rad, 0.02, 1e-9) << "what was before the mark stays";
+  EXPECT_TRUE(chain.latest().pose.odom_from_base.isApprox(before.pose.odom_from_base, 1e-12));
+  EXPECT_TRUE(chain.latest().pose.covariance.isApprox(before.pose.covariance, 1e-12));
+}
+
 TEST(OdometryChain, KnowsTheYawRate) {
   OdometryChain chain(60.0);
   OdometryPose pose;

@@ -128,7 +128,6 @@ class Localizer {
   std::optional<std::int64_t> doubtful_ns_;   // the last time since a correction that odometry may have missed a move
   std::optional<std::int64_t> azimuth_ns_;    // the last that was used
   std::optional<std::int64_t> last_from_ns_;  // the panorama that it was measured against
-  int repeats_ = 0;                           // how many were measured against that
   std::optional<double> found_at_way_m_;      // where the vehicle was found last, after it was not known where
   std::optional<Asking> asking_;              // the last sighting that was not believed
   std::optional<Asking> dissent_;             // the last pair of them, of another landmark

@@ -58,12 +58,21 @@ class OdometryChain {
   /// Makes a stretch turn by so much more, each step by its share of the variance, and multiplies the variance of its yaw.
   void turn_more(std::int64_t from_ns, std::int64_t to_ns, double by_rad, double variance_factor);
 
+  /// Keeps the steps after a time as they are, ...
+  void mark(std::int64_t from_ns);
+  /// ... so that what was put right in them since can be taken back, for one who knows better now.
+  void revert();
+
  private:
+  struct Step {
+    Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();  // the one before from this
+    vision::Matrix6d covariance = vision::Matrix6d::Zero();    // in the axes of the one before
+  };
   struct Entry {
-    OdometryPose raw;                                             // as it came
-    Eigen::Isometry3d step = Eigen::Isometry3d::Identity();       // the one before from this
-    vision::Matrix6d step_covariance = vision::Matrix6d::Zero();  // in the axes of the one before
-    Remembered now;                                               // all steps up to this
+    OdometryPose raw;  // as it came
+    Step step;
+    Step marked;     // the step as it is reverted to
+    Remembered now;  // all steps up to this
   };
 
   std::size_t first_after(std::int64_t stamp_ns) const;
@@ -73,6 +82,7 @@ class OdometryChain {
 
   const double history_s_;
   std::deque<Entry> entries_;
+  std::int64_t marked_from_ns_ = 0;
 };
 
 /// Covariance of a_from_b that odometry gained on the way from a to b, in the axes of a; at least `least_variance` along every direction.
