@@ -62,6 +62,7 @@ class LandmarkBuilderComponent final : public runtime::Component {
                                                   static_cast<std::uint64_t>(parameters_.description_seed))),
         timer_(context.times()),
         landmarks_(context.output(topics::kLandmarks)) {
+    context.give_way();  // a landmark is needed when the vehicle comes back, a pose now
     context.input(topics::kTfStatic, [this](const auto& message) { on_transforms(*message); });
     context.input(topics::kLandmarks, [this](const auto& message) { on_landmark(*message); });
     context.input(topics::kLandmarkPoses, [this](const auto& message) { on_poses(*message); });

@@ -116,11 +116,13 @@ Context::State::State(Host& a_host, const ComponentDescription& a_description, s
 }
 
 std::unique_ptr<Worker> Context::State::make_worker(const std::string& worker_name) {
-  return std::make_unique<Worker>(
+  auto worker = std::make_unique<Worker>(
       worker_name, times, host.replay_order,
       Worker::Hooks{.failed = [this](const std::string& what) { logger.error("stopped by an error: {}", what); },
                     .progressed = host.progressed,
                     .in_flight = &host.in_flight});
+  if (gives_way) worker->give_way();
+  return worker;
 }
 
 TopicDescription Context::State::resolve(TopicDescription topic) const {
@@ -239,6 +241,11 @@ void Context::take_parameters(std::function<std::function<void()>(ParameterReade
         "parameters", 1, false, [](Task& task) { std::any_cast<std::function<void()>&>(task.item)(); });
   }
   state_->parameter_takers.push_back(std::move(take));
+}
+
+void Context::give_way() {
+  state_->gives_way = true;
+  for (const auto& worker : state_->workers) worker->give_way();
 }
 
 void Context::source(Source& source) { state_->source = &source; }

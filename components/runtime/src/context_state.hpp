@@ -54,6 +54,7 @@ struct Context::State {
   std::vector<std::unique_ptr<Worker>> workers;  // the component's own, then its stages
   std::vector<Channel*> inputs;
   bool taps = false;
+  bool gives_way = false;
   Source* source = nullptr;
   std::atomic<bool> active = true;  // messages are handed to it
 

@@ -2,7 +2,10 @@
 #include "worker.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <unistd.h>
 
+#include <algorithm>
 #include <future>
 
 namespace panvo::runtime {
@@ -75,6 +78,24 @@ TEST(Worker, OfOneInputDropsNothingForTheSakeOfAnother) {
   last.get_future().wait();
   busy.worker.stop();
   EXPECT_EQ(handled, (std::vector<std::string>{"slow", "fast"}));
+}
+
+TEST(Worker, GivesWayIfToldSo) {
+  const auto nice_now = [] { return getpriority(PRIO_PROCESS, static_cast<id_t>(gettid())); };
+  const auto nice_of = [&](bool gives_way) {
+    BusyWorker busy;
+    std::promise<int> nice;
+    if (gives_way) busy.worker.give_way();
+    Port& port = busy.worker.add_port("in", 1, false, [&](Task&) { nice.set_value(nice_now()); });
+    busy.block();
+    busy.worker.push(port, {});
+    busy.release.set_value();
+    const int told = nice.get_future().get();
+    busy.worker.stop();
+    return told;
+  };
+  EXPECT_EQ(nice_of(false), nice_now());
+  EXPECT_EQ(nice_of(true), std::min(nice_now() + 10, 19));
 }
 
 TEST(Worker, ReleasesWhoeverWaitsForRoomWhenItStops) {

@@ -82,6 +82,9 @@ class Context {
     }));
   }
 
+  /// Nobody waits for what this component does: live, its threads give way to those of others where cores are short (10 nicer).
+  void give_way();
+
   /// Has the runtime play `source`, which must live as long as the component.
   void source(Source& source);
 
