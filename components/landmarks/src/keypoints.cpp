@@ -63,9 +63,9 @@ bool is_stronger(const cv::KeyPoint& a, const cv::KeyPoint& b) {
   return a.angle < b.angle;
 }
 
-/// Indices of the strongest, each sector of the full turn first its share; without what lies beyond the seam, which is found
-/// at the other end as well.
-std::vector<int> choose(const std::vector<cv::KeyPoint>& found, const Section& section, int columns, int most) {
+/// The strongest, each sector of the full turn first its share; without what lies beyond the seam, which is found at the other
+/// end as well.
+std::vector<cv::KeyPoint> choose(const std::vector<cv::KeyPoint>& found, const Section& section, int columns, int most) {
   const auto column = [&](int i) { return section.to_panorama(found[static_cast<std::size_t>(i)].pt).x(); };
   const auto stronger = [&](int a, int b) {
     return is_stronger(found[static_cast<std::size_t>(a)], found[static_cast<std::size_t>(b)]);
@@ -83,7 +83,9 @@ std::vector<int> choose(const std::vector<cv::KeyPoint>& found, const Section& s
   chosen.insert(chosen.end(), others.begin(), others.end());
   if (chosen.size() > static_cast<std::size_t>(most)) chosen.resize(static_cast<std::size_t>(most));
   std::sort(chosen.begin(), chosen.end(), stronger);
-  return chosen;
+  std::vector<cv::KeyPoint> strongest;
+  for (const int i : chosen) strongest.push_back(found[static_cast<std::size_t>(i)]);
+  return strongest;
 }
 
 /// Squared Euclidean distance of two descriptors: exact in whole numbers.
@@ -126,16 +128,19 @@ std::vector<Keypoint> detect_keypoints(const cv::Mat& panorama, const KeypointPa
   const Section section = cut_section(grey, parameters);
   const auto sift = cv::SIFT::create(kSurplus * parameters.most, 3, kSmallestContrast);
   std::vector<cv::KeyPoint> found;
+  sift->detect(section.image, found);
+  // A descriptor costs more than it costs to blur the image once more: only what is kept is described.
+  std::vector<cv::KeyPoint> chosen = choose(found, section, grey.cols, parameters.most);
+  if (chosen.empty()) return {};
   cv::Mat descriptors;
-  sift->detectAndCompute(section.image, cv::noArray(), found, descriptors);
+  sift->compute(section.image, chosen, descriptors);
 
   std::vector<Keypoint> keypoints;
-  for (const int i : choose(found, section, grey.cols, parameters.most)) {
-    const cv::KeyPoint& chosen = found[static_cast<std::size_t>(i)];
+  for (std::size_t i = 0; i < chosen.size(); ++i) {
     Keypoint& keypoint = keypoints.emplace_back();
-    keypoint.bearing = sphere.unproject(section.to_panorama(chosen.pt)).cast<float>();
-    keypoint.size_px = static_cast<float>(chosen.size * section.scale);
-    const float* row = descriptors.ptr<float>(i);
+    keypoint.bearing = sphere.unproject(section.to_panorama(chosen[i].pt)).cast<float>();
+    keypoint.size_px = static_cast<float>(chosen[i].size * section.scale);
+    const float* row = descriptors.ptr<float>(static_cast<int>(i));
     std::transform(row, row + 128, keypoint.descriptor.begin(),
                    [](float value) { return cv::saturate_cast<uchar>(value); });
   }

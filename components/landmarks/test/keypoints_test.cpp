@@ -21,6 +21,10 @@ TEST(DetectKeypoints, FindsAsManyAsAskedForAndUnitBearings) {
   EXPECT_EQ(keypoints, detect_keypoints(paint_panorama(1), {}));
 }
 
+TEST(DetectKeypoints, FindsNoneWhereThereIsNothingToSee) {
+  EXPECT_TRUE(detect_keypoints(cv::Mat(540, 1080, CV_8UC1, cv::Scalar(90)), {}).empty());
+}
+
 TEST(MatchKeypoints, FindsThemAgainTurnedByTheHeading) {
   const auto landmark = detect_keypoints(paint_panorama(1), {});
   const double heading = 2.0 * std::numbers::pi * 300 / 1080;
