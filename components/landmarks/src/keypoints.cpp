@@ -65,7 +65,8 @@ bool is_stronger(const cv::KeyPoint& a, const cv::KeyPoint& b) {
 
 /// The strongest, each sector of the full turn first its share; without what lies beyond the seam, which is found at the other
 /// end as well.
-std::vector<cv::KeyPoint> choose(const std::vector<cv::KeyPoint>& found, const Section& section, int columns, int most) {
+std::vector<cv::KeyPoint> choose(const std::vector<cv::KeyPoint>& found, const Section& section, int columns,
+                                 int most) {
   const auto column = [&](int i) { return section.to_panorama(found[static_cast<std::size_t>(i)].pt).x(); };
   const auto stronger = [&](int a, int b) {
     return is_stronger(found[static_cast<std::size_t>(a)], found[static_cast<std::size_t>(b)]);
