@@ -99,15 +99,13 @@ AzimuthUse Localizer::add(const AzimuthMeasurement& azimuth) {
     const auto leaning = chain_.turn(lean->from_ns, lean->to_ns);
     const double wrong_rad2 = lean->disagreement_rad * lean->disagreement_rad;
     if (leaning && leaning->variance_rad2 < wrong_rad2) {
-      chain_.distrust(lean->from_ns, lean->to_ns, wrong_rad2 / std::max(leaning->variance_rad2, 1e-12),
-                      is_leaning_ ? 1.0 : kMostElse);  // of all else once
+      chain_.distrust(lean->from_ns, lean->to_ns, wrong_rad2 / std::max(leaning->variance_rad2, 1e-12), kMostElse);
     }
     fuse(lean->from_ns, lean->to_ns, lean->compass_rad, lean->compass_variance_rad2);
     graph_.refresh(chain_, lean->from_ns);
   } else if (!is_contradicted) {
     clock_.add(disagreement, rate_change, kClockCaution * (measured_variance + turn->variance_rad2));
   }
-  is_leaning_ = lean.has_value();
   azimuth_ns_ = to_ns;
   owed_rad_ += wrapped(yaw_of(chain_.latest().pose.odom_from_base.linear()) - yaw_before_rad);
   graph_.refresh(chain_, from_ns);

@@ -114,9 +114,12 @@ void OdometryChain::distrust(std::int64_t from_ns, std::int64_t to_ns, double fa
   for (std::size_t i = first; i < entries_.size(); ++i) {
     const double part = share(i, from_ns, to_ns);
     if (part <= 0.0) break;
-    vision::Vector6d scale = vision::Vector6d::Constant(std::sqrt(1.0 + part * (std::min(factor, most_else) - 1.0)));
+    Step& step = entries_[i].step;
+    const double widened = std::max(step.widened, 1.0 + part * (std::min(factor, most_else) - 1.0));
+    vision::Vector6d scale = vision::Vector6d::Constant(std::sqrt(widened / step.widened));
     scale[kYaw] = std::sqrt(1.0 + part * (factor - 1.0));
-    entries_[i].step.covariance = scale.asDiagonal() * entries_[i].step.covariance * scale.asDiagonal();
+    step.covariance = scale.asDiagonal() * step.covariance * scale.asDiagonal();
+    step.widened = widened;
   }
   compose_from(first);
 }

@@ -75,6 +75,28 @@ TEST(LocalizerWithCompass, TakesTheLastOfTheTurnsAgainstOnePanorama) {
   EXPECT_NEAR(all.covariance(5, 5), last.covariance(5, 5), 1e-9);
 }
 
+TEST(LocalizerWithCompass, IsAsSureOfAnOdometryThatLeansHoweverOftenItIsTold) {
+  constexpr double kTurn_rad = 2.0 * M_PI / 200.0;  // of a step
+  const auto position_variance = [&](bool tells_all) {
+    Drive drive(14);
+    Localizer localizer(of_known_scale());
+    localizer.add(drive.now());
+    for (int i = 0; i < 80; ++i) {
+      const double missed_rad = i < 20 ? 0.0 : 0.8 * kSigma_rad;  // too little to contradict, always to the same side
+      localizer.add(drive.step(missed_rad));
+      const int since = i % 4 + 1;
+      if (!tells_all && since < 4) continue;
+      const double turned_rad = since * (kTurn_rad + missed_rad);
+      const std::int64_t now_ns = drive.now().stamp_ns;
+      const auto use = localizer.add(AzimuthMeasurement{now_ns - since * kPeriod_ns, now_ns, turned_rad, 1e-6});
+      EXPECT_TRUE(i < 79 || use == AzimuthUse::kContradicted) << "over several seconds";
+    }
+    return localizer.latest().covariance.topLeftCorner<2, 2>().trace();
+  };
+  const double told_once = position_variance(false);
+  EXPECT_NEAR(position_variance(true), told_once, 0.2 * told_once);
+}
+
 TEST(LocalizerWithCompass, FindsByHowMuchThePanoramasClockIsOff) {
   Drive drive(13);
   Localizer localizer({});

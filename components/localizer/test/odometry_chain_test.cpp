@@ -93,6 +93,9 @@ TEST(OdometryChain, DistrustsAStretch) {
   EXPECT_NEAR(chain.latest().pose.covariance(5, 5), 27e-4, 1e-8);
   EXPECT_NEAR(chain.latest().pose.covariance(2, 2), before + 3.0 * 1e-8 * (1.0 + 0.2 * 0.2),
               1e-10);  // height, and pitch over the 0.2 m that follow
+  chain.distrust(kPeriod_ns, 2 * kPeriod_ns, 25.0, 4.0);
+  EXPECT_NEAR(chain.turn(kPeriod_ns, 2 * kPeriod_ns)->variance_rad2, 625e-4, 1e-8);
+  EXPECT_NEAR(chain.latest().pose.covariance(2, 2), before + 3.0 * 1e-8 * (1.0 + 0.2 * 0.2), 1e-10) << "once";
 }
 
 TEST(OdometryChain, TakesBackWhatWasPutRightSinceTheMark) {

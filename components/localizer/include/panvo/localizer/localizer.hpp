@@ -115,7 +115,6 @@ class Localizer {
   OdometryChain chain_;
   ClockOffset clock_;
   AzimuthLean lean_;
-  bool is_leaning_ = false;
   JourneyGraph graph_;
   MountingCheck mounting_;
 

@@ -53,7 +53,7 @@ class OdometryChain {
   std::optional<double> yaw_rate(std::int64_t stamp_ns) const;
 
   /// Takes the turns of a stretch for less sure than they said: multiplies the variance of the yaw by `factor`, and that of all else by
-  /// `factor`, too, but not by more than `most_else`.
+  /// `factor`, too, but not by more than `most_else` in all, however often it is distrusted.
   void distrust(std::int64_t from_ns, std::int64_t to_ns, double factor, double most_else);
   /// Makes a stretch turn by so much more, each step by its share of the variance, and multiplies the variance of its yaw.
   void turn_more(std::int64_t from_ns, std::int64_t to_ns, double by_rad, double variance_factor);
@@ -67,6 +67,7 @@ class OdometryChain {
   struct Step {
     Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();  // the one before from this
     vision::Matrix6d covariance = vision::Matrix6d::Zero();    // in the axes of the one before
+    double widened = 1.0;  // the variance of all but the yaw, against what odometry said
   };
   struct Entry {
     OdometryPose raw;  // as it came
