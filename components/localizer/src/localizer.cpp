@@ -134,16 +134,17 @@ bool Localizer::add_built(std::uint32_t id, std::int64_t stamp_ns) {
   return true;
 }
 
-Correction Localizer::add(const LandmarkSighting& sighting) {
+Correction Localizer::add(const LandmarkSighting& told) {
   Correction correction;
   const auto rejected = [&](std::string reason) {
     correction.kind = CorrectionKind::kRejected;
     correction.reason = std::move(reason);
     return correction;
   };
-  if (!sighting.landmark_from_base.matrix().allFinite() || !sighting.covariance.allFinite()) {
+  if (!told.landmark_from_base.matrix().allFinite() || !told.covariance.allFinite()) {
     return rejected("numbers that are none");
   }
+  const LandmarkSighting sighting = with_uncertain_clock(told);
   const auto at = chain_.at(in_odometry_time(sighting.stamp_ns));
   if (!at) return rejected("no odometry is remembered of that time");
   const auto landmark = graph_.landmark(sighting.landmark_id);
@@ -171,6 +172,18 @@ Correction Localizer::add(const LandmarkSighting& sighting) {
   correction.map_from_base_after = graph_.carried(at->pose).map_from_base;
   latest_ = localized(chain_.latest().pose);
   return correction;
+}
+
+/// The offset between the clocks is known to some milliseconds only: so far the vehicle moves and turns meanwhile, now, and when the
+/// landmark was built.
+LandmarkSighting Localizer::with_uncertain_clock(const LandmarkSighting& sighting) const {
+  const vision::Vector6d twist = chain_.twist(in_odometry_time(sighting.stamp_ns));
+  const Eigen::Matrix3d rotation = sighting.landmark_from_base.linear();
+  vision::Vector6d by_clock;
+  by_clock << rotation * twist.head<3>(), rotation * twist.tail<3>();
+  LandmarkSighting wider = sighting;
+  wider.covariance += 2.0 * clock_.variance_s2() * by_clock * by_clock.transpose();
+  return wider;
 }
 
 bool Localizer::add_said(const PoseInMap& pose, std::int64_t stamp_ns) {

@@ -109,6 +109,16 @@ std::optional<double> OdometryChain::yaw_rate(std::int64_t stamp_ns) const {
          static_cast<double>(entry.raw.stamp_ns - entries_[index - 1].raw.stamp_ns);
 }
 
+vision::Vector6d OdometryChain::twist(std::int64_t stamp_ns) const {
+  vision::Vector6d twist = vision::Vector6d::Zero();
+  const std::size_t index = std::min(first_after(stamp_ns - 1), entries_.empty() ? 0 : entries_.size() - 1);
+  if (index == 0) return twist;
+  const auto& entry = entries_[index];
+  const double lasted_s = static_cast<double>(entry.raw.stamp_ns - entries_[index - 1].raw.stamp_ns) / kSecond_ns;
+  twist << entry.step.motion.translation(), vision::so3_log(entry.step.motion.linear());
+  return twist / lasted_s;
+}
+
 void OdometryChain::distrust(std::int64_t from_ns, std::int64_t to_ns, double factor, double most_else) {
   const std::size_t first = first_after(from_ns);
   for (std::size_t i = first; i < entries_.size(); ++i) {

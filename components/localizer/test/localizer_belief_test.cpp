@@ -12,6 +12,28 @@
 namespace panvo::localizer {
 namespace {
 
+TEST(LocalizerBelief, ASightingAtSpeedTellsAsMuchAsTheClocksDo) {
+  const auto variances_ahead = [](double clock_sigma_s) {
+    auto parameters = of_known_scale();
+    parameters.clock_sigma_s = clock_sigma_s;
+    Round round(31, parameters);
+    const Eigen::Vector3d ahead = round.drive.truth.linear().col(0);
+    const auto ahead_of = [&](const LocalizedPose& pose) {
+      return ahead.dot(pose.covariance.topLeftCorner<3, 3>() * ahead);
+    };
+    const double before = ahead_of(round.localizer.latest());
+    EXPECT_EQ(round.localizer.add(round.drive.sight(1, round.landmark)).kind, CorrectionKind::kApplied);
+    return std::pair(before, ahead_of(round.localizer.latest()));
+  };
+  // Round and round the yaw rate does not change, so that nothing tells the offset of the clocks.
+  constexpr double kClock_s = 0.05, kSpeed_mps = kStep_m * 1e9 / kPeriod_ns;
+  const auto [before, after_known] = variances_ahead(0.0);
+  const auto [same_before, after_unknown] = variances_ahead(kClock_s);
+  EXPECT_LT(after_known, 0.1 * before);
+  const double measured = after_known + 2.0 * kClock_s * kClock_s * kSpeed_mps * kSpeed_mps;
+  EXPECT_NEAR(after_unknown, 1.0 / (1.0 / same_before + 1.0 / measured), 0.2 * after_unknown);
+}
+
 TEST(LocalizerBelief, DoesNotBelieveAFarJumpBeforeASecondPanoramaAsksForIt) {
   Round round(4);
   auto wrong = round.drive.sight(1, round.landmark);

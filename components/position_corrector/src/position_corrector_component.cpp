@@ -29,7 +29,7 @@ namespace panvo::position_corrector {
 
 struct CorrectionParameters {
   std::string method = "metric";
-  double stamp_sigma_ms = 10.0;
+  double stamp_sigma_ms = 3.0;
   PaperCorrectionParameters paper;
 
   template <class Field>
@@ -40,11 +40,11 @@ struct CorrectionParameters {
         "metric: six degrees of freedom from the landmark's points, of each panorama that shows it; paper: five-point "
         "motion at the nearest one [Lu2015 5.2]",
         {"metric", "paper"});
-    field(
-        &P::stamp_sigma_ms, "stamp_sigma_ms", "ms",
-        "standard deviation of a panorama's stamp against the odometry's: a camera of its own, stamped when its image "
-        "arrives; 0 where one trigger releases all",
-        0.0, 1000.0);
+    field(&P::stamp_sigma_ms, "stamp_sigma_ms", "ms",
+          "standard deviation of a panorama's stamp, but for an offset that stays, which the localizer finds: of a "
+          "camera "
+          "stamped when its image arrives; 0 where one trigger releases all",
+          0.0, 1000.0);
     field.group(&P::paper, "paper");
   }
 };

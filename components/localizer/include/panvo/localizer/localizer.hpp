@@ -76,7 +76,7 @@ class Localizer {
   /// A landmark that was built on this journey of the panorama of `stamp_ns`. False when odometry of that time is not remembered.
   bool add_built(std::uint32_t id, std::int64_t stamp_ns);
 
-  Correction add(const LandmarkSighting& sighting);
+  Correction add(const LandmarkSighting& told);
 
   /// Somebody says where the vehicle is at a time (in the odometry's clock), and with what certainty; what he leaves open, a variance
   /// of 0, is not known. Where the vehicle was known to be, he says that it was moved. False when odometry of that time is not
@@ -108,6 +108,7 @@ class Localizer {
   std::string doubt(const LandmarkSighting& sighting, const KnownLandmark& landmark, const Remembered& at,
                     Correction& correction);
   bool agree(const Asking& before, const Asking& now) const;
+  LandmarkSighting with_uncertain_clock(const LandmarkSighting& sighting) const;
   void fuse(std::int64_t from_ns, std::int64_t to_ns, double change_rad, double variance_rad2);
   void slew(const Eigen::Isometry3d& step);
 
