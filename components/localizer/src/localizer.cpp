@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -16,7 +17,9 @@ namespace {
 constexpr double kSecond_ns = 1e9;
 constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kSlew = 0.2;  // of the turn that is owed, with each step: made up for within half a second at 25 Hz
-constexpr double kMostElse = 25.0;          // odometry that turns wrongly goes wrong, too, by five times what it says
+constexpr double kMostElse = 25.0;  // odometry that turns wrongly goes wrong, too, by five times what it says
+// Of the stamp of an image's arrival. Clocks that are farther off show it in the first bend; until then straight ways count, too.
+constexpr double kMostStampSigma_s = 0.01;
 constexpr double kClockCaution = 9.0;       // odometry errs by more than it says now and then, and just while turning
 constexpr double kUnknownPosition_m = 1e4;  // standard deviations of a start that is not known
 constexpr double kUnknownYaw_rad = 3.0;
@@ -182,7 +185,8 @@ LandmarkSighting Localizer::with_uncertain_clock(const LandmarkSighting& sightin
   vision::Vector6d by_clock;
   by_clock << rotation * twist.head<3>(), rotation * twist.tail<3>();
   LandmarkSighting wider = sighting;
-  wider.covariance += 2.0 * clock_.variance_s2() * by_clock * by_clock.transpose();
+  const double variance_s2 = std::min(clock_.variance_s2(), kMostStampSigma_s * kMostStampSigma_s);
+  wider.covariance += 2.0 * variance_s2 * by_clock * by_clock.transpose();
   return wider;
 }
 

@@ -26,12 +26,13 @@ TEST(LocalizerBelief, ASightingAtSpeedTellsAsMuchAsTheClocksDo) {
     return std::pair(before, ahead_of(round.localizer.latest()));
   };
   // Round and round the yaw rate does not change, so that nothing tells the offset of the clocks.
-  constexpr double kClock_s = 0.05, kSpeed_mps = kStep_m * 1e9 / kPeriod_ns;
+  constexpr double kClock_s = 0.01, kSpeed_mps = kStep_m * 1e9 / kPeriod_ns;
   const auto [before, after_known] = variances_ahead(0.0);
   const auto [same_before, after_unknown] = variances_ahead(kClock_s);
   EXPECT_LT(after_known, 0.1 * before);
   const double measured = after_known + 2.0 * kClock_s * kClock_s * kSpeed_mps * kSpeed_mps;
   EXPECT_NEAR(after_unknown, 1.0 / (1.0 / same_before + 1.0 / measured), 0.2 * after_unknown);
+  EXPECT_NEAR(variances_ahead(0.05).second, after_unknown, 1e-9) << "not even the first bend was driven yet";
 }
 
 TEST(LocalizerBelief, DoesNotBelieveAFarJumpBeforeASecondPanoramaAsksForIt) {

@@ -116,7 +116,7 @@ TEST_F(LocalizerComponent, PublishesPoseAndFramesWithEachOdometry) {
 }
 
 TEST_F(LocalizerComponent, CorrectsThePositionAndSaysByHowMuch) {
-  load();
+  load({{"fusion.clock_sigma_s", "0"}});
   drive(0, 51);
   publish_landmark(1, stamp(25), at(5.0, 0.0, 0.0));
   ASSERT_THAT(poses_, SizeIs(1));
