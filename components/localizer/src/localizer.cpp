@@ -15,6 +15,7 @@ namespace panvo::localizer {
 namespace {
 
 constexpr double kSecond_ns = 1e9;
+constexpr int kYaw = 5;  // of a twist
 constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kSlew = 0.2;  // of the turn that is owed, with each step: made up for within half a second at 25 Hz
 constexpr double kMostElse = 25.0;  // odometry that turns wrongly goes wrong, too, by five times what it says
@@ -74,9 +75,9 @@ AzimuthUse Localizer::add(const AzimuthMeasurement& azimuth) {
   last_from_ns_ = azimuth.from_ns;
   const auto turn = chain_.turn(from_ns, to_ns);
   const double disagreement = wrapped(azimuth.change_rad - turn->change_rad);
-  const auto rate_then = chain_.yaw_rate(from_ns);
-  const auto rate_now = chain_.yaw_rate(to_ns);
-  const double rate_change = rate_then && rate_now ? *rate_now - *rate_then : 0.0;
+  const auto twist_then = chain_.twist(from_ns);
+  const auto twist_now = chain_.twist(to_ns);
+  const double rate_change = twist_then && twist_now ? (*twist_now)[kYaw] - (*twist_then)[kYaw] : 0.0;
   const double missed_rad = parameters_.compass_turn_error_ratio * azimuth.change_rad;
   const double measured_variance = azimuth.variance_rad2 + missed_rad * missed_rad;
   const double compass_variance = measured_variance + rate_change * rate_change * clock_.variance_s2();
@@ -180,13 +181,11 @@ Correction Localizer::add(const LandmarkSighting& told) {
 /// The offset between the clocks is known to some milliseconds only: so far the vehicle moves and turns meanwhile, now, and when the
 /// landmark was built.
 LandmarkSighting Localizer::with_uncertain_clock(const LandmarkSighting& sighting) const {
-  const vision::Vector6d twist = chain_.twist(in_odometry_time(sighting.stamp_ns));
-  const Eigen::Matrix3d rotation = sighting.landmark_from_base.linear();
-  vision::Vector6d by_clock;
-  by_clock << rotation * twist.head<3>(), rotation * twist.tail<3>();
   LandmarkSighting wider = sighting;
-  const double variance_s2 = std::min(clock_.variance_s2(), kMostStampSigma_s * kMostStampSigma_s);
-  wider.covariance += 2.0 * variance_s2 * by_clock * by_clock.transpose();
+  if (const auto twist = chain_.twist(in_odometry_time(sighting.stamp_ns))) {
+    const double sigma_s = std::min(std::sqrt(clock_.variance_s2()), kMostStampSigma_s);
+    wider.covariance += 2.0 * vision::stamp_covariance(sighting.landmark_from_base, *twist, sigma_s);
+  }
   return wider;
 }
 

@@ -101,22 +101,13 @@ std::optional<Eigen::Isometry3d> OdometryChain::raw_at(std::int64_t stamp_ns) co
                              between(stamp_ns, before.stamp_ns, after.stamp_ns));
 }
 
-std::optional<double> OdometryChain::yaw_rate(std::int64_t stamp_ns) const {
+std::optional<vision::Vector6d> OdometryChain::twist(std::int64_t stamp_ns) const {
   const std::size_t index = first_after(stamp_ns - 1);
   if (index == 0 || index >= entries_.size()) return std::nullopt;
   const auto& entry = entries_[index];
-  return yaw_of(entry.step.motion.linear()) * kSecond_ns /
-         static_cast<double>(entry.raw.stamp_ns - entries_[index - 1].raw.stamp_ns);
-}
-
-vision::Vector6d OdometryChain::twist(std::int64_t stamp_ns) const {
-  vision::Vector6d twist = vision::Vector6d::Zero();
-  const std::size_t index = std::min(first_after(stamp_ns - 1), entries_.empty() ? 0 : entries_.size() - 1);
-  if (index == 0) return twist;
-  const auto& entry = entries_[index];
-  const double lasted_s = static_cast<double>(entry.raw.stamp_ns - entries_[index - 1].raw.stamp_ns) / kSecond_ns;
-  twist << entry.step.motion.translation(), vision::so3_log(entry.step.motion.linear());
-  return twist / lasted_s;
+  vision::Vector6d moved;
+  moved << entry.step.motion.translation(), vision::so3_log(entry.step.motion.linear());
+  return moved * kSecond_ns / static_cast<double>(entry.raw.stamp_ns - entries_[index - 1].raw.stamp_ns);
 }
 
 void OdometryChain::distrust(std::int64_t from_ns, std::int64_t to_ns, double factor, double most_else) {

@@ -112,17 +112,21 @@ TEST(OdometryChain, TakesBackWhatWasPutRightSinceTheMark) {
   EXPECT_TRUE(chain.latest().pose.covariance.isApprox(before.pose.covariance, 1e-12));
 }
 
-TEST(OdometryChain, KnowsTheYawRate) {
+TEST(OdometryChain, KnowsTheTwist) {
   OdometryChain chain(60.0);
   OdometryPose pose;
   chain.add(pose);
   pose.stamp_ns = kPeriod_ns;
   pose.odom_from_base.linear() = vision::so3_exp(Eigen::Vector3d(0.0, 0.0, 0.02));
+  pose.odom_from_base.translation().x() = 0.2;
   chain.add(pose);
-  ASSERT_TRUE(chain.yaw_rate(kPeriod_ns));
-  EXPECT_NEAR(*chain.yaw_rate(kPeriod_ns), 0.5, 1e-9);
-  EXPECT_NEAR(*chain.yaw_rate(kPeriod_ns / 3), 0.5, 1e-9);
-  EXPECT_FALSE(chain.yaw_rate(2 * kPeriod_ns));
+  vision::Vector6d expected;
+  expected << 5.0, 0.0, 0.0, 0.0, 0.0, 0.5;
+  ASSERT_TRUE(chain.twist(kPeriod_ns));
+  EXPECT_TRUE(chain.twist(kPeriod_ns)->isApprox(expected, 1e-9));
+  EXPECT_TRUE(chain.twist(kPeriod_ns / 3)->isApprox(expected, 1e-9));
+  EXPECT_FALSE(chain.twist(0));
+  EXPECT_FALSE(chain.twist(2 * kPeriod_ns));
 }
 
 }  // namespace

@@ -14,11 +14,8 @@ BasePose to_base(const PanoramaPose& pose, const Mountings& mountings) {
 }
 
 BasePose with_uncertain_stamp(const BasePose& pose, const vision::Vector6d& twist, double stamp_sigma_s) {
-  const Eigen::Matrix3d rotation = pose.landmark_from_base.linear();
-  vision::Vector6d by_stamp;
-  by_stamp << rotation * twist.head<3>(), rotation * twist.tail<3>();
   BasePose wider = pose;
-  wider.covariance += 2.0 * stamp_sigma_s * stamp_sigma_s * by_stamp * by_stamp.transpose();  // then, and now
+  wider.covariance += 2.0 * vision::stamp_covariance(pose.landmark_from_base, twist, stamp_sigma_s);  // then, and now
   return wider;
 }
 

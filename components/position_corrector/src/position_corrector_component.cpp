@@ -41,9 +41,8 @@ struct CorrectionParameters {
         "motion at the nearest one [Lu2015 5.2]",
         {"metric", "paper"});
     field(&P::stamp_sigma_ms, "stamp_sigma_ms", "ms",
-          "standard deviation of a panorama's stamp, but for an offset that stays, which the localizer finds: of a "
-          "camera "
-          "stamped when its image arrives; 0 where one trigger releases all",
+          "standard deviation of a panorama's stamp, stamped when its image arrives, but for an offset that stays, "
+          "which the localizer finds; 0 where one trigger releases all",
           0.0, 1000.0);
     field.group(&P::paper, "paper");
   }

@@ -116,13 +116,11 @@ Context::State::State(Host& a_host, const ComponentDescription& a_description, s
 }
 
 std::unique_ptr<Worker> Context::State::make_worker(const std::string& worker_name) {
-  auto worker = std::make_unique<Worker>(
+  return std::make_unique<Worker>(
       worker_name, times, host.replay_order,
       Worker::Hooks{.failed = [this](const std::string& what) { logger.error("stopped by an error: {}", what); },
                     .progressed = host.progressed,
                     .in_flight = &host.in_flight});
-  if (gives_way) worker->give_way();
-  return worker;
 }
 
 TopicDescription Context::State::resolve(TopicDescription topic) const {
@@ -131,7 +129,7 @@ TopicDescription Context::State::resolve(TopicDescription topic) const {
 }
 
 void Context::State::start() {
-  for (const auto& worker : workers) worker->start();
+  for (const auto& worker : workers) worker->start(gives_way);
 }
 
 void Context::State::stop() {
@@ -243,10 +241,7 @@ void Context::take_parameters(std::function<std::function<void()>(ParameterReade
   state_->parameter_takers.push_back(std::move(take));
 }
 
-void Context::give_way() {
-  state_->gives_way = true;
-  for (const auto& worker : state_->workers) worker->give_way();
-}
+void Context::give_way() { state_->gives_way = true; }
 
 void Context::source(Source& source) { state_->source = &source; }
 

@@ -87,9 +87,12 @@ void Worker::push(Port& port, Task task) {
   work_or_stop_.notify_one();
 }
 
-void Worker::start() {
+void Worker::start(bool gives_way) {
   if (replay_ || thread_.joinable()) return;
-  thread_ = std::thread([this] { loop(); });
+  thread_ = std::thread([this, gives_way] {
+    if (gives_way) be_nicer();
+    loop();
+  });
   pthread_setname_np(thread_.native_handle(), name_.substr(0, 15).c_str());  // 15: the kernel's limit
 }
 
@@ -114,7 +117,6 @@ void Worker::stop() {
 }
 
 void Worker::loop() {
-  if (gives_way_) be_nicer();
   std::unique_lock lock(mutex_);
   while (true) {
     work_or_stop_.wait(lock, [this] { return stopping_ || !tasks_.empty(); });

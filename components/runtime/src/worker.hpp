@@ -75,9 +75,8 @@ class Worker {
   Port& add_port(std::string name, std::size_t depth, bool waits, std::function<void(Task&)> run);
   void push(Port& port, Task task);
 
-  /// Before it is started: its thread gives way to others where they want the same core.
-  void give_way() { gives_way_ = true; }
-  void start();
+  /// `gives_way`: its thread, to others that want the same core.
+  void start(bool gives_way = false);
   /// Ends the thread after the task it is at; what still waits is discarded. Releases whoever waits for room.
   void stop();
   /// Replay: runs the oldest task.
@@ -110,7 +109,6 @@ class Worker {
   std::condition_variable work_or_stop_, room_or_stop_;
   std::deque<std::pair<Port*, Task>> tasks_;
   std::vector<std::unique_ptr<Port>> ports_;
-  bool gives_way_ = false;
   bool stopping_ = false;
   std::atomic<bool> failed_ = false;
   std::thread thread_;

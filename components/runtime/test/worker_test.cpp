@@ -28,12 +28,12 @@ struct BusyWorker {
                  .progressed = [] {},
                  .in_flight = &in_flight}};
 
-  void block() {
+  void block(bool gives_way = false) {
     Port& port = worker.add_port("block", 1, false, [this](Task&) {
       started.set_value();
       release.get_future().wait();
     });
-    worker.start();
+    worker.start(gives_way);
     worker.push(port, {});
     started.get_future().wait();
   }
@@ -85,9 +85,8 @@ TEST(Worker, GivesWayIfToldSo) {
   const auto nice_of = [&](bool gives_way) {
     BusyWorker busy;
     std::promise<int> nice;
-    if (gives_way) busy.worker.give_way();
     Port& port = busy.worker.add_port("in", 1, false, [&](Task&) { nice.set_value(nice_now()); });
-    busy.block();
+    busy.block(gives_way);
     busy.worker.push(port, {});
     busy.release.set_value();
     const int told = nice.get_future().get();

@@ -103,6 +103,12 @@ Matrix6d rotate_covariance(const Eigen::Matrix3d& b_from_a, const Matrix6d& cova
   return rotation * covariance * rotation.transpose();
 }
 
+Matrix6d stamp_covariance(const Eigen::Isometry3d& a_from_b, const Vector6d& twist, double sigma_s) {
+  Vector6d moved;
+  moved << a_from_b.linear() * twist.head<3>(), a_from_b.linear() * twist.tail<3>();
+  return sigma_s * sigma_s * moved * moved.transpose();
+}
+
 double horizontal_sigma(const Matrix6d& covariance) {
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> spread(covariance.topLeftCorner<2, 2>());
   return std::sqrt(std::max(0.0, spread.eigenvalues().maxCoeff()));

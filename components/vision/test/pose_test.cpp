@@ -102,6 +102,19 @@ TEST(RotateCovariance, TurnsTranslationAndRotation) {
   EXPECT_TRUE(turned.isApprox(expected, 1e-12));
 }
 
+TEST(StampCovariance, LiesAlongTheWayAndTheTurn) {
+  Eigen::Isometry3d a_from_b = Eigen::Isometry3d::Identity();
+  a_from_b.linear() = so3_exp(Eigen::Vector3d(0.0, 0.0, M_PI / 2.0));
+  Vector6d twist = Vector6d::Zero();
+  twist[0] = 5.0;  // m/s ahead, which is a's left
+  twist[5] = 0.5;
+  Matrix6d expected = Matrix6d::Zero();
+  expected(1, 1) = 0.1 * 0.1;
+  expected(5, 5) = 0.01 * 0.01;
+  expected(1, 5) = expected(5, 1) = 0.1 * 0.01;
+  EXPECT_TRUE(stamp_covariance(a_from_b, twist, 0.02).isApprox(expected, 1e-12));
+}
+
 TEST(HorizontalSigma, IsThatOfTheWorstDirection) {
   Matrix6d covariance = (Vector6d() << 4.0, 1.0, 100.0, 0.0, 0.0, 0.0).finished().asDiagonal();
   EXPECT_NEAR(horizontal_sigma(covariance), 2.0, 1e-12);

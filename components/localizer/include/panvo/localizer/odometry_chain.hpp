@@ -49,10 +49,8 @@ class OdometryChain {
   std::optional<Turn> turn(std::int64_t from_ns, std::int64_t to_ns) const;
   /// The same of the odometry as it came, before anything was put right.
   std::optional<double> raw_turn(std::int64_t from_ns, std::int64_t to_ns) const;
-  /// rad/s, left positive.
-  std::optional<double> yaw_rate(std::int64_t stamp_ns) const;
-  /// Linear (m/s), then angular (rad/s), in the vehicle's axes; zero before the second pose.
-  vision::Vector6d twist(std::int64_t stamp_ns) const;
+  /// Linear (m/s), then angular (rad/s), in the vehicle's axes; nullopt where no step is remembered.
+  std::optional<vision::Vector6d> twist(std::int64_t stamp_ns) const;
 
   /// Takes the turns of a stretch for less sure than they said: multiplies the variance of the yaw by `factor`, and that of all else by
   /// `factor`, too, but not by more than `most_else` in all, however often it is distrusted.

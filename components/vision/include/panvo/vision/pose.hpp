@@ -41,6 +41,10 @@ Matrix6d compose_covariance(const Eigen::Isometry3d& a_from_b, const Matrix6d& c
 /// A covariance in the axes of frame a, in those of frame b.
 Matrix6d rotate_covariance(const Eigen::Matrix3d& b_from_a, const Matrix6d& covariance);
 
+/// What an uncertain stamp (standard deviation `sigma_s`) adds to the covariance of a_from_b while b moves by `twist` (m/s and rad/s, in its
+/// own axes): where it is by then is not where it was.
+Matrix6d stamp_covariance(const Eigen::Isometry3d& a_from_b, const Vector6d& twist, double sigma_s);
+
 /// Standard deviation of the horizontal position along its worst direction, m.
 double horizontal_sigma(const Matrix6d& covariance);
 
