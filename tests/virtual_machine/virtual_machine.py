@@ -191,14 +191,14 @@ def run(arguments):
         for _ in range(STARTS):
             if switched_on(machine, console, begun, end - time.monotonic()):
                 break
-            print("virtual_machine: it stood still while it started, and is started again", file=sys.stderr)
+            print("virtual_machine: it stood still while it started, and is started again", file=sys.stderr, flush=True)
         said = console.read_text(encoding="utf-8", errors="replace")
     result = int(status.read_text(encoding="utf-8")) if status.is_file() else TOO_LONG
-    if result != 0:
-        print(said)
     sys.stdout.write(output.read_text(encoding="utf-8", errors="replace") if output.is_file() else "")
     if not status.is_file():
-        print(f"virtual_machine: it did not end within {arguments.limit} s; what its kernel said stands above", file=sys.stderr)
+        print(f"virtual_machine: it did not end within {arguments.limit} s")
+    if result != 0:
+        print(f"virtual_machine: what its kernel said\n{said}")
     return result
 
 
