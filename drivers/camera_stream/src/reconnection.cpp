@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "panvo/camera_stream/reconnection.hpp"
 
+#include <algorithm>
+
 namespace panvo::camera_stream {
 
 Reconnection::Action Reconnection::step(std::int64_t now_ns) {
@@ -10,10 +12,20 @@ Reconnection::Action Reconnection::step(std::int64_t now_ns) {
   }
   if (state_ == State::kStreaming) {
     if (is_gone_) return close(Loss::kDeviceGone, now_ns);
-    if (settings_.watchdog_ns > 0 && now_ns - last_sign_ns_ > settings_.watchdog_ns)
-      return close(Loss::kNoFrames, now_ns);
+    if (is_silent(now_ns)) return close(Loss::kNoFrames, now_ns);
   }
   return Action::kNone;
+}
+
+bool Reconnection::is_silent(std::int64_t now_ns) {
+  silent_ns_ += std::min(now_ns - watched_ns_, settings_.watchdog_ns / 4);
+  watched_ns_ = now_ns;
+  return settings_.watchdog_ns > 0 && silent_ns_ > settings_.watchdog_ns;
+}
+
+void Reconnection::sign_of_life(std::int64_t now_ns) {
+  watched_ns_ = now_ns;
+  silent_ns_ = 0;
 }
 
 Reconnection::Action Reconnection::close(Loss loss, std::int64_t now_ns) {
@@ -26,7 +38,7 @@ Reconnection::Action Reconnection::close(Loss loss, std::int64_t now_ns) {
 
 void Reconnection::opened(std::int64_t now_ns) {
   state_ = State::kStreaming;
-  last_sign_ns_ = now_ns;
+  sign_of_life(now_ns);
   is_gone_ = false;
   has_streamed_ = false;
 }
@@ -37,7 +49,7 @@ void Reconnection::failed(std::int64_t now_ns) {
 }
 
 void Reconnection::frame(std::int64_t now_ns) {
-  last_sign_ns_ = now_ns;
+  sign_of_life(now_ns);
   if (!has_streamed_ && has_been_lost_) ++reconnects_;
   has_streamed_ = true;
 }

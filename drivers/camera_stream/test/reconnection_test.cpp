@@ -21,6 +21,13 @@ Reconnection streaming(std::int64_t now_ns) {
   return machine;
 }
 
+/// Asks as often as a driver does, until `to_ns` or until it is to do something.
+Action watch(Reconnection& machine, std::int64_t from_ns, std::int64_t to_ns) {
+  Action action = Action::kNone;
+  for (std::int64_t t = from_ns; t < to_ns && action == Action::kNone; t += 50) action = machine.step(t);
+  return action == Action::kNone ? machine.step(to_ns) : action;
+}
+
 TEST(Reconnection, OpensAtOnceAndThenStreams) {
   Reconnection machine(kSettings);
   EXPECT_EQ(machine.step(0), Action::kOpen);
@@ -43,7 +50,7 @@ TEST(Reconnection, TriesAgainAfterAWhile) {
 
 TEST(Reconnection, ClosesACameraThatIsSilentAndOpensItAgain) {
   auto machine = streaming(2000);
-  EXPECT_EQ(machine.step(3000), Action::kNone);
+  EXPECT_EQ(watch(machine, 2050, 3000), Action::kNone);
   EXPECT_EQ(machine.step(3001), Action::kClose);
   EXPECT_EQ(machine.last_loss(), Loss::kNoFrames);
   EXPECT_EQ(machine.step(3001), Action::kOpen);
@@ -68,17 +75,35 @@ TEST(Reconnection, WatchesACameraThatOpensAndSendsNothing) {
   Reconnection machine(kSettings);
   machine.step(0);
   machine.opened(100);
-  EXPECT_EQ(machine.step(1100), Action::kNone);
+  EXPECT_EQ(watch(machine, 150, 1100), Action::kNone);
   EXPECT_EQ(machine.step(1101), Action::kClose);
   EXPECT_FALSE(machine.has_streamed());
+}
+
+TEST(Reconnection, DoesNotTakeACameraForSilentWhileItWasKeptFromWatching) {
+  auto machine = streaming(2000);
+  EXPECT_EQ(watch(machine, 2050, 2100), Action::kNone);
+  EXPECT_EQ(machine.step(1'000'000), Action::kNone) << "the machine slept";
+  machine.frame(1'000'010);
+  EXPECT_EQ(watch(machine, 1'000'050, 1'001'010), Action::kNone);
+  EXPECT_EQ(watch(machine, 1'001'011, 1'001'100), Action::kClose) << "but this is silence";
+}
+
+TEST(Reconnection, FindsSilenceAlsoWhereItIsOftenKeptFromWatching) {
+  auto machine = streaming(2000);
+  EXPECT_EQ(machine.step(3000), Action::kNone);
+  EXPECT_EQ(machine.step(4000), Action::kNone);
+  EXPECT_EQ(machine.step(5000), Action::kNone);
+  EXPECT_EQ(machine.step(6000), Action::kNone);
+  EXPECT_EQ(machine.step(7000), Action::kClose);
 }
 
 TEST(Reconnection, CountsWhatCameBackOnly) {
   Reconnection machine(kSettings);
   machine.step(0);
   machine.opened(0);
-  machine.step(1500);  // silent from the start
-  machine.step(1500);
+  ASSERT_EQ(watch(machine, 0, 1500), Action::kClose) << "silent from the start";
+  ASSERT_EQ(machine.step(1500), Action::kOpen);
   machine.opened(1600);
   machine.frame(1700);
   EXPECT_EQ(machine.reconnects(), 0u);

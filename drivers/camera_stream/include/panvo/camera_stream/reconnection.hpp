@@ -18,8 +18,10 @@ class Reconnection {
   enum class Loss { kNone, kNoFrames, kDeviceGone };
 
   struct Settings {
-    std::int64_t watchdog_ns = 1'000'000'000;  ///< without a frame for so long, the camera counts as lost; 0: never
-    std::int64_t retry_ns = 250'000'000;       ///< from a failure to open to the next try
+    /// Watched for so long without a frame, the camera counts as lost; 0: never. From one step to the next, a quarter of it counts at most: who was
+    /// kept from asking for longer, a machine that slept, did not watch, and does not know that the camera is silent.
+    std::int64_t watchdog_ns = 1'000'000'000;
+    std::int64_t retry_ns = 250'000'000;  ///< from a failure to open to the next try
   };
 
   explicit Reconnection(const Settings& settings) : settings_(settings) {}
@@ -45,12 +47,15 @@ class Reconnection {
 
  private:
   Action close(Loss loss, std::int64_t now_ns);
+  bool is_silent(std::int64_t now_ns);
+  void sign_of_life(std::int64_t now_ns);
 
   Settings settings_;
   State state_ = State::kWaiting;
   Loss last_loss_ = Loss::kNone;
   std::int64_t next_try_ns_ = 0;
-  std::int64_t last_sign_ns_ = 0;  // of life: opened, or a frame
+  std::int64_t watched_ns_ = 0;  // until then,
+  std::int64_t silent_ns_ = 0;   // and so long without a sign of life: opened, or a frame
   bool is_gone_ = false, has_streamed_ = false, has_been_lost_ = false;
   std::uint64_t reconnects_ = 0;
 };
