@@ -7,6 +7,7 @@
 #include <optional>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 
 #include "motion_model.hpp"
 #include "motion_ransac.hpp"
@@ -48,6 +49,10 @@ class MotionStage::Implementation {
     const std::int64_t since_last_ns = interval(frame.stamp_ns, last_stamp_ns_);
     const std::int64_t since_good_ns = interval(frame.stamp_ns, good_stamp_ns_);
     last_stamp_ns_ = frame.stamp_ns;
+
+    if (frame.fault.empty())
+      adjuster_.move_disparity_offset(frame.disparity_offset_px -
+                                      std::exchange(learned_offset_px_, frame.disparity_offset_px));
 
     std::optional<MeasuredMotion> motion;
     if (frame.fault.empty() && has_reference_) {
@@ -254,6 +259,7 @@ class MotionStage::Implementation {
   vision::StageObserver* observer_;
   TwoStageLocalBundleAdjuster adjuster_;
   MotionModel motion_model_;
+  double learned_offset_px_ = 0.0;  // of the disparities, by the tracking stage
 
   // The last good frame: what the next one is measured against.
   bool has_reference_ = false;

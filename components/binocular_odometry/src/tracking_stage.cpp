@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "coarse_turn.hpp"
+#include "disparity_offset.hpp"
 #include "front_end.hpp"
 #include "motion_model.hpp"
 #include "motion_ransac.hpp"
@@ -91,8 +92,8 @@ class TrackingStage::Implementation {
     }
     Eigen::Isometry3d current_from_previous = expected_motion_;
     if (motion) {
-      current_from_previous = *motion;
       match_others(tracks, *motion);
+      current_from_previous = learn_offset(tracks, *motion);
     } else {
       tracks.clear();  // what agrees on no motion is no match: begin anew
     }
@@ -109,6 +110,7 @@ class TrackingStage::Implementation {
 
     align_eyes();
     result.row_misalignment_px = alignment_.misalignment().largest_row_shift_px(stereo_.camera);
+    result.disparity_offset_px = offset_.px();
     for (const Track& track : tracks) result.observations.push_back(track.seen);
     keep(frame.stamp_ns, std::move(tracks), current_from_previous);
     return result;
@@ -196,7 +198,7 @@ class TrackingStage::Implementation {
       track.seen.sigma_px = std::sqrt(kNoiseFloor_px * kNoiseFloor_px + 0.5 * found->variance.sum());
     }
     track.seen.pixel.head<2>() = pixel;
-    track.seen.pixel.z() = expected.disparity_px;
+    track.seen.pixel.z() = expected.disparity_px + offset_.px();
     track.gradient = expected.gradient;
     return true;
   }
@@ -222,13 +224,27 @@ class TrackingStage::Implementation {
     auto known = tracks_.begin();
     for (const Track& track : tracks) {
       while (known->id < track.id) ++known;  // both ascending, and every track was known
-      if (known->seen.has_disparity) pairs.push_back({known->seen.pixel, track.seen.pixel, track.seen.has_disparity});
+      if (!known->seen.has_disparity) continue;
+      pairs.push_back(
+          {offset_.without(known->seen.pixel), offset_.without(track.seen.pixel), track.seen.has_disparity});
     }
     const std::array guesses{expected_motion_, Eigen::Isometry3d::Identity()};
     const auto motion = estimate_motion(stereo_, pairs, guesses, {});
     if (!motion || motion->inliers < kGuideInliers) return std::nullopt;
     if (static_cast<double>(motion->inliers) < kGuideRatio * static_cast<double>(pairs.size())) return std::nullopt;
     return motion->current_from_previous;
+  }
+
+  // The scouts' motion again, of all tracks, and what all disparities are too large by.
+  Eigen::Isometry3d learn_offset(const std::vector<Track>& tracks, const Eigen::Isometry3d& current_from_previous) {
+    const Stage stage(observer_, "learn_offset");
+    std::vector<SeenTwice> points;
+    auto known = tracks_.begin();
+    for (const Track& track : tracks) {
+      while (known->id < track.id) ++known;
+      if (known->seen.has_disparity && track.seen.has_disparity) points.push_back({known->seen, track.seen});
+    }
+    return offset_.learn(stereo_, points, current_from_previous);
   }
 
   // All others, where the scouts' motion has them; and those scouts anew that were led astray.
@@ -289,7 +305,7 @@ class TrackingStage::Implementation {
     row_errors_.push_back(matcher_.row_error(*left_, right_, track.seen.pixel.head<2>(), match));
     track.host = left_;
     track.host_pixel = track.seen.pixel.head<2>();
-    track.host_plane = vision::surface_plane(stereo_, track.seen.pixel, match.gradient);
+    track.host_plane = vision::surface_plane(stereo_, offset_.without(track.seen.pixel), match.gradient);
     track.guide_from_host = guide_from_current_;
   }
 
@@ -367,6 +383,7 @@ class TrackingStage::Implementation {
   // As of the last good frame.
   std::vector<Track> tracks_;  // ascending id
   MotionModel motion_model_;
+  DisparityOffset offset_;
   Eigen::Isometry3d guide_from_previous_ = Eigen::Isometry3d::Identity();
   std::int64_t good_stamp_ns_ = 0;
   std::int64_t interval_ns_ = 100'000'000;

@@ -54,6 +54,8 @@ class TwoStageLocalBundleAdjuster {
 
   /// What to take off a measured disparity, as far as it is known by now (px); see BundleProblem.
   double disparity_offset_px() const { return disparity_offset_px_; }
+  /// Others have learned that it is so much larger.
+  void move_disparity_offset(double by_px) { disparity_offset_px_ += by_px; }
 
   /// In how many keyframes a point was seen, standing still as the window has it; 0 for one that is in none. nullopt for a point that
   /// contradicts the camera's motion.

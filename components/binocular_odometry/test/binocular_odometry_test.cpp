@@ -85,6 +85,28 @@ TEST(BinocularOdometry, LearnsHowTheRightCameraHasTurned) {
   EXPECT_LT(vision::so3_log(moved.linear() * expected.linear().transpose()).norm(), 0.001);
 }
 
+/// As the calibration leaves it of a turn of one camera towards the other: no row shows it, and the path would be too short.
+TEST(BinocularOdometry, LearnsWhatAllDisparitiesAreTooLargeBy) {
+  constexpr double kOffset_px = 0.5;
+  TrackingStage tracking(SyntheticScene::stereo(), {}, nullptr);
+  MotionStage motion(SyntheticScene::stereo(), {}, nullptr);
+  const Eigen::Matrix3d turned = vision::so3_exp({0.0, kOffset_px / SyntheticScene::stereo().camera.fx, 0.0});
+  constexpr int kFrames = 40;
+  Eigen::Isometry3d began = Eigen::Isometry3d::Identity(), ended = began;
+  for (int i = 0; i < 2 * kFrames; ++i) {
+    const int place = i < kFrames ? i : 2 * kFrames - 1 - i;
+    auto frame = SyntheticScene::frame(place, truth(place), turned);
+    frame.stamp_ns = 1 + i * SyntheticScene::kInterval_ns;
+    const TrackedFrame tracked = tracking.track(frame);
+    ended = motion.estimate(tracked).odom_from_left;
+    if (i == kFrames) began = ended;
+    if (i < kFrames) continue;
+    ASSERT_NEAR(tracked.disparity_offset_px, kOffset_px, 0.15) << "frame " << i;  // it grows towards the sides
+  }
+  const Eigen::Isometry3d moved = began.inverse() * ended, expected = truth(kFrames - 1).inverse() * truth(0);
+  EXPECT_LT((moved.translation() - expected.translation()).norm(), 0.015 * expected.translation().norm());
+}
+
 TEST(BinocularOdometry, BeginsAtTheOriginWithoutUncertainty) {
   BinocularOdometry odometry(SyntheticScene::stereo(), {});
   const OdometryEstimate first = odometry.step(drive()[0]);

@@ -25,6 +25,7 @@ struct TrackedFrame {
   int tracked = 0;                        ///< of these, known from before
   int matched = 0;                        ///< of all, found in the right image too
   double row_misalignment_px = 0.0;       ///< how far the right image's rows are off the left's, as learned by now
+  double disparity_offset_px = 0.0;       ///< what all disparities are too large by, as learned by now; not taken off
   std::string fault;                      ///< why the frame cannot be used; empty when it can
 };
 
