@@ -19,7 +19,6 @@ using Matrix7d = Eigen::Matrix<double, 7, 7>;
 constexpr int kOffset = 6;  // after the six of the motion
 constexpr int kIterations = 3;
 constexpr double kStep_px = 0.004;    // how far it may have moved from one frame to the next: heat, shocks
-constexpr double kLargest_px = 2.0;   // more is no remainder, but another calibration
 constexpr double kSameErrors = 10.0;  // frames over which a point's disparity errs alike
 constexpr double kFarOff2 = 25.0;     // whitened squared error, five standard deviations: it moves, or is mismatched
 constexpr double kLossScale = 2.0;    // standard deviations

@@ -3,7 +3,6 @@
 
 #include <Eigen/Geometry>
 #include <span>
-#include <vector>
 
 #include "panvo/binocular_odometry/tracked_frame.hpp"
 #include "panvo/vision/camera.hpp"
@@ -21,6 +20,8 @@ struct SeenTwice {
 /// frames to pair of frames one unknown that hardly changes, estimated along with the motion between them (a Kalman filter of one state).
 class DisparityOffset {
  public:
+  static constexpr double kLargest_px = 2.0;  ///< more is no remainder, but another calibration
+
   double px() const noexcept { return px_; }
 
   /// A disparity as it would be without the offset.

@@ -217,16 +217,23 @@ class TrackingStage::Implementation {
     track.gradient = match.gradient;
   }
 
+  // Those of the tracks whose disparity was known in the last good frame.
+  std::vector<SeenTwice> seen_twice(const std::vector<Track>& tracks) const {
+    std::vector<SeenTwice> points;
+    auto known = tracks_.begin();
+    for (const Track& track : tracks) {
+      while (known->id < track.id) ++known;  // both ascending, and every track was known
+      if (known->seen.has_disparity) points.push_back({known->seen, track.seen});
+    }
+    return points;
+  }
+
   // The tracking stage's own idea of the motion: enough to foretell where features go, never published.
   std::optional<Eigen::Isometry3d> coarse_motion(const std::vector<Track>& tracks) const {
     const Stage stage(observer_, "coarse_motion");
     std::vector<PointPair> pairs;
-    auto known = tracks_.begin();
-    for (const Track& track : tracks) {
-      while (known->id < track.id) ++known;  // both ascending, and every track was known
-      if (!known->seen.has_disparity) continue;
-      pairs.push_back(
-          {offset_.without(known->seen.pixel), offset_.without(track.seen.pixel), track.seen.has_disparity});
+    for (const auto& [previous, current] : seen_twice(tracks)) {
+      pairs.push_back({offset_.without(previous.pixel), offset_.without(current.pixel), current.has_disparity});
     }
     const std::array guesses{expected_motion_, Eigen::Isometry3d::Identity()};
     const auto motion = estimate_motion(stereo_, pairs, guesses, {});
@@ -238,12 +245,8 @@ class TrackingStage::Implementation {
   // The scouts' motion again, of all tracks, and what all disparities are too large by.
   Eigen::Isometry3d learn_offset(const std::vector<Track>& tracks, const Eigen::Isometry3d& current_from_previous) {
     const Stage stage(observer_, "learn_offset");
-    std::vector<SeenTwice> points;
-    auto known = tracks_.begin();
-    for (const Track& track : tracks) {
-      while (known->id < track.id) ++known;
-      if (known->seen.has_disparity && track.seen.has_disparity) points.push_back({known->seen, track.seen});
-    }
+    std::vector<SeenTwice> points = seen_twice(tracks);
+    std::erase_if(points, [](const SeenTwice& point) { return !point.current.has_disparity; });
     return offset_.learn(stereo_, points, current_from_previous);
   }
 

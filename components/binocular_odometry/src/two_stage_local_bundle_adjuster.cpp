@@ -4,14 +4,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "disparity_offset.hpp"
 #include "panvo/vision/stereo_geometry.hpp"
 
 namespace panvo::binocular_odometry {
 namespace {
 
-constexpr double kContradiction2 = 25.0;   // whitened squared error, five standard deviations
-constexpr double kLargestOffset_px = 2.0;  // more is no remainder, but another calibration
-constexpr int kFewestShared = 10;          // points that tie the head to the window
+constexpr double kContradiction2 = 25.0;  // whitened squared error, five standard deviations
+constexpr int kFewestShared = 10;         // points that tie the head to the window
 
 Eigen::Vector3d inverse_sigma(const Observation& seen) {
   return {1.0 / seen.sigma_px, 1.0 / seen.sigma_px, seen.has_disparity ? 1.0 / seen.sigma_disparity_px : 0.0};
@@ -121,7 +121,8 @@ std::optional<MeasuredMotion> TwoStageLocalBundleAdjuster::refine_window(Keyfram
     keyframes_[frame].left_from_odom = problem.left_from_world[frame];
   }
   head.left_from_odom = problem.left_from_world.back();
-  disparity_offset_px_ = std::clamp(problem.disparity_offset_px, -kLargestOffset_px, kLargestOffset_px);
+  disparity_offset_px_ =
+      std::clamp(problem.disparity_offset_px, -DisparityOffset::kLargest_px, DisparityOffset::kLargest_px);
   for (size_t i = 0; i < ids.size(); ++i) points_.at(ids[i]).point = problem.points[i];
 
   for (const auto& observation : problem.observations) {

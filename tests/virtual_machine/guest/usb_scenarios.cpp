@@ -51,6 +51,7 @@ class UsbStereoCamera : public ::testing::Test {
     return pictures;
   }
 
+  std::vector<std::int64_t> began_ns_;  // the camera's thread's, until it is unplugged
   std::unique_ptr<UsbCamera> camera_;
 };
 
@@ -90,10 +91,9 @@ double scatter_ms(const std::vector<Grabbed::Frame>& frames, const std::vector<s
 }
 
 TEST_F(UsbStereoCamera, DeliversSixtyImagesAtThirtyHertzAndCountsWhatABusyMachineLoses) {
-  std::vector<std::int64_t> began_ns;  // the camera's thread's, until it is unplugged
   unplug();
-  plug_in([&](std::uint32_t number) {
-    began_ns.push_back(Steady::now().time_since_epoch().count());
+  plug_in([this](std::uint32_t number) {
+    began_ns_.push_back(Steady::now().time_since_epoch().count());
     return pictures().file(number);
   });
   const Grabbed grabbed(settings());
@@ -115,7 +115,7 @@ TEST_F(UsbStereoCamera, DeliversSixtyImagesAtThirtyHertzAndCountsWhatABusyMachin
   EXPECT_EQ(report.details.at("stamps"), "of the start of exposure");
   const double seconds = static_cast<double>(sixty.back().stamp_ns - sixty.front().stamp_ns) * 1e-9;
   std::vector<std::int64_t> begun_ns;
-  for (const std::uint32_t number : shown) begun_ns.push_back(began_ns.at(number));
+  for (const std::uint32_t number : shown) begun_ns.push_back(began_ns_.at(number));
   const double apart_ms = scatter_ms(sixty, begun_ns);
   std::printf("60 of %zu in %.2f s, %zu delivered; stamps %.1f ms from when the camera began\n", 60 + lost, seconds,
               all.size(), apart_ms);
