@@ -37,7 +37,7 @@ class FacadeBuilder {
     add_base();
     add_top();
     add_ends();
-    if (style_.ivy && side_ != FacadeSide::kBack) add_ivy();
+    if (style_.ivy && side_ != FacadeSide::kBack) build_ivy(style_, materials_, frame_, lights_, mesh_);
   }
 
  private:
@@ -67,7 +67,7 @@ class FacadeBuilder {
       case Cell::kDoor:
         half = style_.use == BuildingUse::kHouse ? 0.55f : 0.95f;
         half = std::min(half, 0.5f * bay_ - 0.2f);
-        bottom = z0 + entry_height();
+        bottom = z0 + entry_height(style_);
         top = bottom + (style_.use == BuildingUse::kHouse ? 2.2f : 2.6f);
         break;
       case Cell::kShop:
@@ -93,8 +93,6 @@ class FacadeBuilder {
     opening.top = std::min(opening.top, z1 - 0.3f - opening.rise);
     return opening;
   }
-
-  float entry_height() const { return 0.15f * std::floor(style_.base_height / 0.15f); }
 
   Tint wall_tint(float u, float z) const {
     // darker at the foot and uneven in patches of a bay or so
@@ -136,14 +134,14 @@ class FacadeBuilder {
     add_reveal(opening, kind == Cell::kDoor ? style_.recess + 0.09f : style_.recess, wall);
     if (kind == Cell::kDoor) {
       build_door(style_, materials_, frame_, opening, lights_, mesh_);
-      add_entrance(opening);
+      build_entrance(style_, materials_, frame_, opening, lights_, mesh_);
     } else if (kind == Cell::kGate) {
       add_wall_box(mesh_, frame_, opening.left, opening.right, opening.bottom, opening.top, -0.2f, -0.08f,
                    materials_.metal_sheet, style_.shutter_tint);
     } else {
       build_window(style_, materials_, frame_, opening, is_flat(), lights_, mesh_);
-      if (kind == Cell::kShop) add_shop_sign(opening);
-      if (kind == Cell::kBalcony) add_balcony(opening, floor);
+      if (kind == Cell::kShop) build_shop_sign(style_, materials_, frame_, opening, lights_, mesh_);
+      if (kind == Cell::kBalcony) build_balcony(style_, materials_, frame_, opening, floor == 1, mesh_);
     }
     if (kind != Cell::kGate && kind != Cell::kShop) trim(opening, floor, kind);
   }
@@ -209,7 +207,9 @@ class FacadeBuilder {
                      is_open ? 0.0f : -0.06f, is_open ? 0.05f : -0.02f, materials_.shutter, style_.shutter_tint);
       }
     }
-    if (is_window && side_ == FacadeSide::kSide && lights_.chance(0.05)) add_air_conditioner(opening);
+    if (is_window && side_ == FacadeSide::kSide && lights_.chance(0.05)) {
+      build_air_conditioner(materials_, frame_, opening, mesh_);
+    }
   }
 
   void add_arch_band(const Opening& opening) {
@@ -332,121 +332,6 @@ class FacadeBuilder {
     }
   }
 
-  void add_entrance(const Opening& opening) {
-    const float left = opening.left - 0.25f, right = opening.right + 0.25f;
-    const int steps = static_cast<int>(std::lround(entry_height() / 0.15f));
-    for (int step = 0; step < steps; ++step) {
-      const float reach = 0.35f + 0.3f * static_cast<float>(steps - step);
-      add_wall_box(mesh_, frame_, left - 0.1f, right + 0.1f, -frame_.depth_below, 0.15f * static_cast<float>(step + 1),
-                   -0.2f, reach, materials_.concrete, grey(0.9f), 1);
-    }
-    const float top = opening.top + opening.rise;
-    if (style_.use == BuildingUse::kInstitute || lights_.chance(0.45)) {  // a canopy
-      const float reach = style_.use == BuildingUse::kInstitute ? 2.0f : 1.0f;
-      add_wall_box(mesh_, frame_, left - 0.3f, right + 0.3f, top + 0.25f, top + 0.4f, 0.0f, reach, style_.trim,
-                   style_.trim_tint, 1);
-      if (reach > 1.5f) {
-        for (const float u : {left - 0.15f, right + 0.15f}) {
-          add_tube(mesh_, frame_.at(u, reach - 0.2f, 0.0f), frame_.at(u, reach - 0.2f, top + 0.3f), 0.06f, 0.06f, 8,
-                   materials_.metal_post);
-        }
-      }
-    } else {
-      add_wall_box(mesh_, frame_, opening.middle() - 0.1f, opening.middle() + 0.1f, top + 0.22f, top + 0.42f, 0.0f,
-                   0.22f, materials_.lamp_head, grey(0.9f), 1);
-    }
-    const float beside = right + 0.15f;
-    if (beside + 0.5f < frame_.width) {
-      add_wall_box(mesh_, frame_, beside, beside + 0.4f, opening.bottom + 1.3f, opening.bottom + 1.6f, 0.0f, 0.03f,
-                   lights_.chance(0.5) ? materials_.sign_white : materials_.sign_blue, grey(1.0f), 1);
-      if (lights_.chance(0.3)) {
-        add_wall_box(mesh_, frame_, beside, beside + 0.6f, opening.bottom + 0.35f, opening.bottom + 1.2f, 0.0f, 0.02f,
-                     materials_.poster, grey(1.0f), 1);
-      }
-    }
-  }
-
-  void add_shop_sign(const Opening& opening) {
-    const double kind = lights_.uniform();
-    const Tint tint =
-        tint_of(static_cast<float>(lights_.uniform(0.3, 1.0)), static_cast<float>(lights_.uniform(0.3, 1.0)),
-                static_cast<float>(lights_.uniform(0.3, 1.0)));
-    add_wall_box(mesh_, frame_, opening.left - 0.1f, opening.right + 0.1f, opening.top + 0.1f, opening.top + 0.6f, 0.0f,
-                 0.1f, kind < 0.5 ? materials_.sign_white : materials_.metal_painted, tint, 1);
-    if (kind > 0.6) {  // an awning
-      mesh_.add_quad(frame_.at(opening.left - 0.1f, 1.2f, opening.top - 0.35f),
-                     frame_.at(opening.right + 0.1f, 1.2f, opening.top - 0.35f),
-                     frame_.at(opening.right + 0.1f, 0.02f, opening.top + 0.1f),
-                     frame_.at(opening.left - 0.1f, 0.02f, opening.top + 0.1f), materials_.curtain_light,
-                     Eigen::Vector2f::Zero(), tint);
-    }
-    if (kind < 0.35) {
-      add_wall_box(mesh_, frame_, opening.left + 0.3f, opening.left + 0.9f, opening.bottom + 0.5f,
-                   opening.bottom + 1.35f, -style_.recess + 0.005f, -style_.recess + 0.015f, materials_.poster,
-                   grey(1.0f), 1);
-    }
-  }
-
-  void add_balcony(const Opening& opening, int floor) {
-    const float left = opening.left - 0.4f, right = opening.right + 0.4f;
-    const float z = opening.bottom - 0.02f;
-    const float reach = floor == 1 ? 1.1f : 0.9f;
-    add_wall_box(mesh_, frame_, left, right, z - 0.16f, z, 0.0f, reach, style_.trim, style_.trim_tint, 1);
-    const Tint iron = style_.use == BuildingUse::kHouse ? style_.shutter_tint : grey(0.2f);
-    const auto rail = [&](float u, float out) {
-      add_tube(mesh_, frame_.at(u, out, z), frame_.at(u, out, z + 0.95f), 0.012f, 0.012f, 3, materials_.metal_painted,
-               iron);
-    };
-    const int count = static_cast<int>((right - left) / 0.2f);
-    for (int i = 0; i <= count; ++i)
-      rail(left + 0.04f + (right - left - 0.08f) * static_cast<float>(i) / static_cast<float>(count), reach - 0.05f);
-    for (float out = 0.2f; out < reach - 0.1f; out += 0.25f) {
-      rail(left + 0.04f, out);
-      rail(right - 0.04f, out);
-    }
-    add_wall_box(mesh_, frame_, left, right, z + 0.93f, z + 0.98f, reach - 0.08f, reach - 0.02f,
-                 materials_.metal_painted, iron, 1);
-    for (const float u : {left + 0.02f, right - 0.06f}) {
-      add_wall_box(mesh_, frame_, u, u + 0.04f, z + 0.93f, z + 0.98f, 0.0f, reach - 0.05f, materials_.metal_painted,
-                   iron, 1);
-    }
-    for (const float u : {left + 0.1f, right - 0.25f}) {  // brackets
-      add_wall_box(mesh_, frame_, u, u + 0.15f, z - 0.5f, z - 0.16f, 0.0f, 0.35f, style_.trim, style_.trim_tint, 1);
-    }
-  }
-
-  void add_air_conditioner(const Opening& opening) {
-    add_wall_box(mesh_, frame_, opening.right + 0.15f, opening.right + 0.9f, opening.bottom - 0.5f,
-                 opening.bottom + 0.05f, 0.08f, 0.38f, materials_.metal_painted, grey(0.85f), 1);
-    add_wall_box(mesh_, frame_, opening.right + 0.22f, opening.right + 0.62f, opening.bottom - 0.42f,
-                 opening.bottom - 0.03f, 0.3f, 0.385f, materials_.metal_painted, grey(0.25f), 1);
-  }
-
-  void add_ivy() {
-    const float middle = static_cast<float>(lights_.uniform(0.0, 1.0)) * frame_.width;
-    const float height = static_cast<float>(lights_.uniform(0.5, 0.95)) * wall_height(style_);
-    const float half_width = static_cast<float>(lights_.uniform(1.2, 3.0));
-    const int cards = static_cast<int>(10.0f * half_width * height);
-    for (int i = 0; i < std::min(cards, 220); ++i) {
-      const float z = height * static_cast<float>(std::pow(lights_.uniform(), 1.3));
-      const float spread = half_width * (1.05f - 0.7f * z / height);
-      const float u = middle + spread * static_cast<float>(lights_.uniform(-1.0, 1.0));
-      if (u < 0.2f || u > frame_.width - 0.2f) continue;
-      const float size = static_cast<float>(lights_.uniform(0.25, 0.5));
-      const float turn = static_cast<float>(lights_.uniform(0.0, 6.28));
-      const float lean = static_cast<float>(lights_.uniform(-0.3, 0.3));
-      const Eigen::Vector3f up(0, 0, 1);
-      const Eigen::Vector3f right =
-          size * (std::cos(turn) * frame_.right + std::sin(turn) * up + lean * frame_.outwards);
-      const Eigen::Vector3f rise =
-          size * (-std::sin(turn) * frame_.right + std::cos(turn) * up + 0.3f * frame_.outwards);
-      const float brightness = static_cast<float>(lights_.uniform(0.5, 0.95));
-      add_card(mesh_, frame_.at(u, static_cast<float>(lights_.uniform(0.06, 0.22)), z), right, rise,
-               (frame_.outwards + 0.5f * up + 0.3f * right).normalized(), materials_.leaves_period_m, materials_.leaves,
-               tint_of(0.8f * brightness, brightness, 0.75f * brightness));
-    }
-  }
-
   const FacadeStyle& style_;
   const BuildingMaterials& materials_;
   const WallFrame& frame_;
@@ -459,22 +344,6 @@ class FacadeBuilder {
 };
 
 }  // namespace
-
-void add_wall_box(Mesh& mesh, const WallFrame& frame, float u0, float u1, float z0, float z1, float behind, float front,
-                  std::uint16_t material, Tint tint) {
-  constexpr float kAboveEyes = 3.2f, kBelowEyes = 0.6f;  // of those who drive by: what looks away is left out
-  const auto at = [&](float u, float out, float z) { return frame.at(u, out, z); };
-  const Eigen::Vector2f low(u0, z0);
-  mesh.add_quad(at(u0, front, z0), at(u1, front, z0), at(u1, front, z1), at(u0, front, z1), material, low, tint);
-  mesh.add_quad(at(u1, front, z0), at(u1, behind, z0), at(u1, behind, z1), at(u1, front, z1), material, low, tint);
-  mesh.add_quad(at(u0, behind, z0), at(u0, front, z0), at(u0, front, z1), at(u0, behind, z1), material, low, tint);
-  if (z1 < kAboveEyes) {
-    mesh.add_quad(at(u0, front, z1), at(u1, front, z1), at(u1, behind, z1), at(u0, behind, z1), material, low, tint);
-  }
-  if (z0 > kBelowEyes) {
-    mesh.add_quad(at(u0, behind, z0), at(u1, behind, z0), at(u1, front, z0), at(u0, front, z0), material, low, tint);
-  }
-}
 
 void build_facade(const FacadeStyle& style, const BuildingMaterials& materials, const WallFrame& frame, FacadeSide side,
                   Random lights, Mesh& mesh) {

@@ -92,6 +92,22 @@ void build_window(const FacadeStyle& style, const BuildingMaterials& materials, 
 void build_door(const FacadeStyle& style, const BuildingMaterials& materials, const WallFrame& frame,
                 const Opening& opening, Random& lights, Mesh& mesh);
 
+/// What is fixed to a wall (facade_fixtures.cpp): steps, canopy or lamp and a plate at a door; a sign, now and then an awning or a
+/// poster at a shop; a balcony before its door, the lowest one deeper; what cools a room; ivy.
+void build_entrance(const FacadeStyle& style, const BuildingMaterials& materials, const WallFrame& frame,
+                    const Opening& opening, Random& lights, Mesh& mesh);
+void build_shop_sign(const FacadeStyle& style, const BuildingMaterials& materials, const WallFrame& frame,
+                     const Opening& opening, Random& lights, Mesh& mesh);
+void build_balcony(const FacadeStyle& style, const BuildingMaterials& materials, const WallFrame& frame,
+                   const Opening& opening, bool is_lowest, Mesh& mesh);
+void build_air_conditioner(const BuildingMaterials& materials, const WallFrame& frame, const Opening& opening,
+                           Mesh& mesh);
+void build_ivy(const FacadeStyle& style, const BuildingMaterials& materials, const WallFrame& frame, Random& lights,
+               Mesh& mesh);
+
+/// Height (m) of a door's threshold above the ground: whole steps.
+float entry_height(const FacadeStyle& style);
+
 /// The outline of an opening, from its lower left corner clockwise (as seen from outside) to its lower right one.
 std::vector<Eigen::Vector2f> outline(const Opening& opening);
 

@@ -14,7 +14,6 @@
 #include <sstream>
 
 #include "../config/temporary_folder.hpp"
-#include "nav_msgs/msg/Odometry.h"
 #include "panvo_msgs/msg/AzimuthChange.h"
 #include "panvo_msgs/msg/CorrectionOutcome.h"
 #include "panvo_msgs/msg/LandmarkMatch.h"
@@ -22,36 +21,14 @@
 #include "panvo_msgs/msg/PanoramicLandmark.h"
 #include "panvo_msgs/msg/PositionCorrection.h"
 #include "results/odometry_lines.hpp"
+#include "run_samples.hpp"
 
 namespace panvo::runtime {
 namespace {
 
-using nav_msgs::msg::Odometry;
 using testing::_;
 using testing::ElementsAre;
 using testing::HasSubstr;
-using testing::IsEmpty;
-
-Odometry odometry_at(std::int32_t sec, std::uint32_t nanosec, double x) {
-  Odometry odometry;
-  odometry.header().stamp().sec(sec);
-  odometry.header().stamp().nanosec(nanosec);
-  odometry.pose().pose().position().x(x);
-  odometry.pose().pose().orientation().w(1.0);
-  odometry.pose().covariance()[7] = 0.25;
-  odometry.twist().covariance()[35] = 1e-6;
-  odometry.twist().twist().linear().x(2.0);
-  return odometry;
-}
-
-SamplePtr sample_of(const Odometry& odometry) {
-  return Sample::of(interfaces::message_type<Odometry>(), std::make_shared<const Odometry>(odometry), 0);
-}
-
-TopicDescription topic(const std::string& name) {
-  const auto& type = interfaces::message_type<Odometry>();
-  return {name, std::string(type.name), {}, &type};
-}
 
 std::vector<std::string> lines_of(const std::string& text) {
   std::istringstream stream(text);
@@ -64,8 +41,6 @@ std::vector<std::string> lines_of(const std::string& text) {
 
 std::size_t columns_of(const std::string& line) { return 1U + std::count(line.begin(), line.end(), ','); }
 
-const auto kBinocular = topic("/odometry/binocular");
-
 TEST(StampText, KeepsEveryNanosecond) {
   EXPECT_EQ(stamp_text(1'317'046'452'003'070'009), "1317046452.003070009");
   EXPECT_EQ(stamp_text(0), "0.000000000");
@@ -77,10 +52,10 @@ TEST(RunFiles, WantsTheOdometryTopicsAndNoOthers) {
   const TemporaryFolder folder;
   const RunFiles files(folder.path());
   EXPECT_TRUE(files.wants(kBinocular));
-  EXPECT_TRUE(files.wants(topic("/odometry/enhanced")));
-  EXPECT_TRUE(files.wants(topic("/robot/ground_truth/odometry")));
-  EXPECT_FALSE(files.wants(topic("/odometry/visual")));
-  EXPECT_FALSE(files.wants(topic("/visual_odometry/binocular")));
+  EXPECT_TRUE(files.wants(odometry_topic("/odometry/enhanced")));
+  EXPECT_TRUE(files.wants(odometry_topic("/robot/ground_truth/odometry")));
+  EXPECT_FALSE(files.wants(odometry_topic("/odometry/visual")));
+  EXPECT_FALSE(files.wants(odometry_topic("/visual_odometry/binocular")));
   auto other_type = kBinocular;
   other_type.type_name = "sensor_msgs/msg/Image";
   EXPECT_FALSE(files.wants(other_type));
@@ -92,23 +67,12 @@ TEST(RunFiles, WritesEachPoseAtOnceAndWithoutLoss) {
   files.write(kBinocular, sample_of(odometry_at(1317046452, 3070009, 0.1 + 0.2)));
   EXPECT_EQ(folder.read("a/b/odometry_binocular.tum"), "1317046452.003070009 0.30000000000000004 0 0 0 0 0 1\n");
   files.write(kBinocular, sample_of(odometry_at(1317046453, 0, -1e-9)));
-  files.write(topic("/odometry/enhanced"), sample_of(odometry_at(0, 1, 2)));
-  files.write(topic("/ground_truth/odometry"), sample_of(odometry_at(0, 1, 3)));
+  files.write(odometry_topic("/odometry/enhanced"), sample_of(odometry_at(0, 1, 2)));
+  files.write(odometry_topic("/ground_truth/odometry"), sample_of(odometry_at(0, 1, 3)));
   EXPECT_THAT(lines_of(folder.read("a/b/odometry_binocular.tum")),
               ElementsAre(HasSubstr("1317046452"), "1317046453.000000000 -1e-09 0 0 0 0 0 1"));
   EXPECT_EQ(folder.read("a/b/odometry_enhanced.tum"), "0.000000001 2 0 0 0 0 0 1\n");
   EXPECT_EQ(folder.read("a/b/ground_truth.tum"), "0.000000001 3 0 0 0 0 0 1\n");
-}
-
-template <class Message>
-TopicDescription topic_of(const std::string& name) {
-  const auto& type = interfaces::message_type<Message>();
-  return {name, std::string(type.name), {}, &type};
-}
-
-template <class Message>
-SamplePtr sample_of_message(const Message& message) {
-  return Sample::of(interfaces::message_type<Message>(), std::make_shared<const Message>(message), 0);
 }
 
 TEST(RunFiles, WritesLandmarksAndMatches) {
@@ -125,7 +89,7 @@ TEST(RunFiles, WritesLandmarksAndMatches) {
   landmark.keypoints()[1].has_point(true);
   const auto landmarks = topic_of<panvo_msgs::msg::PanoramicLandmark>("/landmarks");
   ASSERT_TRUE(files.wants(landmarks));
-  files.write(landmarks, sample_of_message(landmark));
+  files.write(landmarks, sample_of(landmark));
   EXPECT_THAT(lines_of(folder.read("landmarks.csv")),
               ElementsAre(HasSubstr("stamp_ns,id,"), "2000000000,7,1,1.5,0,0,0,0,0,1,0.2,0,3,1"));
 
@@ -139,7 +103,7 @@ TEST(RunFiles, WritesLandmarksAndMatches) {
   match.candidates(4);
   const auto matches = topic_of<panvo_msgs::msg::LandmarkMatch>("/robot/landmarks/match");
   ASSERT_TRUE(files.wants(matches));
-  files.write(matches, sample_of_message(match));
+  files.write(matches, sample_of(match));
   const auto lines = lines_of(folder.read("matches.csv"));
   ASSERT_EQ(lines.size(), 2U);
   EXPECT_EQ(lines[1], "5,rejected,7,0,0,0.5,,4,0,0,\"8 inliers, \"\"12\"\" needed\"");
@@ -155,7 +119,7 @@ TEST(RunFiles, WritesWhatTheLocalizerIsToldAndSays) {
   change.azimuth_change_rad(0.5);
   change.variance_rad2(0.04);
   change.valid(true);
-  files.write(topic_of<panvo_msgs::msg::AzimuthChange>("/compass/azimuth_change"), sample_of_message(change));
+  files.write(topic_of<panvo_msgs::msg::AzimuthChange>("/compass/azimuth_change"), sample_of(change));
   EXPECT_THAT(lines_of(folder.read("azimuth.csv")), ElementsAre(_, "3000000000,2000000000,0.5,0.2,0,1,\"\""));
 
   panvo_msgs::msg::PositionCorrection correction;
@@ -165,7 +129,7 @@ TEST(RunFiles, WritesWhatTheLocalizerIsToldAndSays) {
   correction.landmark_from_base().pose().position().y(-2.0);
   correction.landmark_from_base().pose().orientation().w(1.0);
   correction.landmark_from_base().covariance()[35] = 0.25;
-  files.write(topic_of<panvo_msgs::msg::PositionCorrection>("/correction"), sample_of_message(correction));
+  files.write(topic_of<panvo_msgs::msg::PositionCorrection>("/correction"), sample_of(correction));
   EXPECT_THAT(lines_of(folder.read("corrections.csv")), ElementsAre(_, "0,4,full,31,0,-2,0,0,0,0,1,0,0,0.5,\"\""));
 
   panvo_msgs::msg::CorrectionOutcome outcome;
@@ -174,7 +138,7 @@ TEST(RunFiles, WritesWhatTheLocalizerIsToldAndSays) {
   outcome.reason("too far");
   outcome.chi_square(99.5);
   outcome.after().position().x(1.25);
-  files.write(topic_of<panvo_msgs::msg::CorrectionOutcome>("/correction/outcome"), sample_of_message(outcome));
+  files.write(topic_of<panvo_msgs::msg::CorrectionOutcome>("/correction/outcome"), sample_of(outcome));
   const auto outcomes = lines_of(folder.read("outcomes.csv"));
   ASSERT_EQ(outcomes.size(), 2U);
   EXPECT_EQ(outcomes[1], "0,4,rejected,99.5,0,0,0,0,0,0,1,1.25,0,0,0,0,0,1,\"too far\"");
@@ -183,7 +147,7 @@ TEST(RunFiles, WritesWhatTheLocalizerIsToldAndSays) {
   panvo_msgs::msg::LocalizationState state;
   state.state("lost");
   state.position_sigma_m(std::numeric_limits<double>::infinity());
-  files.write(topic_of<panvo_msgs::msg::LocalizationState>("/localization/state"), sample_of_message(state));
+  files.write(topic_of<panvo_msgs::msg::LocalizationState>("/localization/state"), sample_of(state));
   EXPECT_THAT(lines_of(folder.read("states.csv")), ElementsAre(_, "0,lost,,0,\"\""));
 }
 
@@ -224,9 +188,9 @@ TEST(RunFiles, LeavesOutWhatIsNotFiniteOrNoMessageAndSaysSo) {
 TEST(RunFiles, KeepsTheOdometryOfTwoRobotsApart) {
   const TemporaryFolder folder;
   RunFiles files(folder.path());
-  files.write(topic("/a/odometry/binocular"), sample_of(odometry_at(1, 0, 1)));
-  files.write(topic("/fleet/b/odometry/binocular"), sample_of(odometry_at(1, 0, 2)));
-  files.write(topic("/a/odometry/binocular"), sample_of(odometry_at(2, 0, 1)));
+  files.write(odometry_topic("/a/odometry/binocular"), sample_of(odometry_at(1, 0, 1)));
+  files.write(odometry_topic("/fleet/b/odometry/binocular"), sample_of(odometry_at(1, 0, 2)));
+  files.write(odometry_topic("/a/odometry/binocular"), sample_of(odometry_at(2, 0, 1)));
   EXPECT_EQ(lines_of(folder.read("odometry_binocular.tum")).size(), 2U);
   EXPECT_EQ(folder.read("fleet_b_odometry_binocular.tum"), "1.000000000 2 0 0 0 0 0 1\n");
 }
@@ -279,7 +243,7 @@ class FileSizeLimit {
 TEST(RunFiles, KeepsWholeLinesWhenTheDiskIsFull) {
   const TemporaryFolder folder;
   RunFiles files(folder.path());
-  const auto enhanced = topic("/odometry/enhanced");
+  const auto enhanced = odometry_topic("/odometry/enhanced");
   files.write(enhanced, sample_of(odometry_at(1, 0, 1)));
   {
     const FileSizeLimit limit(40);  // within the second line
@@ -311,23 +275,6 @@ TEST(RunFiles, RefusesAFolderThatCannotBeWrittenTo) {
       EXPECT_THAT(error.what(), HasSubstr("choose a folder that can be written to"));
     }
   }
-}
-
-RunSummary summary_of(const std::string& component, double wall_s) {
-  RunSummary summary;
-  summary.frames_in = 100;
-  summary.frames_out = 98;
-  summary.queues = {{component, "/stereo/left/image_rect", 100, 98, 2}};
-  summary.cpu_s = 1.5;
-  summary.wall_s = wall_s;
-  summary.peak_memory_mb = 120.5;
-  summary.version = "0.1.0";
-  summary.seed = 18446744073709551615U;
-  summary.replay = true;
-  summary.system_file = "stereo.yaml";
-  summary.changed_parameters = {{component, {{"tracker.max_features", "500"}}}};
-  summary.problems = {component + " was late"};
-  return summary;
 }
 
 TEST(RunFiles, FinishLeavesTimesAndSummary) {
@@ -372,62 +319,6 @@ TEST(RunFiles, SummaryTakesTextThatIsNotUtf8) {
   summary.system_file = "stereo\xff.yaml";
   files.finish(summary, {});
   EXPECT_EQ(nlohmann::json::parse(folder.read("summary.json"))["system_file"], "stereo\xef\xbf\xbd.yaml");
-}
-
-TEST(MergeRunFiles, MakesOneRunOfSeveralContainers) {
-  const TemporaryFolder folder;
-  StageTimes times;
-  times.add("track", 2'000'000, 1'000'000);
-  {
-    RunFiles player(folder.path() / "player");
-    player.write(topic("/ground_truth/odometry"), sample_of(odometry_at(1, 0, 1)));
-    player.finish(summary_of("player", 10), {{"player", times.snapshot()}});
-    RunFiles odometry(folder.path() / "odometry");
-    odometry.write(kBinocular, sample_of(odometry_at(1, 0, 2)));
-    auto summary = summary_of("odometry", 12);
-    summary.exit_status = 3;
-    odometry.finish(summary, {{"odometry", times.snapshot()}});
-  }
-  folder.write("player/run.log", "player");
-  folder.write("odometry/run.log", "odometry");
-  folder.write("run.log", "of an earlier run");
-  merge_run_files(folder.path(), {"player", "odometry"});
-
-  const auto summary = nlohmann::json::parse(folder.read("summary.json"));
-  EXPECT_EQ(summary["frames_in"], 200);
-  EXPECT_EQ(summary["cpu_s"], 3.0);
-  EXPECT_EQ(summary["wall_s"], 12.0);
-  EXPECT_EQ(summary["peak_memory_mb"], 241.0);
-  EXPECT_EQ(summary["queues"].size(), 2U);
-  EXPECT_EQ(summary["changed_parameters"].size(), 2U);
-  EXPECT_EQ(summary["exit_status"], 3);
-  EXPECT_EQ(summary["version"], "0.1.0");
-  EXPECT_EQ(summary["problems"].size(), 2U);
-  const auto timing = nlohmann::json::parse(folder.read("timing.json"));
-  EXPECT_EQ(timing["components"].size(), 2U);
-  EXPECT_EQ(timing["components"]["player"]["stages"]["track"]["count"], 1);
-  EXPECT_EQ(folder.read("ground_truth.tum"), "1.000000000 1 0 0 0 0 0 1\n");
-  EXPECT_EQ(folder.read("odometry_binocular.tum"), "1.000000000 2 0 0 0 0 0 1\n");
-  EXPECT_EQ(folder.read("run.log"), "player");
-  EXPECT_EQ(folder.read("odometry_run.log"), "odometry");
-  EXPECT_FALSE(std::filesystem::exists(folder.path() / "player"));
-}
-
-TEST(MergeRunFiles, NamesContainersThatWereKilledAndKeepsWhatTheyLeft) {
-  const TemporaryFolder folder;
-  RunFiles(folder.path() / "player").finish(summary_of("player", 10), {});
-  RunFiles(folder.path() / "odometry").write(kBinocular, sample_of(odometry_at(1, 0, 2)));
-  folder.write("cut/summary.json", "{\"version\": \"0.1");
-  merge_run_files(folder.path(), {"odometry", "player", "cut", "none"});
-  const auto summary = nlohmann::json::parse(folder.read("summary.json"));
-  EXPECT_EQ(summary["exit_status"], 1);
-  EXPECT_EQ(summary["version"], "0.1.0");
-  EXPECT_THAT(summary["problems"].get<std::vector<std::string>>(),
-              ElementsAre("player was late", "container odometry left no summary.json: it did not come to its end",
-                          "container cut left no summary.json: it did not come to its end",
-                          "container none left no summary.json: it did not come to its end"));
-  EXPECT_EQ(folder.read("odometry_binocular.tum"), "1.000000000 2 0 0 0 0 0 1\n");
-  EXPECT_EQ(nlohmann::json::parse(folder.read("timing.json"))["components"], nlohmann::json::object());
 }
 
 }  // namespace
