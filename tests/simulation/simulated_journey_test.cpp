@@ -136,6 +136,7 @@ TEST_F(SimulatedJourney, InPartListsWhatIsTrueOfThatPart) {
                                   "--start", std::to_string(kFrom_s), "--duration", std::to_string(kFor_s)});
   ASSERT_EQ(finished.status, 0) << finished.output;
   const auto sequence = YAML::LoadFile(folder_ / "part/sequence.yaml");
+  EXPECT_EQ(sequence["panorama_clock_offset_ns"].as<std::int64_t>(), 20'000'000);
   ASSERT_EQ(sequence["visits"].size(), 1u);
   EXPECT_GE(sequence["visits"][0]["t_ns"].as<std::int64_t>(), kFrom_ns);
   EXPECT_LE(sequence["visits"][0]["t_ns"].as<std::int64_t>(), kTo_ns);

@@ -28,10 +28,13 @@ std::optional<Eigen::Isometry3d> JourneyErrors::truth(std::int64_t stamp_ns, boo
 }
 
 LandmarkTruth JourneyErrors::landmark(const RunLandmark& landmark) const {
-  LandmarkTruth found{landmark.stamp_ns, false, of_map(landmark.map_from_base, landmark.stamp_ns)};
-  if (const auto then = truth(landmark.stamp_ns, true)) {
+  const auto stamp_ns = landmark.stamp_ns - frames_.recording.panorama_clock_offset_ns;
+  LandmarkTruth found{stamp_ns, false, of_map(landmark.map_from_base, stamp_ns)};
+  if (frames_.earlier == nullptr) return found;
+  const auto earlier_ns = landmark.stamp_ns - frames_.earlier->panorama_clock_offset_ns;
+  if (const auto then = truth(earlier_ns, true)) {
     const auto error = error_of(frames_.world_from_map * landmark.map_from_base, *then);
-    if (!found.error || error.flat_m < found.error->flat_m) found = {landmark.stamp_ns, true, error};
+    if (!found.error || error.flat_m < found.error->flat_m) found = {earlier_ns, true, error};
   }
   return found;
 }

@@ -18,8 +18,8 @@ struct FlatError {
 
 /// A landmark and where its panorama was truly taken.
 struct LandmarkTruth {
-  std::int64_t stamp_ns = 0;
-  bool was_earlier = false;  ///< it comes from the library
+  std::int64_t stamp_ns = 0;  ///< in the clock of the truth
+  bool was_earlier = false;   ///< it comes from the library
   std::optional<FlatError> error;
 };
 

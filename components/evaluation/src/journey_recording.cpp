@@ -94,6 +94,7 @@ std::vector<Disturbance> merged(std::vector<Disturbance> stretches) {
 
 void read_sequence(JourneyRecording& recording, const fs::path& file) {
   const auto sequence = read_yaml(file);
+  recording.panorama_clock_offset_ns = panorama_clock_offset_ns(file, sequence);
   recording.route = sequence["route"].as<std::string>("");
   recording.seed = sequence["seed"].as<std::string>("");
   for (const auto& effect : sequence["effects"]) recording.effects.push_back(effect.as<std::string>(""));
@@ -126,7 +127,7 @@ JourneyRecording read_journey_recording(const fs::path& folder) {
   const auto panoramas = folder / "mav0/cam2";
   if (fs::exists(panoramas / "data")) {
     recording.base_from_panorama = read_extrinsics(panoramas / "sensor.yaml");
-    recording.panoramas = list_panoramas(panoramas / "data");
+    recording.panoramas = list_panoramas(panoramas / "data", recording.panorama_clock_offset_ns);
     locate(recording.panoramas, recording.truth);
   }
   return recording;

@@ -16,9 +16,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::vector<RecordedVisit> read_visits(const fs::path& file, const std::vector<RecordedPanorama>& panoramas) {
+std::vector<RecordedVisit> read_visits(const fs::path& file, const YAML::Node& listed,
+                                       const std::vector<RecordedPanorama>& panoramas) {
   std::vector<RecordedVisit> visits;
-  const auto listed = read_yaml(file)["visits"];
   if (!listed || !listed.IsSequence() || listed.size() == 0) {
     throw InputError(file, "lists no visits", "places can only be scored where somebody says which they are");
   }
@@ -49,10 +49,12 @@ PlaceRecording read_place_recording(const fs::path& folder) {
   PlaceRecording recording;
   recording.folder = folder;
   recording.base_from_panorama = read_extrinsics(folder / "mav0/cam2/sensor.yaml");
-  recording.panoramas = list_panoramas(folder / "mav0/cam2/data");
+  const auto sequence_file = folder / "sequence.yaml";
+  const auto sequence = read_yaml(sequence_file);
+  recording.panoramas = list_panoramas(folder / "mav0/cam2/data", panorama_clock_offset_ns(sequence_file, sequence));
   const auto truth = read_euroc(folder / "mav0/state_groundtruth_estimate0/data.csv");
   locate(recording.panoramas, truth);
-  recording.visits = read_visits(folder / "sequence.yaml", recording.panoramas);
+  recording.visits = read_visits(sequence_file, sequence["visits"], recording.panoramas);
   return recording;
 }
 

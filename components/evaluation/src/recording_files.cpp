@@ -48,7 +48,18 @@ Eigen::Isometry3d read_extrinsics(const fs::path& file) {
   return pose;
 }
 
-std::vector<RecordedPanorama> list_panoramas(const fs::path& folder) {
+std::int64_t panorama_clock_offset_ns(const fs::path& file, const YAML::Node& sequence) {
+  const auto offset = sequence["panorama_clock_offset_ns"];
+  if (!offset) return 0;
+  try {
+    return offset.as<std::int64_t>();
+  } catch (const YAML::Exception& error) {
+    throw InputError(file, static_cast<std::size_t>(error.mark.line + 1), error.msg,
+                     "panorama_clock_offset_ns is a whole number of nanoseconds");
+  }
+}
+
+std::vector<RecordedPanorama> list_panoramas(const fs::path& folder, std::int64_t clock_offset_ns) {
   std::vector<RecordedPanorama> panoramas;
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(folder, error)) {
@@ -56,7 +67,9 @@ std::vector<RecordedPanorama> list_panoramas(const fs::path& folder) {
     panorama.file = entry.path();
     const auto stem = panorama.file.stem().string();
     const auto read = std::from_chars(stem.data(), stem.data() + stem.size(), panorama.stamp_ns);
-    if (read.ptr == stem.data() + stem.size() && !stem.empty()) panoramas.push_back(panorama);
+    if (read.ptr != stem.data() + stem.size() || stem.empty()) continue;
+    panorama.stamp_ns -= clock_offset_ns;
+    panoramas.push_back(panorama);
   }
   if (panoramas.empty()) {
     throw InputError(folder, "holds no image named by its stamp", "give a recording with panoramas");

@@ -67,6 +67,16 @@ TEST_F(JourneyFiles, ThatAreEmptyOrCutOffAreRefusedByLine) {
   EXPECT_THAT(run_error(), HasSubstr("odometry_binocular.tum: is empty"));
 }
 
+TEST_F(JourneyFiles, OfTheRecordingSayWhatThePanoramasClockIsAhead) {
+  EXPECT_EQ(read_journey_recording(folder_ / "recording").panoramas.at(0).stamp_ns, stamp(10));
+  write("recording/sequence.yaml", "panorama_clock_offset_ns: -20000000\n");
+  const auto recording = read_journey_recording(folder_ / "recording");
+  EXPECT_EQ(recording.panorama_clock_offset_ns, -20'000'000);
+  EXPECT_EQ(recording.panoramas.at(0).stamp_ns, stamp(10) + 20'000'000);
+  write("recording/sequence.yaml", "seed: 4\npanorama_clock_offset_ns: late\n");
+  EXPECT_THAT(recording_error(), AllOf(HasSubstr("sequence.yaml:2:"), HasSubstr("a whole number of nanoseconds")));
+}
+
 TEST_F(JourneyFiles, OfTheRecordingAreRefusedByLine) {
   write("recording/sequence.yaml", "visits:\n  - {id: 7, t_ns: 1800000000000000000}\n");
   EXPECT_THAT(recording_error(), HasSubstr("sequence.yaml:2: a visit outside of the truth's time"));

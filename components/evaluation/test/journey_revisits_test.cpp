@@ -46,6 +46,34 @@ TEST_F(JourneyRevisits, SayWhatACorrectionDidToTheError) {
   EXPECT_EQ(found.wrong, 0);
 }
 
+TEST_F(JourneyRevisits, AreComparedWithTheTruthOfWhenPanoramasWereTaken) {
+  constexpr std::int64_t kAhead_ns = 2'000'000'000;
+  auto run = read_journey_run(folder_ / "run");
+  for (auto& landmark : run.landmarks) landmark.stamp_ns += kAhead_ns;
+  for (auto& outcome : run.outcomes) outcome.stamp_ns += kAhead_ns;
+  for (auto& azimuth : run.azimuths) {
+    azimuth.stamp_ns += kAhead_ns;
+    azimuth.from_ns += kAhead_ns;
+  }
+  auto recording = read_journey_recording(folder_ / "recording");
+  EXPECT_NEAR(*score_revisits(journey_frames(run, recording, nullptr)).revisits[0].after_m, 2.0, 0.1)
+      << "two metres further on, as far as anybody knows";
+  recording.panorama_clock_offset_ns = kAhead_ns;
+  const auto frames = journey_frames(run, recording, nullptr);
+  const auto found = score_revisits(frames);
+  ASSERT_EQ(found.revisits.size(), 1U);
+  const auto& revisit = found.revisits[0];
+  EXPECT_EQ(revisit.stamp_ns, stamp(90));
+  EXPECT_NEAR(*revisit.before_m, 1.8, 1e-6);
+  EXPECT_NEAR(*revisit.after_m, 0.25, 1e-6);
+  EXPECT_NEAR(*revisit.landmark_m, 0.2, 1e-6);
+  EXPECT_NEAR(*revisit.landmark_heading_rad, 0.005, 1e-6);
+  EXPECT_EQ(revisit.landmark_stamp_ns, stamp(10));
+  const auto azimuth = score_azimuth(frames);
+  ASSERT_FALSE(azimuth.episodes.empty());
+  EXPECT_NEAR(*azimuth.episodes.back().compass_rad, 0.01, 1e-6) << "a milliradian each of ten seconds";
+}
+
 TEST_F(JourneyRevisits, GoFromTheFirstOfSeveralCorrectionsToTheLast) {
   write_outcomes(outcome(88, "applied", off(88, 1.76, 0.04), off(88, 0.5, 0.01)) +
                  outcome(90, "applied", off(90, 0.52, 0.01), enhanced(90)));

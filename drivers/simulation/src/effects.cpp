@@ -17,7 +17,7 @@ const std::array<EffectName, 8> kEffectNames{{
     {"rain", "streaks of drops", &Effects::rain},
     {"smear", "dirt on the lenses", &Effects::smear},
     {"dropped_frames", "one stereo frame and one panorama in fifty are missing", &Effects::dropped_frames},
-    {"time_offset", "the panorama's clock is 20 ms late", &Effects::time_offset},
+    {"time_offset", "panoramas are stamped 20 ms late", &Effects::time_offset},
 }};
 
 namespace {

@@ -81,10 +81,12 @@ std::string sequence_yaml(const Simulation& simulation) {
   text += fmt::format(
       "route: {}\nseed: {}\nhilliness: {:g}\ncalibration_error: {:g}\nhour: {:g}\neffects: [{}]\ntraveled_m: "
       "{:.3f}\nduration_s: {:.2f}\n"
-      "stereo_frames: {}\npanorama_frames: {}\nstart_ns: {}\nplace_kind: road junction\n",
+      "stereo_frames: {}\npanorama_frames: {}\npanorama_clock_offset_ns: {}  # what stamps of panoramas are ahead of "
+      "the truth's\n"
+      "start_ns: {}\nplace_kind: road junction\n",
       p.route.name, p.seed, p.hilliness, p.calibration_error, p.hour, fmt::join(names_of(p.effects), ", "),
       simulation.motion().travelled_m(to_s) - simulation.motion().travelled_m(from_s), to_s - from_s, stereo_frames,
-      panorama_frames, instants.front().stamp_ns);
+      panorama_frames, std::llround(p.effects.panorama_clock_offset_s() * 1e9), instants.front().stamp_ns);
   text += fmt::format("route_junctions: [{}]\n", fmt::join(p.route.junctions, ", "));
   text += junctions_yaml(roads);
 

@@ -12,7 +12,6 @@
 namespace panvo::simulation {
 namespace {
 
-constexpr double kPanoramaClockOffset_s = 0.02;
 constexpr double kDroppedShare = 1.0 / 50.0;
 
 std::int64_t nanoseconds(double seconds) { return static_cast<std::int64_t>(std::llround(seconds * 1e9)); }
@@ -161,7 +160,7 @@ Simulation::StereoImages Simulation::render_stereo(const Instant& instant) {
 
 std::vector<cv::Mat> Simulation::render_panorama(const Instant& instant) {
   const auto& panorama = parameters_.rig.panorama;
-  const double late_s = parameters_.effects.time_offset ? kPanoramaClockOffset_s : 0.0;
+  const double late_s = parameters_.effects.panorama_clock_offset_s();
   const double gain = heads_.front().sensor.gain();
   std::vector<cv::Mat> images;
   for (auto& head : heads_) {

@@ -42,9 +42,10 @@ struct JourneyRecording {
   std::string route;
   std::string seed;
   std::vector<std::string> effects;
-  std::map<int, JourneyPlace> places;     ///< by number
-  std::vector<JourneyVisit> visits;       ///< in order of time
-  std::vector<Disturbance> disturbances;  ///< stretches of one kind that touch are one
+  std::map<int, JourneyPlace> places;         ///< by number
+  std::vector<JourneyVisit> visits;           ///< in order of time
+  std::vector<Disturbance> disturbances;      ///< stretches of one kind that touch are one
+  std::int64_t panorama_clock_offset_ns = 0;  ///< what the panoramic camera's clock is ahead of the truth's
   std::vector<RecordedPanorama> panoramas;
   Eigen::Isometry3d base_from_panorama = Eigen::Isometry3d::Identity();
 };

@@ -15,7 +15,8 @@ namespace panvo::evaluation {
 
 /// A run, what is true of it, and how its frames lie in the world of the truth.
 struct JourneyFrames {
-  const JourneyRun& run;
+  JourneyRun
+      run;  ///< all of its stamps in the clock of the truth, but those of landmarks, which may come from the earlier journey
   const JourneyRecording& recording;
   const JourneyRecording* earlier = nullptr;  ///< the one that the library was made on, if that was another
   Eigen::Isometry3d world_from_map = Eigen::Isometry3d::Identity();

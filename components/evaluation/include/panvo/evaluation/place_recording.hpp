@@ -13,7 +13,7 @@ namespace panvo::evaluation {
 
 /// A panorama of a recording and where it was taken.
 struct RecordedPanorama {
-  std::int64_t stamp_ns = 0;
+  std::int64_t stamp_ns = 0;  ///< in the clock of the truth
   std::filesystem::path file;
   Eigen::Isometry3d world_from_base = Eigen::Isometry3d::Identity();
   double travelled_m = 0.0;  ///< since the first panorama

@@ -17,7 +17,10 @@ struct Effects {
   bool rain = false;            ///< streaks of drops
   bool smear = false;           ///< dirt on the lenses
   bool dropped_frames = false;  ///< one stereo frame and one panorama in fifty are missing
-  bool time_offset = false;     ///< the panorama's clock is 20 ms late
+  bool time_offset = false;     ///< panoramas are stamped 20 ms late
+
+  /// What the panorama's clock is ahead of the stereo camera's and of the truth's, s.
+  double panorama_clock_offset_s() const { return time_offset ? 0.02 : 0.0; }
 };
 
 struct EffectName {
