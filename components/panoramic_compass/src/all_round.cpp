@@ -22,9 +22,18 @@ constexpr int kHalf = 2;                      // sector patches are sought at ha
 constexpr double kSmallestFoundShare = 0.15;  // of the points sought: fewer agree by chance
 constexpr int kMostFailures = 3;              // then the reference is of another world
 constexpr double kSideSector_rad = 0.6;       // to either side of abeam
+constexpr double kAhead = 0.05;               // sine: nearer to the way driven the angle to it does not tell the size
+constexpr double kMostMagnified = 1.6;        // then it is no longer the same view
 constexpr double kZenithShare = 0.2;          // of the rows: what is overhead
 constexpr double kSkyQuantile = 0.2;          // of overhead grey levels
 constexpr double kSkyShare = 0.75;            // of it: what is darker is no sky
+
+/// How many times larger a thing looks when the angle between it and the way driven goes from one to another, told by their sines: its
+/// distance from the line that is driven along stays what it is.
+double magnified(double sine_then, double sine_now) {
+  if (sine_then < kAhead || sine_now < kAhead) return 1.0;
+  return std::clamp(sine_now / sine_then, 1.0 / kMostMagnified, kMostMagnified);
+}
 
 /// Grey level that the sky does not fall below; 256 where what is overhead is not brighter than the band.
 double darkest_sky(const cv::Mat& panorama, const cv::Mat& band) {
@@ -84,11 +93,11 @@ class AllRound final : public PanoramicCompass::Method {
     reason.precision(3);
     const SectorShifts shifts = find_turn();
     if (shifts.beyond_range) return invalid(stamp_ns, shifts.reason);
+    const double turned_rad = kHalf * shifts.turn_px / kPerRadian;
+    now_from_reference_ = vision::so3_exp({0.0, 0.0, -turned_rad}) * now_from_reference_;
     const std::vector<BearingPair> pairs = find_points(shifts);
     describe_sectors(stamp_ns);
     const vision::Stage stage(observer_, "fit");
-    const double turned_rad = kHalf * shifts.turn_px / kPerRadian;
-    now_from_reference_ = vision::so3_exp({0.0, 0.0, -turned_rad}) * now_from_reference_;
     const auto fit = fit_turn(pairs, now_from_reference_, drift_);
     const AgreementParameters& demand = parameters_.agreement;
     const int needed =
@@ -140,8 +149,12 @@ class AllRound final : public PanoramicCompass::Method {
       const int sector = std::clamp(static_cast<int>(u * kSectors / BandCutter::kColumns), 0, kSectors - 1);
       return kHalf * shifts.sector_px[static_cast<std::size_t>(sector)];
     };
+    const auto magnification = [this, drift_then = Eigen::Vector3d(now_from_reference_.transpose() * drift_)](
+                                   const Eigen::Vector2d& then, const Eigen::Vector2d& now) {
+      return magnified(bearing(then).cross(drift_then).norm(), bearing(now).cross(drift_).norm());
+    };
     std::vector<BearingPair> pairs;
-    for (const FoundPoint& found : field_.follow(now_, shift_px)) {
+    for (const FoundPoint& found : field_.follow(now_, shift_px, magnification)) {
       const double cosine = std::cos((found.now.y() + cutter_.first_row - 0.5 * BandCutter::kRows) / kPerRadian);
       const Eigen::Vector2d per_pixel(cosine / kPerRadian, 1.0 / kPerRadian);
       pairs.push_back(

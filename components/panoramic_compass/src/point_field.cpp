@@ -16,6 +16,7 @@ constexpr int kRowMargin_px = 16;  // a template at half size, with its border
 constexpr double kHalfReach_px = 8.0, kFullReach_px = 3.0;
 constexpr double kPlaceVariance_px2 = 0.03 * 0.03;  // of any point: interpolation
 constexpr int kMostMissed = 3;
+constexpr double kSameSize = 0.01;  // of 6 px, half a template: no more than a pixel's noise moves it by
 
 double wrapped(double u, int columns) { return u - columns * std::floor(u / columns); }
 
@@ -41,18 +42,27 @@ RoundBand::RoundBand(const cv::Mat& band, double darkest_sky) : columns(band.col
 
 PointField::PointField(const RoundBand& reference, const PointParameters& parameters) : parameters_(parameters) {
   if (reference.pyramid.levels() < 2) return;
+  reference_ = reference.pyramid[0];
   const vision::CellGrid grid(reference.pyramid[0].size(), parameters.spacing_px);
   for (const vision::Corner& corner :
        vision::detect_corners(reference.pyramid, grid, parameters.smallest_gradient, kRowMargin_px)) {
     const Eigen::Vector2d place = corner.position - Eigen::Vector2d(RoundBand::kMargin_px, 0.0);
     if (place.x() < 0.0 || place.x() >= reference.columns || !is_solid(reference, corner.position)) continue;
-    const auto full = PatchTemplate::sample(reference.pyramid[0], corner.position);
     const auto half = PatchTemplate::sample(reference.pyramid[1], 0.5 * corner.position);
-    if (full && half) points_.push_back({place, place, *full, *half});
+    if (half) points_.push_back({place, place, *half, {}});
   }
 }
 
-std::vector<FoundPoint> PointField::find(const RoundBand& now) {
+// What comes nearer looks larger. A template of the old size is found where the two agree best, which for a roof under the sky is
+// lower than it stands: all points along a street would err alike.
+void PointField::magnify(Point& point, double magnification) const {
+  if (point.full && std::abs(magnification / point.magnified - 1.0) < kSameSize) return;
+  point.magnified = magnification;
+  point.full = PatchTemplate::sample(reference_, point.then + Eigen::Vector2d(RoundBand::kMargin_px, 0.0),
+                                     Eigen::Matrix2d::Identity() / magnification);
+}
+
+std::vector<FoundPoint> PointField::find(const RoundBand& now, const Magnification& magnification) {
   std::vector<FoundPoint> found;
   found.reserve(points_.size());
   for (Point& point : points_) {
@@ -61,8 +71,10 @@ std::vector<FoundPoint> PointField::find(const RoundBand& now) {
     const Eigen::Vector2d start = point.at + Eigen::Vector2d(RoundBand::kMargin_px, 0.0);
     const auto coarse = point.half.align(now.pyramid[1], 0.5 * start, PatchTemplate::Search::kPlane, kHalfReach_px);
     if (!coarse) continue;
-    const auto fine =
-        point.full.align(now.pyramid[0], 2.0 * coarse->position, PatchTemplate::Search::kPlane, kFullReach_px);
+    const Eigen::Vector2d about = 2.0 * coarse->position;
+    magnify(point, magnification(point.then, about - Eigen::Vector2d(RoundBand::kMargin_px, 0.0)));
+    if (!point.full) continue;
+    const auto fine = point.full->align(now.pyramid[0], about, PatchTemplate::Search::kPlane, kFullReach_px);
     if (!fine || fine->correlation < parameters_.smallest_correlation) continue;
     point.missed = 0;
     point.at = fine->position - Eigen::Vector2d(RoundBand::kMargin_px, 0.0);

@@ -41,7 +41,7 @@ struct PatchParameters {
 struct PointParameters {
   double top_deg = 40.0;
   double bottom_deg = 8.0;
-  int spacing_px = 24;
+  int spacing_px = 20;
   double smallest_gradient = 2.0;
   double smallest_correlation = 0.8;
 
@@ -67,9 +67,9 @@ struct AgreementParameters {
   double smallest_share = 0.5;
   double largest_sigma_deg = 0.5;
   double systematic_deg = 0.01;
-  double parallax_share = 0.005;
+  double parallax_share = 0.004;
   double kept_share = 0.5;
-  double largest_parallax_deg = 6.0;
+  double largest_parallax_deg = 9.0;
   int longest_reference = 25;
 
   template <class Field>

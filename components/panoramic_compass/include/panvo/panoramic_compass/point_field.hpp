@@ -2,7 +2,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 #include <opencv2/core.hpp>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -41,24 +43,31 @@ class PointField {
 
   std::size_t size() const { return points_.size(); }
 
+  /// How many times larger what the reference shows at `then` looks at `now`; px of the band.
+  using Magnification = std::function<double(const Eigen::Vector2d& then, const Eigen::Vector2d& now)>;
+
   /// Finds the points, in order of panoramas. `shift_px` takes a column of the last panorama to about how far things there
   /// moved since. What is not found three times running is given up.
   template <class Shift>
-  std::vector<FoundPoint> follow(const RoundBand& now, const Shift& shift_px) {
+  std::vector<FoundPoint> follow(const RoundBand& now, const Shift& shift_px, const Magnification& magnification) {
     for (Point& point : points_) point.at.x() += shift_px(point.at.x());
-    return find(now);
+    return find(now, magnification);
   }
 
  private:
   struct Point {
     Eigen::Vector2d then, at;  // of the reference; where it was last
-    vision::PatchTemplate full, half;
+    vision::PatchTemplate half;
+    std::optional<vision::PatchTemplate> full;  // as large as it was last expected to look
+    double magnified = 1.0;                     // by how much that is
     int missed = 0;
   };
 
-  std::vector<FoundPoint> find(const RoundBand& now);
+  std::vector<FoundPoint> find(const RoundBand& now, const Magnification& magnification);
+  void magnify(Point& point, double magnification) const;
 
   PointParameters parameters_;
+  cv::Mat reference_;  // with its margins
   std::vector<Point> points_;
 };
 
