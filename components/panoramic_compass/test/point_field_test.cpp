@@ -10,6 +10,7 @@
 namespace panvo::panoramic_compass {
 namespace {
 
+double unmoved(double /*column*/) { return 0.0; }
 double same_size(const Eigen::Vector2d& /*then*/, const Eigen::Vector2d& /*now*/) { return 1.0; }
 
 /// Roofs under an even sky, and what they look like from nearer by.
@@ -69,8 +70,8 @@ TEST(PointField, FindsItsPointsBetweenPixelsAndOverTheSeam) {
   const cv::Mat moved = turned_left(band, 7.3);
   PointField field(RoundBand(band), {});
   ASSERT_GT(field.size(), 100U);
-  const auto found = field.follow(
-      RoundBand(moved), [](double) { return 5.0; }, same_size);
+  const auto about = [](double) { return 5.0; };
+  const auto found = field.follow(RoundBand(moved), about, same_size);
   ASSERT_GT(found.size(), field.size() * 8 / 10);
   double squares = 0.0;
   for (const FoundPoint& point : found) {
@@ -97,11 +98,7 @@ TEST(PointField, GivesUpWhatIsNotFoundThreeTimesRunning) {
   PointField field(RoundBand(band), {});
   const auto begun_with = field.size();
   for (int i = 0; i < 3; ++i) {
-    EXPECT_LT(field
-                  .follow(
-                      RoundBand(other), [](double) { return 0.0; }, same_size)
-                  .size(),
-              begun_with / 4);
+    EXPECT_LT(field.follow(RoundBand(other), unmoved, same_size).size(), begun_with / 4);
   }
   EXPECT_LT(field.size(), begun_with / 2);
 }

@@ -15,8 +15,8 @@ namespace panvo::evaluation {
 
 /// A run, what is true of it, and how its frames lie in the world of the truth.
 struct JourneyFrames {
-  JourneyRun
-      run;  ///< all of its stamps in the clock of the truth, but those of landmarks, which may come from the earlier journey
+  /// All of its stamps in the clock of the truth, but those of landmarks, which may come from the earlier journey.
+  JourneyRun run;
   const JourneyRecording& recording;
   const JourneyRecording* earlier = nullptr;  ///< the one that the library was made on, if that was another
   Eigen::Isometry3d world_from_map = Eigen::Isometry3d::Identity();
