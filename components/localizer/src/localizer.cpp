@@ -43,7 +43,8 @@ Localizer::Localizer(const Parameters& parameters)
       graph_(parameters.start_sigma_m, parameters.start_sigma_deg * kDegree) {}
 
 LocalizedPose Localizer::add(const OdometryPose& odometry) {
-  if (!chain_.add(odometry)) return latest_;
+  const double doubt = std::min(1.0, odometry.outlier_share / parameters_.doubtful_outlier_share);
+  if (!chain_.add(odometry, std::lerp(parameters_.steady_turn_share, 1.0, doubt))) return latest_;
   if (graph_.has_started()) {
     slew(last_raw_.inverse() * odometry.odom_from_base);
   } else {
@@ -81,7 +82,7 @@ AzimuthUse Localizer::add(const AzimuthMeasurement& azimuth) {
   const double missed_rad = parameters_.compass_turn_error_ratio * azimuth.change_rad;
   const double measured_variance = azimuth.variance_rad2 + missed_rad * missed_rad;
   const double compass_variance = measured_variance + rate_change * rate_change * clock_.variance_s2();
-  const double spread = compass_variance + turn->variance_rad2;
+  const double spread = compass_variance + turn->said_variance_rad2;
   const double excess =
       disagreement * disagreement / (spread * parameters_.contradiction_sigmas * parameters_.contradiction_sigmas);
   const bool is_contradicted = excess > 1.0;
@@ -96,8 +97,8 @@ AzimuthUse Localizer::add(const AzimuthMeasurement& azimuth) {
   if (is_contradicted) {
     lean_.forget();
   } else if (const auto raw_rad = chain_.raw_turn(from_ns, to_ns)) {
-    lean = lean_.add({from_ns, to_ns, wrapped(azimuth.change_rad - *raw_rad), azimuth.change_rad, turn->variance_rad2,
-                      compass_variance});
+    lean = lean_.add({from_ns, to_ns, wrapped(azimuth.change_rad - *raw_rad), azimuth.change_rad,
+                      turn->said_variance_rad2, compass_variance});
   }
   if (lean) {
     const auto leaning = chain_.turn(lean->from_ns, lean->to_ns);
@@ -108,7 +109,7 @@ AzimuthUse Localizer::add(const AzimuthMeasurement& azimuth) {
     fuse(lean->from_ns, lean->to_ns, lean->compass_rad, lean->compass_variance_rad2);
     graph_.refresh(chain_, lean->from_ns);
   } else if (!is_contradicted) {
-    clock_.add(disagreement, rate_change, kClockCaution * (measured_variance + turn->variance_rad2));
+    clock_.add(disagreement, rate_change, kClockCaution * (measured_variance + turn->said_variance_rad2));
   }
   azimuth_ns_ = to_ns;
   owed_rad_ += wrapped(yaw_of(chain_.latest().pose.odom_from_base.linear()) - yaw_before_rad);

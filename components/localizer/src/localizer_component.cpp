@@ -99,7 +99,10 @@ class LocalizerComponent final : public runtime::Component {
   static constexpr double kNotableOffset_s = 0.02;
   static constexpr double kSureOffset_s = 0.004;
 
-  void on_quality(const panvo_msgs::msg::OdometryQuality& message) { is_reliable_ = message.reliable(); }
+  void on_quality(const panvo_msgs::msg::OdometryQuality& message) {
+    is_reliable_ = message.reliable();
+    outlier_share_ = std::isfinite(message.inlier_ratio()) ? std::clamp(1.0 - message.inlier_ratio(), 0.0, 1.0) : 1.0;
+  }
 
   void on_odometry(const nav_msgs::msg::Odometry& message) {
     const auto pose = conversions::to_isometry(message.pose().pose());
@@ -111,7 +114,8 @@ class LocalizerComponent final : public runtime::Component {
     }
     {
       const vision::Stage stage(&timer_, "localize");
-      localizer_.add(OdometryPose{stamp_ns, *pose, conversions::to_matrix(message.pose().covariance()), is_reliable_});
+      localizer_.add(OdometryPose{stamp_ns, *pose, conversions::to_matrix(message.pose().covariance()), is_reliable_,
+                                  outlier_share_});
       if (!begin_ns_) begin(stamp_ns);
       work_off();
     }
@@ -364,6 +368,7 @@ class LocalizerComponent final : public runtime::Component {
   std::deque<Waiting> waiting_;
   std::set<std::uint32_t> landmarks_;
   bool is_reliable_ = true;
+  double outlier_share_ = 1.0;
   std::optional<std::int64_t> begin_ns_;  // of the odometry
   std::optional<std::int64_t> azimuth_ns_;
   std::optional<std::int64_t> kept_ns_;  // of the pose in last_pose_file

@@ -33,7 +33,7 @@ vision::Matrix6d gained_covariance(const OdometryPose& a, const OdometryPose& b,
 
 double yaw_of(const Eigen::Matrix3d& rotation) { return std::atan2(rotation(1, 0), rotation(0, 0)); }
 
-bool OdometryChain::add(const OdometryPose& odometry) {
+bool OdometryChain::add(const OdometryPose& odometry, double turn_share) {
   if (!odometry.odom_from_base.matrix().allFinite() || !odometry.covariance.allFinite()) return false;
   if (!entries_.empty() && odometry.stamp_ns <= entries_.back().raw.stamp_ns) return false;
   Entry entry;
@@ -43,6 +43,9 @@ bool OdometryChain::add(const OdometryPose& odometry) {
     const auto& before = entries_.back();
     entry.step.motion = before.raw.odom_from_base.inverse() * odometry.odom_from_base;
     entry.step.covariance = gained_covariance(before.raw, odometry, kLeastStepVariance);
+    entry.step.turn_share = turn_share;
+    entry.step.covariance.row(kYaw) *= std::sqrt(turn_share);
+    entry.step.covariance.col(kYaw) *= std::sqrt(turn_share);
     entry.marked = entry.step;
   }
   entries_.push_back(entry);
@@ -78,7 +81,9 @@ std::optional<Turn> OdometryChain::turn(std::int64_t from_ns, std::int64_t to_ns
   for (std::size_t i = first_after(from_ns); i < entries_.size(); ++i) {
     const double part = share(i, from_ns, to_ns);
     if (part <= 0.0) break;
-    turn.variance_rad2 += part * entries_[i].step.covariance(kYaw, kYaw);
+    const Step& step = entries_[i].step;
+    turn.variance_rad2 += part * step.covariance(kYaw, kYaw);
+    turn.said_variance_rad2 += part * step.covariance(kYaw, kYaw) / step.turn_share;
   }
   return turn;
 }

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <random>
+#include <utility>
 #include <vector>
 
 #include "drive.hpp"
@@ -50,6 +51,57 @@ TEST(LocalizerWithCompass, HasACovarianceThatErrorsFollowAlsoWithACompass) {
     nees += nees_of(localizer.latest(), drive) / kTrials;
   }
   EXPECT_NEAR(nees, 1.0, 0.4);
+}
+
+/// A localizer that went one step with an odometry that says it did not turn.
+struct OneStep {
+  static constexpr double kSaid_rad2 = 1e-4;
+  Localizer localizer;
+
+  explicit OneStep(double outlier_share) : localizer(parameters()) {
+    OdometryPose odometry;
+    localizer.add(odometry);
+    odometry.stamp_ns = kPeriod_ns;
+    odometry.covariance = kSaid_rad2 * vision::Matrix6d::Identity();
+    odometry.outlier_share = outlier_share;
+    localizer.add(odometry);
+  }
+
+  AzimuthUse turn(double rad, double variance_rad2) { return localizer.add({0, kPeriod_ns, rad, variance_rad2}); }
+
+  static Parameters parameters() {
+    Parameters parameters = of_known_scale();
+    parameters.steady_turn_share = 0.25;
+    parameters.doubtful_outlier_share = 0.04;
+    parameters.clock_sigma_s = 0.0;
+    parameters.compass_turn_error_ratio = 0.0;
+    parameters.start_sigma_deg = 1e-6;
+    return parameters;
+  }
+};
+
+TEST(LocalizerWithCompass, HeedsTheCompassLessWhereAllPointsOfTheOdometryAgree) {
+  constexpr double kTurn_rad = 0.004, kCompass_rad2 = 0.25 * OneStep::kSaid_rad2;
+  const auto turned = [&](double outlier_share) {
+    OneStep step(outlier_share);
+    EXPECT_EQ(step.turn(kTurn_rad, kCompass_rad2), AzimuthUse::kFused);
+    const auto& pose = step.localizer.latest();
+    return std::pair(yaw_of(pose.map_from_base.linear()) / kTurn_rad, pose.covariance(5, 5) / OneStep::kSaid_rad2);
+  };
+  const auto [steady, steady_variance] = turned(0.0);
+  EXPECT_NEAR(steady, 0.5, 1e-4) << "a quarter of the variance against a quarter of it";
+  EXPECT_NEAR(steady_variance, 0.125, 1e-4);
+  EXPECT_NEAR(turned(0.02).first, 0.625 / (0.625 + 0.25), 1e-4) << "halfway between a quarter and all";
+  const auto [doubtful, doubtful_variance] = turned(0.04);
+  EXPECT_NEAR(doubtful, 0.8, 1e-4) << "all of the variance";
+  EXPECT_NEAR(doubtful_variance, 0.2, 1e-4);
+  EXPECT_NEAR(turned(1.0).first, 0.8, 1e-4) << "nobody says how many points agree";
+}
+
+TEST(LocalizerWithCompass, ContradictsOdometryByAllOfTheVarianceThatItSays) {
+  constexpr double kSaid_rad = 0.01, kSure_rad2 = 1e-8;
+  EXPECT_EQ(OneStep(0.0).turn(3.0 * kSaid_rad, kSure_rad2), AzimuthUse::kFused) << "six times what is left of it";
+  EXPECT_EQ(OneStep(0.0).turn(4.5 * kSaid_rad, kSure_rad2), AzimuthUse::kContradicted);
 }
 
 TEST(LocalizerWithCompass, TakesTheLastOfTheTurnsAgainstOnePanorama) {

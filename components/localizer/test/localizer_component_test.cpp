@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
 
 #include "panvo/conversions/pose.hpp"
 #include "panvo/conversions/time.hpp"
@@ -259,6 +260,35 @@ TEST_F(LocalizerComponent, TellsOfUnreliableOdometryAndOfTheCompass) {
   drive(120, 121);
   EXPECT_EQ(states_.back()->state(), "tracking");
 }
+
+/// Of a turn that the compass alone saw, the share that the pose has two seconds later.
+class ComponentHeedsTheCompass : public LocalizerComponent,
+                                 public ::testing::WithParamInterface<std::pair<double, double>> {};
+
+TEST_P(ComponentHeedsTheCompass, AsFarAsThePointsOfTheOdometryAgree) {
+  const auto [inlier_ratio, share] = GetParam();
+  constexpr double kTurn_rad = 0.004;
+  constexpr double kStep_rad2 = 1e-6;  // five steps are five times as uncertain as the compass
+  load({{"fusion.clock_sigma_s", "0"}, {"fusion.compass_turn_error_ratio", "0"}});
+  panvo_msgs::msg::OdometryQuality quality;
+  quality.reliable(true);
+  quality.inlier_ratio(inlier_ratio);
+  harness_.publish(topics::kOdometryQuality, quality);
+  const auto drive_on = [&](int from, int to) {
+    for (int i = from; i < to; ++i) publish_odometry(i, at(0.2 * i, 0.0, 0.0), kStep_rad2 * (1 + i));
+  };
+  drive_on(0, 6);
+  publish_azimuth(stamp(0), stamp(5), kTurn_rad);
+  drive_on(6, 60);
+  const auto pose = conversions::to_isometry(enhanced_.back()->pose().pose());
+  ASSERT_TRUE(pose);
+  EXPECT_NEAR(std::asin(pose->linear()(1, 0)) / kTurn_rad, share, 0.01);
+}
+
+INSTANTIATE_TEST_SUITE_P(LocalizerComponent, ComponentHeedsTheCompass,
+                         ::testing::Values(std::pair{1.0, 0.3 * 5.0 / (0.3 * 5.0 + 1.0)},  // all agree
+                                           std::pair{0.9, 5.0 / (5.0 + 1.0)},              // some do not
+                                           std::pair{std::nan(""), 5.0 / (5.0 + 1.0)}));   // not known
 
 TEST_F(LocalizerComponent, KeepsItsPathsShort) {
   load({{"path_step_m", "0.01"}});

@@ -14,6 +14,8 @@ struct Parameters {
   double lean_window_s = 8.0;
   double lean_sigmas = 3.0;
   double compass_turn_error_ratio = 0.007;
+  double steady_turn_share = 0.3;
+  double doubtful_outlier_share = 0.02;
   double scale_sigma = 0.002;
   double clock_sigma_s = 0.05;
   double patience_s = 1.0;
@@ -44,6 +46,14 @@ struct Parameters {
         "share of a turn that the compass may miss every time: of drops on the lens and parts of the vehicle, which do "
         "not turn against the camera",
         0.0, 0.5);
+    field(&P::steady_turn_share, "steady_turn_share", "1",
+          "how much of the variance that odometry says of its turns is believed where all of its points agree: what it "
+          "says allows for the lean of long ways, and beside the compass it is the next seconds that count",
+          0.001, 1.0);
+    field(&P::doubtful_outlier_share, "doubtful_outlier_share", "1",
+          "share of the points that move otherwise, from which on all of that variance is believed: where so many are "
+          "seen to move by themselves, others do so unseen",
+          0.001, 1.0);
     field(
         &P::scale_sigma, "scale_sigma", "1",
         "standard deviation of the odometry's scale, the same all the way and so for all landmarks: of an aged stereo "

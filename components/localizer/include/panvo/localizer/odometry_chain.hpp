@@ -15,7 +15,8 @@ struct OdometryPose {
   std::int64_t stamp_ns = 0;
   Eigen::Isometry3d odom_from_base = Eigen::Isometry3d::Identity();
   vision::Matrix6d covariance = vision::Matrix6d::Zero();
-  bool is_reliable = true;  ///< false: carried on without being measured
+  bool is_reliable = true;     ///< false: carried on without being measured
+  double outlier_share = 1.0;  ///< of the points, those that moved otherwise, [0, 1]; 1 where nobody says
 };
 
 /// Odometry with the way behind it.
@@ -28,6 +29,7 @@ struct Remembered {
 struct Turn {
   double change_rad = 0.0;
   double variance_rad2 = 0.0;
+  double said_variance_rad2 = 0.0;  ///< before a share of it was kept
 };
 
 /// The odometry of the last while, step by step, so that what is learned late (a turn measured otherwise) can be put where it
@@ -36,8 +38,9 @@ class OdometryChain {
  public:
   explicit OdometryChain(double history_s) : history_s_(history_s) {}
 
-  /// In order of stamps; false, and nothing is done, for one that is not after the last or not finite.
-  bool add(const OdometryPose& odometry);
+  /// In order of stamps; false, and nothing is done, for one that is not after the last or not finite. `turn_share`: of the variance that
+  /// it gained in yaw, how much is kept.
+  bool add(const OdometryPose& odometry, double turn_share = 1.0);
 
   bool empty() const noexcept { return entries_.empty(); }
   /// Precondition: not empty.
@@ -67,7 +70,8 @@ class OdometryChain {
   struct Step {
     Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();  // the one before from this
     vision::Matrix6d covariance = vision::Matrix6d::Zero();    // in the axes of the one before
-    double widened = 1.0;  // the variance of all but the yaw, against what odometry said
+    double widened = 1.0;     // the variance of all but the yaw, against what odometry said
+    double turn_share = 1.0;  // of the variance of the yaw, what was kept
   };
   struct Entry {
     OdometryPose raw;  // as it came
