@@ -9,16 +9,17 @@ source "$PANVO_SCRIPTS/lib/routes.sh"
 
 verb_usage() {
   cat <<'EOT'
-usage: panvo demo [--full] [--seed N] [--dataset DIR] [--out DIR] [--replay]
+usage: panvo demo [--full] [--seed N] [--effects LIST] [--dataset DIR] [--out DIR] [--replay]
 
 Installs and builds what is missing, drives the route 'short' through the simulated campus (rendered once, some minutes, and
-kept for the next time) with stereo cameras whose calibration has aged, and runs the whole system on it in one container: stereo
-odometry, places, compass, localizer, a recorder beside them. Then it compares both paths with the truth, the odometry's that drifts and
-the one that places correct, and writes a page that shows it all.
+kept for the next time) with stereo cameras whose calibration has aged, through traffic, rain and sudden light, and runs the whole system
+on it in one container: stereo odometry, places, compass, localizer, a recorder beside them. Then it compares both paths with the truth,
+the odometry's that drifts and the one that places correct, and writes a page that shows it all.
 
   --full          the journeys of the paper instead: 'dataset_i' (3.1 km), then 'dataset_ii' (1.4 km) on the places of the first; to be
-                  rendered once, which takes two hours on two cores (and goes on where it was when it is interrupted)
-  --seed N        another campus (default: 1)
+                  rendered once, which takes most of an hour on two cores (and goes on where it was when it is interrupted)
+  --seed N        another campus (default: 4; with --full 1)
+  --effects LIST  what makes the drive hard, as of 'panvo simulate' (default: all; with --full none)
   --dataset DIR   a recording of your own instead of the simulation
   --out DIR       a new folder for the results (default: runs/demo-1, demo-2, ...)
   --replay        one thread, in order of stamps, the same result bit for bit every time (default: a thread for each
@@ -29,7 +30,7 @@ EOT
 }
 
 verb_main() {
-  local dataset='' out='' full='' seed='' route
+  local dataset='' out='' full='' seed='' effects='' route
   local -a mode=() library=() earlier=()
   while (($#)); do
     case $1 in
@@ -49,6 +50,12 @@ verb_main() {
         seed=$2
         shift
         ;;
+      --effects)
+        require_value "$@"
+        [[ $2 =~ ^[a-z_]+(,[a-z_]+)*$ ]] || fail "--effects takes names with commas between, all or none, not '$2'" 2
+        effects=$2
+        shift
+        ;;
       --full) full=yes ;;
       --replay) mode=(--replay) ;;
       *) unknown_option "$1" ;;
@@ -56,6 +63,7 @@ verb_main() {
     shift
   done
   [[ -z $seed || -z $dataset ]] || fail "--seed is of the simulated journeys; it goes without --dataset" 2
+  [[ -z $effects || -z $dataset ]] || fail "--effects is of the simulated journeys; it goes without --dataset" 2
   [[ -z $full || -z $dataset ]] || fail "--full is of the simulated journeys; it goes without --dataset" 2
   # Before anything is installed or built: is there something to play?
   if [[ -n $dataset ]]; then
@@ -71,12 +79,12 @@ $(dataset_layouts)"
   if [[ -n $dataset ]]; then
     play_and_show "$dataset" "$out"
   elif [[ -z $full ]]; then
-    dataset=$(simulated_dataset short "${seed:-1}")
+    dataset=$(simulated_dataset short "${seed:-4}" "${effects:-all}")
     play_and_show "$dataset" "$out"
   else
     library=(--set "landmark_store.file=$out/places.sqlite")
     for route in dataset_i dataset_ii; do
-      dataset=$(simulated_dataset "$route" "${seed:-1}")
+      dataset=$(simulated_dataset "$route" "${seed:-1}" "${effects:-none}")
       play_and_show "$dataset" "$out/$route" "${library[@]}"
       earlier=(--earlier "$dataset")
     done
@@ -92,27 +100,31 @@ play_and_show() {
   show_results "$dataset" "$out"
 }
 
-# How the stereo camera of the demo was calibrated: as of a good calibration after months of driving. An exact one hardly drifts.
-demo_rig=(--calibration-error 1)
-
-# simulated_dataset ROUTE SEED: the data set of a journey through the simulated campus, rendered when it is not there yet, or not
-# wholly. It is named by what it was rendered with, and one that another panvo rendered makes room for it.
+# simulated_dataset ROUTE SEED EFFECTS: the data set of a journey through the simulated campus, rendered when it is not there yet, or
+# not wholly. It is named by what it was rendered with, and one that another panvo rendered makes room for it.
 simulated_dataset() {
-  local seed=$2 route simulate folder key dataset
+  local seed=$2 effects=$3 route simulate folder name key dataset
+  # A good stereo calibration after months of driving; an exact one hardly drifts.
+  local -a rig=(--calibration-error 1)
   route=$(route_file "$1")
   simulate=$(program panvo_simulate)
   folder=${XDG_CACHE_HOME:-$HOME/.cache}/panvo/simulated
   ! in_checkout || folder=$PANVO_HOME/runs/simulated
+  name=$1-seed$seed
+  if [[ $effects != none ]]; then
+    name=$1-$effects-seed$seed
+    rig+=(--effects "$effects")
+  fi
   key=$({
     cat "$route" "$simulate" "$(simulation_library "$simulate")"
-    echo "${demo_rig[@]}"
+    echo "${rig[@]}"
   } | sha256sum | cut -c 1-12)
-  dataset=$folder/$1-seed$seed-$key
+  dataset=$folder/$name-$key
   if [[ ! -f $dataset/sequence.yaml ]]; then
     mkdir -p -- "$folder" || fail "'$folder' cannot be made; name a recording with --dataset"
-    find "$folder" -maxdepth 1 -name "$1-seed$seed-*" ! -name "*-$key*" -exec rm -rf {} +
+    find "$folder" -maxdepth 1 -name "$name-*" ! -name "*-$key*" -exec rm -rf {} +
     note "simulating the route '$1'; it is kept in $dataset"
-    "$simulate" --route "$route" "${demo_rig[@]}" --seed "$seed" --out "$dataset" >&2 || fail "the simulation failed; the message above says why"
+    "$simulate" --route "$route" "${rig[@]}" --seed "$seed" --out "$dataset" >&2 || fail "the simulation failed; the message above says why"
   fi
   printf '%s' "$dataset"
 }

@@ -77,6 +77,17 @@ class Demo(unittest.TestCase):
         self.assertEqual(done.returncode, 1)
         self.assertIn(folder, done.stderr)
 
+    def test_what_is_of_simulated_journeys_goes_without_a_recording(self):
+        for option, value in (("--seed", "7"), ("--effects", "movers,rain")):
+            done = panvo("demo", "--dataset", ROOT, option, value)
+            self.assertEqual(done.returncode, 2)
+            self.assertIn(f"{option} is of the simulated journeys", done.stderr)
+
+    def test_effects_are_names(self):
+        done = panvo("demo", "--effects", "movers; rain")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("not 'movers; rain'", done.stderr)
+
     def test_results_are_never_overwritten(self):
         with tempfile.TemporaryDirectory() as folder:
             recording, out = pathlib.Path(folder, "recording"), pathlib.Path(folder, "out")
