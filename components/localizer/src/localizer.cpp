@@ -216,7 +216,8 @@ bool Localizer::add_said(const PoseInMap& pose, std::int64_t stamp_ns) {
 }
 
 bool Localizer::reaches(std::int64_t panorama_stamp_ns) const {
-  return !chain_.empty() && chain_.latest().pose.stamp_ns >= in_odometry_time(panorama_stamp_ns);
+  const std::int64_t stamp_ns = in_odometry_time(panorama_stamp_ns);
+  return !chain_.empty() && (chain_.latest().pose.stamp_ns >= stamp_ns || chain_.at(stamp_ns));
 }
 
 std::vector<KnownLandmark> Localizer::landmarks() const {

@@ -12,6 +12,9 @@ namespace {
 constexpr double kSecond_ns = 1e9;
 constexpr double kLeastStepVariance = 1e-12;  // what rounding leaves
 constexpr int kYaw = 5;
+// A panorama of the same instant as the last stereo pair may be stamped a little later, by what clocks differ. Waiting for the next pair
+// would cost 40 ms; a vehicle that goes on as it went is off by less than a millimetre meanwhile.
+constexpr std::int64_t kAhead_ns = 5'000'000;
 
 double between(std::int64_t stamp_ns, std::int64_t from_ns, std::int64_t to_ns) {
   return static_cast<double>(stamp_ns - from_ns) / static_cast<double>(to_ns - from_ns);
@@ -57,18 +60,16 @@ bool OdometryChain::add(const OdometryPose& odometry, double turn_share) {
 }
 
 std::optional<Remembered> OdometryChain::at(std::int64_t stamp_ns) const {
-  const std::size_t index = first_after(stamp_ns - 1);  // the first that is not before
-  if (index == entries_.size()) return std::nullopt;
-  const auto& after = entries_[index].now;
+  const auto place = place_of(stamp_ns);
+  if (!place) return std::nullopt;
+  const auto& after = entries_[place->after].now;
   if (after.pose.stamp_ns == stamp_ns) return after;
-  if (index == 0) return std::nullopt;
-  const auto& before = entries_[index - 1].now;
-  const double share = between(stamp_ns, before.pose.stamp_ns, after.pose.stamp_ns);
+  const auto& before = entries_[place->after - 1].now;
   Remembered here = after;
   here.pose.stamp_ns = stamp_ns;
-  here.pose.odom_from_base = vision::interpolate(before.pose.odom_from_base, after.pose.odom_from_base, share);
-  here.pose.covariance = (1.0 - share) * before.pose.covariance + share * after.pose.covariance;
-  here.way_m = (1.0 - share) * before.way_m + share * after.way_m;
+  here.pose.odom_from_base = vision::interpolate(before.pose.odom_from_base, after.pose.odom_from_base, place->share);
+  here.pose.covariance = (1.0 - place->share) * before.pose.covariance + place->share * after.pose.covariance;
+  here.way_m = (1.0 - place->share) * before.way_m + place->share * after.way_m;
   return here;
 }
 
@@ -96,23 +97,20 @@ std::optional<double> OdometryChain::raw_turn(std::int64_t from_ns, std::int64_t
 }
 
 std::optional<Eigen::Isometry3d> OdometryChain::raw_at(std::int64_t stamp_ns) const {
-  const std::size_t index = first_after(stamp_ns - 1);
-  if (index == entries_.size()) return std::nullopt;
-  const auto& after = entries_[index].raw;
+  const auto place = place_of(stamp_ns);
+  if (!place) return std::nullopt;
+  const auto& after = entries_[place->after].raw;
   if (after.stamp_ns == stamp_ns) return after.odom_from_base;
-  if (index == 0) return std::nullopt;
-  const auto& before = entries_[index - 1].raw;
-  return vision::interpolate(before.odom_from_base, after.odom_from_base,
-                             between(stamp_ns, before.stamp_ns, after.stamp_ns));
+  return vision::interpolate(entries_[place->after - 1].raw.odom_from_base, after.odom_from_base, place->share);
 }
 
 std::optional<vision::Vector6d> OdometryChain::twist(std::int64_t stamp_ns) const {
-  const std::size_t index = first_after(stamp_ns - 1);
-  if (index == 0 || index >= entries_.size()) return std::nullopt;
-  const auto& entry = entries_[index];
+  const auto place = place_of(stamp_ns);
+  if (!place || place->after == 0) return std::nullopt;
+  const auto& entry = entries_[place->after];
   vision::Vector6d moved;
   moved << entry.step.motion.translation(), vision::so3_log(entry.step.motion.linear());
-  return moved * kSecond_ns / static_cast<double>(entry.raw.stamp_ns - entries_[index - 1].raw.stamp_ns);
+  return moved * kSecond_ns / static_cast<double>(entry.raw.stamp_ns - entries_[place->after - 1].raw.stamp_ns);
 }
 
 void OdometryChain::distrust(std::int64_t from_ns, std::int64_t to_ns, double factor, double most_else) {
@@ -160,6 +158,18 @@ void OdometryChain::revert() {
   const std::size_t first = first_after(marked_from_ns_);
   for (std::size_t i = first; i < entries_.size(); ++i) entries_[i].step = entries_[i].marked;
   compose_from(first);
+}
+
+std::optional<OdometryChain::Place> OdometryChain::place_of(std::int64_t stamp_ns) const {
+  std::size_t after = first_after(stamp_ns - 1);  // the first that is not before
+  if (after == entries_.size()) {
+    if (entries_.size() < 2 || stamp_ns - entries_.back().raw.stamp_ns > kAhead_ns) return std::nullopt;
+    --after;
+  }
+  const std::int64_t after_ns = entries_[after].raw.stamp_ns;
+  if (after_ns == stamp_ns) return Place{after, 1.0};
+  if (after == 0) return std::nullopt;
+  return Place{after, between(stamp_ns, entries_[after - 1].raw.stamp_ns, after_ns)};
 }
 
 /// Index of the first entry later than a time.

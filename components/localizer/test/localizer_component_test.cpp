@@ -146,6 +146,23 @@ TEST_F(LocalizerComponent, WaitsForOdometryThatIsBehindAPanorama) {
   ASSERT_THAT(outcomes_, SizeIs(1));
 }
 
+TEST_F(LocalizerComponent, WaitsForNoOdometryWhereAPanoramaIsAMomentLaterThanTheLast) {
+  load({{"fusion.clock_sigma_s", "0"}});
+  drive(0, 13);
+  publish_landmark(1, stamp(5), at(1.0, 0.0, 0.0));
+  publish_correction(1, stamp(12) + 4'000'000, at(1.42, 0.1, 0.0));
+  ASSERT_THAT(outcomes_, SizeIs(1));
+  EXPECT_EQ(outcomes_[0]->outcome(), "applied") << outcomes_[0]->reason();
+  EXPECT_NEAR(outcomes_[0]->before().position().x(), 2.42, 1e-6) << "4 ms farther, at 5 m/s";
+  publish_correction(1, stamp(12) + 8'000'000, at(1.44, 0.1, 0.0));
+  EXPECT_THAT(outcomes_, SizeIs(1)) << "nobody knows how it goes on for longer";
+  drive(13, 14);
+  EXPECT_THAT(outcomes_, SizeIs(2));
+  EXPECT_GT(outcomes_[0]->after().position().y(), 0.01);
+  EXPECT_NEAR(enhanced_.back()->pose().pose().position().y(), outcomes_[0]->after().position().y(), 0.005)
+      << "the next pose has it";
+}
+
 TEST_F(LocalizerComponent, TakesNoRejectedCorrection) {
   load();
   drive(0, 10);

@@ -39,6 +39,32 @@ TEST(OdometryChain, RemembersWhatItWasGivenAndWhatLiesBetween) {
   EXPECT_FALSE(chain.at(-1));
 }
 
+TEST(OdometryChain, GoesOnForAMomentAsItWent) {
+  OdometryChain chain(60.0);
+  OdometryPose pose;
+  chain.add(pose);
+  EXPECT_FALSE(chain.at(1'000'000)) << "nobody knows how it goes";
+  Eigen::Isometry3d step = Eigen::Isometry3d::Identity();
+  step.translation().x() = 0.4;
+  step.linear() = vision::so3_exp(Eigen::Vector3d(0.0, 0.0, 0.08));
+  pose.odom_from_base = step;
+  pose.stamp_ns = kPeriod_ns;
+  pose.covariance = 8e-4 * vision::Matrix6d::Identity();
+  chain.add(pose);
+  const auto ahead = chain.at(kPeriod_ns + kPeriod_ns / 8);
+  ASSERT_TRUE(ahead);
+  EXPECT_EQ(ahead->pose.stamp_ns, kPeriod_ns + kPeriod_ns / 8);
+  EXPECT_NEAR(ahead->way_m, 0.45, 1e-9);
+  // On its circle, of which it drove the first 0.4 m from -0.04 to 0.04 rad against the chord.
+  EXPECT_NEAR(ahead->pose.odom_from_base.translation().x(), 0.4 + 0.05 * std::cos(0.045), 1e-4);
+  EXPECT_NEAR(ahead->pose.odom_from_base.translation().y(), 0.05 * std::sin(0.045), 1e-4);
+  EXPECT_NEAR(ahead->pose.covariance(5, 5), 9e-4, 1e-12);
+  EXPECT_NEAR(chain.turn(0, kPeriod_ns + kPeriod_ns / 8)->change_rad, 0.09, 1e-9);
+  EXPECT_NEAR(*chain.raw_turn(0, kPeriod_ns + kPeriod_ns / 8), 0.09, 1e-9);
+  EXPECT_NEAR((*chain.twist(kPeriod_ns + kPeriod_ns / 8))[5], 2.0, 1e-9);
+  EXPECT_FALSE(chain.at(kPeriod_ns + kPeriod_ns / 8 + 1)) << "5 ms at most";
+}
+
 TEST(OdometryChain, ForgetsWhatIsTooLongAgo) {
   OdometryChain chain(1.0);
   OdometryPose pose;

@@ -45,7 +45,7 @@ class OdometryChain {
   bool empty() const noexcept { return entries_.empty(); }
   /// Precondition: not empty.
   const Remembered& latest() const { return entries_.back().now; }
-  /// Between the two poses around a time; nullopt where it is not remembered.
+  /// Between the two poses around a time, or going on for up to 5 ms after the last as it went; nullopt where it is not remembered.
   std::optional<Remembered> at(std::int64_t stamp_ns) const;
 
   /// Of the stretch from one remembered time to a later one.
@@ -80,6 +80,13 @@ class OdometryChain {
     Remembered now;  // all steps up to this
   };
 
+  /// A time between an entry and the one before it: 0 there, 1 at the entry, more after the last.
+  struct Place {
+    std::size_t after;
+    double share;
+  };
+
+  std::optional<Place> place_of(std::int64_t stamp_ns) const;
   std::size_t first_after(std::int64_t stamp_ns) const;
   std::optional<Eigen::Isometry3d> raw_at(std::int64_t stamp_ns) const;
   double share(std::size_t index, std::int64_t from_ns, std::int64_t to_ns) const;
