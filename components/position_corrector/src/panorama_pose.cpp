@@ -24,6 +24,7 @@ using landmarks::Keypoint;
 
 constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr int kFewestForRansac = 5;
+constexpr double kPoseFreedom = 6.0;
 constexpr std::size_t kSectors = 12;
 constexpr double kGate = 9.21;              // 99 % of a chi-square of two degrees of freedom
 constexpr double kSureDescriptors = 260.0;  // Euclidean, of 512: two views of one thing lie closer, nine times of ten
@@ -115,6 +116,13 @@ std::vector<SightedPoint> agreeing(std::span<const SightedPoint> sightings, cons
   return kept;
 }
 
+/// What the covariance of a fit is multiplied by because its points were chosen: that they agree with a pose made them inliers, so they
+/// agree better than they are right. The choice spends as many degrees of freedom as the fit; it counts where there are few points.
+double by_choice(std::size_t points) {
+  const double freedom = 2.0 * static_cast<double>(points) - kPoseFreedom;
+  return freedom / std::max(1.0, freedom - kPoseFreedom);
+}
+
 /// How many of twelve sectors of the full turn hold a bearing: what stands in one of them may stand elsewhere, too.
 int sectors(std::span<const SightedPoint> sightings) {
   std::bitset<kSectors> seen;
@@ -199,7 +207,7 @@ PanoramaPoseResult estimate_panorama_pose(std::span<const Keypoint> panorama, st
   refined = refine_pose(refined.landmark_from_panorama, guided, sigma_rad);
 
   result.reason = objection(refined.landmark_from_panorama, heading_rad, parameters);
-  const PanoramaPose pose{refined.landmark_from_panorama, refined.covariance,
+  const PanoramaPose pose{refined.landmark_from_panorama, by_choice(guided.size()) * refined.covariance,
                           heading_of(refined.landmark_from_panorama.linear())};
   if (result.inliers < needed) {
     if (result.reason.empty()) result.weak_pose = pose;

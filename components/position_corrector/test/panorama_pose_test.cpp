@@ -68,6 +68,36 @@ TEST(PanoramaPose, IsFoundFromThePointsOfALandmarkSeenElsewhereUnderAnotherHeadi
   EXPECT_GE(result.inliers, 100);
 }
 
+/// Eight points all round, each as many times as is said, with descriptors of their own, seen without an error.
+std::vector<Keypoint> eight_points(int times) {
+  std::mt19937_64 random(5);
+  std::vector<Keypoint> points;
+  for (int i = 0; i < 8 * times; ++i) {
+    const double azimuth = M_PI / 4.0 * (i % 8);
+    const Eigen::Vector3d point(15.0 * std::sin(azimuth), i % 2 == 0 ? -4.0 : -1.0, 15.0 * std::cos(azimuth));
+    Keypoint known;
+    known.bearing = point.normalized().cast<float>();
+    known.has_point = true;
+    known.point_in_panorama = point.cast<float>();
+    known.inverse_range_sigma = 0.002F;
+    for (auto& byte : known.descriptor) byte = static_cast<std::uint8_t>(random() % 90);
+    points.push_back(known);
+  }
+  return points;
+}
+
+TEST(PanoramaPose, IsLessSureOfFewPointsThanTheirNumberSaysForTheyWereChosenBecauseTheyAgree) {
+  const auto few = eight_points(1), many = eight_points(12);
+  const auto by_few = estimate_panorama_pose(few, few, 0.0, {}), by_many = estimate_panorama_pose(many, many, 0.0, {});
+  ASSERT_TRUE(by_few.weak_pose) << by_few.reason;
+  ASSERT_TRUE(by_many.pose) << by_many.reason;
+  ASSERT_EQ(by_few.inliers, 8);
+  ASSERT_EQ(by_many.inliers, 96);
+  // 10 of freedom are 4 after the choice, 186 are 180
+  const double expected = 12.0 * (10.0 / 4.0) / (186.0 / 180.0);
+  EXPECT_NEAR(by_few.weak_pose->covariance.trace() / by_many.pose->covariance.trace(), expected, 0.01 * expected);
+}
+
 TEST(PanoramaPose, IsTheSameBitForBit) {
   const Place place;
   const auto first = estimate_panorama_pose(place.panorama, place.landmark, Place::kHeading_rad, {});
