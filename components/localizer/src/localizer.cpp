@@ -22,6 +22,7 @@ constexpr double kMostElse = 25.0;  // odometry that turns wrongly goes wrong, t
 // Of the stamp of an image's arrival. Clocks that are farther off show it in the first bend; until then straight ways count, too.
 constexpr double kMostStampSigma_s = 0.01;
 constexpr double kClockCaution = 9.0;       // odometry errs by more than it says now and then, and just while turning
+constexpr double kScaleCaution = 4.0;       // what the compass errs by stays alike for some seconds, as a bend does
 constexpr double kUnknownPosition_m = 1e4;  // standard deviations of a start that is not known
 constexpr double kUnknownYaw_rad = 3.0;
 // Of what somebody who says where the vehicle is leaves open: he clicked on a flat map.
@@ -39,14 +40,17 @@ Localizer::Localizer(const Parameters& parameters)
     : parameters_(parameters),
       chain_(parameters.history_s),
       clock_(parameters.clock_sigma_s),
+      turn_scale_(parameters.turn_scale_sigma),
       lean_(parameters.lean_window_s, parameters.lean_sigmas),
       graph_(parameters.start_sigma_m, parameters.start_sigma_deg * kDegree) {}
 
 LocalizedPose Localizer::add(const OdometryPose& odometry) {
   const double doubt = std::min(1.0, odometry.outlier_share / parameters_.doubtful_outlier_share);
-  if (!chain_.add(odometry, std::lerp(parameters_.steady_turn_share, 1.0, doubt))) return latest_;
+  const double scale = turn_scale_.estimate();
+  if (!chain_.add(odometry, std::lerp(parameters_.steady_turn_share, 1.0, doubt), scale)) return latest_;
   if (graph_.has_started()) {
-    slew(last_raw_.inverse() * odometry.odom_from_base);
+    const Eigen::Isometry3d step = last_raw_.inverse() * odometry.odom_from_base;
+    slew(turned_more(step, -scale * yaw_of(step.linear())));
   } else {
     graph_.start(chain_.latest());
     smooth_ = odometry.odom_from_base;
@@ -72,6 +76,8 @@ AzimuthUse Localizer::add(const AzimuthMeasurement& azimuth) {
     chain_.revert();
   } else {
     chain_.mark(from_ns);
+    if (turn_seen_) turn_scale_.add(turn_seen_->disagreement_rad, turn_seen_->turn_rad, turn_seen_->variance_rad2);
+    turn_seen_.reset();
   }
   last_from_ns_ = azimuth.from_ns;
   const auto turn = chain_.turn(from_ns, to_ns);
@@ -97,7 +103,8 @@ AzimuthUse Localizer::add(const AzimuthMeasurement& azimuth) {
   if (is_contradicted) {
     lean_.forget();
   } else if (const auto raw_rad = chain_.raw_turn(from_ns, to_ns)) {
-    lean = lean_.add({from_ns, to_ns, wrapped(azimuth.change_rad - *raw_rad), azimuth.change_rad,
+    const double said_rad = (1.0 - turn_scale_.estimate()) * *raw_rad;
+    lean = lean_.add({from_ns, to_ns, wrapped(azimuth.change_rad - said_rad), azimuth.change_rad,
                       turn->said_variance_rad2, compass_variance});
   }
   if (lean) {
@@ -109,6 +116,7 @@ AzimuthUse Localizer::add(const AzimuthMeasurement& azimuth) {
     fuse(lean->from_ns, lean->to_ns, lean->compass_rad, lean->compass_variance_rad2);
     graph_.refresh(chain_, lean->from_ns);
   } else if (!is_contradicted) {
+    turn_seen_ = TurnSeen{disagreement, turn->change_rad, kScaleCaution * (compass_variance + turn->variance_rad2)};
     clock_.add(disagreement, rate_change, kClockCaution * (measured_variance + turn->said_variance_rad2));
   }
   azimuth_ns_ = to_ns;

@@ -36,7 +36,14 @@ vision::Matrix6d gained_covariance(const OdometryPose& a, const OdometryPose& b,
 
 double yaw_of(const Eigen::Matrix3d& rotation) { return std::atan2(rotation(1, 0), rotation(0, 0)); }
 
-bool OdometryChain::add(const OdometryPose& odometry, double turn_share) {
+Eigen::Isometry3d turned_more(const Eigen::Isometry3d& step, double by_rad) {
+  Eigen::Isometry3d turned = step;
+  turned.translation() = vision::so3_exp(Eigen::Vector3d(0.0, 0.0, 0.5 * by_rad)) * step.translation();
+  turned.linear() = vision::so3_exp(Eigen::Vector3d(0.0, 0.0, by_rad)) * step.linear();
+  return turned;
+}
+
+bool OdometryChain::add(const OdometryPose& odometry, double turn_share, double turn_scale) {
   if (!odometry.odom_from_base.matrix().allFinite() || !odometry.covariance.allFinite()) return false;
   if (!entries_.empty() && odometry.stamp_ns <= entries_.back().raw.stamp_ns) return false;
   Entry entry;
@@ -44,7 +51,8 @@ bool OdometryChain::add(const OdometryPose& odometry, double turn_share) {
   entry.now.pose = odometry;
   if (!entries_.empty()) {
     const auto& before = entries_.back();
-    entry.step.motion = before.raw.odom_from_base.inverse() * odometry.odom_from_base;
+    const Eigen::Isometry3d said = before.raw.odom_from_base.inverse() * odometry.odom_from_base;
+    entry.step.motion = turned_more(said, -turn_scale * yaw_of(said.linear()));
     entry.step.covariance = gained_covariance(before.raw, odometry, kLeastStepVariance);
     entry.step.turn_share = turn_share;
     entry.step.covariance.row(kYaw) *= std::sqrt(turn_share);
@@ -137,11 +145,7 @@ void OdometryChain::turn_more(std::int64_t from_ns, std::int64_t to_ns, double b
     if (part <= 0.0) break;
     auto& entry = entries_[i];
     const double weight = part * entry.step.covariance(kYaw, kYaw) / stretch->variance_rad2;
-    const Eigen::Matrix3d more = vision::so3_exp(Eigen::Vector3d(0.0, 0.0, weight * by_rad));
-    // half of the turn before the way, half after it
-    const Eigen::Matrix3d half = vision::so3_exp(Eigen::Vector3d(0.0, 0.0, 0.5 * weight * by_rad));
-    entry.step.motion.translation() = half * entry.step.motion.translation();
-    entry.step.motion.linear() = more * entry.step.motion.linear();
+    entry.step.motion = turned_more(entry.step.motion, weight * by_rad);
     const double scale = std::sqrt(1.0 + part * (variance_factor - 1.0));
     entry.step.covariance.row(kYaw) *= scale;
     entry.step.covariance.col(kYaw) *= scale;

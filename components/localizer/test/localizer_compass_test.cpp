@@ -109,9 +109,9 @@ TEST(LocalizerWithCompass, TakesTheLastOfTheTurnsAgainstOnePanorama) {
   constexpr double kOff_rad = 0.001;                // of all turns against one panorama alike
   const auto drive_on = [](bool tells_all) {
     Drive drive(12);
-    Parameters one_clock;
-    one_clock.clock_sigma_s = 0.0;
-    Localizer localizer(one_clock);
+    Parameters known;  // what is learned of each turn would come at other times
+    known.clock_sigma_s = known.turn_scale_sigma = 0.0;
+    Localizer localizer(known);
     localizer.add(drive.now());
     for (int i = 0; i < 40; ++i) {
       localizer.add(drive.step());
@@ -125,6 +125,36 @@ TEST(LocalizerWithCompass, TakesTheLastOfTheTurnsAgainstOnePanorama) {
   const auto all = drive_on(true), last = drive_on(false);
   EXPECT_LT(vision::pose_error(all.map_from_base, last.map_from_base).norm(), 1e-6);
   EXPECT_NEAR(all.covariance(5, 5), last.covariance(5, 5), 1e-9);
+}
+
+TEST(LocalizerWithCompass, LearnsByWhatShareOdometryTurnsTooMuch) {
+  constexpr double kTurn_rad = 2.0 * M_PI / 200.0, kTooMuch = 0.003;
+  Localizer localizer(Parameters{});
+  OdometryPose odometry;
+  const vision::Matrix6d gained = 1e-7 * vision::Matrix6d::Identity();
+  localizer.add(odometry);
+  const auto round = [&](bool has_compass) {  // by how much more than once round, says the localizer
+    const Eigen::Matrix3d before = localizer.latest().map_from_base.linear();
+    for (int i = 0; i < 200; ++i) {
+      Eigen::Isometry3d step = Eigen::Isometry3d::Identity();
+      step.translation().x() = kStep_m;
+      step.linear() = vision::so3_exp(Eigen::Vector3d(0.0, 0.0, (1.0 + kTooMuch) * kTurn_rad));
+      odometry.covariance = vision::compose_covariance(odometry.odom_from_base, odometry.covariance, step, gained);
+      odometry.odom_from_base = odometry.odom_from_base * step;
+      const std::int64_t before_ns = odometry.stamp_ns;
+      odometry.stamp_ns += kPeriod_ns;
+      localizer.add(odometry);
+      if (has_compass) localizer.add(AzimuthMeasurement{before_ns, odometry.stamp_ns, kTurn_rad, 1e-8});
+    }
+    return yaw_of(before.transpose() * localizer.latest().map_from_base.linear());
+  };
+  for (int i = 0; i < 5; ++i) round(true);
+  EXPECT_LT(std::abs(round(false)), 0.3 * kTooMuch * 2.0 * M_PI);
+  // What is told as odom_from_base turns by as much.
+  const Eigen::Matrix3d before = localizer.latest().odom_from_base.linear();
+  round(false);
+  EXPECT_LT(std::abs(yaw_of(before.transpose() * localizer.latest().odom_from_base.linear())),
+            0.3 * kTooMuch * 2.0 * M_PI);
 }
 
 TEST(LocalizerWithCompass, IsAsSureOfAnOdometryThatLeansHoweverOftenItIsTold) {

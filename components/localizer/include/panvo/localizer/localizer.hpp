@@ -13,6 +13,7 @@
 #include "panvo/localizer/localizer_parameters.hpp"
 #include "panvo/localizer/mounting_check.hpp"
 #include "panvo/localizer/odometry_chain.hpp"
+#include "panvo/localizer/turn_scale.hpp"
 
 namespace panvo::localizer {
 
@@ -100,6 +101,10 @@ class Localizer {
     double way_m;
   };
 
+  struct TurnSeen {  // by odometry and compass
+    double disagreement_rad, turn_rad, variance_rad2;
+  };
+
   std::int64_t in_odometry_time(std::int64_t panorama_stamp_ns) const;
   LocalizedPose localized(const OdometryPose& odometry) const;
   void tell_state(LocalizedPose& pose) const;
@@ -115,6 +120,7 @@ class Localizer {
   const Parameters parameters_;
   OdometryChain chain_;
   ClockOffset clock_;
+  TurnScale turn_scale_;
   AzimuthLean lean_;
   JourneyGraph graph_;
   MountingCheck mounting_;
@@ -128,6 +134,7 @@ class Localizer {
   std::optional<std::int64_t> doubtful_ns_;   // the last time since a correction that odometry may have missed a move
   std::optional<std::int64_t> azimuth_ns_;    // the last that was used
   std::optional<std::int64_t> last_from_ns_;  // the panorama that it was measured against
+  std::optional<TurnSeen> turn_seen_;         // against that panorama, last
   std::optional<double> found_at_way_m_;      // where the vehicle was found last, after it was not known where
   std::optional<Asking> asking_;              // the last sighting that was not believed
   std::optional<Asking> dissent_;             // the last pair of them, of another landmark

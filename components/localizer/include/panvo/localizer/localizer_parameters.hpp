@@ -14,6 +14,7 @@ struct Parameters {
   double lean_window_s = 8.0;
   double lean_sigmas = 3.0;
   double compass_turn_error_ratio = 0.007;
+  double turn_scale_sigma = 0.002;
   double steady_turn_share = 0.3;
   double doubtful_outlier_share = 0.02;
   double scale_sigma = 0.002;
@@ -46,6 +47,11 @@ struct Parameters {
         "share of a turn that the compass may miss every time: of drops on the lens and parts of the vehicle, which do "
         "not turn against the camera",
         0.0, 0.5);
+    field(
+        &P::turn_scale_sigma, "turn_scale_sigma", "1",
+        "standard deviation of the share by which odometry turns too much or too little, before the compass tells it: "
+        "of focal lengths some months after they were calibrated; 0: they are right",
+        0.0, 0.1);
     field(&P::steady_turn_share, "steady_turn_share", "1",
           "how much of the variance that odometry says of its turns is believed where all of its points agree: what it "
           "says allows for the lean of long ways, and beside the compass it is the next seconds that count",

@@ -39,8 +39,8 @@ class OdometryChain {
   explicit OdometryChain(double history_s) : history_s_(history_s) {}
 
   /// In order of stamps; false, and nothing is done, for one that is not after the last or not finite. `turn_share`: of the variance that
-  /// it gained in yaw, how much is kept.
-  bool add(const OdometryPose& odometry, double turn_share = 1.0);
+  /// it gained in yaw, how much is kept; `turn_scale`: by what share its turns are too large.
+  bool add(const OdometryPose& odometry, double turn_share = 1.0, double turn_scale = 0.0);
 
   bool empty() const noexcept { return entries_.empty(); }
   /// Precondition: not empty.
@@ -99,6 +99,9 @@ class OdometryChain {
 
 /// Covariance of a_from_b that odometry gained on the way from a to b, in the axes of a; at least `least_variance` along every direction.
 vision::Matrix6d gained_covariance(const OdometryPose& a, const OdometryPose& b, double least_variance);
+
+/// A step with so much more of a turn to the left, half of it before the way and half after it.
+Eigen::Isometry3d turned_more(const Eigen::Isometry3d& step, double by_rad);
 
 /// Yaw of a rotation about the upward z axis, rad, (-pi, pi].
 double yaw_of(const Eigen::Matrix3d& rotation);
