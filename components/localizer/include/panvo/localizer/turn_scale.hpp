@@ -3,8 +3,8 @@
 
 namespace panvo::localizer {
 
-/// By what share odometry turns more than the vehicle does. A focal length that is off makes all turns larger or smaller in the same
-/// proportion, and the stereo pair cannot see it; a panorama has no focal length. A Kalman filter of one state.
+/// By what share odometry turns more than the vehicle does. A focal length or a lens's distortion that is off makes all turns larger or
+/// smaller in the same proportion, and the stereo pair cannot see it; a panorama has no focal length. A Kalman filter of one state.
 class TurnScale {
  public:
   /// `sigma`: what it may be before anything is known.
