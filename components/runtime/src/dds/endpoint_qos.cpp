@@ -89,6 +89,8 @@ void apply(const TopicDescription& topic, fdds::DataWriterQos& qos) {
   if (topic.qos.requested == Reliability::kBestEffort) qos.publish_mode().kind = fdds::ASYNCHRONOUS_PUBLISH_MODE;
   qos.reliable_writer_qos().times.heartbeatPeriod = to_dds(kHeartbeatPeriod);
   qos.representation().m_value = {fdds::XCDR_DATA_REPRESENTATION};
+  if (topic.qos.deadline.count() > 0) qos.deadline().period = to_dds(topic.qos.deadline);
+  if (topic.qos.lifespan.count() > 0) qos.lifespan().duration = to_dds(topic.qos.lifespan);
   // ROS 2 has data sharing off, and a reader of it that is slower than its writer would see its samples
   // change.
   qos.data_sharing().off();

@@ -11,6 +11,7 @@
 #include "panvo/interfaces/qos.hpp"
 #include "panvo_msgs/msg/AzimuthChange.h"
 #include "panvo_msgs/msg/CorrectionOutcome.h"
+#include "panvo_msgs/msg/Integrity.h"
 #include "panvo_msgs/msg/LandmarkMatch.h"
 #include "panvo_msgs/msg/LandmarkPoses.h"
 #include "panvo_msgs/msg/LocalizationState.h"
@@ -76,7 +77,9 @@ inline constexpr Topic<panvo_msgs::msg::LandmarkMatch> kLandmarkMatch{"landmarks
 inline constexpr Topic<panvo_msgs::msg::LandmarkPoses> kLandmarkPoses{"landmarks/poses", qos::kLatched};
 inline constexpr Topic<panvo_msgs::msg::PositionCorrection> kCorrection{"correction", qos::kResult};
 inline constexpr Topic<panvo_msgs::msg::CorrectionOutcome> kCorrectionOutcome{"correction/outcome", qos::kResult};
-inline constexpr Topic<panvo_msgs::msg::LocalizationState> kLocalizationState{"localization/state", qos::kLatched};
+inline constexpr Topic<panvo_msgs::msg::LocalizationState> kLocalizationState{"localization/state", qos::kState};
+/// How far the published pose may be off at a stated risk, and whether it may be used.
+inline constexpr Topic<panvo_msgs::msg::Integrity> kIntegrity{"localization/integrity", qos::kState};
 /// Where somebody says that the vehicle is: RViz's "2D Pose Estimate".
 inline constexpr Topic<geometry_msgs::msg::PoseWithCovarianceStamped> kInitialPose{"/initialpose", qos::kDefault};
 inline constexpr Topic<nav_msgs::msg::Path> kPathBinocular{"path/binocular", qos::kResult};
