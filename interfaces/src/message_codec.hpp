@@ -10,6 +10,7 @@
 #include "builtin_interfaces/msg/Time.h"
 #include "cdr_layout.hpp"
 #include "panvo/interfaces/message_type.hpp"
+#include "panvo/interfaces/validity.hpp"
 
 namespace eprosima::fastcdr {
 class Cdr;
@@ -68,6 +69,16 @@ std::shared_ptr<void> deserialize(std::span<const std::uint8_t> bytes) {
   return message;
 }
 
+/// nullptr for a type without rules.
+template <class Message>
+constexpr auto problem_function() -> std::optional<std::string> (*)(const void*) {
+  if constexpr (requires(const Message& message) { problem_of(message); }) {
+    return [](const void* message) { return problem_of(*static_cast<const Message*>(message)); };
+  } else {
+    return nullptr;
+  }
+}
+
 template <class Message>
 constexpr MessageType kMessageType{
     .name = Facts<Message>::name,
@@ -79,6 +90,7 @@ constexpr MessageType kMessageType{
     .serialize = serialize<Message>,
     .deserialize = deserialize<Message>,
     .stamp_ns = [](const void* message) { return Facts<Message>::stamp_ns(*static_cast<const Message*>(message)); },
+    .problem = problem_function<Message>(),
 };
 
 template <class Message>

@@ -21,6 +21,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     return 0;
   }
   type.stamp_ns(message.get());
+  if (type.problem) type.problem(message.get());
   // A text that holds a NUL ends there when it is sent; from then on nothing changes any more.
   const auto sent = [&type](const std::shared_ptr<void>& read) {
     Bytes out(type.serialized_size(read.get()));

@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 #include <stdexcept>
+#include <string>
 #include <string_view>
 #include <typeinfo>
 #include <vector>
@@ -38,6 +39,8 @@ struct MessageType {
   std::shared_ptr<void> (*deserialize)(std::span<const std::uint8_t> bytes);
   /// The stamp of the message's header in ns; nullopt for a type without one.
   std::optional<std::int64_t> (*stamp_ns)(const void* message);
+  /// What is wrong with a message by the rules of its type, see validity.hpp; nullptr: the type has no rules.
+  std::optional<std::string> (*problem)(const void* message);
 };
 
 /// The type of a generated message class: message_type<nav_msgs::msg::Odometry>(). Defined in this library for every generated message.

@@ -16,9 +16,10 @@ struct Qos {
   Durability durability = Durability::kVolatile;
   /// Keep last; of each input of a component too: what is more is dropped, oldest first, and counted.
   std::size_t depth = 10;
-  bool keep_all = false;  ///< nothing is dropped: `depth` is then the bound at which a writer waits
+  bool keep_all = false;                  ///< nothing is dropped: `depth` is then the bound at which a writer waits
   std::chrono::milliseconds deadline{0};  ///< the writer publishes at least this often; 0: no promise
-  std::chrono::milliseconds lifespan{0};  ///< an older message is not delivered, not to late joiners either; 0: no limit
+  std::chrono::milliseconds lifespan{
+      0};  ///< an older message is not delivered, not to late joiners either; 0: no limit
 };
 
 namespace qos {

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "panvo/interfaces/validity.hpp"
+#include "validity_parts.hpp"
+
+namespace panvo::interfaces {
+namespace {
+
+constexpr std::size_t kMostPoses = 1'000'000;    // of a path: a day at 10 Hz
+constexpr std::size_t kMostTransforms = 10'000;  // of one message: ten times the joints of any robot
+
+void check(Check& check, std::string_view pose_name, std::string_view covariance_name,
+           const geometry_msgs::msg::PoseWithCovariance& pose) {
+  check_pose(check, pose_name, pose.pose());
+  check.covariance(covariance_name, pose.covariance());
+}
+
+}  // namespace
+
+Problem problem_of(const geometry_msgs::msg::PoseStamped& message) {
+  Check check;
+  check_header(check, message.header());
+  check_pose(check, "pose", message.pose());
+  return check.problem();
+}
+
+Problem problem_of(const geometry_msgs::msg::PoseWithCovariance& message) {
+  Check checked;
+  check(checked, "pose", "covariance", message);
+  return checked.problem();
+}
+
+Problem problem_of(const geometry_msgs::msg::PoseWithCovarianceStamped& message) {
+  Check checked;
+  check_header(checked, message.header());
+  check(checked, "pose.pose", "pose.covariance", message.pose());
+  return checked.problem();
+}
+
+Problem problem_of(const geometry_msgs::msg::TwistStamped& message) {
+  Check check;
+  check_header(check, message.header());
+  check_twist(check, "twist", message.twist());
+  return check.problem();
+}
+
+Problem problem_of(const nav_msgs::msg::Odometry& message) {
+  Check checked;
+  check_header(checked, message.header());
+  checked.name("child_frame_id", message.child_frame_id());
+  check(checked, "pose.pose", "pose.covariance", message.pose());
+  check_twist(checked, "twist.twist", message.twist().twist());
+  // Drivers that know no speed say so with -1 in the first element, as REP 145 has it for IMUs.
+  const auto& twist = message.twist().covariance();
+  if (twist[0] != -1.0) checked.covariance("twist.covariance", twist);
+  return checked.problem();
+}
+
+Problem problem_of(const nav_msgs::msg::Path& message) {
+  Check check;
+  check_header(check, message.header());
+  check.at_most("poses", message.poses().size(), kMostPoses);
+  if (!check.holds()) return check.problem();
+  for (const auto& pose : message.poses()) check_pose(check, "poses.pose", pose.pose());
+  return check.problem();
+}
+
+Problem problem_of(const geometry_msgs::msg::TransformStamped& message) {
+  Check check;
+  check_header(check, message.header());
+  check.name("child_frame_id", message.child_frame_id());
+  const auto& translation = message.transform().translation();
+  check.bounded({"transform", "translation"}, {translation.x(), translation.y(), translation.z()}, kFarthest_m);
+  check_rotation(check, {"transform", "rotation"}, message.transform().rotation());
+  return check.problem();
+}
+
+Problem problem_of(const tf2_msgs::msg::TFMessage& message) {
+  Check check;
+  check.at_most("transforms", message.transforms().size(), kMostTransforms);
+  return check.problem();
+}
+
+}  // namespace panvo::interfaces

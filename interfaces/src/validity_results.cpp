@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <numbers>
+
+#include "panvo/interfaces/validity.hpp"
+#include "validity_parts.hpp"
+
+namespace panvo::interfaces {
+namespace {
+
+constexpr double kMostTurn_rad = std::numbers::pi + 1e-6;  // rounding of a wrapped angle
+constexpr double kLargestAngleVariance = 1e3;              // a turn is all there is; more is "not known"
+constexpr double kLargestSigma = 1e9;                      // of a pose that is not known
+constexpr double kLargestResidual_px = 1e6;
+constexpr std::size_t kMostStatuses = 10'000;
+constexpr std::size_t kMostValues = 10'000;
+
+}  // namespace
+
+Problem problem_of(const panvo_msgs::msg::AzimuthChange& message) {
+  Check check;
+  check_header(check, message.header());
+  check_stamp(check, "from_stamp", message.from_stamp());
+  check.text("reason", message.reason());
+  if (!message.valid()) return check.problem();
+  check.bounded("azimuth_change_rad", {message.azimuth_change_rad()}, kMostTurn_rad);
+  check.within("variance_rad2", message.variance_rad2(), kSmallestVariance, kLargestAngleVariance);
+  check.finite("side_parallax_rad", {message.side_parallax_rad()});
+  return check.problem();
+}
+
+Problem problem_of(const panvo_msgs::msg::CorrectionOutcome& message) {
+  Check check;
+  check_header(check, message.header());
+  check.name("outcome", message.outcome()).text("reason", message.reason());
+  check.finite("chi_square", {message.chi_square()});
+  check_pose(check, "before", message.before());
+  check_pose(check, "after", message.after());
+  return check.problem();
+}
+
+Problem problem_of(const panvo_msgs::msg::Integrity& message) {
+  Check check;
+  check_header(check, message.header());
+  check.text("reason", message.reason());
+  check.within("risk", message.risk(), 0.0, 1.0);
+  check.within("alert_limit_m", message.alert_limit_m(), 0.0, kLargestSigma);
+  // A level that cannot be told may be infinite, but then the pose is of no use.
+  if (message.usable()) {
+    check.within("horizontal_protection_level_m", message.horizontal_protection_level_m(), 0.0, kLargestSigma);
+  }
+  return check.problem();
+}
+
+Problem problem_of(const panvo_msgs::msg::LocalizationState& message) {
+  Check check;
+  check_header(check, message.header());
+  check_stamp(check, "since", message.since());
+  check.name("state", message.state()).text("reason", message.reason());
+  check.within("position_sigma_m", message.position_sigma_m(), 0.0, kLargestSigma);
+  check.within("heading_sigma_rad", message.heading_sigma_rad(), 0.0, kLargestSigma);
+  return check.problem();
+}
+
+Problem problem_of(const panvo_msgs::msg::OdometryQuality& message) {
+  Check check;
+  check_header(check, message.header());
+  check.text("reason", message.reason());
+  check.within("inlier_ratio", message.inlier_ratio(), 0.0, 1.0);
+  check.within("residual_px", message.residual_px(), 0.0, kLargestResidual_px);
+  return check.problem();
+}
+
+Problem problem_of(const panvo_msgs::msg::PositionCorrection& message) {
+  Check check;
+  check_header(check, message.header());
+  check.name("state", message.state()).text("reason", message.reason());
+  check_pose(check, "landmark_from_base.pose", message.landmark_from_base().pose());
+  // What is rejected is told for people: nobody measures with it.
+  const bool measures = message.state() != "rejected";
+  if (measures) {
+    check.measured_covariance("landmark_from_base.covariance", message.landmark_from_base().covariance());
+  } else {
+    check.covariance("landmark_from_base.covariance", message.landmark_from_base().covariance());
+  }
+  return check.problem();
+}
+
+Problem problem_of(const diagnostic_msgs::msg::DiagnosticArray& message) {
+  Check check;
+  check_header(check, message.header());
+  check.at_most("status", message.status().size(), kMostStatuses);
+  if (!check.holds()) return check.problem();
+  for (const auto& status : message.status()) {
+    check.text("status.name", status.name()).text("status.message", status.message());
+    check.at_most("status.values", status.values().size(), kMostValues);
+  }
+  return check.problem();
+}
+
+Problem problem_of(const rcl_interfaces::msg::Log& message) {
+  Check check;
+  check_stamp(check, "stamp", message.stamp());
+  check.text("name", message.name()).text("msg", message.msg()).text("file", message.file());
+  return check.problem();
+}
+
+Problem problem_of(const rosgraph_msgs::msg::Clock& message) {
+  Check check;
+  check_stamp(check, "clock", message.clock());
+  return check.problem();
+}
+
+}  // namespace panvo::interfaces
