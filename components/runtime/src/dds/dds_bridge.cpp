@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "discovery.hpp"
-#include "half_made_ports.hpp"
+#include "image_sharing.hpp"
 #include "local_endpoints.hpp"
 #include "node_graph.hpp"
 #include "node_info.hpp"
@@ -22,14 +22,16 @@ namespace panvo::runtime {
 namespace {
 
 /// Writers and readers are in a participant each, both of which ignore participants of their own process:
-/// that keeps endpoints of one process apart, for which Fast DDS 2.9 has no other means. A participant is
+/// that keeps endpoints of one process apart, for which Fast DDS 2.9 has no other means. (Where messages are encrypted it
+/// cannot tell which these are; readers and writers leave out what is their own, see own_participants.hpp.) A participant is
 /// nine threads, so each is made when it is first needed.
 class DdsBridge final : public Bridge {
  public:
   explicit DdsBridge(const DdsSettings& settings) : settings_(settings) {
     dds::load_profiles(settings_);
-    dds::remove_half_made_ports();
-    if (const auto warning = dds::shared_memory_warning()) notifier_->warn(*warning);
+    for (const auto& warning : {dds::profile_warning(), dds::sharing_warning(settings_)}) {
+      if (warning) notifier_->warn(*warning);
+    }
     discovery_->on_participant_gone([graph = std::weak_ptr(graph_)](const auto& prefix) {
       if (const auto known = graph.lock()) known->participant_gone(prefix);
     });
@@ -53,9 +55,12 @@ class DdsBridge final : public Bridge {
     participant(dds::Role::kReaders);
   }
 
-  std::unique_ptr<BridgeService> serve(const ServiceDescription& service, ServiceHandler handler) override {
-    return std::make_unique<dds::ServiceServer>(service, std::move(handler), participant(dds::Role::kReaders),
-                                                participant(dds::Role::kWriters), services_, notifier_);
+  std::unique_ptr<BridgeService> serve(const ServiceDescription& service, ServiceHandler handler,
+                                       ServiceGuard guard) override {
+    const dds::RequestLimits limits{settings_.requests_per_s, settings_.largest_request};
+    return std::make_unique<dds::ServiceServer>(service, std::move(handler), std::move(guard), limits,
+                                                participant(dds::Role::kReaders), participant(dds::Role::kWriters),
+                                                services_, notifier_);
   }
 
   std::unique_ptr<BridgeClient> open_client(const ServiceDescription& service) override {

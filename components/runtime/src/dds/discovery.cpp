@@ -6,10 +6,13 @@
 #include <spdlog/fmt/fmt.h>
 #include <fastdds/dds/domain/DomainParticipant.hpp>
 
+#include <algorithm>
 #include <string_view>
 
+#include "image_sharing.hpp"
 #include "names.hpp"
 #include "node_info.hpp"
+#include "own_participants.hpp"
 
 namespace panvo::runtime::dds {
 
@@ -20,11 +23,6 @@ namespace {
 
 std::string readable_type_name(const std::string& wire_name) {
   return type_name_from_wire(wire_name).value_or(wire_name);
-}
-
-// Fast DDS reports a participant's own endpoints too.
-bool is_of_this_process(const fdds::DomainParticipant& participant, const rtps::GUID_t& endpoint) {
-  return participant.guid().is_on_same_process_as(endpoint);
 }
 
 // Of a reader what it asks for; of a writer what a reader should ask for to get all that it offers.
@@ -102,6 +100,14 @@ std::vector<GraphEndpoint> Discovery::endpoints() const {
   return endpoints;
 }
 
+bool Discovery::has_sharing_reader(const std::string& wire_name) const {
+  const std::lock_guard lock(mutex_);
+  return std::ranges::any_of(remote_endpoints_, [&](const auto& known) {
+    const RemoteEndpoint& endpoint = known.second;
+    return endpoint.shares && !endpoint.shown.is_writer && endpoint.topic.name == wire_name;
+  });
+}
+
 void Discovery::on_participant_gone(std::function<void(const rtps::GuidPrefix_t&)> callback) {
   const std::lock_guard lock(mutex_);
   on_participant_gone_ = std::move(callback);
@@ -122,8 +128,8 @@ void Discovery::on_participant_discovery(fdds::DomainParticipant* participant, r
   if (on_participant_gone_) on_participant_gone_(prefix);
 }
 
-void Discovery::on_publisher_discovery(fdds::DomainParticipant* participant, rtps::WriterDiscoveryInfo&& info) {
-  if (is_of_this_process(*participant, info.info.guid())) return;
+void Discovery::on_publisher_discovery(fdds::DomainParticipant*, rtps::WriterDiscoveryInfo&& info) {
+  if (is_of_this_process(info.info.guid())) return;  // Fast DDS reports a participant's own endpoints too
   const std::lock_guard lock(mutex_);
   if (info.status == rtps::WriterDiscoveryInfo::REMOVED_WRITER) {
     remote_endpoints_.erase(info.info.guid());
@@ -136,15 +142,16 @@ void Discovery::on_publisher_discovery(fdds::DomainParticipant* participant, rtp
   if (kind == EndpointKind::kTopic) announce({name, type_name, qos, interfaces::find_message_type(type_name)});
 }
 
-void Discovery::on_subscriber_discovery(fdds::DomainParticipant* participant, rtps::ReaderDiscoveryInfo&& info) {
-  if (is_of_this_process(*participant, info.info.guid())) return;
+void Discovery::on_subscriber_discovery(fdds::DomainParticipant*, rtps::ReaderDiscoveryInfo&& info) {
+  if (is_of_this_process(info.info.guid())) return;
   const std::lock_guard lock(mutex_);
   if (info.status == rtps::ReaderDiscoveryInfo::REMOVED_READER) {
     remote_endpoints_.erase(info.info.guid());
     return;
   }
-  remember(info.info.guid(),
-           {{info.info.topicName().to_string(), info.info.typeName().to_string()}, shown(info.info, false)});
+  remember(info.info.guid(), {{info.info.topicName().to_string(), info.info.typeName().to_string()},
+                              shown(info.info, false),
+                              is_in_neighbourhood(info.info.m_qos.data_sharing)});
 }
 
 void Discovery::remember(const rtps::GUID_t& guid, RemoteEndpoint remote) {

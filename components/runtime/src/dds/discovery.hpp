@@ -36,6 +36,8 @@ class Discovery final : public eprosima::fastdds::dds::DomainParticipantListener
   void topic_closed(const std::string& wire_name, const std::string& wire_type_name);
 
   std::vector<GraphEndpoint> endpoints() const;
+  /// Whether a process of this machine reads the topic that shares memory as we do.
+  bool has_sharing_reader(const std::string& wire_name) const;
 
   /// Called when no participant of this process sees that one any more, which may come from inside Fast DDS.
   void on_participant_gone(std::function<void(const eprosima::fastrtps::rtps::GuidPrefix_t&)> callback);
@@ -56,6 +58,7 @@ class Discovery final : public eprosima::fastdds::dds::DomainParticipantListener
   struct RemoteEndpoint {
     TypedTopic topic;
     GraphEndpoint shown;
+    bool shares = false;  // memory with us
   };
 
   void remember(const eprosima::fastrtps::rtps::GUID_t& guid, RemoteEndpoint remote);

@@ -9,6 +9,8 @@
 #include <string_view>
 #include <vector>
 
+#include "participant_qos.hpp"
+
 namespace panvo::runtime::dds {
 
 namespace fdds = eprosima::fastdds::dds;
@@ -86,7 +88,11 @@ void apply(const TopicDescription& topic, fdds::DataWriterQos& qos) {
   // Topics of which only the newest counts carry images. Their fragments are sent from a thread of Fast
   // DDS's, so that a network slower than the camera does not hold the publisher (at 100 Mbit/s a panorama of
   // 1.75 MB held it for 122 ms, now 0.8 ms). Others are small and leave at once.
-  if (topic.qos.requested == Reliability::kBestEffort) qos.publish_mode().kind = fdds::ASYNCHRONOUS_PUBLISH_MODE;
+  // And at a pace that a receiver keeps up with, see participant_qos().
+  if (topic.qos.requested == Reliability::kBestEffort) {
+    qos.publish_mode().kind = fdds::ASYNCHRONOUS_PUBLISH_MODE;
+    qos.publish_mode().flow_controller_name = kImagePace;
+  }
   qos.reliable_writer_qos().times.heartbeatPeriod = to_dds(kHeartbeatPeriod);
   qos.representation().m_value = {fdds::XCDR_DATA_REPRESENTATION};
   if (topic.qos.deadline.count() > 0) qos.deadline().period = to_dds(topic.qos.deadline);

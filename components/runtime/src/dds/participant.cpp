@@ -7,8 +7,8 @@
 
 #include "image_sharing.hpp"
 #include "names.hpp"
+#include "own_participants.hpp"
 #include "panvo/runtime/errors.hpp"
-#include "sample_data_type.hpp"
 
 namespace panvo::runtime::dds {
 
@@ -24,10 +24,11 @@ Participant::Participant(const DdsSettings& settings, Role role, std::shared_ptr
                                   discovery_.get(), fdds::StatusMask::none());
   if (!participant_) {
     throw ConfigError(fmt::format(
-        "no DDS participant could be made in domain {}: is there a network interface (lo will do), is /dev/shm "
-        "writable, and does the profile file fit this machine?",
+        "no DDS participant could be made in domain {}: is there a network interface (lo will do), and does the "
+        "profile file fit this machine?",
         settings.domain));
   }
+  add_own_participant(participant_->guid());
   publisher_ = participant_->create_publisher(fdds::PUBLISHER_QOS_DEFAULT);
   subscriber_ = participant_->create_subscriber(fdds::SUBSCRIBER_QOS_DEFAULT);
 }
@@ -41,11 +42,29 @@ Participant::~Participant() {
 void Participant::register_type(const std::string& wire_type_name) {
   // A registered type stays: it is a name and a few words, and its code is this library's.
   if (!participant_->find_type(wire_type_name).empty()) return;
-  fdds::TypeSupport(new SampleDataType(wire_type_name, shared_size(wire_type_name))).register_type(participant_);
+  fdds::TypeSupport(new SampleDataType(wire_type_name, limits().max_message_bytes)).register_type(participant_);
 }
 
-std::uint32_t Participant::shared_size(const std::string& wire_type_name) const {
-  return dds::shared_size(settings_, wire_type_name);
+std::uint32_t Participant::largest_shared(const std::string& wire_type_name) const {
+  return dds::largest_shared(settings_, wire_type_name);
+}
+
+SampleDataType& Participant::type_of(const fdds::Topic& topic) const {
+  return static_cast<SampleDataType&>(*participant_->find_type(topic.get_type_name()).get());
+}
+
+fdds::DataWriter* Participant::make_writer(fdds::Topic& topic, const fdds::DataWriterQos& qos,
+                                           fdds::DataWriterListener& listener, std::uint32_t max_size) {
+  const std::lock_guard lock(making_mutex_);
+  type_of(topic).bound(max_size);
+  return publisher_->create_datawriter(&topic, qos, &listener);
+}
+
+fdds::DataReader* Participant::make_reader(fdds::Topic& topic, const fdds::DataReaderQos& qos,
+                                           fdds::DataReaderListener& listener, std::uint32_t max_size) {
+  const std::lock_guard lock(making_mutex_);
+  type_of(topic).bound(max_size);
+  return subscriber_->create_datareader(&topic, qos, &listener);
 }
 
 WireTopic wire_topic(const TopicDescription& description) {

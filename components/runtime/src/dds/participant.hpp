@@ -17,6 +17,7 @@
 #include "names.hpp"
 #include "panvo/runtime/bridge.hpp"
 #include "participant_qos.hpp"
+#include "sample_data_type.hpp"
 
 namespace panvo::runtime::dds {
 
@@ -37,7 +38,21 @@ class Participant : public std::enable_shared_from_this<Participant> {
 
   eprosima::fastrtps::rtps::GUID_t guid() const { return participant_->guid(); }
   /// Up to which size, serialised, messages of that type are shared with processes of this machine; 0: they are not.
-  std::uint32_t shared_size(const std::string& wire_type_name) const;
+  std::uint32_t largest_shared(const std::string& wire_type_name) const;
+  const Limits& limits() const noexcept { return settings_.limits; }
+  /// Whether a process of this machine reads the topic that shares memory as we do.
+  bool has_sharing_reader(const std::string& wire_name) const { return discovery_->has_sharing_reader(wire_name); }
+
+  /// Endpoints of a topic of this participant; nullptr: Fast DDS will not have them. `max_size`: of the messages of one that shares memory; 0: of
+  /// one that does not.
+  eprosima::fastdds::dds::DataWriter* make_writer(eprosima::fastdds::dds::Topic& topic,
+                                                  const eprosima::fastdds::dds::DataWriterQos& qos,
+                                                  eprosima::fastdds::dds::DataWriterListener& listener,
+                                                  std::uint32_t max_size);
+  eprosima::fastdds::dds::DataReader* make_reader(eprosima::fastdds::dds::Topic& topic,
+                                                  const eprosima::fastdds::dds::DataReaderQos& qos,
+                                                  eprosima::fastdds::dds::DataReaderListener& listener,
+                                                  std::uint32_t max_size);
   /// Where its endpoints are entered.
   LocalEndpoints& endpoints() { return *endpoints_; }
 
@@ -48,6 +63,7 @@ class Participant : public std::enable_shared_from_this<Participant> {
  private:
   void register_type(const std::string& wire_type_name);
   void delete_topic(const std::string& wire_name);
+  SampleDataType& type_of(const eprosima::fastdds::dds::Topic& topic) const;
 
   const DdsSettings settings_;
   const std::shared_ptr<Discovery> discovery_;  // Fast DDS calls it until the participant is gone
@@ -62,6 +78,7 @@ class Participant : public std::enable_shared_from_this<Participant> {
   };
   std::mutex mutex_;
   std::map<std::string, OpenTopic> topics_;  // by name on the wire
+  std::mutex making_mutex_;                  // an endpoint is made as its type is bounded then
 };
 
 /// How a topic is called on the wire. Throws ConfigError when its type's name is none.

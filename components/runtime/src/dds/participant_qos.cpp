@@ -8,6 +8,7 @@
 #include <unistd.h>
 #include <fastdds/dds/domain/DomainParticipantFactory.hpp>
 
+#include <algorithm>
 #include <fstream>
 #include <string_view>
 #include <vector>
@@ -23,13 +24,12 @@ namespace rtps = eprosima::fastdds::rtps;
 
 namespace {
 
-// 32 MB hold 18 panoramas of 1.75 MB on their way; with Fast DDS's own 512 KB they come late, or not at all.
-// All of it is resident from the start, so who only reads, and sends no more than acknowledgements, has a
-// small one. Messages go in fragments of what the smallest transport takes, UDP's 64 KB; larger ones in
-// shared memory were measured to be no faster and take 60 MB more.
-constexpr std::uint32_t kWriterSegmentSize = 32 * 1024 * 1024;
-constexpr std::uint32_t kReaderSegmentSize = 1024 * 1024;
 constexpr std::uint32_t kSocketBufferSize = 4 * 1024 * 1024;
+
+// Four fragments at a time are what a receiver holds that has the kernel's default buffer (208 KB, doubled by the kernel) and is not running at the
+// moment. On a machine with ten times the work it can do, that lost 25 % of panoramas of 1.75 MB; all at once lost 89 %; fewer at a time came to
+// wait for each other.
+constexpr std::int32_t kBytesPerPeriod = 256 * 1024;
 
 // A participant that comes answers the first announcement it hears of another only once; if that answer is
 // lost, it is found at the next periodic announcement. The default is 3 s, and is reached in one start of
@@ -37,10 +37,6 @@ constexpr std::uint32_t kSocketBufferSize = 4 * 1024 * 1024;
 constexpr std::int32_t kAnnouncementPeriodNs = 500'000'000;
 
 constexpr int kMaxDomain = 232;  // the ports of a higher one would be past 65535
-
-bool names_transports(const fdds::DomainParticipantQos& qos) {
-  return !(qos.transport() == fdds::PARTICIPANT_QOS_DEFAULT.transport());
-}
 
 // Fast DDS makes a client of a participant itself where ROS_DISCOVERY_SERVER is set. A client is told of what
 // it matches only; one of ours has to hear of all, for recorders and for those who look at the graph.
@@ -52,19 +48,49 @@ void hear_of_all_topics(eprosima::fastrtps::rtps::DiscoverySettings& discovery) 
   discovery.m_DiscoveryServers = servers;
 }
 
-void use_our_transports(fdds::DomainParticipantQos& qos, const DdsSettings& settings, Role role) {
-  qos.transport().use_builtin_transports = false;
-  qos.transport().user_transports.clear();
-  if (has_shared_memory()) {
-    const auto shared_memory = std::make_shared<rtps::SharedMemTransportDescriptor>();
-    shared_memory->segment_size(role == Role::kWriters ? kWriterSegmentSize : kReaderSegmentSize);
-    qos.transport().user_transports.push_back(shared_memory);
-  }
-  const auto udp = std::make_shared<rtps::UDPv4TransportDescriptor>();
+using Transports = decltype(fdds::TransportConfigQos::user_transports);
+
+bool is_shared_memory(const Transports::value_type& transport) {
+  return std::dynamic_pointer_cast<rtps::SharedMemTransportDescriptor>(transport) != nullptr;
+}
+
+bool is_udp(const Transports::value_type& transport) {
+  return std::dynamic_pointer_cast<rtps::UDPv4TransportDescriptor>(transport) != nullptr;
+}
+
+Transports::value_type our_udp(const DdsSettings& settings) {
+  auto udp = std::make_shared<rtps::UDPv4TransportDescriptor>();
   udp->sendBufferSize = kSocketBufferSize;
   udp->receiveBufferSize = kSocketBufferSize;
   if (settings.localhost_only) udp->interfaceWhiteList.emplace_back("127.0.0.1");
-  qos.transport().user_transports.push_back(udp);
+  return udp;
+}
+
+/// What the kernel grants a receiving socket; 0: not known.
+std::uint32_t largest_socket_buffer() {
+  std::uint32_t bytes = 0;
+  std::ifstream("/proc/sys/net/core/rmem_max") >> bytes;
+  return bytes;
+}
+
+// Fast DDS's clock for it ticks a thousand times a second, sent or not: where buffers are large, there is no limit and no clock.
+std::shared_ptr<rtps::FlowControllerDescriptor> image_pace() {
+  auto pace = std::make_shared<rtps::FlowControllerDescriptor>();
+  pace->name = kImagePace;
+  pace->max_bytes_per_period = largest_socket_buffer() < kSocketBufferSize ? kBytesPerPeriod : 0;
+  pace->period_ms = 1;
+  return pace;
+}
+
+// Fast DDS's shared memory transport maps what it finds in /dev/shm under the number of a port, whoever made it. Another
+// build of Fast DDS, ROS 2's for one, lays the same memory out in another way, and Boost ends a process that meets it. So
+// it is not used, not where a profile names it either. Fast DDS's builtin transports are that one and UDP.
+void use_udp(fdds::DomainParticipantQos& qos, const DdsSettings& settings) {
+  auto& transports = qos.transport().user_transports;
+  std::erase_if(transports, is_shared_memory);
+  if (transports.empty() || (qos.transport().use_builtin_transports && std::ranges::none_of(transports, is_udp)))
+    transports.push_back(our_udp(settings));
+  qos.transport().use_builtin_transports = false;
 }
 
 }  // namespace
@@ -95,25 +121,28 @@ void load_profiles(const DdsSettings& settings) {
 
 bool has_shared_memory() { return access(kSharedMemoryFolder, R_OK | W_OK | X_OK) == 0; }
 
-std::optional<std::string> shared_memory_warning() {
-  if (has_shared_memory()) return std::nullopt;
-  return fmt::format(
-      "{} is not there or cannot be written, so processes of this machine exchange images by UDP, which takes several "
-      "times as long. Remedy: mount it (for Docker: --ipc=host, or --shm-size=256m).",
-      kSharedMemoryFolder);
+std::optional<std::string> profile_warning() {
+  fdds::DomainParticipantQos qos;
+  fdds::DomainParticipantFactory::get_instance()->get_default_participant_qos(qos);
+  if (std::ranges::none_of(qos.transport().user_transports, is_shared_memory)) return std::nullopt;
+  return "the DDS profile names the transport SHM, which is left out: beside another build of Fast DDS (ROS 2's) it "
+         "ends "
+         "the process. Images are shared without it, see shared_images_mb; all else goes by UDP. Remedy: name UDPv4 "
+         "only.";
 }
 
 fdds::DomainParticipantQos participant_qos(const DdsSettings& settings, Role role) {
   fdds::DomainParticipantQos qos;
   fdds::DomainParticipantFactory::get_instance()->get_default_participant_qos(qos);
-  if (!names_transports(qos)) use_our_transports(qos, settings, role);
+  use_udp(qos, settings);
+  qos.flow_controllers().push_back(image_pace());
   qos.name(settings.name + (role == Role::kWriters ? "_writers" : "_readers"));
 
   // rmw puts the terminating zero on the wire too.
   constexpr std::string_view kEnclave("enclave=/;\0", 11);
   qos.user_data().setValue(std::vector<eprosima::fastrtps::rtps::octet>(kEnclave.begin(), kEnclave.end()));
 
-  apply_security(security_settings_from_environment(), qos);
+  const bool has_keys = apply_security(security_settings_from_environment(), qos);
 
   auto& discovery = qos.wire_protocol().builtin.discovery_config;
   const auto default_period =
@@ -122,6 +151,8 @@ fdds::DomainParticipantQos participant_qos(const DdsSettings& settings, Role rol
     discovery.leaseDuration_announcementperiod = eprosima::fastrtps::Duration_t(0, kAnnouncementPeriodNs);
   }
   if (role == Role::kReaders) hear_of_all_topics(discovery);
+  // Of participants with keys the identity says nothing of the process, and may by chance be as if of one.
+  if (has_keys) return qos;
   auto& flags = discovery.ignoreParticipantFlags;
   flags = static_cast<eprosima::fastrtps::rtps::ParticipantFilteringFlags_t>(
       flags | eprosima::fastrtps::rtps::ParticipantFilteringFlags_t::FILTER_SAME_PROCESS);

@@ -20,14 +20,18 @@ void load_profiles(const DdsSettings& settings);
 
 inline constexpr const char* kSharedMemoryFolder = "/dev/shm";
 
+/// What writers of images send with: as much in a millisecond as fits into a receiver's socket buffer where the system's default is not raised
+/// (208 KB), so that what comes at once is not lost there.
+inline constexpr const char* kImagePace = "panvo_images";
+
 /// In a container or a sandbox there may be none, or one that cannot be written.
 bool has_shared_memory();
 
-/// What users should know when processes of this machine cannot share memory.
-std::optional<std::string> shared_memory_warning();
+/// What users should know of the profiles that were loaded.
+std::optional<std::string> profile_warning();
 
-/// A participant as a profile or else we configure it: shared memory and UDP transports sized for images,
-/// marked as ROS 2 participants are, and blind to participants of its own process.
+/// A participant as a profile or else we configure it: UDP sized for images, marked as ROS 2 participants are, and blind to participants of its
+/// own process as far as Fast DDS can tell which these are (see own_participants.hpp).
 eprosima::fastdds::dds::DomainParticipantQos participant_qos(const DdsSettings& settings, Role role);
 
 }  // namespace panvo::runtime::dds

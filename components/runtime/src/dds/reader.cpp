@@ -6,8 +6,11 @@
 
 #include <exception>
 
+#include "../clocks.hpp"
 #include "endpoint_qos.hpp"
 #include "image_sharing.hpp"
+#include "node_info.hpp"
+#include "own_participants.hpp"
 #include "panvo/runtime/errors.hpp"
 
 namespace panvo::runtime::dds {
@@ -15,18 +18,35 @@ namespace panvo::runtime::dds {
 namespace fdds = eprosima::fastdds::dds;
 using eprosima::fastrtps::types::ReturnCode_t;
 
+namespace {
+
+// A reader that shares has to have a bound, whichever; what it reads may be larger.
+constexpr std::uint32_t kLeastShared = 1024;
+
+}  // namespace
+
 Reader::Reader(const TopicDescription& topic, const WireTopic& wire, OnSample on_sample,
                std::shared_ptr<Participant> participant, std::shared_ptr<Notifier> notifier)
     : description_(topic),
       on_sample_(std::move(on_sample)),
       participant_(std::move(participant)),
       notifier_(std::move(notifier)),
-      topic_(participant_->topic(wire)) {
+      topic_(participant_->topic(wire)),
+      // What late joiners are owed comes all at once.
+      rate_limit_(participant_->limits().max_topic_rate_hz, static_cast<double>(topic.qos.depth)) {
   fdds::DataReaderQos qos = participant_->subscriber().get_default_datareader_qos();
   apply(topic, qos);
-  shares_ = topic.type && participant_->shared_size(wire.type_name) > 0;
+  const bool is_to_share = topic.type && participant_->largest_shared(wire.type_name) > 0;
+  shares_ = is_to_share && has_room_to_share(kRoomForReader);
+  if (is_to_share && !shares_) {
+    notifier_->warn(fmt::format(
+        "topic {}: its images come from other processes of this machine by UDP: there is no room in /dev/shm "
+        "to share them. Remedy: a larger /dev/shm (for Docker: --shm-size=256m), or shared_images_mb: 0 in the "
+        "node_container of the system file.",
+        topic.name));
+  }
   if (shares_) share(qos);
-  reader_ = participant_->subscriber().create_datareader(topic_.get(), qos, this);
+  reader_ = participant_->make_reader(*topic_, qos, *this, shares_ ? kLeastShared : 0);
   if (!reader_)
     throw ConfigError(fmt::format("topic {}: Fast DDS made no reader; its message above says why", topic.name));
   if (shares_) segment_.emplace(reader_->guid());
@@ -42,7 +62,9 @@ Reader::~Reader() {
   participant_->subscriber().delete_datareader(reader_);
 }
 
-BridgeReaderCounters Reader::counters() const { return {received_, lost_ + rejected_, undecodable_, overwritten_}; }
+BridgeReaderCounters Reader::counters() const {
+  return {received_, lost_ + rejected_, undecodable_, overwritten_, too_large_, too_fast_};
+}
 
 void Reader::on_data_available(fdds::DataReader* reader) {
   const std::lock_guard lock(delivery_mutex_);
@@ -53,21 +75,35 @@ void Reader::on_data_available(fdds::DataReader* reader) {
     // What was overwritten while it was read is given up by Fast DDS, which goes on to the next.
     overwritten_ += incoming.reads - (is_taken && info.valid_data ? 1 : 0);
     if (!is_taken) return;
-    if (info.valid_data && !is_of_this_process(info.sample_identity.writer_guid()))
-      deliver(std::move(incoming), info.reception_timestamp.to_ns());
+    if (info.valid_data && !is_of_this_process(info.sample_identity.writer_guid())) deliver(std::move(incoming), info);
   }
 }
 
-void Reader::deliver(Incoming incoming, std::int64_t time_ns) {
+void Reader::deliver(Incoming incoming, const fdds::SampleInfo& info) {
+  if (incoming.too_large) {
+    ++too_large_;
+    return notifier_->warn(
+        fmt::format("topic {}: messages larger than {:.6g} MB come and are left out: see max_message_mb",
+                    description_.name, 1e-6 * static_cast<double>(participant_->limits().max_message_bytes)));
+  }
+  if (!rate_limit_.take(clocks::monotonic_ns())) {
+    ++too_fast_;
+    return notifier_->warn(
+        fmt::format("topic {}: more than {:.6g} messages a second come, and some are left out: see max_topic_rate_hz",
+                    description_.name, participant_->limits().max_topic_rate_hz));
+  }
   if (!incoming.readable) {
     ++undecodable_;
     return;
   }
   ++received_;
+  const std::int64_t time_ns = info.reception_timestamp.to_ns();
+  auto from = sender(info.sample_identity.writer_guid());
   try {
     on_sample_(incoming.message
-                   ? Sample::of(*description_.type, std::move(incoming.message), time_ns)
-                   : Sample::from_bytes(description_.type, description_.type_name, std::move(incoming.bytes), time_ns));
+                   ? Sample::of(*description_.type, std::move(incoming.message), time_ns, nullptr, std::move(from))
+                   : Sample::from_bytes(description_.type, description_.type_name, std::move(incoming.bytes), time_ns,
+                                        std::move(from)));
   } catch (const std::exception& error) {
     // Past this is Fast DDS, which would end the process.
     notifier_->warn(
@@ -75,8 +111,12 @@ void Reader::deliver(Incoming incoming, std::int64_t time_ns) {
   }
 }
 
-bool Reader::is_of_this_process(const eprosima::fastrtps::rtps::GUID_t& writer) const {
-  return participant_->guid().is_on_same_process_as(writer);
+Sample::Sender Reader::sender(const eprosima::fastrtps::rtps::GUID_t& writer) {
+  if (!last_sender_ || last_writer_ != writer) {
+    last_writer_ = writer;
+    last_sender_ = std::make_shared<const std::string>(hexadecimal(writer));
+  }
+  return last_sender_;
 }
 
 void Reader::on_subscription_matched(fdds::DataReader*, const fdds::SubscriptionMatchedStatus& status) {

@@ -13,6 +13,7 @@
 #include "notifier.hpp"
 #include "panvo/runtime/bridge.hpp"
 #include "participant.hpp"
+#include "rate_limit.hpp"
 #include "sample_data_type.hpp"
 #include "shared_segment.hpp"
 
@@ -43,9 +44,9 @@ class Reader final : public BridgeReader, private eprosima::fastdds::dds::DataRe
                       const eprosima::fastdds::dds::SampleLostStatus& status) override;
   void on_sample_rejected(eprosima::fastdds::dds::DataReader* reader,
                           const eprosima::fastrtps::SampleRejectedStatus& status) override;
-  void deliver(Incoming incoming, std::int64_t time_ns);
-  /// With a discovery server Fast DDS does not keep participants of one process apart.
-  bool is_of_this_process(const eprosima::fastrtps::rtps::GUID_t& writer) const;
+  void deliver(Incoming incoming, const eprosima::fastdds::dds::SampleInfo& info);
+  /// Its gid as text, which the next message of the same writer shares.
+  Sample::Sender sender(const eprosima::fastrtps::rtps::GUID_t& writer);
 
   const TopicDescription description_;
   const OnSample on_sample_;
@@ -55,9 +56,13 @@ class Reader final : public BridgeReader, private eprosima::fastdds::dds::DataRe
 
   std::mutex delivery_mutex_;  // held while a sample is handed on
   bool closed_ = false;
+  RateLimit rate_limit_;
+  eprosima::fastrtps::rtps::GUID_t last_writer_;
+  Sample::Sender last_sender_;
 
   std::atomic<std::size_t> matched_writers_ = 0;
   std::atomic<std::uint64_t> received_ = 0, lost_ = 0, rejected_ = 0, undecodable_ = 0, overwritten_ = 0;
+  std::atomic<std::uint64_t> too_large_ = 0, too_fast_ = 0;
   bool shares_ = false;  // messages may lie in memory that a writer goes on writing to
   std::optional<SharedSegment> segment_;
   eprosima::fastdds::dds::DataReader* reader_ = nullptr;  // uses all of the above

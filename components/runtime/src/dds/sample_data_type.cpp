@@ -39,13 +39,19 @@ void Outgoing::write_to(std::span<std::uint8_t> out) const {
   }
 }
 
-SampleDataType::SampleDataType(const std::string& wire_type_name, std::uint32_t max_size) : is_bounded_(max_size > 0) {
+SampleDataType::SampleDataType(const std::string& wire_type_name, std::size_t max_received)
+    : max_received_(max_received) {
   setName(wire_type_name.c_str());
-  m_typeSize = is_bounded_ ? max_size : kInitialPayloadSize;
+  bound(0);
   m_isGetKeyDefined = false;
   // We match by name, as ROS 2 does; there is nothing to say about the type's structure.
   auto_fill_type_object(false);
   auto_fill_type_information(false);
+}
+
+void SampleDataType::bound(std::uint32_t max_size) {
+  is_bounded_ = max_size > 0;
+  m_typeSize = is_bounded_ ? max_size : kInitialPayloadSize;
 }
 
 bool SampleDataType::serialize(void* outgoing, eprosima::fastrtps::rtps::SerializedPayload_t* payload) {
@@ -65,7 +71,8 @@ bool SampleDataType::serialize(void* outgoing, eprosima::fastrtps::rtps::Seriali
 bool SampleDataType::deserialize(eprosima::fastrtps::rtps::SerializedPayload_t* payload, void* incoming) {
   auto& target = *static_cast<Incoming*>(incoming);
   const std::span<const std::uint8_t> bytes(payload->data, payload->length);
-  target.readable = has_xcdr1_encapsulation(bytes);
+  target.too_large = bytes.size() > max_received_;
+  target.readable = !target.too_large && has_xcdr1_encapsulation(bytes);
   if (target.readable) {  // otherwise the reader counts it
     try {
       target.message = decode(target.wanted, bytes);

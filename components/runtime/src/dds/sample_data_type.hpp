@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <span>
 #include <string>
@@ -34,15 +35,19 @@ struct Incoming {
   std::shared_ptr<const void> message{};            ///< nullptr: see `bytes`
   interfaces::Bytes bytes{};                        ///< as received, encapsulation included
   bool readable = false;                            ///< led by an XCDR1 encapsulation; false: of no use to anybody
+  bool too_large = false;                           ///< and therefore neither read nor copied
   unsigned reads = 0;  ///< how many samples were read into it, each in place of the one before
 };
 
 /// The one data type that carries every topic: Fast DDS moves bytes and never sees a message class, so no
-/// code of a plugin is ever registered with it and plugins may be unloaded. Without keys. `max_size`: of messages that are written into
-/// memory reserved for them; 0: each gets what it needs.
+/// code of a plugin is ever registered with it and plugins may be unloaded. Without keys. `max_received`: what is larger is not read.
 class SampleDataType final : public eprosima::fastdds::dds::TopicDataType {
  public:
-  explicit SampleDataType(const std::string& wire_type_name, std::uint32_t max_size = 0);
+  explicit SampleDataType(const std::string& wire_type_name,
+                          std::size_t max_received = std::numeric_limits<std::size_t>::max());
+
+  /// How large the messages of endpoints that are made from now on are at most, for those that reserve memory; 0: each gets what it needs.
+  void bound(std::uint32_t max_size);
 
   bool serialize(void* outgoing, eprosima::fastrtps::rtps::SerializedPayload_t* payload) override;
   bool deserialize(eprosima::fastrtps::rtps::SerializedPayload_t* payload, void* incoming) override;
@@ -53,7 +58,8 @@ class SampleDataType final : public eprosima::fastdds::dds::TopicDataType {
   bool is_bounded() const override { return is_bounded_; }
 
  private:
-  const bool is_bounded_;
+  bool is_bounded_ = false;
+  const std::size_t max_received_;
 };
 
 }  // namespace panvo::runtime::dds

@@ -18,7 +18,8 @@ struct SecuritySettings {
 SecuritySettings security_settings_from_environment();
 
 /// Gives the participant its keys and what it may do (DDS Security: authentication, access control, encryption), from a keystore laid out as
-/// SROS 2's, and marks it with its enclave. Throws ConfigError naming the file that is missing.
-void apply_security(const SecuritySettings& settings, eprosima::fastdds::dds::DomainParticipantQos& qos);
+/// SROS 2's, and marks it with its enclave. Returns whether it did. Throws ConfigError naming the file that is missing, or the private key that
+/// others may read.
+bool apply_security(const SecuritySettings& settings, eprosima::fastdds::dds::DomainParticipantQos& qos);
 
 }  // namespace panvo::runtime::dds

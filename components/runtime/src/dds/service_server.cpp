@@ -5,8 +5,10 @@
 #include <spdlog/fmt/fmt.h>
 #include <fastdds/dds/subscriber/SampleInfo.hpp>
 
+#include "clocks.hpp"
 #include "endpoint_qos.hpp"
 #include "panvo/runtime/errors.hpp"
+#include "same_host.hpp"
 
 namespace panvo::runtime::dds {
 
@@ -45,17 +47,21 @@ WireTopic reply_topic(const ServiceDescription& service) {
   return service_topic(service, wire_reply_name(service.name), "_Response");
 }
 
-ServiceServer::ServiceServer(const ServiceDescription& service, ServiceHandler handler,
-                             std::shared_ptr<Participant> readers, std::shared_ptr<Participant> writers,
-                             std::shared_ptr<ServiceQueue> queue, std::shared_ptr<Notifier> notifier)
+ServiceServer::ServiceServer(const ServiceDescription& service, ServiceHandler handler, ServiceGuard guard,
+                             const RequestLimits& limits, std::shared_ptr<Participant> readers,
+                             std::shared_ptr<Participant> writers, std::shared_ptr<ServiceQueue> queue,
+                             std::shared_ptr<Notifier> notifier)
     : name_(service.name),
       handler_(std::move(handler)),
+      guard_(std::move(guard)),
+      limits_(limits),
       readers_(std::move(readers)),
       writers_(std::move(writers)),
       queue_(std::move(queue)),
       notifier_(std::move(notifier)),
       request_topic_(readers_->topic(request_topic(service))),
-      reply_topic_(writers_->topic(reply_topic(service))) {
+      reply_topic_(writers_->topic(reply_topic(service))),
+      rate_(limits.per_s) {
   const TopicDescription described{service.name, service.type_name, kServiceQos, nullptr};
   fdds::DataWriterQos writer_qos = writers_->publisher().get_default_datawriter_qos();
   apply(described, writer_qos);
@@ -86,7 +92,9 @@ ServiceServer::~ServiceServer() {
   writers_->publisher().delete_datawriter(writer_);
 }
 
-ServiceCounters ServiceServer::counters() const { return {received_, answered_, malformed_, dropped_, unanswered_}; }
+ServiceCounters ServiceServer::counters() const {
+  return {received_, answered_, malformed_, dropped_, refused_, unanswered_};
+}
 
 void ServiceServer::on_data_available(fdds::DataReader* reader) {
   const std::lock_guard lock(taking_mutex_);
@@ -95,20 +103,46 @@ void ServiceServer::on_data_available(fdds::DataReader* reader) {
        incoming = {}) {
     if (!info.valid_data) continue;
     ++received_;
+    if (is_over_limits(incoming)) continue;
     Identity identity = info.sample_identity;
+    const Caller caller{is_on_same_host(reader->guid(), identity.writer_guid())};
     const GUID_t& reply_reader = info.related_sample_identity.writer_guid();
     if (reply_reader != GUID_t::unknown()) identity.writer_guid(reply_reader);
-    const bool posted =
-        queue_->post(this, [this, bytes = std::move(incoming.bytes), identity] { answer(bytes, identity); });
+    const bool posted = queue_->post(
+        this, [this, bytes = std::move(incoming.bytes), identity, caller] { answer(bytes, identity, caller); });
     if (posted) continue;
     ++dropped_;
     notifier_->warn(fmt::format("service {}: requests come faster than they are answered, some were dropped", name_));
   }
 }
 
-void ServiceServer::answer(const interfaces::Bytes& request, const Identity& identity) {
+bool ServiceServer::is_over_limits(const Incoming& incoming) {
+  if (incoming.bytes.size() > limits_.size) {
+    notifier_->warn(fmt::format("service {}: a request of more than {} bytes was dropped", name_, limits_.size));
+  } else if (!rate_.lets_pass(clocks::monotonic_ns())) {
+    notifier_->warn(
+        fmt::format("service {}: more than {} requests a second came, some were dropped; requests_per_s "
+                    "in the system file allows others",
+                    name_, limits_.per_s));
+  } else {
+    return false;
+  }
+  ++dropped_;
+  return true;
+}
+
+interfaces::Bytes ServiceServer::response_to(const interfaces::Bytes& request, const Caller& caller) {
+  auto refusal = guard_ ? guard_(request, caller) : std::nullopt;
+  if (!refusal) return handler_(request);
+  ++refused_;
+  notifier_->warn(fmt::format("service {}: a request from {} was refused: see \"services\" in the system file", name_,
+                              caller.is_on_this_host ? "this host" : "another host"));
+  return std::move(*refusal);
+}
+
+void ServiceServer::answer(const interfaces::Bytes& request, const Identity& identity, const Caller& caller) {
   try {
-    const auto response = handler_(request);
+    const auto response = response_to(request, caller);
     if (send(response, identity)) {
       ++answered_;
       return;

@@ -13,6 +13,7 @@
 #include "notifier.hpp"
 #include "panvo/runtime/service.hpp"
 #include "participant.hpp"
+#include "request_limits.hpp"
 #include "sample_data_type.hpp"
 #include "service_queue.hpp"
 
@@ -24,9 +25,9 @@ namespace panvo::runtime::dds {
 class ServiceServer final : public BridgeService, private eprosima::fastdds::dds::DataReaderListener {
  public:
   /// Throws ConfigError when Fast DDS will not have its topics.
-  ServiceServer(const ServiceDescription& service, ServiceHandler handler, std::shared_ptr<Participant> readers,
-                std::shared_ptr<Participant> writers, std::shared_ptr<ServiceQueue> queue,
-                std::shared_ptr<Notifier> notifier);
+  ServiceServer(const ServiceDescription& service, ServiceHandler handler, ServiceGuard guard,
+                const RequestLimits& limits, std::shared_ptr<Participant> readers, std::shared_ptr<Participant> writers,
+                std::shared_ptr<ServiceQueue> queue, std::shared_ptr<Notifier> notifier);
   ~ServiceServer() override;
 
   ServiceCounters counters() const override;
@@ -35,19 +36,25 @@ class ServiceServer final : public BridgeService, private eprosima::fastdds::dds
   using Identity = eprosima::fastrtps::rtps::SampleIdentity;
 
   void on_data_available(eprosima::fastdds::dds::DataReader* reader) override;
-  void answer(const interfaces::Bytes& request, const Identity& identity);
+  /// Whether it is one too many, or too large; that is counted and warned of.
+  bool is_over_limits(const Incoming& incoming);
+  void answer(const interfaces::Bytes& request, const Identity& identity, const Caller& caller);
+  interfaces::Bytes response_to(const interfaces::Bytes& request, const Caller& caller);
   bool send(const interfaces::Bytes& response, const Identity& identity);
 
   const std::string name_;
   const ServiceHandler handler_;
+  const ServiceGuard guard_;
+  const RequestLimits limits_;
   const std::shared_ptr<Participant> readers_, writers_;
   const std::shared_ptr<ServiceQueue> queue_;
   const std::shared_ptr<Notifier> notifier_;
   const std::shared_ptr<eprosima::fastdds::dds::Topic> request_topic_, reply_topic_;
 
-  std::mutex taking_mutex_;
+  std::mutex taking_mutex_;  // guards the two below
+  RequestRate rate_;
   bool closed_ = false;
-  std::atomic<std::uint64_t> received_ = 0, answered_ = 0, malformed_ = 0, dropped_ = 0, unanswered_ = 0;
+  std::atomic<std::uint64_t> received_ = 0, answered_ = 0, malformed_ = 0, dropped_ = 0, refused_ = 0, unanswered_ = 0;
   MatchedReaders clients_;
   eprosima::fastdds::dds::DataWriter* writer_ = nullptr;
   eprosima::fastdds::dds::DataReader* reader_ = nullptr;  // last: requests may come from now on

@@ -3,11 +3,15 @@
 
 #include <fastdds/rtps/common/Guid.h>
 
+#include <cstdint>
 #include <filesystem>
 
 namespace panvo::runtime::dds {
 
-/// The memory that an endpoint of ours shares, `/dev/shm/fast_datasharing_ID`, marked as in use for as long as this lives: Fast DDS 2.9 leaves
+/// Whether /dev/shm has room for so many bytes. What is written where there is none ends the process (SIGBUS), so one asks before.
+bool has_room_to_share(std::uint64_t bytes);
+
+/// The memory that an endpoint of ours shares, `/dev/shm/fast_datasharing_ID`, reserved to the last byte, and marked as in use for as long as this lives: Fast DDS 2.9 leaves
 /// it behind when its process is killed, and nothing about it tells that nobody is there any more. The mark is a lock on the file
 /// `fast_datasharing_ID_el`, which remove_shm_leftovers() knows. To be destroyed after the endpoint, which removes its memory.
 class SharedSegment {
@@ -17,12 +21,13 @@ class SharedSegment {
   SharedSegment(const SharedSegment&) = delete;
   SharedSegment& operator=(const SharedSegment&) = delete;
 
-  /// Whether Fast DDS has made it. It has not where /dev/shm is full, and where messages are encrypted.
-  bool is_there() const noexcept { return lock_ >= 0; }
+  /// Whether Fast DDS has made it, and there is room for all of it.
+  bool is_there() const noexcept { return is_reserved_; }
 
  private:
   const std::filesystem::path lock_file_;
   int lock_ = -1;
+  bool is_reserved_ = false;
 };
 
 }  // namespace panvo::runtime::dds

@@ -3,11 +3,12 @@
 
 #include <spdlog/fmt/fmt.h>
 
-#include <chrono>
+#include <algorithm>
 #include <thread>
 #include <utility>
 
 #include "endpoint_qos.hpp"
+#include "image_sharing.hpp"
 
 namespace panvo::runtime::dds {
 
@@ -16,66 +17,104 @@ using std::chrono::steady_clock;
 
 namespace {
 
-/// Until all who read from `shared` read from `sent`, too, but no longer than a write may take.
-void wait_for_readers(const Writer& sent, const Writer& shared) {
+/// A writer knows its readers before these know it, by about the time of a message there and back; what it writes in between, they miss. The
+/// writer before serves them meanwhile.
+constexpr milliseconds kIntroduction{250};
+
+/// Until all who read from `old` read from `wanted`, too, but no longer than a write may take.
+void wait_for_readers(const Writer& wanted, const Writer& old) {
   const auto give_up = steady_clock::now() + kWriteAttempts * kMaxBlockingTime;
-  while (sent.matched_readers() < shared.matched_readers() && steady_clock::now() < give_up)
+  while (wanted.matched_readers() < old.matched_readers() && steady_clock::now() < give_up)
     std::this_thread::sleep_for(milliseconds(1));
 }
 
 }  // namespace
 
 SharingWriter::SharingWriter(const TopicDescription& topic, const WireTopic& wire,
-                             std::shared_ptr<Participant> participant, std::shared_ptr<Notifier> notifier,
-                             std::unique_ptr<Writer> shared)
+                             std::shared_ptr<Participant> participant, std::shared_ptr<Notifier> notifier)
     : topic_(topic),
       wire_(wire),
       participant_(std::move(participant)),
       notifier_(std::move(notifier)),
-      max_size_(participant_->shared_size(wire.type_name)),
-      shared_(std::move(shared)) {}
+      largest_(participant_->largest_shared(wire.type_name)),
+      writer_(std::make_shared<Writer>(topic_, wire_, participant_, notifier_)) {}
 
 bool SharingWriter::write(const SamplePtr& sample) {
-  if (sample->serialized_size() <= max_size_) return shared_->write(sample);
-  return shared_->matched_readers() == 0 || writer_of_large(*sample).write(sample);
+  const auto writer = current();
+  if (writer->matched_readers() == 0) return writer->write(sample);
+  return writer_for(sample->serialized_size())->write(sample);
 }
 
-Writer& SharingWriter::writer_of_large(const Sample& sample) {
+std::size_t SharingWriter::matched_readers() const { return current()->matched_readers(); }
+
+bool SharingWriter::wait_for_acknowledgments(milliseconds limit) { return current()->wait_for_acknowledgments(limit); }
+
+std::shared_ptr<Writer> SharingWriter::current() const {
   const std::lock_guard lock(mutex_);
-  if (sent_) return *sent_;
-  notifier_->warn(fmt::format(
-      "topic {}: an image of {:.1f} MB is too large to be shared with other processes of this machine, and is "
-      "sent to them. Remedy: a larger shared_images_mb in the node_container of the system file.",
-      topic_.name, static_cast<double>(sample.serialized_size()) * 1e-6));
-  sent_ = std::make_unique<Writer>(topic_, wire_, participant_, notifier_);
-  wait_for_readers(*sent_, *shared_);
-  return *sent_;
+  return writer_;
 }
 
-bool SharingWriter::wait_for_acknowledgments(milliseconds limit) {
-  const auto give_up = steady_clock::now() + limit;
-  const bool has_all_shared = shared_->wait_for_acknowledgments(limit);
+std::shared_ptr<Writer> SharingWriter::writer_for(std::size_t size) {
   const std::lock_guard lock(mutex_);
-  if (!sent_) return has_all_shared;
-  const auto left = std::chrono::duration_cast<milliseconds>(give_up - steady_clock::now());
-  return sent_->wait_for_acknowledgments(left) && has_all_shared;
+  if (next_ && is_known_to_readers(*next_)) put_in_place(std::exchange(next_, nullptr));
+  if (!writer_->takes(size)) {
+    auto larger = make_shared_writer(size);
+    if (!larger) larger = std::make_shared<Writer>(topic_, wire_, participant_, notifier_);
+    wait_for_readers(*larger, *writer_);
+    put_in_place(std::move(larger));
+  } else if (!writer_->shares() && !next_ && participant_->has_sharing_reader(wire_.name)) {
+    next_ = make_shared_writer(size);
+    next_matched_ = {};
+  }
+  return writer_;
+}
+
+bool SharingWriter::is_known_to_readers(const Writer& writer) {
+  if (writer.matched_readers() < writer_->matched_readers()) return false;
+  const auto now = steady_clock::now();
+  if (next_matched_ == steady_clock::time_point()) next_matched_ = now;
+  return now - next_matched_ >= kIntroduction;
+}
+
+std::shared_ptr<Writer> SharingWriter::make_shared_writer(std::size_t size) {
+  if (has_given_up_) return nullptr;
+  if (size > largest_) {
+    give_up(fmt::format(
+        "an image of {:.1f} MB is too large to be shared with them. Remedy: a larger shared_images_mb in the "
+        "node_container of the system file",
+        static_cast<double>(size) * 1e-6));
+    return nullptr;
+  }
+  const auto max_size = static_cast<std::uint32_t>(size);
+  const auto room = room_for_writer(topic_.qos.depth, max_size);
+  std::shared_ptr<Writer> writer;
+  if (has_room_to_share(room)) writer = std::make_shared<Writer>(topic_, wire_, participant_, notifier_, max_size);
+  if (writer && writer->has_memory()) return writer;
+  give_up(
+      fmt::format("there are no {:.1f} MB left in /dev/shm to share them. Remedy: a larger /dev/shm (for Docker: "
+                  "--shm-size=256m), or shared_images_mb: 0 in the node_container of the system file",
+                  static_cast<double>(room) * 1e-6));
+  return nullptr;
+}
+
+void SharingWriter::give_up(const std::string& reason) {
+  has_given_up_ = true;
+  notifier_->warn(
+      fmt::format("topic {}: its images are sent to other processes of this machine by UDP: {}.", topic_.name, reason));
+}
+
+void SharingWriter::put_in_place(std::shared_ptr<Writer> writer) {
+  writer_->wait_for_acknowledgments(kWriteAttempts *
+                                    kMaxBlockingTime);  // of readers that ask for all; others are not waited for
+  writer_ = std::move(writer);
 }
 
 std::unique_ptr<BridgeWriter> open_writer(const TopicDescription& topic, const WireTopic& wire,
                                           const std::shared_ptr<Participant>& participant,
                                           const std::shared_ptr<Notifier>& notifier) {
   const bool keeps_for_late_joiners = topic.qos.durability == interfaces::Durability::kTransientLocal;
-  if (participant->shared_size(wire.type_name) > 0 && !keeps_for_late_joiners) {
-    auto shared = std::make_unique<Writer>(topic, wire, participant, notifier, Way::kShared);
-    if (shared->shares()) return std::make_unique<SharingWriter>(topic, wire, participant, notifier, std::move(shared));
-    notifier->warn(
-        fmt::format("topic {}: its images are sent to other processes of this machine, not shared with them: there is "
-                    "no memory for it. "
-                    "Remedy: a larger /dev/shm (for Docker: --shm-size=512m), a smaller shared_images_mb, or none "
-                    "where messages are "
-                    "encrypted.",
-                    topic.name));
-  }
+  if (participant->largest_shared(wire.type_name) > 0 && !keeps_for_late_joiners)
+    return std::make_unique<SharingWriter>(topic, wire, participant, notifier);
   return std::make_unique<Writer>(topic, wire, participant, notifier);
 }
 

@@ -16,18 +16,11 @@
 namespace panvo::runtime {
 namespace {
 
-constexpr std::string_view kPrefix = "fastrtps_", kSharedPrefix = "fast_datasharing_", kLockSuffix = "_el";
-constexpr std::size_t kIdDigits = 16;
+constexpr std::string_view kPrefix = "fast_datasharing_", kLockSuffix = "_el";
 constexpr std::time_t kYouth_s = 5;
 
-/// "fastrtps_06468ace1751dcea_el", or what shared_segment.hpp makes. Not the ports, "fastrtps_port7410_el": these are small, and Fast DDS takes them over when it needs them (see half_made_ports.hpp).
-bool is_lock_of_a_segment(std::string_view name) {
-  if (name.starts_with(kSharedPrefix) && name.ends_with(kLockSuffix)) return true;
-  if (name.size() != kPrefix.size() + kIdDigits + kLockSuffix.size()) return false;
-  if (!name.starts_with(kPrefix) || !name.ends_with(kLockSuffix)) return false;
-  const auto id = name.substr(kPrefix.size(), kIdDigits);
-  return id.find_first_not_of("0123456789abcdef") == std::string_view::npos;
-}
+/// What shared_segment.hpp makes.
+bool is_lock_of_a_segment(std::string_view name) { return name.starts_with(kPrefix) && name.ends_with(kLockSuffix); }
 
 /// Whether the owner is gone. Holds the lock from then on, so that no two processes clean up at once.
 class Ownership {

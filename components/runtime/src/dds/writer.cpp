@@ -5,6 +5,7 @@
 
 #include "endpoint_qos.hpp"
 #include "image_sharing.hpp"
+#include "own_participants.hpp"
 #include "panvo/runtime/errors.hpp"
 #include "sample_data_type.hpp"
 
@@ -14,22 +15,19 @@ namespace fdds = eprosima::fastdds::dds;
 using eprosima::fastrtps::types::ReturnCode_t;
 
 Writer::Writer(const TopicDescription& topic, const WireTopic& wire, std::shared_ptr<Participant> participant,
-               std::shared_ptr<Notifier> notifier, Way way)
+               std::shared_ptr<Notifier> notifier, std::uint32_t largest_shared)
     : name_(topic.name),
       keeps_for_late_joiners_(topic.qos.durability == interfaces::Durability::kTransientLocal),
+      largest_shared_(largest_shared),
       participant_(std::move(participant)),
       notifier_(std::move(notifier)),
       topic_(participant_->topic(wire)) {
   fdds::DataWriterQos qos = participant_->publisher().get_default_datawriter_qos();
   apply(topic, qos);
-  if (way == Way::kShared) {
-    share(qos);
-  } else if (participant_->shared_size(wire.type_name) > 0) {
-    send_any_size(qos);
-  }
-  writer_ = participant_->publisher().create_datawriter(topic_.get(), qos, this);
+  if (shares()) share(qos);
+  writer_ = participant_->make_writer(*topic_, qos, *this, largest_shared_);
   if (!writer_) throw ConfigError(fmt::format("topic {}: Fast DDS made no writer; its message above says why", name_));
-  if (way == Way::kShared) segment_.emplace(writer_->guid());
+  if (shares()) segment_.emplace(writer_->guid());
   participant_->endpoints().add(wire.name, writer_->guid(), true);
 }
 
@@ -52,9 +50,9 @@ bool Writer::wait_for_acknowledgments(std::chrono::milliseconds limit) {
 }
 
 void Writer::on_publication_matched(fdds::DataWriter*, const fdds::PublicationMatchedStatus& status) {
-  // With a discovery server Fast DDS does not keep participants of one process apart; our readers leave out what comes from here.
-  const auto reader = eprosima::fastrtps::rtps::iHandle2GUID(status.last_subscription_handle);
-  if (participant_->guid().is_on_same_process_as(reader)) return;
+  // With a discovery server, and where messages are encrypted, Fast DDS does not keep participants of one process apart; our readers leave out
+  // what comes from here.
+  if (is_of_this_process(eprosima::fastrtps::rtps::iHandle2GUID(status.last_subscription_handle))) return;
   matched_readers_ += static_cast<std::size_t>(status.current_count_change);  // wraps around as it should
 }
 

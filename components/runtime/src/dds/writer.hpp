@@ -5,6 +5,7 @@
 #include <fastdds/dds/publisher/DataWriterListener.hpp>
 
 #include <atomic>
+#include <cstdint>
 #include <memory>
 #include <optional>
 
@@ -15,22 +16,22 @@
 
 namespace panvo::runtime::dds {
 
-/// How a writer's messages reach readers: sent, or where possible in memory that they share.
-enum class Way { kSent, kShared };
-
 /// A topic of this process as other processes read it.
 class Writer final : public BridgeWriter, private eprosima::fastdds::dds::DataWriterListener {
  public:
-  /// Throws ConfigError when Fast DDS will not have the topic. `wire` is how the topic is called there.
+  /// Throws ConfigError when Fast DDS will not have the topic. `wire` is how the topic is called there. `largest_shared`: up to that size messages
+  /// reach readers that share memory with us through it, and larger ones cannot be written; 0: all are sent.
   Writer(const TopicDescription& topic, const WireTopic& wire, std::shared_ptr<Participant> participant,
-         std::shared_ptr<Notifier> notifier, Way way = Way::kSent);
+         std::shared_ptr<Notifier> notifier, std::uint32_t largest_shared = 0);
   ~Writer() override;
 
   bool write(const SamplePtr& sample) override;
   std::size_t matched_readers() const override { return matched_readers_; }
   bool wait_for_acknowledgments(std::chrono::milliseconds limit) override;
-  /// Whether it has got memory that others may map.
-  bool shares() const { return segment_ && segment_->is_there(); }
+  bool takes(std::size_t size) const { return largest_shared_ == 0 || size <= largest_shared_; }
+  bool shares() const { return largest_shared_ > 0; }
+  /// Whether it has got all the memory that it is to share. One that has not must not be written to.
+  bool has_memory() const { return segment_ && segment_->is_there(); }
 
  private:
   void on_publication_matched(eprosima::fastdds::dds::DataWriter* writer,
@@ -40,6 +41,7 @@ class Writer final : public BridgeWriter, private eprosima::fastdds::dds::DataWr
 
   const std::string name_;
   const bool keeps_for_late_joiners_;
+  const std::uint32_t largest_shared_;
   const std::shared_ptr<Participant> participant_;
   const std::shared_ptr<Notifier> notifier_;
   const std::shared_ptr<eprosima::fastdds::dds::Topic> topic_;

@@ -46,8 +46,9 @@ int main(int argc, char** argv) {
   using namespace panvo::runtime;
   prctl(PR_SET_PDEATHSIG, SIGKILL);  // a test that crashes leaves nobody behind
   if (argc != 2) return 2;
-  Container container(
-      {.dds = DdsSettings{.domain = std::stoi(argv[1]), .profiles = "", .name = "steered"}, .name = "steered"});
+  DdsSettings dds{.domain = std::stoi(argv[1]), .profiles = "", .name = "steered"};
+  dds.limits.max_topic_rate_hz = 1e6;  // tests write as fast as they can
+  Container container({.dds = dds, .name = "steered"});
   ComponentDescription echo;
   echo.name = "echo";
   echo.name_space = "/robot";

@@ -111,7 +111,7 @@ TEST(DdsBridge, NamesAProfileFileThatIsMissingOrWrong) {
 TEST_F(BetweenProcesses, WithTheExampleProfileMeetsOneWithoutAProfile) {
   const auto name = unique_topic("text");
   const auto profiled = make_dds_bridge(
-      {.domain = domain, .profiles = std::string(PANVO_DDS_PROFILES) + "/fastdds_shm_udp.xml", .name = "profiled"});
+      {.domain = domain, .profiles = std::string(PANVO_DDS_PROFILES) + "/fastdds_udp.xml", .name = "profiled"});
   const auto reader = profiled->open_reader(topic(name, kImageType), inbox.callback());
   peer.ask("open_writer " + name + " " + kImageType + " reliable volatile 5");
   ASSERT_TRUE(peer.matches(name, 1));

@@ -4,6 +4,7 @@
 
 #include "bridge_fixture.hpp"
 #include "panvo/interfaces/message_type.hpp"
+#include "panvo/runtime/graph.hpp"
 
 namespace panvo::runtime::test {
 namespace {
@@ -24,6 +25,40 @@ TEST_F(BetweenProcesses, AMalformedPayloadIsCountedAndSurvived) {
   EXPECT_EQ(inbox.items().front()->bytes(), text_sample("yes")->bytes());
   EXPECT_EQ(reader->counters().undecodable, 3U);
   EXPECT_EQ(reader->counters().received, 1U);
+}
+
+TEST_F(BetweenProcesses, AMessageThatIsTooLargeOrOneTooManyIsLeftOutAndCounted) {
+  const auto name = unique_topic("text");
+  const auto careful = make_dds_bridge({.domain = domain,
+                                        .profiles = "",
+                                        .name = "careful",
+                                        .limits = {.max_message_bytes = 100, .max_topic_rate_hz = 1e-3}});
+  careful->on_warning(warnings.callback());
+  const auto reader = careful->open_reader(topic(name, kStringType, {.depth = 3}), inbox.callback());
+  peer.ask("open_writer " + name + " " + kStringType + " reliable volatile 50");
+  ASSERT_TRUE(peer.matches(name, 1));
+  peer.ask("write_text " + name + " " + std::string(200, 'x'));
+  for (int i = 0; i < 5; ++i) peer.ask("write_text " + name + " short");
+  EXPECT_TRUE(eventually([&] { return reader->counters().too_fast == 2; }));
+  EXPECT_EQ(reader->counters().too_large, 1U);
+  EXPECT_EQ(inbox.items().size(), 3U);
+  EXPECT_TRUE(is_warned_of(name, "larger than 0.0001 MB"));
+  EXPECT_TRUE(is_warned_of(name, "more than 0.001 messages a second"));
+}
+
+TEST_F(BetweenProcesses, AMessageBearsTheGidOfItsWriter) {
+  const auto name = unique_topic("text");
+  const auto reader = bridge->open_reader(topic(name, kStringType), inbox.callback());
+  peer.ask("open_writer " + name + " " + kStringType + " reliable volatile 5");
+  ASSERT_TRUE(peer.matches(name, 1));
+  peer.ask("write_text " + name + " one");
+  ASSERT_EQ(inbox.wait_for_count(1).size(), 1U);
+  std::vector<std::string> gids;
+  for (const auto& endpoint : bridge->graph().endpoints) {
+    if (endpoint.is_writer && endpoint.name == name) gids.push_back(endpoint.gid);
+  }
+  ASSERT_EQ(gids.size(), 1U);
+  EXPECT_EQ(inbox.items().front()->sender(), gids.front());
 }
 
 TEST_F(BetweenProcesses, AMessageCutOffIsAnErrorToWhoeverDecodesIt) {

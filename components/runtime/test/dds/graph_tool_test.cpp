@@ -40,10 +40,11 @@ class GraphTool : public testing::Test {
   /// What it says once it says so; discovery takes its time on a busy machine.
   std::string eventually_says(const std::string& arguments, const std::string& wanted) const {
     std::string said;
-    eventually([&] {
+    EXPECT_TRUE(eventually([&] {
       said = run(arguments).said;
       return said.find(wanted) != std::string::npos;
-    });
+    })) << arguments
+        << ": never said " << wanted;
     return said;
   }
 
@@ -75,6 +76,7 @@ TEST_F(GraphTool, GetsDescribesAndSetsParameters) {
 }
 
 TEST_F(GraphTool, LoadsAndUnloads) {
+  ASSERT_EQ(eventually_says("component running", "echo"), "/steered\n  1  /robot/echo\n");  // the peer has begun
   const auto loaded = run("component load /steered panvo_test_relay RelayComponent -n second -p copies:=5");
   EXPECT_EQ(loaded.status, 0);
   EXPECT_EQ(loaded.said, "2  /second\n");

@@ -12,7 +12,7 @@
 namespace panvo::runtime::test {
 
 /// Whether `condition` came true before the limit.
-bool eventually(const std::function<bool()>& condition);
+[[nodiscard]] bool eventually(const std::function<bool()>& condition);
 
 /// Another process: one with a bridge (bridge_peer.cpp), which may share images, or another program. Ends with this object.
 class PeerProcess {

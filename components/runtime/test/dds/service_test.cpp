@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // Services between two processes.
+#include <algorithm>
 #include <future>
+#include <initializer_list>
+#include <optional>
 #include <stdexcept>
 #include <thread>
 
 #include "bridge_fixture.hpp"
+#include "dds/request_limits.hpp"
+#include "dds/same_host.hpp"
 #include "service_messages.hpp"
 
 namespace panvo::runtime::test {
@@ -161,6 +166,66 @@ TEST_F(BetweenProcesses, TheHandlerDoesNotRunAnyMoreWhenTheServiceIsGone) {
   gone = true;
   EXPECT_TRUE(peer.matches(name, 0));
   EXPECT_FALSE(called_after);
+}
+
+TEST_F(BetweenProcesses, WhatTheGuardAnswersIsSentInsteadAndCountedAsRefused) {
+  const auto name = unique_topic("service");
+  const ServiceGuard guard = [](const interfaces::Bytes& bytes, const Caller& caller) {
+    return text_of_request(bytes) == "steer"
+               ? std::optional(response(caller.is_on_this_host ? "refused here" : "refused elsewhere"))
+               : std::nullopt;
+  };
+  const auto server = bridge->serve(service(name), echo, guard);
+  EXPECT_EQ(peer.ask("call " + name + " look"), "here:look");
+  EXPECT_EQ(peer.ask("call " + name + " steer"), "refused here");
+  EXPECT_EQ(server->counters().refused, 1U);
+  EXPECT_TRUE(is_warned_of(name, "was refused"));
+}
+
+TEST_F(BetweenProcesses, RequestsThatAreTooLargeOrTooManyAreDroppedAndCounted) {
+  const auto name = unique_topic("service");
+  const auto strict = make_dds_bridge(
+      {.domain = domain, .profiles = "", .name = "panvo_test", .requests_per_s = 1e-6, .largest_request = 40});
+  strict->on_warning(warnings.callback());
+  const auto server = strict->serve(service(name), echo);
+  peer.ask("open_raw_client " + name);
+  ASSERT_TRUE(peer.matches(name, 1));
+  const auto ask = [&](const std::string& text) {
+    return peer.ask("write_bytes " + name + as_numbers(request(text))) == "written";
+  };
+  ASSERT_TRUE(eventually([&] { return ask(std::string(100, 'x')) && server->counters().dropped > 0; }));
+  EXPECT_TRUE(is_warned_of(name, "more than 40 bytes"));
+  EXPECT_EQ(server->counters().answered, 0U);
+  EXPECT_TRUE(eventually([&] { return ask("short") && server->counters().answered > 0; }));
+  ASSERT_TRUE(ask("short"));
+  EXPECT_TRUE(is_warned_of(name, "requests a second"));
+}
+
+TEST(RequestRate, LetsThroughWhatComesInOneSecondAtOnceAndThenAsManyASecond) {
+  constexpr std::int64_t kSecond_ns = 1'000'000'000;
+  dds::RequestRate rate(3);
+  int passed = 0;
+  for (int i = 0; i < 10; ++i) passed += rate.lets_pass(5 * kSecond_ns);
+  EXPECT_EQ(passed, 3);
+  EXPECT_FALSE(rate.lets_pass(5 * kSecond_ns + kSecond_ns / 4));
+  EXPECT_TRUE(rate.lets_pass(5 * kSecond_ns + kSecond_ns / 2));
+  dds::RequestRate none(0);
+  EXPECT_FALSE(none.lets_pass(0));
+}
+
+TEST(SameHost, IsToldByVendorAndHostAndNeverByAHash) {
+  using eprosima::fastrtps::rtps::GUID_t;
+  const auto guid = [](std::initializer_list<std::uint8_t> first) {
+    GUID_t made;
+    std::copy(first.begin(), first.end(), made.guidPrefix.value);
+    return made;
+  };
+  const auto own = guid({0x01, 0x0f, 0x12, 0x34, 0x56});
+  EXPECT_TRUE(dds::is_on_same_host(own, guid({0x01, 0x0f, 0x12, 0x34, 0x99})));
+  EXPECT_FALSE(dds::is_on_same_host(own, guid({0x01, 0x0f, 0x12, 0x35, 0x56})));
+  EXPECT_FALSE(dds::is_on_same_host(own, guid({0x01, 0x10, 0x12, 0x34, 0x56}))) << "another vendor";
+  const auto hashed = guid({0x81, 0x0f, 0x12, 0x34, 0x56});
+  EXPECT_FALSE(dds::is_on_same_host(hashed, hashed)) << "keys of one enclave may be on several hosts";
 }
 
 TEST_F(BetweenProcesses, AServiceOfNoTypeIsRefused) {

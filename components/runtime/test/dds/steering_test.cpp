@@ -102,10 +102,16 @@ class Steering : public testing::Test {
   }
   static std::string text_of(const SamplePtr& sample) { return Sample::as<std_msgs::msg::String>(sample)->data(); }
 
+  DdsSettings settings() const {
+    DdsSettings settings{.domain = domain, .profiles = "", .name = "panvo_test"};
+    settings.limits.max_topic_rate_hz = 1e6;  // the peer answers as fast as it can
+    return settings;
+  }
+
   const int domain = test_domain();
   PeerProcess peer{domain, PANVO_CONTAINER_PEER};
   Inbox<SamplePtr> echoed;
-  std::unique_ptr<Bridge> bridge = make_dds_bridge({.domain = domain, .profiles = "", .name = "panvo_test"});
+  std::unique_ptr<Bridge> bridge = make_dds_bridge(settings());
   std::map<std::string, std::unique_ptr<BridgeClient>> clients;
   std::unique_ptr<BridgeReader> reader;
   std::unique_ptr<BridgeWriter> writer;

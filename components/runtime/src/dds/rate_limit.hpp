@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+
+namespace panvo::runtime::dds {
+
+/// A token bucket: so many messages a second, and a second's worth, or `burst`, at once.
+class RateLimit {
+ public:
+  RateLimit(double rate_hz, double burst) : rate_hz_(rate_hz), full_(std::max(rate_hz, burst)), left_(full_) {}
+
+  /// Whether one more may come at that time, monotonic.
+  bool take(std::int64_t now_ns) {
+    left_ = std::min(full_, left_ + 1e-9 * static_cast<double>(now_ns - last_ns_) * rate_hz_);
+    last_ns_ = now_ns;
+    if (left_ < 1.0) return false;
+    left_ -= 1.0;
+    return true;
+  }
+
+ private:
+  double rate_hz_, full_, left_;
+  std::int64_t last_ns_ = 0;
+};
+
+}  // namespace panvo::runtime::dds
