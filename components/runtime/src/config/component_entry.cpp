@@ -5,6 +5,7 @@
 
 #include "panvo/runtime/names.hpp"
 #include "parameter_file.hpp"
+#include "policies_entry.hpp"
 
 namespace panvo::runtime {
 namespace {
@@ -84,13 +85,20 @@ std::string read_topic(YamlMap& map, const std::string& key, Findings& findings)
 
 }  // namespace
 
-ComponentDescription read_component(YamlMap& map, const Scope& scope, Findings& findings) {
+ComponentDescription read_component(YamlMap& map, const Scope& scope, OnError on_error, Findings& findings) {
   ComponentDescription component;
   component.where = map.where();
   component.package = map.required("pkg", "name the package that has the plugin");
+  if (const auto wrong = package_name_problem(component.package); wrong && !component.package.empty()) {
+    findings.problems.add(map.where("pkg"), "pkg \"" + component.package + "\" " + *wrong);
+  }
   component.plugin = map.required("plugin", "name the component's class");
+  if (const auto wrong = class_name_problem(component.plugin); wrong && !component.plugin.empty()) {
+    findings.problems.add(map.where("plugin"), "plugin \"" + component.plugin + "\" " + *wrong);
+  }
   component.name = read_name(map, "name the component", findings);
   component.name_space = read_name_space(map, scope, findings);
+  component.on_error = read_on_error(map, on_error, findings);
 
   ParameterEntries parameters(full_name(component.name_space, component.name), scope, findings, component.parameters);
   for (const auto& entry : map.list("param")) {

@@ -8,8 +8,8 @@
 
 namespace panvo::runtime {
 
-/// Reads the body of a `composable_node`.
-ComponentDescription read_component(YamlMap& map, const Scope& scope, Findings& findings);
+/// Reads the body of a `composable_node`; `on_error` is its container's.
+ComponentDescription read_component(YamlMap& map, const Scope& scope, OnError on_error, Findings& findings);
 
 /// The checked `name` of a node or container.
 std::string read_name(YamlMap& map, const std::string& remedy, Findings& findings);

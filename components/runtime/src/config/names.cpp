@@ -81,6 +81,24 @@ std::optional<std::string> node_name_problem(std::string_view name) {
   return word_problem(name);
 }
 
+std::optional<std::string> package_name_problem(std::string_view name) {
+  const auto is_small = [](char c) { return c >= 'a' && c <= 'z'; };
+  const bool is_one = !name.empty() && name.size() <= kLongestName && is_small(name.front()) &&
+                      std::ranges::all_of(name, [&](char c) { return is_small(c) || is_digit(c) || c == '_'; });
+  if (is_one) return std::nullopt;
+  return "is no name of a package; write small letters, digits and '_', a letter first";
+}
+
+std::optional<std::string> class_name_problem(std::string_view name) {
+  constexpr std::string_view kColons = "::";
+  for (std::size_t colons = name.find(kColons); colons != std::string_view::npos; colons = name.find(kColons)) {
+    if (word_problem(name.substr(0, colons))) return "is no name of a class; write Class or package::Class";
+    name.remove_prefix(colons + kColons.size());
+  }
+  if (word_problem(name)) return "is no name of a class; write Class or package::Class";
+  return std::nullopt;
+}
+
 std::optional<std::string> name_space_problem(std::string_view name_space) {
   if (name_space.empty() || name_space == "/") {
     return std::nullopt;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "paths_below.hpp"
 #include "suggestion.hpp"
 
 namespace panvo::runtime {
@@ -94,9 +95,14 @@ void ParameterReader::declare(ParameterDescription parameter, Value& value) {
     const WrittenValue& written = found->second;
     const std::string must = requirement(parameter);
     Value parsed{};
+    const auto misplaced =
+        parameter.is_path && paths_below_ ? path_problem(as_written(written), *paths_below_) : std::nullopt;
     if (const auto wrong = parse(written, parsed)) {
       problems_.add(written.where, owner_ + "." + parameter.name + " = " + as_written(written) + ": " + *wrong +
                                        (must.empty() ? "" : "; " + must) + " (" + parameter.description + ")");
+    } else if (misplaced) {
+      problems_.add(written.where, owner_ + "." + parameter.name + " = " + as_written(written) + ": " + *misplaced +
+                                       " (" + parameter.description + ")");
     } else if (!allowed(parameter, parsed)) {
       problems_.add(written.where, owner_ + "." + parameter.name + " = " + as_written(written) + ": " + must + " (" +
                                        parameter.description + ")");
@@ -142,11 +148,28 @@ void ParameterReader::read_value(const std::string& name, const char* unit, cons
   declare(described(name, unit, description), value);
 }
 
+void ParameterReader::read_path(const std::string& name, const char* description, std::string& value) {
+  auto parameter = described(name, "", description);
+  parameter.is_path = true;
+  declare(std::move(parameter), value);
+}
+
 void ParameterReader::read_choice(const std::string& name, const char* unit, const char* description,
                                   std::initializer_list<const char*> choices, std::string& value) {
   auto parameter = described(name, unit, description);
   parameter.choices.assign(choices.begin(), choices.end());
   declare(std::move(parameter), value);
+}
+
+void ParameterReader::add_conflict(const std::string& first, const char* rule, const std::string& second) {
+  const auto value = [&](const std::string& name) {
+    const auto found =
+        std::find_if(declared_.begin(), declared_.end(), [&](const auto& declared) { return declared.name == name; });
+    return found == declared_.end() ? std::string() : " (" + found->value + ")";
+  };
+  const auto written = written_.contains(first) ? written_.find(first) : written_.find(second);
+  problems_.add(written == written_.end() ? Location{} : written->second.where,
+                owner_ + "." + first + value(first) + " " + rule + " " + second + value(second));
 }
 
 std::vector<std::string> ParameterReader::problems() const {

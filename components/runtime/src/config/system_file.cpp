@@ -4,10 +4,10 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
-#include <charconv>
 
 #include "component_entry.hpp"
 #include "panvo/runtime/names.hpp"
+#include "policies_entry.hpp"
 #include "suggestion.hpp"
 #include "yaml.hpp"
 
@@ -19,6 +19,8 @@ const std::vector<std::string> kContainerKeysWithoutEffect = {
     "args", "ros_args", "output", "respawn_max_retries", "env", "param", "launch-prefix", "remap"};
 constexpr int kLongestDelayS = 3600;
 constexpr int kLargestImageMb = 64;
+constexpr int kLargestMessageMb = 2000;  // Fast DDS counts the bytes of a message in 31 bits
+constexpr int kHighestRateHz = 1'000'000;
 const std::vector<std::string> kActions = {"node_container", "arg", "let", "include", "group", "push_ros_namespace"};
 
 class SystemReader {
@@ -180,13 +182,21 @@ class SystemReader {
     container.name_space = read_name_space(map, scope, findings_);
     map.text("pkg");  // ours is the only container there is
     map.text("exec");
+    read_policies(map, scope, findings_, container);
+    const OnError on_error = read_on_error(map, OnError::kRestart, findings_);
     container.respawn = map.flag("respawn", false);
     container.respawn_delay_s =
         read_number(map, "respawn_delay", fmt::format("seconds, 0 to {}", kLongestDelayS), kLongestDelayS);
     container.shared_images_mb =
         read_number(map, "shared_images_mb", fmt::format("megabytes, 0 (none are shared) to {}", kLargestImageMb),
                     kLargestImageMb)
-            .value_or(0);
+            .value_or(kLargestImageMb);
+    container.max_message_mb =
+        read_number(map, "max_message_mb", fmt::format("megabytes, 0 to {}", kLargestMessageMb), kLargestMessageMb)
+            .value_or(container.max_message_mb);
+    container.max_topic_rate_hz =
+        read_number(map, "max_topic_rate_hz", fmt::format("messages a second, 0 to {}", kHighestRateHz), kHighestRateHz)
+            .value_or(container.max_topic_rate_hz);
     if (!map.has("composable_node")) {
       findings_.problems.add(map.where(),
                              "node_container " + container.name + " loads nothing; add a list composable_node");
@@ -194,7 +204,7 @@ class SystemReader {
     for (const auto& node : map.list("composable_node")) {
       YamlMap component(node, "composable_node", scope, findings_);
       if (component.applies()) {
-        container.components.push_back(read_component(component, scope, findings_));
+        container.components.push_back(read_component(component, scope, on_error, findings_));
         const auto& added = container.components.back();
         claim_name(full_name(added.name_space, added.name), "component", added.where);
       }
@@ -205,13 +215,7 @@ class SystemReader {
   }
 
   std::optional<double> read_number(YamlMap& map, const std::string& key, const std::string& what, double largest) {
-    const auto text = map.text(key);
-    if (!text) return std::nullopt;
-    double number = 0;
-    const auto [end, error] = std::from_chars(text->data(), text->data() + text->size(), number);
-    if (error == std::errc() && end == text->data() + text->size() && number >= 0 && number <= largest) return number;
-    findings_.problems.add(map.where(key), fmt::format("{} is \"{}\"; write {}", key, *text, what));
-    return std::nullopt;
+    return runtime::read_number(map, key, what, largest, findings_);
   }
 
   void claim_name(const std::string& name, const std::string& what, const Location& where) {

@@ -28,6 +28,10 @@ ComponentDescription description_of(const LoadNode_Request& request, std::vector
   description.name = request.node_name().empty() ? default_name(request.package_name()) : request.node_name();
   description.where = {kWhere, 0};
   const auto complain = [&](const std::string& what) { problems.push_back(std::string(kWhere) + ": " + what); };
+  if (const auto wrong = package_name_problem(description.package))
+    complain("package \"" + description.package + "\" " + *wrong);
+  if (const auto wrong = class_name_problem(description.plugin))
+    complain("plugin \"" + description.plugin + "\" " + *wrong);
   if (const auto wrong = node_name_problem(description.name))
     complain("node name \"" + description.name + "\" " + *wrong);
   if (const auto wrong = name_space_problem(request.node_namespace())) {
@@ -100,6 +104,13 @@ ListNodes_Response list(SteeredContainer& container, const ListNodes_Request&) {
 }
 
 template <class Request, class Response>
+Response refuse(const Request&, const std::string& why) {
+  Response response;
+  response.error_message(why);
+  return response;
+}
+
+template <class Request, class Response>
 OfferedService offer(const std::string& name, const char* type, SteeredContainer& container,
                      Response (*answer)(SteeredContainer&, const Request&)) {
   return {{name, std::string("composition_interfaces/srv/") + type},
@@ -111,9 +122,11 @@ OfferedService offer(const std::string& name, const char* type, SteeredContainer
 
 std::vector<OfferedService> component_services(const std::string& full_name, SteeredContainer& container) {
   const std::string prefix = full_name + "/_container/";
-  return {offer(prefix + "load_node", "LoadNode", container, load),
-          offer(prefix + "unload_node", "UnloadNode", container, unload),
-          offer(prefix + "list_nodes", "ListNodes", container, list)};
+  auto loads = offer(prefix + "load_node", "LoadNode", container, load);
+  auto unloads = offer(prefix + "unload_node", "UnloadNode", container, unload);
+  loads.refuse = refusal_of(refuse<LoadNode_Request, LoadNode_Response>);
+  unloads.refuse = refusal_of(refuse<UnloadNode_Request, UnloadNode_Response>);
+  return {std::move(loads), std::move(unloads), offer(prefix + "list_nodes", "ListNodes", container, list)};
 }
 
 }  // namespace panvo::runtime::steering

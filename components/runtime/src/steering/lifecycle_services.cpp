@@ -83,6 +83,13 @@ ChangeState_Response change_state(SteeredNode& node, const ChangeState_Request& 
   return response;
 }
 
+/// It has no room for the reason, which the log has.
+ChangeState_Response refuse_to_change(const ChangeState_Request&, const std::string&) {
+  ChangeState_Response response;
+  response.success(false);
+  return response;
+}
+
 template <class Request, class Response>
 OfferedService offer(const std::string& name, const char* type, SteeredNode& node,
                      Response (*answer)(SteeredNode&, const Request&)) {
@@ -94,8 +101,9 @@ OfferedService offer(const std::string& name, const char* type, SteeredNode& nod
 }  // namespace
 
 std::vector<OfferedService> lifecycle_services(const std::string& full_name, SteeredNode& node) {
-  return {offer(full_name + "/change_state", "ChangeState", node, change_state),
-          offer(full_name + "/get_state", "GetState", node, get_state),
+  auto changes = offer(full_name + "/change_state", "ChangeState", node, change_state);
+  changes.refuse = refusal_of(refuse_to_change);
+  return {std::move(changes), offer(full_name + "/get_state", "GetState", node, get_state),
           offer(full_name + "/get_available_states", "GetAvailableStates", node, get_states),
           offer(full_name + "/get_available_transitions", "GetAvailableTransitions", node, get_transitions)};
 }

@@ -123,6 +123,26 @@ SetParametersAtomically_Response set_atomically(SteeredNode& node, const SetPara
   return response;
 }
 
+SetParametersResult refused(const std::string& why) {
+  SetParametersResult result;
+  result.successful(false);
+  result.reason(why);
+  return result;
+}
+
+SetParameters_Response refuse_to_set(const SetParameters_Request& request, const std::string& why) {
+  SetParameters_Response response;
+  response.results().assign(request.parameters().size(), refused(why));
+  return response;
+}
+
+SetParametersAtomically_Response refuse_to_set_atomically(const SetParametersAtomically_Request&,
+                                                          const std::string& why) {
+  SetParametersAtomically_Response response;
+  response.result(refused(why));
+  return response;
+}
+
 template <class Request, class Response, class Node>
 OfferedService offer(const std::string& name, const char* type, Node& node, Response (*answer)(Node&, const Request&)) {
   return {
@@ -134,12 +154,17 @@ OfferedService offer(const std::string& name, const char* type, Node& node, Resp
 
 std::vector<OfferedService> parameter_services(const std::string& full_name, SteeredNode& node) {
   const SteeredNode& constant = node;
+  auto sets = offer(full_name + "/set_parameters", "SetParameters", node, set);
+  auto sets_atomically =
+      offer(full_name + "/set_parameters_atomically", "SetParametersAtomically", node, set_atomically);
+  sets.refuse = refusal_of(refuse_to_set);
+  sets_atomically.refuse = refusal_of(refuse_to_set_atomically);
   return {offer(full_name + "/get_parameters", "GetParameters", constant, get),
           offer(full_name + "/get_parameter_types", "GetParameterTypes", constant, get_types),
           offer(full_name + "/list_parameters", "ListParameters", constant, list),
           offer(full_name + "/describe_parameters", "DescribeParameters", constant, describe),
-          offer(full_name + "/set_parameters", "SetParameters", node, set),
-          offer(full_name + "/set_parameters_atomically", "SetParametersAtomically", node, set_atomically)};
+          std::move(sets),
+          std::move(sets_atomically)};
 }
 
 }  // namespace panvo::runtime::steering

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -34,7 +36,7 @@ class SteeredContainer {
     std::uint64_t id = 0;  ///< never used again
     std::string full_name;
   };
-  /// Throws ConfigError with what is wrong.
+  /// As another process asks for it: it may name no files but those that the container allows. Throws ConfigError with what is wrong.
   virtual Loaded load_component(const ComponentDescription& description) = 0;
   /// Throws ConfigError when it cannot be.
   virtual void unload_component(std::uint64_t id) = 0;
@@ -45,7 +47,23 @@ class SteeredContainer {
 struct OfferedService {
   ServiceDescription description;
   ServiceHandler handler;
+  /// The answer that tells who asked why nothing was done; empty for a service that changes nothing.
+  std::function<interfaces::Bytes(const interfaces::Bytes& request, const std::string& why)> refuse = {};
 };
+
+/// A way to refuse messages as one of bytes.
+template <class Request, class Response>
+auto refusal_of(Response (*refuse)(const Request&, const std::string& why)) {
+  return [refuse](const interfaces::Bytes& request, const std::string& why) {
+    return to_bytes<Response>(refuse(from_bytes<Request>(request), why));
+  };
+}
+
+/// Why who asks may not change anything; nullopt: he may.
+std::optional<std::string> steering_problem(ServiceAccess access, const Caller& caller);
+
+/// Lets pass who may, and refuses the others; empty for a service that changes nothing.
+ServiceGuard guard_of(const OfferedService& service, ServiceAccess access);
 
 /// The services of a node, as ROS 2's have them: `~/get_parameters` and the like, `~/get_state` and the like. `node` must outlive them.
 std::vector<OfferedService> parameter_services(const std::string& full_name, SteeredNode& node);

@@ -72,5 +72,17 @@ TEST(NameProblems, TellNodesFromNamespaces) {
   EXPECT_NE(name_space_problem("/robot/"), std::nullopt);
 }
 
+TEST(NameProblems, APackageIsNamedAsRos2NamesItAndNotByAPath) {
+  for (const char* good : {"panvo_stereo_rectifier", "a", "panvo2_x"}) EXPECT_FALSE(package_name_problem(good)) << good;
+  for (const char* bad : {"", "/../../evil", "a/b", "a.b", "2panvo", "_a", "Panvo", "a b", "a-b"})
+    EXPECT_TRUE(package_name_problem(bad)) << bad;
+}
+
+TEST(NameProblems, AClassIsNamedWithOrWithoutNamespaces) {
+  for (const char* good : {"StereoRectifierComponent", "panvo::StereoRectifierComponent", "a::b::C"})
+    EXPECT_FALSE(class_name_problem(good)) << good;
+  for (const char* bad : {"", "::A", "a::", "a:b", "../A", "a/b"}) EXPECT_TRUE(class_name_problem(bad)) << bad;
+}
+
 }  // namespace
 }  // namespace panvo::runtime

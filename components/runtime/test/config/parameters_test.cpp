@@ -145,6 +145,39 @@ TEST(ParameterReader, OverridesDefaultsByWhatIsWritten) {
   EXPECT_TRUE(reader.problems().empty());
 }
 
+struct Window {
+  int fixed = 3, all = 10;
+
+  template <class Field>
+  static void describe(Field&& field) {
+    field(&Window::fixed, "fixed", "1", "of all", 1, 49);
+    field(&Window::all, "all", "1", "adjusted together", 2, 50);
+  }
+  template <class Conflict>
+  void find_conflicts(Conflict&& conflict) const {
+    if (fixed >= all) conflict("fixed", "must be less than", "all");
+  }
+};
+
+struct Motion {
+  Window window;
+
+  template <class Field>
+  static void describe(Field&& field) {
+    field.group(&Motion::window, "window");
+  }
+};
+
+TEST(ParameterReader, NamesBothOfTwoThatContradictEachOther) {
+  ParameterReader reader("odometry", {{"window.fixed", written("20")}});
+  reader.read<Motion>();
+  ASSERT_EQ(reader.problems().size(), 1U);
+  EXPECT_THAT(reader.problems()[0], HasSubstr("odometry.window.fixed (20) must be less than window.all (10)"));
+  ParameterReader of_defaults("odometry", {});
+  of_defaults.read<Motion>();
+  EXPECT_TRUE(of_defaults.problems().empty());
+}
+
 TEST(ParameterReader, DescribesWhatWasDeclaredOnce) {
   ParameterReader reader("odometry", {{"tracker.max_features", written("500")}});
   reader.read<Odometry>();
@@ -214,6 +247,36 @@ TEST(ConfigError, SaysEveryProblemOnALineOfItsOwn) {
   const ConfigError error(std::vector<std::string>{"a.yaml:1: one", "a.yaml:2: two"});
   EXPECT_STREQ(error.what(), "a.yaml:1: one\na.yaml:2: two");
   EXPECT_THAT(error.problems(), ElementsAre("a.yaml:1: one", "a.yaml:2: two"));
+}
+
+struct Store {
+  std::string file = "the default";
+  std::string note;
+
+  template <class Field>
+  static void describe(Field&& field) {
+    field.path(&Store::file, "file", "the store");
+    field(&Store::note, "note", "", "free text");
+  }
+};
+
+TEST(ParameterReader, TakesNoPathsButThoseBelowTheFolderItIsConfinedTo) {
+  const WrittenValues values{{"file", written("/etc/passwd")}, {"note", written("/etc/passwd")}};
+  ParameterReader free("landmark_store", values);
+  EXPECT_EQ(free.read<Store>().file, "/etc/passwd");
+  EXPECT_TRUE(free.declared()[0].is_path);
+  EXPECT_FALSE(free.declared()[1].is_path);
+
+  ParameterReader confined("landmark_store", values);
+  confined.confine_paths("");
+  EXPECT_EQ(confined.read<Store>().file, "the default") << "so that nobody opens it meanwhile";
+  EXPECT_EQ(confined.read<Store>().note, "/etc/passwd");
+  ASSERT_FALSE(confined.problems().empty());
+  EXPECT_THAT(confined.problems().front(), testing::HasSubstr("landmark_store.file = /etc/passwd"));
+
+  ParameterReader elsewhere("landmark_store", values);
+  elsewhere.confine_paths("/etc");
+  EXPECT_EQ(elsewhere.read<Store>().file, "/etc/passwd");
 }
 
 }  // namespace

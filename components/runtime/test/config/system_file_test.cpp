@@ -145,13 +145,33 @@ TEST_F(SystemFile, SaysWhichProcessesAreStartedAgainAndHowSoon) {
   }
 }
 
+TEST_F(SystemFile, SaysHowMuchAProcessTakesFromOthers) {
+  const auto file = [](const std::string& line) {
+    return fmt::format(
+        "launch:\n- node_container:\n    name: x\n{}    composable_node: [{{pkg: panvo_a, plugin: A, name: a}}]\n",
+        line);
+  };
+  const auto unsaid = read_system_file(folder_.write("unsaid.yaml", file(""))).containers[0];
+  EXPECT_EQ(unsaid.max_message_mb, 64);
+  EXPECT_EQ(unsaid.max_topic_rate_hz, 1000);
+  const auto said =
+      read_system_file(folder_.write("said.yaml", file("    max_message_mb: 2.5\n    max_topic_rate_hz: 50\n")))
+          .containers[0];
+  EXPECT_EQ(said.max_message_mb, 2.5);
+  EXPECT_EQ(said.max_topic_rate_hz, 50);
+  EXPECT_THAT(problems(file("    max_message_mb: 2001\n")),
+              ElementsAre("stereo.yaml:4: max_message_mb is \"2001\"; write megabytes, 0 to 2000"));
+  EXPECT_THAT(problems(file("    max_topic_rate_hz: fast\n")),
+              ElementsAre("stereo.yaml:4: max_topic_rate_hz is \"fast\"; write messages a second, 0 to 1000000"));
+}
+
 TEST_F(SystemFile, SaysUpToWhichSizeProcessesShareImages) {
   const auto file = [](const std::string& line) {
     return fmt::format(
         "launch:\n- node_container:\n    name: x\n{}    composable_node: [{{pkg: panvo_a, plugin: A, name: a}}]\n",
         line);
   };
-  EXPECT_EQ(read_system_file(folder_.write("unsaid.yaml", file(""))).containers[0].shared_images_mb, 0);
+  EXPECT_EQ(read_system_file(folder_.write("unsaid.yaml", file(""))).containers[0].shared_images_mb, 64);
   const auto shared = folder_.write("shared.yaml", file("    shared_images_mb: 1.75\n"));
   EXPECT_EQ(read_system_file(shared).containers[0].shared_images_mb, 1.75);
   for (const char* size : {"yes", "-1", "2 MB", "65"}) {
@@ -161,6 +181,58 @@ TEST_F(SystemFile, SaysUpToWhichSizeProcessesShareImages) {
                                 "to 64",
                                 size)));
   }
+}
+
+/// One container with `line` of it and `more` of its component.
+std::string with_line(const std::string& line, const std::string& more = "") {
+  return fmt::format(
+      "launch:\n- node_container:\n    name: x\n{}    composable_node:\n    - {{pkg: panvo_a, plugin: A, name: a{}}}\n",
+      line.empty() ? "" : "    " + line + "\n", more);
+}
+
+TEST_F(SystemFile, SaysWhoMaySteerByService) {
+  const auto access = [&](const std::string& line) {
+    return read_system_file(folder_.write("services.yaml", with_line(line))).containers[0].services;
+  };
+  EXPECT_EQ(access(""), ServiceAccess::kByHost);
+  EXPECT_EQ(access("services: look"), ServiceAccess::kLook);
+  EXPECT_EQ(access("services: steer"), ServiceAccess::kSteer);
+  EXPECT_EQ(access("services: off"), ServiceAccess::kOff);
+  EXPECT_THAT(problems(with_line("services: stear")),
+              ElementsAre("stereo.yaml:4: services is \"stear\"; did you mean \"steer\"?"));
+  EXPECT_THAT(problems(with_line("services: nobody")),
+              ElementsAre("stereo.yaml:4: services is \"nobody\"; known are: look, steer, off"));
+}
+
+TEST_F(SystemFile, SaysWhatBecomesOfComponentsThatFailAndOfTheOthers) {
+  const auto read = [&](const std::string& line, const std::string& more) {
+    return read_system_file(folder_.write("on_error.yaml", with_line(line, more))).containers[0];
+  };
+  EXPECT_EQ(read("", "").components[0].on_error, OnError::kRestart);
+  EXPECT_EQ(read("on_error: stop", "").components[0].on_error, OnError::kStop);
+  EXPECT_EQ(read("on_error: stop", ", on_error: ignore").components[0].on_error, OnError::kIgnore);
+  EXPECT_THAT(problems(with_line("on_error: restrat")),
+              ElementsAre("stereo.yaml:4: on_error is \"restrat\"; did you mean \"restart\"?"));
+  EXPECT_TRUE(read("", "").required);
+  EXPECT_FALSE(read("required: false", "").required);
+}
+
+TEST_F(SystemFile, SaysWhereRequestsMayNameFilesAndHowManyAreAnswered) {
+  const auto file = folder_.write("below.yaml", with_line("files_below: ."));
+  EXPECT_TRUE(std::filesystem::equivalent(read_system_file(file).containers[0].files_below, folder_.path()));
+  EXPECT_THAT(problems(with_line("files_below: nowhere")), ElementsAre(HasSubstr("there is no folder \"nowhere\"")));
+  const auto limited = folder_.write("limited.yaml", with_line("requests_per_s: 5"));
+  EXPECT_EQ(read_system_file(limited).containers[0].requests_per_s, 5);
+  EXPECT_THAT(problems(with_line("requests_per_s: -1")),
+              ElementsAre("stereo.yaml:4: requests_per_s is \"-1\"; write how many a second, 0 to 100000"));
+}
+
+TEST_F(SystemFile, RefusesPluginsThatAreNamedByPaths) {
+  EXPECT_THAT(problems("launch:\n- node_container:\n    name: x\n    composable_node:\n"
+                       "    - {pkg: /../../evil, plugin: ../A, name: a}\n"),
+              ElementsAre("stereo.yaml:5: pkg \"/../../evil\" is no name of a package; write small letters, digits and "
+                          "'_', a letter first",
+                          "stereo.yaml:5: plugin \"../A\" is no name of a class; write Class or package::Class"));
 }
 
 TEST_F(SystemFile, TakesArgumentsAndRefusesThoseItDoesNotDeclare) {

@@ -66,8 +66,8 @@ class FakeNode final : public SteeredNode {
 /// Asks the service whose name ends so.
 template <class Response, class Request>
 Response ask(const std::vector<OfferedService>& services, const std::string& end, const Request& request) {
-  for (const auto& [description, handler] : services) {
-    if (description.name.ends_with("/" + end)) return from_bytes<Response>(handler(to_bytes(request)));
+  for (const auto& service : services) {
+    if (service.description.name.ends_with("/" + end)) return from_bytes<Response>(service.handler(to_bytes(request)));
   }
   throw std::runtime_error("there is no service " + end);
 }

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "panvo/runtime/system_file.hpp"
+#include "yaml.hpp"
+
+namespace panvo::runtime {
+
+/// `on_error` of a container or component.
+OnError read_on_error(YamlMap& map, OnError otherwise, Findings& findings);
+
+/// What a container says of who may do what, and of its end: `services`, `files_below`, `requests_per_s`, `required`.
+void read_policies(YamlMap& map, const Scope& scope, Findings& findings, ContainerDescription& container);
+
+/// A number of at least 0; nullopt where there is none, or a wrong one. `what` says what to write: "seconds, 0 to 10".
+std::optional<double> read_number(YamlMap& map, const std::string& key, const std::string& what, double largest,
+                                  Findings& findings);
+
+}  // namespace panvo::runtime

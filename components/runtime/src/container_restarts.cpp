@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+// What becomes of components that throw while the container runs live.
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "clocks.hpp"
+#include "container_implementation.hpp"
+#include "panvo/runtime/errors.hpp"
+
+namespace panvo::runtime {
+namespace {
+
+std::string name_of(const Recipe& recipe) { return recipe.description.name; }
+
+}  // namespace
+
+void Container::Implementation::component_failed(const ComponentDescription& description) {
+  if (description.on_error != OnError::kStop) return;
+  log(LogLevel::kError, "container", description.name + " has failed, and its on_error says: stop");
+  request_stop();
+}
+
+void Container::Implementation::restart_failed() {
+  const std::lock_guard change(change_mutex_);
+  const std::int64_t now_ns = clocks::monotonic_ns();
+  const auto is_due = [now_ns](const Recipe& recipe) { return recipe.restart_ns && *recipe.restart_ns <= now_ns; };
+  std::vector<Recipe> due;
+  for (auto& entry : take_failed(now_ns)) {
+    due.push_back(entry->recipe);
+    entry.reset();
+  }
+  for (const auto& recipe : unmade_) {
+    if (is_due(recipe)) due.push_back(recipe);
+  }
+  std::erase_if(unmade_, is_due);
+  for (auto& recipe : due) make_anew(std::move(recipe), now_ns);
+  if (!due.empty()) tell_nodes();
+}
+
+/// Those whose time has come to be made anew; plans when that is, and lets files be trusted that have done no harm.
+auto Container::Implementation::take_failed(std::int64_t now_ns) -> Entries {
+  Entries due;
+  const std::lock_guard lock(entries_mutex_);
+  for (auto& entry : entries_) {
+    auto& state = entry->context->state();
+    state.trust_files(now_ns);
+    // What plays something recorded has lost its place.
+    if (!state.failed() || state.description.on_error != OnError::kRestart || state.source) continue;
+    auto& recipe = entry->recipe;
+    if (!recipe.restart_ns && !recipe.given_up) plan_restart(recipe, now_ns);
+    if (recipe.restart_ns && *recipe.restart_ns <= now_ns) due.push_back(std::move(entry));
+  }
+  std::erase(entries_, nullptr);
+  return due;
+}
+
+void Container::Implementation::plan_restart(Recipe& recipe, std::int64_t now_ns) {
+  recipe.restart_ns = recipe.restarts.failed(now_ns);
+  recipe.given_up = !recipe.restart_ns;
+  if (recipe.given_up) {
+    log(LogLevel::kError, name_of(recipe),
+        fmt::format("has failed {} times within {} s and stays stopped; the others go on",
+                    RestartPlan::kMostWithinWindow + 1, RestartPlan::kWindow_ns / 1'000'000'000));
+  } else {
+    log(LogLevel::kWarning, name_of(recipe),
+        fmt::format("is made anew in {:.1f} s", static_cast<double>(*recipe.restart_ns - now_ns) * 1e-9));
+  }
+}
+
+void Container::Implementation::make_anew(Recipe recipe, std::int64_t now_ns) {
+  recipe.restart_ns.reset();
+  ++recipe.restarted;
+  try {
+    put(recipe);
+    log(LogLevel::kInfo, name_of(recipe), "was made anew");
+  } catch (const ConfigError& error) {
+    for (const auto& problem : error.problems())
+      log(LogLevel::kError, name_of(recipe), "could not be made anew: " + problem);
+    plan_restart(recipe, now_ns);
+    unmade_.push_back(std::move(recipe));
+  }
+}
+
+}  // namespace panvo::runtime

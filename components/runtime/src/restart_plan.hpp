@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <optional>
+
+namespace panvo::runtime {
+
+/// When a component that keeps failing is made anew: after 0.1, 1 and 10 s; of more than three failures within a minute, not any more.
+class RestartPlan {
+ public:
+  static constexpr std::size_t kMostWithinWindow = 3;
+  static constexpr std::int64_t kWindow_ns = 60'000'000'000;
+  static constexpr std::int64_t kFirstDelay_ns = 100'000'000, kLongestDelay_ns = 10'000'000'000;
+
+  /// When to make it anew after a failure at `now_ns`; nullopt: it has failed too often.
+  std::optional<std::int64_t> failed(std::int64_t now_ns) {
+    while (!failures_ns_.empty() && failures_ns_.front() + kWindow_ns <= now_ns) failures_ns_.pop_front();
+    if (failures_ns_.size() >= kMostWithinWindow) return std::nullopt;
+    std::int64_t delay_ns = kFirstDelay_ns;
+    for (std::size_t i = 0; i < failures_ns_.size(); ++i) delay_ns = std::min(10 * delay_ns, kLongestDelay_ns);
+    failures_ns_.push_back(now_ns);
+    return now_ns + delay_ns;
+  }
+
+ private:
+  std::deque<std::int64_t> failures_ns_;  // within the window
+};
+
+}  // namespace panvo::runtime
