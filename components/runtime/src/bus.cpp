@@ -1,16 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bus.hpp"
 
-#include <algorithm>
+#include <spdlog/fmt/fmt.h>
 
+#include <algorithm>
+#include <utility>
+
+#include "gate.hpp"
 #include "panvo/runtime/errors.hpp"
+#include "panvo/runtime/graph.hpp"
 
 namespace panvo::runtime {
 
 using interfaces::Durability;
 
-Channel::Channel(TopicDescription topic, Bridge* bridge, std::function<void(const std::string&)> warn)
-    : topic_(std::move(topic)), bridge_(bridge), warn_(std::move(warn)) {}
+Channel::Channel(TopicDescription topic, Bridge* bridge, std::function<void(const std::string&)> warn,
+                 std::function<std::int64_t()> clock, Limits limits)
+    : topic_(std::move(topic)), bridge_(bridge), warn_(std::move(warn)), clock_(std::move(clock)), limits_(limits) {}
 
 void Channel::add_publisher(const void* owner, const std::string& owner_name) {
   const std::unique_lock lock(mutex_);
@@ -22,7 +28,12 @@ void Channel::remove_publisher(const void* owner) {
   std::unique_ptr<BridgeWriter> closed;
   const std::unique_lock lock(mutex_);
   publishers_.erase(owner);
-  if (publishers_.empty()) closed = std::move(writer_);
+  if (!publishers_.empty()) return;
+  closed = std::move(writer_);
+  if (topic_.qos.lifespan.count() == 0) return;
+  // A state that nobody confirms any more is none: whoever comes now must not read it.
+  const std::lock_guard history_lock(history_mutex_);
+  std::erase_if(history_, [](const Latched& latched) { return latched.is_from_here; });
 }
 
 bool Channel::has_publisher_other_than(const void* owner) const {
@@ -38,7 +49,7 @@ bool Channel::is_published_by(const std::string& owner_name) const {
 
 bool Channel::is_read_by(const void* owner) const {
   const std::shared_lock lock(mutex_);
-  return std::any_of(readers_.begin(), readers_.end(), [&](const auto& entry) { return entry.first == owner; });
+  return std::any_of(readers_.begin(), readers_.end(), [&](const auto& entry) { return entry.owner == owner; });
 }
 
 bool Channel::has_readers() const {
@@ -46,22 +57,27 @@ bool Channel::has_readers() const {
   return !readers_.empty();
 }
 
-void Channel::add_reader(const void* owner, Reader reader) {
+void Channel::add_reader(const void* owner, Reader reader, Wants wants) {
   {
     const std::unique_lock lock(mutex_);
-    for (const auto& sample : history_) reader(topic_, sample);
-    readers_.emplace_back(owner, std::move(reader));
+    for (const auto& latched : history_) {
+      if (is_old(latched)) continue;
+      if (wants == Wants::kAll || !topic_.type || !is_rejected(latched.sample)) reader(topic_, latched.sample);
+    }
+    readers_.push_back({owner, std::move(reader), wants});
   }
   const std::lock_guard lock(bridge_reader_mutex_);
   if (bridge_ && !bridge_reader_)
-    bridge_reader_ = bridge_->open_reader(topic_, [this](const SamplePtr& sample) { deliver(sample); });
+    bridge_reader_ = bridge_->open_reader(topic_, [this](const SamplePtr& sample) {
+      deliver(sample, !(is_to_be_checked(*sample) && is_rejected(sample)), false);
+    });
 }
 
 void Channel::remove_reader(const void* owner) {
   bool last = false;
   {
     const std::unique_lock lock(mutex_);
-    std::erase_if(readers_, [&](const auto& entry) { return entry.first == owner; });
+    std::erase_if(readers_, [&](const auto& entry) { return entry.owner == owner; });
     last = readers_.empty();
   }
   const std::lock_guard lock(bridge_reader_mutex_);
@@ -75,21 +91,77 @@ void Channel::add_observer(Reader observer) {
 
 void Channel::publish(const SamplePtr& sample) {
   ++published_;
-  deliver(sample);
+  const bool is_valid = !(is_to_be_checked(*sample) && is_rejected(sample));
+  deliver(sample, is_valid, true);
+  if (!is_valid) return;
   const std::shared_lock lock(mutex_);
   for (const auto& observer : observers_) observer(topic_, sample);
   if (writer_ && !writer_->write(sample)) ++not_sent_;
 }
 
-void Channel::deliver(const SamplePtr& sample) {
+/// Bytes that pass through to recorders and other processes are not decoded for this: whoever reads them checks them.
+bool Channel::is_to_be_checked(const Sample& sample) const {
+  if (!topic_.type) return false;
+  if (sample.received_size() == 0) return true;
   const std::shared_lock lock(mutex_);
-  if (topic_.qos.durability == Durability::kTransientLocal) remember(sample);
-  for (const auto& [owner, reader] : readers_) reader(topic_, sample);
+  return std::ranges::any_of(readers_, [](const Member& member) { return member.wants == Wants::kValid; });
 }
 
-void Channel::remember(const SamplePtr& sample) {
+bool Channel::is_rejected(const SamplePtr& sample) {
+  const auto problem = problem_of(*sample, limits_.max_message_bytes);
+  if (!problem || !rejections_.add(topic_.name, *problem, sample->sender())) return problem.has_value();
+  const std::lock_guard lock(untold_mutex_);
+  untold_.emplace_back(sample->sender(), *problem);
+  return true;
+}
+
+void Channel::deliver(const SamplePtr& sample, bool is_valid, bool is_from_here) {
+  if (!is_valid && !bridge_) tell_rejected();  // nobody is to be asked who a sender is
+  const std::shared_lock lock(mutex_);
+  if (is_valid && topic_.qos.durability == Durability::kTransientLocal) remember(sample, is_from_here);
+  for (const auto& [owner, reader, wants] : readers_) {
+    if (is_valid || wants == Wants::kAll) reader(topic_, sample);
+  }
+}
+
+Rejections::Count Channel::rejected() const {
+  auto rejected = rejections_.snapshot()[topic_.name];
+  for (auto causes = std::exchange(rejected.causes, {}); const auto& [cause, count] : causes) {
+    rejected.causes[{shown_sender(cause.first), cause.second}] += count;
+  }
+  return rejected;
+}
+
+void Channel::tell_rejected() {
+  std::vector<Rejections::Cause> causes;
+  {
+    const std::lock_guard lock(untold_mutex_);
+    causes.swap(untold_);
+  }
+  for (const auto& [sender, reason] : causes) {
+    warn_(fmt::format("{}: a message of {} is left out: {}", topic_.name, shown_sender(sender), reason));
+  }
+}
+
+/// The node whose writer it is, where that is told; else as it is.
+std::string Channel::shown_sender(const std::string& sender) const {
+  if (sender.empty()) return "an unknown sender";
+  if (!bridge_) return sender;
+  for (const auto& node : bridge_->graph().nodes) {
+    if (std::ranges::find(node.writers, sender) == node.writers.end()) continue;
+    return node.name_space + (node.name_space.ends_with('/') ? "" : "/") + node.name;
+  }
+  return sender;
+}
+
+bool Channel::is_old(const Latched& latched) const {
+  const std::int64_t lifespan_ns = std::chrono::nanoseconds(topic_.qos.lifespan).count();
+  return lifespan_ns > 0 && clock_() - latched.since_ns > lifespan_ns;
+}
+
+void Channel::remember(const SamplePtr& sample, bool is_from_here) {
   const std::lock_guard lock(history_mutex_);
-  history_.push_back(sample);
+  history_.push_back({sample, is_from_here, clock_()});
   if (history_.size() > std::max<std::size_t>(topic_.qos.depth, 1)) history_.pop_front();
 }
 
@@ -110,12 +182,15 @@ Channel::Counters Channel::counters() const {
     const auto of_bridge = bridge_reader_->counters();
     counters.lost = of_bridge.lost;
     counters.overwritten = of_bridge.overwritten;
+    counters.too_large = of_bridge.too_large;
+    counters.too_fast = of_bridge.too_fast;
   }
   return counters;
 }
 
-Bus::Bus(std::unique_ptr<Bridge> bridge, std::function<void(const std::string&)> warn)
-    : warn_(std::move(warn)), bridge_(std::move(bridge)) {
+Bus::Bus(std::unique_ptr<Bridge> bridge, std::function<void(const std::string&)> warn,
+         std::function<std::int64_t()> clock, Limits limits)
+    : warn_(std::move(warn)), clock_(std::move(clock)), limits_(limits), bridge_(std::move(bridge)) {
   if (bridge_) bridge_->on_warning(warn_);
 }
 
@@ -137,12 +212,14 @@ Channel& Bus::channel(const TopicDescription& topic) {
     }
     return *found->second;
   }
-  auto& channel = *channels_.emplace(topic.name, std::make_unique<Channel>(topic, bridge_.get(), warn_)).first->second;
+  auto& channel =
+      *channels_.emplace(topic.name, std::make_unique<Channel>(topic, bridge_.get(), warn_, clock_, limits_))
+           .first->second;
   for (const auto& observer : observers_) {
     if (observer.wanted(topic)) channel.add_observer(observer.reader);
   }
   for (const auto& tap : taps_) {
-    if (tap.wanted(topic)) channel.add_reader(tap.owner, tap.reader);
+    if (tap.wanted(topic)) channel.add_reader(tap.owner, tap.reader, Channel::Wants::kAll);
   }
   return channel;
 }
@@ -166,7 +243,7 @@ void Bus::tap(const void* owner, std::function<bool(const TopicDescription&)> wa
   {
     const std::lock_guard lock(mutex_);
     for (const auto& [name, channel] : channels_) {
-      if (wanted(channel->topic())) channel->add_reader(owner, reader);
+      if (wanted(channel->topic())) channel->add_reader(owner, reader, Channel::Wants::kAll);
     }
     taps_.push_back({owner, std::move(wanted), std::move(reader)});
   }
@@ -194,6 +271,10 @@ void Bus::join_discovered() {
       warn_(error.what());
     }
   }
+}
+
+void Bus::tell_rejected() {
+  for (Channel* channel : channels()) channel->tell_rejected();
 }
 
 void Bus::remove_tap(const void* owner) {

@@ -13,13 +13,13 @@ Container::Container(ContainerOptions options)
     : implementation_(std::make_unique<Implementation>(std::move(options))) {}
 Container::~Container() = default;
 
-void Container::load(const ComponentDescription& description) { implementation_->load_component(description); }
+void Container::load(const ComponentDescription& description) { implementation_->load(description, false); }
 
 void Container::add(const ComponentDescription& description, const Factory& factory) {
-  implementation_->add(description, nullptr, [&](Context& context) {
-    return std::unique_ptr<Component, void (*)(Component*)>(factory(context).release(),
-                                                            [](Component* component) { delete component; });
-  });
+  implementation_->add({.description = description, .library = nullptr, .create = [factory](Context& context) {
+                          return std::unique_ptr<Component, void (*)(Component*)>(
+                              factory(context).release(), [](Component* component) { delete component; });
+                        }});
 }
 
 void Container::load_all(const std::vector<ComponentDescription>& descriptions) {
@@ -46,6 +46,7 @@ void Container::start() { implementation_->start(); }
 std::vector<std::string> Container::run() { return implementation_->run(); }
 void Container::run_until_quiet() { implementation_->run_until_quiet(); }
 void Container::request_stop() noexcept { implementation_->request_stop(); }
+bool Container::was_interrupted() const { return implementation_->was_interrupted(); }
 std::uint64_t Container::source_steps() const { return implementation_->source_steps(); }
 
 void Container::observe(std::function<bool(const TopicDescription&)> wanted,
@@ -59,8 +60,10 @@ Container::Links Container::links() const {
     if (channel->has_publisher_other_than(nullptr)) links.published.push_back(channel->topic().name);
     if (channel->has_readers()) links.subscribed.push_back(channel->topic().name);
   }
-  implementation_->for_each(
-      [&](const std::string&, const Context::State& state) { links.has_source |= state.source != nullptr; });
+  implementation_->for_each([&](const std::string&, const Context::State& state) {
+    links.has_source |= state.source != nullptr;
+    links.reads_all |= state.taps;
+  });
   return links;
 }
 

@@ -12,8 +12,9 @@
 namespace panvo::runtime {
 namespace {
 
-std::vector<std::string> names_of(const std::vector<steering::OfferedService>& services) {
+std::vector<std::string> names_of(const std::vector<steering::OfferedService>& services, ServiceAccess access) {
   std::vector<std::string> names;
+  if (access == ServiceAccess::kOff) return names;
   for (const auto& service : services) names.push_back(service.description.name);
   return names;
 }
@@ -39,21 +40,39 @@ ComponentDescription own_description() {
 Container::Implementation::Implementation(ContainerOptions options)
     : options_(std::move(options)),
       sink_(options_.log ? options_.log : Logger::Write(log_to_stderr)),
-      bus_(options_.dds && !options_.replay ? make_dds_bridge(*options_.dds) : nullptr,
-           [this](const std::string& text) { log(LogLevel::kWarning, "container", text); }),
+      time_(options_.replay && !options_.clock ? PassingTime::Pace::kTasks : PassingTime::Pace::kClock,
+            options_.clock ? options_.clock : std::function<std::int64_t()>(clocks::monotonic_ns)),
+      replay_order_(time_),
+      bus_(
+          options_.dds && !options_.replay ? make_dds_bridge(*options_.dds) : nullptr,
+          [this](const std::string& text) { log(LogLevel::kWarning, "container", text); },
+          [this] { return time_.now_ns(); }, options_.limits),
       host_{.bus = bus_,
             .replay_order = options_.replay ? &replay_order_ : nullptr,
+            .time = time_,
             .log = [this](LogLevel level, const std::string& component,
                           const std::string& text) { log(level, component, text); },
             .seed = options_.seed,
-            .progressed = [this] { progressed(); }},
+            .progressed = [this] { progressed(); },
+            .again = options_.again,
+            .files_below = options_.files_below,
+            .failed = [this](const ComponentDescription& description) { component_failed(description); }},
       own_(std::make_unique<Context::State>(host_, own_description(), nullptr)),
       diagnostics_output_(own_.open_output(describe(topics::kDiagnostics))) {
   rosout_.open(own_.open_output(describe(topics::kRosout)));
   if (!bus_.bridge()) return;
+  try {
+    meet_others();
+  } catch (...) {
+    rosout_.close();  // which would outlive the bus
+    throw;
+  }
+}
+
+void Container::Implementation::meet_others() {
   parameter_events_ = own_.open_output(describe(steering::kParameterEvents));
   auto offered = steering::component_services(full_name(), *this);
-  own_service_names_ = names_of(offered);
+  own_service_names_ = names_of(offered, options_.services);
   services_ = serve(std::move(offered));
   tell_nodes();
 }
@@ -80,9 +99,15 @@ auto Container::Implementation::find(const std::string& name) -> Entries::iterat
                       [&](const auto& entry) { return entry->context->name() == name; });
 }
 
-auto Container::Implementation::add(const ComponentDescription& description, std::shared_ptr<Library> library,
-                                    const Create& create) -> Loaded {
+auto Container::Implementation::add(Recipe recipe) -> Loaded {
   const std::lock_guard change(change_mutex_);
+  recipe.id = next_id_++;
+  return put(std::move(recipe));
+}
+
+/// While change_mutex_ is held.
+auto Container::Implementation::put(Recipe recipe) -> Loaded {
+  const ComponentDescription& description = recipe.description;
   if (bus_.bridge() && runtime::full_name(description.name_space, description.name) == full_name()) {
     throw ConfigError(description.where.to_string() + ": " + full_name() +
                       " is the container's name; give the component another");
@@ -92,12 +117,33 @@ auto Container::Implementation::add(const ComponentDescription& description, std
                       "; give this one another name");
   }
   auto entry = std::make_unique<LoadedComponent>();
-  entry->library = library;
-  entry->context = std::make_unique<Context>(std::make_unique<Context::State>(host_, description, library));
+  entry->recipe = std::move(recipe);
+  make(*entry);
   Context::State& state = entry->context->state();
+  if (started_) state.start();
+  const Loaded loaded{entry->recipe.id, entry->full_name()};
+  if (bus_.bridge()) {
+    offer_services(*entry);
+    tell_parameters(steering::new_parameters(loaded.full_name, state.parameters(), clocks::system_ns()));
+  }
+  {
+    const std::lock_guard lock(entries_mutex_);
+    entries_.push_back(std::move(entry));
+  }
+  tell_nodes();
+  return loaded;
+}
+
+/// Throws ConfigError with all that is wrong.
+void Container::Implementation::make(LoadedComponent& entry) {
+  const ComponentDescription& description = entry.recipe.description;
+  entry.context = std::make_unique<Context>(std::make_unique<Context::State>(host_, description, entry.recipe.library));
+  Context::State& state = entry.context->state();
+  state.restarts = entry.recipe.restarted;
+  if (entry.recipe.by_request) state.reader.confine_paths(options_.files_below);
   std::vector<std::string> problems;
   try {
-    entry->component = create(*entry->context);
+    entry.component = entry.recipe.create(*entry.context);
   } catch (const ConfigError& error) {
     problems = error.problems();
   } catch (const std::exception& error) {
@@ -112,22 +158,9 @@ auto Container::Implementation::add(const ComponentDescription& description, std
     problems.push_back(description.name + " plays recorded data, which can only begin with the run: load it before");
   }
   if (!problems.empty()) throw ConfigError(std::move(problems));
-  if (started_) state.start();
-  entry->id = next_id_++;
-  const Loaded loaded{entry->id, entry->full_name()};
-  if (bus_.bridge()) {
-    offer_services(*entry);
-    tell_parameters(steering::new_parameters(loaded.full_name, state.parameters(), clocks::system_ns()));
-  }
-  {
-    const std::lock_guard lock(entries_mutex_);
-    entries_.push_back(std::move(entry));
-  }
-  tell_nodes();
-  return loaded;
 }
 
-auto Container::Implementation::load_component(const ComponentDescription& description) -> Loaded {
+auto Container::Implementation::load(const ComponentDescription& description, bool by_request) -> Loaded {
   const std::string where = description.where.file.empty() ? "" : description.where.to_string() + ": ";
   try {
     const auto library = std::make_shared<Library>(find_plugin(description.package));
@@ -138,9 +171,14 @@ auto Container::Implementation::load_component(const ComponentDescription& descr
         known += (known.empty() ? "" : ", ") + std::string(component->class_name);
       throw ConfigError(library->file().string() + " has no component " + description.plugin + "; it has " + known);
     }
-    return add(description, library, [descriptor](Context& context) {
-      return std::unique_ptr<Component, void (*)(Component*)>(descriptor->create(context), descriptor->destroy);
-    });
+    return add({.description = description,
+                .library = library,
+                .create =
+                    [descriptor](Context& context) {
+                      return std::unique_ptr<Component, void (*)(Component*)>(descriptor->create(context),
+                                                                              descriptor->destroy);
+                    },
+                .by_request = by_request});
   } catch (const ConfigError& error) {
     std::vector<std::string> problems;
     for (const auto& problem : error.problems()) {
@@ -172,28 +210,31 @@ bool Container::Implementation::unload_if(const std::function<bool(const LoadedC
 }
 
 void Container::Implementation::unload_component(std::uint64_t id) {
-  if (unload_if([id](const LoadedComponent& entry) { return entry.id == id; })) return;
+  if (unload_if([id](const LoadedComponent& entry) { return entry.recipe.id == id; })) return;
   throw ConfigError(fmt::format("there is no component of the id {}; list_nodes tells which there are", id));
 }
 
 auto Container::Implementation::loaded_components() const -> std::vector<Loaded> {
   const std::lock_guard lock(entries_mutex_);
   std::vector<Loaded> loaded;
-  for (const auto& entry : entries_) loaded.push_back({entry->id, entry->full_name()});
+  for (const auto& entry : entries_) loaded.push_back({entry->recipe.id, entry->full_name()});
   return loaded;
 }
 
 std::vector<std::unique_ptr<BridgeService>> Container::Implementation::serve(
     std::vector<steering::OfferedService> offered) {
   std::vector<std::unique_ptr<BridgeService>> services;
-  for (auto& [description, handler] : offered)
-    services.push_back(bus_.bridge()->serve(description, std::move(handler)));
+  if (options_.services == ServiceAccess::kOff) return services;
+  for (auto& service : offered) {
+    auto guard = steering::guard_of(service, options_.services);
+    services.push_back(bus_.bridge()->serve(service.description, std::move(service.handler), std::move(guard)));
+  }
   return services;
 }
 
 void Container::Implementation::offer_services(LoadedComponent& entry) {
   Context::State& state = entry.context->state();
-  const auto shut_down = [this, id = entry.id] {
+  const auto shut_down = [this, id = entry.recipe.id] {
     const std::lock_guard lock(housekeeping_mutex_);
     to_unload_.push_back(id);
   };
@@ -228,8 +269,8 @@ void Container::Implementation::tell_nodes() {
     Context::State& state = entry->context->state();
     NodeDescription node{state.description.name_space, state.description.name, {}, {}, {}};
     add_topics(node, state.description.name, &state);
-    node.serves = names_of(steering::parameter_services(entry->full_name(), *entry->node));
-    for (auto& name : names_of(steering::lifecycle_services(entry->full_name(), *entry->node)))
+    node.serves = names_of(steering::parameter_services(entry->full_name(), *entry->node), options_.services);
+    for (auto& name : names_of(steering::lifecycle_services(entry->full_name(), *entry->node), options_.services))
       node.serves.push_back(std::move(name));
     nodes.push_back(std::move(node));
   }

@@ -14,9 +14,11 @@ void Container::Implementation::keep_house() {
     const auto to_unload = std::exchange(to_unload_, {});
     lock.unlock();
     bus_.join_discovered();
+    bus_.tell_rejected();
     for (const std::uint64_t id : to_unload) {
-      unload_if([id](const LoadedComponent& entry) { return entry.id == id; });
+      unload_if([id](const LoadedComponent& entry) { return entry.recipe.id == id; });
     }
+    restart_failed();
     if (bus_.channels().size() != told_channels_) tell_nodes();  // a recorder has found topics
     lock.lock();
     const std::int64_t now_ns = clocks::monotonic_ns();
@@ -31,8 +33,17 @@ void Container::Implementation::publish_diagnostics(double interval_s) {
   {
     const std::lock_guard lock(entries_mutex_);
     std::vector<const Context::State*> states;
-    for (const auto& entry : entries_) states.push_back(&entry->context->state());
+    for (const auto& entry : entries_) {
+      states.push_back(&entry->context->state());
+      service_totals_.add(entry->services);
+    }
     array = diagnostics_.collect(states, clocks::system_ns(), interval_s);
+  }
+  for (const auto& recipe : unmade_)  // which changes on this thread only
+    array.status().push_back(Diagnostics::of_unmade(recipe.description.name));
+  if (bus_.bridge()) {
+    service_totals_.add(services_);
+    array.status().push_back(service_totals_.status(options_.name, interval_s));
   }
   diagnostics_output_->publish(std::make_shared<const diagnostic_msgs::msg::DiagnosticArray>(std::move(array)));
 }

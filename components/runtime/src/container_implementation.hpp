@@ -17,13 +17,14 @@
 #include "played_clock.hpp"
 #include "rcl_interfaces/msg/ParameterEvent.h"
 #include "rosout.hpp"
+#include "service_totals.hpp"
 #include "source_runner.hpp"
 #include "steering/steered.hpp"
 
 namespace panvo::runtime {
 
 /// container_components.cpp: what comes and goes, and what other processes are told of it. container_run.cpp: replay and live.
-/// container_housekeeping.cpp: what is done from time to time.
+/// container_housekeeping.cpp: what is done from time to time. container_restarts.cpp: components that fail.
 class Container::Implementation final : public steering::SteeredContainer {
  public:
   explicit Implementation(ContainerOptions options);
@@ -31,10 +32,10 @@ class Container::Implementation final : public steering::SteeredContainer {
 
   void log(LogLevel level, const std::string& component, const std::string& text);
 
-  using Create = std::function<std::unique_ptr<Component, void (*)(Component*)>(Context&)>;
-  Loaded add(const ComponentDescription& description, std::shared_ptr<Library> library, const Create& create);
+  Loaded add(Recipe recipe);
+  Loaded load(const ComponentDescription& description, bool by_request);
   bool unload(const std::string& name);
-  Loaded load_component(const ComponentDescription& description) override;
+  Loaded load_component(const ComponentDescription& description) override { return load(description, true); }
   void unload_component(std::uint64_t id) override;
   std::vector<Loaded> loaded_components() const override;
 
@@ -51,6 +52,7 @@ class Container::Implementation final : public steering::SteeredContainer {
   }
   Bus& bus() { return bus_; }
   std::uint64_t source_steps() const { return source_steps_; }
+  bool was_interrupted() const { return was_interrupted_; }
 
   std::function<void(Source::Progress)> on_progress = [](Source::Progress) {};
 
@@ -58,6 +60,9 @@ class Container::Implementation final : public steering::SteeredContainer {
   using Entries = std::vector<std::unique_ptr<LoadedComponent>>;
 
   std::string full_name() const;
+  void meet_others();
+  Loaded put(Recipe recipe);
+  void make(LoadedComponent& entry);
   Entries::iterator find(const std::string& name);
   bool unload_if(const std::function<bool(const LoadedComponent&)>& is_it);
   void take_last();
@@ -73,6 +78,14 @@ class Container::Implementation final : public steering::SteeredContainer {
   void drain();
   bool queues_are_empty();
   void fail_source(const std::string& what);
+  bool have_all_failed() const;
+  std::vector<std::string> end_components();
+
+  void component_failed(const ComponentDescription& description);
+  void restart_failed();
+  Entries take_failed(std::int64_t now_ns);
+  void plan_restart(Recipe& recipe, std::int64_t now_ns);
+  void make_anew(Recipe recipe, std::int64_t now_ns);
 
   void keep_house();
   void publish_diagnostics(double interval_s);
@@ -81,6 +94,7 @@ class Container::Implementation final : public steering::SteeredContainer {
   const ContainerOptions options_;
   const Logger::Write sink_;
   Rosout rosout_;  // before the bus, which may have a warning to log while it is made
+  PassingTime time_;
   ReplayOrder replay_order_;
   Bus bus_;
   Host host_;
@@ -90,11 +104,13 @@ class Container::Implementation final : public steering::SteeredContainer {
   std::shared_ptr<UntypedOutput> diagnostics_output_;
   std::shared_ptr<UntypedOutput> parameter_events_;  // nullptr without a bridge
   Diagnostics diagnostics_;
+  ServiceTotals service_totals_;
   std::unique_ptr<PlayedClock> clock_;  // nullptr: none is to be told
 
-  std::mutex change_mutex_;           // one component comes or goes at a time
+  std::mutex change_mutex_;           // one component comes or goes at a time; guards unmade_ too
   mutable std::mutex entries_mutex_;  // guards entries_, and that what is in it stays meanwhile
   Entries entries_;
+  std::vector<Recipe> unmade_;  // have failed, and could not be made anew
   std::uint64_t next_id_ = 1;
   bool started_ = false;
   std::atomic<bool> running_ = false;
@@ -105,6 +121,7 @@ class Container::Implementation final : public steering::SteeredContainer {
   std::condition_variable stop_changed_;
   std::vector<std::string> source_problems_;
   std::uint64_t source_steps_ = 0;
+  bool was_interrupted_ = false;
 
   std::mutex housekeeping_mutex_;
   std::condition_variable housekeeping_changed_;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 
 #include "clocks.hpp"
@@ -12,6 +13,9 @@ void Container::Implementation::start() {
   const std::lock_guard change(change_mutex_);
   if (started_) return;
   started_ = true;
+  const bool plays = std::any_of(entries_.begin(), entries_.end(),
+                                 [](const auto& entry) { return entry->context->state().source != nullptr; });
+  if (plays) time_.follow_sources();
   for (const auto& entry : entries_) entry->context->state().start();
   if (!options_.replay) housekeeping_ = std::thread([this] { keep_house(); });
 }
@@ -33,12 +37,40 @@ std::vector<std::string> Container::Implementation::run() {
   }
   running_ = false;
   std::vector<std::string> problems = source_problems_;
+  for (auto& problem : end_components()) problems.push_back(std::move(problem));
+  const std::lock_guard change(change_mutex_);
+  for (const auto& recipe : unmade_)
+    problems.push_back(recipe.description.name + " stopped by an error and could not be made anew, see the log");
   const std::lock_guard lock(entries_mutex_);
   for (const auto& entry : entries_) {
     if (entry->context->state().failed())
       problems.push_back(entry->context->name() + " stopped by an error, see the log");
   }
   return problems;
+}
+
+/// Has components finish what they made, such as a bag, so that it counts if they cannot.
+std::vector<std::string> Container::Implementation::end_components() {
+  std::vector<std::string> problems;
+  const std::lock_guard change(change_mutex_);
+  for (const auto& entry : entries_) {
+    auto& state = entry->context->state();
+    if (!state.end) continue;
+    state.stop();
+    try {
+      state.end();
+    } catch (const std::exception& error) {
+      state.logger.error("{}", error.what());
+      problems.push_back(entry->context->name() + ": " + error.what());
+    }
+  }
+  return problems;
+}
+
+bool Container::Implementation::have_all_failed() const {
+  const std::lock_guard lock(entries_mutex_);
+  return !entries_.empty() &&
+         std::ranges::all_of(entries_, [](const auto& entry) { return entry->context->state().failed(); });
 }
 
 void Container::Implementation::request_stop() noexcept {
@@ -60,7 +92,7 @@ void Container::Implementation::progressed() {
 void Container::Implementation::replay(const std::vector<Source*>& sources) {
   std::int64_t shown_ns = 0;
   run_until_quiet();
-  while (!stop_requested_) {
+  while (true) {
     Source* earliest = nullptr;
     std::int64_t earliest_ns = 0;
     for (Source* source : sources) {
@@ -71,6 +103,9 @@ void Container::Implementation::replay(const std::vector<Source*>& sources) {
       }
     }
     if (!earliest) break;
+    was_interrupted_ = stop_requested_;
+    if (was_interrupted_) break;
+    while (replay_order_.fire_one(earliest_ns)) run_until_quiet();
     set_current_stamp_ns(earliest_ns);
     try {
       earliest->emit();
@@ -95,6 +130,7 @@ void Container::Implementation::run_live(const std::vector<Source*>& sources) {
                              .queues_are_empty = [this] { return queues_are_empty(); },
                              .reached =
                                  [this](std::int64_t stamp_ns) {
+                                   time_.reach(stamp_ns);
                                    if (clock_) clock_->reach(stamp_ns);
                                  },
                              .failed = [this](const std::string& what) { fail_source(what); },
@@ -103,9 +139,10 @@ void Container::Implementation::run_live(const std::vector<Source*>& sources) {
   runner_->start();
   if (sources.empty()) {
     std::unique_lock lock(stop_mutex_);
-    while (!stop_requested_) stop_changed_.wait_for(lock, std::chrono::milliseconds(100));
+    while (!stop_requested_ && !have_all_failed()) stop_changed_.wait_for(lock, std::chrono::milliseconds(100));
   }
   while (!sources.empty() && !stop_requested_ && !runner_->wait(250)) on_progress(runner_->progress());
+  was_interrupted_ = !sources.empty() && runner_->is_playing();
   runner_->stop();
   drain();
   source_steps_ += runner_->steps();

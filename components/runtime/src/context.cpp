@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "panvo/runtime/context.hpp"
 
+#include <limits>
 #include <map>
 
 #include "clocks.hpp"
@@ -21,17 +22,20 @@ std::int64_t stamp_of(const Sample& sample) {
 class ChannelOutput final : public UntypedOutput {
  public:
   ChannelOutput(Channel& channel, Host& host, std::shared_ptr<const void> library, const std::string& owner)
-      : channel_(channel), host_(host), library_(std::move(library)) {
+      : channel_(channel),
+        host_(host),
+        library_(std::move(library)),
+        sender_(std::make_shared<const std::string>(owner)) {
     channel_.add_publisher(this, owner);
   }
   ~ChannelOutput() override { channel_.remove_publisher(this); }
 
   void publish(std::shared_ptr<const void> message) override {
-    channel_.publish(Sample::of(*channel_.topic().type, std::move(message), time_ns(), library_));
+    channel_.publish(Sample::of(*channel_.topic().type, std::move(message), time_ns(), library_, sender_));
   }
   void publish(interfaces::Bytes bytes) override {
     channel_.publish(
-        Sample::from_bytes(channel_.topic().type, channel_.topic().type_name, std::move(bytes), time_ns()));
+        Sample::from_bytes(channel_.topic().type, channel_.topic().type_name, std::move(bytes), time_ns(), sender_));
   }
 
  private:
@@ -40,6 +44,7 @@ class ChannelOutput final : public UntypedOutput {
   Channel& channel_;
   Host& host_;
   std::shared_ptr<const void> library_;
+  Sample::Sender sender_;
 };
 
 /// An output that leads nowhere: given to a component that will be refused, so that its constructor can go on and find its other problems.
@@ -111,16 +116,19 @@ Context::State::State(Host& a_host, const ComponentDescription& a_description, s
       description(a_description),
       library(std::move(a_library)),
       reader(a_description.name, a_description.parameters),
-      logger(a_description.name, a_host.log) {
+      logger(a_description.name, a_host.log, a_host.replay_order ? current_stamp_ns : clocks::monotonic_ns) {
   workers.push_back(make_worker(description.name));
 }
 
 std::unique_ptr<Worker> Context::State::make_worker(const std::string& worker_name) {
-  return std::make_unique<Worker>(
-      worker_name, times, host.replay_order,
-      Worker::Hooks{.failed = [this](const std::string& what) { logger.error("stopped by an error: {}", what); },
-                    .progressed = host.progressed,
-                    .in_flight = &host.in_flight});
+  return std::make_unique<Worker>(worker_name, times, host.replay_order,
+                                  Worker::Hooks{.failed =
+                                                    [this](const std::string& what) {
+                                                      logger.error("stopped by an error: {}", what);
+                                                      host.failed(description);
+                                                    },
+                                                .progressed = host.progressed,
+                                                .in_flight = &host.in_flight});
 }
 
 TopicDescription Context::State::resolve(TopicDescription topic) const {
@@ -139,6 +147,7 @@ void Context::State::stop() {
   taps = false;
   // Stages first: the component's own thread may wait for room in one of them.
   for (auto worker = workers.rbegin(); worker != workers.rend(); ++worker) (*worker)->stop();
+  trust_files(std::numeric_limits<std::int64_t>::max());  // it ends well, however short it ran
 }
 
 bool Context::State::failed() const {
@@ -159,6 +168,12 @@ ParameterReader& Context::parameter_reader() { return state_->reader; }
 const std::vector<ParameterDescription>& Context::declared_parameters() const noexcept {
   return state_->reader.declared();
 }
+std::string Context::resolved_name(std::string_view topic) const {
+  return resolve_topic(state_->description.name_space, name(), state_->description.remaps, topic);
+}
+
+bool Context::is_again() const noexcept { return state_->host.again || state_->restarts > 0; }
+std::int64_t Context::passing_ns() const { return state_->host.time.now_ns(); }
 std::int64_t Context::now_ns() const noexcept { return current_stamp_ns(); }
 
 std::uint64_t Context::seed() const noexcept {
@@ -186,13 +201,9 @@ void Context::open_input(const TopicDescription& topic, std::function<void(const
                                  [callback = std::move(callback)](Task& task) { callback(task.first); });
     state_->inputs.push_back(&channel);
     channel.add_reader(state_.get(),
-                       [state = state_.get(), &worker, &port](const TopicDescription&, const SamplePtr& sample) {
-                         if (!state->active) return;
-                         try {
-                           worker.push(port, {.first = sample, .stamp_ns = stamp_of(*sample)});
-                         } catch (const interfaces::DecodeError&) {
-                           worker.count_dropped(port);
-                         }
+                       [state = state_.get(), &worker, &port](const TopicDescription& there, const SamplePtr& sample) {
+                         if (!state->active || !state->admits_stamp(there, *sample)) return;
+                         worker.push(port, {.first = sample, .stamp_ns = stamp_of(*sample)});
                        });
   } catch (const ConfigError& error) {
     state_->problems.push_back(name() + ": " + error.what());
@@ -210,15 +221,10 @@ void Context::open_input_pair(const TopicDescription& first, const TopicDescript
     const auto pairing = std::make_shared<Pairing>(worker, port);
     for (int side = 0; side < 2; ++side) {
       state_->inputs.push_back(channels[side]);
-      channels[side]->add_reader(state_.get(), [state = state_.get(), pairing, side, &worker, &port](
-                                                   const TopicDescription&, const SamplePtr& sample) {
-        if (!state->active) return;
-        try {
-          pairing->take(side, sample);
-        } catch (const interfaces::DecodeError&) {
-          worker.count_dropped(port);
-        }
-      });
+      channels[side]->add_reader(
+          state_.get(), [state = state_.get(), pairing, side](const TopicDescription& there, const SamplePtr& sample) {
+            if (state->active && state->admits_stamp(there, *sample)) pairing->take(side, sample);
+          });
     }
   } catch (const ConfigError& error) {
     state_->problems.push_back(name() + ": " + error.what());
@@ -239,6 +245,17 @@ void Context::take_parameters(std::function<std::function<void()>(ParameterReade
         "parameters", 1, false, [](Task& task) { std::any_cast<std::function<void()>&>(task.item)(); });
   }
   state_->parameter_takers.push_back(std::move(take));
+}
+
+void Context::on_end(std::function<void()> callback) { state_->end = std::move(callback); }
+
+void Context::every(std::chrono::nanoseconds period, std::function<void()> callback) {
+  state_->main_worker().add_timer(period.count(), [state = state_.get(), callback = std::move(callback)] {
+    if (!state->active) return;
+    const bool is_live = state->host.time.pace() == PassingTime::Pace::kClock && !state->host.replay_order;
+    set_current_stamp_ns(is_live ? clocks::system_ns() : state->host.time.now_ns());
+    callback();
+  });
 }
 
 void Context::give_way() { state_->gives_way = true; }
@@ -263,6 +280,11 @@ bool Context::is_published(const std::string& resolved_name) const {
     if (channel->topic().name == resolved_name) return channel->has_publisher_other_than(nullptr);
   }
   return false;
+}
+
+bool Context::has_publisher(const TopicDescription& topic) const {
+  const Channel& channel = state_->host.bus.channel(state_->resolve(topic));
+  return channel.has_publisher_other_than(nullptr) || channel.counters().remote_writers > 0;
 }
 
 }  // namespace panvo::runtime

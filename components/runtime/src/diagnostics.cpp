@@ -29,12 +29,18 @@ diagnostic_msgs::msg::DiagnosticArray Diagnostics::collect(const std::vector<con
     status.name("panvo: " + component->description.name);
     status.hardware_id("none");
     const std::uint64_t dropped = tell_inputs(*component, interval_s, status) + tell_overwritten(*component, status);
-    const Rejected rejected = tell_rejections(*component, status);
+    Rejected rejected = tell_refused(*component, status);
+    if (const Rejected more = tell_rejections(*component, status); more.messages > 0) {
+      rejected = {rejected.messages + more.messages, more.why};
+    }
     for (const auto& [stage, times] : component->times.snapshot()) {
       add(status, stage + " time",
           fmt::format("mean {:.2f} ms, p95 {:.2f} ms, max {:.2f} ms, CPU mean {:.2f} ms", times.wall.mean_ms(),
                       times.wall.quantile_ms(0.95), times.wall.max_ms(), times.cpu.mean_ms()));
     }
+    if (component->restarts > 0) add(status, "made anew", fmt::format("{} times, after an error", component->restarts));
+    const auto set_aside = component->files_set_aside();
+    for (const auto& text : set_aside) add(status, "file", text);
     if (component->failed()) {
       status.level(kError);
       status.message("stopped by an error, see the log");
@@ -45,6 +51,9 @@ diagnostic_msgs::msg::DiagnosticArray Diagnostics::collect(const std::vector<con
       status.level(kWarning);
       status.message(fmt::format("{} messages could not be used in the last {:.0f} s: {}", rejected.messages,
                                  interval_s, rejected.why));
+    } else if (!set_aside.empty()) {
+      status.level(kWarning);
+      status.message(set_aside.front() + ": runs that read it failed");
     } else {
       status.level(kOk);
       status.message(component->active ? "runs" : "inactive: messages are not handed to it");
@@ -54,12 +63,22 @@ diagnostic_msgs::msg::DiagnosticArray Diagnostics::collect(const std::vector<con
   return array;
 }
 
+diagnostic_msgs::msg::DiagnosticStatus Diagnostics::of_unmade(const std::string& name) {
+  diagnostic_msgs::msg::DiagnosticStatus status;
+  status.name("panvo: " + name);
+  status.hardware_id("none");
+  status.level(kError);
+  status.message("stopped by an error, and could not be made anew, see the log");
+  return status;
+}
+
 std::uint64_t Diagnostics::tell_inputs(const Context::State& component, double interval_s,
                                        diagnostic_msgs::msg::DiagnosticStatus& status) {
   std::uint64_t newly_dropped = 0;
   for (const auto& worker : component.workers) {
     for (const auto& port : worker->counters()) {
       Previous& previous = previous_[component.description.name + "\n" + port.input];
+      if (port.received < previous.received) previous = {};  // another component of that name has taken its place
       newly_dropped += port.dropped - previous.dropped;
       add(status, port.input + " rate",
           fmt::format("{:.1f} Hz", static_cast<double>(port.handled - previous.handled) / interval_s));
@@ -69,6 +88,7 @@ std::uint64_t Diagnostics::tell_inputs(const Context::State& component, double i
       add(status, port.input + " messages",
           fmt::format("{} received, {} handled, {} dropped, {} waiting, {} undecodable", port.received, port.handled,
                       port.dropped, port.waiting, port.undecodable));
+      previous.received = port.received;
       previous.handled = port.handled;
       previous.dropped = port.dropped;
     }
@@ -93,12 +113,49 @@ std::uint64_t Diagnostics::tell_overwritten(const Context::State& component,
 Diagnostics::Rejected Diagnostics::tell_rejections(const Context::State& component,
                                                    diagnostic_msgs::msg::DiagnosticStatus& status) {
   Rejected newly;
-  for (const auto& [topic, count] : component.rejections.snapshot()) {
-    add(status, topic + " rejected", fmt::format("{} messages; the last {}", count.messages, count.last_reason));
+  const std::string& name = component.description.name;
+  for (const auto& [topic, count] : component.rejections.snapshot()) tell_rejections(name, topic, count, status, newly);
+  for (const Channel* channel : component.host.bus.channels()) {
+    if (!channel->is_read_by(&component) && !channel->is_published_by(name)) continue;
+    const auto count = channel->rejected();
+    // Beside those of the same topic that the component itself could not use.
+    if (count.messages > 0) tell_rejections(name + "\ninvalid", channel->topic().name, count, status, newly);
+  }
+  return newly;
+}
+
+void Diagnostics::tell_rejections(const std::string& component, const std::string& topic,
+                                  const Rejections::Count& count, diagnostic_msgs::msg::DiagnosticStatus& status,
+                                  Rejected& newly) {
+  add(status, topic + " rejected", fmt::format("{} messages; the last {}", count.messages, count.last_reason));
+  for (const auto& [cause, messages] : count.causes) {
+    const auto& [sender, reason] = cause;
+    if (!sender.empty())
+      add(status, topic + " rejected of " + sender, fmt::format("{} messages: {}", messages, reason));
+  }
+  Previous& previous = previous_[component + "\n" + topic];
+  if (count.messages < previous.rejected) previous.rejected = 0;  // as above
+  if (const auto more = count.messages - std::exchange(previous.rejected, count.messages); more > 0) {
+    newly.messages += more;
+    newly.why = topic + " " + count.last_reason;
+  }
+}
+
+Diagnostics::Rejected Diagnostics::tell_refused(const Context::State& component,
+                                                diagnostic_msgs::msg::DiagnosticStatus& status) {
+  Rejected newly;
+  for (const Channel* channel : component.inputs) {
+    const auto counters = channel->counters();
+    const std::uint64_t refused = counters.too_large + counters.too_fast;
+    if (refused == 0) continue;
+    const std::string& topic = channel->topic().name;
+    add(status, topic + " refused",
+        fmt::format("{} larger than max_message_mb, {} beyond max_topic_rate_hz", counters.too_large,
+                    counters.too_fast));
     Previous& previous = previous_[component.description.name + "\n" + topic];
-    if (const auto more = count.messages - std::exchange(previous.rejected, count.messages); more > 0) {
+    if (const auto more = refused - std::exchange(previous.refused, refused); more > 0) {
       newly.messages += more;
-      newly.why = topic + " " + count.last_reason;
+      newly.why = topic + (counters.too_large > 0 ? " has messages that are too large" : " has too many messages");
     }
   }
   return newly;

@@ -19,9 +19,12 @@ class Diagnostics {
   diagnostic_msgs::msg::DiagnosticArray collect(const std::vector<const Context::State*>& components,
                                                 std::int64_t stamp_ns, double interval_s);
 
+  /// Of a component that has failed and is not there any more.
+  static diagnostic_msgs::msg::DiagnosticStatus of_unmade(const std::string& name);
+
  private:
   struct Previous {
-    std::uint64_t handled = 0, dropped = 0, rejected = 0, overwritten = 0;
+    std::uint64_t received = 0, handled = 0, dropped = 0, rejected = 0, overwritten = 0, refused = 0;
   };
   struct Rejected {
     std::uint64_t messages = 0;
@@ -33,8 +36,12 @@ class Diagnostics {
                             diagnostic_msgs::msg::DiagnosticStatus& status);
   /// How many were overwritten since the last call, in the memory that their writer shares, while they were read here.
   std::uint64_t tell_overwritten(const Context::State& component, diagnostic_msgs::msg::DiagnosticStatus& status);
-  /// What was rejected since the last call, with the reason of one of them.
+  /// How many were refused since the last call because of their size or number.
+  Rejected tell_refused(const Context::State& component, diagnostic_msgs::msg::DiagnosticStatus& status);
+  /// What was rejected since the last call, with the reason of one of them: by the component, and before it came to it.
   Rejected tell_rejections(const Context::State& component, diagnostic_msgs::msg::DiagnosticStatus& status);
+  void tell_rejections(const std::string& component, const std::string& topic, const Rejections::Count& count,
+                       diagnostic_msgs::msg::DiagnosticStatus& status, Rejected& newly);
 
   std::map<std::string, Previous> previous_;  // by component and topic
 };

@@ -3,11 +3,13 @@
 
 #include <dlfcn.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <set>
 #include <sstream>
 
 #include "panvo/runtime/errors.hpp"
+#include "panvo/runtime/names.hpp"
 
 namespace panvo::runtime {
 namespace fs = std::filesystem;
@@ -80,34 +82,47 @@ std::vector<fs::path> listed_in(const char* variable) {
   return paths;
 }
 
+/// The folders below a prefix that plugins are installed to: CMAKE_INSTALL_LIBDIR is lib/x86_64-linux-gnu or the like below Debian's /usr, lib or
+/// lib64 elsewhere.
+void add_below(const fs::path& prefix, std::vector<fs::path>& folders) {
+  for (const std::string libraries : {PANVO_INSTALL_LIBDIR, "lib/" PANVO_ARCHITECTURE, "lib"}) {
+    const fs::path folder = prefix / libraries / "panvo";
+    if (std::ranges::find(folders, folder) == folders.end()) folders.push_back(folder);
+  }
+}
+
 }  // namespace
 
 std::vector<fs::path> plugin_folders() {
-  const fs::path below_prefix = fs::path("lib") / "panvo";
   std::vector<fs::path> folders = listed_in("PANVO_PLUGIN_PATH");
   for (const auto& prefix : listed_in("COLCON_PREFIX_PATH")) {
-    folders.push_back(prefix / below_prefix);  // merged: one prefix for all
-    std::set<fs::path> isolated;               // colcon's default: a prefix for each package, below this one
+    add_below(prefix, folders);   // merged: one prefix for all
+    std::set<fs::path> isolated;  // colcon's default: a prefix for each package, below this one
     std::error_code error;
-    for (const auto& package : fs::directory_iterator(prefix, error)) {
-      if (fs::is_directory(package.path() / below_prefix, error)) isolated.insert(package.path() / below_prefix);
+    for (const auto& package : fs::directory_iterator(prefix, error)) isolated.insert(package.path());
+    for (const auto& package : isolated) {
+      std::vector<fs::path> of_package;
+      add_below(package, of_package);
+      for (const auto& folder : of_package) {
+        if (fs::is_directory(folder, error)) folders.push_back(folder);
+      }
     }
-    folders.insert(folders.end(), isolated.begin(), isolated.end());
   }
   for (const char* variable : {"AMENT_PREFIX_PATH", "CMAKE_PREFIX_PATH"}) {
-    for (const auto& prefix : listed_in(variable)) folders.push_back(prefix / below_prefix);
+    for (const auto& prefix : listed_in(variable)) add_below(prefix, folders);
   }
   std::error_code error;
   const fs::path executable = fs::read_symlink("/proc/self/exe", error);
   if (!error) {
     const fs::path folder = executable.parent_path();
-    folders.push_back(folder / ".." / "lib" / "panvo");  // installed
+    add_below(folder / "..", folders);                   // installed
     folders.push_back(folder / ".." / "panvo_plugins");  // in the build folder
   }
   return folders;
 }
 
 fs::path find_plugin(const std::string& package) {
+  if (const auto wrong = package_name_problem(package)) throw ConfigError("\"" + package + "\" " + *wrong);
   const std::string file_name = "lib" + package + "_component.so";
   std::string looked_in;
   for (const auto& folder : plugin_folders()) {

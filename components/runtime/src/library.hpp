@@ -30,8 +30,8 @@ class Library {
   const ComponentDescriptor* first_;
 };
 
-/// Finds the plugin file of a package: panvo_stereo_rectifier -> libpanvo_stereo_rectifier_component.so, in the folders of $PANVO_PLUGIN_PATH, in lib/panvo
-/// of the prefixes of $COLCON_PREFIX_PATH, $AMENT_PREFIX_PATH and $CMAKE_PREFIX_PATH, and beside the executable. Throws ConfigError that lists where it looked.
+/// Finds the plugin file of a package: panvo_stereo_rectifier -> libpanvo_stereo_rectifier_component.so, in the folders of $PANVO_PLUGIN_PATH, in lib/panvo and
+/// lib/<architecture>/panvo of the prefixes of $COLCON_PREFIX_PATH, $AMENT_PREFIX_PATH and $CMAKE_PREFIX_PATH, and beside the executable. Throws ConfigError that lists where it looked.
 std::filesystem::path find_plugin(const std::string& package);
 
 /// The folders find_plugin looks in.

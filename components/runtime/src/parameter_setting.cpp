@@ -5,6 +5,7 @@
 #include <condition_variable>
 #include <optional>
 
+#include "config/paths_below.hpp"
 #include "config/suggestion.hpp"
 #include "context_state.hpp"
 #include "panvo/runtime/errors.hpp"
@@ -30,7 +31,8 @@ std::vector<ParameterDescription>::const_iterator find(const std::vector<Paramet
 }
 
 /// What is wrong with asking for these at all.
-std::vector<std::string> not_settable(const std::vector<ParameterDescription>& known, const WrittenValues& wanted) {
+std::vector<std::string> not_settable(const std::vector<ParameterDescription>& known, const WrittenValues& wanted,
+                                      const std::filesystem::path& files_below) {
   std::vector<std::string> names, problems;
   for (const auto& parameter : known) names.push_back(parameter.name);
   for (const auto& [name, value] : wanted) {
@@ -41,6 +43,8 @@ std::vector<std::string> not_settable(const std::vector<ParameterDescription>& k
       problems.push_back(name +
                          " is fixed once the component is made: unload it and load it anew with the other value, or "
                          "set it in the system file");
+    } else if (parameter->is_path && !value.items.empty()) {
+      if (const auto wrong = path_problem(value.items.front(), files_below)) problems.push_back(name + " " + *wrong);
     }
   }
   return problems;
@@ -78,7 +82,7 @@ std::vector<ParameterDescription> Context::State::parameters() const {
 std::vector<std::string> Context::State::set_parameters(const WrittenValues& wanted) {
   const std::lock_guard one_at_a_time(setting_mutex_);
   const auto known = parameters();
-  if (auto wrong = not_settable(known, wanted); !wrong.empty()) return wrong;
+  if (auto wrong = not_settable(known, wanted, host.files_below); !wrong.empty()) return wrong;
   WrittenValues values = wanted;
   for (const auto& parameter : known) {
     if (parameter.settable) values.try_emplace(parameter.name, parameter.written);

@@ -1,23 +1,30 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "panvo/runtime/rejections.hpp"
 
-namespace panvo::runtime {
+#include "clocks.hpp"
 
-bool Rejections::add(std::string_view topic, std::string_view reason) {
+namespace panvo::runtime {
+namespace {
+
+constexpr std::string_view kOthers = "for one of many other reasons";
+
+}  // namespace
+
+bool Rejections::add(std::string_view topic, std::string_view reason, std::string_view sender) {
+  const std::int64_t now_ns = clocks::monotonic_ns();
   const std::lock_guard lock(mutex_);
   auto found = topics_.find(topic);
   if (found == topics_.end()) found = topics_.try_emplace(std::string(topic)).first;
-  auto& [count, is_rejected] = found->second;
-  const bool is_news = !is_rejected || count.last_reason != reason;
+  auto& [count, told_ns] = found->second;
   ++count.messages;
   count.last_reason = reason;
-  is_rejected = true;
-  return is_news;
-}
-
-void Rejections::accepted(std::string_view topic) {
-  const std::lock_guard lock(mutex_);
-  if (const auto found = topics_.find(topic); found != topics_.end()) found->second.is_rejected = false;
+  Cause cause(sender, reason);
+  if (count.causes.size() >= kMostCauses && !count.causes.contains(cause)) cause = Cause("", kOthers);
+  ++count.causes[cause];
+  const auto told = told_ns.find(cause.second);
+  if (told != told_ns.end() && now_ns - told->second < kLogPeriod_ns) return false;
+  told_ns.insert_or_assign(cause.second, now_ns);
+  return true;
 }
 
 std::map<std::string, Rejections::Count, std::less<>> Rejections::snapshot() const {

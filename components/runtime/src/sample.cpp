@@ -6,23 +6,32 @@
 namespace panvo::runtime {
 
 SamplePtr Sample::of(const MessageType& type, std::shared_ptr<const void> message, std::int64_t time_ns,
-                     std::shared_ptr<const void> keep_alive) {
+                     std::shared_ptr<const void> keep_alive, Sender sender) {
   std::shared_ptr<Sample> sample(new Sample);
   sample->keep_alive_ = std::move(keep_alive);
   sample->type_ = &type;
   sample->type_name_ = type.name;
   sample->time_ns_ = time_ns;
   sample->message_ = std::move(message);
+  sample->sender_ = std::move(sender);
   return sample;
 }
 
-SamplePtr Sample::from_bytes(const MessageType* type, std::string type_name, Bytes bytes, std::int64_t time_ns) {
+SamplePtr Sample::from_bytes(const MessageType* type, std::string type_name, Bytes bytes, std::int64_t time_ns,
+                             Sender sender) {
   std::shared_ptr<Sample> sample(new Sample);
   sample->type_ = type;
   sample->type_name_ = std::move(type_name);
   sample->time_ns_ = time_ns;
+  sample->received_size_ = bytes.size();
   sample->bytes_ = std::move(bytes);
+  sample->sender_ = std::move(sender);
   return sample;
+}
+
+const std::string& Sample::sender() const noexcept {
+  static const std::string kNobody;
+  return sender_ ? *sender_ : kNobody;
 }
 
 const void* Sample::message() const {

@@ -78,6 +78,11 @@ bool SourceRunner::wait(int limit_ms) {
          playing_ == 0;
 }
 
+bool SourceRunner::is_playing() const {
+  const std::lock_guard lock(mutex_);
+  return playing_ != 0;
+}
+
 void SourceRunner::stop() {
   {
     const std::lock_guard lock(mutex_);

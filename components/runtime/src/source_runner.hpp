@@ -31,6 +31,8 @@ class SourceRunner {
   void start();
   /// Waits until all sources are at their end, or stop() was called, or `limit_ms` has passed; true when they have ended.
   bool wait(int limit_ms);
+  /// Whether a source is not at its end.
+  bool is_playing() const;
   void stop();
 
   /// A worker handled a task, or the container is to stop: whoever waits for room looks again.

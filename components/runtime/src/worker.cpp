@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
 
 #include "clocks.hpp"
 
@@ -14,6 +15,8 @@ namespace {
 
 // A tenth of the processor time of a thread that wants the same core: enough to go on where the machine is busy for good.
 constexpr int kNiceOfThoseThatGiveWay = 10;
+
+constexpr std::int64_t kMostMissed = 100;  // times that a timer is made up for in replay
 
 thread_local std::int64_t current_stamp = 0;
 
@@ -36,6 +39,31 @@ bool ReplayOrder::run_one() {
   return true;
 }
 
+bool ReplayOrder::fire_one(std::int64_t now_ns) {
+  std::pair<Worker*, Timer*> first{};
+  for (const auto& [worker, timer] : timers_) {
+    if (!timer->due_ns) timer->due_ns = now_ns + timer->period_ns;
+    // What lies far back is left out: a stamp may jump by years.
+    timer->due_ns = std::max(*timer->due_ns, now_ns - kMostMissed * timer->period_ns);
+    if (*timer->due_ns > now_ns || (first.second && *first.second->due_ns <= *timer->due_ns)) continue;
+    first = {worker, timer};
+  }
+  if (!first.second) {
+    time_.reach(now_ns);
+    return false;
+  }
+  time_.reach(*first.second->due_ns);
+  first.second->due_ns = *first.second->due_ns + first.second->period_ns;
+  first.first->run_timer(*first.second);
+  return true;
+}
+
+void ReplayOrder::pass(std::int64_t stamp_ns) {
+  if (time_.pace() != PassingTime::Pace::kTasks) return;
+  while (fire_one(stamp_ns)) {
+  }
+}
+
 Worker::Worker(std::string name, StageTimes& times, ReplayOrder* replay, Hooks hooks)
     : name_(std::move(name)), times_(times), replay_(replay), hooks_(std::move(hooks)) {}
 
@@ -49,6 +77,11 @@ Port& Worker::add_port(std::string name, std::size_t depth, bool waits, std::fun
   port->run = std::move(run);
   const std::lock_guard lock(mutex_);
   return *ports_.emplace_back(std::move(port));
+}
+
+void Worker::add_timer(std::int64_t period_ns, std::function<void()> run) {
+  timers_.push_back(std::make_unique<Timer>(Timer{.period_ns = period_ns, .run = std::move(run)}));
+  if (replay_) replay_->add_timer(*this, *timers_.back());
 }
 
 void Worker::push(Port& port, Task task) {
@@ -118,9 +151,27 @@ void Worker::stop() {
 
 void Worker::loop() {
   std::unique_lock lock(mutex_);
+  bool is_turn_of_tasks = false;  // a timer never keeps them waiting twice
   while (true) {
-    work_or_stop_.wait(lock, [this] { return stopping_ || !tasks_.empty(); });
+    const auto is_wanted = [this] { return stopping_ || !tasks_.empty(); };
+    Timer* const timer = next_timer();
+    if (timer && !(is_turn_of_tasks && !tasks_.empty())) {
+      const std::chrono::steady_clock::time_point due{std::chrono::nanoseconds(*timer->due_ns)};
+      work_or_stop_.wait_until(lock, due, is_wanted);
+      if (!stopping_ && clocks::monotonic_ns() >= *timer->due_ns) {
+        lock.unlock();
+        run_timer(*timer);
+        timer->due_ns = std::max(*timer->due_ns, clocks::monotonic_ns() - timer->period_ns) + timer->period_ns;
+        lock.lock();
+        is_turn_of_tasks = true;
+        continue;
+      }
+      if (!is_wanted()) continue;
+    } else if (!timer) {
+      work_or_stop_.wait(lock, is_wanted);
+    }
     if (stopping_) return;
+    is_turn_of_tasks = false;
     auto [port, task] = std::move(tasks_.front());
     tasks_.pop_front();
     --port->waiting;
@@ -143,6 +194,7 @@ void Worker::run_one() {
     tasks_.pop_front();
     --entry.first->waiting;
   }
+  replay_->pass(entry.second.stamp_ns);
   run(*entry.first, entry.second);
   --*hooks_.in_flight;
 }
@@ -150,12 +202,25 @@ void Worker::run_one() {
 void Worker::run(Port& port, Task& task) {
   if (failed_) return;
   set_current_stamp_ns(task.stamp_ns);
-  std::uint64_t undecodable = 0;
-  try {
+  const bool is_readable = attempt([&] {
     const StageTimer timer(times_, port.name);
     port.run(task);
+  });
+  const std::lock_guard lock(mutex_);
+  ++port.handled;
+  if (!is_readable) ++port.undecodable;
+  if (task.queued_ns != 0) port.latency.add(clocks::monotonic_ns() - task.queued_ns);
+}
+
+void Worker::run_timer(Timer& timer) {
+  if (!failed_) attempt(timer.run);
+}
+
+bool Worker::attempt(const std::function<void()>& call) {
+  try {
+    call();
   } catch (const interfaces::DecodeError&) {
-    undecodable = 1;  // another process sent rubbish: its fault, not this component's
+    return false;  // another process sent rubbish: its fault, not this component's
   } catch (const std::exception& error) {
     failed_ = true;
     hooks_.failed(error.what());
@@ -163,10 +228,17 @@ void Worker::run(Port& port, Task& task) {
     failed_ = true;
     hooks_.failed("an exception that is no std::exception");
   }
-  const std::lock_guard lock(mutex_);
-  ++port.handled;
-  port.undecodable += undecodable;
-  if (task.queued_ns != 0) port.latency.add(clocks::monotonic_ns() - task.queued_ns);
+  return true;
+}
+
+/// The timer that is due first; those that never were are due a period from now.
+Timer* Worker::next_timer() {
+  Timer* next = nullptr;
+  for (const auto& timer : timers_) {
+    if (!timer->due_ns) timer->due_ns = clocks::monotonic_ns() + timer->period_ns;
+    if (!next || *timer->due_ns < *next->due_ns) next = timer.get();
+  }
+  return next;
 }
 
 bool Worker::queue_is_empty() const {

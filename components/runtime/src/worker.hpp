@@ -9,12 +9,15 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "panvo/runtime/bridge.hpp"
 #include "panvo/runtime/stage_times.hpp"
+#include "passing_time.hpp"
 
 namespace panvo::runtime {
 
@@ -43,17 +46,37 @@ struct Port {
   DurationHistogram latency;  // from queued to handled
 };
 
-/// The order in which replay handles tasks: first in, first out, over all workers.
+/// What a worker does again and again.
+struct Timer {
+  std::int64_t period_ns;
+  std::function<void()> run;
+  std::optional<std::int64_t>
+      due_ns{};  // live by the monotonic clock, in replay by stamps; nothing before time is known
+};
+
+/// The order in which replay handles tasks: first in, first out, over all workers. Timers fire when the time of what is handled passes theirs.
 class ReplayOrder {
  public:
+  explicit ReplayOrder(PassingTime& time) : time_(time) {}
+
   void push(Worker& worker) { order_.push_back(&worker); }
   /// Runs the oldest task; false when all is quiet.
   bool run_one();
+  void add_timer(Worker& worker, Timer& timer) { timers_.emplace_back(&worker, &timer); }
+  /// Lets time come to `now_ns`, but fires the timer that is due first on the way; false when none is due any more.
+  bool fire_one(std::int64_t now_ns);
+  /// Without sources, tasks tell the time: lets it come to a stamp, all timers on the way fired.
+  void pass(std::int64_t stamp_ns);
   /// A worker that ends: what waits for it is discarded.
-  void forget(const Worker& worker) { std::erase(order_, &worker); }
+  void forget(const Worker& worker) {
+    std::erase(order_, &worker);
+    std::erase_if(timers_, [&](const auto& entry) { return entry.first == &worker; });
+  }
 
  private:
+  PassingTime& time_;
   std::deque<Worker*> order_;
+  std::vector<std::pair<Worker*, Timer*>> timers_;
 };
 
 /// A bounded queue and who empties it: live a thread of its own, in replay the caller of ReplayOrder::run_one. Tasks run one at a time, in
@@ -75,12 +98,18 @@ class Worker {
   Port& add_port(std::string name, std::size_t depth, bool waits, std::function<void(Task&)> run);
   void push(Port& port, Task task);
 
+  /// `run` every `period_ns` on the thread that handles the tasks, between two of them: live by the monotonic clock, what was missed left
+  /// out; in replay by the stamps of what is handled. Before start().
+  void add_timer(std::int64_t period_ns, std::function<void()> run);
+
   /// `gives_way`: its thread, to others that want the same core.
   void start(bool gives_way = false);
   /// Ends the thread after the task it is at; what still waits is discarded. Releases whoever waits for room.
   void stop();
   /// Replay: runs the oldest task.
   void run_one();
+  /// Replay: a timer is due.
+  void run_timer(Timer& timer);
 
   /// Whether nothing waits. A source that steps only then can never make a queue overflow: each worker on the way holds at most one task more.
   bool queue_is_empty() const;
@@ -100,6 +129,9 @@ class Worker {
  private:
   void loop();
   void run(Port& port, Task& task);
+  /// False where other processes' bytes could not be read. What else is thrown ends the worker.
+  bool attempt(const std::function<void()>& call);
+  Timer* next_timer();
 
   std::string name_;
   StageTimes& times_;
@@ -109,6 +141,7 @@ class Worker {
   std::condition_variable work_or_stop_, room_or_stop_;
   std::deque<std::pair<Port*, Task>> tasks_;
   std::vector<std::unique_ptr<Port>> ports_;
+  std::vector<std::unique_ptr<Timer>> timers_;  // of this worker's thread alone once it runs
   bool stopping_ = false;
   std::atomic<bool> failed_ = false;
   std::thread thread_;

@@ -18,8 +18,12 @@ using sensor_msgs::msg::Image;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-Image image_at(std::int64_t stamp_ns, std::size_t size = 0) {
+Image image_at(std::int64_t stamp_ns, std::uint32_t size = 1) {
   Image image;
+  image.encoding("mono8");
+  image.width(size);
+  image.height(1);
+  image.step(size);
   image.header().stamp().sec(static_cast<std::int32_t>(stamp_ns / 1'000'000'000));
   image.header().stamp().nanosec(static_cast<std::uint32_t>(stamp_ns % 1'000'000'000));
   image.data().resize(size);
@@ -80,7 +84,7 @@ TEST(Container, HandsAMessageToEveryReaderByPointer) {
                                     [&](std::shared_ptr<const Image> image) { seen.push_back(image->data().data()); });
     });
   }
-  auto image = std::make_shared<const Image>(image_at(1, 1'750'000));
+  auto image = std::make_shared<const Image>(image_at(1, 50'000));
   const void* pixels = image->data().data();
   harness.publish(topics::kStereoLeftImageRaw, image);
   EXPECT_THAT(seen, ElementsAre(pixels, pixels));
@@ -229,6 +233,60 @@ TEST(Container, StopsSoonWhenAskedThoughNoSourceEnds) {
   EXPECT_TRUE(run.get().empty());
 }
 
+/// Says how it ends.
+struct Ending : Component {
+  Ending(Context& context, const std::function<void()>& end) { context.on_end(end); }
+};
+
+TEST(Container, HasComponentsFinishWhatTheyMadeAndCountsWhatFails) {
+  Container container({.replay = true});
+  int ended = 0;
+  container.add(named("first"), [&](Context& context) {
+    return std::make_unique<Ending>(context, [&ended] {
+      ++ended;
+      throw std::runtime_error("the disk is full");
+    });
+  });
+  container.add(named("second"),
+                [&](Context& context) { return std::make_unique<Ending>(context, [&ended] { ++ended; }); });
+  EXPECT_THAT(container.run(), ElementsAre("first: the disk is full"));
+  EXPECT_EQ(ended, 2);
+}
+
+TEST(Container, KnowsWhetherItWasStoppedBeforeAllWasPlayed) {
+  constexpr std::int64_t kHour_ns = 3'600'000'000'000;
+  for (const bool replay : {true, false}) {
+    for (const bool stops : {true, false}) {
+      Container container({.replay = replay, .rate = 1});
+      container.add(named("sink"), [&](Context& context) {
+        return std::make_unique<Sink>(context, topics::kPanorama, [&](const auto&) {
+          if (stops) container.request_stop();
+        });
+      });
+      container.add(named("player"), [stops](Context& context) {
+        return std::make_unique<Player>(context, topics::kPanorama, stamps(10, stops ? kHour_ns : 10, 2));
+      });
+      EXPECT_THAT(container.run(), testing::IsEmpty());
+      EXPECT_EQ(container.was_interrupted(), stops) << replay;
+      EXPECT_EQ(container.source_steps(), stops ? 1U : 2U) << replay;
+    }
+  }
+}
+
+TEST(Container, EndsWhenNoneOfItsComponentsIsLeft) {
+  Container container({});
+  std::shared_ptr<UntypedOutput> images;
+  container.add(named("failing"), [&](Context& context) {
+    images = context.open_output({std::string(topics::kPanorama.name), "sensor_msgs/msg/Image", topics::kPanorama.qos,
+                                  &interfaces::message_type<Image>()});
+    return std::make_unique<Sink>(context, topics::kPanorama, [](const auto&) { throw std::runtime_error("broken"); });
+  });
+  container.start();
+  images->publish(std::make_shared<const Image>(image_at(1)));
+  EXPECT_THAT(container.run(), ElementsAre(HasSubstr("failing stopped by an error")));
+  images.reset();
+}
+
 TEST(Container, GivesEachComponentItsOwnSeedAndTheSameEachTime) {
   struct Seeded : Component {
     Seeded(Context& context, std::vector<std::uint64_t>& seeds) { seeds.push_back(context.seed()); }
@@ -244,6 +302,45 @@ TEST(Container, GivesEachComponentItsOwnSeedAndTheSameEachTime) {
   EXPECT_EQ(seeds[1], seeds[3]);
   EXPECT_NE(seeds[0], seeds[1]);
   EXPECT_NE(seeds[0], seeds[4]);
+}
+
+/// Notes what time it is, from time to time.
+struct Ticker : Component {
+  Ticker(Context& context, std::chrono::nanoseconds period, std::function<void(std::int64_t)> take) {
+    context.every(period, [&context, take = std::move(take)] { take(context.passing_ns()); });
+  }
+};
+
+TEST(Container, FiresTimersInReplayByTheTimeOfWhatIsPlayed) {
+  std::vector<std::int64_t> seen;
+  Container container({.replay = true});
+  container.add(named("player"), [](Context& context) {
+    return std::make_unique<Player>(context, topics::kStereoLeftImageRaw, std::vector<std::int64_t>{1000, 1050, 1320});
+  });
+  container.add(named("ticker"), [&](Context& context) {
+    return std::make_unique<Ticker>(context, std::chrono::nanoseconds(100),
+                                    [&](std::int64_t now) { seen.push_back(now); });
+  });
+  container.add(named("sink"), [&](Context& context) {
+    return std::make_unique<Sink>(context, topics::kStereoLeftImageRaw,
+                                  [&](std::shared_ptr<const Image> image) { seen.push_back(-stamp_of(*image)); });
+  });
+  EXPECT_TRUE(container.run().empty());
+  EXPECT_THAT(seen, ElementsAre(-1000, -1050, 1100, 1200, 1300, -1320));
+}
+
+TEST(Container, FiresTimersLiveWhereNothingArrives) {
+  std::promise<void> third;
+  std::atomic<int> fired = 0;
+  Container container({.replay = false});
+  container.add(named("ticker"), [&](Context& context) {
+    return std::make_unique<Ticker>(context, std::chrono::milliseconds(1), [&](std::int64_t) {
+      if (++fired == 3) third.set_value();
+    });
+  });
+  container.start();
+  third.get_future().wait();
+  EXPECT_TRUE(container.unload("ticker"));
 }
 
 }  // namespace

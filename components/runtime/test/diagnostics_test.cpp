@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "panvo/runtime/graph.hpp"
+#include "service_totals.hpp"
 
 namespace panvo::runtime {
 namespace {
@@ -13,10 +14,12 @@ using testing::HasSubstr;
 
 /// A component with one input, in replay: it does what the test pushes.
 struct Diagnosed : testing::Test {
-  ReplayOrder order;
-  Bus bus{nullptr, [](const std::string&) {}};
+  PassingTime time{PassingTime::Pace::kTasks, [] { return 0; }};
+  ReplayOrder order{time};
+  Bus bus{nullptr, [](const std::string&) {}, [] { return 0; }};
   Host host{.bus = bus,
             .replay_order = &order,
+            .time = time,
             .log = [](LogLevel, const std::string&, const std::string&) {},
             .seed = 1,
             .progressed = [] {}};
@@ -74,14 +77,17 @@ TEST_F(Diagnosed, WarnsWhileMessagesAreDroppedAndNoLonger) {
 /// Brings nothing; of what was to come, `overwritten` messages were.
 class OverwritingBridge final : public Bridge {
  public:
-  explicit OverwritingBridge(const std::uint64_t& overwritten) : overwritten_(overwritten) {}
+  explicit OverwritingBridge(const std::uint64_t& overwritten, std::uint64_t too_large = 0, std::uint64_t too_fast = 0)
+      : overwritten_(overwritten), too_large_(too_large), too_fast_(too_fast) {}
 
   std::unique_ptr<BridgeReader> open_reader(const TopicDescription&, std::function<void(SamplePtr)>) override {
-    return std::make_unique<Reader>(overwritten_);
+    return std::make_unique<Reader>(*this);
   }
   std::unique_ptr<BridgeWriter> open_writer(const TopicDescription&) override { return nullptr; }
   void watch_topics(std::function<void(const TopicDescription&)>) override {}
-  std::unique_ptr<BridgeService> serve(const ServiceDescription&, ServiceHandler) override { return nullptr; }
+  std::unique_ptr<BridgeService> serve(const ServiceDescription&, ServiceHandler, ServiceGuard) override {
+    return nullptr;
+  }
   std::unique_ptr<BridgeClient> open_client(const ServiceDescription&) override { return nullptr; }
   void set_nodes(std::vector<NodeDescription>) override {}
   Graph graph() override { return {}; }
@@ -89,17 +95,20 @@ class OverwritingBridge final : public Bridge {
 
  private:
   struct Reader final : BridgeReader {
-    explicit Reader(const std::uint64_t& overwritten) : overwritten_(overwritten) {}
+    explicit Reader(const OverwritingBridge& bridge) : bridge_(bridge) {}
     std::size_t matched_writers() const override { return 1; }
-    BridgeReaderCounters counters() const override { return {.overwritten = overwritten_}; }
-    const std::uint64_t& overwritten_;
+    BridgeReaderCounters counters() const override {
+      return {.overwritten = bridge_.overwritten_, .too_large = bridge_.too_large_, .too_fast = bridge_.too_fast_};
+    }
+    const OverwritingBridge& bridge_;
   };
   const std::uint64_t& overwritten_;
+  const std::uint64_t too_large_, too_fast_;
 };
 
 TEST_F(Diagnosed, CountsWhatWasOverwrittenInSharedMemoryAsDropped) {
   std::uint64_t overwritten = 0;
-  Bus shared{std::make_unique<OverwritingBridge>(overwritten), [](const std::string&) {}};
+  Bus shared{std::make_unique<OverwritingBridge>(overwritten), [](const std::string&) {}, [] { return 0; }};
   Channel& channel = shared.channel({"/image", "sensor_msgs/msg/Image", {}});
   channel.add_reader(&state, [](const TopicDescription&, const SamplePtr&) {});
   state.inputs.push_back(&channel);
@@ -121,17 +130,78 @@ TEST_F(Diagnosed, NamesWhatCouldNotBeUsedAndWhyAndWarnsWhileThatGoesOn) {
   EXPECT_EQ(status.message(), "2 messages could not be used in the last 1 s: image is cut off");
   EXPECT_EQ(value(status, "image rejected"), "2 messages; the last is cut off");
 
-  state.rejections.accepted("image");
   status = collect(1.0);
   EXPECT_EQ(status.level(), 0);
   EXPECT_EQ(value(status, "image rejected"), "2 messages; the last is cut off");
-  EXPECT_TRUE(state.rejections.add("image", "is cut off")) << "what goes wrong again is news";
+  EXPECT_TRUE(state.rejections.add("image", "is empty")) << "another reason is worth a line";
+}
+
+TEST_F(Diagnosed, NamesWhatWasInvalidBeforeItCameToItBySenderAndReason) {
+  Channel& channel =
+      bus.channel({"/odometry", "nav_msgs/msg/Odometry", {}, &interfaces::message_type<nav_msgs::msg::Odometry>()});
+  channel.add_reader(&state, [](const TopicDescription&, const SamplePtr&) {});
+  state.inputs.push_back(&channel);
+  nav_msgs::msg::Odometry far;
+  far.pose().pose().position().x(1e200);
+  channel.publish(Sample::of(*channel.topic().type, std::make_shared<const nav_msgs::msg::Odometry>(far), 0, nullptr,
+                             std::make_shared<const std::string>("wheels")));
+  const auto status = collect(1.0);
+  EXPECT_EQ(status.level(), 1);
+  EXPECT_EQ(status.message(),
+            "1 messages could not be used in the last 1 s: /odometry pose.pose.position is beyond +-1e+08");
+  EXPECT_EQ(value(status, "/odometry rejected of wheels"), "1 messages: pose.pose.position is beyond +-1e+08");
+  EXPECT_EQ(collect(1.0).level(), 0);
+}
+
+TEST_F(Diagnosed, CountsWhatWasRefusedForItsSizeOrNumber) {
+  std::uint64_t overwritten = 0;
+  Bus flooded{std::make_unique<OverwritingBridge>(overwritten, 2, 30), [](const std::string&) {}, [] { return 0; }};
+  Channel& channel = flooded.channel({"/image", "sensor_msgs/msg/Image", {}});
+  channel.add_reader(&state, [](const TopicDescription&, const SamplePtr&) {});
+  state.inputs.push_back(&channel);
+  const auto status = collect(1.0);
+  EXPECT_EQ(status.level(), 1);
+  EXPECT_EQ(value(status, "/image refused"), "2 larger than max_message_mb, 30 beyond max_topic_rate_hz");
+  EXPECT_EQ(collect(1.0).level(), 0);
+  state.stop();
 }
 
 TEST_F(Diagnosed, IsInErrorOnceItHasStopped) {
   Port& port = state.main_worker().add_port("image", 5, false, [](Task&) { throw std::logic_error("broken"); });
   handle(port, 1);
   EXPECT_EQ(collect(1.0).level(), 2);
+}
+
+TEST_F(Diagnosed, CountsAnewWhenAComponentHasTakenAnothersPlace) {
+  handle(state.main_worker().add_port("image", 5, false, [](Task&) {}), 10);
+  collect(1.0);
+  Context::State successor{host, description(), nullptr};
+  successor.restarts = 1;
+  successor.main_worker().add_port("image", 5, false, [](Task&) {});
+  const auto status = diagnostics.collect({&successor}, 0, 1.0).status().at(0);
+  EXPECT_EQ(status.level(), 0) << status.message();
+  EXPECT_EQ(value(status, "image rate"), "0.0 Hz");
+  EXPECT_EQ(value(status, "made anew"), "1 times, after an error");
+}
+
+struct CountedService final : BridgeService {
+  explicit CountedService(const ServiceCounters& all) : all_(all) {}
+  ServiceCounters counters() const override { return all_; }
+  const ServiceCounters& all_;
+};
+
+TEST(ServiceTotals, WarnsOfRequestsThatWereRefusedOrDroppedSinceTheLastTime) {
+  ServiceCounters counters{.received = 5, .answered = 3, .dropped = 1, .refused = 1};
+  std::vector<std::unique_ptr<BridgeService>> services;
+  services.push_back(std::make_unique<CountedService>(counters));
+  ServiceTotals totals;
+  totals.add(services);
+  const auto status = totals.status("panvo", 1.0);
+  EXPECT_EQ(status.name(), "panvo: requests to panvo");
+  EXPECT_EQ(status.level(), 1);
+  EXPECT_THAT(status.values().at(0).value(), HasSubstr("5 received, 3 answered, 1 refused, 1 dropped"));
+  totals.add(services);
+  EXPECT_EQ(totals.status("panvo", 1.0).level(), 0);
 }
 
 }  // namespace

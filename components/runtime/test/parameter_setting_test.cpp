@@ -21,10 +21,12 @@ class Tunable final : public Component {
   struct Gains {
     double gain = 0.5;
     std::string mode = "fast";
+    std::string file;
     template <class Field>
     static void describe(Field&& field) {
       field(&Gains::gain, "gain", "1", "of the test", 0.0, 1.0);
       field(&Gains::mode, "mode", "", "of the test", {"fast", "exact"});
+      field.path(&Gains::file, "file", "of the test");
     }
   };
   struct Sizes {
@@ -79,6 +81,23 @@ TEST(ParameterSetting, ChecksValuesAsAtTheStart) {
   EXPECT_THAT(Tunable::state->set_parameters(values("gian", "0.1")), ElementsAre(HasSubstr("gain")));
   EXPECT_EQ(Tunable::last->gains.gain, 0.5);
   EXPECT_EQ(parameter("gain")->value, "0.5");
+}
+
+TEST(ParameterSetting, TakesFilesOnlyBelowTheFolderOfTheContainer) {
+  {
+    ComponentHarness harness;
+    harness.add<Tunable>("tunable", {{"file", "/of/the/system/file"}});
+    EXPECT_THAT(Tunable::state->set_parameters(values("file", "/tmp/store.db")),
+                ElementsAre(HasSubstr("may not; set it in the system file")));
+    EXPECT_THAT(Tunable::state->set_parameters(values("mode", "exact")), testing::IsEmpty());
+    EXPECT_EQ(Tunable::last->gains.file, "/of/the/system/file");
+  }
+  ComponentHarness harness({.replay = true, .files_below = "/tmp"});
+  harness.add<Tunable>("tunable");
+  EXPECT_THAT(Tunable::state->set_parameters(values("file", "/tmp/../etc/passwd")),
+              ElementsAre(HasSubstr("not below")));
+  EXPECT_THAT(Tunable::state->set_parameters(values("file", "/tmp/store.db")), testing::IsEmpty());
+  EXPECT_EQ(Tunable::last->gains.file, "/tmp/store.db");
 }
 
 TEST(ParameterSetting, SaysHowToChangeWhatIsFixed) {

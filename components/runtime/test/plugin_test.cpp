@@ -23,6 +23,16 @@ bool is_mapped(const std::string& library) {
   return false;
 }
 
+sensor_msgs::msg::Image image() {
+  sensor_msgs::msg::Image image;
+  image.encoding("mono8");
+  image.width(1);
+  image.height(1);
+  image.step(1);
+  image.data().resize(1);
+  return image;
+}
+
 ComponentDescription relay() {
   ComponentDescription description;
   description.package = "panvo_test_relay";
@@ -68,7 +78,7 @@ TEST(Plugin, StaysMappedAsLongAsAMessageOfItsMakingIsHeld) {
     keeper.name = "keeper";
     harness.container().add(keeper, [&](Context& context) { return std::make_unique<Keeper>(context, held); });
   }
-  harness.publish(topics::kStereoLeftImageRaw, sensor_msgs::msg::Image{});
+  harness.publish(topics::kStereoLeftImageRaw, image());
   ASSERT_TRUE(held);
   ASSERT_TRUE(harness.container().unload("test_relay"));
   EXPECT_TRUE(is_mapped("panvo_test_relay"));
@@ -97,26 +107,44 @@ TEST(Plugin, BuiltWithOtherHeadersIsRefusedAndSaysWhichBeforeAnyOfItsCodeIsCalle
               testing::MatchesRegex("0\\.1\\.0 \\(headers [0-9a-f]+, messages [0-9a-f]+\\)"));
 }
 
-TEST(Plugin, IsFoundWhereColconInstallsEachPackageByItself) {
+/// Whether a plugin is found in `folder` of the prefix that a variable names.
+void expect_found_in(const std::filesystem::path& folder, const char* variable) {
   const std::filesystem::path install =
       std::filesystem::temp_directory_path() / ("panvo_install_" + std::to_string(getpid()));
-  const std::filesystem::path folder = install / "panvo_moved_relay" / "lib" / "panvo";
-  std::filesystem::create_directories(folder);
+  std::filesystem::create_directories(install / folder);
   const std::filesystem::path built =
       std::filesystem::path(std::getenv("PANVO_PLUGIN_PATH")) / "libpanvo_test_relay_component.so";
-  std::filesystem::copy(built, folder / "libpanvo_moved_relay_component.so");
-  setenv("COLCON_PREFIX_PATH", install.c_str(), 1);
+  std::filesystem::copy(built, install / folder / "libpanvo_moved_relay_component.so");
+  setenv(variable, install.c_str(), 1);
   ComponentDescription description = relay();
   description.package = "panvo_moved_relay";
   EXPECT_EQ(why_not(description), "loaded");
-  unsetenv("COLCON_PREFIX_PATH");
+  unsetenv(variable);
   std::filesystem::remove_all(install);
+}
+
+TEST(Plugin, IsFoundWhereColconInstallsEachPackageByItself) {
+  expect_found_in("panvo_moved_relay/lib/panvo", "COLCON_PREFIX_PATH");
+}
+
+TEST(Plugin, IsFoundWhereDebianInstallsLibraries) {
+  expect_found_in("lib/" PANVO_ARCHITECTURE "/panvo", "CMAKE_PREFIX_PATH");
+  expect_found_in("panvo_moved_relay/lib/" PANVO_ARCHITECTURE "/panvo", "COLCON_PREFIX_PATH");
 }
 
 TEST(Plugin, ThatIsNotThereIsRefusedAndSaysWhereItWasLookedFor) {
   ComponentDescription description = relay();
   description.package = "panvo_nonesuch";
   EXPECT_THAT(why_not(description), HasSubstr("libpanvo_nonesuch_component.so is not in "));
+}
+
+TEST(Plugin, NamedByAPathIsRefusedWhateverLiesThere) {
+  // The folder "libx" would make "lib" + "x/../NAME" + "_component.so" a path to any plugin.
+  for (const char* name : {"/../../evil", "x/../panvo_test_relay", "..", "", "Panvo_test_relay"}) {
+    ComponentDescription description = relay();
+    description.package = name;
+    EXPECT_THAT(why_not(description), HasSubstr("is no name of a package")) << name;
+  }
 }
 
 TEST(Plugin, WithoutThatComponentIsRefusedAndSaysWhichItHas) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "printable.hpp"
+#include "panvo/runtime/printable.hpp"
 
 #include <gtest/gtest.h>
 

@@ -139,7 +139,8 @@ TEST(Worker, CountsUndecodableMessagesAndGoesOn) {
 TEST(ReplayOrder, HandlesTasksOfAllWorkersFirstInFirstOut) {
   StageTimes times;
   std::atomic<std::int64_t> in_flight = 0;
-  ReplayOrder order;
+  PassingTime time{PassingTime::Pace::kTasks, [] { return 0; }};
+  ReplayOrder order(time);
   std::string handled;
   Worker first("first", times, &order, {.failed = {}, .progressed = [] {}, .in_flight = &in_flight});
   Worker second("second", times, &order, {.failed = {}, .progressed = [] {}, .in_flight = &in_flight});
@@ -154,6 +155,86 @@ TEST(ReplayOrder, HandlesTasksOfAllWorkersFirstInFirstOut) {
   }
   EXPECT_EQ(handled, "iioo");
   EXPECT_EQ(in_flight, 0);
+}
+
+TEST(Worker, FiresATimerWhateverArrives) {
+  BusyWorker busy;
+  std::promise<void> third;
+  int fired = 0;
+  busy.worker.add_timer(1'000'000, [&] {
+    if (++fired == 3) third.set_value();
+  });
+  busy.worker.start();
+  third.get_future().wait();
+  busy.worker.stop();
+  EXPECT_GE(fired, 3);
+}
+
+TEST(Worker, MakesUpForNoneOfTheTimesThatATimerMissed) {
+  BusyWorker busy;
+  int fired = 0;
+  std::promise<void> last;
+  busy.worker.add_timer(1'000'000, [&] { ++fired; });
+  std::promise<int> fired_while_busy;
+  Port& slow = busy.worker.add_port("slow", 1, false, [&](Task&) {
+    const auto until = std::chrono::steady_clock::now() + std::chrono::milliseconds(50);
+    while (std::chrono::steady_clock::now() < until) {
+    }
+    fired = 0;
+  });
+  Port& next = busy.worker.add_port("next", 1, false, [&](Task&) { fired_while_busy.set_value(fired); });
+  busy.worker.start();
+  busy.worker.push(slow, {});
+  busy.worker.push(next, {});
+  EXPECT_LE(fired_while_busy.get_future().get(), 1) << "of the fifty that were due";
+  busy.worker.stop();
+}
+
+TEST(Worker, ATimerThatThrowsStopsItAndIsReported) {
+  BusyWorker busy;
+  busy.worker.add_timer(1'000'000, [] { throw std::runtime_error("the timer is wrong"); });
+  busy.worker.start();
+  busy.failed.get_future().wait();
+  EXPECT_EQ(busy.failure, "the timer is wrong");
+  EXPECT_TRUE(busy.worker.failed());
+}
+
+struct TimersOfAReplay : testing::Test {
+  StageTimes times;
+  std::atomic<std::int64_t> in_flight = 0;
+  PassingTime time{PassingTime::Pace::kTasks, [] { return 0; }};
+  ReplayOrder order{time};
+  Worker worker{"worker", times, &order, {.failed = {}, .progressed = [] {}, .in_flight = &in_flight}};
+  std::vector<std::int64_t> fired;
+  Port& in = worker.add_port("in", 1, false, [this](Task& task) { fired.push_back(-task.stamp_ns); });
+
+  void handle(std::int64_t stamp_ns) {
+    worker.push(in, stamped(stamp_ns));
+    while (order.run_one()) {
+    }
+  }
+};
+
+TEST_F(TimersOfAReplay, FireWhenTheTimeOfWhatIsHandledPassesTheirs) {
+  worker.add_timer(100, [&] { fired.push_back(time.now_ns()); });
+  for (const std::int64_t stamp_ns : {1000, 1050, 1099, 1100, 1350}) handle(stamp_ns);
+  EXPECT_EQ(fired, (std::vector<std::int64_t>{-1000, -1050, -1099, 1100, -1100, 1200, 1300, -1350}));
+}
+
+TEST_F(TimersOfAReplay, FireInTheOrderInWhichTheyAreDue) {
+  worker.add_timer(100, [&] { fired.push_back(100); });
+  worker.add_timer(70, [&] { fired.push_back(70); });
+  handle(0);
+  handle(220);
+  EXPECT_EQ(fired, (std::vector<std::int64_t>{0, 70, 100, 70, 100, 70, -220}));
+}
+
+TEST_F(TimersOfAReplay, ThatMissedYearsFireABoundedNumberOfTimes) {
+  int count = 0;
+  worker.add_timer(100'000'000, [&] { ++count; });
+  handle(1'700'000'000'000'000'000);
+  handle(2'147'483'647'000'000'000);
+  EXPECT_LE(count, 101);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <iostream>
 #include <set>
+#include <vector>
 
 #include "library.hpp"
 #include "panvo/runtime/container.hpp"
@@ -27,11 +28,19 @@ std::set<std::string> packages() {
   return packages;
 }
 
+/// All that can be loaded; then throws for those that cannot, as during a build.
 void list() {
+  std::vector<std::string> problems;
   for (const auto& package : packages()) {
-    const Library library(find_plugin(package));  // outlives the descriptors, which lie in it
-    for (const auto* component : library.components()) std::cout << package << " " << component->class_name << "\n";
+    try {
+      const Library library(find_plugin(package));  // outlives the descriptors, which lie in it
+      for (const auto* component : library.components()) std::cout << package << " " << component->class_name << "\n";
+    } catch (const ConfigError& error) {
+      problems.emplace_back(error.what());
+    }
   }
+  std::cout << std::flush;
+  if (!problems.empty()) throw ConfigError(std::move(problems));
 }
 
 void show(const std::string& package) {

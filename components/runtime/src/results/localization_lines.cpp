@@ -91,4 +91,12 @@ std::optional<std::string> state_line(const panvo_msgs::msg::LocalizationState& 
          number_or_nothing(state.heading_sigma_rad()) + ',' + quoted(state.reason());
 }
 
+std::string integrity_header() { return "stamp_ns,usable,reason,risk,hpl_m,alert_limit_m"; }
+
+std::optional<std::string> integrity_line(const panvo_msgs::msg::Integrity& integrity) {
+  return stamp_of(integrity) + (integrity.usable() ? ",1," : ",0,") + quoted(integrity.reason()) + ',' +
+         number_or_nothing(integrity.risk()) + ',' + number_or_nothing(integrity.horizontal_protection_level_m()) +
+         ',' + number_or_nothing(integrity.alert_limit_m());
+}
+
 }  // namespace panvo::runtime

@@ -6,6 +6,7 @@
 
 #include "panvo_msgs/msg/AzimuthChange.h"
 #include "panvo_msgs/msg/CorrectionOutcome.h"
+#include "panvo_msgs/msg/Integrity.h"
 #include "panvo_msgs/msg/LocalizationState.h"
 #include "panvo_msgs/msg/OdometryQuality.h"
 #include "panvo_msgs/msg/PositionCorrection.h"
@@ -32,5 +33,9 @@ std::optional<std::string> outcome_line(const panvo_msgs::msg::CorrectionOutcome
 /// "stamp_ns,state,position_sigma_m,heading_sigma_rad,reason"
 std::string state_header();
 std::optional<std::string> state_line(const panvo_msgs::msg::LocalizationState& state);
+
+/// "stamp_ns,usable,reason,risk,hpl_m,alert_limit_m"; hpl: the horizontal protection level
+std::string integrity_header();
+std::optional<std::string> integrity_line(const panvo_msgs::msg::Integrity& integrity);
 
 }  // namespace panvo::runtime

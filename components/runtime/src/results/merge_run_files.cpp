@@ -35,6 +35,7 @@ void append(std::vector<Item>& all, const std::vector<Item>& more) {
 void add(RunSummary& all, const RunSummary& one) {
   all.frames_in += one.frames_in;
   all.frames_out += one.frames_out;
+  all.frames_unreliable += one.frames_unreliable;
   append(all.queues, one.queues);
   all.cpu_s += one.cpu_s;
   all.wall_s = std::max(all.wall_s, one.wall_s);
@@ -43,7 +44,10 @@ void add(RunSummary& all, const RunSummary& one) {
     all.changed_parameters[component].insert(parameters.begin(), parameters.end());
   }
   append(all.problems, one.problems);
-  all.exit_status = all.exit_status != 0 ? all.exit_status : one.exit_status;
+  // A container that was stopped in the middle, for another had failed, is not the reason.
+  const bool is_reason = one.exit_status != 0 && (all.exit_status == 0 || (all.interrupted && !one.interrupted));
+  if (is_reason) all.exit_status = one.exit_status;
+  all.interrupted |= one.interrupted;
 }
 
 /// How the second of two things of one name is called.

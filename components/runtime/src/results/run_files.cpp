@@ -36,6 +36,7 @@ const std::vector<FileKind>& file_kinds() {
   using nav_msgs::msg::Odometry;
   using panvo_msgs::msg::AzimuthChange;
   using panvo_msgs::msg::CorrectionOutcome;
+  using panvo_msgs::msg::Integrity;
   using panvo_msgs::msg::LandmarkMatch;
   using panvo_msgs::msg::LocalizationState;
   using panvo_msgs::msg::OdometryQuality;
@@ -49,6 +50,7 @@ const std::vector<FileKind>& file_kinds() {
   static const std::string_view outcome = message_type<CorrectionOutcome>().name;
   static const std::string_view quality = message_type<OdometryQuality>().name;
   static const std::string_view state = message_type<LocalizationState>().name;
+  static const std::string_view integrity = message_type<Integrity>().name;
   constexpr auto kPose = line_of<Odometry, tum_line>;
   static const std::vector<FileKind> kinds{
       {"/odometry/binocular", odometry, "odometry_binocular", ".tum", nullptr, kPose},
@@ -65,7 +67,9 @@ const std::vector<FileKind>& file_kinds() {
       {"/correction", correction, "corrections", ".csv", correction_header,
        line_of<PositionCorrection, correction_line>},
       {"/correction/outcome", outcome, "outcomes", ".csv", outcome_header, line_of<CorrectionOutcome, outcome_line>},
-      {"/localization/state", state, "states", ".csv", state_header, line_of<LocalizationState, state_line>}};
+      {"/localization/state", state, "states", ".csv", state_header, line_of<LocalizationState, state_line>},
+      {"/localization/integrity", integrity, "integrity", ".csv", integrity_header,
+       line_of<Integrity, integrity_line>}};
   return kinds;
 }
 
@@ -96,6 +100,7 @@ struct RunFiles::TopicFile {
     }
     if (line) {
       lines.append(*line);
+      ++written;
     } else {
       ++left_out;
     }
@@ -103,7 +108,7 @@ struct RunFiles::TopicFile {
 
   const FileKind* kind;
   LineFile lines;
-  std::uint64_t left_out = 0;
+  std::uint64_t written = 0, left_out = 0;
 };
 
 RunFiles::RunFiles(std::filesystem::path folder) : folder_(std::move(folder)) {
@@ -144,6 +149,13 @@ void RunFiles::write(const TopicDescription& topic, const SamplePtr& sample) {
     }
   }
   for (const auto& file : found->second) file->append(sample);
+}
+
+bool RunFiles::has_lines() const {
+  const std::lock_guard lock(mutex_);
+  return std::ranges::any_of(files_by_topic_, [](const auto& topic) {
+    return std::ranges::any_of(topic.second, [](const auto& file) { return file->written > 0; });
+  });
 }
 
 void RunFiles::finish(const RunSummary& summary, const ComponentTimes& times_by_component) {

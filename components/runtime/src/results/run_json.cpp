@@ -41,9 +41,11 @@ Json summary_json(const RunSummary& summary) {
           {"replay", summary.replay},
           {"seed", summary.seed},
           {"exit_status", summary.exit_status},
+          {"interrupted", summary.interrupted},
           {"problems", summary.problems},
           {"frames_in", summary.frames_in},
           {"frames_out", summary.frames_out},
+          {"frames_unreliable", summary.frames_unreliable},
           {"wall_s", summary.wall_s},
           {"cpu_s", summary.cpu_s},
           {"peak_memory_mb", summary.peak_memory_mb},
@@ -58,9 +60,11 @@ RunSummary summary_from(const Json& json) {
   json.at("replay").get_to(summary.replay);
   json.at("seed").get_to(summary.seed);
   json.at("exit_status").get_to(summary.exit_status);
+  json.at("interrupted").get_to(summary.interrupted);
   json.at("problems").get_to(summary.problems);
   json.at("frames_in").get_to(summary.frames_in);
   json.at("frames_out").get_to(summary.frames_out);
+  json.at("frames_unreliable").get_to(summary.frames_unreliable);
   json.at("wall_s").get_to(summary.wall_s);
   json.at("cpu_s").get_to(summary.cpu_s);
   json.at("peak_memory_mb").get_to(summary.peak_memory_mb);

@@ -22,9 +22,7 @@ class RelayComponent final : public Component {
     context.input(panvo::topics::kStereoLeftImageRaw, [this](std::shared_ptr<const sensor_msgs::msg::Image> image) {
       last_ = image;
       for (std::int64_t i = 0; i < parameters_.copies; ++i) {
-        sensor_msgs::msg::Image copy;
-        copy.header(image->header());
-        output_.publish(std::move(copy));
+        output_.publish(sensor_msgs::msg::Image(*image));
       }
     });
   }

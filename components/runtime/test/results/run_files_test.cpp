@@ -299,6 +299,7 @@ TEST(RunFiles, FinishLeavesTimesAndSummary) {
   const auto summary = nlohmann::json::parse(folder.read("summary.json"));
   EXPECT_EQ(summary["frames_in"], 100);
   EXPECT_EQ(summary["frames_out"], 98);
+  EXPECT_EQ(summary["frames_unreliable"], 7);
   EXPECT_EQ(summary["queues"][0]["component"], "odometry");
   EXPECT_EQ(summary["queues"][0]["input"], "/stereo/left/image_rect");
   EXPECT_EQ(summary["queues"][0]["dropped"], 2);

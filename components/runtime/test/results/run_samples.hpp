@@ -44,6 +44,7 @@ inline RunSummary summary_of(const std::string& component, double wall_s) {
   RunSummary summary;
   summary.frames_in = 100;
   summary.frames_out = 98;
+  summary.frames_unreliable = 7;
   summary.queues = {{component, "/stereo/left/image_rect", 100, 98, 2}};
   summary.cpu_s = 1.5;
   summary.wall_s = wall_s;

@@ -5,7 +5,7 @@
 #include <streambuf>
 #include <string>
 
-#include "printable.hpp"
+#include "panvo/runtime/printable.hpp"
 
 namespace panvo::runtime::graph {
 

@@ -7,7 +7,7 @@
 #include <thread>
 
 #include "panvo/runtime/names.hpp"
-#include "printable.hpp"
+#include "panvo/runtime/printable.hpp"
 
 namespace panvo::runtime::graph {
 namespace {

@@ -9,7 +9,7 @@
 #include <cstdio>
 #include <stdexcept>
 
-#include "printable.hpp"
+#include "panvo/runtime/printable.hpp"
 
 namespace panvo::runtime {
 namespace {

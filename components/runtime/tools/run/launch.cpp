@@ -34,6 +34,8 @@ struct Child {
   int status = 0;
 
   bool respawn = false;
+  bool again = false;  // it takes the place of a process that crashed
+  bool required = true;
   double respawn_delay_s = 0;
   std::optional<std::chrono::steady_clock::time_point> starts_again;
   std::vector<std::string> folders;  // where each of its processes left its results
@@ -55,6 +57,7 @@ std::vector<std::string> command_line(const RunOptions& options, const Child& ch
   add("--ros-distro", options.dds.ros_distro);
   add("--dds-profiles", options.dds.profiles);
   if (options.local) words.push_back("--local");
+  if (child.again) words.push_back("--again");
   if (options.verbose) words.push_back("--verbose");
   add("--container", child.name);
   if (!options.container.empty()) {  // what it waits for is not among those that are started here
@@ -141,15 +144,20 @@ void start_again(const RunOptions& options, Child& child, const std::vector<Chil
   close(child.from_child);
   child.published.clear();
   child.subscribed.clear();
+  child.again = true;
   start(options, child);
   if (!read_until(child, "loaded")) return;
   tell_peers(child, children);
   if (read_until(child, "connected")) write_pipe_line(child.to_child, "start");
 }
 
+/// Whether it played something and was stopped in the middle, as every container is when it is asked to.
+bool was_interrupted(const Child& child) { return child.status == static_cast<int>(ExitStatus::kTerminated); }
+
 /// Whether a container that has ended like this is to be started again: not when its configuration is wrong, for it would be again.
 bool is_to_respawn(const Child& child) {
-  return child.respawn && child.status != 0 && child.status != static_cast<int>(ExitStatus::kBadConfiguration);
+  return child.respawn && child.status != 0 && !was_interrupted(child) &&
+         child.status != static_cast<int>(ExitStatus::kBadConfiguration);
 }
 
 void plan_respawn(Child& child) {
@@ -159,13 +167,20 @@ void plan_respawn(Child& child) {
   std::fprintf(stderr, "panvo run: container %s is started again in %.1f s\n", child.name.c_str(), delay_s.count());
 }
 
+void tell_lost(const Child& child) {
+  std::fprintf(stderr,
+               "panvo run: container %s is lost (exit status %d); the others go on without it (required: false). "
+               "respawn: true in the system file, or --respawn, starts it again\n",
+               child.name.c_str(), child.status);
+}
+
 void signal_all(const std::vector<Child>& children, int signal) {
   for (const auto& child : children) {
     if (child.running) kill(child.pid, signal);
   }
 }
 
-/// Waits until all have ended. When the last that plays something has, or one has failed that is not to be started again, or `stop` is set,
+/// Waits until all have ended. When the last that plays something has, or one has failed that is required and not to be started again, or `stop` is set,
 /// the others are asked to stop.
 void supervise(const RunOptions& options, std::vector<Child>& children, const std::atomic<bool>& stop, bool failed) {
   bool asked = failed;
@@ -190,7 +205,8 @@ void supervise(const RunOptions& options, std::vector<Child>& children, const st
         if (!asked && !stop && is_to_respawn(child)) {
           plan_respawn(child);
         } else {
-          failed |= child.status != 0;
+          failed |= child.required && child.status != 0 && !was_interrupted(child);
+          if (!asked && !stop && !child.required) tell_lost(child);
         }
       }
       if (child.starts_again && (asked || stop)) child.starts_again.reset();
@@ -215,16 +231,21 @@ ExitStatus launch(const RunOptions& given, const SystemDescription& system) {
   RunOptions options = given;
   options.local = given.local && system.containers.size() == 1;  // several have to talk to each other
   std::atomic<bool> stop = false;
+  std::atomic<int> signal = 0;
   std::vector<Child> children;
   for (const auto& container : system.containers) {
     Child child;
     child.name = container.name;
+    child.required = container.required;
     child.respawn = options.respawn || container.respawn;
     child.respawn_delay_s = container.respawn_delay_s.value_or(options.respawn_delay_s);
     children.push_back(std::move(child));
   }
   for (auto& child : children) start(options, child);
-  const StopSignals signals([&stop] { stop = true; });
+  const StopSignals signals([&](int caught) {
+    signal = caught;
+    stop = true;
+  });
   const bool connected = connect(children);
   supervise(options, children, stop, !connected);
 
@@ -234,7 +255,9 @@ ExitStatus launch(const RunOptions& given, const SystemDescription& system) {
     close(child.to_child);
     close(child.from_child);
     folders.insert(folders.end(), child.folders.begin(), child.folders.end());
-    if (child.status != 0) {
+    if (was_interrupted(child)) {
+      if (status == ExitStatus::kOk && signal != 0) status = interrupted_by(signal);
+    } else if (child.status != 0) {
       std::fprintf(stderr, "panvo run: container %s failed (exit status %d)\n", child.name.c_str(), child.status);
       status = child.status == static_cast<int>(ExitStatus::kBadConfiguration) ? ExitStatus::kBadConfiguration
                                                                                : ExitStatus::kRunFailed;

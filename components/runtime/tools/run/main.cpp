@@ -4,8 +4,11 @@
 #include <cstdlib>
 #include <exception>
 
+#include "describe.hpp"
+#include "enclave.hpp"
 #include "launch.hpp"
 #include "panvo/runtime/errors.hpp"
+#include "panvo/runtime/run_files.hpp"
 #include "panvo/runtime/shm_leftovers.hpp"
 #include "run_container.hpp"
 
@@ -25,7 +28,12 @@ SystemDescription part(const SystemDescription& system, const std::string& name)
 ExitStatus run(const RunOptions& options) {
   SystemDescription system = describe_system(options);
   if (!options.container.empty()) system = part(system, options.container);
+  if (options.describe) {
+    describe(system);
+    return ExitStatus::kOk;
+  }
   const bool is_launched = options.link_in.has_value();
+  if (!options.out.empty() && !is_launched) claim_run_folder(options.out, options.overwrite);
   const bool respawns = std::ranges::any_of(system.containers, &ContainerDescription::respawn);
   if (!is_launched && !options.replay && (system.containers.size() > 1 || respawns || options.respawn))
     return launch(options, system);
@@ -39,13 +47,14 @@ ExitStatus run(const RunOptions& options) {
     }
   }
   all.insert(all.end(), players.begin(), players.end());
+  use_enclave_of(options.system_file, together.name);
   return run_container(options, together, system.notes);
 }
 
 void tell_of(const ShmLeftovers& removed) {
   if (removed.segments == 0) return;
-  std::fprintf(stderr, "panvo run: freed %zu MB of shared memory that %zu participants of killed processes had left\n",
-               static_cast<std::size_t>(removed.bytes >> 20), removed.segments);
+  std::fprintf(stderr, "panvo run: freed %.1f MB of shared memory that killed processes had left\n",
+               static_cast<double>(removed.bytes) * 1e-6);
 }
 
 }  // namespace
@@ -58,7 +67,7 @@ int main(int argc, char** argv) {
   RunOptions options;
   if (const auto status = RunOptions::parse(argc, argv, options)) return *status;
   try {
-    if (!options.local && !options.replay && !options.link_in) tell_of(remove_shm_leftovers());
+    if (!options.local && !options.replay && !options.link_in && !options.describe) tell_of(remove_shm_leftovers());
     return static_cast<int>(run(options));
   } catch (const ConfigError& error) {
     for (const auto& problem : error.problems()) std::fprintf(stderr, "panvo run: %s\n", problem.c_str());

@@ -39,6 +39,7 @@ std::optional<int> RunOptions::parse(int argc, char** argv, RunOptions& options)
                      "play this data set: EuRoC/ASL, KITTI odometry, or left/right folders with a calibration");
   app.add_option("--bag", options.bag, "play this bag: a rosbag2 folder, or one .db3 or .mcap file")->excludes(dataset);
   app.add_option("--out", options.out, "leave trajectories, timing.json, summary.json and run.log in this folder");
+  app.add_flag("--overwrite", options.overwrite, "let --out replace files in a folder that no run left there");
   auto* replay = app.add_flag("--replay", options.replay,
                               "deterministic: one thread, messages in order of stamp, as fast as it goes");
   app.add_option("--rate", options.rate, "live: 1 as recorded, 2 twice as fast, 0 as fast as the components take it")
@@ -70,7 +71,9 @@ std::optional<int> RunOptions::parse(int argc, char** argv, RunOptions& options)
   auto* secure = app.add_option("--secure", keystore,
                                 "speak and listen only to who has keys of this keystore (panvo secure makes one)")
                      ->check(CLI::ExistingDirectory);
-  app.add_option("--enclave", enclave, "whose keys of the keystore to use")->needs(secure);
+  app.add_option("--enclave", enclave,
+                 "whose keys of the keystore to use; else each container its own (panvo secure --system), or /panvo")
+      ->needs(secure);
   app.add_option("--await", options.awaited,
                  "TOPIC or TOPIC:COUNT: begin once that many other processes (1) read or write this topic of ours; may "
                  "be repeated. "
@@ -78,11 +81,15 @@ std::optional<int> RunOptions::parse(int argc, char** argv, RunOptions& options)
       ->expected(1)
       ->take_all()
       ->excludes(replay);
+  app.add_flag("--describe", options.describe, "print the topics and nodes of each container, and run nothing")
+      ->excludes(replay);
   app.add_option("--link-in", options.link_in)->group("");
   app.add_option("--link-out", options.link_out)->group("");
+  app.add_flag("--again", options.again)->group("");
   app.footer(
       "ROS_DOMAIN_ID, ROS_DISTRO, ROS_LOCALHOST_ONLY and ROS_DISCOVERY_SERVER are honoured. Exit status: 0 well, 1 the "
-      "run failed, 2 the configuration or command line is wrong.");
+      "run failed, 2 the configuration or command line is wrong, 130 or 143 it was interrupted (Ctrl-C, SIGTERM) "
+      "before all was played.");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

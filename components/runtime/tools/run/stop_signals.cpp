@@ -29,7 +29,7 @@ void end_at_once(const char* why, int signal) {
 
 }  // namespace
 
-StopSignals::StopSignals(std::function<void()> request_stop) {
+StopSignals::StopSignals(std::function<void(int)> request_stop) {
   std::signal(SIGPIPE, SIG_IGN);  // a reader that left is an error where one writes, not the end of the process
   const sigset_t signals = stop_signals();
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
@@ -37,7 +37,7 @@ StopSignals::StopSignals(std::function<void()> request_stop) {
     int signal = 0;
     sigwait(&signals, &signal);
     if (signal == kEndOfRun) return;
-    request_stop();
+    request_stop(signal);
     const timespec limit{kLimit_s, 0};
     const int second = sigtimedwait(&signals, nullptr, &limit);
     if (second == kEndOfRun) return;

@@ -12,7 +12,7 @@ class StopSignals {
  public:
   static constexpr int kLimit_s = 20;
 
-  explicit StopSignals(std::function<void()> request_stop);
+  explicit StopSignals(std::function<void(int signal)> request_stop);
   ~StopSignals();
 
  private:

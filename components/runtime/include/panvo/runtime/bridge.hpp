@@ -40,6 +40,8 @@ class BridgeWriter {
 struct BridgeReaderCounters {
   std::uint64_t received = 0, lost = 0, undecodable = 0;
   std::uint64_t overwritten = 0;  ///< in shared memory, by their writer, while they were read: dropped
+  std::uint64_t too_large = 0;    ///< than Limits::max_message_bytes: dropped before they were copied
+  std::uint64_t too_fast = 0;     ///< beyond Limits::max_topic_rate_hz: dropped
 };
 
 /// A topic of other processes as this process reads it. Its callback is not running any more when the destructor has returned.
@@ -64,7 +66,11 @@ class Bridge {
 
   /// Offers a service. The handler runs on a thread that all services of the bridge share, so that a slow one holds no more than the others;
   /// of requests that come faster than they are answered some are dropped and counted.
-  virtual std::unique_ptr<BridgeService> serve(const ServiceDescription& service, ServiceHandler handler) = 0;
+  virtual std::unique_ptr<BridgeService> serve(const ServiceDescription& service, ServiceHandler handler,
+                                               ServiceGuard guard) = 0;
+  std::unique_ptr<BridgeService> serve(const ServiceDescription& service, ServiceHandler handler) {
+    return serve(service, std::move(handler), nullptr);
+  }
   virtual std::unique_ptr<BridgeClient> open_client(const ServiceDescription& service) = 0;
 
   /// The nodes of this process from now on, with what they have, as ROS 2 tools list them. Endpoints that come later are added by themselves.
@@ -76,15 +82,24 @@ class Bridge {
   virtual void on_warning(std::function<void(const std::string&)> callback) = 0;
 };
 
+/// What a process takes from others, whoever they are.
+struct Limits {
+  std::size_t max_message_bytes = 64'000'000;  ///< serialised: an uncompressed colour image of 21 megapixels
+  double max_topic_rate_hz = 1000.0;           ///< of one topic, over a second or so: the rate of the fastest IMUs
+};
+
 struct DdsSettings {
   int domain = 0;
   std::string profiles;              ///< XML profile file, empty: our defaults
   std::string name = "panvo";        ///< participant name seen by other tools
   std::string ros_distro = "jazzy";  ///< whose nodes are to see ours: "humble" wrote ros_discovery_info in another way
   bool localhost_only = false;       ///< nothing leaves this machine
-  /// Images of up to so many bytes of pixels pass to processes of this machine that have set it too without being sent: they are written once, in
-  /// memory that both share. 0: none do.
+  /// Images of up to so many bytes of pixels pass to processes of this machine that share them too without being sent: they are written once, in
+  /// memory that is made for the size that comes. 0: none do.
   std::uint32_t shared_image_bytes = 0;
+  Limits limits{};
+  double requests_per_s = 1000;               ///< of one service, that are answered; more are dropped and counted
+  std::uint32_t largest_request = 1'000'000;  ///< bytes; larger ones are dropped and counted
 };
 
 /// As ROS 2's environment variables say: ROS_DOMAIN_ID, ROS_DISTRO, ROS_LOCALHOST_ONLY, ROS_AUTOMATIC_DISCOVERY_RANGE. ROS_DISCOVERY_SERVER is

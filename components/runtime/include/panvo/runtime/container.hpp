@@ -23,10 +23,16 @@ struct ContainerOptions {
       0;  ///< of sources, live: 1 as recorded, 2 twice as fast; 0: as fast as the components here take it, none dropped
   std::uint64_t seed = 1;            ///< of all random numbers
   std::optional<DdsSettings> dds{};  ///< absent: the container keeps to itself
+  Limits limits{};                   ///< of what sources and other processes send
   Logger::Write log{};               ///< absent: stderr
+  /// What time passes by where nothing is played, ns; absent: live the monotonic clock, in replay the stamps of what is handled.
+  std::function<std::int64_t()> clock{};
+  bool again = false;  ///< this process takes the place of one that crashed
   /// Its own node's name and namespace as ROS 2 sees it; no component may have the same.
   std::string name = "container";
   std::string name_space = "/";
+  ServiceAccess services = ServiceAccess::kByHost;
+  std::filesystem::path files_below{};  ///< where requests by service may name files; empty: nowhere
 };
 
 /// One process's components, and what runs them. With a bridge, other processes see each component as a ROS 2 node, with services for its parameters
@@ -63,6 +69,9 @@ class Container {
   /// Replay: handles what is queued, and what comes of it, until all is quiet.
   void run_until_quiet();
 
+  /// Whether run() was asked to stop while something was still to be played.
+  bool was_interrupted() const;
+
   /// From any thread or a signal-handling one; run() then returns soon.
   void request_stop() noexcept;
 
@@ -74,6 +83,7 @@ class Container {
   struct Links {
     std::vector<std::string> published, subscribed;
     bool has_source = false;
+    bool reads_all = false;  ///< a recorder does: topics that it does not know yet
   };
   Links links() const;
   /// How many readers and writers in other processes a topic is to have.

@@ -2,10 +2,13 @@
 #pragma once
 
 #include <any>
+#include <chrono>
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <type_traits>
 #include <utility>
 
@@ -82,6 +85,14 @@ class Context {
     }));
   }
 
+  /// `callback()` finishes what the component made, when the run is over and none of its other callbacks runs any more. What it throws is a
+  /// problem of the run, and in its exit status. A component that is unloaded before the run ends has its destructor only.
+  void on_end(std::function<void()> callback);
+
+  /// `callback()` every `period`, on the thread of the component's messages and between two of them: live whatever arrives, by the monotonic clock,
+  /// and once for all that was missed; in replay when the time of what is played passes it.
+  void every(std::chrono::nanoseconds period, std::function<void()> callback);
+
   /// Nobody waits for what this component does: live, its threads give way to those of others where cores are short (10 nicer).
   void give_way();
 
@@ -98,6 +109,18 @@ class Context {
 
   /// Whether another component of this container publishes the topic (name as recorded: "/odometry/binocular").
   bool is_published(const std::string& resolved_name) const;
+  /// Whether anybody publishes the topic by now, here or in another process.
+  template <class Message>
+  bool has_publisher(const interfaces::Topic<Message>& topic) const {
+    return has_publisher(describe(topic));
+  }
+
+  /// The name a topic of this component goes by, after namespace and remaps ("/robot/odometry/binocular"): what messages to people name.
+  template <class Message>
+  std::string resolved_name(const interfaces::Topic<Message>& topic) const {
+    return resolved_name(topic.name);
+  }
+  std::string resolved_name(std::string_view topic) const;
 
   const Logger& log() const noexcept;
   StageTimes& times() noexcept;
@@ -105,8 +128,19 @@ class Context {
   /// Where the component tells of messages that it cannot use.
   Rejections& rejections() noexcept;
 
+  /// Whether the component was there before and crashed, by itself or with its process: what it knew is gone, and the world went on.
+  bool is_again() const noexcept;
+
+  /// To be called before a file is read that an earlier run left. One that has made this component or its process fail three times in a row is set
+  /// aside first, under another name, and the component finds no file. Nothing is done in replay.
+  void about_to_read(const std::filesystem::path& file);
+
   /// The stamp of what is being processed, ns: header stamp where the message has one. 0 before the first.
   std::int64_t now_ns() const noexcept;
+
+  /// A time that only goes on, ns, to tell how long something has been silent: of the monotonic clock, or of what is played. Means nothing by
+  /// itself.
+  std::int64_t passing_ns() const;
 
   /// A seed for this component's random numbers: from the system's seed and the component's name.
   std::uint64_t seed() const noexcept;
@@ -125,6 +159,7 @@ class Context {
     return {std::string(topic.name), std::string(type.name), topic.qos, &type};
   }
 
+  bool has_publisher(const TopicDescription& topic) const;
   ParameterReader& parameter_reader();
   void take_parameters(std::function<std::function<void()>(ParameterReader&)> take);
   void open_input(const TopicDescription& topic, std::function<void(const SamplePtr&)> callback);

@@ -18,6 +18,12 @@ std::optional<std::string> topic_name_problem(std::string_view name);
 /// The same for a node's name: one word.
 std::optional<std::string> node_name_problem(std::string_view name);
 
+/// The same for a package: small letters, digits and underscores, a letter first. It becomes part of a file's name.
+std::optional<std::string> package_name_problem(std::string_view name);
+
+/// The same for a component's class, with or without its namespaces: "panvo::StereoRectifierComponent".
+std::optional<std::string> class_name_problem(std::string_view name);
+
 /// The same for a namespace: "", "/", "robot" or "/fleet/robot".
 std::optional<std::string> name_space_problem(std::string_view name_space);
 

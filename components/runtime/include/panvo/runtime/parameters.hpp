@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <initializer_list>
 #include <map>
 #include <optional>
@@ -37,6 +38,7 @@ struct ParameterDescription {
   std::vector<std::string> choices;
   WrittenValue written;   ///< the value in force as it could have been written, a list's items apart
   bool settable = false;  ///< while the component runs, see Context::on_parameters
+  bool is_path = false;   ///< names a file or folder
 };
 
 /// Parses one written value as the declared type, all of it and whatever the locale. On failure leaves `out`
@@ -63,7 +65,11 @@ std::string to_text(const std::vector<std::string>& value);
 ///   field(&P::member, "name", "unit", "description", min, max)   for numbers,
 ///   field(&P::member, "name", "unit", "description")             for bool, text and lists,
 ///   field(&P::member, "name", "unit", "description", {"a","b"})  for a choice,
+///   field.path(&P::member, "name", "description")                for text that names a file or folder,
 ///   field.group(&P::member, "name")                              for a nested struct.
+///
+/// Which fields contradict each other it may say in `template <class Conflict> void find_conflicts(Conflict&& conflict) const`, by calls of
+///   conflict("first", "must be less than", "second").
 class ParameterReader {
  public:
   /// `owner` names the component in messages ("binocular_odometry").
@@ -74,8 +80,12 @@ class ParameterReader {
   Parameters read() {
     Parameters parameters{};
     Parameters::describe(Field<Parameters>{*this, parameters, ""});
+    add_conflicts(parameters, "");
     return parameters;
   }
+
+  /// From now on, what is written may name files and folders below this one only; empty: none. For what comes from other processes.
+  void confine_paths(std::filesystem::path folder) { paths_below_ = std::move(folder); }
 
   /// In order of declaration, each name once.
   const std::vector<ParameterDescription>& declared() const noexcept { return declared_; }
@@ -109,11 +119,24 @@ class ParameterReader {
                     std::initializer_list<const char*> choices) {
       reader.read_choice(prefix + name, unit, description, choices, parameters.*member);
     }
+    void path(std::string Parameters::*member, const char* name, const char* description) {
+      reader.read_path(prefix + name, description, parameters.*member);
+    }
     template <class Nested>
     void group(Nested Parameters::*member, const char* name) {
       Nested::describe(Field<Nested>{reader, parameters.*member, prefix + name + "."});
+      reader.add_conflicts(parameters.*member, prefix + name + ".");
     }
   };
+
+  template <class Parameters>
+  void add_conflicts(const Parameters& parameters, const std::string& prefix) {
+    const auto add = [&](const char* first, const char* rule, const char* second) {
+      add_conflict(prefix + first, rule, prefix + second);
+    };
+    if constexpr (requires { parameters.find_conflicts(add); }) parameters.find_conflicts(add);
+  }
+  void add_conflict(const std::string& first, const char* rule, const std::string& second);
 
   void read_number(const std::string& name, const char* unit, const char* description, double min, double max,
                    std::int64_t& value);
@@ -126,6 +149,8 @@ class ParameterReader {
   void read_choice(const std::string& name, const char* unit, const char* description,
                    std::initializer_list<const char*> choices, std::string& value);
 
+  void read_path(const std::string& name, const char* description, std::string& value);
+
   /// Overrides `value` with what was written, if it is right, and remembers the declaration.
   template <class Value>
   void declare(ParameterDescription description, Value& value);
@@ -134,6 +159,7 @@ class ParameterReader {
   WrittenValues written_;
   std::vector<ParameterDescription> declared_;
   Problems problems_;
+  std::optional<std::filesystem::path> paths_below_;
 };
 
 }  // namespace panvo::runtime

@@ -6,21 +6,26 @@
 #include <mutex>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace panvo::runtime {
 
-/// The messages that a component was given and could not use, topic by topic: diagnostics tell of them. Safe to use from several threads.
+/// The messages that could not be used, by topic, sender and reason: diagnostics list them. Safe to use from several threads.
 class Rejections {
  public:
+  static constexpr std::int64_t kLogPeriod_ns = 10'000'000'000;
+  /// Of one topic; what is more is counted as one, so that nobody fills memory by sending ever new nonsense.
+  static constexpr std::size_t kMostCauses = 64;
+
+  using Cause = std::pair<std::string, std::string>;  ///< sender ("" where it is not known) and reason
   struct Count {
     std::uint64_t messages = 0;
     std::string last_reason;
+    std::map<Cause, std::uint64_t> causes;
   };
 
-  /// Returns whether the reason is another than the last one of this topic: worth a line in the log. A topic that was accepted meanwhile counts as
-  /// one without a last reason.
-  bool add(std::string_view topic, std::string_view reason);
-  void accepted(std::string_view topic);
+  /// Returns whether it is worth a line in the log: at most one in 10 s for each topic and reason.
+  bool add(std::string_view topic, std::string_view reason, std::string_view sender = {});
 
   /// In order of the topics' names; those that had a message rejected.
   std::map<std::string, Count, std::less<>> snapshot() const;
@@ -28,7 +33,7 @@ class Rejections {
  private:
   struct Topic {
     Count count;
-    bool is_rejected = false;  // the newest message was
+    std::map<std::string, std::int64_t, std::less<>> told_ns;  // by reason, when it was last worth a line
   };
   mutable std::mutex mutex_;
   std::map<std::string, Topic, std::less<>> topics_;

@@ -25,6 +25,7 @@ struct QueueCounters {
 /// What summary.json says of a run.
 struct RunSummary {
   std::uint64_t frames_in = 0, frames_out = 0;
+  std::uint64_t frames_unreliable = 0;  ///< of those out: without a motion that was measured
   std::vector<QueueCounters> queues;
   double cpu_s = 0.0, wall_s = 0.0, peak_memory_mb = 0.0;
   std::string version;
@@ -33,6 +34,7 @@ struct RunSummary {
   std::string system_file;
   std::map<std::string, std::map<std::string, std::string>> changed_parameters;  ///< component, parameter, value
   std::vector<std::string> problems;
+  bool interrupted = false;  ///< asked to stop while something was still to be played
   int exit_status = 0;
 };
 
@@ -65,15 +67,22 @@ class RunFiles {
   /// robots): the first has the plain file name, the others have their namespace before it.
   void write(const TopicDescription& topic, const SamplePtr& sample);
 
+  /// Whether a message was written.
+  bool has_lines() const;
+
   void finish(const RunSummary& summary, const ComponentTimes& times_by_component);
 
  private:
   struct TopicFile;
 
   std::filesystem::path folder_;
-  std::mutex mutex_;
+  mutable std::mutex mutex_;
   std::map<std::string, std::vector<std::unique_ptr<TopicFile>>> files_by_topic_;
 };
+
+/// Makes the folder for the results of a run, and marks it as one, so that the next run may replace what is in it. Throws ConfigError if it
+/// holds anything and no run left it there, unless `overwrite`: then files of the names that a run writes are replaced, the others stay.
+void claim_run_folder(const std::filesystem::path& folder, bool overwrite);
 
 /// Makes one run of what several containers left in `subfolders` of `folder` (names): joins the components of
 /// timing.json; in summary.json adds up frames, CPU time, memory and lists, takes the longest wall time and

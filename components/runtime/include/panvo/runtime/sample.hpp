@@ -22,15 +22,24 @@ class Sample {
   using Bytes = interfaces::Bytes;
   using MessageType = interfaces::MessageType;
 
+  /// Who published a message: the component of this process, or the gid of another one's writer.
+  using Sender = std::shared_ptr<const std::string>;
+
   /// A message published in this process. `keep_alive` is held until the message is gone: the plugin whose code made the message.
   static SamplePtr of(const MessageType& type, std::shared_ptr<const void> message, std::int64_t time_ns,
-                      std::shared_ptr<const void> keep_alive = nullptr);
+                      std::shared_ptr<const void> keep_alive = nullptr, Sender sender = nullptr);
 
   /// A message that came as bytes. `type` is nullptr for a type this process does not know; it can still be recorded and forwarded.
-  static SamplePtr from_bytes(const MessageType* type, std::string type_name, Bytes bytes, std::int64_t time_ns);
+  static SamplePtr from_bytes(const MessageType* type, std::string type_name, Bytes bytes, std::int64_t time_ns,
+                              Sender sender = nullptr);
 
   const MessageType* type() const noexcept { return type_; }
   const std::string& type_name() const noexcept { return type_name_; }  ///< "nav_msgs/msg/Odometry"
+
+  /// Empty: not known.
+  const std::string& sender() const noexcept;
+  /// Of the bytes as which it came; 0: it came as a message.
+  std::size_t received_size() const noexcept { return received_size_; }
 
   /// When it was published or received, ns: system clock live, time of the replay in replay.
   std::int64_t time_ns() const noexcept { return time_ns_; }
@@ -61,6 +70,8 @@ class Sample {
   const MessageType* type_ = nullptr;
   std::string type_name_;
   std::int64_t time_ns_ = 0;
+  Sender sender_;
+  std::size_t received_size_ = 0;
   mutable std::mutex mutex_;  // guards the making of the missing form
   mutable std::shared_ptr<const void> message_;
   mutable Bytes bytes_;

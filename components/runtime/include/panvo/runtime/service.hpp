@@ -20,10 +20,20 @@ struct ServiceDescription {
 /// Answers one request; both are serialised messages. Throws interfaces::DecodeError for bytes that are no request: they get no answer.
 using ServiceHandler = std::function<interfaces::Bytes(const interfaces::Bytes& request)>;
 
+/// Who asks, as far as the transport tells.
+struct Caller {
+  bool is_on_this_host = false;
+};
+
+/// Is asked before the handler. What it returns is sent instead of the handler's answer: a refusal that says so. An empty one lets all pass.
+using ServiceGuard =
+    std::function<std::optional<interfaces::Bytes>(const interfaces::Bytes& request, const Caller& caller)>;
+
 struct ServiceCounters {
   std::uint64_t received = 0, answered = 0;
   std::uint64_t malformed = 0;   ///< were no request of the type
-  std::uint64_t dropped = 0;     ///< came while too many waited
+  std::uint64_t dropped = 0;     ///< came while too many waited, or faster than allowed, or were too large
+  std::uint64_t refused = 0;     ///< were answered by the guard
   std::uint64_t unanswered = 0;  ///< the handler failed, or who asked was gone
 };
 

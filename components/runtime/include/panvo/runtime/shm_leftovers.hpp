@@ -11,10 +11,9 @@ struct ShmLeftovers {
   std::uintmax_t bytes = 0;
 };
 
-/// Removes the shared memory that killed processes have left behind: Fast DDS 2.9 does not, and each process that publishes leaves 33 MB of
-/// memory, and more for the images that it shares. A segment goes when nobody holds the lock beside it (`fastrtps_ID_el`, Fast DDS's, or
-/// `fast_datasharing_ID_el`, ours; held by its owner for life) and it is some seconds old, so that one that is just being made is let be. What
-/// cannot be removed (another user's) stays, without complaint.
+/// Removes the shared memory for images that killed processes have left behind, which Fast DDS 2.9 does not. A segment goes when nobody holds the
+/// lock beside it (`fast_datasharing_ID_el`, held by its owner for life) and it is some seconds old, so that one that is just being made is let be.
+/// What cannot be removed (another user's) stays, without complaint.
 ShmLeftovers remove_shm_leftovers(const std::filesystem::path& folder = "/dev/shm");
 
 }  // namespace panvo::runtime

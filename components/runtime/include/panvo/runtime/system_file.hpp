@@ -9,6 +9,7 @@
 
 #include "panvo/runtime/errors.hpp"
 #include "panvo/runtime/parameters.hpp"
+#include "panvo/runtime/policies.hpp"
 
 namespace panvo::runtime {
 
@@ -20,6 +21,7 @@ struct ComponentDescription {
   std::string name_space;  ///< absolute, root "/"
   WrittenValues parameters;
   std::map<std::string, std::string> remaps;  ///< from, to, as written; see resolve_topic
+  OnError on_error = OnError::kIgnore;        ///< a system file that does not say means kRestart
   Location where;
 };
 
@@ -31,6 +33,12 @@ struct ContainerDescription {
   bool respawn = false;                   ///< to be started again when it crashes or fails
   std::optional<double> respawn_delay_s;  ///< how long after
   double shared_images_mb = 0;            ///< size of the largest images that are shared in memory, MB; 0: none are
+  double max_message_mb = 64;             ///< larger messages of others are refused and counted, MB
+  double max_topic_rate_hz = 1000;        ///< of one topic; what others send beyond is refused and counted
+  bool required = true;                   ///< when it is lost for good, the other processes of the system end too
+  ServiceAccess services = ServiceAccess::kByHost;
+  std::string files_below;               ///< folder below which requests by service may name files; empty: nowhere
+  std::optional<double> requests_per_s;  ///< of one service, that are answered
   Location where;
 };
 
@@ -48,7 +56,13 @@ struct SystemDescription {
 ///     - node_container:
 ///         name: stereo
 ///         respawn: true            # when it crashes, after respawn_delay: 1 s
-///         shared_images_mb: 2      # images of up to 2 MB pass to other containers that say so in memory that both share
+///         required: false          # the other processes go on when this one is lost; default: true
+///         services: look           # or steer, off; default: who is on this host may steer, others look
+///         files_below: /srv/panvo  # where requests by service may name files; default: nowhere
+///         on_error: restart        # or stop (the container), ignore; of a component that throws. Also in a composable_node
+///         shared_images_mb: 2      # images of up to 2 MB (64) pass to other containers of this machine in memory that both share
+///         max_message_mb: 64       # larger messages of other processes are refused; the default
+///         max_topic_rate_hz: 1000  # and what comes faster on one topic; the default
 ///         composable_node:
 ///         - pkg: panvo_binocular_odometry
 ///           plugin: BinocularOdometryComponent

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+#include "clocks.hpp"
+#include "context_state.hpp"
+
+namespace panvo::runtime {
+namespace {
+
+/// An external pose is stamped by whoever clicked; matches and corrections bear the stamp of the panorama that showed the place best, which may
+/// lie seconds before the last one that was reported.
+bool is_about_the_past(std::string_view type_name) {
+  constexpr std::array<std::string_view, 3> kTypes{"geometry_msgs/msg/PoseWithCovarianceStamped",
+                                                   "panvo_msgs/msg/LandmarkMatch", "panvo_msgs/msg/PositionCorrection"};
+  return std::ranges::find(kTypes, type_name) != kTypes.end();
+}
+
+/// Nothing for messages that are not of the moment at which they are sent: without a stamp, latched, or about the past.
+std::optional<std::int64_t> stamp_to_check(const TopicDescription& topic, const Sample& sample) {
+  if (!sample.type() || topic.qos.durability == interfaces::Durability::kTransientLocal) return std::nullopt;
+  if (is_about_the_past(topic.type_name)) return std::nullopt;
+  const void* const message = sample.message();
+  const auto stamp_ns = message ? sample.type()->stamp_ns(message) : std::nullopt;
+  return stamp_ns == 0 ? std::nullopt : stamp_ns;
+}
+
+}  // namespace
+
+bool Context::State::admits_stamp(const TopicDescription& topic, const Sample& sample) {
+  const auto arrival_ns = host.time.arrival_ns();
+  const auto stamp_ns = arrival_ns ? stamp_to_check(topic, sample) : std::nullopt;
+  if (!stamp_ns) return true;
+  const bool is_of_now = host.time.pace() == PassingTime::Pace::kClock;
+  const auto verdict = stamp_guard.check(topic.name, *stamp_ns, *arrival_ns,
+                                         is_of_now ? std::optional(clocks::system_ns()) : std::nullopt);
+  const double off_s = 1e-9 * static_cast<double>(verdict.off_ns);
+  switch (verdict.outcome) {
+    case StampGuard::Outcome::kAccepted:
+      return true;
+    case StampGuard::Outcome::kClockStep:
+      logger.warn("{}: its sender's clock was set by {:+.3f} s; what comes is taken from now on", topic.name, off_s);
+      return true;
+    case StampGuard::Outcome::kRejected:
+      rejections.add(topic.name, verdict.reason);
+      if (verdict.is_to_report) {
+        logger.warn("{}: left out a message with {}, by {:+.3f} s ({} so far): set the clock of its sender", topic.name,
+                    verdict.reason, off_s, verdict.rejected);
+      }
+      return false;
+  }
+  return true;
+}
+
+}  // namespace panvo::runtime

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "panvo/runtime/names.hpp"
+#include "panvo/runtime/system_file.hpp"
+
+namespace panvo::runtime {
+
+/// A system file may call a container like one of its components; two nodes cannot be.
+inline std::string node_name(const ContainerDescription& container) {
+  for (const auto& component : container.components) {
+    if (full_name(component.name_space, component.name) == full_name(container.name_space, container.name))
+      return container.name + "_container";
+  }
+  return container.name;
+}
+
+}  // namespace panvo::runtime
