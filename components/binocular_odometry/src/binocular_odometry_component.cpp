@@ -10,7 +10,6 @@
 #include "panvo/conversions/static_transforms.hpp"
 #include "panvo/conversions/time.hpp"
 #include "panvo/runtime/component.hpp"
-#include "panvo/runtime/new_warnings.hpp"
 
 namespace panvo::binocular_odometry {
 
@@ -43,9 +42,9 @@ class BinocularOdometryComponent final : public runtime::Component {
         tracked_(context.stage<TrackedFrame>("motion", 2, [this](const TrackedFrame& frame) { on_tracked(frame); })) {
     context.input(topics::kTfStatic, [this](const auto& message) { on_transforms(*message); });
     context.input(topics::kStereoLeftCameraInfo,
-                  [this](const auto& info) { on_camera(left_, *info, topics::kStereoLeftCameraInfo.name); });
+                  [this](const auto& info) { on_camera(left_, *info, topics::kStereoLeftCameraInfo); });
     context.input(topics::kStereoRightCameraInfo,
-                  [this](const auto& info) { on_camera(right_, *info, topics::kStereoRightCameraInfo.name); });
+                  [this](const auto& info) { on_camera(right_, *info, topics::kStereoRightCameraInfo); });
     context.input_pair(topics::kStereoLeftImageRect, topics::kStereoRightImageRect,
                        [this](const auto& left, const auto& right) { on_images(*left, *right); });
   }
@@ -66,15 +65,19 @@ class BinocularOdometryComponent final : public runtime::Component {
   };
 
   void on_transforms(const tf2_msgs::msg::TFMessage& message) {
-    for (const auto& problem : transforms_.add(message)) context_.log().warn("{}: {}", topics::kTfStatic.name, problem);
+    for (const auto& problem : transforms_.add(message)) {
+      context_.log().warn_throttled(problem, "{}: {}", context_.resolved_name(topics::kTfStatic), problem);
+    }
   }
 
-  void on_camera(Camera& camera, const sensor_msgs::msg::CameraInfo& info, std::string_view topic) {
+  void on_camera(Camera& camera, const sensor_msgs::msg::CameraInfo& info,
+                 const interfaces::Topic<sensor_msgs::msg::CameraInfo>& topic) {
     const auto read = conversions::to_camera(info);
-    if (!read) return warnings_.say(fmt::format("{} {}", topic, read.reason()));
+    if (!read) return context_.log().warn_throttled(topic.name, "{} {}", context_.resolved_name(topic), read.reason());
     if (stages_ && !(*camera.camera == *read)) {
-      return warnings_.say(
-          fmt::format("{} changed while running and is ignored; restart if the camera was exchanged", topic));
+      return context_.log().warn_throttled(
+          topic.name, "{} changed while running and is ignored; restart if the camera was exchanged",
+          context_.resolved_name(topic));
     }
     camera = {info.header().frame_id(), *read};
   }
@@ -85,8 +88,8 @@ class BinocularOdometryComponent final : public runtime::Component {
     const auto right_grey = conversions::grey(right);
     if (!left_grey || !right_grey) {
       const auto& topic = left_grey ? topics::kStereoRightImageRect : topics::kStereoLeftImageRect;
-      return warnings_.say(
-          fmt::format("{} {}; the pair is left out", topic.name, left_grey ? right_grey.reason() : left_grey.reason()));
+      return context_.log().warn_throttled(topic.name, "{} {}; the pair is left out", context_.resolved_name(topic),
+                                           left_grey ? right_grey.reason() : left_grey.reason());
     }
     tracked_.push(stages_->tracking.track({conversions::stamp_ns(left), *left_grey, *right_grey}));
   }
@@ -98,9 +101,9 @@ class BinocularOdometryComponent final : public runtime::Component {
     if (estimate.quality.reliable != was_reliable_) {
       was_reliable_ = estimate.quality.reliable;
       if (was_reliable_) {
-        context_.log().info("reliable again");
+        context_.log().info_throttled("reliable", "reliable again");
       } else {
-        context_.log().warn("unreliable: {}", estimate.quality.reason);
+        context_.log().warn_throttled("unreliable", "unreliable: {}", estimate.quality.reason);
       }
     }
     // A pair that comes late has its quality, but no place in a path that has gone on.
@@ -114,20 +117,23 @@ class BinocularOdometryComponent final : public runtime::Component {
   /// Makes both stages once both cameras and the place of the left one are known; says what is still missing.
   bool make_stages() {
     if (!left_.camera || !right_.camera) {
-      warnings_.say(fmt::format("images, but nothing usable on {} yet",
-                                (left_.camera ? topics::kStereoRightCameraInfo : topics::kStereoLeftCameraInfo).name));
+      const auto& missing = left_.camera ? topics::kStereoRightCameraInfo : topics::kStereoLeftCameraInfo;
+      context_.log().warn_throttled("no calibration", "images, but nothing usable on {} yet",
+                                    context_.resolved_name(missing));
       return false;
     }
     const auto stereo = conversions::to_stereo(*left_.camera, *right_.camera);
     if (!stereo) {
-      warnings_.say(fmt::format("{} and {} are of no stereo pair: {}", topics::kStereoLeftCameraInfo.name,
-                                topics::kStereoRightCameraInfo.name, stereo.reason()));
+      context_.log().warn_throttled("no stereo pair", "{} and {} are of no stereo pair: {}",
+                                    context_.resolved_name(topics::kStereoLeftCameraInfo),
+                                    context_.resolved_name(topics::kStereoRightCameraInfo), stereo.reason());
       return false;
     }
     const auto base_from_raw_left = transforms_.lookup(parameters_.base_frame, left_.frame_id);
     if (!base_from_raw_left) {
-      warnings_.say(fmt::format("{} has no chain from {} to {} yet: publish where the left camera sits on the vehicle",
-                                topics::kTfStatic.name, parameters_.base_frame, left_.frame_id));
+      context_.log().warn_throttled(
+          "no mounting", "{} has no chain from {} to {} yet: publish where the left camera sits on the vehicle",
+          context_.resolved_name(topics::kTfStatic), parameters_.base_frame, left_.frame_id);
       return false;
     }
     const Eigen::Isometry3d raw_from_rectified(left_.camera->rectified_from_raw.transpose());
@@ -149,7 +155,6 @@ class BinocularOdometryComponent final : public runtime::Component {
   }
 
   runtime::Context& context_;
-  runtime::NewWarnings warnings_{context_.log()};
   const ComponentParameters parameters_;
   conversions::StageTimer timer_;
   runtime::Output<nav_msgs::msg::Odometry> odometry_;

@@ -26,17 +26,11 @@ class MotionModel {
   }
 
   /// Motion over the next duration_ns (> 0).
-  Eigen::Isometry3d predict(std::int64_t duration_ns) const {
-    return vision::se3_exp(velocity_ * seconds(std::min(duration_ns, farthest_ns_)));
-  }
+  Eigen::Isometry3d predict(std::int64_t duration_ns) const { return vision::se3_exp(twist(duration_ns)); }
 
-  /// Covariance of such a prediction under white accelerations (standard deviations, m/s^2 and rad/s^2).
-  static vision::Matrix6d covariance(std::int64_t duration_ns, double acceleration, double angular_acceleration) {
-    const double t2 = seconds(duration_ns) * seconds(duration_ns);
-    vision::Vector6d sigma;
-    sigma << Eigen::Vector3d::Constant(0.5 * acceleration * t2),
-        Eigen::Vector3d::Constant(0.5 * angular_acceleration * t2);
-    return sigma.cwiseAbs2().asDiagonal();
+  /// The same as a constant twist, which may be more than half a turn.
+  vision::Vector6d twist(std::int64_t duration_ns) const {
+    return velocity_ * seconds(std::min(duration_ns, farthest_ns_));
   }
 
  private:

@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "dead_reckoning.hpp"
 #include "motion_model.hpp"
 #include "motion_ransac.hpp"
 #include "panvo/vision/pose.hpp"
@@ -38,7 +39,11 @@ class MotionStage::Implementation {
  public:
   Implementation(const vision::RectifiedStereo& stereo, const MotionParameters& parameters,
                  vision::StageObserver* observer)
-      : stereo_(stereo), parameters_(parameters), observer_(observer), adjuster_(stereo, parameters) {}
+      : stereo_(stereo),
+        parameters_(parameters),
+        observer_(observer),
+        adjuster_(stereo, parameters),
+        unseen_(parameters.acceleration, parameters.angular_acceleration) {}
 
   OdometryEstimate estimate(const TrackedFrame& frame) {
     OdometryEstimate result;
@@ -69,6 +74,7 @@ class MotionStage::Implementation {
     }
     published_odom_from_left_ = result.odom_from_left;
     published_covariance_ = result.odom_from_left_covariance;
+    was_reliable_ = result.quality.reliable;
     return result;
   }
 
@@ -163,7 +169,9 @@ class MotionStage::Implementation {
     keyframe_covariance_ = published_covariance_;
     head_ = {published_odom_from_left_.inverse(), frame.observations};
     adjuster_.add_keyframe(head_);
+    unseen_.begin(DeadReckoning::Velocity::kUnknown);
     remember(frame);
+    measured(result);
   }
 
   void follow(const TrackedFrame& frame, const MeasuredMotion& motion, std::int64_t since_good_ns,
@@ -181,6 +189,7 @@ class MotionStage::Implementation {
     result.previous_from_current = published_odom_from_left_.inverse() * result.odom_from_left;
     result.previous_from_current_covariance =
         previous_from_current_covariance(motion) + model_error(result.previous_from_current, 0.0);
+    if (!was_reliable_) result.previous_from_current_covariance += covariance_of_return(result.previous_from_current);
     if (since_keyframe) {
       const Eigen::Isometry3d keyframe_from_current = since_keyframe->current_from_previous.inverse();
       result.odom_from_left_covariance = vision::compose_covariance(
@@ -197,7 +206,18 @@ class MotionStage::Implementation {
       keyframe_covariance_ = result.odom_from_left_covariance;
     }
     motion_model_.update(head_.left_from_odom * reference_left_from_odom_.inverse(), since_good_ns);
+    unseen_.begin(DeadReckoning::Velocity::kMeasured);
     remember(frame);
+    measured(result);
+  }
+
+  // The last pose was carried on: the step from there to a measured one is as uncertain as it was.
+  Matrix6d covariance_of_return(const Eigen::Isometry3d& carried_from_measured) const {
+    const Matrix6d carried =
+        vision::rotate_covariance(unseen_.begin_from_current().linear().transpose(), unseen_.covariance());
+    Matrix6d of_step = Matrix6d::Identity();
+    of_step.topRightCorner<3, 3>() = -vision::skew(carried_from_measured.translation());
+    return of_step * carried * of_step.transpose();
   }
 
   // What the residuals cannot show, since it is the same in all of them: in proportion to the motion. Along the path it adds up
@@ -236,15 +256,18 @@ class MotionStage::Implementation {
     good_stamp_ns_ = frame.stamp_ns;
   }
 
+  void measured(const OdometryEstimate& result) {
+    measured_odom_from_left_ = result.odom_from_left;
+    measured_covariance_ = result.odom_from_left_covariance;
+  }
+
   void carry_on(const TrackedFrame& frame, std::int64_t since_last_ns, OdometryEstimate& result) {
-    const Eigen::Isometry3d current_from_previous = motion_model_.predict(since_last_ns);
-    result.previous_from_current = current_from_previous.inverse();
-    result.previous_from_current_covariance =
-        MotionModel::covariance(since_last_ns, parameters_.acceleration, parameters_.angular_acceleration);
+    result.previous_from_current = motion_model_.predict(since_last_ns).inverse();
+    result.previous_from_current_covariance = unseen_.step_covariance(since_last_ns);
+    unseen_.go_on(-motion_model_.twist(since_last_ns), since_last_ns);
     result.odom_from_left = published_odom_from_left_ * result.previous_from_current;
-    result.odom_from_left_covariance =
-        vision::compose_covariance(published_odom_from_left_, published_covariance_, result.previous_from_current,
-                                   result.previous_from_current_covariance);
+    result.odom_from_left_covariance = vision::compose_covariance(measured_odom_from_left_, measured_covariance_,
+                                                                  unseen_.begin_from_current(), unseen_.covariance());
     if (!frame.fault.empty()) return;
     // The frame shows something, but nothing that goes with the last good one: odometry starts again from here.
     head_ = {result.odom_from_left.inverse(), frame.observations};
@@ -259,6 +282,7 @@ class MotionStage::Implementation {
   vision::StageObserver* observer_;
   TwoStageLocalBundleAdjuster adjuster_;
   MotionModel motion_model_;
+  DeadReckoning unseen_;            // since the last measured pose
   double learned_offset_px_ = 0.0;  // of the disparities, by the tracking stage
 
   // The last good frame: what the next one is measured against.
@@ -272,6 +296,9 @@ class MotionStage::Implementation {
   std::int64_t last_stamp_ns_ = 0;
   Eigen::Isometry3d published_odom_from_left_ = Eigen::Isometry3d::Identity();
   Matrix6d published_covariance_ = Matrix6d::Zero();
+  Eigen::Isometry3d measured_odom_from_left_ = Eigen::Isometry3d::Identity();  // the last that was reliable
+  Matrix6d measured_covariance_ = Matrix6d::Zero();
+  bool was_reliable_ = true;
 };
 
 MotionStage::MotionStage(const vision::RectifiedStereo& stereo, const MotionParameters& parameters,

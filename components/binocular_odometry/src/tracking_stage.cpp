@@ -7,13 +7,14 @@
 #include <optional>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 
 #include "coarse_turn.hpp"
 #include "disparity_offset.hpp"
 #include "front_end.hpp"
 #include "motion_model.hpp"
 #include "motion_ransac.hpp"
-#include "panvo/vision/image_check.hpp"
+#include "pair_check.hpp"
 #include "panvo/vision/patch_template.hpp"
 #include "panvo/vision/stereo_geometry.hpp"
 #include "panvo/vision/stereo_matcher.hpp"
@@ -40,10 +41,6 @@ constexpr size_t kSwapSamples = 80;
 constexpr int kSwapMatches = 20;
 constexpr double kFewMatches = 0.4;  // of the features looked for in the right image: something is wrong
 
-std::string size_text(const cv::Mat& image) {
-  return std::to_string(image.cols) + " x " + std::to_string(image.rows) + " px";
-}
-
 vision::StereoMatcher::Range disparity_range(const vision::RectifiedStereo& stereo,
                                              const TrackingParameters& parameters) {
   return {kFarthestDisparity_px, stereo.camera.fx / parameters.nearest_depth_baselines};
@@ -60,6 +57,7 @@ class TrackingStage::Implementation {
       : stereo_(stereo),
         parameters_(parameters),
         observer_(observer),
+        check_(stereo.camera),
         matcher_(stereo.camera, disparity_range(stereo, parameters), parameters.smallest_correlation),
         swapped_matcher_(stereo.camera, mirrored(disparity_range(stereo, parameters)), parameters.smallest_correlation),
         alignment_(stereo.camera),
@@ -75,6 +73,8 @@ class TrackingStage::Implementation {
     if (!result.fault.empty()) return result;
     build_pyramids(frame);
     describe();
+
+    const DisparityOffset known_offset = offset_;
 
     // A part of the tracks goes ahead, looked for far and wide; the motion they agree on says where to find the others.
     std::vector<Track> tracks;
@@ -98,44 +98,39 @@ class TrackingStage::Implementation {
       tracks.clear();  // what agrees on no motion is no match: begin anew
     }
     result.tracked = static_cast<int>(tracks.size());
+    const int seen_by_both = with_disparity(tracks);
     guide_from_current_ = guide_from_previous_ * current_from_previous.inverse();
     thin_out(tracks);
     renew_hosts(tracks);
     detect(tracks);
     result.detected = static_cast<int>(tracks.size());
-    result.matched = static_cast<int>(
-        std::count_if(tracks.begin(), tracks.end(), [](const Track& track) { return track.seen.has_disparity; }));
+    result.matched = with_disparity(tracks);
     result.fault = check_for_swap(tracks);
-    if (!result.fault.empty()) return result;
+    if (result.fault.empty()) result.fault = find_disagreement(result.tracked, seen_by_both).value_or("");
+    if (!result.fault.empty()) {
+      offset_ = known_offset;
+      return result;
+    }
 
     align_eyes();
     result.row_misalignment_px = alignment_.misalignment().largest_row_shift_px(stereo_.camera);
     result.disparity_offset_px = offset_.px();
     for (const Track& track : tracks) result.observations.push_back(track.seen);
-    keep(frame.stamp_ns, std::move(tracks), current_from_previous);
+    keep(frame.stamp_ns, std::move(tracks), motion ? &current_from_previous : nullptr);
     return result;
   }
 
  private:
   std::string check(const StereoFrame& frame) {
     const Stage stage(observer_, "check");
-    std::ostringstream text;
-    const bool is_late = seen_any_ && frame.stamp_ns <= last_stamp_ns_;
-    if (is_late) {
-      text << "stamp " << frame.stamp_ns << " ns is not after the one before, " << last_stamp_ns_ << " ns";
-    }
+    const auto fault = check_.find_fault(frame);
     // A recording started over goes on from here: only the first frame of the new run is lost.
-    last_stamp_ns_ = frame.stamp_ns;
-    seen_any_ = true;
-    if (is_late) return text.str();
-    for (const auto& [name, image] : {std::pair{"left image", &frame.left}, {"right image", &frame.right}}) {
-      if (const auto fault = vision::find_fault(*image)) return name + (" " + *fault);
-      if (image->cols != stereo_.camera.width || image->rows != stereo_.camera.height) {
-        text << name << " is " << size_text(*image) << ", the calibration is for " << stereo_.camera.width << " x "
-             << stereo_.camera.height << " px";
-        return text.str();
-      }
+    const std::int64_t before_ns = std::exchange(last_stamp_ns_, frame.stamp_ns);
+    if (std::exchange(seen_any_, true) && frame.stamp_ns <= before_ns) {
+      return "stamp " + std::to_string(frame.stamp_ns) + " ns is not after the one before, " +
+             std::to_string(before_ns) + " ns";
     }
+    if (fault) return *fault;
     // Time since the last good frame; after a jump back in time, as between the two before it.
     if (frame.stamp_ns > good_stamp_ns_) interval_ns_ = frame.stamp_ns - good_stamp_ns_;
     expected_motion_ = has_tracks() ? motion_model_.predict(interval_ns_) : Eigen::Isometry3d::Identity();
@@ -347,8 +342,7 @@ class TrackingStage::Implementation {
   // Left and right exchanged: features match, but to the wrong side.
   std::string check_for_swap(const std::vector<Track>& tracks) const {
     const Stage stage(observer_, "check_for_swap");
-    const auto matched =
-        std::count_if(tracks.begin(), tracks.end(), [](const Track& t) { return t.seen.has_disparity; });
+    const int matched = with_disparity(tracks);
     const auto tried = static_cast<double>(attempts_) + static_cast<double>(tracks_.size());
     if (static_cast<double>(matched) > kFewMatches * tried) return {};
     int samples = 0, right_way = 0, wrong_way = 0;
@@ -364,8 +358,14 @@ class TrackingStage::Implementation {
     return text.str();
   }
 
-  void keep(std::int64_t stamp_ns, std::vector<Track> tracks, const Eigen::Isometry3d& current_from_previous) {
-    if (has_tracks()) motion_model_.update(current_from_previous, interval_ns_);
+  static int with_disparity(const std::vector<Track>& tracks) {
+    return static_cast<int>(
+        std::count_if(tracks.begin(), tracks.end(), [](const Track& track) { return track.seen.has_disparity; }));
+  }
+
+  // `current_from_previous` is null where no motion was measured: what was only expected is no new velocity.
+  void keep(std::int64_t stamp_ns, std::vector<Track> tracks, const Eigen::Isometry3d* current_from_previous) {
+    if (current_from_previous != nullptr) motion_model_.update(*current_from_previous, interval_ns_);
     guide_from_previous_ = guide_from_current_;
     next_id_ += attempts_ + 1;
     good_stamp_ns_ = stamp_ns;
@@ -376,6 +376,7 @@ class TrackingStage::Implementation {
   vision::RectifiedStereo stereo_;
   TrackingParameters parameters_;
   vision::StageObserver* observer_;
+  PairCheck check_;
   vision::StereoMatcher matcher_;
   vision::StereoMatcher swapped_matcher_;
   vision::EpipolarCalibration alignment_;

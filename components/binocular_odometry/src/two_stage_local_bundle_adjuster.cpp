@@ -12,6 +12,9 @@ namespace {
 
 constexpr double kContradiction2 = 25.0;  // whitened squared error, five standard deviations
 constexpr int kFewestShared = 10;         // points that tie the head to the window
+// Of the residuals, against what was said of them: a fortieth of a standard deviation, which is less than the grey levels resolve. Where all points
+// stand still their errors stay the same, and the residuals tell nothing of them.
+constexpr double kLeastVariance = 1.0 / (40.0 * 40.0);
 
 Eigen::Vector3d inverse_sigma(const Observation& seen) {
   return {1.0 / seen.sigma_px, 1.0 / seen.sigma_px, seen.has_disparity ? 1.0 / seen.sigma_disparity_px : 0.0};
@@ -57,7 +60,8 @@ MeasuredMotion TwoStageLocalBundleAdjuster::refine_motion(std::span<const Observ
   const BundleSummary summary = solve(stereo_, problem, options);
   MeasuredMotion motion;
   motion.current_from_previous = problem.left_from_world[1];
-  if (summary.covariance.rows() == 6) motion.covariance = summary.variance * summary.covariance;
+  if (summary.covariance.rows() == 6)
+    motion.covariance = std::max(kLeastVariance, summary.variance) * summary.covariance;
   motion.residual_px = root_mean_square_px(stereo_, problem);
   return motion;
 }
@@ -154,7 +158,7 @@ std::optional<MeasuredMotion> TwoStageLocalBundleAdjuster::refine_window(Keyfram
       motion.covariance +=
           by_last * last_last * by_last.transpose() + head_last * by_last.transpose() + by_last * head_last.transpose();
     }
-    motion.covariance *= summary.variance;
+    motion.covariance *= std::max(kLeastVariance, summary.variance);
   }
   return motion;
 }

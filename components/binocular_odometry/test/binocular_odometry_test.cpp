@@ -69,15 +69,15 @@ TEST(BinocularOdometry, LearnsHowTheRightCameraHasTurned) {
   const Eigen::Matrix3d turned =
       vision::so3_exp({1.0 / 220.0, 0.0, 6e-3});  // rows are off by a pixel, one more on one side
   // There and back and there again: the first two teach, the third is measured.
-  constexpr int kFrames = 40;
+  constexpr int kFrames = 40, kThereAndBack = 2 * kFrames - 2;  // no frame twice in a row: a camera that repeats hangs
   Eigen::Isometry3d began = Eigen::Isometry3d::Identity(), ended = began;
-  for (int i = 0; i < 3 * kFrames; ++i) {
-    const int place = i % (2 * kFrames) < kFrames ? i % kFrames : kFrames - 1 - i % kFrames;
+  for (int i = 0; i < kThereAndBack + kFrames; ++i) {
+    const int phase = i % kThereAndBack, place = phase < kFrames ? phase : kThereAndBack - phase;
     auto frame = SyntheticScene::frame(place, truth(place), turned);
     frame.stamp_ns = 1 + i * SyntheticScene::kInterval_ns;
     const OdometryEstimate estimate = odometry.step(frame);
     ASSERT_TRUE(estimate.quality.reliable) << estimate.quality.reason;
-    if (i == 2 * kFrames) began = estimate.odom_from_left;
+    if (i == kThereAndBack) began = estimate.odom_from_left;
     ended = estimate.odom_from_left;
   }
   const Eigen::Isometry3d moved = began.inverse() * ended, expected = truth(kFrames - 1);
@@ -93,13 +93,13 @@ TEST(BinocularOdometry, LearnsWhatAllDisparitiesAreTooLargeBy) {
   const Eigen::Matrix3d turned = vision::so3_exp({0.0, kOffset_px / SyntheticScene::stereo().camera.fx, 0.0});
   constexpr int kFrames = 40;
   Eigen::Isometry3d began = Eigen::Isometry3d::Identity(), ended = began;
-  for (int i = 0; i < 2 * kFrames; ++i) {
-    const int place = i < kFrames ? i : 2 * kFrames - 1 - i;
+  for (int i = 0; i < 2 * kFrames - 1; ++i) {
+    const int place = i < kFrames ? i : 2 * kFrames - 2 - i;  // no frame twice in a row: a camera that repeats hangs
     auto frame = SyntheticScene::frame(place, truth(place), turned);
     frame.stamp_ns = 1 + i * SyntheticScene::kInterval_ns;
     const TrackedFrame tracked = tracking.track(frame);
     ended = motion.estimate(tracked).odom_from_left;
-    if (i == kFrames) began = ended;
+    if (i == kFrames - 1) began = ended;
     if (i < kFrames) continue;
     ASSERT_NEAR(tracked.disparity_offset_px, kOffset_px, 0.15) << "frame " << i;  // it grows towards the sides
   }
@@ -136,7 +136,58 @@ TEST(BinocularOdometry, ItsErrorLiesWithinItsCovariance) {
         vision::pose_error(estimate.previous_from_current, truth(i - 1).inverse() * truth(i));
     nees += error.dot(estimate.previous_from_current_covariance.ldlt().solve(error)) / 15.0;
   }
+  // Of 6, were the images as noisy as a camera's, which the covariance is made for: kitti_03 has 3 to 12. These have no noise at all.
+  EXPECT_GT(nees, 0.25);
+  EXPECT_LT(nees, 1.5);
+}
+
+/// A frame with the noise of a sensor.
+StereoFrame noisy(const StereoFrame& frame, double sigma, cv::RNG& random) {
+  const auto with_noise = [&](const cv::Mat& image) {
+    cv::Mat noise(image.size(), CV_16SC1), result;
+    random.fill(noise, cv::RNG::NORMAL, 0.0, sigma);
+    cv::add(image, noise, result, cv::noArray(), CV_8U);
+    return result;
+  };
+  return {frame.stamp_ns, with_noise(frame.left), with_noise(frame.right)};
+}
+
+TEST(BinocularOdometry, ItsErrorLiesWithinItsCovarianceWhileItStands) {
+  constexpr int kSeeds = 5, kFrames = 25;
+  double nees = 0.0;
+  for (int seed = 1; seed <= kSeeds; ++seed) {
+    cv::RNG random(static_cast<std::uint64_t>(seed));
+    BinocularOdometry odometry(SyntheticScene::stereo(), {});
+    for (int i = 0; i < kFrames; ++i) {
+      StereoFrame frame = noisy(drive()[0], 2.0, random);
+      frame.stamp_ns += i * SyntheticScene::kInterval_ns;
+      const OdometryEstimate estimate = odometry.step(frame);
+      ASSERT_TRUE(estimate.quality.reliable) << estimate.quality.reason;
+      if (i == 0) continue;
+      const vision::Vector6d error = vision::pose_error(estimate.previous_from_current, Eigen::Isometry3d::Identity());
+      nees += error.dot(estimate.previous_from_current_covariance.ldlt().solve(error)) / (kSeeds * (kFrames - 1));
+      const vision::Vector6d of_pose = vision::pose_error(estimate.odom_from_left, Eigen::Isometry3d::Identity());
+      EXPECT_LT(of_pose.dot(estimate.odom_from_left_covariance.ldlt().solve(of_pose)), 16.8) << "99 % lie below";
+    }
+  }
+  EXPECT_GT(nees, 3.0);
   EXPECT_LT(nees, 12.0);
+}
+
+/// Without noise the residuals vanish, and with them what the covariance would be scaled by.
+TEST(BinocularOdometry, IsNeverSurerThanTheGreyLevelsAre) {
+  BinocularOdometry odometry(SyntheticScene::stereo(), {});
+  OdometryEstimate last;
+  for (int i = 0; i < 20; ++i) {
+    StereoFrame frame = drive()[0];
+    frame.stamp_ns += i * SyntheticScene::kInterval_ns;
+    frame.left = frame.left.clone();
+    frame.right = frame.right.clone();
+    frame.left.at<uchar>(0, i) = frame.right.at<uchar>(0, i) = 0;  // no camera that hangs
+    last = odometry.step(frame);
+    ASSERT_TRUE(last.quality.reliable) << last.quality.reason;
+  }
+  EXPECT_GT(std::sqrt(last.previous_from_current_covariance.topLeftCorner<3, 3>().trace()), 2e-5);
 }
 
 TEST(BinocularOdometry, MotionsAddUpToThePose) {
@@ -196,78 +247,6 @@ TEST(BinocularOdometry, BothStagesInParallelGiveTheSameBitForBit) {
     EXPECT_EQ(estimates[i].odom_from_left.matrix(), expected[i].odom_from_left.matrix()) << i;
     EXPECT_EQ(estimates[i].odom_from_left_covariance, expected[i].odom_from_left_covariance) << i;
     EXPECT_EQ(estimates[i].quality.inliers, expected[i].quality.inliers) << i;
-  }
-}
-
-// One bad frame among good ones: said to be unreliable and why, carried on by the motion so far, and made up for by the next.
-class BadFrame : public ::testing::Test {
- protected:
-  void expect_fault(StereoFrame bad, const std::string& reason) {
-    BinocularOdometry odometry(SyntheticScene::stereo(), {});
-    OdometryEstimate before;
-    for (int i = 0; i < 6; ++i) before = odometry.step(drive()[static_cast<size_t>(i)]);
-    const OdometryEstimate during = odometry.step(bad);
-    EXPECT_FALSE(during.quality.reliable);
-    EXPECT_THAT(during.quality.reason, HasSubstr(reason));
-    EXPECT_TRUE(during.odom_from_left.matrix().allFinite());
-    EXPECT_TRUE(during.odom_from_left_covariance.allFinite());
-    EXPECT_GT(during.odom_from_left_covariance.trace(), before.odom_from_left_covariance.trace());
-    EXPECT_FALSE(during.previous_from_current.isApprox(Eigen::Isometry3d::Identity(), 1e-3));
-    EXPECT_LT((during.odom_from_left.translation() - truth(6).translation()).norm(), 0.05);
-    OdometryEstimate after;
-    for (int i = 7; i < 10; ++i) {
-      after = odometry.step(drive()[static_cast<size_t>(i)]);
-      EXPECT_TRUE(after.quality.reliable) << i << ": " << after.quality.reason;
-    }
-    EXPECT_LT((after.odom_from_left.translation() - truth(9).translation()).norm(), 0.012);
-  }
-
-  StereoFrame frame_ = drive()[6];
-};
-
-TEST_F(BadFrame, Empty) {
-  frame_.right = cv::Mat();
-  expect_fault(frame_, "right image is empty");
-}
-
-TEST_F(BadFrame, Black) {
-  frame_.left = cv::Mat(240, 320, CV_8UC1, cv::Scalar(0));
-  expect_fault(frame_, "left image is black");
-}
-
-TEST_F(BadFrame, Constant) {
-  frame_.left = cv::Mat(240, 320, CV_8UC1, cv::Scalar(127));
-  expect_fault(frame_, "left image is constant");
-}
-
-TEST_F(BadFrame, Saturated) {
-  frame_.right = cv::Mat(240, 320, CV_8UC1, cv::Scalar(255));
-  expect_fault(frame_, "right image is saturated");
-}
-
-TEST_F(BadFrame, OfAnotherSize) {
-  cv::resize(frame_.left, frame_.left, {160, 120});
-  expect_fault(frame_, "left image is 160 x 120 px, the calibration is for 320 x 240 px");
-}
-
-TEST_F(BadFrame, LeftAndRightExchanged) {
-  std::swap(frame_.left, frame_.right);
-  expect_fault(frame_, "exchanged");
-}
-
-TEST_F(BadFrame, StampGoesBack) {
-  frame_.stamp_ns -= 300'000'000;
-  expect_fault(frame_, "is not after the one before");
-}
-
-TEST(BinocularOdometry, SaysFromTheFirstFrameOnThatTheCamerasAreExchanged) {
-  BinocularOdometry odometry(SyntheticScene::stereo(), {});
-  for (int i = 0; i < 3; ++i) {
-    StereoFrame frame = drive()[static_cast<size_t>(i)];
-    std::swap(frame.left, frame.right);
-    const OdometryEstimate estimate = odometry.step(frame);
-    EXPECT_FALSE(estimate.quality.reliable);
-    EXPECT_THAT(estimate.quality.reason, HasSubstr("exchanged"));
   }
 }
 

@@ -3,8 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Cholesky>
 #include <algorithm>
+#include <cmath>
+#include <map>
 #include <random>
+#include <utility>
 #include <vector>
 
 #include "panvo/vision/pose.hpp"
@@ -84,6 +88,146 @@ class DriveBehindACar {
     return car;
   }();
 };
+
+/// A drive through points all round whose speed and turns change as a car's do, and of which four seconds are lost.
+class BlindDrive {
+ public:
+  enum class Loss { kFaults, kGap };
+  static constexpr int kSeen = 40, kBlind = 100;  // frames at 25 Hz
+
+  explicit BlindDrive(unsigned seed) : random_(seed) {
+    double speed = uniform(1.0, 9.0), turning = uniform(-0.1, 0.1), target_speed = speed, target_turning = turning;
+    Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+    for (int i = 0; i < 2 * kSeen + kBlind; ++i) {
+      world_from_left_.push_back(pose);
+      if (i % 40 == 39) {  // every 1.6 s another wish
+        target_speed = uniform(0.0, 10.0);
+        target_turning = uniform(0.0, 1.0) < 0.3 ? uniform(-0.5, 0.5) : uniform(-0.05, 0.05);
+      }
+      speed += std::clamp(target_speed - speed, -3.0 * kSecond, 2.0 * kSecond);
+      turning += std::clamp(target_turning - turning, -0.5 * kSecond, 0.5 * kSecond);
+      pose = pose * vision::se3_exp((vision::Vector6d() << 0.0, 0.0, speed, 0.0, turning, 0.0).finished() * kSecond);
+    }
+  }
+
+  /// The estimates of the frames before, and of those after, what was lost.
+  std::vector<OdometryEstimate> run(Loss loss) {
+    MotionStage stage(kStereo, {}, nullptr);
+    std::vector<OdometryEstimate> estimates;
+    for (int i = 0; i < 2 * kSeen + kBlind; ++i) {
+      const bool is_blind = i >= kSeen && i < kSeen + kBlind;
+      if (is_blind && loss == Loss::kGap) continue;
+      TrackedFrame frame;
+      if (is_blind) {
+        frame.stamp_ns = stamp_ns(i);
+        frame.fault = "left image is black";
+      } else {
+        frame = seen(i);
+      }
+      estimates.push_back(stage.estimate(frame));
+    }
+    return estimates;
+  }
+
+  static std::int64_t stamp_ns(int index) { return 1'000'000'000 + index * kInterval_ns; }
+  const Eigen::Isometry3d& world_from_left(std::int64_t at_ns) const {
+    return world_from_left_[static_cast<std::size_t>((at_ns - stamp_ns(0)) / kInterval_ns)];
+  }
+
+ private:
+  static constexpr double kSecond = 1e-9 * kInterval_ns;  // of a frame
+  static constexpr int kPoints = 80;
+
+  double uniform(double from, double to) { return from + (to - from) * static_cast<double>(random_() % 100000) / 1e5; }
+
+  TrackedFrame seen(int index) {
+    if (index == kSeen + kBlind) points_.clear();  // tracks do not outlive it
+    TrackedFrame frame;
+    frame.stamp_ns = stamp_ns(index);
+    const auto& pose = world_from_left_[static_cast<std::size_t>(index)];
+    std::erase_if(points_, [&](const auto& point) { return !is_in_view(pose.inverse() * point.second); });
+    while (points_.size() < kPoints) {
+      const double z = uniform(4.0, 40.0);
+      points_[++last_id_] = pose * Eigen::Vector3d(uniform(-0.7, 0.7) * z, uniform(-0.5, 0.5) * z, z);
+    }
+    for (const auto& [id, in_world] : points_) {
+      Observation observation;
+      observation.track_id = id;
+      observation.pixel = vision::observe(kStereo, pose.inverse() * in_world) +
+                          0.2 * Eigen::Vector3d(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1));
+      observation.sigma_px = observation.sigma_disparity_px = 0.12;
+      observation.has_disparity = true;
+      frame.observations.push_back(observation);
+    }
+    frame.detected = frame.matched = frame.tracked = kPoints;
+    return frame;
+  }
+
+  static bool is_in_view(const Eigen::Vector3d& in_left) {
+    return in_left.z() > 2.0 && std::abs(in_left.x()) < 0.78 * in_left.z() &&
+           std::abs(in_left.y()) < 0.58 * in_left.z();
+  }
+
+  std::mt19937 random_;
+  std::vector<Eigen::Isometry3d> world_from_left_;
+  std::map<std::int64_t, Eigen::Vector3d> points_;
+  std::int64_t last_id_ = 0;
+};
+
+double sigma_m(const OdometryEstimate& estimate) {
+  return std::sqrt(estimate.odom_from_left_covariance.topLeftCorner<3, 3>().trace());
+}
+
+TEST(MotionStage, IsAsUncertainAfterFramesThatShowNothingAsAfterAGap) {
+  for (unsigned seed = 1; seed <= 5; ++seed) {
+    BlindDrive drive(seed);
+    const auto faults = drive.run(BlindDrive::Loss::kFaults), gap = BlindDrive(seed).run(BlindDrive::Loss::kGap);
+    EXPECT_NEAR(sigma_m(faults.back()), sigma_m(gap.back()), 0.1 * sigma_m(gap.back()));
+    EXPECT_GT(sigma_m(faults.back()), 5.0);
+    EXPECT_LT(sigma_m(faults.back()), 50.0);
+  }
+}
+
+TEST(MotionStage, StaysUncertainWhenItSeesAgain) {
+  for (unsigned seed = 1; seed <= 20; ++seed) {
+    BlindDrive drive(seed);
+    double last_m = 0.0;
+    for (const auto& estimate : drive.run(BlindDrive::Loss::kFaults)) {
+      // the last keyframes settle a little when more is seen of them
+      EXPECT_GT(sigma_m(estimate), last_m - 0.01) << "seed " << seed << ", " << estimate.stamp_ns;
+      last_m = sigma_m(estimate);
+    }
+  }
+}
+
+TEST(MotionStage, ItsErrorLiesWithinItsCovarianceAfterFourSecondsThatShowNothing) {
+  constexpr int kSeeds = 40;
+  Eigen::Matrix<double, 2, 6> level = Eigen::Matrix<double, 2, 6>::Zero();  // to the side and ahead
+  level(0, 0) = level(1, 2) = 1.0;
+  for (const auto loss : {BlindDrive::Loss::kFaults, BlindDrive::Loss::kGap}) {
+    double nees = 0.0, worst = 0.0;
+    for (unsigned seed = 1; seed <= kSeeds; ++seed) {
+      BlindDrive drive(seed);
+      double of_drive = 0.0;
+      const auto estimates = drive.run(loss);
+      for (const auto& estimate : estimates) {
+        if (estimate.stamp_ns < BlindDrive::stamp_ns(BlindDrive::kSeen)) continue;
+        const vision::Vector6d error =
+            vision::pose_error(drive.world_from_left(BlindDrive::stamp_ns(0)).inverse() * estimate.odom_from_left,
+                               drive.world_from_left(estimate.stamp_ns));
+        const Eigen::Vector2d position = level * error;
+        of_drive =
+            position.dot((level * estimate.odom_from_left_covariance * level.transpose()).ldlt().solve(position));
+        worst = std::max(worst, std::sqrt(of_drive));
+      }
+      EXPECT_TRUE(estimates.back().quality.reliable) << estimates.back().quality.reason;
+      nees += of_drive / kSeeds;
+    }
+    EXPECT_LT(worst, 3.0);
+    EXPECT_GT(nees, 0.1);  // of 2; most drives change less than they could
+    EXPECT_LT(nees, 4.0);
+  }
+}
 
 TEST(MotionStage, IsNotTakenAlongByACarThatMostOfThePointsAreOn) {
   DriveBehindACar drive;

@@ -7,7 +7,9 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <limits>
+#include <map>
 #include <opencv2/imgcodecs.hpp>
 #include <sstream>
 
@@ -77,23 +79,33 @@ struct Drive {
 
 cv::Mat grey(const fs::path& file) { return cv::imread(file.string(), cv::IMREAD_GRAYSCALE); }
 
-Drive drive_kitti_03(const Parameters& parameters) {
+/// What becomes of a pair before the odometry sees it: false where it is lost.
+using Disturbance = std::function<bool(int frame, cv::Mat& left, cv::Mat& right)>;
+
+/// Each pose, with the true one.
+template <class Take>
+void step_through_kitti_03(const Parameters& parameters, const Disturbance& disturb, const Take& take) {
   const fs::path folder = recordings() / "kitti_03";
   BinocularOdometry odometry({{721.5377, 721.5377, 609.5593, 172.854, 1242, 375}, 387.5744 / 721.5377}, parameters);
-  Drive run;
   std::ifstream poses(folder / "poses.txt");
-  for (std::string line; std::getline(poses, line);) {
+  int frame = 0;
+  for (std::string line; std::getline(poses, line); ++frame) {
     std::istringstream numbers(line);
     Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
     for (int row = 0; row < 3; ++row) {
       for (int column = 0; column < 4; ++column) numbers >> pose.matrix()(row, column);
     }
-    const auto index = static_cast<std::int64_t>(run.truth.size());
     char name[16];
-    std::snprintf(name, sizeof name, "%06d.png", static_cast<int>(index));
-    run.add(odometry.step({1 + index * 100'000'000, grey(folder / "image_0" / name), grey(folder / "image_1" / name)}),
-            pose);
+    std::snprintf(name, sizeof name, "%06d.png", frame);
+    cv::Mat left = grey(folder / "image_0" / name), right = grey(folder / "image_1" / name);
+    if (disturb(frame, left, right)) take(odometry.step({1 + frame * 100'000'000LL, left, right}), pose);
   }
+}
+
+Drive drive_kitti_03(const Parameters& parameters) {
+  Drive run;
+  const auto leave = [](int, cv::Mat&, cv::Mat&) { return true; };
+  step_through_kitti_03(parameters, leave, [&](const auto& estimate, const auto& pose) { run.add(estimate, pose); });
   return run;
 }
 
@@ -113,6 +125,61 @@ TEST(RecordedKitti03, SiftKeepsToItAsWell) {
   const Drive run = drive_kitti_03(parameters);
   EXPECT_EQ(run.unreliable, 0);
   EXPECT_LT(run.absolute_trajectory_error_m(), 0.10);
+}
+
+/// Four seconds in which the cameras show nothing, or what was, as a camera does that hangs.
+TEST(RecordedKitti03, ItsErrorLiesWithinItsCovarianceWhenCamerasLie) {
+  PANVO_NEEDS_RECORDING(recordings() / "kitti_03");
+  cv::Mat last_left, last_right;
+  const auto lie_with = [](const Disturbance& disturb) {
+    return [disturb](int frame, cv::Mat& left, cv::Mat& right) {
+      return frame < 30 || frame >= 70 || disturb(frame, left, right);
+    };
+  };
+  const auto remember = [&](int frame, const cv::Mat& left, const cv::Mat& right) {
+    if (frame != 30) return;
+    last_left = left.clone();
+    last_right = right.clone();
+  };
+  const std::map<std::string, Disturbance> lies{
+      {"black", [](int, cv::Mat& left, cv::Mat&) { return left.setTo(0), true; }},
+      {"gap", [](int, cv::Mat&, cv::Mat&) { return false; }},
+      {"left hangs",
+       [&](int frame, cv::Mat& left, cv::Mat& right) {
+         remember(frame, left, right);
+         left = last_left.clone();
+         return true;
+       }},
+      {"right hangs",
+       [&](int frame, cv::Mat& left, cv::Mat& right) {
+         remember(frame, left, right);
+         right = last_right.clone();
+         return true;
+       }},
+      {"both hang", [&](int frame, cv::Mat& left, cv::Mat& right) {
+         remember(frame, left, right);
+         left = last_left.clone();
+         right = last_right.clone();
+         return true;
+       }}};
+  for (const auto& [name, lie] : lies) {
+    int frames = 0, unreliable = 0;
+    double sigma_m = 0.0;
+    Eigen::Isometry3d first = Eigen::Isometry3d::Identity();
+    step_through_kitti_03({}, lie_with(lie), [&](const OdometryEstimate& estimate, const Eigen::Isometry3d& truth) {
+      if (frames++ == 0) first = truth;
+      unreliable += estimate.quality.reliable ? 0 : 1;
+      if (frames < 10) return;
+      const vision::Vector6d error = vision::pose_error(estimate.odom_from_left, first.inverse() * truth);
+      const auto& covariance = estimate.odom_from_left_covariance;
+      sigma_m = std::sqrt(covariance(0, 0) + covariance(2, 2));
+      EXPECT_LT(std::hypot(error.x(), error.z()), 3.0 * sigma_m) << name << ", " << estimate.stamp_ns;
+    });
+    EXPECT_GE(unreliable, name == "gap" ? 1 : 39) << name;
+    EXPECT_LE(unreliable, 41) << name;
+    EXPECT_GT(sigma_m, 15.0) << name;
+    EXPECT_LT(sigma_m, 35.0) << name;
+  }
 }
 
 TEST(RecordedCampusClip, KeepsToTheTruePath) {
@@ -143,7 +210,8 @@ TEST(RecordedCampusClip, KeepsToTheTruePath) {
   EXPECT_EQ(run.unreliable, 0);
   EXPECT_LT(run.absolute_trajectory_error_m(), 0.03);
   EXPECT_LT(run.end_error(), 0.001);
-  EXPECT_LT(run.nees, 12.0);
+  EXPECT_GT(run.nees, 0.4);  // of 6: rendered without noise, while the covariance is made for cameras that have some
+  EXPECT_LT(run.nees, 2.0);
 }
 
 class RecordedBoofCv : public ::testing::TestWithParam<std::string> {};

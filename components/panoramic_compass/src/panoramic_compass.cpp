@@ -12,12 +12,15 @@
 #include "compass_method.hpp"
 #include "panvo/vision/equirectangular.hpp"
 #include "panvo/vision/image_check.hpp"
+#include "panvo/vision/panorama_cover.hpp"
 
 namespace panvo::panoramic_compass {
 namespace {
 
 constexpr int kSmallestColumns = 256;                  // px: below, the smallest rectangles are a few pixels
 constexpr double kViewTop = 0.25, kViewBottom = 0.55;  // rows that the compass may look at: 45 degrees above to 9 below
+// Front and rear, left and right must be seen: else a motion to the side passes for a turn.
+constexpr double kMostCovered = 1.0 / 3.0;
 
 cv::Mat to_grey(const cv::Mat& image) {
   if (image.channels() == 1) return image;
@@ -57,7 +60,14 @@ std::optional<std::string> find_fault(const cv::Mat& panorama) {
     cv::extractChannel(view, green, 1);
     view = green;
   }
-  return vision::find_fault(view);
+  if (auto fault = vision::find_fault(view)) return fault;
+  const double covered = vision::covered_share(panorama, kViewTop, kViewBottom);
+  if (covered <= kMostCovered) return std::nullopt;
+  std::ostringstream text;
+  text.precision(3);
+  text << "is covered: " << 100.0 * covered << " % of the full turn show nothing, " << 100.0 * kMostCovered
+       << " % allowed";
+  return text.str();
 }
 
 BandCutter BandCutter::between(double top_deg, double bottom_deg) {

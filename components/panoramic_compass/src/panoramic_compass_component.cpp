@@ -4,6 +4,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "panvo/conversions/image.hpp"
 #include "panvo/conversions/stage_timer.hpp"
@@ -11,7 +12,7 @@
 #include "panvo/conversions/time.hpp"
 #include "panvo/panoramic_compass/panoramic_compass.hpp"
 #include "panvo/runtime/component.hpp"
-#include "panvo/runtime/new_warnings.hpp"
+#include "panvo/vision/panorama_watch.hpp"
 
 namespace panvo::panoramic_compass {
 
@@ -55,7 +56,9 @@ class PanoramicCompassComponent final : public runtime::Component {
 
  private:
   void on_transforms(const tf2_msgs::msg::TFMessage& message) {
-    for (const auto& problem : transforms_.add(message)) context_.log().warn("{}: {}", topics::kTfStatic.name, problem);
+    for (const auto& problem : transforms_.add(message)) {
+      context_.log().warn_throttled(problem, "{}: {}", context_.resolved_name(topics::kTfStatic), problem);
+    }
   }
 
   void make_compass(const Eigen::Matrix3d& base_from_panorama) {
@@ -70,33 +73,34 @@ class PanoramicCompassComponent final : public runtime::Component {
   void on_panorama(const sensor_msgs::msg::Image& message) {
     const std::int64_t stamp_ns = conversions::stamp_ns(message);
     if (last_stamp_ns_ && stamp_ns <= *last_stamp_ns_) {
-      return warnings_.say(
-          fmt::format("{} came with a stamp that is not after the last; it is left out", topics::kPanorama.name));
+      return context_.log().warn_throttled("stamp", "{} came with a stamp that is not after the last; it is left out",
+                                           context_.resolved_name(topics::kPanorama));
     }
-    const auto panorama = pixels_of(message);
-    if (!panorama)
-      return warnings_.say(fmt::format("{} {}; it is left out", topics::kPanorama.name, panorama.reason()));
-    last_stamp_ns_ = stamp_ns;
+    const auto panorama = conversions::grey_or_bgr(message);
+    if (!panorama) {
+      return context_.log().warn_throttled("unusable", "{} {}; it is left out",
+                                           context_.resolved_name(topics::kPanorama), panorama.reason());
+    }
+    const auto before_ns = std::exchange(last_stamp_ns_, stamp_ns);
     take_mounting(message.header().frame_id());
+    if (const auto fault = watch_.find_fault(*panorama); fault && before_ns && !find_fault(*panorama)) {
+      return tell({.from_stamp_ns = *before_ns, .stamp_ns = stamp_ns, .reason = "the panorama " + *fault},
+                  message.header().frame_id());
+    }
     const auto change = compass_->track(stamp_ns, *panorama);
     if (change) return tell(*change, message.header().frame_id());
-    if (const auto fault = find_fault(*panorama)) warnings_.say(fmt::format("{} {}", topics::kPanorama.name, *fault));
-  }
-
-  /// Grey or of three channels; which of them is red does not matter to the compass.
-  static conversions::Result<cv::Mat> pixels_of(const sensor_msgs::msg::Image& message) {
-    auto pixels = conversions::view(message);
-    if (pixels && pixels->type() != CV_8UC1 && pixels->type() != CV_8UC3) return conversions::grey(message);
-    return pixels;
+    if (const auto fault = find_fault(*panorama)) {
+      context_.log().warn_throttled(*fault, "{} {}", context_.resolved_name(topics::kPanorama), *fault);
+    }
   }
 
   /// The camera's place on the vehicle, when it is known, or known otherwise than before.
   void take_mounting(const std::string& frame) {
     const auto base_from_panorama = transforms_.lookup(parameters_.base_frame, frame);
     if (!base_from_panorama) {
-      return warnings_.say(
-          fmt::format("{} has no chain from {} to {}: the panoramic camera is taken to be upright and to look ahead",
-                      topics::kTfStatic.name, parameters_.base_frame, frame));
+      return context_.log().warn_throttled(
+          "no mounting", "{} has no chain from {} to {}: the panoramic camera is taken to be upright and to look ahead",
+          context_.resolved_name(topics::kTfStatic), parameters_.base_frame, frame);
     }
     if (!base_from_panorama->linear().isApprox(base_from_panorama_, 1e-9)) make_compass(base_from_panorama->linear());
   }
@@ -112,19 +116,19 @@ class PanoramicCompassComponent final : public runtime::Component {
     message.valid(change.valid);
     message.reason(change.reason);
     azimuth_change_.publish(std::move(message));
-    if (!change.valid && is_valid_) context_.log().warn("no turn told: {}", change.reason);
-    if (change.valid && !is_valid_) context_.log().info("turns are told again");
+    if (!change.valid && is_valid_) context_.log().warn_throttled("no turn", "no turn told: {}", change.reason);
+    if (change.valid && !is_valid_) context_.log().info_throttled("turns", "turns are told again");
     is_valid_ = change.valid;
   }
 
   runtime::Context& context_;
-  runtime::NewWarnings warnings_{context_.log()};
   const ComponentParameters parameters_;
   conversions::StageTimer timer_;
   runtime::Output<panvo_msgs::msg::AzimuthChange> azimuth_change_;
 
   conversions::StaticTransforms transforms_;
   Eigen::Matrix3d base_from_panorama_;
+  vision::PanoramaWatch watch_;
   std::optional<PanoramicCompass> compass_;
   std::optional<std::int64_t> last_stamp_ns_;
   bool is_valid_ = true;

@@ -98,6 +98,49 @@ TEST_F(PanoramicCompassComponent, SaysWhyThereIsNoTurnAndWhenThereIsAgain) {
   EXPECT_TRUE(harness.log_contains("told again"));
 }
 
+TEST_F(PanoramicCompassComponent, TellsNoTurnOfAPanoramaThatIsTheLastAgain) {
+  load();
+  publish(street);
+  publish(turned_left(street, 3.0));
+  publish(turned_left(street, 3.0));
+  publish(turned_left(street, 6.0));
+  ASSERT_EQ(changes.size(), 3U);
+  EXPECT_FALSE(changes[1]->valid());
+  EXPECT_EQ(changes[1]->reason(), "the panorama repeats its image (frozen)");
+  EXPECT_TRUE(changes[2]->valid()) << changes[2]->reason();
+  EXPECT_NEAR(changes[2]->azimuth_change_rad(), 6.0 * kColumn_rad, 0.1 * kColumn_rad);
+}
+
+/// Turns that are seen upside down or in a mirror have the other sign, and would be as certain as any.
+TEST_F(PanoramicCompassComponent, TellsNoTurnWhileTheCameraIsTurnedOver) {
+  load();
+  for (const auto& [code, fault] : {std::pair{-1, "upside down"}, {0, "upside down and mirrored"}, {1, "mirrored"}}) {
+    publish(turned_left(street, -2.0));
+    publish(street);
+    for (int i = 1; i < 12; ++i) {
+      cv::Mat over;
+      cv::flip(turned_left(street, 2.0 * i), over, code);
+      publish(over);
+      EXPECT_FALSE(changes.back()->valid()) << fault << ", panorama " << i;
+      EXPECT_EQ(changes.back()->reason(), std::string("the panorama is ") + fault);
+    }
+    publish(turned_left(street, 25.0));
+    EXPECT_TRUE(changes.back()->valid()) << changes.back()->reason();
+  }
+}
+
+TEST_F(PanoramicCompassComponent, TellsNoTurnWhileHalfOfTheViewIsCovered) {
+  load();
+  publish(street);
+  for (int i = 1; i < 8; ++i) {
+    cv::Mat covered = turned_left(street, 4.0 * i);
+    covered.colRange(0, covered.cols / 2).setTo(cv::Scalar(25));
+    publish(covered);
+    EXPECT_FALSE(changes.back()->valid());
+    EXPECT_NE(changes.back()->reason().find("is covered: 50 %"), std::string::npos) << changes.back()->reason();
+  }
+}
+
 TEST_F(PanoramicCompassComponent, SaysThatItWaitsForAFirstUsablePanorama) {
   load();
   publish(street.colRange(0, 600));

@@ -8,14 +8,24 @@
 #include "positive.hpp"
 
 namespace panvo::vision {
+namespace {
+
+constexpr double kLongest_px = 1e6;  // of a focal length: a telescope's
+constexpr double kLongestBaseline_m = 1e3;
+
+}  // namespace
 
 void check_camera(const std::string& name, const PinholeCamera& camera, std::vector<std::string>& problems) {
   std::ostringstream text;
-  if (!is_positive(camera.fx) || !is_positive(camera.fy)) {
-    text << name << ": focal lengths fx = " << camera.fx << ", fy = " << camera.fy << " px must be positive numbers";
+  const auto is_focal_length = [](double value) { return is_positive(value) && value <= kLongest_px; };
+  const auto is_place = [](double value) { return std::abs(value) <= kLongest_px; };  // not for a NaN
+  if (!is_focal_length(camera.fx) || !is_focal_length(camera.fy)) {
+    text << name << ": focal lengths fx = " << camera.fx << ", fy = " << camera.fy
+         << " px must be positive numbers, at most " << kLongest_px;
     problems.push_back(text.str());
-  } else if (!std::isfinite(camera.cx) || !std::isfinite(camera.cy)) {
-    text << name << ": principal point (" << camera.cx << ", " << camera.cy << ") px must be numbers";
+  } else if (!is_place(camera.cx) || !is_place(camera.cy)) {
+    text << name << ": principal point (" << camera.cx << ", " << camera.cy << ") px must be numbers, at most "
+         << kLongest_px;
     problems.push_back(text.str());
   }
   if (camera.width <= 0 || camera.height <= 0) {
@@ -35,9 +45,9 @@ void check_rotation(const std::string& name, const Eigen::Matrix3d& rotation, st
 }
 
 void check_baseline(double baseline_m, std::vector<std::string>& problems) {
-  if (is_positive(baseline_m)) return;
+  if (is_positive(baseline_m) && baseline_m <= kLongestBaseline_m) return;
   std::ostringstream text;
-  text << "baseline is " << baseline_m << " m; it must be a positive number";
+  text << "baseline is " << baseline_m << " m; it must be a positive number, at most " << kLongestBaseline_m;
   if (baseline_m < 0.0) text << " (are the left and right camera exchanged?)";
   problems.push_back(text.str());
 }

@@ -15,7 +15,7 @@
 namespace panvo::panoramic_compass {
 
 /// Why a panorama tells nothing of the turn, in numbers; nullopt when it may. Found are: empty, not CV_8UC1 or CV_8UC3, not twice
-/// as wide as high, too small, and black, saturated or constant about the horizon.
+/// as wide as high, too small, black, saturated or constant about the horizon, and covered over more than a third of the full turn.
 std::optional<std::string> find_fault(const cv::Mat& panorama);
 
 /// An upright camera that looks where the vehicle drives: panorama axes X right, Y down, Z forward.

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a bad frame does, and what it must not.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <opencv2/imgproc.hpp>
+
+#include "panvo/binocular_odometry/binocular_odometry.hpp"
+#include "synthetic_scene.hpp"
+
+namespace panvo::binocular_odometry {
+namespace {
+
+using ::testing::HasSubstr;
+
+const std::vector<StereoFrame>& drive() {
+  static const std::vector<StereoFrame> frames = SyntheticScene::drive(16);
+  return frames;
+}
+
+Eigen::Isometry3d truth(int frame) { return SyntheticScene::world_from_left(frame); }
+
+// One bad frame among good ones: said to be unreliable and why, carried on by the motion so far, and made up for by the next.
+class BadFrame : public ::testing::Test {
+ protected:
+  void expect_fault(StereoFrame bad, const std::string& reason) {
+    BinocularOdometry odometry(SyntheticScene::stereo(), {});
+    OdometryEstimate before;
+    for (int i = 0; i < 6; ++i) before = odometry.step(drive()[static_cast<size_t>(i)]);
+    const OdometryEstimate during = odometry.step(bad);
+    EXPECT_FALSE(during.quality.reliable);
+    EXPECT_THAT(during.quality.reason, HasSubstr(reason));
+    EXPECT_TRUE(during.odom_from_left.matrix().allFinite());
+    EXPECT_TRUE(during.odom_from_left_covariance.allFinite());
+    EXPECT_GT(during.odom_from_left_covariance.trace(), before.odom_from_left_covariance.trace());
+    EXPECT_FALSE(during.previous_from_current.isApprox(Eigen::Isometry3d::Identity(), 1e-3));
+    EXPECT_LT((during.odom_from_left.translation() - truth(6).translation()).norm(), 0.05);
+    OdometryEstimate after;
+    for (int i = 7; i < 10; ++i) {
+      after = odometry.step(drive()[static_cast<size_t>(i)]);
+      EXPECT_TRUE(after.quality.reliable) << i << ": " << after.quality.reason;
+    }
+    EXPECT_LT((after.odom_from_left.translation() - truth(9).translation()).norm(), 0.012);
+  }
+
+  StereoFrame frame_ = drive()[6];
+};
+
+TEST_F(BadFrame, Empty) {
+  frame_.right = cv::Mat();
+  expect_fault(frame_, "right image is empty");
+}
+
+TEST_F(BadFrame, Black) {
+  frame_.left = cv::Mat(240, 320, CV_8UC1, cv::Scalar(0));
+  expect_fault(frame_, "left image is black");
+}
+
+TEST_F(BadFrame, Constant) {
+  frame_.left = cv::Mat(240, 320, CV_8UC1, cv::Scalar(127));
+  expect_fault(frame_, "left image is constant");
+}
+
+TEST_F(BadFrame, Saturated) {
+  frame_.right = cv::Mat(240, 320, CV_8UC1, cv::Scalar(255));
+  expect_fault(frame_, "right image is saturated");
+}
+
+TEST_F(BadFrame, OfAnotherSize) {
+  cv::resize(frame_.left, frame_.left, {160, 120});
+  expect_fault(frame_, "left image is 160 x 120 px, the calibration is for 320 x 240 px");
+}
+
+TEST_F(BadFrame, LeftAndRightExchanged) {
+  std::swap(frame_.left, frame_.right);
+  expect_fault(frame_, "exchanged");
+}
+
+TEST_F(BadFrame, LeftCameraHangs) {
+  frame_.left = drive()[5].left;
+  expect_fault(frame_, "left camera repeats its image (frozen)");
+}
+
+TEST_F(BadFrame, RightCameraHangs) {
+  frame_.right = drive()[5].right;
+  expect_fault(frame_, "right camera repeats its image (frozen)");
+}
+
+TEST_F(BadFrame, BothCamerasHang) {
+  frame_.left = drive()[5].left;
+  frame_.right = drive()[5].right;
+  expect_fault(frame_, "both cameras repeat their images (frozen)");
+}
+
+TEST_F(BadFrame, BothEyesAreOne) {
+  frame_.right = frame_.left.clone();
+  expect_fault(frame_, "left and right image are the same");
+}
+
+/// As of a decoder that hangs, whose images differ a little all the same.
+TEST_F(BadFrame, RightEyeIsOfAnotherMoment) {
+  frame_.right = drive()[0].right;
+  expect_fault(frame_, "left and right image do not belong together");
+}
+
+TEST_F(BadFrame, StampGoesBack) {
+  frame_.stamp_ns -= 300'000'000;
+  expect_fault(frame_, "is not after the one before");
+}
+
+/// What tracking learns of the eyes must not depend on what a bad frame showed.
+TEST(BinocularOdometry, LearnsNothingFromABadFrame) {
+  const auto learned_with = [](const StereoFrame& sixth) {
+    TrackingStage tracking(SyntheticScene::stereo(), {});
+    for (int i = 0; i < 6; ++i) tracking.track(drive()[static_cast<size_t>(i)]);
+    EXPECT_FALSE(tracking.track(sixth).fault.empty());
+    return tracking.track(drive()[7]);
+  };
+  StereoFrame black = drive()[6], exchanged = black, apart = black;
+  black.left = cv::Mat(black.left.size(), CV_8UC1, cv::Scalar(0));
+  std::swap(exchanged.left, exchanged.right);
+  apart.right = drive()[0].right;
+  const TrackedFrame expected = learned_with(black);
+  for (const auto& bad : {exchanged, apart}) {
+    const TrackedFrame after = learned_with(bad);
+    EXPECT_EQ(after.disparity_offset_px, expected.disparity_offset_px);
+    ASSERT_EQ(after.observations.size(), expected.observations.size());
+    for (size_t i = 0; i < after.observations.size(); ++i) {
+      EXPECT_EQ(after.observations[i].pixel, expected.observations[i].pixel);
+    }
+  }
+}
+
+/// Counts how often tracking looks for the motion anew.
+struct Attempts : vision::StageObserver {
+  void enter(std::string_view stage) override { count += stage == "match_widely" ? 1 : 0; }
+  void leave() override {}
+  int count = 0;
+};
+
+TEST(BinocularOdometry, ExpectsNoTurnThatItOnlyGuessed) {
+  Attempts attempts;
+  TrackingStage tracking(SyntheticScene::stereo(), {}, &attempts);
+  for (int i = 0; i < 6; ++i) tracking.track(drive()[static_cast<size_t>(i)]);
+  const auto elsewhere = [](int i) {
+    return SyntheticScene::frame(i, Eigen::Isometry3d(vision::so3_exp({0.0, 1.4, 0.0})) * truth(i - 6));
+  };
+  attempts.count = 0;
+  tracking.track(elsewhere(6));
+  ASSERT_GT(attempts.count, 1) << "it should be lost, and guess";
+  attempts.count = 0;
+  tracking.track(elsewhere(7));
+  EXPECT_EQ(attempts.count, 1);
+}
+
+TEST(BinocularOdometry, SaysFromTheFirstFrameOnThatTheCamerasAreExchanged) {
+  BinocularOdometry odometry(SyntheticScene::stereo(), {});
+  for (int i = 0; i < 3; ++i) {
+    StereoFrame frame = drive()[static_cast<size_t>(i)];
+    std::swap(frame.left, frame.right);
+    const OdometryEstimate estimate = odometry.step(frame);
+    EXPECT_FALSE(estimate.quality.reliable);
+    EXPECT_THAT(estimate.quality.reason, HasSubstr("exchanged"));
+  }
+}
+
+}  // namespace
+}  // namespace panvo::binocular_odometry
