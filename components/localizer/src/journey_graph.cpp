@@ -3,12 +3,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <stdexcept>
 
 #include "panvo/localizer/pose_graph.hpp"
 
 namespace panvo::localizer {
 namespace {
 
+// Of one landmark. Eight fix it to a third of what one sighting is off by; what is left, all sightings err alike.
+constexpr int kMostPasses = 8;
 constexpr double kLeastVariance = 1e-8;  // of an edge: a tenth of a millimetre, a tenth of a millirad
 // What is left of odometry over a cut: carried anywhere within a kilometre, turned anyhow, but upright.
 constexpr double kCutPosition_m = 1000.0;
@@ -71,7 +75,7 @@ bool JourneyGraph::add_pass(const LandmarkSighting& sighting, const Remembered& 
   node.covariance = here.covariance;
   const auto same_pass = std::find_if(nodes_.begin(), nodes_.end(), [&](const Node& other) {
     return other.is_pass && other.landmark_id == sighting.landmark_id &&
-           std::abs(other.at.way_m - at.way_m) < same_pass_m;
+           std::abs(other.at.way_m - at.way_m) < same_pass_m && !is_cut(other.at.pose.stamp_ns, at.pose.stamp_ns);
   });
   if (same_pass != nodes_.end()) {
     if (position_variance(same_pass->sighting.covariance) <= position_variance(sighting.covariance)) return false;
@@ -89,7 +93,22 @@ bool JourneyGraph::add_pass(const LandmarkSighting& sighting, const Remembered& 
     nodes_.push_back(seen);
   }
   nodes_.push_back(node);
+  forget_least_precise_pass(sighting.landmark_id);
   return true;
+}
+
+/// The odometry before and after the pass that goes joins by itself: edges are made of the nodes that are there.
+void JourneyGraph::forget_least_precise_pass(std::uint32_t landmark_id) {
+  auto worst = nodes_.end();
+  int passes = 0;
+  for (auto node = nodes_.begin(); node != std::prev(nodes_.end()); ++node) {  // the last is the newest
+    if (!node->is_pass || node->landmark_id != landmark_id) continue;
+    ++passes;
+    const bool is_worse = worst == nodes_.end() ||
+                          position_variance(node->sighting.covariance) > position_variance(worst->sighting.covariance);
+    if (is_worse) worst = node;
+  }
+  if (passes >= kMostPasses) nodes_.erase(worst);
 }
 
 std::optional<KnownLandmark> JourneyGraph::landmark(std::uint32_t id) const {
@@ -150,7 +169,16 @@ void JourneyGraph::refresh(const OdometryChain& chain, std::int64_t since_ns) {
   }
 }
 
-void JourneyGraph::solve() {
+void JourneyGraph::set_clock_back(std::int64_t by_ns) {
+  for (auto& node : nodes_) {
+    if (node.is_of_earlier_day) continue;
+    node.at.pose.stamp_ns -= by_ns;
+    node.sighting.stamp_ns -= by_ns;
+  }
+  for (auto& cut_ns : cuts_ns_) cut_ns -= by_ns;
+}
+
+bool JourneyGraph::solve() {
   PoseGraph graph;
   for (const auto& node : nodes_) graph.poses.push_back(node.map_from_base);
   const auto order = journey_order();
@@ -179,12 +207,18 @@ void JourneyGraph::solve() {
     graph.priors.push_back(
         {order.front(), nodes_[order.front()].at.pose.odom_from_base, sigma.cwiseAbs2().asDiagonal()});
   }
-  graph.optimise();
+  try {
+    if (!graph.optimise()) return false;
+  } catch (const std::invalid_argument&) {  // sums of sound covariances that rounding left without an inverse
+    return false;
+  }
   const auto covariances = graph.covariances();
+  if (!covariances) return false;
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
     nodes_[i].map_from_base = graph.poses[i];
-    if (covariances) nodes_[i].covariance = (*covariances)[i];
+    nodes_[i].covariance = (*covariances)[i];
   }
+  return true;
 }
 
 const JourneyGraph::Node* JourneyGraph::landmark_node(std::uint32_t id) const {
@@ -217,12 +251,17 @@ std::vector<std::size_t> JourneyGraph::journey_order() const {
   return order;
 }
 
+/// Whether the vehicle was lifted between two times.
+bool JourneyGraph::is_cut(std::int64_t from_ns, std::int64_t to_ns) const {
+  const auto [first_ns, last_ns] = std::minmax(from_ns, to_ns);
+  return std::any_of(cuts_ns_.begin(), cuts_ns_.end(),
+                     [&](std::int64_t cut_ns) { return first_ns < cut_ns && cut_ns <= last_ns; });
+}
+
 /// Covariance that odometry gained between two times, in the axes of the first.
 vision::Matrix6d JourneyGraph::way_covariance(const OdometryPose& from, const OdometryPose& to) const {
-  const bool is_cut = std::any_of(cuts_ns_.begin(), cuts_ns_.end(),
-                                  [&](std::int64_t cut_ns) { return from.stamp_ns < cut_ns && cut_ns <= to.stamp_ns; });
   const vision::Matrix6d gained = gained_covariance(from, to, 0.0);
-  return is_cut ? vision::Matrix6d(gained + cut_covariance()) : gained;
+  return is_cut(from.stamp_ns, to.stamp_ns) ? vision::Matrix6d(gained + cut_covariance()) : gained;
 }
 
 }  // namespace panvo::localizer

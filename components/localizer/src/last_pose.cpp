@@ -15,14 +15,15 @@
 #include <system_error>
 #include <vector>
 
+#include "panvo/interfaces/check.hpp"
+
 namespace panvo::localizer {
 namespace {
 
-constexpr double kLeastSpeed = 0.5;      // m/s: who stands may start
-constexpr double kClimb = 0.1;           // of the way, up or down
-constexpr double kTurnRate = 0.3;        // rad/s, of a vehicle in a bend
-constexpr double kTilt = 0.05;           // rad
-constexpr double kUnitTolerance = 1e-3;  // of a quaternion's length
+constexpr double kLeastSpeed = 0.5;  // m/s: who stands may start
+constexpr double kClimb = 0.1;       // of the way, up or down
+constexpr double kTurnRate = 0.3;    // rad/s, of a vehicle in a bend
+constexpr double kTilt = 0.05;       // rad
 
 /// "key value value ..." line by line.
 using Lines = std::map<std::string, std::string>;
@@ -52,6 +53,14 @@ std::vector<Number> numbers(const Lines& lines, const std::string& key, std::siz
   return values;
 }
 
+/// By the rules of odometry, which it comes from.
+void check_numbers(interfaces::Check& check, std::span<const double> position, std::span<const double> covariance,
+                   double speed_m_per_s) {
+  check.bounded("position", position, interfaces::kFarthest_m);
+  check.covariance("covariance", covariance);
+  check.within("speed_m_per_s", speed_m_per_s, 0.0, interfaces::kFastest);
+}
+
 LastPose from_lines(const Lines& lines) {
   LastPose last;
   last.stamp_ns = numbers<std::int64_t>(lines, "stamp_ns", 1)[0];
@@ -62,7 +71,10 @@ LastPose from_lines(const Lines& lines) {
   const auto orientation = numbers<double>(lines, "orientation", 4);  // x, y, z, w
   const auto covariance = numbers<double>(lines, "covariance", 36);
   const Eigen::Map<const Eigen::Quaterniond> rotation(orientation.data());
-  if (std::abs(rotation.norm() - 1.0) > kUnitTolerance) throw std::runtime_error("'orientation' is not of length 1");
+  interfaces::Check check;
+  check.quaternion("orientation", rotation.x(), rotation.y(), rotation.z(), rotation.w());
+  check_numbers(check, position, covariance, last.speed_m_per_s);
+  if (check.problem()) throw std::runtime_error(*check.problem());
   last.pose.map_from_base = Eigen::Isometry3d(rotation.normalized());
   last.pose.map_from_base.translation() = Eigen::Map<const Eigen::Vector3d>(position.data());
   last.pose.covariance = Eigen::Map<const vision::Matrix6d>(covariance.data());
@@ -92,6 +104,13 @@ PoseInMap after_gap(const LastPose& last, double gap_s) {
 }
 
 void write_last_pose(const std::filesystem::path& file, const LastPose& last) {
+  interfaces::Check check;
+  const Eigen::Vector3d position = last.pose.map_from_base.translation();
+  check_numbers(check, std::span(position.data(), 3), std::span(last.pose.covariance.data(), 36), last.speed_m_per_s);
+  if (check.problem()) {
+    throw std::runtime_error(
+        fmt::format("{} is not written: {} of the pose that was to be kept", file.string(), *check.problem()));
+  }
   std::filesystem::path part = file;
   part += ".part";
   std::ofstream stream(part);

@@ -22,7 +22,8 @@ struct LastPose {
 /// Where it may be by now: as far off as it may have gone at its last speed, or been turned. `gap_s` >= 0.
 PoseInMap after_gap(const LastPose& last, double gap_s);
 
-/// Replaces the file as a whole, so that a process that is killed meanwhile leaves the old one. Throws std::runtime_error that names it.
+/// Replaces the file as a whole, so that a process that is killed meanwhile leaves the old one. Throws std::runtime_error that names it, for a
+/// pose that read_last_pose would refuse, too.
 void write_last_pose(const std::filesystem::path& file, const LastPose& last);
 
 /// Nothing where there is no file. Throws std::runtime_error that names the file, what is wrong with it and the remedy.

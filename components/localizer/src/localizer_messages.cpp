@@ -24,24 +24,6 @@ geometry_msgs::msg::TransformStamped transform(std::int64_t stamp_ns, const std:
 
 }  // namespace
 
-std::string to_text(State state) {
-  switch (state) {
-    case State::kStarting:
-      return "starting";
-    case State::kUnlocated:
-      return "unlocated";
-    case State::kTracking:
-      return "tracking";
-    case State::kCompassOnly:
-      return "compass_only";
-    case State::kLost:
-      return "lost";
-    case State::kRelocalised:
-      return "relocalised";
-  }
-  throw std::logic_error("a state without a name");
-}
-
 std::string to_text(CorrectionKind kind) {
   switch (kind) {
     case CorrectionKind::kApplied:
@@ -57,7 +39,7 @@ std::string to_text(CorrectionKind kind) {
 nav_msgs::msg::Odometry to_odometry(const LocalizedPose& pose, const nav_msgs::msg::Odometry& stereo,
                                     const std::string& map_frame) {
   nav_msgs::msg::Odometry odometry;
-  odometry.header().stamp(stereo.header().stamp());
+  odometry.header().stamp(conversions::to_stamp(pose.stamp_ns));
   odometry.header().frame_id(map_frame);
   odometry.child_frame_id(stereo.child_frame_id());
   odometry.pose().pose(conversions::to_pose(pose.map_from_base));
@@ -103,12 +85,28 @@ panvo_msgs::msg::LandmarkPoses to_message(const std::vector<KnownLandmark>& land
   return message;
 }
 
-panvo_msgs::msg::LocalizationState to_state(const LocalizedPose& pose, const std::string& map_frame) {
+panvo_msgs::msg::Integrity to_integrity(const LocalizedPose& pose, const std::vector<Doubt>& doubts,
+                                        const IntegrityParameters& parameters, const std::string& map_frame) {
+  const Integrity integrity = assess(pose, doubts, parameters);
+  panvo_msgs::msg::Integrity message;
+  message.header().stamp(conversions::to_stamp(pose.stamp_ns));
+  message.header().frame_id(map_frame);
+  message.usable(integrity.is_usable);
+  message.reason(integrity.reason);
+  message.risk(parameters.risk);
+  message.horizontal_protection_level_m(integrity.protection_level_m);
+  message.alert_limit_m(parameters.alert_limit_m);
+  return message;
+}
+
+panvo_msgs::msg::LocalizationState to_state(const LocalizedPose& pose, std::int64_t since_ns,
+                                            const std::string& map_frame) {
   panvo_msgs::msg::LocalizationState message;
   message.header().stamp(conversions::to_stamp(pose.stamp_ns));
   message.header().frame_id(map_frame);
   message.state(to_text(pose.state));
   message.reason(pose.reason);
+  message.since(conversions::to_stamp(since_ns));
   message.position_sigma_m(vision::horizontal_sigma(pose.covariance));
   message.heading_sigma_rad(std::sqrt(std::max(0.0, pose.covariance(5, 5))));
   return message;

@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <string>
+#include <vector>
 
 #include "nav_msgs/msg/Odometry.h"
 #include "panvo/conversions/result.hpp"
+#include "panvo/localizer/integrity.hpp"
 #include "panvo/localizer/localizer.hpp"
 #include "panvo_msgs/msg/AzimuthChange.h"
 #include "panvo_msgs/msg/CorrectionOutcome.h"
+#include "panvo_msgs/msg/Integrity.h"
 #include "panvo_msgs/msg/LandmarkPoses.h"
 #include "panvo_msgs/msg/LocalizationState.h"
 #include "panvo_msgs/msg/PositionCorrection.h"
@@ -16,8 +20,6 @@
 /// The localizer's quantities as messages, and back.
 namespace panvo::localizer {
 
-/// starting, unlocated, tracking, compass_only, lost or relocalised
-std::string to_text(State state);
 /// applied, better_known or rejected
 std::string to_text(CorrectionKind kind);
 
@@ -33,7 +35,11 @@ panvo_msgs::msg::CorrectionOutcome to_message(const Correction& correction, cons
                                               const std::string& map_frame);
 panvo_msgs::msg::LandmarkPoses to_message(const std::vector<KnownLandmark>& landmarks, std::int64_t stamp_ns,
                                           const std::string& map_frame);
-panvo_msgs::msg::LocalizationState to_state(const LocalizedPose& pose, const std::string& map_frame);
+/// `since_ns`: of the last odometry for a stale pose, else of the first pose in this state.
+panvo_msgs::msg::LocalizationState to_state(const LocalizedPose& pose, std::int64_t since_ns,
+                                            const std::string& map_frame);
+panvo_msgs::msg::Integrity to_integrity(const LocalizedPose& pose, const std::vector<Doubt>& doubts,
+                                        const IntegrityParameters& parameters, const std::string& map_frame);
 
 /// The reason names numbers that are none.
 conversions::Result<LandmarkSighting> to_sighting(const panvo_msgs::msg::PositionCorrection& message);

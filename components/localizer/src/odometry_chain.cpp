@@ -6,6 +6,8 @@
 #include <cmath>
 #include <iterator>
 
+#include "panvo/localizer/dead_reckoning.hpp"
+
 namespace panvo::localizer {
 namespace {
 
@@ -43,7 +45,8 @@ Eigen::Isometry3d turned_more(const Eigen::Isometry3d& step, double by_rad) {
   return turned;
 }
 
-bool OdometryChain::add(const OdometryPose& odometry, double turn_share, double turn_scale) {
+bool OdometryChain::add(const OdometryPose& odometry, double turn_share, double turn_scale,
+                        const vision::Matrix6d& least) {
   if (!odometry.odom_from_base.matrix().allFinite() || !odometry.covariance.allFinite()) return false;
   if (!entries_.empty() && odometry.stamp_ns <= entries_.back().raw.stamp_ns) return false;
   Entry entry;
@@ -57,6 +60,7 @@ bool OdometryChain::add(const OdometryPose& odometry, double turn_share, double 
     entry.step.turn_share = turn_share;
     entry.step.covariance.row(kYaw) *= std::sqrt(turn_share);
     entry.step.covariance.col(kYaw) *= std::sqrt(turn_share);
+    entry.step.covariance = at_least(entry.step.covariance, least);
     entry.marked = entry.step;
   }
   entries_.push_back(entry);
@@ -151,6 +155,14 @@ void OdometryChain::turn_more(std::int64_t from_ns, std::int64_t to_ns, double b
     entry.step.covariance.col(kYaw) *= scale;
   }
   compose_from(first);
+}
+
+void OdometryChain::set_clock_back(std::int64_t by_ns) {
+  for (auto& entry : entries_) {
+    entry.raw.stamp_ns -= by_ns;
+    entry.now.pose.stamp_ns -= by_ns;
+  }
+  marked_from_ns_ -= by_ns;
 }
 
 void OdometryChain::mark(std::int64_t from_ns) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "path_record.hpp"
 
+#include <cstdlib>
+
 #include "panvo/conversions/pose.hpp"
 #include "panvo/conversions/time.hpp"
 
@@ -16,7 +18,7 @@ bool PathRecord::add(std::int64_t stamp_ns, const Eigen::Isometry3d& frame_from_
     poses_.resize(kept);
     step_m_ *= 2.0;
   }
-  if (told_ns_ && static_cast<double>(stamp_ns - *told_ns_) < period_s_ * 1e9) return false;
+  if (told_ns_ && static_cast<double>(std::abs(stamp_ns - *told_ns_)) < period_s_ * 1e9) return false;
   told_ns_ = stamp_ns;
   return true;
 }

@@ -17,6 +17,8 @@ constexpr int kMostSteps = 50;
 
 /// Translation, then the quaternion as Eigen stores it: x y z w.
 using Block = std::array<double, 7>;
+constexpr double kRounding = 1e-12;
+
 using Manifold = ceres::ProductManifold<ceres::EuclideanManifold<3>, ceres::EigenQuaternionManifold>;
 
 Block to_block(const Eigen::Isometry3d& pose) {
@@ -34,7 +36,14 @@ Eigen::Isometry3d to_pose(const Block& block) {
 }
 
 vision::Matrix6d whitening(const vision::Matrix6d& covariance) {
-  const Eigen::LLT<vision::Matrix6d> factor(covariance);
+  Eigen::LLT<vision::Matrix6d> factor(covariance);
+  if (factor.info() != Eigen::Success && covariance.allFinite()) {
+    // Semidefinite, and what is known of it lost in the rounding of what is not: to the last digits it is made definite.
+    const Eigen::SelfAdjointEigenSolver<vision::Matrix6d> parts(covariance);
+    const double least = kRounding * parts.eigenvalues().cwiseAbs().maxCoeff();
+    factor.compute(parts.eigenvectors() * parts.eigenvalues().cwiseMax(least).asDiagonal() *
+                   parts.eigenvectors().transpose());
+  }
   if (factor.info() != Eigen::Success) throw std::invalid_argument("pose graph: a covariance is not positive definite");
   return factor.matrixL().solve(vision::Matrix6d::Identity());
 }
@@ -115,7 +124,7 @@ struct Problem {
 
 }  // namespace
 
-void PoseGraph::optimise() {
+bool PoseGraph::optimise() {
   Problem problem(*this);
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
@@ -124,8 +133,14 @@ void PoseGraph::optimise() {
   options.logging_type = ceres::SILENT;
   ceres::Solver::Summary summary;
   ceres::Solve(options, &problem.problem, &summary);
-  if (!summary.IsSolutionUsable()) return;
-  for (std::size_t i = 0; i < poses.size(); ++i) poses[i] = to_pose(problem.blocks[i]);
+  if (!summary.IsSolutionUsable()) return false;
+  std::vector<Eigen::Isometry3d> moved;
+  for (const auto& block : problem.blocks) {
+    moved.push_back(to_pose(block));
+    if (!moved.back().matrix().allFinite()) return false;
+  }
+  poses = std::move(moved);
+  return true;
 }
 
 std::optional<std::vector<vision::Matrix6d>> PoseGraph::covariances() const {

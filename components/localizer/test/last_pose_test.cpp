@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 #include <memory>
+#include <tuple>
 
 #include "panvo/conversions/pose.hpp"
 #include "panvo/conversions/time.hpp"
@@ -46,6 +47,7 @@ class Life {
     panvo_msgs::msg::PanoramicLandmark landmark;
     landmark.header().stamp(conversions::to_stamp(kBegin_ns - 1));
     landmark.id(id);
+    landmark.histogram({1.0F});
     landmark.pose().pose().position().x(x);
     landmark.pose().covariance(conversions::to_array(1e-4 * vision::Matrix6d::Identity()));
     harness_.publish(topics::kLandmarks, landmark);
@@ -133,7 +135,24 @@ TEST_F(LastPoseFile, OfNumbersThatAreNoPoseIsNotBelieved) {
   Life second(kept_);
   second.drive(kBegin_ns + 4 * kSecond_ns, 6);
   EXPECT_NEAR(second.x(), 1.0, 1e-6);
-  EXPECT_THAT(second.log(), Contains(HasSubstr("'orientation' is not of length 1")));
+  EXPECT_THAT(second.log(), Contains(HasSubstr("orientation is not a quaternion of length 1")));
+}
+
+TEST_F(LastPoseFile, OfACovarianceOrAPlaceThatIsNoneIsNotBelieved) {
+  const auto file_of = [this](const std::string& x, const std::string& correlation) {
+    std::ofstream(file_) << "map_frame map\nstamp_ns 1700000002000000000\nspeed_m_per_s 5\nposition " << x
+                         << " 0 0\norientation 0 0 0 1\ncovariance 1 " << correlation << " 0 0 0 0 " << correlation
+                         << " 1 0 0 0 0 0 0 1 0 0 0 0 0 0 1 0 0 0 0 0 0 1 0 0 0 0 0 0 1\n";
+  };
+  live_once();
+  for (const auto& [x, correlation, problem] : {std::tuple{"10", "2", "covariance is not positive semidefinite"},
+                                                std::tuple{"1e200", "0", "position is beyond +-1e+08"}}) {
+    file_of(x, correlation);
+    Life second(kept_);
+    second.drive(kBegin_ns + 4 * kSecond_ns, 6);
+    EXPECT_NEAR(second.x(), 1.0, 1e-6);
+    EXPECT_THAT(second.log(), Contains(HasSubstr(problem)));
+  }
 }
 
 TEST_F(LastPoseFile, ThatCannotBeWrittenDoesNotStopIt) {

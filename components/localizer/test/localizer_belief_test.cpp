@@ -285,7 +285,78 @@ TEST(LocalizerBelief, SaysWhatIsWrongWithASighting) {
   EXPECT_EQ(round.localizer.add(early).reason, "no odometry is remembered of that time");
   auto broken = round.drive.sight(1, round.landmark);
   broken.covariance(2, 2) = std::nan("");
-  EXPECT_EQ(round.localizer.add(broken).reason, "numbers that are none");
+  EXPECT_EQ(round.localizer.add(broken).reason, "has numbers that are none");
+}
+
+/// A drive with two landmarks behind it.
+struct TwoPlaces {
+  explicit TwoPlaces(unsigned seed, const Parameters& parameters = of_known_scale())
+      : drive(seed), localizer(parameters) {
+    localizer.add(drive.now());
+    for (int i = 0; i < 100; ++i) {
+      localizer.add(drive.step());
+      if (i % 60 != 10) continue;
+      places.push_back(drive.truth);
+      built &= localizer.add_built(static_cast<std::uint32_t>(places.size()), drive.now().stamp_ns);
+    }
+  }
+  /// Steps on and sees one of them, displaced.
+  Correction see(std::uint32_t id, double off_m = 0.0, bool stands_alone = true, double sigma_m = 0.05) {
+    localizer.add(drive.step());
+    auto sighting = drive.sight(id, places[id - 1], sigma_m);
+    sighting.landmark_from_base.translation().y() += off_m;
+    sighting.stands_alone = stands_alone;
+    return localizer.add(sighting);
+  }
+
+  Drive drive;
+  Localizer localizer;
+  std::vector<Eigen::Isometry3d> places;
+  bool built = true;
+};
+
+TEST(LocalizerBelief, ForgetsWhatALandmarkSaidThatTheNextDidNotConfirm) {
+  TwoPlaces two(3);
+  ASSERT_TRUE(two.built);
+  for (int i = 0; i < 2; ++i) EXPECT_EQ(two.see(1, 40.0).kind, CorrectionKind::kRejected);
+  EXPECT_EQ(two.see(2, 0.0, false).kind, CorrectionKind::kRejected) << "of few points";
+  const auto confirmed = two.see(2, 0.0, false);
+  ASSERT_EQ(confirmed.kind, CorrectionKind::kApplied) << confirmed.reason;
+  auto unreliable = two.drive.step();
+  unreliable.is_reliable = false;
+  EXPECT_NE(two.localizer.add(unreliable).state, State::kLost) << two.localizer.latest().reason;
+}
+
+TEST(LocalizerBelief, APassBeforeTheVehicleWasLiftedIsAnother) {
+  auto parameters = of_known_scale();
+  parameters.second_look_m = 3.0;  // the landmarks are not known better
+  parameters.second_look_deg = 10.0;
+  TwoPlaces two(4, parameters);
+  ASSERT_EQ(two.see(2, 0.0, true, 0.01).kind, CorrectionKind::kApplied);
+  auto lifted = two.drive.step(0.4, 25.0);
+  lifted.is_reliable = false;
+  two.localizer.add(lifted);
+  for (int i = 0; i < 2; ++i) EXPECT_EQ(two.see(1).kind, CorrectionKind::kRejected);
+  EXPECT_EQ(two.see(2).kind, CorrectionKind::kRejected);
+  const auto found = two.see(2);
+  EXPECT_EQ(found.kind, CorrectionKind::kApplied) << found.reason << ": it is known better, but of before";
+  EXPECT_LT(error_m(two.localizer.latest(), two.drive), 3.0);
+}
+
+TEST(LocalizerBelief, ASecondPanoramaOfAnotherPassDoesNotSupportTheFirst) {
+  const auto off_by = [](double chi_square) {
+    TwoPlaces two(5);
+    return std::sqrt(chi_square / two.see(1, 10.0).chi_square) * 10.0;
+  };
+  const double off_m = off_by(80.0);  // beyond the gate, but so far odometry may drift
+  TwoPlaces close(5);
+  EXPECT_EQ(close.see(1, off_m).kind, CorrectionKind::kRejected);
+  EXPECT_EQ(close.see(1, off_m).kind, CorrectionKind::kApplied);
+  TwoPlaces apart(5);
+  EXPECT_EQ(apart.see(1, off_m).kind, CorrectionKind::kRejected);
+  for (int i = 0; i < 60; ++i) apart.localizer.add(apart.drive.step());
+  const auto later = apart.see(1, 1.3 * off_m);
+  EXPECT_EQ(later.kind, CorrectionKind::kRejected) << later.chi_square;
 }
 
 }  // namespace

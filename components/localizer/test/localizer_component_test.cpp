@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "panvo/conversions/pose.hpp"
@@ -52,10 +53,25 @@ class LocalizerComponent : public ::testing::Test {
     for (int i = from; i < to; ++i) publish_odometry(i, at(0.2 * i, 0.0, 0.0), 1e-4 + 1e-4 * i);
   }
 
+  void publish_quality(int frame, bool is_reliable, double inlier_ratio) {
+    panvo_msgs::msg::OdometryQuality quality;
+    quality.header().stamp(conversions::to_stamp(stamp(frame)));
+    quality.reliable(is_reliable);
+    quality.inlier_ratio(inlier_ratio);
+    harness_.publish(topics::kOdometryQuality, quality);
+  }
+  void drive_with_quality(int from, int to, bool is_reliable) {
+    for (int i = from; i < to; ++i) {
+      publish_quality(i, is_reliable, 0.0);
+      drive(i, i + 1);
+    }
+  }
+
   void publish_landmark(std::uint32_t id, std::int64_t stamp_ns, const Eigen::Isometry3d& pose) {
     panvo_msgs::msg::PanoramicLandmark landmark;
     landmark.header().stamp(conversions::to_stamp(stamp_ns));
     landmark.id(id);
+    landmark.histogram({1.0F});
     landmark.pose().pose(conversions::to_pose(pose));
     landmark.pose().covariance(conversions::to_array(1e-4 * vision::Matrix6d::Identity()));
     harness_.publish(topics::kLandmarks, landmark);
@@ -134,6 +150,60 @@ TEST_F(LocalizerComponent, CorrectsThePositionAndSaysByHowMuch) {
   EXPECT_NEAR(enhanced_.back()->pose().pose().position().x(), 29.7, 0.1);
   EXPECT_NEAR(tf_.back()->transforms()[1].transform().translation().x(), 30.2, 1e-6) << "odom does not jump";
   EXPECT_NEAR(tf_.back()->transforms()[0].transform().translation().x(), -0.5, 0.1) << "the map does";
+}
+
+/// What would freeze or stop it for good: it goes on with what comes after.
+TEST_F(LocalizerComponent, GoesOnAfterMessagesThatNoSensorSends) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  vision::Matrix6d indefinite = 1e-4 * vision::Matrix6d::Identity();
+  indefinite(0, 1) = indefinite(1, 0) = 1.0;
+  load();
+  publish_landmark(1, stamp(-1000), at(5.0, 0.0, 0.0));
+  drive(0, 20);
+  nav_msgs::msg::Odometry odometry = *enhanced_.back();
+  odometry.header().stamp(conversions::to_stamp(stamp(20)));
+  odometry.pose().covariance()[14] = nan;
+  harness_.publish(topics::kOdometryBinocular, odometry);
+  odometry.pose().covariance()[14] = 1.0;
+  odometry.pose().pose().position().x(1e200);
+  harness_.publish(topics::kOdometryBinocular, odometry);
+  geometry_msgs::msg::PoseWithCovarianceStamped said;
+  said.header().frame_id("map");
+  said.pose().covariance(conversions::to_array(indefinite));
+  harness_.publish(topics::kInitialPose, said);
+  said.pose().covariance(conversions::to_array(1e308 * vision::Matrix6d::Identity()));
+  harness_.publish(topics::kInitialPose, said);
+  said.pose().covariance(conversions::to_array(vision::Matrix6d::Identity()));
+  said.pose().pose().position().x(1e200);
+  harness_.publish(topics::kInitialPose, said);
+  panvo_msgs::msg::PositionCorrection correction;
+  correction.header().stamp(conversions::to_stamp(stamp(19)));
+  correction.landmark_id(1);
+  correction.state("full");
+  correction.landmark_from_base().covariance(conversions::to_array(indefinite));
+  harness_.publish(topics::kCorrection, correction);
+  panvo_msgs::msg::PanoramicLandmark landmark;
+  landmark.header().stamp(conversions::to_stamp(stamp(-1000)));
+  landmark.id(2);
+  landmark.histogram({1.0F});
+  landmark.pose().pose().position().x(nan);
+  harness_.publish(topics::kLandmarks, landmark);
+  panvo_msgs::msg::AzimuthChange azimuth;
+  azimuth.header().stamp(conversions::to_stamp(stamp(19)));
+  azimuth.from_stamp(conversions::to_stamp(stamp(18)));
+  azimuth.azimuth_change_rad(1.0);
+  azimuth.variance_rad2(1e-300);
+  azimuth.valid(true);
+  harness_.publish(topics::kAzimuthChange, azimuth);
+
+  const std::size_t told = enhanced_.size();
+  drive(21, 41);
+  EXPECT_EQ(enhanced_.size(), told + 20);
+  for (const auto& pose : enhanced_) {
+    EXPECT_LT(std::abs(pose->pose().pose().position().x()), 20.0);
+    EXPECT_GT(pose->pose().covariance()[0], 0.0);
+  }
+  EXPECT_THAT(harness_.container().run(), IsEmpty());
 }
 
 TEST_F(LocalizerComponent, WaitsForOdometryThatIsBehindAPanorama) {
@@ -246,8 +316,8 @@ TEST_F(LocalizerComponent, SaysThatThereIsNoOdometryAnyMore) {
   drive(0, 10);
   for (int i = 1; i < 10; ++i) publish_azimuth(stamp(10 * i), stamp(10 * i + 10), 0.0);
   ASSERT_THAT(states_, Not(IsEmpty()));
-  EXPECT_EQ(states_.back()->state(), "lost");
-  EXPECT_THAT(states_.back()->reason(), HasSubstr("no odometry/binocular for"));
+  EXPECT_EQ(states_.back()->state(), "stale");
+  EXPECT_THAT(states_.back()->reason(), HasSubstr("no /odometry/binocular for"));
 }
 
 TEST_F(LocalizerComponent, SaysThatThereAreNoPanoramasAnyMore) {
@@ -262,19 +332,13 @@ TEST_F(LocalizerComponent, SaysThatThereAreNoPanoramasAnyMore) {
 TEST_F(LocalizerComponent, TellsOfUnreliableOdometryAndOfTheCompass) {
   load();
   drive(0, 50);
-  panvo_msgs::msg::OdometryQuality quality;
-  quality.reliable(false);
-  quality.header().stamp(conversions::to_stamp(stamp(50)));
-  harness_.publish(topics::kOdometryQuality, quality);
-  drive(50, 60);
+  drive_with_quality(50, 60, false);
   publish_azimuth(stamp(50), stamp(55), 0.0);
-  drive(60, 61);
+  drive_with_quality(60, 61, false);
   EXPECT_EQ(states_.back()->state(), "compass_only");
-  drive(61, 120);
+  drive_with_quality(61, 120, false);
   EXPECT_EQ(states_.back()->state(), "lost");
-  quality.reliable(true);
-  harness_.publish(topics::kOdometryQuality, quality);
-  drive(120, 121);
+  drive_with_quality(120, 121, true);
   EXPECT_EQ(states_.back()->state(), "tracking");
 }
 
@@ -287,12 +351,11 @@ TEST_P(ComponentHeedsTheCompass, AsFarAsThePointsOfTheOdometryAgree) {
   constexpr double kTurn_rad = 0.004;
   constexpr double kStep_rad2 = 1e-6;  // five steps are five times as uncertain as the compass
   load({{"fusion.clock_sigma_s", "0"}, {"fusion.compass_turn_error_ratio", "0"}});
-  panvo_msgs::msg::OdometryQuality quality;
-  quality.reliable(true);
-  quality.inlier_ratio(inlier_ratio);
-  harness_.publish(topics::kOdometryQuality, quality);
-  const auto drive_on = [&](int from, int to) {
-    for (int i = from; i < to; ++i) publish_odometry(i, at(0.2 * i, 0.0, 0.0), kStep_rad2 * (1 + i));
+  const auto drive_on = [&, ratio = inlier_ratio](int from, int to) {
+    for (int i = from; i < to; ++i) {
+      publish_quality(i, true, ratio);
+      publish_odometry(i, at(0.2 * i, 0.0, 0.0), kStep_rad2 * (1 + i));
+    }
   };
   drive_on(0, 6);
   publish_azimuth(stamp(0), stamp(5), kTurn_rad);

@@ -52,6 +52,19 @@ TEST(PoseGraph, HasTheCovarianceOfAChainByHand) {
   EXPECT_TRUE((*covariances)[1].isApprox(expected, 1e-6)) << (*covariances)[1] << "\n\n" << expected;
 }
 
+TEST(PoseGraph, TakesACovarianceThatIsSemidefiniteUpToRounding) {
+  // The place is not known, and goes with the heading up to the seventh digit: single precision leaves as much.
+  vision::Matrix6d unknown = covariance(1e6, 1.0);
+  unknown(0, 5) = unknown(5, 0) = 1e6 * (1.0 + 1e-7);
+  PoseGraph graph;
+  graph.poses = {pose(0, 0, 0), pose(10, 0, 0)};
+  graph.priors.push_back({0, pose(0, 0, 0), covariance(0.1, 0.02)});
+  graph.priors.push_back({1, pose(3, 0, 0), unknown});
+  graph.edges.push_back({0, 1, pose(10, 0, 0), covariance(0.2, 0.01), false});
+  graph.optimise();
+  EXPECT_NEAR(graph.poses[1].translation().x(), 10.0, 1e-3);
+}
+
 TEST(PoseGraph, HasCovariancesThatErrorsFollow) {
   std::mt19937_64 random(5);
   std::normal_distribution<double> normal;
@@ -102,6 +115,16 @@ TEST(PoseGraph, RefusesEdgesToNowhere) {
   graph.poses = {pose(0, 0, 0)};
   graph.edges.push_back({0, 7, pose(10, 0, 0), covariance(0.1, 0.01), false});
   EXPECT_THROW(graph.optimise(), std::invalid_argument);
+}
+
+TEST(PoseGraph, SaysWhereItFindsNoMinimum) {
+  PoseGraph graph;
+  graph.poses.assign(2, Eigen::Isometry3d::Identity());
+  graph.poses[1].translation().x() = std::nan("");
+  graph.edges.push_back({0, 1});
+  graph.priors.push_back({0});
+  EXPECT_FALSE(graph.optimise());
+  EXPECT_TRUE(graph.poses[0].isApprox(Eigen::Isometry3d::Identity()));
 }
 
 }  // namespace

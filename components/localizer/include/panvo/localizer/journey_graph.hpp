@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -43,6 +44,8 @@ class JourneyGraph {
 
   void start(const Remembered& at);
   bool has_started() const noexcept { return !nodes_.empty(); }
+  /// Nodes: the start, landmarks, passes.
+  std::size_t size() const noexcept { return nodes_.size(); }
   /// Whether nothing hangs on where the map began.
   bool is_bare() const noexcept { return nodes_.size() == 1; }
 
@@ -54,7 +57,8 @@ class JourneyGraph {
   void add_built(std::uint32_t id, const Remembered& at);
   /// Where somebody says that the vehicle is.
   void add_said(const PoseInMap& pose, const Remembered& at);
-  /// A sighting; false where a pass by the same landmark within `same_pass_m` of way has a better one.
+  /// A sighting; false where a pass by the same landmark within `same_pass_m` of way has a better one. Of the passes by one landmark the last and the
+  /// most precise are kept, 8 in all: a route that is driven all day keeps the graph as small as it was after the eighth time.
   bool add_pass(const LandmarkSighting& sighting, const Remembered& at, double same_pass_m);
 
   /// As known by now; nullopt for an id that is not there.
@@ -76,7 +80,11 @@ class JourneyGraph {
   /// Odometry that is still remembered has changed since a time.
   void refresh(const OdometryChain& chain, std::int64_t since_ns);
 
-  void solve();
+  /// All stamps of this journey become so much earlier.
+  void set_clock_back(std::int64_t by_ns);
+
+  /// False where no poses were found that fit; it may have changed then and must not be used any more.
+  bool solve();
 
  private:
   /// A moment of this journey, or a landmark of an earlier day that was seen on it.
@@ -91,6 +99,8 @@ class JourneyGraph {
     vision::Matrix6d covariance = vision::Matrix6d::Zero();
   };
 
+  bool is_cut(std::int64_t from_ns, std::int64_t to_ns) const;
+  void forget_least_precise_pass(std::uint32_t landmark_id);
   const Node* landmark_node(std::uint32_t id) const;
   const Node& anchor(std::int64_t stamp_ns) const;
   std::vector<std::size_t> journey_order() const;

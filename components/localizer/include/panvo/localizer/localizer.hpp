@@ -9,6 +9,7 @@
 
 #include "panvo/localizer/azimuth_lean.hpp"
 #include "panvo/localizer/clock_offset.hpp"
+#include "panvo/localizer/dead_reckoning.hpp"
 #include "panvo/localizer/journey_graph.hpp"
 #include "panvo/localizer/localizer_parameters.hpp"
 #include "panvo/localizer/mounting_check.hpp"
@@ -24,7 +25,11 @@ enum class State {
   kCompassOnly,  ///< the odometry cannot be relied on; the panoramas say how the vehicle turns, nobody how far it goes
   kLost,         ///< neither can be relied on, or the position has become too uncertain
   kRelocalised,  ///< a sighting has just said where the vehicle is, after it was unlocated or lost
+  kStale,        ///< no odometry arrives any more; told by who sees time pass
 };
+
+/// starting, unlocated, tracking, compass_only, lost, relocalised or stale
+std::string to_text(State state);
 
 struct LocalizedPose {
   std::int64_t stamp_ns = 0;
@@ -34,6 +39,13 @@ struct LocalizedPose {
   Eigen::Isometry3d odom_from_base = Eigen::Isometry3d::Identity();  ///< never jumps
   Eigen::Isometry3d map_from_base = Eigen::Isometry3d::Identity();
   vision::Matrix6d covariance = vision::Matrix6d::Zero();  ///< of map_from_base, as of vision::pose_error
+};
+
+/// Something that speaks against the pose and that its covariance does not know of.
+struct Doubt {
+  double off_m = 0.0;        ///< by how much the pose is off if it is right, horizontally
+  bool forbids_use = false;  ///< the pose should not be used before it is settled
+  std::string reason;
 };
 
 enum class CorrectionKind { kApplied, kBetterKnown, kRejected };
@@ -66,13 +78,19 @@ class Localizer {
  public:
   explicit Localizer(const Parameters& parameters);
 
-  /// In order of stamps; one that is not after the last, or not finite, changes nothing.
+  /// In order of stamps; one that is not after the last, or has a fault (fault_of), changes nothing.
   LocalizedPose add(const OdometryPose& odometry);
 
   AzimuthUse add(const AzimuthMeasurement& azimuth);
 
-  /// A landmark of an earlier day, with its pose and uncertainty; before any sighting of it.
-  void add_known(const KnownLandmark& landmark);
+  /// A landmark of an earlier day, with its pose and uncertainty; before any sighting of it. The first of them at the start of the journey makes
+  /// the start unknown; later, the journey goes on in its own map until two panoramas agree where it lies in that of the landmarks. False, and
+  /// nothing is changed, where it has a fault.
+  bool add_known(const KnownLandmark& landmark);
+
+  /// The journey did not begin where its map does: it is unlocated, for this reason, until a place is recognised or somebody says
+  /// where it is. `last`: where it was last known to be, which is told meanwhile.
+  void forget_start(const std::optional<PoseInMap>& last, std::string reason);
 
   /// A landmark that was built on this journey of the panorama of `stamp_ns`. False when odometry of that time is not remembered.
   bool add_built(std::uint32_t id, std::int64_t stamp_ns);
@@ -81,10 +99,17 @@ class Localizer {
 
   /// Somebody says where the vehicle is at a time (in the odometry's clock), and with what certainty; what he leaves open, a variance
   /// of 0, is not known. Where the vehicle was known to be, he says that it was moved. False when odometry of that time is not
-  /// remembered, or a number is none.
+  /// remembered, or the pose has a fault; nothing is changed then.
   bool add_said(const PoseInMap& pose, std::int64_t stamp_ns);
 
+  /// The odometry's clock was set back: all that is remembered is of so much earlier a time by it.
+  void set_clock_back(std::int64_t by_ns);
+
   const LocalizedPose& latest() const noexcept { return latest_; }
+  /// The latest pose, as uncertain as it is so long after the last odometry.
+  LocalizedPose after_silence(double silence_s) const;
+  /// What speaks against the latest pose.
+  std::vector<Doubt> doubts() const;
   /// Way of the odometry since the start, m.
   double way_m() const { return chain_.empty() ? 0.0 : chain_.latest().way_m; }
   /// True when odometry reaches as far as a panorama's stamp: what is to be said of it can be said.
@@ -99,6 +124,14 @@ class Localizer {
     LandmarkSighting sighting;
     Eigen::Isometry3d map_from_odom;
     double way_m;
+    double off_m;  // horizontally, of where the vehicle was expected
+    bool is_far;   // by the gate
+    std::int64_t at_ns;
+  };
+
+  struct Contradiction {  // between odometry and compass
+    std::int64_t stamp_ns;
+    double off_m;
   };
 
   struct TurnSeen {  // by odometry and compass
@@ -122,6 +155,7 @@ class Localizer {
   ClockOffset clock_;
   TurnScale turn_scale_;
   AzimuthLean lean_;
+  DeadReckoning dead_reckoning_;
   JourneyGraph graph_;
   MountingCheck mounting_;
 
@@ -130,14 +164,17 @@ class Localizer {
   double owed_rad_ = 0.0;                                     // turn that it has yet to make up for
 
   bool is_located_ = true;
+  bool is_joined_ = true;  // the map is that of the known landmarks, if there are any
+  std::string unlocated_reason_ = "no place of earlier days was recognised yet";
   std::optional<std::int64_t> unreliable_since_ns_;  // odometry, up to now
-  std::optional<std::int64_t> doubtful_ns_;   // the last time since a correction that odometry may have missed a move
-  std::optional<std::int64_t> azimuth_ns_;    // the last that was used
-  std::optional<std::int64_t> last_from_ns_;  // the panorama that it was measured against
-  std::optional<TurnSeen> turn_seen_;         // against that panorama, last
-  std::optional<double> found_at_way_m_;      // where the vehicle was found last, after it was not known where
-  std::optional<Asking> asking_;              // the last sighting that was not believed
-  std::optional<Asking> dissent_;             // the last pair of them, of another landmark
+  std::optional<std::int64_t> doubtful_ns_;     // the last time since a correction that odometry may have missed a move
+  std::optional<std::int64_t> azimuth_ns_;      // the last that was used
+  std::optional<std::int64_t> last_from_ns_;    // the panorama that it was measured against
+  std::optional<TurnSeen> turn_seen_;           // against that panorama, last
+  std::optional<double> found_at_way_m_;        // where the vehicle was found last, after it was not known where
+  std::optional<Asking> asking_;                // the last sighting that was not believed
+  std::optional<Asking> dissent_;               // the last pair of them, of another landmark
+  std::optional<Contradiction> contradiction_;  // the last
   LocalizedPose latest_;
 };
 

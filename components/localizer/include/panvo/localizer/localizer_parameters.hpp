@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "panvo/localizer/dead_reckoning.hpp"
+
 namespace panvo::localizer {
 
 struct Parameters {
@@ -23,6 +25,9 @@ struct Parameters {
   double lost_sigma_m = 50.0;
   double start_sigma_m = 0.01;
   double start_sigma_deg = 0.1;
+  double gap_s = 0.5;
+  double max_speed_m_s = 70.0;
+  MotionPrior motion;
 
   template <class Field>
   static void describe(Field&& field) {
@@ -73,6 +78,15 @@ struct Parameters {
           "standard deviation of the position from which on it counts as lost, too", 1.0, 1e6);
     field(&P::start_sigma_m, "start_sigma_m", "m", "of the pose that the map begins with", 1e-6, 10.0);
     field(&P::start_sigma_deg, "start_sigma_deg", "deg", "of the pose that the map begins with", 1e-6, 90.0);
+    field(
+        &P::gap_s, "gap_s", "s",
+        "from which time between two odometry messages on the motion between them counts as not measured, unless they "
+        "are as slow as a rule",
+        0.01, 60.0);
+    field(&P::max_speed_m_s, "max_speed_m_s", "m/s",
+          "odometry that moves faster is refused; several messages in a row that agree are odometry that began anew",
+          1.0, 1000.0);
+    field.group(&P::motion, "motion");
   }
 };
 

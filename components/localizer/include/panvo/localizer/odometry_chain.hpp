@@ -39,8 +39,10 @@ class OdometryChain {
   explicit OdometryChain(double history_s) : history_s_(history_s) {}
 
   /// In order of stamps; false, and nothing is done, for one that is not after the last or not finite. `turn_share`: of the variance that
-  /// it gained in yaw, how much is kept; `turn_scale`: by what share its turns are too large.
-  bool add(const OdometryPose& odometry, double turn_share = 1.0, double turn_scale = 0.0);
+  /// it gained in yaw, how much is kept; `turn_scale`: by what share its turns are too large; `least`: what the step's covariance must be at
+  /// least, in the vehicle's axes.
+  bool add(const OdometryPose& odometry, double turn_share = 1.0, double turn_scale = 0.0,
+           const vision::Matrix6d& least = vision::Matrix6d::Zero());
 
   bool empty() const noexcept { return entries_.empty(); }
   /// Precondition: not empty.
@@ -60,6 +62,9 @@ class OdometryChain {
   void distrust(std::int64_t from_ns, std::int64_t to_ns, double factor, double most_else);
   /// Makes a stretch turn by so much more, each step by its share of the variance, and multiplies the variance of its yaw.
   void turn_more(std::int64_t from_ns, std::int64_t to_ns, double by_rad, double variance_factor);
+
+  /// All stamps become so much earlier.
+  void set_clock_back(std::int64_t by_ns);
 
   /// Keeps the steps after a time as they are, ...
   void mark(std::int64_t from_ns);

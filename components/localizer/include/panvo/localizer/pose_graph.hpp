@@ -32,8 +32,8 @@ class PoseGraph {
   std::vector<Prior> priors;
 
   /// Moves the poses to the minimum. Throws std::invalid_argument where an edge or prior names a pose that is not there, or a
-  /// covariance is not positive definite. A pose without any edge or prior stays.
-  void optimise();
+  /// covariance is not positive definite. A pose without any edge or prior stays. False, and nothing is moved, where no minimum was found.
+  bool optimise();
 
   /// Covariances of all poses in the map at the minimum, as of vision::pose_error; nullopt where the measurements do not
   /// determine them all.

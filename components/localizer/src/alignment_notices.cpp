@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "alignment_notices.hpp"
+
+#include <cmath>
+#include <numbers>
+
+namespace panvo::localizer {
+namespace {
+
+constexpr double kNotableOffset_s = 0.02;
+constexpr double kSureOffset_s = 0.004;
+
+}  // namespace
+
+void AlignmentNotices::check_clock(const ClockOffset& clock) {
+  const bool is_sure = std::sqrt(clock.variance_s2()) < kSureOffset_s;
+  if (has_told_offset_ || !is_sure || std::abs(clock.estimate_s()) <= kNotableOffset_s) return;
+  has_told_offset_ = true;
+  log_.warn("the panoramic camera's clock is {:.0f} ms {} the stereo camera's; this is allowed for",
+            1000.0 * std::abs(clock.estimate_s()), clock.estimate_s() > 0.0 ? "ahead of" : "behind");
+}
+
+void AlignmentNotices::check_mounting(const MountingCheck& mounting) {
+  const auto misalignment = mounting.misalignment();
+  if (!misalignment || has_told_mounting_) return;
+  has_told_mounting_ = true;
+  constexpr double kDegrees = 180.0 / std::numbers::pi;
+  if (misalignment->is_turned) {
+    log_.warn(
+        "the panoramic camera looks {:+.1f} deg to the left and {:+.1f} deg down of where /tf_static says, or the "
+        "stereo "
+        "camera as much the other way: calibrate their extrinsics",
+        kDegrees * misalignment->yaw_rad, kDegrees * misalignment->pitch_rad);
+  }
+  if (misalignment->is_displaced) {
+    log_.warn(
+        "the panoramic camera sits {:+.2f} m forward and {:+.2f} m to the left of where /tf_static says, or the stereo "
+        "camera as much the other way: measure their extrinsics",
+        misalignment->forward_m, misalignment->left_m);
+  }
+}
+
+}  // namespace panvo::localizer

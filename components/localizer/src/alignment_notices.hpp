@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "panvo/localizer/localizer.hpp"
+#include "panvo/runtime/logger.hpp"
+
+namespace panvo::localizer {
+
+/// Says once what the journey has shown of how the cameras' clocks and places on the vehicle differ from what is said of them.
+class AlignmentNotices {
+ public:
+  /// `log` must outlive it.
+  explicit AlignmentNotices(const runtime::Logger& log) : log_(log) {}
+
+  void check_clock(const ClockOffset& clock);
+  void check_mounting(const MountingCheck& mounting);
+
+ private:
+  const runtime::Logger& log_;
+  bool has_told_offset_ = false;
+  bool has_told_mounting_ = false;
+};
+
+}  // namespace panvo::localizer

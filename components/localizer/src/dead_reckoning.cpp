@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "panvo/localizer/dead_reckoning.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <numbers>
+
+namespace panvo::localizer {
+namespace {
+
+constexpr double kClimb = 0.1;         // of the way, up or down
+constexpr double kTiltRateRad = 0.02;  // a second
+constexpr double kMostTilt_rad = 0.05;
+constexpr double kSlow = 3.0;   // times the usual interval are no gap
+constexpr double kMean = 0.05;  // share of a new interval in the usual one
+
+/// Of what grows with half of an acceleration times the square of the time, until it goes on at a speed.
+double after(double seconds, double acceleration, double speed) {
+  return std::min(0.5 * acceleration * seconds * seconds, speed * seconds);
+}
+
+}  // namespace
+
+vision::Matrix6d DeadReckoning::step(double interval_s, bool is_reliable) {
+  const bool is_gap = interval_s > std::max(gap_s_, kSlow * usual_s_);
+  usual_s_ += (usual_s_ == 0.0 ? 1.0 : kMean) * (interval_s - usual_s_);
+  if (is_reliable && !is_gap) {
+    blind_s_ = 0.0;
+    return vision::Matrix6d::Zero();
+  }
+  const vision::Matrix6d least = silence(interval_s);
+  blind_s_ = is_reliable ? 0.0 : blind_s_ + interval_s;
+  return least;
+}
+
+vision::Matrix6d DeadReckoning::silence(double seconds) const {
+  return (variance_after(blind_s_ + seconds) - variance_after(blind_s_)).asDiagonal();
+}
+
+vision::Vector6d DeadReckoning::variance_after(double seconds) const {
+  const double way_m = after(seconds, prior_.acceleration_m_s2, prior_.speed_m_s);
+  const double turn_rad =
+      std::min(after(seconds, prior_.turn_acceleration_rad_s2, prior_.turn_rate_rad_s), std::numbers::pi);
+  const double tilt_rad = std::min(kTiltRateRad * seconds, kMostTilt_rad);
+  vision::Vector6d sigma;
+  sigma << way_m, way_m, kClimb * way_m, tilt_rad, tilt_rad, turn_rad;
+  return sigma.cwiseAbs2();
+}
+
+vision::Matrix6d at_least(const vision::Matrix6d& covariance, const vision::Matrix6d& least) {
+  if (least.isZero(0.0)) return covariance;
+  const Eigen::SelfAdjointEigenSolver<vision::Matrix6d> lacking(least - covariance);
+  return covariance + vision::Matrix6d(lacking.eigenvectors() * lacking.eigenvalues().cwiseMax(0.0).asDiagonal() *
+                                       lacking.eigenvectors().transpose());
+}
+
+}  // namespace panvo::localizer

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "last_pose_keeper.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+namespace panvo::localizer {
+namespace {
+
+constexpr double kSecond_ns = 1e9;
+constexpr double kKeepPeriod_s = 1.0;
+
+double seconds(std::int64_t from_ns, std::int64_t to_ns) { return static_cast<double>(to_ns - from_ns) / kSecond_ns; }
+
+}  // namespace
+
+void LastPoseKeeper::begin(Localizer& localizer, std::int64_t stamp_ns) const {
+  const auto last = read();
+  if (last && go_on(localizer, *last, stamp_ns)) return;
+  if (!is_again_) return;
+  std::string reason = "started again after a crash, and no last pose is known";
+  if (last) {
+    const Eigen::Vector3d position = last->pose.map_from_base.translation();
+    reason = fmt::format("started again after a crash; last known to be at ({:.1f}, {:.1f}) m in {}, {:.1f} s before",
+                         position.x(), position.y(), last->map_frame, seconds(last->stamp_ns, stamp_ns));
+  }
+  const bool is_of_map = last && last->map_frame == parameters_.map_frame;
+  localizer.forget_start(is_of_map ? std::optional(last->pose) : std::nullopt, reason);
+}
+
+std::optional<LastPose> LastPoseKeeper::read() const {
+  if (parameters_.last_pose_file.empty()) return std::nullopt;
+  try {
+    return read_last_pose(parameters_.last_pose_file);
+  } catch (const std::runtime_error& error) {
+    log_.warn("{}", error.what());
+  }
+  return std::nullopt;
+}
+
+bool LastPoseKeeper::go_on(Localizer& localizer, const LastPose& last, std::int64_t stamp_ns) const {
+  const double gap_s = seconds(last.stamp_ns, stamp_ns);
+  if (last.map_frame != parameters_.map_frame || gap_s < 0.0 || gap_s > parameters_.last_pose_s) {
+    log_.info("{}: not gone on from: in '{}', {:.1f} s before (last_pose_s: {:.1f})", parameters_.last_pose_file,
+              last.map_frame, gap_s, parameters_.last_pose_s);
+    return false;
+  }
+  const auto now = after_gap(last, gap_s);
+  if (!localizer.add_said(now, stamp_ns)) {
+    log_.warn("{}: not gone on from: its pose or covariance is none; delete it, and the next one is written",
+              parameters_.last_pose_file);
+    return false;
+  }
+  const Eigen::Vector3d position = now.map_from_base.translation();
+  log_.info("{}: goes on from ({:.1f}, {:.1f}) m, of {:.1f} s before", parameters_.last_pose_file, position.x(),
+            position.y(), gap_s);
+  return true;
+}
+
+void LastPoseKeeper::keep(const LocalizedPose& pose, const geometry_msgs::msg::Twist& twist) {
+  const bool is_known = pose.state == State::kTracking || pose.state == State::kRelocalised;
+  if (parameters_.last_pose_file.empty() || !is_known) return;
+  if (kept_ns_ && std::abs(seconds(*kept_ns_, pose.stamp_ns)) < kKeepPeriod_s) return;
+  kept_ns_ = pose.stamp_ns;
+  const auto& speed = twist.linear();
+  try {
+    write_last_pose(parameters_.last_pose_file, {pose.stamp_ns,
+                                                 parameters_.map_frame,
+                                                 {pose.map_from_base, pose.covariance},
+                                                 std::hypot(speed.x(), speed.y(), speed.z())});
+  } catch (const std::runtime_error& error) {
+    log_.warn_throttled("write", "{}", error.what());
+  }
+}
+
+}  // namespace panvo::localizer

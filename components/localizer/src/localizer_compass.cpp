@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "panvo/localizer/localizer.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "panvo/localizer/soundness.hpp"
+#include "panvo/vision/equirectangular.hpp"
+
+/// What the Localizer makes of the panoramic compass.
+namespace panvo::localizer {
+namespace {
+
+constexpr int kYaw = 5;                // of a twist
+constexpr double kMostElse = 25.0;     // odometry that turns wrongly goes wrong, too, by five times what it says
+constexpr double kClockCaution = 9.0;  // odometry errs by more than it says now and then, and just while turning
+constexpr double kScaleCaution = 4.0;  // what the compass errs by stays alike for some seconds, as a bend does
+
+double wrapped(double angle_rad) { return vision::wrap(angle_rad, 2.0 * std::numbers::pi); }
+
+}  // namespace
+
+AzimuthUse Localizer::add(const AzimuthMeasurement& azimuth) {
+  const std::int64_t from_ns = in_odometry_time(azimuth.from_ns);
+  const std::int64_t to_ns = in_odometry_time(azimuth.to_ns);
+  if (fault_of_angle(azimuth.change_rad, azimuth.variance_rad2)) return AzimuthUse::kNotUsed;
+  if (!chain_.turn(from_ns, to_ns)) return AzimuthUse::kNotUsed;
+  const double yaw_before_rad = yaw_of(chain_.latest().pose.odom_from_base.linear());
+  // Turns against the same panorama err alike: the last of them, which reaches farthest, takes the place of those before.
+  if (last_from_ns_ == azimuth.from_ns) {
+    chain_.revert();
+  } else {
+    chain_.mark(from_ns);
+    if (turn_seen_) turn_scale_.add(turn_seen_->disagreement_rad, turn_seen_->turn_rad, turn_seen_->variance_rad2);
+    turn_seen_.reset();
+  }
+  last_from_ns_ = azimuth.from_ns;
+  const auto turn = chain_.turn(from_ns, to_ns);
+  const double disagreement = wrapped(azimuth.change_rad - turn->change_rad);
+  const auto twist_then = chain_.twist(from_ns);
+  const auto twist_now = chain_.twist(to_ns);
+  const double rate_change = twist_then && twist_now ? (*twist_now)[kYaw] - (*twist_then)[kYaw] : 0.0;
+  const double missed_rad = parameters_.compass_turn_error_ratio * azimuth.change_rad;
+  const double measured_variance = azimuth.variance_rad2 + missed_rad * missed_rad;
+  const double compass_variance = measured_variance + rate_change * rate_change * clock_.variance_s2();
+  const double spread = compass_variance + turn->said_variance_rad2;
+  const double excess =
+      disagreement * disagreement / (spread * parameters_.contradiction_sigmas * parameters_.contradiction_sigmas);
+  const bool is_contradicted = excess > 1.0;
+  if (is_contradicted) {
+    // Panoramas see all around, and movers cover little of them: it is the odometry that followed something else [Lu2015 6].
+    chain_.distrust(from_ns, to_ns, disagreement * disagreement / std::max(turn->variance_rad2, 1e-12), kMostElse);
+    doubtful_ns_ = to_ns;
+    const double way_m = chain_.at(to_ns)->way_m - chain_.at(from_ns)->way_m;
+    contradiction_ = Contradiction{to_ns, std::abs(disagreement) * way_m};
+  }
+  fuse(from_ns, to_ns, azimuth.change_rad, compass_variance);
+
+  std::optional<AzimuthLean::Stretch> lean;
+  if (is_contradicted) {
+    lean_.forget();
+  } else if (const auto raw_rad = chain_.raw_turn(from_ns, to_ns)) {
+    const double said_rad = (1.0 - turn_scale_.estimate()) * *raw_rad;
+    lean = lean_.add({from_ns, to_ns, wrapped(azimuth.change_rad - said_rad), azimuth.change_rad,
+                      turn->said_variance_rad2, compass_variance});
+  }
+  if (lean) {
+    const auto leaning = chain_.turn(lean->from_ns, lean->to_ns);
+    const double wrong_rad2 = lean->disagreement_rad * lean->disagreement_rad;
+    if (leaning && leaning->variance_rad2 < wrong_rad2) {
+      chain_.distrust(lean->from_ns, lean->to_ns, wrong_rad2 / std::max(leaning->variance_rad2, 1e-12), kMostElse);
+    }
+    fuse(lean->from_ns, lean->to_ns, lean->compass_rad, lean->compass_variance_rad2);
+    graph_.refresh(chain_, lean->from_ns);
+  } else if (!is_contradicted) {
+    turn_seen_ = TurnSeen{disagreement, turn->change_rad, kScaleCaution * (compass_variance + turn->variance_rad2)};
+    clock_.add(disagreement, rate_change, kClockCaution * (measured_variance + turn->said_variance_rad2));
+  }
+  azimuth_ns_ = to_ns;
+  owed_rad_ += wrapped(yaw_of(chain_.latest().pose.odom_from_base.linear()) - yaw_before_rad);
+  graph_.refresh(chain_, from_ns);
+  latest_ = localized(chain_.latest().pose);
+  return is_contradicted || lean ? AzimuthUse::kContradicted : AzimuthUse::kFused;
+}
+
+/// Joins a turn with the odometry's own, by their variances.
+void Localizer::fuse(std::int64_t from_ns, std::int64_t to_ns, double change_rad, double variance_rad2) {
+  const auto turn = chain_.turn(from_ns, to_ns);
+  if (!turn) return;
+  const double gain = turn->variance_rad2 / (turn->variance_rad2 + variance_rad2);
+  const double by_rad = gain * wrapped(change_rad - turn->change_rad);
+  chain_.turn_more(from_ns, to_ns, by_rad, 1.0 - gain);
+}
+
+}  // namespace panvo::localizer

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "panvo/localizer/localizer.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "panvo/localizer/soundness.hpp"
+
+/// What the Localizer makes of places that are seen, and of somebody's word.
+namespace panvo::localizer {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+// Of the stamp of an image's arrival. Clocks that are farther off show it in the first bend; until then straight ways count, too.
+constexpr double kMostStampSigma_s = 0.01;
+constexpr double kUnknownYaw_rad = 3.0;
+// Of what somebody who says where the vehicle is leaves open: he clicked on a flat map.
+constexpr double kUnsaidHeight_m = 10.0;
+constexpr double kUnsaidTilt_rad = 0.2;
+constexpr double kDriftRatio = 0.03;  // two landmarks agree within the drift on the way between them
+
+}  // namespace
+
+Correction Localizer::add(const LandmarkSighting& told) {
+  Correction correction;
+  const auto rejected = [&](std::string reason) {
+    correction.kind = CorrectionKind::kRejected;
+    correction.reason = std::move(reason);
+    return correction;
+  };
+  if (const auto fault = fault_of(told.landmark_from_base, told.covariance)) return rejected(*fault);
+  const LandmarkSighting sighting = with_uncertain_clock(told);
+  const auto at = chain_.at(in_odometry_time(sighting.stamp_ns));
+  if (!at) return rejected("no odometry is remembered of that time");
+  const auto landmark = graph_.landmark(sighting.landmark_id);
+  if (!landmark) return rejected(fmt::format("landmark {} is not known", sighting.landmark_id));
+  correction.map_from_base_before = correction.map_from_base_after = graph_.carried(at->pose).map_from_base;
+  mounting_.add(sighting, *at);
+  const JourneyGraph before = graph_;
+  auto reason = doubt(sighting, *landmark, *at, correction);
+  if (!reason.empty()) return rejected(std::move(reason));
+
+  const bool was_unknown = !is_located_ || latest_.state == State::kLost;
+  const bool joins = !is_joined_ && graph_.is_known(sighting.landmark_id);
+  if (joins) {
+    const Eigen::Isometry3d measured = landmark->map_from_base * sighting.landmark_from_base;
+    graph_.place(measured * correction.map_from_base_before.inverse());
+  }
+  if (!graph_.add_pass(sighting, *at, parameters_.same_pass_m)) {
+    graph_ = before;
+    correction.kind = CorrectionKind::kBetterKnown;
+    correction.reason = "a panorama of the same pass tells it better";
+    return correction;
+  }
+  if (!graph_.solve()) {
+    graph_ = before;
+    return rejected("the poses that fit it best could not be computed");
+  }
+  if (joins) is_located_ = is_joined_ = true;
+  doubtful_ns_.reset();
+  dissent_.reset();  // what spoke against a former one, this one does not confirm
+  if (was_unknown || joins) found_at_way_m_ = at->way_m;
+  correction.kind = CorrectionKind::kApplied;
+  correction.map_from_base_after = graph_.carried(at->pose).map_from_base;
+  latest_ = localized(chain_.latest().pose);
+  return correction;
+}
+
+/// The offset between the clocks is known to some milliseconds only: so far the vehicle moves and turns meanwhile, now, and when the
+/// landmark was built.
+LandmarkSighting Localizer::with_uncertain_clock(const LandmarkSighting& sighting) const {
+  LandmarkSighting wider = sighting;
+  if (const auto twist = chain_.twist(in_odometry_time(sighting.stamp_ns))) {
+    const double sigma_s = std::min(std::sqrt(clock_.variance_s2()), kMostStampSigma_s);
+    wider.covariance += 2.0 * vision::stamp_covariance(sighting.landmark_from_base, *twist, sigma_s);
+  }
+  return wider;
+}
+
+bool Localizer::add_said(const PoseInMap& pose, std::int64_t stamp_ns) {
+  const auto at = chain_.at(stamp_ns);
+  if (!at || !pose.map_from_base.matrix().allFinite() || !pose.covariance.allFinite()) return false;
+  const JourneyGraph before = graph_;
+  PoseInMap said = pose;
+  vision::Vector6d unsaid_sigma;
+  unsaid_sigma << kUnsaidHeight_m, kUnsaidHeight_m, kUnsaidHeight_m, kUnsaidTilt_rad, kUnsaidTilt_rad, kUnknownYaw_rad;
+  for (Eigen::Index i = 0; i < 6; ++i) {
+    if (said.covariance(i, i) == 0.0) said.covariance(i, i) = unsaid_sigma(i) * unsaid_sigma(i);
+  }
+  if (fault_of(said.map_from_base, said.covariance)) return false;
+  if (is_located_ && is_joined_ && !graph_.is_bare()) {
+    graph_.cut(at->pose.stamp_ns);
+  } else {
+    graph_.place(said.map_from_base * graph_.carried(at->pose).map_from_base.inverse());
+  }
+  graph_.add_said(said, *at);
+  if (!graph_.solve()) {
+    graph_ = before;
+    return false;
+  }
+  is_located_ = is_joined_ = true;
+  doubtful_ns_.reset();
+  asking_.reset();
+  dissent_.reset();
+  found_at_way_m_ = at->way_m;
+  latest_ = localized(chain_.latest().pose);
+  return true;
+}
+
+/// What speaks against a sighting; empty when nothing does.
+std::string Localizer::doubt(const LandmarkSighting& sighting, const KnownLandmark& landmark, const Remembered& at,
+                             Correction& correction) {
+  const Eigen::Isometry3d measured = landmark.map_from_base * sighting.landmark_from_base;
+  const bool is_placed = is_joined_ || !graph_.is_known(sighting.landmark_id);
+  double off_m = 0.0;
+  if (is_placed) {
+    const auto here = graph_.carried(at.pose);
+    const vision::Vector6d error = vision::pose_error(here.map_from_base, measured);
+    const vision::Matrix6d spread =
+        here.covariance + vision::compose_covariance(landmark.map_from_base, landmark.covariance,
+                                                     sighting.landmark_from_base, sighting.covariance);
+    correction.chi_square = error.dot(spread.ldlt().solve(error));
+    off_m = error.head<2>().norm();
+    if (sighting.stands_alone && correction.chi_square <= parameters_.gate_chi_square) {
+      asking_.reset();
+      dissent_.reset();
+      return {};
+    }
+  }
+  const bool is_far = is_placed && sighting.stands_alone;
+  const Asking now{sighting, measured * at.pose.odom_from_base.inverse(), at.way_m, off_m, is_far, at.pose.stamp_ns};
+  const auto before = std::exchange(asking_, now);
+  const bool is_weaker = before && sighting.stands_alone && !before->sighting.stands_alone;
+  const bool is_asked_twice = before && !is_weaker && before->sighting.landmark_id == sighting.landmark_id &&
+                              before->sighting.stamp_ns < sighting.stamp_ns &&
+                              std::abs(now.way_m - before->way_m) < parameters_.same_pass_m && agree(*before, now);
+  if (!sighting.stands_alone) {
+    if (!is_placed) return "of few points, and where the vehicle is expected is not known";
+    if (correction.chi_square > parameters_.gate_chi_square) return "of few points, and not where it was expected";
+    return is_asked_twice ? "" : "of few points: the next panorama must agree";
+  }
+  if (!is_placed) return is_asked_twice ? "" : "the first sighting: a second panorama must agree";
+  const auto far =
+      fmt::format("{:.0f} from what was expected, {:.0f} at most", correction.chi_square, parameters_.gate_chi_square);
+  if (!is_asked_twice) return far + ", until a second panorama asks for it, too";
+  if (correction.chi_square <= parameters_.second_look_gate_ratio * parameters_.gate_chi_square) return {};
+  // So far off odometry is not, unless it missed how the vehicle was moved. But a landmark in the wrong place would ask for this, too:
+  // only two landmarks together are believed.
+  const bool is_other = dissent_ && dissent_->sighting.landmark_id != sighting.landmark_id;
+  if (!is_other || !agree(*dissent_, now)) {
+    dissent_ = now;
+    return far + ", until a second landmark asks for it, too";
+  }
+  graph_.cut(doubtful_ns_ ? *doubtful_ns_ : at.pose.stamp_ns);
+  asking_.reset();
+  dissent_.reset();
+  return {};
+}
+
+/// Whether two sightings ask for the same place of the odometry in the map, but for the drift between them.
+bool Localizer::agree(const Asking& before, const Asking& now) const {
+  const auto at = chain_.at(in_odometry_time(now.sighting.stamp_ns));
+  if (!at) return false;
+  const auto apart =
+      vision::pose_error(before.map_from_odom * at->pose.odom_from_base, now.map_from_odom * at->pose.odom_from_base);
+  const double drift_m = kDriftRatio * std::abs(now.way_m - before.way_m);
+  return apart.head<3>().norm() < parameters_.second_look_m + drift_m &&
+         apart.tail<3>().norm() < parameters_.second_look_deg * kDegree;
+}
+
+}  // namespace panvo::localizer

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "odometry_join.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "panvo/conversions/time.hpp"
+
+namespace panvo::localizer {
+namespace {
+
+constexpr std::size_t kMostQualities = 100;
+constexpr std::size_t kMostWaiting = 10;
+// Both are sent at the same moment; a tenth of it is what a busy network takes.
+constexpr std::int64_t kPatience_ns = 200'000'000;
+constexpr int kMostLacking = 10;  // after so many nobody tells the quality any more
+
+}  // namespace
+
+void OdometryJoin::add(const panvo_msgs::msg::OdometryQuality& quality) {
+  has_quality_ = true;
+  lacking_ = 0;
+  const double ratio = quality.inlier_ratio();
+  qualities_[conversions::stamp_ns(quality)] = {quality.reliable(),
+                                                std::isfinite(ratio) ? std::clamp(1.0 - ratio, 0.0, 1.0) : 1.0};
+  if (qualities_.size() > kMostQualities) qualities_.erase(qualities_.begin());
+}
+
+void OdometryJoin::add(std::shared_ptr<const nav_msgs::msg::Odometry> odometry, std::int64_t now_ns) {
+  waiting_.push_back({std::move(odometry), now_ns});
+}
+
+std::optional<OdometryJoin::Joined> OdometryJoin::next(std::int64_t now_ns, bool is_told) {
+  if (waiting_.empty()) return std::nullopt;
+  const std::int64_t stamp_ns = conversions::stamp_ns(*waiting_.front().odometry);
+  Joined joined{.odometry = waiting_.front().odometry};
+  if (const auto own = qualities_.find(stamp_ns); own != qualities_.end()) {
+    joined.is_reliable = own->second.is_reliable;
+    joined.outlier_share = own->second.outlier_share;
+    qualities_.erase(qualities_.begin(), std::next(own));
+  } else if (is_told && lacking_ < kMostLacking) {
+    // Each topic comes in its order: a later quality says that this one's was lost.
+    const bool is_lost = qualities_.upper_bound(stamp_ns) != qualities_.end();
+    const bool is_patient = waiting_.size() <= kMostWaiting && now_ns - waiting_.front().since_ns < kPatience_ns;
+    if (!is_lost && is_patient) return std::nullopt;
+    if (!is_lost) ++lacking_;
+    joined.lacks_quality = true;
+  }
+  waiting_.pop_front();
+  return joined;
+}
+
+}  // namespace panvo::localizer

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "component_parameters.hpp"
+#include "nav_msgs/msg/Odometry.h"
+#include "panvo/localizer/localizer.hpp"
+#include "panvo/runtime/context.hpp"
+#include "panvo_msgs/msg/Integrity.h"
+#include "panvo_msgs/msg/LocalizationState.h"
+#include "tf2_msgs/msg/TFMessage.h"
+
+namespace panvo::localizer {
+
+/// Publishes the pose with its frames and integrity when there is something new, and the state when it changes and from time to time, so that
+/// nobody takes an old one for true.
+class PosePublisher {
+ public:
+  /// Both must outlive it.
+  PosePublisher(runtime::Context& context, const ComponentParameters& parameters);
+
+  /// The latest pose with all that was learned of it. Who reads poses and frames takes two of one stamp for the same: what is learned between
+  /// two odometry messages is stamped a nanosecond after the last pose, and makes no stale pose a fresh one.
+  void tell_pose(const Localizer& localizer, const nav_msgs::msg::Odometry& stereo, bool is_of_new_odometry);
+
+  /// Whether the pose has moved so far since it was told that it should not wait for the next odometry.
+  bool is_notable(const LocalizedPose& now) const;
+
+  /// Ten times a second: `silence_s` since the last odometry. `now_ns`: a stamp, for want of any odometry.
+  void tick(const Localizer& localizer, double silence_s, std::int64_t now_ns);
+
+  /// The clock was set: the next pose may be of an earlier time.
+  void forget_stamps() { told_stamp_ns_.reset(); }
+
+ private:
+  void tell_state(const LocalizedPose& pose, std::int64_t since_ns);
+  void tell_integrity(const LocalizedPose& pose, const Localizer& localizer);
+
+  const std::string odometry_topic_;  // as remapped
+  const runtime::Logger& log_;
+  const ComponentParameters& parameters_;
+  runtime::Output<nav_msgs::msg::Odometry> odometry_;
+  runtime::Output<tf2_msgs::msg::TFMessage> tf_;
+  runtime::Output<panvo_msgs::msg::LocalizationState> state_;
+  runtime::Output<panvo_msgs::msg::Integrity> integrity_;
+
+  std::optional<State> told_state_;
+  std::int64_t state_since_ns_ = 0;
+  int ticks_since_state_ = 0;
+  std::optional<std::int64_t> told_stamp_ns_;
+  Eigen::Isometry3d told_map_from_base_ = Eigen::Isometry3d::Identity();
+};
+
+}  // namespace panvo::localizer

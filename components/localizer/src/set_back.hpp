@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+namespace panvo::localizer {
+
+/// Notices that a clock was set back: a few messages in a row that are before the last one agree with each other.
+class SetBack {
+ public:
+  /// A message `back_ns` before the latest; true when the clock was set back.
+  bool add(std::int64_t stamp_ns, std::int64_t back_ns) {
+    const bool agrees = run_ > 0 && stamp_ns > stamp_ns_;
+    run_ = back_ns < kLeast_ns ? 0 : agrees ? run_ + 1 : 1;
+    stamp_ns_ = stamp_ns;
+    if (run_ < kRun) return false;
+    run_ = 0;
+    return true;
+  }
+
+ private:
+  static constexpr std::int64_t kLeast_ns = 500'000'000;  // less is disorder
+  static constexpr int kRun = 5;
+
+  int run_ = 0;
+  std::int64_t stamp_ns_ = 0;
+};
+
+}  // namespace panvo::localizer
