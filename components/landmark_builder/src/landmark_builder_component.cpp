@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <deque>
-#include <opencv2/imgproc.hpp>
 #include <optional>
 #include <string>
 
@@ -17,7 +16,7 @@
 #include "panvo/landmarks/landmark_messages.hpp"
 #include "panvo/landmarks/panorama_check.hpp"
 #include "panvo/runtime/component.hpp"
-#include "panvo/runtime/new_warnings.hpp"
+#include "panvo/vision/panorama_watch.hpp"
 
 namespace panvo::landmark_builder {
 
@@ -84,7 +83,9 @@ class LandmarkBuilderComponent final : public runtime::Component {
   static constexpr std::int64_t kLongestGap_ns = 1'000'000'000;
 
   void on_transforms(const tf2_msgs::msg::TFMessage& message) {
-    for (const auto& problem : transforms_.add(message)) context_.log().warn("{}: {}", topics::kTfStatic.name, problem);
+    for (const auto& problem : transforms_.add(message)) {
+      context_.log().warn_throttled(problem, "{}: {}", context_.resolved_name(topics::kTfStatic), problem);
+    }
   }
 
   void on_landmark(const panvo_msgs::msg::PanoramicLandmark& message) {
@@ -113,7 +114,10 @@ class LandmarkBuilderComponent final : public runtime::Component {
 
   void on_odometry(const nav_msgs::msg::Odometry& message) {
     const auto pose = conversions::to_isometry(message.pose().pose());
-    if (!pose) return warnings_.say(fmt::format("{} {}", topics::kOdometryBinocular.name, pose.reason()));
+    if (!pose) {
+      return context_.log().warn_throttled("odometry", "{} {}", context_.resolved_name(topics::kOdometryBinocular),
+                                           pose.reason());
+    }
     const std::int64_t stamp_ns = conversions::stamp_ns(message);
     if (!odometry_.empty() && stamp_ns <= odometry_.back().stamp_ns) return;
     odometry_.push_back({stamp_ns, *pose, conversions::to_matrix(message.pose().covariance())});
@@ -126,8 +130,9 @@ class LandmarkBuilderComponent final : public runtime::Component {
     work_off();
     if (waiting_.size() <= kMostWaiting) return;
     waiting_.pop_front();
-    warnings_.say(fmt::format("panoramas, but nothing on {} as late as they are: no landmarks without it",
-                              topics::kOdometryBinocular.name));
+    context_.log().warn_throttled("no odometry",
+                                  "panoramas, but nothing on {} as late as they are: no landmarks without it",
+                                  context_.resolved_name(topics::kOdometryBinocular));
   }
 
   /// Panoramas whose pose is known by now.
@@ -143,25 +148,32 @@ class LandmarkBuilderComponent final : public runtime::Component {
   void build(const sensor_msgs::msg::Image& message) {
     const std::int64_t stamp_ns = conversions::stamp_ns(message);
     if (last_stamp_ns_ && stamp_ns <= *last_stamp_ns_) {
-      return warnings_.say(
-          fmt::format("{} came with a stamp that is not after the last; it is left out", topics::kPanorama.name));
+      return context_.log().warn_throttled("stamp", "{} came with a stamp that is not after the last; it is left out",
+                                           context_.resolved_name(topics::kPanorama));
     }
     const auto pose = pose_at(stamp_ns);
     if (!pose) {
-      return warnings_.say(fmt::format("{} has no pose near a panorama's stamp; the panorama is left out",
-                                       topics::kOdometryBinocular.name));
+      return context_.log().warn_throttled("no pose",
+                                           "{} has no pose near a panorama's stamp; the panorama is left out",
+                                           context_.resolved_name(topics::kOdometryBinocular));
     }
-    const auto pixels = conversions::view(message);
-    if (!pixels) return warnings_.say(fmt::format("{} {}; no landmark", topics::kPanorama.name, pixels.reason()));
-    const cv::Mat panorama = to_bgr(*pixels, message);
-    if (const auto fault = landmarks::find_fault(panorama)) {
-      return warnings_.say(fmt::format("{}: {}; no landmark", topics::kPanorama.name, *fault));
+    const auto pixels = conversions::grey_or_bgr(message);
+    if (!pixels) {
+      return context_.log().warn_throttled("unusable", "{} {}; no landmark", context_.resolved_name(topics::kPanorama),
+                                           pixels.reason());
+    }
+    const cv::Mat& panorama = *pixels;
+    const auto unlike_before = watch_.find_fault(panorama);
+    const auto no_content = landmarks::find_fault(panorama);
+    if (const auto& fault = no_content ? no_content : unlike_before) {
+      return context_.log().warn_throttled(*fault, "{}: {}; no landmark", context_.resolved_name(topics::kPanorama),
+                                           *fault);
     }
     if (!make_builder(message, panorama.size())) return;
     if (panorama.size() != size_) {
-      return warnings_.say(
-          fmt::format("{} changed its size from {} x {} to {} x {} px; restart if the camera was exchanged",
-                      topics::kPanorama.name, size_.width, size_.height, panorama.cols, panorama.rows));
+      return context_.log().warn_throttled(
+          "size", "{} changed its size from {} x {} to {} x {} px; restart if the camera was exchanged",
+          context_.resolved_name(topics::kPanorama), size_.width, size_.height, panorama.cols, panorama.rows);
     }
     last_stamp_ns_ = stamp_ns;
     for (const auto& landmark :
@@ -189,37 +201,21 @@ class LandmarkBuilderComponent final : public runtime::Component {
                     after->covariance};
   }
 
-  static cv::Mat to_bgr(const cv::Mat& pixels, const sensor_msgs::msg::Image& message) {
-    cv::Mat image;
-    if (message.encoding() == "rgb8") {
-      cv::cvtColor(pixels, image, cv::COLOR_RGB2BGR);
-    } else if (message.encoding() == "rgba8") {
-      cv::cvtColor(pixels, image, cv::COLOR_RGBA2BGR);
-    } else if (pixels.channels() == 4) {
-      cv::cvtColor(pixels, image, cv::COLOR_BGRA2BGR);
-    } else if (pixels.depth() == CV_16U) {
-      pixels.convertTo(image, CV_8U, 1.0 / 256.0);
-    } else {
-      image = pixels;
-    }
-    return image;
-  }
-
   bool make_builder(const sensor_msgs::msg::Image& message, cv::Size size) {
     if (builder_) return true;
     const std::string& frame = message.header().frame_id();
     const auto base_from_panorama = transforms_.lookup(parameters_.base_frame, frame);
     if (!base_from_panorama) {
-      warnings_.say(
-          fmt::format("{} has no chain from {} to {} yet: publish where the panoramic camera sits on the vehicle",
-                      topics::kTfStatic.name, parameters_.base_frame, frame));
+      context_.log().warn_throttled(
+          "no mounting", "{} has no chain from {} to {} yet: publish where the panoramic camera sits on the vehicle",
+          context_.resolved_name(topics::kTfStatic), parameters_.base_frame, frame);
       return false;
     }
     try {
       builder_.emplace(parameters_, static_cast<std::uint64_t>(parameters_.description_seed), *base_from_panorama, size,
                        &timer_);
     } catch (const std::invalid_argument& error) {
-      warnings_.say(fmt::format("no landmarks: {}", error.what()));
+      context_.log().warn_throttled("no builder", "no landmarks: {}", error.what());
       return false;
     }
     size_ = size;
@@ -228,13 +224,13 @@ class LandmarkBuilderComponent final : public runtime::Component {
   }
 
   runtime::Context& context_;
-  runtime::NewWarnings warnings_{context_.log()};
   const ComponentParameters parameters_;
   const landmarks::DescriptionSettings settings_;
   conversions::StageTimer timer_;
   runtime::Output<panvo_msgs::msg::PanoramicLandmark> landmarks_;
 
   conversions::StaticTransforms transforms_;
+  vision::PanoramaWatch watch_;
   std::optional<LandmarkBuilder> builder_;
   cv::Size size_;
   std::map<std::uint32_t, Eigen::Vector2d> known_;  // landmarks that were published, by whomever

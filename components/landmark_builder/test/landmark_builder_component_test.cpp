@@ -109,6 +109,24 @@ TEST_F(LandmarkBuilderComponent, SaysWhatIsWrongWithAPanoramaAndGoesOn) {
   EXPECT_THAT(landmarks_, IsEmpty());
 }
 
+TEST_F(LandmarkBuilderComponent, MakesNoneOfAPanoramaThatIsTheLastAgainOrUpsideDown) {
+  load();
+  publish_mounting();
+  const auto publish = [&](std::int64_t stamp_ns, const cv::Mat& pixels) {
+    publish_panorama(stamp_ns, pixels);
+    publish_odometry(stamp_ns, PaintedTown::at(static_cast<double>(stamp_ns) * 1e-9, 0.0, 0.0));
+  };
+  const cv::Mat panorama = town_.panorama(PaintedTown::at(3.0, 0.0, 0.0));
+  cv::Mat turned_over;
+  cv::flip(panorama, turned_over, -1);
+  publish(3'000'000'000, panorama);
+  EXPECT_THAT(harness_.log(), IsEmpty());
+  publish(4'000'000'000, panorama);
+  EXPECT_TRUE(harness_.log_contains("repeats its image (frozen)"));
+  publish(5'000'000'000, turned_over);
+  EXPECT_TRUE(harness_.log_contains("is upside down"));
+}
+
 TEST_F(LandmarkBuilderComponent, MakesNoneBesideALandmarkOfAnEarlierJourney) {
   load();
   publish_mounting();
@@ -145,6 +163,7 @@ TEST_F(LandmarkBuilderComponent, TakesNoticeOfLandmarksThatWereMoved) {
   publish_mounting();
   panvo_msgs::msg::PanoramicLandmark earlier;
   earlier.id(12);
+  earlier.histogram({1.0F});
   earlier.pose().pose().position().x(500.0);
   harness_.publish(topics::kLandmarks, earlier);
   panvo_msgs::msg::LandmarkPoses moved;  // it is at the crossing after all

@@ -29,12 +29,24 @@ bool has_lower_id(const PanoramicLandmark* a, const PanoramicLandmark* b) { retu
 
 }  // namespace
 
-LandmarkLibrary::LandmarkLibrary(std::shared_ptr<KeypointSource> source) : source_(std::move(source)) {}
+bool fits(const PanoramaDescription& description, const DescriptionLimits& limits) {
+  const auto is_of_matrix = [&](const AdaptiveFeature& feature) { return feature.row < limits.rows; };
+  return std::all_of(description.large.begin(), description.large.end(), is_of_matrix) &&
+         std::all_of(description.small.begin(), description.small.end(), is_of_matrix) &&
+         (!limits.bins || description.histogram.size() == *limits.bins);
+}
+
+LandmarkLibrary::LandmarkLibrary(std::shared_ptr<KeypointSource> source, DescriptionLimits limits)
+    : source_(std::move(source)), limits_(limits) {}
 
 std::uint32_t LandmarkLibrary::add(PanoramicLandmark landmark) {
   if (landmark.id == 0) landmark.id = next_id();
   if (landmark.id == 0) throw std::invalid_argument("the library has no ids left");
   check_pose(landmark.map_from_base, landmark.id);
+  if (!fits(landmark.description, limits_)) {
+    throw std::invalid_argument("landmark " + std::to_string(landmark.id) +
+                                ": its description has rows or bins that nothing here has");
+  }
   const auto at = index_from(landmark.id);
   if (at < by_id_.size() && by_id_[at]->id == landmark.id) {
     throw std::invalid_argument("landmark " + std::to_string(landmark.id) + " is in the library already");

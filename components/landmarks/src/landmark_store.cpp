@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "database.hpp"
+#include "landmark_rules.hpp"
 #include "record_bytes.hpp"
 #include "store_schema.hpp"
 
@@ -42,15 +43,6 @@ void bind_pose(Statement& statement, int parameter, const Eigen::Isometry3d& a_f
   for (const double number : to_numbers(a_from_b)) statement.bind(parameter++, number);
 }
 
-bool is_finite(const PanoramicLandmark& landmark) {
-  // What reads back is finite: the reader sees to that.
-  const auto& d = landmark.description;
-  return landmark.map_from_base.matrix().allFinite() && landmark.covariance.allFinite() &&
-         landmark.base_from_panorama.matrix().allFinite() && floats_from(to_bytes(std::span(d.histogram))) &&
-         features_from(to_bytes(std::span(d.large))) && features_from(to_bytes(std::span(d.small))) &&
-         keypoints_from(to_bytes(std::span(landmark.keypoints)));
-}
-
 PanoramicLandmark landmark_from(const Statement& row) {
   PanoramicLandmark landmark;
   landmark.id = static_cast<std::uint32_t>(row.integer(0));
@@ -62,9 +54,8 @@ PanoramicLandmark landmark_from(const Statement& row) {
   auto histogram = floats_from(row.blob(18));
   auto large = features_from(row.blob(19));
   auto small = features_from(row.blob(20));
-  if (!covariance || covariance->size() != 36 || !histogram || !large || !small ||
-      !landmark.map_from_base.matrix().allFinite() || !landmark.base_from_panorama.matrix().allFinite()) {
-    throw std::range_error("landmark " + std::to_string(landmark.id) + " holds values that are none");
+  if (!covariance || covariance->size() != 36 || !histogram || !large || !small) {
+    throw std::range_error("holds values that are none");
   }
   landmark.covariance = Eigen::Map<const RowMajor6d>(covariance->data());
   landmark.description = {std::move(*histogram), std::move(*large), std::move(*small)};
@@ -148,8 +139,8 @@ void LandmarkStore::require(const DescriptionSettings& settings) const {
 }
 
 std::uint32_t LandmarkStore::add(const PanoramicLandmark& landmark) {
-  if (!is_finite(landmark)) {
-    throw std::invalid_argument("landmark " + std::to_string(landmark.id) + ": holds a value that is not finite");
+  if (const auto problem = problem_of(landmark, settings_)) {
+    throw std::invalid_argument("landmark " + std::to_string(landmark.id) + ": " + *problem);
   }
   return guarded([&] {
     Transaction transaction(*database_);
@@ -192,8 +183,8 @@ std::uint32_t LandmarkStore::insert(const PanoramicLandmark& landmark) {
 
 void LandmarkStore::set_poses(std::span<const LandmarkPose> poses) {
   for (const auto& pose : poses) {
-    if (!pose.map_from_base.matrix().allFinite() || !pose.covariance.allFinite()) {
-      throw std::invalid_argument("landmark " + std::to_string(pose.id) + ": its new pose is not finite");
+    if (const auto problem = problem_of_pose(pose.map_from_base, pose.covariance)) {
+      throw std::invalid_argument("landmark " + std::to_string(pose.id) + ": " + *problem);
     }
   }
   guarded([&] {
@@ -233,11 +224,21 @@ std::size_t LandmarkStore::size() const {
   return guarded([&] { return static_cast<std::size_t>(single_number(*database_, "SELECT count(*) FROM landmark")); });
 }
 
-std::vector<PanoramicLandmark> LandmarkStore::landmarks() const {
+std::vector<PanoramicLandmark> LandmarkStore::landmarks(const std::function<void(const std::string&)>& report) const {
   return guarded([&] {
     std::vector<PanoramicLandmark> landmarks;
     Statement rows(*database_, "SELECT * FROM landmark ORDER BY id");
-    while (rows.step()) landmarks.push_back(landmark_from(rows));
+    while (rows.step()) {
+      std::optional<std::string> problem;
+      try {
+        auto landmark = landmark_from(rows);
+        problem = problem_of(landmark, settings_);
+        if (!problem) landmarks.push_back(std::move(landmark));
+      } catch (const std::range_error& error) {
+        problem = error.what();
+      }
+      if (problem && report) report("landmark " + std::to_string(rows.integer(0)) + ": " + *problem);
+    }
     return landmarks;
   });
 }
@@ -247,7 +248,8 @@ std::vector<Keypoint> LandmarkStore::keypoints(std::uint32_t id) const {
     Statement row(*database_, "SELECT data FROM keypoints WHERE landmark_id = ?");
     if (!row.bind(1, std::int64_t{id}).step()) return {};
     auto keypoints = keypoints_from(row.blob(0));
-    if (!keypoints) throw std::range_error("landmark " + std::to_string(id) + " has keypoints that are none");
+    const auto problem = keypoints ? problem_of(*keypoints) : "keypoints are cut off or not finite";
+    if (problem) throw std::range_error("landmark " + std::to_string(id) + ": " + *problem);
     return std::move(*keypoints);
   });
 }
@@ -289,6 +291,20 @@ StoredBytes LandmarkStore::stored_bytes() const {
 std::optional<std::string> LandmarkStore::find_damage() const {
   return guarded([&]() -> std::optional<std::string> {
     auto damage = damage_of(*database_);
+    if (!damage.empty()) return damage;  // a page that is none holds no records to be judged
+    constexpr int kMostTold = 3;
+    int found = 0;
+    const auto tell = [&](const std::string& problem) {
+      if (++found <= kMostTold) damage += (damage.empty() ? "" : "; ") + problem;
+    };
+    for (const auto& landmark : landmarks(tell)) {
+      try {
+        keypoints(landmark.id);
+      } catch (const StoreError& error) {
+        tell(error.what());
+      }
+    }
+    if (found > kMostTold) damage += "; and " + std::to_string(found - kMostTold) + " more";
     return damage.empty() ? std::nullopt : std::optional(std::move(damage));
   });
 }

@@ -23,8 +23,8 @@ struct Parameters {
   template <class Field>
   static void describe(Field&& field) {
     using P = Parameters;
-    field(&P::file, "file", "",
-          "the store: made with the first landmark if it is not there; empty: none, landmarks are forgotten");
+    field.path(&P::file, "file",
+               "the store: made with the first landmark if it is not there; empty: none, landmarks are forgotten");
     field(&P::read_only, "read_only", "", "publish what is in the store, and add nothing");
     field(&P::map_frame, "map_frame", "", "frame of the poses of the landmarks in the store");
   }
@@ -42,6 +42,7 @@ class LandmarkStoreComponent final : public runtime::Component {
     }
     context.input(topics::kLandmarks, [this](const auto& message) { on_landmark(*message); });
     context.input(topics::kLandmarkPoses, [this](const auto& message) { on_poses(*message); });
+    context.about_to_read(parameters_.file);
     try {
       if (parameters_.read_only || std::filesystem::exists(parameters_.file)) open();
     } catch (const StoreError& error) {
@@ -62,8 +63,17 @@ class LandmarkStoreComponent final : public runtime::Component {
       const auto settings = store_->settings();
       store_ = std::make_unique<LandmarkStore>(parameters_.file, settings);
     }
-    for (auto& landmark : store_->landmarks()) {
-      landmark.keypoints = store_->keypoints(landmark.id);  // its picture stays in the file: it is for people
+    const auto tell = [this](const std::string& problem) {
+      context_.log().warn("{}: {}: it is left out. Remedy: panvo landmarks info --check, and a copy of the file",
+                          parameters_.file, problem);
+    };
+    for (auto& landmark : store_->landmarks(tell)) {
+      try {
+        landmark.keypoints = store_->keypoints(landmark.id);  // its picture stays in the file: it is for people
+      } catch (const StoreError& error) {
+        tell(error.what());
+        continue;
+      }
       remember({landmark.id, landmark.map_from_base, landmark.covariance});
       // Latched, so it does not matter which components are there already.
       output_.publish(to_message(landmark, store_->settings(), parameters_.map_frame));
@@ -76,7 +86,8 @@ class LandmarkStoreComponent final : public runtime::Component {
     const auto settings = settings_from_text(message.settings());
     const auto landmark = to_landmark(message, settings);
     if (!landmark) {
-      context_.log().warn("a landmark {} and is not kept", landmark.reason());
+      context_.log().warn_throttled(fmt::format("landmark {}", message.id()), "a landmark {} and is not kept",
+                                    landmark.reason());
       return;
     }
     try {
@@ -86,6 +97,8 @@ class LandmarkStoreComponent final : public runtime::Component {
     } catch (const StoreError& error) {
       has_failed_ = true;  // what ails a file stays; the rest of the system goes on
       context_.log().error("{}. No more landmarks are kept", error.what());
+    } catch (const std::invalid_argument& error) {
+      context_.log().warn("{}: it is not kept", error.what());
     }
   }
 
@@ -93,7 +106,8 @@ class LandmarkStoreComponent final : public runtime::Component {
     if (parameters_.read_only || has_failed_) return;
     const auto poses = to_landmark_poses(message);
     if (!poses) {
-      context_.log().warn("{} {}; landmarks stay where they are", topics::kLandmarkPoses.name, poses.reason());
+      context_.log().warn_throttled(poses.reason(), "{} {}; landmarks stay where they are",
+                                    context_.resolved_name(topics::kLandmarkPoses), poses.reason());
       return;
     }
     try {
@@ -102,6 +116,8 @@ class LandmarkStoreComponent final : public runtime::Component {
     } catch (const StoreError& error) {
       has_failed_ = true;
       context_.log().error("{}. No more landmarks are kept", error.what());
+    } catch (const std::invalid_argument& error) {
+      context_.log().warn("{}: landmarks stay where they are", error.what());
     }
   }
 

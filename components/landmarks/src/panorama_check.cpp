@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "panvo/vision/equirectangular.hpp"
+#include "panvo/vision/panorama_cover.hpp"
 
 namespace panvo::landmarks {
 namespace {
@@ -19,7 +20,6 @@ constexpr int kBright = 250;                               // grey level: full w
 constexpr double kFaultyShare = 0.9;                       // night has lamps, and a bright sky fills no more than half
 constexpr double kSmallestContrast = 3.0;                  // grey levels, standard deviation: an even wall's noise
 constexpr double kBandTop = 1.0 / 3.0, kBandBottom = 0.6;  // rows where a place shows: 30 degrees above to 18 below
-constexpr double kCoveredContrast = 2.0;                   // grey levels, of a column of the band
 constexpr double kMostCovered = 1.0 / 3.0;
 
 /// Grey level of a pixel of either type; near enough for a check.
@@ -48,18 +48,14 @@ std::optional<std::string> find_fault(const cv::Mat& panorama) {
   std::ostringstream text;
   text.precision(3);
   Levels all;
-  int covered = 0;
   for (int i = 0; i < kGridColumns; ++i) {
     const int column = i * panorama.cols / kGridColumns;
-    Levels of_column;
     for (int j = 0; j < kGridRows; ++j) {
       const double place = kBandTop + (kBandBottom - kBandTop) * (j + 0.5) / kGridRows;
-      const int grey = grey_at(panorama, static_cast<int>(place * panorama.rows), column);
-      all.add(grey);
-      of_column.add(grey);
+      all.add(grey_at(panorama, static_cast<int>(place * panorama.rows), column));
     }
-    covered += of_column.deviation() < kCoveredContrast ? 1 : 0;
   }
+  const double covered = vision::covered_share(panorama, kBandTop, kBandBottom);
   if (all.dark > kFaultyShare * all.count) {
     text << "is black: " << 100.0 * all.dark / all.count << " % of the view about the horizon at grey level " << kDark
          << " or below";
@@ -69,8 +65,8 @@ std::optional<std::string> find_fault(const cv::Mat& panorama) {
   } else if (all.deviation() < kSmallestContrast) {
     text << "is constant: grey levels about the horizon deviate by " << all.deviation() << " from their mean, "
          << kSmallestContrast << " needed";
-  } else if (covered > kMostCovered * kGridColumns) {
-    text << "is covered: " << 100.0 * covered / kGridColumns << " % of the full turn show nothing";
+  } else if (covered > kMostCovered) {
+    text << "is covered: " << 100.0 * covered << " % of the full turn show nothing";
   } else {
     return std::nullopt;
   }

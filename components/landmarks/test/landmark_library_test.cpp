@@ -32,6 +32,21 @@ std::vector<std::uint32_t> ids(const Landmarks& landmarks) {
   return found;
 }
 
+TEST(LandmarkLibrary, TakesNoDescriptionThatItsMatricesCannotBeComparedWith) {
+  LandmarkLibrary library(nullptr, {.rows = 800, .bins = 64});
+  PanoramicLandmark landmark;
+  landmark.description.histogram.assign(64, 1.0F / 64.0F);
+  landmark.description.large.push_back({.row = 799});
+  EXPECT_EQ(library.add(landmark), 1U);
+  for (auto* features : {&landmark.description.large, &landmark.description.small}) {
+    features->push_back({.row = 800});
+    EXPECT_THROW(library.add(landmark), std::invalid_argument);
+    features->pop_back();
+  }
+  landmark.description.histogram = {1.0F};
+  EXPECT_THROW(library.add(landmark), std::invalid_argument);
+}
+
 TEST(LandmarkLibrary, NumbersLandmarksFromOneOn) {
   LandmarkLibrary library;
   EXPECT_EQ(library.next_id(), 1u);

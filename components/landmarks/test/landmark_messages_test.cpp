@@ -61,34 +61,37 @@ TEST(LandmarkMessages, ThatAreMalformedAreRefusedWithAReason) {
   const float nan = std::numeric_limits<float>::quiet_NaN();
   const double inf = std::numeric_limits<double>::infinity();
   const Fault faults[] = {
-      {"has no id", [](Message& m) { m.id(0); }},
-      {"not a number (its pose)", [=](Message& m) { m.pose().pose().position().x(inf); }},
-      {"quaternion of length 0 where 1 is needed (the panorama's pose)",
+      {"id is 0", [](Message& m) { m.id(0); }},
+      {"pose.pose.position is not finite", [=](Message& m) { m.pose().pose().position().x(inf); }},
+      {"panorama_pose.orientation is not a quaternion of length 1",
        [](Message& m) {
          m.panorama_pose().orientation().w(0.0);
          m.panorama_pose().orientation().x(0.0);
          m.panorama_pose().orientation().y(0.0);
          m.panorama_pose().orientation().z(0.0);
        }},
-      {"quaternion of length", [](Message& m) { m.pose().pose().orientation().w(3.0); }},
-      {"covariance that is not finite", [=](Message& m) { m.pose().covariance()[7] = inf; }},
+      {"pose.pose.orientation is not a quaternion of length 1",
+       [](Message& m) { m.pose().pose().orientation().w(3.0); }},
+      {"pose.covariance is not finite", [=](Message& m) { m.pose().covariance()[7] = inf; }},
       {"not symmetric", [](Message& m) { m.pose().covariance()[1] += 0.5; }},
       {"negative variance", [](Message& m) { m.pose().covariance()[0] = -1.0; }},
+      {"pose.covariance is not positive semidefinite",
+       [](Message& m) { m.pose().covariance()[1] = m.pose().covariance()[6] = 10.0; }},
       {"histogram", [](Message& m) { m.histogram().clear(); }},
       {"histogram", [](Message& m) { m.histogram()[0] += 0.1f; }},
       {"histogram", [=](Message& m) { m.histogram()[3] = nan; }},
-      {"not finite in large_features[4]", [=](Message& m) { m.large_features()[4].value(nan); }},
-      {"out of its range in small_features[0]", [](Message& m) { m.small_features()[0].scale(0.0f); }},
-      {"out of its range in small_features[0]", [](Message& m) { m.small_features()[0].weight(1.5f); }},
-      {"not in order of their weights in small_features[1]",
+      {"large_features.value is beyond +-1e+06 or not finite", [=](Message& m) { m.large_features()[4].value(nan); }},
+      {"small_features.scale is negative", [](Message& m) { m.small_features()[0].scale(-1.0f); }},
+      {"small_features.weight is not within 0 to 1", [](Message& m) { m.small_features()[0].weight(1.5f); }},
+      {"small_features.weight does not descend",
        [](Message& m) { m.small_features()[0].weight(m.small_features()[1].weight() - 0.1f); }},
-      {"not finite in keypoints[1]", [=](Message& m) { m.keypoints()[1].bearing()[2] = nan; }},
-      {"not finite in keypoints[0]", [=](Message& m) { m.keypoints()[0].point()[0] = nan; }},
-      {"bearing that is not of length 1 in keypoints[0]",
+      {"keypoints.bearing is not of length 1", [=](Message& m) { m.keypoints()[1].bearing()[2] = nan; }},
+      {"keypoints.point is beyond +-1e+06 or not finite", [=](Message& m) { m.keypoints()[0].point()[0] = nan; }},
+      {"keypoints.bearing is not of length 1",
        [](Message& m) {
          m.keypoints()[0].bearing({0, 0, 0});
        }},
-      {"negative sigma in keypoints[0]", [](Message& m) { m.keypoints()[0].inverse_range_sigma(-1.0f); }},
+      {"keypoints.inverse_range_sigma is negative", [](Message& m) { m.keypoints()[0].inverse_range_sigma(-1.0f); }},
   };
   for (const auto& fault : faults) {
     auto message = message_of(1);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sqlite3.h>
 
 #include "made_up_landmark.hpp"
 #include "panvo/landmarks/landmark_messages.hpp"
@@ -128,12 +129,11 @@ TEST_F(LandmarkStoreComponent, MovesNothingByAMalformedMessageAndSaysWhy) {
   panvo_msgs::msg::LandmarkPoses message;
   message.ids({1});
   session.harness.publish(topics::kLandmarkPoses, message);
-  EXPECT_TRUE(session.harness.log_contains("landmarks/poses has 1 ids, but 0 poses; landmarks stay where they are"));
+  EXPECT_TRUE(session.harness.log_contains("is left out: poses are not as many as ids"));
   auto broken = made_up_landmark(1);
   broken.covariance(2, 2) = -1.0;
   session.publish_poses({broken});
-  EXPECT_TRUE(
-      session.harness.log_contains("has a covariance that is not symmetric or has a negative variance in poses[0]"));
+  EXPECT_TRUE(session.harness.log_contains("is left out: poses.covariance has a negative variance"));
   EXPECT_EQ(difference(LandmarkStore(file_).landmarks()[0], made_up_landmark(1), false), "");
 }
 
@@ -168,9 +168,29 @@ TEST_F(LandmarkStoreComponent, LeavesOutAMalformedLandmarkAndSaysWhy) {
   auto message = to_message(made_up_landmark(1), made_up_settings(), "map");
   message.histogram().clear();
   session.harness.publish(topics::kLandmarks, message);
-  EXPECT_TRUE(session.harness.log_contains("a landmark has a histogram whose shares do not add up to 1"));
+  EXPECT_TRUE(session.harness.log_contains("is left out: histogram is empty"));
   session.publish(made_up_landmark(2));
   EXPECT_EQ(LandmarkStore(file_).size(), 1U);
+}
+
+TEST_F(LandmarkStoreComponent, BeginsWithTheOtherLandmarksWhereOneIsNone) {
+  {
+    LandmarkStore store(file_, made_up_settings());
+    for (const std::uint32_t id : {1U, 2U, 3U}) store.add(made_up_landmark(id));
+  }
+  sqlite3* database = nullptr;
+  ASSERT_EQ(sqlite3_open(file_.c_str(), &database), SQLITE_OK);
+  const char* const damage =
+      "UPDATE landmark SET small_features = x'ffff0000000000003f000000003f' WHERE id = 1;"
+      "UPDATE keypoints SET data = x'00' WHERE landmark_id = 2;";
+  ASSERT_EQ(sqlite3_exec(database, damage, nullptr, nullptr, nullptr), SQLITE_OK);
+  sqlite3_close(database);
+
+  const Session session(file_);
+  ASSERT_EQ(session.published.size(), 1U);
+  EXPECT_EQ(session.published[0]->id(), 3U);
+  EXPECT_TRUE(session.harness.log_contains("landmark 1: small_features"));
+  EXPECT_TRUE(session.harness.log_contains("landmark 2: keypoints are cut off"));
 }
 
 TEST_F(LandmarkStoreComponent, IsRefusedWithAFileThatIsNone) {

@@ -211,10 +211,43 @@ TEST_F(Store, WithAHoleIsFoundDamagedByItsCheck) {
   EXPECT_NE(LandmarkStore(file_).find_damage(), std::nullopt);
 }
 
-TEST_F(Store, HoldingValuesThatAreNoneIsRefusedByLandmark) {
+TEST_F(Store, LeavesOutALandmarkOfValuesThatAreNoneAndSaysWhich) {
   write(3);
   tamper(file_, "UPDATE landmark SET covariance = x'00' WHERE id = 2");
-  EXPECT_THAT(error_of_reading(), HasSubstr("is damaged: landmark 2 holds values that are none"));
+  tamper(file_, "UPDATE landmark SET x = 1e200 WHERE id = 3");
+  const LandmarkStore store(file_);
+  std::vector<std::string> told;
+  const auto landmarks = store.landmarks([&](const std::string& problem) { told.push_back(problem); });
+  ASSERT_EQ(landmarks.size(), 1u);
+  EXPECT_EQ(landmarks.front().id, 1u);
+  EXPECT_THAT(told, testing::ElementsAre("landmark 2: holds values that are none",
+                                         "landmark 3: pose.pose.position is beyond +-1e+08"));
+  EXPECT_THAT(store.find_damage().value_or(""), HasSubstr("landmark 2: holds values that are none; landmark 3"));
+}
+
+TEST_F(Store, LeavesOutALandmarkWithARowThatItsMatrixDoesNotHave) {
+  const DescriptionSettings settings{{"patches", "400"}, {"seed", "1"}};
+  {
+    LandmarkStore store(file_, settings);
+    for (const std::uint32_t id : {1u, 2u}) store.add(made_up_landmark(id));
+    auto broken = made_up_landmark(3);
+    broken.description.large[7].row = 800;
+    EXPECT_THROW(store.add(broken), std::invalid_argument);
+  }
+  tamper(file_, "UPDATE landmark SET large_features = x'ffff0000000000003f000000003f' WHERE id = 2");
+  const LandmarkStore store(file_);
+  EXPECT_EQ(store.landmarks().size(), 1u);
+  EXPECT_THAT(store.find_damage().value_or(""), HasSubstr("landmark 2: large_features"));
+}
+
+TEST_F(Store, TakesNoPoseThatNoVehicleHas) {
+  LandmarkStore store(file_, made_up_settings());
+  auto landmark = made_up_landmark(1);
+  landmark.covariance(0, 1) = landmark.covariance(1, 0) = 10.0;
+  EXPECT_THROW(store.add(landmark), std::invalid_argument) << "not positive semidefinite";
+  store.add(made_up_landmark(1));
+  const LandmarkPose moved{1, landmark.map_from_base, landmark.covariance};
+  EXPECT_THROW(store.set_poses(std::span(&moved, 1)), std::invalid_argument);
 }
 
 /// Tests run as root may write to everything: as somebody else, for a while.

@@ -18,12 +18,13 @@
 #include "panvo/conversions/time.hpp"
 #include "panvo/landmarks/description_settings.hpp"
 #include "panvo/landmarks/landmark_messages.hpp"
+#include "panvo/landmarks/panorama_check.hpp"
 #include "panvo/position_corrector/landmark_matcher.hpp"
 #include "panvo/position_corrector/paper_correction.hpp"
 #include "panvo/position_corrector/position_correction.hpp"
 #include "panvo/position_corrector/spilled_keypoints.hpp"
 #include "panvo/runtime/component.hpp"
-#include "panvo/runtime/new_warnings.hpp"
+#include "panvo/vision/panorama_watch.hpp"
 
 namespace panvo::position_corrector {
 
@@ -70,8 +71,9 @@ struct ComponentParameters {
     field(&P::use_position, "use_position", "",
           "look only for landmarks near the odometry's position; false: in the whole library, always");
     field(&P::base_frame, "base_frame", "", "the vehicle; /tf_static says where on it the panoramic camera sits");
-    field(&P::spill_folder, "spill_folder", "",
-          "folder on a disk for a nameless file of the landmarks' keypoints, 40 kB each; empty: they stay in memory");
+    field.path(
+        &P::spill_folder, "spill_folder",
+        "folder on a disk for a nameless file of the landmarks' keypoints, 40 kB each; empty: they stay in memory");
   }
 };
 
@@ -87,7 +89,7 @@ class PositionCorrectorComponent final : public runtime::Component {
         settings_(landmarks::description_settings(parameters_.description,
                                                   static_cast<std::uint64_t>(parameters_.description_seed))),
         keypoints_(std::make_shared<SpilledKeypoints>(parameters_.spill_folder)),
-        library_(keypoints_),
+        library_(keypoints_, describer_.basis().limits()),
         matcher_(parameters_.matching, parameters_.keypoints, describer_, &timer_),
         match_(context.output(topics::kLandmarkMatch)),
         correction_(context.output(topics::kCorrection)) {
@@ -100,12 +102,17 @@ class PositionCorrectorComponent final : public runtime::Component {
 
  private:
   void on_transforms(const tf2_msgs::msg::TFMessage& message) {
-    for (const auto& problem : transforms_.add(message)) context_.log().warn("{}: {}", topics::kTfStatic.name, problem);
+    for (const auto& problem : transforms_.add(message)) {
+      context_.log().warn_throttled(problem, "{}: {}", context_.resolved_name(topics::kTfStatic), problem);
+    }
   }
 
   void on_landmark(const panvo_msgs::msg::PanoramicLandmark& message) {
     const auto read = landmarks::to_landmark(message, settings_);
-    if (!read) return warnings_.say(fmt::format("a landmark {} and is left out", read.reason()));
+    if (!read) {
+      return context_.log().warn_throttled(fmt::format("landmark {}", message.id()), "a landmark {} and is left out",
+                                           read.reason());
+    }
     // one that comes again is where it is known to be by now
     if (library_.set_pose(read->id, read->map_from_base, read->covariance)) return;
     auto landmark = *read;
@@ -115,16 +122,21 @@ class PositionCorrectorComponent final : public runtime::Component {
     }
     keypoints_->put(landmark.id, landmark.keypoints);
     if (!keypoints_->problem().empty()) {
-      warnings_.say(fmt::format("{}: keypoints of landmarks stay in memory", keypoints_->problem()));
+      context_.log().warn_throttled("spill", "{}: keypoints of landmarks stay in memory", keypoints_->problem());
     }
-    matcher_.added(library_.add(std::move(landmark)));
+    try {
+      matcher_.added(library_.add(std::move(landmark)));
+    } catch (const std::invalid_argument& error) {
+      context_.log().warn_throttled("library", "{}; it is left out", error.what());
+    }
   }
 
   void on_poses(const panvo_msgs::msg::LandmarkPoses& message) {
     const auto poses = landmarks::to_landmark_poses(message);
-    if (!poses)
-      return warnings_.say(
-          fmt::format("{} {}; landmarks stay where they are", topics::kLandmarkPoses.name, poses.reason()));
+    if (!poses) {
+      return context_.log().warn_throttled(poses.reason(), "{} {}; landmarks stay where they are",
+                                           context_.resolved_name(topics::kLandmarkPoses), poses.reason());
+    }
     moved_.clear();
     for (const auto& pose : *poses) {
       // a landmark may still be on its way
@@ -134,7 +146,10 @@ class PositionCorrectorComponent final : public runtime::Component {
 
   void on_odometry(const nav_msgs::msg::Odometry& message) {
     const auto pose = conversions::to_isometry(message.pose().pose());
-    if (!pose) return warnings_.say(fmt::format("{} {}", topics::kOdometryBinocular.name, pose.reason()));
+    if (!pose) {
+      return context_.log().warn_throttled("odometry", "{} {}", context_.resolved_name(topics::kOdometryBinocular),
+                                           pose.reason());
+    }
     const auto covariance = conversions::to_matrix(message.pose().covariance());
     const auto& linear = message.twist().twist().linear();
     const auto& angular = message.twist().twist().angular();
@@ -142,35 +157,50 @@ class PositionCorrectorComponent final : public runtime::Component {
         conversions::stamp_ns(message), {pose->translation(), vision::horizontal_sigma(covariance)}, {}};
     sample.twist << linear.x(), linear.y(), linear.z(), angular.x(), angular.y(), angular.z();
     if (!sample.twist.allFinite()) {
-      return warnings_.say(fmt::format("{} has a twist that is not finite", topics::kOdometryBinocular.name));
+      return context_.log().warn_throttled("twist", "{} has a twist that is not finite",
+                                           context_.resolved_name(topics::kOdometryBinocular));
     }
     trail_.add(sample);
   }
 
   void on_panorama(const sensor_msgs::msg::Image& message) {
     const auto panorama = conversions::grey(message);
-    if (!panorama) return warnings_.say(fmt::format("{} {}", topics::kPanorama.name, panorama.reason()));
+    if (!panorama) {
+      return context_.log().warn_throttled("panorama", "{} {}", context_.resolved_name(topics::kPanorama),
+                                           panorama.reason());
+    }
     const std::int64_t stamp_ns = conversions::stamp_ns(message);
     const auto here = trail_.at(stamp_ns);
     if (!here && parameters_.use_position && !library_.empty()) {
-      warnings_.say(fmt::format("nothing on {} yet: the whole library is searched", topics::kOdometryBinocular.name));
+      context_.log().warn_throttled("no odometry", "nothing on {} yet: the whole library is searched",
+                                    context_.resolved_name(topics::kOdometryBinocular));
     }
     PanoramaFrame frame;
     frame.stamp_ns = stamp_ns;
     frame.panorama = *panorama;
     if (here) frame.travelled_m = here->travelled_m;
     if (here && parameters_.use_position) frame.prior = here->prior;
-    const auto match = matcher_.match(frame, library_);
+    const auto fault = watch_.find_fault(*panorama);
+    const bool is_unlike_before = fault && !landmarks::find_fault(*panorama);
+    const auto match = is_unlike_before ? unusable(stamp_ns, *fault) : matcher_.match(frame, library_);
     match_.publish(to_message(match, message.header().frame_id()));
     if (match.state == MatchState::kMatched) {
       context_.log().info("landmark {} passed, heading {:+.1f} deg against the first time", match.landmark_id,
                           match.heading_rad * 180.0 / M_PI);
     } else if (match.state == MatchState::kUnusable) {
-      warnings_.say(fmt::format("{} {}", topics::kPanorama.name, match.reason));
+      context_.log().warn_throttled(match.reason, "{} {}", context_.resolved_name(topics::kPanorama), match.reason);
     }
     if (const auto correction = correction_of(match, message.header().frame_id())) {
       correction_.publish(to_message(*correction, message.header().frame_id()));
     }
+  }
+
+  static LandmarkMatch unusable(std::int64_t stamp_ns, const std::string& fault) {
+    LandmarkMatch match;
+    match.stamp_ns = stamp_ns;
+    match.state = MatchState::kUnusable;
+    match.reason = fault;
+    return match;
   }
 
   std::optional<PositionCorrection> correction_of(const LandmarkMatch& match, const std::string& panorama_frame) {
@@ -196,23 +226,23 @@ class PositionCorrectorComponent final : public runtime::Component {
 
   Mountings mountings_of(const landmarks::PanoramicLandmark& landmark, const std::string& panorama_frame) {
     const auto now = transforms_.lookup(parameters_.base_frame, panorama_frame);
-    if (!now && !has_told_mounting_) {
-      has_told_mounting_ = true;
-      context_.log().warn(
+    if (!now) {
+      context_.log().warn_throttled(
+          "no mounting",
           "{} has no chain from {} to {} yet: the camera counts as mounted as it was when the landmark was made",
-          topics::kTfStatic.name, parameters_.base_frame, panorama_frame);
+          context_.resolved_name(topics::kTfStatic), parameters_.base_frame, panorama_frame);
     }
     return {landmark.base_from_panorama, now.value_or(landmark.base_from_panorama)};
   }
 
   runtime::Context& context_;
-  runtime::NewWarnings warnings_{context_.log()};
   const ComponentParameters parameters_;
   conversions::StageTimer timer_;
   const landmarks::PanoramaDescriber describer_;
   const landmarks::DescriptionSettings settings_;
   std::shared_ptr<SpilledKeypoints> keypoints_;
   landmarks::LandmarkLibrary library_;
+  vision::PanoramaWatch watch_;
   LandmarkMatcher matcher_;
   runtime::Output<panvo_msgs::msg::LandmarkMatch> match_;
   runtime::Output<panvo_msgs::msg::PositionCorrection> correction_;
@@ -220,7 +250,6 @@ class PositionCorrectorComponent final : public runtime::Component {
   conversions::StaticTransforms transforms_;
   std::map<std::uint32_t, landmarks::LandmarkPose> moved_;  // of landmarks that did not come yet
   OdometryTrail trail_;
-  bool has_told_mounting_ = false;
 };
 
 PANVO_REGISTER_COMPONENT(PositionCorrectorComponent)

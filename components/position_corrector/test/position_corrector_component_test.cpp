@@ -37,7 +37,9 @@ class PositionCorrectorComponent : public testing::Test {
   void publish_panorama(const cv::Mat& panorama) {
     ++frames;
     auto message = conversions::make_image(frames * kPeriod_ns, "panorama", "mono8", panorama.cols, panorama.rows);
-    panorama.copyTo(conversions::pixels(*message));
+    cv::Mat pixels = conversions::pixels(*message);
+    panorama.copyTo(pixels);
+    if (has_noise) pixels.at<uchar>(0, frames % pixels.cols) ^= 1U;  // as every sensor has: no two images are the same
     harness.publish(topics::kPanorama, std::shared_ptr<const sensor_msgs::msg::Image>(message));
   }
 
@@ -97,6 +99,7 @@ class PositionCorrectorComponent : public testing::Test {
   const std::vector<std::shared_ptr<const panvo_msgs::msg::PositionCorrection>>& corrections =
       harness.collect(topics::kCorrection);
   int frames = 0;
+  bool has_noise = true;
 };
 
 class PaperPositionCorrector : public PositionCorrectorComponent {
@@ -141,12 +144,53 @@ TEST_F(PositionCorrectorComponent, LeavesOutALandmarkThatWasDescribedOtherwise) 
   EXPECT_EQ(matches[0]->reason(), "no landmarks yet");
 }
 
+/// Each of them would end the process, or the component.
+TEST_F(PositionCorrectorComponent, LeavesOutLandmarksThatNoMatrixHereCouldDescribe) {
+  const auto settings = landmarks::description_settings(landmarks::DescriptionParameters{}, 1);
+  auto landmark = landmark_of(place(2), describer, Eigen::Vector3d(200.0, 0.0, 0.0));
+  landmark.id = 2;
+  for (const std::uint16_t row : {800, 65535}) {
+    for (auto* features : {&landmark.description.large, &landmark.description.small}) {
+      auto broken = landmark;
+      (features == &landmark.description.large ? broken.description.large : broken.description.small)[0].row = row;
+      harness.publish(topics::kLandmarks, to_message(broken, settings, "map"));
+    }
+  }
+  auto broken = landmark;
+  broken.description.histogram = {1.0F};
+  harness.publish(topics::kLandmarks, to_message(broken, settings, "map"));
+  publish_odometry(200.0, 1.0);
+  publish_panorama(place(2));
+  ASSERT_EQ(matches.size(), 1U);
+  EXPECT_EQ(matches[0]->candidates(), 0U);
+  EXPECT_TRUE(harness.log_contains("large_features.row is beyond the rows of the measurement matrix"));
+  EXPECT_TRUE(harness.log_contains("histogram has not as many bins as the settings say"));
+  EXPECT_TRUE(harness.container().run().empty());
+}
+
 TEST_F(PositionCorrectorComponent, SaysThatAPanoramaIsOfNoUse) {
   publish_landmark(1, 1);
   publish_panorama(cv::Mat(540, 1080, CV_8UC1, cv::Scalar(0)));
   ASSERT_EQ(matches.size(), 1U);
   EXPECT_EQ(matches[0]->state(), "unusable");
   EXPECT_TRUE(harness.log_contains("panorama/image"));
+}
+
+TEST_F(PositionCorrectorComponent, UsesNoPanoramaThatIsTheLastAgainOrUpsideDown) {
+  has_noise = false;
+  publish_landmark(2, 2);
+  publish_panorama(place(2));
+  publish_panorama(place(2));
+  cv::Mat turned_over;
+  cv::flip(place(2), turned_over, -1);
+  publish_panorama(turned_over);
+  ASSERT_EQ(matches.size(), 3U);
+  EXPECT_NE(matches[0]->state(), "unusable") << matches[0]->reason();
+  EXPECT_EQ(matches[1]->state(), "unusable");
+  EXPECT_EQ(matches[1]->reason(), "repeats its image (frozen)");
+  EXPECT_EQ(matches[2]->state(), "unusable");
+  EXPECT_EQ(matches[2]->reason(), "is upside down");
+  EXPECT_EQ(corrections.size(), 1U);
 }
 
 TEST_F(PositionCorrectorComponent, SaysWhereTheVehicleIsSeenFromTheLandmark) {
@@ -256,7 +300,7 @@ TEST_F(PositionCorrectorComponent, LeavesLandmarksWhereTheyAreWhenTheirPosesAreM
   panvo_msgs::msg::LandmarkPoses message;
   message.ids({2});
   harness.publish(topics::kLandmarkPoses, message);
-  EXPECT_TRUE(harness.log_contains("landmarks/poses has 1 ids, but 0 poses"));
+  EXPECT_TRUE(harness.log_contains("is left out: poses are not as many as ids"));
   publish_odometry(200.0, 1.0);
   publish_panorama(place(2));
   EXPECT_EQ(matches.back()->candidates(), 1U);

@@ -29,13 +29,14 @@ class LandmarkLibrary {
     double distance_m;
   };
 
-  explicit LandmarkLibrary(std::shared_ptr<KeypointSource> source = nullptr);
+  /// `limits`: of what its landmarks will be compared with.
+  explicit LandmarkLibrary(std::shared_ptr<KeypointSource> source = nullptr, DescriptionLimits limits = {});
   LandmarkLibrary(LandmarkLibrary&&) = default;
   LandmarkLibrary& operator=(LandmarkLibrary&&) = default;
 
   /// Takes a landmark in and returns its id: its own, or the next one if that is 0. Two may be at one place (see nearest).
   /// With a source, keypoints and thumbnail are dropped: they must be in the source.
-  /// Throws std::invalid_argument: the id is taken, or the pose is not finite.
+  /// Throws std::invalid_argument: the id is taken, the pose is not finite, or the description does not fit the limits.
   std::uint32_t add(PanoramicLandmark landmark);
 
   /// Moves a landmark, as its position comes to be known better; false when there is none of this id. Throws
@@ -72,6 +73,7 @@ class LandmarkLibrary {
   void take_from_cell(const PanoramicLandmark& landmark);
 
   std::shared_ptr<KeypointSource> source_;
+  DescriptionLimits limits_;
   std::deque<PanoramicLandmark> landmarks_;  // as they came
   std::vector<PanoramicLandmark*> by_id_;
   std::map<Cell, std::vector<const PanoramicLandmark*>> cells_;  // a uniform grid over the map

@@ -20,14 +20,11 @@ panvo_msgs::msg::PanoramicLandmark to_message(const PanoramicLandmark& landmark,
                                               const std::string& map_frame);
 
 /// The reason says what cannot be used: it was described with other settings than `settings` (each key that differs, with
-/// both values), has no id, a value that is not finite, a quaternion or bearing that is not of length 1, a covariance that
-/// is not symmetric or has a negative variance, a histogram whose shares do not add up to 1, features that are not in
-/// order of their weights.
+/// both values), or what interfaces::problem_of() says.
 conversions::Result<PanoramicLandmark> to_landmark(const panvo_msgs::msg::PanoramicLandmark& message,
                                                    const DescriptionSettings& settings);
 
-/// Where landmarks are known to be by now. The reason names what cannot be used: not as many poses as ids, an id of 0, a pose or
-/// a covariance as above.
+/// Where landmarks are known to be by now. The reason is what interfaces::problem_of() says.
 conversions::Result<std::vector<LandmarkPose>> to_landmark_poses(const panvo_msgs::msg::LandmarkPoses& message);
 
 }  // namespace panvo::landmarks

@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -56,7 +57,7 @@ class LandmarkStore final : public KeypointSource {
   void require(const DescriptionSettings& settings) const;
 
   /// Returns the landmark's id: its own, or the next one if that is 0. Throws std::invalid_argument for a landmark with
-  /// numbers that are none, StoreError for an id that is taken.
+  /// something that no landmark of its settings holds, StoreError for an id that is taken.
   std::uint32_t add(const PanoramicLandmark& landmark);
   /// Moves landmarks, all or none. Ids that are not there are passed over.
   void set_poses(std::span<const LandmarkPose> poses);
@@ -65,15 +66,17 @@ class LandmarkStore final : public KeypointSource {
   std::uint32_t append(const LandmarkStore& other);
 
   std::size_t size() const;
-  /// All but keypoints and thumbnails, in order of ids: what a library holds.
-  std::vector<PanoramicLandmark> landmarks() const;
+  /// All but keypoints and thumbnails, in order of ids: what a library holds. A record that no landmark of the store's settings can be is left out
+  /// and told to `report`.
+  std::vector<PanoramicLandmark> landmarks(const std::function<void(const std::string&)>& report = {}) const;
+  /// Throws StoreError for some that are none.
   std::vector<Keypoint> keypoints(std::uint32_t id) const override;
   std::vector<std::uint8_t> thumbnail(std::uint32_t id) const;
   /// The number of keypoints of all landmarks together.
   std::uint64_t keypoint_count() const;
   StoredBytes stored_bytes() const;
 
-  /// Reads the whole file and tells what is damaged in it; nullopt when it is sound.
+  /// Reads the whole file, each landmark in it too, and tells what is damaged; nullopt when it is sound.
   std::optional<std::string> find_damage() const;
 
  private:

@@ -74,6 +74,11 @@ struct DescriptionBasis {
   int first_row = 0;  ///< of the band
   vision::MeasurementMatrix large, small;
   vision::SelectionParameters select_large, select_small;
+
+  /// Of the landmarks that can be compared with what is described so.
+  DescriptionLimits limits() const {
+    return {2 * static_cast<std::size_t>(large.rows()), static_cast<std::size_t>(parameters.histogram_bins)};
+  }
 };
 
 /// A panorama to be recognised: its histogram, its responses at every heading of the grid, and its integral images, from which

@@ -5,6 +5,8 @@
 #include <Eigen/Geometry>
 #include <array>
 #include <cstdint>
+#include <limits>
+#include <optional>
 #include <vector>
 
 namespace panvo::landmarks {
@@ -39,6 +41,15 @@ struct PanoramaDescription {
 
   bool operator==(const PanoramaDescription&) const = default;
 };
+
+/// How large the matrices and histograms are that descriptions are compared by.
+struct DescriptionLimits {
+  std::size_t rows = std::numeric_limits<std::size_t>::max();  ///< of both halves of a measurement matrix
+  std::optional<std::size_t> bins;                             ///< of the histogram; none: any
+};
+
+/// Whether every row is one of the matrix, and the histogram of its length: what is compared without looking again.
+bool fits(const PanoramaDescription& description, const DescriptionLimits& limits);
 
 /// A place that can be recognised from any heading: where it is and how it looks.
 struct PanoramicLandmark {

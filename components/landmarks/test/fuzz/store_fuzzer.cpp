@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+// For libFuzzer: changes to a store of three landmarks, each a place in the file (3 bytes) and what is written there (1 byte). It is refused, or what
+// is read of it keeps the rules and can be compared.
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "landmark_rules.hpp"
+#include "panvo/landmarks/landmark_store.hpp"
+#include "places.hpp"
+
+namespace {
+
+using namespace panvo::landmarks;
+
+PanoramicLandmark landmark_of(std::uint32_t id) {
+  PanoramicLandmark landmark;
+  landmark.id = id;
+  landmark.map_from_base.translation().x() = 10.0 * id;
+  landmark.covariance.setIdentity();
+  landmark.description = fuzz::here().describer.describe(fuzz::Here::noise());
+  landmark.keypoints.resize(10);
+  landmark.thumbnail.resize(100);
+  return landmark;
+}
+
+std::string read(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+/// In memory: a case is worth no write to a disk.
+const std::filesystem::path& store_file() {
+  static const std::filesystem::path file = "/dev/shm/panvo_store_fuzzer_" + std::to_string(::getpid());
+  return file;
+}
+
+const std::string& sound_store() {
+  static const std::string bytes = [] {
+    {
+      LandmarkStore store(store_file(), fuzz::here().settings);
+      for (const std::uint32_t id : {1U, 2U, 3U}) store.add(landmark_of(id));
+    }
+    std::atexit([] { std::filesystem::remove(store_file()); });
+    return read(store_file());
+  }();
+  return bytes;
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  std::string bytes = sound_store();
+  for (std::size_t i = 0; i + 4 <= size && i < 400; i += 4) {
+    const std::size_t place = data[i] | std::size_t{data[i + 1]} << 8 | std::size_t{data[i + 2]} << 16;
+    bytes[place % bytes.size()] = static_cast<char>(data[i + 3]);
+  }
+  std::ofstream(store_file(), std::ios::binary) << bytes;
+  try {
+    const LandmarkStore store(store_file());
+    for (const auto& landmark : store.landmarks()) {
+      if (problem_of(landmark, store.settings())) std::abort();
+      store.keypoints(landmark.id);
+      store.thumbnail(landmark.id);
+      if (fits(landmark.description, fuzz::here().describer.basis().limits())) fuzz::compare(landmark.description);
+    }
+    store.find_damage();
+  } catch (const StoreError&) {
+  }
+  return 0;
+}
