@@ -48,7 +48,6 @@ class ImageDecoderComponent final : public runtime::Component {
               const std::shared_ptr<const CompressedImage>& message) mutable {
             const auto image = timed_decode(*message);
             if (image) {
-              context_.rejections().accepted(compressed);
               images.publish(*image);
             } else if (context_.rejections().add(compressed, image.reason())) {
               context_.log().warn("{} {}; it is left out", compressed, image.reason());

@@ -54,7 +54,6 @@ class ImageEncoderComponent final : public runtime::Component {
               const std::shared_ptr<const Image>& image) mutable {
             const auto file = timed_encode(*image);
             if (file) {
-              context_.rejections().accepted(topic);
               files.publish(*file);
             } else if (context_.rejections().add(topic, file.reason())) {
               context_.log().warn("{} {}; it is left out", topic, file.reason());

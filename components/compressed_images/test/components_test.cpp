@@ -40,7 +40,7 @@ TEST(ImageDecoderComponent, MakesGreyWhereItIsAskedTo) {
   EXPECT_EQ(decoded[0]->encoding(), "mono8");
 }
 
-TEST(ImageDecoderComponent, LeavesDamagedImagesOutAndSaysSoOnceEachTimeItBegins) {
+TEST(ImageDecoderComponent, LeavesDamagedImagesOutAndSaysSoOnce) {
   runtime::ComponentHarness harness;
   const auto& decoded = harness.collect(kDecoded);
   harness.load("panvo_compressed_images", "ImageDecoderComponent", kTopics);
@@ -54,7 +54,7 @@ TEST(ImageDecoderComponent, LeavesDamagedImagesOutAndSaysSoOnceEachTimeItBegins)
   harness.publish(kCompressed, whole);
   EXPECT_THAT(decoded, SizeIs(1));
   harness.publish(kCompressed, damaged);
-  EXPECT_THAT(harness.log(), SizeIs(2));
+  EXPECT_THAT(harness.log(), SizeIs(1));  // in ten seconds
 }
 
 TEST(ImageEncoderComponent, PublishesWhatADecoderReads) {

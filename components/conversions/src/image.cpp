@@ -15,6 +15,8 @@ namespace panvo::conversions {
 namespace {
 
 constexpr int kIsGrey = -1;
+constexpr double kFrom16Bit =
+    255.0 / 65535.0;  // white stays white: what cameras, decoders and all who read panoramas agree on
 
 struct Encoding {
   std::string_view name;
@@ -79,11 +81,23 @@ Result<cv::Mat> grey(const sensor_msgs::msg::Image& image) {
   cv::Mat grey;
   const int to_grey = find(image.encoding())->to_grey;
   if (to_grey == kIsGrey) {
-    pixels->convertTo(grey, CV_8U, 1.0 / 257.0);
+    pixels->convertTo(grey, CV_8U, kFrom16Bit);
   } else {
     cv::cvtColor(*pixels, grey, to_grey);
   }
   return grey;
+}
+
+Result<cv::Mat> grey_or_bgr(const sensor_msgs::msg::Image& image) {
+  auto pixels = view(image);
+  if (!pixels) return pixels;
+  if (pixels->channels() == 1) return grey(image);
+  const bool is_rgb = image.encoding().starts_with("rgb");
+  if (!is_rgb && pixels->channels() == 3) return pixels;
+  cv::Mat bgr;
+  const int to_bgr = pixels->channels() == 3 ? cv::COLOR_RGB2BGR : is_rgb ? cv::COLOR_RGBA2BGR : cv::COLOR_BGRA2BGR;
+  cv::cvtColor(*pixels, bgr, to_bgr);
+  return bgr;
 }
 
 std::shared_ptr<sensor_msgs::msg::Image> make_image(std::int64_t stamp_ns, const std::string& frame_id,

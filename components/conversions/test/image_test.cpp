@@ -83,6 +83,24 @@ TEST(GreyImage, ScalesSixteenBits) {
   EXPECT_EQ(grey(*image)->at<std::uint8_t>(0, 0), 0);
 }
 
+TEST(GreyOrBgrImage, ScalesSixteenBitsAsGreyDoes) {
+  const auto image = make_image(0, "panorama", "mono16", 256, 256);
+  for (int i = 0; i < 65536; ++i) pixels(*image).at<std::uint16_t>(i / 256, i % 256) = static_cast<std::uint16_t>(i);
+  EXPECT_EQ(cv::norm(*grey_or_bgr(*image), *grey(*image), cv::NORM_INF), 0.0);
+}
+
+TEST(GreyOrBgrImage, HasItsColoursInOneOrder) {
+  for (const auto& [encoding, red] : {std::pair{"rgb8", 0}, {"rgba8", 0}, {"bgr8", 2}, {"bgra8", 2}}) {
+    const auto image = make_image(0, "panorama", encoding, 4, 3);
+    for (std::size_t i = static_cast<std::size_t>(red); i < image->data().size(); i += image->step() / 4)
+      image->data()[i] = 200;
+    const auto result = grey_or_bgr(*image);
+    ASSERT_TRUE(result);
+    ASSERT_EQ(result->type(), CV_8UC3);
+    EXPECT_EQ(result->at<cv::Vec3b>(2, 3), cv::Vec3b(0, 0, 200)) << encoding;
+  }
+}
+
 TEST(MadeImage, IsWrittenThroughItsPixels) {
   const auto image = make_image(0, "left", encoding_of(CV_8UC3), 4, 3);
   pixels(*image).setTo(cv::Scalar(1, 2, 3));

@@ -34,7 +34,7 @@ struct Parameters {
   template <class Field>
   static void describe(Field&& field) {
     using P = Parameters;
-    field(&P::rig, "rig", "", "rig file, as those in config/rigs: the heads, their lenses and where they look");
+    field.path(&P::rig, "rig", "rig file, as those in config/rigs: the heads, their lenses and where they look");
     field(&P::columns, "columns", "px", "width of the panorama; half as many rows", 64, 8192);
     field(&P::output, "output", "", "encoding of the panorama: that of the heads, or grey", {"same", "mono8"});
     field(&P::compensate_gains, "compensate_gains", "",
@@ -97,8 +97,9 @@ class PanoramaStitcherComponent final : public runtime::Component {
     ++received_;
     if (const auto fault = find_fault(index, *image)) {
       ++rejected_;
-      if (faults_[index] != *fault)
-        context_.log().warn("{} {}; it is left out", topics::kPanoramaHeadImageRaw.at(index).name, *fault);
+      const auto& topic = topics::kPanoramaHeadImageRaw.at(index);
+      context_.log().warn_throttled(fmt::format("{} {}", topic.name, *fault), "{} {}; it is left out",
+                                    context_.resolved_name(topic), *fault);
       faults_[index] = *fault;
     } else {
       faults_[index].clear();
@@ -139,10 +140,10 @@ class PanoramaStitcherComponent final : public runtime::Component {
       const auto& name = stitcher_.rig().heads[i].name;
       if (watch_.is_usable(i) == was_usable(i)) continue;
       if (watch_.is_usable(i)) {
-        context_.log().info("head '{}' is seen again", name);
+        context_.log().info_throttled(name + " is seen", "head '{}' is seen again", name);
       } else {
-        context_.log().warn(
-            "head '{}' is {}; the panorama goes on without it: look after its cable, power and lens cap", name,
+        context_.log().warn_throttled(
+            name, "head '{}' is {}; the panorama goes on without it: look after its cable, power and lens cap", name,
             watch_.state(i));
       }
     }
@@ -188,8 +189,8 @@ class PanoramaStitcherComponent final : public runtime::Component {
 
   void say_mixed(const std::string& one, const std::string& other) {
     ++rejected_;
-    if (std::exchange(has_said_mixed_, true)) return;
-    context_.log().warn("the heads' images are of {} and of {}; set all cameras to the same encoding", one, other);
+    context_.log().warn_throttled(
+        "mixed", "the heads' images are of {} and of {}; set all cameras to the same encoding", one, other);
   }
 
   /// One status for the rig, as ROS 2's diagnostic tools show it.
@@ -242,7 +243,6 @@ class PanoramaStitcherComponent final : public runtime::Component {
   std::string transform_parent_;
   std::optional<std::int64_t> last_report_ns_;
   std::uint64_t received_ = 0, rejected_ = 0, stitched_ = 0;
-  bool has_said_mixed_ = false;
 };
 
 PANVO_REGISTER_COMPONENT(PanoramaStitcherComponent)

@@ -52,17 +52,17 @@ class StereoRectifierComponent final : public runtime::Component {
     EyeRectifier rectifier;
     runtime::Output<sensor_msgs::msg::Image> rectified;
     int images_without_info = 0;
-    std::string last_warning;
   };
 
   void on_info(Eye& eye, const sensor_msgs::msg::CameraInfo& info) {
     const auto change = eye.rectifier.set_camera(info);
     if (change == EyeRectifier::Change::kNone) return;
     if (change == EyeRectifier::Change::kChanged) {
-      context_.log().warn(
+      context_.log().warn_throttled(
+          eye.info_topic.name,
           "{} changed while running; what follows is rectified as it now says. Restart if the camera was moved or "
           "exchanged",
-          eye.info_topic.name);
+          context_.resolved_name(eye.info_topic));
     }
     pair_problem_.clear();
     const auto& left = left_.rectifier.camera();
@@ -80,32 +80,24 @@ class StereoRectifierComponent final : public runtime::Component {
         context_.log().warn(
             "{} images on {}, but nothing on {}: they cannot be rectified; have the driver publish its calibration, or "
             "remap",
-            kPatience, eye.raw_topic.name, eye.info_topic.name);
+            kPatience, context_.resolved_name(eye.raw_topic), context_.resolved_name(eye.info_topic));
       }
       return;
     }
     if (!pair_problem_.empty()) {
-      warn_once(eye, fmt::format("{} and {} are of no stereo pair: {}", left_.info_topic.name, right_.info_topic.name,
-                                 pair_problem_));
-      return;
+      return context_.log().warn_throttled("no stereo pair", "{} and {} are of no stereo pair: {}",
+                                           context_.resolved_name(left_.info_topic),
+                                           context_.resolved_name(right_.info_topic), pair_problem_);
     }
     const auto rectified = [&] {
       const runtime::StageTimer timer(context_.times(), "rectify");
       return eye.rectifier.rectify(raw);
     }();
     if (!rectified) {
-      warn_once(eye, fmt::format("{} {}; it is left out", eye.raw_topic.name, rectified.reason()));
-      return;
+      return context_.log().warn_throttled(eye.raw_topic.name, "{} {}; it is left out",
+                                           context_.resolved_name(eye.raw_topic), rectified.reason());
     }
-    eye.last_warning.clear();
     eye.rectified.publish(*rectified);
-  }
-
-  /// Says what is wrong when it begins, not with every image.
-  void warn_once(Eye& eye, const std::string& warning) {
-    if (eye.last_warning == warning) return;
-    eye.last_warning = warning;
-    context_.log().warn("{}", warning);
   }
 
   runtime::Context& context_;

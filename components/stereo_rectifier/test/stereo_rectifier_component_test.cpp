@@ -82,7 +82,7 @@ TEST_F(StereoRectifier, MissesACameraInfoThatDoesNotCome) {
   for (int i = 0; i < 20; ++i) publish_left_image(i);
   EXPECT_THAT(left_rect_, IsEmpty());
   EXPECT_EQ(warnings(), 1u);
-  EXPECT_TRUE(harness_.log_contains("nothing on stereo/left/camera_info"));
+  EXPECT_TRUE(harness_.log_contains("nothing on /stereo/left/camera_info"));
 }
 
 TEST_F(StereoRectifier, RefusesAnUncalibratedCameraOnce) {
@@ -101,7 +101,7 @@ TEST_F(StereoRectifier, RefusesCamerasThatAreNoPair) {
   publish_infos();
   publish_left_image();
   EXPECT_THAT(left_rect_, IsEmpty());
-  EXPECT_TRUE(harness_.log_contains("stereo/left/camera_info and stereo/right/camera_info are of no stereo pair"));
+  EXPECT_TRUE(harness_.log_contains("/stereo/left/camera_info and /stereo/right/camera_info are of no stereo pair"));
 }
 
 TEST_F(StereoRectifier, RefusesImagesOfAnotherSizeAndGoesOnAfter) {

@@ -110,7 +110,7 @@ class CameraGrabber::Implementation {
       opened();
     } catch (const OpenError& error) {
       machine_.failed(steady_ns());
-      warn_once(error.what());
+      warn("open", error.what());
       const std::lock_guard lock(mutex_);
       ++report_.counters.failed_opens;
       report_.state = std::string(name_of(machine_.state())) + ": " + error.what();
@@ -183,7 +183,7 @@ class CameraGrabber::Implementation {
   void close() {
     const bool is_gone = machine_.last_loss() == Reconnection::Loss::kDeviceGone;
     const std::string why = is_gone ? "is gone" : "has sent nothing for too long";
-    warn_once(fmt::format("{} {}; looking for it", identity_->serial, why));
+    warn(why, fmt::format("{} {}; looking for it", identity_->serial, why));
     if (!is_gone && !machine_.has_streamed() && camera_->negotiated().uses_packet_socket &&
         settings_.camera.packet_socket == PacketSocket::kAuto) {
       packet_socket_fails_ = true;
@@ -233,11 +233,7 @@ class CameraGrabber::Implementation {
       problem = "sends a frame that is " + frame.status_text();
     }
     if (problem.empty()) problem = stamper_.problem();
-    if (!problem.empty()) {
-      warn_once(identity_->serial + " " + problem);
-    } else if (const std::int64_t now_ns = steady_ns(); now_ns - last_warning_ns_ > kQuiet_ns) {
-      last_warning_.clear();
-    }
+    if (!problem.empty()) warn(frame.status_text(), identity_->serial + " " + problem);
     if (whole) on_frame_(std::move(*whole));
   }
 
@@ -288,15 +284,9 @@ class CameraGrabber::Implementation {
     for (auto& [name, value] : chunk_data) report_.details["chunk " + name] = std::move(value);
   }
 
-  /// Says what is wrong when it begins, and again when it begins once more after a while.
-  void warn_once(const std::string& what) {
-    last_warning_ns_ = steady_ns();
-    if (what == last_warning_) return;
-    last_warning_ = what;
-    log_.warn("{}: {}", settings_.name, what);
+  void warn(std::string_view kind, const std::string& what) {
+    log_.warn_throttled(fmt::format("{}: {}", settings_.name, kind), "{}: {}", settings_.name, what);
   }
-
-  static constexpr std::int64_t kQuiet_ns = 10'000'000'000;
 
   GrabberSettings settings_;  // its features are the thread's own, the rest never changes
   const runtime::Logger& log_;
@@ -313,8 +303,6 @@ class CameraGrabber::Implementation {
   bool is_first_ = true;  // frame of this stream
   std::optional<Identity> identity_;
   std::vector<std::string> told_refusals_;
-  std::string last_warning_;
-  std::int64_t last_warning_ns_ = 0;
   std::unique_ptr<OpenedCamera> camera_;
   Closer<OpenedCamera> closer_;
 

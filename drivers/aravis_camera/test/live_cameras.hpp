@@ -42,7 +42,7 @@ class LiveCameras : public ::testing::Test {
   void unload();
 
   /// Looks every few milliseconds, at most a minute; false when it did not come true.
-  static bool eventually(const std::function<bool()>& condition);
+  [[nodiscard]] static bool eventually(const std::function<bool()>& condition);
 
   /// What was published on a topic so far ("/stereo/left/image_raw").
   std::vector<Seen> seen(const std::string& topic) const;

@@ -33,7 +33,10 @@ vision::RectifiedStereo rectified_geometry(const vision::StereoCalibration& cali
                                            const std::filesystem::path& file) {
   expect_no_problems(vision::validate(calibration), file);
   try {
-    return vision::rectify(calibration);
+    const auto rectified = vision::rectify(calibration);
+    expect_no_problems(vision::validate(rectified),
+                       file);  // of cameras that see nothing in common, numbers that are none
+    return rectified;
   } catch (const std::invalid_argument& error) {
     expect_no_problems({error.what()}, file);
     throw;

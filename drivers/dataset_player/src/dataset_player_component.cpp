@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 #include <deque>
 #include <memory>
@@ -17,6 +16,7 @@
 #include "panvo/conversions/time.hpp"
 #include "panvo/dataset_player/dataset.hpp"
 #include "panvo/dataset_player/image_file.hpp"
+#include "panvo/dataset_player/passes.hpp"
 #include "panvo/dataset_player/timeline.hpp"
 #include "panvo/interfaces/topics.hpp"
 #include "panvo/runtime/component.hpp"
@@ -31,18 +31,21 @@ struct Parameters {
   double rate_hz = 0.0;         // 0: what is usual for the layout
   double start_s = 0.0;
   double duration_s = 0.0;  // 0: to the end
+  int passes = 1;           // forward, backward, forward, ...
   template <class Field>
   static void describe(Field&& field) {
     using P = Parameters;
-    field(&P::directory, "directory", "",
-          "folder of the data set: KITTI odometry, EuRoC/ASL, or left/right folders with a calibration");
-    field(&P::calibration, "calibration", "",
-          "folder of the calibration of left/right folders, as in config/rigs; empty: the data set's own");
+    field.path(&P::directory, "directory",
+               "folder of the data set: KITTI odometry, EuRoC/ASL, or left/right folders with a calibration");
+    field.path(&P::calibration, "calibration",
+               "folder of the calibration of left/right folders, as in config/rigs; empty: the data set's own");
     field(&P::cameras, "cameras", "", "which cameras are played", {"all", "stereo", "panorama"});
     field(&P::grey, "grey", "", "decode the stereo images as grey even if they are stored in colour");
     field(&P::rate_hz, "rate_hz", "Hz", "frame rate of data sets without times; 0: KITTI 10, folders 30", 0.0, 1000.0);
     field(&P::start_s, "start_s", "s", "where to begin, after the first image", 0.0, 1e6);
     field(&P::duration_s, "duration_s", "s", "how much to play; 0: to the end", 0.0, 1e6);
+    field(&P::passes, "passes", "", "how often to play it: forward, backward, forward, ... with increasing stamps", 1,
+          1'000'000);
   }
 };
 
@@ -77,8 +80,8 @@ class DatasetPlayerComponent final : public runtime::Component, public runtime::
   void open_stereo(const StereoRecording& stereo, Colour colour);
   void say_what_is_played() const;
   void publish_static_transforms(std::int64_t stamp_ns);
-  void publish_ground_truth(const GroundTruthPose& pose);
-  void publish_stereo(const StereoFrame& frame, const Images& images);
+  void publish_ground_truth(const GroundTruthPose& pose, std::int64_t stamp_ns);
+  void publish_stereo(std::int64_t stamp_ns, const Images& images);
   void load_ahead();
   Images load(const TimelineEvent& event);
   ImagePtr load(const Camera& camera, const std::filesystem::path& file, std::int64_t stamp_ns);
@@ -86,8 +89,8 @@ class DatasetPlayerComponent final : public runtime::Component, public runtime::
 
   runtime::Context& context_;
   Dataset dataset_;
-  std::vector<TimelineEvent> events_;
-  std::size_t next_ = 0;
+  Passes events_;
+  std::uint64_t next_ = 0;
   std::deque<Images> ahead_;  ///< of the events from the next one on
   std::optional<Eye> left_, right_;
   std::optional<Camera> panorama_;
@@ -118,7 +121,7 @@ void DatasetPlayerComponent::open(const Parameters& parameters) {
                             .duration_s = parameters.duration_s,
                             .stereo = parameters.cameras != "panorama",
                             .panorama = parameters.cameras != "stereo"};
-  events_ = timeline(dataset_, selection);
+  events_ = Passes(timeline(dataset_, selection), static_cast<std::uint64_t>(parameters.passes));
   if (dataset_.stereo && selection.stereo) {
     open_stereo(*dataset_.stereo, parameters.grey ? Colour::kGrey : Colour::kAsStored);
   }
@@ -128,8 +131,7 @@ void DatasetPlayerComponent::open(const Parameters& parameters) {
   }
   if (!dataset_.ground_truth.empty()) ground_truth_.emplace(context_.output(topics::kGroundTruth));
   step_kind_ = left_ ? TimelineEvent::Kind::kStereo : TimelineEvent::Kind::kPanorama;
-  steps_total_ = static_cast<std::uint64_t>(std::count_if(
-      events_.begin(), events_.end(), [this](const TimelineEvent& event) { return event.kind == step_kind_; }));
+  for (std::uint64_t i = 0; i < events_.size(); ++i) steps_total_ += events_[i].kind == step_kind_;
 }
 
 void DatasetPlayerComponent::open_stereo(const StereoRecording& stereo, Colour colour) {
@@ -148,7 +150,7 @@ void DatasetPlayerComponent::open_stereo(const StereoRecording& stereo, Colour c
 
 void DatasetPlayerComponent::say_what_is_played() const {
   const auto& log = context_.log();
-  const auto seconds = static_cast<double>(events_.back().stamp_ns - events_.front().stamp_ns) * 1e-9;
+  const auto seconds = static_cast<double>(events_[events_.size() - 1].stamp_ns - events_[0].stamp_ns) * 1e-9;
   std::string content;
   if (left_) {
     content += fmt::format(", stereo of {} x {} px {}, baseline {:.4f} m", left_->camera.width, left_->camera.height,
@@ -174,15 +176,15 @@ void DatasetPlayerComponent::emit() {
   if (!is_placed_) publish_static_transforms(stamp_ns);
   load_ahead();
   for (; next_ < events_.size() && events_[next_].stamp_ns == stamp_ns; ++next_) {
-    const auto& [stamp, kind, index] = events_[next_];
+    const auto [stamp, kind, index] = events_[next_];
     const Images images = std::move(ahead_.front());
     ahead_.pop_front();
     switch (kind) {
       case TimelineEvent::Kind::kGroundTruth:
-        publish_ground_truth(dataset_.ground_truth[index]);
+        publish_ground_truth(dataset_.ground_truth[index], stamp_ns);
         break;
       case TimelineEvent::Kind::kStereo:
-        publish_stereo(dataset_.stereo->frames[index], images);
+        publish_stereo(stamp_ns, images);
         break;
       case TimelineEvent::Kind::kPanorama:
         if (images[0]) panorama_->images.publish(images[0]);
@@ -198,7 +200,8 @@ void DatasetPlayerComponent::emit() {
 
 /// What the next step publishes, so that it is published at its time and not when it is decoded.
 void DatasetPlayerComponent::load_ahead() {
-  for (std::size_t i = next_ + ahead_.size(); i < events_.size() && events_[i].stamp_ns == events_[next_].stamp_ns; ++i)
+  for (std::uint64_t i = next_ + ahead_.size(); i < events_.size() && events_[i].stamp_ns == events_[next_].stamp_ns;
+       ++i)
     ahead_.push_back(load(events_[i]));
 }
 
@@ -216,9 +219,9 @@ void DatasetPlayerComponent::publish_static_transforms(std::int64_t stamp_ns) {
   static_transforms_.publish(std::move(message));
 }
 
-void DatasetPlayerComponent::publish_ground_truth(const GroundTruthPose& pose) {
+void DatasetPlayerComponent::publish_ground_truth(const GroundTruthPose& pose, std::int64_t stamp_ns) {
   nav_msgs::msg::Odometry message;
-  message.header().stamp(conversions::to_stamp(pose.stamp_ns));
+  message.header().stamp(conversions::to_stamp(stamp_ns));
   message.header().frame_id("map");
   message.child_frame_id("base_link");
   message.pose().pose(conversions::to_pose(pose.map_from_base));
@@ -228,11 +231,11 @@ void DatasetPlayerComponent::publish_ground_truth(const GroundTruthPose& pose) {
   ground_truth_->publish(std::move(message));
 }
 
-void DatasetPlayerComponent::publish_stereo(const StereoFrame& frame, const Images& images) {
+void DatasetPlayerComponent::publish_stereo(std::int64_t stamp_ns, const Images& images) {
   const auto& [left, right] = images;
   if (!left || !right) return;
   for (auto* eye : {&*left_, &*right_}) {
-    eye->infos.publish(conversions::to_camera_info(eye->geometry, frame.stamp_ns, eye->camera.frame_id));
+    eye->infos.publish(conversions::to_camera_info(eye->geometry, stamp_ns, eye->camera.frame_id));
   }
   left_->camera.images.publish(left);
   right_->camera.images.publish(right);
@@ -241,12 +244,12 @@ void DatasetPlayerComponent::publish_stereo(const StereoFrame& frame, const Imag
 DatasetPlayerComponent::Images DatasetPlayerComponent::load(const TimelineEvent& event) {
   if (event.kind == TimelineEvent::Kind::kPanorama) {
     const auto& frame = dataset_.panorama->frames[event.index];
-    return {load(*panorama_, frame.image, frame.stamp_ns), nullptr};
+    return {load(*panorama_, frame.image, event.stamp_ns), nullptr};
   }
   if (event.kind != TimelineEvent::Kind::kStereo) return {};
   const auto& frame = dataset_.stereo->frames[event.index];
-  const auto left = load(left_->camera, frame.left, frame.stamp_ns);
-  return {left, left ? load(right_->camera, frame.right, frame.stamp_ns) : nullptr};
+  const auto left = load(left_->camera, frame.left, event.stamp_ns);
+  return {left, left ? load(right_->camera, frame.right, event.stamp_ns) : nullptr};
 }
 
 /// The image of a file as a message. nullptr if it cannot be used: then that is reported.
@@ -270,10 +273,8 @@ DatasetPlayerComponent::ImagePtr DatasetPlayerComponent::load(const Camera& came
 }
 
 void DatasetPlayerComponent::report_unreadable(const std::string& what) {
-  constexpr std::uint64_t kMostReports = 10;
   ++unreadable_;
-  if (unreadable_ <= kMostReports) context_.log().warn("{}; the frame is left out", what);
-  if (unreadable_ == kMostReports) context_.log().warn("more such frames are counted only");
+  context_.log().warn_throttled("unreadable", "{}; the frame is left out", what);
 }
 
 PANVO_REGISTER_COMPONENT(DatasetPlayerComponent)

@@ -31,7 +31,9 @@ std::vector<StampedImage> read_image_list(const fs::path& camera_folder) {
   for (const auto& line : file.lines()) {
     const auto stamp_ns = file.nanoseconds(line, 0);
     if (!images.empty()) file.expect_later(line, images.back().stamp_ns, stamp_ns);
-    images.push_back({stamp_ns, camera_folder / "data" / file.text(line, 1)});
+    const auto& name = file.text(line, 1);
+    if (name.empty()) file.fail(line, "names no image file in field 2; correct or remove the line");
+    images.push_back({stamp_ns, camera_folder / "data" / name});
   }
   if (images.empty()) throw DatasetError(file.path().string() + ": lists no image; copy the data set again");
   return images;

@@ -55,7 +55,9 @@ std::optional<std::string> ImageDecoder::decode(const std::filesystem::path& fil
     image.release();
     return file.string() + ": " + what;
   };
-  if (!read_bytes(file, bytes_)) return fail("cannot be read");
+  std::error_code error;
+  // A folder or a device has no size by which memory could be taken.
+  if (!std::filesystem::is_regular_file(file, error) || !read_bytes(file, bytes_)) return fail("cannot be read");
   if (bytes_.empty()) return fail("is empty");
   if (is_cut_off_jpeg(bytes_)) return fail("is a JPEG that was cut off");
   const int flags =

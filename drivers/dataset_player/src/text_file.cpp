@@ -5,6 +5,8 @@
 #include <cmath>
 #include <fstream>
 
+#include "panvo/interfaces/check.hpp"
+
 namespace panvo::dataset_player {
 namespace {
 
@@ -51,9 +53,9 @@ TextFile::TextFile(std::filesystem::path path, Separator separator) : path_(std:
 
 double TextFile::number(const TextLine& line, std::size_t field) const {
   double value = 0.0;
-  if (!parse(text(line, field), value) || !std::isfinite(value)) {
+  if (!parse(text(line, field), value) || !(std::abs(value) <= interfaces::kFarthest_m)) {
     fail(line, "field " + std::to_string(field + 1) + " '" + line.fields[field] +
-                   "' is not a finite number; correct or remove the line");
+                   "' is not a finite number of a plausible size; correct or remove the line");
   }
   return value;
 }

@@ -3,8 +3,11 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <fstream>
 #include <sstream>
+
+#include "panvo/interfaces/check.hpp"
 
 namespace panvo::dataset_player {
 namespace {
@@ -65,6 +68,11 @@ std::string YamlFile::text(const std::string& key, const std::string& when_absen
 std::vector<double> YamlFile::numbers(const std::string& key) const {
   std::vector<double> values;
   if (!append_numbers(at(key), values)) fail(key, "must be a list of numbers or a matrix (rows, cols, data)");
+  for (const double value : values) {
+    if (!(std::abs(value) <= interfaces::kFarthest_m)) {
+      fail(key, "has a number that is not finite or of no plausible size; correct it, or calibrate again");
+    }
+  }
   return values;
 }
 

@@ -107,6 +107,12 @@ TEST_F(EurocDataset, NamesTheLineOfAResolutionThatIsNot) {
   EXPECT_THAT(error(), AllOf(HasSubstr("cam0/sensor.yaml:13:"), HasSubstr("resolution has 1 numbers where 2")));
 }
 
+TEST_F(EurocDataset, NamesTheLineOfAnImageWithoutAName) {
+  write_euroc();
+  write("mav0/cam0/data.csv", "1000000000,1000000000.png\n1050000000,\n");
+  EXPECT_THAT(error(), AllOf(HasSubstr("cam0/data.csv:2:"), HasSubstr("names no image file")));
+}
+
 TEST_F(EurocDataset, RefusesATransformThatIsNone) {
   write_euroc();
   write("mav0/cam1/sensor.yaml", euroc_sensor(std::numeric_limits<double>::quiet_NaN(), 0.1));

@@ -135,6 +135,14 @@ TEST_F(KittiDataset, NamesTheLineOfACalibrationThatIsNotANumber) {
   EXPECT_THAT(error(), AllOf(HasSubstr("calib.txt:2:"), HasSubstr("not a finite number")));
 }
 
+TEST_F(KittiDataset, NamesTheLineOfACalibrationThatNoCameraHas) {
+  write_kitti();
+  write("calib.txt", "P0: 50 0 32 0 0 50 24 0 0 0 1 0\nP1: 1e300 0 32 -10 0 50 24 0 0 0 1 0\n");
+  EXPECT_THAT(error(), AllOf(HasSubstr("calib.txt:2:"), HasSubstr("1e300"), HasSubstr("plausible size")));
+  write("calib.txt", "P0: 1e7 0 32 0 0 1e7 24 0 0 0 1 0\nP1: 1e7 0 32 -1e7 0 1e7 24 0 0 0 1 0\n");
+  EXPECT_THAT(error(), AllOf(HasSubstr("calib.txt"), HasSubstr("focal length")));
+}
+
 TEST_F(KittiDataset, NamesTheLineOfACalibrationThatWasCutOff) {
   write_kitti();
   write("calib.txt", "P0: 50 0 32 0 0 50 24 0 0 0 1 0\nP1: 50 0 32 -10 0\n");

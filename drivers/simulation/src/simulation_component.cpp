@@ -36,16 +36,16 @@ struct ComponentParameters {
   template <class Field>
   static void describe(Field&& field) {
     using P = ComponentParameters;
-    field(&P::route, "route", "", "route file, as those in config/routes");
+    field.path(&P::route, "route", "route file, as those in config/routes");
     field(&P::junctions, "junctions", "", "a route of one's own: junctions of the campus, neighbours joined by a road");
     field(&P::random_junctions, "random_junctions", "1", "a route through that many junctions, drawn from the seed", 0,
           1000);
-    field(&P::rig, "rig", "", "rig file, as config/rigs/paper/rig.yaml; empty: the paper's rig");
+    field.path(&P::rig, "rig", "rig file, as config/rigs/paper/rig.yaml; empty: the paper's rig");
     field(
         &P::effects, "effects", "",
         "what makes it hard: sudden_light, sun_drift, movers, weak_texture, rain, smear, dropped_frames, time_offset, "
         "all");
-    field(&P::assets, "assets", "", "folder of photographs, MATERIAL.jpg, in place of painted textures");
+    field.path(&P::assets, "assets", "folder of photographs, MATERIAL.jpg, in place of painted textures");
     field(&P::cameras, "cameras", "", "which are rendered", {"all", "stereo", "panorama"});
     field(&P::seed, "seed", "1", "of the world, the motion and the noise", 0, 1'000'000'000);
     field(&P::hilliness, "hilliness", "1", "0 flat ... 1 hills of 8 m", 0.0, 2.0);

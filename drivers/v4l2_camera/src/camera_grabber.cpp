@@ -16,7 +16,6 @@
 #include "panvo/v4l2_camera/frame_reader.hpp"
 #include "panvo/v4l2_camera/host_stamps.hpp"
 #include "panvo/v4l2_camera/negotiation.hpp"
-#include "repeated_text.hpp"
 
 namespace panvo::v4l2_camera {
 namespace {
@@ -114,7 +113,7 @@ class CameraGrabber::Implementation {
   /// Told when it stays so: a node that has just come belongs to root for a moment.
   void failed(const std::string& problem) {
     machine_.failed(steady_ns());
-    if (std::exchange(last_failure_, problem) == problem) warn(problem);
+    if (std::exchange(last_failure_, problem) == problem) warn("open", problem);
     const std::lock_guard lock(mutex_);
     ++report_.counters.failed_opens;
     report_.state = "not connected: " + problem;
@@ -156,17 +155,20 @@ class CameraGrabber::Implementation {
   }
 
   void lost(const DeviceError& error) {
-    warn(error.what());
+    lost_by_ = error.what();
+    warn("lost", lost_by_);
     machine_.device_gone();
   }
 
   void close() {
-    if (machine_.last_loss() == Reconnection::Loss::kNoFrames)
-      warn(fmt::format("{} has sent nothing for too long; it is opened anew", known_->path));
+    if (machine_.last_loss() == Reconnection::Loss::kNoFrames) {
+      lost_by_ = fmt::format("{} has sent nothing for too long; it is opened anew", known_->path);
+      warn("silent", lost_by_);
+    }
     device_.reset();
     const std::lock_guard lock(mutex_);
     report_.is_streaming = false;
-    report_.state = "not connected: " + warnings_.last();
+    report_.state = "not connected: " + lost_by_;
   }
 
   void receive() {
@@ -206,15 +208,14 @@ class CameraGrabber::Implementation {
                                                                       : "of the end of the frame";
     }
     if (is_whole) {
-      warnings_.quiet(steady_ns());
       on_frame_({stamp_ns, std::move(result.images)});
     } else {
-      warn(fmt::format("a frame {}", result.problem));
+      warn(result.problem, fmt::format("a frame {}", result.problem));
     }
   }
 
-  void warn(const std::string& what) {
-    if (warnings_.is_new(what, steady_ns())) log_.warn("{}: {}", settings_.name, what);
+  void warn(std::string_view kind, const std::string& what) {
+    log_.warn_throttled(fmt::format("{}: {}", settings_.name, kind), "{}: {}", settings_.name, what);
   }
 
   CameraSettings settings_;  // its controls are the thread's own, the rest never changes
@@ -226,7 +227,7 @@ class CameraGrabber::Implementation {
   Reconnection machine_;
   FrameGaps gaps_{FrameNumbering::kCounter32};
   HostStamps stamps_;
-  RepeatedText warnings_;
+  std::string lost_by_;
   std::string last_failure_;
   std::vector<std::string> told_refusals_;
   std::optional<VideoNode> known_;

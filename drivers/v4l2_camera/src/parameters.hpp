@@ -66,8 +66,8 @@ struct Parameters {
           "of what is published: what every component here reads (Bayer and YUV as bgr8), grey, or as the camera sends "
           "it",
           {"readable", "grey", "as_sent"});
-    field(&P::calibration, "calibration", "",
-          "folder of ROS camera_info files camera.yaml; left.yaml, right.yaml; head_0.yaml ...");
+    field.path(&P::calibration, "calibration",
+               "folder of ROS camera_info files camera.yaml; left.yaml, right.yaml; head_0.yaml ...");
     field(
         &P::mount, "mount", "",
         "where the cameras sit on base_link, for /tf_static: x, y, z in m, roll, pitch, yaw in degrees, of each, or of "

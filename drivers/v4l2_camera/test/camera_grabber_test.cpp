@@ -32,7 +32,7 @@ class GrabbedCamera : public ::testing::Test {
   }
   void TearDown() override { grabber_.reset(); }
 
-  static bool eventually(const std::function<bool()>& condition) {
+  [[nodiscard]] static bool eventually(const std::function<bool()>& condition) {
     const auto give_up = std::chrono::steady_clock::now() + std::chrono::seconds(30);
     while (!condition()) {
       if (std::chrono::steady_clock::now() > give_up) return false;

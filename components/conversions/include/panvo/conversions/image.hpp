@@ -20,6 +20,9 @@ Result<cv::Mat> view(const sensor_msgs::msg::Image& image);
 /// 8-bit grey: a view as above of a grey image, a conversion of its own of any other (16 bits: scaled).
 Result<cv::Mat> grey(const sensor_msgs::msg::Image& image);
 
+/// 8-bit grey or BGR, whichever it holds: a view as above of mono8 and bgr8, a conversion of its own of any other.
+Result<cv::Mat> grey_or_bgr(const sensor_msgs::msg::Image& image);
+
 /// A message with room for the pixels, to be written through pixels() and then published; rows follow without gaps.
 /// Throws std::invalid_argument for an encoding that is not one of the above or a size that is not positive.
 std::shared_ptr<sensor_msgs::msg::Image> make_image(std::int64_t stamp_ns, const std::string& frame_id,
