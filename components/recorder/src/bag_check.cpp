@@ -30,7 +30,10 @@ BagCheck check_bag(const std::filesystem::path& bag) {
       continue;
     }
     try {
-      types[message->topic]->deserialize(message->data);
+      const auto& type = *types[message->topic];
+      const auto decoded = type.deserialize(message->data);
+      const auto problem = type.problem ? type.problem(decoded.get()) : std::nullopt;
+      if (problem && topic.invalid++ == 0) topic.first_problem = *problem;
     } catch (const interfaces::DecodeError& error) {
       if (topic.undecodable++ == 0) {
         topic.first_error = error.what();

@@ -20,7 +20,7 @@ struct Parameters {
   template <class Field>
   static void describe(Field&& field) {
     using P = Parameters;
-    field(&P::directory, "directory", "", "folder of the bag, or one .db3 or .mcap file");
+    field.path(&P::directory, "directory", "folder of the bag, or one .db3 or .mcap file");
     field(&P::topics, "topics", "", "topics to play, names or regular expressions for whole names; none: all");
     field(&P::exclude, "exclude", "", "topics not to play, names or regular expressions");
   }

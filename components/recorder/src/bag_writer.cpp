@@ -7,7 +7,9 @@
 #include <utility>
 
 #include "bag_file_writer.hpp"
+#include "bag_folder.hpp"
 #include "durable_file.hpp"
+#include "file_guard.hpp"
 #include "mcap/mcap_file_writer.hpp"
 #include "sqlite_file_writer.hpp"
 
@@ -18,46 +20,6 @@ namespace fs = std::filesystem;
 
 /// How long metadata.yaml may lag behind the files; a reader notices and counts for itself.
 constexpr std::chrono::seconds kMetadataPeriod{5};
-
-bool is_bag_file(const fs::path& file) {
-  const auto name = file.filename().string();
-  return name == kMetadataFile || name.ends_with(".db3") || name.ends_with(".db3-journal") ||
-         name.ends_with(".db3-wal") || name.ends_with(".db3-shm") || name.ends_with(".mcap") ||
-         name.ends_with(".db3.zstd") || name.ends_with(".mcap.zstd");
-}
-
-/// Removes the bag, and nothing that is not one.
-void remove_bag(const fs::path& bag) {
-  for (const auto& entry : fs::directory_iterator(bag)) {
-    if (!entry.is_regular_file() || !is_bag_file(entry.path())) {
-      throw BagError(bag.string() + ": is not overwritten, for it holds " + entry.path().filename().string() +
-                     ", which is no part of a bag; choose another folder");
-    }
-  }
-  for (const auto& entry : fs::directory_iterator(bag)) {
-    fs::remove(entry.path());
-  }
-}
-
-void make_folder(const fs::path& bag, bool overwrite) {
-  try {
-    if (fs::exists(bag)) {
-      if (!fs::is_directory(bag)) {
-        throw BagError(bag.string() + ": is a file; a bag is a folder, choose another name");
-      }
-      if (!fs::is_empty(bag)) {
-        if (!overwrite) {
-          throw BagError(bag.string() + ": exists already; choose another folder, or allow to overwrite it");
-        }
-        remove_bag(bag);
-      }
-    }
-    fs::create_directories(bag);
-  } catch (const fs::filesystem_error& error) {
-    throw BagError(bag.string() + ": cannot be made (" + error.code().message() +
-                   "); choose a folder you may write to");
-  }
-}
 
 }  // namespace
 
@@ -76,7 +38,7 @@ BagWriter::BagWriter(fs::path bag, Options options)
     throw BagError(bag_.string() + ": the storage sqlite3 is not compressed here; choose the storage mcap for " +
                    to_text(options_.compression));
   }
-  make_folder(bag_, options_.overwrite);
+  folder_lock_ = std::make_unique<Descriptor>(take_folder(bag_, options_.overwrite));
   metadata_.storage_identifier = to_text(options_.storage);
   const std::unique_lock lock(mutex_);
   open_next_file();
@@ -150,6 +112,7 @@ void BagWriter::close() {
     return;
   }
   closed_ = true;
+  const auto lock_until_then = std::move(folder_lock_);
   if (failure_) {
     file_.reset();
     save_metadata(true);
@@ -192,6 +155,7 @@ void BagWriter::open_next_file() {
   metadata_.files.push_back({.path = name, .start_ns = BagMetadata::kNoStart});
   try {
     file_ = make_file(bag_ / name);
+    guard_ = std::make_unique<FileGuard>(bag_ / name);
     file_->begin();
     for (std::size_t i = 0; i < topics_.size(); ++i) {
       file_->add_topic(static_cast<int>(i) + 1, topics_[i].description, topics_[i].definition);
@@ -246,6 +210,7 @@ void BagWriter::commit_locked() {
   }
   batch_messages_ = 0;
   batch_size_ = 0;
+  check_file();
   const bool full = options_.max_file_bytes > 0 && file_->size_bytes() >= options_.max_file_bytes;
   if (full && !closed_) {
     finish_file();
@@ -268,7 +233,32 @@ void BagWriter::finish_file() {
   }
 }
 
+/// After a commit: is it still the bag's file that was written?
+void BagWriter::check_file() {
+  const auto loss = guard_->find_loss();
+  if (!loss) {
+    return;
+  }
+  const auto file = bag_ / metadata_.files.back().path;
+  file_.reset();
+  std::string text = file.string() + ": " + *loss + ", and the recording has ended; the " +
+                     std::to_string(metadata_.message_count) + " messages until then ";
+  try {
+    const auto kept = guard_->keep();
+    folder_lost_ = kept != file;
+    text += "are in " + kept.string();
+  } catch (const fs::filesystem_error& error) {
+    folder_lost_ = true;
+    text += "cannot be kept (" + std::string(error.what()) + ")";
+  }
+  save_metadata(true);
+  fail(std::move(text));
+}
+
 void BagWriter::save_metadata(bool durable) {
+  if (folder_lost_) {
+    return;
+  }
   topics_changed_ = false;
   metadata_saved_ = Clock::now();
   try {
@@ -289,7 +279,11 @@ void BagWriter::fail(const StorageError& error) {
     text += "; the " + std::to_string(metadata_.message_count) + " messages committed before stay readable, " +
             std::to_string(lost_) + " are lost";
   }
-  failure_ = text + (error.is_disk() ? "; free some space or record to another disk" : "");
+  fail(text + (error.is_disk() ? "; free some space or record to another disk" : ""));
+}
+
+void BagWriter::fail(std::string text) {
+  failure_ = std::move(text);
   throw_failure();
 }
 

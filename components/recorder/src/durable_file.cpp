@@ -7,29 +7,12 @@
 #include <cerrno>
 #include <cstring>
 #include <string>
-#include <utility>
 
+#include "file_guard.hpp"
 #include "panvo/recorder/bag_error.hpp"
 
 namespace panvo::recorder {
 namespace {
-
-class Descriptor {
- public:
-  explicit Descriptor(int descriptor) : descriptor_(descriptor) {}
-  ~Descriptor() { close(); }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-
-  int get() const noexcept { return descriptor_; }
-  bool close() noexcept {
-    const int descriptor = std::exchange(descriptor_, -1);
-    return descriptor < 0 || ::close(descriptor) == 0;
-  }
-
- private:
-  int descriptor_;
-};
 
 bool write_all(int descriptor, std::string_view content) {
   while (!content.empty()) {

@@ -2,6 +2,8 @@
 #include <atomic>
 #include <map>
 #include <memory>
+#include <mutex>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -25,13 +27,14 @@ struct Parameters {
   bool include_hidden = false;
   int max_file_mb = 0;  // size at which the next file is begun
   int queue_mb = 100;   // what may wait for the disk
+  int max_topics = 1000;
   std::string storage = "sqlite3";
   std::string compression = "none";
 
   template <class Field>
   static void describe(Field&& field) {
     using P = Parameters;
-    field(&P::output, "output", "", "folder of the bag; empty: rosbag2_ with date and time, in the working directory");
+    field.path(&P::output, "output", "folder of the bag; empty: rosbag2_ with date and time, in the working directory");
     field(&P::overwrite, "overwrite", "", "replace a bag that is already there");
     field(&P::topics, "topics", "", "topics to record, names or regular expressions for whole names; none: all");
     field(&P::exclude, "exclude", "", "topics not to record, names or regular expressions");
@@ -43,6 +46,10 @@ struct Parameters {
     field(&P::compression, "compression", "", "of the storage mcap: none, lz4 or zstd");
     field(&P::queue_mb, "queue_mb", "MB", "messages that may wait for the disk; what is more is dropped and counted", 1,
           1e5);
+    field(&P::max_topics, "max_topics", "",
+          "topics to record at most: each takes memory and a DDS reader; further ones are left out, counted and named "
+          "in the log",
+          1, 65'535);
   }
 };
 
@@ -85,18 +92,19 @@ class RecorderComponent final : public runtime::Component {
             context.stage<Waiting>("write", kMostWaiting, [this](Waiting message) { write(std::move(message)); })) {
     context.tap([this](const TopicDescription& topic) { return is_wanted(topic); }, kTapDepth,
                 [this](const TopicDescription& topic, const SamplePtr& sample) { take(topic, sample); });
+    context.on_end([this] {
+      finish();
+      if (writer_->committed_messages() + writer_->lost_messages() == 0) {
+        throw BagError("nothing was recorded to " + writer_->path().string() +
+                       ": no message came on the topics that were chosen");
+      }
+    });
     context.log().info("recording to {}", writer_->path().string());
   }
 
   ~RecorderComponent() override {
-    for (const auto& [topic, count] : dropped_) {
-      writer_->count_dropped(topic, count);
-    }
     try {
-      store_early(0);
-      writer_->close();
-      context_.log().info("recorded {} messages to {}, {} dropped", writer_->committed_messages(),
-                          writer_->path().string(), writer_->dropped_messages());
+      finish();
     } catch (const BagError& error) {
       context_.log().error("{}", error.what());
     }
@@ -114,9 +122,56 @@ class RecorderComponent final : public runtime::Component {
 
   static constexpr std::int64_t kRelativeTimes = 86'400'000'000'000;  // a day from 0: no time of the system clock
 
-  bool is_wanted(const TopicDescription& topic) const {
+  /// Once: at the end of the run, or when the component is unloaded before.
+  void finish() {
+    if (std::exchange(is_finished_, true)) {
+      return;
+    }
+    for (const auto& [topic, count] : dropped_) {
+      writer_->count_dropped(topic, count);
+    }
+    if (const auto left_out = describe_left_out(); !left_out.empty()) {
+      context_.log().warn("{}", left_out);
+    }
+    store_early(0);
+    writer_->close();
+    context_.log().info("recorded {} messages to {}, {} dropped", writer_->committed_messages(),
+                        writer_->path().string(), writer_->dropped_messages());
+  }
+
+  bool is_chosen(const TopicDescription& topic) const {
     return filter_.accepts(topic.name) && (parameters_.include_images || !is_image(topic)) &&
            (parameters_.include_hidden || !is_hidden(topic));
+  }
+
+  /// Called by whoever makes or finds a topic; it may hold locks that a line of the log needs.
+  bool is_wanted(const TopicDescription& topic) {
+    if (!is_chosen(topic)) {
+      return false;
+    }
+    const std::lock_guard lock(topics_mutex_);
+    if (wanted_topics_.contains(topic.name)) {
+      return true;
+    }
+    if (wanted_topics_.size() < static_cast<std::size_t>(parameters_.max_topics)) {
+      wanted_topics_.insert(topic.name);
+      return true;
+    }
+    if (left_out_.insert(topic.name).second) {
+      context_.rejections().add("topics beyond max_topics", topic.name);
+      is_news_left_out_ = true;
+    }
+    return false;
+  }
+
+  std::string describe_left_out() {
+    const std::lock_guard lock(topics_mutex_);
+    if (left_out_.empty()) {
+      return "";
+    }
+    return fmt::format(
+        "{} topics are left out, {} among them: {} are recorded already; raise max_topics, or choose topics",
+        left_out_.size(), *left_out_.begin(), parameters_.max_topics);
   }
 
   /// What the recorder says itself is not recorded: two recordings of one thing are to be equal, though they lie in
@@ -136,6 +191,9 @@ class RecorderComponent final : public runtime::Component {
   void take(const TopicDescription& topic, const SamplePtr& sample) {
     if (is_own_log(topic, sample)) {
       return;
+    }
+    if (is_news_left_out_.exchange(false)) {
+      context_.log().warn_throttled("max_topics", "{}", describe_left_out());
     }
     if (waiting_bytes_ >= static_cast<std::size_t>(parameters_.queue_mb) * 1'000'000 ||
         waiting_messages_ + 1 >= kMostWaiting) {
@@ -208,12 +266,16 @@ class RecorderComponent final : public runtime::Component {
   const std::unique_ptr<BagWriter> writer_;
   runtime::Stage<Waiting> writing_;
 
+  std::mutex topics_mutex_;  // guards the next two
+  std::set<std::string> wanted_topics_, left_out_;
+  std::atomic<bool> is_news_left_out_ = false;
   std::atomic<std::size_t> waiting_bytes_ = 0;
   std::atomic<std::size_t> waiting_messages_ = 0;
   std::map<std::string, std::uint64_t> dropped_;  // of the taking stage, not yet told to the writer
   std::uint64_t all_dropped_ = 0;
   std::map<std::string, int> handles_;  // of the writing stage, as is what follows
   std::vector<Waiting> early_;
+  bool is_finished_ = false;
 };
 
 }  // namespace

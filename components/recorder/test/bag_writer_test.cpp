@@ -171,6 +171,80 @@ TEST(BagWriter, OverwritesABagWhenToldToAndNothingElse) {
   EXPECT_EQ(BagReader(folder / "bag").metadata().message_count, 2u);
 }
 
+TEST(BagWriter, RefusesAFolderThatAnotherWriterIsAt) {
+  const TemporaryFolder folder;
+  BagWriter writer(folder / "bag");
+  write_numbered(writer, 2, 100);
+  EXPECT_THAT(error_of([&] { BagWriter(folder / "bag", {.overwrite = true}); }),
+              HasSubstr("another recorder is writing"));
+  writer.close();
+  BagReader reader(folder / "bag");
+  EXPECT_EQ(read_all(reader).size(), 2u);
+  EXPECT_NO_THROW(BagWriter(folder / "bag", {.overwrite = true})) << "nobody is at it any more";
+}
+
+/// A recording to which something happens after its first three messages.
+class LostBag : public testing::TestWithParam<Storage> {
+ protected:
+  LostBag() {
+    write_numbered(writer_, 3, 1000);
+    writer_.commit();
+  }
+  /// What the writer says when it comes to the next batch.
+  std::string error_of_next_batch() {
+    writer_.write(0, kStart + 10, payload(10, 1000));
+    return error_of([&] { writer_.commit(); });
+  }
+  static std::size_t count_messages(const std::filesystem::path& bag) {
+    BagReader reader(bag);
+    return read_all(reader).size();
+  }
+
+  const TemporaryFolder folder_;
+  const std::filesystem::path bag_ = folder_ / "bag";
+  const std::filesystem::path file_ = bag_ / (GetParam() == Storage::kMcap ? "bag_0.mcap" : "bag_0.db3");
+  BagWriter writer_{bag_, {.batch_time = std::chrono::hours(1), .storage = GetParam()}};
+};
+
+TEST_P(LostBag, IsKeptWhenItsFileIsRemoved) {
+  std::filesystem::remove(file_);
+  EXPECT_THAT(error_of_next_batch(),
+              testing::AllOf(HasSubstr("was removed"), HasSubstr("4 messages"), HasSubstr(file_.string())));
+  EXPECT_THAT(error_of([&] { writer_.write(0, kStart, payload(0, 1)); }), HasSubstr("was removed"));
+  EXPECT_EQ(count_messages(bag_), 4u);
+}
+
+TEST_P(LostBag, IsKeptWhenItsFolderIsRemoved) {
+  std::filesystem::remove_all(bag_);
+  EXPECT_THAT(error_of_next_batch(), HasSubstr("was removed"));
+  EXPECT_EQ(count_messages(bag_), 4u);
+}
+
+TEST_P(LostBag, StaysWhereItWasMovedTo) {
+  std::filesystem::rename(bag_, folder_ / "moved");
+  EXPECT_THAT(
+      error_of_next_batch(),
+      testing::AllOf(HasSubstr("was moved away"), HasSubstr((folder_ / "moved" / file_.filename().string()).string())));
+  writer_.close();
+  EXPECT_FALSE(std::filesystem::exists(bag_)) << "nothing is written where it was";
+  EXPECT_EQ(count_messages(folder_ / "moved"), 4u);
+}
+
+TEST_P(LostBag, IsKeptBesideWhatReplacesIt) {
+  std::filesystem::remove(file_);
+  std::ofstream(file_) << "somebody else's";
+  const auto kept = bag_ / ("bag_0_kept1" + file_.extension().string());
+  EXPECT_THAT(error_of_next_batch(), testing::AllOf(HasSubstr("was removed and replaced"), HasSubstr(kept.string())));
+  writer_.close();
+  EXPECT_EQ(count_messages(kept), 4u);
+  std::string content;
+  std::getline(std::ifstream(file_), content);
+  EXPECT_EQ(content, "somebody else's");
+}
+
+INSTANTIATE_TEST_SUITE_P(Storages, LostBag, testing::Values(Storage::kSqlite3, Storage::kMcap),
+                         [](const auto& info) { return to_text(info.param); });
+
 TEST(BagWriter, RefusesMessagesOnceClosed) {
   const TemporaryFolder folder;
   BagWriter writer(folder / "bag");

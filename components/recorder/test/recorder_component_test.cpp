@@ -23,8 +23,12 @@ nav_msgs::msg::Odometry odometry(std::int32_t sec) {
   return message;
 }
 
-sensor_msgs::msg::Image image(std::size_t bytes) {
+sensor_msgs::msg::Image image(std::uint32_t bytes) {
   sensor_msgs::msg::Image message;
+  message.encoding("mono8");
+  message.width(10);
+  message.height(bytes / 10);
+  message.step(10);
   message.data().resize(bytes, 7);
   return message;
 }
@@ -197,6 +201,36 @@ TEST_F(Recorder, CountsWhatItDropsWhenTheDiskIsTooSlow) {
   const auto messages = read_all(reader);
   EXPECT_EQ(messages.size() + dropped_messages(reader.metadata()), 3u);
   EXPECT_GT(dropped_messages(reader.metadata(), "/stereo/left/image_raw"), 0u);
+}
+
+TEST_F(Recorder, LeavesOutTopicsBeyondTheMostAndNamesThem) {
+  record({{"max_topics", "1"}, {"topics", "[/odometry/.*, /tf]"}});
+  harness_->publish(topics::kOdometryBinocular, odometry(1));
+  harness_->publish(topics::kTf, tf2_msgs::msg::TFMessage());
+  harness_->publish(topics::kOdometryBinocular, odometry(2));
+  harness_->publish(topics::kOdometryEnhanced, odometry(1));
+  EXPECT_TRUE(harness_->log_contains("1 topics are left out, /tf among them"));
+  harness_->container().run();
+  EXPECT_TRUE(harness_->log_contains(
+      "2 topics are left out, /odometry/enhanced among them: 1 are recorded already; raise max_topics"));
+  EXPECT_THAT(recorded_topics(), testing::ElementsAre("/odometry/binocular"));
+}
+
+TEST_F(Recorder, FailsARunOfWhichItRecordedNothing) {
+  record({{"topics", "[/tf]"}});
+  harness_->add<OneStep<kStart>>("one_step");
+  EXPECT_THAT(harness_->container().run(), testing::ElementsAre(HasSubstr("nothing was recorded to " + bag_.string())));
+}
+
+TEST_F(Recorder, FailsARunAtWhoseEndItsFileIsGone) {
+  record({{"topics", "[/odometry/.*]"}});
+  harness_->publish(topics::kOdometryBinocular, odometry(1));
+  std::filesystem::remove_all(bag_);
+  harness_->add<OneStep<kStart>>("one_step");
+  EXPECT_THAT(harness_->container().run(), testing::ElementsAre(HasSubstr("was removed while it was being recorded")));
+  harness_.reset();
+  BagReader reader(bag_);
+  EXPECT_EQ(read_all(reader).size(), 2u);
 }
 
 TEST_F(Recorder, GivesWhatCameBeforeTheReplaysFirstTimeThatTime) {

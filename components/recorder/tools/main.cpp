@@ -9,42 +9,49 @@
 #include "panvo/recorder/bag_copy.hpp"
 #include "panvo/recorder/bag_diff.hpp"
 #include "panvo/recorder/bag_reader.hpp"
+#include "panvo/runtime/printable.hpp"
 
 namespace {
 
 using namespace panvo::recorder;
+using panvo::runtime::printable;  // names and texts of a bag are whatever somebody wrote into it
 
 enum ExitStatus { kWell = 0, kNotSo = 1, kError = 2 };
 
 void warn(const std::vector<std::string>& warnings) {
   for (const auto& warning : warnings) {
-    std::fprintf(stderr, "panvo bag: warning: %s\n", warning.c_str());
+    std::fprintf(stderr, "panvo bag: warning: %s\n", printable(warning).c_str());
   }
 }
 
 int info(const std::string& path, bool as_json) {
   const BagReader bag(path);
   warn(bag.warnings());
-  std::fputs((as_json ? describe_as_json(bag) : describe_as_text(bag)).c_str(), stdout);
+  std::fputs((as_json ? describe_as_json(bag) : printable(describe_as_text(bag))).c_str(), stdout);
   return kWell;
 }
 
 int check(const std::string& path) {
   const auto found = check_bag(path);
   for (const auto& topic : found.topics) {
-    std::printf("%-40s %-36s %8llu readable", topic.name.c_str(), topic.type.c_str(),
+    std::printf("%-40s %-36s %8llu readable", printable(topic.name).c_str(), printable(topic.type).c_str(),
                 static_cast<unsigned long long>(topic.readable));
     if (!topic.is_decodable) {
-      std::printf(", of a type that is not known here\n");
+      std::printf(", of a type that is not known here");
     } else if (topic.undecodable == 0) {
-      std::printf(", all decode\n");
+      std::printf(", all decode");
     } else {
-      std::printf(", %llu do not decode (%s)\n", static_cast<unsigned long long>(topic.undecodable),
-                  topic.first_error.c_str());
+      std::printf(", %llu do not decode (%s)", static_cast<unsigned long long>(topic.undecodable),
+                  printable(topic.first_error).c_str());
     }
+    if (topic.invalid > 0) {
+      std::printf(", %llu nobody can use (%s)", static_cast<unsigned long long>(topic.invalid),
+                  topic.first_problem.c_str());
+    }
+    std::printf("\n");
   }
   for (const auto& problem : found.problems) {
-    std::printf("%s\n", problem.c_str());
+    std::printf("%s\n", printable(problem).c_str());
   }
   std::printf("%s: %llu messages readable, %llu lost: %s\n", path.c_str(),
               static_cast<unsigned long long>(found.readable), static_cast<unsigned long long>(found.lost),
@@ -73,9 +80,8 @@ int copy(const std::string& from, const std::string& to, const CopySelection& se
 int diff(const std::string& first, const std::string& second, const DiffOptions& options) {
   bool equal = true;
   for (const auto& topic : compare_bags(first, second, options)) {
-    std::printf("%s: %s\n", topic.name.c_str(),
-                topic.difference ? topic.difference->c_str()
-                                 : ("equal, " + std::to_string(topic.equal_messages) + " messages").c_str());
+    const auto found = topic.difference.value_or("equal, " + std::to_string(topic.equal_messages) + " messages");
+    std::printf("%s: %s\n", printable(topic.name).c_str(), printable(found).c_str());
     equal = equal && !topic.difference;
   }
   std::printf("%s\n", equal ? "equal" : "different");

@@ -14,6 +14,9 @@ struct TopicCheck {
   std::uint64_t readable = 0;
   std::uint64_t undecodable = 0;
   std::string first_error{};  ///< of decoding
+  std::uint64_t invalid =
+      0;  ///< decode, but break the rules of their type: recorded as they were sent, and left out by those who read them
+  std::string first_problem{};
 };
 
 /// What is wrong with a bag.

@@ -21,6 +21,8 @@
 namespace panvo::recorder {
 
 class BagFileWriter;
+class Descriptor;
+class FileGuard;
 class StorageError;
 
 /// "rosbag2_2026_11_20-23_05_00": how `ros2 bag record` names a bag that was given no name. Local time.
@@ -48,7 +50,7 @@ class BagWriter {
   };
 
   /// Creates the bag and its first metadata.yaml. Throws BagError: the folder exists and is not to be overwritten or
-  /// is no bag, cannot be made, or is not writable; the storage does not compress.
+  /// is no bag, another writer is at it, it cannot be made, or is not writable; the storage does not compress.
   explicit BagWriter(std::filesystem::path bag) : BagWriter(std::move(bag), Options{}) {}
   BagWriter(std::filesystem::path bag, Options options);
 
@@ -64,7 +66,8 @@ class BagWriter {
   int add_topic(const BagTopic& topic, const TypeDefinition& definition);
 
   /// Adds a message. Throws BagError when the bag cannot be written (disk full): what was committed stays readable,
-  /// the batch being written is lost, and every later call throws the same.
+  /// the batch being written is lost, and every later call throws the same. Likewise when its file was removed, moved or replaced meanwhile, which
+  /// is noticed when a batch is committed: what was recorded until then is kept, and the error says where.
   void write(int topic, std::int64_t timestamp_ns, std::span<const std::uint8_t> data);
 
   /// Says that messages of a topic were dropped before they could be written; kept in the metadata's custom_data.
@@ -94,8 +97,10 @@ class BagWriter {
   void begin_batch();
   void commit_locked();
   void finish_file();
+  void check_file();
   void save_metadata(bool durable);
   void fail(const StorageError& error);
+  void fail(std::string text);
   void throw_failure();
   void commit_when_idle(std::stop_token stop);
 
@@ -104,7 +109,9 @@ class BagWriter {
 
   mutable std::mutex mutex_;  // guards all below
   std::condition_variable_any batch_begun_;
+  std::unique_ptr<Descriptor> folder_lock_;
   std::unique_ptr<BagFileWriter> file_;
+  std::unique_ptr<FileGuard> guard_;  // of file_
   std::vector<Topic> topics_;
   BagMetadata metadata_;  // of what is committed
   bool topics_changed_ = false;
@@ -119,6 +126,7 @@ class BagWriter {
   std::uint64_t lost_ = 0;
   std::optional<std::string> failure_;
   bool failure_told_ = false;
+  bool folder_lost_ = false;  // metadata.yaml there is not this bag's any more
   bool closed_ = false;
   std::jthread idle_committer_;  // last, so that it stops first
 };

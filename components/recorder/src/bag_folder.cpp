@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bag_folder.hpp"
+
+#include "panvo/recorder/bag_error.hpp"
+#include "panvo/recorder/bag_metadata.hpp"
+
+namespace panvo::recorder {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_bag_file(const fs::path& file) {
+  const auto name = file.filename().string();
+  return name == kMetadataFile || name.ends_with(".db3") || name.ends_with(".db3-journal") ||
+         name.ends_with(".db3-wal") || name.ends_with(".db3-shm") || name.ends_with(".mcap") ||
+         name.ends_with(".db3.zstd") || name.ends_with(".mcap.zstd");
+}
+
+/// Removes the bag, and nothing that is not one.
+void remove_bag(const fs::path& bag) {
+  for (const auto& entry : fs::directory_iterator(bag)) {
+    if (!entry.is_regular_file() || !is_bag_file(entry.path())) {
+      throw BagError(bag.string() + ": is not overwritten, for it holds " + entry.path().filename().string() +
+                     ", which is no part of a bag; choose another folder");
+    }
+  }
+  for (const auto& entry : fs::directory_iterator(bag)) {
+    fs::remove(entry.path());
+  }
+}
+
+}  // namespace
+
+Descriptor take_folder(const fs::path& bag, bool overwrite) {
+  try {
+    if (fs::exists(bag) && !fs::is_directory(bag)) {
+      throw BagError(bag.string() + ": is a file; a bag is a folder, choose another name");
+    }
+    fs::create_directories(bag);
+    auto lock = lock_folder(bag);
+    if (!fs::is_empty(bag)) {
+      if (!overwrite) {
+        throw BagError(bag.string() + ": exists already; choose another folder, or allow to overwrite it");
+      }
+      remove_bag(bag);
+    }
+    return lock;
+  } catch (const fs::filesystem_error& error) {
+    throw BagError(bag.string() + ": cannot be made (" + error.code().message() +
+                   "); choose a folder you may write to");
+  }
+}
+
+}  // namespace panvo::recorder
