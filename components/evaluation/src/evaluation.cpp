@@ -67,6 +67,7 @@ Evaluation evaluate(const Estimate& estimate, const Trajectory& ground_truth, co
   evaluation.per_metre = relative_error_per_metre(pairs);
   evaluation.nees = evaluate_consistency(estimate, ground_truth, options);
   evaluation.timing = estimate.timing;
+  evaluation.unreliable = estimate.unreliable;
 
   evaluation.alignment = options.alignment;
   auto errors = aligned_errors(pairs, options.alignment);

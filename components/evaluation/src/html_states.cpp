@@ -13,8 +13,8 @@ namespace panvo::evaluation {
 namespace {
 
 std::string style_of(const std::string& state) {
-  static constexpr std::array<std::string_view, 6> kKnown{"starting",     "unlocated", "tracking",
-                                                          "compass_only", "lost",      "relocalised"};
+  static constexpr std::array<std::string_view, 7> kKnown{"starting", "unlocated",   "tracking", "compass_only",
+                                                          "lost",     "relocalised", "stale"};
   const bool is_known = std::find(kKnown.begin(), kKnown.end(), state) != kKnown.end();
   return "state-" + (is_known ? state : std::string("other"));
 }
@@ -22,7 +22,10 @@ std::string style_of(const std::string& state) {
 }  // namespace
 
 std::string states_section(const JourneyReport& report) {
-  const auto& states = report.run.frames.run.states;
+  // While it was starting, the localizer had no time but the computer's own.
+  auto states = report.run.frames.run.states;
+  states.erase(states.begin(),
+               std::find_if(states.begin(), states.end(), [](const auto& state) { return state.state != "starting"; }));
   if (states.empty()) return "";
   const auto first_ns = states.front().stamp_ns;
   const auto seconds = [&](std::int64_t stamp_ns) { return static_cast<double>(stamp_ns - first_ns) * 1e-9; };

@@ -78,9 +78,9 @@ td:first-child, th:first-child { padding-left: 0; }
 .bar.theirs { background: var(--truth); } .bars { display: grid; grid-template-columns: minmax(9rem, 15rem) 1fr 9rem; gap: .55rem 1rem;
   align-items: center; font-size: .88rem; } .bars .n { text-align: right; } .bars h3 { grid-column: 1 / -1; margin: .7rem 0 0;
   font-size: .95rem; } .bars small { color: var(--soft); display: block; line-height: 1.2; }
-.state-tracking { fill: var(--good); } .state-compass_only { fill: var(--landmark); } .state-lost { fill: var(--bad); }
+.state-tracking { fill: var(--good); } .state-compass_only { fill: var(--landmark); } .state-lost, .state-stale { fill: var(--bad); }
 .state-relocalised { fill: var(--enhanced); } .state-starting, .state-unlocated, .state-other { fill: var(--truth); }
-i.state-tracking { background: var(--good); } i.state-compass_only { background: var(--landmark); } i.state-lost { background: var(--bad); }
+i.state-tracking { background: var(--good); } i.state-compass_only { background: var(--landmark); } i.state-lost, i.state-stale { background: var(--bad); }
 i.state-relocalised { background: var(--enhanced); }
 i.state-starting, i.state-unlocated, i.state-other { background: var(--truth); }
 dl { display: grid; grid-template-columns: max-content 1fr; gap: .25rem 1.3rem; margin: 0; font-size: .92rem; }

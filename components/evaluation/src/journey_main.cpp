@@ -12,6 +12,7 @@
 #include "panvo/evaluation/journey_evaluation.hpp"
 #include "panvo/evaluation/journey_page.hpp"
 #include "panvo/evaluation/plot.hpp"
+#include "panvo/evaluation/run_folder.hpp"
 
 namespace {
 
@@ -28,6 +29,7 @@ struct Arguments {
   std::string out;
   std::string title;
   bool only_table = false;
+  bool partial = false;
 };
 
 void describe(CLI::App& app, Arguments& arguments) {
@@ -41,6 +43,7 @@ void describe(CLI::App& app, Arguments& arguments) {
                  "another run of the same recording, with the paper's own correction, to be put beside");
   app.add_option("--out", arguments.out, "folder for report.html, journey.json and pictures (default: the run's)");
   app.add_option("--title", arguments.title, "heading (default: name of recording and run)");
+  app.add_flag("--partial", arguments.partial, "evaluate a run that was interrupted, too");
   app.add_flag("--only-table", arguments.only_table, "print the tables, write nothing");
 }
 
@@ -55,6 +58,7 @@ std::string default_title(const JourneyRun& run, const JourneyRecording& recordi
 }
 
 int run(const Arguments& arguments) {
+  if (!arguments.partial) require_finished(arguments.run);
   const auto journey = read_journey_run(arguments.run);
   const auto recording = read_journey_recording(arguments.recording.empty() ? arguments.run : arguments.recording);
   std::optional<JourneyRecording> earlier;

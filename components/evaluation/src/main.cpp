@@ -40,6 +40,7 @@ struct Arguments {
   double truth_noise_deg = 0.0;
   bool json = false;
   bool no_plot = false;
+  bool partial = false;
   Options options;
 };
 
@@ -91,6 +92,7 @@ void describe(CLI::App& app, Arguments& arguments) {
       ->check(CLI::NonNegativeNumber);
   app.add_option("--title", arguments.title, "heading of the table and the plot (default: the ground truth's name)");
   app.add_flag("--json", arguments.json, "print evaluation.json instead of the table");
+  app.add_flag("--partial", arguments.partial, "evaluate a run that was interrupted, too");
   app.add_flag("--no-plot", arguments.no_plot, "draw no plot");
 }
 
@@ -124,9 +126,30 @@ std::vector<Estimate> read_estimates(const Arguments& arguments) {
   return estimates;
 }
 
+/// Where to write. Somebody's data set or other folder is not written to unless it is named.
 fs::path output_folder(const Arguments& arguments) {
   if (!arguments.out.empty()) return arguments.out;
-  return fs::is_directory(arguments.estimate) ? fs::path(arguments.estimate) : fs::path(".");
+  if (!fs::is_directory(arguments.estimate)) return ".";
+  if (is_run_folder(arguments.estimate)) return arguments.estimate;
+  throw InputError(arguments.estimate, "is not the folder of a run",
+                   "give the run first and then its ground truth, or name a folder for the results with --out");
+}
+
+/// What an earlier evaluation left is replaced, files of these names that none left are not.
+void require_ours(const fs::path& folder) {
+  if (fs::exists(folder / "evaluation.json")) return;
+  for (const char* name : {"errors.csv", "evaluation.png", "evaluation.svg"}) {
+    if (fs::exists(folder / name)) {
+      throw InputError(folder / name, "is there already, and of no evaluation", "name another folder with --out");
+    }
+  }
+}
+
+void check(const Arguments& arguments) {
+  require_ours(output_folder(arguments));
+  if (arguments.partial) return;
+  require_finished(arguments.estimate);
+  for (const std::string& also : arguments.also) require_finished(also.substr(also.find('=') + 1));
 }
 
 void write(const fs::path& file, const std::string& text) {
@@ -135,6 +158,7 @@ void write(const fs::path& file, const std::string& text) {
 }
 
 int run(const Arguments& arguments) {
+  check(arguments);
   Report report;
   report.ground_truth = read_trajectory(arguments.ground_truth);
   report.title = arguments.title.empty() ? default_title(arguments.ground_truth) : arguments.title;

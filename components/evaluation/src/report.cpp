@@ -93,6 +93,7 @@ Json to_json(const Evaluation& e) {
       {"source", e.source.string()},
       {"poses", e.poses},
       {"pairs", e.pairs},
+      {"frames_unreliable", or_null(e.unreliable)},
       {"association", e.association == AssociationMethod::kInterpolate ? "interpolate" : "nearest"},
       {"association_tolerance_s", static_cast<double>(e.tolerance_ns) * 1e-9},
       {"association_largest_difference_s", static_cast<double>(e.largest_difference_ns) * 1e-9},

@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "panvo/evaluation/run_folder.hpp"
 
+#include <algorithm>
+#include <nlohmann/json.hpp>
 #include <string_view>
 
+#include "csv_table.hpp"
+#include "panvo/evaluation/input_error.hpp"
 #include "panvo/evaluation/trajectory_files.hpp"
+#include "text_file.hpp"
 
 namespace panvo::evaluation {
 namespace {
@@ -14,6 +19,9 @@ constexpr std::string_view kOdometry = "odometry_binocular.tum";
 constexpr std::string_view kEnhanced = "odometry_enhanced.tum";
 constexpr std::string_view kCovariances = "odometry_binocular_covariance.csv";
 constexpr std::string_view kTiming = "timing.json";
+constexpr std::string_view kSummary = "summary.json";
+constexpr std::string_view kMark = ".panvo_run";  // what `panvo run --out` begins with
+constexpr std::string_view kQuality = "quality.csv";
 
 // "runs/monday/" and "runs/monday" are both called monday; "." is called as the folder it is.
 std::string name_of(const fs::path& file_or_folder) {
@@ -22,7 +30,28 @@ std::string name_of(const fs::path& file_or_folder) {
   return path.stem().string();
 }
 
+std::size_t count_unreliable(const fs::path& file) {
+  const auto rows = read_csv(file, {"reliable"});
+  return static_cast<std::size_t>(
+      std::count_if(rows.begin(), rows.end(), [](const CsvRow& row) { return !row.flag(0); }));
+}
+
 }  // namespace
+
+bool is_run_folder(const fs::path& folder) { return fs::exists(folder / kOdometry) || fs::exists(folder / kEnhanced); }
+
+void require_finished(const fs::path& file_or_folder) {
+  const fs::path folder = fs::is_directory(file_or_folder) ? file_or_folder : file_or_folder.parent_path();
+  constexpr const char* kRemedy = "run it to its end, or evaluate what there is with --partial";
+  if (!fs::exists(folder / kSummary)) {
+    if (!fs::exists(folder / kMark)) return;  // from elsewhere
+    throw InputError(folder, "the run did not come to its end: it left no " + std::string(kSummary), kRemedy);
+  }
+  const auto summary = nlohmann::json::parse(read_text(folder / kSummary), nullptr, false);
+  if (summary.is_object() && summary.value("interrupted", false)) {
+    throw InputError(folder / kSummary, "the run was interrupted before all was played", kRemedy);
+  }
+}
 
 Estimate read_estimate(const fs::path& file_or_folder) {
   Estimate estimate;
@@ -32,6 +61,7 @@ Estimate read_estimate(const fs::path& file_or_folder) {
   if (file.filename() != kOdometry && file.filename() != kEnhanced) return estimate;
 
   const fs::path folder = file.parent_path();
+  if (fs::exists(folder / kQuality)) estimate.unreliable = count_unreliable(folder / kQuality);
   if (fs::exists(folder / kTiming)) estimate.timing = read_timing(folder / kTiming);
   if (fs::exists(folder / kCovariances) && fs::exists(folder / kOdometry)) {
     estimate.covariances = read_motion_covariances(folder / kCovariances);

@@ -101,6 +101,9 @@ void add_coverage(Table& table) {
   table.section("compared");
   table.row("poses with ground truth", "",
             [](const Evaluation& e) { return std::to_string(e.pairs) + "/" + std::to_string(e.poses); });
+  table.row(
+      "frames without a measured motion", "",
+      [](const Evaluation& e) { return e.unreliable ? Cell(std::to_string(*e.unreliable)) : std::nullopt; }, true);
   table.row("duration", "s", [](const Evaluation& e) { return to_text(e.duration_s, 1); });
   table.row("path length", "m", [](const Evaluation& e) { return to_text(e.path_length_m, 1); });
   table.row("of the ground truth's path", "%", [](const Evaluation& e) { return to_text(e.coverage_percent, 1); });

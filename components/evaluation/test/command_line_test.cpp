@@ -12,6 +12,7 @@
 namespace panvo::evaluation {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
@@ -84,6 +85,42 @@ TEST_F(CommandLine, FailsOnBadInputNamingIt) {
   EXPECT_EQ(call("run nowhere --no-plot").status, 1);
   EXPECT_EQ(call("run truth.tum --no-plot --also run=truth.tum").status, 1);
   EXPECT_EQ(call("run truth.tum --no-plot --out truth.tum").status, 1);
+}
+
+TEST_F(CommandLine, WritesNothingIntoTheGroundTruthWhenItsArgumentsAreSwapped) {
+  write("data/poses.txt", "1 0 0 0 0 1 0 0 0 0 1 0\n1 0 0 0 0 1 0 0 0 0 1 1\n");
+  const Outcome outcome = call("data run --no-plot");
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_THAT(outcome.err, AllOf(HasSubstr("data: is not the folder of a run"), HasSubstr("--out")));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "data/evaluation.json"));
+}
+
+TEST_F(CommandLine, ReplacesAnEarlierEvaluationButNoFilesOfSomebodyElse) {
+  write("mine/errors.csv", "precious");
+  const Outcome outcome = call("run truth.tum --no-plot --out mine");
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_THAT(outcome.err, HasSubstr("mine/errors.csv: is there already"));
+  EXPECT_EQ(text_of(folder_ / "mine/errors.csv"), "precious");
+  EXPECT_EQ(call("run truth.tum --no-plot").status, 0);
+  EXPECT_EQ(call("run truth.tum --no-plot").status, 0) << "again";
+}
+
+TEST_F(CommandLine, DoesNotTakeAnInterruptedRunForFinished) {
+  write("run/summary.json", R"({"interrupted": true})");
+  const Outcome outcome = call("run truth.tum --no-plot");
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_THAT(outcome.err, AllOf(HasSubstr("run/summary.json: the run was interrupted"), HasSubstr("--partial")));
+  EXPECT_EQ(call("truth.tum truth.tum --no-plot --also other=run").status, 1);
+  EXPECT_EQ(call("run truth.tum --no-plot --partial").status, 0);
+  write("run/summary.json", R"({"interrupted": false})");
+  EXPECT_EQ(call("run truth.tum --no-plot").status, 0);
+}
+
+TEST_F(CommandLine, DoesNotTakeAKilledRunForFinished) {
+  write("run/.panvo_run", "");
+  const Outcome outcome = call("run truth.tum --no-plot");
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_THAT(outcome.err, HasSubstr("left no summary.json"));
 }
 
 TEST_F(CommandLine, FailsOnBadUsage) {

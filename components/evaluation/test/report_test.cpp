@@ -23,12 +23,14 @@ TEST(Table, HasAColumnForEachEstimateAndAUnitForEachRow) {
   EXPECT_THAT(table, ContainsRegex("path length +m +[0-9.]+ +[0-9.]+\n"));
   EXPECT_THAT(table, ContainsRegex("scale error by Sim3 +% +1.000 +-?0.000\n"));
   EXPECT_THAT(table, ContainsRegex("vo/match +ms +5.00 / 9.00, 5.00 +-\n"));
+  EXPECT_THAT(table, ContainsRegex("frames without a measured motion +- +3\n"));
   EXPECT_THAT(table, HasSubstr("interpolated at the estimate's stamps"));
 }
 
 TEST(Table, SaysNothingForWhatCouldNotBeComputed) {
   const std::string table = to_table(still_report());
   EXPECT_THAT(table, ContainsRegex("translation, all +% +-\n"));
+  EXPECT_THAT(table, Not(HasSubstr("without a measured motion")));
   EXPECT_THAT(table, AllOf(Not(HasSubstr("nan")), Not(HasSubstr("inf")), Not(HasSubstr("normalised"))));
 }
 
@@ -41,6 +43,8 @@ TEST(Json, HoldsEveryFigureAndNullForWhatIsNotThere) {
   EXPECT_TRUE(json["estimates"][0]["nees"].is_null());
   EXPECT_EQ(json["estimates"][0]["timing"][0]["wall_ms"]["p95"], 9.0);
   EXPECT_TRUE(json["estimates"][1]["timing"].is_null());
+  EXPECT_TRUE(json["estimates"][0]["frames_unreliable"].is_null());
+  EXPECT_EQ(json["estimates"][1]["frames_unreliable"], 3);
   EXPECT_GT(json["estimates"][0]["segments"]["by_length"].size(), 0u);
   EXPECT_GT(json["estimates"][0]["rpe_per_metre"]["translation_m_per_m"]["rmse"], 0.0);
   const auto still = nlohmann::json::parse(to_json(still_report()));

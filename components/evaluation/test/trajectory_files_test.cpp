@@ -162,6 +162,7 @@ TEST_F(TrajectoryFiles, ARunBringsItsTimesAndCovariances) {
   write("run/odometry_binocular.tum", "0 1 0 0 0 0 0 1\n");
   write("run/odometry_enhanced.tum", "0 2 0 0 0 0 0 1\n");
   write("run/timing.json", R"({"components":{}})");
+  write("run/quality.csv", "stamp_ns,reliable,reason\n0,1,\n40,0,left image is black\n80,1,\n");
   std::string covariance = "0";
   for (int i = 0; i < 78; ++i) covariance += ",1";
   write("run/odometry_binocular_covariance.csv", covariance + "\n");
@@ -169,6 +170,7 @@ TEST_F(TrajectoryFiles, ARunBringsItsTimesAndCovariances) {
     const Estimate estimate = read_estimate(folder_ / path);
     EXPECT_EQ(estimate.name, std::string(path).ends_with("tum") ? "odometry_binocular" : "run");
     EXPECT_TRUE(estimate.timing);
+    EXPECT_EQ(estimate.unreliable, 1u);
     ASSERT_TRUE(estimate.covariances);
     EXPECT_EQ(estimate.covariances->size(), 1u);
     // They speak of the binocular odometry, whichever path is evaluated.
@@ -181,6 +183,7 @@ TEST_F(TrajectoryFiles, ALoneTrajectoryHasNeitherTimesNorCovariances) {
   const Estimate estimate = read_estimate(write("other.tum", "0 1 0 0 0 0 0 1\n"));
   EXPECT_EQ(estimate.name, "other");
   EXPECT_FALSE(estimate.timing);
+  EXPECT_FALSE(estimate.unreliable);
   EXPECT_FALSE(estimate.covariances);
 }
 

@@ -29,8 +29,9 @@ struct Options {
 struct Evaluation {
   std::string name;
   std::filesystem::path source;
-  std::size_t poses = 0;  // of the estimate
-  std::size_t pairs = 0;  // of them with ground truth
+  std::size_t poses = 0;                  // of the estimate
+  std::size_t pairs = 0;                  // of them with ground truth
+  std::optional<std::size_t> unreliable;  // frames of the run whose motion was not measured
   AssociationMethod association = AssociationMethod::kInterpolate;
   std::int64_t tolerance_ns = 0;
   std::int64_t largest_difference_ns = 0;
