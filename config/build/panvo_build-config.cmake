@@ -8,7 +8,7 @@ include(GNUInstallDirs)
 option(PANVO_WARNINGS_AS_ERRORS "Treat compiler warnings as errors" OFF)
 set(PANVO_SANITIZE "" CACHE STRING "Sanitizers to build with: address, undefined, thread, or a comma-separated list")
 
-option(PANVO_FUZZ "Build the fuzzers, everything with libFuzzer's instrumentation and the address sanitizer: for clang" OFF)
+option(PANVO_FUZZ "Build the fuzzers, everything with libFuzzer's instrumentation and the address and undefined sanitizers: for clang" OFF)
 if(PANVO_FUZZ AND NOT CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
   message(FATAL_ERROR "PANVO_FUZZ is for clang, this is ${CMAKE_CXX_COMPILER_ID}: configure with -DCMAKE_CXX_COMPILER=clang++ in a build folder of its own")
 endif()
@@ -30,7 +30,7 @@ if(PANVO_CCACHE AND NOT DEFINED CMAKE_CXX_COMPILER_LAUNCHER)
 endif()
 
 # Plugins and libraries find each other next to where they were installed, whatever the prefix.
-set(CMAKE_INSTALL_RPATH "$ORIGIN;$ORIGIN/../${CMAKE_INSTALL_LIBDIR};$ORIGIN/../../${CMAKE_INSTALL_LIBDIR}")
+set(CMAKE_INSTALL_RPATH "$ORIGIN;$ORIGIN/..;$ORIGIN/../${CMAKE_INSTALL_LIBDIR};$ORIGIN/../../${CMAKE_INSTALL_LIBDIR}")
 set(CMAKE_INSTALL_RPATH_USE_LINK_PATH ON)
 set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
 
@@ -44,8 +44,10 @@ function(_panvo_compile_settings target)
     -ffp-contract=off
     $<$<CXX_COMPILER_ID:GNU>:-fno-gnu-unique$<SEMICOLON>-Wno-restrict> $<$<BOOL:${PANVO_WARNINGS_AS_ERRORS}>:-Werror>)
   if(PANVO_FUZZ)
-    target_compile_options(${target} PRIVATE -fsanitize=fuzzer-no-link,address -fno-omit-frame-pointer -g)
-    target_link_options(${target} PRIVATE -fsanitize=fuzzer-no-link,address)
+    # Without vptr and function: they need type information that libraries of the distribution do not have.
+    target_compile_options(${target} PRIVATE -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize=vptr,function
+      -fno-sanitize-recover=undefined -fno-omit-frame-pointer -g)
+    target_link_options(${target} PRIVATE -fsanitize=fuzzer-no-link,address,undefined)
   endif()
   if(PANVO_SANITIZE)
     target_compile_options(${target} PRIVATE -fsanitize=${PANVO_SANITIZE} -fno-omit-frame-pointer -g)

@@ -43,8 +43,9 @@ build_targets() {
   local folder configuration stamp
   folder=$(build_folder)
   configuration=$(cmake_arguments "$PANVO_BUILD")
-  mkdir -p "$folder"
-  touch "$PANVO_HOME/build/COLCON_IGNORE"
+  if ! { mkdir -p "$folder" && touch "$PANVO_HOME/build/COLCON_IGNORE" "$folder/.panvo_lock"; } 2>/dev/null; then
+    fail "$folder cannot be written to: build as its owner, or in a copy of the checkout. What is built there already runs: panvo run, evaluate and others"
+  fi
   # Two panvo at once take turns: ninja itself does not guard its folder.
   exec {lock}>"$folder/.panvo_lock"
   flock -n "$lock" || { note "waiting for another build of build/$PANVO_BUILD"; flock "$lock"; }
@@ -62,8 +63,11 @@ build_targets() {
     printf '%s\n' "$stamp" >"$folder/.panvo_configured"
   fi
 
+  # Sources that change from now on are newer than what is built.
+  touch "$folder/.panvo_building"
   NINJA_STATUS='[%f/%t, %es] ' ninja -C "$folder" -j "$(job_count)" "$@" 2>&1 | show_build_progress ||
     fail "the build failed; the messages above say where. Once more, one job at a time: ninja -C $folder -j 1"
+  [[ " $* " != *" all "* && " $* " != *" panvo_programs "* ]] || mv "$folder/.panvo_building" "$folder/.panvo_built"
   exec {lock}>&-
 }
 
@@ -96,7 +100,42 @@ show_build_progress() {
   [[ $moving == no ]] || printf '\r\033[K' >&2
 }
 
-# ensure_built TARGET...: what a verb needs before it can do its work; nothing to do once installed.
+# use_built PROGRAM...: for the verbs that run what is there, be it of another user, on a read-only disk, or while a build is under way. They build
+# nothing; what is missing is said, with the command that makes it.
+use_built() {
+  in_checkout || return 0
+  local folder name newer
+  folder=$(build_folder)
+  for name in "$@"; do
+    [[ -x $folder/panvo_bin/$name ]] || fail "$name is not built; 'panvo build' builds everything$(is_build_running "$folder" && echo ' (a build is under way: wait for it)')"
+  done
+  if is_build_running "$folder"; then
+    note "build/$PANVO_BUILD is being built; going on with what is there"
+  elif newer=$(newer_source "$folder") && [[ -n $newer ]]; then
+    note "$newer is newer than build/$PANVO_BUILD; 'panvo build' brings it up to date"
+  fi
+}
+
+# is_build_running FOLDER: whether another panvo builds in it.
+is_build_running() {
+  local lock
+  [[ -r $1/.panvo_lock ]] || return 1
+  exec {lock}<"$1/.panvo_lock"
+  if flock -n "$lock"; then
+    exec {lock}<&-
+    return 1
+  fi
+  exec {lock}<&-
+}
+
+# newer_source FOLDER: a source that was changed after FOLDER was built, or nothing.
+newer_source() {
+  [[ -f $1/.panvo_built ]] || return 0
+  find "$PANVO_HOME"/{interfaces,components,drivers} -newer "$1/.panvo_built" \( -name '*.cpp' -o -name '*.hpp' -o -name CMakeLists.txt \) \
+    -not -path '*/test/*' -printf '%P\n' -quit 2>/dev/null || true
+}
+
+# ensure_built TARGET...: what a verb that compiles needs before it can do its work; nothing to do once installed.
 ensure_built() {
   in_checkout || return 0
   ensure_packages build
@@ -129,7 +168,7 @@ use_plugins() {
 start_program() {
   local name=$1 path
   shift
-  ensure_built panvo_programs
+  use_built "$name"
   use_plugins
   path=$(program "$name")
   exec "$path" "$@"

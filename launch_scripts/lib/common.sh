@@ -75,6 +75,13 @@ nearest_word() {
   printf '%s' "$nearest"
 }
 
+# runs_folder: where results go that nobody named a folder for.
+runs_folder() {
+  local folder=$PWD
+  if in_checkout && [[ -w $PANVO_HOME ]]; then folder=$PANVO_HOME; fi
+  printf '%s/runs' "$folder"
+}
+
 # data_folder: the recordings for demo and test, or nothing.
 data_folder() {
   if [[ -n ${PANVO_DATA:-} ]]; then

@@ -25,6 +25,18 @@ system_file() {
   fi
 }
 
+# run_to_its_end OUT ARGUMENT...: runs a system, with its results in OUT; one that was interrupted is not gone on from.
+run_to_its_end() {
+  local out=$1 status=0
+  shift
+  "$(program panvo_run)" "$@" --out "$out" || status=$?
+  case $status in
+    0) ;;
+    130 | 143) fail "interrupted; what was played until then is in $out" "$status" ;;
+    *) fail "the run failed; what it said is in $out/run.log" ;;
+  esac
+}
+
 # takes_value OPTION: whether this option of panvo_run has a value after it.
 takes_value() {
   case $1 in

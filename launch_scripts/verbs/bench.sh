@@ -3,10 +3,14 @@
 # summary: run the benchmarks
 
 source "$PANVO_SCRIPTS/lib/build.sh"
+source "$PANVO_SCRIPTS/lib/endurance.sh"
+source "$PANVO_SCRIPTS/lib/faults.sh"
 
 verb_usage() {
   cat <<'EOT'
 usage: panvo bench [NAME...] [-- argument...]
+       panvo bench faults [option...]           what faults do to the whole system: panvo bench faults --help
+       panvo bench endurance [option...]        hours of driving, memory watched: panvo bench endurance --help
 
 Runs the programs of tests/benchmarks: all, or those whose name contains NAME. Arguments after -- go to Google Benchmark,
 for example: panvo bench odometry -- --benchmark_filter=klt --benchmark_format=json
@@ -15,6 +19,16 @@ EOT
 
 verb_main() {
   require_checkout
+  if [[ ${1:-} == faults ]]; then
+    shift
+    bench_faults "$@"
+    return
+  fi
+  if [[ ${1:-} == endurance ]]; then
+    shift
+    bench_endurance "$@"
+    return
+  fi
   local -a names=() arguments=()
   while (($#)); do
     case $1 in

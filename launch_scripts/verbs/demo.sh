@@ -3,9 +3,10 @@
 # summary: from nothing to two paths over the truth: install, build, simulate a journey, run the system, evaluate, draw
 
 source "$PANVO_SCRIPTS/lib/build.sh"
+source "$PANVO_SCRIPTS/lib/supervise.sh"
 source "$PANVO_SCRIPTS/lib/systems.sh"
 source "$PANVO_SCRIPTS/lib/datasets.sh"
-source "$PANVO_SCRIPTS/lib/routes.sh"
+source "$PANVO_SCRIPTS/lib/simulated.sh"
 
 verb_usage() {
   cat <<'EOT'
@@ -73,7 +74,12 @@ $(dataset_layouts)"
     dataset=$(readlink -f -- "$dataset")
   fi
   out=$(claim_folder "$out")
+  ! in_checkout || ensure_packages build  # which may ask for a password
+  supervise show_all
+}
 
+# show_all: with the variables of verb_main.
+show_all() {
   ensure_built panvo_programs
   use_plugins
   if [[ -n $dataset ]]; then
@@ -95,42 +101,9 @@ $(dataset_layouts)"
 play_and_show() {
   local dataset=$1 out=$2
   note "recording: $dataset ($(dataset_kind "$dataset"))"
-  "$(program panvo_run)" "$(system_file demo)" --dataset "$dataset" --out "$out" "bag:=$out/bag" "${mode[@]}" "${@:3}" ||
-    fail "the run failed; what it said is in $out/run.log"
+  run_to_its_end "$out" "$(system_file demo)" --dataset "$dataset" "bag:=$out/bag" "${mode[@]}" "${@:3}"
   show_results "$dataset" "$out"
 }
-
-# simulated_dataset ROUTE SEED EFFECTS: the data set of a journey through the simulated campus, rendered when it is not there yet, or
-# not wholly. It is named by what it was rendered with, and one that another panvo rendered makes room for it.
-simulated_dataset() {
-  local seed=$2 effects=$3 route simulate folder name key dataset
-  # A good stereo calibration after months of driving; an exact one hardly drifts.
-  local -a rig=(--calibration-error 1)
-  route=$(route_file "$1")
-  simulate=$(program panvo_simulate)
-  folder=${XDG_CACHE_HOME:-$HOME/.cache}/panvo/simulated
-  ! in_checkout || folder=$PANVO_HOME/runs/simulated
-  name=$1-seed$seed
-  if [[ $effects != none ]]; then
-    name=$1-$effects-seed$seed
-    rig+=(--effects "$effects")
-  fi
-  key=$({
-    cat "$route" "$simulate" "$(simulation_library "$simulate")"
-    echo "${rig[@]}"
-  } | sha256sum | cut -c 1-12)
-  dataset=$folder/$name-$key
-  if [[ ! -f $dataset/sequence.yaml ]]; then
-    mkdir -p -- "$folder" || fail "'$folder' cannot be made; name a recording with --dataset"
-    find "$folder" -maxdepth 1 -name "$name-*" ! -name "*-$key*" -exec rm -rf {} +
-    note "simulating the route '$1'; it is kept in $dataset"
-    "$simulate" --route "$route" "${rig[@]}" --seed "$seed" --out "$dataset" >&2 || fail "the simulation failed; the message above says why"
-  fi
-  printf '%s' "$dataset"
-}
-
-# simulation_library PROGRAM: the library that the program renders with.
-simulation_library() { ldd "$1" | sed -n 's/.*libpanvo_simulation[^ ]* => \([^ ]*\).*/\1/p'; }
 
 # claim_folder [DIR]: makes the folder for the results; one that has something in it is never written to.
 claim_folder() {
@@ -140,8 +113,7 @@ claim_folder() {
       fail "'$out' is there already and not empty; name a new folder with --out"
     mkdir -p -- "$out" || fail "'$out' cannot be made; name another folder with --out"
   else
-    base=$PWD/runs
-    ! in_checkout || base=$PANVO_HOME/runs
+    base=$(runs_folder)
     mkdir -p -- "$base" || fail "'$base' cannot be made; name a folder with --out"
     until mkdir -- "$base/demo-$n" 2>/dev/null; do n=$((n + 1)); done
     out=$base/demo-$n

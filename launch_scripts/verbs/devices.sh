@@ -28,7 +28,7 @@ verb_main() {
     esac
     shift
   done
-  ensure_built panvo_programs
+  if in_checkout && ! compgen -G "$(build_folder)/panvo_bin/panvo_devices_*" >/dev/null; then use_built panvo_devices_v4l2; fi
   for name in "${device_listers[@]}"; do
     path=$(program "panvo_devices_$name" 2>/dev/null) || continue
     output=$("$path" "${arguments[@]}") || fail "panvo_devices_$name failed; the messages above say why"

@@ -3,6 +3,7 @@
 # summary: measure a trajectory, a journey, or the recognition of places against ground truth: tables, a page, plots
 
 source "$PANVO_SCRIPTS/lib/build.sh"
+source "$PANVO_SCRIPTS/lib/supervise.sh"
 source "$PANVO_SCRIPTS/lib/systems.sh"
 
 verb_usage() {
@@ -39,7 +40,7 @@ EOT
 verb_main() {
   case ${1:-} in
     places) start_program panvo_evaluate_places "${@:2}" ;;
-    journey) evaluate_journey "${@:2}" ;;
+    journey) supervise evaluate_journey "${@:2}" ;;
     *) start_program panvo_evaluate "$@" ;;
   esac
 }
@@ -75,7 +76,7 @@ evaluate_journey() {
   [[ -n $recording ]] || fail "which recording, or which run? (panvo evaluate journey --help)" 2
   [[ -d $recording ]] || fail "'$recording' is no folder"
 
-  ensure_built panvo_programs
+  use_built panvo_run panvo_evaluate_journey
   use_plugins
   if [[ -f $recording/odometry_enhanced.tum ]]; then
     [[ -z $run ]] || fail "'$recording' is a run itself; with --run, name the recording it was made of" 2
@@ -93,12 +94,9 @@ make_run() {
   local system
   system=$(system_file enhanced_vo)
   if [[ -z $out ]]; then
-    out=$PWD/runs
-    ! in_checkout || out=$PANVO_HOME/runs
-    out=$out/journey-$(basename -- "$(readlink -f -- "$recording")")
+    out=$(runs_folder)/journey-$(basename -- "$(readlink -f -- "$recording")")
   fi
   note "playing $recording into $out"
-  "$(program panvo_run)" "$system" --dataset "$recording" --replay --out "$out" "${settings[@]}" >&2 ||
-    fail "the run failed; what it said is in $out/run.log"
+  run_to_its_end "$out" "$system" --dataset "$recording" --replay "${settings[@]}" >&2
   run=$out
 }

@@ -13,7 +13,7 @@ SYSTEM is a system file, or the name of one in config/systems: `panvo run stereo
 
   --dataset DIR   play a data set (KITTI, EuRoC/ASL, or left/right folders with a calibration)
   --bag BAG       play a recorded bag: a rosbag2 folder, or one .db3 or .mcap file
-  --out DIR       leave trajectory, times and summary there
+  --out DIR       leave trajectory, times and summary there: a new folder, or one of an earlier run (--overwrite: any)
   --replay        deterministic: one thread, in order of stamps, as fast as it goes
   --rate R        play at R times the recorded rate (default 0: as fast as the components take it)
   --set C.P=V     set parameter P of component C (panvo component show lists them)

@@ -2,11 +2,17 @@
 # shellcheck shell=bash
 # summary: make the keys with which only one's own processes speak and listen
 
+source "$PANVO_SCRIPTS/lib/build.sh"
+source "$PANVO_SCRIPTS/lib/systems.sh"
+source "$PANVO_SCRIPTS/lib/permissions.sh"
+
 readonly kKeyDays=3650
 
 verb_usage() {
   cat <<'EOT'
 usage: panvo secure KEYSTORE [/ENCLAVE ...]
+       panvo secure KEYSTORE --system SYSTEM [--dataset DIR | --bag DIR] [NAME:=VALUE ...]
+       panvo secure revoke KEYSTORE /ENCLAVE ...
 
 Makes a keystore for DDS Security, laid out as SROS 2's, and in it the keys of each enclave (a process or several that may do the same);
 /panvo where none is named. What is there already stays, so that enclaves can be added later. Then:
@@ -17,6 +23,13 @@ and for ROS 2 nodes ROS_SECURITY_KEYSTORE=KEYSTORE ROS_SECURITY_ENABLE=true ROS_
 Who has no keys of this keystore neither reads nor writes; all that is sent is encrypted. Other machines need KEYSTORE/enclaves and
 KEYSTORE/public; keep KEYSTORE/private, with which keys are made, to yourself.
 
+With --system each container of that system gets an enclave of its own, /SYSTEM/CONTAINER, which may read, write and serve what its components do
+and no more; panvo run takes it by itself. The components are made for a moment, so that their devices and files must be there. When the system
+has changed, run it again: keys stay, rights are written anew. Enclaves that are named instead may do everything: for tools, and for trials.
+
+revoke: who has the keys of that enclave is refused by all processes that are started from then on; make the enclave again for new keys. Copy
+KEYSTORE/enclaves and KEYSTORE/public to the other machines, and start everything anew.
+
 What an enclave may read and write stands in its permissions.xml; after changing it, take away its permissions.p7s and run this again.
 EOT
 }
@@ -24,17 +37,34 @@ EOT
 verb_main() {
   (($#)) || fail "name the folder of the keystore: panvo secure KEYSTORE [/ENCLAVE ...]" 2
   command -v openssl >/dev/null || fail "there is no openssl; install the package openssl"
+  umask 077
+  if [[ $1 == revoke ]]; then
+    (($# >= 3)) || fail "name the keystore and what to revoke: panvo secure revoke KEYSTORE /ENCLAVE ..." 2
+    require_enclaves "${@:3}"
+    revoke "${@:2}"
+    return
+  fi
   local keystore=$1 enclave
   shift
+  if [[ ${1:-} == --system ]]; then
+    require_value "$@"
+    make_keystore "$keystore"
+    make_system_enclaves "$keystore" "${@:2}"
+    return
+  fi
   (($#)) || set -- /panvo
-  for enclave in "$@"; do
-    [[ $enclave =~ ^/[A-Za-z0-9_]+(/[A-Za-z0-9_]+)*$ ]] ||
-      fail "'$enclave' is no enclave: write a name, or several, each with a slash before it, of letters, digits and underscores" 2
-  done
-  umask 077
+  require_enclaves "$@"
   make_keystore "$keystore"
   for enclave in "$@"; do
     make_enclave "$keystore" "$enclave"
+  done
+}
+
+require_enclaves() {
+  local enclave
+  for enclave in "$@"; do
+    [[ $enclave =~ ^/[A-Za-z0-9_]+(/[A-Za-z0-9_]+)*$ ]] ||
+      fail "'$enclave' is no enclave: write a name, or several, each with a slash before it, of letters, digits and underscores" 2
   done
 }
 
@@ -42,6 +72,7 @@ verb_main() {
 make_keystore() {
   local keystore=$1
   mkdir -p "$keystore"/{private,public,enclaves}
+  [[ -e $keystore/.gitignore ]] || printf '*\n' >"$keystore/.gitignore"  # keys do not go into anybody's repository
   if [[ ! -e $keystore/private/ca.key.pem ]]; then
     make_key "$keystore/private/ca.key.pem"
     run_openssl req -new -x509 -sha256 -days "$kKeyDays" -key "$keystore/private/ca.key.pem" -out "$keystore/public/ca.cert.pem" \
@@ -75,8 +106,9 @@ make_enclave() {
     rm "$folder/request.pem"
     note "made the keys of enclave $name"
   fi
-  [[ -e $folder/permissions.xml ]] || permissions_text "$name" >"$folder/permissions.xml"
+  [[ -e $folder/permissions.xml ]] || permissions_text "$name" '*' '*' >"$folder/permissions.xml"
   [[ -e $folder/permissions.p7s ]] || sign "$keystore" "$folder/permissions"
+  tell_enclaves "$keystore"
 }
 
 make_key() { run_openssl ecparam -name prime256v1 -genkey -noout -out "$1"; }
@@ -119,35 +151,6 @@ governance_text() {
       </topic_access_rules>
     </domain_rule>
   </domain_access_rules>
-</dds>
-EOT
-}
-
-# permissions_text /ENCLAVE: everything, in any domain; one may strike out what is too much.
-permissions_text() {
-  local from to
-  from=$(date -u -d '1 day ago' +%Y-%m-%dT%H:%M:%S)
-  to=$(date -u -d "$kKeyDays days" +%Y-%m-%dT%H:%M:%S)
-  cat <<EOT
-<?xml version="1.0" encoding="UTF-8"?>
-<dds xmlns:xsi="http://www.w3.org/2001/XMLSchema-instance" xsi:noNamespaceSchemaLocation="http://www.omg.org/spec/DDS-SECURITY/20170901/omg_shared_ca_permissions.xsd">
-  <permissions>
-    <grant name="$1">
-      <subject_name>CN=$1</subject_name>
-      <validity>
-        <not_before>$from</not_before>
-        <not_after>$to</not_after>
-      </validity>
-      <allow_rule>
-        <domains>
-          <id_range><min>0</min><max>232</max></id_range>
-        </domains>
-        <publish><topics><topic>*</topic></topics></publish>
-        <subscribe><topics><topic>*</topic></topics></subscribe>
-      </allow_rule>
-      <default>DENY</default>
-    </grant>
-  </permissions>
 </dds>
 EOT
 }

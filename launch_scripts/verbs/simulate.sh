@@ -4,6 +4,7 @@
 
 source "$PANVO_SCRIPTS/lib/build.sh"
 source "$PANVO_SCRIPTS/lib/routes.sh"
+source "$PANVO_SCRIPTS/lib/supervise.sh"
 source "$PANVO_SCRIPTS/lib/systems.sh"
 
 verb_usage() {
@@ -44,7 +45,7 @@ verb_main() {
     shift
   done
   [[ -z $route ]] || rest=(--route "$route" "${rest[@]}")
-  if [[ $as_bag == yes ]]; then simulate_bag "${rest[@]}"; else start_program panvo_simulate "${rest[@]}"; fi
+  if [[ $as_bag == yes ]]; then supervise simulate_bag "${rest[@]}"; else start_program panvo_simulate "${rest[@]}"; fi
 }
 
 # simulate_bag OPTION VALUE ...: the same journey played by the component and recorded, and the truth beside the bag.
@@ -67,7 +68,7 @@ simulate_bag() {
   done
   [[ -n $out ]] || fail "where to? Name a new folder with --out" 2
   [[ ! -e $out || -z $(ls -A -- "$out" 2>/dev/null || echo no) ]] || fail "'$out' is there already and not empty; name a new folder"
-  ensure_built panvo_programs
+  use_built panvo_run panvo_simulate
   use_plugins
   run=$(program panvo_run)
   simulate=$(program panvo_simulate)

@@ -3,6 +3,7 @@
 # summary: replay a recording of one's own, and compare with what it gave before
 
 source "$PANVO_SCRIPTS/lib/build.sh"
+source "$PANVO_SCRIPTS/lib/supervise.sh"
 source "$PANVO_SCRIPTS/lib/systems.sh"
 
 verb_usage() {
@@ -54,11 +55,11 @@ verb_main() {
   [[ -z $expected || -z $recorded ]] || fail "either --expect or --record" 2
   [[ -z $expected || -d $expected ]] || fail "there are no results in '$expected'; --record $expected makes them" 2
   system=$(system_file "$system")
-  replay_and_compare
+  supervise replay_and_compare
 }
 
 replay_and_compare() {
-  ensure_built panvo_programs
+  use_built panvo_run panvo_compare_runs
   use_plugins
   if [[ -n $recorded ]]; then
     out=$recorded
@@ -70,8 +71,7 @@ replay_and_compare() {
   local kind=--bag
   is_dataset "$bag" && kind=--dataset
   note "replaying $bag through $(basename "$system" .yaml)"
-  "$(program panvo_run)" "$system" "$kind" "$bag" --replay --out "$out" "${settings[@]}" >&2 ||
-    fail "the replay failed; its messages are above"
+  run_to_its_end "$out" "$system" "$kind" "$bag" --replay "${settings[@]}" >&2
   if [[ -n $recorded ]]; then
     note "recorded in $recorded; from now on: panvo test-bag $bag --expect $recorded --system $system"
     return

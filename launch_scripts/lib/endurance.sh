@@ -1,0 +1,57 @@
+# SPDX-License-Identifier: Apache-2.0
+# shellcheck shell=bash
+# panvo bench endurance: hours of driving through the whole system, and whether it still has what it began with.
+
+source "$PANVO_SCRIPTS/lib/simulated.sh"
+
+endurance_usage() {
+  cat <<'EOT'
+usage: panvo bench endurance [--hours H] [--rate R] [--dataset DIR] [--out DIR]
+
+Plays a recording forward and backward through the system enhanced_vo, live, until so many recorded hours have passed, and watches the process: it
+must end well, its memory must not differ by more than 5 % between the first part of the run (after a fifth of it) and the last, and its file
+descriptors and threads must not change.
+
+  --hours H      recorded time, h (default: 6)
+  --rate R       how much faster than recorded it is played (default: 4)
+  --dataset DIR  EuRoC/ASL with stereo pairs and panoramas (default: a simulated drive of the route 'short', rendered once and kept)
+  --out DIR      folder of the results (default: runs/endurance): samples.csv, samples.png, output.log
+
+Exit status 0: all holds.
+EOT
+}
+
+bench_endurance() {
+  local hours=6 rate=4 dataset='' out=$PANVO_HOME/runs/endurance length_s passes
+  while (($#)); do
+    case $1 in
+      -h | --help)
+        endurance_usage
+        return
+        ;;
+      --hours | --rate | --dataset | --out)
+        require_value "$@"
+        printf -v "${1#--}" '%s' "$2"
+        shift
+        ;;
+      *) unknown_option "$1" ;;
+    esac
+    shift
+  done
+  ensure_built panvo_programs
+  use_plugins
+  [[ -n $dataset ]] || dataset=$(simulated_dataset short 4 all)
+  length_s=$(recorded_seconds "$dataset")
+  passes=$(awk -v hours="$hours" -v length_s="$length_s" 'BEGIN { print int((3600 * hours + length_s - 1) / length_s) }')
+  note "playing $dataset ($length_s s) $passes times at rate $rate"
+  python3 "$PANVO_HOME/tests/endurance/endurance.py" --out "$out" -- "$(program panvo_run)" "$PANVO_HOME/config/systems/enhanced_vo.yaml" \
+    --dataset "$dataset" --rate "$rate" --set dataset_player.passes="$passes"
+}
+
+# recorded_seconds DATASET: from its first stereo pair to its last, s.
+recorded_seconds() {
+  local times=$1/mav0/cam0/data.csv
+  [[ -f $times ]] || fail "$times is not there: '$1' has no EuRoC/ASL stereo images"
+  awk -F, '/^[0-9]/ { if (!first) first = $1; last = $1 } END { if (last <= first) exit 1; printf "%.3f", (last - first) * 1e-9 }' "$times" ||
+    fail "$times has no two stamps"
+}

@@ -1,0 +1,123 @@
+# SPDX-License-Identifier: Apache-2.0
+# shellcheck shell=bash
+# What the enclaves of a keystore may do, and whose keys are not to be believed any more. kKeyDays is the verb's.
+
+# permissions_text /ENCLAVE PUBLISH SUBSCRIBE: the topics as DDS names them, one a line; * stands for any letters.
+permissions_text() {
+  local from to
+  from=$(date -u -d '1 day ago' +%Y-%m-%dT%H:%M:%S)
+  # shellcheck disable=SC2154
+  to=$(date -u -d "$kKeyDays days" +%Y-%m-%dT%H:%M:%S)
+  cat <<EOT
+<?xml version="1.0" encoding="UTF-8"?>
+<dds xmlns:xsi="http://www.w3.org/2001/XMLSchema-instance" xsi:noNamespaceSchemaLocation="http://www.omg.org/spec/DDS-SECURITY/20170901/omg_shared_ca_permissions.xsd">
+  <permissions>
+    <grant name="$1">
+      <subject_name>CN=$1</subject_name>
+      <validity>
+        <not_before>$from</not_before>
+        <not_after>$to</not_after>
+      </validity>
+      <allow_rule>
+        <domains>
+          <id_range><min>0</min><max>232</max></id_range>
+        </domains>
+        <publish><topics>$(topic_tags "$2")</topics></publish>
+        <subscribe><topics>$(topic_tags "$3")</topics></subscribe>
+      </allow_rule>
+      <default>DENY</default>
+    </grant>
+  </permissions>
+</dds>
+EOT
+}
+
+topic_tags() { sort -u <<<"$1" | sed -n 's|..*|<topic>&</topic>|p' | tr -d '\n'; }
+
+# system_rights FILE CONTAINER: fills rights_publish and rights_subscribe from what `panvo_run --describe` said. What every process has comes first:
+# its log, its diagnostics, and what tells ROS 2's tools of its nodes.
+system_rights() {
+  local current='' kind name services=on nodes=()
+  rights_publish=$'ros_discovery_info\nrt/rosout\nrt/diagnostics\nrt/parameter_events'
+  rights_subscribe='ros_discovery_info'
+  while read -r kind name; do
+    [[ $kind != container ]] || { current=$name; continue; }
+    [[ $current == "$2" ]] || continue
+    case $kind in
+      publishes) rights_publish+=$'\n'rt$name ;;
+      subscribes) rights_subscribe+=$'\n'rt$name ;;
+      reads_all) rights_subscribe+=$'\n''rt/*' ;;
+      has_source) rights_publish+=$'\n'rt/clock ;;
+      node) nodes+=("$name") ;;
+      services) services=$name ;;
+    esac
+  done <"$1"
+  [[ $services == on ]] || return 0
+  for name in "${nodes[@]}"; do
+    rights_subscribe+=$'\n'"rq$name/*Request"
+    rights_publish+=$'\n'"rr$name/*Reply"
+  done
+}
+
+# enclave_word TEXT: what cannot be in the name of an enclave is an underscore.
+enclave_word() { printf '%s' "${1//[^A-Za-z0-9]/_}"; }
+
+# make_system_enclaves KEYSTORE SYSTEM [ARGUMENT...]: an enclave for each container, /SYSTEM/CONTAINER, which may do what its components do.
+make_system_enclaves() {
+  local keystore=$1 described system container name folder
+  shift
+  resolve_system "$@"  # fills resolved_arguments
+  described=$(mktemp)
+  # shellcheck disable=SC2064  # the name as it is now
+  trap "rm -f '$described'" EXIT
+  [[ -x $(build_folder)/panvo_bin/panvo_run ]] || ensure_built panvo_programs
+  use_plugins
+  # shellcheck disable=SC2154
+  "$(program panvo_run)" "${resolved_arguments[@]}" --describe >"$described" ||
+    fail "the rights of $1 cannot be told, for its components cannot be made here (see above); do this where its devices and files are"
+  system=$(basename "$(system_file "$1")" .yaml)
+  while read -r container; do
+    name=/$(enclave_word "$system")/$(enclave_word "$container")
+    folder=$keystore/enclaves$name
+    mkdir -p "$folder"
+    system_rights "$described" "$container"
+    permissions_text "$name" "$rights_publish" "$rights_subscribe" >"$folder/permissions.xml"
+    rm -f "$folder/permissions.p7s"
+    make_enclave "$keystore" "$name"
+    note "$name may do what the container $container of $system does"
+  done < <(sed -n 's/^container //p' "$described")
+}
+
+# revoke KEYSTORE /ENCLAVE...: who has their keys is not heard any more by any process that is started from now on.
+revoke() {
+  local keystore=$1 enclave authority=$1/private/revocation
+  shift
+  [[ -e $keystore/private/ca.key.pem ]] || fail "$keystore has no private/ca.key.pem: keys are revoked where they were made" 2
+  for enclave in "$@"; do
+    [[ -e $keystore/enclaves$enclave/cert.pem ]] || fail "$keystore has no keys of $enclave" 2
+  done
+  mkdir -p "$authority"
+  [[ -e $authority/index.txt ]] || : >"$authority/index.txt"
+  [[ -e $authority/number ]] || echo 01 >"$authority/number"
+  printf '%s\n' '[ca]' 'default_ca=panvo' '[panvo]' "database=$authority/index.txt" "crlnumber=$authority/number" \
+    'default_md=sha256' "default_crl_days=$kKeyDays" "certificate=$keystore/public/identity_ca.cert.pem" \
+    "private_key=$keystore/private/identity_ca.key.pem" 'unique_subject=no' >"$authority/openssl.cnf"
+  for enclave in "$@"; do
+    run_openssl ca -config "$authority/openssl.cnf" -revoke "$keystore/enclaves$enclave/cert.pem"
+    rm -r "$keystore/enclaves$enclave"
+    note "revoked the keys of $enclave"
+  done
+  run_openssl ca -config "$authority/openssl.cnf" -gencrl -out "$keystore/public/identity_ca.crl.pem"
+  tell_enclaves "$keystore"
+  note "Copy $keystore/enclaves and $keystore/public to every machine, and start every process anew: a running one does not ask again."
+}
+
+# tell_enclaves KEYSTORE: has every enclave look at what was revoked.
+tell_enclaves() {
+  local key folder
+  [[ -e $1/public/identity_ca.crl.pem ]] || return 0
+  while read -r key; do
+    folder=$(dirname "$key")
+    ln -sfn "$(realpath -m --relative-to="$folder" "$1")/public/identity_ca.crl.pem" "$folder/crl.pem"
+  done < <(find "$1/enclaves" -name key.pem)
+}
