@@ -18,6 +18,10 @@ constexpr std::size_t kImageBytes = 1080 * 540 * 3;  // a colour panorama: 1.75 
 
 std::shared_ptr<const Image> make_image() {
   auto image = std::make_shared<Image>();
+  image->encoding("bgr8");
+  image->width(1080);
+  image->height(540);
+  image->step(1080 * 3);
   image->data().resize(kImageBytes);
   return image;
 }

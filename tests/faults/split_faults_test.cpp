@@ -78,7 +78,7 @@ class SplitFaults : public testing::Test {
   inline static TemporaryFolder* data_ = nullptr;
   TemporaryFolder folder_;
   Words before_;  // the words before a command, for its environment
-  std::string shared_images_ = "shared_images_mb:=0";
+  std::string shared_images_ = "shared_images_mb:=64";
 };
 
 /// Images are sent, or lie in memory that both processes share.
@@ -86,7 +86,7 @@ class SplitFaultsOfImages : public SplitFaults, public testing::WithParamInterfa
  protected:
   SplitFaultsOfImages() { shared_images_ = GetParam(); }
 };
-INSTANTIATE_TEST_SUITE_P(Images, SplitFaultsOfImages, testing::Values("shared_images_mb:=0", "shared_images_mb:=2"),
+INSTANTIATE_TEST_SUITE_P(Images, SplitFaultsOfImages, testing::Values("shared_images_mb:=0", "shared_images_mb:=64"),
                          [](const auto& which) { return which.index == 0 ? "sent" : "shared"; });
 
 TEST_P(SplitFaultsOfImages, AKilledReaderOfImagesDoesNotDisturbTheCamerasAndItsSuccessorGetsThem) {
@@ -157,6 +157,46 @@ TEST_F(SplitFaults, ASubscriberOfEverythingThatStandsStillStopsNothing) {
   EXPECT_EQ(recorder.wait(kLimit), 0) << recorder.output();
 }
 
+/// Containers, Docker's with 64 MB, have less of it than a host has; what is written where there is none ends the process.
+class SplitFaultsOfSmallMemory : public SplitFaults, public testing::WithParamInterface<const char*> {};
+INSTANTIATE_TEST_SUITE_P(Sizes, SplitFaultsOfSmallMemory, testing::Values("4k", "64k", "1m"),
+                         [](const auto& size) { return std::string(size.param); });
+
+TEST_P(SplitFaultsOfSmallMemory, ImagesAreSentWhereThereIsNoRoomToShareThemAndThatIsSaid) {
+  const std::string unshare = find_program("unshare");
+  if (unshare.empty() || geteuid() != 0) GTEST_SKIP() << "a /dev/shm of one's own needs root and the program unshare";
+  before_ = {unshare,
+             "--mount",
+             "sh",
+             "-c",
+             "mount -t tmpfs -o size=" + std::string(GetParam()) + " small /dev/shm && exec \"$@\"",
+             "sh"};
+  const Finished split = run(
+      command({SYSTEMS "/stereo_split.yaml", "--dataset", *data_ / "walk", "--rate", "4", "--out", folder_ / "out"}),
+      kLimit);
+  EXPECT_EQ(split.status, 0) << split.output;
+  EXPECT_GE(poses_in("out"), std::size_t{kFrames} * 9 / 10) << split.output;
+  EXPECT_THAT(split.output, HasSubstr("/dev/shm"));
+}
+
+TEST_F(SplitFaults, ASecondRunOfTheSameNamesIsRefusedAndTheFirstGoesOn) {
+  const auto stereo = [&](const std::string& rate, const std::string& out) {
+    return command({SYSTEMS "/stereo.yaml", "--dataset", *data_ / "walk", "--rate", rate, "--out", folder_ / out});
+  };
+  Process first(stereo("1", "first"));
+  ASSERT_TRUE(gets_poses("first", 10)) << first.output();
+  const Finished second = run(stereo("1", "second"), kLimit);
+  EXPECT_EQ(second.status, 2) << second.output;
+  EXPECT_THAT(second.output, testing::AllOf(HasSubstr("/binocular_odometry"), HasSubstr("/panvo"),
+                                            HasSubstr("ROS_DOMAIN_ID"), HasSubstr("--local")));
+  EXPECT_EQ(poses_in("second"), 0U);
+  Words alone = stereo("0", "alone");
+  alone.push_back("--local");
+  EXPECT_EQ(run(alone, kLimit).status, 0);
+  EXPECT_EQ(first.wait(kLimit), 0) << first.output();
+  EXPECT_EQ(poses_in("first"), std::size_t{kFrames}) << first.output();
+}
+
 TEST_F(SplitFaults, AContainerThatIsKilledIsStartedAgainWhereAskedFor) {
   Process system(command({SYSTEMS "/stereo_split.yaml", "--dataset", *data_ / "walk", "--rate", "1", "--out",
                           folder_ / "out", "--respawn"}));
@@ -186,7 +226,8 @@ TEST_F(SplitFaults, AContainerIsStartedAgainWhereItsSystemFileSaysSo) {
   kill(child_of(system, "both"), SIGKILL);
   EXPECT_TRUE(gets_poses("out/both_2", 10)) << system.output();
   system.signal(SIGINT);
-  EXPECT_EQ(system.wait(kLimit), 0) << system.output();
+  EXPECT_EQ(system.wait(kLimit), 128 + SIGINT) << system.output();
+  EXPECT_THAT(read_file(folder_.path() / "out" / "summary.json"), HasSubstr("\"interrupted\": true"));
 }
 
 TEST_F(SplitFaults, ALoneContainerIsStartedAgainToo) {
@@ -196,7 +237,37 @@ TEST_F(SplitFaults, ALoneContainerIsStartedAgainToo) {
   kill(child_of(system, "panvo"), SIGKILL);
   EXPECT_TRUE(gets_poses("out/panvo_2", 10)) << system.output();
   system.signal(SIGINT);
+  EXPECT_EQ(system.wait(kLimit), 128 + SIGINT) << system.output();
+  EXPECT_THAT(read_file(folder_.path() / "out" / "summary.json"), HasSubstr("\"interrupted\": true"));
+}
+
+TEST_F(SplitFaults, WithoutTheProcessOfPlacesTheOdometryGoesOnAndTheEndSaysWhatWasLost) {
+  Process system(command(
+      {SYSTEMS "/enhanced_vo_split.yaml", "--dataset", *data_ / "walk", "--rate", "1", "--out", folder_ / "out"}));
+  ASSERT_TRUE(gets_poses("out/motion", 10)) << system.output();
+  const pid_t places = child_of(system, "places");
+  ASSERT_NE(places, 0) << system.output();
+  kill(places, SIGKILL);
+  EXPECT_EQ(system.wait(kLimit), 1) << system.output();
+  EXPECT_THAT(system.output(), HasSubstr("container places is lost"));
+  EXPECT_THAT(system.output(), HasSubstr(std::to_string(kFrames) + "/" + std::to_string(kFrames) + " frames"));
+  EXPECT_GE(poses_in("out"), std::size_t{kFrames - 10}) << system.output();
+  EXPECT_FALSE(read_file(folder_.path() / "out" / "odometry_enhanced.tum").empty());
+}
+
+TEST_F(SplitFaults, TheProcessOfPlacesIsStartedAgainWhereAskedFor) {
+  Process system(command({SYSTEMS "/enhanced_vo_split.yaml", "--dataset", *data_ / "walk", "--rate", "1", "--out",
+                          folder_ / "out", "--respawn", "--respawn-delay", "0.1"}));
+  ASSERT_TRUE(gets_poses("out/motion", 10)) << system.output();
+  const pid_t places = child_of(system, "places");
+  ASSERT_NE(places, 0) << system.output();
+  kill(places, SIGKILL);
+  EXPECT_TRUE(eventually([&] {
+    const pid_t successor = child_of(system, "places");
+    return successor != 0 && successor != places;
+  })) << system.output();
   EXPECT_EQ(system.wait(kLimit), 0) << system.output();
+  EXPECT_THAT(system.output(), HasSubstr("places is started again"));
 }
 
 }  // namespace

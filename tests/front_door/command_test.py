@@ -1,9 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """The front door by itself: what it says, and with which exit status."""
+import fcntl
 import os
 import pathlib
+import shutil
+import signal
 import subprocess
 import tempfile
+import time
 import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -30,6 +34,12 @@ class Help(unittest.TestCase):
                 self.assertEqual(done.returncode, 0, done.stderr)
                 self.assertIn(f"usage: panvo {verb}", done.stdout)
 
+    def test_of_the_fault_bench_comes_without_building_anything(self):
+        done = panvo("bench", "faults", "--help")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("usage: panvo bench faults", done.stdout)
+        self.assertIn("--quick", done.stdout)
+
     def test_without_a_verb_it_helps_and_fails(self):
         done = panvo()
         self.assertEqual(done.returncode, 2)
@@ -50,10 +60,12 @@ class Mistakes(unittest.TestCase):
     def test_an_unknown_option_is_named(self):
         self.assert_fails(2, "unknown option '--sanitise'", "build", "--sanitise")
         self.assert_fails(2, "unknown option '--all'", "devices", "--all")
+        self.assert_fails(2, "unknown option '--fast'", "bench", "faults", "--fast")
 
     def test_an_option_without_its_value_is_named(self):
         self.assert_fails(2, "--dataset needs a value", "demo", "--dataset")
         self.assert_fails(2, "--sanitize needs a value", "test", "--sanitize")
+        self.assert_fails(2, "--only needs a value", "bench", "faults", "--only")
 
     def test_a_recording_is_compared_with_results_that_are_there(self):
         self.assert_fails(2, "which recording?", "test-bag")
@@ -146,20 +158,161 @@ class Anywhere(unittest.TestCase):
 
     def test_once_installed(self):
         with tempfile.TemporaryDirectory() as folder:
-            build, prefix = pathlib.Path(folder, "build"), pathlib.Path(folder, "pre fix")
-            subprocess.run(["cmake", "-G", "Ninja", "-S", ROOT / "launch_scripts", "-B", build, f"-DCMAKE_INSTALL_PREFIX={prefix}"], check=True, capture_output=True)
-            subprocess.run(["cmake", "--install", build], check=True, capture_output=True)
-            command = prefix / "bin" / "panvo"
+            command, programs = install(folder)
             self.assertIn("usage: panvo", panvo("--help", command=command, cwd=folder).stdout)
             built = panvo("build", command=command, cwd=folder)
             self.assertEqual(built.returncode, 1)
             self.assertIn("source checkout", built.stderr)
-            program = prefix / "bin" / "panvo_run"
-            program.write_text('#!/bin/sh\nfor word in "$@"; do echo "<$word>"; done\n', encoding="utf-8")
-            program.chmod(0o755)
+            write_program(programs / "panvo_run", 'for word in "$@"; do echo "<$word>"; done')
             ran = panvo("run", "--replay", "demo", "--set", "a.b=c d", command=command, cwd=folder)
-            system = prefix / "share" / "panvo" / "config" / "systems" / "demo.yaml"
+            system = programs.parent / "share" / "panvo" / "config" / "systems" / "demo.yaml"
             self.assertEqual(ran.stdout, f"<--replay>\n<{system.resolve()}>\n<--set>\n<a.b=c d>\n", ran.stderr)
+
+
+def write_program(file, *lines):
+    file.parent.mkdir(parents=True, exist_ok=True)
+    file.write_text("\n".join(("#!/bin/sh", *lines, "")), encoding="utf-8")
+    file.chmod(0o755)
+
+
+def install(folder):
+    """An installed panvo without programs: its command and the folder for programs."""
+    build, prefix = pathlib.Path(folder, "build"), pathlib.Path(folder, "pre fix")
+    subprocess.run(["cmake", "-G", "Ninja", "-S", ROOT / "launch_scripts", "-B", build, f"-DCMAKE_INSTALL_PREFIX={prefix}"], check=True, capture_output=True)
+    subprocess.run(["cmake", "--install", build], check=True, capture_output=True)
+    return prefix / "bin" / "panvo", prefix / "bin"
+
+
+class WhatIsBuilt(unittest.TestCase):
+    """In a checkout whose programs say how they were called; building it would fail."""
+    LOOKING = (("node", "list"), ("topic", "list"), ("param", "list"), ("service", "list"), ("component", "list"), ("component", "running"),
+               ("bag", "info", "b"), ("landmarks", "info", "l"), ("evaluate", "a", "b"), ("devices",), ("run", "demo"))
+    PROGRAMS = ("run", "graph", "component", "bag", "landmarks", "evaluate", "devices_v4l2")
+
+    def setUp(self):
+        scratch = tempfile.TemporaryDirectory()
+        self.addCleanup(scratch.cleanup)
+        self.checkout = pathlib.Path(scratch.name, "checkout")
+        for name in ("launch_scripts", "config"):
+            shutil.copytree(ROOT / name, self.checkout / name, ignore=shutil.ignore_patterns("__pycache__"))
+        (self.checkout / "CMakeLists.txt").write_text('message(FATAL_ERROR "not to be built")', encoding="utf-8")
+        self.build = self.checkout / "build" / "release"
+        scratch_folder = pathlib.Path(scratch.name)
+        scratch_folder.chmod(0o755)
+
+    def make_programs(self):
+        for name in self.PROGRAMS:
+            write_program(self.build / "panvo_bin" / f"panvo_{name}", f'echo panvo_{name} "$@"')
+
+    def ask(self, *arguments, prefix=()):
+        command = self.checkout / "launch_scripts" / "panvo"
+        return subprocess.run([*prefix, str(command), *arguments], cwd="/", stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=60,
+                              check=False, env={"PATH": os.environ["PATH"]})
+
+    def files(self):
+        return sorted((str(file), file.stat().st_mtime_ns) for file in self.checkout.rglob("*"))
+
+    def test_is_used_by_all_that_only_look(self):
+        self.make_programs()
+        before = self.files()
+        for arguments in self.LOOKING:
+            with self.subTest(arguments=arguments):
+                done = self.ask(*arguments)
+                self.assertEqual(done.returncode, 0, done.stderr)
+                self.assertTrue(done.stdout.startswith("panvo_"), done.stdout)
+                self.assertEqual(done.stderr, "")
+        self.assertEqual(self.files(), before, "nothing is written")
+
+    def test_is_used_while_somebody_builds(self):
+        self.make_programs()
+        with open(self.build / ".panvo_lock", "w", encoding="utf-8") as lock:
+            fcntl.flock(lock, fcntl.LOCK_EX)
+            done = self.ask("run", "demo")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("panvo_run", done.stdout)
+        self.assertIn("is being built; going on with what is there", done.stderr)
+
+    def test_is_used_from_a_checkout_of_another_user(self):
+        if os.geteuid() != 0:
+            self.skipTest("only root can be another user")
+        self.make_programs()
+        (self.build / ".panvo_lock").touch(mode=0o600)
+        for arguments in self.LOOKING:
+            with self.subTest(arguments=arguments):
+                done = self.ask(*arguments, prefix=("setpriv", "--reuid=nobody", "--regid=nogroup", "--clear-groups"))
+                self.assertEqual(done.returncode, 0, done.stderr)
+        built = self.ask("build", prefix=("setpriv", "--reuid=nobody", "--regid=nogroup", "--clear-groups"))
+        self.assertEqual(built.returncode, 1)
+        self.assertIn("cannot be written to: build as its owner", built.stderr)
+
+    def test_is_said_when_it_is_not_there(self):
+        for arguments in self.LOOKING:
+            with self.subTest(arguments=arguments):
+                done = self.ask(*arguments)
+                self.assertEqual(done.returncode, 1, done.stdout)
+                self.assertIn("is not built; 'panvo build' builds everything", done.stderr)
+        self.assertFalse((self.checkout / "build").exists(), "asking builds nothing")
+
+    def test_is_told_when_it_is_older_than_a_source(self):
+        self.make_programs()
+        (self.build / ".panvo_built").touch()
+        os.utime(self.build / ".panvo_built", (1, 1))
+        source = self.checkout / "components" / "odometer" / "src" / "odometer.cpp"
+        source.parent.mkdir(parents=True)
+        source.touch()
+        done = self.ask("run", "demo")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("odometer.cpp is newer than build/release; 'panvo build' brings it up to date", done.stderr)
+
+
+class Interrupted(unittest.TestCase):
+    def setUp(self):
+        scratch = tempfile.TemporaryDirectory()
+        self.addCleanup(scratch.cleanup)
+        self.folder = pathlib.Path(scratch.name)
+        self.command, self.programs = install(self.folder)
+        self.recording = self.folder / "recording"
+        for name in ("image_0", "image_1"):
+            (self.recording / name).mkdir(parents=True)
+        for name in ("calib.txt", "poses.txt"):
+            (self.recording / name).touch()
+        write_program(self.programs / "panvo_evaluate", f"touch '{self.folder}/evaluated'")
+
+    def demo(self):
+        return [str(self.command), "demo", "--dataset", str(self.recording), "--out", str(self.folder / "out")]
+
+    def test_a_demo_does_not_take_an_interrupted_run_for_finished(self):
+        write_program(self.programs / "panvo_run", "exit 130")
+        done = subprocess.run(self.demo(), capture_output=True, text=True, timeout=60, check=False)
+        self.assertEqual(done.returncode, 130, done.stderr)
+        self.assertIn("interrupted", done.stderr)
+        self.assertFalse((self.folder / "evaluated").exists())
+
+    def assert_ends_without_orphans(self, number):
+        pids = self.folder / "pids"
+        # A shell has what it starts in the background ignore SIGINT: panvo_run does not.
+        begin, wait = ("sleep 1000 & echo $$ $!", "wait") if number == signal.SIGTERM else ("echo $$", "exec sleep 1000")
+        write_program(self.programs / "panvo_run", f"{begin} >'{pids}.new'; mv '{pids}.new' '{pids}'", wait)
+        # As a terminal starts it; a test may have been started with SIGINT ignored, which is inherited.
+        demo = subprocess.Popen(self.demo(), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
+                                preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL))
+        give_up = time.monotonic() + 60
+        while not pids.exists():
+            self.assertLess(time.monotonic(), give_up, "the run did not begin")
+            time.sleep(0.01)
+        demo.send_signal(number)
+        self.assertEqual(demo.wait(timeout=60), 128 + number)
+        for pid in pids.read_text(encoding="utf-8").split():
+            status = pathlib.Path("/proc", pid, "status")
+            lives = status.exists() and "State:\tZ" not in status.read_text(encoding="utf-8")
+            self.assertFalse(lives, f"process {pid} is left")
+        self.assertFalse((self.folder / "evaluated").exists())
+
+    def test_sigterm_to_a_demo_leaves_no_orphan(self):
+        self.assert_ends_without_orphans(signal.SIGTERM)
+
+    def test_sigint_to_a_demo_leaves_no_orphan(self):
+        self.assert_ends_without_orphans(signal.SIGINT)
 
 
 if __name__ == "__main__":

@@ -130,7 +130,8 @@ TEST_F(AcrossHosts, ThatLoseOnePacketOfAHundredGiveTheOdometryOfOneContainer) {
 TEST_F(AcrossHosts, ThatLoseOnePacketOfAHundredHaveEveryPoseOnBoth) {
   TwoHosts hosts({.loss = 0.01});
   const auto record = [&](const std::string& bag) -> Words {
-    return {PANVO_RUN, CONFIG "/systems/record.yaml", "output:=" + (folder_ / bag), "topics:=/odometry/binocular"};
+    return {PANVO_RUN, CONFIG "/systems/record.yaml", "output:=" + (folder_ / bag), "topics:=/odometry/binocular",
+            "namespace:=" + bag};
   };
   Process near(hosts.on_a(record("near"))), far(hosts.on_b(record("far")));
   // Slowly: a recorder whose announcement of the topic was lost hears of it with the next, after a second, and is then sent what it has missed
@@ -147,6 +148,27 @@ TEST_F(AcrossHosts, ThatLoseOnePacketOfAHundredHaveEveryPoseOnBoth) {
   const Finished compared = run({PANVO_BAG, "diff", folder_ / "near", folder_ / "far"});
   EXPECT_EQ(compared.status, 0) << compared.output;
   EXPECT_THAT(hosts.say_losses(), testing::Not(testing::HasSubstr("lost 0 of")));
+}
+
+TEST_F(AcrossHosts, MayLookAndChangeNothingWhileThisHostMaySteer) {
+  const TwoHosts hosts({});
+  Process system(hosts.on_a({PANVO_RUN, CONFIG "/systems/stereo.yaml"}));
+  const auto graph = [](const Words& words) {
+    Words all{PANVO_GRAPH};
+    all.insert(all.end(), words.begin(), words.end());
+    all.insert(all.end(), {"--timeout", "30"});
+    return all;
+  };
+  ASSERT_TRUE(eventually([&] {
+    return run(hosts.on_b(graph({"component", "running"})), kLimit).output.find("/stereo_rectifier") !=
+           std::string::npos;
+  })) << system.output();
+  const Finished refused = run(hosts.on_b(graph({"component", "unload", "/panvo", "1"})), kLimit);
+  EXPECT_EQ(refused.status, 1);
+  EXPECT_THAT(refused.output, testing::HasSubstr("services: steer"));
+  const Finished done = run(hosts.on_a(graph({"component", "unload", "/panvo", "1"})), kLimit);
+  EXPECT_EQ(done.status, 0) << done.output;
+  EXPECT_THAT(system.output(), testing::HasSubstr("a request from another host was refused"));
 }
 
 }  // namespace

@@ -34,6 +34,13 @@ class Security : public testing::Test {
     ASSERT_EQ(made.status, 0) << made.output;
   }
 
+  /// One enclave for each container of stereo_split, with no more rights than it needs.
+  void make_system_keystore(const std::string& name) const {
+    const Finished made = run({PANVO, "secure", folder_ / name, "--system", CONFIG "/systems/stereo_split.yaml",
+                               "--dataset", folder_ / "walk"});
+    ASSERT_EQ(made.status, 0) << made.output;
+  }
+
   static Words joined(Words words, const Words& more) {
     words.insert(words.end(), more.begin(), more.end());
     return words;
@@ -46,7 +53,7 @@ class Security : public testing::Test {
   /// Records the odometry that it hears; `name` of the bag.
   Words listener(const std::string& name, const Words& with_keys) const {
     return joined({PANVO_RUN, CONFIG "/systems/record.yaml", "output:=" + (folder_ / name),
-                   std::string("topics:=") + kTopic, "--domain", domain_},
+                   std::string("topics:=") + kTopic, "namespace:=/" + name, "--domain", domain_},
                   with_keys);
   }
 
@@ -60,7 +67,7 @@ class Security : public testing::Test {
   /// Whether it heard anything. How much is not asked: who exchanges keys may miss the first messages.
   static void expect_heard(Process& listener, bool is_heard) {
     listener.signal(SIGINT);
-    EXPECT_EQ(listener.wait(kLimit), 0) << listener.output();
+    EXPECT_EQ(listener.wait(kLimit), is_heard ? 0 : 1) << listener.output();  // 1: a recorder that recorded nothing
     EXPECT_THAT(listener.output(), ContainsRegex(is_heard ? "recorded [1-9][0-9]* messages" : "recorded 0 messages"));
   }
 
@@ -89,6 +96,40 @@ TEST_F(Security, WhatIsWrittenWithoutKeysIsReadOnlyByWhoHasNone) {
   expect_heard(with_keys, false);
 }
 
+/// What a whole system in one process makes of the walk: its poses, and what it says of them. Its own readers and writers must not meet over
+/// DDS, where they would hand everything over a second time.
+struct WholeRun {
+  std::string poses, qualities, output;
+  int status = -1;
+};
+
+WholeRun run_whole(const std::filesystem::path& out, Words words) {
+  words.insert(words.end(), {"--out", out.string()});
+  const Finished finished = run(words, kLimit);
+  return {read_file(out / "odometry_binocular.tum"), read_file(out / "odometry_binocular_covariance.csv"),
+          finished.output, finished.status};
+}
+
+TEST_F(Security, AWholeSystemWithKeysGivesWhatItGivesWithout) {
+  const Words system{PANVO_RUN, CONFIG "/systems/stereo.yaml", "--dataset", folder_ / "walk", "--rate", "1", "--domain",
+                     domain_};
+  // Somebody listens, so that what is written goes out, to the system's own readers too if it does not know them.
+  Process plain_listener(listener("plain_bag", {}));
+  const WholeRun plain = run_whole(folder_ / "plain", joined(system, {"--await", kTopic}));
+  expect_heard(plain_listener, true);
+  Process listener_with_keys(listener("secure_bag", keys("keys", "/listener")));
+  const WholeRun secure =
+      run_whole(folder_ / "secure", joined(joined(system, {"--await", kTopic}), keys("keys", "/talker")));
+  expect_heard(listener_with_keys, true);
+  ASSERT_EQ(plain.status, 0) << plain.output;
+  EXPECT_EQ(secure.status, 0) << secure.output;
+  EXPECT_THAT(plain.output, HasSubstr("20 poses out"));
+  EXPECT_THAT(secure.output,
+              HasSubstr("20 stereo frames in, 20 poses out, 0 of them without a measured motion, 0 messages dropped"));
+  EXPECT_EQ(secure.poses, plain.poses);
+  EXPECT_EQ(secure.qualities, plain.qualities);
+}
+
 TEST_F(Security, ASplitSystemWithKeysComputesItsOdometry) {
   const Finished split = run(joined({PANVO_RUN, CONFIG "/systems/stereo_split.yaml", "--dataset", folder_ / "walk",
                                      "--rate", "1", "--domain", domain_, "--out", folder_ / "out"},
@@ -97,6 +138,52 @@ TEST_F(Security, ASplitSystemWithKeysComputesItsOdometry) {
   EXPECT_EQ(split.status, 0) << split.output;
   const std::string poses = read_file(folder_.path() / "out" / "odometry_binocular.tum");
   EXPECT_GE(std::count(poses.begin(), poses.end(), '\n'), 18) << split.output;
+}
+
+TEST_F(Security, ASystemWithNoMoreRightsThanItNeedsComputesItsOdometry) {
+  make_system_keystore("least");
+  const Finished split = run(joined({PANVO_RUN, CONFIG "/systems/stereo_split.yaml", "--dataset", folder_ / "walk",
+                                     "--rate", "1", "--domain", domain_, "--out", folder_ / "out"},
+                                    {"--secure", folder_ / "least"}),
+                             kLimit);
+  EXPECT_EQ(split.status, 0) << split.output;
+  const std::string poses = read_file(folder_.path() / "out" / "odometry_binocular.tum");
+  EXPECT_GE(std::count(poses.begin(), poses.end(), '\n'), 18) << split.output;
+}
+
+TEST_F(Security, AnEnclaveMayNotPublishWhatItsContainerDoesNot) {
+  make_system_keystore("least");
+  const std::string rights = read_file(folder_.path() / "least/enclaves/stereo_split/cameras/permissions.xml");
+  EXPECT_THAT(rights, AllOf(HasSubstr("<topic>rt/stereo/left/image_rect</topic>"),
+                            HasSubstr("<topic>rq/stereo_rectifier/*Request</topic>"),
+                            testing::Not(HasSubstr("rt/odometry")), testing::Not(HasSubstr("<topic>*</topic>"))));
+  // The container of stereo.yaml has another name, and the odometry too.
+  const Finished refused =
+      run(joined({PANVO_RUN, CONFIG "/systems/stereo.yaml", "--dataset", folder_ / "walk", "--domain", domain_},
+                 keys("least", "/stereo_split/cameras")),
+          kLimit);
+  EXPECT_EQ(refused.status, 2) << refused.output;
+  EXPECT_THAT(refused.output, HasSubstr("service /panvo/_container/load_node"));
+}
+
+TEST_F(Security, WhoseKeysWereRevokedIsNotHeardAndOthersAre) {
+  std::filesystem::copy(folder_.path() / "keys", folder_.path() / "stolen",
+                        std::filesystem::copy_options::recursive | std::filesystem::copy_options::copy_symlinks);
+  const Finished revoked = run({PANVO, "secure", "revoke", folder_ / "keys", "/talker"});
+  ASSERT_EQ(revoked.status, 0) << revoked.output;
+  {
+    Process before(listener("before", keys("stolen", "/listener")));  // knows nothing of it yet
+    Process after(listener("after", keys("keys", "/listener")));
+    const Finished talked = run(talker(keys("stolen", "/talker")), kLimit);
+    EXPECT_EQ(talked.status, 0) << talked.output;
+    expect_heard(before, true);
+    expect_heard(after, false);
+  }
+  make_keystore("keys");  // new keys for the talker
+  Process again(listener("again", keys("keys", "/listener")));
+  const Finished talked = run(talker(keys("keys", "/talker")), kLimit);
+  EXPECT_EQ(talked.status, 0) << talked.output;
+  expect_heard(again, true);
 }
 
 TEST_F(Security, KeysThatAreNotThereAreNamedWithTheRemedy) {
@@ -114,6 +201,23 @@ TEST_F(Security, KeysThatAreThereAreKept) {
   EXPECT_EQ(read_file(key), before);
   using std::filesystem::perms;
   EXPECT_EQ(status(key).permissions() & (perms::group_all | perms::others_all), perms::none);
+}
+
+TEST_F(Security, AKeyThatOthersMayReadIsRefusedWithTheRemedy) {
+  const auto key = folder_.path() / "keys" / "enclaves" / "talker" / "key.pem";
+  std::filesystem::permissions(key, std::filesystem::perms::group_read, std::filesystem::perm_options::add);
+  const Finished refused = run(talker(keys("keys", "/talker")), kLimit);
+  EXPECT_EQ(refused.status, 2) << refused.output;
+  EXPECT_THAT(refused.output, AllOf(HasSubstr(key.string()), HasSubstr("chmod 600")));
+}
+
+TEST_F(Security, KeysMadeInACheckoutAreNotSeenByGit) {
+  const std::string git = find_program("git");
+  if (git.empty()) GTEST_SKIP() << "there is no program git";
+  ASSERT_EQ(run({git, "-C", folder_.path(), "init", "--quiet"}).status, 0);
+  make_keystore("in_checkout");
+  const Finished seen = run({git, "-C", folder_.path(), "status", "--porcelain", "--untracked-files=all"});
+  EXPECT_THAT(seen.output, testing::Not(HasSubstr("in_checkout"))) << seen.output;
 }
 
 }  // namespace

@@ -43,7 +43,8 @@ struct Finished {
 Finished run(const std::vector<std::string>& words, std::chrono::seconds limit = std::chrono::seconds(100));
 
 /// Looks every few milliseconds whether `condition` holds; false when it did not before the limit.
-bool eventually(const std::function<bool()>& condition, std::chrono::seconds limit = std::chrono::seconds(60));
+[[nodiscard]] bool eventually(const std::function<bool()>& condition,
+                              std::chrono::seconds limit = std::chrono::seconds(60));
 
 /// The path of a program of the system's, looked for in $PATH and where administrators have theirs; empty: not installed.
 std::string find_program(const std::string& name);
