@@ -169,7 +169,7 @@ def run(arguments):
                    "-monitor", "none", "-device", "virtio-rng-pci",
                    "-virtfs", "local,path=/,mount_tag=host,security_model=none,readonly=on,multidevs=remap",
                    "-virtfs", f"local,path={exchange},mount_tag=exchange,security_model=none"]
-        # One start, with all the time there is: 8 s on a quiet machine, over a minute where ten others want its cores, and never stuck.
+        # One start, with all the time there is: 8 s on a quiet machine, over a minute where ten others want its cores.
         with open(console, "wb") as file, contextlib.suppress(subprocess.TimeoutExpired):
             subprocess.run(machine, stdin=subprocess.DEVNULL, stdout=file, stderr=subprocess.STDOUT, timeout=arguments.limit, check=False)
         said = console.read_text(encoding="utf-8", errors="replace")

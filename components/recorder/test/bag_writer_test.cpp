@@ -243,7 +243,7 @@ TEST_P(LostBag, IsKeptBesideWhatReplacesIt) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Storages, LostBag, testing::Values(Storage::kSqlite3, Storage::kMcap),
-                         [](const auto& info) { return to_text(info.param); });
+                         [](const auto& storage) { return to_text(storage.param); });
 
 TEST(BagWriter, RefusesMessagesOnceClosed) {
   const TemporaryFolder folder;
