@@ -57,7 +57,7 @@ TEST(FaultTable, SaysWhichGoalsHoldAndOfWhichNothingCanBeTold) {
   auto goals = worse.goals();
   EXPECT_EQ(goal(goals, "within 0.5 s").holds, true);
   EXPECT_EQ(goal(goals, "tracking while").holds, true);
-  EXPECT_EQ(goal(goals, "twice the level").holds, std::nullopt) << "no level was told";
+  EXPECT_EQ(goal(goals, "twice the level").holds, std::nullopt) << "the runs have no level";
   auto bad = score(50.0, 0.51, 0.0);
   bad.longest_misleading_s = 1.2;
   bad.with_level = 1000;

@@ -363,7 +363,7 @@ class TrackingStage::Implementation {
         std::count_if(tracks.begin(), tracks.end(), [](const Track& track) { return track.seen.has_disparity; }));
   }
 
-  // `current_from_previous` is null where no motion was measured: what was only expected is no new velocity.
+  // `current_from_previous` is null where no motion was measured: a predicted motion must not update the velocity.
   void keep(std::int64_t stamp_ns, std::vector<Track> tracks, const Eigen::Isometry3d* current_from_previous) {
     if (current_from_previous != nullptr) motion_model_.update(*current_from_previous, interval_ns_);
     guide_from_previous_ = guide_from_current_;

@@ -131,7 +131,7 @@ TEST(BinocularOdometry, LearnsNothingFromABadFrame) {
   }
 }
 
-/// Counts how often tracking looks for the motion anew.
+/// Counts how often tracking restarts the search for the motion.
 struct Attempts : vision::StageObserver {
   void enter(std::string_view stage) override { count += stage == "match_widely" ? 1 : 0; }
   void leave() override {}

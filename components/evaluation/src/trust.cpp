@@ -146,7 +146,7 @@ TrustScore score_trust(std::span<const TrustSample> samples, const std::optional
   score.is_never_noticed = !score.noticed_s;
   if (!disturbance->to_ns) return score;
   const auto wrong_ns = last_wrong_ns(all);
-  // The end of the run, or no pose after the disturbance, is no recovery.
+  // A run that ends, or has no pose after the disturbance, has not recovered.
   score.is_never_recovered =
       all.empty() || all.back().from_ns < *disturbance->to_ns || (wrong_ns && *wrong_ns >= all.back().from_ns);
   if (!score.is_never_recovered) {

@@ -25,14 +25,14 @@ struct Disturbance {
   std::optional<std::int64_t> to_ns;  ///< nullopt: to the end of the run
 };
 
-/// What somebody who trusted each pose as it came was told.
+/// Scores of a run for a user who relied on each pose as it was published.
 struct TrustScore {
   std::size_t poses = 0;
   double largest_error_m = 0.0;
   double largest_error_over_sigma = 0.0;
   std::size_t outside_95 = 0;   ///< poses with an error beyond what 95 % of all should have, of two dimensions
   std::size_t outside_999 = 0;  ///< the same for 99.9 %
-  std::size_t with_level = 0;   ///< poses that a protection level was told for
+  std::size_t with_level = 0;   ///< poses with a protection level
   std::size_t beyond_level = 0;
   std::optional<double> worst_over_level;  ///< largest error as a multiple of its level
 
