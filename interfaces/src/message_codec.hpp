@@ -90,6 +90,7 @@ constexpr MessageType kMessageType{
     .serialize = serialize<Message>,
     .deserialize = deserialize<Message>,
     .stamp_ns = [](const void* message) { return Facts<Message>::stamp_ns(*static_cast<const Message*>(message)); },
+    .is_stamped_when_sent = kIsStampedWhenSent<Message>,
     .problem = problem_function<Message>(),
 };
 

@@ -25,6 +25,8 @@ Problem problem_of(const panvo_msgs::msg::AzimuthChange& message) {
   check.bounded("azimuth_change_rad", {message.azimuth_change_rad()}, kMostTurn_rad);
   check.within("variance_rad2", message.variance_rad2(), kSmallestVariance, kLargestAngleVariance);
   check.finite("side_parallax_rad", {message.side_parallax_rad()});
+  check.bounded("motion_azimuth_rad", {message.motion_azimuth_rad()}, kMostTurn_rad);
+  check.within("motion_azimuth_variance_rad2", message.motion_azimuth_variance_rad2(), 0.0, kLargestAngleVariance);
   return check.problem();
 }
 

@@ -140,7 +140,8 @@ PoseInMap JourneyGraph::carried(const OdometryPose& odometry) const {
   return {from.map_from_base * way, vision::compose_covariance(from.map_from_base, from.covariance, way, covariance)};
 }
 
-vision::Matrix6d JourneyGraph::common_covariance(const Eigen::Vector3d& position, double scale_sigma) const {
+vision::Matrix6d JourneyGraph::common_covariance(const Eigen::Vector3d& position, double scale_sigma,
+                                                 double direction_sigma_rad) const {
   const Node* last = nullptr;
   for (const auto& node : nodes_) {
     if (!node.is_pass || !known_.contains(node.landmark_id)) continue;
@@ -149,7 +150,9 @@ vision::Matrix6d JourneyGraph::common_covariance(const Eigen::Vector3d& position
   if (last != nullptr) return known_.at(last->landmark_id).covariance;
   vision::Matrix6d covariance = vision::Matrix6d::Zero();
   const Eigen::Vector3d way = position - nodes_.front().map_from_base.translation();
-  covariance.topLeftCorner<3, 3>() = scale_sigma * scale_sigma * way * way.transpose();
+  const Eigen::Vector3d across = Eigen::Vector3d::UnitZ().cross(way);
+  covariance.topLeftCorner<3, 3>() = scale_sigma * scale_sigma * way * way.transpose() +
+                                     direction_sigma_rad * direction_sigma_rad * across * across.transpose();
   return covariance;
 }
 

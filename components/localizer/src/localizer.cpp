@@ -19,6 +19,10 @@ constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kSlew = 0.2;  // of the turn that is owed, with each step: made up for within half a second at 25 Hz
 constexpr double kUnknownPosition_m = 1e4;  // standard deviations of a start that is not known
 constexpr double kUnknownYaw_rad = 3.0;
+constexpr double kReach = 3.0;          // standard deviations of how far a vehicle can have been moved unseen
+constexpr double kNoVehicle_m_s = 2.0;  // from one image to the next
+constexpr double kAlarm_s = 0.5;        // within which a panorama tells whether it is so
+constexpr double kMistakenFor_s = 5.0;  // two times farther apart nobody takes for one
 constexpr double kAtStart_m = 10.0;  // within which a map of earlier days may still come: its process starts, too
 
 double seconds(std::int64_t from_ns, std::int64_t to_ns) { return static_cast<double>(to_ns - from_ns) / kSecond_ns; }
@@ -47,23 +51,34 @@ std::string to_text(State state) {
 
 Localizer::Localizer(const Parameters& parameters)
     : parameters_(parameters),
+      origin_(parameters.max_speed_m_s),
       chain_(parameters.history_s),
       clock_(parameters.clock_sigma_s),
       turn_scale_(parameters.turn_scale_sigma),
       lean_(parameters.lean_window_s, parameters.lean_sigmas),
+      direction_offset_(parameters.mounting_sigma_deg * kDegree),
       dead_reckoning_(parameters.motion, parameters.gap_s),
       graph_(parameters.start_sigma_m, parameters.start_sigma_deg * kDegree) {}
 
-LocalizedPose Localizer::add(const OdometryPose& odometry) {
+OdometryOutcome Localizer::add(const OdometryPose& told) {
+  const auto refused = [](std::string reason) { return OdometryOutcome{.reason = std::move(reason)}; };
+  if (const auto fault = fault_of(told.odom_from_base, told.covariance)) return refused(*fault);
+  if (!chain_.empty() && told.stamp_ns <= chain_.latest().pose.stamp_ns) {
+    return refused("came with a stamp that is not after the last");
+  }
+  const auto taken = origin_.take(told);
+  if (!taken.odometry) return refused(taken.reason);
+  const OdometryPose& odometry = *taken.odometry;
   const double doubt = std::min(1.0, odometry.outlier_share / parameters_.doubtful_outlier_share);
   const double scale = turn_scale_.estimate();
-  if (fault_of(odometry.odom_from_base, odometry.covariance)) return latest_;
-  if (!chain_.empty() && odometry.stamp_ns <= chain_.latest().pose.stamp_ns) return latest_;
   const vision::Matrix6d least =
       chain_.empty()
           ? vision::Matrix6d(vision::Matrix6d::Zero())
           : dead_reckoning_.step(seconds(chain_.latest().pose.stamp_ns, odometry.stamp_ns), odometry.is_reliable);
-  if (!chain_.add(odometry, std::lerp(parameters_.steady_turn_share, 1.0, doubt), scale, least)) return latest_;
+  const std::int64_t before_ns = chain_.empty() ? odometry.stamp_ns : chain_.latest().pose.stamp_ns;
+  const auto twist_before = chain_.empty() ? std::nullopt : chain_.twist(before_ns);
+  chain_.add(odometry, std::lerp(parameters_.steady_turn_share, 1.0, doubt), scale, least);
+  if (twist_before) watch_for_jump(*twist_before);
   if (graph_.has_started()) {
     const Eigen::Isometry3d step = last_raw_.inverse() * odometry.odom_from_base;
     slew(turned_more(step, -scale * yaw_of(step.linear())));
@@ -73,12 +88,25 @@ LocalizedPose Localizer::add(const OdometryPose& odometry) {
   }
   last_raw_ = odometry.odom_from_base;
   if (odometry.is_reliable) {
+    if (unreliable_since_ns_ && break_) break_->to_ns = odometry.stamp_ns;
     unreliable_since_ns_.reset();
   } else {
+    if (!break_) break_ = Break{before_ns, odometry.stamp_ns, before_ns};
+    break_->to_ns = odometry.stamp_ns;
     if (!unreliable_since_ns_) unreliable_since_ns_ = odometry.stamp_ns;
     doubtful_ns_ = odometry.stamp_ns;
   }
-  return latest_ = localized(chain_.latest().pose);
+  latest_ = localized(chain_.latest().pose);
+  return {.is_taken = true, .has_begun_anew = taken.is_new_origin, .reason = {}};
+}
+
+/// Long before a panorama tells that odometry follows something else, its speed tells, which then changes at once.
+void Localizer::watch_for_jump(const vision::Vector6d& twist_before) {
+  const std::int64_t now_ns = chain_.latest().pose.stamp_ns;
+  const auto twist = chain_.twist(now_ns);
+  if (!twist) return;
+  const double change_m_s = (twist->head<2>() - twist_before.head<2>()).norm();
+  if (change_m_s > kNoVehicle_m_s) jump_ = Jump{now_ns, change_m_s};
 }
 
 bool Localizer::add_known(const KnownLandmark& landmark) {
@@ -112,6 +140,14 @@ bool Localizer::add_built(std::uint32_t id, std::int64_t stamp_ns) {
 }
 
 void Localizer::set_clock_back(std::int64_t by_ns) {
+  if (chain_.empty()) return;
+  // Nobody knows which of the two times was right, and where the vehicle was then.
+  const double by_s = std::min(seconds(0, by_ns), kMistakenFor_s);
+  const std::int64_t latest_ns = chain_.latest().pose.stamp_ns;
+  const auto twist = chain_.twist(latest_ns);
+  const double way_m = (twist ? twist->head<2>().norm() * by_s : 0.0) + dead_reckoning_.way_sigma_m(by_s);
+  chain_.allow(latest_ns - 1, latest_ns, way_m * way_m, std::pow(dead_reckoning_.turn_sigma_rad(by_s), 2));
+  origin_.set_clock_back(by_ns);
   chain_.set_clock_back(by_ns);
   graph_.set_clock_back(by_ns);
   for (auto* stamp_ns : {&unreliable_since_ns_, &doubtful_ns_, &azimuth_ns_}) {
@@ -122,12 +158,17 @@ void Localizer::set_clock_back(std::int64_t by_ns) {
     (*sighting)->sighting.stamp_ns -= by_ns;
     (*sighting)->at_ns -= by_ns;
   }
-  latest_.stamp_ns -= by_ns;
+  latest_ = localized(chain_.latest().pose);
   // What was measured between two panoramas is of two clocks by now.
   lean_.forget();
   last_from_ns_.reset();
   turn_seen_.reset();
-  contradiction_.reset();
+  direction_seen_.reset();
+  turn_dispute_.end();
+  way_dispute_.end();
+  agreed_ns_.reset();
+  break_.reset();
+  jump_.reset();
 }
 
 bool Localizer::reaches(std::int64_t panorama_stamp_ns) const {
@@ -165,10 +206,25 @@ std::vector<Doubt> Localizer::doubts() const {
     doubts.push_back({asking_->off_m, true,
                       fmt::format("landmark {} was seen where it is not expected", asking_->sighting.landmark_id)});
   }
-  if (contradiction_ && seconds(contradiction_->stamp_ns, latest_.stamp_ns) < parameters_.patience_s) {
-    doubts.push_back({contradiction_->off_m, false, "odometry and compass contradict each other"});
+  if (break_) {
+    doubts.push_back({kReach * dead_reckoning_.way_sigma_m(kUnseen_s), true,
+                      "odometry lost sight of what it saw, and no panorama has told yet that it was not moved meanwhile"});
+  }
+  if (jump_ && is_fresh(jump_->stamp_ns)) {
+    doubts.push_back({jump_->speed_m_s * kAlarm_s, true, "the speed of the odometry changed as that of no vehicle does"});
+  }
+  if (turn_dispute_.is_on() && is_fresh(turn_dispute_.stamp_ns())) {
+    doubts.push_back({0.0, true, "odometry and panoramas turn differently"});
+  }
+  if (way_dispute_.is_on() && is_fresh(way_dispute_.stamp_ns())) {
+    doubts.push_back({0.0, true, "odometry and panoramas move differently"});
   }
   return doubts;
+}
+
+/// What was found against the pose and nobody has said anything of for a while speaks against it no more.
+bool Localizer::is_fresh(std::int64_t stamp_ns) const {
+  return seconds(stamp_ns, chain_.latest().pose.stamp_ns) < parameters_.patience_s;
 }
 
 LocalizedPose Localizer::localized(const OdometryPose& odometry) const {
@@ -191,11 +247,21 @@ PoseInMap Localizer::expected(const OdometryPose& odometry) const {
 
 /// Of what is the same for all poses of the journey, so that no sighting of its own landmarks shows it.
 vision::Matrix6d Localizer::common_covariance(const Eigen::Vector3d& position) const {
-  if (is_located_) return graph_.common_covariance(position, parameters_.scale_sigma);
+  if (is_located_) {
+    return graph_.common_covariance(position, parameters_.scale_sigma,
+                                    direction_sigma_rad());
+  }
   vision::Matrix6d covariance = vision::Matrix6d::Zero();
   covariance.topLeftCorner<3, 3>() = kUnknownPosition_m * kUnknownPosition_m * Eigen::Matrix3d::Identity();
   covariance(5, 5) = kUnknownYaw_rad * kUnknownYaw_rad;
   return covariance;
+}
+
+/// One of the two cameras is turned by that, and nobody knows which. Without panoramas the mount of the stereo camera is believed.
+double Localizer::direction_sigma_rad() const {
+  DirectionOffset offset = direction_offset_;
+  if (direction_seen_) offset.add(direction_seen_->difference_rad, direction_seen_->variance_rad2);
+  return offset.is_measured() ? std::hypot(offset.estimate_rad(), std::sqrt(offset.variance_rad2())) : 0.0;
 }
 
 void Localizer::tell_state(LocalizedPose& pose) const {
@@ -204,6 +270,9 @@ void Localizer::tell_state(LocalizedPose& pose) const {
     pose.reason = std::move(reason);
   };
   if (!is_located_) return tell(State::kUnlocated, unlocated_reason_);
+  if (way_dispute_.is_on() && is_fresh(way_dispute_.stamp_ns())) {
+    return tell(State::kCompassOnly, "odometry moves otherwise than the panoramas see");
+  }
   if (unreliable_since_ns_) {
     const bool has_azimuth = azimuth_ns_ && seconds(*azimuth_ns_, pose.stamp_ns) < parameters_.patience_s;
     const double since_s = seconds(*unreliable_since_ns_, pose.stamp_ns);

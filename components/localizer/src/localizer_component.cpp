@@ -47,7 +47,6 @@ class LocalizerComponent final : public runtime::Component {
         parameters_(context.parameters<ComponentParameters>()),
         timer_(context.times()),
         localizer_(parameters_.fusion),
-        origin_(parameters_.fusion.max_speed_m_s),
         last_pose_(parameters_, context.is_again(), context.log()),
         notices_(context.log()),
         path_binocular_(parameters_.path_step_m, parameters_.path_period_s),
@@ -97,7 +96,6 @@ class LocalizerComponent final : public runtime::Component {
     if (!set_back_.add(stamp_ns, back_ns)) return false;
     const std::int64_t by_ns = back_ns + kInterval_ns;
     localizer_.set_clock_back(by_ns);
-    origin_.set_clock_back(by_ns);
     *begin_ns_ -= by_ns;
     azimuth_ns_.reset();
     publisher_.forget_stamps();
@@ -120,18 +118,16 @@ class LocalizerComponent final : public runtime::Component {
     if (begin_ns_ && stamp_ns <= localizer_.latest().stamp_ns && !was_set_back(stamp_ns)) {
       return refuse(context_.resolved_name(topics::kOdometryBinocular), "came with a stamp that is not after the last");
     }
-    const vision::Matrix6d covariance = conversions::to_matrix(message.pose().covariance());
-    if (const auto fault = fault_of(*pose, covariance))
-      return refuse(context_.resolved_name(topics::kOdometryBinocular), *fault);
-    const auto taken = origin_.take({stamp_ns, *pose, covariance, joined.is_reliable, joined.outlier_share});
-    if (!taken.odometry) return refuse(context_.resolved_name(topics::kOdometryBinocular), taken.reason);
-    if (taken.is_new_origin) {
-      context_.log().warn("{} began anew elsewhere: the pose goes on from where it was",
-                          context_.resolved_name(topics::kOdometryBinocular));
-    }
+    const OdometryPose told{stamp_ns, *pose, conversions::to_matrix(message.pose().covariance()), joined.is_reliable,
+                            joined.outlier_share};
     {
       const vision::Stage stage(&timer_, "localize");
-      localizer_.add(*taken.odometry);
+      const auto outcome = localizer_.add(told);
+      if (!outcome.is_taken) return refuse(context_.resolved_name(topics::kOdometryBinocular), outcome.reason);
+      if (outcome.has_begun_anew) {
+        context_.log().warn("{} began anew elsewhere: the pose goes on from where it was",
+                            context_.resolved_name(topics::kOdometryBinocular));
+      }
       odometry_at_ns_ = context_.passing_ns();
       last_odometry_ = joined.odometry;
       if (!begin_ns_) {
@@ -248,6 +244,11 @@ class LocalizerComponent final : public runtime::Component {
       return;
     }
     unused_ = 0;
+    if (use == AzimuthUse::kDoubted) {
+      context_.log().warn_throttled("compass doubted",
+                                    "the panoramas turned as no vehicle does, and the stereo odometry did not: was "
+                                    "the panoramic camera turned on its mount?");
+    }
     const bool is_contradicted = use == AzimuthUse::kContradicted;
     if (is_contradicted && !was_contradicted_) {
       context_.log().warn("the stereo odometry turned otherwise than the panorama: the compass is believed");
@@ -311,7 +312,6 @@ class LocalizerComponent final : public runtime::Component {
   const ComponentParameters parameters_;
   conversions::StageTimer timer_;
   Localizer localizer_;
-  OdometryOrigin origin_;
   LastPoseKeeper last_pose_;
   AlignmentNotices notices_;
   OdometryJoin join_;

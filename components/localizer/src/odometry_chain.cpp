@@ -157,6 +157,20 @@ void OdometryChain::turn_more(std::int64_t from_ns, std::int64_t to_ns, double b
   compose_from(first);
 }
 
+void OdometryChain::allow(std::int64_t from_ns, std::int64_t to_ns, double way_variance_m2, double yaw_variance_rad2) {
+  const std::size_t first = first_after(from_ns);
+  for (std::size_t i = std::max<std::size_t>(first, 1); i < entries_.size(); ++i) {
+    const std::int64_t begin_ns = std::max(entries_[i - 1].raw.stamp_ns, from_ns);
+    const std::int64_t end_ns = std::min(entries_[i].raw.stamp_ns, to_ns);
+    if (end_ns <= begin_ns) break;
+    const double part = static_cast<double>(end_ns - begin_ns) / static_cast<double>(to_ns - from_ns);
+    auto& covariance = entries_[i].step.covariance;
+    covariance.topLeftCorner<2, 2>() += part * way_variance_m2 * Eigen::Matrix2d::Identity();
+    covariance(kYaw, kYaw) += part * yaw_variance_rad2;
+  }
+  compose_from(first);
+}
+
 void OdometryChain::set_clock_back(std::int64_t by_ns) {
   for (auto& entry : entries_) {
     entry.raw.stamp_ns -= by_ns;

@@ -63,7 +63,10 @@ TEST(LocalizerBelief, FindsItselfInTheMapOfAnEarlierDay) {
   known.covariance = 1e-4 * vision::Matrix6d::Identity();
   localizer.add_known(known);
   localizer.add(drive.now());
-  for (int i = 0; i < 10; ++i) EXPECT_EQ(localizer.add(drive.step()).state, State::kUnlocated);
+  for (int i = 0; i < 10; ++i) {
+    localizer.add(drive.step());
+    EXPECT_EQ(localizer.latest().state, State::kUnlocated);
+  }
   const Eigen::Isometry3d landmark = drive.truth;                                      // the place is here
   EXPECT_EQ(localizer.add(drive.sight(9, landmark)).kind, CorrectionKind::kRejected);  // one look is none
   localizer.add(drive.step());
@@ -190,7 +193,8 @@ TEST(LocalizerBelief, IsFoundAgainAfterItWasCarriedAway) {
   localizer.add(drive.step());
   EXPECT_EQ(localizer.add(drive.sight(1, places[0])).kind, CorrectionKind::kRejected)
       << "it could be in the wrong place";
-  EXPECT_EQ(localizer.add(drive.step()).state, State::kLost);
+  localizer.add(drive.step());
+  EXPECT_EQ(localizer.latest().state, State::kLost);
   for (int i = 0; i < 20; ++i) localizer.add(drive.step());
   EXPECT_EQ(localizer.add(drive.sight(2, places[1])).kind, CorrectionKind::kRejected);
   localizer.add(drive.step());
@@ -324,7 +328,8 @@ TEST(LocalizerBelief, ForgetsWhatALandmarkSaidThatTheNextDidNotConfirm) {
   ASSERT_EQ(confirmed.kind, CorrectionKind::kApplied) << confirmed.reason;
   auto unreliable = two.drive.step();
   unreliable.is_reliable = false;
-  EXPECT_NE(two.localizer.add(unreliable).state, State::kLost) << two.localizer.latest().reason;
+  two.localizer.add(unreliable);
+  EXPECT_NE(two.localizer.latest().state, State::kLost) << two.localizer.latest().reason;
 }
 
 TEST(LocalizerBelief, APassBeforeTheVehicleWasLiftedIsAnother) {

@@ -19,7 +19,8 @@ TEST(Localizer, IsOdometryWhereNothingIsSeen) {
   localizer.add(drive.now());
   for (int i = 0; i < 50; ++i) {
     const auto odometry = drive.step();
-    const auto pose = localizer.add(odometry);
+    localizer.add(odometry);
+    const auto pose = localizer.latest();
     EXPECT_EQ(pose.state, State::kTracking);
     EXPECT_TRUE(pose.map_from_base.isApprox(odometry.odom_from_base, 1e-9));
     EXPECT_TRUE(pose.map_from_odom.isApprox(Eigen::Isometry3d::Identity(), 1e-9));
@@ -147,8 +148,10 @@ TEST(Localizer, NeverTakesInANumberThatIsNone) {
   localizer.add(drive.now());
   auto broken = drive.step();
   broken.odom_from_base.translation().x() = std::nan("");
-  EXPECT_TRUE(localizer.add(broken).map_from_base.matrix().allFinite());
-  EXPECT_TRUE(localizer.add(drive.step()).map_from_base.matrix().allFinite());
+  EXPECT_FALSE(localizer.add(broken).is_taken);
+  EXPECT_TRUE(localizer.latest().map_from_base.matrix().allFinite());
+  EXPECT_TRUE(localizer.add(drive.step()).is_taken);
+  EXPECT_TRUE(localizer.latest().map_from_base.matrix().allFinite());
 }
 
 }  // namespace

@@ -114,6 +114,8 @@ class AllRound final : public PanoramicCompass::Method {
     const double by_parallax_rad = demand.parallax_share * fit->typical_parallax;
     change.variance_rad2 = fit->yaw_variance_rad2 + systematic_rad * systematic_rad + by_parallax_rad * by_parallax_rad;
     change.side_parallax_rad = side_parallax(pairs, *fit);
+    change.motion_azimuth_rad = std::atan2(-fit->drift.y(), -fit->drift.x());
+    change.motion_azimuth_variance_rad2 = motion_variance(*fit, systematic_rad);
     const double sigma_deg = std::sqrt(change.variance_rad2) * 180.0 / std::numbers::pi;
     if (share < demand.smallest_share) {
       reason << "the points contradict each other: " << fit->agreeing << " of " << pairs.size() << " agree";
@@ -166,6 +168,12 @@ class AllRound final : public PanoramicCompass::Method {
   Eigen::Vector3d bearing(const Eigen::Vector2d& in_band) const {
     const vision::Equirectangular panorama{BandCutter::kColumns, BandCutter::kRows};
     return base_from_panorama_ * panorama.unproject({in_band.x(), in_band.y() + cutter_.first_row});
+  }
+
+  /// An error that all points share turns the direction the more, the less they have moved.
+  static double motion_variance(const TurnFit& fit, double systematic_rad) {
+    const double by_systematic = systematic_rad / std::max(fit.typical_parallax, systematic_rad);
+    return fit.drift_azimuth_variance_rad2 + by_systematic * by_systematic;
   }
 
   /// What lies abeam, once the turn is taken out [Lu2015 6].

@@ -113,6 +113,8 @@ class PanoramicCompassComponent final : public runtime::Component {
     message.azimuth_change_rad(change.change_rad);
     message.variance_rad2(change.variance_rad2);
     message.side_parallax_rad(change.side_parallax_rad);
+    message.motion_azimuth_rad(change.motion_azimuth_rad);
+    message.motion_azimuth_variance_rad2(change.motion_azimuth_variance_rad2);
     message.valid(change.valid);
     message.reason(change.reason);
     azimuth_change_.publish(std::move(message));

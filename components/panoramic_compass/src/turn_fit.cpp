@@ -291,8 +291,12 @@ std::optional<TurnFit> fit_turn(std::span<const BearingPair> pairs, const Eigen:
     fit.agrees.push_back(agrees);
     fit.agreeing += agrees ? 1 : 0;
   }
-  const double by_points = solver.hessian().inverse()(2, 2), by_sectors = solver.covariance_by_sectors(best)(2, 2);
-  fit.yaw_variance_rad2 = std::max(by_points, 0.5 * (by_points + by_sectors));
+  const Matrix5d by_points = solver.hessian().inverse(), by_sectors = solver.covariance_by_sectors(best);
+  const auto variance_of = [&](Eigen::Index i) {
+    return std::max(by_points(i, i), 0.5 * (by_points(i, i) + by_sectors(i, i)));
+  };
+  fit.yaw_variance_rad2 = variance_of(2);
+  fit.drift_azimuth_variance_rad2 = variance_of(3);
   return fit;
 }
 

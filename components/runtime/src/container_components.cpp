@@ -71,6 +71,12 @@ Container::Implementation::Implementation(ContainerOptions options)
 
 void Container::Implementation::meet_others() {
   parameter_events_ = own_.open_output(describe(steering::kParameterEvents));
+  tell_nodes();
+}
+
+/// Only once what the container was started for is loaded: a request must not take its components' names.
+void Container::Implementation::serve_loading() {
+  if (!bus_.bridge()) return;
   auto offered = steering::component_services(full_name(), *this);
   own_service_names_ = names_of(offered, options_.services);
   services_ = serve(std::move(offered));

@@ -61,6 +61,7 @@ class Container::Implementation final : public steering::SteeredContainer {
 
   std::string full_name() const;
   void meet_others();
+  void serve_loading();
   Loaded put(Recipe recipe);
   void make(LoadedComponent& entry);
   Entries::iterator find(const std::string& name);

@@ -1,28 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <array>
-#include <string_view>
-
 #include "clocks.hpp"
 #include "context_state.hpp"
 
 namespace panvo::runtime {
 namespace {
 
-/// An external pose is stamped by whoever clicked; matches and corrections bear the stamp of the panorama that showed the place best, which may
-/// lie seconds before the last one that was reported.
-bool is_about_the_past(std::string_view type_name) {
-  constexpr std::array<std::string_view, 3> kTypes{"geometry_msgs/msg/PoseWithCovarianceStamped",
-                                                   "panvo_msgs/msg/LandmarkMatch", "panvo_msgs/msg/PositionCorrection"};
-  return std::ranges::find(kTypes, type_name) != kTypes.end();
-}
-
 /// Nothing for messages that are not of the moment at which they are sent: without a stamp, latched, or about the past.
 std::optional<std::int64_t> stamp_to_check(const TopicDescription& topic, const Sample& sample) {
-  if (!sample.type() || topic.qos.durability == interfaces::Durability::kTransientLocal) return std::nullopt;
-  if (is_about_the_past(topic.type_name)) return std::nullopt;
+  if (!sample.type() || !sample.type()->is_stamped_when_sent) return std::nullopt;
+  if (topic.qos.durability == interfaces::Durability::kTransientLocal) return std::nullopt;
   const void* const message = sample.message();
   const auto stamp_ns = message ? sample.type()->stamp_ns(message) : std::nullopt;
   return stamp_ns == 0 ? std::nullopt : stamp_ns;

@@ -46,13 +46,15 @@ std::optional<std::string> quality_line(const panvo_msgs::msg::OdometryQuality& 
 }
 
 std::string azimuth_header() {
-  return "stamp_ns,from_stamp_ns,azimuth_change_rad,sigma_rad,side_parallax_rad,valid,reason";
+  return "stamp_ns,from_stamp_ns,azimuth_change_rad,sigma_rad,side_parallax_rad,motion_azimuth_rad,motion_azimuth_sigma_rad,valid,"
+         "reason";
 }
 
 std::optional<std::string> azimuth_line(const panvo_msgs::msg::AzimuthChange& change) {
   std::string line = stamp_of(change) + ',' + time_of(change.from_stamp());
   for (const double number :
-       {change.azimuth_change_rad(), std::sqrt(change.variance_rad2()), change.side_parallax_rad()}) {
+       {change.azimuth_change_rad(), std::sqrt(change.variance_rad2()), change.side_parallax_rad(),
+        change.motion_azimuth_rad(), std::sqrt(change.motion_azimuth_variance_rad2())}) {
     line += ',' + number_or_nothing(number);
   }
   return line + (change.valid() ? ",1," : ",0,") + quoted(change.reason());

@@ -18,7 +18,7 @@ namespace panvo::runtime {
 std::string quality_header();
 std::optional<std::string> quality_line(const panvo_msgs::msg::OdometryQuality& quality);
 
-/// "stamp_ns,from_stamp_ns,azimuth_change_rad,sigma_rad,side_parallax_rad,valid,reason"
+/// "stamp_ns,from_stamp_ns,azimuth_change_rad,sigma_rad,side_parallax_rad,motion_azimuth_rad,motion_azimuth_sigma_rad,valid,reason"
 std::string azimuth_header();
 std::optional<std::string> azimuth_line(const panvo_msgs::msg::AzimuthChange& change);
 

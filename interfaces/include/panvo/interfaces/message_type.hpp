@@ -39,6 +39,8 @@ struct MessageType {
   std::shared_ptr<void> (*deserialize)(std::span<const std::uint8_t> bytes);
   /// The stamp of the message's header in ns; nullopt for a type without one.
   std::optional<std::int64_t> (*stamp_ns)(const void* message);
+  /// Whether that is about the time at which the message is sent, see validity.hpp.
+  bool is_stamped_when_sent;
   /// What is wrong with a message by the rules of its type, see validity.hpp; nullptr: the type has no rules.
   std::optional<std::string> (*problem)(const void* message);
 };

@@ -73,4 +73,16 @@ Problem problem_of(const diagnostic_msgs::msg::DiagnosticArray& message);
 Problem problem_of(const rcl_interfaces::msg::Log& message);
 Problem problem_of(const rosgraph_msgs::msg::Clock& message);
 
+/// Whether the stamps of a type's messages are of about the time at which they are sent, so that one that is far from its neighbours is wrong.
+template <class Message>
+inline constexpr bool kIsStampedWhenSent = true;
+/// Stamped by whoever clicked on a map, perhaps by a clock of his own.
+template <>
+inline constexpr bool kIsStampedWhenSent<geometry_msgs::msg::PoseWithCovarianceStamped> = false;
+/// These bear the stamp of the panorama that showed the place best, which may lie seconds before the last that was told of.
+template <>
+inline constexpr bool kIsStampedWhenSent<panvo_msgs::msg::LandmarkMatch> = false;
+template <>
+inline constexpr bool kIsStampedWhenSent<panvo_msgs::msg::PositionCorrection> = false;
+
 }  // namespace panvo::interfaces

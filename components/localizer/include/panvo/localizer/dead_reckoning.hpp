@@ -37,6 +37,10 @@ class DeadReckoning {
   /// The same of a silence that goes on since the last step.
   vision::Matrix6d silence(double seconds) const;
 
+  /// How far a vehicle of which it is known how it moved strays within a time from going on like that.
+  double way_sigma_m(double seconds) const;
+  double turn_sigma_rad(double seconds) const;
+
  private:
   vision::Vector6d variance_after(double seconds) const;
 

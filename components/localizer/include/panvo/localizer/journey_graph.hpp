@@ -70,8 +70,9 @@ class JourneyGraph {
   PoseInMap carried(const OdometryPose& odometry) const;
 
   /// What all poses err alike, and the graph cannot know of: the error of the earlier days' map, here, as the landmark of them that
-  /// was seen last has it, and of the scale of this journey, seen from where it began.
-  vision::Matrix6d common_covariance(const Eigen::Vector3d& position, double scale_sigma) const;
+  /// was seen last has it, and of the scale and the direction of this journey, seen from where it began.
+  vision::Matrix6d common_covariance(const Eigen::Vector3d& position, double scale_sigma,
+                                     double direction_sigma_rad) const;
 
   /// The journey moves in the map as one piece, once it is known where it lies.
   void place(const Eigen::Isometry3d& map_from_former_map);

@@ -10,10 +10,13 @@
 #include "panvo/localizer/azimuth_lean.hpp"
 #include "panvo/localizer/clock_offset.hpp"
 #include "panvo/localizer/dead_reckoning.hpp"
+#include "panvo/localizer/direction_offset.hpp"
+#include "panvo/localizer/dispute.hpp"
 #include "panvo/localizer/journey_graph.hpp"
 #include "panvo/localizer/localizer_parameters.hpp"
 #include "panvo/localizer/mounting_check.hpp"
 #include "panvo/localizer/odometry_chain.hpp"
+#include "panvo/localizer/odometry_origin.hpp"
 #include "panvo/localizer/turn_scale.hpp"
 
 namespace panvo::localizer {
@@ -48,6 +51,13 @@ struct Doubt {
   std::string reason;
 };
 
+/// What became of a pose of the odometry.
+struct OdometryOutcome {
+  bool is_taken = false;
+  bool has_begun_anew = false;  ///< elsewhere: the pose in the map goes on from where it was
+  std::string reason;           ///< why it was not taken
+};
+
 enum class CorrectionKind { kApplied, kBetterKnown, kRejected };
 
 struct Correction {
@@ -58,16 +68,19 @@ struct Correction {
   Eigen::Isometry3d map_from_base_after = Eigen::Isometry3d::Identity();
 };
 
-/// A turn that the panoramic compass measured [Lu2015 6].
+/// A turn that the panoramic compass measured [Lu2015 6], and in which direction the vehicle moved meanwhile.
 struct AzimuthMeasurement {
   std::int64_t from_ns = 0, to_ns = 0;  ///< stamps of the two panoramas
   double change_rad = 0.0;              ///< left positive
   double variance_rad2 = 0.0;
+  double motion_azimuth_rad = 0.0;            ///< of the way, against the axis ahead at its end, left positive
+  double motion_azimuth_variance_rad2 = 0.0;  ///< 0: not known
 };
 
 enum class AzimuthUse {
   kFused,         ///< with the odometry's own, by their variances
   kContradicted,  ///< the odometry's own was too far off to be right: it was taken for wrong
+  kDoubted,       ///< it turned as no vehicle does, and the odometry went on steadily: it was left out
   kNotUsed,       ///< no odometry of that time, or no finite number
 };
 
@@ -78,8 +91,8 @@ class Localizer {
  public:
   explicit Localizer(const Parameters& parameters);
 
-  /// In order of stamps; one that is not after the last, or has a fault (fault_of), changes nothing.
-  LocalizedPose add(const OdometryPose& odometry);
+  /// In order of stamps; one that is not after the last, has a fault (fault_of), or that no vehicle reaches (OdometryOrigin) changes nothing.
+  OdometryOutcome add(const OdometryPose& told);
 
   AzimuthUse add(const AzimuthMeasurement& azimuth);
 
@@ -129,13 +142,35 @@ class Localizer {
     std::int64_t at_ns;
   };
 
-  struct Contradiction {  // between odometry and compass
+  struct TurnAndWay {  // of the plane
+    double turn_rad;
+    Eigen::Vector2d way_m;  // in the axes at its end
+  };
+
+  struct GoneOn {
+    TurnAndWay more;        // that odometry says than if the vehicle had gone on as it did
+    double turn_sigma_rad, way_sigma_m;  // of what vehicles do meanwhile
+  };
+
+  /// A vehicle that was moved unseen is as far as one of which nothing was heard for so long.
+  static constexpr double kUnseen_s = 5.0;
+
+  struct Jump {  // of the odometry's speed
     std::int64_t stamp_ns;
-    double off_m;
+    double speed_m_s;
+  };
+
+  struct Break {  // of the odometry, between two images that it measured by
+    std::int64_t from_ns, to_ns;
+    std::int64_t vouched_ns;  // up to which panoramas agree with it
   };
 
   struct TurnSeen {  // by odometry and compass
     double disagreement_rad, turn_rad, variance_rad2;
+  };
+
+  struct DirectionSeen {  // by odometry and panoramas
+    double difference_rad, variance_rad2;
   };
 
   std::int64_t in_odometry_time(std::int64_t panorama_stamp_ns) const;
@@ -148,13 +183,27 @@ class Localizer {
   bool agree(const Asking& before, const Asking& now) const;
   LandmarkSighting with_uncertain_clock(const LandmarkSighting& sighting) const;
   void fuse(std::int64_t from_ns, std::int64_t to_ns, double change_rad, double variance_rad2);
+  void compare_directions(const AzimuthMeasurement& azimuth, std::int64_t from_ns, std::int64_t to_ns,
+                          double way_variance_m2);
+  double direction_sigma_rad() const;
+  Wrong wrong_turn(std::int64_t to_ns, double disagreement_rad) const;
+  std::optional<GoneOn> gone_on(std::int64_t to_ns) const;
+  bool goes_on_steadily(std::int64_t to_ns) const;
+  void watch_for_jump(const vision::Vector6d& twist_before);
+  void vouch_for_break(std::int64_t from_ns, std::int64_t to_ns);
+  std::optional<TurnAndWay> moved(std::int64_t from_ns, std::int64_t to_ns) const;
   void slew(const Eigen::Isometry3d& step);
+  bool is_disputed() const noexcept { return turn_dispute_.is_on() || way_dispute_.is_on(); }
+  bool is_fresh(std::int64_t stamp_ns) const;
 
   const Parameters parameters_;
+  OdometryOrigin origin_;
   OdometryChain chain_;
   ClockOffset clock_;
   TurnScale turn_scale_;
   AzimuthLean lean_;
+  DirectionOffset direction_offset_;
+  Dispute turn_dispute_, way_dispute_;  // between odometry and panoramas
   DeadReckoning dead_reckoning_;
   JourneyGraph graph_;
   MountingCheck mounting_;
@@ -171,10 +220,14 @@ class Localizer {
   std::optional<std::int64_t> azimuth_ns_;      // the last that was used
   std::optional<std::int64_t> last_from_ns_;    // the panorama that it was measured against
   std::optional<TurnSeen> turn_seen_;           // against that panorama, last
+  std::optional<DirectionSeen> direction_seen_; // the same
+  std::optional<std::int64_t> agreed_ns_;       // the last panorama that agreed with the odometry
+  double camera_turned_rad_ = 0.0;              // the panoramic one, on its mount, since the start
+  std::optional<Jump> jump_;                    // since the last panorama
+  std::optional<Break> break_;                  // for which no panorama has vouched yet
   std::optional<double> found_at_way_m_;        // where the vehicle was found last, after it was not known where
   std::optional<Asking> asking_;                // the last sighting that was not believed
   std::optional<Asking> dissent_;               // the last pair of them, of another landmark
-  std::optional<Contradiction> contradiction_;  // the last
   LocalizedPose latest_;
 };
 

@@ -17,6 +17,7 @@ struct Parameters {
   double lean_sigmas = 3.0;
   double compass_turn_error_ratio = 0.007;
   double turn_scale_sigma = 0.002;
+  double mounting_sigma_deg = 1.0;
   double steady_turn_share = 0.3;
   double doubtful_outlier_share = 0.02;
   double scale_sigma = 0.002;
@@ -57,6 +58,10 @@ struct Parameters {
         "standard deviation of the share by which odometry turns too much or too little, before the compass tells it: "
         "of focal lengths some months after they were calibrated; 0: they are right",
         0.0, 0.1);
+    field(&P::mounting_sigma_deg, "mounting_sigma_deg", "deg",
+          "standard deviation of the angle between the panoramic and the stereo camera about the vertical, against what "
+          "/tf_static says, before the directions that they see the vehicle drive in tell it",
+          0.0, 45.0);
     field(&P::steady_turn_share, "steady_turn_share", "1",
           "how much of the variance that odometry says of its turns is believed where all of its points agree: what it "
           "says allows for the lean of long ways, and beside the compass it is the next seconds that count",

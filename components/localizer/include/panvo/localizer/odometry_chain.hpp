@@ -63,6 +63,9 @@ class OdometryChain {
   /// Makes a stretch turn by so much more, each step by its share of the variance, and multiplies the variance of its yaw.
   void turn_more(std::int64_t from_ns, std::int64_t to_ns, double by_rad, double variance_factor);
 
+  /// Makes a stretch less sure by so much in all, each step by its share of the time: of both ways in the plane, and of the yaw.
+  void allow(std::int64_t from_ns, std::int64_t to_ns, double way_variance_m2, double yaw_variance_rad2);
+
   /// All stamps become so much earlier.
   void set_clock_back(std::int64_t by_ns);
 

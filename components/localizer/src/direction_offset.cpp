@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "panvo/localizer/direction_offset.hpp"
+
+#include <algorithm>
+
+namespace panvo::localizer {
+namespace {
+
+constexpr double kLeastVariance_rad2 = 1e-6;  // 0.06 deg: mounts give as much
+
+}  // namespace
+
+void DirectionOffset::add(double difference_rad, double variance_rad2) {
+  is_measured_ = true;
+  const double gain = variance_rad2_ / (variance_rad2_ + variance_rad2);
+  estimate_rad_ += gain * (difference_rad - estimate_rad_);
+  variance_rad2_ = std::max(std::min(kLeastVariance_rad2, variance_rad2_), (1.0 - gain) * variance_rad2_);
+}
+
+}  // namespace panvo::localizer

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "panvo/localizer/dispute.hpp"
+
+#include <algorithm>
+
+namespace panvo::localizer {
+
+void Dispute::add(std::int64_t reference_ns, std::int64_t stamp_ns, double difference, Wrong wrong) {
+  if (!is_on()) {
+    wrong_ = wrong;
+  } else if (reference_ns != reference_ns_) {
+    before_ += last_;
+  }
+  reference_ns_ = reference_ns;
+  last_ = difference;
+  stamp_ns_ = stamp_ns;
+}
+
+void Dispute::set_clock_back(std::int64_t by_ns) {
+  if (!is_on()) return;
+  reference_ns_ -= by_ns;
+  *stamp_ns_ -= by_ns;
+}
+
+double Dispute::growth(double doubt) const noexcept {
+  return doubt * std::max(0.0, total() * total() - before_ * before_);
+}
+
+}  // namespace panvo::localizer

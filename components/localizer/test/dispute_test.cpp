@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "panvo/localizer/dispute.hpp"
+
+#include <gtest/gtest.h>
+
+namespace panvo::localizer {
+namespace {
+
+TEST(Dispute, AddsUpWhatDiffersNotItsSquares) {
+  Dispute dispute;
+  double variance = 0.0;
+  for (int i = 1; i <= 10; ++i) {
+    dispute.add(i - 1, i, 0.2, Wrong::kOdometry);
+    variance += dispute.growth(1.0);
+  }
+  EXPECT_DOUBLE_EQ(dispute.total(), 2.0);
+  EXPECT_NEAR(variance, 4.0, 1e-12) << "the whole of it, though it came in ten parts";
+}
+
+TEST(Dispute, CountsOnlyTheLastOfOneReference) {
+  Dispute dispute;
+  dispute.add(0, 1, 0.5, Wrong::kOdometry);
+  dispute.add(0, 2, 0.8, Wrong::kOdometry);
+  EXPECT_DOUBLE_EQ(dispute.total(), 0.8);
+  dispute.add(2, 3, 0.1, Wrong::kOdometry);
+  EXPECT_DOUBLE_EQ(dispute.total(), 0.9);
+  EXPECT_NEAR(dispute.growth(0.5), 0.5 * (0.81 - 0.64), 1e-12) << "of the stretch since the last reference";
+}
+
+TEST(Dispute, MakesNothingSurerThatGoesBack) {
+  Dispute dispute;
+  dispute.add(0, 1, 0.5, Wrong::kOdometry);
+  dispute.add(1, 2, -0.4, Wrong::kOdometry);
+  EXPECT_EQ(dispute.growth(1.0), 0.0);
+}
+
+TEST(Dispute, KeepsItsVerdictUntilItEnds) {
+  Dispute dispute;
+  EXPECT_FALSE(dispute.is_on());
+  dispute.add(0, 1, 0.5, Wrong::kPanoramas);
+  dispute.add(1, 2, 0.5, Wrong::kOdometry);
+  EXPECT_TRUE(dispute.is_on());
+  EXPECT_EQ(dispute.wrong(), Wrong::kPanoramas);
+  dispute.end();
+  EXPECT_FALSE(dispute.is_on());
+  dispute.add(5, 6, 0.3, Wrong::kOdometry);
+  EXPECT_EQ(dispute.wrong(), Wrong::kOdometry);
+  EXPECT_DOUBLE_EQ(dispute.total(), 0.3) << "begun anew";
+}
+
+TEST(Dispute, GoesBackWithTheClock) {
+  Dispute dispute;
+  dispute.set_clock_back(5);
+  EXPECT_FALSE(dispute.is_on());
+  dispute.add(10, 20, 0.5, Wrong::kOdometry);
+  dispute.set_clock_back(5);
+  EXPECT_EQ(dispute.stamp_ns(), 15);
+}
+
+}  // namespace
+}  // namespace panvo::localizer
