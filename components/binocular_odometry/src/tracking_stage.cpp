@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <sstream>
 #include <stdexcept>
 #include <utility>
 
@@ -18,6 +17,7 @@
 #include "panvo/vision/patch_template.hpp"
 #include "panvo/vision/stereo_geometry.hpp"
 #include "panvo/vision/stereo_matcher.hpp"
+#include "swap_check.hpp"
 #include "track.hpp"
 
 namespace panvo::binocular_odometry {
@@ -37,16 +37,11 @@ constexpr double kNoiseFloor_px = 0.15;         // interpolation, calibration, s
 constexpr int kGuideInliers = 8;                // for a coarse motion to be worth following
 constexpr double kEnough = 0.9;                 // of the features wanted: until then, no new ones are sought
 constexpr double kGuideRatio = 0.4;             // of the candidates
-constexpr size_t kSwapSamples = 80;
-constexpr int kSwapMatches = 20;
-constexpr double kFewMatches = 0.4;  // of the features looked for in the right image: something is wrong
 
 vision::StereoMatcher::Range disparity_range(const vision::RectifiedStereo& stereo,
                                              const TrackingParameters& parameters) {
   return {kFarthestDisparity_px, stereo.camera.fx / parameters.nearest_depth_baselines};
 }
-
-vision::StereoMatcher::Range mirrored(vision::StereoMatcher::Range range) { return {-range.to_px, -1.0}; }
 
 }  // namespace
 
@@ -59,7 +54,7 @@ class TrackingStage::Implementation {
         observer_(observer),
         check_(stereo.camera),
         matcher_(stereo.camera, disparity_range(stereo, parameters), parameters.smallest_correlation),
-        swapped_matcher_(stereo.camera, mirrored(disparity_range(stereo, parameters)), parameters.smallest_correlation),
+        swap_check_(stereo.camera, disparity_range(stereo, parameters), parameters.smallest_correlation),
         alignment_(stereo.camera),
         front_end_(make_front_end(parameters)),
         cell_px_(static_cast<int>(std::ceil(
@@ -105,7 +100,7 @@ class TrackingStage::Implementation {
     detect(tracks);
     result.detected = static_cast<int>(tracks.size());
     result.matched = with_disparity(tracks);
-    result.fault = check_for_swap(tracks);
+    result.fault = check_for_swap(tracks).value_or("");
     if (result.fault.empty()) result.fault = find_disagreement(result.tracked, seen_by_both).value_or("");
     if (!result.fault.empty()) {
       offset_ = known_offset;
@@ -339,23 +334,11 @@ class TrackingStage::Implementation {
     matcher_.allow_for(alignment_.misalignment());
   }
 
-  // Left and right exchanged: features match, but to the wrong side.
-  std::string check_for_swap(const std::vector<Track>& tracks) const {
+  std::optional<std::string> check_for_swap(const std::vector<Track>& tracks) const {
     const Stage stage(observer_, "check_for_swap");
-    const int matched = with_disparity(tracks);
     const auto tried = static_cast<double>(attempts_) + static_cast<double>(tracks_.size());
-    if (static_cast<double>(matched) > kFewMatches * tried) return {};
-    int samples = 0, right_way = 0, wrong_way = 0;
-    for (const Feature& feature : front_end_->detect(vision::CellGrid((*left_)[0].size(), cell_px_))) {
-      if (samples++ == kSwapSamples) break;
-      if (matcher_.search(*left_, right_, feature.pixel)) ++right_way;
-      if (swapped_matcher_.search(*left_, right_, feature.pixel)) ++wrong_way;
-    }
-    if (wrong_way < kSwapMatches || wrong_way < 2 * right_way) return {};
-    std::ostringstream text;
-    text << "left and right image seem to be exchanged: " << wrong_way << " features match with negative disparity, "
-         << right_way << " with positive";
-    return text.str();
+    return swap_check_.find_fault(with_disparity(tracks), tried, matcher_, *left_, right_,
+                                  [&] { return front_end_->detect(vision::CellGrid((*left_)[0].size(), cell_px_)); });
   }
 
   static int with_disparity(const std::vector<Track>& tracks) {
@@ -378,7 +361,7 @@ class TrackingStage::Implementation {
   vision::StageObserver* observer_;
   PairCheck check_;
   vision::StereoMatcher matcher_;
-  vision::StereoMatcher swapped_matcher_;
+  SwapCheck swap_check_;
   vision::EpipolarCalibration alignment_;
   std::vector<std::optional<vision::RowError>> row_errors_;
   std::unique_ptr<FrontEnd> front_end_;

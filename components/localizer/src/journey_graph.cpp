@@ -151,7 +151,9 @@ vision::Matrix6d JourneyGraph::common_covariance(const Eigen::Vector3d& position
   vision::Matrix6d covariance = vision::Matrix6d::Zero();
   const Eigen::Vector3d way = position - nodes_.front().map_from_base.translation();
   const Eigen::Vector3d across = Eigen::Vector3d::UnitZ().cross(way);
-  covariance.topLeftCorner<3, 3>() = scale_sigma * scale_sigma * way * way.transpose() +
+  // What is driven in another direction is shorter in this one, too: by 1 - cos.
+  const double length_sigma = std::hypot(scale_sigma, 0.5 * direction_sigma_rad * direction_sigma_rad);
+  covariance.topLeftCorner<3, 3>() = length_sigma * length_sigma * way * way.transpose() +
                                      direction_sigma_rad * direction_sigma_rad * across * across.transpose();
   return covariance;
 }

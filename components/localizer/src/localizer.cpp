@@ -23,7 +23,7 @@ constexpr double kReach = 3.0;          // standard deviations of how far a vehi
 constexpr double kNoVehicle_m_s = 2.0;  // from one image to the next
 constexpr double kAlarm_s = 0.5;        // within which a panorama tells whether it is so
 constexpr double kMistakenFor_s = 5.0;  // two times farther apart nobody takes for one
-constexpr double kAtStart_m = 10.0;  // within which a map of earlier days may still come: its process starts, too
+constexpr double kAtStart_m = 10.0;     // within which a map of earlier days may still come: its process starts, too
 
 double seconds(std::int64_t from_ns, std::int64_t to_ns) { return static_cast<double>(to_ns - from_ns) / kSecond_ns; }
 
@@ -207,11 +207,13 @@ std::vector<Doubt> Localizer::doubts() const {
                       fmt::format("landmark {} was seen where it is not expected", asking_->sighting.landmark_id)});
   }
   if (break_) {
-    doubts.push_back({kReach * dead_reckoning_.way_sigma_m(kUnseen_s), true,
-                      "odometry lost sight of what it saw, and no panorama has told yet that it was not moved meanwhile"});
+    doubts.push_back(
+        {kReach * dead_reckoning_.way_sigma_m(kUnseen_s), true,
+         "odometry lost sight of what it saw, and no panorama has told yet that it was not moved meanwhile"});
   }
   if (jump_ && is_fresh(jump_->stamp_ns)) {
-    doubts.push_back({jump_->speed_m_s * kAlarm_s, true, "the speed of the odometry changed as that of no vehicle does"});
+    doubts.push_back(
+        {jump_->speed_m_s * kAlarm_s, true, "the speed of the odometry changed as that of no vehicle does"});
   }
   if (turn_dispute_.is_on() && is_fresh(turn_dispute_.stamp_ns())) {
     doubts.push_back({0.0, true, "odometry and panoramas turn differently"});
@@ -248,8 +250,7 @@ PoseInMap Localizer::expected(const OdometryPose& odometry) const {
 /// Of what is the same for all poses of the journey, so that no sighting of its own landmarks shows it.
 vision::Matrix6d Localizer::common_covariance(const Eigen::Vector3d& position) const {
   if (is_located_) {
-    return graph_.common_covariance(position, parameters_.scale_sigma,
-                                    direction_sigma_rad());
+    return graph_.common_covariance(position, parameters_.scale_sigma, direction_sigma_rad());
   }
   vision::Matrix6d covariance = vision::Matrix6d::Zero();
   covariance.topLeftCorner<3, 3>() = kUnknownPosition_m * kUnknownPosition_m * Eigen::Matrix3d::Identity();

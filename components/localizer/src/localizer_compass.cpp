@@ -18,13 +18,16 @@ constexpr double kClockCaution = 9.0;  // odometry errs by more than it says now
 constexpr double kScaleCaution = 4.0;  // what the compass errs by stays alike for some seconds, as a bend does
 // Chance that who is taken to be right in a dispute is not: then the pose is off by three standard deviations.
 constexpr double kDoubt = 1.0 / 9.0;
-constexpr double kOdometryError_m = 0.03;  // of some tenths of a second
-constexpr double kSteady_s = 0.2;    // over which it is seen how the vehicle moves
-constexpr double kSteady = 3.0;      // standard deviations of what vehicles do
-constexpr double kImpossible = 6.0;  // the same
-constexpr double kShortestWay_m = 0.1;   // that has a direction
-constexpr double kCameraApart_m = 1.0;   // from base_link: in a bend it moves in another direction
-constexpr double kDirectionError_rad = 0.005;  // of panoramas, whatever their points say
+constexpr double kOdometryError_m = 0.03;        // of some tenths of a second
+constexpr double kSteady_s = 0.2;                // over which it is seen how the vehicle moves
+constexpr double kSteady = 3.0;                  // standard deviations of what vehicles do
+constexpr double kImpossible = 6.0;              // the same
+constexpr double kShortestWay_m = 0.1;           // that has a direction
+constexpr double kNoDirection_rad2 = 0.5 * 0.5;  // nothing moves in the panoramas: all is more than a thousand ways off
+constexpr double kClearlyMoved_m = 0.5;          // far enough for something beside the way to show it
+constexpr double kNearest_m = 0.3, kParallax_rad = 0.02;  // what is beside the way is no nearer, in the median
+constexpr double kCameraApart_m = 1.0;                    // from base_link: in a bend it moves in another direction
+constexpr double kDirectionError_rad = 0.005;             // of panoramas, whatever their points say
 
 double wrapped(double angle_rad) { return vision::wrap(angle_rad, 2.0 * std::numbers::pi); }
 
@@ -78,7 +81,7 @@ AzimuthUse Localizer::add(const AzimuthMeasurement& azimuth) {
   }
   if (!is_compass_wrong) fuse(from_ns, to_ns, azimuth.change_rad, compass_variance);
   if (is_contradicted) chain_.allow(from_ns, to_ns, 0.0, turn_dispute_.growth(kDoubt));
-  compare_directions(azimuth, from_ns, to_ns, way_variance_m2);
+  compare_ways(azimuth, from_ns, to_ns, way_variance_m2);
   vouch_for_break(from_ns, to_ns);
   if (!is_disputed() && !break_) agreed_ns_ = to_ns;
   if (!is_disputed()) jump_.reset();
@@ -147,37 +150,43 @@ std::optional<Localizer::TurnAndWay> Localizer::moved(std::int64_t from_ns, std:
   return TurnAndWay{yaw_of(from_to.linear()), way.head<2>()};
 }
 
-/// Odometry that moves in another direction than the panoramas followed something else: it is wrong by what lies across their direction at
-/// least, and by as much as it differs from how the vehicle drove before. Not where the panoramic camera has just been turned.
-void Localizer::compare_directions(const AzimuthMeasurement& azimuth, std::int64_t from_ns, std::int64_t to_ns,
-                                   double way_variance_m2) {
+/// Odometry that moves otherwise than the panoramas followed something else. It is wrong by what lies across their direction at least, and by as
+/// much as it differs from how the vehicle drove before. Not where the panoramic camera has just been turned.
+void Localizer::compare_ways(const AzimuthMeasurement& azimuth, std::int64_t from_ns, std::int64_t to_ns,
+                             double way_variance_m2) {
   const auto odometry = moved(from_ns, to_ns);
-  if (!(azimuth.motion_azimuth_variance_rad2 > 0.0) || !odometry || odometry->way_m.norm() < kShortestWay_m) return;
-  const double length_m = odometry->way_m.norm();
-  const double in_bend_rad = kCameraApart_m * odometry->turn_rad / length_m;
-  const double by_odometry = way_variance_m2 / (length_m * length_m);
+  if (!odometry || !(azimuth.motion_azimuth_variance_rad2 > 0.0)) return;
+  const bool is_camera_turned = turn_dispute_.is_on() && turn_dispute_.wrong() == Wrong::kPanoramas;
+  const auto off_m = way_off(azimuth, *odometry, way_variance_m2, is_camera_turned);
+  if (is_camera_turned || (!off_m && !turn_dispute_.is_on())) return way_dispute_.end();
+  const auto gone = gone_on(to_ns);
+  const double otherwise_m =
+      gone ? gone->more.way_m.norm() * std::min(1.0, seconds(from_ns, to_ns) / seconds(*agreed_ns_, to_ns)) : 0.0;
+  way_dispute_.add(azimuth.from_ns, to_ns, std::max(off_m.value_or(0.0), otherwise_m), Wrong::kOdometry);
+  doubtful_ns_ = to_ns;
+  chain_.allow(from_ns, to_ns, way_dispute_.growth(1.0), 0.0);
+}
+
+/// How far the odometry's way lies off what the panoramas see of it; nullopt where they agree.
+std::optional<double> Localizer::way_off(const AzimuthMeasurement& azimuth, const TurnAndWay& odometry,
+                                         double way_variance_m2, bool is_camera_turned) {
+  const double length_m = odometry.way_m.norm();
+  const bool panoramas_stand = azimuth.motion_azimuth_variance_rad2 > kNoDirection_rad2;
+  if (std::abs(azimuth.side_parallax_rad) > length_m / kNearest_m + kParallax_rad) return length_m;
+  if (length_m < kShortestWay_m) return std::nullopt;
+  if (panoramas_stand) return length_m > kClearlyMoved_m ? std::optional(length_m) : std::nullopt;
+  const double in_bend_rad = kCameraApart_m * odometry.turn_rad / length_m;
   const double variance = azimuth.motion_azimuth_variance_rad2 + kDirectionError_rad * kDirectionError_rad +
-                          in_bend_rad * in_bend_rad + by_odometry;
-  const double seen_rad = wrapped(azimuth.motion_azimuth_rad - azimuth_of(odometry->way_m) - camera_turned_rad_);
+                          in_bend_rad * in_bend_rad + way_variance_m2 / (length_m * length_m);
+  const double seen_rad = wrapped(azimuth.motion_azimuth_rad - azimuth_of(odometry.way_m) - camera_turned_rad_);
   const double difference_rad = wrapped(seen_rad - direction_offset_.estimate_rad());
-  const double spread = variance + direction_offset_.variance_rad2();
-  const bool agree =
-      difference_rad * difference_rad <= parameters_.contradiction_sigmas * parameters_.contradiction_sigmas * spread;
-  if (turn_dispute_.is_on() && turn_dispute_.wrong() == Wrong::kPanoramas) {
-    if (!agree) camera_turned_rad_ = wrapped(camera_turned_rad_ + difference_rad);
-    way_dispute_.end();
-  } else if (agree && !turn_dispute_.is_on()) {
-    way_dispute_.end();
-    direction_seen_ = DirectionSeen{seen_rad, variance};
-  } else {
-    const double across_m = length_m * std::sin(std::min(std::abs(difference_rad), 0.5 * std::numbers::pi));
-    const auto gone = gone_on(to_ns);
-    const double otherwise_m =
-        gone ? gone->more.way_m.norm() * std::min(1.0, seconds(from_ns, to_ns) / seconds(*agreed_ns_, to_ns)) : 0.0;
-    way_dispute_.add(azimuth.from_ns, to_ns, std::max(across_m, otherwise_m), Wrong::kOdometry);
-    doubtful_ns_ = to_ns;
-    chain_.allow(from_ns, to_ns, way_dispute_.growth(1.0), 0.0);
+  const double most_rad = parameters_.contradiction_sigmas * std::sqrt(variance + direction_offset_.variance_rad2());
+  if (std::abs(difference_rad) > most_rad) {
+    if (is_camera_turned) camera_turned_rad_ = wrapped(camera_turned_rad_ + difference_rad);
+    return length_m * std::sin(std::min(std::abs(difference_rad), 0.5 * std::numbers::pi));
   }
+  if (!turn_dispute_.is_on()) direction_seen_ = DirectionSeen{seen_rad, variance};
+  return std::nullopt;
 }
 
 /// Odometry that lost sight of all that it saw and began anew in the next image tells nothing of what lay between. Panoramas that found their

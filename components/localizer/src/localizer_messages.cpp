@@ -125,8 +125,13 @@ conversions::Result<LandmarkSighting> to_sighting(const panvo_msgs::msg::Positio
 }
 
 AzimuthMeasurement to_azimuth(const panvo_msgs::msg::AzimuthChange& message) {
-  return {conversions::to_ns(message.from_stamp()), conversions::stamp_ns(message), message.azimuth_change_rad(),
-          message.variance_rad2(), message.motion_azimuth_rad(), message.motion_azimuth_variance_rad2()};
+  return {conversions::to_ns(message.from_stamp()),
+          conversions::stamp_ns(message),
+          message.azimuth_change_rad(),
+          message.variance_rad2(),
+          message.motion_azimuth_rad(),
+          message.motion_azimuth_variance_rad2(),
+          message.side_parallax_rad()};
 }
 
 }  // namespace panvo::localizer

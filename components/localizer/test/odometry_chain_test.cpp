@@ -124,6 +124,18 @@ TEST(OdometryChain, DistrustsAStretch) {
   EXPECT_NEAR(chain.latest().pose.covariance(2, 2), before + 3.0 * 1e-8 * (1.0 + 0.2 * 0.2), 1e-10) << "once";
 }
 
+TEST(OdometryChain, AllowsForSoMuchInAllOverAStretch) {
+  auto chain = straight({1e-4, 1e-4, 1e-4});
+  const auto before = chain.latest().pose.covariance;
+  chain.allow(kPeriod_ns / 2, 2 * kPeriod_ns + kPeriod_ns / 2, 0.04, 0.02);
+  EXPECT_NEAR(chain.turn(0, 3 * kPeriod_ns)->variance_rad2, 3e-4 + 0.02, 1e-9);
+  EXPECT_NEAR(chain.turn(0, kPeriod_ns)->variance_rad2, 1e-4 + 0.005, 1e-9) << "a quarter of it lies in the first step";
+  const auto after = chain.latest().pose.covariance;
+  EXPECT_NEAR(after(0, 0) - before(0, 0), 0.04, 1e-9);
+  EXPECT_GT(after(1, 1) - before(1, 1), 0.04) << "and what the yaw adds on the way";
+  EXPECT_NEAR(after(2, 2), before(2, 2), 1e-12);
+}
+
 TEST(OdometryChain, TakesBackWhatWasPutRightSinceTheMark) {
   auto chain = straight({1e-4, 1e-4, 1e-4, 1e-4});
   chain.turn_more(0, 2 * kPeriod_ns, 0.02, 0.5);

@@ -157,6 +157,21 @@ AzimuthChange change_all_round(const cv::Mat& then, const cv::Mat& now) {
   return compass.track(2, now).value();
 }
 
+TEST(AllRound, TellsInWhichDirectionTheVehicleMoved) {
+  const cv::Mat street = paint_panorama();
+  const AzimuthChange ahead = change_all_round(street, driven(street, 0.1, 0.05));
+  EXPECT_NEAR(ahead.motion_azimuth_rad, -0.05, 0.01) << "by now it looks to the left of where it drove";
+  EXPECT_GT(ahead.motion_azimuth_variance_rad2, 0.0);
+  EXPECT_LT(ahead.motion_azimuth_variance_rad2, 0.03 * 0.03);
+  const AzimuthChange back = change_all_round(street, driven(street, -0.1, 0.05));
+  EXPECT_NEAR(back.motion_azimuth_rad, pi - 0.05, 0.01);
+  // The camera is turned by 25 columns to the left of the way: it lies to its right.
+  const AzimuthChange aside = change_all_round(turned_left(street, 25.0), turned_left(driven(street, 0.1, 0.05), 25.0));
+  EXPECT_NEAR(aside.motion_azimuth_rad, -25.0 * kColumn_rad - 0.05, 0.01);
+  const AzimuthChange stands = change_all_round(street, street);
+  EXPECT_GT(stands.motion_azimuth_variance_rad2, 0.5) << "it moves nowhere";
+}
+
 TEST(PointsAllRound, AreNotMisledByAMoverThatCoversAThirdOfTheView) {
   const cv::Mat street = paint_panorama(), bus = paint_panorama(5);
   cv::Mat then = street.clone(), now = turned_left(street, 10.0);

@@ -8,6 +8,7 @@
 #include <random>
 #include <vector>
 
+#include "panvo/vision/equirectangular.hpp"
 #include "panvo/vision/pose.hpp"
 
 namespace panvo::panoramic_compass {
@@ -94,14 +95,20 @@ TEST(TurnFit, LeavesOutAThirdThatMovesByItself) {
 }
 
 TEST(TurnFit, HasAnHonestVariance) {
-  double whitened = 0.0;
+  double whitened = 0.0, whitened_drift = 0.0;
   constexpr int kRuns = 200;
   Scene scene(4);
+  const Eigen::Isometry3d now_from_then = moved({0.7, 0.05, 0.0}, 0.03, 0.01);
+  const Eigen::Vector3d drift = now_from_then.translation();
   for (int i = 0; i < kRuns; ++i) {
-    const auto fit = fit_turn(scene.pairs(80, moved({0.7, 0.05, 0.0}, 0.03, 0.01)), Eigen::Matrix3d::Identity());
+    const auto fit = fit_turn(scene.pairs(80, now_from_then), Eigen::Matrix3d::Identity());
     ASSERT_TRUE(fit);
     whitened += std::pow(fit->yaw_rad - 0.03, 2) / fit->yaw_variance_rad2;
+    const double off_rad = std::atan2(fit->drift.y(), fit->drift.x()) - std::atan2(drift.y(), drift.x());
+    whitened_drift += std::pow(vision::wrap(off_rad, 2.0 * M_PI), 2) / fit->drift_azimuth_variance_rad2;
   }
+  EXPECT_GT(whitened_drift / kRuns, 0.4);
+  EXPECT_LT(whitened_drift / kRuns, 1.5);
   EXPECT_GT(whitened / kRuns, 0.5);
   EXPECT_LT(whitened / kRuns, 1.5);
 }

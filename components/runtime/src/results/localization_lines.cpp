@@ -46,7 +46,8 @@ std::optional<std::string> quality_line(const panvo_msgs::msg::OdometryQuality& 
 }
 
 std::string azimuth_header() {
-  return "stamp_ns,from_stamp_ns,azimuth_change_rad,sigma_rad,side_parallax_rad,motion_azimuth_rad,motion_azimuth_sigma_rad,valid,"
+  return "stamp_ns,from_stamp_ns,azimuth_change_rad,sigma_rad,side_parallax_rad,motion_azimuth_rad,motion_azimuth_"
+         "sigma_rad,valid,"
          "reason";
 }
 

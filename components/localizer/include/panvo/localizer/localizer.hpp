@@ -75,6 +75,7 @@ struct AzimuthMeasurement {
   double variance_rad2 = 0.0;
   double motion_azimuth_rad = 0.0;            ///< of the way, against the axis ahead at its end, left positive
   double motion_azimuth_variance_rad2 = 0.0;  ///< 0: not known
+  double side_parallax_rad = 0.0;             ///< how far what is abeam fell behind, median
 };
 
 enum class AzimuthUse {
@@ -148,7 +149,7 @@ class Localizer {
   };
 
   struct GoneOn {
-    TurnAndWay more;        // that odometry says than if the vehicle had gone on as it did
+    TurnAndWay more;                     // that odometry says than if the vehicle had gone on as it did
     double turn_sigma_rad, way_sigma_m;  // of what vehicles do meanwhile
   };
 
@@ -183,8 +184,10 @@ class Localizer {
   bool agree(const Asking& before, const Asking& now) const;
   LandmarkSighting with_uncertain_clock(const LandmarkSighting& sighting) const;
   void fuse(std::int64_t from_ns, std::int64_t to_ns, double change_rad, double variance_rad2);
-  void compare_directions(const AzimuthMeasurement& azimuth, std::int64_t from_ns, std::int64_t to_ns,
-                          double way_variance_m2);
+  void compare_ways(const AzimuthMeasurement& azimuth, std::int64_t from_ns, std::int64_t to_ns,
+                    double way_variance_m2);
+  std::optional<double> way_off(const AzimuthMeasurement& azimuth, const TurnAndWay& odometry, double way_variance_m2,
+                                bool is_camera_turned);
   double direction_sigma_rad() const;
   Wrong wrong_turn(std::int64_t to_ns, double disagreement_rad) const;
   std::optional<GoneOn> gone_on(std::int64_t to_ns) const;
@@ -216,18 +219,18 @@ class Localizer {
   bool is_joined_ = true;  // the map is that of the known landmarks, if there are any
   std::string unlocated_reason_ = "no place of earlier days was recognised yet";
   std::optional<std::int64_t> unreliable_since_ns_;  // odometry, up to now
-  std::optional<std::int64_t> doubtful_ns_;     // the last time since a correction that odometry may have missed a move
-  std::optional<std::int64_t> azimuth_ns_;      // the last that was used
-  std::optional<std::int64_t> last_from_ns_;    // the panorama that it was measured against
-  std::optional<TurnSeen> turn_seen_;           // against that panorama, last
-  std::optional<DirectionSeen> direction_seen_; // the same
-  std::optional<std::int64_t> agreed_ns_;       // the last panorama that agreed with the odometry
-  double camera_turned_rad_ = 0.0;              // the panoramic one, on its mount, since the start
-  std::optional<Jump> jump_;                    // since the last panorama
-  std::optional<Break> break_;                  // for which no panorama has vouched yet
-  std::optional<double> found_at_way_m_;        // where the vehicle was found last, after it was not known where
-  std::optional<Asking> asking_;                // the last sighting that was not believed
-  std::optional<Asking> dissent_;               // the last pair of them, of another landmark
+  std::optional<std::int64_t> doubtful_ns_;   // the last time since a correction that odometry may have missed a move
+  std::optional<std::int64_t> azimuth_ns_;    // the last that was used
+  std::optional<std::int64_t> last_from_ns_;  // the panorama that it was measured against
+  std::optional<TurnSeen> turn_seen_;         // against that panorama, last
+  std::optional<DirectionSeen> direction_seen_;  // the same
+  std::optional<std::int64_t> agreed_ns_;        // the last panorama that agreed with the odometry
+  double camera_turned_rad_ = 0.0;               // the panoramic one, on its mount, since the start
+  std::optional<Jump> jump_;                     // since the last panorama
+  std::optional<Break> break_;                   // for which no panorama has vouched yet
+  std::optional<double> found_at_way_m_;         // where the vehicle was found last, after it was not known where
+  std::optional<Asking> asking_;                 // the last sighting that was not believed
+  std::optional<Asking> dissent_;                // the last pair of them, of another landmark
   LocalizedPose latest_;
 };
 

@@ -58,10 +58,11 @@ struct Parameters {
         "standard deviation of the share by which odometry turns too much or too little, before the compass tells it: "
         "of focal lengths some months after they were calibrated; 0: they are right",
         0.0, 0.1);
-    field(&P::mounting_sigma_deg, "mounting_sigma_deg", "deg",
-          "standard deviation of the angle between the panoramic and the stereo camera about the vertical, against what "
-          "/tf_static says, before the directions that they see the vehicle drive in tell it",
-          0.0, 45.0);
+    field(
+        &P::mounting_sigma_deg, "mounting_sigma_deg", "deg",
+        "standard deviation of the angle between the panoramic and the stereo camera about the vertical, against what "
+        "/tf_static says, before the directions that they see the vehicle drive in tell it",
+        0.0, 45.0);
     field(&P::steady_turn_share, "steady_turn_share", "1",
           "how much of the variance that odometry says of its turns is believed where all of its points agree: what it "
           "says allows for the lean of long ways, and beside the compass it is the next seconds that count",

@@ -15,7 +15,8 @@ struct AzimuthChange {
   /// How far what is beside the vehicle fell behind, mean of both sides: about way / distance of what is there; backwards
   /// negative [Lu2015 6].
   double side_parallax_rad = 0.0;
-  double motion_azimuth_rad = 0.0;  ///< where the vehicle moved to, against its axis ahead now, left positive, [-pi, pi]
+  double motion_azimuth_rad =
+      0.0;  ///< where the vehicle moved to, against its axis ahead now, left positive, [-pi, pi]
   double motion_azimuth_variance_rad2 = 0.0;  ///< of motion_azimuth_rad; 0: not known
   bool valid = false;
   std::string reason{};  ///< why not valid; empty when it is

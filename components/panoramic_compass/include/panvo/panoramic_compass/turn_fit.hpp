@@ -22,10 +22,11 @@ struct TurnFit {
       -Eigen::Vector3d::UnitX();   ///< unit vector now: where near things move to, against the way driven
   double yaw_rad = 0.0;            ///< the vehicle's, now minus then, left positive
   double yaw_variance_rad2 = 0.0;  ///< by how well the points agree
-  double drift_azimuth_variance_rad2 = 1.0;  ///< of the drift, about the upward axis, the same; about 1 where nothing moves
-  double typical_parallax = 0.0;   ///< rad, way / distance of the points, median
-  int agreeing = 0;                ///< points
-  std::vector<bool> agrees;        ///< of each pair
+  double drift_azimuth_variance_rad2 =
+      1.0;                        ///< of the drift, about the upward axis, the same; about 1 where nothing moves
+  double typical_parallax = 0.0;  ///< rad, way / distance of the points, median
+  int agreeing = 0;               ///< points
+  std::vector<bool> agrees;       ///< of each pair
 };
 
 /// Rotation and direction of motion together, from points at all azimuths and at unknown distances. Each point may lie anywhere on

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "front_end.hpp"
+#include "panvo/vision/image_pyramid.hpp"
+#include "panvo/vision/stereo_matcher.hpp"
+
+namespace panvo::binocular_odometry {
+
+/// Whether left and right image are exchanged: features match, but to the wrong side.
+class SwapCheck {
+ public:
+  /// `range`: disparities that are sought the right way round.
+  SwapCheck(const vision::PinholeCamera& camera, vision::StereoMatcher::Range range, double smallest_correlation)
+      : swapped_matcher_(camera, {-range.to_px, -1.0}, smallest_correlation) {}
+
+  /// `matched` of `tried` features have a partner the right way round: where most have, nothing is looked at. `features`: of the left image.
+  std::optional<std::string> find_fault(int matched, double tried, const vision::StereoMatcher& matcher,
+                                        const vision::ImagePyramid& left, const vision::ImagePyramid& right,
+                                        const std::function<std::vector<Feature>()>& features) const;
+
+ private:
+  vision::StereoMatcher swapped_matcher_;
+};
+
+}  // namespace panvo::binocular_odometry

@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the localizer makes of odometry and panoramas that contradict each other.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include "panvo/localizer/localizer.hpp"
+
+namespace panvo::localizer {
+namespace {
+
+constexpr std::int64_t kFrame_ns = 40'000'000;
+constexpr double kSpeed_m_s = 5.0;
+constexpr int kFramesAPanorama = 5;
+constexpr double kDegree = std::numbers::pi / 180.0;
+
+/// A vehicle that drives straight on at 5 m/s, with 25 stereo pairs and 5 panoramas a second, and what is wrong with its cameras.
+class Straight {
+ public:
+  Straight() : localizer(parameters()) { localizer.add(odometry_); }
+
+  void drive(double seconds) {
+    const int frames = static_cast<int>(std::lround(seconds * 25.0));
+    for (int i = 0; i < frames; ++i) step();
+  }
+
+  void step() {
+    ++frame_;
+    true_x_m_ += speed_m_s * 0.04;
+    Eigen::Isometry3d move = Eigen::Isometry3d::Identity();
+    move.translation() = vision::so3_exp({0.0, 0.0, rig_turned_rad}) * Eigen::Vector3d(speed_m_s * 0.04, 0.0, 0.0);
+    if (mover_m_s) move.translation() = Eigen::Vector3d(0.0, *mover_m_s * 0.04, 0.0);  // all of the view is the mover's
+    vision::Matrix6d gained = vision::Matrix6d::Identity();
+    gained.topLeftCorner<3, 3>() *= 0.002 * 0.002;
+    gained.bottomRightCorner<3, 3>() *= 1e-4 * 1e-4;
+    odometry_.covariance = vision::compose_covariance(odometry_.odom_from_base, odometry_.covariance, move, gained);
+    odometry_.odom_from_base = odometry_.odom_from_base * move;
+    odometry_.stamp_ns = frame_ * kFrame_ns;
+    odometry_.is_reliable = is_reliable;
+    localizer.add(odometry_);
+    if (frame_ % kFramesAPanorama != 0 || !has_panoramas) return;
+    last_use = localizer.add(AzimuthMeasurement{odometry_.stamp_ns - kFramesAPanorama * kFrame_ns, odometry_.stamp_ns,
+                                                compass_rad, 1e-8, camera_turned_rad, speed_m_s == 0.0 ? 1.0 : 1e-5,
+                                                speed_m_s * 0.2 / 20.0});
+    compass_rad = 0.0;
+  }
+
+  /// The panoramic camera is turned on its mount between two panoramas.
+  void turn_camera(double rad) {
+    compass_rad = -rad;  // to it the vehicle turned the other way
+    camera_turned_rad -= rad;
+  }
+
+  /// Horizontal, in standard deviations.
+  double error_in_sigmas() const {
+    const auto& pose = localizer.latest();
+    const Eigen::Vector2d error = pose.map_from_base.translation().head<2>() - Eigen::Vector2d(true_x_m_, 0.0);
+    const Eigen::Matrix2d covariance = pose.covariance.topLeftCorner<2, 2>();
+    return std::sqrt(error.dot(covariance.ldlt().solve(error)));
+  }
+  double sigma_m() const { return vision::horizontal_sigma(localizer.latest().covariance); }
+  double error_m() const {
+    return (localizer.latest().map_from_base.translation().head<2>() - Eigen::Vector2d(true_x_m_, 0.0)).norm();
+  }
+  bool is_usable() const {
+    for (const auto& doubt : localizer.doubts()) {
+      if (doubt.forbids_use) return false;
+    }
+    return true;
+  }
+
+  static Parameters parameters() {
+    Parameters parameters;
+    parameters.scale_sigma = 0.0;
+    parameters.clock_sigma_s = 0.0;
+    return parameters;
+  }
+
+  Localizer localizer;
+  double speed_m_s = kSpeed_m_s;
+  std::optional<double> mover_m_s;
+  double rig_turned_rad = 0.0, camera_turned_rad = 0.0, compass_rad = 0.0;
+  bool has_panoramas = true, is_reliable = true;
+  AzimuthUse last_use = AzimuthUse::kNotUsed;
+
+ private:
+  OdometryPose odometry_;
+  std::int64_t frame_ = 0;
+  double true_x_m_ = 0.0;
+};
+
+TEST(LocalizerDispute, AgreesWithAVehicleThatDrivesAsBothSay) {
+  Straight vehicle;
+  vehicle.drive(10.0);
+  EXPECT_EQ(vehicle.localizer.latest().state, State::kTracking);
+  EXPECT_TRUE(vehicle.is_usable());
+  EXPECT_LT(vehicle.sigma_m(), 0.2);
+}
+
+TEST(LocalizerDispute, CoversWhatAMoverBeforeBothEyesTakesItAlong) {
+  Straight vehicle;
+  vehicle.drive(4.0);
+  vehicle.mover_m_s = 3.0;
+  vehicle.drive(0.2);
+  EXPECT_FALSE(vehicle.is_usable()) << "its speed tells before a panorama does";
+  vehicle.drive(3.8);
+  EXPECT_EQ(vehicle.localizer.latest().state, State::kCompassOnly);
+  EXPECT_FALSE(vehicle.is_usable());
+  vehicle.mover_m_s.reset();
+  vehicle.drive(1.0);
+  EXPECT_EQ(vehicle.localizer.latest().state, State::kTracking);
+  EXPECT_GT(vehicle.error_m(), 20.0);
+  EXPECT_LT(vehicle.error_in_sigmas(), 3.0);
+}
+
+TEST(LocalizerDispute, KnowsOfAMoverThatPassesAVehicleThatStands) {
+  Straight vehicle;
+  vehicle.drive(4.0);
+  vehicle.speed_m_s = 0.0;
+  vehicle.drive(2.0);
+  EXPECT_TRUE(vehicle.is_usable());
+  vehicle.mover_m_s = 5.0;
+  vehicle.drive(3.0);
+  EXPECT_EQ(vehicle.localizer.latest().state, State::kCompassOnly);
+  vehicle.mover_m_s.reset();
+  vehicle.drive(2.0);
+  EXPECT_EQ(vehicle.localizer.latest().state, State::kTracking);
+  EXPECT_GT(vehicle.error_m(), 10.0);
+  EXPECT_LT(vehicle.error_in_sigmas(), 3.0);
+}
+
+TEST(LocalizerDispute, KnowsOfAnOdometryThatStandsWhileTheVehicleDrives) {
+  Straight vehicle;
+  vehicle.drive(4.0);
+  vehicle.mover_m_s = 0.0;  // a sheet of plastic on both lenses
+  vehicle.drive(3.0);
+  EXPECT_EQ(vehicle.localizer.latest().state, State::kCompassOnly);
+  EXPECT_GT(vehicle.error_m(), 10.0);
+  EXPECT_LT(vehicle.error_in_sigmas(), 3.0);
+}
+
+TEST(LocalizerDispute, GoesOnWithTheOdometryWhereThePanoramicCameraWasTurned) {
+  Straight vehicle;
+  vehicle.drive(4.0);
+  vehicle.turn_camera(30.0 * kDegree);
+  vehicle.drive(0.2);
+  EXPECT_EQ(vehicle.last_use, AzimuthUse::kDoubted);
+  EXPECT_FALSE(vehicle.is_usable());
+  vehicle.drive(4.0);
+  EXPECT_EQ(vehicle.last_use, AzimuthUse::kFused) << "as it sits now";
+  EXPECT_EQ(vehicle.localizer.latest().state, State::kTracking);
+  EXPECT_LT(vehicle.error_m(), 0.1);
+  const double yaw_sigma_rad = std::sqrt(vehicle.localizer.latest().covariance(5, 5));
+  EXPECT_NEAR(yaw_sigma_rad, 10.0 * kDegree, 1.0 * kDegree) << "a chance of one in nine that it was the vehicle";
+}
+
+TEST(LocalizerDispute, BelievesPanoramasThatTurnAsAVehicleMay) {
+  Straight vehicle;
+  vehicle.drive(4.0);
+  vehicle.compass_rad = 2.0 * kDegree;
+  vehicle.drive(0.2);
+  EXPECT_EQ(vehicle.last_use, AzimuthUse::kContradicted);
+  const auto& pose = vehicle.localizer.latest();
+  EXPECT_NEAR(yaw_of(pose.map_from_base.linear()), 2.0 * kDegree, 0.1 * kDegree);
+  EXPECT_GT(std::sqrt(pose.covariance(5, 5)), 0.6 * kDegree) << "the odometry may be right all the same";
+}
+
+TEST(LocalizerDispute, IsUncertainAcrossTheWayAsTheTwoMountsDisagree) {
+  Straight vehicle;
+  vehicle.rig_turned_rad = 3.0 * kDegree;
+  for (int i = 0; i < 20; ++i) {
+    vehicle.drive(1.0);
+    EXPECT_LT(vehicle.error_in_sigmas(), 3.0) << "after " << i + 1 << " s";
+  }
+  EXPECT_EQ(vehicle.localizer.latest().state, State::kTracking);
+  EXPECT_GT(vehicle.error_m(), 5.0);
+}
+
+TEST(LocalizerDispute, BelievesTheMountOfAStereoCameraThatIsAlone) {
+  Straight vehicle;
+  vehicle.has_panoramas = false;
+  vehicle.drive(20.0);
+  EXPECT_LT(vehicle.sigma_m(), 0.3);
+}
+
+/// Odometry begins anew in one image, as it does where nothing of the last one is seen again.
+void lose_sight(Straight& vehicle) {
+  vehicle.is_reliable = false;
+  vehicle.step();
+  vehicle.is_reliable = true;
+}
+
+TEST(LocalizerDispute, NeedsPanoramasToVouchForABreakOfTheOdometry) {
+  Straight vehicle;
+  vehicle.drive(4.1);
+  lose_sight(vehicle);
+  EXPECT_FALSE(vehicle.is_usable()) << "until a panorama has told";
+  vehicle.drive(1.0);
+  EXPECT_TRUE(vehicle.is_usable());
+  EXPECT_LT(vehicle.sigma_m(), 0.2);
+}
+
+TEST(LocalizerDispute, TakesAVehicleForMovedWhereNoPanoramaVouchesForABreak) {
+  Straight vehicle;
+  vehicle.drive(4.1);
+  vehicle.has_panoramas = false;  // they, too, find nothing of what they saw
+  lose_sight(vehicle);
+  vehicle.drive(0.5);
+  EXPECT_FALSE(vehicle.is_usable());
+  vehicle.has_panoramas = true;
+  vehicle.drive(1.0);
+  EXPECT_GT(vehicle.sigma_m(), 10.0);
+}
+
+TEST(LocalizerDispute, IsUnsureWhereItWasWhenTheClockIsSetBack) {
+  Straight vehicle;
+  vehicle.drive(4.0);
+  vehicle.localizer.set_clock_back(2'000'000'000);
+  const double way_m = 2.0 * kSpeed_m_s;
+  EXPECT_GT(3.0 * vehicle.sigma_m(), way_m)
+      << "at the stamp that is told now it was so far back, if that clock is wrong";
+  EXPECT_LT(vehicle.sigma_m(), 3.0 * way_m);
+}
+
+}  // namespace
+}  // namespace panvo::localizer
