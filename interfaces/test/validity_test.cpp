@@ -251,6 +251,28 @@ TEST(Validity, OfTheCompassNeedsAVarianceThatAPanoramaCanGive) {
   EXPECT_EQ(problem(message), "") << "nobody measures with it";
 }
 
+TEST(Validity, OfTheCompassNeedsADirectionThatIsAnAngleOrNotKnown) {
+  panvo_msgs::msg::AzimuthChange message;
+  message.valid(true);
+  message.variance_rad2(1e-6);
+  message.motion_azimuth_rad(3.0);
+  message.motion_azimuth_variance_rad2(0.5);
+  EXPECT_EQ(problem(message), "");
+  message.motion_azimuth_variance_rad2(-1e-3);
+  EXPECT_EQ(problem(message), "motion_azimuth_variance_rad2 is not within 0 to 1000");
+  message.motion_azimuth_variance_rad2(0.0);
+  message.motion_azimuth_rad(std::numeric_limits<double>::quiet_NaN());
+  EXPECT_EQ(problem(message), "motion_azimuth_rad is not finite");
+}
+
+TEST(Validity, KnowsWhichStampsAreOfTheTimeOfSending) {
+  EXPECT_TRUE(find_message_type("nav_msgs/msg/Odometry")->is_stamped_when_sent);
+  EXPECT_TRUE(find_message_type("panvo_msgs/msg/AzimuthChange")->is_stamped_when_sent);
+  EXPECT_FALSE(find_message_type("panvo_msgs/msg/LandmarkMatch")->is_stamped_when_sent);
+  EXPECT_FALSE(find_message_type("panvo_msgs/msg/PositionCorrection")->is_stamped_when_sent);
+  EXPECT_FALSE(find_message_type("geometry_msgs/msg/PoseWithCovarianceStamped")->is_stamped_when_sent);
+}
+
 TEST(Validity, OfACorrectionNeedsAnUncertaintyUnlessItIsRejected) {
   panvo_msgs::msg::PositionCorrection message;
   message.state("full");

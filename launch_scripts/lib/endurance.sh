@@ -6,14 +6,15 @@ source "$PANVO_SCRIPTS/lib/simulated.sh"
 
 endurance_usage() {
   cat <<'EOT'
-usage: panvo bench endurance [--hours H] [--rate R] [--dataset DIR] [--out DIR]
+usage: panvo bench endurance [--hours H] [--rate R] [--faults KIND] [--dataset DIR] [--out DIR]
 
-Plays a recording forward and backward through the system enhanced_vo, live, until so many recorded hours have passed, and watches the process: it
-must end well, its memory must not differ by more than 5 % between the first part of the run (after a fifth of it) and the last, and its file
-descriptors and threads must not change.
+Plays a recording forward and backward through the whole system, live, until so many recorded hours have passed, with another fault every 20 s (as
+panvo bench faults --list has them), and watches the process: it must end well, its memory must not differ by more than 5 % between the first part of the
+run (after a fifth of it) and the last, and its file descriptors and threads must not change.
 
   --hours H      recorded time, h (default: 6)
   --rate R       how much faster than recorded it is played (default: 4)
+  --faults KIND  another kind; none: the recording as it is (default: mixed)
   --dataset DIR  EuRoC/ASL with stereo pairs and panoramas (default: a simulated drive of the route 'short', rendered once and kept)
   --out DIR      folder of the results (default: runs/endurance): samples.csv, samples.png, output.log
 
@@ -22,14 +23,14 @@ EOT
 }
 
 bench_endurance() {
-  local hours=6 rate=4 dataset='' out=$PANVO_HOME/runs/endurance length_s passes
+  local hours=6 rate=4 faults=mixed dataset='' out=$PANVO_HOME/runs/endurance length_s passes
   while (($#)); do
     case $1 in
       -h | --help)
         endurance_usage
         return
         ;;
-      --hours | --rate | --dataset | --out)
+      --hours | --rate | --faults | --dataset | --out)
         require_value "$@"
         printf -v "${1#--}" '%s' "$2"
         shift
@@ -38,14 +39,14 @@ bench_endurance() {
     esac
     shift
   done
-  ensure_built panvo_programs
+  ensure_built panvo_programs panvo_fault_bench
   use_plugins
   [[ -n $dataset ]] || dataset=$(simulated_dataset short 4 all)
   length_s=$(recorded_seconds "$dataset")
   passes=$(awk -v hours="$hours" -v length_s="$length_s" 'BEGIN { print int((3600 * hours + length_s - 1) / length_s) }')
   note "playing $dataset ($length_s s) $passes times at rate $rate"
-  python3 "$PANVO_HOME/tests/endurance/endurance.py" --out "$out" -- "$(program panvo_run)" "$PANVO_HOME/config/systems/enhanced_vo.yaml" \
-    --dataset "$dataset" --rate "$rate" --set dataset_player.passes="$passes"
+  python3 "$PANVO_HOME/tests/endurance/endurance.py" --out "$out" -- "$(program panvo_run)" "$PANVO_HOME/tests/fault_bench/faults.yaml" \
+    dataset:="$dataset" kind:="$faults" span_s:="$(awk -v hours="$hours" 'BEGIN { print 3600 * hours }')" --rate "$rate" --set dataset_player.passes="$passes"
 }
 
 # recorded_seconds DATASET: from its first stereo pair to its last, s.

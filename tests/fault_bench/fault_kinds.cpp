@@ -12,8 +12,8 @@ Fault nothing(Draw&, const FaultWindow&) { return {}; }
 
 std::vector<FaultKind> all_kinds() {
   std::vector<FaultKind> kinds{{"none", "the recording as it is", Lasting::kWhole, nothing}};
-  for (const auto& part :
-       {image_kinds(), optics_kinds(), timing_kinds(), panorama_kinds(), calibration_kinds(), message_kinds()}) {
+  for (const auto& part : {image_kinds(), optics_kinds(), timing_kinds(), panorama_kinds(), calibration_kinds(),
+                           message_kinds(), mixed_kinds()}) {
     kinds.insert(kinds.end(), part.begin(), part.end());
   }
   return kinds;

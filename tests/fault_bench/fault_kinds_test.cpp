@@ -299,6 +299,24 @@ TEST(WrongCalibrations, AreOffByWhatTheySay) {
   EXPECT_NEAR(std::abs(turned.rotation().z()), std::sin(1.5 * M_PI / 180.0), 1e-12);
 }
 
+TEST(MixedFaults, ActForThreeSecondsOfEachTwenty) {
+  Played played("mixed");
+  int disturbed = 0;
+  for (int i = 0; i < 20 * 200; ++i) {  // 10 a second
+    const double t_s = 0.1 * i, in_period_s = std::fmod(t_s, 20.0);
+    const auto passed = played.fault.pairs(pair_of(i), {t_s, false});
+    const bool is_as_it_was = passed.size() == 1 && passed[0].left_ns == i * kPeriod_ns &&
+                              passed[0].right_ns == i * kPeriod_ns && is_same(passed[0].left, picture(i, 0)) &&
+                              is_same(passed[0].right, picture(i, 1));
+    if (in_period_s > 7.9 && in_period_s < 11.2) {
+      disturbed += is_as_it_was ? 0 : 1;
+    } else {
+      ASSERT_TRUE(is_as_it_was) << "at " << t_s << " s";
+    }
+  }
+  EXPECT_GT(disturbed, 20 * 5);
+}
+
 TEST(WrongMessages, AreStoppedFarAwayOrNoNumbers) {
   Odometry odometry;
   odometry.pose().covariance()[7] = 0.25;

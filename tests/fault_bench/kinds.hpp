@@ -14,5 +14,6 @@ std::vector<FaultKind> timing_kinds();
 std::vector<FaultKind> panorama_kinds();
 std::vector<FaultKind> calibration_kinds();
 std::vector<FaultKind> message_kinds();
+std::vector<FaultKind> mixed_kinds();
 
 }  // namespace panvo::test

@@ -20,7 +20,8 @@ constexpr double kSlew = 0.2;  // of the turn that is owed, with each step: made
 constexpr double kUnknownPosition_m = 1e4;  // standard deviations of a start that is not known
 constexpr double kUnknownYaw_rad = 3.0;
 constexpr double kReach = 3.0;          // standard deviations of how far a vehicle can have been moved unseen
-constexpr double kNoVehicle_m_s = 2.0;  // from one image to the next
+constexpr double kAlike_rad = 0.005;    // that the directions of all panoramas of a journey may err by
+constexpr double kMostAtOnce = 2.0;     // m/s: no vehicle changes its speed from one image to the next by so much
 constexpr double kAlarm_s = 0.5;        // within which a panorama tells whether it is so
 constexpr double kMistakenFor_s = 5.0;  // two times farther apart nobody takes for one
 constexpr double kAtStart_m = 10.0;     // within which a map of earlier days may still come: its process starts, too
@@ -106,7 +107,7 @@ void Localizer::watch_for_jump(const vision::Vector6d& twist_before) {
   const auto twist = chain_.twist(now_ns);
   if (!twist) return;
   const double change_m_s = (twist->head<2>() - twist_before.head<2>()).norm();
-  if (change_m_s > kNoVehicle_m_s) jump_ = Jump{now_ns, change_m_s};
+  if (change_m_s > kMostAtOnce) jump_ = Jump{now_ns, change_m_s};
 }
 
 bool Localizer::add_known(const KnownLandmark& landmark) {
@@ -262,7 +263,8 @@ vision::Matrix6d Localizer::common_covariance(const Eigen::Vector3d& position) c
 double Localizer::direction_sigma_rad() const {
   DirectionOffset offset = direction_offset_;
   if (direction_seen_) offset.add(direction_seen_->difference_rad, direction_seen_->variance_rad2);
-  return offset.is_measured() ? std::hypot(offset.estimate_rad(), std::sqrt(offset.variance_rad2())) : 0.0;
+  if (!offset.is_measured()) return 0.0;
+  return std::hypot(std::max(0.0, std::abs(offset.estimate_rad()) - kAlike_rad), std::sqrt(offset.variance_rad2()));
 }
 
 void Localizer::tell_state(LocalizedPose& pose) const {

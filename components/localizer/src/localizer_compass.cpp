@@ -27,7 +27,7 @@ constexpr double kNoDirection_rad2 = 0.5 * 0.5;  // nothing moves in the panoram
 constexpr double kClearlyMoved_m = 0.5;          // far enough for something beside the way to show it
 constexpr double kNearest_m = 0.3, kParallax_rad = 0.02;  // what is beside the way is no nearer, in the median
 constexpr double kCameraApart_m = 1.0;                    // from base_link: in a bend it moves in another direction
-constexpr double kDirectionError_rad = 0.005;             // of panoramas, whatever their points say
+constexpr double kDirectionError_rad = 0.01;              // of panoramas, whatever their points say
 
 double wrapped(double angle_rad) { return vision::wrap(angle_rad, 2.0 * std::numbers::pi); }
 

@@ -13,7 +13,7 @@ namespace panvo::localizer {
 namespace {
 
 constexpr std::int64_t kFrame_ns = 40'000'000;
-constexpr double kSpeed_m_s = 5.0;
+constexpr double kMetresPerSecond = 5.0;
 constexpr int kFramesAPanorama = 5;
 constexpr double kDegree = std::numbers::pi / 180.0;
 
@@ -80,7 +80,7 @@ class Straight {
   }
 
   Localizer localizer;
-  double speed_m_s = kSpeed_m_s;
+  double speed_m_s = kMetresPerSecond;
   std::optional<double> mover_m_s;
   double rig_turned_rad = 0.0, camera_turned_rad = 0.0, compass_rad = 0.0;
   bool has_panoramas = true, is_reliable = true;
@@ -219,7 +219,7 @@ TEST(LocalizerDispute, IsUnsureWhereItWasWhenTheClockIsSetBack) {
   Straight vehicle;
   vehicle.drive(4.0);
   vehicle.localizer.set_clock_back(2'000'000'000);
-  const double way_m = 2.0 * kSpeed_m_s;
+  const double way_m = 2.0 * kMetresPerSecond;
   EXPECT_GT(3.0 * vehicle.sigma_m(), way_m)
       << "at the stamp that is told now it was so far back, if that clock is wrong";
   EXPECT_LT(vehicle.sigma_m(), 3.0 * way_m);

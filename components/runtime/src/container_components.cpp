@@ -71,12 +71,6 @@ Container::Implementation::Implementation(ContainerOptions options)
 
 void Container::Implementation::meet_others() {
   parameter_events_ = own_.open_output(describe(steering::kParameterEvents));
-  tell_nodes();
-}
-
-/// Only once what the container was started for is loaded: a request must not take its components' names.
-void Container::Implementation::serve_loading() {
-  if (!bus_.bridge()) return;
   auto offered = steering::component_services(full_name(), *this);
   own_service_names_ = names_of(offered, options_.services);
   services_ = serve(std::move(offered));
@@ -213,6 +207,12 @@ bool Container::Implementation::unload_if(const std::function<bool(const LoadedC
   entry.reset();
   tell_nodes();
   return true;
+}
+
+/// Only once what the container was started for is loaded: a request must not take the names of that.
+auto Container::Implementation::load_component(const ComponentDescription& description) -> Loaded {
+  if (!started_) throw ConfigError(full_name() + " still loads what it was started with; ask again in a moment");
+  return load(description, true);
 }
 
 void Container::Implementation::unload_component(std::uint64_t id) {

@@ -35,7 +35,7 @@ class Container::Implementation final : public steering::SteeredContainer {
   Loaded add(Recipe recipe);
   Loaded load(const ComponentDescription& description, bool by_request);
   bool unload(const std::string& name);
-  Loaded load_component(const ComponentDescription& description) override { return load(description, true); }
+  Loaded load_component(const ComponentDescription& description) override;
   void unload_component(std::uint64_t id) override;
   std::vector<Loaded> loaded_components() const override;
 
@@ -61,7 +61,6 @@ class Container::Implementation final : public steering::SteeredContainer {
 
   std::string full_name() const;
   void meet_others();
-  void serve_loading();
   Loaded put(Recipe recipe);
   void make(LoadedComponent& entry);
   Entries::iterator find(const std::string& name);
@@ -113,7 +112,7 @@ class Container::Implementation final : public steering::SteeredContainer {
   Entries entries_;
   std::vector<Recipe> unmade_;  // have failed, and could not be made anew
   std::uint64_t next_id_ = 1;
-  bool started_ = false;
+  std::atomic<bool> started_ = false;
   std::atomic<bool> running_ = false;
   std::atomic<std::size_t> told_channels_ = 0;
 

@@ -33,8 +33,10 @@ using testing::HasSubstr;
 
 class Steering : public testing::Test {
  protected:
-  /// The other process answers once it has put its component there.
-  void SetUp() override { ASSERT_FALSE(loaded().empty()); }
+  /// The other process answers from when it has a container, and takes requests once it has put its component there.
+  void SetUp() override {
+    ASSERT_TRUE(eventually([&] { return !loaded().empty(); }));
+  }
 
   template <class Response, class Request>
   Response ask(const std::string& name, const std::string& type, const Request& request) {

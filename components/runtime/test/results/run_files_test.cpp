@@ -118,9 +118,11 @@ TEST(RunFiles, WritesWhatTheLocalizerIsToldAndSays) {
   change.from_stamp().sec(2);
   change.azimuth_change_rad(0.5);
   change.variance_rad2(0.04);
+  change.motion_azimuth_rad(-0.25);
+  change.motion_azimuth_variance_rad2(0.01);
   change.valid(true);
   files.write(topic_of<panvo_msgs::msg::AzimuthChange>("/compass/azimuth_change"), sample_of(change));
-  EXPECT_THAT(lines_of(folder.read("azimuth.csv")), ElementsAre(_, "3000000000,2000000000,0.5,0.2,0,1,\"\""));
+  EXPECT_THAT(lines_of(folder.read("azimuth.csv")), ElementsAre(_, "3000000000,2000000000,0.5,0.2,0,-0.25,0.1,1,\"\""));
 
   panvo_msgs::msg::PositionCorrection correction;
   correction.landmark_id(4);
