@@ -9,6 +9,8 @@ namespace {
 
 constexpr double kNotableOffset_s = 0.02;
 constexpr double kSureOffset_s = 0.004;
+constexpr double kNotableDirection_rad = 0.03;
+constexpr double kSureDirection_rad = 0.006;
 
 }  // namespace
 
@@ -18,6 +20,16 @@ void AlignmentNotices::check_clock(const ClockOffset& clock) {
   has_told_offset_ = true;
   log_.warn("the panoramic camera's clock is {:.0f} ms {} the stereo camera's; this is allowed for",
             1000.0 * std::abs(clock.estimate_s()), clock.estimate_s() > 0.0 ? "ahead of" : "behind");
+}
+
+void AlignmentNotices::check_direction(const DirectionOffset& offset) {
+  const bool is_sure = offset.is_measured() && std::sqrt(offset.variance_rad2()) < kSureDirection_rad;
+  if (has_told_direction_ || !is_sure || std::abs(offset.estimate_rad()) <= kNotableDirection_rad) return;
+  has_told_direction_ = true;
+  log_.warn(
+      "panoramas see the vehicle drive {:.1f} deg farther to the {} than the stereo odometry does: one of the cameras "
+      "is turned against what /tf_static says, and the position is as uncertain",
+      std::abs(offset.estimate_rad()) * 180.0 / std::numbers::pi, offset.estimate_rad() > 0.0 ? "left" : "right");
 }
 
 void AlignmentNotices::check_mounting(const MountingCheck& mounting) {

@@ -13,11 +13,13 @@ class AlignmentNotices {
   explicit AlignmentNotices(const runtime::Logger& log) : log_(log) {}
 
   void check_clock(const ClockOffset& clock);
+  void check_direction(const DirectionOffset& offset);
   void check_mounting(const MountingCheck& mounting);
 
  private:
   const runtime::Logger& log_;
   bool has_told_offset_ = false;
+  bool has_told_direction_ = false;
   bool has_told_mounting_ = false;
 };
 

@@ -19,8 +19,9 @@ constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kSlew = 0.2;  // of the turn that is owed, with each step: made up for within half a second at 25 Hz
 constexpr double kUnknownPosition_m = 1e4;  // standard deviations of a start that is not known
 constexpr double kUnknownYaw_rad = 3.0;
-constexpr double kReach = 3.0;          // standard deviations of how far a vehicle can have been moved unseen
-constexpr double kAlike_rad = 0.005;    // that the directions of all panoramas of a journey may err by
+constexpr double kReach = 3.0;        // standard deviations of how far a vehicle can have been moved unseen
+constexpr double kAlike_rad = 0.005;  // that the directions of all panoramas of a journey may err by
+constexpr double kNoStereoMount_rad = 10.0 * kDegree;
 constexpr double kMostAtOnce = 2.0;     // m/s: no vehicle changes its speed from one image to the next by so much
 constexpr double kAlarm_s = 0.5;        // within which a panorama tells whether it is so
 constexpr double kMistakenFor_s = 5.0;  // two times farther apart nobody takes for one
@@ -165,6 +166,7 @@ void Localizer::set_clock_back(std::int64_t by_ns) {
   last_from_ns_.reset();
   turn_seen_.reset();
   direction_seen_.reset();
+  lasting_.reset();
   turn_dispute_.end();
   way_dispute_.end();
   agreed_ns_.reset();
@@ -259,12 +261,15 @@ vision::Matrix6d Localizer::common_covariance(const Eigen::Vector3d& position) c
   return covariance;
 }
 
-/// One of the two cameras is turned by that, and nobody knows which. Without panoramas the mount of the stereo camera is believed.
+/// One of the two cameras is turned by that, and nobody knows which; but by many degrees it is the panoramic one, which looks the same however it is
+/// turned. Without panoramas the mount of the stereo camera is believed.
 double Localizer::direction_sigma_rad() const {
   DirectionOffset offset = direction_offset_;
   if (direction_seen_) offset.add(direction_seen_->difference_rad, direction_seen_->variance_rad2);
   if (!offset.is_measured()) return 0.0;
-  return std::hypot(std::max(0.0, std::abs(offset.estimate_rad()) - kAlike_rad), std::sqrt(offset.variance_rad2()));
+  const double off_rad = std::abs(offset.estimate_rad());
+  const double turned_rad = off_rad > kNoStereoMount_rad ? 0.0 : std::max(0.0, off_rad - kAlike_rad);
+  return std::hypot(turned_rad, std::sqrt(offset.variance_rad2()));
 }
 
 void Localizer::tell_state(LocalizedPose& pose) const {

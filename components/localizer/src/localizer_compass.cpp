@@ -25,6 +25,8 @@ constexpr double kImpossible = 6.0;              // the same
 constexpr double kShortestWay_m = 0.1;           // that has a direction
 constexpr double kNoDirection_rad2 = 0.5 * 0.5;  // nothing moves in the panoramas: all is more than a thousand ways off
 constexpr double kClearlyMoved_m = 0.5;          // far enough for something beside the way to show it
+constexpr double kSameAngle_rad = 0.1;
+constexpr double kLasting_m = 30.0;
 constexpr double kNearest_m = 0.3, kParallax_rad = 0.02;  // what is beside the way is no nearer, in the median
 constexpr double kCameraApart_m = 1.0;                    // from base_link: in a bend it moves in another direction
 constexpr double kDirectionError_rad = 0.01;              // of panoramas, whatever their points say
@@ -183,10 +185,26 @@ std::optional<double> Localizer::way_off(const AzimuthMeasurement& azimuth, cons
   const double most_rad = parameters_.contradiction_sigmas * std::sqrt(variance + direction_offset_.variance_rad2());
   if (std::abs(difference_rad) > most_rad) {
     if (is_camera_turned) camera_turned_rad_ = wrapped(camera_turned_rad_ + difference_rad);
+    if (!turn_dispute_.is_on() && stays_off(azimuth, seen_rad, length_m)) {
+      direction_offset_.restart(seen_rad, variance);
+      return std::nullopt;
+    }
     return length_m * std::sin(std::min(std::abs(difference_rad), 0.5 * std::numbers::pi));
   }
   if (!turn_dispute_.is_on()) direction_seen_ = DirectionSeen{seen_rad, variance};
+  lasting_.reset();
   return std::nullopt;
+}
+
+/// Whether the directions have differed by one angle for so long that no mover is the cause, but a camera that sits otherwise than is thought.
+bool Localizer::stays_off(const AzimuthMeasurement& azimuth, double seen_rad, double length_m) {
+  if (!lasting_ || std::abs(wrapped(seen_rad - lasting_->seen_rad)) > kSameAngle_rad) {
+    lasting_ = Lasting{azimuth.from_ns, seen_rad, 0.0};
+  } else if (lasting_->from_ns != azimuth.from_ns) {
+    lasting_->from_ns = azimuth.from_ns;
+    lasting_->way_m += length_m;
+  }
+  return lasting_->way_m > kLasting_m;
 }
 
 /// Odometry that lost sight of all that it saw and began anew in the next image tells nothing of what lay between. Panoramas that found their

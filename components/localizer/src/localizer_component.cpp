@@ -255,6 +255,7 @@ class LocalizerComponent final : public runtime::Component {
     }
     was_contradicted_ = is_contradicted;
     notices_.check_clock(localizer_.panorama_clock());
+    notices_.check_direction(localizer_.direction_offset());
   }
 
   void take(const LandmarkSighting& sighting) {

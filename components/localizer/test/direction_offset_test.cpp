@@ -33,6 +33,12 @@ TEST(DirectionOffset, StaysReadyToFollowAMountThatGives) {
   EXPECT_NEAR(offset.estimate_rad(), 0.02, 0.001);
 }
 
+TEST(DirectionOffset, KnowsThatHalfATurnToTheLeftIsOneToTheRight) {
+  DirectionOffset offset(1.0);
+  for (int i = 0; i < 50; ++i) offset.add(i % 2 == 0 ? 3.13 : -3.13, 1e-4);
+  EXPECT_GT(std::abs(offset.estimate_rad()), 3.1);
+}
+
 TEST(DirectionOffset, KnowsFromTheBeginningWhatIsSaidToBeExact) {
   DirectionOffset offset(0.0);
   offset.add(0.1, 1e-4);

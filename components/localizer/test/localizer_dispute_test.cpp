@@ -179,6 +179,29 @@ TEST(LocalizerDispute, IsUncertainAcrossTheWayAsTheTwoMountsDisagree) {
   EXPECT_GT(vehicle.error_m(), 5.0);
 }
 
+TEST(LocalizerDispute, LearnsHowAPanoramicCameraSitsThatWasNeverMeasured) {
+  for (const double degrees : {-90.0, 35.0, 180.0}) {
+    Straight vehicle;
+    vehicle.camera_turned_rad = degrees * kDegree;
+    vehicle.drive(20.0);
+    EXPECT_EQ(vehicle.localizer.latest().state, State::kTracking) << degrees;
+    EXPECT_EQ(vehicle.last_use, AzimuthUse::kFused) << degrees;
+    EXPECT_LT(vehicle.error_m(), 0.1) << degrees;
+    const double off_deg = vehicle.localizer.direction_offset().estimate_rad() / kDegree;
+    EXPECT_NEAR(std::abs(off_deg), std::abs(degrees), 1.0);
+  }
+}
+
+TEST(LocalizerDispute, LearnsAnewHowTheCamerasSitWhereItWasWrong) {
+  Straight vehicle;
+  vehicle.mover_m_s = 3.0;  // before it has ever seen the two agree
+  vehicle.drive(2.0);
+  vehicle.mover_m_s.reset();
+  vehicle.drive(20.0);
+  EXPECT_EQ(vehicle.localizer.latest().state, State::kTracking);
+  EXPECT_NEAR(vehicle.localizer.direction_offset().estimate_rad(), 0.0, 1.0 * kDegree);
+}
+
 TEST(LocalizerDispute, BelievesTheMountOfAStereoCameraThatIsAlone) {
   Straight vehicle;
   vehicle.has_panoramas = false;

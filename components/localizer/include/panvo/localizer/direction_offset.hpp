@@ -14,6 +14,9 @@ class DirectionOffset {
   /// both cameras mounted as is said.
   void add(double difference_rad, double variance_rad2);
 
+  /// It is another one by now.
+  void restart(double estimate_rad, double variance_rad2);
+
   bool is_measured() const noexcept { return is_measured_; }
   double estimate_rad() const noexcept { return estimate_rad_; }
   double variance_rad2() const noexcept { return variance_rad2_; }

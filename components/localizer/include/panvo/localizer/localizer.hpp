@@ -132,6 +132,7 @@ class Localizer {
   std::vector<KnownLandmark> landmarks() const;
   const ClockOffset& panorama_clock() const noexcept { return clock_; }
   const MountingCheck& mounting() const noexcept { return mounting_; }
+  const DirectionOffset& direction_offset() const noexcept { return direction_offset_; }
 
  private:
   struct Asking {  // a sighting that was not believed
@@ -155,6 +156,12 @@ class Localizer {
 
   /// A vehicle that was moved unseen is as far as one of which nothing was heard for so long.
   static constexpr double kUnseen_s = 5.0;
+
+  struct Lasting {  // difference between the directions
+    std::int64_t from_ns;
+    double seen_rad;
+    double way_m;
+  };
 
   struct Jump {  // of the odometry's speed
     std::int64_t stamp_ns;
@@ -188,6 +195,7 @@ class Localizer {
                     double way_variance_m2);
   std::optional<double> way_off(const AzimuthMeasurement& azimuth, const TurnAndWay& odometry, double way_variance_m2,
                                 bool is_camera_turned);
+  bool stays_off(const AzimuthMeasurement& azimuth, double seen_rad, double length_m);
   double direction_sigma_rad() const;
   Wrong wrong_turn(std::int64_t to_ns, double disagreement_rad) const;
   std::optional<GoneOn> gone_on(std::int64_t to_ns) const;
@@ -226,6 +234,7 @@ class Localizer {
   std::optional<DirectionSeen> direction_seen_;  // the same
   std::optional<std::int64_t> agreed_ns_;        // the last panorama that agreed with the odometry
   double camera_turned_rad_ = 0.0;               // the panoramic one, on its mount, since the start
+  std::optional<Lasting> lasting_;               // while the directions differ
   std::optional<Jump> jump_;                     // since the last panorama
   std::optional<Break> break_;                   // for which no panorama has vouched yet
   std::optional<double> found_at_way_m_;         // where the vehicle was found last, after it was not known where

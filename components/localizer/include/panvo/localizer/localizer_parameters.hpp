@@ -17,7 +17,7 @@ struct Parameters {
   double lean_sigmas = 3.0;
   double compass_turn_error_ratio = 0.007;
   double turn_scale_sigma = 0.002;
-  double mounting_sigma_deg = 1.0;
+  double mounting_sigma_deg = 60.0;
   double steady_turn_share = 0.3;
   double doubtful_outlier_share = 0.02;
   double scale_sigma = 0.002;
@@ -61,8 +61,9 @@ struct Parameters {
     field(
         &P::mounting_sigma_deg, "mounting_sigma_deg", "deg",
         "standard deviation of the angle between the panoramic and the stereo camera about the vertical, against what "
-        "/tf_static says, before the directions that they see the vehicle drive in tell it",
-        0.0, 45.0);
+        "/tf_static says, before the directions that they see the vehicle drive in tell it; smaller where it is "
+        "measured, so that a mover at the start is not taken for it",
+        0.0, 180.0);
     field(&P::steady_turn_share, "steady_turn_share", "1",
           "how much of the variance that odometry says of its turns is believed where all of its points agree: what it "
           "says allows for the lean of long ways, and beside the compass it is the next seconds that count",
