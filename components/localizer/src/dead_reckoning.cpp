@@ -37,17 +37,17 @@ vision::Matrix6d DeadReckoning::silence(double seconds) const {
   return (variance_after(blind_s_ + seconds) - variance_after(blind_s_)).asDiagonal();
 }
 
-double DeadReckoning::way_sigma_m(double seconds) const {
-  return after(seconds, prior_.acceleration_m_s2, prior_.speed_m_s);
+double way_sigma_m(const MotionPrior& prior, double seconds) {
+  return after(seconds, prior.acceleration_m_s2, prior.speed_m_s);
 }
 
-double DeadReckoning::turn_sigma_rad(double seconds) const {
-  return std::min(after(seconds, prior_.turn_acceleration_rad_s2, prior_.turn_rate_rad_s), std::numbers::pi);
+double turn_sigma_rad(const MotionPrior& prior, double seconds) {
+  return std::min(after(seconds, prior.turn_acceleration_rad_s2, prior.turn_rate_rad_s), std::numbers::pi);
 }
 
 vision::Vector6d DeadReckoning::variance_after(double seconds) const {
-  const double way_m = way_sigma_m(seconds);
-  const double turn_rad = turn_sigma_rad(seconds);
+  const double way_m = way_sigma_m(prior_, seconds);
+  const double turn_rad = turn_sigma_rad(prior_, seconds);
   const double tilt_rad = std::min(kTiltRateRad * seconds, kMostTilt_rad);
   vision::Vector6d sigma;
   sigma << way_m, way_m, kClimb * way_m, tilt_rad, tilt_rad, turn_rad;

@@ -16,12 +16,6 @@ void Dispute::add(std::int64_t reference_ns, std::int64_t stamp_ns, double diffe
   stamp_ns_ = stamp_ns;
 }
 
-void Dispute::set_clock_back(std::int64_t by_ns) {
-  if (!is_on()) return;
-  reference_ns_ -= by_ns;
-  *stamp_ns_ -= by_ns;
-}
-
 double Dispute::growth(double doubt) const noexcept {
   return doubt * std::max(0.0, total() * total() - before_ * before_);
 }

@@ -19,11 +19,6 @@ constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kSlew = 0.2;  // of the turn that is owed, with each step: made up for within half a second at 25 Hz
 constexpr double kUnknownPosition_m = 1e4;  // standard deviations of a start that is not known
 constexpr double kUnknownYaw_rad = 3.0;
-constexpr double kReach = 3.0;        // standard deviations of how far a vehicle can have been moved unseen
-constexpr double kAlike_rad = 0.005;  // that the directions of all panoramas of a journey may err by
-constexpr double kNoStereoMount_rad = 10.0 * kDegree;
-constexpr double kMostAtOnce = 2.0;     // m/s: no vehicle changes its speed from one image to the next by so much
-constexpr double kAlarm_s = 0.5;        // within which a panorama tells whether it is so
 constexpr double kMistakenFor_s = 5.0;  // two times farther apart nobody takes for one
 constexpr double kAtStart_m = 10.0;     // within which a map of earlier days may still come: its process starts, too
 
@@ -58,7 +53,7 @@ Localizer::Localizer(const Parameters& parameters)
       clock_(parameters.clock_sigma_s),
       turn_scale_(parameters.turn_scale_sigma),
       lean_(parameters.lean_window_s, parameters.lean_sigmas),
-      direction_offset_(parameters.mounting_sigma_deg * kDegree),
+      check_(parameters),
       dead_reckoning_(parameters.motion, parameters.gap_s),
       graph_(parameters.start_sigma_m, parameters.start_sigma_deg * kDegree) {}
 
@@ -77,10 +72,8 @@ OdometryOutcome Localizer::add(const OdometryPose& told) {
       chain_.empty()
           ? vision::Matrix6d(vision::Matrix6d::Zero())
           : dead_reckoning_.step(seconds(chain_.latest().pose.stamp_ns, odometry.stamp_ns), odometry.is_reliable);
-  const std::int64_t before_ns = chain_.empty() ? odometry.stamp_ns : chain_.latest().pose.stamp_ns;
-  const auto twist_before = chain_.empty() ? std::nullopt : chain_.twist(before_ns);
   chain_.add(odometry, std::lerp(parameters_.steady_turn_share, 1.0, doubt), scale, least);
-  if (twist_before) watch_for_jump(*twist_before);
+  check_.add_step(chain_);
   if (graph_.has_started()) {
     const Eigen::Isometry3d step = last_raw_.inverse() * odometry.odom_from_base;
     slew(turned_more(step, -scale * yaw_of(step.linear())));
@@ -90,25 +83,13 @@ OdometryOutcome Localizer::add(const OdometryPose& told) {
   }
   last_raw_ = odometry.odom_from_base;
   if (odometry.is_reliable) {
-    if (unreliable_since_ns_ && break_) break_->to_ns = odometry.stamp_ns;
     unreliable_since_ns_.reset();
   } else {
-    if (!break_) break_ = Break{before_ns, odometry.stamp_ns, before_ns};
-    break_->to_ns = odometry.stamp_ns;
     if (!unreliable_since_ns_) unreliable_since_ns_ = odometry.stamp_ns;
     doubtful_ns_ = odometry.stamp_ns;
   }
   latest_ = localized(chain_.latest().pose);
   return {.is_taken = true, .has_begun_anew = taken.is_new_origin, .reason = {}};
-}
-
-/// Long before a panorama tells that odometry follows something else, its speed tells, which then changes at once.
-void Localizer::watch_for_jump(const vision::Vector6d& twist_before) {
-  const std::int64_t now_ns = chain_.latest().pose.stamp_ns;
-  const auto twist = chain_.twist(now_ns);
-  if (!twist) return;
-  const double change_m_s = (twist->head<2>() - twist_before.head<2>()).norm();
-  if (change_m_s > kMostAtOnce) jump_ = Jump{now_ns, change_m_s};
 }
 
 bool Localizer::add_known(const KnownLandmark& landmark) {
@@ -147,8 +128,8 @@ void Localizer::set_clock_back(std::int64_t by_ns) {
   const double by_s = std::min(seconds(0, by_ns), kMistakenFor_s);
   const std::int64_t latest_ns = chain_.latest().pose.stamp_ns;
   const auto twist = chain_.twist(latest_ns);
-  const double way_m = (twist ? twist->head<2>().norm() * by_s : 0.0) + dead_reckoning_.way_sigma_m(by_s);
-  chain_.allow(latest_ns - 1, latest_ns, way_m * way_m, std::pow(dead_reckoning_.turn_sigma_rad(by_s), 2));
+  const double way_m = (twist ? twist->head<2>().norm() * by_s : 0.0) + way_sigma_m(parameters_.motion, by_s);
+  chain_.allow(latest_ns - 1, latest_ns, way_m * way_m, std::pow(turn_sigma_rad(parameters_.motion, by_s), 2));
   origin_.set_clock_back(by_ns);
   chain_.set_clock_back(by_ns);
   graph_.set_clock_back(by_ns);
@@ -165,13 +146,7 @@ void Localizer::set_clock_back(std::int64_t by_ns) {
   lean_.forget();
   last_from_ns_.reset();
   turn_seen_.reset();
-  direction_seen_.reset();
-  lasting_.reset();
-  turn_dispute_.end();
-  way_dispute_.end();
-  agreed_ns_.reset();
-  break_.reset();
-  jump_.reset();
+  check_.forget();
 }
 
 bool Localizer::reaches(std::int64_t panorama_stamp_ns) const {
@@ -201,7 +176,7 @@ LocalizedPose Localizer::after_silence(double silence_s) const {
 }
 
 std::vector<Doubt> Localizer::doubts() const {
-  std::vector<Doubt> doubts;
+  auto doubts = check_.doubts(latest_.stamp_ns);
   if (dissent_) {
     doubts.push_back({dissent_->off_m, true,
                       fmt::format("landmark {} was seen where it is not expected", dissent_->sighting.landmark_id)});
@@ -209,27 +184,7 @@ std::vector<Doubt> Localizer::doubts() const {
     doubts.push_back({asking_->off_m, true,
                       fmt::format("landmark {} was seen where it is not expected", asking_->sighting.landmark_id)});
   }
-  if (break_) {
-    doubts.push_back(
-        {kReach * dead_reckoning_.way_sigma_m(kUnseen_s), true,
-         "odometry lost sight of what it saw, and no panorama has told yet that it was not moved meanwhile"});
-  }
-  if (jump_ && is_fresh(jump_->stamp_ns)) {
-    doubts.push_back(
-        {jump_->speed_m_s * kAlarm_s, true, "the speed of the odometry changed as that of no vehicle does"});
-  }
-  if (turn_dispute_.is_on() && is_fresh(turn_dispute_.stamp_ns())) {
-    doubts.push_back({0.0, true, "odometry and panoramas turn differently"});
-  }
-  if (way_dispute_.is_on() && is_fresh(way_dispute_.stamp_ns())) {
-    doubts.push_back({0.0, true, "odometry and panoramas move differently"});
-  }
   return doubts;
-}
-
-/// What was found against the pose and nobody has said anything of for a while speaks against it no more.
-bool Localizer::is_fresh(std::int64_t stamp_ns) const {
-  return seconds(stamp_ns, chain_.latest().pose.stamp_ns) < parameters_.patience_s;
 }
 
 LocalizedPose Localizer::localized(const OdometryPose& odometry) const {
@@ -253,23 +208,12 @@ PoseInMap Localizer::expected(const OdometryPose& odometry) const {
 /// Of what is the same for all poses of the journey, so that no sighting of its own landmarks shows it.
 vision::Matrix6d Localizer::common_covariance(const Eigen::Vector3d& position) const {
   if (is_located_) {
-    return graph_.common_covariance(position, parameters_.scale_sigma, direction_sigma_rad());
+    return graph_.common_covariance(position, parameters_.scale_sigma, check_.direction_sigma_rad());
   }
   vision::Matrix6d covariance = vision::Matrix6d::Zero();
   covariance.topLeftCorner<3, 3>() = kUnknownPosition_m * kUnknownPosition_m * Eigen::Matrix3d::Identity();
   covariance(5, 5) = kUnknownYaw_rad * kUnknownYaw_rad;
   return covariance;
-}
-
-/// One of the two cameras is turned by that, and nobody knows which; but by many degrees it is the panoramic one, which looks the same however it is
-/// turned. Without panoramas the mount of the stereo camera is believed.
-double Localizer::direction_sigma_rad() const {
-  DirectionOffset offset = direction_offset_;
-  if (direction_seen_) offset.add(direction_seen_->difference_rad, direction_seen_->variance_rad2);
-  if (!offset.is_measured()) return 0.0;
-  const double off_rad = std::abs(offset.estimate_rad());
-  const double turned_rad = off_rad > kNoStereoMount_rad ? 0.0 : std::max(0.0, off_rad - kAlike_rad);
-  return std::hypot(turned_rad, std::sqrt(offset.variance_rad2()));
 }
 
 void Localizer::tell_state(LocalizedPose& pose) const {
@@ -278,9 +222,7 @@ void Localizer::tell_state(LocalizedPose& pose) const {
     pose.reason = std::move(reason);
   };
   if (!is_located_) return tell(State::kUnlocated, unlocated_reason_);
-  if (way_dispute_.is_on() && is_fresh(way_dispute_.stamp_ns())) {
-    return tell(State::kCompassOnly, "odometry moves otherwise than the panoramas see");
-  }
+  if (auto fault = check_.fault_of_odometry(pose.stamp_ns)) return tell(State::kCompassOnly, *std::move(fault));
   if (unreliable_since_ns_) {
     const bool has_azimuth = azimuth_ns_ && seconds(*azimuth_ns_, pose.stamp_ns) < parameters_.patience_s;
     const double since_s = seconds(*unreliable_since_ns_, pose.stamp_ns);

@@ -71,6 +71,11 @@ bool OdometryChain::add(const OdometryPose& odometry, double turn_share, double 
   return true;
 }
 
+std::optional<std::int64_t> OdometryChain::before_latest_ns() const {
+  if (entries_.size() < 2) return std::nullopt;
+  return entries_[entries_.size() - 2].raw.stamp_ns;
+}
+
 std::optional<Remembered> OdometryChain::at(std::int64_t stamp_ns) const {
   const auto place = place_of(stamp_ns);
   if (!place) return std::nullopt;

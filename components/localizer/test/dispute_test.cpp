@@ -48,14 +48,5 @@ TEST(Dispute, KeepsItsVerdictUntilItEnds) {
   EXPECT_DOUBLE_EQ(dispute.total(), 0.3) << "begun anew";
 }
 
-TEST(Dispute, GoesBackWithTheClock) {
-  Dispute dispute;
-  dispute.set_clock_back(5);
-  EXPECT_FALSE(dispute.is_on());
-  dispute.add(10, 20, 0.5, Wrong::kOdometry);
-  dispute.set_clock_back(5);
-  EXPECT_EQ(dispute.stamp_ns(), 15);
-}
-
 }  // namespace
 }  // namespace panvo::localizer

@@ -24,6 +24,10 @@ struct MotionPrior {
   }
 };
 
+/// How far a vehicle of which it is known how it moved strays within a time from going on like that: standard deviations.
+double way_sigma_m(const MotionPrior& prior, double seconds);
+double turn_sigma_rad(const MotionPrior& prior, double seconds);
+
 /// How uncertain a step of the odometry is at least: by the time for which nothing has measured the motion, whether it passed as many frames
 /// that could not be relied on or as one gap.
 class DeadReckoning {
@@ -36,10 +40,6 @@ class DeadReckoning {
 
   /// The same of a silence that goes on since the last step.
   vision::Matrix6d silence(double seconds) const;
-
-  /// How far a vehicle of which it is known how it moved strays within a time from going on like that.
-  double way_sigma_m(double seconds) const;
-  double turn_sigma_rad(double seconds) const;
 
  private:
   vision::Vector6d variance_after(double seconds) const;

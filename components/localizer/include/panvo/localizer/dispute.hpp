@@ -18,7 +18,6 @@ class Dispute {
   void add(std::int64_t reference_ns, std::int64_t stamp_ns, double difference, Wrong wrong);
   /// Odometry and panoramas agree again.
   void end() { *this = Dispute(); }
-  void set_clock_back(std::int64_t by_ns);
 
   bool is_on() const noexcept { return stamp_ns_.has_value(); }
   /// Of the last measurement that differed. Precondition: on.

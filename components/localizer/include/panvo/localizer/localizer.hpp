@@ -8,10 +8,11 @@
 #include <vector>
 
 #include "panvo/localizer/azimuth_lean.hpp"
+#include "panvo/localizer/azimuth_measurement.hpp"
 #include "panvo/localizer/clock_offset.hpp"
+#include "panvo/localizer/cross_check.hpp"
 #include "panvo/localizer/dead_reckoning.hpp"
-#include "panvo/localizer/direction_offset.hpp"
-#include "panvo/localizer/dispute.hpp"
+#include "panvo/localizer/doubt.hpp"
 #include "panvo/localizer/journey_graph.hpp"
 #include "panvo/localizer/localizer_parameters.hpp"
 #include "panvo/localizer/mounting_check.hpp"
@@ -44,13 +45,6 @@ struct LocalizedPose {
   vision::Matrix6d covariance = vision::Matrix6d::Zero();  ///< of map_from_base, as of vision::pose_error
 };
 
-/// Something that speaks against the pose and that its covariance does not know of.
-struct Doubt {
-  double off_m = 0.0;        ///< by how much the pose is off if it is right, horizontally
-  bool forbids_use = false;  ///< the pose should not be used before it is settled
-  std::string reason;
-};
-
 /// What became of a pose of the odometry.
 struct OdometryOutcome {
   bool is_taken = false;
@@ -66,16 +60,6 @@ struct Correction {
   double chi_square = 0.0;  ///< of the sighting against what was expected; 6 degrees of freedom
   Eigen::Isometry3d map_from_base_before = Eigen::Isometry3d::Identity();  ///< at the sighting's time
   Eigen::Isometry3d map_from_base_after = Eigen::Isometry3d::Identity();
-};
-
-/// A turn that the panoramic compass measured [Lu2015 6], and in which direction the vehicle moved meanwhile.
-struct AzimuthMeasurement {
-  std::int64_t from_ns = 0, to_ns = 0;  ///< stamps of the two panoramas
-  double change_rad = 0.0;              ///< left positive
-  double variance_rad2 = 0.0;
-  double motion_azimuth_rad = 0.0;            ///< of the way, against the axis ahead at its end, left positive
-  double motion_azimuth_variance_rad2 = 0.0;  ///< 0: not known
-  double side_parallax_rad = 0.0;             ///< how far what is abeam fell behind, median
 };
 
 enum class AzimuthUse {
@@ -132,7 +116,7 @@ class Localizer {
   std::vector<KnownLandmark> landmarks() const;
   const ClockOffset& panorama_clock() const noexcept { return clock_; }
   const MountingCheck& mounting() const noexcept { return mounting_; }
-  const DirectionOffset& direction_offset() const noexcept { return direction_offset_; }
+  const DirectionOffset& direction_offset() const noexcept { return check_.direction_offset(); }
 
  private:
   struct Asking {  // a sighting that was not believed
@@ -144,41 +128,8 @@ class Localizer {
     std::int64_t at_ns;
   };
 
-  struct TurnAndWay {  // of the plane
-    double turn_rad;
-    Eigen::Vector2d way_m;  // in the axes at its end
-  };
-
-  struct GoneOn {
-    TurnAndWay more;                     // that odometry says than if the vehicle had gone on as it did
-    double turn_sigma_rad, way_sigma_m;  // of what vehicles do meanwhile
-  };
-
-  /// A vehicle that was moved unseen is as far as one of which nothing was heard for so long.
-  static constexpr double kUnseen_s = 5.0;
-
-  struct Lasting {  // difference between the directions
-    std::int64_t from_ns;
-    double seen_rad;
-    double way_m;
-  };
-
-  struct Jump {  // of the odometry's speed
-    std::int64_t stamp_ns;
-    double speed_m_s;
-  };
-
-  struct Break {  // of the odometry, between two images that it measured by
-    std::int64_t from_ns, to_ns;
-    std::int64_t vouched_ns;  // up to which panoramas agree with it
-  };
-
   struct TurnSeen {  // by odometry and compass
     double disagreement_rad, turn_rad, variance_rad2;
-  };
-
-  struct DirectionSeen {  // by odometry and panoramas
-    double difference_rad, variance_rad2;
   };
 
   std::int64_t in_odometry_time(std::int64_t panorama_stamp_ns) const;
@@ -191,21 +142,7 @@ class Localizer {
   bool agree(const Asking& before, const Asking& now) const;
   LandmarkSighting with_uncertain_clock(const LandmarkSighting& sighting) const;
   void fuse(std::int64_t from_ns, std::int64_t to_ns, double change_rad, double variance_rad2);
-  void compare_ways(const AzimuthMeasurement& azimuth, std::int64_t from_ns, std::int64_t to_ns,
-                    double way_variance_m2);
-  std::optional<double> way_off(const AzimuthMeasurement& azimuth, const TurnAndWay& odometry, double way_variance_m2,
-                                bool is_camera_turned);
-  bool stays_off(const AzimuthMeasurement& azimuth, double seen_rad, double length_m);
-  double direction_sigma_rad() const;
-  Wrong wrong_turn(std::int64_t to_ns, double disagreement_rad) const;
-  std::optional<GoneOn> gone_on(std::int64_t to_ns) const;
-  bool goes_on_steadily(std::int64_t to_ns) const;
-  void watch_for_jump(const vision::Vector6d& twist_before);
-  void vouch_for_break(std::int64_t from_ns, std::int64_t to_ns);
-  std::optional<TurnAndWay> moved(std::int64_t from_ns, std::int64_t to_ns) const;
   void slew(const Eigen::Isometry3d& step);
-  bool is_disputed() const noexcept { return turn_dispute_.is_on() || way_dispute_.is_on(); }
-  bool is_fresh(std::int64_t stamp_ns) const;
 
   const Parameters parameters_;
   OdometryOrigin origin_;
@@ -213,8 +150,7 @@ class Localizer {
   ClockOffset clock_;
   TurnScale turn_scale_;
   AzimuthLean lean_;
-  DirectionOffset direction_offset_;
-  Dispute turn_dispute_, way_dispute_;  // between odometry and panoramas
+  CrossCheck check_;
   DeadReckoning dead_reckoning_;
   JourneyGraph graph_;
   MountingCheck mounting_;
@@ -231,15 +167,9 @@ class Localizer {
   std::optional<std::int64_t> azimuth_ns_;    // the last that was used
   std::optional<std::int64_t> last_from_ns_;  // the panorama that it was measured against
   std::optional<TurnSeen> turn_seen_;         // against that panorama, last
-  std::optional<DirectionSeen> direction_seen_;  // the same
-  std::optional<std::int64_t> agreed_ns_;        // the last panorama that agreed with the odometry
-  double camera_turned_rad_ = 0.0;               // the panoramic one, on its mount, since the start
-  std::optional<Lasting> lasting_;               // while the directions differ
-  std::optional<Jump> jump_;                     // since the last panorama
-  std::optional<Break> break_;                   // for which no panorama has vouched yet
-  std::optional<double> found_at_way_m_;         // where the vehicle was found last, after it was not known where
-  std::optional<Asking> asking_;                 // the last sighting that was not believed
-  std::optional<Asking> dissent_;                // the last pair of them, of another landmark
+  std::optional<double> found_at_way_m_;      // where the vehicle was found last, after it was not known where
+  std::optional<Asking> asking_;              // the last sighting that was not believed
+  std::optional<Asking> dissent_;             // the last pair of them, of another landmark
   LocalizedPose latest_;
 };
 

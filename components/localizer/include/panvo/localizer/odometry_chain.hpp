@@ -47,6 +47,8 @@ class OdometryChain {
   bool empty() const noexcept { return entries_.empty(); }
   /// Precondition: not empty.
   const Remembered& latest() const { return entries_.back().now; }
+  /// The stamp of the one before it; nullopt where none is remembered.
+  std::optional<std::int64_t> before_latest_ns() const;
   /// Between the two poses around a time, or going on for up to 5 ms after the last as it went; nullopt where it is not remembered.
   std::optional<Remembered> at(std::int64_t stamp_ns) const;
 
