@@ -8,8 +8,10 @@
 
 #include <chrono>
 #include <condition_variable>
+#include <functional>
 #include <mutex>
 #include <set>
+#include <utility>
 
 namespace panvo::runtime::dds {
 
@@ -18,13 +20,19 @@ class MatchedReaders final : public eprosima::fastdds::dds::DataWriterListener {
  public:
   using Guid = eprosima::fastrtps::rtps::GUID_t;
 
-  bool wait_for(const Guid& reader, std::chrono::milliseconds limit) {
-    std::unique_lock lock(mutex_);
-    return changed_.wait_for(lock, limit, [&] { return readers_.contains(reader); });
+  bool contains(const Guid& reader) const {
+    const std::lock_guard lock(mutex_);
+    return readers_.contains(reader);
   }
   bool wait_for_any(std::chrono::milliseconds limit) {
     std::unique_lock lock(mutex_);
     return changed_.wait_for(lock, limit, [&] { return !readers_.empty(); });
+  }
+  /// Called for each reader that is matched from now on, while no other call to this object can run. When this returns, the one before is
+  /// not called any more.
+  void on_match(std::function<void()> callback) {
+    const std::lock_guard lock(mutex_);
+    on_match_ = std::move(callback);
   }
 
  private:
@@ -34,15 +42,17 @@ class MatchedReaders final : public eprosima::fastdds::dds::DataWriterListener {
     const std::lock_guard lock(mutex_);
     if (status.current_count_change > 0) {
       readers_.insert(reader);
+      if (on_match_) on_match_();
     } else {
       readers_.erase(reader);
     }
     changed_.notify_all();
   }
 
-  std::mutex mutex_;
+  mutable std::mutex mutex_;
   std::condition_variable changed_;
   std::set<Guid> readers_;
+  std::function<void()> on_match_;
 };
 
 }  // namespace panvo::runtime::dds

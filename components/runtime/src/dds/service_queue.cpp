@@ -20,15 +20,25 @@ ServiceQueue::~ServiceQueue() {
 
 bool ServiceQueue::post(const void* owner, std::function<void()> call) {
   const std::lock_guard lock(mutex_);
-  const auto waiting = std::ranges::count(calls_, owner, &Call::owner);
+  const auto waiting =
+      std::ranges::count_if(calls_, [owner](const Call& other) { return other.owner == owner && other.is_counted; });
   if (stopping_ || static_cast<std::size_t>(waiting) >= kMaxWaiting) return false;
-  calls_.push_back({owner, std::move(call)});
+  add({owner, Clock::now(), true, std::move(call)});
+  return true;
+}
+
+void ServiceQueue::post_at(const void* owner, Clock::time_point due, std::function<void()> call) {
+  const std::lock_guard lock(mutex_);
+  if (!stopping_) add({owner, due, false, std::move(call)});
+}
+
+void ServiceQueue::add(Call call) {
+  calls_.push_back(std::move(call));
   if (!thread_.joinable()) {
     thread_ = std::thread([this] { run(); });
     pthread_setname_np(thread_.native_handle(), "services");
   }
   changed_.notify_all();
-  return true;
 }
 
 void ServiceQueue::forget(const void* owner) {
@@ -41,10 +51,18 @@ void ServiceQueue::forget(const void* owner) {
 void ServiceQueue::run() {
   std::unique_lock lock(mutex_);
   for (;;) {
-    changed_.wait(lock, [this] { return stopping_ || !calls_.empty(); });
     if (stopping_) return;
-    Call call = std::move(calls_.front());
-    calls_.pop_front();
+    const auto next = std::ranges::min_element(calls_, {}, &Call::due);
+    if (next == calls_.end()) {
+      changed_.wait(lock);
+      continue;
+    }
+    if (const auto due = next->due; due > Clock::now()) {
+      changed_.wait_until(lock, due);
+      continue;
+    }
+    Call call = std::move(*next);
+    calls_.erase(next);
     running_ = call.owner;
     lock.unlock();
     call.run();

@@ -18,9 +18,9 @@ using eprosima::fastrtps::types::ReturnCode_t;
 
 namespace {
 
-// Discovery of a client that is there takes a few milliseconds. One that is gone holds up the other services
-// of this process for no longer than this.
-constexpr std::chrono::milliseconds kClientLimit{500};
+// Discovery of a client that is there takes a few milliseconds; where packets of it are lost, some seconds: they are sent again each.
+constexpr std::chrono::seconds kClientLimit{10};
+constexpr std::size_t kMaxKept = 32;
 // How long a service that ends waits for its last answer to arrive; it takes a few milliseconds, unless the client is gone or stands still.
 constexpr std::chrono::seconds kLastAnswerLimit{2};
 
@@ -75,6 +75,7 @@ ServiceServer::ServiceServer(const ServiceDescription& service, ServiceHandler h
   }
   writers_->endpoints().add(reply_topic_->get_name(), writer_->guid(), true);
   readers_->endpoints().add(request_topic_->get_name(), reader_->guid(), false);
+  clients_.on_match([this] { queue_->post_at(this, ServiceQueue::Clock::now(), [this] { send_kept(); }); });
 }
 
 ServiceServer::~ServiceServer() {
@@ -82,6 +83,7 @@ ServiceServer::~ServiceServer() {
     const std::lock_guard lock(taking_mutex_);  // waits for requests that are being taken
     closed_ = true;
   }
+  clients_.on_match(nullptr);
   queue_->forget(this);
   readers_->endpoints().remove(reader_->guid());
   writers_->endpoints().remove(writer_->guid());
@@ -142,12 +144,12 @@ interfaces::Bytes ServiceServer::response_to(const interfaces::Bytes& request, c
 
 void ServiceServer::answer(const interfaces::Bytes& request, const Identity& identity, const Caller& caller) {
   try {
-    const auto response = response_to(request, caller);
-    if (send(response, identity)) {
-      ++answered_;
-      return;
+    auto response = response_to(request, caller);
+    if (is_reachable(identity)) {
+      send(response, identity);
+    } else {
+      keep(std::move(response), identity);
     }
-    ++unanswered_;
   } catch (const interfaces::DecodeError& error) {
     ++malformed_;
     notifier_->warn(fmt::format("service {}: a request that is none was left unanswered: {}", name_, error.what()));
@@ -157,16 +159,50 @@ void ServiceServer::answer(const interfaces::Bytes& request, const Identity& ide
   }
 }
 
-bool ServiceServer::send(const interfaces::Bytes& response, const Identity& identity) {
-  if (is_reader(identity.writer_guid()) && !clients_.wait_for(identity.writer_guid(), kClientLimit)) {
-    notifier_->warn(
-        fmt::format("service {}: a client was gone, or could not be reached, before it got its answer", name_));
-    return false;
-  }
+bool ServiceServer::is_reachable(const Identity& client) const {
+  return !is_reader(client.writer_guid()) || clients_.contains(client.writer_guid());
+}
+
+void ServiceServer::send(const interfaces::Bytes& response, const Identity& identity) {
   eprosima::fastrtps::rtps::WriteParams params;
   params.related_sample_identity(identity);
   Outgoing outgoing(response);
-  return writer_->write(&outgoing, params);
+  ++(writer_->write(&outgoing, params) ? answered_ : unanswered_);
+}
+
+void ServiceServer::keep(interfaces::Bytes response, const Identity& identity) {
+  if (kept_.size() >= kMaxKept) {
+    give_up();
+    kept_.pop_front();
+  }
+  kept_.push_back({std::move(response), identity, ServiceQueue::Clock::now() + kClientLimit});
+  set_alarm();
+}
+
+void ServiceServer::send_kept() {
+  const auto now = ServiceQueue::Clock::now();
+  std::erase_if(kept_, [&](const Kept& kept) {
+    const bool is_reached = is_reachable(kept.identity);
+    if (is_reached) send(kept.response, kept.identity);
+    if (!is_reached && kept.end <= now) give_up();
+    return is_reached || kept.end <= now;
+  });
+}
+
+void ServiceServer::set_alarm() {
+  if (alarm_set_ || kept_.empty()) return;
+  alarm_set_ = true;
+  queue_->post_at(this, kept_.front().end, [this] {
+    alarm_set_ = false;
+    send_kept();
+    set_alarm();
+  });
+}
+
+void ServiceServer::give_up() {
+  ++unanswered_;
+  notifier_->warn(
+      fmt::format("service {}: a client was gone, or could not be reached, before it got its answer", name_));
 }
 
 }  // namespace panvo::runtime::dds

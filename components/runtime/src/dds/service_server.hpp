@@ -6,6 +6,7 @@
 #include <fastdds/dds/subscriber/DataReaderListener.hpp>
 
 #include <atomic>
+#include <deque>
 #include <memory>
 #include <mutex>
 
@@ -20,8 +21,8 @@
 namespace panvo::runtime::dds {
 
 /// A service as rmw_fastrtps has it: requests and replies are topics, and a reply bears the identity of its
-/// request in `related_sample_identity`. A client puts the GUID of its reply reader there too, so that the
-/// server can wait until it has discovered that reader: before that a reply would go nowhere.
+/// request in `related_sample_identity`. A client puts the GUID of its reply reader there too: a reply is kept
+/// until that reader is discovered, for before that it would go nowhere. Meanwhile other requests are answered.
 class ServiceServer final : public BridgeService, private eprosima::fastdds::dds::DataReaderListener {
  public:
   /// Throws ConfigError when Fast DDS will not have its topics.
@@ -40,7 +41,19 @@ class ServiceServer final : public BridgeService, private eprosima::fastdds::dds
   bool is_over_limits(const Incoming& incoming);
   void answer(const interfaces::Bytes& request, const Identity& identity, const Caller& caller);
   interfaces::Bytes response_to(const interfaces::Bytes& request, const Caller& caller);
-  bool send(const interfaces::Bytes& response, const Identity& identity);
+  bool is_reachable(const Identity& client) const;
+  void send(const interfaces::Bytes& response, const Identity& identity);
+  void keep(interfaces::Bytes response, const Identity& identity);
+  /// Sends the kept replies whose clients are reachable now, and gives up those that were kept long enough.
+  void send_kept();
+  void set_alarm();  ///< for when the oldest kept reply is given up
+  void give_up();
+
+  struct Kept {
+    interfaces::Bytes response;
+    Identity identity;
+    ServiceQueue::Clock::time_point end;
+  };
 
   const std::string name_;
   const ServiceHandler handler_;
@@ -55,6 +68,8 @@ class ServiceServer final : public BridgeService, private eprosima::fastdds::dds
   RequestRate rate_;
   bool closed_ = false;
   std::atomic<std::uint64_t> received_ = 0, answered_ = 0, malformed_ = 0, dropped_ = 0, refused_ = 0, unanswered_ = 0;
+  std::deque<Kept> kept_;  // oldest first; this and the next are of the thread of the services
+  bool alarm_set_ = false;
   MatchedReaders clients_;
   eprosima::fastdds::dds::DataWriter* writer_ = nullptr;
   eprosima::fastdds::dds::DataReader* reader_ = nullptr;  // last: requests may come from now on

@@ -12,6 +12,7 @@
 #include <sstream>
 
 #include "dds/names.hpp"
+#include "late_client.hpp"
 #include "panvo/runtime/bridge.hpp"
 #include "panvo/runtime/graph.hpp"
 #include "raw_writer.hpp"
@@ -87,6 +88,16 @@ class Peer {
       raw_writers_[name] = std::make_unique<RawWriter>(
           domain_, dds::wire_request_name(name), dds::wire_type_name(std::string(kServiceType) + "_Request").value(),
           RawWriter::Offer{.reliable = true});
+    } else if (verb == "open_late_client") {
+      late_clients_[name] = std::make_unique<LateClient>(domain_, name, kServiceType);
+    } else if (verb == "ask_late") {  // any number of them may be lost, until the server is discovered
+      std::string text;
+      words >> text;
+      return late_clients_.at(name)->ask(request(text)) ? "asked" : "not asked";
+    } else if (verb == "late_reply") {
+      late_clients_.at(name)->show_reader();
+      const auto reply = late_clients_.at(name)->reply();
+      return reply.empty() ? "nothing" : text_of_response(reply);
     } else if (verb == "serve") {
       services_[name] = bridge_->serve({name, kServiceType}, [](const interfaces::Bytes& request) {
         return response("peer:" + text_of_request(request));
@@ -145,6 +156,7 @@ class Peer {
   std::map<std::string, std::unique_ptr<BridgeWriter>> writers_;
   std::map<std::string, std::unique_ptr<BridgeReader>> readers_;
   std::map<std::string, std::unique_ptr<RawWriter>> raw_writers_;
+  std::map<std::string, std::unique_ptr<LateClient>> late_clients_;
   std::map<std::string, std::unique_ptr<BridgeService>> services_;
   std::map<std::string, std::unique_ptr<BridgeClient>> clients_;
 };

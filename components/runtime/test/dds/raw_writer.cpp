@@ -1,49 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "raw_writer.hpp"
 
-#include <fastdds/rtps/common/SerializedPayload.h>
 #include <fastdds/dds/domain/DomainParticipant.hpp>
 #include <fastdds/dds/domain/DomainParticipantFactory.hpp>
 #include <fastdds/dds/publisher/DataWriter.hpp>
 #include <fastdds/dds/publisher/Publisher.hpp>
 #include <fastdds/dds/topic/Topic.hpp>
-#include <fastdds/dds/topic/TopicDataType.hpp>
 #include <fastdds/dds/topic/TypeSupport.hpp>
 
-#include <algorithm>
+#include "raw_type.hpp"
 
 namespace panvo::runtime::test {
 
 using namespace eprosima::fastdds::dds;
-using eprosima::fastrtps::rtps::InstanceHandle_t;
-using eprosima::fastrtps::rtps::SerializedPayload_t;
-
-namespace {
-
-using Payload = std::vector<std::uint8_t>;
-
-class RawType final : public TopicDataType {
- public:
-  explicit RawType(const std::string& name) {
-    setName(name.c_str());
-    m_typeSize = 64;
-  }
-  bool serialize(void* data, SerializedPayload_t* target) override {
-    const auto& payload = *static_cast<Payload*>(data);
-    std::copy(payload.begin(), payload.end(), target->data);
-    target->length = static_cast<std::uint32_t>(payload.size());
-    return true;
-  }
-  bool deserialize(SerializedPayload_t*, void*) override { return false; }
-  std::function<std::uint32_t()> getSerializedSizeProvider(void* data) override {
-    return [size = static_cast<std::uint32_t>(static_cast<Payload*>(data)->size())] { return std::max(size, 1U); };
-  }
-  void* createData() override { return new Payload; }
-  void deleteData(void* data) override { delete static_cast<Payload*>(data); }
-  bool getKey(void*, InstanceHandle_t*, bool) override { return false; }
-};
-
-}  // namespace
 
 struct RawWriter::Entities {
   DomainParticipant* participant;

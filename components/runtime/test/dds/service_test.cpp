@@ -228,6 +228,17 @@ TEST(SameHost, IsToldByVendorAndHostAndNeverByAHash) {
   EXPECT_FALSE(dds::is_on_same_host(hashed, hashed)) << "keys of one enclave may be on several hosts";
 }
 
+TEST_F(BetweenProcesses, AClientThatIsDiscoveredLateGetsItsAnswerAndHoldsUpNobody) {
+  const auto name = unique_topic("service");
+  const auto server = bridge->serve(service(name), echo);
+  peer.ask("open_late_client " + name);
+  ASSERT_TRUE(
+      eventually([&] { return peer.ask("ask_late " + name + " late") == "asked" && server->counters().received > 0; }));
+  EXPECT_EQ(peer.ask("call " + name + " next"), "here:next");
+  EXPECT_TRUE(eventually([&] { return server->counters().answered == 1; }));  // of the late client nothing is known yet
+  EXPECT_EQ(peer.ask("late_reply " + name), "here:late");
+}
+
 TEST_F(BetweenProcesses, AServiceOfNoTypeIsRefused) {
   EXPECT_THROW(bridge->serve({"/x", "no type"}, echo), std::runtime_error);
   EXPECT_THROW(bridge->open_client({"/x", "GetParameters"}), std::runtime_error);
