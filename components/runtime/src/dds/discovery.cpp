@@ -13,6 +13,8 @@
 #include "names.hpp"
 #include "node_info.hpp"
 #include "own_participants.hpp"
+#include "replaced_participants.hpp"
+#include "same_host.hpp"
 
 namespace panvo::runtime::dds {
 
@@ -118,14 +120,28 @@ void Discovery::on_participant_discovery(fdds::DomainParticipant* participant, r
   const auto prefix = info.info.m_guid.guidPrefix;
   const std::lock_guard lock(mutex_);
   if (info.status != Info::REMOVED_PARTICIPANT && info.status != Info::DROPPED_PARTICIPANT) {
-    seen_by_[prefix].insert(participant->guid());
+    const auto& listened = info.info.metatraffic_locators.unicast;
+    const std::vector<rtps::Locator_t> ports(listened.begin(), listened.end());
+    let_go_replaced_by(info.info.m_guid, ports);
+    auto& remote = remote_participants_[prefix];
+    remote.seen_by.insert(participant->guid());
+    remote.ports = ports;
     return;
   }
-  auto& seen_by = seen_by_[prefix];
+  auto& seen_by = remote_participants_[prefix].seen_by;
   seen_by.erase(participant->guid());
   if (!seen_by.empty()) return;
-  seen_by_.erase(prefix);
+  remote_participants_.erase(prefix);
   if (on_participant_gone_) on_participant_gone_(prefix);
+}
+
+void Discovery::let_go_replaced_by(const rtps::GUID_t& newcomer, const std::vector<rtps::Locator_t>& ports) {
+  if (ports.empty()) return;
+  for (const auto& [prefix, known] : remote_participants_) {
+    const rtps::GUID_t guid(prefix, rtps::c_EntityId_RTPSParticipant);
+    if (prefix != newcomer.guidPrefix && known.ports == ports && is_on_same_host(newcomer, guid))
+      let_go_replaced(prefix);
+  }
 }
 
 void Discovery::on_publisher_discovery(fdds::DomainParticipant*, rtps::WriterDiscoveryInfo&& info) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <fastdds/rtps/common/Guid.h>
+#include <fastdds/rtps/common/Locator.h>
 #include <fastdds/dds/domain/DomainParticipantListener.hpp>
 
 #include <compare>
@@ -61,6 +62,14 @@ class Discovery final : public eprosima::fastdds::dds::DomainParticipantListener
     bool shares = false;  // memory with us
   };
 
+  struct RemoteParticipant {
+    std::set<eprosima::fastrtps::rtps::GUID_t> seen_by;  // participants of ours
+    std::vector<eprosima::fastrtps::rtps::Locator_t> ports;
+  };
+
+  /// Lets go whose ports on the same host `newcomer` has got.
+  void let_go_replaced_by(const eprosima::fastrtps::rtps::GUID_t& newcomer,
+                          const std::vector<eprosima::fastrtps::rtps::Locator_t>& ports);
   void remember(const eprosima::fastrtps::rtps::GUID_t& guid, RemoteEndpoint remote);
   void warn_if_types_differ(const TypedTopic& local, const TypedTopic& remote);
   void announce(const TopicDescription& written);
@@ -69,8 +78,7 @@ class Discovery final : public eprosima::fastdds::dds::DomainParticipantListener
   mutable std::mutex mutex_;
   std::map<TypedTopic, int> open_here_;  // how many participants have it
   std::map<eprosima::fastrtps::rtps::GUID_t, RemoteEndpoint> remote_endpoints_;
-  // By whom of us each remote participant is seen.
-  std::map<eprosima::fastrtps::rtps::GuidPrefix_t, std::set<eprosima::fastrtps::rtps::GUID_t>> seen_by_;
+  std::map<eprosima::fastrtps::rtps::GuidPrefix_t, RemoteParticipant> remote_participants_;
   std::function<void(const eprosima::fastrtps::rtps::GuidPrefix_t&)> on_participant_gone_;
   std::map<std::string, TopicDescription> written_;  // by other processes, now or before
   std::vector<Watcher> watchers_;

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "panvo/runtime/errors.hpp"
+#include "replaced_participants.hpp"
 #include "security_qos.hpp"
 
 namespace panvo::runtime::dds {
@@ -91,6 +92,9 @@ void use_udp(fdds::DomainParticipantQos& qos, const DdsSettings& settings) {
   if (transports.empty() || (qos.transport().use_builtin_transports && std::ranges::none_of(transports, is_udp)))
     transports.push_back(our_udp(settings));
   qos.transport().use_builtin_transports = false;
+  for (auto& transport : transports) {
+    if (is_udp(transport)) transport = with_goodbyes_for_replaced(transport);
+  }
 }
 
 }  // namespace

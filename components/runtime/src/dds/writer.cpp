@@ -40,9 +40,18 @@ bool Writer::write(const SamplePtr& sample) {
   if (matched_readers_ == 0 && !keeps_for_late_joiners_) return true;
   Outgoing outgoing(*sample);
   for (int attempt = 0; attempt < kWriteAttempts; ++attempt) {
-    if (writer_->write(&outgoing, fdds::HANDLE_NIL) == ReturnCode_t::RETCODE_OK) return true;
+    const auto result = writer_->write(&outgoing, fdds::HANDLE_NIL);
+    if (result == ReturnCode_t::RETCODE_OK) return true;
+    // A message that is acknowledged while another reader comes is never removed by Fast DDS 2.9, and shared memory gets free in order only: from
+    // then on there is none.
+    if (shares() && result == ReturnCode_t::RETCODE_OUT_OF_RESOURCES) forget_messages();
   }
   return false;
+}
+
+void Writer::forget_messages() {
+  std::size_t forgotten = 0;
+  writer_->clear_history(&forgotten);
 }
 
 bool Writer::wait_for_acknowledgments(std::chrono::milliseconds limit) {

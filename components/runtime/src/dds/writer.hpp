@@ -34,6 +34,8 @@ class Writer final : public BridgeWriter, private eprosima::fastdds::dds::DataWr
   bool has_memory() const { return segment_ && segment_->is_there(); }
 
  private:
+  void forget_messages();
+
   void on_publication_matched(eprosima::fastdds::dds::DataWriter* writer,
                               const eprosima::fastdds::dds::PublicationMatchedStatus& status) override;
   void on_offered_incompatible_qos(eprosima::fastdds::dds::DataWriter* writer,

@@ -51,6 +51,8 @@ class Peer {
         say("received " + name + " " + std::to_string(sample->bytes().size()) + " " +
             std::to_string(hash(sample->bytes())));
       });
+    } else if (verb == "close_reader") {
+      readers_.erase(name);
     } else if (verb == "open_raw_writer") {
       std::string type_name, reliability, durability;
       words >> type_name >> reliability >> durability;

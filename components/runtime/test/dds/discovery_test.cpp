@@ -76,6 +76,28 @@ TEST_F(DiscoveredTopics, MayBeOpenedFromTheCallback) {
   bridge.reset();  // after it no callback touches `readers`
 }
 
+TEST_F(BetweenProcesses, AKilledProcessIsLetGoWhenItsPortsAreTakenByAnother) {
+  const auto before = unique_topic("before"), after = unique_topic("after");
+  const auto reader_before = bridge->open_reader(topic(before, kStringType), inbox.callback());
+  const auto reader_after = bridge->open_reader(topic(after, kStringType), inbox.callback());
+  peer.ask("open_raw_writer " + before + " " + kStringType + " reliable volatile");
+  ASSERT_TRUE(eventually([&] { return reader_before->matched_writers() == 1; }));
+  peer.kill_and_wait();
+  PeerProcess newcomer(domain);
+  newcomer.ask("open_raw_writer " + after + " " + kStringType + " reliable volatile");
+  EXPECT_TRUE(eventually([&] { return reader_after->matched_writers() == 1; }));
+  EXPECT_TRUE(eventually([&] { return reader_before->matched_writers() == 0; }));
+}
+
+TEST_F(BetweenProcesses, AProcessBesideAnotherIsNotTakenForItsReplacement) {
+  const auto name = unique_topic("both");
+  const auto reader = bridge->open_reader(topic(name, kStringType), inbox.callback());
+  PeerProcess second_peer(domain);
+  for (auto* process : {&peer, &second_peer})
+    process->ask("open_raw_writer " + name + " " + kStringType + " reliable volatile");
+  EXPECT_TRUE(eventually([&] { return reader->matched_writers() == 2; }));
+}
+
 TEST_F(BetweenProcesses, AnotherTypeOnTheSameTopicIsWarnedOf) {
   const auto here_first = unique_topic("here_first"), there_first = unique_topic("there_first");
   const auto reader = bridge->open_reader(topic(here_first, kImageType), inbox.callback());

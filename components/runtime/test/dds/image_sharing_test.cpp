@@ -134,6 +134,31 @@ TEST_F(SharedImages, AreReadBesideThoseOfWhoDoesNotShareThemOfAnySize) {
   EXPECT_TRUE(samples[0]->bytes() == image_sample(kTooLarge, 5)->bytes());
 }
 
+TEST_F(SharedImages, GoOnWhileReadersThatDoNotShareThemComeAndGo) {
+  const auto name = unique_topic("image");
+  const auto writer = write_to(peer, name);
+  PeerProcess other(domain);
+  std::uint32_t seed = 0;
+  std::size_t not_written = 0;
+  for (int i = 0; i < 20; ++i) {
+    other.ask("open_reader " + name + " " + kImageType + " reliable volatile 5");
+    EXPECT_TRUE(eventually([&] {
+      not_written += !writer->write(image_sample(4, ++seed));
+      return writer->matched_readers() == 2 && other.ask("matched_writers " + name) == "1";
+    }));
+    other.ask("close_reader " + name);
+    EXPECT_TRUE(eventually([&] {
+      not_written += !writer->write(image_sample(4, ++seed));
+      return writer->matched_readers() == 1;
+    }));
+  }
+  EXPECT_EQ(not_written, 0U) << "of " << seed;
+  const auto last = image_sample(4, ++seed);
+  EXPECT_TRUE(writer->write(last));
+  while (peer.next_received(name) != size_and_hash(*last)) {
+  }
+}
+
 TEST_F(SharedImages, ComeOnceEach) {
   const auto name = unique_topic("image");
   const auto reader = read_from_peer(topic(name, kImageType, interfaces::qos::kSensorData));

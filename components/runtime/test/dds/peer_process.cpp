@@ -102,6 +102,13 @@ std::size_t PeerProcess::resident_kb() const {
 
 void PeerProcess::signal(int number) const { kill(pid_, number); }
 
+void PeerProcess::kill_and_wait() const {
+  signal(SIGKILL);
+  siginfo_t ended{};
+  if (waitid(P_PID, static_cast<id_t>(pid_), &ended, WEXITED | WNOWAIT) != 0)
+    throw std::runtime_error("the peer is not there");
+}
+
 void PeerProcess::wait_until_stopped() const {
   int status = 0;
   if (waitpid(pid_, &status, WUNTRACED) != pid_ || !WIFSTOPPED(status))

@@ -37,6 +37,8 @@ class PeerProcess {
 
   pid_t id() const { return pid_; }
   void signal(int number) const;
+  /// When this returns, it runs no more and its ports are free.
+  void kill_and_wait() const;
   /// Waits until a stop signal has taken effect.
   void wait_until_stopped() const;
 

@@ -24,8 +24,10 @@ struct RawWriter::Entities {
 RawWriter::RawWriter(int domain, const std::string& wire_topic_name, const std::string& wire_type_name, Offer offer)
     : entities_(std::make_unique<Entities>()) {
   auto& [participant, publisher, topic, writer] = *entities_;
-  participant = DomainParticipantFactory::get_instance()->create_participant(static_cast<DomainId_t>(domain),
-                                                                             PARTICIPANT_QOS_DEFAULT);
+  DomainParticipantQos participant_qos = PARTICIPANT_QOS_DEFAULT;
+  participant_qos.wire_protocol().builtin.discovery_config.leaseDuration = eprosima::fastrtps::c_TimeInfinite;
+  participant =
+      DomainParticipantFactory::get_instance()->create_participant(static_cast<DomainId_t>(domain), participant_qos);
   TypeSupport(new RawType(wire_type_name)).register_type(participant);
   topic = participant->create_topic(wire_topic_name, wire_type_name, TOPIC_QOS_DEFAULT);
   publisher = participant->create_publisher(PUBLISHER_QOS_DEFAULT);

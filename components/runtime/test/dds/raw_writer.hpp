@@ -8,7 +8,8 @@
 
 namespace panvo::runtime::test {
 
-/// Writes any bytes at all to a topic, past the bridge: what a faulty or foreign program may send.
+/// Writes any bytes at all to a topic, past the bridge: what a faulty or foreign program may send. Its lease has no end: it is missed only if it
+/// says goodbye or is replaced.
 class RawWriter {
  public:
   struct Offer {

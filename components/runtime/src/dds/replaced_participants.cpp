@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "replaced_participants.hpp"
+
+#include <fastdds/rtps/transport/ChainingTransport.h>
+#include <fastdds/rtps/transport/ChainingTransportDescriptor.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <iterator>
+#include <utility>
+#include <vector>
+
+namespace panvo::runtime::dds {
+
+namespace rtps = eprosima::fastrtps::rtps;
+using eprosima::fastdds::rtps::ChainingTransport;
+using eprosima::fastdds::rtps::ChainingTransportDescriptor;
+using eprosima::fastdds::rtps::SendResourceList;
+using eprosima::fastdds::rtps::TransportDescriptorInterface;
+using eprosima::fastdds::rtps::TransportInterface;
+using eprosima::fastdds::rtps::TransportReceiverInterface;
+
+namespace {
+
+using Message = std::vector<rtps::octet>;
+
+// Those that were replaced by the sender of the message which this thread processes; nullptr: it processes none.
+thread_local std::vector<rtps::GuidPrefix_t>* replaced_here = nullptr;
+
+/// What a participant sends when it leaves [RTPS 2.2, 8.5.3, 9.4.5.3 and 9.6.3.4]: DATA of its announcing writer, without payload, whose inline QoS
+/// say which participant is disposed of. Its number is above those of all announcements before.
+Message goodbye_of(const rtps::GuidPrefix_t& participant) {
+  constexpr std::array<rtps::octet, 8> kHeader{'R', 'T', 'P', 'S', 2, 2, 1, 15};
+  constexpr std::array<rtps::octet, 28> kData{0x15, 0x03, 52, 0,     // DATA, little endian, inline QoS, 52 bytes
+                                              0,    0,    16, 0,     // inline QoS are 16 bytes from here
+                                              0,    1,    0,  0xc7,  // to the reader of announcements
+                                              0,    1,    0,  0xc2,  // from the writer of announcements
+                                              1,    0,    0,  0,    0, 0, 0, 0,  // sequence number 2^32
+                                              0x70, 0,    16, 0};                // key hash: the participant's GUID
+  constexpr std::array<rtps::octet, 16> kEnd{0,    0, 1, 0xc1,                   // the participant's entity in it
+                                             0x71, 0, 4, 0,    0, 0, 0, 3,       // status: disposed of and unregistered
+                                             1,    0, 0, 0};                     // no more
+  Message message;
+  const auto append = [&](const auto& bytes) { std::ranges::copy(bytes, std::back_inserter(message)); };
+  append(kHeader);
+  append(participant.value);
+  append(kData);
+  append(participant.value);
+  append(kEnd);
+  return message;
+}
+
+class Transport final : public ChainingTransport {
+ public:
+  explicit Transport(const ChainingTransportDescriptor& descriptor)
+      : ChainingTransport(descriptor), udp_(descriptor.low_level_descriptor) {}
+
+  TransportDescriptorInterface* get_configuration() override { return udp_.get(); }
+
+  // Messages go out past this transport. Were its senders wrapped, UDP would not find its own among them and open more for each participant.
+  bool OpenOutputChannel(SendResourceList& senders, const rtps::Locator_t& locator) override {
+    return low_level_transport_->OpenOutputChannel(senders, locator);
+  }
+  bool send(rtps::SenderResource* sender, const rtps::octet* bytes, std::uint32_t size, rtps::LocatorsIterator* begin,
+            rtps::LocatorsIterator* end, const std::chrono::steady_clock::time_point& limit) override {
+    return sender->send(bytes, size, begin, end, limit);
+  }
+
+  void receive(TransportReceiverInterface* receiver, const rtps::octet* bytes, std::uint32_t size,
+               const rtps::Locator_t& local, const rtps::Locator_t& remote) override {
+    std::vector<rtps::GuidPrefix_t> replaced;
+    auto* const outer = std::exchange(replaced_here, &replaced);
+    receiver->OnDataReceived(bytes, size, local, remote);
+    replaced_here = outer;
+    for (const auto& participant : replaced) {
+      const Message goodbye = goodbye_of(participant);
+      receiver->OnDataReceived(goodbye.data(), static_cast<std::uint32_t>(goodbye.size()), local, remote);
+    }
+  }
+
+ private:
+  const std::shared_ptr<TransportDescriptorInterface> udp_;
+};
+
+struct Descriptor final : ChainingTransportDescriptor {
+  using ChainingTransportDescriptor::ChainingTransportDescriptor;
+  TransportInterface* create_transport() const override { return new Transport(*this); }
+};
+
+}  // namespace
+
+std::shared_ptr<TransportDescriptorInterface> with_goodbyes_for_replaced(
+    std::shared_ptr<TransportDescriptorInterface> udp) {
+  return std::make_shared<Descriptor>(std::move(udp));
+}
+
+void let_go_replaced(const rtps::GuidPrefix_t& participant) {
+  if (replaced_here) replaced_here->push_back(participant);
+}
+
+}  // namespace panvo::runtime::dds
