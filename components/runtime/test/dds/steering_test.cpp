@@ -33,9 +33,11 @@ using testing::HasSubstr;
 
 class Steering : public testing::Test {
  protected:
-  /// The other process answers from when it has a container, and takes requests once it has put its component there.
+  /// The other process answers from when it has a container, and loads for others once it runs.
   void SetUp() override {
     ASSERT_TRUE(eventually([&] { return !loaded().empty(); }));
+    LoadNode_Request none;
+    ASSERT_TRUE(eventually([&] { return load(none).error_message().find("still loads") == std::string::npos; }));
   }
 
   template <class Response, class Request>
