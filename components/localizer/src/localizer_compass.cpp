@@ -89,11 +89,12 @@ AzimuthUse Localizer::add(const AzimuthMeasurement& azimuth) {
   return is_contradicted || lean ? AzimuthUse::kContradicted : AzimuthUse::kFused;
 }
 
-/// Joins a turn with the odometry's own, by their variances.
+/// Joins a turn with the odometry's own, by their variances. The chain adds up what it takes as if each turn erred by itself.
 void Localizer::fuse(std::int64_t from_ns, std::int64_t to_ns, double change_rad, double variance_rad2) {
   const auto turn = chain_.turn(from_ns, to_ns);
   if (!turn) return;
-  const double gain = turn->variance_rad2 / (turn->variance_rad2 + variance_rad2);
+  const double in_sums_rad2 = parameters_.compass_correlation_ratio * variance_rad2;
+  const double gain = turn->variance_rad2 / (turn->variance_rad2 + in_sums_rad2);
   const double by_rad = gain * wrapped(change_rad - turn->change_rad);
   chain_.turn_more(from_ns, to_ns, by_rad, 1.0 - gain);
 }

@@ -75,6 +75,7 @@ struct OneStep {
     parameters.doubtful_outlier_share = 0.04;
     parameters.clock_sigma_s = 0.0;
     parameters.compass_turn_error_ratio = 0.0;
+    parameters.compass_correlation_ratio = 1.0;
     parameters.start_sigma_deg = 1e-6;
     return parameters;
   }

@@ -350,7 +350,9 @@ TEST_P(ComponentHeedsTheCompass, AsFarAsThePointsOfTheOdometryAgree) {
   const auto [inlier_ratio, share] = GetParam();
   constexpr double kTurn_rad = 0.004;
   constexpr double kStep_rad2 = 1e-6;  // five steps are five times as uncertain as the compass
-  load({{"fusion.clock_sigma_s", "0"}, {"fusion.compass_turn_error_ratio", "0"}});
+  load({{"fusion.clock_sigma_s", "0"},
+        {"fusion.compass_turn_error_ratio", "0"},
+        {"fusion.compass_correlation_ratio", "1"}});
   const auto drive_on = [&, ratio = inlier_ratio](int from, int to) {
     for (int i = from; i < to; ++i) {
       publish_quality(i, true, ratio);

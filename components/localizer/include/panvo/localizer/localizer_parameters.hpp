@@ -16,6 +16,7 @@ struct Parameters {
   double lean_window_s = 8.0;
   double lean_sigmas = 3.0;
   double compass_turn_error_ratio = 0.007;
+  double compass_correlation_ratio = 4.0;
   double turn_scale_sigma = 0.002;
   double mounting_sigma_deg = 60.0;
   double steady_turn_share = 0.3;
@@ -53,6 +54,10 @@ struct Parameters {
         "share of a turn that the compass may miss every time: of drops on the lens and parts of the vehicle, which do "
         "not turn against the camera",
         0.0, 0.5);
+    field(&P::compass_correlation_ratio, "compass_correlation_ratio", "1",
+          "variance of the sum of many turns of the compass over the sum of their variances: what stands close beside "
+          "the way misleads it alike for as long as it is passed; 1: each errs by itself",
+          1.0, 100.0);
     field(
         &P::turn_scale_sigma, "turn_scale_sigma", "1",
         "standard deviation of the share by which odometry turns too much or too little, before the compass tells it: "
