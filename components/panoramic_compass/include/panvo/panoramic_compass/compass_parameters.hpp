@@ -68,7 +68,7 @@ struct AgreementParameters {
   double largest_sigma_deg = 0.5;
   double systematic_deg = 0.01;
   double parallax_share = 0.004;
-  double kept_share = 0.5;
+  double kept_share = 0.3;
   double largest_parallax_deg = 9.0;
   int longest_reference = 25;
 
