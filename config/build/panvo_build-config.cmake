@@ -188,9 +188,9 @@ function(panvo_add_fuzzer target)
 endfunction()
 
 # panvo_package(DEPENDENCIES <package> ...): installs headers, exports what panvo_add_library made, and writes the package's config file.
-# A dependency may carry components: "OpenCV COMPONENTS core imgproc" as one quoted argument.
+# A dependency may carry components: "OpenCV COMPONENTS core imgproc" as one quoted argument. INCLUDE: files beside the config file that it includes.
 function(panvo_package)
-  cmake_parse_arguments(PARSE_ARGV 0 arg "" "" "DEPENDENCIES")
+  cmake_parse_arguments(PARSE_ARGV 0 arg "" "" "DEPENDENCIES;INCLUDE")
   set(destination ${CMAKE_INSTALL_DATADIR}/${PROJECT_NAME}/cmake)
   if(EXISTS ${CMAKE_CURRENT_SOURCE_DIR}/include)
     install(DIRECTORY include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
@@ -202,8 +202,15 @@ function(panvo_package)
     foreach(dependency IN LISTS arg_DEPENDENCIES)
       string(APPEND finds "find_dependency(${dependency})\n")
     endforeach()
-    file(WRITE ${CMAKE_CURRENT_BINARY_DIR}/${PROJECT_NAME}-config.cmake
-      "include(CMakeFindDependencyMacro)\n${finds}include(\${CMAKE_CURRENT_LIST_DIR}/${PROJECT_NAME}-targets.cmake)\n")
+    set(includes "")
+    foreach(file IN ITEMS ${PROJECT_NAME}-targets.cmake LISTS arg_INCLUDE)
+      string(APPEND includes "include(\${CMAKE_CURRENT_LIST_DIR}/${file})\n")
+    endforeach()
+    get_property(installs_idl DIRECTORY PROPERTY PANVO_INSTALLS_IDL)
+    if(installs_idl)  # for packages whose messages contain those of this one
+      string(APPEND includes "set_property(GLOBAL APPEND PROPERTY PANVO_IDL \${CMAKE_CURRENT_LIST_DIR}/../idl)\n")
+    endif()
+    file(WRITE ${CMAKE_CURRENT_BINARY_DIR}/${PROJECT_NAME}-config.cmake "include(CMakeFindDependencyMacro)\n${finds}${includes}")
     write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/${PROJECT_NAME}-config-version.cmake COMPATIBILITY SameMajorVersion)
     install(TARGETS ${targets} EXPORT ${PROJECT_NAME}-targets
       LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})

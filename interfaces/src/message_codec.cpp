@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "message_codec.hpp"
+#include "panvo/interfaces/message_codec.hpp"
 
 #include <algorithm>
 #include <string>
 
 #include <fastcdr/Cdr.h>
 #include <fastcdr/exceptions/Exception.h>
+
+#include "cdr_layout.hpp"
 
 namespace panvo::interfaces {
 
@@ -51,19 +53,6 @@ void decode(const CdrType& type, std::span<const std::uint8_t> bytes, void* mess
 
 std::optional<std::int64_t> to_ns(const builtin_interfaces::msg::Time& time) {
   return std::int64_t{time.sec()} * 1'000'000'000 + time.nanosec();
-}
-
-const MessageType* find_message_type(std::string_view name) {
-  const auto types = message_types();
-  const auto found = std::ranges::lower_bound(types, name, {}, [](const MessageType* type) { return type->name; });
-  return found != types.end() && (*found)->name == name ? *found : nullptr;
-}
-
-const CdrLayout& layout_of(const MessageType& type) {
-  const auto types = message_types();
-  const auto found =
-      std::ranges::lower_bound(types, type.name, {}, [](const MessageType* known) { return known->name; });
-  return *cdr_layouts()[static_cast<std::size_t>(found - types.begin())];
 }
 
 }  // namespace panvo::interfaces

@@ -10,7 +10,7 @@
 #include <string_view>
 
 #include "cdr_layout.hpp"
-#include "message_codec.hpp"
+#include "panvo/interfaces/message_codec.hpp"
 
 namespace panvo::interfaces {
 namespace {
@@ -172,9 +172,9 @@ class Printer {
 std::string to_yaml(const MessageType& type, std::span<const std::uint8_t> bytes, std::size_t longest) {
   const auto order = check_encapsulation(type.name, bytes);
   const auto payload = bytes.subspan(kEncapsulationSize);
-  check_cdr(type.name, layout_of(type), payload, order);
+  check_cdr(type.name, *type.layout, payload, order);
   Printer printer(payload, order, longest);
-  printer.message(layout_of(type), "");
+  printer.message(*type.layout, "");
   return printer.take();
 }
 

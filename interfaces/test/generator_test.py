@@ -2,7 +2,6 @@
 """Tests of the generator in tools/."""
 
 import sys
-import tempfile
 import unittest
 from pathlib import Path
 
@@ -10,8 +9,10 @@ sys.dont_write_bytecode = True
 sys.path.insert(0, str(Path(__file__).parent.parent / "tools"))
 
 import idl  # noqa: E402
+import idl_text  # noqa: E402
 import message_classes  # noqa: E402
 import message_table  # noqa: E402
+import msg_file  # noqa: E402
 from ros2msg import definition  # noqa: E402
 from type_hash import type_hash  # noqa: E402
 
@@ -88,12 +89,81 @@ class Parsing(unittest.TestCase):
             parse("struct Thing { double a; };", name="Other")
 
     def test_refuses_an_unknown_message(self):
-        with tempfile.TemporaryDirectory() as folder:
-            path = Path(folder, "a_msgs/msg/Thing.idl")
-            path.parent.mkdir(parents=True)
-            path.write_text(wrapped("struct Thing { b_msgs::msg::Missing x; };"), encoding="utf-8")
-            with self.assertRaisesRegex(idl.IdlError, "b_msgs/msg/Missing is not defined"):
-                idl.read_messages(Path(folder))
+        thing = parse("struct Thing { b_msgs::msg::Missing x; };")
+        with self.assertRaisesRegex(idl.IdlError, r"contains b_msgs/msg/Missing, which is not defined: .* find_package\(b_msgs\) first"):
+            idl.require_definitions({thing.full_name: thing}, {})
+
+    def test_refuses_names_that_cpp_has_taken(self):
+        thing = parse("struct Thing { double class; };")
+        with self.assertRaisesRegex(idl.IdlError, "class is a word of C"):
+            idl.require_cpp_names({thing.full_name: thing})
+
+    def test_reads_a_file_of_a_package_that_is_given(self):
+        text = wrapped("struct Thing { double a; };")
+        self.assertEqual(idl.parse_file(Path("src/msg/Thing.idl"), text, "a_msgs")[0].full_name, "a_msgs/msg/Thing")
+        with self.assertRaisesRegex(idl.IdlError, "here of b_msgs"):
+            idl.parse_file(Path("src/msg/Thing.idl"), text, "b_msgs")
+
+
+class RosFiles(unittest.TestCase):
+    """.msg and .srv files."""
+
+    def message(self, text: str) -> idl.Message:
+        return msg_file.parse(Path("msg/Thing.msg"), text, "a_msgs")[0]
+
+    def assert_refuses(self, text: str, message: str):
+        with self.assertRaisesRegex(idl.IdlError, message):
+            self.message(text)
+
+    def test_give_the_same_message_as_idl(self):
+        from_msg = self.message("std_msgs/Header header\nstring<=12 label\nstd_msgs/String[] names\nfloat64[9] matrix  # row-major\nfloat32 scale 1.0\n")
+        from_idl = parse("""struct Thing {
+            std_msgs::msg::Header header;
+            string<12> label;
+            sequence<std_msgs::msg::String> names;
+            double matrix[9];  // row-major
+            @default(value=1.0) float scale;
+        };""")
+        self.assertEqual(from_msg, from_idl)
+
+    def test_have_the_primitives_of_ros(self):
+        message = self.message("bool a\nbyte b\nchar c\nfloat32 d\nfloat64 e\nint8 f\nuint64 g\nstring h\nInner i\nb_msgs/msg/Other j\nint32[<=3] k\nint32[] l\n")
+        bases = ["boolean", "octet", "uint8", "float", "double", "int8", "uint64", "string", "a_msgs/msg/Inner", "b_msgs/msg/Other", "int32", "int32"]
+        self.assertEqual([field.type.base for field in message.fields], bases)
+        self.assertEqual(message.fields[10].type, idl.Type("int32", is_sequence=True, sequence_bound=3))
+
+    def test_have_constants(self):
+        message = self.message('uint8 LOW=1\nint8 NEGATIVE = -2  # below\nstring NAME="a # b"\nbool ON=true\nuint8 level\n')
+        self.assertEqual([(c.name, c.value) for c in message.constants], [("LOW", "1"), ("NEGATIVE", "-2"), ("NAME", '"a # b"'), ("ON", "TRUE")])
+
+    def test_have_comments(self):
+        message = self.message("# What it is.\n\n# Before\nuint8 a  # beside\n\nuint8 b\n")
+        self.assertEqual(message.comment, "What it is.")
+        self.assertEqual([field.comment for field in message.fields], ["Before beside", ""])
+
+    def test_may_be_empty(self):
+        self.assertEqual(self.message("# Nothing.\n").fields[0].name, "structure_needs_at_least_one_member")
+
+    def test_of_a_service_have_two_parts(self):
+        request, response = msg_file.parse(Path("srv/Add.srv"), "int64 a\n---\nint64 sum\n", "a_msgs")
+        self.assertEqual((request.full_name, response.full_name), ("a_msgs/srv/Add_Request", "a_msgs/srv/Add_Response"))
+        for text in ("int64 a\n", "int64 a\n---\n---\n"):
+            with self.assertRaisesRegex(idl.IdlError, "---"):
+                msg_file.parse(Path("srv/Add.srv"), text, "a_msgs")
+
+    def test_are_refused_by_line(self):
+        self.assert_refuses("uint8 a\nwstring b\n", "Thing.msg:2: wstring is not a type")
+        self.assert_refuses("uint8 a\nuint8 a\n", "Thing.msg:2: a is there twice")
+        self.assert_refuses("uint8\n", "Thing.msg:1: cannot read 'uint8'")
+        self.assert_refuses("Inner i 3\n", "Thing.msg:1: i is a message")
+        self.assert_refuses("uint8[] LIST=3\n", "Thing.msg:1: constant LIST")
+
+    def test_become_idl_that_says_the_same(self):
+        message = self.message("# Text.\nbool ON=true\nstring NAME=\"x\"\nb_msgs/Other[2] map\nstring label \"none\"\nint32[<=3] few\n")
+        again = idl.parse(Path("a_msgs/msg/Thing.idl"), idl_text.text([message]))
+        self.assertEqual([(f.name, f.type) for f in again.fields], [(f.name, f.type) for f in message.fields])
+        self.assertEqual((again.constants, again.comment), (message.constants, message.comment))
+        self.assertIn("b_msgs::msg::Other _map[2];", idl_text.text([message]))
 
 
 class Output(unittest.TestCase):
@@ -121,9 +191,9 @@ class Output(unittest.TestCase):
         self.assertEqual(type_hash(first, {}), type_hash(commented, {}))
         self.assertNotEqual(type_hash(first, {}), type_hash(renamed, {}))
 
-    def test_table_lays_out_what_is_contained_first(self):
-        text = message_table.table(self.messages)
-        self.assertLess(text.index("k_a_msgs_Inner_layout{"), text.index("k_a_msgs_Outer_layout{"))
+    def test_table_declares_layouts_before_they_are_used(self):
+        text = message_table.table(self.messages, {}, [])
+        self.assertLess(text.index("extern const CdrLayout k_a_msgs_Inner_layout;"), text.index("k_a_msgs_Outer_layout{"))
         self.assertIn('{.name = "scale", .size = 4, .number = CdrNumber::kFloat, .array_size = 3, .is_array = true},', text)
         self.assertIn('{.name = "inner", .nested = &k_a_msgs_Inner_layout, .is_sequence = true},', text)
 

@@ -83,11 +83,6 @@ const MessageType* find(std::string name) {
   return find_message_type(name);
 }
 
-const CdrLayout& layout(const MessageType& type) {
-  const auto types = message_types();
-  return *cdr_layouts()[static_cast<std::size_t>(std::ranges::find(types, &type) - types.begin())];
-}
-
 /// A definition without what may differ: comments, white space, a default's notation, and a package that goes without saying.
 std::string normalised(const std::string& definition) {
   std::istringstream lines(definition);
@@ -105,6 +100,23 @@ std::string normalised(const std::string& definition) {
   return result;
 }
 
+/// What a later ROS 2 added to a type, lines in between: all lines of the earlier definition are there, in their order.
+bool extends(const std::string& later, const std::string& earlier) {
+  std::istringstream later_lines(later), earlier_lines(earlier);
+  std::string wanted, line;
+  while (std::getline(earlier_lines, wanted)) {
+    do {
+      if (!std::getline(later_lines, line)) return false;
+    } while (line != wanted);
+  }
+  return true;
+}
+
+/// Of Jazzy, where the bags are of Iron: its range has a variance.
+constexpr std::string_view kGrown = "sensor_msgs/msg/Range";
+/// The tool that wrote the bags has ROS 2's `char` as a type of its own; ROS 2 has it as uint8.
+constexpr std::string_view kHashedOtherwise = "std_msgs/msg/Char";
+
 TEST_F(RecordedMessages, AreWrittenByteForByteAsTheyWereRead) {
   std::set<std::string_view> types;
   int messages = 0;
@@ -112,9 +124,7 @@ TEST_F(RecordedMessages, AreWrittenByteForByteAsTheyWereRead) {
     Query query(bag, "SELECT topics.type, messages.data FROM messages JOIN topics ON topics.id = messages.topic_id");
     while (query.next()) {
       const MessageType* type = find(query.text(0));
-      if (type == nullptr) {
-        continue;
-      }
+      if (type == nullptr || type->name == kGrown) continue;
       Bytes recorded = query.bytes(1);
       const auto message = type->deserialize(recorded);
       Bytes written(type->serialized_size(message.get()));
@@ -123,7 +133,7 @@ TEST_F(RecordedMessages, AreWrittenByteForByteAsTheyWereRead) {
       ASSERT_LE(written.size(), recorded.size()) << type->name << " in " << bag;
       ASSERT_LE(recorded.size() - written.size(), 3U) << type->name << " in " << bag;
       recorded.resize(written.size());
-      clear_padding(type->name, layout(*type), std::span(recorded).subspan(4));
+      clear_padding(type->name, *type->layout, std::span(recorded).subspan(4));
       ASSERT_EQ(written, recorded) << type->name << " in " << bag;
       types.insert(type->name);
       ++messages;
@@ -131,7 +141,7 @@ TEST_F(RecordedMessages, AreWrittenByteForByteAsTheyWereRead) {
   }
   RecordProperty("messages", messages);
   RecordProperty("types", static_cast<int>(types.size()));
-  EXPECT_GE(types.size(), 30U);
+  EXPECT_GE(types.size(), 85U);
   EXPECT_GE(messages, 3000);
 }
 
@@ -158,13 +168,13 @@ TEST_F(RecordedMessages, HaveOurTypeHashes) {
   for (const fs::path& bag : bags_) {
     Query query(bag, "SELECT type, type_description_hash FROM topics WHERE type_description_hash != ''");
     while (query.next()) {
-      if (const MessageType* type = find(query.text(0))) {
+      if (const MessageType* type = find(query.text(0)); type && type->name != kGrown && type->name != kHashedOtherwise) {
         EXPECT_EQ(type->hash, query.text(1)) << type->name << " in " << bag;
         types.insert(type->name);
       }
     }
   }
-  EXPECT_GE(types.size(), 30U);
+  EXPECT_GE(types.size(), 85U);
 }
 
 TEST_F(RecordedMessages, HaveOurDefinitions) {
@@ -177,13 +187,16 @@ TEST_F(RecordedMessages, HaveOurDefinitions) {
                 "WHERE topics.type_description_hash != ''");
     while (query.next()) {
       const MessageType* type = find(query.text(0));
-      if (type != nullptr && !query.text(1).empty()) {
-        EXPECT_EQ(normalised(std::string(type->definition)), normalised(query.text(1))) << type->name << " in " << bag;
+      if (type != nullptr && type->name != kHashedOtherwise && !query.text(1).empty()) {
+        EXPECT_TRUE(extends(normalised(std::string(type->definition)), normalised(query.text(1))))
+            << type->name << " in " << bag << ":\n"
+            << normalised(query.text(1)) << "ours:\n"
+            << normalised(std::string(type->definition));
         types.insert(type->name);
       }
     }
   }
-  EXPECT_GE(types.size(), 30U);
+  EXPECT_GE(types.size(), 85U);
 }
 
 }  // namespace

@@ -10,7 +10,11 @@ from pathlib import Path
 
 PRIMITIVES = ("boolean", "octet", "int8", "uint8", "int16", "uint16", "int32", "uint32", "int64", "uint64", "float", "double")
 
-_TOKEN = re.compile(r"\s+|(?P<comment>//[^\n]*)|(?P<directive>\#[^\n]*)|(?P<word>[A-Za-z_]\w*(?:::\w+)*|-?[\d.]+)|(?P<sign>[{}()<>\[\];,=@])")
+PLACEHOLDER = "structure_needs_at_least_one_member"  # ROS 2 adds it to a message without members
+
+_TOKEN = re.compile(
+    r"\s+|(?P<comment>//[^\n]*)|(?P<directive>\#[^\n]*)"
+    r"|(?P<word>[A-Za-z_]\w*(?:::\w+)*|-?[\d.]+(?:[eE][-+]?\d+)?|\"(?:[^\"\\\n]|\\.)*\")|(?P<sign>[{}()<>\[\];,=@])")
 
 
 class IdlError(Exception):
@@ -199,7 +203,7 @@ class _Parser:
     def field(self, previous: list[Field]) -> Field:
         default = self.default() if self.peek() == "@" else ""
         base = self.type()
-        name = self.take()
+        name = self.take().removeprefix("_")  # a name that is a word of IDL's bears it
         if any(name == other.name for other in previous):
             raise self.error(f"{name} is there twice")
         if self.peek() == "[":
@@ -251,14 +255,15 @@ class _Parser:
         raise self.error(f"{base} is not a type that is understood: {', '.join(PRIMITIVES)}, string, sequence<...> or package::msg::Name")
 
 
-def parse_file(path: Path, text: str) -> list[Message]:
-    """What a file defines; its place, <package>/msg/<Name>.idl or <package>/srv/<Name>.idl, must agree."""
+def parse_file(path: Path, text: str, package: str = "") -> list[Message]:
+    """What a file defines; its place, msg/<Name>.idl or srv/<Name>.idl, must agree, and so must the package if one is given, else the folder above."""
     messages = _Parser(path, text).messages()
     for message, part in zip(messages, ("_Request", "_Response")):
         if message.kind == "srv" and not message.name.endswith(part):
             raise IdlError(f"{path}: {message.name} must end in {part}: a service is its request, then its response")
-        if path.parts[-3:] != (message.package, message.kind, f"{message.file_name.split('/')[-1]}.idl"):
-            raise IdlError(f"{path}: defines {message.full_name}, so it must be {message.file_name}.idl")
+        found = (package or path.parts[-3], path.parts[-2], path.name)
+        if found != (message.package, message.kind, f"{message.file_name.split('/')[-1]}.idl"):
+            raise IdlError(f"{path}: defines {message.full_name}, so it must be {message.file_name}.idl{f', here of {package}' if package else ''}")
     return messages
 
 
@@ -267,12 +272,35 @@ def parse(path: Path, text: str) -> Message:
     return parse_file(path, text)[0]
 
 
-def read_messages(root: Path) -> dict[str, Message]:
-    """Every message, request and response under a folder by its full name, sorted."""
-    found = [message for path in root.glob("*/*/*.idl") for message in parse_file(path, path.read_text(encoding="utf-8"))]
-    messages = {message.full_name: message for message in sorted(found, key=lambda message: message.full_name)}
+def read_trees(roots: list[Path]) -> dict[str, Message]:
+    """Every message, request and response in folders <root>/<package>/{msg,srv}, by full name, sorted. Of one that is in two, the first counts."""
+    messages: dict[str, Message] = {}
+    for root in roots:
+        for path in sorted(root.glob("*/*/*.idl")):
+            for message in parse_file(path, path.read_text(encoding="utf-8")):
+                messages.setdefault(message.full_name, message)
+    return dict(sorted(messages.items()))
+
+
+# Words that are names of fields in no C++ class.
+_CPP_KEYWORDS = frozenset("""
+    alignas alignof and asm auto bool break case catch char class compl concept const consteval constexpr constinit continue decltype default delete do
+    double else enum explicit export extern false float for friend goto if inline int long mutable namespace new noexcept not nullptr operator or
+    private protected public register requires return short signed sizeof static struct switch template this throw true try typedef typeid typename
+    union unsigned using virtual void volatile while xor
+    """.split())
+
+
+def require_cpp_names(messages: dict[str, Message]) -> None:
+    for message in messages.values():
+        for name in (field.name for field in message.fields):
+            if name in _CPP_KEYWORDS:
+                raise IdlError(f"{message.full_name}: {name} is a word of C++; give the field another name")
+
+
+def require_definitions(messages: dict[str, Message], known: dict[str, Message]) -> None:
+    """That all which `messages` contain is there."""
     for message in messages.values():
         for name in message.direct_dependencies:
-            if name not in messages:
-                raise IdlError(f"{root / message.file_name}.idl: {name} is not defined; add {root / name}.idl")
-    return messages
+            if name not in messages and name not in known:
+                raise IdlError(f"{message.full_name} contains {name}, which is not defined: correct the name, or find_package({name.split('/')[0]}) first")

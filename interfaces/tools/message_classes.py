@@ -11,6 +11,7 @@ from collections.abc import Iterable
 from pathlib import Path
 
 import idl
+import idl_text
 
 # For a process of a few seconds the optimising compiler costs more than it gives: this halves the time.
 _JAVA_OPTIONS = "-XX:TieredStopAtLevel=1 -XX:+UseSerialGC"
@@ -25,7 +26,7 @@ def _flat_name(file_name: str) -> str:
     return file_name.replace("/", "__")
 
 
-def _by_file(messages: dict[str, idl.Message]) -> dict[str, list[idl.Message]]:
+def by_file(messages: dict[str, idl.Message]) -> dict[str, list[idl.Message]]:
     """A service's request and response are in one file."""
     files: dict[str, list[idl.Message]] = {}
     for message in messages.values():
@@ -33,22 +34,18 @@ def _by_file(messages: dict[str, idl.Message]) -> dict[str, list[idl.Message]]:
     return files
 
 
-def _write_flat_copies(names: Iterable[str], source: Path, folder: Path) -> Path:
-    """Copies the definitions under their flat names. One file that includes them all lets one Java process do the whole work."""
-    include = re.compile(r'#include "(\w+/msg/\w+)\.idl"')
-    names = list(names)
-    for name in names:
-        text = (source / f"{name}.idl").read_text(encoding="utf-8")
-        text = include.sub(lambda match: f'#include "{_flat_name(match.group(1))}.idl"', text)
-        (folder / f"{_flat_name(name)}.idl").write_text(text, encoding="utf-8")
+def _write_flat_files(files: dict[str, list[idl.Message]], wanted: Iterable[str], folder: Path) -> Path:
+    """Writes the definitions under their flat names. One file that includes those wanted lets one Java process do the whole work."""
+    for name, defined in files.items():
+        (folder / f"{_flat_name(name)}.idl").write_text(idl_text.text(defined, _flat_name), encoding="utf-8")
     root = folder / "all_messages.idl"
-    root.write_text("".join(f'#include "{_flat_name(name)}.idl"\n' for name in names), encoding="utf-8")
+    root.write_text("".join(f'#include "{_flat_name(name)}.idl"\n' for name in wanted), encoding="utf-8")
     return root
 
 
 def _run_fastddsgen(fastddsgen: str, root: Path, output: Path) -> str:
     """Returns what it said on stdout."""
-    command = [fastddsgen, "-cs", "-typeros2", "-replace", "-I", str(root.parent), "-d", str(output), str(root)]
+    command = [fastddsgen, "-cs", "-typeros2", "-replace", "-I", str(root.parent), "-t", str(root.parent), "-d", str(output), str(root)]
     environment = {**os.environ, "JDK_JAVA_OPTIONS": _JAVA_OPTIONS}
     result = subprocess.run(command, capture_output=True, text=True, check=False, env=environment)
     # Java says on stderr which options it found in the environment.
@@ -76,16 +73,16 @@ def _source(file_name: str, _: list[idl.Message], text: str) -> str:
     return text.replace(f'#include "{_flat_name(file_name)}.h"', f'#include "{file_name}.h"').rstrip() + "\n"
 
 
-def generate(messages: dict[str, idl.Message], source: Path, fastddsgen: str) -> dict[str, str]:
-    """Contents of <package>/msg/<Name>.h and .cxx of every message, <package>/srv/... of every service, by path."""
+def generate(messages: dict[str, idl.Message], known: dict[str, idl.Message], fastddsgen: str) -> dict[str, str]:
+    """Contents of <package>/msg/<Name>.h and .cxx of every message, <package>/srv/... of every service, by path. `known`: what they may contain."""
     files = {}
-    by_file = _by_file(messages)
+    own = by_file(messages)
     with tempfile.TemporaryDirectory() as temporary:
         idl_folder, output = Path(temporary, "idl"), Path(temporary, "cpp")
         idl_folder.mkdir()
         output.mkdir()
-        said = _run_fastddsgen(fastddsgen, _write_flat_copies(by_file, source, idl_folder), output)
-        for name, defined in by_file.items():
+        said = _run_fastddsgen(fastddsgen, _write_flat_files({**by_file(known), **own}, own, idl_folder), output)
+        for name, defined in own.items():
             for suffix, adapt in ((".h", _header), (".cxx", _source)):
                 path = output / (_flat_name(name) + suffix)
                 if not path.exists():

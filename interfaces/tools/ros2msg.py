@@ -7,7 +7,6 @@ import idl
 
 _NAMES = {"boolean": "bool", "octet": "byte", "float": "float32", "double": "float64"}
 _SEPARATOR = "=" * 80
-_PLACEHOLDER = "structure_needs_at_least_one_member"  # ROS 2 adds it to the IDL of an empty message
 
 
 def _type(type_: idl.Type, package: str) -> str:
@@ -24,11 +23,15 @@ def _type(type_: idl.Type, package: str) -> str:
     return base
 
 
+def _value(constant: idl.Constant) -> str:
+    return constant.value.lower() if constant.type == "boolean" else constant.value
+
+
 def _own_definition(message: idl.Message) -> str:
     lines = [f"# {line}" for line in message.comment.splitlines()]
-    lines += [f"{_NAMES.get(constant.type, constant.type)} {constant.name}={constant.value}" for constant in message.constants]
+    lines += [f"{_NAMES.get(constant.type, constant.type)} {constant.name}={_value(constant)}" for constant in message.constants]
     for field in message.fields:
-        if field.name == _PLACEHOLDER:
+        if field.name == idl.PLACEHOLDER:
             continue
         comment = f"  # {field.comment}" if field.comment else ""
         default = f" {field.default}" if field.default else ""

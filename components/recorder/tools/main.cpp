@@ -37,7 +37,7 @@ int check(const std::string& path) {
     std::printf("%-40s %-36s %8llu readable", printable(topic.name).c_str(), printable(topic.type).c_str(),
                 static_cast<unsigned long long>(topic.readable));
     if (!topic.is_decodable) {
-      std::printf(", of a type that is not known here");
+      std::printf(", not decoded: no library of its package");
     } else if (topic.undecodable == 0) {
       std::printf(", all decode");
     } else {

@@ -3,11 +3,7 @@
 
 #include <dlfcn.h>
 
-#include <algorithm>
-#include <cstdlib>
-#include <set>
-#include <sstream>
-
+#include "panvo/interfaces/library_folders.hpp"
 #include "panvo/runtime/errors.hpp"
 #include "panvo/runtime/names.hpp"
 
@@ -69,55 +65,12 @@ std::vector<const ComponentDescriptor*> Library::components() const {
   return components;
 }
 
-namespace {
-
-/// The folders that an environment variable lists, separated by colons.
-std::vector<fs::path> listed_in(const char* variable) {
-  const char* value = std::getenv(variable);
-  std::istringstream list(value ? value : "");
-  std::vector<fs::path> paths;
-  for (std::string path; std::getline(list, path, ':');) {
-    if (!path.empty()) paths.emplace_back(path);
-  }
-  return paths;
-}
-
-/// The folders below a prefix that plugins are installed to: CMAKE_INSTALL_LIBDIR is lib/x86_64-linux-gnu or the like below Debian's /usr, lib or
-/// lib64 elsewhere.
-void add_below(const fs::path& prefix, std::vector<fs::path>& folders) {
-  for (const std::string libraries : {PANVO_INSTALL_LIBDIR, "lib/" PANVO_ARCHITECTURE, "lib"}) {
-    const fs::path folder = prefix / libraries / "panvo";
-    if (std::ranges::find(folders, folder) == folders.end()) folders.push_back(folder);
-  }
-}
-
-}  // namespace
-
 std::vector<fs::path> plugin_folders() {
-  std::vector<fs::path> folders = listed_in("PANVO_PLUGIN_PATH");
-  for (const auto& prefix : listed_in("COLCON_PREFIX_PATH")) {
-    add_below(prefix, folders);   // merged: one prefix for all
-    std::set<fs::path> isolated;  // colcon's default: a prefix for each package, below this one
-    std::error_code error;
-    for (const auto& package : fs::directory_iterator(prefix, error)) isolated.insert(package.path());
-    for (const auto& package : isolated) {
-      std::vector<fs::path> of_package;
-      add_below(package, of_package);
-      for (const auto& folder : of_package) {
-        if (fs::is_directory(folder, error)) folders.push_back(folder);
-      }
-    }
-  }
-  for (const char* variable : {"AMENT_PREFIX_PATH", "CMAKE_PREFIX_PATH"}) {
-    for (const auto& prefix : listed_in(variable)) add_below(prefix, folders);
-  }
+  std::vector<fs::path> folders = interfaces::folders_in("PANVO_PLUGIN_PATH");
+  for (const auto& folder : interfaces::library_folders()) folders.push_back(folder / "panvo");
   std::error_code error;
   const fs::path executable = fs::read_symlink("/proc/self/exe", error);
-  if (!error) {
-    const fs::path folder = executable.parent_path();
-    add_below(folder / "..", folders);                   // installed
-    folders.push_back(folder / ".." / "panvo_plugins");  // in the build folder
-  }
+  if (!error) folders.push_back(executable.parent_path() / ".." / "panvo_plugins");  // in the build folder
   return folders;
 }
 

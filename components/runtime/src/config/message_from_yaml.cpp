@@ -211,7 +211,7 @@ rcl_interfaces::msg::ParameterValue list_value(const YAML::Node& node, const std
 
 interfaces::Bytes message_from_yaml(const interfaces::MessageType& type, const std::string& text) {
   Builder builder;
-  builder.message(interfaces::layout_of(type), load(text), "");
+  builder.message(*type.layout, load(text), "");
   return builder.take();
 }
 

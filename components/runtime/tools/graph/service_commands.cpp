@@ -35,9 +35,7 @@ std::string type_of(Session& session, const std::string& name) {
 const interfaces::MessageType& known_type(const std::string& type_name, const char* part) {
   const auto* type = interfaces::find_message_type(type_name + part);
   if (!type) {
-    throw Failure("the type " + type_name +
-                  " is not known here, so that its requests cannot be written; panvo knows those of parameters, "
-                  "components and lifecycle");
+    throw Failure("the type " + type_name + " " + interfaces::why_unknown(type_name + part));
   }
   return *type;
 }

@@ -175,8 +175,8 @@ void echo(const SessionOptions& options, const TopicReading& reading) {
   Session session(options);
   Stream stream(session, reading);
   if (!stream.type()) {
-    throw Failure("the type " + stream.type_name() +
-                  " is not known here, so that its bytes cannot be read; `panvo topic hz` and `bw` work all the same");
+    throw Failure("the type " + stream.type_name() + " " + interfaces::why_unknown(stream.type_name()) +
+                  ". Without it `panvo topic hz` and `bw` work, echo does not");
   }
   for (std::size_t shown = 0; reading.count == 0 || shown < reading.count;) {
     const auto arrival = stream.next(shown == 0 ? session.timeout() : kForEver);

@@ -10,8 +10,6 @@
 
 namespace panvo::interfaces {
 
-struct CdrLayout;
-
 /// How the bytes of a primitive are to be understood.
 enum class CdrNumber : std::uint8_t { kUnsigned, kSigned, kFloat, kBool };
 
@@ -31,11 +29,5 @@ struct CdrField {
 struct CdrLayout {
   std::span<const CdrField> fields;
 };
-
-/// Of every message, in the order of message_types().
-std::span<const CdrLayout* const> cdr_layouts();
-
-/// Of one of the types of message_types().
-const CdrLayout& layout_of(const MessageType& type);
 
 }  // namespace panvo::interfaces

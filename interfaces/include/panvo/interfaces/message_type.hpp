@@ -23,13 +23,16 @@ class DecodeError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// What one needs to know of a message type to carry, store and read its messages without knowing their C++ class.
-/// The instances live in this library, which is never unloaded, so they may be referred to from anywhere.
+struct CdrLayout;
+
+/// What is needed to carry, store and read messages of a type without knowing their C++ class. The instances live in libraries that are never
+/// unloaded, so references to them stay valid.
 struct MessageType {
   std::string_view name;        ///< as ROS 2 tools and bags print it: "nav_msgs/msg/Odometry"
   std::string_view dds_name;    ///< as it is matched on the wire: "nav_msgs::msg::dds_::Odometry_"
   std::string_view hash;        ///< ROS 2 type description hash: "RIHS01_" and 64 hexadecimal digits
   std::string_view definition;  ///< the type and all it contains in ROS 2's .msg notation ("ros2msg")
+  const CdrLayout* layout;      ///< the members, see message_layout.hpp
   const std::type_info* cpp_type;
 
   std::size_t (*serialized_size)(const void* message);
@@ -45,14 +48,23 @@ struct MessageType {
   std::optional<std::string> (*problem)(const void* message);
 };
 
-/// The type of a generated message class: message_type<nav_msgs::msg::Odometry>(). Defined in this library for every generated message.
+/// Whether the stamps of a type's messages are of about the time at which they are sent, so that a stamp far from its neighbours is wrong. Types for
+/// which this is not so specialise it.
+template <class Message>
+inline constexpr bool kIsStampedWhenSent = true;
+
+/// The type of a generated message class: message_type<nav_msgs::msg::Odometry>(). Defined in the library of the message's package.
 template <class Message>
 const MessageType& message_type();
 
-/// The type of that ROS 2 name ("nav_msgs/msg/Odometry"), or nullptr.
+/// The type of that ROS 2 name ("nav_msgs/msg/Odometry"), or nullptr. A package that is not loaded yet is loaded: the library lib<package>__panvo.so that
+/// panvo_generate_interfaces() makes, from one of message_folders().
 const MessageType* find_message_type(std::string_view name);
 
-/// Every known type, sorted by name.
-std::span<const MessageType* const> message_types();
+/// Why find_message_type(name) gives nothing, with the remedy, to be shown after the name: "is not a type name; ...".
+std::string why_unknown(std::string_view name);
+
+/// The types of all libraries that are loaded, sorted by name.
+std::vector<const MessageType*> message_types();
 
 }  // namespace panvo::interfaces

@@ -10,6 +10,7 @@
 #include "geometry_msgs/msg/TwistStamped.h"
 #include "nav_msgs/msg/Odometry.h"
 #include "nav_msgs/msg/Path.h"
+#include "panvo/interfaces/message_type.hpp"
 #include "panvo_msgs/msg/AzimuthChange.h"
 #include "panvo_msgs/msg/CorrectionOutcome.h"
 #include "panvo_msgs/msg/Integrity.h"
@@ -73,9 +74,6 @@ Problem problem_of(const diagnostic_msgs::msg::DiagnosticArray& message);
 Problem problem_of(const rcl_interfaces::msg::Log& message);
 Problem problem_of(const rosgraph_msgs::msg::Clock& message);
 
-/// Whether the stamps of a type's messages are of about the time at which they are sent, so that one that is far from its neighbours is wrong.
-template <class Message>
-inline constexpr bool kIsStampedWhenSent = true;
 /// Stamped by whoever clicked on a map, perhaps by a clock of his own.
 template <>
 inline constexpr bool kIsStampedWhenSent<geometry_msgs::msg::PoseWithCovarianceStamped> = false;

@@ -8,14 +8,14 @@
 #include <span>
 
 #include "builtin_interfaces/msg/Time.h"
-#include "cdr_layout.hpp"
+#include "panvo/interfaces/message_layout.hpp"
 #include "panvo/interfaces/message_type.hpp"
-#include "panvo/interfaces/validity.hpp"
 
 namespace eprosima::fastcdr {
 class Cdr;
 }  // namespace eprosima::fastcdr
 
+/// For generated tables of messages only: what makes a MessageType of a message's class.
 namespace panvo::interfaces {
 
 /// What the generated table says of a message class: name, dds_name, hash, definition, layout and stamp_ns().
@@ -85,6 +85,7 @@ constexpr MessageType kMessageType{
     .dds_name = Facts<Message>::dds_name,
     .hash = Facts<Message>::hash,
     .definition = Facts<Message>::definition,
+    .layout = &Facts<Message>::layout,
     .cpp_type = &typeid(Message),
     .serialized_size = serialized_size<Message>,
     .serialize = serialize<Message>,
@@ -98,5 +99,17 @@ template <class Message>
 const MessageType& message_type() {
   return kMessageType<Message>;
 }
+
+/// The types of one library of messages: find_message_type() knows them from when the library is loaded. It must never be unloaded.
+class MessageTable {
+ public:
+  explicit MessageTable(std::span<const MessageType* const> types)
+      : MessageTable(types, sizeof(MessageType), sizeof(CdrField)) {}
+
+ private:
+  friend class MessageTableTest;
+  /// The sizes tell a library that was compiled with other headers from one that fits.
+  MessageTable(std::span<const MessageType* const> types, std::size_t type_size, std::size_t field_size);
+};
 
 }  // namespace panvo::interfaces

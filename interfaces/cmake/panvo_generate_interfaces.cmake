@@ -1,0 +1,93 @@
+# Included by find_package(panvo_interfaces).
+include_guard(DIRECTORY)
+
+# panvo_generate_interfaces(<package> FILE... [RULES header...] [SOURCES file...] [NO_INSTALL]): the library of a package's messages, panvo::<package>, from
+# msg/<Name>.msg, srv/<Name>.srv (ROS 2's notations), msg/<Name>.idl and srv/<Name>.idl. C++ includes "<package>/msg/<Name>.h". Programs that do not link
+# the library find it by the package's name at run time: panvo topic echo, the recorder, the player and the bag tools.
+# Packages whose messages these contain are linked by themselves; those of others than panvo need find_package() before.
+# RULES: headers that declare std::optional<std::string> problem_of(const <package>::msg::<Name>&), SOURCES: where they are defined; see README.md.
+# panvo_package() installs and exports it all.
+function(panvo_generate_interfaces package)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "NO_INSTALL" "" "RULES;SOURCES")
+  if(NOT COMMAND panvo_add_library)
+    message(FATAL_ERROR "panvo_generate_interfaces(${package}): find_package(panvo_build REQUIRED) before")
+  endif()
+  if(NOT arg_UNPARSED_ARGUMENTS)
+    message(FATAL_ERROR "panvo_generate_interfaces(${package}): name the files that define its messages: msg/<Name>.msg, srv/<Name>.srv or the same in IDL")
+  endif()
+  if(NOT package MATCHES "^[a-z][a-z0-9_]*$")
+    message(FATAL_ERROR "panvo_generate_interfaces(${package}): a package is named in lower case, digits and '_', from a letter on")
+  endif()
+  find_package(Python3 REQUIRED COMPONENTS Interpreter)
+  find_program(FASTDDSGEN fastddsgen REQUIRED)
+  set(files "")
+  foreach(file IN LISTS arg_UNPARSED_ARGUMENTS)
+    cmake_path(ABSOLUTE_PATH file BASE_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR})
+    list(APPEND files ${file})
+  endforeach()
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${files})
+
+  cmake_path(GET CMAKE_CURRENT_FUNCTION_LIST_DIR PARENT_PATH home)
+  set(generated ${CMAKE_CURRENT_BINARY_DIR}/messages/${package})
+  get_property(known GLOBAL PROPERTY PANVO_IDL)
+  list(TRANSFORM known PREPEND "--known=")
+  set(generate ${Python3_EXECUTABLE} ${home}/tools/generate.py --package ${package} ${known} --output ${generated})
+  execute_process(COMMAND ${generate} --prepare ${files} OUTPUT_VARIABLE prepared ERROR_VARIABLE problem RESULT_VARIABLE status
+    OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_STRIP_TRAILING_WHITESPACE)
+  if(NOT status EQUAL 0)
+    message(FATAL_ERROR "panvo_generate_interfaces(${package}): ${problem}")
+  endif()
+  # Two lines: the packages that are needed, and what is made, each a list.
+  string(REGEX MATCH "^([^\n]*)\n([^\n]*)$" _ "${prepared}")
+  set(needed ${CMAKE_MATCH_1})
+  set(names ${CMAKE_MATCH_2})
+  set(headers ${names})
+  list(TRANSFORM headers REPLACE "(.+)" "${generated}/\\1.h")
+  set(classes ${names})
+  list(TRANSFORM classes REPLACE "(.+)" "${generated}/\\1.cxx")
+  set(libraries ${needed})
+  list(TRANSFORM libraries PREPEND "panvo::")
+  list(FILTER libraries EXCLUDE REGEX "^panvo::$")
+  set(linked "")
+  foreach(library IN LISTS libraries)
+    if(TARGET ${library})  # else the library panvo_interfaces itself holds that package
+      list(APPEND linked ${library})
+    endif()
+  endforeach()
+
+  set(rules ${arg_RULES})
+  list(TRANSFORM rules PREPEND "--rules=")
+  file(GLOB generator CONFIGURE_DEPENDS ${home}/tools/*.py)
+  # Files whose content stays the same keep their time and are not compiled again; the stamp is what make and ninja compare.
+  add_custom_command(
+    OUTPUT ${generated}/stamp
+    BYPRODUCTS ${generated}/message_table.cpp ${classes} ${headers}
+    COMMAND ${generate} ${rules} --fastddsgen ${FASTDDSGEN} ${files}
+    COMMAND ${CMAKE_COMMAND} -E touch ${generated}/stamp
+    DEPENDS ${files} ${generator}
+    COMMENT "Generating the messages of ${package}"
+    VERBATIM)
+  add_custom_target(${package}_generate DEPENDS ${generated}/stamp)
+
+  panvo_add_library(${package} SOURCES ${generated}/message_table.cpp ${classes} ${arg_SOURCES} LINK panvo::interfaces ${linked})
+  add_dependencies(${package} ${package}_generate)
+  target_include_directories(${package} PUBLIC $<BUILD_INTERFACE:${generated}>)
+  target_link_options(${package} PRIVATE -Wl,-z,nodelete)  # references to its types stay valid
+  if(NOT PANVO_SANITIZE AND NOT PANVO_FUZZ)  # of those the program brings what is undefined
+    target_link_options(${package} PRIVATE -Wl,-z,defs)
+  endif()
+  set_target_properties(${package} PROPERTIES
+    OUTPUT_NAME ${package}__panvo
+    LIBRARY_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/panvo_plugins
+    UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 0)
+  set_property(TARGET ${package} PROPERTY VERSION)  # found by its name at run time
+  set_property(TARGET ${package} PROPERTY SOVERSION)
+  set_source_files_properties(${generated}/message_table.cpp ${arg_SOURCES} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+  set_property(GLOBAL APPEND PROPERTY PANVO_IDL ${generated}/idl)
+  if(arg_NO_INSTALL)
+    return()
+  endif()
+  install(DIRECTORY ${generated}/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h" PATTERN "idl" EXCLUDE)
+  install(DIRECTORY ${generated}/idl/ DESTINATION ${CMAKE_INSTALL_DATADIR}/${PROJECT_NAME}/idl)
+  set_property(DIRECTORY PROPERTY PANVO_INSTALLS_IDL ON)
+endfunction()
