@@ -251,6 +251,9 @@ void Container::Implementation::offer_services(LoadedComponent& entry) {
   entry.services = serve(steering::parameter_services(entry.full_name(), *entry.node));
   for (auto& service : serve(steering::lifecycle_services(entry.full_name(), *entry.node)))
     entry.services.push_back(std::move(service));
+  // Those of the component itself are its author's to govern: "services" is about steering.
+  for (const auto& [description, serve_here] : state.services)
+    entry.services.push_back(bus_.bridge()->serve(description, handler_of(serve_here)));
 }
 
 void Container::Implementation::tell_parameters(rcl_interfaces::msg::ParameterEvent event) {
@@ -278,6 +281,7 @@ void Container::Implementation::tell_nodes() {
     node.serves = names_of(steering::parameter_services(entry->full_name(), *entry->node), options_.services);
     for (auto& name : names_of(steering::lifecycle_services(entry->full_name(), *entry->node), options_.services))
       node.serves.push_back(std::move(name));
+    for (const auto& [service, serve_here] : state.services) node.serves.push_back(service.name);
     nodes.push_back(std::move(node));
   }
   told_channels_ = channels.size();

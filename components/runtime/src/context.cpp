@@ -145,6 +145,8 @@ void Context::State::stop() {
   inputs.clear();
   if (taps) host.bus.remove_tap(this);
   taps = false;
+  host.services.remove_of(this);
+  for (const auto& caller : callers) caller->close();
   // Stages first: the component's own thread may wait for room in one of them.
   for (auto worker = workers.rbegin(); worker != workers.rend(); ++worker) (*worker)->stop();
   trust_files(std::numeric_limits<std::int64_t>::max());  // it ends well, however short it ran

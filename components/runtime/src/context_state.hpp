@@ -13,6 +13,8 @@
 #include "panvo/runtime/context.hpp"
 #include "panvo/runtime/system_file.hpp"
 #include "passing_time.hpp"
+#include "service_caller.hpp"
+#include "service_directory.hpp"
 #include "stamp_guard.hpp"
 #include "worker.hpp"
 
@@ -30,6 +32,7 @@ struct Host {
   std::atomic<std::int64_t> in_flight = 0;
   std::filesystem::path files_below{};  // where requests by service may name files; empty: nowhere
   std::function<void(const ComponentDescription&)> failed = [](const ComponentDescription&) {};
+  ServiceDirectory services{};
 };
 
 /// The runtime's side of a Context: everything that a component holds of the container, and that goes when it is unloaded.
@@ -70,6 +73,8 @@ struct Context::State {
   std::vector<std::string> problems;             // of topics; those of parameters are the reader's
   std::vector<std::unique_ptr<Worker>> workers;  // the component's own, then its stages
   std::vector<Channel*> inputs;
+  std::vector<std::pair<ServiceDescription, ServiceDirectory::Serve>> services;  // that the component offers
+  std::vector<std::shared_ptr<ComponentCaller>> callers;                         // of those that it calls
   bool taps = false;
   bool gives_way = false;
   std::uint64_t restarts = 0;  // how often it was made anew

@@ -12,8 +12,10 @@
 #include <type_traits>
 #include <utility>
 
+#include "panvo/interfaces/service.hpp"
 #include "panvo/interfaces/topics.hpp"
 #include "panvo/runtime/bridge.hpp"
+#include "panvo/runtime/client.hpp"
 #include "panvo/runtime/logger.hpp"
 #include "panvo/runtime/output.hpp"
 #include "panvo/runtime/parameters.hpp"
@@ -74,6 +76,19 @@ class Context {
                     [callback = std::move(callback)](const SamplePtr& a, const SamplePtr& b) mutable {
                       callback(Sample::as<First>(a), Sample::as<Second>(b));
                     });
+  }
+
+  /// Offers a service: `callback(const Request&) -> Response`, on the thread of the component's messages and between two of them. Components of this
+  /// container call it directly, other processes over DDS. Requests that come while 32 wait get no answer and are counted as dropped.
+  template <class Request, class Response, class Callback>
+  void serve(const interfaces::Service<Request, Response>& service, Callback callback) {
+    open_service(describe(service), service_handler<Request, Response>(std::move(callback)));
+  }
+
+  /// A service of another component, of this container or of another process.
+  template <class Request, class Response>
+  Client<Request, Response> client(const interfaces::Service<Request, Response>& service) {
+    return Client<Request, Response>(open_client(describe(service)));
   }
 
   /// A second stage of the component: live on a thread of its own behind a queue of `capacity` items (push waits when it is full), in replay in
@@ -159,7 +174,15 @@ class Context {
     return {std::string(topic.name), std::string(type.name), topic.qos, &type};
   }
 
+  template <class Request, class Response>
+  static ServiceDescription describe(const interfaces::Service<Request, Response>& service) {
+    std::string type(interfaces::message_type<Request>().name);
+    return {std::string(service.name), type.substr(0, type.rfind("_Request"))};
+  }
+
   bool has_publisher(const TopicDescription& topic) const;
+  void open_service(ServiceDescription service, ServiceHandler handler);
+  std::shared_ptr<ServiceCaller> open_client(ServiceDescription service);
   ParameterReader& parameter_reader();
   void take_parameters(std::function<std::function<void()>(ParameterReader&)> take);
   void open_input(const TopicDescription& topic, std::function<void(const SamplePtr&)> callback);

@@ -20,6 +20,9 @@ struct ServiceDescription {
 /// Answers one request; both are serialised messages. Throws interfaces::DecodeError for bytes that are no request: they get no answer.
 using ServiceHandler = std::function<interfaces::Bytes(const interfaces::Bytes& request)>;
 
+/// Takes the response to a call, or nullopt when there is none. Called once.
+using Answer = std::function<void(std::optional<interfaces::Bytes>)>;
+
 /// Who asks, as far as the transport tells.
 struct Caller {
   bool is_on_this_host = false;

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <atomic>
+#include <condition_variable>
+#include <deque>
+#include <memory>
+#include <mutex>
+#include <thread>
+
+#include "panvo/runtime/bridge.hpp"
+#include "panvo/runtime/client.hpp"
+#include "service_directory.hpp"
+#include "worker.hpp"
+
+namespace panvo::runtime {
+
+/// Calls services of other processes, one after the other, on a thread of its own: the bridge's client waits for each answer.
+class RemoteCaller {
+ public:
+  /// Throws ConfigError when the bridge will not have it.
+  RemoteCaller(Bridge& bridge, const ServiceDescription& service);
+  ~RemoteCaller();
+
+  /// A call that comes while too many wait stays unanswered.
+  void call(interfaces::Bytes request, std::chrono::milliseconds limit, std::shared_ptr<Reply> reply);
+
+ private:
+  struct Call {
+    interfaces::Bytes request;
+    std::chrono::steady_clock::time_point end;
+    std::shared_ptr<Reply> reply;
+  };
+
+  void loop();
+  void carry_out(Call& call);
+
+  const std::unique_ptr<BridgeClient> client_;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::deque<Call> waiting_;
+  std::atomic<bool> stopping_ = false;
+  std::thread thread_;
+};
+
+/// A component's calls of one service. Answers go through the component's queue; after close() they are dropped.
+class ComponentCaller final : public ServiceCaller {
+ public:
+  /// `bridge` is nullptr where there are no other processes.
+  ComponentCaller(ServiceDescription service, const ServiceDirectory& directory, Bridge* bridge, Worker& worker);
+
+  void call(interfaces::Bytes request, std::chrono::milliseconds limit, Answer answer) override;
+  void close();
+
+ private:
+  /// Where answers are put, for as long as the component's worker is there.
+  struct Inbox {
+    std::mutex mutex;
+    Worker* worker = nullptr;
+    Port* port = nullptr;
+
+    void put(const Answer& answer, std::optional<interfaces::Bytes> bytes, std::int64_t stamp_ns);
+  };
+
+  const ServiceDescription service_;
+  const ServiceDirectory& directory_;
+  const std::shared_ptr<Inbox> inbox_ = std::make_shared<Inbox>();
+  std::unique_ptr<RemoteCaller> remote_;
+};
+
+}  // namespace panvo::runtime

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "service_directory.hpp"
+
+#include <chrono>
+#include <condition_variable>
+#include <mutex>
+#include <stdexcept>
+
+#include "panvo/runtime/errors.hpp"
+
+namespace panvo::runtime {
+namespace {
+
+// A component that is busy for longer has not answered; whoever called may call again.
+constexpr std::chrono::seconds kLimit{5};
+
+/// An answer that one thread waits for and another brings.
+class Waiting {
+ public:
+  void bring(std::optional<interfaces::Bytes> bytes) {
+    {
+      const std::lock_guard lock(mutex_);
+      bytes_ = std::move(bytes);
+      is_there_ = true;
+    }
+    changed_.notify_all();
+  }
+
+  std::optional<interfaces::Bytes> wait() {
+    std::unique_lock lock(mutex_);
+    changed_.wait_for(lock, kLimit, [this] { return is_there_; });
+    return std::move(bytes_);
+  }
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::optional<interfaces::Bytes> bytes_;
+  bool is_there_ = false;
+};
+
+}  // namespace
+
+void ServiceDirectory::add(const ServiceDescription& service, const void* owner, Serve serve) {
+  const std::unique_lock lock(mutex_);
+  if (!entries_.try_emplace(service.name, Entry{service.type_name, owner, std::move(serve)}).second) {
+    throw ConfigError("there is a service " + service.name + " in this container already; remap the name of one of them");
+  }
+}
+
+void ServiceDirectory::remove_of(const void* owner) {
+  const std::unique_lock lock(mutex_);
+  std::erase_if(entries_, [owner](const auto& entry) { return entry.second.owner == owner; });
+}
+
+bool ServiceDirectory::call(const ServiceDescription& service, interfaces::Bytes& request,
+                            const std::shared_ptr<Reply>& reply) const {
+  const std::shared_lock lock(mutex_);
+  const auto found = entries_.find(service.name);
+  if (found == entries_.end() || found->second.type_name != service.type_name) return false;
+  found->second.serve(std::move(request), reply);
+  return true;
+}
+
+ServiceHandler handler_of(ServiceDirectory::Serve serve) {
+  return [serve = std::move(serve)](const interfaces::Bytes& request) {
+    const auto waiting = std::make_shared<Waiting>();
+    serve(request, std::make_shared<Reply>([waiting](auto bytes) { waiting->bring(std::move(bytes)); }));
+    auto bytes = waiting->wait();
+    if (!bytes) throw std::runtime_error("the component did not answer: it is busy, was stopped by an error, or could not read the request");
+    return std::move(*bytes);
+  };
+}
+
+}  // namespace panvo::runtime

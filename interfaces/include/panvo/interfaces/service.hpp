@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string_view>
+
+namespace panvo::interfaces {
+
+/// A service: name, request and response as one thing. The name is relative and may be remapped by a deployment; "~/reset" is below the node's name.
+///
+///     inline constexpr Service<std_srvs::srv::Trigger_Request, std_srvs::srv::Trigger_Response> kReset{"~/reset"};
+template <class RequestT, class ResponseT>
+struct Service {
+  using Request = RequestT;
+  using Response = ResponseT;
+  std::string_view name;
+};
+
+}  // namespace panvo::interfaces
