@@ -77,22 +77,20 @@ function(panvo_add_library target)
   set_property(DIRECTORY APPEND PROPERTY PANVO_EXPORTED ${target})
 endfunction()
 
-# panvo_add_fingerprint(panvo_<name> HEADERS ... [GENERATED ... BY target FILE]): "panvo/<name>/fingerprint.hpp", by which a binary can tell
-# whether another was compiled with the same public headers: PANVO_<NAME>_FINGERPRINT. Of GENERATED headers, the fingerprint waits for the target
-# and the file that it writes last: Makefiles have no rule for what a command makes by the way.
+# panvo_add_fingerprint(panvo_<name> HEADERS ...): generates "panvo/<name>/fingerprint.hpp" with PANVO_<NAME>_FINGERPRINT, by which a binary can tell
+# whether another was compiled with the same headers.
 function(panvo_add_fingerprint target)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "HEADERS;GENERATED;BY")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "HEADERS")
   string(REGEX REPLACE "^panvo_" "" short ${target})
   string(TOUPPER ${target}_FINGERPRINT macro)
   set(folder ${CMAKE_CURRENT_BINARY_DIR}/fingerprint)
   set(header ${folder}/panvo/${short}/fingerprint.hpp)
-  set(headers ${arg_HEADERS} ${arg_GENERATED})
   add_custom_command(
     OUTPUT ${folder}/stamp
     BYPRODUCTS ${header}
-    COMMAND ${CMAKE_COMMAND} -DMACRO=${macro} "-DHEADERS=${headers}" -DOUTPUT=${header} -P ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/panvo_fingerprint.cmake
+    COMMAND ${CMAKE_COMMAND} -DMACRO=${macro} "-DHEADERS=${arg_HEADERS}" -DOUTPUT=${header} -P ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/panvo_fingerprint.cmake
     COMMAND ${CMAKE_COMMAND} -E touch ${folder}/stamp
-    DEPENDS ${arg_HEADERS} ${arg_BY} ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/panvo_fingerprint.cmake
+    DEPENDS ${arg_HEADERS} ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/panvo_fingerprint.cmake
     COMMENT "Taking the fingerprint of ${target}'s headers"
     VERBATIM)
   add_custom_target(${target}_fingerprint DEPENDS ${folder}/stamp)

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# cmake -DMACRO=NAME -DHEADERS="a.hpp;b.hpp" -DOUTPUT=file.hpp -P panvo_fingerprint.cmake: a header that defines NAME as a digest of those
-# headers, names and contents. One that would stay the same keeps its time, so that nothing is compiled again for it.
+# cmake -DMACRO=NAME -DHEADERS="a.hpp;b.hpp" -DOUTPUT=file.hpp -P panvo_fingerprint.cmake: writes a header that defines NAME as a digest of
+# the names and contents of these headers. If the text is unchanged, the file is not written, so nothing is recompiled.
 set(all "")
 foreach(header IN LISTS HEADERS)
   file(SHA256 ${header} digest)
@@ -9,7 +9,7 @@ foreach(header IN LISTS HEADERS)
 endforeach()
 string(SHA256 digest "${all}")
 string(SUBSTRING ${digest} 0 12 digest)
-set(text "// SPDX-License-Identifier: Apache-2.0\n#pragma once\n\n/// Of the public headers: what was compiled with others does not fit.\n#define ${MACRO} \"${digest}\"\n")
+set(text "// SPDX-License-Identifier: Apache-2.0\n#pragma once\n\n/// Digest of the public headers; code compiled with other versions of them is incompatible.\n#define ${MACRO} \"${digest}\"\n")
 set(old "")
 if(EXISTS ${OUTPUT})
   file(READ ${OUTPUT} old)

@@ -4,7 +4,7 @@ include_guard(DIRECTORY)
 # panvo_generate_interfaces(<package> FILE... [RULES header...] [SOURCES file...] [NO_INSTALL]): the library of a package's messages, panvo::<package>, from
 # msg/<Name>.msg, srv/<Name>.srv (ROS 2's notations), msg/<Name>.idl and srv/<Name>.idl. C++ includes "<package>/msg/<Name>.h". Programs that do not link
 # the library find it by the package's name at run time: panvo topic echo, the recorder, the player and the bag tools.
-# Packages whose messages these contain are linked by themselves; those of others than panvo need find_package() before.
+# Packages whose messages these contain are linked automatically; those of others than panvo need find_package() before.
 # RULES: headers that declare std::optional<std::string> problem_of(const <package>::msg::<Name>&), SOURCES: where they are defined; see README.md.
 # panvo_package() installs and exports it all.
 function(panvo_generate_interfaces package)
@@ -30,6 +30,12 @@ function(panvo_generate_interfaces package)
   cmake_path(GET CMAKE_CURRENT_FUNCTION_LIST_DIR PARENT_PATH home)
   set(generated ${CMAKE_CURRENT_BINARY_DIR}/messages/${package})
   get_property(known GLOBAL PROPERTY PANVO_IDL)
+  list(REMOVE_DUPLICATES known)
+  set(known_files "")  # a message's hash and layout are made of those that it contains
+  foreach(folder IN LISTS known)
+    file(GLOB_RECURSE found ${folder}/*.idl)
+    list(APPEND known_files ${found})
+  endforeach()
   list(TRANSFORM known PREPEND "--known=")
   set(generate ${Python3_EXECUTABLE} ${home}/tools/generate.py --package ${package} ${known} --output ${generated})
   execute_process(COMMAND ${generate} --prepare ${files} OUTPUT_VARIABLE prepared ERROR_VARIABLE problem RESULT_VARIABLE status
@@ -41,17 +47,12 @@ function(panvo_generate_interfaces package)
   string(REGEX MATCH "^([^\n]*)\n([^\n]*)$" _ "${prepared}")
   set(needed ${CMAKE_MATCH_1})
   set(names ${CMAKE_MATCH_2})
-  set(headers ${names})
-  list(TRANSFORM headers REPLACE "(.+)" "${generated}/\\1.h")
-  set(classes ${names})
-  list(TRANSFORM classes REPLACE "(.+)" "${generated}/\\1.cxx")
-  set(libraries ${needed})
-  list(TRANSFORM libraries PREPEND "panvo::")
-  list(FILTER libraries EXCLUDE REGEX "^panvo::$")
+  list(TRANSFORM names REPLACE "(.+)" "${generated}/\\1.h" OUTPUT_VARIABLE headers)
+  list(TRANSFORM names REPLACE "(.+)" "${generated}/\\1.cxx" OUTPUT_VARIABLE classes)
   set(linked "")
-  foreach(library IN LISTS libraries)
-    if(TARGET ${library})  # else the library panvo_interfaces itself holds that package
-      list(APPEND linked ${library})
+  foreach(other IN LISTS needed)
+    if(TARGET panvo::${other})  # else the library panvo_interfaces itself holds that package
+      list(APPEND linked panvo::${other})
     endif()
   endforeach()
 
@@ -64,7 +65,7 @@ function(panvo_generate_interfaces package)
     BYPRODUCTS ${generated}/message_table.cpp ${classes} ${headers}
     COMMAND ${generate} ${rules} --fastddsgen ${FASTDDSGEN} ${files}
     COMMAND ${CMAKE_COMMAND} -E touch ${generated}/stamp
-    DEPENDS ${files} ${generator}
+    DEPENDS ${files} ${known_files} ${generator}
     COMMENT "Generating the messages of ${package}"
     VERBATIM)
   add_custom_target(${package}_generate DEPENDS ${generated}/stamp)

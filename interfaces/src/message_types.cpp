@@ -136,7 +136,8 @@ std::string why_unknown(std::string_view name) {
       std::ranges::any_of(types, [&package](const MessageType* type) { return package_of(type->name) == package; });
   return (is_package_known ? "is not a type of the package " + package + " that is installed"
                            : "is unknown: there is no " + message_library_name(package)) +
-         "; build the package with panvo_generate_interfaces() and source its workspace, or add its folder to PANVO_PLUGIN_PATH";
+         "; build the package with panvo_generate_interfaces() and source its workspace, or add its folder to "
+         "PANVO_PLUGIN_PATH";
 }
 
 std::vector<const MessageType*> message_types() { return Registry::instance().types(); }

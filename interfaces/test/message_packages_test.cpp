@@ -105,7 +105,8 @@ TEST_F(MessagePackages, CannotBeReachedByAPath) {
   fs::create_directories(outside);
   fs::copy_file(fs::path(PANVO_TEST_PACKAGES) / message_library_name("test_msgs"), outside / "libpath_msgs__panvo.so",
                 fs::copy_options::overwrite_existing);
-  for (const char* name : {"outside/libpath_msgs/msg/Lamp", "../outside/path_msgs/msg/Lamp", "/msg/Lamp", "Path_Msgs/msg/Lamp"}) {
+  for (const char* name :
+       {"outside/libpath_msgs/msg/Lamp", "../outside/path_msgs/msg/Lamp", "/msg/Lamp", "Path_Msgs/msg/Lamp"}) {
     EXPECT_EQ(find_message_type(name), nullptr) << name;
     EXPECT_THAT(why_unknown(name), HasSubstr("is not a type name")) << name;
   }

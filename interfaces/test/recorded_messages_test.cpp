@@ -14,6 +14,7 @@
 #include <sqlite3.h>
 
 #include "cdr_layout.hpp"
+#include "common_packages.hpp"
 #include "panvo/interfaces/message_type.hpp"
 
 namespace panvo::interfaces {
@@ -62,6 +63,7 @@ fs::path bag_folder() {
 class RecordedMessages : public testing::Test {
  protected:
   void SetUp() override {
+    load_common_packages();
     if (!fs::is_directory(bag_folder())) {
       GTEST_SKIP() << "no recordings at " << bag_folder() << "; set PANVO_DATA to the folder that holds bags/";
     }
@@ -168,7 +170,8 @@ TEST_F(RecordedMessages, HaveOurTypeHashes) {
   for (const fs::path& bag : bags_) {
     Query query(bag, "SELECT type, type_description_hash FROM topics WHERE type_description_hash != ''");
     while (query.next()) {
-      if (const MessageType* type = find(query.text(0)); type && type->name != kGrown && type->name != kHashedOtherwise) {
+      if (const MessageType* type = find(query.text(0));
+          type && type->name != kGrown && type->name != kHashedOtherwise) {
         EXPECT_EQ(type->hash, query.text(1)) << type->name << " in " << bag;
         types.insert(type->name);
       }

@@ -12,6 +12,7 @@ from pathlib import Path
 
 import idl
 import idl_text
+from type_hash import type_hash
 
 # For a process of a few seconds the optimising compiler costs more than it gives: this halves the time.
 _JAVA_OPTIONS = "-XX:TieredStopAtLevel=1 -XX:+UseSerialGC"
@@ -56,7 +57,7 @@ def _run_fastddsgen(fastddsgen: str, root: Path, output: Path) -> str:
     return result.stdout
 
 
-def _header(file_name: str, messages: list[idl.Message], text: str) -> str:
+def _header(file_name: str, messages: list[idl.Message], every: dict[str, idl.Message], text: str) -> str:
     """With includes of what its fields need, by their place."""
     text = re.sub(r'#include "[^"]*"\n', "", text)
     needed = dict.fromkeys(name for message in messages for name in message.direct_dependencies)
@@ -64,10 +65,19 @@ def _header(file_name: str, messages: list[idl.Message], text: str) -> str:
     anchor = "#include <fastrtps/utils/fixed_size_string.hpp>\n"
     if text.count(anchor) != 1:
         raise GeneratorError(f"{file_name}: the header that fastddsgen wrote is not laid out as version 2.3.0 does it")
-    return text.replace(anchor, own_includes + anchor).rstrip() + "\n"
+    body, end, rest = text.replace(anchor, own_includes + anchor).rpartition("#endif")  # of the include guard
+    return body.rstrip() + "\n" + _hashes(messages, every) + "\n" + end + rest.rstrip() + "\n"
 
 
-def _source(file_name: str, _: list[idl.Message], text: str) -> str:
+def _hashes(messages: list[idl.Message], every: dict[str, idl.Message]) -> str:
+    """What a binary that includes the header was compiled with, to be compared with what the library holds when it is loaded."""
+    lines = ["", "namespace panvo::interfaces {", "template <class Message>", "struct CompiledHash;"]
+    for message in messages:
+        lines += ["template <>", f"struct CompiledHash<::{message.cpp_name}> {{", f'  static constexpr char kValue[] = "{type_hash(message, every)}";', "};"]
+    return "\n".join([*lines, "}  // namespace panvo::interfaces", ""])
+
+
+def _source(file_name: str, _messages: list[idl.Message], _every: dict[str, idl.Message], text: str) -> str:
     """Without the comments that hold addresses of Java objects, which differ from run to run."""
     text = re.sub(r"\n\s*// m_\w+ com\.eprosima\.[^\n]*", "", text)
     return text.replace(f'#include "{_flat_name(file_name)}.h"', f'#include "{file_name}.h"').rstrip() + "\n"
@@ -87,5 +97,5 @@ def generate(messages: dict[str, idl.Message], known: dict[str, idl.Message], fa
                 path = output / (_flat_name(name) + suffix)
                 if not path.exists():
                     raise GeneratorError(f"{name}: fastddsgen wrote no {path.name}; it said:\n{said}")
-                files[name + suffix] = adapt(name, defined, path.read_text(encoding="utf-8"))
+                files[name + suffix] = adapt(name, defined, {**known, **messages}, path.read_text(encoding="utf-8"))
     return files

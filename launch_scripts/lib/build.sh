@@ -1,81 +1,81 @@
 # SPDX-License-Identifier: Apache-2.0
 # shellcheck shell=bash
-# Builds under build/<name>, and knows where what was built lies.
+# Builds into build/<name> and locates the built programs and plugins.
 
 source "$PANVO_SCRIPTS/lib/packages.sh"
 
-# cmake_arguments NAME: how each kind of build is configured; the same as the presets of CMakePresets.json.
+# cmake_arguments NAME: CMake arguments of a build type; the same as the presets in CMakePresets.json.
 cmake_arguments() {
   case $1 in
-    release) echo -DCMAKE_BUILD_TYPE=Release ;;
+    release) echo "-DCMAKE_BUILD_TYPE=Release -DPANVO_WARNINGS_AS_ERRORS=$([[ -n ${CI:-} ]] && echo ON || echo OFF)" ;;
     debug) echo -DCMAKE_BUILD_TYPE=Debug -DPANVO_UNITY=OFF ;;
     asan) echo -DCMAKE_BUILD_TYPE=RelWithDebInfo -DPANVO_SANITIZE=address ;;
     ubsan) echo -DCMAKE_BUILD_TYPE=RelWithDebInfo -DPANVO_SANITIZE=undefined ;;
     tsan) echo -DCMAKE_BUILD_TYPE=RelWithDebInfo -DPANVO_SANITIZE=thread ;;
-    *) fail "there is no build called '$1'; there are release, debug, asan, ubsan and tsan" 2 ;;
+    *) fail "unknown build type '$1'; use release, debug, asan, ubsan or tsan" 2 ;;
   esac
 }
 
-# sanitizer_build NAME: the build for `--sanitize NAME`.
+# sanitizer_build NAME: build type of `--sanitize NAME`.
 sanitizer_build() {
   case $1 in
     address | asan) echo asan ;;
     undefined | ubsan) echo ubsan ;;
     thread | tsan) echo tsan ;;
-    *) fail "there is no sanitizer '$1'; there are address, undefined and thread" 2 ;;
+    *) fail "unknown sanitizer '$1'; use address, undefined or thread" 2 ;;
   esac
 }
 
 build_folder() { printf '%s/build/%s' "$PANVO_HOME" "$PANVO_BUILD"; }
 
-# job_count: cores, but no more than memory carries (the largest sources take about 1.2 GB each to compile).
+# job_count: number of cores, limited by the available memory (the largest sources need about 1.2 GB each to compile).
 job_count() {
   local cores carried
   cores=${PANVO_JOBS:-$(nproc)}
-  [[ $cores =~ ^[1-9][0-9]*$ ]] || fail "PANVO_JOBS is '$cores'; it takes a number from 1"
+  [[ $cores =~ ^[1-9][0-9]*$ ]] || fail "PANVO_JOBS is '$cores'; it must be an integer of at least 1"
   carried=$(awk '/^MemAvailable/ { print int($2 / 1200000) }' /proc/meminfo 2>/dev/null || echo "$cores")
   [[ -n ${PANVO_JOBS:-} ]] || { ((carried >= cores)) || cores=$((carried > 1 ? carried : 1)); }
   printf '%s' "$cores"
 }
 
-# build_targets TARGET...: configures when needed, then builds. Prints nothing when everything is up to date.
+# build_targets TARGET...: configures if needed, then builds. Prints nothing if everything is up to date.
 build_targets() {
   local folder configuration stamp
   folder=$(build_folder)
   configuration=$(cmake_arguments "$PANVO_BUILD")
   if ! { mkdir -p "$folder" && touch "$PANVO_HOME/build/COLCON_IGNORE" "$folder/.panvo_lock"; } 2>/dev/null; then
-    fail "$folder cannot be written to: build as its owner, or in a copy of the checkout. What is built there already runs: panvo run, evaluate and others"
+    fail "$folder is not writable: build as its owner, or in a copy of the checkout. Programs built there can be used: panvo run, evaluate and others"
   fi
-  # Two panvo at once take turns: ninja itself does not guard its folder.
+  # Serialises concurrent builds: ninja does not lock its folder.
   exec {lock}>"$folder/.panvo_lock"
   flock -n "$lock" || { note "waiting for another build of build/$PANVO_BUILD"; flock "$lock"; }
 
-  # The stamp is what this tree was configured from; another checkout or other arguments mean configuring anew.
+  # The stamp holds the checkout and the arguments of the last configuration; if either changes, configure again.
   stamp="$PANVO_HOME $configuration"
   if [[ ! -f $folder/build.ninja || $(cat "$folder/.panvo_configured" 2>/dev/null) != "$stamp" ]]; then
     note "configuring build/$PANVO_BUILD"
     rm -f "$folder/.panvo_configured"
-    # shellcheck disable=SC2086  # a list of arguments without blanks
+    # shellcheck disable=SC2086  # a list of arguments without spaces
     cmake -S "$PANVO_HOME" -B "$folder" -G Ninja $configuration >"$folder/configure.log" 2>&1 || {
       tail -n 30 "$folder/configure.log" >&2
-      fail "configuring failed; the whole log is $folder/configure.log"
+      fail "configuring failed; full log: $folder/configure.log"
     }
     printf '%s\n' "$stamp" >"$folder/.panvo_configured"
   fi
 
-  # Sources that change from now on are newer than what is built.
+  # newer_source compares with the time at which the build started.
   touch "$folder/.panvo_building"
   NINJA_STATUS='[%f/%t, %es] ' ninja -C "$folder" -j "$(job_count)" "$@" 2>&1 | show_build_progress ||
-    fail "the build failed; the messages above say where. Once more, one job at a time: ninja -C $folder -j 1"
+    fail "the build failed, see the messages above. To retry with one job: ninja -C $folder -j 1"
   [[ " $* " != *" all "* && " $* " != *" panvo_programs "* ]] || mv "$folder/.panvo_building" "$folder/.panvo_built"
   exec {lock}>&-
 }
 
-# Nothing when there is nothing to do; one line that moves on a terminal, in a log file one for every twentieth part. What is no
-# progress (warnings, errors) is kept whole.
+# Shows ninja's progress: one updated line on a terminal, else a line per 5 %. Nothing if there is nothing to do. Warnings and
+# errors are printed in full.
 show_build_progress() {
   local line step shown=0 moving=no begun=no edge='^\[([0-9]+)/([0-9]+), '
-  # Not awk: Debian's smallest one waits for a whole block of input before it looks at the first line.
+  # Not awk: mawk, Debian's default, waits for a full block of input before it reads the first line.
   while IFS= read -r line; do
     case $line in
       'ninja: Entering directory'* | 'ninja: no work to do.' | *'Re-checking globbed directories'* | *'Re-running CMake'* | '-- '*) continue ;;
@@ -100,23 +100,23 @@ show_build_progress() {
   [[ $moving == no ]] || printf '\r\033[K' >&2
 }
 
-# use_built PROGRAM...: for the verbs that run what is there, be it of another user, on a read-only disk, or while a build is under way. They build
-# nothing; what is missing is said, with the command that makes it.
+# use_built PROGRAM...: for commands that only run programs. Builds nothing, so it also works in another user's checkout, on a read-only disk, or
+# during a build. Fails if a program is missing, and notes if the build is older than the sources.
 use_built() {
   in_checkout || return 0
   local folder name newer
   folder=$(build_folder)
   for name in "$@"; do
-    [[ -x $folder/panvo_bin/$name ]] || fail "$name is not built; 'panvo build' builds everything$(is_build_running "$folder" && echo ' (a build is under way: wait for it)')"
+    [[ -x $folder/panvo_bin/$name ]] || fail "$name is not built; 'panvo build' builds everything$(is_build_running "$folder" && echo ' (a build is running: wait for it)')"
   done
   if is_build_running "$folder"; then
-    note "build/$PANVO_BUILD is being built; going on with what is there"
+    note "build/$PANVO_BUILD is being built; using the existing programs"
   elif newer=$(newer_source "$folder") && [[ -n $newer ]]; then
-    note "$newer is newer than build/$PANVO_BUILD; 'panvo build' brings it up to date"
+    note "$newer is newer than build/$PANVO_BUILD; run 'panvo build' to update"
   fi
 }
 
-# is_build_running FOLDER: whether another panvo builds in it.
+# is_build_running FOLDER: whether another process is building there.
 is_build_running() {
   local lock
   [[ -r $1/.panvo_lock ]] || return 1
@@ -128,21 +128,21 @@ is_build_running() {
   exec {lock}<&-
 }
 
-# newer_source FOLDER: a source that was changed after FOLDER was built, or nothing.
+# newer_source FOLDER: prints one source that is newer than the build in FOLDER, or nothing.
 newer_source() {
   [[ -f $1/.panvo_built ]] || return 0
   find "$PANVO_HOME"/{interfaces,components,drivers} -newer "$1/.panvo_built" \( -name '*.cpp' -o -name '*.hpp' -o -name CMakeLists.txt \) \
     -not -path '*/test/*' -printf '%P\n' -quit 2>/dev/null || true
 }
 
-# ensure_built TARGET...: what a verb that compiles needs before it can do its work; nothing to do once installed.
+# ensure_built TARGET...: installs missing packages and builds; does nothing in an installed panvo.
 ensure_built() {
   in_checkout || return 0
   ensure_packages build
   build_targets "$@"
 }
 
-# program NAME: path of one of our executables, built or installed.
+# program NAME: path of a panvo executable, built or installed.
 program() {
   local candidate
   if in_checkout; then
@@ -151,11 +151,11 @@ program() {
     candidate=$(readlink -m -- "$PANVO_HOME/../../bin/$1")
     [[ -x $candidate ]] || candidate=$(command -v "$1" || true)
   fi
-  [[ -n $candidate && -x $candidate ]] || fail "$1 is not there; $(in_checkout && echo "'panvo build' makes it" || echo "source the setup.bash of the installed workspace, or install panvo anew")"
+  [[ -n $candidate && -x $candidate ]] || fail "$1 not found; $(in_checkout && echo "run 'panvo build'" || echo "source the setup.bash of the installed workspace, or reinstall panvo")"
   printf '%s' "$candidate"
 }
 
-# use_plugins: programs started from here find the components, and a user's own ones first.
+# use_plugins: sets PANVO_PLUGIN_PATH and PATH for the build; plugin folders given by the user come first.
 use_plugins() {
   in_checkout || return 0
   local folder
@@ -164,7 +164,7 @@ use_plugins() {
   export PATH="$folder/panvo_bin:$PATH"
 }
 
-# start_program NAME ARGUMENT...: the verb becomes the program.
+# start_program NAME ARGUMENT...: replaces this shell by the program.
 start_program() {
   local name=$1 path
   shift
@@ -174,11 +174,11 @@ start_program() {
   exec "$path" "$@"
 }
 
-# show_program_help NAME: the program's own words where it is built; --help never starts a build.
+# show_program_help NAME: prints the program's own --help if it is built; --help never starts a build.
 show_program_help() {
   local path
   path=$(program "$1" 2>/dev/null) || {
-    printf '\n("panvo build" first, then this shows all options.)\n'
+    printf '\n(Run "panvo build" to see all options here.)\n'
     return 0
   }
   printf '\n'

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 # shellcheck shell=bash
-# The same packages, each on its own, as a ROS 2 workspace builds them. Sourced after lib/build.sh.
+# Builds and tests the packages one by one with colcon, as in a ROS 2 workspace. Sourced after lib/build.sh.
 
-# colcon_bases: release is what a plain `colcon build` at the root makes; the other kinds stand beside it.
+# colcon_bases: sets the folders of a build type. release uses those of a plain `colcon build` at the root.
 colcon_bases() {
   colcon_meta=(--metas "$PANVO_HOME/colcon.meta")
   case $PANVO_BUILD in
@@ -15,7 +15,7 @@ colcon_bases() {
       colcon_install_base=$PANVO_HOME/install/$PANVO_BUILD
       colcon_meta+=("$PANVO_HOME/config/build/$PANVO_BUILD.meta")
       ;;
-    *) fail "colcon builds release, asan, ubsan and tsan; for '$PANVO_BUILD' leave --colcon away" 2 ;;
+    *) fail "--colcon supports release, asan, ubsan and tsan; omit it for '$PANVO_BUILD'" 2 ;;
   esac
 }
 
@@ -27,7 +27,7 @@ colcon_build() {
     "${colcon_meta[@]}" --executor sequential "$@" >&2
 }
 
-# colcon_test: leaves one JUnit file per package; the count is the caller's.
+# colcon_test: writes one JUnit file per package; the caller counts the results.
 colcon_test() {
   cd "$PANVO_HOME" || return
   rm -f "$colcon_build_base"/panvo_*/panvo_junit.xml

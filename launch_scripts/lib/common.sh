@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
 # shellcheck shell=bash
-# What every verb needs: where things are, how to speak, how to fail.
+# Functions shared by all commands: paths, messages, errors.
 
 PANVO_HOME=$(dirname "$PANVO_SCRIPTS")  # the checkout, or <prefix>/share/panvo once installed
-PANVO_BUILD=${PANVO_BUILD:-release}     # one folder under build/ for each kind of build
+PANVO_BUILD=${PANVO_BUILD:-release}     # one folder under build/ per build type
 
 note() { printf 'panvo: %s\n' "$*" >&2; }
 
-# fail MESSAGE [STATUS]: what is wrong and what to do about it.
+# fail MESSAGE [STATUS]: prints the error with its remedy and exits.
 fail() {
   printf 'panvo %s: %s\n' "${verb:-}" "$1" >&2
   exit "${2:-1}"
@@ -15,9 +15,9 @@ fail() {
 
 in_checkout() { [[ -f $PANVO_HOME/CMakeLists.txt ]]; }
 
-# A verb that compiles or installs makes no sense in an installed panvo.
+# For commands that compile or install and so need the sources.
 require_checkout() {
-  in_checkout || fail "this panvo is installed ($PANVO_HOME); 'panvo $verb' works in a source checkout only"
+  in_checkout || fail "'panvo $verb' works only in a source checkout, and this is an installed panvo ($PANVO_HOME)"
 }
 
 panvo_version() {
@@ -26,7 +26,7 @@ panvo_version() {
 
 is_terminal() { [[ -t 2 ]]; }
 
-# require_value "$@": the option in $1 has a value after it, or it is said.
+# require_value "$@": fails if the option in $1 has no value after it.
 require_value() {
   (($# >= 2)) || fail "$1 needs a value (panvo $verb --help)" 2
 }
@@ -35,7 +35,7 @@ unknown_option() {
   fail "unknown option '$1' (panvo $verb --help lists the options)" 2
 }
 
-# edit_distance A B: Levenshtein, by rows.
+# edit_distance A B: Levenshtein distance, row by row.
 edit_distance() {
   local a=$1 b=$2 i j cost best
   local -a row=() next=()
@@ -55,7 +55,7 @@ edit_distance() {
   printf '%s' "${row[${#b}]}"
 }
 
-# nearest_word WORD CANDIDATE...: the candidate that begins with the word, else the one with the fewest edits; the first of several.
+# nearest_word WORD CANDIDATE...: the first candidate that begins with WORD, else the first with the smallest edit distance.
 nearest_word() {
   local word=$1 candidate distance nearest='' fewest=1000
   shift
@@ -75,17 +75,17 @@ nearest_word() {
   printf '%s' "$nearest"
 }
 
-# runs_folder: where results go that nobody named a folder for.
+# runs_folder: default parent folder of results.
 runs_folder() {
   local folder=$PWD
   if in_checkout && [[ -w $PANVO_HOME ]]; then folder=$PANVO_HOME; fi
   printf '%s/runs' "$folder"
 }
 
-# data_folder: the recordings for demo and test, or nothing.
+# data_folder: the folder with recordings for test and bench; prints nothing if there is none.
 data_folder() {
   if [[ -n ${PANVO_DATA:-} ]]; then
-    [[ -d $PANVO_DATA ]] || fail "PANVO_DATA names '$PANVO_DATA', which is no folder; correct it or unset it"
+    [[ -d $PANVO_DATA ]] || fail "PANVO_DATA is '$PANVO_DATA', which is not a folder; correct or unset it"
     printf '%s' "$PANVO_DATA"
   elif [[ -d $PANVO_HOME/../shared/data ]]; then
     readlink -f -- "$PANVO_HOME/../shared/data"

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # shellcheck shell=bash
-# panvo bench endurance: hours of driving through the whole system, and whether it still has what it began with.
+# panvo bench endurance: plays hours of driving through the whole system and checks memory, file descriptors and threads.
 
 source "$PANVO_SCRIPTS/lib/simulated.sh"
 
@@ -8,17 +8,17 @@ endurance_usage() {
   cat <<'EOT'
 usage: panvo bench endurance [--hours H] [--rate R] [--faults KIND] [--dataset DIR] [--out DIR]
 
-Plays a recording forward and backward through the whole system, live, until so many recorded hours have passed, with another fault every 20 s (as
-panvo bench faults --list has them), and watches the process: it must end well, its memory must not differ by more than 5 % between the first part of the
-run (after a fifth of it) and the last, and its file descriptors and threads must not change.
+Plays a recording forward and backward through the whole system, live, for H recorded hours, with a different fault every 20 s, and monitors the
+process. It must exit with status 0; its memory must not change by more than 5 % between the first part of the run (after warm-up, a fifth of the run)
+and the last; the numbers of file descriptors and threads must not change.
 
   --hours H      recorded time, h (default: 6)
-  --rate R       how much faster than recorded it is played (default: 4)
-  --faults KIND  another kind; none: the recording as it is (default: mixed)
-  --dataset DIR  EuRoC/ASL with stereo pairs and panoramas (default: a simulated drive of the route 'short', rendered once and kept)
-  --out DIR      folder of the results (default: runs/endurance): samples.csv, samples.png, output.log
+  --rate R       playback speed relative to the recording (default: 4)
+  --faults KIND  a kind from panvo bench faults --list, or none (default: mixed)
+  --dataset DIR  EuRoC/ASL with stereo pairs and panoramas (default: a simulated drive along the route 'short', rendered once and cached)
+  --out DIR      folder for the results (default: runs/endurance): samples.csv, samples.png, output.log
 
-Exit status 0: all holds.
+Exit status 0: all conditions hold.
 EOT
 }
 
@@ -49,10 +49,10 @@ bench_endurance() {
     dataset:="$dataset" kind:="$faults" span_s:="$(awk -v hours="$hours" 'BEGIN { print 3600 * hours }')" --rate "$rate" --set dataset_player.passes="$passes"
 }
 
-# recorded_seconds DATASET: from its first stereo pair to its last, s.
+# recorded_seconds DATASET: time from the first stereo pair to the last, s.
 recorded_seconds() {
   local times=$1/mav0/cam0/data.csv
-  [[ -f $times ]] || fail "$times is not there: '$1' has no EuRoC/ASL stereo images"
+  [[ -f $times ]] || fail "$times not found: '$1' has no EuRoC/ASL stereo images"
   awk -F, '/^[0-9]/ { if (!first) first = $1; last = $1 } END { if (last <= first) exit 1; printf "%.3f", (last - first) * 1e-9 }' "$times" ||
-    fail "$times has no two stamps"
+    fail "$times has fewer than two stamps"
 }

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # shellcheck shell=bash
-# panvo bench faults: recordings with faults through the whole system, and how far its poses were to be trusted.
+# panvo bench faults: plays recordings with injected faults through the whole system and evaluates errors and integrity.
 
 source "$PANVO_SCRIPTS/lib/simulated.sh"
 
@@ -9,22 +9,22 @@ faults_usage() {
 usage: panvo bench faults [--quick] [--only KIND,...] [--inputs DIR,...] [--seeds N] [--out DIR] [--jobs N]
        panvo bench faults --list
 
-Plays recordings with truth through the whole system in one process, each time with another fault between the recording and the system or between
-two of its components, and prints a table, a line for each kind of fault: the largest error over sigma, how often the error was outside what
-95 % and 99.9 % of all should be within, for how long the state was tracking while the error was over 3 sigma, how soon an alarm came and the system
-recovered, and what the protection level was worth. The last lines say which of the goals hold.
+Plays recordings with ground truth through the whole system in one process. Each run has one fault, injected between the recording and the system
+or between two components. Prints a table with one line per kind of fault: largest error in sigma, fraction of errors outside the 95 % and 99.9 %
+bounds, time in state tracking with an error over 3 sigma, delay of the alarm, recovery time, and quality of the protection level. The last lines
+list the goals and whether they are met.
 
-  --quick        one seed, and only the cheapest recording: campus_clip of $PANVO_DATA
-  --only KINDS   these kinds of fault (--list names them)
-  --inputs DIRS  recordings of your own: EuRoC/ASL with stereo pairs, panoramas and truth (default: campus_clip where there is one, and two
-                 simulated drives of the route 'short', rendered once, some minutes each, and kept)
-  --seeds N      how often each fault is played on each recording, drawn anew (default: 5)
-  --out DIR      folder of the results (default: runs/faults); what was played there with the same programs is not played again
-  --jobs N       runs at once (default: 1)
+  --quick        one seed, and only the smallest recording: campus_clip in $PANVO_DATA
+  --only KINDS   only these kinds of fault (see --list)
+  --inputs DIRS  use these recordings: EuRoC/ASL with stereo pairs, panoramas and ground truth (default: campus_clip if present, and two
+                 simulated drives along the route 'short', rendered once, several minutes each, and cached)
+  --seeds N      number of random variants of each fault per recording (default: 5)
+  --out DIR      folder for the results (default: runs/faults); runs already there are reused if the programs are unchanged
+  --jobs N       number of parallel runs (default: 1)
   --list         list the kinds of fault
 
-In the folder: faults.txt, faults.csv, faults.json, faults.png, and in runs/ what each run left. Exit status 0: all ran, whatever came out;
-1: some failed; 2: wrong usage.
+Files in the folder: faults.txt, faults.csv, faults.json, faults.png; runs/ holds the results of each run. Exit status 0: all runs completed, whatever
+the errors; 1: some runs failed; 2: wrong usage.
 EOT
 }
 
@@ -60,7 +60,7 @@ bench_faults() {
         shift
         ;;
       -*) unknown_option "$1" ;;
-      *) fail "'$1' is no option of panvo bench faults; kinds of fault go after --only" 2 ;;
+      *) fail "unexpected argument '$1'; kinds of fault are given with --only (panvo bench faults --help)" 2 ;;
     esac
     shift
   done
@@ -72,14 +72,14 @@ bench_faults() {
     IFS=, read -r -a inputs <<<"$given_inputs"
   else
     found=$(fault_inputs "$quick")
-    [[ -n $found ]] || fail "there is no campus_clip in the folder of recordings (PANVO_DATA): name a recording with --inputs, or go without --quick"
+    [[ -n $found ]] || fail "no campus_clip in the folder of recordings (PANVO_DATA): name a recording with --inputs, or omit --quick"
     readarray -t inputs <<<"$found"
   fi
   for input in "${inputs[@]}"; do options+=(--inputs "$input"); done
   exec "$(program panvo_fault_bench)" "${options[@]}" "${seeds[@]}" --out "${out:-$PANVO_HOME/runs/faults}" --key "$(fault_key)"
 }
 
-# fault_inputs QUICK: the recordings that are played when none are named, a line each.
+# fault_inputs QUICK: default recordings, one per line.
 fault_inputs() {
   local data
   data=$(data_folder)
@@ -92,7 +92,7 @@ fault_inputs() {
   printf '\n'
 }
 
-# fault_key: of the programs, plugins, libraries and settings that a run depends on.
+# fault_key: hash of the programs, plugins, libraries and settings that a run depends on.
 fault_key() {
   local plugins
   plugins=$(build_folder)/panvo_plugins

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 # shellcheck shell=bash
-# Debian packages: which of packages.txt are missing, and how to get them.
+# Finds and installs missing Debian packages of packages.txt.
 
-# packages_of GROUP...: the package names under [GROUP] in packages.txt.
+# packages_of GROUP...: package names under [GROUP] in packages.txt.
 packages_of() {
   local group
   for group in "$@"; do
@@ -16,7 +16,7 @@ packages_of() {
 
 package_groups() { sed -n 's/^\[\(.*\)\].*/\1/p' "$PANVO_SCRIPTS/packages.txt"; }
 
-# missing_packages GROUP...: those not installed. One dpkg-query for all of them: this runs before every command.
+# missing_packages GROUP...: packages that are not installed. One dpkg-query for all, because this runs before every command that builds.
 missing_packages() {
   local -a wanted
   mapfile -t wanted < <(packages_of "$@")
@@ -25,11 +25,11 @@ missing_packages() {
     <(dpkg-query -W -f '${db:Status-Status} ${Package}\n' "${wanted[@]}" 2>/dev/null | sed -n 's/^installed //p' | sort -u)
 }
 
-# ensure_packages GROUP...: installs what is missing; says so only when something is.
+# ensure_packages GROUP...: installs missing packages; silent if there are none.
 ensure_packages() {
   if ! command -v dpkg-query >/dev/null; then
     is_warned_of_packages=${is_warned_of_packages:-}
-    [[ -n $is_warned_of_packages ]] || note "no dpkg here: install what $PANVO_SCRIPTS/packages.txt lists by your own means"
+    [[ -n $is_warned_of_packages ]] || note "no dpkg found: install the packages listed in $PANVO_SCRIPTS/packages.txt yourself"
     is_warned_of_packages=yes
     return
   fi
@@ -38,39 +38,54 @@ ensure_packages() {
   ((${#missing[@]} == 0)) || install_packages "${missing[@]}"
 }
 
+# install_if_possible GROUP...: like ensure_packages, but only says what is missing where nobody may install it.
+install_if_possible() {
+  local -a missing
+  command -v dpkg-query >/dev/null || return 0
+  mapfile -t missing < <(missing_packages "$@")
+  ((${#missing[@]})) || return 0
+  if may_install; then
+    install_packages "${missing[@]}"
+  else
+    note "not installed: ${missing[*]}. Tests that need them are skipped; 'panvo setup $*' installs them"
+  fi
+}
+
+may_install() { ((EUID == 0)) || { command -v sudo >/dev/null && { [[ -t 0 ]] || sudo -n true 2>/dev/null; }; }; }
+
 install_packages() {
   local -a as_root=()
   if ((EUID != 0)); then
-    if command -v sudo >/dev/null && { [[ -t 0 ]] || sudo -n true 2>/dev/null; }; then
+    if may_install; then
       as_root=(sudo)
     else
-      fail "these packages are missing, and only root may install them. Run:
+      fail "packages are missing, and installing them needs root. Run as root:
   apt-get install --no-install-recommends $*"
     fi
   fi
   local log
   log=$(mktemp "${TMPDIR:-/tmp}/panvo-setup.XXXXXX.log")
-  note "installing $# missing packages and what they need (log: $log)"
+  note "installing $# missing packages and their dependencies (log: $log)"
   if ! package_lists_know "$@"; then
     note "reading package lists"
-    "${as_root[@]}" apt-get update -q >>"$log" 2>&1 || note "apt-get update had trouble; going on with what there is"
+    "${as_root[@]}" apt-get update -q >>"$log" 2>&1 || note "apt-get update failed; continuing with the present package lists"
   fi
   if ! apt_install "$@" && ! { refresh_after_failure && apt_install "$@"; }; then
     tail -n 20 "$log" >&2
-    fail "installing packages failed; the whole log is $log. By hand: apt-get install --no-install-recommends $*"
+    fail "installing packages failed; full log: $log. To install by hand: apt-get install --no-install-recommends $*"
   fi
   note "packages installed"
 }
 
-# Both use the caller's as_root and log.
+# apt_install and refresh_after_failure use the caller's as_root and log.
 apt_install() {
   "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -q --no-install-recommends \
     -o Dpkg::Use-Pty=0 -o Dpkg::Options::=--force-confold "$@" </dev/null 2>&1 | tee -a "$log" | show_apt_progress
 }
 
-# Lists a week old name package files that the mirror no longer has.
+# Old package lists name files that the mirror no longer has.
 refresh_after_failure() {
-  note "refreshing the package lists and trying once more"
+  note "refreshing the package lists and trying again"
   "${as_root[@]}" apt-get update -q >>"$log" 2>&1
 }
 
@@ -81,10 +96,10 @@ package_lists_know() {
   done
 }
 
-# One line that counts up on a terminal, a line for every tenth part elsewhere.
+# Shows apt's progress: one updated line on a terminal, else a line per 20 %.
 show_apt_progress() {
   local line total=1 unpacked=0 set_up=0 last=''
-  # Not awk: Debian's smallest one waits for a whole block of input before it looks at the first line.
+  # Not awk: mawk, Debian's default, waits for a full block of input before it reads the first line.
   while IFS= read -r line; do
     case $line in
       'Need to get '*) show_step "downloading ${line#Need to get }" ;;
@@ -101,7 +116,7 @@ show_step() {
   if is_terminal; then printf '\r\033[K  %s' "${1:0:100}" >&2; else printf '  %s\n' "$1" >&2; fi
 }
 
-# show_count WHAT N: of the caller's total; in a log file only every fifth part.
+# show_count WHAT N: N of the caller's total; not on a terminal, only every 20 %.
 show_count() {
   local step="$1 $((5 * $2 / (total > 0 ? total : 1)))"
   if is_terminal || [[ $step != "$last" ]]; then show_step "$1 $2 of $total"; fi

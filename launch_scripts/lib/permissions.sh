@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 # shellcheck shell=bash
-# What the enclaves of a keystore may do, and whose keys are not to be believed any more. kKeyDays is the verb's.
+# Permissions and revocation of the enclaves of a keystore. kKeyDays is set by verbs/secure.sh.
 
-# permissions_text /ENCLAVE PUBLISH SUBSCRIBE: the topics as DDS names them, one a line; * stands for any letters.
+# permissions_text /ENCLAVE PUBLISH SUBSCRIBE: PUBLISH and SUBSCRIBE are DDS topic names, one per line; * matches any characters.
 permissions_text() {
   local from to
   from=$(date -u -d '1 day ago' +%Y-%m-%dT%H:%M:%S)
@@ -34,8 +34,8 @@ EOT
 
 topic_tags() { sort -u <<<"$1" | sed -n 's|..*|<topic>&</topic>|p' | tr -d '\n'; }
 
-# system_rights FILE CONTAINER: fills rights_publish and rights_subscribe from what `panvo_run --describe` said. What every process has comes first:
-# its log, its diagnostics, and what tells ROS 2's tools of its nodes.
+# system_rights FILE CONTAINER: sets rights_publish and rights_subscribe from the output of `panvo_run --describe` in FILE. They start with the
+# topics of every process: log, diagnostics, parameter events and node discovery of ROS 2.
 system_rights() {
   local current='' kind name services=on nodes=()
   rights_publish=$'ros_discovery_info\nrt/rosout\nrt/diagnostics\nrt/parameter_events'
@@ -59,22 +59,22 @@ system_rights() {
   done
 }
 
-# enclave_word TEXT: what cannot be in the name of an enclave is an underscore.
+# enclave_word TEXT: replaces characters that are invalid in enclave names by underscores.
 enclave_word() { printf '%s' "${1//[^A-Za-z0-9]/_}"; }
 
-# make_system_enclaves KEYSTORE SYSTEM [ARGUMENT...]: an enclave for each container, /SYSTEM/CONTAINER, which may do what its components do.
+# make_system_enclaves KEYSTORE SYSTEM [ARGUMENT...]: creates an enclave per container, /SYSTEM/CONTAINER, with the permissions its components need.
 make_system_enclaves() {
   local keystore=$1 described system container name folder
   shift
   resolve_system "$@"  # fills resolved_arguments
   described=$(mktemp)
-  # shellcheck disable=SC2064  # the name as it is now
+  # shellcheck disable=SC2064  # expand the name now
   trap "rm -f '$described'" EXIT
   [[ -x $(build_folder)/panvo_bin/panvo_run ]] || ensure_built panvo_programs
   use_plugins
   # shellcheck disable=SC2154
   "$(program panvo_run)" "${resolved_arguments[@]}" --describe >"$described" ||
-    fail "the rights of $1 cannot be told, for its components cannot be made here (see above); do this where its devices and files are"
+    fail "cannot determine the permissions of $1: its components cannot be constructed here (see above); run this where its devices and files are"
   system=$(basename "$(system_file "$1")" .yaml)
   while read -r container; do
     name=/$(enclave_word "$system")/$(enclave_word "$container")
@@ -84,15 +84,15 @@ make_system_enclaves() {
     permissions_text "$name" "$rights_publish" "$rights_subscribe" >"$folder/permissions.xml"
     rm -f "$folder/permissions.p7s"
     make_enclave "$keystore" "$name"
-    note "$name may do what the container $container of $system does"
+    note "$name has the permissions that container $container of $system needs"
   done < <(sed -n 's/^container //p' "$described")
 }
 
-# revoke KEYSTORE /ENCLAVE...: who has their keys is not heard any more by any process that is started from now on.
+# revoke KEYSTORE /ENCLAVE...: processes started afterwards reject the keys of these enclaves.
 revoke() {
   local keystore=$1 enclave authority=$1/private/revocation
   shift
-  [[ -e $keystore/private/ca.key.pem ]] || fail "$keystore has no private/ca.key.pem: keys are revoked where they were made" 2
+  [[ -e $keystore/private/ca.key.pem ]] || fail "$keystore has no private/ca.key.pem: revoke keys where they were created" 2
   for enclave in "$@"; do
     [[ -e $keystore/enclaves$enclave/cert.pem ]] || fail "$keystore has no keys of $enclave" 2
   done
@@ -109,10 +109,10 @@ revoke() {
   done
   run_openssl ca -config "$authority/openssl.cnf" -gencrl -out "$keystore/public/identity_ca.crl.pem"
   tell_enclaves "$keystore"
-  note "Copy $keystore/enclaves and $keystore/public to every machine, and start every process anew: a running one does not ask again."
+  note "copy $keystore/enclaves and $keystore/public to every machine and restart every process: running ones do not check again"
 }
 
-# tell_enclaves KEYSTORE: has every enclave look at what was revoked.
+# tell_enclaves KEYSTORE: links the revocation list into every enclave.
 tell_enclaves() {
   local key folder
   [[ -e $1/public/identity_ca.crl.pem ]] || return 0

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # shellcheck shell=bash
-# Routes of the simulated campus: by path, or by the name they have in config/routes.
+# Routes of the simulated campus, given by path or by name in config/routes.
 
 list_routes() {
   local file
@@ -9,7 +9,7 @@ list_routes() {
   done | xargs
 }
 
-# describe_routes: each with the line that says what it is for.
+# describe_routes: lists each route with its description.
 describe_routes() {
   local file
   for file in "$PANVO_HOME"/config/routes/*.yaml; do
@@ -26,9 +26,9 @@ route_file() {
   elif [[ $1 != */* && -f $named ]]; then
     printf '%s' "$named"
   elif [[ $1 == */* || $1 == *.yaml ]]; then
-    fail "there is no route file '$1' (named ones: $(list_routes))"
+    fail "route file '$1' not found (routes in config/routes: $(list_routes))"
   else
     read -r -a known <<<"$(list_routes)"
-    fail "there is no route '$1'; did you mean '$(nearest_word "$1" "${known[@]}")'? (there are: ${known[*]}; panvo simulate --help)" 2
+    fail "unknown route '$1'; did you mean '$(nearest_word "$1" "${known[@]}")'? (available: ${known[*]}; panvo simulate --help)" 2
   fi
 }

@@ -1,14 +1,14 @@
 # SPDX-License-Identifier: Apache-2.0
 # shellcheck shell=bash
-# Journeys through the simulated campus that are rendered once and kept.
+# Simulated drives, rendered once and cached.
 
 source "$PANVO_SCRIPTS/lib/routes.sh"
 
-# simulated_dataset ROUTE SEED EFFECTS: the data set of a journey through the simulated campus, rendered when it is not there yet, or
-# not wholly. It is named by what it was rendered with, and one that another panvo rendered makes room for it.
+# simulated_dataset ROUTE SEED EFFECTS: path of the data set of a simulated drive; renders it if it is missing or incomplete. The name
+# contains a hash of route, simulator and options; data sets of other simulator versions are deleted.
 simulated_dataset() {
   local seed=$2 effects=$3 route simulate folder name key dataset
-  # A good stereo calibration after months of driving; an exact one hardly drifts.
+  # A good stereo calibration that has aged for months; with an exact one, odometry hardly drifts.
   local -a rig=(--calibration-error 1)
   route=$(route_file "$1")
   simulate=$(program panvo_simulate)
@@ -25,13 +25,13 @@ simulated_dataset() {
   } | sha256sum | cut -c 1-12)
   dataset=$folder/$name-$key
   if [[ ! -f $dataset/sequence.yaml ]]; then
-    mkdir -p -- "$folder" || fail "'$folder' cannot be made; name a recording with --dataset"
+    mkdir -p -- "$folder" || fail "cannot create '$folder'; name a recording with --dataset"
     find "$folder" -maxdepth 1 -name "$name-*" ! -name "*-$key*" -exec rm -rf {} +
-    note "simulating the route '$1'; it is kept in $dataset"
-    "$simulate" --route "$route" "${rig[@]}" --seed "$seed" --out "$dataset" >&2 || fail "the simulation failed; the message above says why"
+    note "simulating the route '$1' into $dataset"
+    "$simulate" --route "$route" "${rig[@]}" --seed "$seed" --out "$dataset" >&2 || fail "the simulation failed, see the message above"
   fi
   printf '%s' "$dataset"
 }
 
-# simulation_library PROGRAM: the library that the program renders with.
+# simulation_library PROGRAM: path of the simulation library that the program is linked with.
 simulation_library() { ldd "$1" | sed -n 's/.*libpanvo_simulation[^ ]* => \([^ ]*\).*/\1/p'; }

@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
 # shellcheck shell=bash
-# For verbs that start one program after another: a signal to the verb ends all of them.
+# For commands that start several programs in sequence: a signal to the command ends all of them.
 
-# supervise FUNCTION ARGUMENT...: runs it in a process group of its own, passes SIGINT, SIGTERM and SIGHUP on to the whole group, and returns when
-# none of it is left. The exit status is the function's, or 128 + the signal.
+# supervise FUNCTION ARGUMENT...: runs the function in its own process group and forwards SIGINT, SIGTERM and SIGHUP (as SIGTERM) to the group. After
+# a signal, waits until the group has ended. The exit status is that of the function, or 128 + the signal.
 supervise() {
   local worker ended_by='' status=0
-  set -m  # or the group would be ours, and SIGINT ignored in it
+  set -m  # without it the job would share our group and ignore SIGINT
   ("$@") &
   worker=$!
   set +m
@@ -23,7 +23,7 @@ supervise() {
   return "$status"
 }
 
-# wait_for_group ID: until none of its processes lives; those that are left after half a minute (a run takes 20 s at most) are killed.
+# wait_for_group ID: waits until all processes of the group have ended; kills the rest after 30 s (a run needs 20 s at most to stop).
 wait_for_group() {
   local give_up=$((SECONDS + 30))
   while ((SECONDS < give_up)); do
@@ -33,7 +33,7 @@ wait_for_group() {
   kill -KILL -- "-$1" 2>/dev/null || true
 }
 
-# group_lives ID: whether a process of the group is more than a zombie.
+# group_lives ID: whether the group has a process that is not a zombie.
 group_lives() {
   local file line
   local -a fields

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # shellcheck shell=bash
-# System files: by path, or by the name they have in config/systems.
+# System files, given by path or by name in config/systems.
 
 list_systems() {
   local file
@@ -18,26 +18,26 @@ system_file() {
   elif [[ $1 != */* && -f $named ]]; then
     printf '%s' "$named"
   elif [[ $1 == */* || $1 == *.yaml ]]; then
-    fail "there is no system file '$1' (named ones: $(list_systems))"
+    fail "system file '$1' not found (systems in config/systems: $(list_systems))"
   else
     read -r -a known <<<"$(list_systems)"
-    fail "there is no system '$1'; did you mean '$(nearest_word "$1" "${known[@]}")'? (there are: ${known[*]})" 2
+    fail "unknown system '$1'; did you mean '$(nearest_word "$1" "${known[@]}")'? (available: ${known[*]})" 2
   fi
 }
 
-# run_to_its_end OUT ARGUMENT...: runs a system, with its results in OUT; one that was interrupted is not gone on from.
+# run_to_its_end OUT ARGUMENT...: runs a system with its results in OUT; fails if the run fails or is interrupted.
 run_to_its_end() {
   local out=$1 status=0
   shift
   "$(program panvo_run)" "$@" --out "$out" || status=$?
   case $status in
     0) ;;
-    130 | 143) fail "interrupted; what was played until then is in $out" "$status" ;;
-    *) fail "the run failed; what it said is in $out/run.log" ;;
+    130 | 143) fail "interrupted; the results up to then are in $out" "$status" ;;
+    *) fail "the run failed; its log is $out/run.log" ;;
   esac
 }
 
-# takes_value OPTION: whether this option of panvo_run has a value after it.
+# takes_value OPTION: whether this option of panvo_run takes a value.
 takes_value() {
   case $1 in
     --dataset | --bag | --out | --rate | --set | --seed | --domain | --dds-profiles | --container | --await | --respawn-delay | --secure | --enclave | --ros-distro) return 0 ;;
@@ -45,7 +45,7 @@ takes_value() {
   esac
 }
 
-# resolve_system ARGUMENT...: the arguments for panvo_run in resolved_arguments; the first one that is no option is the system.
+# resolve_system ARGUMENT...: sets resolved_arguments, the arguments for panvo_run. The first argument that is not an option is the system.
 resolve_system() {
   local system=''
   resolved_arguments=()
@@ -62,5 +62,5 @@ resolve_system() {
     fi
     shift
   done
-  [[ -n $system ]] || fail "which system? There are: $(list_systems) (panvo run --help)" 2
+  [[ -n $system ]] || fail "name a system; available: $(list_systems) (panvo run --help)" 2
 }

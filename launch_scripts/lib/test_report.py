@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Counts the tests in ctest's JUnit files: why tests were skipped, which failed, and last, alone, the count."""
+"""Summarises ctest's JUnit files: reasons of skipped tests, names of failed ones, and on the last line the counts."""
 import argparse
 import collections
 import pathlib
@@ -11,7 +11,7 @@ GTEST_SKIP = re.compile(r"^.*: Skipped\n(?P<reason>(?:.+\n?)*)", re.MULTILINE)
 
 
 def skip_reason(case):
-    """What a test says of why it was skipped: GoogleTest's text, else the last line it wrote, else ctest's word."""
+    """Why a test was skipped: GoogleTest's text, else the last output line, else ctest's message."""
     output = case.findtext("system-out") or ""
     found = GTEST_SKIP.search(output)
     if found:
@@ -27,7 +27,7 @@ def skip_reason(case):
 
 
 def read(files):
-    """(passed, failed, skipped): names, names, and names by reason."""
+    """(passed, failed, skipped): names of passed and failed tests, and names of skipped ones by reason."""
     passed, failed, skipped = [], [], collections.defaultdict(list)
     for file in files:
         for case in ElementTree.parse(file).getroot().iter("testcase"):
@@ -56,7 +56,7 @@ def report(files, status):
         print(f"failed: {name}")
     good = not failed and status == 0 and passed
     if not failed and status != 0:
-        print(f"no test failed, but ctest ended with status {status}: see what it said above")
+        print(f"no test failed, but ctest exited with status {status}: see its output above")
     elif not failed and not passed:
         print("no test passed: nothing was tested")
     print(f"{len(passed)} passed, {len(failed)} failed, {skipped_count} skipped", flush=True)

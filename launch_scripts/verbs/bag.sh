@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # shellcheck shell=bash
-# summary: inspect, check, mend, convert, cut and compare recorded bags
+# summary: inspect, check, repair, convert, cut and compare bags
 
 source "$PANVO_SCRIPTS/lib/build.sh"
 
@@ -8,7 +8,7 @@ verb_usage() {
   cat <<'EOT'
 usage: panvo bag info | check | reindex | copy | convert | slice | diff ...
 
-Bags are rosbag2 folders: metadata.yaml, and .db3 (SQLite) or .mcap files, compressed or not; or one such file.
+A bag is a rosbag2 folder with metadata.yaml and .db3 (SQLite) or .mcap files, compressed or not, or a single such file.
 EOT
   show_program_help panvo_bag
 }

@@ -9,10 +9,10 @@ source "$PANVO_SCRIPTS/lib/faults.sh"
 verb_usage() {
   cat <<'EOT'
 usage: panvo bench [NAME...] [-- argument...]
-       panvo bench faults [option...]           what faults do to the whole system: panvo bench faults --help
-       panvo bench endurance [option...]        hours of driving, memory watched: panvo bench endurance --help
+       panvo bench faults [option...]           fault injection into the whole system (panvo bench faults --help)
+       panvo bench endurance [option...]        hours of driving, checks for leaks (panvo bench endurance --help)
 
-Runs the programs of tests/benchmarks: all, or those whose name contains NAME. Arguments after -- go to Google Benchmark,
+Runs all programs of tests/benchmarks, or those whose name contains NAME. Arguments after -- are passed to Google Benchmark,
 for example: panvo bench odometry -- --benchmark_filter=klt --benchmark_format=json
 EOT
 }
@@ -59,7 +59,7 @@ verb_main() {
     note "$(basename "$path")"
     "$path" "${arguments[@]}" || failed=$((failed + 1))
   done
-  ((ran)) || fail "no benchmark is called that; there are: $(list_benchmarks)"
+  ((ran)) || fail "no benchmark matches; available: $(list_benchmarks)"
   ((failed == 0)) || fail "$failed of $ran benchmark programs failed"
 }
 

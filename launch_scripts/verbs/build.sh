@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # shellcheck shell=bash
-# summary: compile everything, incrementally
+# summary: compile everything incrementally
 
 source "$PANVO_SCRIPTS/lib/build.sh"
 
@@ -8,15 +8,15 @@ verb_usage() {
   cat <<'EOT'
 usage: panvo build [--debug | --sanitize KIND] [--colcon [argument...]] [TARGET...]
 
-Compiles into build/<kind>: build/release, or another kind:
+Compiles into build/release, or into the folder of another build type:
 
-  --debug           build/debug, not optimised
-  --sanitize KIND   address, undefined or thread: build/asan, build/ubsan, build/tsan
-  --colcon          one package after another with colcon instead, into build/, install/ and log/ (with --sanitize KIND:
-                    install/asan, ...); everything after --colcon goes to `colcon build`
-  TARGET...         only these ninja targets, for example panvo_run (default: all)
+  --debug           unoptimised, into build/debug
+  --sanitize KIND   address, undefined or thread, into build/asan, build/ubsan or build/tsan
+  --colcon          build package by package with colcon, into build/, install/ and log/ (with --sanitize KIND:
+                    install/asan, ...); all arguments after --colcon are passed to `colcon build`
+  TARGET...         build only these ninja targets, for example panvo_run (default: all)
 
-The other verbs use build/release; PANVO_BUILD=debug (asan, ubsan, tsan) makes them use another.
+All other commands use build/release unless PANVO_BUILD is set (debug, asan, ubsan, tsan).
 EOT
 }
 

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # shellcheck shell=bash
-# summary: list components and their parameters; load and unload them in running containers
+# summary: list components and their parameters; load and unload components in running containers
 
 source "$PANVO_SCRIPTS/lib/build.sh"
 
@@ -9,9 +9,9 @@ verb_usage() {
 usage: panvo component list | show PACKAGE
        panvo component running | load CONTAINER PACKAGE PLUGIN ... | unload CONTAINER ID...
 
-list and show: the components that are found, with their parameters, units, defaults and ranges ("types" is another word for list).
-running, load and unload: the containers that run in the DDS domain, as "ros2 component" has them; "panvo component load --help" and so
-on say more.
+list and show: the installed components, with the unit, default and range of each parameter ("types" is an alias of list).
+running, load and unload: the containers running in the DDS domain, as with "ros2 component"; each has its own help, such as
+"panvo component load --help".
 EOT
   show_program_help panvo_component
 }

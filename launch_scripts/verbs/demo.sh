@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # shellcheck shell=bash
-# summary: from nothing to two paths over the truth: install, build, simulate a journey, run the system, evaluate, draw
+# summary: end-to-end demo: install, build, simulate a drive, run the system, plot both trajectories against ground truth
 
 source "$PANVO_SCRIPTS/lib/build.sh"
 source "$PANVO_SCRIPTS/lib/supervise.sh"
@@ -12,19 +12,19 @@ verb_usage() {
   cat <<'EOT'
 usage: panvo demo [--full] [--seed N] [--effects LIST] [--dataset DIR] [--out DIR] [--replay]
 
-Installs and builds what is missing, drives the route 'short' through the simulated campus (rendered once, some minutes, and
-kept for the next time) with stereo cameras whose calibration has aged, through traffic, rain and sudden light, and runs the whole system
-on it in one container: stereo odometry, places, compass, localizer, a recorder beside them. Then it compares both paths with the truth,
-the odometry's that drifts and the one that places correct, and writes a page that shows it all.
+Installs and builds what is missing, renders a drive along the route 'short' of the simulated campus (several minutes of compute,
+cached) with an aged stereo calibration, traffic, rain and sudden light changes, and runs the whole system on it in one container:
+stereo odometry, places, compass, localizer, recorder. Then it compares two trajectories with ground truth, the drifting stereo odometry
+and the one corrected at recognised places, and writes an HTML report.
 
-  --full          the journeys of the paper instead: 'dataset_i' (3.1 km), then 'dataset_ii' (1.4 km) on the places of the first; to be
-                  rendered once, which takes most of an hour on two cores (and goes on where it was when it is interrupted)
-  --seed N        another campus (default: 4; with --full 1)
-  --effects LIST  what makes the drive hard, as of 'panvo simulate' (default: all; with --full none)
-  --dataset DIR   a recording of your own instead of the simulation
-  --out DIR       a new folder for the results (default: runs/demo-1, demo-2, ...)
-  --replay        one thread, in order of stamps, the same result bit for bit every time (default: a thread for each
-                  component, as fast as they take it)
+  --full          the journeys of the paper: 'dataset_i' (3.1 km), then 'dataset_ii' (1.4 km) with the place library of the first.
+                  Rendering them takes most of an hour on two cores, once; an interrupted rendering is resumed
+  --seed N        random seed of the campus (default: 4; with --full 1)
+  --effects LIST  disturbances, as in 'panvo simulate' (default: all; with --full none)
+  --dataset DIR   use this recording instead of the simulation
+  --out DIR       new folder for the results (default: runs/demo-1, demo-2, ...)
+  --replay        one thread, in stamp order, bit-identical results (default: one thread per component, as fast as
+                  possible)
 EOT
   printf '\n'
   dataset_layouts
@@ -47,13 +47,13 @@ verb_main() {
         ;;
       --seed)
         require_value "$@"
-        [[ $2 =~ ^[0-9]+$ ]] || fail "--seed takes a number, not '$2'" 2
+        [[ $2 =~ ^[0-9]+$ ]] || fail "--seed must be a number, not '$2'" 2
         seed=$2
         shift
         ;;
       --effects)
         require_value "$@"
-        [[ $2 =~ ^[a-z_]+(,[a-z_]+)*$ ]] || fail "--effects takes names with commas between, all or none, not '$2'" 2
+        [[ $2 =~ ^[a-z_]+(,[a-z_]+)*$ ]] || fail "--effects must be all, none or names separated by commas, not '$2'" 2
         effects=$2
         shift
         ;;
@@ -63,22 +63,22 @@ verb_main() {
     esac
     shift
   done
-  [[ -z $seed || -z $dataset ]] || fail "--seed is of the simulated journeys; it goes without --dataset" 2
-  [[ -z $effects || -z $dataset ]] || fail "--effects is of the simulated journeys; it goes without --dataset" 2
-  [[ -z $full || -z $dataset ]] || fail "--full is of the simulated journeys; it goes without --dataset" 2
-  # Before anything is installed or built: is there something to play?
+  [[ -z $seed || -z $dataset ]] || fail "--seed applies to simulated journeys only; it cannot be combined with --dataset" 2
+  [[ -z $effects || -z $dataset ]] || fail "--effects applies to simulated journeys only; it cannot be combined with --dataset" 2
+  [[ -z $full || -z $dataset ]] || fail "--full applies to simulated journeys only; it cannot be combined with --dataset" 2
+  # Check the recording before anything is installed or built.
   if [[ -n $dataset ]]; then
-    [[ -n $(dataset_kind "$dataset") ]] || fail "'$dataset' is no recording that panvo understands.
+    [[ -n $(dataset_kind "$dataset") ]] || fail "'$dataset' is not a recording in a supported layout.
 
 $(dataset_layouts)"
     dataset=$(readlink -f -- "$dataset")
   fi
   out=$(claim_folder "$out")
-  ! in_checkout || ensure_packages build  # which may ask for a password
+  ! in_checkout || ensure_packages build  # before supervise, because sudo may ask for a password
   supervise show_all
 }
 
-# show_all: with the variables of verb_main.
+# show_all: uses the variables of verb_main.
 show_all() {
   ensure_built panvo_programs
   use_plugins
@@ -97,7 +97,7 @@ show_all() {
   fi
 }
 
-# play_and_show DATASET OUT [OPTION...]: runs the system on a recording, and says what came of it.
+# play_and_show DATASET OUT [OPTION...]: runs the system on a recording and prints the results.
 play_and_show() {
   local dataset=$1 out=$2
   note "recording: $dataset ($(dataset_kind "$dataset"))"
@@ -105,16 +105,16 @@ play_and_show() {
   show_results "$dataset" "$out"
 }
 
-# claim_folder [DIR]: makes the folder for the results; one that has something in it is never written to.
+# claim_folder [DIR]: creates the folder for the results and prints its path; fails if DIR is not empty.
 claim_folder() {
   local out=$1 base n=1
   if [[ -n $out ]]; then
     [[ ! -e $out || -z $(ls -A -- "$out" 2>/dev/null || echo no) ]] ||
-      fail "'$out' is there already and not empty; name a new folder with --out"
-    mkdir -p -- "$out" || fail "'$out' cannot be made; name another folder with --out"
+      fail "'$out' exists and is not empty; choose a new folder with --out"
+    mkdir -p -- "$out" || fail "cannot create '$out'; choose another folder with --out"
   else
     base=$(runs_folder)
-    mkdir -p -- "$base" || fail "'$base' cannot be made; name a folder with --out"
+    mkdir -p -- "$base" || fail "cannot create '$base'; choose a folder with --out"
     until mkdir -- "$base/demo-$n" 2>/dev/null; do n=$((n + 1)); done
     out=$base/demo-$n
   fi
@@ -127,12 +127,12 @@ show_results() {
   if [[ -n $truth ]]; then
     printf '\n'
     "$(program panvo_evaluate)" "$out" "$truth" || status=$?
-    # 3: everything was measured, only the plot could not be drawn.
-    ((status == 0 || status == 3)) || fail "evaluating failed; the run itself is in $out"
+    # 3: evaluated, but the plot could not be drawn.
+    ((status == 0 || status == 3)) || fail "evaluation failed; the run itself is in $out"
     if [[ -d $dataset/mav0/cam2 ]]; then
       printf '\n'
       "$(program panvo_evaluate_journey)" "$out" --recording "$dataset" --out "$out" "${earlier[@]}" || status=$?
-      ((status == 0 || status == 3)) || fail "evaluating the journey failed; the run itself is in $out"
+      ((status == 0 || status == 3)) || fail "evaluation of the journey failed; the run itself is in $out"
     fi
   fi
   cat <<EOT
@@ -146,7 +146,7 @@ $(result_line 'bag' "$out/bag")
 $(result_line 'times' "$out/timing.json")
 $(result_line 'summary' "$out/summary.json")
 
-What to try next:
+Next steps:
   panvo bag info $out/bag
 EOT
   [[ -z $truth ]] || printf '  panvo evaluate %q %q\n' "$out" "$truth"
@@ -154,7 +154,7 @@ EOT
   panvo run enhanced_vo --dataset $(printf %q "$dataset") --out runs/mine --replay
   panvo component list
 EOT
-  [[ -n $truth ]] || note "this recording has no ground truth: nothing to compare with, so there is no plot of errors"
+  [[ -n $truth ]] || note "this recording has no ground truth, so no errors were evaluated"
 }
 
 result_line() { [[ ! -e $2 ]] || printf '  %-11s %s' "$1" "$2"; }

@@ -1,21 +1,21 @@
 # SPDX-License-Identifier: Apache-2.0
 # shellcheck shell=bash
-# summary: list the cameras that are connected, with serial numbers, formats and rates
+# summary: list connected cameras with serial numbers, formats and rates
 
 source "$PANVO_SCRIPTS/lib/build.sh"
 
-# Each driver has a program panvo_devices_<name> that lists what it can drive; one that was not built is left out.
+# Each driver has a program panvo_devices_<name> that lists its cameras; a driver that was not built is left out.
 device_listers=(aravis v4l2)
 
 verb_usage() {
   cat <<'EOT'
 usage: panvo devices [--json] [--simulated]
 
-Cameras that the drivers find, a few lines each: the serial number (which goes into a rig's file as one of `cameras`), maker, model and
-address; pixel formats, sizes and frame rates. A camera that another program uses is listed, and said to be in use.
+Lists the cameras that the drivers find: serial number (for `cameras` in a rig file), maker, model and address; pixel formats,
+image sizes and frame rates. A camera used by another program is listed as in use.
 
-  --json       a list of objects for each driver, for scripts
-  --simulated  Aravis's own simulated camera, too
+  --json       JSON output, one list of objects per driver
+  --simulated  include the simulated camera of Aravis
 EOT
 }
 
@@ -34,5 +34,5 @@ verb_main() {
     output=$("$path" "${arguments[@]}") || fail "panvo_devices_$name failed; the messages above say why"
     [[ -z $output ]] || { printf '%s\n' "$output"; found=yes; }
   done
-  [[ $found == yes ]] || note "no camera answers. Is it connected, powered, and for GigE in this network? (drivers/v4l2_camera/README.md, drivers/aravis_camera/README.md)"
+  [[ $found == yes ]] || note "no camera found. Check cable and power; a GigE camera must be in this host's network (drivers/v4l2_camera/README.md, drivers/aravis_camera/README.md)"
 }

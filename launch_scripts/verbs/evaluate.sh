@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # shellcheck shell=bash
-# summary: measure a trajectory, a journey, or the recognition of places against ground truth: tables, a page, plots
+# summary: evaluate a trajectory, a journey or place recognition against ground truth: tables, HTML report, plots
 
 source "$PANVO_SCRIPTS/lib/build.sh"
 source "$PANVO_SCRIPTS/lib/supervise.sh"
@@ -9,11 +9,11 @@ source "$PANVO_SCRIPTS/lib/systems.sh"
 verb_usage() {
   cat <<'EOT'
 usage: panvo evaluate ESTIMATE GROUND_TRUTH [options]
-       panvo evaluate journey RECORDING|RUN [options] (panvo evaluate journey --help says more)
-       panvo evaluate places RECORDING [options]      (panvo evaluate places --help says more)
+       panvo evaluate journey RECORDING|RUN [options] (see panvo evaluate journey --help)
+       panvo evaluate places RECORDING [options]      (see panvo evaluate places --help)
 
-ESTIMATE is the folder of a run, or a trajectory (TUM, EuRoC csv, KITTI poses); GROUND_TRUTH a data set, or a trajectory.
-Prints a table; writes evaluation.json, errors.csv and the plot into the folder of the run, or into --out.
+ESTIMATE is a run folder or a trajectory (TUM, EuRoC csv, KITTI poses), GROUND_TRUTH a data set or a trajectory.
+Prints a table; writes evaluation.json, errors.csv and the plot into the run folder, or into --out.
 EOT
   show_program_help panvo_evaluate
 }
@@ -24,13 +24,13 @@ usage: panvo evaluate journey RECORDING [--out DIR] [--library FILE] [--set C.P=
        panvo evaluate journey RECORDING --run DIR [options]
        panvo evaluate journey RUN [options]
 
-Plays RECORDING through the enhanced odometry (system enhanced_vo, replayed), or takes a run that was made of it, and says what
-each revisit did to the error, how far off both paths are, and how long each stage took: tables, and report.html to show.
+Replays RECORDING through the system enhanced_vo, or reads an existing run, and reports the error before and after each revisit,
+the errors of both trajectories, and the time each stage took: as tables and in report.html.
 
-  --run DIR        evaluate this run of RECORDING instead of making one
-  --library FILE   landmarks of an earlier journey (landmark_store.file); new ones are added to it. With it, name that journey's
-                   recording with --earlier, so that its start is known to be the map's
-  --set C.P=V      set a parameter of the run
+  --run DIR        evaluate this run of RECORDING instead of a new one
+  --library FILE   landmark library of an earlier journey (landmark_store.file); new landmarks are added to it. Also name that
+                   journey's recording with --earlier: its start is the origin of the map
+  --set C.P=V      set parameter P of component C
   --out DIR        folder for run and report (default: runs/journey-NAME)
 
 EOT
@@ -67,19 +67,19 @@ evaluate_journey() {
         ;;
       -*) options+=("$1") ;;
       *)
-        [[ -z $recording ]] || fail "one recording at a time: '$recording', and then '$1'?" 2
+        [[ -z $recording ]] || fail "only one recording is allowed: '$recording' or '$1'?" 2
         recording=$1
         ;;
     esac
     shift
   done
-  [[ -n $recording ]] || fail "which recording, or which run? (panvo evaluate journey --help)" 2
-  [[ -d $recording ]] || fail "'$recording' is no folder"
+  [[ -n $recording ]] || fail "name a recording or a run (panvo evaluate journey --help)" 2
+  [[ -d $recording ]] || fail "'$recording' is not a folder"
 
   use_built panvo_run panvo_evaluate_journey
   use_plugins
   if [[ -f $recording/odometry_enhanced.tum ]]; then
-    [[ -z $run ]] || fail "'$recording' is a run itself; with --run, name the recording it was made of" 2
+    [[ -z $run ]] || fail "'$recording' is a run, not a recording; with --run, name the recording that was played" 2
     run=$recording
   else
     options+=(--recording "$recording")
@@ -89,7 +89,7 @@ evaluate_journey() {
   exec "$(program panvo_evaluate_journey)" "$run" "${options[@]}"
 }
 
-# make_run: a run of $recording in $out, which is then named by $run.
+# make_run: plays $recording into $out and sets $run.
 make_run() {
   local system
   system=$(system_file enhanced_vo)

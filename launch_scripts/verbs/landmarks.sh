@@ -1,15 +1,15 @@
 # SPDX-License-Identifier: Apache-2.0
 # shellcheck shell=bash
-# summary: inspect, draw and merge libraries of landmarks
+# summary: inspect, draw and merge landmark libraries
 
 source "$PANVO_SCRIPTS/lib/build.sh"
 
 verb_usage() {
   cat <<'EOT'
 usage: panvo landmarks info | show | merge ...
-       panvo landmarks junctions DATASET [options]    (panvo landmarks junctions --help says more)
+       panvo landmarks junctions DATASET [options]    (see panvo landmarks junctions --help)
 
-A library of landmarks is one SQLite file: the places that a run may recognise, and how each looks.
+A landmark library is one SQLite file with the places that a run can recognise.
 EOT
   show_program_help panvo_landmarks
 }

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # shellcheck shell=bash
-# summary: check layout, naming and likely bugs in the sources
+# summary: check formatting, naming and likely bugs in the sources
 
 source "$PANVO_SCRIPTS/lib/build.sh"
 
@@ -8,12 +8,13 @@ verb_usage() {
   cat <<'EOT'
 usage: panvo lint [--format | --naming | --tidy | --scripts] [--fix] [FILE...]
 
-Without an option: layout and scripts, as CI does; what can be read off the text of names is among the tests. FILE: only these (default: every C++ source).
+Without an option: --format and --scripts, as in CI. FILE: check only these files (default: every C++ source). A fast naming check is part
+of the tests.
 
-  --format    layout, by clang-format and .clang-format
-  --naming    the naming rules of .clang-tidy alone, sources joined to be quicker; minutes for the whole tree
+  --format    formatting with clang-format and .clang-format
+  --naming    only the naming rules of .clang-tidy, on concatenated sources for speed; minutes for the whole tree
   --tidy      every check of .clang-tidy; minutes for the whole tree
-  --scripts   shellcheck over the shell scripts
+  --scripts   shellcheck on the shell scripts
   --fix       with --format: rewrite the files
 EOT
 }
@@ -28,7 +29,7 @@ verb_main() {
       --fix) fix=yes ;;
       -*) unknown_option "$1" ;;
       *)
-        [[ -f $1 ]] || fail "there is no file '$1'" 2
+        [[ -f $1 ]] || fail "file '$1' not found" 2
         files+=("$(readlink -f -- "$1")")
         ;;
     esac
@@ -40,11 +41,11 @@ verb_main() {
   for check in "${checks[@]}"; do
     "lint_$check" "${files[@]}" || status=1
   done
-  ((status == 0)) || fail "see above; 'panvo lint --format --fix' mends layout, the rest is for you"
-  note "nothing to complain about: ${checks[*]}"
+  ((status == 0)) || fail "problems found, listed above; 'panvo lint --format --fix' corrects the formatting"
+  note "no problems found: ${checks[*]}"
 }
 
-# sources FIND_EXPRESSION...: files of the checkout, without what builds and runs leave; git need not be there.
+# sources FIND_EXPRESSION...: files of the checkout outside the folders of builds and runs; works without git.
 sources() {
   local name
   local -a left=(-path "$PANVO_HOME/.git")
@@ -53,7 +54,7 @@ sources() {
 }
 
 lint_format() {
-  note "layout of $# files"
+  note "formatting of $# files"
   if [[ $fix == yes ]]; then
     clang-format -i "$@"
   else
@@ -63,14 +64,14 @@ lint_format() {
 
 lint_naming() {
   note "naming rules"
-  local PANVO_BUILD=debug  # whose compilation database names every source
+  local PANVO_BUILD=debug  # its compilation database lists every source
   build_targets panvo_interfaces_generate
   python3 "$PANVO_HOME/tests/lint/tidy.py" --build "$(build_folder)" --naming --jobs "$(job_count)" "$@"
 }
 
 lint_tidy() {
-  note "clang-tidy over $# files"
-  local PANVO_BUILD=debug  # whose compilation database names every source
+  note "clang-tidy on $# files"
+  local PANVO_BUILD=debug  # its compilation database lists every source
   build_targets panvo_interfaces_generate
   python3 "$PANVO_HOME/tests/lint/tidy.py" --build "$(build_folder)" --jobs "$(job_count)" "$@"
 }
@@ -78,6 +79,6 @@ lint_tidy() {
 lint_scripts() {
   local -a shell_files
   mapfile -t shell_files < <(sources -path '*/launch_scripts/panvo' -o -name '*.sh' -o -path '*/.ci/run')
-  note "shellcheck over ${#shell_files[@]} scripts"
+  note "shellcheck on ${#shell_files[@]} scripts"
   (cd "$PANVO_HOME" && shellcheck -x -P "$PANVO_HOME" "${shell_files[@]}")
 }

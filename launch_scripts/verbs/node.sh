@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # shellcheck shell=bash
-# summary: list running nodes, panvo's and ROS 2's, and what each has
+# summary: list running panvo and ROS 2 nodes, with their topics and services
 
 source "$PANVO_SCRIPTS/lib/build.sh"
 
@@ -8,7 +8,7 @@ verb_usage() {
   cat <<'EOT'
 usage: panvo node list | info NODE
 
-The nodes of the DDS domain (ROS_DOMAIN_ID); "panvo node info --help" and so on say more.
+The nodes in the DDS domain (ROS_DOMAIN_ID). Each command has its own help, such as "panvo node info --help".
 EOT
   show_program_help panvo_graph
 }

@@ -8,7 +8,7 @@ verb_usage() {
   cat <<'EOT'
 usage: panvo param list [NODE] | get NODE NAME | set NODE NAME VALUE | describe NODE [NAME]
 
-Of panvo's components most parameters are fixed once a component is made; describe says which may be set.
+Most parameters of panvo components are read-only after construction; describe shows which can be changed.
 EOT
   show_program_help panvo_graph
 }

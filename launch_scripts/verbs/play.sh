@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # shellcheck shell=bash
-# summary: play a bag onto the network
+# summary: publish the messages of a bag
 
 source "$PANVO_SCRIPTS/lib/build.sh"
 source "$PANVO_SCRIPTS/lib/systems.sh"
@@ -9,11 +9,11 @@ verb_usage() {
   cat <<'EOT'
 usage: panvo play BAG [TOPIC...] [--rate R] [--exclude TOPIC] [option of panvo run ...]
 
-Publishes what the rosbag2 folder BAG holds (or one .db3 or .mcap file), under the recorded names. TOPIC is a name or a regular
-expression for whole names; without one, everything is played.
+Publishes the messages of BAG (a rosbag2 folder, or one .db3 or .mcap file) under the recorded topic names. TOPIC is a name or a
+regular expression that must match the whole name; default: all topics.
 
-  --rate R          R times as fast as recorded; 0: as fast as it goes
-  --exclude TOPIC   not this one
+  --rate R          play at R times the recorded speed; 0: as fast as possible
+  --exclude TOPIC   do not play this topic
 EOT
 }
 
@@ -39,8 +39,8 @@ verb_main() {
     esac
     shift
   done
-  [[ -n $bag ]] || fail "which bag? (panvo play --help)" 2
-  [[ -e $bag ]] || fail "there is no bag '$bag'"
+  [[ -n $bag ]] || fail "name a bag (panvo play --help)" 2
+  [[ -e $bag ]] || fail "bag '$bag' not found"
   local system
   system=$(system_file play)
   start_program panvo_run "$system" "bag:=$bag" "topics:=$topics" "exclude:=$exclude" "${rest[@]}"

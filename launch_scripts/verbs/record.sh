@@ -9,16 +9,16 @@ verb_usage() {
   cat <<'EOT'
 usage: panvo record BAG [TOPIC...] [--exclude TOPIC] [--no-images] [--storage NAME] [--overwrite] [option of panvo run ...]
 
-Records topics of the network into the folder BAG (rosbag2) until Ctrl-C. TOPIC is a name or a regular expression for
-whole names, such as '/stereo/.*'; without one, everything is recorded.
+Records topics into the rosbag2 folder BAG until Ctrl-C. TOPIC is a name or a regular expression that must match the whole
+name, such as '/stereo/.*'; default: all topics.
 
-  --exclude TOPIC      not this one
-  --no-images          no sensor_msgs/Image and CompressedImage
+  --exclude TOPIC      do not record this topic
+  --no-images          do not record sensor_msgs/Image and CompressedImage
   --storage NAME       sqlite3 (.db3 files) or mcap
-  --compression NAME   none, lz4 or zstd; the storage is then mcap
-  --overwrite          replace a bag that is already there
+  --compression NAME   none, lz4 or zstd; lz4 and zstd imply mcap
+  --overwrite          replace an existing bag
 
-`panvo bag info BAG` looks into the result, `panvo play BAG` plays it.
+`panvo bag info BAG` shows the contents, `panvo play BAG` plays them.
 EOT
 }
 
@@ -57,7 +57,7 @@ verb_main() {
     esac
     shift
   done
-  [[ -n $bag ]] || fail "into which folder? (panvo record --help)" 2
+  [[ -n $bag ]] || fail "name a folder for the bag (panvo record --help)" 2
   local system
   system=$(system_file record)
   start_program panvo_run "$system" "output:=$bag" "topics:=$topics" "exclude:=$exclude" "${rest[@]}"

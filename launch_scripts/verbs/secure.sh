@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # shellcheck shell=bash
-# summary: make the keys with which only one's own processes speak and listen
+# summary: create keys for encrypted communication (DDS Security); only key holders can join
 
 source "$PANVO_SCRIPTS/lib/build.sh"
 source "$PANVO_SCRIPTS/lib/systems.sh"
@@ -14,32 +14,33 @@ usage: panvo secure KEYSTORE [/ENCLAVE ...]
        panvo secure KEYSTORE --system SYSTEM [--dataset DIR | --bag DIR] [NAME:=VALUE ...]
        panvo secure revoke KEYSTORE /ENCLAVE ...
 
-Makes a keystore for DDS Security, laid out as SROS 2's, and in it the keys of each enclave (a process or several that may do the same);
-/panvo where none is named. What is there already stays, so that enclaves can be added later. Then:
+Creates a keystore for DDS Security, in the layout of SROS 2, with keys for each enclave (one or more processes with the same
+permissions; default: /panvo). Existing files are kept, so enclaves can be added later. Use it with
 
   panvo run SYSTEM --secure KEYSTORE [--enclave /ENCLAVE]
 
-and for ROS 2 nodes ROS_SECURITY_KEYSTORE=KEYSTORE ROS_SECURITY_ENABLE=true ROS_SECURITY_STRATEGY=Enforce, and their own enclave.
-Who has no keys of this keystore neither reads nor writes; all that is sent is encrypted. Other machines need KEYSTORE/enclaves and
-KEYSTORE/public; keep KEYSTORE/private, with which keys are made, to yourself.
+and for ROS 2 nodes with ROS_SECURITY_KEYSTORE=KEYSTORE ROS_SECURITY_ENABLE=true ROS_SECURITY_STRATEGY=Enforce and an enclave of their own.
+All messages are encrypted; processes without keys of this keystore can neither read nor write. Copy KEYSTORE/enclaves and
+KEYSTORE/public to other machines. Keep KEYSTORE/private secret: it holds the signing key.
 
-With --system each container of that system gets an enclave of its own, /SYSTEM/CONTAINER, which may read, write and serve what its components do
-and no more; panvo run takes it by itself. The components are made for a moment, so that their devices and files must be there. When the system
-has changed, run it again: keys stay, rights are written anew. Enclaves that are named instead may do everything: for tools, and for trials.
+--system: each container of the system gets its own enclave, /SYSTEM/CONTAINER, with permission only for the topics and services of its
+components; panvo run selects it automatically. The components are constructed briefly, so their devices and files must be present. After
+a change of the system, run this again: keys are kept, permissions are rewritten. Enclaves named on the command line have all permissions;
+use them for tools and tests.
 
-revoke: who has the keys of that enclave is refused by all processes that are started from then on; make the enclave again for new keys. Copy
-KEYSTORE/enclaves and KEYSTORE/public to the other machines, and start everything anew.
+revoke: processes started from then on reject the keys of the enclave. Create the enclave again to get new keys. Copy
+KEYSTORE/enclaves and KEYSTORE/public to the other machines and restart all processes.
 
-What an enclave may read and write stands in its permissions.xml; after changing it, take away its permissions.p7s and run this again.
+The permissions of an enclave are in its permissions.xml. After editing it, delete its permissions.p7s and run this command again.
 EOT
 }
 
 verb_main() {
   (($#)) || fail "name the folder of the keystore: panvo secure KEYSTORE [/ENCLAVE ...]" 2
-  command -v openssl >/dev/null || fail "there is no openssl; install the package openssl"
+  command -v openssl >/dev/null || fail "openssl not found; install the package openssl"
   umask 077
   if [[ $1 == revoke ]]; then
-    (($# >= 3)) || fail "name the keystore and what to revoke: panvo secure revoke KEYSTORE /ENCLAVE ..." 2
+    (($# >= 3)) || fail "name the keystore and the enclaves to revoke: panvo secure revoke KEYSTORE /ENCLAVE ..." 2
     require_enclaves "${@:3}"
     revoke "${@:2}"
     return
@@ -64,21 +65,21 @@ require_enclaves() {
   local enclave
   for enclave in "$@"; do
     [[ $enclave =~ ^/[A-Za-z0-9_]+(/[A-Za-z0-9_]+)*$ ]] ||
-      fail "'$enclave' is no enclave: write a name, or several, each with a slash before it, of letters, digits and underscores" 2
+      fail "invalid enclave name '$enclave': use /name or /name/name, of letters, digits and underscores" 2
   done
 }
 
-# make_keystore KEYSTORE: the authority that signs identities and permissions, and the rules that hold for all.
+# make_keystore KEYSTORE: creates the certificate authority for identities and permissions, and the governance file.
 make_keystore() {
   local keystore=$1
   mkdir -p "$keystore"/{private,public,enclaves}
-  [[ -e $keystore/.gitignore ]] || printf '*\n' >"$keystore/.gitignore"  # keys do not go into anybody's repository
+  [[ -e $keystore/.gitignore ]] || printf '*\n' >"$keystore/.gitignore"  # keep keys out of repositories
   if [[ ! -e $keystore/private/ca.key.pem ]]; then
     make_key "$keystore/private/ca.key.pem"
     run_openssl req -new -x509 -sha256 -days "$kKeyDays" -key "$keystore/private/ca.key.pem" -out "$keystore/public/ca.cert.pem" \
       -config <(printf '%s\n' '[req]' 'distinguished_name=name' 'x509_extensions=authority' 'prompt=no' '[name]' 'CN=panvo authority' \
         '[authority]' 'basicConstraints=critical,CA:true' 'subjectKeyIdentifier=hash')
-    note "made a keystore in $keystore"
+    note "created a keystore in $keystore"
   fi
   local authority
   for authority in identity_ca permissions_ca; do
@@ -104,7 +105,7 @@ make_enclave() {
     run_openssl x509 -req -sha256 -days "$kKeyDays" -in "$folder/request.pem" -CA "$keystore/public/identity_ca.cert.pem" \
       -CAkey "$keystore/private/identity_ca.key.pem" -set_serial "0x$(openssl rand -hex 8)" -out "$folder/cert.pem"
     rm "$folder/request.pem"
-    note "made the keys of enclave $name"
+    note "created the keys of enclave $name"
   fi
   [[ -e $folder/permissions.xml ]] || permissions_text "$name" '*' '*' >"$folder/permissions.xml"
   [[ -e $folder/permissions.p7s ]] || sign "$keystore" "$folder/permissions"
@@ -113,7 +114,7 @@ make_enclave() {
 
 make_key() { run_openssl ecparam -name prime256v1 -genkey -noout -out "$1"; }
 
-# sign KEYSTORE FILE: FILE.xml, signed, as FILE.p7s.
+# sign KEYSTORE FILE: signs FILE.xml and writes FILE.p7s.
 sign() {
   run_openssl smime -sign -text -in "$2.xml" -out "$2.p7s" -signer "$1/public/permissions_ca.cert.pem" \
     -inkey "$1/private/permissions_ca.key.pem"

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # shellcheck shell=bash
-# summary: list the services of running nodes, and call them
+# summary: list and call the services of running nodes
 
 source "$PANVO_SCRIPTS/lib/build.sh"
 
@@ -8,7 +8,7 @@ verb_usage() {
   cat <<'EOT'
 usage: panvo service list [-t] | call SERVICE [REQUEST]
 
-REQUEST is YAML: panvo service call /panvo/_container/list_nodes '{}'
+REQUEST is YAML, for example: panvo service call /panvo/_container/list_nodes '{}'
 EOT
   show_program_help panvo_graph
 }

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # shellcheck shell=bash
-# summary: install what is missing on this machine
+# summary: install missing Debian packages
 
 source "$PANVO_SCRIPTS/lib/packages.sh"
 
@@ -8,13 +8,13 @@ verb_usage() {
   cat <<'EOT'
 usage: panvo setup [--check | --list] [GROUP... | --all]
 
-Installs the Debian packages that are missing, with sudo when you are not root. Groups: build (default), colcon, lint;
---all means every group. demo, test and the others call it themselves.
+Installs missing Debian packages, with sudo unless run as root. Groups: build (default), colcon, witness, lint; --all: every
+group. Other commands, such as demo and test, install the packages that they need.
 
-  --check   install nothing; list what is missing and fail when anything is
-  --list    print the package names and do nothing
+  --check   install nothing; list the missing packages and fail if there are any
+  --list    only print the package names
 
-The list is launch_scripts/packages.txt.
+The packages and their purposes are listed in launch_scripts/packages.txt.
 EOT
 }
 
@@ -33,7 +33,7 @@ verb_main() {
   done
   ((${#groups[@]})) || groups=(build)
   for group in "${groups[@]}"; do
-    package_groups | grep -qxF -- "$group" || fail "there is no group '$group'; there are: $(package_groups | xargs)" 2
+    package_groups | grep -qxF -- "$group" || fail "unknown group '$group'; available: $(package_groups | xargs)" 2
   done
 
   case $action in
@@ -48,7 +48,7 @@ verb_main() {
       ;;
     install)
       ensure_packages "${groups[@]}"
-      note "everything for ${groups[*]} is installed"
+      note "all packages of ${groups[*]} are installed"
       ;;
   esac
 }

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # shellcheck shell=bash
-# summary: render a journey through the simulated campus into a data set or a bag
+# summary: render a drive through the simulated campus into a data set or a bag
 
 source "$PANVO_SCRIPTS/lib/build.sh"
 source "$PANVO_SCRIPTS/lib/routes.sh"
@@ -10,16 +10,16 @@ source "$PANVO_SCRIPTS/lib/systems.sh"
 verb_usage() {
   cat <<'EOT'
 usage: panvo simulate ROUTE --out DIR [--bag] [--seed N] [--effects LIST] [option ...]
-       panvo simulate ROUTE --out DIR --pictures 0,5.2,30       a few views as PNG
-       panvo simulate ROUTE --out DIR --map                     the plan of the campus with the route as PNG
-       panvo simulate --junctions gate,library,... --out DIR    a route of one's own
-       panvo simulate --random 12 --seed 7 --out DIR            a route drawn from the seed
+       panvo simulate ROUTE --out DIR --pictures 0,5.2,30       single views as PNG, at these times in s
+       panvo simulate ROUTE --out DIR --map                     campus map with the route as PNG
+       panvo simulate --junctions gate,library,... --out DIR    route through these junctions
+       panvo simulate --random 12 --seed 7 --out DIR            random route over 12 junctions
 
-Renders what the stereo and the panoramic camera of a vehicle see on a journey, with the exact truth, as an EuRoC/ASL data
-set (or with --bag as a bag of topics). The same arguments give the same pixels.
+Renders the images of a vehicle's stereo and panoramic cameras along a route, with exact ground truth, as a EuRoC/ASL data set
+or, with --bag, as a bag. The same arguments give the same pixels.
 
 EOT
-  printf 'Routes here (each a file in config/routes; a path of another does as well):\n'
+  printf 'ROUTE is the path of a route file, or the name of one in config/routes:\n'
   describe_routes
   show_program_help panvo_simulate
 }
@@ -38,7 +38,7 @@ verb_main() {
         shift
         ;;
       *)
-        [[ -z $route ]] || fail "one route at a time: '$route' or '$1'?" 2
+        [[ -z $route ]] || fail "only one route is allowed: '$route' or '$1'?" 2
         route=$(route_file "$1")
         ;;
     esac
@@ -48,7 +48,7 @@ verb_main() {
   if [[ $as_bag == yes ]]; then supervise simulate_bag "${rest[@]}"; else start_program panvo_simulate "${rest[@]}"; fi
 }
 
-# simulate_bag OPTION VALUE ...: the same journey played by the component and recorded, and the truth beside the bag.
+# simulate_bag OPTION VALUE ...: plays the drive with the simulation component, records it, and writes ground truth beside the bag.
 simulate_bag() {
   local out='' name run simulate
   local -a parameters=() given=("$@")
@@ -62,18 +62,18 @@ simulate_bag() {
       start | duration) parameters+=(--set "simulation.${name}_s=$2") ;;
       random) parameters+=(--set "simulation.random_junctions=$2") ;;
       effects | junctions) parameters+=(--set "simulation.$name=[$2]") ;;
-      *) fail "$1 and --bag do not go together (panvo simulate --help)" 2 ;;
+      *) fail "$1 cannot be combined with --bag (panvo simulate --help)" 2 ;;
     esac
     shift 2
   done
-  [[ -n $out ]] || fail "where to? Name a new folder with --out" 2
-  [[ ! -e $out || -z $(ls -A -- "$out" 2>/dev/null || echo no) ]] || fail "'$out' is there already and not empty; name a new folder"
+  [[ -n $out ]] || fail "name a new folder with --out" 2
+  [[ ! -e $out || -z $(ls -A -- "$out" 2>/dev/null || echo no) ]] || fail "'$out' exists and is not empty; choose a new folder"
   use_built panvo_run panvo_simulate
   use_plugins
   run=$(program panvo_run)
   simulate=$(program panvo_simulate)
-  # The truth first: it refuses at once what cannot be simulated.
+  # Ground truth first: it rejects invalid arguments immediately.
   "$simulate" "${given[@]}" --truth-only || exit 1
   "$run" "$(system_file simulate_bag)" --replay "bag:=$out/bag" "${parameters[@]}" || fail "the run failed; the messages above say why"
-  note "bag: $out/bag, what is true of it: $out/sequence.yaml"
+  note "bag: $out/bag, ground truth: $out/sequence.yaml"
 }

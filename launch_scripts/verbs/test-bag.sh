@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # shellcheck shell=bash
-# summary: replay a recording of one's own, and compare with what it gave before
+# summary: regression test: replay a recording and compare with stored results
 
 source "$PANVO_SCRIPTS/lib/build.sh"
 source "$PANVO_SCRIPTS/lib/supervise.sh"
@@ -11,15 +11,15 @@ verb_usage() {
 usage: panvo test-bag BAG --expect RESULTS [--system SYSTEM] [--within-m M --within-deg D] [--set C.P=V ...] [--out DIR]
        panvo test-bag BAG --record RESULTS [--system SYSTEM] [--set C.P=V ...]
 
-Replays BAG (a rosbag2 folder, an .mcap or .db3 file, or a data set) through a system, and compares the trajectories and events
-with those in RESULTS, which --record left there, or any `panvo run --replay --out RESULTS`.
-Exit status 0: as expected; 1: not; 2: nothing to compare.
+Replays BAG (a rosbag2 folder, an .mcap or .db3 file, or a data set) through a system and compares trajectories and events with
+those in RESULTS, written earlier by --record or by `panvo run --replay --out RESULTS`.
+Exit status 0: equal; 1: different; 2: nothing to compare.
 
   --system SYSTEM   system file, or the name of one in config/systems (default: enhanced_vo)
-  --within-m M      how far a pose may be off; without --within-m and --within-deg, every bit must be the same
-  --within-deg D    and by what angle; give both where BAG was recorded or RESULTS made on another machine
+  --within-m M      position tolerance, m; without --within-m and --within-deg, results must be bit-identical
+  --within-deg D    orientation tolerance, degrees; give both if BAG or RESULTS comes from another machine
   --set C.P=V       set parameter P of component C
-  --out DIR         keep this run's results there (default: a temporary folder)
+  --out DIR         keep the results of this run in DIR (default: a temporary folder)
 
 EOT
 }
@@ -43,17 +43,17 @@ verb_main() {
         ;;
       -*) fail "unknown option '$1' (panvo test-bag --help)" 2 ;;
       *)
-        [[ -z $bag ]] || fail "one recording at a time: '$bag', and then '$1'?" 2
+        [[ -z $bag ]] || fail "only one recording is allowed: '$bag' or '$1'?" 2
         bag=$1
         ;;
     esac
     shift
   done
-  [[ -n $bag ]] || fail "which recording? (panvo test-bag --help)" 2
-  [[ -e $bag ]] || fail "there is no recording '$bag'" 2
-  [[ -n $expected || -n $recorded ]] || fail "compare with what? --expect RESULTS; --record RESULTS makes them" 2
-  [[ -z $expected || -z $recorded ]] || fail "either --expect or --record" 2
-  [[ -z $expected || -d $expected ]] || fail "there are no results in '$expected'; --record $expected makes them" 2
+  [[ -n $bag ]] || fail "name a recording (panvo test-bag --help)" 2
+  [[ -e $bag ]] || fail "recording '$bag' not found" 2
+  [[ -n $expected || -n $recorded ]] || fail "name the results to compare with: --expect RESULTS; --record RESULTS creates them" 2
+  [[ -z $expected || -z $recorded ]] || fail "--expect and --record cannot be combined" 2
+  [[ -z $expected || -d $expected ]] || fail "no results in '$expected'; --record $expected creates them" 2
   system=$(system_file "$system")
   supervise replay_and_compare
 }
@@ -65,7 +65,7 @@ replay_and_compare() {
     out=$recorded
   elif [[ -z $out ]]; then
     out=$(mktemp -d "${TMPDIR:-/tmp}/panvo-test-bag.XXXXXX")
-    # shellcheck disable=SC2064  # the folder of now
+    # shellcheck disable=SC2064  # expand the folder now
     trap "rm -rf '$out'" EXIT
   fi
   local kind=--bag
@@ -73,13 +73,13 @@ replay_and_compare() {
   note "replaying $bag through $(basename "$system" .yaml)"
   run_to_its_end "$out" "$system" "$kind" "$bag" --replay "${settings[@]}" >&2
   if [[ -n $recorded ]]; then
-    note "recorded in $recorded; from now on: panvo test-bag $bag --expect $recorded --system $system"
+    note "results are in $recorded; compare with: panvo test-bag $bag --expect $recorded --system $system"
     return
   fi
   "$(program panvo_compare_runs)" "$out" "$expected" "${tolerances[@]}"
 }
 
-# is_dataset PATH: whether it is no bag, that is, neither a file nor a folder with metadata or messages.
+# is_dataset PATH: true for a folder that is not a bag (no metadata.yaml, .db3 or .mcap in it).
 is_dataset() {
   [[ -d $1 ]] || return 1
   ! compgen -G "$1/metadata.yaml" >/dev/null && ! compgen -G "$1/*.db3" >/dev/null && ! compgen -G "$1/*.mcap" >/dev/null

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # shellcheck shell=bash
-# summary: build and run all tests; the last line counts them
+# summary: build, run all tests, print the counts
 
 source "$PANVO_SCRIPTS/lib/build.sh"
 
@@ -8,13 +8,13 @@ verb_usage() {
   cat <<'EOT'
 usage: panvo test [--sanitize KIND | --debug] [--colcon] [-R REGEX] [ctest argument...]
 
-Builds what changed and runs every test. The last line is "N passed, N failed, N skipped", the exit status 0 only when
-nothing failed. Tests that need recordings read $PANVO_DATA, or ../shared/data beside the checkout, and are skipped, with
-their reason shown, where neither is there.
+Builds incrementally and runs every test. The last line is "N passed, N failed, N skipped"; the exit status is 0 only if no test
+failed. Tests that need recordings read $PANVO_DATA, or ../shared/data beside the checkout; without either they are skipped,
+and the reason is printed.
 
-  --sanitize KIND   address, undefined or thread, in a build of its own
-  --debug           the build that is not optimised
-  --colcon          build and test every package on its own with colcon
+  --sanitize KIND   address, undefined or thread, in a separate build
+  --debug           use the unoptimised build
+  --colcon          build and test package by package with colcon
   -R REGEX          only tests whose name matches; other ctest arguments (-E, -L, --repeat ...) are passed on as well
 EOT
 }
@@ -43,16 +43,17 @@ verb_main() {
 
   if [[ $use_colcon == yes ]]; then
     source "$PANVO_SCRIPTS/lib/colcon.sh"
-    # shellcheck disable=SC2119  # no arguments of ours for colcon build
+    # shellcheck disable=SC2119  # colcon build gets no extra arguments
     colcon_build
     colcon_test "${arguments[@]}" || status=$?
     python3 "$PANVO_SCRIPTS/lib/test_report.py" --status "$status" "$colcon_build_base"/panvo_*/panvo_junit.xml
     return
   fi
+  install_if_possible witness
   ensure_built all
   folder=$(build_folder)
   rm -f "$folder/panvo_junit.xml"
-  # --test-dir keeps the caller's folder; ctest itself prints a line a test, or one that moves on a terminal.
+  # --test-dir keeps the working folder. ctest prints one line per test; --progress updates one line on a terminal.
   local -a progress=()
   [[ ! -t 1 ]] || progress=(--progress)
   ctest --test-dir "$folder" --parallel "${PANVO_JOBS:-$(nproc)}" --output-on-failure --no-tests=error \
@@ -60,13 +61,13 @@ verb_main() {
   python3 "$PANVO_SCRIPTS/lib/test_report.py" --status "$status" "$folder/panvo_junit.xml"
 }
 
-# What a sanitizer finds fails the test; the suppressions are ours to justify, one by one, in config/build.
+# Every sanitizer report fails its test. Suppressions are in config/build, each with its reason.
 set_sanitizer_options() {
   local suppressions=$PANVO_HOME/config/build/$PANVO_BUILD.supp with=''
   [[ ! -f $suppressions ]] || with=":suppressions=$suppressions"
   case $PANVO_BUILD in
     asan)
-      # Fast DDS 2.9 deletes its readers' and writers' statistics through a base class whose destructor is not virtual.
+      # Fast DDS 2.9 deletes the statistics of readers and writers through a base class without a virtual destructor.
       export ASAN_OPTIONS="detect_stack_use_after_return=1:new_delete_type_mismatch=0:${ASAN_OPTIONS:-}"
       export LSAN_OPTIONS="print_suppressions=0$with:${LSAN_OPTIONS:-}"
       ;;

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # shellcheck shell=bash
-# summary: list topics, print their messages, measure rate and bandwidth
+# summary: list topics, print messages, measure rate and bandwidth
 
 source "$PANVO_SCRIPTS/lib/build.sh"
 
@@ -8,7 +8,7 @@ verb_usage() {
   cat <<'EOT'
 usage: panvo topic list [-t] | info TOPIC [-v] | echo TOPIC [--once] | hz TOPIC | bw TOPIC
 
-Topics of any DDS peer that follows ROS 2's names; echo reads the message types that panvo has.
+Topics of all DDS peers that follow the naming convention of ROS 2. echo supports the message types of panvo's interfaces.
 EOT
   show_program_help panvo_graph
 }

@@ -267,7 +267,7 @@ TEST_F(Fault, AFolderOfSomebodyElseIsNotWrittenTo) {
   const std::string data = write_walk({.frames = 3});
   const Finished refused = replay(data);
   EXPECT_EQ(refused.status, kBadConfiguration);
-  EXPECT_THAT(refused.output, AllOf(HasSubstr("holds odometry_binocular.tum"), HasSubstr("--overwrite")));
+  EXPECT_THAT(refused.output, AllOf(HasSubstr("contains odometry_binocular.tum"), HasSubstr("--overwrite")));
   EXPECT_EQ(read_file(folder.path() / "out" / "odometry_binocular.tum"), "precious");
   EXPECT_EQ(replay(data, {"--overwrite"}).status, 0);
   EXPECT_EQ(replay(data).status, 0) << "an earlier run of ours is replaced";

@@ -204,7 +204,7 @@ TEST_F(SplitFaults, AContainerThatIsKilledIsStartedAgainWhereAskedFor) {
   kill(child_of(system, "odometry"), SIGKILL);
   EXPECT_TRUE(gets_poses("out/odometry_2", 10)) << system.output();
   EXPECT_EQ(system.wait(kLimit), 0) << system.output();
-  EXPECT_THAT(system.output(), HasSubstr("odometry is started again"));
+  EXPECT_THAT(system.output(), HasSubstr("restarting container odometry"));
   // What both had to say is there, each by itself.
   EXPECT_GE(poses_in("out"), 10U);
   EXPECT_FALSE(read_file(folder_.path() / "out" / "odometry_2_odometry_binocular.tum").empty());
@@ -267,7 +267,7 @@ TEST_F(SplitFaults, TheProcessOfPlacesIsStartedAgainWhereAskedFor) {
     return successor != 0 && successor != places;
   })) << system.output();
   EXPECT_EQ(system.wait(kLimit), 0) << system.output();
-  EXPECT_THAT(system.output(), HasSubstr("places is started again"));
+  EXPECT_THAT(system.output(), HasSubstr("restarting container places"));
 }
 
 }  // namespace

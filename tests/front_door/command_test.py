@@ -68,18 +68,18 @@ class Mistakes(unittest.TestCase):
         self.assert_fails(2, "--only needs a value", "bench", "faults", "--only")
 
     def test_a_recording_is_compared_with_results_that_are_there(self):
-        self.assert_fails(2, "which recording?", "test-bag")
-        self.assert_fails(2, "there is no recording 'nowhere'", "test-bag", "nowhere", "--expect", "results")
-        self.assert_fails(2, "compare with what?", "test-bag", ROOT)
-        self.assert_fails(2, "--record nowhere makes them", "test-bag", ROOT, "--expect", "nowhere")
+        self.assert_fails(2, "name a recording", "test-bag")
+        self.assert_fails(2, "recording 'nowhere' not found", "test-bag", "nowhere", "--expect", "results")
+        self.assert_fails(2, "name the results to compare with", "test-bag", ROOT)
+        self.assert_fails(2, "--record nowhere creates them", "test-bag", ROOT, "--expect", "nowhere")
 
     def test_an_unknown_sanitizer_build_and_group(self):
-        self.assert_fails(2, "there are address, undefined and thread", "build", "--sanitize", "memory")
-        self.assert_fails(2, "there are: build", "setup", "nothing")
+        self.assert_fails(2, "use address, undefined or thread", "build", "--sanitize", "memory")
+        self.assert_fails(2, "available: build", "setup", "nothing")
 
     def test_an_unknown_system_gets_the_nearest_one(self):
         self.assert_fails(2, "did you mean 'demo'", "run", "demmo")
-        self.assert_fails(1, "there is no system file 'some/where.yaml'", "run", "some/where.yaml")
+        self.assert_fails(1, "system file 'some/where.yaml' not found", "run", "some/where.yaml")
 
 
 class Demo(unittest.TestCase):
@@ -93,7 +93,7 @@ class Demo(unittest.TestCase):
         for option, value in (("--seed", "7"), ("--effects", "movers,rain")):
             done = panvo("demo", "--dataset", ROOT, option, value)
             self.assertEqual(done.returncode, 2)
-            self.assertIn(f"{option} is of the simulated journeys", done.stderr)
+            self.assertIn(f"{option} applies to simulated journeys only", done.stderr)
 
     def test_effects_are_names(self):
         done = panvo("demo", "--effects", "movers; rain")
@@ -230,7 +230,7 @@ class WhatIsBuilt(unittest.TestCase):
             done = self.ask("run", "demo")
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertIn("panvo_run", done.stdout)
-        self.assertIn("is being built; going on with what is there", done.stderr)
+        self.assertIn("is being built; using the existing programs", done.stderr)
 
     def test_is_used_from_a_checkout_of_another_user(self):
         if os.geteuid() != 0:
@@ -243,7 +243,7 @@ class WhatIsBuilt(unittest.TestCase):
                 self.assertEqual(done.returncode, 0, done.stderr)
         built = self.ask("build", prefix=("setpriv", "--reuid=nobody", "--regid=nogroup", "--clear-groups"))
         self.assertEqual(built.returncode, 1)
-        self.assertIn("cannot be written to: build as its owner", built.stderr)
+        self.assertIn("is not writable: build as its owner", built.stderr)
 
     def test_is_said_when_it_is_not_there(self):
         for arguments in self.LOOKING:
@@ -262,7 +262,7 @@ class WhatIsBuilt(unittest.TestCase):
         source.touch()
         done = self.ask("run", "demo")
         self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertIn("odometer.cpp is newer than build/release; 'panvo build' brings it up to date", done.stderr)
+        self.assertIn("odometer.cpp is newer than build/release; run 'panvo build' to update", done.stderr)
 
 
 class Interrupted(unittest.TestCase):

@@ -13,7 +13,7 @@
 
 namespace panvo::binocular_odometry {
 
-/// The algorithm's parameters and the names of the frames.
+/// Parameters of the algorithm, and frame names.
 struct ComponentParameters : Parameters {
   std::string odom_frame = "odom";
   std::string base_frame = "base_link";
@@ -23,14 +23,14 @@ struct ComponentParameters : Parameters {
     using P = ComponentParameters;
     field.group(static_cast<TrackingParameters P::*>(&P::tracking), "tracking");
     field.group(static_cast<MotionParameters P::*>(&P::motion), "motion");
-    field(&P::odom_frame, "odom_frame", "", "frame that the poses are in: where base_frame was at the first image");
+    field(&P::odom_frame, "odom_frame", "", "parent frame of the poses: base_frame at the first image");
     field(&P::base_frame, "base_frame", "",
-          "frame whose motion is published; /tf_static says where on it the left camera sits");
+          "frame whose motion is published; /tf_static must contain the pose of the left camera in it");
   }
 };
 
-/// stereo/{left,right}/image_rect with their camera_info, and /tf_static -> odometry/binocular, odometry/quality, of the images' stamp.
-/// Tracking runs on the component's own thread, motion on a second one; in replay both in turn.
+/// stereo/{left,right}/image_rect with camera_info, and /tf_static -> odometry/binocular, odometry/quality, with the
+/// image stamps. Tracking runs on the component's thread, motion on a second one; in replay both run in sequence.
 class BinocularOdometryComponent final : public runtime::Component {
  public:
   explicit BinocularOdometryComponent(runtime::Context& context)
@@ -50,9 +50,9 @@ class BinocularOdometryComponent final : public runtime::Component {
   }
 
  private:
-  static constexpr double kStaleCalibration_px = 1.0;  // a good calibration leaves some tenths
+  static constexpr double kStaleCalibration_px = 1.0;  // a good calibration has a few tenths
 
-  /// Both stages, made when the cameras are known.
+  /// Both stages, created once the cameras are known.
   struct Stages {
     TrackingStage tracking;
     MotionStage motion;
@@ -76,7 +76,7 @@ class BinocularOdometryComponent final : public runtime::Component {
     if (!read) return context_.log().warn_throttled(topic.name, "{} {}", context_.resolved_name(topic), read.reason());
     if (stages_ && !(*camera.camera == *read)) {
       return context_.log().warn_throttled(
-          topic.name, "{} changed while running and is ignored; restart if the camera was exchanged",
+          topic.name, "{} changed while running and is ignored; restart if the camera was replaced",
           context_.resolved_name(topic));
     }
     camera = {info.header().frame_id(), *read};
@@ -88,7 +88,7 @@ class BinocularOdometryComponent final : public runtime::Component {
     const auto right_grey = conversions::grey(right);
     if (!left_grey || !right_grey) {
       const auto& topic = left_grey ? topics::kStereoRightImageRect : topics::kStereoLeftImageRect;
-      return context_.log().warn_throttled(topic.name, "{} {}; the pair is left out", context_.resolved_name(topic),
+      return context_.log().warn_throttled(topic.name, "{} {}; image pair skipped", context_.resolved_name(topic),
                                            left_grey ? right_grey.reason() : left_grey.reason());
     }
     tracked_.push(stages_->tracking.track({conversions::stamp_ns(left), *left_grey, *right_grey}));
@@ -106,7 +106,7 @@ class BinocularOdometryComponent final : public runtime::Component {
         context_.log().warn_throttled("unreliable", "unreliable: {}", estimate.quality.reason);
       }
     }
-    // A pair that comes late has its quality, but no place in a path that has gone on.
+    // For a late pair only the quality is published, no pose.
     const bool is_late = last_stamp_ns_ && estimate.stamp_ns <= *last_stamp_ns_;
     if (is_late && !estimate.quality.reliable) return;
     odometry_.publish(
@@ -114,17 +114,17 @@ class BinocularOdometryComponent final : public runtime::Component {
     last_stamp_ns_ = estimate.stamp_ns;
   }
 
-  /// Makes both stages once both cameras and the place of the left one are known; says what is still missing.
+  /// Creates both stages once both cameras and the pose of the left one are known; otherwise logs what is missing.
   bool make_stages() {
     if (!left_.camera || !right_.camera) {
       const auto& missing = left_.camera ? topics::kStereoRightCameraInfo : topics::kStereoLeftCameraInfo;
-      context_.log().warn_throttled("no calibration", "images, but nothing usable on {} yet",
+      context_.log().warn_throttled("no calibration", "images received, but no valid calibration on {} yet",
                                     context_.resolved_name(missing));
       return false;
     }
     const auto stereo = conversions::to_stereo(*left_.camera, *right_.camera);
     if (!stereo) {
-      context_.log().warn_throttled("no stereo pair", "{} and {} are of no stereo pair: {}",
+      context_.log().warn_throttled("no stereo pair", "{} and {} do not form a stereo pair: {}",
                                     context_.resolved_name(topics::kStereoLeftCameraInfo),
                                     context_.resolved_name(topics::kStereoRightCameraInfo), stereo.reason());
       return false;
@@ -132,7 +132,7 @@ class BinocularOdometryComponent final : public runtime::Component {
     const auto base_from_raw_left = transforms_.lookup(parameters_.base_frame, left_.frame_id);
     if (!base_from_raw_left) {
       context_.log().warn_throttled(
-          "no mounting", "{} has no chain from {} to {} yet: publish where the left camera sits on the vehicle",
+          "no mounting", "{} has no transform from {} to {} yet: publish the pose of the left camera on the vehicle",
           context_.resolved_name(topics::kTfStatic), parameters_.base_frame, left_.frame_id);
       return false;
     }
@@ -143,14 +143,13 @@ class BinocularOdometryComponent final : public runtime::Component {
     return true;
   }
 
-  /// Said once: it does not go away while driving.
+  /// Logged once, because it persists while driving.
   void say_stale(double row_misalignment_px) {
     if (is_said_stale_) return;
     is_said_stale_ = true;
     context_.log().warn(
-        "the right image's rows are {:.1f} px off the left's: the calibration is stale, or not of these cameras. It is "
-        "allowed for. Remedy: "
-        "calibrate the pair anew",
+        "right image rows are {:.1f} px off the left ones: the calibration is stale or belongs to other cameras; "
+        "compensating online. Recalibrate the pair.",
         row_misalignment_px);
   }
 
@@ -165,7 +164,7 @@ class BinocularOdometryComponent final : public runtime::Component {
   Camera left_, right_;
   std::optional<Stages> stages_;
 
-  // The motion stage's own.
+  // State of the motion stage.
   std::optional<std::int64_t> last_stamp_ns_;
   bool was_reliable_ = true;
   bool is_said_stale_ = false;

@@ -18,10 +18,10 @@ using Matrix63d = Eigen::Matrix<double, 6, 3>;
 
 constexpr double kFirstDamping = 1e-5;
 constexpr double kLargestDamping = 1e3;
-constexpr double kPointPrior = 1e-6;  // keeps a point seen along one ray solvable; far too weak to move another
+constexpr double kPointPrior = 1e-6;  // regularises points seen along one ray; negligible for others
 
-/// Unknowns are the free poses (six each), then the disparity offset (one), then the points (three each). Points meet
-/// only through what sees them, so they are eliminated one by one; what is left is small and dense.
+/// Unknowns are the free poses (six each), the disparity offset (one) and the points (three each). Points are coupled
+/// only through poses and offset, so they are eliminated one by one; the reduced system is small and dense.
 class Solver {
  public:
   Solver(const vision::RectifiedStereo& stereo, BundleProblem& problem, const BundleOptions& options)
@@ -67,7 +67,7 @@ class Solver {
     Eigen::Vector3d by_offset;
   };
 
-  // What a step changes.
+  // Variables changed by a step.
   struct State {
     std::vector<Eigen::Isometry3d> left_from_world;
     std::vector<BundlePoint> points;
@@ -120,7 +120,7 @@ class Solver {
     weighted_squares_ += weight * square;
     weighted_count_ += weight * (whitening.z() > 0.0 ? 3.0 : 2.0);
 
-    // Everything from here on is in units of the weighted standard deviation.
+    // All quantities below are in units of the weighted standard deviation.
     const Eigen::Vector3d scale = std::sqrt(weight) * whitening;
     residual *= std::sqrt(weight);
     const Eigen::Matrix3d by_point = scale.asDiagonal() * prediction->by_point;
@@ -196,10 +196,11 @@ class Solver {
     return true;
   }
 
-  // By the normal equations of the last step: that step was small, or it would not have been the last.
+  // Uses the normal equations of the last step, which was small.
   void summarise(BundleSummary& summary) {
     const double unknowns = 6.0 * free_frames_ + 3.0 * static_cast<double>(problem_.points.size());
-    // A redescending loss takes weight from the tails; dividing by the same weights keeps the mean square comparable.
+    // The redescending loss reduces the weight of the tails; dividing by the same weights keeps the mean square
+    // comparable.
     summary.variance = weighted_squares_ / std::max(1.0, weighted_count_ - unknowns);
     const Eigen::MatrixXd symmetric = reduced_.selfadjointView<Eigen::Lower>();
     const Eigen::LLT<Eigen::MatrixXd> factor(symmetric);
@@ -213,11 +214,11 @@ class Solver {
   const BundleOptions& options_;
   vision::CauchyLoss loss_;
   int free_frames_;
-  std::vector<size_t> first_observation_;  // of each point, and one past the last
-  Eigen::MatrixXd normal_;                 // poses and offset; poses meet the offset in its last row
+  std::vector<size_t> first_observation_;  // per point, and the end
+  Eigen::MatrixXd normal_;                 // poses and offset; the offset is the last row
   Eigen::VectorXd gradient_;
   std::vector<PointBlock> point_blocks_;
-  std::vector<Matrix63d> cross_;  // pose by point, one an observation
+  std::vector<Matrix63d> cross_;  // pose by point, one per observation
   std::vector<Eigen::Matrix3d> inverse_point_normal_;
   Eigen::MatrixXd reduced_;
   Eigen::VectorXd reduced_gradient_;

@@ -11,7 +11,7 @@ namespace panvo::binocular_odometry {
 namespace {
 
 constexpr int kWidth_px = 40;
-constexpr double kLargestShift = 0.4;  // of the image's size: beyond, the rest in common is too small to be sure of
+constexpr double kLargestShift = 0.4;  // of the image size: beyond, the overlap is too small
 
 cv::Mat tiny(const vision::ImagePyramid& image) {
   const cv::Mat& coarsest = image[image.levels() - 1];
@@ -22,7 +22,7 @@ cv::Mat tiny(const vision::ImagePyramid& image) {
   return small;
 }
 
-// Zero-mean normalised, over what both show when `current` is `previous` moved by `shift`.
+// Zero-mean normalised correlation over the overlap of `current` and `previous` shifted by `shift`.
 double correlation(const cv::Mat& previous, const cv::Mat& current, cv::Point shift) {
   const cv::Rect frame({}, previous.size());
   const cv::Rect in_current = frame & (frame + shift);

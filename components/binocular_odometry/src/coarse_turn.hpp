@@ -8,9 +8,9 @@
 
 namespace panvo::binocular_odometry {
 
-/// Turn of a camera between two images, current_from_previous, to a fortieth of the image's width: the shift at which tiny versions of
-/// both correlate best, up to 40 % of their size. For a jerk that no feature could be followed through; the motion's translation
-/// is not looked at.
+/// Coarse rotation current_from_previous of a camera between two images, with a resolution of 1/40 of the image width:
+/// the shift with the best correlation of the images, downscaled to 40 px, up to 40 % of their size. Used for jerks
+/// that break feature tracking; translation is ignored.
 Eigen::Matrix3d coarse_turn(const vision::PinholeCamera& camera, const vision::ImagePyramid& previous,
                             const vision::ImagePyramid& current);
 

@@ -8,11 +8,11 @@
 namespace panvo::binocular_odometry {
 namespace {
 
-constexpr double kStep_s = 0.05;     // within which the way is straight enough
-constexpr double kMostSteps = 1000;  // of a gap of minutes, after which nothing is known anyway
-// A direction that may be any: uniform over the full turn. Larger would be no angle any more.
+constexpr double kStep_s = 0.05;     // integration step; the path within is nearly straight
+constexpr double kMostSteps = 1000;  // limit for gaps of minutes, after which the pose is unknown anyway
+// Standard deviation of a uniformly distributed direction; upper bound of the heading error.
 constexpr double kLargestAngle_rad = std::numbers::pi / std::numbers::sqrt3;
-// Standard deviations, of a vehicle in a town: m/s and rad/s.
+// Standard deviations for an urban vehicle: m/s and rad/s.
 constexpr double kAnySpeed = 10.0, kAnyTurn = 0.5;
 
 }  // namespace

@@ -8,28 +8,29 @@
 
 namespace panvo::binocular_odometry {
 
-/// The motion since the last pose that was measured, while nothing is measured, and how uncertain it is: the camera goes on at the velocity it
-/// had, and that velocity wanders as Brownian motion does. So the position errs with the time that has passed to the power of 3/2, by the heading to the
-/// power of 5/2, and a hundred frames without a measurement are as uncertain as one gap of their length.
+/// Predicted motion since the last measured pose, with covariance. The velocity is a random walk (Brownian motion), so
+/// the position error grows with time to the power of 3/2, and of 5/2 due to the heading; many unmeasured frames are as
+/// uncertain as one gap of the same duration.
 class DeadReckoning {
  public:
   enum class Velocity { kMeasured, kUnknown };
 
-  /// By how much the velocity changes unseen within a second, standard deviation of each axis: m/s and rad/s. It grows with the root of the time.
+  /// Standard deviations per axis of the velocity change within one second, m/s and rad/s. It grows with the square
+  /// root of time.
   DeadReckoning(double acceleration, double angular_acceleration);
 
-  /// A pose was measured, and the velocity with it or not: begins there.
+  /// Restarts at a measured pose; `velocity`: whether the velocity was measured as well.
   void begin(Velocity velocity);
 
-  /// Goes on by a motion previous_from_current of constant twist that takes duration_ns (> 0).
+  /// Appends a motion previous_from_current with constant twist, of duration_ns (> 0).
   void go_on(const vision::Vector6d& twist, std::int64_t duration_ns);
 
   const Eigen::Isometry3d& begin_from_current() const { return begin_from_current_; }
 
-  /// Of begin_from_current.
+  /// Covariance of begin_from_current.
   vision::Matrix6d covariance() const { return covariance_.topLeftCorner<6, 6>(); }
 
-  /// Of the motion over the next duration_ns at the velocity that is known by now, in the axes of where it begins.
+  /// Covariance of the motion over the next duration_ns, in the axes of its start.
   vision::Matrix6d step_covariance(std::int64_t duration_ns) const;
 
  private:
@@ -40,7 +41,7 @@ class DeadReckoning {
   vision::Vector6d variance_rate_;  // of the velocity, per second
   Eigen::Isometry3d begin_from_current_ = Eigen::Isometry3d::Identity();
   Matrix12d covariance_ =
-      Matrix12d::Zero();  // of the pose, in the axes of the beginning, and of the velocity, in those of the camera
+      Matrix12d::Zero();  // of the pose, in the axes of the start, and of the velocity, in those of the camera
 };
 
 }  // namespace panvo::binocular_odometry

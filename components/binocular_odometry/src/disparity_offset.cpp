@@ -16,11 +16,11 @@ namespace {
 using Vector7d = Eigen::Matrix<double, 7, 1>;
 using Matrix7d = Eigen::Matrix<double, 7, 7>;
 
-constexpr int kOffset = 6;  // after the six of the motion
+constexpr int kOffset = 6;  // index after the six motion parameters
 constexpr int kIterations = 3;
-constexpr double kStep_px = 0.004;    // how far it may have moved from one frame to the next: heat, shocks
-constexpr double kSameErrors = 10.0;  // frames over which a point's disparity errs alike
-constexpr double kFarOff2 = 25.0;     // whitened squared error, five standard deviations: it moves, or is mismatched
+constexpr double kStep_px = 0.004;    // random walk from frame to frame: temperature, shocks
+constexpr double kSameErrors = 10.0;  // frames over which the disparity error of a point is correlated
+constexpr double kFarOff2 = 25.0;     // whitened squared error, five standard deviations: moving or mismatched
 constexpr double kLossScale = 2.0;    // standard deviations
 
 }  // namespace

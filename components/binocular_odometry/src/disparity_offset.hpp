@@ -9,26 +9,26 @@
 
 namespace panvo::binocular_odometry {
 
-/// One point, seen in a frame and in the next.
+/// Observations of one point in two consecutive frames.
 struct SeenTwice {
   Observation previous;
   Observation current;
 };
 
-/// What all disparities are too large by (px): what the calibration of a real pair leaves of a turn of one camera against the other. Points that
-/// are at rest move past in proportion to their true disparity, so that where the camera moves, near and far points tell of it: from pair of
-/// frames to pair of frames one unknown that hardly changes, estimated along with the motion between them (a Kalman filter of one state).
+/// Common error of all disparities (px), caused by a residual rotation between the cameras. Static points move in
+/// proportion to their true disparity, so near and far points reveal the offset while the camera moves. One-state
+/// Kalman filter, estimated together with the motion between two frames.
 class DisparityOffset {
  public:
-  static constexpr double kLargest_px = 2.0;  ///< more is no remainder, but another calibration
+  static constexpr double kLargest_px = 2.0;  ///< more indicates a wrong calibration
 
   double px() const noexcept { return px_; }
 
-  /// A disparity as it would be without the offset.
+  /// Subtracts the offset from the disparity of (u, v, d).
   Eigen::Vector3d without(const Eigen::Vector3d& pixel) const { return pixel - Eigen::Vector3d(0.0, 0.0, px_); }
 
-  /// Learns from points that are seen in two frames, with disparities in both; some of them may move. Gives back the motion between the frames,
-  /// refined together with the offset from a first idea of it.
+  /// Updates the offset from points with disparities in both frames; some of them may move. Returns the motion between
+  /// the frames, refined together with the offset from the given initial motion.
   Eigen::Isometry3d learn(const vision::RectifiedStereo& stereo, std::span<const SeenTwice> points,
                           Eigen::Isometry3d current_from_previous);
 
@@ -36,7 +36,7 @@ class DisparityOffset {
   double px_ = 0.0;
   double variance_px2_ = kFirstSigma_px * kFirstSigma_px;
 
-  static constexpr double kFirstSigma_px = 0.5;  // before anything was learned
+  static constexpr double kFirstSigma_px = 0.5;  // initial standard deviation
 };
 
 }  // namespace panvo::binocular_odometry

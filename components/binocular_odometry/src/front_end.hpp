@@ -13,34 +13,35 @@
 
 namespace panvo::binocular_odometry {
 
-/// A feature worth a new track.
+/// A feature for a new track.
 struct Feature {
   Eigen::Vector2d pixel;
-  cv::Mat descriptor;  ///< empty where features are not described
+  cv::Mat descriptor;  ///< empty for front ends without descriptors
 };
 
-/// Where to look for a track: a pixel, and the coarsest pyramid level whose reach its uncertainty needs.
+/// Search start for a track: a pixel, and the coarsest pyramid level required by its uncertainty.
 struct Whereabouts {
   Eigen::Vector2d pixel;
   int level = 0;
 };
 
-/// How features are found, and found again. The exact place of a match is left to patch alignment in either case.
+/// Detects and matches features. Matches are refined by patch alignment afterwards.
 class FrontEnd {
  public:
   virtual ~FrontEnd() = default;
 
-  /// Takes up the next left image.
+  /// Sets the next left image.
   virtual void describe(const vision::ImagePyramid& image) = 0;
 
-  /// Where the track may be, given where it is expected; nullopt when it is not seen. May renew the track's descriptor.
+  /// Search start for a track near its expected pixel; nullopt if it is not found. May update the descriptor of the
+  /// track.
   virtual std::optional<Whereabouts> match(Track& track, const Eigen::Vector2d& expected_pixel) = 0;
 
-  /// New features, one in each free cell that has any.
+  /// New features, at most one per free cell.
   virtual std::vector<Feature> detect(const vision::CellGrid& grid) = 0;
 };
 
-/// The front end that the parameters name.
+/// Creates the front end selected by the parameters. Throws std::invalid_argument for an unknown name.
 std::unique_ptr<FrontEnd> make_front_end(const TrackingParameters& parameters);
 
 }  // namespace panvo::binocular_odometry

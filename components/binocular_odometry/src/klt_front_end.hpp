@@ -5,7 +5,7 @@
 
 namespace panvo::binocular_odometry {
 
-/// Corners, followed by aligning their patches over the whole pyramid [Lucas and Kanade 1981; Bouguet 2000].
+/// Corners, tracked by aligning their patches over the whole pyramid [Lucas and Kanade 1981; Bouguet 2000].
 class KltFrontEnd final : public FrontEnd {
  public:
   explicit KltFrontEnd(const TrackingParameters& parameters) : parameters_(parameters) {}
@@ -25,7 +25,7 @@ class KltFrontEnd final : public FrontEnd {
   }
 
  private:
-  static constexpr int kMargin_px = 8;  // half a patch, and one for its gradients
+  static constexpr int kMargin_px = 8;  // half a patch and a border for its gradients
 
   TrackingParameters parameters_;
   vision::ImagePyramid image_;

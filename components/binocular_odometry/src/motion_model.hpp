@@ -11,13 +11,13 @@
 
 namespace panvo::binocular_odometry {
 
-/// Constant velocity: what the camera did last, it goes on doing. At rest until told otherwise.
+/// Constant-velocity model of the camera motion; initially at rest.
 class MotionModel {
  public:
-  /// Takes over a measured motion that lasted duration_ns (> 0).
+  /// Updates the velocity from a measured motion of duration_ns (> 0).
   void update(const Eigen::Isometry3d& current_from_previous, std::int64_t duration_ns) {
-    // Stamps that tell when an image came, not when it was taken, may lie a millisecond apart: no motion was so fast. The shorter of
-    // two intervals, as one of them may hold frames that were lost.
+    // Arrival stamps may be only a millisecond apart, which would give an implausible velocity: assume at least half of
+    // the usual interval, the shorter of the last two (one of them may contain lost frames).
     const std::int64_t usual_ns = before_last_ns_ == 0 ? last_ns_ : std::min(last_ns_, before_last_ns_);
     const auto least_ns = static_cast<std::int64_t>(kLeastOfUsual * static_cast<double>(usual_ns));
     velocity_ = vision::se3_log(current_from_previous) / seconds(std::max(duration_ns, least_ns));
@@ -28,14 +28,14 @@ class MotionModel {
   /// Motion over the next duration_ns (> 0).
   Eigen::Isometry3d predict(std::int64_t duration_ns) const { return vision::se3_exp(twist(duration_ns)); }
 
-  /// The same as a constant twist, which may be more than half a turn.
+  /// The same motion as a constant twist; its rotation may exceed half a turn.
   vision::Vector6d twist(std::int64_t duration_ns) const {
     return velocity_ * seconds(std::min(duration_ns, farthest_ns_));
   }
 
  private:
-  static constexpr double kLeastOfUsual = 0.5;  // of the time between frames
-  static constexpr int kMostOfFirst = 2;        // times the first motion, with none before it to judge it by
+  static constexpr double kLeastOfUsual = 0.5;  // of the usual time between frames
+  static constexpr int kMostOfFirst = 2;  // limit of extrapolation from the first motion, in multiples of its duration
 
   static double seconds(std::int64_t duration_ns) { return 1e-9 * static_cast<double>(duration_ns); }
 

@@ -16,8 +16,8 @@
 namespace panvo::binocular_odometry {
 namespace {
 
-constexpr double kConfidence = 0.999;       // of having drawn one triple without an outlier
-constexpr double kSmallestDisparity = 1.0;  // px: farther points are too uncertain in depth to be aligned in space
+constexpr double kConfidence = 0.999;       // of having drawn at least one triple without outliers
+constexpr double kSmallestDisparity = 1.0;  // px: the depth of farther points is too uncertain for 3D alignment
 constexpr int kPolishIterations = 3;
 
 class Consensus {
@@ -59,7 +59,7 @@ class Consensus {
     return std::max(error.head<2>().squaredNorm(), pairs_[i].has_current_disparity ? error.z() * error.z() : 0.0);
   }
 
-  // Truncated squared error: also tells apart motions with the same inliers [Torr and Zisserman 2000].
+  // Truncated squared error, which also ranks motions with the same inliers [Torr and Zisserman 2000].
   double score(const Eigen::Isometry3d& motion) const {
     const double threshold2 = options_.threshold_px * options_.threshold_px;
     double sum = 0.0;
@@ -89,7 +89,7 @@ class Consensus {
     }
   }
 
-  // Gauss-Newton on the reprojection of what is near enough to count, farther points with less and less weight.
+  // Gauss-Newton on the reprojection errors within 3 thresholds, with decreasing weight for larger errors.
   Eigen::Isometry3d polish(Eigen::Isometry3d motion) const {
     const vision::CauchyLoss loss(0.5 * options_.threshold_px);
     const double reach2 = 9.0 * options_.threshold_px * options_.threshold_px;
@@ -121,7 +121,8 @@ class Consensus {
     if (near_.size() < 3) return std::nullopt;
     std::array<size_t, 3> chosen{};
     for (size_t k = 0; k < 3; ++k) {
-      // By hand: the standard's distributions may differ between libraries. What has more votes is drawn as much more often.
+      // Own sampling, because standard distributions differ between libraries. The probability is proportional to the
+      // vote.
       const double at = votes_ * static_cast<double>(random()) / static_cast<double>(std::mt19937::max());
       const auto found = std::lower_bound(votes_up_to_.begin(), votes_up_to_.end() - 1, at);
       chosen[k] = static_cast<size_t>(found - votes_up_to_.begin());
@@ -149,7 +150,7 @@ class Consensus {
   const RansacOptions& options_;
   std::vector<Eigen::Vector3d> points_;  // inverse depth, in the previous frame
   std::vector<NearPoint> near_;
-  std::vector<double> votes_up_to_;  // of near_, added up
+  std::vector<double> votes_up_to_;  // cumulative, of near_
   double votes_ = 0.0, all_votes_ = 0.0;
   double best_score_ = std::numeric_limits<double>::infinity();
   RansacResult best_;

@@ -11,8 +11,8 @@
 
 namespace panvo::binocular_odometry {
 
-/// One point in two frames: u, v, disparity (px). The disparity in the current frame may be missing. `vote` is how much it counts in
-/// judging a motion, against those that are known to stand still.
+/// One point in two frames: u, v, disparity (px). The disparity in the current frame may be missing. `vote` is its
+/// weight relative to points that are known to be static.
 struct PointPair {
   Eigen::Vector3d previous;
   Eigen::Vector3d current;
@@ -28,14 +28,14 @@ struct RansacOptions {
 
 struct RansacResult {
   Eigen::Isometry3d current_from_previous;
-  std::vector<bool> is_inlier;  ///< one for each pair
+  std::vector<bool> is_inlier;  ///< per pair
   int inliers = 0;
 };
 
-/// Motion of the camera between two frames by random sample consensus [Fischler and Bolles 1981]: rigid motions of triples of
-/// points by Horn's quaternion method [Lu2015 3], judged by the reprojection of all. Each new best is improved over its
-/// inliers. `guesses` are tried before any triple (a motion carried on is often nearly right, and costs nothing).
-/// The same input gives the same result. nullopt when no motion has three inliers.
+/// Camera motion between two frames by RANSAC [Fischler and Bolles 1981]: rigid motions of point triples with Horn's
+/// quaternion method [Lu2015 3], scored by the reprojection errors of all points. Each new best motion is refined on
+/// its inliers. `guesses`, e.g. the predicted motion, are scored first. Deterministic. Returns nullopt if no motion has
+/// three inliers.
 std::optional<RansacResult> estimate_motion(const vision::RectifiedStereo& stereo, std::span<const PointPair> pairs,
                                             std::span<const Eigen::Isometry3d> guesses, const RansacOptions& options);
 

@@ -21,7 +21,7 @@ namespace {
 using vision::Matrix6d;
 using vision::Stage;
 
-// Covariance of exp(error) * a_from_b, as that of vision::pose_error.
+// Converts the covariance of the error in exp(error) * a_from_b to that of vision::pose_error.
 Matrix6d pose_covariance(const Eigen::Isometry3d& a_from_b, const Matrix6d& covariance) {
   Matrix6d by_twist = Matrix6d::Identity();
   by_twist.topRightCorner<3, 3>() = -vision::skew(a_from_b.translation());
@@ -80,8 +80,8 @@ class MotionStage::Implementation {
 
  private:
   static constexpr std::int64_t kUsualInterval_ns = 100'000'000;
-  static constexpr double kPersistence_m = 1.0;  // an error of calibration shows alike until the points seen are others
-  static constexpr int kKeyframeIterations = 3;  // they start near the solution; what is left comes with the next frame
+  static constexpr double kPersistence_m = 1.0;  // calibration errors are correlated until other points are in view
+  static constexpr int kKeyframeIterations = 3;  // starts near the solution; the next frame continues
   static constexpr int kFrameIterations = 1;
 
   static std::int64_t interval(std::int64_t stamp_ns, std::int64_t since_ns) {
@@ -94,8 +94,8 @@ class MotionStage::Implementation {
     std::vector<Observation> current;
   };
 
-  // A car ahead may fill the view, in points that are found on it anew again and again: what is new says little where there are points that have
-  // kept their place over two keyframes.
+  // A car ahead may fill the view with ever new points: new points get a low weight compared to points that were static
+  // over two keyframes.
   static double vote(int standing) { return standing == 0 ? 0.01 : standing == 1 ? 0.1 : 1.0; }
 
   Pairs pair_up(const TrackedFrame& frame) const {
@@ -132,8 +132,7 @@ class MotionStage::Implementation {
     if (quality.inliers < parameters_.min_inliers) {
       reason << quality.inliers << " inliers of " << parameters_.min_inliers << " needed";
     } else if (quality.inlier_ratio < parameters_.min_inlier_ratio) {
-      reason << "inliers are " << quality.inlier_ratio << " of the candidates, " << parameters_.min_inlier_ratio
-             << " needed";
+      reason << "inlier ratio " << quality.inlier_ratio << ", at least " << parameters_.min_inlier_ratio << " needed";
     }
     quality.reason = reason.str();
     if (!quality.reason.empty()) return std::nullopt;
@@ -150,7 +149,7 @@ class MotionStage::Implementation {
     MeasuredMotion motion = adjuster_.refine_motion(pairs.previous, pairs.current, consensus->current_from_previous);
     quality.residual_px = motion.residual_px;
     if (!motion.current_from_previous.matrix().allFinite() || !motion.covariance.allFinite()) {
-      quality.reason = "the refined motion is no number";
+      quality.reason = "the refined motion is not finite";
       return std::nullopt;
     }
     return motion;
@@ -211,7 +210,7 @@ class MotionStage::Implementation {
     measured(result);
   }
 
-  // The last pose was carried on: the step from there to a measured one is as uncertain as it was.
+  // After a predicted pose: the step to the measured pose has the covariance of the prediction.
   Matrix6d covariance_of_return(const Eigen::Isometry3d& carried_from_measured) const {
     const Matrix6d carried =
         vision::rotate_covariance(unseen_.begin_from_current().linear().transpose(), unseen_.covariance());
@@ -220,8 +219,8 @@ class MotionStage::Implementation {
     return of_step * carried * of_step.transpose();
   }
 
-  // What the residuals cannot show, since it is the same in all of them: in proportion to the motion. Along the path it adds up
-  // like steps of independent errors, each as long as the error persists.
+  // Errors common to all residuals, proportional to the motion. Along the path they accumulate like independent steps
+  // of length `persistence_m`.
   Matrix6d model_error(const Eigen::Isometry3d& a_from_b, double persistence_m) const {
     const double moved = a_from_b.translation().norm();
     const double distance = std::sqrt(moved * std::max(moved, persistence_m));
@@ -269,7 +268,7 @@ class MotionStage::Implementation {
     result.odom_from_left_covariance = vision::compose_covariance(measured_odom_from_left_, measured_covariance_,
                                                                   unseen_.begin_from_current(), unseen_.covariance());
     if (!frame.fault.empty()) return;
-    // The frame shows something, but nothing that goes with the last good one: odometry starts again from here.
+    // The frame is usable but does not match the last good one: odometry restarts here.
     head_ = {result.odom_from_left.inverse(), frame.observations};
     adjuster_.clear();
     adjuster_.add_keyframe(head_);
@@ -283,9 +282,9 @@ class MotionStage::Implementation {
   TwoStageLocalBundleAdjuster adjuster_;
   MotionModel motion_model_;
   DeadReckoning unseen_;            // since the last measured pose
-  double learned_offset_px_ = 0.0;  // of the disparities, by the tracking stage
+  double learned_offset_px_ = 0.0;  // disparity offset, from the tracking stage
 
-  // The last good frame: what the next one is measured against.
+  // The last good frame, reference of the next one.
   bool has_reference_ = false;
   std::vector<Observation> reference_;
   Eigen::Isometry3d reference_left_from_odom_ = Eigen::Isometry3d::Identity();
@@ -296,7 +295,7 @@ class MotionStage::Implementation {
   std::int64_t last_stamp_ns_ = 0;
   Eigen::Isometry3d published_odom_from_left_ = Eigen::Isometry3d::Identity();
   Matrix6d published_covariance_ = Matrix6d::Zero();
-  Eigen::Isometry3d measured_odom_from_left_ = Eigen::Isometry3d::Identity();  // the last that was reliable
+  Eigen::Isometry3d measured_odom_from_left_ = Eigen::Isometry3d::Identity();  // last reliable pose
   Matrix6d measured_covariance_ = Matrix6d::Zero();
   bool was_reliable_ = true;
 };
@@ -304,7 +303,7 @@ class MotionStage::Implementation {
 MotionStage::MotionStage(const vision::RectifiedStereo& stereo, const MotionParameters& parameters,
                          vision::StageObserver* observer) {
   if (const auto problems = vision::validate(stereo); !problems.empty()) {
-    std::string message = "rectified calibration cannot be used:";
+    std::string message = "invalid rectified calibration:";
     for (const auto& problem : problems) message += "\n  - " + problem;
     throw std::invalid_argument(message);
   }

@@ -6,7 +6,7 @@
 namespace panvo::binocular_odometry {
 namespace {
 
-constexpr double kNearest = 1e-3;  // depth over anchor depth: nearer counts as behind
+constexpr double kNearest = 1e-3;  // depth / anchor depth: nearer points count as behind the camera
 
 Eigen::Vector3d homogeneous(const Eigen::Isometry3d& left_from_anchor, const Eigen::Vector3d& inverse_depth_point) {
   return left_from_anchor.linear() * Eigen::Vector3d(inverse_depth_point.x(), inverse_depth_point.y(), 1.0) +

@@ -6,22 +6,22 @@
 
 #include "panvo/vision/camera.hpp"
 
-/// How a rectified pair sees a point that is written as p = (x/z, y/z, 1/z) in an anchor frame. With h = R (p_x, p_y, 1) + p_z t,
-/// the point in the camera's frame times p_z, the pixel is that of h and the disparity f b p_z / h_z: finite and smooth
-/// also for points at infinity (p_z = 0).
+/// Observation model of a rectified pair for a point p = (x/z, y/z, 1/z) in an anchor frame. With h = R (p_x, p_y, 1) +
+/// p_z t, the point in the camera frame times p_z, the pixel is the projection of h and the disparity is f b p_z / h_z:
+/// finite and smooth even at infinity (p_z = 0).
 namespace panvo::binocular_odometry {
 
-/// u, v, disparity (px) of a point; nullopt when it is not in front of the camera.
+/// u, v, disparity (px) of a point; nullopt if it is not in front of the camera.
 std::optional<Eigen::Vector3d> predict(const vision::RectifiedStereo& stereo, const Eigen::Isometry3d& left_from_anchor,
                                        const Eigen::Vector3d& inverse_depth_point);
 
 struct Prediction {
   Eigen::Vector3d pixel;
-  Eigen::Matrix3d by_point;             ///< derivative by inverse_depth_point
-  Eigen::Matrix<double, 3, 6> by_pose;  ///< derivative by e in exp(e) * left_from_anchor
+  Eigen::Matrix3d by_point;             ///< derivative with respect to inverse_depth_point
+  Eigen::Matrix<double, 3, 6> by_pose;  ///< derivative with respect to e in exp(e) * left_from_anchor
 };
 
-/// The same with its derivatives.
+/// As predict(), with derivatives.
 std::optional<Prediction> predict_with_jacobians(const vision::RectifiedStereo& stereo,
                                                  const Eigen::Isometry3d& left_from_anchor,
                                                  const Eigen::Vector3d& inverse_depth_point);

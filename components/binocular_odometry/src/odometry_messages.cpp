@@ -16,7 +16,7 @@ struct UncertainPose {
   Matrix6d covariance;
 };
 
-/// A motion of the camera as the same motion of the vehicle it is fixed to.
+/// Converts a camera motion to the motion of the vehicle.
 UncertainPose of_base(const Eigen::Isometry3d& base_from_left, const Eigen::Isometry3d& motion_of_left,
                       const Matrix6d& covariance) {
   const Matrix6d exact = Matrix6d::Zero();
@@ -48,7 +48,7 @@ nav_msgs::msg::Odometry to_odometry(const OdometryEstimate& estimate, const Eige
   const UncertainPose motion =
       of_base(base_from_left, estimate.previous_from_current, estimate.previous_from_current_covariance);
   const Vector6d twist = vision::se3_log(motion.pose) / interval_s;
-  // The covariance comes in the axes of where base_frame was; the twist is in those of where it is.
+  // The covariance is in the axes of the previous base_frame, the twist in those of the current one.
   Matrix6d current_from_previous = Matrix6d::Zero();
   current_from_previous.topLeftCorner<3, 3>() = motion.pose.linear().transpose();
   current_from_previous.bottomRightCorner<3, 3>() = motion.pose.linear().transpose();

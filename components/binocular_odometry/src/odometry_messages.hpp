@@ -11,8 +11,9 @@
 
 namespace panvo::binocular_odometry {
 
-/// The estimate as ROS has it (REP 103, REP 105): pose of `base_frame` in `odom_frame`, which is where base_frame was at the first image; twist in
-/// base_frame's axes, the mean since the estimate at `previous_stamp_ns` (nullopt: this is the first, which stands still). Covariances are turned along.
+/// Converts an estimate to ROS conventions (REP 103, REP 105): pose of `base_frame` in `odom_frame`, the base_frame of
+/// the first image; mean twist since `previous_stamp_ns` in the axes of base_frame (nullopt: first estimate, zero
+/// twist). Covariances are transformed.
 nav_msgs::msg::Odometry to_odometry(const OdometryEstimate& estimate, const Eigen::Isometry3d& base_from_left,
                                     std::optional<std::int64_t> previous_stamp_ns, const std::string& odom_frame,
                                     const std::string& base_frame);

@@ -10,13 +10,13 @@
 
 namespace panvo::binocular_odometry {
 
-/// What can be wrong with a pair that its pixels show by themselves: no content, another size, an image that is the one before, one image for
-/// both eyes.
+/// Checks the pixels of a pair: no content, wrong size, image identical to the previous one, or left and right
+/// identical.
 class PairCheck {
  public:
   explicit PairCheck(const vision::PinholeCamera& camera) : camera_(camera) {}
 
-  /// Why the pair cannot be used; nullopt when it may be. Every pair is to pass, in order of arrival.
+  /// Returns the fault of a pair; nullopt if there is none. Call for every pair, in order of arrival.
   std::optional<std::string> find_fault(const StereoFrame& frame);
 
  private:
@@ -26,8 +26,9 @@ class PairCheck {
   vision::RepeatedImage left_, right_;
 };
 
-/// Why two eyes do not look at the same, where of `seen` features followed in the left image `seen_by_both` are found in the right one: it
-/// hangs behind, is covered, blurred or turned. nullopt where they do, or too few are seen to say.
+/// Checks whether both cameras see the same scene: of `seen` features tracked in the left image, `seen_by_both` were
+/// found in the right one. Returns the fault (right camera late, covered, blurred or rotated); nullopt if there is none
+/// or too few features to decide.
 std::optional<std::string> find_disagreement(int seen, int seen_by_both);
 
 }  // namespace panvo::binocular_odometry

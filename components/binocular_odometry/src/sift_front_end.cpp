@@ -7,11 +7,11 @@
 namespace panvo::binocular_odometry {
 namespace {
 
-constexpr int kLayers = 2;          // scales an octave; Lowe has 3, which costs a quarter more and gains nothing here
-constexpr double kContrast = 0.02;  // half of Lowe: the road has little
-constexpr double kRadius = 0.12;    // of the image's width: a turn of some 10 degrees more than foreseen
-constexpr float kLargestRatio2 = 0.64F;               // Lowe's ratio of 0.8, squared
-constexpr float kLargestDistance2 = 300.0F * 300.0F;  // of descriptors whose length is 512
+constexpr int kLayers = 2;               // scales per octave; Lowe's 3 cost a quarter more without benefit here
+constexpr double kContrast = 0.02;       // half of Lowe's value, for low-contrast roads
+constexpr double kRadius = 0.12;         // of the image width: an unpredicted turn of about 10 degrees
+constexpr float kLargestRatio2 = 0.64F;  // Lowe's ratio of 0.8, squared
+constexpr float kLargestDistance2 = 300.0F * 300.0F;  // for descriptors of length 512
 
 float squared_distance(const cv::Mat& a, const cv::Mat& b, int row) {
   return static_cast<float>(cv::norm(a, b.row(row), cv::NORM_L2SQR));
@@ -43,7 +43,7 @@ std::optional<Whereabouts> SiftFrontEnd::match(Track& track, const Eigen::Vector
   for (size_t i = 0; i < pixels_.size(); ++i) {
     if ((pixels_[i] - expected_pixel).squaredNorm() > radius_px_ * radius_px_) continue;
     const float distance = squared_distance(track.descriptor, descriptors_, static_cast<int>(i));
-    // A place with two orientations has two descriptors: they do not compete.
+    // A keypoint with two orientations has two descriptors, which do not compete.
     const bool same_place =
         best < std::numeric_limits<float>::max() && (pixels_[i] - pixels_[found]).squaredNorm() < 4.0;
     if (distance < best) {

@@ -7,9 +7,9 @@
 
 namespace panvo::binocular_odometry {
 
-/// Scale-invariant features, the paper's [Lu2015 3; Lowe 2004]: detected and described anew in each frame, and matched to the
-/// tracks by descriptor within a radius of the expected place. The image is given at half size, since OpenCV's detector
-/// begins by doubling what it gets.
+/// SIFT features, as in the paper [Lu2015 3; Lowe 2004]: detected and described in each frame, and matched to the
+/// tracks by descriptor within a radius of the expected position. Uses the half-size image, because OpenCV's detector
+/// doubles its input.
 class SiftFrontEnd final : public FrontEnd {
  public:
   explicit SiftFrontEnd(const TrackingParameters& parameters);
@@ -21,7 +21,7 @@ class SiftFrontEnd final : public FrontEnd {
  private:
   cv::Ptr<cv::SIFT> detector_;
   double radius_px_ = 0.0;
-  std::vector<Eigen::Vector2d> pixels_;  // of the features of this frame, full size
+  std::vector<Eigen::Vector2d> pixels_;  // features of this frame, full-size coordinates
   std::vector<float> responses_;
   cv::Mat descriptors_;
 };

@@ -8,7 +8,7 @@ namespace {
 
 constexpr int kSamples = 80;
 constexpr int kFewestMatches = 20;
-constexpr double kFewMatches = 0.4;  // of the features looked for in the right image: something is wrong
+constexpr double kFewMatches = 0.4;  // of the features searched in the right image
 
 }  // namespace
 
@@ -24,7 +24,7 @@ std::optional<std::string> SwapCheck::find_fault(int matched, double tried, cons
   }
   if (wrong_way < kFewestMatches || wrong_way < 2 * right_way) return std::nullopt;
   std::ostringstream text;
-  text << "left and right image seem to be exchanged: " << wrong_way << " features match with negative disparity, "
+  text << "left and right images appear to be swapped: " << wrong_way << " features match with negative disparity, "
        << right_way << " with positive";
   return text.str();
 }

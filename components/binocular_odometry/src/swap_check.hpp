@@ -12,14 +12,15 @@
 
 namespace panvo::binocular_odometry {
 
-/// Whether left and right image are exchanged: features match, but to the wrong side.
+/// Detects swapped left and right images: features match with negative disparity.
 class SwapCheck {
  public:
-  /// `range`: disparities that are sought the right way round.
+  /// `range`: search range of a correct pair.
   SwapCheck(const vision::PinholeCamera& camera, vision::StereoMatcher::Range range, double smallest_correlation)
       : swapped_matcher_(camera, {-range.to_px, -1.0}, smallest_correlation) {}
 
-  /// `matched` of `tried` features have a partner the right way round: where most have, nothing is looked at. `features`: of the left image.
+  /// `matched` of `tried` features match with positive disparity; the check only runs if these are few. `features`:
+  /// features of the left image.
   std::optional<std::string> find_fault(int matched, double tried, const vision::StereoMatcher& matcher,
                                         const vision::ImagePyramid& left, const vision::ImagePyramid& right,
                                         const std::function<std::vector<Feature>()>& features) const;

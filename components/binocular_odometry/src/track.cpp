@@ -5,13 +5,13 @@
 
 namespace panvo::binocular_odometry {
 namespace {
-constexpr double kLargestArea = 9.0;  // three times the size
+constexpr double kLargestArea = 9.0;  // three times the side length
 }
 
 std::optional<ExpectedPatch> expect(const vision::RectifiedStereo& stereo, const Track& track,
                                     const Eigen::Isometry3d& current_from_host) {
   const vision::PinholeCamera& camera = stereo.camera;
-  // The plane's homography takes host rays to current rays: X = z ray and n . X = 1 give X' / z = (R + t n^T) ray.
+  // The homography of the plane maps host rays to current rays: X = z ray and n . X = 1 give X' / z = (R + t n^T) ray.
   const Eigen::Matrix3d homography =
       current_from_host.linear() + current_from_host.translation() * track.host_plane.transpose();
   const Eigen::Vector3d h = homography * camera.unproject(track.host_pixel);

@@ -12,29 +12,29 @@
 
 namespace panvo::binocular_odometry {
 
-/// A point of the scene followed from image to image, always by comparison with the patch of the frame it was first seen in (its
-/// host), so that errors do not add up from frame to frame.
+/// A tracked scene point. Its patch is always taken from the frame in which it was first seen (its host), so that
+/// errors do not accumulate.
 struct Track {
   std::int64_t id = 0;
   std::shared_ptr<const vision::ImagePyramid> host;  ///< left image of the host frame
   Eigen::Vector2d host_pixel;
-  Eigen::Vector3d host_plane;         ///< n with n . X = 1 around the point, in the host's left frame
-  Eigen::Isometry3d guide_from_host;  ///< the tracking stage's own dead reckoning
-  Eigen::Vector2d gradient;           ///< disparity gradient expected in the last frame
+  Eigen::Vector3d host_plane;         ///< tangent plane n with n . X = 1, in the host's left frame
+  Eigen::Isometry3d guide_from_host;  ///< in the dead-reckoning frame of the tracking stage
+  Eigen::Vector2d gradient;           ///< expected disparity gradient in the last frame
   Observation seen;                   ///< in the last frame
-  cv::Mat descriptor;                 ///< of a described feature; else empty
+  cv::Mat descriptor;                 ///< empty for features without descriptor
 };
 
-/// Where a track's patch is expected in another image, and how it is warped there.
+/// Expected position and warp of a track's patch in another image.
 struct ExpectedPatch {
   Eigen::Vector2d pixel;
-  Eigen::Matrix2d current_from_host;  ///< of offsets from the centre
+  Eigen::Matrix2d current_from_host;  ///< maps offsets from the patch centre
   double disparity_px = 0.0;
-  Eigen::Vector2d gradient;  ///< of the disparity there
+  Eigen::Vector2d gradient;  ///< of the disparity
 };
 
-/// By the plane around the point and the motion since the host frame; nullopt when the point is behind, seen from the
-/// back, or at less than a third or more than three times its size.
+/// Predicts a patch from its tangent plane and the motion since the host frame. Returns nullopt if the point is behind
+/// the camera, outside the image or seen from the back, or if its scale is below 1/3 or above 3.
 std::optional<ExpectedPatch> expect(const vision::RectifiedStereo& stereo, const Track& track,
                                     const Eigen::Isometry3d& current_from_host);
 

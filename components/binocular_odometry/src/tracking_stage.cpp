@@ -26,17 +26,17 @@ namespace {
 using vision::PatchTemplate;
 using vision::Stage;
 
-constexpr double kReachPerLevel_px = 6.0;  // half a patch: farther, and another structure would be locked on
-constexpr size_t kScouts = 60;             // as many as a coarse motion needs, with a margin for those that go astray
-constexpr double kAstray_px = 3.0;         // off the coarse motion: looked for again where that motion has it
-constexpr double kFarOff_px = 6.0;         // off it still: not a point of the static scene
-constexpr double kFarthestDisparity_px = -1.0;  // at infinity, give or take what the calibration leaves over
-constexpr double kLargestZoom = 1.5;            // of a patch against its host, before a new host is taken
-constexpr double kCrowded_px = 8;               // nearer tracks see the same patch
-constexpr double kNoiseFloor_px = 0.15;         // interpolation, calibration, surfaces that are not plane
-constexpr int kGuideInliers = 8;                // for a coarse motion to be worth following
-constexpr double kEnough = 0.9;                 // of the features wanted: until then, no new ones are sought
-constexpr double kGuideRatio = 0.4;             // of the candidates
+constexpr double kReachPerLevel_px = 6.0;  // half a patch: beyond, alignment may lock on to another structure
+constexpr size_t kScouts = 60;             // seed tracks for the coarse motion, with a margin for outliers
+constexpr double kAstray_px = 3.0;         // deviation from the coarse motion above which a track is searched again
+constexpr double kFarOff_px = 6.0;         // deviation after that above which a track is dropped
+constexpr double kFarthestDisparity_px = -1.0;  // infinity, with a margin for calibration errors
+constexpr double kLargestZoom = 1.5;            // of a patch relative to its host, before a new host is chosen
+constexpr double kCrowded_px = 8;               // nearer tracks share the same patch
+constexpr double kNoiseFloor_px = 0.15;         // interpolation, calibration, non-planar surfaces
+constexpr int kGuideInliers = 8;                // minimum for a coarse motion
+constexpr double kEnough = 0.9;                 // of max_features: above, no new features are detected
+constexpr double kGuideRatio = 0.4;             // minimum ratio of inliers to candidates
 
 vision::StereoMatcher::Range disparity_range(const vision::RectifiedStereo& stereo,
                                              const TrackingParameters& parameters) {
@@ -71,15 +71,14 @@ class TrackingStage::Implementation {
 
     const DisparityOffset known_offset = offset_;
 
-    // A part of the tracks goes ahead, looked for far and wide; the motion they agree on says where to find the others.
+    // Seed tracks are searched in a wide area first; their coarse motion predicts the positions of the others.
     std::vector<Track> tracks;
     auto motion = follow_widely(kScouts, tracks);
-    if (!motion && has_tracks()) {  // a jerk, perhaps: all of them, from where the picture as a whole has gone
+    if (!motion && has_tracks()) {  // possibly a jerk: retry all tracks from the global image shift
       expected_motion_.linear() = coarse_turn(stereo_.camera, *previous_left_, *left_);
       motion = follow_widely(tracks_.size(), tracks);
     }
-    if (!motion &&
-        has_tracks()) {  // or what is expected is wrong altogether: from rest, or it would never be right again
+    if (!motion && has_tracks()) {  // or the predicted translation is wrong: retry without it, to recover
       const Eigen::Vector3d expected = expected_motion_.translation();
       expected_motion_.translation().setZero();
       motion = follow_widely(tracks_.size(), tracks);
@@ -90,7 +89,7 @@ class TrackingStage::Implementation {
       match_others(tracks, *motion);
       current_from_previous = learn_offset(tracks, *motion);
     } else {
-      tracks.clear();  // what agrees on no motion is no match: begin anew
+      tracks.clear();  // no consistent motion: restart with new tracks
     }
     result.tracked = static_cast<int>(tracks.size());
     const int seen_by_both = with_disparity(tracks);
@@ -119,14 +118,14 @@ class TrackingStage::Implementation {
   std::string check(const StereoFrame& frame) {
     const Stage stage(observer_, "check");
     const auto fault = check_.find_fault(frame);
-    // A recording started over goes on from here: only the first frame of the new run is lost.
+    // If a recording restarts, only its first frame is lost.
     const std::int64_t before_ns = std::exchange(last_stamp_ns_, frame.stamp_ns);
     if (std::exchange(seen_any_, true) && frame.stamp_ns <= before_ns) {
-      return "stamp " + std::to_string(frame.stamp_ns) + " ns is not after the one before, " +
+      return "stamp " + std::to_string(frame.stamp_ns) + " ns is not later than the previous stamp, " +
              std::to_string(before_ns) + " ns";
     }
     if (fault) return *fault;
-    // Time since the last good frame; after a jump back in time, as between the two before it.
+    // Time since the last good frame; after a jump back in time, the previous interval is kept.
     if (frame.stamp_ns > good_stamp_ns_) interval_ns_ = frame.stamp_ns - good_stamp_ns_;
     expected_motion_ = has_tracks() ? motion_model_.predict(interval_ns_) : Eigen::Isometry3d::Identity();
     return {};
@@ -150,7 +149,7 @@ class TrackingStage::Implementation {
     return coarse_motion(tracks);
   }
 
-  // About `count` of the tracks, over all levels of the pyramid; the rest become others_.
+  // Matches about `count` tracks over all pyramid levels; the rest become others_.
   std::vector<Track> match_widely(size_t count) {
     const Stage stage(observer_, "match_widely");
     const Eigen::Isometry3d current_from_guide = expected_motion_ * guide_from_previous_.inverse();
@@ -172,7 +171,7 @@ class TrackingStage::Implementation {
     return found;
   }
 
-  // From the coarsest level down; a level that cannot be used (too near the border, no texture) is left out.
+  // From coarse to fine; levels where alignment fails (near the border, no texture) are skipped.
   bool align(Track& track, const ExpectedPatch& expected, const Whereabouts& where) const {
     const Eigen::Matrix2d host_from_current = expected.current_from_host.inverse();
     Eigen::Vector2d pixel = where.pixel;
@@ -207,18 +206,18 @@ class TrackingStage::Implementation {
     track.gradient = match.gradient;
   }
 
-  // Those of the tracks whose disparity was known in the last good frame.
+  // Tracks with a disparity in the last good frame.
   std::vector<SeenTwice> seen_twice(const std::vector<Track>& tracks) const {
     std::vector<SeenTwice> points;
     auto known = tracks_.begin();
     for (const Track& track : tracks) {
-      while (known->id < track.id) ++known;  // both ascending, and every track was known
+      while (known->id < track.id) ++known;  // both ascend, and every track is in tracks_
       if (known->seen.has_disparity) points.push_back({known->seen, track.seen});
     }
     return points;
   }
 
-  // The tracking stage's own idea of the motion: enough to foretell where features go, never published.
+  // Coarse motion of the tracking stage: only used to predict feature positions.
   std::optional<Eigen::Isometry3d> coarse_motion(const std::vector<Track>& tracks) const {
     const Stage stage(observer_, "coarse_motion");
     std::vector<PointPair> pairs;
@@ -232,7 +231,7 @@ class TrackingStage::Implementation {
     return motion->current_from_previous;
   }
 
-  // The scouts' motion again, of all tracks, and what all disparities are too large by.
+  // Refines the coarse motion with all tracks and updates the disparity offset.
   Eigen::Isometry3d learn_offset(const std::vector<Track>& tracks, const Eigen::Isometry3d& current_from_previous) {
     const Stage stage(observer_, "learn_offset");
     std::vector<SeenTwice> points = seen_twice(tracks);
@@ -240,7 +239,8 @@ class TrackingStage::Implementation {
     return offset_.learn(stereo_, points, current_from_previous);
   }
 
-  // All others, where the scouts' motion has them; and those scouts anew that were led astray.
+  // Matches the remaining tracks at the positions predicted by the coarse motion, and seed tracks that deviate from it
+  // again.
   void match_others(std::vector<Track>& tracks, const Eigen::Isometry3d& current_from_previous) {
     const Stage stage(observer_, "match_others");
     const Eigen::Isometry3d current_from_guide = current_from_previous * guide_from_previous_.inverse();
@@ -259,7 +259,7 @@ class TrackingStage::Implementation {
     tracks.swap(kept);
   }
 
-  // The scouts' motion is good to about a pixel: full resolution finds nearly all, half of it the rest.
+  // The coarse motion is accurate to about a pixel: full resolution finds nearly all tracks, half resolution the rest.
   bool find(Track& track, const ExpectedPatch& expected) const {
     if (!align(track, expected, {expected.pixel, 0}) && !align(track, expected, {expected.pixel, 1})) return false;
     if ((track.seen.pixel.head<2>() - expected.pixel).norm() > kFarOff_px) return false;
@@ -269,7 +269,7 @@ class TrackingStage::Implementation {
 
   static void thin_out(std::vector<Track>& tracks, cv::Size size) {
     vision::CellGrid grid(size, static_cast<int>(kCrowded_px));
-    std::erase_if(tracks, [&grid](const Track& track) {  // ascending id: the oldest stays
+    std::erase_if(tracks, [&grid](const Track& track) {  // ascending id: the oldest is kept
       const Eigen::Vector2d pixel = track.seen.pixel.head<2>();
       if (!grid.is_free(pixel)) return true;
       grid.take(pixel);
@@ -278,7 +278,7 @@ class TrackingStage::Implementation {
   }
   void thin_out(std::vector<Track>& tracks) const { thin_out(tracks, (*left_)[0].size()); }
 
-  // A patch that has grown or shrunk much is blurred or aliased against the image: the current frame becomes its host.
+  // After a large change of scale, the host patch is blurred or aliased: the current frame becomes the new host.
   void renew_hosts(std::vector<Track>& tracks) {
     const Stage stage(observer_, "renew_hosts");
     const Eigen::Isometry3d current_from_guide = guide_from_current_.inverse();
@@ -324,7 +324,7 @@ class TrackingStage::Implementation {
     }
   }
 
-  // Each patch is asked once, when it becomes a host: asked again it would err alike.
+  // Each patch is used once, when it becomes a host: repeated row errors of the same patch are correlated.
   void align_eyes() {
     const Stage stage(observer_, "align_eyes");
     for (const auto& error : row_errors_) {
@@ -346,7 +346,7 @@ class TrackingStage::Implementation {
         std::count_if(tracks.begin(), tracks.end(), [](const Track& track) { return track.seen.has_disparity; }));
   }
 
-  // `current_from_previous` is null where no motion was measured: a predicted motion must not update the velocity.
+  // `current_from_previous` is null if no motion was measured: a predicted motion must not update the velocity.
   void keep(std::int64_t stamp_ns, std::vector<Track> tracks, const Eigen::Isometry3d* current_from_previous) {
     if (current_from_previous != nullptr) motion_model_.update(*current_from_previous, interval_ns_);
     guide_from_previous_ = guide_from_current_;
@@ -367,7 +367,7 @@ class TrackingStage::Implementation {
   std::unique_ptr<FrontEnd> front_end_;
   int cell_px_;
 
-  // As of the last good frame.
+  // State of the last good frame.
   std::vector<Track> tracks_;  // ascending id
   MotionModel motion_model_;
   DisparityOffset offset_;
@@ -380,7 +380,7 @@ class TrackingStage::Implementation {
 
   std::shared_ptr<const vision::ImagePyramid> previous_left_;
 
-  // Of the frame at hand.
+  // State of the current frame.
   std::shared_ptr<const vision::ImagePyramid> left_;
   vision::ImagePyramid right_;
   Eigen::Isometry3d expected_motion_ = Eigen::Isometry3d::Identity();
@@ -392,7 +392,7 @@ class TrackingStage::Implementation {
 TrackingStage::TrackingStage(const vision::RectifiedStereo& stereo, const TrackingParameters& parameters,
                              vision::StageObserver* observer) {
   if (const auto problems = vision::validate(stereo); !problems.empty()) {
-    std::string message = "rectified calibration cannot be used:";
+    std::string message = "invalid rectified calibration:";
     for (const auto& problem : problems) message += "\n  - " + problem;
     throw std::invalid_argument(message);
   }

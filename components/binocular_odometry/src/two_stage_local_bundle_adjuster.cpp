@@ -11,9 +11,9 @@ namespace panvo::binocular_odometry {
 namespace {
 
 constexpr double kContradiction2 = 25.0;  // whitened squared error, five standard deviations
-constexpr int kFewestShared = 10;         // points that tie the head to the window
-// Of the residuals, against what was said of them: a fortieth of a standard deviation, which is less than the grey levels resolve. Where all points
-// stand still their errors stay the same, and the residuals tell nothing of them.
+constexpr int kFewestShared = 10;         // points shared by head and window
+// Lower bound of the residual variance, relative to the stated one: 1/40 of a standard deviation, less than grey levels
+// resolve. At standstill the errors of all points repeat and do not show in the residuals.
 constexpr double kLeastVariance = 1.0 / (40.0 * 40.0);
 
 Eigen::Vector3d inverse_sigma(const Observation& seen) {
@@ -76,13 +76,13 @@ BundleProblem TwoStageLocalBundleAdjuster::assemble(const Keyframe& head, std::v
   }
   problem.left_from_world.push_back(head.left_from_odom);
   seen_by.push_back(&head.observations);
-  // A young window has fewer keyframes: the first one holds it.
+  // A new window has fewer keyframes: only the first is fixed.
   const int spare = static_cast<int>(keyframes_.size()) - (parameters_.window_keyframes - parameters_.fixed_keyframes);
   problem.fixed_frames = std::max(1, spare);
   problem.disparity_offset_px = problem.expected_offset_px = disparity_offset_px_;
   problem.offset_information = 1.0 / std::pow(parameters_.disparity_offset_step_px, 2);
 
-  std::vector<size_t> next(frames, 0);  // observations and points ascend alike: one walk meets them all
+  std::vector<size_t> next(frames, 0);  // observations and points are sorted by id: a single pass suffices
   for (const auto& [id, window_point] : points_) {
     if (window_point.is_refuted) continue;
     const size_t first = problem.observations.size();
@@ -181,7 +181,8 @@ std::optional<int> TwoStageLocalBundleAdjuster::standing(std::int64_t track_id) 
 }
 
 void TwoStageLocalBundleAdjuster::forget_unseen_points() {
-  // Refuted points are remembered while their tracks may still come: those are never older than the oldest one seen now.
+  // Refuted points are kept while their tracks may still be observed; tracks are never older than the oldest one in the
+  // window.
   std::map<std::int64_t, WindowPoint> seen_points;
   for (const Keyframe& keyframe : keyframes_) {
     for (const Observation& seen : keyframe.observations) {

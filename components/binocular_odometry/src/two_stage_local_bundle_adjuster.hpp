@@ -15,50 +15,50 @@
 
 namespace panvo::binocular_odometry {
 
-/// A frame that the window keeps.
+/// A frame of the adjustment window.
 struct Keyframe {
   Eigen::Isometry3d left_from_odom = Eigen::Isometry3d::Identity();
   std::vector<Observation> observations;  ///< ascending track_id
 };
 
-/// A measured motion and its uncertainty, as exp(error) * current_from_previous.
+/// A measured motion; its covariance is that of the error in exp(error) * current_from_previous.
 struct MeasuredMotion {
   Eigen::Isometry3d current_from_previous = Eigen::Isometry3d::Identity();
   vision::Matrix6d covariance = vision::Matrix6d::Zero();
   double residual_px = 0.0;
 };
 
-/// TLBBA as we define it. [Lu2015 3] names it and cites a 2013 paper; what it says of it is the two stages and that both eyes count.
-/// Stage one: the motion between two frames and the points seen in both, by their reprojection into both cameras of both
-/// frames. Stage two: the last keyframes and the frame at hand, poses and points together; the oldest keyframes stay fixed
-/// and hold the others.
+/// Our definition of TLBBA. [Lu2015 3] cites a 2013 paper for it and only states that it has two stages and uses both
+/// cameras. Stage one adjusts the motion between two frames and the points seen in both, by reprojection into both
+/// cameras of both frames. Stage two adjusts poses and points of the last keyframes and the current frame; the oldest
+/// keyframes are fixed.
 class TwoStageLocalBundleAdjuster {
  public:
   TwoStageLocalBundleAdjuster(const vision::RectifiedStereo& stereo, const MotionParameters& parameters)
       : stereo_(stereo), parameters_(parameters) {}
 
-  /// Stage one, over observations of the same points in two frames (spans of equal length), from a first guess.
+  /// Stage one: observations of the same points in two frames (spans of equal length), and an initial motion.
   MeasuredMotion refine_motion(std::span<const Observation> previous, std::span<const Observation> current,
                                const Eigen::Isometry3d& current_from_previous) const;
 
-  /// Stage two: improves the window's keyframes and points and the pose of `head`, the frame at hand; takes observations
-  /// that contradict the rest out of all of them. Returns the motion from the last keyframe to the head;
-  /// nullopt when the head sees too little of the window.
+  /// Stage two: adjusts the keyframes and points of the window and the pose of `head`, the current frame, and removes
+  /// outlier observations from all of them. Returns the motion from the last keyframe to the head; nullopt if the head
+  /// shares too few points with the window.
   std::optional<MeasuredMotion> refine_window(Keyframe& head, int max_iterations);
 
-  /// Makes the frame a keyframe: its new tracks become points of the window, the oldest keyframe leaves.
+  /// Adds a keyframe: its new tracks become points of the window; removes the oldest keyframe of a full window.
   void add_keyframe(Keyframe frame);
 
-  /// Forgets everything: the next keyframe starts a new window.
+  /// Removes all keyframes and points.
   void clear();
 
-  /// What to take off a measured disparity, as far as it is known by now (px); see BundleProblem.
+  /// Current estimate of the offset to subtract from measured disparities (px); see BundleProblem.
   double disparity_offset_px() const { return disparity_offset_px_; }
-  /// Others have learned that it is so much larger.
+  /// Adds an externally estimated change of the offset.
   void move_disparity_offset(double by_px) { disparity_offset_px_ += by_px; }
 
-  /// In how many keyframes a point was seen, standing still as the window has it; 0 for one that is in none. nullopt for a point that
-  /// contradicts the camera's motion.
+  /// Number of keyframes in which a static point was observed, 0 if none; nullopt for a point that contradicts the
+  /// camera motion.
   std::optional<int> standing(std::int64_t track_id) const;
 
   bool is_empty() const { return keyframes_.empty(); }
@@ -67,9 +67,9 @@ class TwoStageLocalBundleAdjuster {
  private:
   struct WindowPoint {
     BundlePoint point;
-    int keyframes = 0;  ///< that saw it
+    int keyframes = 0;  ///< number of keyframes that observe it
     int contradictions = 0;
-    bool is_refuted = false;  ///< contradicts the camera's motion: on something that moves, or mismatched
+    bool is_refuted = false;  ///< contradicts the camera motion: on a moving object, or mismatched
   };
 
   Eigen::Vector3d point_of(const Observation& seen) const;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a bad frame does, and what it must not.
+// Effects of bad frames.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -20,7 +20,8 @@ const std::vector<StereoFrame>& drive() {
 
 Eigen::Isometry3d truth(int frame) { return SyntheticScene::world_from_left(frame); }
 
-// One bad frame among good ones: said to be unreliable and why, carried on by the motion so far, and made up for by the next.
+// One bad frame among good ones: marked unreliable with the reason, predicted with the last motion, recovered by the
+// next frame.
 class BadFrame : public ::testing::Test {
  protected:
   void expect_fault(StereoFrame bad, const std::string& reason) {
@@ -73,7 +74,7 @@ TEST_F(BadFrame, OfAnotherSize) {
 
 TEST_F(BadFrame, LeftAndRightExchanged) {
   std::swap(frame_.left, frame_.right);
-  expect_fault(frame_, "exchanged");
+  expect_fault(frame_, "swapped");
 }
 
 TEST_F(BadFrame, LeftCameraHangs) {
@@ -94,21 +95,21 @@ TEST_F(BadFrame, BothCamerasHang) {
 
 TEST_F(BadFrame, BothEyesAreOne) {
   frame_.right = frame_.left.clone();
-  expect_fault(frame_, "left and right image are the same");
+  expect_fault(frame_, "left and right images are identical");
 }
 
-/// As of a decoder that hangs, whose images differ a little all the same.
+/// Stalled decoder whose images differ slightly.
 TEST_F(BadFrame, RightEyeIsOfAnotherMoment) {
   frame_.right = drive()[0].right;
-  expect_fault(frame_, "left and right image do not belong together");
+  expect_fault(frame_, "left and right images do not match");
 }
 
 TEST_F(BadFrame, StampGoesBack) {
   frame_.stamp_ns -= 300'000'000;
-  expect_fault(frame_, "is not after the one before");
+  expect_fault(frame_, "is not later than the previous stamp");
 }
 
-/// What tracking learns of the eyes must not depend on what a bad frame showed.
+/// Online calibration must not depend on the content of a bad frame.
 TEST(BinocularOdometry, LearnsNothingFromABadFrame) {
   const auto learned_with = [](const StereoFrame& sixth) {
     TrackingStage tracking(SyntheticScene::stereo(), {});
@@ -131,7 +132,7 @@ TEST(BinocularOdometry, LearnsNothingFromABadFrame) {
   }
 }
 
-/// Counts how often tracking restarts the search for the motion.
+/// Counts the restarts of the motion search.
 struct Attempts : vision::StageObserver {
   void enter(std::string_view stage) override { count += stage == "match_widely" ? 1 : 0; }
   void leave() override {}
@@ -147,7 +148,7 @@ TEST(BinocularOdometry, ExpectsNoTurnThatItOnlyGuessed) {
   };
   attempts.count = 0;
   tracking.track(elsewhere(6));
-  ASSERT_GT(attempts.count, 1) << "it should be lost, and guess";
+  ASSERT_GT(attempts.count, 1) << "tracking should be lost and retry";
   attempts.count = 0;
   tracking.track(elsewhere(7));
   EXPECT_EQ(attempts.count, 1);
@@ -160,7 +161,7 @@ TEST(BinocularOdometry, SaysFromTheFirstFrameOnThatTheCamerasAreExchanged) {
     std::swap(frame.left, frame.right);
     const OdometryEstimate estimate = odometry.step(frame);
     EXPECT_FALSE(estimate.quality.reliable);
-    EXPECT_THAT(estimate.quality.reason, HasSubstr("exchanged"));
+    EXPECT_THAT(estimate.quality.reason, HasSubstr("swapped"));
   }
 }
 

@@ -18,7 +18,7 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::SizeIs;
 
-// A camera on a mast, looking ahead: optical axes turned into those of the robot.
+// A forward-looking camera on a mast: rotates optical axes to vehicle axes.
 Eigen::Isometry3d base_from_left() {
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
   pose.linear() << 0, 0, 1, -1, 0, 0, 0, -1, 0;
@@ -88,7 +88,7 @@ TEST_F(BinocularOdometryComponent, PublishesTheRobotsMotionUnderTheImagesStamp) 
   const auto pose = conversions::to_isometry(last.pose().pose());
   ASSERT_TRUE(pose) << pose.reason();
   EXPECT_LT((pose->translation() - expected.translation()).norm(), 0.005);
-  EXPECT_NEAR(last.twist().twist().linear().x(), 1.2, 0.02);      // 0.12 m a frame of 0.1 s, forward
+  EXPECT_NEAR(last.twist().twist().linear().x(), 1.2, 0.02);      // 0.12 m per frame of 0.1 s, forward
   EXPECT_NEAR(last.twist().twist().angular().z(), -0.06, 0.005);  // to the right
   EXPECT_GT(last.pose().covariance()[0], 0.0);
   EXPECT_GT(last.twist().covariance()[0], 0.0);
@@ -142,7 +142,7 @@ TEST_F(BinocularOdometryComponent, WarnsOnceOfAStaleCalibration) {
     publish_pair(SyntheticScene::frame(i, SyntheticScene::world_from_left(i), turned));
   }
   const auto is_warning = [](const std::string& line) {
-    return line.find("calibrate the pair anew") != std::string::npos;
+    return line.find("Recalibrate the pair") != std::string::npos;
   };
   EXPECT_EQ(std::ranges::count_if(harness_.log(), is_warning), 1);
 }

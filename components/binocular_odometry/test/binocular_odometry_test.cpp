@@ -50,7 +50,7 @@ TEST_P(EitherFrontEnd, FollowsAKnownPath) {
 
 INSTANTIATE_TEST_SUITE_P(All, EitherFrontEnd, ::testing::Values("klt", "sift"));
 
-/// As of cameras that are stamped when an image comes, and now and then two of them come at once.
+/// Arrival stamps, with two images arriving at once now and then.
 TEST_P(EitherFrontEnd, FollowsThroughStampsThatJitter) {
   for (const int late : {0, 1, 4}) {
     BinocularOdometry odometry(SyntheticScene::stereo(), with_front_end(GetParam()));
@@ -66,10 +66,9 @@ TEST_P(EitherFrontEnd, FollowsThroughStampsThatJitter) {
 
 TEST(BinocularOdometry, LearnsHowTheRightCameraHasTurned) {
   BinocularOdometry odometry(SyntheticScene::stereo(), {});
-  const Eigen::Matrix3d turned =
-      vision::so3_exp({1.0 / 220.0, 0.0, 6e-3});  // rows are off by a pixel, one more on one side
-  // There and back and there again: the first two teach, the third is measured.
-  constexpr int kFrames = 40, kThereAndBack = 2 * kFrames - 2;  // no frame twice in a row: a camera that repeats hangs
+  const Eigen::Matrix3d turned = vision::so3_exp({1.0 / 220.0, 0.0, 6e-3});  // row error of one pixel, two on one side
+  // Forward, back, forward: the first two passes train the calibration, the third is measured.
+  constexpr int kFrames = 40, kThereAndBack = 2 * kFrames - 2;  // no frame twice in a row: repeats count as frozen
   Eigen::Isometry3d began = Eigen::Isometry3d::Identity(), ended = began;
   for (int i = 0; i < kThereAndBack + kFrames; ++i) {
     const int phase = i % kThereAndBack, place = phase < kFrames ? phase : kThereAndBack - phase;
@@ -85,7 +84,7 @@ TEST(BinocularOdometry, LearnsHowTheRightCameraHasTurned) {
   EXPECT_LT(vision::so3_log(moved.linear() * expected.linear().transpose()).norm(), 0.001);
 }
 
-/// As the calibration leaves it of a turn of one camera towards the other: no row shows it, and the path would be too short.
+/// Residual rotation between the cameras, which rows do not show and which would shorten the path.
 TEST(BinocularOdometry, LearnsWhatAllDisparitiesAreTooLargeBy) {
   constexpr double kOffset_px = 0.5;
   TrackingStage tracking(SyntheticScene::stereo(), {}, nullptr);
@@ -94,14 +93,15 @@ TEST(BinocularOdometry, LearnsWhatAllDisparitiesAreTooLargeBy) {
   constexpr int kFrames = 40;
   Eigen::Isometry3d began = Eigen::Isometry3d::Identity(), ended = began;
   for (int i = 0; i < 2 * kFrames - 1; ++i) {
-    const int place = i < kFrames ? i : 2 * kFrames - 2 - i;  // no frame twice in a row: a camera that repeats hangs
+    const int place = i < kFrames ? i : 2 * kFrames - 2 - i;  // no frame twice in a row: repeats count as frozen
     auto frame = SyntheticScene::frame(place, truth(place), turned);
     frame.stamp_ns = 1 + i * SyntheticScene::kInterval_ns;
     const TrackedFrame tracked = tracking.track(frame);
     ended = motion.estimate(tracked).odom_from_left;
     if (i == kFrames - 1) began = ended;
     if (i < kFrames) continue;
-    ASSERT_NEAR(tracked.disparity_offset_px, kOffset_px, 0.15) << "frame " << i;  // it grows towards the sides
+    ASSERT_NEAR(tracked.disparity_offset_px, kOffset_px, 0.15)
+        << "frame " << i;  // the true offset grows towards the sides
   }
   const Eigen::Isometry3d moved = began.inverse() * ended, expected = truth(kFrames - 1).inverse() * truth(0);
   EXPECT_LT((moved.translation() - expected.translation()).norm(), 0.015 * expected.translation().norm());
@@ -136,12 +136,12 @@ TEST(BinocularOdometry, ItsErrorLiesWithinItsCovariance) {
         vision::pose_error(estimate.previous_from_current, truth(i - 1).inverse() * truth(i));
     nees += error.dot(estimate.previous_from_current_covariance.ldlt().solve(error)) / 15.0;
   }
-  // Of 6, were the images as noisy as a camera's, which the covariance is made for: kitti_03 has 3 to 12. These have no noise at all.
+  // 6 degrees of freedom. The covariance is tuned for camera noise (kitti_03: 3 to 12); these images are noise-free.
   EXPECT_GT(nees, 0.25);
   EXPECT_LT(nees, 1.5);
 }
 
-/// A frame with the noise of a sensor.
+/// Adds sensor noise to a frame.
 StereoFrame noisy(const StereoFrame& frame, double sigma, cv::RNG& random) {
   const auto with_noise = [&](const cv::Mat& image) {
     cv::Mat noise(image.size(), CV_16SC1), result;
@@ -174,7 +174,7 @@ TEST(BinocularOdometry, ItsErrorLiesWithinItsCovarianceWhileItStands) {
   EXPECT_LT(nees, 12.0);
 }
 
-/// Without noise the residuals vanish, and with them what the covariance would be scaled by.
+/// Without noise the residuals vanish, and with them the scale of the covariance.
 TEST(BinocularOdometry, IsNeverSurerThanTheGreyLevelsAre) {
   BinocularOdometry odometry(SyntheticScene::stereo(), {});
   OdometryEstimate last;
@@ -183,7 +183,7 @@ TEST(BinocularOdometry, IsNeverSurerThanTheGreyLevelsAre) {
     frame.stamp_ns += i * SyntheticScene::kInterval_ns;
     frame.left = frame.left.clone();
     frame.right = frame.right.clone();
-    frame.left.at<uchar>(0, i) = frame.right.at<uchar>(0, i) = 0;  // no camera that hangs
+    frame.left.at<uchar>(0, i) = frame.right.at<uchar>(0, i) = 0;  // avoids the frozen-camera fault
     last = odometry.step(frame);
     ASSERT_TRUE(last.quality.reliable) << last.quality.reason;
   }
@@ -201,7 +201,7 @@ TEST(BinocularOdometry, MotionsAddUpToThePose) {
   EXPECT_TRUE(sum.isApprox(pose, 1e-9));
 }
 
-// Bounded hand-over between two threads, as a runtime would do it.
+// Bounded queue between two threads, as in the runtime.
 class Queue {
  public:
   void push(std::optional<TrackedFrame> frame) {
@@ -251,7 +251,7 @@ TEST(BinocularOdometry, BothStagesInParallelGiveTheSameBitForBit) {
 }
 
 TEST(BinocularOdometry, CarriesOnWhereTheSceneIsAnotherOne) {
-  // A cut: nothing of the last frame is seen again. One frame is carried on, then odometry goes on from there.
+  // A cut: nothing of the last frame is visible. One frame is predicted, then odometry continues from there.
   BinocularOdometry odometry(SyntheticScene::stereo(), {});
   for (int i = 0; i < 6; ++i) odometry.step(drive()[static_cast<size_t>(i)]);
   const auto elsewhere = [](int i) {
@@ -271,7 +271,7 @@ TEST(BinocularOdometry, CarriesOnWhereTheSceneIsAnotherOne) {
 TEST(BinocularOdometry, FollowsAJerkThatNothingForetold) {
   BinocularOdometry odometry(SyntheticScene::stereo(), {});
   for (int i = 0; i < 6; ++i) odometry.step(drive()[static_cast<size_t>(i)]);
-  // 12 degrees to the left within a frame: 47 px, farther than any level of the pyramid reaches.
+  // 12 degrees to the left within one frame: 47 px, beyond the reach of any pyramid level.
   const Eigen::Isometry3d jerked = truth(6) * Eigen::Isometry3d(vision::so3_exp({0.02, -0.21, 0.0}));
   const OdometryEstimate estimate = odometry.step(SyntheticScene::frame(6, jerked));
   EXPECT_TRUE(estimate.quality.reliable) << estimate.quality.reason;
@@ -284,7 +284,7 @@ TEST(BinocularOdometry, GoesOnThroughAChangeOfLight) {
   OdometryEstimate last;
   for (int i = 0; i < 10; ++i) {
     StereoFrame frame = drive()[static_cast<size_t>(i)];
-    const double gain = i < 4 ? 1.0 : std::max(0.35, 1.0 - 0.25 * (i - 3));  // a cloud within a few frames
+    const double gain = i < 4 ? 1.0 : std::max(0.35, 1.0 - 0.25 * (i - 3));  // sudden cloud
     frame.left.convertTo(frame.left, CV_8U, gain, 5.0);
     frame.right.convertTo(frame.right, CV_8U, 0.95 * gain, 3.0);
     last = odometry.step(frame);

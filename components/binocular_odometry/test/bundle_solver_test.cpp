@@ -18,7 +18,7 @@ using vision::Vector6d;
 const vision::RectifiedStereo kStereo{{400.0, 400.0, 320.0, 240.0, 640, 480}, 0.3};
 constexpr double kSigma_px = 0.3;
 
-// A camera that drives past a cloud of points, and what it sees of them.
+// A camera that moves past a cloud of points, with its observations.
 class Drive {
  public:
   explicit Drive(int frames, int points, double disparity_offset_px = 0.0) {
@@ -44,7 +44,7 @@ class Drive {
     }
   }
 
-  // Measured with errors, and started from somewhere near.
+  // Noisy observations and perturbed initial values.
   BundleProblem disturbed(unsigned seed, bool with_noise = true) const {
     std::mt19937 random(seed);
     std::normal_distribution<double> normal;
@@ -113,12 +113,12 @@ TEST(BundleSolver, FindsADisparityOffset) {
   EXPECT_NEAR(problem.disparity_offset_px, 0.25, 0.03);
 }
 
-// The same cost, with derivatives that Ceres takes by itself.
+// The same cost with automatic derivatives of Ceres.
 struct CeresResidual {
   const BundleObservation& observation;
   template <class T>
   bool operator()(const T* pose, const T* point, T* residual) const {
-    // Pose: angle-axis, translation, both of left_from_world; anchors are the world.
+    // Pose: angle-axis and translation of left_from_world; the anchors are the world frame.
     const T ray[3] = {point[0], point[1], T(1.0)};
     T h[3];
     ceres::AngleAxisRotatePoint(pose, ray, h);
@@ -172,7 +172,7 @@ TEST(BundleSolver, CovarianceAgreesWithMonteCarlo) {
   const Drive drive(3, 60);
   constexpr int kTrials = 200;
   BundleOptions options = thorough();
-  options.loss_scale = 50.0;  // as good as squares: the covariance is that of Gaussian errors
+  options.loss_scale = 50.0;  // nearly quadratic: the covariance is that of Gaussian errors
   double nees = 0.0, variance = 0.0;
   for (int trial = 0; trial < kTrials; ++trial) {
     BundleProblem problem = drive.disturbed(100U + static_cast<unsigned>(trial));

@@ -49,7 +49,7 @@ TEST(DeadReckoning, IsUncertainAtOnceWhereNoVelocityWasMeasured) {
   EXPECT_GT(std::sqrt(unseen.covariance()(0, 0)), 10.0);
 }
 
-/// Drives whose velocity wanders as the model has it: their errors lie as the covariance says.
+/// The errors of drives with random-walk velocity agree with the covariance.
 TEST(DeadReckoning, ItsErrorLiesWithinItsCovariance) {
   std::mt19937 random(1);
   std::normal_distribution<double> normal;

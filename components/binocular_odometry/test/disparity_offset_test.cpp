@@ -15,7 +15,8 @@ namespace {
 const vision::RectifiedStereo kStereo{{400.0, 400.0, 320.0, 240.0, 640, 480}, 0.3};
 const Eigen::Isometry3d kMotion = vision::se3_exp((vision::Vector6d() << 0.01, 0.0, -0.4, 0.001, 0.02, 0.0).finished());
 
-/// Points of a street before and after `motion`, all disparities too large by `offset_px`; the first `movers` come along with the camera.
+/// Points of a street before and after `motion`, all disparities too large by `offset_px`; the first `movers` move with
+/// the camera.
 std::vector<SeenTwice> points(std::mt19937& random, const Eigen::Isometry3d& motion, double offset_px, int movers = 0) {
   const auto uniform = [&random](double from, double to) {
     return from + (to - from) * static_cast<double>(random() % 100000) / 1e5;

@@ -10,8 +10,8 @@ namespace {
 
 constexpr std::int64_t kMillisecond_ns = 1'000'000;
 
-/// What is expected of the next 100 ms, ahead, after motions at 1 m/s that took, by their stamps, so long; one is too short by
-/// what `jitter_ms` says.
+/// Predicted forward motion in the next 100 ms after motions at 1 m/s with these stamp intervals; the stamp interval of
+/// the last one is too short by `jitter_ms`.
 double expected_m(const std::vector<std::int64_t>& intervals_ms, std::int64_t jitter_ms = 0) {
   MotionModel model;
   for (const auto interval_ms : intervals_ms) {

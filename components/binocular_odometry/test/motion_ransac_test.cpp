@@ -15,7 +15,7 @@ const vision::RectifiedStereo kStereo{{400.0, 400.0, 320.0, 240.0, 640, 480}, 0.
 const Eigen::Isometry3d kMotion =
     vision::se3_exp((vision::Vector6d() << 0.05, -0.02, -0.9, 0.01, 0.08, -0.02).finished());
 
-// Points seen before and after kMotion with small errors; the first `outliers` of them move on their own.
+// Points before and after kMotion with small errors; the first `outliers` move independently.
 std::vector<PointPair> pairs(int count, int outliers) {
   std::mt19937 random(2);
   const auto uniform = [&random](double from, double to) {

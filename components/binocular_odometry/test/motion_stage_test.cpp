@@ -20,10 +20,10 @@ namespace {
 const vision::RectifiedStereo kStereo{{400.0, 400.0, 320.0, 240.0, 640, 480}, 0.12};
 constexpr std::int64_t kInterval_ns = 40'000'000;
 
-/// A drive behind a car: few points of the road and the houses near by, more far away, and most on the car, which keeps its distance.
+/// A drive behind a car at constant distance: few near points on road and houses, more far away, and most on the car.
 class DriveBehindACar {
  public:
-  static constexpr int kAlone = 30, kFrames = 120;  // the car comes in between
+  static constexpr int kAlone = 30, kFrames = 120;  // the car appears after kAlone frames
 
   static Eigen::Isometry3d world_from_left(int frame) {
     Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
@@ -53,7 +53,8 @@ class DriveBehindACar {
         while (!see(point.id, left_from_world * point.in_world)) renew(point, index, points == &far_);
       }
     }
-    // On the car each point is found anew after three frames: it moves otherwise than what stands still, and is lost.
+    // Each point on the car is lost and redetected after three frames, because it moves differently from the static
+    // scene.
     if (index >= kAlone) {
       for (std::size_t i = 0; i < car_.size(); ++i) {
         if ((index + static_cast<int>(i)) % 3 == 0 || index == kAlone) car_[i].id = ++last_id_;
@@ -89,7 +90,7 @@ class DriveBehindACar {
   }();
 };
 
-/// A drive through points all round whose speed and turns change as a car's do, and of which four seconds are lost.
+/// A drive among points on all sides with car-like changes of speed and heading, of which four seconds are lost.
 class BlindDrive {
  public:
   enum class Loss { kFaults, kGap };
@@ -100,7 +101,7 @@ class BlindDrive {
     Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
     for (int i = 0; i < 2 * kSeen + kBlind; ++i) {
       world_from_left_.push_back(pose);
-      if (i % 40 == 39) {  // every 1.6 s another wish
+      if (i % 40 == 39) {  // new target every 1.6 s
         target_speed = uniform(0.0, 10.0);
         target_turning = uniform(0.0, 1.0) < 0.3 ? uniform(-0.5, 0.5) : uniform(-0.05, 0.05);
       }
@@ -110,7 +111,7 @@ class BlindDrive {
     }
   }
 
-  /// The estimates of the frames before, and of those after, what was lost.
+  /// The estimates of all frames that are passed to the stage.
   std::vector<OdometryEstimate> run(Loss loss) {
     MotionStage stage(kStereo, {}, nullptr);
     std::vector<OdometryEstimate> estimates;
@@ -135,13 +136,13 @@ class BlindDrive {
   }
 
  private:
-  static constexpr double kSecond = 1e-9 * kInterval_ns;  // of a frame
+  static constexpr double kSecond = 1e-9 * kInterval_ns;  // per frame
   static constexpr int kPoints = 80;
 
   double uniform(double from, double to) { return from + (to - from) * static_cast<double>(random_() % 100000) / 1e5; }
 
   TrackedFrame seen(int index) {
-    if (index == kSeen + kBlind) points_.clear();  // tracks do not outlive it
+    if (index == kSeen + kBlind) points_.clear();  // tracks end with the loss
     TrackedFrame frame;
     frame.stamp_ns = stamp_ns(index);
     const auto& pose = world_from_left_[static_cast<std::size_t>(index)];
@@ -193,7 +194,7 @@ TEST(MotionStage, StaysUncertainWhenItSeesAgain) {
     BlindDrive drive(seed);
     double last_m = 0.0;
     for (const auto& estimate : drive.run(BlindDrive::Loss::kFaults)) {
-      // the last keyframes settle a little when more is seen of them
+      // further observations refine the last keyframes slightly
       EXPECT_GT(sigma_m(estimate), last_m - 0.01) << "seed " << seed << ", " << estimate.stamp_ns;
       last_m = sigma_m(estimate);
     }
@@ -202,7 +203,7 @@ TEST(MotionStage, StaysUncertainWhenItSeesAgain) {
 
 TEST(MotionStage, ItsErrorLiesWithinItsCovarianceAfterFourSecondsThatShowNothing) {
   constexpr int kSeeds = 40;
-  Eigen::Matrix<double, 2, 6> level = Eigen::Matrix<double, 2, 6>::Zero();  // to the side and ahead
+  Eigen::Matrix<double, 2, 6> level = Eigen::Matrix<double, 2, 6>::Zero();  // sideways and forward
   level(0, 0) = level(1, 2) = 1.0;
   for (const auto loss : {BlindDrive::Loss::kFaults, BlindDrive::Loss::kGap}) {
     double nees = 0.0, worst = 0.0;
@@ -224,7 +225,7 @@ TEST(MotionStage, ItsErrorLiesWithinItsCovarianceAfterFourSecondsThatShowNothing
       nees += of_drive / kSeeds;
     }
     EXPECT_LT(worst, 3.0);
-    EXPECT_GT(nees, 0.1);  // of 2; most drives change less than they could
+    EXPECT_GT(nees, 0.1);  // expected 2; most drives change less than the model allows
     EXPECT_LT(nees, 4.0);
   }
 }

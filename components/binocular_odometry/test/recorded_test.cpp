@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Accuracy on real recordings, each pose as it was published at its time.
+// Accuracy on real recordings, with each pose as published at its time.
 #include <gtest/gtest.h>
 
 #include <Eigen/Cholesky>
@@ -29,13 +29,13 @@ fs::path recordings() {
 }
 
 #define PANVO_NEEDS_RECORDING(path) \
-  if (!fs::exists(path)) GTEST_SKIP() << (path).string() << " is not here; set PANVO_DATA to the folder of recordings"
+  if (!fs::exists(path)) GTEST_SKIP() << (path).string() << " is missing; set PANVO_DATA to the folder of recordings"
 
-// A run's poses and the true ones, of the left camera, each from where it began.
+// Estimated and true poses of the left camera.
 struct Drive {
   std::vector<Eigen::Isometry3d> estimated, truth;
   int unreliable = 0;
-  double nees = 0.0;  // mean, of the motion from frame to frame
+  double nees = 0.0;  // mean over frame-to-frame motions
 
   void add(const OdometryEstimate& estimate, const Eigen::Isometry3d& world_from_left) {
     if (!truth.empty()) {
@@ -79,10 +79,10 @@ struct Drive {
 
 cv::Mat grey(const fs::path& file) { return cv::imread(file.string(), cv::IMREAD_GRAYSCALE); }
 
-/// What becomes of a pair before the odometry sees it: false where it is lost.
+/// Modifies a pair before the odometry processes it; returns false if the pair is lost.
 using Disturbance = std::function<bool(int frame, cv::Mat& left, cv::Mat& right)>;
 
-/// Each pose, with the true one.
+/// Calls `take` with each estimate and the true pose.
 template <class Take>
 void step_through_kitti_03(const Parameters& parameters, const Disturbance& disturb, const Take& take) {
   const fs::path folder = recordings() / "kitti_03";
@@ -115,7 +115,7 @@ TEST(RecordedKitti03, KeepsToTheTruePathWithAnHonestCovariance) {
   EXPECT_EQ(run.unreliable, 0);
   EXPECT_LT(run.absolute_trajectory_error_m(), 0.09);
   EXPECT_GT(run.nees, 3.0);
-  EXPECT_LT(run.nees, 12.0);  // of 6, against a truth that is itself uncertain by a centimetre a frame
+  EXPECT_LT(run.nees, 12.0);  // expected 6; the ground truth itself is uncertain by a centimetre per frame
 }
 
 TEST(RecordedKitti03, SiftKeepsToItAsWell) {
@@ -127,7 +127,7 @@ TEST(RecordedKitti03, SiftKeepsToItAsWell) {
   EXPECT_LT(run.absolute_trajectory_error_m(), 0.10);
 }
 
-/// Four seconds in which the cameras show nothing, or what was, as a camera does that hangs.
+/// Four seconds with black images, a gap or frozen cameras.
 TEST(RecordedKitti03, ItsErrorLiesWithinItsCovarianceWhenCamerasLie) {
   PANVO_NEEDS_RECORDING(recordings() / "kitti_03");
   cv::Mat last_left, last_right;
@@ -210,7 +210,7 @@ TEST(RecordedCampusClip, KeepsToTheTruePath) {
   EXPECT_EQ(run.unreliable, 0);
   EXPECT_LT(run.absolute_trajectory_error_m(), 0.03);
   EXPECT_LT(run.end_error(), 0.001);
-  EXPECT_GT(run.nees, 0.4);  // of 6: rendered without noise, while the covariance is made for cameras that have some
+  EXPECT_GT(run.nees, 0.4);  // expected 6; rendered without noise, while the covariance is tuned for real cameras
   EXPECT_LT(run.nees, 2.0);
 }
 
@@ -238,7 +238,7 @@ TEST_P(RecordedBoofCv, IsFollowedWithoutLosingAFrame) {
   int frames = 0;
   for (int i = 0; frames == 0 ? i < 2 : fs::exists(folder / "left" / ("left" + std::to_string(i) + ".jpg")); ++i) {
     const std::string number = std::to_string(i) + ".jpg";
-    if (!fs::exists(folder / "left" / ("left" + number))) continue;  // counted from 0 or from 1
+    if (!fs::exists(folder / "left" / ("left" + number))) continue;  // numbered from 0 or from 1
     cv::Mat left, right;
     left_map.apply(grey(folder / "left" / ("left" + number)), left);
     right_map.apply(grey(folder / "right" / ("right" + number)), right);

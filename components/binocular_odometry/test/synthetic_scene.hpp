@@ -13,13 +13,13 @@
 
 namespace panvo::binocular_odometry {
 
-/// The inside of a textured street: road, two walls, an end wall and a ceiling, drawn ray by ray, with every pose known.
+/// A textured street with road, two walls, an end wall and a ceiling, ray-traced, with known poses.
 class SyntheticScene {
  public:
   static vision::RectifiedStereo stereo() { return {{220.0, 220.0, 159.5, 119.5, 320, 240}, 0.2}; }
   static constexpr std::int64_t kInterval_ns = 100'000'000;
 
-  /// Forward by 0.12 m a frame, in a gentle bend to the right, nodding a little.
+  /// 0.12 m forward per frame, in a gentle right bend with slight pitch.
   static Eigen::Isometry3d world_from_left(int frame) {
     Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
     const vision::Vector6d twist = (vision::Vector6d() << 0.004, 0.002, 0.12, 0.001, 0.006, -0.001).finished();
@@ -29,7 +29,7 @@ class SyntheticScene {
 
   static StereoFrame frame(int index) { return frame(index, world_from_left(index)); }
 
-  /// `aligned_from_right`: how the right camera is turned against what its calibration says.
+  /// `aligned_from_right`: rotation of the right camera relative to its calibration.
   static StereoFrame frame(int index, const Eigen::Isometry3d& world_from_left,
                            const Eigen::Matrix3d& aligned_from_right = Eigen::Matrix3d::Identity()) {
     Eigen::Isometry3d world_from_right = world_from_left;
@@ -52,7 +52,7 @@ class SyntheticScene {
     return static_cast<double>((h ^ (h >> 16)) & 0xffffU) / 65535.0;
   }
 
-  // Random grey levels on a grid, joined smoothly.
+  // Random grey levels on a grid, smoothly interpolated.
   static double texture(double x, double y, int seed) {
     const int column = static_cast<int>(std::floor(x)), row = static_cast<int>(std::floor(y));
     const auto ease = [](double t) { return t * t * (3.0 - 2.0 * t); };

@@ -17,8 +17,8 @@ constexpr double kLargestSquare_m = 10.0;
 
 [[noreturn]] void refuse(std::string_view text, const std::string& what) {
   throw CalibrationError(
-      fmt::format("board '{}': {}; write chessboard:9x6:0.025 (corners inside, side of a square in m) or "
-                  "charuco:8x6:0.03:0.022:DICT_5X5_100 (squares, sides of square and marker in m)",
+      fmt::format("board '{}': {}; use chessboard:9x6:0.025 (inner corners, square side in m) or "
+                  "charuco:8x6:0.03:0.022:DICT_5X5_100 (squares, square and marker side in m)",
                   text, what));
 }
 
@@ -36,7 +36,7 @@ int read_count(std::string_view whole, std::string_view word) {
   int value = 0;
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
   if (error != std::errc() || end != word.data() + word.size() || value < kFewest || value > kMost)
-    refuse(whole, fmt::format("'{}' is no count from {} to {}", word, kFewest, kMost));
+    refuse(whole, fmt::format("'{}' is not a count from {} to {}", word, kFewest, kMost));
   return value;
 }
 
@@ -44,14 +44,14 @@ double read_side(std::string_view whole, std::string_view word) {
   double value = 0.0;
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
   if (error != std::errc() || end != word.data() + word.size() || !(value > 0.0) || value > kLargestSquare_m)
-    refuse(whole, fmt::format("'{}' is no side in metres, above 0 and up to {}", word, kLargestSquare_m));
+    refuse(whole, fmt::format("'{}' is not a side length in metres above 0 and up to {}", word, kLargestSquare_m));
   return value;
 }
 
 }  // namespace
 
 Eigen::Vector3d Board::point(int id) const {
-  return {square_m * (id % columns), square_m * (id / columns), 0.0};  // whole rows on purpose
+  return {square_m * (id % columns), square_m * (id / columns), 0.0};  // integer division is intended
 }
 
 std::vector<Eigen::Vector3d> Board::points() const {
@@ -66,11 +66,11 @@ Board parse_board(std::string_view text) {
   const auto parts = split(text, ':');
   Board board;
   const bool is_charuco = parts[0] == "charuco";
-  if (!is_charuco && parts[0] != "chessboard") refuse(text, fmt::format("there is no kind '{}'", parts[0]));
+  if (!is_charuco && parts[0] != "chessboard") refuse(text, fmt::format("unknown kind '{}'", parts[0]));
   if (is_charuco ? parts.size() != 4 && parts.size() != 5 : parts.size() != 3)
-    refuse(text, fmt::format("it has {} parts between colons", parts.size()));
+    refuse(text, fmt::format("it has {} fields separated by colons", parts.size()));
   const auto counts = split(parts[1], 'x');
-  if (counts.size() != 2) refuse(text, fmt::format("'{}' are not two counts joined by x", parts[1]));
+  if (counts.size() != 2) refuse(text, fmt::format("'{}' is not of the form COLUMNSxROWS", parts[1]));
   board.columns = read_count(text, counts[0]);
   board.rows = read_count(text, counts[1]);
   board.square_m = read_side(text, parts[2]);

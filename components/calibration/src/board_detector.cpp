@@ -13,13 +13,13 @@
 namespace panvo::calibration {
 namespace {
 
-constexpr std::size_t kFewestCorners = 8;    // of a ChArUco board: twice what a pose needs
-constexpr double kNarrowestWindow_px = 2.0;  // half the side of the neighbourhood in which a corner is refined
+constexpr std::size_t kFewestCorners = 8;    // of a ChArUco board: twice the minimum for a pose
+constexpr double kNarrowestWindow_px = 2.0;  // half side of the refinement window
 constexpr double kWidestWindow_px = 11.0;
-constexpr double kWindowShare = 0.35;  // of a square's side in the image, so that no other corner is in it
-constexpr double kMarginShare = 0.9;   // of the white about a marker, so that no corner of a marker is in it
+constexpr double kWindowShare = 0.35;  // of a square's side in the image, to exclude other corners
+constexpr double kMarginShare = 0.9;   // of the white margin around a marker, to exclude marker corners
 
-/// The side of the squares about a corner, px: the distance to its nearest neighbour among those found.
+/// Side of the squares around a corner, px: the distance to the nearest detected neighbour.
 double side_px(const std::vector<Corner>& corners, const Corner& corner, int columns) {
   double nearest = 1e9;
   for (const auto& other : corners) {
@@ -30,7 +30,7 @@ double side_px(const std::vector<Corner>& corners, const Corner& corner, int col
   return nearest;
 }
 
-/// Each by itself: near ones are larger than far ones.
+/// Refines each corner with its own window, since near squares are larger in the image.
 void refine(const cv::Mat& grey, const Board& board, std::vector<Corner>& corners) {
   const double margin = 0.5 * (board.square_m - board.marker_m) / board.square_m;
   const double share =
@@ -70,7 +70,8 @@ Sighting BoardDetector::detect(const cv::Mat& grey) const {
   return board_.kind == Board::Kind::kChessboard ? detect_chessboard(grey) : detect_charuco(grey);
 }
 
-/// The upper left square is black, so corners begin there; a board that looks the same upside down is taken as it stands.
+/// Whether the corners must be reversed. The upper left square is black; the first corner is next to it. For a
+/// symmetric board the order is chosen by the position in the image.
 bool BoardDetector::is_reversed(const cv::Mat& grey, const std::vector<cv::Point2f>& corners) const {
   if (board_.is_symmetric()) {
     const cv::Point2f direction = corners.back() - corners.front();
@@ -80,16 +81,16 @@ bool BoardDetector::is_reversed(const cv::Mat& grey, const std::vector<cv::Point
   const auto middle = [&](std::size_t first) {
     return 0.25F * (corners[first] + corners[first + 1] + corners[first + columns] + corners[first + columns + 1]);
   };
-  // the square beyond the first corner's is as black as the upper left one, its neighbour in the row is white
+  // the square after the first corner is black, as the upper left one; the next one in the row is white
   return brightness(grey, middle(0)) > brightness(grey, middle(1));
 }
 
 Sighting BoardDetector::detect_chessboard(const cv::Mat& grey) const {
   std::vector<cv::Point2f> corners;
   const cv::Size pattern(board_.columns, board_.rows);
-  // the older findChessboardCorners takes ten seconds to say no
+  // not findChessboardCorners, which takes ten seconds if there is no board
   if (!cv::findChessboardCornersSB(grey, pattern, corners, cv::CALIB_CB_NORMALIZE_IMAGE))
-    return {{}, fmt::format("no chessboard of {} x {} corners is seen whole", board_.columns, board_.rows)};
+    return {{}, fmt::format("no complete chessboard of {} x {} corners found", board_.columns, board_.rows)};
   if (is_reversed(grey, corners)) std::reverse(corners.begin(), corners.end());
   Sighting sighting;
   for (const auto& corner : corners)
@@ -103,7 +104,7 @@ Sighting BoardDetector::detect_charuco(const cv::Mat& grey) const {
   std::vector<int> marker_ids, ids;
   std::vector<cv::Point2f> corners;
   cv::aruco::detectMarkers(grey, markers_->board->dictionary, markers, marker_ids, markers_->parameters);
-  if (marker_ids.empty()) return {{}, fmt::format("no marker of {} is seen", board_.dictionary)};
+  if (marker_ids.empty()) return {{}, fmt::format("no markers of {} found", board_.dictionary)};
   cv::aruco::interpolateCornersCharuco(markers, marker_ids, grey, markers_->board, corners, ids);
   std::set<int> rows, columns;
   for (const int id : ids) {
@@ -112,7 +113,7 @@ Sighting BoardDetector::detect_charuco(const cv::Mat& grey) const {
   }
   if (ids.size() < kFewestCorners || rows.size() < 2 || columns.size() < 2)
     return {{},
-            fmt::format("{} markers and {} corners are seen, at least {} corners in two rows are needed",
+            fmt::format("{} markers and {} corners found; at least {} corners in two rows and columns are needed",
                         marker_ids.size(), ids.size(), kFewestCorners)};
   Sighting sighting;
   for (std::size_t i = 0; i < ids.size(); ++i) sighting.corners.push_back({ids[i], {corners[i].x, corners[i].y}});

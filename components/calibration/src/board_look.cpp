@@ -7,9 +7,9 @@
 namespace panvo::calibration {
 namespace {
 
-constexpr double kOneLine = 1e-6;  // spread of the corners across the line they lie on, over that along it, squared
+constexpr double kOneLine = 1e-6;  // squared ratio of the corners' spread across and along their principal line
 
-constexpr double kSizeWeight = 0.4;  // a board 1.5 times as far away counts like one a sixth of the image away
+constexpr double kSizeWeight = 0.4;  // 1.5 times the distance counts like a shift by a sixth of the image
 
 }  // namespace
 

@@ -8,12 +8,12 @@
 namespace panvo::calibration {
 namespace {
 
-/// The first corner is between the first two rows and columns of squares.
+/// Area of a square, m. The first corner lies between the first two rows and columns of squares.
 cv::Rect2d square(const Board& board, int column, int row) {
   return {board.square_m * (column - 1), board.square_m * (row - 1), board.square_m, board.square_m};
 }
 
-/// The white bits of a black marker; `corners`: its upper left one first, clockwise, Y down.
+/// Adds a black marker and its white bits. `corners`: clockwise from the upper left one, Y down.
 void paint_marker(const cv::Mat& bits, const std::vector<cv::Point3f>& corners, double square_m,
                   std::vector<Patch>& patches) {
   const double left = corners[0].x - square_m;

@@ -19,7 +19,7 @@ using Pose = std::array<double, 6>;  // rotation vector, translation
 constexpr int kMostSteps = 200;
 constexpr double kNotSeen_px = 1e3;
 constexpr double kMostTrust =
-    1e12;  // what the corners hardly determine is held a little, or the equations cannot be solved
+    1e12;  // limits the trust region: slight damping of weakly determined parameters keeps the equations solvable
 
 Pose to_pose(const Eigen::Isometry3d& a_from_b) {
   Pose pose;
@@ -35,7 +35,7 @@ Eigen::Isometry3d to_isometry(const Pose& pose) {
   return a_from_b;
 }
 
-/// From a corner on the board to its pixel.
+/// Reprojection error of a board corner.
 template <LensModel kModel>
 struct Reprojection {
   Eigen::Vector3d point_in_board;
@@ -74,7 +74,7 @@ ceres::CostFunction* reprojection(LensModel model, const Eigen::Vector3d& point,
   return Reprojection<LensModel::kPlumbBob>::make(point, pixel);
 }
 
-/// The rig's numbers, as Ceres moves them.
+/// The rig as parameter blocks of a Ceres problem.
 class Bundle {
  public:
   Bundle(const Observations& observations, const BundleOptions& options, const Rig& rig)
@@ -100,7 +100,8 @@ class Bundle {
     for (std::size_t i = 0; i < boards_.size(); ++i) {
       if (rig_.reference_from_board[i]) options.linear_solver_ordering->AddElementToGroup(boards_[i].data(), 0);
     }
-    // Each in a group of its own, for within one Ceres goes by where they lie in memory, and no two runs gave the same last digit.
+    // A group for each block: within a group Ceres orders blocks by address, so results differed between runs in the
+    // last digit.
     int group = 0;
     for (std::size_t i = 0; i < lenses_.size(); ++i) {
       if (!problem_.HasParameterBlock(lenses_[i].data())) continue;
@@ -176,7 +177,7 @@ class Bundle {
     return blocks;
   }
 
-  /// Standard deviation of a corner's coordinate, from what is left over.
+  /// Standard deviation of a corner coordinate, from the residuals.
   double unit_sigma_px() {
     double cost = 0.0;
     problem_.Evaluate({}, &cost, nullptr, nullptr, nullptr);

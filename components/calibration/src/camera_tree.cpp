@@ -10,7 +10,7 @@
 namespace panvo::calibration {
 namespace {
 
-/// camera_from_other of each view that both saw.
+/// camera_from_other of each view that both cameras saw.
 std::vector<Eigen::Isometry3d> shared(const BoardPoses& poses, std::size_t camera, std::size_t other) {
   std::vector<Eigen::Isometry3d> all;
   for (std::size_t view = 0; view < poses[camera].size(); ++view) {
@@ -21,7 +21,7 @@ std::vector<Eigen::Isometry3d> shared(const BoardPoses& poses, std::size_t camer
   return all;
 }
 
-/// The one that the others agree with best: a wrong one does not pull it.
+/// The pose with the smallest sum of differences to the others (medoid); robust against outliers.
 Eigen::Isometry3d middle(const std::vector<Eigen::Isometry3d>& poses) {
   std::size_t best = 0;
   double smallest = 0.0;
@@ -69,8 +69,8 @@ std::vector<Eigen::Isometry3d> join_cameras(const BoardPoses& poses, std::size_t
   }
   if (!lonely.empty())
     throw CalibrationError(
-        fmt::format("{}: in no view the board is seen together with a camera that is joined to '{}'; take "
-                    "pictures with the board where two cameras see it at once (of a ChArUco board a part is enough)",
+        fmt::format("{}: no view shows the board together with a camera that is connected to '{}'; take images with "
+                    "the board where two cameras see it at once (a part of a ChArUco board is enough)",
                     fmt::join(lonely, ", "), names[reference]));
   return all;
 }

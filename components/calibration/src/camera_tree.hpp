@@ -11,8 +11,8 @@ namespace panvo::calibration {
 /// Poses camera_from_board, by camera and view; nullopt: not seen.
 using BoardPoses = std::vector<std::vector<std::optional<Eigen::Isometry3d>>>;
 
-/// Pose camera_from_reference of each camera, from views in which two cameras saw the board at once; along the pairs that share most of them.
-/// Throws CalibrationError for cameras that share none with those already found; `names` are the cameras'.
+/// Pose camera_from_reference of each camera, chained along the pairs that share most views. Throws CalibrationError
+/// for cameras that share no view with a connected camera. `names`: of the cameras.
 std::vector<Eigen::Isometry3d> join_cameras(const BoardPoses& poses, std::size_t reference,
                                             const std::vector<std::string>& names);
 

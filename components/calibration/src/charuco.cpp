@@ -26,14 +26,14 @@ cv::Ptr<cv::aruco::CharucoBoard> charuco_board(const Board& board) {
   const auto* const found = std::find(kDictionaries.begin(), kDictionaries.end(), board.dictionary);
   if (found == kDictionaries.end())
     throw CalibrationError(
-        fmt::format("board '{}': there is no dictionary '{}'; name one of OpenCV's, DICT_4X4_50 to "
+        fmt::format("board '{}': unknown dictionary '{}'; use one of OpenCV's, DICT_4X4_50 to "
                     "DICT_7X7_1000, DICT_ARUCO_ORIGINAL or DICT_APRILTAG_36h11",
                     to_string(board), board.dictionary));
   const auto name = static_cast<cv::aruco::PREDEFINED_DICTIONARY_NAME>(found - kDictionaries.begin());
   const auto dictionary = cv::aruco::getPredefinedDictionary(name);
   const int markers = (board.columns + 1) * (board.rows + 1) / 2;
   if (markers > dictionary->bytesList.rows)
-    throw CalibrationError(fmt::format("board '{}': it has {} markers, but {} has only {}; name a larger dictionary",
+    throw CalibrationError(fmt::format("board '{}': it has {} markers, but {} has only {}; use a larger dictionary",
                                        to_string(board), markers, board.dictionary, dictionary->bytesList.rows));
   return cv::aruco::CharucoBoard::create(board.columns + 1, board.rows + 1, static_cast<float>(board.square_m),
                                          static_cast<float>(board.marker_m), dictionary);

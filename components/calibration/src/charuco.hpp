@@ -7,7 +7,8 @@
 
 namespace panvo::calibration {
 
-/// OpenCV's ChArUco board; X to the right and Y down as it is printed. Throws CalibrationError for a dictionary that is unknown or too small.
+/// OpenCV's ChArUco board; X right and Y down, as printed. Throws CalibrationError for a dictionary that is unknown or
+/// too small.
 cv::Ptr<cv::aruco::CharucoBoard> charuco_board(const Board& board);
 
 }  // namespace panvo::calibration

@@ -14,10 +14,10 @@ namespace {
 constexpr double kShortest = 0.12;  // focal length over the longer side of the image
 constexpr double kLongest = 5.0;
 constexpr double kStep = 1.08;
-constexpr std::size_t kMostViews = 24;  // a start needs no more
-constexpr double kNotSeen_px = 1e3;     // what a corner counts that the lens would not show
+constexpr std::size_t kMostViews = 24;  // sufficient for an initial value
+constexpr double kNotSeen_px = 1e3;     // error of a corner that does not project into the image
 
-/// nullopt: the border of the image would be more than half a turn off the axis.
+/// nullopt if the lens is invalid: the image border would be more than 180 degrees off the axis.
 std::optional<vision::CameraModel> model_of(const vision::LensCamera& lens) {
   try {
     return vision::CameraModel(lens);
@@ -26,7 +26,7 @@ std::optional<vision::CameraModel> model_of(const vision::LensCamera& lens) {
   }
 }
 
-/// Median distance between where a view's corners are and where the board as posed has them, px.
+/// Median reprojection error of a view with a linear board pose, px.
 std::optional<double> error_px(const vision::CameraModel& lens, const std::vector<Corner>& corners,
                                const std::vector<Eigen::Vector3d>& board_points) {
   const auto pose =

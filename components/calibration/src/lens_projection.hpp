@@ -9,21 +9,21 @@
 
 namespace panvo::calibration {
 
-/// How many numbers a lens has: those of lens_parameters().
+/// Number of lens_parameters().
 template <vision::LensModel kModel>
 constexpr int kLensSize = kModel == vision::LensModel::kRational      ? 12
                           : kModel == vision::LensModel::kEquidistant ? 8
                                                                       : 9;
 
-/// The pixel of a point in the camera's frame: the same as vision::CameraModel::project, for numbers that carry their derivatives. False where
-/// the model shows nothing, behind a perspective lens or beyond the mirror of Mei's.
+/// Projects a point in the camera frame to a pixel, as vision::CameraModel::project, for automatic differentiation.
+/// Returns false outside the model's domain: behind a perspective lens, or beyond the mirror of kMei.
 template <vision::LensModel kModel, typename T>
 bool project_point(const T* lens, const T* point, T* pixel) {
   using std::atan2;
   using std::sqrt;
   using vision::LensModel;
   const T off_axis2 = point[0] * point[0] + point[1] * point[1];
-  T scale;  // from the point to the normalised image
+  T scale;  // from point to normalised image coordinates
   if constexpr (kModel == LensModel::kEquidistant) {
     if (off_axis2 < T(1e-18)) {
       if (point[2] <= T(0.0)) return false;

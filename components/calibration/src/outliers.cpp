@@ -8,12 +8,12 @@
 namespace panvo::calibration {
 namespace {
 
-constexpr double kMedianOfRayleigh = 1.1774;  // median length of a vector of two normal errors of deviation 1
+constexpr double kMedianOfRayleigh = 1.1774;  // median norm of a vector of two normal errors with deviation 1
 constexpr double kStraySigmas = 5.0;          // one good corner in 270 000
-constexpr double kStrayAlways_px = 0.5;       // what is so near is no stray, however good the others are
-constexpr double kBadViewTimes = 4.0;         // median of a view over that of its camera
+constexpr double kStrayAlways_px = 0.5;       // smaller errors are never outliers
+constexpr double kBadViewTimes = 4.0;         // ratio of a view's median to its camera's median
 constexpr double kBadViewAlways_px = 0.5;
-constexpr double kMostStrays = 0.3;  // of a sighting, beyond which it goes as a whole
+constexpr double kMostStrays = 0.3;  // fraction of outliers above which the whole sighting is rejected
 
 double median(std::vector<double> values) {
   if (values.empty()) return 0.0;
@@ -22,7 +22,7 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-/// Distances by view and camera, in the order of the corners.
+/// Error norms by view and camera, in the order of the corners.
 std::vector<std::vector<std::vector<double>>> distances_px(const Observations& observations, const Rig& rig) {
   std::vector<std::vector<std::vector<double>>> all(observations.views.size(),
                                                     std::vector<std::vector<double>>(observations.cameras.size()));
@@ -63,8 +63,8 @@ bool reject_sightings(Observations& observations, Rig& rig, std::vector<Rejectio
         continue;
       rejections.push_back(
           {camera, view,
-           fmt::format("its corners are {:.2f} px off (median; {:.2f} px in the others): blurred, or the "
-                       "board moved between the cameras",
+           fmt::format("its corners are {:.2f} px off (median; {:.2f} px over all views): blurred, or the "
+                       "board moved between the exposures",
                        of_view_px, usual_px[camera])});
       seen[camera].clear();
       is_changed = true;

@@ -7,11 +7,11 @@
 
 namespace panvo::calibration {
 
-/// Takes whole sightings out of `observations` that `rig` does not explain, and adds to `rejections`. A view that nobody sees any more leaves
-/// the rig, too. False: nothing was taken out.
+/// Removes from `observations` all corners of a camera and view that are inconsistent with `rig`, and adds them to
+/// `rejections`. Removes views without corners from the rig. Returns whether anything was removed.
 bool reject_sightings(Observations& observations, Rig& rig, std::vector<Rejection>& rejections);
 
-/// The same of single corners, counted by camera.
+/// Removes single outlier corners and counts them by camera. Returns whether anything was removed.
 bool reject_corners(Observations& observations, const Rig& rig, std::vector<std::size_t>& stray_corners);
 
 }  // namespace panvo::calibration

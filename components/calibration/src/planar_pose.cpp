@@ -11,7 +11,7 @@ namespace {
 using Matrix9d = Eigen::Matrix<double, 9, 9>;
 
 constexpr double kOneSolution =
-    1e-10;  // second smallest eigenvalue over the largest: below it, corners lie on one line
+    1e-10;  // least ratio of the second smallest to the largest eigenvalue; lower for collinear corners
 
 }  // namespace
 
@@ -25,7 +25,7 @@ std::optional<Eigen::Isometry3d> planar_pose(const std::vector<Corner>& corners,
   for (const auto& corner : corners)
     size = std::max(size, (board_points[static_cast<std::size_t>(corner.id)].head<2>() - centre).norm());
 
-  std::vector<std::pair<Eigen::Vector3d, Eigen::Vector3d>> pairs;  // direction and place on the board, of unit size
+  std::vector<std::pair<Eigen::Vector3d, Eigen::Vector3d>> pairs;  // bearing and normalised board position
   Matrix9d normal = Matrix9d::Zero();
   for (const auto& corner : corners) {
     const auto direction = unproject(corner.pixel);

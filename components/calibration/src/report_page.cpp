@@ -48,8 +48,8 @@ std::string table(const Rows& rows, const char* kind = "") {
 
 std::string doubts_section(const Report& report) {
   const auto found = doubts(report);
-  if (found.empty()) return "<div class=\"doubts good\"><p>Nothing speaks against this calibration.</p></div>\n";
-  std::string text = "<div class=\"doubts\"><p>What speaks against it, and what to do:</p>\n<ul>\n";
+  if (found.empty()) return "<div class=\"doubts good\"><p>No problems found.</p></div>\n";
+  std::string text = "<div class=\"doubts\"><p>Problems and remedies:</p>\n<ul>\n";
   for (const auto& doubt : found) text += "<li>" + html(doubt) + "</li>\n";
   return text + "</ul></div>\n";
 }
@@ -80,7 +80,7 @@ std::string to_page(const Report& report) {
   for (std::size_t camera = 0; camera < report.calibration.used.cameras.size(); ++camera)
     page += camera_section(report, camera);
   if (const auto rejected = rejection_rows(report, true); rejected.size() > 1)
-    page += "<h2>Images that are not used</h2>\n" + table(rejected, "words");
+    page += "<h2>Images not used</h2>\n" + table(rejected, "words");
   return page + "</main>\n</body>\n</html>\n";
 }
 

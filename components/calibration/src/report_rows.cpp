@@ -30,7 +30,7 @@ std::vector<Residual> residuals_of(const Report& report, std::size_t camera) {
 }
 
 Rows camera_rows(const Report& report) {
-  Rows rows{{"camera", "images", "board seen", "used", "corners", "strays", "image covered", "reprojection rms"}};
+  Rows rows{{"camera", "images", "board seen", "used", "corners", "outliers", "coverage", "reprojection rms"}};
   const auto& used = report.calibration.used;
   for (std::size_t camera = 0; camera < used.cameras.size(); ++camera) {
     const auto off = residuals_of(report, camera);
@@ -55,7 +55,7 @@ Rows parameter_rows(const Report& report, std::size_t camera) {
     const bool is_px = i < 4;
     rows.push_back({names[i], is_px ? fmt::format("{:.3f} px", values[index]) : fmt::format("{:.6f}", values[index]),
                     !sigmas        ? std::string("not determined")
-                    : sigma == 0.0 ? std::string("held")
+                    : sigma == 0.0 ? std::string("fixed")
                     : is_px        ? fmt::format("{:.3f} px", sigma)
                                    : fmt::format("{:.6f}", sigma)});
   }
@@ -81,7 +81,7 @@ Rows pose_rows(const Report& report) {
 }
 
 Rows rejection_rows(const Report& report, bool with_unseen) {
-  Rows rows{{"image", "camera", "why it is not used"}};
+  Rows rows{{"image", "camera", "reason"}};
   for (std::size_t view = 0; view < report.seen.views.size(); ++view) {
     const auto& [name, seen, missing] = report.seen.views[view];
     for (std::size_t camera = 0; with_unseen && camera < missing.size(); ++camera) {

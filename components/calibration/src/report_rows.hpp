@@ -10,11 +10,11 @@ namespace panvo::calibration {
 
 using Rows = std::vector<std::vector<std::string>>;
 
-/// Tables of a report, the header first, for text and page alike.
-Rows camera_rows(const Report& report);  ///< a line a camera: images, corners, coverage, rms
+/// Tables for the text report and the page; the first row is the header.
+Rows camera_rows(const Report& report);  ///< a row for each camera: images, corners, coverage, rms
 Rows parameter_rows(const Report& report, std::size_t camera);
-Rows pose_rows(const Report& report);  ///< of each camera but the reference
-/// Image, camera, reason; `with_unseen`: of those in which the board was not seen, too.
+Rows pose_rows(const Report& report);  ///< of each camera except the reference
+/// Image, camera, reason. `with_unseen`: includes images in which the board was not found.
 Rows rejection_rows(const Report& report, bool with_unseen);
 std::string epipolar_sentence(const Report& report);
 

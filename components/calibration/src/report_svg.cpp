@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kPlotWidth_px = 520.0;
 constexpr double kMargin_px = 44.0;
-constexpr double kSide_px = 240.0;  // of the scatter of residuals
+constexpr double kSide_px = 240.0;  // of the scatter plot
 
 std::string open(double width, double height, const std::string& what) {
   return fmt::format(
@@ -29,13 +29,13 @@ std::string label(double x, double y, const std::string& anchor, const std::stri
                      text);
 }
 
-/// Okabe and Ito's blue for what fits, orange for what is far off.
+/// Okabe-Ito colours: blue for small, yellow for medium, orange for large errors.
 std::string colour(double off_px, double usual_px) {
   if (off_px < 1.5 * usual_px) return "#0072b2";
   return off_px < 3.0 * usual_px ? "#e69f00" : "#d55e00";
 }
 
-/// A round number of which a few make up `range`.
+/// Step of the axis ticks for `range`: 1, 2 or 5 times a power of ten.
 double step_of(double range) {
   const double power = std::pow(10.0, std::floor(std::log10(range)));
   for (const double factor : {1.0, 2.0, 5.0}) {
@@ -56,7 +56,7 @@ std::string coverage_svg(const Report& report, std::size_t camera) {
   const auto off = residuals_of(report, camera);
   const double usual_px = rms_px(off);
   std::string svg = open(kPlotWidth_px + 2 * kMargin_px, height + 2 * kMargin_px,
-                         fmt::format("corners of {} over its image", used.cameras[camera]));
+                         fmt::format("corners in the image of {}", used.cameras[camera]));
   svg += label(kMargin_px, kMargin_px - 14, "start",
                fmt::format("{}: {} corners, {:.0f} % of the image covered", used.cameras[camera], off.size(),
                            100.0 * cells.share));
@@ -81,11 +81,10 @@ std::string coverage_svg(const Report& report, std::size_t camera) {
       kMargin_px, kMargin_px, kPlotWidth_px, height);
   svg += label(kMargin_px, kMargin_px + height + 16, "start", "0");
   svg += label(kMargin_px + kPlotWidth_px, kMargin_px + height + 16, "end", fmt::format("{} px", size.width));
-  svg +=
-      label(kMargin_px + 0.5 * kPlotWidth_px, kMargin_px + height + 32, "middle",
-            fmt::format(
-                "blue: up to 1.5 x rms of {:.2f} px off, yellow: up to 3, orange: beyond; orange cells hold no corner",
-                usual_px));
+  svg += label(
+      kMargin_px + 0.5 * kPlotWidth_px, kMargin_px + height + 32, "middle",
+      fmt::format("blue: error up to 1.5 x rms ({:.2f} px), yellow: up to 3 x, orange: above; orange cells: no corners",
+                  usual_px));
   return svg + "</svg>\n";
 }
 
@@ -114,7 +113,7 @@ std::string residual_svg(const Report& report, std::size_t camera) {
     svg += label(kMargin_px + place(at), bottom + 16, "middle", text);
     svg += label(kMargin_px - 6, kMargin_px + place(at) + 4, "end", text);
   }
-  svg += label(kMargin_px + 0.5 * kSide_px, bottom + 32, "middle", "across, down (px)");
+  svg += label(kMargin_px + 0.5 * kSide_px, bottom + 32, "middle", "x, y (px)");
   for (const auto& residual : off)
     svg += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"1.5\" fill=\"#0072b2\" fill-opacity=\"0.5\"/>\n",
                        kMargin_px + place(residual.error_px.x()), kMargin_px + place(residual.error_px.y()));
@@ -125,7 +124,7 @@ std::string residual_svg(const Report& report, std::size_t camera) {
   for (const auto& view : by_view) highest = std::max(highest, rms_px(view));
   const double bar_step = step_of(highest);
   highest = bar_step * std::ceil(highest / bar_step - 1e-9);
-  svg += label(bars_left, kMargin_px - 14, "start", "rms of each image, px");
+  svg += label(bars_left, kMargin_px - 14, "start", "rms of each image (px)");
   for (double at = 0.0; at <= highest + 1e-9; at += bar_step) {
     const double y = bottom - kSide_px * at / highest;
     svg += fmt::format("<path d=\"M{:.1f} {:.1f}h{:.1f}\" stroke=\"#e4e4e4\"/>\n", bars_left, y, bars_width) +

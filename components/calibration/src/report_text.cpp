@@ -9,9 +9,9 @@
 namespace panvo::calibration {
 namespace {
 
-constexpr std::size_t kMostListed = 40;  // of images not used; the page has all
+constexpr std::size_t kMostListed = 40;  // images not used; the page lists all
 
-/// The first column to the left, numbers to the right, a last column of words to the left.
+/// Formats a table: first column left-aligned, others right-aligned; all left-aligned if `is_last_text`.
 std::string table(const Rows& rows, bool is_last_text = false) {
   std::vector<std::size_t> widths(rows[0].size(), 0);
   for (const auto& row : rows) {
@@ -36,7 +36,7 @@ std::string to_text(const Report& report) {
   const auto& calibration = report.calibration;
   std::string text =
       fmt::format("{}: board {}\n\n{}", report.title, to_string(report.board), table(camera_rows(report)));
-  // in a rig, most cameras do not see most boards
+  // in a rig most cameras do not see the board in most views
   auto rejected = rejection_rows(report, calibration.used.cameras.size() <= 2);
   if (rejected.size() > 1) {
     const std::size_t left_out = rejected.size() - std::min(rejected.size(), kMostListed + 1);

@@ -15,11 +15,11 @@
 namespace panvo::calibration {
 namespace {
 
-constexpr std::size_t kFewestViews = 5;  // of a lens that is looked for
-constexpr double kLoss_px = 1.0;         // until strays are out
+constexpr std::size_t kFewestViews = 5;  // to estimate a lens
+constexpr double kLoss_px = 1.0;         // while outliers are being removed
 constexpr int kMostRounds = 8;
 
-/// What one camera saw, as if it were the only one.
+/// The observations of one camera.
 Observations only(const Observations& all, std::size_t camera) {
   Observations one{{all.cameras[camera]}, {all.image_sizes[camera]}, all.board_points, {}};
   for (const auto& view : all.views) one.views.push_back({view.name, {view.seen[camera]}});
@@ -38,7 +38,7 @@ vision::LensCamera begin_lens(const Observations& one, vision::LensModel model) 
   }
   const auto lens = first_lens(views, one.board_points, one.image_sizes[0], model);
   if (!lens)
-    throw CalibrationError(one.cameras[0] + ": no image gives a pose of the board; are the board's counts right?");
+    throw CalibrationError(one.cameras[0] + ": no image yields a pose of the board; check the counts in --board");
   return *lens;
 }
 
@@ -58,21 +58,21 @@ void pose_boards(const Observations& one, Rig& rig) {
                                                  [&](const Eigen::Vector2d& pixel) { return model.unproject(pixel); });
 }
 
-/// Fits until nothing is left that does not fit: with a loss that strays cannot pull far, then without.
+/// Adjusts and removes outliers alternately with a robust loss, then adjusts with a squared loss.
 void settle(Observations& observations, BundleOptions options, Rig& rig, std::vector<Rejection>& rejections,
             std::vector<std::size_t>& strays, const std::string& who) {
   options.loss_px = kLoss_px;
   for (int round = 0; round < kMostRounds; ++round) {
     if (!adjust(observations, options, rig))
       throw CalibrationError(
-          who + ": no lens and poses explain the corners; is the board's description right, and is it flat?");
-    // a sighting that is wrong as a whole first: it makes good corners of others look bad
+          who + ": no lens and poses fit the corners; check the description of the board and that it is flat");
+    // whole sightings first, since a wrong one increases the errors of good corners elsewhere
     if (!reject_sightings(observations, rig, rejections) && !reject_corners(observations, rig, strays)) break;
   }
   options.loss_px = 0.0;
   if (!adjust(observations, options, rig))
     throw CalibrationError(
-        who + ": the adjustment does not converge; take more images, with the board tilted and near the borders");
+        who + ": the adjustment does not converge; take more images, with the board tilted and near the image borders");
 }
 
 void check_count(const Observations& one, const RigOptions& options) {
@@ -80,13 +80,13 @@ void check_count(const Observations& one, const RigOptions& options) {
   const std::size_t count = seen_views(one);
   if (count >= needed) return;
   throw CalibrationError(fmt::format(
-      "{}: the board is used in {} of {} images, at least {} are needed and 20 make a good calibration; {}",
-      one.cameras[0], count, one.views.size(), needed,
-      count == 0 ? "do the counts and the dictionary of --board agree with the board, and is it seen sharply and whole?"
-                 : "take more"));
+      "{}: the board is used in {} of {} images, at least {} are needed (20 recommended); {}", one.cameras[0], count,
+      one.views.size(), needed,
+      count == 0 ? "check the counts and the dictionary of --board, and that the board is sharp and fully visible"
+                 : "take more images"));
 }
 
-/// The camera by itself.
+/// Calibrates one camera alone.
 Rig calibrate_one(Observations& one, const RigOptions& options, std::size_t camera, std::vector<Rejection>& rejections,
                   std::size_t& strays) {
   check_count(one, options);
@@ -103,7 +103,7 @@ Rig calibrate_one(Observations& one, const RigOptions& options, std::size_t came
   return rig;
 }
 
-/// Where the boards were, each from the first camera that saw it.
+/// Sets the board poses, each from the first camera that saw the board.
 void place_boards(const std::vector<Rig>& singles, Rig& rig) {
   const std::size_t views = singles.front().reference_from_board.size();
   rig.reference_from_board.assign(views, std::nullopt);

@@ -9,8 +9,8 @@
 namespace panvo::calibration {
 namespace {
 
-constexpr double kNewLook = 0.15;  // of difference(): a board at its farthest is about so wide
-constexpr int kNewCells = 2;       // of the 48 of Coverage
+constexpr double kNewLook = 0.15;  // threshold of difference(): about the width of a board at the largest distance
+constexpr int kNewCells = 2;       // of the 48 cells of Coverage
 constexpr double kTilted = 0.1;    // BoardLook::slant of a board tilted by 25 degrees
 
 bool is_like(const std::vector<std::optional<BoardLook>>& kept, const std::vector<std::optional<BoardLook>>& view) {
@@ -20,7 +20,7 @@ bool is_like(const std::vector<std::optional<BoardLook>>& kept, const std::vecto
   return true;
 }
 
-/// Share of the cells with corners from one cell of the grid to another.
+/// Fraction of cells with corners in a range of columns and rows.
 double share_of(const Coverage& cover, int first_column, int last_column, int first_row, int last_row) {
   int covered = 0, cells = 0;
   for (int row = first_row; row <= last_row; ++row) {
@@ -72,7 +72,7 @@ std::vector<std::string> ViewChoice::uncovered(std::size_t camera) const {
   if (share_of(cover, kRight, kRight, 0, kBottom) < goals_.along_sides) places.emplace_back("the right side");
   if (share_of(cover, 0, kRight, 0, 0) < goals_.along_sides) places.emplace_back("the top");
   if (share_of(cover, 0, kRight, kBottom, kBottom) < goals_.along_sides) places.emplace_back("the bottom");
-  if (places.empty() && cover.share < goals_.covered) places.emplace_back("more of its image");
+  if (places.empty() && cover.share < goals_.covered) places.emplace_back("more of the image");
   return places;
 }
 
@@ -90,11 +90,11 @@ std::vector<std::string> ViewChoice::lacks(std::size_t camera) const {
     largest = std::max(largest, look->size);
   }
   auto missing = uncovered(camera);
-  if (tilted < goals_.tilted) missing.emplace_back("a board tilted more, forwards or back");
-  if (turned < goals_.tilted) missing.emplace_back("a board turned more, to the left or right");
-  if (views > 0 && largest < goals_.size_ratio * smallest) missing.emplace_back("a board nearer or farther");
+  if (tilted < goals_.tilted) missing.emplace_back("more tilt forwards or back");
+  if (turned < goals_.tilted) missing.emplace_back("more tilt to the left or right");
+  if (views > 0 && largest < goals_.size_ratio * smallest) missing.emplace_back("a nearer or farther board");
   if (views < goals_.views) missing.push_back(more_views(goals_.views - views, ""));
-  if (shared < goals_.shared) missing.push_back(more_views(goals_.shared - shared, " that another camera shares"));
+  if (shared < goals_.shared) missing.push_back(more_views(goals_.shared - shared, " shared with another camera"));
   return missing;
 }
 

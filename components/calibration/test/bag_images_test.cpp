@@ -47,7 +47,7 @@ class ImagesOfABag : public test::CommandTest {
     bag.write(topic, stamp_ns, bytes);
   }
 
-  /// Ten pairs a second for three seconds, the right ones 2 ms later; the left ones grey, the right ones compressed.
+  /// Ten pairs per second for three seconds; right images 2 ms later and compressed, left ones raw.
   void record() const {
     recorder::BagWriter bag(folder_ / "bag");
     const int left = bag.add_topic(recorder::BagTopic::of(
@@ -103,8 +103,9 @@ TEST_F(ImagesOfABag, AreAskedForByTopicsThatAreThere) {
     const int status = std::system(command.c_str());
     return fmt::format("{}: {}", WEXITSTATUS(status), text_of("err.txt"));
   };
-  EXPECT_THAT(refusal("bag --out images --topics left:=/left"),
-              AllOf(HasSubstr("1: "), HasSubstr("bag: holds no images of /left"), HasSubstr("/stereo/left/image_raw")));
+  EXPECT_THAT(
+      refusal("bag --out images --topics left:=/left"),
+      AllOf(HasSubstr("1: "), HasSubstr("bag: contains no images of /left"), HasSubstr("/stereo/left/image_raw")));
   EXPECT_THAT(refusal("bag --out images --topics left"), AllOf(HasSubstr("1: "), HasSubstr("NAME:=TOPIC")));
   EXPECT_THAT(refusal("nowhere --out images"), AllOf(HasSubstr("1: "), HasSubstr("nowhere")));
   EXPECT_THAT(refusal("bag"), HasSubstr("2: "));

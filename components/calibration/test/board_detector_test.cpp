@@ -15,7 +15,7 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::SizeIs;
 
-/// Root mean square distance of what is found from where it is, px.
+/// Root mean square error of the detected corners, px.
 double off_px(const std::vector<Corner>& corners, const vision::LensCamera& lens, const Board& board,
               const Eigen::Isometry3d& camera_from_board) {
   const vision::CameraModel model(lens);

@@ -35,7 +35,7 @@ TEST(CameraTopics, AreRefusedWithTheReason) {
     }
     return std::string("accepted");
   };
-  EXPECT_THAT(refusal({"/a"}, {"left", "right"}), HasSubstr("1 are named, it takes 2"));
+  EXPECT_THAT(refusal({"/a"}, {"left", "right"}), HasSubstr("1 given, expected 2"));
   EXPECT_THAT(refusal({"/a/image_raw"}, {}), HasSubstr("two or more"));
   EXPECT_THAT(refusal({"left:=/a", "middle:=/b"}, {"left", "right"}), HasSubstr("the cameras are left and right"));
   EXPECT_THAT(refusal({"/x/a/image_raw", "/y/a/image_raw"}, {}), AllOf(HasSubstr("camera 'a'"), HasSubstr("NAME:=/y")));

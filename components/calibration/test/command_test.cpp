@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// panvo_calibrate as a person calls it: pictures in, files out.
+// Runs panvo_calibrate as a process on rendered images.
 #include <gmock/gmock.h>
 
 #include <regex>
@@ -65,7 +65,7 @@ TEST_F(StereoCommand, GivesBackAPairSeenWithAChessboardAndNoticesWhenItHasMoved)
   const auto stale = call("check later --calibration rig --board chessboard:9x6:0.04");
   EXPECT_EQ(stale.status, 3);
   EXPECT_NEAR(epipolar_rms_px(stale.out), 0.2 * test::kDegree * moved.projection(1, 1), 0.3);
-  EXPECT_THAT(stale.err, AllOf(HasSubstr("rig"), HasSubstr("stale"), HasSubstr("calibrate again")));
+  EXPECT_THAT(stale.err, AllOf(HasSubstr("rig"), HasSubstr("stale"), HasSubstr("recalibrate")));
 }
 
 TEST_F(StereoCommand, GivesBackTwoFisheyesSeenWithACharucoBoardFromAnEarlierStart) {
@@ -113,7 +113,7 @@ TEST_F(RigCommand, GivesBackFourFisheyesAllRoundAndTheirPosesAlone) {
       "extrinsics images --calibration rig --cameras head_1,head_0 --board charuco:7x5:0.06:0.042:DICT_4X4_50 --out "
       "poses");
   ASSERT_EQ(alone.status, 0) << alone.err;
-  EXPECT_THAT(alone.out, HasSubstr("held"));
+  EXPECT_THAT(alone.out, HasSubstr("fixed"));
   const auto poses = read_extrinsics(folder_ / "poses/extrinsics.yaml");
   ASSERT_THAT(poses, SizeIs(2));
   test::expect_same_pose(poses[1].camera.camera_from_reference, truth[1].camera_from_reference.inverse());
@@ -121,7 +121,7 @@ TEST_F(RigCommand, GivesBackFourFisheyesAllRoundAndTheirPosesAlone) {
 
 class CalibrateRefuses : public test::CommandTest {
  protected:
-  /// Six pairs, too few of them with the board: a start for what may be wrong.
+  /// Pairs with too few images of the board, and a calibration of the left camera.
   void few_pairs() const {
     const Board board = parse_board("chessboard:9x6:0.04");
     const auto truth = test::stereo_pair(test::plumb_bob());
@@ -141,18 +141,21 @@ class CalibrateRefuses : public test::CommandTest {
 
 TEST_F(CalibrateRefuses, FoldersWithoutPairs) {
   const std::string rest = " --board chessboard:9x6:0.04 --out out";
-  expect_refusal("stereo nowhere" + rest, AllOf(HasSubstr("nowhere: is no folder"), HasSubstr("name the one")));
+  expect_refusal("stereo nowhere" + rest,
+                 AllOf(HasSubstr("nowhere: is not a folder"), HasSubstr("specify the folder")));
   write("empty/readme.txt", "nothing");
   expect_refusal("stereo empty" + rest, AllOf(HasSubstr("0 left and 0 right"), HasSubstr("left*.png")));
   write("unpaired/left/1.png", "x");
   write("unpaired/right/001.png", "x");
-  expect_refusal("stereo unpaired" + rest, AllOf(HasSubstr("'1.png' and '001.png'"), HasSubstr("alike")));
+  expect_refusal("stereo unpaired" + rest,
+                 AllOf(HasSubstr("'1.png' and '001.png'"), HasSubstr("give simultaneous images")));
   expect_refusal("rig unpaired --cameras left,middle" + rest,
                  AllOf(HasSubstr("unpaired/middle"), HasSubstr("a folder for each camera")));
-  expect_refusal("rig empty" + rest, AllOf(HasSubstr("holds 0 folders"), HasSubstr("two or more")));
+  expect_refusal("rig empty" + rest, AllOf(HasSubstr("found 0 image folders"), HasSubstr("two or more")));
   write("broken/left/1.png", "x");
   write("broken/right/1.png", "x");
-  expect_refusal("stereo broken" + rest, AllOf(HasSubstr("left: none of its files can be read"), HasSubstr("whole?")));
+  expect_refusal("stereo broken" + rest,
+                 AllOf(HasSubstr("left: none of its files can be read"), HasSubstr("complete")));
 }
 
 TEST_F(CalibrateRefuses, TooFewImagesAndBoardsThatAreNotSeen) {
@@ -184,12 +187,13 @@ TEST_F(CalibrateRefuses, ImagesOfDifferentSizesAndCalibrationsForOthers) {
 TEST_F(CalibrateRefuses, CalibrationsThatAreNone) {
   few_pairs();
   const std::string check = "check images --board chessboard:9x6:0.04 --calibration ";
-  expect_refusal(check + "rig", AllOf(HasSubstr("rig/right.yaml: cannot be opened"), HasSubstr("is it there")));
+  expect_refusal(check + "rig",
+                 AllOf(HasSubstr("rig/right.yaml: cannot be opened"), HasSubstr("check that it exists")));
   std::filesystem::copy(folder_ / "rig/left.yaml", folder_ / "rig/right.yaml");
   expect_refusal(check + "rig", AllOf(HasSubstr("rig: baseline is"), HasSubstr("panvo calibrate stereo")));
   write("rig/left.yaml", "- 1\n- 2\n");
   expect_refusal(check + "rig",
-                 AllOf(HasSubstr("rig/left.yaml: holds no `key: value` lines"), HasSubstr("camera_info")));
+                 AllOf(HasSubstr("rig/left.yaml: contains no `key: value` lines"), HasSubstr("camera_info")));
   write("rig/left.yaml", "image_width: [\n");
   expect_refusal(check + "rig", AllOf(HasSubstr("rig/left.yaml:"), HasSubstr("is not YAML")));
   expect_refusal("convert rig/right.yaml --out out",

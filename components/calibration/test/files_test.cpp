@@ -135,7 +135,7 @@ TEST_F(CalibrationFiles, ReadACamchain) {
   EXPECT_EQ(cameras[1].camera.lens.pinhole.fy, 421.0);
   EXPECT_EQ(cameras[2].camera.lens.model, LensModel::kEquidistant);
   EXPECT_EQ(cameras[1].camera.camera_from_reference.translation().x(), -0.11);
-  // cam2 from cam1, of the point that is cam1's -0.11 m along x: its z, and 0.5 m
+  // T_cn_cnm1 of cam2 maps cam1's origin offset of -0.11 m along x to z, plus 0.5 m
   EXPECT_TRUE(
       cameras[2].camera.camera_from_reference.translation().isApprox(Eigen::Vector3d(0.0, 0.0, 0.5 - 0.11), 1e-12));
 }
@@ -163,13 +163,13 @@ TEST_F(CalibrationFiles, RefuseCamchainsWithFileLineKeyAndRemedy) {
               AllOf(HasSubstr("file.yaml:6: intrinsics"), HasSubstr("4 numbers, not 3")));
   EXPECT_THAT(refused(without(kCamchain, "radtan", "fov")), AllOf(HasSubstr("distortion_model"), HasSubstr("'fov'")));
   EXPECT_THAT(refused(without(kCamchain, "[1.0, 0.0, 0.0, -0.11]", "[2.0, 0.0, 0.0, -0.11]")),
-              HasSubstr("file.yaml:10: T_cn_cnm1 is no rotation"));
+              HasSubstr("file.yaml:10: T_cn_cnm1 is not a rigid transform"));
   EXPECT_THAT(refused("cam1: {}\n"), HasSubstr("cam0 is missing"));
   EXPECT_THAT(refused("cam0: 3\n"), HasSubstr("file.yaml:1: cam0"));
 }
 
 TEST_F(CalibrationFiles, TellMountsAsTheDriversTakeThem) {
-  // The second camera 0.2 m to the right of the first, turned left by 90 degrees, then its nose up by 10.
+  // The second camera is 0.2 m to the right of the first, turned left by 90 degrees, then pitched up by 10.
   Eigen::Isometry3d reference_from_camera = Eigen::Isometry3d::Identity();
   reference_from_camera.translation().x() = 0.2;
   reference_from_camera.linear() = (Eigen::AngleAxisd(-90 * test::kDegree, Eigen::Vector3d::UnitY()) *
@@ -203,7 +203,7 @@ TEST_F(CalibrationFiles, KeepExtrinsicsAndRefuseBrokenOnes) {
 
 TEST_F(CalibrationFiles, KnowWhichElevationsAreSeenAllRound) {
   const auto lens =
-      test::lens(LensModel::kEquidistant, 200.0, {0, 0, 0, 0}, 640, 640);  // 90 degrees to each side and a little
+      test::lens(LensModel::kEquidistant, 200.0, {0, 0, 0, 0}, 640, 640);  // slightly more than 90 degrees to each side
   std::vector<NamedCamera> heads;
   for (int i = 0; i < 2; ++i)
     heads.push_back({std::to_string(i), {lens, test::camera_at({0, 0, 0}, {0.0, 180.0 * i, 0.0})}});

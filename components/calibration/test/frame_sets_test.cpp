@@ -17,7 +17,7 @@ TEST(FrameSets, AreOfOneStampInWhateverOrderFramesCome) {
   ASSERT_TRUE(set);
   EXPECT_EQ(set->stamp_ns, 200);
   EXPECT_THAT(set->frames, ElementsAre('b', 'y'));
-  EXPECT_FALSE(sets.push(1, 100, 'z')) << "what is older than a set is gone";
+  EXPECT_FALSE(sets.push(1, 100, 'z')) << "frames older than a set are dropped";
 }
 
 TEST(FrameSets, TakeTheNearestFrameWithinTheTolerance) {

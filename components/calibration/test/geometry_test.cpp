@@ -134,7 +134,7 @@ TEST(RectifiedPair, RefusesCamerasThatAreNoPair) {
     return std::string("rectified");
   };
   const auto rig = test::stereo_pair(test::plumb_bob());
-  EXPECT_THAT(refusal(rig[1], rig[0]), HasSubstr("left and right exchanged"));
+  EXPECT_THAT(refusal(rig[1], rig[0]), HasSubstr("left and right swapped"));
   EXPECT_THAT(refusal(rig[0], {test::lens(LensModel::kPlumbBob, 300.0, {}, 320, 240), rig[1].camera_from_reference}),
               HasSubstr("320 x 240"));
   EXPECT_THAT(refusal(rig[0], {rig[0].lens, test::camera_at({0.0, 0.3, 0.0}, {0, 0, 0})}), HasSubstr("side by side"));
@@ -149,7 +149,7 @@ TEST(EpipolarErrors, AreTheRowsByWhichTheRightImageIsLower) {
   ASSERT_GT(good.corners, 200U);
   EXPECT_LT(good.largest_px, 1e-6);
   auto lower = rig[1].lens;
-  lower.pinhole.cy -= 1.0;  // it believes its corners one pixel lower than they are
+  lower.pinhole.cy -= 1.0;  // places its corners one pixel too low
   const auto bad = summarise(epipolar_errors(observations, rig[0].lens, lower, pair));
   EXPECT_NEAR(bad.mean_px, 1.0, 0.2);
   EXPECT_NEAR(bad.rms_px, bad.mean_px, 0.05);
@@ -165,7 +165,7 @@ TEST(Coverage, CountsCellsThatHoldCorners) {
   EXPECT_NEAR(found.share, 2.0 / 48.0, 1e-12);
 }
 
-/// Points and pixels as OpenCV's calibration takes them.
+/// Points and pixels in the format of OpenCV's calibration.
 struct ForOpenCv {
   std::vector<std::vector<cv::Point3f>> points;
   std::vector<std::vector<cv::Point2f>> pixels;

@@ -11,7 +11,7 @@
 
 namespace panvo::calibration::test {
 
-/// Pictures of a board as a camera takes them: each pixel the mean of what 4 x 4 rays through it meet, then blurred by the lens and noisy.
+/// Renders images of a board: each pixel is the mean of 4 x 4 rays, followed by lens blur and noise.
 class BoardRenderer {
  public:
   BoardRenderer(const Board& board, const vision::LensCamera& lens)
@@ -42,7 +42,7 @@ class BoardRenderer {
   }
 
  private:
-  static constexpr int kCells = 64;  // of the texture, a square's side
+  static constexpr int kCells = 64;  // texture pixels along a square's side
   static constexpr int kSamples = 4;
   static constexpr double kBlur_px = 0.6;
   static constexpr float kBackground = 110.0F;
@@ -72,7 +72,8 @@ class BoardRenderer {
     return sum / (kSamples * kSamples);
   }
 
-  /// `at`: on the board's plane, homogeneous; its third part is positive before the camera.
+  /// Brightness at a homogeneous point `at` of the board plane; its third coordinate is positive in front of the
+  /// camera.
   float meet(const Eigen::Vector3d& at) const {
     if (at.z() <= 0.0) return kBackground;
     const double cells_per_m = kCells / board_.square_m;
@@ -85,7 +86,7 @@ class BoardRenderer {
   Board board_;
   cv::Size size_;
   cv::Mat texture_;
-  std::vector<Eigen::Vector3d> rays_;  ///< through the corners of the pixels; zero where the lens shows nothing
+  std::vector<Eigen::Vector3d> rays_;  ///< through the pixel corners; zero outside the lens model's domain
 };
 
 }  // namespace panvo::calibration::test

@@ -19,7 +19,7 @@ using ::testing::HasSubstr;
 using ::testing::SizeIs;
 using vision::LensModel;
 
-constexpr double kNoise_px = 0.05;  // what a sharp image of a board gives
+constexpr double kNoise_px = 0.05;  // corner noise of a sharp image
 const Board kBoard = parse_board("charuco:10x7:0.04:0.03");
 const Board kChessboard = parse_board("chessboard:9x6:0.04");
 
@@ -30,7 +30,7 @@ RigOptions unknown_lenses(std::size_t count, LensModel model) {
   return options;
 }
 
-/// The largest distance between where two lenses show the same directions, px.
+/// Largest distance between the projections of the same directions by two lenses, px.
 double largest_difference_px(const vision::LensCamera& a, const vision::LensCamera& b) {
   const vision::CameraModel model_a(a), model_b(b);
   double largest = 0.0;
@@ -45,7 +45,7 @@ double largest_difference_px(const vision::LensCamera& a, const vision::LensCame
   return largest;
 }
 
-/// Pixels per radian on the axis: what a focal length is for every lens; Mei's grow with xi.
+/// Pixels per radian on the axis: the effective focal length of any lens model; for Mei fx grows with xi.
 Eigen::Vector2d focal_lengths_px(const vision::LensCamera& lens) {
   return Eigen::Vector2d(lens.pinhole.fx, lens.pinhole.fy) / (1.0 + lens.xi);
 }
@@ -110,7 +110,7 @@ TEST_P(StereoCalibrationOf, KnowsHowFarItMayBeOff) {
   for (std::size_t i = 0; i < 2; ++i) {
     const Eigen::VectorXd off = lens_parameters(found.rig.cameras[i].lens) - lens_parameters(truth[i].lens);
     Eigen::VectorXd in_sigmas = off.cwiseAbs().cwiseQuotient((*found.sigmas)[i].lens);
-    // numerator and denominator of the rational model make up for each other far beyond where a sigma says anything
+    // numerator and denominator of the rational model compensate each other, so their sigmas are not meaningful
     if (GetParam().lens.model == LensModel::kRational) in_sigmas.conservativeResize(4);
     EXPECT_LT(in_sigmas.maxCoeff(), 4.5) << in_sigmas.transpose();
     EXPECT_GT(in_sigmas.maxCoeff(), 0.2) << in_sigmas.transpose();

@@ -12,7 +12,7 @@
 #include "panvo/vision/camera_model.hpp"
 #include "panvo/vision/pose.hpp"
 
-/// Boards held before known cameras.
+/// Simulated boards in front of known cameras.
 namespace panvo::calibration::test {
 
 inline constexpr double kDegree = 3.14159265358979323846 / 180.0;
@@ -32,7 +32,7 @@ inline vision::LensCamera fisheye() {
   return lens(vision::LensModel::kEquidistant, 205.0, {-0.012, 0.006, -0.002, 0.0003});
 }
 
-/// The pose of a camera at `position` (m) in the reference's frame, turned by a rotation vector in degrees.
+/// camera_from_reference of a camera at `position` (m) in the reference frame, rotated by a rotation vector in degrees.
 inline Eigen::Isometry3d camera_at(const Eigen::Vector3d& position, const Eigen::Vector3d& turn_deg) {
   Eigen::Isometry3d reference_from_camera = Eigen::Isometry3d::Identity();
   reference_from_camera.translation() = position;
@@ -48,7 +48,8 @@ inline std::vector<RigCamera> stereo_pair(const vision::LensCamera& lens) {
   return {{lens}, {right, camera_at({0.12, 0.001, -0.002}, {0.4, -0.9, 0.6})}};
 }
 
-/// A board before `camera`: its middle is seen `off_deg` off the axis towards `azimuth`, `distance_m` away, tilted and turned at random.
+/// Pose of a board whose centre is `off_deg` off the camera's axis towards `azimuth_deg`, `distance_m` away, tilted by
+/// `tilt_deg` about a random axis and turned at random.
 inline Eigen::Isometry3d hold_board(const Board& board, const Eigen::Isometry3d& camera_from_reference, double off_deg,
                                     double azimuth_deg, double distance_m, double tilt_deg, std::mt19937& random) {
   std::uniform_real_distribution<double> any(-1.0, 1.0);
@@ -66,7 +67,7 @@ inline Eigen::Isometry3d hold_board(const Board& board, const Eigen::Isometry3d&
   return camera_from_reference.inverse() * camera_from_board;
 }
 
-/// Boards all over the field of view of `cameras`' members in turn, some near, some far.
+/// Boards across the field of view of each camera in turn, at `nearest_m` to twice that distance.
 inline std::vector<Eigen::Isometry3d> hold_boards(const Board& board, const std::vector<RigCamera>& cameras, int count,
                                                   double widest_off_deg, double nearest_m, unsigned seed) {
   std::mt19937 random(seed);
@@ -80,7 +81,8 @@ inline std::vector<Eigen::Isometry3d> hold_boards(const Board& board, const std:
   return poses;
 }
 
-/// What the cameras see, to `noise_px`. A chessboard must be seen whole, of a ChArUco board eight corners do.
+/// Corners seen by the cameras, with noise `noise_px`. A chessboard must be fully visible; a ChArUco board needs eight
+/// visible corners.
 inline Observations observe(const Board& board, const std::vector<RigCamera>& cameras,
                             const std::vector<Eigen::Isometry3d>& reference_from_board, double noise_px,
                             unsigned seed) {

@@ -18,7 +18,7 @@ using ::testing::Not;
 const Board kBoard = parse_board("chessboard:9x6:0.04");
 const cv::Size kImage(640, 480);
 
-/// The board as a camera without distortion sees it, at `middle_m` and turned by a rotation vector.
+/// Corners of the board in a camera without distortion; board centre at `middle_m`, rotated by a rotation vector.
 std::vector<Corner> seen_at(const Eigen::Vector3d& middle_m,
                             const Eigen::Vector3d& turn_deg = Eigen::Vector3d::Zero()) {
   constexpr double kFocal_px = 400.0;
@@ -45,7 +45,7 @@ TEST(BoardLook, IsWhereAndHowLargeTheBoardIs) {
 
 TEST(BoardLook, TellsWhichWayTheBoardIsTiltedHoweverItIsTurnedInTheImage) {
   const double tilted = std::pow(std::sin(30.0 * kDegree), 2) / (1.0 + std::pow(std::cos(30.0 * kDegree), 2));
-  const Eigen::Vector3d far(0.0, 0.0, 20.0);  // so far that there is no perspective
+  const Eigen::Vector3d far(0.0, 0.0, 20.0);  // so far away that perspective is negligible
   EXPECT_LT((look_at(far, {30.0, 0.0, 0.0}).slant - Eigen::Vector2d(tilted, 0.0)).norm(), 1e-3);
   EXPECT_LT((look_at(far, {0.0, 30.0, 0.0}).slant - Eigen::Vector2d(-tilted, 0.0)).norm(), 1e-3);
   EXPECT_NEAR(std::abs(look_at(far, {21.2132, 21.2132, 0.0}).slant.y()), tilted, 1e-2);
@@ -93,22 +93,22 @@ TEST(ViewChoice, KeepsALikeViewThatReachesWhereNoCornerWas) {
   EXPECT_TRUE(choice.offer({seen_at({0.0, 0.01, 0.5})}));
   const auto before = choice.covered(0);
   EXPECT_FALSE(choice.offer({seen_at({0.03, 0.01, 0.5})}));
-  EXPECT_TRUE(choice.offer({seen_at({0.08, 0.01, 0.5})}));  // a tenth of the image away, in another column of cells
+  EXPECT_TRUE(
+      choice.offer({seen_at({0.08, 0.01, 0.5})}));  // shifted by a tenth of the image, into another column of cells
   EXPECT_NEAR(choice.covered(0) - before, 3.0 / 48.0, 1e-9);
   EXPECT_FALSE(choice.offer({seen_at({0.08, 0.01, 0.5})}));
 }
 
 TEST(ViewChoice, SaysWhatIsLackingUntilNothingIs) {
   auto choice = choice_of(1, {.views = 12, .shared = 0});
-  EXPECT_THAT(choice.lacks(0), ElementsAre("the left side", "the right side", "the top", "the bottom",
-                                           "a board tilted more, forwards or back",
-                                           "a board turned more, to the left or right", "12 more views"));
+  EXPECT_THAT(choice.lacks(0),
+              ElementsAre("the left side", "the right side", "the top", "the bottom", "more tilt forwards or back",
+                          "more tilt to the left or right", "12 more views"));
   for (const double x : {-0.5, 0.0, 0.5}) {
     for (const double y : {-0.38, 0.0, 0.38}) choice.offer({seen_at({x, y, 1.0})});
   }
-  EXPECT_THAT(choice.lacks(0),
-              ElementsAre("a board tilted more, forwards or back", "a board turned more, to the left or right",
-                          "a board nearer or farther", "3 more views"));
+  EXPECT_THAT(choice.lacks(0), ElementsAre("more tilt forwards or back", "more tilt to the left or right",
+                                           "a nearer or farther board", "3 more views"));
   choice.offer({seen_at({0.0, 0.0, 1.6})});
   for (const double x : {-0.4, -0.1, 0.2}) {
     EXPECT_FALSE(choice.is_enough());
@@ -123,13 +123,13 @@ TEST(ViewChoice, SaysWhatIsLackingUntilNothingIs) {
 TEST(ViewChoice, AsksForMoreOfTheImageWhereTheSidesAreReached) {
   auto choice = choice_of(1, {.covered = 0.6, .along_sides = 0.25});
   for (const double x : {-0.5, 0.5}) choice.offer({seen_at({x, 0.0, 1.0})});
-  EXPECT_THAT(choice.lacks(0), AllOf(Contains("the top"), Not(Contains("more of its image"))));
+  EXPECT_THAT(choice.lacks(0), AllOf(Contains("the top"), Not(Contains("more of the image"))));
   for (const double y : {-0.38, 0.38}) choice.offer({seen_at({0.0, y, 1.0})});
-  EXPECT_THAT(choice.lacks(0), AllOf(Not(Contains("the top")), Contains("more of its image")));
+  EXPECT_THAT(choice.lacks(0), AllOf(Not(Contains("the top")), Contains("more of the image")));
   for (const double x : {-0.5, 0.5}) {
     for (const double y : {-0.38, 0.38}) choice.offer({seen_at({x, y, 1.0})});
   }
-  EXPECT_THAT(choice.lacks(0), Not(Contains("more of its image")));
+  EXPECT_THAT(choice.lacks(0), Not(Contains("more of the image")));
 }
 
 TEST(ViewChoice, AsksForViewsThatCamerasShare) {
@@ -138,8 +138,8 @@ TEST(ViewChoice, AsksForViewsThatCamerasShare) {
     const auto left = seen_at({0.15 * i - 0.6, 0.1 * (i % 2), 1.0});
     choice.offer({left, i < 4 ? left : std::vector<Corner>()});
   }
-  EXPECT_THAT(choice.lacks(0), ElementsAre("6 more views that another camera shares"));
-  EXPECT_THAT(choice.lacks(1), ElementsAre("6 more views", "6 more views that another camera shares"));
+  EXPECT_THAT(choice.lacks(0), ElementsAre("6 more views shared with another camera"));
+  EXPECT_THAT(choice.lacks(1), ElementsAre("6 more views", "6 more views shared with another camera"));
 }
 
 }  // namespace

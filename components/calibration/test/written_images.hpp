@@ -23,7 +23,7 @@ struct Outcome {
   std::string err;
 };
 
-/// Tests of the command in a folder of their own.
+/// Fixture that runs the command in a temporary folder.
 class CommandTest : public ::testing::Test {
  protected:
   void SetUp() override {
@@ -44,7 +44,7 @@ class CommandTest : public ::testing::Test {
     return text.str();
   }
 
-  /// What each camera sees of the boards, as IMAGES/NAME/000.png; boards that it does not see at all make no file.
+  /// Renders the boards for each camera to IMAGES/NAME/000.png etc.; skips boards outside the camera's view.
   void photograph(const std::string& images, const Board& board, const std::vector<std::string>& names,
                   const std::vector<RigCamera>& cameras,
                   const std::vector<Eigen::Isometry3d>& reference_from_board) const {

@@ -35,18 +35,18 @@ std::size_t reference_of(const Arguments& arguments, const std::vector<std::stri
   if (arguments.reference.empty()) return 0;
   const auto found = std::find(cameras.begin(), cameras.end(), arguments.reference);
   if (found == cameras.end())
-    throw CalibrationError(
-        fmt::format("--reference {}: there is no such camera; name one of the folders, '{}' for example",
-                    arguments.reference, cameras[0]));
+    throw CalibrationError(fmt::format("--reference {}: no such camera; use the name of one of the folders, e.g. '{}'",
+                                       arguments.reference, cameras[0]));
   return static_cast<std::size_t>(found - cameras.begin());
 }
 
-/// Boards whose corners two cameras may count from different ends tell nothing about how one is turned to the other.
+/// The board, which must not be symmetric: two cameras could number its corners from different ends, so that their
+/// relative rotation would be ambiguous.
 Board unmistakable_board(const Arguments& arguments) {
   const Board board = parse_board(arguments.board);
   if (board.is_symmetric())
     throw CalibrationError(fmt::format(
-        "--board {}: looks the same upside down, so that cameras that are turned to each other may count its corners "
+        "--board {}: looks the same upside down, so that cameras with different orientations may number its corners "
         "differently; use one with an even and an odd count (9x6), or a ChArUco board",
         arguments.board));
   return board;
@@ -108,7 +108,7 @@ void calibrate_rig(const Arguments& arguments) {
   const auto elevations = seen_elevations_deg(cameras);
   if (elevations) write_text(arguments.out / "panorama.yaml", panorama_text(cameras, report.reference, *elevations));
   write_report(report, arguments.out);
-  if (!elevations) std::printf("\nno panorama.yaml: the cameras do not see all round\n");
+  if (!elevations) std::printf("\nno panorama.yaml: the cameras do not cover the full horizon\n");
   note_written(arguments.out, elevations ? "NAME.yaml of each camera, extrinsics.yaml, panorama.yaml"
                                          : "NAME.yaml of each camera, extrinsics.yaml");
 }
@@ -117,7 +117,7 @@ void calibrate_extrinsics(const Arguments& arguments) {
   Report report;
   report.board = unmistakable_board(arguments);
   const auto folder = images_of(arguments, report.board, ViewGoals::of_poses());
-  report.title = "Poses of the cameras of " + fs::weakly_canonical(folder).filename().string();
+  report.title = "Camera poses of " + fs::weakly_canonical(folder).filename().string();
   const auto images = find_rig_images(folder, arguments.cameras);
   report.reference = reference_of(arguments, images.cameras);
   report.seen = detect(images, report.board);
@@ -140,26 +140,26 @@ bool check_stereo(const Arguments& arguments) {
   const auto errors = epipolar_errors(observations, infos[0].lens, infos[1].lens, pair);
   const auto summary = summarise(errors);
   if (summary.corners == 0)
-    throw CalibrationError(
-        fmt::format("{}: the board is in no pair seen by both cameras; do the counts of --board agree with it?",
-                    arguments.images.string()));
+    throw CalibrationError(fmt::format("{}: no pair shows the board in both images; check the counts of --board",
+                                       arguments.images.string()));
   std::printf("epipolar residual: rms %.3f px, mean %+.3f px, largest %.2f px, of %zu corners\n", summary.rms_px,
               summary.mean_px, summary.largest_px, summary.corners);
   if (summary.rms_px <= arguments.limit_px) {
-    std::printf("%s still holds (limit %.2f px)\n", arguments.calibration.c_str(), arguments.limit_px);
+    std::printf("%s is still valid (limit %.2f px)\n", arguments.calibration.c_str(), arguments.limit_px);
     return true;
   }
-  std::fprintf(stderr,
-               "panvo calibrate: %s: rows are %.2f px off, more than %.2f px: it is stale or of other cameras; "
-               "calibrate again: panvo calibrate stereo\n",
-               arguments.calibration.c_str(), summary.rms_px, arguments.limit_px);
+  std::fprintf(
+      stderr,
+      "panvo calibrate: %s: rows are %.2f px off (limit %.2f px): the calibration is stale or belongs to other "
+      "cameras; recalibrate: panvo calibrate stereo\n",
+      arguments.calibration.c_str(), summary.rms_px, arguments.limit_px);
   return false;
 }
 
 void draw(const Arguments& arguments) {
   const Board board = parse_board(arguments.board);
   write_text(arguments.out, draw_board(board));
-  std::printf("written: %s. Print it at 100 %%, measure a square, and state its true side in --board\n",
+  std::printf("written: %s. Print it at 100 %%, measure a square, and give the measured side in --board\n",
               arguments.out.c_str());
 }
 

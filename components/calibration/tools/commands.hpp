@@ -10,36 +10,37 @@
 
 namespace panvo::calibration {
 
-/// What the command line says; each command uses its part. All throw CalibrationError.
+/// Parsed command line; each command uses a part of it. All commands throw CalibrationError.
 struct Arguments {
-  std::filesystem::path images;  ///< or the file to convert; empty: taken from `live`
+  std::filesystem::path images;  ///< image folder, or the file to convert; empty: use `live`
   LiveImages live;
   std::string board;
   std::string model = "plumb_bob";
   std::filesystem::path out;
-  std::filesystem::path calibration;  ///< folder of camera_info files: to begin with, to hold, or to check
+  std::filesystem::path calibration;  ///< folder of camera_info files: initial values, fixed lenses, or to be checked
   std::vector<std::string> cameras;
   std::string reference;
   std::vector<double> mount = std::vector<double>(6, 0.0);
   double limit_px = 0.5;
 };
 
-/// left.yaml, right.yaml and the report of a pair.
+/// Calibrates a pair: left.yaml, right.yaml and the report.
 void calibrate_stereo(const Arguments& arguments);
 
-/// Lenses and poses of a rig: NAME.yaml, extrinsics.yaml, panorama.yaml where the heads see all round, and the report.
+/// Calibrates lenses and poses of a rig: NAME.yaml, extrinsics.yaml, panorama.yaml if the cameras cover the full
+/// horizon, and the report.
 void calibrate_rig(const Arguments& arguments);
 
-/// Poses of cameras whose lenses are calibrated: extrinsics.yaml and the report.
+/// Estimates the poses of cameras with calibrated lenses: extrinsics.yaml and the report.
 void calibrate_extrinsics(const Arguments& arguments);
 
-/// Whether rows still agree in a calibrated pair; false: they do not, and it says so.
+/// Checks the row alignment of a calibrated pair and prints the result. Returns false if the calibration is stale.
 bool check_stereo(const Arguments& arguments);
 
-/// Kalibr's camchain to camera_info files, or a folder of those to a camchain.
+/// Converts a Kalibr camchain to camera_info files, or a folder of these to a camchain.
 void convert(const Arguments& arguments);
 
-/// The board as SVG.
+/// Writes the board as SVG.
 void draw(const Arguments& arguments);
 
 }  // namespace panvo::calibration

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// panvo_calibrate: lenses and poses of cameras from images of a board.
+// panvo_calibrate: calibrates lenses and poses of cameras from images of a board.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
@@ -15,7 +15,7 @@ enum ExitStatus { kSuccess = 0, kFailed = 1, kUsage = 2, kStale = 3 };
 void add_board(CLI::App& command, Arguments& arguments) {
   command
       .add_option("--board", arguments.board,
-                  "chessboard:COLUMNSxROWS:SQUARE (corners inside, m), or "
+                  "chessboard:COLUMNSxROWS:SQUARE (inner corners, m), or "
                   "charuco:COLUMNSxROWS:SQUARE:MARKER[:DICTIONARY] (squares, m)")
       ->required();
 }
@@ -25,7 +25,7 @@ void add_images(CLI::App& command, Arguments& arguments, const std::string& what
   add_board(command, arguments);
 }
 
-/// A folder of images, or live topics to take them from.
+/// Adds the alternatives: a folder of images, or live topics.
 void add_sources(CLI::App& command, Arguments& arguments, const std::string& what, const std::string& topics) {
   auto* images = command.add_option("images", arguments.images, what);
   add_board(command, arguments);
@@ -33,25 +33,24 @@ void add_sources(CLI::App& command, Arguments& arguments, const std::string& wha
   auto* option = command
                      .add_option("--topics", live.topics,
                                  topics +
-                                     ": take the images from live topics instead, until the board was seen enough; "
-                                     "they stay in OUT/images")
+                                     ": collect images from live topics until there are enough views; they are kept "
+                                     "in OUT/images")
                      ->delimiter(',')
                      ->excludes(images);
-  command.add_option("--views", live.most_views, "of live topics: so many views at most")
+  command.add_option("--views", live.most_views, "live topics: maximum number of views")
       ->check(CLI::Range(1, 10000))
       ->needs(option)
       ->capture_default_str();
-  command.add_option("--for", live.limit_s, "of live topics: seconds at most")
+  command.add_option("--for", live.limit_s, "live topics: time limit in seconds")
       ->check(CLI::Range(1.0, 86400.0))
       ->needs(option)
       ->capture_default_str();
-  command.add_option("--timeout", live.timeout_s, "of live topics: seconds to wait for publishers, and for images")
+  command.add_option("--timeout", live.timeout_s, "live topics: seconds to wait for publishers and for images")
       ->check(CLI::Range(0.1, 3600.0))
       ->needs(option)
       ->capture_default_str();
   command
-      .add_option("--tolerance-ms", live.tolerance_ms,
-                  "of live topics: largest difference of stamps of images taken at once")
+      .add_option("--tolerance-ms", live.tolerance_ms, "live topics: largest stamp difference of simultaneous images")
       ->check(CLI::Range(0.0, 1e6))
       ->needs(option)
       ->capture_default_str();
@@ -64,7 +63,7 @@ void add_sources(CLI::App& command, Arguments& arguments, const std::string& wha
 void add_model(CLI::App& command, Arguments& arguments) {
   command
       .add_option("--model", arguments.model,
-                  "lens: plumb_bob, rational_polynomial, equidistant (fisheye) or mei (very wide, mirrors)")
+                  "lens model: plumb_bob, rational_polynomial, equidistant (fisheye) or mei (very wide, mirrors)")
       ->check(CLI::IsMember({"plumb_bob", "rational_polynomial", "equidistant", "mei"}))
       ->capture_default_str();
 }
@@ -75,13 +74,13 @@ void add_out(CLI::App& command, Arguments& arguments, const std::string& what) {
 
 void add_reference(CLI::App& command, Arguments& arguments) {
   command.add_option("--reference", arguments.reference,
-                     "camera in whose frame the others are told (default: the first)");
+                     "camera that defines the reference frame (default: the first)");
   command.add_option("--cameras", arguments.cameras, "folders of IMAGES to use: left,right,head_0 (default: all)")
       ->delimiter(',');
   command
       .add_option("--mount", arguments.mount,
-                  "the reference on base_link: x,y,z in m; roll,pitch,yaw in degrees. Then extrinsics.yaml holds the "
-                  "mount of each camera")
+                  "pose of the reference camera on base_link: x,y,z in m; roll,pitch,yaw in degrees. extrinsics.yaml "
+                  "gives the resulting mount of each camera")
       ->delimiter(',')
       ->expected(6);
 }
@@ -89,53 +88,52 @@ void add_reference(CLI::App& command, Arguments& arguments) {
 void describe(CLI::App& app, Arguments& arguments) {
   app.require_subcommand(1);
   auto* stereo =
-      app.add_subcommand("stereo", "both lenses of a pair and its rectification: left.yaml, right.yaml, report.html");
+      app.add_subcommand("stereo", "calibrate and rectify a stereo pair: left.yaml, right.yaml, report.html");
   add_sources(*stereo, arguments,
               "folder of images: left*.png and right*.png, or folders left/ and right/ (or cam0/ and cam1/)",
               "LEFT RIGHT, or left:=LEFT right:=RIGHT");
   add_model(*stereo, arguments);
-  add_out(*stereo, arguments, "folder for the result");
-  stereo->add_option("--start", arguments.calibration, "folder of an earlier left.yaml and right.yaml to begin with");
+  add_out(*stereo, arguments, "output folder");
+  stereo->add_option("--start", arguments.calibration, "folder of left.yaml and right.yaml with initial values");
 
   auto* rig = app.add_subcommand(
       "rig",
-      "lenses and poses of a rig whose neighbours see the board together: NAME.yaml, extrinsics.yaml, panorama.yaml");
-  add_sources(*rig, arguments,
-              "folder with a folder of images for each camera; files of the same name were taken at once",
-              "NAME:=TOPIC of each camera, or TOPIC where NAME stands before /image_raw");
+      "calibrate a rig whose neighbouring cameras see the board together: NAME.yaml, extrinsics.yaml, panorama.yaml");
+  add_sources(*rig, arguments, "folder with an image folder for each camera; files with equal names form a set",
+              "NAME:=TOPIC of each camera, or TOPIC of the form .../NAME/image_raw");
   add_model(*rig, arguments);
-  add_out(*rig, arguments, "folder for the result");
+  add_out(*rig, arguments, "output folder");
   add_reference(*rig, arguments);
 
   auto* extrinsics =
-      app.add_subcommand("extrinsics", "poses of cameras whose lenses are calibrated already: extrinsics.yaml");
-  add_sources(*extrinsics, arguments,
-              "folder with a folder of images for each camera; files of the same name were taken at once",
-              "NAME:=TOPIC of each camera, or TOPIC where NAME stands before /image_raw");
+      app.add_subcommand("extrinsics", "estimate the poses of cameras with calibrated lenses: extrinsics.yaml");
+  add_sources(*extrinsics, arguments, "folder with an image folder for each camera; files with equal names form a set",
+              "NAME:=TOPIC of each camera, or TOPIC of the form .../NAME/image_raw");
   extrinsics
       ->add_option("--calibration", arguments.calibration, "folder with the camera_info file NAME.yaml of each camera")
       ->required();
-  add_out(*extrinsics, arguments, "folder for the result");
+  add_out(*extrinsics, arguments, "output folder");
   add_reference(*extrinsics, arguments);
 
-  auto* check = app.add_subcommand("check", "whether a pair's calibration still holds; exit status 3 if not");
+  auto* check =
+      app.add_subcommand("check", "check whether the calibration of a pair is still valid; exit status 3 if not");
   add_images(*check, arguments, "folder of images, as for stereo");
   check->add_option("--calibration", arguments.calibration, "folder with left.yaml and right.yaml")->required();
-  check->add_option("--limit-px", arguments.limit_px, "largest epipolar residual (rms) that is borne")
+  check->add_option("--limit-px", arguments.limit_px, "largest accepted epipolar residual (rms)")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
 
   auto* convert = app.add_subcommand(
-      "convert", "a camchain YAML of Kalibr's to camera_info files, or a folder of these to a camchain");
+      "convert", "convert a Kalibr camchain YAML to camera_info files, or a folder of these to a camchain");
   convert
       ->add_option("input", arguments.images,
                    "camchain YAML, or folder with left.yaml and right.yaml or extrinsics.yaml")
       ->required();
-  add_out(*convert, arguments, "folder for the result, or the camchain YAML to write");
+  add_out(*convert, arguments, "output folder, or the camchain YAML to write");
 
-  auto* board = app.add_subcommand("board", "the board as SVG in its true size, to print at 100 %");
+  auto* board = app.add_subcommand("board", "write the board as SVG in true size, to print at 100 %");
   add_board(*board, arguments);
-  add_out(*board, arguments, "file to write: board.svg");
+  add_out(*board, arguments, "output file, e.g. board.svg");
 }
 
 int run(const CLI::App& app, const Arguments& arguments) {

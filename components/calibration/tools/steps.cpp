@@ -17,7 +17,7 @@ vision::LensModel model_of(const Arguments& arguments) {
   for (const auto model : {LensModel::kPlumbBob, LensModel::kRational, LensModel::kEquidistant, LensModel::kMei}) {
     if (arguments.model == vision::ros_name(model)) return model;
   }
-  throw CalibrationError("--model " + arguments.model + ": there is no such lens model");
+  throw CalibrationError("--model " + arguments.model + ": unknown lens model");
 }
 
 fs::path images_of(const Arguments& arguments, const Board& board, const ViewGoals& goals,
@@ -34,7 +34,7 @@ fs::path images_of(const Arguments& arguments, const Board& board, const ViewGoa
 Observations detect(const ImageSets& images, const Board& board) {
   const bool is_terminal = isatty(STDERR_FILENO) == 1;
   auto observations = detect_boards(images, board, [&](std::size_t done, std::size_t of) {
-    if (is_terminal) std::fprintf(stderr, "\rlooking for the board: %zu of %zu", done, of);
+    if (is_terminal) std::fprintf(stderr, "\rdetecting the board: %zu of %zu", done, of);
   });
   if (is_terminal) std::fputs("\r\033[K", stderr);
   return observations;
@@ -49,8 +49,8 @@ std::vector<CameraInfo> read_calibrations(const fs::path& folder, const Observat
     const auto& pinhole = infos.back().lens.pinhole;
     if (pinhole.width != size.width || pinhole.height != size.height)
       throw CalibrationError(fmt::format(
-          "{}: image_width and image_height: is a calibration for {} x {} px, but the images of {} are of {} x {} px; "
-          "calibrate at the size that the camera sends",
+          "{}: image_width and image_height: the calibration is for {} x {} px, but the images of {} are {} x {} px; "
+          "calibrate at the size of the camera's images",
           file.string(), pinhole.width, pinhole.height, observations.cameras[i], size.width, size.height));
   }
   return infos;
@@ -60,7 +60,7 @@ void make_folder(const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
   if (error || !fs::is_directory(folder, error))
-    throw CalibrationError(fmt::format("{}: the folder cannot be made; choose another with --out", folder.string()));
+    throw CalibrationError(fmt::format("{}: cannot create the folder; choose another with --out", folder.string()));
 }
 
 std::vector<NamedCamera> named_cameras(const RigCalibration& calibration) {

@@ -11,28 +11,28 @@
 #include "panvo/calibration/report.hpp"
 #include "panvo/calibration/rig_file.hpp"
 
-/// What several commands do.
+/// Steps shared by several commands.
 namespace panvo::calibration {
 
-/// The lens model of --model. Mei's and the others' names are ROS's.
+/// The lens model of --model, which is a ROS distortion model or mei.
 vision::LensModel model_of(const Arguments& arguments);
 
-/// The folder of images: the one that was named, or OUT/images with pictures taken now from live topics.
+/// The image folder: that of the command line, or OUT/images after collecting images from live topics.
 std::filesystem::path images_of(const Arguments& arguments, const Board& board, const ViewGoals& goals,
                                 const std::vector<std::string>& names = {});
 
-/// Looks for the board, saying on stderr how far it is.
+/// Detects the board; reports progress on stderr.
 Observations detect(const ImageSets& images, const Board& board);
 
-/// Camera_info of each camera, FOLDER/NAME.yaml, of the size of its images.
+/// Reads FOLDER/NAME.yaml of each camera. Throws CalibrationError if its size differs from that of the images.
 std::vector<CameraInfo> read_calibrations(const std::filesystem::path& folder, const Observations& observations);
 
-/// Makes the folder of --out.
+/// Creates the folder of --out.
 void make_folder(const std::filesystem::path& folder);
 
 std::vector<NamedCamera> named_cameras(const RigCalibration& calibration);
 
-/// report.html, coverage_NAME.svg and residuals_NAME.svg, and the text on stdout.
+/// Writes report.html, coverage_NAME.svg and residuals_NAME.svg, and prints the text report.
 void write_report(const Report& report, const std::filesystem::path& folder);
 
 }  // namespace panvo::calibration

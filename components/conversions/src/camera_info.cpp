@@ -34,7 +34,7 @@ bool PairedCamera::operator==(const PairedCamera& other) const {
 }
 
 bool is_rectified(const PairedCamera& camera) {
-  constexpr double kTolerance = 1e-9;  // far below what moves a pixel
+  constexpr double kTolerance = 1e-9;  // far below a visible shift
   const auto& raw = camera.raw.pinhole;
   const auto& rectified = camera.rectified;
   const double difference_px = std::max({std::abs(raw.fx - rectified.fx), std::abs(raw.fy - rectified.fy),
@@ -74,15 +74,16 @@ Result<PairedCamera> to_camera(const sensor_msgs::msg::CameraInfo& info) {
   const auto& p = info.p();
   if (k[0] == 0.0) return Reason{"is not calibrated (K is zero); calibrate the camera"};
   if (p[0] == 0.0 || info.r()[8] == 0.0)
-    return Reason{"is calibrated alone (R or P is zero); calibrate both cameras as a stereo pair"};
+    return Reason{"is calibrated as a single camera (R or P is zero); calibrate both cameras as a stereo pair"};
   if (!all_finite(k) || !all_finite(info.r()) || !all_finite(p))
     return Reason{"holds a value in K, R or P that is not a number"};
   if (info.binning_x() > 1 || info.binning_y() > 1 || info.roi().x_offset() != 0 || info.roi().y_offset() != 0) {
-    return Reason{"states binning or a region of interest, which is not supported; calibrate at the size that is sent"};
+    return Reason{
+        "sets binning or a region of interest, which is not supported; calibrate at the published image size"};
   }
   const Eigen::Matrix3d rotation = Eigen::Map<const RowMajor3d>(info.r().data());
   if ((rotation * rotation.transpose() - Eigen::Matrix3d::Identity()).norm() > 1e-3 || rotation.determinant() < 0.0) {
-    return Reason{"has an R that is no rotation; calibrate again"};
+    return Reason{"has an R that is not a rotation matrix; calibrate again"};
   }
   const int width = static_cast<int>(info.width());
   const int height = static_cast<int>(info.height());

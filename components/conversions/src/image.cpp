@@ -16,12 +16,12 @@ namespace {
 
 constexpr int kIsGrey = -1;
 constexpr double kFrom16Bit =
-    255.0 / 65535.0;  // white stays white: what cameras, decoders and all who read panoramas agree on
+    255.0 / 65535.0;  // white stays white; cameras, decoders and all panorama subscribers use this scale
 
 struct Encoding {
   std::string_view name;
-  int type;     ///< OpenCV's
-  int to_grey;  ///< OpenCV's conversion code
+  int type;     ///< OpenCV type
+  int to_grey;  ///< OpenCV conversion code
 };
 
 constexpr std::array kEncodings{Encoding{"mono8", CV_8UC1, kIsGrey},
@@ -46,14 +46,14 @@ const Encoding* find(std::string_view name) {
 Result<cv::Mat> view(const sensor_msgs::msg::Image& image) {
   const auto* encoding = find(image.encoding());
   if (encoding == nullptr) {
-    return Reason{
-        fmt::format("has the encoding '{}'; mono8, mono16, rgb8, bgr8, rgba8 and bgra8 are read: set the camera driver "
-                    "to one of them",
-                    image.encoding())};
+    return Reason{fmt::format(
+        "has encoding '{}'; supported are mono8, mono16, rgb8, bgr8, rgba8 and bgra8: set the camera driver "
+        "to one of them",
+        image.encoding())};
   }
   constexpr std::uint32_t kLargest = 1U << 16;
   if (image.width() == 0 || image.height() == 0 || image.width() > kLargest || image.height() > kLargest) {
-    return Reason{fmt::format("is of {} x {} px, which is no image", image.width(), image.height())};
+    return Reason{fmt::format("has an invalid size of {} x {} px", image.width(), image.height())};
   }
   const auto pixel_bytes = static_cast<std::size_t>(CV_ELEM_SIZE(encoding->type));
   const std::size_t row_bytes = image.width() * pixel_bytes;
@@ -70,7 +70,7 @@ Result<cv::Mat> view(const sensor_msgs::msg::Image& image) {
   if (pixel_bytes == 2 && (image.is_bigendian() != 0) != (std::endian::native == std::endian::big)) {
     return Reason{"has 16-bit pixels in the byte order of another machine; send mono8 instead"};
   }
-  // cv::Mat knows no constant pixels; that nobody writes is part of the contract.
+  // cv::Mat has no constant pixels; callers must not write, see view().
   auto* data = const_cast<std::uint8_t*>(image.data().data());
   return cv::Mat(static_cast<int>(image.height()), static_cast<int>(image.width()), encoding->type, data, step);
 }
@@ -103,9 +103,9 @@ Result<cv::Mat> grey_or_bgr(const sensor_msgs::msg::Image& image) {
 std::shared_ptr<sensor_msgs::msg::Image> make_image(std::int64_t stamp_ns, const std::string& frame_id,
                                                     const std::string& encoding_name, int width, int height) {
   const auto* encoding = find(encoding_name);
-  if (encoding == nullptr) throw std::invalid_argument("no image can be made in the encoding '" + encoding_name + "'");
+  if (encoding == nullptr) throw std::invalid_argument("unsupported image encoding '" + encoding_name + "'");
   if (width <= 0 || height <= 0)
-    throw std::invalid_argument(fmt::format("no image can be made of {} x {} px", width, height));
+    throw std::invalid_argument(fmt::format("invalid image size: {} x {} px", width, height));
   auto image = std::make_shared<sensor_msgs::msg::Image>();
   image->header().stamp(to_stamp(stamp_ns));
   image->header().frame_id(frame_id);

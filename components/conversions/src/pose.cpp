@@ -10,7 +10,7 @@ namespace {
 
 using RowMajor6d = Eigen::Matrix<double, 6, 6, Eigen::RowMajor>;
 
-/// Of the two quaternions of a rotation that with w >= 0, so that equal rotations give equal messages.
+/// The quaternion with w >= 0 of the two of a rotation, so that equal rotations give equal messages.
 geometry_msgs::msg::Quaternion to_quaternion(const Eigen::Matrix3d& rotation) {
   Eigen::Quaterniond q(rotation);
   q.normalize();

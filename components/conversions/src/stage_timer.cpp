@@ -9,7 +9,7 @@ void StageTimer::enter(std::string_view stage) {
 }
 
 void StageTimer::leave() {
-  std::unique_ptr<runtime::StageTimer> innermost;  // its destruction measures, outside of the lock
+  std::unique_ptr<runtime::StageTimer> innermost;  // its destructor records the time, outside the lock
   const std::lock_guard lock(mutex_);
   const auto stages = open_.find(std::this_thread::get_id());
   if (stages == open_.end() || stages->second.empty()) return;

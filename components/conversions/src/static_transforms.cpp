@@ -7,7 +7,7 @@
 namespace panvo::conversions {
 namespace {
 
-/// tf2 knows no leading slash; older publishers still write it.
+/// Removes the leading slash of older publishers, which tf2 does not use.
 std::string plain(const std::string& frame) { return frame.starts_with('/') ? frame.substr(1) : frame; }
 
 }  // namespace
@@ -31,9 +31,9 @@ std::vector<std::string> StaticTransforms::add(const tf2_msgs::msg::TFMessage& m
     const auto subject = "the static transform '" + parent + "' -> '" + child + "' ";
     const auto parent_from_child = to_isometry(transform.transform());
     if (parent.empty() || child.empty() || parent == child) {
-      problems.push_back(subject + "does not name two frames and is left out");
+      problems.push_back(subject + "does not name two different frames and is ignored");
     } else if (!parent_from_child) {
-      problems.push_back(subject + parent_from_child.reason() + " and is left out");
+      problems.push_back(subject + parent_from_child.reason() + " and is ignored");
     } else {
       by_child_[child] = {parent, *parent_from_child};
     }
@@ -53,7 +53,7 @@ std::optional<Eigen::Isometry3d> StaticTransforms::lookup(const std::string& tar
 
 std::vector<StaticTransforms::Link> StaticTransforms::ancestors(const std::string& frame) const {
   std::vector<Link> links{{frame}};
-  // No chain is longer than all edges: a loop of parents ends here.
+  // A chain has at most all edges; this also terminates loops.
   while (links.size() <= by_child_.size()) {
     const auto edge = by_child_.find(links.back().frame);
     if (edge == by_child_.end()) break;

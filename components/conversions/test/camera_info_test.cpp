@@ -63,7 +63,7 @@ TEST(CameraInfo, SaysWhyItCannotBeUsed) {
   EXPECT_THAT(reason([](auto& i) { i.k({}); }), AllOf(HasSubstr("not calibrated"), HasSubstr("calibrate")));
   EXPECT_THAT(reason([](auto& i) { i.p({}); }), HasSubstr("as a stereo pair"));
   EXPECT_THAT(reason([](auto& i) { i.r({}); }), HasSubstr("as a stereo pair"));
-  EXPECT_THAT(reason([](auto& i) { i.r({2, 0, 0, 0, 1, 0, 0, 0, 1}); }), HasSubstr("no rotation"));
+  EXPECT_THAT(reason([](auto& i) { i.r({2, 0, 0, 0, 1, 0, 0, 0, 1}); }), HasSubstr("not a rotation"));
   EXPECT_THAT(reason([](auto& i) { i.k()[2] = kNan; }), HasSubstr("not a number"));
   EXPECT_THAT(reason([](auto& i) { i.d()[1] = kNan; }), HasSubstr("not a number"));
   EXPECT_THAT(reason([](auto& i) {
@@ -107,7 +107,7 @@ TEST(CameraPair, NeedsABaselineAndOneRectifiedCamera) {
   const auto left = left_camera(pair, rectified);
   EXPECT_THAT(to_stereo(left, left).reason(), HasSubstr("baseline"));
   auto right = right_camera(pair, rectified);
-  EXPECT_THAT(to_stereo(right, left).reason(), HasSubstr("exchanged"));
+  EXPECT_THAT(to_stereo(right, left).reason(), HasSubstr("swapped"));
   right.rectified.fx += 1.0;
   EXPECT_THAT(to_stereo(left, right).reason(), HasSubstr("stereo pair"));
 }
@@ -124,7 +124,7 @@ TEST(RectifiedCamera, HasNothingToCorrect) {
   EXPECT_FALSE(is_rectified(camera));
   camera = right_camera(pair, rectified);
   camera.raw.model = vision::LensModel::kEquidistant;
-  EXPECT_FALSE(is_rectified(camera)) << "a fisheye is bent without distortion, too";
+  EXPECT_FALSE(is_rectified(camera)) << "a fisheye is not perspective even without distortion";
   camera = right_camera(pair, rectified);
   camera.rectified.cx += 0.1;
   EXPECT_FALSE(is_rectified(camera));

@@ -43,7 +43,7 @@ TEST(ImageView, SaysWhyThereIsNone) {
   EXPECT_THAT(reason([](auto& i) { i.encoding("bayer_rggb8"); }),
               AllOf(HasSubstr("'bayer_rggb8'"), HasSubstr("mono8")));
   EXPECT_THAT(reason([](auto& i) { i.width(0); }), HasSubstr("0 x 3 px"));
-  EXPECT_THAT(reason([](auto& i) { i.width(0x7fffffff); }), HasSubstr("no image"));
+  EXPECT_THAT(reason([](auto& i) { i.width(0x7fffffff); }), HasSubstr("invalid size"));
   EXPECT_THAT(reason([](auto& i) { i.step(11); }), AllOf(HasSubstr("step of 11"), HasSubstr("need 12")));
   EXPECT_THAT(reason([](auto& i) { i.data().pop_back(); }), AllOf(HasSubstr("holds 35 bytes"), HasSubstr("need 36")));
   EXPECT_THAT(reason([](auto& i) { i.data().clear(); }), HasSubstr("holds 0 bytes"));

@@ -75,7 +75,8 @@ TEST(StaticTransforms, TellWhatTheyLeaveOut) {
   auto zero = message("base_link", "left", transform(1.0, 0.0));
   zero.transforms()[0].transform().rotation().w(0.0);
   EXPECT_THAT(transforms.add(zero), ElementsAre(HasSubstr("'base_link' -> 'left' has a rotation quaternion")));
-  EXPECT_THAT(transforms.add(message("left", "left", transform(1.0, 0.0))), ElementsAre(HasSubstr("two frames")));
+  EXPECT_THAT(transforms.add(message("left", "left", transform(1.0, 0.0))),
+              ElementsAre(HasSubstr("two different frames")));
   EXPECT_FALSE(transforms.lookup("base_link", "left"));
   EXPECT_THAT(transforms.add(message("base_link", "left", transform(1.0, 0.0))), IsEmpty());
 }

@@ -6,11 +6,11 @@
 namespace panvo::evaluation {
 namespace {
 
-// A path within this of its own centre is one place: its direction is noise.
+// A path with a smaller extent has no meaningful direction.
 constexpr double kSmallestExtentM = 1e-6;
 
 double extent_m(const Eigen::Matrix3Xd& points) {
-  const Eigen::Vector3d centre = points.rowwise().mean();  // evaluated once, not once a column
+  const Eigen::Vector3d centre = points.rowwise().mean();  // evaluated once, not per column
   return (points.colwise() - centre).colwise().norm().maxCoeff();
 }
 
@@ -44,7 +44,7 @@ std::string_view to_string(Alignment alignment) {
     case Alignment::kSim3:
       return "sim3";
   }
-  throw std::logic_error("an alignment outside its enumeration");
+  throw std::logic_error("invalid alignment");
 }
 
 Eigen::Isometry3d MapFromOdom::operator*(const Eigen::Isometry3d& odom_from_base) const {

@@ -18,7 +18,7 @@ struct Match {
   std::int64_t difference_ns = 0;
 };
 
-// Last pose not after the stamp and first pose after it; either may be past the end.
+// The last pose not after the stamp and the first pose after it; nullptr if there is none.
 struct Neighbours {
   const StampedPose* before = nullptr;
   const StampedPose* after = nullptr;
@@ -84,7 +84,7 @@ Association associate(const Trajectory& estimate, const Trajectory& ground_truth
   if (result.pairs.size() < kFewestPairs) {
     throw InputError(estimate.source,
                      "only " + std::to_string(result.pairs.size()) + " of its " +
-                         std::to_string(estimate.poses.size()) + " poses meet the ground truth in time (it runs " +
+                         std::to_string(estimate.poses.size()) + " poses overlap the ground truth in time (it covers " +
                          span_of(estimate) + ", " + ground_truth.source.string() + " " + span_of(ground_truth) + ")",
                      "check that both belong to the same recording and use the same clock");
   }

@@ -11,7 +11,7 @@
 namespace panvo::evaluation {
 namespace {
 
-/// Close to Gaussian, and the same everywhere: the sum of twelve equal distributions, mean 0, variance 1.
+/// Approximately Gaussian with mean 0 and variance 1: a sum of twelve uniform samples, identical on every platform.
 double gaussian(std::mt19937_64& random) {
   double sum = -6.0;
   for (int i = 0; i < 12; ++i) sum += static_cast<double>(random() >> 11) * 0x1p-53;

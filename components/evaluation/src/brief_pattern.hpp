@@ -8,19 +8,18 @@
 
 namespace panvo::evaluation {
 
-/// BRIEF of a square patch: 256 comparisons of two smoothed pixels each, drawn about the centre from an isotropic Gaussian of
-/// variance S^2/25 (Calonder et al. 2010).
+/// BRIEF of a square patch: 256 comparisons of two smoothed pixels each, sampled around the centre from an isotropic Gaussian
+/// of variance S^2/25 (Calonder et al. 2010).
 class BriefPattern {
  public:
   static constexpr int kPatch_px = 60;  ///< S
   static constexpr int kBits = 256;
   using Bits = std::array<std::uint64_t, kBits / 64>;
 
-  /// The same comparisons from the same seed on every machine.
+  /// The comparisons depend only on the seed, not on the machine.
   explicit BriefPattern(std::uint64_t seed);
 
-  /// Of the patch whose left column is `left`, over all rows of a smoothed image of kPatch_px rows (CV_8UC1); columns beyond the
-  /// right border go on at the left.
+  /// Describes the patch that starts at column `left` of a smoothed image with kPatch_px rows (CV_8UC1); columns wrap around.
   Bits describe(const cv::Mat& smoothed, int left) const;
 
  private:
@@ -30,13 +29,13 @@ class BriefPattern {
   std::vector<Comparison> comparisons_;
 };
 
-/// Bits that differ.
+/// Number of differing bits.
 int hamming_distance(const BriefPattern::Bits& a, const BriefPattern::Bits& b);
 
-/// The band of a panorama (CV_8UC1, 1080x540) that all methods look at, from 35 degrees above the horizon to 15 below.
+/// The band of a panorama (CV_8UC1, 1080x540) used by all methods, from 35 degrees above the horizon to 15 below.
 cv::Mat described_band(const cv::Mat& panorama);
 
-/// That band, scaled to kPatch_px rows and `columns`, smoothed as BRIEF needs it, across the seam.
+/// The band scaled to kPatch_px rows and `columns` columns, smoothed for BRIEF, also across the seam.
 cv::Mat smoothed_band(const cv::Mat& panorama, int columns);
 
 }  // namespace panvo::evaluation

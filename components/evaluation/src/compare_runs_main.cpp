@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// panvo_compare_runs: whether a run gives what an earlier one gave.
+// panvo_compare_runs: compares the results of two runs.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
@@ -31,15 +31,15 @@ int print(const std::vector<panvo::evaluation::FileComparison>& comparisons) {
 
 int main(int argc, char** argv) {
   CLI::App app{
-      "Compares what a run left with what an earlier run left. Exit status 0: as expected, 1: not, 2: cannot be "
+      "Compares the results of a run with those of an earlier one. Exit status 0: equal, 1: different, 2: cannot be "
       "compared."};
   std::string run, expected;
   panvo::evaluation::RunTolerance tolerance;
   app.add_option("run", run, "folder of the run")->required();
   app.add_option("expected", expected, "folder of the earlier run")->required();
-  app.add_option("--within-m", tolerance.position_m, "how far a pose may be off, m (default: bit for bit)")
+  app.add_option("--within-m", tolerance.position_m, "position tolerance, m (default: bit-identical)")
       ->check(CLI::NonNegativeNumber);
-  app.add_option("--within-deg", tolerance.rotation_deg, "and by what angle, degrees")->check(CLI::NonNegativeNumber);
+  app.add_option("--within-deg", tolerance.rotation_deg, "orientation tolerance, degrees")->check(CLI::NonNegativeNumber);
   try {
     app.parse(argc, argv);
     return print(panvo::evaluation::compare_runs(run, expected, tolerance));

@@ -41,7 +41,7 @@ Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& v) {
   return matrix;
 }
 
-// Carries a small error (translation, rotation vector) at the start of the motion D to its end: D^-1 exp(e) D.
+// Transforms a small error (translation, rotation vector) from the start of the motion D to its end: D^-1 exp(e) D.
 Matrix6d adjoint_of_inverse(const Eigen::Isometry3d& motion) {
   const Eigen::Matrix3d end_from_start = motion.linear().transpose();
   Matrix6d adjoint = Matrix6d::Zero();
@@ -57,7 +57,7 @@ std::optional<Matrix6d> motion_covariance(std::span<const PosePair> pairs, std::
   Matrix6d sum = truth_noise;
   for (std::size_t i = first + 1; i <= last; ++i) {
     const auto line = covariances.find(pairs[i].stamp_ns);
-    // The twist speaks of the motion since the estimate's own pose before, so that one must be among the pairs.
+    // The twist covers the motion since the estimate's previous pose, so that pose must be among the pairs.
     if (line == covariances.end() || pairs[i].estimate_index != pairs[i - 1].estimate_index + 1) return std::nullopt;
     const Matrix6d& twist = line->second.twist;
     if (twist.llt().info() != Eigen::Success) return std::nullopt;
@@ -77,7 +77,7 @@ Vector6d motion_error(const PosePair& from, const PosePair& to) {
   return result;
 }
 
-// In the axes of odom, as nav_msgs/Odometry has its pose covariance.
+// In the axes of odom, like the pose covariance of nav_msgs/Odometry.
 Vector6d accumulated_error(const Eigen::Isometry3d& odom_from_map, const PosePair& pair) {
   const Eigen::Isometry3d truth = odom_from_map * pair.map_from_base;
   Vector6d result;
@@ -113,7 +113,7 @@ MotionCovariances read_motion_covariances(const std::filesystem::path& file) {
     const Fields fields(file, line, ',');
     fields.expect(kColumns, false, "stamp_ns, p00..p55, t00..t55, vx,vy,vz,wx,wy,wz");
     if (!covariances.emplace(fields.integer(0), MotionCovariance{matrix_at(fields, 1), matrix_at(fields, 37)}).second) {
-      fields.fail("the stamp " + std::to_string(fields.integer(0)) + " was there before", "remove repeated lines");
+      fields.fail("duplicate stamp " + std::to_string(fields.integer(0)), "remove repeated lines");
     }
   }
   return covariances;

@@ -12,8 +12,8 @@
 namespace panvo::evaluation {
 namespace {
 
-constexpr const char* kStopped = "the run was stopped while it wrote: remove the line, or run again";
-constexpr double kRotationTolerance = 1e-3;  // what rounding of digits may do to the length of a quaternion
+constexpr const char* kStopped = "the run was stopped while writing: remove the line, or run again";
+constexpr double kRotationTolerance = 1e-3;  // of the norm of a quaternion, for rounded digits
 
 std::vector<std::string> split(const std::string& line) {
   std::vector<std::string> fields(1);
@@ -31,7 +31,7 @@ std::vector<std::string> split(const std::string& line) {
       fields.back() += c;
     }
   }
-  if (quoted) fields.clear();  // a quote that is opened and not closed: the rest of the line is missing
+  if (quoted) fields.clear();  // unclosed quote: the line is truncated
   return fields;
 }
 
@@ -81,7 +81,7 @@ bool CsvRow::flag(std::size_t column) const {
 
 Eigen::Isometry3d CsvRow::pose(std::size_t first) const {
   const Eigen::Quaterniond turn(number(first + 6), number(first + 3), number(first + 4), number(first + 5));
-  if (std::abs(turn.norm() - 1.0) > kRotationTolerance) fail("has a quaternion whose length is not 1", kStopped);
+  if (std::abs(turn.norm() - 1.0) > kRotationTolerance) fail("has a quaternion whose norm is not 1", kStopped);
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
   pose.linear() = turn.normalized().toRotationMatrix();
   pose.translation() = Eigen::Vector3d(number(first), number(first + 1), number(first + 2));
@@ -96,7 +96,7 @@ std::vector<CsvRow> read_csv(const std::filesystem::path& file, const std::vecto
   std::istringstream text(read_text(file));
   std::string line;
   if (!std::getline(text, line) || line.empty()) {
-    throw InputError(file, "is empty", "the run did not come to its end: run again");
+    throw InputError(file, "is empty", "the run is incomplete: run again");
   }
   const auto header = split(line);
   const auto places = places_of(columns, header, file);

@@ -11,8 +11,8 @@
 
 namespace panvo::evaluation {
 
-/// A line of a comma-separated file with the columns that were asked for, in the order they were asked for. Every reader throws
-/// InputError (file, line, what to do) for a field that is none.
+/// A line of a CSV file with the requested columns in the requested order. Each reader throws InputError (file, line, remedy) for
+/// an invalid field.
 class CsvRow {
  public:
   CsvRow(std::filesystem::path file, std::size_t line, std::vector<std::string> fields)
@@ -23,7 +23,7 @@ class CsvRow {
   double number(std::size_t column) const;                          ///< finite
   std::optional<double> optional_number(std::size_t column) const;  ///< nullopt for an empty field
   bool flag(std::size_t column) const;                              ///< 0 or 1
-  /// x y z qx qy qz qw from `first` on.
+  /// Pose in the seven columns x y z qx qy qz qw that start at `first`.
   Eigen::Isometry3d pose(std::size_t first) const;
   [[noreturn]] void fail(const std::string& problem, const std::string& remedy) const;
 
@@ -33,11 +33,11 @@ class CsvRow {
   std::vector<std::string> fields_;
 };
 
-/// The rows below the header; none is no error. Fields may stand in quotes. Throws InputError for a file that is missing or
-/// has not even a header, a header without one of `columns`, and a line with fewer or more fields than the header.
+/// Reads the rows below the header, of which there may be none. Fields may be quoted. Throws InputError for a missing file, a
+/// missing header, a header without one of `columns`, and a line whose number of fields differs from the header's.
 std::vector<CsvRow> read_csv(const std::filesystem::path& file, const std::vector<std::string>& columns);
 
-/// "prefixx", "prefixy" .. "prefixqw", as CsvRow::pose wants them.
+/// Appends "prefixx", "prefixy" .. "prefixqw", the columns that CsvRow::pose expects.
 std::vector<std::string> with_pose(std::vector<std::string> columns, const std::string& prefix);
 
 }  // namespace panvo::evaluation

@@ -18,7 +18,7 @@ struct Ring final : PlaceDescriptor {
   std::array<BriefPattern::Bits, kTiles> bits;
 };
 
-/// Where a parabola through three values one step apart has its minimum, in steps from the middle one.
+/// Minimum of the parabola through three values one step apart, in steps from the middle one.
 double lowest_of_parabola(int before, int at, int after) {
   const int curvature = before - 2 * at + after;
   return curvature > 0 ? 0.5 * (before - after) / curvature : 0.0;
@@ -44,7 +44,7 @@ class CyclicBriefGist final : public PlaceMethod {
     const auto& known = static_cast<const Ring&>(landmark).bits;
     std::array<int, kTiles> different{};
     for (std::size_t shift = 0; shift < kTiles; ++shift) {
-      // A vehicle turned to the left sees the scene moved to the right: tile i is now tile i + shift.
+      // A left turn of the vehicle moves the scene right: tile i becomes tile i + shift.
       for (std::size_t i = 0; i < kTiles; ++i) {
         different[shift] += hamming_distance(seen[(i + shift) % kTiles], known[i]);
       }

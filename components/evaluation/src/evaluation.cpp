@@ -8,7 +8,7 @@
 namespace panvo::evaluation {
 namespace {
 
-// On a shorter path, "percent of the path" says nothing.
+// For shorter paths, errors in percent of the path length are meaningless.
 constexpr double kShortestPathM = 1e-3;
 
 std::optional<std::vector<PoseError>> aligned_errors(std::span<const PosePair> pairs, Alignment alignment) {
@@ -74,7 +74,7 @@ Evaluation evaluate(const Estimate& estimate, const Trajectory& ground_truth, co
   if (!errors) {
     throw InputError(estimate.trajectory.source,
                      "cannot be aligned by " + std::string(to_string(options.alignment)) +
-                         ", as it or the ground truth stays in one place",
+                         ", because it or the ground truth does not move",
                      "use --align start");
   }
   evaluation.errors = std::move(*errors);

@@ -14,11 +14,11 @@ namespace panvo::evaluation {
 namespace {
 
 constexpr std::size_t kRows = 15, kHarmonics = 15;
-constexpr int kColumns = 360;  // a degree each: sixteen times the highest harmonic kept
+constexpr int kColumns = 360;  // one degree each
 constexpr double kTurn_rad = 2.0 * std::numbers::pi;
 
 struct Signature final : PlaceDescriptor {
-  std::array<std::array<std::complex<double>, kHarmonics>, kRows> harmonics{};  // [row][k - 1], of the sum over columns
+  std::array<std::array<std::complex<double>, kHarmonics>, kRows> harmonics{};  // [row][k - 1]
 };
 
 /// e^(-2 pi i n / columns).
@@ -28,7 +28,7 @@ std::array<std::complex<double>, kColumns> unit_roots() {
   return roots;
 }
 
-/// How well the phases agree when the query is turned back by an angle: the correlation of the two bands.
+/// Phase agreement with the query rotated back by `heading_rad`: the correlation of the two bands.
 double agreement(const std::array<std::complex<double>, kHarmonics>& products, double heading_rad) {
   double sum = 0.0;
   for (std::size_t k = 1; k <= kHarmonics; ++k) {
@@ -51,7 +51,7 @@ class FourierSignature final : public PlaceMethod {
     for (std::size_t row = 0; row < kRows; ++row) {
       const auto* values = rows.ptr<std::uint8_t>(static_cast<int>(row));
       for (std::size_t k = 1; k <= kHarmonics; ++k) {
-        std::complex<double> sum = 0.0;  // the mean has no part in a harmonic
+        std::complex<double> sum = 0.0;  // the mean does not contribute to a harmonic
         for (std::size_t x = 0; x < kColumns; ++x) sum += static_cast<double>(values[x]) * roots_[k * x % kColumns];
         signature->harmonics[row][k - 1] = scale / kColumns * sum;
       }
@@ -77,7 +77,7 @@ class FourierSignature final : public PlaceMethod {
 
  private:
   static double best_heading(const std::array<std::complex<double>, kHarmonics>& products) {
-    // A scene moved to the right by a, as after a turn to the left, has harmonic k times e^(-i k a).
+    // A left turn by a moves the scene right by a, which multiplies harmonic k by e^(-i k a).
     constexpr double kStep_rad = kTurn_rad / 360.0;
     double best = 0.0, most = agreement(products, 0.0);
     for (int i = 1; i < 360; ++i) {

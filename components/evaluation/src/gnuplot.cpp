@@ -16,9 +16,9 @@
 namespace panvo::evaluation {
 namespace {
 
-constexpr const char* kRemedy = "install it with `apt-get install gnuplot-nox`, or give --no-plot";
+constexpr const char* kRemedy = "install it with `apt-get install gnuplot-nox`, or use --no-plot";
 
-// What the child wrote to the pipe until it closed it.
+// Reads everything that the child writes to the pipe until it closes it.
 std::string read_all(int descriptor) {
   std::string text;
   std::array<char, 4096> buffer;
@@ -41,7 +41,7 @@ int wait_for(pid_t child) {
 }  // namespace
 
 std::string gnuplot_quoted(const std::string& text) {
-  // Doubling a quote would be the documented way, but at the start of a string gnuplot 5.4 takes it for the end.
+  // Doubling the quote is documented, but at the start of a string gnuplot 5.4 treats it as the end of the string.
   constexpr const char* kApostrophe = "\u2019";
   std::string quoted = "'";
   for (const char c : text) {
@@ -78,14 +78,14 @@ void run_gnuplot(const std::filesystem::path& folder, const std::string& script)
   if (error != 0 && error != ENOENT) {
     throw PlotError(std::string("cannot start gnuplot: ") + std::strerror(error) + "; " + kRemedy);
   }
-  // POSIX leaves it open whether a program that is not there fails the call or makes the child exit with 127.
+  // POSIX allows both for a missing program: the call fails, or the child exits with 127.
   const int status = error == 0 ? wait_for(child) : 0;
   if (error == ENOENT || (WIFEXITED(status) && WEXITSTATUS(status) == 127)) {
     throw PlotError(std::string("gnuplot is not installed; ") + kRemedy);
   }
   if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) {
     throw PlotError("gnuplot failed on " + (folder / script).string() + ": " + said +
-                    "; run gnuplot on that file to see more, or give --no-plot");
+                    "; run gnuplot on that file for details, or use --no-plot");
   }
 }
 

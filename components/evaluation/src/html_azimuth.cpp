@@ -35,7 +35,7 @@ std::string diagram(const AzimuthCurve& curve, double AzimuthCurve::Point::*memb
   const double margin = std::max(0.06 * y.size(), 0.1);
   SvgChart chart(1060.0, 260.0, {46.0, 24.0, 1048.0, 218.0}, x, {y.low - margin, y.high + margin}, label);
   chart.band(0.0, end_s, "episode", "the episode");
-  chart.grid("time from its beginning (s)", label);
+  chart.grid("time since its start (s)", label);
   for (const auto& [points, style] : curves) chart.curve(in_degrees(*points, member), style);
   return chart.text();
 }
@@ -47,7 +47,7 @@ std::string table(const AzimuthScore& score) {
                     turn(kind.binocular_rms_rad), turn(kind.compass_rms_rad), turn(kind.enhanced_rms_rad),
                     turn(kind.binocular_worst_rad), turn(kind.compass_worst_rad), turn(kind.enhanced_worst_rad)});
   }
-  return html_table({"episodes", "number", "lasting<br>s", "binocular<br>rms °", "compass<br>rms °",
+  return html_table({"kind", "episodes", "duration<br>s", "binocular<br>rms °", "compass<br>rms °",
                      "enhanced<br>rms °", "binocular<br>worst °", "compass<br>worst °", "enhanced<br>worst °"},
                     rows, 1);
 }
@@ -61,13 +61,13 @@ std::string azimuth_section(const JourneyReport& report) {
   if (const auto curve = worst_episode(run.frames, run.azimuth)) {
     const auto& episode = curve->episode;
     body += fmt::format(
-        "<figure><p class=\"lead\">The worst for the binocular odometry, as Fig. 9 of the paper: {}, after {:.0f} m, "
-        "{:.1f} s, "
-        "the vehicle turned by {}°. Gained: binocular {}°, compass alone {}°, enhanced {}°.</p>\n",
+        "<figure><p class=\"lead\">Episode with the largest binocular error (Fig. 9 of the paper): {}, after {:.0f} m, "
+        "duration {:.1f} s, turn of the vehicle {}°. Heading error: binocular {}°, compass alone {}°, enhanced "
+        "{}°.</p>\n",
         html(episode.kind), episode.travelled_m, static_cast<double>(episode.to_ns - episode.from_ns) * 1e-9,
         degrees(episode.turned_rad, 0), degrees(episode.binocular_rad, 2), degrees(episode.compass_rad, 2),
         degrees(episode.enhanced_rad, 2));
-    body += legend({{"truth", "truth"},
+    body += legend({{"truth", "ground truth"},
                     {"binocular", "binocular odometry"},
                     {"compass", "panoramic compass alone"},
                     {"enhanced", "enhanced odometry"},
@@ -76,10 +76,9 @@ std::string azimuth_section(const JourneyReport& report) {
             diagram(*curve, &AzimuthCurve::Point::error_rad, "azimuth error (°)") + "</figure>\n";
   }
   return html_section(
-      "Azimuth where the stereo pair saw badly",
-      "The heading error gained from the beginning of an episode to its end: where the odometry called itself "
-      "unreliable, and "
-      "where the recording says that things moved in view, the light changed or the ground had no texture.",
+      "Heading error in degraded-vision segments",
+      "Change of the heading error from the start to the end of an episode: unreliable odometry (as it reports), and "
+      "movers, illumination changes or weak texture (as listed in the recording).",
       body);
 }
 

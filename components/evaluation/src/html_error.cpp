@@ -31,7 +31,7 @@ SvgChart chart(double height_px, double travelled_m, double high, const std::str
       from_zero(high), description};
 }
 
-/// Twice the standard deviation that the localizer itself gave.
+/// Twice the standard deviation reported by the localizer.
 Points own_bound(const RunEvaluation& run) {
   const TruePath truth(run.frames.recording.truth);
   Points points;
@@ -42,14 +42,14 @@ Points own_bound(const RunEvaluation& run) {
   return points;
 }
 
-/// What lies above the picture is drawn at its border.
+/// Points above the chart are drawn at its border.
 void mark_corrections(SvgChart& chart, const RevisitScore& score, double highest_m) {
   for (const auto& applied : score.applied) {
     const std::string wrong = applied.is_wrong ? " wrong" : "";
     const auto tip = fmt::format(
         "after {:.0f} m, landmark {}: {:.2f} m before, {:.2f} m after{}", applied.travelled_m, applied.landmark,
         applied.before_m, applied.after_m,
-        applied.landmark_m ? fmt::format("; the landmark itself is {:.2f} m off", *applied.landmark_m) : std::string());
+        applied.landmark_m ? fmt::format("; error of the landmark: {:.2f} m", *applied.landmark_m) : std::string());
     chart.line({applied.travelled_m, std::min(applied.before_m, highest_m)},
                {applied.travelled_m, std::min(applied.after_m, highest_m)}, "jump" + wrong, tip);
     chart.dot({applied.travelled_m, std::min(applied.before_m, highest_m)}, 3.0, "before", tip);
@@ -89,14 +89,13 @@ std::string error_section(const JourneyReport& report) {
   close.curve(enhanced, "enhanced");
   mark_corrections(close, run.revisits, top_m);
   std::vector<std::pair<std::string, std::string>> keys{{"enhanced", "enhanced odometry"},
-                                                        {"sigma", "twice its own standard deviation"},
+                                                        {"sigma", "its 2 sigma bound"},
                                                         {"dot jump", "correction, from before (ring) to after"},
-                                                        {"dot missed", "revisit without one"}};
+                                                        {"dot missed", "revisit without correction"}};
   if (report.paper_run) keys.emplace_back("paper", "with the paper's own correction");
   return html_section("Error over the distance travelled",
-                      "Horizontal. Odometry adds up its errors; a place that is recognised takes out what has added up "
-                      "since it was first "
-                      "seen. Below, the enhanced odometry alone, on a scale of its own.",
+                      "Horizontal error. Odometry accumulates errors; a recognised place removes the error accumulated "
+                      "since its first visit. Second chart: the enhanced odometry alone, on its own scale.",
                       "<figure>" +
                           legend({{"binocular", "binocular odometry alone"}, {"enhanced", "enhanced odometry"}}) +
                           both.text() + "</figure>\n<figure>" + legend(keys) + close.text() + "</figure>\n");

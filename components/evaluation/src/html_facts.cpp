@@ -12,17 +12,17 @@ void add(std::string& list, const std::string& name, const std::string& value) {
 
 void add_facts(std::string& list, const RunFacts& facts) {
   add(list, "system",
-      facts.system + (facts.is_replay ? ", replayed: the same input gives the same result" : ", not replayed"));
+      facts.system + (facts.is_replay ? ", replayed (deterministic)" : ", not replayed"));
   add(list, "version", facts.version);
   add(list, "seed of the run", facts.seed);
   std::vector<std::string> changed;
   for (const auto& [name, value] : facts.changed_parameters) changed.push_back(name + " = " + value);
-  add(list, "parameters changed", changed.empty() ? "none" : joined(changed));
+  add(list, "changed parameters", changed.empty() ? "none" : joined(changed));
   if (facts.wall_s) {
-    add(list, "took",
+    add(list, "run time",
         fmt::format("{:.0f} s{}{}", *facts.wall_s,
-                    facts.cpu_s ? fmt::format(", {:.0f} s of processor time", *facts.cpu_s) : std::string(),
-                    facts.peak_memory_mb ? fmt::format(", {:.0f} MB at most", *facts.peak_memory_mb) : std::string()));
+                    facts.cpu_s ? fmt::format(", {:.0f} s of CPU time", *facts.cpu_s) : std::string(),
+                    facts.peak_memory_mb ? fmt::format(", peak memory {:.0f} MB", *facts.peak_memory_mb) : std::string()));
   }
   for (const auto& problem : facts.problems) add(list, "problem", problem);
 }
@@ -39,9 +39,10 @@ std::string facts_section(const JourneyReport& report) {
   add(list, "route, seed", recording.route + (recording.seed.empty() ? "" : ", " + recording.seed));
   add(list, "effects", joined(recording.effects));
   add(list, "landmarks", std::to_string(run.landmarks.size()) + " lines of landmarks.csv");
-  add(list, "truth", fmt::format("{} poses, {:.0f} m", recording.truth.poses.size(), report.run.paths.travelled_m));
-  add(list, "not there", joined(run.missing));
-  return html_section("What was run", "", "<figure><dl>\n" + list + "</dl></figure>\n");
+  add(list, "ground truth",
+      fmt::format("{} poses, {:.0f} m", recording.truth.poses.size(), report.run.paths.travelled_m));
+  add(list, "missing files", joined(run.missing));
+  return html_section("Run settings", "", "<figure><dl>\n" + list + "</dl></figure>\n");
 }
 
 }  // namespace panvo::evaluation

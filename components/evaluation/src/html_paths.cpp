@@ -25,7 +25,7 @@ Points true_points(const RunEvaluation& run) {
   return points;
 }
 
-/// As high as the paths ask for, within what a screen shows.
+/// The height follows the extent of the paths, limited to the height of a screen.
 SvgChart plan_of(const std::vector<const Points*>& paths) {
   Range x{paths.front()->front().x(), paths.front()->front().x()};
   Range y{paths.front()->front().y(), paths.front()->front().y()};
@@ -39,11 +39,11 @@ SvgChart plan_of(const std::vector<const Points*>& paths) {
   const double height_px = std::clamp(kWidth_px * (y.size() + 1.0) / (x.size() + 1.0), 360.0, 860.0);
   const Box box{0.0, 0.0, kWidth_px, height_px};
   const auto ranges = equal_scale(x, y, box, 0.05);
-  return {kWidth_px, height_px, box, ranges.x, ranges.y, "Plan view of the true and both estimated paths"};
+  return {kWidth_px, height_px, box, ranges.x, ranges.y, "Plan view of ground truth and both estimated trajectories"};
 }
 
 void add_scale(SvgChart& plan, const Points& truth) {
-  // A fifth of the picture's width, in metres: 212 of 1060 px.
+  // At most a fifth of the width: 212 of 1060 px.
   const double m_per_px = 1.0 / (plan.x(1.0) - plan.x(0.0));
   const double length_m = round_number_below(212.0 * m_per_px);
   plan.raw(
@@ -59,7 +59,7 @@ void add_places(SvgChart& plan, const JourneyRecording& recording) {
     const bool is_passed = std::any_of(recording.visits.begin(), recording.visits.end(),
                                        [&, wanted = number](const auto& visit) { return visit.place == wanted; });
     if (!is_passed) continue;
-    plan.dot(place.position_m, 9.0, "place", fmt::format("crossing {} {}", number, place.name));
+    plan.dot(place.position_m, 9.0, "place", fmt::format("junction {} {}", number, place.name));
     plan.label(place.position_m, 12.0, 14.0, "start", std::to_string(number));
   }
 }
@@ -68,14 +68,14 @@ void add_landmarks(SvgChart& plan, const RunEvaluation& run) {
   for (const auto& landmark : run.frames.run.landmarks) {
     const Eigen::Vector3d at = (run.frames.world_from_map * landmark.map_from_base).translation();
     plan.dot(at.head<2>(), 4.5, "landmark",
-             fmt::format("landmark {}, {}", landmark.id, landmark.is_junction ? "a crossing" : "by distance"));
+             fmt::format("landmark {}, {}", landmark.id, landmark.is_junction ? "at a junction" : "by distance"));
   }
 }
 
 void add_corrections(SvgChart& plan, const RevisitScore& score) {
   for (const auto& applied : score.applied) {
     const std::string wrong = applied.is_wrong ? " wrong" : "";
-    const auto tip = fmt::format("after {:.0f} m, landmark {}: {:.2f} m off before, {:.2f} m after",
+    const auto tip = fmt::format("after {:.0f} m, landmark {}: error {:.2f} m before, {:.2f} m after",
                                  applied.travelled_m, applied.landmark, applied.before_m, applied.after_m);
     plan.line(applied.before_position_m, applied.after_position_m, "jump" + wrong, tip);
     plan.dot(applied.after_position_m, 4.0, "corrected" + wrong, tip);
@@ -97,15 +97,14 @@ std::string paths_section(const JourneyReport& report) {
   plan.curve(enhanced, "enhanced");
   add_landmarks(plan, run);
   add_corrections(plan, run.revisits);
-  return html_section("Paths over the truth",
-                      "As Figs. 10 and 11 of the paper: where the vehicle was, and where it took itself to be. Rings "
-                      "are crossings by their "
-                      "number. Point at a mark to read what it is.",
+  return html_section("Trajectories",
+                      "Ground truth and estimated trajectories (Figs. 10 and 11 of the paper). Rings are numbered "
+                      "junctions. Hover over a mark for details.",
                       "<figure class=\"plan\">" +
-                          legend({{"truth", "truth"},
+                          legend({{"truth", "ground truth"},
                                   {"binocular", "binocular odometry alone"},
                                   {"enhanced", "enhanced odometry"},
-                                  {"dot landmark", "landmark, where it was placed"},
+                                  {"dot landmark", "landmark, estimated position"},
                                   {"dot jump", "correction, from before to after"}}) +
                           plan.text() + "</figure>\n");
 }

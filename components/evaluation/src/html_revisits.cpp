@@ -17,15 +17,15 @@ std::string image(const std::string& jpeg, int top_px, int columns, int rows, co
       top_px, columns, rows, base64(jpeg), words);
 }
 
-/// The landmark above, the revisit below, and what SIFT found in both.
+/// Landmark above, revisit below, connected by SIFT matches.
 std::string picture(const PanoramaPair& pair) {
   const int lower_px = pair.rows + kGap_px;
   auto text = fmt::format(
       "<svg viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"Panoramas of the landmark and of the "
       "revisit, one above the other\">\n",
       pair.columns, lower_px + pair.rows);
-  text += image(pair.landmark_jpeg, 0, pair.columns, pair.rows, "when the landmark was made");
-  text += image(pair.revisit_jpeg, lower_px, pair.columns, pair.rows, "now, turned to the landmark's heading");
+  text += image(pair.landmark_jpeg, 0, pair.columns, pair.rows, "at the creation of the landmark");
+  text += image(pair.revisit_jpeg, lower_px, pair.columns, pair.rows, "now, rotated to the heading of the landmark");
   for (const auto& match : pair.inliers) {
     if (std::abs(match.landmark_px.x() - match.revisit_px.x()) > pair.columns / 2) continue;  // across the seam
     const double y = lower_px + match.revisit_px.y();
@@ -43,11 +43,11 @@ std::string error_words(const Revisit& revisit) {
                             metres(revisit.before_m), metres(revisit.after_m), degrees(revisit.before_heading_rad),
                             degrees(revisit.after_heading_rad), metres(revisit.binocular_m));
     if (revisit.landmark_m) {
-      text += fmt::format("; the landmark itself was {} m off when it was made", metres(revisit.landmark_m));
+      text += fmt::format("; error of the landmark at its creation {} m", metres(revisit.landmark_m));
     }
     return text;
   }
-  return fmt::format("The pose was <b>{} m</b> off, binocular odometry alone {} m", metres(revisit.before_m),
+  return fmt::format("Error of the pose <b>{} m</b>, binocular odometry alone {} m", metres(revisit.before_m),
                      metres(revisit.binocular_m));
 }
 
@@ -58,35 +58,35 @@ std::string card(const JourneyFrames& frames, const Revisit& revisit) {
       "<article class=\"card\" id=\"revisit-{}\">\n<h3>{} &middot; {} <span class=\"chip {}\">{}{}</span></h3>\n",
       revisit.number, revisit.number,
       revisit.place ? html(revisit.name.empty() ? "place " + std::to_string(*revisit.place) : revisit.name)
-                    : std::string("a place between"),
+                    : std::string("unlisted place"),
       is_bad         ? "bad"
       : is_corrected ? "good"
                      : "soft",
       to_string(revisit.result), revisit.is_wrong ? ", wrong" : "");
   text += fmt::format("<p>After {:.0f} m", revisit.travelled_m);
   if (revisit.landmark) text += fmt::format(", landmark {}", *revisit.landmark);
-  text += fmt::format(", entered at <b>{}°</b> against the first time, viewpoints <b>{} m</b> apart. {}.</p>\n",
+  text += fmt::format(", entrance heading <b>{}°</b> relative to the first visit, viewpoints <b>{} m</b> apart. {}.</p>\n",
                       degrees(revisit.entrance_rad, 0), metres(revisit.distance_m, 1), error_words(revisit));
   if (!revisit.reason.empty()) {
-    text += fmt::format("<p>Why not corrected: {}.</p>\n", html(revisit.reason));
+    text += fmt::format("<p>Reason: {}.</p>\n", html(revisit.reason));
   }
   const auto& past = revisit.landmark_was_earlier && frames.earlier != nullptr ? *frames.earlier : frames.recording;
   const auto* then = revisit.landmark_stamp_ns ? panorama_near(past, *revisit.landmark_stamp_ns) : nullptr;
   const auto* now = panorama_near(frames.recording, revisit.stamp_ns);
   if (then == nullptr || now == nullptr) {
-    return text + "<p>The recording has no panoramas of both times.</p>\n</article>\n";
+    return text + "<p>No panoramas of both visits in the recording.</p>\n</article>\n";
   }
   const auto pair = panorama_pair(then->file, now->file, revisit.heading_rad.value_or(revisit.true_heading_rad));
   text += picture(pair);
   text += fmt::format(
-      "<p>Above: {}. Below: now, turned by {}°{} so that what is far stands below itself. {}</p>\n",
-      revisit.landmark ? "when the landmark was made" : "at the first pass",
+      "<p>Above: {}. Below: now, rotated by {}°{} so that distant objects line up. {}</p>\n",
+      revisit.landmark ? "at the creation of the landmark" : "at the first visit",
       degrees(revisit.heading_rad.value_or(revisit.true_heading_rad)),
-      revisit.heading_rad ? fmt::format(" as it was found (true: {}°)", degrees(revisit.true_heading_rad))
-                          : ", the true turn,",
+      revisit.heading_rad ? fmt::format(", as estimated (true: {}°),", degrees(revisit.true_heading_rad))
+                          : " (true value)",
       pair.inliers.empty()
-          ? fmt::format("{} SIFT matches, no common motion.", pair.matches)
-          : fmt::format("Lines: {} of {} SIFT matches that agree on one motion.", pair.inliers.size(), pair.matches));
+          ? fmt::format("{} SIFT matches, not consistent with one motion.", pair.matches)
+          : fmt::format("Lines: {} of {} SIFT matches, consistent with one motion.", pair.inliers.size(), pair.matches));
   return text + "</article>\n";
 }
 
@@ -95,14 +95,14 @@ std::string card(const JourneyFrames& frames, const Revisit& revisit) {
 std::string revisits_section(const JourneyReport& report) {
   const auto& revisits = report.run.revisits.revisits;
   if (revisits.empty()) {
-    return html_section("Revisits", "No place was passed twice, as far as is known.", "");
+    return html_section("Revisits", "No revisits known.", "");
   }
   std::string cards;
   for (const auto& revisit : revisits) cards += card(report.run.frames, revisit);
   return html_section(
       "Revisits, one by one",
-      "The panorama kept with each landmark above the one in which it was passed again. The lines are found "
-      "anew for this page, in the two pictures alone.",
+      "Above: panorama of the landmark. Below: panorama of the revisit. Lines: SIFT matches, recomputed for this report "
+      "from the two images only.",
       cards);
 }
 

@@ -5,7 +5,7 @@
 
 #include "panvo/evaluation/journey_evaluation.hpp"
 
-/// The parts of the page, each with its heading; empty where the run left nothing to show.
+/// The sections of the report, each with its heading; empty if the run has no data for it.
 namespace panvo::evaluation {
 
 std::string page_style();

@@ -22,7 +22,7 @@ std::string style_of(const std::string& state) {
 }  // namespace
 
 std::string states_section(const JourneyReport& report) {
-  // While it was starting, the localizer had no time but the computer's own.
+  // In state "starting", stamps are wall-clock times.
   auto states = report.run.frames.run.states;
   states.erase(states.begin(),
                std::find_if(states.begin(), states.end(), [](const auto& state) { return state.state != "starting"; }));
@@ -52,7 +52,7 @@ std::string states_section(const JourneyReport& report) {
     keys.emplace_back("dot " + style_of(state),
                       fmt::format("{} {:.0f} s ({:.1f} %)", state, time_s, 100.0 * time_s / end_s));
   }
-  return html_section("How the pose was known", "What the localizer said of itself, over time.",
+  return html_section("Localization state over time", "State reported by the localizer.",
                       "<figure>" + legend(keys) + chart.text() + "</figure>\n");
 }
 

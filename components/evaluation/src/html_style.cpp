@@ -3,7 +3,7 @@
 
 namespace panvo::evaluation {
 
-// Okabe and Ito's colours, told apart with any colour vision; lighter on a dark page.
+// Colours of Okabe and Ito, distinguishable with any colour vision; lighter in dark mode.
 std::string page_style() {
   return R"(:root {
   color-scheme: light dark;

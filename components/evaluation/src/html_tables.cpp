@@ -47,7 +47,7 @@ std::string compared_table(const JourneyReport& report) {
                     metres(ours->after_m), chip(*papers), metres(papers->before_m), metres(papers->after_m)});
   }
   return html_table({"", "place", "ours", "before<br>m", "after<br>m", "the paper's", "before<br>m", "after<br>m"},
-                    rows, 3, "Our correction and the paper's own, side by side");
+                    rows, 3, "panvo's correction and the paper's own, side by side");
 }
 
 std::string paper_table(bool is_second_journey) {
@@ -59,7 +59,7 @@ std::string paper_table(bool is_second_journey) {
   }
   return html_table(
       {"", "landmark", "correction", "entrance<br>°", "binocular<br>m", "enhanced<br>m", "travelled<br>m"}, rows, 3,
-      fmt::format("The paper's Table {}, on its own campus: about 1.7 km", is_second_journey ? 4 : 2));
+      fmt::format("Table {} of the paper, on another campus, about 1.7 km", is_second_journey ? 4 : 2));
 }
 
 std::string paths_table(const JourneyReport& report) {
@@ -77,7 +77,7 @@ std::string paths_table(const JourneyReport& report) {
   Rows rows{row("binocular odometry", report.run.paths.binocular), row("enhanced odometry", report.run.paths.enhanced)};
   if (report.paper_run) rows.push_back(row("with the paper's own correction", report.paper_run->paths.enhanced));
   return html_table({"whole path", "ATE<br>m", "ATE, SE3<br>aligned m", "2D rms<br>m", "2D median<br>m",
-                     "2D rms<br>% of way", "heading rms<br>°", "at the end<br>m", "worst<br>m"},
+                     "2D rms<br>% of distance", "heading rms<br>°", "at the end<br>m", "largest<br>m"},
                     rows, 1);
 }
 
@@ -86,7 +86,8 @@ std::string paths_table(const JourneyReport& report) {
 std::string tables_section(const JourneyReport& report) {
   const int number = report.is_second_journey ? 4 : 2;
   const auto& revisits = report.run.revisits;
-  auto body = paths_table(report) + revisits_table(revisits, fmt::format("Revisits, in the form of Table {}", number));
+  auto body =
+      paths_table(report) + revisits_table(revisits, fmt::format("Revisits, as in Table {} of the paper", number));
   if (report.paper_run) {
     body += compared_table(report);
     body +=
@@ -94,16 +95,16 @@ std::string tables_section(const JourneyReport& report) {
   }
   body += paper_table(report.is_second_journey);
   return html_section(
-      "Figures",
+      "Results",
       fmt::format(
-          "{} passes by places known before: {} corrected the pose, {} only its heading, {} were given up because "
-          "the pose was known better, {} rejected, {} missed. {} corrections in all, {} wrong: away from the truth "
-          "by more than 1 m beyond what the landmark's own error explains. Errors are horizontal; a landmark's own is "
-          "that of its pose when it was made: seeing it again makes the pose hardly better than that.{}",
+          "{} revisits: {} corrected, {} in heading only, {} given up because the pose was already more accurate, {} "
+          "rejected, {} missed. {} corrections applied, {} wrong: their error exceeds both the previous error and the "
+          "landmark's own error by more than 1 m. Errors are horizontal. The landmark's own error is that of its pose "
+          "at creation; a revisit can hardly reduce the error below it.{}",
           revisits.listed, revisits.corrected, revisits.heading_only, revisits.given_up, revisits.rejected,
           revisits.missed, revisits.applied.size(), revisits.wrong,
           revisits.not_reached > 0
-              ? fmt::format(" {} more were not reached: the run covers only a part of the recording.",
+              ? fmt::format(" {} more were not reached: the run covers only part of the recording.",
                             revisits.not_reached)
               : std::string()),
       body);

@@ -7,7 +7,7 @@
 
 namespace panvo::evaluation {
 
-/// Text that says nothing to a browser but itself, also between double quotes.
+/// Escapes text for HTML, also inside double quotes.
 std::string html(std::string_view text);
 
 std::string base64(std::string_view bytes);

@@ -40,7 +40,7 @@ std::string times_section(const JourneyReport& report) {
     body += "</div>\n";
   }
   return html_section("Time of each stage",
-                      "Wall time of each call, as the run measured it; both odometry threads have a line of their own.",
+                      "Wall time of each call, measured in the run; both odometry threads have their own line.",
                       body + "</div></figure>\n");
 }
 

@@ -13,12 +13,12 @@ namespace panvo::evaluation {
 namespace {
 
 constexpr std::int64_t kSecond_ns = 1'000'000'000;
-constexpr std::int64_t kSameEpisode_ns = 2 * kSecond_ns;  // one cause; the odometry may find its feet in between
-constexpr std::int64_t kAround_ns = 3 * kSecond_ns;       // what a curve shows before and after
+constexpr std::int64_t kSameEpisode_ns = 2 * kSecond_ns;  // shorter reliable intervals do not end an episode
+constexpr std::int64_t kAround_ns = 3 * kSecond_ns;       // shown by a curve before and after the episode
 
 double wrapped(double angle_rad) { return vision::wrap(angle_rad, 2.0 * std::numbers::pi); }
 
-/// Unreliable frames that follow each other, from the frame before, of which the first motion is.
+/// Intervals of consecutive unreliable frames; each starts at the frame before, where the first unreliable motion starts.
 std::vector<Disturbance> unreliable_stretches(const std::vector<RunQuality>& qualities) {
   std::vector<Disturbance> stretches;
   for (std::size_t i = 0; i < qualities.size(); ++i) {
@@ -33,7 +33,7 @@ std::vector<Disturbance> unreliable_stretches(const std::vector<RunQuality>& qua
   return stretches;
 }
 
-/// The part of a stretch that truth and both odometries cover.
+/// The part of an interval covered by ground truth and both odometries.
 std::optional<Disturbance> covered(Disturbance stretch, const JourneyFrames& frames) {
   for (const auto* path : {&frames.recording.truth, &frames.run.binocular, &frames.run.enhanced}) {
     stretch.from_ns = std::max(stretch.from_ns, path->poses.front().stamp_ns);
@@ -54,7 +54,7 @@ double true_change(const TruePath& truth, std::int64_t from_ns, std::int64_t to_
   return from && to ? wrapped(yaw_of(*to) - yaw_of(*from)) : 0.0;
 }
 
-/// Changes that lie in the stretch, each against the truth of its own time: what is missing is left out, not made up.
+/// Adds the errors of the compass changes within the episode, each over its own time span. Missing changes are skipped.
 void add_compass(AzimuthEpisode& episode, const JourneyFrames& frames, const TruePath& truth) {
   double error_rad = 0.0;
   std::int64_t told_ns = 0;
@@ -68,7 +68,7 @@ void add_compass(AzimuthEpisode& episode, const JourneyFrames& frames, const Tru
   episode.compass_share = static_cast<double>(told_ns) / static_cast<double>(episode.to_ns - episode.from_ns);
 }
 
-/// Of one member over all episodes of a kind.
+/// RMS and largest value of one quantity over all episodes of a kind.
 struct Collected {
   double squares = 0.0, worst = 0.0;
   int count = 0;
@@ -111,7 +111,7 @@ std::vector<AzimuthKind> by_kind(const std::vector<AzimuthEpisode>& episodes) {
   return kinds;
 }
 
-/// Yaw of a path from `from_ns` on, unwrapped, from 0 at `zero_ns`.
+/// Unwrapped yaw of a path around the episode, 0 at its start.
 std::vector<AzimuthCurve::Point> curve_of(const Trajectory& path, const Eigen::Isometry3d& world_from_path,
                                           const TruePath& truth, const AzimuthEpisode& episode) {
   std::vector<AzimuthCurve::Point> points;

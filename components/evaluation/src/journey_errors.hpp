@@ -9,21 +9,21 @@
 
 namespace panvo::evaluation {
 
-/// Of one pose, in the plane.
+/// Horizontal error of one pose.
 struct FlatError {
-  Eigen::Vector2d position_m = Eigen::Vector2d::Zero();  ///< of the estimate, world of the truth
+  Eigen::Vector2d position_m = Eigen::Vector2d::Zero();  ///< of the estimate, in the world frame of the ground truth
   double flat_m = 0.0;
   double heading_rad = 0.0;  ///< estimate minus truth, left positive, (-pi, pi]
 };
 
-/// A landmark and where its panorama was truly taken.
+/// Stamp and error of a landmark.
 struct LandmarkTruth {
-  std::int64_t stamp_ns = 0;  ///< in the clock of the truth
+  std::int64_t stamp_ns = 0;  ///< in the clock of the ground truth
   bool was_earlier = false;   ///< it comes from the library
   std::optional<FlatError> error;
 };
 
-/// Errors of single poses of a journey. nullopt where truth or estimate has nothing at that time.
+/// Errors of single poses of a journey; nullopt if ground truth or estimate does not cover the stamp.
 class JourneyErrors {
  public:
   explicit JourneyErrors(const JourneyFrames& frames);
@@ -33,7 +33,7 @@ class JourneyErrors {
   double travelled_m(std::int64_t stamp_ns) const { return path_.travelled_m(stamp_ns); }
 
   std::optional<FlatError> of_map(const Eigen::Isometry3d& map_from_base, std::int64_t stamp_ns) const;
-  /// Of two journeys whose clocks overlap, the landmark belongs to the one whose vehicle was nearer to it at its stamp.
+  /// If the clocks of both journeys overlap, the landmark is assigned to the journey whose vehicle was nearer at its stamp.
   LandmarkTruth landmark(const RunLandmark& landmark) const;
   std::optional<FlatError> of_binocular(std::int64_t stamp_ns) const;
   std::optional<FlatError> of_enhanced(std::int64_t stamp_ns) const;

@@ -29,7 +29,7 @@ std::vector<StageRow> stage_rows(const StageTimes& times) {
 std::vector<ComparedRevisit> side_by_side(const JourneyReport& report) {
   std::vector<ComparedRevisit> compared;
   if (!report.paper_run) return compared;
-  // The same passes are listed for both, in order of the passes but for those that lie closer than the reach of a revisit.
+  // Both list the same passes in the same order, except for passes closer together than the reach of a revisit.
   const auto& papers = report.paper_run->revisits.revisits;
   auto next = papers.begin();
   for (const auto& ours : report.run.revisits.revisits) {

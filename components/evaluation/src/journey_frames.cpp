@@ -9,11 +9,13 @@ namespace {
 
 Eigen::Isometry3d start_of(const Trajectory& estimate, const Trajectory& truth) {
   const auto aligned = align(associate(estimate, truth).pairs, Alignment::kStart);
-  if (!aligned) throw InputError(estimate.source, "cannot be laid on the truth", "record a journey that moves");
+  if (!aligned) {
+    throw InputError(estimate.source, "cannot be aligned with the ground truth", "use a recording in which the vehicle moves");
+  }
   return aligned->rigid;
 }
 
-/// What panoramas told of is compared with the truth of when they were taken, not of when their clock says.
+/// Converts the stamps of panorama results from the panoramic camera's clock to that of the ground truth.
 void to_clock_of_truth(JourneyRun& run, std::int64_t panorama_clock_offset_ns) {
   for (auto& match : run.matches) match.stamp_ns -= panorama_clock_offset_ns;
   for (auto& correction : run.corrections) correction.stamp_ns -= panorama_clock_offset_ns;

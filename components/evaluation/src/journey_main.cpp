@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// panvo_evaluate_journey: a journey with the enhanced odometry against the truth: Tables 2 to 4, paths, azimuth, one page of it all.
+// panvo_evaluate_journey: compares a journey of the enhanced odometry with ground truth: Tables 2 to 4, trajectories, azimuth, report.
 #include <CLI/CLI.hpp>
 #include <exception>
 #include <filesystem>
@@ -33,18 +33,18 @@ struct Arguments {
 };
 
 void describe(CLI::App& app, Arguments& arguments) {
-  app.add_option("run", arguments.run, "folder of a run of enhanced_vo, as `panvo run --out` leaves it")->required();
+  app.add_option("run", arguments.run, "run folder of enhanced_vo, from `panvo run --out`")->required();
   app.add_option("--recording", arguments.recording,
-                 "what the run was made of: EuRoC/ASL data set with truth, and for revisits and pictures sequence.yaml "
-                 "and cam2 (default: the truth that the run left)");
+                 "recording that was played: EuRoC/ASL data set with ground truth and, for revisits and pictures, "
+                 "sequence.yaml and cam2 (default: the ground truth in the run folder)");
   app.add_option("--earlier", arguments.earlier,
-                 "the recording on which the landmark library was made, for a second journey: its start is the map's");
+                 "for a second journey: recording that built the landmark library; its start is the origin of the map");
   app.add_option("--paper-run", arguments.paper_run,
-                 "another run of the same recording, with the paper's own correction, to be put beside");
-  app.add_option("--out", arguments.out, "folder for report.html, journey.json and pictures (default: the run's)");
-  app.add_option("--title", arguments.title, "heading (default: name of recording and run)");
-  app.add_flag("--partial", arguments.partial, "evaluate a run that was interrupted, too");
-  app.add_flag("--only-table", arguments.only_table, "print the tables, write nothing");
+                 "run of the same recording with the paper's own correction, for comparison");
+  app.add_option("--out", arguments.out, "folder for report.html, journey.json and pictures (default: the run folder)");
+  app.add_option("--title", arguments.title, "title (default: names of recording and run)");
+  app.add_flag("--partial", arguments.partial, "also accept an interrupted run");
+  app.add_flag("--only-table", arguments.only_table, "only print the tables, write no files");
 }
 
 void write(const fs::path& file, const std::string& text) {
@@ -78,7 +78,7 @@ int run(const Arguments& arguments) {
   const fs::path folder = arguments.out.empty() ? arguments.run : arguments.out;
   std::error_code error;
   fs::create_directories(folder, error);
-  if (error) throw InputError(folder, "cannot be made: " + error.message(), "choose another folder with --out");
+  if (error) throw InputError(folder, "cannot be created: " + error.message(), "choose another folder with --out");
   write(folder / "journey.json", journey_json(report));
   write(folder / "report.html", journey_page(report));
   std::cout << "\nwritten: " << (folder / "report.html").string() << " (opens in any browser), journey.json\n"
@@ -92,8 +92,8 @@ int run(const Arguments& arguments) {
 int main(int argc, char** argv) {
   Arguments arguments;
   CLI::App app(
-      "A journey with the enhanced odometry against the truth: what each revisit did to the error, times, paths and "
-      "azimuth, Tables 2 to 4 of [Lu2015], and one page of it all",
+      "Compares a journey of the enhanced odometry with ground truth: error before and after each revisit, times, "
+      "trajectories and azimuth, Tables 2 to 4 of [Lu2015], and an HTML report",
       "panvo evaluate journey");
   describe(app, arguments);
   try {

@@ -9,7 +9,7 @@
 namespace panvo::evaluation {
 namespace {
 
-/// Without the poses of which the localizer said that they are none in the map.
+/// Removes the poses in states "unlocated" and "starting" and adds their path length to `unlocated_m`.
 std::vector<PosePair> located(const std::vector<PosePair>& pairs, const JourneyRun& run, double& unlocated_m) {
   std::vector<PosePair> kept;
   const auto way_m = distances_m(pairs);
@@ -25,8 +25,8 @@ std::vector<PosePair> located(const std::vector<PosePair>& pairs, const JourneyR
     if (is_unlocated && i + 1 < pairs.size()) unlocated_m += way_m[i + 1] - way_m[i];
   }
   if (kept.size() < kFewestPairs) {
-    throw InputError(run.folder / "states.csv", "the vehicle was never located in the map",
-                     "give a library of landmarks from the same place, or none");
+    throw InputError(run.folder / "states.csv", "the vehicle was never localised in the map",
+                     "use a landmark library of the same area, or none");
   }
   return kept;
 }
@@ -37,7 +37,7 @@ PathScore score(const std::string& name, const std::vector<PosePair>& pairs, con
   score.name = name;
   score.errors = pose_errors(pairs, {1.0, world_from_map});
   const TruePath path(truth);
-  const double before_m = path.travelled_m(pairs.front().stamp_ns);  // where a path begins later
+  const double before_m = path.travelled_m(pairs.front().stamp_ns);  // not 0 if the path starts later
   std::vector<double> flat, heading;
   for (auto& error : score.errors) {
     error.distance_m += before_m;

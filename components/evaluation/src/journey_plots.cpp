@@ -24,7 +24,7 @@ std::string block(const std::string& name, const Rows& rows, const Write& write)
   std::string text = fmt::format("${} << E\n", name);
   const std::size_t stride = rows.size() / kMostRows + 1;
   for (std::size_t i = 0; i < rows.size(); i += stride) text += write(rows[i]) + "\n";
-  if (rows.empty()) text += "NaN NaN\n";  // gnuplot wants a point to draw
+  if (rows.empty()) text += "NaN NaN\n";  // gnuplot needs at least one row
   return text + "E\n";
 }
 
@@ -43,7 +43,7 @@ std::string landmark_rows(const RunEvaluation& run) {
   });
 }
 
-/// Paths over the truth [Lu2015 Figs. 10 and 11].
+/// Trajectories over ground truth [Lu2015 Figs. 10 and 11].
 std::string paths_script(const JourneyReport& report) {
   const auto& run = report.run;
   return head("journey_paths.png", 1100, 900, report.title) +
@@ -63,7 +63,7 @@ std::string paths_script(const JourneyReport& report) {
                                     applied.after_position_m.y() - applied.before_position_m.y());
                }) +
          fmt::format(
-             "plot $truth with lines lw 7 lc rgb '{}' title 'truth', $binocular with lines lw 2 lc rgb '{}' title "
+             "plot $truth with lines lw 7 lc rgb '{}' title 'ground truth', $binocular with lines lw 2 lc rgb '{}' title "
              "'binocular', $enhanced with lines lw 2 lc rgb '{}' title 'enhanced', $landmarks with points pt 7 ps 0.9 "
              "lc rgb '{}' title 'landmarks', $corrections using 1:2:3:4 with vectors lw 1.5 lc rgb '{}' title "
              "'corrections'\n",
@@ -87,7 +87,7 @@ std::string error_script(const JourneyReport& report) {
              kColours[1], kColours[0], kColours[2]);
 }
 
-/// The azimuth through one episode, and its error [Lu2015 Fig. 9].
+/// Azimuth and azimuth error during one episode [Lu2015 Fig. 9].
 std::string azimuth_script(const AzimuthCurve& curve) {
   const auto row = [](const AzimuthCurve::Point& point) {
     return fmt::format("{:.3f} {:.4f} {:.4f}", point.time_s, point.azimuth_rad * kDegreesPerRadian,
@@ -95,7 +95,7 @@ std::string azimuth_script(const AzimuthCurve& curve) {
   };
   const double length_s = static_cast<double>(curve.episode.to_ns - curve.episode.from_ns) * 1e-9;
   std::string script =
-      head("journey_azimuth.png", 1100, 640, fmt::format("Azimuth through an episode: {}", curve.episode.kind)) +
+      head("journey_azimuth.png", 1100, 640, fmt::format("Azimuth during an episode: {}", curve.episode.kind)) +
       block("truth", curve.truth, row) + block("binocular", curve.binocular, row) +
       block("compass", curve.compass, row) + block("enhanced", curve.enhanced, row) +
       fmt::format("set object 1 rect from 0,graph 0 to {:.3f},graph 1 fc rgb '{}' behind fs solid noborder\n", length_s,
@@ -107,8 +107,8 @@ std::string azimuth_script(const AzimuthCurve& curve) {
         "lc rgb '{2}' title 'compass alone', $enhanced using 1:{0} with lines lw 2 lc rgb '{3}' title 'enhanced'\n",
         column, kColours[1], kColours[2], kColours[0]);
   };
-  script += fmt::format("plot $truth using 1:2 with lines lw 7 lc rgb '{}' title 'truth', ", kTruthColour) + curves(2);
-  return script + "unset title\nset xlabel 'time from the beginning (s)'\nset ylabel 'error (deg)'\nplot " + curves(3) +
+  script += fmt::format("plot $truth using 1:2 with lines lw 7 lc rgb '{}' title 'ground truth', ", kTruthColour) + curves(2);
+  return script + "unset title\nset xlabel 'time since the start (s)'\nset ylabel 'error (deg)'\nplot " + curves(3) +
          "unset multiplot\n";
 }
 

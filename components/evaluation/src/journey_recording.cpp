@@ -45,8 +45,9 @@ void read_visits(JourneyRecording& recording, const fs::path& file, const YAML::
     }
     const auto pose = path.pose(visit.stamp_ns);
     if (!pose) {
-      throw InputError(file, static_cast<std::size_t>(entry.Mark().line + 1), "a visit outside of the truth's time",
-                       "take sequence.yaml and state_groundtruth_estimate0 from one recording");
+      throw InputError(file, static_cast<std::size_t>(entry.Mark().line + 1),
+                       "a visit is outside the time span of the ground truth",
+                       "use sequence.yaml and state_groundtruth_estimate0 of the same recording");
     }
     const auto at_entry = path.pose(visit.in_ns);
     visit.heading_in_rad =
@@ -63,12 +64,12 @@ void read_stretches(std::vector<Disturbance>& found, const fs::path& file, const
     try {
       found.push_back({entry["from_ns"].as<std::int64_t>(), entry["to_ns"].as<std::int64_t>(), kind});
     } catch (const YAML::Exception& error) {
-      fail(file, entry, error, "a stretch needs from_ns and to_ns");
+      fail(file, entry, error, "an interval needs from_ns and to_ns");
     }
   }
 }
 
-/// The crossings whose ground has hardly any texture, whenever the vehicle passed them.
+/// Adds each pass by a junction whose ground has little texture.
 void add_weak_texture(std::vector<Disturbance>& found, const JourneyRecording& recording, const YAML::Node& zones) {
   for (const auto& zone : zones) {
     const int place = zone["id"].as<int>(-1);
@@ -112,7 +113,7 @@ Trajectory read_truth(const fs::path& folder) {
   const auto euroc = folder / "mav0/state_groundtruth_estimate0/data.csv";
   if (fs::exists(euroc)) return read_euroc(euroc);
   if (fs::exists(folder / "odometry_enhanced.tum") || fs::exists(folder / "mav0")) {
-    throw InputError(folder, "holds no ground truth", "say with --recording which recording the run was made of");
+    throw InputError(folder, "holds no ground truth", "name the recording that was played with --recording");
   }
   return read_trajectory(folder);
 }

@@ -14,10 +14,10 @@
 namespace panvo::evaluation {
 namespace {
 
-// Of way before and after the closest approach: a landmark stands where the crossing was seen, not in its middle, and is
-// recognised some metres before and after. Crossings of a town lie two or three times as far apart.
+// Distance travelled before and after the closest approach that belongs to a visit: a landmark is not at the centre of its
+// junction and is recognised some metres before and after. Junctions in a town are two or three times as far apart.
 constexpr double kReach_m = 25.0;
-constexpr double kWrong_m = 1.0;  // what a good correction may be off by, beyond the landmark itself
+constexpr double kWrong_m = 1.0;  // tolerance of a correction, in addition to the landmark's own error
 
 double wrapped(double angle_rad) { return vision::wrap(angle_rad, 2.0 * std::numbers::pi); }
 
@@ -36,7 +36,7 @@ std::vector<ListedRevisit> listed_revisits(const JourneyFrames& frames) {
     std::int64_t stamp_ns = 0;
     double heading_rad = 0.0;
     bool was_earlier = false;
-    std::string route;  // since it was passed last
+    std::string route;  // since the last pass
   };
   std::map<int, First> known;
   if (frames.earlier != nullptr) {
@@ -96,8 +96,8 @@ class Scorer {
       if (outcome.outcome == "applied") score_.applied.push_back(judged(outcome));
     }
     if (score_.before_start > 0 && score_.before_start == static_cast<int>(frames_.run.outcomes.size())) {
-      throw InputError(frames_.run.folder / "outcomes.csv", 2, "no stamp lies in the time of the truth",
-                       "give the recording that this run was made of, with the same clock");
+      throw InputError(frames_.run.folder / "outcomes.csv", 2, "no stamp is within the time span of the ground truth",
+                       "use the recording that was played in this run, with the same clock");
     }
   }
 
@@ -124,7 +124,7 @@ class Scorer {
     return found == landmarks_.end() ? nullptr : &found->second;
   }
 
-  /// Each outcome belongs to the revisit nearest along the way, if that is near enough.
+  /// Assigns each outcome to the nearest revisit by distance travelled, within kReach_m.
   void assign(const std::vector<ListedRevisit>& listed) {
     of_listed_.resize(listed.size());
     for (const auto& outcome : frames_.run.outcomes) {
@@ -172,7 +172,7 @@ class Scorer {
     return revisit;
   }
 
-  /// What the outcomes of one visit come to: the error before the first of those that were applied and after the last.
+  /// Summarises the outcomes of one visit: the error before the first applied correction and after the last.
   void take(Revisit& revisit, const Outcomes& outcomes) const {
     const RunOutcome* last = nullptr;
     for (const auto* outcome : outcomes) {
@@ -218,7 +218,7 @@ class Scorer {
     });
   }
 
-  /// The words of the step that came furthest while the place was passed.
+  /// Sets the reason from the step that came furthest during the visit.
   void say_why_missed(Revisit& revisit) const {
     const double at_m = errors_.travelled_m(revisit.stamp_ns);
     const auto near = [&](std::int64_t stamp_ns) {
@@ -228,14 +228,14 @@ class Scorer {
       if (!near(correction.stamp_ns)) continue;
       revisit.result = RevisitResult::kRejected;
       name_landmark(revisit, correction.landmark);
-      revisit.reason = correction.reason.empty() ? "the correction came to no outcome" : correction.reason;
+      revisit.reason = correction.reason.empty() ? "the correction has no recorded outcome" : correction.reason;
     }
     if (revisit.landmark) return;
     static constexpr std::array<std::string_view, 5> kByProgress{"unusable", "searching", "rejected", "locked",
                                                                  "matched"};
     std::size_t furthest = 0;
     double nearest_m = kReach_m;
-    revisit.reason = frames_.run.matches.empty() ? "no matches.csv tells why" : "no panorama near it was looked at";
+    revisit.reason = frames_.run.matches.empty() ? "unknown, no matches.csv" : "no panorama near it was processed";
     for (const auto& match : frames_.run.matches) {
       if (!near(match.stamp_ns)) continue;
       const auto progress = static_cast<std::size_t>(std::find(kByProgress.begin(), kByProgress.end(), match.state) -
@@ -304,7 +304,7 @@ class Scorer {
 
   const JourneyFrames& frames_;
   const JourneyErrors errors_;
-  std::map<std::int64_t, LandmarkTruth> landmarks_;  // as they were first published
+  std::map<std::int64_t, LandmarkTruth> landmarks_;  // as first published
   std::vector<Outcomes> of_listed_, elsewhere_;
   RevisitScore score_;
 };

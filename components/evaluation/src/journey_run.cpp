@@ -90,7 +90,7 @@ RunFacts read_facts(const fs::path& file) {
 
 JourneyRun read_journey_run(const fs::path& folder) {
   if (!fs::is_directory(folder)) {
-    throw InputError(folder, "is no folder", "give the one that `panvo run --out` was told to write into");
+    throw InputError(folder, "is not a folder", "name the folder given to `panvo run --out`");
   }
   JourneyRun run;
   run.folder = folder;
@@ -98,7 +98,7 @@ JourneyRun read_journey_run(const fs::path& folder) {
   if (run.name.empty()) run.name = fs::weakly_canonical(folder).parent_path().filename().string();
   for (const char* name : {"odometry_enhanced.tum", "odometry_binocular.tum"}) {
     if (!fs::exists(folder / name)) {
-      throw InputError(folder / name, "is not there", "make the run with `panvo run enhanced_vo ... --out DIR`");
+      throw InputError(folder / name, "not found", "create the run with `panvo run enhanced_vo ... --out DIR`");
     }
   }
   run.enhanced = read_tum(folder / "odometry_enhanced.tum");

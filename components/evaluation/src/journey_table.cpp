@@ -13,7 +13,7 @@ std::string place_of(const Revisit& revisit) {
   return std::to_string(*revisit.place) + (revisit.name.empty() ? "" : " " + revisit.name);
 }
 
-/// "17-16-..-8-17" where it is long: from where to where is what counts.
+/// Shortens long routes to both ends: "17-16-..-8-17".
 std::string short_route(const std::string& route) {
   constexpr std::size_t kLongest = 24;
   if (route.size() <= kLongest) return route;
@@ -50,10 +50,10 @@ std::string revisits_text(const RevisitScore& score, const std::string& heading)
       score.listed, score.corrected, score.heading_only, score.given_up, score.rejected, score.missed, score.elsewhere,
       score.applied.size(), score.wrong);
   if (score.not_reached > 0) {
-    text += fmt::format("  {} more were not reached: the run covers only a part of the recording\n", score.not_reached);
+    text += fmt::format("  {} more were not reached: the run covers only part of the recording\n", score.not_reached);
   }
   if (score.before_start > 0) {
-    text += fmt::format("  {} outcomes lie outside of the truth's time and are left out\n", score.before_start);
+    text += fmt::format("  {} outcomes outside the time span of the ground truth were skipped\n", score.before_start);
   }
   return text;
 }
@@ -64,7 +64,7 @@ std::string compared_text(const JourneyReport& report) {
     table.add({place_of(*ours), result_of(*ours), metres(ours->before_m), metres(ours->after_m), result_of(*papers),
                metres(papers->before_m), metres(papers->after_m)});
   }
-  return "Our correction and the paper's own, side by side (m)\n" + table.text();
+  return "panvo's correction and the paper's own, side by side (m)\n" + table.text();
 }
 
 std::string paper_text(bool is_second_journey) {
@@ -75,11 +75,11 @@ std::string paper_text(bool is_second_journey) {
                std::string(row.route), metres(row.entrance_deg, 0), metres(row.binocular_m, 1),
                metres(row.enhanced_m, 1), metres(row.travelled_m, 0)});
   }
-  return fmt::format("The paper's Table {} [Lu2015 7.3], another town\n", is_second_journey ? 4 : 2) + table.text();
+  return fmt::format("Table {} of the paper [Lu2015 7.3], on another campus\n", is_second_journey ? 4 : 2) + table.text();
 }
 
 std::string stages_text(const std::vector<StageRow>& stages) {
-  TextTable table({"item", "stage", "paper", "median", "95 %", "99 %", "times"}, 2);
+  TextTable table({"item", "stage", "paper", "median", "95 %", "99 %", "count"}, 2);
   table.add({"", "", "ms", "ms", "ms", "ms", ""});
   for (const auto& row : stages) {
     if (row.ours) {
@@ -90,7 +90,7 @@ std::string stages_text(const std::vector<StageRow>& stages) {
       table.add({row.item, "-", metres(row.paper_ms, 0), "-", "-", "-", "-"});
     }
   }
-  return "Time of each stage, beside the paper's Table 3\n" + table.text();
+  return "Time of each stage, compared with Table 3 of the paper\n" + table.text();
 }
 
 void add_path(TextTable& table, const std::string& name, const PathScore& path) {
@@ -101,23 +101,22 @@ void add_path(TextTable& table, const std::string& name, const PathScore& path) 
 
 std::string paths_text(const JourneyReport& report) {
   const auto& paths = report.run.paths;
-  TextTable table({"path", "ATE", "ATE, SE3", "2D rms", "2D median", "2D rms", "heading", "final", "worst", "at"}, 1);
-  table.add({"", "m", "m", "m", "m", "% of way", "deg", "m", "m", "m"});
+  TextTable table({"path", "ATE", "ATE, SE3", "2D rms", "2D median", "2D rms", "heading", "final", "largest", "at"}, 1);
+  table.add({"", "m", "m", "m", "m", "% of dist.", "deg", "m", "m", "m"});
   add_path(table, "binocular", paths.binocular);
   add_path(table, "enhanced", paths.enhanced);
   if (report.paper_run) add_path(table, "enhanced, the paper's correction", report.paper_run->paths.enhanced);
-  auto text = fmt::format("Whole path, {:.0f} m, {:.0f} s, from the common start, as published\n", paths.travelled_m,
+  auto text = fmt::format("Whole path, {:.0f} m, {:.0f} s, aligned starts, poses as published\n", paths.travelled_m,
                           paths.duration_s) +
               table.text() + fmt::format("  enhanced / binocular, 2D rms: {:.3f}\n", paths.ratio);
   if (paths.unlocated_m > 0.0) {
-    text += fmt::format("  not yet located in the map for {:.0f} m, which the enhanced path is scored without\n",
+    text += fmt::format("  not localised for the first {:.0f} m, which the enhanced path is scored without\n",
                         paths.unlocated_m);
   }
   if (const auto& nees = paths.consistency) {
     text += fmt::format(
-        "  NEES of the enhanced pose: {:.2f} of {} (x, y, heading), {:.2f} of {} (all); inside 95 %: {:.1f} % and "
-        "{:.1f} "
-        "% of the journey; {} poses without a usable covariance\n",
+        "  NEES of the enhanced pose: {:.2f} of {} (x, y, heading), {:.2f} of {} (all); within 95 % bounds: {:.1f} % "
+        "and {:.1f} % of the poses; {} poses without a usable covariance\n",
         nees->plane.mean, nees->plane.dimension, nees->full.mean, nees->full.dimension, 100.0 * nees->plane.inside_95,
         100.0 * nees->full.inside_95, nees->unusable);
   }
@@ -125,16 +124,16 @@ std::string paths_text(const JourneyReport& report) {
 }
 
 std::string azimuth_text(const AzimuthScore& score) {
-  if (score.kinds.empty()) return "Azimuth: no episode in which the stereo pair saw badly is known\n";
+  if (score.kinds.empty()) return "Azimuth: no episodes of degraded vision known\n";
   TextTable table(
-      {"episodes", "number", "lasting", "binocular", "compass", "enhanced", "binocular", "compass", "enhanced"}, 1);
+      {"kind", "episodes", "duration", "binocular", "compass", "enhanced", "binocular", "compass", "enhanced"}, 1);
   table.add({"", "", "s", "rms deg", "rms deg", "rms deg", "worst deg", "worst deg", "worst deg"});
   for (const auto& kind : score.kinds) {
     table.add({kind.kind, std::to_string(kind.episodes), metres(kind.duration_s, 1), turn(kind.binocular_rms_rad),
                turn(kind.compass_rms_rad), turn(kind.enhanced_rms_rad), turn(kind.binocular_worst_rad),
                turn(kind.compass_worst_rad), turn(kind.enhanced_worst_rad)});
   }
-  return "Azimuth error gained through episodes in which the stereo pair saw badly [Lu2015 7.2]\n" + table.text();
+  return "Change of the azimuth error over episodes of degraded vision [Lu2015 7.2]\n" + table.text();
 }
 
 }  // namespace
@@ -146,13 +145,13 @@ std::string journey_table(const JourneyReport& report) {
   if (report.paper_run) {
     text.append("\n").append(compared_text(report));
     text.append("\n").append(
-        revisits_text(report.paper_run->revisits, "The same with the paper's own correction [Lu2015 5.2]"));
+        revisits_text(report.paper_run->revisits, "Revisits with the paper's own correction [Lu2015 5.2]"));
   }
   text.append("\n").append(paper_text(report.is_second_journey));
   text.append("\n").append(stages_text(report.run.stages));
   text.append("\n").append(azimuth_text(report.run.azimuth));
   for (const auto& name : report.run.frames.run.missing) {
-    text += "note: " + name + " is not in the run's folder; what it would tell is left out\n";
+    text += "note: " + name + " is missing in the run folder; results that need it are omitted\n";
   }
   return text;
 }

@@ -16,7 +16,7 @@ namespace panvo::evaluation {
 
 constexpr double kDegreesPerRadian = 180.0 / std::numbers::pi;
 
-/// "-" for what is not known.
+/// "-" for an unknown value.
 inline std::string metres(const std::optional<double>& value, int digits = 2) {
   return value ? fmt::format("{:.{}f}", *value, digits) : "-";
 }
@@ -25,18 +25,18 @@ inline std::string degrees(const std::optional<double>& value_rad, int digits = 
   return value_rad ? fmt::format("{:+.{}f}", *value_rad * kDegreesPerRadian, digits) : "-";
 }
 
-/// The size of an angle.
+/// Absolute value of an angle.
 inline std::string turn(const std::optional<double>& value_rad, int digits = 2) {
   return value_rad ? fmt::format("{:.{}f}", std::abs(*value_rad) * kDegreesPerRadian, digits) : "-";
 }
 
-/// Code points of UTF-8 text: what it is wide on a terminal, for the letters used here.
+/// Number of code points of UTF-8 text: its width on a terminal, for the characters used here.
 inline std::size_t width_of(const std::string& text) {
   return static_cast<std::size_t>(
       std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
 }
 
-/// Columns as wide as what stands in them; the first ones left, the others right.
+/// Text table with columns as wide as their widest cell; the first `left_columns` are left-aligned, the others right-aligned.
 class TextTable {
  public:
   TextTable(std::vector<std::string> header, std::size_t left_columns)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// panvo_evaluate: a trajectory against ground truth, as a table, as files and as a plot.
+// panvo_evaluate: compares a trajectory with ground truth; prints a table, writes files and a plot.
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <exception>
@@ -50,53 +50,53 @@ const std::map<std::string, AssociationMethod> kMethods{{"interpolate", Associat
                                                         {"nearest", AssociationMethod::kNearest}};
 
 void describe(CLI::App& app, Arguments& arguments) {
-  app.add_option("estimate", arguments.estimate, "a run's output folder, or a trajectory (TUM, EuRoC csv, KITTI poses)")
+  app.add_option("estimate", arguments.estimate, "run folder, or trajectory (TUM, EuRoC csv, KITTI poses)")
       ->required();
-  app.add_option("ground_truth", arguments.ground_truth, "a data set's folder (EuRoC/ASL, KITTI), or a trajectory")
+  app.add_option("ground_truth", arguments.ground_truth, "data set folder (EuRoC/ASL, KITTI), or trajectory")
       ->required();
-  app.add_option("--name", arguments.name, "what to call the estimate (default: its folder or file)");
-  app.add_option("--also", arguments.also, "NAME=PATH: one more estimate to compare; may be given again")
+  app.add_option("--name", arguments.name, "name of the estimate (default: name of its folder or file)");
+  app.add_option("--also", arguments.also, "NAME=PATH: further estimate to compare; may be repeated")
       ->expected(1)
       ->take_all();
   app.add_option("--out", arguments.out,
-                 "where to write evaluation.json, errors.csv, evaluation.png and .svg "
-                 "(default: the run's folder; for a single file, the current one)");
+                 "folder for evaluation.json, errors.csv, evaluation.png and .svg "
+                 "(default: the run folder; for a single file, the current folder)");
   app.add_option("--align", arguments.alignment, "alignment of the plot and of errors.csv")
       ->check(CLI::IsMember(kAlignments).description("{none,start,se3,sim3}"))
       ->capture_default_str();
-  app.add_option("--segments", arguments.lengths_m, "lengths of the KITTI segments, m: 10,20,30 (default: to suit)")
+  app.add_option("--segments", arguments.lengths_m, "lengths of the KITTI segments, m: 10,20,30 (default: depends on the path)")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->check(CLI::PositiveNumber);
   app.add_option("--segment-step", arguments.options.segments.step,
                  "poses between the starts of segments (default: "
-                 "10 from 100 m on, else 1)");
+                 "10 for lengths of at least 100 m, else 1)");
   app.add_option("--associate", arguments.method,
-                 "ground truth at an estimate's stamp: between its neighbours, or the "
-                 "nearest in time")
+                 "ground truth at an estimate's stamp: interpolated, or the pose nearest in "
+                 "time")
       ->check(CLI::IsMember(kMethods).description("{interpolate,nearest}"))
       ->capture_default_str();
   app.add_option("--tolerance", arguments.tolerance_s,
-                 "widest gap that is interpolated over, or largest difference to "
-                 "the nearest, s (default: 2.5 or 0.5 of its periods)")
+                 "largest gap to interpolate over, or largest time difference to "
+                 "the nearest pose, s (default: 2.5 or 0.5 periods of the ground truth)")
       ->check(CLI::Range(1e-9, 1e6));
   app.add_option("--nees-steps", arguments.options.consistency.steps,
-                 "steps of the motion whose covariance is checked "
+                 "number of steps of the motion whose covariance is evaluated "
                  "(default: 1)")
       ->check(CLI::Range(1, 1000000));
   app.add_option("--truth-noise-m", arguments.options.consistency.truth_noise_m,
-                 "how far a pose of the ground truth is off by itself, m, one standard deviation an axis, for the "
+                 "standard deviation of a ground-truth position per axis, m, for the "
                  "NEES (default: 0)")
       ->check(CLI::NonNegativeNumber);
-  app.add_option("--truth-noise-deg", arguments.truth_noise_deg, "the same for its orientation, degrees (default: 0)")
+  app.add_option("--truth-noise-deg", arguments.truth_noise_deg, "the same for the orientation, degrees (default: 0)")
       ->check(CLI::NonNegativeNumber);
-  app.add_option("--title", arguments.title, "heading of the table and the plot (default: the ground truth's name)");
+  app.add_option("--title", arguments.title, "title of the table and the plot (default: name of the ground truth)");
   app.add_flag("--json", arguments.json, "print evaluation.json instead of the table");
-  app.add_flag("--partial", arguments.partial, "evaluate a run that was interrupted, too");
-  app.add_flag("--no-plot", arguments.no_plot, "draw no plot");
+  app.add_flag("--partial", arguments.partial, "also accept an interrupted run");
+  app.add_flag("--no-plot", arguments.no_plot, "do not draw a plot");
 }
 
-// ".../kitti_03" for a folder; the folder of a file is more telling than "poses" or "data".
+// Name of the data set, such as "kitti_03": for a file the name of its folder, because "poses" or "data" would say little.
 std::string default_title(const fs::path& ground_truth) {
   fs::path path = fs::weakly_canonical(ground_truth);
   if (!fs::is_directory(path)) path = path.parent_path();
@@ -112,7 +112,7 @@ std::vector<Estimate> read_estimates(const Arguments& arguments) {
   for (const std::string& also : arguments.also) {
     const auto equals = also.find('=');
     if (equals == 0 || equals == std::string::npos || equals + 1 == also.size()) {
-      throw InputError("--also " + also + ": no NAME=PATH; write for example --also other=runs/other");
+      throw InputError("--also " + also + ": not NAME=PATH; for example: --also other=runs/other");
     }
     estimates.push_back(read_estimate(also.substr(equals + 1)));
     estimates.back().name = also.substr(0, equals);
@@ -120,27 +120,27 @@ std::vector<Estimate> read_estimates(const Arguments& arguments) {
   std::set<std::string> names;
   for (const Estimate& estimate : estimates) {
     if (!names.insert(estimate.name).second) {
-      throw InputError("two estimates are called '" + estimate.name + "'; name them apart with --name and --also");
+      throw InputError("two estimates are named '" + estimate.name + "'; use different names with --name and --also");
     }
   }
   return estimates;
 }
 
-/// Where to write. Somebody's data set or other folder is not written to unless it is named.
+/// Folder for the results. A folder other than a run folder is written to only if it is named with --out.
 fs::path output_folder(const Arguments& arguments) {
   if (!arguments.out.empty()) return arguments.out;
   if (!fs::is_directory(arguments.estimate)) return ".";
   if (is_run_folder(arguments.estimate)) return arguments.estimate;
-  throw InputError(arguments.estimate, "is not the folder of a run",
-                   "give the run first and then its ground truth, or name a folder for the results with --out");
+  throw InputError(arguments.estimate, "is not a run folder",
+                   "give first the run and then its ground truth, or name a folder for the results with --out");
 }
 
-/// What an earlier evaluation left is replaced, files of these names that none left are not.
+/// Results of an earlier evaluation are replaced. Throws if the folder has files with these names from another source.
 void require_ours(const fs::path& folder) {
   if (fs::exists(folder / "evaluation.json")) return;
   for (const char* name : {"errors.csv", "evaluation.png", "evaluation.svg"}) {
     if (fs::exists(folder / name)) {
-      throw InputError(folder / name, "is there already, and of no evaluation", "name another folder with --out");
+      throw InputError(folder / name, "exists and is not from an evaluation", "name another folder with --out");
     }
   }
 }
@@ -171,7 +171,7 @@ int run(const Arguments& arguments) {
   const fs::path folder = output_folder(arguments);
   std::error_code error;
   fs::create_directories(folder, error);
-  if (error) throw InputError(folder, "cannot be made: " + error.message(), "choose another folder with --out");
+  if (error) throw InputError(folder, "cannot be created: " + error.message(), "choose another folder with --out");
   write(folder / "evaluation.json", json);
   write(folder / "errors.csv", to_csv(report));
   if (!arguments.no_plot) draw_plot(report, folder);
@@ -185,7 +185,7 @@ int run(const Arguments& arguments) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Measures an estimated trajectory against ground truth.", "panvo evaluate");
+  CLI::App app("Compares an estimated trajectory with ground truth.", "panvo evaluate");
   Arguments arguments;
   describe(app, arguments);
   try {

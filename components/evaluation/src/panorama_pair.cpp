@@ -18,30 +18,30 @@ namespace {
 
 constexpr vision::Equirectangular kPanorama{1080, 540};
 constexpr int kTop = 132,
-              kBottom = 366;  // rows of the band: 46 degrees above the horizon to 32 below: what tells places apart
+              kBottom = 366;  // rows of the band: 46 degrees above the horizon to 32 below, the distinctive part
 constexpr int kJpegQuality = 80;
-constexpr int kKeypoints = 400;  // for people to see: more than a landmark keeps
+constexpr int kKeypoints = 400;  // for display; more than a landmark keeps
 constexpr std::int64_t kSamePanorama_ns = 150'000'000;
 
 cv::Mat read(const std::filesystem::path& file) {
   cv::Mat image = cv::imread(file.string(), cv::IMREAD_COLOR);
-  if (image.empty()) throw InputError(file, "is no image that can be decoded", "record it again or remove it");
+  if (image.empty()) throw InputError(file, "cannot be decoded as an image", "record it again or remove it");
   if (image.cols != 2 * image.rows) {
-    throw InputError(file, "is not twice as wide as high", "give equirectangular panoramas");
+    throw InputError(file, "is not twice as wide as high", "use equirectangular panoramas");
   }
   cv::Mat resized;
   cv::resize(image, resized, {kPanorama.columns, kPanorama.rows}, 0, 0, cv::INTER_AREA);
   return resized;
 }
 
-/// How many columns what is far has moved to the right.
+/// Shift of distant objects to the right, in columns.
 int columns_of(double heading_rad) {
   const auto shift = static_cast<int>(std::lround(heading_rad * kPanorama.columns / (2.0 * std::numbers::pi)));
   return ((shift % kPanorama.columns) + kPanorama.columns) % kPanorama.columns;
 }
 
 cv::Mat turned_back(const cv::Mat& image, int shift) {
-  if (shift == 0) return image;  // there is no empty image to put beside it
+  if (shift == 0) return image;  // hconcat rejects an empty part
   cv::Mat turned;
   cv::hconcat(image.colRange(shift, image.cols), image.colRange(0, shift), turned);
   return turned;
@@ -60,7 +60,7 @@ Eigen::Vector2d in_band(const landmarks::Keypoint& keypoint, int shift) {
   return pixel;
 }
 
-/// Whether both bearings and the way between the two places lie in one plane, about.
+/// Whether both bearings and the translation between the two places are coplanar within the angle.
 bool agrees(const landmarks::Keypoint& revisit, const landmarks::Keypoint& landmark,
             const position_corrector::FivePointMotion& motion, double inlier_angle_rad) {
   const Eigen::Vector3d normal = motion.direction.cross(motion.rotation * revisit.bearing.cast<double>());

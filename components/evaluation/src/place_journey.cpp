@@ -14,9 +14,9 @@
 namespace panvo::evaluation {
 namespace {
 
-constexpr double kSamePlace_m = 15.0;        // where two crossings lie this near to each other, either is right
-constexpr double kSamePass_m = 20.0;         // of way about the nearest point
-constexpr double kNearestNeighbour_m = 0.7;  // of way between panoramas that give points
+constexpr double kSamePlace_m = 15.0;        // a match with a landmark within this distance is right
+constexpr double kSamePass_m = 20.0;         // distance travelled from the nearest point
+constexpr double kNearestNeighbour_m = 0.7;  // distance travelled between panoramas used for triangulation
 constexpr double kFarthestNeighbour_m = 4.5;
 
 double yaw(const Eigen::Isometry3d& world_from_base) {

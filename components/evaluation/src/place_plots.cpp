@@ -44,7 +44,7 @@ void draw_separation(const std::vector<PlaceScore>& scores, const std::filesyste
   const int rows = (static_cast<int>(scores.size()) + columns - 1) / std::max(columns, 1);
   std::string script = fmt::format(
       "set terminal pngcairo size {},{} font 'sans,10'\nset output 'separation.png'\nset multiplot layout {},{} "
-      "title 'Distances of revisited (blue) and of other places (red)'\nset yrange [-0.05:1.05]\nset xlabel 'sample'\n"
+      "title 'Distances of revisits (blue) and of other places (red)'\nset yrange [-0.05:1.05]\nset xlabel 'sample'\n"
       "set ylabel \"D'\"\nset key off\nset grid ytics lc rgb '#dddddd'\n",
       430 * columns, 300 * rows + 40, rows, columns);
   for (std::size_t i = 0; i < scores.size(); ++i) {
@@ -75,10 +75,9 @@ void draw_separation(const std::vector<PlaceScore>& scores, const std::filesyste
 void draw_local_curves(const std::vector<LocalCurve>& curves, const std::string& title, int number,
                        const std::filesystem::path& folder) {
   std::string script = fmt::format(
-      "set terminal pngcairo size 900,460 font 'sans,10'\nset output 'local_{}.png'\nset title {}\nset xlabel 'way "
-      "from "
-      "the nearest point (m)'\nset ylabel 'distance, lowest to highest'\nset yrange [-0.05:1.05]\nset key outside "
-      "right\n"
+      "set terminal pngcairo size 900,460 font 'sans,10'\nset output 'local_{}.png'\nset title {}\nset xlabel "
+      "'travelled from the nearest point (m)'\nset ylabel 'normalised distance'\nset yrange [-0.05:1.05]\nset key "
+      "outside right\n"
       "set grid lc rgb '#dddddd'\n",
       number, gnuplot_quoted(title));
   std::string plot;

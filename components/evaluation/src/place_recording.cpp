@@ -20,7 +20,7 @@ std::vector<RecordedVisit> read_visits(const fs::path& file, const YAML::Node& l
                                        const std::vector<RecordedPanorama>& panoramas) {
   std::vector<RecordedVisit> visits;
   if (!listed || !listed.IsSequence() || listed.size() == 0) {
-    throw InputError(file, "lists no visits", "places can only be scored where somebody says which they are");
+    throw InputError(file, "lists no visits", "add the visits; place recognition is scored against them");
   }
   for (const auto& entry : listed) {
     RecordedVisit visit;
@@ -60,9 +60,9 @@ PlaceRecording read_place_recording(const fs::path& folder) {
 
 cv::Mat read_panorama(const RecordedPanorama& panorama) {
   const cv::Mat image = cv::imread(panorama.file.string(), cv::IMREAD_GRAYSCALE);
-  if (image.empty()) throw InputError(panorama.file, "is no image that can be decoded", "record it again or remove it");
+  if (image.empty()) throw InputError(panorama.file, "cannot be decoded as an image", "record it again or remove it");
   if (image.cols != 2 * image.rows) {
-    throw InputError(panorama.file, "is not twice as wide as high", "give equirectangular panoramas");
+    throw InputError(panorama.file, "is not twice as wide as high", "use equirectangular panoramas");
   }
   return landmarks::to_described_size(image);
 }

@@ -16,7 +16,7 @@ namespace panvo::evaluation {
 namespace {
 
 constexpr double kNearby_m =
-    15.0;  // panoramas this far from the closest approach may still be the nearest to the known one
+    15.0;  // distance travelled from the closest approach within which the nearest panorama is searched
 
 double yaw(const Eigen::Isometry3d& world_from_base) {
   return std::atan2(world_from_base.linear()(1, 0), world_from_base.linear()(0, 0));
@@ -30,7 +30,7 @@ double turn(const RecordedPanorama& now, const RecordedPanorama& then) {
   return vision::wrap(yaw(now.world_from_base) - yaw(then.world_from_base), 2.0 * std::numbers::pi);
 }
 
-/// The panorama of the same pass that lies nearest to the known one.
+/// The panorama of the same pass that is nearest to the known one.
 std::size_t nearest_of_pass(const PlaceRecording& recording, const RecordedVisit& visit,
                             const RecordedPanorama& known) {
   const auto& all = recording.panoramas;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// panvo_evaluate_places: how well places are told apart, and recognised on the way, on a recording with known revisits.
+// panvo_evaluate_places: evaluates place recognition on a recording with known revisits.
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -48,18 +48,18 @@ struct Arguments {
 };
 
 void describe(CLI::App& app, Arguments& arguments) {
-  app.add_option("recording", arguments.recording, "EuRoC/ASL data set with panoramas (cam2), truth and sequence.yaml")
+  app.add_option("recording", arguments.recording, "EuRoC/ASL data set with panoramas (cam2), ground truth and sequence.yaml")
       ->required();
   app.add_option("--library-from", arguments.library_from,
-                 "an earlier recording in the same place: its places are the library");
+                 "earlier recording of the same area, from which the library is built");
   app.add_option("--out", arguments.out, "folder for tables and pictures")->capture_default_str();
-  app.add_option("--seed", arguments.seed, "of the measurement matrices")->capture_default_str();
+  app.add_option("--seed", arguments.seed, "random seed of the measurement matrices")->capture_default_str();
   app.add_option("--position-sigma", arguments.position_sigma_m,
-                 "tell the matcher the position with this standard deviation, m; negative: search the whole library")
+                 "give the matcher the position with this standard deviation, m; negative: search the whole library")
       ->capture_default_str();
-  app.add_option("--curves", arguments.curves, "pictures of distances along the way past a place, Fig. 7, at most")
+  app.add_option("--curves", arguments.curves, "maximum number of plots of the distance along a pass by a place (Fig. 7)")
       ->capture_default_str();
-  app.add_flag("--only-table", arguments.only_table, "Table 1 and its pictures, without going along the journey");
+  app.add_flag("--only-table", arguments.only_table, "only Table 1 and its plots, without matching the whole journey");
 }
 
 std::vector<std::unique_ptr<PlaceMethod>> all_methods(std::uint64_t seed) {
@@ -77,8 +77,8 @@ std::vector<std::unique_ptr<PlaceMethod>> all_methods(std::uint64_t seed) {
 }
 
 void print_journey(const JourneyScore& score, const PlaceTask& task, const PlaceRecording& then) {
-  std::cout << "\nOn the way, every panorama through the matcher:\n"
-            << fmt::format("{:>7} {:>6} {:>9} {:>9} {:>9} {:>9} {:>6} {:>6}\n", "place", "", "way (m)", "offset",
+  std::cout << "\nMatches of all panoramas of the journey:\n"
+            << fmt::format("{:>7} {:>6} {:>9} {:>9} {:>9} {:>9} {:>6} {:>6}\n", "place", "", "after (m)", "offset",
                            "error", "heading", "D_l", "D_s");
   for (const auto& match : score.matches) {
     std::cout << fmt::format("{:>7} {:>6} {:>9.1f} {:>7.2f} m {:>7.2f} m {:>5.2f} deg {:>6.2f} {:>6.2f}\n",
@@ -136,8 +136,8 @@ int run(const Arguments& arguments) {
   const auto& first = earlier ? *earlier : recording;
   const auto task = place_task(first, earlier ? &recording : nullptr);
   if (task.revisits.empty()) {
-    throw InputError(recording.folder / "sequence.yaml", "lists no place that is visited twice",
-                     "give a recording with revisits, or an earlier one of the same places with --library-from");
+    throw InputError(recording.folder / "sequence.yaml", "lists no revisits",
+                     "use a recording with revisits, or name an earlier one of the same area with --library-from");
   }
   std::cout << fmt::format("{} places, {} revisits, {} panoramas\n\n", task.places.size(), task.revisits.size(),
                            recording.panoramas.size());
@@ -173,7 +173,7 @@ int run(const Arguments& arguments) {
   for (std::size_t i = 0; i < curves; ++i) {
     const auto& revisit = task.revisits[i];
     draw_local_curves(local_curves(compared, task, revisit, first, recording, kReach_m),
-                      fmt::format("place {}, passed {:.1f} m beside, entrance {:+.0f} deg",
+                      fmt::format("place {}, offset {:.1f} m, entrance {:+.0f} deg",
                                   task.places[revisit.known].place, revisit.offset_m, revisit.entrance_rad * kDegrees),
                       static_cast<int>(i + 1), out);
   }
@@ -186,9 +186,8 @@ int run(const Arguments& arguments) {
 int main(int argc, char** argv) {
   Arguments arguments;
   CLI::App app(
-      "How well places are told apart by their panoramas, and recognised on the way: Table 1, Fig. 6 and 7 of [Lu2015] "
-      "on a "
-      "recording with known revisits",
+      "Evaluates place recognition on a recording with known revisits: Table 1, Figs. 6 and 7 of [Lu2015], and matching "
+      "of the whole journey",
       "panvo evaluate places");
   describe(app, arguments);
   CLI11_PARSE(app, argc, argv);

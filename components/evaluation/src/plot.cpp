@@ -42,12 +42,12 @@ std::string headline(const Evaluation& e) {
   if (e.nees) {
     const ConsistencyOptions& options = e.nees->options;
     const bool noisy = options.truth_noise_m > 0.0 || options.truth_noise_rad > 0.0;
-    text += "NEES " + to_text(e.nees->motion.mean, 1) + " of 6" + (noisy ? " with noise of the truth; " : "; ");
+    text += "NEES " + to_text(e.nees->motion.mean, 1) + " of 6" + (noisy ? " with ground-truth noise; " : "; ");
   }
   return text.substr(0, text.size() - 2);
 }
 
-// Title, and one line for the ground truth and each estimate: legend of all panels and their figures in one.
+// Title, and one line each for ground truth and estimates: the legend of all panels with key figures.
 void add_heading(PlotCanvas& canvas, const Report& report) {
   const auto legend = [&](std::size_t row, const std::string& text, const std::string& mark) {
     canvas.line("set label " + std::to_string(2 + row) + " " + gnuplot_quoted(text) + " " +
@@ -64,7 +64,7 @@ void add_heading(PlotCanvas& canvas, const Report& report) {
   for (std::size_t i = 0; i < report.evaluations.size(); ++i) {
     legend(1 + i, headline(report.evaluations[i]), colour(i));
   }
-  // Labels belong to the next panel; an invisible one puts these on the page.
+  // gnuplot draws labels with the next plot; an invisible plot draws these.
   canvas.line("set lmargin 0; set rmargin 0; set tmargin 0; set bmargin 0; unset border; unset tics");
   canvas.line("plot [0:1] [0:1] NaN");
 }
@@ -99,11 +99,11 @@ std::string plot_script(const Report& report) {
   add_page(page, report);
   const std::string size = "size " + number(kWidthPx) + "," + number(height_px);
   const std::string common = std::string(" noenhanced font '") + kFont + ",14' background rgb 'white'\n";
-  // The two terminals differ in how large a point of type or a mark is, and only cairo knows a bold face by name.
+  // The terminals differ in the size of fonts and marks, and only cairo selects a bold face by name.
   const std::string png = "set terminal pngcairo " + size + common + "bold = '" + kFont + ":Bold'; marks = 1\n";
   const std::string svg =
       "set terminal svg " + size + " dynamic fontscale 1.3" + common + "bold = '" + kFont + "'; marks = 0.6\n";
-  return "# Drawn by panvo evaluate. `gnuplot -d evaluation.gp` in this folder draws it again.\nset encoding utf8\n" +
+  return "# Drawn by panvo evaluate. To redraw, run `gnuplot -d evaluation.gp` in this folder.\nset encoding utf8\n" +
          data.text() + png + "set output 'evaluation.png'\n" + page.text() + svg + "set output 'evaluation.svg'\n" +
          page.text() + "unset output\n";
 }

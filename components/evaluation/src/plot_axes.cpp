@@ -20,7 +20,7 @@ double round_number_below(double value) {
 }
 
 PlanRanges equal_scale(const Range& x, const Range& y, const Box& box, double margin) {
-  constexpr double kSmallestM = 0.1;  // a path that stays in place still gets axes
+  constexpr double kSmallestM = 0.1;  // minimum size of the axes, for a path that does not move
   const double free = 1.0 - 2.0 * margin;
   const double m_per_px =
       std::max({x.size() / (free * box.width()), y.size() / (free * box.height()), kSmallestM / box.width()});

@@ -25,10 +25,10 @@ struct Range {
   double centre() const { return 0.5 * (low + high); }
 };
 
-// 1, 2 or 5 times a power of ten, nearest below or at `value`; `value` must be positive.
+// Largest 1, 2 or 5 times a power of ten that is at most `value`; `value` must be positive.
 double round_number_below(double value);
 
-// Around both ranges, so that a metre is as long on either axis of `box`, with `margin` of each side left free.
+// Enlarges both ranges to equal scale on both axes of `box`, with `margin` (a fraction) free on each side.
 struct PlanRanges {
   Range x;
   Range y;

@@ -32,7 +32,7 @@ void PlotCanvas::panel(Box box, const std::string& title, const std::string& x_l
        "; set bmargin at screen " + number(1.0 - box.bottom / height_px_));
   line("set autoscale; set xtics autofreq nomirror; set ytics autofreq nomirror font ',14'; set format '%g'");
   line("set xlabel " + gnuplot_quoted(x_label) + ink());
-  // A label rather than an ylabel, which would move with the width of the numbers beside it.
+  // A label instead of a ylabel, whose position depends on the width of the tick labels.
   line("set label 99 " + gnuplot_quoted(y_label) + " " + at_screen(box.left - kLabelPx, 0.5 * (box.top + box.bottom)) +
        " center rotate by 90" + ink());
   if (title.empty()) return;

@@ -16,10 +16,10 @@ constexpr const char* kSoft = "#666666";
 constexpr const char* kTruthColour = "#B8B8B8";
 constexpr const char* kGridColour = "#E6E6E6";
 constexpr const char* kFont = "DejaVu Sans";
-// Okabe and Ito's colours: told apart with any colour vision.
+// Colours of Okabe and Ito, distinguishable with any colour vision.
 constexpr std::array<const char*, 6> kColours{"#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9"};
 
-// Collects the text of a gnuplot program that draws on one page, measured in pixels from its top left.
+// Collects a gnuplot script for one page, with coordinates in pixels from its top left corner.
 class PlotCanvas {
  public:
   PlotCanvas(double body_top_px, double height_px) : body_top_px_(body_top_px), height_px_(height_px) {}
@@ -27,8 +27,8 @@ class PlotCanvas {
   const std::string& text() const { return text_; }
   PlotCanvas& line(const std::string& text);
 
-  // `$name << E ... E` with `size` rows, each a call of write(canvas, i); thinned out evenly to what can be seen, the
-  // last row kept.
+  // `$name << E ... E` with `size` rows, each from a call of write(canvas, i); decimated evenly to about kMostRows rows,
+  // including the last.
   template <class Write>
   void data_block(const std::string& name, std::size_t size, const Write& write) {
     constexpr std::size_t kMostRows = 3000;
@@ -40,10 +40,10 @@ class PlotCanvas {
   }
   void row(std::initializer_list<double> values);
 
-  // Opens a panel: whatever the panel before has set is set back. `box` is given below the heading.
+  // Starts a panel and resets the settings of the previous one. `box` is relative to the area below the heading.
   void panel(Box box, const std::string& title, const std::string& x_label, const std::string& y_label,
              double title_left_px = -1.0);
-  // An axis from 0 to a little above `high`, with three to seven numbers.
+  // A y axis from 0 to slightly above `high`, with three to seven tick labels.
   void y_from_zero(double high);
 
   std::string at_screen(double x_px, double y_px) const;
@@ -56,8 +56,8 @@ class PlotCanvas {
 
 // Parts of gnuplot commands.
 std::string ink();                                            // colour of text
-std::string bold(int size);                                   // font, by the page's variable `bold`
-std::string mark_size(double size);                           // of points, by the page's variable `marks`
+std::string bold(int size);                                   // font, from the gnuplot variable `bold`
+std::string mark_size(double size);                           // of points, from the gnuplot variable `marks`
 std::string colour(std::size_t estimate);                     // of an estimate
 std::string curve(std::size_t estimate, double width = 2.0);  // line style of an estimate
 std::string block(const char* kind, std::size_t estimate);    // name of a data block

@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t kMostStages = 14;
 constexpr std::size_t kMostLengths = 8;
 
-// A unit in which the largest of the errors has few digits before and after the point.
+// Centimetres for small errors, else metres.
 struct LengthUnit {
   const char* name;
   double per_m;

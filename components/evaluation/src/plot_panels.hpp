@@ -11,15 +11,15 @@
 
 namespace panvo::evaluation {
 
-// The data blocks that the panels draw: $truth, and for each estimate k $errors<k> and $segments<k>.
+// The data blocks of the panels: $truth, and for each estimate k $errors<k> and $segments<k>.
 void add_data(PlotCanvas& canvas, const Report& report);
 
-// Paths over the ground truth, a metre as long on either axis.
+// Trajectories over the ground truth, with equal scale on both axes.
 void add_plan(PlotCanvas& canvas, const Report& report, const Box& box);
 
 void add_error_over_distance(PlotCanvas& canvas, const Report& report, const Box& box);
 
-// What is drawn of the segments: a member, where it stands in $segments<k>, and the factor of the unit shown.
+// A value of the segments to draw: its member, its column in $segments<k>, and the factor to the unit shown.
 struct SegmentValue {
   double SegmentError::*member;
   int column;
@@ -31,7 +31,7 @@ void add_segments(PlotCanvas& canvas, const Report& report, const Box& box, cons
 // x, y, z and yaw, one below the other.
 void add_error_strips(PlotCanvas& canvas, const Report& report, const Box& box);
 
-// A bar a stage, the slowest first, and names 330 pixels to its left.
+// One bar per stage, the slowest first, with names in the 330 pixels to the left.
 void add_times(PlotCanvas& canvas, StageTimes times, const Box& box);
 
 }  // namespace panvo::evaluation

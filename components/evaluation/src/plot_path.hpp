@@ -15,7 +15,7 @@ struct Span {
   std::int64_t last_ns = 0;
 };
 
-// From the first pose that any estimate shares with the ground truth to the last.
+// From the first to the last pose of any estimate that has ground truth.
 inline Span covered_span(const Report& report) {
   Span span{report.evaluations.front().errors.front().stamp_ns, report.evaluations.front().errors.back().stamp_ns};
   for (const Evaluation& e : report.evaluations) {
@@ -25,7 +25,7 @@ inline Span covered_span(const Report& report) {
   return span;
 }
 
-// The ground truth in that span: the rest would only shrink the picture.
+// Positions of the ground truth within that span; the rest would only shrink the plot.
 inline std::vector<Eigen::Vector3d> true_positions(const Report& report) {
   const Span span = covered_span(report);
   std::vector<Eigen::Vector3d> positions;

@@ -11,7 +11,7 @@ namespace {
 
 using Path = std::vector<Eigen::Vector3d>;
 
-// Direction in which the path leaves its first place, past any standing still and jitter.
+// Direction in which the path leaves its first position, ignoring standstill and jitter.
 template <class Iterator>
 Eigen::Vector2d way_out(Iterator begin, Iterator end) {
   const Eigen::Vector2d from = begin->template head<2>();
@@ -24,7 +24,7 @@ Eigen::Vector2d way_out(Iterator begin, Iterator end) {
   return Eigen::Vector2d::UnitX();
 }
 
-// A mark with its name on the side where the path does not go.
+// A mark with its name on the side opposite to the path.
 void add_place(PlotCanvas& canvas, int tag, const char* name, const Eigen::Vector3d& place, const Eigen::Vector2d& way,
                int point_type) {
   const bool sideways = std::abs(way.x()) >= std::abs(way.y());
@@ -35,7 +35,7 @@ void add_place(PlotCanvas& canvas, int tag, const char* name, const Eigen::Vecto
               " lc rgb '" + kInk + "'" + ink());
 }
 
-// In the corner that the paths touch least.
+// Draws the scale bar in the corner with the fewest points of the paths.
 void add_scale_bar(PlotCanvas& canvas, const Path& points, const PlanRanges& ranges) {
   const double length = round_number_below(ranges.x.size() / 5.0);
   std::array<std::size_t, 4> inside{};  // lower right, lower left, upper right, upper left

@@ -26,20 +26,20 @@ Eigen::Isometry3d nearest_pose(const Trajectory& truth, std::int64_t stamp_ns) {
 
 YAML::Node read_yaml(const fs::path& file) {
   std::ifstream stream(file);
-  if (!stream) throw InputError(file, "cannot be read", "give a folder in the EuRoC/ASL layout with its sequence.yaml");
+  if (!stream) throw InputError(file, "cannot be read", "use a folder in EuRoC/ASL layout with a sequence.yaml");
   std::string text{std::istreambuf_iterator<char>(stream), {}};
-  if (text.starts_with("%YAML:")) text.replace(0, std::min(text.find('\n'), text.size()), "#");  // OpenCV's spelling
+  if (text.starts_with("%YAML:")) text.replace(0, std::min(text.find('\n'), text.size()), "#");  // as OpenCV writes it
   try {
     return YAML::Load(text);
   } catch (const YAML::Exception& error) {
-    throw InputError(file, static_cast<std::size_t>(error.mark.line + 1), error.msg, "correct it");
+    throw InputError(file, static_cast<std::size_t>(error.mark.line + 1), error.msg, "correct the file");
   }
 }
 
 Eigen::Isometry3d read_extrinsics(const fs::path& file) {
   const auto values = read_yaml(file)["T_BS"]["data"];
   if (!values || !values.IsSequence() || values.size() != 16) {
-    throw InputError(file, "has no T_BS with 16 numbers", "say there where the panorama sits on the vehicle");
+    throw InputError(file, "has no T_BS with 16 numbers", "add the pose of the panoramic camera on the vehicle");
   }
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
   for (std::size_t i = 0; i < 12; ++i) {
@@ -55,7 +55,7 @@ std::int64_t panorama_clock_offset_ns(const fs::path& file, const YAML::Node& se
     return offset.as<std::int64_t>();
   } catch (const YAML::Exception& error) {
     throw InputError(file, static_cast<std::size_t>(error.mark.line + 1), error.msg,
-                     "panorama_clock_offset_ns is a whole number of nanoseconds");
+                     "panorama_clock_offset_ns must be a whole number of nanoseconds");
   }
 }
 
@@ -72,7 +72,7 @@ std::vector<RecordedPanorama> list_panoramas(const fs::path& folder, std::int64_
     panoramas.push_back(panorama);
   }
   if (panoramas.empty()) {
-    throw InputError(folder, "holds no image named by its stamp", "give a recording with panoramas");
+    throw InputError(folder, "holds no image named by its stamp", "use a recording with panoramas");
   }
   std::sort(panoramas.begin(), panoramas.end(), [](const auto& a, const auto& b) { return a.stamp_ns < b.stamp_ns; });
   return panoramas;

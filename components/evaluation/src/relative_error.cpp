@@ -12,7 +12,7 @@
 namespace panvo::evaluation {
 namespace {
 
-// Sums of steps fall short of a round length by rounding; without this a segment would gain a whole frame.
+// Rounding can make a sum of steps slightly too short, which would extend a segment by a whole frame.
 constexpr double kLengthToleranceM = 1e-9;
 constexpr double kShortestKittiLengthM = 100.0;
 
@@ -28,7 +28,7 @@ RelativeError relative_error(const PosePair& from, const PosePair& to) {
   return {error.translation().norm(), rotation_vector(error.linear()).norm() * 180.0 / std::numbers::pi};
 }
 
-// First pair at least `length_m` further on than `first`; the number of pairs if there is none.
+// Index of the first pair at least `length_m` after `first`; the number of pairs if there is none.
 std::size_t end_of_segment(const std::vector<double>& distances, std::size_t first, double length_m) {
   const auto end = std::lower_bound(distances.begin() + static_cast<std::ptrdiff_t>(first), distances.end(),
                                     distances[first] + length_m - kLengthToleranceM);
@@ -65,7 +65,7 @@ std::optional<SegmentErrors> segment_errors(std::span<const PosePair> pairs, con
       options.lengths_m.empty() ? suitable_segment_lengths_m(distances.back()) : options.lengths_m;
   for (const double length : lengths) {
     if (!(length > 0.0) || !std::isfinite(length)) {
-      throw InputError("segment length " + std::to_string(length) + " m: must be positive; give lengths in metres");
+      throw InputError("segment length " + std::to_string(length) + " m: must be positive; lengths are in metres");
     }
   }
   if (lengths.empty()) return std::nullopt;

@@ -131,7 +131,7 @@ std::string to_json(const Report& report) {
       {"errors_aligned_by", to_string(report.evaluations.front().alignment)},
       {"estimates", std::move(evaluations)},
   };
-  // Names may hold bytes that are no UTF-8: replaced rather than refused.
+  // Invalid UTF-8 in names is replaced instead of rejected.
   return document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
@@ -140,7 +140,7 @@ std::string to_csv(const Report& report) {
       "estimate,stamp_ns,distance_m,true_x_m,true_y_m,true_z_m,estimate_x_m,estimate_y_m,estimate_z_m,"
       "error_x_m,error_y_m,error_z_m,error_m,rotation_x_deg,rotation_y_deg,rotation_z_deg,rotation_deg,yaw_deg\n";
   for (const Evaluation& evaluation : report.evaluations) {
-    std::string name = evaluation.name;  // quoted, as RFC 4180 has it
+    std::string name = evaluation.name;  // quoted according to RFC 4180
     for (std::size_t at = 0; (at = name.find('"', at)) != std::string::npos; at += 2) name.insert(at, 1, '"');
     for (const PoseError& error : evaluation.errors) {
       text += '"' + name + "\"," + std::to_string(error.stamp_ns);

@@ -18,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 
 std::vector<fs::path> result_files(const fs::path& folder) {
-  if (!fs::is_directory(folder)) throw InputError(folder, "is no folder", "name the folder that a run left");
+  if (!fs::is_directory(folder)) throw InputError(folder, "is not a folder", "name a run folder");
   std::vector<fs::path> files;
   for (const auto& entry : fs::directory_iterator(folder)) {
     const auto extension = entry.path().extension();
@@ -26,7 +26,7 @@ std::vector<fs::path> result_files(const fs::path& folder) {
   }
   if (files.empty()) {
     throw InputError(folder, "holds no results (*.tum, *.csv)",
-                     "name the folder that a run left (--out of `panvo run`)");
+                     "name a run folder (--out of `panvo run`)");
   }
   std::sort(files.begin(), files.end());
   return files;
@@ -38,7 +38,7 @@ bool is_number(const std::string& field) {
   return end != field.c_str() && *end == '\0';
 }
 
-/// Two measured numbers, which another machine may round otherwise: one at least has a decimal point or an exponent.
+/// Whether both are measured numbers, which may be rounded differently on another machine: at least one has a decimal point or an exponent.
 bool are_measured(const std::string& a, const std::string& b) {
   const auto has_point = [](const std::string& field) { return field.find_first_of(".e") != std::string::npos; };
   return is_number(a) && is_number(b) && (has_point(a) || has_point(b));
@@ -65,7 +65,7 @@ std::vector<std::string> fields_of(const std::string& line) {
   return fields;
 }
 
-/// The same event, whatever was measured of it. Texts in quotes are for people, and tell measured numbers.
+/// Whether both lines are the same event, ignoring measured numbers and quoted texts, which contain such numbers.
 bool is_same_event(const std::string& line, const std::string& expected) {
   const auto ours = fields_of(line), theirs = fields_of(expected);
   if (ours.size() != theirs.size()) return false;
@@ -105,7 +105,7 @@ void compare_poses(const fs::path& file, const fs::path& expected, const RunTole
     const auto& our = ours.poses[i];
     const auto& their = theirs.poses[i];
     if (our.stamp_ns != their.stamp_ns) {
-      differs("pose " + std::to_string(i + 1) + " is of " + std::to_string(our.stamp_ns) + " ns, expected " +
+      differs("pose " + std::to_string(i + 1) + " has stamp " + std::to_string(our.stamp_ns) + " ns, expected " +
               std::to_string(their.stamp_ns) + " ns");
       return;
     }
@@ -115,8 +115,8 @@ void compare_poses(const fs::path& file, const fs::path& expected, const RunTole
     comparison.worst_m = std::max(*comparison.worst_m, apart_m);
     comparison.worst_deg = std::max(*comparison.worst_deg, apart_deg);
     if (apart_m > tolerance.position_m || apart_deg > tolerance.rotation_deg) {
-      differs("pose " + std::to_string(i + 1) + " is " + to_text(apart_m, 3) + " m and " + to_text(apart_deg, 3) +
-              " deg from what is expected");
+      differs("pose " + std::to_string(i + 1) + " differs by " + to_text(apart_m, 3) + " m and " + to_text(apart_deg, 3) +
+              " deg");
     }
   }
 }

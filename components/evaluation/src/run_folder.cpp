@@ -20,10 +20,10 @@ constexpr std::string_view kEnhanced = "odometry_enhanced.tum";
 constexpr std::string_view kCovariances = "odometry_binocular_covariance.csv";
 constexpr std::string_view kTiming = "timing.json";
 constexpr std::string_view kSummary = "summary.json";
-constexpr std::string_view kMark = ".panvo_run";  // what `panvo run --out` begins with
+constexpr std::string_view kMark = ".panvo_run";  // created by `panvo run --out` at its start
 constexpr std::string_view kQuality = "quality.csv";
 
-// "runs/monday/" and "runs/monday" are both called monday; "." is called as the folder it is.
+// Name of the folder, or of the file without extension; "runs/monday/", "runs/monday" and "." work alike.
 std::string name_of(const fs::path& file_or_folder) {
   const fs::path path = fs::weakly_canonical(file_or_folder);
   if (fs::is_directory(path)) return path.filename().string();
@@ -42,14 +42,14 @@ bool is_run_folder(const fs::path& folder) { return fs::exists(folder / kOdometr
 
 void require_finished(const fs::path& file_or_folder) {
   const fs::path folder = fs::is_directory(file_or_folder) ? file_or_folder : file_or_folder.parent_path();
-  constexpr const char* kRemedy = "run it to its end, or evaluate what there is with --partial";
+  constexpr const char* kRemedy = "let the run finish, or evaluate the part that exists with --partial";
   if (!fs::exists(folder / kSummary)) {
-    if (!fs::exists(folder / kMark)) return;  // from elsewhere
-    throw InputError(folder, "the run did not come to its end: it left no " + std::string(kSummary), kRemedy);
+    if (!fs::exists(folder / kMark)) return;  // not from `panvo run`
+    throw InputError(folder, "the run is incomplete: it has no " + std::string(kSummary), kRemedy);
   }
   const auto summary = nlohmann::json::parse(read_text(folder / kSummary), nullptr, false);
   if (summary.is_object() && summary.value("interrupted", false)) {
-    throw InputError(folder / kSummary, "the run was interrupted before all was played", kRemedy);
+    throw InputError(folder / kSummary, "the run was interrupted before its end", kRemedy);
   }
 }
 

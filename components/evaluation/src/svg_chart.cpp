@@ -11,7 +11,7 @@
 namespace panvo::evaluation {
 namespace {
 
-constexpr double kSmallestStep_px = 0.7;  // points nearer than this are one
+constexpr double kSmallestStep_px = 0.7;  // points nearer to the last one are dropped
 
 std::string tip_of(const std::string& tip) { return tip.empty() ? "" : "<title>" + html(tip) + "</title>"; }
 

@@ -9,17 +9,17 @@
 
 namespace panvo::evaluation {
 
-/// A diagram as inline SVG, drawn in pixels and scaled by the browser. Colours are classes of the page's style.
+/// A chart as inline SVG, drawn in pixels and scaled by the browser. Styles are CSS classes of the page.
 class SvgChart {
  public:
-  /// `plot`: where the data lie, in a picture of `width_px` x `height_px`.
+  /// `plot`: data area within the `width_px` x `height_px` image.
   SvgChart(double width_px, double height_px, Box plot, Range x, Range y, const std::string& description);
 
   double x(double value) const;
   double y(double value) const;
 
   void grid(const std::string& x_label, const std::string& y_label);
-  /// Thinned to what can be seen.
+  /// Drops points that are indistinguishable at this size.
   void curve(const std::vector<Eigen::Vector2d>& points, const std::string& style);
   void line(const Eigen::Vector2d& from, const Eigen::Vector2d& to, const std::string& style,
             const std::string& tip = "");
@@ -37,10 +37,10 @@ class SvgChart {
   std::string text_;
 };
 
-/// "<span class=key ..>": what a colour stands for.
+/// HTML legend of styles and their names.
 std::string legend(const std::vector<std::pair<std::string, std::string>>& styles_and_names);
 
-/// A range from 0 to a little above `high`.
+/// A range from 0 to slightly above `high`.
 Range from_zero(double high);
 
 }  // namespace panvo::evaluation

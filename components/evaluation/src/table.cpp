@@ -19,14 +19,14 @@ Cell cell(const std::optional<double>& value, int digits) {
   return value ? Cell(to_text(*value, digits)) : std::nullopt;
 }
 
-// Rows of a label, a unit and a value an estimate; a row without values is the heading of a section.
+// Rows of a label, a unit and one value per estimate; a row without values is a section heading.
 class Table {
  public:
   explicit Table(const std::vector<Evaluation>& evaluations) : evaluations_(evaluations) {}
 
   void section(const std::string& heading) { rows_.push_back({heading, "", {}}); }
 
-  // A row that no estimate has a value for is left out where `optional`.
+  // An `optional` row is omitted if no estimate has a value.
   void row(const std::string& label, const std::string& unit, const std::function<Cell(const Evaluation&)>& value,
            bool optional = false) {
     Row row{"  " + label, unit, {}};
@@ -106,7 +106,7 @@ void add_coverage(Table& table) {
       [](const Evaluation& e) { return e.unreliable ? Cell(std::to_string(*e.unreliable)) : std::nullopt; }, true);
   table.row("duration", "s", [](const Evaluation& e) { return to_text(e.duration_s, 1); });
   table.row("path length", "m", [](const Evaluation& e) { return to_text(e.path_length_m, 1); });
-  table.row("of the ground truth's path", "%", [](const Evaluation& e) { return to_text(e.coverage_percent, 1); });
+  table.row("part of the ground truth", "%", [](const Evaluation& e) { return to_text(e.coverage_percent, 1); });
 }
 
 void add_absolute(Table& table) {
@@ -116,7 +116,7 @@ void add_absolute(Table& table) {
     return e.rotation_start_deg ? Cell(to_text(e.rotation_start_deg->rmse, 3)) : std::nullopt;
   });
   table.row("at the end", "m", [](const Evaluation& e) { return cell(e.end_error_m, 3); });
-  table.row("at the end, of the path", "%", [](const Evaluation& e) { return cell(e.end_error_percent, 3); });
+  table.row("at the end, relative to path length", "%", [](const Evaluation& e) { return cell(e.end_error_percent, 3); });
   table.row("rotation at the end", "deg", [](const Evaluation& e) { return cell(e.end_rotation_deg, 3); });
   table.section("absolute trajectory error, aligned by SE3");
   table.summary("", "m", 3, [](const Evaluation& e) { return e.ate_se3_m; });
@@ -124,14 +124,14 @@ void add_absolute(Table& table) {
 }
 
 void add_relative(Table& table, const std::vector<Evaluation>& evaluations) {
-  table.section("segments, as KITTI");
+  table.section("KITTI segments");
   table.row("translation, all", "%", [](const Evaluation& e) {
     return e.segments ? Cell(to_text(e.segments->translation_percent, 3)) : std::nullopt;
   });
   table.row("rotation, all", "deg/m", [](const Evaluation& e) {
     return e.segments ? Cell(to_text(e.segments->rotation_deg_per_m, 5)) : std::nullopt;
   });
-  // Estimates that cover more or less of the path may have other lengths; 1 mm tells them apart.
+  // Estimates that cover different parts of the path may have different lengths; they are distinguished to 1 mm.
   std::map<std::int64_t, double> lengths;
   for (const Evaluation& e : evaluations) {
     if (!e.segments) continue;
@@ -162,7 +162,7 @@ void add_relative(Table& table, const std::vector<Evaluation>& evaluations) {
 
 std::string truth_noise_of(const ConsistencyOptions& options) {
   if (options.truth_noise_m == 0.0 && options.truth_noise_rad == 0.0) return "";
-  return ", ground truth taken to be within " + to_text(options.truth_noise_m, 4) + " m and " +
+  return ", noise of the ground truth " + to_text(options.truth_noise_m, 4) + " m and " +
          to_text(options.truth_noise_rad * 180.0 / std::numbers::pi, 4) + " deg";
 }
 
@@ -186,7 +186,7 @@ void add_consistency(Table& table, const std::vector<Evaluation>& evaluations) {
   table.row("accumulated pose, 6 expected", "", [](const Evaluation& e) {
     return e.nees && e.nees->pose ? Cell(to_text(e.nees->pose->mean, 2)) : std::nullopt;
   });
-  table.row("stretches used", "", [](const Evaluation& e) {
+  table.row("intervals used", "", [](const Evaluation& e) {
     return e.nees ? Cell(std::to_string(e.nees->motion.samples) + "/" +
                          std::to_string(e.nees->motion.samples + e.nees->unusable))
                   : std::nullopt;

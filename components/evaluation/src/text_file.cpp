@@ -67,7 +67,7 @@ std::vector<Line> read_lines(const std::filesystem::path& file) {
     if (!content.empty() && content.front() != '#') lines.push_back({number, std::string(content)});
   }
   if (lines.empty()) {
-    throw InputError(file, "is empty", "check that what wrote it ran to its end and produced poses");
+    throw InputError(file, "is empty", "check that the program that wrote it finished and produced poses");
   }
   return lines;
 }
@@ -85,7 +85,7 @@ Fields::Fields(const std::filesystem::path& file, const Line& line, char separat
 
 void Fields::expect(std::size_t count, bool or_more, std::string_view layout) const {
   if (size() == count || (or_more && size() > count)) return;
-  fail(std::to_string(size()) + " fields where " + std::to_string(count) + " are needed",
+  fail(std::to_string(size()) + " fields, expected " + std::to_string(count),
        "each line must read: " + std::string(layout));
 }
 
@@ -93,7 +93,7 @@ double Fields::number(std::size_t index) const {
   const auto value = parse<double>(fields_[index]);
   if (!value || !std::isfinite(*value)) {
     fail("field " + std::to_string(index + 1) + " is not a finite number: '" + std::string(fields_[index]) + "'",
-         "remove the line, or find out why it was written");
+         "remove the line, or find out how it was written");
   }
   return *value;
 }
@@ -111,7 +111,7 @@ std::int64_t Fields::seconds_as_ns(std::size_t index) const {
   if (const auto stamp = decimal_seconds_as_ns(fields_[index])) return *stamp;
   const double seconds = number(index);
   if (seconds < 0.0 || seconds > 9e9) {
-    fail("a stamp of " + std::string(fields_[index]) + " s", "stamps are seconds from 0 to 9e9");
+    fail("invalid stamp " + std::string(fields_[index]) + " s", "stamps are seconds from 0 to 9e9");
   }
   return std::llround(seconds * 1e9);
 }

@@ -10,23 +10,23 @@
 
 namespace panvo::evaluation {
 
-// A line with something on it, and its number in the file, from 1.
+// A non-empty line and its number in the file, from 1.
 struct Line {
   std::size_t number = 0;
   std::string text;
 };
 
-// Without blank lines and comments. Throws InputError if the file is missing, a folder, unreadable, or has no line.
+// Skips blank lines and comments. Throws InputError if the file is missing, a folder, unreadable, or has no other lines.
 std::vector<Line> read_lines(const std::filesystem::path& file);
 
-// The fields of one line, read with errors that name where they stand.
+// The fields of one line. Errors name file, line and field.
 class Fields {
  public:
-  // ',' splits at commas; ' ' at any white space. Views into `line`, which must live longer.
+  // ',' splits at commas, ' ' at any white space. Keeps references to `file` and `line`, which must outlive this object.
   Fields(const std::filesystem::path& file, const Line& line, char separator);
 
   std::size_t size() const { return fields_.size(); }
-  // Throws InputError unless there are `count` fields, or more where `or_more`.
+  // Throws InputError unless there are `count` fields (with `or_more`, at least `count`).
   void expect(std::size_t count, bool or_more, std::string_view layout) const;
 
   double number(std::size_t index) const;  // finite
@@ -40,7 +40,7 @@ class Fields {
   std::vector<std::string_view> fields_;
 };
 
-// Whole text of a file. Throws InputError if it cannot be read.
+// Reads a whole file. Throws InputError if it cannot be read.
 std::string read_text(const std::filesystem::path& file);
 
 }  // namespace panvo::evaluation

@@ -14,7 +14,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char* kRemedy = "write the file again with `panvo run`, or remove it to evaluate without times";
 
-// One place in the document, with the way to it for error messages.
+// A node of the document, with its path for error messages.
 struct Node {
   const std::filesystem::path& file;
   const Json& json;

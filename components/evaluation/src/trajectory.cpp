@@ -39,7 +39,7 @@ Eigen::Isometry3d interpolate(const StampedPose& before, const StampedPose& afte
 }
 
 Eigen::Vector3d rotation_vector(const Eigen::Matrix3d& rotation) {
-  // By way of the quaternion: the arc cosine of the trace loses all digits of angles below 1e-8.
+  // From the quaternion, because the arc cosine of the trace loses all digits of angles below 1e-8.
   const Eigen::AngleAxisd angle_axis{Eigen::Quaterniond(rotation)};
   return angle_axis.angle() * angle_axis.axis();
 }

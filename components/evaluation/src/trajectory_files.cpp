@@ -12,14 +12,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Files round their digits; what is further off than this is no rounding.
+// Tolerance for rounded digits.
 constexpr double kRotationTolerance = 1e-3;
 constexpr std::int64_t kKittiNominalPeriodNs = 100'000'000;
 
 Eigen::Isometry3d make_pose(const Eigen::Vector3d& position_m, const Eigen::Quaterniond& orientation,
                             const Fields& fields) {
   if (std::abs(orientation.norm() - 1.0) > kRotationTolerance) {
-    fields.fail("the quaternion has length " + std::to_string(orientation.norm()) + " instead of 1",
+    fields.fail("the quaternion has norm " + std::to_string(orientation.norm()) + " instead of 1",
                 "check the order of the columns (TUM: qx qy qz qw, EuRoC: w first)");
   }
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
@@ -30,7 +30,7 @@ Eigen::Isometry3d make_pose(const Eigen::Vector3d& position_m, const Eigen::Quat
 
 void append(Trajectory& trajectory, std::int64_t stamp_ns, const Eigen::Isometry3d& pose, const Fields& fields) {
   if (!trajectory.poses.empty() && stamp_ns <= trajectory.poses.back().stamp_ns) {
-    fields.fail("the stamp " + std::to_string(stamp_ns) + " ns is not after the one before, " +
+    fields.fail("the stamp " + std::to_string(stamp_ns) + " ns is not after the previous one, " +
                     std::to_string(trajectory.poses.back().stamp_ns) + " ns",
                 "sort the file by time and remove repeated lines");
   }
@@ -59,7 +59,7 @@ bool has_content(const fs::path& file) {
   return fs::is_regular_file(file, error) && fs::file_size(file, error) > 0;
 }
 
-// KITTI's own folders keep poses/03.txt apart from sequences/03/times.txt.
+// In the original folders of KITTI, poses/03.txt belongs to sequences/03/times.txt.
 fs::path kitti_times_of(const fs::path& poses) {
   const fs::path beside = poses.parent_path() / "times.txt";
   const fs::path apart = poses.parent_path().parent_path() / "sequences" / poses.stem() / "times.txt";
@@ -74,15 +74,15 @@ Trajectory read_file(const fs::path& file) {
   const std::size_t columns = Fields(file, first, ' ').size();
   if (columns == 12) return read_kitti(file, kitti_times_of(file));
   if (columns == 8) return read_tum(file);
-  throw InputError(file, first.number, "no known trajectory format: " + std::to_string(columns) + " columns",
-                   "give TUM (8 columns), KITTI poses (12 columns) or EuRoC csv");
+  throw InputError(file, first.number, "unknown trajectory format: " + std::to_string(columns) + " columns",
+                   "use TUM (8 columns), KITTI poses (12 columns) or EuRoC csv");
 }
 
 Trajectory read_folder(const fs::path& folder) {
   for (const char* name : {"odometry_enhanced.tum", "odometry_binocular.tum"}) {
     if (has_content(folder / name)) return read_tum(folder / name);
   }
-  // A run that died early leaves an empty file: saying that is better than "no trajectory found".
+  // A run that ended early leaves an empty file; its error is more helpful than "no trajectory in this folder".
   if (fs::exists(folder / "odometry_binocular.tum")) return read_tum(folder / "odometry_binocular.tum");
   for (const char* name :
        {"mav0/state_groundtruth_estimate0/data.csv", "state_groundtruth_estimate0/data.csv", "data.csv"}) {
@@ -93,7 +93,7 @@ Trajectory read_folder(const fs::path& folder) {
   const fs::path kitti = sequence.parent_path().parent_path() / "poses" / (sequence.filename().string() + ".txt");
   if (fs::exists(kitti)) return read_kitti(kitti, kitti_times_of(kitti));
   throw InputError(folder, "no trajectory in this folder",
-                   "it should hold odometry_enhanced.tum or odometry_binocular.tum (a run), "
+                   "it should contain odometry_enhanced.tum or odometry_binocular.tum (a run), "
                    "mav0/state_groundtruth_estimate0/data.csv (EuRoC/ASL) or poses.txt (KITTI); or name a file");
 }
 
@@ -132,7 +132,7 @@ Trajectory read_kitti(const fs::path& file, const fs::path& times) {
       throw InputError(times,
                        std::to_string(stamps.size()) + " stamps for the " + std::to_string(lines.size()) +
                            " poses of " + file.string(),
-                       "give one stamp a line for each pose");
+                       "give one stamp per pose");
     }
   }
   Trajectory trajectory{{}, file, times.empty() ? "KITTI, nominal 10 Hz" : "KITTI"};

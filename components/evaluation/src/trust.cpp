@@ -20,7 +20,7 @@ bool is_beyond_level(const TrustSample& sample) {
 
 bool is_alarm(const TrustSample& sample) { return !sample.is_tracking || !sample.is_usable; }
 
-/// A pose and how long somebody goes by it.
+/// A pose and the interval in which it is the latest one.
 struct Standing {
   const TrustSample* sample;
   std::int64_t from_ns, to_ns;
@@ -38,7 +38,7 @@ std::vector<Standing> standings(std::span<const TrustSample> samples) {
   return all;
 }
 
-/// Neighbouring poses of which `holds` is true.
+/// Consecutive poses for which a condition holds.
 struct Stretch {
   std::size_t first, last;
 };
@@ -60,7 +60,7 @@ std::int64_t length_ns(const std::vector<Standing>& all, const Stretch& stretch)
   return all[stretch.last].to_ns - all[stretch.first].from_ns;
 }
 
-/// From a stretch's beginning to the first alarm in it or the silence after it; nullopt where it ends without.
+/// From the start of a stretch to the first alarm or gap in it; nullopt if it ends without.
 std::optional<std::int64_t> alarm_after_ns(const std::vector<Standing>& all, const Stretch& stretch) {
   const std::int64_t begin_ns = all[stretch.first].from_ns;
   for (std::size_t i = stretch.first; i <= stretch.last; ++i) {
@@ -99,7 +99,7 @@ std::optional<double> noticed_s(const std::vector<Standing>& all, std::int64_t f
   return std::nullopt;
 }
 
-/// The last moment at which something was still wrong; nullopt: nothing ever was.
+/// End of the last alarm, gap or longer error over 3 sigma; nullopt if there is none.
 std::optional<std::int64_t> last_wrong_ns(const std::vector<Standing>& all) {
   std::optional<std::int64_t> last_ns;
   for (std::size_t i = 0; i < all.size(); ++i) {
@@ -146,7 +146,7 @@ TrustScore score_trust(std::span<const TrustSample> samples, const std::optional
   score.is_never_noticed = !score.noticed_s;
   if (!disturbance->to_ns) return score;
   const auto wrong_ns = last_wrong_ns(all);
-  // A run that ends, or has no pose after the disturbance, has not recovered.
+  // Not recovered if the run has no pose after the disturbance, or is still wrong at its end.
   score.is_never_recovered =
       all.empty() || all.back().from_ns < *disturbance->to_ns || (wrong_ns && *wrong_ns >= all.back().from_ns);
   if (!score.is_never_recovered) {

@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What held from a stamp on. Of what was said twice of one stamp the first counts: the second was said when somebody had already taken the pose.
+/// Values valid from a stamp on. Of several values with one stamp the first counts, because it was published with the pose.
 template <class Said>
 using Timeline = std::map<std::int64_t, Said>;
 
@@ -34,7 +34,7 @@ struct Integrity {
   double level_m;
 };
 
-/// As read_tum, in whatever order of stamps, sorted; of poses of one stamp the one published first.
+/// Like read_tum, but for stamps in any order; returns sorted poses. Of several poses with one stamp, the first is used.
 std::vector<StampedPose> read_poses(const fs::path& file) {
   std::map<std::int64_t, StampedPose> poses;
   for (const auto& line : read_lines(file)) {
@@ -73,14 +73,14 @@ Timeline<Integrity> read_integrity(const fs::path& file) {
   Timeline<Integrity> integrity;
   if (!fs::exists(file)) return integrity;
   for (const auto& row : read_csv(file, {"stamp_ns", "usable", "hpl_m"})) {
-    // Without a number nothing is promised.
+    // Without a number there is no protection level.
     const auto level = row.optional_number(2);
     integrity.emplace(row.integer(0), Integrity{row.flag(1), level.value_or(std::numeric_limits<double>::infinity())});
   }
   return integrity;
 }
 
-/// The truth at a time, within its span and where it has no gap of more than a second.
+/// Ground truth at a stamp, interpolated over gaps of at most one second; nullopt outside its time span.
 std::optional<Eigen::Isometry3d> truth_at(const std::vector<StampedPose>& truth, std::int64_t stamp_ns) {
   constexpr std::int64_t kLongestGap_ns = 1'000'000'000;
   const auto after = std::lower_bound(truth.begin(), truth.end(), stamp_ns,
@@ -91,7 +91,7 @@ std::optional<Eigen::Isometry3d> truth_at(const std::vector<StampedPose>& truth,
   return interpolate(*std::prev(after), *after, stamp_ns);
 }
 
-/// sqrt(e' C^-1 e); nullopt for a covariance that is none.
+/// sqrt(e' C^-1 e); nullopt for an invalid covariance.
 std::optional<double> over_sigma(const Eigen::Vector2d& error, const Eigen::Matrix2d* covariance) {
   if (covariance == nullptr) return std::nullopt;
   const Eigen::LLT<Eigen::Matrix2d> factor(*covariance);
@@ -137,8 +137,8 @@ TrustRun read_trust_run(const fs::path& folder) {
     run.samples.push_back(sample);
   }
   if (run.samples.empty()) {
-    throw InputError(folder / "odometry_enhanced.tum", "has no pose of the time of the truth",
-                     "play a recording that has truth (ground_truth.tum)");
+    throw InputError(folder / "odometry_enhanced.tum", "has no pose within the time span of the ground truth",
+                     "play a recording with ground truth (ground_truth.tum)");
   }
   return run;
 }

@@ -58,7 +58,7 @@ TEST(Alignment, ByNothingLeavesTheEstimateAsItIs) {
   EXPECT_TRUE(result->rigid.isApprox(Eigen::Isometry3d::Identity()));
 }
 
-// Brute truth: no small move in any of the six or seven directions makes the sum of squares smaller.
+// No small change in any of the six or seven degrees of freedom reduces the sum of squares.
 TEST(Alignment, CannotBeBetteredByTrying) {
   const std::vector<PosePair> pairs = noisy_pairs();
   for (const Alignment alignment : {Alignment::kSe3, Alignment::kSim3}) {

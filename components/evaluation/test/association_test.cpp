@@ -70,7 +70,7 @@ TEST(Association, ForgivesRoundedDigitsAtTheEnds) {
 TEST(Association, NamesBothSpansOfTimeIfTheyDoNotMeet) {
   const std::string error =
       input_error_of([] { associate(straight_line(10), shifted(straight_line(10), 1'700'000'000'000'000'000)); });
-  EXPECT_THAT(error, HasSubstr("only 0 of its 10 poses meet the ground truth"));
+  EXPECT_THAT(error, HasSubstr("only 0 of its 10 poses overlap the ground truth"));
   EXPECT_THAT(error, HasSubstr("from 0.000 to 0.900 s"));
   EXPECT_THAT(error, HasSubstr("from 1700000000.000 to 1700000000.900 s"));
   EXPECT_THAT(error, HasSubstr("same clock"));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// panvo_evaluate as a person or a script calls it.
+// Command line of panvo_evaluate.
 #include <gmock/gmock.h>
 #include <sys/wait.h>
 
@@ -30,7 +30,7 @@ class CommandLine : public TemporaryFolder {
     write("run/odometry_binocular.tum", tum(0.01));
   }
 
-  // 60 m along x, and `drift` of that to the side.
+  // 60 m along x with a lateral drift of `drift` times the distance.
   static std::string tum(double drift) {
     std::ostringstream text;
     for (int i = 0; i < 61; ++i) text << 0.1 * i << " " << i << " " << drift * i << " 0 0 0 0 1\n";
@@ -91,7 +91,7 @@ TEST_F(CommandLine, WritesNothingIntoTheGroundTruthWhenItsArgumentsAreSwapped) {
   write("data/poses.txt", "1 0 0 0 0 1 0 0 0 0 1 0\n1 0 0 0 0 1 0 0 0 0 1 1\n");
   const Outcome outcome = call("data run --no-plot");
   EXPECT_EQ(outcome.status, 1);
-  EXPECT_THAT(outcome.err, AllOf(HasSubstr("data: is not the folder of a run"), HasSubstr("--out")));
+  EXPECT_THAT(outcome.err, AllOf(HasSubstr("data: is not a run folder"), HasSubstr("--out")));
   EXPECT_FALSE(std::filesystem::exists(folder_ / "data/evaluation.json"));
 }
 
@@ -99,7 +99,7 @@ TEST_F(CommandLine, ReplacesAnEarlierEvaluationButNoFilesOfSomebodyElse) {
   write("mine/errors.csv", "precious");
   const Outcome outcome = call("run truth.tum --no-plot --out mine");
   EXPECT_EQ(outcome.status, 1);
-  EXPECT_THAT(outcome.err, HasSubstr("mine/errors.csv: is there already"));
+  EXPECT_THAT(outcome.err, HasSubstr("mine/errors.csv: exists"));
   EXPECT_EQ(text_of(folder_ / "mine/errors.csv"), "precious");
   EXPECT_EQ(call("run truth.tum --no-plot").status, 0);
   EXPECT_EQ(call("run truth.tum --no-plot").status, 0) << "again";
@@ -120,7 +120,7 @@ TEST_F(CommandLine, DoesNotTakeAKilledRunForFinished) {
   write("run/.panvo_run", "");
   const Outcome outcome = call("run truth.tum --no-plot");
   EXPECT_EQ(outcome.status, 1);
-  EXPECT_THAT(outcome.err, HasSubstr("left no summary.json"));
+  EXPECT_THAT(outcome.err, HasSubstr("it has no summary.json"));
 }
 
 TEST_F(CommandLine, FailsOnBadUsage) {

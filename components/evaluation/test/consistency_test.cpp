@@ -15,7 +15,7 @@ using Vector6d = Eigen::Matrix<double, 6, 1>;
 
 constexpr double kDtS = 0.1;
 
-// Correlated and unequal, as a real one is: 1 cm and 1 mrad or so.
+// Correlated and anisotropic, about 1 cm and 1 mrad.
 Matrix6d step_covariance() {
   Matrix6d factor = Matrix6d::Zero();
   factor.diagonal() << 0.010, 0.004, 0.006, 0.0005, 0.0010, 0.0020;
@@ -30,7 +30,7 @@ struct Walk {
   MotionCovariances covariances;
 };
 
-// The true path, each step disturbed by a sample of `step_covariance`, and what a run would say of it: `claimed` times
+// The true path with each step disturbed by a sample of `step_covariance`. The reported covariance is `claimed` times
 // that covariance.
 Walk disturbed(const Trajectory& truth, unsigned seed, double claimed = 1.0) {
   std::mt19937 generator(seed);
@@ -99,7 +99,7 @@ TEST(Nees, TellsOverconfidenceByItsFactor) {
 }
 
 TEST(Nees, OfTheAccumulatedPoseIsMeasuredInOdomAxes) {
-  // 0.3 m off to the left in odom, whatever the frame of the ground truth; variance 0.01 m^2: 0.3^2 / 0.01 = 9.
+  // Error of 0.3 m to the left in odom, independent of the frame of the ground truth; variance 0.01 m^2: 0.3^2 / 0.01 = 9.
   const Trajectory truth = transformed(straight_line(3), make_pose(9, 8, 7, 2.0));
   Trajectory estimate = straight_line(3);
   MotionCovariances covariances;
@@ -116,7 +116,7 @@ TEST(Nees, OfTheAccumulatedPoseIsMeasuredInOdomAxes) {
 }
 
 TEST(Nees, OfTheAccumulatedPoseHasItsRotationAboutOdomAxes) {
-  // Turned by 0.3 rad about odom's y; variance 0.01 rad^2 about that axis, 1 about the others: 9.
+  // Rotated by 0.3 rad about the y axis of odom; variance 0.01 rad^2 about that axis, 1 about the others: 9.
   const Trajectory truth = transformed(straight_line(3), make_pose(9, 8, 7, 2.0));
   Trajectory estimate = straight_line(3);
   MotionCovariances covariances;
@@ -128,7 +128,7 @@ TEST(Nees, OfTheAccumulatedPoseHasItsRotationAboutOdomAxes) {
   const Eigen::Matrix3d tilted = make_pose(0, 0, 0, 0, 0.3).linear();
   Trajectory turned_truth = truth;
   for (std::size_t i : {1u, 2u}) {
-    // The true heading is 1 rad off the start's, so that axes of odom and of the base are not the same.
+    // The true heading differs by 1 rad from the start, so that the axes of odom and base differ.
     const Eigen::Matrix3d turn = make_pose(0, 0, 0, 1.0).linear();
     turned_truth.poses[i].world_from_base.linear() = truth.poses[0].world_from_base.linear() * turn;
     estimate.poses[i].world_from_base.linear() = tilted * turn;
@@ -138,7 +138,7 @@ TEST(Nees, OfTheAccumulatedPoseHasItsRotationAboutOdomAxes) {
   EXPECT_NEAR(result->pose->mean, 9.0, 1e-6);
 }
 
-// The truth is what trembles here: without saying so, an exact estimate looks overconfident.
+// The ground truth is noisy: unless its noise is given, an exact estimate seems overconfident.
 TEST(Nees, CountsTheStatedNoiseOfTheGroundTruth) {
   const Trajectory truth = true_path(10001);
   const Walk walk = disturbed(truth, 5);
@@ -198,9 +198,9 @@ TEST_F(MotionCovarianceFile, NamesTheLineOfAFault) {
   EXPECT_THAT(input_error_of([&] { read_motion_covariances(broken); }),
               HasSubstr("nan.csv:3: field 2 is not a finite"));
   const auto few = write("short.csv", "stamp_ns\n1,2,3\n");
-  EXPECT_THAT(input_error_of([&] { read_motion_covariances(few); }), HasSubstr("short.csv:2: 3 fields where 79"));
+  EXPECT_THAT(input_error_of([&] { read_motion_covariances(few); }), HasSubstr("short.csv:2: 3 fields, expected 79"));
   const auto twice = write("twice.csv", "stamp_ns\n" + line("1") + line("1"));
-  EXPECT_THAT(input_error_of([&] { read_motion_covariances(twice); }), HasSubstr("twice.csv:3: the stamp 1 was there"));
+  EXPECT_THAT(input_error_of([&] { read_motion_covariances(twice); }), HasSubstr("twice.csv:3: duplicate stamp 1"));
 }
 
 }  // namespace

@@ -24,7 +24,7 @@ TEST(Evaluation, OfThePathItselfHasNoError) {
   EXPECT_NEAR(e.per_frame->translation.max, 0.0, 1e-9);
 }
 
-// Another frame changes nothing, as both alignments take it out.
+// Both alignments remove the difference of frames.
 TEST(Evaluation, DoesNotDependOnTheFrameOfTheEstimate) {
   const auto moved = transformed(winding_path(200), make_pose(100, -50, 3, 2.0, 0.5, -1.0));
   const Evaluation e = evaluate(estimate_of(moved), winding_path(200));
@@ -75,7 +75,7 @@ TEST(Evaluation, RefusesAnAlignmentThatThePathDoesNotDetermine) {
 }
 
 TEST(Evaluation, ChecksCovariancesAgainstTheOdometryTheyBelongTo) {
-  Estimate estimate = estimate_of(straight_line(21, 1.5));  // the enhanced path: off, but not what is claimed about
+  Estimate estimate = estimate_of(straight_line(21, 1.5));  // the enhanced path, to which the covariances do not belong
   estimate.odometry = straight_line(21);
   estimate.covariances.emplace();
   for (const StampedPose& pose : estimate.odometry.poses) {

@@ -42,8 +42,8 @@ TEST_F(JourneyFiles, ThatAreMissingAreNamed) {
   EXPECT_THAT(read_journey_run(folder_ / "run").missing,
               ElementsAre("odometry_enhanced_covariance.csv", "outcomes.csv", "timing.json", "summary.json"));
   std::filesystem::remove(folder_ / "run/odometry_enhanced.tum");
-  EXPECT_THAT(run_error(), AllOf(HasSubstr("odometry_enhanced.tum: is not there"), HasSubstr("panvo run enhanced_vo")));
-  EXPECT_THAT(input_error_of([&] { read_journey_run(folder_ / "nowhere"); }), HasSubstr("nowhere: is no folder"));
+  EXPECT_THAT(run_error(), AllOf(HasSubstr("odometry_enhanced.tum: not found"), HasSubstr("panvo run enhanced_vo")));
+  EXPECT_THAT(input_error_of([&] { read_journey_run(folder_ / "nowhere"); }), HasSubstr("nowhere: is not a folder"));
 }
 
 TEST_F(JourneyFiles, ThatAreEmptyOrCutOffAreRefusedByLine) {
@@ -79,11 +79,11 @@ TEST_F(JourneyFiles, OfTheRecordingSayWhatThePanoramasClockIsAhead) {
 
 TEST_F(JourneyFiles, OfTheRecordingAreRefusedByLine) {
   write("recording/sequence.yaml", "visits:\n  - {id: 7, t_ns: 1800000000000000000}\n");
-  EXPECT_THAT(recording_error(), HasSubstr("sequence.yaml:2: a visit outside of the truth's time"));
+  EXPECT_THAT(recording_error(), HasSubstr("sequence.yaml:2: a visit is outside the time span"));
   write("recording/sequence.yaml", "visits:\n  - {id: seven, t_ns: 3}\n");
   EXPECT_THAT(recording_error(), AllOf(HasSubstr("sequence.yaml:2:"), HasSubstr("a visit needs an id and t_ns")));
   write("recording/sequence.yaml", "movers:\n  - {from_ns: 5}\n");
-  EXPECT_THAT(recording_error(), HasSubstr("a stretch needs from_ns and to_ns"));
+  EXPECT_THAT(recording_error(), HasSubstr("an interval needs from_ns and to_ns"));
   std::filesystem::remove(folder_ / "recording/mav0/state_groundtruth_estimate0/data.csv");
   EXPECT_THAT(recording_error(), AllOf(HasSubstr("holds no ground truth"), HasSubstr("--recording")));
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A run and its recording with known answers: 50 m along a street and back, a metre a second.
+// A run and its recording with known results: 50 m along a street and back, 1 m/s.
 #pragma once
 
 #include <fmt/format.h>
@@ -15,8 +15,8 @@
 
 namespace panvo::evaluation {
 
-/// The estimates drift to the left by 2 cm a metre and turn by 0.5 mrad a metre. Place 7 is passed after 10 m and, on the way back,
-/// after 90 m: there the enhanced pose is corrected to 0.25 m and no heading error. Its landmark was made with an error of 0.2 m.
+/// The estimates drift to the left by 2 cm and turn by 0.5 mrad per metre. Place 7 is passed after 10 m and, on the way back, after
+/// 90 m, where the enhanced pose is corrected to an error of 0.25 m without heading error. Its landmark has an error of 0.2 m.
 class MadeJourney : public TemporaryFolder {
  protected:
   static constexpr int kSeconds = 100;
@@ -54,7 +54,7 @@ class MadeJourney : public TemporaryFolder {
     write_run();
   }
 
-  /// `left_m`: as if driven that far to the left of the street, at the same time.
+  /// `left_m`: lateral offset of the drive to the left of the street.
   void write_recording(const std::string& name, double left_m = 0.0) const {
     std::string truth = "#timestamp, x, y, z, qw, qx, qy, qz\n";
     for (int s = 0; s <= kSeconds; ++s) {

@@ -86,16 +86,16 @@ TEST_F(JourneyPage, SaysWhatItWasGivenAndNoMarkup) {
 
 TEST_F(JourneyPage, DoesWithoutPicturesWhereThereAreNone) {
   std::filesystem::remove_all(folder_ / "recording/mav0/cam2");
-  EXPECT_THAT(page(), HasSubstr("The recording has no panoramas of both times."));
+  EXPECT_THAT(page(), HasSubstr("No panoramas of both visits in the recording."));
 }
 
 TEST_F(JourneyPage, NamesThePictureThatCannotBeDecoded) {
   write("recording/mav0/cam2/data/" + std::to_string(stamp(90)) + ".png", "no picture");
-  EXPECT_THAT(input_error_of([&] { page(); }), HasSubstr(std::to_string(stamp(90)) + ".png: is no image"));
+  EXPECT_THAT(input_error_of([&] { page(); }), HasSubstr(std::to_string(stamp(90)) + ".png: cannot be decoded"));
 }
 
 TEST_F(JourneyPage, AlignsPanoramasByTheHeading) {
-  // what was seen a quarter turn to the right of ahead is ahead now: the vehicle turned right by a quarter
+  // The view 90 degrees to the right is now ahead: the vehicle turned right by 90 degrees.
   const auto folder = folder_ / "pair";
   std::filesystem::create_directories(folder);
   cv::Mat then(540, 1080, CV_8UC3), now;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whole paths, azimuth episodes and times of a journey with known answers.
+// Whole paths, azimuth episodes and times of a journey with known results.
 #include <gtest/gtest.h>
 
 #include "journey_fixture.hpp"
@@ -30,7 +30,7 @@ TEST_F(Journey, HasTheErrorsOfBothPaths) {
   EXPECT_NEAR(paths.enhanced.final_m, 0.25, 1e-6);
   EXPECT_NEAR(paths.enhanced.worst_m, 1.78, 1e-6);
   EXPECT_NEAR(paths.enhanced.worst_at_m, 89.0, 1e-6);
-  // 0.02 m times the whole numbers up to 100
+  // 0.02 m times the integers up to 100
   EXPECT_NEAR(paths.binocular.flat_m.rmse, 0.02 * std::sqrt(100.0 * 101.0 * 201.0 / 6.0 / 101.0), 1e-6);
   EXPECT_NEAR(paths.binocular.ate_m.rmse, paths.binocular.flat_m.rmse, 1e-9);
   const double squares = 0.0004 * 89.0 * 90.0 * 179.0 / 6.0 + 11.0 * 0.0625;
@@ -54,7 +54,7 @@ TEST_F(Journey, IsScoredFromWhereItWasLocated) {
 TEST_F(Journey, HasTheConsistencyOfThePublishedPose) {
   const auto nees = score_paths(frames()).consistency;
   ASSERT_TRUE(nees);
-  // one standard deviation off to the left and in heading up to 89 s; then to the left only. At 0 s nothing is said.
+  // Errors of one standard deviation to the left and in heading up to 89 s, then only to the left. No covariance at 0 s.
   EXPECT_NEAR(nees->plane.mean, (89.0 * 2.0 + 11.0) / 100.0, 1e-4);
   EXPECT_NEAR(nees->full.mean, (89.0 * 2.0 + 11.0) / 100.0, 1e-4);
   EXPECT_EQ(nees->plane.dimension, 3);

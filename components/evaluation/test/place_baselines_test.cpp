@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The methods that panvo's features are compared with, on made-up panoramas.
+/// Baseline methods on synthetic panoramas.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -20,7 +20,7 @@ namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
 
-/// Blocks of grey of many sizes: a place of a number.
+/// Grey blocks of random sizes; `place` is the seed.
 cv::Mat made_up_panorama(std::uint64_t place) {
   std::mt19937_64 random(place);
   const auto below = [&](int limit) { return static_cast<int>(random() % static_cast<std::uint64_t>(limit)); };
@@ -36,7 +36,7 @@ cv::Mat made_up_panorama(std::uint64_t place) {
   return panorama;
 }
 
-/// As the vehicle sees it after a turn to the left: the scene moves to the right.
+/// The view after a left turn of the vehicle: the scene moves to the right.
 cv::Mat turned_left(const cv::Mat& panorama, int columns) {
   const int shift = ((columns % panorama.cols) + panorama.cols) % panorama.cols;
   cv::Mat turned;
@@ -57,7 +57,7 @@ struct Case {
   std::function<std::unique_ptr<PlaceMethod>()> make;
   bool knows_heading;
   double heading_tolerance_deg;
-  double dark_distance;  // to the same panorama, darker
+  double dark_distance;  // distance to the same panorama, darker
 
   friend std::ostream& operator<<(std::ostream& out, const Case& c) { return out << c.name; }
 };
@@ -90,7 +90,7 @@ TEST_P(Baseline, CaresLittleForLessLight) {
 }
 
 TEST_P(Baseline, FindsATurnedPanoramaAndHowItIsTurned) {
-  if (!GetParam().knows_heading) GTEST_SKIP() << "it knows no heading";
+  if (!GetParam().knows_heading) GTEST_SKIP() << "the method estimates no heading";
   const auto panorama = made_up_panorama(5);
   for (const int degrees : {10, 37, 90, 144, 180, -3, -90, -151}) {
     const auto found = compare(turned_left(panorama, degrees * 3), panorama);
@@ -132,7 +132,7 @@ TEST(BriefGist, KnowsNothingOfHeadings) {
   const auto turned = method->describe_query(turned_left(panorama, 270));
   const auto found = method->distance(*turned, *method->describe_landmark(panorama));
   EXPECT_EQ(found.heading_rad, 0.0);
-  EXPECT_GT(found.distance, 0.3) << "turned by 90 degrees it is another image";
+  EXPECT_GT(found.distance, 0.3) << "rotated by 90 degrees, the image differs";
 }
 
 TEST(IntensityHistogram, IsTheSameAtEveryHeading) {
@@ -153,7 +153,7 @@ TEST(BriefPattern, ComparesPixelPairs) {
   cv::flip(ramp, reversed, 1);
   const auto rising = pattern.describe(ramp, 10), falling = pattern.describe(reversed, 10);
   EXPECT_EQ(rising, pattern.describe(ramp, 30)) << "only differences count";
-  // Of pairs of one column neither is darker in both.
+  // Pairs within one column are equal in both.
   EXPECT_GT(hamming_distance(rising, falling), 235);
   EXPECT_NE(rising, BriefPattern(2).describe(ramp, 10));
   EXPECT_EQ(hamming_distance(rising, rising), 0);

@@ -15,10 +15,10 @@ std::filesystem::path campus_journey() {
   return std::filesystem::path(data != nullptr ? data : PANVO_SHARED_DATA) / "campus_journey";
 }
 
-// A rendered town that is not of our making: three revisits, 88 to 151 degrees against the first time, 1.4 to 3.1 m beside.
+// A rendered town from another source: three revisits, rotated by 88 to 151 degrees, with offsets of 1.4 to 3.1 m.
 TEST(CampusJourney, HasEveryRevisitFoundAndNoneWrong) {
   if (!std::filesystem::exists(campus_journey())) {
-    GTEST_SKIP() << campus_journey() << " is not there; PANVO_DATA names the folder of recordings";
+    GTEST_SKIP() << campus_journey() << " not found; set PANVO_DATA to the folder of recordings";
   }
   const auto recording = read_place_recording(campus_journey());
   const auto task = place_task(recording);

@@ -12,7 +12,7 @@
 
 namespace panvo::evaluation {
 
-/// A recording of a drive along x, a panorama a second and metre, whose pictures are plain grey: grey level by place.
+/// A recording of a drive along x with one panorama per second and metre. Images are uniform grey; the level identifies the place.
 class PlainRecording {
  public:
   struct Visit {

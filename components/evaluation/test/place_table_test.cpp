@@ -12,7 +12,7 @@
 namespace panvo::evaluation {
 namespace {
 
-/// Tells places apart by how bright they are.
+/// Distinguishes places by their mean brightness.
 class Brightness final : public PlaceMethod {
  public:
   struct Mean final : PlaceDescriptor {
@@ -38,7 +38,7 @@ TEST(PlaceTask, TakesFirstVisitsForPlacesAndLaterOnesForRevisits) {
   EXPECT_EQ(task.places[0].panorama, 1U);
   ASSERT_EQ(task.revisits.size(), 1U);
   EXPECT_EQ(task.revisits[0].known, 0U);
-  // of the panoramas of the pass the one nearest to the place; here the drive never turned back
+  // The panorama of the pass that is nearest to the place; this drive never turned back.
   EXPECT_EQ(task.revisits[0].panorama, 1U);
   EXPECT_DOUBLE_EQ(task.revisits[0].offset_m, 0.0);
 }
@@ -55,13 +55,13 @@ TEST(PlaceTask, TakesAllVisitsOfALaterRecordingForRevisits) {
 }
 
 TEST(PlaceScore, IsThatOfSeparationsDoneByHand) {
-  // places 10, 100, 200; revisits 18 of the first (right) and 160 of the second (nearer to the third: wrong)
+  // Places 10, 100, 200. Revisits: 18 of the first (right), and 160 of the second, which is nearer to the third (wrong).
   const PlainRecording first("score", {10, 100, 200}, {{1, 0}, {2, 1}, {3, 2}});
   const PlainRecording second("score_then", {18, 160, 0}, {{1, 0}, {2, 1}});
   const auto earlier = read_place_recording(first.folder);
   const auto later = read_place_recording(second.folder);
   const auto score = score_places(Brightness(), place_task(earlier, &later), earlier, later);
-  // negatives 90, 90, 100; positives 8, 40: D' = (D - 8) / 92 [Lu2015 Eq. 14]
+  // Negatives 90, 90, 100; positives 8, 40: D' = (D - 8) / 92 [Lu2015 Eq. 14]
   EXPECT_NEAR(score.separation, (82.0 + 82.0 + 92.0) / 3.0 / 92.0 - (0.0 + 32.0) / 2.0 / 92.0,
               1e-9);  // [Lu2015 Eq. 13]
   EXPECT_EQ(score.revisits, 2);
@@ -74,7 +74,7 @@ TEST(PlaceScore, IsThatOfSeparationsDoneByHand) {
 }
 
 TEST(PlaceScore, CountsNegativesThatNoThresholdKeepsOut) {
-  // the revisit differs by 50, and two of the places by 20 only
+  // The revisit differs by 40 from its place, but two of the places by only 20 from each other.
   const PlainRecording first("negatives", {10, 100, 120}, {{1, 0}, {2, 1}, {3, 2}});
   const PlainRecording second("negatives_then", {50, 0}, {{1, 0}});
   const auto earlier = read_place_recording(first.folder);

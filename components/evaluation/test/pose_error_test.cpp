@@ -15,7 +15,7 @@ TEST(PoseErrors, AreZeroForThePathItself) {
 }
 
 TEST(PoseErrors, GrowWithADriftPerMetre) {
-  // 2 % too long: 0.02 m error a metre. Over 0..10 m the mean is 0.1 m and the end 0.2 m.
+  // 2 % too long: 0.02 m of error per metre. Over 0..10 m the mean is 0.1 m and the end 0.2 m.
   const auto errors = pose_errors(pairs_of(straight_line(11, 1.02), straight_line(11)), {});
   EXPECT_NEAR(errors.back().translation_m.x(), 0.2, 1e-12);
   EXPECT_NEAR(absolute_trajectory_error(errors)->mean, 0.1, 1e-12);
@@ -27,12 +27,12 @@ TEST(PoseErrors, GiveAConstantHeadingErrorWithItsSign) {
   Trajectory estimate = straight_line(11);
   for (StampedPose& pose : estimate.poses) pose.world_from_base.linear() = make_pose(0, 0, 0, 0.1).linear();
   const auto errors = pose_errors(pairs_of(estimate, straight_line(11)), {});
-  EXPECT_NEAR(errors[5].yaw_rad, 0.1, 1e-12);  // the estimate points to the left of the truth
+  EXPECT_NEAR(errors[5].yaw_rad, 0.1, 1e-12);  // the estimate points to the left of the ground truth
   EXPECT_TRUE(errors[5].rotation_rad.isApprox(Eigen::Vector3d(0, 0, 0.1), 1e-12));
   EXPECT_NEAR(absolute_rotation_error_deg(errors)->mean, 0.1 * 180.0 / M_PI, 1e-9);
 }
 
-// A path that starts 3 degrees off its heading is, at distance s, the chord 2 s sin(1.5 deg) away.
+// With a heading error of 3 degrees at the start, the error at distance s is the chord 2 s sin(1.5 deg).
 TEST(PoseErrors, OfAnOffsetInTheFirstHeadingGrowWithDistance) {
   const double offset = 3.0 * M_PI / 180.0;
   const auto pairs = pairs_of(transformed(straight_line(21), make_pose(0, 0, 0, offset)), straight_line(21));

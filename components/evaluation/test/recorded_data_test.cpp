@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Real files of the formats that are read: skipped where the recordings are absent.
+// Reads real files of the supported formats; skipped if the recordings are absent.
 #include <gtest/gtest.h>
 
 #include "panvo/evaluation/evaluation.hpp"
@@ -19,7 +19,7 @@ TEST(RecordedGroundTruth, OfKittiGoesForwardAndTurnsToTheRight) {
   EXPECT_GT(end.translation().x(), 50.0);
   EXPECT_LT(end.translation().y(), -1.0);
   EXPECT_LT(rotation_vector(end.linear()).z(), -0.5);
-  EXPECT_NEAR(end.translation().z(), 0.0, 2.0);  // a road, not a flight
+  EXPECT_NEAR(end.translation().z(), 0.0, 2.0);  // nearly flat
   EXPECT_EQ(truth.poses.back().stamp_ns, 9'800'000'000);
 }
 
@@ -30,7 +30,7 @@ TEST(RecordedGroundTruth, OfTheCampusClipIsReadToItsEnd) {
   EXPECT_EQ(truth.poses.size(), 707u);
   EXPECT_EQ(median_period_ns(truth), 40'000'000);
   EXPECT_NEAR(path_length_m(truth), 92.0, 0.5);
-  // The body looks along its x: it moves where it looks.
+  // The vehicle moves along its x axis.
   const Eigen::Isometry3d step = truth.poses[300].world_from_base.inverse() * truth.poses[301].world_from_base;
   EXPECT_GT(step.translation().x(), 0.99 * step.translation().norm());
 }

@@ -11,7 +11,7 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-// Turns `rate_rad` to the left with every metre it goes.
+// Turns left by `rate_rad` per metre.
 Trajectory turning_line(std::size_t count, double rate_rad) {
   Trajectory path = straight_line(count);
   for (std::size_t i = 1; i < count; ++i) {
@@ -40,8 +40,8 @@ TEST(SegmentErrors, CountEverySegmentThatFits) {
   EXPECT_EQ(result->count, 51u + 41u + 31u + 21u + 11u);
 }
 
-// By hand: a left turn of c rad a metre where the truth is straight. After n steps of 1 m the heading is off by n c, so
-// the rotation error is c a metre, and the end lies at the sum of n unit steps with headings 0, c, ... (n - 1) c.
+// The estimate turns left by c rad per metre, the ground truth is straight. After n steps of 1 m the heading error is n c,
+// that is c per metre, and the end is at the sum of n unit steps with headings 0, c, ... (n - 1) c.
 TEST(SegmentErrors, OfAConstantTurnAreAsReckonedByHand) {
   const double c = 0.002;
   const int n = 20;
@@ -107,7 +107,7 @@ TEST(RelativeErrorPerFrame, PassesOverMissingFrames) {
 }
 
 TEST(RelativeErrorPerMetre, IsDividedByTheTrueLengthOfTheStretch) {
-  // Steps of 0.4 m: the first stretch of at least 1 m is 1.2 m long; 5 % too long is 0.05 m a metre nevertheless.
+  // With steps of 0.4 m, the shortest segment of at least 1 m is 1.2 m long; 5 % too long is still 0.05 m per metre.
   const auto result = relative_error_per_metre(pairs_of(straight_line(40, 0.42), straight_line(40, 0.4)));
   ASSERT_TRUE(result);
   EXPECT_NEAR(result->translation.mean, 0.05, 1e-9);

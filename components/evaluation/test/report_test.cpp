@@ -62,7 +62,7 @@ TEST(Csv, HasALineForEachPoseOfEachEstimate) {
   const auto columns = std::count(line.begin(), line.end(), ',') + 1;
   std::size_t lines = 0;
   while (std::getline(csv, line)) {
-    const bool first = lines < 120;  // the name of the first holds one comma of its own
+    const bool first = lines < 120;  // the name of the first estimate contains a comma
     ASSERT_TRUE(line.starts_with(first ? "\"with \"\"quotes\"\", and comma\"," : "\"second\",")) << line;
     EXPECT_EQ(std::count(line.begin(), line.end(), ',') + 1, columns + (first ? 1 : 0));
     ++lines;

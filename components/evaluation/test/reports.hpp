@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A report of two estimates, one of them with times, for the tests of table, files and plot.
+// Reports for the tests of table, files and plot.
 #pragma once
 
 #include "panvo/evaluation/report.hpp"
@@ -19,7 +19,7 @@ inline Report small_report(const std::string& title = "a walk", const std::strin
   return report;
 }
 
-// Nothing moves and nothing can be said but the absolute error.
+// Nothing moves, so only the absolute error is defined.
 inline Report still_report() {
   const Trajectory truth = straight_line(20, 0.0);
   return {"still", truth, {evaluate({"e", truth, std::nullopt, {}, std::nullopt}, truth)}};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Small trajectories with known answers, and a folder of its own for each test.
+// Small trajectories with known properties, and a temporary folder per test.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -41,7 +41,7 @@ inline Trajectory straight_line(std::size_t count, double step_m = 1.0) {
   return line;
 }
 
-// A path that turns about all axes, so that no direction is left undetermined.
+// A path that turns about all axes, so that the alignment is fully determined.
 inline Trajectory winding_path(std::size_t count) {
   Trajectory path{{}, "winding", "test"};
   for (std::size_t i = 0; i < count; ++i) {
@@ -64,7 +64,7 @@ inline std::vector<PosePair> pairs_of(const Trajectory& estimate, const Trajecto
   return associate(estimate, ground_truth).pairs;
 }
 
-// Where the recordings are: $PANVO_DATA, else shared/data beside the checkout. nullopt where they are not.
+// Path of a recording in $PANVO_DATA, else in shared/data beside the checkout; nullopt if it does not exist.
 inline std::optional<std::filesystem::path> recorded_data(const std::string& name) {
   const char* folder = std::getenv("PANVO_DATA");
   const auto beside = std::filesystem::path(__FILE__).parent_path() / "../../../../shared/data";
@@ -92,7 +92,7 @@ class TemporaryFolder : public ::testing::Test {
   std::filesystem::path folder_;
 };
 
-// What an InputError says; empty if there was none.
+// Message of the InputError thrown by `action`; empty if there was none.
 template <class Action>
 std::string input_error_of(const Action& action) {
   try {

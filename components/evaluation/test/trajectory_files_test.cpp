@@ -48,8 +48,8 @@ TEST_F(TrajectoryFiles, EurocHasTheScalarOfTheQuaternionFirst) {
   EXPECT_TRUE(trajectory.poses[0].world_from_base.isApprox(make_pose(1, 2, 3, 2.0 * std::asin(0.6)), 1e-12));
 }
 
-// The optical frame goes 5 m along its z, 1 m to its right (x), 2 m down (y), and turns 0.1 rad about its y, which
-// points down: to the right. In base axes: 5 m forward, 1 m to the right, 2 m down, heading -0.1 rad.
+// The optical frame moves 5 m along z, 1 m along x (right), 2 m along y (down), and rotates by 0.1 rad about y, that is to
+// the right. In base axes: 5 m forward, 1 m to the right, 2 m down, heading -0.1 rad.
 TEST_F(TrajectoryFiles, KittiIsTurnedFromOpticalToBaseAxes) {
   const double c = std::cos(0.1);
   const double s = std::sin(0.1);
@@ -84,7 +84,7 @@ TEST_F(TrajectoryFiles, KittiIsFoundInItsOwnLayout) {
 TEST_F(TrajectoryFiles, ARunsEnhancedOdometryComesFirst) {
   write("odometry_binocular.tum", "0 1 0 0 0 0 0 1\n");
   EXPECT_EQ(read_trajectory(folder_).source.filename(), "odometry_binocular.tum");
-  write("odometry_enhanced.tum", "");  // the localizer has not said anything
+  write("odometry_enhanced.tum", "");  // the localizer has not published a pose
   EXPECT_EQ(read_trajectory(folder_).source.filename(), "odometry_binocular.tum");
   write("odometry_enhanced.tum", "0 1 0 0 0 0 0 1\n");
   EXPECT_EQ(read_trajectory(folder_).source.filename(), "odometry_enhanced.tum");
@@ -137,8 +137,8 @@ TEST_F(TrajectoryFiles, NumbersThatAreNoneAreNamedByField) {
 
 TEST_F(TrajectoryFiles, QuaternionsThatAreNoRotationAreNamedByLine) {
   EXPECT_THAT(error_of("a.tum", "0 0 0 0 0 0 0 1\n1 0 0 0 0 0 0 0.5\n"),
-              AllOf(HasSubstr("a.tum:2: the quaternion has length 0.5"), HasSubstr("order of the columns")));
-  EXPECT_THAT(error_of("b.tum", "0 0 0 0 0 0 0 0\n"), HasSubstr("the quaternion has length 0.0"));
+              AllOf(HasSubstr("a.tum:2: the quaternion has norm 0.5"), HasSubstr("order of the columns")));
+  EXPECT_THAT(error_of("b.tum", "0 0 0 0 0 0 0 0\n"), HasSubstr("the quaternion has norm 0.0"));
 }
 
 TEST_F(TrajectoryFiles, MatricesThatAreNoRotationAreNamedByLine) {
@@ -148,9 +148,9 @@ TEST_F(TrajectoryFiles, MatricesThatAreNoRotationAreNamedByLine) {
 }
 
 TEST_F(TrajectoryFiles, LinesOfAnotherLengthAreNamed) {
-  EXPECT_THAT(error_of("a.tum", "0 0 0 0 0 0 0 1\n1 0 0\n"), HasSubstr("a.tum:2: 3 fields where 8 are needed"));
-  EXPECT_THAT(error_of("b.txt", "1 2 3\n"), HasSubstr("b.txt:1: no known trajectory format: 3 columns"));
-  EXPECT_THAT(error_of("c.png", std::string("\x89PNG\r\n\x1a\n\0\0\0", 11)), HasSubstr("no known trajectory format"));
+  EXPECT_THAT(error_of("a.tum", "0 0 0 0 0 0 0 1\n1 0 0\n"), HasSubstr("a.tum:2: 3 fields, expected 8"));
+  EXPECT_THAT(error_of("b.txt", "1 2 3\n"), HasSubstr("b.txt:1: unknown trajectory format: 3 columns"));
+  EXPECT_THAT(error_of("c.png", std::string("\x89PNG\r\n\x1a\n\0\0\0", 11)), HasSubstr("unknown trajectory format"));
 }
 
 TEST_F(TrajectoryFiles, TooFewKittiTimesAreNamed) {
@@ -173,13 +173,13 @@ TEST_F(TrajectoryFiles, ARunBringsItsTimesAndCovariances) {
     EXPECT_EQ(estimate.unreliable, 1u);
     ASSERT_TRUE(estimate.covariances);
     EXPECT_EQ(estimate.covariances->size(), 1u);
-    // They speak of the binocular odometry, whichever path is evaluated.
+    // The covariances belong to the binocular odometry, whichever path is evaluated.
     EXPECT_EQ(estimate.odometry.poses.at(0).world_from_base.translation().x(), 1.0);
   }
 }
 
 TEST_F(TrajectoryFiles, ALoneTrajectoryHasNeitherTimesNorCovariances) {
-  write("timing.json", "broken, but none of this trajectory's business");
+  write("timing.json", "invalid, but unrelated to this trajectory");
   const Estimate estimate = read_estimate(write("other.tum", "0 1 0 0 0 0 0 1\n"));
   EXPECT_EQ(estimate.name, "other");
   EXPECT_FALSE(estimate.timing);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A run's files with known answers: the truth drives along x at 1 m/s, the map is laid on its first pose.
+// Run files with known results: the vehicle drives along x of the map at 1 m/s; the map is aligned at the first pose.
 #include "panvo/evaluation/trust_run.hpp"
 
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@ class TrustRunFiles : public TemporaryFolder {
  protected:
   void SetUp() override {
     TemporaryFolder::SetUp();
-    // The world's axes are turned by 90 degrees from the map's: the vehicle drives along the world's y.
+    // The world frame is rotated by 90 degrees against the map: the vehicle drives along y of the world.
     write("ground_truth.tum",
           "100 5 0 0 0 0 0.7071067811865476 0.7071067811865476\n"
           "101 5 1 0 0 0 0.7071067811865476 0.7071067811865476\n"
@@ -24,7 +24,7 @@ class TrustRunFiles : public TemporaryFolder {
     write("odometry_enhanced.tum",
           "100 0 0 0 0 0 0 1\n"
           "101.5 1.5 0.4 0 0 0 0 1\n"
-          "110 9 0 0 0 0 0 1\n"  // ahead of its time
+          "110 9 0 0 0 0 0 1\n"  // stamp too late
           "101 1.2 0 0 0 0 0 1\n");
     write("odometry_enhanced_covariance.csv",
           "stamp_ns,p00,p01,p10,p11\n"
@@ -34,7 +34,7 @@ class TrustRunFiles : public TemporaryFolder {
           "101000000000,0.01,0,0,0.01\n");
     write("states.csv",
           "stamp_ns,state\n99000000000,starting\n100000000000,tracking\n101000000000,tracking\n"
-          "101000000000,stale\n"  // said later, of the pose that was the last then
+          "101000000000,stale\n"  // published later, with the stamp of the then latest pose
           "101200000000,lost\n");
   }
 
@@ -52,7 +52,7 @@ TEST_F(TrustRunFiles, GiveEachPoseItsErrorAndTheStateOfItsTimeInWhateverOrderThe
   EXPECT_NEAR(run.samples[2].error_over_sigma, 2.0, 1e-9);
   EXPECT_TRUE(run.samples[1].is_tracking);
   EXPECT_FALSE(run.samples[2].is_tracking);
-  EXPECT_FALSE(run.samples[2].is_usable) << "without integrity the state says it";
+  EXPECT_FALSE(run.samples[2].is_usable) << "without integrity, the state decides";
   EXPECT_FALSE(run.samples[1].protection_level_m);
 }
 
@@ -63,11 +63,11 @@ TEST_F(TrustRunFiles, TellWhatTheIntegritySaidWhereItWasThere) {
         "101000000000,0,\"far, too far\",0.001,7.5,5\n"
         "101500000000,1,,0.001,,5\n");
   const auto run = read_trust_run(folder_);
-  EXPECT_FALSE(run.samples[0].protection_level_m) << "nothing had been said yet";
+  EXPECT_FALSE(run.samples[0].protection_level_m) << "no integrity message yet";
   EXPECT_DOUBLE_EQ(*run.samples[1].protection_level_m, 7.5);
   EXPECT_TRUE(run.samples[1].is_tracking);
   EXPECT_FALSE(run.samples[1].is_usable);
-  EXPECT_FALSE(run.samples[2].protection_level_m) << "no number, no promise";
+  EXPECT_FALSE(run.samples[2].protection_level_m) << "no number, no protection level";
   EXPECT_FALSE(run.samples[2].is_tracking);
   EXPECT_TRUE(run.samples[2].is_usable);
 }

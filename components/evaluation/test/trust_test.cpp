@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Hand-made poses at 10 Hz with known answers.
+// Synthetic poses at 10 Hz with known scores.
 #include "panvo/evaluation/trust.hpp"
 
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@ constexpr std::int64_t kSecond = 1'000'000'000;
 
 std::int64_t at(double t_s) { return static_cast<std::int64_t>(t_s * 1e9 + 0.5); }
 
-/// From 0 to 10 s: half a sigma off, tracking, usable; `change` makes of a pose what it is to be.
+/// Poses from 0 to 10 s with an error of 0.5 sigma, tracking, usable; `change` modifies each pose.
 std::vector<TrustSample> timeline(const std::function<void(double t_s, TrustSample&)>& change) {
   std::vector<TrustSample> samples;
   for (int i = 0; i <= 100; ++i) {
@@ -37,7 +37,7 @@ TEST(TrustScore, OfPosesThatKeepWhatTheyPromiseHasNothingToSay) {
   EXPECT_FALSE(score.time_to_alarm_s);
   EXPECT_TRUE(score.is_never_noticed);
   EXPECT_EQ(score.time_to_recover_s, 0.0);
-  EXPECT_FALSE(score.worst_over_level) << "nobody told a level";
+  EXPECT_FALSE(score.worst_over_level) << "no protection level";
 }
 
 TEST(TrustScore, CountsErrorsOutsideTheBoundsOfTwoDimensions) {
@@ -60,7 +60,7 @@ TEST(TrustScore, OfAnAlarmThatComesLateTellsHowLateAndForHowLongItMisled) {
                                  kFourToSix);
   EXPECT_NEAR(*score.time_to_alarm_s, 1.2, 1e-9);
   EXPECT_NEAR(score.longest_misleading_s, 1.2, 1e-9);
-  EXPECT_NEAR(*score.noticed_s, 2.2, 1e-9) << "from the beginning of the disturbance";
+  EXPECT_NEAR(*score.noticed_s, 2.2, 1e-9) << "from the start of the disturbance";
   EXPECT_NEAR(*score.time_to_recover_s, 3.0, 1e-9) << "from its end";
 }
 
@@ -103,7 +103,7 @@ TEST(TrustScore, TakesSilenceForAnAlarmAndDoesNotBlameThePoseBeforeItForLonger) 
   EXPECT_NEAR(*score.time_to_alarm_s, kAlarmTime_s, 1e-9);
   EXPECT_NEAR(score.longest_misleading_s, kAlarmTime_s, 1e-9);
   EXPECT_NEAR(*score.noticed_s, 0.4, 1e-9);
-  EXPECT_NEAR(*score.time_to_recover_s, 1.0, 1e-9) << "poses come again a second after the end";
+  EXPECT_NEAR(*score.time_to_recover_s, 1.0, 1e-9) << "poses resume one second after the end";
 }
 
 TEST(TrustScore, HoldsErrorsAgainstTheProtectionLevel) {
@@ -116,7 +116,7 @@ TEST(TrustScore, HoldsErrorsAgainstTheProtectionLevel) {
   EXPECT_EQ(score.with_level, 101U);
   EXPECT_EQ(score.beyond_level, 20U);
   EXPECT_NEAR(*score.worst_over_level, 1.5, 1e-12);
-  EXPECT_NEAR(*score.time_to_alarm_s, 2.0, 1e-9) << "also an error beyond the level wants an alarm";
+  EXPECT_NEAR(*score.time_to_alarm_s, 2.0, 1e-9) << "an error beyond the level also needs an alarm";
   EXPECT_EQ(score.levels_while_tracking_m.size(), 60U);
 }
 

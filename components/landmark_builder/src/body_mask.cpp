@@ -7,10 +7,10 @@
 namespace panvo::landmark_builder {
 namespace {
 
-constexpr double kStep_m = 0.4;     // between two views that are compared
-constexpr double kFarStep_m = 3.0;  // more, and what they show has little in common
-constexpr double kEnough_m = 6.0;   // travelled before anything is concluded
-constexpr double kForget = 0.97;    // of the sums at each step
+constexpr double kStep_m = 0.4;     // between two compared views
+constexpr double kFarStep_m = 3.0;  // beyond, two views have little in common
+constexpr double kEnough_m = 6.0;   // travelled before the mask is updated
+constexpr double kForget = 0.97;    // decay of the sums per step
 
 cv::Mat detail(const cv::Mat& view) {
   cv::Mat grey, smooth, result;
@@ -77,7 +77,7 @@ void BodyMask::update_mask() {
   const cv::Mat disc = cv::getStructuringElement(cv::MORPH_ELLIPSE, {5, 5});
   cv::morphologyEx(candidate, candidate, cv::MORPH_OPEN, disc);
   cv::Mat whole = candidate | given_;
-  // only what hangs together with the vehicle
+  // keep only the region connected to the vehicle
   cv::floodFill(whole, {grid_.middle(), grid_.middle()}, 128);
   mask_ = whole == 128;
   cv::dilate(mask_, mask_, disc);

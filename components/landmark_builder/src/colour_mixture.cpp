@@ -9,7 +9,7 @@ namespace panvo::landmark_builder {
 namespace {
 
 constexpr float kExplained = 12.0F;    // squared Mahalanobis distance, three degrees of freedom: 99 %
-constexpr float kWideVariance = 4.0F;  // of a new Gaussian, in smallest variances
+constexpr float kWideVariance = 4.0F;  // of a new Gaussian, in multiples of the smallest variance
 
 float squared_distance(const ColourMixture::Gaussian& gaussian, const GroundColour& colour) {
   float sum = 0.0F;
@@ -50,7 +50,7 @@ void ColourMixture::learn(std::span<const GroundColour> samples, double rate) {
     }
     for (auto& gaussian : gaussians_) gaussian.weight *= 1.0 - step;
     best->weight += step;
-    // a Gaussian that has seen little follows its samples faster
+    // a Gaussian with few samples follows them faster
     const auto share = static_cast<float>(std::min(1.0, step / std::max(best->weight, step)));
     for (std::size_t i = 0; i < sample.size(); ++i) {
       const float difference = sample[i] - best->mean[i];

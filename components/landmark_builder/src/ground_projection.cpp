@@ -15,12 +15,12 @@ GroundProjection::GroundProjection(const GroundProjectionParameters& parameters,
       camera_(base_from_panorama.translation().head<2>()),
       camera_height_m_(base_from_panorama.translation().z() - parameters.ground_height_m) {
   if (panorama_size.width <= 0 || panorama_size.width != 2 * panorama_size.height) {
-    throw std::invalid_argument("ground projection: a panorama of " + std::to_string(panorama_size.width) + " x " +
+    throw std::invalid_argument("ground projection: the panorama of " + std::to_string(panorama_size.width) + " x " +
                                 std::to_string(panorama_size.height) + " px is not twice as wide as high");
   }
   if (!(camera_height_m_ > 0.0)) {
     throw std::invalid_argument("ground projection: the panoramic camera is " + std::to_string(camera_height_m_) +
-                                " m above the ground; it must be over it");
+                                " m above the ground; the height must be positive");
   }
   grid_.resolution_m = parameters.resolution_m;
   grid_.side = 2 * static_cast<int>(std::lround(parameters.radius_m / parameters.resolution_m)) + 1;
@@ -41,7 +41,7 @@ GroundProjection::GroundProjection(const GroundProjectionParameters& parameters,
 
 cv::Mat GroundProjection::project(const cv::Mat& panorama) const {
   if (panorama.size() != size_ || (panorama.type() != CV_8UC1 && panorama.type() != CV_8UC3)) {
-    throw std::invalid_argument("ground projection: a panorama of another size or type than it was made for");
+    throw std::invalid_argument("ground projection: the panorama has another size or type than configured");
   }
   cv::Mat view;
   cv::remap(panorama, view, places_, fractions_, cv::INTER_LINEAR, cv::BORDER_WRAP);

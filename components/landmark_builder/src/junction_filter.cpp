@@ -9,7 +9,7 @@ namespace {
 constexpr double kRememberedPath_m = 60.0;
 constexpr double kOutOfSight_m = 25.0;
 constexpr double kStandingStep_m = 0.01;
-constexpr std::size_t kMostPlaces = 2000;  // a vehicle that stands still
+constexpr std::size_t kMostPlaces = 2000;  // limit while the vehicle stands still
 
 }  // namespace
 
@@ -33,7 +33,7 @@ std::vector<PassedJunction> JunctionFilter::add(std::int64_t stamp_ns, const Eig
       shown = &candidates_.emplace_back();
       shown->first_m = travelled_m;
     }
-    const double weight = std::max(step_m, kStandingStep_m);  // a vehicle that waits learns nothing more
+    const double weight = std::max(step_m, kStandingStep_m);  // a stationary vehicle gains no information
     shown->sum += weight * seen->centre_in_odom;
     shown->weight += weight;
     ++shown->seen;

@@ -14,10 +14,10 @@ namespace {
 using landmarks::Keypoint;
 
 constexpr double kDegree = std::numbers::pi / 180.0;
-constexpr double kMatchWindow_rad = 40.0 * kDegree;  // parallax of what lies at arm's length of the way
+constexpr double kMatchWindow_rad = 40.0 * kDegree;  // parallax of very near points
 constexpr int kMostSteps = 10;
 
-/// A neighbour's bearing of the keypoint, turned into the landmark's axes, and where it was taken.
+/// A neighbour's bearing of the keypoint and the neighbour's position, in the landmark's frame.
 struct Observation {
   Eigen::Vector3d bearing;
   Eigen::Vector3d from;
@@ -28,14 +28,14 @@ struct Range {
   double sigma = 0.0;
 };
 
-/// Error of a bearing across it, for the point bearing / inverse: the vector from the seen to the expected direction.
+/// Reprojection error of the point bearing / inverse, perpendicular to the observed bearing, and its derivative.
 struct Residual {
   Eigen::Vector3d value;
   Eigen::Vector3d by_inverse;
 };
 
 std::optional<Residual> residual(const Eigen::Vector3d& bearing, const Observation& seen, double inverse) {
-  const Eigen::Vector3d away = bearing - inverse * seen.from;  // times the range
+  const Eigen::Vector3d away = bearing - inverse * seen.from;  // scaled by the inverse range
   const double length = away.norm();
   const Eigen::Vector3d expected = away / length;
   if (length < 1e-9 || expected.dot(seen.bearing) <= 0.0) return std::nullopt;
@@ -65,7 +65,7 @@ std::optional<Range> fit(const Eigen::Vector3d& bearing, const std::vector<Obser
     if (std::abs(change) < 1e-7) break;
   }
   if (!std::isfinite(range.inverse)) return std::nullopt;
-  // the error of the landmark's own bearing is one and the same against all of them: from both sides it cancels
+  // the error of the landmark's own bearing is common to all terms; between neighbours on both sides it cancels
   range.sigma = sigma_rad * std::sqrt(1.0 / information + sum.squaredNorm() / (information * information));
   return range;
 }
@@ -110,7 +110,7 @@ int triangulate_keypoints(std::span<Keypoint> landmark, std::span<const Neighbou
     keypoint.has_point = false;
     const Eigen::Vector3d bearing = keypoint.bearing.cast<double>().normalized();
     auto range = fit(bearing, seen, sigma_rad);
-    // one wrong match among several right ones must not cost the point
+    // drop outliers one by one, so that one wrong match does not cost the point
     std::size_t worst = 0;
     while (range && seen.size() > 2 && largest_error(bearing, seen, range->inverse, worst) > gate_rad) {
       seen.erase(seen.begin() + static_cast<std::ptrdiff_t>(worst));

@@ -11,8 +11,8 @@
 namespace panvo::landmark_builder {
 namespace {
 
-constexpr double kKeepStep_m = 0.6;   // between two panoramas that are kept
-constexpr double kKeepPath_m = 35.0;  // a junction is told of when it is passed
+constexpr double kKeepStep_m = 0.6;   // between two kept panoramas
+constexpr double kKeepPath_m = 35.0;  // a junction is returned only after it is passed
 constexpr double kNearNeighbour_m = 0.5;
 const cv::Size kThumbnail(540, 270);
 
@@ -52,7 +52,7 @@ std::vector<landmarks::PanoramicLandmark> LandmarkBuilder::step(const PosedPanor
   for (const PassedJunction& junction : filter_.add(panorama.stamp_ns, position.head<2>(), view_.seen)) {
     take(nearest_to_stamp(junction.nearest_stamp_ns), true);
   }
-  // by the distance rule, so far back that there are panoramas on both sides of it; not on the way through a junction
+  // by the distance rule, far enough back to have panoramas on both sides; not while a junction is pending
   const double back_m = travelled_m_ - parameters_.farthest_neighbour_m;
   if (!filter_.is_pending() && rule_.is_due(back_m)) take(nearest_to_travelled(back_m), false);
   return built;
@@ -81,7 +81,7 @@ const LandmarkBuilder::Kept& LandmarkBuilder::nearest_to_travelled(double travel
 std::vector<const LandmarkBuilder::Kept*> LandmarkBuilder::neighbours_of(const Kept& chosen) const {
   std::vector<const Kept*> neighbours;
   for (int i = 0; i < parameters_.neighbours; ++i) {
-    // before and after in turn, the far ones first
+    // alternately before and after, the farthest first
     const double pairs = std::ceil(0.5 * parameters_.neighbours);
     const double distance_m = parameters_.farthest_neighbour_m * (pairs - i / 2) / pairs;
     const Kept& neighbour = nearest_to_travelled(chosen.travelled_m + (i % 2 == 0 ? -distance_m : distance_m));

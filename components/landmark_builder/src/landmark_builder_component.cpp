@@ -20,7 +20,7 @@
 
 namespace panvo::landmark_builder {
 
-/// The algorithm's parameters and the names of the frames.
+/// The algorithm's parameters, the seed and the names of the frames.
 struct ComponentParameters : BuilderParameters {
   int description_seed = 1;
   std::string map_frame = "map";
@@ -36,22 +36,22 @@ struct ComponentParameters : BuilderParameters {
     field.group(static_cast<landmarks::DescriptionParameters P::*>(&P::description), "description");
     field.group(static_cast<landmarks::KeypointParameters P::*>(&P::keypoints), "keypoints");
     field(static_cast<int P::*>(&P::neighbours), "neighbours", "1",
-          "panoramas before and after a landmark's that give its keypoints their points", 0, 20);
+          "panoramas before and after a landmark's that triangulate its keypoints", 0, 20);
     field(static_cast<double P::*>(&P::farthest_neighbour_m), "farthest_neighbour_m", "m",
-          "how far from the landmark the farthest of them is taken", 0.5, 50.0);
+          "distance of the farthest of them from the landmark", 0.5, 50.0);
     field(static_cast<int P::*>(&P::thumbnail_quality), "thumbnail_quality", "1",
-          "of a landmark's small picture, JPEG; 0: none", 0, 100);
+          "JPEG quality of a landmark's thumbnail; 0: no thumbnail", 0, 100);
     field(&P::description_seed, "description_seed", "",
-          "draws the measurement matrices; the same for all that describe panoramas", 0, 1'000'000'000);
-    field(&P::map_frame, "map_frame", "", "frame that landmarks are placed in; without a localizer the odometry's");
-    field(&P::base_frame, "base_frame", "", "the vehicle; /tf_static says where on it the panoramic camera sits");
+          "seed of the measurement matrices; must be equal in all nodes that describe panoramas", 0, 1'000'000'000);
+    field(&P::map_frame, "map_frame", "", "frame of the landmarks; without a localizer the odometry frame");
+    field(&P::base_frame, "base_frame", "", "vehicle frame; /tf_static gives the extrinsics of the panoramic camera");
   }
 };
 
-/// panorama/image, odometry/binocular, /tf_static, landmarks/match -> landmarks, of the stamp of the panorama that each was made
-/// of; and landmarks, of which others (a store) may publish those of earlier journeys. Where there is a localizer, odometry/enhanced and
-/// landmarks/poses say where vehicle and landmarks are in the map; distances between panoramas are always the stereo odometry's,
-/// which does not jump.
+/// panorama/image, odometry/binocular, /tf_static, landmarks/match -> landmarks, with the stamp of the panorama each
+/// was built from. Also reads landmarks that others, such as a store, publish. With a localizer, odometry/enhanced and
+/// landmarks/poses give the poses of vehicle and landmarks in the map; distances between panoramas always come from
+/// stereo odometry, which does not jump.
 class LandmarkBuilderComponent final : public runtime::Component {
  public:
   explicit LandmarkBuilderComponent(runtime::Context& context)
@@ -61,7 +61,7 @@ class LandmarkBuilderComponent final : public runtime::Component {
                                                   static_cast<std::uint64_t>(parameters_.description_seed))),
         timer_(context.times()),
         landmarks_(context.output(topics::kLandmarks)) {
-    context.give_way();  // a landmark is needed when the vehicle comes back, a pose now
+    context.give_way();  // landmarks are not urgent, poses are
     context.input(topics::kTfStatic, [this](const auto& message) { on_transforms(*message); });
     context.input(topics::kLandmarks, [this](const auto& message) { on_landmark(*message); });
     context.input(topics::kLandmarkPoses, [this](const auto& message) { on_poses(*message); });
@@ -78,8 +78,8 @@ class LandmarkBuilderComponent final : public runtime::Component {
     vision::Matrix6d covariance;
   };
 
-  static constexpr std::size_t kMostOdometry = 200;  // poses kept for panoramas that come late
-  static constexpr std::size_t kMostWaiting = 10;    // panoramas whose odometry is still being computed
+  static constexpr std::size_t kMostOdometry = 200;  // poses kept for late panoramas
+  static constexpr std::size_t kMostWaiting = 10;    // panoramas waiting for odometry
   static constexpr std::int64_t kLongestGap_ns = 1'000'000'000;
 
   void on_transforms(const tf2_msgs::msg::TFMessage& message) {
@@ -131,11 +131,11 @@ class LandmarkBuilderComponent final : public runtime::Component {
     if (waiting_.size() <= kMostWaiting) return;
     waiting_.pop_front();
     context_.log().warn_throttled("no odometry",
-                                  "panoramas, but nothing on {} as late as they are: no landmarks without it",
+                                  "panoramas received, but nothing on {} for their stamps: no landmarks are built",
                                   context_.resolved_name(topics::kOdometryBinocular));
   }
 
-  /// Panoramas whose pose is known by now.
+  /// Processes the waiting panoramas whose pose is available.
   void work_off() {
     while (!waiting_.empty() && !odometry_.empty() &&
            conversions::stamp_ns(*waiting_.front()) <= odometry_.back().stamp_ns) {
@@ -148,13 +148,12 @@ class LandmarkBuilderComponent final : public runtime::Component {
   void build(const sensor_msgs::msg::Image& message) {
     const std::int64_t stamp_ns = conversions::stamp_ns(message);
     if (last_stamp_ns_ && stamp_ns <= *last_stamp_ns_) {
-      return context_.log().warn_throttled("stamp", "{} came with a stamp that is not after the last; it is left out",
+      return context_.log().warn_throttled("stamp", "{}: stamp is not later than the previous one; panorama skipped",
                                            context_.resolved_name(topics::kPanorama));
     }
     const auto pose = pose_at(stamp_ns);
     if (!pose) {
-      return context_.log().warn_throttled("no pose",
-                                           "{} has no pose near a panorama's stamp; the panorama is left out",
+      return context_.log().warn_throttled("no pose", "{} has no pose near a panorama's stamp; panorama skipped",
                                            context_.resolved_name(topics::kOdometryBinocular));
     }
     const auto pixels = conversions::grey_or_bgr(message);
@@ -172,7 +171,7 @@ class LandmarkBuilderComponent final : public runtime::Component {
     if (!make_builder(message, panorama.size())) return;
     if (panorama.size() != size_) {
       return context_.log().warn_throttled(
-          "size", "{} changed its size from {} x {} to {} x {} px; restart if the camera was exchanged",
+          "size", "{} changed its size from {} x {} to {} x {} px; restart if the camera was replaced",
           context_.resolved_name(topics::kPanorama), size_.width, size_.height, panorama.cols, panorama.rows);
     }
     last_stamp_ns_ = stamp_ns;
@@ -180,13 +179,13 @@ class LandmarkBuilderComponent final : public runtime::Component {
          builder_->step({stamp_ns, panorama, pose->odom_from_base, pose->covariance, map_from_odom_})) {
       const auto points = std::count_if(landmark.keypoints.begin(), landmark.keypoints.end(),
                                         [](const auto& keypoint) { return keypoint.has_point; });
-      context_.log().info("landmark {}: {}, {} keypoints, {} of them with points", landmark.id,
+      context_.log().info("landmark {}: {}, {} keypoints, {} of them triangulated", landmark.id,
                           landmark.is_junction ? "a junction" : "by distance", landmark.keypoints.size(), points);
       landmarks_.publish(landmarks::to_message(landmark, settings_, parameters_.map_frame));
     }
   }
 
-  /// The pose between the two odometry messages around a stamp; the covariance of the later one.
+  /// The pose interpolated between the two odometry messages around a stamp, with the covariance of the later one.
   std::optional<Odometry> pose_at(std::int64_t stamp_ns) const {
     const auto after = std::find_if(odometry_.begin(), odometry_.end(),
                                     [&](const Odometry& odometry) { return odometry.stamp_ns >= stamp_ns; });
@@ -206,9 +205,9 @@ class LandmarkBuilderComponent final : public runtime::Component {
     const std::string& frame = message.header().frame_id();
     const auto base_from_panorama = transforms_.lookup(parameters_.base_frame, frame);
     if (!base_from_panorama) {
-      context_.log().warn_throttled(
-          "no mounting", "{} has no chain from {} to {} yet: publish where the panoramic camera sits on the vehicle",
-          context_.resolved_name(topics::kTfStatic), parameters_.base_frame, frame);
+      context_.log().warn_throttled("no mounting",
+                                    "{} has no chain from {} to {} yet: publish the extrinsics of the panoramic camera",
+                                    context_.resolved_name(topics::kTfStatic), parameters_.base_frame, frame);
       return false;
     }
     try {
@@ -233,7 +232,7 @@ class LandmarkBuilderComponent final : public runtime::Component {
   vision::PanoramaWatch watch_;
   std::optional<LandmarkBuilder> builder_;
   cv::Size size_;
-  std::map<std::uint32_t, Eigen::Vector2d> known_;  // landmarks that were published, by whomever
+  std::map<std::uint32_t, Eigen::Vector2d> known_;  // all published landmarks, of any node
   std::deque<Odometry> odometry_;
   Eigen::Isometry3d map_from_odom_ = Eigen::Isometry3d::Identity();
   std::deque<std::shared_ptr<const sensor_msgs::msg::Image>> waiting_;

@@ -13,7 +13,7 @@ cv::Mat disc(double diameter_m, double resolution_m) {
   return cv::getStructuringElement(cv::MORPH_ELLIPSE, {2 * radius + 1, 2 * radius + 1});
 }
 
-/// Pixels within `radius_m` of the marked ones; by distances, so that a wide disc costs no more than a narrow one.
+/// Dilation by `radius_m` via a distance transform, at a cost independent of the radius.
 cv::Mat grow(const cv::Mat& mask, double radius_m, double resolution_m) {
   cv::Mat distance;
   cv::distanceTransform(~mask, distance, cv::DIST_L2, cv::DIST_MASK_3);
@@ -43,13 +43,14 @@ void fill_small_holes(cv::Mat& mask, double smallest_px) {
 
 cv::Mat passable_region(const cv::Mat& road, cv::Point vehicle, double resolution_m,
                         const PassableRegionParameters& parameters) {
-  if (road.empty() || road.type() != CV_8UC1) throw std::invalid_argument("passable region: the road is no 8-bit mask");
+  if (road.empty() || road.type() != CV_8UC1)
+    throw std::invalid_argument("passable region: the road mask must be 8-bit");
   const cv::Mat nothing = cv::Mat::zeros(road.size(), CV_8UC1);
   if (!cv::Rect(0, 0, road.cols, road.rows).contains(vehicle)) return nothing;
   cv::Mat mask;
   cv::morphologyEx(road, mask, cv::MORPH_CLOSE, disc(parameters.close_m, resolution_m));
   fill_small_holes(mask, parameters.smallest_hole_m2 / (resolution_m * resolution_m));
-  // what is too narrow goes: the places with enough room around them, and what is within that room of them
+  // opening: keep pixels within half the width of a pixel that has this much room
   cv::Mat room;
   cv::distanceTransform(mask, room, cv::DIST_L2, cv::DIST_MASK_3);
   const double half_width_m = 0.5 * parameters.narrowest_m;

@@ -18,7 +18,7 @@ RadonField radon_transform(const cv::Mat& mask, double resolution_m, int directi
   const int half = static_cast<int>(std::ceil(0.5 * std::numbers::sqrt2 * mask.rows / step)) + 1;
   RadonField field{cv::Mat::zeros(directions, 2 * half + 1, CV_32FC1), std::numbers::pi / directions, cell_m};
   const int middle = mask.rows / 2;
-  std::vector<cv::Point2f> places;  // of the road, from the middle, in cells: x up, y left
+  std::vector<cv::Point2f> places;  // road pixels relative to the middle, in cells: x up, y left
   for (int row = middle % step; row < mask.rows; row += step) {
     const auto* pixels = mask.ptr<std::uint8_t>(row);
     for (int column = middle % step; column < mask.cols; column += step) {
@@ -29,7 +29,7 @@ RadonField radon_transform(const cv::Mat& mask, double resolution_m, int directi
   for (int direction = 0; direction < directions; ++direction) {
     const double angle = direction * field.direction_step_rad;
     const auto x = static_cast<float>(-std::sin(angle)),
-               y = static_cast<float>(std::cos(angle));  // of the lines' normal
+               y = static_cast<float>(std::cos(angle));  // of the line's normal
     auto* lengths = field.lengths_m.ptr<float>(direction);
     const float origin = static_cast<float>(half) + 0.5F;
     for (const cv::Point2f& place : places) lengths[static_cast<int>(origin + place.x * x + place.y * y)] += 1.0F;
@@ -62,7 +62,7 @@ std::vector<RadonPeak> local_maxima(const RadonField& field, double share, doubl
     return std::min(difference, std::numbers::pi - difference) > separation_rad;
   };
   for (const RadonPeak& candidate : candidates) {
-    // a maximum: no direction within the separation is longer (those come first, chosen or not)
+    // a maximum: no candidate within the separation is longer, whether chosen or not
     const bool is_highest = std::all_of(candidates.begin(), candidates.end(), [&](const RadonPeak& other) {
       return other.length_m <= candidate.length_m || is_apart(candidate, other);
     });

@@ -11,13 +11,13 @@
 namespace panvo::landmark_builder {
 namespace {
 
-constexpr double kFarther = 1.35;   // a large junction's roads lie apart only farther out
-constexpr double kWidestFan = 2.0;  // roads that leave side by side are one arm, twice as wide, beside two of their own
-constexpr double kScoreOfArm = 1.5;  // what one road more is worth, m of room
+constexpr double kFarther = 1.35;    // second arm length: roads of a large junction separate only farther out
+constexpr double kWidestFan = 2.0;   // adjacent roads can merge to one arm, up to twice as wide, beside two normal arms
+constexpr double kScoreOfArm = 1.5;  // value of one more road, m of room
 constexpr double kScoreOfJunction = 1000.0;
-constexpr double kBeyondArm = 1.45;  // how far, in arms' lengths, half-lines are followed
+constexpr double kBeyondArm = 1.45;  // length of the half-lines, in arm lengths
 
-/// Steps along all half-lines, the same for every centre.
+/// Pixel offsets of the steps along all half-lines, shared by all centres.
 class RayTable {
  public:
   RayTable(int directions, double farthest_px) : directions_(directions), steps_(static_cast<int>(farthest_px)) {
@@ -31,7 +31,7 @@ class RayTable {
     }
   }
 
-  /// Number of steps before the road ends, for each direction.
+  /// Length of the road in each direction, m.
   void reach(const cv::Mat& mask, cv::Point centre, int longest_gap, std::vector<float>& out,
              double resolution_m) const {
     out.resize(static_cast<std::size_t>(directions_));
@@ -57,7 +57,7 @@ class RayTable {
 };
 
 void check(const cv::Mat& mask) {
-  if (mask.empty() || mask.type() != CV_8UC1) throw std::invalid_argument("road arms: the road is no 8-bit mask");
+  if (mask.empty() || mask.type() != CV_8UC1) throw std::invalid_argument("road arms: the road mask must be 8-bit");
 }
 
 int in_pixels(double length_m, double resolution_m) { return static_cast<int>(length_m / resolution_m + 0.5); }
@@ -84,7 +84,7 @@ std::vector<RoadArm> find_arms(const std::vector<float>& reach_m, const RoadArms
   const auto is_long = [&](int i) {
     return reach_m[static_cast<std::size_t>((i % count + count) % count)] >= parameters.arm_length_m;
   };
-  int start = 0;  // a direction without road, so that no arm is cut in two
+  int start = 0;  // a direction without an arm, so that no arm is split
   while (start < count && is_long(start)) ++start;
   if (start == count) return arms;
   struct Run {
@@ -92,7 +92,7 @@ std::vector<RoadArm> find_arms(const std::vector<float>& reach_m, const RoadArms
   };
   std::vector<Run> runs;
   const double gap_steps = parameters.smallest_gap_m / (parameters.arm_length_m * step_rad);
-  // two runs are one arm where what lies between them is narrow, or all but as long as they are
+  // two runs are one arm if the gap between them is narrow or almost as long as the arms
   const auto is_one_arm = [&](int last, int next) {
     float shortest = std::numeric_limits<float>::max();
     for (int i = last + 1; i < next; ++i) shortest = std::min(shortest, reach_m[static_cast<std::size_t>(i % count)]);

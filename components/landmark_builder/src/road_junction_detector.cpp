@@ -12,10 +12,10 @@ namespace {
 constexpr int kRadonDirections = 90;
 constexpr double kPathStep_m = 0.3;
 constexpr double kRememberedPath_m = 12.0;
-constexpr double kAhead_m = 3.0;  // beyond the body: the vehicle is about to drive there
-constexpr double kJump_m = 5.0;   // between two panoramas: the odometry began anew
+constexpr double kAhead_m = 3.0;  // beyond the body, where the vehicle will drive next
+constexpr double kJump_m = 5.0;   // between two panoramas: the odometry was reset
 
-/// How far a pixel may be believed: the ground that one row of the panorama covers grows with the square of the range.
+/// Weight of a pixel: the ground area of one panorama row grows with the square of the range.
 cv::Mat range_weight(const GroundProjection& projection, double full_weight_range_m) {
   const GroundGrid& grid = projection.grid();
   cv::Mat weight(grid.side, grid.side, CV_32FC1);
@@ -119,7 +119,7 @@ cv::Mat RoadJunctionDetector::certain_road(const PlanarPose& pose) const {
     cv::line(mask, before, pixel, 255, width);
     before = pixel;
   }
-  // ahead, the first ground that the body does not cover
+  // ahead, up to the first ground beyond the body
   double ahead_m = 0.0;
   const double farthest_m = std::min(parameters_.body.farthest_m, grid.middle() * grid.resolution_m - kAhead_m);
   while (ahead_m < farthest_m && body_.mask().at<std::uint8_t>(to_pixel({ahead_m, 0.0})) != 0)

@@ -8,7 +8,7 @@
 namespace panvo::landmark_builder {
 namespace {
 
-constexpr float kMostEvidence = 8.0F;  // so that what changed is believed again within a few looks
+constexpr float kMostEvidence = 8.0F;  // limits the inertia, so that changes are accepted within a few views
 
 }  // namespace
 
@@ -56,7 +56,7 @@ void RoadMap::follow(const Eigen::Vector2d& position) {
   if (shift.isZero()) return;
   const int side = evidence_.rows;
   cv::Mat moved = cv::Mat::zeros(evidence_.size(), evidence_.type());
-  // a place x cells farther on comes to lie x rows lower
+  // a shift by x cells ahead moves content down by x rows
   const cv::Rect all(0, 0, side, side);
   const cv::Rect target = cv::Rect(shift.y(), shift.x(), side, side) & all;
   if (!target.empty()) evidence_(target - cv::Point(shift.y(), shift.x())).copyTo(moved(target));
@@ -66,7 +66,7 @@ void RoadMap::follow(const Eigen::Vector2d& position) {
 void RoadMap::add(const cv::Mat& ratio, const cv::Mat& weight, const GroundGrid& grid,
                   const PlanarPose& odom_from_base) {
   follow(odom_from_base.position);
-  // pixel of the view = view_from_map * cell of the map; affine, so three places say all
+  // pixel of the view = view_from_map * cell of the map; affine, so three points determine it
   const auto pixel = [&](double column, double row) {
     return grid.pixel(odom_from_base.to_base(point({column, row})));
   };

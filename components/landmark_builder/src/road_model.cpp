@@ -10,10 +10,10 @@
 namespace panvo::landmark_builder {
 namespace {
 
-constexpr float kDark = 10.0F;             // grey levels, added so that noise of dark pixels does not count as colour
-constexpr std::size_t kMostSamples = 500;  // of one picture
-constexpr float kLimit = 3.0F;             // one picture never decides alone
-constexpr float kMarking = 0.3F;           // log brightness above the road's main mode
+constexpr float kDark = 10.0F;             // grey levels, added so that noise in dark pixels does not count as colour
+constexpr std::size_t kMostSamples = 500;  // per image
+constexpr float kLimit = 3.0F;             // limits the influence of one image
+constexpr float kMarking = 0.3F;           // log brightness relative to the road's main mode
 constexpr float kColourless = 0.12F;       // log ratio of two colours
 constexpr GroundColour kSmallestVariance{0.06F * 0.06F, 0.015F * 0.015F, 0.02F * 0.02F};
 
@@ -25,7 +25,7 @@ struct LogTable {
 };
 const LogTable kLog;
 
-/// The three values of every pixel, a plane each.
+/// The three values of every pixel, one plane each.
 struct Planes {
   cv::Mat values[3];
   std::array<const float*, 3> pointers() const {
@@ -39,7 +39,7 @@ struct Planes {
 
 Planes to_planes(const cv::Mat& view) {
   if (view.empty() || (view.type() != CV_8UC1 && view.type() != CV_8UC3)) {
-    throw std::invalid_argument("road model: a view that is neither 8-bit grey nor 8-bit colour");
+    throw std::invalid_argument("road model: the view must be 8-bit grey or 8-bit colour");
   }
   cv::Mat smooth;
   cv::blur(view, smooth, {3, 3});
@@ -59,7 +59,7 @@ Planes to_planes(const cv::Mat& view) {
     }
     return planes;
   }
-  // Without colour, texture tells asphalt from grass: how far a pixel is from what is around it.
+  // Without colour, texture distinguishes asphalt from grass: the deviation of a pixel from its surroundings.
   cv::Mat texture;
   cv::absdiff(view, smooth, texture);
   cv::blur(texture, texture, {5, 5});
@@ -72,7 +72,7 @@ Planes to_planes(const cv::Mat& view) {
   return planes;
 }
 
-/// Up to `most` of the marked pixels, evenly spread over them.
+/// Up to `most` of the marked pixels, evenly spaced.
 std::vector<GroundColour> samples(const Planes& planes, const cv::Mat& marked, std::size_t most) {
   std::vector<std::size_t> places;
   const auto* mark = marked.ptr<std::uint8_t>();
@@ -85,7 +85,7 @@ std::vector<GroundColour> samples(const Planes& planes, const cv::Mat& marked, s
   return chosen;
 }
 
-/// Log ratio of road to anything else: to any colour at all, a constant density, and to the surroundings' own.
+/// Log ratio of road to the better of two alternatives: a constant density of all colours, and the surroundings.
 cv::Mat compare(const Planes& planes, const ColourMixture& road, const ColourMixture& surroundings,
                 const RoadModelParameters& parameters) {
   cv::Mat ratio(planes.values[0].size(), CV_32FC1, cv::Scalar(0));
@@ -104,7 +104,7 @@ cv::Mat compare(const Planes& planes, const ColourMixture& road, const ColourMix
   for (int i = 0; i < count; ++i) {
     const float rival = std::max(other[static_cast<std::size_t>(i)], anything);
     out[i] = std::clamp(out[i] - rival, -kLimit, kLimit);
-    // a marking, or a kerb: brighter than the road and of no colour of its own; its neighbours say what it is
+    // a marking or kerb is brighter than the road and colourless; its neighbours decide
     const bool is_marking = values[0][i] > main.mean[0] + kMarking && std::abs(values[1][i]) < kColourless &&
                             std::abs(values[2][i]) < kColourless;
     if (is_marking && out[i] < 0.0F) out[i] = 0.0F;
@@ -121,13 +121,13 @@ RoadModel::RoadModel(const RoadModelParameters& parameters)
 
 void RoadModel::learn(const cv::Mat& view, const cv::Mat& certain) {
   if (certain.size() != view.size() || certain.type() != CV_8UC1) {
-    throw std::invalid_argument("road model: the certain pixels are no 8-bit mask of the view");
+    throw std::invalid_argument("road model: the mask of certain pixels must be 8-bit and of the view's size");
   }
   const Planes planes = to_planes(view);
   const auto known = samples(planes, certain, kMostSamples);
   road_.learn(known, road_.empty() ? 1.0 : parameters_.learning_rate);
   if (road_.empty()) return;
-  // What is clearly no road, whatever the surroundings are held to be, is what they are.
+  // Pixels that are clearly not road, regardless of the surroundings model, train the surroundings.
   const cv::Mat ratio = compare(planes, road_, ColourMixture(1, kSmallestVariance), parameters_);
   const cv::Mat clear = ratio <= -kLimit;
   surroundings_.learn(samples(planes, clear, kMostSamples), surroundings_.empty() ? 1.0 : parameters_.learning_rate);

@@ -10,7 +10,7 @@ namespace {
 using ::testing::IsEmpty;
 using ::testing::SizeIs;
 
-/// Drives along x, one metre a panorama, past junctions that are seen from up to 7 m, with centres that are a little off.
+/// Drives along x, one metre per panorama, past junctions that are detected within 7 m, with centres slightly off.
 class Passage {
  public:
   explicit Passage(std::vector<Eigen::Vector2d> junctions) : junctions_(std::move(junctions)) {}
@@ -35,7 +35,7 @@ class Passage {
 
  private:
   std::vector<Eigen::Vector2d> junctions_;
-  std::int64_t stamp_ = 0;  // the panorama at x is number x + 1 of a drive from 0
+  std::int64_t stamp_ = 0;  // in a drive from 0, the panorama at x has stamp x + 1
 };
 
 TEST(JunctionFilter, MakesOneJunctionOfManyPanoramas) {  // [Lu2015 4.1]

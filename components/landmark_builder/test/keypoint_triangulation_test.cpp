@@ -13,7 +13,7 @@ namespace {
 
 using landmarks::Keypoint;
 
-/// Things around a landmark, seen from it and from places on the way past it.
+/// Points around a landmark, seen from it and from positions along the road past it.
 class Street {
  public:
   Street(int things, double sigma_rad, unsigned seed) : random_(seed) {
@@ -71,7 +71,7 @@ TEST(KeypointTriangulation, SaysHowFarTheInverseRangeMayErr) {
     const auto& keypoint = street.landmark[i];
     const double sideways = std::hypot(street.points[i].x(), street.points[i].y());
     if (!keypoint.has_point || sideways < 5.0)
-      continue;  // ahead and behind no parallax tells the range, and selection biases it
+      continue;  // ahead and behind there is no parallax, and selection biases the range
     const double error = 1.0 / keypoint.point_in_panorama.cast<double>().norm() - 1.0 / street.points[i].norm();
     sum += error * error / (keypoint.inverse_range_sigma * keypoint.inverse_range_sigma);
     ++count;
@@ -83,7 +83,7 @@ TEST(KeypointTriangulation, SaysHowFarTheInverseRangeMayErr) {
 
 TEST(KeypointTriangulation, GivesNoPointToWhatTheNeighboursDisagreeOn) {
   Street street(40, 0.0, 3);
-  for (auto& neighbour : street.neighbours) {  // thing 0 moves: seen elsewhere from each place
+  for (auto& neighbour : street.neighbours) {  // point 0 moves between the neighbours
     const double turn = 0.1 * neighbour.landmark_from_neighbour.translation().z();
     neighbour.keypoints[0].bearing =
         vision::so3_exp(Eigen::Vector3d(turn, 0.0, turn)).cast<float>() * neighbour.keypoints[0].bearing;

@@ -17,7 +17,7 @@ using ::testing::SizeIs;
 
 class LandmarkBuilderComponent : public ::testing::Test {
  protected:
-  /// None where the drive begins.
+  /// By default, no landmark at the start of the drive.
   void load(std::map<std::string, std::string> parameters = {}) {
     parameters.try_emplace("rule.first_m", "1000");
     harness_.load("panvo_landmark_builder", "LandmarkBuilderComponent", parameters);
@@ -45,7 +45,7 @@ class LandmarkBuilderComponent : public ::testing::Test {
     harness_.publish(topics::kPanorama, std::shared_ptr<const sensor_msgs::msg::Image>(message));
   }
 
-  /// Through the crossing at the origin; odometry 20 ms before and after each panorama.
+  /// Drives through the crossing at the origin; odometry 20 ms before and after each panorama.
   void drive() {
     for (double x = -28.0; x < 24.0; x += 1.0) {
       const auto stamp_ns = static_cast<std::int64_t>(1e9 * (100.0 + 0.2 * x));
@@ -81,7 +81,7 @@ TEST_F(LandmarkBuilderComponent, SaysThatThereIsNoOdometry) {
   const cv::Mat panorama = town_.panorama(PaintedTown::at(0.0, 0.0, 0.0), 200);
   for (int i = 1; i < 20; ++i) publish_panorama(i * 200'000'000LL, panorama);
   EXPECT_THAT(landmarks_, IsEmpty());
-  EXPECT_TRUE(harness_.log_contains("no landmarks without it"));
+  EXPECT_TRUE(harness_.log_contains("no landmarks are built"));
   EXPECT_THAT(harness_.log(), SizeIs(1));
 }
 
@@ -135,13 +135,13 @@ TEST_F(LandmarkBuilderComponent, MakesNoneBesideALandmarkOfAnEarlierJourney) {
   earlier.pose().pose().position().x(3.0);
   harness_.publish(topics::kLandmarks, earlier);
   drive();
-  EXPECT_THAT(landmarks_, SizeIs(1));  // that one
+  EXPECT_THAT(landmarks_, SizeIs(1));  // only the published one
 }
 
 TEST_F(LandmarkBuilderComponent, PlacesLandmarksWhereTheLocalizerSaysThatTheVehicleIs) {
   load();
   publish_mounting();
-  // the map lies 100 m off and a quarter turn from where odometry began
+  // the map is offset by 100 m and a quarter turn from the odometry frame
   Eigen::Isometry3d map_from_odom = Eigen::Isometry3d::Identity();
   map_from_odom.translation() = Eigen::Vector3d(100.0, 50.0, 0.0);
   map_from_odom.linear() = Eigen::AngleAxisd(0.5 * M_PI, Eigen::Vector3d::UnitZ()).toRotationMatrix();
@@ -166,13 +166,13 @@ TEST_F(LandmarkBuilderComponent, TakesNoticeOfLandmarksThatWereMoved) {
   earlier.histogram({1.0F});
   earlier.pose().pose().position().x(500.0);
   harness_.publish(topics::kLandmarks, earlier);
-  panvo_msgs::msg::LandmarkPoses moved;  // it is at the crossing after all
+  panvo_msgs::msg::LandmarkPoses moved;  // moves it to the crossing
   moved.ids({12});
   moved.poses().resize(1);
   moved.poses()[0].pose().position().x(3.0);
   harness_.publish(topics::kLandmarkPoses, moved);
   drive();
-  EXPECT_THAT(landmarks_, SizeIs(1));  // that one
+  EXPECT_THAT(landmarks_, SizeIs(1));  // only the published one
 }
 
 TEST_F(LandmarkBuilderComponent, RefusesAParameterOutOfItsRange) {

@@ -29,7 +29,7 @@ std::vector<landmarks::PanoramicLandmark> drive(LandmarkBuilder& builder, const 
   return all;
 }
 
-/// None where the drive begins, unless asked for.
+/// No landmark at the start of the drive.
 BuilderParameters on_the_way() {
   BuilderParameters parameters;
   parameters.rule.first_m = 1000.0;
@@ -59,13 +59,13 @@ TEST(LandmarkBuilder, MakesOneLandmarkOfACrossingWithAllItsLevels) {  // [Lu2015
   for (const auto& keypoint : landmark.keypoints) {
     if (!keypoint.has_point) continue;
     ++points;
-    // all there is lies on the ground, 2 m below the camera
+    // everything lies on the ground, 2 m below the camera
     const double true_inverse = std::max(0.0, static_cast<double>(keypoint.bearing.y())) / 2.0;
     const double inverse = 1.0 / keypoint.point_in_panorama.cast<double>().norm();
     if (std::abs(inverse - true_inverse) < 4.0 * keypoint.inverse_range_sigma) ++right;
   }
   EXPECT_GE(points, 5);
-  EXPECT_GE(right, 6 * points / 10) << points;  // coarse pixels near the horizon mislead some
+  EXPECT_GE(right, 6 * points / 10) << points;  // coarse pixels near the horizon cause some errors
 }
 
 TEST(LandmarkBuilder, MakesOneWhereANewMapBegins) {

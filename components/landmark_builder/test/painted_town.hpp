@@ -13,7 +13,7 @@
 
 namespace panvo::landmark_builder {
 
-/// A plain of grass with roads on it, and panoramas of it: every pixel's colour comes from where its ray meets the ground.
+/// A grass plane with roads, and panoramas of it: each pixel has the colour of the ground point that its ray hits.
 class PaintedTown {
  public:
   struct Road {
@@ -25,7 +25,7 @@ class PaintedTown {
 
   explicit PaintedTown(std::vector<Road> roads) : roads_(std::move(roads)) {}
 
-  /// Roads from one centre, `length_m` long, in these directions (rad, from +x to the left).
+  /// Roads from one centre, `length_m` long, in these directions (rad, counter-clockwise from +x).
   static PaintedTown star(const std::vector<double>& directions_rad, double length_m = 80.0) {
     std::vector<Road> roads;
     for (const double direction : directions_rad) {
@@ -66,7 +66,7 @@ class PaintedTown {
         const Eigen::Vector3d ray = equirectangular.unproject({column, row});
         auto& pixel = image.at<cv::Vec3b>(row, column);
         if (ray.y() > 0.75) {
-          pixel = {90, 30, 20};  // the vehicle's own body
+          pixel = {90, 30, 20};  // the vehicle body
           continue;
         }
         const Eigen::Vector3d direction = odom_from_panorama.linear() * ray;
@@ -104,7 +104,7 @@ class PaintedTown {
     };
     if (beside < 0.0) return shade(92, 92, 95);
     if (beside < kKerb_m) return shade(170, 170, 170);
-    // flower beds, so that there is something to recognise
+    // flower beds, as recognisable features
     const double bed = 70.0 * noise(static_cast<std::int64_t>(std::floor(point.x() / 1.3)),
                                     static_cast<std::int64_t>(std::floor(point.y() / 1.3)) + 77);
     return shade(30 + 0.5 * bed, 80 + bed, 45 + 0.6 * bed);

@@ -12,7 +12,7 @@ double area_m2(const cv::Mat& mask) { return cv::countNonZero(mask) * kResolutio
 
 TEST(PassableRegion, IsWhatHangsTogetherWithTheVehicle) {  // [Lu2015 4.1]
   cv::Mat road = star_mask({0.0, 180.0});
-  cv::rectangle(road, cv::Rect(10, 10, 40, 40), 255, cv::FILLED);  // a car park beyond the grass
+  cv::rectangle(road, cv::Rect(10, 10, 40, 40), 255, cv::FILLED);  // a car park separated by grass
   const cv::Mat passable = passable_region(road, middle_pixel(), kResolution_m, {});
   EXPECT_EQ(passable.at<std::uint8_t>(30, 30), 0);
   EXPECT_EQ(passable.at<std::uint8_t>(10, kSide / 2), 255);

@@ -38,7 +38,7 @@ TEST(RadonTransform, HasOneMaximumForAStraightRoadWhereItRuns) {
 TEST(RadonTransform, HasTwoForACrossingAndForATButCannotTellATFromABend) {
   EXPECT_THAT(peaks_of(star_mask({0.0, 90.0, 180.0, 270.0})), SizeIs(2));
   EXPECT_THAT(peaks_of(star_mask({0.0, 120.0, 240.0})), SizeIs(3));
-  EXPECT_THAT(peaks_of(star_mask({0.0, 90.0})), SizeIs(2));  // why arms are counted instead
+  EXPECT_THAT(peaks_of(star_mask({0.0, 90.0})), SizeIs(2));  // hence arms are counted instead
 }
 
 TEST(RadonTransform, OfNoRoadHasNoMaximum) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Junctions of a recorded journey with many.
+// Junctions of a recorded journey.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -18,7 +18,7 @@ TEST(RecordedCampusJourney, EveryJunctionIsFoundOnceAndNothingElse) {
   const char* root = std::getenv("PANVO_DATA");
   const fs::path folder = fs::path(root != nullptr ? root : PANVO_SHARED_DATA) / "campus_journey";
   if (!fs::exists(folder))
-    GTEST_SKIP() << folder.string() << " is not here; set PANVO_DATA to the folder of recordings";
+    GTEST_SKIP() << folder.string() << " does not exist; set PANVO_DATA to the folder of recordings";
   const Recording recording = read_recording(folder);
   RoadJunctionDetector detector({}, recording.base_from_panorama, {1080, 540});
   JunctionFilter filter({});

@@ -21,7 +21,7 @@ struct Drive {
   JunctionView last;
 };
 
-/// Along the road from -x, through the origin and on.
+/// Drives along the road from -x through the origin.
 Drive drive(const PaintedTown& town, const JunctionDetectorParameters& parameters = {}, bool is_grey = false) {
   RoadJunctionDetector detector(parameters, PaintedTown::base_from_panorama(), {kColumns, kColumns / 2});
   JunctionFilter filter({});

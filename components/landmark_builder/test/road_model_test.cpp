@@ -14,7 +14,7 @@ namespace {
 
 const cv::Rect kRoad(0, 0, 60, 40), kShadow(60, 0, 40, 40), kGrass(0, 40, 100, 60);
 
-/// A road, half of it in the shadow, and grass; with the noise of a camera.
+/// A road, half of it in shadow, and grass, with camera noise.
 cv::Mat ground(bool has_colour = true) {
   cv::Mat view(100, 100, CV_8UC3);
   view(kRoad).setTo(cv::Scalar(120, 120, 124));
@@ -94,7 +94,7 @@ TEST(BodyMask, LearnsWhatStaysWhereItIsWhileTheGroundGoesBy) {
     const auto pose = PaintedTown::at(0.6 * i, 0.0, 0.0);
     body.learn(projection.project(town.panorama(pose)), PlanarPose::of(pose));
   }
-  const double radius_m = 2.0 * std::sqrt(1.0 - 0.75 * 0.75) / 0.75;  // where the painted body ends
+  const double radius_m = 2.0 * std::sqrt(1.0 - 0.75 * 0.75) / 0.75;  // edge of the painted body
   EXPECT_GT(covered_m2(), 0.8 * M_PI * radius_m * radius_m);
   EXPECT_LT(covered_m2(), 4.0 * M_PI * radius_m * radius_m);
 }
@@ -102,7 +102,7 @@ TEST(BodyMask, LearnsWhatStaysWhereItIsWhileTheGroundGoesBy) {
 TEST(RoadMap, KeepsWhatWasSeenWhereItIs) {
   RoadMap map({}, 0.25);
   const GroundGrid grid{177, 0.25};
-  const Eigen::Vector2d mark(8.0, 3.0);  // in the odometry's frame
+  const Eigen::Vector2d mark(8.0, 3.0);  // odometry frame
   for (const auto& [x, yaw] : {std::pair{0.0, 0.0}, std::pair{3.0, 0.5}, std::pair{7.0, -2.0}}) {
     const PlanarPose pose{{x, 1.0}, yaw};
     cv::Mat ratio(grid.side, grid.side, CV_32FC1, cv::Scalar(-1.0)), weight(ratio.size(), CV_32FC1, cv::Scalar(1.0));

@@ -15,7 +15,7 @@ inline cv::Point middle_pixel() { return {kSide / 2, kSide / 2}; }
 
 inline cv::Mat empty_mask() { return cv::Mat::zeros(kSide, kSide, CV_8UC1); }
 
-/// Roads 6.5 m wide from the middle, in directions counter-clockwise from "up", with rounded corners between them.
+/// Roads 6.5 m wide from the middle, in directions counter-clockwise from "up", with rounded corners.
 inline cv::Mat star_mask(const std::vector<double>& directions_deg, double length_m = 40.0, double width_m = 6.5) {
   cv::Mat mask = empty_mask();
   for (const double direction : directions_deg) {
@@ -30,7 +30,7 @@ inline cv::Mat star_mask(const std::vector<double>& directions_deg, double lengt
   return padded(cv::Rect(20, 20, kSide, kSide)).clone();
 }
 
-/// A road along a quarter of a circle of `radius_m`, through the middle.
+/// A road along a circle of `radius_m` through the middle.
 inline cv::Mat curve_mask(double radius_m) {
   cv::Mat mask = empty_mask();
   const int radius = static_cast<int>(radius_m / kResolution_m);

@@ -8,16 +8,16 @@
 
 namespace panvo::landmark_builder {
 
-/// Found junctions against the listed ones. The rule: a visit is a stretch of the journey within `radius_m` of a listed
-/// junction where three roads or more meet; bends (two) and ends of roads (one) are no junctions. A visit is found by the first
-/// detection whose panorama was taken during it. Any other detection is false: also a second one of the same visit. A visit
-/// that the recording begins or ends in, so that the junction is not passed, counts neither way.
+/// Score of detected junctions against the listed ones. A visit is a stretch of the journey within `radius_m` of a
+/// listed junction where at least three roads meet; bends (two) and road ends (one) do not count. A visit is found by
+/// the first detection whose panorama was taken during it. Any other detection is false, including a second one of the
+/// same visit. Visits cut by the start or end of the recording count neither as found nor as missed.
 struct JunctionScore {
   struct Visit {
     int junction = 0;
     std::int64_t from_ns = 0, to_ns = 0;
     double nearest_m = 0.0;
-    bool is_cut = false;  ///< by the recording's begin or end
+    bool is_cut = false;  ///< by the start or end of the recording
     int detections = 0;
   };
   std::vector<Visit> visits;

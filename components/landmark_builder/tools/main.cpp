@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Road junctions of a data set: what the detector finds, pictures of how, and the score against the listed ones.
+// Detects the road junctions of a data set, draws the detector's steps and scores the result.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <opencv2/core/utility.hpp>
@@ -37,7 +37,7 @@ int run(const Options& options) {
   for (std::size_t i = 0; i < recording.panoramas.size(); ++i) {
     const auto& frame = recording.panoramas[i];
     const cv::Mat panorama = cv::imread(frame.image.string(), options.grey ? cv::IMREAD_GRAYSCALE : cv::IMREAD_COLOR);
-    if (panorama.empty()) throw std::runtime_error(frame.image.string() + " is no image that can be read");
+    if (panorama.empty()) throw std::runtime_error(frame.image.string() + " is not a readable image");
     if (!detector) detector.emplace(parameters, recording.base_from_panorama, panorama.size());
     cv::TickMeter timer;
     timer.start();
@@ -67,7 +67,7 @@ int run(const Options& options) {
                 detection.centre_in_odom.y(), detection.nearest_m, detection.panoramas);
   }
   std::sort(times_ms.begin(), times_ms.end());
-  std::printf("%zu panoramas, %zu junctions; time a panorama: median %.2f ms, 95 %% %.2f ms\n", times_ms.size(),
+  std::printf("%zu panoramas, %zu junctions; time per panorama: median %.2f ms, 95 %% %.2f ms\n", times_ms.size(),
               detections.size(), times_ms[times_ms.size() / 2], times_ms[times_ms.size() * 95 / 100]);
   if (recording.junctions.empty()) return 0;
   const JunctionScore score = score_junctions(recording, detections, options.radius_m);
@@ -95,16 +95,18 @@ int main(int argc, char** argv) {
       "Finds the road junctions of a data set (EuRoC/ASL: cam2 with ground truth) and scores them against "
       "sequence.yaml.",
       "panvo landmarks junctions"};
-  app.add_option("dataset", options.dataset, "folder with mav0")->required()->check(CLI::ExistingDirectory);
-  app.add_option("--out", options.out, "folder for pictures of the chosen frames");
-  app.add_option("--frames", options.frames, "numbers of the panoramas to draw, from 0")->delimiter(',');
+  app.add_option("dataset", options.dataset, "data set folder with mav0")->required()->check(CLI::ExistingDirectory);
+  app.add_option("--out", options.out, "output folder for the pictures");
+  app.add_option("--frames", options.frames, "indices of the panoramas to draw, from 0")->delimiter(',');
   app.add_option("--every", options.every, "draw every n-th panorama")->check(CLI::NonNegativeNumber);
   app.add_option("--criterion", options.criterion, "arms, or radon as in the paper")
       ->check(CLI::IsMember({"arms", "radon"}));
-  app.add_option("--radius", options.radius_m, "of a visit, m")->check(CLI::PositiveNumber)->capture_default_str();
-  app.add_flag("--grey", options.grey, "take the panoramas as grey");
-  app.add_flag("--single", options.single, "judge each panorama by itself, as the paper does");
-  app.add_flag("--verbose", options.is_verbose, "a line for each panorama");
+  app.add_option("--radius", options.radius_m, "radius of a visit, m")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  app.add_flag("--grey", options.grey, "convert the panoramas to grey");
+  app.add_flag("--single", options.single, "evaluate each panorama individually, as in the paper");
+  app.add_flag("--verbose", options.is_verbose, "print one line per panorama");
   CLI11_PARSE(app, argc, argv);
   cv::setNumThreads(1);
   try {

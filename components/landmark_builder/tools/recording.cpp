@@ -20,7 +20,7 @@ std::ifstream open(const fs::path& file) {
   return stream;
 }
 
-/// OpenCV's first line, %YAML:1.0, is no YAML.
+/// Skips OpenCV's first line, %YAML:1.0, which is not valid YAML.
 YAML::Node read_yaml(const fs::path& file) {
   auto stream = open(file);
   std::string text, line;
@@ -56,7 +56,7 @@ struct TruePose {
 std::vector<TruePose> read_truth(const fs::path& file) {
   std::vector<TruePose> poses;
   for (const auto& row : read_csv(file)) {
-    if (row.size() < 8) throw std::runtime_error(file.string() + ": a line of fewer than 8 columns");
+    if (row.size() < 8) throw std::runtime_error(file.string() + ": a line has fewer than 8 columns");
     const auto number = [&](std::size_t i) { return std::stod(row[i]); };
     poses.push_back(
         {std::stoll(row[0]), {number(1), number(2), number(3)}, {number(4), number(5), number(6), number(7)}});
@@ -71,13 +71,13 @@ Recording read_recording(const fs::path& directory) {
   Recording recording;
   const YAML::Node sensor = read_yaml(folder / "sensor.yaml");
   const auto numbers = sensor["T_BS"]["data"].as<std::vector<double>>();
-  if (numbers.size() != 16) throw std::runtime_error((folder / "sensor.yaml").string() + ": T_BS is not of 16 numbers");
+  if (numbers.size() != 16) throw std::runtime_error((folder / "sensor.yaml").string() + ": T_BS must have 16 numbers");
   for (int i = 0; i < 16; ++i)
     recording.base_from_panorama.matrix()(i / 4, i % 4) = numbers[static_cast<std::size_t>(i)];
 
   const auto truth = read_truth(directory / "mav0" / "state_groundtruth_estimate0" / "data.csv");
   for (const auto& row : read_csv(folder / "data.csv")) {
-    if (row.size() < 2) throw std::runtime_error((folder / "data.csv").string() + ": a line of fewer than 2 columns");
+    if (row.size() < 2) throw std::runtime_error((folder / "data.csv").string() + ": a line has fewer than 2 columns");
     RecordedPanorama panorama{std::stoll(row[0]), folder / "data" / row[1], Eigen::Isometry3d::Identity()};
     const auto after = std::lower_bound(truth.begin(), truth.end(), panorama.stamp_ns,
                                         [](const TruePose& pose, std::int64_t stamp) { return pose.stamp_ns < stamp; });
@@ -92,7 +92,8 @@ Recording read_recording(const fs::path& directory) {
         before->rotation.normalized().slerp(share, after->rotation.normalized()).toRotationMatrix();
     recording.panoramas.push_back(std::move(panorama));
   }
-  if (recording.panoramas.empty()) throw std::runtime_error(folder.string() + " holds no panorama with a true pose");
+  if (recording.panoramas.empty())
+    throw std::runtime_error(folder.string() + " contains no panorama with ground truth");
 
   if (const fs::path list = directory / "sequence.yaml"; fs::exists(list)) {
     for (const auto& junction : read_yaml(list)["junctions"]) {

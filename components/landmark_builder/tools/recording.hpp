@@ -6,13 +6,13 @@
 #include <filesystem>
 #include <vector>
 
-/// An EuRoC/ASL data set as far as junctions need it: cam2, ground truth, and what sequence.yaml lists.
+/// The parts of an EuRoC/ASL data set needed for junctions: cam2, ground truth, and the list in sequence.yaml.
 namespace panvo::landmark_builder {
 
 struct RecordedPanorama {
   std::int64_t stamp_ns = 0;
   std::filesystem::path image;
-  Eigen::Isometry3d map_from_base = Eigen::Isometry3d::Identity();  ///< true, interpolated
+  Eigen::Isometry3d map_from_base = Eigen::Isometry3d::Identity();  ///< ground truth, interpolated
 };
 
 struct ListedJunction {
@@ -23,11 +23,11 @@ struct ListedJunction {
 
 struct Recording {
   Eigen::Isometry3d base_from_panorama = Eigen::Isometry3d::Identity();
-  std::vector<RecordedPanorama> panoramas;  ///< stamps increase; those that the ground truth covers
-  std::vector<ListedJunction> junctions;    ///< empty where there is no sequence.yaml
+  std::vector<RecordedPanorama> panoramas;  ///< in order of stamps; only those covered by the ground truth
+  std::vector<ListedJunction> junctions;    ///< empty if there is no sequence.yaml
 };
 
-/// Throws std::runtime_error naming the file and what is wrong with it.
+/// Throws std::runtime_error naming the file and the problem.
 Recording read_recording(const std::filesystem::path& directory);
 
 }  // namespace panvo::landmark_builder

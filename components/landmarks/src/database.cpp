@@ -7,8 +7,8 @@
 namespace panvo::landmarks {
 namespace {
 
-/// Why the operating system refused. SQLite forgets it where a commit fails; errno then still has it: it is cleared
-/// before each call.
+/// Operating-system error of the failed call. After a failed commit SQLite no longer has it, but errno does, as it is
+/// cleared before each call.
 int system_error_of(sqlite3* database) {
   const int known = database ? sqlite3_system_errno(database) : 0;
   return known != 0 ? known : errno;
@@ -61,7 +61,7 @@ void Database::execute(const std::string& sql) {
 Transaction::Transaction(Database& database) : database_(database) { database_.execute("BEGIN IMMEDIATE"); }
 
 Transaction::~Transaction() {
-  // A failed write may have rolled back already; there is nothing to do about a failure here.
+  // A failed write may have rolled back already; failures here are ignored.
   if (is_open_) sqlite3_exec(database_.handle(), "ROLLBACK", nullptr, nullptr, nullptr);
 }
 
@@ -87,7 +87,7 @@ Statement& Statement::bind(int parameter, double value) {
 }
 
 Statement& Statement::bind(int parameter, std::string_view value) {
-  // An empty view may have no address, and without one SQLite would store NULL.
+  // An empty view may have a null address, which SQLite would store as NULL.
   const char* text = value.data() ? value.data() : "";
   check(sqlite3_bind_text64(handle_.get(), parameter, text, value.size(), SQLITE_TRANSIENT, SQLITE_UTF8));
   return *this;

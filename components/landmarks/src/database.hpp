@@ -13,7 +13,7 @@
 
 namespace panvo::landmarks {
 
-/// SQLite refused: its result code, and errno where the operating system was the reason (0 elsewhere).
+/// Error of a SQLite call: its result code, and errno if the operating system caused it (else 0).
 class DatabaseError : public std::runtime_error {
  public:
   DatabaseError(sqlite3* database, int result);
@@ -26,12 +26,12 @@ class DatabaseError : public std::runtime_error {
   int system_error_;
 };
 
-/// An open SQLite database. Everything here throws DatabaseError.
+/// An open SQLite database. All member functions may throw DatabaseError.
 class Database {
  public:
   enum class Mode { kRead, kReadWrite, kCreateOrReadWrite };
 
-  /// Waits `busy_ms` for another process's lock, then refuses.
+  /// Waits up to `busy_ms` for another process's lock, then throws.
   Database(const std::filesystem::path& file, Mode mode, int busy_ms);
 
   void execute(const std::string& sql);
@@ -45,7 +45,7 @@ class Database {
   std::unique_ptr<sqlite3, Close> handle_;
 };
 
-/// Everything until commit(), or nothing.
+/// Rolls back unless commit() was called.
 class Transaction {
  public:
   explicit Transaction(Database& database);
@@ -68,13 +68,13 @@ class Statement {
   Statement& bind(int parameter, std::int64_t value);
   Statement& bind(int parameter, double value);
   Statement& bind(int parameter, std::string_view value);
-  /// The bytes must stay until the statement is reset.
+  /// The bytes must stay valid until the statement is reset.
   Statement& bind(int parameter, std::span<const std::uint8_t> value);
 
-  /// The value of another statement's row; must stay until this one was run.
+  /// Binds a value of another statement's current row; it must stay valid until this statement has run.
   Statement& bind(int parameter, const Statement& row, int column);
 
-  bool step();  ///< whether there is a row
+  bool step();  ///< returns whether there is a row
   void run();   ///< steps to the end and resets
 
   int columns() const noexcept { return sqlite3_column_count(handle_.get()); }

@@ -14,12 +14,12 @@ namespace {
 constexpr int kIterations = 10;
 constexpr int kHalfStep = 3;  // columns, of the response's derivative
 constexpr double kSmallestSpread = 0.05;
-constexpr double kLossScale = 0.3;    // spreads: about what noise and a little parallax do to a response
-constexpr double kParallax = 12.0;    // columns: step aside that is as likely as not
-constexpr double kMostChange = 15.0;  // columns an iteration
-constexpr double kReach = 60.0;       // columns from the start: farther is another heading
+constexpr double kLossScale = 0.3;    // spreads: typical effect of noise and slight parallax on a response
+constexpr double kParallax = 12.0;    // columns: prior sigma of the parallax shift
+constexpr double kMostChange = 15.0;  // columns per iteration
+constexpr double kReach = 60.0;       // columns from the start: farther is a different heading
 
-/// A feature, and the azimuth of its patch as the landmark's column angle.
+/// A feature and the azimuth of its patch, as an angle over the landmark's columns.
 struct Observation {
   const AdaptiveFeature* feature;
   int row;
@@ -52,7 +52,7 @@ double align_heading(const QueryDescription& query, const PanoramaDescription& l
   const vision::ResponseReader reader(query.images, matrix, query.normalisation);
   const std::vector<Observation> observations = observe(matrix, landmark.small);
   const double start = start_rad * matrix.band().width / kTurn;
-  Eigen::Vector3d shift(start, 0.0, 0.0);  // columns: the turn, and the step aside along two directions
+  Eigen::Vector3d shift(start, 0.0, 0.0);  // columns: rotation, and parallax along two directions
   const Eigen::Vector3d prior(0.0, 1.0 / (kParallax * kParallax), 1.0 / (kParallax * kParallax));
   for (int iteration = 0; iteration < kIterations; ++iteration) {
     Eigen::Matrix3d information = prior.asDiagonal();
@@ -68,7 +68,7 @@ double align_heading(const QueryDescription& query, const PanoramaDescription& l
       const double slope = (read(column + kHalfStep) - read(column - kHalfStep)) / (2.0 * kHalfStep) * per_spread;
       const double residual = (read(column) - o.feature->value) * per_spread + slope * (place - column);
       const double ratio = residual / kLossScale;
-      const double weight = o.feature->weight / (kLossScale * kLossScale * (1.0 + ratio * ratio));  // Cauchy's loss
+      const double weight = o.feature->weight / (kLossScale * kLossScale * (1.0 + ratio * ratio));  // Cauchy loss
       information += weight * slope * slope * by_shift * by_shift.transpose();
       gradient += weight * slope * residual * by_shift;
     }

@@ -16,10 +16,10 @@ constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr int kGridSize = 2;  // [Lu2015 Alg. 1]
 constexpr double kReach_rad = 30.0 * kDegree;
 constexpr double kSmallestStep_rad = 0.5 * kDegree;
-constexpr double kNeighbourhood_rad = 15.0 * kDegree;  // of the start: farther is another heading
-constexpr int kMostColumns = 16;                       // downhill: more than the grid's last step
+constexpr double kNeighbourhood_rad = 15.0 * kDegree;  // of the start: farther is a different heading
+constexpr int kMostColumns = 16;                       // of the descent: more than the grid's last step
 
-/// D over the columns around a place, to go downhill.
+/// D at a column and its neighbours, for the descent.
 struct Valley {
   int column;
   float left, here, right;

@@ -18,18 +18,18 @@
 namespace panvo::landmarks {
 namespace {
 
-constexpr int kMargin_px = 32;              // beyond the seam: what a descriptor of the half-size image needs
-constexpr int kSectors = 24;                // of the full turn, each with its share of the keypoints
-constexpr int kSurplus = 2;                 // found per keypoint kept, so that there is a choice in every sector
-constexpr double kSmallestContrast = 0.02;  // of SIFT; OpenCV's 0.04 leaves cloudy days with few
+constexpr int kMargin_px = 32;              // beyond the seam: support of a descriptor in the half-size image
+constexpr int kSectors = 24;                // of the full turn, each with an equal share of the keypoints
+constexpr int kSurplus = 2;                 // detected per keypoint kept, so that every sector has a choice
+constexpr double kSmallestContrast = 0.02;  // of SIFT; OpenCV's 0.04 finds too few under overcast sky
 
-/// The part of the panorama where keypoints are sought, a piece of its other end on each side, and how its pixels lie.
+/// The band of the panorama that is searched, with a margin wrapped from the opposite end on each side.
 struct Section {
   cv::Mat image;
   double scale = 1.0;            // px of the panorama per px of the section
-  double left = 0.0, top = 0.0;  // px of the panorama where the section's first pixel begins
+  double left = 0.0, top = 0.0;  // px of the panorama at the section's first pixel
 
-  /// Centre of the panorama's pixels; the section's lie between them where it is half the size.
+  /// Coordinates at pixel centres of the panorama; at half size, section pixels lie between panorama pixels.
   Eigen::Vector2d to_panorama(const cv::Point2f& p) const {
     return {left + (p.x + 0.5) * scale - 0.5, top + (p.y + 0.5) * scale - 0.5};
   }
@@ -55,7 +55,7 @@ Section cut_section(const cv::Mat& panorama, const KeypointParameters& parameter
   return section;
 }
 
-/// By descending strength, whatever the order they were found in; of equal ones the first in the image.
+/// Orders by descending strength, independent of the order of detection; ties by position in the image.
 bool is_stronger(const cv::KeyPoint& a, const cv::KeyPoint& b) {
   if (a.response != b.response) return a.response > b.response;
   if (a.pt.y != b.pt.y) return a.pt.y < b.pt.y;
@@ -63,8 +63,8 @@ bool is_stronger(const cv::KeyPoint& a, const cv::KeyPoint& b) {
   return a.angle < b.angle;
 }
 
-/// The strongest, each sector of the full turn first its share; without what lies beyond the seam, which is found at the other
-/// end as well.
+/// The strongest keypoints, with an equal share for each sector first. Drops those in the margins, which are also found
+/// at the other end.
 std::vector<cv::KeyPoint> choose(const std::vector<cv::KeyPoint>& found, const Section& section, int columns,
                                  int most) {
   const auto column = [&](int i) { return section.to_panorama(found[static_cast<std::size_t>(i)].pt).x(); };
@@ -89,7 +89,7 @@ std::vector<cv::KeyPoint> choose(const std::vector<cv::KeyPoint>& found, const S
   return strongest;
 }
 
-/// Squared Euclidean distance of two descriptors: exact in whole numbers.
+/// Squared Euclidean distance of two descriptors, exact in integers.
 int squared_distance(const std::array<std::uint8_t, 128>& a, const std::array<std::uint8_t, 128>& b) {
   cv::v_uint32x4 sum = cv::v_setzero_u32();
   for (std::size_t i = 0; i < a.size(); i += 16) {
@@ -122,7 +122,7 @@ struct Nearest {
 std::vector<Keypoint> detect_keypoints(const cv::Mat& panorama, const KeypointParameters& parameters) {
   if (panorama.empty() || (panorama.type() != CV_8UC1 && panorama.type() != CV_8UC3) ||
       panorama.cols != 2 * panorama.rows) {
-    throw std::invalid_argument("keypoints: a panorama of type CV_8UC1 or CV_8UC3, twice as wide as high, is needed");
+    throw std::invalid_argument("keypoints: the panorama must be CV_8UC1 or CV_8UC3 and twice as wide as high");
   }
   const cv::Mat grey = to_described_size(panorama);
   const vision::Equirectangular sphere{grey.cols, grey.rows};
@@ -130,7 +130,7 @@ std::vector<Keypoint> detect_keypoints(const cv::Mat& panorama, const KeypointPa
   const auto sift = cv::SIFT::create(kSurplus * parameters.most, 3, kSmallestContrast);
   std::vector<cv::KeyPoint> found;
   sift->detect(section.image, found);
-  // A descriptor costs more than it costs to blur the image once more: only what is kept is described.
+  // Computing descriptors costs more than repeating the blur, so only the chosen keypoints are described.
   std::vector<cv::KeyPoint> chosen = choose(found, section, grey.cols, parameters.most);
   if (chosen.empty()) return {};
   cv::Mat descriptors;
@@ -156,7 +156,8 @@ std::vector<KeypointMatch> match_keypoints(std::span<const Keypoint> query, std:
   std::vector<Nearest> of_query(query.size()), of_landmark(landmark.size());
   for (std::size_t i = 0; i < query.size(); ++i) {
     for (std::size_t j = 0; j < landmark.size(); ++j) {
-      // Azimuths grow to the right: what the landmark saw at theta, a vehicle turned left by the heading sees at theta + heading.
+      // Azimuths increase to the right: a point at theta in the landmark is at theta + heading for a vehicle turned
+      // left by heading.
       if (window && std::abs(vision::wrap(query_azimuths[i] - landmark_azimuths[j] - window->heading_rad, kTurn)) >
                         window->half_width_rad) {
         continue;

@@ -15,7 +15,7 @@ namespace panvo::landmarks {
 namespace {
 
 constexpr float kTruncation =
-    1.0F;  // spreads: beyond, a patch is covered or shows something else, and how much does not matter
+    1.0F;  // spreads: larger differences mean an occluded or displaced patch and are truncated
 constexpr float kSmallestSpread = 0.05F;
 constexpr float kSmallestMean = 0.01F;
 constexpr int kMeanHeadings = 12;
@@ -25,7 +25,7 @@ float difference(float value, float landmark_value, float scale) {
   return std::min(1.0F, std::abs(value - landmark_value) / (kTruncation * std::max(kSmallestSpread, scale)));
 }
 
-/// [Lu2015 Eq. 11] of one feature at all headings: weight * min(1, |response - value| * factor), added to the sums.
+/// [Lu2015 Eq. 11] of one feature at all headings: adds weight * min(1, |response - value| * factor) to the sums.
 void add_differences(const float* responses, float value, float factor, float weight, std::vector<float>& sums) {
   const cv::v_float32x4 values = cv::v_setall_f32(value), factors = cv::v_setall_f32(factor);
   const cv::v_float32x4 weights = cv::v_setall_f32(weight), one = cv::v_setall_f32(1.0F);
@@ -84,7 +84,7 @@ HeadingMatch match_large_scale(const QueryDescription& query, const PanoramaDesc
     add_differences(responses, feature.value, factor, feature.weight, sums);
   }
   const float mean = std::accumulate(sums.begin(), sums.end(), 0.0F) / static_cast<float>(headings);
-  if (mean <= 0.0F) return {};  // no features, or none that varies: nothing can be told
+  if (mean <= 0.0F) return {};  // no features, or none that varies: no decision possible
   const auto best = static_cast<std::size_t>(std::min_element(sums.begin(), sums.end()) - sums.begin());
   const auto heading = [&](std::size_t i) {
     return vision::wrap(static_cast<double>(i) * step_rad, 2.0 * std::numbers::pi);

@@ -10,9 +10,9 @@
 namespace panvo::landmarks {
 namespace {
 
-// About as far apart as landmarks are; a search looks at (2 radius / cell + 1)^2 cells.
+// Typical distance of landmarks; a search visits (2 radius / cell + 1)^2 cells.
 constexpr double kCell_m = 20.0;
-// Farther than any vehicle gets, and well within what an index of a cell holds.
+// Beyond any journey, and well within the range of a cell index.
 constexpr double kFarthest_m = 1e12;
 
 double horizontal_distance(const PanoramicLandmark& landmark, const Eigen::Vector3d& position) {
@@ -45,14 +45,14 @@ std::uint32_t LandmarkLibrary::add(PanoramicLandmark landmark) {
   check_pose(landmark.map_from_base, landmark.id);
   if (!fits(landmark.description, limits_)) {
     throw std::invalid_argument("landmark " + std::to_string(landmark.id) +
-                                ": its description has rows or bins that nothing here has");
+                                ": its description does not fit the measurement matrices or the histogram");
   }
   const auto at = index_from(landmark.id);
   if (at < by_id_.size() && by_id_[at]->id == landmark.id) {
-    throw std::invalid_argument("landmark " + std::to_string(landmark.id) + " is in the library already");
+    throw std::invalid_argument("landmark " + std::to_string(landmark.id) + " is already in the library");
   }
   if (source_) {
-    // their memory, too: `= {}` would keep it
+    // swap() releases the memory; `= {}` would keep it
     std::vector<Keypoint>().swap(landmark.keypoints);
     std::vector<std::uint8_t>().swap(landmark.thumbnail);
   }
@@ -89,7 +89,7 @@ std::vector<const PanoramicLandmark*> LandmarkLibrary::within(const Eigen::Vecto
     }
   };
   const double cells_across = 2.0 * radius_m / kCell_m + 1.0;
-  if (cells_across * cells_across > static_cast<double>(cells_.size())) {  // fewer landmarks than cells to look at
+  if (cells_across * cells_across > static_cast<double>(cells_.size())) {  // fewer landmarks than cells to visit
     take_near(by_id_);
     return found;
   }
@@ -108,7 +108,7 @@ std::optional<LandmarkLibrary::Near> LandmarkLibrary::nearest(const Eigen::Vecto
   if (by_id_.empty() || !position.head<2>().allFinite()) return std::nullopt;
   std::vector<const PanoramicLandmark*> candidates;
   for (double radius = kCell_m; candidates.empty(); radius *= 2.0) {
-    // From some radius on within() looks at all anyway.
+    // Beyond this radius within() visits all landmarks anyway.
     candidates = within(position, radius > kFarthest_m ? std::numeric_limits<double>::infinity() : radius);
   }
   Near best{nullptr, std::numeric_limits<double>::infinity()};

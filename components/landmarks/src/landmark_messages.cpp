@@ -83,7 +83,7 @@ panvo_msgs::msg::PanoramicLandmark to_message(const PanoramicLandmark& landmark,
 conversions::Result<PanoramicLandmark> to_landmark(const panvo_msgs::msg::PanoramicLandmark& message,
                                                    const DescriptionSettings& settings) {
   if (const auto found = differences(settings_from_text(message.settings()), settings); !found.empty()) {
-    std::string reason = "was described in another way: ";
+    std::string reason = "was described with other settings: ";
     for (std::size_t i = 0; i < found.size(); ++i) reason += (i == 0 ? "" : "; ") + found[i];
     return Reason{reason};
   }

@@ -21,7 +21,7 @@ void check_isometry(Check& check, std::string_view name, const Eigen::Isometry3d
 
 void check_pose(Check& check, const Eigen::Isometry3d& map_from_base, const Eigen::Matrix<double, 6, 6>& covariance) {
   check_isometry(check, "pose.pose", map_from_base);
-  // Row-major or not: one that is not symmetric is refused in any case.
+  // The storage order does not matter: an asymmetric matrix is rejected anyway.
   check.covariance("pose.covariance", std::span<const double>(covariance.data(), 36));
 }
 

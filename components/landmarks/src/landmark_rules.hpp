@@ -7,11 +7,11 @@
 #include "panvo/landmarks/description_settings.hpp"
 #include "panvo/landmarks/panoramic_landmark.hpp"
 
-/// What a landmark may hold, by the rules of its message: for those that come from a file, or go there. nullopt: nothing is wrong; else what is, as
-/// "large_features.row is beyond the rows of the measurement matrix".
+/// Validity rules of landmarks, equal to those of their message, for reading and writing files. nullopt if valid; else
+/// the violated rule, e.g. "large_features.row is beyond the rows of the measurement matrix".
 namespace panvo::landmarks {
 
-/// `settings`: what it was described with. Keypoints are looked at where there are some.
+/// `settings`: those the landmark was described with. Keypoints are checked if present.
 std::optional<std::string> problem_of(const PanoramicLandmark& landmark, const DescriptionSettings& settings);
 
 std::optional<std::string> problem_of_pose(const Eigen::Isometry3d& map_from_base,

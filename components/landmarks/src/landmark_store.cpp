@@ -17,7 +17,7 @@ namespace {
 using RowMajor6d = Eigen::Matrix<double, 6, 6, Eigen::RowMajor>;
 using PoseNumbers = std::array<double, 7>;
 
-// Bytes of what has a fixed size: id, stamp, junction, two poses.
+// Bytes of the fields of fixed size: id, stamp, junction, two poses.
 constexpr std::uint64_t kFixedBytes = 8 + 8 + 1 + 2 * sizeof(PoseNumbers);
 
 PoseNumbers to_numbers(const Eigen::Isometry3d& a_from_b) {
@@ -55,7 +55,7 @@ PanoramicLandmark landmark_from(const Statement& row) {
   auto large = features_from(row.blob(19));
   auto small = features_from(row.blob(20));
   if (!covariance || covariance->size() != 36 || !histogram || !large || !small) {
-    throw std::range_error("holds values that are none");
+    throw std::range_error("contains invalid values");
   }
   landmark.covariance = Eigen::Map<const RowMajor6d>(covariance->data());
   landmark.description = {std::move(*histogram), std::move(*large), std::move(*small)};
@@ -92,7 +92,7 @@ decltype(auto) LandmarkStore::guarded(Action action) const {
   } catch (const DatabaseError& error) {
     throw StoreError(explain(file_, error, database_.get()));
   } catch (const std::range_error& error) {
-    throw StoreError(file_.string() + ": is damaged: " + error.what() + "; go back to a copy of it");
+    throw StoreError(file_.string() + ": is damaged: " + error.what() + "; restore a copy");
   }
 }
 
@@ -118,7 +118,7 @@ LandmarkStore::~LandmarkStore() = default;
 void LandmarkStore::prepare(const DescriptionSettings& settings) {
   if (!has_no_tables(*database_)) return;
   Transaction transaction(*database_);
-  if (!has_no_tables(*database_)) return;  // another process was first
+  if (!has_no_tables(*database_)) return;  // another process was faster
   make_tables(*database_);
   Statement insert(*database_, "INSERT INTO meta(key, value) VALUES(?, ?)");
   for (const auto& [key, value] : settings) insert.bind(1, key).bind(2, value).run();
@@ -133,9 +133,9 @@ void LandmarkStore::read_settings() {
 void LandmarkStore::require(const DescriptionSettings& settings) const {
   const auto found = differences(settings_, settings);
   if (found.empty()) return;
-  std::string sentence = file_.string() + ": its landmarks are described in another way: ";
+  std::string sentence = file_.string() + ": its landmarks were described with other settings: ";
   for (std::size_t i = 0; i < found.size(); ++i) sentence += (i == 0 ? "" : "; ") + found[i];
-  throw StoreError(sentence + ". Set the parameters as they are there, or use another file");
+  throw StoreError(sentence + ". Use the settings of the store, or another file");
 }
 
 std::uint32_t LandmarkStore::add(const PanoramicLandmark& landmark) {
@@ -154,8 +154,8 @@ std::uint32_t LandmarkStore::insert(const PanoramicLandmark& landmark) {
   const std::uint32_t id = landmark.id != 0 ? landmark.id : next_id(*database_);
   Statement taken(*database_, "SELECT 1 FROM landmark WHERE id = ?");
   if (taken.bind(1, std::int64_t{id}).step()) {
-    throw StoreError(file_.string() + ": has a landmark " + std::to_string(id) +
-                     " already; does another process write to it? Use one file a session");
+    throw StoreError(file_.string() + ": already contains landmark " + std::to_string(id) +
+                     "; is another process writing to it? Use one file per run");
   }
   const auto& description = landmark.description;
   const auto covariance = covariance_bytes(landmark.covariance);
@@ -205,7 +205,7 @@ std::uint32_t LandmarkStore::append(const LandmarkStore& other) {
     Transaction transaction(*database_);
     const auto first = next_id(*database_);
     std::map<std::int64_t, std::int64_t> new_ids;
-    for (const char* table : {"landmark", "keypoints", "thumbnail"}) {  // the first column of each is the landmark's id
+    for (const char* table : {"landmark", "keypoints", "thumbnail"}) {  // first column of each: landmark id
       auto rows = other.guarded([&] { return all_rows(*other.database_, table); });
       Statement insert(*database_, insert_row(table, rows.columns()));
       while (other.guarded([&] { return rows.step(); })) {
@@ -248,7 +248,7 @@ std::vector<Keypoint> LandmarkStore::keypoints(std::uint32_t id) const {
     Statement row(*database_, "SELECT data FROM keypoints WHERE landmark_id = ?");
     if (!row.bind(1, std::int64_t{id}).step()) return {};
     auto keypoints = keypoints_from(row.blob(0));
-    const auto problem = keypoints ? problem_of(*keypoints) : "keypoints are cut off or not finite";
+    const auto problem = keypoints ? problem_of(*keypoints) : "keypoints are truncated or not finite";
     if (problem) throw std::range_error("landmark " + std::to_string(id) + ": " + *problem);
     return std::move(*keypoints);
   });
@@ -291,7 +291,7 @@ StoredBytes LandmarkStore::stored_bytes() const {
 std::optional<std::string> LandmarkStore::find_damage() const {
   return guarded([&]() -> std::optional<std::string> {
     auto damage = damage_of(*database_);
-    if (!damage.empty()) return damage;  // a page that is none holds no records to be judged
+    if (!damage.empty()) return damage;  // records of a corrupt page cannot be checked
     constexpr int kMostTold = 3;
     int found = 0;
     const auto tell = [&](const std::string& problem) {

@@ -23,21 +23,20 @@ struct Parameters {
   template <class Field>
   static void describe(Field&& field) {
     using P = Parameters;
-    field.path(&P::file, "file",
-               "the store: made with the first landmark if it is not there; empty: none, landmarks are forgotten");
-    field(&P::read_only, "read_only", "", "publish what is in the store, and add nothing");
-    field(&P::map_frame, "map_frame", "", "frame of the poses of the landmarks in the store");
+    field.path(&P::file, "file", "store file, created with the first landmark; empty: landmarks are not saved");
+    field(&P::read_only, "read_only", "", "publish the stored landmarks, store nothing");
+    field(&P::map_frame, "map_frame", "", "frame of the stored poses");
   }
 };
 
-/// landmarks <-> a file: publishes at the start what earlier sessions left there, and keeps what is built or moved, be it by
-/// landmarks/poses, all of them at once, or by a landmark that comes again.
+/// Publishes the landmarks of a store at start, and stores new and moved ones. Poses are updated by landmarks/poses,
+/// all in one transaction, or by a landmark that is received again.
 class LandmarkStoreComponent final : public runtime::Component {
  public:
   explicit LandmarkStoreComponent(runtime::Context& context)
       : context_(context), parameters_(context.parameters<Parameters>()), output_(context.output(topics::kLandmarks)) {
     if (parameters_.file.empty()) {
-      context.log().info("no file is named: the landmarks of this session are forgotten at its end");
+      context.log().info("no file set: the landmarks of this run will not be saved");
       return;
     }
     context.input(topics::kLandmarks, [this](const auto& message) { on_landmark(*message); });
@@ -57,28 +56,28 @@ class LandmarkStoreComponent final : public runtime::Component {
   };
 
   void open() {
-    // Settings are those of the landmarks that come: whoever describes panoramas judges whether he can use these.
+    // The store keeps the settings of the landmarks received; their users check whether they can use them.
     store_ = std::make_unique<LandmarkStore>(parameters_.file);
     if (!parameters_.read_only) {
       const auto settings = store_->settings();
       store_ = std::make_unique<LandmarkStore>(parameters_.file, settings);
     }
     const auto tell = [this](const std::string& problem) {
-      context_.log().warn("{}: {}: it is left out. Remedy: panvo landmarks info --check, and a copy of the file",
+      context_.log().warn("{}: {}: skipped. Remedy: run panvo landmarks info --check; restore a copy of the file",
                           parameters_.file, problem);
     };
     for (auto& landmark : store_->landmarks(tell)) {
       try {
-        landmark.keypoints = store_->keypoints(landmark.id);  // its picture stays in the file: it is for people
+        landmark.keypoints = store_->keypoints(landmark.id);  // the thumbnail, for display only, is not published
       } catch (const StoreError& error) {
         tell(error.what());
         continue;
       }
       remember({landmark.id, landmark.map_from_base, landmark.covariance});
-      // Latched, so it does not matter which components are there already.
+      // The topic is latched, so subscribers may join later.
       output_.publish(to_message(landmark, store_->settings(), parameters_.map_frame));
     }
-    context_.log().info("{}: {} landmarks of earlier sessions", parameters_.file, known_.size());
+    context_.log().info("{}: {} landmarks loaded", parameters_.file, known_.size());
   }
 
   void on_landmark(const panvo_msgs::msg::PanoramicLandmark& message) {
@@ -86,7 +85,7 @@ class LandmarkStoreComponent final : public runtime::Component {
     const auto settings = settings_from_text(message.settings());
     const auto landmark = to_landmark(message, settings);
     if (!landmark) {
-      context_.log().warn_throttled(fmt::format("landmark {}", message.id()), "a landmark {} and is not kept",
+      context_.log().warn_throttled(fmt::format("landmark {}", message.id()), "a landmark {}; it is not stored",
                                     landmark.reason());
       return;
     }
@@ -95,10 +94,10 @@ class LandmarkStoreComponent final : public runtime::Component {
       store_->require(settings);
       keep(*landmark);
     } catch (const StoreError& error) {
-      has_failed_ = true;  // what ails a file stays; the rest of the system goes on
-      context_.log().error("{}. No more landmarks are kept", error.what());
+      has_failed_ = true;  // file errors persist; the rest of the system continues
+      context_.log().error("{}. No more landmarks will be stored", error.what());
     } catch (const std::invalid_argument& error) {
-      context_.log().warn("{}: it is not kept", error.what());
+      context_.log().warn("{}: not stored", error.what());
     }
   }
 
@@ -106,7 +105,7 @@ class LandmarkStoreComponent final : public runtime::Component {
     if (parameters_.read_only || has_failed_) return;
     const auto poses = to_landmark_poses(message);
     if (!poses) {
-      context_.log().warn_throttled(poses.reason(), "{} {}; landmarks stay where they are",
+      context_.log().warn_throttled(poses.reason(), "{} {}; landmark poses are unchanged",
                                     context_.resolved_name(topics::kLandmarkPoses), poses.reason());
       return;
     }
@@ -115,9 +114,9 @@ class LandmarkStoreComponent final : public runtime::Component {
       move(*poses);
     } catch (const StoreError& error) {
       has_failed_ = true;
-      context_.log().error("{}. No more landmarks are kept", error.what());
+      context_.log().error("{}. No more landmarks will be stored", error.what());
     } catch (const std::invalid_argument& error) {
-      context_.log().warn("{}: landmarks stay where they are", error.what());
+      context_.log().warn("{}: landmark poses are unchanged", error.what());
     }
   }
 
@@ -134,7 +133,7 @@ class LandmarkStoreComponent final : public runtime::Component {
     remember({landmark.id, landmark.map_from_base, landmark.covariance});
   }
 
-  /// All at once: a map that is half straightened is none.
+  /// In one transaction, so that the stored map is never partly optimised.
   void move(std::span<const LandmarkPose> poses) {
     std::vector<LandmarkPose> moved;
     for (const auto& pose : poses) {
@@ -151,8 +150,7 @@ class LandmarkStoreComponent final : public runtime::Component {
   }
 
   static bool is_moved(const Known& known, const LandmarkPose& pose) {
-    constexpr double kRounding =
-        1e-9;  // of a rotation on its way through quaternions; what is published here comes back
+    constexpr double kRounding = 1e-9;  // rounding of rotations as quaternions: published poses come back
     return (known.map_from_base - pose.map_from_base.matrix()).cwiseAbs().maxCoeff() > kRounding ||
            known.covariance != pose.covariance;
   }
@@ -166,7 +164,7 @@ class LandmarkStoreComponent final : public runtime::Component {
   runtime::Output<panvo_msgs::msg::PanoramicLandmark> output_;
   std::unique_ptr<LandmarkStore> store_;
   std::map<std::uint32_t, Known> known_;
-  std::map<std::uint32_t, LandmarkPose> early_;  // of landmarks that did not come yet
+  std::map<std::uint32_t, LandmarkPose> early_;  // poses of landmarks not received yet
   bool has_failed_ = false;
 };
 

@@ -13,16 +13,16 @@
 namespace panvo::landmarks {
 namespace {
 
-constexpr int kSmallestColumns = 256;  // px: below, the smallest rectangles are a few pixels
+constexpr int kSmallestColumns = 256;  // px: below, the smallest rectangles have only a few pixels
 constexpr int kGridRows = 40, kGridColumns = 120;
-constexpr int kDark = 8;                                   // grey level: what a capped lens still shows
-constexpr int kBright = 250;                               // grey level: full well, allowing for smoothing
-constexpr double kFaultyShare = 0.9;                       // night has lamps, and a bright sky fills no more than half
-constexpr double kSmallestContrast = 3.0;                  // grey levels, standard deviation: an even wall's noise
-constexpr double kBandTop = 1.0 / 3.0, kBandBottom = 0.6;  // rows where a place shows: 30 degrees above to 18 below
+constexpr int kDark = 8;                                   // grey level still recorded with the lens cap on
+constexpr int kBright = 250;                               // grey level: saturation, with a margin for smoothing
+constexpr double kFaultyShare = 0.9;                       // lamps are bright at night, a bright sky fills at most half
+constexpr double kSmallestContrast = 3.0;                  // grey levels, standard deviation: noise on an even wall
+constexpr double kBandTop = 1.0 / 3.0, kBandBottom = 0.6;  // relevant rows: 30 degrees above the horizon to 18 below
 constexpr double kMostCovered = 1.0 / 3.0;
 
-/// Grey level of a pixel of either type; near enough for a check.
+/// Approximate grey level of a pixel of either type.
 int grey_at(const cv::Mat& image, int row, int column) {
   const uchar* pixel = image.ptr<uchar>(row) + column * image.channels();
   return image.channels() == 1 ? pixel[0] : (pixel[0] + 2 * pixel[1] + pixel[2]) / 4;
@@ -57,16 +57,16 @@ std::optional<std::string> find_fault(const cv::Mat& panorama) {
   }
   const double covered = vision::covered_share(panorama, kBandTop, kBandBottom);
   if (all.dark > kFaultyShare * all.count) {
-    text << "is black: " << 100.0 * all.dark / all.count << " % of the view about the horizon at grey level " << kDark
+    text << "is black: " << 100.0 * all.dark / all.count << " % of the view near the horizon is at grey level " << kDark
          << " or below";
   } else if (all.bright > kFaultyShare * all.count) {
-    text << "is saturated: " << 100.0 * all.bright / all.count << " % of the view about the horizon at grey level "
+    text << "is saturated: " << 100.0 * all.bright / all.count << " % of the view near the horizon is at grey level "
          << kBright << " or above";
   } else if (all.deviation() < kSmallestContrast) {
-    text << "is constant: grey levels about the horizon deviate by " << all.deviation() << " from their mean, "
-         << kSmallestContrast << " needed";
+    text << "is constant: grey levels near the horizon deviate by " << all.deviation() << " from their mean, "
+         << kSmallestContrast << " required";
   } else if (covered > kMostCovered) {
-    text << "is covered: " << 100.0 * covered << " % of the full turn show nothing";
+    text << "is covered: " << 100.0 * covered << " % of the full turn is blocked";
   } else {
     return std::nullopt;
   }

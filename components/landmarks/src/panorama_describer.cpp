@@ -20,17 +20,16 @@ cv::Mat to_grey(const cv::Mat& image) {
   return grey;
 }
 
-/// A band of a panorama, all that both descriptions begin with.
+/// The band of a panorama, prepared for either description.
 struct Band {
   cv::Mat grey;
   vision::CyclicIntegralImages images;
   vision::BandNormalisation normalisation;
 
   Band(const cv::Mat& panorama, const DescriptionBasis& basis) {
-    if (const auto fault = find_fault(panorama)) throw std::invalid_argument("a panorama that " + *fault);
+    if (const auto fault = find_fault(panorama)) throw std::invalid_argument("the panorama " + *fault);
     const int last_row = basis.first_row + basis.large.band().height;
-    const bool is_of_size =
-        panorama.cols == DescriptionBasis::kColumns;  // then no more than the band need be made grey
+    const bool is_of_size = panorama.cols == DescriptionBasis::kColumns;  // only the band needs conversion to grey
     const cv::Mat all = is_of_size ? panorama.rowRange(basis.first_row, last_row) : to_described_size(panorama);
     grey = is_of_size ? to_grey(all) : all.rowRange(basis.first_row, last_row);
     grey = vision::prepare_band(grey);
@@ -94,7 +93,7 @@ PanoramaDescriber::PanoramaDescriber(const DescriptionParameters& parameters, st
     throw std::invalid_argument("headings: must divide 1080");
   }
   if (parameters.features > 2 * parameters.patches) {
-    throw std::invalid_argument("features: must not be more than twice the patches");
+    throw std::invalid_argument("features: must not exceed twice the patches");
   }
   auto basis = std::make_shared<DescriptionBasis>();
   basis->parameters = parameters;

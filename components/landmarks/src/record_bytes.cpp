@@ -20,7 +20,7 @@ void put(Bytes& bytes, Number number) {
   for (std::size_t i = 0; i < sizeof(Number); ++i) bytes.push_back(static_cast<std::uint8_t>(bits >> (8 * i)));
 }
 
-/// Takes numbers off the front; remembers when there were too few bytes or a number was none.
+/// Reads numbers from the front; records whether bytes were missing or a number was not finite.
 class Reader {
  public:
   explicit Reader(std::span<const std::uint8_t> bytes) : bytes_(bytes) {}
@@ -64,7 +64,7 @@ class Reader {
   bool is_good_ = true;
 };
 
-/// Takes values until the bytes are used up.
+/// Reads values until the bytes are used up.
 template <class Value, class Take>
 std::optional<std::vector<Value>> read_all(std::span<const std::uint8_t> bytes, std::size_t bytes_each, Take take) {
   std::vector<Value> values;

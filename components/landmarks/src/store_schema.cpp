@@ -12,12 +12,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Between commits the file is complete by itself and can be copied; a write-ahead log would keep the newest landmarks in
-// a second file. Each landmark is worth a commit of its own that reaches the disk: one comes every ten seconds or so.
+// The file is complete between commits and can be copied; with a write-ahead log the newest landmarks would be in a
+// second file. There is one landmark every ten seconds or so, so each gets a synchronous commit of its own.
 constexpr const char* kDurable = "PRAGMA journal_mode=DELETE; PRAGMA synchronous=FULL;";
 constexpr const char* kCareful = "PRAGMA trusted_schema=OFF; PRAGMA cell_size_check=ON;";
 
-// Keypoints and thumbnails lie apart, so that reading all the rest passes over few pages.
+// Keypoints and thumbnails are in separate tables, so that reading the other columns touches few pages.
 constexpr const char* kTables = R"(
 CREATE TABLE meta(key TEXT PRIMARY KEY NOT NULL, value TEXT NOT NULL) WITHOUT ROWID;
 CREATE TABLE landmark(
@@ -32,11 +32,11 @@ CREATE TABLE keypoints(landmark_id INTEGER PRIMARY KEY, count INTEGER NOT NULL, 
 CREATE TABLE thumbnail(landmark_id INTEGER PRIMARY KEY, jpeg BLOB NOT NULL);
 )";
 
-/// "it is cut off after ... of ... bytes", where the file is shorter than its own header says; else empty. Asks SQLite's file:
-/// opening the file a second time would lose all locks on it when it is closed (POSIX).
+/// "truncated after ... of ... bytes" if the file is shorter than its header states; else empty. Uses SQLite's file
+/// handle: closing a second descriptor of the file would release all its locks (POSIX).
 std::string cut_off(const Database& database) {
   sqlite3_file* file = nullptr;
-  std::array<unsigned char, 100> header{};  // at 16 the size of a page, at 28 the number of pages, big-endian
+  std::array<unsigned char, 100> header{};  // offset 16: page size, offset 28: number of pages, big-endian
   sqlite3_int64 size = 0;
   if (sqlite3_file_control(database.handle(), "main", SQLITE_FCNTL_FILE_POINTER, &file) != SQLITE_OK || !file ||
       !file->pMethods || file->pMethods->xFileSize(file, &size) != SQLITE_OK ||
@@ -49,22 +49,22 @@ std::string cut_off(const Database& database) {
   for (std::size_t i = 28; i < 32; ++i) pages = pages << 8 | header[i];
   const auto expected = (page == 1 ? 65536 : page) * pages;
   if (size >= expected) return "";
-  return "it is cut off after " + std::to_string(size) + " of " + std::to_string(expected) + " bytes";
+  return "truncated after " + std::to_string(size) + " of " + std::to_string(expected) + " bytes";
 }
 
 std::string damaged(const fs::path& file, const std::string& how) {
-  return file.string() + ": is damaged: " + how + "; go back to a copy of it, or begin a new file";
+  return file.string() + ": is damaged: " + how + "; restore a copy, or start a new file";
 }
 
 void check_kind(const fs::path& file) {
-  if (fs::is_directory(file)) throw StoreError(file.string() + ": is a folder; name a file for the landmarks");
+  if (fs::is_directory(file)) throw StoreError(file.string() + ": is a folder; name a landmark store file");
 }
 
 bool needs_rollback(const DatabaseError& error) {
   return error.primary_code() == SQLITE_READONLY || error.primary_code() == SQLITE_CANTOPEN;
 }
 
-/// Opens and reads a little, as SQLite opens nothing before it has to. Throws DatabaseError, StoreError for a damaged file.
+/// Opens and reads a little, as SQLite opens files lazily. Throws DatabaseError, or StoreError for a damaged file.
 std::unique_ptr<Database> open(const fs::path& file, Database::Mode mode) {
   auto database = std::make_unique<Database>(file, mode, LandmarkStore::kBusy_ms);
   database->execute(kCareful);
@@ -75,7 +75,7 @@ std::unique_ptr<Database> open(const fs::path& file, Database::Mode mode) {
     if (error.primary_code() != SQLITE_CORRUPT) throw;
     throw StoreError(explain(file, error, database.get()));
   }
-  // Here nobody else writes. SQLite itself would fill up a last page that is cut with zeros.
+  // No other process can write at this point. SQLite itself would pad a truncated last page with zeros.
   if (const auto cut = cut_off(*database); !cut.empty()) throw StoreError(damaged(file, cut));
   database->execute("COMMIT");
   return database;
@@ -94,29 +94,28 @@ std::string explain(const fs::path& file, const DatabaseError& error, const Data
   switch (error.primary_code()) {
     case SQLITE_BUSY:
     case SQLITE_LOCKED:
-      return name + "is locked by another process, and was for " + std::to_string(LandmarkStore::kBusy_ms / 1000) +
-             " s; end the one that uses it (a run, a database browser), or use another file";
+      return name + "is locked by another process (waited " + std::to_string(LandmarkStore::kBusy_ms / 1000) +
+             " s); end that process (a run, a database browser) or use another file";
     case SQLITE_NOTADB:
-      return name + "is no landmark store (or its first bytes are damaged); name another file, or a copy of it";
+      return name + "is not a landmark store, or its header is damaged; name another file or restore a copy";
     case SQLITE_CORRUPT: {
       const auto cut = database ? cut_off(*database) : std::string();
       return damaged(file, cut.empty() ? what : cut);
     }
     case SQLITE_READONLY:
     case SQLITE_PERM:
-      return name + "is write-protected (" + what +
-             "); let it be written to, or copy it to where you may write and use the copy";
+      return name + "is write-protected (" + what + "); make it writable, or use a copy in a writable folder";
     case SQLITE_FULL:
-      return name + "cannot be written (" + what + "); free some space. All landmarks added before are there";
-    case SQLITE_CANTOPEN:  // SQLite tries several ways, and errno is that of the last
+      return name + "cannot be written (" + what + "); free disk space. Earlier landmarks are intact";
+    case SQLITE_CANTOPEN:  // SQLite tries several ways, so errno belongs to the last one
       return name + (fs::exists(fs::absolute(file).parent_path())
-                         ? "cannot be opened or made; check that you may use it, and write in its folder"
-                         : "cannot be made: there is no such folder; make it first");
+                         ? "cannot be opened or created; check the permissions of the file and its folder"
+                         : "cannot be created: its folder does not exist; create it first");
     case SQLITE_IOERR:
       if (const int reason = error.system_error(); reason == ENOSPC || reason == EDQUOT || reason == EFBIG) {
-        return name + "cannot be written (" + what + "); free some space. All landmarks added before are there";
+        return name + "cannot be written (" + what + "); free disk space. Earlier landmarks are intact";
       }
-      return name + "the disk failed (" + what + "); check it, and go back to a copy if need be";
+      return name + "disk error (" + what + "); check the disk, and restore a copy if necessary";
     default:
       return name + what;
   }
@@ -124,13 +123,13 @@ std::string explain(const fs::path& file, const DatabaseError& error, const Data
 
 std::unique_ptr<Database> open_to_read(const fs::path& file) {
   check_kind(file);
-  if (!fs::exists(file)) throw StoreError(file.string() + ": does not exist; a run with landmarks makes one");
+  if (!fs::exists(file)) throw StoreError(file.string() + ": does not exist; a run with landmark_store.file makes it");
   try {
     return open(file, Database::Mode::kRead);
   } catch (const DatabaseError& error) {
     if (!needs_rollback(error)) throw StoreError(explain(file, error, nullptr));
   }
-  // A process was killed while it wrote: taking its part back needs to write.
+  // A process was killed while writing: rolling back its transaction requires write access.
   try {
     open(file, Database::Mode::kReadWrite);
     return open(file, Database::Mode::kRead);
@@ -143,10 +142,8 @@ std::unique_ptr<Database> open_to_write(const fs::path& file) {
   check_kind(file);
   try {
     auto database = open(file, Database::Mode::kCreateOrReadWrite);
-    if (database->is_read_only()) {  // SQLite falls back to reading without a word
-      throw StoreError(
-          file.string() +
-          ": is write-protected; let it be written to, or copy it to where you may write and use the copy");
+    if (database->is_read_only()) {  // SQLite silently falls back to read-only
+      throw StoreError(file.string() + ": is write-protected; make it writable, or use a copy in a writable folder");
     }
     database->execute(kDurable);
     return database;
@@ -168,15 +165,15 @@ void make_tables(Database& database) {
 
 void check_layout(const fs::path& file, const Database& database) {
   if (has_no_tables(database)) {
-    throw StoreError(file.string() + ": is empty: whoever made it was ended before it had begun; delete it");
+    throw StoreError(file.string() + ": is empty: the process that created it ended before writing; delete it");
   }
   if (pragma(database, "application_id") != LandmarkStore::kApplicationId) {
-    throw StoreError(file.string() + ": is a database, but no landmark store (a bag?); name another file");
+    throw StoreError(file.string() + ": is a database, but not a landmark store (a bag?); name another file");
   }
   const auto layout = pragma(database, "user_version");
   if (layout != LandmarkStore::kLayout) {
-    throw StoreError(file.string() + ": is of layout " + std::to_string(layout) + ", and this panvo reads layout " +
-                     std::to_string(LandmarkStore::kLayout) + "; use the panvo that made it, or begin a new file");
+    throw StoreError(file.string() + ": has layout " + std::to_string(layout) + "; this version of panvo reads " +
+                     std::to_string(LandmarkStore::kLayout) + ". Use the version that wrote it, or start a new file");
   }
 }
 

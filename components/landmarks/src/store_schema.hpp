@@ -7,26 +7,25 @@
 
 #include "database.hpp"
 
-/// The file behind a landmark store: how it is opened, laid out and what its errors mean.
+/// The SQLite file of a landmark store: opening, schema and error messages.
 namespace panvo::landmarks {
 
-/// What SQLite refused, as a message that names file and remedy. `database`: the one that refused, if it was open.
+/// Turns an SQLite error into a message with file and remedy. `database`: the one that failed, if it was open.
 std::string explain(const std::filesystem::path& file, const DatabaseError& error, const Database* database);
 
-/// Opens a store that exists to read it. A last addition that a killed process left half written is taken back.
-/// Throws StoreError.
+/// Opens an existing store read-only. Rolls back a partial addition of a killed process. Throws StoreError.
 std::unique_ptr<Database> open_to_read(const std::filesystem::path& file);
 
-/// Opens a store to write to it; makes the file if there is none. Its tables are made by make_tables(). Throws StoreError.
+/// Opens a store for writing; creates the file, without tables (see make_tables()). Throws StoreError.
 std::unique_ptr<Database> open_to_write(const std::filesystem::path& file);
 
 bool has_no_tables(const Database& database);
 /// Throws DatabaseError.
 void make_tables(Database& database);
-/// Throws StoreError for a database that is no landmark store, or one of another layout.
+/// Throws StoreError if the database is not a landmark store or has another layout version.
 void check_layout(const std::filesystem::path& file, const Database& database);
 
-/// What SQLite's own check finds; empty when that is nothing. Reads all of the file.
+/// Result of SQLite's own check; empty if it finds nothing. Reads the whole file.
 std::string damage_of(const Database& database);
 
 }  // namespace panvo::landmarks

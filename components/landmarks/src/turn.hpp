@@ -5,6 +5,6 @@
 
 namespace panvo::landmarks {
 
-inline constexpr double kTurn = 2.0 * std::numbers::pi;  ///< once round, rad
+inline constexpr double kTurn = 2.0 * std::numbers::pi;  ///< a full turn, rad
 
 }  // namespace panvo::landmarks

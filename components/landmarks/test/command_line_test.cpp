@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// panvo_landmarks, as scripts call it.
+/// Tests the command line of panvo_landmarks.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sqlite3.h>
@@ -22,7 +22,7 @@ using testing::Not;
 
 struct Finished {
   int status = -1;
-  std::string output;  // with that to stderr
+  std::string output;  // stdout and stderr
 };
 
 Finished run(const std::string& arguments) {
@@ -40,7 +40,7 @@ class Command : public testing::Test {
     write(store_, {1, 2, 3});
     write(other_, {7, 8});
   }
-  /// Landmarks of these numbers, and at the end the first one's place again.
+  /// Landmarks with these numbers, and one more 2 m from the first.
   void write(const std::string& file, const std::vector<std::uint32_t>& numbers) {
     LandmarkStore store(file, settings_);
     std::uint32_t id = 0;
@@ -65,9 +65,9 @@ TEST_F(Command, InfoTellsWhatIsInAStore) {
   const auto finished = run("info " + store_);
   EXPECT_EQ(finished.status, 0);
   for (const char* part :
-       {"Landmarks:     4, ", "100 features large, 100 small, 300 keypoints;", "keypoints     45900 bytes",
+       {"Landmarks:     4, ", "100 large features, 100 small, 300 keypoints;", "keypoints     45900 bytes",
         "large          1400 bytes", "histogram       256 bytes", "First, last:   1700000010.000000001, ", "seed = 5\n",
-        "One place:     landmarks 1 and 4 are 2.00 m apart\n", "Extent:        x "}) {
+        "Close pairs:   landmarks 1 and 4 are 2.00 m apart\n", "Extent:        x "}) {
     EXPECT_THAT(finished.output, HasSubstr(part));
   }
 }
@@ -123,7 +123,7 @@ TEST_F(Command, MergeRefusesOtherSettingsAndLeavesNothingBehind) {
   const auto finished = run("merge " + store_ + " " + (folder_ / "foreign").string() + " --out " + out_);
   EXPECT_EQ(finished.status, 2);
   EXPECT_THAT(finished.output,
-              HasSubstr("foreign: its landmarks are described in another way: seed is 6 there, 5 here"));
+              HasSubstr("foreign: its landmarks were described with other settings: seed is 6 there, 5 here"));
   EXPECT_FALSE(std::filesystem::exists(out_));
 }
 
@@ -136,18 +136,18 @@ TEST_F(Command, MergeThatFailsHalfWayLosesNothing) {
   const auto finished = run("merge --overwrite " + store_ + " " + other_ + " --out " + out_);
   EXPECT_EQ(finished.status, 2) << finished.output;
   EXPECT_THAT(finished.output, HasSubstr("other: is damaged"));
-  EXPECT_EQ(LandmarkStore(out_).size(), 3u) << "the store that was to be replaced is as it was";
+  EXPECT_EQ(LandmarkStore(out_).size(), 3u) << "the store to be replaced must be unchanged";
   EXPECT_EQ(read_text(store_), before);
   EXPECT_FALSE(std::filesystem::exists(out_ + ".unfinished"));
 }
 
 TEST_F(Command, MergeReplacesOnlyStoresAndOnlyWhenTold) {
   write_text(out_, "precious");
-  EXPECT_THAT(run("merge " + store_ + " " + other_ + " --out " + out_).output, HasSubstr("out: is there already"));
+  EXPECT_THAT(run("merge " + store_ + " " + other_ + " --out " + out_).output, HasSubstr("out: already exists"));
   EXPECT_EQ(run("merge --overwrite " + store_ + " " + other_ + " --out " + out_).status, 2);
   EXPECT_EQ(read_text(out_), "precious");
   EXPECT_EQ(run("merge --overwrite " + store_ + " " + other_ + " --out " + store_).status, 0)
-      << "even into one of them";
+      << "replacing one of the inputs";
   EXPECT_EQ(LandmarkStore(store_).size(), 7u);
 }
 
@@ -167,7 +167,7 @@ TEST_F(Command, ShowDrawsTheMapAndTheLandmarksAskedFor) {
   EXPECT_FALSE(std::filesystem::exists(out_ + "/landmark_0001.png"));
 }
 
-// [Lu2015 Fig. 3]: red rectangles for intensity, blue ones for SURF statistics, where the matrix has them.
+// [Lu2015 Fig. 3]: red rectangles for intensity, blue for SURF statistics, at the positions in the matrix.
 TEST_F(Command, ShowDrawsRectanglesRedForIntensityAndBlueForSurf) {
   const PanoramaDescriber describer(DescriptionParameters{}, 5);
   const auto& basis = describer.basis();
@@ -204,7 +204,7 @@ TEST_F(Command, EndsWithTwoAndANameWhereItCannotBeDone) {
   EXPECT_EQ(run("--help").status, 0);
   { LandmarkStore foreign(folder_ / "foreign", made_up_settings()); }
   EXPECT_THAT(run("show " + (folder_ / "foreign").string() + " --out " + out_).output,
-              HasSubstr("foreign: its settings are not those of this panvo"));
+              HasSubstr("foreign: its settings do not match this version of panvo"));
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Stores that another process writes: killed in the middle, out of room, holding a lock.
+// Stores written by another process that is killed, runs out of space or holds a lock.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -17,7 +17,7 @@ namespace {
 using namespace test;
 using testing::HasSubstr;
 
-/// storing_child, with what it says.
+/// Runs storing_child and reads its output.
 class Child {
  public:
   Child(const std::filesystem::path& store, const std::string& what, const std::string& file_limit = "") {
@@ -58,7 +58,7 @@ class Child {
   std::FILE* output_ = nullptr;
 };
 
-/// Every landmark that was told to be there, and perhaps the one that was being added.
+/// Expects every landmark the child reported, and possibly the one it was adding.
 void expect_landmarks(const std::filesystem::path& file, std::uint32_t told, std::size_t keypoints) {
   const LandmarkStore store(file);
   EXPECT_EQ(store.find_damage(), std::nullopt);
@@ -111,7 +111,7 @@ TEST(FullDisk, IsToldAndLeavesWhatWasAdded) {
       told = static_cast<std::uint32_t>(std::strtoul(line.c_str(), nullptr, 10));
       line = child.read_line();
     }
-    EXPECT_THAT(line, HasSubstr("store: cannot be written (File too large); free some space")) << limit;
+    EXPECT_THAT(line, HasSubstr("store: cannot be written (File too large); free disk space")) << limit;
     EXPECT_GT(told, 0u);
     expect_landmarks(folder / "store", told, 100);
   }
@@ -130,7 +130,7 @@ TEST(LockOfAnotherProcess, IsToldAfterABoundedTime) {
   Child child(folder / "store", "lock");
   ASSERT_EQ(child.read_line(), "locked\n");
   const auto reading = error_of<StoreError>([&] { LandmarkStore reader(folder / "store"); });
-  EXPECT_THAT(reading, HasSubstr("store: is locked by another process, and was for 2 s; end the one that uses it"));
+  EXPECT_THAT(reading, HasSubstr("store: is locked by another process (waited 2 s); end that process"));
   EXPECT_THAT(error_of<StoreError>([&] { LandmarkStore second(folder / "store", made_up_settings()); }),
               HasSubstr("is locked by another process"));
   EXPECT_THAT(error_of<StoreError>([&] { writer.add(made_up_landmark(2)); }),

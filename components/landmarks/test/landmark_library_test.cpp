@@ -80,12 +80,12 @@ TEST(LandmarkLibrary, RefusesATakenIdAndAPoseThatIsNone) {
   LandmarkLibrary library;
   library.add(at(0, 0, 3));
   EXPECT_THAT(test::error_of<std::invalid_argument>([&] { library.add(at(1, 1, 3)); }),
-              HasSubstr("landmark 3 is in the library already"));
+              HasSubstr("landmark 3 is already in the library"));
   EXPECT_THAT(test::error_of<std::invalid_argument>([&] { library.add(at(kInfinite, 1)); }), HasSubstr("not finite"));
   EXPECT_EQ(library.size(), 1u);
 }
 
-// [Lu2015 5.1]: the landmarks around an uncertain position, as a search of all of them finds.
+// [Lu2015 5.1]: the landmarks around an uncertain position, compared with an exhaustive search.
 TEST(LandmarkLibrary, FindsWithinARadiusWhatASearchOfAllFinds) {
   LandmarkLibrary library;
   for (std::uint32_t id = 1; id <= 2000; ++id) library.add(test::made_up_landmark(id, 0, 2000.0));
@@ -141,7 +141,7 @@ TEST(LandmarkLibrary, FindsALandmarkWhereItWasMovedTo) {
   EXPECT_THAT(ids(library.within({39 * 50.0, 0.0, 0.0}, 10.0)), IsEmpty());
   EXPECT_EQ(library.nearest(moved.translation())->landmark->id, 40u);
   EXPECT_EQ(library.find(40)->covariance(0, 0), 1.0);
-  moved.translation() = Eigen::Vector3d(-4975.0, 7000.0, 1.0);  // into the next cell: in both it would be found twice
+  moved.translation() = Eigen::Vector3d(-4975.0, 7000.0, 1.0);  // into the next cell: it must not be found twice
   EXPECT_TRUE(library.set_pose(40, moved, Eigen::Matrix<double, 6, 6>::Identity()));
   EXPECT_THAT(ids(library.within(moved.translation(), 60.0)), ElementsAre(40));
   EXPECT_FALSE(library.set_pose(101, moved, Eigen::Matrix<double, 6, 6>::Identity()));
@@ -156,7 +156,7 @@ TEST(LandmarkLibrary, HasNothingWithinWhatIsNoRadiusOrNoPosition) {
   EXPECT_FALSE(library.nearest({kInfinite, 0.0, 0.0}));
 }
 
-/// Keypoints that tell whose they are.
+/// Returns keypoints that encode the landmark's id.
 class CountingSource final : public KeypointSource {
  public:
   std::vector<Keypoint> keypoints(std::uint32_t id) const override {
@@ -179,7 +179,7 @@ TEST(LandmarkLibrary, KeepsKeypointsOnlyWhereItHasNoSource) {
   EXPECT_THAT(with_source.find(4)->keypoints, IsEmpty());
   EXPECT_THAT(with_source.find(4)->thumbnail, IsEmpty());
   EXPECT_EQ(with_source.find(4)->keypoints.capacity() + with_source.find(4)->thumbnail.capacity(), 0U)
-      << "nor their memory";
+      << "memory must be released";
   EXPECT_EQ(with_source.keypoints(4).at(0).size_px, 4.0f);
   EXPECT_EQ(with_source.find(4)->description, landmark.description);
 }

@@ -49,7 +49,7 @@ TEST(LandmarkMessages, CarryFrameStampAndSettings) {
 
 TEST(LandmarkMessages, OfOtherSettingsAreRefusedWithWhatDiffers) {
   EXPECT_EQ(to_landmark(message_of(1), {{"band_rows", "160"}, {"seed", "1"}}).reason(),
-            "was described in another way: band_rows is 150 there, 160 here");
+            "was described with other settings: band_rows is 150 there, 160 here");
 }
 
 struct Fault {

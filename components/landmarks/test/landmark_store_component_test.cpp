@@ -17,7 +17,7 @@ using testing::IsEmpty;
 
 class LandmarkStoreComponent : public testing::Test {
  protected:
-  /// A session: the component with what comes on the topic.
+  /// One run of the component with its input topics.
   struct Session {
     runtime::ComponentHarness harness;
     const std::vector<std::shared_ptr<const panvo_msgs::msg::PanoramicLandmark>>& published =
@@ -48,7 +48,7 @@ class LandmarkStoreComponent : public testing::Test {
 TEST_F(LandmarkStoreComponent, KeepsWhatIsPublished) {
   {
     Session session(file_);
-    EXPECT_FALSE(std::filesystem::exists(file_)) << "nothing to keep yet";
+    EXPECT_FALSE(std::filesystem::exists(file_)) << "nothing to store yet";
     session.publish(made_up_landmark(1));
     session.publish(made_up_landmark(2));
   }
@@ -71,11 +71,11 @@ TEST_F(LandmarkStoreComponent, BeginsWithTheLandmarksOfEarlierSessionsAndGoesOn)
     const auto first = to_landmark(*session.published[0], made_up_settings());
     ASSERT_TRUE(first) << first.reason();
     EXPECT_EQ(difference(*first, expected), "");
-    EXPECT_THAT(session.harness.log(), testing::Contains(HasSubstr("1 landmarks of earlier sessions")));
+    EXPECT_THAT(session.harness.log(), testing::Contains(HasSubstr("1 landmarks loaded")));
   }
   const LandmarkStore store(file_);
   EXPECT_EQ(store.size(), 2U);
-  EXPECT_EQ(store.thumbnail(1), made_up_landmark(1).thumbnail) << "what it published itself is not stored again";
+  EXPECT_EQ(store.thumbnail(1), made_up_landmark(1).thumbnail) << "its own messages must not be stored again";
 }
 
 TEST_F(LandmarkStoreComponent, MovesALandmarkThatComesAgain) {
@@ -117,7 +117,7 @@ TEST_F(LandmarkStoreComponent, LetsTheNextSessionBeginWithTheStraightenedMap) {
 TEST_F(LandmarkStoreComponent, MovesALandmarkThatComesAfterItsPose) {
   Session session(file_);
   session.publish_poses({moved(made_up_landmark(1), 2.0)});
-  EXPECT_FALSE(std::filesystem::exists(file_)) << "a pose is no landmark";
+  EXPECT_FALSE(std::filesystem::exists(file_)) << "a pose alone must not create a store";
   session.publish(made_up_landmark(1));
   EXPECT_TRUE(
       LandmarkStore(file_).landmarks()[0].map_from_base.isApprox(moved(made_up_landmark(1), 2.0).map_from_base, 1e-12));
@@ -129,11 +129,11 @@ TEST_F(LandmarkStoreComponent, MovesNothingByAMalformedMessageAndSaysWhy) {
   panvo_msgs::msg::LandmarkPoses message;
   message.ids({1});
   session.harness.publish(topics::kLandmarkPoses, message);
-  EXPECT_TRUE(session.harness.log_contains("is left out: poses are not as many as ids"));
+  EXPECT_TRUE(session.harness.log_contains("was dropped: poses are not as many as ids"));
   auto broken = made_up_landmark(1);
   broken.covariance(2, 2) = -1.0;
   session.publish_poses({broken});
-  EXPECT_TRUE(session.harness.log_contains("is left out: poses.covariance has a negative variance"));
+  EXPECT_TRUE(session.harness.log_contains("was dropped: poses.covariance has a negative variance"));
   EXPECT_EQ(difference(LandmarkStore(file_).landmarks()[0], made_up_landmark(1), false), "");
 }
 
@@ -150,7 +150,8 @@ TEST_F(LandmarkStoreComponent, KeepsNothingOfOtherSettingsAndSaysWhatDiffers) {
   session.publish(made_up_landmark(1));
   session.publish(made_up_landmark(2), {{"band_rows", "150"}, {"seed", "2"}});
   EXPECT_TRUE(session.harness.log_contains("error landmarks: " + file_ +
-                                           ": its landmarks are described in another way: seed is 1 there, 2 here"));
+                                           ": its landmarks were described with other settings: "
+                                           "seed is 1 there, 2 here"));
   EXPECT_EQ(LandmarkStore(file_).size(), 1U);
 }
 
@@ -168,7 +169,7 @@ TEST_F(LandmarkStoreComponent, LeavesOutAMalformedLandmarkAndSaysWhy) {
   auto message = to_message(made_up_landmark(1), made_up_settings(), "map");
   message.histogram().clear();
   session.harness.publish(topics::kLandmarks, message);
-  EXPECT_TRUE(session.harness.log_contains("is left out: histogram is empty"));
+  EXPECT_TRUE(session.harness.log_contains("was dropped: histogram is empty"));
   session.publish(made_up_landmark(2));
   EXPECT_EQ(LandmarkStore(file_).size(), 1U);
 }
@@ -190,19 +191,19 @@ TEST_F(LandmarkStoreComponent, BeginsWithTheOtherLandmarksWhereOneIsNone) {
   ASSERT_EQ(session.published.size(), 1U);
   EXPECT_EQ(session.published[0]->id(), 3U);
   EXPECT_TRUE(session.harness.log_contains("landmark 1: small_features"));
-  EXPECT_TRUE(session.harness.log_contains("landmark 2: keypoints are cut off"));
+  EXPECT_TRUE(session.harness.log_contains("landmark 2: keypoints are truncated"));
 }
 
 TEST_F(LandmarkStoreComponent, IsRefusedWithAFileThatIsNone) {
   write_text(file_, "a letter to somebody, longer than the header of a database would be, whatever that may be");
   EXPECT_THAT(error_of<std::runtime_error>([&] { const Session session(file_); }),
-              HasSubstr("store: is no landmark store"));
+              HasSubstr("store: is not a landmark store"));
 }
 
 TEST_F(LandmarkStoreComponent, KeepsNothingWithoutAFileAndSaysSo) {
   Session session("");
   session.publish(made_up_landmark(1));
-  EXPECT_TRUE(session.harness.log_contains("forgotten"));
+  EXPECT_TRUE(session.harness.log_contains("will not be saved"));
 }
 
 }  // namespace

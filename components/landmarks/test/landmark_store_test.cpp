@@ -18,7 +18,7 @@ using namespace test;
 using testing::HasSubstr;
 using testing::Not;
 
-/// Runs SQL on a file, as other programs may.
+/// Runs SQL on a file, like another program would.
 void tamper(const std::filesystem::path& file, const std::string& sql) {
   sqlite3* database = nullptr;
   sqlite3_open(file.c_str(), &database);
@@ -118,7 +118,7 @@ TEST_F(Store, RefusesATakenIdAndValuesThatAreNone) {
   LandmarkStore store(file_, made_up_settings());
   store.add(made_up_landmark(1));
   EXPECT_THAT(error_of<StoreError>([&] { store.add(made_up_landmark(1)); }),
-              HasSubstr("has a landmark 1 already; does another process write to it?"));
+              HasSubstr("already contains landmark 1; is another process writing to it?"));
   auto broken = made_up_landmark(2);
   broken.description.small[5].value = std::nanf("");
   EXPECT_THROW(store.add(broken), std::invalid_argument);
@@ -131,9 +131,9 @@ TEST_F(Store, RefusesATakenIdAndValuesThatAreNone) {
 TEST_F(Store, OfOtherSettingsIsRefusedWithWhatDiffers) {
   write(1);
   const auto error = error_of_writing({{"band_rows", "150"}, {"seed", "2"}, {"kind", "cf"}});
-  EXPECT_THAT(error, HasSubstr("places.landmarks: its landmarks are described in another way: "
+  EXPECT_THAT(error, HasSubstr("places.landmarks: its landmarks were described with other settings: "
                                "kind is not set there, cf here; seed is 1 there, 2 here."));
-  EXPECT_THAT(error, HasSubstr("Set the parameters as they are there, or use another file"));
+  EXPECT_THAT(error, HasSubstr("Use the settings of the store, or another file"));
   EXPECT_THAT(error, Not(HasSubstr("band_rows")));
   EXPECT_EQ(LandmarkStore(file_).size(), 1u);
 }
@@ -142,19 +142,19 @@ TEST_F(Store, OfAnotherVersionIsRefused) {
   write(1);
   tamper(file_, "PRAGMA user_version=7");
   for (const auto& error : {error_of_reading(), error_of_writing()}) {
-    EXPECT_THAT(error, HasSubstr("places.landmarks: is of layout 7, and this panvo reads layout 1; use the panvo"));
+    EXPECT_THAT(error, HasSubstr("places.landmarks: has layout 7; this version of panvo reads 1. Use the version"));
   }
 }
 
 TEST_F(Store, ThatIsNoneIsRefusedAndLeftAlone) {
   tamper(file_, "CREATE TABLE messages(id INTEGER)");
   const auto before = read_text(file_);
-  EXPECT_THAT(error_of_reading(), HasSubstr("is a database, but no landmark store"));
-  EXPECT_THAT(error_of_writing(), HasSubstr("is a database, but no landmark store"));
+  EXPECT_THAT(error_of_reading(), HasSubstr("is a database, but not a landmark store"));
+  EXPECT_THAT(error_of_writing(), HasSubstr("is a database, but not a landmark store"));
   EXPECT_EQ(read_text(file_), before);
   write_text(file_, "a letter to somebody, longer than the header of a database would be, whatever that may be");
-  EXPECT_THAT(error_of_reading(), HasSubstr("is no landmark store"));
-  EXPECT_THAT(error_of_writing(), HasSubstr("is no landmark store"));
+  EXPECT_THAT(error_of_reading(), HasSubstr("is not a landmark store"));
+  EXPECT_THAT(error_of_writing(), HasSubstr("is not a landmark store"));
   EXPECT_THAT(read_text(file_), HasSubstr("a letter"));
 }
 
@@ -170,7 +170,7 @@ TEST_F(Store, InAPlaceThatIsNoneIsRefused) {
   EXPECT_THAT(error_of<StoreError>([&] { LandmarkStore(folder_.path(), made_up_settings()); }),
               HasSubstr("is a folder"));
   EXPECT_THAT(error_of<StoreError>([&] { LandmarkStore(folder_ / "no/such", made_up_settings()); }),
-              HasSubstr("no/such: cannot be made: there is no such folder; make it first"));
+              HasSubstr("no/such: cannot be created: its folder does not exist; create it first"));
 }
 
 TEST_F(Store, CutOffAnywhereIsRefusedWithWhatIsLeftToDo) {
@@ -179,8 +179,8 @@ TEST_F(Store, CutOffAnywhereIsRefusedWithWhatIsLeftToDo) {
   for (int part = 1; part < 40; ++part) {
     const auto size = whole.size() * static_cast<std::size_t>(part) / 40 + static_cast<std::size_t>(part % 3);
     write_text(file_, whole.substr(0, size));
-    const auto expected = "is damaged: it is cut off after " + std::to_string(size) + " of " +
-                          std::to_string(whole.size()) + " bytes; go back to a copy of it, or begin";
+    const auto expected = "is damaged: truncated after " + std::to_string(size) + " of " +
+                          std::to_string(whole.size()) + " bytes; restore a copy, or start";
     EXPECT_THAT(error_of_reading(), HasSubstr(expected));
     EXPECT_THAT(error_of_writing(), HasSubstr(expected));
   }
@@ -220,9 +220,9 @@ TEST_F(Store, LeavesOutALandmarkOfValuesThatAreNoneAndSaysWhich) {
   const auto landmarks = store.landmarks([&](const std::string& problem) { told.push_back(problem); });
   ASSERT_EQ(landmarks.size(), 1u);
   EXPECT_EQ(landmarks.front().id, 1u);
-  EXPECT_THAT(told, testing::ElementsAre("landmark 2: holds values that are none",
+  EXPECT_THAT(told, testing::ElementsAre("landmark 2: contains invalid values",
                                          "landmark 3: pose.pose.position is beyond +-1e+08"));
-  EXPECT_THAT(store.find_damage().value_or(""), HasSubstr("landmark 2: holds values that are none; landmark 3"));
+  EXPECT_THAT(store.find_damage().value_or(""), HasSubstr("landmark 2: contains invalid values; landmark 3"));
 }
 
 TEST_F(Store, LeavesOutALandmarkWithARowThatItsMatrixDoesNotHave) {
@@ -250,7 +250,7 @@ TEST_F(Store, TakesNoPoseThatNoVehicleHas) {
   EXPECT_THROW(store.set_poses(std::span(&moved, 1)), std::invalid_argument);
 }
 
-/// Tests run as root may write to everything: as somebody else, for a while.
+/// Temporarily drops root privileges, as root may write to any file.
 class AsNobody {
  public:
   AsNobody() { is_root_ = ::geteuid() == 0 && ::seteuid(65534) == 0; }
@@ -274,10 +274,10 @@ TEST_F(Store, ThatIsWriteProtectedCanBeReadAndSaysSoToWriters) {
       const AsNobody nobody;
       EXPECT_EQ(error_of_reading(), "");
       EXPECT_EQ(LandmarkStore(file_).size(), 2u);
-      EXPECT_THAT(error_of_writing(), HasSubstr("places.landmarks: is write-protected; let it be written to, or copy"));
+      EXPECT_THAT(error_of_writing(), HasSubstr("places.landmarks: is write-protected; make it writable"));
       if (folder_too) {
         EXPECT_THAT(error_of<StoreError>([&] { LandmarkStore(folder_ / "new", made_up_settings()); }),
-                    HasSubstr("new: cannot be opened or made; check that you may use it, and write in its folder"));
+                    HasSubstr("new: cannot be opened or created; check the permissions of the file and its folder"));
       }
     }
     fs::permissions(folder_.path(), fs::perms::owner_all);
@@ -316,7 +316,7 @@ TEST_F(Store, TellsWhatTakesItsRoom) {
   EXPECT_EQ(bytes.thumbnail, 10u * 1000u);
   EXPECT_EQ(bytes.file, std::filesystem::file_size(file_));
   EXPECT_EQ(store.keypoint_count(), 3000u);
-  // With a thumbnail of 25 kB it stays below 100 kB a landmark, the database's own structure included.
+  // With a thumbnail of 25 kB, a landmark takes less than 100 kB including the database structure.
   EXPECT_LT(bytes.file / 10 + 25'000, 100'000u);
 }
 

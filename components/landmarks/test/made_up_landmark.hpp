@@ -18,7 +18,7 @@
 
 namespace panvo::landmarks::test {
 
-/// A folder that is gone with its content at the end of the test.
+/// A folder that is deleted with its content at the end of the test.
 class TemporaryFolder {
  public:
   TemporaryFolder() {
@@ -36,7 +36,7 @@ class TemporaryFolder {
   std::filesystem::path path_;
 };
 
-/// [0, 1), the same everywhere.
+/// Uniform in [0, 1), identical on all platforms.
 inline double share(std::mt19937_64& random) { return static_cast<double>(random() >> 11) * 0x1p-53; }
 
 inline Eigen::Isometry3d made_up_pose(std::mt19937_64& random, double extent_m) {
@@ -48,7 +48,8 @@ inline Eigen::Isometry3d made_up_pose(std::mt19937_64& random, double extent_m) 
   return pose;
 }
 
-/// A landmark with everything, that of a number: 64 bins, 100 features a scale, `keypoints`, every other with a point.
+/// A complete landmark derived from its id: 64 bins, 100 features per scale, `keypoints`, every second one with a
+/// point.
 inline PanoramicLandmark made_up_landmark(std::uint32_t id, std::size_t keypoints = 20, double extent_m = 1000.0) {
   std::mt19937_64 random(id);
   PanoramicLandmark landmark;
@@ -88,7 +89,7 @@ inline PanoramicLandmark made_up_landmark(std::uint32_t id, std::size_t keypoint
   return landmark;
 }
 
-/// What differs between two landmarks; nothing when they are equal, rotations up to rounding.
+/// Name of the first part in which two landmarks differ; empty if equal, with rotations up to rounding.
 inline std::string difference(const PanoramicLandmark& a, const PanoramicLandmark& b, bool with_bulk = true) {
   const auto is_same_pose = [](const Eigen::Isometry3d& p, const Eigen::Isometry3d& q) {
     return p.translation() == q.translation() && (p.linear() - q.linear()).cwiseAbs().maxCoeff() < 1e-14;
@@ -116,7 +117,7 @@ inline void write_text(const std::filesystem::path& file, const std::string& tex
   std::ofstream(file, std::ios::binary) << text;
 }
 
-/// The message of the exception that `action` throws; "" when it throws none.
+/// The message of the exception thrown by `action`; "" if it throws none.
 template <class Exception, class Action>
 std::string error_of(Action action) {
   try {

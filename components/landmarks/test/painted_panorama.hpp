@@ -9,7 +9,7 @@
 
 namespace panvo::landmarks {
 
-/// 1080x540 with blocks of every size, another place for each seed.
+/// 1080x540 with blocks of every size; each seed gives another place.
 inline cv::Mat paint_panorama(std::uint64_t seed) {
   cv::RNG random(seed);
   cv::Mat panorama(540, 1080, CV_8UC1, cv::Scalar(200));
@@ -22,7 +22,7 @@ inline cv::Mat paint_panorama(std::uint64_t seed) {
   return panorama;
 }
 
-/// What a vehicle sees that has turned to the left by so many columns.
+/// The view of a vehicle turned left by so many columns.
 inline cv::Mat turn_left(const cv::Mat& panorama, int columns) {
   cv::Mat turned(panorama.size(), panorama.type());
   for (int u = 0; u < panorama.cols; ++u) panorama.col(u).copyTo(turned.col((u + columns) % panorama.cols));

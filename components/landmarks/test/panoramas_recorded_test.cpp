@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Real panoramas, 77 places of a campus, each as a landmark and, disturbed, as the query for it. A shifted image is an easier
-// revisit than a real one: there is no parallax. What this shows is that heading, exposure, noise and cover do no harm.
+// 77 real panoramas of a campus, each used as landmark and, disturbed, as query. A shifted image is easier to recognise
+// than a real revisit, as there is no parallax: this tests robustness to heading, exposure, noise and occlusion.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -46,7 +46,7 @@ struct Disturbed {
   double heading_rad;
 };
 
-/// The panorama of a vehicle that has turned to the left, under less light, with noise, and three things in the way.
+/// Panorama of a vehicle turned left, darker, with noise and three occlusions.
 Disturbed disturb(const cv::Mat& panorama, cv::RNG& random) {
   const int shift = random.uniform(0, panorama.cols);
   cv::Mat image(panorama.size(), CV_8UC1);
@@ -66,7 +66,7 @@ Disturbed disturb(const cv::Mat& panorama, cv::RNG& random) {
 
 TEST(RecordedPanoramas, EachIsFoundAmongAllAtAnyHeadingWhateverLightNoiseAndCover) {
   const fs::path folder = recordings() / "panoramas";
-  if (!fs::exists(folder)) GTEST_SKIP() << folder << " is not here; set PANVO_DATA to the folder of recordings";
+  if (!fs::exists(folder)) GTEST_SKIP() << folder << " does not exist; set PANVO_DATA to the folder of recordings";
   const PanoramaDescriber describer({}, 1);
   const std::vector<cv::Mat> panoramas = load_panoramas(folder);
   std::vector<PanoramaDescription> landmarks;

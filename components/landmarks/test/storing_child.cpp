@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// A process to be killed while it adds landmarks, for interrupted_store_test: says on stdout, after each, which id it
-/// has; with a limit on the size of files it ends at the error, telling it. With "lock" it locks a store until it is killed.
+/// Process for interrupted_store_test that is killed while it adds landmarks. Prints the id of each added landmark;
+/// with a file size limit, prints the error and exits. With "lock" it locks a store until it is killed.
 #include <sqlite3.h>
 #include <sys/resource.h>
 #include <unistd.h>

@@ -30,7 +30,7 @@ int info(const std::string& path, bool as_json, bool check) {
 
 void write_picture(const fs::path& file, const cv::Mat& picture) {
   if (!cv::imwrite(file.string(), picture)) {
-    throw StoreError(file.string() + ": cannot be written; check its folder and the room on the disk");
+    throw StoreError(file.string() + ": cannot be written; check the folder and the free disk space");
   }
 }
 
@@ -39,8 +39,8 @@ int show(const std::string& path, const fs::path& out, const std::vector<std::ui
   const auto settings = from_settings<DescriptionParameters>(store.settings());
   if (!settings) {
     throw StoreError(path +
-                     ": its settings are not those of this panvo (see `panvo landmarks info`), so nobody knows "
-                     "where its features lie; use the panvo that made it");
+                     ": its settings do not match this version of panvo (see `panvo landmarks info`), so its "
+                     "features cannot be drawn; use the version that wrote it");
   }
   const PanoramaDescriber describer(settings->first, settings->second);
   auto landmarks = store.landmarks();
@@ -85,9 +85,9 @@ int merge(const std::vector<fs::path>& stores, const std::string& out, bool repl
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Looks into libraries of landmarks, draws and merges them.", "panvo landmarks");
+  CLI::App app("Inspects, draws and merges landmark stores.", "panvo landmarks");
   app.require_subcommand(1);
-  app.footer("Exit status: 0 well, 1 the store is damaged (info --check), 2 it could not be done.");
+  app.footer("Exit status: 0 success, 1 store damaged (info --check), 2 error.");
   std::string store, out;
   std::vector<fs::path> stores;
   std::vector<std::uint32_t> ids;
@@ -95,26 +95,25 @@ int main(int argc, char** argv) {
   int count = 4;
 
   auto* info_command = app.add_subcommand(
-      "info", "what is in a store: landmarks, bytes of each part, extent, settings, places closer than 3 m");
-  info_command->add_option("STORE", store, "file of landmarks")->required();
-  info_command->add_flag("--json", as_json, "for scripts; lengths in m, times in ns");
-  info_command->add_flag("--check", check, "read all of the file and tell what is damaged");
+      "info", "contents of a store: landmarks, bytes per part, extent, settings, pairs closer than 3 m");
+  info_command->add_option("STORE", store, "landmark store")->required();
+  info_command->add_flag("--json", as_json, "print JSON; lengths in m, times in ns");
+  info_command->add_flag("--check", check, "read the whole file and report damage");
 
   auto* show_command = app.add_subcommand(
-      "show", "draw each landmark's panorama with its most discriminative features, and where all of them lie");
-  show_command->add_option("STORE", store, "file of landmarks")->required();
-  show_command->add_option("--out", out, "folder for the pictures, PNG")->required();
+      "show", "draw each landmark's panorama with its most discriminative features, and a map of all landmarks");
+  show_command->add_option("STORE", store, "landmark store")->required();
+  show_command->add_option("--out", out, "output folder for the PNG files")->required();
   show_command->add_option("--id", ids, "only this landmark; may be repeated")->expected(1)->take_all();
-  show_command->add_option("--features", count, "features drawn at each scale")
+  show_command->add_option("--features", count, "features drawn per scale")
       ->check(CLI::Range(1, 10000))
       ->capture_default_str();
 
   auto* merge_command = app.add_subcommand(
-      "merge",
-      "put the landmarks of stores of one map and of equal settings into a new one, with new ids in their order");
-  merge_command->add_option("STORES", stores, "files of landmarks, two or more")->required()->expected(2, 1000);
-  merge_command->add_option("--out", out, "file of the new store")->required();
-  merge_command->add_flag("--overwrite", overwrite, "replace a store that is there");
+      "merge", "merge stores of one map and equal settings into a new one, with new ids in order of the stores");
+  merge_command->add_option("STORES", stores, "two or more landmark stores")->required()->expected(2, 1000);
+  merge_command->add_option("--out", out, "the new store")->required();
+  merge_command->add_flag("--overwrite", overwrite, "replace an existing store");
 
   try {
     app.parse(argc, argv);

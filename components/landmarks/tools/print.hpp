@@ -6,7 +6,7 @@
 
 namespace panvo::landmarks {
 
-/// As printf does, up to 255 characters.
+/// Formats like printf, up to 255 characters.
 template <class... Values>
 std::string print(const char* format, Values... values) {
   char text[256];

@@ -13,7 +13,7 @@
 namespace panvo::landmarks {
 namespace {
 
-/// The parts of a landmark in the order in which they are told, with what they are called in JSON.
+/// The parts of a landmark in the order of the report, with their JSON keys.
 std::vector<std::pair<const char*, std::uint64_t>> parts(const StoredBytes& bytes) {
   const auto sum = bytes.pose + bytes.histogram + bytes.large + bytes.small + bytes.keypoints + bytes.thumbnail;
   return {{"pose", bytes.pose},
@@ -85,10 +85,10 @@ std::string describe_as_text(const StoreInfo& info) {
     line("Extent:", print("x %.1f to %.1f m, y %.1f to %.1f m", info.smallest.x(), info.largest.x(), info.smallest.y(),
                           info.largest.y()));
     line("First, last:", seconds(info.first_stamp_ns) + ", " + seconds(info.last_stamp_ns));
-    line("A landmark:", print("%.0f features large, %.0f small, %.0f keypoints; %.1f kB of the file's %.3f MB",
-                              each(info.features_large, info.landmarks), each(info.features_small, info.landmarks),
-                              each(info.keypoints, info.landmarks), each(info.bytes.file, info.landmarks) / 1000.0,
-                              static_cast<double>(info.bytes.file) / 1e6));
+    line("Per landmark:", print("%.0f large features, %.0f small, %.0f keypoints; %.1f kB of the file's %.3f MB",
+                                each(info.features_large, info.landmarks), each(info.features_small, info.landmarks),
+                                each(info.keypoints, info.landmarks), each(info.bytes.file, info.landmarks) / 1000.0,
+                                static_cast<double>(info.bytes.file) / 1e6));
     for (const auto& [name, bytes] : parts(info.bytes)) {
       line("", print("%-10s %8.0f bytes", name, each(bytes, info.landmarks)));
     }
@@ -97,7 +97,7 @@ std::string describe_as_text(const StoreInfo& info) {
   for (const auto& [key, value] : info.settings) {
     line(std::exchange(label, ""), key + " = " + value);
   }
-  label = "One place:";
+  label = "Close pairs:";
   for (const auto& pair : info.close) {
     line(std::exchange(label, ""),
          print("landmarks %u and %u are %.2f m apart", pair.first, pair.second, pair.distance_m));

@@ -11,23 +11,23 @@
 
 namespace panvo::landmarks {
 
-/// Two landmarks that stand closer to each other than places should.
+/// Two landmarks closer to each other than places should be.
 struct ClosePair {
   std::uint32_t first, second;
   double distance_m;
 };
 
-/// What `panvo landmarks info` tells of a store.
+/// Report of `panvo landmarks info` on a store.
 struct StoreInfo {
   std::string file;
   std::size_t landmarks = 0, junctions = 0;
   std::uint64_t keypoints = 0, features_large = 0, features_small = 0;
-  StoredBytes bytes;                                                                      ///< of all together
+  StoredBytes bytes;                                                                      ///< all landmarks together
   Eigen::Vector2d smallest = Eigen::Vector2d::Zero(), largest = Eigen::Vector2d::Zero();  ///< corners in the map, m
   std::int64_t first_stamp_ns = 0, last_stamp_ns = 0;
   DescriptionSettings settings;
   std::vector<ClosePair> close;       ///< in order of ids
-  std::optional<std::string> damage;  ///< where it was looked for
+  std::optional<std::string> damage;  ///< if damage was looked for
 };
 
 /// `look_for_damage`: reads the whole file.

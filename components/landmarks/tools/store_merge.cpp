@@ -13,12 +13,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A file that is gone with its owner unless it was given its name.
+/// A temporary file that is removed on destruction unless finish() renamed it.
 class UnfinishedFile {
  public:
   explicit UnfinishedFile(const fs::path& named) : named_(named) {
     unfinished_ += ".unfinished";
-    remove();  // of one that was killed
+    remove();  // left by a killed process
   }
   ~UnfinishedFile() { remove(); }
   UnfinishedFile(const UnfinishedFile&) = delete;
@@ -29,8 +29,8 @@ class UnfinishedFile {
   void finish() {
     std::error_code error;
     fs::rename(unfinished_, named_, error);
-    if (error) throw StoreError(named_.string() + ": cannot be made (" + error.message() + "); nothing was changed");
-    // The new name reaches the disk with its folder.
+    if (error) throw StoreError(named_.string() + ": cannot be created (" + error.message() + "); nothing was changed");
+    // Syncing the folder makes the rename durable.
     const auto folder = fs::absolute(named_).parent_path();
     const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (descriptor >= 0) {
@@ -55,9 +55,9 @@ class UnfinishedFile {
 
 std::vector<MergedPart> merge_stores(const std::vector<fs::path>& stores, const fs::path& out, bool replace) {
   if (fs::exists(out) && !replace) {
-    throw StoreError(out.string() + ": is there already; name a new file, or say --overwrite");
+    throw StoreError(out.string() + ": already exists; name a new file or pass --overwrite");
   }
-  if (fs::exists(out)) LandmarkStore(out).size();  // throws for anything else: only a store is ever replaced
+  if (fs::exists(out)) LandmarkStore(out).size();  // throws if it is not a store: only stores are replaced
   std::vector<std::unique_ptr<LandmarkStore>> sources;
   for (const auto& path : stores) {
     sources.push_back(std::make_unique<LandmarkStore>(path));

@@ -20,7 +20,7 @@ void write(cv::Mat& image, const std::string& text, cv::Point where, const cv::S
   cv::putText(image, text, where, cv::FONT_HERSHEY_SIMPLEX, size, colour, 1, cv::LINE_AA);
 }
 
-/// Text that is read on any picture.
+/// Text that is readable on any background.
 void label(cv::Mat& image, const std::string& text, cv::Point where, const cv::Scalar& colour) {
   int below = 0;
   const auto size = cv::getTextSize(text, cv::FONT_HERSHEY_SIMPLEX, 0.45, 1, &below);
@@ -33,14 +33,14 @@ cv::Mat panorama_of(const PanoramicLandmark& landmark) {
   cv::Mat panorama(DescriptionBasis::kRows, DescriptionBasis::kColumns, CV_8UC3, cv::Scalar::all(225));
   const cv::Mat small = landmark.thumbnail.empty() ? cv::Mat() : cv::imdecode(landmark.thumbnail, cv::IMREAD_COLOR);
   if (small.empty()) {
-    write(panorama, "no picture is stored", {20, 40}, kBlack, 0.8);
+    write(panorama, "no thumbnail stored", {20, 40}, kBlack, 0.8);
   } else {
     cv::resize(small, panorama, panorama.size(), 0, 0, cv::INTER_CUBIC);
   }
   return panorama;
 }
 
-/// A rectangle of the band, in two parts where it crosses the seam.
+/// A rectangle of the band, drawn in two parts where it crosses the seam.
 void draw_rectangle(cv::Mat& panorama, const vision::BandRectangle& rectangle, int first_row, const cv::Scalar& colour,
                     int thickness) {
   for (const int shift : {0, -panorama.cols}) {
@@ -77,7 +77,7 @@ double heading_of(const PanoramicLandmark& landmark) {
   return std::atan2(forward.y(), forward.x());
 }
 
-/// Takes the map's coordinates to pixels.
+/// Converts map coordinates to pixels.
 struct MapView {
   static constexpr int kMargin_px = 70;
   static constexpr int kLongest_px = 1400;
@@ -172,7 +172,7 @@ cv::Mat draw_map(std::span<const PanoramicLandmark> landmarks) {
     write(image, std::to_string(landmark.id), {centre.x + 9, centre.y - 9}, kBlack);
   }
   draw_scale_bar(image, view.px_per_m);
-  write(image, print("%zu landmarks: junctions filled, by distance hollow; x to the right, y up", landmarks.size()),
+  write(image, print("%zu landmarks: junctions filled, others hollow; x to the right, y up", landmarks.size()),
         {20, 24}, kBlack);
   return image;
 }

@@ -10,13 +10,13 @@
 
 namespace panvo::landmarks {
 
-/// A landmark as people can judge it [Lu2015 Fig. 3]: its panorama, once with the `count` most discriminative features of the
-/// large scale and once with those of the small one. Red rectangles: intensity, blue ones: SURF statistics; thin where they
-/// count negative. The number is the feature's rank, then its weight. Features that the basis does not have are left out.
+/// Picture of a landmark [Lu2015 Fig. 3]: its panorama twice, with the `count` most discriminative features of the
+/// large scale and of the small scale. Red rectangles: intensity; blue: SURF statistics; thin: negative sign. Labels:
+/// rank and weight of the feature. Features outside the basis are skipped.
 cv::Mat draw_landmark(const PanoramicLandmark& landmark, const DescriptionBasis& basis, int count);
 
-/// Where landmarks lie, the map's x to the right and y upwards: junctions filled, others hollow, a stroke where the vehicle
-/// headed, the ellipse in which the landmark lies with a probability of 95 %.
+/// Map of landmarks, x to the right and y up: junctions filled, others hollow, a line for the vehicle's heading, and
+/// the 95 % confidence ellipse of the position.
 cv::Mat draw_map(std::span<const PanoramicLandmark> landmarks);
 
 }  // namespace panvo::landmarks

@@ -18,7 +18,7 @@ void AlignmentNotices::check_clock(const ClockOffset& clock) {
   const bool is_sure = std::sqrt(clock.variance_s2()) < kSureOffset_s;
   if (has_told_offset_ || !is_sure || std::abs(clock.estimate_s()) <= kNotableOffset_s) return;
   has_told_offset_ = true;
-  log_.warn("the panoramic camera's clock is {:.0f} ms {} the stereo camera's; this is allowed for",
+  log_.warn("the panoramic camera's clock is {:.0f} ms {} the stereo camera's; compensated",
             1000.0 * std::abs(clock.estimate_s()), clock.estimate_s() > 0.0 ? "ahead of" : "behind");
 }
 
@@ -27,8 +27,8 @@ void AlignmentNotices::check_direction(const DirectionOffset& offset) {
   if (has_told_direction_ || !is_sure || std::abs(offset.estimate_rad()) <= kNotableDirection_rad) return;
   has_told_direction_ = true;
   log_.warn(
-      "panoramas see the vehicle drive {:.1f} deg farther to the {} than the stereo odometry does: one of the cameras "
-      "is turned against what /tf_static says, and the position is as uncertain",
+      "panoramas show a driving direction {:.1f} deg farther to the {} than stereo odometry: one of the cameras "
+      "is rotated relative to /tf_static, and the position is uncertain accordingly",
       std::abs(offset.estimate_rad()) * 180.0 / std::numbers::pi, offset.estimate_rad() > 0.0 ? "left" : "right");
 }
 
@@ -39,15 +39,14 @@ void AlignmentNotices::check_mounting(const MountingCheck& mounting) {
   constexpr double kDegrees = 180.0 / std::numbers::pi;
   if (misalignment->is_turned) {
     log_.warn(
-        "the panoramic camera looks {:+.1f} deg to the left and {:+.1f} deg down of where /tf_static says, or the "
-        "stereo "
-        "camera as much the other way: calibrate their extrinsics",
+        "the panoramic camera looks {:+.1f} deg to the left and {:+.1f} deg down relative to /tf_static, or the stereo "
+        "camera by the opposite angles: calibrate the extrinsics",
         kDegrees * misalignment->yaw_rad, kDegrees * misalignment->pitch_rad);
   }
   if (misalignment->is_displaced) {
     log_.warn(
-        "the panoramic camera sits {:+.2f} m forward and {:+.2f} m to the left of where /tf_static says, or the stereo "
-        "camera as much the other way: measure their extrinsics",
+        "the panoramic camera is {:+.2f} m forward and {:+.2f} m to the left relative to /tf_static, or the stereo "
+        "camera by the opposite distances: measure the extrinsics",
         misalignment->forward_m, misalignment->left_m);
   }
 }

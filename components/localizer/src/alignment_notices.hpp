@@ -6,7 +6,7 @@
 
 namespace panvo::localizer {
 
-/// Says once what the journey has shown of how the cameras' clocks and places on the vehicle differ from what is said of them.
+/// Logs each clock offset or misalignment of the cameras that was detected on the journey once.
 class AlignmentNotices {
  public:
   /// `log` must outlive it.

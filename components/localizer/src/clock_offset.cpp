@@ -6,8 +6,8 @@
 namespace panvo::localizer {
 namespace {
 
-constexpr double kDrift_s2 = 1e-10;        // a measurement: clocks of cameras wander by some 10 us a second
-constexpr double kLeastRateChange = 0.05;  // rad/s: below it is odometry's noise
+constexpr double kDrift_s2 = 1e-10;        // per measurement: camera clocks drift by some 10 us per second
+constexpr double kLeastRateChange = 0.05;  // rad/s: below, noise of odometry dominates
 constexpr double kOutlier = 4.0 * 4.0;     // squared standard deviations
 
 }  // namespace
@@ -15,7 +15,8 @@ constexpr double kOutlier = 4.0 * 4.0;     // squared standard deviations
 void ClockOffset::add(double disagreement_rad, double yaw_rate_change, double variance_rad2) {
   variance_s2_ += kDrift_s2;
   if (std::abs(yaw_rate_change) < kLeastRateChange) return;
-  // Stamps too late by s show a turn as the odometry saw it s earlier: the turn between them is less by s * change of the rate.
+  // Stamps late by s show a turn that odometry saw s earlier: the turn between them is smaller by s * change of the
+  // rate.
   const double slope = -yaw_rate_change;
   const double spread = slope * slope * variance_s2_ + variance_rad2;
   if (!(spread > 0.0) || disagreement_rad * disagreement_rad > kOutlier * spread) return;

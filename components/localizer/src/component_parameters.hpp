@@ -8,7 +8,7 @@
 
 namespace panvo::localizer {
 
-/// The algorithm's parameters and the names of the frames.
+/// The algorithm's parameters, the frames, and the settings of the component.
 struct ComponentParameters {
   Parameters fusion;
   IntegrityParameters integrity;
@@ -27,22 +27,22 @@ struct ComponentParameters {
     using P = ComponentParameters;
     field.group(&P::fusion, "fusion");
     field.group(&P::integrity, "integrity");
-    field(&P::use_compass, "use_compass", "", "straighten the azimuth by the panoramic compass");
+    field(&P::use_compass, "use_compass", "", "correct the azimuth with the panoramic compass");
     field(&P::use_corrections, "use_corrections", "",
-          "correct the position where a landmark is seen; false: landmarks are only kept");
+          "correct the position with landmark sightings; false: only keep track of landmarks");
     field(&P::map_frame, "map_frame", "", "frame of the corrected pose");
-    field(&P::odom_frame, "odom_frame", "", "frame in which the vehicle's pose never jumps");
-    field(
-        &P::stale_after_s, "stale_after_s", "s",
-        "without odometry for so long the pose is stale: twelve images at 25 Hz, more than a busy computer misses, and "
-        "a walking robot has gone 0.7 m",
-        0.05, 0.5);
-    field(&P::path_step_m, "path_step_m", "m", "between two poses of path/binocular and path/enhanced", 0.01, 1000.0);
-    field(&P::path_period_s, "path_period_s", "s", "how often the paths are told", 0.1, 3600.0);
+    field(&P::odom_frame, "odom_frame", "", "frame of the continuous pose");
+    field(&P::stale_after_s, "stale_after_s", "s",
+          "time without odometry after which the pose is stale: twelve images at 25 Hz, more than a busy computer "
+          "misses; a walking robot moves 0.7 m",
+          0.05, 0.5);
+    field(&P::path_step_m, "path_step_m", "m", "spacing of the poses of path/binocular and path/enhanced", 0.01,
+          1000.0);
+    field(&P::path_period_s, "path_period_s", "s", "period of the path messages", 0.1, 3600.0);
     field.path(&P::last_pose_file, "last_pose_file",
-               "where the pose is kept from second to second, and from where a process that is started again goes on; "
-               "empty: nowhere");
-    field(&P::last_pose_s, "last_pose_s", "s", "how old it may be to go on from it", 0.0, 3600.0);
+               "file in which the pose is saved every second, and from which a restarted process resumes; "
+               "empty: none");
+    field(&P::last_pose_s, "last_pose_s", "s", "largest age of a pose to resume from", 0.0, 3600.0);
   }
 };
 

@@ -11,28 +11,28 @@ namespace panvo::localizer {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
-// Chance that who is taken to be right in a dispute is not: then the pose is off by three standard deviations.
+// Probability that the side considered right in a dispute is wrong: then the pose is off by three standard deviations.
 constexpr double kDoubt = 1.0 / 9.0;
-constexpr double kUnseen_s = 5.0;    // a vehicle moved unseen is as far as one of which nothing was heard for so long
+constexpr double kUnseen_s = 5.0;    // unseen motion of the vehicle is bounded by that of so long a silence
 constexpr double kReach = 3.0;       // standard deviations of that
-constexpr double kMostAtOnce = 2.0;  // m/s: no vehicle changes its speed from one image to the next by so much
-constexpr double kAlarm_s = 0.5;     // within which a panorama tells whether it did
+constexpr double kMostAtOnce = 2.0;  // m/s: exceeds the change of any vehicle's speed between two images
+constexpr double kAlarm_s = 0.5;     // time until a panorama confirms or refutes the jump
 
-constexpr double kSteady_s = 0.2;          // over which it is seen how the vehicle moves
-constexpr double kOdometryError_m = 0.03;  // of some tenths of a second
-constexpr double kSteady = 3.0;            // standard deviations of what vehicles do
+constexpr double kSteady_s = 0.2;          // interval over which the current motion is measured
+constexpr double kOdometryError_m = 0.03;  // over some tenths of a second
+constexpr double kSteady = 3.0;            // standard deviations of usual vehicle motion
 constexpr double kImpossible = 6.0;        // the same
 
-constexpr double kDirectionError_rad = 0.01;     // of panoramas, whatever their points say
-constexpr double kAlike_rad = 0.005;             // that the directions of all panoramas of a journey may err by
-constexpr double kCameraApart_m = 1.0;           // from base_link: in a bend it moves in another direction
-constexpr double kShortestWay_m = 0.1;           // that has a direction
-constexpr double kClearlyMoved_m = 0.5;          // far enough for something beside the way to show it
-constexpr double kNoDirection_rad2 = 0.5 * 0.5;  // nothing moves: all is more than a thousand ways off
-constexpr double kNearest_m = 0.3, kParallax_rad = 0.02;  // what is beside the way is no nearer, in the median
+constexpr double kDirectionError_rad = 0.01;     // of panoramas, in addition to their stated error
+constexpr double kAlike_rad = 0.005;             // error common to the directions of all panoramas of a journey
+constexpr double kCameraApart_m = 1.0;           // from base_link, which in a bend moves in another direction
+constexpr double kShortestWay_m = 0.1;           // for a defined direction
+constexpr double kClearlyMoved_m = 0.5;          // far enough to be visible in objects beside the path
+constexpr double kNoDirection_rad2 = 0.5 * 0.5;  // nothing moves: everything is farther than a thousand path lengths
+constexpr double kNearest_m = 0.3, kParallax_rad = 0.02;  // objects beside the path are farther away, in the median
 constexpr double kSameAngle_rad = 0.1;
 constexpr double kLasting_m = 30.0;
-// A stereo camera that is mounted so far askew shows it in its path; a panoramic one looks the same however it is turned.
+// A stereo camera mounted so far askew shows it in its path; a panoramic camera looks the same at any rotation.
 constexpr double kNoStereoMount_rad = 10.0 * kDegree;
 
 double wrapped(double angle_rad) { return vision::wrap(angle_rad, 2.0 * std::numbers::pi); }
@@ -49,7 +49,7 @@ CrossCheck::CrossCheck(const Parameters& parameters)
       motion_(parameters.motion),
       direction_offset_(parameters.mounting_sigma_deg * kDegree) {}
 
-/// Long before a panorama tells that odometry follows something else, its speed tells, which then changes at once.
+/// If odometry follows something else, its speed changes abruptly, long before a panorama shows it.
 void CrossCheck::add_step(const OdometryChain& chain) {
   const auto& now = chain.latest().pose;
   const auto before_ns = chain.before_latest_ns();
@@ -86,8 +86,9 @@ std::optional<Wrong> CrossCheck::compare_turns(const OdometryChain& chain, const
   return turn_dispute_.wrong();
 }
 
-/// Odometry that moves otherwise than the panoramas followed something else. It is wrong by what lies across their direction at least, and by as
-/// much as it differs from how the vehicle drove before. Not where the panoramic camera has just been turned.
+/// Odometry that contradicts the panoramas followed something else. Its error is at least its component perpendicular
+/// to their direction, and at least its deviation from the previous motion. Not if the panoramic camera was just
+/// rotated.
 std::optional<std::int64_t> CrossCheck::compare_ways(OdometryChain& chain, const Stretch& stretch,
                                                      const AzimuthMeasurement& azimuth, double way_variance_m2) {
   if (turn_dispute_.is_on()) chain.allow(stretch.from_ns, stretch.to_ns, 0.0, turn_dispute_.growth(kDoubt));
@@ -124,30 +125,29 @@ void CrossCheck::forget() {
 
 std::optional<std::string> CrossCheck::fault_of_odometry(std::int64_t now_ns) const {
   if (!way_dispute_.is_on() || !is_fresh(way_dispute_.stamp_ns(), now_ns)) return std::nullopt;
-  return "odometry moves otherwise than the panoramas see";
+  return "odometry contradicts the motion in the panoramas";
 }
 
 std::vector<Doubt> CrossCheck::doubts(std::int64_t now_ns) const {
   std::vector<Doubt> doubts;
   if (break_) {
-    doubts.push_back(
-        {kReach * way_sigma_m(motion_, kUnseen_s), true,
-         "odometry lost sight of what it saw, and no panorama has told yet that the vehicle was not moved"});
+    doubts.push_back({kReach * way_sigma_m(motion_, kUnseen_s), true,
+                      "odometry lost track, and no panorama has confirmed yet that the vehicle was not moved"});
   }
   if (jump_ && is_fresh(jump_->stamp_ns, now_ns)) {
-    doubts.push_back(
-        {jump_->speed_m_s * kAlarm_s, true, "the speed of the odometry changed as that of no vehicle does"});
+    doubts.push_back({jump_->speed_m_s * kAlarm_s, true, "implausible change of the odometry's speed"});
   }
   if (turn_dispute_.is_on() && is_fresh(turn_dispute_.stamp_ns(), now_ns)) {
-    doubts.push_back({0.0, true, "odometry and panoramas turn differently"});
+    doubts.push_back({0.0, true, "odometry and panoramas disagree on the rotation"});
   }
   if (way_dispute_.is_on() && is_fresh(way_dispute_.stamp_ns(), now_ns)) {
-    doubts.push_back({0.0, true, "odometry and panoramas move differently"});
+    doubts.push_back({0.0, true, "odometry and panoramas disagree on the motion"});
   }
   return doubts;
 }
 
-/// One of the two cameras is turned by that, and nobody knows which. Without panoramas the mount of the stereo camera is believed.
+/// One of the two cameras is rotated by that angle; which one is unknown. Without panoramas the stereo mount is
+/// trusted.
 double CrossCheck::direction_sigma_rad() const {
   DirectionOffset offset = direction_offset_;
   if (seen_) offset.add(seen_->difference_rad, seen_->variance_rad2);
@@ -182,8 +182,9 @@ bool CrossCheck::goes_on_steadily(const OdometryChain& chain, std::int64_t to_ns
   return !gone || gone->more.way_m.norm() < kSteady * (gone->way_sigma_m + kOdometryError_m);
 }
 
-/// Panoramas see all around, and movers cover little of them: as a rule it is the odometry that followed something else [Lu2015 6]. But where
-/// odometry goes on as the vehicle did and the panoramas as no vehicle does, it is their camera that was turned.
+/// Panoramas see all around, and moving objects cover little of them, so usually odometry is the one that followed
+/// something else [Lu2015 6]. If odometry continues the previous motion and the panoramas turn implausibly, their
+/// camera was rotated.
 Wrong CrossCheck::wrong_turn(const OdometryChain& chain, std::int64_t to_ns, double disagreement_rad) const {
   const auto gone = gone_on(chain, to_ns);
   if (!gone) return Wrong::kOdometry;
@@ -193,7 +194,7 @@ Wrong CrossCheck::wrong_turn(const OdometryChain& chain, std::int64_t to_ns, dou
   return is_steady && is_impossible ? Wrong::kPanoramas : Wrong::kOdometry;
 }
 
-/// How far the odometry's way lies off what the panoramas see of it; nullopt where they agree.
+/// Deviation of the odometry's path from the panoramas, m; nullopt if they agree.
 std::optional<double> CrossCheck::way_off(const AzimuthMeasurement& azimuth, const TurnAndWay& odometry,
                                           double way_variance_m2) {
   const double length_m = odometry.way_m.norm();
@@ -220,7 +221,7 @@ std::optional<double> CrossCheck::way_off(const AzimuthMeasurement& azimuth, con
   return length_m * std::sin(std::min(std::abs(difference_rad), 0.5 * std::numbers::pi));
 }
 
-/// Whether the directions have differed by one angle for so long that no mover is the cause, but a camera that sits otherwise than is thought.
+/// Whether the directions have differed by one angle for so long that the cause must be a camera's mounting.
 bool CrossCheck::lasts(std::int64_t reference_ns, double seen_rad, double length_m) {
   if (!lasting_ || std::abs(wrapped(seen_rad - lasting_->seen_rad)) > kSameAngle_rad) {
     lasting_ = Lasting{reference_ns, seen_rad, 0.0};
@@ -231,8 +232,8 @@ bool CrossCheck::lasts(std::int64_t reference_ns, double seen_rad, double length
   return lasting_->way_m > kLasting_m;
 }
 
-/// Odometry that lost sight of all that it saw and began anew in the next image tells nothing of what lay between. Panoramas that found their
-/// points again from before to after vouch for it. Where there are none the vehicle may be anywhere near, since the time that is returned.
+/// Odometry that lost all its points and restarted in the next image did not measure the motion between. Panoramas that
+/// found their points again across the gap confirm it. Otherwise the vehicle may have moved since the returned time.
 std::optional<std::int64_t> CrossCheck::check_break(OdometryChain& chain, const Stretch& stretch) {
   if (!break_) return std::nullopt;
   if (stretch.from_ns > break_->vouched_ns) {

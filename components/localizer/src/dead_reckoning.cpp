@@ -8,13 +8,13 @@
 namespace panvo::localizer {
 namespace {
 
-constexpr double kClimb = 0.1;         // of the way, up or down
-constexpr double kTiltRateRad = 0.02;  // a second
+constexpr double kClimb = 0.1;         // fraction of the path, up or down
+constexpr double kTiltRateRad = 0.02;  // per second
 constexpr double kMostTilt_rad = 0.05;
-constexpr double kSlow = 3.0;   // times the usual interval are no gap
-constexpr double kMean = 0.05;  // share of a new interval in the usual one
+constexpr double kSlow = 3.0;   // multiple of the usual interval from which a step is a gap
+constexpr double kMean = 0.05;  // weight of a new interval in the usual one
 
-/// Of what grows with half of an acceleration times the square of the time, until it goes on at a speed.
+/// Distance under constant acceleration, limited by that at constant speed.
 double after(double seconds, double acceleration, double speed) {
   return std::min(0.5 * acceleration * seconds * seconds, speed * seconds);
 }

@@ -9,7 +9,7 @@
 namespace panvo::localizer {
 namespace {
 
-constexpr double kLeastVariance_rad2 = 1e-6;  // 0.06 deg: mounts give as much
+constexpr double kLeastVariance_rad2 = 1e-6;  // 0.06 deg: play of the mounts
 
 double wrapped(double angle_rad) { return vision::wrap(angle_rad, 2.0 * std::numbers::pi); }
 

@@ -21,8 +21,8 @@ Integrity assess(const LocalizedPose& pose, const std::vector<Doubt>& doubts, co
   if (!is_known) {
     integrity.reason = pose.reason.empty() ? to_text(pose.state) : to_text(pose.state) + ": " + pose.reason;
   } else if (integrity.reason.empty() && !(integrity.protection_level_m <= parameters.alert_limit_m)) {
-    integrity.reason = fmt::format("may be off by {:.2f} m, {:.2f} m at most are allowed", integrity.protection_level_m,
-                                   parameters.alert_limit_m);
+    integrity.reason = fmt::format("protection level {:.2f} m exceeds the alert limit of {:.2f} m",
+                                   integrity.protection_level_m, parameters.alert_limit_m);
   }
   integrity.is_usable = integrity.reason.empty();
   return integrity;

@@ -11,10 +11,10 @@
 namespace panvo::localizer {
 namespace {
 
-// Of one landmark. Eight fix it to a third of what one sighting is off by; what is left, all sightings err alike.
+// Per landmark. Eight reduce the error of a single sighting to a third; the rest is common to all sightings.
 constexpr int kMostPasses = 8;
-constexpr double kLeastVariance = 1e-8;  // of an edge: a tenth of a millimetre, a tenth of a millirad
-// What is left of odometry over a cut: carried anywhere within a kilometre, turned anyhow, but upright.
+constexpr double kLeastVariance = 1e-8;  // of an edge: 0.1 mm, 0.1 mrad
+// Remaining odometry constraint across a cut: moved within a kilometre, any yaw, nearly upright.
 constexpr double kCutPosition_m = 1000.0;
 constexpr double kCutTilt_rad = 0.2;
 constexpr double kCutYaw_rad = 3.0;
@@ -97,11 +97,11 @@ bool JourneyGraph::add_pass(const LandmarkSighting& sighting, const Remembered& 
   return true;
 }
 
-/// The odometry before and after the pass that goes joins by itself: edges are made of the nodes that are there.
+/// The odometry before and after a removed pass needs no merging: edges are derived from the existing nodes.
 void JourneyGraph::forget_least_precise_pass(std::uint32_t landmark_id) {
   auto worst = nodes_.end();
   int passes = 0;
-  for (auto node = nodes_.begin(); node != std::prev(nodes_.end()); ++node) {  // the last is the newest
+  for (auto node = nodes_.begin(); node != std::prev(nodes_.end()); ++node) {  // the last one is the newest
     if (!node->is_pass || node->landmark_id != landmark_id) continue;
     ++passes;
     const bool is_worse = worst == nodes_.end() ||
@@ -123,7 +123,7 @@ std::vector<KnownLandmark> JourneyGraph::landmarks() const {
   std::vector<KnownLandmark> all;
   for (const auto& node : nodes_) {
     if (node.landmark_id == 0 || node.is_pass) continue;
-    // Landmarks of one earlier day err alike: having seen several of them makes none surer.
+    // Errors of landmarks of one earlier journey are correlated: seeing several does not reduce them.
     const auto& covariance = node.is_of_earlier_day ? known_.at(node.landmark_id).covariance : node.covariance;
     all.push_back({node.landmark_id, node.at.pose.stamp_ns, node.map_from_base, covariance});
   }
@@ -151,7 +151,7 @@ vision::Matrix6d JourneyGraph::common_covariance(const Eigen::Vector3d& position
   vision::Matrix6d covariance = vision::Matrix6d::Zero();
   const Eigen::Vector3d way = position - nodes_.front().map_from_base.translation();
   const Eigen::Vector3d across = Eigen::Vector3d::UnitZ().cross(way);
-  // What is driven in another direction is shorter in this one, too: by 1 - cos.
+  // A direction error also shortens the distance along the path: by 1 - cos.
   const double length_sigma = std::hypot(scale_sigma, 0.5 * direction_sigma_rad * direction_sigma_rad);
   covariance.topLeftCorner<3, 3>() = length_sigma * length_sigma * way * way.transpose() +
                                      direction_sigma_rad * direction_sigma_rad * across * across.transpose();
@@ -193,7 +193,7 @@ bool JourneyGraph::solve() {
     graph.edges.push_back(
         {order[i - 1], order[i], a.odom_from_base.inverse() * b.odom_from_base, at_least(way_covariance(a, b)), false});
   }
-  bool is_anchored = is_placed_;  // by something else than where the journey began
+  bool is_anchored = is_placed_;  // by something other than the start of the journey
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
     const auto& node = nodes_[i];
     if (node.is_of_earlier_day) {
@@ -206,7 +206,7 @@ bool JourneyGraph::solve() {
     const auto seen = static_cast<std::size_t>(landmark_node(node.landmark_id) - nodes_.data());
     graph.edges.push_back({seen, i, node.sighting.landmark_from_base, at_least(node.sighting.covariance), true});
   }
-  if (!is_anchored) {  // the map begins where the journey does
+  if (!is_anchored) {  // the map starts with the journey
     vision::Vector6d sigma;
     sigma << Eigen::Vector3d::Constant(start_sigma_m_), Eigen::Vector3d::Constant(start_sigma_rad_);
     graph.priors.push_back(
@@ -214,7 +214,7 @@ bool JourneyGraph::solve() {
   }
   try {
     if (!graph.optimise()) return false;
-  } catch (const std::invalid_argument&) {  // sums of sound covariances that rounding left without an inverse
+  } catch (const std::invalid_argument&) {  // a sum of valid covariances that is singular by rounding
     return false;
   }
   const auto covariances = graph.covariances();
@@ -232,7 +232,7 @@ const JourneyGraph::Node* JourneyGraph::landmark_node(std::uint32_t id) const {
   return found == nodes_.end() ? nullptr : &*found;
 }
 
-/// The last node of this journey up to a time, else its first.
+/// The last node of this journey up to a time, else its first node.
 const JourneyGraph::Node& JourneyGraph::anchor(std::int64_t stamp_ns) const {
   const Node* last = nullptr;
   const Node* first = nullptr;
@@ -263,7 +263,7 @@ bool JourneyGraph::is_cut(std::int64_t from_ns, std::int64_t to_ns) const {
                      [&](std::int64_t cut_ns) { return first_ns < cut_ns && cut_ns <= last_ns; });
 }
 
-/// Covariance that odometry gained between two times, in the axes of the first.
+/// Covariance gained by odometry between two times, in the axes of the first.
 vision::Matrix6d JourneyGraph::way_covariance(const OdometryPose& from, const OdometryPose& to) const {
   const vision::Matrix6d gained = gained_covariance(from, to, 0.0);
   return is_cut(from.stamp_ns, to.stamp_ns) ? vision::Matrix6d(gained + cut_covariance()) : gained;

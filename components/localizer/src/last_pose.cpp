@@ -20,18 +20,18 @@
 namespace panvo::localizer {
 namespace {
 
-constexpr double kLeastSpeed = 0.5;  // m/s: who stands may start
-constexpr double kClimb = 0.1;       // of the way, up or down
+constexpr double kLeastSpeed = 0.5;  // m/s: a stationary vehicle may start
+constexpr double kClimb = 0.1;       // fraction of the path, up or down
 constexpr double kTurnRate = 0.3;    // rad/s, of a vehicle in a bend
 constexpr double kTilt = 0.05;       // rad
 
-/// "key value value ..." line by line.
+/// Lines of "key value value ...".
 using Lines = std::map<std::string, std::string>;
 
 template <class Number>
 std::vector<Number> numbers(const Lines& lines, const std::string& key, std::size_t count) {
   const auto line = lines.find(key);
-  if (line == lines.end()) throw std::runtime_error(fmt::format("there is no '{}'", key));
+  if (line == lines.end()) throw std::runtime_error(fmt::format("'{}' is missing", key));
   std::vector<Number> values;
   const char* at = line->second.data();
   const char* const end = at + line->second.size();
@@ -42,7 +42,8 @@ std::vector<Number> numbers(const Lines& lines, const std::string& key, std::siz
     }
     Number value{};
     const auto [next, error] = std::from_chars(at, end, value);
-    if (error != std::errc()) throw std::runtime_error(fmt::format("'{}' has something that is no number", key));
+    if (error != std::errc())
+      throw std::runtime_error(fmt::format("'{}' contains something that is not a number", key));
     values.push_back(value);
     at = next;
   }
@@ -53,7 +54,7 @@ std::vector<Number> numbers(const Lines& lines, const std::string& key, std::siz
   return values;
 }
 
-/// By the rules of odometry, which it comes from.
+/// Applies the rules of odometry messages, the origin of the values.
 void check_numbers(interfaces::Check& check, std::span<const double> position, std::span<const double> covariance,
                    double speed_m_per_s) {
   check.bounded("position", position, interfaces::kFarthest_m);
@@ -81,7 +82,7 @@ LastPose from_lines(const Lines& lines) {
   return last;
 }
 
-/// Each number as short as it comes back the same.
+/// Numbers in the shortest form that reads back exactly.
 std::string to_text(const LastPose& last) {
   const Eigen::Vector3d position = last.pose.map_from_base.translation();
   const Eigen::Quaterniond rotation(last.pose.map_from_base.linear());
@@ -108,8 +109,7 @@ void write_last_pose(const std::filesystem::path& file, const LastPose& last) {
   const Eigen::Vector3d position = last.pose.map_from_base.translation();
   check_numbers(check, std::span(position.data(), 3), std::span(last.pose.covariance.data(), 36), last.speed_m_per_s);
   if (check.problem()) {
-    throw std::runtime_error(
-        fmt::format("{} is not written: {} of the pose that was to be kept", file.string(), *check.problem()));
+    throw std::runtime_error(fmt::format("{} not written, invalid pose: {}", file.string(), *check.problem()));
   }
   std::filesystem::path part = file;
   part += ".part";
@@ -120,8 +120,7 @@ void write_last_pose(const std::filesystem::path& file, const LastPose& last) {
   if (stream) std::filesystem::rename(part, file, error);
   if (!stream || error) {
     throw std::runtime_error(
-        fmt::format("cannot write {}: name a file in a folder that is there and can be written to, with space left",
-                    file.string()));
+        fmt::format("cannot write {}: name a file in an existing, writable folder with free space", file.string()));
   }
 }
 
@@ -136,8 +135,8 @@ std::optional<LastPose> read_last_pose(const std::filesystem::path& file) {
   try {
     return from_lines(lines);
   } catch (const std::runtime_error& error) {
-    throw std::runtime_error(
-        fmt::format("{} holds no pose: {}; delete it, and the next one is written", file.string(), error.what()));
+    throw std::runtime_error(fmt::format("{} contains no valid pose: {}; delete the file, a new one will be written",
+                                         file.string(), error.what()));
   }
 }
 

@@ -11,7 +11,7 @@
 
 namespace panvo::localizer {
 
-/// Where the vehicle was last: what a process that is started again goes on from.
+/// The last known pose, from which a restarted process resumes.
 struct LastPose {
   std::int64_t stamp_ns = 0;
   std::string map_frame;
@@ -19,14 +19,14 @@ struct LastPose {
   double speed_m_per_s = 0.0;
 };
 
-/// Where it may be by now: as far off as it may have gone at its last speed, or been turned. `gap_s` >= 0.
+/// The pose after `gap_s` >= 0, with the uncertainty of driving at the last speed and turning in that time.
 PoseInMap after_gap(const LastPose& last, double gap_s);
 
-/// Replaces the file as a whole, so that a process that is killed meanwhile leaves the old one. Throws std::runtime_error that names it, for a
-/// pose that read_last_pose would refuse, too.
+/// Replaces the file atomically, so that a killed process leaves the old one intact. Throws std::runtime_error naming
+/// the file, also for a pose that read_last_pose would reject.
 void write_last_pose(const std::filesystem::path& file, const LastPose& last);
 
-/// Nothing where there is no file. Throws std::runtime_error that names the file, what is wrong with it and the remedy.
+/// nullopt if there is no file. Throws std::runtime_error naming the file, the problem and the remedy.
 std::optional<LastPose> read_last_pose(const std::filesystem::path& file);
 
 }  // namespace panvo::localizer

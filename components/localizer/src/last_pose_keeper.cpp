@@ -21,10 +21,10 @@ void LastPoseKeeper::begin(Localizer& localizer, std::int64_t stamp_ns) const {
   const auto last = read();
   if (last && go_on(localizer, *last, stamp_ns)) return;
   if (!is_again_) return;
-  std::string reason = "started again after a crash, and no last pose is known";
+  std::string reason = "restarted after a crash, no last pose is known";
   if (last) {
     const Eigen::Vector3d position = last->pose.map_from_base.translation();
-    reason = fmt::format("started again after a crash; last known to be at ({:.1f}, {:.1f}) m in {}, {:.1f} s before",
+    reason = fmt::format("restarted after a crash; last known position ({:.1f}, {:.1f}) m in {}, {:.1f} s before",
                          position.x(), position.y(), last->map_frame, seconds(last->stamp_ns, stamp_ns));
   }
   const bool is_of_map = last && last->map_frame == parameters_.map_frame;
@@ -44,18 +44,18 @@ std::optional<LastPose> LastPoseKeeper::read() const {
 bool LastPoseKeeper::go_on(Localizer& localizer, const LastPose& last, std::int64_t stamp_ns) const {
   const double gap_s = seconds(last.stamp_ns, stamp_ns);
   if (last.map_frame != parameters_.map_frame || gap_s < 0.0 || gap_s > parameters_.last_pose_s) {
-    log_.info("{}: not gone on from: in '{}', {:.1f} s before (last_pose_s: {:.1f})", parameters_.last_pose_file,
-              last.map_frame, gap_s, parameters_.last_pose_s);
+    log_.info("{}: ignored: frame '{}', age {:.1f} s (last_pose_s: {:.1f})", parameters_.last_pose_file, last.map_frame,
+              gap_s, parameters_.last_pose_s);
     return false;
   }
   const auto now = after_gap(last, gap_s);
   if (!localizer.add_said(now, stamp_ns)) {
-    log_.warn("{}: not gone on from: its pose or covariance is none; delete it, and the next one is written",
+    log_.warn("{}: ignored: invalid pose or covariance; delete the file, a new one will be written",
               parameters_.last_pose_file);
     return false;
   }
   const Eigen::Vector3d position = now.map_from_base.translation();
-  log_.info("{}: goes on from ({:.1f}, {:.1f}) m, of {:.1f} s before", parameters_.last_pose_file, position.x(),
+  log_.info("{}: resuming from ({:.1f}, {:.1f}) m, age {:.1f} s", parameters_.last_pose_file, position.x(),
             position.y(), gap_s);
   return true;
 }

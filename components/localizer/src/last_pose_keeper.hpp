@@ -12,18 +12,18 @@
 
 namespace panvo::localizer {
 
-/// Goes on from the pose that a former process left, and leaves one for the next.
+/// Resumes from the pose that a previous process saved, and saves one for the next process.
 class LastPoseKeeper {
  public:
-  /// `is_again`: there was a former process, and it crashed. `log` must outlive it.
+  /// `is_again`: a previous process crashed. `log` must outlive it.
   LastPoseKeeper(const ComponentParameters& parameters, bool is_again, const runtime::Logger& log)
       : parameters_(parameters), is_again_(is_again), log_(log) {}
 
-  /// The journey begins at a stamp: its start is where the last pose says. After a crash of which no pose is left that is fresh enough,
-  /// the start is not known.
+  /// Starts the journey at a stamp, from the last pose if it is recent enough. After a crash without a recent last
+  /// pose, the start is unknown.
   void begin(Localizer& localizer, std::int64_t stamp_ns) const;
 
-  /// From second to second, while it is known where the vehicle is.
+  /// Saves the pose every second while the vehicle is localised.
   void keep(const LocalizedPose& pose, const geometry_msgs::msg::Twist& twist);
 
  private:

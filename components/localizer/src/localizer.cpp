@@ -16,11 +16,11 @@ namespace {
 
 constexpr double kSecond_ns = 1e9;
 constexpr double kDegree = std::numbers::pi / 180.0;
-constexpr double kSlew = 0.2;  // of the turn that is owed, with each step: made up for within half a second at 25 Hz
-constexpr double kUnknownPosition_m = 1e4;  // standard deviations of a start that is not known
+constexpr double kSlew = 0.2;  // fraction of the pending yaw correction per step: applied within half a second at 25 Hz
+constexpr double kUnknownPosition_m = 1e4;  // standard deviation of an unknown start
 constexpr double kUnknownYaw_rad = 3.0;
-constexpr double kMistakenFor_s = 5.0;  // two times farther apart nobody takes for one
-constexpr double kAtStart_m = 10.0;     // within which a map of earlier days may still come: its process starts, too
+constexpr double kMistakenFor_s = 5.0;  // larger shifts between two times are unambiguous
+constexpr double kAtStart_m = 10.0;     // a loaded map may arrive late within this path, as its process starts as well
 
 double seconds(std::int64_t from_ns, std::int64_t to_ns) { return static_cast<double>(to_ns - from_ns) / kSecond_ns; }
 
@@ -61,7 +61,7 @@ OdometryOutcome Localizer::add(const OdometryPose& told) {
   const auto refused = [](std::string reason) { return OdometryOutcome{.reason = std::move(reason)}; };
   if (const auto fault = fault_of(told.odom_from_base, told.covariance)) return refused(*fault);
   if (!chain_.empty() && told.stamp_ns <= chain_.latest().pose.stamp_ns) {
-    return refused("came with a stamp that is not after the last");
+    return refused("has a stamp not later than the previous one");
   }
   const auto taken = origin_.take(told);
   if (!taken.odometry) return refused(taken.reason);
@@ -96,8 +96,8 @@ bool Localizer::add_known(const KnownLandmark& landmark) {
   if (fault_of(landmark.map_from_base, landmark.covariance)) return false;
   if (!graph_.has_known() && !found_at_way_m_) {
     is_joined_ = false;
-    // A map that comes late, or a single landmark that somebody sends, takes nothing away from who knows where he is: it is joined when two
-    // panoramas agree on it.
+    // A late map, or a single external landmark, does not invalidate a known position: it is joined when two panoramas
+    // agree on it.
     if (!graph_.has_started() || (graph_.is_bare() && way_m() < kAtStart_m)) is_located_ = false;
   }
   graph_.add_known(landmark);
@@ -124,7 +124,7 @@ bool Localizer::add_built(std::uint32_t id, std::int64_t stamp_ns) {
 
 void Localizer::set_clock_back(std::int64_t by_ns) {
   if (chain_.empty()) return;
-  // Nobody knows which of the two times was right, and where the vehicle was then.
+  // Which of the two times was right is unknown, and so is the vehicle's position at that time.
   const double by_s = std::min(seconds(0, by_ns), kMistakenFor_s);
   const std::int64_t latest_ns = chain_.latest().pose.stamp_ns;
   const auto twist = chain_.twist(latest_ns);
@@ -142,7 +142,7 @@ void Localizer::set_clock_back(std::int64_t by_ns) {
     (*sighting)->at_ns -= by_ns;
   }
   latest_ = localized(chain_.latest().pose);
-  // What was measured between two panoramas is of two clocks by now.
+  // Measurements between two panoramas would mix two clocks.
   lean_.forget();
   last_from_ns_.reset();
   turn_seen_.reset();
@@ -179,10 +179,10 @@ std::vector<Doubt> Localizer::doubts() const {
   auto doubts = check_.doubts(latest_.stamp_ns);
   if (dissent_) {
     doubts.push_back({dissent_->off_m, true,
-                      fmt::format("landmark {} was seen where it is not expected", dissent_->sighting.landmark_id)});
+                      fmt::format("landmark {} was seen at an unexpected position", dissent_->sighting.landmark_id)});
   } else if (asking_ && asking_->is_far && seconds(asking_->at_ns, latest_.stamp_ns) < parameters_.patience_s) {
     doubts.push_back({asking_->off_m, true,
-                      fmt::format("landmark {} was seen where it is not expected", asking_->sighting.landmark_id)});
+                      fmt::format("landmark {} was seen at an unexpected position", asking_->sighting.landmark_id)});
   }
   return doubts;
 }
@@ -205,7 +205,7 @@ PoseInMap Localizer::expected(const OdometryPose& odometry) const {
   return here;
 }
 
-/// Of what is the same for all poses of the journey, so that no sighting of its own landmarks shows it.
+/// Errors common to all poses of the journey, which sightings of its own landmarks do not reveal.
 vision::Matrix6d Localizer::common_covariance(const Eigen::Vector3d& position) const {
   if (is_located_) {
     return graph_.common_covariance(position, parameters_.scale_sigma, check_.direction_sigma_rad());
@@ -228,22 +228,22 @@ void Localizer::tell_state(LocalizedPose& pose) const {
     const double since_s = seconds(*unreliable_since_ns_, pose.stamp_ns);
     if (has_azimuth) return tell(State::kCompassOnly, fmt::format("odometry unreliable for {:.1f} s", since_s));
     if (since_s > parameters_.patience_s) {
-      return tell(State::kLost, fmt::format("odometry unreliable for {:.1f} s, and no compass", since_s));
+      return tell(State::kLost, fmt::format("odometry unreliable for {:.1f} s, no compass", since_s));
     }
   }
   const double sigma_m = vision::horizontal_sigma(pose.covariance);
   if (sigma_m > parameters_.lost_sigma_m) {
-    return tell(State::kLost, fmt::format("the position is known to {:.0f} m only", sigma_m));
+    return tell(State::kLost, fmt::format("position known only to {:.0f} m", sigma_m));
   }
   if (doubtful_ns_ && dissent_) {
-    return tell(State::kLost, fmt::format("landmark {} says that the vehicle was moved while odometry was unreliable",
+    return tell(State::kLost, fmt::format("landmark {} shows that the vehicle was moved while odometry was unreliable",
                                           dissent_->sighting.landmark_id));
   }
   const bool was_just_found = found_at_way_m_ && chain_.latest().way_m - *found_at_way_m_ < parameters_.same_pass_m;
   tell(was_just_found ? State::kRelocalised : State::kTracking, {});
 }
 
-/// Takes odom_from_base on by a step of the odometry, and makes up for a part of the turn that it owes.
+/// Advances the published odom_from_base by an odometry step and applies a part of the pending yaw correction.
 void Localizer::slew(const Eigen::Isometry3d& step) {
   const double turn_rad = kSlew * owed_rad_;
   owed_rad_ -= turn_rad;

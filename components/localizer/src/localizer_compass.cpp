@@ -8,14 +8,14 @@
 #include "panvo/localizer/soundness.hpp"
 #include "panvo/vision/equirectangular.hpp"
 
-/// What the Localizer makes of the panoramic compass.
+/// Processing of the panoramic compass.
 namespace panvo::localizer {
 namespace {
 
-constexpr int kYaw = 5;                // of a twist
-constexpr double kMostElse = 25.0;     // odometry that turns wrongly goes wrong, too, by five times what it says
-constexpr double kClockCaution = 9.0;  // odometry errs by more than it says now and then, and just while turning
-constexpr double kScaleCaution = 4.0;  // what the compass errs by stays alike for some seconds, as a bend does
+constexpr int kYaw = 5;                // index in a twist
+constexpr double kMostElse = 25.0;     // wrong turns also cause wrong translation, by up to five times the stated error
+constexpr double kClockCaution = 9.0;  // odometry sometimes errs by more than stated, especially while turning
+constexpr double kScaleCaution = 4.0;  // compass errors are correlated over some seconds, e.g. in a bend
 
 double wrapped(double angle_rad) { return vision::wrap(angle_rad, 2.0 * std::numbers::pi); }
 
@@ -27,7 +27,7 @@ AzimuthUse Localizer::add(const AzimuthMeasurement& azimuth) {
   if (fault_of_angle(azimuth.change_rad, azimuth.variance_rad2)) return AzimuthUse::kNotUsed;
   if (!chain_.turn(from_ns, to_ns)) return AzimuthUse::kNotUsed;
   const double yaw_before_rad = yaw_of(chain_.latest().pose.odom_from_base.linear());
-  // Turns against the same panorama err alike: the last of them, which reaches farthest, takes the place of those before.
+  // Turns against one reference panorama share its error: the latest, longest one replaces those before.
   if (last_from_ns_ == azimuth.from_ns) {
     chain_.revert();
   } else {
@@ -50,7 +50,7 @@ AzimuthUse Localizer::add(const AzimuthMeasurement& azimuth) {
       disagreement * disagreement / (spread * parameters_.contradiction_sigmas * parameters_.contradiction_sigmas);
   const double way_variance_m2 = gained_covariance(chain_.at(from_ns)->pose, chain_.at(to_ns)->pose, 0.0)
                                      .topLeftCorner<2, 2>()
-                                     .trace();  // as odometry says, before it is distrusted
+                                     .trace();  // as stated by odometry, before it is inflated
   const bool is_contradicted = excess > 1.0;
   const CrossCheck::Stretch stretch{azimuth.from_ns, from_ns, to_ns};
   const auto wrong = check_.compare_turns(chain_, stretch, disagreement, is_contradicted);
@@ -89,7 +89,7 @@ AzimuthUse Localizer::add(const AzimuthMeasurement& azimuth) {
   return is_contradicted || lean ? AzimuthUse::kContradicted : AzimuthUse::kFused;
 }
 
-/// Joins a turn with the odometry's own, by their variances. The chain adds up what it takes as if each turn erred by itself.
+/// Fuses a turn with the odometry's, by variance. The chain sums variances as if turns had independent errors.
 void Localizer::fuse(std::int64_t from_ns, std::int64_t to_ns, double change_rad, double variance_rad2) {
   const auto turn = chain_.turn(from_ns, to_ns);
   if (!turn) return;

@@ -37,9 +37,9 @@ double seconds(std::int64_t from_ns, std::int64_t to_ns) { return static_cast<do
 
 }  // namespace
 
-/// odometry/binocular, odometry/quality, compass/azimuth_change, correction, landmarks, /initialpose -> odometry/enhanced, /tf, localization/state,
-/// localization/integrity, correction/outcome, landmarks/poses, path/*. Odometry waits for its quality; what is said of a panorama waits until
-/// odometry has come as far as its stamp.
+/// odometry/binocular, odometry/quality, compass/azimuth_change, correction, landmarks, /initialpose ->
+/// odometry/enhanced, /tf, localization/state, localization/integrity, correction/outcome, landmarks/poses, path/*.
+/// Odometry waits for its quality; measurements of a panorama wait until odometry reaches its stamp.
 class LocalizerComponent final : public runtime::Component {
  public:
   explicit LocalizerComponent(runtime::Context& context)
@@ -73,16 +73,16 @@ class LocalizerComponent final : public runtime::Component {
 
  private:
   static constexpr int kTick_ms = 100;
-  static constexpr std::int64_t kInterval_ns = 40'000'000;  // between two odometry messages, where no stamp tells it
+  static constexpr std::int64_t kInterval_ns = 40'000'000;  // between two odometry messages, if stamps do not give it
   static constexpr double kNoPanorama_s = 10.0;
-  static constexpr double kUnlocatedFor_m = 500.0;  // by then a place would have been passed again
+  static constexpr double kUnlocatedFor_m = 500.0;  // by then a mapped place should have been passed
 
   void take_joined() {
     while (const auto next = join_.next(context_.passing_ns(), is_quality_told())) {
       if (next->lacks_quality) {
-        context_.log().warn_throttled(
-            "no quality", "{} has no {} of the same stamp: its covariance is all that is believed",
-            context_.resolved_name(topics::kOdometryBinocular), context_.resolved_name(topics::kOdometryQuality));
+        context_.log().warn_throttled("no quality", "{} has no {} with the same stamp: only its covariance is used",
+                                      context_.resolved_name(topics::kOdometryBinocular),
+                                      context_.resolved_name(topics::kOdometryQuality));
       }
       on_odometry(*next);
     }
@@ -90,7 +90,8 @@ class LocalizerComponent final : public runtime::Component {
 
   bool is_quality_told() { return join_.has_quality() || context_.has_publisher(topics::kOdometryQuality); }
 
-  /// Whether the clock of the odometry was set back: a few messages in a row agree on an earlier time. Then all that is remembered is put there.
+  /// Whether the odometry's clock was set back, i.e. several consecutive messages agree on an earlier time. If so,
+  /// shifts all stored stamps.
   bool was_set_back(std::int64_t stamp_ns) {
     const std::int64_t back_ns = localizer_.latest().stamp_ns - stamp_ns;
     if (!set_back_.add(stamp_ns, back_ns)) return false;
@@ -99,15 +100,15 @@ class LocalizerComponent final : public runtime::Component {
     *begin_ns_ -= by_ns;
     azimuth_ns_.reset();
     publisher_.forget_stamps();
-    context_.log().warn("the clock of {} was set back by {:.1f} s: the journey goes on at the new time",
+    context_.log().warn("the clock of {} was set back by {:.1f} s: continuing with the new time",
                         context_.resolved_name(topics::kOdometryBinocular), static_cast<double>(back_ns) / kSecond_ns);
     return true;
   }
 
-  /// What cannot be used, in the log and in diagnostics.
+  /// Reports an unusable message in the log and in diagnostics.
   void refuse(std::string_view topic, const std::string& reason) {
     context_.rejections().add(topic, reason);
-    context_.log().warn_throttled(std::string(topic) + reason, "{} {}; it is left out", topic, reason);
+    context_.log().warn_throttled(std::string(topic) + reason, "{} {}; message skipped", topic, reason);
   }
 
   void on_odometry(const OdometryJoin::Joined& joined) {
@@ -116,7 +117,7 @@ class LocalizerComponent final : public runtime::Component {
     if (!pose) return refuse(context_.resolved_name(topics::kOdometryBinocular), pose.reason());
     const std::int64_t stamp_ns = conversions::stamp_ns(message);
     if (begin_ns_ && stamp_ns <= localizer_.latest().stamp_ns && !was_set_back(stamp_ns)) {
-      return refuse(context_.resolved_name(topics::kOdometryBinocular), "came with a stamp that is not after the last");
+      return refuse(context_.resolved_name(topics::kOdometryBinocular), "has a stamp not later than the previous one");
     }
     const OdometryPose told{stamp_ns, *pose, conversions::to_matrix(message.pose().covariance()), joined.is_reliable,
                             joined.outlier_share};
@@ -125,7 +126,7 @@ class LocalizerComponent final : public runtime::Component {
       const auto outcome = localizer_.add(told);
       if (!outcome.is_taken) return refuse(context_.resolved_name(topics::kOdometryBinocular), outcome.reason);
       if (outcome.has_begun_anew) {
-        context_.log().warn("{} began anew elsewhere: the pose goes on from where it was",
+        context_.log().warn("{} restarted from another origin: the pose in the map continues",
                             context_.resolved_name(topics::kOdometryBinocular));
       }
       odometry_at_ns_ = context_.passing_ns();
@@ -142,39 +143,38 @@ class LocalizerComponent final : public runtime::Component {
     tell_paths(stamp_ns, *pose);
     last_pose_.keep(localized, message.twist().twist());
     if (localized.state == State::kUnlocated && localizer_.way_m() > kUnlocatedFor_m) {
-      context_.log().warn_throttled("nothing recognised",
-                                    "no place of earlier days was recognised in {:.0f} m: are they of another place?",
-                                    kUnlocatedFor_m);
+      context_.log().warn_throttled(
+          "nothing recognised",
+          "no landmark of the loaded map was recognised in {:.0f} m: is it a map of another area?", kUnlocatedFor_m);
     }
     if (azimuth_ns_ && seconds(*azimuth_ns_, stamp_ns) > kNoPanorama_s) {
-      context_.log().warn_throttled(
-          "no panorama", "no panorama for {:.0f} s: the pose drifts as the stereo odometry does", kNoPanorama_s);
+      context_.log().warn_throttled("no panorama", "no panorama for {:.0f} s: the pose drifts with the stereo odometry",
+                                    kNoPanorama_s);
     }
   }
 
   void on_initial_pose(const geometry_msgs::msg::PoseWithCovarianceStamped& message) {
     const auto& frame = message.header().frame_id();
     if (frame != parameters_.map_frame) {
-      return context_.log().warn("{} is in frame '{}' and was left out: give it in '{}'",
+      return context_.log().warn("{} ignored: frame is '{}', expected '{}'",
                                  context_.resolved_name(topics::kInitialPose), frame, parameters_.map_frame);
     }
     const auto pose = conversions::to_isometry(message.pose().pose());
     if (!pose) return context_.log().warn("{} {}", context_.resolved_name(topics::kInitialPose), pose.reason());
     if (!begin_ns_)
-      return context_.log().warn("{} was left out: there is no odometry yet",
-                                 context_.resolved_name(topics::kInitialPose));
-    // Who clicks on a map means now, and what his clock says is of no use.
+      return context_.log().warn("{} ignored: no odometry received yet", context_.resolved_name(topics::kInitialPose));
+    // A click on a map refers to the present; its stamp, by another clock, is ignored.
     const PoseInMap said{*pose, conversions::to_matrix(message.pose().covariance())};
     if (!localizer_.add_said(said, localizer_.latest().stamp_ns)) {
-      return context_.log().warn("{} was left out: its pose or covariance is none",
+      return context_.log().warn("{} ignored: invalid pose or covariance",
                                  context_.resolved_name(topics::kInitialPose));
     }
-    context_.log().info("{}: the vehicle is at ({:.1f}, {:.1f}) m in {}", context_.resolved_name(topics::kInitialPose),
+    context_.log().info("{}: position set to ({:.1f}, {:.1f}) m in {}", context_.resolved_name(topics::kInitialPose),
                         pose->translation().x(), pose->translation().y(), parameters_.map_frame);
     tell_pose();
   }
 
-  /// One of an earlier day comes before the journey begins, from a store; one of this journey is of a panorama that was taken on it.
+  /// Landmarks stamped before the journey come from a store; the others were built from a panorama of this journey.
   void on_landmark(const panvo_msgs::msg::PanoramicLandmark& message) {
     if (landmarks_.contains(message.id())) return;
     const std::int64_t stamp_ns = conversions::stamp_ns(message);
@@ -215,8 +215,8 @@ class LocalizerComponent final : public runtime::Component {
     if (!waiting_.push(fact)) {
       context_.log().warn_throttled(
           "panoramas ahead",
-          "stamps of panoramas are {:.1f} s ahead of {}: the clocks of the cameras disagree, or there is no "
-          "odometry; no correction",
+          "panorama stamps are {:.1f} s ahead of {}: camera clocks are not synchronised, or no odometry is "
+          "received; corrections disabled",
           begin_ns_ ? seconds(localizer_.latest().stamp_ns, stamp_of(fact)) : 0.0,
           context_.resolved_name(topics::kOdometryBinocular));
     }
@@ -234,11 +234,11 @@ class LocalizerComponent final : public runtime::Component {
     const auto use = localizer_.add(azimuth);
     if (use == AzimuthUse::kNotUsed) {
       ++unused_;
-      // Now and then a panorama has no odometry beside it; all of them have none when a clock is wrong.
+      // A single panorama may lack odometry; if all do, a clock is wrong.
       if (unused_ > 10) {
         context_.log().warn_throttled(
             "panoramas behind",
-            "stamps of panoramas lie {:.1f} s before {}: the clocks of the cameras disagree; no correction",
+            "panorama stamps are {:.1f} s behind {}: camera clocks are not synchronised; corrections disabled",
             seconds(azimuth.to_ns, localizer_.latest().stamp_ns), context_.resolved_name(topics::kOdometryBinocular));
       }
       return;
@@ -246,12 +246,12 @@ class LocalizerComponent final : public runtime::Component {
     unused_ = 0;
     if (use == AzimuthUse::kDoubted) {
       context_.log().warn_throttled("compass doubted",
-                                    "the panoramas turned as no vehicle does, and the stereo odometry did not: was "
-                                    "the panoramic camera turned on its mount?");
+                                    "implausible rotation in the panoramas, but not in the stereo odometry: was "
+                                    "the panoramic camera rotated on its mount?");
     }
     const bool is_contradicted = use == AzimuthUse::kContradicted;
     if (is_contradicted && !was_contradicted_) {
-      context_.log().warn("the stereo odometry turned otherwise than the panorama: the compass is believed");
+      context_.log().warn("stereo odometry and compass disagree on the rotation: using the compass");
     }
     was_contradicted_ = is_contradicted;
     notices_.check_clock(localizer_.panorama_clock());
@@ -265,12 +265,12 @@ class LocalizerComponent final : public runtime::Component {
     if (correction.kind == CorrectionKind::kApplied) {
       const Eigen::Vector3d moved =
           correction.map_from_base_after.translation() - correction.map_from_base_before.translation();
-      context_.log().info("landmark {} seen: the position moves by {:.2f} m", sighting.landmark_id, moved.norm());
+      context_.log().info("landmark {} seen: position corrected by {:.2f} m", sighting.landmark_id, moved.norm());
       tell_landmarks(sighting.stamp_ns);
       has_learned_ = true;
     } else if (correction.kind == CorrectionKind::kRejected) {
       context_.log().warn_throttled(fmt::format("landmark {} not believed", sighting.landmark_id),
-                                    "landmark {} seen, not believed: {}", sighting.landmark_id, correction.reason);
+                                    "landmark {} seen, not applied: {}", sighting.landmark_id, correction.reason);
     }
     notices_.check_mounting(localizer_.mounting());
   }
@@ -279,8 +279,8 @@ class LocalizerComponent final : public runtime::Component {
     if (localizer_.add_built(built.id, built.stamp_ns)) {
       tell_landmarks(built.stamp_ns);
     } else {
-      context_.log().warn_throttled("landmark without odometry",
-                                    "landmark {} is of a time of which no odometry is remembered", built.id);
+      context_.log().warn_throttled("landmark without odometry", "landmark {}: no odometry stored for its stamp",
+                                    built.id);
     }
   }
 
@@ -302,7 +302,7 @@ class LocalizerComponent final : public runtime::Component {
     has_learned_ = false;
   }
 
-  /// Time passes, whatever arrives.
+  /// Runs whether or not messages arrive.
   void on_tick() {
     take_joined();
     const double silence_s = begin_ns_ ? seconds(odometry_at_ns_, context_.passing_ns()) : 0.0;
@@ -325,11 +325,11 @@ class LocalizerComponent final : public runtime::Component {
 
   PanoramaQueue waiting_;
   std::set<std::uint32_t> landmarks_;
-  std::optional<std::int64_t> begin_ns_;  // of the odometry
-  std::int64_t odometry_at_ns_ = 0;       // the last, by the time that passes
+  std::optional<std::int64_t> begin_ns_;  // first stamp of the odometry
+  std::int64_t odometry_at_ns_ = 0;       // arrival of the last message
   std::shared_ptr<const nav_msgs::msg::Odometry> last_odometry_;
   std::optional<std::int64_t> azimuth_ns_;
-  bool has_learned_ = false;  // and not told it yet
+  bool has_learned_ = false;  // not published yet
   int unused_ = 0;
   bool was_contradicted_ = false;
 };

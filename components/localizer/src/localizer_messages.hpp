@@ -17,13 +17,13 @@
 #include "panvo_msgs/msg/PositionCorrection.h"
 #include "tf2_msgs/msg/TFMessage.h"
 
-/// The localizer's quantities as messages, and back.
+/// Conversions between the localizer's types and messages.
 namespace panvo::localizer {
 
 /// applied, better_known or rejected
 std::string to_text(CorrectionKind kind);
 
-/// The pose in the map with the twist of the stereo odometry that it was made of.
+/// The pose in the map with the twist of the underlying stereo odometry.
 nav_msgs::msg::Odometry to_odometry(const LocalizedPose& pose, const nav_msgs::msg::Odometry& stereo,
                                     const std::string& map_frame);
 
@@ -35,13 +35,13 @@ panvo_msgs::msg::CorrectionOutcome to_message(const Correction& correction, cons
                                               const std::string& map_frame);
 panvo_msgs::msg::LandmarkPoses to_message(const std::vector<KnownLandmark>& landmarks, std::int64_t stamp_ns,
                                           const std::string& map_frame);
-/// `since_ns`: of the last odometry for a stale pose, else of the first pose in this state.
+/// `since_ns`: stamp of the last odometry if stale, else of the first pose in this state.
 panvo_msgs::msg::LocalizationState to_state(const LocalizedPose& pose, std::int64_t since_ns,
                                             const std::string& map_frame);
 panvo_msgs::msg::Integrity to_integrity(const LocalizedPose& pose, const std::vector<Doubt>& doubts,
                                         const IntegrityParameters& parameters, const std::string& map_frame);
 
-/// The reason names numbers that are none.
+/// The reason names values that are not finite.
 conversions::Result<LandmarkSighting> to_sighting(const panvo_msgs::msg::PositionCorrection& message);
 AzimuthMeasurement to_azimuth(const panvo_msgs::msg::AzimuthChange& message);
 

@@ -11,18 +11,19 @@
 
 #include "panvo/localizer/soundness.hpp"
 
-/// What the Localizer makes of places that are seen, and of somebody's word.
+/// Processing of landmark sightings and external poses.
 namespace panvo::localizer {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
-// Of the stamp of an image's arrival. Clocks that are farther off show it in the first bend; until then straight ways count, too.
+// Of an image's arrival stamp. Larger clock offsets show in the first bend; until then sightings on straight roads
+// count as well.
 constexpr double kMostStampSigma_s = 0.01;
 constexpr double kUnknownYaw_rad = 3.0;
-// Of what somebody who says where the vehicle is leaves open: he clicked on a flat map.
+// For the components left open by an external pose: a click on a flat map.
 constexpr double kUnsaidHeight_m = 10.0;
 constexpr double kUnsaidTilt_rad = 0.2;
-constexpr double kDriftRatio = 0.03;  // two landmarks agree within the drift on the way between them
+constexpr double kDriftRatio = 0.03;  // two landmarks agree within the drift between them
 
 }  // namespace
 
@@ -36,7 +37,7 @@ Correction Localizer::add(const LandmarkSighting& told) {
   if (const auto fault = fault_of(told.landmark_from_base, told.covariance)) return rejected(*fault);
   const LandmarkSighting sighting = with_uncertain_clock(told);
   const auto at = chain_.at(in_odometry_time(sighting.stamp_ns));
-  if (!at) return rejected("no odometry is remembered of that time");
+  if (!at) return rejected("no odometry stored for that time");
   const auto landmark = graph_.landmark(sighting.landmark_id);
   if (!landmark) return rejected(fmt::format("landmark {} is not known", sighting.landmark_id));
   correction.map_from_base_before = correction.map_from_base_after = graph_.carried(at->pose).map_from_base;
@@ -54,16 +55,16 @@ Correction Localizer::add(const LandmarkSighting& told) {
   if (!graph_.add_pass(sighting, *at, parameters_.same_pass_m)) {
     graph_ = before;
     correction.kind = CorrectionKind::kBetterKnown;
-    correction.reason = "a panorama of the same pass tells it better";
+    correction.reason = "a panorama of the same pass is more precise";
     return correction;
   }
   if (!graph_.solve()) {
     graph_ = before;
-    return rejected("the poses that fit it best could not be computed");
+    return rejected("the pose graph could not be solved");
   }
   if (joins) is_located_ = is_joined_ = true;
   doubtful_ns_.reset();
-  dissent_.reset();  // what spoke against a former one, this one does not confirm
+  dissent_.reset();  // doubts about an earlier one are not confirmed by this one
   if (was_unknown || joins) found_at_way_m_ = at->way_m;
   correction.kind = CorrectionKind::kApplied;
   correction.map_from_base_after = graph_.carried(at->pose).map_from_base;
@@ -71,8 +72,8 @@ Correction Localizer::add(const LandmarkSighting& told) {
   return correction;
 }
 
-/// The offset between the clocks is known to some milliseconds only: so far the vehicle moves and turns meanwhile, now, and when the
-/// landmark was built.
+/// Adds the effect of the remaining clock uncertainty of some milliseconds: the motion of the vehicle in that time, now
+/// and when the landmark was built.
 LandmarkSighting Localizer::with_uncertain_clock(const LandmarkSighting& sighting) const {
   LandmarkSighting wider = sighting;
   if (const auto twist = chain_.twist(in_odometry_time(sighting.stamp_ns))) {
@@ -112,7 +113,7 @@ bool Localizer::add_said(const PoseInMap& pose, std::int64_t stamp_ns) {
   return true;
 }
 
-/// What speaks against a sighting; empty when nothing does.
+/// Reason against a sighting; empty if there is none.
 std::string Localizer::doubt(const LandmarkSighting& sighting, const KnownLandmark& landmark, const Remembered& at,
                              Correction& correction) {
   const Eigen::Isometry3d measured = landmark.map_from_base * sighting.landmark_from_base;
@@ -140,21 +141,20 @@ std::string Localizer::doubt(const LandmarkSighting& sighting, const KnownLandma
                               before->sighting.stamp_ns < sighting.stamp_ns &&
                               std::abs(now.way_m - before->way_m) < parameters_.same_pass_m && agree(*before, now);
   if (!sighting.stands_alone) {
-    if (!is_placed) return "of few points, and where the vehicle is expected is not known";
-    if (correction.chi_square > parameters_.gate_chi_square) return "of few points, and not where it was expected";
-    return is_asked_twice ? "" : "of few points: the next panorama must agree";
+    if (!is_placed) return "low-inlier match, and the expected position is unknown";
+    if (correction.chi_square > parameters_.gate_chi_square) return "low-inlier match, and outside the gate";
+    return is_asked_twice ? "" : "low-inlier match, waiting for confirmation by the next panorama";
   }
-  if (!is_placed) return is_asked_twice ? "" : "the first sighting: a second panorama must agree";
-  const auto far =
-      fmt::format("{:.0f} from what was expected, {:.0f} at most", correction.chi_square, parameters_.gate_chi_square);
-  if (!is_asked_twice) return far + ", until a second panorama asks for it, too";
+  if (!is_placed) return is_asked_twice ? "" : "first sighting, waiting for confirmation by a second panorama";
+  const auto far = fmt::format("chi-square {:.0f}, gate {:.0f}", correction.chi_square, parameters_.gate_chi_square);
+  if (!is_asked_twice) return far + ": waiting for confirmation by a second panorama";
   if (correction.chi_square <= parameters_.second_look_gate_ratio * parameters_.gate_chi_square) return {};
-  // So far off odometry is not, unless it missed how the vehicle was moved. But a landmark in the wrong place would ask for this, too:
-  // only two landmarks together are believed.
+  // Odometry has such errors only if it missed a motion of the vehicle. But a misplaced landmark would look the same:
+  // two landmarks must agree.
   const bool is_other = dissent_ && dissent_->sighting.landmark_id != sighting.landmark_id;
   if (!is_other || !agree(*dissent_, now)) {
     dissent_ = now;
-    return far + ", until a second landmark asks for it, too";
+    return far + ": waiting for confirmation by a second landmark";
   }
   graph_.cut(doubtful_ns_ ? *doubtful_ns_ : at.pose.stamp_ns);
   asking_.reset();
@@ -162,7 +162,7 @@ std::string Localizer::doubt(const LandmarkSighting& sighting, const KnownLandma
   return {};
 }
 
-/// Whether two sightings ask for the same place of the odometry in the map, but for the drift between them.
+/// Whether two sightings give the same pose of odom in the map, except for the drift between them.
 bool Localizer::agree(const Asking& before, const Asking& now) const {
   const auto at = chain_.at(in_odometry_time(now.sighting.stamp_ns));
   if (!at) return false;

@@ -8,25 +8,25 @@
 namespace panvo::localizer {
 namespace {
 
-constexpr double kShortest_m = 0.3;      // between two sightings that are compared
+constexpr double kShortest_m = 0.3;      // between two compared sightings
 constexpr double kLongestGap_m = 5.0;    // within a pass
-constexpr double kLongestPass_m = 40.0;  // then odometry has drifted by what is looked for
+constexpr double kLongestPass_m = 40.0;  // beyond, odometry drift reaches the size of the effect
 
-// A sighting farther from the odometry than a camera turned by a dozen degrees would see it is another matter.
+// Sightings with a larger deviation than a camera rotated by a dozen degrees would cause are ignored.
 constexpr double kMostTurned = 0.25;
 constexpr double kMostElse_m = 1.0;
 
-constexpr double kOdometry_m = 0.02;  // over some metres
-// The sightings of a pass share points, and so errors: three of them tell as much as one. With this the estimates of cameras that sit
-// as is said are as far from zero as their standard deviations say.
+constexpr double kOdometry_m = 0.02;  // over a few metres
+// The sightings of a pass share points and hence errors: three count as one. With this factor the estimates for
+// correctly mounted cameras scatter according to their standard deviations.
 constexpr double kAlike = 3.0;
 constexpr double kSureSigmas = 3.0;
-// Known so well by so many passes that one whose landmark is amiss does not decide.
+// Precise enough that a single pass with a bad landmark does not decide.
 constexpr double kWellKnown = 0.5;
-// Before anything is measured: any camera is within a metre and half a turn.
+// Prior: any camera is within a metre and half a turn.
 const Eigen::Vector4d kPriorSigma(3.0, 3.0, 1.0, 1.0);
 
-/// What a sighting's position counts for, 1/m^2.
+/// Weight of a sighting's position, 1/m^2.
 double weight_of(const LandmarkSighting& sighting) {
   const double variance = sighting.covariance.topLeftCorner<2, 2>().trace() / 2.0;
   return 1.0 / (kAlike * (variance + kOdometry_m * kOdometry_m));
@@ -46,7 +46,7 @@ void MountingCheck::add(const LandmarkSighting& sighting, const Remembered& at) 
     pass_.emplace();
     pass_->first = sighting;
     pass_->first_at = pass_->last_at = at;
-    pass_->weight = weight_of(sighting);  // it differs from itself by nothing
+    pass_->weight = weight_of(sighting);  // its own difference is zero
     return;
   }
   if (way_between(pass_->last_at, at) < kShortest_m) return;
@@ -57,8 +57,8 @@ void MountingCheck::add(const LandmarkSighting& sighting, const Remembered& at) 
       pass_->first.landmark_from_base.inverse() * sighting.landmark_from_base.translation();
   const Eigen::Vector3d difference = by_panoramas - way;
   if (difference.norm() > kMostElse_m + kMostTurned * way.norm()) return;
-  // The panoramas tell of a base_link that sits at t and is turned by w against the true one:
-  // way seen = way + way x w + (turn - 1) t.
+  // The panoramas measure a base_link displaced by t and rotated by w relative to the true one:
+  // path seen = path + path x w + (turn - 1) t.
   Matrix34d jacobian;
   jacobian.col(0) = way.cross(Eigen::Vector3d::UnitZ());
   jacobian.col(1) = way.cross(Eigen::Vector3d::UnitY());
@@ -95,7 +95,7 @@ bool MountingCheck::continues_pass(const LandmarkSighting& sighting, const Remem
          way_between(pass_->first_at, at) < kLongestPass_m;
 }
 
-/// What all passes say, each without the error that its first sighting brings into all its differences.
+/// Sum over all passes, eliminating for each the common error of its first sighting.
 MountingCheck::NormalEquations MountingCheck::with_current_pass() const {
   NormalEquations all = ended_passes_;
   if (!pass_) return all;

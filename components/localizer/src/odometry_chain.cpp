@@ -12,10 +12,10 @@ namespace panvo::localizer {
 namespace {
 
 constexpr double kSecond_ns = 1e9;
-constexpr double kLeastStepVariance = 1e-12;  // what rounding leaves
+constexpr double kLeastStepVariance = 1e-12;  // for rounding errors
 constexpr int kYaw = 5;
-// A panorama of the same instant as the last stereo pair may be stamped a little later, by what clocks differ. Waiting for the next pair
-// would cost 40 ms; a vehicle that goes on as it went is off by less than a millimetre meanwhile.
+// A panorama of the same instant as the last stereo pair may be stamped slightly later due to clock differences.
+// Waiting for the next pair would cost 40 ms; constant motion for that time is accurate to less than a millimetre.
 constexpr std::int64_t kAhead_ns = 5'000'000;
 
 double between(std::int64_t stamp_ns, std::int64_t from_ns, std::int64_t to_ns) {
@@ -30,7 +30,7 @@ vision::Matrix6d gained_covariance(const OdometryPose& a, const OdometryPose& b,
       vision::compose_covariance(a.odom_from_base, a.covariance, a_from_b, vision::Matrix6d::Zero());
   const vision::Matrix6d difference =
       vision::rotate_covariance(a.odom_from_base.linear().transpose(), b.covariance - inherited);
-  // rounding, and covariances that were reset, must not make it negative
+  // clamped, as rounding and reset covariances can make it negative
   const Eigen::SelfAdjointEigenSolver<vision::Matrix6d> parts(0.5 * (difference + difference.transpose()));
   return parts.eigenvectors() * parts.eigenvalues().cwiseMax(least_variance).asDiagonal() *
          parts.eigenvectors().transpose();
@@ -196,7 +196,7 @@ void OdometryChain::revert() {
 }
 
 std::optional<OdometryChain::Place> OdometryChain::place_of(std::int64_t stamp_ns) const {
-  std::size_t after = first_after(stamp_ns - 1);  // the first that is not before
+  std::size_t after = first_after(stamp_ns - 1);  // first entry that is not before
   if (after == entries_.size()) {
     if (entries_.size() < 2 || stamp_ns - entries_.back().raw.stamp_ns > kAhead_ns) return std::nullopt;
     --after;
@@ -215,7 +215,7 @@ std::size_t OdometryChain::first_after(std::int64_t stamp_ns) const {
   return static_cast<std::size_t>(std::distance(entries_.begin(), found));
 }
 
-/// How much of a step lies within a stretch, [0, 1].
+/// Fraction of a step within a stretch, [0, 1].
 double OdometryChain::share(std::size_t index, std::int64_t from_ns, std::int64_t to_ns) const {
   if (index == 0) return 0.0;
   const std::int64_t begin_ns = entries_[index - 1].raw.stamp_ns;
@@ -224,7 +224,7 @@ double OdometryChain::share(std::size_t index, std::int64_t from_ns, std::int64_
   return std::clamp(overlap_ns / static_cast<double>(end_ns - begin_ns), 0.0, 1.0);
 }
 
-/// Puts the steps together again from an entry on.
+/// Recomputes the composed poses from an entry on.
 void OdometryChain::compose_from(std::size_t index) {
   for (std::size_t i = std::max<std::size_t>(index, 1); i < entries_.size(); ++i) {
     const auto& before = entries_[i - 1].now;

@@ -12,9 +12,9 @@ namespace {
 
 constexpr std::size_t kMostQualities = 100;
 constexpr std::size_t kMostWaiting = 10;
-// Both are sent at the same moment; a tenth of it is what a busy network takes.
+// Both are published at the same time; a busy network delays them by a tenth of this.
 constexpr std::int64_t kPatience_ns = 200'000'000;
-constexpr int kMostLacking = 10;  // after so many nobody tells the quality any more
+constexpr int kMostLacking = 10;  // after this many, quality is no longer expected
 
 }  // namespace
 
@@ -40,7 +40,7 @@ std::optional<OdometryJoin::Joined> OdometryJoin::next(std::int64_t now_ns, bool
     joined.outlier_share = own->second.outlier_share;
     qualities_.erase(qualities_.begin(), std::next(own));
   } else if (is_told && lacking_ < kMostLacking) {
-    // Each topic comes in its order: a later quality says that this one's was lost.
+    // Topics keep their order: a later quality means that this one was lost.
     const bool is_lost = qualities_.upper_bound(stamp_ns) != qualities_.end();
     const bool is_patient = waiting_.size() <= kMostWaiting && now_ns - waiting_.front().since_ns < kPatience_ns;
     if (!is_lost && is_patient) return std::nullopt;

@@ -12,24 +12,24 @@
 
 namespace panvo::localizer {
 
-/// Brings each odometry message together with its quality, the message of the same stamp, in whatever order the two topics arrive. Odometry comes
-/// out in the order in which it came in, and waits for its quality a bounded time.
+/// Joins each odometry message with the quality message of the same stamp, whatever the order of arrival. Odometry is
+/// returned in its order of arrival and waits a bounded time for its quality.
 class OdometryJoin {
  public:
   struct Joined {
     std::shared_ptr<const nav_msgs::msg::Odometry> odometry;
     bool is_reliable = true;
-    double outlier_share = 1.0;  ///< of its points; 1 where nobody says
-    bool lacks_quality = false;  ///< there is somebody who tells it, but not of this message
+    double outlier_share = 1.0;  ///< fraction of outliers; 1 if unknown
+    bool lacks_quality = false;  ///< quality is published, but not for this message
   };
 
   void add(const panvo_msgs::msg::OdometryQuality& quality);
   void add(std::shared_ptr<const nav_msgs::msg::Odometry> odometry, std::int64_t now_ns);
 
-  /// The next odometry that need not wait (any more). `is_told`: somebody publishes the quality.
+  /// The next odometry message that need not wait any longer. `is_told`: the quality has a publisher.
   std::optional<Joined> next(std::int64_t now_ns, bool is_told);
 
-  /// Whether a quality has come.
+  /// Whether any quality has been received.
   bool has_quality() const noexcept { return has_quality_; }
 
  private:
@@ -42,10 +42,10 @@ class OdometryJoin {
     std::int64_t since_ns;
   };
 
-  std::map<std::int64_t, Quality> qualities_;  // by stamp; those whose odometry has yet to come
+  std::map<std::int64_t, Quality> qualities_;  // by stamp; waiting for their odometry
   std::deque<Waiting> waiting_;
   bool has_quality_ = false;
-  int lacking_ = 0;  // odometry in a row that waited for nothing
+  int lacking_ = 0;  // consecutive odometry messages whose quality never came
 };
 
 }  // namespace panvo::localizer

@@ -11,7 +11,7 @@
 
 namespace panvo::localizer {
 
-/// A landmark that was built on this journey.
+/// A landmark built on this journey.
 struct Built {
   std::uint32_t id = 0;
   std::int64_t stamp_ns = 0;
@@ -19,16 +19,16 @@ struct Built {
 
 using PanoramaFact = std::variant<AzimuthMeasurement, LandmarkSighting, Built>;
 
-/// The stamp of the panorama that it is about.
+/// Stamp of the panorama concerned.
 std::int64_t stamp_of(const PanoramaFact& fact);
 
-/// What is said of panoramas waits until odometry has come as far as their stamps. First in, first out, but one of a time far ahead keeps none
-/// waiting.
+/// Queue of panorama measurements until odometry reaches their stamps. First in, first out, but a stamp far ahead does
+/// not block the others.
 class PanoramaQueue {
  public:
-  /// False when it is full: the oldest was dropped.
+  /// Returns false if the queue was full and the oldest entry was dropped.
   bool push(const PanoramaFact& fact);
-  /// The next that need not wait, taken out.
+  /// Removes and returns the next entry that need not wait.
   std::optional<PanoramaFact> next(const Localizer& localizer);
 
  private:

@@ -12,14 +12,14 @@
 
 namespace panvo::localizer {
 
-/// A path for people to look at: a pose every so many metres, told every few seconds. When it has grown to `most_poses`, every
-/// second pose goes and poses come half as often, so that a day's path fits in a message, too.
+/// A path for display: a pose every few metres, published every few seconds. When it exceeds `most_poses`, every second
+/// pose is removed and the spacing doubled, so that a whole day fits into a message.
 class PathRecord {
  public:
   PathRecord(double step_m, double period_s, std::size_t most_poses = 4000)
       : step_m_(step_m), period_s_(period_s), most_poses_(most_poses) {}
 
-  /// True when the path is to be told.
+  /// Returns whether the path is due to be published.
   bool add(std::int64_t stamp_ns, const Eigen::Isometry3d& frame_from_base);
 
   nav_msgs::msg::Path message(const std::string& frame) const;

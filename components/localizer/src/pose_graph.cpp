@@ -15,7 +15,7 @@ namespace {
 constexpr double kLossScale = 3.0;  // standard deviations
 constexpr int kMostSteps = 50;
 
-/// Translation, then the quaternion as Eigen stores it: x y z w.
+/// Translation, then the quaternion in Eigen's order: x y z w.
 using Block = std::array<double, 7>;
 constexpr double kRounding = 1e-12;
 
@@ -38,7 +38,7 @@ Eigen::Isometry3d to_pose(const Block& block) {
 vision::Matrix6d whitening(const vision::Matrix6d& covariance) {
   Eigen::LLT<vision::Matrix6d> factor(covariance);
   if (factor.info() != Eigen::Success && covariance.allFinite()) {
-    // Semidefinite, and what is known of it lost in the rounding of what is not: to the last digits it is made definite.
+    // Semidefinite, or definite but lost in rounding: eigenvalues are raised to the rounding level.
     const Eigen::SelfAdjointEigenSolver<vision::Matrix6d> parts(covariance);
     const double least = kRounding * parts.eigenvalues().cwiseAbs().maxCoeff();
     factor.compute(parts.eigenvectors() * parts.eigenvalues().cwiseMax(least).asDiagonal() *
@@ -48,7 +48,7 @@ vision::Matrix6d whitening(const vision::Matrix6d& covariance) {
   return factor.matrixL().solve(vision::Matrix6d::Identity());
 }
 
-/// The pose error, vision::pose_error, between a_from_b as it is and as it was measured, whitened.
+/// Whitened vision::pose_error between the estimated and the measured a_from_b.
 template <class T>
 void whitened_error(const Eigen::Matrix<T, 3, 1>& translation, const Eigen::Quaternion<T>& rotation,
                     const Eigen::Isometry3d& measured, const vision::Matrix6d& whiten, T* residual) {
@@ -56,7 +56,7 @@ void whitened_error(const Eigen::Matrix<T, 3, 1>& translation, const Eigen::Quat
   error.template head<3>() = translation - measured.translation().cast<T>();
   const Eigen::Quaternion<T> turn = rotation * Eigen::Quaterniond(measured.linear()).conjugate().cast<T>();
   const T sign = turn.w() < T(0) ? T(-2) : T(2);
-  error.template tail<3>() = sign * turn.vec();  // of a small angle; monotonous up to half a turn
+  error.template tail<3>() = sign * turn.vec();  // small-angle approximation; monotonic up to half a turn
   Eigen::Map<Eigen::Matrix<T, 6, 1>> result(residual);
   result = whiten.cast<T>() * error;
 }
@@ -89,7 +89,7 @@ struct PriorCost {
   }
 };
 
-/// The graph as Ceres has it.
+/// The graph as a Ceres problem.
 struct Problem {
   explicit Problem(const PoseGraph& graph) {
     const auto check = [&](std::size_t pose) {
@@ -118,7 +118,7 @@ struct Problem {
     }
   }
 
-  std::vector<Block> blocks;  // never grows: Ceres holds their addresses
+  std::vector<Block> blocks;  // never grows, as Ceres stores the addresses
   ceres::Problem problem;
 };
 
@@ -156,7 +156,7 @@ std::optional<std::vector<vision::Matrix6d>> PoseGraph::covariances() const {
   for (const auto& block : problem.blocks) {
     Eigen::Matrix<double, 6, 6, Eigen::RowMajor> tangent;
     if (!covariance.GetCovarianceBlockInTangentSpace(block.data(), block.data(), tangent.data())) return std::nullopt;
-    // Ceres' step of a quaternion is half of the rotation vector, about the map's axes
+    // Ceres' step of a quaternion is half the rotation vector about the map's axes
     tangent.bottomRows<3>() *= 2.0;
     tangent.rightCols<3>() *= 2.0;
     result.emplace_back(0.5 * (tangent + tangent.transpose()));

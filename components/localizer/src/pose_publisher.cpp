@@ -11,7 +11,7 @@
 namespace panvo::localizer {
 namespace {
 
-constexpr int kStateTicks = 4;    // the state is told at least twice a second
+constexpr int kStateTicks = 4;    // the state is published at least twice a second
 constexpr double kNotable = 0.5;  // standard deviations
 
 }  // namespace
@@ -48,7 +48,7 @@ void PosePublisher::tick(const Localizer& localizer, double silence_s, std::int6
   const bool is_stale = silence_s > parameters_.stale_after_s;
   auto pose = localizer.after_silence(is_stale ? silence_s : 0.0);
   if (pose.state == State::kStarting) {
-    if (now_ns == 0) return;  // what is to be played has not begun
+    if (now_ns == 0) return;  // playback has not started
     pose.stamp_ns = now_ns;
     pose.reason = fmt::format("no {} yet", odometry_topic_);
   } else if (is_stale) {

@@ -16,24 +16,25 @@
 
 namespace panvo::localizer {
 
-/// Publishes the pose with its frames and integrity when there is something new, and the state when it changes and from time to time, so that
-/// nobody takes an old one for true.
+/// Publishes pose, frames and integrity when there is news, and the state on change and periodically, so that an
+/// outdated one is recognised.
 class PosePublisher {
  public:
   /// Both must outlive it.
   PosePublisher(runtime::Context& context, const ComponentParameters& parameters);
 
-  /// The latest pose with all that was learned of it. Who reads poses and frames takes two of one stamp for the same: what is learned between
-  /// two odometry messages is stamped a nanosecond after the last pose, and makes no stale pose a fresh one.
+  /// Publishes the latest pose. As subscribers treat two poses of one stamp as the same, updates between two odometry
+  /// messages are stamped one nanosecond after the last pose; they do not end the state stale.
   void tell_pose(const Localizer& localizer, const nav_msgs::msg::Odometry& stereo, bool is_of_new_odometry);
 
-  /// Whether the pose has moved so far since it was told that it should not wait for the next odometry.
+  /// Whether the pose has changed so much since it was published that it should not wait for the next odometry.
   bool is_notable(const LocalizedPose& now) const;
 
-  /// Ten times a second: `silence_s` since the last odometry. `now_ns`: a stamp, for want of any odometry.
+  /// To be called ten times a second. `silence_s`: time since the last odometry. `now_ns`: stamp to use before any
+  /// odometry.
   void tick(const Localizer& localizer, double silence_s, std::int64_t now_ns);
 
-  /// The clock was set: the next pose may be of an earlier time.
+  /// To be called after a clock change: the next pose may have an earlier stamp.
   void forget_stamps() { told_stamp_ns_.reset(); }
 
  private:

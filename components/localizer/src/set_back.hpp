@@ -5,10 +5,10 @@
 
 namespace panvo::localizer {
 
-/// Notices that a clock was set back: a few messages in a row that are before the last one agree with each other.
+/// Detects that a clock was set back: several consecutive messages before the last one have increasing stamps.
 class SetBack {
  public:
-  /// A message `back_ns` before the latest; true when the clock was set back.
+  /// Adds a message `back_ns` before the latest; returns true if the clock was set back.
   bool add(std::int64_t stamp_ns, std::int64_t back_ns) {
     const bool agrees = run_ > 0 && stamp_ns > stamp_ns_;
     run_ = back_ns < kLeast_ns ? 0 : agrees ? run_ + 1 : 1;
@@ -19,7 +19,7 @@ class SetBack {
   }
 
  private:
-  static constexpr std::int64_t kLeast_ns = 500'000'000;  // less is disorder
+  static constexpr std::int64_t kLeast_ns = 500'000'000;  // smaller steps are reordering
   static constexpr int kRun = 5;
 
   int run_ = 0;

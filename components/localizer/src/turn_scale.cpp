@@ -7,15 +7,15 @@
 namespace panvo::localizer {
 namespace {
 
-constexpr double kLeastTurn_rad = 0.02;  // below it both err by more than what a scale makes of it
-constexpr double kLeastVariance = 1e-6;  // of the scale: the compass itself misses as much of a turn
+constexpr double kLeastTurn_rad = 0.02;  // below, other errors exceed the effect of a scale
+constexpr double kLeastVariance = 1e-6;  // of the scale: the compass misses as much of a turn
 constexpr double kOutlier = 4.0 * 4.0;   // squared standard deviations
 
 }  // namespace
 
 void TurnScale::add(double disagreement_rad, double turn_rad, double variance_rad2) {
   if (std::abs(turn_rad) < kLeastTurn_rad) return;
-  const double slope = -turn_rad;  // odometry that turns more disagrees against the turn
+  const double slope = -turn_rad;  // odometry that turns more disagrees in the opposite direction
   const double spread = slope * slope * variance_ + variance_rad2;
   if (!(spread > 0.0) || disagreement_rad * disagreement_rad > kOutlier * spread) return;
   const double gain = variance_ * slope / spread;

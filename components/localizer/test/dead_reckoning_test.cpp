@@ -13,7 +13,7 @@ TEST(DeadReckoning, AddsNothingToWhatWasMeasured) {
   for (int i = 0; i < 100; ++i) EXPECT_TRUE(dead_reckoning.step(0.04, true).isZero(0.0));
   DeadReckoning slow({}, 0.5);
   slow.step(2.0, true);
-  for (int i = 0; i < 100; ++i) EXPECT_TRUE(slow.step(2.0, true).isZero(0.0)) << "no gap but a slow odometry";
+  for (int i = 0; i < 100; ++i) EXPECT_TRUE(slow.step(2.0, true).isZero(0.0)) << "slow odometry is not a gap";
 }
 
 TEST(DeadReckoning, GrowsByTheTimeAndNotByTheNumberOfFrames) {
@@ -22,7 +22,7 @@ TEST(DeadReckoning, GrowsByTheTimeAndNotByTheNumberOfFrames) {
   vision::Matrix6d sum = vision::Matrix6d::Zero();
   for (int i = 0; i < 100; ++i) sum += frames.step(0.04, false);
   const vision::Matrix6d once = gap.step(4.0, true);
-  EXPECT_TRUE(sum.isApprox(once, 1e-9)) << sum.diagonal().transpose() << " against " << once.diagonal().transpose();
+  EXPECT_TRUE(sum.isApprox(once, 1e-9)) << sum.diagonal().transpose() << " versus " << once.diagonal().transpose();
   EXPECT_NEAR(std::sqrt(once(0, 0)), 0.5 * 1.5 * 16.0, 1e-9);
 }
 
@@ -41,7 +41,7 @@ TEST(AtLeast, IsTheLargerAlongEachDirection) {
   EXPECT_TRUE(at_least(least, covariance).isApprox(expected, 1e-12));
 }
 
-/// Standard deviation of the position after 4 s of a drive for which odometry says that it measured nothing, or says nothing at all.
+/// Standard deviation of the position after 4 s without measurement, as unreliable frames or as one gap.
 double sigma_after_4_s(bool in_frames) {
   Drive drive(5);
   Localizer localizer(of_known_scale());
@@ -52,7 +52,7 @@ double sigma_after_4_s(bool in_frames) {
   auto blind = sure;
   for (int i = 1; i <= steps; ++i) {
     blind.stamp_ns += kPeriod_ns;
-    blind.is_reliable = false;  // its own covariance stays as small as before
+    blind.is_reliable = false;  // its covariance does not grow
     if (in_frames || i == steps) localizer.add(blind);
   }
   return vision::horizontal_sigma(localizer.latest().covariance);

@@ -14,7 +14,7 @@ TEST(Dispute, AddsUpWhatDiffersNotItsSquares) {
     variance += dispute.growth(1.0);
   }
   EXPECT_DOUBLE_EQ(dispute.total(), 2.0);
-  EXPECT_NEAR(variance, 4.0, 1e-12) << "the whole of it, though it came in ten parts";
+  EXPECT_NEAR(variance, 4.0, 1e-12) << "the full variance, although added in ten parts";
 }
 
 TEST(Dispute, CountsOnlyTheLastOfOneReference) {
@@ -24,7 +24,7 @@ TEST(Dispute, CountsOnlyTheLastOfOneReference) {
   EXPECT_DOUBLE_EQ(dispute.total(), 0.8);
   dispute.add(2, 3, 0.1, Wrong::kOdometry);
   EXPECT_DOUBLE_EQ(dispute.total(), 0.9);
-  EXPECT_NEAR(dispute.growth(0.5), 0.5 * (0.81 - 0.64), 1e-12) << "of the stretch since the last reference";
+  EXPECT_NEAR(dispute.growth(0.5), 0.5 * (0.81 - 0.64), 1e-12) << "of the stretch since the reference";
 }
 
 TEST(Dispute, MakesNothingSurerThatGoesBack) {
@@ -45,7 +45,7 @@ TEST(Dispute, KeepsItsVerdictUntilItEnds) {
   EXPECT_FALSE(dispute.is_on());
   dispute.add(5, 6, 0.3, Wrong::kOdometry);
   EXPECT_EQ(dispute.wrong(), Wrong::kOdometry);
-  EXPECT_DOUBLE_EQ(dispute.total(), 0.3) << "begun anew";
+  EXPECT_DOUBLE_EQ(dispute.total(), 0.3) << "restarted";
 }
 
 }  // namespace

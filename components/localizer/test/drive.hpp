@@ -11,17 +11,17 @@ namespace panvo::localizer {
 
 inline constexpr std::int64_t kPeriod_ns = 200'000'000;
 inline constexpr double kStep_m = 1.0;
-inline constexpr double kSigma_m = 0.02;  // of odometry, a step
+inline constexpr double kSigma_m = 0.02;  // of odometry, per step
 inline constexpr double kSigma_rad = 0.003;
 
-/// Round and round a circle of 200 m, with an odometry that drifts.
+/// Laps on a circle of 200 m, with drifting odometry.
 class Drive {
  public:
   explicit Drive(unsigned seed) : random_(seed) { poses.push_back(now()); }
 
   OdometryPose now() const { return {static_cast<std::int64_t>(steps_) * kPeriod_ns, odom_, covariance_, true}; }
 
-  /// `missed_rad`: turned more than odometry says; `missed_m`: carried to the left by so much.
+  /// `missed_rad`: rotation that odometry misses; `missed_m`: displacement to the left that it misses.
   OdometryPose step(double missed_rad = 0.0, double missed_m = 0.0) {
     ++steps_;
     Eigen::Isometry3d move = Eigen::Isometry3d::Identity();
@@ -44,7 +44,7 @@ class Drive {
     return now();
   }
 
-  /// The turn since the last step, by the panoramas, with the given error.
+  /// The turn since the last step, as measured by panoramas with the given error.
   AzimuthMeasurement azimuth(double turn_rad, double sigma_rad) const {
     return {now().stamp_ns - kPeriod_ns, now().stamp_ns, turn_rad, sigma_rad * sigma_rad};
   }
@@ -84,14 +84,14 @@ inline double error_m(const LocalizedPose& pose, const Drive& drive) {
   return (pose.map_from_base.translation() - drive.truth.translation()).norm();
 }
 
-/// The odometry of these drives has no error of scale.
+/// The odometry of these drives has no scale error.
 inline Parameters of_known_scale() {
   Parameters parameters;
   parameters.scale_sigma = 0.0;
   return parameters;
 }
 
-/// Drives a round with a landmark at metre 20, and comes past it again.
+/// Drives a lap with a landmark at metre 20, and passes it again.
 struct Round {
   explicit Round(unsigned seed, const Parameters& parameters = of_known_scale()) : drive(seed), localizer(parameters) {
     localizer.add(drive.now());

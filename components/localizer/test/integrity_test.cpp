@@ -22,7 +22,7 @@ LocalizedPose tracked(double sigma_m) {
 }
 
 TEST(ProtectionFactor, IsExceededAsOftenAsIsStated) {
-  // Student's t of two components: normal over the root of a chi square over its degrees of freedom.
+  // Student's t of two components: normal divided by the root of a chi-square over its degrees of freedom.
   constexpr double kTail = 10.0, kRisk = 0.01;
   std::mt19937_64 random(1);
   std::normal_distribution<double> normal;
@@ -47,7 +47,7 @@ TEST(Integrity, AllowsTheUseOfASurePoseOnly) {
   EXPECT_NEAR(sure.protection_level_m, 0.2 * protection_factor(1e-3, 10.0), 1e-12);
   const auto unsure = assess(tracked(1.0), {}, {});
   EXPECT_FALSE(unsure.is_usable);
-  EXPECT_THAT(unsure.reason, HasSubstr("2.00 m at most are allowed"));
+  EXPECT_THAT(unsure.reason, HasSubstr("alert limit of 2.00 m"));
 }
 
 TEST(Integrity, ForbidsTheUseInEveryStateButThoseInWhichItIsKnown) {
@@ -80,8 +80,8 @@ TEST(Integrity, CoversAVehicleThatWasMovedAsSoonAsOneLandmarkSaysSo) {
   const Eigen::Isometry3d place = drive.truth;
   ASSERT_TRUE(localizer.add_built(1, drive.now().stamp_ns));
   for (int i = 0; i < 30; ++i) localizer.add(drive.step());
-  localizer.add(drive.step(0.0, 25.0));  // and odometry noticed nothing
-  EXPECT_TRUE(assess(localizer.latest(), localizer.doubts(), generous).is_usable) << "nobody knows of it yet";
+  localizer.add(drive.step(0.0, 25.0));  // not noticed by odometry
+  EXPECT_TRUE(assess(localizer.latest(), localizer.doubts(), generous).is_usable) << "not detected yet";
   ASSERT_EQ(localizer.add(drive.sight(1, place)).kind, CorrectionKind::kRejected);
   const auto integrity = assess(localizer.latest(), localizer.doubts(), generous);
   EXPECT_FALSE(integrity.is_usable);

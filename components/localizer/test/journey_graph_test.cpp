@@ -14,8 +14,7 @@ Eigen::Isometry3d at_x(double x) { return Eigen::Isometry3d(Eigen::Translation3d
 
 vision::Matrix6d variance(double sigma) { return sigma * sigma * vision::Matrix6d::Identity(); }
 
-/// A vehicle that drives the same lap again and again; odometry says that it goes on straight by 0.1 m more in each lap than it returns to where
-/// it was, and is uncertain by that.
+/// A vehicle on repeated laps. Odometry returns 0.1 m farther ahead after each lap, with a covariance of that size.
 Remembered in_lap(int lap) {
   Remembered at;
   at.pose.stamp_ns = 1'000'000'000LL * (1 + 40 * lap);
@@ -45,7 +44,7 @@ TEST(JourneyGraph, StaysSmallWhereOneRouteIsDrivenAllDay) {
     if (lap == 10) after_ten = graph.size();
   }
   EXPECT_EQ(graph.size(), after_ten);
-  // The last sighting is there: the drift of 60 laps is taken back to within what the landmark and a sighting are off by.
+  // The last sighting removes the drift of 60 laps down to the error of the landmark and a sighting.
   const auto here = graph.carried(in_lap(60).pose);
   EXPECT_LT(here.map_from_base.translation().norm(), 0.3);
 }

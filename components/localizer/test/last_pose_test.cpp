@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A process that is started again goes on from where the one before it was.
+// A restarted process resumes from the pose of the previous one.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -23,14 +23,14 @@ using ::testing::Not;
 constexpr std::int64_t kBegin_ns = 1'700'000'000'000'000'000;
 constexpr std::int64_t kSecond_ns = 1'000'000'000;
 
-/// A localizer in a container of its own, as a process has it.
+/// A localizer in a container of its own, like a process.
 class Life {
  public:
   explicit Life(const std::map<std::string, std::string>& parameters) {
     harness_.load("panvo_localizer", "LocalizerComponent", parameters);
   }
 
-  /// Straight on at 5 m/s, from where its odometry begins.
+  /// Drives straight at 5 m/s from its odometry origin.
   void drive(std::int64_t begin_ns, int frames) {
     for (int i = 0; i < frames; ++i) {
       nav_msgs::msg::Odometry odometry;
@@ -71,7 +71,7 @@ class LastPoseFile : public ::testing::Test {
   void SetUp() override { std::filesystem::create_directory(folder_); }
   void TearDown() override { std::filesystem::remove_all(folder_); }
 
-  /// 51 frames, so that the pose of 10 m is the last that was kept.
+  /// 51 frames, so that the pose at 10 m is the last one saved.
   void live_once() const {
     Life first(kept_);
     first.drive(kBegin_ns, 51);
@@ -90,8 +90,8 @@ TEST_F(LastPoseFile, IsWhereTheNextProcessGoesOn) {
   second.drive(kBegin_ns + 4 * kSecond_ns, 6);
   EXPECT_NEAR(second.x(), 11.0, 1e-6);
   EXPECT_EQ(second.state(), "relocalised");
-  EXPECT_NEAR(second.first_variance(), 100.0, 1.0) << "2 s at 5 m/s may have brought it 10 m away";
-  EXPECT_THAT(second.log(), Contains(HasSubstr("goes on from (10.0, 0.0) m, of 2.0 s before")));
+  EXPECT_NEAR(second.first_variance(), 100.0, 1.0) << "2 s at 5 m/s give 10 m";
+  EXPECT_THAT(second.log(), Contains(HasSubstr("resuming from (10.0, 0.0) m, age 2.0 s")));
 }
 
 TEST_F(LastPoseFile, HoldsAmongLandmarksOfTheProcessBefore) {
@@ -108,7 +108,7 @@ TEST_F(LastPoseFile, IsTooOldAfterAWhile) {
   Life second(kept_);
   second.drive(kBegin_ns + 60 * kSecond_ns, 6);
   EXPECT_NEAR(second.x(), 1.0, 1e-6);
-  EXPECT_THAT(second.log(), Contains(HasSubstr("58.0 s before (last_pose_s: 30.0)")));
+  EXPECT_THAT(second.log(), Contains(HasSubstr("age 58.0 s (last_pose_s: 30.0)")));
 }
 
 TEST_F(LastPoseFile, OfALaterTimeIsOfAnotherJourney) {
@@ -124,7 +124,7 @@ TEST_F(LastPoseFile, ThatIsDamagedIsNamedWithTheRemedy) {
   Life second(kept_);
   second.drive(kBegin_ns + 4 * kSecond_ns, 6);
   EXPECT_NEAR(second.x(), 1.0, 1e-6);
-  EXPECT_THAT(second.log(), Contains(testing::AllOf(HasSubstr(file_), HasSubstr("delete it"))));
+  EXPECT_THAT(second.log(), Contains(testing::AllOf(HasSubstr(file_), HasSubstr("delete the file"))));
 }
 
 TEST_F(LastPoseFile, OfNumbersThatAreNoPoseIsNotBelieved) {
@@ -159,14 +159,14 @@ TEST_F(LastPoseFile, ThatCannotBeWrittenDoesNotStopIt) {
   Life only({{"last_pose_file", folder_ / "nowhere" / "last_pose.txt"}});
   only.drive(kBegin_ns, 51);
   EXPECT_NEAR(only.x(), 10.0, 1e-9);
-  EXPECT_THAT(only.log(), Contains(HasSubstr("in a folder that is there")));
+  EXPECT_THAT(only.log(), Contains(HasSubstr("in an existing, writable folder")));
 }
 
 TEST_F(LastPoseFile, IsNotWrittenUnlessAskedFor) {
   Life only({});
   only.drive(kBegin_ns, 51);
   EXPECT_FALSE(std::filesystem::exists(file_));
-  EXPECT_THAT(only.log(), Not(Contains(HasSubstr("goes on"))));
+  EXPECT_THAT(only.log(), Not(Contains(HasSubstr("resuming"))));
 }
 
 }  // namespace

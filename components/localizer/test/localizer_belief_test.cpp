@@ -25,14 +25,14 @@ TEST(LocalizerBelief, ASightingAtSpeedTellsAsMuchAsTheClocksDo) {
     EXPECT_EQ(round.localizer.add(round.drive.sight(1, round.landmark)).kind, CorrectionKind::kApplied);
     return std::pair(before, ahead_of(round.localizer.latest()));
   };
-  // Round and round the yaw rate does not change, so that nothing tells the offset of the clocks.
+  // On a circle the yaw rate is constant, so the clock offset is not observable.
   constexpr double kClock_s = 0.01, kSpeed_mps = kStep_m * 1e9 / kPeriod_ns;
   const auto [before, after_known] = variances_ahead(0.0);
   const auto [same_before, after_unknown] = variances_ahead(kClock_s);
   EXPECT_LT(after_known, 0.1 * before);
   const double measured = after_known + 2.0 * kClock_s * kClock_s * kSpeed_mps * kSpeed_mps;
   EXPECT_NEAR(after_unknown, 1.0 / (1.0 / same_before + 1.0 / measured), 0.2 * after_unknown);
-  EXPECT_NEAR(variances_ahead(0.05).second, after_unknown, 1e-9) << "not even the first bend was driven yet";
+  EXPECT_NEAR(variances_ahead(0.05).second, after_unknown, 1e-9) << "no bend was driven yet";
 }
 
 TEST(LocalizerBelief, DoesNotBelieveAFarJumpBeforeASecondPanoramaAsksForIt) {
@@ -44,12 +44,12 @@ TEST(LocalizerBelief, DoesNotBelieveAFarJumpBeforeASecondPanoramaAsksForIt) {
   EXPECT_EQ(correction.kind, CorrectionKind::kRejected);
   EXPECT_NE(correction.reason.find("second panorama"), std::string::npos) << correction.reason;
   EXPECT_TRUE(round.localizer.latest().map_from_base.isApprox(before.map_from_base));
-  // another that says something else does not support it
+  // an inconsistent second sighting does not confirm it
   round.localizer.add(round.drive.step());
   auto other = round.drive.sight(1, round.landmark);
   other.landmark_from_base.translation() += Eigen::Vector3d(-20.0, 15.0, 0.0);
   EXPECT_EQ(round.localizer.add(other).kind, CorrectionKind::kRejected);
-  // the right one is believed at once
+  // the correct one is applied at once
   EXPECT_EQ(round.localizer.add(round.drive.sight(1, round.landmark)).kind, CorrectionKind::kApplied);
 }
 
@@ -67,8 +67,8 @@ TEST(LocalizerBelief, FindsItselfInTheMapOfAnEarlierDay) {
     localizer.add(drive.step());
     EXPECT_EQ(localizer.latest().state, State::kUnlocated);
   }
-  const Eigen::Isometry3d landmark = drive.truth;                                      // the place is here
-  EXPECT_EQ(localizer.add(drive.sight(9, landmark)).kind, CorrectionKind::kRejected);  // one look is none
+  const Eigen::Isometry3d landmark = drive.truth;                                      // position of the landmark
+  EXPECT_EQ(localizer.add(drive.sight(9, landmark)).kind, CorrectionKind::kRejected);  // one sighting is not enough
   localizer.add(drive.step());
   const auto correction = localizer.add(drive.sight(9, landmark));
   ASSERT_EQ(correction.kind, CorrectionKind::kApplied) << correction.reason;
@@ -77,7 +77,7 @@ TEST(LocalizerBelief, FindsItselfInTheMapOfAnEarlierDay) {
   EXPECT_LT((localizer.latest().map_from_base.translation() - expected.translation()).norm(), 0.3);
 }
 
-/// As one says it who clicks on a flat map: half a metre, 15 degrees, and nothing of height and tilt.
+/// A click on a flat map: half a metre, 15 degrees, height and tilt unknown.
 PoseInMap clicked(const Eigen::Isometry3d& map_from_base) {
   PoseInMap said;
   said.map_from_base = map_from_base;
@@ -97,12 +97,12 @@ TEST(LocalizerBelief, IsWhereSomebodySaysInTheMapOfAnEarlierDay) {
   localizer.add(drive.now());
   for (int i = 0; i < 10; ++i) localizer.add(drive.step());
   ASSERT_EQ(localizer.latest().state, State::kUnlocated);
-  const Eigen::Isometry3d map_from_truth = known.map_from_base * drive.truth.inverse();  // it stands on the landmark
+  const Eigen::Isometry3d map_from_truth = known.map_from_base * drive.truth.inverse();  // vehicle at the landmark
   ASSERT_TRUE(localizer.add_said(clicked(known.map_from_base), drive.now().stamp_ns));
   EXPECT_EQ(localizer.latest().state, State::kRelocalised);
   EXPECT_LT((localizer.latest().map_from_base.translation() - Eigen::Vector3d(500.0, 300.0, 0.0)).norm(), 1e-6);
   for (int i = 0; i < 5; ++i) localizer.add(drive.step());
-  // one look at a known place makes it exact: it is near what was said
+  // one sighting makes it exact, as the landmark is near the given pose
   const auto correction = localizer.add(drive.sight(9, map_from_truth.inverse() * known.map_from_base));
   ASSERT_EQ(correction.kind, CorrectionKind::kApplied) << correction.reason;
   const Eigen::Isometry3d expected = map_from_truth * drive.truth;
@@ -184,7 +184,7 @@ TEST(LocalizerBelief, IsFoundAgainAfterItWasCarriedAway) {
     places.push_back(drive.truth);
     ASSERT_TRUE(localizer.add_built(static_cast<std::uint32_t>(places.size()), drive.now().stamp_ns));
   }
-  auto lifted = drive.step(0.4, 25.0);  // and odometry knows only that it saw nothing for a moment
+  auto lifted = drive.step(0.4, 25.0);  // odometry only reports an unreliable frame
   lifted.is_reliable = false;
   localizer.add(lifted);
   localizer.add(drive.step());
@@ -192,7 +192,7 @@ TEST(LocalizerBelief, IsFoundAgainAfterItWasCarriedAway) {
   EXPECT_EQ(localizer.add(drive.sight(1, places[0])).kind, CorrectionKind::kRejected);
   localizer.add(drive.step());
   EXPECT_EQ(localizer.add(drive.sight(1, places[0])).kind, CorrectionKind::kRejected)
-      << "it could be in the wrong place";
+      << "the landmark could be misplaced";
   localizer.add(drive.step());
   EXPECT_EQ(localizer.latest().state, State::kLost);
   for (int i = 0; i < 20; ++i) localizer.add(drive.step());
@@ -204,7 +204,7 @@ TEST(LocalizerBelief, IsFoundAgainAfterItWasCarriedAway) {
   EXPECT_EQ(localizer.latest().state, State::kRelocalised);
   for (int i = 0; i < 50; ++i) localizer.add(drive.step());
   EXPECT_EQ(localizer.latest().state, State::kTracking);
-  // landmarks of before the lift stay where they were
+  // landmarks from before the lift stay in place
   const auto first = localizer.landmarks().front();
   EXPECT_LT((first.map_from_base.translation() - places[0].translation()).norm(), 1.0);
 }
@@ -220,7 +220,7 @@ TEST(LocalizerBelief, DoesNotSayWhereItIsInAMapInWhichItWasNotFound) {
   for (int i = 0; i < 10; ++i) localizer.add(drive.step());
   EXPECT_GT(localizer.latest().covariance(0, 0), 1e6);
   ASSERT_TRUE(localizer.add_built(4, drive.now().stamp_ns));
-  ASSERT_EQ(localizer.landmarks().size(), 1U) << "the other was not seen";
+  ASSERT_EQ(localizer.landmarks().size(), 1U) << "the loaded one was not seen";
   EXPECT_GT(localizer.landmarks().front().covariance(0, 0), 1e6);
 }
 
@@ -235,7 +235,7 @@ TEST(LocalizerBelief, BelievesFewPointsOnlyWhereTwoPanoramasAgreeAndTheVehicleIs
   round.localizer.add(round.drive.step());
   EXPECT_EQ(round.localizer.add(weak()).kind, CorrectionKind::kApplied);
   Round other(21);
-  for (int i = 0; i < 5; ++i) {  // all of them agree on a place that is elsewhere
+  for (int i = 0; i < 5; ++i) {  // all agree on a wrong position
     auto far = other.drive.sight(1, other.landmark);
     far.stands_alone = false;
     far.landmark_from_base.translation() += Eigen::Vector3d(15.0, -10.0, 0.0);
@@ -248,7 +248,7 @@ TEST(LocalizerBelief, IsNoSurerThanTheMapItIsIn) {
   Drive drive(18);
   Localizer localizer({});
   std::vector<Eigen::Isometry3d> places;
-  for (std::uint32_t id = 1; id <= 4; ++id) {  // a map that is off as a whole by as much as its covariance says
+  for (std::uint32_t id = 1; id <= 4; ++id) {  // a map with a common offset within its covariance
     KnownLandmark known;
     known.id = id;
     Drive ahead(18);
@@ -275,7 +275,7 @@ TEST(LocalizerBelief, IsNoSurerThanTheMapItIsIn) {
   ASSERT_TRUE(localizer.add_built(5, drive.now().stamp_ns));
   const auto landmarks = localizer.landmarks();
   ASSERT_EQ(landmarks.size(), 5U);
-  // day after day, those of the map stay as sure as they are, and new ones are no surer
+  // landmarks of the map keep their covariance, and new ones are not more certain
   EXPECT_EQ(landmarks[0].covariance(0, 0), 1.0);
   EXPECT_GT(landmarks[4].covariance(0, 0), 1.0);
 }
@@ -286,13 +286,13 @@ TEST(LocalizerBelief, SaysWhatIsWrongWithASighting) {
   EXPECT_EQ(round.localizer.add(unknown).reason, "landmark 77 is not known");
   auto early = round.drive.sight(1, round.landmark);
   early.stamp_ns -= 3'600'000'000'000;
-  EXPECT_EQ(round.localizer.add(early).reason, "no odometry is remembered of that time");
+  EXPECT_EQ(round.localizer.add(early).reason, "no odometry stored for that time");
   auto broken = round.drive.sight(1, round.landmark);
   broken.covariance(2, 2) = std::nan("");
-  EXPECT_EQ(round.localizer.add(broken).reason, "has numbers that are none");
+  EXPECT_EQ(round.localizer.add(broken).reason, "has values that are not finite");
 }
 
-/// A drive with two landmarks behind it.
+/// A drive past two landmarks.
 struct TwoPlaces {
   explicit TwoPlaces(unsigned seed, const Parameters& parameters = of_known_scale())
       : drive(seed), localizer(parameters) {
@@ -304,7 +304,7 @@ struct TwoPlaces {
       built &= localizer.add_built(static_cast<std::uint32_t>(places.size()), drive.now().stamp_ns);
     }
   }
-  /// Steps on and sees one of them, displaced.
+  /// Advances one step and sees one of them, displaced.
   Correction see(std::uint32_t id, double off_m = 0.0, bool stands_alone = true, double sigma_m = 0.05) {
     localizer.add(drive.step());
     auto sighting = drive.sight(id, places[id - 1], sigma_m);
@@ -323,7 +323,7 @@ TEST(LocalizerBelief, ForgetsWhatALandmarkSaidThatTheNextDidNotConfirm) {
   TwoPlaces two(3);
   ASSERT_TRUE(two.built);
   for (int i = 0; i < 2; ++i) EXPECT_EQ(two.see(1, 40.0).kind, CorrectionKind::kRejected);
-  EXPECT_EQ(two.see(2, 0.0, false).kind, CorrectionKind::kRejected) << "of few points";
+  EXPECT_EQ(two.see(2, 0.0, false).kind, CorrectionKind::kRejected) << "low-inlier match";
   const auto confirmed = two.see(2, 0.0, false);
   ASSERT_EQ(confirmed.kind, CorrectionKind::kApplied) << confirmed.reason;
   auto unreliable = two.drive.step();
@@ -334,7 +334,7 @@ TEST(LocalizerBelief, ForgetsWhatALandmarkSaidThatTheNextDidNotConfirm) {
 
 TEST(LocalizerBelief, APassBeforeTheVehicleWasLiftedIsAnother) {
   auto parameters = of_known_scale();
-  parameters.second_look_m = 3.0;  // the landmarks are not known better
+  parameters.second_look_m = 3.0;  // accuracy of the landmarks
   parameters.second_look_deg = 10.0;
   TwoPlaces two(4, parameters);
   ASSERT_EQ(two.see(2, 0.0, true, 0.01).kind, CorrectionKind::kApplied);
@@ -344,7 +344,7 @@ TEST(LocalizerBelief, APassBeforeTheVehicleWasLiftedIsAnother) {
   for (int i = 0; i < 2; ++i) EXPECT_EQ(two.see(1).kind, CorrectionKind::kRejected);
   EXPECT_EQ(two.see(2).kind, CorrectionKind::kRejected);
   const auto found = two.see(2);
-  EXPECT_EQ(found.kind, CorrectionKind::kApplied) << found.reason << ": it is known better, but of before";
+  EXPECT_EQ(found.kind, CorrectionKind::kApplied) << found.reason << ": the better pass was before the lift";
   EXPECT_LT(error_m(two.localizer.latest(), two.drive), 3.0);
 }
 
@@ -353,7 +353,7 @@ TEST(LocalizerBelief, ASecondPanoramaOfAnotherPassDoesNotSupportTheFirst) {
     TwoPlaces two(5);
     return std::sqrt(chi_square / two.see(1, 10.0).chi_square) * 10.0;
   };
-  const double off_m = off_by(80.0);  // beyond the gate, but so far odometry may drift
+  const double off_m = off_by(80.0);  // beyond the gate, but within the drift of odometry
   TwoPlaces close(5);
   EXPECT_EQ(close.see(1, off_m).kind, CorrectionKind::kRejected);
   EXPECT_EQ(close.see(1, off_m).kind, CorrectionKind::kApplied);

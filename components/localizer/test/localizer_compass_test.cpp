@@ -22,7 +22,7 @@ TEST(LocalizerWithCompass, BelievesTheCompassWhereOdometryFollowsAMover) {
   double compass_rad = 0.0;
   for (int i = 0; i < 30; ++i) {
     const double yaw_before = drive.yaw_rad;
-    // half a second of it, as when a bus fills the stereo view at a bend
+    // three frames of it, like a bus that fills the stereo view in a bend
     const auto odometry = drive.step(i >= 10 && i < 13 ? 0.05 : 0.0);
     localizer.add(odometry);
     compass_rad = drive.yaw_rad - yaw_before;
@@ -31,7 +31,7 @@ TEST(LocalizerWithCompass, BelievesTheCompassWhereOdometryFollowsAMover) {
   }
   const auto& pose = localizer.latest();
   const double error_rad = yaw_of(drive.truth.linear().transpose() * pose.map_from_base.linear());
-  EXPECT_LT(std::abs(error_rad), 0.02) << "of 0.15 rad that odometry missed";
+  EXPECT_LT(std::abs(error_rad), 0.02) << "odometry missed 0.15 rad";
   EXPECT_LT(error_m(pose, drive), 0.8);
 }
 
@@ -53,7 +53,7 @@ TEST(LocalizerWithCompass, HasACovarianceThatErrorsFollowAlsoWithACompass) {
   EXPECT_NEAR(nees, 1.0, 0.4);
 }
 
-/// A localizer that went one step with an odometry that says it did not turn.
+/// A localizer after one step, in which odometry reports no turn.
 struct OneStep {
   static constexpr double kSaid_rad2 = 1e-4;
   Localizer localizer;
@@ -90,27 +90,27 @@ TEST(LocalizerWithCompass, HeedsTheCompassLessWhereAllPointsOfTheOdometryAgree) 
     return std::pair(yaw_of(pose.map_from_base.linear()) / kTurn_rad, pose.covariance(5, 5) / OneStep::kSaid_rad2);
   };
   const auto [steady, steady_variance] = turned(0.0);
-  EXPECT_NEAR(steady, 0.5, 1e-4) << "a quarter of the variance against a quarter of it";
+  EXPECT_NEAR(steady, 0.5, 1e-4) << "a quarter of the variance, against a compass with a quarter";
   EXPECT_NEAR(steady_variance, 0.125, 1e-4);
-  EXPECT_NEAR(turned(0.02).first, 0.625 / (0.625 + 0.25), 1e-4) << "halfway between a quarter and all";
+  EXPECT_NEAR(turned(0.02).first, 0.625 / (0.625 + 0.25), 1e-4) << "halfway between a quarter and the full variance";
   const auto [doubtful, doubtful_variance] = turned(0.04);
-  EXPECT_NEAR(doubtful, 0.8, 1e-4) << "all of the variance";
+  EXPECT_NEAR(doubtful, 0.8, 1e-4) << "the full variance";
   EXPECT_NEAR(doubtful_variance, 0.2, 1e-4);
-  EXPECT_NEAR(turned(1.0).first, 0.8, 1e-4) << "nobody says how many points agree";
+  EXPECT_NEAR(turned(1.0).first, 0.8, 1e-4) << "outlier fraction unknown";
 }
 
 TEST(LocalizerWithCompass, ContradictsOdometryByAllOfTheVarianceThatItSays) {
   constexpr double kSaid_rad = 0.01, kSure_rad2 = 1e-8;
-  EXPECT_EQ(OneStep(0.0).turn(3.0 * kSaid_rad, kSure_rad2), AzimuthUse::kFused) << "six times what is left of it";
+  EXPECT_EQ(OneStep(0.0).turn(3.0 * kSaid_rad, kSure_rad2), AzimuthUse::kFused) << "six times the reduced sigma";
   EXPECT_EQ(OneStep(0.0).turn(4.5 * kSaid_rad, kSure_rad2), AzimuthUse::kContradicted);
 }
 
 TEST(LocalizerWithCompass, TakesTheLastOfTheTurnsAgainstOnePanorama) {
-  constexpr double kTurn_rad = 2.0 * M_PI / 200.0;  // of a step
-  constexpr double kOff_rad = 0.001;                // of all turns against one panorama alike
+  constexpr double kTurn_rad = 2.0 * M_PI / 200.0;  // per step
+  constexpr double kOff_rad = 0.001;                // common error of all turns against one panorama
   const auto drive_on = [](bool tells_all) {
     Drive drive(12);
-    Parameters known;  // what is learned of each turn would come at other times
+    Parameters known;  // self-calibration would use each turn at other times
     known.clock_sigma_s = known.turn_scale_sigma = 0.0;
     Localizer localizer(known);
     localizer.add(drive.now());
@@ -134,7 +134,7 @@ TEST(LocalizerWithCompass, LearnsByWhatShareOdometryTurnsTooMuch) {
   OdometryPose odometry;
   const vision::Matrix6d gained = 1e-7 * vision::Matrix6d::Identity();
   localizer.add(odometry);
-  const auto round = [&](bool has_compass) {  // by how much more than once round, says the localizer
+  const auto round = [&](bool has_compass) {  // excess of the localizer's yaw after one lap
     const Eigen::Matrix3d before = localizer.latest().map_from_base.linear();
     for (int i = 0; i < 200; ++i) {
       Eigen::Isometry3d step = Eigen::Isometry3d::Identity();
@@ -151,7 +151,7 @@ TEST(LocalizerWithCompass, LearnsByWhatShareOdometryTurnsTooMuch) {
   };
   for (int i = 0; i < 5; ++i) round(true);
   EXPECT_LT(std::abs(round(false)), 0.3 * kTooMuch * 2.0 * M_PI);
-  // What is told as odom_from_base turns by as much.
+  // The published odom_from_base turns equally.
   const Eigen::Matrix3d before = localizer.latest().odom_from_base.linear();
   round(false);
   EXPECT_LT(std::abs(yaw_of(before.transpose() * localizer.latest().odom_from_base.linear())),
@@ -159,20 +159,20 @@ TEST(LocalizerWithCompass, LearnsByWhatShareOdometryTurnsTooMuch) {
 }
 
 TEST(LocalizerWithCompass, IsAsSureOfAnOdometryThatLeansHoweverOftenItIsTold) {
-  constexpr double kTurn_rad = 2.0 * M_PI / 200.0;  // of a step
+  constexpr double kTurn_rad = 2.0 * M_PI / 200.0;  // per step
   const auto position_variance = [&](bool tells_all) {
     Drive drive(14);
     Localizer localizer(of_known_scale());
     localizer.add(drive.now());
     for (int i = 0; i < 80; ++i) {
-      const double missed_rad = i < 20 ? 0.0 : 0.8 * kSigma_rad;  // too little to contradict, always to the same side
+      const double missed_rad = i < 20 ? 0.0 : 0.8 * kSigma_rad;  // below the contradiction limit, always one direction
       localizer.add(drive.step(missed_rad));
       const int since = i % 4 + 1;
       if (!tells_all && since < 4) continue;
       const double turned_rad = since * (kTurn_rad + missed_rad);
       const std::int64_t now_ns = drive.now().stamp_ns;
       const auto use = localizer.add(AzimuthMeasurement{now_ns - since * kPeriod_ns, now_ns, turned_rad, 1e-6});
-      EXPECT_TRUE(i < 79 || use == AzimuthUse::kContradicted) << "over several seconds";
+      EXPECT_TRUE(i < 79 || use == AzimuthUse::kContradicted) << "a bias over several seconds";
     }
     return localizer.latest().covariance.topLeftCorner<2, 2>().trace();
   };
@@ -185,7 +185,7 @@ TEST(LocalizerWithCompass, FindsByHowMuchThePanoramasClockIsOff) {
   Localizer localizer({});
   localizer.add(drive.now());
   constexpr double kOffset_s = 0.06;
-  // odometry and truth at any time, of a drive that turns to and fro
+  // odometry and truth at any time, for a drive that turns left and right alternately
   const auto yaw = [](double t) { return 0.3 * std::sin(1.3 * t); };
   const auto pose = [&](double t) {
     OdometryPose odometry;

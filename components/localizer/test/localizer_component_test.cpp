@@ -48,7 +48,7 @@ class LocalizerComponent : public ::testing::Test {
     harness_.publish(topics::kOdometryBinocular, odometry);
   }
 
-  /// Straight on, 0.2 m a frame.
+  /// Drives straight, 0.2 m per frame.
   void drive(int from, int to) {
     for (int i = from; i < to; ++i) publish_odometry(i, at(0.2 * i, 0.0, 0.0), 1e-4 + 1e-4 * i);
   }
@@ -139,7 +139,7 @@ TEST_F(LocalizerComponent, CorrectsThePositionAndSaysByHowMuch) {
   ASSERT_THAT(poses_, SizeIs(1));
   EXPECT_EQ(poses_[0]->ids().at(0), 1U);
   drive(51, 151);
-  // 30 m on, the vehicle sees the place 24 m behind it and 0.5 m to the left: it has not come as far as odometry says
+  // after 30 m the landmark is seen 24 m behind and 0.5 m to the left: less far than odometry reports
   publish_correction(1, stamp(150), at(24.5, -0.5, 0.0));
   ASSERT_THAT(outcomes_, SizeIs(1));
   EXPECT_EQ(outcomes_[0]->outcome(), "applied") << outcomes_[0]->reason();
@@ -152,7 +152,7 @@ TEST_F(LocalizerComponent, CorrectsThePositionAndSaysByHowMuch) {
   EXPECT_NEAR(tf_.back()->transforms()[0].transform().translation().x(), -0.5, 0.1) << "the map does";
 }
 
-/// What would freeze or stop it for good: it goes on with what comes after.
+/// Messages that, unchecked, would block or stop it for good; it continues with the next ones.
 TEST_F(LocalizerComponent, GoesOnAfterMessagesThatNoSensorSends) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   vision::Matrix6d indefinite = 1e-4 * vision::Matrix6d::Identity();
@@ -223,14 +223,14 @@ TEST_F(LocalizerComponent, WaitsForNoOdometryWhereAPanoramaIsAMomentLaterThanThe
   publish_correction(1, stamp(12) + 4'000'000, at(1.42, 0.1, 0.0));
   ASSERT_THAT(outcomes_, SizeIs(1));
   EXPECT_EQ(outcomes_[0]->outcome(), "applied") << outcomes_[0]->reason();
-  EXPECT_NEAR(outcomes_[0]->before().position().x(), 2.42, 1e-6) << "4 ms farther, at 5 m/s";
+  EXPECT_NEAR(outcomes_[0]->before().position().x(), 2.42, 1e-6) << "4 ms at 5 m/s";
   publish_correction(1, stamp(12) + 8'000'000, at(1.44, 0.1, 0.0));
-  EXPECT_THAT(outcomes_, SizeIs(1)) << "nobody knows how it goes on for longer";
+  EXPECT_THAT(outcomes_, SizeIs(1)) << "no extrapolation beyond 5 ms";
   drive(13, 14);
   EXPECT_THAT(outcomes_, SizeIs(2));
   EXPECT_GT(outcomes_[0]->after().position().y(), 0.01);
   EXPECT_NEAR(enhanced_.back()->pose().pose().position().y(), outcomes_[0]->after().position().y(), 0.005)
-      << "the next pose has it";
+      << "the next pose includes it";
 }
 
 TEST_F(LocalizerComponent, TakesNoRejectedCorrection) {
@@ -269,12 +269,12 @@ TEST_F(LocalizerComponent, IsWhereAClickOnTheMapSays) {
   click.pose().covariance()[0] = click.pose().covariance()[7] = 0.25;
   click.pose().covariance()[35] = 0.0685;
   harness_.publish(topics::kInitialPose, click);
-  EXPECT_THAT(harness_.log(), Contains(HasSubstr("there is no odometry yet")));
+  EXPECT_THAT(harness_.log(), Contains(HasSubstr("no odometry received yet")));
   drive(0, 20);
   EXPECT_EQ(states_.back()->state(), "unlocated");
   click.header().frame_id("odom");
   harness_.publish(topics::kInitialPose, click);
-  EXPECT_THAT(harness_.log(), Contains(HasSubstr("give it in 'map'")));
+  EXPECT_THAT(harness_.log(), Contains(HasSubstr("expected 'map'")));
   click.header().frame_id("map");
   harness_.publish(topics::kInitialPose, click);
   EXPECT_EQ(states_.back()->state(), "relocalised");
@@ -288,9 +288,9 @@ TEST_F(LocalizerComponent, SaysThatTheLandmarksMayBeOfAnotherPlace) {
   load();
   publish_landmark(9, kBegin_ns - 86'400'000'000'000, at(300.0, 100.0, 1.0));
   drive(0, 2450);
-  EXPECT_FALSE(harness_.log_contains("are they of another place?"));
+  EXPECT_FALSE(harness_.log_contains("is it a map of another area?"));
   drive(2450, 2550);
-  EXPECT_TRUE(harness_.log_contains("are they of another place?"));
+  EXPECT_TRUE(harness_.log_contains("is it a map of another area?"));
 }
 
 TEST_F(LocalizerComponent, SaysThatTheCamerasClocksDisagree) {
@@ -299,7 +299,7 @@ TEST_F(LocalizerComponent, SaysThatTheCamerasClocksDisagree) {
   for (int i = 0; i < 150; ++i) {
     publish_azimuth(stamp(5 * i) + 3'600'000'000'000, stamp(5 * i + 5) + 3'600'000'000'000, 0.0);
   }
-  EXPECT_TRUE(harness_.log_contains("the clocks of the cameras disagree"));
+  EXPECT_TRUE(harness_.log_contains("camera clocks are not synchronised"));
 }
 
 TEST_F(LocalizerComponent, SaysThatAClockBehindByAnHourDisagrees) {
@@ -308,7 +308,7 @@ TEST_F(LocalizerComponent, SaysThatAClockBehindByAnHourDisagrees) {
   for (int i = 0; i < 20; ++i) {
     publish_azimuth(stamp(5 * i) - 3'600'000'000'000, stamp(5 * i + 5) - 3'600'000'000'000, 0.0);
   }
-  EXPECT_TRUE(harness_.log_contains("the clocks of the cameras disagree"));
+  EXPECT_TRUE(harness_.log_contains("camera clocks are not synchronised"));
 }
 
 TEST_F(LocalizerComponent, SaysThatThereIsNoOdometryAnyMore) {
@@ -326,7 +326,7 @@ TEST_F(LocalizerComponent, SaysThatThereAreNoPanoramasAnyMore) {
   publish_azimuth(stamp(0), stamp(5), 0.0);
   drive(10, 300);
   EXPECT_TRUE(harness_.log_contains("no panorama for 10 s"));
-  EXPECT_EQ(states_.back()->state(), "tracking") << "it drifts, but it knows where it is";
+  EXPECT_EQ(states_.back()->state(), "tracking") << "it drifts, but is localised";
 }
 
 TEST_F(LocalizerComponent, TellsOfUnreliableOdometryAndOfTheCompass) {
@@ -342,14 +342,14 @@ TEST_F(LocalizerComponent, TellsOfUnreliableOdometryAndOfTheCompass) {
   EXPECT_EQ(states_.back()->state(), "tracking");
 }
 
-/// Of a turn that the compass alone saw, the share that the pose has two seconds later.
+/// Fraction of a turn seen only by the compass that the pose contains two seconds later.
 class ComponentHeedsTheCompass : public LocalizerComponent,
                                  public ::testing::WithParamInterface<std::pair<double, double>> {};
 
 TEST_P(ComponentHeedsTheCompass, AsFarAsThePointsOfTheOdometryAgree) {
   const auto [inlier_ratio, share] = GetParam();
   constexpr double kTurn_rad = 0.004;
-  constexpr double kStep_rad2 = 1e-6;  // five steps are five times as uncertain as the compass
+  constexpr double kStep_rad2 = 1e-6;  // five steps have five times the compass variance
   load({{"fusion.clock_sigma_s", "0"},
         {"fusion.compass_turn_error_ratio", "0"},
         {"fusion.compass_correlation_ratio", "1"}});
@@ -368,9 +368,9 @@ TEST_P(ComponentHeedsTheCompass, AsFarAsThePointsOfTheOdometryAgree) {
 }
 
 INSTANTIATE_TEST_SUITE_P(LocalizerComponent, ComponentHeedsTheCompass,
-                         ::testing::Values(std::pair{1.0, 0.3 * 5.0 / (0.3 * 5.0 + 1.0)},  // all agree
-                                           std::pair{0.9, 5.0 / (5.0 + 1.0)},              // some do not
-                                           std::pair{std::nan(""), 5.0 / (5.0 + 1.0)}));   // not known
+                         ::testing::Values(std::pair{1.0, 0.3 * 5.0 / (0.3 * 5.0 + 1.0)},  // no outliers
+                                           std::pair{0.9, 5.0 / (5.0 + 1.0)},              // some outliers
+                                           std::pair{std::nan(""), 5.0 / (5.0 + 1.0)}));   // unknown
 
 TEST_F(LocalizerComponent, KeepsItsPathsShort) {
   load({{"path_step_m", "0.01"}});

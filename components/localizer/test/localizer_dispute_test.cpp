@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the localizer makes of odometry and panoramas that contradict each other.
+// The localizer with contradicting odometry and panoramas.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -17,7 +17,7 @@ constexpr double kMetresPerSecond = 5.0;
 constexpr int kFramesAPanorama = 5;
 constexpr double kDegree = std::numbers::pi / 180.0;
 
-/// A vehicle that drives straight on at 5 m/s, with 25 stereo pairs and 5 panoramas a second, and what is wrong with its cameras.
+/// A vehicle driving straight at 5 m/s with 25 stereo pairs and 5 panoramas per second, and faults of its cameras.
 class Straight {
  public:
   Straight() : localizer(parameters()) { localizer.add(odometry_); }
@@ -32,7 +32,7 @@ class Straight {
     true_x_m_ += speed_m_s * 0.04;
     Eigen::Isometry3d move = Eigen::Isometry3d::Identity();
     move.translation() = vision::so3_exp({0.0, 0.0, rig_turned_rad}) * Eigen::Vector3d(speed_m_s * 0.04, 0.0, 0.0);
-    if (mover_m_s) move.translation() = Eigen::Vector3d(0.0, *mover_m_s * 0.04, 0.0);  // all of the view is the mover's
+    if (mover_m_s) move.translation() = Eigen::Vector3d(0.0, *mover_m_s * 0.04, 0.0);  // it fills the whole view
     vision::Matrix6d gained = vision::Matrix6d::Identity();
     gained.topLeftCorner<3, 3>() *= 0.002 * 0.002;
     gained.bottomRightCorner<3, 3>() *= 1e-4 * 1e-4;
@@ -48,13 +48,13 @@ class Straight {
     compass_rad = 0.0;
   }
 
-  /// The panoramic camera is turned on its mount between two panoramas.
+  /// Rotates the panoramic camera on its mount between two panoramas.
   void turn_camera(double rad) {
-    compass_rad = -rad;  // to it the vehicle turned the other way
+    compass_rad = -rad;  // it sees the vehicle turn the other way
     camera_turned_rad -= rad;
   }
 
-  /// Horizontal, in standard deviations.
+  /// Horizontal error in standard deviations.
   double error_in_sigmas() const {
     const auto& pose = localizer.latest();
     const Eigen::Vector2d error = pose.map_from_base.translation().head<2>() - Eigen::Vector2d(true_x_m_, 0.0);
@@ -105,7 +105,7 @@ TEST(LocalizerDispute, CoversWhatAMoverBeforeBothEyesTakesItAlong) {
   vehicle.drive(4.0);
   vehicle.mover_m_s = 3.0;
   vehicle.drive(0.2);
-  EXPECT_FALSE(vehicle.is_usable()) << "its speed tells before a panorama does";
+  EXPECT_FALSE(vehicle.is_usable()) << "the speed jump is detected before a panorama arrives";
   vehicle.drive(3.8);
   EXPECT_EQ(vehicle.localizer.latest().state, State::kCompassOnly);
   EXPECT_FALSE(vehicle.is_usable());
@@ -135,7 +135,7 @@ TEST(LocalizerDispute, KnowsOfAMoverThatPassesAVehicleThatStands) {
 TEST(LocalizerDispute, KnowsOfAnOdometryThatStandsWhileTheVehicleDrives) {
   Straight vehicle;
   vehicle.drive(4.0);
-  vehicle.mover_m_s = 0.0;  // a sheet of plastic on both lenses
+  vehicle.mover_m_s = 0.0;  // a plastic sheet on both lenses
   vehicle.drive(3.0);
   EXPECT_EQ(vehicle.localizer.latest().state, State::kCompassOnly);
   EXPECT_GT(vehicle.error_m(), 10.0);
@@ -150,11 +150,11 @@ TEST(LocalizerDispute, GoesOnWithTheOdometryWhereThePanoramicCameraWasTurned) {
   EXPECT_EQ(vehicle.last_use, AzimuthUse::kDoubted);
   EXPECT_FALSE(vehicle.is_usable());
   vehicle.drive(4.0);
-  EXPECT_EQ(vehicle.last_use, AzimuthUse::kFused) << "as it sits now";
+  EXPECT_EQ(vehicle.last_use, AzimuthUse::kFused) << "with the new mounting";
   EXPECT_EQ(vehicle.localizer.latest().state, State::kTracking);
   EXPECT_LT(vehicle.error_m(), 0.1);
   const double yaw_sigma_rad = std::sqrt(vehicle.localizer.latest().covariance(5, 5));
-  EXPECT_NEAR(yaw_sigma_rad, 10.0 * kDegree, 1.0 * kDegree) << "a chance of one in nine that it was the vehicle";
+  EXPECT_NEAR(yaw_sigma_rad, 10.0 * kDegree, 1.0 * kDegree) << "one chance in nine that the vehicle turned";
 }
 
 TEST(LocalizerDispute, BelievesPanoramasThatTurnAsAVehicleMay) {
@@ -165,7 +165,7 @@ TEST(LocalizerDispute, BelievesPanoramasThatTurnAsAVehicleMay) {
   EXPECT_EQ(vehicle.last_use, AzimuthUse::kContradicted);
   const auto& pose = vehicle.localizer.latest();
   EXPECT_NEAR(yaw_of(pose.map_from_base.linear()), 2.0 * kDegree, 0.1 * kDegree);
-  EXPECT_GT(std::sqrt(pose.covariance(5, 5)), 0.6 * kDegree) << "the odometry may be right all the same";
+  EXPECT_GT(std::sqrt(pose.covariance(5, 5)), 0.6 * kDegree) << "odometry may still be right";
 }
 
 TEST(LocalizerDispute, IsUncertainAcrossTheWayAsTheTwoMountsDisagree) {
@@ -194,7 +194,7 @@ TEST(LocalizerDispute, LearnsHowAPanoramicCameraSitsThatWasNeverMeasured) {
 
 TEST(LocalizerDispute, LearnsAnewHowTheCamerasSitWhereItWasWrong) {
   Straight vehicle;
-  vehicle.mover_m_s = 3.0;  // before it has ever seen the two agree
+  vehicle.mover_m_s = 3.0;  // before the two have ever agreed
   vehicle.drive(2.0);
   vehicle.mover_m_s.reset();
   vehicle.drive(20.0);
@@ -209,7 +209,7 @@ TEST(LocalizerDispute, BelievesTheMountOfAStereoCameraThatIsAlone) {
   EXPECT_LT(vehicle.sigma_m(), 0.3);
 }
 
-/// Odometry begins anew in one image, as it does where nothing of the last one is seen again.
+/// Odometry restarts in one image, as after losing all its points.
 void lose_sight(Straight& vehicle) {
   vehicle.is_reliable = false;
   vehicle.step();
@@ -220,7 +220,7 @@ TEST(LocalizerDispute, NeedsPanoramasToVouchForABreakOfTheOdometry) {
   Straight vehicle;
   vehicle.drive(4.1);
   lose_sight(vehicle);
-  EXPECT_FALSE(vehicle.is_usable()) << "until a panorama has told";
+  EXPECT_FALSE(vehicle.is_usable()) << "until a panorama confirms";
   vehicle.drive(1.0);
   EXPECT_TRUE(vehicle.is_usable());
   EXPECT_LT(vehicle.sigma_m(), 0.2);
@@ -229,7 +229,7 @@ TEST(LocalizerDispute, NeedsPanoramasToVouchForABreakOfTheOdometry) {
 TEST(LocalizerDispute, TakesAVehicleForMovedWhereNoPanoramaVouchesForABreak) {
   Straight vehicle;
   vehicle.drive(4.1);
-  vehicle.has_panoramas = false;  // they, too, find nothing of what they saw
+  vehicle.has_panoramas = false;  // panoramas find no points again either
   lose_sight(vehicle);
   vehicle.drive(0.5);
   EXPECT_FALSE(vehicle.is_usable());
@@ -243,8 +243,7 @@ TEST(LocalizerDispute, IsUnsureWhereItWasWhenTheClockIsSetBack) {
   vehicle.drive(4.0);
   vehicle.localizer.set_clock_back(2'000'000'000);
   const double way_m = 2.0 * kMetresPerSecond;
-  EXPECT_GT(3.0 * vehicle.sigma_m(), way_m)
-      << "at the stamp that is told now it was so far back, if that clock is wrong";
+  EXPECT_GT(3.0 * vehicle.sigma_m(), way_m) << "if the new clock is wrong, it was that far back at the published stamp";
   EXPECT_LT(vehicle.sigma_m(), 3.0 * way_m);
 }
 

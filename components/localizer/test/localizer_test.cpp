@@ -37,8 +37,8 @@ TEST(Localizer, GetsThePositionBackWhereAPlaceIsSeenAgain) {
     ASSERT_EQ(correction.kind, CorrectionKind::kApplied) << correction.reason;
     after += error_m(round.localizer.latest(), round.drive) / 10.0;
   }
-  EXPECT_GT(before, 1.5);           // that is, there was something to correct
-  EXPECT_LT(after, 0.25 * before);  // what the landmark itself erred at its first visit, and the sighting
+  EXPECT_GT(before, 1.5);           // i.e. a correction was needed
+  EXPECT_LT(after, 0.25 * before);  // error of the landmark at its first visit, and of the sighting
 }
 
 TEST(Localizer, HasACovarianceThatErrorsFollowBeforeAndAfter) {
@@ -107,7 +107,7 @@ TEST(Localizer, KeepsOdometryFreeOfJumpsWhileTheMapIsCorrected) {
   auto last = round.localizer.latest().odom_from_base;
   round.localizer.add(round.drive.sight(1, round.landmark));
   EXPECT_TRUE(round.localizer.latest().odom_from_base.isApprox(last));
-  // a turn that odometry missed comes bit by bit
+  // a turn that odometry missed is applied gradually
   double largest_rad = 0.0;
   for (int i = 0; i < 40; ++i) {
     round.localizer.add(round.drive.step(i == 0 ? 0.1 : 0.0));
@@ -119,7 +119,7 @@ TEST(Localizer, KeepsOdometryFreeOfJumpsWhileTheMapIsCorrected) {
     last = pose.odom_from_base;
   }
   EXPECT_LT(largest_rad, 0.035);
-  EXPECT_GT(largest_rad, 0.015);  // that is, there was something to make up for
+  EXPECT_GT(largest_rad, 0.015);  // i.e. a correction was needed
 }
 
 TEST(Localizer, DoesNotKnowItsScale) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// When the localizer says what, and what it makes of input that is late, lost or wrong.
+// Timing of the localizer's output, and input that is late, missing or wrong.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -30,7 +30,7 @@ Eigen::Isometry3d ahead(double x, double y = 0.0) {
   return pose;
 }
 
-/// A localizer of a vehicle that goes straight on, 0.2 m a frame.
+/// A localizer of a vehicle that drives straight, 0.2 m per frame.
 class Vehicle {
  public:
   explicit Vehicle(const std::map<std::string, std::string>& parameters = {{"fusion.clock_sigma_s", "0"}},
@@ -79,7 +79,7 @@ class Vehicle {
     message.landmark_from_base().covariance(conversions::to_array(1e-4 * vision::Matrix6d::Identity()));
     return message;
   }
-  /// Nothing that the localizer can use, but time passes.
+  /// Advances time by a message that the localizer ignores.
   void pass_time_to(int frame) {
     panvo_msgs::msg::AzimuthChange change;
     change.header().stamp(conversions::to_stamp(stamp(frame)));
@@ -101,11 +101,11 @@ class Vehicle {
       harness_.collect(topics::kCorrectionOutcome);
 };
 
-/// Poses and states of a drive whose middle was not measured; `late`: by how many frames the qualities come after their odometry.
+/// Poses and states of a drive with an unreliable middle; `late`: delay of the quality messages, in frames.
 std::vector<std::string> told_with_quality(int late) {
   Vehicle vehicle;
   const auto is_reliable = [](int frame) { return frame < 20 || frame >= 60; };
-  vehicle.tell_quality(-100, true);  // there is somebody who tells it
+  vehicle.tell_quality(-100, true);  // quality is published
   for (int i = 0; i < 100; ++i) {
     if (late == 0) vehicle.tell_quality(i, is_reliable(i));
     vehicle.drive(i, i + 1);
@@ -156,7 +156,7 @@ TEST(LocalizerTime, SaysThatThePoseIsStaleAndSinceWhen) {
   const auto told = vehicle.states.size();
   vehicle.pass_time_to(50 + 25 * 4);
   EXPECT_GE(vehicle.states.size(), told + 6) << "twice a second";
-  EXPECT_GT(vehicle.states.back()->position_sigma_m(), sigma_m + 10.0) << "it may have gone anywhere";
+  EXPECT_GT(vehicle.states.back()->position_sigma_m(), sigma_m + 10.0) << "the vehicle may have moved";
   vehicle.drive(151, 152);
   EXPECT_EQ(vehicle.state(), "tracking");
 }
@@ -206,7 +206,7 @@ TEST(LocalizerTime, OneCorrectionOfTheFutureKeepsNoneWaiting) {
   EXPECT_EQ(vehicle.outcomes[0]->outcome(), "applied");
 }
 
-/// Each is wrong in another way.
+/// Each with a different fault.
 std::vector<nav_msgs::msg::Odometry> wrong_odometry(int frame) {
   const double none = std::numeric_limits<double>::quiet_NaN();
   std::vector<nav_msgs::msg::Odometry> all(5, Vehicle::odometry(frame));
@@ -255,9 +255,9 @@ TEST(LocalizerTime, OdometryThatCannotBeUsedMakesThePoseStale) {
   vehicle.drive(0, 51);
   for (int i = 51; i < 80; ++i) {
     vehicle.harness_.publish(topics::kOdometryBinocular, wrong_odometry(i)[0]);
-    vehicle.pass_time_to(i);  // what is left out makes no time pass
+    vehicle.pass_time_to(i);  // rejected messages do not advance time
   }
-  EXPECT_EQ(vehicle.state(), "stale") << "its sigma must not stay as it was";
+  EXPECT_EQ(vehicle.state(), "stale") << "its sigma must grow";
 }
 
 TEST(LocalizerTime, GoesOnWhenTheClockIsSetBack) {
@@ -286,7 +286,7 @@ TEST(LocalizerTime, AfterACrashTheStartIsNotTheMapsOrigin) {
   Vehicle vehicle({}, true);
   vehicle.drive(0, 50);
   EXPECT_EQ(vehicle.state(), "unlocated");
-  EXPECT_THAT(vehicle.states.back()->reason(), HasSubstr("started again after a crash, and no last pose is known"));
+  EXPECT_THAT(vehicle.states.back()->reason(), HasSubstr("restarted after a crash, no last pose is known"));
   EXPECT_GT(vehicle.states.back()->position_sigma_m(), 1000.0);
   EXPECT_FALSE(vehicle.integrities.back()->usable());
 }
@@ -306,7 +306,7 @@ TEST(LocalizerTime, AfterACrashItTellsTheLastKnownPoseThatIsTooOldToGoOnFrom) {
   }
   std::filesystem::remove(file);
   EXPECT_EQ(vehicle.state(), "unlocated");
-  EXPECT_THAT(vehicle.states.back()->reason(), HasSubstr("last known to be at (10.0, 0.0) m in map"));
+  EXPECT_THAT(vehicle.states.back()->reason(), HasSubstr("last known position (10.0, 0.0) m in map"));
   EXPECT_NEAR(vehicle.enhanced.front()->pose().pose().position().x(), 10.0, 1e-9);
   geometry_msgs::msg::PoseWithCovarianceStamped said;
   said.header().frame_id("map");
@@ -314,7 +314,7 @@ TEST(LocalizerTime, AfterACrashItTellsTheLastKnownPoseThatIsTooOldToGoOnFrom) {
   said.pose().covariance()[0] = said.pose().covariance()[7] = 0.25;
   said.pose().covariance()[35] = 0.01;
   vehicle.harness_.publish(topics::kInitialPose, said);
-  EXPECT_EQ(vehicle.state(), "relocalised") << "somebody says where it is";
+  EXPECT_EQ(vehicle.state(), "relocalised") << "external pose";
   EXPECT_NEAR(vehicle.x(), 50.0, 0.01);
 }
 

@@ -11,12 +11,13 @@ namespace {
 
 constexpr double kSighting_m = 0.07;
 
-struct Mounted {  // the panoramic camera, against what is said of it
+struct Mounted {  // deviation of the panoramic camera from its extrinsics
   double yaw_rad = 0.0, pitch_rad = 0.0;
   double forward_m = 0.0, left_m = 0.0;
 };
 
-/// Passes by landmarks, 12 m each, in which the vehicle turns by `turn_rad` to the left, to the right, not at all, and so on; sightings err by kSighting_m.
+/// Passes by landmarks, 12 m each, in which the vehicle turns by `turn_rad` to the left, to the right and not at all in
+/// turn; sightings err by kSighting_m.
 MountingCheck after_passes(int passes, const Mounted& mounted, double turn_rad = 0.0) {
   MountingCheck check;
   std::mt19937_64 random(1);
@@ -28,7 +29,7 @@ MountingCheck after_passes(int passes, const Mounted& mounted, double turn_rad =
   true_from_said.translation() = Eigen::Vector3d(mounted.forward_m, mounted.left_m, 0.0);
   Remembered at;
   for (int pass = 0; pass < passes; ++pass) {
-    // the landmark was passed under another heading
+    // each landmark was built at another heading
     const Eigen::AngleAxisd heading(1.1 * pass, Eigen::Vector3d::UnitZ());
     Eigen::Isometry3d truth = Eigen::Isometry3d::Identity();
     truth.linear() = heading.toRotationMatrix();
@@ -98,9 +99,9 @@ TEST(MountingCheck, FindsNothingInCamerasThatSitAsIsSaid) {
 }
 
 TEST(MountingCheck, SaysNothingOfWhatItCannotHaveSeen) {
-  // straight on, a camera that sits elsewhere sees what one in its place sees
+  // on a straight road a displacement is not observable
   EXPECT_FALSE(after_passes(8, {.left_m = 0.5}).misalignment());
-  // and in one curve, one that sits ahead sees what one that looks aside sees
+  // in a single curve, a forward displacement looks like a rotation
   EXPECT_FALSE(after_passes(1, {.forward_m = 0.3}, kQuarterTurn).misalignment());
 }
 

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::int64_t kPeriod_ns = 40'000'000;
 
-/// Straight on, 0.2 m a step; the yaw of each step known with its own variance.
+/// Straight, 0.2 m per step; each step has its own yaw variance.
 OdometryChain straight(const std::vector<double>& yaw_variances) {
   OdometryChain chain(60.0);
   OdometryPose pose;
@@ -43,7 +43,7 @@ TEST(OdometryChain, GoesOnForAMomentAsItWent) {
   OdometryChain chain(60.0);
   OdometryPose pose;
   chain.add(pose);
-  EXPECT_FALSE(chain.at(1'000'000)) << "nobody knows how it goes";
+  EXPECT_FALSE(chain.at(1'000'000)) << "motion unknown";
   Eigen::Isometry3d step = Eigen::Isometry3d::Identity();
   step.translation().x() = 0.4;
   step.linear() = vision::so3_exp(Eigen::Vector3d(0.0, 0.0, 0.08));
@@ -55,14 +55,14 @@ TEST(OdometryChain, GoesOnForAMomentAsItWent) {
   ASSERT_TRUE(ahead);
   EXPECT_EQ(ahead->pose.stamp_ns, kPeriod_ns + kPeriod_ns / 8);
   EXPECT_NEAR(ahead->way_m, 0.45, 1e-9);
-  // On its circle, of which it drove the first 0.4 m from -0.04 to 0.04 rad against the chord.
+  // On its circle, along which the first 0.4 m turned from -0.04 to 0.04 rad relative to the chord.
   EXPECT_NEAR(ahead->pose.odom_from_base.translation().x(), 0.4 + 0.05 * std::cos(0.045), 1e-4);
   EXPECT_NEAR(ahead->pose.odom_from_base.translation().y(), 0.05 * std::sin(0.045), 1e-4);
   EXPECT_NEAR(ahead->pose.covariance(5, 5), 9e-4, 1e-12);
   EXPECT_NEAR(chain.turn(0, kPeriod_ns + kPeriod_ns / 8)->change_rad, 0.09, 1e-9);
   EXPECT_NEAR(*chain.raw_turn(0, kPeriod_ns + kPeriod_ns / 8), 0.09, 1e-9);
   EXPECT_NEAR((*chain.twist(kPeriod_ns + kPeriod_ns / 8))[5], 2.0, 1e-9);
-  EXPECT_FALSE(chain.at(kPeriod_ns + kPeriod_ns / 8 + 1)) << "5 ms at most";
+  EXPECT_FALSE(chain.at(kPeriod_ns + kPeriod_ns / 8 + 1)) << "at most 5 ms";
 }
 
 TEST(OdometryChain, ForgetsWhatIsTooLongAgo) {
@@ -97,7 +97,7 @@ TEST(OdometryChain, PutsATurnIntoTheStepThatWasLeastSure) {
   EXPECT_NEAR(chain.turn(0, 2 * kPeriod_ns)->change_rad, 0.0, 1e-4);
   EXPECT_NEAR(chain.turn(2 * kPeriod_ns, 3 * kPeriod_ns)->change_rad, 0.1, 1e-4);
   EXPECT_NEAR(chain.turn(0, 5 * kPeriod_ns)->variance_rad2, 0.01 * before->variance_rad2, 1e-8);
-  // straight, a bend of 0.1 rad in the middle of the third step, straight
+  // straight, a turn of 0.1 rad in the middle of the third step, straight
   EXPECT_NEAR(chain.latest().pose.odom_from_base.translation().y(), 0.2 * std::sin(0.05) + 0.4 * std::sin(0.1), 1e-4);
   EXPECT_NEAR(chain.latest().pose.covariance(5, 5), 0.01 * before->variance_rad2, 1e-6);
 }
@@ -118,10 +118,10 @@ TEST(OdometryChain, DistrustsAStretch) {
   EXPECT_NEAR(chain.turn(0, kPeriod_ns)->variance_rad2, 1e-4, 1e-8);
   EXPECT_NEAR(chain.latest().pose.covariance(5, 5), 27e-4, 1e-8);
   EXPECT_NEAR(chain.latest().pose.covariance(2, 2), before + 3.0 * 1e-8 * (1.0 + 0.2 * 0.2),
-              1e-10);  // height, and pitch over the 0.2 m that follow
+              1e-10);  // height, and pitch over the following 0.2 m
   chain.distrust(kPeriod_ns, 2 * kPeriod_ns, 25.0, 4.0);
   EXPECT_NEAR(chain.turn(kPeriod_ns, 2 * kPeriod_ns)->variance_rad2, 625e-4, 1e-8);
-  EXPECT_NEAR(chain.latest().pose.covariance(2, 2), before + 3.0 * 1e-8 * (1.0 + 0.2 * 0.2), 1e-10) << "once";
+  EXPECT_NEAR(chain.latest().pose.covariance(2, 2), before + 3.0 * 1e-8 * (1.0 + 0.2 * 0.2), 1e-10) << "only once";
 }
 
 TEST(OdometryChain, AllowsForSoMuchInAllOverAStretch) {
@@ -129,10 +129,10 @@ TEST(OdometryChain, AllowsForSoMuchInAllOverAStretch) {
   const auto before = chain.latest().pose.covariance;
   chain.allow(kPeriod_ns / 2, 2 * kPeriod_ns + kPeriod_ns / 2, 0.04, 0.02);
   EXPECT_NEAR(chain.turn(0, 3 * kPeriod_ns)->variance_rad2, 3e-4 + 0.02, 1e-9);
-  EXPECT_NEAR(chain.turn(0, kPeriod_ns)->variance_rad2, 1e-4 + 0.005, 1e-9) << "a quarter of it lies in the first step";
+  EXPECT_NEAR(chain.turn(0, kPeriod_ns)->variance_rad2, 1e-4 + 0.005, 1e-9) << "first step: a quarter of it";
   const auto after = chain.latest().pose.covariance;
   EXPECT_NEAR(after(0, 0) - before(0, 0), 0.04, 1e-9);
-  EXPECT_GT(after(1, 1) - before(1, 1), 0.04) << "and what the yaw adds on the way";
+  EXPECT_GT(after(1, 1) - before(1, 1), 0.04) << "plus the effect of the yaw";
   EXPECT_NEAR(after(2, 2), before(2, 2), 1e-12);
 }
 
@@ -145,7 +145,7 @@ TEST(OdometryChain, TakesBackWhatWasPutRightSinceTheMark) {
   chain.turn_more(kPeriod_ns, 4 * kPeriod_ns, 0.1, 0.1);
   EXPECT_NEAR(chain.turn(0, 4 * kPeriod_ns)->change_rad, 0.12, 1e-9);
   chain.revert();
-  EXPECT_NEAR(chain.turn(0, 4 * kPeriod_ns)->change_rad, 0.02, 1e-9) << "what was before the mark stays";
+  EXPECT_NEAR(chain.turn(0, 4 * kPeriod_ns)->change_rad, 0.02, 1e-9) << "changes before the mark remain";
   EXPECT_TRUE(chain.latest().pose.odom_from_base.isApprox(before.pose.odom_from_base, 1e-12));
   EXPECT_TRUE(chain.latest().pose.covariance.isApprox(before.pose.covariance, 1e-12));
 }

@@ -19,7 +19,7 @@ constexpr std::int64_t kFrame_ns = 40'000'000;
 
 struct Join {
   OdometryJoin join;
-  std::vector<std::string> out;  // "3+": frame 3, reliable; "3-": not; "3?": nobody says
+  std::vector<std::string> out;  // "3+": frame 3, reliable; "3-": unreliable; "3?": unknown
 
   void odometry(int frame, std::int64_t now_ns = 0, bool is_told = true) {
     nav_msgs::msg::Odometry message;
@@ -44,7 +44,7 @@ struct Join {
 };
 
 TEST(OdometryJoin, GivesEachOdometryItsOwnQualityInWhateverOrderTheyArrive) {
-  // Of three frames: the odometry in its order, the qualities in theirs, in every way in which the two may be mixed.
+  // All interleavings of three odometry and three quality messages, each in their own order.
   std::string mixed = "oooqqq";
   std::sort(mixed.begin(), mixed.end());
   do {
@@ -92,10 +92,10 @@ TEST(OdometryJoin, HoldsABoundedNumberAndGivesUpOnOneWhoSaysNothing) {
   for (int i = 0; i < 11; ++i) join.odometry(i);
   EXPECT_EQ(join.out.size(), 1U);
   for (int i = 11; i < 40; ++i) join.odometry(i);
-  EXPECT_EQ(join.out.size(), 40U) << "nobody tells it any more";
+  EXPECT_EQ(join.out.size(), 40U) << "quality is no longer expected";
   join.quality(40, false);
   join.odometry(40);
-  EXPECT_EQ(join.out.back(), "40-") << "but whoever begins again is heard";
+  EXPECT_EQ(join.out.back(), "40-") << "but used when it returns";
 }
 
 }  // namespace

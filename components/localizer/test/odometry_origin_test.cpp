@@ -6,7 +6,7 @@
 namespace panvo::localizer {
 namespace {
 
-/// A vehicle at 5 m/s along x, 25 Hz, whose odometry began `offset_m` to the left and `since` messages ago.
+/// A vehicle at 5 m/s along x, 25 Hz, with an odometry origin `offset_m` to the left, `since` messages ago.
 OdometryPose told(int i, double offset_m = 0.0, int since = 0) {
   OdometryPose odometry;
   odometry.stamp_ns = 40'000'000LL * i;
@@ -46,7 +46,7 @@ TEST(OdometryOrigin, GoesOnFromWhereItWasWhenOdometryBeginsAnew) {
     if (!taken.odometry) continue;
     if (!begun) {
       EXPECT_TRUE(taken.is_new_origin);
-      EXPECT_FALSE(taken.odometry->is_reliable);  // what lies between was not measured
+      EXPECT_FALSE(taken.odometry->is_reliable);  // the gap was not measured
       EXPECT_TRUE(taken.odometry->odom_from_base.isApprox(last.odom_from_base, 1e-12));
       begun = taken.odometry;
     }

@@ -53,7 +53,7 @@ TEST(PoseGraph, HasTheCovarianceOfAChainByHand) {
 }
 
 TEST(PoseGraph, TakesACovarianceThatIsSemidefiniteUpToRounding) {
-  // The place is not known, and goes with the heading up to the seventh digit: single precision leaves as much.
+  // The position is unknown and correlated with the heading up to the seventh digit, i.e. single precision.
   vision::Matrix6d unknown = covariance(1e6, 1.0);
   unknown(0, 5) = unknown(5, 0) = 1e6 * (1.0 + 1e-7);
   PoseGraph graph;

@@ -19,10 +19,10 @@ TEST(FaultOf, IsNothingForWhatOdometrySays) {
   Drive drive(1);
   for (int i = 0; i < 300; ++i) drive.step();
   EXPECT_FALSE(fault_of(drive.now().odom_from_base, drive.now().covariance));
-  EXPECT_FALSE(fault_of(Eigen::Isometry3d::Identity(), vision::Matrix6d::Zero())) << "many say nothing of it";
+  EXPECT_FALSE(fault_of(Eigen::Isometry3d::Identity(), vision::Matrix6d::Zero())) << "many publish no covariance";
 }
 
-/// Poses with something wrong, each by itself.
+/// Poses with one fault each.
 std::vector<std::pair<Eigen::Isometry3d, vision::Matrix6d>> unsound() {
   const Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
   const vision::Matrix6d covariance = 1e-4 * vision::Matrix6d::Identity();

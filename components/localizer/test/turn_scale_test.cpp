@@ -25,7 +25,7 @@ TEST(TurnScale, IsWhatExplainsTheDisagreementAsSureAsItSays) {
     std::normal_distribution<double> normal;
     const double truth = 0.003 * normal(random);
     TurnScale scale(0.003);
-    for (int i = 0; i < 12; ++i) {  // of 0.1 rad, to the left and to the right
+    for (int i = 0; i < 12; ++i) {  // 0.1 rad each, alternately left and right
       const double turn = i % 3 == 0 ? -0.1 : 0.1;
       scale.add(-(truth - scale.estimate()) * turn + kSigma_rad * normal(random), turn, kSigma_rad * kSigma_rad);
     }

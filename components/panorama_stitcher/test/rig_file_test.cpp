@@ -126,7 +126,7 @@ TEST_F(RigFileTest, NamesWhatIsWrongWithACalibration) {
   folded.replace(folded.find("0.01"), 4, "-0.3");
   write("lens.yaml", folded);
   EXPECT_THAT(refusal("heads: [{camera_info: lens.yaml, field_of_view_deg: 200}]\n"),
-              AllOf(HasSubstr("panorama.yaml:1: camera_info"), HasSubstr("folds the image over")));
+              AllOf(HasSubstr("panorama.yaml:1: camera_info"), HasSubstr("not invertible beyond")));
   EXPECT_THAT(refusal("heads: [{camera_info: nowhere.yaml}]\n"), HasSubstr("nowhere.yaml: cannot be opened"));
 }
 

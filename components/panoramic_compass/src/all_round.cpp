@@ -17,25 +17,26 @@
 namespace panvo::panoramic_compass {
 namespace {
 
-constexpr double kPerRadian = BandCutter::kColumns / (2.0 * std::numbers::pi);  // columns, and rows, of the full size
-constexpr int kHalf = 2;                      // sector patches are sought at half size
-constexpr double kSmallestFoundShare = 0.15;  // of the points sought: fewer agree by chance
-constexpr int kMostFailures = 3;              // then the reference is of another world
-constexpr double kSideSector_rad = 0.6;       // to either side of abeam
-constexpr double kAhead = 0.05;               // sine: nearer to the way driven the angle to it does not tell the size
-constexpr double kMostMagnified = 1.6;        // then it is no longer the same view
-constexpr double kZenithShare = 0.2;          // of the rows: what is overhead
-constexpr double kSkyQuantile = 0.2;          // of overhead grey levels
-constexpr double kSkyShare = 0.75;            // of it: what is darker is no sky
+constexpr double kPerRadian =
+    BandCutter::kColumns / (2.0 * std::numbers::pi);  // columns and rows of the full-size panorama
+constexpr int kHalf = 2;                              // sector patches are matched at half size
+constexpr double kSmallestFoundShare = 0.15;          // of the reference points: fewer may agree by chance
+constexpr int kMostFailures = 3;                      // consecutive failures before a new reference is taken
+constexpr double kSideSector_rad = 0.6;               // on each side of the lateral direction
+constexpr double kAhead = 0.05;         // sine: closer to the direction of travel, the magnification is undefined
+constexpr double kMostMagnified = 1.6;  // larger changes are clamped
+constexpr double kZenithShare = 0.2;    // of the rows: overhead region
+constexpr double kSkyQuantile = 0.2;    // of the overhead grey levels
+constexpr double kSkyShare = 0.75;      // of that quantile: darker pixels are not sky
 
-/// How many times larger a thing looks when the angle between it and the way driven goes from one to another, told by their sines: its
-/// distance from the line that is driven along stays what it is.
+/// Magnification of a point from the sines of its angles to the direction of travel before and after: its distance from
+/// the line of travel is constant.
 double magnified(double sine_then, double sine_now) {
   if (sine_then < kAhead || sine_now < kAhead) return 1.0;
   return std::clamp(sine_now / sine_then, 1.0 / kMostMagnified, kMostMagnified);
 }
 
-/// Grey level that the sky does not fall below; 256 where what is overhead is not brighter than the band.
+/// Lower bound of the sky's grey level; 256 if the overhead region is not brighter than the band.
 double darkest_sky(const cv::Mat& panorama, const cv::Mat& band) {
   constexpr int kStep = 12;
   std::vector<int> overhead;
@@ -50,7 +51,7 @@ double darkest_sky(const cv::Mat& panorama, const cv::Mat& band) {
   return *low > cv::mean(band)[0] ? kSkyShare * *low : 256.0;
 }
 
-/// Points all round, against a reference panorama kept over several.
+/// Tracks points on all sides relative to a reference panorama that is kept over several panoramas.
 class AllRound final : public PanoramicCompass::Method {
  public:
   AllRound(const CompassParameters& parameters, std::uint64_t seed, const Eigen::Matrix3d& base_from_panorama,
@@ -130,7 +131,7 @@ class AllRound final : public PanoramicCompass::Method {
     return change;
   }
 
-  /// Whether the reference panorama shows another place by now.
+  /// Whether the view differs too much from the reference panorama.
   bool has_left(const TurnFit& fit) const {
     const AgreementParameters& demand = parameters_.agreement;
     return fit.agreeing < demand.kept_share * static_cast<double>(points_at_first_) ||
@@ -170,13 +171,13 @@ class AllRound final : public PanoramicCompass::Method {
     return base_from_panorama_ * panorama.unproject({in_band.x(), in_band.y() + cutter_.first_row});
   }
 
-  /// An error that all points share turns the direction the more, the less they have moved.
+  /// The effect of systematic errors on the direction of motion is inversely proportional to the parallax.
   static double motion_variance(const TurnFit& fit, double systematic_rad) {
     const double by_systematic = systematic_rad / std::max(fit.typical_parallax, systematic_rad);
     return fit.drift_azimuth_variance_rad2 + by_systematic * by_systematic;
   }
 
-  /// What lies abeam, once the turn is taken out [Lu2015 6].
+  /// Parallax of the points beside the vehicle, after removing the turn [Lu2015 6].
   static double side_parallax(const std::vector<BearingPair>& pairs, const TurnFit& fit) {
     std::vector<double> left, right;
     for (std::size_t i = 0; i < pairs.size(); ++i) {
@@ -229,13 +230,13 @@ class AllRound final : public PanoramicCompass::Method {
   PointField field_;
   std::size_t points_at_first_ = 0;
   std::int64_t reference_ns_ = 0;
-  std::optional<std::int64_t> described_ns_;  // of the panorama that the sectors were described of
+  std::optional<std::int64_t> described_ns_;  // stamp of the panorama in which the sectors were described
   bool has_reference_ = false, needs_reference_ = false;
   int age_ = 0, failures_ = 0;
-  Eigen::Vector3d drift_ = -Eigen::Vector3d::UnitX();  // of near things, last
-  double expected_rad_ = 0.0;                          // since the panorama that the sectors were described of
+  Eigen::Vector3d drift_ = -Eigen::Vector3d::UnitX();  // last estimate
+  double expected_rad_ = 0.0;                          // since the panorama in which the sectors were described
   Eigen::Matrix3d now_from_reference_ =
-      Eigen::Matrix3d::Identity();  // as of the panorama that the sectors were described of
+      Eigen::Matrix3d::Identity();  // `now`: panorama in which the sectors were described
 };
 
 }  // namespace

@@ -7,7 +7,7 @@
 
 namespace panvo::panoramic_compass {
 
-/// One of the compass's methods.
+/// Interface of the compass methods.
 class PanoramicCompass::Method {
  public:
   virtual ~Method() = default;
@@ -22,7 +22,7 @@ std::unique_ptr<PanoramicCompass::Method> make_all_round(const CompassParameters
                                                          const Eigen::Matrix3d& base_from_panorama,
                                                          vision::StageObserver* observer);
 
-/// Rows of a panorama of 1080x540 px between two elevations, grey.
+/// Cuts the rows between two elevations from a panorama, at 1080 x 540 px and in grey.
 struct BandCutter {
   static constexpr int kColumns = 1080, kRows = 540;
   static constexpr double kRowsPerDegree = kRows / 180.0;
@@ -30,10 +30,10 @@ struct BandCutter {
   int first_row = 0;
   int rows = 0;
 
-  /// Degrees above and below the horizon; `rows` even.
+  /// Degrees above and below the horizon; makes `rows` even.
   static BandCutter between(double top_deg, double bottom_deg);
 
-  /// CV_8UC1, kColumns x rows; shares the pixels where it can. Of a panorama that find_fault() lets through.
+  /// Returns CV_8UC1, kColumns x rows; shares the pixels if possible. The panorama must have passed find_fault().
   cv::Mat cut(const cv::Mat& panorama) const;
 };
 

@@ -10,11 +10,11 @@ namespace {
 
 constexpr float kSmallestSpread = 0.05F;
 
-/// A matrix drawn for the patch by itself, and moved to where the patch lies.
+/// Draws a matrix for the patch and moves it to the position of the patch.
 vision::MeasurementMatrix draw(cv::Size band, const cv::Rect& place, const FeaturePatchParameters& parameters,
                                std::uint64_t seed) {
   const vision::MatrixParameters drawing{parameters.drawn, parameters.rectangles, true, 1.0};
-  // Without its last columns the patch is as wide as what a rectangle at its right end still reaches.
+  // x is drawn cyclically: reserving the largest rectangle width keeps all rectangles inside the patch.
   const cv::Size room(std::max(parameters.bounds.to.width, place.width - parameters.bounds.to.width), place.height);
   const vision::MeasurementMatrix drawn(room, parameters.bounds, drawing, seed);
   std::vector<std::vector<vision::MeasurementMatrix::Element>> rows;

@@ -7,7 +7,7 @@
 
 namespace panvo::panoramic_compass {
 
-/// The upper one of two in the middle. Of at least one value; their order is lost.
+/// Median, the upper one of an even count. Requires at least one value; reorders them.
 inline double median(std::vector<double>& values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());

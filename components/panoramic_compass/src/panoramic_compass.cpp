@@ -17,9 +17,9 @@
 namespace panvo::panoramic_compass {
 namespace {
 
-constexpr int kSmallestColumns = 256;                  // px: below, the smallest rectangles are a few pixels
-constexpr double kViewTop = 0.25, kViewBottom = 0.55;  // rows that the compass may look at: 45 degrees above to 9 below
-// Front and rear, left and right must be seen: else a motion to the side passes for a turn.
+constexpr int kSmallestColumns = 256;                  // px: below, the smallest rectangles have only a few pixels
+constexpr double kViewTop = 0.25, kViewBottom = 0.55;  // checked rows: 45 degrees above to 9 below the horizon
+// Front, rear, left and right must be visible: else sideways motion is mistaken for a turn.
 constexpr double kMostCovered = 1.0 / 3.0;
 
 cv::Mat to_grey(const cv::Mat& image) {
@@ -38,12 +38,12 @@ void check(const CompassParameters& parameters) {
          "method must be all_round or two_patches");
   demand(patches.kept <= 2 * patches.drawn, "patches.kept must not be more than twice patches.drawn");
   demand(patches.alpha_deg < patches.beta_deg && patches.beta_deg < patches.gamma_deg,
-         "patches: alpha_deg < beta_deg < gamma_deg needed");
+         "patches: alpha_deg < beta_deg < gamma_deg required");
   demand(patches.elevation_deg + 0.5 * patches.height_deg <= 85.0 &&
              patches.elevation_deg - 0.5 * patches.height_deg >= -45.0,
          "patches must lie between 85 degrees above and 45 below the horizon");
   demand(parameters.points.top_deg + parameters.points.bottom_deg >= 24.0,
-         "points: a band of 24 degrees or more needed");
+         "points: top_deg + bottom_deg must be at least 24");
 }
 
 }  // namespace
@@ -52,7 +52,7 @@ Eigen::Matrix3d upright_base_from_panorama() { return (Eigen::Matrix3d() << 0, 0
 
 std::optional<std::string> find_fault(const cv::Mat& panorama) {
   if (auto fault = vision::find_layout_fault(panorama, kSmallestColumns)) return fault;
-  // one channel says as much of darkness and contrast as three
+  // one channel suffices to check darkness and contrast
   cv::Mat view =
       panorama.rowRange(static_cast<int>(kViewTop * panorama.rows), static_cast<int>(kViewBottom * panorama.rows));
   if (view.channels() == 3) {
@@ -65,7 +65,7 @@ std::optional<std::string> find_fault(const cv::Mat& panorama) {
   if (covered <= kMostCovered) return std::nullopt;
   std::ostringstream text;
   text.precision(3);
-  text << "is covered: " << 100.0 * covered << " % of the full turn show nothing, " << 100.0 * kMostCovered
+  text << "is covered: " << 100.0 * covered << " % of the full turn without content, " << 100.0 * kMostCovered
        << " % allowed";
   return text.str();
 }

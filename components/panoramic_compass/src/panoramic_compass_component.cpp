@@ -16,7 +16,7 @@
 
 namespace panvo::panoramic_compass {
 
-/// The algorithm's parameters, and where the camera sits.
+/// Parameters of the algorithm, and the vehicle frame.
 struct ComponentParameters : CompassParameters {
   int seed = 1;
   std::string base_frame = "base_link";
@@ -25,23 +25,23 @@ struct ComponentParameters : CompassParameters {
   static void describe(Field&& field) {
     using P = ComponentParameters;
     field(static_cast<std::string P::*>(&P::method), "method", "",
-          "all_round: points all round, rotation and direction of motion fitted together, against a reference kept "
-          "over several panoramas; two_patches: the paper's front and rear patch, from one panorama to the next "
+          "all_round: fits rotation and direction of motion to points on all sides, relative to a reference kept over "
+          "several panoramas; two_patches: front and rear patch of the paper, between consecutive panoramas "
           "[Lu2015 6]",
           {"all_round", "two_patches"});
     field(static_cast<double P::*>(&P::largest_turn_deg), "largest_turn_deg", "deg",
-          "searched to either side, from one panorama to the next: 150 deg/s at 5 Hz", 1.0, 180.0);
+          "search range on each side between consecutive panoramas; 30: 150 deg/s at 5 Hz", 1.0, 180.0);
     field.group(static_cast<PatchParameters P::*>(&P::patches), "patches");
     field.group(static_cast<PointParameters P::*>(&P::points), "points");
     field.group(static_cast<AgreementParameters P::*>(&P::agreement), "agreement");
-    field(&P::seed, "seed", "", "draws the measurement matrices", 0, 1'000'000'000);
+    field(&P::seed, "seed", "", "seed of the random measurement matrices", 0, 1'000'000'000);
     field(&P::base_frame, "base_frame", "",
-          "the vehicle, whose turn is told; /tf_static says how the panoramic camera sits on it");
+          "vehicle frame; /tf_static must contain the rotation of the panoramic camera in it");
   }
 };
 
-/// panorama/image, /tf_static -> compass/azimuth_change, one message for each panorama but the first, and why it is not valid
-/// where it is not.
+/// panorama/image, /tf_static -> compass/azimuth_change, one message per panorama except the first; invalid ones state
+/// the reason.
 class PanoramicCompassComponent final : public runtime::Component {
  public:
   explicit PanoramicCompassComponent(runtime::Context& context)
@@ -73,12 +73,12 @@ class PanoramicCompassComponent final : public runtime::Component {
   void on_panorama(const sensor_msgs::msg::Image& message) {
     const std::int64_t stamp_ns = conversions::stamp_ns(message);
     if (last_stamp_ns_ && stamp_ns <= *last_stamp_ns_) {
-      return context_.log().warn_throttled("stamp", "{} came with a stamp that is not after the last; it is left out",
+      return context_.log().warn_throttled("stamp", "{}: stamp not later than the previous one; panorama skipped",
                                            context_.resolved_name(topics::kPanorama));
     }
     const auto panorama = conversions::grey_or_bgr(message);
     if (!panorama) {
-      return context_.log().warn_throttled("unusable", "{} {}; it is left out",
+      return context_.log().warn_throttled("unusable", "{} {}; panorama skipped",
                                            context_.resolved_name(topics::kPanorama), panorama.reason());
     }
     const auto before_ns = std::exchange(last_stamp_ns_, stamp_ns);
@@ -94,12 +94,12 @@ class PanoramicCompassComponent final : public runtime::Component {
     }
   }
 
-  /// The camera's place on the vehicle, when it is known, or known otherwise than before.
+  /// Recreates the compass if the camera mounting in /tf_static differs from the current one.
   void take_mounting(const std::string& frame) {
     const auto base_from_panorama = transforms_.lookup(parameters_.base_frame, frame);
     if (!base_from_panorama) {
       return context_.log().warn_throttled(
-          "no mounting", "{} has no chain from {} to {}: the panoramic camera is taken to be upright and to look ahead",
+          "no mounting", "{} has no transform from {} to {}: assuming an upright, forward-looking panoramic camera",
           context_.resolved_name(topics::kTfStatic), parameters_.base_frame, frame);
     }
     if (!base_from_panorama->linear().isApprox(base_from_panorama_, 1e-9)) make_compass(base_from_panorama->linear());
@@ -118,8 +118,8 @@ class PanoramicCompassComponent final : public runtime::Component {
     message.valid(change.valid);
     message.reason(change.reason);
     azimuth_change_.publish(std::move(message));
-    if (!change.valid && is_valid_) context_.log().warn_throttled("no turn", "no turn told: {}", change.reason);
-    if (change.valid && !is_valid_) context_.log().info_throttled("turns", "turns are told again");
+    if (!change.valid && is_valid_) context_.log().warn_throttled("no turn", "no valid turn: {}", change.reason);
+    if (change.valid && !is_valid_) context_.log().info_throttled("turns", "turns are valid again");
     is_valid_ = change.valid;
   }
 

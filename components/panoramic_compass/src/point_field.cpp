@@ -12,15 +12,15 @@ namespace {
 
 using vision::PatchTemplate;
 
-constexpr int kRowMargin_px = 16;  // a template at half size, with its border
+constexpr int kRowMargin_px = 16;  // half-size template with its border
 constexpr double kHalfReach_px = 8.0, kFullReach_px = 3.0;
-constexpr double kPlaceVariance_px2 = 0.03 * 0.03;  // of any point: interpolation
+constexpr double kPlaceVariance_px2 = 0.03 * 0.03;  // interpolation error of any point
 constexpr int kMostMissed = 3;
-constexpr double kSameSize = 0.01;  // of 6 px, half a template: no more than a pixel's noise moves it by
+constexpr double kSameSize = 0.01;  // relative; at 6 px, half a template, the shift is below pixel noise
 
 double wrapped(double u, int columns) { return u - columns * std::floor(u / columns); }
 
-/// Whether a point's neighbourhood holds something darker than the sky.
+/// Whether the neighbourhood of a point contains pixels darker than the sky.
 bool is_solid(const RoundBand& band, const Eigen::Vector2d& in_margin) {
   if (band.sky_grey > 255.0) return true;
   constexpr int kHalf = PatchTemplate::kSize / 2;
@@ -53,8 +53,8 @@ PointField::PointField(const RoundBand& reference, const PointParameters& parame
   }
 }
 
-// What comes nearer looks larger. A template of the old size is found where the two agree best, which for a roof under the sky is
-// lower than it stands: all points along a street would err alike.
+// Resamples the template at the expected magnification. Without it, the position of a roof edge below the sky is biased
+// downwards as it comes nearer, and all points along a street share this bias.
 void PointField::magnify(Point& point, double magnification) const {
   if (point.full && std::abs(magnification / point.magnified - 1.0) < kSameSize) return;
   point.magnified = magnification;

@@ -8,7 +8,7 @@
 namespace panvo::panoramic_compass {
 namespace {
 
-constexpr double kParallax_deg = 10.0;  // of near things beside the vehicle, from one panorama to the next
+constexpr double kParallax_deg = 10.0;  // of near objects beside the vehicle, between consecutive panoramas
 
 }  // namespace
 
@@ -18,7 +18,7 @@ SectorPatches::SectorPatches(cv::Size band, const PatchParameters& parameters, s
   const int width = band.width / kSectors;
   FeaturePatchParameters patch;
   patch.drawn =
-      std::max(1, 4 * parameters.drawn / kSectors);  // of each: all sectors together have as many as four patches
+      std::max(1, 4 * parameters.drawn / kSectors);  // per sector: all sectors together have as many as four patches
   patch.bounds = {{width / 8, band.height / 8}, {width / 3, band.height / 3}};
   patch.selection.kept = std::max(2, 2 * parameters.kept / kSectors);
   patch.selection.samples = 8;
@@ -58,7 +58,7 @@ SectorShifts SectorPatches::track(const FeatureBand& band, double expected_px, i
   reason.precision(2);
   const auto minimum = find_minimum(all);
   if (!minimum || described == 0) {
-    shifts.reason = "no patch shows anything to follow";
+    shifts.reason = "no patch has texture to track";
     return shifts;
   }
   shifts.turn_px = minimum->displacement;
@@ -66,7 +66,8 @@ SectorShifts SectorPatches::track(const FeatureBand& band, double expected_px, i
   if (minimum->at_border) {
     reason << "the turn is beyond the search range of " << range_px * 360.0 / band_.width << " deg";
   } else if (minimum->relative > largest_distance) {
-    reason << "no clear minimum of D: " << minimum->relative << " of its mean, " << largest_distance << " needed";
+    reason << "no clear minimum of D: " << minimum->relative << " of its mean, at most " << largest_distance
+           << " needed";
   }
   shifts.reason = reason.str();
   for (std::size_t s = 0; s < patches_.size(); ++s) {

@@ -12,18 +12,18 @@
 
 namespace panvo::panoramic_compass {
 
-/// How far a band moved, roughly.
+/// Approximate shift of a band.
 struct SectorShifts {
   static constexpr int kSectors = 8;
 
-  double turn_px = 0.0;                      ///< all sectors together
-  std::array<double, kSectors> sector_px{};  ///< each by itself, near the common one: its parallax included
-  bool beyond_range = false;                 ///< the smallest distance lies at the border of the search
-  std::string reason;                        ///< why the common one is not clear; empty when it is
+  double turn_px = 0.0;                      ///< common shift of all sectors
+  std::array<double, kSectors> sector_px{};  ///< shift of each sector near the common one, including its parallax
+  bool beyond_range = false;                 ///< the minimum lies at the end of the search range
+  std::string reason;                        ///< why the common shift is ambiguous; empty if it is clear
 };
 
-/// Patches all round a band, each a sector of it, described by adaptive compressive features: by how many columns a band moved
-/// against the last, from the sum of their distances.
+/// One patch per sector of a band, described by adaptive compressive features. Estimates the shift of a band relative
+/// to the last one from the sum of the patch distances.
 class SectorPatches {
  public:
   SectorPatches(cv::Size band, const PatchParameters& parameters, std::uint64_t seed);
@@ -31,7 +31,7 @@ class SectorPatches {
   FeatureBand prepare(const cv::Mat& band) const { return {band, widest_}; }
   void describe(const FeatureBand& band);
 
-  /// Searches `range_px` to either side of `expected_px`, px to the right.
+  /// Searches `range_px` on each side of `expected_px`; positive shifts are to the right.
   SectorShifts track(const FeatureBand& band, double expected_px, int range_px, double largest_distance) const;
 
  private:

@@ -18,23 +18,24 @@ namespace {
 using Vector5d = Eigen::Matrix<double, 5, 1>;
 using Matrix5d = Eigen::Matrix<double, 5, 5>;
 
-constexpr int kDirections = 4;       // of drift that are tried: opposite ones are one
-constexpr int kTrialIterations = 6;  // enough to tell the right one
+constexpr int kDirections = 4;       // tried drift directions over half a turn; orient() chooses the sign
+constexpr int kTrialIterations = 6;  // enough to rank the trials
 constexpr int kMostIterations = 15;
-constexpr double kEnough = 0.8;  // share of points: what is left are single movers
+constexpr double kEnough = 0.8;  // share of points: the rest are individual moving objects
 constexpr std::array<double, 4> kOtherStarts_rad{-0.08, -0.04, 0.04, 0.08};
-constexpr double kFirstNoise = 1600.0, kNoiseFall = 0.25;  // allowed in the first step, and how it falls
+constexpr double kFirstNoise = 1600.0,
+                 kNoiseFall = 0.25;  // limit of the noise factor in the first step, and its decrease
 constexpr int kSectors = 16;
 constexpr double kSettled_rad = 1e-6;
 constexpr double kLossScale = 2.0;       // standard deviations
 constexpr double kAgrees = 3.0;          // standard deviations
-constexpr double kMostNoise = 9.0;       // of the variances said: points farther off are not noisy, but wrong
-constexpr double kNearPole = 0.05;       // sine: points this near to the direction of drift have no great circle
-constexpr double kTiltSigma_rad = 0.05;  // of roll and pitch between two panoramas: a vehicle on a road
-constexpr double kSlopeSigma = 0.2;      // of the drift, up or down: the same
+constexpr double kMostNoise = 9.0;       // of the stated variances: points farther off are outliers
+constexpr double kNearPole = 0.05;       // sine: nearer to the drift direction, the great circle is undefined
+constexpr double kTiltSigma_rad = 0.05;  // roll and pitch between two panoramas, road vehicle
+constexpr double kSlopeSigma = 0.2;      // vertical component of the drift, road vehicle
 constexpr double kSmallestSpread_rad = 3e-4;
 
-/// The state of the fit: the rotation and the direction of drift with the two tangents that it is changed along.
+/// State of the fit: rotation and drift direction; the latter is parametrised along two tangents.
 struct Motion {
   Eigen::Matrix3d rotation;
   Eigen::Vector3d drift;
@@ -50,14 +51,14 @@ struct Motion {
   }
 };
 
-/// Where a point lies against its great circle.
+/// Deviation of a point from its great circle.
 struct Deviation {
   double across = 0.0, along = 0.0;                    // rad
-  double across_variance = 1.0, along_variance = 1.0;  // of the measurement alone
-  double sine = 0.0;                                   // of the angle to the direction of drift
-  Eigen::Vector3d normal;                              // of the circle's plane
-  Eigen::Vector3d lever;                               // the derivative's: c_m
-  Eigen::Vector3d predicted;                           // far point
+  double across_variance = 1.0, along_variance = 1.0;  // of the measurement
+  double sine = 0.0;                                   // of the angle to the drift direction
+  Eigen::Vector3d normal;                              // of the plane of the circle
+  Eigen::Vector3d lever;                               // lever arm of the derivatives
+  Eigen::Vector3d predicted;                           // position of a far point
 };
 
 std::optional<Deviation> deviation_of(const BearingPair& pair, const Motion& motion) {
@@ -83,7 +84,7 @@ std::optional<Deviation> deviation_of(const BearingPair& pair, const Motion& mot
   return d;
 }
 
-/// Near things move towards the drift, not away from it.
+/// Chooses the sign of the drift so that near points move towards it.
 void orient(std::span<const BearingPair> pairs, Motion& motion) {
   double sum = 0.0;
   for (const BearingPair& pair : pairs) {
@@ -93,14 +94,15 @@ void orient(std::span<const BearingPair> pairs, Motion& motion) {
   if (sum < 0.0) motion.drift = -motion.drift;
 }
 
-/// How far a point is off its great circle, or behind its beginning: squared, in standard deviations.
+/// Squared deviation across the great circle or backwards along it, whichever is larger, in standard deviations
+/// squared.
 double disagreement(const Deviation& d, double noise) {
   const double across = d.across * d.across / (noise * d.across_variance);
   const double behind = d.along < 0.0 ? d.along * d.along / (noise * d.along_variance) : 0.0;
   return std::max(across, behind);
 }
 
-/// Of all points, each no more than what makes it disagree: comparable between motions, as the cost of a fit is not.
+/// Truncated sum over all points; unlike the cost of a fit, comparable between motions.
 double total_disagreement(std::span<const BearingPair> pairs, const Motion& motion, double noise) {
   double total = 0.0;
   for (const BearingPair& pair : pairs) {
@@ -113,12 +115,12 @@ class Solver {
  public:
   Solver(std::span<const BearingPair> pairs, const Eigen::Matrix3d& start) : pairs_(pairs), start_(start) {}
 
-  /// Gauss-Newton steps on the robust cost; the cost of the last, or infinity where it is singular.
+  /// Gauss-Newton on the robust cost. Returns the cost of the last step, or infinity for a singular system.
   double iterate(Motion& motion, int iterations) {
     double cost = std::numeric_limits<double>::infinity();
     for (int i = 0; i < iterations; ++i) {
       gauge(motion);
-      // At first all may be off; later what is far off is wrong, and must not make the rest look noisy.
+      // Initially all residuals may be large; later, large ones are outliers and must not inflate the noise estimate.
       noise_ = std::min(noise_, std::max(kMostNoise, kFirstNoise * std::pow(kNoiseFall, i)));
       Matrix5d hessian = Matrix5d::Zero();
       Vector5d gradient = Vector5d::Zero();
@@ -137,7 +139,8 @@ class Solver {
     return cost;
   }
 
-  /// Where the points lie, how noisy they are against what is said of them, and how far they move along their circles.
+  /// Computes the deviations of all points, their noise factor relative to the stated variances, and the typical
+  /// parallax.
   void gauge(const Motion& motion) {
     deviations_.clear();
     std::vector<double> across, parallax;
@@ -148,13 +151,14 @@ class Solver {
       across.push_back(d->across * d->across / d->across_variance);
       if (d->sine > 0.3) parallax.push_back(std::abs(d->along) / d->sine);
     }
-    // 0.455: median of a squared normal number
+    // 0.455: median of a squared standard normal variable
     noise_ = across.empty() ? 1.0 : std::max(1.0, median(across) / 0.455);
     typical_ = parallax.empty() ? 0.0 : median(parallax);
     spread_ = std::max(kSmallestSpread_rad, 3.0 * typical_);
   }
 
-  /// At the motion that was gauged last. `gradient_of` takes a deviation to the gradient that it adds to.
+  /// Builds the normal equations at the motion of the last gauge(). `gradient_of` returns the gradient that a deviation
+  /// adds to.
   template <class GradientOf>
   double accumulate(const Motion& motion, Matrix5d& hessian, const GradientOf& gradient_of) const {
     const vision::CauchyLoss loss(kLossScale);
@@ -181,19 +185,19 @@ class Solver {
     return cost;
   }
 
-  /// What is known beforehand: the vehicle drives on a road.
+  /// Priors for a vehicle on a road.
   void add_prior(const Motion& motion, Matrix5d& hessian, Vector5d& gradient) const {
     const Eigen::Vector3d tilt = vision::so3_log(motion.rotation * start_.transpose());
     for (int axis = 0; axis < 2; ++axis) {
       hessian(axis, axis) += 1.0 / (kTiltSigma_rad * kTiltSigma_rad);
       gradient(axis) += tilt(axis) / (kTiltSigma_rad * kTiltSigma_rad);
     }
-    hessian(3, 3) += 1.0;  // where nothing moves the direction stays what it is
+    hessian(3, 3) += 1.0;  // keeps the direction at standstill
     hessian(4, 4) += 1.0 / (kSlopeSigma * kSlopeSigma);
     gradient(4) += motion.drift.z() * motion.tangents()[1].z() / (kSlopeSigma * kSlopeSigma);
   }
 
-  /// The best of short fits from each start, in several directions of drift.
+  /// Best of several short fits, from each start rotation with several drift directions.
   Motion search(const std::vector<Eigen::Matrix3d>& starts) {
     std::vector<Motion> trials;
     double noise = kMostNoise;
@@ -214,7 +218,7 @@ class Solver {
     });
   }
 
-  /// Whether what most drives are like, the way being about known, is right.
+  /// Short fit from the given motion; true if enough points agree, the usual case.
   bool settles(Motion& motion) {
     if (!std::isfinite(iterate(motion, kTrialIterations))) return false;
     orient(pairs_, motion);
@@ -230,8 +234,8 @@ class Solver {
     return static_cast<double>(agreeing) / static_cast<double>(pairs_.size());
   }
 
-  /// Covariance of rotation and drift that takes neighbouring points to err together: the spread of what the sectors of the
-  /// full turn pull at the result.
+  /// Covariance of rotation and drift for correlated errors of neighbouring points: sandwich estimate from the
+  /// gradients of the sectors of the full turn.
   Matrix5d covariance_by_sectors(const Motion& motion) const {
     std::array<Vector5d, kSectors> pulls;
     pulls.fill(Vector5d::Zero());
@@ -267,7 +271,7 @@ std::optional<TurnFit> fit_turn(std::span<const BearingPair> pairs, const Eigen:
   Solver solver(pairs, start_now_from_then);
   Motion best{start_now_from_then, start_drift.normalized()};
   if (!solver.settles(best)) best = solver.search({start_now_from_then});
-  if (solver.share_that_agrees(best) < kEnough) {  // something large moves by itself: perhaps the start is its turn
+  if (solver.share_that_agrees(best) < kEnough) {  // a large moving object may have biased the start
     std::vector<Eigen::Matrix3d> starts;
     for (const double offset_rad : kOtherStarts_rad) {
       starts.push_back(vision::so3_exp({0.0, 0.0, offset_rad}) * start_now_from_then);

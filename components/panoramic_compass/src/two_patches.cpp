@@ -12,12 +12,12 @@
 namespace panvo::panoramic_compass {
 namespace {
 
-constexpr int kRowReach_px = 3;  // of the search up and down: a vehicle pitches by a degree
+constexpr int kRowReach_px = 3;  // vertical search range: one degree of pitch
 constexpr int kColumnReach_px = 4;
 constexpr double kPerColumn_rad = 2.0 * std::numbers::pi / BandCutter::kColumns;
 
-/// The paper's compass: a front and a rear patch well above the horizon, each found again by its smallest D; the one with the
-/// smaller D gives the turn [Lu2015 6, Eqs. 11, 12]. Left and right patches give the rough translation.
+/// Compass of the paper: a front and a rear patch well above the horizon are tracked by their smallest D; the one with
+/// the smaller D gives the turn [Lu2015 6, Eqs. 11, 12]. Left and right patches give the rough translation.
 class TwoPatches final : public PanoramicCompass::Method {
  public:
   TwoPatches(const CompassParameters& parameters, std::uint64_t seed, const Eigen::Matrix3d& base_from_panorama,
@@ -99,7 +99,7 @@ class TwoPatches final : public PanoramicCompass::Method {
     const float mean = curve.mean();
     found.minimum = find_minimum(curve).value_or(CurveMinimum{});
     const int about = static_cast<int>(std::lround(found.minimum.displacement)) - kColumnReach_px;
-    for (int dv = -kRowReach_px; dv <= kRowReach_px; ++dv) {  // up and down, where it is smallest at the same height
+    for (int dv = -kRowReach_px; dv <= kRowReach_px; ++dv) {  // vertical search around the horizontal minimum
       const auto minimum = find_minimum(patch.distances(band, about, 2 * kColumnReach_px + 1, dv));
       if (found.minimum.at_border || !minimum || minimum->at_border) continue;
       if (minimum->distance < found.minimum.distance) found.minimum = *minimum;
@@ -128,20 +128,20 @@ class TwoPatches final : public PanoramicCompass::Method {
     std::ostringstream reason;
     reason.precision(2);
     if (!patches_[0].is_described() && !patches_[2].is_described()) {
-      reason << "neither patch shows anything to follow";
+      reason << "neither patch has texture to track";
     } else if (better.minimum.at_border) {
       reason << "the turn is beyond the search range of " << parameters_.largest_turn_deg << " deg";
     } else if (!better.clear) {
-      reason << "no clear minimum of D: " << better.minimum.relative << " of its mean, "
+      reason << "no clear minimum of D: " << better.minimum.relative << " of its mean, at most "
              << parameters_.patches.largest_distance << " needed";
     }
     change.reason = reason.str();
     change.valid = change.reason.empty();
   }
 
-  /// px, by the shape of D: what an error of each feature's share of it does to the place of the minimum.
+  /// Standard deviation of the minimum, px: the error of D from its features, propagated through the curvature.
   double sigma_of(const CurveMinimum& minimum) const {
-    constexpr double kRounding_px = 0.3;  // whole columns of the rectangles
+    constexpr double kRounding_px = 0.3;  // rectangles have integer columns
     const double features = parameters_.patches.kept;
     const double error = minimum.distance * std::sqrt(2.0 / features);
     return std::hypot(kRounding_px, error / std::max(minimum.curvature, 1e-4));

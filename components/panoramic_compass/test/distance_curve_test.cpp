@@ -38,10 +38,10 @@ FeaturePatchParameters of_patch() {
   return parameters;
 }
 
-// [Lu2015 Eq. 11]: 0 where nothing changed, smallest where the patch went, near 1 of its mean elsewhere.
+// [Lu2015 Eq. 11]: 0 for an unchanged patch, smallest at the new position of the patch, near its mean elsewhere.
 TEST(FeaturePatch, IsFoundWhereItWent) {
   const cv::Mat band = paint_panorama().rowRange(140, 290);
-  FeaturePatch patch(band.size(), {1000, 20, 150, 100}, of_patch(), 1);  // over the seam
+  FeaturePatch patch(band.size(), {1000, 20, 150, 100}, of_patch(), 1);  // across the seam
   const FeatureBand then(band, patch.widest()), now(turned_left(band, 23.0), patch.widest());
   EXPECT_FALSE(patch.is_described());
   EXPECT_EQ(patch.distances(then, 0, 1).distances[0], 1.0F);
@@ -56,7 +56,7 @@ TEST(FeaturePatch, IsFoundWhereItWent) {
   EXPECT_GT(lifted->distance, found->distance);
 }
 
-// [Lu2015 Eqs. 6-8]: nothing is chosen where nothing varies.
+// [Lu2015 Eqs. 6-8]: no features are selected in uniform areas.
 TEST(FeaturePatch, HasNoFeaturesInAnEvenSky) {
   const cv::Mat sky(150, kColumns, CV_8UC1, cv::Scalar(220));
   FeaturePatch patch(sky.size(), {200, 20, 150, 100}, of_patch(), 1);

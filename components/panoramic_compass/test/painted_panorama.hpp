@@ -8,13 +8,13 @@
 #include <random>
 #include <vector>
 
-/// Panoramas whose true turns are known.
+/// Panoramas with known turns.
 namespace panvo::panoramic_compass {
 
 inline constexpr int kColumns = 1080, kRows = 540;
 inline constexpr double kColumn_rad = 2.0 * std::numbers::pi / kColumns;
 
-/// A street of painted walls around the vehicle under an even sky, smooth enough to be read between pixels.
+/// A street of painted walls around the vehicle under a uniform sky, smooth enough for sub-pixel interpolation.
 inline cv::Mat paint_panorama(unsigned seed = 1) {
   std::mt19937_64 random(seed);
   const auto whole = [&](int from, int to) {
@@ -29,14 +29,14 @@ inline cv::Mat paint_panorama(unsigned seed = 1) {
     const int top = whole(100, 240);
     rectangle({x, top, whole(25, 60), 290 - top}, whole(40, 200));
   }
-  for (int i = 0; i < 700; ++i) {  // what is on them
+  for (int i = 0; i < 700; ++i) {  // details on the walls
     rectangle({whole(0, kColumns), whole(110, 290), whole(4, 16), whole(4, 16)}, whole(20, 235));
   }
   cv::GaussianBlur(wide, wide, cv::Size(9, 9), 1.5);
   return wide.colRange(kColumns, 2 * kColumns).clone();
 }
 
-/// What a far scene looks like after the vehicle has turned left by so many columns, and fractions of them: it moves right.
+/// A far scene after the vehicle has turned left by `columns` (may be fractional): it moves right.
 inline cv::Mat turned_left(const cv::Mat& panorama, double columns) {
   cv::Mat map_x(panorama.size(), CV_32FC1), map_y(panorama.size(), CV_32FC1), wide, turned;
   constexpr int kMargin = 16;
@@ -53,13 +53,14 @@ inline cv::Mat turned_left(const cv::Mat& panorama, double columns) {
   return turned;
 }
 
-/// The same scene, walls on a cylinder of one metre, once the vehicle has driven `way_m` ahead (less than 1) and then turned left.
+/// The same scene, with walls on a cylinder of 1 m radius, after the vehicle has driven `way_m` (< 1) forward and then
+/// turned left.
 inline cv::Mat driven(const cv::Mat& panorama, double way_m, double turn_rad) {
   cv::Mat map_x(panorama.size(), CV_32FC1), map_y(panorama.size(), CV_32FC1), wide, moved;
   constexpr int kMargin = 16;
   cv::copyMakeBorder(panorama, wide, 0, 0, kMargin, kMargin, cv::BORDER_WRAP);
   for (int column = 0; column < panorama.cols; ++column) {
-    // azimuth to the left in the vehicle's axes before it turned
+    // azimuth, left positive, in the vehicle axes before the turn
     const double azimuth = -(column * kColumn_rad - std::numbers::pi) + turn_rad;
     const double along = way_m * std::cos(azimuth);
     const double distance = -along + std::sqrt(along * along + 1.0 - way_m * way_m);  // to the cylinder

@@ -82,7 +82,7 @@ TEST_F(PanoramicCompassComponent, TakesColour) {
 TEST_F(PanoramicCompassComponent, SaysThatItDoesNotKnowHowTheCameraSits) {
   load();
   publish(street);
-  EXPECT_TRUE(harness.log_contains("no chain from base_link to panorama"));
+  EXPECT_TRUE(harness.log_contains("no transform from base_link to panorama"));
 }
 
 TEST_F(PanoramicCompassComponent, SaysWhyThereIsNoTurnAndWhenThereIsAgain) {
@@ -95,7 +95,7 @@ TEST_F(PanoramicCompassComponent, SaysWhyThereIsNoTurnAndWhenThereIsAgain) {
   EXPECT_NE(changes[0]->reason().find("is black"), std::string::npos);
   EXPECT_TRUE(changes[1]->valid());
   EXPECT_TRUE(harness.log_contains("is black"));
-  EXPECT_TRUE(harness.log_contains("told again"));
+  EXPECT_TRUE(harness.log_contains("valid again"));
 }
 
 TEST_F(PanoramicCompassComponent, TellsNoTurnOfAPanoramaThatIsTheLastAgain) {
@@ -111,7 +111,7 @@ TEST_F(PanoramicCompassComponent, TellsNoTurnOfAPanoramaThatIsTheLastAgain) {
   EXPECT_NEAR(changes[2]->azimuth_change_rad(), 6.0 * kColumn_rad, 0.1 * kColumn_rad);
 }
 
-/// Turns that are seen upside down or in a mirror have the other sign, and would be as certain as any.
+/// Turns in upside-down or mirrored panoramas have the opposite sign, with the same certainty.
 TEST_F(PanoramicCompassComponent, TellsNoTurnWhileTheCameraIsTurnedOver) {
   load();
   for (const auto& [code, fault] : {std::pair{-1, "upside down"}, {0, "upside down and mirrored"}, {1, "mirrored"}}) {
@@ -154,7 +154,7 @@ TEST_F(PanoramicCompassComponent, LeavesOutWhatComesOutOfOrder) {
   frames = 0;
   publish(street);
   EXPECT_TRUE(changes.empty());
-  EXPECT_TRUE(harness.log_contains("not after the last"));
+  EXPECT_TRUE(harness.log_contains("not later than the previous one"));
 }
 
 TEST_F(PanoramicCompassComponent, RefusesParametersThatContradictEachOther) {

@@ -20,7 +20,7 @@ CompassParameters with_method(const std::string& method) {
   return parameters;
 }
 
-/// What both methods must do.
+/// Tests of both methods.
 class EitherMethod : public testing::TestWithParam<std::string> {
  protected:
   AzimuthChange change(const cv::Mat& then, const cv::Mat& now, std::optional<double> expected_rad = std::nullopt) {
@@ -160,23 +160,23 @@ AzimuthChange change_all_round(const cv::Mat& then, const cv::Mat& now) {
 TEST(AllRound, TellsInWhichDirectionTheVehicleMoved) {
   const cv::Mat street = paint_panorama();
   const AzimuthChange ahead = change_all_round(street, driven(street, 0.1, 0.05));
-  EXPECT_NEAR(ahead.motion_azimuth_rad, -0.05, 0.01) << "by now it looks to the left of where it drove";
+  EXPECT_NEAR(ahead.motion_azimuth_rad, -0.05, 0.01) << "the vehicle now points to the left of its direction of motion";
   EXPECT_GT(ahead.motion_azimuth_variance_rad2, 0.0);
   EXPECT_LT(ahead.motion_azimuth_variance_rad2, 0.03 * 0.03);
   const AzimuthChange back = change_all_round(street, driven(street, -0.1, 0.05));
   EXPECT_NEAR(back.motion_azimuth_rad, pi - 0.05, 0.01);
-  // The camera is turned by 25 columns to the left of the way: it lies to its right.
+  // The camera is rotated by 25 columns to the left: the direction of motion lies to its right.
   const AzimuthChange aside = change_all_round(turned_left(street, 25.0), turned_left(driven(street, 0.1, 0.05), 25.0));
   EXPECT_NEAR(aside.motion_azimuth_rad, -25.0 * kColumn_rad - 0.05, 0.01);
   const AzimuthChange stands = change_all_round(street, street);
-  EXPECT_GT(stands.motion_azimuth_variance_rad2, 0.5) << "it moves nowhere";
+  EXPECT_GT(stands.motion_azimuth_variance_rad2, 0.5) << "no motion";
 }
 
 TEST(PointsAllRound, AreNotMisledByAMoverThatCoversAThirdOfTheView) {
   const cv::Mat street = paint_panorama(), bus = paint_panorama(5);
   cv::Mat then = street.clone(), now = turned_left(street, 10.0);
   bus.colRange(300, 660).copyTo(then.colRange(300, 660));
-  bus.colRange(300, 660).copyTo(now.colRange(330, 690));  // its own way, over what lies ahead
+  bus.colRange(300, 660).copyTo(now.colRange(330, 690));  // moves independently in front of the scene
   const AzimuthChange turn = change_all_round(then, now);
   EXPECT_TRUE(turn.valid) << turn.reason;
   EXPECT_NEAR(turn.change_rad, 10.0 * kColumn_rad, 0.1 * kColumn_rad);
@@ -218,7 +218,7 @@ TEST(PointsAllRound, AreMeasuredAgainstOneReferenceAsLongAsItLasts) {
 TEST(PointsAllRound, SayThatTheyContradictEachOther) {
   const cv::Mat street = paint_panorama();
   cv::Mat now = turned_left(street, 4.0);
-  for (int i = 0; i < 8; ++i) {  // sectors that each go their own way
+  for (int i = 0; i < 8; ++i) {  // each sector moves differently
     const int columns = 40 * (i * 5 % 8) - 150;
     turned_left(street, columns).colRange(135 * i, 135 * i + 135).copyTo(now.colRange(135 * i, 135 * i + 135));
   }
@@ -230,7 +230,7 @@ TEST(PointsAllRound, SayThatTheyContradictEachOther) {
 TEST(PointsAllRound, DoNotFollowTheSky) {
   cv::Mat then = paint_panorama(), now = turned_left(then, 8.0);
   cv::RNG random(3);
-  for (cv::Mat* panorama : {&then, &now}) {  // clouds, another way than the walls
+  for (cv::Mat* panorama : {&then, &now}) {  // clouds that move differently from the walls
     const int drift = panorama == &now ? 40 : 0;
     cv::RNG same(11);
     for (int i = 0; i < 60; ++i) {
@@ -250,7 +250,7 @@ TEST(PointsAllRound, DoNotFollowTheSky) {
 
 TEST(PointsAllRound, TurnAboutTheVehiclesAxisWhereTheCameraIsTilted) {
   const cv::Mat street = paint_panorama();
-  // looks left: the panorama's forward is the vehicle's left; a turn stays a turn, the way ahead lies elsewhere
+  // the camera looks left: turns are unaffected, the direction of motion changes
   const Eigen::Matrix3d base_from_panorama =
       Eigen::AngleAxisd(pi / 2.0, Eigen::Vector3d::UnitZ()).toRotationMatrix() * upright_base_from_panorama();
   PanoramicCompass compass(CompassParameters{}, 1, base_from_panorama);

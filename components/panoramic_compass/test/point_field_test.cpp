@@ -13,7 +13,7 @@ namespace {
 double unmoved(double /*column*/) { return 0.0; }
 double same_size(const Eigen::Vector2d& /*then*/, const Eigen::Vector2d& /*now*/) { return 1.0; }
 
-/// Roofs under an even sky, and what they look like from nearer by.
+/// Roofs under a uniform sky, also seen from a smaller distance.
 class Roofs {
  public:
   static constexpr double kNearer = 1.2;
@@ -31,7 +31,8 @@ class Roofs {
     cv::warpAffine(band_, seen, about_middle, band_.size(), cv::INTER_CUBIC, cv::BORDER_REFLECT);
     return seen;
   }
-  /// Mean error of rows, px, of the points about the middle, once the roofs are nearer; `looks`: how large they are expected to look.
+  /// Mean row error, px, of the points near the centre after approaching the roofs; `looks`: factor of the expected
+  /// magnification.
   double mean_error(double looks) const {
     PointField field(RoundBand(band_), {});
     std::vector<FoundPoint> found;
@@ -62,7 +63,7 @@ TEST(PointField, FindsWhatLooksLargerFromNearerByWhereItIs) {
   const Roofs roofs;
   const double as_large = std::abs(roofs.mean_error(1.0)), as_before = std::abs(roofs.mean_error(0.0));
   EXPECT_LT(as_large, 0.05);
-  EXPECT_GT(as_before, 3.0 * as_large) << "else there is no reason to expect a size";
+  EXPECT_GT(as_before, 3.0 * as_large) << "the expected magnification must matter";
 }
 
 TEST(PointField, FindsItsPointsBetweenPixelsAndOverTheSeam) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Accuracy on recordings with exact truth.
+// Accuracy on recordings with exact ground truth.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -19,7 +19,7 @@ fs::path recordings() {
 }
 
 #define PANVO_NEEDS_RECORDING(path) \
-  if (!fs::exists(path)) GTEST_SKIP() << (path).string() << " is not here; set PANVO_DATA to the folder of recordings"
+  if (!fs::exists(path)) GTEST_SKIP() << (path).string() << " is missing; set PANVO_DATA to the folder of recordings"
 
 void expect_honest_and_exact(const fs::path& folder) {
   const CompassScore all = score(read_compass_recording(folder), CompassParameters{});

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kNoise_rad = 0.0005;
 
-/// Points all round at 4 to 40 m, up to 35 degrees above and 6 below the horizon, seen from two places.
+/// Points on all sides at 4 to 40 m, 35 degrees above to 6 below the horizon, seen from two positions.
 class Scene {
  public:
   explicit Scene(std::uint64_t seed) : random_(seed) {}
@@ -48,7 +48,7 @@ class Scene {
   std::mt19937_64 random_;
 };
 
-/// Of a vehicle that drove so far, along a direction, and then turned left, pitched and rolled.
+/// now_from_then of a vehicle that drove `way_m`, then turned left, pitched and rolled.
 Eigen::Isometry3d moved(const Eigen::Vector3d& way_m, double yaw, double pitch = 0.0, double roll = 0.0) {
   Eigen::Isometry3d then_from_now = Eigen::Isometry3d::Identity();
   then_from_now.linear() =

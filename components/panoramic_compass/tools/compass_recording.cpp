@@ -24,7 +24,7 @@ std::ifstream open(const fs::path& file) {
   return stream;
 }
 
-/// T_BS of a sensor.yaml: the 16 numbers after its "data:".
+/// Rotation of T_BS in a sensor.yaml.
 Eigen::Matrix3d read_rotation(const fs::path& file) {
   std::stringstream text;
   text << open(file).rdbuf();
@@ -35,7 +35,7 @@ Eigen::Matrix3d read_rotation(const fs::path& file) {
   std::istringstream numbers(all.substr(begin + 1));
   Eigen::Matrix4d body_from_sensor;
   for (int i = 0; i < 16; ++i) numbers >> body_from_sensor(i / 4, i % 4);
-  if (!numbers) throw std::runtime_error(file.string() + ": T_BS is not of 16 numbers");
+  if (!numbers) throw std::runtime_error(file.string() + ": T_BS must have 16 numbers");
   return Eigen::Quaterniond(body_from_sensor.topLeftCorner<3, 3>()).normalized().toRotationMatrix();
 }
 
@@ -49,7 +49,7 @@ std::vector<TruePose> read_truth(const fs::path& file) {
     std::int64_t stamp_ns = 0;
     double x = 0, y = 0, z = 0, qw = 1, qx = 0, qy = 0, qz = 0;
     if (!(numbers >> stamp_ns >> x >> y >> z >> qw >> qx >> qy >> qz)) {
-      throw std::runtime_error(file.string() + ": a line that is no pose");
+      throw std::runtime_error(file.string() + ": a line is not a pose");
     }
     poses.push_back({stamp_ns, Eigen::Quaterniond(qw, qx, qy, qz).normalized()});
   }
@@ -80,7 +80,8 @@ CompassRecording read_compass_recording(const fs::path& directory, std::int64_t 
     recording.panoramas.push_back(
         {stamp_ns, folder / "data" / name, before->map_from_base.slerp(share, after->map_from_base)});
   }
-  if (recording.panoramas.empty()) throw std::runtime_error(folder.string() + " holds no panorama with a true pose");
+  if (recording.panoramas.empty())
+    throw std::runtime_error(folder.string() + " contains no panorama covered by the ground truth");
   return recording;
 }
 

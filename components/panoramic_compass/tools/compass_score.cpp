@@ -26,7 +26,7 @@ CompassScore score(const CompassRecording& recording, const CompassParameters& p
   double squares = 0.0, whitened = 0.0, step_squares = 0.0, last_error = 0.0;
   int steps = 0;
   std::int64_t last_from = -1;
-  std::map<std::int64_t, double> error_at;  // of the heading, changes one upon another
+  std::map<std::int64_t, double> error_at;  // heading error of the accumulated changes
   std::vector<double> headings;
   for (const RecordedPanorama& panorama : recording.panoramas) {
     by_stamp[panorama.stamp_ns] = &panorama;

@@ -10,19 +10,19 @@
 
 namespace panvo::panoramic_compass {
 
-/// Errors of the valid changes against the truth, and how many there were.
+/// Counts, and errors of the valid changes relative to the ground truth.
 struct CompassScore {
   int changes = 0, valid = 0;
   double rms_deg = 0.0, p95_deg = 0.0, worst_deg = 0.0;
-  double consistency = 0.0;  ///< mean of error^2 / variance: about 1 where the variance is honest
-  /// The same of the changes from each panorama to the next, made of two changes against one reference where it is kept.
+  double consistency = 0.0;  ///< mean of error^2 / variance; about 1 for a correct variance
+  /// RMS error of the changes between consecutive panoramas: differences of two changes while the reference is kept.
   double step_rms_deg = 0.0;
-  /// RMS of what the changes, one upon another, are wrong by over 50 panoramas.
+  /// RMS error of the accumulated changes over 50 panoramas.
   double drift_rms_deg = 0.0;
-  std::int64_t worst_ns = 0;  ///< stamp of the worst
+  std::int64_t worst_ns = 0;  ///< stamp of the largest error
 };
 
-/// Runs a compass over a recording; `look` sees each result beside the true change.
+/// Runs a compass over a recording; `look` is called with each result and the true change.
 CompassScore score(const CompassRecording& recording, const CompassParameters& parameters,
                    const std::function<void(const AzimuthChange&, double true_rad)>& look = {});
 

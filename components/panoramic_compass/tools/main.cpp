@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How well the compass tells the turn on recordings with ground truth.
+// Accuracy of the compass on recordings with ground truth.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
@@ -15,7 +15,7 @@
 int main(int argc, char** argv) {
   using namespace panvo::panoramic_compass;
   CLI::App app{
-      "RMS, p95 and worst error of the panoramic compass, share of valid changes, and mean error^2 / variance"};
+      "Accuracy of the panoramic compass: RMS, p95 and largest error, valid changes, and mean error^2 / variance"};
   std::vector<std::string> recordings;
   CompassParameters parameters;
   double late_ms = 0.0;
@@ -23,13 +23,15 @@ int main(int argc, char** argv) {
   std::size_t first = 0, count = 0;
   app.add_option("recording", recordings, "folders with mav0/cam2 and mav0/state_groundtruth_estimate0")->required();
   app.add_option("--method", parameters.method, "all_round or two_patches");
-  app.add_option("--longest-reference", parameters.agreement.longest_reference, "panoramas against one reference");
-  app.add_option("--largest-parallax", parameters.agreement.largest_parallax_deg, "deg, before a new reference");
-  app.add_option("--spacing", parameters.points.spacing_px, "px between points");
-  app.add_option("--late", late_ms, "ms that a panorama was taken later than its stamp says");
-  app.add_option("--first", first, "panorama to begin with");
-  app.add_option("--count", count, "panoramas; 0: all");
-  app.add_flag("--list", list, "every change: stamps, change and truth in deg, sigma, parallax, validity");
+  app.add_option("--longest-reference", parameters.agreement.longest_reference,
+                 "maximum number of panoramas per reference");
+  app.add_option("--largest-parallax", parameters.agreement.largest_parallax_deg,
+                 "median parallax before a new reference is taken, deg");
+  app.add_option("--spacing", parameters.points.spacing_px, "spacing of the points, px");
+  app.add_option("--late", late_ms, "delay of the exposure after the stamp, ms");
+  app.add_option("--first", first, "index of the first panorama");
+  app.add_option("--count", count, "number of panoramas; 0: all");
+  app.add_flag("--list", list, "list every change: stamps, change, truth and sigma in deg, parallax, validity");
   CLI11_PARSE(app, argc, argv);
   constexpr double kDegrees = 180.0 / std::numbers::pi;
   for (const std::string& folder : recordings) {

@@ -8,7 +8,7 @@
 
 namespace panvo::position_corrector {
 
-/// full, rotation_only or rejected
+/// full, weak, rotation_only or rejected
 std::string to_text(CorrectionState state);
 
 panvo_msgs::msg::PositionCorrection to_message(const PositionCorrection& correction, const std::string& panorama_frame);

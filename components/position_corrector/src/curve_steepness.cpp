@@ -7,8 +7,8 @@
 namespace panvo::position_corrector {
 namespace {
 
-constexpr int kFewestSamples = 4;      // two for the line, and as many to say that it is one
-constexpr double kSmallest_m2 = 0.01;  // variance of the way below which there is no way
+constexpr int kFewestSamples = 4;      // two determine the line, two more check it
+constexpr double kSmallest_m2 = 0.01;  // variance of the path below which the vehicle stands still
 
 }  // namespace
 

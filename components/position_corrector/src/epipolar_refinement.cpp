@@ -13,13 +13,13 @@ namespace {
 
 constexpr int kSteps = 10;
 constexpr double kLossScale = 2.5;  // standard deviations
-constexpr double kSmallest = 1e-9;  // both bearings along the way: on every plane
+constexpr double kSmallest = 1e-9;  // both bearings along the baseline: on every epipolar plane
 
 using Vector5d = Eigen::Matrix<double, 5, 1>;
 using Matrix5d = Eigen::Matrix<double, 5, 5>;
 using Basis = Eigen::Matrix<double, 3, 2>;
 
-/// Two directions across the way, as columns.
+/// Two directions perpendicular to the baseline, as columns.
 Basis across(const Eigen::Vector3d& direction) {
   Basis basis;
   basis.col(0) = direction.unitOrthogonal();
@@ -29,16 +29,16 @@ Basis across(const Eigen::Vector3d& direction) {
 
 struct Whitened {
   double residual = 0.0;
-  Vector5d jacobian = Vector5d::Zero();  // by the rotation's error (landmark's axes), by the direction's across it
+  Vector5d jacobian = Vector5d::Zero();  // by the rotation error (landmark axes) and the direction error across it
 };
 
-/// Distance of a pair from the epipolar plane, of either bearing its share, in standard deviations.
+/// Distance of a pair from its epipolar plane, in standard deviations of both bearings.
 Whitened whitened(const BearingPair& pair, const EpipolarMotion& motion, const Basis& basis, double sigma_rad) {
   const Eigen::Vector3d turned = motion.rotation * pair.panorama;
   const Eigen::Vector3d normal_of_landmark = pair.landmark.cross(motion.direction);
   const Eigen::Vector3d normal_of_panorama = motion.direction.cross(turned);
   const double residual = pair.landmark.dot(normal_of_panorama);
-  // how the residual changes when a bearing moves across itself
+  // derivative of the residual by perpendicular motion of the bearings
   const double slope2 = normal_of_panorama.squaredNorm() + normal_of_landmark.squaredNorm() - 2.0 * residual * residual;
   Whitened result;
   if (slope2 < kSmallest) return result;
@@ -58,7 +58,7 @@ EpipolarMotion refine_epipolar_motion(const EpipolarMotion& start, std::span<con
   Matrix5d information;
   for (int step = 0; step < kSteps; ++step) {
     const Basis basis = across(motion.direction);
-    // a radian is all that is known beforehand of the direction: enough to keep it where nothing else does
+    // prior of one radian on the direction, for data that do not determine it
     information = Vector5d(0.0, 0.0, 0.0, 1.0, 1.0).asDiagonal();
     Vector5d gradient = Vector5d::Zero();
     for (const auto& pair : pairs) {

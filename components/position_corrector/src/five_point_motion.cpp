@@ -18,15 +18,15 @@ namespace panvo::position_corrector {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
-constexpr int kSample = 8;  // five for the motion, three that choose among its solutions
+constexpr int kSample = 8;  // five for the motion, three to choose among its solutions
 
 double angle_of(const Eigen::Matrix3d& rotation) { return vision::so3_log(rotation).norm(); }
 
-/// Five points; a sample whose rotation is not small is none.
+/// Five-point problem that rejects samples with a large rotation.
 class SmallRotation final : public opengv::sac_problems::relative_pose::CentralRelativePoseSacProblem {
  public:
   SmallRotation(adapter_t& adapter, double largest_rad)
-      : CentralRelativePoseSacProblem(adapter, STEWENIUS, false),  // its own, constant seed
+      : CentralRelativePoseSacProblem(adapter, STEWENIUS, false),  // own, constant seed
         largest_rad_(largest_rad) {}
 
   bool computeModelCoefficients(const std::vector<int>& indices, model_t& model) const override {
@@ -43,7 +43,7 @@ struct Consensus {
   std::vector<BearingPair> inliers;
 };
 
-/// RANSAC over pairs that are roughly aligned already.
+/// RANSAC over roughly aligned pairs.
 std::optional<Consensus> five_point_ransac(const std::vector<BearingPair>& aligned,
                                            const FivePointParameters& parameters) {
   opengv::bearingVectors_t landmark, panorama;
@@ -54,7 +54,7 @@ std::optional<Consensus> five_point_ransac(const std::vector<BearingPair>& align
   opengv::relative_pose::CentralRelativeAdapter adapter(landmark, panorama);
   opengv::sac::Ransac<SmallRotation> ransac;
   ransac.sac_model_.reset(new SmallRotation(adapter, parameters.largest_rotation_deg * kDegree));
-  // its distance is that of both bearings together
+  // the distance measure of opengv adds the terms of both bearings
   ransac.threshold_ = 2.0 * (1.0 - std::cos(parameters.inlier_angle_deg * kDegree));
   ransac.max_iterations_ = parameters.iterations;
   if (!ransac.computeModel()) return std::nullopt;
@@ -71,7 +71,7 @@ std::optional<Consensus> five_point_ransac(const std::vector<BearingPair>& align
 FivePointResult estimate_five_point_motion(std::span<const landmarks::Keypoint> panorama,
                                            std::span<const landmarks::Keypoint> landmark, double heading_rad,
                                            const FivePointParameters& parameters) {
-  // turned left by the heading is about -Y, as Y is down
+  // a left turn by the heading is a rotation about -Y, as Y points down
   const Eigen::Matrix3d turn = vision::so3_exp(Eigen::Vector3d(0.0, -heading_rad, 0.0));
   const landmarks::AzimuthWindow window{heading_rad, parameters.azimuth_window_deg * kDegree};
   std::vector<BearingPair> aligned;
@@ -94,7 +94,7 @@ FivePointResult estimate_five_point_motion(std::span<const landmarks::Keypoint> 
 
   const auto refined = refine_epipolar_motion(found->motion, found->inliers, parameters.bearing_sigma_deg * kDegree);
   if (const double angle_deg = angle_of(refined.rotation) / kDegree; angle_deg > parameters.largest_rotation_deg) {
-    result.reason = fmt::format("turned by {:.0f} deg against the heading, {:.0f} at most", angle_deg,
+    result.reason = fmt::format("rotated by {:.0f} deg beyond the heading, at most {:.0f} allowed", angle_deg,
                                 parameters.largest_rotation_deg);
     return result;
   }

@@ -58,7 +58,7 @@ LandmarkMatch LandmarkMatcher::search(const PanoramaFrame& frame, const landmark
   auto near = candidates(frame, library);
   match.candidates = static_cast<int>(near.size());
   if (near.empty()) {
-    match.reason = "no landmark within reach of the position";
+    match.reason = "no landmark near the position";
     return match;
   }
 

@@ -10,30 +10,30 @@
 
 namespace panvo::position_corrector {
 
-/// What one odometry message says.
+/// Content of one odometry message.
 struct OdometrySample {
   std::int64_t stamp_ns = 0;
   PositionPrior prior;
   vision::Vector6d twist =
-      vision::Vector6d::Zero();  ///< of base_link in its own axes, m/s, rad/s: mean since the one before
+      vision::Vector6d::Zero();  ///< of base_link in its own axes, m/s, rad/s: mean since the previous message
 };
 
-/// Where the vehicle was at a stamp, how it moved, and how far it had driven by then.
+/// Position, motion and path length of the vehicle at a stamp.
 struct TrailPoint {
   PositionPrior prior;
   vision::Vector6d twist = vision::Vector6d::Zero();
   double travelled_m = 0.0;
 };
 
-/// The last seconds of odometry, for panoramas that come later than their stamps. The way is the integral of the speed: a
-/// position that is corrected jumps, and a jump is no way. A speed does not jump.
+/// Recent odometry, for panoramas that arrive late. Path length is the integral of the speed, as corrected positions
+/// jump.
 class OdometryTrail {
  public:
-  /// One whose stamp is not after the last is left out.
+  /// Ignores messages whose stamp is not later than the last.
   void add(const OdometrySample& sample);
 
-  /// At a stamp: between the two messages around it; of the nearest one before the first and after the last. Nothing before
-  /// the first message of all.
+  /// Interpolated between the two messages around a stamp; clamped to the first and last message. nullopt before the
+  /// first message.
   std::optional<TrailPoint> at(std::int64_t stamp_ns) const;
 
  private:

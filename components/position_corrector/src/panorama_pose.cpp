@@ -26,8 +26,8 @@ constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr int kFewestForRansac = 5;
 constexpr double kPoseFreedom = 6.0;
 constexpr std::size_t kSectors = 12;
-constexpr double kGate = 9.21;              // 99 % of a chi-square of two degrees of freedom
-constexpr double kSureDescriptors = 260.0;  // Euclidean, of 512: two views of one thing lie closer, nine times of ten
+constexpr double kGate = 9.21;              // 99 % of chi-square with two degrees of freedom
+constexpr double kSureDescriptors = 260.0;  // Euclidean, of 512: 90 % of the views of one point are closer
 
 SightedPoint sighting(const Keypoint& seen, const Keypoint& known, double bearing_sigma_rad) {
   const Eigen::Vector3d point = known.point_in_panorama.cast<double>();
@@ -54,7 +54,7 @@ std::optional<Eigen::Isometry3d> three_point_ransac(std::span<const SightedPoint
   using Problem = opengv::sac_problems::absolute_pose::AbsolutePoseSacProblem;
   opengv::sac::Ransac<Problem> ransac;
   auto copy = adapter;
-  ransac.sac_model_.reset(new Problem(copy, Problem::KNEIP, false));  // its own, constant seed
+  ransac.sac_model_.reset(new Problem(copy, Problem::KNEIP, false));  // own, constant seed
   ransac.threshold_ = 1.0 - std::cos(parameters.inlier_angle_deg * kDegree);
   ransac.max_iterations_ = parameters.iterations;
   if (!ransac.computeModel() || !ransac.model_coefficients_.allFinite()) return std::nullopt;
@@ -73,7 +73,7 @@ double descriptor_distance(const Keypoint& a, const Keypoint& b) {
   return std::sqrt(static_cast<double>(sum));
 }
 
-/// Every point of the landmark with the keypoint that lies where the pose puts it, and looks most like it.
+/// Matches each point of the landmark with the most similar keypoint near its predicted bearing.
 std::vector<SightedPoint> guided_sightings(std::span<const Keypoint> panorama, std::span<const Keypoint> landmark,
                                            const Eigen::Isometry3d& landmark_from_panorama,
                                            const PanoramaPoseParameters& parameters) {
@@ -116,14 +116,14 @@ std::vector<SightedPoint> agreeing(std::span<const SightedPoint> sightings, cons
   return kept;
 }
 
-/// What the covariance of a fit is multiplied by because its points were chosen: that they agree with a pose made them inliers, so they
-/// agree better than they are right. The choice spends as many degrees of freedom as the fit; it counts where there are few points.
+/// Factor on the covariance for selection bias: inliers were selected for agreement with the pose, so their residuals
+/// are too small. The selection uses as many degrees of freedom as the fit, which matters for few points.
 double by_choice(std::size_t points) {
   const double freedom = 2.0 * static_cast<double>(points) - kPoseFreedom;
   return freedom / std::max(1.0, freedom - kPoseFreedom);
 }
 
-/// How many of twelve sectors of the full turn hold a bearing: what stands in one of them may stand elsewhere, too.
+/// Number of sectors, of twelve per turn, with a bearing: the content of a single sector may repeat elsewhere.
 int sectors(std::span<const SightedPoint> sightings) {
   std::bitset<kSectors> seen;
   for (const auto& sighting : sightings) {
@@ -133,21 +133,21 @@ int sectors(std::span<const SightedPoint> sightings) {
   return static_cast<int>(seen.count());
 }
 
-/// What speaks against a pose; empty when nothing does.
+/// Reason to reject a pose; empty if there is none.
 std::string objection(const Eigen::Isometry3d& pose, double heading_rad, const PanoramaPoseParameters& parameters) {
   const double offset_m = pose.translation().norm();
   if (offset_m > parameters.largest_offset_m) {
-    return fmt::format("{:.1f} m from the landmark, {:.0f} at most", offset_m, parameters.largest_offset_m);
+    return fmt::format("{:.1f} m from the landmark, at most {:.0f} allowed", offset_m, parameters.largest_offset_m);
   }
   const double turn_deg =
       std::abs(vision::wrap(heading_of(pose.linear()) - heading_rad, 2.0 * std::numbers::pi)) / kDegree;
   if (turn_deg > parameters.largest_turn_deg) {
-    return fmt::format("turned by {:.0f} deg from the heading found, {:.0f} at most", turn_deg,
+    return fmt::format("rotated by {:.0f} deg from the heading found, at most {:.0f} allowed", turn_deg,
                        parameters.largest_turn_deg);
   }
   const double tilt_deg = std::acos(std::clamp(pose.linear()(1, 1), -1.0, 1.0)) / kDegree;
   if (tilt_deg > parameters.largest_tilt_deg) {
-    return fmt::format("tilted by {:.0f} deg, {:.0f} at most", tilt_deg, parameters.largest_tilt_deg);
+    return fmt::format("tilted by {:.0f} deg, at most {:.0f} allowed", tilt_deg, parameters.largest_tilt_deg);
   }
   return {};
 }
@@ -191,12 +191,12 @@ PanoramaPoseResult estimate_panorama_pose(std::span<const Keypoint> panorama, st
   result.inliers = static_cast<int>(inliers.size());
   if (result.inliers < needed_weakly) return few("inliers", result.inliers);
   if (const int held = sectors(inliers); held < parameters.fewest_sectors) {
-    result.reason = fmt::format("{} inliers, but in {} of 12 sectors only, {} needed", result.inliers, held,
+    result.reason = fmt::format("{} inliers, but only in {} of 12 sectors, {} needed", result.inliers, held,
                                 parameters.fewest_sectors);
     return result;
   }
 
-  // once the pose is about known, points are found by where they must be
+  // with an approximate pose, matches are searched at predicted bearings
   auto refined = refine_pose(*start, inliers, sigma_rad);
   auto guided = guided_sightings(panorama, landmark, refined.landmark_from_panorama, parameters);
   if (guided.size() < inliers.size()) guided = inliers;

@@ -10,7 +10,7 @@ namespace panvo::position_corrector {
 PositionCorrection paper_correction(const LandmarkMatch& match, std::span<const landmarks::Keypoint> landmark,
                                     const Mountings& mountings, const PaperCorrectionParameters& parameters) {
   if (match.state != MatchState::kMatched || !match.pass) {
-    throw std::invalid_argument("paper_correction: a matched landmark with its pass is needed");
+    throw std::invalid_argument("paper_correction: requires a matched landmark with its pass");
   }
   PositionCorrection correction;
   correction.stamp_ns = match.stamp_ns;
@@ -22,7 +22,7 @@ PositionCorrection paper_correction(const LandmarkMatch& match, std::span<const 
     correction.reason = found.reason;
     return correction;
   }
-  // the panoramas' places count as one
+  // both panoramas are assumed at the same position
   PanoramaPose pose;
   pose.landmark_from_panorama.linear() = found.motion->rotation;
   pose.covariance.bottomRightCorner<3, 3>() = found.motion->covariance;
@@ -33,10 +33,9 @@ PositionCorrection paper_correction(const LandmarkMatch& match, std::span<const 
   correction.state = steep ? CorrectionState::kFull : CorrectionState::kRotationOnly;
   if (steep) return correction;
   const auto slope = curve_slope(match.pass->curve, parameters.steepness.way_m);
-  correction.reason =
-      slope ? fmt::format("the curve of the distances is flat: it rises by {:.3f} per metre, {:.3f} needed", *slope,
-                          parameters.steepness.smallest_slope)
-            : "the curve of the distances is too short";
+  correction.reason = slope ? fmt::format("the distance curve is flat: it rises by {:.3f} per metre, {:.3f} needed",
+                                          *slope, parameters.steepness.smallest_slope)
+                            : "the distance curve is too short";
   return correction;
 }
 

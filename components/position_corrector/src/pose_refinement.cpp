@@ -20,7 +20,7 @@ constexpr double kUndetermined = 1e6;
 using Matrix23d = Eigen::Matrix<double, 2, 3>;
 using Matrix26d = Eigen::Matrix<double, 2, 6>;
 
-/// Two directions across a bearing, as rows.
+/// Two directions perpendicular to a bearing, as rows.
 Matrix23d across(const Eigen::Vector3d& bearing) {
   const Eigen::Vector3d helper = std::abs(bearing.y()) < 0.9 ? Eigen::Vector3d::UnitY() : Eigen::Vector3d::UnitX();
   Matrix23d rows;
@@ -31,10 +31,10 @@ Matrix23d across(const Eigen::Vector3d& bearing) {
 
 struct Whitened {
   Eigen::Vector2d residual;
-  Matrix26d jacobian;  // by the error of the pose: translation, rotation vector, in the landmark's axes
+  Matrix26d jacobian;  // by the pose error: translation, rotation vector, landmark axes
 };
 
-/// Angle across the bearing between it and the point, in units of its standard deviation.
+/// Angular residual between bearing and point, perpendicular to the bearing, in standard deviations.
 std::optional<Whitened> whitened(const SightedPoint& sighting, const Eigen::Isometry3d& landmark_from_panorama,
                                  double bearing_sigma_rad) {
   const Eigen::Matrix3d rotation = landmark_from_panorama.linear();
@@ -69,7 +69,7 @@ double cost_of(const Eigen::Isometry3d& pose, std::span<const SightedPoint> sigh
   double cost = 0.0;
   for (const auto& sighting : sightings) {
     const auto term = whitened(sighting, pose, sigma_rad);
-    // a point that comes to lie behind counts as one far off
+    // a point behind the camera counts as a large residual
     cost += loss.cost(term ? term->residual.squaredNorm() : 1e4);
   }
   return cost;

@@ -15,7 +15,7 @@ BasePose to_base(const PanoramaPose& pose, const Mountings& mountings) {
 
 BasePose with_uncertain_stamp(const BasePose& pose, const vision::Vector6d& twist, double stamp_sigma_s) {
   BasePose wider = pose;
-  wider.covariance += 2.0 * vision::stamp_covariance(pose.landmark_from_base, twist, stamp_sigma_s);  // then, and now
+  wider.covariance += 2.0 * vision::stamp_covariance(pose.landmark_from_base, twist, stamp_sigma_s);  // both stamps
   return wider;
 }
 

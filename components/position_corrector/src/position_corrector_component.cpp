@@ -38,12 +38,12 @@ struct CorrectionParameters {
     using P = CorrectionParameters;
     field(
         &P::method, "method", "",
-        "metric: six degrees of freedom from the landmark's points, of each panorama that shows it; paper: five-point "
-        "motion at the nearest one [Lu2015 5.2]",
+        "metric: six degrees of freedom from the landmark's points, for each panorama that shows it; paper: five-point "
+        "motion at the nearest panorama [Lu2015 5.2]",
         {"metric", "paper"});
     field(&P::stamp_sigma_ms, "stamp_sigma_ms", "ms",
-          "standard deviation of a panorama's stamp, stamped when its image arrives, but for an offset that stays, "
-          "which the localizer finds; 0 where one trigger releases all",
+          "standard deviation of a panorama's stamp (arrival time), excluding a constant offset, "
+          "which the localizer estimates; 0 with a common trigger",
           0.0, 1000.0);
     field.group(&P::paper, "paper");
   }
@@ -67,18 +67,17 @@ struct ComponentParameters {
     field.group(&P::description, "description");
     field.group(&P::keypoints, "keypoints");
     field(&P::description_seed, "description_seed", "",
-          "draws the measurement matrices; the same for all that describe panoramas", 0, 1'000'000'000);
+          "seed of the measurement matrices; must be equal in all nodes that describe panoramas", 0, 1'000'000'000);
     field(&P::use_position, "use_position", "",
-          "look only for landmarks near the odometry's position; false: in the whole library, always");
-    field(&P::base_frame, "base_frame", "", "the vehicle; /tf_static says where on it the panoramic camera sits");
-    field.path(
-        &P::spill_folder, "spill_folder",
-        "folder on a disk for a nameless file of the landmarks' keypoints, 40 kB each; empty: they stay in memory");
+          "search only near the odometry position; false: always search the whole library");
+    field(&P::base_frame, "base_frame", "", "vehicle frame; /tf_static gives the extrinsics of the panoramic camera");
+    field.path(&P::spill_folder, "spill_folder",
+               "folder on a disk for an unnamed file of the landmarks' keypoints, 40 kB each; empty: keep in memory");
   }
 };
 
-/// panorama/image, odometry/binocular, landmarks, landmarks/poses, /tf_static -> landmarks/match, one message for each panorama,
-/// and why it was no match; correction, one for each panorama that a landmark gives a pose, or that its geometry rejects.
+/// panorama/image, odometry/binocular, landmarks, landmarks/poses, /tf_static -> landmarks/match for each panorama,
+/// with the reason if there is no match; correction for each panorama that locks a landmark or that geometry rejects.
 class PositionCorrectorComponent final : public runtime::Component {
  public:
   explicit PositionCorrectorComponent(runtime::Context& context)
@@ -110,10 +109,10 @@ class PositionCorrectorComponent final : public runtime::Component {
   void on_landmark(const panvo_msgs::msg::PanoramicLandmark& message) {
     const auto read = landmarks::to_landmark(message, settings_);
     if (!read) {
-      return context_.log().warn_throttled(fmt::format("landmark {}", message.id()), "a landmark {} and is left out",
+      return context_.log().warn_throttled(fmt::format("landmark {}", message.id()), "a landmark {}; skipped",
                                            read.reason());
     }
-    // one that comes again is where it is known to be by now
+    // a landmark that is received again has an updated pose
     if (library_.set_pose(read->id, read->map_from_base, read->covariance)) return;
     auto landmark = *read;
     if (const auto moved = moved_.find(landmark.id); moved != moved_.end()) {
@@ -127,19 +126,19 @@ class PositionCorrectorComponent final : public runtime::Component {
     try {
       matcher_.added(library_.add(std::move(landmark)));
     } catch (const std::invalid_argument& error) {
-      context_.log().warn_throttled("library", "{}; it is left out", error.what());
+      context_.log().warn_throttled("library", "{}; skipped", error.what());
     }
   }
 
   void on_poses(const panvo_msgs::msg::LandmarkPoses& message) {
     const auto poses = landmarks::to_landmark_poses(message);
     if (!poses) {
-      return context_.log().warn_throttled(poses.reason(), "{} {}; landmarks stay where they are",
+      return context_.log().warn_throttled(poses.reason(), "{} {}; landmark poses are unchanged",
                                            context_.resolved_name(topics::kLandmarkPoses), poses.reason());
     }
     moved_.clear();
     for (const auto& pose : *poses) {
-      // a landmark may still be on its way
+      // the landmark may arrive later
       if (!library_.set_pose(pose.id, pose.map_from_base, pose.covariance)) moved_[pose.id] = pose;
     }
   }
@@ -185,7 +184,7 @@ class PositionCorrectorComponent final : public runtime::Component {
     const auto match = is_unlike_before ? unusable(stamp_ns, *fault) : matcher_.match(frame, library_);
     match_.publish(to_message(match, message.header().frame_id()));
     if (match.state == MatchState::kMatched) {
-      context_.log().info("landmark {} passed, heading {:+.1f} deg against the first time", match.landmark_id,
+      context_.log().info("landmark {} passed, heading {:+.1f} deg relative to the landmark", match.landmark_id,
                           match.heading_rad * 180.0 / M_PI);
     } else if (match.state == MatchState::kUnusable) {
       context_.log().warn_throttled(match.reason, "{} {}", context_.resolved_name(topics::kPanorama), match.reason);
@@ -227,10 +226,9 @@ class PositionCorrectorComponent final : public runtime::Component {
   Mountings mountings_of(const landmarks::PanoramicLandmark& landmark, const std::string& panorama_frame) {
     const auto now = transforms_.lookup(parameters_.base_frame, panorama_frame);
     if (!now) {
-      context_.log().warn_throttled(
-          "no mounting",
-          "{} has no chain from {} to {} yet: the camera counts as mounted as it was when the landmark was made",
-          context_.resolved_name(topics::kTfStatic), parameters_.base_frame, panorama_frame);
+      context_.log().warn_throttled("no mounting",
+                                    "{} has no chain from {} to {} yet: using the extrinsics stored with the landmark",
+                                    context_.resolved_name(topics::kTfStatic), parameters_.base_frame, panorama_frame);
     }
     return {landmark.base_from_panorama, now.value_or(landmark.base_from_panorama)};
   }
@@ -248,7 +246,7 @@ class PositionCorrectorComponent final : public runtime::Component {
   runtime::Output<panvo_msgs::msg::PositionCorrection> correction_;
 
   conversions::StaticTransforms transforms_;
-  std::map<std::uint32_t, landmarks::LandmarkPose> moved_;  // of landmarks that did not come yet
+  std::map<std::uint32_t, landmarks::LandmarkPose> moved_;  // poses of landmarks not received yet
   OdometryTrail trail_;
 };
 

@@ -13,7 +13,7 @@ namespace {
 
 using landmarks::Keypoint;
 
-/// A keypoint as it lies in the file: its members one after the other, as this process has them.
+/// A keypoint in the file, packed, in the byte order of this process.
 struct Record {
   float bearing[3];
   float size_px;
@@ -22,7 +22,7 @@ struct Record {
   std::uint32_t has_point;
   std::uint8_t descriptor[128];
 };
-static_assert(sizeof(Record) == 9 * 4 + 128, "no gaps: what is not written would be read");
+static_assert(sizeof(Record) == 9 * 4 + 128, "padding would be written uninitialised");
 
 Record to_record(const Keypoint& keypoint) {
   Record record{};
@@ -46,7 +46,7 @@ Keypoint from_record(const Record& record) {
   return keypoint;
 }
 
-/// Whether all bytes could be written; else errno says why.
+/// Returns whether all bytes were written; else errno is set.
 bool write_all(int file, const void* data, std::size_t size, std::uint64_t offset) {
   const auto* bytes = static_cast<const char*>(data);
   while (size > 0) {
@@ -65,7 +65,7 @@ bool read_all(int file, void* data, std::size_t size, std::uint64_t offset) {
   while (size > 0) {
     const auto got = ::pread(file, bytes, size, static_cast<off_t>(offset));
     if (got < 0 && errno == EINTR) continue;
-    if (got == 0) errno = EIO;  // shorter than what was written to it
+    if (got == 0) errno = EIO;  // shorter than what was written
     if (got <= 0) return false;
     bytes += got;
     offset += static_cast<std::uint64_t>(got);
@@ -79,7 +79,7 @@ bool read_all(int file, void* data, std::size_t size, std::uint64_t offset) {
 SpilledKeypoints::SpilledKeypoints(const std::filesystem::path& folder) {
   if (folder.empty()) return;
   file_ = ::open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600);
-  if (file_ < 0) give_up("no file can be made in " + folder.string());
+  if (file_ < 0) give_up("cannot create a file in " + folder.string());
 }
 
 SpilledKeypoints::~SpilledKeypoints() {
@@ -101,7 +101,7 @@ void SpilledKeypoints::put(std::uint32_t id, std::span<const Keypoint> keypoints
       end_ += size;
       return;
     }
-    give_up("the file of the keypoints takes no more");
+    give_up("cannot write the keypoint file");
   }
   in_memory_[id].assign(keypoints.begin(), keypoints.end());
 }
@@ -112,7 +112,7 @@ std::vector<Keypoint> SpilledKeypoints::keypoints(std::uint32_t id) const {
   if (place == places_.end()) return {};
   std::vector<Record> records(place->second.count);
   if (!read_all(file_, records.data(), records.size() * sizeof(Record), place->second.offset)) {
-    throw std::system_error(errno, std::generic_category(), "the keypoints of a landmark cannot be read back");
+    throw std::system_error(errno, std::generic_category(), "cannot read back the keypoints of a landmark");
   }
   std::vector<Keypoint> keypoints;
   keypoints.reserve(records.size());

@@ -9,7 +9,7 @@
 namespace panvo::position_corrector {
 namespace {
 
-/// A curve with a sample each 0.4 m of way.
+/// A curve with a sample every 0.4 m.
 template <class Distance>
 std::vector<DistanceSample> curve(double from_m, double to_m, Distance distance) {
   std::vector<DistanceSample> samples;
@@ -35,7 +35,7 @@ TEST(CurveSteepness, IsThatOfOneSideWhereTheOtherWasNotSeen) {
 
 // [Lu2015 5.2]
 TEST(CurveSteepness, IsThatNearTheMinimum) {
-  const auto kinked = [](double way_m) { return std::min(0.65, vee(way_m)); };  // another place from 3 m on
+  const auto kinked = [](double way_m) { return std::min(0.65, vee(way_m)); };  // another place beyond 3 m
   const auto slope = curve_slope(curve(40.0, 60.01, kinked), 3.0);
   ASSERT_TRUE(slope);
   EXPECT_NEAR(*slope, 0.15, 1e-9);
@@ -43,7 +43,7 @@ TEST(CurveSteepness, IsThatNearTheMinimum) {
 
 // [Lu2015 5.2]
 TEST(CurveSteepness, TellsALandmarkPassedThroughFromOnePassedAtADistance) {
-  // an even scene: the distance goes with how far the landmark is, aside of it or along the way, and has an end
+  // a uniform scene: D is proportional to the distance from the landmark, up to a limit
   const auto passed = [](double beside_m) {
     return curve(40.0, 60.0,
                  [beside_m](double way_m) { return std::min(0.9, 0.15 + 0.15 * std::hypot(way_m - 50.0, beside_m)); });

@@ -16,7 +16,8 @@ using landmarks::Keypoint;
 
 constexpr double kHeading_rad = 2.2;
 
-/// The same things seen from a landmark and from elsewhere; keypoints without points, as the method needs none.
+/// Points seen from a landmark and from another position; the keypoints have no metric points, as the method needs
+/// none.
 class Views {
  public:
   explicit Views(const Eigen::Vector3d& away_m, double noise_rad = 0.0, double tilt_rad = 0.03, unsigned seed = 7)
@@ -27,7 +28,7 @@ class Views {
     for (int i = 0; i < 150; ++i) add(noise_rad);
   }
 
-  /// Every `nth` keypoint of now lies elsewhere, near the horizon.
+  /// Moves every `nth` current keypoint to a wrong bearing near the horizon.
   void disturb(std::size_t nth) {
     for (std::size_t i = 0; i < panorama.size(); i += nth) {
       const Eigen::Vector3f turned =
@@ -98,7 +99,7 @@ TEST(FivePointMotion, HasACovarianceThatItsErrorsFollow) {
   double sum = 0.0;
   constexpr int kTrials = 30;
   for (unsigned trial = 0; trial < kTrials; ++trial) {
-    const Views views({0.5, 0.0, 1.0}, uniform_rad * std::sqrt(2.0), 0.03, 100 + trial);  // both views' noise in one
+    const Views views({0.5, 0.0, 1.0}, uniform_rad * std::sqrt(2.0), 0.03, 100 + trial);  // noise of both views in one
     const auto result = estimate_five_point_motion(views.panorama, views.landmark, kHeading_rad, parameters);
     ASSERT_TRUE(result.motion) << result.reason;
     const Eigen::Vector3d error =

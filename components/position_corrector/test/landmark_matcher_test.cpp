@@ -26,7 +26,7 @@ class LandmarkMatching : public testing::Test {
     return id;
   }
 
-  /// The next panorama on the way, a metre after the last.
+  /// Adds the next panorama, one metre after the last.
   LandmarkMatch pass(const cv::Mat& panorama, std::optional<PositionPrior> prior = {}) {
     ++frames;
     return matcher.match({frames * kPeriod_ns, panorama, static_cast<double>(frames), prior}, library);
@@ -65,7 +65,7 @@ TEST_F(LandmarkMatching, TellsThePlaceOnceItIsPastAndNamesTheMostSimilarPanorama
   EXPECT_EQ(match.stamp_ns, nearest * kPeriod_ns);
   EXPECT_TRUE(match.reason.empty());
   EXPECT_TRUE(match.pose);
-  // what the pass showed: the distance of each panorama, and the keypoints of the nearest
+  // the pass has the distance of each panorama and the keypoints of the nearest one
   ASSERT_TRUE(match.pass);
   ASSERT_EQ(match.pass->curve.size(), static_cast<std::size_t>(frames - nearest + 2));
   EXPECT_LT(match.pass->curve[1].distance, match.pass->curve[0].distance);
@@ -87,7 +87,7 @@ TEST_F(LandmarkMatching, LooksOnlyNearThePositionWhereThereIsOne) {
   const PositionPrior far{Eigen::Vector3d(250.0, 0.0, 0.0), 1.0};
   const auto none = pass(place(2), far);
   EXPECT_EQ(none.candidates, 0);
-  EXPECT_EQ(none.reason, "no landmark within reach of the position");
+  EXPECT_EQ(none.reason, "no landmark near the position");
   const PositionPrior unsure{Eigen::Vector3d(250.0, 0.0, 0.0), 45.0};
   const auto match = pass(place(2), unsure);
   EXPECT_EQ(match.state, MatchState::kLocked) << match.reason;
@@ -105,7 +105,7 @@ TEST_F(LandmarkMatching, DoesNotTakeForARevisitWhatWasBuiltAMomentAgo) {
 }
 
 TEST_F(LandmarkMatching, RejectsTheSamePictureWhoseGeometryIsAnother) {
-  // where everything is elsewhere in depth no pose agrees, however alike the pictures
+  // with wrong depths no pose agrees, however similar the images
   landmarks::LandmarkLibrary wrong;
   landmarks::PanoramicLandmark landmark;
   landmark.description = describer.describe(place(7));

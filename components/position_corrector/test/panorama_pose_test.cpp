@@ -12,7 +12,7 @@ namespace {
 
 using landmarks::Keypoint;
 
-/// A landmark's keypoints with points, and the same things seen from elsewhere.
+/// A landmark's keypoints with points, and the same points seen from another position.
 class Place {
  public:
   Place() {
@@ -51,7 +51,7 @@ class Place {
 };
 
 TEST(PanoramaPose, HasTheTurnLeftAsItsHeading) {
-  const Eigen::Matrix3d left = vision::so3_exp(Eigen::Vector3d(0.0, -0.5, 0.0));  // Y is down: left is about -Y
+  const Eigen::Matrix3d left = vision::so3_exp(Eigen::Vector3d(0.0, -0.5, 0.0));  // Y points down: left is about -Y
   EXPECT_NEAR(heading_of(left), 0.5, 1e-12);
   EXPECT_NEAR(heading_of(left.transpose()), -0.5, 1e-12);
 }
@@ -64,11 +64,11 @@ TEST(PanoramaPose, IsFoundFromThePointsOfALandmarkSeenElsewhereUnderAnotherHeadi
   EXPECT_LT(error.head<3>().norm(), 0.1);
   EXPECT_LT(error.tail<3>().norm(), 0.005);
   EXPECT_NEAR(result.pose->heading_rad, Place::kHeading_rad, 0.005);
-  EXPECT_LT(error.dot(result.pose->covariance.ldlt().solve(error)), 22.5);  // 99.9 % of a chi-square of six
+  EXPECT_LT(error.dot(result.pose->covariance.ldlt().solve(error)), 22.5);  // 99.9 % of chi-square with six degrees
   EXPECT_GE(result.inliers, 100);
 }
 
-/// Eight points all round, each as many times as is said, with descriptors of their own, seen without an error.
+/// Eight directions all round with `times` points each, with unique descriptors, seen without error.
 std::vector<Keypoint> eight_points(int times) {
   std::mt19937_64 random(5);
   std::vector<Keypoint> points;
@@ -93,7 +93,7 @@ TEST(PanoramaPose, IsLessSureOfFewPointsThanTheirNumberSaysForTheyWereChosenBeca
   ASSERT_TRUE(by_many.pose) << by_many.reason;
   ASSERT_EQ(by_few.inliers, 8);
   ASSERT_EQ(by_many.inliers, 96);
-  // 10 of freedom are 4 after the choice, 186 are 180
+  // the selection leaves 4 of 10 degrees of freedom, or 180 of 186
   const double expected = 12.0 * (10.0 / 4.0) / (186.0 / 180.0);
   EXPECT_NEAR(by_few.weak_pose->covariance.trace() / by_many.pose->covariance.trace(), expected, 0.01 * expected);
 }
@@ -110,7 +110,7 @@ TEST(PanoramaPose, IsTheSameBitForBit) {
 
 TEST(PanoramaPose, IsRefusedWhereThingsLookAlikeButLieElsewhere) {
   Place place;
-  // the same descriptors in another order: as if facades repeated
+  // shuffled descriptors, like repeated facades
   std::mt19937_64 random(11);
   for (auto& seen : place.panorama) {
     const double azimuth = M_PI * (2.0 * static_cast<double>(random() % 1000) / 999.0 - 1.0);
@@ -133,7 +133,7 @@ TEST(PanoramaPose, IsRefusedWhereThePoseTurnsAwayFromTheHeading) {
 TEST(PanoramaPose, IsRefusedWhereAllThatAgreesStandsInOneDirection) {
   Place place;
   std::vector<Keypoint> seen;
-  for (const auto& keypoint : place.panorama) {  // one building of that shape, and nothing else
+  for (const auto& keypoint : place.panorama) {  // a single building of that shape
     if (std::abs(std::atan2(keypoint.bearing.x(), keypoint.bearing.z())) < 0.5F) seen.push_back(keypoint);
   }
   ASSERT_GE(seen.size(), 12U);

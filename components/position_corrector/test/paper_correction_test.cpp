@@ -62,7 +62,7 @@ TEST_F(PaperCorrection, IsOfTheRotationOnlyWhenTheCurveIsFlat) {
 TEST_F(PaperCorrection, IsOfTheRotationOnlyWhenTheCurveIsTooShortToTell) {
   const auto correction = correct();
   EXPECT_EQ(correction.state, CorrectionState::kRotationOnly);
-  EXPECT_EQ(correction.reason, "the curve of the distances is too short");
+  EXPECT_EQ(correction.reason, "the distance curve is too short");
 }
 
 // [Lu2015 5.2]

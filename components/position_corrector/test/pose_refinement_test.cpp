@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kSigma_rad = 0.004;
 
-/// Points around a landmark, seen from a pose; bearings with noise of `sigma_rad` across them.
+/// Points around a landmark, seen from a pose; bearings with perpendicular noise of `sigma_rad`.
 class Scene {
  public:
   explicit Scene(unsigned seed) : random_(seed) {
@@ -67,7 +67,7 @@ TEST(PoseRefinement, HasACovarianceThatTheErrorsFollow) {
     const auto error = vision::pose_error(refined.landmark_from_panorama, scene.pose);
     sum += error.dot(refined.covariance.ldlt().solve(error));
   }
-  // six degrees of freedom; the robust loss lets good points count for a little less than they are worth
+  // six degrees of freedom; the robust loss slightly reduces the weight of good points
   EXPECT_GT(sum / kTrials, 4.0);
   EXPECT_LT(sum / kTrials, 7.0);
 }

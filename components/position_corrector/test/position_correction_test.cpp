@@ -8,7 +8,7 @@
 namespace panvo::position_corrector {
 namespace {
 
-/// Of a camera that looks forward, `forward_m` before the base and `up_m` above it.
+/// Extrinsics of a forward-looking camera, `forward_m` ahead of the base and `up_m` above it.
 Eigen::Isometry3d mounted(double forward_m, double up_m) {
   Eigen::Isometry3d base_from_panorama = Eigen::Isometry3d::Identity();
   base_from_panorama.linear() << 0, 0, 1, -1, 0, 0, 0, -1, 0;  // X right, Y down, Z forward
@@ -27,12 +27,13 @@ LandmarkMatch locked_with(const PanoramaPose& pose) {
 }
 
 TEST(PositionCorrection, IsOfTheBaseAndNotOfTheCamera) {
-  // turned left by a quarter, 2 m to the right and 3 m ahead of the landmark's panorama
+  // a quarter turn to the left, 2 m to the right of and 3 m ahead of the landmark's panorama
   PanoramaPose pose;
   pose.landmark_from_panorama.linear() = vision::so3_exp(Eigen::Vector3d(0.0, -M_PI / 2.0, 0.0));
   pose.landmark_from_panorama.translation() = Eigen::Vector3d(2.0, 0.0, 3.0);
   const auto base = to_base(pose, {mounted(0.5, 2.0), mounted(0.5, 2.0)});
-  // the camera then at (0.5, 0, 2), now 3 m ahead of it and 2 m to its right; the base half a metre behind the camera, which looks left
+  // camera then at (0.5, 0, 2), now 3 m ahead and 2 m to the right; the base is half a metre behind the left-looking
+  // camera
   const Eigen::Vector3d expected(3.5, -2.5, 0.0);
   EXPECT_LT((base.landmark_from_base.translation() - expected).norm(), 1e-12);
   EXPECT_LT((base.landmark_from_base.linear() - vision::so3_exp(Eigen::Vector3d(0.0, 0.0, M_PI / 2.0))).norm(), 1e-12);
@@ -48,7 +49,7 @@ TEST(PositionCorrection, HasTheCovarianceOfPosesThatScatterAsThePanoramasDo) {
   pose.landmark_from_panorama.linear() = vision::so3_exp(Eigen::Vector3d(0.05, 1.1, -0.02));
   pose.landmark_from_panorama.translation() = Eigen::Vector3d(2.0, -0.1, 3.0);
   const Mountings mountings{mounted(0.5, 2.0), mounted(1.5, 1.8)};
-  // each direction of the error by itself: the covariance is the sum of the errors it becomes
+  // perturbs each direction separately: the covariance is the sum of the resulting errors
   vision::Matrix6d expected = vision::Matrix6d::Zero();
   constexpr double kStep = 1e-6;
   const auto base = to_base(pose, mountings);
@@ -71,7 +72,7 @@ TEST(PositionCorrection, IsWiderAlongTheWayWhereTheStampIsUncertain) {
   BasePose pose;
   pose.landmark_from_base.linear() = vision::so3_exp(Eigen::Vector3d(0.0, 0.0, M_PI / 2.0));
   vision::Vector6d twist = vision::Vector6d::Zero();
-  twist[0] = 5.0;  // m/s ahead, which is the landmark's left
+  twist[0] = 5.0;  // m/s ahead, to the left of the landmark
   twist[5] = 0.5;
   const auto wider = with_uncertain_stamp(pose, twist, 0.02);
   EXPECT_NEAR(wider.covariance(1, 1), 2.0 * 0.1 * 0.1, 1e-12);

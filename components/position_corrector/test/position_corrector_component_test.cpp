@@ -39,11 +39,11 @@ class PositionCorrectorComponent : public testing::Test {
     auto message = conversions::make_image(frames * kPeriod_ns, "panorama", "mono8", panorama.cols, panorama.rows);
     cv::Mat pixels = conversions::pixels(*message);
     panorama.copyTo(pixels);
-    if (has_noise) pixels.at<uchar>(0, frames % pixels.cols) ^= 1U;  // as every sensor has: no two images are the same
+    if (has_noise) pixels.at<uchar>(0, frames % pixels.cols) ^= 1U;  // like sensor noise: no two images are equal
     harness.publish(topics::kPanorama, std::shared_ptr<const sensor_msgs::msg::Image>(message));
   }
 
-  /// At the stamp of the next panorama.
+  /// With the stamp of the next panorama.
   void publish_odometry(double x_m, double sigma_m, double speed_m_s = 0.0) {
     nav_msgs::msg::Odometry odometry;
     odometry.header().stamp(conversions::to_stamp((frames + 1) * kPeriod_ns));
@@ -74,7 +74,7 @@ class PositionCorrectorComponent : public testing::Test {
     harness.publish(topics::kLandmarkPoses, message);
   }
 
-  /// Past place 2: nearly it, it, and nearly it for four metres more, a metre a panorama.
+  /// Passes place 2, one metre per panorama: a similar view, the exact one, and four more similar views.
   void pass() {
     cv::Mat nearly = place(2);
     cv::rectangle(nearly, {100, 150, 120, 150}, 30, cv::FILLED);
@@ -84,7 +84,7 @@ class PositionCorrectorComponent : public testing::Test {
     }
   }
 
-  /// Of a camera that looks forward (X right, Y down, Z forward), above the base.
+  /// Extrinsics of a forward-looking camera (X right, Y down, Z forward) above the base.
   static Eigen::Isometry3d mounted(double up_m) {
     Eigen::Isometry3d base_from_panorama = Eigen::Isometry3d::Identity();
     base_from_panorama.linear() << 0, 0, 1, -1, 0, 0, 0, -1, 0;
@@ -144,7 +144,7 @@ TEST_F(PositionCorrectorComponent, LeavesOutALandmarkThatWasDescribedOtherwise) 
   EXPECT_EQ(matches[0]->reason(), "no landmarks yet");
 }
 
-/// Each of them would end the process, or the component.
+/// Unchecked, each of them would crash the process or the component.
 TEST_F(PositionCorrectorComponent, LeavesOutLandmarksThatNoMatrixHereCouldDescribe) {
   const auto settings = landmarks::description_settings(landmarks::DescriptionParameters{}, 1);
   auto landmark = landmark_of(place(2), describer, Eigen::Vector3d(200.0, 0.0, 0.0));
@@ -206,7 +206,7 @@ TEST_F(PositionCorrectorComponent, SaysWhereTheVehicleIsSeenFromTheLandmark) {
   EXPECT_EQ(conversions::to_ns(correction.header().stamp()), kPeriod_ns);
   const auto pose = conversions::to_isometry(correction.landmark_from_base().pose());
   ASSERT_TRUE(pose);
-  // turned left by a quarter, at the same spot; the camera sits half a metre lower than it did then
+  // a quarter turn to the left at the same position; the camera is half a metre lower than before
   EXPECT_LT((pose->linear() - vision::so3_exp(Eigen::Vector3d(0.0, 0.0, M_PI / 2.0))).norm(), 0.01);
   EXPECT_LT((pose->translation() - Eigen::Vector3d(0.0, 0.0, 0.5)).norm(), 0.1);
   const auto covariance = conversions::to_matrix(correction.landmark_from_base().covariance());
@@ -223,7 +223,7 @@ TEST_F(PositionCorrectorComponent, TakesTheLandmarksMountingForItsOwnAndSaysSoOn
   ASSERT_TRUE(pose);
   EXPECT_LT(pose->translation().norm(), 0.1);
   int said = 0;
-  for (const auto& line : harness.log()) said += line.find("as it was when the landmark was made") != std::string::npos;
+  for (const auto& line : harness.log()) said += line.find("extrinsics stored with the landmark") != std::string::npos;
   EXPECT_EQ(said, 1);
 }
 
@@ -246,7 +246,7 @@ TEST_F(PositionCorrectorComponent, IsLessSureAlongTheWayOfAVehicleThatDrivesFast
   publish_odometry(200.0, 1.0, 10.0);
   publish_panorama(place(2));
   ASSERT_EQ(corrections.size(), 2U);
-  // 3 ms then and now at 10 m/s
+  // 3 ms at either stamp, at 10 m/s
   EXPECT_NEAR(
       corrections[1]->landmark_from_base().covariance()[0] - corrections[0]->landmark_from_base().covariance()[0],
       2.0 * 0.03 * 0.03, 1e-4);
@@ -255,7 +255,7 @@ TEST_F(PositionCorrectorComponent, IsLessSureAlongTheWayOfAVehicleThatDrivesFast
 TEST_F(PositionCorrectorComponent, TellsThatGeometryRejectedALandmark) {
   auto landmark = landmark_of(place(2), describer, Eigen::Vector3d::Zero());
   landmark.id = 2;
-  for (std::size_t i = 0; i < landmark.keypoints.size(); ++i) {  // depths as nowhere else
+  for (std::size_t i = 0; i < landmark.keypoints.size(); ++i) {  // wrong depths
     landmark.keypoints[i].point_in_panorama =
         Eigen::AngleAxisf(0.3F * static_cast<float>(i % 7), Eigen::Vector3f::UnitY()) *
         landmark.keypoints[i].point_in_panorama;
@@ -300,7 +300,7 @@ TEST_F(PositionCorrectorComponent, LeavesLandmarksWhereTheyAreWhenTheirPosesAreM
   panvo_msgs::msg::LandmarkPoses message;
   message.ids({2});
   harness.publish(topics::kLandmarkPoses, message);
-  EXPECT_TRUE(harness.log_contains("is left out: poses are not as many as ids"));
+  EXPECT_TRUE(harness.log_contains("was dropped: poses are not as many as ids"));
   publish_odometry(200.0, 1.0);
   publish_panorama(place(2));
   EXPECT_EQ(matches.back()->candidates(), 1U);
@@ -310,9 +310,9 @@ TEST_F(PositionCorrectorComponent, DoesNotTakeACorrectionsJumpForWayThatLeavesAL
   publish_odometry(0.0, 1.0, 1.0);
   publish_panorama(place(80));
   publish_landmark(2, 2);
-  publish_odometry(200.0, 1.0, 1.0);  // 200 m at once, at walking pace: corrected
+  publish_odometry(200.0, 1.0, 1.0);  // a jump of 200 m at walking pace: a correction
   publish_panorama(place(2));
-  EXPECT_EQ(matches.back()->candidates(), 0U) << "built a moment ago";
+  EXPECT_EQ(matches.back()->candidates(), 0U) << "just built";
 }
 
 TEST_F(PositionCorrectorComponent, LooksWhereTheVehicleWasWhenALatePanoramaWasTaken) {

@@ -60,7 +60,7 @@ TEST(SpilledKeypoints, StayInMemoryWhereNoFileCanBeMadeAndSayWhy) {
 }
 
 TEST(SpilledKeypoints, StayInMemoryWhenTheDiskIsFullAndThoseBeforeCanStillBeRead) {
-  struct Limit {  // the kernel's word for a file that may not grow
+  struct Limit {  // makes the kernel refuse to grow the file
     rlimit before{};
     explicit Limit(rlim_t bytes) {
       ::getrlimit(RLIMIT_FSIZE, &before);
@@ -79,7 +79,7 @@ TEST(SpilledKeypoints, StayInMemoryWhenTheDiskIsFullAndThoseBeforeCanStillBeRead
     const Limit limit(50 * 164 + 1000);
     spilled.put(2, some_keypoints(2, 50));
   }
-  EXPECT_NE(spilled.problem().find("takes no more"), std::string::npos) << spilled.problem();
+  EXPECT_NE(spilled.problem().find("cannot write"), std::string::npos) << spilled.problem();
   spilled.put(3, some_keypoints(3, 50));
   for (unsigned id = 1; id <= 3; ++id) EXPECT_EQ(spilled.keypoints(id), some_keypoints(id, 50)) << id;
 }

@@ -13,7 +13,7 @@ namespace panvo::position_corrector {
 inline constexpr int kColumns = 1080;
 inline constexpr int kRows = 540;
 
-/// A panorama of nothing in particular, unlike that of any other seed, without a seam.
+/// A seamless random panorama, different for each seed.
 inline cv::Mat place(unsigned seed) {
   std::mt19937_64 random(seed);
   cv::Mat panorama(kRows, kColumns, CV_8UC1, cv::Scalar(110));
@@ -28,14 +28,14 @@ inline cv::Mat place(unsigned seed) {
   return panorama;
 }
 
-/// As a vehicle turned to the left sees it: everything farther to the right.
+/// The view after a left turn: everything moves to the right.
 inline cv::Mat turned(const cv::Mat& panorama, int columns) {
   cv::Mat result(panorama.size(), panorama.type());
   for (int u = 0; u < kColumns; ++u) panorama.col(u).copyTo(result.col((u + columns) % kColumns));
   return result;
 }
 
-/// A landmark of a panorama in which everything is 20 m away.
+/// A landmark of a panorama with all points at a distance of 20 m.
 inline landmarks::PanoramicLandmark landmark_of(const cv::Mat& panorama, const landmarks::PanoramaDescriber& describer,
                                                 const Eigen::Vector3d& position) {
   landmarks::PanoramicLandmark landmark;

@@ -10,7 +10,7 @@
 namespace panvo::recorder {
 namespace {
 
-/// The new bag's topics, by those of the old one; none for those that are left out.
+/// Handles in the new bag by the old bag's topic index; nullopt for excluded topics.
 std::vector<std::optional<int>> add_topics(const BagReader& reader, BagWriter& writer, const TopicFilter& topics) {
   std::vector<std::optional<int>> handles;
   for (auto topic : reader.metadata().topics) {
@@ -33,7 +33,7 @@ std::vector<std::optional<int>> add_topics(const BagReader& reader, BagWriter& w
 
 bool is_latched(const BagTopic& topic) {
   const auto& profiles = topic.offered_qos_profiles;
-  return profiles.empty() ? topic.name == "/tf_static"  // bags of early versions do not tell; of this one all know
+  return profiles.empty() ? topic.name == "/tf_static"  // early bags store no QoS; this topic is always latched
                           : std::all_of(profiles.begin(), profiles.end(), [](const QosProfile& profile) {
                               return profile.durability == QosProfile::Durability::kTransientLocal;
                             });
@@ -43,7 +43,7 @@ bool is_latched(const BagTopic& topic) {
 
 BagMetadata reindex_bag(const std::filesystem::path& bag, std::vector<std::string>& warnings) {
   if (!std::filesystem::is_directory(bag)) {
-    throw BagError(bag.string() + ": is not a folder; name the bag's folder");
+    throw BagError(bag.string() + ": is not a folder; specify the bag's folder");
   }
   const BagReader reader(bag, BagReader::Trust::kFiles);
   warnings = reader.warnings();

@@ -31,7 +31,7 @@ std::optional<std::string> difference(const BagMessage& a, const BagMessage& b, 
         std::mismatch(a.data.begin(), a.data.end(), b.data.begin(), b.data.end()).first - a.data.begin());
     if (place >= std::min(a.data.size(), b.data.size())) {
       return "has " + std::to_string(a.data.size()) + " and " + std::to_string(b.data.size()) +
-             " bytes, and is equal as far as both go";
+             " bytes; the common part is equal";
     }
     char values[32];
     std::snprintf(values, sizeof values, "0x%02x, 0x%02x", a.data[place], b.data[place]);
@@ -53,7 +53,7 @@ TopicComparison compare_topic(const std::string& name, BagReader& first, BagRead
     return comparison;
   }
   if (first_topic->type != second_topic->type) {
-    comparison.difference = "carries " + first_topic->type + " and " + second_topic->type;
+    comparison.difference = "has types " + first_topic->type + " and " + second_topic->type;
     return comparison;
   }
   const auto is_this = [&](const BagTopic& topic) { return topic.name == name; };
@@ -67,7 +67,7 @@ TopicComparison compare_topic(const std::string& name, BagReader& first, BagRead
     }
     if (!a || !b) {
       comparison.difference = "ends after " + std::to_string(comparison.equal_messages) + " equal messages in " +
-                              (a ? second : first).path().string() + ", not in the other";
+                              (a ? second : first).path().string() + " but continues in the other bag";
       return comparison;
     }
     if (const auto what = difference(*a, *b, times)) {
@@ -81,7 +81,7 @@ TopicComparison compare_topic(const std::string& name, BagReader& first, BagRead
 void refuse_losses(const BagReader& bag) {
   if (bag.lost_messages() > 0) {
     throw BagError(bag.path().string() + ": " + std::to_string(bag.lost_messages()) +
-                   " of its messages cannot be read, so it cannot be compared; see `panvo bag check`");
+                   " messages cannot be read, so the bag cannot be compared; see `panvo bag check`");
   }
 }
 

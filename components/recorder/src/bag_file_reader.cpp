@@ -36,7 +36,7 @@ Kind kind_of(const fs::path& file) {
   }
   const auto start = first_bytes(file);
   if (start.empty()) {
-    throw BagError(file.string() + ": is empty; if it is one file of a bag, remove it and run `panvo bag reindex`");
+    throw BagError(file.string() + ": is empty; if it belongs to a bag, delete it and run `panvo bag reindex`");
   }
   if (start.starts_with("SQLite format 3\0"sv)) {
     return Kind::kSqlite;
@@ -48,17 +48,17 @@ Kind kind_of(const fs::path& file) {
     return Kind::kZstd;
   }
   if (start.starts_with("#ROSBAG"sv)) {
-    throw BagError(file.string() + ": is a bag of ROS 1; `rosbags-convert` makes a ROS 2 bag of it");
+    throw BagError(file.string() + ": is a ROS 1 bag; convert it to ROS 2 with `rosbags-convert`");
   }
   if (file.extension() == ".mcap") {
-    return Kind::kMcap;  // whose first bytes are lost, but perhaps no others
+    return Kind::kMcap;  // the first bytes are damaged; others may be readable
   }
-  throw BagError(
-      file.string() +
-      ": is neither a SQLite database nor MCAP (or its first bytes are lost); name a rosbag2 folder or a file of it");
+  throw BagError(file.string() +
+                 ": is neither a SQLite database nor MCAP (or its first bytes are damaged); specify a rosbag2 folder "
+                 "or a bag file");
 }
 
-/// A compressed file, and its unpacked copy as long as it is read.
+/// Reads a compressed file through a temporary decompressed copy.
 class PackedFileReader final : public BagFileReader {
  public:
   PackedFileReader(const fs::path& file, std::vector<std::string>& warnings)
@@ -88,12 +88,12 @@ class PackedFileReader final : public BagFileReader {
         return open_bag_file(unpacked_.path(), warnings);
       }
     } catch (const BagError& error) {
-      throw BagError(path_.string() + ": what is packed in it cannot be read: " + error.what());
+      throw BagError(path_.string() + ": the compressed content cannot be read: " + error.what());
     }
-    throw BagError(path_.string() + ": is packed twice; unpack it with `zstd -d`");
+    throw BagError(path_.string() + ": is compressed twice; decompress it with `zstd -d`");
   }
 
-  /// Warnings are about the file that there is, not about the copy that will be gone.
+  /// Replaces the path of the temporary copy by that of the compressed file in new warnings.
   void name_packed_file() {
     for (; warnings_seen_ < warnings_.size(); ++warnings_seen_) {
       auto& warning = warnings_[warnings_seen_];

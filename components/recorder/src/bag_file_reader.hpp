@@ -16,23 +16,23 @@
 
 namespace panvo::recorder {
 
-/// What one file of a bag holds, apart from its messages.
+/// Content of one file of a bag, except its messages.
 struct FileContent {
   std::map<std::int64_t, BagTopic> topics;            ///< by id
   std::map<std::string, TypeDefinition> definitions;  ///< by type
-  std::optional<BagMetadata> stored_metadata;         ///< a copy of metadata.yaml, where the file keeps one
+  std::optional<BagMetadata> stored_metadata;         ///< the file's copy of metadata.yaml, if any
   std::string ros_distro;
   std::uint64_t message_count = 0;
-  std::int64_t first_ns = BagMetadata::kNoStart;  ///< BagMetadata::kNoStart of an empty file
+  std::int64_t first_ns = BagMetadata::kNoStart;  ///< BagMetadata::kNoStart if the file is empty
   std::int64_t last_ns = BagMetadata::kNoStart;
 };
 
-/// One file of a bag being read, whatever its storage. A file that is cut off or damaged is read as far as it goes.
+/// Reads one file of a bag, in any storage. A truncated or damaged file is read as far as possible.
 class BagFileReader {
  public:
   struct Entry {
     std::int64_t timestamp_ns = 0;
-    std::int64_t id = 0;  ///< rises in the order in which the messages were recorded
+    std::int64_t id = 0;  ///< increases in recording order
     std::int64_t topic_id = 0;
     auto operator<=>(const Entry&) const = default;
   };
@@ -45,21 +45,21 @@ class BagFileReader {
   const FileContent& content() const noexcept { return content_; }
 
   virtual Storage storage() const noexcept = 0;
-  /// Whether the file is known to be damaged; damage within may come to light later.
+  /// Whether the file is known to be damaged. Damage within it may be found later.
   virtual bool damaged() const noexcept = 0;
-  /// Messages that were recorded and cannot be read, as far as is known now.
+  /// Recorded messages known to be unreadable so far.
   virtual std::uint64_t lost() const noexcept = 0;
 
-  /// Messages by topic id.
+  /// Number of messages by topic id.
   virtual std::map<std::int64_t, std::uint64_t> count_by_topic() = 0;
 
-  /// From now on next() begins anew, with these topics only, and with messages from `begin_ns` on.
+  /// Restarts next(), restricted to these topics and to times from `begin_ns` on.
   virtual void select(std::set<std::int64_t> topic_ids, std::int64_t begin_ns) = 0;
-  /// The next message in order of timestamp, then id; false at the end. Messages that cannot be read are counted and
-  /// passed over.
+  /// Reads the next message in order of timestamp, then id. Returns false at the end. Unreadable messages are counted
+  /// and skipped.
   virtual bool next(Entry& entry, interfaces::Bytes& data) = 0;
 
-  /// Reads everything; what is wrong with it, each line with the file's name.
+  /// Reads all data. Returns the faults, each with the file's name.
   virtual std::vector<std::string> check_integrity() = 0;
 
  protected:
@@ -71,8 +71,8 @@ class BagFileReader {
   FileContent content_;
 };
 
-/// Opens a file of a bag by what its first bytes say it is. Keeps `warnings` and adds to them. Throws BagError: no
-/// file of a bag, being written, or damaged at its start.
+/// Opens a file of a bag; its first bytes determine the format. The reader keeps the reference to `warnings` and
+/// appends to it. Throws BagError if it is not a file of a bag, is being written or is damaged at its start.
 std::unique_ptr<BagFileReader> open_bag_file(const std::filesystem::path& file, std::vector<std::string>& warnings);
 
 }  // namespace panvo::recorder

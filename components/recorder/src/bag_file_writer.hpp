@@ -11,8 +11,8 @@
 
 namespace panvo::recorder {
 
-/// One file of a bag being written, whatever its storage. Throws StorageError; what to make of it is the caller's
-/// business. What is between begin() and commit() is there as a whole when commit() returns, power failure or not.
+/// Writes one file of a bag, in any storage. Throws StorageError. Data written between begin() and commit() is complete
+/// and durable when commit() returns, even after a power failure.
 class BagFileWriter {
  public:
   virtual ~BagFileWriter() = default;
@@ -25,11 +25,11 @@ class BagFileWriter {
   virtual void insert_metadata(const std::string& yaml) = 0;
   virtual void commit() = 0;
   virtual void rollback() noexcept = 0;
-  /// Makes a complete file of it; nothing can be written afterwards.
+  /// Completes the file; nothing can be written afterwards.
   virtual void finish() = 0;
 
   const std::filesystem::path& path() const noexcept { return path_; }
-  /// Committed and, at most, a batch's worth more.
+  /// Size of the committed data plus at most one batch.
   std::uint64_t size_bytes() const;
 
  protected:

@@ -21,7 +21,7 @@ bool is_bag_file(const fs::path& file) {
   return name.ends_with(".db3") || name.ends_with(".mcap");
 }
 
-/// "bag_10.db3" after "bag_9.db3": by the number before the ending, then by name.
+/// Sort key: the number before the extension, then the name; "bag_10.db3" comes after "bag_9.db3".
 std::pair<unsigned long long, std::string> recording_order(const fs::path& file) {
   const auto stem = (file.extension() == ".zstd" ? file.stem().stem() : file.stem()).string();
   const auto last = stem.find_last_not_of("0123456789");
@@ -44,21 +44,19 @@ std::vector<fs::path> bag_files_in(const fs::path& folder) {
 
 void refuse_other_storage(const fs::path& bag, const BagMetadata& metadata) {
   const auto convert =
-      "convert it where ROS 2 is installed: `ros2 bag convert -i " + bag.string() +
+      "convert it on a machine with ROS 2: `ros2 bag convert -i " + bag.string() +
       " -o out.yaml` with out.yaml: `output_bags: [{uri: converted, storage_id: mcap, all_topics: true}]`";
   if (metadata.storage_identifier != "sqlite3" && metadata.storage_identifier != "mcap") {
-    throw BagError(bag.string() + ": is stored as '" + metadata.storage_identifier + "', which is not read here; " +
-                   convert);
+    throw BagError(bag.string() + ": storage '" + metadata.storage_identifier + "' is not supported; " + convert);
   }
   if (!metadata.compression_format.empty() && metadata.compression_format != "zstd" &&
       metadata.compression_format != "none") {
-    throw BagError(bag.string() + ": is compressed with '" + metadata.compression_format +
-                   "', which is not read here; " + convert);
+    throw BagError(bag.string() + ": compression '" + metadata.compression_format + "' is not supported; " + convert);
   }
 }
 
-/// A path in metadata.yaml is relative to the bag; early versions wrote it relative to the bag's parent. Never
-/// outside the bag.
+/// Resolves a path of metadata.yaml. It is relative to the bag, in early versions to the bag's parent. The result is
+/// always inside the bag.
 fs::path locate(const fs::path& bag, const std::string& written) {
   const auto inside = (bag / written).lexically_normal();
   const auto relative = inside.lexically_relative(bag.lexically_normal());
@@ -89,7 +87,7 @@ BagFiles find_bag_files(const fs::path& bag, bool use_metadata, std::vector<std:
       }
     }
   } else if (use_metadata) {
-    warnings.push_back(metadata_file.string() + ": is missing; taken from the files, `panvo bag reindex` writes it");
+    warnings.push_back(metadata_file.string() + ": is missing; rebuilt from the files (`panvo bag reindex` writes it)");
   }
   if (use_metadata && found.metadata) {
     refuse_other_storage(bag, *found.metadata);
@@ -103,7 +101,7 @@ BagFiles find_bag_files(const fs::path& bag, bool use_metadata, std::vector<std:
         found.files.push_back(path);
       } else {
         ++found.missing;
-        warnings.push_back(path.string() + ": is missing; its messages are lost to this bag");
+        warnings.push_back(path.string() + ": is missing; its messages are lost");
       }
       listed.insert(path);
     }
@@ -118,15 +116,15 @@ BagFiles find_bag_files(const fs::path& bag, bool use_metadata, std::vector<std:
     found.files.push_back(path);
     if (use_metadata && found.metadata) {
       warnings.push_back(path.string() + ": is not listed in " + kMetadataFile +
-                         " (was the recorder killed?), but read all the same");
+                         " (was the recorder killed?) but is read anyway");
     }
   }
   if (!found.files.empty()) {
     return found;
   }
   throw BagError(bag.string() + (listed.empty()
-                                     ? ": is not a bag: it holds neither metadata.yaml nor a .db3 or .mcap file"
-                                     : ": none of its files is there; copy them beside metadata.yaml"));
+                                     ? ": is not a bag: it contains neither metadata.yaml nor a .db3 or .mcap file"
+                                     : ": none of its files exist; copy them next to metadata.yaml"));
 }
 
 }  // namespace panvo::recorder

@@ -10,17 +10,17 @@
 
 namespace panvo::recorder {
 
-/// The files of a bag, in order, all of which exist.
+/// The existing files of a bag, in order.
 struct BagFiles {
   std::filesystem::path folder;
   std::vector<std::filesystem::path> files;  ///< .db3 and .mcap, compressed or not
-  std::size_t missing = 0;                   ///< files that metadata.yaml lists and that are not there
-  std::optional<BagMetadata> metadata;       ///< what metadata.yaml says, where it is there and can be understood
+  std::size_t missing = 0;                   ///< number of files listed in metadata.yaml that do not exist
+  std::optional<BagMetadata> metadata;       ///< content of metadata.yaml, if it exists and is valid
 };
 
-/// Finds them: by metadata.yaml where `use_metadata`, and in the folder. What is not as it should be is added to
-/// `warnings`. Throws BagError when there is nothing to read: no such folder, no bag, another storage or
-/// compression, every file missing.
+/// Finds the files in metadata.yaml (if `use_metadata`) and in the folder. Appends recoverable faults to `warnings`.
+/// Throws BagError if nothing can be read: no such folder, not a bag, an unsupported storage or compression, all files
+/// missing.
 BagFiles find_bag_files(const std::filesystem::path& bag, bool use_metadata, std::vector<std::string>& warnings);
 
 }  // namespace panvo::recorder

@@ -16,12 +16,12 @@ bool is_bag_file(const fs::path& file) {
          name.ends_with(".db3.zstd") || name.ends_with(".mcap.zstd");
 }
 
-/// Removes the bag, and nothing that is not one.
+/// Removes the files of a bag. Throws BagError and removes nothing if the folder holds anything else.
 void remove_bag(const fs::path& bag) {
   for (const auto& entry : fs::directory_iterator(bag)) {
     if (!entry.is_regular_file() || !is_bag_file(entry.path())) {
-      throw BagError(bag.string() + ": is not overwritten, for it holds " + entry.path().filename().string() +
-                     ", which is no part of a bag; choose another folder");
+      throw BagError(bag.string() + ": not overwritten: it contains " + entry.path().filename().string() +
+                     ", which is not part of a bag; choose another folder");
     }
   }
   for (const auto& entry : fs::directory_iterator(bag)) {
@@ -34,20 +34,19 @@ void remove_bag(const fs::path& bag) {
 Descriptor take_folder(const fs::path& bag, bool overwrite) {
   try {
     if (fs::exists(bag) && !fs::is_directory(bag)) {
-      throw BagError(bag.string() + ": is a file; a bag is a folder, choose another name");
+      throw BagError(bag.string() + ": is a file, but a bag is a folder; choose another name");
     }
     fs::create_directories(bag);
     auto lock = lock_folder(bag);
     if (!fs::is_empty(bag)) {
       if (!overwrite) {
-        throw BagError(bag.string() + ": exists already; choose another folder, or allow to overwrite it");
+        throw BagError(bag.string() + ": already exists; choose another folder or set overwrite (--overwrite)");
       }
       remove_bag(bag);
     }
     return lock;
   } catch (const fs::filesystem_error& error) {
-    throw BagError(bag.string() + ": cannot be made (" + error.code().message() +
-                   "); choose a folder you may write to");
+    throw BagError(bag.string() + ": cannot be created (" + error.code().message() + "); choose a writable folder");
   }
 }
 

@@ -7,8 +7,9 @@
 
 namespace panvo::recorder {
 
-/// Makes the folder of a bag, or empties one that is to be overwritten, and locks it for one writer. Throws BagError: it holds a bag that is not to be
-/// overwritten or anything that is no part of one, another writer is at it, or it cannot be made.
+/// Creates the folder of a bag, or empties an existing one if `overwrite`, and locks it for one writer. Throws BagError
+/// if it is not empty and `overwrite` is false, if it holds anything that is not part of a bag, if another writer has
+/// locked it, or if it cannot be created.
 Descriptor take_folder(const std::filesystem::path& bag, bool overwrite);
 
 }  // namespace panvo::recorder

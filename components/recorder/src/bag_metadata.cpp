@@ -168,12 +168,12 @@ std::string to_yaml(const BagMetadata& metadata, bool in_file) {
 
 BagMetadata parse_metadata(const std::string& yaml, const std::filesystem::path& file) {
   const auto fail = [&](const std::string& what) -> BagError {
-    return BagError(file.string() + ": " + what + "; `panvo bag reindex` makes it anew from the files");
+    return BagError(file.string() + ": " + what + "; `panvo bag reindex` rewrites it from the files");
   };
   try {
     const auto root = YAML::Load(yaml);
     if (!root.IsMap()) {
-      throw fail("is not the description of a bag");
+      throw fail("is not the metadata of a bag");
     }
     const auto node = root[kRootKey] ? root[kRootKey] : root;
     if (!node["version"] || !node["storage_identifier"]) {

@@ -13,16 +13,16 @@ namespace panvo::recorder {
 namespace {
 
 struct Parameters {
-  std::string directory;             // the bag
-  std::vector<std::string> topics;   // what to play
-  std::vector<std::string> exclude;  // and what of it not
+  std::string directory;
+  std::vector<std::string> topics;
+  std::vector<std::string> exclude;
 
   template <class Field>
   static void describe(Field&& field) {
     using P = Parameters;
     field.path(&P::directory, "directory", "folder of the bag, or one .db3 or .mcap file");
-    field(&P::topics, "topics", "", "topics to play, names or regular expressions for whole names; none: all");
-    field(&P::exclude, "exclude", "", "topics not to play, names or regular expressions");
+    field(&P::topics, "topics", "", "topics to play: names or regular expressions for whole names; empty: all");
+    field(&P::exclude, "exclude", "", "topics not to play: names or regular expressions for whole names");
   }
 };
 
@@ -38,14 +38,14 @@ std::string listed(const std::vector<std::string>& names) {
   return text;
 }
 
-/// Plays a bag: its messages, as recorded, at their recorded times. Topics that the system computes itself are left
-/// out, so that what was recorded of them is not mixed with what is being computed.
+/// Plays the messages of a bag, unchanged, at their recorded times. Topics that this container publishes itself are not
+/// played, so that recorded and newly computed messages do not mix.
 class BagPlayerComponent final : public runtime::Component, public runtime::Source {
  public:
   explicit BagPlayerComponent(runtime::Context& context) : context_(context) {
     const auto parameters = context.parameters<Parameters>();
     if (parameters.directory.empty()) {
-      throw runtime::ConfigError(context.name() + ": parameter directory names no bag; write directory: FOLDER");
+      throw runtime::ConfigError(context.name() + ": parameter directory is empty; set directory: FOLDER");
     }
     try {
       open(parameters);
@@ -83,7 +83,7 @@ class BagPlayerComponent final : public runtime::Component, public runtime::Sour
     warnings_told_ = bag_->warnings().size();
     const auto& metadata = bag_->metadata();
     if (metadata.message_count == 0) {
-      throw BagError(bag_->path().string() + ": holds no message; `panvo bag info` shows what is in a bag");
+      throw BagError(bag_->path().string() + ": contains no messages; `panvo bag info` shows the contents of a bag");
     }
     const TopicFilter filter(parameters.topics, parameters.exclude);
     refuse_unmatched(filter);
@@ -95,14 +95,13 @@ class BagPlayerComponent final : public runtime::Component, public runtime::Sour
       }
     }
     if (!computed_here.empty()) {
-      context_.log().info("not played, for this system publishes them itself: {}", listed(computed_here));
+      context_.log().info("not played because this system publishes them itself: {}", listed(computed_here));
     }
     if (progress_.total == 0) {
-      throw BagError(bag_->path().string() +
-                     ": none of its messages is to be played; see the parameters topics and exclude");
+      throw BagError(bag_->path().string() + ": no messages selected to play; check the parameters topics and exclude");
     }
     bag_->select([&](const BagTopic& topic) {
-      // By name and type, as a name may have been recorded with two.
+      // By name and type, since a name may have been recorded with two types.
       for (std::size_t i = 0; i < outputs_.size(); ++i) {
         if (metadata.topics[i].name == topic.name && metadata.topics[i].type == topic.type) {
           return outputs_[i] != nullptr;
@@ -110,7 +109,7 @@ class BagPlayerComponent final : public runtime::Component, public runtime::Sour
       }
       return false;
     });
-    context_.log().info("playing {} of the {} messages of {}", progress_.total, metadata.message_count,
+    context_.log().info("playing {} of {} messages of {}", progress_.total, metadata.message_count,
                         bag_->path().string());
   }
 
@@ -120,7 +119,8 @@ class BagPlayerComponent final : public runtime::Component, public runtime::Sour
       names.push_back(topic.name);
     }
     if (const auto unmatched = filter.unmatched(names); !unmatched.empty()) {
-      throw BagError(bag_->path().string() + ": no topic matches " + listed(unmatched) + "; it has " + listed(names));
+      throw BagError(bag_->path().string() + ": no topic matches " + listed(unmatched) + "; the bag has " +
+                     listed(names));
     }
   }
 
@@ -131,12 +131,11 @@ class BagPlayerComponent final : public runtime::Component, public runtime::Sour
       return nullptr;
     }
     if (topic.serialization_format != "cdr") {
-      context_.log().warn("{} is not played: its messages are serialised as {}, not as cdr", name,
-                          topic.serialization_format);
+      context_.log().warn("{} is not played: serialization format is {}, not cdr", name, topic.serialization_format);
       return nullptr;
     }
     const auto type = full_type_name(topic.type);
-    // Bags of early and of other tools do not tell how a topic was offered; of this one everybody knows.
+    // Bags of early versions and of other tools store no QoS; /tf_static is always latched.
     const bool is_known_latched = topic.offered_qos_profiles.empty() && name == topics::kTfStatic.name;
     const auto qos =
         is_known_latched ? interfaces::qos::kLatched : replay_qos(topic.offered_qos_profiles, topic.message_count);
@@ -150,14 +149,14 @@ class BagPlayerComponent final : public runtime::Component, public runtime::Sour
       context_.log().warn("{}", warnings[warnings_told_]);
     }
     if (!message_ && bag_->lost_messages() > 0) {
-      context_.log().warn("{}: {} of its messages could not be read", bag_->path().string(), bag_->lost_messages());
+      context_.log().warn("{}: {} messages could not be read", bag_->path().string(), bag_->lost_messages());
     }
   }
 
   runtime::Context& context_;
   std::unique_ptr<BagReader> bag_;
   std::vector<std::shared_ptr<runtime::UntypedOutput>> outputs_;  // by the bag's topics; nullptr: not played
-  BagMessage* message_ = nullptr;                                 // what comes next
+  BagMessage* message_ = nullptr;                                 // the next one to play
   bool begun_ = false;
   std::size_t warnings_told_ = 0;
   Progress progress_;

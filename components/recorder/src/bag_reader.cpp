@@ -21,7 +21,7 @@ std::string plural(std::uint64_t count, const char* what) {
 
 }  // namespace
 
-/// A file with its next message. Until that has been asked for, the file counts as being at its first one.
+/// A file and its next message. Before the first advance(), next_ns() is the time of the file's first message.
 struct BagReader::File {
   File(const fs::path& path, std::vector<std::string>& warnings) : reader(open_bag_file(path, warnings)) {}
 
@@ -38,7 +38,7 @@ struct BagReader::File {
   std::uint64_t lost() const { return reader->lost() + packed_lost; }
 
   std::unique_ptr<BagFileReader> reader;
-  std::uint64_t packed_lost = 0;                    // messages that were compressed one by one, and are damaged
+  std::uint64_t packed_lost = 0;                    // damaged messages with message compression
   std::map<std::int64_t, std::size_t> topic_by_id;  // index into the bag's topics
   bool started = false;
   bool at_end = false;
@@ -68,10 +68,10 @@ BagReader::BagReader(const fs::path& bag, Trust trust) : bag_(fs::absolute(bag).
   if (trust == Trust::kFiles || !found.metadata || !agrees(*found.metadata)) {
     count_messages();
     if (trust == Trust::kMetadata && found.metadata) {
-      warnings_.push_back((bag_ / kMetadataFile).string() + ": says " +
-                          plural(found.metadata->message_count, "message") + ", the files hold " +
+      warnings_.push_back((bag_ / kMetadataFile).string() + ": lists " +
+                          plural(found.metadata->message_count, "message") + ", the files contain " +
                           std::to_string(metadata_.message_count) +
-                          " or other times; theirs are taken, `panvo bag reindex` corrects it");
+                          " or other times; using the files (`panvo bag reindex` corrects the metadata)");
     }
   }
   select([](const BagTopic&) { return true; });
@@ -86,11 +86,11 @@ void BagReader::open_file(const fs::path& file) {
     if (bag_ == file) {
       throw;
     }
-    warnings_.push_back(error.what());  // the bag's other files are read
+    warnings_.push_back(error.what());  // the other files are still read
   }
 }
 
-/// Topics and files as the files have them; what only metadata.yaml knows from there.
+/// Fills metadata_ from the files, and from `written` or the file's own copy what the files do not contain.
 void BagReader::describe(const std::optional<BagMetadata>& written) {
   std::map<std::pair<std::string, std::string>, std::size_t> index_by_name_and_type;
   for (const auto& file : files_) {
@@ -140,7 +140,7 @@ void BagReader::describe(const std::optional<BagMetadata>& written) {
   }
 }
 
-/// Whether what was written is about the files as they are; decided without reading them through.
+/// Whether `written` agrees with the files' totals; does not read the messages.
 bool BagReader::agrees(const BagMetadata& written) const {
   const auto sum =
       std::accumulate(metadata_.topics.begin(), metadata_.topics.end(), std::uint64_t{0},
@@ -198,7 +198,7 @@ BagMessage* BagReader::next() {
     }
     if (!first->started) {
       first->advance();
-      continue;  // its first message may be of a topic that is not wanted, and another file's turn come
+      continue;  // the first selected message may be later than another file's
     }
     message_.topic = first->topic_by_id.at(first->entry.topic_id);
     message_.timestamp_ns = first->entry.timestamp_ns;

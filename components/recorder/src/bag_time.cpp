@@ -10,7 +10,7 @@ namespace panvo::recorder {
 namespace {
 
 constexpr std::int64_t kNsPerS = 1'000'000'000;
-constexpr std::int64_t kLongestBagS = 100'000'000;  // three years: what is more is a stamp
+constexpr std::int64_t kLongestBagS = 100'000'000;  // three years; larger numbers are stamps
 constexpr std::int64_t kLatestStampS = std::numeric_limits<std::int64_t>::max() / kNsPerS - 1;
 
 bool is_number(const std::string& text) {
@@ -27,9 +27,9 @@ std::int64_t parse_bag_time(const std::string& text, std::int64_t start_ns) {
   auto fraction = point < text.size() ? text.substr(point + 1) : std::string();
   if (!is_number(text) || whole.size() > kMostDigits + 1) {
     throw BagError("'" + text +
-                   "' is no time of a bag: write seconds from its beginning, or a stamp in seconds or nanoseconds");
+                   "' is not a valid bag time: use seconds from its start, or a stamp in seconds or nanoseconds");
   }
-  // In whole numbers, as a double does not hold the nanoseconds of a stamp.
+  // Integers, since a double cannot hold the nanoseconds of a stamp.
   const auto number = whole.empty() ? 0 : std::stoull(whole);
   if (number > static_cast<unsigned long long>(kLatestStampS)) {
     return static_cast<std::int64_t>(std::min<unsigned long long>(number, std::numeric_limits<std::int64_t>::max()));

@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// How long metadata.yaml may lag behind the files; a reader notices and counts for itself.
+/// Longest time for which metadata.yaml may be outdated; readers detect this and use the files.
 constexpr std::chrono::seconds kMetadataPeriod{5};
 
 }  // namespace
@@ -35,7 +35,7 @@ std::string dated_bag_name() {
 BagWriter::BagWriter(fs::path bag, Options options)
     : bag_(fs::absolute(bag).lexically_normal()), options_(std::move(options)) {
   if (options_.storage == Storage::kSqlite3 && options_.compression != Compression::kNone) {
-    throw BagError(bag_.string() + ": the storage sqlite3 is not compressed here; choose the storage mcap for " +
+    throw BagError(bag_.string() + ": the storage sqlite3 does not support compression; choose the storage mcap for " +
                    to_text(options_.compression));
   }
   folder_lock_ = std::make_unique<Descriptor>(take_folder(bag_, options_.overwrite));
@@ -160,7 +160,7 @@ void BagWriter::open_next_file() {
     for (std::size_t i = 0; i < topics_.size(); ++i) {
       file_->add_topic(static_cast<int>(i) + 1, topics_[i].description, topics_[i].definition);
     }
-    // Tells readers which notation this file's QoS profiles are in.
+    // Its version tells readers the notation of this file's QoS profiles.
     file_->insert_metadata(to_yaml(metadata_, true));
     file_->commit();
     sync_folder(bag_);
@@ -233,7 +233,7 @@ void BagWriter::finish_file() {
   }
 }
 
-/// After a commit: is it still the bag's file that was written?
+/// Called after a commit: fails if the file was removed, moved or replaced, after preserving its content.
 void BagWriter::check_file() {
   const auto loss = guard_->find_loss();
   if (!loss) {
@@ -241,15 +241,15 @@ void BagWriter::check_file() {
   }
   const auto file = bag_ / metadata_.files.back().path;
   file_.reset();
-  std::string text = file.string() + ": " + *loss + ", and the recording has ended; the " +
-                     std::to_string(metadata_.message_count) + " messages until then ";
+  std::string text = file.string() + ": " + *loss + "; the recording has stopped. The " +
+                     std::to_string(metadata_.message_count) + " messages recorded so far ";
   try {
     const auto kept = guard_->keep();
     folder_lost_ = kept != file;
     text += "are in " + kept.string();
   } catch (const fs::filesystem_error& error) {
     folder_lost_ = true;
-    text += "cannot be kept (" + std::string(error.what()) + ")";
+    text += "could not be saved (" + std::string(error.what()) + ")";
   }
   save_metadata(true);
   fail(std::move(text));
@@ -264,7 +264,7 @@ void BagWriter::save_metadata(bool durable) {
   try {
     write_metadata(bag_, metadata_, durable);
   } catch (const BagError&) {
-    // A full disk or the like: the older metadata.yaml stays, and readers believe the files more than it.
+    // E.g. a full disk: the previous metadata.yaml stays; readers trust the files over it.
   }
 }
 
@@ -297,7 +297,7 @@ void BagWriter::throw_failure() {
 void BagWriter::commit_when_idle(std::stop_token stop) {
   std::unique_lock lock(mutex_);
   while (batch_begun_.wait(lock, stop, [this] { return batch_open_; })) {
-    const auto deadline = batch_deadline_;  // a copy: it is read while the lock is not held
+    const auto deadline = batch_deadline_;  // copied, since it is read without the lock
     batch_begun_.wait_until(lock, stop, deadline, [] { return false; });
     if (stop.stop_requested()) {
       return;  // close() commits
@@ -307,7 +307,7 @@ void BagWriter::commit_when_idle(std::stop_token stop) {
         commit_locked();
       }
     } catch (const BagError&) {
-      failure_told_ = false;  // whoever writes or closes next is told
+      failure_told_ = false;  // the next write() or close() throws it
       return;
     }
   }

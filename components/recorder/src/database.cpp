@@ -7,12 +7,12 @@
 namespace panvo::recorder {
 namespace {
 
-constexpr int kStepsPerCall = 10'000;        // of SQLite's machine, between calls of the progress handler
-constexpr std::uint64_t kStepsPerByte = 10;  // a row has ten bytes at least, and sorting it takes fifty steps
+constexpr int kStepsPerCall = 10'000;        // virtual machine instructions between calls of the progress handler
+constexpr std::uint64_t kStepsPerByte = 10;  // a row has at least ten bytes; sorting it takes fifty steps
 constexpr std::uint64_t kFewestCalls = 100;
 
-/// Why the operating system refused. SQLite forgets it where a commit fails; errno then still has it, see
-/// forget_errors().
+/// The errno of a failed call. SQLite loses it when a commit fails; errno itself then still holds it, since
+/// forget_errors() cleared it before the call.
 int system_error_of(sqlite3* database) {
   const int known = database ? sqlite3_system_errno(database) : 0;
   return known != 0 ? known : errno;
@@ -24,7 +24,7 @@ std::string describe(sqlite3* database, int result) {
   const int error = system_error_of(database);
   const int primary = result & 0xff;
   if (primary == SQLITE_INTERRUPT) {
-    return "takes longer to read than a file of its size can";
+    return "takes longer to read than its size allows";
   }
   if (error != 0 && (primary == SQLITE_IOERR || primary == SQLITE_FULL || primary == SQLITE_CANTOPEN)) {
     return std::strerror(error);
@@ -32,7 +32,7 @@ std::string describe(sqlite3* database, int result) {
   return database ? sqlite3_errmsg(database) : sqlite3_errstr(result);
 }
 
-/// A path as a file: URI, which is the way to tell SQLite more about a file than its name.
+/// The path as a file: URI with SQLite's option immutable.
 std::string immutable_uri(const std::filesystem::path& file) {
   std::string uri = "file:";
   for (const char c : std::filesystem::absolute(file).string()) {
@@ -72,7 +72,7 @@ Database::Database(const std::filesystem::path& file, Mode mode, const char* vfs
   sqlite3* database = nullptr;
   forget_errors();
   const int result = sqlite3_open_v2(name.c_str(), &database, flags(mode), vfs);
-  handle_.reset(database);  // a handle that failed to open must be closed as well
+  handle_.reset(database);  // must be closed even if opening failed
   if (result != SQLITE_OK) {
     throw DatabaseError(database, result);
   }
@@ -110,7 +110,7 @@ Statement& Statement::bind(int parameter, std::int64_t value) {
 }
 
 Statement& Statement::bind(int parameter, std::string_view value) {
-  // An empty view may have no address, and without one SQLite would store NULL.
+  // An empty view may have a null pointer, for which SQLite would store NULL.
   const char* text = value.data() ? value.data() : "";
   check(sqlite3_bind_text64(handle_.get(), parameter, text, value.size(), SQLITE_TRANSIENT, SQLITE_UTF8));
   return *this;

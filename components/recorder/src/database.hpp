@@ -14,7 +14,7 @@
 
 namespace panvo::recorder {
 
-/// SQLite refused: its extended result code, and errno where the operating system was the reason (0 elsewhere).
+/// An SQLite error: its extended result code, and errno if the operating system caused it (otherwise 0).
 class DatabaseError : public StorageError {
  public:
   DatabaseError(sqlite3* database, int result);
@@ -28,42 +28,42 @@ class DatabaseError : public StorageError {
   int system_error_;
 };
 
-/// An open SQLite database. Everything here throws DatabaseError.
+/// An open SQLite database. Its functions throw DatabaseError.
 class Database {
  public:
   enum class Mode {
     kCreate,  ///< must not exist
     kReadWrite,
     kRead,
-    kImmutable,  ///< read, and believe that nobody writes: no locks, journals ignored
+    kImmutable,  ///< read-only, assuming no writer: no locks, journals ignored
   };
 
-  /// `vfs`: SQLite's layer below, nullptr for the system's.
+  /// `vfs`: name of the SQLite VFS; nullptr: the default.
   Database(const std::filesystem::path& file, Mode mode, const char* vfs = nullptr);
 
-  /// Of a file from who knows where: no statement may run longer than `bytes` of file can give reason for. A tree whose branches grow
-  /// together again would otherwise be walked for years.
+  /// For untrusted files: limits the steps of each statement in proportion to the file size `bytes`. Otherwise a b-tree
+  /// whose branches share pages could be walked for years.
   void distrust(std::uint64_t bytes);
 
-  /// Runs statements that return nothing of interest.
+  /// Runs statements and discards their results.
   void execute(const std::string& sql);
 
   std::int64_t last_insert_id() const noexcept { return sqlite3_last_insert_rowid(handle_.get()); }
   bool in_transaction() const noexcept { return sqlite3_get_autocommit(handle_.get()) == 0; }
   sqlite3* handle() const noexcept { return handle_.get(); }
 
-  /// How long a statement may run, in calls of SQLite's progress handler.
+  /// Time limit of a statement, in calls of SQLite's progress handler.
   struct Patience {
     std::uint64_t most = 0;
-    std::uint64_t* spent = nullptr;  ///< by the statement that runs now
+    std::uint64_t* spent = nullptr;  ///< calls spent by the running statement
   };
-  Patience* patience() const noexcept { return patience_.get(); }  ///< nullptr: for ever
+  Patience* patience() const noexcept { return patience_.get(); }  ///< nullptr: no limit
 
  private:
   struct Close {
     void operator()(sqlite3* database) const noexcept { sqlite3_close_v2(database); }
   };
-  std::unique_ptr<Patience> patience_;  // before the handle, which knows of it
+  std::unique_ptr<Patience> patience_;  // before the handle, which refers to it
   std::unique_ptr<sqlite3, Close> handle_;
 };
 
@@ -74,10 +74,10 @@ class Statement {
 
   Statement& bind(int parameter, std::int64_t value);
   Statement& bind(int parameter, std::string_view value);
-  /// The bytes must stay until the statement is reset.
+  /// The bytes must remain valid until the statement is reset.
   Statement& bind(int parameter, std::span<const std::uint8_t> value);
 
-  bool step();  ///< whether there is a row
+  bool step();  ///< returns whether there is a row
   void reset() noexcept;
   void run();  ///< steps to the end and resets
 

@@ -6,11 +6,11 @@
 
 namespace panvo::recorder {
 
-/// Puts `content` in the place of a file in one step: whoever opens it sees the old content or the new, never a part.
-/// `durable`: it has reached the disk when this returns. Throws BagError naming the file.
+/// Atomically replaces a file by one with `content`: readers see the old or the new content. `durable`: waits until the
+/// content is on disk. Throws BagError that names the file.
 void replace_file(const std::filesystem::path& file, std::string_view content, bool durable);
 
-/// Has the entries of a folder reach the disk; where the file system cannot, nothing happens.
+/// Syncs the entries of a folder to disk. Does nothing if the file system does not support it.
 void sync_folder(const std::filesystem::path& folder) noexcept;
 
 }  // namespace panvo::recorder

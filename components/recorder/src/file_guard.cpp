@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 
 fs::path link_of(const Descriptor& descriptor) { return "/proc/self/fd/" + std::to_string(descriptor.get()); }
 
-/// `file`, or with _kept and a number before its ending the first name that is free.
+/// `file` if it does not exist, else the first free name with _kept and a number before the extension.
 fs::path free_name(const fs::path& file) {
   fs::path name = file;
   for (int i = 1; fs::exists(name); ++i) {
@@ -49,7 +49,7 @@ bool Descriptor::close() noexcept {
 
 Descriptor lock_folder(const fs::path& folder) {
   Descriptor descriptor(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-  // Where folders cannot be locked (some network file systems) nothing is known of other recorders.
+  // On file systems without folder locks (some network file systems) other recorders are not detected.
   if (descriptor.get() >= 0 && ::flock(descriptor.get(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
     throw BagError(folder.string() + ": another recorder is writing to it; choose another folder");
   }
@@ -66,7 +66,7 @@ std::optional<std::string> FileGuard::find_loss() const {
   struct stat opened {};
   struct stat there {};
   if (::fstat(descriptor_.get(), &opened) != 0) {
-    return std::nullopt;  // nothing is known of it
+    return std::nullopt;  // unknown
   }
   const bool is_there = ::stat(file_.c_str(), &there) == 0;
   if (is_there && there.st_dev == opened.st_dev && there.st_ino == opened.st_ino) {

@@ -7,7 +7,7 @@
 
 namespace panvo::recorder {
 
-/// Closes a file descriptor.
+/// Owns a file descriptor.
 class Descriptor {
  public:
   explicit Descriptor(int descriptor = -1) noexcept : descriptor_(descriptor) {}
@@ -23,25 +23,26 @@ class Descriptor {
   int descriptor_;
 };
 
-/// Takes a folder for this process; it is free again when the descriptor is closed, at the latest with the process. Throws BagError while another has it.
+/// Locks a folder until the descriptor is closed or the process ends. Throws BagError if another process has locked it.
 Descriptor lock_folder(const std::filesystem::path& folder);
 
-/// Notices that a file which is being written was removed, moved or replaced, and keeps what was written to it.
+/// Detects that a file being written was removed, moved or replaced, and preserves its content.
 class FileGuard {
  public:
-  /// Throws StorageError if the file is not there.
+  /// Throws StorageError if the file does not exist.
   explicit FileGuard(std::filesystem::path file);
 
-  /// "was removed" or the like; nullopt while the path leads to the file that was opened.
+  /// Returns "was removed while ..." or similar; nullopt while the path refers to the opened file.
   std::optional<std::string> find_loss() const;
 
-  /// Where what was written can be found: where the file was moved to, or, if it was removed, a copy in its place or beside what is there now.
-  /// To be called when nobody else has the file open. Throws std::filesystem::filesystem_error.
+  /// Returns the path of the written data: the new path of a moved file; for a removed file, a copy at the old path, or
+  /// beside it if that path is taken. Call only after the file has been closed. Throws
+  /// std::filesystem::filesystem_error.
   std::filesystem::path keep() const;
 
  private:
   std::filesystem::path file_;
-  Descriptor descriptor_;  // O_PATH: closing it leaves SQLite its locks on the file
+  Descriptor descriptor_;  // O_PATH: closing it does not release SQLite's locks on the file
 };
 
 }  // namespace panvo::recorder

@@ -9,10 +9,10 @@
 
 namespace panvo::recorder {
 
-/// A file that is read from any place of it. It counts as being as long as it was when it was opened.
+/// A file with random read access. Its size is taken when it is opened.
 class InputFile {
  public:
-  /// Throws BagError naming the file.
+  /// Throws BagError that names the file.
   explicit InputFile(const std::filesystem::path& path);
   ~InputFile();
   InputFile(const InputFile&) = delete;
@@ -20,10 +20,10 @@ class InputFile {
 
   std::uint64_t size() const noexcept { return size_; }
 
-  /// Fills `bytes` from `offset` on; returns how many there are, fewer at the file's end or where the disk fails.
+  /// Fills `bytes` from `offset` on. Returns the number of bytes read, fewer at the end of the file or on a disk error.
   std::size_t read(std::uint64_t offset, std::span<std::uint8_t> bytes) const noexcept;
 
-  /// At most `count` bytes: no more memory is taken than the file has bytes.
+  /// Reads at most `count` bytes. Allocates no more than the file's remaining size.
   interfaces::Bytes read(std::uint64_t offset, std::uint64_t count) const;
 
  private:

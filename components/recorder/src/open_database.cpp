@@ -13,7 +13,7 @@ namespace panvo::recorder {
 namespace {
 
 namespace fs = std::filesystem;
-using Header = std::array<char, 100>;  // SQLite's, see its file format
+using Header = std::array<char, 100>;  // of the SQLite file format
 
 std::size_t read_header(const fs::path& file, Header& header) {
   std::ifstream stream(file, std::ios::binary);
@@ -32,7 +32,7 @@ std::uint32_t big_endian(const Header& header, std::size_t at, std::size_t bytes
   return value;
 }
 
-/// Of a file, or one beside it that is named after it; 0: there is none.
+/// Size of `file` with `suffix` appended to its name; 0 if it does not exist.
 std::uint64_t size_of(fs::path file, const char* suffix) {
   file += suffix;
   std::error_code error;
@@ -40,13 +40,12 @@ std::uint64_t size_of(fs::path file, const char* suffix) {
   return error ? 0 : size;
 }
 
-/// Opens and reads a little, as SQLite opens nothing before it has to.
+/// Opens the database and reads its schema, since SQLite defers opening until the first read.
 Database open_and_look(const fs::path& file, Database::Mode mode) {
   const bool is_cut = mode != Database::Mode::kReadWrite && expected_bytes_if_cut(file) > 0;
   Database database(file, mode, is_cut ? whole_pages_vfs() : nullptr);
   database.distrust(size_of(file, "") + size_of(file, "-wal"));
-  // Without this a file that is shorter than its header says cannot be read at all. Nothing is written, the mode sees
-  // to that.
+  // writable_schema allows reading a file that is shorter than its header states. The mode prevents writing.
   database.execute("PRAGMA writable_schema=ON; PRAGMA trusted_schema=OFF; PRAGMA cell_size_check=ON;");
   Statement(database, "SELECT count(*) FROM sqlite_master").step();
   return database;
@@ -78,9 +77,9 @@ Database open_database(const fs::path& file, std::vector<std::string>& warnings)
       throw BagError(file.string() + ": is being written by another program; stop the recording first");
     }
     if (is_damage(error)) {
-      throw BagError(file.string() + ": is damaged at its start (" + error.what() + "); nothing of it can be read");
+      throw BagError(file.string() + ": is damaged at its start (" + error.what() + "); nothing in it can be read");
     }
-    // What is left: an unfinished commit must be rolled back, or a write-ahead log read, and either needs to write.
+    // Otherwise an unfinished commit must be rolled back or a write-ahead log read; both need write access.
   }
   const bool unfinished = size_of(file, "-journal") > 0 || size_of(file, "-wal") > 0;
   try {
@@ -88,16 +87,16 @@ Database open_database(const fs::path& file, std::vector<std::string>& warnings)
     auto database = open_and_look(file, Database::Mode::kRead);
     if (unfinished) {
       warnings.push_back(file.string() +
-                         ": the recorder did not finish its last batch (was it killed?); this has been put in order");
+                         ": the recorder did not finish its last batch (was it killed?); the file has been repaired");
     }
     return database;
   } catch (const DatabaseError& error) {
     if (is_damage(error)) {
-      throw BagError(file.string() + ": is damaged at its start (" + error.what() + "); nothing of it can be read");
+      throw BagError(file.string() + ": is damaged at its start (" + error.what() + "); nothing in it can be read");
     }
     if (unfinished) {
       throw BagError(file.string() + ": has an unfinished batch and is write-protected (" + error.what() +
-                     "); copy the bag with all its files to where you may write, and open the copy");
+                     "); copy the bag with all its files to a writable folder and open the copy");
     }
   }
   try {

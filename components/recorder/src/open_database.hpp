@@ -9,11 +9,11 @@
 
 namespace panvo::recorder {
 
-/// Opens a .db3 file for reading, so that a file that is cut off opens too. A recorder's unfinished last commit is
-/// rolled back. Throws BagError naming file and remedy: damaged at its start, being written.
+/// Opens a .db3 file for reading, also if it is truncated. Rolls back a recorder's unfinished last commit. Throws
+/// BagError with file and remedy, e.g. if the file is damaged at its start or being written.
 Database open_database(const std::filesystem::path& file, std::vector<std::string>& warnings);
 
-/// How many bytes the file should have by its own header when it has fewer; 0 when nothing is missing.
+/// Returns the size that the header gives if the file is shorter than that, otherwise 0.
 std::uint64_t expected_bytes_if_cut(const std::filesystem::path& file);
 
 }  // namespace panvo::recorder

@@ -5,8 +5,8 @@
 
 namespace panvo::recorder {
 
-/// rosbag2 can compress messages one by one (zstd). Unpacks `data` if it is such a message: the first bytes tell, for
-/// no CDR begins like that. False: it is one, but damaged.
+/// Decompresses `data` if it is a message that rosbag2 compressed (zstd). The zstd magic identifies it, since no CDR
+/// starts with it. Returns false if the compressed message is damaged.
 bool unpack_message(interfaces::Bytes& data);
 
 }  // namespace panvo::recorder

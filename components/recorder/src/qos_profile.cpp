@@ -16,7 +16,7 @@ namespace {
 
 using Profile = QosProfile;
 
-// Names by value, as ROS 2's rmw layer has them; "" is a value that has no name.
+// Names by value, as in ROS 2's rmw layer.
 constexpr std::array<std::string_view, 4> kHistory{"system_default", "keep_last", "keep_all", "unknown"};
 constexpr std::array<std::string_view, 5> kReliability{"system_default", "reliable", "best_effort", "unknown",
                                                        "best_available"};
@@ -32,7 +32,7 @@ YAML::Node write_policy(Policy policy, const std::array<std::string_view, N>& na
                                            : YAML::Node(std::string(names[static_cast<std::size_t>(value)]));
 }
 
-/// Either notation; throws YAML::Exception or std::out_of_range on anything else.
+/// Reads either notation. Throws YAML::Exception or std::out_of_range.
 template <class Policy, std::size_t N>
 void read_policy(const YAML::Node& node, const std::array<std::string_view, N>& names, Policy& policy) {
   const auto text = node.as<std::string>();
@@ -54,7 +54,7 @@ YAML::Node write_duration(const Profile::Duration& duration) {
 }
 
 void read_duration(const YAML::Node& node, Profile::Duration& duration) {
-  // ROS 2 Foxy's middlewares each had an infinity of their own, some beyond int64; 0 meant "not said".
+  // In ROS 2 Foxy each middleware had its own value for infinite, some beyond int64; 0 meant unspecified.
   const auto sec = node["sec"].as<std::uint64_t>();
   const auto nsec = node["nsec"].as<std::uint64_t>();
   const bool infinite = sec >= 0x7fffffff || (sec == 0 && nsec == 0);
@@ -96,7 +96,7 @@ QosProfile offered_profile(const interfaces::Qos& qos) {
   QosProfile profile;
   profile.history = qos.keep_all ? Profile::History::kKeepAll : Profile::History::kKeepLast;
   profile.depth = static_cast<std::int64_t>(qos.depth);
-  profile.reliability = Profile::Reliability::kReliable;  // ours always are, whatever they request
+  profile.reliability = Profile::Reliability::kReliable;  // our publishers always are; qos.requested is for subscribers
   profile.durability = qos.durability == interfaces::Durability::kTransientLocal ? Profile::Durability::kTransientLocal
                                                                                  : Profile::Durability::kVolatile;
   return profile;

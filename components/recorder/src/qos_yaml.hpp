@@ -9,10 +9,10 @@
 
 namespace panvo::recorder {
 
-/// Profiles as they are nested in metadata.yaml since version 9.
+/// Profiles as a YAML sequence, nested in metadata.yaml since version 9.
 YAML::Node to_node(const std::vector<QosProfile>& profiles, QosNotation notation);
 
-/// Either notation; throws YAML::Exception or std::out_of_range.
+/// Reads either notation. Throws YAML::Exception or std::out_of_range.
 std::vector<QosProfile> profiles_from_node(const YAML::Node& node);
 
 }  // namespace panvo::recorder

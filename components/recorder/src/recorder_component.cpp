@@ -19,14 +19,14 @@ using runtime::SamplePtr;
 using runtime::TopicDescription;
 
 struct Parameters {
-  std::string output;                // folder of the bag
-  bool overwrite = false;            // replace a bag that is there
-  std::vector<std::string> topics;   // what to record
-  std::vector<std::string> exclude;  // and what of it not
+  std::string output;
+  bool overwrite = false;
+  std::vector<std::string> topics;
+  std::vector<std::string> exclude;
   bool include_images = true;
   bool include_hidden = false;
-  int max_file_mb = 0;  // size at which the next file is begun
-  int queue_mb = 100;   // what may wait for the disk
+  int max_file_mb = 0;
+  int queue_mb = 100;
   int max_topics = 1000;
   std::string storage = "sqlite3";
   std::string compression = "none";
@@ -35,19 +35,19 @@ struct Parameters {
   static void describe(Field&& field) {
     using P = Parameters;
     field.path(&P::output, "output", "folder of the bag; empty: rosbag2_ with date and time, in the working directory");
-    field(&P::overwrite, "overwrite", "", "replace a bag that is already there");
-    field(&P::topics, "topics", "", "topics to record, names or regular expressions for whole names; none: all");
-    field(&P::exclude, "exclude", "", "topics not to record, names or regular expressions");
-    field(&P::include_images, "include_images", "", "record sensor_msgs/Image and CompressedImage too");
+    field(&P::overwrite, "overwrite", "", "replace an existing bag");
+    field(&P::topics, "topics", "", "topics to record: names or regular expressions for whole names; empty: all");
+    field(&P::exclude, "exclude", "", "topics not to record: names or regular expressions for whole names");
+    field(&P::include_images, "include_images", "", "also record sensor_msgs/Image and CompressedImage");
     field(&P::include_hidden, "include_hidden", "",
-          "record hidden topics too: those with a name part that begins with _");
-    field(&P::max_file_mb, "max_file_mb", "MB", "begin the next file of the bag at this size; 0: one file", 0, 1e6);
+          "also record hidden topics, which have a name part that begins with _");
+    field(&P::max_file_mb, "max_file_mb", "MB", "size at which the next file is started; 0: one file", 0, 1e6);
     field(&P::storage, "storage", "", "sqlite3 (.db3) or mcap");
-    field(&P::compression, "compression", "", "of the storage mcap: none, lz4 or zstd");
-    field(&P::queue_mb, "queue_mb", "MB", "messages that may wait for the disk; what is more is dropped and counted", 1,
+    field(&P::compression, "compression", "", "compression of mcap: none, lz4 or zstd");
+    field(&P::queue_mb, "queue_mb", "MB", "size of the write queue; messages beyond it are dropped and counted", 1,
           1e5);
     field(&P::max_topics, "max_topics", "",
-          "topics to record at most: each takes memory and a DDS reader; further ones are left out, counted and named "
+          "maximum number of topics; each needs memory and a DDS reader. Further ones are skipped, counted and named "
           "in the log",
           1, 65'535);
   }
@@ -59,7 +59,7 @@ bool is_image(const TopicDescription& topic) {
 
 bool is_hidden(const TopicDescription& topic) { return topic.name.find("/_") != std::string::npos; }
 
-/// Runs what throws BagError where only a ConfigError may be thrown.
+/// Runs `action`; converts a BagError to a ConfigError.
 template <class Action>
 auto as_configuration(const std::string& component, Action action) {
   try {
@@ -77,9 +77,8 @@ std::unique_ptr<BagWriter> make_writer(const Parameters& parameters) {
   return std::make_unique<BagWriter>(parameters.output.empty() ? dated_bag_name() : parameters.output, options);
 }
 
-/// Records topics to a bag. What it must write waits in a queue that is bounded by its bytes; behind it a second
-/// stage writes, so that a disk that is slow for a moment delays nobody, and one that is slow for longer costs
-/// messages that are counted, topic by topic.
+/// Records topics to a bag. Messages wait in a queue of bounded size, and a second stage writes them. A short delay of
+/// the disk therefore delays no publisher; a longer one drops messages, which are counted by topic.
 class RecorderComponent final : public runtime::Component {
  public:
   explicit RecorderComponent(runtime::Context& context)
@@ -96,7 +95,7 @@ class RecorderComponent final : public runtime::Component {
       finish();
       if (writer_->committed_messages() + writer_->lost_messages() == 0) {
         throw BagError("nothing was recorded to " + writer_->path().string() +
-                       ": no message came on the topics that were chosen");
+                       ": no messages arrived on the selected topics");
       }
     });
     context.log().info("recording to {}", writer_->path().string());
@@ -114,15 +113,16 @@ class RecorderComponent final : public runtime::Component {
   struct Waiting {
     const TopicDescription* topic = nullptr;
     SamplePtr sample;
-    std::uint64_t dropped_before = 0;  // of this topic, since the last one that was not
+    std::uint64_t dropped_before = 0;  // messages of this topic dropped since the previous queued one
   };
 
-  static constexpr std::size_t kTapDepth = 10'000;      // never reached: taking a message is quick
-  static constexpr std::size_t kMostWaiting = 100'000;  // of messages so small that they do not fill the queue
+  static constexpr std::size_t kTapDepth = 10'000;      // not reached, since take() is fast
+  static constexpr std::size_t kMostWaiting = 100'000;  // limit for messages too small to fill queue_mb
 
-  static constexpr std::int64_t kRelativeTimes = 86'400'000'000'000;  // a day from 0: no time of the system clock
+  static constexpr std::int64_t kRelativeTimes =
+      86'400'000'000'000;  // earlier times are relative, not system time: 1 day
 
-  /// Once: at the end of the run, or when the component is unloaded before.
+  /// Runs once, at the end of the run or when the component is unloaded.
   void finish() {
     if (std::exchange(is_finished_, true)) {
       return;
@@ -144,7 +144,8 @@ class RecorderComponent final : public runtime::Component {
            (parameters_.include_hidden || !is_hidden(topic));
   }
 
-  /// Called by whoever makes or finds a topic; it may hold locks that a line of the log needs.
+  /// Called by the thread that creates or discovers a topic. Must not log: the caller may hold locks that logging
+  /// needs.
   bool is_wanted(const TopicDescription& topic) {
     if (!is_chosen(topic)) {
       return false;
@@ -169,13 +170,12 @@ class RecorderComponent final : public runtime::Component {
     if (left_out_.empty()) {
       return "";
     }
-    return fmt::format(
-        "{} topics are left out, {} among them: {} are recorded already; raise max_topics, or choose topics",
-        left_out_.size(), *left_out_.begin(), parameters_.max_topics);
+    return fmt::format("{} topics are skipped, e.g. {}: max_topics is {}; increase it or select topics",
+                       left_out_.size(), *left_out_.begin(), parameters_.max_topics);
   }
 
-  /// What the recorder says itself is not recorded: two recordings of one thing are to be equal, though they lie in
-  /// two folders.
+  /// Whether this is a log message of the recorder itself. These are not recorded, since they contain the bag's path
+  /// and would make two recordings of the same messages differ.
   bool is_own_log(const TopicDescription& topic, const SamplePtr& sample) const {
     if (topic.type_name != "rcl_interfaces/msg/Log") {
       return false;
@@ -209,10 +209,9 @@ class RecorderComponent final : public runtime::Component {
   void count_dropped(const std::string& topic) {
     ++dropped_[topic];
     ++all_dropped_;
-    if ((all_dropped_ & (all_dropped_ - 1)) == 0) {  // the 1st, 2nd, 4th, 8th ...: heard, and not too often
-      context_.log().warn(
-          "{} messages dropped: {} is written to more slowly than they come; record fewer topics, or to a faster disk",
-          all_dropped_, writer_->path().string());
+    if ((all_dropped_ & (all_dropped_ - 1)) == 0) {  // log the 1st, 2nd, 4th, 8th ...
+      context_.log().warn("{} messages dropped: writing to {} is too slow; record fewer topics or use a faster disk",
+                          all_dropped_, writer_->path().string());
     }
   }
 
@@ -226,8 +225,8 @@ class RecorderComponent final : public runtime::Component {
     store(message, time_ns);
   }
 
-  /// In replay there is no time before the first source has stepped. What was published until then bears the time of
-  /// the first message that has one, unless that is near 0 itself, as in data sets whose times are relative.
+  /// Stores the messages published before the replay clock was set by the first step of a source. They get the time of
+  /// the first message with a time, or 0 if that is below kRelativeTimes, as in datasets with relative times.
   void store_early(std::int64_t first_ns) {
     const auto time_ns = first_ns < kRelativeTimes ? 0 : first_ns;
     for (const auto& message : std::exchange(early_, {})) {
@@ -244,7 +243,7 @@ class RecorderComponent final : public runtime::Component {
     if (message.dropped_before > 0) {
       writer_->count_dropped(message.topic->name, message.dropped_before);
     }
-    writer_->write(place->second, time_ns, bytes);  // a BagError ends this stage, not the system
+    writer_->write(place->second, time_ns, bytes);  // a BagError stops this stage only
     waiting_bytes_ -= bytes.size();
     --waiting_messages_;
   }
@@ -271,9 +270,9 @@ class RecorderComponent final : public runtime::Component {
   std::atomic<bool> is_news_left_out_ = false;
   std::atomic<std::size_t> waiting_bytes_ = 0;
   std::atomic<std::size_t> waiting_messages_ = 0;
-  std::map<std::string, std::uint64_t> dropped_;  // of the taking stage, not yet told to the writer
+  std::map<std::string, std::uint64_t> dropped_;  // used by take(); not yet reported to the writer
   std::uint64_t all_dropped_ = 0;
-  std::map<std::string, int> handles_;  // of the writing stage, as is what follows
+  std::map<std::string, int> handles_;  // this and the following: used by the writing stage
   std::vector<Waiting> early_;
   bool is_finished_ = false;
 };

@@ -13,7 +13,7 @@ class Scan {
   explicit Scan(const Database& database)
       : rows_(database, "SELECT timestamp, id, topic_id, data FROM messages WHERE id >= ? ORDER BY id") {}
 
-  /// Whether the first message from `id` on can be read, or there is none.
+  /// Whether the first message from `id` on is readable, or there is none.
   bool is_readable_from(std::int64_t id) {
     rows_.reset();
     rows_.bind(1, id);
@@ -24,14 +24,14 @@ class Scan {
     }
   }
 
-  /// Collects from `id` on, up to the end (true) or to what cannot be read (false); `id` is then where that is.
+  /// Collects entries from `id` on. Returns true at the end; false at an unreadable id, which is then in `id`.
   bool collect(std::int64_t& id, std::vector<BagFileReader::Entry>& entries) {
     rows_.reset();
     rows_.bind(1, id);
     try {
       while (rows_.step()) {
         if (rows_.integer(1) < id) {
-          return false;  // ids that do not rise: the tree bites its tail
+          return false;  // ids do not increase: the b-tree has a cycle
         }
         if (rows_.integer(1) >= kEndOfIds) {
           return true;
@@ -49,8 +49,7 @@ class Scan {
   Statement rows_;
 };
 
-/// The first id after the unreadable `bad` from which on something can be read: found by leaps that double, then by
-/// halving the last one.
+/// The first readable id after the unreadable id `bad`, found by steps that double, then by bisecting the last step.
 std::int64_t after_damage(Scan& scan, std::int64_t bad) {
   std::int64_t good = bad + 1;
   for (std::int64_t leap = 1; good < kEndOfIds && !scan.is_readable_from(good); leap *= 2) {

@@ -10,12 +10,12 @@
 namespace panvo::recorder {
 
 struct Salvaged {
-  std::vector<BagFileReader::Entry> entries;  ///< every message that can be read whole, in order of timestamp, then id
-  std::uint64_t missing_ids = 0;              ///< gaps between them; how many followed the last one nobody knows
+  std::vector<BagFileReader::Entry> entries;  ///< completely readable messages, ordered by timestamp, then id
+  std::uint64_t missing_ids = 0;              ///< ids missing between them; losses after the last one are unknown
 };
 
-/// Reads through a damaged table of messages by id, leaping over what cannot be read: one stretch of damage after
-/// another is passed, readable messages in the midst of one may be missed. Reads all data once.
+/// Reads a damaged messages table by id and skips unreadable ranges. Readable messages within such a range may be
+/// missed. Reads all data once.
 Salvaged salvage_messages(const Database& database);
 
 }  // namespace panvo::recorder

@@ -10,8 +10,8 @@
 namespace panvo::recorder {
 namespace {
 
-/// None of what is no table: a view may have rows without end, and a virtual table may be anything. Columns that are computed, to whatever
-/// size, are not among them either.
+/// Stored columns of an ordinary table; empty for views and virtual tables, which may have unlimited rows. Excludes
+/// generated columns, whose values may have any size.
 std::set<std::string> columns_of(const Database& database, std::string_view table) {
   std::set<std::string> columns;
   Statement statement(
@@ -33,11 +33,11 @@ SqliteFileReader::SqliteFileReader(std::filesystem::path file, std::vector<std::
     read_description();
   } catch (const DatabaseError& error) {
     throw BagError(path_.string() + ": its list of topics cannot be read (" + error.what() +
-                   "), so nothing of it can be used; is there another copy of the bag?");
+                   "), so the file is unusable; use another copy of the bag");
   }
   if (const auto expected = expected_bytes_if_cut(path_)) {
     salvage("is cut off: " + std::to_string(std::filesystem::file_size(path_)) + " of " + std::to_string(expected) +
-            " bytes are there");
+            " bytes present");
     return;
   }
   try {
@@ -76,7 +76,7 @@ void SqliteFileReader::read_description() {
       topic.offered_qos_profiles = std::move(*profiles);
     } else {
       warnings_.push_back(path_.string() + ": the QoS profiles of topic " + topic.name +
-                          " cannot be understood; ROS 2's default is taken");
+                          " cannot be parsed; using the ROS 2 default");
     }
     topic.type_description_hash = topics.text(5);
     content_.topics.emplace(topics.integer(0), std::move(topic));
@@ -95,7 +95,7 @@ void SqliteFileReader::read_description() {
       }
     }
   } catch (const std::runtime_error&) {
-    // Of use only where metadata.yaml is missing, and not needed even there.
+    // Optional data, used only if metadata.yaml is missing.
   }
 }
 
@@ -110,14 +110,14 @@ void SqliteFileReader::read_definitions() {
 }
 
 void SqliteFileReader::read_extent() {
-  // Not count(*), which SQLite does in one go that cannot be ended.
+  // Not count(*): SQLite computes it in one step that the progress handler cannot interrupt.
   Statement extent(database_, "SELECT count(timestamp) FROM messages WHERE timestamp >= 0");
   extent.step();
   content_.message_count = static_cast<std::uint64_t>(extent.integer(0));
   if (content_.message_count == 0) {
     return;
   }
-  // One at a time, as SQLite takes one of them from the index, but not both.
+  // Separate queries: SQLite uses the index for min or max alone, not for both.
   Statement first(database_, "SELECT min(timestamp) FROM messages WHERE timestamp >= 0");
   first.step();
   content_.first_ns = first.integer(0);
@@ -171,7 +171,7 @@ bool SqliteFileReader::next_entry(Entry& entry) {
   if (!damaged()) {
     try {
       if (!entries_) {
-        // Without the data: where the index is missing SQLite must sort, and should not have to sort images.
+        // Without the data, since SQLite sorts all selected columns if the index is missing.
         entries_.emplace(database_,
                          "SELECT timestamp, id, topic_id FROM messages WHERE timestamp >= ? ORDER BY timestamp, id");
         entries_->bind(1, begin_ns_);
@@ -232,7 +232,7 @@ void SqliteFileReader::salvage(const std::string& reason) {
     content_.last_ns = found.entries.back().timestamp_ns;
   }
   warnings_.push_back(path_.string() + ": " + reason + "; " + std::to_string(content_.message_count) +
-                      " messages of it can be read");
+                      " messages can be read");
   salvaged_ = std::move(found.entries);
 }
 

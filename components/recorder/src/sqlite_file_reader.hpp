@@ -6,21 +6,21 @@
 
 namespace panvo::recorder {
 
-/// A .db3 file, of any of rosbag2's schemas.
+/// Reads a .db3 file of any rosbag2 schema.
 class SqliteFileReader final : public BagFileReader {
  public:
-  /// Throws BagError: not a database, not a bag, being written, or damaged at its start.
+  /// Throws BagError if it is not a database or not a bag, is being written or is damaged at its start.
   SqliteFileReader(std::filesystem::path file, std::vector<std::string>& warnings);
 
   Storage storage() const noexcept override { return Storage::kSqlite3; }
   bool damaged() const noexcept override { return salvaged_.has_value(); }
   std::uint64_t lost() const noexcept override { return lost_; }
 
-  /// Of a sound file this reads the whole table, though not the messages.
+  /// For an undamaged file this reads the whole table, but not the message data.
   std::map<std::int64_t, std::uint64_t> count_by_topic() override;
   void select(std::set<std::int64_t> topic_ids, std::int64_t begin_ns) override;
   bool next(Entry& entry, interfaces::Bytes& data) override;
-  /// SQLite's own check.
+  /// Runs SQLite's integrity check.
   std::vector<std::string> check_integrity() override;
 
  private:
@@ -34,9 +34,9 @@ class SqliteFileReader final : public BagFileReader {
   Database database_;
 
   std::set<std::int64_t> wanted_;
-  std::int64_t begin_ns_ = 0;  // a stamp before 1970 is damage, and would make a bag longer than numbers go
+  std::int64_t begin_ns_ = 0;  // stamps before 1970 are damage and could overflow the duration
   std::optional<Entry> last_entry_;
-  std::optional<Statement> entries_;  // of a sound file
+  std::optional<Statement> entries_;  // of an undamaged file
   std::optional<Statement> data_;
   std::optional<std::vector<Entry>> salvaged_;  // of a damaged one, in order
   std::size_t next_salvaged_ = 0;

@@ -4,10 +4,9 @@
 namespace panvo::recorder {
 namespace {
 
-// Pages of 64 KiB: an image is 27 pages, not 430, which costs half the processor time; and the messages of a bag of
-// usual size then hang from one root page near the start of the file, so that of a file that was cut off everything
-// before the cut is found. An exclusive lock, so that no reader can keep the recorder from committing. Never
-// spilling, so that the file changes within commits only.
+// 64 KiB pages: an image takes 27 pages instead of 430, which halves the CPU time. The messages of a bag of usual size
+// then have one root page near the start of the file, so that a truncated file is readable up to the cut.
+// Exclusive lock: no reader can block a commit. No cache spill: the file changes only during commits.
 constexpr const char* kSettings =
     "PRAGMA page_size=65536;"
     "PRAGMA locking_mode=EXCLUSIVE;"
@@ -82,7 +81,7 @@ void SqliteFileWriter::rollback() noexcept {
       database_->execute("ROLLBACK");
     }
   } catch (const DatabaseError&) {
-    // The journal stays, and whoever opens the file next rolls back from it.
+    // The journal stays; the next opener rolls back.
   }
 }
 
@@ -92,7 +91,7 @@ void SqliteFileWriter::finish() {
   const auto journal = path_.string() + "-journal";
   std::error_code error;
   if (std::filesystem::file_size(journal, error) == 0 && !error) {
-    std::filesystem::remove(journal, error);  // nothing is in it, and one should be able to see that
+    std::filesystem::remove(journal, error);
   }
 }
 

@@ -9,12 +9,12 @@
 
 namespace panvo::recorder {
 
-/// A .db3 file, in rosbag2's schema 4.
+/// Writes a .db3 file in rosbag2's schema 4.
 ///
-/// How it survives: with a rollback journal every message is written once, into the database itself, and between
-/// commits nothing that belongs to the bag is anywhere else, so that tools that know the .db3 only read all of it. (A
-/// write-ahead log writes every image twice and keeps the newest part in a file that gets lost when bags are copied.)
-/// The journal of a commit is small, as appending changes few old pages.
+/// Uses a rollback journal: each message is written once, directly into the database, and between commits the .db3
+/// alone is complete, so that other tools can read it. A write-ahead log would write each image twice and keep the
+/// newest part in a second file, which is easily lost when a bag is copied. The journal of a commit is small, since
+/// appending changes few existing pages.
 class SqliteFileWriter final : public BagFileWriter {
  public:
   SqliteFileWriter(const std::filesystem::path& file, const std::string& ros_distro);
@@ -28,8 +28,8 @@ class SqliteFileWriter final : public BagFileWriter {
   void finish() override;
 
  private:
-  std::optional<Database> database_;  // none once finished
-  std::optional<Statement> insert_;   // made once the tables are there
+  std::optional<Database> database_;  // empty after finish()
+  std::optional<Statement> insert_;   // prepared after the tables have been created
   std::set<std::string> defined_types_;
 };
 

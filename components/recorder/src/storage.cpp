@@ -32,7 +32,7 @@ auto value_in(const Values& values, const char* what, const std::string& text) {
     }
     names += (names.empty() ? "" : ", ") + std::string(name);
   }
-  throw BagError("there is no " + std::string(what) + " '" + text + "' for bags; choose one of " + names);
+  throw BagError("unknown bag " + std::string(what) + " '" + text + "'; choose one of " + names);
 }
 
 }  // namespace

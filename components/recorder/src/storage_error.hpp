@@ -6,12 +6,12 @@
 
 namespace panvo::recorder {
 
-/// A file of a bag could not be written: what the storage or the operating system says of it.
+/// A file of a bag could not be written; the message is that of the storage or of the operating system.
 class StorageError : public std::runtime_error {
  public:
   StorageError(const std::string& what, bool is_disk) : std::runtime_error(what), is_disk_(is_disk) {}
 
-  /// Whether another disk, or more room on this one, would help.
+  /// Whether more space or another disk would help.
   bool is_disk() const noexcept { return is_disk_; }
 
  private:

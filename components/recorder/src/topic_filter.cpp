@@ -39,8 +39,8 @@ std::vector<TopicFilter::Pattern> TopicFilter::compile(const std::vector<std::st
       try {
         compiled.push_back({text, std::regex(text, std::regex::ECMAScript | std::regex::optimize)});
       } catch (const std::regex_error& error) {
-        throw BagError("topic pattern '" + text + "' is neither a topic's name nor a regular expression (" +
-                       error.what() + "); write /stereo/.* for every topic that begins with /stereo/");
+        throw BagError("topic pattern '" + text + "' is neither a topic name nor a valid regular expression (" +
+                       error.what() + "); e.g. /stereo/.* selects all topics that begin with /stereo/");
       }
     }
   }

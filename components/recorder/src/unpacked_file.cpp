@@ -21,7 +21,7 @@ struct FreeZstd {
   void operator()(ZSTD_DCtx* context) const noexcept { ZSTD_freeDCtx(context); }
 };
 
-/// "bag_0.db3" of "bag_0.db3.zstd".
+/// "bag_0.db3" for "bag_0.db3.zstd".
 fs::path name_within(const fs::path& packed) {
   const auto stem = packed.stem();
   return stem.has_extension() ? stem : packed.filename();
@@ -32,8 +32,8 @@ fs::path name_within(const fs::path& packed) {
 UnpackedFile::UnpackedFile(const fs::path& packed) {
   auto pattern = (fs::temp_directory_path() / "panvo_bag_XXXXXX").string();
   if (!::mkdtemp(pattern.data())) {
-    throw BagError(packed.string() + ": cannot be unpacked to " + fs::temp_directory_path().string() + " (" +
-                   std::strerror(errno) + "); set TMPDIR to a folder you may write to");
+    throw BagError(packed.string() + ": cannot be decompressed to " + fs::temp_directory_path().string() + " (" +
+                   std::strerror(errno) + "); set TMPDIR to a writable folder");
   }
   folder_ = pattern;
   path_ = folder_ / name_within(packed);
@@ -64,11 +64,11 @@ void UnpackedFile::unpack(const fs::path& packed) {
       const auto result = ZSTD_decompressStream(context.get(), &output, &input);
       to.write(out.data(), static_cast<std::streamsize>(output.pos));
       if (!to) {
-        throw BagError(packed.string() + ": there is no room to unpack it in " + folder_.parent_path().string() +
-                       "; set TMPDIR to a larger disk");
+        throw BagError(packed.string() + ": not enough space to decompress it in " + folder_.parent_path().string() +
+                       "; set TMPDIR to a folder on a larger disk");
       }
       if (ZSTD_isError(result) != 0) {
-        return;  // the storage's reader sees that the rest is missing
+        return;  // the reader of the copy detects the missing rest
       }
     }
   }

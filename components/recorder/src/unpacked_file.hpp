@@ -5,11 +5,11 @@
 
 namespace panvo::recorder {
 
-/// What a file that is compressed with zstd holds, in the folder for temporary files ($TMPDIR), and gone with this
-/// object. Of a file that is cut off or damaged, what comes before that.
+/// Temporary decompressed copy of a zstd file in $TMPDIR, removed by the destructor. For a truncated or damaged file,
+/// the data before the fault.
 class UnpackedFile {
  public:
-  /// Throws BagError naming the file: it cannot be read, or there is no room.
+  /// Throws BagError that names the file if it cannot be decompressed to $TMPDIR, e.g. for lack of space.
   explicit UnpackedFile(const std::filesystem::path& packed);
   ~UnpackedFile();
   UnpackedFile(const UnpackedFile&) = delete;

@@ -9,7 +9,7 @@
 namespace panvo::recorder {
 namespace {
 
-/// An open file, with that of the layer below right behind it in memory.
+/// An open file; the file object of the underlying VFS follows it in memory.
 struct File {
   sqlite3_file base;
   sqlite3_int64 page_size;  // 0: not a database
@@ -52,7 +52,7 @@ int size(sqlite3_file* file, sqlite3_int64* bytes) {
   return result;
 }
 
-constexpr sqlite3_io_methods kMethods{.iVersion = 1,  // without shared memory and mapping
+constexpr sqlite3_io_methods kMethods{.iVersion = 1,  // no shared memory, no memory mapping
                                       .xClose = close,
                                       .xRead = read,
                                       .xWrite = write,
@@ -74,7 +74,7 @@ constexpr sqlite3_io_methods kMethods{.iVersion = 1,  // without shared memory a
 
 int open(sqlite3_vfs* vfs, const char* name, sqlite3_file* file, int flags, int* out_flags) {
   auto* system = static_cast<sqlite3_vfs*>(vfs->pAppData);
-  file->pMethods = nullptr;  // until it is open, so that it is not closed before
+  file->pMethods = nullptr;  // SQLite calls xClose only if this is set
   const int result = system->xOpen(system, name, below(file), flags, out_flags);
   if (result == SQLITE_OK) {
     reinterpret_cast<File*>(file)->page_size = flags & SQLITE_OPEN_MAIN_DB ? page_size_of(below(file)) : 0;
@@ -88,7 +88,7 @@ int open(sqlite3_vfs* vfs, const char* name, sqlite3_file* file, int flags, int*
 const char* whole_pages_vfs() {
   static sqlite3_vfs vfs = [] {
     sqlite3_vfs* system = sqlite3_vfs_find(nullptr);
-    sqlite3_vfs ours = *system;  // everything that is not about one open file stays the system's
+    sqlite3_vfs ours = *system;  // inherits all functions that do not concern open files
     ours.zName = "panvo_whole_pages";
     ours.szOsFile = static_cast<int>(sizeof(File)) + system->szOsFile;
     ours.pNext = nullptr;

@@ -3,9 +3,8 @@
 
 namespace panvo::recorder {
 
-/// The name of a SQLite file layer that shows a database as if it ended at its last whole page. Of a file that was
-/// cut off SQLite itself would fill the last page up with zeros, and hand out messages that end in zeros as if they
-/// had been recorded so. For reading only.
+/// Name of a read-only SQLite VFS that presents a database as if it ended at its last complete page. Otherwise SQLite
+/// fills the last page of a truncated file with zeros and returns messages that end in these zeros.
 const char* whole_pages_vfs();
 
 }  // namespace panvo::recorder

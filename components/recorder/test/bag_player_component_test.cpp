@@ -29,7 +29,7 @@ interfaces::Bytes bytes_of(const Message& message) {
   return bytes;
 }
 
-/// Notes the order in which odometries and transforms come, and computes a topic of its own.
+/// Records the arrival order of odometry and transforms, and publishes a topic itself.
 class Witness final : public runtime::Component {
  public:
   explicit Witness(runtime::Context& context) : enhanced_(context.output(topics::kOdometryEnhanced)) {
@@ -106,7 +106,7 @@ TEST_F(BagPlayer, DoesNotPlayWhatTheSystemComputesAndSaysSo) {
   harness.add<Witness>("witness");
   harness.load("panvo_recorder", "BagPlayerComponent", {{"directory", bag_.string()}});
   harness.container().run();
-  EXPECT_TRUE(harness.log_contains("not played, for this system publishes them itself: /odometry/enhanced"));
+  EXPECT_TRUE(harness.log_contains("not played because this system publishes them itself: /odometry/enhanced"));
   ASSERT_EQ(enhanced.size(), 3u);
   for (const auto& message : enhanced) {
     EXPECT_NE(message->header().stamp().sec(), 99);
@@ -138,7 +138,7 @@ TEST_F(BagPlayer, IsRecordedAgainBitForBit) {
     runtime::ComponentDescription player;
     player.package = "panvo_recorder";
     player.plugin = "BagPlayerComponent";
-    player.name = "bag_player";  // the harness would name it after its package, as it does the recorder
+    player.name = "bag_player";  // the harness would name both components after the package
     player.name_space = "/";
     player.parameters["directory"] = {.items = {bag_.string()}, .is_list = false, .where = {"test", 0}};
     harness.container().load(player);
@@ -159,7 +159,7 @@ TEST_F(BagPlayer, PlaysWhatIsLeftOfABagThatWasCutOff) {
   harness.load("panvo_recorder", "BagPlayerComponent", {{"directory", bag_.string()}});
   EXPECT_THAT(harness.container().run(), testing::IsEmpty());
   EXPECT_TRUE(harness.log_contains("bag_0.db3: is cut off"));
-  // The last page is the index of times; the messages are all there.
+  // The last page holds the timestamp index; all messages are intact.
   EXPECT_THAT(Witness::seen, ElementsAre("odometry 1", "odometry 2", "tf", "odometry 3"));
 }
 
@@ -171,9 +171,9 @@ TEST_F(BagPlayer, IsRefusedWithABagThatHasNothingForIt) {
   EXPECT_THAT(refusal({{"directory", (folder_ / "none").string()}}), HasSubstr("does not exist"));
   EXPECT_THAT(with("topics", "[/odometri/.*]"),
               testing::AllOf(HasSubstr("no topic matches /odometri/.*"), HasSubstr("/odometry/binocular")));
-  EXPECT_THAT(with("exclude", "[.*]"), HasSubstr("none of its messages is to be played"));
+  EXPECT_THAT(with("exclude", "[.*]"), HasSubstr("no messages selected to play"));
   { BagWriter writer(folder_ / "empty"); }
-  EXPECT_THAT(refusal({{"directory", (folder_ / "empty").string()}}), HasSubstr("holds no message"));
+  EXPECT_THAT(refusal({{"directory", (folder_ / "empty").string()}}), HasSubstr("contains no messages"));
 }
 
 }  // namespace

@@ -35,7 +35,7 @@ constexpr const char* kHumbleSchema =
     "CREATE INDEX timestamp_idx ON messages (timestamp ASC);"
     "INSERT INTO schema VALUES(3,'humble');";
 
-/// Three messages, of which two bear one time, stored in another order than they are to be read in.
+/// Three messages, two with equal times, stored in an order that differs from the reading order.
 void write_humble_bag(const std::filesystem::path& bag) {
   std::filesystem::create_directories(bag);
   const std::string qos = to_text({offered_profile(interfaces::qos::kLatched)}, QosNotation::kNumbers);
@@ -229,9 +229,9 @@ TEST(BagReader, SaysWhatIsWrongWithWhatIsNoBag) {
   write_text(folder / "empty.db3", "");
   EXPECT_THAT(error("empty.db3"), HasSubstr("is empty"));
   write_text(folder / "bag.mcap", "This is no MCAP file, though its name says so.");
-  EXPECT_THAT(error("bag.mcap"), HasSubstr("bag.mcap: nothing of it can be read"));
+  EXPECT_THAT(error("bag.mcap"), HasSubstr("bag.mcap: nothing in it can be read"));
   write_text(folder / "bag.db3.zstd", "\x28\xb5\x2f\xfd....");
-  EXPECT_THAT(error("bag.db3.zstd"), HasSubstr("bag.db3.zstd: what is packed in it cannot be read"));
+  EXPECT_THAT(error("bag.db3.zstd"), HasSubstr("bag.db3.zstd: the compressed content cannot be read"));
   write_text(folder / "ros1.bag", "#ROSBAG V2.0\n");
   EXPECT_THAT(error("ros1.bag"), HasSubstr("ROS 1"));
   run_sql(folder / "other.db3", "CREATE TABLE recipes(id INTEGER, text TEXT)");

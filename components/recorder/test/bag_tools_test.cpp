@@ -206,7 +206,7 @@ TEST(BagTime, IsSecondsFromTheBeginningOrAStamp) {
   EXPECT_EQ(parse_bag_time("1700000001.123456789", kStart), 1'700'000'001'123'456'789);
   EXPECT_EQ(parse_bag_time("1700000001123456789", kStart), 1'700'000'001'123'456'789);
   for (const char* text : {"", ".", "1.2.3", "-1", "now", "1e3", "99999999999999999999999"}) {
-    EXPECT_THAT(error_of([&] { parse_bag_time(text, 0); }), HasSubstr("is no time of a bag")) << text;
+    EXPECT_THAT(error_of([&] { parse_bag_time(text, 0); }), HasSubstr("is not a valid bag time")) << text;
   }
 }
 

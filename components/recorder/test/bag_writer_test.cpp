@@ -105,7 +105,7 @@ TEST(BagWriter, CommitsWhenTheBatchIsOld) {
 TEST(BagWriter, CommitsWhatWaitsThoughNothingMoreComes) {
   const TemporaryFolder folder;
   BagWriter writer(folder / "bag", {.batch_time = std::chrono::milliseconds(20)});
-  // With a commit that brings a new topic comes a new metadata.yaml, which is moved into the place of the old one.
+  // A commit with a new topic renames a new metadata.yaml over the old one.
   const int notifier = inotify_init1(IN_CLOEXEC);
   ASSERT_GE(inotify_add_watch(notifier, (folder / "bag").c_str(), IN_MOVED_TO), 0);
   writer.write(writer.add_topic(topic("/data")), kStart, payload(0, 10));
@@ -149,10 +149,10 @@ TEST(BagWriter, RemembersWhatWasDropped) {
 TEST(BagWriter, RefusesAFolderThatIsInUse) {
   const TemporaryFolder folder;
   { BagWriter writer(folder / "bag"); }
-  EXPECT_THAT(error_of([&] { BagWriter writer(folder / "bag"); }), HasSubstr("exists already"));
+  EXPECT_THAT(error_of([&] { BagWriter writer(folder / "bag"); }), HasSubstr("already exists"));
   write_text(folder / "file", "x");
   EXPECT_THAT(error_of([&] { BagWriter writer(folder / "file"); }), HasSubstr("is a file"));
-  EXPECT_THAT(error_of([&] { BagWriter writer(folder / "file" / "bag"); }), HasSubstr("cannot be made"));
+  EXPECT_THAT(error_of([&] { BagWriter writer(folder / "file" / "bag"); }), HasSubstr("cannot be created"));
 }
 
 TEST(BagWriter, OverwritesABagWhenToldToAndNothingElse) {
@@ -180,17 +180,17 @@ TEST(BagWriter, RefusesAFolderThatAnotherWriterIsAt) {
   writer.close();
   BagReader reader(folder / "bag");
   EXPECT_EQ(read_all(reader).size(), 2u);
-  EXPECT_NO_THROW(BagWriter(folder / "bag", {.overwrite = true})) << "nobody is at it any more";
+  EXPECT_NO_THROW(BagWriter(folder / "bag", {.overwrite = true})) << "the writer has been closed";
 }
 
-/// A recording to which something happens after its first three messages.
+/// A recording whose file or folder is changed after the first three messages.
 class LostBag : public testing::TestWithParam<Storage> {
  protected:
   LostBag() {
     write_numbered(writer_, 3, 1000);
     writer_.commit();
   }
-  /// What the writer says when it comes to the next batch.
+  /// The error of committing the next batch.
   std::string error_of_next_batch() {
     writer_.write(0, kStart + 10, payload(10, 1000));
     return error_of([&] { writer_.commit(); });

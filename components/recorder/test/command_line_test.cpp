@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// panvo_bag, as scripts call it.
+/// Runs panvo_bag as a process.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -17,7 +17,7 @@ using testing::HasSubstr;
 
 struct Finished {
   int status = -1;
-  std::string output;  // with that to stderr
+  std::string output;  // stdout and stderr
 };
 
 Finished run(const std::string& arguments) {

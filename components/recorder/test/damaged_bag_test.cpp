@@ -51,7 +51,7 @@ TEST_F(DamagedBag, ThatIsCutOffAnywhereIsReadUpToThereOrRefused) {
       EXPECT_THAT(error, HasSubstr("bag_0.db3"));
       ++refused;
     } else {
-      // All that the remaining bytes can hold, but for the first pages, which are the other tables'.
+      // All messages in the remaining bytes, except for the first pages, which hold the other tables.
       EXPECT_GE((messages.size() + 280) * kSize, std::min(bytes, static_cast<std::size_t>(kCount * kSize))) << bytes;
       EXPECT_GE(messages.size(), most);
       most = messages.size();
@@ -80,7 +80,7 @@ TEST_F(DamagedBag, NeverCrashesWhateverByteIsWrong) {
     auto damaged = whole_;
     for (int i = 0; i < 200; ++i) {
       state = state * 6364136223846793005u + 1442695040888963407u;
-      // Half of the faults in the first pages, where the trees have their roots.
+      // Half of the faults in the first pages, which hold the roots of the b-trees.
       const std::size_t range = i % 2 == 0 ? 65536 * 10 : damaged.size();
       damaged[(state >> 16) % range] = static_cast<char>(state >> 8);
     }

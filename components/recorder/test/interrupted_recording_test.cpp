@@ -17,7 +17,7 @@ namespace {
 using namespace test;
 using testing::HasSubstr;
 
-/// recording_child, with what it says.
+/// Runs recording_child and reads its output.
 class Child {
  public:
   Child(const std::filesystem::path& bag, std::size_t message_bytes, Storage storage,
@@ -85,7 +85,7 @@ class FullDisk : public testing::TestWithParam<Storage> {
 };
 
 TEST_P(KilledRecorder, LeavesEveryCommittedMessage) {
-  // At each of many moments: after the first commit, the second, ...
+  // Kills after the first commit, the second, ...
   for (int commits = 1; commits <= 10; ++commits) {
     const TemporaryFolder folder;
     std::uint64_t committed = 0;
@@ -118,7 +118,7 @@ TEST_P(KilledRecorder, LeavesABagThatReindexMakesWhole) {
 }
 
 TEST_P(FullDisk, StopsTheRecordingWithAnErrorAndLeavesWhatWasCommitted) {
-  // Limits that are met in the middle of a page, of a batch, and early on.
+  // Limits reached within a page, within a batch, and early.
   for (const char* limit : {"3000000", "1700123", "1000000"}) {
     const TemporaryFolder folder;
     Child child(folder / "bag", 20'000, GetParam(), limit);

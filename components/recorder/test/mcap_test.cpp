@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// MCAP bags: written, read, cut off and damaged.
+/// MCAP bags: writing, reading, truncation and damage.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -26,7 +26,7 @@ class Mcap : public testing::TestWithParam<Compression> {
   BagWriter::Options options() const {
     return {.storage = Storage::kMcap, .compression = GetParam(), .chunk_bytes = 1000};
   }
-  /// Reads one file by itself, so that nothing comes from metadata.yaml.
+  /// Reads the single file, without metadata.yaml.
   std::vector<Read> read_file(std::vector<std::string>* warnings = nullptr, std::uint64_t* lost = nullptr) {
     BagReader reader(file_);
     auto messages = read_all(reader);
@@ -44,7 +44,7 @@ class Mcap : public testing::TestWithParam<Compression> {
     writer.close();
     whole_ = read_text(file_);
   }
-  /// Where chunks begin.
+  /// Offsets of the chunks.
   std::vector<std::size_t> chunks() const {
     std::vector<std::size_t> offsets;
     for (std::size_t at = mcap::kMagic.size(); at + mcap::RecordHead::kBytes < whole_.size();) {
@@ -168,7 +168,7 @@ TEST_P(Mcap, ReadsThroughAFileWhoseSummaryIsDamaged) {
   const auto messages = read_file(&warnings);
   EXPECT_EQ(messages.size(), kMessageCount);
   EXPECT_EQ(wrong_in_first_numbered(messages, kPayloadSize), "");
-  EXPECT_TRUE(any_contains(warnings, "its summary has another checksum than it says; 35 messages"));
+  EXPECT_TRUE(any_contains(warnings, "its summary has a wrong checksum; 35 messages"));
 }
 
 TEST_P(Mcap, FindsWhatLiesBehindAHole) {
@@ -182,7 +182,7 @@ TEST_P(Mcap, FindsWhatLiesBehindAHole) {
   const auto messages = read_file(&warnings);
   EXPECT_GE(messages.size(), kMessageCount - 3 * kMessageCount / offsets.size());
   EXPECT_EQ(wrong_in_numbered(messages, kPayloadSize), "");
-  EXPECT_TRUE(any_contains(warnings, "are damaged and passed over"));
+  EXPECT_TRUE(any_contains(warnings, "are damaged and skipped"));
 }
 
 TEST_P(Mcap, TakesNoMemoryForSizesThatAreNotThere) {
@@ -220,7 +220,7 @@ TEST_P(Mcap, ReadsChunksAgainWhereAllOverlapAndFewCanBeHeld) {
 INSTANTIATE_TEST_SUITE_P(Compressions, Mcap, testing::Values(Compression::kNone, Compression::kLz4, Compression::kZstd),
                          [](const auto& compression) { return to_text(compression.param); });
 
-/// Files as other writers make them, record by record.
+/// Files with the records that other writers produce.
 class ForeignMcap : public testing::Test {
  protected:
   ForeignMcap() : bytes_(mcap::kMagic.begin(), mcap::kMagic.end()) {
@@ -262,7 +262,7 @@ TEST_F(ForeignMcap, WithAMessageOfNoChannelSaysSo) {
   add_message(1, 1);
   mcap::append(bytes_, {.channel = 4, .log_time = 2}, {});
   BagReader reader(finish());
-  EXPECT_TRUE(any_contains(reader.warnings(), "1 messages are of channels that nothing is known of"));
+  EXPECT_TRUE(any_contains(reader.warnings(), "1 messages belong to unknown channels"));
   EXPECT_EQ(read_all(reader).size(), 1u);
   EXPECT_EQ(reader.lost_messages(), 1u);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Bags that rosbag2 compressed with zstd, as files or message by message.
+/// Bags with rosbag2's zstd compression by file or by message.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Bags that ROS 2's own tools wrote: each opens, with as many messages as are in it.
+/// Bags written by ROS 2's tools: each opens and contains the expected number of messages.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@ namespace {
 
 using namespace test;
 
-/// The folder of the bags: $PANVO_DATA/bags, else shared/data/bags beside the checkout.
+/// Folder of the bags: $PANVO_DATA/bags, or shared/data/bags next to the checkout.
 std::optional<std::filesystem::path> bag_folder() {
   const char* data = std::getenv("PANVO_DATA");
   const auto folder =
@@ -68,8 +68,8 @@ INSTANTIATE_TEST_SUITE_P(
                     Expected{ROS2 "rosbag2_py/test/resources/sqlite3/reindex_test_bags/multiple_files", 3177,
                              "metadata.yaml: is missing"},
                     Expected{ROS2 "rosbag2_py/test/resources/sqlite3/talker", 20, nullptr},
-                    // Its metadata.yaml takes the last file's times for the bag's.
-                    Expected{ROS2 "rosbag2_py/test/resources/sqlite3/wbag", 6074, "metadata.yaml: says"},
+                    // Its metadata.yaml states the last file's times for the whole bag.
+                    Expected{ROS2 "rosbag2_py/test/resources/sqlite3/wbag", 6074, "metadata.yaml: lists"},
                     Expected{ROS2 "rosbag2_tests/resources/sqlite3/bag_with_topics_and_service_events", 10, nullptr},
                     Expected{ROS2 "rosbag2_tests/resources/sqlite3/cdr_test", 7, nullptr},
                     Expected{ROS2 "rosbag2_tests/resources/sqlite3/wrong_rmw_test", 7, nullptr},
@@ -83,17 +83,17 @@ INSTANTIATE_TEST_SUITE_P(
                     Expected{ROS2 "rosbag2_cpp/test/rosbag2_cpp/bags/only_services.mcap", 12, nullptr},
                     Expected{ROS2 "rosbag2_cpp/test/rosbag2_cpp/bags/only_topics.mcap", 7, nullptr},
                     Expected{ROS2 "rosbag2_cpp/test/rosbag2_cpp/bags/topics_and_services.mcap", 13, nullptr},
-                    // Their writer took the time 0 for none.
-                    Expected{ROS2 "rosbag2_py/test/resources/mcap/convert_a", 150, "metadata.yaml: says"},
+                    // Their writer treated time 0 as no time.
+                    Expected{ROS2 "rosbag2_py/test/resources/mcap/convert_a", 150, "metadata.yaml: lists"},
                     Expected{ROS2 "rosbag2_py/test/resources/mcap/convert_b", 75, nullptr},
                     Expected{ROS2 "rosbag2_py/test/resources/mcap/reindex_test_bags/multiple_files", 3177,
                              "metadata.yaml: is missing"},
                     Expected{ROS2 "rosbag2_py/test/resources/mcap/talker", 20, nullptr},
-                    Expected{ROS2 "rosbag2_py/test/resources/mcap/wbag", 6074, "metadata.yaml: says"},
+                    Expected{ROS2 "rosbag2_py/test/resources/mcap/wbag", 6074, "metadata.yaml: lists"},
                     Expected{ROS2 "rosbag2_tests/resources/mcap/bag_with_topics_and_service_events", 10, nullptr},
                     Expected{ROS2 "rosbag2_tests/resources/mcap/cdr_test", 7, nullptr},
                     Expected{ROS2 "rosbag2_tests/resources/mcap/wrong_rmw_test", 7, nullptr},
-                    Expected{ROS2 "rosbag2_transport/test/resources/mcap/rewriter_a", 150, "metadata.yaml: says"},
+                    Expected{ROS2 "rosbag2_transport/test/resources/mcap/rewriter_a", 150, "metadata.yaml: lists"},
                     Expected{ROS2 "rosbag2_transport/test/resources/mcap/rewriter_b", 75, nullptr},
                     Expected{ROS2 "rosbag2_transport/test/resources/mcap/test_bag_for_seek", 5, nullptr}));
 

@@ -41,7 +41,7 @@ interfaces::Bytes bytes_of(const Message& message) {
   return bytes;
 }
 
-/// Answers an odometry with three images at once.
+/// Publishes three images for each odometry.
 class ThreeImages final : public runtime::Component {
  public:
   explicit ThreeImages(runtime::Context& context) : images_(context.output(topics::kStereoLeftImageRaw)) {
@@ -56,7 +56,7 @@ class ThreeImages final : public runtime::Component {
   runtime::Output<sensor_msgs::msg::Image> images_;
 };
 
-/// Plays one odometry at a time.
+/// A source that publishes one odometry at time kTime.
 template <std::int64_t kTime>
 class OneStep final : public runtime::Component, public runtime::Source {
  public:
@@ -92,10 +92,10 @@ class Recorder : public testing::Test {
     }
     return "";
   }
-  /// The recorded times of a message that comes before the source has stepped, and of the one it then plays.
+  /// Recorded times of a message published before the source's first step and of the source's message.
   template <class SourceClass>
   std::vector<std::int64_t> times_of_early_and_first() {
-    // On a thread of its own, as the time of a replay is the thread's and other tests have left theirs.
+    // In a new thread, since replay time is thread-local and other tests have set it in this thread.
     std::thread([this] {
       record({{"topics", "[/odometry/.*, /tf]"}});
       harness_->publish(topics::kTf, tf2_msgs::msg::TFMessage());
@@ -190,8 +190,7 @@ TEST_F(Recorder, RemembersThatATopicIsLatched) {
 }
 
 TEST_F(Recorder, CountsWhatItDropsWhenTheDiskIsTooSlow) {
-  // In replay what is published by one step waits until the step is done: three images of 600 kB are more than the
-  // queue may hold.
+  // In replay, the messages of one step wait until the step ends: three images of 600 kB exceed the queue.
   record({{"queue_mb", "1"}, {"topics", "[/stereo/.*]"}});
   harness_->add<ThreeImages>("three_images");
   harness_->publish(topics::kOdometryBinocular, odometry(1));
@@ -209,10 +208,9 @@ TEST_F(Recorder, LeavesOutTopicsBeyondTheMostAndNamesThem) {
   harness_->publish(topics::kTf, tf2_msgs::msg::TFMessage());
   harness_->publish(topics::kOdometryBinocular, odometry(2));
   harness_->publish(topics::kOdometryEnhanced, odometry(1));
-  EXPECT_TRUE(harness_->log_contains("1 topics are left out, /tf among them"));
+  EXPECT_TRUE(harness_->log_contains("1 topics are skipped, e.g. /tf: max_topics is 1"));
   harness_->container().run();
-  EXPECT_TRUE(harness_->log_contains(
-      "2 topics are left out, /odometry/enhanced among them: 1 are recorded already; raise max_topics"));
+  EXPECT_TRUE(harness_->log_contains("2 topics are skipped, e.g. /odometry/enhanced: max_topics is 1; increase it"));
   EXPECT_THAT(recorded_topics(), testing::ElementsAre("/odometry/binocular"));
 }
 
@@ -248,7 +246,7 @@ TEST_F(Recorder, IsRefusedWithABadFolderOrPattern) {
   EXPECT_THAT(refusal({{"compression", "zstd"}}), HasSubstr("choose the storage mcap"));
   record();
   harness_.reset();
-  EXPECT_THAT(refusal({}), HasSubstr("exists already"));
+  EXPECT_THAT(refusal({}), HasSubstr("already exists"));
   EXPECT_EQ(refusal({{"overwrite", "true"}}), "");
 }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// A process to be killed while it records, for interrupted_recording_test. Writes numbered messages for ever and
-/// says on stdout, after each commit, how many are committed. With a limit on the size of files (0: none) it ends at
-/// the error, telling it on stdout.
+/// Process that interrupted_recording_test kills while it records. Writes numbered messages without end and prints the
+/// number of committed messages after each commit. With a file size limit (0: none) it prints the error and exits.
 #include <sys/resource.h>
 #include <unistd.h>
 

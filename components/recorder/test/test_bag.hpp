@@ -17,7 +17,7 @@
 
 namespace panvo::recorder::test {
 
-/// A folder that is gone with its content at the end of the test.
+/// A temporary folder, removed by the destructor.
 class TemporaryFolder {
  public:
   TemporaryFolder() {
@@ -44,7 +44,7 @@ inline BagTopic topic(const std::string& name, const std::string& type = "test_m
   return topic;
 }
 
-/// Bytes that tell which message they are of, whatever their number.
+/// Pseudo-random bytes determined by the message number.
 inline interfaces::Bytes payload(std::uint64_t message, std::size_t size) {
   interfaces::Bytes bytes(size);
   std::uint64_t state = message * 0x9E3779B97F4A7C15u + 1;
@@ -58,7 +58,7 @@ inline interfaces::Bytes payload(std::uint64_t message, std::size_t size) {
 constexpr std::int64_t kStart = 1'700'000'000'000'000'000;
 constexpr std::int64_t kStep = 10'000'000;
 
-/// `count` messages of `size` bytes on /data, message i at kStart + i kStep.
+/// Writes `count` messages of `size` bytes to /data, message i at kStart + i kStep.
 inline void write_numbered(BagWriter& writer, std::uint64_t count, std::size_t size) {
   const int data = writer.add_topic(topic("/data"));
   for (std::uint64_t i = 0; i < count; ++i) {
@@ -81,7 +81,7 @@ inline std::vector<Read> read_all(BagReader& reader) {
   return messages;
 }
 
-/// What is wrong with messages that write_numbered should have written: nothing if each is whole and at its time.
+/// Returns the first fault of messages written by write_numbered(): wrong content or time; "" if there is none.
 inline std::string wrong_in_numbered(const std::vector<Read>& messages, std::size_t size) {
   for (const auto& message : messages) {
     const auto number = (message.timestamp_ns - kStart) / kStep;
@@ -93,7 +93,7 @@ inline std::string wrong_in_numbered(const std::vector<Read>& messages, std::siz
   return "";
 }
 
-/// The same, and that none is missing before the last one.
+/// As wrong_in_numbered(); also checks that no message before the last one is missing.
 inline std::string wrong_in_first_numbered(const std::vector<Read>& messages, std::size_t size) {
   for (std::size_t i = 0; i < messages.size(); ++i) {
     if (messages[i].timestamp_ns != kStart + static_cast<std::int64_t>(i) * kStep) {
@@ -112,7 +112,7 @@ inline void write_text(const std::filesystem::path& file, const std::string& tex
   std::ofstream(file, std::ios::binary) << text;
 }
 
-/// The message of the BagError that `action` throws; "" when it throws none.
+/// Message of the BagError thrown by `action`; "" if it throws none.
 template <class Action>
 std::string error_of(Action action) {
   try {

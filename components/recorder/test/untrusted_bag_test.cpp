@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// SQLite files that no recorder wrote: what they ask of a reader is not worth their bytes.
+// Malicious SQLite files that would cost a reader more time or memory than their size justifies.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -75,11 +75,11 @@ void put(std::string& page, std::size_t at, std::size_t value, std::size_t bytes
   }
 }
 
-/// A page of a table's tree with 60 branches, all of them `child`.
+/// An interior page of a table's b-tree with 60 branches that all point to page `child`.
 std::string page_of_branches(std::size_t page_size, std::size_t child) {
   constexpr std::size_t kBranches = 60, kHead = 12, kCell = 5;
   std::string page(page_size, '\0');
-  page[0] = 5;  // between the root and the leaves
+  page[0] = 5;  // interior page of a table b-tree
   put(page, 3, kBranches, 2);
   put(page, 5, page_size - kBranches * kCell, 2);
   put(page, 8, child, 4);
@@ -108,7 +108,7 @@ TEST_F(UntrustedBag, WhoseBranchesGrowTogetherAgainIsNotWalkedToItsEnd) {
   write_text(file_, file);
   EXPECT_EQ(error_of([&] {
               BagReader reader(file_);
-              EXPECT_TRUE(any_contains(reader.warnings(), "longer to read than a file of its size can"));
+              EXPECT_TRUE(any_contains(reader.warnings(), "longer to read than its size allows"));
               EXPECT_LE(read_all(reader).size(), kCount);
             }),
             "");

@@ -7,10 +7,10 @@
 
 namespace panvo::recorder {
 
-/// What `ros2 bag info` tells of a bag, in its layout.
+/// Summary of a bag in the layout of `ros2 bag info`.
 std::string describe_as_text(const BagReader& bag);
 
-/// The same for scripts; times in ns.
+/// The same content as JSON; times in ns.
 std::string describe_as_json(const BagReader& bag);
 
 }  // namespace panvo::recorder

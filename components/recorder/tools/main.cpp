@@ -14,7 +14,7 @@
 namespace {
 
 using namespace panvo::recorder;
-using panvo::runtime::printable;  // names and texts of a bag are whatever somebody wrote into it
+using panvo::runtime::printable;  // strings in a bag are untrusted
 
 enum ExitStatus { kWell = 0, kNotSo = 1, kError = 2 };
 
@@ -37,16 +37,15 @@ int check(const std::string& path) {
     std::printf("%-40s %-36s %8llu readable", printable(topic.name).c_str(), printable(topic.type).c_str(),
                 static_cast<unsigned long long>(topic.readable));
     if (!topic.is_decodable) {
-      std::printf(", not decoded: no library of its package");
+      std::printf(", not decoded: no library for its type");
     } else if (topic.undecodable == 0) {
-      std::printf(", all decode");
+      std::printf(", all decodable");
     } else {
-      std::printf(", %llu do not decode (%s)", static_cast<unsigned long long>(topic.undecodable),
+      std::printf(", %llu not decodable (%s)", static_cast<unsigned long long>(topic.undecodable),
                   printable(topic.first_error).c_str());
     }
     if (topic.invalid > 0) {
-      std::printf(", %llu nobody can use (%s)", static_cast<unsigned long long>(topic.invalid),
-                  topic.first_problem.c_str());
+      std::printf(", %llu invalid (%s)", static_cast<unsigned long long>(topic.invalid), topic.first_problem.c_str());
     }
     std::printf("\n");
   }
@@ -88,7 +87,7 @@ int diff(const std::string& first, const std::string& second, const DiffOptions&
   return equal ? kWell : kNotSo;
 }
 
-/// Options that several commands have.
+/// Options shared by several commands.
 struct Arguments {
   std::string bag, other;
   std::vector<std::string> topics, exclude;
@@ -106,18 +105,18 @@ void add_topics(CLI::App& command, Arguments& arguments) {
                   "only this topic, or those matching this regular expression; may be repeated")
       ->expected(1)
       ->take_all();
-  command.add_option("--exclude", arguments.exclude, "not these topics")->expected(1)->take_all();
+  command.add_option("--exclude", arguments.exclude, "topics to exclude; may be repeated")->expected(1)->take_all();
 }
 
 void add_new_bag(CLI::App& command, Arguments& arguments) {
   command.add_option("NEW", arguments.other, "folder of the new bag")->required();
   add_topics(command, arguments);
-  command.add_option("--storage", arguments.storage, "of the new bag: sqlite3 or mcap");
-  command.add_option("--compression", arguments.compression, "of the storage mcap: none, lz4 or zstd");
-  command.add_flag("--overwrite", arguments.overwrite, "replace a bag that is there");
+  command.add_option("--storage", arguments.storage, "storage of the new bag: sqlite3 or mcap");
+  command.add_option("--compression", arguments.compression, "compression of mcap: none, lz4 or zstd");
+  command.add_flag("--overwrite", arguments.overwrite, "replace an existing bag");
 }
 
-/// `as_it_is`: the new bag has the storage of the old one where nothing else is said; otherwise the other one.
+/// Options of the new bag. Default storage: that of the old bag if `as_it_is`, otherwise the other one.
 BagWriter::Options writing(const Arguments& arguments, bool as_it_is) {
   BagWriter::Options options;
   options.overwrite = arguments.overwrite;
@@ -152,43 +151,44 @@ CopySelection stretch(const Arguments& arguments) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Looks into rosbag2 bags (SQLite and MCAP), repairs, converts, cuts and compares them.", "panvo bag");
+  CLI::App app("Inspects, repairs, converts, slices and compares rosbag2 bags (SQLite and MCAP).", "panvo bag");
   app.require_subcommand(1);
-  app.footer("Exit status: 0 well, 1 the bags differ or the bag is not sound, 2 it could not be done.");
+  app.footer("Exit status: 0 success, 1 the bags differ or the bag is not sound, 2 error.");
   Arguments arguments;
 
-  auto* info_command = app.add_subcommand("info", "what is in a bag: size, times, topics, dropped messages");
+  auto* info_command = app.add_subcommand("info", "show size, times, topics and dropped messages of a bag");
   add_bag(*info_command, arguments);
-  info_command->add_flag("--json", arguments.as_json, "for scripts; times in ns");
+  info_command->add_flag("--json", arguments.as_json, "print JSON; times in ns");
 
-  auto* check_command = app.add_subcommand("check", "read all of a bag: damage, unreadable and undecodable messages");
+  auto* check_command =
+      app.add_subcommand("check", "read a whole bag; report damage, unreadable and undecodable messages");
   add_bag(*check_command, arguments);
 
-  auto* reindex_command = app.add_subcommand("reindex", "write metadata.yaml anew from the files");
+  auto* reindex_command = app.add_subcommand("reindex", "rewrite metadata.yaml from the files");
   add_bag(*reindex_command, arguments, "bag folder");
 
   auto* copy_command = app.add_subcommand(
-      "copy", "write what is readable to a new bag: some topics, or of a damaged bag all that is left");
+      "copy", "copy the readable messages to a new bag: selected topics, or the rest of a damaged bag");
   add_bag(*copy_command, arguments);
   add_new_bag(*copy_command, arguments);
 
-  auto* convert_command = app.add_subcommand("convert", "make an MCAP bag of a SQLite bag, or the other way");
+  auto* convert_command = app.add_subcommand("convert", "convert a SQLite bag to MCAP, or an MCAP bag to SQLite");
   add_bag(*convert_command, arguments);
   add_new_bag(*convert_command, arguments);
 
-  auto* slice_command = app.add_subcommand(
-      "slice", "write a stretch of time to a new bag, and what was latched before it at its beginning");
+  auto* slice_command =
+      app.add_subcommand("slice", "copy a time range to a new bag, with earlier latched messages at its start");
   add_bag(*slice_command, arguments);
   add_new_bag(*slice_command, arguments);
-  const std::string time = " seconds from the bag's beginning, or this stamp in seconds or nanoseconds";
-  slice_command->add_option("--from", arguments.from, "from" + time);
-  slice_command->add_option("--to", arguments.to, "up to" + time + ", without it");
+  const std::string time = ": seconds from the bag's start, or a stamp in seconds or nanoseconds";
+  slice_command->add_option("--from", arguments.from, "start" + time);
+  slice_command->add_option("--to", arguments.to, "end" + time + "; exclusive");
 
-  auto* diff_command = app.add_subcommand("diff", "compare the messages of two bags, bit for bit and topic by topic");
+  auto* diff_command = app.add_subcommand("diff", "compare the messages of two bags bit by bit, topic by topic");
   diff_command->add_option("BAG1", arguments.bag, "bag folder, or one .db3 or .mcap file")->required();
-  diff_command->add_option("BAG2", arguments.other, "the other")->required();
+  diff_command->add_option("BAG2", arguments.other, "the bag to compare with")->required();
   add_topics(*diff_command, arguments);
-  diff_command->add_flag("--times", arguments.times, "recording times must be equal too");
+  diff_command->add_flag("--times", arguments.times, "also compare recording times");
 
   try {
     app.parse(argc, argv);

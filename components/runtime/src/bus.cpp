@@ -31,7 +31,7 @@ void Channel::remove_publisher(const void* owner) {
   if (!publishers_.empty()) return;
   closed = std::move(writer_);
   if (topic_.qos.lifespan.count() == 0) return;
-  // A state that nobody confirms any more is none: whoever comes now must not read it.
+  // A latched state expires with its publisher: later readers must not get it.
   const std::lock_guard history_lock(history_mutex_);
   std::erase_if(history_, [](const Latched& latched) { return latched.is_from_here; });
 }
@@ -99,7 +99,7 @@ void Channel::publish(const SamplePtr& sample) {
   if (writer_ && !writer_->write(sample)) ++not_sent_;
 }
 
-/// Bytes that pass through to recorders and other processes are not decoded for this: whoever reads them checks them.
+/// Received bytes that only recorders and other processes read are not decoded here; their readers check them.
 bool Channel::is_to_be_checked(const Sample& sample) const {
   if (!topic_.type) return false;
   if (sample.received_size() == 0) return true;
@@ -116,7 +116,7 @@ bool Channel::is_rejected(const SamplePtr& sample) {
 }
 
 void Channel::deliver(const SamplePtr& sample, bool is_valid, bool is_from_here) {
-  if (!is_valid && !bridge_) tell_rejected();  // nobody is to be asked who a sender is
+  if (!is_valid && !bridge_) tell_rejected();  // no bridge, so no sender lookup
   const std::shared_lock lock(mutex_);
   if (is_valid && topic_.qos.durability == Durability::kTransientLocal) remember(sample, is_from_here);
   for (const auto& [owner, reader, wants] : readers_) {
@@ -139,11 +139,11 @@ void Channel::tell_rejected() {
     causes.swap(untold_);
   }
   for (const auto& [sender, reason] : causes) {
-    warn_(fmt::format("{}: a message of {} is left out: {}", topic_.name, shown_sender(sender), reason));
+    warn_(fmt::format("{}: a message from {} was dropped: {}", topic_.name, shown_sender(sender), reason));
   }
 }
 
-/// The node whose writer it is, where that is told; else as it is.
+/// The node that owns the writer, if known; otherwise the sender itself.
 std::string Channel::shown_sender(const std::string& sender) const {
   if (sender.empty()) return "an unknown sender";
   if (!bridge_) return sender;
@@ -207,7 +207,7 @@ Channel& Bus::channel(const TopicDescription& topic) {
   if (const auto found = channels_.find(topic.name); found != channels_.end()) {
     const auto& there = found->second->topic();
     if (there.type_name != topic.type_name) {
-      throw ConfigError("topic " + topic.name + " carries " + there.type_name + " here, not " + topic.type_name +
+      throw ConfigError("topic " + topic.name + " has type " + there.type_name + " here, not " + topic.type_name +
                         ": remap one of the two topics in the system file");
     }
     return *found->second;
@@ -249,7 +249,7 @@ void Bus::tap(const void* owner, std::function<bool(const TopicDescription&)> wa
   }
   if (!bridge_ || watching_) return;
   watching_ = true;
-  // The bridge calls back with locks of its own held: the topic is only noted here, and joined by join_discovered().
+  // The bridge calls back while holding its locks: the topic is only stored here and opened by join_discovered().
   bridge_->watch_topics([this](const TopicDescription& topic) {
     const std::lock_guard discovered_lock(discovered_mutex_);
     discovered_.push_back(topic);

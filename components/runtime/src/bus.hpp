@@ -19,18 +19,18 @@
 
 namespace panvo::runtime {
 
-/// One topic inside this process. Messages pass by pointer to every reader here; the bridge, where there is one, gets each message too and
-/// decides whether anybody outside wants it. What is wrong with a message by the rules of its type is found here, once, wherever it comes from: such
-/// a one is counted, reaches no reader but recorders, and does not leave the process.
+/// A topic within this process. Messages are passed by pointer to all local readers, and to the bridge, if any. Each
+/// message is validated once against the rules of its type, whatever its origin. Invalid messages are counted, reach
+/// only recorders and do not leave the process.
 class Channel {
  public:
-  /// Takes a message in; called on the publisher's thread, must be quick.
+  /// Receives a message on the publisher's thread; must be fast.
   using Reader = std::function<void(const TopicDescription&, const SamplePtr&)>;
 
-  /// Who must be able to rely on what it gets, and who wants all that is sent, as it is.
+  /// kValid: valid messages only; kAll: every message as sent (recorders).
   enum class Wants { kValid, kAll };
 
-  /// `clock`: by which a latched message grows old, ns.
+  /// `clock` measures the age of latched messages, ns.
   Channel(TopicDescription topic, Bridge* bridge, std::function<void(const std::string&)> warn,
           std::function<std::int64_t()> clock, Limits limits = {});
 
@@ -44,11 +44,11 @@ class Channel {
 
   bool has_readers() const;
 
-  /// Hands what late joiners must get to `reader`, then every message from now on. When remove_reader has returned, `reader` is not called any more.
+  /// Passes latched messages and then all further messages to `reader`, until remove_reader() returns.
   void add_reader(const void* owner, Reader reader, Wants wants = Wants::kValid);
   void remove_reader(const void* owner);
 
-  /// Shows `observer` what is published in this process, and only that.
+  /// Calls `observer` only for messages published in this process.
   void add_observer(Reader observer);
 
   void publish(const SamplePtr& sample);
@@ -60,8 +60,8 @@ class Channel {
   };
   Counters counters() const;
   Rejections::Count rejected() const;
-  /// Warns of what was rejected since, each reason at most once in 10 s. For a topic that other processes write: those who call deliver() with
-  /// locks of Fast DDS's held cannot ask who sent a message.
+  /// Logs messages rejected since the last call, each reason at most once in 10 s. Deferred for topics of other
+  /// processes: deliver() may be called while Fast DDS holds locks, where the sender cannot be looked up.
   void tell_rejected();
 
  private:
@@ -72,7 +72,7 @@ class Channel {
   };
   struct Latched {
     SamplePtr sample;
-    bool is_from_here;  // from this process: it does not outlive who published it
+    bool is_from_here;  // published in this process: expires with its publisher
     std::int64_t since_ns;
   };
 
@@ -93,7 +93,7 @@ class Channel {
   std::mutex untold_mutex_;
   std::vector<Rejections::Cause> untold_;
 
-  mutable std::shared_mutex mutex_;  // shared: to hand over; exclusive: to change who is there
+  mutable std::shared_mutex mutex_;  // shared: delivery; exclusive: changes of publishers and readers
   std::map<const void*, std::string> publishers_;
   std::vector<Member> readers_;
   std::vector<Reader> observers_;
@@ -102,7 +102,8 @@ class Channel {
   std::deque<Latched> history_;  // of a transient-local topic
   std::atomic<std::uint64_t> published_ = 0, not_sent_ = 0;
 
-  // Opened and closed by readers coming and going, never under mutex_: closing waits for a callback that may be delivering.
+  // Opened with the first reader, closed after the last. Never under mutex_: closing waits for a callback that may be
+  // delivering.
   mutable std::mutex bridge_reader_mutex_;
   std::unique_ptr<BridgeReader> bridge_reader_;
 };
@@ -114,25 +115,25 @@ class Bus {
       Limits limits = {});
   ~Bus();
 
-  /// The channel of that topic. Throws ConfigError when the topic is already there with another type.
+  /// Returns the channel of a topic. Throws ConfigError if the topic exists with another type.
   Channel& channel(const TopicDescription& topic);
   std::vector<Channel*> channels() const;  // in order of name
 
-  /// Adds `reader` to every channel that `wanted` accepts, those to come included, and the topics of other processes.
+  /// Adds `reader` to all present and future channels that `wanted` accepts, including topics of other processes.
   void tap(const void* owner, std::function<bool(const TopicDescription&)> wanted, Channel::Reader reader);
   void remove_tap(const void* owner);
-  /// Opens the topics of other processes that were discovered since and that a tap wants. To be called now and then.
+  /// Opens newly discovered topics of other processes that a tap wants. Call periodically.
   void join_discovered();
 
-  /// Adds `observer` to every channel that `wanted` accepts, those to come included, for what is published in this process.
+  /// Adds `observer` to all present and future channels that `wanted` accepts, for messages published in this process.
   void observe(std::function<bool(const TopicDescription&)> wanted, Channel::Reader observer);
 
   bool wait_for_acknowledgments(std::chrono::milliseconds limit);
 
-  /// Warns of rejected messages of other processes. To be called now and then.
+  /// Logs rejected messages of other processes. Call periodically.
   void tell_rejected();
 
-  /// nullptr: none.
+  /// nullptr without a bridge.
   Bridge* bridge() const noexcept { return bridge_.get(); }
 
  private:
@@ -145,7 +146,7 @@ class Bus {
   std::function<void(const std::string&)> warn_;
   std::function<std::int64_t()> clock_;
   const Limits limits_;
-  std::unique_ptr<Bridge> bridge_;  // outlives the channels, whose endpoints it made
+  std::unique_ptr<Bridge> bridge_;  // outlives the channels, which own its endpoints
   mutable std::recursive_mutex mutex_;
   std::map<std::string, std::unique_ptr<Channel>> channels_;
   std::vector<Tap> taps_, observers_;

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <ctime>
 
-/// The only place where the runtime asks what time it is.
+/// The only place where the runtime reads a system clock.
 namespace panvo::runtime::clocks {
 
 inline std::int64_t read_ns(clockid_t clock) noexcept {

@@ -64,7 +64,7 @@ Container::Implementation::Implementation(ContainerOptions options)
   try {
     meet_others();
   } catch (...) {
-    rosout_.close();  // which would outlive the bus
+    rosout_.close();  // it would outlive the bus
     throw;
   }
 }
@@ -78,11 +78,11 @@ void Container::Implementation::meet_others() {
 }
 
 Container::Implementation::~Implementation() {
-  services_.clear();  // from now on nobody loads or unloads
+  services_.clear();  // no loading or unloading from now on
   rosout_.close();
   if (runner_) runner_->stop();
   stop_housekeeping();
-  while (!entries_.empty()) take_last();  // the last loaded first: it may use what the others publish
+  while (!entries_.empty()) take_last();  // in reverse order of loading
 }
 
 void Container::Implementation::log(LogLevel level, const std::string& component, const std::string& text) {
@@ -105,7 +105,7 @@ auto Container::Implementation::add(Recipe recipe) -> Loaded {
   return put(std::move(recipe));
 }
 
-/// While change_mutex_ is held.
+/// Requires change_mutex_.
 auto Container::Implementation::put(Recipe recipe) -> Loaded {
   const ComponentDescription& description = recipe.description;
   if (bus_.bridge() && runtime::full_name(description.name_space, description.name) == full_name()) {
@@ -134,7 +134,7 @@ auto Container::Implementation::put(Recipe recipe) -> Loaded {
   return loaded;
 }
 
-/// Throws ConfigError with all that is wrong.
+/// Throws ConfigError with all problems.
 void Container::Implementation::make(LoadedComponent& entry) {
   const ComponentDescription& description = entry.recipe.description;
   entry.context = std::make_unique<Context>(std::make_unique<Context::State>(host_, description, entry.recipe.library));
@@ -147,7 +147,7 @@ void Container::Implementation::make(LoadedComponent& entry) {
   } catch (const ConfigError& error) {
     problems = error.problems();
   } catch (const std::exception& error) {
-    problems.push_back(description.name + " could not be made: " + error.what());
+    problems.push_back(description.name + " could not be created: " + error.what());
   }
   const auto append = [&](const std::vector<std::string>& more) {
     problems.insert(problems.end(), more.begin(), more.end());
@@ -155,7 +155,7 @@ void Container::Implementation::make(LoadedComponent& entry) {
   append(state.reader.problems());
   append(state.problems);
   if (state.source && running_) {
-    problems.push_back(description.name + " plays recorded data, which can only begin with the run: load it before");
+    problems.push_back(description.name + " plays recorded data and must be loaded before the run starts");
   }
   if (!problems.empty()) throw ConfigError(std::move(problems));
 }
@@ -200,7 +200,7 @@ bool Container::Implementation::unload_if(const std::function<bool(const LoadedC
     const auto found = std::find_if(entries_.begin(), entries_.end(), [&](const auto& there) { return is_it(*there); });
     if (found == entries_.end()) return false;
     if ((*found)->context->state().source && running_)
-      throw ConfigError((*found)->context->name() + " plays recorded data and goes with the end of the run");
+      throw ConfigError((*found)->context->name() + " plays recorded data and cannot be unloaded during the run");
     entry = std::move(*found);
     entries_.erase(found);
   }
@@ -209,15 +209,15 @@ bool Container::Implementation::unload_if(const std::function<bool(const LoadedC
   return true;
 }
 
-/// Only once what the container was started for is loaded: a request must not take the names of that.
+/// Refused until the container's own components are loaded, as a request must not take their names.
 auto Container::Implementation::load_component(const ComponentDescription& description) -> Loaded {
-  if (!started_) throw ConfigError(full_name() + " still loads what it was started with; ask again in a moment");
+  if (!started_) throw ConfigError(full_name() + " is still loading its initial components; try again");
   return load(description, true);
 }
 
 void Container::Implementation::unload_component(std::uint64_t id) {
   if (unload_if([id](const LoadedComponent& entry) { return entry.recipe.id == id; })) return;
-  throw ConfigError(fmt::format("there is no component of the id {}; list_nodes tells which there are", id));
+  throw ConfigError(fmt::format("there is no component with id {}; list_nodes shows the loaded ones", id));
 }
 
 auto Container::Implementation::loaded_components() const -> std::vector<Loaded> {
@@ -251,7 +251,7 @@ void Container::Implementation::offer_services(LoadedComponent& entry) {
   entry.services = serve(steering::parameter_services(entry.full_name(), *entry.node));
   for (auto& service : serve(steering::lifecycle_services(entry.full_name(), *entry.node)))
     entry.services.push_back(std::move(service));
-  // Those of the component itself are its author's to govern: "services" is about steering.
+  // Services of the component itself are not guarded: "services" covers only the standard ones.
   for (const auto& [description, serve_here] : state.services)
     entry.services.push_back(bus_.bridge()->serve(description, handler_of(serve_here)));
 }
@@ -260,7 +260,7 @@ void Container::Implementation::tell_parameters(rcl_interfaces::msg::ParameterEv
   parameter_events_->publish(std::make_shared<const rcl_interfaces::msg::ParameterEvent>(std::move(event)));
 }
 
-/// Has the bridge tell other processes which nodes there are and what each has.
+/// Announces the nodes of this process and their endpoints through the bridge.
 void Container::Implementation::tell_nodes() {
   if (!bus_.bridge()) return;
   const auto channels = bus_.channels();

@@ -19,7 +19,7 @@ void Container::Implementation::keep_house() {
       unload_if([id](const LoadedComponent& entry) { return entry.recipe.id == id; });
     }
     restart_failed();
-    if (bus_.channels().size() != told_channels_) tell_nodes();  // a recorder has found topics
+    if (bus_.channels().size() != told_channels_) tell_nodes();  // a recorder has opened topics
     lock.lock();
     const std::int64_t now_ns = clocks::monotonic_ns();
     if (now_ns - last_ns < 1'000'000'000) continue;
@@ -39,7 +39,7 @@ void Container::Implementation::publish_diagnostics(double interval_s) {
     }
     array = diagnostics_.collect(states, clocks::system_ns(), interval_s);
   }
-  for (const auto& recipe : unmade_)  // which changes on this thread only
+  for (const auto& recipe : unmade_)  // changed on this thread only
     array.status().push_back(Diagnostics::of_unmade(recipe.description.name));
   if (bus_.bridge()) {
     service_totals_.add(services_);

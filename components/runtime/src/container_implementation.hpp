@@ -23,8 +23,8 @@
 
 namespace panvo::runtime {
 
-/// container_components.cpp: what comes and goes, and what other processes are told of it. container_run.cpp: replay and live.
-/// container_housekeeping.cpp: what is done from time to time. container_restarts.cpp: components that fail.
+/// container_components.cpp: loading, unloading and announcing components. container_run.cpp: replay and live runs.
+/// container_housekeeping.cpp: periodic tasks. container_restarts.cpp: failed components.
 class Container::Implementation final : public steering::SteeredContainer {
  public:
   explicit Implementation(ContainerOptions options);
@@ -44,7 +44,7 @@ class Container::Implementation final : public steering::SteeredContainer {
   void run_until_quiet();
   void request_stop() noexcept;
 
-  /// What each of the components says, while none comes or goes.
+  /// Calls `say` for each component; none is loaded or unloaded meanwhile.
   template <class Say>
   void for_each(const Say& say) const {
     const std::lock_guard lock(entries_mutex_);
@@ -93,7 +93,7 @@ class Container::Implementation final : public steering::SteeredContainer {
 
   const ContainerOptions options_;
   const Logger::Write sink_;
-  Rosout rosout_;  // before the bus, which may have a warning to log while it is made
+  Rosout rosout_;  // before the bus, whose constructor may log a warning
   PassingTime time_;
   ReplayOrder replay_order_;
   Bus bus_;
@@ -105,12 +105,12 @@ class Container::Implementation final : public steering::SteeredContainer {
   std::shared_ptr<UntypedOutput> parameter_events_;  // nullptr without a bridge
   Diagnostics diagnostics_;
   ServiceTotals service_totals_;
-  std::unique_ptr<PlayedClock> clock_;  // nullptr: none is to be told
+  std::unique_ptr<PlayedClock> clock_;  // nullptr: no /clock
 
-  std::mutex change_mutex_;           // one component comes or goes at a time; guards unmade_ too
-  mutable std::mutex entries_mutex_;  // guards entries_, and that what is in it stays meanwhile
+  std::mutex change_mutex_;           // serialises loading and unloading; also guards unmade_
+  mutable std::mutex entries_mutex_;  // guards entries_ and the lifetime of its elements
   Entries entries_;
-  std::vector<Recipe> unmade_;  // have failed, and could not be made anew
+  std::vector<Recipe> unmade_;  // failed and could not be restarted
   std::uint64_t next_id_ = 1;
   std::atomic<bool> started_ = false;
   std::atomic<bool> running_ = false;
@@ -130,7 +130,7 @@ class Container::Implementation final : public steering::SteeredContainer {
   std::thread housekeeping_;
 
   std::vector<std::string> own_service_names_;
-  std::vector<std::unique_ptr<BridgeService>> services_;  // last: they use all of the above
+  std::vector<std::unique_ptr<BridgeService>> services_;  // last: the services use the members above
 };
 
 }  // namespace panvo::runtime

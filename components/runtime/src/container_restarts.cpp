@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What becomes of components that throw while the container runs live.
+// Restarting of components that throw in a live run.
 #include <fmt/format.h>
 
 #include <utility>
@@ -17,7 +17,7 @@ std::string name_of(const Recipe& recipe) { return recipe.description.name; }
 
 void Container::Implementation::component_failed(const ComponentDescription& description) {
   if (description.on_error != OnError::kStop) return;
-  log(LogLevel::kError, "container", description.name + " has failed, and its on_error says: stop");
+  log(LogLevel::kError, "container", description.name + " failed: stopping the container (on_error: stop)");
   request_stop();
 }
 
@@ -38,14 +38,14 @@ void Container::Implementation::restart_failed() {
   if (!due.empty()) tell_nodes();
 }
 
-/// Those whose time has come to be made anew; plans when that is, and lets files be trusted that have done no harm.
+/// Returns the components due for a restart; plans restarts, and trusts files that have been read without a failure.
 auto Container::Implementation::take_failed(std::int64_t now_ns) -> Entries {
   Entries due;
   const std::lock_guard lock(entries_mutex_);
   for (auto& entry : entries_) {
     auto& state = entry->context->state();
     state.trust_files(now_ns);
-    // What plays something recorded has lost its place.
+    // A source is not restarted: it has lost its position.
     if (!state.failed() || state.description.on_error != OnError::kRestart || state.source) continue;
     auto& recipe = entry->recipe;
     if (!recipe.restart_ns && !recipe.given_up) plan_restart(recipe, now_ns);
@@ -60,11 +60,11 @@ void Container::Implementation::plan_restart(Recipe& recipe, std::int64_t now_ns
   recipe.given_up = !recipe.restart_ns;
   if (recipe.given_up) {
     log(LogLevel::kError, name_of(recipe),
-        fmt::format("has failed {} times within {} s and stays stopped; the others go on",
+        fmt::format("failed {} times within {} s and stays stopped; the other components continue",
                     RestartPlan::kMostWithinWindow + 1, RestartPlan::kWindow_ns / 1'000'000'000));
   } else {
     log(LogLevel::kWarning, name_of(recipe),
-        fmt::format("is made anew in {:.1f} s", static_cast<double>(*recipe.restart_ns - now_ns) * 1e-9));
+        fmt::format("restarting in {:.1f} s", static_cast<double>(*recipe.restart_ns - now_ns) * 1e-9));
   }
 }
 
@@ -73,10 +73,10 @@ void Container::Implementation::make_anew(Recipe recipe, std::int64_t now_ns) {
   ++recipe.restarted;
   try {
     put(recipe);
-    log(LogLevel::kInfo, name_of(recipe), "was made anew");
+    log(LogLevel::kInfo, name_of(recipe), "restarted");
   } catch (const ConfigError& error) {
     for (const auto& problem : error.problems())
-      log(LogLevel::kError, name_of(recipe), "could not be made anew: " + problem);
+      log(LogLevel::kError, name_of(recipe), "could not be restarted: " + problem);
     plan_restart(recipe, now_ns);
     unmade_.push_back(std::move(recipe));
   }

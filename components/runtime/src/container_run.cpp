@@ -40,7 +40,7 @@ std::vector<std::string> Container::Implementation::run() {
   for (auto& problem : end_components()) problems.push_back(std::move(problem));
   const std::lock_guard change(change_mutex_);
   for (const auto& recipe : unmade_)
-    problems.push_back(recipe.description.name + " stopped by an error and could not be made anew, see the log");
+    problems.push_back(recipe.description.name + " stopped by an error and could not be restarted, see the log");
   const std::lock_guard lock(entries_mutex_);
   for (const auto& entry : entries_) {
     if (entry->context->state().failed())
@@ -49,7 +49,7 @@ std::vector<std::string> Container::Implementation::run() {
   return problems;
 }
 
-/// Has components finish what they made, such as a bag, so that it counts if they cannot.
+/// Lets components finish their results, such as a bag; failures are problems of the run.
 std::vector<std::string> Container::Implementation::end_components() {
   std::vector<std::string> problems;
   const std::lock_guard change(change_mutex_);
@@ -88,7 +88,7 @@ void Container::Implementation::progressed() {
   stop_changed_.notify_all();
 }
 
-/// The source with the earliest stamp steps, then all that comes of it is handled, in the order in which it came.
+/// The source with the earliest stamp steps, then all resulting tasks are handled in FIFO order.
 void Container::Implementation::replay(const std::vector<Source*>& sources) {
   std::int64_t shown_ns = 0;
   run_until_quiet();
@@ -149,7 +149,7 @@ void Container::Implementation::run_live(const std::vector<Source*>& sources) {
   if (!sources.empty()) on_progress(runner_->progress());
 }
 
-/// What is played at its pace brings its time along, unless a clock is played too.
+/// Publishes /clock if sources play at a fixed rate, unless a component publishes it.
 void Container::Implementation::open_clock() {
   if (!bus_.bridge() || options_.rate <= 0) return;
   for (const Channel* channel : bus_.channels()) {
@@ -162,8 +162,8 @@ void Container::Implementation::open_clock() {
   tell_nodes();
 }
 
-/// Lets what is under way be handled, then what was sent be received. Gives up after 10 s without progress; after 10 s in all when it was
-/// asked to stop, for other processes may go on sending.
+/// Waits until queued messages are handled and sent messages acknowledged. Gives up after 10 s without progress, or
+/// after 10 s in total when stopped, as other processes may keep sending.
 void Container::Implementation::drain() {
   using std::chrono::steady_clock;
   constexpr auto kPatience = std::chrono::seconds(10);
@@ -179,7 +179,7 @@ void Container::Implementation::drain() {
   if (before != 0)
     log(LogLevel::kWarning, "container", fmt::format("{} messages were still waiting at the end", before));
   if (!bus_.wait_for_acknowledgments(std::chrono::seconds(3))) {
-    log(LogLevel::kWarning, "container", "another process has not acknowledged all that was sent to it");
+    log(LogLevel::kWarning, "container", "another process has not acknowledged all messages");
   }
 }
 

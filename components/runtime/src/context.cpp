@@ -12,7 +12,7 @@
 namespace panvo::runtime {
 namespace {
 
-/// The stamp a message is about: its header's, or that of what was being processed when it was published.
+/// Stamp of a message: from its header, or of the message processed when it was published.
 std::int64_t stamp_of(const Sample& sample) {
   if (!sample.type()) return sample.time_ns();
   const void* message = sample.message();
@@ -47,7 +47,8 @@ class ChannelOutput final : public UntypedOutput {
   Sample::Sender sender_;
 };
 
-/// An output that leads nowhere: given to a component that will be refused, so that its constructor can go on and find its other problems.
+/// Discards messages. Given to a component that will be rejected, so its constructor continues and finds further
+/// problems.
 class NoOutput final : public UntypedOutput {
  public:
   void publish(std::shared_ptr<const void>) override {}
@@ -64,7 +65,7 @@ class WorkerStage final : public StageQueue {
   Port& port_;
 };
 
-/// Brings together the messages of two topics that bear the same stamp.
+/// Pairs messages of two topics by equal stamps.
 class Pairing {
  public:
   Pairing(Worker& worker, Port& port) : worker_(worker), port_(port) {}
@@ -79,7 +80,7 @@ class Pairing {
       if (const auto found = other.find(stamp); found != other.end()) {
         partner = found->second;
         other.erase(found);
-        // What waits and is older has lost its partner for good: each topic comes in its order.
+        // Older waiting messages have no partner: topics arrive in order.
         give_up_before(own, stamp);
         give_up_before(other, stamp);
       } else {
@@ -147,9 +148,9 @@ void Context::State::stop() {
   taps = false;
   host.services.remove_of(this);
   for (const auto& caller : callers) caller->close();
-  // Stages first: the component's own thread may wait for room in one of them.
+  // Stages first: the component's own thread may be blocked on a full stage.
   for (auto worker = workers.rbegin(); worker != workers.rend(); ++worker) (*worker)->stop();
-  trust_files(std::numeric_limits<std::int64_t>::max());  // it ends well, however short it ran
+  trust_files(std::numeric_limits<std::int64_t>::max());  // a regular end counts as success, however short the run
 }
 
 bool Context::State::failed() const {
@@ -179,7 +180,7 @@ std::int64_t Context::passing_ns() const { return state_->host.time.now_ns(); }
 std::int64_t Context::now_ns() const noexcept { return current_stamp_ns(); }
 
 std::uint64_t Context::seed() const noexcept {
-  std::uint64_t hash = 14695981039346656037ULL ^ state_->host.seed;  // FNV-1a over the name: the same on every machine
+  std::uint64_t hash = 14695981039346656037ULL ^ state_->host.seed;  // FNV-1a over the name: platform-independent
   for (const char letter : state_->description.name)
     hash = (hash ^ static_cast<unsigned char>(letter)) * 1099511628211ULL;
   return hash;

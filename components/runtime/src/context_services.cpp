@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// A component's services: those it offers, and those it calls.
+// Services of a component: offered and called.
 #include "context_state.hpp"
 #include "panvo/runtime/errors.hpp"
 
 namespace panvo::runtime {
 namespace {
 
-constexpr int kMostRequests = 32;  // that wait for a component
+constexpr int kMostRequests = 32;  // waiting per component
 
 struct WaitingRequest {
   interfaces::Bytes bytes;
   std::shared_ptr<Reply> reply;
-  std::shared_ptr<void> place;  // among those that wait
+  std::shared_ptr<void> place;  // occupies a waiting slot
 };
 
 }  // namespace
@@ -19,11 +19,11 @@ struct WaitingRequest {
 void Context::open_service(ServiceDescription service, ServiceHandler handler) {
   service.name = resolved_name(service.name);
   Worker& worker = state_->main_worker();
-  Port& port = worker.add_port("service " + service.name, kMostRequests, false,
-                               [handler = std::move(handler)](Task& task) {
-                                 auto& request = *std::any_cast<std::shared_ptr<WaitingRequest>&>(task.item);
-                                 request.reply->send(handler(request.bytes));
-                               });
+  Port& port =
+      worker.add_port("service " + service.name, kMostRequests, false, [handler = std::move(handler)](Task& task) {
+        auto& request = *std::any_cast<std::shared_ptr<WaitingRequest>&>(task.item);
+        request.reply->send(handler(request.bytes));
+      });
   const auto waiting = std::make_shared<std::atomic<int>>(0);
   ServiceDirectory::Serve serve = [&worker, &port, waiting](interfaces::Bytes bytes, std::shared_ptr<Reply> reply) {
     const std::shared_ptr<void> place(nullptr, [waiting](void*) { --*waiting; });

@@ -20,7 +20,7 @@
 
 namespace panvo::runtime {
 
-/// What a container lends to the contexts of its components.
+/// Shared objects of a container that its components' contexts use.
 struct Host {
   Bus& bus;
   ReplayOrder* replay_order;  // nullptr live
@@ -28,14 +28,14 @@ struct Host {
   Logger::Write log;
   std::uint64_t seed;
   std::function<void()> progressed;
-  bool again = false;  // in the place of a process that crashed
+  bool again = false;  // replaces a process that crashed
   std::atomic<std::int64_t> in_flight = 0;
-  std::filesystem::path files_below{};  // where requests by service may name files; empty: nowhere
+  std::filesystem::path files_below{};  // folder for files named by service requests; empty: none
   std::function<void(const ComponentDescription&)> failed = [](const ComponentDescription&) {};
   ServiceDirectory services{};
 };
 
-/// The runtime's side of a Context: everything that a component holds of the container, and that goes when it is unloaded.
+/// Internals of a Context: everything a component holds of the container, released at unload.
 struct Context::State {
   State(Host& host, const ComponentDescription& description, std::shared_ptr<const void> library);
 
@@ -44,22 +44,23 @@ struct Context::State {
   TopicDescription resolve(TopicDescription topic) const;
 
   void start();
-  /// No callback runs any more when this has returned.
+  /// No callback is running once this has returned.
   void stop();
   bool failed() const;
 
-  /// Whether a message's stamp can be of its time. One that cannot is counted, and told of now and then. From any thread.
+  /// Whether a message's stamp is plausible. Implausible stamps are counted and logged (throttled). Thread-safe.
   bool admits_stamp(const TopicDescription& topic, const Sample& sample);
   /// See Context::about_to_read.
   void begin_reading(const std::filesystem::path& file);
-  /// To be called now and then: what was read long enough ago has done no harm.
+  /// Call periodically: files that were read long enough ago without a failure are no longer on trial.
   void trust_files(std::int64_t now_ns);
-  /// "FILE was set aside as OTHER", of each that was.
+  /// "FILE was set aside as OTHER" for each file set aside.
   std::vector<std::string> files_set_aside() const;
 
-  /// What is declared, with the values in force and whether they may be set.
+  /// Declared parameters with current values and whether they can be set.
   std::vector<ParameterDescription> parameters() const;
-  /// All or none: returns what is wrong. From any thread; the component takes them on its own, between two messages.
+  /// Sets all values or none; returns the problems. Thread-safe; the component receives them on its own thread, between
+  /// two messages.
   std::vector<std::string> set_parameters(const WrittenValues& wanted);
 
   Host& host;
@@ -70,19 +71,19 @@ struct Context::State {
   StageTimes times;
   Rejections rejections;
   StampGuard stamp_guard;
-  std::vector<std::string> problems;             // of topics; those of parameters are the reader's
+  std::vector<std::string> problems;             // of topics; `reader` has those of parameters
   std::vector<std::unique_ptr<Worker>> workers;  // the component's own, then its stages
   std::vector<Channel*> inputs;
-  std::vector<std::pair<ServiceDescription, ServiceDirectory::Serve>> services;  // that the component offers
-  std::vector<std::shared_ptr<ComponentCaller>> callers;                         // of those that it calls
+  std::vector<std::pair<ServiceDescription, ServiceDirectory::Serve>> services;  // offered by the component
+  std::vector<std::shared_ptr<ComponentCaller>> callers;                         // called by the component
   bool taps = false;
   bool gives_way = false;
-  std::uint64_t restarts = 0;  // how often it was made anew
+  std::uint64_t restarts = 0;  // number of restarts
   Source* source = nullptr;
-  std::function<void()> end;        // nullptr: nothing is to be finished
-  std::atomic<bool> active = true;  // messages are handed to it
+  std::function<void()> end;        // nullptr: nothing to finish
+  std::atomic<bool> active = true;  // receives messages
 
-  /// Reads a parameter struct that the component takes while it runs; what is returned hands it over.
+  /// Reads a parameter struct that the component accepts at run time; the returned function passes it on.
   using ParameterTaker = std::function<std::function<void()>(ParameterReader&)>;
   std::vector<ParameterTaker> parameter_takers;
   Port* parameter_port = nullptr;
@@ -92,7 +93,7 @@ struct Context::State {
 
   std::mutex setting_mutex_;               // one request at a time
   mutable std::mutex parameters_mutex_;    // guards set_
-  std::vector<ParameterDescription> set_;  // since the component was made
+  std::vector<ParameterDescription> set_;  // set since construction
 
   struct FileOnTrial {
     std::filesystem::path file;

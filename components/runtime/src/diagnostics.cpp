@@ -38,7 +38,7 @@ diagnostic_msgs::msg::DiagnosticArray Diagnostics::collect(const std::vector<con
           fmt::format("mean {:.2f} ms, p95 {:.2f} ms, max {:.2f} ms, CPU mean {:.2f} ms", times.wall.mean_ms(),
                       times.wall.quantile_ms(0.95), times.wall.max_ms(), times.cpu.mean_ms()));
     }
-    if (component->restarts > 0) add(status, "made anew", fmt::format("{} times, after an error", component->restarts));
+    if (component->restarts > 0) add(status, "restarted", fmt::format("{} times, after an error", component->restarts));
     const auto set_aside = component->files_set_aside();
     for (const auto& text : set_aside) add(status, "file", text);
     if (component->failed()) {
@@ -53,10 +53,10 @@ diagnostic_msgs::msg::DiagnosticArray Diagnostics::collect(const std::vector<con
                                  interval_s, rejected.why));
     } else if (!set_aside.empty()) {
       status.level(kWarning);
-      status.message(set_aside.front() + ": runs that read it failed");
+      status.message(set_aside.front() + ": previous runs that read it failed");
     } else {
       status.level(kOk);
-      status.message(component->active ? "runs" : "inactive: messages are not handed to it");
+      status.message(component->active ? "runs" : "inactive: gets no messages");
     }
     array.status().push_back(std::move(status));
   }
@@ -68,7 +68,7 @@ diagnostic_msgs::msg::DiagnosticStatus Diagnostics::of_unmade(const std::string&
   status.name("panvo: " + name);
   status.hardware_id("none");
   status.level(kError);
-  status.message("stopped by an error, and could not be made anew, see the log");
+  status.message("stopped by an error and could not be restarted, see the log");
   return status;
 }
 
@@ -78,7 +78,7 @@ std::uint64_t Diagnostics::tell_inputs(const Context::State& component, double i
   for (const auto& worker : component.workers) {
     for (const auto& port : worker->counters()) {
       Previous& previous = previous_[component.description.name + "\n" + port.input];
-      if (port.received < previous.received) previous = {};  // another component of that name has taken its place
+      if (port.received < previous.received) previous = {};  // replaced by another component of that name
       newly_dropped += port.dropped - previous.dropped;
       add(status, port.input + " rate",
           fmt::format("{:.1f} Hz", static_cast<double>(port.handled - previous.handled) / interval_s));
@@ -103,7 +103,7 @@ std::uint64_t Diagnostics::tell_overwritten(const Context::State& component,
     const std::uint64_t overwritten = channel->counters().overwritten;
     if (overwritten == 0) continue;
     const std::string& topic = channel->topic().name;
-    add(status, topic + " overwritten", fmt::format("{} messages, in shared memory while they were read", overwritten));
+    add(status, topic + " overwritten", fmt::format("{} messages, in shared memory while being read", overwritten));
     Previous& previous = previous_[component.description.name + "\n" + topic];
     newly_overwritten += overwritten - std::exchange(previous.overwritten, overwritten);
   }
@@ -118,7 +118,7 @@ Diagnostics::Rejected Diagnostics::tell_rejections(const Context::State& compone
   for (const Channel* channel : component.host.bus.channels()) {
     if (!channel->is_read_by(&component) && !channel->is_published_by(name)) continue;
     const auto count = channel->rejected();
-    // Beside those of the same topic that the component itself could not use.
+    // Separate from the component's own rejections on the same topic.
     if (count.messages > 0) tell_rejections(name + "\ninvalid", channel->topic().name, count, status, newly);
   }
   return newly;
@@ -131,7 +131,7 @@ void Diagnostics::tell_rejections(const std::string& component, const std::strin
   for (const auto& [cause, messages] : count.causes) {
     const auto& [sender, reason] = cause;
     if (!sender.empty())
-      add(status, topic + " rejected of " + sender, fmt::format("{} messages: {}", messages, reason));
+      add(status, topic + " rejected from " + sender, fmt::format("{} messages: {}", messages, reason));
   }
   Previous& previous = previous_[component + "\n" + topic];
   if (count.messages < previous.rejected) previous.rejected = 0;  // as above

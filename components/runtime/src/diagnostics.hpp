@@ -10,16 +10,16 @@
 
 namespace panvo::runtime {
 
-/// How the components of a container are, as ROS 2's diagnostic tools show it: for each one a status with the rate, latency, waiting and dropped
-/// messages of each input, what it could not use and why, and the times of each stage. Warns while messages are being dropped or rejected; an error
-/// is a component that has stopped.
+/// Creates ROS 2 diagnostics of a container's components: one status per component with rate, latency, waiting and
+/// dropped messages of each input, rejected messages with reasons, and stage times. Warning while messages are dropped
+/// or rejected; error if the component has stopped.
 class Diagnostics {
  public:
-  /// `interval_s`: since the last call, for rates.
+  /// `interval_s`: time since the last call, for rates.
   diagnostic_msgs::msg::DiagnosticArray collect(const std::vector<const Context::State*>& components,
                                                 std::int64_t stamp_ns, double interval_s);
 
-  /// Of a component that has failed and is not there any more.
+  /// Status of a failed component that could not be restarted.
   static diagnostic_msgs::msg::DiagnosticStatus of_unmade(const std::string& name);
 
  private:
@@ -31,14 +31,14 @@ class Diagnostics {
     std::string why;
   };
 
-  /// How many were dropped since the last call.
+  /// Number of messages dropped since the last call.
   std::uint64_t tell_inputs(const Context::State& component, double interval_s,
                             diagnostic_msgs::msg::DiagnosticStatus& status);
-  /// How many were overwritten since the last call, in the memory that their writer shares, while they were read here.
+  /// Number of messages overwritten in shared memory while being read, since the last call.
   std::uint64_t tell_overwritten(const Context::State& component, diagnostic_msgs::msg::DiagnosticStatus& status);
-  /// How many were refused since the last call because of their size or number.
+  /// Messages refused for their size or rate since the last call.
   Rejected tell_refused(const Context::State& component, diagnostic_msgs::msg::DiagnosticStatus& status);
-  /// What was rejected since the last call, with the reason of one of them: by the component, and before it came to it.
+  /// Messages rejected since the last call, by the component or before delivery, with one of the reasons.
   Rejected tell_rejections(const Context::State& component, diagnostic_msgs::msg::DiagnosticStatus& status);
   void tell_rejections(const std::string& component, const std::string& topic, const Rejections::Count& count,
                        diagnostic_msgs::msg::DiagnosticStatus& status, Rejected& newly);

@@ -12,7 +12,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// What SQLite keeps beside a database, and what belongs to it.
+/// Files that SQLite keeps next to a database.
 constexpr const char* kCompanions[] = {"-journal", "-wal", "-shm"};
 
 fs::path with(const fs::path& file, const std::string& ending) {
@@ -37,8 +37,7 @@ fs::path set_aside(const fs::path& file) {
   fs::rename(file, bad, error);
   if (error) {
     throw std::runtime_error(
-        fmt::format("{} has made whoever read it fail {} times in a row, and cannot be set aside: "
-                    "{}; move it away",
+        fmt::format("{}: reading it failed {} times in a row, and it cannot be renamed: {}; move it away",
                     file.string(), kMostFailures, error.message()));
   }
   for (const char* companion : kCompanions) fs::rename(with(file, companion), with(bad, companion), error);

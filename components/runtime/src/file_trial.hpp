@@ -6,15 +6,15 @@
 
 namespace panvo::runtime {
 
-/// So often in a row may whoever reads a file fail before it is set aside.
+/// Number of consecutive failed attempts after which a file is set aside.
 inline constexpr int kMostFailures = 3;
 
-/// To be called before a file is read that may be bad: counts this attempt in FILE.attempts beside it, which a crash leaves there. A file with which
-/// kMostFailures attempts have failed is renamed to FILE.bad-1 (or -2 ...), which is returned. Where nothing can be written beside the file nothing
-/// is counted. Throws std::runtime_error when a bad file cannot be renamed.
+/// Call before reading a file that may be bad: counts the attempt in FILE.attempts, which remains after a crash. After
+/// kMostFailures failed attempts the file is renamed to FILE.bad-1 (or -2 ...), which is returned. Nothing is counted
+/// if the folder is not writable. Throws std::runtime_error if a bad file cannot be renamed.
 std::optional<std::filesystem::path> begin_trial(const std::filesystem::path& file);
 
-/// It was read, and all went well.
+/// Call after a successful attempt: resets the count.
 void end_trial(const std::filesystem::path& file);
 
 }  // namespace panvo::runtime

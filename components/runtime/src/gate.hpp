@@ -8,8 +8,8 @@
 
 namespace panvo::runtime {
 
-/// What is wrong with a message before anybody here is to read it: larger than `max_bytes`, not of its type, or against the rules of its type
-/// (MessageType::problem). nullopt: nothing.
+/// Validates a message: returns a problem if it is larger than `max_bytes`, not decodable, or violates the rules of its
+/// type (MessageType::problem); nullopt if valid.
 std::optional<std::string> problem_of(const Sample& sample, std::size_t max_bytes);
 
 }  // namespace panvo::runtime

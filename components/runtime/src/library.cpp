@@ -14,7 +14,7 @@ namespace {
 
 using EntryPoint = const ComponentDescriptor* (*)();
 
-/// The plugin's own entry point; not that of a library it links, which dlsym finds too.
+/// The plugin's own entry point. dlsym also finds those of linked libraries.
 EntryPoint entry_point_of(void* handle, const fs::path& file) {
   void* symbol = dlsym(handle, kPluginEntryPoint);
   Dl_info info{};
@@ -26,15 +26,15 @@ EntryPoint entry_point_of(void* handle, const fs::path& file) {
 }  // namespace
 
 Library::Library(const fs::path& file) : file_(file) {
-  // Local: two plugins may define the same names. Now: what is missing is said at load, not in the middle of a run.
+  // RTLD_LOCAL: plugins may define the same symbols. RTLD_NOW: missing symbols are reported at load time.
   handle_ = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (!handle_) throw ConfigError("cannot load plugin " + file.string() + ": " + dlerror());
   const EntryPoint entry_point = entry_point_of(handle_, file);
   first_ = entry_point ? entry_point() : nullptr;
   std::string problem;
   if (!entry_point) {
-    problem = "is no component plugin: it has no function " + std::string(kPluginEntryPoint) +
-              "; register a component in it by PANVO_REGISTER_COMPONENT(Class)";
+    problem = "is not a component plugin: it has no function " + std::string(kPluginEntryPoint) +
+              "; register a component with PANVO_REGISTER_COMPONENT(Class)";
   } else if (!first_) {
     problem = "registers no component: add PANVO_REGISTER_COMPONENT(Class) to its source file";
   } else if (first_->runtime_build != kRuntimeBuild) {
@@ -70,7 +70,7 @@ std::vector<fs::path> plugin_folders() {
   for (const auto& folder : interfaces::library_folders()) folders.push_back(folder / "panvo");
   std::error_code error;
   const fs::path executable = fs::read_symlink("/proc/self/exe", error);
-  if (!error) folders.push_back(executable.parent_path() / ".." / "panvo_plugins");  // in the build folder
+  if (!error) folders.push_back(executable.parent_path() / ".." / "panvo_plugins");  // build folder
   return folders;
 }
 

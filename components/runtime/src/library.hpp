@@ -10,17 +10,19 @@
 
 namespace panvo::runtime {
 
-/// A loaded plugin. It is unmapped when the last owner lets go: the container, its component, and every message that its code made.
+/// A loaded plugin. Unmapped when its last owner is gone: the container, its components, and all messages created by
+/// its code.
 class Library {
  public:
-  /// Throws ConfigError that names the file and what is wrong with it.
+  /// Throws ConfigError with the file and the problem.
   explicit Library(const std::filesystem::path& file);
   ~Library();
   Library(const Library&) = delete;
   Library& operator=(const Library&) = delete;
 
   const std::filesystem::path& file() const noexcept { return file_; }
-  /// The component of that class name, with or without its namespace ("panvo::StereoRectifierComponent"); nullptr if there is none.
+  /// Finds a component by class name, with or without namespace ("panvo::StereoRectifierComponent"); nullptr if there
+  /// is none.
   const ComponentDescriptor* find(const std::string& class_name) const;
   std::vector<const ComponentDescriptor*> components() const;
 
@@ -30,11 +32,12 @@ class Library {
   const ComponentDescriptor* first_;
 };
 
-/// Finds the plugin file of a package: panvo_stereo_rectifier -> libpanvo_stereo_rectifier_component.so, in the folders of $PANVO_PLUGIN_PATH, in lib/panvo and
-/// lib/<architecture>/panvo of the prefixes of $COLCON_PREFIX_PATH, $AMENT_PREFIX_PATH and $CMAKE_PREFIX_PATH, and beside the executable. Throws ConfigError that lists where it looked.
+/// Finds the plugin file of a package: panvo_stereo_rectifier -> libpanvo_stereo_rectifier_component.so. Searches the
+/// folders of $PANVO_PLUGIN_PATH, lib/panvo and lib/<architecture>/panvo in the prefixes of $COLCON_PREFIX_PATH,
+/// $AMENT_PREFIX_PATH and $CMAKE_PREFIX_PATH, and next to the executable. Throws ConfigError with the searched folders.
 std::filesystem::path find_plugin(const std::string& package);
 
-/// The folders find_plugin looks in.
+/// The folders searched by find_plugin.
 std::vector<std::filesystem::path> plugin_folders();
 
 }  // namespace panvo::runtime

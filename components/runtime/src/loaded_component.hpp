@@ -17,29 +17,29 @@
 
 namespace panvo::runtime {
 
-/// What it takes to make a component, and to make it anew.
+/// Everything needed to create and restart a component.
 struct Recipe {
   using Create = std::function<std::unique_ptr<Component, void (*)(Component*)>(Context&)>;
 
   ComponentDescription description;
   std::shared_ptr<Library> library;
   Create create;
-  bool by_request = false;  // another process asked for it: it may name no files but those that are allowed
-  std::uint64_t id = 0;     // never used again
+  bool by_request = false;  // loaded by service request: restricted in the files it may name
+  std::uint64_t id = 0;     // never reused
   RestartPlan restarts{};
-  std::optional<std::int64_t> restart_ns{};  // when it is to be made anew, since it has failed
+  std::optional<std::int64_t> restart_ns{};  // time of the restart after a failure
   bool given_up = false;
-  std::uint64_t restarted = 0;  // how often
+  std::uint64_t restarted = 0;  // number of restarts
 };
 
-/// A loaded component. Its members go in the order that keeps all code mapped that may still run: first the component, then what the
-/// runtime holds of it (callbacks are the plugin's code), then the plugin.
+/// A loaded component. Members are destroyed in an order that keeps all code mapped that may still run: the component,
+/// its callbacks in the runtime, then the plugin.
 struct LoadedComponent {
   Recipe recipe;
   std::unique_ptr<Context> context;
   std::unique_ptr<Component, void (*)(Component*)> component{nullptr, nullptr};
   std::unique_ptr<steering::ComponentNode> node;
-  std::vector<std::unique_ptr<BridgeService>> services;  // answer from the node
+  std::vector<std::unique_ptr<BridgeService>> services;  // use `node`
 
   ~LoadedComponent() {
     services.clear();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How a component takes new parameters while it runs.
+// Setting parameters of a running component.
 #include <algorithm>
 #include <chrono>
 #include <condition_variable>
@@ -13,10 +13,10 @@
 namespace panvo::runtime {
 namespace {
 
-// A component that is busy with one message for longer is asked again by who asked first.
+// After this time the request fails and the caller may retry.
 constexpr std::chrono::seconds kLimit{5};
 
-/// What became of a call on the component's thread.
+/// Result of a call on the component's thread.
 struct Outcome {
   std::mutex mutex;
   std::condition_variable changed;
@@ -30,7 +30,7 @@ std::vector<ParameterDescription>::const_iterator find(const std::vector<Paramet
   return std::ranges::find(parameters, name, &ParameterDescription::name);
 }
 
-/// What is wrong with asking for these at all.
+/// Problems that do not depend on the values' contents.
 std::vector<std::string> not_settable(const std::vector<ParameterDescription>& known, const WrittenValues& wanted,
                                       const std::filesystem::path& files_below) {
   std::vector<std::string> names, problems;
@@ -41,8 +41,8 @@ std::vector<std::string> not_settable(const std::vector<ParameterDescription>& k
       problems.push_back("there is no parameter \"" + name + "\"" + suggestion(name, names));
     } else if (!parameter->settable) {
       problems.push_back(name +
-                         " is fixed once the component is made: unload it and load it anew with the other value, or "
-                         "set it in the system file");
+                         " is read-only at run time: reload the component with the new value, or set it in the system "
+                         "file");
     } else if (parameter->is_path && !value.items.empty()) {
       if (const auto wrong = path_problem(value.items.front(), files_below)) problems.push_back(name + " " + *wrong);
     }
@@ -59,7 +59,7 @@ void run(const std::vector<std::function<void()>>& calls, Outcome& outcome) {
     outcome.problems = {"the component was stopped by an error, see its log"};
     outcome.done = true;
     outcome.changed.notify_all();
-    throw;  // as from any other callback
+    throw;  // handled like that of any other callback
   }
   outcome.done = true;
   outcome.changed.notify_all();
@@ -99,7 +99,7 @@ std::vector<std::string> Context::State::set_parameters(const WrittenValues& wan
 
 std::vector<std::string> Context::State::hand_over(std::vector<std::function<void()>> calls) {
   const auto outcome = std::make_shared<Outcome>();
-  if (host.replay_order) {  // one thread for all, and it is here
+  if (host.replay_order) {  // this is the only thread
     run(calls, *outcome);
     return outcome->problems;
   }
@@ -112,7 +112,7 @@ std::vector<std::string> Context::State::hand_over(std::vector<std::function<voi
   std::unique_lock lock(outcome->mutex);
   if (outcome->changed.wait_for(lock, kLimit, [&] { return outcome->done; })) return outcome->problems;
   outcome->given_up = true;
-  return {"the component is busy with one message and did not take them; try again"};
+  return {"the component is busy with one message and did not accept the values; try again"};
 }
 
 }  // namespace panvo::runtime

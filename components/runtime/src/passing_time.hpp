@@ -9,8 +9,8 @@
 
 namespace panvo::runtime {
 
-/// The time that passes while a container runs: live a clock; where something is played, the stamps that its sources have come to; in a replay
-/// without sources, the stamps of what is handled. Safe to use from several threads.
+/// Time during a run: a clock (live); the stamps reached by the sources, if any; in replay without sources, the stamps
+/// of handled messages. Thread-safe.
 class PassingTime {
  public:
   enum class Pace { kTasks, kSources, kClock };
@@ -20,17 +20,17 @@ class PassingTime {
   void follow_sources() { pace_ = Pace::kSources; }
   Pace pace() const noexcept { return pace_; }
 
-  /// What is played, or handled, has come to this stamp; time does not go back.
+  /// Advances to this stamp; never goes back.
   void reach(std::int64_t stamp_ns) {
     std::int64_t before_ns = reached_ns_;
     while (stamp_ns > before_ns && !reached_ns_.compare_exchange_weak(before_ns, stamp_ns)) {
     }
   }
 
-  /// 0 before anything was reached.
+  /// 0 before the first stamp.
   std::int64_t now_ns() const { return pace_ == Pace::kClock ? clock_() : reached_ns_.load(); }
 
-  /// When a message that comes now arrives; nullopt where nothing but the messages themselves tells time.
+  /// Arrival time of a message received now; nullopt if time is known only from the messages themselves.
   std::optional<std::int64_t> arrival_ns() const {
     if (pace_ == Pace::kTasks || (pace_ == Pace::kSources && reached_ns_ == 0)) return std::nullopt;
     return now_ns();

@@ -10,15 +10,15 @@
 
 namespace panvo::runtime {
 
-/// /clock of what is played, for ROS 2's nodes with use_sim_time. Components here go by stamps and have no use for it, nor recorders, so that it only
-/// leaves the process.
+/// Publishes /clock for ROS 2 nodes with use_sim_time. Only to other processes: our components and recorders use
+/// stamps.
 class PlayedClock {
  public:
   static TopicDescription topic();
 
   explicit PlayedClock(Bridge& bridge) : writer_(bridge.open_writer(topic())) {}
 
-  /// From any thread. Of several sources, the latest time counts: a clock that went back would unsettle who reads it.
+  /// Thread-safe. With several sources the latest time counts, so the clock never goes back.
   void reach(std::int64_t stamp_ns);
 
  private:

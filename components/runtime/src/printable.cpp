@@ -11,7 +11,7 @@
 namespace panvo::runtime {
 namespace {
 
-/// How many bytes the character at the beginning of `text` has, and which it is; 0: it is none.
+/// Decodes the first character of `text` and returns its number of bytes; 0 if invalid.
 std::size_t read_utf8(std::string_view text, std::uint32_t& character) {
   const auto byte = [&](std::size_t i) { return static_cast<std::uint8_t>(text[i]); };
   if (byte(0) < 0x80) {
@@ -31,7 +31,7 @@ std::size_t read_utf8(std::string_view text, std::uint32_t& character) {
   return character < kSmallest[size] || is_surrogate || character > 0x10ffff ? 0 : size;
 }
 
-/// Control characters of both sets, and those that turn the direction of writing, by which a text shows another than it is.
+/// C0 and C1 control characters, and bidirectional formatting characters, which can disguise a text.
 bool steers_a_terminal(std::uint32_t character) {
   return (character < 0x20 && character != '\n' && character != '\t') || (character >= 0x7f && character < 0xa0) ||
          (character >= 0x202a && character <= 0x202e) || (character >= 0x2066 && character <= 0x2069);

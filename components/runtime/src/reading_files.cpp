@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How a component reads files that earlier runs left, of which one may be bad.
+// Reading of files from earlier runs, which may be bad.
 #include <fmt/format.h>
 
 #include "clocks.hpp"
@@ -9,7 +9,7 @@
 namespace panvo::runtime {
 namespace {
 
-// A bad landmark does its harm with the first panorama, which comes when the cameras do.
+// A bad landmark causes a failure at the first panorama, soon after the start.
 constexpr std::int64_t kTrial_ns = 10'000'000'000;
 
 }  // namespace
@@ -23,7 +23,7 @@ void Context::State::begin_reading(const std::filesystem::path& file) {
   if (!bad) return files_on_trial_.push_back({file, clocks::monotonic_ns()});
   files_set_aside_.push_back(fmt::format("{} was set aside as {}", file.string(), bad->string()));
   logger.error(
-      "{}: the last {} runs that read it failed. This one goes on without; mend it and move it back, or "
+      "{}: the last {} runs that read it failed. This run continues without it; repair it and move it back, or "
       "delete it",
       files_set_aside_.back(), kMostFailures);
 }

@@ -9,14 +9,14 @@
 
 namespace panvo::runtime {
 
-/// When a component that keeps failing is made anew: after 0.1, 1 and 10 s; of more than three failures within a minute, not any more.
+/// Schedules restarts of a failing component: after 0.1, 1 and 10 s; none after a fourth failure within a minute.
 class RestartPlan {
  public:
   static constexpr std::size_t kMostWithinWindow = 3;
   static constexpr std::int64_t kWindow_ns = 60'000'000'000;
   static constexpr std::int64_t kFirstDelay_ns = 100'000'000, kLongestDelay_ns = 10'000'000'000;
 
-  /// When to make it anew after a failure at `now_ns`; nullopt: it has failed too often.
+  /// Time of the restart after a failure at `now_ns`; nullopt: too many failures.
   std::optional<std::int64_t> failed(std::int64_t now_ns) {
     while (!failures_ns_.empty() && failures_ns_.front() + kWindow_ns <= now_ns) failures_ns_.pop_front();
     if (failures_ns_.size() >= kMostWithinWindow) return std::nullopt;

@@ -11,8 +11,8 @@
 
 namespace panvo::runtime {
 
-/// Log lines on their way to /rosout; nowhere while there is no output: while the container is being made, and when it ends. Safe to use from several
-/// threads.
+/// Publishes log lines on /rosout. Drops them while there is no output, at the start and end of a container.
+/// Thread-safe.
 class Rosout {
  public:
   void open(std::shared_ptr<UntypedOutput> output);

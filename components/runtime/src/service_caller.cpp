@@ -10,9 +10,9 @@ using std::chrono::steady_clock;
 
 namespace {
 
-constexpr std::size_t kMostWaiting = 32;   // calls of another process, which are made one after the other
-constexpr std::size_t kMostAnswers = 1024;  // that the component has not taken yet
-constexpr milliseconds kSlice{100};         // how long it takes at most to notice that the component ends
+constexpr std::size_t kMostWaiting = 32;    // calls to other processes, made one at a time
+constexpr std::size_t kMostAnswers = 1024;  // not yet handled by the component
+constexpr milliseconds kSlice{100};         // longest delay until the end of the component is noticed
 
 }  // namespace
 
@@ -44,7 +44,7 @@ void RemoteCaller::loop() {
     waiting_.pop_front();
     lock.unlock();
     carry_out(call);
-    call = {};  // whoever waits is answered without the lock
+    call = {};  // releases the reply without holding the lock
     lock.lock();
   }
 }
@@ -53,7 +53,8 @@ void RemoteCaller::carry_out(Call& call) {
   const auto left = [&call] { return std::chrono::ceil<milliseconds>(call.end - steady_clock::now()); };
   while (!stopping_ && left() > milliseconds(0)) {
     if (!client_->wait_for_service(std::min(left(), kSlice))) continue;
-    if (auto bytes = client_->call(call.request, std::max(left(), milliseconds(1)))) call.reply->send(std::move(*bytes));
+    if (auto bytes = client_->call(call.request, std::max(left(), milliseconds(1))))
+      call.reply->send(std::move(*bytes));
     return;
   }
 }
@@ -68,10 +69,10 @@ ComponentCaller::ComponentCaller(ServiceDescription service, const ServiceDirect
 }
 
 void ComponentCaller::call(interfaces::Bytes request, milliseconds limit, Answer answer) {
-  const auto reply = std::make_shared<Reply>(
-      [inbox = inbox_, answer = std::move(answer), stamp_ns = current_stamp_ns()](std::optional<interfaces::Bytes> bytes) {
-        inbox->put(answer, std::move(bytes), stamp_ns);
-      });
+  const auto reply = std::make_shared<Reply>([inbox = inbox_, answer = std::move(answer),
+                                              stamp_ns = current_stamp_ns()](std::optional<interfaces::Bytes> bytes) {
+    inbox->put(answer, std::move(bytes), stamp_ns);
+  });
   if (!directory_.call(service_, request, reply) && remote_) remote_->call(std::move(request), limit, reply);
 }
 

@@ -15,14 +15,14 @@
 
 namespace panvo::runtime {
 
-/// Calls services of other processes, one after the other, on a thread of its own: the bridge's client waits for each answer.
+/// Calls a service of another process, one call at a time, on its own thread, as the bridge's client blocks.
 class RemoteCaller {
  public:
-  /// Throws ConfigError when the bridge will not have it.
+  /// Throws ConfigError if the bridge refuses the client.
   RemoteCaller(Bridge& bridge, const ServiceDescription& service);
   ~RemoteCaller();
 
-  /// A call that comes while too many wait stays unanswered.
+  /// The call stays unanswered if too many are waiting.
   void call(interfaces::Bytes request, std::chrono::milliseconds limit, std::shared_ptr<Reply> reply);
 
  private:
@@ -43,17 +43,17 @@ class RemoteCaller {
   std::thread thread_;
 };
 
-/// A component's calls of one service. Answers go through the component's queue; after close() they are dropped.
+/// A component's client of one service. Answers pass through the component's queue; after close() they are dropped.
 class ComponentCaller final : public ServiceCaller {
  public:
-  /// `bridge` is nullptr where there are no other processes.
+  /// `bridge` may be nullptr.
   ComponentCaller(ServiceDescription service, const ServiceDirectory& directory, Bridge* bridge, Worker& worker);
 
   void call(interfaces::Bytes request, std::chrono::milliseconds limit, Answer answer) override;
   void close();
 
  private:
-  /// Where answers are put, for as long as the component's worker is there.
+  /// Receives answers while the component's worker exists.
   struct Inbox {
     std::mutex mutex;
     Worker* worker = nullptr;

@@ -11,10 +11,10 @@
 namespace panvo::runtime {
 namespace {
 
-// A component that is busy for longer has not answered; whoever called may call again.
+// After this time the request stays unanswered; the client may call again.
 constexpr std::chrono::seconds kLimit{5};
 
-/// An answer that one thread waits for and another brings.
+/// Passes an answer from one thread to a waiting one.
 class Waiting {
  public:
   void bring(std::optional<interfaces::Bytes> bytes) {
@@ -44,7 +44,7 @@ class Waiting {
 void ServiceDirectory::add(const ServiceDescription& service, const void* owner, Serve serve) {
   const std::unique_lock lock(mutex_);
   if (!entries_.try_emplace(service.name, Entry{service.type_name, owner, std::move(serve)}).second) {
-    throw ConfigError("there is a service " + service.name + " in this container already; remap the name of one of them");
+    throw ConfigError("service " + service.name + " already exists in this container; remap one of them");
   }
 }
 
@@ -67,7 +67,9 @@ ServiceHandler handler_of(ServiceDirectory::Serve serve) {
     const auto waiting = std::make_shared<Waiting>();
     serve(request, std::make_shared<Reply>([waiting](auto bytes) { waiting->bring(std::move(bytes)); }));
     auto bytes = waiting->wait();
-    if (!bytes) throw std::runtime_error("the component did not answer: it is busy, was stopped by an error, or could not read the request");
+    if (!bytes)
+      throw std::runtime_error(
+          "the component did not answer: it is busy, was stopped by an error, or could not read the request");
     return std::move(*bytes);
   };
 }

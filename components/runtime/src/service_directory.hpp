@@ -12,7 +12,7 @@
 
 namespace panvo::runtime {
 
-/// What a call is answered by, once. A request that is discarded unanswered is answered by nullopt, so that every call ends.
+/// Answers a call, once. If it is destroyed unanswered, the answer is nullopt, so every call ends.
 class Reply {
  public:
   explicit Reply(Answer answer) : answer_(std::move(answer)) {}
@@ -28,18 +28,18 @@ class Reply {
   Answer answer_;
 };
 
-/// The services that components of this process offer, by resolved name. Safe to use from several threads.
+/// Services of the components of this process, by resolved name. Thread-safe.
 class ServiceDirectory {
  public:
-  /// Queues a request where it is handled. Never blocks.
+  /// Queues a request for its handler. Never blocks.
   using Serve = std::function<void(interfaces::Bytes request, std::shared_ptr<Reply> reply)>;
 
-  /// Throws ConfigError for a name that is taken. `owner` is what remove_of() knows it by.
+  /// Throws ConfigError if the name is taken. `owner` is the key for remove_of().
   void add(const ServiceDescription& service, const void* owner, Serve serve);
-  /// None of the owner's services is called any more when this has returned.
+  /// No service of the owner is called once this has returned.
   void remove_of(const void* owner);
 
-  /// False when no component of this process offers a service of that name and type; the reply is unused then.
+  /// False if no component of this process offers a service of that name and type; `reply` is then unused.
   bool call(const ServiceDescription& service, interfaces::Bytes& request, const std::shared_ptr<Reply>& reply) const;
 
  private:
@@ -52,7 +52,7 @@ class ServiceDirectory {
   std::map<std::string, Entry> entries_;
 };
 
-/// A handler for the bridge, which has requests of other processes: waits until the component has answered, for some seconds at most.
+/// Converts to a handler for the bridge, which waits up to 5 s for the component's answer.
 ServiceHandler handler_of(ServiceDirectory::Serve serve);
 
 }  // namespace panvo::runtime

@@ -22,7 +22,7 @@ void ServiceTotals::add(const std::vector<std::unique_ptr<BridgeService>>& servi
 diagnostic_msgs::msg::DiagnosticStatus ServiceTotals::status(const std::string& container, double interval_s) {
   const ServiceCounters now = std::exchange(now_, {});
   const ServiceCounters before = std::exchange(told_, now);
-  // A component that goes takes its counts along.
+  // Counts decrease when a component is unloaded.
   const auto since = [](std::uint64_t count, std::uint64_t then) { return count > then ? count - then : 0; };
   const auto refused = since(now.refused, before.refused), dropped = since(now.dropped, before.dropped);
   diagnostic_msgs::msg::DiagnosticStatus status;

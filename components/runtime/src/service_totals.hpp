@@ -11,12 +11,12 @@
 
 namespace panvo::runtime {
 
-/// How the requests to a container and its components fare, as one status of /diagnostics.
+/// Counts the requests to a container and its components, as one status of /diagnostics.
 class ServiceTotals {
  public:
   void add(const std::vector<std::unique_ptr<BridgeService>>& services);
 
-  /// Warns while requests are refused or dropped. `container` is its name; to be called once for each status that is told.
+  /// Call once per published status. Warning while requests are refused or dropped. `container` is its name.
   diagnostic_msgs::msg::DiagnosticStatus status(const std::string& container, double interval_s);
 
  private:

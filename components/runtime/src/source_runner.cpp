@@ -54,7 +54,7 @@ bool SourceRunner::wait_for_turn(std::size_t index, std::int64_t stamp_ns) {
   using std::chrono::steady_clock;
   std::unique_lock lock(mutex_);
   next_stamp_ns_[index] = stamp_ns;
-  changed_.notify_all();  // another source may have waited for this one to pass
+  changed_.notify_all();  // another source may be waiting for this one
   if (settings_.rate > 0) {
     const auto offset_ns = static_cast<std::int64_t>(static_cast<double>(stamp_ns - first_stamp_ns_) / settings_.rate);
     const steady_clock::time_point due{std::chrono::nanoseconds(start_ns_ + offset_ns)};
@@ -65,7 +65,7 @@ bool SourceRunner::wait_for_turn(std::size_t index, std::int64_t stamp_ns) {
       return stopping_ || (is_earliest && settings_.queues_are_empty());
     })) {
       lock.unlock();
-      settings_.warn("nothing was taken for 10 s; a component is busy with one message, or stuck");
+      settings_.warn("no message was handled for 10 s; a component is busy with one message, or stuck");
       lock.lock();
     }
   }
@@ -94,7 +94,7 @@ void SourceRunner::stop() {
 }
 
 void SourceRunner::wake() {
-  { const std::lock_guard lock(mutex_); }  // whoever is about to wait has by now begun to
+  { const std::lock_guard lock(mutex_); }  // ensures that a source about to wait is already waiting
   changed_.notify_all();
 }
 

@@ -14,13 +14,13 @@
 
 namespace panvo::runtime {
 
-/// When sources step, live: a thread for each, at the recorded rate, scaled, or as soon as nothing waits in any queue.
+/// Runs sources live, each on its own thread: at the recorded rate, scaled, or whenever all queues are empty.
 class SourceRunner {
  public:
   struct Settings {
     double rate = 1;  // 0: as fast as the consumers take it
     std::function<bool()> queues_are_empty;
-    std::function<void(std::int64_t)> reached = [](std::int64_t) {};  // the stamp of what a source plays next
+    std::function<void(std::int64_t)> reached = [](std::int64_t) {};  // called with the stamp of a source's next step
     std::function<void(const std::string&)> failed;
     std::function<void(const std::string&)> warn;
   };
@@ -29,13 +29,13 @@ class SourceRunner {
   ~SourceRunner() { stop(); }
 
   void start();
-  /// Waits until all sources are at their end, or stop() was called, or `limit_ms` has passed; true when they have ended.
+  /// Waits until all sources have ended, stop() is called or `limit_ms` has passed; true if they have ended.
   bool wait(int limit_ms);
-  /// Whether a source is not at its end.
+  /// Whether a source has not ended.
   bool is_playing() const;
   void stop();
 
-  /// A worker handled a task, or the container is to stop: whoever waits for room looks again.
+  /// Call after a worker has handled a task or when the container is to stop: waiting sources check again.
   void wake();
 
   Source::Progress progress() const;
@@ -47,10 +47,10 @@ class SourceRunner {
 
   const std::vector<Source*> sources_;
   const Settings settings_;
-  std::int64_t first_stamp_ns_ = 0;  // of all sources: they share one time
+  std::int64_t first_stamp_ns_ = 0;  // common to all sources
   std::int64_t start_ns_ = 0;
   mutable std::mutex mutex_;
-  std::vector<std::int64_t> next_stamp_ns_;  // of each source: at full speed the earliest goes first
+  std::vector<std::int64_t> next_stamp_ns_;  // per source: at full speed the earliest steps first
   std::condition_variable changed_;
   std::size_t playing_ = 0;
   bool stopping_ = false;

@@ -5,7 +5,7 @@
 namespace panvo::runtime {
 namespace {
 
-/// Nothing for messages that are not of the moment at which they are sent: without a stamp, latched, or about the past.
+/// nullopt for messages whose stamp is not the time of sending: unstamped, latched, or about the past.
 std::optional<std::int64_t> stamp_to_check(const TopicDescription& topic, const Sample& sample) {
   if (!sample.type() || !sample.type()->is_stamped_when_sent) return std::nullopt;
   if (topic.qos.durability == interfaces::Durability::kTransientLocal) return std::nullopt;
@@ -28,12 +28,12 @@ bool Context::State::admits_stamp(const TopicDescription& topic, const Sample& s
     case StampGuard::Outcome::kAccepted:
       return true;
     case StampGuard::Outcome::kClockStep:
-      logger.warn("{}: its sender's clock was set by {:+.3f} s; what comes is taken from now on", topic.name, off_s);
+      logger.warn("{}: its sender's clock changed by {:+.3f} s; messages are accepted from now on", topic.name, off_s);
       return true;
     case StampGuard::Outcome::kRejected:
       rejections.add(topic.name, verdict.reason);
       if (verdict.is_to_report) {
-        logger.warn("{}: left out a message with {}, by {:+.3f} s ({} so far): set the clock of its sender", topic.name,
+        logger.warn("{}: dropped a message with {}, by {:+.3f} s ({} so far): set the clock of its sender", topic.name,
                     verdict.reason, off_s, verdict.rejected);
       }
       return false;

@@ -6,15 +6,15 @@
 namespace panvo::runtime {
 namespace {
 
-constexpr std::int64_t kLate_ns = 5'000'000'000;  // what is made of a message may come so much later than it
+constexpr std::int64_t kLate_ns = 5'000'000'000;  // largest delay of messages derived from another message
 constexpr std::int64_t kReportPeriod_ns = 10'000'000'000;
 constexpr std::int64_t kSlower =
-    50;  // share (1 / kSlower) of a slower arrival that is learned: most of it is the queue's
+    50;  // fraction (1 / kSlower) of a later arrival that is learned: most of the delay is queueing
 constexpr std::int64_t kMeanOver = 8;  // intervals
 
-constexpr std::string_view kAheadOfHost = "a stamp that is ahead of this host's clock";
-constexpr std::string_view kAhead = "a stamp that is ahead of its neighbours";
-constexpr std::string_view kBack = "a stamp that is before its neighbours";
+constexpr std::string_view kAheadOfHost = "a stamp ahead of this host's clock";
+constexpr std::string_view kAhead = "a stamp ahead of its neighbours";
+constexpr std::string_view kBack = "a stamp behind its neighbours";
 
 }  // namespace
 
@@ -60,13 +60,13 @@ StampGuard::Verdict StampGuard::check(const std::string& topic, std::int64_t sta
   return verdict;
 }
 
-/// Messages that are played faster than they were recorded come ahead of time by almost their interval.
+/// Messages played faster than recorded arrive early by almost one interval.
 std::int64_t StampGuard::allowance_ns(const Topic& topic) const {
   if (topic.interval_ns == 0) return limits_.most_ahead_ns;
   return std::clamp(topic.interval_ns * 5 / 2, limits_.ahead_ns, limits_.most_ahead_ns);
 }
 
-/// A topic with a message now and then cannot tell by itself what time it is where time passes otherwise than here.
+/// A topic with rare messages cannot determine the time offset itself when time runs at another rate.
 bool StampGuard::agrees_with_another(const Topic& own, std::int64_t stamp_ns, std::int64_t arrival_ns) const {
   return std::any_of(topics_.begin(), topics_.end(), [&](const auto& entry) {
     const Topic& other = entry.second;

@@ -10,42 +10,41 @@
 
 namespace panvo::runtime {
 
-/// Whether stamps agree with their neighbours. A stamp runs with the time at which messages arrive: what one is ahead of the other stays the same
-/// but for the time that a message takes. A stamp far ahead of that, or before those that came, is rejected, and so are those that follow
-/// it, until a few in a row agree with each other: then the sender's clock was set, and the new time is accepted. Safe to use from several
-/// threads; the same calls give the same verdicts.
+/// Checks stamps against arrival times. Their difference is constant up to the transmission time. A stamp far ahead of
+/// the expected one, or behind its predecessors, is rejected, and so are the following ones until a few consecutive
+/// ones are consistent: then the sender's clock was set and the new time is accepted. Thread-safe; deterministic.
 class StampGuard {
  public:
   struct Limits {
-    std::int64_t ahead_ns = 500'000'000;         ///< of where a stamp is expected
-    std::int64_t back_ns = 500'000'000;          ///< before the last stamp of its topic
-    std::int64_t most_ahead_ns = 2'500'000'000;  ///< for topics of less than one message a second
-    int confirmations = 5;                       ///< messages that must agree with each other on a new time
+    std::int64_t ahead_ns = 500'000'000;         ///< ahead of the expected stamp
+    std::int64_t back_ns = 500'000'000;          ///< behind the last stamp of the topic
+    std::int64_t most_ahead_ns = 2'500'000'000;  ///< for topics below 1 Hz
+    int confirmations = 5;                       ///< consecutive consistent messages that confirm a new time
   };
   enum class Outcome { kAccepted, kClockStep, kRejected };
   struct Verdict {
     Outcome outcome = Outcome::kAccepted;
-    std::int64_t off_ns = 0;     ///< by how much the stamp is ahead (negative: back), unless accepted
-    std::string_view reason;     ///< of a rejection
-    bool is_to_report = false;   ///< a step, or the first of its reason in 10 s
-    std::uint64_t rejected = 0;  ///< of this topic so far
+    std::int64_t off_ns = 0;     ///< offset of a stamp ahead (negative: behind), unless accepted
+    std::string_view reason;     ///< of the rejection
+    bool is_to_report = false;   ///< a clock step, or the first with its reason in 10 s
+    std::uint64_t rejected = 0;  ///< rejections of this topic so far
   };
 
   explicit StampGuard(const Limits& limits) : limits_(limits) {}
   StampGuard() : StampGuard(Limits{}) {}
 
-  /// `arrival_ns`: by a clock that is never set. `host_ns`: the host's own clock, where stamps are of now and not of a recording: the
-  /// first stamp of a topic may not be ahead of it.
+  /// `arrival_ns`: from a monotonic clock. `host_ns`: the host's clock, if stamps are current and not recorded; the
+  /// first stamp of a topic must not be ahead of it.
   Verdict check(const std::string& topic, std::int64_t stamp_ns, std::int64_t arrival_ns,
                 std::optional<std::int64_t> host_ns);
 
  private:
   struct Topic {
     bool has_any = false;
-    std::int64_t stamp_ns = 0, arrival_ns = 0;  // the last that was accepted
-    std::int64_t offset_ns = 0;                 // stamp minus arrival of those that came fastest
-    std::int64_t interval_ns = 0;               // between stamps, in the mean; 0: not known
-    int suspects = 0;                           // rejected in a row that agree with each other
+    std::int64_t stamp_ns = 0, arrival_ns = 0;  // of the last accepted message
+    std::int64_t offset_ns = 0;                 // stamp minus arrival of the fastest messages
+    std::int64_t interval_ns = 0;               // mean interval between stamps; 0: unknown
+    int suspects = 0;                           // consecutive rejected messages that are consistent
     std::int64_t suspect_stamp_ns = 0, suspect_arrival_ns = 0;
     std::uint64_t rejected = 0;
     std::map<std::string_view, std::int64_t> reported_ns;

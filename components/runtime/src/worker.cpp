@@ -13,14 +13,14 @@
 namespace panvo::runtime {
 namespace {
 
-// A tenth of the processor time of a thread that wants the same core: enough to go on where the machine is busy for good.
+// About a tenth of the CPU time of a competing thread: enough to progress on a busy machine.
 constexpr int kNiceOfThoseThatGiveWay = 10;
 
-constexpr std::int64_t kMostMissed = 100;  // times that a timer is made up for in replay
+constexpr std::int64_t kMostMissed = 100;  // missed ticks caught up in replay
 
 thread_local std::int64_t current_stamp = 0;
 
-/// Linux counts niceness by thread, and lets each make itself nicer.
+/// On Linux, niceness is per thread, and a thread may raise its own.
 void be_nicer() {
   const auto thread = static_cast<id_t>(gettid());
   setpriority(PRIO_PROCESS, thread, getpriority(PRIO_PROCESS, thread) + kNiceOfThoseThatGiveWay);  // 19 at most
@@ -43,7 +43,7 @@ bool ReplayOrder::fire_one(std::int64_t now_ns) {
   std::pair<Worker*, Timer*> first{};
   for (const auto& [worker, timer] : timers_) {
     if (!timer->due_ns) timer->due_ns = now_ns + timer->period_ns;
-    // What lies far back is left out: a stamp may jump by years.
+    // Skips older ticks: a stamp may jump by years.
     timer->due_ns = std::max(*timer->due_ns, now_ns - kMostMissed * timer->period_ns);
     if (*timer->due_ns > now_ns || (first.second && *first.second->due_ns <= *timer->due_ns)) continue;
     first = {worker, timer};
@@ -91,7 +91,7 @@ void Worker::push(Port& port, Task task) {
     ++port.dropped;
     return;
   }
-  if (replay_) {  // nothing is ever late in replay: all that is queued runs before the next source steps
+  if (replay_) {  // replay never drops: the queue is emptied before the next source step
     ++port.waiting;
     ++*hooks_.in_flight;
     tasks_.emplace_back(&port, std::move(task));
@@ -138,8 +138,7 @@ void Worker::stop() {
   room_or_stop_.notify_all();
   if (thread_.joinable()) thread_.join();
   if (replay_) replay_->forget(*this);
-  std::deque<std::pair<Port*, Task>>
-      discarded;  // destroyed outside the lock: the last owner of a message may free much
+  std::deque<std::pair<Port*, Task>> discarded;  // destroyed outside the lock, as this may free much memory
   const std::lock_guard lock(mutex_);
   for (const auto& entry : tasks_) {
     ++entry.first->dropped;
@@ -151,7 +150,7 @@ void Worker::stop() {
 
 void Worker::loop() {
   std::unique_lock lock(mutex_);
-  bool is_turn_of_tasks = false;  // a timer never keeps them waiting twice
+  bool is_turn_of_tasks = false;  // tasks wait for at most one timer
   while (true) {
     const auto is_wanted = [this] { return stopping_ || !tasks_.empty(); };
     Timer* const timer = next_timer();
@@ -189,7 +188,7 @@ void Worker::run_one() {
   std::pair<Port*, Task> entry;
   {
     const std::lock_guard lock(mutex_);
-    if (tasks_.empty()) return;  // discarded since it was pushed
+    if (tasks_.empty()) return;  // discarded in the meantime
     entry = std::move(tasks_.front());
     tasks_.pop_front();
     --entry.first->waiting;
@@ -220,18 +219,18 @@ bool Worker::attempt(const std::function<void()>& call) {
   try {
     call();
   } catch (const interfaces::DecodeError&) {
-    return false;  // another process sent rubbish: its fault, not this component's
+    return false;  // malformed data of another process is not this component's fault
   } catch (const std::exception& error) {
     failed_ = true;
     hooks_.failed(error.what());
   } catch (...) {
     failed_ = true;
-    hooks_.failed("an exception that is no std::exception");
+    hooks_.failed("an exception not derived from std::exception");
   }
   return true;
 }
 
-/// The timer that is due first; those that never were are due a period from now.
+/// The timer due first; new timers are due after one period.
 Timer* Worker::next_timer() {
   Timer* next = nullptr;
   for (const auto& timer : timers_) {

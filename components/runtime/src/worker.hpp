@@ -24,20 +24,20 @@ namespace panvo::runtime {
 class Worker;
 class ReplayOrder;
 
-/// What waits for a worker: a message, two of a pair, or an item for a second stage.
+/// A queued task: a message, a pair of messages, or an item of a second stage.
 struct Task {
   const TopicDescription* topic = nullptr;
   SamplePtr first{}, second{};
   std::any item{};
-  std::int64_t stamp_ns = 0;   // what now_ns() is meanwhile
+  std::int64_t stamp_ns = 0;   // now_ns() during the task
   std::int64_t queued_ns = 0;  // monotonic, live only
 };
 
-/// One way into a worker's queue: what to call, how many tasks may wait, and what became of them.
+/// An entrance to a worker's queue: its callback, capacity and counters.
 struct Port {
-  std::string name;       // of the stage in the times: the topic's name
-  std::size_t depth = 1;  // of those that wait, the newest `depth` are kept
-  bool waits = false;     // instead of dropping the oldest, whoever pushes waits for room
+  std::string name;       // stage name in the timing: the topic's name
+  std::size_t depth = 1;  // the newest `depth` tasks are kept
+  bool waits = false;     // push() blocks when full instead of dropping the oldest
   std::function<void(Task&)> run;
 
   // Guarded by the worker's mutex.
@@ -46,28 +46,27 @@ struct Port {
   DurationHistogram latency;  // from queued to handled
 };
 
-/// What a worker does again and again.
+/// A periodic callback of a worker.
 struct Timer {
   std::int64_t period_ns;
   std::function<void()> run;
-  std::optional<std::int64_t>
-      due_ns{};  // live by the monotonic clock, in replay by stamps; nothing before time is known
+  std::optional<std::int64_t> due_ns{};  // live: monotonic clock; replay: stamps; unset before time is known
 };
 
-/// The order in which replay handles tasks: first in, first out, over all workers. Timers fire when the time of what is handled passes theirs.
+/// Order of tasks in replay: FIFO over all workers. Timers fire when the time of the handled tasks passes them.
 class ReplayOrder {
  public:
   explicit ReplayOrder(PassingTime& time) : time_(time) {}
 
   void push(Worker& worker) { order_.push_back(&worker); }
-  /// Runs the oldest task; false when all is quiet.
+  /// Runs the oldest task; false if there is none.
   bool run_one();
   void add_timer(Worker& worker, Timer& timer) { timers_.emplace_back(&worker, &timer); }
-  /// Lets time come to `now_ns`, but fires the timer that is due first on the way; false when none is due any more.
+  /// Advances time to `now_ns`, or to the first timer due before and fires it; false if no timer is due.
   bool fire_one(std::int64_t now_ns);
-  /// Without sources, tasks tell the time: lets it come to a stamp, all timers on the way fired.
+  /// Without sources, tasks drive time: advances it to a stamp and fires all timers due before.
   void pass(std::int64_t stamp_ns);
-  /// A worker that ends: what waits for it is discarded.
+  /// Removes the tasks and timers of a worker that ends.
   void forget(const Worker& worker) {
     std::erase(order_, &worker);
     std::erase_if(timers_, [&](const auto& entry) { return entry.first == &worker; });
@@ -79,14 +78,15 @@ class ReplayOrder {
   std::vector<std::pair<Worker*, Timer*>> timers_;
 };
 
-/// A bounded queue and who empties it: live a thread of its own, in replay the caller of ReplayOrder::run_one. Tasks run one at a time, in
-/// the order they came. What a task throws ends the worker, not the process: it is reported, and further tasks are discarded.
+/// A bounded queue and its consumer: its own thread (live), or the caller of ReplayOrder::run_one (replay). Tasks run
+/// one at a time in order of arrival. An exception stops the worker, not the process: it is reported, and further tasks
+/// are discarded.
 class Worker {
  public:
   struct Hooks {
     std::function<void(const std::string& what)> failed;
-    std::function<void()> progressed;                // a task was handled: for those who wait for room
-    std::atomic<std::int64_t>* in_flight = nullptr;  // tasks queued or running, over all workers: 0 when all is quiet
+    std::function<void()> progressed;                // a task was handled; wakes waiting sources
+    std::atomic<std::int64_t>* in_flight = nullptr;  // queued or running tasks of all workers; 0 if idle
   };
 
   /// `replay` is nullptr for a live worker.
@@ -98,20 +98,21 @@ class Worker {
   Port& add_port(std::string name, std::size_t depth, bool waits, std::function<void(Task&)> run);
   void push(Port& port, Task task);
 
-  /// `run` every `period_ns` on the thread that handles the tasks, between two of them: live by the monotonic clock, what was missed left
-  /// out; in replay by the stamps of what is handled. Before start().
+  /// Calls `run` every `period_ns` on the worker's thread, between two tasks. Live: monotonic clock, missed ticks
+  /// skipped; replay: stamps of the handled tasks. Call before start().
   void add_timer(std::int64_t period_ns, std::function<void()> run);
 
-  /// `gives_way`: its thread, to others that want the same core.
+  /// `gives_way`: runs at low priority.
   void start(bool gives_way = false);
-  /// Ends the thread after the task it is at; what still waits is discarded. Releases whoever waits for room.
+  /// Ends the thread after the current task and discards waiting tasks. Unblocks waiting push() calls.
   void stop();
   /// Replay: runs the oldest task.
   void run_one();
   /// Replay: a timer is due.
   void run_timer(Timer& timer);
 
-  /// Whether nothing waits. A source that steps only then can never make a queue overflow: each worker on the way holds at most one task more.
+  /// Whether no task is waiting. If sources step only then, no queue overflows: each worker on the way holds at most
+  /// one more task.
   bool queue_is_empty() const;
   bool failed() const noexcept { return failed_; }
 
@@ -123,13 +124,13 @@ class Worker {
     DurationHistogram latency;
   };
   std::vector<PortCounters> counters() const;
-  /// Counts a message that was given up before it could be queued: without a partner, or not decodable.
+  /// Counts a message dropped before it was queued: without a partner, or undecodable.
   void count_dropped(Port& port);
 
  private:
   void loop();
   void run(Port& port, Task& task);
-  /// False where other processes' bytes could not be read. What else is thrown ends the worker.
+  /// False if received bytes could not be decoded. Other exceptions stop the worker.
   bool attempt(const std::function<void()>& call);
   Timer* next_timer();
 
@@ -141,13 +142,13 @@ class Worker {
   std::condition_variable work_or_stop_, room_or_stop_;
   std::deque<std::pair<Port*, Task>> tasks_;
   std::vector<std::unique_ptr<Port>> ports_;
-  std::vector<std::unique_ptr<Timer>> timers_;  // of this worker's thread alone once it runs
+  std::vector<std::unique_ptr<Timer>> timers_;  // used only by the worker's thread once started
   bool stopping_ = false;
   std::atomic<bool> failed_ = false;
   std::thread thread_;
 };
 
-/// The stamp of what this thread is processing, ns.
+/// Stamp of the message this thread is processing, ns.
 std::int64_t current_stamp_ns() noexcept;
 void set_current_stamp_ns(std::int64_t stamp_ns) noexcept;
 

@@ -27,7 +27,7 @@ struct LatchedState : testing::Test {
     channel.publish(Sample::of(interfaces::message_type<LocalizationState>(),
                                std::make_shared<const LocalizationState>(), 0, nullptr));
   }
-  /// How many messages one who comes late gets.
+  /// Number of messages that a late joiner gets.
   int seen_late() {
     int seen = 0;
     channel.add_reader(&late, [&](const TopicDescription&, const SamplePtr&) { ++seen; });

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Services that components offer to each other inside a container.
+// Services between components of one container.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -9,6 +9,7 @@
 #include "panvo/runtime/errors.hpp"
 #include "panvo/runtime/testing.hpp"
 #include "rcl_interfaces/srv/GetParameters.h"
+#include "service_directory.hpp"
 #include "std_msgs/msg/String.h"
 
 namespace panvo::runtime {
@@ -23,7 +24,7 @@ using testing::HasSubstr;
 constexpr interfaces::Service<GetParameters_Request, GetParameters_Response> kEcho{"echo"};
 constexpr interfaces::Topic<String> kAsk{"ask", {.depth = 100}};
 
-/// Answers with the text that it was asked.
+/// Echoes the request's text.
 struct Server : Component {
   explicit Server(Context& context) {
     context.serve(kEcho, [this](const GetParameters_Request& request) {
@@ -38,7 +39,7 @@ struct Server : Component {
   std::thread::id thread;
 };
 
-/// Asks what it hears on a topic, and notes what it is answered.
+/// Sends the texts received on a topic as requests and records the answers.
 struct Asker : Component {
   explicit Asker(Context& context) : client(context.client(kEcho)) {
     context.input(kAsk, [this](std::shared_ptr<const String> text) {
@@ -66,7 +67,7 @@ String text(const std::string& data) {
   return message;
 }
 
-class ComponentServices : public testing::Test {
+class ServicesOfComponents : public testing::Test {
  protected:
   void add_server(const std::string& name = "server") {
     harness.container().add(named(name), [this](Context& context) {
@@ -89,7 +90,7 @@ class ComponentServices : public testing::Test {
   Asker* asker = nullptr;
 };
 
-TEST_F(ComponentServices, AnswerInOrder) {
+TEST_F(ServicesOfComponents, AnswerInOrder) {
   add_server();
   add_asker();
   ask("one");
@@ -97,7 +98,7 @@ TEST_F(ComponentServices, AnswerInOrder) {
   EXPECT_THAT(asker->answers, ElementsAre("echo of one", "echo of two"));
 }
 
-TEST_F(ComponentServices, MayBeLoadedAfterTheirClients) {
+TEST_F(ServicesOfComponents, MayBeLoadedAfterTheirClients) {
   add_asker();
   ask("too early");
   add_server();
@@ -105,7 +106,7 @@ TEST_F(ComponentServices, MayBeLoadedAfterTheirClients) {
   EXPECT_THAT(asker->answers, ElementsAre("nothing", "echo of in time"));
 }
 
-TEST_F(ComponentServices, ThatAreUnloadedAnswerNothing) {
+TEST_F(ServicesOfComponents, ThatAreUnloadedAnswerNothing) {
   add_server();
   add_asker();
   ask("one");
@@ -114,7 +115,7 @@ TEST_F(ComponentServices, ThatAreUnloadedAnswerNothing) {
   EXPECT_THAT(asker->answers, ElementsAre("echo of one", "nothing"));
 }
 
-TEST_F(ComponentServices, OfAComponentThatFailsAnswerNothing) {
+TEST_F(ServicesOfComponents, OfAComponentThatFailsAnswerNothing) {
   add_server();
   add_asker();
   ask("break");
@@ -123,17 +124,17 @@ TEST_F(ComponentServices, OfAComponentThatFailsAnswerNothing) {
   EXPECT_TRUE(harness.log_contains("server: stopped by an error: broken"));
 }
 
-TEST_F(ComponentServices, HaveNamesThatOnlyOneMayUse) {
+TEST_F(ServicesOfComponents, HaveNamesThatOnlyOneMayUse) {
   add_server("first");
   try {
     add_server("second");
     FAIL() << "was made";
   } catch (const ConfigError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("second: there is a service /echo in this container already"));
+    EXPECT_THAT(error.what(), HasSubstr("second: service /echo already exists in this container"));
   }
 }
 
-TEST_F(ComponentServices, AreRemappedAsTopicsAre) {
+TEST_F(ServicesOfComponents, AreRemappedAsTopicsAre) {
   auto description = named("server");
   description.remaps = {{"echo", "/deep/well"}};
   harness.container().add(description, [](Context& context) { return std::make_unique<Server>(context); });
@@ -142,7 +143,21 @@ TEST_F(ComponentServices, AreRemappedAsTopicsAre) {
   EXPECT_THAT(asker->answers, ElementsAre("nothing")) << "nobody is called /echo";
 }
 
-TEST(ComponentServicesLive, AnswerOnTheThreadOfTheirComponent) {
+TEST(ServiceHandler, OfAComponentThatDiscardsARequestThrowsAtOnce) {
+  const auto handler = handler_of([](const interfaces::Bytes&, const std::shared_ptr<Reply>&) {});
+  EXPECT_THROW(handler({}), std::runtime_error);
+}
+
+TEST(ServiceHandler, ReturnsTheAnswerOfAnotherThread) {
+  std::thread answering;
+  const auto handler = handler_of([&answering](interfaces::Bytes bytes, std::shared_ptr<Reply> reply) {
+    answering = std::thread([bytes, reply = std::move(reply)] { reply->send(bytes); });
+  });
+  EXPECT_THAT(handler({1, 2}), ElementsAre(1, 2));
+  answering.join();
+}
+
+TEST(ServicesOfComponentsLive, AnswerOnTheThreadOfTheirComponent) {
   Container container({});
   Server* server = nullptr;
   std::promise<std::string> answer;

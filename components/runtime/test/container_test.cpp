@@ -34,7 +34,7 @@ std::int64_t stamp_of(const Image& image) {
   return image.header().stamp().sec() * std::int64_t{1'000'000'000} + image.header().stamp().nanosec();
 }
 
-/// Plays images of the given stamps.
+/// Plays images with the given stamps.
 class Player : public Component, public Source {
  public:
   Player(Context& context, const interfaces::Topic<Image>& topic, std::vector<std::int64_t> stamps)
@@ -53,7 +53,7 @@ class Player : public Component, public Source {
   std::size_t done_ = 0;
 };
 
-/// Notes what it gets.
+/// Records received messages.
 struct Sink : Component {
   explicit Sink(Context& context, const interfaces::Topic<Image>& topic,
                 std::function<void(std::shared_ptr<const Image>)> take) {
@@ -149,7 +149,7 @@ TEST(Container, PairsMessagesOfOneStampAndCountsThoseLeftAlone) {
   EXPECT_EQ(dropped, 2U);  // 2 and 3
 }
 
-/// Two stages, the second of which depends on the order of what it gets.
+/// Two stages; the second depends on the order of its items.
 struct TwoStages : Component {
   TwoStages(Context& context, std::uint64_t& hash)
       : second(context.stage<std::int64_t>("second", 2,
@@ -207,7 +207,7 @@ TEST(Container, RefusesATopicOfAnotherTypeAndNamesBoth) {
     FAIL() << "accepted";
   } catch (const ConfigError& error) {
     EXPECT_THAT(error.what(),
-                HasSubstr("/stereo/left/image_raw carries sensor_msgs/msg/Image here, not nav_msgs/msg/Odometry"));
+                HasSubstr("/stereo/left/image_raw has type sensor_msgs/msg/Image here, not nav_msgs/msg/Odometry"));
   }
   EXPECT_THAT(container.components(), ElementsAre("first"));
 }
@@ -233,7 +233,7 @@ TEST(Container, StopsSoonWhenAskedThoughNoSourceEnds) {
   EXPECT_TRUE(run.get().empty());
 }
 
-/// Says how it ends.
+/// Records how it ends.
 struct Ending : Component {
   Ending(Context& context, const std::function<void()>& end) { context.on_end(end); }
 };
@@ -304,7 +304,7 @@ TEST(Container, GivesEachComponentItsOwnSeedAndTheSameEachTime) {
   EXPECT_NE(seeds[0], seeds[4]);
 }
 
-/// Notes what time it is, from time to time.
+/// Records the time periodically.
 struct Ticker : Component {
   Ticker(Context& context, std::chrono::nanoseconds period, std::function<void(std::int64_t)> take) {
     context.every(period, [&context, take = std::move(take)] { take(context.passing_ns()); });

@@ -12,7 +12,7 @@ namespace {
 
 using testing::HasSubstr;
 
-/// A component with one input, in replay: it does what the test pushes.
+/// A component with one input, in replay, driven by the test.
 struct Diagnosed : testing::Test {
   PassingTime time{PassingTime::Pace::kTasks, [] { return 0; }};
   ReplayOrder order{time};
@@ -74,7 +74,7 @@ TEST_F(Diagnosed, WarnsWhileMessagesAreDroppedAndNoLonger) {
   EXPECT_EQ(collect(1.0).level(), 0);
 }
 
-/// Brings nothing; of what was to come, `overwritten` messages were.
+/// A bridge that delivers nothing and reports `overwritten` overwritten messages.
 class OverwritingBridge final : public Bridge {
  public:
   explicit OverwritingBridge(const std::uint64_t& overwritten, std::uint64_t too_large = 0, std::uint64_t too_fast = 0)
@@ -117,9 +117,9 @@ TEST_F(Diagnosed, CountsWhatWasOverwrittenInSharedMemoryAsDropped) {
   const auto status = collect(1.0);
   EXPECT_EQ(status.level(), 1);
   EXPECT_EQ(status.message(), "too slow: 3 messages dropped in the last 1 s");
-  EXPECT_EQ(value(status, "/image overwritten"), "3 messages, in shared memory while they were read");
+  EXPECT_EQ(value(status, "/image overwritten"), "3 messages, in shared memory while being read");
   EXPECT_EQ(collect(1.0).level(), 0);
-  state.stop();  // leaves the channel, which goes before it
+  state.stop();  // leaves the channel, which is destroyed first
 }
 
 TEST_F(Diagnosed, NamesWhatCouldNotBeUsedAndWhyAndWarnsWhileThatGoesOn) {
@@ -149,7 +149,7 @@ TEST_F(Diagnosed, NamesWhatWasInvalidBeforeItCameToItBySenderAndReason) {
   EXPECT_EQ(status.level(), 1);
   EXPECT_EQ(status.message(),
             "1 messages could not be used in the last 1 s: /odometry pose.pose.position is beyond +-1e+08");
-  EXPECT_EQ(value(status, "/odometry rejected of wheels"), "1 messages: pose.pose.position is beyond +-1e+08");
+  EXPECT_EQ(value(status, "/odometry rejected from wheels"), "1 messages: pose.pose.position is beyond +-1e+08");
   EXPECT_EQ(collect(1.0).level(), 0);
 }
 
@@ -181,7 +181,7 @@ TEST_F(Diagnosed, CountsAnewWhenAComponentHasTakenAnothersPlace) {
   const auto status = diagnostics.collect({&successor}, 0, 1.0).status().at(0);
   EXPECT_EQ(status.level(), 0) << status.message();
   EXPECT_EQ(value(status, "image rate"), "0.0 Hz");
-  EXPECT_EQ(value(status, "made anew"), "1 times, after an error");
+  EXPECT_EQ(value(status, "restarted"), "1 times, after an error");
 }
 
 struct CountedService final : BridgeService {

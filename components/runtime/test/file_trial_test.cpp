@@ -80,7 +80,7 @@ TEST_F(FileTrial, AFileThatIsNotThereIsNotCounted) {
   EXPECT_FALSE(fs::exists(beside(".attempts")));
 }
 
-/// Reads a file at the start, and fails on the first message if it was a bad one.
+/// Reads a file in the constructor and, if it is bad, fails on the first message.
 class FileReader final : public Component {
  public:
   FileReader(Context& context, const fs::path& file) {
@@ -97,7 +97,7 @@ class FileReader final : public Component {
   bool is_bad_ = false;
 };
 
-/// A live run of it, of one message; what went wrong.
+/// A live run with one message; returns the problems.
 std::vector<std::string> run_on(const fs::path& file, std::vector<std::string>& log) {
   Container container({.log = [&](LogLevel, const std::string&, const std::string& text) { log.push_back(text); }});
   ComponentDescription description;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is wrong with a message is found before anybody here reads it.
+// Invalid messages are detected before delivery.
 #include "gate.hpp"
 
 #include <gmock/gmock.h>
@@ -45,7 +45,7 @@ SamplePtr from_bytes(interfaces::Bytes bytes) {
                             std::make_shared<const std::string>("player"));
 }
 
-/// Notes the positions it gets, and sends on what it is told to.
+/// Records received positions and publishes messages on request.
 struct Listener : Component {
   Listener(Context& context, std::vector<double>& seen) {
     context.input(topics::kOdometryBinocular, [&seen](std::shared_ptr<const Odometry> message) {
@@ -91,9 +91,9 @@ TEST_F(Gate, LeavesOutWhatBreaksTheRulesOfItsTypeAndSaysFromWhom) {
   harness.publish(topics::kOdometryBinocular, odometry(2.0));
   EXPECT_THAT(seen, ElementsAre(1.0, 2.0));
   EXPECT_TRUE(
-      harness.log_contains("warning container: /odometry/binocular: a message of test_publisher_1 is left out: "
+      harness.log_contains("warning container: /odometry/binocular: a message from test_publisher_1 was dropped: "
                            "pose.covariance is not finite"));
-  EXPECT_TRUE(harness.log_contains("is left out: pose.pose.position is beyond +-1e+08"));
+  EXPECT_TRUE(harness.log_contains("was dropped: pose.pose.position is beyond +-1e+08"));
 }
 
 TEST_F(Gate, SaysTheSameOnceHoweverOftenItHappens) {
@@ -134,7 +134,7 @@ TEST(MessageGate, FindsBytesThatAreNoMessage) {
 TEST(MessageGate, FindsWhatIsTooLargeBeforeItIsDecoded) {
   auto bytes = bytes_of(odometry(1.0));
   EXPECT_EQ(problem_of(*from_bytes(bytes), bytes.size()), std::nullopt);
-  bytes[0] = 0xFF;  // no message at all
+  bytes[0] = 0xFF;  // not a message
   EXPECT_EQ(problem_of(*from_bytes(bytes), 500), "is larger than 0.0005 MB (max_message_mb)");
 }
 

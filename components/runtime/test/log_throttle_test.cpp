@@ -17,7 +17,7 @@ using testing::ElementsAre;
 
 constexpr std::int64_t kSecond_ns = 1'000'000'000;
 
-/// Lines that a logger wrote, by a clock that the test sets.
+/// Lines of a logger with a clock controlled by the test.
 struct WrittenLog {
   std::int64_t now_ns = 0;
   std::vector<std::string> lines;
@@ -68,12 +68,12 @@ TEST(LogThrottle, BoundsTheKeysThatItRemembers) {
     written += throttle.admit("landmark " + std::to_string(i), 0) ? 1 : 0;
   }
   EXPECT_EQ(written, LogThrottle::kMostKeys + 1);
-  // Ten seconds later there is room again.
+  // After ten seconds new keys are accepted again.
   EXPECT_EQ(throttle.admit("landmark 5000", LogThrottle::kInterval_ns), "");
   EXPECT_EQ(throttle.admit("landmark 6000", LogThrottle::kInterval_ns), "");
 }
 
-/// Says with every message that it is of no use, and on which topic it came.
+/// Logs for every message that it is unusable, with the topic.
 class Complainer final : public Component {
  public:
   explicit Complainer(Context& context) {

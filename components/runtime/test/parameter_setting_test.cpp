@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A component that takes new parameters while it runs.
+// Setting parameters of a running component.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -88,7 +88,7 @@ TEST(ParameterSetting, TakesFilesOnlyBelowTheFolderOfTheContainer) {
     ComponentHarness harness;
     harness.add<Tunable>("tunable", {{"file", "/of/the/system/file"}});
     EXPECT_THAT(Tunable::state->set_parameters(values("file", "/tmp/store.db")),
-                ElementsAre(HasSubstr("may not; set it in the system file")));
+                ElementsAre(HasSubstr("must not do; set it in the system file")));
     EXPECT_THAT(Tunable::state->set_parameters(values("mode", "exact")), testing::IsEmpty());
     EXPECT_EQ(Tunable::last->gains.file, "/of/the/system/file");
   }
@@ -103,7 +103,7 @@ TEST(ParameterSetting, TakesFilesOnlyBelowTheFolderOfTheContainer) {
 TEST(ParameterSetting, SaysHowToChangeWhatIsFixed) {
   ComponentHarness harness;
   harness.add<Tunable>("tunable");
-  EXPECT_THAT(Tunable::state->set_parameters(values("size", "5")), ElementsAre(HasSubstr("load it anew")));
+  EXPECT_THAT(Tunable::state->set_parameters(values("size", "5")), ElementsAre(HasSubstr("reload the component")));
   EXPECT_FALSE(parameter("size")->settable);
   EXPECT_TRUE(parameter("gain")->settable);
 }

@@ -65,7 +65,7 @@ TEST(Plugin, LoadsAndUnloadsTwoHundredTimesInARunningContainer) {
 
 TEST(Plugin, StaysMappedAsLongAsAMessageOfItsMakingIsHeld) {
   ComponentHarness harness;
-  harness.load("panvo_test_relay", "panvo::RelayComponent");  // ROS 2 names plugins with their namespace
+  harness.load("panvo_test_relay", "panvo::RelayComponent");  // ROS 2 plugin names include the namespace
   std::shared_ptr<const sensor_msgs::msg::Image> held;
   {
     struct Keeper : Component {
@@ -89,7 +89,7 @@ TEST(Plugin, StaysMappedAsLongAsAMessageOfItsMakingIsHeld) {
 TEST(Plugin, ThatIsNoComponentIsRefusedAndSaysWhatIsMissing) {
   ComponentDescription description = relay();
   description.package = "panvo_test_no";
-  EXPECT_THAT(why_not(description), HasSubstr("is no component plugin: it has no function panvo_components"));
+  EXPECT_THAT(why_not(description), HasSubstr("is not a component plugin: it has no function panvo_components"));
   description.package = "panvo_test_unregistered";
   EXPECT_THAT(why_not(description), HasSubstr("registers no component"));
   EXPECT_FALSE(is_mapped("panvo_test_unregistered"));
@@ -107,7 +107,7 @@ TEST(Plugin, BuiltWithOtherHeadersIsRefusedAndSaysWhichBeforeAnyOfItsCodeIsCalle
               testing::MatchesRegex("0\\.1\\.0 \\(headers [0-9a-f]+, messages [0-9a-f]+\\)"));
 }
 
-/// Whether a plugin is found in `folder` of the prefix that a variable names.
+/// Expects that a plugin is found in `folder` of the prefix in an environment variable.
 void expect_found_in(const std::filesystem::path& folder, const char* variable) {
   const std::filesystem::path install =
       std::filesystem::temp_directory_path() / ("panvo_install_" + std::to_string(getpid()));
@@ -139,11 +139,11 @@ TEST(Plugin, ThatIsNotThereIsRefusedAndSaysWhereItWasLookedFor) {
 }
 
 TEST(Plugin, NamedByAPathIsRefusedWhateverLiesThere) {
-  // The folder "libx" would make "lib" + "x/../NAME" + "_component.so" a path to any plugin.
+  // A folder "libx" would turn "lib" + "x/../NAME" + "_component.so" into a path to any plugin.
   for (const char* name : {"/../../evil", "x/../panvo_test_relay", "..", "", "Panvo_test_relay"}) {
     ComponentDescription description = relay();
     description.package = name;
-    EXPECT_THAT(why_not(description), HasSubstr("is no name of a package")) << name;
+    EXPECT_THAT(why_not(description), HasSubstr("is not a package name")) << name;
   }
 }
 

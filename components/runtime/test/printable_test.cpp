@@ -15,14 +15,14 @@ TEST(Printable, LeavesWhatIsTextAsItIs) {
 TEST(Printable, ShowsWhatWouldSteerATerminal) {
   EXPECT_EQ(printable("\033[2J"), "\\x1b[2J");                     // clears the screen
   EXPECT_EQ(printable("\033]0;title\007"), "\\x1b]0;title\\x07");  // renames the window
-  EXPECT_EQ(printable("good\rbad"), "good\\x0dbad");               // writes over what was there
+  EXPECT_EQ(printable("good\rbad"), "good\\x0dbad");               // overwrites the text before
   EXPECT_EQ(printable("\x7f\x08"), "\\x7f\\x08");
   EXPECT_EQ(printable("\xc2\x9b"
                       "31m"),
-            "\\xc2\\x9b31m");  // the same sequence begun by one character
+            "\\xc2\\x9b31m");  // the same sequence with a single-character introducer
   EXPECT_EQ(printable("\x9b"
                       "31m"),
-            "\\x9b31m");  // and by one byte
+            "\\x9b31m");  // with a single-byte introducer
   EXPECT_EQ(printable("\xe2\x80\xae"
                       "dab"),
             "\\xe2\\x80\\xae"
@@ -33,8 +33,8 @@ TEST(Printable, ShowsWhatWouldSteerATerminal) {
 TEST(Printable, ShowsBytesThatAreNoUtf8) {
   EXPECT_EQ(printable("\xff"), "\\xff");
   EXPECT_EQ(printable("\xe2\x82"), "\\xe2\\x82");           // cut off
-  EXPECT_EQ(printable("\xc0\x9b"), "\\xc0\\x9b");           // longer than it need be
-  EXPECT_EQ(printable("\xed\xa0\x80"), "\\xed\\xa0\\x80");  // half a pair of UTF-16
+  EXPECT_EQ(printable("\xc0\x9b"), "\\xc0\\x9b");           // overlong
+  EXPECT_EQ(printable("\xed\xa0\x80"), "\\xed\\xa0\\x80");  // a single UTF-16 surrogate
   EXPECT_EQ(printable("\xc3(x"), "\\xc3(x");
 }
 

@@ -22,7 +22,7 @@ TEST(RateLimit, TakesAllThatComesWithinTheRate) {
 TEST(RateLimit, TakesTheRateOfAFlood) {
   RateLimit limit(100.0, 10.0);
   const int of_ten_seconds = taken(limit, kSecond_ns, kSecond_ns / 10'000, 100'000);
-  EXPECT_GE(of_ten_seconds, 1090);  // a second's worth at once, then the rate
+  EXPECT_GE(of_ten_seconds, 1090);  // one second's burst, then the rate
   EXPECT_LE(of_ten_seconds, 1101);
 }
 

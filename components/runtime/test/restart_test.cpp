@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What becomes of components that throw while a container runs live.
+// Components that throw in a live run.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -18,7 +18,7 @@ using sensor_msgs::msg::Image;
 using testing::ElementsAre;
 using testing::IsEmpty;
 
-/// Who reads it late gets the newest message.
+/// Late readers get the newest message.
 constexpr interfaces::Topic<Image> kTask{"work", {.durability = interfaces::Durability::kTransientLocal, .depth = 1}};
 
 Image one_pixel() {
@@ -31,13 +31,13 @@ Image one_pixel() {
   return image;
 }
 
-/// What the components of a test have done.
+/// Records what the components of a test have done.
 struct FragileRecord {
   std::mutex mutex;
   std::condition_variable changed;
   int made = 0, handled = 0;
   bool fails_again = false, cannot_be_made_anew = false;
-  bool is_again = false;  // what the last one that was made is told
+  bool is_again = false;  // is_again() of the last instance
 
   bool reaches(const std::function<bool(const FragileRecord&)>& wanted) {
     std::unique_lock lock(mutex);
@@ -45,7 +45,7 @@ struct FragileRecord {
   }
 };
 
-/// The first of it fails with its first message.
+/// The first instance fails on its first message.
 class Fragile final : public Component {
  public:
   Fragile(Context& context, FragileRecord& record) : record_(record) {
@@ -112,7 +112,7 @@ TEST_F(Restart, AComponentThatThrowsIsMadeAnewAndGetsWhatTopicsHold) {
   EXPECT_EQ(record.made, 2);
   EXPECT_TRUE(record.is_again);
   EXPECT_THAT(end(), IsEmpty());
-  EXPECT_TRUE(is_logged("is made anew in 0.1 s"));
+  EXPECT_TRUE(is_logged("restarting in 0.1 s"));
 }
 
 TEST_F(Restart, OneThatCannotBeMadeAnewIsTriedAgainAndReported) {
@@ -120,7 +120,7 @@ TEST_F(Restart, OneThatCannotBeMadeAnewIsTriedAgainAndReported) {
   add(OnError::kRestart);
   publish();
   ASSERT_TRUE(record.reaches([](const FragileRecord& now) { return now.made >= 3; }));
-  EXPECT_THAT(end(), ElementsAre("fragile stopped by an error and could not be made anew, see the log"));
+  EXPECT_THAT(end(), ElementsAre("fragile stopped by an error and could not be restarted, see the log"));
   EXPECT_TRUE(is_logged("the camera is gone"));
 }
 

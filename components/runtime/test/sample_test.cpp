@@ -13,7 +13,7 @@ namespace {
 
 std::atomic<int> serialisations = 0;
 
-/// Image's type, with the serialisations counted.
+/// Image's type with counted serialisations.
 interfaces::MessageType counting_type() {
   interfaces::MessageType type = interfaces::message_type<sensor_msgs::msg::Image>();
   type.serialize = [](const void* message, std::span<std::uint8_t> out) {
@@ -51,7 +51,7 @@ TEST(Sample, IsSerialisedIntoMemoryOfTheCallersAsItsBytesAre) {
   interfaces::Bytes before(sample->serialized_size());
   sample->serialize_to(before);
   EXPECT_EQ(before, sample->bytes());
-  interfaces::Bytes after(sample->serialized_size());  // now there are bytes to copy
+  interfaces::Bytes after(sample->serialized_size());  // bytes() now exists and is copied
   sample->serialize_to(after);
   EXPECT_EQ(after, before);
 }

@@ -11,12 +11,12 @@ namespace {
 
 constexpr std::int64_t kSecond = 1'000'000'000;
 constexpr std::int64_t kFrame = kSecond / 25;
-constexpr std::int64_t kNow = 1'700'000'000 * kSecond;  // of the host
+constexpr std::int64_t kNow = 1'700'000'000 * kSecond;  // host time
 constexpr std::int64_t kYear2038 = 2'147'483'647 * kSecond;
 
 using Outcome = StampGuard::Outcome;
 
-/// A camera whose images take 10 to 14 ms; its clock is `ahead` of that by which they arrive.
+/// A camera with a delay of 10 to 14 ms; its clock is `ahead` of the arrival clock.
 struct Camera {
   StampGuard& guard;
   std::string topic = "/camera";
@@ -72,7 +72,7 @@ TEST(StampGuard, AcceptsAStreamThatPausesOrIsLate) {
   camera.accepted_of(100);
   camera.time += 60 * kSecond;  // the camera was unplugged
   EXPECT_EQ(camera.accepted_of(100), 100);
-  // The process stood still for 3 s: of what came meanwhile the last five are left.
+  // The process was stopped for 3 s; the last five messages from that time are left.
   const std::int64_t arrival = camera.time + 3 * kSecond;
   for (int i = 5; i > 0; --i) {
     const auto verdict = guard.check("/camera", arrival - i * kFrame + kNow, arrival, std::nullopt);
@@ -93,7 +93,7 @@ TEST(StampGuard, AcceptsWhatIsPlayedAtAnotherRate) {
       };
       check("/image");
       if (i % 5 == 0) check("/panorama");
-      if (i % 700 == 699) check("/correction");  // too seldom to know by itself what time it is there
+      if (i % 700 == 699) check("/correction");  // too rare to determine the sender's time itself
     }
     EXPECT_EQ(rejected, 0) << rate;
   }
@@ -128,11 +128,11 @@ TEST(StampGuard, ReportsAReasonOnceInTenSeconds) {
     reports += verdict.is_to_report ? 1 : 0;
     rejected = verdict.rejected;
   }
-  EXPECT_EQ(reports, 5);  // of 50 s
+  EXPECT_EQ(reports, 5);  // in 50 s
   EXPECT_EQ(rejected, 625U);
 }
 
-/// Notes the stamps of the pairs it gets.
+/// Records the stamps of received pairs.
 struct PairSink : Component {
   explicit PairSink(Context& context) {
     context.input_pair(topics::kStereoLeftImageRect, topics::kStereoRightImageRect,
@@ -160,7 +160,7 @@ TEST(StampGuard, KeepsAPairOfAnotherTimeFromAComponentAndCountsIt) {
   };
   for (const std::int32_t second : {1'000, 1'001, 1'002, 1'063, 1'004}) send(second);
   EXPECT_THAT(PairSink::seen, testing::ElementsAre(1'000, 1'001, 1'002, 1'004));
-  EXPECT_TRUE(harness.log_contains("/stereo/left/image_rect: left out a message with a stamp that is ahead"));
+  EXPECT_TRUE(harness.log_contains("/stereo/left/image_rect: dropped a message with a stamp ahead"));
 }
 
 }  // namespace

@@ -13,7 +13,7 @@
 namespace panvo::runtime {
 namespace {
 
-/// Takes a domain as another process does; false: somebody has it.
+/// Claims a domain like another process; false if it is taken.
 bool take(int domain) {
   const int socket = ::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
   const std::string name = "panvo_test_domain_" + std::to_string(domain);
@@ -24,10 +24,10 @@ bool take(int domain) {
   return ::bind(socket, reinterpret_cast<const sockaddr*>(&address), size) == 0;
 }
 
-/// For a process that has claimed no domain yet: 0 when all is right.
+/// Exit status of a process without a claimed domain: 0 on success.
 int claims_one_that_nobody_has() {
   const int would_be_first = 1 + getpid() % 99;
-  take(would_be_first);  // or another test has it: as well
+  take(would_be_first);  // or it is taken by another test
   const int own = test_domain();
   if (own < 1 || own > 99 || own == would_be_first) return 1;
   if (test_domain() != own) return 2;
@@ -36,7 +36,7 @@ int claims_one_that_nobody_has() {
 
 TEST(TestDomain, IsHadByOneProcessAtATime) {
   if (std::getenv("PANVO_TEST_DOMAIN") != nullptr) GTEST_SKIP() << "PANVO_TEST_DOMAIN is set";
-  GTEST_FLAG_SET(death_test_style, "threadsafe");  // in a process of its own
+  GTEST_FLAG_SET(death_test_style, "threadsafe");  // in a separate process
   EXPECT_EXIT(std::_Exit(claims_one_that_nobody_has()), testing::ExitedWithCode(0), "");
 }
 

@@ -11,7 +11,7 @@
 namespace panvo::runtime {
 namespace {
 
-/// A live worker whose first task waits until it is released, so that what comes after has to queue.
+/// A live worker whose first task blocks until released, so later tasks are queued.
 struct BusyWorker {
   StageTimes times;
   std::atomic<std::int64_t> in_flight = 0;

@@ -13,7 +13,7 @@
 namespace panvo::runtime {
 namespace {
 
-/// The plugins that can be found, by package.
+/// Packages with a plugin in the search path.
 std::set<std::string> packages() {
   std::set<std::string> packages;
   for (const auto& folder : plugin_folders()) {
@@ -28,12 +28,12 @@ std::set<std::string> packages() {
   return packages;
 }
 
-/// All that can be loaded; then throws for those that cannot, as during a build.
+/// Lists all loadable components, then throws if some plugins cannot be loaded (as during a build).
 void list() {
   std::vector<std::string> problems;
   for (const auto& package : packages()) {
     try {
-      const Library library(find_plugin(package));  // outlives the descriptors, which lie in it
+      const Library library(find_plugin(package));  // outlives its descriptors
       for (const auto* component : library.components()) std::cout << package << " " << component->class_name << "\n";
     } catch (const ConfigError& error) {
       problems.emplace_back(error.what());
@@ -53,7 +53,7 @@ void show(const std::string& package) {
     description.plugin = std::string(component->class_name);
     description.name = package.starts_with("panvo_") ? package.substr(6) : package;
     description.name_space = "/";
-    try {  // what it declares is known even if it cannot go on for want of a file or a device
+    try {  // parameters are known even if the constructor then fails for lack of a file or device
       container.add(description, [&](Context& context) -> std::unique_ptr<Component> {
         std::unique_ptr<Component, void (*)(Component*)> made(nullptr, component->destroy);
         try {
@@ -84,9 +84,9 @@ int main(int argc, char** argv) {
   using namespace panvo::runtime;
   CLI::App app("Lists components and describes their parameters.", "panvo component");
   app.require_subcommand(1);
-  app.add_subcommand("list", "every component that can be loaded: package and plugin")->callback(list);
+  app.add_subcommand("list", "list the available components: package and plugin")->callback(list);
   auto* show_command =
-      app.add_subcommand("show", "the parameters of a package's components, with units, defaults and ranges");
+      app.add_subcommand("show", "show the parameters of a package's components, with units, defaults and ranges");
   std::string package;
   show_command->add_option("PACKAGE", package, "such as panvo_binocular_odometry")->required();
   show_command->callback([&] { show(package); });

@@ -18,7 +18,7 @@ bool describes_the_same(const sensor_msgs::msg::CameraInfo& a, const sensor_msgs
          a.binning_y() == b.binning_y() && a.roi() == b.roi();
 }
 
-/// The camera of a camera_info, of a lens that can be straightened.
+/// The camera of a camera_info, if CameraModel accepts its lens.
 conversions::Result<conversions::PairedCamera> usable_camera(const sensor_msgs::msg::CameraInfo& info) {
   const auto camera = conversions::to_camera(info);
   if (!camera) return camera;
@@ -50,12 +50,12 @@ conversions::Result<EyeRectifier::ImagePtr> EyeRectifier::rectify(const ImagePtr
   const auto& size = camera.raw.pinhole;
   if (static_cast<int>(raw->width()) != size.width || static_cast<int>(raw->height()) != size.height) {
     return conversions::Reason{
-        fmt::format("is of {} x {} px, but its camera_info is for {} x {} px; calibrate at the size that is sent",
+        fmt::format("is {} x {} px, but its camera_info is for {} x {} px; calibrate at the published image size",
                     raw->width(), raw->height(), size.width, size.height)};
   }
   const bool is_wanted_encoding = output_ == Output::kSame || is_grey(*raw);
   if (is_wanted_encoding && conversions::is_rectified(camera)) {
-    const auto pixels = conversions::view(*raw);  // what is handed on is sound, too
+    const auto pixels = conversions::view(*raw);  // also validates images that are passed through
     if (!pixels) return conversions::Reason{pixels.reason()};
     return raw;
   }

@@ -13,11 +13,11 @@
 namespace panvo::stereo_rectifier {
 
 enum class Output {
-  kMono8,  ///< grey, turned grey before it is rectified: a third of the work of rectifying colour
-  kSame,   ///< the encoding of the raw image
+  kMono8,  ///< grey; converted before rectification, a third of the work of rectifying colour
+  kSame,   ///< encoding of the raw image
 };
 
-/// Rectifies the images of one eye of a stereo camera as its camera_info says.
+/// Rectifies the images of one camera of a stereo pair according to its camera_info.
 class EyeRectifier {
  public:
   using ImagePtr = std::shared_ptr<const sensor_msgs::msg::Image>;
@@ -25,14 +25,15 @@ class EyeRectifier {
   explicit EyeRectifier(Output output) : output_(output) {}
 
   enum class Change { kNone, kFirst, kChanged };
-  /// Takes in the camera_info that comes with each image; its header does not matter.
+  /// Sets the camera_info received with each image; its header is ignored. Returns whether it differs from the last
+  /// one.
   Change set_camera(const sensor_msgs::msg::CameraInfo& info);
 
-  /// The camera, or why its camera_info cannot be used; nullopt before the first camera_info.
+  /// The camera, or why its camera_info is invalid; nullopt before the first camera_info.
   const std::optional<conversions::Result<conversions::PairedCamera>>& camera() const noexcept { return camera_; }
 
-  /// The rectified image: `raw` itself if it is that already. To be called when camera() has a value; the reason says
-  /// what is wrong with the image or camera_info.
+  /// Returns the rectified image, or `raw` itself if it is already rectified and has the output encoding; else the
+  /// reason: no camera_info yet, or an invalid image or camera_info.
   conversions::Result<ImagePtr> rectify(const ImagePtr& raw);
 
  private:
@@ -41,7 +42,7 @@ class EyeRectifier {
   Output output_;
   sensor_msgs::msg::CameraInfo info_;
   std::optional<conversions::Result<conversions::PairedCamera>> camera_;
-  std::optional<vision::RectificationMap> map_;  ///< made when the first image needs it
+  std::optional<vision::RectificationMap> map_;  ///< created with the first image that needs it
 };
 
 }  // namespace panvo::stereo_rectifier

@@ -11,17 +11,17 @@
 namespace panvo::stereo_rectifier {
 
 struct Parameters {
-  std::string output = "mono8";  // "same" keeps colour: three times the work
+  std::string output = "mono8";  // "same" keeps colour, with three times the work
   template <class Field>
   static void describe(Field&& field) {
     using P = Parameters;
-    field(&P::output, "output", "", "encoding of the rectified images: grey, or the same as the raw images'",
+    field(&P::output, "output", "", "encoding of the rectified images: mono8, or same as the raw images",
           {"mono8", "same"});
   }
 };
 
-/// stereo/{left,right}/{image_raw,camera_info} -> stereo/{left,right}/image_rect, of the same stamp and frame. Each
-/// eye for itself: who needs pairs joins them by stamp.
+/// stereo/{left,right}/{image_raw,camera_info} -> stereo/{left,right}/image_rect, with the same stamp and frame. Each
+/// camera is processed separately; subscribers pair the images by stamp.
 class StereoRectifierComponent final : public runtime::Component {
  public:
   explicit StereoRectifierComponent(runtime::Context& context)
@@ -60,8 +60,8 @@ class StereoRectifierComponent final : public runtime::Component {
     if (change == EyeRectifier::Change::kChanged) {
       context_.log().warn_throttled(
           eye.info_topic.name,
-          "{} changed while running; what follows is rectified as it now says. Restart if the camera was moved or "
-          "exchanged",
+          "{} changed while running; the new calibration is used from now on. Restart if the camera was moved or "
+          "replaced",
           context_.resolved_name(eye.info_topic));
     }
     pair_problem_.clear();
@@ -74,18 +74,18 @@ class StereoRectifierComponent final : public runtime::Component {
 
   void on_image(Eye& eye, const std::shared_ptr<const sensor_msgs::msg::Image>& raw) {
     if (!eye.rectifier.camera()) {
-      // Drivers may send the first images before the first camera_info.
+      // Drivers may publish images before the first camera_info.
       constexpr int kPatience = 10;
       if (++eye.images_without_info == kPatience) {
         context_.log().warn(
-            "{} images on {}, but nothing on {}: they cannot be rectified; have the driver publish its calibration, or "
-            "remap",
+            "{} images on {}, but nothing on {}: cannot rectify; configure the driver to publish its calibration, or "
+            "remap the topic",
             kPatience, context_.resolved_name(eye.raw_topic), context_.resolved_name(eye.info_topic));
       }
       return;
     }
     if (!pair_problem_.empty()) {
-      return context_.log().warn_throttled("no stereo pair", "{} and {} are of no stereo pair: {}",
+      return context_.log().warn_throttled("no stereo pair", "{} and {} do not form a stereo pair: {}",
                                            context_.resolved_name(left_.info_topic),
                                            context_.resolved_name(right_.info_topic), pair_problem_);
     }
@@ -94,7 +94,7 @@ class StereoRectifierComponent final : public runtime::Component {
       return eye.rectifier.rectify(raw);
     }();
     if (!rectified) {
-      return context_.log().warn_throttled(eye.raw_topic.name, "{} {}; it is left out",
+      return context_.log().warn_throttled(eye.raw_topic.name, "{} {}; image skipped",
                                            context_.resolved_name(eye.raw_topic), rectified.reason());
     }
     eye.rectified.publish(*rectified);

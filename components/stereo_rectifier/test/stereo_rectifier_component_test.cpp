@@ -101,7 +101,8 @@ TEST_F(StereoRectifier, RefusesCamerasThatAreNoPair) {
   publish_infos();
   publish_left_image();
   EXPECT_THAT(left_rect_, IsEmpty());
-  EXPECT_TRUE(harness_.log_contains("/stereo/left/camera_info and /stereo/right/camera_info are of no stereo pair"));
+  EXPECT_TRUE(
+      harness_.log_contains("/stereo/left/camera_info and /stereo/right/camera_info do not form a stereo pair"));
 }
 
 TEST_F(StereoRectifier, RefusesImagesOfAnotherSizeAndGoesOnAfter) {
@@ -109,7 +110,7 @@ TEST_F(StereoRectifier, RefusesImagesOfAnotherSizeAndGoesOnAfter) {
   publish_infos();
   publish_left_image(1, 32);
   EXPECT_THAT(left_rect_, IsEmpty());
-  EXPECT_TRUE(harness_.log_contains("stereo/left/image_raw is of 32 x 48 px, but its camera_info is for 64 x 48 px"));
+  EXPECT_TRUE(harness_.log_contains("stereo/left/image_raw is 32 x 48 px, but its camera_info is for 64 x 48 px"));
   publish_left_image(2);
   EXPECT_THAT(left_rect_, SizeIs(1));
 }

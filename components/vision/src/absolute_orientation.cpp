@@ -5,8 +5,7 @@
 
 namespace panvo::vision {
 namespace {
-constexpr double kSmallestGap =
-    1e-6;  // between the two largest eigenvalues, relative: below, any turn about the line fits
+constexpr double kSmallestGap = 1e-6;  // relative, between the two largest eigenvalues; below, the points are collinear
 }
 
 std::optional<Eigen::Isometry3d> absolute_orientation(std::span<const Eigen::Vector3d> points_in_a,
@@ -21,7 +20,7 @@ std::optional<Eigen::Isometry3d> absolute_orientation(std::span<const Eigen::Vec
   centre_a /= static_cast<double>(count);
   centre_b /= static_cast<double>(count);
 
-  Eigen::Matrix3d s = Eigen::Matrix3d::Zero();  // sums of products, b by a
+  Eigen::Matrix3d s = Eigen::Matrix3d::Zero();  // cross-covariance of b and a
   for (size_t i = 0; i < count; ++i) s += (points_in_b[i] - centre_b) * (points_in_a[i] - centre_a).transpose();
 
   Eigen::Matrix4d n;

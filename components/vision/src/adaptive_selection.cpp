@@ -19,7 +19,7 @@ struct Displacement {
   int dv = 0;
 };
 
-/// Places in the ring between two radii (px), evenly over its area.
+/// Random displacements between two radii (px), uniform over the area of the ring.
 std::vector<Displacement> draw_ring(double inner_px, double outer_px, double upright, int count, SeededRandom& random) {
   std::vector<Displacement> places;
   while (static_cast<int>(places.size()) < count) {
@@ -31,7 +31,7 @@ std::vector<Displacement> draw_ring(double inner_px, double outer_px, double upr
   return places;
 }
 
-/// What a patch shows nearby and farther away: the two Gaussians of one kind of feature.
+/// Gaussians of the positive and negative samples of one feature.
 struct Discrimination {
   Gaussian positive, negative;
 
@@ -41,7 +41,7 @@ struct Discrimination {
   }
 };
 
-/// How much a feature varies over the full turn, a measure of how different it is at other places that needs no training.
+/// Standard deviation of a feature over the full turn: a training-free measure of how much it differs between places.
 float deviation_over_turn(const ResponseReader& reader, int row, bool is_intensity, int columns) {
   std::array<float, kTurnSamples> responses{};
   for (int i = 0; i < kTurnSamples; ++i) {
@@ -52,7 +52,7 @@ float deviation_over_turn(const ResponseReader& reader, int row, bool is_intensi
   return static_cast<float>(fit_gaussian(responses).deviation);
 }
 
-/// Sector of the full turn in which the middle of a row's rectangles lies.
+/// Sector of the full turn that contains the mean azimuth of a row's rectangles.
 std::size_t sector_of(const MeasurementMatrix& matrix, int row, int sectors) {
   double along = 0.0, across = 0.0;
   for (const MeasurementMatrix::Element& element : matrix.row(row)) {
@@ -65,7 +65,7 @@ std::size_t sector_of(const MeasurementMatrix& matrix, int row, int sectors) {
   return static_cast<std::size_t>(std::min(sectors - 1, static_cast<int>(share * sectors)));
 }
 
-/// Of features by descending weight: the best of each sector up to its share, then the best of the others.
+/// From features sorted by descending weight: the best of each sector up to its share, then the best of the rest.
 std::vector<SelectedFeature> take_best(const std::vector<SelectedFeature>& ranked, const MeasurementMatrix& matrix,
                                        const SelectionParameters& parameters) {
   const int share = (parameters.kept + parameters.sectors - 1) / parameters.sectors;
@@ -144,7 +144,7 @@ std::vector<SelectedFeature> select_features(const CyclicIntegralImages& images,
     const auto negative = fit(row, farther);
     const Discrimination by_intensity{positive[0], negative[0]}, by_gradient{positive[1], negative[1]};
     if (!by_intensity.varies(parameters.smallest_deviation) && !by_gradient.varies(parameters.smallest_deviation)) {
-      continue;  // an even background: found everywhere
+      continue;  // uniform background, not distinctive
     }
     const CompressiveFeature here = reader.read(row);
     features.push_back({row, here.intensity, 1.0F, static_cast<float>(by_intensity.hellinger())});

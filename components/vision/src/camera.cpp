@@ -10,7 +10,7 @@
 namespace panvo::vision {
 namespace {
 
-constexpr double kLongest_px = 1e6;  // of a focal length: a telescope's
+constexpr double kLongest_px = 1e6;  // largest focal length, of a telescope
 constexpr double kLongestBaseline_m = 1e3;
 
 }  // namespace
@@ -18,7 +18,7 @@ constexpr double kLongestBaseline_m = 1e3;
 void check_camera(const std::string& name, const PinholeCamera& camera, std::vector<std::string>& problems) {
   std::ostringstream text;
   const auto is_focal_length = [](double value) { return is_positive(value) && value <= kLongest_px; };
-  const auto is_place = [](double value) { return std::abs(value) <= kLongest_px; };  // not for a NaN
+  const auto is_place = [](double value) { return std::abs(value) <= kLongest_px; };  // false for NaN
   if (!is_focal_length(camera.fx) || !is_focal_length(camera.fy)) {
     text << name << ": focal lengths fx = " << camera.fx << ", fy = " << camera.fy
          << " px must be positive numbers, at most " << kLongest_px;
@@ -39,8 +39,7 @@ void check_rotation(const std::string& name, const Eigen::Matrix3d& rotation, st
   constexpr double kRotationTolerance = 1e-3;  // calibration files hold six digits or more
   const double deviation = (rotation * rotation.transpose() - Eigen::Matrix3d::Identity()).norm();
   if (!(deviation < kRotationTolerance) || rotation.determinant() < 0.0) {
-    problems.push_back(name +
-                       ": the matrix is no rotation (R * R^T differs from the identity, or its determinant is -1)");
+    problems.push_back(name + ": not a rotation matrix (R * R^T differs from the identity, or the determinant is -1)");
   }
 }
 
@@ -48,7 +47,7 @@ void check_baseline(double baseline_m, std::vector<std::string>& problems) {
   if (is_positive(baseline_m) && baseline_m <= kLongestBaseline_m) return;
   std::ostringstream text;
   text << "baseline is " << baseline_m << " m; it must be a positive number, at most " << kLongestBaseline_m;
-  if (baseline_m < 0.0) text << " (are the left and right camera exchanged?)";
+  if (baseline_m < 0.0) text << " (are the left and right cameras swapped?)";
   problems.push_back(text.str());
 }
 

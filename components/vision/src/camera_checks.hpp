@@ -7,7 +7,7 @@
 
 #include "panvo/vision/camera.hpp"
 
-/// What may be wrong with the parts of a calibration, as sentences appended to `problems`.
+/// Checks of calibration parameters; each problem is appended to `problems` as a sentence.
 namespace panvo::vision {
 
 void check_camera(const std::string& name, const PinholeCamera& camera, std::vector<std::string>& problems);

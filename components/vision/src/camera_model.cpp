@@ -17,15 +17,15 @@ using std::numbers::pi;
 
 constexpr double kDegrees = 180.0 / pi;
 constexpr double kWidestPerspective_rad = 89.0 / kDegrees;
-constexpr double kPoleDistance_rad = 0.5 / kDegrees;  // from the angle at which Mei's radius ends
+constexpr double kPoleDistance_rad = 0.5 / kDegrees;  // from the pole of the Mei model
 constexpr double kScanStep_rad = 0.1 / kDegrees;
-constexpr int kScanAzimuths = 16;  // tangential distortion makes the limit differ around the axis
+constexpr int kScanAzimuths = 16;  // tangential distortion makes the limit depend on the azimuth
 constexpr int kBisections = 40;
 constexpr int kGuessBisections = 12;
 constexpr int kNewtonSteps = 30;
-constexpr double kConverged = 1e-14;  // of the normalised image
-constexpr double kAccepted = 1e-11;   // of the normalised image: below 1e-7 px of any camera
-constexpr double kSlack = 1e-9;       // what lies on the limit belongs to it, rounding or not
+constexpr double kConverged = 1e-14;  // in the normalised image
+constexpr double kAccepted = 1e-11;   // in the normalised image: below 1e-7 px for any camera
+constexpr double kSlack = 1e-9;       // includes points on the limit despite rounding
 
 }  // namespace
 
@@ -35,17 +35,17 @@ CameraModel::CameraModel(const LensCamera& camera, double field_of_view_rad) : c
   const double wanted = 0.5 * field_of_view_rad;
   if (field_of_view_rad < 0.0 || !(wanted <= model_limit)) {
     std::ostringstream text;
-    text << "has a field of view of " << field_of_view_rad * kDegrees << " degrees; a lens of the model "
-         << ros_name(camera.model) << " sees up to " << 2.0 * model_limit * kDegrees
-         << ": correct the field of view, or calibrate with a wider model";
+    text << "has a field of view of " << field_of_view_rad * kDegrees << " degrees; the lens model "
+         << ros_name(camera.model) << " supports up to " << 2.0 * model_limit * kDegrees
+         << ": correct the field of view or calibrate with a wider model";
     throw std::invalid_argument(text.str());
   }
   const double fold = fold_rad();
   if (wanted > fold) {
     std::ostringstream text;
-    text << "has a distortion that folds the image over " << fold * kDegrees
-         << " degrees off the axis, within its field of view of " << field_of_view_rad * kDegrees
-         << " degrees; calibrate with the board near the borders too, or state a smaller field of view";
+    text << "has a distortion that is not invertible beyond " << fold * kDegrees
+         << " degrees off axis, inside its field of view of " << field_of_view_rad * kDegrees
+         << " degrees; calibrate with the board near the image borders or set a smaller field of view";
     throw std::invalid_argument(text.str());
   }
   widest_rad_ = wanted > 0.0 ? wanted : fold;
@@ -57,23 +57,25 @@ void CameraModel::check_numbers() const {
   const auto& p = camera_.pinhole;
   std::ostringstream text;
   if (!is_positive(p.fx) || !is_positive(p.fy)) {
-    text << "has the focal lengths fx = " << p.fx << ", fy = " << p.fy << " px; they must be positive: calibrate it";
+    text << "has focal lengths fx = " << p.fx << ", fy = " << p.fy
+         << " px; they must be positive: calibrate the camera";
   } else if (!std::isfinite(p.cx) || !std::isfinite(p.cy)) {
     text << "has a principal point that is not a number; calibrate again";
   } else if (p.width <= 0 || p.height <= 0) {
-    text << "has the size " << p.width << " x " << p.height << " px; state that of the images it was calibrated with";
+    text << "has an image size of " << p.width << " x " << p.height << " px; set the size of the calibration images";
   } else if (!(camera_.xi >= 0.0 && std::isfinite(camera_.xi))) {
-    text << "has the mirror parameter xi = " << camera_.xi << "; it must be 0 or more";
+    text << "has mirror parameter xi = " << camera_.xi << "; it must be 0 or more";
   } else if (!std::all_of(camera_.distortion.begin(), camera_.distortion.end(),
                           [](double value) { return std::isfinite(value); })) {
-    text << "holds a distortion coefficient that is not a number; calibrate again";
+    text << "has a distortion coefficient that is not a number; calibrate again";
   } else {
     return;
   }
   throw std::invalid_argument(text.str());
 }
 
-/// Without a stated field of view the image must be one as far as its nearest border, a perspective one on all four sides.
+/// Without a given field of view, the distortion must be invertible up to the nearest border; for perspective lenses,
+/// up to all four.
 void CameraModel::check_borders() const {
   const auto& p = camera_.pinhole;
   std::array<Eigen::Vector2d, 4> borders{Eigen::Vector2d{0.0, p.cy}, Eigen::Vector2d{p.width - 1.0, p.cy},
@@ -85,11 +87,10 @@ void CameraModel::check_borders() const {
   for (std::size_t i = 0; i < checked; ++i) {
     if (!p.contains(borders[i]) || unproject(borders[i])) continue;
     std::ostringstream text;
-    text << "has a distortion that folds the image over " << widest_rad_ * kDegrees
-         << " degrees off the axis, before its border at pixel (" << borders[i].x() << ", " << borders[i].y()
-         << "); calibrate with the board near the borders too, with a wider model, or state the field of view if the "
-            "lens "
-            "shows a circle";
+    text << "has a distortion that is not invertible beyond " << widest_rad_ * kDegrees
+         << " degrees off axis, inside its border at pixel (" << borders[i].x() << ", " << borders[i].y()
+         << "); calibrate with the board near the image borders or with a wider model, or set the field of view if the "
+            "image is circular";
     throw std::invalid_argument(text.str());
   }
 }
@@ -111,14 +112,14 @@ double CameraModel::radius(double theta_rad) const {
   return std::tan(theta_rad);
 }
 
-/// Up to which angle the radius grows with it.
+/// Largest angle up to which the radius is monotonic.
 double CameraModel::model_limit_rad() const {
   if (is_perspective()) return kWidestPerspective_rad;
   if (camera_.model == LensModel::kEquidistant) return pi;
   return std::acos(camera_.xi > 1.0 ? -1.0 / camera_.xi : -camera_.xi) - kPoleDistance_rad;
 }
 
-/// The angle at which the distortion turns back, or the model's limit.
+/// Largest angle up to which the distortion is invertible, at most the model limit.
 double CameraModel::fold_rad() const {
   const auto is_sound = [&](double theta) {
     const double r = radius(theta);
@@ -153,7 +154,7 @@ Eigen::Vector2d CameraModel::distort(const Eigen::Vector2d& ideal, Eigen::Matrix
   const double y = ideal.y();
   const double r2 = x * x + y * y;
   double radial = 0.0;
-  double slope = 0.0;  // of `radial`, per r2
+  double slope = 0.0;  // d radial / d r2
   double p1 = 0.0;
   double p2 = 0.0;
   if (camera_.model == LensModel::kEquidistant) {
@@ -178,7 +179,7 @@ Eigen::Vector2d CameraModel::distort(const Eigen::Vector2d& ideal, Eigen::Matrix
           y * radial + p1 * (r2 + 2.0 * y * y) + 2.0 * p2 * x * y};
 }
 
-/// A place on the same side of the axis whose distorted radius is nearly right, so that Newton's method starts near the root.
+/// Initial value for Newton's method: a point in the same direction with approximately the right distorted radius.
 Eigen::Vector2d CameraModel::first_guess(const Eigen::Vector2d& distorted) const {
   const double wanted = distorted.norm();
   if (wanted == 0.0) return distorted;

@@ -11,13 +11,13 @@
 namespace panvo::vision {
 namespace {
 
-constexpr float kSmallestIntensityScale = 4.0F;  // grey levels: an even view must not be blown up to its noise
+constexpr float kSmallestIntensityScale = 4.0F;  // grey levels: avoids amplifying the noise of a uniform view
 constexpr float kSmallestGradientScale = 0.5F;   // grey levels per px
 
-constexpr float kSobelSum = 8.0F;  // of the integral images, which hold the filter's whole numbers
-constexpr int kSectors = 24;       // of 15 degrees
+constexpr float kSobelSum = 8.0F;  // scale of the integer Sobel responses in the integral images
+constexpr int kSectors = 24;       // 15 degrees each
 constexpr double kSmoothing_px = 1.0;
-constexpr double kLinearBelow = 16.0;  // grey levels: the scale is linear where noise is more than shade
+constexpr double kLinearBelow = 16.0;  // grey levels: linear scale below, where noise dominates
 
 float median(std::array<float, kSectors> values) {
   std::sort(values.begin(), values.end());
@@ -33,7 +33,7 @@ int wrapped(int du, int columns) {
 }  // namespace
 
 cv::Mat prepare_band(const cv::Mat& band) {
-  constexpr int kMargin = 4;  // px, the reach of the filter
+  constexpr int kMargin = 4;  // px, at least the filter radius
   cv::Mat round, smooth, prepared;
   cv::copyMakeBorder(band, round, 0, 0, kMargin, kMargin, cv::BORDER_WRAP | cv::BORDER_ISOLATED);
   cv::GaussianBlur(round, smooth, cv::Size(5, 5), kSmoothing_px, kSmoothing_px, cv::BORDER_REPLICATE);
@@ -66,7 +66,7 @@ BandNormalisation BandNormalisation::of(const cv::Mat& band, const CyclicIntegra
   return normalisation;
 }
 
-/// Where a displaced rectangle begins in the integral images, and the way to its other corners.
+/// Index of a displaced rectangle in the integral images, and offsets to its other corners.
 struct ResponseReader::Cell {
   std::ptrdiff_t first, right, down;
 };
@@ -79,7 +79,7 @@ ResponseReader::ResponseReader(const CyclicIntegralImages& images, const Measure
       per_intensity_(1.0F / normalisation.intensity_scale),
       per_gradient_(1.0F / (kSobelSum * normalisation.gradient_scale)) {
   if (matrix.band() != cv::Size(images.columns(), images.rows()) || matrix.widest() > images.widest()) {
-    throw std::invalid_argument("measurement matrix and integral images are of different bands");
+    throw std::invalid_argument("measurement matrix and integral images differ in band size or rectangle width");
   }
 }
 

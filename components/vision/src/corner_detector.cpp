@@ -7,7 +7,7 @@
 
 namespace panvo::vision {
 namespace {
-constexpr int kBlock = 5;  // px of the half-size image: about the patch that will be followed
+constexpr int kBlock = 5;  // px of the half-size image: about the size of the tracked patch
 }
 
 CellGrid::CellGrid(cv::Size image_size, int cell_px)
@@ -32,7 +32,7 @@ std::vector<Corner> detect_corners(const ImagePyramid& image, const CellGrid& gr
   const cv::Mat& half = image[level];
   cv::Mat eigenvalues;
   cv::cornerMinEigenVal(half, eigenvalues, kBlock, 3, cv::BORDER_REPLICATE);
-  // OpenCV's scaling of an 8-bit image makes the eigenvalue (2 g / 255)^2 of a mean square gradient g^2.
+  // OpenCV scales 8-bit images so that a mean square gradient g^2 gives the eigenvalue (2 g / 255)^2.
   const double threshold = std::pow(2.0 * smallest_gradient / 255.0, 2);
 
   const int margin = static_cast<int>(std::ceil(margin_px / scale));

@@ -12,13 +12,13 @@
 namespace panvo::vision {
 namespace {
 
-constexpr int kMargin = 1;             // columns of the other end beside the band: the reach of the gradient filter
-constexpr float kSobel = 1.0F / 8.0F;  // Sobel's 3x3 filter to grey levels per px
+constexpr int kMargin = 1;             // wrapped columns on each side: radius of the gradient filter
+constexpr float kSobel = 1.0F / 8.0F;  // 3x3 Sobel filter to grey levels per px
 
 /// Four sums side by side: dx, |dx|, dy, |dy|.
 using Sums = cv::v_int32x4;
 
-/// Adds the sums of one more pixel and stores them, on top of those of the row above.
+/// Adds one pixel to the running row sums and stores them plus the sums of the row above.
 void add_pixel(const Sums& pixel, Sums& so_far, const std::int32_t*& above, std::int32_t*& here) {
   so_far = so_far + pixel;
   cv::v_store(here, cv::v_load(above) + so_far);
@@ -72,7 +72,7 @@ CyclicIntegralImages::CyclicIntegralImages(const cv::Mat& band, int widest) {
 
   const auto cells = static_cast<std::size_t>(stride_ * (rows_ + 1));
   intensity_.resize(cells);
-  gradients_.resize(4 * cells);  // no more is cleared than the first row and the first column, below
+  gradients_.resize(4 * cells);  // only the first row and column are cleared, below
   std::fill_n(intensity_.begin(), stride_, 0);
   std::fill_n(gradients_.begin(), 4 * stride_, 0);
   for (int y = 0; y < rows_; ++y) {
@@ -89,7 +89,7 @@ CyclicIntegralImages::CyclicIntegralImages(const cv::Mat& band, int widest) {
     std::fill_n(gradients, 4, 0);
     integrate_gradients(dx.ptr<short>(y) + kMargin, dy.ptr<short>(y) + kMargin, columns_,
                         &gradients_[static_cast<std::size_t>(4 * at(1, y))], gradients + 4);
-    // Beyond the seam: what the row begins with, and its whole turn.
+    // Beyond the seam: sums from the start of the row plus those of the full turn.
     const std::int32_t turn = here[columns_];
     for (int x = 1; x <= beyond; ++x) here[columns_ + x] = here[x] + turn;
     const Sums gradients_turn = cv::v_load(gradients + 4 * columns_);

@@ -12,14 +12,14 @@ namespace {
 
 using Parts = EpipolarMisalignment::Parts;
 
-// Standard deviations of a calibration that has aged: a pixel, a sixth of a degree up and down and in roll, two and five thousandths. A turn
-// about Y is left narrower: lenses that their model does not fit look like one.
+// Standard deviations for an aged calibration. The rotation about Y is narrower because unmodelled lens distortion
+// resembles it.
 Parts expected() { return (Parts() << 1.0, 3e-3, 1e-3, 3e-3, 2e-3, 5e-3).finished(); }
 
-constexpr double kMemory = 20000.0;  // points; some minutes of driving
-// Chi-square of six degrees of freedom that an aged calibration passes once in three thousand times.
+constexpr double kMemory = 20000.0;  // points; several minutes of driving
+// Chi-square with 6 degrees of freedom; an aged calibration exceeds it with probability 1/3000.
 constexpr double kPlausible = 25.0;
-constexpr double kLossScale = 2.0;  // of Cauchy's loss, in standard deviations
+constexpr double kLossScale = 2.0;  // of the Cauchy loss, in standard deviations
 
 Eigen::Vector2d normalised(const PinholeCamera& camera, const Eigen::Vector2d& pixel) {
   return camera.unproject(pixel).head<2>();
@@ -39,7 +39,8 @@ Eigen::Vector2d EpipolarMisalignment::shift(const PinholeCamera& camera,
   const double x = at.x(), y = at.y();
   const double row_shift_px = row_by_parts(camera, ideal_right_pixel).dot(parts);
   if (!holds_for_columns()) return {0.0, row_shift_px};
-  // Of a turn about Y the columns would show mostly what moves all pixels alike, which no row tells of: left to who knows how the points move.
+  // A rotation about Y mostly shifts all columns alike, which row errors do not observe; it is left to the estimation
+  // from motion.
   const Parts column_by_parts = (Parts() << 0.0, x * y, 0.0, y, x, at.squaredNorm() * x).finished() * camera.fx;
   return {column_by_parts.dot(parts), row_shift_px};
 }
@@ -64,7 +65,7 @@ EpipolarCalibration::EpipolarCalibration(const PinholeCamera& camera)
 
 void EpipolarCalibration::add(const Eigen::Vector2d& ideal_right_pixel, double row_error_px, double sigma_px) {
   const Parts by_parts = EpipolarMisalignment::row_by_parts(camera_, ideal_right_pixel);
-  // Until the first points are settled nothing is known that they could contradict.
+  // Includes the uncertainty of the misalignment, so that the first points are not down-weighted.
   const double expected_variance = sigma_px * sigma_px + by_parts.dot(information_.ldlt().solve(by_parts));
   const double residual = row_error_px - by_parts.dot(misalignment_.parts);
   const double weight = CauchyLoss(kLossScale).weight(residual * residual / expected_variance) / (sigma_px * sigma_px);

@@ -40,7 +40,7 @@ Eigen::Vector2d Equirectangular::project(const Eigen::Vector3d& direction) const
   const double theta = std::atan2(direction.x(), direction.z());
   const double phi = std::atan2(direction.y(), std::hypot(direction.x(), direction.z()));
   const double u = column(theta);
-  return {u < columns ? u : 0.0, row(phi)};  // theta = pi looks where -pi looks
+  return {u < columns ? u : 0.0, row(phi)};  // theta = pi is the same direction as -pi
 }
 
 Eigen::Vector3d Equirectangular::unproject(const Eigen::Vector2d& pixel) const {

@@ -10,10 +10,10 @@ namespace panvo::vision {
 namespace {
 
 constexpr int kGridStep_px = 8;
-constexpr int kDark = 8;                   // grey level: what a capped lens still shows
-constexpr int kBright = 250;               // grey level: full well, allowing for smoothing
-constexpr double kFaultyShare = 0.98;      // a night scene's lamps, a sign before a white sky
-constexpr double kSmallestContrast = 2.0;  // grey levels, standard deviation: an even wall's noise
+constexpr int kDark = 8;                   // grey level: upper limit with a capped lens
+constexpr int kBright = 250;               // grey level: saturation, allowing for smoothing
+constexpr double kFaultyShare = 0.98;      // accepts the lamps of a night scene, a sign against a white sky
+constexpr double kSmallestContrast = 2.0;  // grey levels, standard deviation: noise of a uniform wall
 
 }  // namespace
 
@@ -40,8 +40,8 @@ std::optional<std::string> find_fault(const cv::Mat& image) {
   } else if (bright > kFaultyShare * count) {
     text << "is saturated: " << 100.0 * bright / count << " % of the pixels at grey level " << kBright << " or above";
   } else if (deviation < kSmallestContrast) {
-    text << "is constant: grey levels deviate by " << deviation << " from their mean, " << kSmallestContrast
-         << " needed";
+    text << "is constant: standard deviation of the grey levels is " << deviation << ", at least " << kSmallestContrast
+         << " required";
   } else {
     return std::nullopt;
   }

@@ -43,10 +43,9 @@ std::optional<LensModel> find(std::string_view name) {
 
 [[noreturn]] void refuse(std::string_view name, std::size_t count) {
   std::ostringstream text;
-  text << "has the distortion model '" << name << "' with " << count
-       << " coefficients; known are plumb_bob (k1 k2 p1 p2 k3), rational_polynomial (k1 k2 p1 p2 k3 k4 k5 k6), "
-          "equidistant (k1 "
-          "k2 k3 k4) and mei (k1 k2 p1 p2 xi): calibrate with one of them";
+  text << "has distortion model '" << name << "' with " << count
+       << " coefficients; supported are plumb_bob (k1 k2 p1 p2 k3), rational_polynomial (k1 k2 p1 p2 k3 k4 k5 k6), "
+          "equidistant (k1 k2 k3 k4) and mei (k1 k2 p1 p2 xi): calibrate with one of them";
   throw std::invalid_argument(text.str());
 }
 
@@ -57,17 +56,17 @@ LensCamera lens_camera(std::string_view distortion_model, std::span<const double
   LensCamera camera;
   camera.pinhole = pinhole;
   if (!std::all_of(coefficients.begin(), coefficients.end(), [](double value) { return std::isfinite(value); }))
-    throw std::invalid_argument("holds a distortion coefficient that is not a number; calibrate again");
+    throw std::invalid_argument("has a distortion coefficient that is not a number; calibrate again");
   const auto last = std::find_if(coefficients.rbegin(), coefficients.rend(), [](double value) { return value != 0.0; });
   const auto used = coefficients.first(static_cast<std::size_t>(coefficients.rend() - last));
   const auto model = find(distortion_model);
-  if (!model && used.empty()) return camera;  // no lens model is needed by a lens that bends nothing
+  if (!model && used.empty()) return camera;  // no model needed without distortion
   if (!model || used.size() > coefficients_of(*model)) refuse(distortion_model, coefficients.size());
   camera.model = *model;
   if (*model == LensModel::kMei && coefficients.size() < 5) refuse(distortion_model, coefficients.size());  // no xi
   std::copy(used.begin(), used.end(), camera.distortion.begin());
   if (*model == LensModel::kMei) std::swap(camera.xi, camera.distortion[4]);
-  // one with nothing in its denominator: the same lens under the better known name
+  // without denominator terms it is a plumb_bob lens
   if (*model == LensModel::kRational && used.size() <= 5) camera.model = LensModel::kPlumbBob;
   return camera;
 }

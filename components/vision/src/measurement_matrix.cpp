@@ -11,11 +11,11 @@
 namespace panvo::vision {
 namespace {
 
-/// The whole sizes in [from, to): what the paper's bounds, fractions of the band, leave.
+/// Smallest integer size, at least 1, within a fractional bound of the paper.
 int first_whole(double bound) { return std::max(1, static_cast<int>(std::ceil(bound))); }
 
-/// r-bar of [Eq. 5], each of the four with probability 1/4. It can choose none of them, and the feature would be zero: drawn
-/// again.
+/// r-bar of [Eq. 5]: each of the four with probability 1/4; redrawn if none is chosen, because the feature would be
+/// zero.
 std::array<float, 4> draw_statistics(SeededRandom& random) {
   std::array<float, 4> chosen{};
   while (std::all_of(chosen.begin(), chosen.end(), [](float choice) { return choice == 0.0F; })) {
@@ -24,7 +24,7 @@ std::array<float, 4> draw_statistics(SeededRandom& random) {
   return chosen;
 }
 
-/// Evenly on a logarithmic scale: of sizes drawn evenly nearly all would be about as large as the band.
+/// Log-uniform: with uniform sizes, nearly all rectangles would be about as large as the band.
 int draw_size(int from, int to, SeededRandom& random) {
   const double size = from * std::pow(static_cast<double>(to) / from, random.share());
   return std::clamp(static_cast<int>(size), from, to - 1);
@@ -54,7 +54,7 @@ MeasurementMatrix::MeasurementMatrix(cv::Size band, const RectangleBounds& bound
   if (bounds.from.width < 1 || bounds.from.height < 1 || bounds.to.width <= bounds.from.width ||
       bounds.to.height <= bounds.from.height || bounds.to.width > band.width || bounds.to.height > band.height) {
     std::ostringstream text;
-    text << "rectangles from " << bounds.from << " to " << bounds.to << " px have no room in a band of " << band;
+    text << "rectangles from " << bounds.from << " to " << bounds.to << " px do not fit into a band of " << band;
     throw std::invalid_argument(text.str());
   }
   if (parameters.rows < 1 || parameters.rectangles < 1 || !(parameters.spread >= 0.0 && parameters.spread <= 1.0)) {
@@ -88,7 +88,7 @@ MeasurementMatrix::MeasurementMatrix(cv::Size band, const std::vector<std::vecto
       const BandRectangle& r = element.rectangle;
       if (r.x < 0 || r.x >= band.width || r.width < 1 || r.width > band.width || r.y < 0 || r.height < 1 ||
           r.y + r.height > band.height) {
-        throw std::invalid_argument("measurement matrix: a rectangle lies outside of the band");
+        throw std::invalid_argument("measurement matrix: a rectangle lies outside the band");
       }
       elements_.push_back(element);
     }

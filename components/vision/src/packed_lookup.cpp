@@ -12,10 +12,10 @@ namespace {
 constexpr LookupKernels kGreyPlain{look_up_plain<1>, blend_plain<1>};
 constexpr LookupKernels kColourPlain{look_up_plain<3>, blend_plain<3>};
 
-/// What this processor runs.
+/// Kernels for this processor.
 const LookupKernels& kernels(int channels) {
   if (channels != 1 && channels != 3)
-    throw std::invalid_argument("images of " + std::to_string(channels) + " channels are not looked up; 1 or 3 are");
+    throw std::invalid_argument("look-up of " + std::to_string(channels) + " channels is not supported; use 1 or 3");
 #if defined(__x86_64__)
   static const bool has_avx2 = __builtin_cpu_supports("avx2") != 0;
   if (has_avx2) return channels == 1 ? kGreyLookupAvx2 : kColourLookupAvx2;
@@ -26,7 +26,7 @@ const LookupKernels& kernels(int channels) {
 }  // namespace
 
 void prefetch_lookups(const LookupSource& source, const std::uint32_t* lookups, int count, int channels) {
-  constexpr int kStride = 2;  // neighbouring look-ups mostly lie in the same line
+  constexpr int kStride = 2;  // neighbouring look-ups mostly share a cache line
   const std::ptrdiff_t step = std::ptrdiff_t{source.row_px} * channels;
   for (int i = 0; i < count; i += kStride) {
     const std::uint8_t* upper = source.begin + std::ptrdiff_t{lookups[i] >> 10} * channels;

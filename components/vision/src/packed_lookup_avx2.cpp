@@ -8,15 +8,15 @@
 
 #define PANVO_AVX2 __attribute__((target("avx2")))
 
-/// Eight look-ups at a time. Of a sum, the two neighbours in a row are joined first (bytes, weights up to 32), then the rows (16 bits,
-/// weights up to 32 * factor < 2^15): the same integers as in the plain version.
+/// Eight look-ups at a time. Horizontal neighbours are summed first (bytes, weights up to 32), then the two rows (16
+/// bits, weights up to 32 * factor < 2^15), with the same integer results as the plain version.
 namespace panvo::vision {
 namespace {
 
 constexpr int kLanes = 8;
-constexpr int kBlock = 64;  // what is fetched before it is worked on: stays in the first cache
+constexpr int kBlock = 64;  // look-ups fetched before processing; fits into the L1 cache
 
-/// What eight look-ups say, one in each 32 bits.
+/// Eight unpacked look-ups, one per 32-bit lane.
 struct Unpacked {
   __m256i offset_px;
   __m256i across;  ///< four bytes: 32 - x, x, 32 - x, x
@@ -35,10 +35,10 @@ PANVO_AVX2 inline Unpacked unpack(const std::uint32_t* lookups, __m256i factor_w
           _mm256_mullo_epi16(y_words, factor_words)};
 }
 
-/// The factor in both words of each 32 bits.
+/// Copies the factor to both 16-bit words of each lane.
 PANVO_AVX2 inline __m256i in_words(__m256i factors) { return _mm256_or_si256(factors, _mm256_slli_epi32(factors, 16)); }
 
-/// Factors of eight pixels of two images whose second has these weights.
+/// Factors of eight pixels with these weights.
 PANVO_AVX2 inline __m256i shares(int factor, __m256i weights) {
   const __m256i product = _mm256_mullo_epi32(_mm256_set1_epi32(factor), weights);
   return in_words(_mm256_srli_epi32(_mm256_add_epi32(product, _mm256_set1_epi32(128)), 8));
@@ -50,8 +50,9 @@ PANVO_AVX2 inline __m256i load_weights(const std::uint8_t* weights) {
 
 PANVO_AVX2 inline __m256i complement(__m256i weights) { return _mm256_sub_epi32(_mm256_set1_epi32(256), weights); }
 
-/// The four neighbours of up to kBlock look-ups, a byte each: two of the row above, two of the row below. Plain loads, and none of
-/// them waited for: a gather instruction takes three times as long where the processor's microcode closes its side channel.
+/// Fetches the four neighbours of up to kBlock look-ups, one byte each: two of the upper row, two of the lower row.
+/// Uses plain independent loads: with the microcode mitigation of its side channel, a gather instruction takes three
+/// times as long.
 PANVO_AVX2 inline void fetch_grey(const LookupSource& source, const std::uint32_t* lookups, int count,
                                   std::uint32_t* four) {
   const std::uint8_t* upper_row = source.begin;
@@ -115,7 +116,7 @@ PANVO_AVX2 void grey_blended(const LookupSource& first, const std::uint32_t* fir
   blend_plain<1>(first, first_lookups + i, second, second_lookups + i, weights + i, count - i, destination + i);
 }
 
-/// Sums of the three colours of eight pixels, four 32 bits a pixel of which the last is nothing.
+/// Sums of three colours for eight pixels: four 32-bit lanes per pixel, the last one unused.
 struct ColourSums {
   __m128i of[kLanes];
 };
@@ -129,7 +130,7 @@ PANVO_AVX2 inline ColourSums colour_sums(const LookupSource& source, const std::
   _mm256_store_si256(reinterpret_cast<__m256i*>(across), at.across);
   _mm256_store_si256(reinterpret_cast<__m256i*>(down), at.down);
   const std::ptrdiff_t step = std::ptrdiff_t{source.row_px} * 3;
-  // left and right neighbour of a colour, above and below, side by side
+  // per colour: upper left, upper right, lower left, lower right
   const __m128i order = _mm_setr_epi8(0, 3, 8, 11, 1, 4, 9, 12, 2, 5, 10, 13, -1, -1, -1, -1);
   ColourSums sums;
   for (int i = 0; i < kLanes; ++i) {

@@ -5,13 +5,13 @@
 
 #include "panvo/vision/packed_lookup.hpp"
 
-/// What all versions of the look-ups share.
+/// Common parts of the plain and the AVX2 look-ups.
 namespace panvo::vision {
 
-/// Bits of a weight of four neighbours (2 * 5) and of a factor (8).
+/// Fraction bits of the interpolation weights (2 * 5) and the factor (8).
 inline constexpr int kLookupShift = 18;
 
-/// The versions for one instruction set.
+/// Kernels for one instruction set.
 struct LookupKernels {
   void (*one)(const LookupSource&, const std::uint32_t*, int, std::uint8_t*);
   void (*blended)(const LookupSource&, const std::uint32_t*, const LookupSource&, const std::uint32_t*,
@@ -23,7 +23,7 @@ constexpr int first_factor(const LookupSource& source, int weight) {
 }
 constexpr int second_factor(const LookupSource& source, int weight) { return (source.factor * weight + 128) >> 8; }
 
-/// Four neighbours of one channel, weighted, in 1/2^18 grey levels.
+/// Weighted sum of four neighbours of one channel, in 1/2^18 grey levels.
 template <int channels>
 inline std::uint32_t weighted_sum(const LookupSource& source, std::uint32_t lookup, int factor, int channel) {
   const std::uint32_t across = lookup & 31U;

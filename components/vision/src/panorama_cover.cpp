@@ -7,7 +7,7 @@ namespace {
 constexpr int kGridRows = 40, kGridColumns = 120;
 constexpr double kCoveredContrast = 2.0;  // grey levels, standard deviation within a column
 
-/// Grey level of a pixel of either type; near enough for a check.
+/// Approximate grey level of a grey or colour pixel.
 int grey_at(const cv::Mat& image, int row, int column) {
   const uchar* pixel = image.ptr<uchar>(row) + column * image.channels();
   return image.channels() == 1 ? pixel[0] : (pixel[0] + 2 * pixel[1] + pixel[2]) / 4;

@@ -9,10 +9,11 @@ namespace panvo::vision {
 namespace {
 
 constexpr int kLargestShift = 8;           // of 72 columns: 40 degrees between two panoramas
-constexpr int kSamples = 3;                // a side, of a pixel of the thumbnail
-constexpr double kSmallestContrast = 2.0;  // grey levels, standard deviation: below, any two are alike
-/// Correlations with the panorama before, from -1 to 1: below `alike`, it may be exchanged, and is where it is above `exchanged` and better
-/// by `margin` when it is taken so. Between panoramas that are 0.2 s apart the first is 0.9 and more of all, 0.74 and more of the structure.
+constexpr int kSamples = 3;                // per side of a thumbnail pixel
+constexpr double kSmallestContrast = 2.0;  // grey levels, standard deviation; below, panoramas are not comparable
+/// Correlation thresholds, -1 to 1. A panorama counts as flipped if its correlation with the previous one is below
+/// `alike`, while that of its flipped version is above `exchanged` and better by `margin`. Panoramas 0.2 s apart
+/// correlate with at least 0.9 (kOfAll) and 0.74 (kOfStructure).
 struct Likeness {
   double alike, exchanged, margin;
 };
@@ -23,7 +24,7 @@ int level_at(const cv::Mat& image, int row, int column) {
   return image.channels() == 1 ? pixel[0] : pixel[1];
 }
 
-// Of norm 1; false where there is nothing to it.
+// Scales to norm 1; false if the contrast is too low.
 template <class Thumbnail>
 bool normalize(Thumbnail& thumbnail, double smallest_contrast) {
   const float norm = thumbnail.norm();
@@ -40,13 +41,13 @@ std::optional<std::string> PanoramaWatch::find_fault(const cv::Mat& panorama) {
     if (before_) compare(*before_, *now);
     before_ = now;
   }
-  // Turned by half a turn about the direction of view, a camera mirrors and upends.
+  // A camera rolled by 180 degrees gives a panorama that is both mirrored and flipped vertically.
   if (is_upended_) return is_mirrored_ ? "is upside down" : "is upside down and mirrored";
   if (is_mirrored_) return "is mirrored";
   return std::nullopt;
 }
 
-/// First whether above and below are exchanged, which sky and ground tell from afar; then whether left and right are.
+/// Checks first for a vertical flip, which sky and ground reveal clearly, then for a horizontal flip.
 void PanoramaWatch::compare(const View& before, View now) {
   const auto is_exchanged = [](const Likeness& needed, double as_it_was, const auto& otherwise) {
     return as_it_was < needed.alike && otherwise() > std::max(needed.exchanged, as_it_was + needed.margin);
@@ -68,7 +69,7 @@ std::optional<PanoramaWatch::View> PanoramaWatch::view_of(const cv::Mat& panoram
   if (panorama.depth() != CV_8U || panorama.rows < kSamples * kRows || panorama.cols < kSamples * kColumns) return {};
   View view;
   view.grey.setZero();
-  std::array<int, kSamples * kColumns> columns{};  // the middles of as many parts of the width
+  std::array<int, kSamples * kColumns> columns{};  // centres of equal parts of the width
   for (int i = 0; i < kSamples * kColumns; ++i) {
     columns[static_cast<std::size_t>(i)] = (2 * i + 1) * panorama.cols / (2 * kSamples * kColumns);
   }
@@ -85,7 +86,7 @@ std::optional<PanoramaWatch::View> PanoramaWatch::view_of(const cv::Mat& panoram
   return view;
 }
 
-/// The largest correlation over shifts to either side, from none on; no larger one is looked for beyond `enough`.
+/// Largest correlation over shifts to both sides, starting from zero; stops once `enough` is reached.
 double PanoramaWatch::likeness(const Thumbnail& before, const Thumbnail& now, double enough) {
   Eigen::Matrix<float, kRows, kColumns + 2 * kLargestShift, Eigen::RowMajor> wide;
   wide << now.rightCols<kLargestShift>(), now, now.leftCols<kLargestShift>();

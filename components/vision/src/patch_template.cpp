@@ -13,16 +13,16 @@ namespace {
 
 constexpr int kMaxIterations = 12;
 constexpr double kSettled_px = 0.01;
-constexpr double kLargestStep_px = 1.5;  // beyond, the template's gradients say nothing
+constexpr double kLargestStep_px = 1.5;  // beyond, the linearisation is not valid
 constexpr double kCorrelation =
-    3.0;  // interpolation spreads a pixel's noise: residuals shrink, what they do to the position does not
-constexpr double kSmallestGain = 0.25;     // a fainter copy is no copy
-constexpr double kSmallestContrast = 2.0;  // grey levels, standard deviation: under it lies the noise of an 8-bit image
+    3.0;  // interpolation correlates pixel noise: residuals shrink, the position error does not
+constexpr double kSmallestGain = 0.25;     // fainter patches are rejected
+constexpr double kSmallestContrast = 2.0;  // grey levels, standard deviation: noise level of an 8-bit image
 
-// Places in the image as integers, 1/65536 px: sampling is most of the work, and integers are the fastest at it.
+// Image positions in fixed point, 1/65536 px: sampling dominates the run time and is fastest with integers.
 constexpr int kPlaceBits = 16;
 constexpr int kWeightBits = 10;
-constexpr double kRounding_px = 0.01;  // more than a row of such places can go astray
+constexpr double kRounding_px = 0.01;  // upper bound of the accumulated rounding over a row
 
 int to_place(double px) { return static_cast<int>(std::lround(px * (1 << kPlaceBits))); }
 
@@ -38,7 +38,7 @@ float bilinear(const cv::Mat& image, int u, int v) {
   return static_cast<float>((above << kWeightBits) + fv * (below - above)) * (1.0F / (1 << (2 * kWeightBits)));
 }
 
-// By way of a copy, which costs nothing: OpenCV's load would read a misaligned integer.
+// Loads via a copy (no extra cost): OpenCV's load would read a misaligned integer.
 cv::v_float32x4 load_four(const uchar* pixels) {
   alignas(4) std::array<uchar, 4> four;
   std::memcpy(four.data(), pixels, four.size());
@@ -49,7 +49,7 @@ cv::v_float32x4 load_four(const uchar* pixels) {
 
 std::optional<PatchTemplate> PatchTemplate::sample(const cv::Mat& image, const Eigen::Vector2d& centre,
                                                    const Eigen::Matrix2d& source_from_target) {
-  constexpr int kBordered = kSize + 2;  // one more on each side, for central differences
+  constexpr int kBordered = kSize + 2;  // one more pixel on each side, for central differences
   constexpr double kReach = 0.5 * (kBordered - 1);
   const Eigen::Vector2d extent = (kReach * source_from_target.cwiseAbs().rowwise().sum()).array() + kRounding_px;
   if (!(centre.x() - extent.x() >= 0.0 && centre.y() - extent.y() >= 0.0 && centre.x() + extent.x() < image.cols - 1 &&
@@ -93,7 +93,7 @@ bool PatchTemplate::prepare(const std::array<float, (kSize + 2) * (kSize + 2)>& 
   energy_ = normal(0, 0);
   if (energy_ < kPixels * kSmallestContrast * kSmallestContrast) return false;
   const Eigen::Matrix3d normal_plane = normal.cast<double>();
-  // A template without gradient along v (a vertical edge) can still be searched along its row.
+  // The damping allows a row search for a template without gradient along v (a vertical edge).
   const Eigen::Matrix3d damping = (1e-6 * energy_ * Eigen::Vector3d(0.0, 1.0, 1.0)).asDiagonal();
   inverse_plane_ = (normal_plane + damping).inverse();
   inverse_row_ = (normal_plane + damping).topLeftCorner<2, 2>().inverse();
@@ -139,7 +139,7 @@ std::optional<PatchAlignment> PatchTemplate::align(const cv::Mat& image, const E
       return std::nullopt;
     const Projections seen = project(image, left, top);
 
-    // seen = gain * (template moved by e) + offset, linear in (gain, gain * e).
+    // seen = gain * (template shifted by e) + offset, linear in (gain, gain * e).
     Eigen::Vector3d solution = Eigen::Vector3d::Zero();
     if (search == Search::kPlane) {
       solution = inverse_plane_ * seen.on_basis;

@@ -9,9 +9,9 @@
 namespace panvo::vision {
 namespace {
 
-constexpr double kSmallAngle = 1e-5;  // below, the series' next term is under 1e-20
+constexpr double kSmallAngle = 1e-5;  // below, the next series term is under 1e-20
 
-// Integral of the rotation along a constant twist: takes the twist's linear part to the translation.
+// Left Jacobian of SO(3): maps the linear part of a twist to the translation.
 Eigen::Matrix3d left_jacobian(const Eigen::Vector3d& rotation_rad) {
   const double angle = rotation_rad.norm();
   const Eigen::Matrix3d w = skew(rotation_rad);
@@ -37,7 +37,7 @@ Eigen::Matrix3d so3_exp(const Eigen::Vector3d& rotation_rad) {
 }
 
 Eigen::Vector3d so3_log(const Eigen::Matrix3d& rotation) {
-  // By way of the quaternion: well conditioned at every angle, half a turn included.
+  // Via the quaternion: well conditioned at every angle, including pi.
   Eigen::Quaterniond q(rotation);
   if (q.w() < 0.0) q.coeffs() = -q.coeffs();
   const double sine = q.vec().norm();
@@ -86,7 +86,7 @@ Vector6d pose_error(const Eigen::Isometry3d& estimated_a_from_b, const Eigen::Is
 
 Matrix6d compose_covariance(const Eigen::Isometry3d& a_from_b, const Matrix6d& covariance_a_from_b,
                             const Eigen::Isometry3d& b_from_c, const Matrix6d& covariance_b_from_c) {
-  // t_ac = t_ab + R_ab t_bc: an error of R_ab swings the arm from b to c.
+  // t_ac = t_ab + R_ab t_bc: an error of R_ab acts on the lever arm from b to c.
   Matrix6d by_first = Matrix6d::Identity();
   by_first.topRightCorner<3, 3>() = -skew(a_from_b.linear() * b_from_c.translation());
   Matrix6d by_second = Matrix6d::Zero();

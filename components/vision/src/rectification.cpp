@@ -98,7 +98,7 @@ void RectificationMap::look_up_rows(const cv::Mat& raw_image, cv::Mat& destinati
   patch(raw, destination);
 }
 
-/// Beyond its borders an image goes on as it is there.
+/// Fills the pixels with neighbours outside the raw image by replicating its border.
 void RectificationMap::patch(const cv::Mat& raw_image, cv::Mat& destination) const {
   const int channels = raw_image.channels();
   for (const auto& pixel : patches_) {

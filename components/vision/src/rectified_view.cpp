@@ -14,16 +14,16 @@ namespace panvo::vision {
 namespace {
 
 constexpr double kWidest_rad = 110.0 * std::numbers::pi / 180.0;
-constexpr int kBorderSteps = 64;  // places looked at along each border
+constexpr int kBorderSteps = 64;  // samples along each border
 constexpr int kShrinkings = 400;
 constexpr double kShrink = 0.99;
 
-/// A part of the plane z = 1 in the rectified frame.
+/// Rectangle in the plane z = 1 of the rectified frame.
 struct Window {
   double left, top, right, bottom;
 };
 
-/// Whether the camera sees all of a window's border, in its image.
+/// Whether the border of the window lies inside the image of the camera.
 bool sees(const CameraModel& model, const Eigen::Matrix3d& rectified_from_raw, const Window& window) {
   const auto& pinhole = model.camera().pinhole;
   const auto is_seen = [&](double x, double y) {
@@ -40,7 +40,7 @@ bool sees(const CameraModel& model, const Eigen::Matrix3d& rectified_from_raw, c
   return true;
 }
 
-/// The largest window of the image's shape about a centre that both see.
+/// Half height of the largest window with the image's aspect ratio around `centre` that both cameras see.
 std::optional<double> half_height(const std::vector<std::pair<const CameraModel*, Eigen::Matrix3d>>& eyes,
                                   const Eigen::Vector2d& centre, double aspect, double widest) {
   double half = std::min(widest, widest / aspect);
@@ -52,7 +52,7 @@ std::optional<double> half_height(const std::vector<std::pair<const CameraModel*
   return std::nullopt;
 }
 
-/// Where the middle of an image is in the rectified plane.
+/// Image centre, projected to the rectified plane.
 Eigen::Vector2d middle(const CameraModel& model, const Eigen::Matrix3d& rectified_from_raw) {
   const auto& pinhole = model.camera().pinhole;
   const auto direction = model.unproject({0.5 * (pinhole.width - 1), 0.5 * (pinhole.height - 1)});
@@ -71,8 +71,8 @@ CameraModel model_of(const char* name, const LensCamera& lens) {
 
 [[noreturn]] void refuse_sizes(const PinholeCamera& left, const PinholeCamera& right) {
   std::ostringstream text;
-  text << "the left camera has " << left.width << " x " << left.height << " px, the right one " << right.width << " x "
-       << right.height << " px; a stereo pair needs two of one size";
+  text << "the left camera has " << left.width << " x " << left.height << " px, the right " << right.width << " x "
+       << right.height << " px; a stereo pair needs equal image sizes";
   throw std::invalid_argument(text.str());
 }
 
@@ -81,7 +81,7 @@ CameraModel model_of(const char* name, const LensCamera& lens) {
   text.precision(3);
   text << std::fixed << "the right camera is " << baseline_m.x() << " m to the right of the left one, "
        << baseline_m.y() << " m below and " << baseline_m.z()
-       << " m ahead of it; a stereo pair stands side by side: are left and right exchanged?";
+       << " m ahead of it; the cameras must be mounted side by side: are left and right swapped?";
   throw std::invalid_argument(text.str());
 }
 
@@ -112,7 +112,7 @@ RectifiedStereo rectify_view(const StereoCalibration& calibration) {
                   centre, aspect, std::tan(0.5 * kWidest_rad));
   if (!half)
     throw std::invalid_argument(
-        "the two cameras see no common direction that a flat image could show; do they look the same way?");
+        "the fields of view of the two cameras do not overlap in a rectified image; do both face the same way?");
   const double focal = 0.5 * (size.height - 1) / *half;
   pair.camera = {
       focal,      focal,      0.5 * (size.width - 1) - focal * centre.x(), 0.5 * (size.height - 1) - focal * centre.y(),

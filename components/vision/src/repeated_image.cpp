@@ -12,7 +12,7 @@ std::size_t row_bytes(const cv::Mat& image) { return static_cast<std::size_t>(im
 
 int kept_rows(const cv::Mat& image) { return (image.rows + kRowStep - 1) / kRowStep; }
 
-// Rows of `image`, kRowStep apart, against those of `other`, `other_step` apart.
+// Compares every kRowStep-th row of `image` with every `other_step`-th row of `other`.
 bool rows_are_same(const cv::Mat& image, const cv::Mat& other, int other_step) {
   for (int row = 0, at = 0; row < image.rows; row += kRowStep, at += other_step) {
     if (std::memcmp(image.ptr(row), other.ptr(at), row_bytes(image)) != 0) return false;

@@ -11,11 +11,11 @@
 namespace panvo::vision {
 namespace {
 
-constexpr int kWindow = 8;  // px: one vector of 16-bit values a row
+constexpr int kWindow = 8;  // px: one vector of 16-bit values per row
 constexpr int kPixels = kWindow * kWindow;
 constexpr double kSmallestVariance = 2.0 * 2.0;  // grey levels squared
-constexpr int kPeakWidth_px = 2;                 // two maxima nearer than this are one
-constexpr double kSmallestLead = 0.05;           // of the best correlation over the next best place
+constexpr int kPeakWidth_px = 2;                 // nearer maxima count as one
+constexpr double kSmallestLead = 0.05;           // of the best correlation over the second best position
 
 cv::v_int16x8 load(const uchar* pixels) { return cv::v_reinterpret_as_s16(cv::v_load_expand(pixels)); }
 

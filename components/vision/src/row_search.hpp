@@ -6,8 +6,9 @@
 
 namespace panvo::vision {
 
-/// Whole-pixel disparity in [from, to] whose 8x8 window in `right` correlates best (zero-mean, normalised) with the window
-/// around `pixel` in `left`; the right image has it `rows_below` lower. nullopt where the best is under `smallest_correlation` or hardly better than another place.
+/// Whole-pixel disparity in [from, to] with the best zero-mean normalised correlation between the 8x8 window around
+/// `pixel` in `left` and the window `rows_below` rows lower in `right`. Returns nullopt if the best correlation is
+/// below `smallest_correlation` or ambiguous, or if a window leaves its image or has too little contrast.
 std::optional<int> search_row(const cv::Mat& left, const cv::Mat& right, cv::Point pixel, int rows_below, int from,
                               int to, double smallest_correlation);
 

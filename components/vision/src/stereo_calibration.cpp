@@ -22,7 +22,7 @@ cv::Mat camera_matrix(const PinholeCamera& camera) {
   return (cv::Mat_<double>(3, 3) << camera.fx, 0, camera.cx, 0, camera.fy, camera.cy, 0, 0, 1);
 }
 
-/// Of plumb_bob.
+/// Distortion of a plumb_bob lens.
 cv::Mat distortion_vector(const LensCamera& camera) {
   return cv::Mat(1, 5, CV_64F, const_cast<double*>(camera.distortion.data())).clone();
 }

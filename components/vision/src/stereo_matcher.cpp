@@ -16,14 +16,15 @@ constexpr double kHalf = 0.5 * (kSize - 1);
 constexpr int kIterations = 5;
 constexpr double kSettled_px = 0.01;
 constexpr double kLargestStep_px = 2.0;
-constexpr double kGradientSigma = 0.3;  // prior: facing walls have 0, a road baseline over camera height, 0.1 to 0.35
-constexpr double kNoise = 4.0;          // grey levels: weight of that prior against the image
-constexpr double kCoarseCorrelation = 0.6;  // of a window that ignores the slant
+constexpr double kGradientSigma =
+    0.3;                        // prior: 0 for fronto-parallel walls, baseline / camera height (0.1 to 0.35) for roads
+constexpr double kNoise = 4.0;  // grey levels: weight of that prior against the image
+constexpr double kCoarseCorrelation = 0.6;  // with a window that ignores the slant
 constexpr double kReach_px = 3.0;
-constexpr double kRowReach_px = 3.0;         // off the row that is known by now
-constexpr double kLargestRowSigma_px = 0.5;  // more, and the neighbourhood has no edge along the row
+constexpr double kRowReach_px = 3.0;         // from the row predicted by the current misalignment
+constexpr double kLargestRowSigma_px = 0.5;  // above: too little vertical gradient
 
-// One row of the image at a height between two pixel rows.
+// An image row at a fractional v, linearly interpolated.
 class Row {
  public:
   Row(const cv::Mat& image, double v)
@@ -51,7 +52,7 @@ bool inside(const cv::Mat& image, double u, double v) {
   return u >= 0.0 && v >= 0.0 && u < image.cols - 1 && v < image.rows - 1;
 }
 
-// Gauss-Newton over gain, offset, disparity and its two gradients, on the left patch's gradients along the row.
+// Gauss-Newton for gain, offset, disparity and its two gradients, using the row gradients of the left patch.
 class SlantedPatch {
  public:
   static std::optional<SlantedPatch> sample(const cv::Mat& left, const Eigen::Vector2d& centre) {
@@ -79,8 +80,8 @@ class SlantedPatch {
     return patch;
   }
 
-  // Improves `match` (in this level's px) in place; false when it leaves the image or does not resemble. The right image is
-  // shifted by this much against an aligned one.
+  // Refines `match` (px of this level) in place; false if the patch leaves the image, contrast is too low or inverted,
+  // or a step is too large. `shift`: displacement of the right image relative to an aligned one.
   bool align(const cv::Mat& right, const Eigen::Vector2d& shift, StereoMatch& match) const {
     const Eigen::Vector2d origin = centre_ + shift;
     constexpr double kPriorWeight = kNoise * kNoise / (kGradientSigma * kGradientSigma);
@@ -129,12 +130,12 @@ class SlantedPatch {
 
   explicit SlantedPatch(const Eigen::Vector2d& centre) : centre_(centre) {}
 
-  // Whether the patch, where the match has it, lies in the image: its corners do.
+  // Whether all corners of the matched patch lie in the image.
   static bool fits(const cv::Mat& right, const Eigen::Vector2d& origin, const StereoMatch& match) {
     for (const double y : {-kHalf, kHalf}) {
       for (const double x : {-kHalf, kHalf}) {
         const double shift = match.disparity_px + match.gradient.dot(Eigen::Vector2d(x, y));
-        // One column to spare: steps are summed up in single precision.
+        // Margin of one column: steps are accumulated in single precision.
         if (!inside(right, origin.x() + x - shift - 1.0, origin.y() + y)) return false;
         if (!inside(right, origin.x() + x - shift + 1.0, origin.y() + y)) return false;
       }
@@ -147,12 +148,12 @@ class SlantedPatch {
   Eigen::Matrix4d normal_;
 };
 
-/// The left image's neighbourhood of a pixel as the right image shows it, on a surface of that slant.
+/// The neighbourhood of a left pixel, warped to the right image for the given slant.
 std::optional<PatchTemplate> warped_patch(const ImagePyramid& left, const Eigen::Vector2d& pixel,
                                           const Eigen::Vector2d& gradient) {
   Eigen::Matrix2d right_from_left;
   right_from_left << 1.0 - gradient.x(), -gradient.y(), 0.0, 1.0;
-  if (right_from_left(0, 0) < 0.25) return std::nullopt;  // seen almost edge-on
+  if (right_from_left(0, 0) < 0.25) return std::nullopt;  // almost edge-on
   return PatchTemplate::sample(left[0], pixel, right_from_left.inverse());
 }
 
@@ -174,7 +175,7 @@ std::optional<StereoMatch> StereoMatcher::search(const ImagePyramid& left, const
   match.disparity_px = *found + shift_here.x();
   for (int level = coarse; level >= 0; --level) {
     const auto patch = SlantedPatch::sample(left[level], pixel / (1 << level));
-    // A coarse patch that does not fit (too near the border, say) leaves the finer one to try.
+    // If the coarse patch fails, e.g. near the border, the finer one is still tried.
     StereoMatch improved = match;
     const double level_px = 1 << level;
     if (patch && patch->align(right[level], shift(pixel, match.disparity_px * level_px) / level_px, improved)) {

@@ -126,7 +126,7 @@ TEST(CameraModel, ProjectsFisheyesAsOpenCvDoes) {
   }
 }
 
-/// [Mei2007, section 2]: onto the unit sphere, from there out of a point xi above its centre.
+/// [Mei2007, section 2]: projection onto the unit sphere, then from a point xi above its centre.
 TEST(CameraModel, ProjectsThroughMeisSphere) {
   LensCamera camera = mirror();
   camera.distortion = {};
@@ -150,11 +150,11 @@ TEST(CameraModel, IsAPinholeWhereMeisXiIsZero) {
 TEST(CameraModel, RefusesADistortionThatFoldsTheImageOver) {
   LensCamera camera = plumb_bob();
   camera.distortion = {-0.9};  // the radius is largest at 0.61, the border at 0.8
-  EXPECT_THAT(refusal(camera), AllOf(HasSubstr("folds the image over 31.3"), HasSubstr("calibrate")));
+  EXPECT_THAT(refusal(camera), AllOf(HasSubstr("not invertible beyond 31.3"), HasSubstr("calibrate")));
   camera = fisheye();
   camera.distortion = {-0.2};  // largest at 1.29 rad, where the image ends at 1.86
-  EXPECT_THAT(refusal(camera), HasSubstr("folds the image over 73.9"));
-  EXPECT_THAT(refusal(camera, 180.0 * kDegree), AllOf(HasSubstr("folds"), HasSubstr("180 degrees")));
+  EXPECT_THAT(refusal(camera), HasSubstr("not invertible beyond 73.9"));
+  EXPECT_THAT(refusal(camera, 180.0 * kDegree), AllOf(HasSubstr("not invertible"), HasSubstr("180 degrees")));
   EXPECT_THAT(refusal(camera, 140.0 * kDegree), HasSubstr("accepted up to 70.0"));
 }
 

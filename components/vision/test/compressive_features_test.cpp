@@ -18,7 +18,7 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-/// A band without symmetry that goes on smoothly across its seam.
+/// A band without symmetry, smooth across its seam.
 cv::Mat draw_band(int columns = 360, int rows = 60) {
   cv::Mat band(rows, columns, CV_8UC1);
   for (int v = 0; v < rows; ++v) {
@@ -32,7 +32,7 @@ cv::Mat draw_band(int columns = 360, int rows = 60) {
   return band;
 }
 
-/// The band of a vehicle that has turned to the left by so many columns.
+/// The band after the vehicle has turned to the left by this many columns.
 cv::Mat turn(const cv::Mat& band, int columns) {
   cv::Mat turned(band.size(), band.type());
   for (int u = 0; u < band.cols; ++u) band.col(u).copyTo(turned.col((u + columns) % band.cols));
@@ -80,7 +80,7 @@ TEST(CyclicIntegralImages, GiveTheMeanThatIsComputedByHand) {  // [Lu2015 Eq. 2]
   const CyclicIntegralImages images(band);
   EXPECT_FLOAT_EQ(images.mean_intensity({1, 0, 2, 2}), (2 + 3 + 20 + 30) / 4.0F);
   EXPECT_FLOAT_EQ(images.mean_intensity({3, 1, 2, 2}), (40 + 10 + 8 + 5) / 4.0F);  // across the seam
-  EXPECT_FLOAT_EQ(images.mean_intensity({2, 0, 4, 3}), 136 / 12.0F);               // all the way round
+  EXPECT_FLOAT_EQ(images.mean_intensity({2, 0, 4, 3}), 136 / 12.0F);               // full turn
 }
 
 TEST(CyclicIntegralImages, GiveTheGradientsOfASlopeAndOfItsSeam) {  // [Lu2015 3.2]
@@ -148,7 +148,7 @@ TEST(MeasurementMatrix, ChoosesAQuarterOfTheStatisticsAndNeverNone) {  // [Lu201
       chosen += here;
     }
   }
-  // One of four on average, and more since "none" (0.75^4) is drawn again.
+  // One of four on average, slightly more because "none" (0.75^4) is redrawn.
   EXPECT_NEAR(chosen / 4000.0, 1.0 / (1.0 - std::pow(0.75, 4)), 0.04);
 }
 

@@ -16,7 +16,7 @@ using Parts = EpipolarMisalignment::Parts;
 const PinholeCamera kCamera{400.0, 400.0, 320.0, 240.0, 640, 480};
 const Parts kParts = (Parts() << -1.3, 4e-4, 3e-5, -5e-4, 1e-3, 2e-3).finished();
 
-/// Where a right camera with these errors has a point that an aligned one has at a pixel.
+/// Pixel of a point in a right camera with these errors, given its pixel in an aligned camera.
 Eigen::Vector2d seen(const Parts& parts, const Eigen::Vector2d& ideal_pixel) {
   const Eigen::Matrix3d turned_from_aligned = so3_exp(-parts.segment<3>(1));
   const Eigen::Vector3d ray = turned_from_aligned * kCamera.unproject(ideal_pixel);
@@ -41,7 +41,7 @@ TEST(EpipolarMisalignment, ShiftsPixelsAsTheCameraWithItsErrorsDoes) {
       const Eigen::Vector2d pixel = random_pixel(random);
       const Eigen::Vector2d difference = seen(parts, pixel) - pixel - EpipolarMisalignment{parts}.shift(kCamera, pixel);
       EXPECT_NEAR(difference.y(), 0.0, 0.005) << "part " << part;
-      if (part == 2) continue;  // a turn about Y is not told
+      if (part == 2) continue;  // rotation about Y: no column shift
       EXPECT_NEAR(difference.x(), 0.0, 0.005) << "part " << part;
     }
   }
@@ -49,7 +49,7 @@ TEST(EpipolarMisalignment, ShiftsPixelsAsTheCameraWithItsErrorsDoes) {
 
 TEST(EpipolarMisalignment, IsAsLargeAsWhereRowsAreFarthestOff) {
   const Parts roll = 1e-3 * Parts::Unit(3);
-  EXPECT_NEAR(EpipolarMisalignment{roll}.largest_row_shift_px(kCamera), 0.32, 1e-9);  // 320 px beside the middle
+  EXPECT_NEAR(EpipolarMisalignment{roll}.largest_row_shift_px(kCamera), 0.32, 1e-9);  // 320 px from the centre
 }
 
 TEST(EpipolarCalibration, FindsTheErrorsOfAMisalignedCamera) {
@@ -58,7 +58,7 @@ TEST(EpipolarCalibration, FindsTheErrorsOfAMisalignedCamera) {
   EpipolarCalibration calibration(kCamera);
   for (int i = 0; i < 5000; ++i) {
     const Eigen::Vector2d pixel = random_pixel(random);
-    const double wrong_px = i % 20 == 0 ? 1.5 : 0.0;  // one of twenty is mismatched
+    const double wrong_px = i % 20 == 0 ? 1.5 : 0.0;  // one mismatch in twenty
     calibration.add(pixel, seen(kParts, pixel).y() - pixel.y() + noise_px(random) + wrong_px, 0.2);
     if (i % 50 == 0) calibration.settle();
   }

@@ -13,7 +13,7 @@ namespace panvo::vision {
 namespace {
 
 constexpr int kWidth = 61, kHeight = 47;
-constexpr int kCount = 203;  // some are left over when taken by eights
+constexpr int kCount = 203;  // not a multiple of eight
 
 cv::Mat noise(int channels, std::uint64_t seed) {
   cv::Mat image(kHeight, kWidth, CV_8UC(channels));
@@ -21,7 +21,7 @@ cv::Mat noise(int channels, std::uint64_t seed) {
   return image;
 }
 
-/// Anywhere that may be looked up, its last place among them.
+/// Random valid look-ups, including the last valid position.
 std::vector<std::uint32_t> lookups(std::uint64_t seed) {
   cv::RNG random(seed);
   std::vector<std::uint32_t> packed;
@@ -72,7 +72,7 @@ TEST(PackedLookup, BlendsByWeight) {
 
 TEST(PackedLookup, GivesTheSameBytesByAnyInstructionSet) {
 #if defined(__x86_64__)
-  if (__builtin_cpu_supports("avx2") == 0) GTEST_SKIP() << "this processor has no AVX2: there is nothing to compare";
+  if (__builtin_cpu_supports("avx2") == 0) GTEST_SKIP() << "this processor has no AVX2: nothing to compare";
   for (const int channels : {1, 3}) {
     const cv::Mat a = noise(channels, 1), b = noise(channels, 2);
     const auto lookups_a = lookups(3), lookups_b = lookups(4);
@@ -96,7 +96,7 @@ TEST(PackedLookup, GivesTheSameBytesByAnyInstructionSet) {
     }
   }
 #else
-  GTEST_SKIP() << "this processor has one version only";
+  GTEST_SKIP() << "only one version for this processor";
 #endif
 }
 
@@ -110,7 +110,7 @@ TEST(PackedLookup, KeepsAwayFromTheImagesEnd) {
   EXPECT_TRUE(may_be_looked_up(0, 0, 10, 10));
   EXPECT_TRUE(may_be_looked_up(8, 7, 10, 10));
   EXPECT_FALSE(may_be_looked_up(9, 7, 10, 10));
-  EXPECT_FALSE(may_be_looked_up(8, 8, 10, 10));  // the last row: four pixels or eight bytes are read of it
+  EXPECT_FALSE(may_be_looked_up(8, 8, 10, 10));  // last row: four pixels or eight bytes are read from it
   EXPECT_TRUE(may_be_looked_up(6, 8, 10, 10));
   EXPECT_FALSE(may_be_looked_up(0, 9, 10, 10));
   EXPECT_FALSE(may_be_looked_up(-1, 0, 10, 10));

@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kColumns = 360, kRows = 180;
 
-/// Houses under a sky, turned by some columns, with a sensor's noise of its own.
+/// Houses under a sky, rotated by some columns, with independent sensor noise.
 cv::Mat street(int turned = 0, std::uint64_t noise_seed = 1) {
   cv::Mat panorama(kRows, kColumns, CV_8UC1, cv::Scalar(210));
   panorama.rowRange(kRows / 2, kRows).setTo(cv::Scalar(80));

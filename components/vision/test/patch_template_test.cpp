@@ -96,7 +96,7 @@ TEST(PatchTemplate, VarianceIsThatOfItsErrorsUnderNoise) {
     predicted += found->variance / kTrials;
     measured += (found->position - Eigen::Vector2d(60.0, 50.0)).cwiseAbs2() / kTrials;
   }
-  // Interpolation averages some of the noise away, which the residuals show less than the position does.
+  // Interpolation averages noise, which reduces the residuals more than the position error.
   EXPECT_NEAR(measured.x() / predicted.x(), 1.0, 0.5);
   EXPECT_NEAR(measured.y() / predicted.y(), 1.0, 0.5);
 }

@@ -22,7 +22,7 @@ cv::Mat noise(int type) {
   return image;
 }
 
-/// Turned so far that a part of the rectified image lies outside of the raw one.
+/// Rotated so far that part of the rectified image lies outside the raw image.
 TEST(RectificationMap, GivesThePixelsOfOpenCvsRemap) {
   const LensCamera raw{{262.3, 263.5, 156.2, 123.7, 320, 240}, LensModel::kPlumbBob, {-0.36, 0.17, 0.001, -0.002, 0.0}};
   const Eigen::Matrix3d rotation = so3_exp({0.1, -0.15, 0.03});
@@ -55,7 +55,7 @@ TEST(RectificationMap, ReadsAnImageWithGapsBetweenItsRows) {
   EXPECT_EQ(cv::norm(expected, found, cv::NORM_INF), 0.0);
 }
 
-/// An image drawn where the lens puts it comes out as a pinhole would have drawn it.
+/// Rectifying an image drawn through the lens gives the image of a pinhole camera.
 void expect_straight(const LensCamera& raw) {
   const Eigen::Matrix3d rotation = so3_exp({0.03, 0.05, -0.02});
   const CameraModel model(raw);
@@ -89,7 +89,7 @@ TEST(RectificationMap, StraightensAnOmnidirectionalCamera) {
   expect_straight({{380, 381, 322, 238, 640, 480}, LensModel::kMei, {-0.1, 0.05, 0.0005, -0.0004}, 1.2});
 }
 
-/// The image ends 70 px to the left of its middle, 27 degrees; there is column 34 of the rectified one.
+/// The image ends 70 px left of its centre, at 27 degrees: column 34 of the rectified image.
 TEST(RectificationMap, IsBlackWhereTheLensSeesNothing) {
   const LensCamera raw{{150, 150, 70, 120, 140, 240}, LensModel::kEquidistant};
   cv::Mat rectified;

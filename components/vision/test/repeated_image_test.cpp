@@ -18,7 +18,7 @@ TEST(RepeatedImage, FindsAnImageThatIsTheOneBefore) {
   EXPECT_EQ(camera.find_fault(sensor_image(1)), "repeats its image (frozen)");
   EXPECT_TRUE(camera.find_fault(sensor_image(1)));
   EXPECT_FALSE(camera.find_fault(sensor_image(2)));
-  EXPECT_FALSE(camera.find_fault(sensor_image(1))) << "not the one before, but one before that";
+  EXPECT_FALSE(camera.find_fault(sensor_image(1))) << "equals the last but one, not the last";
 }
 
 TEST(RepeatedImage, TakesTheLeastNoiseForANewImage) {

@@ -28,7 +28,7 @@ StereoCalibration toed_in_calibration() {
   return calibration;
 }
 
-/// Fisheyes that see 190 degrees.
+/// Fisheyes with a field of view of 190 degrees.
 StereoCalibration fisheyes() {
   StereoCalibration calibration = toed_in_calibration();
   calibration.left = {{100.3, 100.5, 158.2, 121.7, 320, 240}, LensModel::kEquidistant, {0.01, -0.003, 0.001, 0.0}};
@@ -64,7 +64,7 @@ TEST(Rectify, PutsAPointOnTheSameRowWithTheDisparityOfItsDepthWhateverTheLenses)
   }
 }
 
-/// What a rectified pixel shows, the raw image has.
+/// Every rectified pixel has a source in the raw image.
 TEST(Rectify, GivesWideLensesAViewThatBothSeeAllOf) {
   for (const auto& raw : {fisheyes(), rational()}) {
     SCOPED_TRACE(ros_name(raw.left.model));
@@ -81,7 +81,7 @@ TEST(Rectify, GivesWideLensesAViewThatBothSeeAllOf) {
       }
     }
   }
-  // A fisheye of 190 degrees gives no more of it than a flat image can show, but that it does give.
+  // A 190 degree fisheye fills the widest view allowed for a perspective image.
   const auto camera = rectify(fisheyes()).camera;
   EXPECT_NEAR(2.0 * std::atan(0.5 * 319.0 / camera.fx), 1.92, 0.02);
 }
@@ -96,7 +96,7 @@ TEST(Rectify, LeavesARectifiedPairAsItIs) {
   EXPECT_EQ(stereo.baseline_m, 0.12);
   EXPECT_TRUE(stereo.rectified_left_from_left.isIdentity(0.0));
   calibration.left.model = calibration.right.model = LensModel::kEquidistant;
-  EXPECT_FALSE(is_rectified(calibration)) << "a fisheye is bent without distortion, too";
+  EXPECT_FALSE(is_rectified(calibration)) << "a fisheye is not perspective even without distortion";
 }
 
 TEST(Rectify, SaysWhichLensCannotBe) {
@@ -104,7 +104,7 @@ TEST(Rectify, SaysWhichLensCannotBe) {
   calibration.right.distortion[0] = -3.0;
   try {
     rectify(calibration);
-    FAIL() << "a lens that folds its image over";
+    FAIL() << "a lens whose distortion is not invertible";
   } catch (const std::invalid_argument& error) {
     EXPECT_THAT(error.what(), HasSubstr("right camera has"));
   }
@@ -124,7 +124,7 @@ TEST(Validate, FindsExchangedCamerasByTheSignOfTheBaseline) {
   calibration.right_from_left = calibration.right_from_left.inverse();
   const auto problems = validate(calibration);
   ASSERT_THAT(problems, SizeIs(1));
-  EXPECT_THAT(problems.front(), HasSubstr("exchanged"));
+  EXPECT_THAT(problems.front(), HasSubstr("swapped"));
 }
 
 TEST(RectificationMap, BringsADistortedPointToItsRectifiedPixel) {
@@ -132,7 +132,7 @@ TEST(RectificationMap, BringsADistortedPointToItsRectifiedPixel) {
   const RectifiedStereo stereo = rectify(raw);
   const Eigen::Vector3d point_in_left(0.35, 0.25, 2.0);
   const Eigen::Vector2d raw_pixel = CameraModel(raw.left).project(point_in_left).value();
-  // A smooth blob drawn where the lens puts it: its centre of mass must come out at the rectified projection.
+  // The centroid of a smooth blob drawn through the lens must lie at its rectified projection.
   cv::Mat image(240, 320, CV_32F);
   for (int v = 0; v < image.rows; ++v) {
     for (int u = 0; u < image.cols; ++u) {

@@ -73,7 +73,7 @@ TEST_P(SlantedStereo, DisparityAndSlantAreFound) {
   const StereoMatcher matcher(kStereo.camera, {-0.5, 60.0}, 0.8);
   const auto match = matcher.search(left, right, {100.0, 60.0});
   ASSERT_TRUE(match);
-  // The pyramid's smoothing acts along the rows' own columns, which a slant shears: a few hundredths of a pixel remain.
+  // A slant shears the columns that the pyramid smooths along, which leaves an error of a few hundredths of a pixel.
   const double tolerance = 0.03 + 0.1 * slope;
   EXPECT_NEAR(match->disparity_px, 9.3, tolerance);
   EXPECT_NEAR(match->gradient.y(), slope, 0.03);

@@ -7,15 +7,15 @@
 
 namespace panvo::vision {
 
-/// A smooth pattern without repetition, 40 to 215, that can be evaluated anywhere: an image drawn from it at a shifted place is
-/// the exact answer to what a shift does.
+/// A smooth non-repeating pattern, grey levels 40 to 215, defined at any position, so that shifted images can be drawn
+/// exactly.
 inline double pattern(double x, double y) {
   return 128.0 + 30.0 * std::sin(0.41 * x + 0.13 * y) + 25.0 * std::sin(0.23 * y - 0.37 * x + 1.0) +
          18.0 * std::sin(0.61 * y + 0.05 * x + 2.0 * std::sin(0.031 * x)) +
          12.0 * std::sin(0.29 * x + 0.43 * y + 0.0007 * x * y);
 }
 
-/// An image whose pixel (u, v) shows pattern at place(u, v), times gain, plus offset.
+/// An image whose pixel (u, v) is gain * pattern(place(u, v)) + offset.
 inline cv::Mat draw(cv::Size size, const std::function<cv::Point2d(double, double)>& place, double gain = 1.0,
                     double offset = 0.0) {
   cv::Mat image(size, CV_8UC1);

@@ -11,10 +11,10 @@
 namespace panvo::aravis_camera {
 namespace {
 
-/// Gathers what a camera refuses.
+/// Collects the settings that a camera refuses.
 class Refusals {
  public:
-  /// Calls `set(GError**)`; a failure is told with what was wanted.
+  /// Calls `set(GError**)`; records a failure with the requested setting.
   template <class Set>
   bool attempt(const std::string& wanted, Set set) {
     ErrorSlot error;
@@ -47,7 +47,7 @@ void set_pixel_format(ArvCamera* camera, const std::string& format, Refusals& re
 
 void set_region(ArvCamera* camera, const CameraSettings& settings, Refusals& refusals) {
   if (settings.width == 0 && settings.height == 0) return;
-  // -1: as it is.
+  // -1: unchanged.
   const int width = settings.width > 0 ? settings.width : -1, height = settings.height > 0 ? settings.height : -1;
   const auto wanted = fmt::format("width {}, height {}, offset {}, {}", settings.width, settings.height,
                                   settings.offset_x, settings.offset_y);
@@ -64,7 +64,7 @@ void set_region(ArvCamera* camera, const CameraSettings& settings, Refusals& ref
 
 void set_trigger(ArvCamera* camera, const CameraSettings& settings, Refusals& refusals) {
   if (settings.trigger == Trigger::kFreeRun) {
-    // A camera without triggers need not be told so.
+    // Errors are ignored: the camera may have no triggers.
     ErrorSlot error;
     arv_camera_clear_triggers(camera, error.slot());
     return;
@@ -75,13 +75,13 @@ void set_trigger(ArvCamera* camera, const CameraSettings& settings, Refusals& re
 }
 
 void set_ptp(ArvCamera* camera, Refusals& refusals) {
-  for (const char* feature : {"PtpEnable", "GevIEEE1588"}) {  // of today's and of older cameras
+  for (const char* feature : {"PtpEnable", "GevIEEE1588"}) {  // current and older name
     if (arv_camera_is_feature_available(camera, feature, nullptr)) {
       refusals.attempt("clock ptp", [&](GError** slot) { arv_camera_set_boolean(camera, feature, TRUE, slot); });
       return;
     }
   }
-  refusals.add("clock ptp: the camera has none (PtpEnable, GevIEEE1588): use clock mapped");
+  refusals.add("clock ptp: the camera has no PTP (PtpEnable, GevIEEE1588): use clock mapped");
 }
 
 void set_packets(ArvCamera* camera, const CameraSettings& settings, Refusals& refusals) {
@@ -90,7 +90,7 @@ void set_packets(ArvCamera* camera, const CameraSettings& settings, Refusals& re
     refusals.attempt(fmt::format("packet_size {}", settings.packet_size),
                      [&](GError** slot) { arv_camera_gv_set_packet_size(camera, settings.packet_size, slot); });
   } else {
-    refusals.attempt("packet_size 0 (the largest that passes)",
+    refusals.attempt("packet_size 0 (the largest possible)",
                      [&](GError** slot) { arv_camera_gv_auto_packet_size(camera, slot); });
   }
   if (settings.packet_delay_ns) {
@@ -119,7 +119,7 @@ std::vector<std::string> apply(ArvCamera* camera, const CameraSettings& settings
     refusals.attempt(fmt::format("frame_rate_hz {}", settings.frame_rate_hz),
                      [&](GError** slot) { arv_camera_set_frame_rate(camera, settings.frame_rate_hz, slot); });
   }
-  set_trigger(camera, settings, refusals);  // after the rate, whose setting ends all triggers
+  set_trigger(camera, settings, refusals);  // after the rate: setting the rate clears all triggers
   if (settings.exposure_us > 0.0) {
     refusals.attempt(fmt::format("exposure_us {}", settings.exposure_us),
                      [&](GError** slot) { arv_camera_set_exposure_time(camera, settings.exposure_us, slot); });

@@ -9,10 +9,10 @@
 
 namespace panvo::aravis_camera {
 
-/// Sets the camera; what it does not take is left as it is and returned, a sentence each.
+/// Configures the camera. Settings that it refuses keep their values; returns one message for each.
 std::vector<std::string> apply(ArvCamera* camera, const CameraSettings& settings);
 
-/// The same for features alone.
+/// Sets only features; returns one message for each that is refused.
 std::vector<std::string> apply(ArvCamera* camera, const std::vector<camera_group::DeviceSetting>& features);
 
 }  // namespace panvo::aravis_camera

@@ -36,9 +36,8 @@ std::int64_t system_ns() {
 }
 
 constexpr const char* kRemedy =
-    "packets are lost: give the camera's network an MTU of 9000, raise packet_delay_ns (several cameras on one line), "
-    "raise "
-    "net.core.rmem_max, or lower frame_rate_hz";
+    "packets are lost: set the MTU of the camera's network to 9000, raise packet_delay_ns (several cameras on one "
+    "link), raise net.core.rmem_max, or lower frame_rate_hz";
 
 }  // namespace
 
@@ -117,7 +116,8 @@ class CameraGrabber::Implementation {
     }
   }
 
-  /// A device that is away is asked for at its place, which takes no time; now and then everywhere, for it may have another address by now.
+  /// A lost device is probed at its last address, which is fast, and searched for everywhere from time to time, because
+  /// its address may have changed.
   OpenedCamera::Search where_to_search() {
     constexpr std::int64_t kEverywhereEach_ns = 5'000'000'000;
     if (!identity_ || identity_->address.empty()) return OpenedCamera::Search::kEverywhere;
@@ -161,16 +161,16 @@ class CameraGrabber::Implementation {
     say_what_was_refused(negotiated.refused);
   }
 
-  /// Not again what was said when the camera was opened before.
+  /// Logs refused settings, except those already logged last time.
   void say_what_was_refused(const std::vector<std::string>& refused) {
     for (const auto& text : refused) {
       if (std::find(told_refusals_.begin(), told_refusals_.end(), text) != told_refusals_.end()) continue;
-      log_.warn("{}: {} does not take {}", settings_.name, identity_->serial, text);
+      log_.warn("{}: {} refused {}", settings_.name, identity_->serial, text);
     }
     told_refusals_ = refused;
   }
 
-  /// The time without frames that is in order: some frames' worth, or what is set if that is longer.
+  /// The longer of the configured watchdog time and three frame periods; 0: no watchdog.
   std::int64_t watchdog_ns(const Negotiated& negotiated) const {
     if (settings_.watchdog_ns == 0 || settings_.camera.trigger == Trigger::kLine) return 0;
     const bool is_software = settings_.camera.trigger == Trigger::kSoftware;
@@ -182,12 +182,12 @@ class CameraGrabber::Implementation {
 
   void close() {
     const bool is_gone = machine_.last_loss() == Reconnection::Loss::kDeviceGone;
-    const std::string why = is_gone ? "is gone" : "has sent nothing for too long";
-    warn(why, fmt::format("{} {}; looking for it", identity_->serial, why));
+    const std::string why = is_gone ? "is gone" : "sent no frame in time";
+    warn(why, fmt::format("{} {}; searching for it", identity_->serial, why));
     if (!is_gone && !machine_.has_streamed() && camera_->negotiated().uses_packet_socket &&
         settings_.camera.packet_socket == PacketSocket::kAuto) {
       packet_socket_fails_ = true;
-      log_.info("{}: nothing comes by the packet socket; a UDP socket from now on", settings_.name);
+      log_.info("{}: no data on the packet socket; using a UDP socket from now on", settings_.name);
     }
     closer_.close(std::move(camera_));
     searched_ns_ = steady_ns();
@@ -214,7 +214,7 @@ class CameraGrabber::Implementation {
     const std::int64_t missing = gaps_.missing_before(frame.number());
     std::optional<Frame> whole;
     std::string problem;
-    // An incomplete frame's size says nothing: its state is looked at first.
+    // The size of an incomplete frame is not meaningful, so its status is checked first.
     if (frame.status() == FrameStatus::kWhole) {
       const std::int64_t stamp_ns = stamper_.stamp_ns(frame, system_ns());
       auto image = image_of(frame);
@@ -226,11 +226,11 @@ class CameraGrabber::Implementation {
     }
     count(frame, missing, whole);
     const bool is_first = std::exchange(is_first_, false);
-    // A stream may begin in the middle of a frame: that one is counted, and nothing is wrong with the network.
+    // A stream may start in the middle of a frame: that frame is counted, but is not a network fault.
     if (frame.status() == FrameStatus::kIncomplete && !is_first) {
-      problem = fmt::format("sends frames that do not come whole ({}); {}", frame.status_text(), kRemedy);
+      problem = fmt::format("delivers incomplete frames ({}); {}", frame.status_text(), kRemedy);
     } else if (frame.status() == FrameStatus::kDamaged) {
-      problem = "sends a frame that is " + frame.status_text();
+      problem = "delivers a damaged frame: " + frame.status_text();
     }
     if (problem.empty()) problem = stamper_.problem();
     if (!problem.empty()) warn(frame.status_text(), identity_->serial + " " + problem);
@@ -242,12 +242,12 @@ class CameraGrabber::Implementation {
     const auto payload = arv_buffer_get_payload_type(buffer);
     if (payload != ARV_BUFFER_PAYLOAD_TYPE_IMAGE && payload != ARV_BUFFER_PAYLOAD_TYPE_EXTENDED_CHUNK_DATA &&
         payload != ARV_BUFFER_PAYLOAD_TYPE_MULTIPART)
-      return conversions::Reason{"sends what is no image: set pixel_format to an uncompressed one"};
+      return conversions::Reason{"sends data that is not an image: set pixel_format to an uncompressed one"};
     const auto arv_format = arv_buffer_get_image_pixel_format(buffer);
     const auto format = pixel_format_of(arv_format);
     if (!format) {
       return conversions::Reason{
-          fmt::format("sends the pixel format {} (0x{:08x}), which is not read: set pixel_format to one of {}",
+          fmt::format("sends the unsupported pixel format {} (0x{:08x}): set pixel_format to one of {}",
                       camera_->negotiated().pixel_format, arv_format, readable_formats())};
     }
     std::size_t size = 0;
@@ -268,7 +268,7 @@ class CameraGrabber::Implementation {
     auto chunk_data = camera_->chunk_data(frame);
     const std::lock_guard lock(mutex_);
     auto& counters = report_.counters;
-    counters.dropped += static_cast<std::uint64_t>(missing);  // less one for a frame that comes late
+    counters.dropped += static_cast<std::uint64_t>(missing);  // -1 for a late frame
     counters.resent += resent - std::min(resent, resent_of_stream_);
     resent_of_stream_ = resent;
     counters.reconnects = machine_.reconnects();
@@ -288,19 +288,19 @@ class CameraGrabber::Implementation {
     log_.warn_throttled(fmt::format("{}: {}", settings_.name, kind), "{}: {}", settings_.name, what);
   }
 
-  GrabberSettings settings_;  // its features are the thread's own, the rest never changes
+  GrabberSettings settings_;  // only the thread changes its features; the rest is constant
   const runtime::Logger& log_;
   const OnFrame on_frame_;
 
-  // The thread's own.
+  // Used by the thread only.
   Reconnection machine_;
   FrameGaps gaps_{FrameNumbering::kGigEVision};
   FrameStamper stamper_;
   SoftwareTrigger trigger_;
   bool packet_socket_fails_;
-  std::int64_t searched_ns_ = 0;  // everywhere
+  std::int64_t searched_ns_ = 0;  // time of the last search everywhere
   std::uint64_t resent_of_stream_ = 0;
-  bool is_first_ = true;  // frame of this stream
+  bool is_first_ = true;  // no frame of this stream yet
   std::optional<Identity> identity_;
   std::vector<std::string> told_refusals_;
   std::unique_ptr<OpenedCamera> camera_;

@@ -10,15 +10,15 @@
 
 namespace panvo::aravis_camera {
 
-/// Closes things on a thread of its own: a camera that does not answer takes ten seconds and more, and the next one need not wait for it. They are
-/// few: a camera is opened again only after it was handed over here.
+/// Closes objects on its own thread, because closing an unresponsive camera takes ten seconds or more. The queue stays
+/// short: a camera is reopened only after it was passed to close().
 template <class Thing>
 class Closer {
  public:
   Closer() : shared_(std::make_shared<Shared>()), thread_([shared = shared_] { shared->close_all(); }) {}
 
-  /// Waits for what is still being closed, but not for ever: after `kPatience` the thread goes on by itself. This library is never unloaded, and
-  /// what is being closed knows nothing of this program.
+  /// Waits at most `kPatience` for pending objects, then detaches the thread. This is safe: the library is never
+  /// unloaded, and the objects do not refer to the rest of the program.
   ~Closer() {
     std::unique_lock lock(shared_->mutex);
     shared_->is_ending = true;

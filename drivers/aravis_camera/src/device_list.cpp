@@ -56,7 +56,8 @@ void enable_simulated_camera() { arv_enable_interface("Fake"); }
 
 std::vector<Announced> announced_devices(std::chrono::milliseconds age) {
   using std::chrono::steady_clock;
-  // Aravis guards the update of its list, not the list between two calls. Who waits here gets what the one before has found.
+  // Aravis locks its list during an update only, not between the calls below. A caller that waited here reuses the
+  // previous result.
   static std::mutex mutex;
   static std::vector<Announced> devices;
   static steady_clock::time_point found_at = steady_clock::time_point::min();
@@ -100,7 +101,7 @@ std::string to_text(const std::vector<Announced>& devices) {
     text += fmt::format("{}{} ({} {} at {})", text.empty() ? "" : ", ", device.serial, device.vendor, device.model,
                         device.address);
   }
-  return text.empty() ? "no camera answers" : text;
+  return text.empty() ? "none" : text;
 }
 
 }  // namespace panvo::aravis_camera

@@ -29,7 +29,7 @@ std::string apply_integer(ArvDevice* device, const camera_group::DeviceSetting& 
   if (!error && (*value < least || *value > most)) return fmt::format("is out of range, {} to {}", least, most);
   const gint64 step = arv_device_get_integer_feature_increment(device, setting.name.c_str(), error.slot());
   if (!error && step > 1 && (*value - least) % step != 0)
-    return fmt::format("is between two steps: {} and on in steps of {}", least, step);
+    return fmt::format("is not a valid step: use {} plus a multiple of {}", least, step);
   arv_device_set_integer_feature_value(device, setting.name.c_str(), *value, error.slot());
   return error.text();
 }
@@ -61,7 +61,7 @@ std::string apply_choice(ArvDevice* device, const camera_group::DeviceSetting& s
   std::vector<std::string> names;
   for (guint i = 0; choices && i < count; ++i) names.emplace_back(choices[i]);
   if (!error && std::find(names.begin(), names.end(), setting.value) == names.end())
-    return fmt::format("is no choice here; there are: {}", fmt::join(names, ", "));
+    return fmt::format("is not a valid choice; choices: {}", fmt::join(names, ", "));
   arv_device_set_string_feature_value(device, setting.name.c_str(), setting.value.c_str(), error.slot());
   return error.text();
 }
@@ -72,7 +72,7 @@ std::string apply_known(ArvDevice* device, ArvGcNode* node, const camera_group::
     arv_device_execute_command(device, setting.name.c_str(), error.slot());
     return error.text();
   }
-  if (ARV_IS_GC_ENUMERATION(node)) return apply_choice(device, setting);  // which is an integer, too
+  if (ARV_IS_GC_ENUMERATION(node)) return apply_choice(device, setting);  // before integer, which it also is
   if (ARV_IS_GC_BOOLEAN(node)) return apply_boolean(device, setting);
   if (ARV_IS_GC_FLOAT(node)) return apply_float(device, setting);
   if (ARV_IS_GC_INTEGER(node)) return apply_integer(device, setting);
@@ -80,7 +80,7 @@ std::string apply_known(ArvDevice* device, ArvGcNode* node, const camera_group::
     arv_device_set_string_feature_value(device, setting.name.c_str(), setting.value.c_str(), error.slot());
     return error.text();
   }
-  return "is of a kind that cannot be set";
+  return "has a type that cannot be set";
 }
 
 }  // namespace

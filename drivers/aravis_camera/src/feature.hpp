@@ -8,8 +8,8 @@
 
 namespace panvo::aravis_camera {
 
-/// Sets a GenICam feature of whatever type; a command is executed (its value is not used). Returns what is wrong, empty when all is well:
-/// "Gain=99: is out of range, 0 to 24".
+/// Sets a GenICam feature of any type; commands are executed, and their value is ignored. Returns an error, or an empty
+/// string on success: "Gain=99: is out of range, 0 to 24".
 std::string apply(ArvDevice* device, const camera_group::DeviceSetting& setting);
 
 }  // namespace panvo::aravis_camera

@@ -13,7 +13,7 @@ std::int64_t FrameStamper::stamp_ns(const ReceivedFrame& frame, std::int64_t now
   std::int64_t stamp_ns = arrival_ns;
   if (device_ns != 0 && source_ == StampSource::kMapped) stamp_ns = mapping_.to_host_ns(device_ns, arrival_ns);
   if (device_ns != 0 && source_ == StampSource::kPtp) stamp_ns = ptp_.to_host_ns(device_ns, arrival_ns);
-  last_ns_ = std::max(stamp_ns, last_ns_ + 1);  // who pairs and who tracks relies on the order
+  last_ns_ = std::max(stamp_ns, last_ns_ + 1);  // pairing and tracking rely on the order
   return last_ns_;
 }
 
@@ -24,7 +24,7 @@ void FrameStamper::restart() {
 
 std::string FrameStamper::description() const {
   if (source_ != StampSource::kMapped) return {};
-  return fmt::format("{:+.1f} ppm against the host's", -mapping_.drift() * 1e6);
+  return fmt::format("{:+.1f} ppm relative to the host clock", -mapping_.drift() * 1e6);
 }
 
 }  // namespace panvo::aravis_camera

@@ -11,19 +11,20 @@
 
 namespace panvo::aravis_camera {
 
-/// Host time of a camera's frames, from where it is set to come from.
+/// Host stamps of a camera's frames, from the configured source.
 class FrameStamper {
  public:
   explicit FrameStamper(StampSource source) : source_(source) {}
 
-  /// The stamp, ns since the host's epoch; what was received is no older than `now_ns`.
+  /// Returns the stamp in ns of the host's system clock. Stamps strictly increase. `now_ns`: current time, an upper
+  /// limit of the frame's arrival.
   std::int64_t stamp_ns(const ReceivedFrame& frame, std::int64_t now_ns);
 
-  /// The camera was opened anew: its clock may be another one.
+  /// Call after the camera was reopened: its clock may have changed.
   void restart();
 
   std::uint64_t clock_resets() const noexcept { return mapping_.resets(); }
-  /// What there is to tell of the clock: "12.3 ppm slower than the host's"; empty: nothing.
+  /// Clock drift for diagnostics: "+12.3 ppm relative to the host clock"; empty unless stamps are mapped.
   std::string description() const;
   const std::string& problem() const noexcept { return ptp_.problem(); }
 

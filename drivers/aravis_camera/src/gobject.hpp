@@ -6,7 +6,7 @@
 #include <memory>
 #include <string>
 
-/// GLib's objects and errors with owners.
+/// Owners of GLib objects and errors.
 namespace panvo::aravis_camera {
 
 struct Unref {
@@ -22,7 +22,7 @@ struct Free {
   void operator()(void* memory) const { g_free(memory); }
 };
 
-/// Where a GLib function puts its error: `function(..., error.slot())`.
+/// Receives the error of a GLib function: `function(..., error.slot())`.
 class ErrorSlot {
  public:
   ErrorSlot() = default;
@@ -30,7 +30,7 @@ class ErrorSlot {
   ErrorSlot(const ErrorSlot&) = delete;
   ErrorSlot& operator=(const ErrorSlot&) = delete;
 
-  /// Empty again, for the next call.
+  /// Clears the error for the next call.
   GError** slot() {
     g_clear_error(&error_);
     return &error_;

@@ -31,7 +31,8 @@ class Socket {
 
 bool answers(const std::string& address, std::chrono::milliseconds limit) {
   constexpr std::uint16_t kGvcpPort = 3956;
-  // GigE Vision control protocol: key, flags (acknowledge), DISCOVERY_CMD, no payload, request 1; the answer is DISCOVERY_ACK.
+  // GigE Vision control protocol: key, flags (acknowledge), DISCOVERY_CMD, payload length 0, request id 1; the reply is
+  // DISCOVERY_ACK.
   constexpr std::array<std::uint8_t, 8> kDiscovery{0x42, 0x01, 0x00, 0x02, 0x00, 0x00, 0x00, 0x01};
   constexpr std::uint8_t kDiscoveryAck = 0x03;
   sockaddr_in device{};
@@ -39,7 +40,7 @@ bool answers(const std::string& address, std::chrono::milliseconds limit) {
   device.sin_port = htons(kGvcpPort);
   if (inet_pton(AF_INET, address.c_str(), &device.sin_addr) != 1) return false;
   const Socket socket;
-  // Connected: that nobody listens there is then told at once.
+  // On a connected socket, a closed port is reported immediately.
   if (socket.descriptor() < 0 ||
       connect(socket.descriptor(), reinterpret_cast<const sockaddr*>(&device), sizeof device) != 0 ||
       send(socket.descriptor(), kDiscovery.data(), kDiscovery.size(), 0) < 0)

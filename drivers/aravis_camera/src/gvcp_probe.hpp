@@ -6,8 +6,8 @@
 
 namespace panvo::aravis_camera {
 
-/// Whether a GigE Vision device answers at that IPv4 address: a discovery command to it alone. Aravis's own search takes a second and its way of
-/// opening a device that is away two more, with everything else waiting; this asks first.
+/// Whether a GigE Vision device responds at this IPv4 address to a discovery command. Cheaper than Aravis, whose search
+/// takes a second, and two more to open an absent device, while all other calls wait.
 bool answers(const std::string& address, std::chrono::milliseconds limit);
 
 }  // namespace panvo::aravis_camera

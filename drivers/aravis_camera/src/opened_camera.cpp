@@ -15,41 +15,41 @@ void note_control_lost(ArvDevice*, gpointer flag) { *static_cast<std::atomic<boo
 
 std::string reason_of(const ErrorSlot& error) {
   if (error.is(ARV_DEVICE_ERROR_NOT_CONTROLLER) || error.is(ARV_DEVICE_ERROR_PROTOCOL_ERROR_ACCESS_DENIED))
-    return "is in use: another program controls it (" + error.text() + "); end that one";
+    return "is in use: another program controls it (" + error.text() + "); stop that program";
   std::string text = error.text();
   if (text.find("ACCESS") != std::string::npos || text.find("permission") != std::string::npos ||
       text.find("Access denied") != std::string::npos)
-    return "may not be opened by this user (" + text +
-           "); give access by a udev rule, see drivers/aravis_camera/README.md";
+    return "cannot be opened by this user (" + text +
+           "); grant access with a udev rule, see drivers/aravis_camera/README.md";
   return "cannot be opened: " + text;
 }
 
-constexpr std::chrono::milliseconds kStillTrue(1000);  // what was found for another camera
+constexpr std::chrono::milliseconds kStillTrue(1000);  // reuses the search made for another camera
 
-/// What `camera` means among all that answer; the error says which there are.
+/// The announced camera that `camera` selects. Throws OpenError with the available cameras.
 Announced find(const std::string& camera) {
   const auto devices = announced_devices(kStillTrue);
   if (camera.empty() && !devices.empty()) return devices.front();
   const auto found =
       std::find_if(devices.begin(), devices.end(), [&](const Announced& device) { return is_meant(device, camera); });
   if (found != devices.end()) return *found;
-  if (camera.empty()) throw OpenError("there is no camera: check cable, power and network address");
-  // Aravis itself knows user-defined names, and addresses that broadcasts do not reach.
+  if (camera.empty()) throw OpenError("no camera found: check cable, power and network address");
+  // Aravis also resolves user-defined names, and addresses beyond the reach of broadcasts.
   Announced by_name;
   by_name.id = camera;
   ErrorSlot error;
   const ObjectPtr<ArvDevice> device(arv_open_device(camera.c_str(), error.slot()));
-  if (!device) throw OpenError(fmt::format("there is no camera '{}'; there is: {}", camera, to_text(devices)));
+  if (!device) throw OpenError(fmt::format("camera '{}' not found; available: {}", camera, to_text(devices)));
   return by_name;
 }
 
-/// Where a camera is that was here before, by its serial number alone.
+/// The Aravis id of a known camera, found by its serial number.
 std::string find_again(const Identity& known) {
   const auto devices = announced_devices(kStillTrue);
   const auto found = std::find_if(devices.begin(), devices.end(),
                                   [&](const Announced& device) { return device.serial == known.serial; });
   if (found == devices.end())
-    throw OpenError(fmt::format("{} does not answer; there is: {}", known.serial, to_text(devices)));
+    throw OpenError(fmt::format("{} does not respond; available: {}", known.serial, to_text(devices)));
   return found->id;
 }
 
@@ -70,19 +70,19 @@ FrameStatus ReceivedFrame::status() const {
 std::string ReceivedFrame::status_text() const {
   switch (arv_buffer_get_status(buffer_)) {
     case ARV_BUFFER_STATUS_SUCCESS:
-      return "whole";
+      return "complete";
     case ARV_BUFFER_STATUS_TIMEOUT:
-      return "not all of it came in time";
+      return "timed out";
     case ARV_BUFFER_STATUS_MISSING_PACKETS:
       return "packets are missing";
     case ARV_BUFFER_STATUS_WRONG_PACKET_ID:
-      return "its packets are numbered wrongly";
+      return "wrong packet numbers";
     case ARV_BUFFER_STATUS_SIZE_MISMATCH:
       return "larger than announced";
     case ARV_BUFFER_STATUS_ABORTED:
-      return "broken off";
+      return "aborted";
     default:
-      return "of unknown state";
+      return "unknown status";
   }
 }
 
@@ -99,7 +99,7 @@ OpenedCamera::OpenedCamera(const CameraSettings& settings, bool use_packet_socke
 OpenedCamera::~OpenedCamera() {
   if (lost_handler_ != 0) g_signal_handler_disconnect(arv_camera_get_device(camera_.get()), lost_handler_);
   if (!is_gone_) {
-    ErrorSlot ignored;  // a device that does not answer any more is closed all the same
+    ErrorSlot ignored;  // an unresponsive device is closed as well
     arv_camera_stop_acquisition(camera_.get(), ignored.slot());
   }
 }
@@ -112,15 +112,15 @@ void OpenedCamera::open(const std::string& id, const std::optional<Identity>& kn
   take_in_identity(id);
   if (known && identity_.serial != known->serial) {
     throw OpenError(
-        fmt::format("at {} there is now the camera {}, and {} is awaited", id, identity_.serial, known->serial));
+        fmt::format("the camera at {} is now {}; waiting for {}", id, identity_.serial, known->serial));
   }
   ArvDevice* device = arv_camera_get_device(camera_.get());
   if (is_gige_ && !arv_gv_device_is_controller(ARV_GV_DEVICE(device))) {
     throw OpenError(identity_.serial +
-                    " is in use: another program controls it (Controller privilege required); end that one");
+                    " is in use: another program controls it (Controller privilege required); stop that program");
   }
   lost_handler_ = g_signal_connect(device, "control-lost", G_CALLBACK(note_control_lost), &is_gone_);
-  // What cannot be set is to be said, by name, before the camera is asked.
+  // Aravis then reports invalid settings by name instead of sending them to the camera.
   arv_camera_set_range_check_policy(camera_.get(), ARV_RANGE_CHECK_POLICY_ENABLE);
   arv_camera_set_access_check_policy(camera_.get(), ARV_ACCESS_CHECK_POLICY_ENABLE);
 }
@@ -158,9 +158,9 @@ void OpenedCamera::start(const CameraSettings& settings, bool use_packet_socket)
   stream_.reset(arv_camera_create_stream(camera_.get(), nullptr, nullptr, error.slot()));
   if (!stream_) throw OpenError(identity_.serial + " " + reason_of(error));
   const guint payload = arv_camera_get_payload(camera_.get(), error.slot());
-  if (error) throw OpenError(identity_.serial + " does not tell the size of its frames: " + error.text());
+  if (error) throw OpenError(identity_.serial + " does not report its frame size: " + error.text());
   if (is_gige_) {
-    // Room for some frames in the kernel, where it allows that (net.core.rmem_max): Aravis's own choice holds one.
+    // Kernel buffer for several frames, up to net.core.rmem_max; Aravis's default holds one frame.
     constexpr guint kFrames = 8, kLeast = 1U << 20;
     const auto room = static_cast<gint>(std::min(std::max(kFrames * payload, kLeast), kFrames * kLeast * 4));
     g_object_set(stream_.get(), "packet-resend",
@@ -172,7 +172,7 @@ void OpenedCamera::start(const CameraSettings& settings, bool use_packet_socket)
   if (!chunks_.empty()) chunk_parser_.reset(arv_camera_create_chunk_parser(camera_.get()));
   arv_camera_set_acquisition_mode(camera_.get(), ARV_ACQUISITION_MODE_CONTINUOUS, error.slot());
   arv_camera_start_acquisition(camera_.get(), error.slot());
-  if (error) throw OpenError(identity_.serial + " does not begin to send: " + error.text());
+  if (error) throw OpenError(identity_.serial + " does not start streaming: " + error.text());
 }
 
 std::unique_ptr<ReceivedFrame> OpenedCamera::receive(std::chrono::microseconds limit) {

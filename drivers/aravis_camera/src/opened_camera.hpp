@@ -17,30 +17,30 @@
 
 namespace panvo::aravis_camera {
 
-/// A camera that cannot be opened now; what() says why and what to do.
+/// A camera that cannot be opened; what() gives cause and remedy.
 class OpenError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// Which device it was: with this it is found again.
+/// Identity of a device, used to find it again.
 struct Identity {
   std::string id, serial, address, vendor, model, protocol;
 };
 
-/// What the camera was set to in the end.
+/// The camera's actual settings.
 struct Negotiated {
   int width = 0, height = 0;
   std::string pixel_format;
   double frame_rate_hz = 0.0;  ///< 0: not known
-  unsigned packet_size = 0;    ///< 0: no GigE camera
+  unsigned packet_size = 0;    ///< bytes; 0: not a GigE camera
   bool uses_packet_socket = false;
-  std::vector<std::string> refused;  ///< settings that the camera did not take, and why
+  std::vector<std::string> refused;  ///< one message for each refused setting
 };
 
 enum class FrameStatus { kWhole, kIncomplete, kDamaged };
 
-/// A frame in a buffer of the stream; the buffer goes back when this goes.
+/// A frame in a buffer of the stream; the destructor returns the buffer.
 class ReceivedFrame {
  public:
   ReceivedFrame(ArvStream* stream, ArvBuffer* buffer) : stream_(stream), buffer_(buffer) {}
@@ -52,7 +52,7 @@ class ReceivedFrame {
   std::string status_text() const;
   std::uint64_t number() const { return arv_buffer_get_frame_id(buffer_); }
   std::int64_t device_ns() const { return static_cast<std::int64_t>(arv_buffer_get_timestamp(buffer_)); }
-  /// Host time at which its first packet came; 0: not known.
+  /// Host time of the first packet's arrival; 0: not known.
   std::int64_t arrival_ns() const { return static_cast<std::int64_t>(arv_buffer_get_system_timestamp(buffer_)); }
   ArvBuffer* buffer() const { return buffer_; }
 
@@ -61,11 +61,12 @@ class ReceivedFrame {
   ArvBuffer* buffer_;
 };
 
-/// A camera that is open, set and streaming. Closing it may take seconds when the device does not answer.
+/// An open, configured, streaming camera. Closing an unresponsive device may take seconds.
 class OpenedCamera {
  public:
   enum class Search { kAtItsPlace, kEverywhere };
-  /// Opens the device `known` where that is given, at its place or wherever it is by now; otherwise the one that the settings mean. Throws OpenError.
+  /// Opens the device `known` if given, at its last address or by a search; otherwise the one that the settings select.
+  /// Throws OpenError.
   OpenedCamera(const CameraSettings& settings, bool use_packet_socket, const std::optional<Identity>& known,
                Search search);
   ~OpenedCamera();
@@ -76,20 +77,20 @@ class OpenedCamera {
   const Negotiated& negotiated() const noexcept { return negotiated_; }
   bool is_gige() const noexcept { return is_gige_; }
 
-  /// The device has told that it is not under this program's control any more.
+  /// The device reported that this program lost control of it.
   bool is_gone() const noexcept { return is_gone_; }
 
-  /// nullptr: none came within `limit`.
+  /// nullptr: no frame within `limit`.
   std::unique_ptr<ReceivedFrame> receive(std::chrono::microseconds limit);
 
-  /// Sets features now; returns what the camera does not take, and why.
+  /// Sets features immediately; returns one message for each that is refused.
   std::vector<std::string> set(const std::vector<camera_group::DeviceSetting>& features);
 
-  /// False when the device does not take the command.
+  /// False if the device refuses the command.
   bool trigger();
 
   std::uint64_t resent_packets() const;
-  /// The chunk data that came with a frame, as text; what is not in it is left out.
+  /// The requested chunk data of a frame, as text by name; missing entries are omitted.
   std::map<std::string, std::string> chunk_data(const ReceivedFrame& frame) const;
 
  private:

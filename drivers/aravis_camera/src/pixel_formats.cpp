@@ -10,7 +10,7 @@ namespace {
 
 using camera_stream::PixelFormat;
 
-// The two that Aravis 0.8 has no name for, by their numbers in the Pixel Format Naming Convention.
+// Formats without a name in Aravis 0.8, by their numbers in the Pixel Format Naming Convention.
 constexpr ArvPixelFormat kMono10p = 0x010a0046U, kMono12p = 0x010c0047U;
 
 constexpr std::array<std::pair<ArvPixelFormat, PixelFormat>, 17> kFormats{{

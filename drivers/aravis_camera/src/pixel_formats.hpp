@@ -10,10 +10,10 @@
 
 namespace panvo::aravis_camera {
 
-/// nullopt: not read here.
+/// nullopt: not supported.
 std::optional<camera_stream::PixelFormat> pixel_format_of(ArvPixelFormat format);
 
-/// The formats that are read, for messages.
+/// The supported formats, for messages.
 std::string readable_formats();
 
 }  // namespace panvo::aravis_camera

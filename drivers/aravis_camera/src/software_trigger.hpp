@@ -5,13 +5,13 @@
 
 namespace panvo::aravis_camera {
 
-/// When a software trigger is due: at the multiples of its period, so that the cameras of one host are triggered together without knowing of each
-/// other. A trigger that was missed is left out, not made up for.
+/// Schedules software triggers at multiples of the period in host time, so that all cameras of a host are triggered
+/// together without communicating. Missed triggers are skipped.
 class SoftwareTrigger {
  public:
   explicit SoftwareTrigger(double rate_hz) : period_ns_(static_cast<std::int64_t>(1e9 / rate_hz)) {}
 
-  /// Whether it is time; once for each period.
+  /// Whether a trigger is due; true at most once per period.
   bool is_due(std::int64_t now_ns) {
     const std::int64_t period = now_ns / period_ns_;
     if (period == last_period_) return false;

@@ -28,7 +28,7 @@ TEST_F(CamerasInTrouble, AWrongSerialNumberIsToldWithWhatIsThere) {
   start({"GVL@127.0.0.1", "GVR@127.0.0.2"});
   load({{"cameras", {"GVX"}}});
   ASSERT_TRUE(eventually([&] { return diagnostics("camera")["message"].find("GVX") != std::string::npos; })) << log();
-  EXPECT_TRUE(log_contains("there is no camera 'GVX'")) << log();
+  EXPECT_TRUE(log_contains("camera 'GVX' not found")) << log();
   EXPECT_TRUE(log_contains("GVL (Aravis Fake at 127.0.0.1)")) << log();
   EXPECT_TRUE(log_contains("GVR (Aravis Fake at 127.0.0.2)")) << log();
   EXPECT_EQ(diagnostics("camera")["level"], "2");
@@ -52,7 +52,7 @@ TEST_F(CamerasInTrouble, ACameraThatAnotherProgramHasIsSaidToBeInUseAndTakenWhen
   ASSERT_TRUE(eventually([&] { return second.log_contains("GVL is in use: another program controls it"); }))
       << second.log();
   const auto before = count(kMono);
-  EXPECT_TRUE(eventually([&] { return count(kMono) > before + 5; })) << "the first one is not disturbed\n" << log();
+  EXPECT_TRUE(eventually([&] { return count(kMono) > before + 5; })) << "the first program continues\n" << log();
   EXPECT_EQ(second.count(kMono), 0u);
   unload();
   EXPECT_TRUE(eventually([&] { return second.count(kMono) > 5; })) << second.log();
@@ -87,10 +87,10 @@ TEST_F(CamerasInTrouble, SettingsThatTheCameraRefusesAreNamedOneByOne) {
   ASSERT_TRUE(eventually([&] { return count(kMono) > 0 && counter("camera", "frames") > 0; })) << log();
   for (const char* text : {"features: NoSuchThing=1: the camera has no feature of that name",
                            "features: GainRaw=99999: is out of range, 0 to",
-                           "features: GainAuto=Sometimes: is no choice here; there are: Off, Once, Continuous",
+                           "features: GainAuto=Sometimes: is not a valid choice; choices: Off, Once, Continuous",
                            "features: BinningHorizontal=x: is not a whole number",
                            "features: TestBoolean=maybe: is neither true nor false", "features: DeviceVendorName=x:",
-                           "pixel_format Mono12p: the camera has ", "clock ptp: the camera has none"})
+                           "pixel_format Mono12p: the camera has ", "clock ptp: the camera has no PTP"})
     EXPECT_TRUE(log_contains(text)) << text << "\n" << log();
   EXPECT_FALSE(log_contains("GainRaw=3:")) << log();
   EXPECT_EQ(counter("camera", "refused settings"), 8u);
@@ -128,8 +128,8 @@ TEST_F(CamerasInTrouble, ParametersThatMakeNoSenseAreRefusedAtOnce) {
   EXPECT_THAT(load_error({{"layout", {"stereo"}}, {"cameras", {"GVL"}}}),
               AllOf(HasSubstr("two cameras"), HasSubstr("panvo devices")));
   EXPECT_THAT(load_error({{"layout", {"stereo"}}, {"cameras", {"GVL", "GVL"}}}), HasSubstr("GVL is named twice"));
-  EXPECT_THAT(load_error({{"features", {"Gain"}}}), HasSubstr("'Gain' is no setting; write name=value"));
-  EXPECT_THAT(load_error({{"features", {"left:Gain=1"}}}), HasSubstr("no camera here; there are: camera"));
+  EXPECT_THAT(load_error({{"features", {"Gain"}}}), HasSubstr("'Gain' is not a setting; write name=value"));
+  EXPECT_THAT(load_error({{"features", {"left:Gain=1"}}}), HasSubstr("unknown camera 'left'; cameras: camera"));
   EXPECT_THAT(load_error({{"calibration", {"nowhere"}}}), HasSubstr("nowhere/camera.yaml: cannot be opened"));
   EXPECT_THAT(load_error({{"mount", {"1", "2"}}}), HasSubstr("mount: has 2 numbers"));
   EXPECT_THAT(load_error({{"trigger", {"hardware"}}}), HasSubstr("trigger"));

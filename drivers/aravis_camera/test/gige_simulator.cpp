@@ -14,17 +14,17 @@
 #include "picture_folder.hpp"
 #include "test_picture.hpp"
 
-/// GigE Vision cameras in user space, several in one process, that speak the real protocols: Aravis's simulated camera with pictures, a clock and
-/// faults of its own. SIGTERM ends it; it then tells what each camera has sent.
+/// Simulates several GigE Vision cameras with the real protocols in one process: Aravis's simulated camera with custom
+/// pictures, clock and faults. On SIGTERM it prints the number of frames sent by each camera and exits.
 namespace {
 
 using panvo::aravis_camera::testing::PictureFolder;
 using panvo::aravis_camera::testing::TestPicture;
 
 struct Faults {
-  double offset_s = 0.0;   ///< of the cameras' clock ahead of the host's
-  double drift_ppm = 0.0;  ///< how much faster it runs
-  int skip_every = 0;      ///< frame numbers left out, each so many frames
+  double offset_s = 0.0;   ///< camera clock minus host clock
+  double drift_ppm = 0.0;  ///< positive: the camera clock is fast
+  int skip_every = 0;      ///< skip a frame number after this many frames; 0: never
 };
 
 struct Camera {
@@ -69,30 +69,30 @@ void fill(ArvBuffer* buffer, void* user_data, guint32 /*exposure_us*/, guint32 /
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("GigE Vision cameras in user space.", "gige_simulator");
+  CLI::App app("Simulates GigE Vision cameras in user space.", "gige_simulator");
   std::vector<std::string> names;
   Faults faults;
   double lost_ratio = 0.0;
   std::string folder;
   double pictures_hz = 20.0;
-  app.add_option("CAMERAS", names, "each SERIAL@ADDRESS")->required();
-  app.add_option("--offset-s", faults.offset_s, "the cameras' clock is so far ahead");
-  app.add_option("--drift-ppm", faults.drift_ppm, "and runs so much faster");
-  app.add_option("--skip-every", faults.skip_every, "leaves out a frame number each so many frames");
-  app.add_option("--lost-ratio", lost_ratio, "share of packets that are lost, 0 to 1");
-  app.add_option("--pictures", folder, "folder of image_0, image_1 ... with a camera's pictures each");
-  app.add_option("--pictures-hz", pictures_hz, "how fast they follow each other");
+  app.add_option("CAMERAS", names, "list of SERIAL@ADDRESS")->required();
+  app.add_option("--offset-s", faults.offset_s, "camera clock minus host clock");
+  app.add_option("--drift-ppm", faults.drift_ppm, "drift of the camera clock");
+  app.add_option("--skip-every", faults.skip_every, "skip a frame number after this many frames");
+  app.add_option("--lost-ratio", lost_ratio, "fraction of lost packets, 0 to 1");
+  app.add_option("--pictures", folder, "folder with image_0, image_1 ..., the pictures of each camera");
+  app.add_option("--pictures-hz", pictures_hz, "picture rate");
   CLI11_PARSE(app, argc, argv);
 
   sigset_t ends;
   sigemptyset(&ends);
   sigaddset(&ends, SIGTERM);
   sigaddset(&ends, SIGINT);
-  sigprocmask(SIG_BLOCK, &ends, nullptr);  // before the cameras' threads, which inherit it
+  sigprocmask(SIG_BLOCK, &ends, nullptr);  // before the cameras' threads, which inherit the mask
 
   std::unique_ptr<PictureFolder> pictures;
   if (!folder.empty()) pictures = std::make_unique<PictureFolder>(folder, names.size(), pictures_hz);
-  std::deque<Camera> cameras;  // whose addresses stay
+  std::deque<Camera> cameras;  // deque: element addresses stay valid
   for (const auto& name : names) {
     const auto at = name.find('@');
     auto& camera = cameras.emplace_back();
@@ -114,7 +114,7 @@ int main(int argc, char** argv) {
   int signal = 0;
   sigwait(&ends, &signal);
   for (auto& camera : cameras) {
-    g_object_unref(camera.device);  // its thread has ended then
+    g_object_unref(camera.device);  // ends its thread
     std::printf("%s filled %llu skipped %llu\n", camera.serial.c_str(), static_cast<unsigned long long>(camera.filled),
                 static_cast<unsigned long long>(camera.skipped));
   }

@@ -20,13 +20,14 @@ namespace panvo::aravis_camera::testing {
 
 using ParameterLines = std::map<std::string, std::vector<std::string>>;
 
-/// The component in a container that runs live, and simulated cameras in a network of their own. Skipped, with the reason, where there can be none.
+/// Runs the component in a live container, with simulated cameras in their own network namespace. Skips the test, with
+/// the reason, if no namespace can be created.
 class LiveCameras : public ::testing::Test {
  protected:
-  /// A picture as it was published.
+  /// A published picture.
   struct Seen {
     std::int64_t stamp_ns = 0;
-    TestPicture picture;  ///< number 0 of camera 99 when it was none
+    TestPicture picture;  ///< number 0 of camera 99 if it is not a test picture
     std::string encoding;
     int width = 0, height = 0;
   };
@@ -35,16 +36,16 @@ class LiveCameras : public ::testing::Test {
     if (const auto why_not = enter_own_network(); !why_not.empty()) GTEST_SKIP() << why_not;
   }
 
-  /// Simulated cameras that outlive the driver.
+  /// Starts simulated cameras, which outlive the driver.
   Simulator& start(const std::vector<std::string>& words);
-  /// Loads the component, with packets received through UDP sockets unless said otherwise: the others hear nothing on loopback.
+  /// Loads the component, by default with UDP sockets, because packet sockets receive nothing on loopback.
   void load(const ParameterLines& parameters);
   void unload();
 
-  /// Looks every few milliseconds, at most a minute; false when it did not come true.
+  /// Polls the condition every few milliseconds; false if it is not met within a minute.
   [[nodiscard]] static bool eventually(const std::function<bool()>& condition);
 
-  /// What was published on a topic so far ("/stereo/left/image_raw").
+  /// The pictures published so far on a topic ("/stereo/left/image_raw").
   std::vector<Seen> seen(const std::string& topic) const;
   std::size_t count(const std::string& topic) const;
   /// The newest diagnostics of a camera, by key, with "level" and "message"; empty: none yet.

@@ -23,7 +23,7 @@ bool write(const char* file, const std::string& text) {
   return static_cast<bool>(stream.flush());
 }
 
-/// A request about an interface with an address in it.
+/// A request for an interface and an address.
 ifreq request(const char* interface, const char* address) {
   ifreq request{};
   std::strncpy(request.ifr_name, interface, IFNAMSIZ - 1);
@@ -43,7 +43,7 @@ std::string bring_up_loopback() {
   up.ifr_flags = static_cast<short>(up.ifr_flags | IFF_UP | IFF_RUNNING);
   ok = ok && ioctl(control, SIOCSIFFLAGS, &up) == 0 && ioctl(control, SIOCSIFADDR, &first) == 0 &&
        ioctl(control, SIOCSIFADDR, &second) == 0;
-  const std::string why = ok ? "" : std::string("its loopback cannot be set up: ") + std::strerror(errno);
+  const std::string why = ok ? "" : std::string("the loopback interface cannot be set up: ") + std::strerror(errno);
   close(control);
   return why;
 }
@@ -60,7 +60,7 @@ std::string enter_own_network() {
           !write("/proc/self/gid_map", fmt::format("0 {} 1", group)))
         return std::string("user namespaces cannot be mapped here");
     } else if (unshare(CLONE_NEWNET) != 0) {
-      return std::string("no network namespace can be made here: ") + std::strerror(errno);
+      return std::string("network namespaces cannot be created here: ") + std::strerror(errno);
     }
     return bring_up_loopback();
   }();

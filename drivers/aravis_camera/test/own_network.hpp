@@ -5,9 +5,9 @@
 
 namespace panvo::aravis_camera::testing {
 
-/// Takes this process, and what it starts from now on, into a network of its own that has 127.0.0.1 and 127.0.0.2 and nothing else: no camera of
-/// the host's is heard, and tests do not hear each other. Needs no rights where user namespaces are allowed. To be called before there are
-/// threads. Returns why it cannot be, empty: it is.
+/// Moves this process and its future children into a network namespace that has only 127.0.0.1 and 127.0.0.2, isolated
+/// from the host's cameras and from other tests. Needs no privileges if user namespaces are allowed. Call this before
+/// threads are started. Returns an error, or an empty string on success.
 std::string enter_own_network();
 
 }  // namespace panvo::aravis_camera::testing

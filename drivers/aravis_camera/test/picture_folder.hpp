@@ -14,8 +14,9 @@
 
 namespace panvo::aravis_camera::testing {
 
-/// Pictures for simulated cameras, image_0, image_1 ... in a folder: all cameras show the same one at a time, in step with the clock. The first one
-/// stays until every camera has been asked for a while, the last one to the end.
+/// Pictures for simulated cameras, from the subfolders image_0, image_1, ...: all cameras show the same index at a
+/// time, driven by the clock. The first picture is shown until all cameras have streamed for a while, the last one
+/// until the end.
 class PictureFolder {
  public:
   PictureFolder(const std::filesystem::path& folder, std::size_t cameras, double rate_hz)
@@ -36,10 +37,10 @@ class PictureFolder {
   }
 
  private:
-  /// The same for all cameras within a period, whose edges lie where the cameras take no frames: half a period away from them. The next
-  /// one comes when all have shown it in one period, so that none is left out where a machine gives them no time.
+  /// The picture index, equal for all cameras within a period. Periods change half a period away from the exposures.
+  /// The index advances only after a period in which all cameras took a frame, so that a busy host skips no picture.
   std::size_t index(unsigned camera, std::int64_t now_ns) {
-    constexpr int kWhile = 20;  // periods of the first picture, until whoever looks at the cameras has begun
+    constexpr int kWhile = 20;  // periods of the first picture, until the driver under test streams
     const std::lock_guard lock(mutex_);
     const std::int64_t period = (now_ns + period_ns_ / 2) / period_ns_;
     if (period > period_) {

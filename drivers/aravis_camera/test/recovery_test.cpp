@@ -22,7 +22,7 @@ class LostCameras : public LiveCameras {
             {"height", {"120"}},
             {"frame_rate_hz", {"60"}}};
   }
-  /// Waits until more pictures come on both topics than came by now.
+  /// Waits for further pictures on both topics.
   bool more_come() {
     const auto left = count(kLeft), right = count(kRight);
     return eventually([&] { return count(kLeft) > left + 5 && count(kRight) > right + 5; });
@@ -44,7 +44,7 @@ TEST_F(LostCameras, ComeBackWithTheirSettingsWhenTheyWereKilled) {
     simulator->kill();
     ASSERT_TRUE(eventually([&] { return diagnostics("left")["level"] == "2" && diagnostics("right")["level"] == "2"; }))
         << log();
-    // A camera that was switched off and on has forgotten its settings: width, height and rate are its own again.
+    // After the restart, the camera has its default width, height and rate again.
     simulator = std::make_unique<Simulator>(both());
     ASSERT_TRUE(more_come()) << "time " << i << "\n" << log();
     EXPECT_EQ(seen(kLeft).back().width, 160);
@@ -55,7 +55,7 @@ TEST_F(LostCameras, ComeBackWithTheirSettingsWhenTheyWereKilled) {
       return counter("left", "reconnects") == times && counter("right", "reconnects") == times;
     })) << log();
   }
-  EXPECT_EQ(diagnostics("left")["camera"], "Aravis Fake at 127.0.0.1") << "the same serial number, the same place";
+  EXPECT_EQ(diagnostics("left")["camera"], "Aravis Fake at 127.0.0.1") << "same serial number, same address";
   unload();
   expect_stamps_to_increase();
 }
@@ -84,7 +84,7 @@ TEST_F(LostCameras, AreSetWhileTheyStreamAndAgainWhenTheyComeBack) {
   auto simulator = std::make_unique<Simulator>(std::vector<std::string>{"GVL@127.0.0.1"});
   const runtime::Logger silent("test", [](runtime::LogLevel, const std::string&, const std::string&) {});
   std::mutex mutex;
-  std::vector<std::int64_t> steps_ns;  // between pictures, as they were taken
+  std::vector<std::int64_t> steps_ns;  // between the exposures of successive pictures
   std::int64_t last_ns = 0;
   GrabberSettings settings;
   settings.name = "left";
@@ -106,7 +106,7 @@ TEST_F(LostCameras, AreSetWhileTheyStreamAndAgainWhenTheyComeBack) {
       return std::abs(static_cast<double>(newest[5]) * 1e-6 - period_ms) < 0.2 * period_ms;
     });
   };
-  EXPECT_TRUE(takes_ten_pictures_each(40.0)) << "the simulator's own 25 Hz";
+  EXPECT_TRUE(takes_ten_pictures_each(40.0)) << "the simulator's default of 25 Hz";
   grabber.set({{"AcquisitionFrameRate", "100"}, {"NoSuchThing", "1"}});
   EXPECT_TRUE(takes_ten_pictures_each(10.0));
   EXPECT_TRUE(eventually([&] { return grabber.report().counters.refused_settings == 1; }));
@@ -117,7 +117,7 @@ TEST_F(LostCameras, AreSetWhileTheyStreamAndAgainWhenTheyComeBack) {
     const std::lock_guard lock(mutex);
     steps_ns.clear();
   }
-  EXPECT_TRUE(takes_ten_pictures_each(10.0)) << "as it was set last";
+  EXPECT_TRUE(takes_ten_pictures_each(10.0)) << "as set last";
   EXPECT_EQ(grabber.report().counters.refused_settings, 1u);
 }
 
@@ -138,7 +138,7 @@ TEST_F(LostCameras, LeaveTheOtherHalfOfThePairUnpairedUntilTheyComeBack) {
 
 TEST_F(LostCameras, AreAwaitedFromTheStart) {
   load(pair());
-  ASSERT_TRUE(eventually([&] { return log_contains("there is no camera 'GVL'"); })) << log();
+  ASSERT_TRUE(eventually([&] { return log_contains("camera 'GVL' not found"); })) << log();
   start(both());
   EXPECT_TRUE(more_come()) << log();
 }
@@ -160,7 +160,7 @@ TEST_F(LostCameras, AreNotTakenForAnotherOneAtTheirPlace) {
   ASSERT_TRUE(eventually([&] { return count(kMono) > 5; })) << log();
   simulator->kill();
   simulator = std::make_unique<Simulator>(std::vector<std::string>{"GVX@127.0.0.1"});
-  EXPECT_TRUE(eventually([&] { return log_contains("there is now the camera GVX, and GVL is awaited"); })) << log();
+  EXPECT_TRUE(eventually([&] { return log_contains("is now GVX; waiting for GVL"); })) << log();
 }
 
 }  // namespace

@@ -60,7 +60,7 @@ TEST(Cameras, AreMeantByWhateverTheyAreKnownBy) {
   EXPECT_FALSE(is_meant(device, "Maker"));
   EXPECT_FALSE(is_meant(device, ""));
   EXPECT_THAT(to_text({device}), HasSubstr("0815 (Maker Cam at 10.0.0.2)"));
-  EXPECT_EQ(to_text({}), "no camera answers");
+  EXPECT_EQ(to_text({}), "none");
 }
 
 TEST(Cameras, GetTheirSettingsFromTheParameters) {

@@ -11,7 +11,7 @@ using ::testing::Contains;
 using ::testing::Field;
 using ::testing::HasSubstr;
 
-/// Aravis's own simulated camera within this process: no protocol, no network.
+/// Aravis's built-in simulated camera, within this process, without protocol and network.
 class SimulatedCamera : public LiveCameras {};
 
 TEST_F(SimulatedCamera, StreamsAsARealOneDoes) {

@@ -22,7 +22,7 @@ Simulator::Simulator(const std::vector<std::string>& words) {
   if (pipe2(ends, O_CLOEXEC) != 0) throw std::runtime_error("no pipe");
   pid_ = fork();
   if (pid_ == 0) {
-    prctl(PR_SET_PDEATHSIG, SIGKILL);  // no simulator is left behind
+    prctl(PR_SET_PDEATHSIG, SIGKILL);  // the simulator ends with the test
     dup2(ends[1], STDOUT_FILENO);
     execv(arguments[0], arguments.data());
     _exit(127);
@@ -32,7 +32,7 @@ Simulator::Simulator(const std::vector<std::string>& words) {
   std::string line;
   char letter = 0;
   while (read(output_, &letter, 1) == 1 && letter != '\n') line += letter;
-  if (line != "ready") throw std::runtime_error(std::string(PANVO_GIGE_SIMULATOR) + " does not begin: " + line);
+  if (line != "ready") throw std::runtime_error(std::string(PANVO_GIGE_SIMULATOR) + " does not start: " + line);
 }
 
 Simulator::~Simulator() {

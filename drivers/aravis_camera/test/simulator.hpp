@@ -8,10 +8,10 @@
 
 namespace panvo::aravis_camera::testing {
 
-/// The program gige_simulator as a process of its own, to be stopped, killed and started again.
+/// Runs the program gige_simulator as a separate process that can be stopped, killed and restarted.
 class Simulator {
  public:
-  /// `words` as on its command line. Returns when its cameras answer; throws std::runtime_error when they do not.
+  /// `words`: command-line arguments. Returns once the cameras respond; throws std::runtime_error if they do not.
   explicit Simulator(const std::vector<std::string>& words);
   ~Simulator();  // kills it
   Simulator(const Simulator&) = delete;
@@ -19,7 +19,7 @@ class Simulator {
 
   void signal(int number) const;
   void kill();
-  /// Ends it in order: what it says each camera has sent, "GVL filled 12 skipped 0\n...".
+  /// Terminates it and returns its report of the sent frames: "GVL filled 12 skipped 0\n...".
   std::string end();
 
  private:

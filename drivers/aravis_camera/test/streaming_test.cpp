@@ -30,12 +30,12 @@ class GigECameras : public LiveCameras {
     return lines;
   }
 
-  /// What a simulator says at its end of one of its cameras.
+  /// The number of frames of one camera in a simulator's final report.
   static std::uint64_t filled(const std::string& text, const std::string& serial) {
     const auto position = text.find(serial + " filled ");
     return position == std::string::npos ? 0 : std::stoull(text.substr(position + serial.size() + 8));
   }
-  /// How many of the pictures that were taken between the first and the last one seen were not seen.
+  /// Number of pictures missing between the first and the last one received.
   static std::uint64_t missing(const std::vector<Seen>& pictures) {
     return pictures.back().picture.number - pictures.front().picture.number + 1 - pictures.size();
   }
@@ -44,14 +44,15 @@ class GigECameras : public LiveCameras {
 TEST_F(GigECameras, DeliverWhatWasSentOverTheWrapOfTheFrameNumbers) {
   Simulator& simulator = start({"GVL@127.0.0.1"});
   load(one());
-  // The simulator numbers from 65400: 1 follows 65535 after 136 frames.
+  // The simulator starts at 65400: the number wraps from 65535 to 1 after 136 frames.
   ASSERT_TRUE(eventually([&] { return count(kMono) >= 200; })) << log();
   const std::uint64_t sent = filled(simulator.end(), "GVL");
   const auto accounted_for = [&] {
     return counter("camera", "frames") + counter("camera", "dropped") + counter("camera", "incomplete");
   };
   EXPECT_TRUE(eventually([&] { return accounted_for() == sent; })) << accounted_for() << " of " << sent;
-  // Where the machine is busy the kernel's buffer may run over: that is counted, see above. Otherwise all come.
+  // On a busy host, the kernel's buffer may overflow: lost frames are counted, as checked above. Otherwise none is
+  // lost.
   constexpr std::uint64_t kOfABusyMachine = 2;
   EXPECT_GE(counter("camera", "frames") + kOfABusyMachine, sent);
   EXPECT_EQ(count(kMono), counter("camera", "frames"));
@@ -93,7 +94,7 @@ TEST_F(GigECameras, CountTheFramesWhoseNumbersAreLeftOut) {
   const auto frames = counter("camera", "frames"), dropped = counter("camera", "dropped");
   EXPECT_NEAR(static_cast<double>(dropped), static_cast<double>(frames) / 10.0, 1.0);
   EXPECT_LE(missing(seen(kMono)), counter("camera", "incomplete") + 1)
-      << "only the numbers are left out, the pictures are not";
+      << "only numbers are skipped, not pictures";
   EXPECT_EQ(diagnostics("camera")["level"], "1");
   EXPECT_THAT(diagnostics("camera")["message"], HasSubstr("dropped"));
 }
@@ -103,15 +104,15 @@ TEST_F(GigECameras, CountPicturesThatLostPacketsAndSayWhatHelps) {
   load(one({{"resend", {"false"}}, {"packet_size", {"1000"}}}));
   ASSERT_TRUE(eventually([&] { return counter("camera", "incomplete") >= 10 && counter("camera", "frames") >= 10; }))
       << log();
-  EXPECT_TRUE(log_contains("do not come whole")) << log();
+  EXPECT_TRUE(log_contains("delivers incomplete frames")) << log();
   EXPECT_TRUE(log_contains("packet_delay_ns")) << "the remedy";
   const auto pictures = seen(kMono);
-  for (const auto& each : pictures) ASSERT_EQ(each.picture.camera, 0u) << "only whole pictures are handed on";
-  // What was lost in part or whole is all that is missing.
+  for (const auto& each : pictures) ASSERT_EQ(each.picture.camera, 0u) << "only complete pictures are published";
+  // Missing pictures are those counted as incomplete or dropped.
   ASSERT_TRUE(eventually([&] { return counter("camera", "frames") > pictures.size(); }));
   const auto lost = counter("camera", "incomplete") + counter("camera", "dropped");
   const auto later = seen(kMono);
-  EXPECT_NEAR(static_cast<double>(missing(later)), static_cast<double>(lost), 60.0) << "diagnostics are a second old";
+  EXPECT_NEAR(static_cast<double>(missing(later)), static_cast<double>(lost), 60.0) << "diagnostics lag by up to 1 s";
   EXPECT_GT(missing(later), 0u);
 }
 
@@ -143,8 +144,8 @@ TEST_F(GigECameras, AreTriggeredFromHere) {
     steps_ns.push_back(pictures[i].picture.taken_ns - pictures[i - 1].picture.taken_ns);
   std::sort(steps_ns.begin(), steps_ns.end());
   const double median_ms = static_cast<double>(steps_ns[steps_ns.size() / 2]) * 1e-6;
-  EXPECT_GT(median_ms, 30.0) << "free running it would be 17 ms";
-  EXPECT_LT(median_ms, 90.0) << "50 ms, give or take the steps in which the simulated camera looks at its clock";
+  EXPECT_GT(median_ms, 30.0) << "17 ms if free running";
+  EXPECT_LT(median_ms, 90.0) << "50 ms, plus or minus the simulated camera's polling interval";
 }
 
 TEST_F(GigECameras, AreHeardWhetherOrNotThePacketSocketHearsThem) {

@@ -8,11 +8,11 @@
 
 namespace panvo::aravis_camera::testing {
 
-/// What a simulated camera draws: which camera, the how-manieth picture since it was made, and when, in its first bytes; then rows of one grey
-/// level each, by which a picture that was put together of two shows.
+/// The picture of a simulated camera: its first bytes hold the camera index, the picture number and the time; each row
+/// has a single grey level, so that a mixture of two pictures is detected.
 struct TestPicture {
   std::uint64_t camera = 0, number = 0;
-  std::int64_t taken_ns = 0;  ///< by the host's clock
+  std::int64_t taken_ns = 0;  ///< host clock
 
   static constexpr std::uint64_t kMark = 0x70616e766f313233;
   static constexpr std::size_t kHead = 4 * sizeof(std::uint64_t);
@@ -26,7 +26,7 @@ struct TestPicture {
     std::memcpy(pixels.data(), head, kHead);
   }
 
-  /// nullopt: not such a picture, or not all of it the same one.
+  /// nullopt: not a test picture, or a mixture of several.
   static std::optional<TestPicture> read(std::span<const std::uint8_t> pixels, std::size_t width) {
     if (pixels.size() < kHead || width < kHead || pixels.size() % width != 0) return std::nullopt;
     std::uint64_t head[4];

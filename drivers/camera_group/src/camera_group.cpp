@@ -27,7 +27,7 @@ class CameraGroup::Implementation {
 
   ~Implementation() {
     reporter_ = {};
-    // All at once: closing a device that does not answer takes seconds.
+    // In parallel, because closing an unresponsive device takes seconds.
     std::vector<std::jthread> closing;
     for (auto& grabber : grabbers_) closing.emplace_back([&grabber] { grabber.reset(); });
   }
@@ -45,7 +45,7 @@ class CameraGroup::Implementation {
 
   void set(std::vector<std::vector<DeviceSetting>> settings) {
     const std::lock_guard lock(grabbers_mutex_);
-    settings_ = std::move(settings);  // for those that are yet to be opened
+    settings_ = std::move(settings);  // for grabbers created later
     for (std::size_t i = 0; i < grabbers_.size(); ++i) grabbers_[i]->set(settings_.at(i));
   }
 
@@ -113,14 +113,14 @@ class CameraGroup::Implementation {
 
   runtime::Context& context_;
   runtime::Output<diagnostic_msgs::msg::DiagnosticArray> diagnostics_;
-  std::mutex mutex_;  // guards pairing_ and what is published of it: the order of stamps
+  std::mutex mutex_;  // guards pairing_ and published_, and keeps stamps in order
   camera_stream::StampPairing<Images> pairing_;
   std::vector<ImagePublisher> published_;
   const std::vector<StartGrabber> devices_;
   std::vector<camera_stream::StreamCounters> told_;
   std::mutex report_mutex_;
   std::condition_variable_any stopped_;
-  std::mutex grabbers_mutex_;  // between start() and set(); the others come after start()
+  std::mutex grabbers_mutex_;  // between start() and set(); all other accesses happen after start()
   std::vector<std::vector<DeviceSetting>> settings_;
   std::vector<std::unique_ptr<Grabber>> grabbers_;
   std::jthread reporter_;  // last: it uses the others

@@ -30,11 +30,11 @@ std::vector<DeviceSetting> settings_of(std::string_view parameter, const std::ve
     const std::string name = trimmed(colon == std::string::npos ? before : before.substr(colon + 1));
     if (equals == std::string::npos || name.empty()) {
       throw std::invalid_argument(fmt::format(
-          "{}: '{}' is no setting; write name=value, or {}:name=value for one camera", parameter, line, device));
+          "{}: '{}' is not a setting; write name=value, or {}:name=value for one camera", parameter, line, device));
     }
     if (std::ranges::find(devices, its_device) == devices.end()) {
-      throw std::invalid_argument(fmt::format("{}: '{}' is for '{}', which is no camera here; there are: {}", parameter,
-                                              line, its_device, fmt::join(devices, ", ")));
+      throw std::invalid_argument(fmt::format("{}: '{}' names the unknown camera '{}'; cameras: {}", parameter, line,
+                                              its_device, fmt::join(devices, ", ")));
     }
     if (its_device == device) settings.push_back({name, trimmed(line.substr(equals + 1))});
   }

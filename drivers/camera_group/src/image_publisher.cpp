@@ -20,7 +20,8 @@ void ImagePublisher::publish_calibration_of(const sensor_msgs::msg::Image& image
       camera_stream::size_problem(*calibration, static_cast<int>(image.width()), static_cast<int>(image.height()));
   if (problem != size_problem_) {
     size_problem_ = problem;
-    if (!problem.empty()) context_.log().warn_throttled(name(), "{}: {}; images go out without it", name(), problem);
+    if (!problem.empty())
+      context_.log().warn_throttled(name(), "{}: {}; images are published without camera_info", name(), problem);
   }
   if (!problem.empty()) return;
   auto info = *calibration;

@@ -9,17 +9,17 @@
 
 namespace panvo::camera_group {
 
-/// An image's topic and that of its calibration. Not safe to use from several threads.
+/// Publishes an image and its calibration. Not thread-safe.
 class ImagePublisher {
  public:
   ImagePublisher(runtime::Context& context, GroupImage description);
 
-  /// With the image's stamp and frame; not where the image is of another size, to which it does not apply.
+  /// Publishes the calibration with the image's stamp and frame, unless the image has another size.
   void publish_calibration_of(const sensor_msgs::msg::Image& image);
   void publish(std::shared_ptr<sensor_msgs::msg::Image> image) { images_.publish(std::move(image)); }
 
   const std::string& name() const { return description_.role.name; }
-  /// Why the calibration is not published; empty: it is, or there is none.
+  /// Why the calibration is not published; empty if it is, or if there is none.
   const std::string& size_problem() const { return size_problem_; }
 
  private:

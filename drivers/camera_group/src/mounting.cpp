@@ -27,7 +27,7 @@ Isometry3d base_from_optical(Placement place) {
   base_from_camera.rotate(AngleAxisd(place[5] * kRadians, Vector3d::UnitZ()) *
                           AngleAxisd(place[4] * kRadians, Vector3d::UnitY()) *
                           AngleAxisd(place[3] * kRadians, Vector3d::UnitX()));
-  // REP 103: x right, y down, z forward of the optical frame are -y, -z, x of the camera's body.
+  // REP 103: x (right), y (down), z (forward) of the optical frame are -y, -z, x of the camera body.
   Eigen::Matrix3d camera_from_optical;
   camera_from_optical.col(0) = -Vector3d::UnitY();
   camera_from_optical.col(1) = -Vector3d::UnitZ();
@@ -36,7 +36,8 @@ Isometry3d base_from_optical(Placement place) {
   return base_from_camera;
 }
 
-/// Rectified, the right camera stands a baseline to the right of the left one; both are turned back to how they are.
+/// Between the rectified cameras there is only the baseline; the rotations of the rectification are undone on both
+/// sides.
 std::optional<Isometry3d> left_from_right(const std::vector<GroupImage>& images) {
   if (images.size() != 2 || !images[0].calibration || !images[1].calibration) return std::nullopt;
   const auto left = conversions::to_camera(*images[0].calibration),
@@ -57,7 +58,7 @@ tf2_msgs::msg::TFMessage mounting(const std::vector<double>& mount, const std::v
   if (mount.size() != kEach * images.size() && !places_left_only) {
     throw std::invalid_argument(fmt::format(
         "mount: has {} numbers; write six (x, y, z in m; roll, pitch, yaw in degrees) for each of {} images, "
-        "or six for the left one of a pair",
+        "or six for the left camera of a pair",
         mount.size(), images.size()));
   }
   for (std::size_t i = 0; i < mount.size() / kEach; ++i) {

@@ -18,7 +18,7 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::SizeIs;
 
-/// A device that takes a frame when it is told to.
+/// A device that takes a frame on request.
 class TestGrabber final : public Grabber {
  public:
   struct Device {
@@ -45,7 +45,7 @@ std::shared_ptr<sensor_msgs::msg::Image> image(std::uint32_t width, std::uint32_
   return image;
 }
 
-/// A group in a container that replays: what it publishes is there when take() is back.
+/// A group in a replay container: take() returns after everything was published.
 class GroupComponent final : public runtime::Component {
  public:
   explicit GroupComponent(runtime::Context& context) {
@@ -93,9 +93,9 @@ TEST_F(Cameras, ThatTookImagesTogetherPublishThemUnderOneStamp) {
   const auto& right = harness_.collect(topics::kStereoRightImageRaw);
   load(2).start();
   take(0, 1'000'000'000, {image(width_, height_)});
-  EXPECT_THAT(left, SizeIs(0)) << "the other one is not there yet";
+  EXPECT_THAT(left, SizeIs(0)) << "the other image is missing";
   take(1, 1'000'500'000, {image(width_, height_)});
-  take(0, 1'050'000'000, {image(width_, height_)});  // alone
+  take(0, 1'050'000'000, {image(width_, height_)});  // no partner
   take(0, 1'100'000'000, {image(width_, height_)});
   take(1, 1'100'000'000, {image(width_, height_)});
   ASSERT_THAT(left, SizeIs(2));
@@ -128,7 +128,7 @@ TEST_F(Cameras, PublishTheirCalibrationsUnlessTheImageIsOfAnotherSize) {
   EXPECT_THAT(infos, SizeIs(1));
   EXPECT_THAT(images, SizeIs(2));
   EXPECT_EQ(std::ranges::count_if(harness_.log(),
-                                  [](const auto& line) { return line.find("go out without it") != std::string::npos; }),
+                                  [](const auto& line) { return line.find("published without") != std::string::npos; }),
             2)
       << "once for each eye";
 }

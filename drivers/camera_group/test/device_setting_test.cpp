@@ -34,7 +34,7 @@ TEST(DeviceSettings, AreRefusedWhereTheyAreNoneWithHowToWriteThem) {
   for (const char* line : {"gain", "=3", "left:=3", ""})
     EXPECT_THAT(problem(line), AllOf(HasSubstr("controls: '"), HasSubstr("write name=value, or left:name=value")))
         << line;
-  EXPECT_THAT(problem("middle:gain=3"), HasSubstr("'middle', which is no camera here; there are: left, right"));
+  EXPECT_THAT(problem("middle:gain=3"), HasSubstr("unknown camera 'middle'; cameras: left, right"));
 }
 
 }  // namespace

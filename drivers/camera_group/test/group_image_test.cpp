@@ -19,7 +19,7 @@ TEST(GroupImages, HaveTheCalibrationsOfAFolder) {
   ASSERT_EQ(images.size(), 2u);
   ASSERT_TRUE(images[0].calibration && images[1].calibration);
   EXPECT_EQ(images[0].calibration->p()[3], 0.0);
-  EXPECT_LT(images[1].calibration->p()[3], 0.0) << "the right one has the baseline";
+  EXPECT_LT(images[1].calibration->p()[3], 0.0) << "the right camera has the baseline";
   EXPECT_FALSE(images_of(roles_of(Layout::kStereo, 2), "", problems)[0].calibration);
 }
 

@@ -23,7 +23,7 @@ TEST(Mounting, PlacesTheLeftEyeAndTheRightOneByTheCalibration) {
   const auto left = *conversions::to_isometry(message.transforms()[0].transform());
   const auto right = *conversions::to_isometry(message.transforms()[1].transform());
   EXPECT_EQ(message.transforms()[1].child_frame_id(), "stereo_right_optical");
-  // Turned by 90 degrees to the left, the camera looks along +y; its right is +x, and the other eye 0.12 m that way.
+  // Turned left by 90 degrees, the camera looks along +y and its right is +x: the right eye is 0.12 m away along +x.
   EXPECT_TRUE((left.linear() * Eigen::Vector3d::UnitZ()).isApprox(Eigen::Vector3d::UnitY(), 1e-9));
   EXPECT_TRUE((left.linear() * Eigen::Vector3d::UnitY()).isApprox(-Eigen::Vector3d::UnitZ(), 1e-9));
   EXPECT_TRUE((right.translation() - left.translation()).isApprox(Eigen::Vector3d(0.12, 0, 0), 1e-9));

@@ -17,21 +17,21 @@ class Reader {
     try {
       root_ = YAML::LoadFile(path.string());
     } catch (const YAML::BadFile&) {
-      throw CalibrationFileError(path.string() + ": cannot be opened; is it there, and may you read it?");
+      throw CalibrationFileError(path.string() + ": cannot be opened; check that it exists and is readable");
     } catch (const YAML::Exception& error) {
       throw CalibrationFileError(fmt::format("{}:{}: is not YAML: {}", path.string(), error.mark.line + 1, error.msg));
     }
     if (!root_.IsMap())
-      throw CalibrationFileError(path.string() + ": holds no `key: value` lines; is it a camera_info file?");
+      throw CalibrationFileError(path.string() + ": has no `key: value` lines; is it a camera_info file?");
   }
 
   std::uint32_t size_px(const char* key) const {
     const auto value = read<std::int64_t>(at(key), key, "must be a whole number");
-    if (value <= 0 || value > 1 << 16) fail(at(key), key, fmt::format("is {}, which is no size of an image", value));
+    if (value <= 0 || value > 1 << 16) fail(at(key), key, fmt::format("is {}, which is not an image size", value));
     return static_cast<std::uint32_t>(value);
   }
 
-  std::string text(const char* key) const { return read<std::string>(at(key), key, "must be a word"); }
+  std::string text(const char* key) const { return read<std::string>(at(key), key, "must be a string"); }
 
   /// The numbers of a matrix: a list, or a map with `data`.
   std::vector<double> numbers(const char* key) const {
@@ -39,7 +39,7 @@ class Reader {
     const YAML::Node list = node.IsMap() ? node["data"] : node;
     auto values = read<std::vector<double>>(list, key, "must be a list of numbers, or a matrix (rows, cols, data)");
     if (std::any_of(values.begin(), values.end(), [](double value) { return !std::isfinite(value); }))
-      fail(node, key, "holds what is no number");
+      fail(node, key, "has a value that is not finite");
     return values;
   }
 
@@ -92,9 +92,8 @@ sensor_msgs::msg::CameraInfo read_camera_info(const std::filesystem::path& file)
 std::string size_problem(const sensor_msgs::msg::CameraInfo& info, int width, int height) {
   if (std::cmp_equal(info.width(), width) && std::cmp_equal(info.height(), height)) return {};
   return fmt::format(
-      "the calibration is for {} x {} px, the camera sends {} x {} px: set the camera to the size that was calibrated, "
-      "or "
-      "calibrate again",
+      "the calibration is for {} x {} px, the camera sends {} x {} px: set the camera to the calibrated size, "
+      "or calibrate again",
       info.width(), info.height(), width, height);
 }
 

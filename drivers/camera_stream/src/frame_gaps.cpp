@@ -6,9 +6,9 @@ namespace {
 
 constexpr std::uint64_t kLargest16 = 65535;
 
-constexpr std::int64_t kLate = 16;  // frames that come so much later have not been on the way
+constexpr std::int64_t kLate = 16;  // a number further back than this means a restarted device, not a late frame
 
-/// How far it is from `last` on to `number`, negative: back, among `period` numbers that follow each other in a circle.
+/// Signed distance from `last` to `number` in a counter that wraps after `period` numbers.
 std::int64_t steps_on(std::uint64_t last, std::uint64_t number, std::uint64_t period) {
   const auto steps = static_cast<std::int64_t>((number + period - last) % period);
   return steps >= static_cast<std::int64_t>(period / 2) ? steps - static_cast<std::int64_t>(period) : steps;

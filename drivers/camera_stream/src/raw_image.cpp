@@ -20,13 +20,14 @@ constexpr int kNone = -1;
 struct Format {
   PixelFormat format;
   std::string_view name;
-  int type;                  ///< OpenCV's, of the pixels once unpacked
-  std::string_view as_sent;  ///< ROS's encoding
+  int type;                  ///< OpenCV type of the unpacked pixels
+  std::string_view as_sent;  ///< ROS encoding
   std::string_view readable;
-  int to_readable, to_grey;  ///< OpenCV's conversions
+  int to_readable, to_grey;  ///< OpenCV conversions
 };
 
-// OpenCV names a Bayer pattern by the second row's second and third pixel, everybody else by the first two.
+// The names with four letters (COLOR_BayerRGGB2BGR) give the first two rows, as ROS and GenICam do; OpenCV's older
+// two-letter names give the second and third pixel of the second row.
 constexpr std::array kFormats{
     Format{PixelFormat::kMono8, "Mono8", CV_8UC1, "mono8", "mono8", kNone, kNone},
     Format{PixelFormat::kMono10, "Mono10", CV_16UC1, "mono16", "mono16", kNone, kNone},
@@ -59,7 +60,7 @@ const Format& format_of(PixelFormat format) {
   return *found;
 }
 
-/// A message whose encoding conversions knows nothing of: it is handed on as it is.
+/// A message in an encoding that panvo_conversions does not support.
 std::shared_ptr<sensor_msgs::msg::Image> make_image(const Format& format, std::string_view encoding, int width,
                                                     int height, const std::string& frame_id) {
   auto image = std::make_shared<sensor_msgs::msg::Image>();
@@ -76,9 +77,9 @@ std::shared_ptr<sensor_msgs::msg::Image> make_image(const Format& format, std::s
 std::string problem_of(const RawImage& raw, const Format& format) {
   constexpr int kLargest = 1 << 16;
   if (raw.width <= 0 || raw.height <= 0 || raw.width > kLargest || raw.height > kLargest)
-    return fmt::format("is of {} x {} px, which is no image", raw.width, raw.height);
+    return fmt::format("is {} x {} px, which is not an image size", raw.width, raw.height);
   if (format.type == CV_8UC2 && raw.width % 2 != 0)
-    return fmt::format("is {} px wide, but {} has pairs of pixels: set an even width", raw.width, format.name);
+    return fmt::format("is {} px wide, but {} stores pixels in pairs: set an even width", raw.width, format.name);
   std::size_t needed = packed_bytes(raw.format, raw.width, raw.height);
   if (raw.step != 0) {
     const std::size_t row_bytes = needed / static_cast<std::size_t>(raw.height);
@@ -103,7 +104,7 @@ conversions::Result<std::shared_ptr<sensor_msgs::msg::Image>> to_image(const Raw
   const bool is_grey = output == ImageOutput::kGrey;
   const int conversion = output == ImageOutput::kAsSent ? kNone : is_grey ? format.to_grey : format.to_readable;
 
-  // A view: nothing writes to it.
+  // The cv::Mat below is only read.
   auto* bytes = const_cast<std::uint8_t*>(raw.bytes.data());
   cv::Mat sent;
   if (is_packed(raw.format)) {

@@ -9,7 +9,7 @@
 namespace panvo::camera_stream {
 namespace {
 
-constexpr std::uint8_t kOk = 0, kWarning = 1, kError = 2;  // diagnostic_msgs/msg/DiagnosticStatus's values
+constexpr std::uint8_t kOk = 0, kWarning = 1, kError = 2;  // values of diagnostic_msgs/msg/DiagnosticStatus
 
 void add(diagnostic_msgs::msg::DiagnosticStatus& status, const std::string& key, const std::string& value) {
   diagnostic_msgs::msg::KeyValue entry;
@@ -18,7 +18,7 @@ void add(diagnostic_msgs::msg::DiagnosticStatus& status, const std::string& key,
   status.values().push_back(std::move(entry));
 }
 
-/// What was lost between two readings, in words; empty: nothing.
+/// Frames lost between two readings, as text ("2 dropped, 1 damaged"); empty: none.
 std::string losses(const StreamCounters& now, const StreamCounters& before) {
   const std::array<std::pair<const char*, std::uint64_t>, 4> kinds{{{"dropped", now.dropped - before.dropped},
                                                                     {"damaged", now.damaged - before.damaged},
@@ -58,7 +58,7 @@ diagnostic_msgs::msg::DiagnosticStatus to_status(const std::string& component, c
   add_counters(status, counters);
   add(status, "age of the newest frame",
       counters.newest_stamp_ns ? fmt::format("{:.3f} s", static_cast<double>(now_ns - *counters.newest_stamp_ns) * 1e-9)
-                               : "none came yet");
+                               : "no frame yet");
   for (const auto& [key, value] : report.details) add(status, key, value);
 
   const std::string lost = losses(counters, before);

@@ -27,7 +27,7 @@ int bits_of(PixelFormat format) {
   }
 }
 
-/// Pixels of `bits` bits one after the other, the lowest bit first.
+/// Unpacks consecutive pixels of `bits` bits, lowest bit first.
 void unpack_stream(const std::uint8_t* bytes, std::size_t count, int bits, std::uint16_t* pixels) {
   std::uint32_t waiting = 0;
   int waiting_bits = 0;
@@ -43,7 +43,8 @@ void unpack_stream(const std::uint8_t* bytes, std::size_t count, int bits, std::
   }
 }
 
-/// Pairs of pixels in three bytes: the upper 8 bits of each in the outer ones, the `low_bits` below in the middle one, each in a half of its own.
+/// Unpacks pairs of pixels from three bytes: the outer bytes have the upper 8 bits of each pixel, the lower and upper
+/// half of the middle byte the `low_bits` of the first and second pixel.
 void unpack_pairs(const std::uint8_t* bytes, std::size_t count, int low_bits, std::uint16_t* pixels) {
   const unsigned mask = (1U << low_bits) - 1U;
   for (std::size_t i = 0; i < count; ++i) {

@@ -8,16 +8,16 @@
 
 namespace panvo::camera_stream {
 
-/// How many bytes an image of that format takes, rows without gaps.
+/// Number of bytes of an image in that format, without gaps between rows.
 std::size_t packed_bytes(PixelFormat format, int width, int height);
 
-/// Bits a grey pixel of 10 to 16 bits is to be shifted by to fill 16.
+/// Left shift in bits that expands a grey pixel of 10 to 16 bits to 16.
 int shift_of(PixelFormat format);
 
 /// Whether several pixels share a byte.
 bool is_packed(PixelFormat format);
 
-/// The pixels of a packed format, each shifted to fill 16 bits. `pixels` is of type CV_16UC1, its rows without gaps.
+/// Unpacks the pixels of a packed format and shifts each to fill 16 bits. `pixels` must be CV_16UC1 and continuous.
 void unpack(const RawImage& raw, cv::Mat& pixels);
 
 }  // namespace panvo::camera_stream

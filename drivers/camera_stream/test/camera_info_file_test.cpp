@@ -23,7 +23,7 @@ class CameraInfoFile : public ::testing::Test {
   }
   ~CameraInfoFile() override { fs::remove(path_); }
 
-  /// The example's left camera with one text replaced by another, as a file.
+  /// Writes the example's left camera file with one text replaced.
   fs::path example_with(const std::string& text, const std::string& other) const {
     std::ifstream example(fs::path(PANVO_RIGS) / "example" / "left.yaml");
     std::string content{std::istreambuf_iterator<char>(example), {}};
@@ -54,7 +54,7 @@ TEST_F(CameraInfoFile, IsReadWhole) {
   EXPECT_EQ(info.k()[2], 319.5);
   EXPECT_EQ(info.r()[8], 1.0);
   EXPECT_EQ(info.p()[3], -60.0);
-  EXPECT_TRUE(conversions::to_camera(info)) << "what the other components make of it";
+  EXPECT_TRUE(conversions::to_camera(info)) << "the other components can use it";
 }
 
 TEST_F(CameraInfoFile, IsTakenOfAnyLensModel) {
@@ -70,7 +70,8 @@ TEST_F(CameraInfoFile, NamesFileLineAndKeyOfWhatIsWrong) {
   EXPECT_THAT(error_of(example_with("image_height", "height")), HasSubstr("image_height is missing"));
   EXPECT_THAT(error_of(example_with("data: [525.0, 0.0", "data: [525.0")),
               AllOf(HasSubstr(":7: "), HasSubstr("camera_matrix has 8 numbers where 9")));
-  EXPECT_THAT(error_of(example_with("[525.0, 0.0", "[.nan, 0.0")), HasSubstr("camera_matrix holds what is no number"));
+  EXPECT_THAT(error_of(example_with("[525.0, 0.0", "[.nan, 0.0")),
+              HasSubstr("camera_matrix has a value that is not finite"));
   EXPECT_THAT(error_of(example_with("[525.0, 0.0", "[0.0, 0.0")), HasSubstr("focal length"));
   EXPECT_THAT(error_of(example_with("rows: 3", "rows: [3")), HasSubstr("is not YAML"));
 }

@@ -32,9 +32,9 @@ TEST(CameraRole, SaysHowManyCamerasALayoutHas) {
     }
     return "accepted";
   };
-  EXPECT_THAT(problem(Layout::kStereo, 1), HasSubstr("two cameras, left and right, but 1"));
-  EXPECT_THAT(problem(Layout::kMono, 2), HasSubstr("one camera, but 2"));
-  EXPECT_THAT(problem(Layout::kRig, 7), HasSubstr("one to six heads, but 7"));
+  EXPECT_THAT(problem(Layout::kStereo, 1), HasSubstr("two cameras, left and right; 1 given"));
+  EXPECT_THAT(problem(Layout::kMono, 2), HasSubstr("one camera; 2 given"));
+  EXPECT_THAT(problem(Layout::kRig, 7), HasSubstr("one to six heads; 7 given"));
   EXPECT_EQ(layout_of("rig"), Layout::kRig);
   EXPECT_THROW(layout_of("ring"), std::invalid_argument);
 }

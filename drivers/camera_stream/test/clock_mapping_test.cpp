@@ -14,8 +14,8 @@ namespace {
 
 constexpr std::int64_t kMs = 1'000'000, kSecond = 1000 * kMs;
 
-/// A camera whose clock is set `offset_ns` ahead of the host's and runs faster by `drift`, and a way to the host that takes at least
-/// `least_delay_ns`, mostly little more, now and then much more.
+/// A camera whose clock is `offset_ns` ahead of the host's and runs faster by `drift`. Transfer to the host takes at
+/// least `least_delay_ns`, usually little more, sometimes much more.
 struct Camera {
   std::int64_t offset_ns = 10 * kSecond;
   double drift = 100e-6;
@@ -74,7 +74,7 @@ TEST(ClockMapping, IsNotMovedByAHostThatSleptForTwoSeconds) {
   Camera camera;
   ClockMapping mapping;
   largest_error_ns(mapping, camera, 0.0, 20.0);
-  // Three seconds of frames, those of the first two handed over all at once.
+  // Three seconds of frames; those of the first two seconds are delivered at once.
   const std::int64_t slept_from_ns = camera.began_ns + 20 * kSecond;
   for (int i = 0; i < 180; ++i) {
     const std::int64_t taken_ns = slept_from_ns + i * kSecond / 60;
@@ -89,11 +89,11 @@ TEST(ClockMapping, BeginsAnewWithAClockThatBeganAnew) {
   Camera camera;
   ClockMapping mapping;
   const double error_ns = largest_error_ns(mapping, camera, 21.0, 30.0, [&](int i) {
-    if (i == 20 * 60) camera.offset_ns = -camera.began_ns;  // the camera was switched off and on: its clock is at 20 s
-    if (i == 25 * 60) camera.offset_ns = 3'000 * kSecond;   // and set forward
+    if (i == 20 * 60) camera.offset_ns = -camera.began_ns;  // power cycle: the clock shows 20 s
+    if (i == 25 * 60) camera.offset_ns = 3'000 * kSecond;   // set forward
   });
   EXPECT_EQ(mapping.resets(), 2u);
-  EXPECT_LT(error_ns, 45.0 * kMs);  // one frame may be held up just after a reset
+  EXPECT_LT(error_ns, 45.0 * kMs);  // a frame may be delayed just after a reset
 }
 
 TEST(ClockMapping, GivesStampsThatIncrease) {
@@ -104,7 +104,7 @@ TEST(ClockMapping, GivesStampsThatIncrease) {
     const bool is_set_anew = i == 1000;
     if (is_set_anew) camera.offset_ns -= 7 * kSecond;
     const std::int64_t taken_ns = camera.began_ns + i * kSecond / 60;
-    // The first frame of a clock is all that is known of it: held up, it puts its stamp after that of the next.
+    // After a reset, the offset comes from the first frame alone. If that is delayed, its stamp is later than the next.
     const std::int64_t held_up_ns = i == 0 || is_set_anew ? 90 * kMs : 0;
     const std::int64_t mapped_ns =
         mapping.to_host_ns(camera.device_ns(taken_ns), camera.arrival_ns(taken_ns) + held_up_ns);
@@ -115,14 +115,14 @@ TEST(ClockMapping, GivesStampsThatIncrease) {
 }
 
 TEST(ClockMapping, TakesStampsALittleAheadAsTheyAre) {
-  Camera camera{.offset_ns = 0, .drift = 0.0, .least_delay_ns = -70 * kMs};  // stamped 70 ms after it is handed over
+  Camera camera{.offset_ns = 0, .drift = 0.0, .least_delay_ns = -70 * kMs};  // stamped 70 ms ahead of the arrival
   ClockMapping mapping;
   largest_error_ns(mapping, camera, 0.0, 10.0);
   EXPECT_EQ(mapping.resets(), 0u);
 }
 
 TEST(ClockMapping, NeedsTheSameMemoryHoweverLongItRuns) {
-  // Sixteen hours in which the drift changes slowly, as with temperature.
+  // Almost 17 hours with a slowly changing drift, as caused by temperature.
   ClockMapping mapping;
   std::int64_t device_ns = 0;
   for (int i = 0; i < 60'000; ++i) {

@@ -35,7 +35,7 @@ TEST(FrameGaps, OfGigEVision2GoOnPast16Bits) {
   FrameGaps gaps(FrameNumbering::kGigEVision);
   EXPECT_EQ(missing(gaps, {65535, 65536, 65537}), 0);
   EXPECT_EQ(gaps.missing_before(65540), 2);
-  EXPECT_EQ(gaps.missing_before(1), 0);  // began anew
+  EXPECT_EQ(gaps.missing_before(1), 0);  // restarted
 }
 
 TEST(FrameGaps, IgnoreFramesThatTheDeviceDoesNotNumber) {

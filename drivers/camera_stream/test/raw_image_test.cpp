@@ -46,7 +46,8 @@ TEST(RawImage, ShiftsGreyOfFewerBitsUpTo16) {
 }
 
 TEST(RawImage, UnpacksPixelsOfTenAndTwelveBits) {
-  // 0xabc and 0x123, and of ten bits 0x2af, 0x123, 0x3ff, 0x001, worked out by hand from the definitions of the formats.
+  // Twelve bits: 0xabc, 0x123. Ten bits: 0x2af, 0x123, 0x3ff, 0x001. Packed by hand according to the format
+  // definitions.
   EXPECT_THAT(pixels16(*image_of(PixelFormat::kMono12p, 2, 1, {0xbc, 0x3a, 0x12})), ElementsAre(0xabc0, 0x1230));
   EXPECT_THAT(pixels16(*image_of(PixelFormat::kMono12Packed, 2, 1, {0xab, 0x3c, 0x12})), ElementsAre(0xabc0, 0x1230));
   EXPECT_THAT(pixels16(*image_of(PixelFormat::kMono10p, 4, 1, {0xaf, 0x8e, 0xf4, 0x7f, 0x00})),
@@ -61,7 +62,7 @@ TEST(RawImage, MakesEightBitsOfDeepGreyWhereAskedTo) {
 }
 
 TEST(RawImage, ReadsEachBayerPatternWithTheRightColour) {
-  // A red scene: only the red places of the pattern are bright.
+  // A red scene: only the red pixels of the pattern are bright.
   const struct {
     PixelFormat format;
     const char* encoding;
@@ -111,7 +112,7 @@ TEST(RawImage, SaysWhatIsWrongWithABuffer) {
   };
   EXPECT_THAT(reason(PixelFormat::kMono8, 4, 3), HasSubstr("holds 10 bytes where 4 x 3 px of Mono8 need 12"));
   EXPECT_THAT(reason(PixelFormat::kMono12p, 4, 2), HasSubstr("need 12"));
-  EXPECT_THAT(reason(PixelFormat::kMono8, 0, 3), HasSubstr("no image"));
+  EXPECT_THAT(reason(PixelFormat::kMono8, 0, 3), HasSubstr("not an image size"));
   EXPECT_THAT(reason(PixelFormat::kYuyv, 3, 1), HasSubstr("even width"));
   EXPECT_THAT(reason(PixelFormat::kMono8, 4, 1, 3), HasSubstr("rows of 3 bytes"));
   EXPECT_THAT(reason(PixelFormat::kMono12p, 2, 1, 8), HasSubstr("gaps"));

@@ -12,7 +12,7 @@ using State = Reconnection::State;
 
 constexpr Reconnection::Settings kSettings{.watchdog_ns = 1000, .retry_ns = 250};
 
-/// A camera that has streamed until `now_ns`.
+/// A camera that streamed until `now_ns`.
 Reconnection streaming(std::int64_t now_ns) {
   Reconnection machine(kSettings);
   machine.step(0);
@@ -21,7 +21,7 @@ Reconnection streaming(std::int64_t now_ns) {
   return machine;
 }
 
-/// Asks as often as a driver does, until `to_ns` or until it is to do something.
+/// Steps as often as a driver does, until `to_ns` or the first action.
 Action watch(Reconnection& machine, std::int64_t from_ns, std::int64_t to_ns) {
   Action action = Action::kNone;
   for (std::int64_t t = from_ns; t < to_ns && action == Action::kNone; t += 50) action = machine.step(t);
@@ -55,7 +55,7 @@ TEST(Reconnection, ClosesACameraThatIsSilentAndOpensItAgain) {
   EXPECT_EQ(machine.last_loss(), Loss::kNoFrames);
   EXPECT_EQ(machine.step(3001), Action::kOpen);
   machine.opened(3100);
-  EXPECT_EQ(machine.reconnects(), 0u) << "open is not yet streaming";
+  EXPECT_EQ(machine.reconnects(), 0u) << "opened, but no frame yet";
   machine.frame(3110);
   machine.frame(3120);
   EXPECT_EQ(machine.reconnects(), 1u);
@@ -68,7 +68,7 @@ TEST(Reconnection, DoesNotWaitForTheWatchdogWhenTheDeviceIsGone) {
   EXPECT_EQ(machine.last_loss(), Loss::kDeviceGone);
   machine.step(2010);
   machine.opened(2020);
-  EXPECT_EQ(machine.step(2030), Action::kNone) << "the word of the device that is gone says nothing of the new one";
+  EXPECT_EQ(machine.step(2030), Action::kNone) << "the report about the old device does not apply to the new one";
 }
 
 TEST(Reconnection, WatchesACameraThatOpensAndSendsNothing) {
@@ -83,10 +83,10 @@ TEST(Reconnection, WatchesACameraThatOpensAndSendsNothing) {
 TEST(Reconnection, DoesNotTakeACameraForSilentWhileItWasKeptFromWatching) {
   auto machine = streaming(2000);
   EXPECT_EQ(watch(machine, 2050, 2100), Action::kNone);
-  EXPECT_EQ(machine.step(1'000'000), Action::kNone) << "the machine slept";
+  EXPECT_EQ(machine.step(1'000'000), Action::kNone) << "the host was suspended";
   machine.frame(1'000'010);
   EXPECT_EQ(watch(machine, 1'000'050, 1'001'010), Action::kNone);
-  EXPECT_EQ(watch(machine, 1'001'011, 1'001'100), Action::kClose) << "but this is silence";
+  EXPECT_EQ(watch(machine, 1'001'011, 1'001'100), Action::kClose) << "now the camera is silent";
 }
 
 TEST(Reconnection, FindsSilenceAlsoWhereItIsOftenKeptFromWatching) {

@@ -73,7 +73,7 @@ TEST(StampPairing, GivesSeveralSetsWhenALateCameraCatchesUp) {
 }
 
 TEST(StampPairing, CountsEveryFrameOnce) {
-  // Each camera loses every so many frames: what was pushed is in a set, was dropped, or waits.
+  // Each camera loses frames periodically: every pushed frame is in a set, dropped or waiting.
   Pairing pairing({.streams = 2, .tolerance_ns = 5, .depth = 4});
   std::uint64_t pushed[2] = {0, 0}, sets = 0;
   for (int i = 0; i < 1000; ++i) {
@@ -85,7 +85,7 @@ TEST(StampPairing, CountsEveryFrameOnce) {
   }
   EXPECT_EQ(pushed[0] - pairing.unpaired(0), sets);
   EXPECT_EQ(pushed[1] - pairing.unpaired(1), sets);
-  EXPECT_EQ(sets, 1000u - 143u - 91u + 13u);  // both lost, each lost, lost by both
+  EXPECT_EQ(sets, 1000u - 143u - 91u + 13u);  // lost by the first, by the second, by both (subtracted twice)
 }
 
 TEST(StampPairing, RefusesSettingsThatMakeNoSense) {

@@ -88,7 +88,7 @@ TEST(StreamCounters, AreAnErrorWhileNothingComes) {
   EXPECT_EQ(status.level(), 2);
   EXPECT_EQ(status.message(), "not connected: there is no camera GVL");
   EXPECT_EQ(status.hardware_id(), "none");
-  EXPECT_EQ(value_of(status, "age of the newest frame"), "none came yet");
+  EXPECT_EQ(value_of(status, "age of the newest frame"), "no frame yet");
 }
 
 }  // namespace

@@ -86,7 +86,7 @@ TEST_F(CalibrationFile, WithABaselineOfZeroIsRefused) {
 
 TEST_F(CalibrationFile, WithExchangedCamerasIsRefused) {
   write("c.xml", boofcv_calibration(-0.12));
-  EXPECT_THAT(error_of([&] { read_boofcv_calibration(root_ / "c.xml"); }), HasSubstr("exchanged"));
+  EXPECT_THAT(error_of([&] { read_boofcv_calibration(root_ / "c.xml"); }), HasSubstr("swapped"));
 }
 
 TEST_F(CalibrationFile, WithoutNumbersIsRefused) {
@@ -154,7 +154,7 @@ TEST_F(CalibrationFile, OfRosWithAnUnknownLensIsRefused) {
   write("left.yaml", camera_info(0.0, "division"));
   write("right.yaml", camera_info(-4.8));
   EXPECT_THAT(error_of([&] { read_ros_calibration(root_ / "left.yaml", root_ / "right.yaml"); }),
-              AllOf(HasSubstr("left.yaml:9:"), HasSubstr("'division'"), HasSubstr("known are plumb_bob")));
+              AllOf(HasSubstr("left.yaml:9:"), HasSubstr("'division'"), HasSubstr("supported are plumb_bob")));
 }
 
 TEST_F(CalibrationFile, OfOpencvIsReadFromOneFileOrTwo) {

@@ -11,15 +11,15 @@ namespace panvo::simulation {
 
 inline constexpr int kBlock = 4;  ///< a packet is 4 x 4 pixels
 
-/// The rays of a camera in blocks, with the steps from one pixel to the next.
+/// The rays of a camera in blocks, with their changes from pixel to pixel.
 class BlockRays {
  public:
   explicit BlockRays(const CameraRays& rays) : rays_(rays) {}
 
-  /// The centres of the pixels of a block; lanes beyond the image or where the camera sees nothing are left out.
+  /// Fills in the rays of a block's pixel centres; lanes outside the image or without a ray are disabled.
   void fill(int left, int top, SampleRays& samples) const;
 
-  /// What the direction gains per column and per row, on the average of the block.
+  /// Change of the direction per column and per row, averaged over the block.
   struct Steps {
     Eigen::Vector3f across = Eigen::Vector3f::Zero(), down = Eigen::Vector3f::Zero();
   };

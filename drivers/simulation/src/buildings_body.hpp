@@ -8,12 +8,12 @@
 namespace panvo::simulation {
 
 /// A building's body: a box with four facades and a roof. x to the right along the front as seen from the road, y
-/// towards the back, z up from the floor of the ground storey; the origin is the middle of the box.
+/// towards the back, z up from the ground floor; the origin is the centre of the box.
 struct Body {
   Eigen::Isometry3f world_from_body = Eigen::Isometry3f::Identity();
   float width = 12.0f, depth = 10.0f;  ///< m, along x and y
-  float depth_below = 0.5f;            ///< m that its walls go on below the floor
-  bool ridge_across = false;           ///< the gable looks to the front
+  float depth_below = 0.5f;            ///< m; depth of its walls below the floor
+  bool ridge_across = false;           ///< the gable faces the front
 
   /// The four walls: front, right, back, left.
   WallFrame wall(int side) const;
@@ -22,7 +22,7 @@ struct Body {
 void build_body(const FacadeStyle& style, const BuildingMaterials& materials, const Body& body, Random lights,
                 Mesh& mesh);
 
-/// The roof on it, with chimneys, dormers, gutters, or what stands on a flat one (buildings_roof.cpp).
+/// Adds the roof with chimneys, dormers and gutters, or the structures on a flat roof (buildings_roof.cpp).
 void build_roof(const FacadeStyle& style, const BuildingMaterials& materials, const Body& body, Random random,
                 Mesh& mesh);
 

@@ -6,9 +6,9 @@
 
 namespace panvo::simulation {
 
-inline constexpr std::uint32_t kSunny = 0x80000000u;  ///< the top bit of a normal: it is in the sun
+inline constexpr std::uint32_t kSunny = 0x80000000u;  ///< the top bit of a normal: the surface is sunlit
 
-/// What the centres of the pixels see.
+/// The surfaces at the pixel centres.
 struct SeenSurfaces {
   const cv::Mat& radiance;       ///< CV_32FC3
   const cv::Mat& inverse_range;  ///< CV_32FC1, 1/m; 0: the sky
@@ -17,16 +17,16 @@ struct SeenSurfaces {
   bool wraps = false;
 };
 
-/// What find_edges() tells of a pixel.
+/// The result of find_edges() for a pixel.
 enum EdgeMark : std::uint8_t {
   kCrossed = 1,      ///< an edge may cross it
-  kInLeaves = 2,     ///< it lies among leaves, where nobody sees a single edge
-  kAllInSun = 4,     ///< it and its neighbours, as far as they are not sky, are in the sun
-  kAllInShadow = 8,  ///< none of them is
+  kInLeaves = 2,     ///< it lies among leaves, where single edges are not visible
+  kAllInSun = 4,     ///< it and its neighbours, except for sky, are sunlit
+  kAllInShadow = 8,  ///< it and its neighbours, except for sky, are in shadow
 };
 
-/// Marks (0, or EdgeMark's bits) the pixels in these rows that an edge may cross: a neighbour belongs to something else, faces
-/// elsewhere, lies behind or before, or in other light, and looks different, too.
+/// Marks (0, or bits of EdgeMark) the pixels in these rows that an edge may cross: a neighbour differs in object,
+/// direction, range or sunlight, and also in radiance.
 void find_edges(const SeenSurfaces& seen, int first_row, int end_row, cv::Mat& is_edge);
 
 }  // namespace panvo::simulation

@@ -11,25 +11,25 @@
 
 namespace panvo::simulation {
 
-/// Offsets inside a pixel, -0.5..0.5, and moments, 0..1, of the samples of an edge.
+/// Offset within a pixel, -0.5..0.5, and shutter time, 0..1, of an edge sample.
 struct EdgeSample {
   float column, row, time;
 };
 
-/// The samples of an edge beside the pixel's centre: their mean is the centre, in place and time, so that the picture
-/// does not shift, and no two of them have about the same column or row.
+/// The samples of an edge pixel besides its centre. Their mean is the centre in position and time, so that the image
+/// does not shift; no two of them have nearly the same column or row.
 std::vector<EdgeSample> edge_samples(int count);
 
-/// Averages over the pixels that edges cross. Most samples only ask which of the surfaces there they meet, and take
-/// the light that this surface has in the nearest pixel whose centre sees it; the others are shaded.
+/// Averages over pixels that edges cross. Most samples only determine which surface they hit and reuse its radiance
+/// from the nearest pixel whose centre sees it; the others are shaded.
 class EdgeTracer {
  public:
-  /// `centres` is what the pixels' centres see, `marks` what find_edges() says of it; moment i + 1 of `tracer` is that
-  /// of sample i.
+  /// `centres`: surfaces at the pixel centres; `marks`: result of find_edges(). Moment i + 1 of `tracer` belongs to
+  /// sample i.
   EdgeTracer(const PacketTracer& tracer, const CameraRays& rays, const std::vector<EdgeSample>& offsets,
              const SeenSurfaces& centres, const cv::Mat& marks, Renderer::Statistics& statistics);
 
-  /// Four rows of pixels, from `top` on, into `radiance`, which holds the centres' so far.
+  /// Processes four rows of pixels from `top` on in `radiance`, which holds the radiance of the centres.
   void trace(int top, cv::Mat& radiance);
 
  private:
@@ -61,9 +61,9 @@ class EdgeTracer {
   Renderer::Statistics& statistics_;
   std::vector<std::vector<std::size_t>> among_leaves_;
   std::vector<std::size_t> all_;
-  Queue asked_;   // to find out what they meet
+  Queue asked_;   // to trace
   Queue leaves_;  // to trace and shade
-  Queue met_;     // traced, but of no known light
+  Queue met_;     // traced, to shade because no pixel has their radiance
   TracedPacket met_packet_;
 };
 

@@ -10,7 +10,7 @@
 
 namespace panvo::simulation {
 
-/// The numbers of the materials that buildings are made of.
+/// The palette indices of building materials.
 struct BuildingMaterials {
   explicit BuildingMaterials(const Palette& palette);
 
@@ -26,7 +26,7 @@ enum class HeadKind { kFlat, kSegment, kArch };
 enum class RoofKind { kFlat, kGable, kHip };
 enum class BuildingUse { kHouse, kTown, kInstitute, kHall };
 
-/// How a building looks; all of its facades share it, and twins do. Lengths in m.
+/// The style of a building, shared by all its facades and by its twins. Lengths in m.
 struct FacadeStyle {
   BuildingUse use = BuildingUse::kTown;
   int floors = 3;
@@ -43,23 +43,23 @@ struct FacadeStyle {
   bool ledges = false, sills = true, lintels = false, surrounds = false, keystones = false, pediments = false,
        quoins = false, shutters = false, balconies = false, dentils = false, pilasters = false, shopfronts = false,
        gutters = true, ivy = false, two_tone = false;
-  float cornice = 0.25f;    ///< how far it protrudes
-  float blank_bays = 0.2f;  ///< share of a side's bays without windows
-  float grime = 0.25f;      ///< how much darker the wall is at its foot
+  float cornice = 0.25f;    ///< protrusion
+  float blank_bays = 0.2f;  ///< fraction of a side's bays without windows
+  float grime = 0.25f;      ///< darkening of the wall at its base, as a fraction
   float contrast = 1.0f;    ///< of its textures
   std::uint16_t wall = 0, ground_wall = 0, base = 0, trim = 0, roof_cover = 0;
   Tint wall_tint, trim_tint, frame_tint, shutter_tint, door_tint, roof_tint;
 };
 
-/// A style drawn by chance.
+/// Draws a random style.
 FacadeStyle draw_style(BuildingUse use, const Palette& palette, const BuildingMaterials& materials, Random random);
 
-/// A wall's place: u to the right as seen from outside, `out` outwards, z up from the floor of the ground storey.
+/// The frame of a wall: u to the right as seen from outside, `out` outwards, z up from the ground floor.
 struct WallFrame {
   Eigen::Vector3f origin = Eigen::Vector3f::Zero();  ///< the wall's left end, at z = 0
   Eigen::Vector3f right = Eigen::Vector3f::UnitX(), outwards = -Eigen::Vector3f::UnitY();  ///< unit, horizontal
   float width = 0.0f;
-  float depth_below = 0.5f;  ///< how far the wall goes on below z = 0
+  float depth_below = 0.5f;  ///< depth of the wall below z = 0
 
   Eigen::Vector3f at(float u, float out, float z) const {
     return origin + u * right + out * outwards + Eigen::Vector3f(0, 0, z);
@@ -68,32 +68,33 @@ struct WallFrame {
 
 enum class FacadeSide { kFront, kSide, kBack };
 
-/// The wall with all that is on it, up to the eaves. `lights` decides what repeats nowhere: curtains, signs, stains.
+/// Adds a wall with all its details, up to the eaves. `lights`: random numbers for unique details: curtains, signs,
+/// stains.
 void build_facade(const FacadeStyle& style, const BuildingMaterials& materials, const WallFrame& frame, FacadeSide side,
                   Random lights, Mesh& mesh);
 
-/// Height (m) of the walls above the ground storey's floor.
+/// Height (m) of the walls above the ground floor.
 float wall_height(const FacadeStyle& style);
 
-/// A box on a wall: from u0 to u1, z0 to z1, from the wall's face `behind` to `front`; without its hidden back.
+/// Adds a box on a wall: u0 to u1, z0 to z1, and `behind` to `front` outwards; without its hidden back.
 void add_wall_box(Mesh& mesh, const WallFrame& frame, float u0, float u1, float z0, float z1, float behind, float front,
                   std::uint16_t material, Tint tint);
 
-/// An opening in a wall; `rise`: height of the arch on top of it.
+/// An opening in a wall; `rise`: height of its arch.
 struct Opening {
   float left = 0.0f, right = 0.0f, bottom = 0.0f, top = 0.0f, rise = 0.0f;
 
   float middle() const { return 0.5f * (left + right); }
 };
 
-/// What fills an opening (facade_windows.cpp).
+/// Fills an opening (facade_windows.cpp).
 void build_window(const FacadeStyle& style, const BuildingMaterials& materials, const WallFrame& frame,
                   const Opening& opening, bool is_simple, Random& lights, Mesh& mesh);
 void build_door(const FacadeStyle& style, const BuildingMaterials& materials, const WallFrame& frame,
                 const Opening& opening, Random& lights, Mesh& mesh);
 
-/// What is fixed to a wall (facade_fixtures.cpp): steps, canopy or lamp and a plate at a door; a sign, now and then an awning or a
-/// poster at a shop; a balcony before its door, the lowest one deeper; what cools a room; ivy.
+/// Wall fixtures (facade_fixtures.cpp): at a door, steps, a canopy or lamp and a plate; at a shop, a sign, sometimes an
+/// awning or a poster; a balcony with its door, the lowest one deeper; an air conditioner; ivy.
 void build_entrance(const FacadeStyle& style, const BuildingMaterials& materials, const WallFrame& frame,
                     const Opening& opening, Random& lights, Mesh& mesh);
 void build_shop_sign(const FacadeStyle& style, const BuildingMaterials& materials, const WallFrame& frame,
@@ -105,7 +106,7 @@ void build_air_conditioner(const BuildingMaterials& materials, const WallFrame& 
 void build_ivy(const FacadeStyle& style, const BuildingMaterials& materials, const WallFrame& frame, Random& lights,
                Mesh& mesh);
 
-/// Height (m) of a door's threshold above the ground: whole steps.
+/// Height (m) of a door's threshold above the ground: a whole number of steps.
 float entry_height(const FacadeStyle& style);
 
 /// The outline of an opening, from its lower left corner clockwise (as seen from outside) to its lower right one.

@@ -7,7 +7,7 @@
 
 namespace panvo::simulation {
 
-/// The numbers of the materials that street furniture is made of.
+/// The palette indices of street furniture materials.
 struct FurnitureMaterials {
   explicit FurnitureMaterials(const Palette& palette);
 
@@ -15,7 +15,7 @@ struct FurnitureMaterials {
       concrete, stone_rubble, brick_red, ledge, tyre, poster;
 };
 
-// All stand at the origin; what is seen from the road looks along -y, as a building's front does. Lengths in m.
+// All models stand at the origin; the side that faces the road faces -y, as a building's front does. Lengths in m.
 Mesh build_lamp_post(const FurnitureMaterials& materials, float height, bool is_lantern);
 enum class SignKind { kStop, kSquare, kPlace, kArrow };
 Mesh build_sign(const FurnitureMaterials& materials, SignKind kind);
@@ -27,7 +27,7 @@ Mesh build_hydrant(const FurnitureMaterials& materials);
 Mesh build_cabinet(const FurnitureMaterials& materials);
 Mesh build_bicycle_stand(const FurnitureMaterials& materials, Random random);
 Mesh build_notice_board(const FurnitureMaterials& materials);
-/// Two metres along x, posts at one end.
+/// Builds two metres of fence along x, with a post at one end only.
 enum class FenceKind { kSlats, kBars, kWall, kBrickWall };
 Mesh build_fence(const FurnitureMaterials& materials, FenceKind kind, Random random);
 

@@ -11,7 +11,7 @@
 
 namespace panvo::simulation {
 
-// What several of the planner's files use.
+// Helpers shared by the planner's files.
 
 template <typename T>
 const T& pick(Random& random, const std::vector<T>& choices) {
@@ -35,29 +35,29 @@ struct FurnitureModels {
 };
 FurnitureModels build_furniture_models(const Palette& palette, std::uint64_t seed, Scene& scene);
 
-/// Decides what stands where, and puts it there.
+/// Decides where furniture stands, and places it.
 class FurniturePlanner {
  public:
   FurniturePlanner(const Site& site, const std::vector<Plot>& plots, const FurnitureModels& models, Scene& scene);
 
   void furnish_open_plots();  ///< car parks, plazas and groves
   void furnish_kerbs();       ///< lamps, signs, bins, parked cars
-  void fill_drives();         ///< beside buildings, with a car on most
-  void edge_gardens();        ///< hedges, fences and walls before the buildings
+  void fill_drives();         ///< beside buildings, most with a car
+  void edge_gardens();        ///< hedges, fences and walls in front of buildings
   void plant_rows();          ///< trees along roads
   void plant_at_walls();      ///< shrubs and flowers
-  void scatter_trees();       ///< on lawns, and a belt about the campus
+  void scatter_trees();       ///< on lawns, and in a belt around the campus
 
  private:
-  /// Whether a thing of that radius (m) finds room: off the road, off buildings, clear of what stands there already.
+  /// Whether an object of that radius (m) fits: off the road, outside buildings, clear of other objects.
   bool has_room(const Eigen::Vector2d& point, double radius_m, double least_from_kerb_m) const;
   bool has_room_for_car(const Eigen::Vector2d& point, double heading_rad, double least_from_kerb_m) const;
-  /// How wide (m) the pavement is beside that point of it.
+  /// Width (m) of the pavement at that point.
   double pavement_m(const Eigen::Vector2d& point) const;
   void occupy(const Eigen::Vector2d& point, double radius_m);
-  /// Stands a model there, its x axis along `heading_rad`.
+  /// Places a model with its x axis along `heading_rad`.
   void stand(std::uint32_t model, const Eigen::Vector2d& point, double heading_rad, double scale = 1.0, Tint tint = {});
-  /// As stand() if there is room, and keeps it.
+  /// As stand() if there is room, and marks the area as occupied.
   bool try_to_stand(std::uint32_t model, const Eigen::Vector2d& point, double heading_rad, double radius_m,
                     double least_from_kerb_m, double scale = 1.0, Tint tint = {});
   void plant(const std::vector<std::uint32_t>& kinds, const Eigen::Vector2d& point, double least_from_kerb_m,
@@ -67,7 +67,7 @@ class FurniturePlanner {
   void furnish_car_park(const PlannedPlot& planned, Random& random);
   void furnish_plaza(const PlannedPlot& planned, Random& random);
   void furnish_grove(const PlannedPlot& planned, Random& random);
-  /// Covers a plot with a surface a little above the ground.
+  /// Covers a plot with a surface slightly above the ground.
   void pave(const Plot& plot, std::uint16_t material, Tint tint);
 
   struct Disc {

@@ -12,7 +12,7 @@
 
 namespace panvo::simulation {
 
-/// What is laid on the ground, and how.
+/// The appearance of a flat object laid on the ground.
 struct Cloth {
   std::uint16_t material = 0;
   double lift_m = 0.003;  ///< above the ground
@@ -22,7 +22,7 @@ struct Cloth {
   Eigen::Vector2d forward = Eigen::Vector2d::UnitX();  ///< along the texture's u
 };
 
-/// A box on the plan: where, which way, half its length and width.
+/// A rectangle on the plan.
 struct Rectangle {
   Eigen::Vector2d middle = Eigen::Vector2d::Zero(), forward = Eigen::Vector2d::UnitX();
   double half_length_m = 0.5, half_width_m = 0.5;
@@ -32,20 +32,21 @@ struct Rectangle {
   }
 };
 
-/// Lays flat things on the ground so that they follow it.
+/// Lays flat objects on the ground so that they follow it.
 class Drape {
  public:
   Drape(const Site& site, const GroundPaint& paint) : site_(site), paint_(paint) {}
 
-  /// Between two lines with as many points, a metre apart at most; `right` lies on the right when looking along them.
+  /// Adds a strip between two lines with equal numbers of points, at most a metre apart; `right` is on the right when
+  /// looking along them.
   void ribbon(std::span<const Eigen::Vector2d> right, std::span<const Eigen::Vector2d> left, const Cloth& cloth);
-  /// A small convex outline, counter-clockwise.
+  /// Adds a small convex polygon, counter-clockwise.
   void polygon(std::span<const Eigen::Vector2d> outline, const Cloth& cloth);
   void rectangle(const Rectangle& where, const Cloth& cloth);
   void disc(const Eigen::Vector2d& middle, double radius_m, int sides, const Cloth& cloth);
-  /// A rectangle whose outline wavers by some `ragged_m`.
+  /// Adds a rectangle whose outline is irregular by about `ragged_m`.
   void ragged(const Rectangle& where, double ragged_m, const Cloth& cloth, Random random);
-  /// A line of changing width, at most `width_m`.
+  /// Adds a line of varying width, at most `width_m`.
   void thread(const std::vector<Eigen::Vector2d>& line, double width_m, const Cloth& cloth, Random random);
 
   Mesh take() { return std::move(mesh_); }

@@ -10,19 +10,19 @@
 
 namespace panvo::simulation {
 
-/// What colours the ground from place to place: age, dirt, wear, damp.
+/// Local tints of the ground: age, dirt, wear, damp.
 class GroundPaint {
  public:
   explicit GroundPaint(const Site& site);
 
-  /// Of the carriageway, `kerb_m` from the kerb (negative) and so far into the street, in a zone.
+  /// Tint of the carriageway in a zone, `kerb_m` from the kerb (negative) and `into_street_m` into the street.
   Tint carriageway(const Eigen::Vector2d& point, double kerb_m, double into_street_m, const Zone& zone) const;
-  /// Of a band beside it.
+  /// Tint of a band beside the carriageway.
   Tint beside(const Eigen::Vector2d& point, double kerb_m, const Eigen::Vector3f& tint) const;
   Tint grass(const Eigen::Vector2d& point, double kerb_m) const;
-  /// Fields beyond the campus; meets grass() at kFieldsBegin_m from the kerb.
+  /// Tint of fields beyond the campus; equals grass() at kFieldsBegin_m from the kerb.
   Tint field(const Eigen::Vector2d& point, double kerb_m) const;
-  /// Of things laid on the road: `tint` with the dirt of the place.
+  /// Tint of objects laid on the road: `tint` with the local dirt.
   Tint laid(const Eigen::Vector2d& point, const Eigen::Vector3f& tint, double contrast = 1.0) const;
 
   static constexpr double kFieldsBegin_m = 45.0;
@@ -33,7 +33,7 @@ class GroundPaint {
 
   const Site& site_;
   LandNoise fine_, medium_, coarse_, dirt_, field_, field_share_;
-  Eigen::Vector3f far_from_grass_;  ///< tint with which far land looks like grass
+  Eigen::Vector3f far_from_grass_;  ///< tint that makes the distant land material look like grass
 };
 
 }  // namespace panvo::simulation

@@ -10,11 +10,11 @@ namespace panvo::simulation {
 constexpr double kKerbHeight_m = 0.12;
 constexpr double kKerbStoneWidth_m = 0.15;
 
-/// The ground itself: carriageways at the terrain's height, and beyond the kerb, 0.12 m higher, pavements, grass and
-/// fields. The step between the two is open: kerb stones cover it.
+/// Builds the ground: carriageways at the terrain's height and, 0.12 m higher beyond the kerb, pavements, grass and
+/// fields. The step between them is left open for the kerb stones.
 Mesh ground_surface(const Site& site, const GroundZones& zones, const GroundPaint& paint);
 
-/// Kerb stones, one after the other along every kerb.
+/// Builds the kerb stones along all kerbs.
 Mesh kerb_stones(const Site& site, const GroundPaint& paint);
 
 }  // namespace panvo::simulation

@@ -9,11 +9,11 @@
 
 namespace panvo::simulation {
 
-/// Where the kerbs of a road network run, and how far from them any place is.
+/// The kerbs of a road network and the distance of any point from them.
 ///
-/// The carriageway is the union of the roads' strips and of the turning circles at their dead ends, closed by a disc:
-/// what no disc of kCornerRadius that keeps off the strips can reach is road too. That rounds every corner of a
-/// junction to that radius and leaves straight kerbs where they are. Distances are kept on a grid.
+/// The carriageway is the union of the roads' strips and the turning circles at dead ends, after morphological closing
+/// with a disc of kCornerRadius_m. This rounds all corners of junctions to that radius and leaves straight kerbs
+/// unchanged. Distances are stored on a grid.
 class KerbField {
  public:
   static constexpr double kCornerRadius_m = 5.0;
@@ -24,18 +24,18 @@ class KerbField {
   /// Signed distance (m): negative on the road.
   double distance_m(const Eigen::Vector2d& point) const;
 
-  /// Unit vector along which the distance grows: away from the road.
+  /// Unit vector of increasing distance: away from the road.
   Eigen::Vector2d outwards(const Eigen::Vector2d& point) const;
 
-  /// As RoadNetwork::nearest_road, but the road whose edge is nearest, and without looking at every road: exact near
-  /// roads, and within centimetres far off.
+  /// As RoadNetwork::nearest_road, but for the road whose edge is nearest, and without a search over all roads: exact
+  /// near roads, within centimetres far away.
   RoadNetwork::Nearest nearest_road(const Eigen::Vector2d& point) const;
 
   /// Length (m) of a road's centre line.
   double length_m(int road) const { return lengths_m_[static_cast<std::size_t>(road)]; }
 
-  /// The kerbs: closed polylines (the last point is the first one's neighbour) with the road on their left, a point
-  /// every half metre or nearer.
+  /// The kerbs as closed polylines (the last point connects to the first) with the road on their left and points at
+  /// most half a metre apart.
   std::vector<std::vector<Eigen::Vector2d>> kerb_lines() const;
 
  private:
@@ -59,7 +59,7 @@ class KerbField {
   int columns_ = 0, rows_ = 0;
   std::vector<Segment> segments_;
   std::vector<double> lengths_m_;
-  std::vector<std::int32_t> nearest_;  ///< segment of each node
+  std::vector<std::int32_t> nearest_;  ///< nearest segment of each node
   std::vector<float> distance_m_;      ///< of each node
 };
 

@@ -10,7 +10,7 @@
 
 namespace panvo::simulation {
 
-/// Smooth chance over the land: values in [-1, 1], lumps of `size_m`, the same for the same seed and purpose.
+/// Smooth noise over the plan: values in [-1, 1], feature size `size_m`, determined by seed and purpose.
 class LandNoise {
  public:
   LandNoise(std::uint64_t seed, std::string_view purpose, double size_m)

@@ -13,40 +13,41 @@
 
 namespace panvo::simulation {
 
-/// Moments at which the shutter's time is probed: the middle, for the pixels' centres, then the samples of edges.
+/// The camera pose at a moment while the shutter is open: moment 0 is the middle, for pixel centres; the others are for
+/// edge samples.
 struct ShutterPose {
   std::array<float, 9> world_from_camera{};  ///< rotation, row by row
   std::array<float, 3> origin{};
   float time = 0.0f;  ///< 0: opened, 1: closed
 };
 
-/// Where sixteen samples lie: image columns and rows, and which moment they see.
+/// The rays and moments of sixteen samples.
 struct SampleRays {
   std::array<Eigen::Vector3f, kPacket> directions;  ///< unit, optical frame
   std::array<int, kPacket> moments{};
-  std::uint32_t lanes = 0;                                ///< bit by bit: which of the sixteen there are
-  std::array<Eigen::Vector3f, kPacket> across{}, down{};  ///< what the direction gains per column and row
-  bool is_block = false;                                  ///< 4 x 4 pixels' centres: one moment and one step for all
-  std::uint32_t in_sun = 0, in_shadow = 0;                ///< lanes, bit by bit, of which this is known
-  float share = 1.0f;                                     ///< of the pixel and of the shutter's time
+  std::uint32_t lanes = 0;                                ///< bit mask of the lanes in use
+  std::array<Eigen::Vector3f, kPacket> across{}, down{};  ///< change of the direction per column and row
+  bool is_block = false;                                  ///< centres of 4 x 4 pixels: one moment and step for all
+  std::uint32_t in_sun = 0, in_shadow = 0;                ///< bit masks of lanes known to be sunlit or in shadow
+  float share = 1.0f;                                     ///< fraction of pixel size and shutter time covered
 };
 
-/// What sixteen samples see.
+/// The results of sixteen samples.
 struct SampleResults {
   std::array<std::array<float, 3>, kPacket> radiance{};
   std::array<float, kPacket> distance{};        ///< m; infinity: the sky
   std::array<std::uint32_t, kPacket> key{};     ///< 0: the sky
-  std::array<std::uint32_t, kPacket> normal{};  ///< as ShadedPacket's, and the top bit: in the sun
+  std::array<std::uint32_t, kPacket> normal{};  ///< as in ShadedPacket; top bit: sunlit
 };
 
-/// What a sample meets, without its light.
+/// The surface that a sample hits, without shading.
 struct SeenSurface {
-  std::uint32_t key = 0;                             ///< as SampleResults'
+  std::uint32_t key = 0;                             ///< as in SampleResults
   Eigen::Vector3f normal = Eigen::Vector3f::Zero();  ///< of the flat surface: unit, world frame, towards the camera
   float inverse_range = 0.0f;                        ///< 1/m
 };
 
-/// Traces and shades the samples of one frame. Safe to use from many threads at once.
+/// Traces and shades the samples of one frame. Thread-safe.
 class PacketTracer {
  public:
   PacketTracer(const TracedScene& scene, const Sky& sky, const Light& light, const ShadingTables& tables,
@@ -59,15 +60,15 @@ class PacketTracer {
     shade(samples, packet, results, statistics);
   }
 
-  /// trace() in two: what the samples meet, and how that looks.
+  /// The two parts of trace(): intersection and shading.
   void meet(const SampleRays& samples, TracedPacket& packet, Renderer::Statistics& statistics) const;
   void shade(const SampleRays& samples, const TracedPacket& packet, SampleResults& results,
              Renderer::Statistics& statistics) const;
 
-  /// Which surface a lane met.
+  /// The surface that a lane hit.
   SeenSurface surface(const TracedPacket& packet, std::size_t lane) const;
 
-  /// The distances only, m; at the moment of each lane.
+  /// Distances only, m, at the moment of each lane.
   void trace_range(const SampleRays& samples, float* distances) const;
 
  private:

@@ -9,37 +9,38 @@
 
 namespace panvo::simulation {
 
-inline constexpr float kTurn = 2.0f * std::numbers::pi_v<float>;  ///< once round, rad
+inline constexpr float kTurn = 2.0f * std::numbers::pi_v<float>;  ///< full turn, rad
 
-// Painters: each paints one kind of surface as one sees it (row 0 on top). Colours are linear RGB reflectances, CV_32FC3;
-// overlays CV_32FC1 with mean 1, the factor by which they change what is below.
+// Painters: each paints one kind of surface with row 0 at the top. Colours are linear RGB reflectances, CV_32FC3;
+// overlays are factors with mean 1, CV_32FC1.
 using Colour = cv::Vec3f;
 
-/// The picture as a Texture wants it: sRGB RGBA, row 0 at v = 0 (the bottom). `alpha` (CV_32FC1, 0..1) may be empty.
+/// Converts a picture for Texture: sRGB RGBA, row 0 at v = 0 (the bottom). `alpha` (CV_32FC1, 0..1) may be empty.
 cv::Mat encoded_picture(const cv::Mat3f& linear, const cv::Mat1f& alpha = {});
-/// An overlay as a Texture: half its value.
+/// Converts an overlay for Texture, scaled by half.
 cv::Mat encoded_overlay(const cv::Mat1f& factor);
 
-/// A colour near `colour`: its brightness and hue varied by the share given.
+/// A colour near `colour`, with brightness and hue varied by these fractions.
 Colour varied(const Colour& colour, float brightness, float hue, Random random);
 
-/// Darkens crevices and lightens ridges: `height` in px, against its own blur of `reach_px`.
+/// Darkens crevices and lightens ridges, from `height` in px relative to its blur of `reach_px`.
 void add_relief(cv::Mat3f& picture, const cv::Mat1f& height, float reach_px, float strength);
 
-/// A chance place (px) in a picture of `size`.
+/// A random position (px) in a picture of `size`.
 cv::Point2f somewhere(int size, Random& random);
 
-/// Where a shape with that bounding box must be drawn so that the picture of `size` stays tileable: offsets in px.
+/// Offsets in px at which to draw a shape with that bounding box so that the picture of `size` stays tileable.
 std::vector<cv::Point> tiling_offsets(const cv::Rect& box, int size);
 
-/// A line that wanders from `start` (px) in `direction_rad`: its corners, `step_px` apart.
+/// The corners, `step_px` apart, of a random line from `start` (px) in `direction_rad`.
 std::vector<cv::Point2f> wandering_line(cv::Point2f start, float direction_rad, float length_px, float step_px,
                                         float unrest_rad, Random random);
 
-/// Draws a line of corners with that value around the borders.
+/// Draws a polyline with that value, wrapping around the borders.
 void draw_line(cv::Mat1f& picture, const std::vector<cv::Point2f>& line, float value, float width_px);
 
-/// Takes `share` of what is uneven over more than a tenth of the picture out of it: the eye finds a period by that.
+/// Reduces variations larger than a tenth of the picture by the fraction `share`, because they make the repetition
+/// visible.
 void flatten(cv::Mat3f& picture, float share);
 
 // Ground
@@ -78,7 +79,7 @@ struct LeafShape {
   int leaves = 90;
   float length_m = 0.1f;
   float width_share = 0.6f;  ///< of the length
-  int needles = 0;           ///< per twig instead of leaves
+  int needles = 0;           ///< per twig, in place of leaves
 };
 Cutout paint_leaves(const LeafShape& shape, const Colour& colour, Random random);
 cv::Mat3f paint_hedge(const Colour& colour, Random random);

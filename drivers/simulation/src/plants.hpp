@@ -9,7 +9,7 @@
 
 namespace panvo::simulation {
 
-/// The numbers of the materials that plants are made of, and the size of a picture of leaves.
+/// The palette indices of plant materials, and the sizes of the leaf pictures.
 struct PlantMaterials {
   explicit PlantMaterials(const Palette& palette);
 
@@ -19,16 +19,16 @@ struct PlantMaterials {
 
 enum class TreeKind { kBroad, kSpreading, kBirch, kPoplar, kYoung, kSpruce, kPine };
 
-/// A tree with its foot at the origin, 5-14 m high according to its kind.
+/// Builds a tree with its base at the origin, 5-14 m high depending on its kind.
 Mesh build_tree(TreeKind kind, const PlantMaterials& materials, Random random);
 
-/// A shrub, `height_m` high and somewhat wider.
+/// Builds a shrub, `height_m` high and slightly wider.
 Mesh build_shrub(const PlantMaterials& materials, float height_m, bool is_flowering, Random random);
 
-/// Two metres of hedge along x, about the origin; its ends fit any other of the same height.
+/// Builds two metres of hedge along x, centred at the origin; its ends fit all hedges of the same height.
 Mesh build_hedge(const PlantMaterials& materials, float height_m, float width_m, Random random);
 
-/// A flower bed of two metres along x.
+/// Builds a flower bed of two metres along x.
 Mesh build_flower_bed(const PlantMaterials& materials, Random random);
 
 }  // namespace panvo::simulation

@@ -9,14 +9,14 @@
 
 namespace panvo::simulation {
 
-/// Where the pavement and what edges it end: buildings and gardens begin beyond (m from the kerb).
+/// Width (m from the kerb) of the pavement including its edging: buildings and gardens start beyond it.
 inline constexpr double kPavementWidth_m = 2.6;
 
-/// A place beside a road.
+/// A position beside a road.
 struct Roadside {
   int road = 0;
-  double along_m = 0.0;                                 ///< from the road's beginning
-  double to_junction_m = 0.0;                           ///< the nearer of its ends
+  double along_m = 0.0;                                 ///< from the road's start
+  double to_junction_m = 0.0;                           ///< distance to the nearer end
   Eigen::Vector2d middle = Eigen::Vector2d::Zero();     ///< of the road, m
   Eigen::Vector2d along = Eigen::Vector2d::UnitX();     ///< unit
   Eigen::Vector2d outwards = Eigen::Vector2d::UnitY();  ///< unit, away from the road, to the side in question
@@ -29,16 +29,16 @@ struct Roadside {
 /// Length (m) of a road's centre line.
 double length_of(const Road& road);
 
-/// The place beside `road`, `along_m` from its beginning; to the left of it or to the right.
+/// The position on the left or right side of `road`, `along_m` from its start.
 Roadside roadside(const RoadNetwork& roads, int road, double along_m, bool is_left);
 
-/// Corners, and points every few metres between them, of a plot and inside it.
+/// Test points of a plot: its corners, and points every few metres on its edges and inside.
 std::vector<Eigen::Vector2d> probes_of(const Plot& plot);
 
-/// Whether the plots, the second grown by `margin_m`, have ground in common.
+/// Whether the plots overlap, the second one enlarged by `margin_m`.
 bool overlap(const Plot& first, const Plot& second, double margin_m);
 
-/// What a plot is for.
+/// The use of a plot.
 enum class PlotUse { kHouse, kTown, kInstitute, kHall, kOpen };
 
 struct PlannedPlot {
@@ -47,7 +47,7 @@ struct PlannedPlot {
   Roadside place;
 };
 
-/// Plots along all roads, none on a road or another plot.
+/// Plans plots along all roads, without overlap with roads or other plots.
 std::vector<PlannedPlot> plan_plots(const Site& site);
 
 }  // namespace panvo::simulation

@@ -9,9 +9,9 @@
 
 namespace panvo::simulation {
 
-/// How far a rendering has come, in a file beside its images: a line for each instant whose images are on disk, with the
-/// exposure after it, so that one that was interrupted goes on to the same pixels. As long as one is open, nobody else
-/// can open that file. Every failure throws std::runtime_error naming the file.
+/// The progress of a rendering, in a file beside its images: one line per instant whose images are on disk, with the
+/// exposure after it, so that an interrupted rendering resumes with identical pixels. An open journal locks its file
+/// against other processes. Every failure throws std::runtime_error with the file name.
 class RenderJournal {
  public:
   struct Entry {
@@ -19,16 +19,16 @@ class RenderJournal {
     Exposure exposure;
   };
 
-  /// Begins the journal, or goes on with the one that is there.
+  /// Creates the journal, or opens an existing one.
   explicit RenderJournal(std::filesystem::path file);
   ~RenderJournal();
   RenderJournal(const RenderJournal&) = delete;
   RenderJournal& operator=(const RenderJournal&) = delete;
 
-  /// What was there when it was opened, up to the first line that is not whole.
+  /// The entries that existed on opening, up to the first incomplete line.
   const std::vector<Entry>& found() const { return found_; }
 
-  /// Forgets what was found from entry `count` on.
+  /// Discards the found entries from index `count` on.
   void keep(std::size_t count);
 
   void add(const Entry& entry);

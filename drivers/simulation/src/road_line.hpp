@@ -6,14 +6,14 @@
 
 namespace panvo::simulation {
 
-/// A road's centre line by its length.
+/// A road's centre line, parameterised by arc length.
 class RoadLine {
  public:
   explicit RoadLine(const std::vector<Eigen::Vector2d>& points);
 
   double length_m() const { return along_m_.back(); }
-  Eigen::Vector2d point(double along_m) const;    ///< the line goes straight on beyond its ends
-  Eigen::Vector2d forward(double along_m) const;  ///< unit; turns evenly between the points
+  Eigen::Vector2d point(double along_m) const;    ///< extended straight beyond the ends
+  Eigen::Vector2d forward(double along_m) const;  ///< unit; interpolated between the points
   Eigen::Vector2d beside(double along_m, double left_m) const;
 
  private:

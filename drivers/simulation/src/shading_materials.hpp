@@ -11,16 +11,16 @@
 
 namespace panvo::simulation {
 
-/// The palette as tables that sixteen rays can look up at once.
+/// The palette as tables for shading sixteen rays at once.
 class ShadingMaterials {
  public:
-  /// Throws std::invalid_argument where a material has no texture, or the palette more materials than there are numbers.
+  /// Throws std::invalid_argument if a material has no texture, or if the palette has too many materials.
   explicit ShadingMaterials(const Palette& palette);
 
   void fill(ShadingTables& tables) const;
   const MaterialRecord& material(std::uint32_t number) const { return materials_[number]; }
 
-  /// Whether a ray that is `width_m` wide where it meets the material goes through a hole; `uv` in m.
+  /// Whether a ray of width `width_m` at the material passes through a hole; `uv` in m.
   bool is_hole(std::uint32_t material, const Eigen::Vector2f& uv, float width_m) const;
 
  private:
@@ -31,7 +31,7 @@ class ShadingMaterials {
   std::vector<std::uint32_t> texels_;  // of all textures and levels: red in the low byte
 };
 
-/// What shiny things mirror of the sky: a coarse octahedral map, made anew when the light changes.
+/// The sky as reflected by glossy objects: a coarse octahedral map, recomputed when the light changes.
 class Environment {
  public:
   explicit Environment(const Sky& sky) : sky_(&sky) {}

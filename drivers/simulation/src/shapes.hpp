@@ -15,7 +15,7 @@ namespace panvo::simulation {
 
 inline constexpr float kPi = std::numbers::pi_v<float>;
 
-/// A tint of these factors (0..1) of the albedo and of the texture's contrast.
+/// A tint with these factors (0..1) for the albedo and the texture's contrast.
 inline Tint tint_of(float red, float green, float blue, float contrast = 1.0f) {
   const auto byte = [](float share) {
     return static_cast<std::uint8_t>(std::clamp(share, 0.0f, 1.0f) * 255.0f + 0.5f);
@@ -25,7 +25,7 @@ inline Tint tint_of(float red, float green, float blue, float contrast = 1.0f) {
 
 inline Tint grey(float brightness) { return tint_of(brightness, brightness, brightness); }
 
-/// The tint, `brightness` times as bright.
+/// The tint scaled by `brightness`.
 inline Tint shaded(const Tint& tint, float brightness) {
   const float scale = brightness / 255.0f;
   Tint result = tint_of(scale * tint.red, scale * tint.green, scale * tint.blue);
@@ -33,29 +33,30 @@ inline Tint shaded(const Tint& tint, float brightness) {
   return result;
 }
 
-/// A straight tube that may taper, of `sides` sides, smooth-shaded; v runs along it. Ends stay open unless `closed`.
+/// Adds a straight, possibly tapered tube of `sides` sides, smooth-shaded; v runs along it. Ends are open unless
+/// `closed`.
 void add_tube(Mesh& mesh, const Eigen::Vector3f& from, const Eigen::Vector3f& to, float from_radius, float to_radius,
               int sides, std::uint16_t material, Tint tint = {}, bool closed = false);
 
-/// A tube through points, with a radius at each.
+/// Adds a tube through points, with a radius at each.
 void add_bent_tube(Mesh& mesh, std::span<const Eigen::Vector3f> points, std::span<const float> radii, int sides,
                    std::uint16_t material, Tint tint = {});
 
-/// An ellipsoid with half axes `radii` along x, y, z, smooth-shaded.
+/// Adds an ellipsoid with half axes `radii` along x, y, z, smooth-shaded.
 void add_ellipsoid(Mesh& mesh, const Eigen::Vector3f& centre, const Eigen::Vector3f& radii, int around, int rings,
                    std::uint16_t material, Tint tint = {});
 
-/// A leaf-cluster card: a quad about `centre` that shows one period of its material, shaded by `normal`.
+/// Adds a leaf card: a quad centred at `centre` that shows one period of its material, shaded with `normal`.
 void add_card(Mesh& mesh, const Eigen::Vector3f& centre, const Eigen::Vector3f& half_right,
               const Eigen::Vector3f& half_up, const Eigen::Vector3f& normal, float period_m, std::uint16_t material,
               Tint tint);
 
-/// A box between two corners of an upright frame; see add_box for boxes turned in other ways.
+/// Adds an axis-aligned box between two corners; see add_box for rotated boxes.
 void add_block(Mesh& mesh, const Eigen::Vector3f& low, const Eigen::Vector3f& high, std::uint16_t material,
                Tint tint = {});
 
-/// A surface through a grid of points, row by row, `columns` to a row, with smooth normals (outwards is to the right of
-/// a row's direction turned towards the next row: columns x rows). `material` is asked for each cell by column and row.
+/// Adds a surface through a grid of points, row by row with `columns` per row, with smooth normals (outwards: column
+/// direction x row direction). `material` gives the material of each cell by column and row.
 template <typename MaterialOfCell>
 void add_surface(Mesh& mesh, const std::vector<Eigen::Vector3f>& points, int columns, MaterialOfCell&& material,
                  Tint tint = {}) {

@@ -15,23 +15,23 @@
 
 namespace panvo::simulation {
 
-/// A triangle or parallelogram as shading reads it: one cache line. Of a parallelogram a, b, c, d the corners a, b and
-/// d; what is at c follows from them, but for the light.
+/// A triangle or parallelogram in the layout used for shading: one cache line. For a parallelogram a, b, c, d it holds
+/// corners a, b and d; values at c follow from them, except for the light.
 struct alignas(64) SurfaceRecord {
   std::array<std::uint32_t, 3> normals{};  ///< of the corners, octahedral, 16 + 16 bits
-  std::array<float, 6> uv{};               ///< m: of the first corner, then what the second and third have more
+  std::array<float, 6> uv{};               ///< m: first corner, then differences of the second and third to it
   std::array<std::uint32_t, 3> tints{};    ///< of the corners: red, green, blue, contrast from the low byte up
-  /// Material in the low byte, then the light from all round, six bits a corner: a, b, d, c.
+  /// Material in the low byte, then ambient light with six bits per corner: a, b, d, c.
   std::uint32_t material_light = 0;
-  std::array<std::uint32_t, 3> gradients{};  ///< of u and v by place in the model, six bfloat16: m per m
+  std::array<std::uint32_t, 3> gradients{};  ///< of u and v by position in the model, six bfloat16: m per m
 };
 static_assert(sizeof(SurfaceRecord) == 64);
 
-/// A fixed mesh or a placed model, as shading reads it.
+/// A fixed mesh or a placed model, in the layout used for shading.
 struct ObjectRecord {
   std::array<std::uint32_t, 2> first_surface{};  ///< into the surfaces: without and with holes
   std::array<float, 12> world_from_model{};      ///< column by column, when the shutter opens
-  std::array<float, 12> motion{};                ///< what it has more when the shutter closes
+  std::array<float, 12> motion{};                ///< change of world_from_model until the shutter closes
   std::array<float, 3> tint{1.0f, 1.0f, 1.0f};
   std::uint32_t moves = 0;
   std::uint32_t is_placed = 0;
@@ -39,13 +39,13 @@ struct ObjectRecord {
 };
 static_assert(sizeof(ObjectRecord) == 32 * sizeof(std::uint32_t));
 
-/// What Embree hands on to the filter of holes.
+/// Context that Embree passes to the hole filter.
 struct TraceContext {
   RTCIntersectContext embree;
-  float spread = 0.0f;  ///< rad: how fast the rays get wider
+  float spread = 0.0f;  ///< rad: widening of the rays with distance
 };
 
-/// Numbers of 16 bits a half each: a unit vector's octahedral map [Cigolle et al. 2014].
+/// Octahedral map of a unit vector [Cigolle et al. 2014], 16 bits per coordinate.
 std::uint32_t pack_normal(const Eigen::Vector3f& normal);
 Eigen::Vector3f unpack_normal(std::uint32_t packed);
 
@@ -58,7 +58,7 @@ struct DeviceDeleter {
 using ScenePointer = std::unique_ptr<RTCSceneTy, SceneDeleter>;
 using DevicePointer = std::unique_ptr<RTCDeviceTy, DeviceDeleter>;
 
-/// The scene in Embree's structures, with what shading needs to know of each hit.
+/// The scene in Embree's structures, with the shading data of each surface.
 class TracedScene {
  public:
   /// `materials` must outlive it.
@@ -67,11 +67,11 @@ class TracedScene {
   TracedScene(const TracedScene&) = delete;
   TracedScene& operator=(const TracedScene&) = delete;
 
-  /// Puts the movers where they are now; they replace the last call's.
+  /// Sets the movers' current placements, replacing those of the last call.
   void place_movers(std::span<const MovingPlacement> movers);
 
   RTCScene standing() const { return standing_.get(); }
-  /// Null where nothing moves.
+  /// Null if nothing moves.
   RTCScene moving() const { return moving_.get(); }
 
   void fill(ShadingTables& tables) const {
@@ -102,7 +102,7 @@ class TracedScene {
   const ShadingMaterials& materials_;
   DevicePointer device_;
   std::vector<std::unique_ptr<Part>> parts_;
-  std::vector<std::vector<Eigen::Vector3f>> placed_positions_;  // of the models that stand, in the world
+  std::vector<std::vector<Eigen::Vector3f>> placed_positions_;  // of standing models, world frame
   std::vector<Prototype> prototypes_;
   std::vector<SurfaceRecord> surfaces_;
   std::vector<ObjectRecord> objects_;  // fixed meshes, standing models, movers

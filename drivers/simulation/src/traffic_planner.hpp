@@ -12,8 +12,8 @@
 
 namespace panvo::simulation {
 
-/// Draws movers that the vehicle would meet, one proposal after the other, and keeps those that touch nobody and that
-/// neither appear nor vanish before its eyes.
+/// Draws random movers that the vehicle would meet, and keeps those that collide with nothing and neither appear nor
+/// vanish within its sight.
 class TrafficPlanner {
  public:
   TrafficPlanner(const Site& site, const VehicleMotion& motion, const MoverModels& models, std::uint64_t seed);
@@ -38,12 +38,12 @@ class TrafficPlanner {
 
   Mover vehicle_of(bool is_van, Random& random) const;
   Mover person(Random& random) const;
-  /// Appends up to `count` junctions to a walk whose last two are given; false at a dead end.
+  /// Appends up to `count` junctions to a walk of at least two junctions.
   void walk_on(std::vector<int>& junctions, int count, Random& random) const;
-  /// Sets from_s, to_s and start_m so that the mover is at `along` at `t_s` and there as long as it is about.
+  /// Sets from_s, to_s and start_m so that the mover is at `along` at `t_s` and exists while it is near.
   bool live(Mover& mover, double along, double t_s) const;
 
-  /// The same for somebody who waits at the path's ends, as people do at corners.
+  /// The same for a pedestrian, who waits at the path's ends.
   void live_waiting(Mover& mover, double along, double t_s) const;
 
   Footprint own(double t_s) const;

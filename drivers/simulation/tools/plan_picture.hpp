@@ -8,8 +8,8 @@
 
 namespace panvo::simulation {
 
-/// The plan of the campus from above, north up: roads, junctions with their names, and the path of a route, which goes
-/// from blue at its beginning to red at its end. CV_8UC3, BGR.
+/// Draws a map of the campus, north up: roads, junctions with their names, and the path of a route, coloured from blue
+/// at its start to red at its end. CV_8UC3, BGR.
 cv::Mat plan_picture(const RoadNetwork& roads, const DrivenPath& path);
 
 }  // namespace panvo::simulation

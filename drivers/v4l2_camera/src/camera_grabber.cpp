@@ -28,12 +28,12 @@ template <class Clock>
 std::int64_t now_ns() {
   return std::chrono::duration_cast<std::chrono::nanoseconds>(Clock::now().time_since_epoch()).count();
 }
-/// The standard library's steady clock is CLOCK_MONOTONIC, by which the kernel stamps.
+/// The steady clock is CLOCK_MONOTONIC, the clock of the kernel's frame stamps.
 std::int64_t steady_ns() { return now_ns<std::chrono::steady_clock>(); }
 std::int64_t system_ns() { return now_ns<std::chrono::system_clock>(); }
 
 constexpr const char* kRemedy =
-    "images come in part: another USB cable or port, no hub, fewer cameras on one controller, a smaller size or rate";
+    "images are truncated: try another USB cable or port, no hub, fewer cameras per controller, a smaller size or rate";
 
 }  // namespace
 
@@ -110,7 +110,7 @@ class CameraGrabber::Implementation {
     }
   }
 
-  /// Told when it stays so: a node that has just come belongs to root for a moment.
+  /// Logs a failure only if it repeats: a new node is not yet accessible for a moment.
   void failed(const std::string& problem) {
     machine_.failed(steady_ns());
     if (std::exchange(last_failure_, problem) == problem) warn("open", problem);
@@ -124,7 +124,7 @@ class CameraGrabber::Implementation {
     last_failure_.clear();
     gaps_.restart();
     reader_.emplace(settings_, negotiated.given);
-    constexpr double kFrames = 3.0;  // a slow camera is not a lost one
+    constexpr double kFrames = 3.0;  // frame periods without a frame, for slow cameras
     if (settings_.watchdog_ns > 0 && negotiated.rate_hz > 0)
       machine_.set_watchdog_ns(
           std::max(settings_.watchdog_ns, static_cast<std::int64_t>(kFrames / negotiated.rate_hz * 1e9)));
@@ -145,7 +145,7 @@ class CameraGrabber::Implementation {
     report_.details["given"] = image;
   }
 
-  /// Not again what was said when the camera was opened before.
+  /// Logs refused settings, except those already logged last time.
   void say_what_was_refused(const std::vector<std::string>& refused) {
     for (const auto& text : refused) {
       if (std::find(told_refusals_.begin(), told_refusals_.end(), text) == told_refusals_.end())
@@ -162,7 +162,7 @@ class CameraGrabber::Implementation {
 
   void close() {
     if (machine_.last_loss() == Reconnection::Loss::kNoFrames) {
-      lost_by_ = fmt::format("{} has sent nothing for too long; it is opened anew", known_->path);
+      lost_by_ = fmt::format("{} sent no frame in time; reopening it", known_->path);
       warn("silent", lost_by_);
     }
     device_.reset();
@@ -203,9 +203,9 @@ class CameraGrabber::Implementation {
       } else {
         ++(result.outcome == ReadFrame::Outcome::kIncomplete ? counters.incomplete : counters.damaged);
       }
-      report_.details["stamps"] = !uses_driver || !frame.monotonic_ns ? "of the arrival"
-                                  : frame.is_stamped_at_start         ? "of the start of exposure"
-                                                                      : "of the end of the frame";
+      report_.details["stamps"] = !uses_driver || !frame.monotonic_ns ? "arrival"
+                                  : frame.is_stamped_at_start         ? "start of exposure"
+                                                                      : "end of frame";
     }
     if (is_whole) {
       on_frame_({stamp_ns, std::move(result.images)});
@@ -218,12 +218,12 @@ class CameraGrabber::Implementation {
     log_.warn_throttled(fmt::format("{}: {}", settings_.name, kind), "{}: {}", settings_.name, what);
   }
 
-  CameraSettings settings_;  // its controls are the thread's own, the rest never changes
+  CameraSettings settings_;  // only the thread changes its controls; the rest is constant
   const runtime::Logger& log_;
   const OnFrame on_frame_;
   const Devices devices_;
 
-  // The thread's own.
+  // Used by the thread only.
   Reconnection machine_;
   FrameGaps gaps_{FrameNumbering::kCounter32};
   HostStamps stamps_;

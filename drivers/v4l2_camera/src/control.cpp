@@ -25,7 +25,7 @@ conversions::Result<std::int64_t> choice_of(const Control& control, const std::s
     if (control_name(name) == control_name(text) || number_of(text) == value) return value;
     known += fmt::format("{}{} ({})", known.empty() ? "" : ", ", value, name);
   }
-  return Reason{"is no choice here; there are: " + known};
+  return Reason{"is not a valid choice; choices: " + known};
 }
 
 }  // namespace
@@ -45,7 +45,7 @@ std::string control_name(std::string_view name) {
 }
 
 conversions::Result<std::int64_t> control_value(const Control& control, const std::string& text) {
-  if (control.is_read_only) return Reason{"can only be read"};
+  if (control.is_read_only) return Reason{"is read-only"};
   if (control.kind == Control::Kind::kButton) return std::int64_t{1};
   if (control.kind == Control::Kind::kMenu) return choice_of(control, text);
   if (control.kind == Control::Kind::kSwitch) {
@@ -54,12 +54,12 @@ conversions::Result<std::int64_t> control_value(const Control& control, const st
     return Reason{"is neither true nor false"};
   }
   const auto number = number_of(text);
-  if (!number) return Reason{"is no whole number"};
+  if (!number) return Reason{"is not a whole number"};
   if (*number < control.least || *number > control.most)
     return Reason{fmt::format("is out of range, {} to {}", control.least, control.most)};
   if (control.step > 1 && (*number - control.least) % control.step != 0)
     return Reason{
-        fmt::format("is between the camera's steps: {} and every {} from there", control.least, control.step)};
+        fmt::format("is not a valid step: use {} plus a multiple of {}", control.least, control.step)};
   return *number;
 }
 

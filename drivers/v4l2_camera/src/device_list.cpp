@@ -16,7 +16,7 @@ std::string text_of(const OfferedSize& size) {
   return fmt::format("{} x {} to {} x {}", size.least_width, size.least_height, size.width, size.height);
 }
 
-/// "MJPG 1280 x 480, 640 x 240 px; YUYV 640 x 240 px": sizes that several formats have in common are told once.
+/// "MJPG 1280 x 480, 640 x 240 px; YUYV 640 x 240 px": formats with equal sizes are grouped.
 std::string sizes_of(const std::vector<OfferedFormat>& offered) {
   std::map<std::string, std::vector<std::string>> formats_of;  // by their sizes
   std::vector<std::string> order;
@@ -37,16 +37,16 @@ std::string sizes_of(const std::vector<OfferedFormat>& offered) {
   return fmt::format("{}", fmt::join(parts, "; "));
 }
 
-/// Those that are read; of the others the names while they are few.
+/// The supported formats, then the others: by name if they are few, else their number.
 std::vector<std::string> formats_of(const std::vector<OfferedFormat>& offered) {
   constexpr std::size_t kFew = 4;
   std::vector<std::string> read, others;
   for (const auto& format : offered) {
     const Coding coding = coding_of(format.pixels);
     const bool is_read = coding == Coding::kRaw || coding == Coding::kJpeg;
-    is_read ? read.push_back(to_text(format.pixels)) : others.push_back(to_text(format.pixels) + " (not read)");
+    is_read ? read.push_back(to_text(format.pixels)) : others.push_back(to_text(format.pixels) + " (not supported)");
   }
-  if (others.size() > kFew) others = {fmt::format("{} others (not read)", others.size())};
+  if (others.size() > kFew) others = {fmt::format("{} others (not supported)", others.size())};
   read.insert(read.end(), others.begin(), others.end());
   return read;
 }
@@ -79,7 +79,7 @@ std::vector<camera_stream::FoundDevice> find_devices(const Devices& devices) {
       device.sizes = sizes_of(offered);
       device.rates = rates_of(offered);
     } catch (const DeviceError& error) {
-      if (error.kind() == DeviceError::Kind::kOther) continue;  // no camera: metadata, outputs, codecs
+      if (error.kind() == DeviceError::Kind::kOther) continue;  // not a camera: metadata, outputs, codecs
       if (node.index != 0) continue;
       device.problem = error.what();
     }

@@ -28,21 +28,21 @@ std::string names_of(const std::vector<OfferedFormat>& offered, bool only_readab
 
 std::string remedy(const std::vector<OfferedFormat>& offered) {
   const std::string usable = names_of(offered, true);
-  return usable.empty() ? fmt::format("the camera sends nothing that is read here; it has {}, and read are {}",
+  return usable.empty() ? fmt::format("the camera has no supported format; it has {}, supported are {}",
                                       offered.empty() ? "none" : names_of(offered, false), readable_codes())
                         : "set pixel_format to one of " + usable;
 }
 
 std::string code_problem(PixelCode code, const std::vector<OfferedFormat>& offered) {
   if (coding_of(code) == Coding::kVideo) {
-    return fmt::format("{} is compressed video, of which no frame stands for itself, and is not read: {}",
+    return fmt::format("{} is compressed video, whose frames depend on each other, and is not supported: {}",
                        to_text(code), remedy(offered));
   }
-  if (!is_readable(code)) return fmt::format("{} is not read: {}", to_text(code), remedy(offered));
+  if (!is_readable(code)) return fmt::format("{} is not supported: {}", to_text(code), remedy(offered));
   return {};
 }
 
-/// The highest rate in which a format comes in that size, Hz; -1: it does not come in that size. 0: not known.
+/// The highest rate of a format in that size, Hz; 0: not known; -1: it does not have that size.
 double best_rate(const OfferedFormat& format, int width, int height) {
   double best_hz = -1.0;
   for (const auto& size : format.sizes) {
@@ -51,9 +51,9 @@ double best_rate(const OfferedFormat& format, int width, int height) {
   return best_hz;
 }
 
-/// Less is better: what is nearest to the rate, then what is wished, then what takes less work.
+/// Lower is better: closeness to the requested rate, then the requested kind, then less work.
 auto rank(const OfferedFormat& format, const FormatWish& wish, double rate_hz, PixelCode current) {
-  constexpr double kSame = 1.01;  // 29.97 Hz does for 30
+  constexpr double kSame = 1.01;  // 29.97 Hz counts as 30
   const bool is_fast_enough = wish.rate_hz <= 0.0 || rate_hz == 0.0 || rate_hz * kSame >= wish.rate_hz;
   const bool is_grey = format.pixels == pixel_code('G', 'R', 'E', 'Y');
   return std::tuple(!is_fast_enough, is_fast_enough ? 0.0 : -rate_hz, wish.prefers_grey && !is_grey,
@@ -82,7 +82,7 @@ conversions::Result<ImageFormat> choose_format(const std::vector<OfferedFormat>&
   if (!wish.pixel_format.empty()) {
     const auto code = parse_pixel_code(wish.pixel_format);
     if (!code) {
-      return conversions::Reason{fmt::format("pixel_format '{}' is no name of one to four characters: {}",
+      return conversions::Reason{fmt::format("pixel_format '{}' is not a code of one to four characters: {}",
                                              wish.pixel_format, remedy(offered))};
     }
     if (auto problem = code_problem(*code, offered); !problem.empty())
@@ -100,7 +100,7 @@ conversions::Result<ImageFormat> choose_format(const std::vector<OfferedFormat>&
   }
   if (best != nullptr) choice.pixels = best->pixels;
   if (best != nullptr || is_readable(choice.pixels)) return choice;
-  // Not in that size: any that is read, and the camera's own size of it.
+  // No readable format in that size: take any readable format; the camera then chooses the size.
   for (const auto& format : offered) {
     if (!is_readable(format.pixels)) continue;
     choice.pixels = format.pixels;
@@ -112,7 +112,7 @@ conversions::Result<ImageFormat> choose_format(const std::vector<OfferedFormat>&
 std::string format_problem(const ImageFormat& given, const std::vector<OfferedFormat>& offered) {
   if (auto problem = code_problem(given.pixels, offered); !problem.empty())
     return fmt::format("gives {}, and {}", to_text(given), problem);
-  if (given.width <= 0 || given.height <= 0) return fmt::format("gives {}, which is no image", to_text(given));
+  if (given.width <= 0 || given.height <= 0) return fmt::format("gives {}, which is not an image", to_text(given));
   return {};
 }
 
@@ -126,7 +126,7 @@ std::vector<std::string> not_given(const FormatWish& wish, const ImageFormat& as
     texts.push_back(fmt::format("format {}: the camera gives {}", to_text(asked), to_text(given)));
   constexpr double kSame = 0.01;
   if (wish.rate_hz > 0.0 && given_rate_hz <= 0.0) {
-    texts.push_back(fmt::format("frame_rate_hz {}: the camera does not let its rate be set", wish.rate_hz));
+    texts.push_back(fmt::format("frame_rate_hz {}: the camera's rate cannot be set", wish.rate_hz));
   } else if (wish.rate_hz > 0.0 && std::abs(given_rate_hz - wish.rate_hz) > kSame * wish.rate_hz) {
     texts.push_back(fmt::format("frame_rate_hz {}: the camera gives {:.4g} Hz", wish.rate_hz, given_rate_hz));
   }

@@ -9,7 +9,7 @@ namespace {
 using camera_stream::RawImage;
 using Outcome = ReadFrame::Outcome;
 
-/// How many bytes the image takes; the last row may end with its pixels.
+/// Number of bytes of the image, with the gaps between rows.
 std::size_t needed_bytes(const ImageFormat& format) { return format.step * static_cast<std::size_t>(format.height); }
 
 }  // namespace

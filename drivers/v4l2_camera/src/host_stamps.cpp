@@ -6,7 +6,7 @@
 namespace panvo::v4l2_camera {
 namespace {
 
-constexpr std::int64_t kOldest_ns = 2'000'000'000;  // a queue of frames that waited for a busy host
+constexpr std::int64_t kOldest_ns = 2'000'000'000;  // allows for frames queued on a busy host
 constexpr std::int64_t kAhead_ns = 100'000'000;
 
 }  // namespace
@@ -19,7 +19,7 @@ std::int64_t HostStamps::stamp_ns(std::optional<std::int64_t> frame_ns, const Ho
     age_ns = is_believed ? told_ns : 0;
     if (!is_believed) ++disbelieved_;
   }
-  last_ns_ = std::max(arrival.system_ns - age_ns, last_ns_ + 1);  // who pairs and who tracks relies on the order
+  last_ns_ = std::max(arrival.system_ns - age_ns, last_ns_ + 1);  // pairing and tracking rely on the order
   return last_ns_;
 }
 

@@ -37,7 +37,7 @@ std::size_t bytes_per_pixel(PixelFormat format) {
   }
 }
 
-/// A half that begins in the middle of a pattern of two by two pixels would be of another pattern.
+/// Whether pixels come in pairs: a half that starts within a pair would have another pattern.
 bool has_pairs(PixelFormat format) {
   return format == PixelFormat::kYuyv || format == PixelFormat::kUyvy || format == PixelFormat::kBayerRG8 ||
          format == PixelFormat::kBayerGR8 || format == PixelFormat::kBayerGB8 || format == PixelFormat::kBayerBG8;
@@ -47,12 +47,12 @@ std::size_t step_of(const RawImage& image) {
   return image.step != 0 ? image.step : static_cast<std::size_t>(image.width) * bytes_per_pixel(image.format);
 }
 
-/// What is wrong with the image as a whole; the bytes of the last row may end with its pixels.
+/// Checks format, size and number of bytes; the last row need not have its padding. Empty: valid.
 std::string problem_of(const RawImage& image) {
   const std::size_t pixel = bytes_per_pixel(image.format);
   if (pixel == 0)
-    return fmt::format("is of {}, whose pixels share bytes, and cannot be taken apart", name_of(image.format));
-  if (image.width <= 0 || image.height <= 0) return fmt::format("is of {} x {} px", image.width, image.height);
+    return fmt::format("has the format {}, whose pixels share bytes, and cannot be split", name_of(image.format));
+  if (image.width <= 0 || image.height <= 0) return fmt::format("is {} x {} px", image.width, image.height);
   const std::size_t row = static_cast<std::size_t>(image.width) * pixel;
   const std::size_t needed = step_of(image) * static_cast<std::size_t>(image.height - 1) + row;
   if (step_of(image) < row || image.bytes.size() < needed) {
@@ -64,7 +64,7 @@ std::string problem_of(const RawImage& image) {
 
 Reason not_divided(const RawImage& whole, const char* side, int length) {
   return Reason{
-      fmt::format("is {} px {}, which {}, and cannot be taken apart: set another size, or layout to mono", length, side,
+      fmt::format("is {} px {}, which {}, and cannot be split: set another size, or layout to mono", length, side,
                   length % 2 != 0 ? "is odd" : fmt::format("halves to an odd number of {}", name_of(whole.format)))};
 }
 
@@ -104,7 +104,7 @@ Result<std::vector<RawImage>> ImageSplitter::top_bottom(const RawImage& whole) c
 Result<std::vector<RawImage>> ImageSplitter::byte_interleaved(const RawImage& whole) {
   if (bytes_per_pixel(whole.format) != 2) {
     return Reason{
-        fmt::format("is of {}; two eyes are interleaved only where a pixel has two bytes: set pixel_format to Y16, "
+        fmt::format("has the format {}; interleaved eyes need pixels of two bytes: set pixel_format to Y16, "
                     "YUYV or UYVY, whichever the camera has",
                     name_of(whole.format))};
   }

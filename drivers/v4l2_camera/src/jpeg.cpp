@@ -24,16 +24,16 @@ bool is_padding(const std::string& warning) { return warning.find("before marker
 
 conversions::Result<camera_stream::RawImage> JpegDecoder::decode(std::span<const std::uint8_t> file, int width,
                                                                  int height, bool as_grey) {
-  // One for each file: what a damaged header leaves behind in it would spoil all files that follow.
+  // A new decompressor for each file: state left by a damaged header would corrupt the following files.
   const std::unique_ptr<void, Destroy> handle(tjInitDecompress());
-  if (!handle) throw std::runtime_error("libjpeg-turbo cannot be started: out of memory?");
+  if (!handle) throw std::runtime_error("libjpeg-turbo cannot be initialised: out of memory?");
   int file_width = 0, file_height = 0, subsampling = 0, colours = 0;
-  if (file.size() < 2 || file[0] != 0xff || file[1] != 0xd8) return Reason{"is no JPEG file"};
+  if (file.size() < 2 || file[0] != 0xff || file[1] != 0xd8) return Reason{"is not a JPEG file"};
   if (tjDecompressHeader3(handle.get(), file.data(), file.size(), &file_width, &file_height, &subsampling, &colours) !=
       0)
     return Reason{fmt::format("is a damaged JPEG file: {}", tjGetErrorStr2(handle.get()))};
-  // A file that ends before its picture begins counts as one of tables, which may be.
-  if (file_width == 0 || file_height == 0) return Reason{"is a damaged JPEG file: it ends before its picture"};
+  // libjpeg-turbo accepts a file that ends before its image data as a tables-only file.
+  if (file_width == 0 || file_height == 0) return Reason{"is a damaged JPEG file: it ends before the image data"};
   if (file_width != width || file_height != height) {
     return Reason{
         fmt::format("is a JPEG file of {} x {} px in a stream of {} x {} px", file_width, file_height, width, height)};

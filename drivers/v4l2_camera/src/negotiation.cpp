@@ -15,7 +15,7 @@ std::string names_of(const std::vector<Control>& controls) {
   return text.empty() ? "none" : text;
 }
 
-/// Why it is not as it was to be; nullopt: it is. That the device is gone is another matter.
+/// Sets one control. Returns why it was refused, nullopt on success. Throws DeviceError if the device is gone.
 std::optional<std::string> set(VideoDevice& device, const std::vector<Control>& controls,
                                const camera_group::DeviceSetting& setting) {
   const auto control =
@@ -26,7 +26,7 @@ std::optional<std::string> set(VideoDevice& device, const std::vector<Control>& 
   try {
     device.set_control(*control, *value);
     if (control->kind == Control::Kind::kButton) return std::nullopt;
-    if (const auto now = device.control(*control); now != *value) return fmt::format("the camera makes {} of it", now);
+    if (const auto now = device.control(*control); now != *value) return fmt::format("the camera set {} instead", now);
   } catch (const DeviceError& error) {
     if (error.kind() == DeviceError::Kind::kGone) throw;
     return error.what();

@@ -31,12 +31,12 @@ PixelFormat byte_format(const std::string& encoding) {
   return encoding == "bayer_bggr8" ? PixelFormat::kBayerBG8 : PixelFormat::kMono8;
 }
 
-/// What the images are, in order. Throws std::invalid_argument, saying how many cameras there may be.
+/// The roles of the published images, in order. Throws std::invalid_argument with the allowed number of cameras.
 std::vector<CameraRole> roles_of(const std::string& layout, std::size_t cameras) {
   const bool is_one_device = layout == "dual_fisheye" || parts_of(layout) != ImageParts::kOne;
   if (is_one_device && cameras != 1)
-    throw std::invalid_argument(fmt::format("the layout {} has one camera, but {} are given", layout, cameras));
-  if (layout == "dual_fisheye") return camera_stream::roles_of(Layout::kRig, 1);  // who stitches takes the image apart
+    throw std::invalid_argument(fmt::format("layout {} has one camera; {} given", layout, cameras));
+  if (layout == "dual_fisheye") return camera_stream::roles_of(Layout::kRig, 1);  // the stitcher splits the image
   if (is_one_device) return camera_stream::roles_of(Layout::kStereo, 2);
   return camera_stream::roles_of(camera_stream::layout_of(layout), cameras);
 }
@@ -55,7 +55,7 @@ CameraSettings common_settings(const Parameters& parameters) {
   return settings;
 }
 
-/// Each image's own camera, or both eyes one.
+/// The roles of each device: one image per device, or both eyes from one.
 std::vector<std::vector<CameraRole>> by_device(const std::vector<CameraRole>& roles, std::size_t devices) {
   std::vector<std::vector<CameraRole>> result(devices);
   for (std::size_t i = 0; i < roles.size(); ++i) result[devices == 1 ? 0 : i].push_back(roles[i]);

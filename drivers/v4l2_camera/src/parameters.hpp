@@ -9,7 +9,7 @@
 
 namespace panvo::v4l2_camera {
 
-/// What the component takes from a system file.
+/// Parameters of the component.
 struct Parameters {
   std::vector<std::string> cameras;
   std::string layout = "mono";
@@ -33,49 +33,42 @@ struct Parameters {
   static void describe(Field&& field) {
     using P = Parameters;
     field(&P::cameras, "cameras", "",
-          "by serial number, path (/dev/video0, /dev/v4l/by-id/...), USB port or name, as `panvo devices` lists them; "
-          "empty: the first there is");
+          "serial number, path (/dev/video0, /dev/v4l/by-id/...), USB port or name, as listed by `panvo devices`; "
+          "empty: the first camera found");
     field(&P::layout, "layout", "",
           "one camera; one that sends a panorama; two fisheyes in one image; left and right in one image; two cameras; "
-          "the heads of a panoramic camera",
+          "heads of a panoramic camera",
           {"mono", "panorama", "dual_fisheye", "side_by_side", "top_bottom", "byte_interleaved", "stereo", "rig"});
-    field(&P::swap_eyes, "swap_eyes", "", "of one image with both eyes, the right one's part comes first");
-    field(&P::interleaved, "interleaved", "", "with layout byte_interleaved, what each byte is",
+    field(&P::swap_eyes, "swap_eyes", "", "if one image has both eyes: the right eye comes first");
+    field(&P::interleaved, "interleaved", "", "with layout byte_interleaved: format of each byte",
           {"mono8", "bayer_rggb8", "bayer_grbg8", "bayer_gbrg8", "bayer_bggr8"});
     field(&P::pixel_format, "pixel_format", "",
-          "V4L2's four characters: MJPG, YUYV, GREY, ...; empty: what comes nearest to the rate");
-    field(&P::width, "width", "px", "of the whole image, both eyes; 0: as the camera has it", 0, 65536);
-    field(&P::height, "height", "px", "the same, down", 0, 65536);
-    field(&P::frame_rate_hz, "frame_rate_hz", "Hz", "0: as the camera has it", 0.0, 10000.0);
-    field(
-        &P::controls, "controls", "",
-        "the camera's controls, in order: name=value, or left:name=value for one camera; may be set while the cameras "
-        "stream");
-    field(&P::clock, "clock", "", "where stamps come from: the kernel's driver, or the arrival", {"driver", "arrival"});
-    field(&P::buffers, "buffers", "", "frames that may wait in the kernel", 2, 32);
-    field(
-        &P::watchdog_s, "watchdog_s", "s",
-        "without a frame for so long, and three frames' time, a camera is closed and looked for; 0: only when it says "
-        "that it is gone",
-        0.0, 3600.0);
-    field(
-        &P::pair_tolerance_ms, "pair_tolerance_ms", "ms",
-        "of stereo and rig, by how much the stamps within a set may differ; less than half the time between two frames",
-        0.0, 1000.0);
+          "V4L2 code of four characters: MJPG, YUYV, GREY, ...; empty: the format closest to the rate");
+    field(&P::width, "width", "px", "width of the whole image, both eyes; 0: the camera's setting", 0, 65536);
+    field(&P::height, "height", "px", "height of the whole image; 0: the camera's setting", 0, 65536);
+    field(&P::frame_rate_hz, "frame_rate_hz", "Hz", "frame rate; 0: the camera's setting", 0.0, 10000.0);
+    field(&P::controls, "controls", "",
+          "camera controls, set in order: name=value, or left:name=value for one camera; can change while streaming");
+    field(&P::clock, "clock", "", "source of stamps: kernel driver or arrival time", {"driver", "arrival"});
+    field(&P::buffers, "buffers", "", "number of frame buffers in the kernel", 2, 32);
+    field(&P::watchdog_s, "watchdog_s", "s",
+          "a camera without frames for this time, and at least three frame periods, is closed and searched for; "
+          "0: only if it is reported lost",
+          0.0, 3600.0);
+    field(&P::pair_tolerance_ms, "pair_tolerance_ms", "ms",
+          "stereo and rig: largest stamp difference within a set; keep below half a frame period", 0.0, 1000.0);
     field(&P::encoding, "encoding", "",
-          "of what is published: what every component here reads (Bayer and YUV as bgr8), grey, or as the camera sends "
-          "it",
+          "published encoding: readable by all components (Bayer and YUV as bgr8), grey, or as sent by the camera",
           {"readable", "grey", "as_sent"});
     field.path(&P::calibration, "calibration",
                "folder of ROS camera_info files camera.yaml; left.yaml, right.yaml; head_0.yaml ...");
-    field(
-        &P::mount, "mount", "",
-        "where the cameras sit on base_link, for /tf_static: x, y, z in m, roll, pitch, yaw in degrees, of each, or of "
-        "the left one of a calibrated pair; empty: not published");
+    field(&P::mount, "mount", "",
+          "camera poses on base_link, for /tf_static: x, y, z in m, roll, pitch, yaw in degrees of each camera, "
+          "or of the left camera of a calibrated pair; empty: not published");
   }
 };
 
-/// What is meant. Throws runtime::ConfigError with every problem.
+/// The selected cameras with their settings. Throws runtime::ConfigError with all problems.
 camera_group::CameraSet<CameraSettings> cameras_of(const Parameters& parameters);
 
 }  // namespace panvo::v4l2_camera

@@ -12,7 +12,7 @@ namespace {
 
 using camera_stream::PixelFormat;
 
-// 10 to 16 bits of grey: in two bytes each, the lower one first.
+// Grey of 10 to 16 bits has two bytes per pixel, low byte first.
 constexpr std::array kRaw{std::pair{pixel_code('G', 'R', 'E', 'Y'), PixelFormat::kMono8},
                           std::pair{pixel_code('Y', '1', '0', ' '), PixelFormat::kMono10},
                           std::pair{pixel_code('Y', '1', '2', ' '), PixelFormat::kMono12},
@@ -70,7 +70,7 @@ Coding coding_of(PixelCode code) {
 
 PixelFormat raw_format_of(PixelCode code) {
   const auto* found = find_raw(code);
-  if (found == nullptr) throw std::invalid_argument(to_text(code) + " is no raw pixel format");
+  if (found == nullptr) throw std::invalid_argument(to_text(code) + " is not a raw pixel format");
   return found->second;
 }
 

@@ -15,7 +15,7 @@ struct V4l2Driver {
   static const auto& settings_of(const CameraSettings& settings) { return settings.controls; }
 };
 
-/// USB cameras and whatever else V4L2 has.
+/// USB and other V4L2 cameras.
 class V4l2CameraComponent final : public camera_group::CameraComponent<V4l2Driver> {
  public:
   using CameraComponent::CameraComponent;

@@ -20,7 +20,7 @@ std::string first_line(const fs::path& file) {
   return line;
 }
 
-/// The USB device that an interface belongs to is the folder above it; empty: not a USB device.
+/// The sysfs folder of the node's USB device, which is the parent of its interface; empty: not a USB device.
 fs::path usb_device(const fs::path& node) {
   std::error_code error;
   const fs::path interface = fs::canonical(node / "device", error);
@@ -51,7 +51,7 @@ std::string text_of(const std::vector<VideoNode>& nodes) {
         fmt::format("{}{} ({} at {}{}{})", text.empty() ? "" : ", ", node.serial.empty() ? "no serial" : node.serial,
                     node.name, node.path, node.port.empty() ? "" : ", USB port ", node.port);
   }
-  return text.empty() ? "no camera is connected" : "there are: " + text;
+  return text.empty() ? "no camera is connected" : "available: " + text;
 }
 
 std::vector<VideoNode> that(const std::vector<VideoNode>& nodes, const std::function<bool(const VideoNode&)>& fits) {
@@ -60,7 +60,7 @@ std::vector<VideoNode> that(const std::vector<VideoNode>& nodes, const std::func
   return found;
 }
 
-/// The first nodes of all cameras.
+/// The first node of each camera.
 std::vector<VideoNode> cameras_of(const std::vector<VideoNode>& nodes) {
   return that(nodes, [](const VideoNode& node) { return node.index == 0; });
 }
@@ -88,7 +88,7 @@ FoundNode find_node(const std::vector<VideoNode>& nodes, const std::string& sele
   const auto cameras = cameras_of(nodes);
   if (selector.empty()) {
     if (cameras.empty())
-      return {std::nullopt, "no camera is connected: plug one in (`panvo devices` lists what is there)"};
+      return {std::nullopt, "no camera is connected: plug one in (`panvo devices` lists cameras)"};
     return {cameras.front(), ""};
   }
   if (const auto at_path = that(nodes, [&](const VideoNode& node) { return is_same_file(selector, node.path); });
@@ -99,11 +99,11 @@ FoundNode find_node(const std::vector<VideoNode>& nodes, const std::string& sele
     const auto fitting = that(cameras, [&](const VideoNode& node) { return node.*field == selector; });
     if (fitting.size() == 1) return {fitting.front(), ""};
     if (fitting.size() > 1) {
-      return {std::nullopt, fmt::format("'{}' fits {} cameras: name one by its USB port or path; {}", selector,
+      return {std::nullopt, fmt::format("'{}' matches {} cameras: select one by USB port or path; {}", selector,
                                         fitting.size(), text_of(fitting))};
     }
   }
-  return {std::nullopt, fmt::format("there is no camera '{}'; {}", selector, text_of(nodes))};
+  return {std::nullopt, fmt::format("camera '{}' not found; {}", selector, text_of(nodes))};
 }
 
 FoundNode find_again(const std::vector<VideoNode>& nodes, const VideoNode& known) {
@@ -112,12 +112,12 @@ FoundNode find_again(const std::vector<VideoNode>& nodes, const VideoNode& known
     return node.index == known.index && node.name == known.name && node.serial == known.serial &&
            (has_serial || node.port == known.port) && (has_serial || !known.port.empty() || node.path == known.path);
   });
-  if (fitting.size() > 1) {  // many cheap cameras bear the same serial number
+  if (fitting.size() > 1) {  // many cheap cameras share a serial number
     const auto at_port = that(fitting, [&](const VideoNode& node) { return node.port == known.port; });
     if (!at_port.empty()) fitting = at_port;
   }
   if (!fitting.empty()) return {fitting.front(), ""};
-  return {std::nullopt, fmt::format("{} {} is not connected any more; {}", known.name,
+  return {std::nullopt, fmt::format("{} {} is no longer connected; {}", known.name,
                                     has_serial ? known.serial : "at " + (known.port.empty() ? known.path : known.port),
                                     text_of(nodes))};
 }

@@ -16,7 +16,7 @@ using ::testing::HasSubstr;
 
 const VideoNode kNode{"/dev/video0", "Cam", "S1", "M", "1-1", 0};
 
-/// A grabber, a camera to be grabbed, and what came of it.
+/// A grabber with a fake camera; collects frames and log.
 class GrabbedCamera : public ::testing::Test {
  protected:
   void grab(CameraSettings settings = {}) {
@@ -141,7 +141,7 @@ TEST_F(GrabbedCamera, ComesBackByItsSerialNumberWithItsControls) {
   for (int time = 1; time <= kTimes; ++time) {
     usb_.unplug(path);
     ASSERT_TRUE(eventually([&] { return !is_streaming(); }));
-    VideoNode node = kNode;  // another node each time; another camera has the old one
+    VideoNode node = kNode;  // another node each time; the old node goes to another camera
     node.path = path = "/dev/video" + std::to_string(time);
     VideoNode other = kNode;
     other.serial = "S2";
@@ -153,7 +153,7 @@ TEST_F(GrabbedCamera, ComesBackByItsSerialNumberWithItsControls) {
     EXPECT_EQ(grabber_->report().counters.reconnects, static_cast<std::uint64_t>(time));
     EXPECT_EQ(grabber_->report().serial, "S1");
   }
-  EXPECT_EQ(grabber_->report().counters.dropped, 0u) << "a new stream has numbers of its own";
+  EXPECT_EQ(grabber_->report().counters.dropped, 0u) << "numbering restarts with each stream";
   const auto all = stamps();
   for (std::size_t i = 1; i < all.size(); ++i) EXPECT_GT(all[i], all[i - 1]);
 }
@@ -166,8 +166,8 @@ TEST_F(GrabbedCamera, IsOpenedAnewWhenItSendsNothing) {
   ASSERT_TRUE(eventually([&] { return is_streaming(); }));
   ASSERT_TRUE(sends_and_comes(kNode.path, 0));
   ASSERT_TRUE(eventually([&] { return usb_.with([&](auto&) { return camera->starts; }) >= 2; })) << log();
-  EXPECT_THAT(log(), HasSubstr("has sent nothing for too long"));
-  // Between two more of these.
+  EXPECT_THAT(log(), HasSubstr("sent no frame in time"));
+  // Send until a frame arrives between two watchdog timeouts.
   ASSERT_TRUE(eventually([&] {
     usb_.send(kNode.path, 1, std::vector<std::uint8_t>(8, 1));
     return grabber_->report().counters.reconnects >= 1;
@@ -183,7 +183,7 @@ TEST_F(GrabbedCamera, IsToldToBeInUseAndTakenWhenItIsFree) {
   EXPECT_EQ(grabber_->report().state, "not connected: is in use");
   usb_.with([&](auto&) { camera->open_error.reset(); });
   ASSERT_TRUE(eventually([&] { return is_streaming(); }));
-  EXPECT_GE(grabber_->report().counters.failed_opens, 2u) << "told when it fails again, and not before";
+  EXPECT_GE(grabber_->report().counters.failed_opens, 2u) << "logged at the second failure";
 }
 
 TEST_F(GrabbedCamera, IsToldNotToStreamAndTriedAgain) {
@@ -204,7 +204,7 @@ TEST_F(GrabbedCamera, IsAwaited) {
   VideoNode other = kNode;
   other.serial = "S2";
   usb_.plug_in(other);
-  ASSERT_TRUE(eventually([&] { return log().find("there is no camera 'S1'; there are: S2") != std::string::npos; }))
+  ASSERT_TRUE(eventually([&] { return log().find("camera 'S1' not found; available: S2") != std::string::npos; }))
       << log();
   VideoNode wanted = kNode;
   wanted.path = "/dev/video2";
@@ -245,7 +245,7 @@ TEST(DeviceList, TellsFormatsSizesRatesAndWhatCannotBeOpened) {
   const auto found = find_devices(usb.devices());
   ASSERT_EQ(found.size(), 2u);
   EXPECT_EQ(found[0].serial, "S1");
-  EXPECT_THAT(found[0].formats, ElementsAre("GREY", "H264 (not read)"));
+  EXPECT_THAT(found[0].formats, ElementsAre("GREY", "H264 (not supported)"));
   EXPECT_EQ(found[0].sizes, "4 x 2 px");
   EXPECT_EQ(found[0].rates, "5 to 60 Hz");
   EXPECT_EQ(found[0].address, "/dev/video0, USB port 1-1");

@@ -29,9 +29,9 @@ TEST(ControlValues, AreNumbersWithinTheCamerasRange) {
   EXPECT_EQ(*control_value(kGain, "15"), 15);
   EXPECT_EQ(control_value(kGain, "101").reason(), "is out of range, 10 to 100");
   EXPECT_EQ(control_value(kGain, "5").reason(), "is out of range, 10 to 100");
-  EXPECT_THAT(control_value(kGain, "12").reason(), HasSubstr("10 and every 5 from there"));
-  EXPECT_EQ(control_value(kGain, "much").reason(), "is no whole number");
-  EXPECT_EQ(control_value(kGain, "15x").reason(), "is no whole number");
+  EXPECT_THAT(control_value(kGain, "12").reason(), HasSubstr("use 10 plus a multiple of 5"));
+  EXPECT_EQ(control_value(kGain, "much").reason(), "is not a whole number");
+  EXPECT_EQ(control_value(kGain, "15x").reason(), "is not a whole number");
 }
 
 TEST(ControlValues, AreChoicesByTheirTextOrNumber) {
@@ -39,7 +39,7 @@ TEST(ControlValues, AreChoicesByTheirTextOrNumber) {
   EXPECT_EQ(*control_value(kExposure, "manual_mode"), 1);
   EXPECT_EQ(*control_value(kExposure, "3"), 3);
   EXPECT_EQ(control_value(kExposure, "2").reason(),
-            "is no choice here; there are: 1 (Manual Mode), 3 (Aperture Priority Mode)");
+            "is not a valid choice; choices: 1 (Manual Mode), 3 (Aperture Priority Mode)");
 }
 
 TEST(ControlValues, AreTrueOrFalseOfSwitchesAndNoneOfWhatCanOnlyBeRead) {
@@ -47,7 +47,7 @@ TEST(ControlValues, AreTrueOrFalseOfSwitchesAndNoneOfWhatCanOnlyBeRead) {
   EXPECT_EQ(*control_value(light, "true"), 1);
   EXPECT_EQ(*control_value(light, "0"), 0);
   EXPECT_EQ(control_value(light, "on").reason(), "is neither true nor false");
-  EXPECT_EQ(control_value({.name = "temperature", .is_read_only = true}, "3").reason(), "can only be read");
+  EXPECT_EQ(control_value({.name = "temperature", .is_read_only = true}, "3").reason(), "is read-only");
   EXPECT_EQ(*control_value({.name = "reset", .kind = Control::Kind::kButton}, ""), 1);
 }
 

@@ -14,7 +14,7 @@
 
 namespace panvo::v4l2_camera::testing {
 
-/// What is plugged in, and what the devices are to do: cameras without a kernel. All of it from any thread.
+/// Simulates plugged-in cameras without the kernel. Thread-safe.
 class FakeUsb {
  public:
   struct Camera {
@@ -23,7 +23,7 @@ class FakeUsb {
         {pixel_code('G', 'R', 'E', 'Y'), "Greyscale", {{.width = 4, .height = 2, .rates_hz = {30.0}}}}};
     ImageFormat format{pixel_code('G', 'R', 'E', 'Y'), 4, 2, 4};
     std::map<std::string, std::int64_t> values{{"gain", 10}, {"brightness", 5}};
-    std::optional<DeviceError> open_error{}, start_error{};  ///< to be thrown as long as they are there
+    std::optional<DeviceError> open_error{}, start_error{};  ///< thrown while set
     bool is_unplugged = false;
     std::deque<BufferedFrame> waiting{};
     std::vector<std::vector<std::uint8_t>> memory{};
@@ -31,18 +31,18 @@ class FakeUsb {
   };
 
   std::shared_ptr<Camera> plug_in(const VideoNode& node);
-  /// Whoever has the camera open learns that it is gone; it comes back by plug_in() and has forgotten its settings.
+  /// Operations on the open camera fail from now on. A later plug_in() creates it with default settings.
   void unplug(const std::string& path);
-  /// A frame of that camera, taken now.
+  /// Sends a frame of that camera, stamped now.
   void send(const std::string& path, std::uint32_t number, std::vector<std::uint8_t> bytes, bool is_damaged = false);
-  /// Looks at, or changes, what there is.
+  /// Calls `function` with the cameras, under the lock.
   template <class Function>
   auto with(Function function) {
     const std::lock_guard lock(mutex_);
     return function(cameras_);
   }
 
-  /// For a grabber.
+  /// The functions that a grabber needs.
   Devices devices();
 
  private:

@@ -14,7 +14,7 @@ using ::testing::IsEmpty;
 constexpr PixelCode kYuyv = pixel_code('Y', 'U', 'Y', 'V'), kGrey = pixel_code('G', 'R', 'E', 'Y'),
                     kH264 = pixel_code('H', '2', '6', '4'), kNv12 = pixel_code('N', 'V', '1', '2');
 
-/// A stereo camera of the kind that people buy: raw images are too much for USB 2 at full rate.
+/// A typical USB stereo camera: raw images exceed USB 2's bandwidth at full rate.
 std::vector<OfferedFormat> usb_camera() {
   const std::vector<double> fast{30.0, 15.0}, slow{10.0, 5.0};
   return {{kMjpg,
@@ -53,9 +53,9 @@ TEST(FormatChoice, TakesTheFormatThatReachesTheRate) {
   ASSERT_TRUE(fast);
   EXPECT_EQ(to_text(*fast), "MJPG 1280 x 480 px");
   const auto slow = choose_format(usb_camera(), current, {.width = 1280, .height = 480, .rate_hz = 10.0});
-  EXPECT_EQ(to_text(*slow), "YUYV 1280 x 480 px") << "raw before JPEG where both do";
+  EXPECT_EQ(to_text(*slow), "YUYV 1280 x 480 px") << "raw before JPEG if both reach the rate";
   const auto none = choose_format(usb_camera(), current, {.width = 1280, .height = 480, .rate_hz = 60.0});
-  EXPECT_EQ(none->pixels, kMjpg) << "the nearest";
+  EXPECT_EQ(none->pixels, kMjpg) << "the closest";
 }
 
 TEST(FormatChoice, LeavesTheCameraAsItIsWhereNothingIsWished) {
@@ -76,7 +76,7 @@ TEST(FormatChoice, TakesWhatIsNamedEvenIfItIsNotOffered) {
   const auto choice =
       choose_format(usb_camera(), {kYuyv, 640, 240, 0}, {.pixel_format = "GREY", .width = 1000, .height = 481});
   ASSERT_TRUE(choice);
-  EXPECT_EQ(to_text(*choice), "GREY 1000 x 481 px") << "the camera may know better than its list";
+  EXPECT_EQ(to_text(*choice), "GREY 1000 x 481 px") << "the camera may support more than it lists";
 }
 
 TEST(FormatChoice, SaysWhyCompressedVideoIsNotReadAndWhatIs) {
@@ -84,7 +84,7 @@ TEST(FormatChoice, SaysWhyCompressedVideoIsNotReadAndWhatIs) {
   ASSERT_FALSE(choice);
   EXPECT_THAT(choice.reason(),
               AllOf(HasSubstr("H264 is compressed video"), HasSubstr("set pixel_format to one of MJPG, YUYV")));
-  EXPECT_THAT(choose_format(usb_camera(), {}, {.pixel_format = "NV12"}).reason(), HasSubstr("NV12 is not read"));
+  EXPECT_THAT(choose_format(usb_camera(), {}, {.pixel_format = "NV12"}).reason(), HasSubstr("NV12 is not supported"));
   EXPECT_THAT(choose_format(usb_camera(), {}, {.pixel_format = "YUYV8"}).reason(), HasSubstr("one to four characters"));
 }
 
@@ -95,7 +95,7 @@ TEST(FormatChoice, LeavesCompressedVideoForWhatIsRead) {
   const std::vector<OfferedFormat> only_video{{kH264, "H.264", {}}, {kNv12, "NV12", {}}};
   const auto none = choose_format(only_video, {kH264, 1280, 480, 0}, {});
   ASSERT_FALSE(none);
-  EXPECT_THAT(none.reason(), AllOf(HasSubstr("it has H264, NV12"), HasSubstr("read are GREY")));
+  EXPECT_THAT(none.reason(), AllOf(HasSubstr("it has H264, NV12"), HasSubstr("supported are GREY")));
 }
 
 TEST(FormatChoice, KnowsRangesOfSizes) {
@@ -113,15 +113,15 @@ TEST(NegotiatedFormat, IsReportedWhereItIsNotWhatWasAskedFor) {
               ElementsAre("format MJPG 1000 x 481 px: the camera gives YUYV 640 x 480 px",
                           "frame_rate_hz 60: the camera gives 30 Hz"));
   EXPECT_THAT(not_given({.width = 640, .height = 480, .rate_hz = 30.0}, given, given, 29.97), IsEmpty());
-  EXPECT_THAT(not_given({.rate_hz = 30.0}, given, given, 0.0), ElementsAre(HasSubstr("does not let its rate be set")));
-  EXPECT_THAT(not_given({}, asked, given, 0.0), IsEmpty()) << "nothing was wished";
+  EXPECT_THAT(not_given({.rate_hz = 30.0}, given, given, 0.0), ElementsAre(HasSubstr("rate cannot be set")));
+  EXPECT_THAT(not_given({}, asked, given, 0.0), IsEmpty()) << "nothing was requested";
 }
 
 TEST(NegotiatedFormat, IsAnErrorWhereItCannotBeRead) {
   EXPECT_EQ(format_problem({kYuyv, 640, 480, 1280}, usb_camera()), "");
   EXPECT_THAT(format_problem({kNv12, 640, 480, 640}, usb_camera()),
               AllOf(HasSubstr("gives NV12 640 x 480 px"), HasSubstr("pixel_format")));
-  EXPECT_THAT(format_problem({kYuyv, 0, 0, 0}, usb_camera()), HasSubstr("no image"));
+  EXPECT_THAT(format_problem({kYuyv, 0, 0, 0}, usb_camera()), HasSubstr("not an image"));
 }
 
 }  // namespace

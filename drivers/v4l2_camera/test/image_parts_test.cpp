@@ -21,7 +21,7 @@ std::vector<std::uint8_t> counted(std::size_t size) {
   return bytes;
 }
 
-/// The pixels of a part, as they are published.
+/// The pixels of a part as published.
 std::vector<std::uint8_t> published(const RawImage& part) {
   const auto image = camera_stream::to_image(part, ImageOutput::kAsSent, "frame");
   EXPECT_TRUE(image) << image.reason();
@@ -39,7 +39,7 @@ TEST(ImagesSideBySide, AreTheLeftAndTheRightHalfOfEachRow) {
 }
 
 TEST(ImagesSideBySide, LeaveOutGapsBetweenRowsAndKeepPixelsOfSeveralBytesWhole) {
-  const auto bytes = counted(2 * 14);  // two pixels of three bytes to a row of 14
+  const auto bytes = counted(2 * 14);  // two halves of two three-byte pixels, rows of 14 bytes
   ImageSplitter splitter({.parts = ImageParts::kSideBySide});
   const auto parts = splitter.split({PixelFormat::kBgr8, 4, 2, 14, bytes});
   ASSERT_TRUE(parts) << parts.reason();
@@ -74,7 +74,7 @@ TEST(ImagesOneAboveTheOther, AreTheUpperAndTheLowerRows) {
   EXPECT_THAT(published((*parts)[1]), ElementsAre(4, 5, 6, 7));
   EXPECT_THAT(splitter.split({PixelFormat::kMono8, 2, 3, 0, bytes}).reason(), HasSubstr("3 px high"));
   EXPECT_THAT(splitter.split({PixelFormat::kBayerRG8, 2, 2, 0, bytes}).reason(), HasSubstr("odd number of BayerRG8"))
-      << "the lower half would begin in the middle of the pattern";
+      << "the lower half would start within the pattern";
 }
 
 TEST(InterleavedImages, AreTheFirstAndTheSecondByteOfEachPixel) {

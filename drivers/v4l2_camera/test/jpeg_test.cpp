@@ -17,7 +17,7 @@ using ::testing::HasSubstr;
 constexpr int kWidth = 64, kHeight = 48;
 using Bytes = std::vector<std::uint8_t>;
 
-/// Columns grow brighter to the right; blue on the left half, red on the right.
+/// Green increases to the right; the left half is blue, the right half red.
 cv::Mat picture() {
   cv::Mat pixels(kHeight, kWidth, CV_8UC3);
   for (int row = 0; row < kHeight; ++row) {
@@ -72,7 +72,7 @@ TEST(JpegFrames, WithoutHuffmanTablesAreReadWithTheStandardOnes) {
   const auto whole = decoder.decode(file, kWidth, kHeight, true);
   ASSERT_TRUE(whole);
   const Bytes expected(whole->bytes.begin(), whole->bytes.end());
-  // What OpenCV writes by default are the standard's tables: many USB cameras leave them out.
+  // OpenCV writes the standard tables by default; many USB cameras omit them.
   int removed = 0;
   for (auto at = find_marker(file, 0xc4); at != file.end(); at = find_marker(file, 0xc4), ++removed)
     file.erase(at, at + 2 + at[2] * 256 + at[3]);
@@ -100,7 +100,7 @@ TEST(DamagedJpegFrames, AreToldWhereverTheyAreCutOff) {
   for (std::size_t size = 0; size < file.size() - 2; size += 7) {
     const auto image = decoder.decode(std::span(file).first(size), kWidth, kHeight, false);
     EXPECT_FALSE(image) << "cut off after " << size << " of " << file.size() << " bytes";
-    EXPECT_THAT(image.reason(), AnyOf(HasSubstr("damaged JPEG file"), HasSubstr("is no JPEG file")));
+    EXPECT_THAT(image.reason(), AnyOf(HasSubstr("damaged JPEG file"), HasSubstr("is not a JPEG file")));
   }
 }
 
@@ -120,7 +120,7 @@ TEST(DamagedJpegFrames, MakeNoTroubleForThoseThatFollow) {
     if (image) {
       EXPECT_GE(image->bytes.size(), std::size_t{kWidth * kHeight});
     }
-    ASSERT_TRUE(decoder.decode(file, kWidth, kHeight, false)) << "the next one is read as ever, after byte " << i;
+    ASSERT_TRUE(decoder.decode(file, kWidth, kHeight, false)) << "the next file is read correctly, after byte " << i;
   }
 }
 

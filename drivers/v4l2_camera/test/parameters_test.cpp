@@ -55,7 +55,7 @@ TEST(Layouts, SayWhatIsPublishedOfHowManyCameras) {
 
 TEST(Layouts, AreRefusedWithTheWrongNumberOfCameras) {
   EXPECT_THAT(problem_of(with_layout("stereo", {"S1"})), AllOf(HasSubstr("two cameras"), HasSubstr("panvo devices")));
-  EXPECT_THAT(problem_of(with_layout("side_by_side", {"S1", "S2"})), HasSubstr("side_by_side has one camera, but 2"));
+  EXPECT_THAT(problem_of(with_layout("side_by_side", {"S1", "S2"})), HasSubstr("side_by_side has one camera; 2 given"));
   EXPECT_THAT(problem_of(with_layout("stereo", {"S1", "S1"})), HasSubstr("S1 is named twice"));
 }
 
@@ -85,10 +85,10 @@ TEST(ParametersOfCameras, AreRefusedWhereTheyMakeNoSense) {
   Parameters parameters;
   parameters.controls = {"gain", "left:gain=3"};
   parameters.calibration = "nowhere";
-  EXPECT_THAT(problem_of(parameters), AllOf(HasSubstr("'gain' is no setting; write name=value"),
+  EXPECT_THAT(problem_of(parameters), AllOf(HasSubstr("'gain' is not a setting; write name=value"),
                                             HasSubstr("nowhere/camera.yaml: cannot be opened")));
   parameters.controls = {"left:gain=3"};
-  EXPECT_THAT(problem_of(parameters), HasSubstr("no camera here; there are: camera"));
+  EXPECT_THAT(problem_of(parameters), HasSubstr("unknown camera 'left'; cameras: camera"));
 }
 
 }  // namespace

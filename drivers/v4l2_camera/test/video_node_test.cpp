@@ -15,7 +15,7 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::SizeIs;
 
-/// Folders as the kernel shows devices in, on disk.
+/// A copy of the kernel's sysfs layout on disk.
 class NodesInFolders : public ::testing::Test {
  protected:
   NodesInFolders() : root_(fs::temp_directory_path() / ("panvo_nodes_" + std::to_string(getpid()))) {
@@ -68,7 +68,7 @@ TEST_F(NodesInFolders, AreMeantBySerialPathLinkPortOrName) {
   usb_camera("1-1", "LEFT", "Cam");
   usb_camera("1-2", "RIGHT", "Cam");
   node("video0", "Cam", 0, "1-1");
-  node("video1", "Cam", 1, "1-1");  // of metadata
+  node("video1", "Cam", 1, "1-1");  // metadata
   node("video2", "Cam", 0, "1-2");
   node("video3", "Other", 0);
   fs::create_symlink(root_ / "dev" / "video2", root_ / "dev" / "by-id");
@@ -82,13 +82,13 @@ TEST_F(NodesInFolders, AreMeantBySerialPathLinkPortOrName) {
   EXPECT_EQ(path_of(dev("by-id")), dev("video2"));
   EXPECT_EQ(path_of("1-1"), dev("video0"));
   EXPECT_EQ(path_of("Other"), dev("video3"));
-  EXPECT_THAT(path_of("Cam"), AllOf(HasSubstr("'Cam' fits 2 cameras"), HasSubstr("USB port 1-2")));
-  EXPECT_THAT(path_of("MIDDLE"), AllOf(HasSubstr("there is no camera 'MIDDLE'"), HasSubstr("LEFT (Cam at")));
+  EXPECT_THAT(path_of("Cam"), AllOf(HasSubstr("'Cam' matches 2 cameras"), HasSubstr("USB port 1-2")));
+  EXPECT_THAT(path_of("MIDDLE"), AllOf(HasSubstr("camera 'MIDDLE' not found"), HasSubstr("LEFT (Cam at")));
 }
 
 TEST(FindingANode, SaysThatThereIsNone) {
   EXPECT_THAT(find_node({}, "").problem, HasSubstr("no camera is connected"));
-  EXPECT_THAT(find_node({}, "X").problem, HasSubstr("there is no camera 'X'; no camera is connected"));
+  EXPECT_THAT(find_node({}, "X").problem, HasSubstr("camera 'X' not found; no camera is connected"));
 }
 
 TEST(FindingACameraAgain, GoesByItsSerialNumberWhereverItIsPluggedIn) {
@@ -98,8 +98,8 @@ TEST(FindingACameraAgain, GoesByItsSerialNumberWhereverItIsPluggedIn) {
   const VideoNode another{"/dev/video0", "Cam", "S2", "M", "1-1", 0};
   EXPECT_EQ(find_again({another, metadata, elsewhere}, known).node->path, "/dev/video4");
   const auto none = find_again({another}, known);
-  EXPECT_FALSE(none.node) << "another camera at its place is another camera";
-  EXPECT_THAT(none.problem, AllOf(HasSubstr("Cam S1 is not connected any more"), HasSubstr("S2 (Cam at /dev/video0")));
+  EXPECT_FALSE(none.node) << "another camera at the same port is not taken for it";
+  EXPECT_THAT(none.problem, AllOf(HasSubstr("Cam S1 is no longer connected"), HasSubstr("S2 (Cam at /dev/video0")));
 }
 
 TEST(FindingACameraAgain, GoesByItsPortWhereSerialNumbersDoNotTellThemApart) {

@@ -8,7 +8,9 @@ namespace panvo::interfaces {
 
 class MessageTableTest {
  public:
-  static MessageTable misfit() { return {std::span<const MessageType* const>(), sizeof(MessageType) + 8, sizeof(CdrField)}; }
+  static MessageTable misfit() {
+    return {std::span<const MessageType* const>(), sizeof(MessageType) + 8, sizeof(CdrField)};
+  }
 };
 
 namespace {

@@ -96,7 +96,7 @@ TEST_F(VividCamera, DeliversAllFramesWithTheKernelsStamps) {
   const auto report = grabbed.report();
   expect_all_counted(frames, report.counters);
   EXPECT_EQ(report.counters.clock_resets, 0u);
-  EXPECT_EQ(report.details.at("stamps"), "of the end of the frame");
+  EXPECT_EQ(report.details.at("stamps"), "end of frame");
 }
 
 TEST_F(VividCamera, SaysWhatItGivesInsteadOfWhatWasAskedFor) {
@@ -118,7 +118,7 @@ TEST_F(VividCamera, RefusesCompressedVideoAndSelectorsThatFitNone) {
   const Grabbed h264(vivid("H264"));
   EXPECT_TRUE(soon([&] { return h264.log_contains("H264 is compressed video"); })) << h264.log();
   const Grabbed nobody(camera("SERIAL"));
-  EXPECT_TRUE(soon([&] { return nobody.log_contains("there is no camera 'SERIAL'; there are: no serial (vivid-000"); }))
+  EXPECT_TRUE(soon([&] { return nobody.log_contains("camera 'SERIAL' not found; available: no serial (vivid-000"); }))
       << nobody.log();
   EXPECT_EQ(h264.count() + nobody.count(), 0u);
 }
@@ -200,7 +200,7 @@ TEST_F(VividCamera, IsListedWithWhatItCanDo) {
   ASSERT_EQ(found.size(), 2u);
   EXPECT_EQ(found[0].model, "vivid-000-vid-cap");
   EXPECT_THAT(found[1].formats,
-              AllOf(Contains("YUYV"), Contains("GREY"), Contains("RGGB"), Contains(HasSubstr("not read"))));
+              AllOf(Contains("YUYV"), Contains("GREY"), Contains("RGGB"), Contains(HasSubstr("not supported"))));
   EXPECT_THAT(found[1].sizes, HasSubstr("320 x 180, 640 x 360"));
   EXPECT_EQ(found[1].address, kSecond);
   EXPECT_TRUE(grabbed.more_come(3)) << "it streams on while it is looked at";
@@ -214,7 +214,7 @@ TEST_F(VividCamera, ComesBackEachTimeItWasAway) {
     set_control(kFirst, "disconnect", 1);  // until the last one who has it open closes it
     ASSERT_TRUE(soon([&] { return grabbed.counters().reconnects == time; })) << time << "\n" << grabbed.log();
   }
-  EXPECT_TRUE(grabbed.log_contains("/dev/video0 is not there (any more)")) << grabbed.log();
+  EXPECT_TRUE(grabbed.log_contains("/dev/video0 does not exist or was disconnected")) << grabbed.log();
   const auto frames = grabbed.frames();
   for (std::size_t i = 1; i < frames.size(); ++i) ASSERT_GT(frames[i].stamp_ns, frames[i - 1].stamp_ns);
 }

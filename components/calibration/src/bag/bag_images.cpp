@@ -42,7 +42,7 @@ void find_cameras(const recorder::BagReader& bag, BagImages& settings) {
               [](const auto& a, const auto& b) { return a.name < b.name; });
     if (settings.cameras.empty())
       throw CalibrationError(
-          fmt::format("{}: holds no topic */image_raw; name topics with --topics left:=/TOPIC (there are: {})",
+          fmt::format("{}: contains no topic */image_raw; specify topics with --topics left:=/TOPIC (available: {})",
                       settings.bag.string(), image_topics(bag)));
   }
   for (const auto& camera : settings.cameras) {
@@ -50,7 +50,7 @@ void find_cameras(const recorder::BagReader& bag, BagImages& settings) {
       return topic.name == camera.topic && holds_images(topic);
     });
     if (!is_there)
-      throw CalibrationError(fmt::format("{}: holds no images of {}; name one of: {}", settings.bag.string(),
+      throw CalibrationError(fmt::format("{}: contains no images of {}; available topics: {}", settings.bag.string(),
                                          camera.topic, image_topics(bag)));
   }
 }

@@ -13,14 +13,14 @@ namespace panvo::calibration {
 struct BagImages {
   std::filesystem::path bag;
   std::vector<CameraTopic>
-      cameras;  ///< the first is the one whose frames are chosen; empty: every */image_raw, named by the folder it is in
+      cameras;  ///< frames are selected by the first one; empty: every */image_raw, named after its namespace
   std::filesystem::path out;
-  std::int64_t every_ns = 0;      ///< between frames
-  std::int64_t tolerance_ns = 0;  ///< between frames that were taken at once
+  std::int64_t every_ns = 0;      ///< least interval between frames
+  std::int64_t tolerance_ns = 0;  ///< largest stamp difference of simultaneous frames
 };
 
-/// Writes OUT/NAME/STAMP.png; frames taken at once have the same name. Returns how many of each camera. Throws CalibrationError for topics that
-/// are not there, and recorder::BagError.
+/// Writes OUT/NAME/STAMP.png; simultaneous frames have equal names. Fills empty `cameras`. Returns the number of frames
+/// of each camera. Throws CalibrationError for missing topics, and recorder::BagError.
 std::vector<std::size_t> write_images(BagImages& settings);
 
 }  // namespace panvo::calibration

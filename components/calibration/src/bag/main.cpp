@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// panvo_calibration_images: images of a bag as files, those taken at once under the same name, for panvo_calibrate.
+// panvo_calibration_images: extracts images of a bag for panvo_calibrate; simultaneous images get equal file names.
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <cstdio>
@@ -17,19 +17,18 @@ enum ExitStatus { kSuccess = 0, kFailed = 1, kUsage = 2 };
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Writes images of a bag as files, those taken at once under the same name.", "panvo calibrate images");
+  CLI::App app("Extracts images of a bag to files. Simultaneous images get equal names.", "panvo calibrate images");
   BagImages settings;
   std::vector<std::string> topics;
   double every_s = 1.0;
   double tolerance_ms = 5.0;
-  app.add_option("bag", settings.bag, "bag with the images of all cameras (panvo record makes one of live topics)")
-      ->required();
-  app.add_option("--out", settings.out, "folder for the images, NAME/STAMP.png")->required();
+  app.add_option("bag", settings.bag, "bag with the images of all cameras, e.g. from panvo record")->required();
+  app.add_option("--out", settings.out, "output folder; files are NAME/STAMP.png")->required();
   app.add_option("--topics", topics,
-                 "NAME:=TOPIC of each camera (default: every */image_raw, named by what stands before it)")
+                 "NAME:=TOPIC of each camera (default: every */image_raw, named after its namespace)")
       ->delimiter(',');
   app.add_option("--every", every_s, "seconds between images")->check(CLI::NonNegativeNumber)->capture_default_str();
-  app.add_option("--tolerance-ms", tolerance_ms, "largest difference of stamps of images taken at once")
+  app.add_option("--tolerance-ms", tolerance_ms, "largest stamp difference of simultaneous images")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
   try {

@@ -14,13 +14,13 @@ namespace {
 using vision::LensModel;
 
 constexpr double kRotationTolerance = 1e-3;
-constexpr const char* kKind = "a camchain YAML of Kalibr's, with cam0, cam1, ...";
+constexpr const char* kKind = "a Kalibr camchain YAML with cam0, cam1, ...";
 
 vision::LensCamera read_lens(const YamlDocument& camera) {
   const std::string model = camera.text("camera_model");
   const bool is_omni = model == "omni";
   if (!is_omni && model != "pinhole")
-    camera.fail("camera_model", fmt::format("'{}' is not read; calibrate with pinhole or omni", model));
+    camera.fail("camera_model", fmt::format("'{}' is not supported; calibrate with pinhole or omni", model));
   const auto size = camera.numbers("resolution", 2);
   auto intrinsics = camera.numbers("intrinsics", is_omni ? 5 : 4);
   double xi = 0.0;
@@ -31,12 +31,12 @@ vision::LensCamera read_lens(const YamlDocument& camera) {
   const vision::PinholeCamera pinhole{
       intrinsics[0], intrinsics[1], intrinsics[2], intrinsics[3], static_cast<int>(size[0]), static_cast<int>(size[1])};
   if (pinhole.width <= 0 || pinhole.height <= 0) camera.fail("resolution", "must be width and height in px");
-  if (!(pinhole.fx > 0.0 && pinhole.fy > 0.0)) camera.fail("intrinsics", "has no positive focal lengths");
+  if (!(pinhole.fx > 0.0 && pinhole.fy > 0.0)) camera.fail("intrinsics", "must have positive focal lengths");
   const std::string distortion = camera.text("distortion_model");
   auto coefficients = distortion == "none" ? std::vector<double>() : camera.numbers("distortion_coeffs", 4);
   if (is_omni && distortion != "radtan" && distortion != "none")
     camera.fail("distortion_model",
-                fmt::format("'{}' is not read with camera_model omni; calibrate with omni-radtan", distortion));
+                fmt::format("'{}' is not supported with camera_model omni; calibrate with omni-radtan", distortion));
   if (is_omni) {
     coefficients.resize(4, 0.0);
     coefficients.push_back(xi);
@@ -54,7 +54,7 @@ Eigen::Isometry3d read_step(const YamlDocument& camera) {
   const Eigen::Matrix3d rotation = matrix.topLeftCorner<3, 3>();
   if ((rotation * rotation.transpose() - Eigen::Matrix3d::Identity()).norm() > kRotationTolerance ||
       rotation.determinant() < 0.0)
-    camera.fail("T_cn_cnm1", "is no rotation and translation, row by row");
+    camera.fail("T_cn_cnm1", "is not a rigid transform (4 x 4, row by row)");
   Eigen::Isometry3d step = Eigen::Isometry3d::Identity();
   step.linear() = vision::nearest_rotation(rotation);
   step.translation() = matrix.topRightCorner<3, 1>();
@@ -84,7 +84,7 @@ std::vector<NamedCamera> read_camchain(const std::filesystem::path& file) {
     if (i > 0) named.camera.camera_from_reference = read_step(camera) * cameras.back().camera.camera_from_reference;
     cameras.push_back(named);
   }
-  if (cameras.empty()) throw CalibrationError(fmt::format("{}: cam0 is missing; name {}", file.string(), kKind));
+  if (cameras.empty()) throw CalibrationError(fmt::format("{}: cam0 is missing; expected {}", file.string(), kKind));
   return cameras;
 }
 
@@ -97,7 +97,7 @@ std::string camchain_text(const std::vector<NamedCamera>& cameras) {
         lens.model == LensModel::kRational || (lens.model == LensModel::kPlumbBob && coefficients[4] != 0.0);
     if (is_unknown)
       throw CalibrationError(fmt::format(
-          "{}: Kalibr's radtan has no k3 and no rational polynomial; calibrate again without them", cameras[i].name));
+          "{}: Kalibr's radtan has neither k3 nor a rational polynomial; recalibrate without them", cameras[i].name));
     const bool is_omni = lens.model == LensModel::kMei;
     text += fmt::format("cam{}:\n", i);
     if (i > 0)

@@ -78,7 +78,7 @@ CameraInfo read_camera_info(const std::filesystem::path& file) {
   pinhole.cx = matrix[2];
   pinhole.cy = matrix[5];
   if (!(pinhole.fx > 0.0 && pinhole.fy > 0.0))
-    yaml.fail("camera_matrix", "has no positive focal lengths; calibrate the camera");
+    yaml.fail("camera_matrix", "must have positive focal lengths; calibrate the camera");
   CameraInfo info;
   try {
     info = single_camera_info(

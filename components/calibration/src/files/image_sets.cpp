@@ -30,7 +30,7 @@ bool is_image(const fs::path& file) {
 void check_folder(const fs::path& folder) {
   std::error_code error;
   if (!fs::is_directory(folder, error))
-    throw CalibrationError(folder.string() + ": is no folder; name the one that holds the images");
+    throw CalibrationError(folder.string() + ": is not a folder; specify the folder of the images");
 }
 
 ByName images_in(const fs::path& folder) {
@@ -42,7 +42,7 @@ ByName images_in(const fs::path& folder) {
   return files;
 }
 
-/// Of a camera's folder, or of data/ in it, as EuRoC has them.
+/// Images in a camera's folder, or in its subfolder data/ (EuRoC).
 ByName camera_images(const fs::path& folder) {
   auto files = images_in(folder);
   return files.empty() ? images_in(folder / "data") : files;
@@ -86,9 +86,9 @@ void read_set(const ImageSets::Set& set, const BoardDetector& detector, std::vec
         first_files[camera] = file;
       }
       if (size != grey.size())
-        throw CalibrationError(
-            fmt::format("{}: is of {} x {} px, but {} is of {} x {} px; calibrate with images of one size",
-                        file.string(), grey.cols, grey.rows, first_files[camera].string(), size.width, size.height));
+        throw CalibrationError(fmt::format("{}: size is {} x {} px, but {} is {} x {} px; use images of one size",
+                                           file.string(), grey.cols, grey.rows, first_files[camera].string(),
+                                           size.width, size.height));
       sighting = detector.detect(grey);
     }
     view.seen.push_back(std::move(sighting.corners));
@@ -116,13 +116,13 @@ ImageSets find_stereo_images(const fs::path& folder) {
   }
   if (left.empty() || right.empty())
     throw CalibrationError(fmt::format(
-        "{}: holds {} left and {} right images; there must be files left*.png and right*.png, or folders left "
-        "and right (or cam0 and cam1) with files of the same names",
+        "{}: found {} left and {} right images; expected files left*.png and right*.png, or folders left and right "
+        "(or cam0 and cam1) with equal file names",
         folder.string(), left.size(), right.size()));
   if (std::none_of(left.begin(), left.end(), [&](const auto& item) { return right.contains(item.first); }))
     throw CalibrationError(fmt::format(
-        "{}: no left image has a right one of the same name ('{}' and '{}' are the first); name those taken at once "
-        "alike",
+        "{}: no left and right image have equal names (the first are '{}' and '{}'); give simultaneous images equal "
+        "names",
         folder.string(), left.begin()->second.filename().string(), right.begin()->second.filename().string()));
   return join({"left", "right"}, {left, right});
 }
@@ -140,7 +140,7 @@ ImageSets find_rig_images(const fs::path& folder, const std::vector<std::string>
   }
   if (names.size() < 2)
     throw CalibrationError(
-        fmt::format("{}: holds {} folders of images; there must be one for each camera, named as it, two or more",
+        fmt::format("{}: found {} image folders; expected two or more, one for each camera and named after it",
                     folder.string(), names.size()));
   std::vector<ByName> files;
   for (const auto& name : names) {
@@ -148,7 +148,7 @@ ImageSets find_rig_images(const fs::path& folder, const std::vector<std::string>
     if (files.back().empty())
       throw CalibrationError(
           (folder / name).string() +
-          ": holds no images of this camera; a folder for each camera, named as its camera_info file, is expected");
+          ": contains no images; expected a folder for each camera, named after its camera_info file");
   }
   return join(names, files);
 }
@@ -167,7 +167,8 @@ Observations detect_boards(const ImageSets& images, const Board& board,
   }
   for (std::size_t camera = 0; camera < images.cameras.size(); ++camera) {
     if (observations.image_sizes[camera].empty())
-      throw CalibrationError(images.cameras[camera] + ": none of its files can be read as an image; are they whole?");
+      throw CalibrationError(images.cameras[camera] +
+                             ": none of its files can be read as an image; check that they are complete");
   }
   return observations;
 }

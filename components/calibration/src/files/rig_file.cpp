@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
 
-/// Forward, left, up of a camera's body are z, -x, -y of its optical frame.
+/// Body axes forward, left, up are z, -x, -y of the optical frame.
 Eigen::Matrix3d body_from_optical() {
   Eigen::Matrix3d rotation;
   rotation << 0, 0, 1, -1, 0, 0, 0, -1, 0;
@@ -43,7 +43,7 @@ Eigen::Matrix<double, 6, 1> mount_of(const Eigen::Isometry3d& base_from_camera) 
   return mount;
 }
 
-/// Rounded as it is written, so that nothing reads -0.
+/// Rounds to the printed precision, to avoid -0.
 double rounded(double value, double places) { return std::round(value * places) / places + 0.0; }
 
 std::string numbers_of(const Eigen::Isometry3d& pose) {
@@ -82,17 +82,16 @@ std::optional<std::pair<double, double>> seen_elevations_deg(const std::vector<N
   int highest = 0;
   while (lowest > -90 && is_ring_seen(lowest - 1)) --lowest;
   while (highest < 90 && is_ring_seen(highest + 1)) ++highest;
-  // a degree less: the stitcher looks more closely
+  // one degree of margin, since the stitcher samples more finely
   return std::pair<double, double>(lowest == -90 ? -90 : lowest + 1, highest == 90 ? 90 : highest - 1);
 }
 
 std::string extrinsics_text(const std::vector<NamedCamera>& cameras, std::size_t reference,
                             const Eigen::Matrix<double, 6, 1>& reference_mount) {
   std::string text = fmt::format(
-      "# Where the cameras are. reference_from_camera: 4 x 4, row by row, optical frames (x right, y down, z forward), "
-      "m.\n"
-      "# mount: on base_link (x forward, y left, z up): x, y, z in m; roll, pitch, yaw in degrees, as the drivers' "
-      "parameter `mount`.\n"
+      "# Camera poses. reference_from_camera: 4 x 4, row by row, optical frames (x right, y down, z forward), m.\n"
+      "# mount: driver parameter `mount`, on base_link (x forward, y left, z up): x, y, z in m; roll, pitch, yaw in "
+      "degrees.\n"
       "reference: {}\ncameras:\n",
       cameras[reference].name);
   for (const auto& [name, camera] : cameras) {
@@ -119,7 +118,7 @@ std::vector<NamedCamera> read_extrinsics(const std::filesystem::path& file) {
     const Eigen::Matrix4d matrix = Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(values.data());
     const Eigen::Matrix3d rotation = matrix.topLeftCorner<3, 3>();
     if ((rotation * rotation.transpose() - Eigen::Matrix3d::Identity()).norm() > 1e-3 || rotation.determinant() < 0.0)
-      entry.fail("reference_from_camera", "is no rotation and translation; give the 4 x 4 matrix row by row");
+      entry.fail("reference_from_camera", "is not a rigid transform; give the 4 x 4 matrix row by row");
     Eigen::Isometry3d reference_from_camera = Eigen::Isometry3d::Identity();
     reference_from_camera.linear() = vision::nearest_rotation(rotation);
     reference_from_camera.translation() = matrix.topRightCorner<3, 1>();
@@ -135,8 +134,8 @@ std::string panorama_text(const std::vector<NamedCamera>& cameras, std::size_t r
   for (const auto& camera : cameras) middle += camera.camera.camera_from_reference.inverse().translation();
   middle /= static_cast<double>(cameras.size());
   std::string text = fmt::format(
-      "# A panorama of calibrated heads: it looks where '{}' looks, from the middle of all. "
-      "components/panorama_stitcher lists every key.\n"
+      "# Panorama of calibrated heads: orientation of '{}', centred between the heads. "
+      "Keys: components/panorama_stitcher/README.md.\n"
       "panorama:\n  frame_id: panorama_optical\n  radius_m: 15\n  seen_elevation_deg: [{:g}, {:g}]\nheads:\n",
       cameras[reference].name, seen_elevation_deg.first, seen_elevation_deg.second);
   for (const auto& [name, camera] : cameras) {

@@ -26,17 +26,18 @@ bool read(const YAML::Node& node, std::vector<double>& values) {
 
 YamlDocument::YamlDocument(const std::filesystem::path& path, const std::string& kind) : path_(path) {
   std::error_code error;
-  if (std::filesystem::is_directory(path, error)) throw CalibrationError(path.string() + ": is a folder; name " + kind);
+  if (std::filesystem::is_directory(path, error))
+    throw CalibrationError(path.string() + ": is a folder; expected " + kind);
   try {
     map_ = YAML::LoadFile(path.string());
   } catch (const YAML::BadFile&) {
-    throw CalibrationError(path.string() + ": cannot be opened; is it there, and may you read it?");
+    throw CalibrationError(path.string() + ": cannot be opened; check that it exists and is readable");
   } catch (const YAML::Exception& problem) {
     throw CalibrationError(
-        fmt::format("{}:{}: is not YAML: {}; name {}", path.string(), problem.mark.line + 1, problem.msg, kind));
+        fmt::format("{}:{}: is not YAML: {}; expected {}", path.string(), problem.mark.line + 1, problem.msg, kind));
   }
   if (!map_.IsMap())
-    throw CalibrationError(fmt::format("{}: holds no `key: value` lines; name {}", path.string(), kind));
+    throw CalibrationError(fmt::format("{}: contains no `key: value` lines; expected {}", path.string(), kind));
 }
 
 YAML::Node YamlDocument::at(const char* key) const {

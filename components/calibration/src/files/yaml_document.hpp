@@ -9,17 +9,17 @@
 
 namespace panvo::calibration {
 
-/// A map of a YAML file, whose values are read or refused with file, line and key. Every function throws CalibrationError.
+/// Reads and validates values of a YAML map. All functions throw CalibrationError with file, line and key.
 class YamlDocument {
  public:
-  /// `kind`: what is expected, "a camera_info file".
+  /// `kind`: the expected kind of file for messages, e.g. "a camera_info file".
   YamlDocument(const std::filesystem::path& path, const std::string& kind);
   YamlDocument(std::filesystem::path path, YAML::Node map) : path_(std::move(path)), map_(std::move(map)) {}
 
   bool has(const char* key) const { return map_[key].IsDefined(); }
   std::string text(const char* key) const;
   int integer(const char* key, int low, int high) const;
-  /// A list, a list of lists, or a matrix with `data`; so many numbers (0: any count), all finite.
+  /// Reads a list, nested lists, or a map with a list `data`. `count`: required number of values (0: any); all finite.
   std::vector<double> numbers(const char* key, std::size_t count) const;
   YAML::Node at(const char* key) const;
 

@@ -11,7 +11,7 @@
 
 namespace panvo::calibration {
 
-/// Puts together what several cameras took at once, by stamp. Frames that stay alone are let go.
+/// Groups simultaneous frames of several cameras by stamp. Discards frames without partners.
 template <class Frame>
 class FrameSets {
  public:
@@ -22,8 +22,8 @@ class FrameSets {
 
   FrameSets(std::size_t cameras, std::int64_t tolerance_ns) : waiting_(cameras), tolerance_ns_(tolerance_ns) {}
 
-  /// Takes a frame; when it is the last of a set, that set: of each other camera the frame nearest in time. It, and all frames
-  /// before it, are then gone.
+  /// Adds a frame. If it completes a set, returns the set with the nearest frame in time of each other camera, and
+  /// drops these and all earlier frames.
   std::optional<Set> push(std::size_t camera, std::int64_t stamp_ns, Frame frame) {
     waiting_[camera].emplace_back(stamp_ns, std::move(frame));
     if (waiting_[camera].size() > kMostWaiting) waiting_[camera].pop_front();
@@ -47,7 +47,7 @@ class FrameSets {
     return set;
   }
 
-  /// How far apart in time the frames of the best set so far were, whether it was close enough or not; nullopt: some camera never had one.
+  /// Smallest time span of a set so far, whether within the tolerance or not; nullopt if a camera has sent no frame.
   std::optional<std::int64_t> closest_ns() const { return closest_ns_; }
 
  private:

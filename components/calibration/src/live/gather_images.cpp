@@ -21,16 +21,16 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = ImageStream::Clock;
 
-constexpr std::chrono::seconds kReminder{5};  // of silence, after which it is said again what is lacking
+constexpr std::chrono::seconds kReminder{5};  // interval after which the progress is printed again
 
-/// Pictures as they come: the board in them, and those that are kept as files.
+/// Detects the board in incoming images and writes those of the kept views.
 class Gathering {
  public:
   Gathering(const LiveImages& settings, const Board& board, const std::vector<CameraTopic>& cameras)
       : settings_(settings), board_(board), cameras_(cameras), detector_(board) {}
 
   void take(const ImageStream::Set& set) {
-    if (!stamps_.insert(set.stamp_ns).second) return;  // played again
+    if (!stamps_.insert(set.stamp_ns).second) return;  // seen before: the recording is being replayed
     std::vector<cv::Mat> pictures;
     std::vector<std::vector<Corner>> seen;
     for (std::size_t camera = 0; camera < cameras_.size(); ++camera) {
@@ -46,7 +46,7 @@ class Gathering {
       keep(set.stamp_ns, pictures);
       say("");
     } else if (Clock::now() - said_ > kReminder) {
-      say(is_seen_ ? ", nothing new is seen" : ", no camera sees the board (" + missing_ + ")");
+      say(is_seen_ ? ", nothing new" : ", no camera sees the board (" + missing_ + ")");
     }
   }
 
@@ -66,8 +66,7 @@ class Gathering {
       sizes_ = sizes;
       choice_.emplace(names, sizes, board_, settings_.goals);
     }
-    if (sizes != sizes_)
-      throw CalibrationError("the size of the images changed meanwhile; calibrate with images of one size");
+    if (sizes != sizes_) throw CalibrationError("the image size changed; use images of one size");
   }
 
   void keep(std::int64_t stamp_ns, const std::vector<cv::Mat>& pictures) const {
@@ -81,13 +80,13 @@ class Gathering {
     }
   }
 
-  /// "view 12: left (61 % covered) lacks the top, 8 more views; right (58 % covered) lacks 8 more views".
+  /// Prints "view 12: left (61 % covered) needs the top, 8 more views; right (78 % covered) is complete".
   void say(const std::string& news) {
     std::vector<std::string> parts;
     for (std::size_t camera = 0; camera < cameras_.size(); ++camera) {
       const auto lacks = choice_->lacks(camera);
       parts.push_back(fmt::format("{} ({:.0f} % covered) {}", cameras_[camera].name, 100.0 * choice_->covered(camera),
-                                  lacks.empty() ? "has enough" : fmt::format("lacks {}", fmt::join(lacks, ", "))));
+                                  lacks.empty() ? "is complete" : fmt::format("needs {}", fmt::join(lacks, ", "))));
     }
     fmt::print(stderr, "view {}{}: {}\n", choice_->kept(), news, fmt::join(parts, "; "));
     said_ = Clock::now();
@@ -99,25 +98,25 @@ class Gathering {
   BoardDetector detector_;
   std::set<std::int64_t> stamps_;
   std::vector<cv::Size> sizes_;
-  std::optional<ViewChoice> choice_;  // from the first images on, whose sizes it must know
+  std::optional<ViewChoice> choice_;  // created with the first images, since it needs their sizes
   bool is_seen_ = false;
-  std::string missing_;  // why a camera did not see the board, last
+  std::string missing_;  // the last reason why a camera did not see the board
   Clock::time_point said_ = Clock::now();
 };
 
 Clock::duration seconds(double count) { return std::chrono::milliseconds(std::llround(1e3 * count)); }
 
-/// Returns why it ended.
+/// Collects images. Returns the reason for stopping.
 const char* gather(ImageStream& stream, const LiveImages& settings, Gathering& gathering) {
   const auto end = Clock::now() + seconds(settings.limit_s);
   bool has_come = false;
   while (!gathering.is_enough()) {
-    if (gathering.kept() >= settings.most_views) return "as many as --views asks for";
+    if (gathering.kept() >= settings.most_views) return "limit of --views reached";
     const auto set = stream.next(std::min(end, Clock::now() + seconds(settings.timeout_s)));
-    if (Interruption::came()) return "ended by Ctrl-C";
-    if (Clock::now() >= end) return "the time of --for is over";
+    if (Interruption::came()) return "stopped by Ctrl-C";
+    if (Clock::now() >= end) return "time limit of --for reached";
     if (!set && !has_come) throw CalibrationError(stream.why_none());
-    if (!set) return "no more images come";
+    if (!set) return "no more images arrive";
     has_come = true;
     gathering.take(*set);
   }
@@ -132,16 +131,16 @@ void gather_images(const LiveImages& settings, const Board& board) {
   if (fs::exists(settings.out, error) && !fs::is_empty(settings.out, error))
     throw CalibrationError(
         settings.out.string() +
-        ": holds pictures already; calibrate from it without --topics, remove it, or choose another --out");
+        ": already contains images; calibrate from it without --topics, remove it, or choose another --out");
   const Interruption interruption;
   Gathering gathering(settings, board, cameras);
   ImageStream stream(cameras, std::chrono::milliseconds(std::llround(1e3 * settings.timeout_s)),
                      std::llround(1e6 * settings.tolerance_ms));
-  fmt::print(stderr, "move the board before the cameras; Ctrl-C ends it\n");
+  fmt::print(stderr, "move the board in front of the cameras; Ctrl-C stops\n");
   const char* why = gather(stream, settings, gathering);
   if (gathering.kept() == 0)
     throw CalibrationError(fmt::format("no view of the board ({}): {}", why,
-                                       gathering.missing().empty() ? "no images came" : gathering.missing()));
+                                       gathering.missing().empty() ? "no images arrived" : gathering.missing()));
   fmt::print(stderr, "{} views in {}: {}\n", gathering.kept(), settings.out.string(), why);
 }
 

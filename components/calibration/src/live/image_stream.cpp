@@ -21,11 +21,12 @@ namespace {
 
 using std::chrono::milliseconds;
 
-constexpr milliseconds kLook{20};  // between two looks at what others publish
+constexpr milliseconds kLook{20};  // polling interval for publishers
 constexpr milliseconds kLookForStop{50};
 constexpr double kMillisecond_ns = 1e6;
 
-/// What others publish: type by topic. A name from the network that is none is left out, so that it can do a terminal no harm.
+/// Types of the published topics, by name. Omits invalid names from the network, which could contain control
+/// characters.
 std::map<std::string, std::string> published_topics(runtime::Bridge& bridge) {
   std::map<std::string, std::string> types;
   for (const auto& endpoint : bridge.graph().endpoints) {
@@ -41,7 +42,7 @@ std::string image_topics(const std::map<std::string, std::string>& types) {
   for (const auto& [name, type] : types) {
     if (is_image_type(type)) names.push_back(name);
   }
-  return names.empty() ? "nobody publishes images" : fmt::format("images are on {}", fmt::join(names, ", "));
+  return names.empty() ? "no images are published" : fmt::format("image topics: {}", fmt::join(names, ", "));
 }
 
 void warn(std::string text) {
@@ -86,11 +87,11 @@ std::vector<std::string> ImageStream::await_publishers(milliseconds timeout) {
       return found;
     }
     if (Interruption::came() || Clock::now() >= end)
-      throw CalibrationError(fmt::format("{}: {} ({}); does the driver run, on this ROS_DOMAIN_ID?", lacking->topic,
-                                         types.contains(lacking->topic)
-                                             ? "carries " + types.at(lacking->topic) + ", no images"
-                                             : "nobody publishes it",
-                                         image_topics(types)));
+      throw CalibrationError(fmt::format(
+          "{}: {} ({}); check that the driver runs on this ROS_DOMAIN_ID", lacking->topic,
+          types.contains(lacking->topic) ? "has type " + types.at(lacking->topic) + ", which is not an image"
+                                         : "is not published",
+          image_topics(types)));
     std::this_thread::sleep_for(kLook);
   }
 }
@@ -109,11 +110,11 @@ std::string ImageStream::why_none() const {
   const std::lock_guard lock(mutex_);
   const auto silent = std::find(received_.begin(), received_.end(), std::size_t{0});
   if (silent != received_.end())
-    return fmt::format("{}: is published, but no image came; does the camera run?",
+    return fmt::format("{}: is published, but no images arrived; check that the camera runs",
                        cameras_[static_cast<std::size_t>(silent - received_.begin())].topic);
   return fmt::format(
-      "{}: no images of all topics have one stamp, the nearest are {:.1f} ms apart; trigger the cameras together, or "
-      "bear more with --tolerance-ms",
+      "{}: no simultaneous images on all topics, the closest are {:.1f} ms apart; trigger the cameras together, or "
+      "increase --tolerance-ms",
       cameras_.front().topic, static_cast<double>(sets_.closest_ns().value_or(0)) / kMillisecond_ns);
 }
 

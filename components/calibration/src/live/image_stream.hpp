@@ -15,20 +15,21 @@
 
 namespace panvo::calibration {
 
-/// The images that other processes publish on several topics, those taken at once together. Of sets that come faster than they are taken the
-/// newest is kept.
+/// Receives images of several topics from other processes, grouped into simultaneous sets. Keeps only the newest set
+/// that has not been taken.
 class ImageStream {
  public:
   using Clock = std::chrono::steady_clock;
   using Set = FrameSets<runtime::SamplePtr>::Set;
 
-  /// Waits up to `timeout` for who publishes them. Throws CalibrationError when a topic has nobody, naming those that have.
+  /// Waits up to `timeout` for publishers. Throws CalibrationError if a topic has no publisher, with the available
+  /// topics.
   ImageStream(const std::vector<CameraTopic>& cameras, std::chrono::milliseconds timeout, std::int64_t tolerance_ns);
 
-  /// The newest set that was not taken yet; nullopt: none came until `end`, or Ctrl-C did.
+  /// Waits for and takes the newest set; nullopt at `end` or after Ctrl-C.
   std::optional<Set> next(Clock::time_point end);
 
-  /// Why no set comes: which topic has no images, or how far apart their stamps are.
+  /// Describes why there is no set: a topic without images, or the difference of the stamps.
   std::string why_none() const;
 
  private:
@@ -43,7 +44,7 @@ class ImageStream {
   std::vector<std::size_t> received_;  // images of each camera
   std::optional<Set> newest_;
   std::unique_ptr<runtime::Bridge> bridge_;
-  std::vector<std::unique_ptr<runtime::BridgeReader>> readers_;  // last: they call take()
+  std::vector<std::unique_ptr<runtime::BridgeReader>> readers_;  // declared last, since they call take()
 };
 
 }  // namespace panvo::calibration

@@ -3,7 +3,7 @@
 
 namespace panvo::calibration {
 
-/// While it lives, Ctrl-C and SIGTERM are remembered instead of ending the process; a second one ends it at once.
+/// During its lifetime the first SIGINT or SIGTERM is recorded instead of ending the process; a second one ends it.
 class Interruption {
  public:
   Interruption();

@@ -10,21 +10,22 @@
 
 namespace panvo::calibration {
 
-/// Pictures of a board to be taken from live topics.
+/// Settings for collecting board images from live topics.
 struct LiveImages {
-  std::vector<std::string> topics;  ///< TOPIC or NAME:=TOPIC, one a camera
-  std::vector<std::string> names;   ///< of the cameras whose topics have none; empty: what stands before /image_raw
-  std::filesystem::path out;        ///< pictures go to OUT/NAME/STAMP.png
+  std::vector<std::string> topics;  ///< TOPIC or NAME:=TOPIC, one for each camera
+  std::vector<std::string> names;   ///< camera names for topics without NAME; empty: the part before /image_raw
+  std::filesystem::path out;        ///< images are written to OUT/NAME/STAMP.png
   ViewGoals goals;
   std::size_t most_views = 60;
-  double limit_s = 300.0;     ///< of all
-  double timeout_s = 5.0;     ///< of waiting for publishers, and for images
-  double tolerance_ms = 5.0;  ///< between stamps of images taken at once
+  double limit_s = 300.0;     ///< total time
+  double timeout_s = 5.0;     ///< for publishers, and for images
+  double tolerance_ms = 5.0;  ///< largest stamp difference of simultaneous images
 };
 
-/// Watches the topics until the board was seen enough, the limits are reached or Ctrl-C comes, and says on stderr how far it is. Leaves
-/// the pictures of the views that are kept, those taken at once under one name, as find_stereo_images and find_rig_images take them. Throws
-/// CalibrationError: topics that are not there, send nothing or never at once; a folder that is not empty; no board.
+/// Collects images from the topics until the goals or limits are reached or Ctrl-C is pressed; reports progress on
+/// stderr. Writes the images of the kept views in the layout of find_stereo_images() and find_rig_images(). Throws
+/// CalibrationError for topics that are missing, silent or never simultaneous, for a folder that is not empty, or if no
+/// board was seen.
 void gather_images(const LiveImages& settings, const Board& board);
 
 }  // namespace panvo::calibration

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Of a program that is built without the runtime.
+// Used in builds without panvo_runtime.
 #include "live_images.hpp"
 #include "panvo/calibration/calibration_error.hpp"
 
@@ -7,7 +7,7 @@ namespace panvo::calibration {
 
 void gather_images(const LiveImages&, const Board&) {
   throw CalibrationError(
-      "--topics: this program was built without panvo_runtime; build that too, or calibrate from IMAGES");
+      "--topics: this program was built without panvo_runtime; rebuild with it, or calibrate from IMAGES");
 }
 
 }  // namespace panvo::calibration

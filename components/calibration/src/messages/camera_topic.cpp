@@ -19,7 +19,7 @@ CameraTopic parse_topic(const std::string& text, const std::string& name) {
   if (!camera.topic.starts_with('/')) camera.topic.insert(0, "/");
   if (camera.name.empty()) camera.name = camera_of(camera.topic);
   if (camera.name.empty() || camera.name.find('/') != std::string::npos)
-    throw CalibrationError(fmt::format("--topics {}: names no camera; write NAME:={}", text, camera.topic));
+    throw CalibrationError(fmt::format("--topics {}: has no camera name; use NAME:={}", text, camera.topic));
   return camera;
 }
 
@@ -28,7 +28,7 @@ CameraTopic parse_topic(const std::string& text, const std::string& name) {
 CameraTopic parse_named_topic(const std::string& text) {
   const auto at = text.find(":=");
   if (at == 0 || at == std::string::npos || at + 2 == text.size())
-    throw CalibrationError("--topics " + text + ": is no NAME:=TOPIC; write for example left:=/stereo/left/image_raw");
+    throw CalibrationError("--topics " + text + ": is not of the form NAME:=TOPIC, e.g. left:=/stereo/left/image_raw");
   return {text.substr(0, at), text.substr(at + 2)};
 }
 
@@ -40,7 +40,7 @@ std::string camera_of(const std::string& topic) {
 
 std::vector<CameraTopic> parse_topics(const std::vector<std::string>& topics, const std::vector<std::string>& names) {
   if (names.empty() ? topics.size() < 2 : topics.size() != names.size())
-    throw CalibrationError(fmt::format("--topics: {} are named, it takes {}", topics.size(),
+    throw CalibrationError(fmt::format("--topics: {} given, expected {}", topics.size(),
                                        names.empty() ? "two or more" : fmt::format("{}", names.size())));
   std::vector<CameraTopic> cameras;
   for (const auto& text : topics) {
@@ -48,9 +48,10 @@ std::vector<CameraTopic> parse_topics(const std::vector<std::string>& topics, co
     const auto has_name = [&](const CameraTopic& other) { return other.name == camera.name; };
     if (std::any_of(cameras.begin(), cameras.end(), has_name))
       throw CalibrationError(
-          fmt::format("--topics {}: is the second of camera '{}'; write NAME:={}", text, camera.name, camera.topic));
+          fmt::format("--topics {}: is a second topic of camera '{}'; use NAME:={}", text, camera.name, camera.topic));
     if (!names.empty() && std::find(names.begin(), names.end(), camera.name) == names.end())
-      throw CalibrationError(fmt::format("--topics {}: the cameras are {}", text, fmt::join(names, " and ")));
+      throw CalibrationError(
+          fmt::format("--topics {}: unknown camera; the cameras are {}", text, fmt::join(names, " and ")));
     cameras.push_back(std::move(camera));
   }
   return cameras;

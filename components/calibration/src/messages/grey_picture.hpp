@@ -8,8 +8,8 @@
 
 namespace panvo::calibration {
 
-/// The picture in a message of type Image or CompressedImage, CV_8UC1, its pixels its own. Throws CalibrationError, naming `topic`, for one that
-/// cannot be read.
+/// Converts a message of type Image or CompressedImage to a CV_8UC1 image that owns its pixels. Throws CalibrationError
+/// that names `topic` if it cannot be decoded.
 cv::Mat grey_picture(const std::string& topic, const interfaces::MessageType& type, const void* message);
 
 }  // namespace panvo::calibration

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// For libFuzzer: the lists of a landmark as a store keeps them, one after the other. Whatever they hold, they are refused by the rules, or a library
-// takes them and a matcher compares them.
+// libFuzzer target: the lists of a landmark in store format, concatenated. They must be rejected by the rules, or be
+// usable by a library and a matcher.
 #include <span>
 
 #include "landmark_rules.hpp"
@@ -30,7 +30,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   try {
     library.add(landmark);
   } catch (const std::invalid_argument&) {
-    if (is_valid) std::abort();  // what the rules let pass a matcher must be able to use
+    if (is_valid) std::abort();  // a landmark that passes the rules must be usable
     return 0;
   }
   if (is_valid) fuzz::compare(library.find(1)->description);

@@ -12,7 +12,7 @@
 
 namespace panvo::landmarks::fuzz {
 
-/// A small describer with what it sees, made once: small matrices make rows that do not fit likely.
+/// A small describer and a query, created once. Small matrices make out-of-range rows likely.
 struct Here {
   static DescriptionParameters parameters() {
     DescriptionParameters parameters;
@@ -38,7 +38,7 @@ inline const Here& here() {
   return made;
 }
 
-/// What a matcher does with a landmark that it took in: no value of it may lead beyond a matrix, or to what is no number.
+/// Compares like a matcher: no value may lead to an index out of range or to a result that is not finite.
 inline void compare(const PanoramaDescription& description) {
   const auto& query = here().query;
   const float histogram = histogram_distance(query, description);

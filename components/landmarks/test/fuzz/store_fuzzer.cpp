@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// For libFuzzer: changes to a store of three landmarks, each a place in the file (3 bytes) and what is written there (1 byte). It is refused, or what
-// is read of it keeps the rules and can be compared.
+// libFuzzer target: byte changes to a store of three landmarks, each an offset (3 bytes) and a value (1 byte). The
+// store must be rejected, or yield landmarks that keep the rules and can be compared.
 #include <unistd.h>
 
 #include <filesystem>
@@ -31,7 +31,7 @@ std::string read(const std::filesystem::path& file) {
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-/// In memory: a case is worth no write to a disk.
+/// In shared memory, to avoid disk writes.
 const std::filesystem::path& store_file() {
   static const std::filesystem::path file = "/dev/shm/panvo_store_fuzzer_" + std::to_string(::getpid());
   return file;

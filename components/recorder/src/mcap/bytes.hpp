@@ -14,15 +14,15 @@
 
 namespace panvo::recorder::mcap {
 
-static_assert(std::endian::native == std::endian::little, "MCAP is little-endian, and is read here as it lies");
+static_assert(std::endian::native == std::endian::little, "MCAP is little-endian and is read without byte swapping");
 
-/// Bytes that are not what the format says they are.
+/// Bytes that violate the format.
 class FormatError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// Reads numbers and texts out of bytes, never beyond their end. Throws FormatError.
+/// Reads numbers and strings from bytes. Throws FormatError instead of reading beyond the end.
 class ByteReader {
  public:
   explicit ByteReader(std::span<const std::uint8_t> bytes) : rest_(bytes) {}
@@ -43,7 +43,7 @@ class ByteReader {
     rest_ = rest_.subspan(static_cast<std::size_t>(count));
     return taken;
   }
-  /// What a 32-bit length stands before.
+  /// Reads a 32-bit length and returns the bytes that follow it.
   std::span<const std::uint8_t> counted() { return take(number<std::uint32_t>()); }
   std::string text() {
     const auto bytes = counted();
@@ -54,7 +54,7 @@ class ByteReader {
   std::span<const std::uint8_t> rest_;
 };
 
-/// The other way: appends to a vector.
+/// Appends numbers and strings to a vector.
 class ByteWriter {
  public:
   explicit ByteWriter(interfaces::Bytes& bytes) : bytes_(bytes) {}
@@ -70,7 +70,7 @@ class ByteWriter {
     number(static_cast<std::uint32_t>(text.size()));
     bytes_.insert(bytes_.end(), text.begin(), text.end());
   }
-  /// Appends what `content` appends, with its length as a `Length` before it.
+  /// Appends a length of type `Length`, then the bytes that `content` appends.
   template <std::unsigned_integral Length, class Content>
   void counted(Content content) {
     const auto at = bytes_.size();

@@ -22,7 +22,7 @@ class Check {
       const auto told = layout_.messages.find(id);
       const auto expected = told == layout_.messages.end() ? 0 : told->second;
       if (found_[id] != expected) {
-        complain("topic " + channel.topic + " has " + std::to_string(found_[id]) + " messages, its summary says " +
+        complain("topic " + channel.topic + " has " + std::to_string(found_[id]) + " messages, the summary states " +
                  std::to_string(expected));
       }
     }
@@ -47,11 +47,11 @@ class Check {
       }
       for (const auto& message : chunk.messages) {
         if (message.log_time < block.first_ns || message.log_time > block.last_ns) {
-          complain(name + " has a message of another time than its index says");
+          complain(name + " has a message outside the time range of its index");
           return;
         }
         if (!block.channels.empty() && !block.channels.contains(message.channel)) {
-          complain(name + " has a message that its index does not know");
+          complain(name + " has a message of a channel missing in its index");
           return;
         }
       }

@@ -8,8 +8,9 @@
 
 namespace panvo::recorder::mcap {
 
-/// Holds a file's summary against what is in the file: every chunk and its checksum, the index behind it, and the
-/// counts. What disagrees, without the file's name. Of a file without a summary nothing: its scan has told all.
+/// Compares a file's summary with its content: every chunk, its checksum and index, and the counts. Returns the
+/// differences, without the file's name. Returns nothing for a file without a summary, since scan() has reported its
+/// faults.
 std::vector<std::string> check(const InputFile& file, const Layout& layout);
 
 }  // namespace panvo::recorder::mcap

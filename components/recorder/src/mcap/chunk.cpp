@@ -11,11 +11,11 @@
 namespace panvo::recorder::mcap {
 namespace {
 
-// INT64_MAX is what bags without messages begin at.
+// INT64_MAX is the start time of bags without messages.
 constexpr auto kNoTime = static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max());
-constexpr std::uint64_t kMostIndexBytes = 256u << 20;  // of all message indexes behind one chunk
+constexpr std::uint64_t kMostIndexBytes = 256u << 20;  // of all message indexes after one chunk
 
-/// Puts a record of a chunk where it belongs; whether there is a whole one at `at`, which then moves behind it.
+/// Parses the record at `at` and advances `at` past it. Returns false if there is no complete record.
 bool take_record(Chunk& chunk, std::size_t& at) {
   const auto rest = ByteSpan(chunk.bytes).subspan(at);
   if (rest.size() < RecordHead::kBytes) {
@@ -42,7 +42,7 @@ bool take_record(Chunk& chunk, std::size_t& at) {
   return true;
 }
 
-/// Whether its records are whole to their end.
+/// Parses all records of a chunk. Returns whether all are complete.
 bool take_records(Chunk& chunk) {
   std::size_t at = 0;
   try {
@@ -71,7 +71,7 @@ std::vector<MessageIndex> read_message_indexes(const InputFile& file, std::uint6
   return indexes;
 }
 
-/// Of a chunk that is not sound: keeps the messages that are where its index says, and finds those behind the damage.
+/// For a damaged chunk: replaces its messages by those found at the offsets of the index, also after the damage.
 void keep_indexed(Chunk& chunk, const std::vector<MessageIndex>& indexes) {
   chunk.messages.clear();
   std::uint64_t indexed = 0;
@@ -104,11 +104,11 @@ void keep_indexed(Chunk& chunk, const std::vector<MessageIndex>& indexes) {
 void decompress_records(Chunk& chunk, Bytes stored) {
   const auto compression = compression_of(chunk.head.compression);
   if (!compression) {
-    chunk.fault = "is compressed with '" + chunk.head.compression + "', which is not known here";
+    chunk.fault = "has the unknown compression '" + chunk.head.compression + "'";
     return;
   }
   if (chunk.head.uncompressed_size > kMostChunkBytes) {
-    chunk.fault = "says that it is " + std::to_string(chunk.head.uncompressed_size) + " bytes large";
+    chunk.fault = "states an excessive size of " + std::to_string(chunk.head.uncompressed_size) + " bytes";
     return;
   }
   if (*compression == Compression::kNone && stored.size() == chunk.head.uncompressed_size) {
@@ -119,7 +119,7 @@ void decompress_records(Chunk& chunk, Bytes stored) {
     chunk.fault = std::move(decompressed.fault);
   }
   if (chunk.fault.empty() && chunk.head.crc != 0 && crc32(chunk.bytes) != chunk.head.crc) {
-    chunk.fault = "has another checksum than it says, so what its messages carry may be wrong";
+    chunk.fault = "has a wrong checksum, so its messages may be corrupted";
   }
 }
 
@@ -136,7 +136,7 @@ bool describe(const MessageHead& head, std::uint64_t offset, std::uint64_t size,
 Chunk read_chunk(const InputFile& file, std::uint64_t offset) {
   const auto record = parse_record_head(file.read(offset, RecordHead::kBytes));
   if (record.opcode != Opcode::kChunk) {
-    throw FormatError("there is no chunk");
+    throw FormatError("is missing");
   }
   const auto content_offset = offset + RecordHead::kBytes;
   constexpr std::uint64_t kHeadAndName = 64;
@@ -150,7 +150,7 @@ Chunk read_chunk(const InputFile& file, std::uint64_t offset) {
   }
   const bool whole = take_records(chunk);
   if (!whole && chunk.fault.empty()) {
-    chunk.fault = "holds a record that is not one";
+    chunk.fault = "contains an invalid record";
   }
   if (!chunk.fault.empty()) {
     const auto indexes =

@@ -12,7 +12,7 @@
 namespace panvo::recorder::mcap {
 namespace {
 
-constexpr int kZstdLevel = 1;  // of images the higher ones take twice the time for two percent
+constexpr int kZstdLevel = 1;  // for images, higher levels take twice the time to save two percent
 constexpr std::size_t kFirstPart = 256u << 10;
 
 /// A buffer that grows as it is filled, up to a limit.
@@ -20,7 +20,7 @@ class Output {
  public:
   explicit Output(std::uint64_t limit) : limit_(limit) {}
 
-  /// Room for more; empty when the limit is reached.
+  /// Free space; empty if the limit is reached.
   std::span<std::uint8_t> room() {
     if (used_ == bytes_.size()) {
       bytes_.resize(std::min<std::uint64_t>(limit_, std::max(kFirstPart, bytes_.size() * 2)));
@@ -46,7 +46,7 @@ struct FreeLz4 {
   void operator()(LZ4F_dctx* context) const noexcept { LZ4F_freeDecompressionContext(context); }
 };
 
-constexpr const char* kTooMuch = "holds more than it says";
+constexpr const char* kTooMuch = "contains more data than stated";
 constexpr const char* kCutOff = "is cut off";
 
 Decompressed decompress_zstd(ByteSpan bytes, std::uint64_t expected) {
@@ -56,7 +56,7 @@ Decompressed decompress_zstd(ByteSpan bytes, std::uint64_t expected) {
   std::string fault;
   while (fault.empty()) {
     const auto room = output.room();
-    std::uint8_t beyond = 0;  // asked for when the room is used up, to see whether the end has come
+    std::uint8_t beyond = 0;  // requested when the output is full, to detect the end
     ZSTD_outBuffer out{room.empty() ? &beyond : room.data(), room.empty() ? 1 : room.size(), 0};
     const auto result = ZSTD_decompressStream(context.get(), &out, &in);
     if (!room.empty()) {
@@ -78,7 +78,7 @@ Decompressed decompress_zstd(ByteSpan bytes, std::uint64_t expected) {
 Decompressed decompress_lz4(ByteSpan bytes, std::uint64_t expected) {
   LZ4F_dctx* made = nullptr;
   if (LZ4F_isError(LZ4F_createDecompressionContext(&made, LZ4F_VERSION)) != 0) {
-    return {{}, "there is no memory to take it apart"};
+    return {{}, "cannot be decompressed (out of memory)"};
   }
   const std::unique_ptr<LZ4F_dctx, FreeLz4> context(made);
   Output output(expected);
@@ -166,7 +166,7 @@ Decompressed decompress(Compression compression, ByteSpan bytes, std::uint64_t e
   auto decompressed =
       compression == Compression::kZstd ? decompress_zstd(bytes, expected) : decompress_lz4(bytes, expected);
   if (decompressed.fault.empty() && decompressed.bytes.size() < expected) {
-    decompressed.fault = "holds less than it says";
+    decompressed.fault = "contains less data than stated";
   }
   return decompressed;
 }

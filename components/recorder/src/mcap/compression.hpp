@@ -11,20 +11,20 @@
 
 namespace panvo::recorder::mcap {
 
-/// What a chunk says of how it is compressed: "", "lz4" (a frame of it) or "zstd".
+/// Compression field of a chunk: "", "lz4" (frame format) or "zstd". compression_of() returns nullopt for other names.
 std::optional<Compression> compression_of(std::string_view name);
 std::string_view name_of(Compression compression);
 
-/// Throws StorageError when the compressor refuses, which it does for want of memory.
+/// Throws StorageError if the compressor fails, e.g. for lack of memory.
 Bytes compress(Compression compression, ByteSpan bytes);
 
 struct Decompressed {
-  Bytes bytes;        ///< as far as it went
-  std::string fault;  ///< why it did not go on; empty: all of it
+  Bytes bytes;        ///< the data before the fault
+  std::string fault;  ///< empty: complete
 };
 
-/// Takes apart what is compressed or was cut off, as far as it goes, and never more than `expected` bytes. Memory
-/// grows with what comes out, whatever `expected` says.
+/// Decompresses as much as possible of complete or truncated data, at most `expected` bytes. Memory grows with the
+/// actual output, not with `expected`.
 Decompressed decompress(Compression compression, ByteSpan bytes, std::uint64_t expected);
 
 }  // namespace panvo::recorder::mcap

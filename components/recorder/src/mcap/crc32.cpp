@@ -9,7 +9,7 @@ namespace panvo::recorder::mcap {
 namespace {
 
 constexpr std::uint32_t kPolynomial = 0xedb88320;
-constexpr std::size_t kStride = 8;  // bytes a step: one table each, five times as fast as byte by byte
+constexpr std::size_t kStride = 8;  // bytes per step, one table each; five times as fast as single bytes
 
 using Tables = std::array<std::array<std::uint32_t, 256>, kStride>;
 

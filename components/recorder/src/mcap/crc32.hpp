@@ -6,7 +6,7 @@
 
 namespace panvo::recorder::mcap {
 
-/// CRC-32 as zip, PNG and MCAP have it (IEEE 802.3, reflected). `before`: of the bytes that precede these.
+/// CRC-32 of zip, PNG and MCAP (IEEE 802.3, reflected). `before`: CRC of the preceding bytes.
 std::uint32_t crc32(std::span<const std::uint8_t> bytes, std::uint32_t before = 0) noexcept;
 
 }  // namespace panvo::recorder::mcap

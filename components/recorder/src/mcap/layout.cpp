@@ -8,7 +8,7 @@ namespace panvo::recorder::mcap {
 namespace {
 
 constexpr std::uint64_t kMostLoneMessages = 4096;    // in one block
-constexpr std::uint64_t kMostLoneBytes = 16u << 20;  // of one block, but for its last message
+constexpr std::uint64_t kMostLoneBytes = 16u << 20;  // of one block with several messages
 
 std::uint64_t sum_of(const std::map<std::uint16_t, std::uint64_t>& by_channel) {
   return std::accumulate(by_channel.begin(), by_channel.end(), std::uint64_t{0},
@@ -36,7 +36,7 @@ std::vector<StoredMessage> read_lone_messages(const InputFile& file, const Block
       at += RecordHead::kBytes + std::min(record.length, block.end - at);
     }
   } catch (const FormatError&) {
-    // The file has changed since it was opened: what was read so far is all there is.
+    // The file has changed since it was opened; return the messages read so far.
   }
   return messages;
 }
@@ -60,7 +60,7 @@ void take_metadata(Layout& layout, ByteSpan content) {
   const auto metadata = parse_metadata_record(content);
   const auto text = metadata.values.find("serialized_metadata");
   if (metadata.name == "rosbag2" && text != metadata.values.end()) {
-    layout.bag_metadata = text->second;  // the last one counts: the first was written before the messages
+    layout.bag_metadata = text->second;  // the last record wins: the first was written before the messages
   }
 }
 

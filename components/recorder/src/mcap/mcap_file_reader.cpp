@@ -64,11 +64,11 @@ void McapFileReader::read_through(const std::string& reason) {
   }
   const auto what = reason.empty() ? "it is damaged" : reason;
   if (layout_.channels.empty() && layout_.lost > 0) {
-    throw BagError(path_.string() + ": nothing of it can be read (" + what +
-                   "; no topic is to be found in it); is there another copy of the bag?");
+    throw BagError(path_.string() + ": nothing in it can be read (" + what +
+                   "; no topics found); use another copy of the bag");
   }
   warnings_.push_back(path_.string() + ": " + what + "; " + std::to_string(layout_.message_count()) +
-                      " messages of it can be read, `panvo bag copy` makes a whole bag of them");
+                      " messages can be read (`panvo bag copy` writes them to a valid bag)");
   for (const auto& fault : layout_.faults) {
     warnings_.push_back(path_.string() + ": " + fault);
   }
@@ -80,7 +80,7 @@ void McapFileReader::describe() {
     content_.topics.emplace(id, topic_of(channel, layout_.schemas, understood));
     if (!understood) {
       warnings_.push_back(path_.string() + ": the QoS profiles of topic " + channel.topic +
-                          " cannot be understood; ROS 2's default is taken");
+                          " cannot be parsed; using the ROS 2 default");
     }
     wanted_.insert(id);
   }
@@ -92,7 +92,7 @@ void McapFileReader::describe() {
       content_.stored_metadata = parse_metadata(*layout_.bag_metadata, path_);
       content_.ros_distro = content_.stored_metadata->ros_distro;
     } catch (const BagError&) {
-      // Of use only where metadata.yaml is missing, and not needed even there.
+      // Optional data, used only if metadata.yaml is missing.
     }
   }
   content_.message_count = layout_.message_count();
@@ -143,7 +143,7 @@ bool McapFileReader::next(Entry& entry, interfaces::Bytes& data) {
   }
 }
 
-/// Every block that may hold a message which comes before those that are at hand.
+/// Opens every block that may hold a message earlier than those of the open blocks.
 void McapFileReader::open_blocks_up_to_now() {
   const auto first_open = [this] {
     return std::accumulate(
@@ -204,14 +204,14 @@ void McapFileReader::open_block(std::size_t index) {
   }
 }
 
-/// Damage that came to light only now, for a scan has told of all there is.
+/// Adds a warning for damage that the summary did not reveal. A scan has already reported all damage.
 void McapFileReader::report(std::size_t index, const Chunk& chunk) {
   if (chunk.fault.empty() || layout_.is_scanned || damaged_.contains(index)) {
     return;
   }
   damaged_[index] = chunk.lost;
   warnings_.push_back(path_.string() + ": the chunk at byte " + std::to_string(layout_.blocks[index].begin) + " " +
-                      chunk.fault + "; " + std::to_string(chunk.messages.size()) + " messages of it are read, " +
+                      chunk.fault + "; " + std::to_string(chunk.messages.size()) + " of its messages can be read, " +
                       std::to_string(chunk.lost) + " are lost");
 }
 
@@ -237,7 +237,7 @@ bool McapFileReader::read_data(OpenBlock& block, const StoredMessage& message, i
   return true;
 }
 
-/// Lets go of the chunks that were not used for the longest time.
+/// Releases the least recently used chunks.
 void McapFileReader::limit_held_bytes(const OpenBlock& keep) {
   const auto held = [this] {
     return std::accumulate(open_.begin(), open_.end(), std::size_t{0}, [](std::size_t sum, const OpenBlock& block) {

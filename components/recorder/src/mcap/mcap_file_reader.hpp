@@ -12,15 +12,15 @@
 
 namespace panvo::recorder::mcap {
 
-/// A .mcap file: by its index where it has one, by reading through it where it is cut off or damaged.
+/// Reads a .mcap file by its index, or by scanning it if the index is missing or damaged.
 ///
-/// Chunks are read when their time comes. Of those whose times overlap the messages' places are held, 32 bytes each,
-/// and of their bytes as much as fits kMostHeldBytes; what more is needed is read again.
+/// A chunk is read when its first message is due. For chunks that overlap in time the reader holds the message
+/// locations, 32 bytes each, and at most kMostHeldBytes of data; released data is read again when needed.
 class McapFileReader final : public BagFileReader {
  public:
   static constexpr std::size_t kMostHeldBytes = 256u << 20;
 
-  /// Throws BagError when nothing of the file can be read.
+  /// Throws BagError if nothing in the file is readable.
   McapFileReader(std::filesystem::path file, std::vector<std::string>& warnings,
                  std::size_t most_held_bytes = kMostHeldBytes);
 
@@ -31,7 +31,7 @@ class McapFileReader final : public BagFileReader {
   std::map<std::int64_t, std::uint64_t> count_by_topic() override;
   void select(std::set<std::int64_t> topic_ids, std::int64_t begin_ns) override;
   bool next(Entry& entry, interfaces::Bytes& data) override;
-  /// Every record, checksum, index and count.
+  /// Checks every record, checksum, index and count.
   std::vector<std::string> check_integrity() override;
 
  private:
@@ -39,13 +39,13 @@ class McapFileReader final : public BagFileReader {
     StoredMessage message;
     std::uint32_t number = 0;  ///< within its block
   };
-  /// A block whose time has come.
+  /// A block that contains messages due now.
   struct OpenBlock {
     std::size_t index = 0;        ///< into layout_.blocks
-    std::vector<Place> places{};  ///< of the wanted messages, in order of time, then number
+    std::vector<Place> places{};  ///< of the selected messages, ordered by time, then number
     std::size_t next = 0;
-    std::optional<Bytes> bytes{};  ///< of a chunk, while they are held
-    std::uint64_t used = 0;        ///< when they were last
+    std::optional<Bytes> bytes{};  ///< of a chunk, while held in memory
+    std::uint64_t used = 0;        ///< value of uses_ at the last use of `bytes`
 
     const Place& front() const { return places[next]; }
     bool comes_before(const OpenBlock& other) const;
@@ -63,8 +63,8 @@ class McapFileReader final : public BagFileReader {
   const std::size_t most_held_bytes_;
   InputFile file_;
   Layout layout_;
-  std::vector<std::size_t> order_;                // of the blocks, by time
-  std::map<std::size_t, std::uint64_t> damaged_;  // blocks that were found to be, with the messages lost of each
+  std::vector<std::size_t> order_;                // block indices by time
+  std::map<std::size_t, std::uint64_t> damaged_;  // lost messages of each damaged block
   std::set<std::int64_t> wanted_;
   std::int64_t begin_ns_ = INT64_MIN;
   std::size_t next_block_ = 0;  // into order_

@@ -68,7 +68,7 @@ void McapFileWriter::add_topic(int id, const BagTopic& topic, const TypeDefiniti
 void McapFileWriter::insert(int topic_id, std::int64_t timestamp_ns, std::span<const std::uint8_t> data) {
   if (timestamp_ns < 0) {
     throw StorageError("a message was recorded at " + std::to_string(timestamp_ns) +
-                           " ns, before 1970, which MCAP has no number for; choose the storage sqlite3",
+                           " ns, before 1970, which MCAP cannot represent; choose the storage sqlite3",
                        false);
   }
   const auto channel = static_cast<std::uint16_t>(topic_id);
@@ -102,7 +102,7 @@ void McapFileWriter::commit() {
   sync();
 }
 
-/// Writes what is waiting before the chunk, the chunk and its indexes, if there are any messages.
+/// If there are messages, writes the pending records, the chunk and its indexes.
 void McapFileWriter::write_chunk() {
   if (records_.empty()) {
     return;
@@ -155,7 +155,7 @@ void McapFileWriter::write(ByteSpan bytes) {
 }
 
 void McapFileWriter::sync() {
-  // EINVAL: a file system that cannot.
+  // EINVAL: not supported by the file system.
   if (::fdatasync(descriptor_) != 0 && errno != EINVAL) {
     fail_with(errno);
   }
@@ -183,7 +183,7 @@ void McapFileWriter::finish() {
   }
 }
 
-/// Groups of records, where each group begins, and the footer.
+/// Returns the groups of summary records, the offsets of the groups and the footer.
 Bytes McapFileWriter::make_summary(std::uint64_t start) const {
   Bytes summary;
   std::vector<SummaryOffset> groups;

@@ -10,16 +10,15 @@
 
 namespace panvo::recorder::mcap {
 
-/// A .mcap file of profile ros2: chunks, each with the indexes of its messages, and a summary when it is finished.
+/// Writes a .mcap file of profile ros2: chunks with message indexes, and a summary at finish().
 ///
-/// How it survives: a commit writes the chunk that is being filled, so that a process that is killed leaves whole
-/// chunks behind, which every reader finds. Schemas and channels lie before the chunks rather than in them: a chunk
-/// that is damaged takes none of them along.
+/// A commit writes the current chunk, so that a killed process leaves complete chunks, which every reader finds.
+/// Schemas and channels precede the chunks, so that a damaged chunk does not lose them.
 class McapFileWriter final : public BagFileWriter {
  public:
   struct Options {
     Compression compression = Compression::kNone;
-    std::size_t chunk_bytes = 4u << 20;  ///< size at which a chunk is ended; one message may be larger
+    std::size_t chunk_bytes = 4u << 20;  ///< size at which a chunk ends; a single message may be larger
   };
 
   McapFileWriter(const std::filesystem::path& file, const Options& options);
@@ -42,12 +41,12 @@ class McapFileWriter final : public BagFileWriter {
   const Options options_;
   int descriptor_ = -1;
   std::uint64_t size_ = 0;            // written
-  std::uint64_t committed_size_ = 0;  // and known to be on the disk
+  std::uint64_t committed_size_ = 0;  // synced to disk
 
-  Bytes records_;  // of the chunk that is being filled
+  Bytes records_;  // of the current chunk
   std::map<std::uint16_t, MessageIndex> indexes_;
   std::uint64_t chunk_start_ = 0, chunk_end_ = 0;
-  Bytes outside_;  // records that come before it
+  Bytes outside_;  // pending records that precede the chunk
 
   std::vector<Schema> schemas_;
   std::vector<Channel> channels_;

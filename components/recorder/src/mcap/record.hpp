@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The records of an MCAP file. Each is one byte that says what it is, its length in eight bytes, and its content. The
-/// functions read contents (parse_...) and append whole records (append); the first throw FormatError.
+/// The records of an MCAP file: a one-byte opcode, an eight-byte length and the content. parse_...() read the content
+/// and throw FormatError; append() appends whole records.
 #pragma once
 
 #include <array>
@@ -35,7 +35,7 @@ enum class Opcode : std::uint8_t {
   kMetadataIndex = 0x0D,
   kSummaryOffset = 0x0E,
   kDataEnd = 0x0F,
-  kFirstPrivate = 0x80  ///< from here on: other people's, to be passed over
+  kFirstPrivate = 0x80  ///< first opcode of private records, which readers skip
 };
 
 struct RecordHead {
@@ -63,7 +63,7 @@ struct Channel {
   std::map<std::string, std::string> metadata;
 };
 
-/// What stands before a message's bytes.
+/// The header of a Message record, before the data.
 struct MessageHead {
   static constexpr std::size_t kBytes = 22;
   std::uint16_t channel = 0;
@@ -71,17 +71,17 @@ struct MessageHead {
   std::uint64_t log_time = 0, publish_time = 0;
 };
 
-/// What stands before a chunk's records.
+/// The header of a Chunk record, before the records.
 struct ChunkHead {
   std::uint64_t start_time = 0, end_time = 0, uncompressed_size = 0;
-  std::uint32_t crc = 0;  ///< of the uncompressed records; 0: not known
+  std::uint32_t crc = 0;  ///< of the uncompressed records; 0: unknown
   std::string compression;
-  std::uint64_t records_size = 0;  ///< as they lie in the file
+  std::uint64_t records_size = 0;  ///< stored size
 
   std::size_t bytes() const noexcept { return 40 + compression.size(); }
 };
 
-/// Where a channel's messages lie within the chunk before it.
+/// Offsets of a channel's messages in the preceding chunk.
 struct MessageIndex {
   std::uint16_t channel = 0;
   std::vector<std::pair<std::uint64_t, std::uint64_t>> entries;  ///< log time, offset
@@ -121,7 +121,7 @@ struct SummaryOffset {
 struct Footer {
   static constexpr std::size_t kBytes = 20;
   std::uint64_t summary_start = 0, summary_offset_start = 0;
-  std::uint32_t summary_crc = 0;  ///< 0: not known
+  std::uint32_t summary_crc = 0;  ///< 0: unknown
 };
 
 RecordHead parse_record_head(ByteSpan bytes);
@@ -129,7 +129,7 @@ Header parse_header(ByteSpan content);
 Schema parse_schema(ByteSpan content);
 Channel parse_channel(ByteSpan content);
 MessageHead parse_message_head(ByteSpan content);
-/// Of a chunk's content or only its beginning, `content_length` bytes in all: what it says of itself must agree.
+/// `beginning`: at least the header of a content of `content_length` bytes. Throws FormatError if the sizes disagree.
 ChunkHead parse_chunk_head(ByteSpan beginning, std::uint64_t content_length);
 MessageIndex parse_message_index(ByteSpan content);
 ChunkIndex parse_chunk_index(ByteSpan content);
@@ -141,7 +141,7 @@ void append(Bytes& bytes, const Header& header);
 void append(Bytes& bytes, const Schema& schema);
 void append(Bytes& bytes, const Channel& channel);
 void append(Bytes& bytes, const MessageHead& head, ByteSpan data);
-/// The head only; `records_size` bytes must follow.
+/// Appends the header only; the caller appends `records_size` bytes.
 void append(Bytes& bytes, const ChunkHead& head);
 void append(Bytes& bytes, const MessageIndex& index);
 void append(Bytes& bytes, const ChunkIndex& index);
@@ -150,7 +150,7 @@ void append(Bytes& bytes, const Metadata& metadata);
 void append(Bytes& bytes, const MetadataIndex& index);
 void append(Bytes& bytes, const SummaryOffset& offset);
 void append_data_end(Bytes& bytes);
-/// `summary` is all of it, from summary_start on: the footer's checksum covers it and the footer's own beginning.
+/// `summary`: the whole summary from summary_start on. The checksum covers it and the first fields of the footer.
 void append_footer(Bytes& summary, const Footer& footer);
 
 }  // namespace panvo::recorder::mcap

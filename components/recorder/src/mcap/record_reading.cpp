@@ -83,7 +83,7 @@ ChunkHead parse_chunk_head(ByteSpan beginning, std::uint64_t content_length) {
   head.compression = reader.text();
   head.records_size = reader.number<std::uint64_t>();
   if (head.records_size > content_length || head.records_size + head.bytes() != content_length) {
-    throw FormatError("says two different sizes of itself");
+    throw FormatError("has contradictory sizes");
   }
   return head;
 }

@@ -7,9 +7,9 @@
 namespace panvo::recorder::mcap {
 namespace {
 
-constexpr std::size_t kWindow = 1u << 20;  // read at a time when looking for the next record
+constexpr std::size_t kWindow = 1u << 20;  // bytes read at a time when searching for the next record
 
-/// Goes from record to record. What it finds goes into a Layout.
+/// Visits record after record and builds a Layout.
 class Scan {
  public:
   explicit Scan(const InputFile& file) : file_(file) {}
@@ -25,9 +25,9 @@ class Scan {
     }
     if (unknown_channel_ > 0) {
       layout_.faults.push_back(std::to_string(unknown_channel_) +
-                               " messages are of channels that nothing is known of, and are left out");
+                               " messages belong to unknown channels and are skipped");
     }
-    // Statistics that survived know how many there were.
+    // Statistics, if readable, give the original number of messages.
     layout_.lost = std::max(layout_.lost, counted_ - std::min(counted_, layout_.message_count()));
     layout_.is_whole = at_footer_ && layout_.faults.empty() && layout_.lost == 0;
     return std::move(layout_);
@@ -45,7 +45,7 @@ class Scan {
     return bytes;
   }
 
-  /// Where the next record begins; `at` itself when there is none here.
+  /// Returns the position after the record at `at`, or `at` if there is no valid record.
   std::uint64_t take_record(std::uint64_t at) {
     const auto bytes = file_.read(at, RecordHead::kBytes);
     if (bytes.size() < RecordHead::kBytes) {
@@ -97,7 +97,7 @@ class Scan {
     }
     if (!chunk.fault.empty()) {
       layout_.faults.push_back("the chunk at byte " + std::to_string(at) + " " + chunk.fault + "; " +
-                               std::to_string(count) + " messages of it are read");
+                               std::to_string(count) + " of its messages can be read");
       layout_.lost += chunk.lost;
     }
     if (count > 0) {
@@ -138,7 +138,7 @@ class Scan {
     }
   }
 
-  /// The channels may have been told of in a chunk that is lost; the summary repeats them.
+  /// Reads the channels in the summary, since the chunk that defines them may be lost.
   void take_channels_of_summary() {
     constexpr std::uint64_t kFooterAndMagic = RecordHead::kBytes + Footer::kBytes + kMagic.size();
     if (file_.size() < kFooterAndMagic) {
@@ -186,20 +186,20 @@ class Scan {
     return bytes.size() == kMagic.size() && std::equal(kMagic.begin(), kMagic.end(), bytes.begin());
   }
 
-  /// Over what is damaged, to the next record that can be told from chance; the file's end when there is none.
+  /// Skips damaged data. Returns the position of the next plausible record, or the end of the file.
   std::uint64_t leap(std::uint64_t from) {
     for (auto window = from + 1; window < file_.size(); window += kWindow) {
       const auto bytes = file_.read(window, kWindow + kLookAhead);
       for (std::size_t i = 0; i < std::min(kWindow, bytes.size()); ++i) {
         if (looks_like_a_record(ByteSpan(bytes).subspan(i), window + i)) {
           layout_.faults.push_back("bytes " + std::to_string(from) + " to " + std::to_string(window + i) +
-                                   " are damaged and passed over");
+                                   " are damaged and skipped");
           ++layout_.lost;  // at least
           return window + i;
         }
       }
     }
-    layout_.faults.push_back("what begins at byte " + std::to_string(from) + " is cut off or damaged");
+    layout_.faults.push_back("the data from byte " + std::to_string(from) + " on are cut off or damaged");
     const auto first = file_.read(from, 1);
     const auto opcode = first.empty() ? Opcode::kMessage : static_cast<Opcode>(first.front());
     const bool holds_no_message = opcode != Opcode::kMessage && opcode >= Opcode::kHeader && opcode <= Opcode::kDataEnd;
@@ -207,7 +207,7 @@ class Scan {
     return file_.size();
   }
 
-  /// A chunk gives its size twice; a message must be of a channel that is known, and a record must follow it.
+  /// A chunk states its size twice; a message must have a known channel and be followed by a record.
   bool looks_like_a_record(ByteSpan bytes, std::uint64_t at) const {
     const auto opcode = static_cast<Opcode>(bytes.front());
     if ((opcode != Opcode::kChunk && opcode != Opcode::kMessage) || bytes.size() < kLookAhead) {
@@ -233,7 +233,7 @@ class Scan {
     }
   }
 
-  static constexpr std::size_t kLookAhead = 64;  // a chunk's head, its compression's name included
+  static constexpr std::size_t kLookAhead = 64;  // a chunk's header with the name of the compression
 
   const InputFile& file_;
   Layout layout_;

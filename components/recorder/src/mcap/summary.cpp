@@ -11,7 +11,7 @@ namespace {
 constexpr std::uint64_t kFooterAndMagic = RecordHead::kBytes + Footer::kBytes + kMagic.size();
 constexpr std::uint64_t kMostSummaryBytes = std::uint64_t{1} << 30;
 
-/// A summary that does not say enough, though nothing of it need be wrong: writers may leave it out.
+/// The summary lacks data that the format allows to omit.
 class SparseSummary : public FormatError {
  public:
   using FormatError::FormatError;
@@ -43,12 +43,13 @@ Bytes read_summary_bytes(const InputFile& file, const Footer& footer) {
   }
   if (footer.summary_start < kMagic.size() || footer.summary_start > end ||
       end - footer.summary_start > kMostSummaryBytes) {
-    throw FormatError("its summary is said to be at byte " + std::to_string(footer.summary_start));
+    throw FormatError("its footer states an invalid position of the summary, byte " +
+                      std::to_string(footer.summary_start));
   }
-  // With the footer's beginning, which the checksum covers.
+  // Includes the first fields of the footer, which the checksum covers.
   auto bytes = file.read(footer.summary_start, end - footer.summary_start + RecordHead::kBytes + 16);
   if (footer.summary_crc != 0 && crc32(bytes) != footer.summary_crc) {
-    throw FormatError("its summary has another checksum than it says");
+    throw FormatError("its summary has a wrong checksum");
   }
   bytes.resize(static_cast<std::size_t>(end - footer.summary_start));
   return bytes;
@@ -86,12 +87,12 @@ Summary parse_summary(ByteSpan bytes, Layout& layout) {
 
 std::int64_t time_of(std::uint64_t time) {
   if (time >= static_cast<std::uint64_t>(INT64_MAX)) {
-    throw FormatError("its summary has times that are none");
+    throw FormatError("its summary contains invalid times");
   }
   return static_cast<std::int64_t>(time);
 }
 
-/// The summary must tell of every channel and message, for otherwise they would be passed over.
+/// Throws FormatError unless the summary covers every channel and message; otherwise some would be skipped.
 void take_statistics(const Summary& summary, Layout& layout) {
   if (!summary.statistics) {
     throw SparseSummary("its summary does not count the messages");
@@ -102,7 +103,7 @@ void take_statistics(const Summary& summary, Layout& layout) {
                               std::all_of(layout.messages.begin(), layout.messages.end(),
                                           [&](const auto& channel) { return layout.channels.contains(channel.first); });
   if (!channels_known || layout.message_count() != statistics.message_count) {
-    throw FormatError("its summary does not tell of every channel");
+    throw FormatError("its summary does not list every channel");
   }
   if (statistics.message_count > 0) {
     layout.first_ns = time_of(statistics.start_time);
@@ -122,19 +123,19 @@ Block block_of(const ChunkIndex& chunk) {
   return block;
 }
 
-/// What lies between the chunks: messages by themselves, metadata, channels that are in no chunk. `at` moves behind it.
+/// Reads a record between chunks (message, metadata, channel) and advances `at` past it.
 void take_record_between(const InputFile& file, std::uint64_t& at, std::uint64_t end, Layout& layout) {
   const auto head = parse_record_head(file.read(at, RecordHead::kBytes));
   const auto content_begin = at + RecordHead::kBytes;
   if (!head.is_known() || head.opcode == Opcode::kChunk || content_begin > end || head.length > end - content_begin) {
-    throw FormatError("its summary disagrees with what is at byte " + std::to_string(at));
+    throw FormatError("its summary disagrees with the data at byte " + std::to_string(at));
   }
   if (head.opcode == Opcode::kMessage) {
     StoredMessage message;
     const auto message_head = parse_message_head(file.read(content_begin, MessageHead::kBytes));
     if (head.length < MessageHead::kBytes ||
         !describe(message_head, content_begin + MessageHead::kBytes, head.length - MessageHead::kBytes, message)) {
-      throw FormatError("it has a message that is none at byte " + std::to_string(at));
+      throw FormatError("it has an invalid message at byte " + std::to_string(at));
     }
     add_lone_message(layout, message, at, content_begin + head.length);
   } else if (head.opcode == Opcode::kMetadata && head.length <= kMostRecordBytes) {
@@ -156,7 +157,7 @@ void take_blocks(const InputFile& file, Summary& summary, Layout& layout) {
     const auto room = summary.start - at;
     if (at != chunk->offset || chunk->length > room || chunk->message_index_length > room - chunk->length ||
         chunk->length == 0) {
-      throw FormatError("its summary disagrees with what is at byte " + std::to_string(at));
+      throw FormatError("its summary disagrees with the data at byte " + std::to_string(at));
     }
     layout.blocks.push_back(block_of(*chunk));
     at += chunk->length + chunk->message_index_length;
@@ -166,10 +167,10 @@ void take_blocks(const InputFile& file, Summary& summary, Layout& layout) {
   const auto lone = std::accumulate(layout.blocks.begin(), layout.blocks.end(), std::uint64_t{0},
                                     [](std::uint64_t sum, const Block& block) { return sum + block.message_count(); });
   if (!has_chunks && lone != layout.message_count()) {
-    throw FormatError("its summary counts other messages than there are");
+    throw FormatError("its summary states a wrong number of messages");
   }
   if (chunk != summary.chunks.end()) {
-    throw FormatError("its summary tells of a chunk at byte " + std::to_string(chunk->offset));
+    throw FormatError("its summary lists an invalid chunk at byte " + std::to_string(chunk->offset));
   }
 }
 

@@ -8,7 +8,7 @@
 
 extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, std::size_t limit);
 
-/// libFuzzer's functions in terms of strings.
+/// libFuzzer's functions with string arguments.
 namespace panvo::recorder::fuzz {
 
 /// libFuzzer's own mutator.
@@ -20,7 +20,7 @@ inline std::string mutate_bytes(std::string bytes, std::size_t limit) {
   return bytes;
 }
 
-/// What a custom mutator has to do with what it made.
+/// Copies the result of a custom mutator to libFuzzer's buffer; returns its size.
 inline std::size_t hand_back(const std::string& bytes, std::uint8_t* data, std::size_t limit) {
   const auto size = std::min(bytes.size(), limit);
   std::memcpy(data, bytes.data(), size);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// For libFuzzer (PANVO_FUZZ): an MCAP file of any bytes. An empty folder of cases begins with bags of our writer.
+/// libFuzzer target (PANVO_FUZZ): reads the input as an MCAP file. Seeds an empty corpus with bags of our writer.
 #include "fuzzing.hpp"
 #include "mcap_mutator.hpp"
 #include "mutation.hpp"

@@ -12,13 +12,13 @@ namespace {
 constexpr std::size_t kMagicBytes = 8, kHeadBytes = 9;
 constexpr char kChunk = 0x06;
 
-// Within a chunk's content: three times of eight bytes, the checksum, the name of the compression, the records' size.
+// Offsets in a chunk's content: three eight-byte fields, checksum, name of the compression, size of the records.
 constexpr std::size_t kUncompressedSize = 16, kChecksum = 24, kCompression = 28, kRecordsSize = 32, kRecords = 40;
-constexpr std::size_t kChecksumFromEnd = kMagicBytes + 4;  // the summary's, the footer's last field
+constexpr std::size_t kChecksumFromEnd = kMagicBytes + 4;  // of the summary: the footer's last field
 
 struct Place {
   std::size_t head = 0, content = 0, size = 0;
-  std::optional<std::size_t> chunk;  // the content of the chunk it is in
+  std::optional<std::size_t> chunk;  // offset of the content of the enclosing chunk
 };
 
 std::uint64_t number(const std::string& file, std::size_t at, std::size_t bytes = 8) {
@@ -65,11 +65,11 @@ std::string mutate_record(std::string file, std::uint64_t seed, const Mutate& mu
   if (keeps_offsets) {
     content.resize(place.size, '\0');
   }
-  const std::uint64_t longer = content.size() - place.size;  // wraps around as it should
+  const std::uint64_t longer = content.size() - place.size;  // may wrap around, which is intended
   file.replace(place.content, place.size, content);
   add(file, place.head + 1, longer);
   if (place.chunk) {
-    add(file, *place.chunk - 8, longer);  // the length in the chunk's own head
+    add(file, *place.chunk - 8, longer);  // the length in the chunk's record header
     add(file, *place.chunk + kUncompressedSize, longer);
     add(file, *place.chunk + kRecordsSize, longer);
     std::memset(file.data() + *place.chunk + kChecksum, 0, 4);

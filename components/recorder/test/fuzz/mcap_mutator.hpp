@@ -7,11 +7,11 @@
 
 namespace panvo::recorder::fuzz {
 
-/// Changes bytes in place, to at most `limit`: libFuzzer's own mutator.
+/// Mutates bytes to at most `limit` bytes, e.g. libFuzzer's mutator.
 using Mutate = std::function<std::string(std::string bytes, std::size_t limit)>;
 
-/// Damages one record of an MCAP file, those within uncompressed chunks too, and mends the lengths around it and takes
-/// the checksums away, so that a reader comes to see the damage and not only that there is some.
+/// Damages one record of an MCAP file, possibly inside an uncompressed chunk. Corrects the enclosing lengths and clears
+/// the checksums, so that a reader parses the damaged record instead of rejecting the checksum.
 std::string mutate_record(std::string file, std::uint64_t seed, const Mutate& mutate);
 
 }  // namespace panvo::recorder::fuzz

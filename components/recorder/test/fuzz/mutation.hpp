@@ -7,8 +7,8 @@
 
 namespace panvo::recorder::fuzz {
 
-/// Damages a file as transport, disks and malice do, the same for the same seed: bytes changed, sizes made huge, parts
-/// cut out, doubled or moved, ends cut off.
+/// Damages a file, reproducibly for a seed: changes bytes, inserts huge sizes, removes, duplicates or zeroes parts,
+/// truncates.
 inline std::string mutated(std::string file, std::uint64_t seed) {
   std::mt19937_64 random(seed);
   const auto below = [&](std::size_t limit) { return limit == 0 ? 0 : static_cast<std::size_t>(random() % limit); };

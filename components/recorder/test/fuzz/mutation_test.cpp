@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The fuzzers' function over some thousand damaged bags that are the same in every run. $PANVO_FUZZ_CASES asks for
-/// another number of each kind, $PANVO_FUZZ_SEED for others of them.
+/// Runs the fuzz target on several thousand damaged bags, the same in every run. $PANVO_FUZZ_CASES sets the number of
+/// each kind, $PANVO_FUZZ_SEED the first seed.
 #include <gtest/gtest.h>
 
 #include <cstdlib>

@@ -12,7 +12,7 @@
 namespace panvo::recorder::fuzz {
 namespace {
 
-/// A folder in memory where there is one, made once.
+/// A temporary folder, in memory if possible, created once.
 const std::filesystem::path& folder() {
   static const std::filesystem::path made = [] {
     const std::filesystem::path memory = "/dev/shm";
@@ -47,7 +47,7 @@ void write_file(const std::filesystem::path& file, const std::uint8_t* data, std
 
 std::size_t read_bag(const std::string& name, const std::uint8_t* data, std::size_t size) {
   const auto file = folder() / name;
-  for (const char* left : {"-journal", "-wal", "-shm"}) {  // by SQLite, of the case before
+  for (const char* left : {"-journal", "-wal", "-shm"}) {  // left by SQLite from the previous case
     std::error_code error;
     std::filesystem::remove(file.string() + left, error);
   }

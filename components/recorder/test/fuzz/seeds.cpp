@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::uint64_t kMessages = 8;
 
-/// A SQLite file without room for what is yet to come, in small pages.
+/// The SQLite file, rewritten without free space and with small pages.
 std::string packed(const std::string& file) {
   const TemporaryFolder folder;
   write_text(folder / "bag.db3", file);

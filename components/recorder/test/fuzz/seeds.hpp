@@ -8,14 +8,14 @@
 
 namespace panvo::recorder::fuzz {
 
-/// A bag's file as our writer makes it: `messages` on a topic, a quarter as many on another of another kind. Without
-/// `details` the topics have no definition and no quality of service, whose YAML would take most of the time to read.
+/// A bag file of our writer with `messages` messages on one topic and a quarter as many on a topic of another type.
+/// Without `details` the topics have no definition and no quality of service, whose YAML dominates the reading time.
 std::string written(const BagWriter::Options& options, std::uint64_t messages, bool details = true);
 
-/// Of every kind of a storage, so small that thousands can be read in a second.
+/// Bag files of every kind of a storage, small enough to read thousands per second.
 std::vector<std::string> seeds(Storage storage);
 
-/// Of libFuzzer's command line: puts the seeds into the first folder named there, if that is empty.
+/// Writes the seeds to the first folder on libFuzzer's command line, if it is empty.
 void plant_seeds(Storage storage, int argc, char** argv);
 
 }  // namespace panvo::recorder::fuzz

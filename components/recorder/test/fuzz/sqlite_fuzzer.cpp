@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// For libFuzzer (PANVO_FUZZ): a SQLite file of any bytes. An empty folder of cases begins with a bag of our writer.
+/// libFuzzer target (PANVO_FUZZ): reads the input as a SQLite file. Seeds an empty corpus with bags of our writer.
 #include "fuzzing.hpp"
 #include "mutation.hpp"
 #include "read_bag.hpp"

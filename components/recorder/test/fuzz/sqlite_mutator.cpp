@@ -13,7 +13,7 @@ namespace {
 
 using Random = std::minstd_rand;
 
-// What a bag's reader relies on, each broken in one way. ? is a number that is small, large or negative.
+// Each statement breaks one assumption of a bag reader. ? is replaced by a small, large or negative number.
 constexpr std::array kStatements{
     "UPDATE messages SET id = id + ?",
     "UPDATE messages SET timestamp = ? WHERE id % 3 = 0",
@@ -100,20 +100,20 @@ std::string mutate_page(std::string file, std::uint64_t seed) {
     case 0:
       file[head] = kKinds[random() % kKinds.size()];
       break;
-    case 1:  // first free block, cells, where the cells begin, loose bytes
+    case 1:  // first free block, number of cells, start of the cells, fragmented free bytes
       put_big_endian(file, head + 1 + 2 * (random() % 4), place, 2);
       break;
-    case 2:  // the page to the right
+    case 2:  // right-most child page
       put_big_endian(file, head + 8, static_cast<std::uint32_t>(random() % (pages + 2)), 4);
       break;
-    case 3:  // where a cell is
+    case 3:  // offset of a cell
       put_big_endian(file, head + 8 + 2 * (random() % 40), place, 2);
       break;
-    case 4:  // a number within a page: the page to the left, a length, a header's column
+    case 4:  // a number within a page: a left child page, a length, a column type
       put_big_endian(file, page * page_size + random() % page_size, random() % 2 == 0 ? 0xffffffff : place,
                      1 + random() % 4);
       break;
-    default:  // the file's own head
+    default:  // file header
       put_big_endian(file, 16 + random() % 80, static_cast<std::uint32_t>(odd_number(random)), 1 + random() % 4);
       break;
   }
@@ -125,7 +125,7 @@ std::string mutate_by_sql(const std::string& file, std::uint64_t seed) {
   sqlite3* opened = nullptr;
   sqlite3_open(":memory:", &opened);
   const std::unique_ptr<sqlite3, int (*)(sqlite3*)> database(opened, sqlite3_close);
-  auto* pages = static_cast<unsigned char*>(sqlite3_malloc64(file.size() + 1));  // SQLite's own from now on
+  auto* pages = static_cast<unsigned char*>(sqlite3_malloc64(file.size() + 1));  // ownership passes to SQLite
   std::memcpy(pages, file.data(), file.size());
   const auto size = static_cast<sqlite3_int64>(file.size());
   sqlite3_deserialize(database.get(), "main", pages, size, size,

@@ -6,11 +6,11 @@
 
 namespace panvo::recorder::fuzz {
 
-/// Damages what holds a SQLite file together: a page's kind, where its cells and free blocks are, whom it points to.
+/// Damages the structure of a SQLite file: a page's type, its cell and free block offsets, its page pointers.
 std::string mutate_page(std::string file, std::uint64_t seed);
 
-/// Changes a SQLite file as who may write SQL can: rows of odd types and numbers, tables that are views or have other
-/// columns, indexes that are gone. What is no database any more comes back as it is.
+/// Changes a SQLite file by SQL: rows with unusual types and numbers, tables replaced by views or with other columns,
+/// missing indexes. Returns a file that is no longer a database unchanged.
 std::string mutate_by_sql(const std::string& file, std::uint64_t seed);
 
 }  // namespace panvo::recorder::fuzz

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# install.sh FOLDER: the witnesses' packages into FOLDER. 77, with the reason, where that is not possible.
+# install.sh FOLDER: installs the third-party readers into FOLDER. Exits with 77 and the reason if that is not possible.
 set -euo pipefail
 
 folder=$1

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// read_bags.mjs BAGS: reads the bags that witness_bags wrote there with other people's readers, and compares topics,
-// times and messages with its expected.json. Definitions of types come from the bags where they can.
+// read_bags.mjs BAGS: reads the bags written by witness_bags with third-party readers and compares topics, times and
+// messages with expected.json. For MCAP, the type definitions come from the bags.
 import fs from "fs";
 import path from "path";
 import { createRequire } from "module";
@@ -9,7 +9,7 @@ import { loadDecompressHandlers } from "@mcap/support";
 import rosmsg from "@foxglove/rosmsg";
 import serialization from "@foxglove/rosmsg2-serialization";
 
-globalThis.File ??= class {}; // of browsers, which rosbag2-web is made for
+globalThis.File ??= class {}; // browser API that rosbag2-web needs
 const require = createRequire(import.meta.url);
 const { SqliteSqljs } = require("@foxglove/rosbag2-web/dist/SqliteSqljs.js");
 const { Rosbag2 } = require("@foxglove/rosbag2");
@@ -30,7 +30,7 @@ function fileOf(bag) {
   return path.join(directory, fs.readdirSync(directory).find((name) => /\.(db3|mcap)$/.test(name)));
 }
 
-// What the message says must be what its bytes say to us; the bytes written anew must be the bytes that were read.
+// Compares the decoded fields with the expected ones, and the bytes, read and serialized again, with those written.
 function compareMessage(where, message, wanted, data, definitions) {
   if (wanted.x !== undefined) {
     check(`${where} position`, message.pose.pose.position.x, wanted.x);
@@ -40,7 +40,7 @@ function compareMessage(where, message, wanted, data, definitions) {
   if (data) {
     check(`${where} bytes`, Buffer.from(data).toString("hex"), wanted.bytes);
     const again = new serialization.MessageWriter(definitions).writeMessage(message);
-    check(`${where} bytes written anew`, Buffer.from(again).toString("hex"), wanted.bytes);
+    check(`${where} bytes serialized again`, Buffer.from(again).toString("hex"), wanted.bytes);
   }
 }
 
@@ -91,7 +91,7 @@ async function readMcap(bag, decompressHandlers) {
   }
   check(`${bag} messages`, count, expected.messages.length);
 
-  // From beginning to end, every record and checksum.
+  // Read as a stream: checks every record and checksum.
   const stream = new McapStreamReader({ validateCrcs: true, decompressHandlers });
   stream.append(bytes);
   let streamed = 0;

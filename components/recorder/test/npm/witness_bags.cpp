@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// witness_bags FOLDER: writes the same messages to bags of every storage and compression, and what is to be found in
-/// them to FOLDER/expected.json.
+/// witness_bags FOLDER: writes the same messages to bags of every storage and compression, and the expected content to
+/// FOLDER/expected.json.
 #include <cstdio>
 #include <nlohmann/json.hpp>
 

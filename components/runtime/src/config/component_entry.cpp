@@ -10,8 +10,7 @@
 namespace panvo::runtime {
 namespace {
 
-/// The list `param` of one component. Later entries override what files say; two entries of one name are a
-/// slip.
+/// The list `param` of a component. Entries override values from files; two entries with the same name are an error.
 class ParameterEntries {
  public:
   ParameterEntries(std::string node, const Scope& scope, Findings& findings, WrittenValues& parameters)

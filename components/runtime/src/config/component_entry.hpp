@@ -8,13 +8,13 @@
 
 namespace panvo::runtime {
 
-/// Reads the body of a `composable_node`; `on_error` is its container's.
+/// Reads the body of a `composable_node`; `on_error` is the container's setting.
 ComponentDescription read_component(YamlMap& map, const Scope& scope, OnError on_error, Findings& findings);
 
-/// The checked `name` of a node or container.
+/// Reads and checks the `name` of a node or container.
 std::string read_name(YamlMap& map, const std::string& remedy, Findings& findings);
 
-/// The absolute namespace of an entry: its `namespace` as seen from the scope's.
+/// Absolute namespace of an entry: its `namespace` within the namespace of the scope.
 std::string read_name_space(YamlMap& map, const Scope& scope, Findings& findings);
 
 }  // namespace panvo::runtime

@@ -25,11 +25,11 @@ YAML::Node load(const std::string& text) {
   try {
     return YAML::Load(text);
   } catch (const YAML::Exception& error) {
-    throw ConfigError("\"" + text + "\" cannot be read as YAML: " + error.what());
+    throw ConfigError("\"" + text + "\" is not valid YAML: " + error.what());
   }
 }
 
-/// Writes members in the order of a layout, from a map that may lack some.
+/// Writes members in layout order, from a map that may lack some.
 class Builder {
  public:
   void message(const CdrLayout& layout, const YAML::Node& map, const std::string& path) {
@@ -52,7 +52,7 @@ class Builder {
 
   static void check_keys(const CdrLayout& layout, const YAML::Node& map, const std::string& path) {
     if (!is_written(map)) return;
-    if (!map.IsMap()) throw ConfigError((path.empty() ? "this" : path) + ": write its members as {name: value}");
+    if (!map.IsMap()) throw ConfigError((path.empty() ? "the message" : path) + ": write its members as {name: value}");
     std::vector<std::string> names;
     for (const CdrField& field : layout.fields) names.emplace_back(field.name);
     for (const auto& entry : map) {
@@ -116,7 +116,7 @@ class Builder {
     Number value{};
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (error != std::errc{} || end != text.data() + text.size()) {
-      throw ConfigError(name + " = " + text + ": is no whole number from " +
+      throw ConfigError(name + " = " + text + ": is not a whole number from " +
                         std::to_string(std::numeric_limits<Number>::min()) + " to " +
                         std::to_string(std::numeric_limits<Number>::max()));
     }
@@ -150,7 +150,7 @@ class Builder {
   interfaces::Bytes bytes_{0, 1, 0, 0};
 };
 
-/// What a scalar may be taken for; a quoted one is a text.
+/// Detects the type of a scalar; a quoted one is a string.
 rcl_interfaces::msg::ParameterValue scalar_value(const YAML::Node& node) {
   constexpr std::uint8_t kBool = 1, kInteger = 2, kDouble = 3, kString = 4;  // rcl_interfaces/msg/ParameterType's
   const WrittenValue written{{node.Scalar()}, false, {}};
@@ -178,18 +178,18 @@ rcl_interfaces::msg::ParameterValue scalar_value(const YAML::Node& node) {
 }
 
 rcl_interfaces::msg::ParameterValue list_value(const YAML::Node& node, const std::string& text) {
-  constexpr std::uint8_t kArrayOffset = 5;  // from a scalar's type to its list's; there is none of bytes
+  constexpr std::uint8_t kArrayOffset = 5;  // offset from a scalar type to its array type; byte arrays excluded
   constexpr std::uint8_t kInteger = 2, kDouble = 3;
   rcl_interfaces::msg::ParameterValue value;
   std::uint8_t type = 0;
   std::vector<rcl_interfaces::msg::ParameterValue> items;
   for (const auto& item : node) {
-    if (!item.IsScalar()) throw ConfigError(text + ": a parameter is a value or a list of values");
+    if (!item.IsScalar()) throw ConfigError(text + ": a parameter must be a value or a list of values");
     auto& last = items.emplace_back(scalar_value(item));
     if (type == kInteger && last.type() == kDouble) type = kDouble;
     if (type == 0) type = last.type();
     if (last.type() != type && !(type == kDouble && last.type() == kInteger))
-      throw ConfigError(text + ": the values of a list must be of one type");
+      throw ConfigError(text + ": the values of a list must have the same type");
   }
   for (const auto& item : items) {
     value.bool_array_value().push_back(item.bool_value());
@@ -198,7 +198,7 @@ rcl_interfaces::msg::ParameterValue list_value(const YAML::Node& node, const std
                                                                  : item.double_value());
     value.string_array_value().push_back(item.string_value());
   }
-  constexpr std::uint8_t kEmpty = 4;  // of texts, say
+  constexpr std::uint8_t kEmpty = 4;  // an empty list counts as strings
   value.type(static_cast<std::uint8_t>((type == 0 ? kEmpty : type) + kArrayOffset));
   if (type != 1) value.bool_array_value().clear();
   if (type != kInteger) value.integer_array_value().clear();
@@ -219,7 +219,7 @@ rcl_interfaces::msg::ParameterValue parameter_value_from_yaml(const std::string&
   const YAML::Node node = load(text);
   if (node.IsScalar()) return scalar_value(node);
   if (node.IsSequence()) return list_value(node, text);
-  throw ConfigError("\"" + text + "\": a parameter is a value or a list of values");
+  throw ConfigError("\"" + text + "\": a parameter must be a value or a list of values");
 }
 
 }  // namespace panvo::runtime

@@ -8,11 +8,12 @@
 
 namespace panvo::runtime {
 
-/// A serialised message from what people write: "{names: [a, b]}", as `ros2 service call` takes it. What is not written is zero or empty.
-/// Throws ConfigError that names the member and what is wrong.
+/// Serialises a message given as YAML, "{names: [a, b]}", as for `ros2 service call`. Missing members are zero or
+/// empty. Throws ConfigError that names the member and the problem.
 interfaces::Bytes message_from_yaml(const interfaces::MessageType& type, const std::string& text);
 
-/// A parameter's value from what people write: true, 5, 0.5, fast, "5" (a text), [1.0, 2.0]. Throws ConfigError for what is no value of ROS 2's.
+/// Parses a parameter value: true, 5, 0.5, fast, "5" (a string), [1.0, 2.0]. Throws ConfigError if it is not a ROS 2
+/// parameter value.
 rcl_interfaces::msg::ParameterValue parameter_value_from_yaml(const std::string& text);
 
 }  // namespace panvo::runtime

@@ -9,10 +9,9 @@
 namespace panvo::runtime {
 namespace {
 
-constexpr std::size_t kLongestName =
-    247;  // what DDS takes (255), less the "rt/" and the like that ROS 2 puts before it
+constexpr std::size_t kLongestName = 247;  // DDS's limit (255) minus ROS 2's prefixes such as "rt/"
 
-// Not <cctype>: the locale has no say in what a name is.
+// Not <cctype>, which depends on the locale.
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
 
@@ -76,7 +75,7 @@ std::optional<std::string> node_name_problem(std::string_view name) {
     return "is empty";
   }
   if (name.find('/') != std::string_view::npos) {
-    return "has a '/'; put what is before it into the key namespace";
+    return "has a '/'; put the part before it into the key namespace";
   }
   return word_problem(name);
 }
@@ -86,16 +85,16 @@ std::optional<std::string> package_name_problem(std::string_view name) {
   const bool is_one = !name.empty() && name.size() <= kLongestName && is_small(name.front()) &&
                       std::ranges::all_of(name, [&](char c) { return is_small(c) || is_digit(c) || c == '_'; });
   if (is_one) return std::nullopt;
-  return "is no name of a package; write small letters, digits and '_', a letter first";
+  return "is not a package name; use lower-case letters, digits and '_', starting with a letter";
 }
 
 std::optional<std::string> class_name_problem(std::string_view name) {
   constexpr std::string_view kColons = "::";
   for (std::size_t colons = name.find(kColons); colons != std::string_view::npos; colons = name.find(kColons)) {
-    if (word_problem(name.substr(0, colons))) return "is no name of a class; write Class or package::Class";
+    if (word_problem(name.substr(0, colons))) return "is not a class name; write Class or package::Class";
     name.remove_prefix(colons + kColons.size());
   }
-  if (word_problem(name)) return "is no name of a class; write Class or package::Class";
+  if (word_problem(name)) return "is not a class name; write Class or package::Class";
   return std::nullopt;
 }
 

@@ -5,7 +5,7 @@ namespace panvo::runtime {
 namespace {
 
 constexpr const char* kParameters = "ros__parameters";
-constexpr int kDeepest = 16;  // YAML's aliases can make a map contain itself
+constexpr int kDeepest = 16;  // YAML aliases can make a map contain itself
 
 std::pair<std::string_view, std::string_view> split_word(std::string_view path) {
   const auto slash = path.find('/');
@@ -36,7 +36,8 @@ class ParameterFile {
                              "has no parameters; write the node's name (or \"/**\") and a colon, below it " +
                                  std::string(kParameters) + ":, below that the parameters");
     } else if (!any_for_node_) {
-      findings_.note(named_at, file_.string() + " says nothing to " + node_ + "; its sections are for " + sections_);
+      findings_.note(named_at,
+                     file_.string() + " has no parameters for " + node_ + "; its sections are for " + sections_);
     }
   }
 

@@ -17,14 +17,14 @@ const char* type_name(const std::string&) { return "text"; }
 const char* type_name(const std::vector<double>&) { return "numbers"; }
 const char* type_name(const std::vector<std::string>&) { return "texts"; }
 
-/// A bound as one writes it: 5000 for 5000.0.
+/// A bound in the notation of its type: 5000 for 5000.0.
 std::string bound_text(const ParameterDescription& parameter, double bound) {
   constexpr double kExactlyWhole = 9007199254740992.0;  // 2^53
   const bool whole = parameter.type == "integer" && std::abs(bound) <= kExactlyWhole;
   return whole ? to_text(static_cast<std::int64_t>(bound)) : to_text(bound);
 }
 
-/// "must be 0.5..10 px", or nothing if every value of the type will do.
+/// "must be 0.5..10 px"; empty if every value of the type is valid.
 std::string requirement(const ParameterDescription& parameter) {
   if (parameter.min && parameter.max) {
     const bool has_unit = !parameter.unit.empty() && parameter.unit != "1";

@@ -10,21 +10,21 @@ namespace fs = std::filesystem;
 std::optional<std::string> path_problem(const std::string& path, const fs::path& folder) {
   if (path.empty()) return std::nullopt;
   if (folder.empty()) {
-    return "names a file or folder, which a request by service may not; set it in the system file, or name there a "
-           "folder below which requests may: files_below";
+    return "names a file or folder, which service requests must not do; set it in the system file, or allow a folder "
+           "there with files_below";
   }
-  const std::string outside = "is not below " + folder.string() + ", the files_below of the system file";
-  // A zero would end the path for the system, and not here.
+  const std::string outside = "is not below " + folder.string() + " (files_below in the system file)";
+  // A zero byte would end the path for the system, but not here.
   if (path.find('\0') != std::string::npos) return outside;
   std::error_code error;
   const fs::path root = fs::canonical(folder, error);
-  if (error) return "cannot be allowed: " + folder.string() + ", the files_below of the system file, is not there";
+  if (error) return "is refused: " + folder.string() + " (files_below in the system file) does not exist";
   fs::path meant = fs::weakly_canonical(fs::absolute(path), error);
   if (error) return outside;
   if (!meant.has_filename()) meant = meant.parent_path();  // "folder/"
   auto [in_root, in_meant] = std::mismatch(root.begin(), root.end(), meant.begin(), meant.end());
   if (in_root != root.end() || in_meant == meant.end()) return outside;
-  // What is a link still leads to nothing that is there; who writes to it makes that, wherever it is.
+  // A remaining link is dangling; writing to it would create its target outside the folder.
   for (fs::path part = root; in_meant != meant.end(); ++in_meant) {
     part /= *in_meant;
     if (fs::is_symlink(fs::symlink_status(part, error))) return outside;

@@ -7,8 +7,8 @@
 
 namespace panvo::runtime {
 
-/// What is wrong with a path that another process names, where only those below `folder` are allowed (empty: none); nullopt: nothing, or it names
-/// no file. Links and ".." are followed first, as far as the path is there.
+/// Returns what is wrong with a path given by another process, if only paths below `folder` are allowed (empty: none).
+/// nullopt if it is allowed or empty. Links and ".." are resolved first, as far as the path exists.
 std::optional<std::string> path_problem(const std::string& path, const std::filesystem::path& folder);
 
 }  // namespace panvo::runtime

@@ -12,7 +12,7 @@
 namespace panvo::runtime {
 namespace {
 
-constexpr int kMostRequests = 100'000;  // a second
+constexpr int kMostRequests = 100'000;  // per second
 
 template <class Choice>
 using Choices = std::vector<std::pair<std::string, Choice>>;
@@ -44,15 +44,15 @@ void read_policies(YamlMap& map, const Scope& scope, Findings& findings, Contain
       {"look", ServiceAccess::kLook}, {"steer", ServiceAccess::kSteer}, {"off", ServiceAccess::kOff}};
   container.services = read_choice(map, "services", kAccess, ServiceAccess::kByHost, findings);
   container.requests_per_s = read_number(
-      map, "requests_per_s", fmt::format("how many a second, 0 to {}", kMostRequests), kMostRequests, findings);
+      map, "requests_per_s", fmt::format("requests per second, 0 to {}", kMostRequests), kMostRequests, findings);
   container.required = map.flag("required", true);
   if (const auto folder = map.text("files_below")) {
     const auto path = beside(scope.file, *folder);
     std::error_code error;
     if (folder->empty() || !std::filesystem::is_directory(path, error)) {
       findings.problems.add(map.where("files_below"),
-                            fmt::format("files_below: there is no folder \"{}\"; make it, or leave the line out: then "
-                                        "no request may name a file",
+                            fmt::format("files_below: folder \"{}\" does not exist; create it, or remove the line to "
+                                        "forbid files in requests",
                                         *folder));
     }
     container.files_below = std::filesystem::absolute(path).string();

@@ -9,10 +9,11 @@ namespace panvo::runtime {
 /// `on_error` of a container or component.
 OnError read_on_error(YamlMap& map, OnError otherwise, Findings& findings);
 
-/// What a container says of who may do what, and of its end: `services`, `files_below`, `requests_per_s`, `required`.
+/// Reads a container's policies: `services`, `files_below`, `requests_per_s`, `required`.
 void read_policies(YamlMap& map, const Scope& scope, Findings& findings, ContainerDescription& container);
 
-/// A number of at least 0; nullopt where there is none, or a wrong one. `what` says what to write: "seconds, 0 to 10".
+/// Reads a number from 0 to `largest`; nullopt if missing or invalid. `what` describes valid values: "seconds, 0 to
+/// 10".
 std::optional<double> read_number(YamlMap& map, const std::string& key, const std::string& what, double largest,
                                   Findings& findings);
 

@@ -20,12 +20,12 @@ WrittenValue value_from(const std::string& text, const std::string& setting) {
   try {
     list = YAML::Load(text);
   } catch (const YAML::Exception&) {
-    refuse(setting, "the list does not end; write [1, 2]");
+    refuse(setting, "the list is not closed; write [1, 2]");
   }
   Findings findings;
   auto value = written_value(list, "of the list", kWhere, nullptr, findings);
   if (!value) {
-    refuse(setting, "a list holds single values; write [1, 2]");
+    refuse(setting, "list items must be single values; write [1, 2]");
   }
   return std::move(*value);
 }

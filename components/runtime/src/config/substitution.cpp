@@ -23,7 +23,7 @@ std::string unquoted(std::string_view text) {
   return std::string(quoted ? text.substr(1, text.size() - 2) : text);
 }
 
-/// First word, and the rest without the blanks between.
+/// The first word and the trimmed rest.
 std::pair<std::string_view, std::string_view> split_first(std::string_view text) {
   const auto blank = text.find_first_of(" \t\n");
   return {text.substr(0, blank), blank == std::string_view::npos ? std::string_view{} : trim(text.substr(blank))};
@@ -46,7 +46,7 @@ std::string environment(std::string_view arguments) {
     return value;
   }
   if (fallback.empty()) {
-    throw SubstitutionError("the environment has no " + std::string(name) + "; set it, or write $(env " +
+    throw SubstitutionError("the environment variable " + std::string(name) + " is not set; set it, or write $(env " +
                             std::string(name) + " DEFAULT)");
   }
   return unquoted(fallback);
@@ -69,7 +69,7 @@ std::string package_share(const std::string& package) {
   add_folders("AMENT_PREFIX_PATH", prefixes);
   add_folders("COLCON_PREFIX_PATH", prefixes);
   for (const auto& prefix : prefixes) {
-    // colcon installs each package into a prefix of its own unless told to merge them.
+    // colcon installs each package into its own prefix, unless merged.
     for (const auto& share : {prefix / "share" / package, prefix / package / "share" / package}) {
       std::error_code ignored;
       if (std::filesystem::is_directory(share, ignored)) {
@@ -85,7 +85,7 @@ std::string package_share(const std::string& package) {
 std::string evaluate(std::string_view expression, const Scope& scope) {
   const auto [command, arguments] = split_first(trim(expression));
   if (command == "dirname") {
-    // Absolute, because values are used after the file has been read, who knows where.
+    // Absolute, as values may be used with another working directory.
     return std::filesystem::absolute(scope.file).lexically_normal().parent_path().string();
   }
   const bool known = command == "var" || command == "env" || command == "find-pkg-share";

@@ -9,23 +9,23 @@
 
 namespace panvo::runtime {
 
-/// What holds at one place of a system file.
+/// Context at one position of a system file.
 struct Scope {
   std::filesystem::path file;
   std::string name_space = "/";
   std::map<std::string, std::string> variables{};
 };
 
-/// What is wrong with a substitution, without the place where it stands.
+/// A failed substitution, without its position in the file.
 class SubstitutionError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// Replaces each $(...), innermost first. What comes out is not looked at again. Throws SubstitutionError.
+/// Replaces each $(...), innermost first. Results are not substituted again. Throws SubstitutionError.
 std::string substitute(std::string_view text, const Scope& scope);
 
-/// `path` as seen from the folder of `file`.
+/// Resolves `path` relative to the folder of `file`.
 std::filesystem::path beside(const std::filesystem::path& file, const std::filesystem::path& path);
 
 }  // namespace panvo::runtime

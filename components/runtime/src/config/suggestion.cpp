@@ -8,7 +8,7 @@ namespace {
 
 std::string_view last_part(std::string_view name) { return name.substr(name.rfind('.') + 1); }
 
-/// More than a third of a word wrong is another word.
+/// Names that differ in more than a third of their characters are not suggested.
 std::size_t tolerated_edits(std::string_view name) { return std::max<std::size_t>(1, name.size() / 3); }
 
 }  // namespace
@@ -55,7 +55,7 @@ std::string suggestion(std::string_view wrong, const std::vector<std::string>& k
   for (const auto& name : known) {
     list += (list.empty() ? "" : ", ") + name;
   }
-  return list.empty() ? "; there are none" : "; known are: " + list;
+  return list.empty() ? "; there are none" : "; known names: " + list;
 }
 
 }  // namespace panvo::runtime

@@ -8,13 +8,12 @@
 
 namespace panvo::runtime {
 
-/// Least number of characters to insert, delete, replace, or swap with their neighbour, to get from `a` to
-/// `b`.
+/// Minimum number of insertions, deletions, replacements and swaps of neighbouring characters that turn `a` into `b`.
 std::size_t edit_distance(std::string_view a, std::string_view b);
 
-/// What to append to a message on an unknown name: `; did you mean "max_features"?` if one of the known names
-/// is near, else all of them: `; known are: a, b` (`; there are none` if there are none). The group of a
-/// dotted name may have been forgotten.
+/// Text to append to a message about an unknown name: `; did you mean "max_features"?` if a known name is similar,
+/// otherwise the list `; known are: a, b` (`; there are none` if empty). Also matches dotted names whose group is
+/// missing.
 std::string suggestion(std::string_view wrong, const std::vector<std::string>& known);
 
 }  // namespace panvo::runtime

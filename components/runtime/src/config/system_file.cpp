@@ -14,7 +14,7 @@
 namespace panvo::runtime {
 namespace {
 
-/// What ROS 2 knows of a process or node and a container of ours has no use for.
+/// ROS 2's keys of processes and nodes that have no effect on our containers.
 const std::vector<std::string> kContainerKeysWithoutEffect = {
     "args", "ros_args", "output", "respawn_max_retries", "env", "param", "launch-prefix", "remap"};
 constexpr int kLongestDelayS = 3600;
@@ -47,7 +47,7 @@ class SystemReader {
   };
   using Given = std::map<std::string, Argument>;
 
-  /// One file on its way: what its arguments are, and which of them it has asked for.
+  /// A file being read: its arguments and those it has declared.
   struct File {
     const Given& given;
     std::vector<std::string> declared;
@@ -59,7 +59,7 @@ class SystemReader {
       for (const auto& open : open_files_) {
         chain += open.string() + " -> ";
       }
-      findings_.problems.add(named_at, "the file includes itself: " + chain + path.string() + "; take out one include");
+      findings_.problems.add(named_at, "the file includes itself: " + chain + path.string() + "; remove one include");
       return;
     }
     const auto root = load_yaml(path, named_at, findings_);
@@ -91,8 +91,8 @@ class SystemReader {
     if (!node.IsMap() || node.size() != 1 || !node.begin()->first.IsScalar()) {
       findings_.problems.add(
           location_of(scope.file, node),
-          "an entry of the list must be one of node_container, arg, let, include, group, with what belongs "
-          "to it indented below");
+          "an entry of the list must be one of node_container, arg, let, include, group, with its contents "
+          "indented below");
       return;
     }
     const YAML::Node name_node = node.begin()->first;
@@ -126,7 +126,7 @@ class SystemReader {
     }
   }
 
-  /// What a group sets holds to its end.
+  /// Variables and namespaces set in a group apply until its end.
   void read_group(const YAML::Node& body, Scope scope, File& file) {
     if (!body.IsSequence()) {
       findings_.problems.add(location_of(scope.file, body), "group must be a list: lines that begin with \"- \"");
@@ -149,8 +149,9 @@ class SystemReader {
       scope.variables.emplace(name, *otherwise);  // an including file may have set it
     } else if (!scope.variables.contains(name) && !name.empty() && !map.has("default")) {
       findings_.problems.add(map.where(), "argument \"" + name + "\" is not given and has no default" +
-                                              (description ? " (" + *description + ")" : "") + "; give it one");
-      scope.variables[name] = "";  // one problem is enough, its uses are none
+                                              (description ? " (" + *description + ")" : "") +
+                                              "; pass a value or add a default");
+      scope.variables[name] = "";  // avoids follow-up problems where it is used
     }
   }
 
@@ -180,7 +181,7 @@ class SystemReader {
     container.where = map.where();
     container.name = read_name(map, "name the process", findings_);
     container.name_space = read_name_space(map, scope, findings_);
-    map.text("pkg");  // ours is the only container there is
+    map.text("pkg");  // ignored: there is only one kind of container
     map.text("exec");
     read_policies(map, scope, findings_, container);
     const OnError on_error = read_on_error(map, OnError::kRestart, findings_);
@@ -188,14 +189,14 @@ class SystemReader {
     container.respawn_delay_s =
         read_number(map, "respawn_delay", fmt::format("seconds, 0 to {}", kLongestDelayS), kLongestDelayS);
     container.shared_images_mb =
-        read_number(map, "shared_images_mb", fmt::format("megabytes, 0 (none are shared) to {}", kLargestImageMb),
-                    kLargestImageMb)
+        read_number(map, "shared_images_mb", fmt::format("megabytes, 0 (off) to {}", kLargestImageMb), kLargestImageMb)
             .value_or(kLargestImageMb);
     container.max_message_mb =
         read_number(map, "max_message_mb", fmt::format("megabytes, 0 to {}", kLargestMessageMb), kLargestMessageMb)
             .value_or(container.max_message_mb);
     container.max_topic_rate_hz =
-        read_number(map, "max_topic_rate_hz", fmt::format("messages a second, 0 to {}", kHighestRateHz), kHighestRateHz)
+        read_number(map, "max_topic_rate_hz", fmt::format("messages per second, 0 to {}", kHighestRateHz),
+                    kHighestRateHz)
             .value_or(container.max_topic_rate_hz);
     if (!map.has("composable_node")) {
       findings_.problems.add(map.where(),
@@ -221,8 +222,8 @@ class SystemReader {
   void claim_name(const std::string& name, const std::string& what, const Location& where) {
     const auto [first, is_new] = taken_names_.emplace(name, where);
     if (!is_new && !name.ends_with('/')) {
-      findings_.problems.add(where, what + " " + name + " has the name of what is at " + first->second.to_string() +
-                                        "; give it another name or namespace");
+      findings_.problems.add(where, what + " " + name + " has the same name as the one at " +
+                                        first->second.to_string() + "; give it another name or namespace");
     }
   }
 

@@ -9,11 +9,11 @@
 namespace panvo::runtime {
 namespace {
 
-/// std::from_chars is exact, knows no locale, and says where it stopped.
+/// std::from_chars is exact, independent of the locale, and reports where it stopped.
 template <class Number>
 std::errc from_text(std::string_view text, Number& out) {
   if (text.size() > 1 && text[0] == '+' && text[1] != '-') {
-    text.remove_prefix(1);  // YAML's numbers may carry a plus, from_chars' not
+    text.remove_prefix(1);  // YAML allows a leading plus, from_chars does not
   }
   Number value{};
   const auto [stopped, error] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -30,7 +30,7 @@ std::errc from_text(std::string_view text, Number& out) {
 std::optional<std::string> number_from(std::string_view text, double& out) {
   double value = 0;
   if (const auto error = from_text(text, value); error != std::errc{}) {
-    return error == std::errc::result_out_of_range ? "is too large or too small a number" : "is not a number";
+    return error == std::errc::result_out_of_range ? "is a number out of range" : "is not a number";
   }
   if (!std::isfinite(value)) {
     return "is not a finite number";
@@ -41,7 +41,7 @@ std::optional<std::string> number_from(std::string_view text, double& out) {
 
 std::optional<std::string> not_one_value(const WrittenValue& written) {
   if (written.is_list) {
-    return "is a list, one value is needed";
+    return "is a list, but one value is needed";
   }
   return written.items.empty() ? std::optional<std::string>("has no value") : std::nullopt;
 }
@@ -83,7 +83,7 @@ std::optional<std::string> parse(const WrittenValue& written, std::int64_t& out)
     return wrong;
   }
   if (const auto error = from_text(written.items[0], out); error != std::errc{}) {
-    return error == std::errc::result_out_of_range ? "is too large a whole number" : "is not a whole number";
+    return error == std::errc::result_out_of_range ? "is a whole number out of range" : "is not a whole number";
   }
   return std::nullopt;
 }
@@ -105,7 +105,7 @@ std::optional<std::string> parse(const WrittenValue& written, std::string& out) 
 
 std::optional<std::string> parse(const WrittenValue& written, std::vector<double>& out) {
   if (!written.is_list) {
-    return "is not a list, write [1.0, 2.0]";
+    return "is not a list; write [1.0, 2.0]";
   }
   std::vector<double> values(written.items.size());
   for (std::size_t i = 0; i < values.size(); ++i) {
@@ -119,7 +119,7 @@ std::optional<std::string> parse(const WrittenValue& written, std::vector<double
 
 std::optional<std::string> parse(const WrittenValue& written, std::vector<std::string>& out) {
   if (!written.is_list) {
-    return "is not a list, write [first, second]";
+    return "is not a list; write [first, second]";
   }
   out = written.items;
   return std::nullopt;

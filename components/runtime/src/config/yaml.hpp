@@ -14,7 +14,7 @@
 
 namespace panvo::runtime {
 
-/// What the readers of a system file and of the files it names report to.
+/// Collects the problems and notes of reading a system file and the files it refers to.
 struct Findings {
   Problems problems;
   std::vector<std::string> notes;
@@ -22,43 +22,40 @@ struct Findings {
   void note(const Location& where, const std::string& what) { notes.push_back(where.to_string() + ": " + what); }
 };
 
-/// The document in a file; nullopt, and a problem, if there is none: at the line of the syntax error, or at
-/// `named_at`, the place that names the file, when it cannot be read.
+/// Loads the document in a file. On failure returns nullopt and adds a problem: at the line of a syntax error, or at
+/// `named_at`, the position that names the file, if it cannot be read.
 std::optional<YAML::Node> load_yaml(const std::filesystem::path& file, const Location& named_at, Findings& findings);
 
 Location location_of(const std::filesystem::path& file, const YAML::Node& node);
 
-/// A scalar or a list of scalars. nullopt, and a problem, for anything else. Substitutes if there is a scope
-/// to do it with.
+/// Reads a scalar or a list of scalars; otherwise returns nullopt and adds a problem. Substitutes if `scope` is given.
 std::optional<WrittenValue> written_value(const YAML::Node& node, const std::string& name, const Location& where,
                                           const Scope* scope, Findings& findings);
 
-/// A map of a system file, taken apart key by key: what is missing, doubled, of the wrong kind or not known
-/// is reported.
+/// Reads a map of a system file key by key; reports missing, duplicate, unknown and wrongly typed keys.
 class YamlMap {
  public:
   /// `what` names the map in messages: "node_container".
   YamlMap(const YAML::Node& node, std::string what, const Scope& scope, Findings& findings);
 
-  /// Whether it was a map at all; if not, it reports nothing more.
+  /// Whether the node is a map. If not, that is the only problem reported.
   bool is_map() const noexcept { return is_map_; }
   const Location& where() const noexcept { return where_; }
   Location where(const std::string& key) const;
   bool has(const std::string& key) const { return find(key) != nullptr; }
 
-  /// A scalar, substituted.
+  /// A scalar after substitution.
   std::optional<std::string> text(const std::string& key);
-  /// The same where it must be there and not empty; "" else.
+  /// The same for a required, non-empty value; "" otherwise.
   std::string required(const std::string& key, const std::string& remedy);
   bool flag(const std::string& key, bool otherwise);
   std::optional<YAML::Node> node(const std::string& key);
   std::vector<YAML::Node> list(const std::string& key);
 
-  /// Whether it is a map, and its `if` and `unless` let it count.
+  /// Whether it is a map and its `if` and `unless` conditions hold.
   bool applies();
 
-  /// To be called when all has been asked for: notes the keys that ROS 2 knows and that have no effect here,
-  /// and reports the others.
+  /// Call after all keys have been read: notes ROS 2 keys without effect here and reports unknown keys.
   void finish(const std::vector<std::string>& without_effect = {});
 
  private:

@@ -21,10 +21,10 @@
 namespace panvo::runtime {
 namespace {
 
-/// Writers and readers are in a participant each, both of which ignore participants of their own process:
-/// that keeps endpoints of one process apart, for which Fast DDS 2.9 has no other means. (Where messages are encrypted it
-/// cannot tell which these are; readers and writers leave out what is their own, see own_participants.hpp.) A participant is
-/// nine threads, so each is made when it is first needed.
+/// Writers and readers belong to separate participants, which both ignore participants of their own process. Fast DDS
+/// 2.9 has no other means to keep endpoints of one process apart. (With encryption it cannot identify them; our readers
+/// and writers then ignore own endpoints, see own_participants.hpp.) A participant has nine threads, so each is created
+/// on first use.
 class DdsBridge final : public Bridge {
  public:
   explicit DdsBridge(const DdsSettings& settings) : settings_(settings) {
@@ -37,7 +37,7 @@ class DdsBridge final : public Bridge {
     });
   }
 
-  // Endpoints that are still open keep their participant; nobody is called back about discovery any more.
+  // Open endpoints keep their participant; no discovery callbacks run after this.
   ~DdsBridge() override { notifier_->stop(); }
 
   std::unique_ptr<BridgeWriter> open_writer(const TopicDescription& topic) override {
@@ -105,7 +105,7 @@ class DdsBridge final : public Bridge {
   std::mutex mutex_;
   std::shared_ptr<dds::Participant> writers_, readers_;
   std::mutex graph_mutex_;
-  // After the participants: its endpoints go first.
+  // After the participants: destroyed before them.
   const std::shared_ptr<dds::NodeGraph> graph_ =
       std::make_shared<dds::NodeGraph>(notifier_, endpoints_, dds::gid_size_of(settings_.ros_distro));
 };

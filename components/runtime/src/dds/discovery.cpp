@@ -27,7 +27,7 @@ std::string readable_type_name(const std::string& wire_name) {
   return type_name_from_wire(wire_name).value_or(wire_name);
 }
 
-// Of a reader what it asks for; of a writer what a reader should ask for to get all that it offers.
+// A reader's requested QoS, or the QoS a reader needs to get everything the writer offers.
 template <class EndpointQos>
 interfaces::Qos qos_of(const EndpointQos& endpoint) {
   interfaces::Qos qos;
@@ -49,7 +49,7 @@ std::string type_hash(const std::vector<rtps::octet>& user_data) {
   return std::string(value.substr(0, value.find(';')));
 }
 
-// An endpoint as ROS 2 users know it.
+// An endpoint with ROS 2 names.
 template <class Proxy>
 GraphEndpoint shown(Proxy& proxy, bool is_writer) {
   const std::string wire_name = proxy.topicName().to_string(), wire_type = proxy.typeName().to_string();
@@ -178,9 +178,8 @@ void Discovery::remember(const rtps::GUID_t& guid, RemoteEndpoint remote) {
 void Discovery::warn_if_types_differ(const TypedTopic& local, const TypedTopic& remote) {
   if (local.name != remote.name || local.type_name == remote.type_name) return;
   notifier_->warn(
-      fmt::format("topic {}: is {} here and {} in another process, so nothing passes between them. Remedy: remap one "
-                  "of the two, or use the same "
-                  "message type in both.",
+      fmt::format("topic {}: has type {} here and {} in another process, so no messages are exchanged. Remedy: remap "
+                  "one of the two, or use the same message type in both.",
                   topic_name_from_wire(local.name).value_or(local.name), readable_type_name(local.type_name),
                   readable_type_name(remote.type_name)));
 }
@@ -191,7 +190,7 @@ void Discovery::announce(const TopicDescription& written) {
     for (const auto& watcher : watchers_) notifier_->post([watcher, written] { watcher(written); });
   } else if (known->second.type_name != written.type_name) {
     notifier_->warn(fmt::format(
-        "topic {}: is written with type {} and with type {} by other processes; only the first is taken. Remedy: "
+        "topic {}: is published with type {} and with type {} by other processes; only the first is used. Remedy: "
         "remap one of the two.",
         written.name, known->second.type_name, written.type_name));
   }

@@ -21,9 +21,8 @@
 
 namespace panvo::runtime::dds {
 
-/// Which endpoints other processes have: tells watchers of each topic that is written, and warns where the
-/// types of a topic differ, which DDS itself passes over in silence. Listens to both participants of a bridge.
-/// Safe to use from several threads.
+/// Tracks the endpoints of other processes: reports each published topic to watchers, and warns if the types of a topic
+/// differ, which DDS ignores silently. Listens to both participants of a bridge. Thread-safe.
 class Discovery final : public eprosima::fastdds::dds::DomainParticipantListener {
  public:
   using Watcher = std::function<void(const TopicDescription&)>;
@@ -32,15 +31,15 @@ class Discovery final : public eprosima::fastdds::dds::DomainParticipantListener
 
   void watch(const Watcher& watcher);
 
-  /// Which topics this process has open, so that others with another type are noticed. Names as on the wire.
+  /// Registers a topic opened by this process, to detect other types. Wire names.
   void topic_opened(const std::string& wire_name, const std::string& wire_type_name);
   void topic_closed(const std::string& wire_name, const std::string& wire_type_name);
 
   std::vector<GraphEndpoint> endpoints() const;
-  /// Whether a process of this machine reads the topic that shares memory as we do.
+  /// Whether a reader on this machine shares memory with us on the topic.
   bool has_sharing_reader(const std::string& wire_name) const;
 
-  /// Called when no participant of this process sees that one any more, which may come from inside Fast DDS.
+  /// Sets the callback for a participant that no participant of this process sees any more. It may run inside Fast DDS.
   void on_participant_gone(std::function<void(const eprosima::fastrtps::rtps::GuidPrefix_t&)> callback);
 
   void on_participant_discovery(eprosima::fastdds::dds::DomainParticipant* participant,
@@ -63,11 +62,11 @@ class Discovery final : public eprosima::fastdds::dds::DomainParticipantListener
   };
 
   struct RemoteParticipant {
-    std::set<eprosima::fastrtps::rtps::GUID_t> seen_by;  // participants of ours
+    std::set<eprosima::fastrtps::rtps::GUID_t> seen_by;  // own participants
     std::vector<eprosima::fastrtps::rtps::Locator_t> ports;
   };
 
-  /// Lets go whose ports on the same host `newcomer` has got.
+  /// Drops participants whose ports on the same host are now used by `newcomer`.
   void let_go_replaced_by(const eprosima::fastrtps::rtps::GUID_t& newcomer,
                           const std::vector<eprosima::fastrtps::rtps::Locator_t>& ports);
   void remember(const eprosima::fastrtps::rtps::GUID_t& guid, RemoteEndpoint remote);
@@ -76,7 +75,7 @@ class Discovery final : public eprosima::fastdds::dds::DomainParticipantListener
 
   const std::shared_ptr<Notifier> notifier_;
   mutable std::mutex mutex_;
-  std::map<TypedTopic, int> open_here_;  // how many participants have it
+  std::map<TypedTopic, int> open_here_;  // number of participants that opened it
   std::map<eprosima::fastrtps::rtps::GUID_t, RemoteEndpoint> remote_endpoints_;
   std::map<eprosima::fastrtps::rtps::GuidPrefix_t, RemoteParticipant> remote_participants_;
   std::function<void(const eprosima::fastrtps::rtps::GuidPrefix_t&)> on_participant_gone_;

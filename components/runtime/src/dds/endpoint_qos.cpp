@@ -19,8 +19,8 @@ using interfaces::Reliability;
 
 namespace {
 
-// A lost fragment or acknowledgement is noticed at the next heartbeat, which has to come well within the time
-// a write may wait. Fast DDS's default is 3 s. Sent only while something is unacknowledged.
+// A lost fragment or acknowledgement is detected at the next heartbeat, which must come well within the limit of a
+// write. Fast DDS's default is 3 s. Heartbeats are sent only while data is unacknowledged.
 constexpr std::chrono::milliseconds kHeartbeatPeriod{20};
 constexpr int kPreallocatedSamples = 4;
 
@@ -29,7 +29,7 @@ fdds::DurabilityQosPolicyKind durability_kind(Durability durability) {
                                                    : fdds::VOLATILE_DURABILITY_QOS;
 }
 
-// What writers and readers have in common.
+// QoS common to writers and readers.
 template <class EndpointQos>
 void apply_common(const TopicDescription& topic, EndpointQos& qos) {
   const int depth = static_cast<int>(
@@ -55,18 +55,18 @@ struct PolicyText {
 PolicyText describe(fdds::QosPolicyId_t policy) {
   switch (policy) {
     case fdds::RELIABILITY_QOS_POLICY_ID:
-      return {"the reader asks for reliable delivery and the writer offers best effort",
-              "let the reader ask for best effort, or the writer offer reliable"};
+      return {"the reader requests reliable delivery and the writer offers best effort",
+              "use best effort for the reader, or reliable for the writer"};
     case fdds::DURABILITY_QOS_POLICY_ID:
-      return {"the reader asks for transient local (what was sent before it came) and the writer offers volatile",
-              "let the reader ask for volatile, or the writer offer transient local"};
+      return {"the reader requests transient local (earlier messages) and the writer offers volatile",
+              "use volatile for the reader, or transient local for the writer"};
     case fdds::DEADLINE_QOS_POLICY_ID:
-      return {"the reader asks for a shorter deadline than the writer offers", "remove the reader's deadline"};
+      return {"the reader requests a shorter deadline than the writer offers", "remove the reader's deadline"};
     case fdds::LIVELINESS_QOS_POLICY_ID:
-      return {"the reader asks for a stricter liveliness than the writer offers",
-              "let the reader ask for automatic liveliness"};
+      return {"the reader requests a stricter liveliness than the writer offers",
+              "use automatic liveliness for the reader"};
     case fdds::OWNERSHIP_QOS_POLICY_ID:
-      return {"one side has exclusive ownership", "let both sides use shared ownership"};
+      return {"one side has exclusive ownership", "use shared ownership on both sides"};
     default:
       return {"their quality of service is incompatible", "compare them with `ros2 topic info --verbose`"};
   }
@@ -82,13 +82,12 @@ eprosima::fastrtps::Duration_t to_dds(std::chrono::nanoseconds time) {
 
 void apply(const TopicDescription& topic, fdds::DataWriterQos& qos) {
   apply_common(topic, qos);
-  // A reliable writer serves readers of either kind; who wants best effort is not slowed by it.
+  // A reliable writer also serves best-effort readers, without delaying them.
   qos.reliability().kind = fdds::RELIABLE_RELIABILITY_QOS;
   qos.reliability().max_blocking_time = to_dds(kMaxBlockingTime);
-  // Topics of which only the newest counts carry images. Their fragments are sent from a thread of Fast
-  // DDS's, so that a network slower than the camera does not hold the publisher (at 100 Mbit/s a panorama of
-  // 1.75 MB held it for 122 ms, now 0.8 ms). Others are small and leave at once.
-  // And at a pace that a receiver keeps up with, see participant_qos().
+  // Best-effort topics carry images. They are sent asynchronously, so a network slower than the camera does not block
+  // the publisher (at 100 Mbit/s a panorama of 1.75 MB blocked it for 122 ms, now 0.8 ms), and paced for the receiver,
+  // see participant_qos(). Other messages are small and sent at once.
   if (topic.qos.requested == Reliability::kBestEffort) {
     qos.publish_mode().kind = fdds::ASYNCHRONOUS_PUBLISH_MODE;
     qos.publish_mode().flow_controller_name = kImagePace;
@@ -97,14 +96,13 @@ void apply(const TopicDescription& topic, fdds::DataWriterQos& qos) {
   qos.representation().m_value = {fdds::XCDR_DATA_REPRESENTATION};
   if (topic.qos.deadline.count() > 0) qos.deadline().period = to_dds(topic.qos.deadline);
   if (topic.qos.lifespan.count() > 0) qos.lifespan().duration = to_dds(topic.qos.lifespan);
-  // ROS 2 has data sharing off, and a reader of it that is slower than its writer would see its samples
-  // change.
+  // Data sharing is off, as in ROS 2: samples of a reader slower than the writer would change.
   qos.data_sharing().off();
 }
 
 void apply(const TopicDescription& topic, fdds::DataReaderQos& qos) {
   apply_common(topic, qos);
-  // A profile may ask for more than a topic needs: where the network loses packets, an image hardly ever comes whole at the first attempt.
+  // A profile may request reliability: with packet loss, an image rarely arrives complete at the first attempt.
   const bool is_reliable_by_profile = qos.reliability().kind == fdds::RELIABLE_RELIABILITY_QOS;
   qos.reliability().kind = topic.qos.requested == Reliability::kReliable || is_reliable_by_profile
                                ? fdds::RELIABLE_RELIABILITY_QOS
@@ -115,8 +113,8 @@ void apply(const TopicDescription& topic, fdds::DataReaderQos& qos) {
 
 std::string describe_offer_refused(const std::string& topic, fdds::QosPolicyId_t policy) {
   const auto [difference, remedy] = describe(policy);
-  return fmt::format("topic {}: a reader in another process gets nothing from here: {}. Remedy: {}.", topic, difference,
-                     remedy);
+  return fmt::format("topic {}: a reader in another process receives nothing from here: {}. Remedy: {}.", topic,
+                     difference, remedy);
 }
 
 std::string describe_request_refused(const std::string& topic, fdds::QosPolicyId_t policy) {

@@ -12,22 +12,22 @@
 
 namespace panvo::runtime::dds {
 
-/// How long a write may wait for a slow reliable reader of a keep-all topic: 100 ms in all. In two attempts,
-/// as Fast DDS 2.9 ends the first with an error when, while it waited for room for one message,
-/// acknowledgements emptied the whole history.
+/// Limit for a write that waits for a slow reliable reader of a keep-all topic: 100 ms in total. Split into two
+/// attempts because Fast DDS 2.9 reports an error on the first one if acknowledgements empty the whole history during
+/// the wait.
 inline constexpr int kWriteAttempts = 2;
 inline constexpr std::chrono::milliseconds kMaxBlockingTime{50};
 
-/// A time in the terms of DDS; negative times are none.
+/// Converts to a DDS duration; negative times become 0.
 eprosima::fastrtps::Duration_t to_dds(std::chrono::nanoseconds time);
 
-/// Sets what a topic's QoS says, and what ROS 2 expects of a writer or reader, on top of the participant's
-/// defaults (`qos`), which may come from a user's profile.
+/// Applies a topic's QoS and ROS 2's conventions to `qos`, which holds the participant's defaults (possibly from a
+/// user's profile).
 void apply(const TopicDescription& topic, eprosima::fastdds::dds::DataWriterQos& qos);
 void apply(const TopicDescription& topic, eprosima::fastdds::dds::DataReaderQos& qos);
 
-/// What users are told when our writer (or reader) of `topic` and a reader (or writer) of another process
-/// cannot meet because of that policy: which topic, what differs, and the remedy.
+/// Warning for a writer (or reader) of `topic` that is incompatible with a remote reader (or writer) in that policy:
+/// topic, difference, remedy.
 std::string describe_offer_refused(const std::string& topic, eprosima::fastdds::dds::QosPolicyId_t policy);
 std::string describe_request_refused(const std::string& topic, eprosima::fastdds::dds::QosPolicyId_t policy);
 

@@ -17,12 +17,12 @@ std::string_view variable(const char* name) {
 }
 
 int domain_from(std::string_view text) {
-  constexpr int kMaxDomain = 232;  // the ports of a higher one would be past 65535
+  constexpr int kMaxDomain = 232;  // higher domains would exceed port 65535
   int domain = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), domain);
   if (error != std::errc{} || end != text.data() + text.size() || domain < 0 || domain > kMaxDomain) {
     throw ConfigError(
-        fmt::format("ROS_DOMAIN_ID={}: is no DDS domain; write a whole number from 0 to {}", text, kMaxDomain));
+        fmt::format("ROS_DOMAIN_ID={}: is not a DDS domain; use a whole number from 0 to {}", text, kMaxDomain));
   }
   return domain;
 }
@@ -30,7 +30,7 @@ int domain_from(std::string_view text) {
 bool localhost_only() {
   const auto only = variable("ROS_LOCALHOST_ONLY");
   if (!only.empty() && only != "0" && only != "1")
-    throw ConfigError(fmt::format("ROS_LOCALHOST_ONLY={}: write 1 to stay on this machine, 0 not to", only));
+    throw ConfigError(fmt::format("ROS_LOCALHOST_ONLY={}: use 1 to stay on this machine, 0 otherwise", only));
   return only == "1" || variable("ROS_AUTOMATIC_DISCOVERY_RANGE") == "LOCALHOST";
 }
 

@@ -23,7 +23,7 @@ namespace fdds = eprosima::fastdds::dds;
 
 namespace {
 
-constexpr std::uint32_t kRoomBesidePixels = 1024;  // for the frame's name, the encoding and the numbers
+constexpr std::uint32_t kRoomBesidePixels = 1024;  // for frame name, encoding and numbers
 
 std::uint64_t fnv1a(std::string_view text) {
   std::uint64_t hash = 14695981039346656037ULL;
@@ -31,14 +31,14 @@ std::uint64_t fnv1a(std::string_view text) {
   return hash;
 }
 
-/// Different after every start of a kernel, the same in all its containers.
+/// Changes at each boot of the kernel; the same in all its containers.
 std::string boot_id() {
   std::string id;
   std::getline(std::ifstream("/proc/sys/kernel/random/boot_id"), id);
   return id;
 }
 
-/// What the loader knows of the library that has Fast DDS: its file's size and time tell builds apart.
+/// Identifies the Fast DDS build by size and time of its library file.
 std::string build_of_fast_dds() {
   Dl_info library{};
   struct stat file {};
@@ -53,8 +53,8 @@ void share_in_neighbourhood(EndpointQos& qos) {
   qos.data_sharing().add_domain_id(sharing_neighbourhood());
 }
 
-// A type of bounded size may be shared, and makes Fast DDS reserve no more than the bound for a message. With this policy it reserves what
-// each message needs.
+// Data sharing needs a type of bounded size, for which Fast DDS reserves at most the bound per message. With this
+// policy it allocates what each message needs.
 constexpr auto kAnySize = eprosima::fastrtps::rtps::DYNAMIC_REUSABLE_MEMORY_MODE;
 
 }  // namespace
@@ -70,9 +70,8 @@ std::optional<std::string> sharing_warning(const DdsSettings& settings) {
   const bool is_wanted = settings.shared_image_bytes > 0 && !security_settings_from_environment().is_enabled;
   if (!is_wanted || has_room_to_share(kRoomForReader)) return std::nullopt;
   return fmt::format(
-      "{} is full, not there or cannot be written, so images go to and come from other processes of this machine by "
-      "UDP, which "
-      "takes several times as long. Remedy: a larger one (for Docker: --shm-size=256m), or shared_images_mb: 0 in the "
+      "{} is full, missing or not writable: images are exchanged with other processes on this machine by UDP, which "
+      "takes several times as long. Remedy: enlarge it (Docker: --shm-size=256m), or set shared_images_mb: 0 in the "
       "node_container of the system file.",
       kSharedMemoryFolder);
 }
@@ -98,7 +97,7 @@ void share(fdds::DataReaderQos& qos) {
 
 std::uint64_t room_for_writer(std::size_t depth, std::uint32_t max_size) {
   constexpr std::uint64_t kHeadOfMessage = 512, kHeadOfSegment = 65536;
-  return (depth + 2) * (std::uint64_t{max_size} + kHeadOfMessage) + kHeadOfSegment;  // one being written, one to spare
+  return (depth + 2) * (std::uint64_t{max_size} + kHeadOfMessage) + kHeadOfSegment;  // one being written, one spare
 }
 
 }  // namespace panvo::runtime::dds

@@ -11,8 +11,7 @@
 
 namespace panvo::runtime::dds {
 
-/// The readers and writers of this process by topic, for those who tell others which node has which. Safe to
-/// use from several threads.
+/// Readers and writers of this process by topic, for announcing which node owns which. Thread-safe.
 class LocalEndpoints {
  public:
   using Guid = eprosima::fastrtps::rtps::GUID_t;
@@ -22,7 +21,7 @@ class LocalEndpoints {
 
   std::vector<Guid> of(const std::string& wire_name, bool is_writer) const;
 
-  /// Called after each change, from whatever thread made it.
+  /// Called after each change, on the thread that made it.
   void on_change(std::function<void()> callback);
 
  private:

@@ -15,7 +15,7 @@
 
 namespace panvo::runtime::dds {
 
-/// Which readers a writer is matched with. Safe to use from several threads.
+/// The readers matched with a writer. Thread-safe.
 class MatchedReaders final : public eprosima::fastdds::dds::DataWriterListener {
  public:
   using Guid = eprosima::fastrtps::rtps::GUID_t;
@@ -28,8 +28,8 @@ class MatchedReaders final : public eprosima::fastdds::dds::DataWriterListener {
     std::unique_lock lock(mutex_);
     return changed_.wait_for(lock, limit, [&] { return !readers_.empty(); });
   }
-  /// Called for each reader that is matched from now on, while no other call to this object can run. When this returns, the one before is
-  /// not called any more.
+  /// Sets the callback for each newly matched reader; it runs under this object's lock. Once this returns, the previous
+  /// callback is no longer called.
   void on_match(std::function<void()> callback) {
     const std::lock_guard lock(mutex_);
     on_match_ = std::move(callback);

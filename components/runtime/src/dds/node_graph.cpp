@@ -16,12 +16,12 @@ namespace {
 
 constexpr const char* kTopic = "ros_discovery_info";
 
-// One message of each participant matters, the newest; a reader has to hold those of all.
+// Only the newest message of each participant counts; a reader must hold those of all participants.
 constexpr interfaces::Qos kWriterQos{.durability = interfaces::Durability::kTransientLocal, .depth = 1};
 constexpr interfaces::Qos kReaderQos{
     .durability = interfaces::Durability::kTransientLocal, .depth = 1000, .keep_all = true};
 
-// The type's hash is that of the 16 bytes; Humble knows no hashes.
+// The type hash applies to 16-byte GIDs; Humble has no hashes.
 TopicDescription topic(const interfaces::Qos& qos, std::size_t gid_size) {
   const auto& type = interfaces::message_type<rmw_dds_common::msg::ParticipantEntitiesInfo>();
   return {kTopic, std::string(type.name), qos, gid_size == kGidSize ? &type : nullptr};
@@ -68,7 +68,7 @@ void NodeGraph::set_nodes(std::vector<NodeDescription> nodes) {
 void NodeGraph::tell_soon() {
   {
     const std::lock_guard lock(mutex_);
-    if (std::exchange(will_tell_, true)) return;  // many changes at once are told once
+    if (std::exchange(will_tell_, true)) return;  // several changes are published together
   }
   notifier_->post([self = weak_from_this()] {
     if (const auto graph = self.lock()) graph->tell();
@@ -103,8 +103,7 @@ NodeInfo NodeGraph::own_info() const {
 void NodeGraph::take(const SamplePtr& sample) {
   auto info = decode_node_info(sample->bytes());
   if (!info) {
-    notifier_->warn(fmt::format(
-        "topic {}: a message that no ROS 2 of ours would write was left out; some nodes may not be listed", kTopic));
+    notifier_->warn(fmt::format("topic {}: ignored a malformed message; some nodes may not be listed", kTopic));
     return;
   }
   const std::lock_guard lock(mutex_);
@@ -124,9 +123,9 @@ void NodeGraph::warn_of_clashes() const {
       for (const auto& other : info.nodes) {
         if (full_name(other.name_space, other.name) != name) continue;
         notifier_->warn(
-            fmt::format("node {}: another process on this DDS domain has a node of that name too, so that requests to "
-                        "it reach both. Remedy: give one of them another name or namespace in its system file, or "
-                        "another ROS_DOMAIN_ID.",
+            fmt::format("node {}: another process in this DDS domain has a node of the same name; requests reach "
+                        "both. Remedy: give one of them another name or namespace in its system file, or use another "
+                        "ROS_DOMAIN_ID.",
                         name));
       }
     }

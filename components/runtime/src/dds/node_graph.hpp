@@ -16,15 +16,14 @@
 
 namespace panvo::runtime::dds {
 
-/// The nodes of this process and of others, as they are told on ros_discovery_info. Our endpoints are spread
-/// over two participants; all nodes are told as of one, with the endpoints of both, so that tools list each
-/// once. Safe to use from several threads.
+/// The nodes of this and other processes, as published on ros_discovery_info. Own endpoints belong to two participants;
+/// all nodes are published under one of them, with the endpoints of both, so tools list each node once. Thread-safe.
 class NodeGraph : public std::enable_shared_from_this<NodeGraph> {
  public:
   NodeGraph(std::shared_ptr<Notifier> notifier, std::shared_ptr<LocalEndpoints> endpoints, std::size_t gid_size)
       : notifier_(std::move(notifier)), endpoints_(std::move(endpoints)), gid_size_(gid_size) {}
 
-  /// Begins to tell and to listen. To be called before the others, once for each of the two.
+  /// Starts publishing and listening. Call each once, before the other methods.
   void open_writer(const std::shared_ptr<Participant>& writers);
   void open_reader(const std::shared_ptr<Participant>& readers);
 
@@ -50,7 +49,7 @@ class NodeGraph : public std::enable_shared_from_this<NodeGraph> {
   bool will_tell_ = false;
 
   std::unique_ptr<BridgeWriter> writer_;
-  std::unique_ptr<BridgeReader> reader_;  // calls take()
+  std::unique_ptr<BridgeReader> reader_;  // its callback is take()
 };
 
 }  // namespace panvo::runtime::dds

@@ -39,7 +39,7 @@ class Writer {
     bytes_.push_back(0);
   }
   void count(std::size_t value) {
-    while (bytes_.size() % 4 != 0) bytes_.push_back(0);  // the encapsulation is as long as the alignment
+    while (bytes_.size() % 4 != 0) bytes_.push_back(0);  // the encapsulation has the size of the alignment
     for (int shift = 0; shift < 32; shift += 8) bytes_.push_back(static_cast<std::uint8_t>(value >> shift));
   }
 
@@ -50,7 +50,7 @@ class Writer {
   interfaces::Bytes bytes_{0, 1, 0, 0};
 };
 
-/// Every length is compared with what is left before it is believed. `good()` tells in the end.
+/// Checks each length against the remaining bytes. good() returns the result.
 class Reader {
  public:
   Reader(std::span<const std::uint8_t> bytes, std::size_t gid_size)
@@ -87,7 +87,7 @@ class Reader {
     return value;
   }
 
-  /// Fast DDS fills messages up to a multiple of four.
+  /// Fast DDS pads messages to a multiple of four bytes.
   bool is_at_end() const { return good_ && bytes_.size() - position_ < 4; }
   bool good() const { return good_; }
 

@@ -12,7 +12,7 @@
 
 namespace panvo::runtime::dds {
 
-/// What a message on ros_discovery_info says: the nodes of a participant, and which endpoints are whose.
+/// Contents of a ros_discovery_info message: the nodes of a participant and their endpoints.
 struct NodeInfo {
   using Guid = eprosima::fastrtps::rtps::GUID_t;
   struct Node {
@@ -23,15 +23,15 @@ struct NodeInfo {
   std::vector<Node> nodes;
 };
 
-/// ROS 2 wrote an endpoint's identity as 24 bytes until Humble, as 16 since Iron; nothing else differs.
+/// Size of a GID: 24 bytes up to ROS 2 Humble, 16 bytes since Iron. The message is otherwise the same.
 inline constexpr std::size_t kHumbleGidSize = 24;
 inline constexpr std::size_t kGidSize = 16;
 std::size_t gid_size_of(const std::string& ros_distro);
 
-/// rmw_dds_common/msg/ParticipantEntitiesInfo, encapsulation included.
+/// Serialises as rmw_dds_common/msg/ParticipantEntitiesInfo, with encapsulation.
 interfaces::Bytes encode(const NodeInfo& info, std::size_t gid_size);
 
-/// Reads either size; nullopt for bytes that are no such message.
+/// Accepts both GID sizes; nullopt for malformed bytes.
 std::optional<NodeInfo> decode_node_info(std::span<const std::uint8_t> bytes);
 
 /// The 16 bytes of a GUID in hexadecimal.

@@ -12,9 +12,8 @@
 
 namespace panvo::runtime::dds {
 
-/// Calls users back on a thread of its own. Discovery and QoS events come from inside Fast DDS, which holds
-/// its locks then; a user who opens or writes a topic from there (a warning that goes to rosout does) could
-/// wait for himself. Here he holds nothing. Safe to use from several threads.
+/// Runs user callbacks on its own thread. Discovery and QoS events arrive while Fast DDS holds its locks; a callback
+/// that opened or wrote a topic there (as warnings on /rosout do) could deadlock. Thread-safe.
 class Notifier {
  public:
   Notifier();
@@ -22,14 +21,14 @@ class Notifier {
   Notifier(const Notifier&) = delete;
   Notifier& operator=(const Notifier&) = delete;
 
-  /// Runs `call` on the thread, in order of posting. An exception it throws becomes a warning.
+  /// Runs `call` on the thread, in order of posting. An exception becomes a warning.
   void post(std::function<void()> call);
 
-  /// Tells users; the same text once only. What is said before anybody listens is kept for who comes.
+  /// Reports each text once. Warnings before on_warning() are kept for the first callback.
   void warn(const std::string& text);
   void on_warning(std::function<void(const std::string&)> callback);
 
-  /// When this returns nobody is being called back, and nobody will be.
+  /// No callback is running or will run once this has returned.
   void stop();
 
  private:
@@ -45,7 +44,7 @@ class Notifier {
   std::vector<std::string> unheard_;
   std::function<void(const std::string&)> warning_callback_;
 
-  std::thread thread_;  // last: it uses all of the above
+  std::thread thread_;  // last: it uses the members above
 };
 
 }  // namespace panvo::runtime::dds

@@ -5,10 +5,10 @@
 
 namespace panvo::runtime::dds {
 
-/// The DDS participants that this process has made, by the prefix that all their endpoints have. A prefix begins with the numbers of host and
-/// process, by which Fast DDS tells its own, but DDS Security puts in their place what the keys say. Safe to use from several threads.
+/// The DDS participants of this process, identified by GUID prefix. A prefix normally starts with host and process
+/// numbers, which Fast DDS uses for this; DDS Security replaces them by a hash of the keys. Thread-safe.
 ///
-/// A participant stays known when it is gone: what its end brings about comes later.
+/// A participant stays registered after its destruction, as its events arrive later.
 void add_own_participant(const eprosima::fastrtps::rtps::GUID_t& participant);
 bool is_of_this_process(const eprosima::fastrtps::rtps::GUID_t& endpoint);
 

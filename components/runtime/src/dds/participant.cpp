@@ -18,14 +18,14 @@ Participant::Participant(const DdsSettings& settings, Role role, std::shared_ptr
                          std::shared_ptr<LocalEndpoints> endpoints)
     : settings_(settings), discovery_(std::move(discovery)), endpoints_(std::move(endpoints)) {
   auto* factory = fdds::DomainParticipantFactory::get_instance();
-  // The mask is empty: endpoints have listeners of their own. Discovery is called in any case.
+  // The mask is empty, as endpoints have their own listeners. Discovery is called anyway.
   participant_ =
       factory->create_participant(static_cast<fdds::DomainId_t>(settings.domain), participant_qos(settings, role),
                                   discovery_.get(), fdds::StatusMask::none());
   if (!participant_) {
     throw ConfigError(fmt::format(
-        "no DDS participant could be made in domain {}: is there a network interface (lo will do), and does the "
-        "profile file fit this machine?",
+        "cannot create a DDS participant in domain {}: check that there is a network interface (lo suffices) and that "
+        "the profile file suits this machine",
         settings.domain));
   }
   add_own_participant(participant_->guid());
@@ -40,7 +40,7 @@ Participant::~Participant() {
 }
 
 void Participant::register_type(const std::string& wire_type_name) {
-  // A registered type stays: it is a name and a few words, and its code is this library's.
+  // A registered type is kept: it is small, and its code belongs to this library.
   if (!participant_->find_type(wire_type_name).empty()) return;
   fdds::TypeSupport(new SampleDataType(wire_type_name, limits().max_message_bytes)).register_type(participant_);
 }
@@ -71,7 +71,7 @@ WireTopic wire_topic(const TopicDescription& description) {
   auto type_name =
       description.type ? std::optional<std::string>(description.type->dds_name) : wire_type_name(description.type_name);
   if (!type_name) {
-    throw ConfigError(fmt::format("topic {}: '{}' is no type name; write it as package/msg/Type", description.name,
+    throw ConfigError(fmt::format("topic {}: '{}' is not a type name; write it as package/msg/Type", description.name,
                                   description.type_name));
   }
   return {wire_topic_name(description.name), std::move(*type_name), description.name};
@@ -82,9 +82,8 @@ std::shared_ptr<fdds::Topic> Participant::topic(const WireTopic& topic) {
   OpenTopic& open = topics_[topic.name];
   const auto readable = [](const std::string& wire_type) { return type_name_from_wire(wire_type).value_or(wire_type); };
   if (open.topic && open.topic->get_type_name() != topic.type_name) {
-    throw ConfigError(
-        fmt::format("topic {}: is already open here with type {}, and cannot have type {} too; remap one of them",
-                    topic.shown, readable(open.topic->get_type_name()), readable(topic.type_name)));
+    throw ConfigError(fmt::format("topic {}: is already open here with type {}, not {}; remap one of them", topic.shown,
+                                  readable(open.topic->get_type_name()), readable(topic.type_name)));
   }
   if (!open.topic) {
     register_type(topic.type_name);

@@ -21,12 +21,11 @@
 
 namespace panvo::runtime::dds {
 
-/// A Fast DDS participant with what its endpoints share. Shared by the bridge and its endpoints: it goes with
-/// the last of them, so that no order of destruction leaves an endpoint without it. Safe to use from several
-/// threads.
+/// A Fast DDS participant and the objects its endpoints share. Owned jointly by the bridge and its endpoints, so it
+/// outlives all of them in any order of destruction. Thread-safe.
 class Participant : public std::enable_shared_from_this<Participant> {
  public:
-  /// Throws ConfigError when there can be none.
+  /// Throws ConfigError if it cannot be created.
   Participant(const DdsSettings& settings, Role role, std::shared_ptr<Discovery> discovery,
               std::shared_ptr<LocalEndpoints> endpoints);
   ~Participant();
@@ -37,14 +36,14 @@ class Participant : public std::enable_shared_from_this<Participant> {
   eprosima::fastdds::dds::Subscriber& subscriber() { return *subscriber_; }
 
   eprosima::fastrtps::rtps::GUID_t guid() const { return participant_->guid(); }
-  /// Up to which size, serialised, messages of that type are shared with processes of this machine; 0: they are not.
+  /// Largest serialised size of messages of that type that are shared on this machine; 0: no sharing.
   std::uint32_t largest_shared(const std::string& wire_type_name) const;
   const Limits& limits() const noexcept { return settings_.limits; }
-  /// Whether a process of this machine reads the topic that shares memory as we do.
+  /// Whether a reader on this machine shares memory with us on the topic.
   bool has_sharing_reader(const std::string& wire_name) const { return discovery_->has_sharing_reader(wire_name); }
 
-  /// Endpoints of a topic of this participant; nullptr: Fast DDS will not have them. `max_size`: of the messages of one that shares memory; 0: of
-  /// one that does not.
+  /// Creates an endpoint of a topic; nullptr if Fast DDS refuses it. `max_size`: largest message of an endpoint that
+  /// shares memory; 0: no sharing.
   eprosima::fastdds::dds::DataWriter* make_writer(eprosima::fastdds::dds::Topic& topic,
                                                   const eprosima::fastdds::dds::DataWriterQos& qos,
                                                   eprosima::fastdds::dds::DataWriterListener& listener,
@@ -53,11 +52,11 @@ class Participant : public std::enable_shared_from_this<Participant> {
                                                   const eprosima::fastdds::dds::DataReaderQos& qos,
                                                   eprosima::fastdds::dds::DataReaderListener& listener,
                                                   std::uint32_t max_size);
-  /// Where its endpoints are entered.
+  /// Registry of its endpoints.
   LocalEndpoints& endpoints() { return *endpoints_; }
 
-  /// The topic of that name, which Fast DDS allows once a participant: every endpoint of it holds the same,
-  /// the last one deletes it. Throws ConfigError when it is already open with another type.
+  /// Returns the topic of that name. Fast DDS allows one per participant; all its endpoints share it, and the last one
+  /// deletes it. Throws ConfigError if it is open with another type.
   std::shared_ptr<eprosima::fastdds::dds::Topic> topic(const WireTopic& topic);
 
  private:
@@ -66,7 +65,7 @@ class Participant : public std::enable_shared_from_this<Participant> {
   SampleDataType& type_of(const eprosima::fastdds::dds::Topic& topic) const;
 
   const DdsSettings settings_;
-  const std::shared_ptr<Discovery> discovery_;  // Fast DDS calls it until the participant is gone
+  const std::shared_ptr<Discovery> discovery_;  // used by Fast DDS until the participant is destroyed
   const std::shared_ptr<LocalEndpoints> endpoints_;
   eprosima::fastdds::dds::DomainParticipant* participant_ = nullptr;
   eprosima::fastdds::dds::Publisher* publisher_ = nullptr;
@@ -77,11 +76,11 @@ class Participant : public std::enable_shared_from_this<Participant> {
     int users = 0;
   };
   std::mutex mutex_;
-  std::map<std::string, OpenTopic> topics_;  // by name on the wire
-  std::mutex making_mutex_;                  // an endpoint is made as its type is bounded then
+  std::map<std::string, OpenTopic> topics_;  // by wire name
+  std::mutex making_mutex_;                  // guards the size bound of a type while an endpoint is created
 };
 
-/// How a topic is called on the wire. Throws ConfigError when its type's name is none.
+/// Wire names of a topic. Throws ConfigError on an invalid type name.
 WireTopic wire_topic(const TopicDescription& description);
 
 }  // namespace panvo::runtime::dds

@@ -27,23 +27,22 @@ namespace {
 
 constexpr std::uint32_t kSocketBufferSize = 4 * 1024 * 1024;
 
-// Four fragments at a time are what a receiver holds that has the kernel's default buffer (208 KB, doubled by the kernel) and is not running at the
-// moment. On a machine with ten times the work it can do, that lost 25 % of panoramas of 1.75 MB; all at once lost 89 %; fewer at a time came to
-// wait for each other.
+// 256 KB (four fragments) fit into a receiver with the kernel's default buffer (208 KB, doubled by the kernel) that is
+// not scheduled at the moment. On a machine with tenfold overload, 25 % of panoramas of 1.75 MB were lost, without
+// pacing 89 %; smaller portions delayed each other.
 constexpr std::int32_t kBytesPerPeriod = 256 * 1024;
 
-// A participant that comes answers the first announcement it hears of another only once; if that answer is
-// lost, it is found at the next periodic announcement. The default is 3 s, and is reached in one start of
-// ten.
+// A new participant answers another's first announcement only once; if the answer is lost, it is found at the next
+// periodic announcement. The default of 3 s was reached in one start of ten.
 constexpr std::int32_t kAnnouncementPeriodNs = 500'000'000;
 
-constexpr int kMaxDomain = 232;  // the ports of a higher one would be past 65535
+constexpr int kMaxDomain = 232;  // higher domains would exceed port 65535
 
-// Fast DDS makes a client of a participant itself where ROS_DISCOVERY_SERVER is set. A client is told of what
-// it matches only; one of ours has to hear of all, for recorders and for those who look at the graph.
+// With ROS_DISCOVERY_SERVER, Fast DDS makes a participant a client, which learns only of matching endpoints. Ours must
+// learn of all, for recorders and the graph tools.
 void hear_of_all_topics(eprosima::fastrtps::rtps::DiscoverySettings& discovery) {
   eprosima::fastdds::rtps::RemoteServerList_t servers;
-  if (discovery.discoveryProtocol != eprosima::fastrtps::rtps::DiscoveryProtocol_t::SIMPLE) return;  // a profile says
+  if (discovery.discoveryProtocol != eprosima::fastrtps::rtps::DiscoveryProtocol_t::SIMPLE) return;  // set by a profile
   if (!rtps::load_environment_server_info(servers) || servers.empty()) return;
   discovery.discoveryProtocol = eprosima::fastrtps::rtps::DiscoveryProtocol_t::SUPER_CLIENT;
   discovery.m_DiscoveryServers = servers;
@@ -67,14 +66,15 @@ Transports::value_type our_udp(const DdsSettings& settings) {
   return udp;
 }
 
-/// What the kernel grants a receiving socket; 0: not known.
+/// Largest receive buffer of a socket; 0: unknown.
 std::uint32_t largest_socket_buffer() {
   std::uint32_t bytes = 0;
   std::ifstream("/proc/sys/net/core/rmem_max") >> bytes;
   return bytes;
 }
 
-// Fast DDS's clock for it ticks a thousand times a second, sent or not: where buffers are large, there is no limit and no clock.
+// Fast DDS's flow controller wakes up 1000 times per second, even when idle: with large buffers it is not limited and
+// has no wake-ups.
 std::shared_ptr<rtps::FlowControllerDescriptor> image_pace() {
   auto pace = std::make_shared<rtps::FlowControllerDescriptor>();
   pace->name = kImagePace;
@@ -83,9 +83,9 @@ std::shared_ptr<rtps::FlowControllerDescriptor> image_pace() {
   return pace;
 }
 
-// Fast DDS's shared memory transport maps what it finds in /dev/shm under the number of a port, whoever made it. Another
-// build of Fast DDS, ROS 2's for one, lays the same memory out in another way, and Boost ends a process that meets it. So
-// it is not used, not where a profile names it either. Fast DDS's builtin transports are that one and UDP.
+// Fast DDS's shared-memory transport maps whatever segment of a port exists in /dev/shm. Other builds (ROS 2's) use
+// another memory layout, and Boost then aborts the process. Therefore it is never used, even if a profile names it.
+// Fast DDS's builtin transports are this one and UDP.
 void use_udp(fdds::DomainParticipantQos& qos, const DdsSettings& settings) {
   auto& transports = qos.transport().user_transports;
   std::erase_if(transports, is_shared_memory);
@@ -104,7 +104,7 @@ void load_profiles(const DdsSettings& settings) {
     throw ConfigError(
         fmt::format("DDS domain {}: must be 0 to {}; correct ROS_DOMAIN_ID", settings.domain, kMaxDomain));
   }
-  // Keys that are missing are told once, and not for each topic.
+  // Reports missing keys once instead of per topic.
   fdds::DomainParticipantQos tried;
   apply_security(security_settings_from_environment(), tried);
   auto* factory = fdds::DomainParticipantFactory::get_instance();
@@ -112,14 +112,14 @@ void load_profiles(const DdsSettings& settings) {
   if (settings.profiles.empty()) return;
   if (!std::ifstream(settings.profiles)) {
     throw ConfigError(
-        fmt::format("{}: the DDS profile file cannot be read; correct its path or leave it out", settings.profiles));
+        fmt::format("{}: the DDS profile file cannot be read; correct or omit its path", settings.profiles));
   }
   if (factory->load_XML_profiles_file(settings.profiles) != ReturnCode_t::RETCODE_OK) {
     throw ConfigError(
-        fmt::format("{}: is no valid Fast DDS profile file (the lines above say where); see config/dds for an example",
+        fmt::format("{}: is not a valid Fast DDS profile file (see the messages above); see config/dds for an example",
                     settings.profiles));
   }
-  // This makes the factory take its defaults from the profiles again.
+  // Makes the factory reload its defaults from the profiles.
   factory->set_default_participant_qos(fdds::PARTICIPANT_QOS_DEFAULT);
 }
 
@@ -129,10 +129,9 @@ std::optional<std::string> profile_warning() {
   fdds::DomainParticipantQos qos;
   fdds::DomainParticipantFactory::get_instance()->get_default_participant_qos(qos);
   if (std::ranges::none_of(qos.transport().user_transports, is_shared_memory)) return std::nullopt;
-  return "the DDS profile names the transport SHM, which is left out: beside another build of Fast DDS (ROS 2's) it "
-         "ends "
-         "the process. Images are shared without it, see shared_images_mb; all else goes by UDP. Remedy: name UDPv4 "
-         "only.";
+  return "the DDS profile has the transport SHM, which is ignored: with another build of Fast DDS (ROS 2's) on this "
+         "machine it aborts the process. Images are shared without it, see shared_images_mb; other messages use UDP. "
+         "Remedy: use UDPv4 only.";
 }
 
 fdds::DomainParticipantQos participant_qos(const DdsSettings& settings, Role role) {
@@ -142,7 +141,7 @@ fdds::DomainParticipantQos participant_qos(const DdsSettings& settings, Role rol
   qos.flow_controllers().push_back(image_pace());
   qos.name(settings.name + (role == Role::kWriters ? "_writers" : "_readers"));
 
-  // rmw puts the terminating zero on the wire too.
+  // rmw also sends the terminating zero.
   constexpr std::string_view kEnclave("enclave=/;\0", 11);
   qos.user_data().setValue(std::vector<eprosima::fastrtps::rtps::octet>(kEnclave.begin(), kEnclave.end()));
 
@@ -155,7 +154,7 @@ fdds::DomainParticipantQos participant_qos(const DdsSettings& settings, Role rol
     discovery.leaseDuration_announcementperiod = eprosima::fastrtps::Duration_t(0, kAnnouncementPeriodNs);
   }
   if (role == Role::kReaders) hear_of_all_topics(discovery);
-  // Of participants with keys the identity says nothing of the process, and may by chance be as if of one.
+  // With security, a GUID does not identify the process and may match another one by chance.
   if (has_keys) return qos;
   auto& flags = discovery.ignoreParticipantFlags;
   flags = static_cast<eprosima::fastrtps::rtps::ParticipantFilteringFlags_t>(

@@ -13,25 +13,24 @@ namespace panvo::runtime::dds {
 /// Whether a participant sends messages or receives them.
 enum class Role { kWriters, kReaders };
 
-/// Reads the user's profiles into Fast DDS: those its environment variables name, then `settings.profiles`.
-/// Throws ConfigError naming the file when it cannot be read or understood, or when the domain is out of
-/// range.
+/// Loads the user's profiles into Fast DDS: those named by its environment variables, then `settings.profiles`. Throws
+/// ConfigError if the file cannot be read or is invalid (naming it), or if the domain is out of range.
 void load_profiles(const DdsSettings& settings);
 
 inline constexpr const char* kSharedMemoryFolder = "/dev/shm";
 
-/// What writers of images send with: as much in a millisecond as fits into a receiver's socket buffer where the system's default is not raised
-/// (208 KB), so that what comes at once is not lost there.
+/// Flow controller of image writers. It limits the data per millisecond to what fits into a receiver's socket buffer at
+/// the system default (208 KB), to avoid losses.
 inline constexpr const char* kImagePace = "panvo_images";
 
-/// In a container or a sandbox there may be none, or one that cannot be written.
+/// False in containers or sandboxes where it is missing or not writable.
 bool has_shared_memory();
 
-/// What users should know of the profiles that were loaded.
+/// Warning about the loaded profiles, if any.
 std::optional<std::string> profile_warning();
 
-/// A participant as a profile or else we configure it: UDP sized for images, marked as ROS 2 participants are, and blind to participants of its
-/// own process as far as Fast DDS can tell which these are (see own_participants.hpp).
+/// QoS of a participant, from a profile or our defaults: UDP with buffers for images, ROS 2's user data, and ignoring
+/// participants of the same process as far as Fast DDS can identify them (see own_participants.hpp).
 eprosima::fastdds::dds::DomainParticipantQos participant_qos(const DdsSettings& settings, Role role);
 
 }  // namespace panvo::runtime::dds

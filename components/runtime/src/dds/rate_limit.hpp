@@ -6,12 +6,13 @@
 
 namespace panvo::runtime::dds {
 
-/// A token bucket: so many messages a second, and a second's worth, or `burst`, at once.
+/// Token bucket: `rate_hz` messages per second, with bursts of up to one second's messages or `burst`, whichever is
+/// larger.
 class RateLimit {
  public:
   RateLimit(double rate_hz, double burst) : rate_hz_(rate_hz), full_(std::max(rate_hz, burst)), left_(full_) {}
 
-  /// Whether one more may come at that time, monotonic.
+  /// Whether another message is allowed at that monotonic time.
   bool take(std::int64_t now_ns) {
     left_ = std::min(full_, left_ + 1e-9 * static_cast<double>(now_ns - last_ns_) * rate_hz_);
     last_ns_ = now_ns;

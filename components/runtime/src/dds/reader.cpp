@@ -20,7 +20,7 @@ using eprosima::fastrtps::types::ReturnCode_t;
 
 namespace {
 
-// A reader that shares has to have a bound, whichever; what it reads may be larger.
+// A sharing reader needs a size bound; its value does not limit what it reads.
 constexpr std::uint32_t kLeastShared = 1024;
 
 }  // namespace
@@ -32,7 +32,7 @@ Reader::Reader(const TopicDescription& topic, const WireTopic& wire, OnSample on
       participant_(std::move(participant)),
       notifier_(std::move(notifier)),
       topic_(participant_->topic(wire)),
-      // What late joiners are owed comes all at once.
+      // Latched messages arrive all at once.
       rate_limit_(participant_->limits().max_topic_rate_hz, static_cast<double>(topic.qos.depth)) {
   fdds::DataReaderQos qos = participant_->subscriber().get_default_datareader_qos();
   apply(topic, qos);
@@ -40,22 +40,22 @@ Reader::Reader(const TopicDescription& topic, const WireTopic& wire, OnSample on
   shares_ = is_to_share && has_room_to_share(kRoomForReader);
   if (is_to_share && !shares_) {
     notifier_->warn(fmt::format(
-        "topic {}: its images come from other processes of this machine by UDP: there is no room in /dev/shm "
-        "to share them. Remedy: a larger /dev/shm (for Docker: --shm-size=256m), or shared_images_mb: 0 in the "
+        "topic {}: images from other processes on this machine are received by UDP: there is no room in /dev/shm to "
+        "share them. Remedy: enlarge /dev/shm (Docker: --shm-size=256m), or set shared_images_mb: 0 in the "
         "node_container of the system file.",
         topic.name));
   }
   if (shares_) share(qos);
   reader_ = participant_->make_reader(*topic_, qos, *this, shares_ ? kLeastShared : 0);
   if (!reader_)
-    throw ConfigError(fmt::format("topic {}: Fast DDS made no reader; its message above says why", topic.name));
+    throw ConfigError(fmt::format("topic {}: Fast DDS created no reader, see its message above", topic.name));
   if (shares_) segment_.emplace(reader_->guid());
   participant_->endpoints().add(wire.name, reader_->guid(), false);
 }
 
 Reader::~Reader() {
   {
-    const std::lock_guard lock(delivery_mutex_);  // waits for a callback under way
+    const std::lock_guard lock(delivery_mutex_);  // waits for a running callback
     closed_ = true;
   }
   participant_->endpoints().remove(reader_->guid());
@@ -72,7 +72,7 @@ void Reader::on_data_available(fdds::DataReader* reader) {
     fdds::SampleInfo info;
     Incoming incoming{.wanted = shares_ ? description_.type : nullptr};
     const bool is_taken = reader->take_next_sample(&incoming, &info) == ReturnCode_t::RETCODE_OK;
-    // What was overwritten while it was read is given up by Fast DDS, which goes on to the next.
+    // Fast DDS drops a sample overwritten while being read and continues with the next.
     overwritten_ += incoming.reads - (is_taken && info.valid_data ? 1 : 0);
     if (!is_taken) return;
     if (info.valid_data && !is_of_this_process(info.sample_identity.writer_guid())) deliver(std::move(incoming), info);
@@ -82,14 +82,14 @@ void Reader::on_data_available(fdds::DataReader* reader) {
 void Reader::deliver(Incoming incoming, const fdds::SampleInfo& info) {
   if (incoming.too_large) {
     ++too_large_;
-    return notifier_->warn(
-        fmt::format("topic {}: messages larger than {:.6g} MB come and are left out: see max_message_mb",
-                    description_.name, 1e-6 * static_cast<double>(participant_->limits().max_message_bytes)));
+    return notifier_->warn(fmt::format("topic {}: messages larger than {:.6g} MB are dropped: see max_message_mb",
+                                       description_.name,
+                                       1e-6 * static_cast<double>(participant_->limits().max_message_bytes)));
   }
   if (!rate_limit_.take(clocks::monotonic_ns())) {
     ++too_fast_;
     return notifier_->warn(
-        fmt::format("topic {}: more than {:.6g} messages a second come, and some are left out: see max_topic_rate_hz",
+        fmt::format("topic {}: more than {:.6g} messages per second, some are dropped: see max_topic_rate_hz",
                     description_.name, participant_->limits().max_topic_rate_hz));
   }
   if (!incoming.readable) {
@@ -105,9 +105,9 @@ void Reader::deliver(Incoming incoming, const fdds::SampleInfo& info) {
                    : Sample::from_bytes(description_.type, description_.type_name, std::move(incoming.bytes), time_ns,
                                         std::move(from)));
   } catch (const std::exception& error) {
-    // Past this is Fast DDS, which would end the process.
+    // An exception in Fast DDS would end the process.
     notifier_->warn(
-        fmt::format("topic {}: a received message could not be handed on: {}", description_.name, error.what()));
+        fmt::format("topic {}: a received message could not be delivered: {}", description_.name, error.what()));
   }
 }
 
@@ -121,7 +121,7 @@ Sample::Sender Reader::sender(const eprosima::fastrtps::rtps::GUID_t& writer) {
 
 void Reader::on_subscription_matched(fdds::DataReader*, const fdds::SubscriptionMatchedStatus& status) {
   if (is_of_this_process(eprosima::fastrtps::rtps::iHandle2GUID(status.last_publication_handle))) return;
-  matched_writers_ += static_cast<std::size_t>(status.current_count_change);  // wraps around as it should
+  matched_writers_ += static_cast<std::size_t>(status.current_count_change);  // unsigned wrap-around intended
 }
 
 void Reader::on_requested_incompatible_qos(fdds::DataReader*, const fdds::RequestedIncompatibleQosStatus& status) {
@@ -133,7 +133,7 @@ void Reader::on_sample_lost(fdds::DataReader*, const fdds::SampleLostStatus& sta
 }
 
 void Reader::on_sample_rejected(fdds::DataReader*, const eprosima::fastrtps::SampleRejectedStatus& status) {
-  // A reliable writer sends a rejected sample again.
+  // A reliable writer resends a rejected sample.
   if (description_.qos.requested == interfaces::Reliability::kBestEffort) rejected_ = status.total_count;
 }
 

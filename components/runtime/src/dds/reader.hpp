@@ -19,14 +19,13 @@
 
 namespace panvo::runtime::dds {
 
-/// A topic of other processes as this process reads it. Samples are taken and handed on from Fast DDS's
-/// receiving thread, one at a time; whoever gets them should be quick, and must not destroy this reader from
-/// the callback.
+/// Receives a topic from other processes. Samples are delivered on Fast DDS's receiving thread, one at a time. The
+/// callback should be fast and must not destroy this reader.
 class Reader final : public BridgeReader, private eprosima::fastdds::dds::DataReaderListener {
  public:
   using OnSample = std::function<void(SamplePtr)>;
 
-  /// Throws ConfigError when Fast DDS will not have the topic. `wire` is how the topic is called there.
+  /// Throws ConfigError if Fast DDS refuses the topic. `wire` holds its wire names.
   Reader(const TopicDescription& topic, const WireTopic& wire, OnSample on_sample,
          std::shared_ptr<Participant> participant, std::shared_ptr<Notifier> notifier);
   ~Reader() override;
@@ -45,7 +44,7 @@ class Reader final : public BridgeReader, private eprosima::fastdds::dds::DataRe
   void on_sample_rejected(eprosima::fastdds::dds::DataReader* reader,
                           const eprosima::fastrtps::SampleRejectedStatus& status) override;
   void deliver(Incoming incoming, const eprosima::fastdds::dds::SampleInfo& info);
-  /// Its gid as text, which the next message of the same writer shares.
+  /// GID of the writer as text, shared by consecutive messages of the same writer.
   Sample::Sender sender(const eprosima::fastrtps::rtps::GUID_t& writer);
 
   const TopicDescription description_;
@@ -54,7 +53,7 @@ class Reader final : public BridgeReader, private eprosima::fastdds::dds::DataRe
   const std::shared_ptr<Notifier> notifier_;
   const std::shared_ptr<eprosima::fastdds::dds::Topic> topic_;
 
-  std::mutex delivery_mutex_;  // held while a sample is handed on
+  std::mutex delivery_mutex_;  // held during delivery of a sample
   bool closed_ = false;
   RateLimit rate_limit_;
   eprosima::fastrtps::rtps::GUID_t last_writer_;
@@ -63,9 +62,9 @@ class Reader final : public BridgeReader, private eprosima::fastdds::dds::DataRe
   std::atomic<std::size_t> matched_writers_ = 0;
   std::atomic<std::uint64_t> received_ = 0, lost_ = 0, rejected_ = 0, undecodable_ = 0, overwritten_ = 0;
   std::atomic<std::uint64_t> too_large_ = 0, too_fast_ = 0;
-  bool shares_ = false;  // messages may lie in memory that a writer goes on writing to
+  bool shares_ = false;  // messages may be in memory that the writer reuses
   std::optional<SharedSegment> segment_;
-  eprosima::fastdds::dds::DataReader* reader_ = nullptr;  // uses all of the above
+  eprosima::fastdds::dds::DataReader* reader_ = nullptr;  // uses the members above
 };
 
 }  // namespace panvo::runtime::dds

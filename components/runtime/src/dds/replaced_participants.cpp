@@ -25,11 +25,12 @@ namespace {
 
 using Message = std::vector<rtps::octet>;
 
-// Those that were replaced by the sender of the message which this thread processes; nullptr: it processes none.
+// Participants replaced by the sender of the message this thread is processing; nullptr: none is being processed.
 thread_local std::vector<rtps::GuidPrefix_t>* replaced_here = nullptr;
 
-/// What a participant sends when it leaves [RTPS 2.2, 8.5.3, 9.4.5.3 and 9.6.3.4]: DATA of its announcing writer, without payload, whose inline QoS
-/// say which participant is disposed of. Its number is above those of all announcements before.
+/// The message of a leaving participant [RTPS 2.2, 8.5.3, 9.4.5.3 and 9.6.3.4]: DATA of its announcing writer, without
+/// payload, whose inline QoS name the disposed participant. Its sequence number is above those of all earlier
+/// announcements.
 Message goodbye_of(const rtps::GuidPrefix_t& participant) {
   constexpr std::array<rtps::octet, 8> kHeader{'R', 'T', 'P', 'S', 2, 2, 1, 15};
   constexpr std::array<rtps::octet, 28> kData{0x15, 0x03, 52, 0,     // DATA, little endian, inline QoS, 52 bytes
@@ -58,7 +59,8 @@ class Transport final : public ChainingTransport {
 
   TransportDescriptorInterface* get_configuration() override { return udp_.get(); }
 
-  // Messages go out past this transport. Were its senders wrapped, UDP would not find its own among them and open more for each participant.
+  // Outgoing messages bypass this transport. If its senders were wrapped, UDP would not recognise its own and would
+  // open more per participant.
   bool OpenOutputChannel(SendResourceList& senders, const rtps::Locator_t& locator) override {
     return low_level_transport_->OpenOutputChannel(senders, locator);
   }

@@ -6,13 +6,13 @@
 
 namespace panvo::runtime::dds {
 
-/// What a service takes.
+/// Limits of a service.
 struct RequestLimits {
   double per_s = 0;
   std::uint32_t size = 0;  ///< bytes
 };
 
-/// Lets through as many a second as it is told, and as many at once as come in one.
+/// Token bucket: `per_s` requests per second, with bursts of up to one second's requests.
 class RequestRate {
  public:
   explicit RequestRate(double per_s) : per_s_(per_s), left_(std::max(per_s, 1.0)) {}

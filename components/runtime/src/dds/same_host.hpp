@@ -5,9 +5,9 @@
 
 namespace panvo::runtime::dds {
 
-/// Whether `other` says that it is on the host of `own`. Fast DDS writes its vendor's number and a number of the host, of its addresses, at the
-/// beginning of a GUID; another vendor's is never on this host. DDS Security puts a hash there, so that nobody is. A stranger can write any: it
-/// is a guard against mistakes, not against an attack.
+/// Whether `other` claims to be on the host of `own`. A Fast DDS GUID starts with the vendor's number and a number
+/// derived from the host's addresses; GUIDs of other vendors never match. DDS Security puts a hash there, so nothing
+/// matches. GUIDs can be forged: this prevents mistakes, not attacks.
 inline bool is_on_same_host(const eprosima::fastrtps::rtps::GUID_t& own,
                             const eprosima::fastrtps::rtps::GUID_t& other) {
   constexpr eprosima::fastrtps::rtps::octet kEprosima[2]{0x01, 0x0f};

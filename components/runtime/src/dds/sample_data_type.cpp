@@ -12,14 +12,14 @@ namespace {
 
 constexpr std::size_t kEncapsulationSize = eprosima::fastrtps::rtps::SerializedPayload_t::representation_header_size;
 
-// Payloads grow to what is written into them; this is only where they start.
+// Initial size only; payloads grow as needed.
 constexpr std::uint32_t kInitialPayloadSize = 256;
 
 bool has_xcdr1_encapsulation(std::span<const std::uint8_t> bytes) {
   return bytes.size() >= kEncapsulationSize && bytes[0] == 0 && (bytes[1] == CDR_BE || bytes[1] == CDR_LE);
 }
 
-/// nullptr: bytes are wanted, or they are no message of that type. Who wants the message then finds out why.
+/// nullptr if no type is given or decoding fails; the error is reported when the message is accessed.
 std::shared_ptr<const void> decode(const interfaces::MessageType* type, std::span<const std::uint8_t> bytes) {
   if (!type) return nullptr;
   try {
@@ -44,7 +44,7 @@ SampleDataType::SampleDataType(const std::string& wire_type_name, std::size_t ma
   setName(wire_type_name.c_str());
   bound(0);
   m_isGetKeyDefined = false;
-  // We match by name, as ROS 2 does; there is nothing to say about the type's structure.
+  // Types match by name, as in ROS 2; no type objects.
   auto_fill_type_object(false);
   auto_fill_type_information(false);
 }
@@ -61,7 +61,7 @@ bool SampleDataType::serialize(void* outgoing, eprosima::fastrtps::rtps::Seriali
   try {
     message.write_to({payload->data, size});
   } catch (const std::exception&) {
-    return false;  // Fast DDS must not see an exception; the message was changed while it was being sent
+    return false;  // exceptions must not reach Fast DDS; the message changed while being sent
   }
   payload->length = static_cast<std::uint32_t>(size);
   payload->encapsulation = payload->data[1];
@@ -78,7 +78,7 @@ bool SampleDataType::deserialize(eprosima::fastrtps::rtps::SerializedPayload_t* 
       target.message = decode(target.wanted, bytes);
       if (!target.message) target.bytes.assign(bytes.begin(), bytes.end());
     } catch (const std::bad_alloc&) {
-      return false;  // Fast DDS must not see an exception; it drops the sample
+      return false;  // exceptions must not reach Fast DDS; it drops the sample
     }
   }
   ++target.reads;

@@ -14,7 +14,8 @@
 
 namespace panvo::runtime::dds {
 
-/// What a writer gives to Fast DDS: a serialised message, encapsulation included, or one that is serialised straight into the memory that is sent.
+/// Data passed from a writer to Fast DDS: a serialised message with encapsulation, or a message serialised directly
+/// into the send buffer.
 class Outgoing {
  public:
   explicit Outgoing(std::span<const std::uint8_t> bytes) : bytes_(bytes) {}
@@ -28,25 +29,25 @@ class Outgoing {
   std::span<const std::uint8_t> bytes_;
 };
 
-/// What a reader gets from Fast DDS: bytes, or at once the message. What lies in memory that its writer goes on writing to may be nonsense; if so
-/// Fast DDS sees it afterwards, and reads the next sample into the same.
+/// Data passed from Fast DDS to a reader: bytes or a decoded message. Data in shared memory may be overwritten while
+/// being read; Fast DDS detects this afterwards and reads the next sample into the same object.
 struct Incoming {
-  const interfaces::MessageType* wanted = nullptr;  ///< set by the reader: a message of that type, if the bytes are one
+  const interfaces::MessageType* wanted = nullptr;  ///< set by the reader: decode to this type if possible
   std::shared_ptr<const void> message{};            ///< nullptr: see `bytes`
-  interfaces::Bytes bytes{};                        ///< as received, encapsulation included
-  bool readable = false;                            ///< led by an XCDR1 encapsulation; false: of no use to anybody
-  bool too_large = false;                           ///< and therefore neither read nor copied
-  unsigned reads = 0;  ///< how many samples were read into it, each in place of the one before
+  interfaces::Bytes bytes{};                        ///< as received, with encapsulation
+  bool readable = false;                            ///< has an XCDR1 encapsulation; false: unusable
+  bool too_large = false;                           ///< neither read nor copied
+  unsigned reads = 0;                               ///< number of samples read into it, each replacing the last
 };
 
-/// The one data type that carries every topic: Fast DDS moves bytes and never sees a message class, so no
-/// code of a plugin is ever registered with it and plugins may be unloaded. Without keys. `max_received`: what is larger is not read.
+/// The only data type, used for all topics: Fast DDS handles bytes and never a message class, so no plugin code is
+/// registered with it and plugins can be unloaded. Keyless. Messages larger than `max_received` are not read.
 class SampleDataType final : public eprosima::fastdds::dds::TopicDataType {
  public:
   explicit SampleDataType(const std::string& wire_type_name,
                           std::size_t max_received = std::numeric_limits<std::size_t>::max());
 
-  /// How large the messages of endpoints that are made from now on are at most, for those that reserve memory; 0: each gets what it needs.
+  /// Sets the largest message of endpoints created from now on that reserve memory; 0: memory as needed.
   void bound(std::uint32_t max_size);
 
   bool serialize(void* outgoing, eprosima::fastrtps::rtps::SerializedPayload_t* payload) override;

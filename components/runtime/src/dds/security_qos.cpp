@@ -27,7 +27,7 @@ struct Property {
   const char *name, *file;
 };
 constexpr const char* kPrivateKey = "key.pem";
-/// What the DDS Security specification calls the files of an enclave.
+/// Property names of an enclave's files in the DDS Security specification.
 constexpr std::array<Property, 6> kFiles{
     {{"dds.sec.auth.builtin.PKI-DH.identity_ca", "identity_ca.cert.pem"},
      {"dds.sec.auth.builtin.PKI-DH.identity_certificate", "cert.pem"},
@@ -35,7 +35,7 @@ constexpr std::array<Property, 6> kFiles{
      {"dds.sec.access.builtin.Access-Permissions.permissions_ca", "permissions_ca.cert.pem"},
      {"dds.sec.access.builtin.Access-Permissions.governance", "governance.p7s"},
      {"dds.sec.access.builtin.Access-Permissions.permissions", "permissions.p7s"}}};
-/// Which certificates of the authority are not to be believed any more; not there until one is revoked.
+/// Revoked certificates; missing until one is revoked.
 constexpr Property kRevoked{"dds.sec.auth.builtin.PKI-DH.identity_crl", "crl.pem"};
 constexpr std::array<std::pair<const char*, const char*>, 3> kPlugins{
     {{"dds.sec.auth.plugin", "builtin.PKI-DH"},
@@ -47,14 +47,14 @@ std::string variable(const char* name) {
   return value ? value : "";
 }
 
-/// Who can read it can speak and listen as its owner.
+/// Anyone who can read the key can act as its owner.
 void refuse_if_others_may_read(const std::filesystem::path& key) {
   using std::filesystem::perms;
   constexpr perms kOthers = perms::group_all | perms::others_all;
   if ((std::filesystem::status(key).permissions() & kOthers) == perms::none) return;
   throw ConfigError(
-      fmt::format("{0}: this private key may be read by other users; `chmod 600 {0}`, and make new keys if somebody "
-                  "may have done so",
+      fmt::format("{0}: this private key is readable by other users; run `chmod 600 {0}`, and create new keys if "
+                  "somebody may have read it",
                   key.string()));
 }
 
@@ -74,16 +74,16 @@ SecuritySettings security_settings_from_environment() {
 bool apply_security(const SecuritySettings& settings, eprosima::fastdds::dds::DomainParticipantQos& qos) {
   if (!settings.is_enabled) return false;
   if (!kIsBuiltIn)
-    throw ConfigError("security is asked for, and this Fast DDS is built without; use one built with -DSECURITY=ON");
+    throw ConfigError("security is requested, but this Fast DDS was built without it; use a build with -DSECURITY=ON");
   if (settings.keystore.empty())
-    throw ConfigError("ROS_SECURITY_ENABLE is true and ROS_SECURITY_KEYSTORE names no keystore; set both, or neither");
+    throw ConfigError("ROS_SECURITY_ENABLE is true, but ROS_SECURITY_KEYSTORE is not set; set both, or neither");
   const auto folder = std::filesystem::path(settings.keystore) / "enclaves" / settings.enclave.substr(1);
   if (!settings.is_enforced && !std::filesystem::exists(folder)) return false;
   auto& properties = qos.properties().properties();
   for (const auto& [name, file] : kFiles) {
     const auto path = folder / file;
     if (!std::ifstream(path)) {
-      throw ConfigError(fmt::format("{}: cannot be read; `panvo secure {} {}` makes it, or name another enclave",
+      throw ConfigError(fmt::format("{}: cannot be read; create it with `panvo secure {} {}`, or use another enclave",
                                     path.string(), settings.keystore, settings.enclave));
     }
     if (std::string_view(file) == kPrivateKey) refuse_if_others_may_read(path);
@@ -93,7 +93,7 @@ bool apply_security(const SecuritySettings& settings, eprosima::fastdds::dds::Do
     properties.emplace_back(kRevoked.name, "file://" + std::filesystem::absolute(revoked).string());
   for (const auto& [name, plugin] : kPlugins) properties.emplace_back(name, plugin);
   const std::string enclave = "enclave=" + settings.enclave + ";";
-  qos.user_data().setValue({enclave.c_str(), enclave.c_str() + enclave.size() + 1});  // rmw sends the zero too
+  qos.user_data().setValue({enclave.c_str(), enclave.c_str() + enclave.size() + 1});  // rmw also sends the zero
   return true;
 }
 

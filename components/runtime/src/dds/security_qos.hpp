@@ -7,19 +7,19 @@
 
 namespace panvo::runtime::dds {
 
-/// Where the keys are and whose to use, as ROS 2's environment variables say: ROS_SECURITY_KEYSTORE, ROS_SECURITY_ENABLE ("true"),
-/// ROS_SECURITY_STRATEGY ("Enforce"; else who has no keys goes without) and ROS_SECURITY_ENCLAVE_OVERRIDE.
+/// Keystore and enclave from ROS 2's environment variables ROS_SECURITY_KEYSTORE, ROS_SECURITY_ENABLE ("true"),
+/// ROS_SECURITY_STRATEGY ("Enforce"; otherwise processes without keys run unsecured) and ROS_SECURITY_ENCLAVE_OVERRIDE.
 struct SecuritySettings {
   bool is_enabled = false;
   bool is_enforced = false;
   std::string keystore;
-  std::string enclave = "/panvo";  ///< begins with a slash, as ROS 2 writes it
+  std::string enclave = "/panvo";  ///< starts with a slash, as in ROS 2
 };
 SecuritySettings security_settings_from_environment();
 
-/// Gives the participant its keys and what it may do (DDS Security: authentication, access control, encryption), from a keystore laid out as
-/// SROS 2's, and marks it with its enclave. Returns whether it did. Throws ConfigError naming the file that is missing, or the private key that
-/// others may read.
+/// Configures DDS Security (authentication, access control, encryption) from a keystore in SROS 2's layout, and marks
+/// the participant with its enclave. Returns whether security was applied. Throws ConfigError naming a missing file or
+/// a private key readable by others.
 bool apply_security(const SecuritySettings& settings, eprosima::fastdds::dds::DomainParticipantQos& qos);
 
 }  // namespace panvo::runtime::dds

@@ -39,12 +39,12 @@ ServiceClient::ServiceClient(const ServiceDescription& service, std::shared_ptr<
   apply(described, reader_qos);
   fdds::DataWriterQos writer_qos = writers_->publisher().get_default_datawriter_qos();
   apply(described, writer_qos);
-  // The reader first, so that a server hears of it before it gets a request.
+  // The reader first, so a server discovers it before it gets a request.
   reader_ = readers_->subscriber().create_datareader(reply_topic_.get(), reader_qos, this);
   if (reader_) writer_ = writers_->publisher().create_datawriter(request_topic_.get(), writer_qos, &servers_);
   if (!writer_) {
     if (reader_) readers_->subscriber().delete_datareader(reader_);
-    throw ConfigError(fmt::format("service {}: Fast DDS made no client; its message above says why", service.name));
+    throw ConfigError(fmt::format("service {}: Fast DDS created no client, see its message above", service.name));
   }
   const std::lock_guard lock(mutex_);
   own_writer_ = writer_->guid();
@@ -89,10 +89,10 @@ void ServiceClient::on_data_available(fdds::DataReader* reader) {
        incoming = {}) {
     if (!info.valid_data || !incoming.readable) continue;
     const auto& asked_by = info.related_sample_identity.writer_guid();
-    // Every client of the service gets every reply. Servers of other kinds answer to the writer.
+    // All clients of a service get all replies. Other implementations address the reply to the writer.
     if (asked_by != reader->guid() && asked_by != own_writer_) continue;
     replies_.insert_or_assign(number(info.related_sample_identity), std::move(incoming.bytes));
-    if (replies_.size() > kMaxReplies) replies_.erase(replies_.begin());  // too late for whoever asked
+    if (replies_.size() > kMaxReplies) replies_.erase(replies_.begin());  // its caller has given up
   }
   changed_.notify_all();
 }

@@ -16,10 +16,10 @@
 
 namespace panvo::runtime::dds {
 
-/// A service of another process, called as rmw_fastrtps does it; see ServiceServer.
+/// Client of a service of another process, compatible with rmw_fastrtps; see ServiceServer.
 class ServiceClient final : public BridgeClient, private eprosima::fastdds::dds::DataReaderListener {
  public:
-  /// Throws ConfigError when Fast DDS will not have its topics.
+  /// Throws ConfigError if Fast DDS refuses its topics.
   ServiceClient(const ServiceDescription& service, std::shared_ptr<Participant> readers,
                 std::shared_ptr<Participant> writers);
   ~ServiceClient() override;
@@ -40,7 +40,7 @@ class ServiceClient final : public BridgeClient, private eprosima::fastdds::dds:
   bool closed_ = false;
   int matched_servers_ = 0;
   eprosima::fastrtps::rtps::GUID_t own_writer_;
-  std::map<std::int64_t, interfaces::Bytes> replies_;  // by the sequence number of the request; the newest few
+  std::map<std::int64_t, interfaces::Bytes> replies_;  // by sequence number of the request; the newest only
 
   MatchedReaders servers_;
   eprosima::fastdds::dds::DataReader* reader_ = nullptr;

@@ -10,11 +10,10 @@
 
 namespace panvo::runtime::dds {
 
-/// The thread on which the services of a bridge answer, and what waits for it. Safe to use from several
-/// threads.
+/// The thread and queue shared by the services of a bridge. Thread-safe.
 class ServiceQueue {
  public:
-  /// Of one service; DDS holds ten more for it, so that a client must be in quite a hurry to lose a request.
+  /// Per service; DDS holds ten more.
   static constexpr std::size_t kMaxWaiting = 32;
   using Clock = std::chrono::steady_clock;
 
@@ -23,13 +22,13 @@ class ServiceQueue {
   ServiceQueue(const ServiceQueue&) = delete;
   ServiceQueue& operator=(const ServiceQueue&) = delete;
 
-  /// False when too many of `owner`'s wait.
+  /// False if too many calls of `owner` are waiting.
   bool post(const void* owner, std::function<void()> call);
 
-  /// Runs `call` at `due`. The owner bounds how many of these wait; they are not counted here.
+  /// Runs `call` at `due`. Not counted here; the owner limits their number.
   void post_at(const void* owner, Clock::time_point due, std::function<void()> call);
 
-  /// When this returns, nothing of `owner`'s runs or will; except the call that asks for it.
+  /// No call of `owner` is running or will run once this has returned, except the calling one.
   void forget(const void* owner);
 
  private:
@@ -45,9 +44,9 @@ class ServiceQueue {
   std::mutex mutex_;
   std::condition_variable changed_;
   std::vector<Call> calls_;
-  const void* running_ = nullptr;  // whose call is
+  const void* running_ = nullptr;  // owner of the running call
   bool stopping_ = false;
-  std::thread thread_;  // started by the first service
+  std::thread thread_;  // started with the first service
 };
 
 }  // namespace panvo::runtime::dds

@@ -18,10 +18,11 @@ using eprosima::fastrtps::types::ReturnCode_t;
 
 namespace {
 
-// Discovery of a client that is there takes a few milliseconds; where packets of it are lost, some seconds: they are sent again each.
+// Discovery of a client takes milliseconds, or seconds with packet loss: each packet is resent periodically.
 constexpr std::chrono::seconds kClientLimit{10};
 constexpr std::size_t kMaxKept = 32;
-// How long a service that ends waits for its last answer to arrive; it takes a few milliseconds, unless the client is gone or stands still.
+// Limit for a closing service to wait for acknowledgement of its last answer; normally milliseconds, unless the client
+// is gone or stalled.
 constexpr std::chrono::seconds kLastAnswerLimit{2};
 
 bool is_reader(const GUID_t& guid) {
@@ -32,8 +33,8 @@ bool is_reader(const GUID_t& guid) {
 WireTopic service_topic(const ServiceDescription& service, std::string wire_name, const char* part) {
   auto type_name = wire_type_name(service.type_name + part);
   if (!type_name) {
-    throw ConfigError(
-        fmt::format("service {}: '{}' is no type name; write it as package/srv/Type", service.name, service.type_name));
+    throw ConfigError(fmt::format("service {}: '{}' is not a type name; write it as package/srv/Type", service.name,
+                                  service.type_name));
   }
   return {std::move(wire_name), std::move(*type_name), service.name};
 }
@@ -71,7 +72,7 @@ ServiceServer::ServiceServer(const ServiceDescription& service, ServiceHandler h
   if (writer_) reader_ = readers_->subscriber().create_datareader(request_topic_.get(), reader_qos, this);
   if (!reader_) {
     if (writer_) writers_->publisher().delete_datawriter(writer_);
-    throw ConfigError(fmt::format("service {}: Fast DDS did not make it; its message above says why", name_));
+    throw ConfigError(fmt::format("service {}: Fast DDS did not create it, see its message above", name_));
   }
   writers_->endpoints().add(reply_topic_->get_name(), writer_->guid(), true);
   readers_->endpoints().add(request_topic_->get_name(), reader_->guid(), false);
@@ -80,7 +81,7 @@ ServiceServer::ServiceServer(const ServiceDescription& service, ServiceHandler h
 
 ServiceServer::~ServiceServer() {
   {
-    const std::lock_guard lock(taking_mutex_);  // waits for requests that are being taken
+    const std::lock_guard lock(taking_mutex_);  // waits for requests being taken
     closed_ = true;
   }
   clients_.on_match(nullptr);
@@ -88,8 +89,8 @@ ServiceServer::~ServiceServer() {
   readers_->endpoints().remove(reader_->guid());
   writers_->endpoints().remove(writer_->guid());
   readers_->subscriber().delete_datareader(reader_);
-  // An answer that is still on its way is dropped by a client that hears first that the writer is gone: so it is for a service that ends by
-  // what it was asked for. Where nothing is on its way, this does not wait.
+  // A client drops an answer if it learns first that the writer is gone, which happens when a request ends the service
+  // itself. Does not wait if nothing is unacknowledged.
   writer_->wait_for_acknowledgments(to_dds(kLastAnswerLimit));
   writers_->publisher().delete_datawriter(writer_);
 }
@@ -114,7 +115,7 @@ void ServiceServer::on_data_available(fdds::DataReader* reader) {
         this, [this, bytes = std::move(incoming.bytes), identity, caller] { answer(bytes, identity, caller); });
     if (posted) continue;
     ++dropped_;
-    notifier_->warn(fmt::format("service {}: requests come faster than they are answered, some were dropped", name_));
+    notifier_->warn(fmt::format("service {}: requests arrive faster than they are answered, some were dropped", name_));
   }
 }
 
@@ -123,8 +124,8 @@ bool ServiceServer::is_over_limits(const Incoming& incoming) {
     notifier_->warn(fmt::format("service {}: a request of more than {} bytes was dropped", name_, limits_.size));
   } else if (!rate_.lets_pass(clocks::monotonic_ns())) {
     notifier_->warn(
-        fmt::format("service {}: more than {} requests a second came, some were dropped; requests_per_s "
-                    "in the system file allows others",
+        fmt::format("service {}: more than {} requests per second, some were dropped; see requests_per_s in the "
+                    "system file",
                     name_, limits_.per_s));
   } else {
     return false;
@@ -152,7 +153,7 @@ void ServiceServer::answer(const interfaces::Bytes& request, const Identity& ide
     }
   } catch (const interfaces::DecodeError& error) {
     ++malformed_;
-    notifier_->warn(fmt::format("service {}: a request that is none was left unanswered: {}", name_, error.what()));
+    notifier_->warn(fmt::format("service {}: ignored a malformed request: {}", name_, error.what()));
   } catch (const std::exception& error) {
     ++unanswered_;
     notifier_->warn(fmt::format("service {}: a request could not be answered: {}", name_, error.what()));
@@ -201,8 +202,7 @@ void ServiceServer::set_alarm() {
 
 void ServiceServer::give_up() {
   ++unanswered_;
-  notifier_->warn(
-      fmt::format("service {}: a client was gone, or could not be reached, before it got its answer", name_));
+  notifier_->warn(fmt::format("service {}: a client was gone or unreachable before it got its answer", name_));
 }
 
 }  // namespace panvo::runtime::dds

@@ -20,12 +20,12 @@
 
 namespace panvo::runtime::dds {
 
-/// A service as rmw_fastrtps has it: requests and replies are topics, and a reply bears the identity of its
-/// request in `related_sample_identity`. A client puts the GUID of its reply reader there too: a reply is kept
-/// until that reader is discovered, for before that it would go nowhere. Meanwhile other requests are answered.
+/// A service compatible with rmw_fastrtps: requests and replies are topics; a reply carries the identity of its request
+/// in `related_sample_identity`, where the client has put the GUID of its reply reader. A reply is kept until that
+/// reader has been discovered, as it would be lost before. Other requests are answered meanwhile.
 class ServiceServer final : public BridgeService, private eprosima::fastdds::dds::DataReaderListener {
  public:
-  /// Throws ConfigError when Fast DDS will not have its topics.
+  /// Throws ConfigError if Fast DDS refuses its topics.
   ServiceServer(const ServiceDescription& service, ServiceHandler handler, ServiceGuard guard,
                 const RequestLimits& limits, std::shared_ptr<Participant> readers, std::shared_ptr<Participant> writers,
                 std::shared_ptr<ServiceQueue> queue, std::shared_ptr<Notifier> notifier);
@@ -37,16 +37,16 @@ class ServiceServer final : public BridgeService, private eprosima::fastdds::dds
   using Identity = eprosima::fastrtps::rtps::SampleIdentity;
 
   void on_data_available(eprosima::fastdds::dds::DataReader* reader) override;
-  /// Whether it is one too many, or too large; that is counted and warned of.
+  /// Whether a request exceeds the rate or size limit; this is counted and logged.
   bool is_over_limits(const Incoming& incoming);
   void answer(const interfaces::Bytes& request, const Identity& identity, const Caller& caller);
   interfaces::Bytes response_to(const interfaces::Bytes& request, const Caller& caller);
   bool is_reachable(const Identity& client) const;
   void send(const interfaces::Bytes& response, const Identity& identity);
   void keep(interfaces::Bytes response, const Identity& identity);
-  /// Sends the kept replies whose clients are reachable now, and gives up those that were kept long enough.
+  /// Sends kept replies whose clients are now reachable and discards expired ones.
   void send_kept();
-  void set_alarm();  ///< for when the oldest kept reply is given up
+  void set_alarm();  ///< when the oldest kept reply expires
   void give_up();
 
   struct Kept {
@@ -68,18 +68,18 @@ class ServiceServer final : public BridgeService, private eprosima::fastdds::dds
   RequestRate rate_;
   bool closed_ = false;
   std::atomic<std::uint64_t> received_ = 0, answered_ = 0, malformed_ = 0, dropped_ = 0, refused_ = 0, unanswered_ = 0;
-  std::deque<Kept> kept_;  // oldest first; this and the next are of the thread of the services
+  std::deque<Kept> kept_;  // oldest first; this and the next are used on the service thread only
   bool alarm_set_ = false;
   MatchedReaders clients_;
   eprosima::fastdds::dds::DataWriter* writer_ = nullptr;
-  eprosima::fastdds::dds::DataReader* reader_ = nullptr;  // last: requests may come from now on
+  eprosima::fastdds::dds::DataReader* reader_ = nullptr;  // last: requests may arrive from now on
 };
 
-/// The topic of a service's requests, or replies.
+/// Topics of a service's requests and replies.
 WireTopic request_topic(const ServiceDescription& service);
 WireTopic reply_topic(const ServiceDescription& service);
 
-/// What ROS 2 asks of a service's topics.
+/// QoS of service topics in ROS 2.
 inline constexpr interfaces::Qos kServiceQos{.depth = 10};
 
 }  // namespace panvo::runtime::dds

@@ -14,12 +14,12 @@ namespace panvo::runtime::dds {
 namespace {
 
 std::string segment_name(const eprosima::fastrtps::rtps::GUID_t& endpoint) {
-  std::ostringstream name;  // as Fast DDS calls it
+  std::ostringstream name;  // Fast DDS's name
   name << kSharedMemoryFolder << "/fast_datasharing_" << endpoint.guidPrefix << "_" << endpoint.entityId;
   return name.str();
 }
 
-/// Takes pages for the whole file, which Fast DDS makes as long as it is to be, without pages. False: there are not so many.
+/// Reserves pages for the whole file, which Fast DDS creates without pages. False: not enough memory.
 bool reserve(const std::string& segment) {
   const int file = open(segment.c_str(), O_RDWR | O_CLOEXEC);
   if (file < 0) return false;

@@ -8,12 +8,13 @@
 
 namespace panvo::runtime::dds {
 
-/// Whether /dev/shm has room for so many bytes. What is written where there is none ends the process (SIGBUS), so one asks before.
+/// Whether /dev/shm has room for `bytes`. Writing without room ends the process (SIGBUS), so check first.
 bool has_room_to_share(std::uint64_t bytes);
 
-/// The memory that an endpoint of ours shares, `/dev/shm/fast_datasharing_ID`, reserved to the last byte, and marked as in use for as long as this lives: Fast DDS 2.9 leaves
-/// it behind when its process is killed, and nothing about it tells that nobody is there any more. The mark is a lock on the file
-/// `fast_datasharing_ID_el`, which remove_shm_leftovers() knows. To be destroyed after the endpoint, which removes its memory.
+/// The shared memory of an endpoint, `/dev/shm/fast_datasharing_ID`: reserves all its pages and marks it as in use for
+/// the lifetime of this object. If its process is killed, Fast DDS 2.9 leaves the memory behind without a sign that the
+/// owner is gone. The mark is a lock on the file `fast_datasharing_ID_el`, which remove_shm_leftovers() checks. Destroy
+/// this object after the endpoint, which removes the memory.
 class SharedSegment {
  public:
   explicit SharedSegment(const eprosima::fastrtps::rtps::GUID_t& endpoint);
@@ -21,7 +22,7 @@ class SharedSegment {
   SharedSegment(const SharedSegment&) = delete;
   SharedSegment& operator=(const SharedSegment&) = delete;
 
-  /// Whether Fast DDS has made it, and there is room for all of it.
+  /// Whether Fast DDS has created the segment and all of it is reserved.
   bool is_there() const noexcept { return is_reserved_; }
 
  private:

@@ -17,11 +17,11 @@ using std::chrono::steady_clock;
 
 namespace {
 
-/// A writer knows its readers before these know it, by about the time of a message there and back; what it writes in between, they miss. The
-/// writer before serves them meanwhile.
+/// A writer discovers its readers about one round trip before they discover it, and they miss what it writes in
+/// between. The previous writer serves them meanwhile.
 constexpr milliseconds kIntroduction{250};
 
-/// Until all who read from `old` read from `wanted`, too, but no longer than a write may take.
+/// Waits until all readers of `old` also match `wanted`, at most for the limit of a write.
 void wait_for_readers(const Writer& wanted, const Writer& old) {
   const auto give_up = steady_clock::now() + kWriteAttempts * kMaxBlockingTime;
   while (wanted.matched_readers() < old.matched_readers() && steady_clock::now() < give_up)
@@ -80,8 +80,8 @@ std::shared_ptr<Writer> SharingWriter::make_shared_writer(std::size_t size) {
   if (has_given_up_) return nullptr;
   if (size > largest_) {
     give_up(fmt::format(
-        "an image of {:.1f} MB is too large to be shared with them. Remedy: a larger shared_images_mb in the "
-        "node_container of the system file",
+        "an image of {:.1f} MB exceeds shared_images_mb. Remedy: increase it in the node_container of the system "
+        "file",
         static_cast<double>(size) * 1e-6));
     return nullptr;
   }
@@ -91,8 +91,8 @@ std::shared_ptr<Writer> SharingWriter::make_shared_writer(std::size_t size) {
   if (has_room_to_share(room)) writer = std::make_shared<Writer>(topic_, wire_, participant_, notifier_, max_size);
   if (writer && writer->has_memory()) return writer;
   give_up(
-      fmt::format("there are no {:.1f} MB left in /dev/shm to share them. Remedy: a larger /dev/shm (for Docker: "
-                  "--shm-size=256m), or shared_images_mb: 0 in the node_container of the system file",
+      fmt::format("/dev/shm has no {:.1f} MB left to share them. Remedy: enlarge /dev/shm (Docker: --shm-size=256m), "
+                  "or set shared_images_mb: 0 in the node_container of the system file",
                   static_cast<double>(room) * 1e-6));
   return nullptr;
 }
@@ -100,12 +100,11 @@ std::shared_ptr<Writer> SharingWriter::make_shared_writer(std::size_t size) {
 void SharingWriter::give_up(const std::string& reason) {
   has_given_up_ = true;
   notifier_->warn(
-      fmt::format("topic {}: its images are sent to other processes of this machine by UDP: {}.", topic_.name, reason));
+      fmt::format("topic {}: images are sent to other processes on this machine by UDP: {}.", topic_.name, reason));
 }
 
 void SharingWriter::put_in_place(std::shared_ptr<Writer> writer) {
-  writer_->wait_for_acknowledgments(kWriteAttempts *
-                                    kMaxBlockingTime);  // of readers that ask for all; others are not waited for
+  writer_->wait_for_acknowledgments(kWriteAttempts * kMaxBlockingTime);  // reliable readers only
   writer_ = std::move(writer);
 }
 

@@ -10,10 +10,10 @@
 
 namespace panvo::runtime::dds {
 
-/// The writer of a topic whose messages are shared with readers of this machine where that can be, and sent to all others. It begins as one that sends.
-/// Once somebody reads who shares memory with us, one takes its place that reserves memory for messages of the size that has come; and another
-/// one when larger ones come. Where there is no memory for them, or they are larger than the user allows, it goes on sending, with a warning.
-/// Safe to use from several threads.
+/// Writer of a topic that shares messages with readers on this machine where possible and sends them to all others. It
+/// starts as a sending writer. When a reader shares memory with us, it is replaced by a writer with memory for messages
+/// of the current size, and again when larger messages come. Without memory, or above the user's size limit, it keeps
+/// sending and warns. Thread-safe.
 class SharingWriter final : public BridgeWriter {
  public:
   SharingWriter(const TopicDescription& topic, const WireTopic& wire, std::shared_ptr<Participant> participant,
@@ -35,14 +35,14 @@ class SharingWriter final : public BridgeWriter {
   const WireTopic wire_;
   const std::shared_ptr<Participant> participant_;
   const std::shared_ptr<Notifier> notifier_;
-  const std::uint32_t largest_;  // that is shared
-  mutable std::mutex mutex_;     // guards what follows
+  const std::uint32_t largest_;  // largest shared size
+  mutable std::mutex mutex_;     // guards the members below
   std::shared_ptr<Writer> writer_, next_;
-  std::chrono::steady_clock::time_point next_matched_;  // since when next_ has all readers; its epoch: it has not
+  std::chrono::steady_clock::time_point next_matched_;  // when next_ had matched all readers; epoch: not yet
   bool has_given_up_ = false;
 };
 
-/// The writer of a topic: one that shares, where the participant does so for messages of that type.
+/// Opens the writer of a topic: a sharing one if the participant shares messages of that type.
 std::unique_ptr<BridgeWriter> open_writer(const TopicDescription& topic, const WireTopic& wire,
                                           const std::shared_ptr<Participant>& participant,
                                           const std::shared_ptr<Notifier>& notifier);

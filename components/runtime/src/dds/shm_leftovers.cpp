@@ -19,10 +19,10 @@ namespace {
 constexpr std::string_view kPrefix = "fast_datasharing_", kLockSuffix = "_el";
 constexpr std::time_t kYouth_s = 5;
 
-/// What shared_segment.hpp makes.
+/// See shared_segment.hpp.
 bool is_lock_of_a_segment(std::string_view name) { return name.starts_with(kPrefix) && name.ends_with(kLockSuffix); }
 
-/// Whether the owner is gone. Holds the lock from then on, so that no two processes clean up at once.
+/// Checks whether the owner is gone. Holds the lock, so only one process cleans up at a time.
 class Ownership {
  public:
   explicit Ownership(const std::filesystem::path& lock) : file_(open(lock.c_str(), O_RDONLY | O_CLOEXEC)) {

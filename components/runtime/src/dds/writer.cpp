@@ -26,7 +26,7 @@ Writer::Writer(const TopicDescription& topic, const WireTopic& wire, std::shared
   apply(topic, qos);
   if (shares()) share(qos);
   writer_ = participant_->make_writer(*topic_, qos, *this, largest_shared_);
-  if (!writer_) throw ConfigError(fmt::format("topic {}: Fast DDS made no writer; its message above says why", name_));
+  if (!writer_) throw ConfigError(fmt::format("topic {}: Fast DDS created no writer, see its message above", name_));
   if (shares()) segment_.emplace(writer_->guid());
   participant_->endpoints().add(wire.name, writer_->guid(), true);
 }
@@ -42,8 +42,8 @@ bool Writer::write(const SamplePtr& sample) {
   for (int attempt = 0; attempt < kWriteAttempts; ++attempt) {
     const auto result = writer_->write(&outgoing, fdds::HANDLE_NIL);
     if (result == ReturnCode_t::RETCODE_OK) return true;
-    // A message that is acknowledged while another reader comes is never removed by Fast DDS 2.9, and shared memory gets free in order only: from
-    // then on there is none.
+    // Fast DDS 2.9 never removes a message acknowledged while another reader joins, and shared memory is freed in order
+    // only: without this, writing would fail from then on.
     if (shares() && result == ReturnCode_t::RETCODE_OUT_OF_RESOURCES) forget_messages();
   }
   return false;
@@ -59,10 +59,10 @@ bool Writer::wait_for_acknowledgments(std::chrono::milliseconds limit) {
 }
 
 void Writer::on_publication_matched(fdds::DataWriter*, const fdds::PublicationMatchedStatus& status) {
-  // With a discovery server, and where messages are encrypted, Fast DDS does not keep participants of one process apart; our readers leave out
-  // what comes from here.
+  // With a discovery server or encryption, Fast DDS does not keep participants of one process apart; our readers ignore
+  // own messages.
   if (is_of_this_process(eprosima::fastrtps::rtps::iHandle2GUID(status.last_subscription_handle))) return;
-  matched_readers_ += static_cast<std::size_t>(status.current_count_change);  // wraps around as it should
+  matched_readers_ += static_cast<std::size_t>(status.current_count_change);  // unsigned wrap-around intended
 }
 
 void Writer::on_offered_incompatible_qos(fdds::DataWriter*, const fdds::OfferedIncompatibleQosStatus& status) {

@@ -16,11 +16,11 @@
 
 namespace panvo::runtime::dds {
 
-/// A topic of this process as other processes read it.
+/// Publishes a topic of this process to other processes.
 class Writer final : public BridgeWriter, private eprosima::fastdds::dds::DataWriterListener {
  public:
-  /// Throws ConfigError when Fast DDS will not have the topic. `wire` is how the topic is called there. `largest_shared`: up to that size messages
-  /// reach readers that share memory with us through it, and larger ones cannot be written; 0: all are sent.
+  /// Throws ConfigError if Fast DDS refuses the topic. `wire` holds its wire names. `largest_shared`: messages up to
+  /// this size are shared with readers on this machine, larger ones cannot be written; 0: all messages are sent.
   Writer(const TopicDescription& topic, const WireTopic& wire, std::shared_ptr<Participant> participant,
          std::shared_ptr<Notifier> notifier, std::uint32_t largest_shared = 0);
   ~Writer() override;
@@ -30,7 +30,7 @@ class Writer final : public BridgeWriter, private eprosima::fastdds::dds::DataWr
   bool wait_for_acknowledgments(std::chrono::milliseconds limit) override;
   bool takes(std::size_t size) const { return largest_shared_ == 0 || size <= largest_shared_; }
   bool shares() const { return largest_shared_ > 0; }
-  /// Whether it has got all the memory that it is to share. One that has not must not be written to.
+  /// Whether all shared memory is reserved. If not, it must not be written to.
   bool has_memory() const { return segment_ && segment_->is_there(); }
 
  private:
@@ -49,7 +49,7 @@ class Writer final : public BridgeWriter, private eprosima::fastdds::dds::DataWr
   const std::shared_ptr<eprosima::fastdds::dds::Topic> topic_;
   std::atomic<std::size_t> matched_readers_ = 0;
   std::optional<SharedSegment> segment_;
-  eprosima::fastdds::dds::DataWriter* writer_ = nullptr;  // uses all of the above
+  eprosima::fastdds::dds::DataWriter* writer_ = nullptr;  // uses the members above
 };
 
 }  // namespace panvo::runtime::dds

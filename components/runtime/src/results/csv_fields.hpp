@@ -7,7 +7,7 @@
 
 #include "panvo/runtime/parameters.hpp"
 
-/// Fields of the comma-separated lines that a run leaves.
+/// Fields of CSV result files.
 namespace panvo::runtime {
 
 template <class Time>
@@ -20,7 +20,7 @@ std::string stamp_of(const Message& message) {
   return time_of(message.header().stamp());
 }
 
-/// In quotes, on one line.
+/// Quoted, on one line.
 inline std::string quoted(const std::string& text) {
   std::string result = "\"";
   for (const char c : text) {

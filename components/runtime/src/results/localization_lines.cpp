@@ -23,7 +23,7 @@ std::string pose_columns(std::string_view prefix) {
   return columns;
 }
 
-/// False where a number is not finite.
+/// False if a number is not finite.
 template <class Numbers>
 bool append(std::string& line, const Numbers& numbers) {
   for (const double number : numbers) {

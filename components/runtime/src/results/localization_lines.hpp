@@ -11,7 +11,7 @@
 #include "panvo_msgs/msg/OdometryQuality.h"
 #include "panvo_msgs/msg/PositionCorrection.h"
 
-/// Lines of what the localizer is told and says; nullopt where a number that must be finite is not.
+/// CSV lines of the localizer's inputs and outputs; nullopt if a required number is not finite.
 namespace panvo::runtime {
 
 /// "stamp_ns,reliable,detected,tracked,inliers,inlier_ratio,residual_px,reason"

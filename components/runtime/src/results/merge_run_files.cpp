@@ -11,7 +11,7 @@
 namespace panvo::runtime {
 namespace {
 
-/// nullopt if the file is not there or no whole JSON: the container was killed.
+/// nullopt if the file is missing or not valid JSON: the container was killed.
 std::optional<Json> read_json(const std::filesystem::path& file) {
   std::ifstream stream(file);
   Json json = Json::parse(stream, nullptr, false);
@@ -39,23 +39,23 @@ void add(RunSummary& all, const RunSummary& one) {
   append(all.queues, one.queues);
   all.cpu_s += one.cpu_s;
   all.wall_s = std::max(all.wall_s, one.wall_s);
-  all.peak_memory_mb += one.peak_memory_mb;  // at most: the peaks need not come together
+  all.peak_memory_mb += one.peak_memory_mb;  // upper bound: the peaks may not coincide
   for (const auto& [component, parameters] : one.changed_parameters) {
     all.changed_parameters[component].insert(parameters.begin(), parameters.end());
   }
   append(all.problems, one.problems);
-  // A container that was stopped in the middle, for another had failed, is not the reason.
+  // A container stopped because another one failed is not the cause.
   const bool is_reason = one.exit_status != 0 && (all.exit_status == 0 || (all.interrupted && !one.interrupted));
   if (is_reason) all.exit_status = one.exit_status;
   all.interrupted |= one.interrupted;
 }
 
-/// How the second of two things of one name is called.
+/// Name of the second of two items with equal names.
 std::string apart(const std::string& container, char separator, const std::string& name) {
   return std::string(container).append(1, separator).append(name);
 }
 
-/// Every container tells of its own components; one that two tell of keeps the container's name apart.
+/// Each container lists its own components; a duplicate is prefixed with the container's name.
 void add_components(Json& all, const Json& timing, const std::string& container) {
   const auto components = timing.find("components");
   if (components == timing.end() || !components->is_object()) {
@@ -105,7 +105,7 @@ void merge_run_files(const std::filesystem::path& folder, const std::vector<std:
         all = one;
       }
     } else {
-      killed.problems.push_back("container " + subfolder + " left no " + kSummaryFile + ": it did not come to its end");
+      killed.problems.push_back("container " + subfolder + " left no " + kSummaryFile + ": it did not finish");
       killed.exit_status = 1;
     }
     if (const auto one = read_json(folder / subfolder / kTimingFile)) {

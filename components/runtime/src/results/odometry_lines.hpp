@@ -9,8 +9,7 @@
 
 namespace panvo::runtime {
 
-/// Stamp in s, all nine decimals: "1317046452.003070000". Made of whole numbers: a double has no room for the
-/// nanoseconds.
+/// Stamp in s with nine decimals: "1317046452.003070000". Integer arithmetic, as a double cannot hold the nanoseconds.
 std::string stamp_text(std::int64_t stamp_ns);
 
 /// `t x y z qx qy qz qw`; nullopt if a number is not finite.

@@ -13,7 +13,7 @@
 namespace panvo::runtime {
 namespace {
 
-/// All of it, or errno's value.
+/// Writes everything; returns 0 or the errno value.
 int write_all(int descriptor, std::string_view content) {
   while (!content.empty()) {
     const auto written = ::write(descriptor, content.data(), content.size());
@@ -42,7 +42,7 @@ LineFile::~LineFile() { ::close(descriptor_); }
 void LineFile::append(std::string_view line) {
   const std::string content = std::string(line) + "\n";
   if (const int error = write_all(descriptor_, content)) {
-    // What of the line was written goes again. If that fails too there is nothing more one can do.
+    // Removes the partial line. A failure here cannot be handled.
     if (::ftruncate(descriptor_, size_) == 0) {
       ::lseek(descriptor_, size_, SEEK_SET);
     }
@@ -75,7 +75,7 @@ void throw_cannot_write(const std::filesystem::path& path, int error) {
   const bool full = error == ENOSPC || error == EDQUOT || error == EFBIG;
   throw std::runtime_error("cannot write " + path.string() + ": " + std::generic_category().message(error) +
                            (full ? "; free space there, or choose another folder (what was written so far is kept)"
-                                 : "; choose a folder that can be written to"));
+                                 : "; choose a writable folder"));
 }
 
 }  // namespace panvo::runtime

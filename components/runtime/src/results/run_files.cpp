@@ -17,13 +17,13 @@ namespace {
 
 using Line = std::optional<std::string>;
 
-/// What becomes of the messages of a topic: a file, and a line for each of them.
+/// Result file of a topic, and the conversion of its messages to lines.
 struct FileKind {
   std::string_view topic_ending;
   std::string_view type_name;
   std::string_view file_stem, file_ending;
-  std::string (*header)();         ///< nullptr: none
-  Line (*line)(const SamplePtr&);  ///< nullopt: nothing that can be written; throws DecodeError
+  std::string (*header)();         ///< nullptr: no header
+  Line (*line)(const SamplePtr&);  ///< nullopt: not writable; throws DecodeError
 };
 
 template <class Message, Line (*kLine)(const Message&)>
@@ -96,7 +96,7 @@ struct RunFiles::TopicFile {
     Line line;
     try {
       line = kind->line(sample);
-    } catch (const interfaces::DecodeError&) {  // the bytes are no such message
+    } catch (const interfaces::DecodeError&) {  // undecodable
     }
     if (line) {
       lines.append(*line);
@@ -122,7 +122,7 @@ RunFiles::RunFiles(std::filesystem::path folder) : folder_(std::move(folder)) {
   }
   std::filesystem::remove(folder_ / kSummaryFile, error);
   std::filesystem::remove(folder_ / kTimingFile, error);
-  // Found out now rather than at the end of a long run.
+  // Detects write errors now instead of at the end of a long run.
   write_atomically(folder_ / kTimingFile, to_text(timing_json({})));
   std::filesystem::remove(folder_ / kTimingFile, error);
 }
@@ -165,7 +165,7 @@ void RunFiles::finish(const RunSummary& summary, const ComponentTimes& times_by_
     for (const auto& file : files) {
       if (file->left_out == 0) continue;
       complete.problems.push_back(file->lines.path().filename().string() + " lacks " + std::to_string(file->left_out) +
-                                  " messages of " + topic + ": undecodable, or with numbers that are not finite");
+                                  " messages of " + topic + ": undecodable, or with non-finite numbers");
     }
   }
   write_atomically(folder_ / kTimingFile, to_text(timing_json(times_by_component)));

@@ -14,7 +14,7 @@ namespace fs = std::filesystem;
 constexpr const char* kMarkFile = ".panvo_run";
 constexpr const char* kMark = "Results of a run; the next run into this folder replaces them.\n";
 
-/// By the mark, or by what runs left before there was one.
+/// By the mark, or by the files of runs from before the mark was introduced.
 bool is_of_a_run(const fs::path& folder) {
   return fs::exists(folder / kMarkFile) || (fs::exists(folder / kSummaryFile) && fs::exists(folder / kTimingFile));
 }
@@ -28,8 +28,8 @@ void claim_run_folder(const fs::path& folder, bool overwrite) {
     }
     fs::create_directories(folder);
     if (!overwrite && !fs::is_empty(folder) && !is_of_a_run(folder)) {
-      throw ConfigError(folder.string() + ": holds " + fs::directory_iterator(folder)->path().filename().string() +
-                        " and is not the folder of a run; choose another folder, or pass --overwrite");
+      throw ConfigError(folder.string() + ": contains " + fs::directory_iterator(folder)->path().filename().string() +
+                        " and is not a run folder; choose another folder, or pass --overwrite");
     }
     for (const char* file : {kSummaryFile, kTimingFile}) fs::remove(folder / file);
   } catch (const fs::filesystem_error& error) {

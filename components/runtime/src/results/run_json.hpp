@@ -20,10 +20,10 @@ Json timing_json(const ComponentTimes& times_by_component);
 
 Json summary_json(const RunSummary& summary);
 
-/// Throws nlohmann::json::exception when a key is missing or of another type.
+/// Throws nlohmann::json::exception if a key is missing or has another type.
 RunSummary summary_from(const Json& json);
 
-/// Indented, with an end of line. Bytes that are not UTF-8 are replaced.
+/// Indented, with a final newline. Invalid UTF-8 bytes are replaced.
 std::string to_text(const Json& json);
 
 }  // namespace panvo::runtime

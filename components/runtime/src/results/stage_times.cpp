@@ -8,7 +8,7 @@
 namespace panvo::runtime {
 namespace {
 
-constexpr double kShortestNs = 1000.0;               // bin 0 has all that is shorter
+constexpr double kShortestNs = 1000.0;               // bin 0 holds all shorter durations
 constexpr double kLogBinWidth = 0.0198026272961797;  // log(1.02)
 
 std::int64_t now_ns(clockid_t clock) noexcept {
@@ -39,7 +39,7 @@ double DurationHistogram::quantile_ms(double fraction) const noexcept {
   if (count_ == 0) {
     return 0.0;
   }
-  // The smallest duration that at least this share of all does not exceed.
+  // Smallest duration not exceeded by at least this fraction of the samples.
   const double wanted = std::ceil(std::clamp(fraction, 0.0, 1.0) * static_cast<double>(count_));
   const auto rank = std::max<std::uint64_t>(1, static_cast<std::uint64_t>(wanted));
   if (rank == count_) {

@@ -8,10 +8,10 @@
 
 namespace panvo::runtime::steering {
 
-/// A loaded component as requests steer it.
+/// Gives service requests access to a loaded component.
 class ComponentNode final : public SteeredNode {
  public:
-  /// `shut_down` asks the container to unload it soon; `parameters_set` is told which parameters have been set.
+  /// `shut_down` schedules unloading; `parameters_set` is called with the parameters that were set.
   ComponentNode(Context::State& state, std::function<void()> shut_down,
                 std::function<void(const WrittenValues&)> parameters_set)
       : state_(state), shut_down_(std::move(shut_down)), parameters_set_(std::move(parameters_set)) {}
@@ -23,14 +23,14 @@ class ComponentNode final : public SteeredNode {
     return problems;
   }
   bool is_active() const override { return state_.active; }
-  /// What plays something recorded cannot pause: its place in time would be lost.
+  /// A source cannot pause, as it would lose its position in time.
   bool set_active(bool active) override {
     if (state_.source) {
       state_.logger.warn("cannot be deactivated: it plays recorded data");
       return false;
     }
     state_.active = active;
-    state_.logger.info("{}", active ? "activated" : "deactivated: messages are not handed to it");
+    state_.logger.info("{}", active ? "activated" : "deactivated: gets no messages");
     return true;
   }
   bool shut_down() override {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a container loads, as rclcpp_components' containers answer for it.
+// Services to load, unload and list components, compatible with rclcpp_components.
 #include "composition_interfaces/srv/ListNodes.h"
 #include "composition_interfaces/srv/LoadNode.h"
 #include "composition_interfaces/srv/UnloadNode.h"
@@ -20,7 +20,7 @@ std::string default_name(const std::string& package) {
   return package.starts_with(kOurs) ? package.substr(kOurs.size()) : package;
 }
 
-/// The request as a system file would have it; adds what is wrong with it to `problems`.
+/// Converts a request to a component description; adds problems to `problems`.
 ComponentDescription description_of(const LoadNode_Request& request, std::vector<std::string>& problems) {
   ComponentDescription description;
   description.package = request.package_name();
@@ -44,7 +44,7 @@ ComponentDescription description_of(const LoadNode_Request& request, std::vector
     const std::string from = rule.substr(0, separator),
                       to = separator == std::string::npos ? "" : rule.substr(separator + 2);
     if (topic_name_problem(from) || topic_name_problem(to)) {
-      complain("remap rule \"" + rule + "\" is none; write from:=to, two topic names");
+      complain("remap rule \"" + rule + "\" is invalid; write from:=to with two topic names");
     } else {
       description.remaps[from] = to;
     }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The states our components have, in the terms of ROS 2's managed nodes: a component is made configured and active; inactive, messages are not
-// handed to it; shut down, it is unloaded. There is nothing to configure anew or to clean up.
+// Component states in the terms of ROS 2's managed nodes: a component starts configured and active; inactive, it gets
+// no messages; shut down, it is unloaded. Configuring again and cleaning up do not apply.
 #include <algorithm>
 #include <array>
 
@@ -71,7 +71,7 @@ bool carry_out(SteeredNode& node, Change change) {
   return change == Change::kShutDown ? node.shut_down() : node.set_active(change == Change::kActivate);
 }
 
-/// By label where there is one, as rcl_lifecycle does.
+/// Selects by label if given, as in rcl_lifecycle.
 ChangeState_Response change_state(SteeredNode& node, const ChangeState_Request& request) {
   const auto& wanted = request.transition();
   const auto found = std::ranges::find_if(kTransitions, [&](const Transition& transition) {
@@ -83,7 +83,7 @@ ChangeState_Response change_state(SteeredNode& node, const ChangeState_Request& 
   return response;
 }
 
-/// It has no room for the reason, which the log has.
+/// The response has no field for the reason; it is logged.
 ChangeState_Response refuse_to_change(const ChangeState_Request&, const std::string&) {
   ChangeState_Response response;
   response.success(false);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A node's parameters, as rclcpp's nodes answer for theirs.
+// Parameter services of a node, compatible with rclcpp.
 #include <algorithm>
 
 #include "rcl_interfaces/srv/DescribeParameters.h"
@@ -25,7 +25,7 @@ const ParameterDescription* find(const std::vector<ParameterDescription>& parame
   return found == parameters.end() ? nullptr : &*found;
 }
 
-/// An unknown name has a value without a type, so that the values are those of the names in order.
+/// An unknown name gets a value without type, so values match the names in order.
 GetParameters_Response get(const SteeredNode& node, const GetParameters_Request& request) {
   const auto parameters = node.parameters();
   GetParameters_Response response;
@@ -58,7 +58,7 @@ DescribeParameters_Response describe(const SteeredNode& node, const DescribePara
   return response;
 }
 
-/// Whether a name, or what is left of it after a prefix, has no more than `depth` parts; 0: any number.
+/// Whether a name, without its prefix, has at most `depth` parts; 0: any number.
 bool is_within(std::string_view name, std::uint64_t depth) {
   return depth == 0 || static_cast<std::uint64_t>(std::ranges::count(name, kSeparator)) < depth;
 }
@@ -95,7 +95,7 @@ SetParametersResult set_together(SteeredNode& node, const std::vector<Parameter>
     auto value = written_value(parameter.value());
     const auto* known = find(parameters, parameter.name());
     if (!value) {
-      add_problem(parameter.name() + " has no value: a parameter cannot be removed");
+      add_problem(parameter.name() + " has no value: parameters cannot be removed");
     } else if (const auto problem = known ? type_problem(*known, parameter.value()) : std::nullopt) {
       add_problem(*problem);
     } else {

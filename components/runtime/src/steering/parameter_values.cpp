@@ -51,7 +51,7 @@ rcl_interfaces::msg::ParameterValue ros_value(const ParameterDescription& parame
   const auto type = ros_type(parameter);
   value.type(static_cast<std::uint8_t>(type));
   const WrittenValue& written = parameter.written;
-  // Each was made by to_text() from a value of the type, so that parse() has nothing to object.
+  // Always valid: created by to_text() from a value of the type.
   if (type == ParameterType::kBool) {
     bool parsed = false;
     parse(written, parsed);
@@ -138,7 +138,7 @@ std::optional<std::string> type_problem(const ParameterDescription& parameter,
   if (given == wanted || (is_list && is_empty_list(value))) return std::nullopt;
   if (wanted == ParameterType::kDouble && given == ParameterType::kInteger) return std::nullopt;
   if (wanted == ParameterType::kDoubleArray && given == ParameterType::kIntegerArray) return std::nullopt;
-  return parameter.name + " is " + std::string(kShownTypes[static_cast<std::size_t>(wanted)]) + ", " +
+  return parameter.name + " is " + std::string(kShownTypes[static_cast<std::size_t>(wanted)]) + ", but " +
          std::string(kShownTypes[static_cast<std::size_t>(given)]) + " was given";
 }
 

@@ -28,10 +28,11 @@ ParameterType ros_type(const ParameterDescription& parameter);
 rcl_interfaces::msg::ParameterValue ros_value(const ParameterDescription& parameter);
 rcl_interfaces::msg::ParameterDescriptor ros_descriptor(const ParameterDescription& parameter);
 
-/// A value as a system file could have it; nullopt when none is set, or its type is none.
+/// Converts to the form of a system file; nullopt if not set or of an unknown type.
 std::optional<WrittenValue> written_value(const rcl_interfaces::msg::ParameterValue& value);
 
-/// What is wrong with the type of a value for that parameter; nullopt: nothing. A whole number is a number.
+/// Returns what is wrong with the type of a value for the parameter; nullopt if it fits. An integer is accepted as a
+/// double.
 std::optional<std::string> type_problem(const ParameterDescription& parameter,
                                         const rcl_interfaces::msg::ParameterValue& value);
 

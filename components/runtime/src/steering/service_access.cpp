@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Who may do what by service: the one place that decides it.
+// The only place that decides on the rights of service requests.
 #include "steering/steered.hpp"
 
 namespace panvo::runtime::steering {
@@ -8,10 +8,10 @@ std::optional<std::string> steering_problem(ServiceAccess access, const Caller& 
   if (access == ServiceAccess::kSteer) return std::nullopt;
   if (access == ServiceAccess::kByHost && caller.is_on_this_host) return std::nullopt;
   if (access == ServiceAccess::kByHost) {
-    return "refused: who is not known to be on this host may look and change nothing; \"services: steer\" in the "
-           "node_container of the system file allows it";
+    return "refused: only callers on this host may make changes; \"services: steer\" in the node_container of the "
+           "system file allows others to";
   }
-  return "refused: the system file says \"services: look\": nothing may be changed by service";
+  return "refused: the system file allows no changes by service (\"services: look\")";
 }
 
 ServiceGuard guard_of(const OfferedService& service, ServiceAccess access) {

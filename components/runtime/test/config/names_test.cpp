@@ -65,7 +65,7 @@ TEST(JoinNameSpaces, KeepsAbsoluteOnesAndNestsRelativeOnes) {
 
 TEST(NameProblems, TellNodesFromNamespaces) {
   EXPECT_EQ(node_name_problem("rectifier_2"), std::nullopt);
-  EXPECT_EQ(node_name_problem("ns/rectifier"), "has a '/'; put what is before it into the key namespace");
+  EXPECT_EQ(node_name_problem("ns/rectifier"), "has a '/'; put the part before it into the key namespace");
   EXPECT_EQ(node_name_problem(""), "is empty");
   EXPECT_EQ(name_space_problem("/fleet/robot"), std::nullopt);
   EXPECT_EQ(name_space_problem(""), std::nullopt);

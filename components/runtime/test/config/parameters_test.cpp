@@ -72,8 +72,8 @@ TEST(Parse, RefusesWhatIsNotFinite) {
   EXPECT_EQ(wrong<double>("nan"), "is not a finite number");
   EXPECT_EQ(wrong<double>("-inf"), "is not a finite number");
   EXPECT_EQ(wrong<double>(".nan"), "is not a number");
-  EXPECT_EQ(wrong<double>("1e400"), "is too large or too small a number");
-  EXPECT_EQ(wrong<std::int64_t>("9223372036854775808"), "is too large a whole number");
+  EXPECT_EQ(wrong<double>("1e400"), "is a number out of range");
+  EXPECT_EQ(wrong<std::int64_t>("9223372036854775808"), "is a whole number out of range");
 }
 
 TEST(Parse, TakesWholeNumbersAsNumbersButNotNumbersAsWholeNumbers) {
@@ -88,9 +88,9 @@ TEST(Parse, TakesWholeNumbersAsNumbersButNotNumbersAsWholeNumbers) {
 
 TEST(Parse, TellsListsFromSingleValues) {
   double number = 0;
-  EXPECT_EQ(parse(written_list({"1"}), number), "is a list, one value is needed");
+  EXPECT_EQ(parse(written_list({"1"}), number), "is a list, but one value is needed");
   std::vector<double> numbers{9};
-  EXPECT_EQ(parse(written("1"), numbers), "is not a list, write [1.0, 2.0]");
+  EXPECT_EQ(parse(written("1"), numbers), "is not a list; write [1.0, 2.0]");
   EXPECT_EQ(parse(written_list({"1", "x"}), numbers), "item 2, x, is not a number");
   EXPECT_EQ(numbers, std::vector<double>{9});
   EXPECT_EQ(parse(written_list({"1", "-2.5"}), numbers), std::nullopt);
@@ -234,7 +234,7 @@ TEST(ParameterReader, AcceptsTheEndsOfARangeAndNothingBeyond) {
 TEST(ParameterReader, NamesAllParametersWhenNoneIsNear) {
   ParameterReader reader("tracker", {{"colour", written("red")}});
   reader.read<Tracker>();
-  EXPECT_THAT(reader.problems(), ElementsAre("stereo.yaml:1: tracker has no parameter \"colour\"; known are: "
+  EXPECT_THAT(reader.problems(), ElementsAre("stereo.yaml:1: tracker has no parameter \"colour\"; known names: "
                                              "max_features, search_radius"));
 }
 

@@ -57,7 +57,7 @@ TEST_F(PathsBelow, DotsAndLinksAreFollowedFirst) {
 
 TEST_F(PathsBelow, WithoutAFolderNoneMay) {
   EXPECT_THAT(path_problem("/tmp/x", "").value_or(""), HasSubstr("files_below"));
-  EXPECT_THAT(path_problem("/tmp/x", folder_.path() / "gone").value_or(""), HasSubstr("is not there"));
+  EXPECT_THAT(path_problem("/tmp/x", folder_.path() / "gone").value_or(""), HasSubstr("does not exist"));
   EXPECT_FALSE(path_problem("", ""));
 }
 

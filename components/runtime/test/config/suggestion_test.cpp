@@ -22,7 +22,7 @@ TEST(Suggestion, IsTheNearestName) {
 }
 
 TEST(Suggestion, ListsAllNamesWhenNoneIsNear) {
-  EXPECT_EQ(suggestion("x", {"alpha", "beta"}), "; known are: alpha, beta");
+  EXPECT_EQ(suggestion("x", {"alpha", "beta"}), "; known names: alpha, beta");
   EXPECT_EQ(suggestion("x", {}), "; there are none");
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Of what a system file may be made: substitutions, conditions, groups, includes, files and settings of parameters.
+// Composition of system files: substitutions, conditions, groups, includes, files and parameter settings.
 #include <stdlib.h>
 
 #include "system_file_fixture.hpp"
@@ -39,8 +39,8 @@ TEST_F(SystemFile, SaysWhatIsWrongWithASubstitution) {
          {name: c, value: $(evn HOME)},
          {name: d, value: "$(var x"},
          {name: e, value: $(var )}])")),
-              ElementsAre("stereo.yaml:7: parameter a: the environment has no PANVO_TEST_NONE; set it, or write "
-                          "$(env PANVO_TEST_NONE "
+              ElementsAre("stereo.yaml:7: parameter a: the environment variable PANVO_TEST_NONE is not set; set "
+                          "it, or write $(env PANVO_TEST_NONE "
                           "DEFAULT)",
                           HasSubstr("stereo.yaml:8: parameter b: no share folder of package no_such_package in "
                                     "AMENT_PREFIX_PATH or"),
@@ -117,7 +117,7 @@ TEST_F(SystemFile, RefusesIncludesThatAreNotThereOrGoRound) {
       problems("launch:\n- include: {file: none.yaml}\n- include: {file: b.yaml, arg: [{name: x, value: 1}]}\n"),
       ElementsAre("stereo.yaml:2: none.yaml: no such file; check the path",
                   "stereo.yaml:3: b.yaml has no argument \"x\"; there are none",
-                  "b.yaml:2: the file includes itself: stereo.yaml -> b.yaml -> stereo.yaml; take out one include"));
+                  "b.yaml:2: the file includes itself: stereo.yaml -> b.yaml -> stereo.yaml; remove one include"));
 }
 
 TEST_F(SystemFile, ReadsParameterFilesOfRos) {
@@ -163,7 +163,7 @@ TEST_F(SystemFile, NotesAParameterFileThatSaysNothingToItsComponent) {
   folder_.write("p.yaml", "odometri: {ros__parameters: {gain: 1}}\n");
   const auto system = read_system_file(folder_.write("stereo.yaml", with("       param: [{from: p.yaml}]")));
   EXPECT_THAT(without_folder(system.notes),
-              ElementsAre("stereo.yaml:7: p.yaml says nothing to /odometry; its sections are for odometri"));
+              ElementsAre("stereo.yaml:7: p.yaml has no parameters for /odometry; its sections are for odometri"));
 }
 
 TEST_F(SystemFile, SettingsOverrideWhatIsWritten) {
@@ -198,8 +198,8 @@ TEST_F(SystemFile, RefusesSettingsOfNoComponentOrNoValue) {
   for (const char* setting : {"gain", "odometry.gain", "=1", ".gain=1", "odometry.=1", "odometry=a.b"}) {
     EXPECT_THAT(refusal(setting), HasSubstr("write COMPONENT.PARAMETER=VALUE")) << setting;
   }
-  EXPECT_THAT(refusal("binocular_odometry.weights=[1, 2"), HasSubstr("the list does not end"));
-  EXPECT_THAT(refusal("binocular_odometry.weights=[1, [2]]"), HasSubstr("a list holds single values"));
+  EXPECT_THAT(refusal("binocular_odometry.weights=[1, 2"), HasSubstr("the list is not closed"));
+  EXPECT_THAT(refusal("binocular_odometry.weights=[1, [2]]"), HasSubstr("list items must be single values"));
 }
 
 }  // namespace

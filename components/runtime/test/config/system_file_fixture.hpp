@@ -43,7 +43,7 @@ inline constexpr const char* kStereo = R"(launch:
 
 class SystemFile : public testing::Test {
  protected:
-  /// The problems of a system file, each without the folder of this test.
+  /// The problems of a system file, without the test's folder.
   std::vector<std::string> problems(const std::string& content,
                                     const std::map<std::string, std::string>& arguments = {}) {
     return problems_of(folder_.write("stereo.yaml", content), arguments);
@@ -69,7 +69,7 @@ class SystemFile : public testing::Test {
     return texts;
   }
 
-  /// A system of one component with these lines in it, the first of them line 7.
+  /// A system with one component that contains `lines`, starting at line 7.
   static std::string with(const std::string& lines) {
     return "launch:\n- node_container:\n    name: stereo\n    composable_node:\n    - {pkg: p, plugin: P, "
            "name: other}\n"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a system file says of processes: restarts, limits, who may steer.
+// Process settings in system files: restarts, limits, access.
 #include <spdlog/fmt/fmt.h>
 
 #include "system_file_fixture.hpp"
@@ -11,7 +11,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-/// One container with `line` of it and `more` of its component.
+/// A container with `line` and a component with `more`.
 std::string with_line(const std::string& line, const std::string& more = "") {
   return fmt::format(
       "launch:\n- node_container:\n    name: x\n{}    composable_node:\n    - {{pkg: panvo_a, plugin: A, name: a{}}}\n",
@@ -66,7 +66,7 @@ TEST_F(SystemFile, SaysHowMuchAProcessTakesFromOthers) {
   EXPECT_THAT(problems(file("    max_message_mb: 2001\n")),
               ElementsAre("stereo.yaml:4: max_message_mb is \"2001\"; write megabytes, 0 to 2000"));
   EXPECT_THAT(problems(file("    max_topic_rate_hz: fast\n")),
-              ElementsAre("stereo.yaml:4: max_topic_rate_hz is \"fast\"; write messages a second, 0 to 1000000"));
+              ElementsAre("stereo.yaml:4: max_topic_rate_hz is \"fast\"; write messages per second, 0 to 1000000"));
 }
 
 TEST_F(SystemFile, SaysUpToWhichSizeProcessesShareImages) {
@@ -81,9 +81,7 @@ TEST_F(SystemFile, SaysUpToWhichSizeProcessesShareImages) {
   for (const char* size : {"yes", "-1", "2 MB", "65"}) {
     EXPECT_THAT(
         problems(file(fmt::format("    shared_images_mb: {}\n", size))),
-        ElementsAre(fmt::format("stereo.yaml:4: shared_images_mb is \"{}\"; write megabytes, 0 (none are shared) "
-                                "to 64",
-                                size)));
+        ElementsAre(fmt::format("stereo.yaml:4: shared_images_mb is \"{}\"; write megabytes, 0 (off) to 64", size)));
   }
 }
 
@@ -98,7 +96,7 @@ TEST_F(SystemFile, SaysWhoMaySteerByService) {
   EXPECT_THAT(problems(with_line("services: stear")),
               ElementsAre("stereo.yaml:4: services is \"stear\"; did you mean \"steer\"?"));
   EXPECT_THAT(problems(with_line("services: nobody")),
-              ElementsAre("stereo.yaml:4: services is \"nobody\"; known are: look, steer, off"));
+              ElementsAre("stereo.yaml:4: services is \"nobody\"; known names: look, steer, off"));
 }
 
 TEST_F(SystemFile, SaysWhatBecomesOfComponentsThatFailAndOfTheOthers) {
@@ -117,11 +115,11 @@ TEST_F(SystemFile, SaysWhatBecomesOfComponentsThatFailAndOfTheOthers) {
 TEST_F(SystemFile, SaysWhereRequestsMayNameFilesAndHowManyAreAnswered) {
   const auto file = folder_.write("below.yaml", with_line("files_below: ."));
   EXPECT_TRUE(std::filesystem::equivalent(read_system_file(file).containers[0].files_below, folder_.path()));
-  EXPECT_THAT(problems(with_line("files_below: nowhere")), ElementsAre(HasSubstr("there is no folder \"nowhere\"")));
+  EXPECT_THAT(problems(with_line("files_below: nowhere")), ElementsAre(HasSubstr("folder \"nowhere\" does not exist")));
   const auto limited = folder_.write("limited.yaml", with_line("requests_per_s: 5"));
   EXPECT_EQ(read_system_file(limited).containers[0].requests_per_s, 5);
   EXPECT_THAT(problems(with_line("requests_per_s: -1")),
-              ElementsAre("stereo.yaml:4: requests_per_s is \"-1\"; write how many a second, 0 to 100000"));
+              ElementsAre("stereo.yaml:4: requests_per_s is \"-1\"; write requests per second, 0 to 100000"));
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a system file says of components, and what is wrong with one.
+// Components in system files, and their errors.
 #include "system_file_fixture.hpp"
 
 namespace panvo::runtime {
@@ -40,9 +40,9 @@ TEST_F(SystemFile, SaysWhichProcessesLoadWhichComponents) {
 TEST_F(SystemFile, RefusesPluginsThatAreNamedByPaths) {
   EXPECT_THAT(problems("launch:\n- node_container:\n    name: x\n    composable_node:\n"
                        "    - {pkg: /../../evil, plugin: ../A, name: a}\n"),
-              ElementsAre("stereo.yaml:5: pkg \"/../../evil\" is no name of a package; write small letters, digits and "
-                          "'_', a letter first",
-                          "stereo.yaml:5: plugin \"../A\" is no name of a class; write Class or package::Class"));
+              ElementsAre("stereo.yaml:5: pkg \"/../../evil\" is not a package name; use lower-case letters, digits "
+                          "and '_', starting with a letter",
+                          "stereo.yaml:5: plugin \"../A\" is not a class name; write Class or package::Class"));
 }
 
 TEST_F(SystemFile, TakesArgumentsAndRefusesThoseItDoesNotDeclare) {
@@ -101,17 +101,18 @@ lauch: []
       ElementsAre("stereo.yaml:2: there is no entry \"node_contaner\"; did you mean \"node_container\"?",
                   "stereo.yaml:5: node_container has no key \"nmespace\"; did you mean \"namespace\"?",
                   "stereo.yaml:7: composable_node lacks the key \"plugin\"; name the component's class",
-                  "stereo.yaml:9: component /rectifier has the name of what is at stereo.yaml:7; give it another "
+                  "stereo.yaml:9: component /rectifier has the same name as the one at stereo.yaml:7; give it another "
                   "name or "
                   "namespace",
                   "stereo.yaml:10: composable_node key \"pkg\" is empty; name the package that has the plugin",
                   "stereo.yaml:12: composable_node lacks the key \"name\"; name the component",
-                  "stereo.yaml:13: name \"a/b\" has a '/'; put what is before it into the key namespace",
+                  "stereo.yaml:13: name \"a/b\" has a '/'; put the part before it into the key namespace",
                   "stereo.yaml:13: topic name \"left image\" has the character ' '; use letters, digits, '_' and '/' "
                   "only",
                   "stereo.yaml:14: composable_node key \"pkg\": there is no variable \"p\"; there are none",
                   "stereo.yaml:15: composable_node must be a map: lines \"key: value\"",
-                  "stereo.yaml:16: argument \"needed\" is not given and has no default (what it is for); give it one",
+                  "stereo.yaml:16: argument \"needed\" is not given and has no default (what it is for); "
+                  "pass a value or add a default",
                   "stereo.yaml:17: a system file has no key \"lauch\"; did you mean \"launch\"?"));
 }
 

@@ -10,7 +10,7 @@
 
 namespace panvo::runtime {
 
-/// A folder of a test's own, gone at its end.
+/// A temporary folder for one test, deleted at its end.
 class TemporaryFolder {
  public:
   TemporaryFolder() {

@@ -16,7 +16,7 @@ namespace panvo::runtime::test {
 inline constexpr const char* kImageType = "sensor_msgs/msg/Image";
 inline constexpr const char* kStringType = "std_msgs/msg/String";
 
-/// A bridge of this process and one of another.
+/// A bridge in this process and one in another.
 class BetweenProcesses : public ::testing::Test {
  protected:
   explicit BetweenProcesses(std::uint32_t shared_bytes = 0) : shared_image_bytes(shared_bytes) {
@@ -30,10 +30,10 @@ class BetweenProcesses : public ::testing::Test {
   }
 
   const int domain = test_domain();
-  const std::uint32_t shared_image_bytes;  // of both
+  const std::uint32_t shared_image_bytes;  // of both processes
   PeerProcess peer{domain, PANVO_BRIDGE_PEER, shared_image_bytes};
   Inbox<std::string> warnings;
-  Inbox<SamplePtr> inbox;  // before the bridge, whose readers fill it
+  Inbox<SamplePtr> inbox;  // before the bridge: filled by its readers
   std::unique_ptr<Bridge> bridge = make_dds_bridge(
       {.domain = domain, .profiles = "", .name = "panvo_test", .shared_image_bytes = shared_image_bytes});
 };

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The other process of the bridge's tests. Reads commands from stdin, one a line, and answers each with a
-// line that starts with `ok`, or `error`; in between it says `received TOPIC SIZE HASH` for every message
-// that comes. Ends with its input.
+// The other process of the bridge's tests. Reads commands from stdin, one per line, and answers each with a line
+// starting with `ok` or `error`; prints `received TOPIC SIZE HASH` for each received message. Ends with its input.
 #include <sys/prctl.h>
 
 #include <csignal>
@@ -80,19 +79,19 @@ class Peer {
       if (const auto writer = writers_.find(name); writer != writers_.end())
         return std::to_string(writer->second->matched_readers());
       return std::to_string(readers_.at(name)->matched_writers());
-    } else if (verb == "matched_writers") {  // where there is a writer of this name as well
+    } else if (verb == "matched_writers") {  // if there is also a writer of this name
       return std::to_string(readers_.at(name)->matched_writers());
     } else if (verb == "counters") {
       const auto counters = readers_.at(name)->counters();
       return std::to_string(counters.received) + " " + std::to_string(counters.lost) + " " +
              std::to_string(counters.undecodable);
-    } else if (verb == "open_raw_client") {  // of a service of the type of service_messages.hpp
+    } else if (verb == "open_raw_client") {  // of the service type in service_messages.hpp
       raw_writers_[name] = std::make_unique<RawWriter>(
           domain_, dds::wire_request_name(name), dds::wire_type_name(std::string(kServiceType) + "_Request").value(),
           RawWriter::Offer{.reliable = true});
     } else if (verb == "open_late_client") {
       late_clients_[name] = std::make_unique<LateClient>(domain_, name, kServiceType);
-    } else if (verb == "ask_late") {  // any number of them may be lost, until the server is discovered
+    } else if (verb == "ask_late") {  // may be lost until the server is discovered
       std::string text;
       words >> text;
       return late_clients_.at(name)->ask(request(text)) ? "asked" : "not asked";
@@ -167,7 +166,7 @@ class Peer {
 }  // namespace panvo::runtime::test
 
 int main(int argc, char** argv) {
-  prctl(PR_SET_PDEATHSIG, SIGKILL);  // a test that crashes leaves nobody behind
+  prctl(PR_SET_PDEATHSIG, SIGKILL);  // ends with a crashed test
   if (argc < 2 || argc > 3) return 2;
   panvo::runtime::test::Peer(std::stoi(argv[1]), argc == 3 ? static_cast<std::uint32_t>(std::stoul(argv[2])) : 0).run();
 }

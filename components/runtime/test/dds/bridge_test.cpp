@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What passes between two processes, and what does not.
+// Messages between two processes.
 #include <atomic>
 
 #include "bridge_fixture.hpp"
@@ -47,7 +47,7 @@ TEST_F(BetweenProcesses, MessagesOfAReliableTopicArriveAllAndInOrder) {
   const auto writer = bridge->open_writer(topic(name, kStringType, {.depth = 10, .keep_all = true}));
   peer.ask("open_reader " + name + " " + kStringType + " reliable volatile 10 keep_all");
   ASSERT_TRUE(eventually([&] { return writer->matched_readers() == 1; }) && peer.matches(name, 1));
-  // A reader that is kept from working for longer than a write waits has it refused; it is then sent again.
+  // A write to a reader stalled beyond the write limit fails and is repeated.
   for (int i = 100; i < 300; ++i) {
     const auto sample = text_sample(std::to_string(i));
     ASSERT_TRUE(eventually([&] { return writer->write(sample); }));
@@ -66,7 +66,7 @@ TEST_F(BetweenProcesses, EndpointsOfOneProcessNeverMeet) {
   peer.ask("open_reader " + name + " " + kStringType + " reliable volatile 10");
   peer.ask("open_writer " + name + " " + kStringType + " reliable volatile 10");
 
-  // Once the other process is known on every side, this one would be too.
+  // Once the other process is discovered everywhere, this one would be as well.
   ASSERT_TRUE(eventually([&] {
     return writer->matched_readers() >= 1 && other_writer->matched_readers() >= 1 && reader->matched_writers() >= 1;
   }));
@@ -82,7 +82,7 @@ TEST_F(BetweenProcesses, EndpointsOfOneProcessNeverMeet) {
   EXPECT_EQ(reader->matched_writers(), 1U);
 }
 
-// A type as its codec, but counting.
+// A type with its normal codec that counts calls.
 std::atomic<int> serialisations = 0;
 interfaces::MessageType counting_type() {
   interfaces::MessageType type = *interfaces::find_message_type(kStringType);

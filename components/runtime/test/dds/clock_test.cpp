@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The time of what is played, for ROS 2's nodes with use_sim_time.
+// /clock of played data, for ROS 2 nodes with use_sim_time.
 #include <gtest/gtest.h>
 
 #include <future>
@@ -11,7 +11,7 @@
 namespace panvo::runtime::test {
 namespace {
 
-/// Plays nothing, for as long as it is let.
+/// A source that plays nothing until stopped.
 class Silence final : public Component, public Source {
  public:
   explicit Silence(Context& context) { context.source(*this); }

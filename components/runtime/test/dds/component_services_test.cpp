@@ -21,9 +21,18 @@ ComponentDescription named(const std::string& name) {
   return description;
 }
 
-TEST_F(BetweenProcesses, AComponentAnswersTheOtherProcess) {
+class ComponentsBetweenProcesses : public BetweenProcesses {
+ protected:
+  DdsSettings settings() const {
+    DdsSettings settings;
+    settings.domain = domain;
+    return settings;
+  }
+};
+
+TEST_F(ComponentsBetweenProcesses, AnswerTheOtherProcess) {
   const auto name = unique_topic("service");
-  Container container({.dds = DdsSettings{.domain = domain}, .name = "answering"});
+  Container container({.dds = settings(), .name = "answering"});
   container.add(named("server"), [&](Context& context) {
     context.serve(TextService{name}, [](const GetParameters_Request& request) {
       GetParameters_Response response;
@@ -38,19 +47,7 @@ TEST_F(BetweenProcesses, AComponentAnswersTheOtherProcess) {
   EXPECT_EQ(peer.ask("call " + name + " two"), "component:two");
 }
 
-TEST_F(BetweenProcesses, AComponentThatBreaksLeavesTheOtherProcessWithoutAnswer) {
-  const auto name = unique_topic("service");
-  Container container({.dds = DdsSettings{.domain = domain}, .name = "breaking"});
-  container.add(named("server"), [&](Context& context) {
-    context.serve(TextService{name},
-                  [](const GetParameters_Request&) -> GetParameters_Response { throw std::runtime_error("broken"); });
-    return std::make_unique<Component>();
-  });
-  container.start();
-  EXPECT_EQ(peer.ask("call " + name + " one"), "nothing");
-}
-
-/// Calls a service once, when it is told to.
+/// Calls a service once, on request.
 class Caller : public Component {
  public:
   Caller(Context& context, const std::string& name, std::promise<std::string>& answer)
@@ -73,25 +70,23 @@ class Caller : public Component {
   bool is_asked_ = false;
 };
 
-TEST_F(BetweenProcesses, AComponentCallsTheOtherProcess) {
+TEST_F(ComponentsBetweenProcesses, CallTheOtherProcess) {
   const auto name = unique_topic("service");
   peer.ask("serve " + name);
   std::promise<std::string> answer;
-  Container container({.dds = DdsSettings{.domain = domain}, .name = "calling"});
-  container.add(named("caller"),
-                [&](Context& context) { return std::make_unique<Caller>(context, name, answer); });
+  Container container({.dds = settings(), .name = "calling"});
+  container.add(named("caller"), [&](Context& context) { return std::make_unique<Caller>(context, name, answer); });
   container.start();
   auto answered = answer.get_future();
   ASSERT_EQ(answered.wait_for(2 * kLimit), std::future_status::ready);
   EXPECT_EQ(answered.get(), "peer:one");
 }
 
-TEST_F(BetweenProcesses, AComponentThatIsUnloadedDoesNotWaitForAServerThatIsNotThere) {
+TEST_F(ComponentsBetweenProcesses, ThatAreUnloadedDoNotWaitForAServerThatIsNotThere) {
   std::promise<std::string> answer;
-  Container container({.dds = DdsSettings{.domain = domain}, .name = "waiting"});
-  container.add(named("caller"), [&](Context& context) {
-    return std::make_unique<Caller>(context, unique_topic("service"), answer);
-  });
+  Container container({.dds = settings(), .name = "waiting"});
+  container.add(named("caller"),
+                [&](Context& context) { return std::make_unique<Caller>(context, unique_topic("service"), answer); });
   container.start();
   EXPECT_TRUE(container.unload("caller"));
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A container in a process of its own, for the tests that steer it from another. Its argument is the DDS domain; it ends with its input.
+// A container in its own process, controlled by tests in another. The argument is the DDS domain; ends with its input.
 #include <sys/prctl.h>
 
 #include <csignal>
@@ -13,7 +13,7 @@
 namespace panvo::runtime::test {
 namespace {
 
-/// Sends on what comes, with what it may be told to put before it.
+/// Forwards messages, with an optional prefix.
 class Echo final : public Component {
  public:
   struct Parameters {
@@ -44,7 +44,7 @@ class Echo final : public Component {
 
 int main(int argc, char** argv) {
   using namespace panvo::runtime;
-  prctl(PR_SET_PDEATHSIG, SIGKILL);  // a test that crashes leaves nobody behind
+  prctl(PR_SET_PDEATHSIG, SIGKILL);  // ends with a crashed test
   if (argc != 2) return 2;
   DdsSettings dds{.domain = std::stoi(argv[1]), .profiles = "", .name = "steered"};
   dds.limits.max_topic_rate_hz = 1e6;  // tests write as fast as they can

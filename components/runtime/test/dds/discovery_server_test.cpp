@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// With ROS_DISCOVERY_SERVER instead of multicast.
+// ROS_DISCOVERY_SERVER instead of multicast.
 #include <gmock/gmock.h>
 #include <netinet/in.h>
 #include <spawn.h>
@@ -32,7 +32,7 @@ int free_port() {
   return is_bound ? ntohs(address.sin_port) : 0;
 }
 
-/// Fast DDS's own discovery server, for as long as this object.
+/// Fast DDS's discovery server, running for the lifetime of this object.
 class DiscoveryServer {
  public:
   DiscoveryServer() {
@@ -42,7 +42,7 @@ class DiscoveryServer {
     for (std::size_t i = 0; i < words.size(); ++i) arguments[i] = words[i].data();
     posix_spawnattr_t attributes;
     posix_spawnattr_init(&attributes);
-    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);  // it is a script that starts the server
+    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);  // the program is a script that starts the server
     posix_spawn_file_actions_t actions;
     posix_spawn_file_actions_init(&actions);
     posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", 1, 0);
@@ -52,7 +52,7 @@ class DiscoveryServer {
     if (pid_ > 0) setenv("ROS_DISCOVERY_SERVER", ("127.0.0.1:" + port).c_str(), 1);
   }
   ~DiscoveryServer() {
-    setenv("ROS_DISCOVERY_SERVER", "", 1);  // unset, Fast DDS would go on with what it read last
+    setenv("ROS_DISCOVERY_SERVER", "", 1);  // if unset, Fast DDS would keep the last value
     if (pid_ <= 0) return;
     kill(-pid_, SIGTERM);
     waitpid(pid_, nullptr, 0);
@@ -89,7 +89,7 @@ TEST_F(WithDiscoveryServer, AMessageOfAnotherProcessComesOnceAndNoneOfThisOne) {
   ASSERT_TRUE(eventually([&] { return peer->ask("matched_writers " + name) == "1"; }));
   ASSERT_TRUE(writer->write(text_sample("own")));
   ASSERT_TRUE(writer->wait_for_acknowledgments(kLimit));
-  peer->next_received(name);  // the other process has it
+  peer->next_received(name);  // the other process has received it
   ASSERT_EQ(peer->ask("write_text " + name + " not"), "written");
   ASSERT_EQ(inbox.wait_for_count(1).size(), 1U);
   EXPECT_EQ(inbox.items().front()->bytes(), text_sample("not")->bytes());

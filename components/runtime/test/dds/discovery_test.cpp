@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What users learn of the topics of other processes.
+// Reports on topics of other processes.
 #include "bridge_fixture.hpp"
 
 namespace panvo::runtime::test {
@@ -7,7 +7,7 @@ namespace {
 
 class DiscoveredTopics : public BetweenProcesses {
  protected:
-  ~DiscoveredTopics() override { bridge.reset(); }  // before `topics`, which it fills
+  ~DiscoveredTopics() override { bridge.reset(); }  // before `topics`, which its callbacks fill
 
   Inbox<TopicDescription> topics;
 
@@ -73,7 +73,7 @@ TEST_F(DiscoveredTopics, MayBeOpenedFromTheCallback) {
   peer.ask("open_writer " + name + " " + kStringType + " reliable transient_local 5");
   ASSERT_EQ(peer.ask("write_text " + name + " kept"), "written");
   EXPECT_EQ(recorded.wait_for_count(1).size(), 1U);
-  bridge.reset();  // after it no callback touches `readers`
+  bridge.reset();  // no callback uses `readers` afterwards
 }
 
 TEST_F(BetweenProcesses, AKilledProcessIsLetGoWhenItsPortsAreTakenByAnother) {

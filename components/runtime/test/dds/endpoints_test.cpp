@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Opening and closing, and what is refused.
+// Opening and closing of endpoints, and refusals.
 #include <atomic>
 #include <filesystem>
 #include <fstream>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What ROS 2's environment variables say.
+// Settings from ROS 2's environment variables.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Peers that send nonsense, stand still or die.
+// Peers that send malformed data, stall or die.
 #include <csignal>
 
 #include "bridge_fixture.hpp"
@@ -19,7 +19,7 @@ TEST_F(BetweenProcesses, AMalformedPayloadIsCountedAndSurvived) {
   ASSERT_TRUE(peer.matches(name, 1));
   peer.ask("write_bytes " + name + " 0 3 0 0 1 2 3 4");          // a parameter list
   peer.ask("write_bytes " + name + " 0 7 0 0 1 2 3 4");          // XCDR2
-  peer.ask("write_bytes " + name + " 255 255 255 255 1 2 3 4");  // nothing there is
+  peer.ask("write_bytes " + name + " 255 255 255 255 1 2 3 4");  // unknown
   peer.ask("write_bytes " + name + " 0 1 0 0 4 0 0 0 121 101 115 0");
   ASSERT_EQ(inbox.wait_for_count(1).size(), 1U);
   EXPECT_EQ(inbox.items().front()->bytes(), text_sample("yes")->bytes());
@@ -43,7 +43,7 @@ TEST_F(BetweenProcesses, AMessageThatIsTooLargeOrOneTooManyIsLeftOutAndCounted) 
   EXPECT_EQ(reader->counters().too_large, 1U);
   EXPECT_EQ(inbox.items().size(), 3U);
   EXPECT_TRUE(is_warned_of(name, "larger than 0.0001 MB"));
-  EXPECT_TRUE(is_warned_of(name, "more than 0.001 messages a second"));
+  EXPECT_TRUE(is_warned_of(name, "more than 0.001 messages per second"));
 }
 
 TEST_F(BetweenProcesses, AMessageBearsTheGidOfItsWriter) {
@@ -114,11 +114,11 @@ TEST_F(BetweenProcesses, WhatAStoppedPeerMissesOfABestEffortTopicIsCounted) {
   peer.signal(SIGSTOP);
   peer.wait_until_stopped();
   for (std::uint32_t i = 1; i <= 60; ++i)
-    ASSERT_TRUE(writer->write(image_sample(1000000, i)));  // more than the segment holds
+    ASSERT_TRUE(writer->write(image_sample(1000000, i)));  // larger than the segment
   peer.signal(SIGCONT);
 
   std::uint32_t written = 61;
-  ASSERT_TRUE(eventually([&] {  // the next that gets through shows the gap
+  ASSERT_TRUE(eventually([&] {  // the next received message reveals the gap
     writer->write(image_sample(1000, ++written));
     std::istringstream counters(peer.ask("counters " + name));
     std::uint64_t received = 0, lost = 0;

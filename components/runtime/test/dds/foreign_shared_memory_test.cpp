@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Shared memory in /dev/shm that another build of Fast DDS has made for the ports of our domain, that is damaged, or that was never finished: it is
-// nobody's business here, and ends no process.
+// Shared memory in /dev/shm for the ports of our domain that is from another Fast DDS build, damaged or unfinished must
+// be ignored and must not end a process.
 #include <unistd.h>
 
 #include <array>
@@ -20,8 +20,8 @@ struct Bytes {
   std::string_view hexadecimal;
 };
 
-/// What is not zero of a port as Fast DDS 2.14 leaves it that was built with the Boost it brings along (recorded; without the cells of its queue,
-/// which are all alike).
+/// Non-zero bytes of a port left by Fast DDS 2.14 built with its bundled Boost (recorded, without the cells of its
+/// queue, which are all equal).
 constexpr std::size_t kPortSize = 52400;
 constexpr std::array<Bytes, 13> kPort{
     {{0, "02"},
@@ -62,7 +62,7 @@ struct Planted {
 };
 std::ostream& operator<<(std::ostream& out, const Planted& planted) { return out << planted.name; }
 
-/// Such files under the names of all ports that the first fifteen participants of a domain have; removed with this.
+/// Creates such files for all ports of the first fifteen participants of a domain; removed by the destructor.
 class PlantedPorts {
  public:
   explicit PlantedPorts(std::string content) : content_(std::move(content)) { plant(); }
@@ -80,7 +80,7 @@ class PlantedPorts {
  private:
   template <class Do>
   static void for_each(const Do& act) {
-    constexpr int kFirst = 7400, kDomain = 250, kPorts = 42;  // as the DDSI-RTPS specification has them
+    constexpr int kFirst = 7400, kDomain = 250, kPorts = 42;  // from the DDSI-RTPS specification
     for (int port = 0; port < kPorts; ++port)
       act("/dev/shm/fastrtps_port" + std::to_string(kFirst + kDomain * test_domain() + port));
   }
@@ -88,7 +88,7 @@ class PlantedPorts {
   const std::string content_;
 };
 
-// The ports are there before the participants.
+// The ports exist before the participants.
 class BesideForeignMemory : private PlantedPorts,
                             public BetweenProcesses,
                             public ::testing::WithParamInterface<Planted> {
@@ -98,7 +98,7 @@ class BesideForeignMemory : private PlantedPorts,
   void plant_again() const { plant(); }
 
   void expect_messages_both_ways(PeerProcess& other) {
-    const std::string number = std::to_string(++exchanges_);  // the peers keep what they have opened
+    const std::string number = std::to_string(++exchanges_);  // the peers keep opened topics
     const auto text = unique_topic("text" + number), image = unique_topic("image" + number);
     const auto reader = bridge->open_reader(topic(text, kStringType), inbox.callback());
     const auto writer = bridge->open_writer(topic(image, kImageType, interfaces::qos::kSensorData));
@@ -110,7 +110,7 @@ class BesideForeignMemory : private PlantedPorts,
     ASSERT_EQ(other.ask("write_text " + text + " yes"), "written");
     EXPECT_EQ(inbox.wait_for_count(1).size(), 1U);
     const auto sample = image_sample(100'000, 1);
-    ASSERT_TRUE(eventually([&] {  // until it is shared, where it is
+    ASSERT_TRUE(eventually([&] {  // until it is shared, if it is
       return writer->write(sample) && std::stoul(other.ask("counters " + image)) > 20;
     }));
     EXPECT_EQ(other.next_received(image),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What `panvo node`, `param`, `topic`, `service` and `component` say of a container in another process.
+// Output of `panvo node`, `param`, `topic`, `service` and `component` for a container in another process.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -24,7 +24,7 @@ struct Result {
 
 class GraphTool : public testing::Test {
  protected:
-  /// Runs the program with these arguments, as a shell reads them.
+  /// Runs the program with these arguments through a shell.
   Result run(const std::string& arguments) const {
     const std::string command = std::string(PANVO_GRAPH_TOOL) + " --domain " + std::to_string(domain) + " " +
                                 (arguments.starts_with("--") ? "" : "--timeout 30 ") + arguments + " 2>&1";
@@ -37,7 +37,7 @@ class GraphTool : public testing::Test {
     result.status = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
     return result;
   }
-  /// What it says once it says so; discovery takes its time on a busy machine.
+  /// The output once it contains `wanted`; discovery can be slow on a busy machine.
   std::string eventually_says(const std::string& arguments, const std::string& wanted) const {
     std::string said;
     EXPECT_TRUE(eventually([&] {
@@ -70,13 +70,13 @@ TEST_F(GraphTool, GetsDescribesAndSetsParameters) {
   const auto refused = run("param set /robot/echo size 50");
   EXPECT_EQ(refused.status, 1);
   EXPECT_THAT(refused.said, HasSubstr("must be 1..9"));
-  EXPECT_THAT(run("param set /robot/echo size many").said, HasSubstr("size is an integer, a text was given"));
-  EXPECT_THAT(run("param describe /robot/echo size").said, HasSubstr("integer, 1 .. 9, may be set"));
+  EXPECT_THAT(run("param set /robot/echo size many").said, HasSubstr("size is an integer, but a text was given"));
+  EXPECT_THAT(run("param describe /robot/echo size").said, HasSubstr("integer, 1 .. 9, settable"));
   EXPECT_EQ(run("param get /robot/echo nothing").status, 1);
 }
 
 TEST_F(GraphTool, LoadsAndUnloads) {
-  ASSERT_EQ(eventually_says("component running", "echo"), "/steered\n  1  /robot/echo\n");  // the peer has begun
+  ASSERT_EQ(eventually_says("component running", "echo"), "/steered\n  1  /robot/echo\n");  // the peer has started
   const auto loaded = run("component load /steered panvo_test_relay RelayComponent -n second -p copies:=5");
   EXPECT_EQ(loaded.status, 0);
   EXPECT_EQ(loaded.said, "2  /second\n");
@@ -101,7 +101,7 @@ TEST_F(GraphTool, EchoesAndMeasuresTopics) {
 }
 
 TEST_F(GraphTool, WritesNothingThatSteersATerminal) {
-  // The container takes any text for a parameter; the shell makes the escape sequence of it.
+  // The container accepts any text; the shell creates the escape sequence.
   EXPECT_EQ(run("param set /robot/echo before \"$(printf '\\033[2Jhere\\233')\"").said, "set\n");
   const auto got = run("param get /robot/echo before").said;
   EXPECT_THAT(got, HasSubstr("\\x1b[2Jhere"));
@@ -111,7 +111,7 @@ TEST_F(GraphTool, WritesNothingThatSteersATerminal) {
 TEST_F(GraphTool, SaysWhatIsNotThereAndEndsInTime) {
   const auto missing = run("--timeout 1 topic echo /nothing");
   EXPECT_EQ(missing.status, 1);
-  EXPECT_THAT(missing.said, HasSubstr("nobody publishes /nothing"));
+  EXPECT_THAT(missing.said, HasSubstr("no publisher of /nothing"));
   EXPECT_EQ(run("--timeout 1 param get /nobody size").status, 1);
   EXPECT_EQ(run("--timeout 1 service call /nothing").status, 1);
   EXPECT_EQ(run("topic").status, 2);

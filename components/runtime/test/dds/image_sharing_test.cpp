@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Images that processes of one machine share, and those that they cannot.
+// Images shared between processes of one machine, and images that cannot be shared.
 #include <sys/statvfs.h>
 #include <unistd.h>
 
@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 constexpr std::uint32_t kLargestShared = 2'000'000;
 constexpr std::size_t kGraySize = 640 * 480, kPanoramaSize = 1080 * 540 * 3, kTooLarge = 3'000'000;
 
-/// The memory of shared images that a process has mapped, by path.
+/// Paths of the shared-image segments that a process has mapped.
 std::set<std::string> shared_by(pid_t process) {
   std::set<std::string> segments;
   std::ifstream maps("/proc/" + std::to_string(process) + "/maps");
@@ -42,7 +42,7 @@ std::string write_image(const std::string& topic, std::size_t size, std::uint32_
   return "write_image " + topic + " " + std::to_string(size) + " " + std::to_string(seed);
 }
 
-constexpr std::uint32_t kFirstSeed = 1000;  // of images before those that a test is about
+constexpr std::uint32_t kFirstSeed = 1000;  // of images sent before the actual test
 
 class SharedImages : public BetweenProcesses {
  protected:
@@ -52,13 +52,13 @@ class SharedImages : public BetweenProcesses {
     if (access("/dev/shm", W_OK) != 0) GTEST_SKIP() << "there is no /dev/shm";
   }
 
-  /// Reads what the peer writes in memory of `size` bytes a message, which it makes when it sees the first image of that size. Then the inbox is
-  /// empty.
+  /// Reads from the peer's shared memory with `size` bytes per message, which the peer creates at the first image of
+  /// that size. The inbox is then empty.
   std::unique_ptr<BridgeReader> read_from_peer(const TopicDescription& wanted, std::size_t size = kGraySize) {
     auto reader = bridge->open_reader(wanted, inbox.callback());
     peer.ask("open_writer " + wanted.name + " " + kImageType + " best_effort volatile 5");
     EXPECT_TRUE(peer.matches(wanted.name, 1) && eventually([&] { return reader->matched_writers() == 1; }));
-    EXPECT_TRUE(eventually([&] {  // the one that sends is gone when the one that shares has taken its place
+    EXPECT_TRUE(eventually([&] {  // the sending writer is gone once the sharing one has replaced it
       peer.ask(write_image(wanted.name, size, kFirstSeed));
       return shared_by(getpid()).size() == 2 && reader->matched_writers() == 1;
     })) << "the memory that the peer writes to, and that by which it tells of it";
@@ -81,7 +81,7 @@ class SharedImages : public BetweenProcesses {
     return writer;
   }
 
-  /// Until all that the peer has written is here.
+  /// Waits until everything the peer has written has arrived.
   void settle(const std::string& name, const BridgeReader& reader) {
     EXPECT_EQ(peer.ask(write_image(name, 4, kFirstSeed + 1)), "written");
     const auto last = image_sample(4, kFirstSeed + 1);
@@ -173,7 +173,7 @@ TEST_F(SharedImages, ComeOnceEach) {
 TEST_F(SharedImages, GrowWithTheImages) {
   const auto name = unique_topic("image");
   const auto reader = read_from_peer(topic(name, kImageType, interfaces::qos::kSensorData), kGraySize);
-  ASSERT_TRUE(eventually([&] {  // the first may be gone before the reader knows the writer with more room
+  ASSERT_TRUE(eventually([&] {  // the first may be lost before the reader has discovered the larger writer
     EXPECT_EQ(peer.ask(write_image(name, kPanoramaSize, 1)), "written");
     return !inbox.items().empty();
   }));
@@ -186,15 +186,15 @@ TEST_F(SharedImages, ThatAreTooLargeAreSentAndThatIsSaid) {
   const auto writer = write_to(peer, name);
   const auto large = image_sample(kTooLarge, 4);
   const auto before = peer.ask("counters " + name);
-  // The first may be gone before the reader knows who sends it.
+  // The first may be lost before the reader has discovered the writer.
   ASSERT_TRUE(eventually([&] { return writer->write(large) && peer.ask("counters " + name) != before; }));
   EXPECT_EQ(peer.next_received(name), size_and_hash(*large));
-  EXPECT_TRUE(is_warned_of(name, "too large to be shared"));
+  EXPECT_TRUE(is_warned_of(name, "exceeds shared_images_mb"));
 }
 
 TEST_F(SharedImages, AreSentWhereThereIsNoMemoryForThemAndThatIsSaid) {
   const auto name = unique_topic("image");
-  // A message is reserved for each that is kept: so many that no machine has the memory.
+  // Memory is reserved for each kept message: more than any machine has.
   const interfaces::Qos deep{.requested = interfaces::Reliability::kBestEffort, .depth = 10'000'000};
   const auto writer = bridge->open_writer(topic(name, kImageType, deep));
   peer.ask("open_reader " + name + " " + kImageType + " best_effort volatile 5");
@@ -214,7 +214,7 @@ TEST(RoomToShare, IsAsMuchAsThereIs) {
   EXPECT_FALSE(dds::has_room_to_share(std::uint64_t{state.f_blocks} * state.f_frsize + 4096));
 }
 
-// Reads the first half of a message, and the second when it may.
+// Reads the first half of a message, then the second half when allowed.
 std::binary_semaphore has_read_half{0}, may_read_on{0};
 std::atomic<bool> is_slow = false;
 interfaces::MessageType slowly_read_type() {
@@ -233,7 +233,7 @@ interfaces::MessageType slowly_read_type() {
 }
 
 TEST_F(SharedImages, ThatAreOverwrittenWhileTheyAreReadAreDroppedAndCounted) {
-  constexpr std::uint32_t kEnough = 12;  // to go round in the memory for 6
+  constexpr std::uint32_t kEnough = 12;  // to wrap around in the memory for 6
   const auto name = unique_topic("image");
   const auto type = slowly_read_type();
   const auto reader = read_from_peer({name, kImageType, interfaces::qos::kSensorData, &type});
@@ -296,7 +296,7 @@ std::size_t files_of(const std::set<std::string>& segments) {
 
 TEST_F(SharedImages, OfAKilledProcessLeaveNoMemoryBehind) {
   const auto reader = read_from_peer(topic(unique_topic("image"), kImageType, interfaces::qos::kSensorData));
-  const auto segments = shared_by(getpid());  // the reader's own, and the peer's
+  const auto segments = shared_by(getpid());  // of the reader and of the peer
   ASSERT_EQ(segments.size(), 2U);
   EXPECT_EQ(files_of(segments), 4U);
   peer.signal(SIGKILL);

@@ -11,7 +11,7 @@
 
 namespace panvo::runtime::test {
 
-/// Collects what callbacks bring from other threads, and waits for it.
+/// Collects items from callbacks on other threads and waits for them.
 template <class Item>
 class Inbox {
  public:
@@ -23,13 +23,13 @@ class Inbox {
     };
   }
 
-  /// Whether there came to be an item for which `wanted` holds, before the limit.
+  /// Waits for an item for which `wanted` holds; false at the limit.
   bool wait_for(const std::function<bool(const Item&)>& wanted) {
     std::unique_lock lock(mutex_);
     return arrived_.wait_for(lock, kLimit, [&] { return std::any_of(items_.begin(), items_.end(), wanted); });
   }
 
-  /// The first `count` items; fewer when the limit passed.
+  /// The first `count` items; fewer at the limit.
   std::vector<Item> wait_for_count(std::size_t count) {
     std::unique_lock lock(mutex_);
     arrived_.wait_for(lock, kLimit, [&] { return items_.size() >= count; });

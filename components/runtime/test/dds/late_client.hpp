@@ -8,7 +8,8 @@
 
 namespace panvo::runtime::test {
 
-/// A client of a service whose reader of replies the server does not hear of before it is shown: as if the packets that tell of it were lost.
+/// A service client whose reply reader the server discovers only when it is announced, as if discovery packets were
+/// lost.
 class LateClient {
  public:
   LateClient(int domain, const std::string& service, const std::string& service_type);
@@ -16,7 +17,7 @@ class LateClient {
 
   bool ask(std::vector<std::uint8_t> request);
   void show_reader();
-  /// The next reply; empty if none comes in time.
+  /// The next reply; empty at the timeout.
   std::vector<std::uint8_t> reply();
 
  private:

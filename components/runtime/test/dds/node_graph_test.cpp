@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Nodes, as ROS 2 tools see them.
+// Nodes as seen by ROS 2 tools.
 #include <algorithm>
 #include <csignal>
 
@@ -66,7 +66,7 @@ TEST(NodeInfo, CutOffOrDamagedIsRefusedOrReadWithoutHarm) {
     const auto bytes = dds::encode(some_info(), size);
     for (std::size_t length = 0; length + 4 < bytes.size(); ++length) {
       const bool is_read = dds::decode_node_info({bytes.data(), length}).has_value();
-      // The beginning of a message of the longer form can be one of the shorter that tells of no node.
+      // The start of a message with long GIDs can be a valid one with short GIDs and no nodes.
       EXPECT_TRUE(size != dds::kGidSize || !is_read) << length;
     }
     for (std::size_t at = 0; at < bytes.size(); ++at) {
@@ -93,7 +93,7 @@ TEST_F(Nodes, OfAnotherProcessAreListedOnceWithWhatTheyHave) {
   peer.ask("open_writer " + published + " " + kStringType + " reliable transient_local 10");
   peer.ask("serve " + served);
   peer.ask("set_node talker " + published + " " + served);
-  // The requests' reader is of one participant, the other two of another.
+  // The request reader belongs to one participant, the other two endpoints to another.
   ASSERT_TRUE(eventually([&] {
     const auto found = nodes_called("talker");
     return found.size() == 1 && found[0].readers.size() == 1 && found[0].writers.size() == 2;

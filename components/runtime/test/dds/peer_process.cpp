@@ -30,7 +30,7 @@ bool eventually(const std::function<bool()>& condition) {
 }
 
 PeerProcess::PeerProcess(int domain, std::string program, std::uint32_t shared_image_bytes) {
-  ::signal(SIGPIPE, SIG_IGN);  // a peer that is gone is an error to report, not the end of the test
+  ::signal(SIGPIPE, SIG_IGN);  // a peer that is gone is reported as an error and does not end the test
   std::array<int, 2> commands{}, answers{};
   if (pipe2(commands.data(), O_CLOEXEC) != 0 || pipe2(answers.data(), O_CLOEXEC) != 0)
     throw std::runtime_error("no pipe");
@@ -51,7 +51,7 @@ PeerProcess::PeerProcess(int domain, std::string program, std::uint32_t shared_i
 }
 
 PeerProcess::~PeerProcess() {
-  close(commands_);  // its cue to leave
+  close(commands_);  // makes the peer end
   signal(SIGCONT);
   int status = 0;
   if (!eventually([&] { return waitpid(pid_, &status, WNOHANG) == pid_; })) {

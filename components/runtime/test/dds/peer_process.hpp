@@ -11,10 +11,11 @@
 
 namespace panvo::runtime::test {
 
-/// Whether `condition` came true before the limit.
+/// Waits until `condition` holds; false at the limit.
 [[nodiscard]] bool eventually(const std::function<bool()>& condition);
 
-/// Another process: one with a bridge (bridge_peer.cpp), which may share images, or another program. Ends with this object.
+/// Another process: one with a bridge (bridge_peer.cpp), optionally sharing images, or another program. Ends with this
+/// object.
 class PeerProcess {
  public:
   explicit PeerProcess(int domain, std::string program = PANVO_BRIDGE_PEER, std::uint32_t shared_image_bytes = 0);
@@ -22,22 +23,21 @@ class PeerProcess {
   PeerProcess(const PeerProcess&) = delete;
   PeerProcess& operator=(const PeerProcess&) = delete;
 
-  /// Sends a command and returns its answer, without the leading `ok `. Throws std::runtime_error on an error
-  /// or when there is none.
+  /// Sends a command and returns its answer without the leading `ok `. Throws std::runtime_error on an error or a
+  /// missing answer.
   std::string ask(const std::string& command);
 
-  /// The rest of the next line that starts with `received TOPIC `, which the peer says for every message:
-  /// "SIZE HASH".
+  /// The rest of the next line that starts with `received TOPIC `: "SIZE HASH".
   std::string next_received(const std::string& topic);
 
   bool matches(const std::string& topic, int count);
 
-  /// Memory it has in use now.
+  /// Its current memory use.
   std::size_t resident_kb() const;
 
   pid_t id() const { return pid_; }
   void signal(int number) const;
-  /// When this returns, it runs no more and its ports are free.
+  /// Kills the process; it has ended and its ports are free once this has returned.
   void kill_and_wait() const;
   /// Waits until a stop signal has taken effect.
   void wait_until_stopped() const;

@@ -13,7 +13,7 @@
 
 namespace panvo::runtime::test {
 
-/// Any bytes at all, under the name of any type.
+/// A data type of arbitrary bytes with any type name.
 class RawType final : public eprosima::fastdds::dds::TopicDataType {
  public:
   using Payload = std::vector<std::uint8_t>;

@@ -8,8 +8,8 @@
 
 namespace panvo::runtime::test {
 
-/// Writes any bytes at all to a topic, past the bridge: what a faulty or foreign program may send. Its lease has no end: it is missed only if it
-/// says goodbye or is replaced.
+/// Writes arbitrary bytes to a topic without the bridge, like a faulty or foreign program. Its lease never expires: it
+/// is only removed when it leaves or is replaced.
 class RawWriter {
  public:
   struct Offer {

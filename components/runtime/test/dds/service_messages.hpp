@@ -8,7 +8,7 @@
 
 namespace panvo::runtime::test {
 
-/// The tests' service: a text is asked, a text answered.
+/// The tests' service: a text as request and response.
 inline constexpr const char* kServiceType = "rcl_interfaces/srv/GetParameters";
 
 inline interfaces::Bytes request(const std::string& text) {

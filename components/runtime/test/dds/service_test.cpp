@@ -44,7 +44,7 @@ TEST_F(BetweenProcesses, ARequestOfTheOtherProcessIsAnswered) {
   const auto server = bridge->serve(service(name), echo);
   EXPECT_EQ(peer.ask("call " + name + " one"), "here:one");
   EXPECT_EQ(peer.ask("call " + name + " two"), "here:two");
-  // It counts an answer once that is sent, when the client may have it already.
+  // An answer is counted after sending, when the client may already have it.
   EXPECT_TRUE(eventually([&] { return server->counters().answered == 2; }));
   EXPECT_EQ(server->counters().received, 2U);
 }
@@ -81,7 +81,7 @@ TEST_F(BetweenProcesses, AServiceThatEndedIsNotFoundAndOneThatComesBackIs) {
   EXPECT_TRUE(client->call(request("again"), kLimit));
 }
 
-/// Has a peer's raw client ask until it is heard: that it matches there does not say that it matches here yet.
+/// Lets a peer's raw client send requests until one arrives: a match there does not imply a match here.
 bool is_heard(PeerProcess& peer, const std::string& name, const BridgeService& server) {
   return peer.matches(name, 1) && eventually([&] {
            return peer.ask("write_bytes " + name + as_numbers(request("any"))) == "written" &&
@@ -97,7 +97,7 @@ TEST_F(BetweenProcesses, ARequestThatIsNoneIsCountedAndTheNextAnswered) {
   ASSERT_EQ(peer.ask("write_bytes " + name + " 0 1 0 0 255 255 255 255"), "written");
   ASSERT_EQ(peer.ask("write_bytes " + name + " 0 3 0 0 1 0 0 0"), "written");
   EXPECT_TRUE(eventually([&] { return server->counters().malformed == 2; }));
-  EXPECT_TRUE(is_warned_of(name, "is none"));
+  EXPECT_TRUE(is_warned_of(name, "malformed"));
   EXPECT_EQ(peer.ask("call " + name + " next"), "here:next");
 }
 
@@ -137,7 +137,7 @@ TEST_F(BetweenProcesses, ASlowHandlerHoldsNoTopicAndWhatComesMeanwhileIsBounded)
   ASSERT_TRUE(eventually([&] { return reader->matched_writers() == 1; }));
   constexpr std::uint64_t kRequests = 100;
   const auto ask = [&] { return peer.ask("write_bytes " + name + as_numbers(request("slow"))) == "written"; };
-  ASSERT_TRUE(eventually([&] { return ask() && server->counters().received > 0; }));  // matched on both sides
+  ASSERT_TRUE(eventually([&] { return ask() && server->counters().received > 0; }));  // now matched on both sides
   for (std::uint64_t i = 0; i < kRequests; ++i) ask();
   EXPECT_TRUE(eventually([&] { return server->counters().received >= kRequests; }));
   peer.ask("write_text " + text + " yes");
@@ -198,7 +198,7 @@ TEST_F(BetweenProcesses, RequestsThatAreTooLargeOrTooManyAreDroppedAndCounted) {
   EXPECT_EQ(server->counters().answered, 0U);
   EXPECT_TRUE(eventually([&] { return ask("short") && server->counters().answered > 0; }));
   ASSERT_TRUE(ask("short"));
-  EXPECT_TRUE(is_warned_of(name, "requests a second"));
+  EXPECT_TRUE(is_warned_of(name, "requests per second"));
 }
 
 TEST(RequestRate, LetsThroughWhatComesInOneSecondAtOnceAndThenAsManyASecond) {
@@ -235,7 +235,7 @@ TEST_F(BetweenProcesses, AClientThatIsDiscoveredLateGetsItsAnswerAndHoldsUpNobod
   ASSERT_TRUE(
       eventually([&] { return peer.ask("ask_late " + name + " late") == "asked" && server->counters().received > 0; }));
   EXPECT_EQ(peer.ask("call " + name + " next"), "here:next");
-  EXPECT_TRUE(eventually([&] { return server->counters().answered == 1; }));  // of the late client nothing is known yet
+  EXPECT_TRUE(eventually([&] { return server->counters().answered == 1; }));  // the late client is not discovered yet
   EXPECT_EQ(peer.ask("late_reply " + name), "here:late");
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A container in another process, steered by its services as ROS 2 tools do it.
+// A container in another process, controlled by services like ROS 2 tools do.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -33,11 +33,11 @@ using testing::HasSubstr;
 
 class Steering : public testing::Test {
  protected:
-  /// The other process answers from when it has a container, and loads for others once it runs.
+  /// The other process answers once its container exists, and loads components on request once it runs.
   void SetUp() override {
     ASSERT_TRUE(eventually([&] { return !loaded().empty(); }));
     LoadNode_Request none;
-    ASSERT_TRUE(eventually([&] { return load(none).error_message().find("still loads") == std::string::npos; }));
+    ASSERT_TRUE(eventually([&] { return load(none).error_message().find("still loading") == std::string::npos; }));
   }
 
   template <class Response, class Request>
@@ -96,7 +96,7 @@ class Steering : public testing::Test {
     reader = bridge->open_reader(describe(kEchoed), echoed.callback());
     writer = bridge->open_writer(describe(kToEcho));
     ASSERT_TRUE(eventually([&] { return writer->matched_readers() == 1 && reader->matched_writers() == 1; }));
-    // That they match here does not say that they match there yet, where what comes before is lost.
+    // A match here does not imply a match there, before which messages are lost.
     ASSERT_TRUE(eventually([&] { return writer->write(text_sample("any")) && !echoed.items().empty(); }));
     ASSERT_TRUE(writer->write(text_sample("end")));
     ASSERT_TRUE(echoed.wait_for([](const SamplePtr& sample) { return text_of(sample) == "end"; }));
@@ -202,7 +202,7 @@ TEST_F(Steering, TellsOfParametersThatComeAndThatAreSet) {
              event.changed_parameters()[0].value().string_value() == text;
     };
   };
-  // That the reader matches here does not say that it matches there yet.
+  // A match here does not imply a match there.
   ASSERT_TRUE(eventually([&] { return set_before("any").empty() && !events.items().empty(); }));
   EXPECT_EQ(set_before("> "), "");
   EXPECT_TRUE(is_told(tells_before("> ")));
@@ -245,7 +245,7 @@ TEST_F(Steering, LosesNothingElsewhereAndKeepsNoMemoryWhileComponentsComeAndGo) 
     for (std::size_t i = 0; i < kMessagesEach; ++i) ASSERT_TRUE(writer->write(text_sample(std::to_string(sent++))));
   };
   std::mt19937 random(7);
-  // Names come again, as a user's do: Fast DDS 2.9 remembers a few kilobytes for each name of a topic that it ever heard.
+  // Names are reused, as users do: Fast DDS 2.9 keeps a few kilobytes for each topic name it has ever seen.
   std::map<std::string, std::uint64_t> there;
   std::size_t loads = 0, resident_kb = 0;
   while (loads < kCycles || !there.empty()) {
@@ -259,7 +259,7 @@ TEST_F(Steering, LosesNothingElsewhereAndKeepsNoMemoryWhileComponentsComeAndGo) 
       const auto response = load(request);
       ASSERT_TRUE(response.success()) << response.error_message();
       there[request.node_name()] = response.unique_id();
-      // Caches and histories are full by then: of 1,200 loads, the first 300 add some 3 MB, all others 1.
+      // Caches and histories are full by then: of 1,200 loads, the first 300 add about 3 MB, all others 1 MB.
       if (++loads == kCycles / 2) resident_kb = peer.resident_kb();
     }
   }

@@ -6,7 +6,7 @@
 
 namespace panvo::runtime::test {
 
-/// What the steered container's component reads and writes: nothing may be lost.
+/// QoS of the topics of the controlled component: nothing may be lost.
 inline constexpr interfaces::Qos kAll{.depth = 1000, .keep_all = true};
 inline constexpr interfaces::Topic<std_msgs::msg::String> kToEcho{"/robot/to_echo", kAll};
 inline constexpr interfaces::Topic<std_msgs::msg::String> kEchoed{"/robot/echoed", kAll};

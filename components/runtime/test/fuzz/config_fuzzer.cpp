@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// For libFuzzer: the first byte says what the rest is: a system file, a ROS 2 parameter file, a message or a value as people write it, a setting of
-// the command line. Whatever it is, it is read, or refused by a ConfigError.
+// For libFuzzer: the first byte selects the kind of the remaining input: a system file, a ROS 2 parameter file, a
+// message or value in YAML, or a command-line setting. It must be read or refused with a ConfigError.
 #include <unistd.h>
 
 #include <cstdlib>
@@ -46,7 +46,7 @@ fs::path file(const std::string& name) {
   return path;
 }
 
-/// What a component would make of it.
+/// Reads the parameters like a component.
 void construct(const SystemDescription& system) {
   for (const auto& container : system.containers) {
     for (const auto& component : container.components) {

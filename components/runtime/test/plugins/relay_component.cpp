@@ -6,7 +6,8 @@ namespace {
 using panvo::runtime::Component;
 using panvo::runtime::Context;
 
-/// Publishes on image_rect a new image with the stamp of each that comes on image_raw; keeps the last one, and publishes one at once.
+/// For each image on image_raw, publishes a new image with its stamp on image_rect and keeps the last one; publishes
+/// one at construction.
 class RelayComponent final : public Component {
  public:
   struct Parameters {
@@ -35,7 +36,7 @@ class RelayComponent final : public Component {
 
 PANVO_REGISTER_COMPONENT(RelayComponent)
 
-/// A second component in the same plugin, which cannot be made.
+/// A second component in the same plugin, whose constructor fails.
 class BrokenComponent final : public Component {
  public:
   explicit BrokenComponent(Context&) { throw std::runtime_error("no camera found"); }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A plugin that was compiled long ago, with other headers.
+// A plugin compiled with other headers.
 #include <cstdlib>
 
 #include "panvo/runtime/component.hpp"

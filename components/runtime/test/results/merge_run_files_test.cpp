@@ -63,9 +63,9 @@ TEST(MergeRunFiles, NamesContainersThatWereKilledAndKeepsWhatTheyLeft) {
   EXPECT_EQ(summary["exit_status"], 1);
   EXPECT_EQ(summary["version"], "0.1.0");
   EXPECT_THAT(summary["problems"].get<std::vector<std::string>>(),
-              ElementsAre("player was late", "container odometry left no summary.json: it did not come to its end",
-                          "container cut left no summary.json: it did not come to its end",
-                          "container none left no summary.json: it did not come to its end"));
+              ElementsAre("player was late", "container odometry left no summary.json: it did not finish",
+                          "container cut left no summary.json: it did not finish",
+                          "container none left no summary.json: it did not finish"));
   EXPECT_EQ(folder.read("odometry_binocular.tum"), "1.000000000 2 0 0 0 0 0 1\n");
   EXPECT_EQ(nlohmann::json::parse(folder.read("timing.json"))["components"], nlohmann::json::object());
 }

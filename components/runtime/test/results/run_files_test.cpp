@@ -183,7 +183,7 @@ TEST(RunFiles, LeavesOutWhatIsNotFiniteOrNoMessageAndSaysSo) {
   const auto problems = nlohmann::json::parse(folder.read("summary.json"))["problems"].get<std::vector<std::string>>();
   EXPECT_THAT(problems,
               ElementsAre("odometry_binocular.tum lacks 2 messages of /odometry/binocular: undecodable, or with "
-                          "numbers that are not finite",
+                          "non-finite numbers",
                           HasSubstr("odometry_binocular_covariance.csv lacks 2 messages")));
 }
 
@@ -227,7 +227,7 @@ TEST(RunFiles, LeavesWhatItHadWhenTheProcessIsKilled) {
   EXPECT_EQ(folder.read("odometry_binocular.tum"), "1.000000000 1 0 0 0 0 0 1\n2.000000000 2 0 0 0 0 0 1\n");
 }
 
-/// Files of this process cannot grow beyond a size while this lives: what a full disk does, without one.
+/// Limits the file size of this process during its lifetime, to simulate a full disk.
 class FileSizeLimit {
  public:
   explicit FileSizeLimit(rlim_t bytes) {
@@ -274,7 +274,7 @@ TEST(RunFiles, RefusesAFolderThatCannotBeWrittenTo) {
       FAIL() << bad;
     } catch (const std::runtime_error& error) {
       EXPECT_THAT(error.what(), HasSubstr("cannot write " + bad.string()));
-      EXPECT_THAT(error.what(), HasSubstr("choose a folder that can be written to"));
+      EXPECT_THAT(error.what(), HasSubstr("choose a writable folder"));
     }
   }
 }

@@ -34,7 +34,7 @@ class RunFolder : public testing::Test {
 
 TEST_F(RunFolder, IsTakenWhenItIsNewOrEmptyOrOfAnEarlierRun) {
   EXPECT_EQ(refusal(), "");
-  std::ofstream(folder_ / "odometry_binocular.tum") << "1 2 3\n";  // of a run that was killed
+  std::ofstream(folder_ / "odometry_binocular.tum") << "1 2 3\n";  // left by a killed run
   EXPECT_EQ(refusal(), "");
   std::filesystem::remove_all(folder_);
   std::filesystem::create_directories(folder_);
@@ -44,7 +44,7 @@ TEST_F(RunFolder, IsTakenWhenItIsNewOrEmptyOrOfAnEarlierRun) {
 TEST_F(RunFolder, WithFilesOfSomebodyElseIsRefusedUnlessToldTo) {
   std::filesystem::create_directories(folder_);
   std::ofstream(folder_ / "odometry_binocular.tum") << "precious\n";
-  EXPECT_THAT(refusal(), testing::AllOf(HasSubstr("holds odometry_binocular.tum"), HasSubstr("--overwrite")));
+  EXPECT_THAT(refusal(), testing::AllOf(HasSubstr("contains odometry_binocular.tum"), HasSubstr("--overwrite")));
   EXPECT_THAT(refusal(), HasSubstr("--overwrite")) << "asking changes nothing";
   EXPECT_EQ(refusal(true), "");
 }

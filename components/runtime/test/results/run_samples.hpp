@@ -8,7 +8,7 @@
 #include "nav_msgs/msg/Odometry.h"
 #include "panvo/runtime/run_files.hpp"
 
-/// Messages, topics and a summary for tests of what a run leaves.
+/// Messages, topics and a summary for tests of result files.
 namespace panvo::runtime {
 
 using nav_msgs::msg::Odometry;

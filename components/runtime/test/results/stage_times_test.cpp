@@ -19,8 +19,7 @@ double nearest_rank_ms(std::vector<std::int64_t> sorted_ns, double fraction) {
 
 TEST(DurationHistogram, QuantilesAreWithinTwoPercentOfSortedData) {
   std::mt19937_64 random(7);
-  // From 1 us to 400 s evenly over the decades, and times of a stage as they come: about 16 ms with a long
-  // tail.
+  // Durations spread evenly over the decades from 1 us to 400 s, and typical stage times: about 16 ms with a long tail.
   for (const bool all_decades : {true, false}) {
     std::uniform_real_distribution<double> decade(3.0, 11.6);
     std::lognormal_distribution<double> stage(std::log(16e6), 0.4);
@@ -103,7 +102,7 @@ TEST(StageTimer, AddsTheTimeOfItsLifeOnBothClocks) {
   const auto stage = times.snapshot().at("work");
   EXPECT_EQ(stage.wall.count(), 1U);
   EXPECT_GT(stage.cpu.max_ms(), 0.0);
-  // This thread cannot have used more CPU than time went by; 1 ms for the two clocks' ticks.
+  // This thread cannot have used more CPU time than wall time; 1 ms tolerance for the clock resolutions.
   EXPECT_LE(stage.cpu.max_ms(), stage.wall.max_ms() + 1.0);
 }
 

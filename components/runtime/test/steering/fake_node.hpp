@@ -8,7 +8,7 @@
 
 namespace panvo::runtime::steering {
 
-/// A node with parameters of every type; `tracker.gain` and `mode` may be set.
+/// A node with parameters of every type; `tracker.gain` and `mode` are settable.
 class FakeNode final : public SteeredNode {
  public:
   FakeNode() {
@@ -63,7 +63,7 @@ class FakeNode final : public SteeredNode {
   }
 };
 
-/// Asks the service whose name ends so.
+/// Calls the service with this name ending.
 template <class Response, class Request>
 Response ask(const std::vector<OfferedService>& services, const std::string& end, const Request& request) {
   for (const auto& service : services) {

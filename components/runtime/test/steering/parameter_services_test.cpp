@@ -136,7 +136,7 @@ TEST_F(ParameterServices, SetEachForItself) {
   ASSERT_EQ(results.size(), 3U);
   EXPECT_TRUE(results[0].successful());
   EXPECT_FALSE(results[1].successful());
-  EXPECT_EQ(results[1].reason(), "mode is a text, a number was given");
+  EXPECT_EQ(results[1].reason(), "mode is a text, but a number was given");
   EXPECT_TRUE(results[2].successful());
   EXPECT_EQ(get({"tracker.gain"}).values()[0].double_value(), 0.25);
 }

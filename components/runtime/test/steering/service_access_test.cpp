@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Who may do what by service.
+// Access rights of service requests.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -40,7 +40,7 @@ class ServiceAccessTo : public testing::Test {
     throw std::runtime_error("there is no service " + end);
   }
 
-  /// The answer of the guard to a request from another host where the system file says nothing.
+  /// The guard's answer to a request from another host with default settings.
   template <class Response, class Request>
   Response refusal(const std::string& end, const Request& request) const {
     const auto answer = guard_of(service(end), ServiceAccess::kByHost)(to_bytes(request), kElsewhere);

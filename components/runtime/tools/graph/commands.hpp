@@ -7,7 +7,7 @@
 
 namespace panvo::runtime::graph {
 
-/// Each adds its commands to the command line; they run when it is parsed. `options` is complete by then.
+/// Each function adds its commands to the command line; they run during parsing, when `options` is complete.
 void add_node_commands(CLI::App& app, const SessionOptions& options);
 void add_param_commands(CLI::App& app, const SessionOptions& options);
 void add_topic_commands(CLI::App& app, const SessionOptions& options);

@@ -81,14 +81,14 @@ void unload(const SessionOptions& options, const Arguments& arguments) {
 }  // namespace
 
 void add_component_commands(CLI::App& app, const SessionOptions& options) {
-  auto* component = app.add_subcommand("component", "the components of running containers");
+  auto* component = app.add_subcommand("component", "components of running containers");
   component->require_subcommand(1);
   const auto arguments = std::make_shared<Arguments>();
-  component->add_subcommand("running", "the containers, and what each has loaded, with its id")->callback([&options] {
+  component->add_subcommand("running", "list containers with their components and ids")->callback([&options] {
     running(options);
   });
 
-  auto* load_command = component->add_subcommand("load", "loads one into a running container");
+  auto* load_command = component->add_subcommand("load", "load a component into a running container");
   load_command->add_option("CONTAINER", arguments->container, "such as /panvo")->required();
   load_command->add_option("PACKAGE", arguments->package, "such as panvo_stereo_rectifier")->required();
   load_command->add_option("PLUGIN", arguments->plugin, "such as StereoRectifierComponent")->required();
@@ -100,9 +100,9 @@ void add_component_commands(CLI::App& app, const SessionOptions& options) {
   load_command->add_option("-r,--remap-rule", arguments->remaps, "from:=to; may be repeated")->expected(1)->take_all();
   load_command->callback([&options, arguments] { load(options, *arguments); });
 
-  auto* unload_command = component->add_subcommand("unload", "ends some of a running container");
+  auto* unload_command = component->add_subcommand("unload", "unload components of a running container");
   unload_command->add_option("CONTAINER", arguments->container)->required();
-  unload_command->add_option("ID", arguments->ids, "as `panvo component running` tells")->required();
+  unload_command->add_option("ID", arguments->ids, "see `panvo component running`")->required();
   unload_command->callback([&options, arguments] { unload(options, *arguments); });
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Looks at and steers the nodes of a DDS domain, ours and ROS 2's.
+// Inspects and controls the nodes of a DDS domain, ours and ROS 2's.
 #include <cstdio>
 #include <exception>
 
@@ -12,18 +12,18 @@ int main(int argc, char** argv) {
   constexpr int kFailed = 1, kBadCommandLine = 2, kInterrupted = 130;
   const graph::PrintableOutput output;
   graph::SessionOptions options;
-  CLI::App app("Looks at and steers the nodes of a DDS domain: panvo's own, and those of ROS 2.", "panvo");
+  CLI::App app("Inspects and controls the nodes of a DDS domain: panvo's own, and those of ROS 2.", "panvo");
   app.require_subcommand(1);
   app.fallthrough();
   app.footer(
-      "ROS_DOMAIN_ID, ROS_DISTRO, ROS_LOCALHOST_ONLY and ROS_DISCOVERY_SERVER are honoured. Exit status: 0 well, 1 not "
-      "found, no answer or refused, 2 the command line is wrong, 130 interrupted.");
+      "ROS_DOMAIN_ID, ROS_DISTRO, ROS_LOCALHOST_ONLY and ROS_DISCOVERY_SERVER are honoured. Exit status: 0 success, 1 "
+      "not found, no answer or refused, 2 invalid command line, 130 interrupted.");
   try {
     options.dds = dds_settings_from_environment();
     options.dds.name = "panvo_graph";
-    app.add_option("--domain", options.dds.domain, "DDS domain, before ROS_DOMAIN_ID")->check(CLI::Range(0, 232));
+    app.add_option("--domain", options.dds.domain, "DDS domain; overrides ROS_DOMAIN_ID")->check(CLI::Range(0, 232));
     app.add_option("--dds-profiles", options.dds.profiles, "Fast DDS XML profile file")->check(CLI::ExistingFile);
-    app.add_option("--timeout", options.timeout_s, "seconds to wait: for discovery, an answer, a first message")
+    app.add_option("--timeout", options.timeout_s, "seconds to wait for discovery, an answer or a first message")
         ->check(CLI::Range(0.1, 3600.0))
         ->capture_default_str();
     graph::add_node_commands(app, options);

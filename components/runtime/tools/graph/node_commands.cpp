@@ -15,7 +15,7 @@ void list(const SessionOptions& options) {
   for (const auto& node : session.settled_graph().nodes) ++nodes[full_name_of(node)];
   for (const auto& [name, count] : nodes) {
     std::cout << name << "\n";
-    if (count > 1) std::cerr << "panvo: there are " << count << " nodes of the name " << name << "\n";
+    if (count > 1) std::cerr << "panvo: " << count << " nodes have the name " << name << "\n";
   }
 }
 
@@ -50,10 +50,10 @@ void info(const SessionOptions& options, const std::string& name) {
 }  // namespace
 
 void add_node_commands(CLI::App& app, const SessionOptions& options) {
-  auto* node = app.add_subcommand("node", "the nodes of the domain");
+  auto* node = app.add_subcommand("node", "nodes of the domain");
   node->require_subcommand(1);
-  node->add_subcommand("list", "their names")->callback([&options] { list(options); });
-  auto* info_command = node->add_subcommand("info", "the topics and services of a node");
+  node->add_subcommand("list", "list the nodes")->callback([&options] { list(options); });
+  auto* info_command = node->add_subcommand("info", "show the topics and services of a node");
   const auto name = std::make_shared<std::string>();
   info_command->add_option("NODE", *name, "such as /binocular_odometry")->required();
   info_command->callback([&options, name] { info(options, absolute(*name)); });

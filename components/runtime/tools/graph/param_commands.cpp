@@ -25,7 +25,7 @@ const char* type_name(std::uint8_t type) {
   return type < std::size(kNames) ? kNames[type] : "unknown";
 }
 
-/// As one could write it in a system file.
+/// In the notation of a system file.
 std::string shown(const rcl_interfaces::msg::ParameterValue& value) {
   const auto written = steering::written_value(value);
   if (!written) return "not set";
@@ -95,7 +95,7 @@ void set(const SessionOptions& options, const Arguments& arguments) {
                            .call<SetParameters_Response>(absolute(arguments.node) + "/set_parameters",
                                                          "rcl_interfaces/srv/SetParameters", request)
                            .results();
-  if (results.empty()) throw Failure("the node gave no result");
+  if (results.empty()) throw Failure("the node returned no result");
   if (!results[0].successful()) throw Failure("not set: " + results[0].reason());
   std::cout << "set\n";
 }
@@ -117,7 +117,7 @@ void describe(const SessionOptions& options, const Arguments& arguments) {
     for (const auto& range : one.floating_point_range())
       std::cout << ", " << to_text(range.from_value()) << " .. " << to_text(range.to_value());
     if (!one.additional_constraints().empty()) std::cout << ", " << one.additional_constraints();
-    std::cout << (one.read_only() ? ", fixed once the node is made" : ", may be set") << "\n";
+    std::cout << (one.read_only() ? ", read-only" : ", settable") << "\n";
     if (!one.description().empty()) std::cout << "  " << one.description() << "\n";
   }
 }
@@ -125,7 +125,7 @@ void describe(const SessionOptions& options, const Arguments& arguments) {
 }  // namespace
 
 void add_param_commands(CLI::App& app, const SessionOptions& options) {
-  auto* param = app.add_subcommand("param", "the parameters of nodes");
+  auto* param = app.add_subcommand("param", "parameters of nodes");
   param->require_subcommand(1);
   const auto arguments = std::make_shared<Arguments>();
   const auto add = [&](const char* name, const char* what, void (*run)(const SessionOptions&, const Arguments&)) {
@@ -133,17 +133,17 @@ void add_param_commands(CLI::App& app, const SessionOptions& options) {
     command->callback([&options, arguments, run] { run(options, *arguments); });
     return command;
   };
-  auto* list_command = add("list", "of a node, or of all", list);
+  auto* list_command = add("list", "list the parameters of one or all nodes", list);
   list_command->add_option("NODE", arguments->node, "such as /binocular_odometry");
-  list_command->add_option("--prefix", arguments->prefixes, "only what is below this, such as tracker");
-  auto* get_command = add("get", "the value of one", get);
-  auto* set_command = add("set", "gives one another value, if its node lets it", set);
+  list_command->add_option("--prefix", arguments->prefixes, "only parameters below this prefix, such as tracker");
+  auto* get_command = add("get", "print the value of a parameter", get);
+  auto* set_command = add("set", "set a parameter, if its node allows it", set);
   for (auto* command : {get_command, set_command}) {
     command->add_option("NODE", arguments->node)->required();
     command->add_option("NAME", arguments->name)->required();
   }
   set_command->add_option("VALUE", arguments->value, "YAML: true, 5, 0.5, fast, [1.0, 2.0]")->required();
-  auto* describe_command = add("describe", "what one is for and which values it takes", describe);
+  auto* describe_command = add("describe", "describe a parameter: purpose, type and range", describe);
   describe_command->add_option("NODE", arguments->node)->required();
   describe_command->add_option("NAME", arguments->name, "(default: all)");
 }

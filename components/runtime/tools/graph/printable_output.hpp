@@ -9,8 +9,8 @@
 
 namespace panvo::runtime::graph {
 
-/// As long as it lives, what is written to std::cout gets out in whole lines, and in characters that steer no terminal: most of it comes from other
-/// processes.
+/// During its lifetime, makes std::cout print complete lines without terminal control characters, as most text comes
+/// from other processes.
 class PrintableOutput final : std::streambuf {
  public:
   PrintableOutput() : out_(std::cout.rdbuf(this)) {}

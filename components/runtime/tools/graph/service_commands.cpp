@@ -22,7 +22,7 @@ void list(const SessionOptions& options, bool with_types) {
   for (const auto& [name, type] : services) std::cout << name << (with_types ? " [" + type + "]" : "") << "\n";
 }
 
-/// The type of the service of that name, as its server has it.
+/// Type of a service according to its server.
 std::string type_of(Session& session, const std::string& name) {
   const auto is_it = [&](const GraphEndpoint& endpoint) { return is_server(endpoint) && endpoint.name == name; };
   const Graph graph = session.graph_with(
@@ -51,18 +51,18 @@ void call(const SessionOptions& options, const std::string& name, std::string ty
 }  // namespace
 
 void add_service_commands(CLI::App& app, const SessionOptions& options) {
-  auto* service = app.add_subcommand("service", "the services of the domain");
+  auto* service = app.add_subcommand("service", "services of the domain");
   service->require_subcommand(1);
   struct Arguments {
     std::string name, type, request = "{}";
     bool with_types = false;
   };
   const auto arguments = std::make_shared<Arguments>();
-  auto* list_command = service->add_subcommand("list", "their names");
-  list_command->add_flag("-t,--show-types", arguments->with_types, "their types too");
+  auto* list_command = service->add_subcommand("list", "list the services");
+  list_command->add_flag("-t,--show-types", arguments->with_types, "also show types");
   list_command->callback([&options, arguments] { list(options, arguments->with_types); });
 
-  auto* call_command = service->add_subcommand("call", "asks one and prints its answer");
+  auto* call_command = service->add_subcommand("call", "call a service and print its response");
   call_command->add_option("SERVICE", arguments->name, "such as /binocular_odometry/get_parameters")->required();
   call_command->add_option("REQUEST", arguments->request, "YAML, such as '{names: [tracker.max_features]}'");
   call_command->add_option("--type", arguments->type,

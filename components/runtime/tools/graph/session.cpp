@@ -69,7 +69,7 @@ interfaces::Bytes Session::call(const ServiceDescription& service, const interfa
   const auto client = bridge_->open_client(service);
   if (!client->wait_for_service(timeout_)) {
     throw Failure("service " + service.name + " of type " + service.type_name +
-                  " is not there; is its process on this ROS_DOMAIN_ID? (--timeout waits longer)");
+                  " not found; is its process in this ROS_DOMAIN_ID? (--timeout waits longer)");
   }
   auto answer = client->call(request, timeout_);
   if (!answer) throw Failure("service " + service.name + " did not answer in time (--timeout waits longer)");

@@ -12,22 +12,23 @@
 
 namespace panvo::runtime::graph {
 
-/// What was asked for is not there, or did not go well: said, exit status 1.
+/// A request that failed or found nothing: printed, exit status 1.
 class Failure : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// Whether Ctrl-C or SIGTERM came. A second one ends the process at once.
+/// is_stopped(): whether Ctrl-C or SIGTERM was received since watch_for_stop(). A second signal ends the process
+/// immediately.
 void watch_for_stop();
 bool is_stopped();
 
 struct SessionOptions {
   DdsSettings dds;
-  double timeout_s = 5;  ///< of all waiting: for discovery, for an answer, for a first message
+  double timeout_s = 5;  ///< limit for discovery, an answer or a first message
 };
 
-/// The other processes of a DDS domain, for a command that looks once and ends.
+/// Access to the other processes of a DDS domain for one command.
 class Session {
  public:
   explicit Session(const SessionOptions& options);
@@ -35,12 +36,12 @@ class Session {
   Bridge& bridge() { return *bridge_; }
   std::chrono::milliseconds timeout() const { return timeout_; }
 
-  /// What there is once nothing new has been found for a while.
+  /// The graph once nothing new has been discovered for a while.
   Graph settled_graph();
-  /// As soon as `is_there`; or what there is when the time is over, or Ctrl-C came.
+  /// The graph as soon as `is_there` holds, or at the timeout or Ctrl-C.
   Graph graph_with(const std::function<bool(const Graph&)>& is_there);
 
-  /// Asks a service. Throws Failure when nobody answers in time.
+  /// Calls a service. Throws Failure if there is no answer in time.
   interfaces::Bytes call(const ServiceDescription& service, const interfaces::Bytes& request);
   template <class Response, class Request>
   Response call(const std::string& name, const std::string& type_name, const Request& request) {
@@ -52,11 +53,11 @@ class Session {
   std::unique_ptr<Bridge> bridge_;
 };
 
-/// "/robot/tracker" of a node.
+/// Full name of a node: "/robot/tracker".
 std::string full_name_of(const GraphNode& node);
-/// As it may be written on a command line: without the leading slash.
+/// Adds the leading slash that may be omitted on the command line.
 std::string absolute(const std::string& name);
-/// The node that has an endpoint; empty: it is not told.
+/// Full name of the node that owns an endpoint; empty if unknown.
 std::string node_of(const Graph& graph, const GraphEndpoint& endpoint);
 
 }  // namespace panvo::runtime::graph

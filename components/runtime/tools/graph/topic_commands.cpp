@@ -41,9 +41,9 @@ void list(const SessionOptions& options, bool with_types) {
 
 void print(const Graph& graph, const GraphEndpoint& endpoint) {
   const std::string node = node_of(graph, endpoint);
-  std::cout << "\nNode: " << (node.empty() ? "(of no ROS 2 node)" : node)
+  std::cout << "\nNode: " << (node.empty() ? "(not a ROS 2 node)" : node)
             << "\nEndpoint: " << (endpoint.is_writer ? "publisher" : "subscription") << "\nType: " << endpoint.type_name
-            << "\nType hash: " << (endpoint.type_hash.empty() ? "(not told)" : endpoint.type_hash)
+            << "\nType hash: " << (endpoint.type_hash.empty() ? "(unknown)" : endpoint.type_hash)
             << "\nGID: " << endpoint.gid << "\nReliability: "
             << (endpoint.qos.requested == interfaces::Reliability::kReliable ? "reliable" : "best effort")
             << "\nDurability: "
@@ -71,17 +71,17 @@ void info(const SessionOptions& options, const std::string& name, bool verbose) 
 }  // namespace
 
 void add_topic_commands(CLI::App& app, const SessionOptions& options) {
-  auto* topic = app.add_subcommand("topic", "the topics of the domain");
+  auto* topic = app.add_subcommand("topic", "topics of the domain");
   topic->require_subcommand(1);
   const auto reading = std::make_shared<TopicReading>();
   const auto flag = std::make_shared<bool>(false);
-  auto* list_command = topic->add_subcommand("list", "their names");
-  list_command->add_flag("-t,--show-types", *flag, "their types too");
+  auto* list_command = topic->add_subcommand("list", "list the topics");
+  list_command->add_flag("-t,--show-types", *flag, "also show types");
   list_command->callback([&options, flag] { list(options, *flag); });
 
-  auto* info_command = topic->add_subcommand("info", "type, publishers and subscriptions of one");
+  auto* info_command = topic->add_subcommand("info", "show type, publishers and subscriptions of a topic");
   info_command->add_option("TOPIC", reading->topic, "such as /odometry/binocular")->required();
-  info_command->add_flag("-v,--verbose", *flag, "nodes, type hashes and quality of service too");
+  info_command->add_flag("-v,--verbose", *flag, "also show nodes, type hashes and quality of service");
   info_command->callback([&options, reading, flag] { info(options, absolute(reading->topic), *flag); });
 
   const auto add = [&](const char* name, const char* what, void (*run)(const SessionOptions&, const TopicReading&)) {
@@ -94,15 +94,15 @@ void add_topic_commands(CLI::App& app, const SessionOptions& options) {
     });
     return command;
   };
-  auto* echo_command = add("echo", "prints its messages as YAML, until Ctrl-C", echo);
-  echo_command->add_option("-n,--count", reading->count, "end after so many");
+  auto* echo_command = add("echo", "print messages as YAML until Ctrl-C", echo);
+  echo_command->add_option("-n,--count", reading->count, "stop after this many messages");
   echo_command->add_flag_callback(
-      "--once", [reading] { reading->count = 1; }, "end after the first");
-  echo_command->add_flag("-f,--full-length", reading->whole, "long lists and texts whole");
-  for (auto* command : {add("hz", "how often its messages come, once a second until Ctrl-C", hz),
-                        add("bw", "how many bytes a second it takes, once a second until Ctrl-C", bw)}) {
-    command->add_option("-n,--count", reading->count, "end after so many reports");
-    command->add_option("-w,--window", reading->window, "messages a report looks back on")
+      "--once", [reading] { reading->count = 1; }, "stop after the first message");
+  echo_command->add_flag("-f,--full-length", reading->whole, "do not shorten long lists and texts");
+  for (auto* command : {add("hz", "report the message rate once per second until Ctrl-C", hz),
+                        add("bw", "report the bandwidth once per second until Ctrl-C", bw)}) {
+    command->add_option("-n,--count", reading->count, "stop after this many reports");
+    command->add_option("-w,--window", reading->window, "number of messages that a report covers")
         ->check(CLI::Range(2, 1'000'000))
         ->capture_default_str();
   }

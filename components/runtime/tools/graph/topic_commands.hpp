@@ -8,12 +8,12 @@
 
 namespace panvo::runtime::graph {
 
-/// What a command that reads a topic was asked.
+/// Options of a command that reads a topic.
 struct TopicReading {
-  std::string topic, type_name;  // type empty: as it is written
-  std::size_t count = 0;         // of messages, or reports; 0: until Ctrl-C
-  std::size_t window = 1000;     // messages a report looks back on
-  bool whole = false;            // nothing is cut
+  std::string topic, type_name;  // empty type: the publisher's
+  std::size_t count = 0;         // number of messages or reports; 0: until Ctrl-C
+  std::size_t window = 1000;     // number of messages that a report covers
+  bool whole = false;            // do not shorten
 };
 
 void echo(const SessionOptions& options, const TopicReading& reading);

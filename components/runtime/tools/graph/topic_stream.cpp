@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Commands that read a topic for as long as one likes.
+// Commands that read a topic continuously.
 #include <algorithm>
 #include <cmath>
 #include <condition_variable>
@@ -18,7 +18,7 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::steady_clock;
 
-/// A topic's messages. Of those that come faster than they are taken the newest are kept.
+/// Messages of a topic. Keeps the newest if they arrive faster than they are taken.
 class Stream {
  public:
   struct Arrival {
@@ -33,7 +33,7 @@ class Stream {
     reader_ = session.bridge().open_reader(topic, [this](const SamplePtr& sample) { take(sample); });
   }
 
-  /// nullopt when none came before the limit, or Ctrl-C did.
+  /// nullopt at the limit or after Ctrl-C.
   std::optional<Arrival> next(milliseconds limit) {
     constexpr milliseconds kLookForStop{50};
     const auto end = steady_clock::now() + limit;
@@ -58,7 +58,7 @@ class Stream {
     return endpoint.kind == EndpointKind::kTopic && endpoint.is_writer && endpoint.name == reading.topic;
   }
 
-  /// Asks for what all its writers offer, so that none is left out.
+  /// Requests a QoS that all writers offer, so all are received.
   static TopicDescription describe(Session& session, const TopicReading& reading) {
     const auto is_it = [&](const GraphEndpoint& endpoint) { return is_writer(endpoint, reading); };
     const Graph graph = session.graph_with(
@@ -76,7 +76,7 @@ class Stream {
         topic.qos.durability = interfaces::Durability::kVolatile;
     }
     if (!is_written && reading.type_name.empty())
-      throw Failure("nobody publishes " + reading.topic + " (panvo topic list); --type waits for one that will");
+      throw Failure("no publisher of " + reading.topic + " (panvo topic list); use --type to wait for one");
     if (!is_written) topic.qos.durability = interfaces::Durability::kVolatile;
     topic.qos.depth = kMaxWaiting;
     topic.type = interfaces::find_message_type(topic.type_name);
@@ -99,17 +99,17 @@ class Stream {
   std::condition_variable came_;
   std::deque<Arrival> arrivals_;
   std::atomic<std::uint64_t> skipped_ = 0;
-  std::unique_ptr<BridgeReader> reader_;  // last: it calls take()
+  std::unique_ptr<BridgeReader> reader_;  // last: its callback is take()
 };
 
 constexpr milliseconds kForEver = std::chrono::hours(24 * 365);
 constexpr milliseconds kReportPeriod{1000};
 
 [[noreturn]] void fail_for_want_of_messages(const TopicReading& reading) {
-  throw Failure("no message came on " + reading.topic + " in time (--timeout waits longer)");
+  throw Failure("no message received on " + reading.topic + " in time (--timeout waits longer)");
 }
 
-/// Collects messages and reports once a second, the newest `window` of them.
+/// Collects messages and reports on the newest `window` of them once per second.
 template <class Report>
 void watch(const SessionOptions& options, const TopicReading& reading, const Report& report) {
   Session session(options);
@@ -166,7 +166,7 @@ void report_bandwidth(const std::deque<Stream::Arrival>& window, std::uint64_t s
   std::printf("%.1f KB/s from %zu messages\n\tmessage size mean: %.0f B min: %.0f B max: %.0f B\n", sum / span / 1000,
               window.size(), sum / count, least, most);
   if (skipped > 0)
-    std::printf("\t%llu messages came too fast to be looked at\n", static_cast<unsigned long long>(skipped));
+    std::printf("\t%llu messages came too fast and were skipped\n", static_cast<unsigned long long>(skipped));
 }
 
 }  // namespace
@@ -187,7 +187,7 @@ void echo(const SessionOptions& options, const TopicReading& reading) {
                 << std::endl;
       ++shown;
     } catch (const interfaces::DecodeError& error) {
-      std::cerr << "panvo: a message that is none: " << error.what() << "\n";
+      std::cerr << "panvo: malformed message: " << error.what() << "\n";
     }
   }
 }

@@ -32,9 +32,9 @@ std::map<std::string, Container::Peers> wanted_peers(const Container::Links& lin
     const std::size_t count = colon == std::string::npos ? 1 : count_of(given, given.substr(colon + 1));
     Container::Peers peers{.readers = has(links.published, topic) ? count : 0,
                            .writers = has(links.subscribed, topic) ? count : 0};
-    if (peers.readers > 0) peers.writers = 0;  // ours is written here: it is readers that are waited for
+    if (peers.readers > 0) peers.writers = 0;  // published here: wait for readers
     if (peers.readers + peers.writers == 0) {
-      throw ConfigError(fmt::format("--await {}: no component here has this topic; those here are {} {}", given,
+      throw ConfigError(fmt::format("--await {}: no component has this topic; available: {} {}", given,
                                     fmt::join(links.published, " "), fmt::join(links.subscribed, " ")));
     }
     wanted[topic] = peers;
@@ -55,8 +55,8 @@ void await_peers(Container& container, const std::vector<std::string>& topics, c
     waited += kStep;
     if (waited != kPatience) continue;
     log(LogLevel::kWarning, "container",
-        fmt::format("still waiting for another process on {}: does it run, in the same ROS_DOMAIN_ID, and does the "
-                    "network let it through?",
+        fmt::format("still waiting for another process on {}: check that it runs in the same ROS_DOMAIN_ID and that "
+                    "the network lets it through",
                     fmt::join(topics, " ")));
   }
 }

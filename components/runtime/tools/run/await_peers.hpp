@@ -9,9 +9,9 @@
 
 namespace panvo::runtime {
 
-/// Waits until another process reads each of these topics that `container` publishes, and writes each that it reads, or until `stop`; several
-/// processes where "TOPIC:COUNT" says so. For a system over several computers, whose parts nobody starts together. Throws ConfigError on a
-/// topic that is not here.
+/// Waits until each topic that `container` publishes has a reader in another process, and each topic it reads has a
+/// writer, or until `stop`. "TOPIC:COUNT" waits for several processes. For systems on several computers that are
+/// started independently. Throws ConfigError for a topic that the container does not have.
 void await_peers(Container& container, const std::vector<std::string>& topics, const std::atomic<bool>& stop,
                  const Logger::Write& log);
 

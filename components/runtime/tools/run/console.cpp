@@ -43,13 +43,13 @@ Console::Console(const std::filesystem::path& log_file, LogLevel show)
   }
   file_->set_pattern("%Y-%m-%d %H:%M:%S.%e %v");
   file_->set_level(spdlog::level::debug);
-  file_->flush_on(spdlog::level::debug);  // a killed run leaves what it said
+  file_->flush_on(spdlog::level::debug);  // keeps the log of a killed run
 }
 
 Console::~Console() { end_progress(); }
 
 void Console::log(LogLevel level, const std::string& component, const std::string& said) {
-  const std::string text = printable(said);  // names and texts of other processes may be in it
+  const std::string text = printable(said);  // may contain text from other processes
   const std::lock_guard lock(mutex_);
   if (file_) file_->info("{} [{}] {}", name_of(level), component, text);
   if (level < show_) return;

@@ -16,16 +16,17 @@ class logger;
 
 namespace panvo::runtime {
 
-/// What a run says: log lines on stderr and, whole, in the run's log file; below them, where stderr is a terminal, one line of progress.
+/// Output of a run: log lines on stderr and, complete, in the log file; on a terminal also a progress line.
 class Console {
  public:
-  /// `log_file` empty: none. `show`: the least level that goes to stderr. Throws std::runtime_error when the file cannot be written.
+  /// `log_file` may be empty. `show`: lowest level shown on stderr. Throws std::runtime_error if the file cannot be
+  /// written.
   Console(const std::filesystem::path& log_file, LogLevel show);
   ~Console();
 
   void log(LogLevel level, const std::string& component, const std::string& text);
   void progress(Source::Progress progress);
-  /// Leaves the last progress line standing.
+  /// Keeps the last progress line on the screen.
   void end_progress();
 
  private:

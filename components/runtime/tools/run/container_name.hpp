@@ -8,7 +8,7 @@
 
 namespace panvo::runtime {
 
-/// A system file may call a container like one of its components; two nodes cannot be.
+/// Node name of a container, which must differ from its components' names.
 inline std::string node_name(const ContainerDescription& container) {
   for (const auto& component : container.components) {
     if (full_name(component.name_space, component.name) == full_name(container.name_space, container.name))

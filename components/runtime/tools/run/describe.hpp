@@ -5,9 +5,9 @@
 
 namespace panvo::runtime {
 
-/// Prints what each container of the system has to do with others, for those who give out rights: "container NAME", then "publishes TOPIC",
-/// "subscribes TOPIC", "reads_all", "has_source", "node NAME", "services off", a line each. The components are made, and nothing is sent. Throws
-/// ConfigError where one cannot be made.
+/// Prints the topics and nodes of each container, for `panvo secure`: "container NAME", then "publishes TOPIC",
+/// "subscribes TOPIC", "reads_all", "has_source", "node NAME", "services off", one per line. Constructs the components
+/// without sending anything. Throws ConfigError if one cannot be created.
 void describe(const SystemDescription& system);
 
 }  // namespace panvo::runtime

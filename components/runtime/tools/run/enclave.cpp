@@ -15,7 +15,7 @@ std::string_view variable(const char* name) {
   return value ? value : "";
 }
 
-/// A word of an enclave's name: what cannot be in one is an underscore.
+/// Makes a word of an enclave name; invalid characters become underscores.
 std::string word(std::string text) {
   for (char& letter : text) {
     const bool is_fine =

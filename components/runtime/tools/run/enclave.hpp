@@ -5,8 +5,8 @@
 
 namespace panvo::runtime {
 
-/// Has this process use the keys that `panvo secure --system` made for that container of that system, if the keystore in force has them and no
-/// other enclave is asked for. To be called before other threads are started.
+/// Selects the keys that `panvo secure --system` created for that container, if the keystore has them and no other
+/// enclave is set. Call before starting threads.
 void use_enclave_of(const std::string& system_file, const std::string& container);
 
 }  // namespace panvo::runtime

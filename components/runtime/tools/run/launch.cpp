@@ -34,11 +34,11 @@ struct Child {
   int status = 0;
 
   bool respawn = false;
-  bool again = false;  // it takes the place of a process that crashed
+  bool again = false;  // replaces a process that crashed
   bool required = true;
   double respawn_delay_s = 0;
   std::optional<std::chrono::steady_clock::time_point> starts_again;
-  std::vector<std::string> folders;  // where each of its processes left its results
+  std::vector<std::string> folders;  // result folders of its processes
 };
 
 std::vector<std::string> command_line(const RunOptions& options, const Child& child, int link_in, int link_out) {
@@ -60,7 +60,7 @@ std::vector<std::string> command_line(const RunOptions& options, const Child& ch
   if (child.again) words.push_back("--again");
   if (options.verbose) words.push_back("--verbose");
   add("--container", child.name);
-  if (!options.container.empty()) {  // what it waits for is not among those that are started here
+  if (!options.container.empty()) {  // peers are in other systems
     for (const auto& topic : options.awaited) add("--await", topic);
   }
   add("--link-in", std::to_string(link_in));
@@ -68,7 +68,7 @@ std::vector<std::string> command_line(const RunOptions& options, const Child& ch
   return words;
 }
 
-/// A process that takes another's place leaves what that one had to say.
+/// A restarted process keeps the results of its predecessor.
 std::string next_folder(const Child& child) {
   return child.folders.empty() ? child.name : child.name + "_" + std::to_string(child.folders.size() + 1);
 }
@@ -80,7 +80,7 @@ void start(const RunOptions& options, Child& child) {
   }
   int down[2], up[2];
   if (pipe2(down, O_CLOEXEC) != 0 || pipe2(up, O_CLOEXEC) != 0)
-    throw std::runtime_error("cannot make a pipe: too many open files?");
+    throw std::runtime_error("cannot create a pipe: too many open files?");
   const auto words = command_line(options, child, down[0], up[1]);
   std::vector<char*> arguments;
   for (const auto& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
@@ -89,7 +89,7 @@ void start(const RunOptions& options, Child& child) {
   if (child.pid == 0) {
     fcntl(down[0], F_SETFD, 0);
     fcntl(up[1], F_SETFD, 0);
-    setpgid(0, 0);  // Ctrl-C goes to the launcher, which passes it on once
+    setpgid(0, 0);  // Ctrl-C goes only to the launcher, which forwards it once
     execv(arguments[0], arguments.data());
     _exit(127);
   }
@@ -101,7 +101,7 @@ void start(const RunOptions& options, Child& child) {
   child.running = true;
 }
 
-/// Reads what the container says until `last`; false when it ended instead.
+/// Reads lines from the container until `last`; false if it ended.
 bool read_until(Child& child, const std::string& last) {
   while (const auto line = read_pipe_line(child.from_child)) {
     if (*line == last) return true;
@@ -137,7 +137,7 @@ bool connect(std::vector<Child>& children) {
   return true;
 }
 
-/// Puts a new process in the place of one that has crashed. If it crashes at once, its end is noticed as the first one's was.
+/// Restarts a crashed process. If it crashes again, this is noticed like the first crash.
 void start_again(const RunOptions& options, Child& child, const std::vector<Child>& children) {
   child.starts_again.reset();
   close(child.to_child);
@@ -151,10 +151,10 @@ void start_again(const RunOptions& options, Child& child, const std::vector<Chil
   if (read_until(child, "connected")) write_pipe_line(child.to_child, "start");
 }
 
-/// Whether it played something and was stopped in the middle, as every container is when it is asked to.
+/// Whether it was playing and was stopped, like every container on request.
 bool was_interrupted(const Child& child) { return child.status == static_cast<int>(ExitStatus::kTerminated); }
 
-/// Whether a container that has ended like this is to be started again: not when its configuration is wrong, for it would be again.
+/// Whether to restart an ended container: not after a configuration error, which would recur.
 bool is_to_respawn(const Child& child) {
   return child.respawn && child.status != 0 && !was_interrupted(child) &&
          child.status != static_cast<int>(ExitStatus::kBadConfiguration);
@@ -164,13 +164,13 @@ void plan_respawn(Child& child) {
   const std::chrono::duration<double> delay_s(child.respawn_delay_s);
   const auto delay = std::chrono::duration_cast<std::chrono::steady_clock::duration>(delay_s);
   child.starts_again = std::chrono::steady_clock::now() + delay;
-  std::fprintf(stderr, "panvo run: container %s is started again in %.1f s\n", child.name.c_str(), delay_s.count());
+  std::fprintf(stderr, "panvo run: restarting container %s in %.1f s\n", child.name.c_str(), delay_s.count());
 }
 
 void tell_lost(const Child& child) {
   std::fprintf(stderr,
-               "panvo run: container %s is lost (exit status %d); the others go on without it (required: false). "
-               "respawn: true in the system file, or --respawn, starts it again\n",
+               "panvo run: container %s is lost (exit status %d); the others continue without it (required: false). "
+               "respawn: true in the system file, or --respawn, restarts it\n",
                child.name.c_str(), child.status);
 }
 
@@ -180,8 +180,8 @@ void signal_all(const std::vector<Child>& children, int signal) {
   }
 }
 
-/// Waits until all have ended. When the last that plays something has, or one has failed that is required and not to be started again, or `stop` is set,
-/// the others are asked to stop.
+/// Waits until all containers have ended. Asks the others to stop when the last source has ended, when a required
+/// container without restart has failed, or when `stop` is set.
 void supervise(const RunOptions& options, std::vector<Child>& children, const std::atomic<bool>& stop, bool failed) {
   bool asked = failed;
   if (failed) signal_all(children, SIGTERM);
@@ -199,7 +199,7 @@ void supervise(const RunOptions& options, std::vector<Child>& children, const st
         child.running = false;
         child.status = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
         if (WIFSIGNALED(status)) {
-          std::fprintf(stderr, "panvo run: container %s was ended by signal %d\n", child.name.c_str(),
+          std::fprintf(stderr, "panvo run: container %s was killed by signal %d\n", child.name.c_str(),
                        WTERMSIG(status));
         }
         if (!asked && !stop && is_to_respawn(child)) {
@@ -219,7 +219,7 @@ void supervise(const RunOptions& options, std::vector<Child>& children, const st
     if (!running) return;
     if (!asked && (stop || failed || (has_source && !playing))) {
       asked = true;
-      signal_all(children, SIGTERM);  // each ends within its own limit, see StopSignals
+      signal_all(children, SIGTERM);  // each process has its own limit, see StopSignals
     }
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }
@@ -229,7 +229,7 @@ void supervise(const RunOptions& options, std::vector<Child>& children, const st
 
 ExitStatus launch(const RunOptions& given, const SystemDescription& system) {
   RunOptions options = given;
-  options.local = given.local && system.containers.size() == 1;  // several have to talk to each other
+  options.local = given.local && system.containers.size() == 1;  // several containers need DDS
   std::atomic<bool> stop = false;
   std::atomic<int> signal = 0;
   std::vector<Child> children;

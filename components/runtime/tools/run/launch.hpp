@@ -5,8 +5,9 @@
 
 namespace panvo::runtime {
 
-/// Runs each container of `system` in a process of its own: this executable with `--container NAME`. They start together once their topics are
-/// connected; when those that play something have ended, the others are asked to stop; when one fails, all are. Result files are merged.
+/// Runs each container of `system` in its own process: this executable with `--container NAME`. They start together
+/// once their topics are connected. When all sources have ended or a required container has failed, the others are
+/// asked to stop. Result files are merged.
 ExitStatus launch(const RunOptions& options, const SystemDescription& system);
 
 }  // namespace panvo::runtime

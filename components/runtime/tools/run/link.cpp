@@ -46,7 +46,7 @@ void Link::meet(Container& container, const Logger::Write& log) {
     words >> verb >> topic >> wanted.readers >> wanted.writers;
     peers[topic] = wanted;
   }
-  constexpr std::chrono::seconds kLimit(10);  // discovery takes well under one; a firewall, for ever
+  constexpr std::chrono::seconds kLimit(10);  // discovery takes well under 1 s, and never succeeds behind a firewall
   if (!container.wait_for_peers(peers, kLimit)) {
     log(LogLevel::kWarning, "container",
         fmt::format(

@@ -10,15 +10,15 @@
 
 namespace panvo::runtime {
 
-/// How a container process meets those of the same system, through two pipes to the process that launched it: it reports its topics once
-/// loaded, is told which of them the others read, waits until they are connected, and starts when all are.
-/// Lines of text; to the launcher: "publishes NAME", "subscribes NAME", "has_source", "loaded", then "connected"; from it: "await NAME READERS WRITERS",
-/// "connect", then "start".
+/// Synchronises a container process with others of the same system, through two pipes to the launcher: it reports its
+/// topics after loading, receives the expected peers, waits until they are connected, and starts when all are. Line
+/// protocol; to the launcher: "publishes NAME", "subscribes NAME", "has_source", "loaded", then "connected"; from it:
+/// "await NAME READERS WRITERS", "connect", then "start".
 class Link {
  public:
   Link(int in, int out) : in_(in), out_(out) {}
 
-  /// Returns when all containers of the system are connected. Throws std::runtime_error when the launcher is gone.
+  /// Returns when all containers of the system are connected. Throws std::runtime_error if the launcher is gone.
   void meet(Container& container, const Logger::Write& log);
 
  private:
@@ -28,9 +28,9 @@ class Link {
   int in_, out_;
 };
 
-/// Reads one line from a pipe; nullopt at its end.
+/// Reads a line from a pipe; nullopt at its end.
 std::optional<std::string> read_pipe_line(int pipe);
-/// Writes a line to a pipe; false when nobody reads it any more.
+/// Writes a line to a pipe; false if the reader is gone.
 bool write_pipe_line(int pipe, const std::string& line);
 
 }  // namespace panvo::runtime

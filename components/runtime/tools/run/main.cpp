@@ -15,7 +15,7 @@
 namespace panvo::runtime {
 namespace {
 
-/// Only the container that the command line names.
+/// Only the container selected on the command line.
 SystemDescription part(const SystemDescription& system, const std::string& name) {
   SystemDescription part = system;
   std::erase_if(part.containers, [&](const auto& container) { return container.name != name; });
@@ -37,7 +37,7 @@ ExitStatus run(const RunOptions& options) {
   const bool respawns = std::ranges::any_of(system.containers, &ContainerDescription::respawn);
   if (!is_launched && !options.replay && (system.containers.size() > 1 || respawns || options.respawn))
     return launch(options, system);
-  ContainerDescription together = system.containers.front();  // replay knows one process only
+  ContainerDescription together = system.containers.front();  // replay runs in one process
   std::vector<ComponentDescription>& all = together.components;
   all.clear();
   std::vector<ComponentDescription> players;
@@ -53,7 +53,7 @@ ExitStatus run(const RunOptions& options) {
 
 void tell_of(const ShmLeftovers& removed) {
   if (removed.segments == 0) return;
-  std::fprintf(stderr, "panvo run: freed %.1f MB of shared memory that killed processes had left\n",
+  std::fprintf(stderr, "panvo run: freed %.1f MB of shared memory left by killed processes\n",
                static_cast<double>(removed.bytes) * 1e-6);
 }
 
@@ -62,7 +62,7 @@ void tell_of(const ShmLeftovers& removed) {
 
 int main(int argc, char** argv) {
   using namespace panvo::runtime;
-  // Components bring their own parallelism, one thread each: a pool below OpenCV's functions would fight with it for the same cores.
+  // Components run in parallel already, one thread each; OpenCV's thread pool would compete with them for the cores.
   setenv("OPENCV_FOR_THREADS_NUM", "1", 0);
   RunOptions options;
   if (const auto status = RunOptions::parse(argc, argv, options)) return *status;

@@ -29,7 +29,7 @@ bool ends_with_any(const std::string& name, std::initializer_list<const char*> e
   return false;
 }
 
-/// Counts stereo frames on their way in and poses on their way out, and writes what a run leaves behind.
+/// Counts stereo frames in and poses out, and writes the result files.
 class Results {
  public:
   Results(Container& container, RunFiles* files, std::function<void(const std::string&)> failed)
@@ -59,7 +59,7 @@ class Results {
     try {
       const auto quality = Sample::as<panvo_msgs::msg::OdometryQuality>(sample);
       return quality && quality->reliable();
-    } catch (const interfaces::DecodeError&) {  // the bytes are no such message
+    } catch (const interfaces::DecodeError&) {  // undecodable
       return false;
     }
   }
@@ -90,14 +90,13 @@ double seconds(const timeval& time) {
   return static_cast<double>(time.tv_sec) + static_cast<double>(time.tv_usec) * 1e-6;
 }
 
-/// A run that had nothing to do, or left nothing, is not what was asked for.
+/// Reports a run that played or wrote nothing as a problem.
 std::vector<std::string> find_nothing(const RunOptions& options, const Container& container, const RunFiles* files) {
   std::vector<std::string> problems;
   if (container.links().has_source && container.source_steps() == 0) {
-    problems.emplace_back(
-        "nothing was played: there is no message in what was to be played, or none of the topics that were chosen");
+    problems.emplace_back("nothing was played: the data has no messages, or none of the selected topics");
   }
-  // Of several containers each has topics of its own, and some none that is kept.
+  // With several containers, some may publish no recorded topic.
   if (files && !files->has_lines() && !options.link_in && options.container.empty()) {
     problems.push_back("nothing was written to " + options.out +
                        ": no odometry, landmark or other result was published");
@@ -180,7 +179,7 @@ ExitStatus run_container(const RunOptions& options, const ContainerDescription& 
 
   const bool is_interrupted = container.was_interrupted() && signal != 0;
   if (is_interrupted) {
-    console.log(LogLevel::kWarning, "container", "interrupted before all was played");
+    console.log(LogLevel::kWarning, "container", "interrupted before the end of the data");
   } else {
     for (auto& problem : find_nothing(options, container, files.get())) {
       console.log(LogLevel::kWarning, "container", problem);

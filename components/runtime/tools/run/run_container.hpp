@@ -5,7 +5,8 @@
 
 namespace panvo::runtime {
 
-/// Runs `container` in this process until the data end or a signal asks to stop; `notes` on the configuration are logged first. Throws ConfigError.
+/// Runs `container` in this process until the end of the data or a stop signal; first logs `notes` on the
+/// configuration. Throws ConfigError.
 ExitStatus run_container(const RunOptions& options, const ContainerDescription& container,
                          const std::vector<std::string>& notes);
 

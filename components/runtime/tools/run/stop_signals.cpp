@@ -11,7 +11,7 @@
 namespace panvo::runtime {
 namespace {
 
-constexpr int kEndOfRun = SIGUSR2;  // how the destructor wakes the thread
+constexpr int kEndOfRun = SIGUSR2;  // wakes the thread in the destructor
 
 sigset_t stop_signals() {
   sigset_t signals;
@@ -30,7 +30,7 @@ void end_at_once(const char* why, int signal) {
 }  // namespace
 
 StopSignals::StopSignals(std::function<void(int)> request_stop) {
-  std::signal(SIGPIPE, SIG_IGN);  // a reader that left is an error where one writes, not the end of the process
+  std::signal(SIGPIPE, SIG_IGN);  // a closed pipe is reported by the write and does not end the process
   const sigset_t signals = stop_signals();
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
   thread_ = std::thread([signals, request_stop = std::move(request_stop)] {
@@ -41,8 +41,8 @@ StopSignals::StopSignals(std::function<void(int)> request_stop) {
     const timespec limit{kLimit_s, 0};
     const int second = sigtimedwait(&signals, nullptr, &limit);
     if (second == kEndOfRun) return;
-    if (second > 0) end_at_once("stopped at once by a second signal", second);
-    end_at_once("did not stop within its time, ended", SIGKILL);
+    if (second > 0) end_at_once("stopped immediately by a second signal", second);
+    end_at_once("did not stop in time; killed", SIGKILL);
   });
 }
 

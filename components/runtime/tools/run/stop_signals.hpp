@@ -6,8 +6,9 @@
 
 namespace panvo::runtime {
 
-/// Turns SIGINT and SIGTERM into a call on a thread of its own. A second signal, or a stop that takes longer than `kLimit_s`, ends the process at once: a
-/// shutdown never hangs. To be made before any other thread, for they inherit which signals are blocked.
+/// Calls `request_stop` on its own thread after SIGINT or SIGTERM. A second signal, or a stop that takes longer than
+/// `kLimit_s`, ends the process immediately, so a shutdown never hangs. Create it before any other thread, as threads
+/// inherit the signal mask.
 class StopSignals {
  public:
   static constexpr int kLimit_s = 20;

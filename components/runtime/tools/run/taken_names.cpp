@@ -20,10 +20,11 @@ using std::chrono::milliseconds;
 using std::chrono::steady_clock;
 
 constexpr milliseconds kPollPeriod{5};
-// Processes of ours announce themselves twice a second, and answer whoever does; what they have follows within milliseconds.
+// Our processes announce themselves twice per second and answer announcements; their endpoints follow within
+// milliseconds.
 constexpr milliseconds kFirstLook{600}, kQuiet{100}, kLongestLook{2000};
 constexpr const char* kNodesTopic = "ros_discovery_info";
-constexpr std::size_t kPrefixDigits = 24;  // of the participant, in an endpoint's gid
+constexpr std::size_t kPrefixDigits = 24;  // participant part of an endpoint's GID
 
 std::vector<std::string> taken_of(const std::vector<std::string>& wanted, const Graph& graph) {
   std::set<std::string> there;
@@ -33,7 +34,7 @@ std::vector<std::string> taken_of(const std::vector<std::string>& wanted, const 
   return taken;
 }
 
-/// Whether everybody who tells of nodes has told of some.
+/// Whether all participants that publish node lists have sent one.
 bool have_all_told(const Graph& graph) {
   std::set<std::string> told;
   for (const auto& node : graph.nodes) {
@@ -70,11 +71,9 @@ void TakenNames::refuse() {
   bridge_.reset();
   if (taken.empty()) return;
   throw ConfigError(
-      fmt::format("another process on this DDS domain already has a node named {}: two runs would take each other's "
-                  "images and poses for "
-                  "their own. Remedy: end the other one; or run this one in another domain (ROS_DOMAIN_ID, --domain), "
-                  "for itself (--local), "
-                  "or with another name or namespace of the node in its system file",
+      fmt::format("another process in this DDS domain already has a node named {}: the two runs would mix their "
+                  "images and poses. Remedy: end the other one; or run this one in another domain (ROS_DOMAIN_ID, "
+                  "--domain), without DDS (--local), or with another node name or namespace in its system file",
                   fmt::join(taken, ", ")));
 }
 

@@ -10,18 +10,18 @@
 
 namespace panvo::runtime {
 
-/// Looks whether other processes on the DDS domain have nodes of these names, while this process is getting ready: two runs of the same names
+/// Checks in the background whether other processes in the DDS domain have nodes of these names: two such runs would
 /// read each other's images and poses.
 class TakenNames {
  public:
   TakenNames(const DdsSettings& dds, std::vector<std::string> wanted);
 
-  /// Waits until whoever is there has been heard, which takes no longer than `kLongestLook`. Throws ConfigError with the names that are taken.
+  /// Waits for the result, at most `kLongestLook`. Throws ConfigError with the taken names.
   void refuse();
 
  private:
   std::unique_ptr<Bridge> bridge_;
-  std::future<std::vector<std::string>> taken_;  // last: its thread uses the bridge
+  std::future<std::vector<std::string>> taken_;  // last: its thread uses `bridge_`
 };
 
 }  // namespace panvo::runtime

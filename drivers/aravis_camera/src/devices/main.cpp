@@ -6,10 +6,10 @@
 
 int main(int argc, char** argv) {
   using namespace panvo;
-  CLI::App app("Lists the GigE Vision and USB3 Vision cameras that answer.", "panvo_devices_aravis");
+  CLI::App app("Lists the GigE Vision and USB3 Vision cameras that respond.", "panvo_devices_aravis");
   bool as_json = false, simulated = false;
-  app.add_flag("--json", as_json, "a list of objects, for scripts");
-  app.add_flag("--simulated", simulated, "Aravis's own simulated camera, too");
+  app.add_flag("--json", as_json, "print a JSON list, for scripts");
+  app.add_flag("--simulated", simulated, "include Aravis's simulated camera");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -6,11 +6,11 @@
 
 int main(int argc, char** argv) {
   using namespace panvo;
-  CLI::App app("Lists the cameras that the kernel's V4L2 has: USB cameras, frame grabbers.", "panvo_devices_v4l2");
+  CLI::App app("Lists the V4L2 cameras: USB cameras, frame grabbers.", "panvo_devices_v4l2");
   bool as_json = false, simulated = false;
-  app.add_flag("--json", as_json, "a list of objects, for scripts");
+  app.add_flag("--json", as_json, "print a JSON list, for scripts");
   app.add_flag("--simulated", simulated,
-               "changes nothing here: a simulated V4L2 camera (vivid) is the kernel's to make");
+               "no effect: load the kernel module vivid for simulated V4L2 cameras");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

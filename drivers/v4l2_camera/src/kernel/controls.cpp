@@ -21,7 +21,7 @@ std::map<std::int64_t, std::string> choices_of(const DeviceFile& file, const v4l
   return choices;
 }
 
-/// A control of 64 bits tells its range by another request.
+/// Reads the range of a 64-bit control, which needs another request.
 void with_64_bits(const DeviceFile& file, Control& control) {
   v4l2_query_ext_ctrl query{};
   query.id = control.id;
@@ -33,7 +33,7 @@ void with_64_bits(const DeviceFile& file, Control& control) {
   control.standard = query.default_value;
 }
 
-/// nullopt for what has no value that fits in a number, and for headings.
+/// nullopt for controls without a numeric value, and for headings.
 std::optional<Control> control_of(const DeviceFile& file, const v4l2_queryctrl& query) {
   Control control;
   control.id = query.id;

@@ -18,25 +18,25 @@ DeviceError error_of(const std::string& node, const char* operation, int code) {
     case ENODEV:
     case ENXIO:
     case ENOENT:
-      return {Kind::kGone, fmt::format("{} is not there (any more): is the camera plugged in?", node)};
+      return {Kind::kGone, fmt::format("{} does not exist or was disconnected: is the camera plugged in?", node)};
     case EIO:
     case EPIPE:
     case EPROTO:
-      return {Kind::kGone, fmt::format("{} does not answer ({}: {}): try another cable or port", node, operation,
+      return {Kind::kGone, fmt::format("{} does not respond ({}: {}): try another cable or port", node, operation,
                                        std::strerror(code))};
     case EBUSY:
       return {Kind::kBusy,
-              fmt::format("{} is in use by another program (`fuser -v {}` tells which): end that one", node, node)};
+              fmt::format("{} is in use by another program (`fuser -v {}` shows it): stop that program", node, node)};
     case EACCES:
     case EPERM:
       return {Kind::kNotAllowed,
-              fmt::format("{} may not be opened by this user: sudo usermod -aG video $USER, then log in anew", node)};
+              fmt::format("no permission to open {}: run sudo usermod -aG video $USER, then log in again", node)};
     case ENOSPC:
-      return {Kind::kOther, fmt::format("{}: the USB bus has no room for its images ({}): use MJPG, a smaller size, a "
-                                        "lower rate, or a port of another USB controller",
+      return {Kind::kOther, fmt::format("{}: not enough USB bandwidth ({}): use MJPG, a smaller size, a lower rate, "
+                                        "or a port of another USB controller",
                                         node, operation)};
     default:
-      return {Kind::kOther, fmt::format("{}: {} fails: {}; unplug it and plug it in again if it stays so", node,
+      return {Kind::kOther, fmt::format("{}: {} fails: {}; if this persists, unplug and reconnect the camera", node,
                                         operation, std::strerror(code))};
   }
 }

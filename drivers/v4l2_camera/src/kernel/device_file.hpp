@@ -10,10 +10,10 @@ struct v4l2_fract;
 
 namespace panvo::v4l2_camera::kernel {
 
-/// What an operation's errno means for the user.
+/// Converts an operation's errno to an error with a remedy.
 DeviceError error_of(const std::string& node, const char* operation, int code);
 
-/// A device node that is open, and what is asked of it. Throws DeviceError.
+/// An open device node and its ioctl requests. Throws DeviceError.
 class DeviceFile {
  public:
   explicit DeviceFile(std::string node);
@@ -21,9 +21,9 @@ class DeviceFile {
   DeviceFile(const DeviceFile&) = delete;
   DeviceFile& operator=(const DeviceFile&) = delete;
 
-  /// False when the kernel refuses; errno says why.
+  /// False if the request fails; errno has the cause.
   bool try_request(unsigned long code, void* argument) const;
-  /// `name` is the request's, for the message.
+  /// `name`: of the request, for the error message.
   void request(unsigned long code, void* argument, const char* name) const;
 
   const std::string& node() const noexcept { return node_; }
@@ -34,16 +34,16 @@ class DeviceFile {
   int descriptor_;
 };
 
-/// A text in a field of fixed size.
+/// The text in a field of fixed size.
 std::string text_of(const std::uint8_t* text, std::size_t size);
 
-/// Frames a second of the time between two; 0 where none is said.
+/// Converts a frame interval to a rate in Hz; 0 if unspecified.
 double rate_of(const v4l2_fract& interval);
 
-/// All formats with their sizes and rates.
+/// Lists all formats with their sizes and rates.
 std::vector<OfferedFormat> offered_formats(const DeviceFile& file);
 
-/// The controls that have a value which is a number.
+/// Lists the controls with numeric values.
 std::vector<Control> controls_of(const DeviceFile& file);
 void set_control(const DeviceFile& file, const Control& control, std::int64_t value);
 std::int64_t get_control(const DeviceFile& file, const Control& control);

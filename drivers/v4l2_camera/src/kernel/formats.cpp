@@ -47,7 +47,7 @@ std::vector<OfferedSize> sizes_of(const DeviceFile& file, PixelCode pixels) {
     }
     offered.rates_hz = rates_of(file, pixels, offered.width, offered.height);
     sizes.push_back(std::move(offered));
-    if (size.type != V4L2_FRMSIZE_TYPE_DISCRETE) break;  // the range is all there is
+    if (size.type != V4L2_FRMSIZE_TYPE_DISCRETE) break;  // a single range describes all sizes
   }
   return sizes;
 }

@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::uint32_t kCapture = V4L2_BUF_TYPE_VIDEO_CAPTURE;
 
-/// A buffer of the driver's, seen from here.
+/// A driver's buffer, mapped into this process.
 class Mapping {
  public:
   Mapping(int descriptor, std::size_t size, std::int64_t offset)
@@ -42,10 +42,10 @@ class KernelDevice final : public VideoDevice {
     file_.request(VIDIOC_QUERYCAP, &capability, "VIDIOC_QUERYCAP");
     const auto has = [&](std::uint32_t flag) { return (capability.device_caps & flag) != 0; };
     if (has(V4L2_CAP_VIDEO_CAPTURE) && has(V4L2_CAP_STREAMING)) return;
-    const char* what = has(V4L2_CAP_VIDEO_CAPTURE_MPLANE) ? "sends images in several planes, which is not read here"
-                                                          : "is no camera; a camera's first node is";
+    const char* what = has(V4L2_CAP_VIDEO_CAPTURE_MPLANE) ? "sends multi-planar images, which are not supported"
+                                                          : "is not a camera; use the first node of a camera";
     throw DeviceError(DeviceError::Kind::kOther,
-                      fmt::format("{} {}: `panvo devices` lists what is", file_.node(), what));
+                      fmt::format("{} {}: `panvo devices` lists cameras", file_.node(), what));
   }
 
   ~KernelDevice() override {

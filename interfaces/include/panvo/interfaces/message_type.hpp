@@ -57,6 +57,10 @@ inline constexpr bool kIsStampedWhenSent = true;
 template <class Message>
 const MessageType& message_type();
 
+/// The hash of a message's definition as the including file was compiled with it (kValue). Specialised in the header of each message.
+template <class Message>
+struct CompiledHash;
+
 /// The type of that ROS 2 name ("nav_msgs/msg/Odometry"), or nullptr. A package that is not loaded yet is loaded: the library lib<package>__panvo.so that
 /// panvo_generate_interfaces() makes, from one of message_folders().
 const MessageType* find_message_type(std::string_view name);

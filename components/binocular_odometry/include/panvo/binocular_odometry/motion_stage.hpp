@@ -12,18 +12,18 @@
 namespace panvo::binocular_odometry {
 
 /// Second stage of the odometry [Lu2015 3]: RANSAC with Horn's quaternion method, then two-stage local binocular bundle adjustment.
-/// It depends on the tracked frames alone, and on their order. One object is for one thread at a time.
+/// The result depends only on the sequence of tracked frames. Not thread-safe.
 class MotionStage {
  public:
-  /// Throws std::invalid_argument, naming each problem, for a calibration that cannot be used.
+  /// Throws std::invalid_argument, listing each problem, for an invalid calibration.
   MotionStage(const vision::RectifiedStereo& stereo, const MotionParameters& parameters,
               vision::StageObserver* observer = nullptr);
   ~MotionStage();
   MotionStage(MotionStage&&) noexcept;
   MotionStage& operator=(MotionStage&&) noexcept;
 
-  /// Pose and motion of the next frame. A frame that cannot be solved is carried on by the last motion, said to be unreliable
-  /// with the reason, and its covariance grows; the one after it is solved against the last good frame.
+  /// Pose and motion of the next frame. If the motion cannot be estimated, the pose is predicted with the last motion,
+  /// marked unreliable with the reason, and its covariance grows; the next frame is matched with the last good frame.
   OdometryEstimate estimate(const TrackedFrame& frame);
 
  private:

@@ -6,7 +6,7 @@
 
 namespace panvo::binocular_odometry {
 
-/// A rectified pair of one moment. Views: the pixels are read during the call they are given to, and not kept.
+/// A synchronised, rectified image pair. The pixels are only read during the call and not stored.
 struct StereoFrame {
   std::int64_t stamp_ns = 0;
   cv::Mat left;   ///< CV_8UC1, of the calibrated size

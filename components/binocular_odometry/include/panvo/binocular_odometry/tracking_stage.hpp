@@ -11,22 +11,23 @@
 
 namespace panvo::binocular_odometry {
 
-/// First stage of the odometry [Lu2015 3]: detects and describes features, matches them in time and between the two eyes.
+/// First stage of the odometry [Lu2015 3]: detects and describes features, tracks them over time and matches left and
+/// right image.
 ///
-/// It reads nothing that the motion stage finds: where features should reappear it foretells from a coarse motion of its
-/// own. So the two stages give the same results, bit for bit, whether they work in turn or on two threads with a queue
-/// between. One object is for one thread at a time.
+/// It predicts feature positions from its own coarse motion estimate and does not use results of the motion stage. The
+/// two stages therefore give bit-identical results in sequence or on two threads with a queue in between. Not
+/// thread-safe.
 class TrackingStage {
  public:
-  /// Throws std::invalid_argument, naming each problem, for a calibration or parameters that cannot be used.
+  /// Throws std::invalid_argument, listing each problem, for an invalid calibration or invalid parameters.
   TrackingStage(const vision::RectifiedStereo& stereo, const TrackingParameters& parameters,
                 vision::StageObserver* observer = nullptr);
   ~TrackingStage();
   TrackingStage(TrackingStage&&) noexcept;
   TrackingStage& operator=(TrackingStage&&) noexcept;
 
-  /// Tracks into the next frame. A frame that cannot be used (size, stamp, no content, left and right exchanged) comes back
-  /// with its fault named and changes nothing: the next one is tracked from the last good one.
+  /// Tracks into the next frame. An unusable frame (size, stamp, no content, left and right swapped) is returned with
+  /// `fault` set and does not change the tracks: the next frame is tracked from the last good one.
   TrackedFrame track(const StereoFrame& frame);
 
  private:

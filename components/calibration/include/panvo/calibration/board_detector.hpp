@@ -11,16 +11,17 @@
 
 namespace panvo::calibration {
 
-/// The corners found in one image, or why there are none.
+/// The corners found in one image, or the reason why there are none.
 struct Sighting {
   std::vector<Corner> corners;
-  std::string missing;  ///< why the board is not used; empty: it is
+  std::string missing;  ///< why there are no corners; empty if there are
 };
 
-/// Finds a board, with corners to a fraction of a pixel. A chessboard must be seen whole; of a ChArUco board a part is enough.
+/// Detects a board and refines its corners to sub-pixel accuracy. A chessboard must be fully visible, a ChArUco board
+/// partly.
 class BoardDetector {
  public:
-  /// Throws CalibrationError when the board cannot be: a dictionary that is unknown or too small.
+  /// Throws CalibrationError for a dictionary that is unknown or too small.
   explicit BoardDetector(const Board& board);
   ~BoardDetector();
 
@@ -35,7 +36,7 @@ class BoardDetector {
   bool is_reversed(const cv::Mat& grey, const std::vector<cv::Point2f>& corners) const;
 
   Board board_;
-  std::unique_ptr<Markers> markers_;  ///< of kCharuco
+  std::unique_ptr<Markers> markers_;  ///< kCharuco only
 };
 
 }  // namespace panvo::calibration

@@ -11,22 +11,22 @@
 
 namespace panvo::calibration {
 
-/// How a camera sees the board at one moment, so far as it matters to a calibration whether another view is like it.
+/// Appearance of the board in one image, used to compare views for a calibration.
 struct BoardLook {
-  Eigen::Vector2d middle;  ///< of the corners seen, in shares of the image's width and height
-  double size = 0.0;       ///< square root of the share of the image that the whole board would cover there
-  /// Which way it is foreshortened. First: positive where it looks low (tilted forwards or back), negative where it
-  /// looks narrow (turned to the left or right); second: along which diagonal. Tilted by t, the length is
-  /// sin^2 t / (1 + cos^2 t): 0.14 at 30 degrees, 0.33 at 45.
+  Eigen::Vector2d middle;  ///< mean of the corners, as fractions of the image width and height
+  double size = 0.0;       ///< square root of the fraction of the image area that the whole board would cover
+  /// Foreshortening. x: positive if the height is reduced (tilted forwards or back), negative if the width is reduced
+  /// (tilted to the left or right); y: along a diagonal. The norm is sin^2 t / (1 + cos^2 t) for a tilt t: 0.14 at
+  /// 30 degrees, 0.33 at 45.
   Eigen::Vector2d slant;
 };
 
-/// From the affine map that fits the corners best. nullopt: fewer than three corners, or all on one line on
-/// the board or in the image.
+/// Computed from the least-squares affine map from board to image. Returns nullopt for fewer than three corners, or if
+/// they are collinear on the board or in the image.
 std::optional<BoardLook> look_of(const std::vector<Corner>& corners, const Board& board, const cv::Size& image_size);
 
-/// The sum of how far place, size (by its logarithm) and slant differ; 0.2: a fifth of the image's width to the side, or a board 1.65 times as
-/// far away, or one tilted by 35 degrees instead of none.
+/// Sum of the differences in position, size (logarithmic) and slant. 0.2 corresponds to a shift by a fifth of the image
+/// width, to 1.65 times the distance, or to a tilt of 35 degrees instead of 0.
 double difference(const BoardLook& a, const BoardLook& b);
 
 }  // namespace panvo::calibration

@@ -5,8 +5,8 @@
 
 namespace panvo::calibration {
 
-/// What was given cannot be calibrated with. The message names the file (and line and key where there are such), what is wrong with it and
-/// the remedy.
+/// The input cannot be used for a calibration. The message names the file (line and key, if any), the fault and the
+/// remedy.
 class CalibrationError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

@@ -9,11 +9,12 @@
 
 namespace panvo::calibration {
 
-/// The cameras cam0, cam1, ... of a camchain YAML as Kalibr writes it, cam0 the reference. Read are pinhole cameras with radtan or equidistant
-/// distortion or none, and omni ones with radtan. Throws CalibrationError, naming file, line and key.
+/// Reads the cameras cam0, cam1, ... of a Kalibr camchain YAML; cam0 is the reference. Supports pinhole with radtan,
+/// equidistant or no distortion, and omni with radtan or no distortion. Throws CalibrationError with file, line and
+/// key.
 std::vector<NamedCamera> read_camchain(const std::filesystem::path& file);
 
-/// The opposite; the rational model Kalibr does not have is refused.
+/// The cameras as camchain YAML. Throws CalibrationError for models that Kalibr lacks: rational, or plumb_bob with k3.
 std::string camchain_text(const std::vector<NamedCamera>& cameras);
 
 }  // namespace panvo::calibration

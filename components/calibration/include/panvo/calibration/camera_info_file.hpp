@@ -10,32 +10,32 @@
 
 namespace panvo::calibration {
 
-/// A calibration as ROS keeps it, one file a camera.
+/// Content of a ROS camera_info file, one for each camera.
 struct CameraInfo {
   std::string name;
   vision::LensCamera lens;
-  Eigen::Matrix3d rectified_from_raw = Eigen::Matrix3d::Identity();  ///< R
-  Eigen::Matrix<double, 3, 4> projection =
-      Eigen::Matrix<double, 3, 4>::Zero();  ///< P; first row's last: -fx * baseline (px m)
+  Eigen::Matrix3d rectified_from_raw = Eigen::Matrix3d::Identity();              ///< R
+  Eigen::Matrix<double, 3, 4> projection = Eigen::Matrix<double, 3, 4>::Zero();  ///< P; P(0, 3) = -fx * baseline (px m)
 };
 
-/// Of a camera by itself: R the identity, P the raw image's own matrix.
+/// CameraInfo of a single camera: R is the identity, P is the camera matrix.
 CameraInfo single_camera_info(const std::string& name, const vision::LensCamera& lens);
 
-/// Of a pair, named `left` and `right`.
+/// CameraInfos of a rectified pair, named `left` and `right`.
 std::pair<CameraInfo, CameraInfo> stereo_camera_infos(const vision::LensCamera& left, const vision::LensCamera& right,
                                                       const vision::RectifiedStereo& pair);
 
-/// The rectified pair that two calibrations describe. Throws CalibrationError, naming `folder`, where they are none: no baseline, matrices that
-/// differ.
+/// The rectified pair described by two CameraInfos. Throws CalibrationError that names `folder` if they are not a pair:
+/// no baseline, different projection matrices.
 vision::RectifiedStereo rectified_pair(const CameraInfo& left, const CameraInfo& right,
                                        const std::filesystem::path& folder);
 
-/// Both throw CalibrationError, naming file, line and key. A file without rectification or projection reads as of a single camera.
+/// Both throw CalibrationError, on reading with file, line and key. Missing R or P are read as those of a single
+/// camera.
 CameraInfo read_camera_info(const std::filesystem::path& file);
 void write_camera_info(const std::filesystem::path& file, const CameraInfo& info);
 
-/// Writes a text whole or not at all. Throws CalibrationError.
+/// Replaces a file atomically. Throws CalibrationError.
 void write_text(const std::filesystem::path& file, const std::string& text);
 
 }  // namespace panvo::calibration

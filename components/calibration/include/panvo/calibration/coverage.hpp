@@ -7,14 +7,14 @@
 
 namespace panvo::calibration {
 
-/// Where in a camera's images corners were seen: in cells of a grid.
+/// Number of corners in each cell of a grid over a camera's image.
 struct Coverage {
   static constexpr int kColumns = 8;
   static constexpr int kRows = 6;
-  static constexpr double kGood = 0.75;  ///< share that does; what the rest of the image shows is the model's guess
+  static constexpr double kGood = 0.75;  ///< sufficient share; the model extrapolates in the rest of the image
 
   std::array<int, kColumns * kRows> corners{};  ///< row by row
-  double share = 0.0;                           ///< of cells with any
+  double share = 0.0;                           ///< fraction of cells with corners
 };
 
 Coverage coverage(const Observations& observations, std::size_t camera);

@@ -9,14 +9,15 @@
 
 namespace panvo::calibration {
 
-/// By how much a corner's row in the rectified right image is below that in the left one.
+/// Row error of a corner in a rectified pair.
 struct EpipolarError {
   std::size_t view = 0;
   Eigen::Vector2d left_pixel;  ///< rectified
-  double row_error_px = 0.0;
+  double row_error_px = 0.0;   ///< row in the right image minus row in the left image
 };
 
-/// Of every corner that cameras 0 (left) and 1 (right) of `observations` both saw, and that both rectified images show.
+/// Row errors of the corners that cameras 0 (left) and 1 (right) of `observations` both saw and that are inside both
+/// rectified images.
 std::vector<EpipolarError> epipolar_errors(const Observations& observations, const vision::LensCamera& left,
                                            const vision::LensCamera& right, const vision::RectifiedStereo& pair);
 

@@ -10,8 +10,9 @@
 
 namespace panvo::calibration {
 
-/// A lens to begin with: without distortion, seen through the middle of the image, and of the focal length with which the board's corners lie
-/// nearest to where a flat board has them. `views`: the corners of each view that this camera has. nullopt: no view gives a pose.
+/// Initial lens: no distortion, principal point at the image centre, and the focal length with the smallest
+/// reprojection error of linear board poses. `views`: the camera's corners, by view. Returns nullopt if no view yields
+/// a board pose.
 std::optional<vision::LensCamera> first_lens(const std::vector<std::vector<Corner>>& views,
                                              const std::vector<Eigen::Vector3d>& board_points, cv::Size image_size,
                                              vision::LensModel model);

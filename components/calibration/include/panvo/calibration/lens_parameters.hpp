@@ -9,11 +9,11 @@
 
 namespace panvo::calibration {
 
-/// The numbers of a lens that are calibrated, in their order: fx fy cx cy (px), then the distortion, then xi of kMei.
+/// The calibrated parameters of a lens, in this order: fx fy cx cy (px), distortion coefficients, xi for kMei.
 std::vector<std::string> lens_parameter_names(vision::LensModel model);
 Eigen::VectorXd lens_parameters(const vision::LensCamera& lens);
 
-/// The same lens with other numbers.
+/// The lens with other parameters.
 vision::LensCamera with_parameters(vision::LensCamera lens, const Eigen::VectorXd& parameters);
 
 }  // namespace panvo::calibration

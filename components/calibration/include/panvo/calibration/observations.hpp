@@ -8,24 +8,24 @@
 
 namespace panvo::calibration {
 
-/// A corner of the board as an image shows it.
+/// A board corner in an image.
 struct Corner {
-  int id = 0;             ///< of Board::point
+  int id = 0;             ///< as in Board::point()
   Eigen::Vector2d pixel;  ///< pixel centres at integer coordinates
 };
 
-/// What the cameras saw of the board at one moment.
+/// Corners that the cameras saw at one moment.
 struct View {
-  std::string name;                       ///< of the images, without folder and ending
-  std::vector<std::vector<Corner>> seen;  ///< a list for each camera; empty: not seen
-  std::vector<std::string> missing = {};  ///< why a camera did not see it; empty text: it did
+  std::string name;                       ///< of the images, without folder and extension
+  std::vector<std::vector<Corner>> seen;  ///< by camera; empty: not seen
+  std::vector<std::string> missing = {};  ///< by camera: why the board was not seen; empty string if it was
 };
 
-/// Everything that a calibration is made of.
+/// Input of a calibration.
 struct Observations {
   std::vector<std::string> cameras;           ///< names
-  std::vector<cv::Size> image_sizes;          ///< one for each camera
-  std::vector<Eigen::Vector3d> board_points;  ///< by id, in the board's frame, m
+  std::vector<cv::Size> image_sizes;          ///< by camera
+  std::vector<Eigen::Vector3d> board_points;  ///< by id, in the board frame, m
   std::vector<View> views;
 };
 

@@ -6,7 +6,7 @@
 
 namespace panvo::calibration {
 
-/// vision::rectify_view() of two cameras of a rig. Throws CalibrationError where that finds that they are no stereo pair.
+/// Applies vision::rectify_view() to two cameras of a rig. Throws CalibrationError if they are not a stereo pair.
 vision::RectifiedStereo rectify(const RigCamera& left, const RigCamera& right);
 
 }  // namespace panvo::calibration

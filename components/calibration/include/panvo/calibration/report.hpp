@@ -11,31 +11,32 @@
 
 namespace panvo::calibration {
 
-/// What a calibration found and how far it may be believed, for people.
+/// Results and quality of a calibration for the report.
 struct Report {
   std::string title;
   Board board;
-  Observations seen;  ///< before anything was rejected, with the reasons of what was not seen
+  Observations seen;  ///< before rejection, with the reasons why the board was not seen
   RigCalibration calibration;
   std::size_t reference = 0;
-  std::optional<vision::RectifiedStereo> pair;  ///< of a stereo calibration ...
-  std::vector<EpipolarError> epipolar;          ///< ... and how well rows agree in it
+  std::optional<vision::RectifiedStereo> pair;  ///< of a stereo calibration
+  std::vector<EpipolarError> epipolar;          ///< row errors in `pair`
 };
 
-/// What speaks against the result, a sentence each with what to do; empty: nothing. Judged by how many images there are, where in them the board
-/// was, what is left over, and the standard deviations.
+/// Warnings about the result, each a sentence with a remedy. Based on the number of images, the coverage, the residuals
+/// and the standard deviations.
 std::vector<std::string> doubts(const Report& report);
 
-/// The same as plain text: images used and rejected with the reason, residuals, parameters with standard deviations, doubts.
+/// The report as plain text: used images, rejected ones with the reason, residuals, parameters with standard
+/// deviations, doubts.
 std::string to_text(const Report& report);
 
-/// A page by itself, with coverage and residuals drawn.
+/// The report as a self-contained HTML page with plots of coverage and residuals.
 std::string to_page(const Report& report);
 
-/// Where in the images of a camera corners were seen, coloured by how far they are off, as SVG.
+/// SVG plot of a camera's corners over its image, coloured by reprojection error.
 std::string coverage_svg(const Report& report, std::size_t camera);
 
-/// How far off corners are, and in which images, as SVG.
+/// SVG plot of a camera's reprojection errors: a scatter plot, and the rms of each image.
 std::string residual_svg(const Report& report, std::size_t camera);
 
 }  // namespace panvo::calibration

@@ -11,13 +11,13 @@
 namespace panvo::calibration {
 
 struct RigOptions {
-  std::vector<vision::LensModel> models;                  ///< of each camera
-  std::vector<std::optional<vision::LensCamera>> lenses;  ///< to begin with; nullopt: found from the corners alone
-  bool are_lenses_held = false;                           ///< all are given, and only poses are looked for
-  std::size_t reference = 0;                              ///< the camera in whose frame the others are told
+  std::vector<vision::LensModel> models;                  ///< by camera
+  std::vector<std::optional<vision::LensCamera>> lenses;  ///< initial lenses; nullopt: estimated from the corners
+  bool are_lenses_held = false;  ///< keep `lenses`, all of which are given; estimate only poses
+  std::size_t reference = 0;     ///< the camera that defines the reference frame
 };
 
-/// What one camera saw in one view and is not used.
+/// A camera's corners of one view that are not used.
 struct Rejection {
   std::size_t camera = 0;
   std::size_t view = 0;
@@ -26,16 +26,17 @@ struct Rejection {
 
 struct RigCalibration {
   Rig rig;
-  Observations used;                                ///< without what was rejected
+  Observations used;                                ///< without the rejected corners
   std::vector<Residual> residuals;                  ///< of `used`
   std::vector<Rejection> rejections;                ///< ordered by view, then camera
-  std::vector<std::size_t> stray_corners;           ///< single corners left out, each camera
-  std::optional<std::vector<CameraSigmas>> sigmas;  ///< nullopt: what was seen does not determine everything
+  std::vector<std::size_t> stray_corners;           ///< number of single outlier corners, by camera
+  std::optional<std::vector<CameraSigmas>> sigmas;  ///< nullopt: the corners do not determine all parameters
 };
 
-/// Lenses and poses of cameras that saw a board, often two of them at once: each camera by itself, then the poses from one to the next along
-/// the pairs that share most views, then all together; corners and views that do not fit are left out on the way.
-/// Throws CalibrationError, naming the camera: too few views, a camera that shares none with the others, or no solution.
+/// Calibrates lenses and poses of cameras from views of a board, some of which two cameras share. Calibrates each
+/// camera alone, chains the poses along the pairs with most shared views, then adjusts all together. Outlier views and
+/// corners are rejected. Throws CalibrationError that names the camera: too few views, no views shared with others, no
+/// solution.
 RigCalibration calibrate(const Observations& observations, const RigOptions& options);
 
 }  // namespace panvo::calibration

@@ -9,18 +9,18 @@
 #include "panvo/conversions/result.hpp"
 #include "panvo/vision/pose.hpp"
 
-/// Poses and their covariances. A Pose in frame a of something in frame b, and a Transform from parent a to child b,
-/// are a_from_b.
+/// Conversion of poses and covariances. The Pose of frame b in frame a, and the Transform from parent a to child b, are
+/// a_from_b.
 namespace panvo::conversions {
 
 geometry_msgs::msg::Pose to_pose(const Eigen::Isometry3d& a_from_b);
 geometry_msgs::msg::Transform to_transform(const Eigen::Isometry3d& parent_from_child);
 
-/// The reason names numbers that are none, and quaternions that are not of length 1 (all zeros: never filled in).
+/// The reason states non-finite values or a quaternion that is not of length 1 (0: never filled in).
 Result<Eigen::Isometry3d> to_isometry(const geometry_msgs::msg::Pose& pose);
 Result<Eigen::Isometry3d> to_isometry(const geometry_msgs::msg::Transform& transform);
 
-/// Row-major, translation before rotation, in both: geometry_msgs has the order of vision's six-vectors.
+/// Row-major, translation before rotation: geometry_msgs and vision use the same order.
 std::array<double, 36> to_array(const vision::Matrix6d& covariance);
 vision::Matrix6d to_matrix(const std::array<double, 36>& covariance);
 

@@ -7,13 +7,13 @@
 
 namespace panvo::conversions {
 
-/// Why there is no result: a sentence without its subject ("is of 10 bytes where 30 are needed"), for a message that
-/// names the topic.
+/// Why there is no result: a sentence without its subject ("holds 10 bytes where ... need 30"), to be logged after the
+/// topic name.
 struct Reason {
   std::string text;
 };
 
-/// What a message holds, or the reason why it cannot be used.
+/// The converted message, or the reason why it cannot be used.
 template <class Value>
 class Result {
  public:
@@ -22,11 +22,11 @@ class Result {
       : reason_(std::move(reason.text)) {}  // NOLINT(google-explicit-constructor): `return Reason{...};`
 
   explicit operator bool() const noexcept { return value_.has_value(); }
-  /// To be used only where there is a value; throws std::bad_optional_access otherwise.
+  /// Throws std::bad_optional_access if there is no value.
   const Value& operator*() const { return value_.value(); }
   const Value* operator->() const { return &value_.value(); }
 
-  /// Empty where there is a value.
+  /// Empty if there is a value.
   const std::string& reason() const noexcept { return reason_; }
 
  private:

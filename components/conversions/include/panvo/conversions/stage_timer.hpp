@@ -13,8 +13,8 @@
 
 namespace panvo::conversions {
 
-/// Measures the stages that an algorithm tells of, for the component's times: wall clock, and CPU of the thread that
-/// runs the stage. Nested stages count in themselves and in those around them. May be given to several threads.
+/// Measures the stages that an algorithm reports, for the component's times: wall clock, and CPU time of the thread
+/// that runs the stage. The time of a nested stage also counts in the enclosing ones. Thread-safe.
 class StageTimer final : public vision::StageObserver {
  public:
   explicit StageTimer(runtime::StageTimes& times) : times_(times) {}
@@ -26,7 +26,7 @@ class StageTimer final : public vision::StageObserver {
   using OpenStages = std::vector<std::unique_ptr<runtime::StageTimer>>;
 
   runtime::StageTimes& times_;
-  std::mutex mutex_;  // guards the map; each thread's stages are its own
+  std::mutex mutex_;  // guards the map; the stages of a thread are only used by that thread
   std::map<std::thread::id, OpenStages> open_;
 };
 

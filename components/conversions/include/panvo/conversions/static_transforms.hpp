@@ -12,19 +12,19 @@
 
 namespace panvo::conversions {
 
-/// The transform of a frame that is fixed to its parent, for /tf_static.
+/// Transform of a frame that is fixed to its parent, for /tf_static.
 geometry_msgs::msg::TransformStamped to_static_transform(std::int64_t stamp_ns, const std::string& parent,
                                                          const std::string& child,
                                                          const Eigen::Isometry3d& parent_from_child);
 
-/// The transforms of /tf_static that were received so far, and the chains they form.
+/// The transforms received on /tf_static so far, and their chains.
 class StaticTransforms {
  public:
-  /// Takes in a message; a transform received again replaces the one before. What cannot be used is left out and
-  /// told, a sentence each.
+  /// Adds the transforms of a message; a repeated one replaces the previous one. Invalid transforms are ignored and
+  /// returned, one sentence each.
   std::vector<std::string> add(const tf2_msgs::msg::TFMessage& message);
 
-  /// target_from_source along the chain of parents between the two frames; nullopt while there is none.
+  /// target_from_source along the chain of parents between the frames; nullopt if there is none.
   std::optional<Eigen::Isometry3d> lookup(const std::string& target, const std::string& source) const;
 
  private:

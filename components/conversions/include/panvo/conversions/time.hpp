@@ -5,7 +5,7 @@
 
 #include "builtin_interfaces/msg/Time.h"
 
-/// Times of messages as nanoseconds since the epoch of their clock.
+/// Conversion of message times to nanoseconds since the epoch of their clock.
 namespace panvo::conversions {
 
 inline std::int64_t to_ns(const builtin_interfaces::msg::Time& stamp) {
@@ -18,7 +18,7 @@ std::int64_t stamp_ns(const Message& message) {
   return to_ns(message.header().stamp());
 }
 
-/// `ns` must lie within the 32 bits of seconds that ROS has: until 2038.
+/// `ns` must fit into the signed 32-bit seconds of ROS, i.e. until 2038.
 inline builtin_interfaces::msg::Time to_stamp(std::int64_t ns) {
   constexpr std::int64_t kSecond = 1'000'000'000;
   std::int64_t seconds = ns / kSecond;

@@ -11,10 +11,10 @@
 namespace panvo::evaluation {
 
 enum class Alignment {
-  kNone,   // the estimate is taken to be in the ground truth's frame
-  kStart,  // the first pose of the estimate is laid on that of the ground truth: what a vehicle would see
-  kSe3,    // least squares over all positions, rotation and translation
-  kSim3,   // the same, with scale
+  kNone,   // the estimate is already in the frame of the ground truth
+  kStart,  // the first poses coincide, as for a vehicle with a known start
+  kSe3,    // least squares over all positions: rotation and translation
+  kSim3,   // least squares over all positions: rotation, translation and scale
 };
 
 std::string_view to_string(Alignment alignment);
@@ -27,9 +27,9 @@ struct MapFromOdom {
   Eigen::Isometry3d operator*(const Eigen::Isometry3d& odom_from_base) const;
 };
 
-// The closed form of least squares [Umeyama1991]. nullopt where the positions do not determine it: no pairs, or
-// either path stays in one place. Along a straight line the roll about the line is free: positions are then still
-// aligned, orientations are not meaningful.
+// Closed-form least squares [Umeyama1991]. nullopt if the positions do not determine it: no pairs, or one of the paths
+// does not move. On a straight path, roll about the path is undetermined: positions are aligned, but orientations are
+// meaningless.
 std::optional<MapFromOdom> align(std::span<const PosePair> pairs, Alignment alignment);
 
 }  // namespace panvo::evaluation

@@ -9,10 +9,10 @@
 
 namespace panvo::evaluation {
 
-// Estimate and ground truth at one time. The two may stand in different frames: see alignment.hpp.
+// Estimate and ground truth at one time. The frames may differ, see alignment.hpp.
 struct PosePair {
-  std::int64_t stamp_ns = 0;         // the estimate's
-  std::size_t estimate_index = 0;    // which pose of the estimate this is
+  std::int64_t stamp_ns = 0;         // of the estimate
+  std::size_t estimate_index = 0;    // index of the pose in the estimate
   Eigen::Isometry3d map_from_base;   // ground truth
   Eigen::Isometry3d odom_from_base;  // estimate
 };
@@ -24,26 +24,26 @@ enum class AssociationMethod {
 
 struct AssociationOptions {
   AssociationMethod method = AssociationMethod::kInterpolate;
-  // kInterpolate: the widest gap in the ground truth that is bridged; kNearest: the largest difference in time.
-  // 0 takes 2.5 or 0.5 median periods of the ground truth.
+  // kInterpolate: largest gap in the ground truth to interpolate over; kNearest: largest time difference.
+  // 0: 2.5 or 0.5 median periods of the ground truth.
   std::int64_t tolerance_ns = 0;
 };
 
 struct Association {
   std::vector<PosePair> pairs;
   AssociationMethod method = AssociationMethod::kInterpolate;
-  std::int64_t tolerance_ns = 0;           // in force
-  std::int64_t largest_difference_ns = 0;  // from an estimate's stamp to the nearest ground-truth pose used
+  std::int64_t tolerance_ns = 0;           // that was applied
+  std::int64_t largest_difference_ns = 0;  // between an estimate's stamp and the nearest ground-truth pose used
   std::size_t unmatched = 0;               // poses of the estimate without ground truth
 };
 
-// Two clocks that write the same instant with other digits differ by less than this.
+// Stamps of the same instant differ by less than this if they were rounded differently.
 constexpr std::int64_t kSameStampNs = 100'000;
 
-// Fewer pairs say nothing about a path.
+// Minimum number of pairs for an evaluation.
 constexpr std::size_t kFewestPairs = 3;
 
-// Pairs in order of time. Throws InputError, with both spans of time, if fewer than kFewestPairs come about.
+// Returns pairs in order of time. Throws InputError, naming both time spans, if there are fewer than kFewestPairs.
 Association associate(const Trajectory& estimate, const Trajectory& ground_truth,
                       const AssociationOptions& options = {});
 

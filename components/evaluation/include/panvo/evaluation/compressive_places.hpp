@@ -10,11 +10,11 @@ namespace panvo::evaluation {
 
 enum class FeatureScale { kLarge, kSmall };
 enum class FeatureSelection {
-  kPlain,    ///< CF: all patches drawn, by intensity, with equal weights [Lu2015 3.1]
-  kAdaptive  ///< ACF: those that tell most, by intensity or gradients, weighted [Lu2015 3.2]
+  kPlain,    ///< CF: all sampled patches, intensity only, equal weights [Lu2015 3.1]
+  kAdaptive  ///< ACF: the most distinctive patches, intensity or gradients, weighted [Lu2015 3.2]
 };
 
-/// panvo's own features as one of the methods of Table 1, at one scale, over all headings.
+/// panvo's compressive features as a method of Table 1, at one scale, matched over all headings.
 std::unique_ptr<PlaceMethod> compressive_places(FeatureScale scale, FeatureSelection selection,
                                                 const landmarks::DescriptionParameters& parameters, std::uint64_t seed);
 

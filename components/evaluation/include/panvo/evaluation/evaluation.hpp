@@ -19,32 +19,32 @@
 namespace panvo::evaluation {
 
 struct Options {
-  Alignment alignment = Alignment::kStart;  // of the error series: errors.csv and plot. The table gives both ATEs
+  Alignment alignment = Alignment::kStart;  // for errors.csv and the plot only; the table has both ATEs
   AssociationOptions association;
   SegmentOptions segments;
   ConsistencyOptions consistency;
 };
 
-// Everything that is said about one estimate. What could not be computed is nullopt.
+// Results for one estimate. nullopt: could not be computed.
 struct Evaluation {
   std::string name;
   std::filesystem::path source;
   std::size_t poses = 0;                  // of the estimate
-  std::size_t pairs = 0;                  // of them with ground truth
-  std::optional<std::size_t> unreliable;  // frames of the run whose motion was not measured
+  std::size_t pairs = 0;                  // poses with ground truth
+  std::optional<std::size_t> unreliable;  // frames without measured motion
   AssociationMethod association = AssociationMethod::kInterpolate;
   std::int64_t tolerance_ns = 0;
   std::int64_t largest_difference_ns = 0;
   double duration_s = 0.0;        // from the first pair to the last
   double path_length_m = 0.0;     // of the ground truth at the pairs
-  double coverage_percent = 0.0;  // of the ground truth's whole length
+  double coverage_percent = 0.0;  // of the whole length of the ground truth
 
   std::optional<Summary> ate_start_m;
   std::optional<Summary> ate_se3_m;
   std::optional<Summary> rotation_start_deg;
-  std::optional<double> scale_error_percent;  // by Sim3; positive: the estimate is too long. Information only
+  std::optional<double> scale_error_percent;  // from Sim3 alignment; positive: estimate too long
   std::optional<double> end_error_m;          // start-aligned, at the last pair
-  std::optional<double> end_error_percent;    // of the path's length
+  std::optional<double> end_error_percent;    // of the path length
   std::optional<double> end_rotation_deg;
   std::optional<SegmentErrors> segments;
   std::optional<RelativePoseError> per_frame;
@@ -56,7 +56,7 @@ struct Evaluation {
   std::vector<PoseError> errors;  // under `alignment`
 };
 
-// Throws InputError where estimate and ground truth do not meet in time, or the alignment asked for is not determined.
+// Throws InputError if estimate and ground truth do not overlap in time, or the requested alignment is undetermined.
 Evaluation evaluate(const Estimate& estimate, const Trajectory& ground_truth, const Options& options = {});
 
 }  // namespace panvo::evaluation

@@ -7,9 +7,9 @@
 
 namespace panvo::evaluation {
 
-/// Fourier signature (Menegatti, Maeda and Ishiguro 2004): the band is averaged to 15 rows, gain and offset are taken out, and of
-/// each row the first 15 harmonics along the azimuth are kept. A turn changes their phases only: the distance is that of the
-/// magnitudes, L1, as a share of their sum; the heading that at which the phases agree best, over the full turn.
+/// Fourier signature (Menegatti, Maeda and Ishiguro 2004). The band is averaged to 15 rows and normalised for gain and offset; the
+/// first 15 harmonics along the azimuth are kept for each row. A rotation changes only their phases. The distance is the L1 distance of
+/// the magnitudes divided by their sum; the heading is the one of best phase agreement, over the full circle.
 std::unique_ptr<PlaceMethod> fourier_signature();
 
 }  // namespace panvo::evaluation

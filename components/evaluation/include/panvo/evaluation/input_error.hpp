@@ -8,7 +8,7 @@
 
 namespace panvo::evaluation {
 
-// What was given cannot be evaluated. The message names the file, the line where there is one, and the remedy.
+// The input cannot be evaluated. The message names the file, the line if applicable, and the remedy.
 class InputError : public std::runtime_error {
  public:
   explicit InputError(const std::string& message) : std::runtime_error(message) {}

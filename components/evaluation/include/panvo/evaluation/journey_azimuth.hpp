@@ -10,16 +10,16 @@
 
 namespace panvo::evaluation {
 
-/// A stretch in which the stereo pair saw badly, and how far each azimuth went astray in it [Lu2015 7.2, Fig. 9]. Rad, left
-/// positive; nullopt where an estimate says nothing there.
+/// A segment with degraded stereo vision and the azimuth error of each source in it [Lu2015 7.2, Fig. 9]. Errors in rad, left
+/// positive; nullopt if a source has no data there.
 struct AzimuthEpisode {
-  std::string kind;  ///< "unreliable", as the odometry itself said, or that of a Disturbance
+  std::string kind;  ///< "unreliable" (reported by the odometry) or the kind of a Disturbance
   std::int64_t from_ns = 0;
   std::int64_t to_ns = 0;
   double travelled_m = 0.0;  ///< at its start
-  double turned_rad = 0.0;   ///< by the vehicle, truly
+  double turned_rad = 0.0;   ///< true turn of the vehicle
   std::optional<double> binocular_rad, compass_rad, enhanced_rad;
-  double compass_share = 0.0;  ///< of the episode in which the compass told a change
+  double compass_share = 0.0;  ///< fraction of the episode in which the compass reported a change
 };
 
 /// All episodes of one kind.
@@ -31,7 +31,7 @@ struct AzimuthKind {
   std::optional<double> binocular_worst_rad, compass_worst_rad, enhanced_worst_rad;
 };
 
-/// Azimuths through an episode and a little before and after, from 0 at its start; error: minus the true one.
+/// Azimuths during an episode and shortly before and after, 0 at its start. The error is the azimuth minus the true one.
 struct AzimuthCurve {
   struct Point {
     double time_s = 0.0;
@@ -49,7 +49,7 @@ struct AzimuthScore {
 
 AzimuthScore score_azimuth(const JourneyFrames& frames);
 
-/// The one through which the binocular azimuth went furthest astray; nullopt without episodes.
+/// The episode with the largest binocular azimuth error; nullopt without episodes.
 std::optional<AzimuthCurve> worst_episode(const JourneyFrames& frames, const AzimuthScore& score);
 
 }  // namespace panvo::evaluation

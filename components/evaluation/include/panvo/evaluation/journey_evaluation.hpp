@@ -13,17 +13,17 @@
 
 namespace panvo::evaluation {
 
-/// A stage of ours beside the paper's line of Table 3; without a paper's time: a stage that is not in it.
+/// A stage of panvo and the corresponding line of the paper's Table 3. Further stages of the same line have no `paper_ms`.
 struct StageRow {
   std::string group, item;
   std::optional<double> paper_ms;
   std::optional<StageTime> ours;
 };
 
-/// All lines of Table 3, those without a stage of ours too.
+/// All lines of Table 3, including those without a stage of panvo.
 std::vector<StageRow> stage_rows(const StageTimes& times);
 
-/// All that is said about one run.
+/// Results for one run.
 struct RunEvaluation {
   JourneyFrames frames;
   RevisitScore revisits;
@@ -32,31 +32,32 @@ struct RunEvaluation {
   std::vector<StageRow> stages;
 };
 
-/// Throws InputError where run and recording do not belong together.
+/// Throws InputError if run and recording do not belong together.
 RunEvaluation evaluate_run(const JourneyRun& run, const JourneyRecording& recording, const JourneyRecording* earlier);
 
-/// The journey, and with it the same journey with the paper's own correction, where that was run.
+/// A journey, optionally with a second run that uses the paper's own correction.
 struct JourneyReport {
   std::string title;
   RunEvaluation run;
   std::optional<RunEvaluation> paper_run;
-  bool is_second_journey = false;  ///< Table 4 is its match in the paper, else Table 2
+  bool is_second_journey = false;  ///< true: compared with Table 4 of the paper, else with Table 2
 };
 
-/// A listed revisit as this run and as the paper's own correction took it. Empty without a `paper_run`.
+/// A listed revisit in this run and in the run with the paper's own correction.
 struct ComparedRevisit {
   const Revisit* ours = nullptr;
   const Revisit* papers = nullptr;
 };
+/// Empty without a `paper_run`.
 std::vector<ComparedRevisit> side_by_side(const JourneyReport& report);
 
-/// Tables 2 or 4, 3, the paths and the azimuths, for people.
+/// Text tables: Table 2 or 4, Table 3, trajectories and azimuths.
 std::string journey_table(const JourneyReport& report);
 
-/// journey.json: every figure, null for what is not known, units in the names.
+/// journey.json: every figure, null if unknown, units in the names.
 std::string journey_json(const JourneyReport& report);
 
-/// Writes journey_paths.png, journey_error.png and journey_azimuth.png, and what draws them, into `folder`. Throws PlotError.
+/// Writes journey_paths.png, journey_error.png and journey_azimuth.png, and their gnuplot scripts, into `folder`. Throws PlotError.
 void draw_journey(const JourneyReport& report, const std::filesystem::path& folder);
 
 }  // namespace panvo::evaluation

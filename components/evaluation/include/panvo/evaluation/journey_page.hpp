@@ -7,9 +7,8 @@
 
 namespace panvo::evaluation {
 
-/// The journey as one page for a browser that needs nothing beside itself: figures, paths, error over distance, tables, each
-/// revisit with both panoramas, states, times, and what was run. The same text for the same report. Throws InputError for a
-/// panorama that cannot be decoded.
+/// A self-contained HTML report: key figures, trajectories, error over distance, tables, each revisit with both panoramas, states,
+/// times, and run settings. Deterministic. Throws InputError for a panorama that cannot be decoded.
 std::string journey_page(const JourneyReport& report);
 
 }  // namespace panvo::evaluation

@@ -13,17 +13,17 @@
 
 namespace panvo::evaluation {
 
-/// One odometry over a whole journey. Errors as published and from the common start, unless named otherwise.
+/// Errors of one odometry over a whole journey, of poses as published, with aligned starts unless stated otherwise.
 struct PathScore {
   std::string name;
-  std::vector<PoseError> errors;        ///< at each pose that has truth
+  std::vector<PoseError> errors;        ///< of each pose with ground truth
   Summary ate_m;                        ///< of the position error
-  Summary flat_m;                       ///< of its horizontal part, the paper's "2D"
+  Summary flat_m;                       ///< of its horizontal part ("2D" in the paper)
   Summary heading_rad;                  ///< of the absolute heading error
   std::optional<Summary> ate_se3_m;     ///< after the best rigid alignment
   double final_m = 0.0, worst_m = 0.0;  ///< horizontal
-  double worst_at_m = 0.0;              ///< way travelled there
-  double percent_of_way = 0.0;          ///< 2D root mean square, of the way travelled
+  double worst_at_m = 0.0;              ///< distance travelled at the largest error
+  double percent_of_way = 0.0;          ///< 2D RMSE in percent of the distance travelled
 };
 
 /// Binocular and enhanced odometry side by side.
@@ -31,9 +31,9 @@ struct PathScores {
   double travelled_m = 0.0;
   double duration_s = 0.0;
   PathScore binocular, enhanced;
-  double ratio = 0.0;  ///< 2D root mean square of the enhanced path as a share of the binocular one's
+  double ratio = 0.0;  ///< 2D RMSE of the enhanced path divided by that of the binocular path
   std::optional<PoseConsistency> consistency;
-  /// Way in which the localizer said that it does not know yet where in the map it is. The enhanced path is scored without it.
+  /// Distance travelled in state "unlocated". The enhanced path is scored without it.
   double unlocated_m = 0.0;
 };
 

@@ -14,28 +14,28 @@
 
 namespace panvo::evaluation {
 
-/// A crossing of the route, as the recording's author lists it.
+/// A junction of the route, as listed in sequence.yaml.
 struct JourneyPlace {
   std::string name;
-  Eigen::Vector2d position_m = Eigen::Vector2d::Zero();  ///< world of the truth
+  Eigen::Vector2d position_m = Eigen::Vector2d::Zero();  ///< in the world frame of the ground truth
 };
 
 struct JourneyVisit {
   int place = 0;
   std::int64_t stamp_ns = 0;    ///< of the closest approach
-  std::int64_t in_ns = 0;       ///< when the crossing was entered
-  std::int64_t out_ns = 0;      ///< and left
-  double heading_in_rad = 0.0;  ///< of the vehicle on entering, left positive, 0 along the world's x
+  std::int64_t in_ns = 0;       ///< time of entering the junction
+  std::int64_t out_ns = 0;      ///< time of leaving it
+  double heading_in_rad = 0.0;  ///< of the vehicle on entering, left positive, 0 along the x axis of the world
 };
 
-/// A stretch in which something was made hard for the cameras: "movers", "illumination", "weak texture".
+/// A time interval with degraded vision. Kinds: "movers", "illumination", "weak texture".
 struct Disturbance {
   std::int64_t from_ns = 0;
   std::int64_t to_ns = 0;
   std::string kind;
 };
 
-/// What is true of a journey, and what it looked like. All but the truth may be missing.
+/// Ground truth, events and panoramas of a journey. Everything except `truth` is optional.
 struct JourneyRecording {
   std::filesystem::path folder;
   Trajectory truth;  ///< world_from_base, world of the recording
@@ -44,24 +44,24 @@ struct JourneyRecording {
   std::vector<std::string> effects;
   std::map<int, JourneyPlace> places;         ///< by number
   std::vector<JourneyVisit> visits;           ///< in order of time
-  std::vector<Disturbance> disturbances;      ///< stretches of one kind that touch are one
-  std::int64_t panorama_clock_offset_ns = 0;  ///< what the panoramic camera's clock is ahead of the truth's
+  std::vector<Disturbance> disturbances;      ///< adjacent intervals of one kind are merged
+  std::int64_t panorama_clock_offset_ns = 0;  ///< clock of the panoramic camera minus clock of the ground truth
   std::vector<RecordedPanorama> panoramas;
   Eigen::Isometry3d base_from_panorama = Eigen::Isometry3d::Identity();
 };
 
-/// Of a data set in the EuRoC/ASL layout, with sequence.yaml and cam2 where they are there; of the folder of a run, whose
-/// ground_truth.tum is then all that is known; or of a trajectory. Throws InputError (file, line, what to do).
+/// Reads a data set in EuRoC/ASL layout, with sequence.yaml and cam2 if present; a run folder, of which only ground_truth.tum is
+/// used; or a trajectory. Throws InputError (file, line, remedy).
 JourneyRecording read_journey_recording(const std::filesystem::path& folder);
 
-/// Truth with the way along it.
+/// Ground truth with the distance travelled along it.
 class TruePath {
  public:
   explicit TruePath(const Trajectory& truth);
 
-  /// nullopt outside of the truth's time.
+  /// nullopt outside the time span of the ground truth.
   std::optional<Eigen::Isometry3d> pose(std::int64_t stamp_ns) const;
-  /// Way since the first pose, m; the ends' outside of the truth's time.
+  /// Distance since the first pose, m; outside the time span, clamped to its ends.
   double travelled_m(std::int64_t stamp_ns) const;
   const Trajectory& trajectory() const { return truth_; }
 

@@ -15,7 +15,7 @@
 
 namespace panvo::evaluation {
 
-/// A landmark as it was published; one that was published again has more than one.
+/// A published landmark. A landmark that was published several times has several entries.
 struct RunLandmark {
   std::int64_t stamp_ns = 0;  ///< of its panorama
   std::int64_t id = 0;
@@ -23,7 +23,7 @@ struct RunLandmark {
   Eigen::Isometry3d map_from_base = Eigen::Isometry3d::Identity();
 };
 
-/// What one panorama was found to show of the landmarks.
+/// Result of matching one panorama with the landmarks.
 struct RunMatch {
   std::int64_t stamp_ns = 0;
   std::string state;
@@ -53,7 +53,7 @@ struct RunOutcome {
 struct RunAzimuth {
   std::int64_t stamp_ns = 0;
   std::int64_t from_ns = 0;
-  std::optional<double> change_rad;  ///< left positive; nullopt where it is not valid
+  std::optional<double> change_rad;  ///< left positive; nullopt if invalid
 };
 
 struct RunQuality {
@@ -69,7 +69,7 @@ struct RunState {
   std::optional<double> heading_sigma_rad;
 };
 
-/// What was run, as summary.json says it.
+/// Description of the run from summary.json.
 struct RunFacts {
   std::string version, system, seed;
   bool is_replay = false;
@@ -78,12 +78,12 @@ struct RunFacts {
   std::vector<std::pair<std::string, std::string>> changed_parameters;  ///< "component.parameter" and its value
 };
 
-/// All that a run left behind.
+/// Contents of a run folder.
 struct JourneyRun {
   std::filesystem::path folder;
   std::string name;
   Trajectory binocular;  ///< odom_from_base
-  Trajectory enhanced;   ///< map_from_base, as it was published
+  Trajectory enhanced;   ///< map_from_base, as published
   std::optional<MotionCovariances> enhanced_covariances;
   std::vector<RunLandmark> landmarks;
   std::vector<RunMatch> matches;
@@ -94,10 +94,10 @@ struct JourneyRun {
   std::vector<RunState> states;
   StageTimes times;
   std::optional<RunFacts> facts;
-  std::vector<std::string> missing;  ///< names of files that are not there
+  std::vector<std::string> missing;  ///< names of missing files
 };
 
-/// Both odometries must be there, the rest is named in `missing`. Throws InputError (file, line, what to do).
+/// Both odometries are required; other missing files are listed in `missing`. Throws InputError (file, line, remedy).
 JourneyRun read_journey_run(const std::filesystem::path& folder);
 
 }  // namespace panvo::evaluation

@@ -5,10 +5,10 @@
 #include <span>
 #include <string_view>
 
-/// What [Lu2015] measured, to be printed beside what was measured here.
+/// Results of [Lu2015] for comparison.
 namespace panvo::evaluation::paper {
 
-/// A line of Table 2 (Dataset-I) or Table 4 (Dataset-II). Errors: "2D root mean square".
+/// A line of Table 2 (Dataset-I) or Table 4 (Dataset-II). Errors: 2D root mean square.
 struct Revisit {
   int number;
   int landmark;
@@ -20,12 +20,12 @@ struct Revisit {
 std::span<const Revisit> table_2();
 std::span<const Revisit> table_4();
 
-/// A line of Table 3: what it is called there, its time, and which of our stages does that work.
+/// A line of Table 3: its name, its time, and the stages of panvo that do the same work.
 struct Stage {
   std::string_view group, item;
   double time_ms;
-  std::string_view component;                ///< whose name begins with this
-  std::span<const std::string_view> stages;  ///< names of stages, each by itself a line
+  std::string_view component;                ///< prefix of the component's name
+  std::span<const std::string_view> stages;  ///< names of stages, one line each
 };
 
 std::span<const Stage> table_3();

@@ -19,35 +19,35 @@ struct JourneySettings {
   landmarks::KeypointParameters keypoints;
   position_corrector::MatchingParameters matching;
   std::uint64_t seed = 1;
-  /// Standard deviation of the position that the matcher is told, m, and how wrong it is; nullopt: it is told none and searches all.
+  /// Standard deviation of the noisy position passed to the matcher, m; nullopt: no position, the matcher searches all landmarks.
   std::optional<double> position_sigma_m;
 };
 
-/// A landmark that was reported as passed.
+/// A landmark that the matcher reported as passed.
 struct JourneyMatch {
   std::size_t panorama = 0;
-  std::size_t known = 0;           ///< which of the known places
+  std::size_t known = 0;           ///< index of the known place
   double offset_m = 0.0;           ///< true distance to it
-  double heading_error_rad = 0.0;  ///< of the heading it reported
-  double position_error_m = 0.0;   ///< of its pose from the landmark, horizontal
+  double heading_error_rad = 0.0;  ///< of the reported heading
+  double position_error_m = 0.0;   ///< of the pose relative to the landmark, horizontal
   bool is_right = false;           ///< the vehicle is near that place
   position_corrector::LandmarkMatch match;
 };
 
-/// Every panorama of a journey through the matcher, against a library of the known places.
+/// Result of matching every panorama of a journey with a library of the known places.
 struct JourneyScore {
   std::vector<JourneyMatch> matches;
   std::vector<bool> found;  ///< for each revisit of the task
   int wrong = 0;
 };
 
-/// Places of `first` become landmarks where they were passed first, with points from the neighbouring panoramas; if `then` is
-/// the same recording, from that moment on. `on_panorama(i, count)` is called before each.
+/// Builds landmarks at the first visits of `first`, with points from the neighbouring panoramas, and matches all panoramas of `then`.
+/// If both are the same recording, a landmark is known only after its first visit. Calls `on_panorama(i, count)` before each panorama.
 JourneyScore match_journey(const PlaceTask& task, const PlaceRecording& first, const PlaceRecording& then,
                            const JourneySettings& settings,
                            const std::function<void(std::size_t, std::size_t)>& on_panorama);
 
-/// A landmark of a panorama of a recording, its pose the true one.
+/// Builds a landmark from a panorama of a recording, with its true pose.
 landmarks::PanoramicLandmark recorded_landmark(const PlaceRecording& recording, std::size_t panorama,
                                                const landmarks::PanoramaDescriber& describer,
                                                const landmarks::KeypointParameters& keypoints);

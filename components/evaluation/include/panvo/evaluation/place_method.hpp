@@ -7,14 +7,14 @@
 
 namespace panvo::evaluation {
 
-/// How different two panoramas are, and how the vehicle is turned between them.
+/// Distance of two panoramas and the change of heading between them.
 struct PlaceDistance {
-  double distance = 0.0;  ///< in the method's own unit; smaller: more alike
+  double distance = 0.0;  ///< unit depends on the method; smaller: more similar
   double heading_rad =
-      0.0;  ///< yaw at the query minus yaw at the landmark, left positive; 0 where the method knows none
+      0.0;  ///< yaw at the query minus yaw at the landmark, left positive; 0 if the method estimates none
 };
 
-/// What a method keeps of a panorama.
+/// Base class of the descriptors of a panorama.
 class PlaceDescriptor {
  public:
   PlaceDescriptor() = default;
@@ -23,7 +23,7 @@ class PlaceDescriptor {
   virtual ~PlaceDescriptor() = default;
 };
 
-/// A way to tell places apart by their panoramas: ours, or one to compare it with. Pure, and the same for the same input.
+/// A place recognition method on panoramas: panvo's or a baseline. Pure and deterministic.
 class PlaceMethod {
  public:
   PlaceMethod() = default;
@@ -32,12 +32,12 @@ class PlaceMethod {
   virtual ~PlaceMethod() = default;
 
   virtual std::string name() const = 0;
-  /// Of a panorama CV_8UC1, 1080x540, as a landmark and as a query; some keep different things of the two.
+  /// Describes a panorama, CV_8UC1, 1080x540, as landmark or as query; some methods use different descriptors for the two.
   virtual std::unique_ptr<PlaceDescriptor> describe_landmark(const cv::Mat& panorama) const = 0;
   virtual std::unique_ptr<PlaceDescriptor> describe_query(const cv::Mat& panorama) const {
     return describe_landmark(panorama);
   }
-  /// Of descriptors of this method only.
+  /// Both descriptors must come from this method.
   virtual PlaceDistance distance(const PlaceDescriptor& query, const PlaceDescriptor& landmark) const = 0;
 };
 

@@ -9,14 +9,14 @@
 
 namespace panvo::evaluation {
 
-/// D of one method along the way past a known place [Lu2015 Fig. 7].
+/// Distance D of one method along a pass by a known place [Lu2015 Fig. 7].
 struct LocalCurve {
   std::string method;
-  std::vector<double> way_m;     ///< from the panorama nearest to the known one; negative: before it
-  std::vector<double> distance;  ///< from 0, the smallest, to 1, the largest
+  std::vector<double> way_m;     ///< distance travelled from the panorama nearest to the known one; negative: before it
+  std::vector<double> distance;  ///< normalised: 0 the smallest, 1 the largest
 };
 
-/// Curves over the panoramas up to `reach_m` before and after a revisit.
+/// Curves over the panoramas within `reach_m` before and after a revisit.
 std::vector<LocalCurve> local_curves(const std::vector<const PlaceMethod*>& methods, const PlaceTask& task,
                                      const PlaceRevisit& revisit, const PlaceRecording& first,
                                      const PlaceRecording& then, double reach_m);

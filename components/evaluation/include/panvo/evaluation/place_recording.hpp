@@ -11,19 +11,19 @@
 
 namespace panvo::evaluation {
 
-/// A panorama of a recording and where it was taken.
+/// A panorama of a recording with its true pose.
 struct RecordedPanorama {
-  std::int64_t stamp_ns = 0;  ///< in the clock of the truth
+  std::int64_t stamp_ns = 0;  ///< in the clock of the ground truth
   std::filesystem::path file;
   Eigen::Isometry3d world_from_base = Eigen::Isometry3d::Identity();
   double travelled_m = 0.0;  ///< since the first panorama
 };
 
-/// A pass by a junction, as the recording's author lists it.
+/// A pass by a junction, as listed in sequence.yaml.
 struct RecordedVisit {
-  int place = 0;              ///< the junction's number
+  int place = 0;              ///< number of the junction
   std::int64_t stamp_ns = 0;  ///< of the closest approach
-  std::size_t panorama = 0;   ///< the nearest to that stamp
+  std::size_t panorama = 0;   ///< index of the panorama nearest to that stamp
 };
 
 /// Panoramas with ground truth and a list of the places passed: an EuRoC/ASL data set (cam2) with a sequence.yaml.
@@ -34,10 +34,10 @@ struct PlaceRecording {
   std::vector<RecordedVisit> visits;        ///< in order of stamps
 };
 
-/// Throws InputError (file, problem, remedy) where anything is missing or cannot be understood. Images are not opened.
+/// Throws InputError (file, problem, remedy) if anything is missing or invalid. Images are not opened.
 PlaceRecording read_place_recording(const std::filesystem::path& folder);
 
-/// The image of a panorama, grey, 1080x540. Throws InputError for one that cannot be decoded or is not 2:1.
+/// Reads a panorama, CV_8UC1, 1080x540. Throws InputError if it cannot be decoded or is not 2:1.
 cv::Mat read_panorama(const RecordedPanorama& panorama);
 
 }  // namespace panvo::evaluation

@@ -13,24 +13,24 @@
 
 namespace panvo::evaluation {
 
-// Error of one aligned pose, estimate minus ground truth, in the axes of the ground truth's world.
+// Error of one aligned pose, estimate minus ground truth, in the world frame of the ground truth.
 struct PoseError {
   std::int64_t stamp_ns = 0;
-  double distance_m = 0.0;         // travelled so far, on the ground truth
+  double distance_m = 0.0;         // travelled so far, from the ground truth
   Eigen::Vector3d ground_truth_m;  // position
   Eigen::Vector3d estimate_m;      // position, aligned
   Eigen::Vector3d translation_m;   // error
-  Eigen::Vector3d rotation_rad;    // rotation vector that turns the true orientation into the estimated one
+  Eigen::Vector3d rotation_rad;    // rotation vector from the true orientation to the estimated one
   double yaw_rad = 0.0;            // its heading part, left positive, in (-pi, pi]
 };
 
-// Distance travelled up to each pair, on the ground truth, m.
+// Distance travelled up to each pair, from the ground truth, m.
 std::vector<double> distances_m(std::span<const PosePair> pairs);
 
-// One error a pair.
+// One error per pair.
 std::vector<PoseError> pose_errors(std::span<const PosePair> pairs, const MapFromOdom& map_from_odom);
 
-// Absolute trajectory error: length of the translation error, m.
+// Absolute trajectory error: norm of the translation error, m.
 std::optional<Summary> absolute_trajectory_error(std::span<const PoseError> errors);
 
 // Absolute rotation error, degrees.

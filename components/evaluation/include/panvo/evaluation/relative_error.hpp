@@ -19,21 +19,21 @@ struct SegmentError {
   double rotation_deg_per_m = 0.0;
 };
 
-// As KITTI's development kit does it [Geiger2012]: from every `step`-th pose to the first one at least `length` further
-// along the ground truth, error of the relative pose divided by that nominal length.
+// As in KITTI's development kit [Geiger2012]: error of the relative pose from every `step`-th pose to the first pose at
+// least `length` further along the ground truth, divided by the nominal length.
 struct SegmentErrors {
-  std::vector<SegmentError> by_length;  // only lengths that fit into the path at least once
+  std::vector<SegmentError> by_length;  // only lengths that fit into the path
   std::size_t count = 0;
   double translation_percent = 0.0;  // mean over all segments of all lengths
   double rotation_deg_per_m = 0.0;
 };
 
 struct SegmentOptions {
-  std::vector<double> lengths_m;  // empty: chosen to suit the path
-  std::size_t step = 0;           // poses between segment starts; 0: 10 for KITTI's own lengths, else 1
+  std::vector<double> lengths_m;  // empty: suitable_segment_lengths_m()
+  std::size_t step = 0;           // poses between segment starts; 0: 10 for the lengths of KITTI, else 1
 };
 
-// 100..800 m from 200 m of path on, 10..50 m from 50 m on, else 10..50 % of the path.
+// 100..800 m for paths of at least 200 m, 10..50 m for at least 50 m, else 10..50 % of the path.
 std::vector<double> suitable_segment_lengths_m(double path_length_m);
 
 // nullopt if no segment fits. Throws InputError for a length that is not positive.
@@ -45,10 +45,10 @@ struct RelativePoseError {
   Summary rotation_deg;  // degrees per step, or degrees per metre
 };
 
-// From each pair to the next; pairs more than 1.5 median periods apart are passed over, as frames are missing there.
+// From each pair to the next. Pairs more than 1.5 median periods apart are skipped, because frames are missing between them.
 std::optional<RelativePoseError> relative_error_per_frame(std::span<const PosePair> pairs);
 
-// Over the shortest stretch of at least 1 m from each pair on, divided by its true length.
+// From each pair to the first pair at least 1 m further, divided by the true length.
 std::optional<RelativePoseError> relative_error_per_metre(std::span<const PosePair> pairs);
 
 }  // namespace panvo::evaluation

@@ -17,13 +17,13 @@ struct Report {
   std::vector<Evaluation> evaluations;  // at least one
 };
 
-// A text table for people: a row a metric with its unit, a column an estimate, "-" for what could not be computed.
+// Text table: one row per metric with its unit, one column per estimate, "-" for undefined values.
 std::string to_table(const Report& report);
 
-// evaluation.json: every figure, null for what could not be computed. Names carry their units.
+// evaluation.json: every figure, null for undefined values, units in the names.
 std::string to_json(const Report& report);
 
-// errors.csv: one line a pose of each estimate.
+// errors.csv: one line per pose of each estimate.
 std::string to_csv(const Report& report);
 
 }  // namespace panvo::evaluation

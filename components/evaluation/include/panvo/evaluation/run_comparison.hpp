@@ -9,7 +9,7 @@
 
 namespace panvo::evaluation {
 
-// How far a run may be from the one that is expected. Both zero: every file bit for bit, as replays on one machine are.
+// Permitted difference of a run from the expected one. Both zero: files must be bit-identical, as for replays on one machine.
 struct RunTolerance {
   double position_m = 0.0;
   double rotation_deg = 0.0;
@@ -18,15 +18,15 @@ struct RunTolerance {
 
 struct FileComparison {
   std::string name;                       // "odometry_binocular.tum"
-  std::size_t lines = 0;                  // that were expected: poses or events
-  std::optional<std::string> difference;  // the first that counts: "line 12: ..."
-  std::optional<double> worst_m;          // of the poses of a trajectory; absent for other files
+  std::size_t lines = 0;                  // expected number of poses or events
+  std::optional<std::string> difference;  // first difference beyond the tolerance: "line 12: ..."
+  std::optional<double> worst_m;          // largest pose difference; nullopt for files that are not trajectories
   std::optional<double> worst_deg;
 };
 
-// Compares what a run left (trajectories *.tum, events *.csv) with what an earlier one left, file by file, sorted by name. With a
-// tolerance, poses of the same stamps may differ by it, and of events only what is no measured number (stamps, ids, states) must be
-// the same. Throws InputError where a folder has no such files, or a trajectory cannot be read.
+// Compares the result files of a run (trajectories *.tum, events *.csv) with those of an earlier one, in order of name. With a
+// tolerance, poses of equal stamps may differ by it, and of events only stamps, ids and states must be equal, not measured
+// numbers. Throws InputError if a folder has no such files or a trajectory cannot be read.
 std::vector<FileComparison> compare_runs(const std::filesystem::path& run, const std::filesystem::path& expected,
                                          const RunTolerance& tolerance = {});
 

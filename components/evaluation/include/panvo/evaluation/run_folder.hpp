@@ -12,25 +12,24 @@
 
 namespace panvo::evaluation {
 
-// What is known of one estimate: its path, and what the run left beside it.
+// A trajectory to be evaluated and the other files of its run.
 struct Estimate {
   std::string name;
   Trajectory trajectory;
   std::optional<MotionCovariances> covariances;  // odometry_binocular_covariance.csv
-  Trajectory odometry;                           // odometry_binocular.tum, which those covariances speak of
+  Trajectory odometry;                           // odometry_binocular.tum, to which the covariances belong
   std::optional<StageTimes> timing;              // timing.json
-  std::optional<std::size_t> unreliable{};       // frames whose motion was not measured: quality.csv
+  std::optional<std::size_t> unreliable{};       // frames without measured motion, from quality.csv
 };
 
-// Reads a run's output folder, one `odometry_*.tum` in such a folder, or any other trajectory (then without
-// covariances and times). The name is that of the folder or file. Throws InputError.
+// Reads a run folder, one `odometry_*.tum` in such a folder, or any other trajectory (then without covariances and
+// times). The name is that of the folder or file. Throws InputError.
 Estimate read_estimate(const std::filesystem::path& file_or_folder);
 
-// Whether a run left trajectories in this folder.
+// Whether the folder contains trajectories of a run.
 bool is_run_folder(const std::filesystem::path& folder);
 
-// Throws InputError for the folder of a run that did not play all there was: interrupted (summary.json says so), or killed.
-// What it has is the beginning of a result.
+// Throws InputError for the folder of an incomplete run: interrupted (according to summary.json) or killed.
 void require_finished(const std::filesystem::path& file_or_folder);
 
 }  // namespace panvo::evaluation

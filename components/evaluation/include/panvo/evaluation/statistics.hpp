@@ -7,7 +7,7 @@
 
 namespace panvo::evaluation {
 
-// In the unit of what was summarised.
+// In the unit of the summarised values.
 struct Summary {
   std::size_t count = 0;
   double mean = 0.0;
@@ -16,7 +16,7 @@ struct Summary {
   double max = 0.0;
 };
 
-// nullopt of nothing.
+// nullopt for an empty vector.
 std::optional<Summary> summarize(std::vector<double> values);
 
 // x with P(chi-square of `degrees_of_freedom` <= x) = probability, for probability in (0, 1).

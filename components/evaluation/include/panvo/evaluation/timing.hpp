@@ -28,7 +28,7 @@ struct StageTime {
 using StageTimes = std::vector<StageTime>;  // in the order of the file
 
 // timing.json of a run: {"components": {NAME: {"stages": {STAGE: {"count", "wall_ms": {"mean", "median", "p95", "p99",
-// "max"}, "cpu_ms": {the same}}}}}}. Throws InputError naming the key that is missing or of another type.
+// "max"}, "cpu_ms": {the same}}}}}}. Throws InputError naming a missing key or a key of wrong type.
 StageTimes read_timing(const std::filesystem::path& file);
 
 }  // namespace panvo::evaluation

@@ -11,16 +11,16 @@
 
 namespace panvo::evaluation {
 
-/// What a run's files say of how far its poses were to be trusted.
+/// Poses of a run with the errors and the integrity information of its files.
 struct TrustRun {
   std::vector<TrustSample> samples;  ///< in order of stamp
-  std::size_t without_truth = 0;     ///< poses of a time that the truth does not tell of
-  std::size_t without_sigma = 0;     ///< poses whose covariance is not there or not positive definite
+  std::size_t without_truth = 0;     ///< poses outside the time span of the ground truth
+  std::size_t without_sigma = 0;     ///< poses whose covariance is missing or not positive definite
 };
 
-/// Each pose of odometry_enhanced.tum against ground_truth.tum, both of `folder`, from the common start, with what states.csv and
-/// integrity.csv (where there is one) had said by its stamp. Unlike elsewhere stamps need not grow: a clock that jumps is what this is about.
-/// Throws InputError (file, line, what to do).
+/// Compares each pose of odometry_enhanced.tum with ground_truth.tum, both in `folder`, with aligned starts, and adds the latest states
+/// from states.csv and integrity.csv (optional) at its stamp. Stamps need not increase here, because clock jumps are among the faults.
+/// Throws InputError (file, line, remedy).
 TrustRun read_trust_run(const std::filesystem::path& folder);
 
 }  // namespace panvo::evaluation

@@ -18,24 +18,24 @@ struct BodyMaskParameters {
   static void describe(Field&& field) {
     using P = BodyMaskParameters;
     field(&P::learn, "learn", "",
-          "find out what the vehicle covers of the ground: it stays as it is while the ground goes by");
-    field(&P::ahead_m, "ahead_m", "m", "covered at least, ahead of the base", 0.0, 20.0);
-    field(&P::behind_m, "behind_m", "m", "covered at least, behind the base", 0.0, 20.0);
-    field(&P::side_m, "side_m", "m", "covered at least, to either side", 0.0, 20.0);
-    field(&P::farthest_m, "farthest_m", "m", "covered at most, from the base", 1.0, 30.0);
+          "learn the image region of the vehicle body, which is constant while the ground moves");
+    field(&P::ahead_m, "ahead_m", "m", "minimum extent of the body ahead of the base", 0.0, 20.0);
+    field(&P::behind_m, "behind_m", "m", "minimum extent of the body behind the base", 0.0, 20.0);
+    field(&P::side_m, "side_m", "m", "minimum extent of the body to either side", 0.0, 20.0);
+    field(&P::farthest_m, "farthest_m", "m", "maximum distance of the body from the base", 1.0, 30.0);
   }
 };
 
-/// What of a bird's-eye view shows the vehicle's own body: an ellipse that is given, and what is learned on the way. A pixel of
-/// the ground looks like the pixel that the vehicle has moved away from; one of the body looks like itself before.
+/// Region of a bird's-eye view that shows the vehicle's own body: a given ellipse, extended by learning. A ground pixel
+/// matches the previous view shifted by the vehicle's motion; a body pixel matches the previous view unshifted.
 class BodyMask {
  public:
   BodyMask(const BodyMaskParameters& parameters, const GroundGrid& grid);
 
-  /// Compares a view (8UC1 or 8UC3) with the one before, once the vehicle has moved far enough between them.
+  /// Compares a view (8UC1 or 8UC3) with the previous one if the vehicle has moved far enough between them.
   void learn(const cv::Mat& view, const PlanarPose& odom_from_base);
 
-  /// 8UC1: 255 where the body is.
+  /// 8UC1: 255 on the body.
   const cv::Mat& mask() const noexcept { return mask_; }
 
  private:
@@ -44,9 +44,9 @@ class BodyMask {
   BodyMaskParameters parameters_;
   GroundGrid grid_;
   cv::Mat given_, possible_, mask_;
-  cv::Mat previous_;  // what of the last view is compared: its detail
+  cv::Mat previous_;  // detail of the previous view
   PlanarPose previous_pose_;
-  cv::Mat stays_, goes_;  // sums of differences, 32FC1
+  cv::Mat stays_, goes_;  // sums of the differences without and with motion compensation, 32FC1
   double moved_m_ = 0.0;
 };
 

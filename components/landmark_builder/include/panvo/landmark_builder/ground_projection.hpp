@@ -21,14 +21,14 @@ struct GroundProjectionParameters {
   }
 };
 
-/// Where the square bird's-eye view lies: its middle pixel is the vehicle's base, rows go backwards and columns to the right,
-/// so that ahead is up.
+/// Geometry of the square bird's-eye view: the middle pixel is the vehicle's base, rows point backwards and columns to
+/// the right, so that ahead is up.
 struct GroundGrid {
   int side = 0;  ///< px, odd
   double resolution_m = 0.0;
 
   int middle() const { return side / 2; }
-  /// (column, row) of a point on the ground, base frame, m; pixel centres at integers.
+  /// (column, row) of a point on the ground (base frame, m); pixel centres at integers.
   Eigen::Vector2d pixel(const Eigen::Vector2d& point_in_base) const {
     return {middle() - point_in_base.y() / resolution_m, middle() - point_in_base.x() / resolution_m};
   }
@@ -37,12 +37,12 @@ struct GroundGrid {
   }
 };
 
-/// An equirectangular panorama seen from above, as if all it shows were on the plane under the vehicle [Lu2015 4.1]. Where the
-/// camera sits above the ground, and how it is tilted, is in base_from_panorama.
+/// Projects an equirectangular panorama to the ground plane under the vehicle [Lu2015 4.1]. base_from_panorama gives
+/// height and tilt of the camera.
 class GroundProjection {
  public:
-  /// Makes the table of places for panoramas of this size. Throws std::invalid_argument: the camera is not above the ground,
-  /// or the size is not 2:1.
+  /// Computes the look-up table for panoramas of this size. Throws std::invalid_argument: the camera is not above the
+  /// ground, or the size is not 2:1.
   GroundProjection(const GroundProjectionParameters& parameters, const Eigen::Isometry3d& base_from_panorama,
                    cv::Size panorama_size);
 
@@ -51,7 +51,7 @@ class GroundProjection {
 
   const GroundGrid& grid() const noexcept { return grid_; }
   cv::Size panorama_size() const noexcept { return size_; }
-  /// Horizontal place of the camera in the base frame, m, and its height above the ground.
+  /// Horizontal position of the camera in the base frame, m; height above the ground.
   Eigen::Vector2d camera() const noexcept { return camera_; }
   double camera_height_m() const noexcept { return camera_height_m_; }
 
@@ -60,7 +60,7 @@ class GroundProjection {
   cv::Size size_;
   Eigen::Vector2d camera_;
   double camera_height_m_ = 0.0;
-  cv::Mat places_, fractions_;  // of cv::remap
+  cv::Mat places_, fractions_;  // maps of cv::remap
 };
 
 }  // namespace panvo::landmark_builder

@@ -20,44 +20,44 @@ struct JunctionFilterParameters {
   template <class Field>
   static void describe(Field&& field) {
     using P = JunctionFilterParameters;
-    field(&P::merge_radius_m, "merge_radius_m", "m", "centres this close to each other are one junction", 1.0, 50.0);
-    field(&P::passed_m, "passed_m", "m", "farther away again than the nearest place by this: the junction is passed",
-          0.5, 50.0);
-    field(&P::longest_gap_m, "longest_gap_m", "m", "path without it after which a junction that lies behind is over",
-          0.0, 50.0);
-    field(&P::farthest_pass_m, "farthest_pass_m", "m", "a junction passed farther away than this is not taken", 0.5,
+    field(&P::merge_radius_m, "merge_radius_m", "m", "centres closer to each other are one junction", 1.0, 50.0);
+    field(&P::passed_m, "passed_m", "m", "a junction is passed when this much farther away than at its nearest", 0.5,
           50.0);
-    field(&P::least_seen_m, "least_seen_m", "m", "path along which a junction must have been seen", 0.0, 50.0);
-    field(&P::least_share, "least_share", "1", "share of the panoramas along that path that must have shown it", 0.0,
+    field(&P::longest_gap_m, "longest_gap_m", "m", "path without a detection after which a passed junction is complete",
+          0.0, 50.0);
+    field(&P::farthest_pass_m, "farthest_pass_m", "m", "junctions passed at a larger distance are discarded", 0.5,
+          50.0);
+    field(&P::least_seen_m, "least_seen_m", "m", "minimum path along which a junction is detected", 0.0, 50.0);
+    field(&P::least_share, "least_share", "1", "minimum fraction of the panoramas along that path that show it", 0.0,
           1.0);
   }
 };
 
-/// A junction that one panorama shows.
+/// A junction detected in one panorama.
 struct SeenJunction {
   Eigen::Vector2d centre_in_odom = Eigen::Vector2d::Zero();
   int roads = 3;
 };
 
-/// A junction, once it lies behind.
+/// A junction that the vehicle has passed.
 struct PassedJunction {
   Eigen::Vector2d centre_in_odom = Eigen::Vector2d::Zero();
   std::int64_t nearest_stamp_ns = 0;  ///< of the panorama nearest to its centre
-  double nearest_m = 0.0;             ///< from the vehicle's base to the centre then
-  int panoramas = 0;                  ///< that showed it
+  double nearest_m = 0.0;             ///< from the vehicle's base to the centre at that stamp
+  int panoramas = 0;                  ///< number of panoramas that showed it
 };
 
-/// Makes one junction of the many panoramas that show it.
+/// Merges the detections of one junction in successive panoramas.
 class JunctionFilter {
  public:
   explicit JunctionFilter(const JunctionFilterParameters& parameters) : parameters_(parameters) {}
 
-  /// A panorama: where the vehicle was, and the centre of the junction that it shows, if any. Returns the junctions that are
-  /// passed by now; stamps must increase.
+  /// Adds a panorama: the vehicle's position and the detected junction, if any. Returns the junctions that are now
+  /// passed; stamps must increase.
   std::vector<PassedJunction> add(std::int64_t stamp_ns, const Eigen::Vector2d& position_in_odom,
                                   const std::optional<SeenJunction>& seen);
 
-  /// Whether a junction is being seen that is not told of yet.
+  /// Whether a detected junction has not been returned yet.
   bool is_pending() const;
 
  private:
@@ -67,11 +67,11 @@ class JunctionFilter {
     double travelled_m;
   };
   struct Candidate {
-    Eigen::Vector2d sum = Eigen::Vector2d::Zero();  // of the centres seen, by the path driven
+    Eigen::Vector2d sum = Eigen::Vector2d::Zero();  // of the detected centres, weighted by the path driven
     double weight = 0.0;
     int seen = 0;
-    double first_m = 0.0, last_m = 0.0;  // travelled, when it was seen
-    bool is_passed = false;              // and has been told; kept while it is still being seen
+    double first_m = 0.0, last_m = 0.0;  // path length at the first and last detection
+    bool is_passed = false;              // and was returned; kept while still detected
     Eigen::Vector2d centre() const { return sum / weight; }
   };
 

@@ -40,43 +40,44 @@ struct BuilderParameters {
     field.group(&P::triangulation, "triangulation");
     field.group(&P::description, "description");
     field.group(&P::keypoints, "keypoints");
-    field(&P::neighbours, "neighbours", "1",
-          "panoramas before and after a landmark's that give its keypoints their points", 0, 20);
-    field(&P::farthest_neighbour_m, "farthest_neighbour_m", "m",
-          "how far from the landmark the farthest of them is taken", 0.5, 50.0);
-    field(&P::thumbnail_quality, "thumbnail_quality", "1", "of a landmark's small picture, JPEG; 0: none", 0, 100);
+    field(&P::neighbours, "neighbours", "1", "panoramas before and after a landmark's that triangulate its keypoints",
+          0, 20);
+    field(&P::farthest_neighbour_m, "farthest_neighbour_m", "m", "distance of the farthest of them from the landmark",
+          0.5, 50.0);
+    field(&P::thumbnail_quality, "thumbnail_quality", "1", "JPEG quality of a landmark's thumbnail; 0: no thumbnail", 0,
+          100);
   }
 };
 
-/// A panorama and where the vehicle was then.
+/// A panorama and the vehicle's pose at its stamp.
 struct PosedPanorama {
   std::int64_t stamp_ns = 0;
   cv::Mat image;  ///< 8UC1 or 8UC3 (BGR), 2:1
   Eigen::Isometry3d odom_from_base = Eigen::Isometry3d::Identity();
   vision::Matrix6d covariance = vision::Matrix6d::Zero();  ///< of odom_from_base, as vision::pose_error
-  /// Where the odometry's frame lies in the map by now: it drifts, and jumps where a place corrects it, while odometry does not.
+  /// Current pose of the odometry frame in the map: it drifts, and jumps at corrections, unlike odometry.
   Eigen::Isometry3d map_from_odom = Eigen::Isometry3d::Identity();
 };
 
-/// Builds panoramic landmarks as the vehicle goes [Lu2015 4]: detects junctions, chooses the panorama nearest to each one's centre
-/// once it is passed, describes it, and gives its keypoints metric points from the panoramas around it.
+/// Builds panoramic landmarks along the path [Lu2015 4]: detects junctions, selects the panorama nearest to the centre
+/// of a passed junction, describes it, and triangulates its keypoints with the panoramas around it.
 class LandmarkBuilder {
  public:
-  /// For panoramas of one camera and size. `seed` draws the measurement matrices. Throws as RoadJunctionDetector and
-  /// PanoramaDescriber do.
+  /// For panoramas of one camera and size. `seed` determines the measurement matrices. Throws like RoadJunctionDetector
+  /// and PanoramaDescriber.
   LandmarkBuilder(const BuilderParameters& parameters, std::uint64_t seed, const Eigen::Isometry3d& base_from_panorama,
                   cv::Size panorama_size, vision::StageObserver* observer = nullptr);
 
-  /// Panoramas in order of time; returns the landmarks that they make, with ids, each of an earlier panorama. A panorama that
-  /// shows nothing (landmarks::find_fault) must not be given.
+  /// Processes panoramas in order of time; returns the landmarks completed, with ids, each built from an earlier
+  /// panorama. Panoramas rejected by landmarks::find_fault must not be passed.
   std::vector<landmarks::PanoramicLandmark> step(const PosedPanorama& panorama);
 
-  /// A landmark of another source (an earlier journey), or one that was moved; in the map.
+  /// Adds or moves a landmark, e.g. of an earlier journey; position in the map, m.
   void set_landmark(std::uint32_t id, const Eigen::Vector2d& position) { rule_.set_landmark(id, position); }
-  /// The place of the last panorama was recognised.
+  /// Reports that a landmark was recognised at the last panorama.
   void recognised() { rule_.recognised(travelled_m_); }
 
-  /// What the last panorama showed of the road.
+  /// Detector result for the last panorama.
   const JunctionView& view() const noexcept { return view_; }
   double travelled_m() const noexcept { return travelled_m_; }
 

@@ -18,33 +18,33 @@ struct LandmarkRuleParameters {
   static void describe(Field&& field) {
     using P = LandmarkRuleParameters;
     field(&P::longest_without_m, "longest_without_m", "m",
-          "path without a landmark after which one is taken wherever the vehicle is; 0: only at junctions", 0.0,
-          10000.0);
+          "path without a landmark after which one is built anywhere; 0: only at junctions", 0.0, 10000.0);
     field(&P::first_m, "first_m", "m",
-          "path after which a new map's first landmark is taken, so that the way back to the start is recognised", 0.0,
+          "path after which the first landmark of a new map is built, to recognise a return to the start", 0.0,
           10000.0);
-    field(&P::nearby_m, "nearby_m", "m", "no new landmark this close to another", 0.0, 1000.0);
-    field(&P::known_m, "known_m", "m", "path before and after a recognised landmark along which no new one is taken",
-          0.0, 1000.0);
+    field(&P::nearby_m, "nearby_m", "m", "smallest distance of a new landmark from any other", 0.0, 1000.0);
+    field(&P::known_m, "known_m", "m", "path before and after a recognised landmark without new landmarks", 0.0,
+          1000.0);
   }
 };
 
-/// Which places become landmarks: one at each junction, and one where there has been none for long; none where a landmark is already, by
-/// position or because it was recognised [Lu2015 4.1]. And where a new map begins, for journeys end where they began.
+/// Decides which places become landmarks: one per junction, one after a long path without any, and one at the start of
+/// a new map, as journeys often end there. None near a known landmark, by position or by recognition [Lu2015 4.1].
 class LandmarkRule {
  public:
   explicit LandmarkRule(const LandmarkRuleParameters& parameters) : parameters_(parameters) {}
 
-  /// A landmark there is, new or from an earlier journey, or that was moved.
+  /// Adds or moves a landmark, of this or of an earlier journey.
   void set_landmark(std::uint32_t id, const Eigen::Vector2d& position);
-  /// A landmark was taken here.
+  /// Reports that a landmark was built here.
   void taken(double travelled_m) { last_m_ = travelled_m; }
-  /// A landmark was recognised here.
+  /// Reports that a landmark was recognised here.
   void recognised(double travelled_m);
 
-  /// Whether a place becomes a landmark that the vehicle passed at `place_travelled_m` along its path.
+  /// Whether a place that the vehicle passed at `place_travelled_m` along its path becomes a landmark.
   bool takes(const Eigen::Vector2d& position, double place_travelled_m) const;
-  /// Whether the path since the last landmark, taken or recognised, or since a new map began, is long enough for one without a junction.
+  /// Whether the path since the last landmark, built or recognised, or since the start of a new map is long enough for
+  /// a landmark without a junction.
   bool is_due(double travelled_m) const;
 
   std::uint32_t next_id() const { return positions_.empty() ? 1 : positions_.rbegin()->first + 1; }

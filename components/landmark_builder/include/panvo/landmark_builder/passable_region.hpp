@@ -13,15 +13,15 @@ struct PassableRegionParameters {
   template <class Field>
   static void describe(Field&& field) {
     using P = PassableRegionParameters;
-    field(&P::close_m, "close_m", "m", "width of markings and gaps that are closed over", 0.0, 3.0);
-    field(&P::narrowest_m, "narrowest_m", "m", "width of the narrowest way that counts as passable", 0.1, 10.0);
+    field(&P::close_m, "close_m", "m", "width of markings and gaps that are closed", 0.0, 3.0);
+    field(&P::narrowest_m, "narrowest_m", "m", "width of the narrowest passable road", 0.1, 10.0);
     field(&P::smallest_hole_m2, "smallest_hole_m2", "m^2",
           "area of the smallest island in the road; smaller ones are filled", 0.0, 1000.0);
   }
 };
 
-/// The part of a road mask (8UC1, 0 or 255) that hangs together with `vehicle` and is wide enough to drive, without
-/// holes [Lu2015 4.1]. Empty (all 0) where the vehicle stands on none.
+/// The part of a road mask (8UC1, 0 or 255) that is connected to `vehicle` and wide enough to drive on, without holes
+/// [Lu2015 4.1]. All 0 if the vehicle is not on it.
 cv::Mat passable_region(const cv::Mat& road, cv::Point vehicle, double resolution_m,
                         const PassableRegionParameters& parameters);
 

@@ -22,20 +22,20 @@ struct RoadArmsParameters {
   template <class Field>
   static void describe(Field&& field) {
     using P = RoadArmsParameters;
-    field(&P::directions, "directions", "1", "half-lines about a centre, over the full turn", 36, 720);
-    field(&P::arm_length_m, "arm_length_m", "m", "how far from the junction's centre road must reach to be an arm", 3.0,
+    field(&P::directions, "directions", "1", "half-lines around a centre, over the full turn", 36, 720);
+    field(&P::arm_length_m, "arm_length_m", "m", "minimum reach of an arm from the junction's centre", 3.0, 50.0);
+    field(&P::widest_m, "widest_m", "m", "width of the widest arm at that distance; a wider one is a square", 2.0,
           50.0);
-    field(&P::widest_m, "widest_m", "m", "width of the widest arm, there; a wider one is a square", 2.0, 50.0);
-    field(&P::narrowest_m, "narrowest_m", "m", "width of the narrowest arm, there", 0.5, 20.0);
-    field(&P::smallest_gap_m, "smallest_gap_m", "m", "width of what lies between two arms, there, at least", 0.1, 20.0);
-    field(&P::deepest_gap, "deepest_gap", "1", "share of arm_length_m that road may reach at most between two arms",
+    field(&P::narrowest_m, "narrowest_m", "m", "width of the narrowest arm at that distance", 0.5, 20.0);
+    field(&P::smallest_gap_m, "smallest_gap_m", "m", "smallest gap between two arms at that distance", 0.1, 20.0);
+    field(&P::deepest_gap, "deepest_gap", "1", "largest reach of the road between two arms, fraction of arm_length_m",
           0.1, 1.0);
-    field(&P::search_radius_m, "search_radius_m", "m", "how far from the vehicle a junction's centre is sought", 0.0,
+    field(&P::search_radius_m, "search_radius_m", "m", "search radius for a junction's centre around the vehicle", 0.0,
           30.0);
-    field(&P::search_step_m, "search_step_m", "m", "spacing of the places that are tried as its centre", 0.1, 5.0);
-    field(&P::smallest_room_m, "smallest_room_m", "m", "from a junction's centre to the nearest kerb, at least", 0.1,
-          20.0);
-    field(&P::longest_gap_m, "longest_gap_m", "m", "what may interrupt a road without ending it", 0.0, 10.0);
+    field(&P::search_step_m, "search_step_m", "m", "spacing of the candidate centres", 0.1, 5.0);
+    field(&P::smallest_room_m, "smallest_room_m", "m", "smallest distance of a junction's centre from the nearest kerb",
+          0.1, 20.0);
+    field(&P::longest_gap_m, "longest_gap_m", "m", "longest interruption that does not end a road", 0.0, 10.0);
   }
 };
 
@@ -43,29 +43,29 @@ struct RoadArmsParameters {
 struct RoadArm {
   double direction_rad = 0.0;  ///< counter-clockwise from the mask's "up", [0, 2 pi)
   double width_m = 0.0;        ///< at arm_length_m from the centre
-  double reach_m = 0.0;        ///< how far it was followed, as far as that is looked for
+  double reach_m = 0.0;        ///< largest reach, limited by the length of the half-lines
 };
 
-/// Where roads meet, in the mask's pixels (column, row), and the roads.
+/// A candidate centre in the mask's pixels (column, row), and the roads that leave it.
 struct RoadArms {
   Eigen::Vector2d centre_px = Eigen::Vector2d::Zero();
   double room_m = 0.0;  ///< from the centre to the nearest kerb
   std::vector<RoadArm> arms;
-  std::vector<float> reach_m;  ///< the field it was read from: of each half-line about the centre
+  std::vector<float> reach_m;  ///< reach of each half-line around the centre
 };
 
-/// The Radon transform along half-lines: how far road reaches from a centre in each direction. Beyond the paper, whose lines
-/// have no beginning: they cannot tell a T from a bend, nor a crossing from its mirror image.
+/// The Radon transform along half-lines: how far road reaches from a centre in each direction. Beyond the paper, whose
+/// full lines cannot distinguish a T-junction from a bend, nor a crossing from its mirror image.
 ///
 /// reach_m: for `directions` angles counter-clockwise from "up", up to `farthest_m`.
 std::vector<float> ray_radon(const cv::Mat& mask, const Eigen::Vector2d& centre_px, double resolution_m, int directions,
                              double farthest_m, double longest_gap_m);
 
-/// Arms about one centre, from its field.
+/// Arms around one centre, from its field.
 std::vector<RoadArm> find_arms(const std::vector<float>& reach_m, const RoadArmsParameters& parameters);
 
-/// The centre near `vehicle_px` with the most arms, and among those the one with most room and the farthest reach. `mask` is a
-/// passable region, 8UC1.
+/// The best centre near `vehicle_px`: junctions (three or more arms) before all others, then by a weighted sum of the
+/// number of arms and the room. `mask` is a passable region, 8UC1.
 RoadArms find_best_centre(const cv::Mat& mask, const Eigen::Vector2d& vehicle_px, double resolution_m,
                           const RoadArmsParameters& parameters);
 

@@ -39,16 +39,16 @@ struct JunctionDetectorParameters {
     using P = JunctionDetectorParameters;
     field(
         &P::criterion, "criterion", "",
-        "what makes a junction: radon (more than one maximum of the Radon field, the paper's) or arms (three roads or "
-        "more that leave one centre)",
+        "criterion of a junction: radon (the paper's: several maxima of the Radon field) or arms (three or more roads "
+        "leave one centre)",
         {"radon", "arms"});
-    field(&P::gather, "gather", "", "judge the road gathered from all panoramas so far; false: each one by itself");
-    field(&P::fewest_arms, "fewest_arms", "1", "roads that make a junction", 3, 8);
-    field(&P::radon_share, "radon_share", "1", "length of a maximum of the Radon field, of the longest", 0.1, 1.0);
-    field(&P::radon_separation_deg, "radon_separation_deg", "deg", "smallest angle between two of its maxima", 5.0,
-          90.0);
+    field(&P::gather, "gather", "", "accumulate the road over panoramas; false: each panorama individually");
+    field(&P::fewest_arms, "fewest_arms", "1", "fewest roads of a junction", 3, 8);
+    field(&P::radon_share, "radon_share", "1", "smallest maximum of the Radon field, fraction of the largest", 0.1,
+          1.0);
+    field(&P::radon_separation_deg, "radon_separation_deg", "deg", "smallest angle between two maxima", 5.0, 90.0);
     field(&P::driven_half_width_m, "driven_half_width_m", "m",
-          "to either side of the path driven, and of the way ahead: road for certain, to learn from", 0.1, 3.0);
+          "half the width of the strip along the driven path and ahead that is used as road for training", 0.1, 3.0);
     field.group(&P::ground, "ground");
     field.group(&P::body, "body");
     field.group(&P::road, "road");
@@ -58,28 +58,29 @@ struct JunctionDetectorParameters {
   }
 };
 
-/// What was seen in one panorama, with every step on the way, so that people can look at it. Masks are 8UC1, 0 or 255.
+/// Result for one panorama with all intermediate steps, for inspection. Masks are 8UC1, 0 or 255.
 struct JunctionView {
-  std::optional<SeenJunction> seen;  ///< by the paper's criterion: where the vehicle is, two roads to a maximum
+  std::optional<SeenJunction> seen;  ///< the `radon` criterion gives the vehicle's position, and two roads per maximum
 
-  cv::Mat birds_eye;           ///< as the panorama; ahead is up
-  cv::Mat body, learned_from;  ///< of it: the vehicle's own body; what was taken for road to learn from
-  cv::Mat road_ratio;          ///< of it: log ratio of road, 32FC1
-  cv::Mat road, passable;      ///< what is judged: of the bird's-eye view, or of the gathered map (odometry's axes)
-  Eigen::Vector2d vehicle_px = Eigen::Vector2d::Zero();  ///< in those two, (column, row)
-  RadonField radon;                                      ///< by the paper's criterion
+  cv::Mat birds_eye;           ///< same type as the panorama; ahead is up
+  cv::Mat body, learned_from;  ///< in it: the vehicle's body; the pixels used for training
+  cv::Mat road_ratio;          ///< in it: log ratio of road, 32FC1
+  cv::Mat road, passable;      ///< the evaluated mask: of this view or the accumulated map (odometry axes)
+  Eigen::Vector2d vehicle_px = Eigen::Vector2d::Zero();  ///< in these two, (column, row)
+  RadonField radon;                                      ///< criterion `radon`
   std::vector<RadonPeak> peaks;
-  RoadArms arms;  ///< by ours; directions from "up" of the masks
+  RoadArms arms;  ///< criterion `arms`; directions from "up" of the masks
 };
 
-/// Finds road junctions in panoramas [Lu2015 4.1]: projection to the ground, Gaussian mixture of the road, morphology, Radon.
+/// Detects road junctions in panoramas [Lu2015 4.1]: ground projection, Gaussian mixture of the road, morphology,
+/// Radon.
 class RoadJunctionDetector {
  public:
-  /// For panoramas of one camera. Throws as GroundProjection does.
+  /// For panoramas of one camera. Throws like GroundProjection.
   RoadJunctionDetector(const JunctionDetectorParameters& parameters, const Eigen::Isometry3d& base_from_panorama,
                        cv::Size panorama_size, vision::StageObserver* observer = nullptr);
 
-  /// Panoramas in order of time, each with where the vehicle was.
+  /// Processes panoramas in order of time, with the vehicle's pose.
   JunctionView detect(const cv::Mat& panorama, const Eigen::Isometry3d& odom_from_base);
 
   const RoadModel& road_model() const noexcept { return road_model_; }
@@ -98,7 +99,7 @@ class RoadJunctionDetector {
   BodyMask body_;
   RoadModel road_model_;
   RoadMap map_;
-  std::deque<Eigen::Vector2d> driven_;  // the last places of the base, odometry's frame
+  std::deque<Eigen::Vector2d> driven_;  // recent positions of the base, odometry frame
 };
 
 }  // namespace panvo::landmark_builder

@@ -18,23 +18,22 @@ struct RoadModelParameters {
     using P = RoadModelParameters;
     field(&P::gaussians, "gaussians", "1", "modes of the road's colour: asphalt in sun and shadow, patches, markings",
           1, 20);
-    field(&P::learning_rate, "learning_rate", "1", "share of the model that one panorama replaces", 0.001, 1.0);
-    field(&P::least_weight, "least_weight", "1", "share of the samples below which a mode is not believed", 0.0, 0.5);
+    field(&P::learning_rate, "learning_rate", "1", "fraction of the model that one panorama replaces", 0.001, 1.0);
+    field(&P::least_weight, "least_weight", "1", "fraction of the samples below which a mode is ignored", 0.0, 0.5);
     field(&P::threshold, "threshold", "1",
-          "log density, relative to the best colour of the road, below which a colour is not the road's", -50.0, 0.0);
+          "log density, relative to the best road colour, below which a colour is not road", -50.0, 0.0);
   }
 };
 
-/// How the road looks, learned as the vehicle goes from ground that is known to be road [Lu2015 4.1].
+/// Appearance of the road, learned online from ground that is known to be road [Lu2015 4.1].
 class RoadModel {
  public:
   explicit RoadModel(const RoadModelParameters& parameters);
 
-  /// Learns from the pixels of a bird's-eye view (8UC1 or 8UC3) that `certain` (8UC1, same size) marks.
+  /// Learns from the pixels of a bird's-eye view (8UC1 or 8UC3) that are set in `certain` (8UC1, same size).
   void learn(const cv::Mat& view, const cv::Mat& certain);
 
-  /// For every pixel how much more it looks like road than not, as a log ratio in [-3, 3] (32FC1); all 0 before anything was
-  /// learned.
+  /// Log ratio of road to not road for every pixel, in [-3, 3] (32FC1); all 0 before the first training.
   cv::Mat segment(const cv::Mat& view) const;
 
   const ColourMixture& road() const noexcept { return road_; }

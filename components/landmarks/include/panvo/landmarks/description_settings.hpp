@@ -14,8 +14,8 @@
 
 namespace panvo::landmarks {
 
-/// What a description depends on, by key, as text: parameters and the seed. Descriptions are comparable where these are
-/// equal; under others the same row of the measurement matrix is another feature.
+/// Everything a description depends on, as text by key: the parameters and the seed. Two descriptions are comparable
+/// only if their settings are equal; otherwise the same row of the measurement matrix is a different feature.
 using DescriptionSettings = std::map<std::string, std::string>;
 
 /// The shortest text that reads back as the same number.
@@ -30,7 +30,7 @@ std::string settings_text(Number number) {
 }
 inline std::string settings_text(const std::string& text) { return text; }
 
-/// Back from text; false, and `value` as it was, for one that is none.
+/// Parses `text` into `value`. Returns false for invalid text; a number then stays unchanged.
 template <class Number>
 bool read_setting(const std::string& text, Number& value) {
   if constexpr (std::is_same_v<Number, bool>) {
@@ -48,7 +48,7 @@ inline bool read_setting(const std::string& text, std::string& value) {
 
 namespace detail {
 
-/// Calls back for every field that a parameter struct declares in its `describe`, with its name and where it is.
+/// Calls `visit` with member pointer and name for every field that a parameter struct declares in its `describe`.
 template <class Visit>
 struct SettingsField {
   Visit visit;
@@ -67,7 +67,7 @@ SettingsField(Visit) -> SettingsField<Visit>;
 
 }  // namespace detail
 
-/// Those of a parameter struct that declares its fields in `describe`, and the seed of the measurement matrix.
+/// Settings of a parameter struct (its fields declared in `describe`) and of the seed of the measurement matrix.
 template <class Parameters>
 DescriptionSettings description_settings(const Parameters& parameters, std::uint64_t seed) {
   DescriptionSettings settings{{"seed", settings_text(seed)}};
@@ -76,7 +76,7 @@ DescriptionSettings description_settings(const Parameters& parameters, std::uint
   return settings;
 }
 
-/// A parameter struct and the seed as they were; nullopt where a key is missing or no such value.
+/// Parameter struct and seed restored from settings; nullopt if a key is missing or its value invalid.
 template <class Parameters>
 std::optional<std::pair<Parameters, std::uint64_t>> from_settings(const DescriptionSettings& settings) {
   std::pair<Parameters, std::uint64_t> read{};
@@ -90,10 +90,12 @@ std::optional<std::pair<Parameters, std::uint64_t>> from_settings(const Descript
   return is_whole ? std::optional(read) : std::nullopt;
 }
 
-/// A sentence for each key that differs or that one side lacks, as "band_rows is 150 there, 160 here"; in order of keys.
+/// One sentence per key that differs or is missing on one side, e.g. "band_rows is 150 there, 160 here", in order of
+/// keys.
 std::vector<std::string> differences(const DescriptionSettings& there, const DescriptionSettings& here);
 
-/// "key=value" lines, and back; a line without "=" is a key without a value. Neither holds a line's end.
+/// Conversion to and from "key=value" lines; a line without "=" is a key without a value. Keys and values must not
+/// contain line breaks.
 std::string to_text(const DescriptionSettings& settings);
 DescriptionSettings settings_from_text(std::string_view text);
 

@@ -8,8 +8,8 @@
 
 namespace panvo::landmarks {
 
-/// Where the SIFT features of landmarks lie that are not in memory: they are nine tenths of a landmark, and needed only
-/// for the one that is being matched.
+/// Storage of the SIFT features of landmarks that are not kept in memory. They make up nine tenths of a landmark and
+/// are needed only for the landmark that is being matched.
 class KeypointSource {
  public:
   KeypointSource() = default;
@@ -17,7 +17,8 @@ class KeypointSource {
   KeypointSource& operator=(const KeypointSource&) = delete;
   virtual ~KeypointSource() = default;
 
-  /// Of the landmark with this id, in their order; empty when it has none or is not known. May throw what storage throws.
+  /// Keypoints of the landmark with this id, in stored order; empty if it has none or is unknown. May throw storage
+  /// errors.
   virtual std::vector<Keypoint> keypoints(std::uint32_t id) const = 0;
 };
 

@@ -11,40 +11,41 @@
 namespace panvo::landmarks {
 
 struct KeypointParameters {
-  int most = 250;            ///< keypoints, the strongest, spread over the azimuth
+  int most = 250;            ///< keypoints kept: the strongest, spread over the azimuth
   bool half_size = true;     ///< detect in the image of half the size: a quarter of the time
-  double top_deg = 35.0;     ///< band they are sought in, above the horizon
+  double top_deg = 35.0;     ///< search band, above the horizon
   double bottom_deg = 25.0;  ///< below the horizon
 
   template <class Field>
   static void describe(Field&& field) {
     using P = KeypointParameters;
-    field(&P::most, "most", "1", "SIFT features kept of a panorama", 20, 5000);
+    field(&P::most, "most", "1", "SIFT features kept per panorama", 20, 5000);
     field(&P::half_size, "half_size", "", "detect SIFT features at half size: a quarter of the time");
-    field(&P::top_deg, "top_deg", "deg", "upper border of the band they are sought in, above the horizon", 5.0, 90.0);
-    field(&P::bottom_deg, "bottom_deg", "deg", "lower border of that band, below the horizon", 0.0, 90.0);
+    field(&P::top_deg, "top_deg", "deg", "upper limit of the search band, above the horizon", 5.0, 90.0);
+    field(&P::bottom_deg, "bottom_deg", "deg", "lower limit of the search band, below the horizon", 0.0, 90.0);
   }
 };
 
-/// SIFT features of a panorama (CV_8UC1 or CV_8UC3, 2:1), strongest first, with bearings in the panorama's frame. The band is
-/// padded across the seam, so a feature there is found as anywhere else. Throws std::invalid_argument for an image that is
-/// empty, not of these types or not 2:1.
+/// SIFT features of a panorama (CV_8UC1 or CV_8UC3, 2:1), strongest first, with bearings in the panorama frame. The
+/// band is padded across the seam, so features there are found like any other. Throws std::invalid_argument for an
+/// image that is empty, of another type or not 2:1.
 std::vector<Keypoint> detect_keypoints(const cv::Mat& panorama, const KeypointParameters& parameters);
 
-/// Two keypoints that are taken for the same thing: indices into the two lists.
+/// A pair of matched keypoints: indices into the two lists.
 struct KeypointMatch {
   int query = 0;
   int landmark = 0;
   float distance = 0.0F;  ///< of the descriptors, Euclidean
 };
 
-/// Where to look for a match: azimuths that differ by no more than this after the query has been turned to the landmark's heading.
+/// Restricts matches to azimuth differences of at most `half_width_rad`, after the query is rotated to the landmark's
+/// heading.
 struct AzimuthWindow {
-  double heading_rad = 0.0;  ///< of a HeadingMatch
+  double heading_rad = 0.0;  ///< from a HeadingMatch
   double half_width_rad = 0.35;
 };
 
-/// Matches by nearest descriptor, the best clearly better than the second (`ratio`), mutual.
+/// Mutual nearest-descriptor matches that pass the ratio test (`ratio`: nearest over second-nearest distance).
 std::vector<KeypointMatch> match_keypoints(std::span<const Keypoint> query, std::span<const Keypoint> landmark,
                                            float ratio = 0.8F, const std::optional<AzimuthWindow>& window = {});
 

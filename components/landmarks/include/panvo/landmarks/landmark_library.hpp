@@ -17,11 +17,11 @@
 
 namespace panvo::landmarks {
 
-/// The landmarks that are known, found by where they are: L{P, H, F_l, F_s, S} [Lu2015 5.1]. Distances are horizontal, as
-/// odometry knows the height least and a vehicle needs it least. Every list it gives is in order of ids, whatever the
-/// order in which they came.
+/// Landmarks indexed by position: L{P, H, F_l, F_s, S} [Lu2015 5.1]. Distances are horizontal, as height is the least
+/// accurate component of odometry and the least relevant one for a vehicle. Every returned list is in order of ids,
+/// whatever the order of insertion.
 ///
-/// With a source for keypoints it keeps 8 kB a landmark, without one all of it.
+/// Uses 8 kB per landmark with a keypoint source; without one, keypoints and thumbnails are kept in memory as well.
 class LandmarkLibrary {
  public:
   struct Near {
@@ -29,35 +29,35 @@ class LandmarkLibrary {
     double distance_m;
   };
 
-  /// `limits`: of what its landmarks will be compared with.
+  /// `limits`: sizes of the matrices and histograms that the landmarks will be compared with.
   explicit LandmarkLibrary(std::shared_ptr<KeypointSource> source = nullptr, DescriptionLimits limits = {});
   LandmarkLibrary(LandmarkLibrary&&) = default;
   LandmarkLibrary& operator=(LandmarkLibrary&&) = default;
 
-  /// Takes a landmark in and returns its id: its own, or the next one if that is 0. Two may be at one place (see nearest).
-  /// With a source, keypoints and thumbnail are dropped: they must be in the source.
-  /// Throws std::invalid_argument: the id is taken, the pose is not finite, or the description does not fit the limits.
+  /// Adds a landmark and returns its id: its own, or the next free one if that is 0. Several may be at one place (see
+  /// nearest). With a source, keypoints and thumbnail are dropped: they must be in the source. Throws
+  /// std::invalid_argument: the id is taken, the pose is not finite, or the description does not fit the limits.
   std::uint32_t add(PanoramicLandmark landmark);
 
-  /// Moves a landmark, as its position comes to be known better; false when there is none of this id. Throws
+  /// Updates the pose of a landmark, e.g. after an optimisation; false if the id is unknown. Throws
   /// std::invalid_argument for a pose that is not finite.
   bool set_pose(std::uint32_t id, const Eigen::Isometry3d& map_from_base,
                 const Eigen::Matrix<double, 6, 6>& covariance);
 
-  /// nullptr when there is none. Landmarks stay where they are in memory as long as the library lives.
+  /// nullptr if the id is unknown. The address of a landmark is valid for the lifetime of the library.
   const PanoramicLandmark* find(std::uint32_t id) const;
 
-  /// All, in order of ids; valid until the next add().
+  /// All landmarks in order of ids; valid until the next add().
   std::span<const PanoramicLandmark* const> all() const noexcept { return by_id_; }
 
-  /// Those whose base is at most `radius_m` from a position in the map, in order of ids [Lu2015 5.1, Fig. 4]. An infinite
-  /// radius gives all; one that is negative or not a number, none.
+  /// Landmarks whose base is at most `radius_m` from a position in the map, in order of ids [Lu2015 5.1, Fig. 4]. An
+  /// infinite radius returns all; a negative one or NaN, none.
   std::vector<const PanoramicLandmark*> within(const Eigen::Vector3d& position, double radius_m) const;
 
-  /// The one nearest to a position in the map, of equally near ones that of the lowest id; nullopt in an empty library.
+  /// The landmark nearest to a position in the map; ties go to the lowest id. nullopt if the library is empty.
   std::optional<Near> nearest(const Eigen::Vector3d& position) const;
 
-  /// The SIFT features of a landmark: those in memory, else those of the source.
+  /// The SIFT features of a landmark: from the source if there is one, else from memory.
   std::vector<Keypoint> keypoints(std::uint32_t id) const;
 
   std::size_t size() const noexcept { return by_id_.size(); }
@@ -68,13 +68,13 @@ class LandmarkLibrary {
  private:
   using Cell = std::pair<std::int64_t, std::int64_t>;
   static Cell cell_of(const Eigen::Vector3d& position);
-  std::size_t index_from(std::uint32_t id) const;  // in by_id_, of the first with this id or a higher one
+  std::size_t index_from(std::uint32_t id) const;  // index in by_id_ of the first landmark with this id or a higher one
   void put_into_cell(const PanoramicLandmark& landmark);
   void take_from_cell(const PanoramicLandmark& landmark);
 
   std::shared_ptr<KeypointSource> source_;
   DescriptionLimits limits_;
-  std::deque<PanoramicLandmark> landmarks_;  // as they came
+  std::deque<PanoramicLandmark> landmarks_;  // in order of insertion
   std::vector<PanoramicLandmark*> by_id_;
   std::map<Cell, std::vector<const PanoramicLandmark*>> cells_;  // a uniform grid over the map
 };

@@ -11,20 +11,20 @@
 #include "panvo_msgs/msg/LandmarkPoses.h"
 #include "panvo_msgs/msg/PanoramicLandmark.h"
 
-/// Landmarks as messages, for the topic `landmarks`.
+/// Conversions of landmarks to and from messages, for the topic `landmarks`.
 namespace panvo::landmarks {
 
-/// Exact but for the rounding of rotations to quaternions. `settings`: what it was described with; `map_frame`: the frame of
-/// its pose, "map".
+/// Exact except for the rounding of rotations to quaternions. `settings`: those the landmark was described with;
+/// `map_frame`: frame of its pose, "map".
 panvo_msgs::msg::PanoramicLandmark to_message(const PanoramicLandmark& landmark, const DescriptionSettings& settings,
                                               const std::string& map_frame);
 
-/// The reason says what cannot be used: it was described with other settings than `settings` (each key that differs, with
-/// both values), or what interfaces::problem_of() says.
+/// The reason states why the message cannot be used: it was described with other settings than `settings` (lists each
+/// key that differs with both values), or the result of interfaces::problem_of().
 conversions::Result<PanoramicLandmark> to_landmark(const panvo_msgs::msg::PanoramicLandmark& message,
                                                    const DescriptionSettings& settings);
 
-/// Where landmarks are known to be by now. The reason is what interfaces::problem_of() says.
+/// Optimised landmark poses. The reason is the result of interfaces::problem_of().
 conversions::Result<std::vector<LandmarkPose>> to_landmark_poses(const panvo_msgs::msg::LandmarkPoses& message);
 
 }  // namespace panvo::landmarks

@@ -7,9 +7,9 @@
 
 namespace panvo::landmarks {
 
-/// Why nothing can be said about the place that a panorama shows, in numbers; nullopt when it can be described.
-/// Found are: empty, not CV_8UC1 or CV_8UC3, not twice as wide as high, too small, black, saturated, constant, and a view that
-/// is covered over more than a third of the full turn.
+/// Reason, with numbers, why a panorama cannot be described; nullopt if it can. Detects panoramas that are empty, not
+/// CV_8UC1 or CV_8UC3, not 2:1, too small, black, saturated, constant, or covered over more than a third of the full
+/// turn.
 std::optional<std::string> find_fault(const cv::Mat& panorama);
 
 }  // namespace panvo::landmarks

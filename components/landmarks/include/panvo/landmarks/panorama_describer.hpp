@@ -15,8 +15,8 @@
 
 namespace panvo::landmarks {
 
-/// How a panorama is described. Two descriptions can be compared when these and the seed are the same for both. The defaults
-/// are what recognises a place best from some metres aside; paper() are those of the paper, where it gives any.
+/// Parameters of a panorama description. Two descriptions are comparable if these and the seed are equal. The defaults
+/// give the best recognition from a few metres aside; paper() returns the values of the paper where it gives them.
 struct DescriptionParameters {
   double top_deg = 30.0;
   double bottom_deg = 8.0;
@@ -40,33 +40,32 @@ struct DescriptionParameters {
   template <class Field>
   static void describe(Field&& field) {
     using P = DescriptionParameters;
-    field(&P::top_deg, "top_deg", "deg", "upper border of the band that is described, above the horizon", 5.0, 90.0);
-    field(&P::bottom_deg, "bottom_deg", "deg", "lower border of the band, below the horizon", 0.0, 90.0);
+    field(&P::top_deg, "top_deg", "deg", "upper limit of the described band, above the horizon", 5.0, 90.0);
+    field(&P::bottom_deg, "bottom_deg", "deg", "lower limit of the band, below the horizon", 0.0, 90.0);
     field(&P::patches, "patches", "1", "patches drawn at each scale", 10, 10000);
-    field(&P::features, "features", "1", "features kept of them at each scale, n'", 5, 10000);
-    field(&P::rectangles, "rectangles", "1", "rectangles that a patch is made of", 1, 16);
-    field(&P::balanced, "balanced", "", "as many rectangles with a plus as with a minus, so that brightness cancels");
-    field(&P::spread, "spread", "1", "how far a patch's rectangles lie apart, of a full turn", 0.0, 1.0);
-    field(&P::widest, "widest", "1", "bound of the width of large-scale rectangles, of a full turn", 0.06, 1.0);
+    field(&P::features, "features", "1", "features kept per scale, n'", 5, 10000);
+    field(&P::rectangles, "rectangles", "1", "rectangles per patch", 1, 16);
+    field(&P::balanced, "balanced", "", "as many positive as negative rectangles, so that brightness cancels");
+    field(&P::spread, "spread", "1", "spread of a patch's rectangles, fraction of a full turn", 0.0, 1.0);
+    field(&P::widest, "widest", "1", "maximum width of large-scale rectangles, fraction of a full turn", 0.06, 1.0);
     field(&P::headings, "headings", "1", "headings tried over the full turn at the large scale; a divisor of 1080", 4,
           1080);
     field(&P::histogram_bins, "histogram_bins", "1", "bins of the intensity histogram", 4, 256);
-    field(&P::alpha_deg, "alpha_deg", "deg", "a patch is to look the same nearer than this", 0.5, 90.0);
-    field(&P::beta_deg, "beta_deg", "deg", "and different farther than this ...", 0.5, 90.0);
-    field(&P::gamma_deg, "gamma_deg", "deg", "... and nearer than this", 0.5, 180.0);
-    field(&P::small_radii, "small_radii", "1",
-          "the same radii at the small scale, which is to find the heading, of these", 0.05, 1.0);
-    field(&P::upright, "upright", "1", "vertical share of these radii: a vehicle's view moves sideways", 0.0, 1.0);
-    field(&P::sectors, "sectors", "1", "sectors of the full turn that share the kept features equally; 1: anywhere", 1,
-          90);
+    field(&P::alpha_deg, "alpha_deg", "deg", "radius within which a patch should look the same", 0.5, 90.0);
+    field(&P::beta_deg, "beta_deg", "deg", "inner radius of the ring in which it should look different", 0.5, 90.0);
+    field(&P::gamma_deg, "gamma_deg", "deg", "outer radius of that ring", 0.5, 180.0);
+    field(&P::small_radii, "small_radii", "1", "factor on these radii at the small scale, which determines the heading",
+          0.05, 1.0);
+    field(&P::upright, "upright", "1", "vertical fraction of these radii: the view shifts sideways", 0.0, 1.0);
+    field(&P::sectors, "sectors", "1", "sectors of the full turn that share the kept features equally; 1: none", 1, 90);
   }
 
   bool operator==(const DescriptionParameters&) const = default;
 };
 
-/// What all descriptions of a describer have in common: where the band lies, and the two measurement matrices.
+/// Common to all descriptions of a describer: the rows of the band and the two measurement matrices.
 struct DescriptionBasis {
-  static constexpr int kColumns = 1080;  ///< px, of every panorama when it is described
+  static constexpr int kColumns = 1080;  ///< px, to which every panorama is resized
   static constexpr int kRows = 540;
 
   DescriptionParameters parameters;
@@ -75,34 +74,34 @@ struct DescriptionBasis {
   vision::MeasurementMatrix large, small;
   vision::SelectionParameters select_large, select_small;
 
-  /// Of the landmarks that can be compared with what is described so.
+  /// Sizes that landmarks must have to be compared with these descriptions.
   DescriptionLimits limits() const {
     return {2 * static_cast<std::size_t>(large.rows()), static_cast<std::size_t>(parameters.histogram_bins)};
   }
 };
 
-/// A panorama to be recognised: its histogram, its responses at every heading of the grid, and its integral images, from which
-/// any heading between them is read.
+/// A panorama to recognise: its histogram, its responses at every heading of the grid, and its integral images, from
+/// which the response at any other heading is read.
 struct QueryDescription {
   std::shared_ptr<const DescriptionBasis> basis;
   std::vector<float> histogram;
   vision::CyclicIntegralImages images;
   vision::BandNormalisation normalisation;
   std::vector<float>
-      large_responses;  ///< 2 rows x headings: heading i is i full turns / headings; first intensity, then SURF
+      large_responses;  ///< 2 rows x headings, heading i is i/headings of a turn; first intensity, then SURF
 };
 
-/// Describes panoramas: those that become landmarks, and those that are looked for. One matrix, drawn from the seed, for all.
+/// Describes panoramas as landmarks or as queries, with one measurement matrix per scale drawn from the seed.
 class PanoramaDescriber {
  public:
   /// Throws std::invalid_argument for parameters that contradict each other.
   PanoramaDescriber(const DescriptionParameters& parameters, std::uint64_t seed);
 
-  /// Histogram and adaptive compressive features at both scales [Lu2015 4.2], of a panorama (CV_8UC1 or CV_8UC3, 2:1; other
-  /// sizes than 1080x540 are resized). Throws std::invalid_argument with the reason for one that find_fault() rejects.
+  /// Histogram and adaptive compressive features at both scales [Lu2015 4.2] of a panorama (CV_8UC1 or CV_8UC3, 2:1;
+  /// resized to 1080x540). Throws std::invalid_argument with the reason if find_fault() rejects it.
   PanoramaDescription describe(const cv::Mat& panorama) const;
 
-  /// The same panoramas, prepared to be compared with any number of landmarks at all headings [Lu2015 5.1].
+  /// Prepares a panorama for comparison with any number of landmarks at all headings [Lu2015 5.1].
   QueryDescription query(const cv::Mat& panorama) const;
 
   const DescriptionBasis& basis() const { return *basis_; }
@@ -111,7 +110,7 @@ class PanoramaDescriber {
   std::shared_ptr<const DescriptionBasis> basis_;
 };
 
-/// The panorama as it is described: grey, 1080x540 (shares the pixels where it is that already).
+/// Converts a panorama to grey, 1080x540 (shares the pixels if it already is).
 cv::Mat to_described_size(const cv::Mat& panorama);
 
 }  // namespace panvo::landmarks

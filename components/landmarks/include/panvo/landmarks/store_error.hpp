@@ -5,7 +5,7 @@
 
 namespace panvo::landmarks {
 
-/// A landmark store that cannot be used: the message names the file, what is wrong with it and what to do.
+/// A landmark store cannot be used: the message names the file, the problem and the remedy.
 class StoreError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

@@ -7,24 +7,24 @@
 
 namespace panvo::localizer {
 
-/// Whether the odometry leans: turns a little otherwise than the compass, again and again to the same side. Movers that fill half of the view
-/// do that; each turn by itself is within its error, their sum is not.
+/// Detects a bias of the odometry: small turns that differ from the compass repeatedly in one direction, e.g. due to
+/// moving objects that fill half of the view. Each turn is within its error, their sum is not.
 class AzimuthLean {
  public:
   struct Stretch {
     std::int64_t from_ns = 0, to_ns = 0;
-    double disagreement_rad = 0.0;  ///< compass minus odometry as it came
+    double disagreement_rad = 0.0;  ///< compass minus odometry as received
     double compass_rad = 0.0;       ///< turn by the compass
     double odometry_variance_rad2 = 0.0, compass_variance_rad2 = 0.0;
   };
 
-  /// `window_s`: over how long disagreements are added up; `sigmas`: beyond which their sum is a lean.
+  /// `window_s`: time over which disagreements are summed; `sigmas`: threshold for their sum.
   AzimuthLean(double window_s, double sigmas) : window_s_(window_s), sigmas_(sigmas) {}
 
-  /// A turn; of several against the same panorama the last counts. The stretch over which odometry leans, as one; nullopt while it does
-  /// not. Turns that do not follow upon each other begin anew.
+  /// Adds a turn; of several against one reference panorama the last counts. Returns the whole biased stretch; nullopt
+  /// while there is no bias. Turns that are not consecutive restart the sum.
   std::optional<Stretch> add(const Stretch& turn);
-  /// What was so far is dealt with.
+  /// Restarts the sum.
   void forget() { turns_.clear(); }
 
  private:

@@ -17,41 +17,42 @@
 
 namespace panvo::localizer {
 
-/// Whether odometry and panoramas can both be right about how the vehicle moved; who is wrong where they cannot, and how uncertain the odometry
-/// is then. It makes stretches of the odometry less sure and never moves them.
+/// Checks whether odometry and panoramas agree on the vehicle's motion, decides which one is wrong if not, and inflates
+/// the odometry's covariance accordingly. Never changes the odometry's poses.
 class CrossCheck {
  public:
-  /// Between two panoramas, of which the earlier is kept over several.
+  /// Interval between two panoramas; the earlier one is the reference for several.
   struct Stretch {
-    std::int64_t reference_ns;    ///< the earlier one's own stamp
+    std::int64_t reference_ns;    ///< stamp of the earlier panorama
     std::int64_t from_ns, to_ns;  ///< in the odometry's clock
   };
 
   explicit CrossCheck(const Parameters& parameters);
 
-  /// The last step of the odometry.
+  /// Processes the latest odometry step.
   void add_step(const OdometryChain& chain);
 
-  /// What follows is against another panorama than what came before.
+  /// The following measurements have a new reference panorama.
   void begin_reference();
 
-  /// By how much the panoramas turned more than odometry, and whether that is more than both can err by. Who is wrong; nullopt where nobody is.
+  /// Compares turns: `disagreement_rad` is panoramas minus odometry, `is_too_much` whether it exceeds the errors of
+  /// both. Returns which one is wrong; nullopt if neither.
   std::optional<Wrong> compare_turns(const OdometryChain& chain, const Stretch& stretch, double disagreement_rad,
                                      bool is_too_much);
 
-  /// After compare_turns and what followed of it. `way_variance_m2`: what odometry says of both ways together. Since when the vehicle may have moved
-  /// otherwise than odometry says; nullopt where it has not.
+  /// To be called after compare_turns and its consequences. `way_variance_m2`: odometry's variance, summed over both
+  /// axes. Returns the time since which the vehicle may have moved differently from odometry; nullopt if it has not.
   std::optional<std::int64_t> compare_ways(OdometryChain& chain, const Stretch& stretch,
                                            const AzimuthMeasurement& azimuth, double way_variance_m2);
 
-  /// What was measured so far is of another clock. The mounts stay what they are.
+  /// Discards measurements of the former clock, except the mounting angles.
   void forget();
 
-  /// Why the odometry up to `now_ns` is not to be followed; nullopt where it may be.
+  /// Why odometry is unreliable at `now_ns`; nullopt if it is reliable.
   std::optional<std::string> fault_of_odometry(std::int64_t now_ns) const;
   std::vector<Doubt> doubts(std::int64_t now_ns) const;
 
-  /// By what the direction of the whole way may be off.
+  /// Standard deviation of the direction of the whole path.
   double direction_sigma_rad() const;
   const DirectionOffset& direction_offset() const noexcept { return direction_offset_; }
 
@@ -61,12 +62,12 @@ class CrossCheck {
     Eigen::Vector2d way_m;  // in the axes at its end
   };
 
-  struct GoneOn {  // against a vehicle that went on as it did when odometry and panoramas last agreed
+  struct GoneOn {  // deviation from constant motion since odometry and panoramas last agreed
     TurnAndWay more;
-    double turn_sigma_rad, way_sigma_m;  // of what vehicles do meanwhile
+    double turn_sigma_rad, way_sigma_m;  // of usual vehicle motion in that time
   };
 
-  struct Seen {  // directions, by odometry and panoramas
+  struct Seen {  // difference of directions, panoramas minus odometry
     double difference_rad, variance_rad2;
   };
 
@@ -81,9 +82,9 @@ class CrossCheck {
     double speed_m_s;
   };
 
-  struct Break {  // of the odometry, between two images that it measured by
+  struct Break {  // of the odometry, between two measured images
     std::int64_t from_ns, to_ns;
-    std::int64_t vouched_ns;  // up to which panoramas agree with it
+    std::int64_t vouched_ns;  // up to which panoramas confirm odometry
     bool is_over;
   };
 
@@ -101,13 +102,13 @@ class CrossCheck {
   const double contradiction_sigmas_, patience_s_;
   const MotionPrior motion_;
   DirectionOffset direction_offset_;
-  double camera_turned_rad_ = 0.0;  // the panoramic one, on its mount, since the start
+  double camera_turned_rad_ = 0.0;  // accumulated rotation of the panoramic camera on its mount
   Dispute turn_dispute_, way_dispute_;
-  std::optional<std::int64_t> agreed_ns_;  // the last panorama that agreed with the odometry
-  std::optional<Seen> seen_;               // against the current reference, last
+  std::optional<std::int64_t> agreed_ns_;  // last panorama that agreed with odometry
+  std::optional<Seen> seen_;               // last, against the current reference
   std::optional<Lasting> lasting_;         // while the directions differ
   std::optional<Jump> jump_;               // since the last panorama
-  std::optional<Break> break_;             // for which no panorama has vouched yet
+  std::optional<Break> break_;             // not yet confirmed by a panorama
 };
 
 }  // namespace panvo::localizer

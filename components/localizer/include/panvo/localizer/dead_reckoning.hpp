@@ -5,7 +5,7 @@
 
 namespace panvo::localizer {
 
-/// What may happen to a vehicle while nothing measures its motion.
+/// Possible motion of a vehicle while it is not measured.
 struct MotionPrior {
   double acceleration_m_s2 = 1.5;
   double speed_m_s = 10.0;
@@ -17,28 +17,27 @@ struct MotionPrior {
     using P = MotionPrior;
     field(&P::acceleration_m_s2, "acceleration_m_s2", "m/s^2",
           "standard deviation of the acceleration of a vehicle whose motion is not measured", 0.0, 100.0);
-    field(&P::speed_m_s, "speed_m_s", "m/s", "standard deviation of its speed, which bounds what that comes to", 0.0,
-          1000.0);
-    field(&P::turn_acceleration_rad_s2, "turn_acceleration_rad_s2", "rad/s^2", "the same of its turns", 0.0, 100.0);
-    field(&P::turn_rate_rad_s, "turn_rate_rad_s", "rad/s", "the same of its turns", 0.0, 100.0);
+    field(&P::speed_m_s, "speed_m_s", "m/s", "standard deviation of its speed, which limits the effect", 0.0, 1000.0);
+    field(&P::turn_acceleration_rad_s2, "turn_acceleration_rad_s2", "rad/s^2", "the same for its turns", 0.0, 100.0);
+    field(&P::turn_rate_rad_s, "turn_rate_rad_s", "rad/s", "the same for its turns", 0.0, 100.0);
   }
 };
 
-/// How far a vehicle of which it is known how it moved strays within a time from going on like that: standard deviations.
+/// Standard deviations of a vehicle's deviation from constant motion after a time.
 double way_sigma_m(const MotionPrior& prior, double seconds);
 double turn_sigma_rad(const MotionPrior& prior, double seconds);
 
-/// How uncertain a step of the odometry is at least: by the time for which nothing has measured the motion, whether it passed as many frames
-/// that could not be relied on or as one gap.
+/// Lower bound of the uncertainty of odometry steps, by the time without measured motion, whether it consisted of
+/// unreliable frames or of one gap.
 class DeadReckoning {
  public:
-  /// `gap_s`: from which interval on a step counts as a gap, unless odometry is as slow as a rule.
+  /// `gap_s`: interval from which a step counts as a gap, unless odometry is always that slow.
   DeadReckoning(const MotionPrior& prior, double gap_s) : prior_(prior), gap_s_(gap_s) {}
 
-  /// Least covariance of a step of `interval_s`, in the vehicle's axes; zero for a step that was measured.
+  /// Minimum covariance of a step of `interval_s`, in the vehicle's axes; zero for a measured step.
   vision::Matrix6d step(double interval_s, bool is_reliable);
 
-  /// The same of a silence that goes on since the last step.
+  /// The same for a silence since the last step.
   vision::Matrix6d silence(double seconds) const;
 
  private:
@@ -46,11 +45,11 @@ class DeadReckoning {
 
   const MotionPrior prior_;
   const double gap_s_;
-  double usual_s_ = 0.0;  // interval
-  double blind_s_ = 0.0;  // since motion was measured last
+  double usual_s_ = 0.0;  // usual interval
+  double blind_s_ = 0.0;  // time since the motion was last measured
 };
 
-/// `covariance`, but along no direction less than `least`: for two covariances of the same, of which one may say too little.
+/// `covariance`, raised to at least `least` in every direction; for combining two estimates of one covariance.
 vision::Matrix6d at_least(const vision::Matrix6d& covariance, const vision::Matrix6d& least);
 
 }  // namespace panvo::localizer

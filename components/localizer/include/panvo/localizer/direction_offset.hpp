@@ -3,18 +3,18 @@
 
 namespace panvo::localizer {
 
-/// By what angle the panoramas see the vehicle drive farther to the left than odometry does, all the time: one of the cameras is turned on its
-/// mount. A Kalman filter of one state.
+/// Angle by which panoramas see the driving direction farther left than odometry, i.e. an error of a camera's mounting.
+/// One-state Kalman filter.
 class DirectionOffset {
  public:
-  /// `sigma_rad`: what it may be before anything is known.
+  /// `sigma_rad`: prior standard deviation.
   explicit DirectionOffset(double sigma_rad) : variance_rad2_(sigma_rad * sigma_rad) {}
 
-  /// `difference_rad`: direction of the way by the panoramas minus that by the odometry, both in the vehicle's axes; `variance_rad2`: of it, were
-  /// both cameras mounted as is said.
+  /// `difference_rad`: direction of motion by panoramas minus that by odometry, both in the vehicle's axes;
+  /// `variance_rad2`: its variance for exact extrinsics.
   void add(double difference_rad, double variance_rad2);
 
-  /// It is another one by now.
+  /// Restarts with a new value.
   void restart(double estimate_rad, double variance_rad2);
 
   bool is_measured() const noexcept { return is_measured_; }

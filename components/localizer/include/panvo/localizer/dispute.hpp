@@ -6,32 +6,34 @@
 
 namespace panvo::localizer {
 
-/// Who is taken to be wrong where two measurements of one motion cannot both be right.
+/// Which of two contradicting measurements is considered wrong.
 enum class Wrong { kOdometry, kPanoramas };
 
-/// A difference between what odometry and panoramas say of the motion that is too large for either's error. It lasts from the first panorama that
-/// shows it to the first that does not, and one of the two is wrong all that time: what differs adds up, not its squares.
+/// A difference between the motion by odometry and by panoramas that exceeds the errors of both. Lasts from the first
+/// panorama that shows it to the first that does not; meanwhile one side is constantly wrong, so differences add up
+/// linearly, not squared.
 class Dispute {
  public:
-  /// Of a measurement against the panorama of `reference_ns`; it takes the place of the one before against the same panorama.
-  /// `wrong`: only the first of a dispute decides it. What must be allowed for is the variance that the stretch since the reference adds.
+  /// Adds a measurement against the reference panorama `reference_ns`; replaces the previous one with the same
+  /// reference. `wrong`: only the first of a dispute counts.
   void add(std::int64_t reference_ns, std::int64_t stamp_ns, double difference, Wrong wrong);
   /// Odometry and panoramas agree again.
   void end() { *this = Dispute(); }
 
   bool is_on() const noexcept { return stamp_ns_.has_value(); }
-  /// Of the last measurement that differed. Precondition: on.
+  /// Stamp of the last measurement that differed. Precondition: on.
   std::int64_t stamp_ns() const { return *stamp_ns_; }
   Wrong wrong() const noexcept { return wrong_; }
-  /// All that differed up to now.
+  /// Sum of the differences so far.
   double total() const noexcept { return before_ + last_; }
 
-  /// Variance that the stretch since the reference adds to the sum, if who was found right is so but for a chance of `doubt`.
+  /// Variance that the stretch since the reference adds to the sum; `doubt`: probability that the side considered right
+  /// is wrong.
   double growth(double doubt) const noexcept;
 
  private:
   double before_ = 0.0;  // up to the reference
-  double last_ = 0.0;    // since
+  double last_ = 0.0;    // since the reference
   std::int64_t reference_ns_ = 0;
   std::optional<std::int64_t> stamp_ns_;
   Wrong wrong_ = Wrong::kOdometry;

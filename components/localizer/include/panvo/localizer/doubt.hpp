@@ -5,10 +5,10 @@
 
 namespace panvo::localizer {
 
-/// Something that speaks against the pose and that its covariance does not know of.
+/// Evidence against the pose that is not in its covariance.
 struct Doubt {
-  double off_m = 0.0;        ///< by how much the pose is off if it is right, horizontally
-  bool forbids_use = false;  ///< the pose should not be used before it is settled
+  double off_m = 0.0;        ///< horizontal error of the pose if the doubt is justified
+  bool forbids_use = false;  ///< the pose should not be used until resolved
   std::string reason;
 };
 

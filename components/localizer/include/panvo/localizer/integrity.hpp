@@ -17,28 +17,26 @@ struct IntegrityParameters {
   static void describe(Field&& field) {
     using P = IntegrityParameters;
     field(&P::risk, "risk", "1", "probability that the horizontal error exceeds the protection level", 1e-9, 0.5);
-    field(
-        &P::tail, "tail", "1",
-        "degrees of freedom of the errors' distribution (Student's t): the fewer, the more often they exceed what the "
-        "covariance says; at 10 the level at a risk of 0.001 also holds for normal errors of twice the variance",
-        2.0, 1000.0);
-    field(&P::alert_limit_m, "alert_limit_m", "m", "the largest protection level at which the pose may be used", 0.01,
-          1e4);
+    field(&P::tail, "tail", "1",
+          "degrees of freedom of the error distribution (Student's t): fewer mean more errors beyond the "
+          "covariance; at 10, the level for a risk of 0.001 also holds for normal errors with twice the variance",
+          2.0, 1000.0);
+    field(&P::alert_limit_m, "alert_limit_m", "m", "largest protection level of a usable pose", 0.01, 1e4);
   }
 };
 
-/// Whether a pose may be used.
+/// Whether a pose is usable.
 struct Integrity {
   bool is_usable = false;
-  std::string reason;             ///< why not
+  std::string reason;             ///< why it is not
   double protection_level_m = 0;  ///< horizontal
 };
 
-/// How many standard deviations an error in the plane stays below but for `risk`, when both of its components have a Student distribution
-/// of `tail` degrees of freedom: P(error > r sigma) = (1 + r^2 / tail)^(-tail / 2).
+/// Number of standard deviations that a horizontal error exceeds with probability `risk`, if both components have a
+/// Student distribution with `tail` degrees of freedom: P(error > r sigma) = (1 + r^2 / tail)^(-tail / 2).
 double protection_factor(double risk, double tail);
 
-/// The level is that of the covariance, along its worst direction, and what each doubt adds, which no covariance knows of.
+/// The protection level is that of the covariance along its worst direction plus the offset of each doubt.
 Integrity assess(const LocalizedPose& pose, const std::vector<Doubt>& doubts, const IntegrityParameters& parameters);
 
 }  // namespace panvo::localizer

@@ -13,7 +13,7 @@
 
 namespace panvo::localizer {
 
-/// A known place.
+/// A landmark with known pose.
 struct KnownLandmark {
   std::uint32_t id = 0;
   std::int64_t stamp_ns = 0;  ///< of its panorama
@@ -21,13 +21,13 @@ struct KnownLandmark {
   vision::Matrix6d covariance = vision::Matrix6d::Zero();
 };
 
-/// Where a panorama was taken, seen from a landmark: base_link now in the axes of base_link then.
+/// Pose of a panorama relative to a landmark: current base_link in the axes of base_link at the landmark.
 struct LandmarkSighting {
   std::int64_t stamp_ns = 0;
   std::uint32_t landmark_id = 0;
   Eigen::Isometry3d landmark_from_base = Eigen::Isometry3d::Identity();
   vision::Matrix6d covariance = vision::Matrix6d::Zero();
-  bool stands_alone = true;  ///< false: of so few points that another must agree
+  bool stands_alone = true;  ///< false: from few points, needs confirmation
 };
 
 struct PoseInMap {
@@ -35,67 +35,67 @@ struct PoseInMap {
   vision::Matrix6d covariance = vision::Matrix6d::Zero();
 };
 
-/// A journey as a graph that stays small: its start, the landmarks built on it, the passes by known landmarks, and the odometry between
-/// them. Solving it pulls landmarks and way straight [beyond Lu2015 5.2].
+/// Pose graph of a journey with bounded size: its start, the landmarks built on it, the passes by known landmarks, and
+/// the odometry between them. Solving it corrects landmarks and path [beyond Lu2015 5.2].
 class JourneyGraph {
  public:
-  /// Standard deviations of the pose that a map begins with.
+  /// Standard deviations of the initial pose of a map.
   JourneyGraph(double start_sigma_m, double start_sigma_rad);
 
   void start(const Remembered& at);
   bool has_started() const noexcept { return !nodes_.empty(); }
-  /// Nodes: the start, landmarks, passes.
+  /// Number of nodes: start, landmarks, passes.
   std::size_t size() const noexcept { return nodes_.size(); }
-  /// Whether nothing hangs on where the map began.
+  /// Whether the graph has only the start.
   bool is_bare() const noexcept { return nodes_.size() == 1; }
 
-  /// A landmark of an earlier day. It enters the graph when it is seen.
+  /// A landmark of an earlier journey. It enters the graph when it is seen.
   void add_known(const KnownLandmark& landmark) { known_.insert_or_assign(landmark.id, landmark); }
   bool has_known() const noexcept { return !known_.empty(); }
   bool is_known(std::uint32_t id) const { return known_.contains(id); }
 
   void add_built(std::uint32_t id, const Remembered& at);
-  /// Where somebody says that the vehicle is.
+  /// An external pose of the vehicle.
   void add_said(const PoseInMap& pose, const Remembered& at);
-  /// A sighting; false where a pass by the same landmark within `same_pass_m` of way has a better one. Of the passes by one landmark the last and the
-  /// most precise are kept, 8 in all: a route that is driven all day keeps the graph as small as it was after the eighth time.
+  /// Adds a sighting; false if a pass by the same landmark within `same_pass_m` of path has a better one. Keeps the
+  /// last and the most precise passes per landmark, 8 in all, which bounds the graph on repeated routes.
   bool add_pass(const LandmarkSighting& sighting, const Remembered& at, double same_pass_m);
 
-  /// As known by now; nullopt for an id that is not there.
+  /// Current estimate; nullopt for an unknown id.
   std::optional<KnownLandmark> landmark(std::uint32_t id) const;
-  /// Those of this journey, and those of earlier days that were seen, by ascending id.
+  /// Landmarks of this journey and those of earlier journeys that were seen, by ascending id.
   std::vector<KnownLandmark> landmarks() const;
 
-  /// A pose of the odometry, from the last node before it. Precondition: started.
+  /// Pose in the map of an odometry pose, from the last node before it. Precondition: started.
   PoseInMap carried(const OdometryPose& odometry) const;
 
-  /// What all poses err alike, and the graph cannot know of: the error of the earlier days' map, here, as the landmark of them that
-  /// was seen last has it, and of the scale and the direction of this journey, seen from where it began.
+  /// Error common to all poses, which the graph cannot contain: that of the earlier journeys' map, taken from its most
+  /// recently seen landmark, or else of the scale and direction of this journey relative to its start.
   vision::Matrix6d common_covariance(const Eigen::Vector3d& position, double scale_sigma,
                                      double direction_sigma_rad) const;
 
-  /// The journey moves in the map as one piece, once it is known where it lies.
+  /// Moves the whole journey in the map, once its place there is known.
   void place(const Eigen::Isometry3d& map_from_former_map);
-  /// Between the nodes around this time odometry says nothing any more: the vehicle was lifted.
+  /// Cuts the odometry between the nodes around this time, as the vehicle was lifted.
   void cut(std::int64_t stamp_ns) { cuts_ns_.push_back(stamp_ns); }
-  /// Odometry that is still remembered has changed since a time.
+  /// Updates the nodes after a time from the chain, whose poses have changed.
   void refresh(const OdometryChain& chain, std::int64_t since_ns);
 
-  /// All stamps of this journey become so much earlier.
+  /// Shifts all stamps of this journey back.
   void set_clock_back(std::int64_t by_ns);
 
-  /// False where no poses were found that fit; it may have changed then and must not be used any more.
+  /// False if no solution was found; the graph may then have changed and must not be used any more.
   bool solve();
 
  private:
-  /// A moment of this journey, or a landmark of an earlier day that was seen on it.
+  /// A moment of this journey, or a landmark of an earlier journey seen on it.
   struct Node {
     std::uint32_t landmark_id = 0;   ///< built or passed there; 0: the start
     bool is_pass = false;            ///< passed
-    bool is_of_earlier_day = false;  ///< no part of this journey's way
-    Remembered at;                   ///< odometry then
+    bool is_of_earlier_day = false;  ///< not on this journey's path
+    Remembered at;                   ///< odometry at that moment
     LandmarkSighting sighting;       ///< of a pass
-    std::optional<PoseInMap> said;   ///< where somebody said that the vehicle was
+    std::optional<PoseInMap> said;   ///< external pose
     Eigen::Isometry3d map_from_base = Eigen::Isometry3d::Identity();
     vision::Matrix6d covariance = vision::Matrix6d::Zero();
   };
@@ -111,7 +111,7 @@ class JourneyGraph {
   std::map<std::uint32_t, KnownLandmark> known_;
   std::vector<Node> nodes_;
   std::vector<std::int64_t> cuts_ns_;
-  bool is_placed_ = false;  // the map is another than that which began with the journey
+  bool is_placed_ = false;  // the map is not the one that began with the journey
 };
 
 }  // namespace panvo::localizer

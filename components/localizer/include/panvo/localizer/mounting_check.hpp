@@ -9,38 +9,38 @@
 
 namespace panvo::localizer {
 
-/// Whether both cameras sit on the vehicle as is said of them. Along a pass by a landmark, the panoramas and the odometry measure the
-/// same way. A panoramic camera that looks elsewhere than its extrinsics say sees that way turned; one that sits elsewhere swings
-/// aside when the vehicle turns. Both are fitted to all passes.
+/// Checks the extrinsics of both cameras. Panoramas and odometry measure the same path along a pass by a landmark. A
+/// wrong rotation of the panoramic camera rotates that path; a wrong position moves it sideways when the vehicle turns.
+/// Both are fitted to all passes.
 class MountingCheck {
  public:
-  /// Of the panoramic camera against the stereo camera, beyond what is said of them.
+  /// Of the panoramic relative to the stereo camera, in addition to the extrinsics.
   struct Misalignment {
     double yaw_rad = 0.0;    ///< left positive
     double pitch_rad = 0.0;  ///< down positive
     double forward_m = 0.0;
     double left_m = 0.0;
-    bool is_turned = false, is_displaced = false;  ///< notably, and surely
+    bool is_turned = false, is_displaced = false;  ///< large and significant
   };
 
-  /// A sighting and the odometry of its time.
+  /// A sighting and the odometry at its stamp.
   void add(const LandmarkSighting& sighting, const Remembered& at);
 
-  /// Nullopt where nothing notable was found, or not enough was compared to be sure of it.
+  /// nullopt if there is no notable misalignment or not enough data to be certain.
   std::optional<Misalignment> misalignment() const;
 
-  static constexpr double kNotable_rad = 0.044;  // 2.5 degrees: many times what a pass leaves open
-  static constexpr double kNotable_m = 0.1;      // more than sightings err by
+  static constexpr double kNotable_rad = 0.044;  // 2.5 degrees: many times the uncertainty after a pass
+  static constexpr double kNotable_m = 0.1;      // more than the error of sightings
 
  private:
   using Matrix4d = Eigen::Matrix4d;
   using Matrix34d = Eigen::Matrix<double, 3, 4>;
 
-  /// Of one pass: d = common error of its first sighting + J (yaw, pitch, forward, left).
+  /// Sums of one pass, for the model d = common error of its first sighting + J (yaw, pitch, forward, left).
   struct Pass {
     LandmarkSighting first;
     Remembered first_at, last_at;
-    double weight = 0.0;  // of all its sightings; the sums below are weighted
+    double weight = 0.0;  // sum over its sightings; the sums below are weighted
     Matrix4d jtj = Matrix4d::Zero();
     Eigen::Vector4d jtd = Eigen::Vector4d::Zero();
     Matrix34d j = Matrix34d::Zero();

@@ -10,23 +10,24 @@
 
 namespace panvo::localizer {
 
-/// Odometry as one continuous motion. A pose that no vehicle reaches from the one before is refused. Where several in a row agree on such a place,
-/// odometry has begun anew elsewhere (its process was restarted): the vehicle is then where it was, and what lies between was not measured.
+/// Turns odometry into one continuous motion. A pose that no vehicle can reach from the previous one is rejected. If
+/// several in a row agree on such a place, odometry was restarted with another origin: the motion continues from the
+/// last pose, with an unmeasured gap.
 class OdometryOrigin {
  public:
-  /// `max_speed_m_s`: of any vehicle that this may be.
+  /// `max_speed_m_s`: of any possible vehicle.
   explicit OdometryOrigin(double max_speed_m_s) : max_speed_m_s_(max_speed_m_s) {}
 
   struct Taken {
-    std::optional<OdometryPose> odometry;  ///< nullopt: refused
+    std::optional<OdometryPose> odometry;  ///< nullopt: rejected
     bool is_new_origin = false;
-    std::string reason;  ///< why refused
+    std::string reason;  ///< of the rejection
   };
 
   /// Precondition: stamps increase.
   Taken take(const OdometryPose& told);
 
-  /// All stamps so far become so much earlier.
+  /// Shifts all stamps back.
   void set_clock_back(std::int64_t by_ns);
 
  private:
@@ -38,15 +39,15 @@ class OdometryOrigin {
   bool is_within_reach(const Place& from, const Place& to) const;
   OdometryPose continued(const OdometryPose& told) const;
 
-  static constexpr int kRun = 5;           // messages that agree on another place
-  static constexpr double kSlack_m = 5.0;  // stamps may jitter by tens of milliseconds at 50 m/s
+  static constexpr int kRun = 5;           // consecutive messages that agree on another place
+  static constexpr double kSlack_m = 5.0;  // for stamp jitter of tens of milliseconds at 50 m/s
 
   const double max_speed_m_s_;
-  std::optional<Place> last_, elsewhere_;  // as told; of those taken, and of those refused since
+  std::optional<Place> last_, elsewhere_;  // as received: last accepted, and last rejected since
   int run_ = 0;
-  std::optional<Eigen::Isometry3d> odom_from_told_;  // nullopt: they are one
+  std::optional<Eigen::Isometry3d> odom_from_told_;  // nullopt: identical
   vision::Matrix6d covariance_before_ = vision::Matrix6d::Zero();
-  OdometryPose latest_;  // as it was given on
+  OdometryPose latest_;  // as returned
 };
 
 }  // namespace panvo::localizer

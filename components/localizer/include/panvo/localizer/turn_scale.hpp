@@ -3,18 +3,18 @@
 
 namespace panvo::localizer {
 
-/// By what share odometry turns more than the vehicle does. A focal length or a lens's distortion that is off makes all turns larger or
-/// smaller in the same proportion, and the stereo pair cannot see it; a panorama has no focal length. A Kalman filter of one state.
+/// Relative excess of odometry's turns. An error of focal length or distortion scales all turns, unnoticed by the
+/// stereo pair; a panorama has no focal length. One-state Kalman filter.
 class TurnScale {
  public:
-  /// `sigma`: what it may be before anything is known.
+  /// `sigma`: prior standard deviation.
   explicit TurnScale(double sigma) : variance_(sigma * sigma) {}
 
-  /// `disagreement_rad`: turn by the panoramas minus turn by the odometry between the same two times, the odometry's put right by
-  /// estimate(); `turn_rad`: that of the odometry; `variance_rad2`: of the disagreement, were the scale right.
+  /// `disagreement_rad`: turn by panoramas minus turn by odometry between the same two times, the latter corrected by
+  /// estimate(); `turn_rad`: turn by odometry; `variance_rad2`: of the disagreement for an exact scale.
   void add(double disagreement_rad, double turn_rad, double variance_rad2);
 
-  /// 0.003: odometry turns by 0.3 % more than the vehicle.
+  /// 0.003: odometry turns 0.3 % more than the vehicle.
   double estimate() const noexcept { return estimate_; }
   double variance() const noexcept { return variance_; }
 

@@ -14,27 +14,29 @@
 
 namespace panvo::panoramic_compass {
 
-/// Why a panorama tells nothing of the turn, in numbers; nullopt when it may. Found are: empty, not CV_8UC1 or CV_8UC3, not twice
-/// as wide as high, too small, black, saturated or constant about the horizon, and covered over more than a third of the full turn.
+/// Returns why a panorama is unusable, with figures; nullopt if it is usable. Checks for: empty, not CV_8UC1 or
+/// CV_8UC3, not 2:1, too small, black, saturated or constant near the horizon, or covered over more than a third of the
+/// turn.
 std::optional<std::string> find_fault(const cv::Mat& panorama);
 
-/// An upright camera that looks where the vehicle drives: panorama axes X right, Y down, Z forward.
+/// Mounting of an upright, forward-looking camera: panorama axes X right, Y down, Z forward.
 Eigen::Matrix3d upright_base_from_panorama();
 
-/// The turn of the vehicle from one panorama to the next, from the panoramas alone [Lu2015 6].
+/// Estimates the turn of the vehicle between panoramas, from the panoramas alone [Lu2015 6].
 class PanoramicCompass {
  public:
-  /// `base_from_panorama`: rotation of the panorama's frame on the vehicle. Throws std::invalid_argument for parameters that
-  /// contradict each other.
+  /// `base_from_panorama`: rotation from the panorama frame to the vehicle frame. Throws std::invalid_argument for
+  /// inconsistent parameters.
   explicit PanoramicCompass(const CompassParameters& parameters, std::uint64_t seed = 1,
                             const Eigen::Matrix3d& base_from_panorama = upright_base_from_panorama(),
                             vision::StageObserver* observer = nullptr);
   ~PanoramicCompass();
   PanoramicCompass(PanoramicCompass&&) noexcept;
 
-  /// Panoramas (CV_8UC1 or CV_8UC3, 2:1; other sizes than 1080x540 are resized) in order of stamps. `expected_turn_rad` since the
-  /// last panorama: where the search begins, 0 where it is not known. nullopt for the first that can be used, and before. A
-  /// panorama of no use, or a turn that cannot be told, is a result that is not valid, with the reason.
+  /// Processes panoramas (CV_8UC1 or CV_8UC3, 2:1; resized to 1080 x 540) in order of stamps. `expected_turn_rad`: turn
+  /// since the last panorama, start of the search (default 0). Returns nullopt up to the first usable panorama,
+  /// afterwards a result, which is not valid, with a reason, if the panorama is unusable or the turn cannot be
+  /// determined.
   std::optional<AzimuthChange> track(std::int64_t stamp_ns, const cv::Mat& panorama,
                                      std::optional<double> expected_turn_rad = std::nullopt);
 

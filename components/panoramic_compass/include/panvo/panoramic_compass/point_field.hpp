@@ -14,40 +14,40 @@
 
 namespace panvo::panoramic_compass {
 
-/// A band of a panorama with a margin at either end that repeats the other end, at full and half size.
+/// A band of a panorama with wrap-around margins at both ends, at full and half size.
 struct RoundBand {
   static constexpr int kMargin_px = 64;
 
-  int columns = 0;  ///< of the full turn
+  int columns = 0;  ///< of the full turn, without margins
   vision::ImagePyramid pyramid;
-  double sky_grey = 256.0;  ///< where nothing is darker than this there is only sky; 256: not known
+  double sky_grey = 256.0;  ///< sky is not darker than this; 256: unknown
 
   RoundBand() = default;
   /// `band`: CV_8UC1, a full turn.
   explicit RoundBand(const cv::Mat& band, double darkest_sky = 256.0);
 };
 
-/// A point of the reference panorama found in another one; px of the band, u in [0, columns).
+/// A point of the reference panorama, found in another one; px in the band, u in [0, columns).
 struct FoundPoint {
   Eigen::Vector2d then = Eigen::Vector2d::Zero();
   Eigen::Vector2d now = Eigen::Vector2d::Zero();
   Eigen::Vector2d variance_px2 = Eigen::Vector2d::Zero();  ///< of `now`
 };
 
-/// Well-marked points all round a reference panorama, to be found again in the panoramas that follow, on the pixels.
+/// Corners on all sides of a reference panorama, tracked in the following panoramas by patch alignment.
 class PointField {
  public:
   PointField() = default;
-  /// The best corner of each cell; none where there is only sky: clouds drift.
+  /// Takes the best corner of each cell, except in the sky, because clouds drift.
   PointField(const RoundBand& reference, const PointParameters& parameters);
 
   std::size_t size() const { return points_.size(); }
 
-  /// How many times larger what the reference shows at `then` looks at `now`; px of the band.
+  /// Expected magnification from the reference at `then` to the current panorama at `now`; px in the band.
   using Magnification = std::function<double(const Eigen::Vector2d& then, const Eigen::Vector2d& now)>;
 
-  /// Finds the points, in order of panoramas. `shift_px` takes a column of the last panorama to about how far things there
-  /// moved since. What is not found three times running is given up.
+  /// Tracks the points; call for all panoramas in order. `shift_px` maps a column of the last panorama to the
+  /// approximate shift since then. A point that is missed three times in a row is dropped.
   template <class Shift>
   std::vector<FoundPoint> follow(const RoundBand& now, const Shift& shift_px, const Magnification& magnification) {
     for (Point& point : points_) point.at.x() += shift_px(point.at.x());
@@ -56,10 +56,10 @@ class PointField {
 
  private:
   struct Point {
-    Eigen::Vector2d then, at;  // of the reference; where it was last
+    Eigen::Vector2d then, at;  // in the reference; in the last panorama
     vision::PatchTemplate half;
-    std::optional<vision::PatchTemplate> full;  // as large as it was last expected to look
-    double magnified = 1.0;                     // by how much that is
+    std::optional<vision::PatchTemplate> full;  // at the last expected magnification
+    double magnified = 1.0;                     // magnification of `full`
     int missed = 0;
   };
 
@@ -67,7 +67,7 @@ class PointField {
   void magnify(Point& point, double magnification) const;
 
   PointParameters parameters_;
-  cv::Mat reference_;  // with its margins
+  cv::Mat reference_;  // with margins
   std::vector<Point> points_;
 };
 

@@ -21,18 +21,16 @@ struct PaperCorrectionParameters {
     field.group(&P::five_point, "five_point");
     field.group(&P::steepness, "steepness");
     field(&P::position_sigma_m, "position_sigma_m", "m",
-          "standard deviation of the position where the curve is steep, as it is up to 2 m from the landmark", 0.01,
-          100.0);
+          "standard deviation of the position if the curve is steep, i.e. within 2 m of the landmark", 0.01, 100.0);
   }
 };
 
-/// Variance of a position of which nothing is said, m^2.
+/// Variance of an undetermined position, m^2.
 inline constexpr double kUnknownPosition_m2 = 1e6;
 
-/// The paper's correction of a matched landmark [Lu2015 5.2], of the panorama at the minimum of D(f_s, f_ss): its rotation by
-/// the five-point motion, and its position, which is then that of the landmark, only where the curve is steep. Rejected where
-/// the five-point motion is not found. `landmark`: its keypoints. Throws std::invalid_argument for a match that is no
-/// matched one.
+/// The paper's correction for a matched landmark [Lu2015 5.2], at the panorama with the minimum of D(f_s, f_ss): its
+/// rotation by five-point motion, and, only if the curve is steep, the landmark's position. Rejected if the five-point
+/// motion fails. `landmark`: its keypoints. Throws std::invalid_argument unless the state of the match is `kMatched`.
 PositionCorrection paper_correction(const LandmarkMatch& match, std::span<const landmarks::Keypoint> landmark,
                                     const Mountings& mountings, const PaperCorrectionParameters& parameters);
 

@@ -13,43 +13,44 @@ namespace panvo::position_corrector {
 
 enum class CorrectionState {
   kFull,          ///< all six degrees of freedom
-  kWeak,          ///< the same, but of so few points that it must not stand alone
-  kRotationOnly,  ///< how the vehicle is turned; of its position nothing is said
-  kRejected,      ///< it looked like the landmark, and geometry says it is not seen so that anything could be said
+  kWeak,          ///< the same, but from few points: needs confirmation
+  kRotationOnly,  ///< rotation of the vehicle; position unknown
+  kRejected,      ///< looked like the landmark, but geometry determines no pose
 };
 
-/// Where the vehicle's base is, seen from where it was when the landmark was made.
+/// Pose of the vehicle's base relative to the base at the landmark's panorama.
 struct BasePose {
-  Eigen::Isometry3d landmark_from_base = Eigen::Isometry3d::Identity();  ///< base frames, then and now; m
-  vision::Matrix6d covariance = vision::Matrix6d::Zero();                ///< as of vision::pose_error
+  Eigen::Isometry3d landmark_from_base = Eigen::Isometry3d::Identity();  ///< base frames, m
+  vision::Matrix6d covariance = vision::Matrix6d::Zero();                ///< as vision::pose_error
 };
 
-/// What one panorama says about the vehicle's pose.
+/// Correction of the vehicle's pose from one panorama.
 struct PositionCorrection {
   CorrectionState state = CorrectionState::kRejected;
-  std::string reason;  ///< why rejected, or why only the rotation; empty when full
+  std::string reason;  ///< why rejected, weak or rotation only; empty when full
   std::int64_t stamp_ns = 0;
   std::uint32_t landmark_id = 0;
   int inliers = 0;
-  BasePose pose;  ///< of no meaning when rejected
+  BasePose pose;  ///< meaningless when rejected
 };
 
-/// Where the panoramic camera sat on the vehicle when the landmark was made, and where it sits now.
+/// Extrinsics of the panoramic camera when the landmark was built, and now.
 struct Mountings {
   Eigen::Isometry3d base_from_panorama_then = Eigen::Isometry3d::Identity();
   Eigen::Isometry3d base_from_panorama_now = Eigen::Isometry3d::Identity();
 };
 
-/// A pose between panoramas as one between bases. The mountings count as exact; an error of the rotation swings the arm from the
-/// panorama to the base.
+/// Converts a pose between panoramas to one between bases. The extrinsics are taken as exact; a rotation error is
+/// propagated through the lever arm from the panorama to the base.
 BasePose to_base(const PanoramaPose& pose, const Mountings& mountings);
 
-/// The same where the panorama's stamp is uncertain: where the vehicle is by then is not where it was. `twist`: of its base in its own
-/// axes, m/s and rad/s. The landmark's panorama had as uncertain a stamp; the twist of then is not known, that of now stands for it.
+/// Adds the effect of an uncertain stamp, i.e. of the vehicle's motion within the stamp error. `twist`: of the base in
+/// its own axes, m/s and rad/s. The landmark's stamp is equally uncertain; its unknown twist is replaced by the current
+/// one.
 BasePose with_uncertain_stamp(const BasePose& pose, const vision::Vector6d& twist, double stamp_sigma_s);
 
-/// The correction in metres that a match carries: of a locked landmark that has a pose in this panorama, or the rejection of one
-/// that has none. Nothing for other states: the pose of a matched one was told when its panorama came.
+/// Correction in metres from a match: the pose of a locked landmark in this panorama, or the rejection if it has none.
+/// nullopt for other states: the pose of a matched landmark was returned with its own panorama.
 std::optional<PositionCorrection> metric_correction(const LandmarkMatch& match, const Mountings& mountings);
 
 }  // namespace panvo::position_corrector

@@ -13,22 +13,22 @@
 
 namespace panvo::position_corrector {
 
-/// The SIFT features of landmarks that came as messages, in a file without a name that is gone with the process: 40 kB a
-/// landmark that are needed for one at a time. What was read or written lately the system keeps in memory of its own, as
-/// long as it has any to spare, so there is no cache here. Where the file cannot be made or takes no more, they stay in memory.
+/// The SIFT features of landmarks received as messages, in an unnamed file that is deleted with the process: 40 kB per
+/// landmark, needed for one landmark at a time. The page cache of the system makes a cache here unnecessary. If the
+/// file cannot be created or written, features stay in memory.
 class SpilledKeypoints final : public landmarks::KeypointSource {
  public:
-  /// `folder`: on a disk. Empty: everything stays in memory.
+  /// `folder`: on a disk. Empty: keep all in memory.
   explicit SpilledKeypoints(const std::filesystem::path& folder);
   ~SpilledKeypoints() override;
 
-  /// Those of a landmark; put again, they replace the ones before.
+  /// Stores the keypoints of a landmark, replacing earlier ones.
   void put(std::uint32_t id, std::span<const landmarks::Keypoint> keypoints);
 
-  /// Bit for bit what was put. Throws std::system_error where the file can no longer be read.
+  /// Returns the stored keypoints bit by bit. Throws std::system_error if the file can no longer be read.
   std::vector<landmarks::Keypoint> keypoints(std::uint32_t id) const override;
 
-  /// Why keypoints stay in memory; empty as long as the file takes them, or none was asked for.
+  /// Why keypoints stay in memory; empty if the file works or none was requested.
   const std::string& problem() const noexcept { return problem_; }
   std::uint64_t bytes_in_file() const noexcept { return end_; }
 

@@ -11,21 +11,21 @@
 
 namespace panvo::recorder {
 
-/// One topic of two bags, message by message.
+/// Comparison of one topic in two bags.
 struct TopicComparison {
   std::string name;
   std::uint64_t equal_messages = 0;         ///< before the first difference
-  std::optional<std::string> difference{};  ///< the first: "message 12 differs at byte 96: 0x3f, 0x40"
+  std::optional<std::string> difference{};  ///< the first one: "message 12 differs at byte 96 of 112: 0x3f, 0x40"
 };
 
 struct DiffOptions {
   TopicFilter topics{};
-  bool times = false;  ///< recording times must be equal too
+  bool times = false;  ///< also compare recording times
 };
 
-/// Compares the bytes of the messages of each topic, in the order in which they were recorded. How the topics'
-/// messages lie between each other does not count: in a live run it is a matter of chance. Topics without a message
-/// in either bag are left out. Sorted by name. Throws BagError when a bag cannot be read, or not all of it.
+/// Compares the message bytes of each topic in recording order. The interleaving of topics is ignored, since it is
+/// random in a live run. Topics without messages in both bags are omitted. Sorted by name. Throws BagError if a bag
+/// cannot be read completely.
 std::vector<TopicComparison> compare_bags(const std::filesystem::path& first, const std::filesystem::path& second,
                                           const DiffOptions& options = {});
 

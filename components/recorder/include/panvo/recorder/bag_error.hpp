@@ -5,7 +5,7 @@
 
 namespace panvo::recorder {
 
-/// A bag that cannot be written or read: the message names the file, what is wrong with it and what to do.
+/// A bag cannot be written or read. The message names the file, the fault and the remedy.
 class BagError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

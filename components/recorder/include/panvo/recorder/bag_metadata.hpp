@@ -15,23 +15,23 @@ namespace panvo::recorder {
 /// A recorded topic.
 struct BagTopic {
   std::string name;  ///< "/stereo/left/image_raw"
-  std::string type;  ///< "sensor_msgs/msg/Image"; bags from before ROS 2 Dashing say "sensor_msgs/Image"
+  std::string type;  ///< "sensor_msgs/msg/Image"; "sensor_msgs/Image" in bags older than ROS 2 Dashing
   std::string serialization_format = "cdr";
   std::vector<QosProfile> offered_qos_profiles;
-  std::string type_description_hash;  ///< "RIHS01_...", empty where not known
+  std::string type_description_hash;  ///< "RIHS01_..."; empty if unknown
   std::uint64_t message_count = 0;
 
-  /// A topic of ours.
+  /// Describes a topic published with this message type and quality of service.
   static BagTopic of(std::string name, const interfaces::MessageType& type, const interfaces::Qos& qos);
 };
 
-/// A message type as a bag carries it, so that tools which do not know the type can decode its messages.
+/// A message type's definition as stored in a bag, so that tools without the type can decode its messages.
 struct TypeDefinition {
-  std::string encoding;  ///< "ros2msg" or "ros2idl"; "" or "unknown" where there is none
-  std::string text;      ///< the type, and all that it is made of
+  std::string encoding;  ///< "ros2msg" or "ros2idl"; "" or "unknown" if there is no definition
+  std::string text;      ///< the type and all types that it contains
 };
 
-/// One file of a bag. Times in ns since 1970; of an empty file start is kNoStart.
+/// One file of a bag. Times in ns since 1970; start_ns of an empty file is kNoStart.
 struct BagFile {
   std::string path;  ///< relative to the bag's folder
   std::int64_t start_ns = 0;
@@ -39,10 +39,10 @@ struct BagFile {
   std::uint64_t message_count = 0;
 };
 
-/// What metadata.yaml says of a bag.
+/// Content of a bag's metadata.yaml.
 struct BagMetadata {
-  static constexpr int kCurrentVersion = 9;            ///< ROS 2 Jazzy's
-  static constexpr std::int64_t kNoStart = INT64_MAX;  ///< rosbag2's start of a bag without messages
+  static constexpr int kCurrentVersion = 9;            ///< of ROS 2 Jazzy
+  static constexpr std::int64_t kNoStart = INT64_MAX;  ///< rosbag2's start time of a bag without messages
 
   int version = kCurrentVersion;
   std::string storage_identifier = "sqlite3";
@@ -56,19 +56,19 @@ struct BagMetadata {
   std::string ros_distro = "jazzy";
 };
 
-/// How many messages the recorder says it had to drop, in all or of one topic; 0 where it says nothing.
+/// Number of messages the recorder dropped, in total ("") or on one topic; 0 if not recorded.
 std::uint64_t dropped_messages(const BagMetadata& metadata, const std::string& topic = "");
 void set_dropped_messages(BagMetadata& metadata, const std::string& topic, std::uint64_t count);
 
-/// metadata.yaml's text, in version 9 whatever `metadata.version` says. `in_file`: as it stands within a .db3 or .mcap
-/// file, without its outermost key.
+/// Text of metadata.yaml, always in version 9. `in_file`: the form stored inside a .db3 or .mcap file, without the
+/// outermost key.
 std::string to_yaml(const BagMetadata& metadata, bool in_file = false);
 
-/// Reads any version up to 9; what a version lacks stays empty. `file` is for messages. Throws BagError.
+/// Parses any version up to 9; fields that a version lacks stay empty. `file` is named in errors. Throws BagError.
 BagMetadata parse_metadata(const std::string& yaml, const std::filesystem::path& file);
 
-/// Reads or replaces BAG/metadata.yaml. Replacing is atomic; with `durable` it also survives a power failure. Both
-/// throw BagError.
+/// Reads or replaces BAG/metadata.yaml. Replacement is atomic and, with `durable`, survives a power failure. Both throw
+/// BagError.
 BagMetadata read_metadata(const std::filesystem::path& bag);
 void write_metadata(const std::filesystem::path& bag, const BagMetadata& metadata, bool durable);
 

@@ -17,24 +17,22 @@ namespace panvo::recorder {
 
 struct BagMessage {
   std::size_t topic = 0;          ///< index into BagReader::metadata().topics
-  std::int64_t timestamp_ns = 0;  ///< when it was recorded
-  interfaces::Bytes data;         ///< CDR, encapsulation included
+  std::int64_t timestamp_ns = 0;  ///< recording time, ns since 1970
+  interfaces::Bytes data;         ///< CDR with its encapsulation
 };
 
-/// Reads a rosbag2 folder, or a single .db3 or .mcap file, as written by ROS 2 Dashing to Jazzy and by BagWriter; also
-/// one that is compressed with zstd, as files (which are unpacked to the folder for temporary files) or message by
-/// message.
+/// Reads a rosbag2 folder or a single .db3 or .mcap file written by ROS 2 Dashing to Jazzy or by BagWriter. Supports
+/// zstd compression by file (decompressed to $TMPDIR) and by message.
 ///
-/// What is not as it should be but can be helped is remembered as a warning: metadata.yaml that is missing,
-/// unreadable or stale (rebuilt from the files), a file of a split bag that is missing, a file that was cut off or is
-/// damaged (what is readable is read, what is not is counted). What cannot be helped is a BagError that names the file
-/// and the remedy: not a bag, of ROS 1, compressed in another way.
+/// Recoverable faults become warnings: metadata.yaml missing, unreadable or stale (rebuilt from the files), a missing
+/// file of a split bag, a truncated or damaged file (readable messages are read, losses counted). Other faults throw a
+/// BagError that names the file and the remedy: not a bag, a ROS 1 bag, another compression.
 ///
-/// Memory is bounded: of SQLite messages are read one at a time, and of a damaged database 24 bytes a message are held;
-/// of MCAP the chunks of the moment.
+/// Memory is bounded. SQLite: one message at a time, plus 24 bytes for each message of a damaged database. MCAP: the
+/// chunks that overlap the current time.
 class BagReader {
  public:
-  /// Whether to believe a metadata.yaml that agrees with the files, or to count everything anew.
+  /// kMetadata: use the counts of metadata.yaml if it agrees with the files. kFiles: always count the messages.
   enum class Trust { kMetadata, kFiles };
 
   explicit BagReader(const std::filesystem::path& bag, Trust trust = Trust::kMetadata);
@@ -42,28 +40,28 @@ class BagReader {
   BagReader(const BagReader&) = delete;
   BagReader& operator=(const BagReader&) = delete;
 
-  /// Of the whole bag, true to what its files hold.
+  /// Metadata of the whole bag, consistent with its files.
   const BagMetadata& metadata() const noexcept { return metadata_; }
   const std::filesystem::path& path() const noexcept { return bag_; }
   std::uint64_t size_bytes() const;
 
-  /// From now on next() starts anew and gives only messages of topics that `wanted` accepts, from `begin_ns` on.
+  /// Restarts next() and restricts it to topics accepted by `wanted` and to times from `begin_ns` on.
   void select(const std::function<bool(const BagTopic&)>& wanted, std::int64_t begin_ns = INT64_MIN);
 
-  /// The message after the last one, in order of timestamp, then file, then id; nullptr at the end. Valid until the
-  /// following call; its data may be moved away.
+  /// Returns the next message, ordered by timestamp, then file, then id; nullptr at the end. Valid until the following
+  /// call; the caller may move the data out.
   BagMessage* next();
 
-  /// What the bag tells of a topic's type; empty where it tells nothing.
+  /// Definition of a topic's type; empty if the bag has none.
   TypeDefinition definition(const BagTopic& topic) const;
 
-  /// Messages that were recorded but cannot be read, as far as is known now. Grows while next() meets damage.
+  /// Recorded messages known to be unreadable so far. Grows as next() meets damage.
   std::uint64_t lost_messages() const;
 
-  /// Everything worth telling, so far; each names its file.
+  /// Warnings so far; each names its file.
   const std::vector<std::string>& warnings() const noexcept { return warnings_; }
 
-  /// What is wrong with the files, by SQLite's own check or MCAP's checksums and counts. Reads everything.
+  /// Faults of the files found by SQLite's integrity check or MCAP's checksums and counts. Reads all data.
   std::vector<std::string> check_integrity();
 
  private:
@@ -75,15 +73,15 @@ class BagReader {
   void count_messages();
 
   std::filesystem::path bag_;
-  std::filesystem::path folder_;  // of the files: bag_, or where the single file lies
+  std::filesystem::path folder_;  // contains the files: bag_, or the parent of a single file
   BagMetadata metadata_;
   std::vector<std::unique_ptr<File>> files_;
   std::vector<std::string> warnings_;
-  std::uint64_t lost_by_count_ = 0;  // what metadata.yaml counted more, where a file is damaged or missing
+  std::uint64_t lost_by_count_ = 0;  // excess of metadata.yaml's count if a file is damaged or missing
   BagMessage message_;
 };
 
-/// "sensor_msgs/Image", as early bags have it, is "sensor_msgs/msg/Image".
+/// Expands "sensor_msgs/Image", the form in early bags, to "sensor_msgs/msg/Image".
 std::string full_type_name(const std::string& type);
 
 }  // namespace panvo::recorder

@@ -25,70 +25,72 @@ class Descriptor;
 class FileGuard;
 class StorageError;
 
-/// "rosbag2_2026_11_20-23_05_00": how `ros2 bag record` names a bag that was given no name. Local time.
+/// Default bag name of `ros2 bag record` in local time: "rosbag2_2026_11_20-23_05_00".
 std::string dated_bag_name();
 
 /// Writes a rosbag2 folder: metadata.yaml (version 9) and NAME_0.db3, NAME_1.db3 ... (ROS 2 Jazzy's schema 4), or
 /// NAME_0.mcap ... (profile ros2).
 ///
-/// Messages are committed in batches. When the process is killed or the power fails, the bag holds every committed
-/// batch. A .db3 then opens at once in every other tool too, for between commits all of it is in the .db3 file (a
-/// rollback journal, no write-ahead log); of an .mcap the summary is missing, and readers read through it. A killed
-/// process loses at most the last batch: Options::batch_time or batch_bytes, whichever comes first.
+/// Messages are committed in batches. After SIGKILL or power loss the bag holds every committed batch, so at most the
+/// last batch is lost: Options::batch_time or batch_bytes, whichever comes first. Other tools can open such a .db3
+/// directly, since between commits the .db3 alone is complete (rollback journal, no write-ahead log). Such an .mcap has
+/// no summary; readers scan it.
 ///
-/// Safe to use from several threads; a thread of the writer's commits what has waited when no further message comes.
+/// Thread-safe. An internal thread commits pending messages when no more arrive.
 class BagWriter {
  public:
   struct Options {
-    bool overwrite = false;                     ///< replace a bag that is already there
-    std::uint64_t max_file_bytes = 0;           ///< start the next file when one has reached this size; 0: one file
+    bool overwrite = false;                     ///< replace an existing bag
+    std::uint64_t max_file_bytes = 0;           ///< size at which the next file is started; 0: one file
     std::chrono::milliseconds batch_time{500};  ///< age at which a batch is committed
-    std::size_t batch_bytes = 16u << 20;        ///< size at which it is; also what the writer holds in memory
+    std::size_t batch_bytes = 16u << 20;        ///< size at which a batch is committed; bounds the writer's memory
     Storage storage = Storage::kSqlite3;
-    Compression compression = Compression::kNone;  ///< of MCAP only
-    std::size_t chunk_bytes = 4u << 20;            ///< of MCAP: size at which a chunk ends; what a reader must hold
+    Compression compression = Compression::kNone;  ///< MCAP only
+    std::size_t chunk_bytes = 4u << 20;            ///< MCAP: size at which a chunk ends; readers hold whole chunks
   };
 
-  /// Creates the bag and its first metadata.yaml. Throws BagError: the folder exists and is not to be overwritten or
-  /// is no bag, another writer is at it, it cannot be made, or is not writable; the storage does not compress.
+  /// Creates the bag and its first metadata.yaml. Throws BagError if the folder exists and `overwrite` is false or it
+  /// is not a bag, if another writer has locked it, if it cannot be created or written, or if the storage does not
+  /// support the compression.
   explicit BagWriter(std::filesystem::path bag) : BagWriter(std::move(bag), Options{}) {}
   BagWriter(std::filesystem::path bag, Options options);
 
-  /// close(), errors lost.
+  /// Calls close() and ignores its errors.
   ~BagWriter();
   BagWriter(const BagWriter&) = delete;
   BagWriter& operator=(const BagWriter&) = delete;
 
-  /// Declares a topic, once. `definition` is the type in ROS 2's .msg notation, empty where not known. Returns its
-  /// handle for write().
+  /// Adds a topic; call once for each topic. `definition` is the type in ROS 2's .msg notation, empty if unknown.
+  /// Returns the handle for write(). Throws BagError.
   int add_topic(const BagTopic& topic, std::string_view definition = {});
-  /// The same, in any notation.
+  /// As above, with the definition in any notation.
   int add_topic(const BagTopic& topic, const TypeDefinition& definition);
 
-  /// Adds a message. Throws BagError when the bag cannot be written (disk full): what was committed stays readable,
-  /// the batch being written is lost, and every later call throws the same. Likewise when its file was removed, moved or replaced meanwhile, which
-  /// is noticed when a batch is committed: what was recorded until then is kept, and the error says where.
+  /// Adds a message. Throws BagError if the bag cannot be written (disk full): committed messages stay readable, the
+  /// current batch is lost, and every later call throws the same error. Also throws if the file was removed, moved or
+  /// replaced, which is detected at a commit: the messages recorded so far are kept, and the error names the file that
+  /// holds them.
   void write(int topic, std::int64_t timestamp_ns, std::span<const std::uint8_t> data);
 
-  /// Says that messages of a topic were dropped before they could be written; kept in the metadata's custom_data.
+  /// Counts messages of a topic that were dropped before write(); stored in the metadata's custom_data.
   void count_dropped(const std::string& topic, std::uint64_t count);
 
-  /// Commits what waits. Throws BagError.
+  /// Commits the current batch. Throws BagError.
   void commit();
 
-  /// Commits, finishes the metadata and closes the files. Throws BagError; nothing can be written afterwards.
+  /// Commits, writes the final metadata and closes the files. Later calls of write() throw. Throws BagError.
   void close();
 
   const std::filesystem::path& path() const noexcept { return bag_; }
   std::uint64_t committed_messages() const;
-  std::uint64_t lost_messages() const;  ///< of a batch that could not be committed
+  std::uint64_t lost_messages() const;  ///< messages of the batch that could not be committed
   std::uint64_t dropped_messages() const;
 
  private:
   struct Topic {
     BagTopic description;
     TypeDefinition definition;
-    std::uint64_t waiting = 0;  ///< messages of the batch
+    std::uint64_t waiting = 0;  ///< messages in the current batch
   };
   using Clock = std::chrono::steady_clock;
 
@@ -113,7 +115,7 @@ class BagWriter {
   std::unique_ptr<BagFileWriter> file_;
   std::unique_ptr<FileGuard> guard_;  // of file_
   std::vector<Topic> topics_;
-  BagMetadata metadata_;  // of what is committed
+  BagMetadata metadata_;  // of the committed messages
   bool topics_changed_ = false;
   Clock::time_point metadata_saved_;
 
@@ -126,9 +128,9 @@ class BagWriter {
   std::uint64_t lost_ = 0;
   std::optional<std::string> failure_;
   bool failure_told_ = false;
-  bool folder_lost_ = false;  // metadata.yaml there is not this bag's any more
+  bool folder_lost_ = false;  // the metadata.yaml at this path no longer belongs to this bag
   bool closed_ = false;
-  std::jthread idle_committer_;  // last, so that it stops first
+  std::jthread idle_committer_;  // declared last: is stopped first
 };
 
 }  // namespace panvo::recorder

@@ -11,8 +11,8 @@
 
 namespace panvo::recorder {
 
-/// The quality of service that one recorded publisher offered, as rosbag2 stores it. The values are those of ROS 2's
-/// rmw layer: bags up to metadata version 8 hold them as numbers, later ones as names.
+/// Quality of service offered by one recorded publisher, as stored by rosbag2. The values are those of ROS 2's rmw
+/// layer: stored as numbers up to metadata version 8, as names since version 9.
 struct QosProfile {
   enum class History { kSystemDefault = 0, kKeepLast = 1, kKeepAll = 2, kUnknown = 3 };
   enum class Reliability { kSystemDefault = 0, kReliable = 1, kBestEffort = 2, kUnknown = 3, kBestAvailable = 4 };
@@ -25,7 +25,7 @@ struct QosProfile {
     kUnknown = 4,
     kBestAvailable = 5
   };
-  /// Infinite unless it says otherwise.
+  /// Default: infinite, in rmw's encoding.
   struct Duration {
     std::int64_t sec = 9223372036;
     std::int64_t nsec = 854775807;
@@ -44,21 +44,21 @@ struct QosProfile {
   bool operator==(const QosProfile&) const = default;
 };
 
-/// How the policies are written: "reliability: reliable" (metadata version 9) or "reliability: 1" (up to version 8).
+/// Notation of the policies: "reliability: reliable" (metadata version 9) or "reliability: 1" (up to version 8).
 enum class QosNotation { kNames, kNumbers };
 
-/// What our publishers of a topic with this quality of service offer.
+/// Profile offered by our publishers of a topic with this quality of service.
 QosProfile offered_profile(const interfaces::Qos& qos);
 
-/// What to publish a recorded topic with, so that whoever subscribed to the original publishers matches the replay.
-/// `message_count` is the number of recorded messages: of a latched topic all are kept for late joiners, as they may
-/// have come from several publishers.
+/// Quality of service for replaying a topic, compatible with all subscribers of the original publishers.
+/// `message_count`: recorded messages of the topic. A latched topic keeps up to 1000 of them for late joiners, since
+/// they may come from several publishers.
 interfaces::Qos replay_qos(const std::vector<QosProfile>& offered, std::uint64_t message_count);
 
-/// The profiles as the YAML sequence that a bag holds; "" for none.
+/// The profiles as the YAML sequence stored in a bag; "" if there are none.
 std::string to_text(const std::vector<QosProfile>& profiles, QosNotation notation);
 
-/// Reads either notation; "" is no profile. nullopt: not a sequence of profiles.
+/// Parses either notation; "" gives no profiles. Returns nullopt if the text is not a sequence of profiles.
 std::optional<std::vector<QosProfile>> parse_qos_profiles(const std::string& text);
 
 }  // namespace panvo::recorder

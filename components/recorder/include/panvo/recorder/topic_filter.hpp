@@ -7,21 +7,21 @@
 
 namespace panvo::recorder {
 
-/// Which topics to record, play or compare. A pattern is a topic's name ("/tf", or "tf" for it) or an ECMAScript
-/// regular expression that matches the whole name ("/stereo/.*"); one text may hold several, with blanks between
-/// them, as a launch argument does. Excluding wins.
+/// Selects topics to record, play or compare. A pattern is a topic name ("/tf" or "tf") or an ECMAScript regular
+/// expression for the whole name ("/stereo/.*"). A string may hold several patterns separated by spaces, as in a launch
+/// argument. Exclusion takes precedence.
 class TopicFilter {
  public:
   /// Accepts everything.
   TopicFilter() = default;
 
-  /// Accepts what one of `topics` matches (everything where there is none) and none of `exclude`. Throws BagError
-  /// naming a pattern that is no regular expression.
+  /// Accepts topics that match a pattern of `topics` (all if empty) and none of `exclude`. Throws BagError that names
+  /// an invalid pattern.
   explicit TopicFilter(const std::vector<std::string>& topics, const std::vector<std::string>& exclude = {});
 
   bool accepts(const std::string& topic) const;
 
-  /// The patterns of `topics` that match none of `names`: most likely misspelt.
+  /// Patterns of `topics` that match none of `names`, probably misspelt.
   std::vector<std::string> unmatched(const std::vector<std::string>& names) const;
 
  private:

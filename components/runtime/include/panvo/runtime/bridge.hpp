@@ -17,34 +17,35 @@ namespace panvo::runtime {
 struct Graph;
 struct NodeDescription;
 
-/// A topic as a process offers or wants it.
+/// A topic that a process publishes or subscribes to.
 struct TopicDescription {
   std::string name;       ///< resolved: "/stereo/left/image_rect"
   std::string type_name;  ///< "sensor_msgs/msg/Image"
   interfaces::Qos qos;
-  const interfaces::MessageType* type = nullptr;  ///< nullptr: not known here, bytes only
+  const interfaces::MessageType* type = nullptr;  ///< nullptr: type unknown here, bytes only
 };
 
-/// A topic of this process as other processes read it.
+/// Publishes a topic of this process to other processes.
 class BridgeWriter {
  public:
   virtual ~BridgeWriter() = default;
-  /// Serialises and sends, unless nobody could ever want it: no matched reader, and not transient local. Never blocks longer than the
-  /// topic's reliability allows (100 ms). Returns false when it could not be handed over (counted by the caller).
+  /// Serialises and sends `sample`, unless there is no matched reader and the topic is not transient local. Blocks at
+  /// most 100 ms, and only on keep-all topics with slow reliable readers. Returns false if the sample could not be
+  /// handed over; the caller counts this.
   virtual bool write(const SamplePtr& sample) = 0;
   virtual std::size_t matched_readers() const = 0;
-  /// Waits until every matched reliable reader has all that was written.
+  /// Waits until all matched reliable readers have acknowledged all samples; false on timeout.
   virtual bool wait_for_acknowledgments(std::chrono::milliseconds limit) = 0;
 };
 
 struct BridgeReaderCounters {
   std::uint64_t received = 0, lost = 0, undecodable = 0;
-  std::uint64_t overwritten = 0;  ///< in shared memory, by their writer, while they were read: dropped
-  std::uint64_t too_large = 0;    ///< than Limits::max_message_bytes: dropped before they were copied
+  std::uint64_t overwritten = 0;  ///< overwritten by the writer in shared memory while being read: dropped
+  std::uint64_t too_large = 0;    ///< larger than Limits::max_message_bytes: dropped before copying
   std::uint64_t too_fast = 0;     ///< beyond Limits::max_topic_rate_hz: dropped
 };
 
-/// A topic of other processes as this process reads it. Its callback is not running any more when the destructor has returned.
+/// Receives a topic from other processes. No callback is running once the destructor has returned.
 class BridgeReader {
  public:
   virtual ~BridgeReader() = default;
@@ -52,8 +53,9 @@ class BridgeReader {
   virtual BridgeReaderCounters counters() const = 0;
 };
 
-/// What connects the topics of this process with those of others. Endpoints of the same process never meet through it: inside a process
-/// messages pass by pointer. Safe to use from several threads; callbacks come from a thread of the bridge's.
+/// Connects the topics and services of this process with those of other processes. Endpoints of the same process are
+/// never connected through the bridge; messages within a process are passed by pointer. Thread-safe. Callbacks run on a
+/// bridge thread.
 class Bridge {
  public:
   virtual ~Bridge() = default;
@@ -61,11 +63,12 @@ class Bridge {
   virtual std::unique_ptr<BridgeReader> open_reader(const TopicDescription& topic,
                                                     std::function<void(SamplePtr)> on_sample) = 0;
 
-  /// Calls back once for every topic that another process writes, those already known included. For recording and `topic list`.
+  /// Calls `on_topic` once for each topic that another process publishes, including those already known. Used by the
+  /// recorder and `topic list`.
   virtual void watch_topics(std::function<void(const TopicDescription&)> on_topic) = 0;
 
-  /// Offers a service. The handler runs on a thread that all services of the bridge share, so that a slow one holds no more than the others;
-  /// of requests that come faster than they are answered some are dropped and counted.
+  /// Offers a service. All services of the bridge share one thread, so a slow handler delays the others. Requests that
+  /// arrive faster than they are answered are dropped and counted.
   virtual std::unique_ptr<BridgeService> serve(const ServiceDescription& service, ServiceHandler handler,
                                                ServiceGuard guard) = 0;
   std::unique_ptr<BridgeService> serve(const ServiceDescription& service, ServiceHandler handler) {
@@ -73,40 +76,43 @@ class Bridge {
   }
   virtual std::unique_ptr<BridgeClient> open_client(const ServiceDescription& service) = 0;
 
-  /// The nodes of this process from now on, with what they have, as ROS 2 tools list them. Endpoints that come later are added by themselves.
+  /// Sets the nodes of this process, with their topics and services, as ROS 2 tools list them. Endpoints opened later
+  /// are added automatically.
   virtual void set_nodes(std::vector<NodeDescription> nodes) = 0;
-  /// What other processes have. What it tells grows for a while after the first call.
+  /// Nodes and endpoints of other processes. The result is incomplete for a while after the first call.
   virtual Graph graph() = 0;
 
-  /// Something users should know: a reader and writer that cannot meet (QoS or type differ), with topic name and remedy.
+  /// Reports user-facing warnings, such as a reader and writer with incompatible QoS or types, with topic name and
+  /// remedy.
   virtual void on_warning(std::function<void(const std::string&)> callback) = 0;
 };
 
-/// What a process takes from others, whoever they are.
+/// Limits on messages received from other processes and sources.
 struct Limits {
-  std::size_t max_message_bytes = 64'000'000;  ///< serialised: an uncompressed colour image of 21 megapixels
-  double max_topic_rate_hz = 1000.0;           ///< of one topic, over a second or so: the rate of the fastest IMUs
+  std::size_t max_message_bytes = 64'000'000;  ///< serialised size: an uncompressed colour image of 21 megapixels
+  double max_topic_rate_hz = 1000.0;           ///< per topic, averaged over about 1 s: the rate of the fastest IMUs
 };
 
 struct DdsSettings {
   int domain = 0;
-  std::string profiles;              ///< XML profile file, empty: our defaults
+  std::string profiles;              ///< XML profile file; empty: built-in defaults
   std::string name = "panvo";        ///< participant name seen by other tools
-  std::string ros_distro = "jazzy";  ///< whose nodes are to see ours: "humble" wrote ros_discovery_info in another way
-  bool localhost_only = false;       ///< nothing leaves this machine
-  /// Images of up to so many bytes of pixels pass to processes of this machine that share them too without being sent: they are written once, in
-  /// memory that is made for the size that comes. 0: none do.
+  std::string ros_distro = "jazzy";  ///< of the ROS 2 nodes: "humble" uses another ros_discovery_info format
+  bool localhost_only = false;       ///< no traffic beyond this machine
+  /// Largest image (bytes of pixels) that is shared in memory with processes of this machine that also share images.
+  /// The memory is sized by the received images. 0: no sharing.
   std::uint32_t shared_image_bytes = 0;
   Limits limits{};
-  double requests_per_s = 1000;               ///< of one service, that are answered; more are dropped and counted
-  std::uint32_t largest_request = 1'000'000;  ///< bytes; larger ones are dropped and counted
+  double requests_per_s = 1000;               ///< per service; excess requests are dropped and counted
+  std::uint32_t largest_request = 1'000'000;  ///< bytes; larger requests are dropped and counted
 };
 
-/// As ROS 2's environment variables say: ROS_DOMAIN_ID, ROS_DISTRO, ROS_LOCALHOST_ONLY, ROS_AUTOMATIC_DISCOVERY_RANGE. ROS_DISCOVERY_SERVER is
-/// read by Fast DDS. Throws ConfigError for a value that is none.
+/// Settings from ROS 2's environment variables ROS_DOMAIN_ID, ROS_DISTRO, ROS_LOCALHOST_ONLY and
+/// ROS_AUTOMATIC_DISCOVERY_RANGE. ROS_DISCOVERY_SERVER is read by Fast DDS. Throws ConfigError on an invalid value.
 DdsSettings dds_settings_from_environment();
 
-/// The bridge over Fast DDS. Throws ConfigError when no participant can be made (bad profile file, no network at all).
+/// Creates a bridge over Fast DDS. Throws ConfigError if no participant can be created (invalid profile file, no
+/// network interface).
 std::unique_ptr<Bridge> make_dds_bridge(const DdsSettings& settings);
 
 }  // namespace panvo::runtime

@@ -11,11 +11,11 @@
 
 namespace panvo::runtime {
 
-/// Calls one service, whatever its type.
+/// Type-erased client of one service.
 class ServiceCaller {
  public:
   virtual ~ServiceCaller() = default;
-  /// `answer` is called once, on the thread of the component's messages.
+  /// Calls `answer` once, on the component's message thread.
   virtual void call(interfaces::Bytes request, std::chrono::milliseconds limit, Answer answer) = 0;
 };
 
@@ -25,8 +25,9 @@ class Client {
  public:
   explicit Client(std::shared_ptr<ServiceCaller> caller) : caller_(std::move(caller)) {}
 
-  /// Sends a request and returns. `callback(std::optional<Response>)` follows on the thread of the component's messages, between two of them: nullopt
-  /// when no server is there or it did not answer. `limit` bounds the wait for a server in another process.
+  /// Sends a request without blocking. `callback(std::optional<Response>)` runs later on the component's message
+  /// thread, between two messages; nullopt if there is no server or no answer. `limit` bounds the wait for a server in
+  /// another process.
   template <class Callback>
   void call(const Request& request, Callback callback, std::chrono::milliseconds limit = std::chrono::seconds(5)) {
     caller_->call(to_bytes(request), limit,
@@ -41,7 +42,7 @@ class Client {
     try {
       return from_bytes<Response>(*bytes);
     } catch (const interfaces::DecodeError&) {
-      return std::nullopt;  // the server is of another type
+      return std::nullopt;  // the server has another type
     }
   }
 

@@ -9,8 +9,8 @@
 
 namespace panvo::runtime {
 
-/// What a container loads. A component sets itself up in its constructor, which takes a Context and throws ConfigError only; from then on
-/// the runtime calls what the constructor registered, one call at a time, and the destructor when it is unloaded.
+/// Base class of the components a container loads. The constructor takes a Context, registers callbacks and throws only
+/// ConfigError. The runtime then runs the callbacks, one at a time, and the destructor at unload.
 class Component {
  public:
   Component() = default;
@@ -19,9 +19,9 @@ class Component {
   Component& operator=(const Component&) = delete;
 };
 
-/// What a plugin says of one component class in it.
+/// Describes one component class of a plugin.
 struct ComponentDescriptor {
-  std::string_view runtime_build;  ///< of what the plugin was built with; must equal the container's
+  std::string_view runtime_build;  ///< build the plugin was compiled against; must equal the container's
   std::string_view class_name;     ///< "StereoRectifierComponent"
   Component* (*create)(Context&);
   void (*destroy)(Component*);
@@ -30,15 +30,15 @@ struct ComponentDescriptor {
 
 inline constexpr std::string_view kRuntimeVersion = "0.1.0";
 
-/// Tells apart two builds of one version whose headers differ: a plugin of the one would misread the other's memory.
+/// Distinguishes builds of one version with different headers: their plugins have incompatible memory layouts.
 inline constexpr std::string_view kRuntimeBuild =
     "0.1.0 (headers " PANVO_RUNTIME_FINGERPRINT ", messages " PANVO_INTERFACES_FINGERPRINT ")";
 
-/// The C function by which a container asks a plugin for its components.
+/// C function through which a container gets a plugin's components.
 inline constexpr const char* kPluginEntryPoint = "panvo_components";
 
 namespace detail {
-/// The components registered in this plugin: hidden, so that each plugin has a list of its own.
+/// Components registered in this plugin. Hidden visibility gives each plugin its own list.
 __attribute__((visibility("hidden"))) inline const ComponentDescriptor* registered = nullptr;
 
 struct Registrar {
@@ -54,7 +54,7 @@ extern "C" __attribute__((weak, visibility("default"))) const panvo::runtime::Co
   return panvo::runtime::detail::registered;
 }
 
-/// Makes a component class loadable; at namespace scope in its source file, with an unqualified class name.
+/// Makes a component class loadable. Use at namespace scope in its source file, with an unqualified class name.
 #define PANVO_REGISTER_COMPONENT(Class)                                                                      \
   namespace {                                                                                                \
   ::panvo::runtime::ComponentDescriptor panvo_descriptor_of_##Class{                                         \

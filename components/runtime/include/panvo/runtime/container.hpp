@@ -18,26 +18,26 @@
 namespace panvo::runtime {
 
 struct ContainerOptions {
-  bool replay = false;  ///< one thread, order of stamp, no bridge, no wall clock: the same result bit for bit
+  bool replay = false;  ///< deterministic: one thread, stamp order, no bridge, no wall clock
   double rate =
-      0;  ///< of sources, live: 1 as recorded, 2 twice as fast; 0: as fast as the components here take it, none dropped
-  std::uint64_t seed = 1;            ///< of all random numbers
-  std::optional<DdsSettings> dds{};  ///< absent: the container keeps to itself
-  Limits limits{};                   ///< of what sources and other processes send
+      0;  ///< playback rate, live: 1 as recorded, 2 twice as fast; 0: as fast as the components allow, without drops
+  std::uint64_t seed = 1;            ///< for all random numbers
+  std::optional<DdsSettings> dds{};  ///< absent: no DDS
+  Limits limits{};                   ///< for messages of sources and other processes
   Logger::Write log{};               ///< absent: stderr
-  /// What time passes by where nothing is played, ns; absent: live the monotonic clock, in replay the stamps of what is handled.
+  /// Clock without a source, ns. Absent: the monotonic clock (live), or the stamps of the handled messages (replay).
   std::function<std::int64_t()> clock{};
-  bool again = false;  ///< this process takes the place of one that crashed
-  /// Its own node's name and namespace as ROS 2 sees it; no component may have the same.
+  bool again = false;  ///< this process replaces one that crashed
+  /// Name and namespace of the container's ROS 2 node; must differ from those of all components.
   std::string name = "container";
   std::string name_space = "/";
   ServiceAccess services = ServiceAccess::kByHost;
-  std::filesystem::path files_below{};  ///< where requests by service may name files; empty: nowhere
+  std::filesystem::path files_below{};  ///< folder for files named by service requests; empty: none allowed
 };
 
-/// One process's components, and what runs them. With a bridge, other processes see each component as a ROS 2 node, with services for its parameters
-/// and states, and the container as one more, with services to load and unload. Loading and unloading may be done from any thread, and
-/// request_stop(); the rest is for one.
+/// Runs the components of one process. With a bridge, other processes see each component as a ROS 2 node with services
+/// for parameters and states, and the container as a node with services to load and unload components. Loading,
+/// unloading and request_stop() are thread-safe; call the other methods from one thread.
 class Container {
  public:
   explicit Container(ContainerOptions options);
@@ -45,53 +45,55 @@ class Container {
   Container(const Container&) = delete;
   Container& operator=(const Container&) = delete;
 
-  /// Loads a component from its plugin. Throws ConfigError with every problem; the container is then as it was before.
+  /// Loads a component from its plugin. Throws ConfigError with all problems; the container is then unchanged.
   void load(const ComponentDescription& description);
 
   using Factory = std::function<std::unique_ptr<Component>(Context&)>;
-  /// Adds a component that is linked in. Throws as load().
+  /// Adds a component that is linked into the executable. Throws like load().
   void add(const ComponentDescription& description, const Factory& factory);
 
-  /// Loads all, then throws one ConfigError with the problems of all, if there are any.
+  /// Loads all components, then throws one ConfigError with all problems, if any.
   void load_all(const std::vector<ComponentDescription>& descriptions);
 
-  /// Ends a component and lets go of its plugin. False if there is none of that name. Throws ConfigError while it plays something in run().
+  /// Destroys a component and releases its plugin. Returns false if there is no such component. Throws ConfigError if
+  /// it is a source and run() is active.
   bool unload(const std::string& name);
   std::vector<std::string> components() const;
 
-  /// Starts the components' threads; what is loaded later starts at once. run() and start() imply it.
+  /// Starts the components' threads. Components loaded later start immediately. Called by run().
   void start();
 
-  /// Runs until every source is at its end and all is handled, or until request_stop(). Without a source live: until request_stop().
-  /// Returns what went wrong, empty when all went well.
+  /// Runs until all sources have ended and all messages are handled, or until request_stop(). Live without a source:
+  /// until request_stop(). Returns the problems; empty on success.
   std::vector<std::string> run();
 
-  /// Replay: handles what is queued, and what comes of it, until all is quiet.
+  /// Replay: handles all queued messages and everything they trigger.
   void run_until_quiet();
 
-  /// Whether run() was asked to stop while something was still to be played.
+  /// Whether run() was stopped before all sources had ended.
   bool was_interrupted() const;
 
-  /// From any thread or a signal-handling one; run() then returns soon.
+  /// Makes run() return soon. Callable from any thread.
   void request_stop() noexcept;
 
-  /// Sees every published message of the topics that `wanted` accepts, on the publisher's thread: for result files and tests.
+  /// Calls `observer` for each message published on topics that `wanted` accepts, on the publisher's thread. For result
+  /// files and tests.
   void observe(std::function<bool(const TopicDescription&)> wanted,
                std::function<void(const TopicDescription&, const SamplePtr&)> observer);
 
-  /// The topics by which this container meets others, resolved and sorted.
+  /// Topics that connect this container with others: resolved names, sorted.
   struct Links {
     std::vector<std::string> published, subscribed;
     bool has_source = false;
-    bool reads_all = false;  ///< a recorder does: topics that it does not know yet
+    bool reads_all = false;  ///< reads all topics, including later ones (a recorder)
   };
   Links links() const;
-  /// How many readers and writers in other processes a topic is to have.
+  /// Required number of readers and writers of a topic in other processes.
   struct Peers {
     std::size_t readers = 0, writers = 0;
   };
-  /// Waits until these topics have them; false when `limit` has passed. Both ends must know of each other before a first message is sent: what
-  /// reaches a best-effort reader that does not know the writer yet is lost.
+  /// Waits until the topics have the required peers; false if `limit` has passed. Needed before the first message: a
+  /// best-effort reader misses messages that are sent before it has discovered the writer.
   bool wait_for_peers(const std::map<std::string, Peers>& peers, std::chrono::milliseconds limit);
 
   /// Called about 4 times a second while sources run.
@@ -99,9 +101,9 @@ class Container {
 
   std::vector<QueueCounters> queue_counters() const;
   ComponentTimes stage_times() const;
-  /// Per component, the parameters that differ from their defaults.
+  /// Parameters that differ from their defaults, by component.
   std::map<std::string, std::map<std::string, std::string>> changed_parameters() const;
-  /// Every parameter a component declares.
+  /// All parameters that a component declares.
   std::vector<ParameterDescription> parameters_of(const std::string& component) const;
   std::uint64_t source_steps() const;
 

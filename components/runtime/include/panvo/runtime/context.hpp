@@ -16,6 +16,7 @@
 #include "panvo/interfaces/topics.hpp"
 #include "panvo/runtime/bridge.hpp"
 #include "panvo/runtime/client.hpp"
+#include "panvo/runtime/compiled_type.hpp"
 #include "panvo/runtime/logger.hpp"
 #include "panvo/runtime/output.hpp"
 #include "panvo/runtime/parameters.hpp"
@@ -27,24 +28,24 @@
 
 namespace panvo::runtime {
 
-/// All that a component knows of the world: its parameters, topics, log and time. The same component runs live (a thread and a bounded queue of
-/// its own) and in replay (one thread for all, messages in order of stamp) without knowing which. To be used in the component's constructor
-/// and, for time, log and outputs, in what it registered there.
+/// A component's access to its parameters, topics, log and time. The same component code runs live (own thread and
+/// bounded queue) and in replay (one thread, messages in stamp order). Use it in the component's constructor; use time,
+/// log and outputs also in the callbacks.
 class Context {
  public:
-  /// The component's name in the system: "binocular_odometry".
+  /// Name of the component in the system: "binocular_odometry".
   const std::string& name() const noexcept;
 
-  /// The component's parameters: defaults overridden by the configuration. A bad value is remembered, its default used, and the component
-  /// refused once constructed, with all that is wrong.
+  /// Reads the parameters: defaults overridden by the configuration. For an invalid value the default is returned; once
+  /// constructed, the component is rejected with all problems.
   template <class Parameters>
   Parameters parameters() {
     return parameter_reader().read<Parameters>();
   }
 
-  /// Has the component take new values of a parameter struct while it runs: `callback(Parameters)` gets all of the struct, checked as at the start,
-  /// between two messages and on the thread that handles them. A ConfigError that it throws refuses them. Without this, parameters are fixed once
-  /// the component is made.
+  /// Accepts new values of a parameter struct at run time. `callback(Parameters)` gets the complete struct, checked as
+  /// at start-up, on the component's message thread, between two messages. A ConfigError thrown by it rejects the
+  /// values. Without this, the parameters are read-only after construction.
   template <class Parameters, class Callback>
   void on_parameters(Callback callback) {
     take_parameters([callback = std::move(callback)](ParameterReader& reader) -> std::function<void()> {
@@ -57,10 +58,11 @@ class Context {
     return Output<Message>(open_output(describe(topic)));
   }
 
-  /// What parameters() has declared so far.
+  /// Parameters declared so far by parameters().
   const std::vector<ParameterDescription>& declared_parameters() const noexcept;
 
-  /// `callback(std::shared_ptr<const Message>)` runs to completion for each message; of those that wait, the newest `topic.qos.depth` are kept.
+  /// Calls `callback(std::shared_ptr<const Message>)` for each message. The queue keeps the newest `topic.qos.depth`
+  /// messages.
   template <class Message, class Callback>
   void input(const interfaces::Topic<Message>& topic, Callback callback) {
     open_input(describe(topic), [callback = std::move(callback)](const SamplePtr& sample) mutable {
@@ -68,8 +70,8 @@ class Context {
     });
   }
 
-  /// `callback(first, second)` for each two messages of equal header stamp (the two images of a stereo pair). Those that stay without a partner
-  /// are dropped and counted.
+  /// Calls `callback(first, second)` for each pair of messages with equal header stamps (a stereo pair). Messages
+  /// without a partner are dropped and counted.
   template <class First, class Second, class Callback>
   void input_pair(const interfaces::Topic<First>& first, const interfaces::Topic<Second>& second, Callback callback) {
     open_input_pair(describe(first), describe(second),
@@ -78,21 +80,23 @@ class Context {
                     });
   }
 
-  /// Offers a service: `callback(const Request&) -> Response`, on the thread of the component's messages and between two of them. Components of this
-  /// container call it directly, other processes over DDS. Requests that come while 32 wait get no answer and are counted as dropped.
+  /// Offers a service: `callback(const Request&) -> Response` runs on the component's message thread, between two
+  /// messages. Components of this container call it directly, other processes over DDS. If 32 requests are waiting, a
+  /// further one stays unanswered and counts as dropped.
   template <class Request, class Response, class Callback>
   void serve(const interfaces::Service<Request, Response>& service, Callback callback) {
     open_service(describe(service), service_handler<Request, Response>(std::move(callback)));
   }
 
-  /// A service of another component, of this container or of another process.
+  /// A client of a service of another component, in this container or another process.
   template <class Request, class Response>
   Client<Request, Response> client(const interfaces::Service<Request, Response>& service) {
     return Client<Request, Response>(open_client(describe(service)));
   }
 
-  /// A second stage of the component: live on a thread of its own behind a queue of `capacity` items (push waits when it is full), in replay in
-  /// sequence; both call it with the same items in the same order. `callback(Item)`.
+  /// Adds a second processing stage. Live, it has its own thread behind a queue of `capacity` items; push blocks while
+  /// the queue is full. In replay it runs sequentially. `callback(Item)` gets the same items in the same order in both
+  /// cases.
   template <class Item, class Callback>
   Stage<Item> stage(const std::string& stage_name, std::size_t capacity, Callback callback) {
     return Stage<Item>(open_stage(stage_name, capacity, [callback = std::move(callback)](std::any& item) mutable {
@@ -100,37 +104,39 @@ class Context {
     }));
   }
 
-  /// `callback()` finishes what the component made, when the run is over and none of its other callbacks runs any more. What it throws is a
-  /// problem of the run, and in its exit status. A component that is unloaded before the run ends has its destructor only.
+  /// Calls `callback()` at the end of the run, when no other callback of the component is running, to finish its
+  /// results. An exception counts as a problem of the run and affects the exit status. Not called for a component that
+  /// is unloaded earlier.
   void on_end(std::function<void()> callback);
 
-  /// `callback()` every `period`, on the thread of the component's messages and between two of them: live whatever arrives, by the monotonic clock,
-  /// and once for all that was missed; in replay when the time of what is played passes it.
+  /// Calls `callback()` every `period` on the component's message thread, between two messages. Live, it follows the
+  /// monotonic clock and skips missed ticks; in replay it follows the played stamps.
   void every(std::chrono::nanoseconds period, std::function<void()> callback);
 
-  /// Nobody waits for what this component does: live, its threads give way to those of others where cores are short (10 nicer).
+  /// Marks the component as low priority: live, its threads run at nice +10.
   void give_way();
 
-  /// Has the runtime play `source`, which must live as long as the component.
+  /// Lets the runtime play `source`, which must live as long as the component.
   void source(Source& source);
 
-  /// Every message of every topic that `wanted` accepts, those of other processes included, as samples: for recorders. Never dropped
-  /// before `depth` wait.
+  /// Subscribes to all topics that `wanted` accepts, including those of other processes, and gets the messages as
+  /// samples. For recorders. Drops messages only if more than `depth` are waiting.
   void tap(std::function<bool(const TopicDescription&)> wanted, std::size_t depth,
            std::function<void(const TopicDescription&, const SamplePtr&)> callback);
 
-  /// Publishes samples of a type known by name only: for bag players.
+  /// Opens an output for a type known only by name. For bag players.
   std::shared_ptr<UntypedOutput> open_output(const TopicDescription& topic);
 
-  /// Whether another component of this container publishes the topic (name as recorded: "/odometry/binocular").
+  /// Whether another component of this container publishes the topic (resolved name, as recorded:
+  /// "/odometry/binocular").
   bool is_published(const std::string& resolved_name) const;
-  /// Whether anybody publishes the topic by now, here or in another process.
+  /// Whether the topic currently has a publisher, in this or another process.
   template <class Message>
   bool has_publisher(const interfaces::Topic<Message>& topic) const {
     return has_publisher(describe(topic));
   }
 
-  /// The name a topic of this component goes by, after namespace and remaps ("/robot/odometry/binocular"): what messages to people name.
+  /// Name of a topic after namespace and remaps ("/robot/odometry/binocular"), for use in messages to users.
   template <class Message>
   std::string resolved_name(const interfaces::Topic<Message>& topic) const {
     return resolved_name(topic.name);
@@ -140,27 +146,27 @@ class Context {
   const Logger& log() const noexcept;
   StageTimes& times() noexcept;
 
-  /// Where the component tells of messages that it cannot use.
+  /// Records messages that the component cannot use.
   Rejections& rejections() noexcept;
 
-  /// Whether the component was there before and crashed, by itself or with its process: what it knew is gone, and the world went on.
+  /// Whether the component was restarted after a crash of itself or its process: its previous state is lost.
   bool is_again() const noexcept;
 
-  /// To be called before a file is read that an earlier run left. One that has made this component or its process fail three times in a row is set
-  /// aside first, under another name, and the component finds no file. Nothing is done in replay.
+  /// Call before reading a file of an earlier run. If the last three attempts to read it made the component or process
+  /// fail, the file is first renamed, so the component does not find it. No effect in replay.
   void about_to_read(const std::filesystem::path& file);
 
-  /// The stamp of what is being processed, ns: header stamp where the message has one. 0 before the first.
+  /// Stamp of the message being processed, ns: its header stamp, if any. 0 before the first message.
   std::int64_t now_ns() const noexcept;
 
-  /// A time that only goes on, ns, to tell how long something has been silent: of the monotonic clock, or of what is played. Means nothing by
-  /// itself.
+  /// A monotonic time for measuring silence, ns: of the monotonic clock or of the played data. Its absolute value has
+  /// no meaning.
   std::int64_t passing_ns() const;
 
-  /// A seed for this component's random numbers: from the system's seed and the component's name.
+  /// Seed for the component's random numbers, derived from the system's seed and the component's name.
   std::uint64_t seed() const noexcept;
 
-  struct State;  // the runtime's side
+  struct State;  // used by the runtime
   explicit Context(std::unique_ptr<State> state);
   ~Context();
   Context(const Context&) = delete;
@@ -170,13 +176,14 @@ class Context {
  private:
   template <class Message>
   static TopicDescription describe(const interfaces::Topic<Message>& topic) {
-    const auto& type = interfaces::message_type<Message>();
+    const auto& type = compiled_type<Message>();
     return {std::string(topic.name), std::string(type.name), topic.qos, &type};
   }
 
   template <class Request, class Response>
   static ServiceDescription describe(const interfaces::Service<Request, Response>& service) {
-    std::string type(interfaces::message_type<Request>().name);
+    compiled_type<Response>();
+    std::string type(compiled_type<Request>().name);
     return {std::string(service.name), type.substr(0, type.rfind("_Request"))};
   }
 

@@ -7,7 +7,7 @@
 
 namespace panvo::runtime {
 
-/// Where a configured value stands: "stereo.yaml:17". Line 0: the place has no lines (a command line).
+/// Position of a configured value: "stereo.yaml:17". Line 0: the source has no lines (a command line).
 struct Location {
   std::string file;
   int line = 0;
@@ -15,7 +15,7 @@ struct Location {
   std::string to_string() const { return line > 0 ? file + ":" + std::to_string(line) : file; }
 };
 
-/// What is wrong with a configuration: every problem found, each naming file, line, key and remedy.
+/// An invalid configuration. Holds all problems found, each with file, line, key and remedy.
 class ConfigError : public std::runtime_error {
  public:
   explicit ConfigError(std::vector<std::string> problems);

@@ -9,7 +9,7 @@
 
 namespace panvo::runtime {
 
-/// A node of this process as others are to see it. Names are resolved.
+/// A node of this process as seen by others. Names are resolved.
 struct NodeDescription {
   std::string name_space;  ///< "/" or "/robot"
   std::string name;
@@ -17,17 +17,17 @@ struct NodeDescription {
   std::vector<std::string> serves;                 ///< services
 };
 
-/// What ROS 2 uses an endpoint for.
+/// Purpose of an endpoint in ROS 2.
 enum class EndpointKind : std::uint8_t { kTopic, kRequest, kReply, kOther };
 
 /// A reader or writer of another process.
 struct GraphEndpoint {
   EndpointKind kind = EndpointKind::kOther;
-  std::string name;       ///< of the topic or service; as on the wire for kOther
-  std::string type_name;  ///< "nav_msgs/msg/Odometry", "rcl_interfaces/srv/GetParameters"; as on the wire for kOther
+  std::string name;       ///< of the topic or service; wire name for kOther
+  std::string type_name;  ///< "nav_msgs/msg/Odometry", "rcl_interfaces/srv/GetParameters"; wire name for kOther
   bool is_writer = false;
   interfaces::Qos qos;    ///< reliability and durability only
-  std::string type_hash;  ///< "RIHS01_...", empty: not told
+  std::string type_hash;  ///< "RIHS01_..."; empty: unknown
   std::string gid;        ///< hexadecimal
 };
 
@@ -37,7 +37,7 @@ struct GraphNode {
   std::vector<std::string> readers, writers;  ///< their gids
 };
 
-/// What is known of other processes now.
+/// Currently known nodes and endpoints of other processes.
 struct Graph {
   std::vector<GraphNode> nodes;
   std::vector<GraphEndpoint> endpoints;

@@ -10,16 +10,15 @@
 
 namespace panvo::runtime {
 
-/// Lets through one log line of a kind each ten seconds, and counts those between. Who writes the line names its kind. Safe to use from several
-/// threads.
+/// Passes one log line per key every 10 s and counts those suppressed. Thread-safe.
 class LogThrottle {
  public:
   static constexpr std::int64_t kInterval_ns = 10'000'000'000;
-  /// Kinds that are remembered; further ones share one turn while all of these are younger than the interval.
+  /// Maximum number of keys; further keys share one entry while all of these are younger than the interval.
   static constexpr std::size_t kMostKeys = 50;
 
-  /// Whether a line of this kind may be written at `now_ns`, and what to write after it: "" or " (3 more like this in the last 12 s)".
-  /// nullopt: it is counted only. A time before the last line's (stamps of a recording may jump) is as one within the interval.
+  /// Returns the suffix for the log line, "" or " (3 more like this in the last 12 s)", or nullopt if the line is
+  /// suppressed. A `now_ns` before the last line (recorded stamps may jump) counts as within the interval.
   std::optional<std::string> admit(std::string_view key, std::int64_t now_ns);
 
  private:

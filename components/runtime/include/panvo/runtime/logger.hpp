@@ -20,13 +20,13 @@ enum class LogLevel : std::uint8_t {
   kError = 40
 };  // rcl_interfaces/msg/Log's values
 
-/// What a component says to people: to stderr, the run's log file and rosout. Safe to use from several threads.
+/// Log of a component: to stderr, the run's log file and /rosout. Thread-safe.
 class Logger {
  public:
   using Write = std::function<void(LogLevel, const std::string& component, const std::string& text)>;
   using Clock = std::function<std::int64_t()>;  // ns
 
-  /// `clock` is what throttled lines are counted by: the stamp of what is processed in replay, so that a replay's log is the same each time.
+  /// `clock` times the throttled lines. In replay it is the stamp of the processed message, so the log is reproducible.
   Logger(std::string component, Write write, Clock clock = monotonic_clock())
       : component_(std::move(component)), write_(std::move(write)), clock_(std::move(clock)) {}
 
@@ -47,8 +47,9 @@ class Logger {
     write_(LogLevel::kError, component_, fmt::format(format, std::forward<Args>(args)...));
   }
 
-  /// For what may come with every message: once each ten seconds and `key`, with the number of those between. The key is the kind of line, and
-  /// names what it is about where there are several ("landmark 3"), but not what changes from one to the next.
+  /// For warnings that may occur with every message: one line per `key` every 10 s, with the number of suppressed
+  /// lines. The key names the kind of line and, if needed, its subject ("landmark 3"), without values that change from
+  /// line to line.
   template <class... Args>
   void warn_throttled(std::string_view key, fmt::format_string<Args...> format, Args&&... args) const {
     if (const auto suffix = throttle_.admit(key, clock_())) {

@@ -8,17 +8,17 @@
 
 namespace panvo::runtime {
 
-/// A topic that a component publishes, whatever its type.
+/// Type-erased publisher of a component.
 class UntypedOutput {
  public:
   virtual ~UntypedOutput() = default;
-  /// Hands the message to every reader in this process by pointer, and to the bridge.
+  /// Passes the message by pointer to all readers in this process, and to the bridge.
   virtual void publish(std::shared_ptr<const void> message) = 0;
-  /// The same for a message that is there as bytes only.
+  /// The same for a serialised message.
   virtual void publish(interfaces::Bytes bytes) = 0;
 };
 
-/// A topic that a component publishes. A published message belongs to its readers: it must not be changed any more.
+/// Publisher of a component. A message must not be modified after publishing.
 template <class Message>
 class Output {
  public:

@@ -16,34 +16,34 @@
 
 namespace panvo::runtime {
 
-/// A value as it was written, not yet of a type: one scalar, or a list of them.
+/// A configured value before type conversion: one scalar or a list of scalars.
 struct WrittenValue {
   std::vector<std::string> items;
   bool is_list = false;
   Location where;
 };
 
-/// What a configuration says to one component: parameter name ("tracker.max_features") to value.
+/// Configured values of one component: parameter name ("tracker.max_features") to value.
 using WrittenValues = std::map<std::string, WrittenValue>;
 
-/// A parameter as it is declared, for reading, checking and `--help`.
+/// Declaration and current value of a parameter.
 struct ParameterDescription {
   std::string name;
   std::string type;  ///< "bool", "integer", "number", "text", "numbers", "texts"
   std::string unit;  ///< "px", "m", "1" ...
   std::string description;
   std::string default_value;
-  std::string value;  ///< in force
+  std::string value;  ///< current value
   std::optional<double> min, max;
   std::vector<std::string> choices;
-  WrittenValue written;   ///< the value in force as it could have been written, a list's items apart
-  bool settable = false;  ///< while the component runs, see Context::on_parameters
+  WrittenValue written;   ///< current value in configuration form, list items separated
+  bool settable = false;  ///< at run time, see Context::on_parameters
   bool is_path = false;   ///< names a file or folder
 };
 
-/// Parses one written value as the declared type, all of it and whatever the locale. On failure leaves `out`
-/// as it is and returns what is wrong ("is not a whole number"). Numbers are finite; a whole number is a
-/// number, 7.0 no whole number.
+/// Parses a configured value as the declared type, completely and independently of the locale. On failure, returns the
+/// problem ("is not a whole number") and leaves `out` unchanged. Numbers must be finite. A whole number is a valid
+/// number; 7.0 is not a valid whole number.
 std::optional<std::string> parse(const WrittenValue& written, bool& out);
 std::optional<std::string> parse(const WrittenValue& written, std::int64_t& out);
 std::optional<std::string> parse(const WrittenValue& written, double& out);
@@ -51,31 +51,32 @@ std::optional<std::string> parse(const WrittenValue& written, std::string& out);
 std::optional<std::string> parse(const WrittenValue& written, std::vector<double>& out);
 std::optional<std::string> parse(const WrittenValue& written, std::vector<std::string>& out);
 
-/// A value as it could have been written; parse() gives the same value back, numbers to the last bit.
+/// Formats a value for a configuration; parse() restores it exactly.
 std::string to_text(bool value);
 std::string to_text(std::int64_t value);
 std::string to_text(double value);
 std::string to_text(const std::string& value);
-std::string to_text(const char*) = delete;  // would be taken for a bool
+std::string to_text(const char*) = delete;  // would convert to bool
 std::string to_text(const std::vector<double>& value);
 std::string to_text(const std::vector<std::string>& value);
 
-/// Reads plain parameter structs from written values, and remembers what was declared and what was wrong.
-/// A struct declares its fields in `template <class Field> static void describe(Field&& field)`, by calls of
+/// Reads plain parameter structs from configured values and records declarations and problems. A struct declares its
+/// fields in `template <class Field> static void describe(Field&& field)`, by calls of
 ///   field(&P::member, "name", "unit", "description", min, max)   for numbers,
 ///   field(&P::member, "name", "unit", "description")             for bool, text and lists,
 ///   field(&P::member, "name", "unit", "description", {"a","b"})  for a choice,
 ///   field.path(&P::member, "name", "description")                for text that names a file or folder,
 ///   field.group(&P::member, "name")                              for a nested struct.
 ///
-/// Which fields contradict each other it may say in `template <class Conflict> void find_conflicts(Conflict&& conflict) const`, by calls of
+/// Optionally, it reports contradictory fields in `template <class Conflict> void find_conflicts(Conflict&& conflict)
+/// const`, by calls of
 ///   conflict("first", "must be less than", "second").
 class ParameterReader {
  public:
   /// `owner` names the component in messages ("binocular_odometry").
   ParameterReader(std::string owner, WrittenValues written) : owner_(std::move(owner)), written_(std::move(written)) {}
 
-  /// The struct with its defaults overridden by what was written. Problems are remembered, see problems().
+  /// Returns the struct: defaults overridden by the configured values. Problems are recorded, see problems().
   template <class Parameters>
   Parameters read() {
     Parameters parameters{};
@@ -84,15 +85,14 @@ class ParameterReader {
     return parameters;
   }
 
-  /// From now on, what is written may name files and folders below this one only; empty: none. For what comes from other processes.
+  /// From now on, allows only paths below `folder`; empty: none. For values from other processes.
   void confine_paths(std::filesystem::path folder) { paths_below_ = std::move(folder); }
 
-  /// In order of declaration, each name once.
+  /// Declared parameters in order of declaration, each name once.
   const std::vector<ParameterDescription>& declared() const noexcept { return declared_; }
 
-  /// Every bad value, and every written key that no read() declared (with the nearest declared name), each
-  /// with file and line, in order of line. To be called when the component has been constructed, so that all
-  /// it declares is known.
+  /// All invalid values and all configured keys that no read() has declared (with the nearest declared name), each with
+  /// file and line, in order of line. Call it after the component's constructor, when all declarations are known.
   std::vector<std::string> problems() const;
 
  private:
@@ -151,7 +151,7 @@ class ParameterReader {
 
   void read_path(const std::string& name, const char* description, std::string& value);
 
-  /// Overrides `value` with what was written, if it is right, and remembers the declaration.
+  /// Overrides `value` with the configured value, if valid, and records the declaration.
   template <class Value>
   void declare(ParameterDescription description, Value& value);
 

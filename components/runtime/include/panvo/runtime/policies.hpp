@@ -5,18 +5,18 @@
 
 namespace panvo::runtime {
 
-/// What requests by service may do to a container and its components.
+/// Access of service requests to a container and its components.
 enum class ServiceAccess : std::uint8_t {
-  kByHost,  ///< who is on this host may steer, others may look
-  kOff,     ///< there are no services
-  kLook,    ///< parameters, states and what is loaded may be read
-  kSteer    ///< and be changed
+  kByHost,  ///< this host may control, others may read
+  kOff,     ///< no services
+  kLook,    ///< all may read parameters, states and loaded components
+  kSteer    ///< all may also change them
 };
 
-/// What becomes of a component that throws, in a live run; in replay it is stopped and never made anew.
+/// Reaction to a component that throws in a live run. In replay it is stopped and never restarted.
 enum class OnError : std::uint8_t {
-  kIgnore,   ///< it is stopped, the others go on
-  kRestart,  ///< it is made anew, a few times; then as kIgnore
+  kIgnore,   ///< the component stops, the others continue
+  kRestart,  ///< the component is restarted a few times, then as kIgnore
   kStop      ///< the container stops
 };
 

@@ -6,8 +6,8 @@
 
 namespace panvo::runtime {
 
-/// A text of which parts come from others (names of topics and nodes, what messages hold), fit for a terminal: what would steer it, and
-/// bytes that are no UTF-8, as \x1b. Ends of lines and tabs stay.
+/// Makes a text with foreign parts (topic and node names, message contents) safe for a terminal: control characters and
+/// invalid UTF-8 bytes become \x1b and the like. Newlines and tabs are kept.
 std::string printable(std::string_view text);
 
 }  // namespace panvo::runtime

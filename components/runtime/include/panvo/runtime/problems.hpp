@@ -9,14 +9,13 @@
 
 namespace panvo::runtime {
 
-/// What is wrong with a configuration, collected until everything has been looked at.
+/// Collects the problems of a configuration.
 class Problems {
  public:
   void add(Location where, std::string what);
   bool empty() const noexcept { return found_.empty(); }
 
-  /// "stereo.yaml:17: what", each once, in order of line. Files come in the order in which they were first
-  /// complained of.
+  /// "stereo.yaml:17: what", without duplicates, in order of line. Files appear in the order of their first problem.
   std::vector<std::string> sorted() const;
 
   /// Throws ConfigError if there is any.

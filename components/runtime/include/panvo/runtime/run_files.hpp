@@ -15,17 +15,17 @@
 
 namespace panvo::runtime {
 
-/// What went through one input of one component.
+/// Message counts of one input of a component.
 struct QueueCounters {
   std::string component;
   std::string input;  ///< resolved topic name
   std::uint64_t received = 0, handled = 0, dropped = 0;
 };
 
-/// What summary.json says of a run.
+/// Contents of summary.json.
 struct RunSummary {
   std::uint64_t frames_in = 0, frames_out = 0;
-  std::uint64_t frames_unreliable = 0;  ///< of those out: without a motion that was measured
+  std::uint64_t frames_unreliable = 0;  ///< poses without measured motion
   std::vector<QueueCounters> queues;
   double cpu_s = 0.0, wall_s = 0.0, peak_memory_mb = 0.0;
   std::string version;
@@ -34,40 +34,39 @@ struct RunSummary {
   std::string system_file;
   std::map<std::string, std::map<std::string, std::string>> changed_parameters;  ///< component, parameter, value
   std::vector<std::string> problems;
-  bool interrupted = false;  ///< asked to stop while something was still to be played
+  bool interrupted = false;  ///< stopped before all data was played
   int exit_status = 0;
 };
 
 /// Stage times by component and stage.
 using ComponentTimes = std::map<std::string, std::map<std::string, StageTimes::Times, std::less<>>>;
 
-/// The files that a run leaves in its folder: odometry, landmarks and matches as they are published, line by line, so that a run
-/// that is killed leaves what it had; and, at the end, timing.json and summary.json, whole or not at all.
-/// What an earlier run left under these names is removed. Every method throws std::runtime_error, naming the
-/// file, when it cannot be written (full disk, folder not writable); what was written before stays and is
-/// whole lines. Safe to use from several threads.
+/// The result files of a run: odometry, landmarks and matches are written line by line as they are published, so a
+/// killed run leaves valid files; timing.json and summary.json are written atomically at the end. Files of an earlier
+/// run under these names are removed. Each method throws std::runtime_error, naming the file, on a write error (disk
+/// full, folder not writable); earlier complete lines are kept. Thread-safe.
 ///
-/// `*.tum`: `t x y z qx qy qz qw`, stamp in s with its nine decimals, position in m in the message's frame
-/// (odom, map), rotation as unit quaternion; the other numbers as short as gives them back to the last bit. A
-/// message with a number that is not finite, or whose bytes are none, is left out, and counted among the
-/// summary's problems.
+/// `*.tum`: `t x y z qx qy qz qw`; stamp in s with nine decimals, position in m in the message's frame (odom, map),
+/// rotation as unit quaternion. Other numbers have the shortest form that restores them exactly. Undecodable messages
+/// and messages with non-finite numbers are left out and counted in the summary's problems.
 class RunFiles {
  public:
-  /// Makes the folder, with those above it.
+  /// Creates the folder and its parents.
   explicit RunFiles(std::filesystem::path folder);
   ~RunFiles();
   RunFiles(const RunFiles&) = delete;
   RunFiles& operator=(const RunFiles&) = delete;
 
-  /// nav_msgs/msg/Odometry topics that end in /odometry/binocular, /odometry/enhanced and
-  /// /ground_truth/odometry, landmarks on /landmarks and what panoramas matched on /landmarks/match.
+  /// True for nav_msgs/msg/Odometry topics that end in /odometry/binocular, /odometry/enhanced or
+  /// /ground_truth/odometry, and for the topics of landmarks, matches, quality, azimuth changes, corrections, states
+  /// and integrity.
   bool wants(const TopicDescription& topic) const;
 
-  /// Appends a message of a topic that wants() accepts; ignores any other. Two topics of one ending (two
-  /// robots): the first has the plain file name, the others have their namespace before it.
+  /// Appends a message of a topic that wants() accepts; ignores others. If two topics have the same ending (two
+  /// robots), the first has the plain file name; the others are prefixed with their namespace.
   void write(const TopicDescription& topic, const SamplePtr& sample);
 
-  /// Whether a message was written.
+  /// Whether any message was written.
   bool has_lines() const;
 
   void finish(const RunSummary& summary, const ComponentTimes& times_by_component);
@@ -80,15 +79,15 @@ class RunFiles {
   std::map<std::string, std::vector<std::unique_ptr<TopicFile>>> files_by_topic_;
 };
 
-/// Makes the folder for the results of a run, and marks it as one, so that the next run may replace what is in it. Throws ConfigError if it
-/// holds anything and no run left it there, unless `overwrite`: then files of the names that a run writes are replaced, the others stay.
+/// Creates the folder for the results of a run and marks it, so that the next run may replace its contents. Throws
+/// ConfigError if the folder has contents that no run has written, unless `overwrite` is set: then the run's files are
+/// replaced and other files are kept.
 void claim_run_folder(const std::filesystem::path& folder, bool overwrite);
 
-/// Makes one run of what several containers left in `subfolders` of `folder` (names): joins the components of
-/// timing.json; in summary.json adds up frames, CPU time, memory and lists, takes the longest wall time and
-/// the first exit status that is not 0; moves the other files up, with the subfolder's name before theirs
-/// where two have the same. A container that left no summary was killed: that is a problem and exit status 1.
-/// Throws std::runtime_error as RunFiles does.
+/// Merges the results that several containers left in `subfolders` of `folder` (names). timing.json: joins the
+/// components. summary.json: adds frames, CPU time, memory and lists; takes the longest wall time and the first exit
+/// status other than 0. Other files are moved up, prefixed with the subfolder's name if two have the same name. A
+/// container without a summary was killed: a problem and exit status 1. Throws std::runtime_error like RunFiles.
 void merge_run_files(const std::filesystem::path& folder, const std::vector<std::string>& subfolders);
 
 }  // namespace panvo::runtime

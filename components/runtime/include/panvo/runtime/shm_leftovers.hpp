@@ -11,9 +11,9 @@ struct ShmLeftovers {
   std::uintmax_t bytes = 0;
 };
 
-/// Removes the shared memory for images that killed processes have left behind, which Fast DDS 2.9 does not. A segment goes when nobody holds the
-/// lock beside it (`fast_datasharing_ID_el`, held by its owner for life) and it is some seconds old, so that one that is just being made is let be.
-/// What cannot be removed (another user's) stays, without complaint.
+/// Removes shared memory for images left by killed processes, which Fast DDS 2.9 does not remove. A segment is removed
+/// if its lock file (`fast_datasharing_ID_el`, locked by the owner for its lifetime) is not locked and it is older than
+/// 5 s, to spare segments under creation. Segments that cannot be removed (other users) are skipped silently.
 ShmLeftovers remove_shm_leftovers(const std::filesystem::path& folder = "/dev/shm");
 
 }  // namespace panvo::runtime

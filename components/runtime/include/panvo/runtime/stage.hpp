@@ -7,7 +7,7 @@
 
 namespace panvo::runtime {
 
-/// The queue before a component's second stage, whatever its items.
+/// Type-erased queue of a component's second stage.
 class StageQueue {
  public:
   virtual ~StageQueue() = default;
@@ -20,7 +20,7 @@ class Stage {
  public:
   explicit Stage(std::shared_ptr<StageQueue> queue) : queue_(std::move(queue)) {}
 
-  /// Hands an item on; waits while the queue is full, until the component stops.
+  /// Passes an item to the stage. Blocks while the queue is full, until the component stops.
   void push(Item item) { queue_->push(std::make_shared<Item>(std::move(item))); }
 
  private:

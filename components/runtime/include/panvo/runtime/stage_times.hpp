@@ -10,7 +10,7 @@
 
 namespace panvo::runtime {
 
-/// Durations in bins of 2 % width from 1 us to about 500 s: quantiles of a run of any length in fixed memory.
+/// Histogram of durations with 2 % bins from 1 us to about 500 s: quantiles of a run of any length in fixed memory.
 class DurationHistogram {
  public:
   void add(std::int64_t duration_ns) noexcept;
@@ -18,7 +18,7 @@ class DurationHistogram {
   std::uint64_t count() const noexcept { return count_; }
   double mean_ms() const noexcept;
   double max_ms() const noexcept { return static_cast<double>(max_ns_) * 1e-6; }
-  /// Within 2 %; 0 when empty. `fraction` in [0, 1].
+  /// Quantile, accurate to 2 %; 0 if empty. `fraction` in [0, 1].
   double quantile_ms(double fraction) const noexcept;
 
  private:
@@ -29,7 +29,7 @@ class DurationHistogram {
   std::int64_t max_ns_ = 0;
 };
 
-/// Wall and CPU time of each stage of one component. Safe to use from several threads.
+/// Wall and CPU time of each stage of a component. Thread-safe.
 class StageTimes {
  public:
   struct Times {
@@ -45,7 +45,7 @@ class StageTimes {
   std::map<std::string, Times, std::less<>> stages_;
 };
 
-/// Measures from construction to destruction, wall clock and this thread's CPU, and adds it to a stage.
+/// Measures wall time and this thread's CPU time from construction to destruction and adds them to a stage.
 class StageTimer {
  public:
   StageTimer(StageTimes& times, std::string_view stage) noexcept;

@@ -20,8 +20,8 @@ struct ComponentDescription {
   std::string name;        ///< "binocular_odometry"
   std::string name_space;  ///< absolute, root "/"
   WrittenValues parameters;
-  std::map<std::string, std::string> remaps;  ///< from, to, as written; see resolve_topic
-  OnError on_error = OnError::kIgnore;        ///< a system file that does not say means kRestart
+  std::map<std::string, std::string> remaps;  ///< from, to, as configured; see resolve_topic
+  OnError on_error = OnError::kIgnore;        ///< default in a system file: kRestart
   Location where;
 };
 
@@ -30,23 +30,23 @@ struct ContainerDescription {
   std::string name;
   std::string name_space;  ///< absolute, root "/"
   std::vector<ComponentDescription> components;
-  bool respawn = false;                   ///< to be started again when it crashes or fails
-  std::optional<double> respawn_delay_s;  ///< how long after
-  double shared_images_mb = 0;            ///< size of the largest images that are shared in memory, MB; 0: none are
-  double max_message_mb = 64;             ///< larger messages of others are refused and counted, MB
-  double max_topic_rate_hz = 1000;        ///< of one topic; what others send beyond is refused and counted
-  bool required = true;                   ///< when it is lost for good, the other processes of the system end too
+  bool respawn = false;                   ///< restart after a crash or failure
+  std::optional<double> respawn_delay_s;  ///< delay before the restart
+  double shared_images_mb = 0;            ///< largest shared image, MB; 0: no sharing
+  double max_message_mb = 64;             ///< larger messages of other processes are refused and counted, MB
+  double max_topic_rate_hz = 1000;        ///< per topic; excess messages of other processes are refused and counted
+  bool required = true;                   ///< if it is lost, the other processes of the system end too
   ServiceAccess services = ServiceAccess::kByHost;
-  std::string files_below;               ///< folder below which requests by service may name files; empty: nowhere
-  std::optional<double> requests_per_s;  ///< of one service, that are answered
+  std::string files_below;               ///< folder for files named by service requests; empty: none allowed
+  std::optional<double> requests_per_s;  ///< limit per service
   Location where;
 };
 
-/// Which processes there are and what each loads.
+/// The processes of a system and their components.
 struct SystemDescription {
   std::string file;
-  std::vector<ContainerDescription> containers;  ///< in the order of the file, no two components of one full name
-  std::vector<std::string> notes;                ///< what was read and has no effect here, with file and line
+  std::vector<ContainerDescription> containers;  ///< in file order; full component names are unique
+  std::vector<std::string> notes;                ///< settings without effect here, with file and line
 };
 
 /// Reads a system file: ROS 2's launch vocabulary in YAML.
@@ -55,14 +55,14 @@ struct SystemDescription {
 ///     - arg: {name: rig, default: kitti, description: folder of the calibration}
 ///     - node_container:
 ///         name: stereo
-///         respawn: true            # when it crashes, after respawn_delay: 1 s
-///         required: false          # the other processes go on when this one is lost; default: true
-///         services: look           # or steer, off; default: who is on this host may steer, others look
-///         files_below: /srv/panvo  # where requests by service may name files; default: nowhere
-///         on_error: restart        # or stop (the container), ignore; of a component that throws. Also in a composable_node
-///         shared_images_mb: 2      # images of up to 2 MB (64) pass to other containers of this machine in memory that both share
-///         max_message_mb: 64       # larger messages of other processes are refused; the default
-///         max_topic_rate_hz: 1000  # and what comes faster on one topic; the default
+///         respawn: true            # restart after a crash; respawn_delay: 1 s
+///         required: false          # the other processes continue if this one is lost; default: true
+///         services: look           # or steer, off; default: this host may control, others may read
+///         files_below: /srv/panvo  # folder for files named by service requests; default: none
+///         on_error: restart        # or stop (the container), ignore: if a component throws; also in a composable_node
+///         shared_images_mb: 2      # largest image shared in memory with containers of this machine; default: 64
+///         max_message_mb: 64       # larger messages of other processes are refused (default value)
+///         max_topic_rate_hz: 1000  # excess messages on a topic are refused (default value)
 ///         composable_node:
 ///         - pkg: panvo_binocular_odometry
 ///           plugin: BinocularOdometryComponent
@@ -73,16 +73,16 @@ struct SystemDescription {
 ///           remap:
 ///           - {from: stereo/left/image_rect, to: /camera/left/image_rect}
 ///
-/// Also `let` (name, value), `include` (file, arg), `group` with `push_ros_namespace`, and `if`, `unless` on
-/// each. Paths are relative to the file that has them. Substitutions: $(var NAME), $(env NAME [DEFAULT]),
-/// $(dirname), $(find-pkg-share PACKAGE). `arguments` give the file's `arg`s. Throws ConfigError with every
-/// problem found, each with file and line.
+/// Also supported: `let` (name, value), `include` (file, arg), `group` with `push_ros_namespace`, and `if` and `unless`
+/// on each. Paths are relative to the file they appear in. Substitutions: $(var NAME), $(env NAME [DEFAULT]),
+/// $(dirname), $(find-pkg-share PACKAGE). `arguments` sets the file's `arg` entries. Throws ConfigError with all
+/// problems, each with file and line.
 SystemDescription read_system_file(const std::filesystem::path& file,
                                    const std::map<std::string, std::string>& arguments = {});
 
-/// Sets one parameter as the command line does: "binocular_odometry.tracker.max_features=500", a list as
-/// "name.list=[1, 2]". A component that is in a namespace may be called by its full name; a short name means
-/// each that has it. Throws ConfigError if there is none.
+/// Sets one parameter as on the command line: "binocular_odometry.tracker.max_features=500", a list as "name.list=[1,
+/// 2]". A component in a namespace may be given by its full name; a short name selects all components of that name.
+/// Throws ConfigError if there is none.
 void apply_setting(SystemDescription& system, const std::string& setting);
 
 }  // namespace panvo::runtime

@@ -3,9 +3,9 @@
 
 namespace panvo::runtime {
 
-/// A DDS domain for a test that speaks over DDS: one that no other process on this host has claimed, so that tests may run side by side. Held
-/// until this process ends, the same at every call; $PANVO_TEST_DOMAIN, where it is set, is taken as it is. Throws std::runtime_error when every
-/// domain is claimed.
+/// Returns a DDS domain that no other test process on this host uses, so tests can run in parallel. The domain is held
+/// until this process ends; each call returns the same one. $PANVO_TEST_DOMAIN overrides it. Throws std::runtime_error
+/// if all domains are in use.
 int test_domain();
 
 }  // namespace panvo::runtime

@@ -11,7 +11,7 @@
 
 namespace panvo::runtime {
 
-/// Drives components in a test: in replay, one message at a time, nothing left to chance.
+/// Drives components in a test: replay mode, one message at a time, deterministic.
 ///
 ///     ComponentHarness harness;
 ///     const auto& rectified = harness.collect(topics::kStereoLeftImageRect);
@@ -24,7 +24,7 @@ class ComponentHarness {
 
   Container& container() noexcept { return container_; }
 
-  /// "warning dataset_player: ..." and so on, in order.
+  /// Log lines in order: "warning dataset_player: ...".
   const std::vector<std::string>& log() const noexcept { return log_; }
   bool log_contains(const std::string& text) const {
     for (const auto& line : log_) {
@@ -33,20 +33,20 @@ class ComponentHarness {
     return false;
   }
 
-  /// A list parameter is written "[a, b]". Throws ConfigError as the container does.
+  /// Loads a component. A list parameter is written "[a, b]". Throws ConfigError like the container.
   void load(const std::string& package, const std::string& plugin,
             const std::map<std::string, std::string>& parameters = {}) {
     container_.load(describe(package, plugin, parameters));
   }
 
-  /// Adds a component class of the test's own.
+  /// Adds a component class of the test.
   template <class ComponentClass>
   void add(const std::string& name, const std::map<std::string, std::string>& parameters = {}) {
     container_.add(describe("panvo_" + name, "", parameters),
                    [](Context& context) { return std::make_unique<ComponentClass>(context); });
   }
 
-  /// All messages published on a topic from now on, in order; grows.
+  /// Collects the messages published on a topic from now on, in order.
   template <class Message>
   const std::vector<std::shared_ptr<const Message>>& collect(const interfaces::Topic<Message>& topic) {
     auto messages = std::make_shared<std::vector<std::shared_ptr<const Message>>>();
@@ -59,7 +59,7 @@ class ComponentHarness {
     return *messages;
   }
 
-  /// Publishes a message and handles all that comes of it.
+  /// Publishes a message and handles everything it triggers.
   template <class Message>
   void publish(const interfaces::Topic<Message>& topic, Message message) {
     publish(topic, std::make_shared<const Message>(std::move(message)));

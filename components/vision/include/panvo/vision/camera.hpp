@@ -17,7 +17,7 @@ struct PinholeCamera {
   int width = 0;   ///< px
   int height = 0;  ///< px
 
-  /// Pixel of a point in this camera's frame; the caller sees to it that the point is in front (z > 0).
+  /// Pixel of a point in this camera's frame. Precondition: z > 0.
   Eigen::Vector2d project(const Eigen::Vector3d& point_in_camera) const {
     return {fx * point_in_camera.x() / point_in_camera.z() + cx, fy * point_in_camera.y() / point_in_camera.z() + cy};
   }
@@ -34,18 +34,17 @@ struct PinholeCamera {
   }
 };
 
-/// A rectified pair: one pinhole for both images, rows aligned, the right camera baseline_m along +X of the left.
-/// Disparity d = u_left - u_right = fx * baseline_m / z, positive for every point in front.
+/// Rectified stereo pair: one pinhole model for both images, rows aligned, right camera at +baseline_m along X of the
+/// left. Disparity d = u_left - u_right = fx * baseline_m / z, positive for every point in front.
 struct RectifiedStereo {
   PinholeCamera camera;
   double baseline_m = 0.0;
-  Eigen::Matrix3d rectified_left_from_left = Eigen::Matrix3d::Identity();    ///< rotation out of the raw left frame
-  Eigen::Matrix3d rectified_right_from_right = Eigen::Matrix3d::Identity();  ///< rotation out of the raw right frame
+  Eigen::Matrix3d rectified_left_from_left = Eigen::Matrix3d::Identity();    ///< rotation from the raw left frame
+  Eigen::Matrix3d rectified_right_from_right = Eigen::Matrix3d::Identity();  ///< rotation from the raw right frame
 };
 
-/// What is wrong with a pair, one sentence a problem; empty when it can be used. Found are: focal lengths that are not positive
-/// numbers, sizes that are not positive, a baseline that is zero, negative (left and right exchanged) or not a number, rotations
-/// that are no rotations.
+/// Lists the problems of a pair, one sentence each; empty if it is valid. Checks focal lengths, principal point, image
+/// size, the baseline (negative if left and right are swapped) and the rotation matrices.
 std::vector<std::string> validate(const RectifiedStereo& stereo);
 
 }  // namespace panvo::vision

@@ -8,25 +8,28 @@
 
 namespace panvo::vision {
 
-/// Where a raw camera sees what, and how far its model may be believed. Directions are of the optical frame: X right, Y down, Z
-/// forward; a wide lens sees directions with Z < 0, too. Pixel centres lie at integer coordinates.
+/// Projection of a raw camera and its inverse, limited to the field of view in which the model is valid. Directions are
+/// in the optical frame (X right, Y down, Z forward); wide lenses also see directions with Z < 0. Pixel centres lie at
+/// integer coordinates.
 ///
-/// A direction at the angle theta from the axis lies in the normalised image at the radius tan(theta) [perspective], theta
-/// [Kannala2006, as OpenCV's fisheye] or sin(theta) / (cos(theta) + xi) [Mei2007]; the distortion moves it from there.
+/// A direction at angle theta from the axis has the radius tan(theta) [perspective], theta
+/// [Kannala2006, as OpenCV's fisheye] or sin(theta) / (cos(theta) + xi) [Mei2007] in the normalised image, before
+/// distortion.
 class CameraModel {
  public:
-  /// `field_of_view_rad`: how much the lens sees, across; 0: as far as the model can be inverted. Throws std::invalid_argument,
-  /// in words that follow the camera's name: focal lengths and sizes that are not positive, a field of view that no such lens has,
-  /// a distortion that folds the image over within the field of view or, where that is not stated, before the nearest border.
+  /// `field_of_view_rad`: full angle; 0: as far as the model is invertible. Throws std::invalid_argument, with a text
+  /// to follow the camera's name, for invalid intrinsics, a field of view beyond the limit of the lens model, or a
+  /// distortion that is not invertible within the field of view (if 0: up to the nearest image border; perspective
+  /// lenses: up to all borders).
   explicit CameraModel(const LensCamera& camera, double field_of_view_rad = 0.0);
 
-  /// Pixel of a point; nullopt outside of the field of view. The pixel may lie outside of the image.
+  /// Pixel of a point; nullopt outside the field of view. The pixel may lie outside the image.
   std::optional<Eigen::Vector2d> project(const Eigen::Vector3d& point_in_camera) const;
 
-  /// Unit vector through a pixel; nullopt where the lens shows nothing. project() takes it back to the pixel within 1e-6 px.
+  /// Unit vector through a pixel; nullopt outside the field of view. project() returns the same pixel within 1e-6 px.
   std::optional<Eigen::Vector3d> unproject(const Eigen::Vector2d& pixel) const;
 
-  /// The largest angle from the axis that is seen, rad.
+  /// Largest visible angle from the axis, rad.
   double widest_rad() const { return widest_rad_; }
 
   const LensCamera& camera() const { return camera_; }
@@ -44,7 +47,7 @@ class CameraModel {
 
   LensCamera camera_;
   double widest_rad_ = 0.0;
-  double widest_radius_ = 0.0;  ///< of the normalised image before its distortion
+  double widest_radius_ = 0.0;  ///< in the normalised image, before distortion
 };
 
 }  // namespace panvo::vision

@@ -9,32 +9,32 @@
 
 namespace panvo::vision {
 
-/// The band (CV_8UC1) that features are read from: smoothed by a Gaussian of 1 px, so that pixel noise does not pass for texture,
-/// and on a logarithmic scale of grey levels. There, what exposure and shade do to a part of the view is an offset, and cancels
-/// in every feature that has as many plus as minus signs, whatever happens in other parts. Cyclic, like the band.
+/// Prepares a band (CV_8UC1, cyclic) for feature extraction: smooths it with a Gaussian of sigma 1 px, to suppress
+/// pixel noise, and maps grey levels to a logarithmic scale. On that scale, local exposure changes and shadows are
+/// offsets, which cancel in balanced features (as many plus as minus signs).
 cv::Mat prepare_band(const cv::Mat& band);
 
-/// Offset and gain of a band: what haze and clouds change and features must not depend on. Applied to responses, not to pixels.
+/// Offset and gain of a band, to make features invariant to haze and clouds. Applied to responses, not to pixels.
 struct BandNormalisation {
   float offset = 0.0F;           ///< grey levels
   float intensity_scale = 1.0F;  ///< grey levels
   float gradient_scale = 1.0F;   ///< grey levels per px
 
-  /// Of a prepared band and its integral images: medians over the sectors of the full turn of their mean, of their deviation and
-  /// of their mean absolute gradient. Whatever covers less than half of the view leaves them nearly as they are.
+  /// Computed from a prepared band and its integral images: medians over sectors of the sector mean, standard deviation
+  /// and mean absolute gradient. Robust to occlusion of up to half of the view.
   static BandNormalisation of(const cv::Mat& band, const CyclicIntegralImages& images);
 };
 
-/// One patch: a row of the measurement matrix, applied to the intensity [Lu2015 Eqs. 1-3] and to the SURF statistics
-/// [Lu2015 Eqs. 4, 5].
+/// Responses of one patch: a row of the measurement matrix applied to the intensity [Lu2015 Eqs. 1-3] and to the SURF
+/// statistics [Lu2015 Eqs. 4, 5].
 struct CompressiveFeature {
   float intensity = 0.0F;
   float gradient = 0.0F;
 };
 
-/// Reads features of a matrix from a band, its rectangles displaced by (du, dv) px: du any number of columns, dv so that they
-/// stay within the band's rows (clamped a rectangle). Refers to its arguments. Throws std::invalid_argument when matrix and
-/// integral images are not of the same band or the matrix has wider rectangles than these were made for.
+/// Evaluates the rows of a matrix on a band with the rectangles displaced by (du, dv) px. du is cyclic; dv is clamped
+/// per rectangle to the rows of the band. Keeps references to `images` and `matrix`. Throws std::invalid_argument if
+/// their band sizes differ or the matrix has wider rectangles than the integral images support.
 class ResponseReader {
  public:
   ResponseReader(const CyclicIntegralImages& images, const MeasurementMatrix& matrix,

@@ -9,12 +9,12 @@
 
 namespace panvo::vision {
 
-/// Square cells over an image, each free or taken: spreads features evenly.
+/// Grid of square cells, each free or taken; distributes features evenly over the image.
 class CellGrid {
  public:
   CellGrid(cv::Size image_size, int cell_px);
 
-  size_t cell(const Eigen::Vector2d& pixel) const;  ///< row by row
+  size_t cell(const Eigen::Vector2d& pixel) const;  ///< index in row-major order
   void take(const Eigen::Vector2d& pixel) { taken_[cell(pixel)] = true; }
   bool is_free(const Eigen::Vector2d& pixel) const { return !taken_[cell(pixel)]; }
   int free_cells() const;
@@ -30,15 +30,15 @@ class CellGrid {
   std::vector<bool> taken_;
 };
 
-/// A place whose neighbourhood can be found again in both directions of the image.
+/// A point whose neighbourhood has gradients in both image directions.
 struct Corner {
   Eigen::Vector2d position;  ///< px
-  double gradient = 0.0;  ///< grey levels per px of the half-size image, root mean square along the weakest direction
+  double gradient = 0.0;     ///< RMS along the weakest direction, grey levels per px of the half-size image
 };
 
-/// The strongest corner of each free cell [Shi and Tomasi 1994], row by row, with a gradient of at least `smallest_gradient`
-/// and at least `margin_px` from the border. Corners are sought in the half-size image: what is textured there can be
-/// followed over the levels of the pyramid, and the exact place of a feature is of no importance.
+/// Returns the strongest corner of each free cell [Shi and Tomasi 1994], in row-major order, with a gradient of at
+/// least `smallest_gradient` and at least `margin_px` from the border. Detection runs on the half-size image: texture
+/// there can be tracked through the pyramid, and the exact position of a corner does not matter.
 std::vector<Corner> detect_corners(const ImagePyramid& image, const CellGrid& grid, double smallest_gradient,
                                    int margin_px);
 

@@ -9,7 +9,7 @@
 
 namespace panvo::vision {
 
-/// The rectangle of a filter in a band of a panorama: x in [0, columns) and width up to columns, so it may cross the seam.
+/// Filter rectangle in a band of a panorama, px: x in [0, columns), width up to columns; it may cross the seam.
 struct BandRectangle {
   int x = 0;
   int y = 0;
@@ -22,23 +22,23 @@ struct BandRectangle {
 /// Sums of the SURF descriptor over a rectangle: dx, |dx|, dy, |dy| [Lu2015 3.2].
 using GradientStatistics = std::array<float, 4>;
 
-/// Integral images of a band that goes all the way round: of the intensity, and of the gradients' dx, |dx|, dy, |dy|. They are
-/// padded beyond the seam, so the rectangles of a feature, seen at any heading, are the same ones at an offset: nothing is rotated,
-/// resampled or computed again.
+/// Integral images of a full-turn band: intensity, and dx, |dx|, dy, |dy| of the gradients. They are padded beyond the
+/// seam, so a feature is evaluated at any heading by offsetting its rectangles, without rotating or resampling the
+/// band.
 class CyclicIntegralImages {
  public:
   CyclicIntegralImages() = default;
 
-  /// Of a band (CV_8UC1, at least 3 rows and 3 columns, else std::invalid_argument), whose columns are a full turn, for
-  /// rectangles of at most `widest` columns (0: any). Gradients are those of Sobel's filter, scaled to grey levels per px;
-  /// beyond the upper and lower border the image goes on as its last row.
+  /// `band`: CV_8UC1, at least 3 x 3 px (else std::invalid_argument); its columns cover a full turn. `widest`: largest
+  /// rectangle width in columns (0: any). Gradients: Sobel filter, in grey levels per px; the first and last rows are
+  /// replicated at the border.
   explicit CyclicIntegralImages(const cv::Mat& band, int widest = 0);
 
   int columns() const { return columns_; }
   int rows() const { return rows_; }
-  int widest() const { return static_cast<int>(stride_) - 1 - columns_; }  ///< rectangle that can be read, px
+  int widest() const { return static_cast<int>(stride_) - 1 - columns_; }  ///< largest supported rectangle width, px
 
-  /// Mean of the band's pixels in a rectangle [Lu2015 Eq. 2]. A mean, not a sum: size does not weigh.
+  /// Mean intensity in a rectangle [Lu2015 Eq. 2]. A mean, not a sum, so that all rectangle sizes weigh equally.
   float mean_intensity(const BandRectangle& rectangle) const;
   /// Means of dx, |dx|, dy, |dy|, grey levels per px.
   GradientStatistics mean_gradients(const BandRectangle& rectangle) const;
@@ -50,9 +50,9 @@ class CyclicIntegralImages {
 
   int columns_ = 0;
   int rows_ = 0;
-  std::ptrdiff_t stride_ = 0;            // cells a row: columns + widest + 1
-  std::vector<std::int32_t> intensity_;  // (rows + 1) x stride, the sum of all pixels above and to the left
-  std::vector<std::int32_t> gradients_;  // the same, four a cell
+  std::ptrdiff_t stride_ = 0;            // cells per row: columns + widest + 1
+  std::vector<std::int32_t> intensity_;  // (rows + 1) x stride: sum of all pixels above and to the left
+  std::vector<std::int32_t> gradients_;  // same layout, four values per cell
 };
 
 }  // namespace panvo::vision

@@ -7,8 +7,8 @@
 
 namespace panvo::vision {
 
-/// Why an image (CV_8UC1) shows nothing to work with, in numbers; nullopt when it does show something.
-/// Found are: empty, black, saturated and constant images, by the grey levels of a sparse grid of pixels.
+/// Returns why an image (CV_8UC1) is unusable: empty, black, saturated or constant, with figures; nullopt if it is
+/// usable. Samples the grey levels on a sparse grid.
 std::optional<std::string> find_fault(const cv::Mat& image);
 
 }  // namespace panvo::vision

@@ -6,14 +6,14 @@
 
 namespace panvo::vision {
 
-/// An image at full, half, quarter ... size. Pixel x of level l lies at x * 2^l of the image it was made from.
-/// Owns its pixels, so a patch can still be read from it after the caller's image is gone. Copies share the pixels.
+/// An image at full, half, quarter ... size. Pixel x of level l corresponds to x * 2^l in the original image.
+/// Owns its pixels, independent of the caller's image. Copies share the pixels.
 class ImagePyramid {
  public:
   ImagePyramid() = default;
 
-  /// Levels of a grey image (CV_8UC1, not empty), as many as asked for but none smaller than 32 pixels on a side.
-  /// Level 0 is smoothed lightly (3x3 binomial): bilinear interpolation of a sharper image would pull sub-pixel positions
+  /// `image`: CV_8UC1, not empty. Builds up to `levels` levels; no level is smaller than 32 px per side, except level
+  /// 0. Level 0 is smoothed (3x3 binomial): bilinear interpolation of a sharper image would bias sub-pixel positions
   /// towards the pixel grid.
   ImagePyramid(const cv::Mat& image, int levels);
 

@@ -10,20 +10,20 @@
 
 namespace panvo::vision {
 
-/// Tells a panorama that its camera cannot have taken as it took those before: one that is the last again, and one that is upside down or
-/// mirrored against it. Between two panoramas in a row a vehicle does neither. What shows nothing is for others to find.
+/// Detects panoramas that are identical to the previous one (frozen camera), or upside down or mirrored relative to it.
+/// Does not detect images without content.
 class PanoramaWatch {
  public:
-  /// Why a panorama (CV_8UC1 or CV_8UC3, equirectangular) is not like those before; nullopt when it is. Every panorama of one camera is to pass, in
-  /// order. A camera that stays upside down is said to be so until it is turned back.
+  /// Returns the fault of a panorama (CV_8UC1 or CV_8UC3, equirectangular); nullopt if there is none. Call for every
+  /// panorama of a camera, in order. A camera that stays upside down is reported until it is turned back.
   std::optional<std::string> find_fault(const cv::Mat& panorama);
 
  private:
   static constexpr int kColumns = 72, kRows = 36;
   using Thumbnail = Eigen::Matrix<float, kRows, kColumns, Eigen::RowMajor>;
   struct View {
-    Thumbnail grey;       ///< of mean 0 and norm 1
-    Thumbnail structure;  ///< the same without what all columns have in common: sky above, ground below
+    Thumbnail grey;       ///< mean 0, norm 1
+    Thumbnail structure;  ///< `grey` less the mean of each row (sky, ground); norm 1
   };
 
   static std::optional<View> view_of(const cv::Mat& panorama);
@@ -32,7 +32,7 @@ class PanoramaWatch {
 
   RepeatedImage image_;
   std::optional<View> before_;
-  bool is_mirrored_ = false, is_upended_ = false;  // the last one, against the first
+  bool is_mirrored_ = false, is_upended_ = false;  // latest panorama relative to the first
 };
 
 }  // namespace panvo::vision

@@ -7,20 +7,19 @@
 
 namespace panvo::vision {
 
-/// Tells an image that is the one before it, pixel by pixel: a camera, a driver or a cable that hangs. The noise of a sensor never repeats, so
-/// there are no thresholds. It cannot tell a hung camera from one that renders without noise, or encodes with loss until nothing is left of
-/// the noise, while it stands: those repeat as well, and are said to.
+/// Detects an image that is identical to the previous one (frozen camera, driver or cable). Sensor noise never repeats,
+/// so no threshold is needed. A noise-free rendered or strongly compressed stream at standstill is reported, too.
 class RepeatedImage {
  public:
-  /// Why an image is no new measurement; nullopt when it is one. Every image of one camera is to pass, in order, whatever else is wrong with it.
-  /// Compares and keeps every eighth row: a comparison ends at the first pixel that differs.
+  /// Returns the fault of a repeated image; nullopt if the image is new. Call for every image of a camera, in order,
+  /// including images with other faults. Compares and keeps every eighth row.
   std::optional<std::string> find_fault(const cv::Mat& image);
 
  private:
-  cv::Mat rows_;  // of the image before
+  cv::Mat rows_;  // of the previous image
 };
 
-/// Whether two images have the same pixels: both eyes of a pair show what one camera sees. In every eighth row.
+/// Whether two images have the same pixels in every eighth row, e.g. when both streams of a pair come from one camera.
 bool are_same(const cv::Mat& a, const cv::Mat& b);
 
 }  // namespace panvo::vision

@@ -5,8 +5,8 @@
 
 namespace panvo::vision {
 
-/// Cauchy's robust loss of a squared, whitened residual s = r^2 (in units of its standard deviation).
-/// Redescending: a far outlier ends up with no pull at all, as a track on a moving object should.
+/// Cauchy loss of a squared, whitened residual s = r^2 (in units of its standard deviation).
+/// Redescending: the influence of far outliers, such as tracks on moving objects, tends to zero.
 class CauchyLoss {
  public:
   explicit CauchyLoss(double scale) : scale2_(scale * scale) {}

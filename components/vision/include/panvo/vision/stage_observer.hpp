@@ -5,8 +5,8 @@
 
 namespace panvo::vision {
 
-/// Is told which stage an algorithm works on. Algorithms read no clock: who wants times implements this and measures.
-/// Stages nest; enter and leave of one thread are balanced, and an observer given to two threads must bear both.
+/// Receives the start and end of each processing stage. Algorithms read no clock; an implementation may measure the
+/// times. Stages nest, and calls are balanced per thread. An observer shared by several threads must be thread-safe.
 class StageObserver {
  public:
   virtual ~StageObserver() = default;
@@ -14,7 +14,7 @@ class StageObserver {
   virtual void leave() = 0;
 };
 
-/// A stage for the lifetime of this object: `const Stage stage(observer, "match");`. No observer, no cost.
+/// Marks a stage for the lifetime of this object: `const Stage stage(observer, "match");`. `observer` may be null.
 class Stage {
  public:
   Stage(StageObserver* observer, std::string_view name) : observer_(observer) {

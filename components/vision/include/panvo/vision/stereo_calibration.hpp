@@ -10,32 +10,32 @@
 
 namespace panvo::vision {
 
-/// Two raw cameras, whatever their lenses, and the transform between their optical frames, as a calibration tool writes them.
+/// Two raw cameras with any lenses, and the transform between their optical frames.
 struct StereoCalibration {
   LensCamera left;
   LensCamera right;
   Eigen::Isometry3d right_from_left = Eigen::Isometry3d::Identity();
 };
 
-/// What is wrong with a calibration, one sentence a problem; empty when it can be used. Found are: focal lengths that are not positive
-/// numbers, sizes that differ or are not positive, coefficients that are not numbers, a baseline that is zero, negative (left and right
-/// exchanged), not a number or not along the rows, rotations that are no rotations.
+/// Lists the problems of a calibration, one sentence each; empty if it is valid. Checks intrinsics, image sizes
+/// (positive, equal), distortion coefficients, the baseline (positive, along the rows; negative if left and right are
+/// swapped) and the rotation matrix.
 std::vector<std::string> validate(const StereoCalibration& calibration);
 
-/// Whether the images of that pair are rectified as they are: perspective lenses without distortion, no rotation, one camera matrix,
+/// Whether the pair is already rectified: perspective lenses without distortion, no rotation, equal camera matrices,
 /// baseline along X.
 bool is_rectified(const StereoCalibration& calibration);
 
-/// Rectified pair of a raw one, at the raw images' size: itself when it is rectified already; of plumb_bob lenses as OpenCV's
-/// stereoRectify has it, zoomed so that every rectified pixel has a source; of all others rectify_view().
-/// Throws std::invalid_argument, naming each problem that validate() finds, and where rectify_view does.
+/// Rectifies a raw pair, keeping the image size. An already rectified pair is returned unchanged; two plumb_bob lenses
+/// use OpenCV's stereoRectify, zoomed so that every rectified pixel has a source; all others use rectify_view(). Throws
+/// std::invalid_argument with each problem that validate() finds, and where rectify_view() does.
 RectifiedStereo rectify(const StereoCalibration& calibration);
 
-/// The rectified pair of two cameras side by side, whatever their lenses: both are turned by half of the rotation between them, then
-/// until the baseline lies along the rows [Bouguet]. The view is the widest of which every pixel is seen by both, and at most
-/// 110 degrees across or down, beyond which a flat image shows little but stretched borders. Of the size of the raw images.
-/// Throws std::invalid_argument: sizes that differ, right camera not to the right, a lens that CameraModel refuses, no direction
-/// that both see.
+/// Rectifies a side-by-side pair with any lenses, keeping the image size: each camera is rotated by half of the
+/// relative rotation, then both so that the baseline lies along the rows [Bouguet]. The view is the widest in which
+/// both cameras see every pixel, at most 110 degrees across or down (wider perspective images are mostly stretched
+/// borders). Throws std::invalid_argument if the sizes differ, the right camera is not to the right, CameraModel
+/// rejects a lens, or the fields of view do not overlap.
 RectifiedStereo rectify_view(const StereoCalibration& calibration);
 
 }  // namespace panvo::vision

@@ -9,23 +9,23 @@
 
 namespace panvo::vision {
 
-/// Where a left pixel's neighbourhood lies in the right image.
+/// Match of a left pixel's neighbourhood in the right image.
 struct StereoMatch {
   double disparity_px = 0.0;                           ///< u_left - u_right
-  Eigen::Vector2d gradient = Eigen::Vector2d::Zero();  ///< of the disparity along u and v: the slant of the surface
+  Eigen::Vector2d gradient = Eigen::Vector2d::Zero();  ///< of the disparity along u and v: surface slant
   double correlation = 0.0;                            ///< zero-mean normalised, at full resolution
-  double variance_px2 = 0.0;                           ///< of the disparity, by the image noise left over
+  double variance_px2 = 0.0;                           ///< of the disparity, from the residuals
 };
 
-/// How far below its row in the left image the right image has a point.
+/// Row error of a point: its row in the right image minus its row in the left image.
 struct RowError {
-  Eigen::Vector2d ideal_right_pixel = Eigen::Vector2d::Zero();  ///< where an aligned right image would have it
+  Eigen::Vector2d ideal_right_pixel = Eigen::Vector2d::Zero();  ///< pixel in an aligned right image
   double error_px = 0.0;
   double sigma_px = 0.0;
 };
 
-/// Matches along the rows of a rectified pair, to sub-pixel accuracy and on slanted surfaces: under a road the disparity
-/// grows by the ratio of baseline to camera height from row to row, which a window of equal disparity does not fit.
+/// Matches along the rows of a rectified pair, to sub-pixel accuracy, including slanted surfaces: on a road the
+/// disparity grows by baseline / camera height per row, which a window of constant disparity does not fit.
 class StereoMatcher {
  public:
   struct Range {
@@ -36,28 +36,28 @@ class StereoMatcher {
   StereoMatcher(const PinholeCamera& camera, Range range, double smallest_correlation)
       : camera_(camera), range_(range), smallest_correlation_(smallest_correlation) {}
 
-  /// Looks from now on where the right image, this much off, has things. Disparities are those of an aligned one.
+  /// Compensates this misalignment of the right image from now on. Disparities refer to an aligned right image.
   void allow_for(const EpipolarMisalignment& misalignment) { misalignment_ = misalignment; }
 
-  /// Over the whole range. nullopt where nothing resembles the pixel's neighbourhood, or two places do.
+  /// Searches the whole disparity range. Returns nullopt if there is no match or the match is ambiguous.
   std::optional<StereoMatch> search(const ImagePyramid& left, const ImagePyramid& right,
                                     const Eigen::Vector2d& pixel) const;
 
-  /// Near an expected match, disparity and gradient both measured anew.
+  /// Estimates disparity and gradient, starting from an expected match.
   std::optional<StereoMatch> measure(const ImagePyramid& left, const ImagePyramid& right, const Eigen::Vector2d& pixel,
                                      double expected_disparity_px, const Eigen::Vector2d& expected_gradient) const;
 
-  /// Near an expected disparity with an expected gradient (kept as it is).
+  /// Estimates the disparity near an expected one; the gradient is kept.
   std::optional<StereoMatch> refine(const ImagePyramid& left, const ImagePyramid& right, const Eigen::Vector2d& pixel,
                                     double expected_disparity_px, const Eigen::Vector2d& gradient) const;
 
-  /// How far off its row a matched point is; nullopt where its neighbourhood has no edge along the row that would tell.
+  /// Measures the row error of a matched point; nullopt if its neighbourhood has too little vertical gradient.
   std::optional<RowError> row_error(const ImagePyramid& left, const ImagePyramid& right, const Eigen::Vector2d& pixel,
                                     const StereoMatch& match) const;
 
  private:
   bool accepts(const StereoMatch& match) const;
-  /// What to add to a left pixel so that, less its disparity, it is the right image's.
+  /// Offset to add to (u_left - disparity, v) to get the pixel in the right image.
   Eigen::Vector2d shift(const Eigen::Vector2d& left_pixel, double disparity_px) const {
     return misalignment_.shift(camera_, {left_pixel.x() - disparity_px, left_pixel.y()});
   }

@@ -13,11 +13,11 @@
 
 namespace panvo::aravis_camera {
 
-/// Where stamps come from.
+/// Source of the image stamps.
 enum class StampSource {
-  kMapped,   ///< the camera's clock, mapped to the host's
-  kPtp,      ///< the camera's clock, which follows the same master as the host's
-  kArrival,  ///< the host's clock at arrival
+  kMapped,   ///< camera clock, mapped to the host clock
+  kPtp,      ///< camera clock, synchronised to the same PTP master as the host
+  kArrival,  ///< host clock at arrival
 };
 
 struct GrabberSettings {
@@ -26,17 +26,17 @@ struct GrabberSettings {
   CameraSettings camera;
   StampSource stamps = StampSource::kMapped;
   camera_stream::ImageOutput output = camera_stream::ImageOutput::kReadable;
-  std::int64_t watchdog_ns = 1'000'000'000;  ///< without a frame for so long, the camera counts as lost; 0: never
+  std::int64_t watchdog_ns = 1'000'000'000;  ///< the camera counts as lost after this time without a frame; 0: never
 };
 
-/// One camera, kept streaming by a thread of its own: opens it, sets it, receives, notices that it is gone, closes it, and finds it again by its
-/// serial number. What happens is logged when it begins and counted.
+/// Keeps one camera streaming on its own thread: opens and configures it, receives frames, detects its loss, and finds
+/// it again by serial number. Faults are logged when they start, and counted.
 class CameraGrabber final : public camera_group::Grabber {
  public:
   using Frame = camera_group::GrabbedFrame;
 
   CameraGrabber(GrabberSettings settings, const runtime::Logger& log, OnFrame on_frame);
-  /// Ends the thread and closes the camera.
+  /// Stops the thread and closes the camera.
   ~CameraGrabber() override;
 
   camera_stream::StreamReport report() const override;

@@ -9,25 +9,27 @@
 
 namespace panvo::aravis_camera {
 
-/// Has Aravis's own simulated camera, serial Fake_1, count as connected; for trials.
+/// Enables Aravis's built-in simulated camera Fake_1, for tests.
 void enable_simulated_camera();
 
-/// The GigE Vision and USB3 Vision cameras that answer, each opened for a moment to learn what it can do. Takes a second and more.
+/// Lists the GigE Vision and USB3 Vision cameras that respond. Opens each briefly to read its formats, sizes and rates.
+/// Takes at least a second.
 std::vector<camera_stream::FoundDevice> find_devices();
 
-/// A camera as it announces itself.
+/// A camera's announcement on its network or bus.
 struct Announced {
-  std::string id;  ///< by which Aravis opens it
+  std::string id;  ///< used by Aravis to open it
   std::string vendor, model, serial, address, physical_id, protocol;
 };
 
-/// All that announce themselves. A search takes about a second, with whoever opens a camera waiting; one that ended no longer than `age` ago does.
+/// All announced cameras. A search takes about a second and delays opening cameras; the result of the last one is
+/// reused if it is at most `age` old.
 std::vector<Announced> announced_devices(std::chrono::milliseconds age = std::chrono::milliseconds(0));
 
-/// Whether a camera is meant by `selector`: serial number, IP or MAC address, Aravis's id, or model.
+/// Whether `selector` matches the camera's serial number, IP or MAC address, Aravis id, or model.
 bool is_meant(const Announced& device, const std::string& selector);
 
-/// "GVL (Aravis Fake at 127.0.0.1), GVR (...)", or that there is none.
+/// "GVL (Aravis Fake at 127.0.0.1), GVR (...)", or "none".
 std::string to_text(const std::vector<Announced>& devices);
 
 }  // namespace panvo::aravis_camera

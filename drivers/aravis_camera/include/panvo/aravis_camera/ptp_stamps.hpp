@@ -7,13 +7,14 @@
 
 namespace panvo::aravis_camera {
 
-/// Stamps of a camera that follows the network's clock (IEEE 1588), which the host follows, too: they are the host's already, but for the whole
-/// seconds by which TAI, PTP's own time, differs from UTC.
+/// Host stamps of a camera that is synchronised by PTP (IEEE 1588) to the same master as the host. They differ from the
+/// host's clock only by whole seconds, the offset of TAI (PTP's time scale) from UTC.
 class PtpStamps {
  public:
   std::int64_t to_host_ns(std::int64_t device_ns, std::int64_t arrival_ns);
 
-  /// Why the stamps are not to be trusted, empty: they may be. A host that does not follow the same clock shows by the rest of a second between them.
+  /// Why the stamps are unreliable; empty if they are not. If the host is not synchronised to the same clock, the
+  /// offset between them is not a whole number of seconds.
   const std::string& problem() const noexcept { return problem_; }
   void restart() { seconds_ahead_.reset(); }
 

@@ -14,21 +14,22 @@
 
 namespace panvo::camera_group {
 
-/// The cameras of a driver, as its parameters mean them. `Device`: what its grabber is made with.
+/// The cameras selected by a driver's parameters. `Device`: the settings from which its grabber is made.
 template <class Device>
 struct CameraSet {
   std::vector<Device> devices;
-  std::vector<GroupImage> images;  ///< see CameraGroup::Description
+  std::vector<GroupImage> images;  ///< as in CameraGroup::Description
   std::int64_t tolerance_ns = 0;
 };
 
-/// Cameras of some driver -> image_raw, camera_info of each, under one stamp; /tf_static; diagnostics. The driver says:
+/// Camera driver component. Publishes image_raw and camera_info of each camera with one stamp, /tf_static and
+/// diagnostics. The driver supplies:
 ///
 ///     struct Driver {
-///       static constexpr auto kName = "v4l2_camera";              // for people
+///       static constexpr auto kName = "v4l2_camera";              // for messages
 ///       using Parameters = ...;                                   // of the component; has `mount`
-///       using Grabber = ...;                                      // made of a device, a logger and a Grabber::OnFrame
-///       static constexpr auto kSettable = &Parameters::controls;  // what may be set while the cameras stream
+///       using Grabber = ...;                                      // constructor: device, logger, Grabber::OnFrame
+///       static constexpr auto kSettable = &Parameters::controls;  // the parameter that can change while streaming
 ///       static constexpr auto kSettableName = "controls";
 ///       static CameraSet<Device> cameras_of(const Parameters&);   // throws runtime::ConfigError
 ///       static const std::vector<DeviceSetting>& settings_of(const Device&);
@@ -58,7 +59,7 @@ class CameraComponent : public runtime::Component {
     group_.emplace(context, std::move(group));
     context.on_parameters<Parameters>(
         [this, parameters](const Parameters& wanted) { on_parameters(parameters, wanted); });
-    // Cameras are opened when the container starts, not while components are looked at or still to be loaded.
+    // Opens the cameras when the container starts, not while components are being listed or loaded.
     begin_.push({std::this_thread::get_id()});
   }
 
@@ -68,7 +69,7 @@ class CameraComponent : public runtime::Component {
   };
 
   void on_begin(const Begin& begin) {
-    // A replay has one thread for all and time of its own: cameras have no place in it.
+    // A replay runs all stages on one thread and in recorded time: cameras cannot take part.
     if (begin.made_by == std::this_thread::get_id()) {
       context_.log().error("cameras cannot be replayed; run without --replay");
       return;
@@ -80,8 +81,8 @@ class CameraComponent : public runtime::Component {
   void on_parameters(Parameters made_with, const Parameters& wanted) {
     made_with.*Driver::kSettable = wanted.*Driver::kSettable;
     if (wanted != made_with) {
-      throw runtime::ConfigError(std::string("of ") + Driver::kName + " only " + Driver::kSettableName +
-                                 " can be set while it runs; load it anew for the rest");
+      throw runtime::ConfigError(std::string("in ") + Driver::kName + " only " + Driver::kSettableName +
+                                 " can change while it runs; reload the component to change other parameters");
     }
     std::vector<std::vector<DeviceSetting>> settings;
     for (const auto& device : Driver::cameras_of(wanted).devices) settings.push_back(Driver::settings_of(device));

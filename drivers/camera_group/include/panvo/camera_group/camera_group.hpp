@@ -11,13 +11,14 @@
 
 namespace panvo::camera_group {
 
-/// Cameras that belong together: each grabbed on its own, brought together by stamp, published under one stamp, and reported to diagnostics.
+/// A group of cameras, each with its own grabber. Frames are grouped by stamp and published with one stamp; diagnostics
+/// are published every second.
 class CameraGroup {
  public:
   struct Description {
     std::vector<StartGrabber> devices;
-    std::vector<GroupImage> images;  ///< of each device one, in their order, or all of the only device
-    std::int64_t tolerance_ns = 0;   ///< between the stamps of images that belong together
+    std::vector<GroupImage> images;  ///< one per device, in their order; or all images of a single device
+    std::int64_t tolerance_ns = 0;   ///< largest stamp difference within a set
   };
 
   CameraGroup(runtime::Context& context, Description description);
@@ -26,10 +27,10 @@ class CameraGroup {
   CameraGroup(const CameraGroup&) = delete;
   CameraGroup& operator=(const CameraGroup&) = delete;
 
-  /// Begins to open the cameras. What they send is published from now on.
+  /// Starts opening the cameras and publishing their images.
   void start();
 
-  /// Of each device, in order; see Grabber::set; before start() or after it, from any thread.
+  /// Changes the settings of all devices, in their order; see Grabber::set. Before or after start(), from any thread.
   void set(std::vector<std::vector<DeviceSetting>> settings);
 
  private:

@@ -7,15 +7,16 @@
 
 namespace panvo::camera_group {
 
-/// What a device calls something that can be set (a control, a feature), and the value it is to have, as written.
+/// Name of a device's setting (a control, a feature) and its requested value as text.
 struct DeviceSetting {
   std::string name, value;
 
   bool operator==(const DeviceSetting&) const = default;
 };
 
-/// The settings for the device `device` ("left") out of lines `name=value` for all and `left:name=value` for one, in their order; `devices` are all
-/// there are. Throws std::invalid_argument, which names the parameter and says how to write it.
+/// Extracts the settings of `device` ("left") from lines `name=value` (all devices) and `left:name=value` (one device),
+/// in their order; `devices` lists all device names. Throws std::invalid_argument with the parameter's name and the
+/// expected syntax.
 std::vector<DeviceSetting> settings_of(std::string_view parameter, const std::vector<std::string>& lines,
                                        std::string_view device, const std::vector<std::string>& devices);
 

@@ -12,16 +12,17 @@
 
 namespace panvo::camera_group {
 
-/// What a device took at one moment.
+/// The images that a device took at one time.
 struct GrabbedFrame {
   std::int64_t stamp_ns = 0;                                     ///< host time
   std::vector<std::shared_ptr<sensor_msgs::msg::Image>> images;  ///< without stamps: one, or left and right
 };
 
-/// One device, kept streaming: opened, set, read, noticed to be gone, and found again, by a thread of its own, until this object ends.
+/// Keeps one device streaming, on its own thread, until this object is destroyed: opens and configures it, reads
+/// frames, detects its loss and reconnects.
 class Grabber {
  public:
-  /// Is called on the grabber's thread.
+  /// Called on the grabber's thread.
   using OnFrame = std::function<void(GrabbedFrame)>;
 
   Grabber() = default;
@@ -29,14 +30,14 @@ class Grabber {
   Grabber(const Grabber&) = delete;
   Grabber& operator=(const Grabber&) = delete;
 
-  /// From any thread.
+  /// Thread-safe.
   virtual camera_stream::StreamReport report() const = 0;
 
-  /// Sets these while the device streams, and from now on whenever it is opened, instead of those before. From any thread; done soon.
+  /// Replaces the settings: they are applied soon if the device streams, and each time it is opened. Thread-safe.
   virtual void set(std::vector<DeviceSetting> settings) = 0;
 };
 
-/// Makes the grabber of a device and begins to open it.
+/// Creates the grabber of a device, which starts opening it.
 using StartGrabber = std::function<std::unique_ptr<Grabber>(Grabber::OnFrame)>;
 
 }  // namespace panvo::camera_group

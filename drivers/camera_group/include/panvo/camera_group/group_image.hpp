@@ -16,8 +16,8 @@ struct GroupImage {
   std::optional<sensor_msgs::msg::CameraInfo> calibration;
 };
 
-/// The images of these roles, each with the calibration ROLE.yaml of a folder; without any where that is empty. Files that cannot be used are
-/// added to `problems`.
+/// The images of these roles, each with the calibration ROLE.yaml of the folder; without calibrations if
+/// `calibration_folder` is empty. Errors of unusable files are appended to `problems`.
 std::vector<GroupImage> images_of(const std::vector<camera_stream::CameraRole>& roles,
                                   const std::string& calibration_folder, std::vector<std::string>& problems);
 

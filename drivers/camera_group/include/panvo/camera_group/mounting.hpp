@@ -9,9 +9,10 @@
 
 namespace panvo::camera_group {
 
-/// Where cameras sit on the vehicle, as /tf_static has it. `mount`: x, y, z in m, roll, pitch, yaw in degrees of a camera that looks along +x of
-/// base_link, for each image; or of the left one of a pair only, whose right one its calibration places; empty: no transforms. Throws
-/// std::invalid_argument for another count of numbers.
+/// Transforms from base_link to the optical frames, for /tf_static. `mount`: x, y, z in m and roll, pitch, yaw in
+/// degrees for each image, relative to a camera that looks along +x of base_link. For a pair, the left camera's six
+/// numbers suffice; the right one is then placed by the calibrations. Empty: no transforms. Throws
+/// std::invalid_argument for any other number of values.
 tf2_msgs::msg::TFMessage mounting(const std::vector<double>& mount, const std::vector<GroupImage>& images,
                                   std::int64_t stamp_ns);
 

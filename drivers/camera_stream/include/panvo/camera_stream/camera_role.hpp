@@ -9,12 +9,12 @@
 
 namespace panvo::camera_stream {
 
-/// How the cameras of a driver belong together.
+/// The arrangement of a driver's cameras.
 enum class Layout {
-  kMono,      ///< one camera by itself
-  kPanorama,  ///< one that sends a ready-made panorama
+  kMono,      ///< a single camera
+  kPanorama,  ///< a single camera that sends stitched panoramas
   kStereo,    ///< left, right
-  kRig,       ///< the heads of a panoramic camera, up to six
+  kRig,       ///< up to six heads of a panoramic camera
 };
 
 inline constexpr interfaces::Topic<sensor_msgs::msg::Image> kCameraImageRaw{"camera/image_raw",
@@ -22,18 +22,18 @@ inline constexpr interfaces::Topic<sensor_msgs::msg::Image> kCameraImageRaw{"cam
 inline constexpr interfaces::Topic<sensor_msgs::msg::CameraInfo> kCameraInfo{"camera/camera_info",
                                                                              interfaces::qos::kSensorData};
 
-/// What a camera is in its layout.
+/// The role of a camera in its layout.
 struct CameraRole {
   std::string name;      ///< "camera", "panorama", "left", "right", "head_0"
-  std::string frame_id;  ///< of its optical frame: "stereo_left_optical"
+  std::string frame_id;  ///< optical frame: "stereo_left_optical"
   interfaces::Topic<sensor_msgs::msg::Image> images;
   interfaces::Topic<sensor_msgs::msg::CameraInfo> infos;
 };
 
-/// "mono", "panorama", "stereo", "rig"; throws std::invalid_argument for another.
+/// "mono", "panorama", "stereo" or "rig"; throws std::invalid_argument for any other name.
 Layout layout_of(std::string_view name);
 
-/// The cameras of a layout, in order. Throws std::invalid_argument, saying how many there may be.
+/// The cameras of a layout, in order. Throws std::invalid_argument with the allowed number of cameras.
 std::vector<CameraRole> roles_of(Layout layout, std::size_t cameras);
 
 }  // namespace panvo::camera_stream

@@ -8,21 +8,21 @@ namespace panvo::camera_stream {
 
 /// How devices number their frames.
 enum class FrameNumbering {
-  kGigEVision,  ///< 16 bits, 1 follows 65535, 0 is none; or 64 bits, told by numbers that 16 bits cannot hold
-  kCounter32,   ///< 32 bits, 0 follows the largest (V4L2 sequence numbers)
+  kGigEVision,  ///< 16 bits, wraps from 65535 to 1, 0: not numbered; 64 bits if larger numbers occur
+  kCounter32,   ///< 32 bits, wraps to 0 (V4L2 sequence numbers)
   kCounter64,   ///< 64 bits (USB3 Vision)
 };
 
-/// Finds the frames that were taken and did not come, from the numbers of those that did.
+/// Counts lost frames from the numbers of the received ones.
 class FrameGaps {
  public:
   explicit FrameGaps(FrameNumbering numbering) : numbering_(numbering) {}
 
-  /// How many frames are missing between the one before and this one. 0 for the first, and for a number that goes far back: the device has begun
-  /// anew. -1 for one that comes late: it was counted as missing.
+  /// Number of frames missing between the previous one and this one. 0 for the first, and for a number far below the
+  /// previous one, which means that the device restarted. -1 for a late frame, which was counted as missing before.
   std::int64_t missing_before(std::uint64_t number);
 
-  /// The stream begins anew: the next number follows nothing.
+  /// Call when the stream restarts: the next number has no predecessor.
   void restart() { last_.reset(); }
 
  private:

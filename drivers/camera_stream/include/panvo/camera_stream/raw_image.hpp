@@ -12,16 +12,17 @@
 
 namespace panvo::camera_stream {
 
-/// Pixels as cameras send them, by the names of the GenICam Pixel Format Naming Convention; kYuyv and kUyvy are its YUV422_8 and YUV422_8_UYVY.
+/// Pixel formats of cameras, with the names of the GenICam Pixel Format Naming Convention; kYuyv and kUyvy are its
+/// YUV422_8 and YUV422_8_UYVY.
 enum class PixelFormat : std::uint8_t {
   kMono8,
   kMono10,
   kMono12,
   kMono14,
   kMono16,
-  kMono10p,       ///< 4 px in 5 bytes, the lowest bit first
-  kMono12p,       ///< 2 px in 3 bytes, the lowest bit first
-  kMono10Packed,  ///< 2 px in 3 bytes, the low bits of both in the middle one (GigE Vision 1)
+  kMono10p,       ///< 4 px in 5 bytes, lowest bit first
+  kMono12p,       ///< 2 px in 3 bytes, lowest bit first
+  kMono10Packed,  ///< 2 px in 3 bytes, the low bits of both in the middle byte (GigE Vision 1)
   kMono12Packed,
   kBayerRG8,
   kBayerGR8,
@@ -35,11 +36,11 @@ enum class PixelFormat : std::uint8_t {
 
 std::string_view name_of(PixelFormat format);
 
-/// What is published.
+/// Encoding of the published images.
 enum class ImageOutput : std::uint8_t {
-  kReadable,  ///< what every component reads: mono8, mono16 and rgb8 as they are, Bayer patterns and YUV as bgr8
+  kReadable,  ///< readable by every component: mono8, mono16 and rgb8 unchanged, Bayer patterns and YUV as bgr8
   kGrey,      ///< mono8
-  kAsSent,    ///< ROS's encoding of what the camera sends: bayer_rggb8, yuv422, ...; packed pixels are unpacked
+  kAsSent,    ///< the ROS encoding of the camera's format: bayer_rggb8, yuv422, ...; packed pixels are unpacked
 };
 
 /// An image in a driver's buffer.
@@ -50,8 +51,8 @@ struct RawImage {
   std::span<const std::uint8_t> bytes{};
 };
 
-/// The image as a message without a stamp. Grey of 10 to 14 bits is shifted up to use all 16 of mono16. The reason says what is wrong with the
-/// size or the number of bytes.
+/// The image as a message without a stamp. Grey of 10 to 14 bits is shifted up to the full range of mono16. Fails with
+/// a reason if the size or the number of bytes is wrong.
 conversions::Result<std::shared_ptr<sensor_msgs::msg::Image>> to_image(const RawImage& raw, ImageOutput output,
                                                                        const std::string& frame_id);
 

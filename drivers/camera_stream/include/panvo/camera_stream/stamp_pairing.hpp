@@ -10,29 +10,30 @@
 
 namespace panvo::camera_stream {
 
-/// Brings together the frames that several cameras took at one moment: one of each, their stamps within a tolerance. What finds no partners is
-/// dropped and counted. Each camera's frames come in order of stamp; the cameras in any order.
+/// Groups frames that several cameras took at the same time: one of each, with stamps within a tolerance. Frames
+/// without partners are dropped and counted. Each camera's frames must arrive in order of stamp; the cameras in any
+/// order.
 template <class Item>
 class StampPairing {
  public:
   struct Settings {
     std::size_t streams = 2;
-    /// The largest difference of stamps within a set; to be less than half the time between two frames.
+    /// Largest stamp difference within a set; must be below half a frame period.
     std::int64_t tolerance_ns = 5'000'000;
-    std::size_t depth = 8;  ///< frames of a camera that wait for those of the others; the oldest goes
+    std::size_t depth = 8;  ///< waiting frames per camera; beyond that, the oldest is dropped
   };
   struct Set {
-    std::int64_t stamp_ns = 0;  ///< the one stamp of all: that of the first camera
+    std::int64_t stamp_ns = 0;  ///< common stamp: that of the first camera
     std::vector<Item> items;    ///< in order of the cameras
   };
 
   explicit StampPairing(const Settings& settings)
       : settings_(settings), waiting_(settings.streams), unpaired_(settings.streams) {
     if (settings.streams == 0 || settings.depth == 0 || settings.tolerance_ns < 0)
-      throw std::invalid_argument("pairing needs a stream, a depth and a tolerance that is not negative");
+      throw std::invalid_argument("pairing needs at least one stream, a positive depth and a non-negative tolerance");
   }
 
-  /// The sets that this frame completes, oldest first.
+  /// Returns the sets that this frame completes, oldest first.
   std::vector<Set> push(std::size_t stream, std::int64_t stamp_ns, Item item) {
     auto& queue = waiting_.at(stream);
     queue.push_back({stamp_ns, std::move(item)});
@@ -42,7 +43,7 @@ class StampPairing {
     return sets;
   }
 
-  /// Frames of that camera that were dropped for want of partners.
+  /// Number of that camera's frames that were dropped without partners.
   std::uint64_t unpaired(std::size_t stream) const { return unpaired_.at(stream); }
 
  private:
@@ -56,8 +57,8 @@ class StampPairing {
     ++unpaired_[stream];
   }
 
-  /// Whether the oldest frames that are left make a set. A frame older than the newest of the oldest by more than the tolerance will find none:
-  /// each camera's frames come in order.
+  /// Drops frames that cannot be paired, then returns whether the front frames of all queues form a set. A frame older
+  /// than the newest front frame by more than the tolerance has no partner, because each camera's frames are in order.
   bool drop_those_too_old() {
     while (true) {
       if (std::any_of(waiting_.begin(), waiting_.end(), [](const auto& queue) { return queue.empty(); })) return false;

@@ -11,14 +11,14 @@
 
 namespace panvo::simulation {
 
-/// A whole campus, ready to be looked at.
+/// The complete campus, ready to render.
 struct Campus {
   std::shared_ptr<const Site> site;
   std::shared_ptr<const Scene> scene;
   MoverModels movers;
 };
 
-/// Builds everything from the seed; `assets` may name a folder of photographs (see Palette), or be empty.
+/// Builds the campus from the seed; `assets`: folder of photographs (see Palette), or empty.
 Campus build_campus(const SiteParameters& parameters, const std::filesystem::path& assets = {});
 
 }  // namespace panvo::simulation

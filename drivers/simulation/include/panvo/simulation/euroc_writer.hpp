@@ -16,7 +16,7 @@ class RenderJournal;
 
 enum class ImageFormat { kJpeg, kPng };
 
-/// Bytes that the images of a simulation from an instant on will take on disk, roughly (to ask the disk before anything is rendered).
+/// Estimates the bytes of a simulation's images from an instant on, to check the disk space before rendering.
 std::uint64_t estimated_bytes(const Simulation& simulation, std::size_t first_instant, ImageFormat format);
 
 /// Writes a simulation as a data set in the EuRoC/ASL layout: mav0/cam0 (left), cam1 (right), cam2 (panorama; cam2 to
@@ -25,23 +25,22 @@ std::uint64_t estimated_bytes(const Simulation& simulation, std::size_t first_in
 /// throws std::runtime_error naming the file.
 class EurocWriter {
  public:
-  /// Makes the folders and writes what is known before the first image, or goes on with a data set that was begun in
-  /// `directory`. Throws when that is one of another simulation (with the line in which they differ), or when somebody
-  /// writes it now.
+  /// Creates the folders and writes everything except images, or resumes an incomplete data set in `directory`. Throws
+  /// if that belongs to another simulation (with the first line that differs), or if another process is writing it.
   EurocWriter(std::filesystem::path directory, const Simulation& simulation, ImageFormat format);
   ~EurocWriter();
 
-  /// How many instants of the simulation were there already, and the exposure after them.
+  /// Number of instants that were already complete, and the exposure after them.
   std::size_t written_before() const { return written_before_; }
   Exposure exposure_before() const;
 
   void write(const Instant& instant, const Simulation::StereoImages& images);
   void write(const Instant& instant, const std::vector<cv::Mat>& panorama_heads);
 
-  /// All images of an instant are written, and `exposure` goes over to the next: from here an interrupted writing goes on.
+  /// Marks an instant as complete, with the exposure for the next one: an interrupted run resumes after it.
   void complete(const Instant& instant, const Exposure& exposure);
 
-  /// Completes the data set. Without it there is no sequence.yaml: the mark of a data set that is whole.
+  /// Completes the data set by writing sequence.yaml, which marks it as complete.
   void finish();
 
  private:

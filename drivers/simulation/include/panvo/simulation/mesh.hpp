@@ -8,10 +8,10 @@
 
 namespace panvo::simulation {
 
-/// How a vertex changes the look of its material.
+/// Changes the appearance of a material at a vertex.
 struct Tint {
-  std::uint8_t red = 255, green = 255, blue = 255;  ///< multiply the albedo; 255 leaves it as it is
-  std::uint8_t contrast = 255;                      ///< of the texture about its mean: 0 plain, 255 as it is
+  std::uint8_t red = 255, green = 255, blue = 255;  ///< multiply the albedo; 255: unchanged
+  std::uint8_t contrast = 255;                      ///< of the texture about its mean; 0: plain, 255: unchanged
 };
 
 struct Vertex {
@@ -26,7 +26,7 @@ struct Triangle {
   std::uint16_t material = 0;              ///< into the palette
 };
 
-/// Triangles with their materials; z up, metres. Surfaces are seen from both sides.
+/// Triangles with their materials; z up, metres. Surfaces are visible from both sides.
 struct Mesh {
   std::vector<Vertex> vertices;
   std::vector<Triangle> triangles;
@@ -43,7 +43,7 @@ struct Mesh {
   void add_box(const Eigen::Isometry3f& world_from_box, const Eigen::Vector3f& size, std::uint16_t material,
                Tint tint = {});
 
-  /// Adds a vertical prism or cone frustum of `sides` sides standing at `foot`, smooth-shaded; closed at the top.
+  /// Adds a vertical prism or cone frustum of `sides` sides with its base at `foot`, smooth-shaded; closed at the top.
   void add_column(const Eigen::Vector3f& foot, float foot_radius, float top_radius, float height, int sides,
                   std::uint16_t material, Tint tint = {});
 

@@ -15,15 +15,15 @@ constexpr std::uint64_t mix(std::uint64_t value) {
   return value ^ (value >> 31);
 }
 
-/// Random numbers of one purpose: the same seed and purpose give the same numbers on every machine and with every
-/// standard library, and a purpose more elsewhere changes none of them.
+/// Random numbers for one purpose. The same seed and purpose give the same numbers on every machine and with every
+/// standard library, independently of other purposes.
 class Random {
  public:
   constexpr Random(std::uint64_t seed, std::string_view purpose) : state_(mix(seed)) {
     for (const char letter : purpose) state_ = mix(state_ ^ static_cast<unsigned char>(letter));
   }
 
-  /// Random numbers for part number `index` of this purpose, independent of how many were drawn here.
+  /// Random numbers for part `index` of this purpose, independent of how many were drawn from other parts.
   constexpr Random part(std::uint64_t index) const {
     Random random = *this;
     random.state_ = mix(state_ + mix(index + 1));

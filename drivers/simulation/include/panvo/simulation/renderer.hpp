@@ -12,44 +12,45 @@
 
 namespace panvo::simulation {
 
-/// A camera while its shutter is open: it moves from `opened` to `closed`, at even speed.
+/// A camera while its shutter is open: it moves uniformly from `opened` to `closed`.
 struct Shot {
   Eigen::Isometry3d world_from_camera_opened = Eigen::Isometry3d::Identity();
   Eigen::Isometry3d world_from_camera_closed = Eigen::Isometry3d::Identity();
-  std::uint32_t visibility = kToStereo;  ///< what kind of camera it is
+  std::uint32_t visibility = kToStereo;  ///< kind of camera
 };
 
-/// A mover while the shutter is open.
+/// A moving object while the shutter is open.
 struct MovingPlacement {
   Placement at_opening;
   Eigen::Affine3f world_from_model_closed = Eigen::Affine3f::Identity();
 };
 
-/// Traces pictures of a scene with Embree: one ray through each pixel with textures averaged over the pixel's
-/// footprint, more where an edge or a hole crosses it; sunlight with shadows, skylight with ambient occlusion,
-/// reflections of the sky, haze. Uses OpenCV's pool of threads; the same picture bit for bit whatever their number.
+/// Ray-traces images of a scene with Embree: one ray per pixel with textures averaged over the pixel's footprint, more
+/// rays at edges and holes; sunlight with shadows, skylight with ambient occlusion, reflections of the sky, haze. Uses
+/// OpenCV's thread pool; the result is identical bit for bit for any number of threads.
 class Renderer {
  public:
-  /// Takes what it needs of the scene, whose palette and sky it shares. Throws std::runtime_error when Embree fails.
+  /// Builds its own structures from the scene and shares the scene's palette and sky. Throws std::runtime_error if
+  /// Embree fails.
   explicit Renderer(std::shared_ptr<const Scene> scene);
   ~Renderer();
 
   struct Quality {
-    int edge_samples = 2;  ///< more rays in a pixel that an edge crosses; up to 16
-    int texture_taps = 3;  ///< probes along the longer side of a footprint
+    int edge_samples = 2;  ///< additional rays per pixel at an edge; up to 16
+    int texture_taps = 3;  ///< probes along the longer axis of a footprint
   };
 
   /// Radiance of each pixel, CV_32FC3, linear RGB in the units of Light; black where the camera sees nothing.
-  /// Statistics of the last call: rays traced.
   cv::Mat render(const CameraRays& rays, const Shot& shot, const Light& light, std::span<const MovingPlacement> movers,
                  const Quality& quality);
 
-  /// Distance (m) along the ray of each pixel's centre at the shutter's opening, CV_32FC1; infinity: the sky.
+  /// Distance (m) along the ray of each pixel's centre when the shutter opens, CV_32FC1; infinity: the sky.
   cv::Mat render_range(const CameraRays& rays, const Shot& shot, std::span<const MovingPlacement> movers);
 
   struct Statistics {
     std::uint64_t pixels = 0, primary_rays = 0, shadow_rays = 0, triangles = 0;
   };
+  /// Statistics of the last render().
   Statistics statistics() const;
 
  private:

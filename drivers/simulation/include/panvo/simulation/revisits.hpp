@@ -19,7 +19,7 @@ struct Visit {
   Eigen::Vector2d position = Eigen::Vector2d::Zero();  ///< at the closest approach
 };
 
-/// A visit of a place that was visited before.
+/// A repeated visit to a place.
 struct Revisit {
   int visit = 0, first_visit = 0;
   double entrance_angle_rad = 0.0;  ///< heading on entering now minus then, (-pi, pi] [Lu2015 Table 2]

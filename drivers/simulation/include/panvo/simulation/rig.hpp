@@ -16,7 +16,7 @@ namespace panvo::simulation {
 
 enum class PanoramaKind { kEquirectangular, kSixHead, kDualFisheye };
 
-/// The two eyes: equal cameras side by side.
+/// A stereo camera with two equal eyes side by side.
 struct StereoCamera {
   vision::StereoCalibration calibration;                             ///< raw images, distortion included
   Eigen::Isometry3d base_from_left = Eigen::Isometry3d::Identity();  ///< of the left optical frame
@@ -27,10 +27,10 @@ struct StereoCamera {
   Eigen::Isometry3d base_from_right() const { return base_from_left * calibration.right_from_left.inverse(); }
 };
 
-/// One camera of the 360-degree camera: its only one, or a head of several.
+/// One camera of the panoramic camera: its only one, or one of several heads.
 struct PanoramaHead {
   std::string frame_id;                                              ///< "panorama_optical", "panorama_head_0_optical"
-  FisheyeCamera fisheye;                                             ///< of a head; unused by an equirectangular one
+  FisheyeCamera fisheye;                                             ///< unused by an equirectangular camera
   Eigen::Isometry3d base_from_head = Eigen::Isometry3d::Identity();  ///< of its optical frame
   int width = 0, height = 0;                                         ///< px
 };
@@ -44,19 +44,19 @@ struct PanoramicCamera {
   SensorParameters sensor;
 };
 
-/// The cameras on the vehicle (base_link: x forward, y left, z up, on the ground below its middle).
+/// The cameras on the vehicle (base_link: x forward, y left, z up, on the ground below the vehicle's centre).
 struct Rig {
   StereoCamera stereo;
   PanoramicCamera panorama;
 };
 
-/// The rig of [Lu2015, section 7]: stereo of 640 x 480 px at 25 Hz with a baseline of 0.12 m that looks forward and
-/// down, panorama of 1080 x 540 px at 5 Hz above the roof.
+/// The rig of [Lu2015, section 7]: a stereo camera of 640 x 480 px at 25 Hz with a baseline of 0.12 m, directed forward
+/// and down, and a panorama of 1080 x 540 px at 5 Hz above the roof.
 Rig paper_rig();
 
-/// Reads a rig file (config/rigs/paper/rig.yaml shows all it may say; what it does not say is as in paper_rig()).
-/// Throws std::runtime_error with every problem found, each with file, line and key: unknown keys, a baseline of zero,
-/// a field of view that no such lens has, rates and sizes that are not positive.
+/// Reads a rig file (config/rigs/paper/rig.yaml shows all keys; missing ones are as in paper_rig()). Throws
+/// std::runtime_error with all problems, each with file, line and key: unknown keys, a baseline of zero, an impossible
+/// field of view, rates and sizes that are not positive.
 Rig read_rig(const std::filesystem::path& file);
 
 CameraRays rays_of(const PanoramicCamera& camera, const PanoramaHead& head);

@@ -10,24 +10,24 @@
 
 namespace panvo::simulation {
 
-/// A place where roads meet, or a road ends.
+/// A place where roads meet or a road ends.
 struct Junction {
   std::string name;                                    ///< "gate", "library", ... : unique
   Eigen::Vector2d position = Eigen::Vector2d::Zero();  ///< m, world frame
-  std::vector<int> roads;                              ///< that begin or end here, counter-clockwise from +x
-  bool has_weak_texture = false;                       ///< fresh, even asphalt and plain walls about it
+  std::vector<int> roads;                              ///< that start or end here, counter-clockwise from +x
+  bool has_weak_texture = false;                       ///< plain asphalt and walls around it
 
-  /// Roads meet here: three or more (a bend or the end of a cul-de-sac is no junction to recognise).
+  /// Whether three or more roads meet here. Bends and ends of cul-de-sacs do not count as places to recognise.
   bool is_crossing() const { return roads.size() >= 3; }
 };
 
-/// A road between two junctions (which may be one and the same: a loop).
+/// A road between two junctions, or a loop at one junction.
 struct Road {
   int from = 0, to = 0;  ///< junctions
   std::vector<Eigen::Vector2d>
-      centre_line;              ///< m; smooth, a point about every metre, both junctions' positions included
+      centre_line;              ///< m; smooth, with a point about every metre, including both junctions' positions
   double width_m = 6.5;         ///< between the kerbs
-  double longest_step_m = 0.0;  ///< between neighbouring points of the centre line; 0: unknown, searches take longer
+  double longest_step_m = 0.0;  ///< between neighbouring points of the centre line; 0: unknown, searches are slower
 };
 
 struct RoadNetwork {
@@ -35,9 +35,9 @@ struct RoadNetwork {
   std::vector<Road> roads;
 
   std::optional<int> find(std::string_view junction_name) const;
-  /// Fills in the junctions' roads, counter-clockwise from +x, from the roads' ends.
+  /// Sets the junctions' roads, counter-clockwise from +x, from the roads' ends.
   void join();
-  /// Distance (m) from `point` to the nearest road's centre line, and which road and how far along it (m).
+  /// The road whose centre line is nearest to a point, the distance (m) to it and the position along it (m).
   struct Nearest {
     double distance_m = 0.0, along_m = 0.0;
     double side_m = 0.0;  ///< signed distance to the left of the centre line
@@ -46,9 +46,9 @@ struct RoadNetwork {
   Nearest nearest_road(const Eigen::Vector2d& point) const;
 };
 
-/// The campus's roads: crossings, T and Y junctions, bends, a cul-de-sac and a loop without junction, about 450 m x
-/// 350 m around the origin. The seed moves and bends everything by several metres; the plan, and with it which
-/// junctions are joined, stays, so that a route named by its junctions exists on every seed.
+/// The campus roads: crossings, T and Y junctions, bends, a cul-de-sac and a loop without junction, about 450 m x 350 m
+/// around the origin. The seed moves and bends everything by several metres. The plan and the connections of junctions
+/// are fixed, so that a route given by junctions exists for every seed.
 RoadNetwork campus_roads(std::uint64_t seed);
 
 }  // namespace panvo::simulation

@@ -11,29 +11,28 @@
 
 namespace panvo::simulation {
 
-/// Where the vehicle drives: from junction to junction by the roads that join them.
+/// The vehicle's route from junction to junction.
 struct Route {
   std::string name;                    ///< "short"
-  std::vector<std::string> junctions;  ///< at least two, neighbours joined by a road
-  std::string description;             ///< one line, for people
+  std::vector<std::string> junctions;  ///< at least two; successive ones are joined by a road
+  std::string description;             ///< one line, for users
 };
 
-/// The path of a route: the right-hand lane of its roads, with turns rounded as a vehicle drives them, as points at
-/// about every 0.1 m.
+/// The path of a route: the right-hand lanes of its roads with drivable turns, one point about every 0.1 m.
 struct DrivenPath {
   std::vector<Eigen::Vector2d> points;  ///< m, world frame
   std::vector<double> along_m;          ///< arc length of each point
   std::vector<double> curvature_per_m;  ///< signed, left positive
 };
 
-/// Throws std::invalid_argument naming the junction that there is not (and those there are), or the two that no road
-/// joins.
+/// The path of a route. Throws std::invalid_argument for an unknown junction (with the valid ones) or for two junctions
+/// without a road between them.
 DrivenPath drive(const RoadNetwork& roads, const Route& route);
 
-/// A walk through `junctions` junctions drawn from a seed, turning back only in a cul-de-sac.
+/// A random route through `junctions` junctions that turns back only in a cul-de-sac.
 Route random_route(const RoadNetwork& roads, int junctions, std::uint64_t seed);
 
-/// Reads a route file (YAML: name, junctions, description). Throws std::runtime_error naming file, line and key.
+/// Reads a route file (YAML: name, junctions, description). Throws std::runtime_error with file, line and key.
 Route read_route(const std::filesystem::path& file);
 
 }  // namespace panvo::simulation

@@ -13,10 +13,10 @@
 
 namespace panvo::simulation {
 
-/// Who sees a thing: a camera sees what shares a bit with it.
+/// Who sees an object: a camera sees objects that share a bit with it.
 enum Visibility : std::uint32_t { kToStereo = 1, kToPanorama = 2, kToShadow = 4, kToAll = 7 };
 
-/// A model standing or moving somewhere.
+/// A model placed in the world.
 struct Placement {
   std::uint32_t model = 0;                                         ///< into Scene::models
   Eigen::Affine3f world_from_model = Eigen::Affine3f::Identity();  ///< rigid and uniformly scaled
@@ -24,12 +24,12 @@ struct Placement {
   std::uint32_t visibility = kToAll;
 };
 
-/// Everything there is to see, in the world frame (x east, y north, z up; m).
+/// All visible objects, in the world frame (x east, y north, z up; m).
 struct Scene {
   std::shared_ptr<const Palette> palette;
   std::shared_ptr<const Sky> sky;
   std::vector<Mesh> fixed;          ///< ground and buildings
-  std::vector<Mesh> models;         ///< trees, lamp posts, cars, people: foot at the origin, x forward
+  std::vector<Mesh> models;         ///< trees, lamp posts, cars, people: base at the origin, x forward
   std::vector<Placement> standing;  ///< models that never move
 };
 

@@ -7,9 +7,9 @@
 
 namespace panvo::simulation {
 
-/// What is true of a journey, as YAML: route, effects, junctions, visits, revisits with their entrance angles, clouds,
-/// movers and zones of weak texture. Angles in degrees, counter-clockwise, 0 = +x of the world; times as in the images'
-/// stamps, ns; lengths in m.
+/// The ground truth of a journey as YAML: route, effects, junctions, visits, revisits with entrance angles, clouds,
+/// movers and zones of weak texture. Angles in degrees, counter-clockwise, 0 = +x of the world; times in ns as image
+/// stamps; lengths in m.
 std::string sequence_yaml(const Simulation& simulation);
 
 }  // namespace panvo::simulation

@@ -26,34 +26,34 @@ struct SimulationParameters {
   MotionParameters motion;
   std::uint64_t seed = 1;
   double hilliness = 0.0;
-  double calibration_error = 0.0;  ///< of the published stereo calibration; 1: as of a good one after months of driving
+  double calibration_error = 0.0;  ///< of the published stereo calibration; 1: a good one after months of driving
   double hour = 10.5;              ///< of the day at the start, 6 to 18
   std::filesystem::path assets;    ///< photographs in place of painted textures; empty: none
-  double start_s = 0.0;            ///< where to begin
-  double duration_s = 0.0;         ///< how long; 0: to the end
+  double start_s = 0.0;            ///< start time on the journey
+  double duration_s = 0.0;         ///< duration; 0: to the end
   bool stereo = true, panorama = true;
   std::int64_t start_stamp_ns = 1'700'000'000'000'000'000;
   Renderer::Quality quality;
 };
 
-/// What happens at one stamp: an exposure of the stereo camera, of the panoramic camera, or of both, whose middle is at
-/// `t_s` (the panorama's may be off by the effect time_offset), and where the vehicle is at the stamp.
+/// An exposure of the stereo camera, the panoramic camera or both. The middle of the exposure is at `t_s`, except that
+/// the effect time_offset shifts the panorama.
 struct Instant {
   std::int64_t stamp_ns = 0;
   double t_s = 0.0;
-  std::optional<std::uint64_t> stereo_frame, panorama_frame;  ///< counted with those that are dropped
+  std::optional<std::uint64_t> stereo_frame, panorama_frame;  ///< frame numbers, including dropped frames
 };
 
-/// What exposure control has come to: all that goes over from one instant to the next.
+/// The state of exposure control, which is all that one instant passes to the next.
 struct Exposure {
   double stereo_gain = 1.0, panorama_gain = 1.0;
 };
 
-/// The vehicle with its rig on its route, instant by instant.
+/// Simulates the vehicle with its rig on a route, instant by instant.
 class Simulation {
  public:
-  /// Plans the journey and builds the campus: takes some seconds. Throws std::invalid_argument or std::runtime_error
-  /// saying what is wrong with route, rig, assets.
+  /// Plans the journey and builds the campus, which takes seconds. Throws std::invalid_argument or std::runtime_error
+  /// if route, rig or assets are invalid.
   explicit Simulation(const SimulationParameters& parameters);
   ~Simulation();
 
@@ -63,22 +63,22 @@ class Simulation {
   const Weather& weather() const { return *weather_; }
   const Traffic* traffic() const { return traffic_ ? &*traffic_ : nullptr; }  ///< null: the effect is off
 
-  /// All that will be rendered, in order of time.
+  /// All instants to render, in order of time.
   const std::vector<Instant>& instants() const { return instants_; }
 
   struct StereoImages {
     cv::Mat left, right;
   };
-  /// Images of an instant, grey or RGB. Exposure control makes them depend on those before: render in order, from the
-  /// first, for the same images every time.
+  /// Images of an instant, grey or RGB. Through exposure control they depend on earlier instants: render in order from
+  /// the first one for reproducible images.
   StereoImages render_stereo(const Instant& instant);
-  std::vector<cv::Mat> render_panorama(const Instant& instant);  ///< one image a head
+  std::vector<cv::Mat> render_panorama(const Instant& instant);  ///< one image per head
 
-  /// For a rendering that goes on where another ended: exposure() after the last instant of that one.
+  /// To resume an interrupted run, pass the exposure() after its last instant to set_exposure().
   Exposure exposure() const;
   void set_exposure(const Exposure& exposure);
 
-  /// Of all that was rendered so far.
+  /// Statistics of everything rendered so far.
   const Renderer::Statistics& statistics() const { return statistics_; }
 
  private:

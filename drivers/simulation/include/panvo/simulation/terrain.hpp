@@ -7,10 +7,10 @@
 
 namespace panvo::simulation {
 
-/// The height of the land: smooth, from a seed.
+/// Smooth terrain height, generated from a seed.
 class Terrain {
  public:
-  /// `hilliness` 0: flat; 1: hills of some 8 m over 150 m, grades of roads up to about 8 %.
+  /// `hilliness` 0: flat; 1: hills of about 8 m over 150 m, road grades up to about 8 %.
   Terrain(std::uint64_t seed, double hilliness);
 
   double height_m(const Eigen::Vector2d& point) const;

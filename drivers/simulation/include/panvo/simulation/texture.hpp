@@ -11,8 +11,8 @@ namespace panvo::simulation {
 /// A tileable picture of a surface with its mip pyramid; colours are linear (not gamma-encoded) reflectances.
 class Texture {
  public:
-  /// `albedo` is CV_8UC4, RGBA: sRGB-encoded colour and linear alpha; width and height are powers of two, else throws
-  /// std::invalid_argument. Its row 0 is at v = 0. Coarser levels keep the share of texels with alpha >= 0.5.
+  /// `albedo`: CV_8UC4, RGBA, sRGB-encoded colour and linear alpha, row 0 at v = 0; throws std::invalid_argument unless
+  /// width and height are powers of two. Coarser levels keep the fraction of texels with alpha >= 0.5.
   explicit Texture(const cv::Mat& albedo);
 
   int width() const { return levels_.front().column_mask + 1; }
@@ -25,11 +25,11 @@ class Texture {
   Eigen::Vector4f sample(const Eigen::Vector2f& uv, const Eigen::Vector2f& du, const Eigen::Vector2f& dv,
                          int taps) const;
 
-  /// RGBA of all levels of the pyramid, each half as wide and high (at least 1) as the one before, row by row; bytes
-  /// are square roots of linear values.
+  /// RGBA of all pyramid levels, each half as wide and high (at least 1) as the previous one, row by row; bytes are
+  /// square roots of linear values.
   const std::vector<std::uint8_t>& texels() const { return texels_; }
 
-  /// Alpha only, bilinear, in the pyramid's level 0: for what only asks whether there is a hole.
+  /// Alpha only, bilinear, from pyramid level 0: to test for holes.
   float alpha(const Eigen::Vector2f& uv) const;
 
  private:
@@ -40,8 +40,8 @@ class Texture {
   };
 
   std::vector<Level> levels_;
-  std::vector<std::uint8_t> texels_;  ///< RGBA of all levels one after the other, square roots of linear values
-  cv::Mat1b alpha_;                   ///< of level 0; empty where there is no hole
+  std::vector<std::uint8_t> texels_;  ///< RGBA of all levels in sequence, square roots of linear values
+  cv::Mat1b alpha_;                   ///< of level 0; empty if there are no holes
   Eigen::Vector4f mean_;
 };
 

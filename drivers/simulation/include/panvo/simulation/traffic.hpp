@@ -12,34 +12,34 @@
 
 namespace panvo::simulation {
 
-/// Somebody or something that moves along a path of its own, given in closed form.
+/// A vehicle or person that moves along a path, in closed form.
 struct Mover {
   std::uint32_t model = 0;
   Tint tint;
-  double length_m = 4.5, width_m = 1.8;  ///< of the box around it, its middle at the model's origin
-  double from_s = 0.0, to_s = 0.0;       ///< it is there only between
+  double length_m = 4.5, width_m = 1.8;  ///< of its bounding box, centred at the model's origin
+  double from_s = 0.0, to_s = 0.0;       ///< time span in which it exists
 
   std::vector<Eigen::Vector2d> path;  ///< m, world
   std::vector<double> along_m;        ///< of each point
-  double start_m = 0.0;               ///< where on the path it is at from_s; it waits at the path's ends
+  double start_m = 0.0;               ///< position on the path at from_s; it waits at the path's ends
   double speed_m_per_s = 0.0;
-  bool walks = false;  ///< on foot: upright, on the pavement where there is one
+  bool walks = false;  ///< a pedestrian: upright, on the pavement where there is one
 
-  /// A vehicle that keeps ahead of ours on our path: from far ahead at from_s it lets us come near until near_from_s,
-  /// stays so near until near_to_s, and is far ahead again at to_s.
+  /// A vehicle that stays ahead of ours on our path: far ahead at from_s, near from near_from_s to near_to_s, and far
+  /// ahead again at to_s.
   bool keeps_ahead = false;
-  double near_from_s = 0.0, near_to_s = 0.0, near_m = 0.0, far_m = 0.0;  ///< between both middles
+  double near_from_s = 0.0, near_to_s = 0.0, near_m = 0.0, far_m = 0.0;  ///< distances between both centres
 };
 
-/// Cars and people on paths of their own, chosen so that the vehicle meets them: cars that come towards it, that drive
-/// ahead of it (some so near that they fill half of the stereo view), that cross; people on pavements and across the
-/// road. Closed-form in time; no one touches the vehicle.
+/// Cars and people whose paths are chosen so that the vehicle meets them: oncoming and crossing cars, cars ahead (some
+/// so near that they fill half of the stereo view), people on pavements and crossing the road. Closed-form in time;
+/// nothing touches the vehicle.
 class Traffic {
  public:
-  /// Keeps references to `site` and `motion`. Throws std::invalid_argument when there are no models of a kind.
+  /// Keeps references to `site` and `motion`. Throws std::invalid_argument if a kind has no models.
   Traffic(const Site& site, const VehicleMotion& motion, const MoverModels& models, std::uint64_t seed);
 
-  /// An episode during which a mover is near enough to matter: for the record of the truth.
+  /// A period in which a mover is near the vehicle, for the ground truth file.
   struct Episode {
     double from_s = 0.0, to_s = 0.0;
     std::string kind;  ///< "ahead", "oncoming", "crossing", "pedestrian"
@@ -48,7 +48,7 @@ class Traffic {
 
   const std::vector<Mover>& movers() const { return movers_; }
 
-  /// The movers about the vehicle while a shutter is open from `opened_s` to `closed_s`.
+  /// The movers near the vehicle while a shutter is open from `opened_s` to `closed_s`.
   std::vector<MovingPlacement> at(double opened_s, double closed_s) const;
 
  private:
@@ -60,7 +60,7 @@ class Traffic {
   const Site* site_;
 };
 
-/// Where a mover is on the ground: its middle and its heading.
+/// A mover's pose on the ground: its centre and heading.
 struct GroundPlace {
   Eigen::Vector2d position = Eigen::Vector2d::Zero();
   double heading_rad = 0.0;

@@ -16,9 +16,9 @@ struct MotionParameters {
   double turn_acceleration_m_per_s2 = 1.2;  ///< lateral, which limits the speed in turns (never below min_speed)
   double min_speed_m_per_s = 3.0;
   double acceleration_m_per_s2 = 1.0;  ///< along the path, at most
-  double standstill_s = 1.0;           ///< before it starts
-  double vibration = 1.0;              ///< scale of all below; 0: rides like on rails
-  double pitch_rms_rad = 0.004;        ///< springs and dampers: 1-3 Hz
+  double standstill_s = 1.0;           ///< before the start
+  double vibration = 1.0;              ///< scale of the values below; 0: none
+  double pitch_rms_rad = 0.004;        ///< suspension: 1-3 Hz
   double roll_rms_rad = 0.003;
   double height_rms_m = 0.006;
 };
@@ -26,12 +26,11 @@ struct MotionParameters {
 /// The vehicle's motion along a path: smooth (twice differentiable in time), exact at every instant.
 class VehicleMotion {
  public:
-  /// Throws std::invalid_argument naming the parameter that makes no sense, or for a path whose points are not evenly
-  /// apart.
+  /// Throws std::invalid_argument for an invalid parameter or a path whose points are not evenly spaced.
   VehicleMotion(const DrivenPath& path, const Terrain& terrain, const MotionParameters& parameters, std::uint64_t seed);
 
   double duration_s() const;
-  /// base_link (x forward, y left, z up, on the ground below the vehicle's middle) in the world, t in [0, duration].
+  /// base_link (x forward, y left, z up, on the ground below the vehicle's centre) in the world, t in [0, duration].
   Eigen::Isometry3d world_from_base(double t_s) const;
   /// Velocity (m/s) and angular rate (rad/s) of base_link, in base_link.
   vision::Vector6d twist(double t_s) const;

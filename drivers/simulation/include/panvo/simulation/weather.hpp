@@ -9,7 +9,7 @@
 
 namespace panvo::simulation {
 
-/// The light over a journey: the hour of the day, and clouds before the sun.
+/// The light during a journey: hour of the day, and clouds in front of the sun.
 class Weather {
  public:
   /// `hour` of the day at the start (see light_at).
@@ -17,9 +17,9 @@ class Weather {
 
   Light light(double t_s) const;
   double hour(double t_s) const;
-  double cloud_cover(double t_s) const;  ///< 0..1: how much of the sun a cloud takes
+  double cloud_cover(double t_s) const;  ///< 0..1: fraction of the sun covered by a cloud
 
-  /// A cloud before the sun: its shadow falls within half a second and goes as quickly.
+  /// A cloud in front of the sun: its shadow comes and goes within half a second.
   struct Cloud {
     double from_s = 0.0, to_s = 0.0;
     double cover = 0.0;

@@ -14,20 +14,20 @@
 
 namespace panvo::v4l2_camera {
 
-/// How cameras are found and opened.
+/// Functions that list and open cameras; replaceable for tests.
 struct Devices {
   std::function<std::vector<VideoNode>()> list = [] { return list_nodes(); };
   std::function<std::unique_ptr<VideoDevice>(const std::string& node)> open = open_video_device;
 };
 
-/// One camera, kept streaming by a thread of its own: finds it, sets it, receives, notices that it is gone, and finds it again by its serial number.
-/// What happens is logged when it begins and counted.
+/// Keeps one camera streaming on its own thread: finds and configures it, receives frames, detects its loss, and finds
+/// it again by serial number. Faults are logged when they start, and counted.
 class CameraGrabber final : public camera_group::Grabber {
  public:
   using Frame = camera_group::GrabbedFrame;
 
   CameraGrabber(CameraSettings settings, const runtime::Logger& log, OnFrame on_frame, Devices devices = {});
-  /// Ends the thread and closes the camera.
+  /// Stops the thread and closes the camera.
   ~CameraGrabber() override;
 
   camera_stream::StreamReport report() const override;

@@ -12,24 +12,24 @@
 
 namespace panvo::v4l2_camera {
 
-/// Where stamps come from.
+/// Source of the image stamps.
 enum class StampSource : std::uint8_t {
-  kDriver,   ///< the kernel's driver: exposure or transfer of the frame, in the host's time
-  kArrival,  ///< the host's clock when the frame was taken from its buffer
+  kDriver,   ///< kernel driver: exposure or transfer of the frame, in host time
+  kArrival,  ///< host clock when the frame is taken from its buffer
 };
 
-/// How one camera is found, set and read.
+/// How one camera is found, configured and read.
 struct CameraSettings {
-  std::string name;                    ///< "camera", "left": for people
-  std::string camera;                  ///< serial number, path, USB port or name; empty: the first that is found
-  std::vector<std::string> frame_ids;  ///< of the images that come of each of its frames
+  std::string name;                    ///< "camera", "left": for messages
+  std::string camera;                  ///< serial number, path, USB port or name; empty: the first camera found
+  std::vector<std::string> frame_ids;  ///< of the images made from each of its frames
   FormatWish format{};
-  std::vector<camera_group::DeviceSetting> controls{};  ///< set before it streams, in order
+  std::vector<camera_group::DeviceSetting> controls{};  ///< set in order before streaming starts
   ImageSplitter::Settings parts{};
   camera_stream::ImageOutput output = camera_stream::ImageOutput::kReadable;
   StampSource stamps = StampSource::kDriver;
   int buffers = 4;
-  std::int64_t watchdog_ns = 1'000'000'000;  ///< without a frame for so long, the camera counts as lost; 0: never
+  std::int64_t watchdog_ns = 1'000'000'000;  ///< the camera counts as lost after this time without a frame; 0: never
 };
 
 }  // namespace panvo::v4l2_camera

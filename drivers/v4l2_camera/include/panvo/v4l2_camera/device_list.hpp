@@ -8,7 +8,8 @@
 
 namespace panvo::v4l2_camera {
 
-/// The V4L2 cameras that are connected, each opened for a moment to learn what it can do; one that cannot be opened is listed with the reason.
+/// Lists the connected V4L2 cameras. Opens each briefly to read its formats, sizes and rates; one that cannot be opened
+/// is listed with the reason.
 std::vector<camera_stream::FoundDevice> find_devices(const Devices& devices = {});
 
 }  // namespace panvo::v4l2_camera

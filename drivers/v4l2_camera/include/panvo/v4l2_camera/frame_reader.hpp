@@ -12,15 +12,15 @@
 
 namespace panvo::v4l2_camera {
 
-/// What became of a frame.
+/// The result of reading a frame.
 struct ReadFrame {
   enum class Outcome : std::uint8_t { kWhole, kIncomplete, kDamaged };
   Outcome outcome = Outcome::kWhole;
-  std::string problem{};                                           ///< of one that is not whole
+  std::string problem{};                                           ///< if incomplete or damaged
   std::vector<std::shared_ptr<sensor_msgs::msg::Image>> images{};  ///< without stamps: one, or left and right
 };
 
-/// Makes images of the bytes of a camera's buffers: decoded, taken apart, converted.
+/// Turns the bytes of a camera's buffers into images: decodes, splits and converts them.
 class FrameReader {
  public:
   FrameReader(const CameraSettings& settings, const ImageFormat& format);

@@ -6,21 +6,23 @@
 
 namespace panvo::v4l2_camera {
 
-/// Both of the host's clocks at one moment, ns: CLOCK_MONOTONIC, by which the kernel stamps frames, and that of all stamps here.
+/// Both host clocks at the same time, ns: CLOCK_MONOTONIC, used by the kernel for frames, and the system clock, used
+/// for all stamps here.
 struct HostTime {
   std::int64_t monotonic_ns = 0, system_ns = 0;
 };
 
-/// Frames' stamps in the host's system time. Both clocks are read with each frame, so that a system clock that is being set right is followed; stamps
-/// increase all the same.
+/// Converts frame stamps to the host's system time. Both clocks are read with each frame, so that corrections of the
+/// system clock are followed. Stamps strictly increase even then.
 class HostStamps {
  public:
-  /// `frame_ns`: by CLOCK_MONOTONIC, nullopt: the driver has none; `arrival`: now. A stamp further from the arrival than any frame takes is not
-  /// believed (drivers that compute stamps from the camera's clock may get lost); the arrival is taken then, and counted. Slightly in the future is
-  /// in order: drivers with a clock of their own stamp ahead.
+  /// Returns the stamp, ns. `frame_ns`: CLOCK_MONOTONIC, nullopt: none from the driver; `arrival`: the current time. A
+  /// stamp more than 2 s before or 0.1 s after the arrival is rejected and counted, and the arrival is used instead:
+  /// drivers that compute stamps from the camera's clock may be wrong. Slightly early stamps are normal for such
+  /// drivers.
   std::int64_t stamp_ns(std::optional<std::int64_t> frame_ns, const HostTime& arrival);
 
-  /// Stamps that were not believed.
+  /// Number of rejected stamps.
   std::uint64_t disbelieved() const noexcept { return disbelieved_; }
 
  private:

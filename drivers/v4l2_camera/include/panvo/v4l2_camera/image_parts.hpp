@@ -9,26 +9,28 @@
 
 namespace panvo::v4l2_camera {
 
-/// How the images of several cameras share one.
+/// How one image contains those of several cameras.
 enum class ImageParts : std::uint8_t {
-  kOne,              ///< they do not
+  kOne,              ///< a single camera
   kSideBySide,       ///< left half, right half
   kTopBottom,        ///< upper half, lower half
-  kByteInterleaved,  ///< of each pixel of two bytes one is of the one eye, one of the other (Bumblebee2, Format7 mode 3)
+  kByteInterleaved,  ///< two-byte pixels with one byte per eye (Bumblebee2, Format7 mode 3)
 };
 
-/// Takes an image apart. Halves are views of it; only interleaved bytes are copied, into memory that is used again with the next image.
+/// Splits an image. Halves are views of it; interleaved bytes are copied into a buffer that is reused for the next
+/// image.
 class ImageSplitter {
  public:
   struct Settings {
     ImageParts parts = ImageParts::kOne;
-    bool swap = false;                                                            ///< the right eye's part comes first
-    camera_stream::PixelFormat interleaved = camera_stream::PixelFormat::kMono8;  ///< what each byte is
+    bool swap = false;                                                            ///< the right eye comes first
+    camera_stream::PixelFormat interleaved = camera_stream::PixelFormat::kMono8;  ///< format of each byte
   };
 
   explicit ImageSplitter(const Settings& settings) : settings_(settings) {}
 
-  /// One image, or left and right; valid until the next call and as long as `whole`'s bytes. The reason says what does not divide.
+  /// Returns one image, or left and right; valid until the next call and as long as `whole`'s bytes. Fails with a
+  /// reason if the image cannot be split.
   conversions::Result<std::vector<camera_stream::RawImage>> split(const camera_stream::RawImage& whole);
 
  private:

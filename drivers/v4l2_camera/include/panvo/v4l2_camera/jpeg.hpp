@@ -10,11 +10,12 @@
 
 namespace panvo::v4l2_camera {
 
-/// Reads the frames of MJPG streams with libjpeg-turbo, one after the other into the same memory.
+/// Decodes the frames of MJPG streams with libjpeg-turbo; all frames use the same memory.
 class JpegDecoder {
  public:
-  /// Mono8 or Bgr8 pixels, valid until the next call; grey files give grey. The reason says what is damaged: no JPEG file, of another size than the
-  /// stream, cut off. Padding that cameras put before or after the end marker is no damage; left-out Huffman tables are the standard's.
+  /// Returns Mono8 or Bgr8 pixels, valid until the next call; grey files give Mono8. Fails with a reason: not a JPEG
+  /// file, size differs from the stream, damaged or truncated. Padding before or after the end marker is accepted;
+  /// missing Huffman tables are replaced by the standard ones.
   conversions::Result<camera_stream::RawImage> decode(std::span<const std::uint8_t> file, int width, int height,
                                                       bool as_grey);
 

@@ -10,18 +10,18 @@
 
 namespace panvo::v4l2_camera {
 
-/// What a camera was set to in the end.
+/// The requested and the actual settings of a camera.
 struct Negotiated {
   ImageFormat asked, given;
   double rate_hz = 0.0;                ///< 0: not known
-  std::vector<std::string> refused{};  ///< settings that the camera did not take, and why
+  std::vector<std::string> refused{};  ///< one message for each refused setting
 };
 
-/// Sets a camera and has it stream: controls, format, rate, buffers. What it refuses is told and left; throws DeviceError where no image could be
-/// read, or it does not stream.
+/// Configures a camera (controls, format, rate, buffers) and starts streaming. Refused settings keep their values and
+/// are reported; throws DeviceError if no image could be read, or if it does not stream.
 Negotiated start(VideoDevice& device, const std::string& node, const CameraSettings& settings);
 
-/// Sets controls now; returns what the camera does not take, and why.
+/// Sets controls immediately; returns one message for each that is refused.
 std::vector<std::string> set_controls(VideoDevice& device, const std::vector<camera_group::DeviceSetting>& settings);
 
 }  // namespace panvo::v4l2_camera

@@ -10,7 +10,7 @@
 
 namespace panvo::v4l2_camera {
 
-/// A pixel format as V4L2 names it: four characters, the first in the lowest byte.
+/// A V4L2 pixel format code: four characters, the first in the lowest byte.
 using PixelCode = std::uint32_t;
 
 constexpr PixelCode pixel_code(char a, char b, char c, char d) {
@@ -20,25 +20,25 @@ constexpr PixelCode pixel_code(char a, char b, char c, char d) {
 
 inline constexpr PixelCode kMjpg = pixel_code('M', 'J', 'P', 'G');
 
-/// "YUYV", "Y16"; what cannot be printed shows as a dot.
+/// "YUYV", "Y16"; unprintable characters become dots.
 std::string to_text(PixelCode code);
 
-/// The code of one to four characters, in whatever case, filled up with spaces: "y16". nullopt: no such code can be.
+/// Parses a code of one to four characters in upper or lower case, padded with spaces: "y16". nullopt: not a code.
 std::optional<PixelCode> parse_pixel_code(std::string_view text);
 
-/// What the driver makes of a pixel format.
+/// How this driver treats a pixel format.
 enum class Coding : std::uint8_t {
   kRaw,
-  kJpeg,     ///< each frame a file of its own
-  kVideo,    ///< H.264 and the like: a frame needs those before it
-  kUnknown,  ///< not read here
+  kJpeg,     ///< each frame is a JPEG file
+  kVideo,    ///< H.264 and similar: frames depend on previous ones
+  kUnknown,  ///< not supported
 };
 Coding coding_of(PixelCode code);
 
-/// Of a code whose coding is kRaw; throws std::invalid_argument for another.
+/// The format of a code whose coding is kRaw; throws std::invalid_argument for any other code.
 camera_stream::PixelFormat raw_format_of(PixelCode code);
 
-/// "YUYV, UYVY, ...": all that are read, for messages.
+/// "YUYV, UYVY, ...": all supported codes, for messages.
 std::string readable_codes();
 
 }  // namespace panvo::v4l2_camera

@@ -15,13 +15,13 @@
 
 namespace panvo::v4l2_camera {
 
-/// An operation on a device that failed; what() says which, why and what to do.
+/// A failed operation on a device; what() gives operation, cause and remedy.
 class DeviceError : public std::runtime_error {
  public:
   enum class Kind : std::uint8_t {
-    kGone,        ///< unplugged, or broken down
-    kBusy,        ///< another program has it
-    kNotAllowed,  ///< this user may not open it
+    kGone,        ///< unplugged or defective
+    kBusy,        ///< in use by another program
+    kNotAllowed,  ///< no permission to open it
     kOther,
   };
   DeviceError(Kind kind, const std::string& what) : std::runtime_error(what), kind_(kind) {}
@@ -34,14 +34,14 @@ class DeviceError : public std::runtime_error {
 /// A frame in one of the device's buffers.
 struct BufferedFrame {
   std::span<const std::uint8_t> bytes{};
-  std::uint32_t number = 0;                    ///< the driver's count of frames, those that were lost with them
-  std::optional<std::int64_t> monotonic_ns{};  ///< when, by CLOCK_MONOTONIC; nullopt: stamped by another clock, or not
-  bool is_stamped_at_start = false;            ///< of the exposure; otherwise when it had come
-  bool is_damaged = false;                     ///< the driver says so
+  std::uint32_t number = 0;                    ///< the driver's frame count, including lost frames
+  std::optional<std::int64_t> monotonic_ns{};  ///< stamp, CLOCK_MONOTONIC; nullopt: another clock, or not stamped
+  bool is_stamped_at_start = false;            ///< at the start of exposure; otherwise at the end of the frame
+  bool is_damaged = false;                     ///< according to the driver
   unsigned buffer = 0;
 };
 
-/// A camera that is open: what the rest of the driver knows of V4L2. Everything may throw DeviceError.
+/// An open camera: the driver's interface to V4L2. All functions may throw DeviceError.
 class VideoDevice {
  public:
   VideoDevice() = default;
@@ -51,18 +51,18 @@ class VideoDevice {
 
   virtual std::vector<OfferedFormat> offered_formats() = 0;
   virtual ImageFormat format() = 0;
-  /// Returns what the camera makes of it.
+  /// Returns the format that the camera actually set.
   virtual ImageFormat set_format(const ImageFormat& wanted) = 0;
   /// 0: not known.
   virtual double rate_hz() = 0;
-  /// Returns what the camera makes of it; 0: it does not let its rate be set.
+  /// Returns the rate that the camera actually set; 0: it does not support setting the rate.
   virtual double set_rate_hz(double wanted_hz) = 0;
   virtual std::vector<Control> controls() = 0;
   virtual void set_control(const Control& control, std::int64_t value) = 0;
   virtual std::int64_t control(const Control& control) = 0;
 
   virtual void start(int buffers) = 0;
-  /// nullopt: none came within `limit`. A frame's buffer is the caller's until it is given back.
+  /// nullopt: no frame within `limit`. The caller owns the frame's buffer until it calls give_back().
   virtual std::optional<BufferedFrame> receive(std::chrono::milliseconds limit) = 0;
   virtual void give_back(const BufferedFrame& frame) = 0;
 };
