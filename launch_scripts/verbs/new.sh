@@ -1,19 +1,19 @@
 # SPDX-License-Identifier: Apache-2.0
 # shellcheck shell=bash
-# summary: create a package of your own: a component with its messages, tests and a system file
+# summary: create a component package with messages, tests and a system file
 
 verb_usage() {
   cat <<'EOT'
 usage: panvo new component NAME [--in FOLDER]
 
-Creates FOLDER/NAME (default: ./NAME), a package that builds, passes its tests and runs: a component with an algorithm, a message, a service, a
-parameter, a test of each, and a system file that runs it behind stereo odometry. Its README says how to build it, with colcon or with cmake.
+Creates the package FOLDER/NAME (default: ./NAME), which builds, runs and passes its tests: a component with algorithm, message, service and
+parameter, tests, and a system file that runs it after stereo odometry. Its README describes how to build it with colcon or cmake.
 
-NAME is the package's name: lower case, digits and '_', as in ROS 2. Nothing that exists is overwritten.
+NAME is the package name: lower-case letters, digits and '_', as in ROS 2. Existing files are never overwritten.
 EOT
 }
 
-# Template below templates/component, and the file that is made of it.
+# Template in templates/component, and the file created from it.
 component_files=(
   "CMakeLists.txt|CMakeLists.txt"
   "package.xml|package.xml"
@@ -42,16 +42,16 @@ verb_main() {
         ;;
       -*) unknown_option "$1" ;;
       *)
-        [[ -z $name ]] || fail "one name at a time: '$name' or '$1'" 2
+        [[ -z $name ]] || fail "only one name is allowed: '$name' or '$1'?" 2
         name=$1
         ;;
     esac
     shift
   done
-  [[ -n $name ]] || fail "which name? panvo new component NAME" 2
+  [[ -n $name ]] || fail "name the package: panvo new component NAME" 2
   [[ $name =~ ^[a-z][a-z0-9]*(_[a-z0-9]+)*$ ]] ||
-    fail "'$name' is not a package name: lower case, digits and single '_', from a letter on (my_filter)" 2
-  [[ -d $folder ]] || fail "there is no folder '$folder'" 2
+    fail "'$name' is not a package name: use lower-case letters, digits and single '_', starting with a letter (my_filter)" 2
+  [[ -d $folder ]] || fail "folder '$folder' not found" 2
   [[ ! -e $folder/$name ]] || fail "$folder/$name already exists; choose another name or folder"
   create_component "$name" "$folder/$name"
   note "created $folder/$name; its README.md says how to build and run it"
@@ -66,7 +66,7 @@ create_component() {
     target=${target//@name@/$name}
     mkdir -p "${target%/*}"
     sed -e "s/@name@/$name/g" -e "s/@Class@/$class/g" "$PANVO_SCRIPTS/templates/component/${entry%|*}.in" >"$target" ||
-      fail "$target cannot be written"
+      fail "cannot write $target"
   done
 }
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A package outside the tree, as a user makes one with an installed panvo: `panvo new component`, cmake, ctest, install, run."""
+"""Creates a package outside the tree with an installed panvo: `panvo new component`, cmake, ctest, install, run."""
 import argparse
 import os
 import pathlib
@@ -19,7 +19,7 @@ LIMIT_S = 60
 
 
 def claimed_domain():
-    """A DDS domain that no other test uses, see panvo/runtime/test_domain.hpp; the socket that claims it must stay open."""
+    """A DDS domain that no other test uses (see panvo/runtime/test_domain.hpp), and the socket that claims it, which must stay open."""
     for domain in range(1 + os.getpid() % 99, 100):
         claim = socket.socket(socket.AF_UNIX)
         try:
@@ -83,7 +83,7 @@ class OwnPackage(unittest.TestCase):
         return process
 
     def eventually(self, look):
-        """What `look` gives once it is not None. A test that has waited for LIMIT_S fails."""
+        """Calls `look` until its result is not None, and returns it. The test fails after LIMIT_S."""
         end = time.monotonic() + LIMIT_S
         while time.monotonic() < end:
             found = look()

@@ -78,11 +78,11 @@ TEST_F(SimulatedJourney, OfOneSeedIsTheSameByteForByteEvenWhereItWasKilledAndOfA
 
   const auto other = simulate(words("killed", "2"));
   EXPECT_NE(other.status, 0) << "two worlds in one data set";
-  EXPECT_THAT(other.output, HasSubstr("'seed: 1' there, 'seed: 2' asked for"));
+  EXPECT_THAT(other.output, HasSubstr("'seed: 1' there, 'seed: 2' requested"));
 
   const auto resumed = simulate(words("killed", "1"));
   ASSERT_EQ(resumed.status, 0) << resumed.output;
-  EXPECT_THAT(resumed.output, HasSubstr("of 76 instants: goes on"));
+  EXPECT_THAT(resumed.output, HasSubstr("of 76 instants: resuming"));
   const auto again = contents(folder_.path() / "killed");
   ASSERT_EQ(first.size(), again.size());
   for (const auto& [name, bytes] : first) {
@@ -164,7 +164,7 @@ TEST_F(SimulatedJourney, RefusesWhatCannotBeBeforeAnythingIsRendered) {
   fs::create_directories(full);
   write("full/something", "here");
   const std::vector<Refusal> refusals{
-      {{"--route", kShort, "--effects", "snow"}, "there is no effect 'snow'"},
+      {{"--route", kShort, "--effects", "snow"}, "unknown effect 'snow'"},
       {{"--route", folder_ / "no.yaml"}, "no.yaml"},
       {{"--route", broken_route}, "nowhere"},
       {{"--junctions", "gate,library"}, "library"},
@@ -173,7 +173,7 @@ TEST_F(SimulatedJourney, RefusesWhatCannotBeBeforeAnythingIsRendered) {
       {{"--route", kShort, "--start", "10000"}, "nothing to render"},
       {{"--route", kShort, "--assets", folder_ / "none"}, "none"},
       {{"--route", kShort, "--out", full}, "not empty"},
-      {{"--route", kShort, "--out", "/proc/panvo/x"}, "cannot be made"},
+      {{"--route", kShort, "--out", "/proc/panvo/x"}, "cannot be created"},
   };
   for (auto [options, named] : refusals) {
     const auto out = folder_ / "refused";

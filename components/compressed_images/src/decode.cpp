@@ -22,14 +22,14 @@ using sensor_msgs::msg::CompressedImage;
 using sensor_msgs::msg::Image;
 using ImagePtr = std::shared_ptr<const Image>;
 
-/// A file of a few bytes may claim to hold a picture that fills the memory.
+/// Empty if the size is acceptable. Limits memory, since a small file can state a huge size.
 std::string size_problem(std::uint64_t width, std::uint64_t height) {
   constexpr std::uint64_t kMostPixels = 100'000'000;
   constexpr std::uint64_t kLongestSide = 65'535;
   if (width > 0 && height > 0 && width <= kLongestSide && height <= kLongestSide && width * height <= kMostPixels) {
     return "";
   }
-  return fmt::format("says that it is of {} x {} px; up to {} million are read", width, height,
+  return fmt::format("states a size of {} x {} px; at most {} million are supported", width, height,
                      kMostPixels / 1'000'000);
 }
 
@@ -80,9 +80,8 @@ Result<ImagePtr> decode(const CompressedImage& message, Output output) {
   if (jpeg::is_jpeg(message.data())) return decode_jpeg(message, output);
   if (png::is_png(message.data())) return decode_png(message, output);
   if (message.data().empty()) return Reason{"is empty"};
-  return Reason{
-      fmt::format("is neither a JPEG nor a PNG file (its format is said to be '{}'): set the driver to one of them",
-                  message.format())};
+  return Reason{fmt::format("is neither a JPEG nor a PNG file (stated format: '{}'); set the driver to one of them",
+                            message.format())};
 }
 
 }  // namespace panvo::compressed_images

@@ -10,15 +10,15 @@
 namespace panvo::compressed_images {
 
 enum class Output {
-  kSame,   ///< as many channels as the file has
-  kMono8,  ///< grey: a third of the bytes of colour, and of JPEG half the work
+  kSame,   ///< channels as in the file
+  kMono8,  ///< grey: a third of the bytes of colour; for JPEG half the decoding time
 };
 
-/// The image in a JPEG or PNG file that came as a message, under the message's header. What the file is, its first bytes
-/// say; of the message's `format` ("jpeg", "rgb8; jpeg compressed bgr8") only the order of colours is believed.
-/// Encodings: mono8, bgr8 or rgb8 (as `format` begins), of PNG also mono16 and bgra8; colours of 16 bits become 8. The
-/// picture is not turned by what EXIF says: cameras are calibrated as their sensors lie. The reason says what is wrong
-/// with the file: cut off, damaged, of another kind, or larger than 100 million pixels.
+/// Decodes the JPEG or PNG file in a message; the image keeps the message's header. The first bytes determine the file
+/// type. The message's `format` ("jpeg", "rgb8; jpeg compressed bgr8") determines only the colour order: rgb8 if it
+/// begins with rgb, else bgr8. Encodings: mono8, bgr8 or rgb8, for PNG also mono16 and bgra8; 16-bit colour becomes
+/// 8-bit. EXIF rotation is ignored, since calibration refers to the sensor. On failure the result holds the reason:
+/// truncated, damaged, another file type, or more than 100 million pixels.
 conversions::Result<std::shared_ptr<const sensor_msgs::msg::Image>> decode(
     const sensor_msgs::msg::CompressedImage& message, Output output);
 

@@ -30,7 +30,7 @@ jpeg::Order order_of(const cv::Mat& pixels, bool is_rgb) {
   }
 }
 
-/// PNG files are written from BGR.
+/// Converts to BGR order, as png::encode() requires.
 cv::Mat in_bgr_order(const cv::Mat& pixels, bool is_rgb) {
   if (!is_rgb) return pixels;
   cv::Mat bgr;
@@ -44,7 +44,8 @@ Result<std::shared_ptr<const CompressedImage>> encode(const Image& image, const 
   const auto pixels = conversions::view(image);
   if (!pixels) return Reason{pixels.reason()};
   const bool is_jpeg = encoding.kind == Encoding::Kind::kJpeg;
-  if (is_jpeg && pixels->depth() != CV_8U) return Reason{"has 16 bits a pixel, which no JPEG file holds: choose png"};
+  if (is_jpeg && pixels->depth() != CV_8U)
+    return Reason{"has 16 bits per pixel, which JPEG does not support: choose png"};
   const bool is_rgb = image.encoding().starts_with("rgb");
   auto message = std::make_shared<CompressedImage>();
   message->header(image.header());

@@ -15,9 +15,9 @@ struct Encoding {
   int png_level = 1;      ///< 0..9: higher is smaller and slower
 };
 
-/// The image as a JPEG or PNG file under its own header, `format` as ROS 2's image_transport writes it. JPEG: 8 bits,
-/// colour at full resolution (4:4:4) from quality 90 on, at half of it below. PNG keeps every pixel. The reason says what is
-/// wrong with the image, or why the file cannot hold it (16 bits in a JPEG).
+/// Encodes the image as JPEG or PNG with the same header and with `format` as in ROS 2's image_transport. JPEG: 8 bits,
+/// colour at full resolution (4:4:4) from quality 90, at half resolution below. PNG is lossless. On failure the result
+/// holds the reason: an invalid image, or 16 bits for JPEG.
 conversions::Result<std::shared_ptr<const sensor_msgs::msg::CompressedImage>> encode(
     const sensor_msgs::msg::Image& image, const Encoding& encoding);
 

@@ -19,8 +19,7 @@ struct DecoderTopics {
                                   std::string(topics::kStereoRightImageRaw.name), std::string(topics::kPanorama.name)};
   template <class Field>
   static void describe(Field&& field) {
-    field(&DecoderTopics::topics, "topics", "",
-          "images TOPIC that come as TOPIC/compressed; what is decoded is TOPIC/decoded");
+    field(&DecoderTopics::topics, "topics", "", "topics to decode: TOPIC/compressed is published as TOPIC/decoded");
   }
 };
 
@@ -28,13 +27,13 @@ struct DecoderParameters {
   std::string output = "same";
   template <class Field>
   static void describe(Field&& field) {
-    field(&DecoderParameters::output, "output", "",
-          "encoding of the decoded images: as many channels as the file has, or grey", {"same", "mono8"});
+    field(&DecoderParameters::output, "output", "", "encoding of the decoded images: channels as in the file, or grey",
+          {"same", "mono8"});
   }
 };
 
-/// TOPIC/compressed, as ROS 2's image_transport publishes it -> TOPIC/decoded. TOPIC itself stays free: drivers offer it
-/// beside the compressed one, and who reads it would get every image twice.
+/// TOPIC/compressed, as published by ROS 2's image_transport, -> TOPIC/decoded. Does not publish on TOPIC itself, since
+/// drivers often do and readers would receive each image twice.
 class ImageDecoderComponent final : public runtime::Component {
  public:
   explicit ImageDecoderComponent(runtime::Context& context)
@@ -50,7 +49,7 @@ class ImageDecoderComponent final : public runtime::Component {
             if (image) {
               images.publish(*image);
             } else if (context_.rejections().add(compressed, image.reason())) {
-              context_.log().warn("{} {}; it is left out", compressed, image.reason());
+              context_.log().warn("{} {}; image discarded", compressed, image.reason());
             }
           });
     }

@@ -19,7 +19,7 @@ struct EncoderTopics {
                                   std::string(topics::kStereoRightImageRaw.name), std::string(topics::kPanorama.name)};
   template <class Field>
   static void describe(Field&& field) {
-    field(&EncoderTopics::topics, "topics", "", "images to compress: TOPIC becomes TOPIC/compressed");
+    field(&EncoderTopics::topics, "topics", "", "topics to compress: TOPIC is published as TOPIC/compressed");
   }
 };
 
@@ -30,16 +30,17 @@ struct EncoderParameters {
   template <class Field>
   static void describe(Field&& field) {
     using P = EncoderParameters;
-    field(&P::format, "format", "", "of the compressed images: small, or every pixel kept", {"jpeg", "png"});
-    field(&P::jpeg_quality, "jpeg_quality", "", "of jpeg; colours are kept at full resolution from 90 on", 1, 100);
-    field(&P::png_level, "png_level", "", "of png: higher is smaller and slower", 0, 9);
+    field(&P::format, "format", "", "format of the compressed images: jpeg is smaller, png is lossless",
+          {"jpeg", "png"});
+    field(&P::jpeg_quality, "jpeg_quality", "", "quality of jpeg; full colour resolution from 90", 1, 100);
+    field(&P::png_level, "png_level", "", "compression level of png: higher is smaller and slower", 0, 9);
   }
   Encoding encoding() const {
     return {format == "jpeg" ? Encoding::Kind::kJpeg : Encoding::Kind::kPng, jpeg_quality, png_level};
   }
 };
 
-/// TOPIC -> TOPIC/compressed, as ROS 2's image_transport publishes it: for bags, and for who watches over a slow network.
+/// TOPIC -> TOPIC/compressed, as published by ROS 2's image_transport, for bags and slow networks.
 class ImageEncoderComponent final : public runtime::Component {
  public:
   explicit ImageEncoderComponent(runtime::Context& context)
@@ -56,7 +57,7 @@ class ImageEncoderComponent final : public runtime::Component {
             if (file) {
               files.publish(*file);
             } else if (context_.rejections().add(topic, file.reason())) {
-              context_.log().warn("{} {}; it is left out", topic, file.reason());
+              context_.log().warn("{} {}; image discarded", topic, file.reason());
             }
           });
     }

@@ -20,8 +20,8 @@ constexpr std::array kPixelFormats{TJPF_GRAY, TJPF_BGR, TJPF_RGB, TJPF_BGRA, TJP
 
 int pixel_format(Order order) { return kPixelFormats.at(static_cast<std::size_t>(order)); }
 
-/// Many USB cameras pad their files before the end marker: nothing of the picture is lost by that. Only the first warning
-/// of a file is told, so that none hides behind this one.
+/// Many USB cameras insert padding before the end marker, which does not affect the image. libjpeg-turbo reports only
+/// the first warning of a file, so this one hides no other fault.
 bool is_only_padding(const std::string& warning) {
   return warning.find("extraneous bytes before marker 0xd9") != std::string::npos;
 }
@@ -47,7 +47,7 @@ conversions::Result<Header> read_header(std::span<const std::uint8_t> file) {
 std::string decode(std::span<const std::uint8_t> file, const Header& header, Order order, std::size_t step,
                    std::uint8_t* pixels) {
   const Handle handle(tjInitDecompress());
-  // The accurate transform: two decoders of one file differ by a grey value at most.
+  // With the accurate DCT, decoders differ by at most one grey level.
   constexpr int kFlags = TJFLAG_ACCURATEDCT | TJFLAG_LIMITSCANS;
   if (tjDecompress2(handle.get(), file.data(), file.size(), pixels, header.width, static_cast<int>(step), header.height,
                     pixel_format(order), kFlags) == 0) {
@@ -67,7 +67,7 @@ std::vector<std::uint8_t> encode(const std::uint8_t* pixels, int width, int heig
   unsigned long size = file.size();
   if (tjCompress2(handle.get(), pixels, width, static_cast<int>(step), height, pixel_format(order), &data, &size,
                   subsampling, quality, TJFLAG_ACCURATEDCT | TJFLAG_NOREALLOC) != 0) {
-    throw std::runtime_error("no JPEG file can be made: " + std::string(tjGetErrorStr2(handle.get())));
+    throw std::runtime_error("JPEG encoding failed: " + std::string(tjGetErrorStr2(handle.get())));
   }
   file.resize(size);
   return file;

@@ -20,8 +20,8 @@ std::uint32_t big_endian(std::span<const std::uint8_t> bytes) {
   return std::uint32_t{bytes[0]} << 24 | std::uint32_t{bytes[1]} << 16 | std::uint32_t{bytes[2]} << 8 | bytes[3];
 }
 
-/// libpng's reader. OpenCV's would print every damaged file's troubles on stderr. libpng jumps out of its functions on an
-/// error, so that no object with a destructor may be made where it is called from.
+/// PNG reader with libpng, since OpenCV's reader prints errors on stderr. libpng leaves its functions by longjmp on
+/// errors, so functions that call it must not create objects with destructors.
 class Reader {
  public:
   explicit Reader(std::span<const std::uint8_t> file) : rest_(file) {
@@ -33,7 +33,7 @@ class Reader {
   Reader(const Reader&) = delete;
   Reader& operator=(const Reader&) = delete;
 
-  /// The OpenCV type of what read_pixels() will give; -1 on an error.
+  /// Reads the header. Returns the OpenCV type of the pixels from read_pixels(); -1 on an error.
   int begin() {
     if (!info_) return -1;
     if (setjmp(png_jmpbuf(png_)) != 0) return -1;
@@ -72,7 +72,7 @@ class Reader {
   }
 
   std::span<const std::uint8_t> rest_;
-  std::string problem_ = "it has no picture";
+  std::string problem_ = "it has no image";
   png_structp png_ = nullptr;
   png_infop info_ = nullptr;
 };

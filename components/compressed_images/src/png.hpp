@@ -8,7 +8,7 @@
 
 #include "panvo/conversions/result.hpp"
 
-/// PNG files by libpng.
+/// PNG coding: libpng for reading, OpenCV for writing.
 namespace panvo::compressed_images::png {
 
 struct Header {
@@ -16,13 +16,13 @@ struct Header {
 };
 
 bool is_png(std::span<const std::uint8_t> file);
-/// The size only, from the file's first bytes.
+/// Reads only the size from the file's first bytes.
 conversions::Result<Header> read_header(std::span<const std::uint8_t> file);
 
-/// 8 bits in 1, 3 or 4 channels (BGR order), or 16 bits in one; colours of 16 bits become 8.
+/// Decodes to 8 bits in 1, 3 or 4 channels (BGR order) or 16 bits in one; 16-bit colour becomes 8-bit.
 conversions::Result<cv::Mat> decode(std::span<const std::uint8_t> file);
 
-/// 8 or 16 bits in 1, 3 or 4 channels, BGR order.
+/// Encodes 8 or 16 bits in 1, 3 or 4 channels, BGR order.
 std::vector<std::uint8_t> encode(const cv::Mat& pixels, int level);
 
 }  // namespace panvo::compressed_images::png

@@ -7,7 +7,7 @@
 
 namespace panvo::compressed_images {
 
-/// A list of names in which one entry may hold several with blanks between them, as a command line gives them.
+/// Splits entries that hold several names separated by spaces, as given on a command line.
 inline std::vector<std::string> separate_names(const std::vector<std::string>& entries) {
   std::vector<std::string> names;
   for (const std::string& entry : entries) {

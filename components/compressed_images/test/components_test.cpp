@@ -54,7 +54,7 @@ TEST(ImageDecoderComponent, LeavesDamagedImagesOutAndSaysSoOnce) {
   harness.publish(kCompressed, whole);
   EXPECT_THAT(decoded, SizeIs(1));
   harness.publish(kCompressed, damaged);
-  EXPECT_THAT(harness.log(), SizeIs(1));  // in ten seconds
+  EXPECT_THAT(harness.log(), SizeIs(1));  // throttled: once in ten seconds
 }
 
 TEST(ImageEncoderComponent, PublishesWhatADecoderReads) {

@@ -17,7 +17,7 @@ using sensor_msgs::msg::CompressedImage;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
-/// The file as another program writes it.
+/// A message with a file written by OpenCV.
 CompressedImage message(const sensor_msgs::msg::Image& image, const std::string& extension, const std::string& format,
                         const std::vector<int>& settings = {}) {
   CompressedImage message;
@@ -95,7 +95,8 @@ TEST(Decode, BelievesTheFileNotItsFormat) {
 TEST(Decode, RefusesAFileThatIsCutOffAnywhere) {
   for (const char* extension : {".jpg", ".png"}) {
     const auto whole = message(*picture("bgr8"), extension, "");
-    const std::size_t end = whole.data().size() - (std::string(extension) == ".png" ? 13 : 2);  // end markers may lack
+    const std::size_t end =
+        whole.data().size() - (std::string(extension) == ".png" ? 13 : 2);  // end markers may be missing
     for (std::size_t size = 0; size < end; size += 7) {
       auto cut = whole;
       cut.data().resize(size);
@@ -112,7 +113,7 @@ TEST(Decode, RefusesADamagedFileAndNeverFails) {
     for (std::size_t at = 3; at < whole.data().size(); at += 3) {
       auto damaged = whole;
       damaged.data()[at] ^= 0xff;
-      const auto image = decode(damaged, Output::kSame);  // flipped colours are no damage that a JPEG file shows
+      const auto image = decode(damaged, Output::kSame);  // JPEG cannot detect damage that only changes colours
       if (image) {
         EXPECT_EQ((*image)->data().size(), std::size_t{(*image)->step()} * (*image)->height());
       } else {
@@ -147,12 +148,12 @@ TEST(Decode, DoesNotTurnThePictureAsExifSays) {
 TEST(Decode, RefusesWhatSaysThatItIsEnormousBeforeMemoryIsTaken) {
   auto png = message(*picture("mono8"), ".png", "png");
   std::fill(png.data().begin() + 16, png.data().begin() + 24, std::uint8_t{0x7f});
-  EXPECT_THAT(decode(png, Output::kSame).reason(), HasSubstr("says that it is of 2139062143 x 2139062143 px"));
+  EXPECT_THAT(decode(png, Output::kSame).reason(), HasSubstr("states a size of 2139062143 x 2139062143 px"));
   auto jpeg = message(*picture("mono8"), ".jpg", "jpeg");
   constexpr std::uint8_t kFrame[] = {0xff, 0xc0};
   const auto frame = std::search(jpeg.data().begin(), jpeg.data().end(), std::begin(kFrame), std::end(kFrame));
   std::fill(frame + 5, frame + 9, std::uint8_t{0x7f});
-  EXPECT_THAT(decode(jpeg, Output::kSame).reason(), HasSubstr("32639 x 32639 px; up to 100 million"));
+  EXPECT_THAT(decode(jpeg, Output::kSame).reason(), HasSubstr("32639 x 32639 px; at most 100 million"));
 }
 
 TEST(Decode, NamesWhatItDoesNotRead) {
@@ -160,7 +161,7 @@ TEST(Decode, NamesWhatItDoesNotRead) {
   other.format("h264");
   EXPECT_EQ(decode(other, Output::kSame).reason(), "is empty");
   other.data({0, 0, 0, 1, 0x67});
-  EXPECT_THAT(decode(other, Output::kSame).reason(), HasSubstr("its format is said to be 'h264'"));
+  EXPECT_THAT(decode(other, Output::kSame).reason(), HasSubstr("stated format: 'h264'"));
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ namespace panvo::compressed_images {
 
 constexpr std::int64_t kStampNs = 1'700'000'000'123'456'789;
 
-/// A smooth picture, as lenses make them, with another slope in each channel: channels that are swapped show.
+/// A smooth image with different gradients in each channel, so that swapped channels are detected.
 inline std::shared_ptr<sensor_msgs::msg::Image> picture(const std::string& encoding, int width = 64, int height = 48) {
   auto image = conversions::make_image(kStampNs, "left_camera", encoding, width, height);
   cv::Mat pixels = conversions::pixels(*image);
@@ -36,7 +36,7 @@ inline std::shared_ptr<sensor_msgs::msg::Image> picture(const std::string& encod
   return image;
 }
 
-/// The largest difference of two images' pixels; -1 for images of another size or encoding.
+/// Largest difference of two images' pixel bytes; -1 if size or encoding differ.
 inline int largest_difference(const sensor_msgs::msg::Image& one, const sensor_msgs::msg::Image& other) {
   if (one.encoding() != other.encoding() || one.width() != other.width() || one.height() != other.height()) return -1;
   int largest = 0;

@@ -21,7 +21,7 @@ std::filesystem::path bag() {
 }
 
 TEST(RecordedImages, AreDecodedAsAnotherDecoderDoes) {
-  if (!std::filesystem::exists(bag())) GTEST_SKIP() << bag() << " is not there: set PANVO_DATA";
+  if (!std::filesystem::exists(bag())) GTEST_SKIP() << bag() << " is missing: set PANVO_DATA";
   runtime::ComponentHarness harness;
   const auto& files = harness.collect(interfaces::Topic<CompressedImage>{"/image/compressed"});
   const auto& decoded = harness.collect(interfaces::Topic<Image>{"/image/decoded"});

@@ -8,8 +8,8 @@
 
 namespace panvo::evaluation {
 
-/// BRIEF of a square patch: 256 comparisons of two smoothed pixels each, sampled around the centre from an isotropic Gaussian
-/// of variance S^2/25 (Calonder et al. 2010).
+/// BRIEF of a square patch: 256 comparisons of two smoothed pixels each, sampled around the centre from an isotropic
+/// Gaussian of variance S^2/25 (Calonder et al. 2010).
 class BriefPattern {
  public:
   static constexpr int kPatch_px = 60;  ///< S
@@ -19,7 +19,8 @@ class BriefPattern {
   /// The comparisons depend only on the seed, not on the machine.
   explicit BriefPattern(std::uint64_t seed);
 
-  /// Describes the patch that starts at column `left` of a smoothed image with kPatch_px rows (CV_8UC1); columns wrap around.
+  /// Describes the patch that starts at column `left` of a smoothed image with kPatch_px rows (CV_8UC1); columns wrap
+  /// around.
   Bits describe(const cv::Mat& smoothed, int left) const;
 
  private:

@@ -39,7 +39,8 @@ int main(int argc, char** argv) {
   app.add_option("expected", expected, "folder of the earlier run")->required();
   app.add_option("--within-m", tolerance.position_m, "position tolerance, m (default: bit-identical)")
       ->check(CLI::NonNegativeNumber);
-  app.add_option("--within-deg", tolerance.rotation_deg, "orientation tolerance, degrees")->check(CLI::NonNegativeNumber);
+  app.add_option("--within-deg", tolerance.rotation_deg, "orientation tolerance, degrees")
+      ->check(CLI::NonNegativeNumber);
   try {
     app.parse(argc, argv);
     return print(panvo::evaluation::compare_runs(run, expected, tolerance));

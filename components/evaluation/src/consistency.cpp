@@ -113,7 +113,7 @@ MotionCovariances read_motion_covariances(const std::filesystem::path& file) {
     const Fields fields(file, line, ',');
     fields.expect(kColumns, false, "stamp_ns, p00..p55, t00..t55, vx,vy,vz,wx,wy,wz");
     if (!covariances.emplace(fields.integer(0), MotionCovariance{matrix_at(fields, 1), matrix_at(fields, 37)}).second) {
-      fields.fail("duplicate stamp " + std::to_string(fields.integer(0)), "remove repeated lines");
+      fields.fail("the stamp " + std::to_string(fields.integer(0)) + " occurs twice", "remove repeated lines");
     }
   }
   return covariances;

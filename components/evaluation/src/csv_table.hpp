@@ -11,8 +11,8 @@
 
 namespace panvo::evaluation {
 
-/// A line of a CSV file with the requested columns in the requested order. Each reader throws InputError (file, line, remedy) for
-/// an invalid field.
+/// A line of a CSV file with the requested columns in the requested order. Each reader throws InputError (file, line,
+/// remedy) for an invalid field.
 class CsvRow {
  public:
   CsvRow(std::filesystem::path file, std::size_t line, std::vector<std::string> fields)
@@ -33,8 +33,9 @@ class CsvRow {
   std::vector<std::string> fields_;
 };
 
-/// Reads the rows below the header, of which there may be none. Fields may be quoted. Throws InputError for a missing file, a
-/// missing header, a header without one of `columns`, and a line whose number of fields differs from the header's.
+/// Reads the rows below the header, of which there may be none. Fields may be quoted. Throws InputError for a missing
+/// file, a missing header, a header without one of `columns`, and a line whose number of fields differs from the
+/// header's.
 std::vector<CsvRow> read_csv(const std::filesystem::path& file, const std::vector<std::string>& columns);
 
 /// Appends "prefixx", "prefixy" .. "prefixqw", the columns that CsvRow::pose expects.

@@ -6,8 +6,8 @@
 
 namespace panvo::evaluation {
 
-// Runs gnuplot on `script` (a file name in `folder`) with `folder` as working folder, without start-up files or a shell.
-// Throws PlotError, with gnuplot's output, if it is not installed or fails.
+// Runs gnuplot on `script` (a file name in `folder`) with `folder` as working folder, without start-up files or a
+// shell. Throws PlotError, with gnuplot's output, if it is not installed or fails.
 void run_gnuplot(const std::filesystem::path& folder, const std::string& script);
 
 // Writes `text` to `script` in `folder`, then runs it. Throws PlotError also if writing fails.

@@ -47,8 +47,8 @@ std::string table(const AzimuthScore& score) {
                     turn(kind.binocular_rms_rad), turn(kind.compass_rms_rad), turn(kind.enhanced_rms_rad),
                     turn(kind.binocular_worst_rad), turn(kind.compass_worst_rad), turn(kind.enhanced_worst_rad)});
   }
-  return html_table({"kind", "episodes", "duration<br>s", "binocular<br>rms °", "compass<br>rms °",
-                     "enhanced<br>rms °", "binocular<br>worst °", "compass<br>worst °", "enhanced<br>worst °"},
+  return html_table({"kind", "episodes", "duration<br>s", "binocular<br>rms °", "compass<br>rms °", "enhanced<br>rms °",
+                     "binocular<br>worst °", "compass<br>worst °", "enhanced<br>worst °"},
                     rows, 1);
 }
 

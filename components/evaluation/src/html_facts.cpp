@@ -11,8 +11,7 @@ void add(std::string& list, const std::string& name, const std::string& value) {
 }
 
 void add_facts(std::string& list, const RunFacts& facts) {
-  add(list, "system",
-      facts.system + (facts.is_replay ? ", replayed (deterministic)" : ", not replayed"));
+  add(list, "system", facts.system + (facts.is_replay ? ", replayed (deterministic)" : ", not replayed"));
   add(list, "version", facts.version);
   add(list, "seed of the run", facts.seed);
   std::vector<std::string> changed;
@@ -20,9 +19,10 @@ void add_facts(std::string& list, const RunFacts& facts) {
   add(list, "changed parameters", changed.empty() ? "none" : joined(changed));
   if (facts.wall_s) {
     add(list, "run time",
-        fmt::format("{:.0f} s{}{}", *facts.wall_s,
-                    facts.cpu_s ? fmt::format(", {:.0f} s of CPU time", *facts.cpu_s) : std::string(),
-                    facts.peak_memory_mb ? fmt::format(", peak memory {:.0f} MB", *facts.peak_memory_mb) : std::string()));
+        fmt::format(
+            "{:.0f} s{}{}", *facts.wall_s,
+            facts.cpu_s ? fmt::format(", {:.0f} s of CPU time", *facts.cpu_s) : std::string(),
+            facts.peak_memory_mb ? fmt::format(", peak memory {:.0f} MB", *facts.peak_memory_mb) : std::string()));
   }
   for (const auto& problem : facts.problems) add(list, "problem", problem);
 }

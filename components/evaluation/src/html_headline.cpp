@@ -41,16 +41,16 @@ std::string page_headline(const JourneyReport& report) {
            : std::string()) +
       ". All figures are for poses as published, with aligned starts, without smoothing or later alignment.</p>\n<div "
       "class=\"tiles\">\n";
-  text += tile(
-      metres(paths.enhanced.flat_m.rmse) + " m",
-      fmt::format("2D rms error; binocular odometry alone: {} m", metres(paths.binocular.flat_m.rmse)));
+  text += tile(metres(paths.enhanced.flat_m.rmse) + " m",
+               fmt::format("2D rms error; binocular odometry alone: {} m", metres(paths.binocular.flat_m.rmse)));
   text += tile(fmt::format("{:.1f} %", 100.0 * paths.ratio),
-               is_better ? "of the binocular 2D rms error" : "of the binocular 2D rms error: worse than without landmarks");
-  text += tile(metres(paths.enhanced.percent_of_way, 3) + " %",
-               "2D rms error over the distance travelled; binocular: " + metres(paths.binocular.percent_of_way, 3) + " %");
+               is_better ? "of the binocular 2D rms error" : "of the binocular 2D rms error (worse)");
+  text +=
+      tile(metres(paths.enhanced.percent_of_way, 3) + " %",
+           "2D rms error over the distance travelled; binocular: " + metres(paths.binocular.percent_of_way, 3) + " %");
   text += tile(fmt::format("{} of {}", revisits.corrected + revisits.heading_only, revisits.listed),
-               fmt::format("revisits corrected the pose; {} given up, {} rejected, {} missed",
-                           revisits.given_up, revisits.rejected, revisits.missed));
+               fmt::format("revisits corrected the pose; {} given up, {} rejected, {} missed", revisits.given_up,
+                           revisits.rejected, revisits.missed));
   text += tile(fmt::format("<span class=\"{}\">{}</span>", revisits.wrong == 0 ? "good" : "bad", revisits.wrong),
                fmt::format("of {} applied corrections wrong", revisits.applied.size()));
   text += tile(turn(paths.enhanced.heading_rad.rmse) + "°",
@@ -59,9 +59,9 @@ std::string page_headline(const JourneyReport& report) {
                fmt::format("largest error, after {:.0f} m; binocular: {} m", paths.enhanced.worst_at_m,
                            metres(paths.binocular.worst_m)));
   if (paths.consistency) {
-    text += tile(fmt::format("{:.0f} %", 100.0 * paths.consistency->plane.inside_95),
-                 fmt::format("of the poses within their 95 % bound; mean NEES {:.1f} of 3",
-                             paths.consistency->plane.mean));
+    text +=
+        tile(fmt::format("{:.0f} %", 100.0 * paths.consistency->plane.inside_95),
+             fmt::format("of the poses within their 95 % bound; mean NEES {:.1f} of 3", paths.consistency->plane.mean));
   }
   return text + "</div>\n</header>\n";
 }

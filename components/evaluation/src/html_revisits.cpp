@@ -65,8 +65,9 @@ std::string card(const JourneyFrames& frames, const Revisit& revisit) {
       to_string(revisit.result), revisit.is_wrong ? ", wrong" : "");
   text += fmt::format("<p>After {:.0f} m", revisit.travelled_m);
   if (revisit.landmark) text += fmt::format(", landmark {}", *revisit.landmark);
-  text += fmt::format(", entrance heading <b>{}°</b> relative to the first visit, viewpoints <b>{} m</b> apart. {}.</p>\n",
-                      degrees(revisit.entrance_rad, 0), metres(revisit.distance_m, 1), error_words(revisit));
+  text +=
+      fmt::format(", entrance heading <b>{}°</b> relative to the first visit, viewpoints <b>{} m</b> apart. {}.</p>\n",
+                  degrees(revisit.entrance_rad, 0), metres(revisit.distance_m, 1), error_words(revisit));
   if (!revisit.reason.empty()) {
     text += fmt::format("<p>Reason: {}.</p>\n", html(revisit.reason));
   }
@@ -78,15 +79,15 @@ std::string card(const JourneyFrames& frames, const Revisit& revisit) {
   }
   const auto pair = panorama_pair(then->file, now->file, revisit.heading_rad.value_or(revisit.true_heading_rad));
   text += picture(pair);
-  text += fmt::format(
-      "<p>Above: {}. Below: now, rotated by {}°{} so that distant objects line up. {}</p>\n",
-      revisit.landmark ? "at the creation of the landmark" : "at the first visit",
-      degrees(revisit.heading_rad.value_or(revisit.true_heading_rad)),
-      revisit.heading_rad ? fmt::format(", as estimated (true: {}°),", degrees(revisit.true_heading_rad))
-                          : " (true value)",
-      pair.inliers.empty()
-          ? fmt::format("{} SIFT matches, not consistent with one motion.", pair.matches)
-          : fmt::format("Lines: {} of {} SIFT matches, consistent with one motion.", pair.inliers.size(), pair.matches));
+  text +=
+      fmt::format("<p>Above: {}. Below: now, rotated by {}°{} so that distant objects line up. {}</p>\n",
+                  revisit.landmark ? "at the creation of the landmark" : "at the first visit",
+                  degrees(revisit.heading_rad.value_or(revisit.true_heading_rad)),
+                  revisit.heading_rad ? fmt::format(", as estimated (true: {}°),", degrees(revisit.true_heading_rad))
+                                      : " (true value)",
+                  pair.inliers.empty() ? fmt::format("{} SIFT matches, not consistent with one motion.", pair.matches)
+                                       : fmt::format("Lines: {} of {} SIFT matches, consistent with one motion.",
+                                                     pair.inliers.size(), pair.matches));
   return text + "</article>\n";
 }
 
@@ -99,11 +100,10 @@ std::string revisits_section(const JourneyReport& report) {
   }
   std::string cards;
   for (const auto& revisit : revisits) cards += card(report.run.frames, revisit);
-  return html_section(
-      "Revisits, one by one",
-      "Above: panorama of the landmark. Below: panorama of the revisit. Lines: SIFT matches, recomputed for this report "
-      "from the two images only.",
-      cards);
+  return html_section("Revisits, one by one",
+                      "Above: panorama of the landmark. Below: panorama of the revisit. Lines: SIFT matches, "
+                      "recomputed for this report from the two images only.",
+                      cards);
 }
 
 }  // namespace panvo::evaluation

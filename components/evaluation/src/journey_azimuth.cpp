@@ -18,7 +18,8 @@ constexpr std::int64_t kAround_ns = 3 * kSecond_ns;       // shown by a curve be
 
 double wrapped(double angle_rad) { return vision::wrap(angle_rad, 2.0 * std::numbers::pi); }
 
-/// Intervals of consecutive unreliable frames; each starts at the frame before, where the first unreliable motion starts.
+/// Intervals of consecutive unreliable frames; each starts at the frame before, where the first unreliable motion
+/// starts.
 std::vector<Disturbance> unreliable_stretches(const std::vector<RunQuality>& qualities) {
   std::vector<Disturbance> stretches;
   for (std::size_t i = 0; i < qualities.size(); ++i) {

@@ -33,7 +33,8 @@ class JourneyErrors {
   double travelled_m(std::int64_t stamp_ns) const { return path_.travelled_m(stamp_ns); }
 
   std::optional<FlatError> of_map(const Eigen::Isometry3d& map_from_base, std::int64_t stamp_ns) const;
-  /// If the clocks of both journeys overlap, the landmark is assigned to the journey whose vehicle was nearer at its stamp.
+  /// If the clocks of both journeys overlap, the landmark is assigned to the journey whose vehicle was nearer at its
+  /// stamp.
   LandmarkTruth landmark(const RunLandmark& landmark) const;
   std::optional<FlatError> of_binocular(std::int64_t stamp_ns) const;
   std::optional<FlatError> of_enhanced(std::int64_t stamp_ns) const;

@@ -9,9 +9,7 @@ namespace {
 
 Eigen::Isometry3d start_of(const Trajectory& estimate, const Trajectory& truth) {
   const auto aligned = align(associate(estimate, truth).pairs, Alignment::kStart);
-  if (!aligned) {
-    throw InputError(estimate.source, "cannot be aligned with the ground truth", "use a recording in which the vehicle moves");
-  }
+  if (!aligned) throw InputError(estimate.source, "cannot be aligned with ground truth", "the vehicle must move");
   return aligned->rigid;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// panvo_evaluate_journey: compares a journey of the enhanced odometry with ground truth: Tables 2 to 4, trajectories, azimuth, report.
+// panvo_evaluate_journey: compares a journey of the enhanced odometry with ground truth.
 #include <CLI/CLI.hpp>
 #include <exception>
 #include <filesystem>

@@ -63,8 +63,9 @@ std::string paths_script(const JourneyReport& report) {
                                     applied.after_position_m.y() - applied.before_position_m.y());
                }) +
          fmt::format(
-             "plot $truth with lines lw 7 lc rgb '{}' title 'ground truth', $binocular with lines lw 2 lc rgb '{}' title "
-             "'binocular', $enhanced with lines lw 2 lc rgb '{}' title 'enhanced', $landmarks with points pt 7 ps 0.9 "
+             "plot $truth with lines lw 7 lc rgb '{}' title 'ground truth', $binocular with lines lw 2 lc rgb '{}' "
+             "title 'binocular', $enhanced with lines lw 2 lc rgb '{}' title 'enhanced', $landmarks with points pt 7 "
+             "ps 0.9 "
              "lc rgb '{}' title 'landmarks', $corrections using 1:2:3:4 with vectors lw 1.5 lc rgb '{}' title "
              "'corrections'\n",
              kTruthColour, kColours[1], kColours[0], kColours[4], kColours[2]);
@@ -107,7 +108,8 @@ std::string azimuth_script(const AzimuthCurve& curve) {
         "lc rgb '{2}' title 'compass alone', $enhanced using 1:{0} with lines lw 2 lc rgb '{3}' title 'enhanced'\n",
         column, kColours[1], kColours[2], kColours[0]);
   };
-  script += fmt::format("plot $truth using 1:2 with lines lw 7 lc rgb '{}' title 'ground truth', ", kTruthColour) + curves(2);
+  script +=
+      fmt::format("plot $truth using 1:2 with lines lw 7 lc rgb '{}' title 'ground truth', ", kTruthColour) + curves(2);
   return script + "unset title\nset xlabel 'time since the start (s)'\nset ylabel 'error (deg)'\nplot " + curves(3) +
          "unset multiplot\n";
 }

@@ -14,8 +14,8 @@
 namespace panvo::evaluation {
 namespace {
 
-// Distance travelled before and after the closest approach that belongs to a visit: a landmark is not at the centre of its
-// junction and is recognised some metres before and after. Junctions in a town are two or three times as far apart.
+// Distance travelled before and after the closest approach that belongs to a visit: a landmark is not at the centre of
+// its junction and is recognised some metres before and after. Junctions in a town are two or three times as far apart.
 constexpr double kReach_m = 25.0;
 constexpr double kWrong_m = 1.0;  // tolerance of a correction, in addition to the landmark's own error
 

@@ -75,7 +75,8 @@ std::string paper_text(bool is_second_journey) {
                std::string(row.route), metres(row.entrance_deg, 0), metres(row.binocular_m, 1),
                metres(row.enhanced_m, 1), metres(row.travelled_m, 0)});
   }
-  return fmt::format("Table {} of the paper [Lu2015 7.3], on another campus\n", is_second_journey ? 4 : 2) + table.text();
+  return fmt::format("Table {} of the paper [Lu2015 7.3], on another campus\n", is_second_journey ? 4 : 2) +
+         table.text();
 }
 
 std::string stages_text(const std::vector<StageRow>& stages) {

@@ -36,7 +36,8 @@ inline std::size_t width_of(const std::string& text) {
       std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
 }
 
-/// Text table with columns as wide as their widest cell; the first `left_columns` are left-aligned, the others right-aligned.
+/// Text table with columns as wide as their widest cell; the first `left_columns` are left-aligned, the others
+/// right-aligned.
 class TextTable {
  public:
   TextTable(std::vector<std::string> header, std::size_t left_columns)

@@ -50,8 +50,7 @@ const std::map<std::string, AssociationMethod> kMethods{{"interpolate", Associat
                                                         {"nearest", AssociationMethod::kNearest}};
 
 void describe(CLI::App& app, Arguments& arguments) {
-  app.add_option("estimate", arguments.estimate, "run folder, or trajectory (TUM, EuRoC csv, KITTI poses)")
-      ->required();
+  app.add_option("estimate", arguments.estimate, "run folder, or trajectory (TUM, EuRoC csv, KITTI poses)")->required();
   app.add_option("ground_truth", arguments.ground_truth, "data set folder (EuRoC/ASL, KITTI), or trajectory")
       ->required();
   app.add_option("--name", arguments.name, "name of the estimate (default: name of its folder or file)");
@@ -64,7 +63,7 @@ void describe(CLI::App& app, Arguments& arguments) {
   app.add_option("--align", arguments.alignment, "alignment of the plot and of errors.csv")
       ->check(CLI::IsMember(kAlignments).description("{none,start,se3,sim3}"))
       ->capture_default_str();
-  app.add_option("--segments", arguments.lengths_m, "lengths of the KITTI segments, m: 10,20,30 (default: depends on the path)")
+  app.add_option("--segments", arguments.lengths_m, "lengths of the KITTI segments, m: 10,20,30 (default: automatic)")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->check(CLI::PositiveNumber);
@@ -96,7 +95,8 @@ void describe(CLI::App& app, Arguments& arguments) {
   app.add_flag("--no-plot", arguments.no_plot, "do not draw a plot");
 }
 
-// Name of the data set, such as "kitti_03": for a file the name of its folder, because "poses" or "data" would say little.
+// Name of the data set, such as "kitti_03": for a file the name of its folder, because "poses" or "data" would say
+// little.
 std::string default_title(const fs::path& ground_truth) {
   fs::path path = fs::weakly_canonical(ground_truth);
   if (!fs::is_directory(path)) path = path.parent_path();

@@ -12,8 +12,8 @@
 
 namespace panvo::evaluation {
 
-/// The panoramas of a landmark and of a revisit. The second is rotated by the heading so that distant objects line up. Both are a
-/// band around the horizon, 1080 columns.
+/// The panoramas of a landmark and of a revisit. The second is rotated by the heading so that distant objects line up.
+/// Both are a band around the horizon, 1080 columns.
 struct PanoramaPair {
   struct Match {
     Eigen::Vector2d landmark_px, revisit_px;  ///< in the bands; the second after the rotation

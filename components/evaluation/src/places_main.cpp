@@ -48,7 +48,7 @@ struct Arguments {
 };
 
 void describe(CLI::App& app, Arguments& arguments) {
-  app.add_option("recording", arguments.recording, "EuRoC/ASL data set with panoramas (cam2), ground truth and sequence.yaml")
+  app.add_option("recording", arguments.recording, "EuRoC/ASL data set with cam2, ground truth and sequence.yaml")
       ->required();
   app.add_option("--library-from", arguments.library_from,
                  "earlier recording of the same area, from which the library is built");
@@ -57,7 +57,7 @@ void describe(CLI::App& app, Arguments& arguments) {
   app.add_option("--position-sigma", arguments.position_sigma_m,
                  "give the matcher the position with this standard deviation, m; negative: search the whole library")
       ->capture_default_str();
-  app.add_option("--curves", arguments.curves, "maximum number of plots of the distance along a pass by a place (Fig. 7)")
+  app.add_option("--curves", arguments.curves, "maximum number of plots of distances along a pass (Fig. 7)")
       ->capture_default_str();
   app.add_flag("--only-table", arguments.only_table, "only Table 1 and its plots, without matching the whole journey");
 }
@@ -173,8 +173,8 @@ int run(const Arguments& arguments) {
   for (std::size_t i = 0; i < curves; ++i) {
     const auto& revisit = task.revisits[i];
     draw_local_curves(local_curves(compared, task, revisit, first, recording, kReach_m),
-                      fmt::format("place {}, offset {:.1f} m, entrance {:+.0f} deg",
-                                  task.places[revisit.known].place, revisit.offset_m, revisit.entrance_rad * kDegrees),
+                      fmt::format("place {}, offset {:.1f} m, entrance {:+.0f} deg", task.places[revisit.known].place,
+                                  revisit.offset_m, revisit.entrance_rad * kDegrees),
                       static_cast<int>(i + 1), out);
   }
   std::cout << fmt::format("\npictures and places.json: {}\n", out.string());
@@ -186,8 +186,8 @@ int run(const Arguments& arguments) {
 int main(int argc, char** argv) {
   Arguments arguments;
   CLI::App app(
-      "Evaluates place recognition on a recording with known revisits: Table 1, Figs. 6 and 7 of [Lu2015], and matching "
-      "of the whole journey",
+      "Evaluates place recognition on a recording with known revisits: Table 1, Figs. 6 and 7 of [Lu2015], and "
+      "matching of the whole journey",
       "panvo evaluate places");
   describe(app, arguments);
   CLI11_PARSE(app, argc, argv);

@@ -27,8 +27,8 @@ class PlotCanvas {
   const std::string& text() const { return text_; }
   PlotCanvas& line(const std::string& text);
 
-  // `$name << E ... E` with `size` rows, each from a call of write(canvas, i); decimated evenly to about kMostRows rows,
-  // including the last.
+  // `$name << E ... E` with `size` rows, each from a call of write(canvas, i); decimated evenly to about kMostRows
+  // rows, including the last.
   template <class Write>
   void data_block(const std::string& name, std::size_t size, const Write& write) {
     constexpr std::size_t kMostRows = 3000;

@@ -25,8 +25,7 @@ std::vector<fs::path> result_files(const fs::path& folder) {
     if (extension == ".tum" || extension == ".csv") files.push_back(entry.path());
   }
   if (files.empty()) {
-    throw InputError(folder, "holds no results (*.tum, *.csv)",
-                     "name a run folder (--out of `panvo run`)");
+    throw InputError(folder, "holds no results (*.tum, *.csv)", "name a run folder (--out of `panvo run`)");
   }
   std::sort(files.begin(), files.end());
   return files;
@@ -38,7 +37,8 @@ bool is_number(const std::string& field) {
   return end != field.c_str() && *end == '\0';
 }
 
-/// Whether both are measured numbers, which may be rounded differently on another machine: at least one has a decimal point or an exponent.
+/// Whether both are measured numbers, which may be rounded differently on another machine: at least one has a decimal
+/// point or an exponent.
 bool are_measured(const std::string& a, const std::string& b) {
   const auto has_point = [](const std::string& field) { return field.find_first_of(".e") != std::string::npos; };
   return is_number(a) && is_number(b) && (has_point(a) || has_point(b));
@@ -115,8 +115,8 @@ void compare_poses(const fs::path& file, const fs::path& expected, const RunTole
     comparison.worst_m = std::max(*comparison.worst_m, apart_m);
     comparison.worst_deg = std::max(*comparison.worst_deg, apart_deg);
     if (apart_m > tolerance.position_m || apart_deg > tolerance.rotation_deg) {
-      differs("pose " + std::to_string(i + 1) + " differs by " + to_text(apart_m, 3) + " m and " + to_text(apart_deg, 3) +
-              " deg");
+      differs("pose " + std::to_string(i + 1) + " differs by " + to_text(apart_m, 3) + " m and " +
+              to_text(apart_deg, 3) + " deg");
     }
   }
 }

@@ -116,7 +116,8 @@ void add_absolute(Table& table) {
     return e.rotation_start_deg ? Cell(to_text(e.rotation_start_deg->rmse, 3)) : std::nullopt;
   });
   table.row("at the end", "m", [](const Evaluation& e) { return cell(e.end_error_m, 3); });
-  table.row("at the end, relative to path length", "%", [](const Evaluation& e) { return cell(e.end_error_percent, 3); });
+  table.row("at the end, relative to path length", "%",
+            [](const Evaluation& e) { return cell(e.end_error_percent, 3); });
   table.row("rotation at the end", "deg", [](const Evaluation& e) { return cell(e.end_rotation_deg, 3); });
   table.section("absolute trajectory error, aligned by SE3");
   table.summary("", "m", 3, [](const Evaluation& e) { return e.ate_se3_m; });

@@ -85,7 +85,7 @@ Fields::Fields(const std::filesystem::path& file, const Line& line, char separat
 
 void Fields::expect(std::size_t count, bool or_more, std::string_view layout) const {
   if (size() == count || (or_more && size() > count)) return;
-  fail(std::to_string(size()) + " fields, expected " + std::to_string(count),
+  fail(std::to_string(size()) + " fields, " + std::to_string(count) + " expected",
        "each line must read: " + std::string(layout));
 }
 

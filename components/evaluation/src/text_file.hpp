@@ -16,13 +16,15 @@ struct Line {
   std::string text;
 };
 
-// Skips blank lines and comments. Throws InputError if the file is missing, a folder, unreadable, or has no other lines.
+// Skips blank lines and comments. Throws InputError if the file is missing, a folder, unreadable, or has no other
+// lines.
 std::vector<Line> read_lines(const std::filesystem::path& file);
 
 // The fields of one line. Errors name file, line and field.
 class Fields {
  public:
-  // ',' splits at commas, ' ' at any white space. Keeps references to `file` and `line`, which must outlive this object.
+  // ',' splits at commas, ' ' at any white space. Keeps references to `file` and `line`, which must outlive this
+  // object.
   Fields(const std::filesystem::path& file, const Line& line, char separator);
 
   std::size_t size() const { return fields_.size(); }

@@ -19,7 +19,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Values valid from a stamp on. Of several values with one stamp the first counts, because it was published with the pose.
+/// Values valid from a stamp on. Of several values with one stamp the first counts, because it was published with the
+/// pose.
 template <class Said>
 using Timeline = std::map<std::int64_t, Said>;
 
@@ -34,7 +35,8 @@ struct Integrity {
   double level_m;
 };
 
-/// Like read_tum, but for stamps in any order; returns sorted poses. Of several poses with one stamp, the first is used.
+/// Like read_tum, but for stamps in any order; returns sorted poses. Of several poses with one stamp, the first is
+/// used.
 std::vector<StampedPose> read_poses(const fs::path& file) {
   std::map<std::int64_t, StampedPose> poses;
   for (const auto& line : read_lines(file)) {

@@ -15,8 +15,9 @@
 
 namespace panvo::evaluation {
 
-/// The estimates drift to the left by 2 cm and turn by 0.5 mrad per metre. Place 7 is passed after 10 m and, on the way back, after
-/// 90 m, where the enhanced pose is corrected to an error of 0.25 m without heading error. Its landmark has an error of 0.2 m.
+/// The estimates drift to the left by 2 cm and turn by 0.5 mrad per metre. Place 7 is passed after 10 m and, on the way
+/// back, after 90 m, where the enhanced pose is corrected to an error of 0.25 m without heading error. Its landmark has
+/// an error of 0.2 m.
 class MadeJourney : public TemporaryFolder {
  protected:
   static constexpr int kSeconds = 100;

@@ -54,7 +54,8 @@ TEST_F(Journey, IsScoredFromWhereItWasLocated) {
 TEST_F(Journey, HasTheConsistencyOfThePublishedPose) {
   const auto nees = score_paths(frames()).consistency;
   ASSERT_TRUE(nees);
-  // Errors of one standard deviation to the left and in heading up to 89 s, then only to the left. No covariance at 0 s.
+  // Errors of one standard deviation to the left and in heading up to 89 s, then only to the left. No covariance at 0
+  // s.
   EXPECT_NEAR(nees->plane.mean, (89.0 * 2.0 + 11.0) / 100.0, 1e-4);
   EXPECT_NEAR(nees->full.mean, (89.0 * 2.0 + 11.0) / 100.0, 1e-4);
   EXPECT_EQ(nees->plane.dimension, 3);

@@ -57,7 +57,7 @@ TEST_F(JourneyRevisits, AreComparedWithTheTruthOfWhenPanoramasWereTaken) {
   }
   auto recording = read_journey_recording(folder_ / "recording");
   EXPECT_NEAR(*score_revisits(journey_frames(run, recording, nullptr)).revisits[0].after_m, 2.0, 0.1)
-      << "two metres further on, as far as anybody knows";
+      << "compared two metres further on, because the clock offset is unknown";
   recording.panorama_clock_offset_ns = kAhead_ns;
   const auto frames = journey_frames(run, recording, nullptr);
   const auto found = score_revisits(frames);
@@ -71,7 +71,7 @@ TEST_F(JourneyRevisits, AreComparedWithTheTruthOfWhenPanoramasWereTaken) {
   EXPECT_EQ(revisit.landmark_stamp_ns, stamp(10));
   const auto azimuth = score_azimuth(frames);
   ASSERT_FALSE(azimuth.episodes.empty());
-  EXPECT_NEAR(*azimuth.episodes.back().compass_rad, 0.01, 1e-6) << "a milliradian each of ten seconds";
+  EXPECT_NEAR(*azimuth.episodes.back().compass_rad, 0.01, 1e-6) << "one milliradian in each of ten seconds";
 }
 
 TEST_F(JourneyRevisits, GoFromTheFirstOfSeveralCorrectionsToTheLast) {
@@ -90,7 +90,7 @@ TEST_F(JourneyRevisits, CountACorrectionThatLeadsAway) {
   EXPECT_EQ(score().wrong, 1);
   EXPECT_TRUE(score().revisits[0].is_wrong);
   write_outcomes(outcome(90, "applied", binocular(90), off(90, 2.75, 0.0)));
-  EXPECT_EQ(score().wrong, 0) << "less than a metre further off than before";
+  EXPECT_EQ(score().wrong, 0) << "error less than a metre larger than before";
 }
 
 TEST_F(JourneyRevisits, DoNotBlameACorrectionForItsLandmark) {
@@ -170,7 +170,7 @@ TEST_F(JourneyRevisits, OfASecondJourneyAreThoseOfTheFirst) {
   const auto recording = read_journey_recording(folder_ / "recording");
   const auto earlier = read_journey_recording(folder_ / "earlier");
   const auto found = score_revisits(journey_frames(run, recording, &earlier));
-  ASSERT_EQ(found.revisits.size(), 2U) << "the first pass of this journey is one, too";
+  ASSERT_EQ(found.revisits.size(), 2U) << "the first pass of this journey is also a revisit";
   EXPECT_EQ(found.revisits[0].result, RevisitResult::kMissed);
   EXPECT_NEAR(found.revisits[0].entrance_rad, 0.0, 1e-9);
   EXPECT_TRUE(found.revisits[0].landmark_was_earlier);
@@ -178,7 +178,8 @@ TEST_F(JourneyRevisits, OfASecondJourneyAreThoseOfTheFirst) {
 }
 
 TEST_F(JourneyRevisits, TellLandmarksOfTwoJourneysApartThoughTheirClocksAreOne) {
-  // The map begins where the earlier journey did, 30 m to the left; its landmark 3 has the stamp of a pose of this journey, too.
+  // The origin of the map is the start of the earlier journey, 30 m to the left. Its landmark 3 has the stamp of a pose
+  // of this journey.
   write_recording("earlier", 30.0);
   auto run = read_journey_run(folder_ / "run");
   const auto in_map = make_pose(0.0, -30.0, 0.0);
@@ -201,7 +202,7 @@ TEST_F(JourneyRevisits, NeedTheTruthOfTheSameClock) {
   auto later = outcome(90, "applied", binocular(90), enhanced(90));
   later.replace(0, 4, "1800");
   write_outcomes(later);
-  EXPECT_THAT(input_error_of([&] { score(); }), HasSubstr("outcomes.csv:2: no stamp lies in the time of the truth"));
+  EXPECT_THAT(input_error_of([&] { score(); }), HasSubstr("outcomes.csv:2: no stamp is within the time span"));
 }
 
 TEST_F(JourneyRevisits, AreTold) {

@@ -12,7 +12,8 @@
 
 namespace panvo::evaluation {
 
-/// A recording of a drive along x with one panorama per second and metre. Images are uniform grey; the level identifies the place.
+/// A recording of a drive along x with one panorama per second and metre. Images are uniform grey; the level identifies
+/// the place.
 class PlainRecording {
  public:
   struct Visit {

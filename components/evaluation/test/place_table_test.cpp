@@ -55,7 +55,8 @@ TEST(PlaceTask, TakesAllVisitsOfALaterRecordingForRevisits) {
 }
 
 TEST(PlaceScore, IsThatOfSeparationsDoneByHand) {
-  // Places 10, 100, 200. Revisits: 18 of the first (right), and 160 of the second, which is nearer to the third (wrong).
+  // Places 10, 100, 200. Revisits: 18 of the first (right), and 160 of the second, which is nearer to the third
+  // (wrong).
   const PlainRecording first("score", {10, 100, 200}, {{1, 0}, {2, 1}, {3, 2}});
   const PlainRecording second("score_then", {18, 160, 0}, {{1, 0}, {2, 1}});
   const auto earlier = read_place_recording(first.folder);

@@ -40,8 +40,8 @@ TEST(SegmentErrors, CountEverySegmentThatFits) {
   EXPECT_EQ(result->count, 51u + 41u + 31u + 21u + 11u);
 }
 
-// The estimate turns left by c rad per metre, the ground truth is straight. After n steps of 1 m the heading error is n c,
-// that is c per metre, and the end is at the sum of n unit steps with headings 0, c, ... (n - 1) c.
+// The estimate turns left by c rad per metre, the ground truth is straight. After n steps of 1 m the heading error is n
+// c, that is c per metre, and the end is at the sum of n unit steps with headings 0, c, ... (n - 1) c.
 TEST(SegmentErrors, OfAConstantTurnAreAsReckonedByHand) {
   const double c = 0.002;
   const int n = 20;

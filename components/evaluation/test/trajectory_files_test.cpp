@@ -48,8 +48,8 @@ TEST_F(TrajectoryFiles, EurocHasTheScalarOfTheQuaternionFirst) {
   EXPECT_TRUE(trajectory.poses[0].world_from_base.isApprox(make_pose(1, 2, 3, 2.0 * std::asin(0.6)), 1e-12));
 }
 
-// The optical frame moves 5 m along z, 1 m along x (right), 2 m along y (down), and rotates by 0.1 rad about y, that is to
-// the right. In base axes: 5 m forward, 1 m to the right, 2 m down, heading -0.1 rad.
+// The optical frame moves 5 m along z, 1 m along x (right), 2 m along y (down), and rotates by 0.1 rad about y, that is
+// to the right. In base axes: 5 m forward, 1 m to the right, 2 m down, heading -0.1 rad.
 TEST_F(TrajectoryFiles, KittiIsTurnedFromOpticalToBaseAxes) {
   const double c = std::cos(0.1);
   const double s = std::sin(0.1);
@@ -148,7 +148,7 @@ TEST_F(TrajectoryFiles, MatricesThatAreNoRotationAreNamedByLine) {
 }
 
 TEST_F(TrajectoryFiles, LinesOfAnotherLengthAreNamed) {
-  EXPECT_THAT(error_of("a.tum", "0 0 0 0 0 0 0 1\n1 0 0\n"), HasSubstr("a.tum:2: 3 fields, expected 8"));
+  EXPECT_THAT(error_of("a.tum", "0 0 0 0 0 0 0 1\n1 0 0\n"), HasSubstr("a.tum:2: 3 fields, 8 expected"));
   EXPECT_THAT(error_of("b.txt", "1 2 3\n"), HasSubstr("b.txt:1: unknown trajectory format: 3 columns"));
   EXPECT_THAT(error_of("c.png", std::string("\x89PNG\r\n\x1a\n\0\0\0", 11)), HasSubstr("unknown trajectory format"));
 }

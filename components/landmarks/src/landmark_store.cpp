@@ -45,6 +45,9 @@ void bind_pose(Statement& statement, int parameter, const Eigen::Isometry3d& a_f
 
 PanoramicLandmark landmark_from(const Statement& row) {
   PanoramicLandmark landmark;
+  if (row.integer(0) < 1 || row.integer(0) > std::numeric_limits<std::uint32_t>::max()) {
+    throw std::range_error("its id is not in 1 to 4294967295");
+  }
   landmark.id = static_cast<std::uint32_t>(row.integer(0));
   landmark.stamp_ns = row.integer(1);
   landmark.is_junction = row.integer(2) != 0;

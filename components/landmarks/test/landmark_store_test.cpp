@@ -225,6 +225,17 @@ TEST_F(Store, LeavesOutALandmarkOfValuesThatAreNoneAndSaysWhich) {
   EXPECT_THAT(store.find_damage().value_or(""), HasSubstr("landmark 2: contains invalid values; landmark 3"));
 }
 
+TEST_F(Store, LeavesOutALandmarkWhoseIdIsTooLarge) {
+  write(3);
+  tamper(file_, "UPDATE landmark SET id = 4294967298 WHERE id = 2");  // 2 once it is cut to 32 bits
+  tamper(file_, "UPDATE landmark SET id = 0 WHERE id = 3");
+  const LandmarkStore store(file_);
+  std::vector<std::string> problems;
+  EXPECT_EQ(store.landmarks([&](const std::string& problem) { problems.push_back(problem); }).size(), 1u);
+  EXPECT_THAT(problems, testing::UnorderedElementsAre("landmark 4294967298: its id is not in 1 to 4294967295",
+                                                      "landmark 0: its id is not in 1 to 4294967295"));
+}
+
 TEST_F(Store, LeavesOutALandmarkWithARowThatItsMatrixDoesNotHave) {
   const DescriptionSettings settings{{"patches", "400"}, {"seed", "1"}};
   {

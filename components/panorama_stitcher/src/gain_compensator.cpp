@@ -9,7 +9,7 @@ namespace panvo::panorama_stitcher {
 namespace {
 
 constexpr std::int64_t kFewestSamples = 20;
-constexpr double kPrior = 1e-6;  // ties what the overlaps leave open to a gain of 1
+constexpr double kPrior = 1e-6;  // prior for a gain of 1, for gains that the overlaps do not determine
 
 }  // namespace
 

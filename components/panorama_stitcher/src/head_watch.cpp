@@ -9,9 +9,9 @@
 namespace panvo::panorama_stitcher {
 namespace {
 
-constexpr int kSamples = 256;  // a side at most: what find_fault looks at is sparser still
+constexpr int kSamples = 256;  // samples along the shorter side; find_fault() samples even more sparsely
 
-/// Why a picture is dark; of a colour picture its green, which is most of its brightness.
+/// Describes why an image is dark; nullopt if it is not. Uses the green channel of colour images.
 std::optional<std::string> find_darkness(const cv::Mat& picture) {
   const int step = std::max(1, std::min(picture.rows, picture.cols) / kSamples);
   cv::Mat sample(picture.rows / step, picture.cols / step, CV_8UC1);

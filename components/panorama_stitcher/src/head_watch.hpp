@@ -9,18 +9,19 @@
 
 namespace panvo::panorama_stitcher {
 
-/// How each head of a rig is: seen, missing, or dark for several images in a row.
+/// Monitors each head of a rig: seen, missing, or dark in several consecutive images.
 class HeadWatch {
  public:
   HeadWatch(const PanoramaRig& rig, int dark_after) : rig_(rig), dark_after_(dark_after), heads_(rig.heads.size()) {}
 
-  /// Looks at the images of a set; empty ones are of cameras that are missing. Returns whether a head's state changed.
+  /// Checks the images of a set; an empty image means that the camera is missing. Returns whether the usability of a
+  /// head changed.
   bool look(const std::vector<cv::Mat>& images);
 
-  /// Whether the panorama may show it.
+  /// Whether each head can be used for the panorama.
   std::vector<bool> usable() const;
 
-  /// "seen", "missing", "dark: is black: ..."
+  /// "seen", "missing" or "dark, is black ..."
   const std::string& state(std::size_t head) const { return heads_.at(head).state; }
   bool is_usable(std::size_t head) const { return heads_.at(head).is_usable; }
 
@@ -28,7 +29,7 @@ class HeadWatch {
   struct State {
     std::string state = "seen";
     bool is_usable = true;
-    int dark = 0;  ///< images in a row
+    int dark = 0;  ///< consecutive dark images
   };
 
   const PanoramaRig& rig_;

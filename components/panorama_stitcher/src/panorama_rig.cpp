@@ -15,7 +15,7 @@ std::optional<HeadView> see(const vision::CameraModel& model, double blind_spot_
   const double border_px =
       std::min({pixel->x(), pixel->y(), camera.width - 1 - pixel->x(), camera.height - 1 - pixel->y()});
   const double theta_rad = std::atan2(std::hypot(point.x(), point.y()), point.z());
-  // px to rad as in the middle of the image
+  // conversion from px to rad at the image centre
   const double to_border_rad = border_px / std::max(camera.fx, camera.fy);
   const double to_blind_spot_rad = blind_spot_rad > 0.0 ? theta_rad - blind_spot_rad : std::numbers::pi;
   return HeadView{*pixel, std::min({to_border_rad, to_blind_spot_rad, model.widest_rad() - theta_rad})};

@@ -16,20 +16,21 @@ namespace {
 
 constexpr double kDegrees = 180.0 / std::numbers::pi;
 constexpr std::size_t kRunsAhead = 1;
-constexpr int kDarkest = 8, kBrightest = 247;  // what says something of the exposure
+constexpr int kDarkest = 8, kBrightest = 247;  // grey levels outside this range are not used for the gains
 
 void check(const PanoramaRig& rig, const StitchSettings& settings) {
   if (rig.heads.empty() || rig.heads.size() >= kNoHead)
     throw std::invalid_argument("a rig of " + std::to_string(rig.heads.size()) + " heads cannot be stitched");
   if (settings.columns < 2 || settings.columns % 2 != 0)
-    throw std::invalid_argument("a panorama of " + std::to_string(settings.columns) + " columns cannot be made");
+    throw std::invalid_argument("a panorama of " + std::to_string(settings.columns) +
+                                " columns is not possible; the number must be even and positive");
 }
 
 void check(const StitchTable& table) {
   if (!table.gap) return;
   std::ostringstream text;
   text.precision(3);
-  text << "no head sees " << 100.0 * table.gap->share << " % of the elevations that must be seen, for instance azimuth "
+  text << "no head sees " << 100.0 * table.gap->share << " % of the required elevation range, for instance azimuth "
        << table.gap->azimuth_rad * kDegrees << " degrees (clockwise from ahead), elevation "
        << -table.gap->elevation_rad * kDegrees << " degrees (upwards)";
   throw std::invalid_argument(text.str());
@@ -55,8 +56,7 @@ PanoramaStitcher::PanoramaStitcher(PanoramaRig rig, const StitchSettings& settin
 }
 
 void PanoramaStitcher::use(const std::vector<bool>& heads) {
-  if (heads.size() != rig_.heads.size())
-    throw std::invalid_argument("one word a head is needed of which are to be used");
+  if (heads.size() != rig_.heads.size()) throw std::invalid_argument("use() needs one flag for each head");
   if (heads == is_used_) return;
   is_used_ = heads;
   table_ = make_stitch_table(rig_, settings_.columns, is_used_);
@@ -67,11 +67,11 @@ std::optional<std::string> PanoramaStitcher::find_fault(std::size_t image, const
   for (const auto& head : rig_.heads) {
     if (head.image != image) continue;
     if (pixels.size() != head.image_size_px) {
-      text << "is of " << pixels.cols << " x " << pixels.rows << " px, but the head '" << head.name
+      text << "is " << pixels.cols << " x " << pixels.rows << " px, but head '" << head.name
            << "' is calibrated for images of " << head.image_size_px.width << " x " << head.image_size_px.height
-           << " px; set the camera to that size, or calibrate it at the size that it sends";
+           << " px; set the camera to that size, or calibrate it at its present size";
     } else if (pixels.type() != CV_8UC1 && pixels.type() != CV_8UC3) {
-      text << "is of " << cv::typeToString(pixels.type()) << "; set the camera to mono8, rgb8 or bgr8";
+      text << "has type " << cv::typeToString(pixels.type()) << "; set the camera to mono8, rgb8 or bgr8";
     } else {
       continue;
     }
@@ -80,10 +80,10 @@ std::optional<std::string> PanoramaStitcher::find_fault(std::size_t image, const
   return std::nullopt;
 }
 
-/// The type of the images that are used.
+/// Validates the images. Returns the common type of those that are used.
 int PanoramaStitcher::check(std::span<const cv::Mat> images) const {
   if (images.size() != rig_.images()) {
-    throw std::invalid_argument(std::to_string(images.size()) + " images given to a rig of " +
+    throw std::invalid_argument(std::to_string(images.size()) + " images given to a rig with " +
                                 std::to_string(rig_.images()));
   }
   int type = CV_8UC1;
@@ -94,7 +94,8 @@ int PanoramaStitcher::check(std::span<const cv::Mat> images) const {
     if (const auto fault = find_fault(image, images[image]))
       throw std::invalid_argument("image " + std::to_string(image) + " " + *fault);
     if (!is_first && images[image].type() != type)
-      throw std::invalid_argument("the heads' images are grey and coloured; set all cameras to the same encoding");
+      throw std::invalid_argument(
+          "the heads' images are partly grey, partly colour; set all cameras to the same encoding");
     type = images[image].type();
     is_first = false;
   }
@@ -103,7 +104,7 @@ int PanoramaStitcher::check(std::span<const cv::Mat> images) const {
 
 void PanoramaStitcher::stitch(std::span<const cv::Mat> given, cv::Mat& panorama) {
   const int type = check(given);
-  std::vector<cv::Mat> images;  // rows without gaps: so the look-ups were packed
+  std::vector<cv::Mat> images;  // continuous, as the look-ups require
   for (const auto& image : given) images.push_back(image.isContinuous() ? image : image.clone());
   if (settings_.compensates_gains) compensate(images);
   panorama.create(table_.rows, table_.columns, type);

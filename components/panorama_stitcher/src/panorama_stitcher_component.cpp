@@ -34,24 +34,22 @@ struct Parameters {
   template <class Field>
   static void describe(Field&& field) {
     using P = Parameters;
-    field.path(&P::rig, "rig", "rig file, as those in config/rigs: the heads, their lenses and where they look");
-    field(&P::columns, "columns", "px", "width of the panorama; half as many rows", 64, 8192);
+    field.path(&P::rig, "rig", "rig file with the heads, their lenses and poses; examples in config/rigs");
+    field(&P::columns, "columns", "px", "width of the panorama; the height is half", 64, 8192);
     field(&P::output, "output", "", "encoding of the panorama: that of the heads, or grey", {"same", "mono8"});
-    field(&P::compensate_gains, "compensate_gains", "",
-          "make heads of different exposure equally bright where they overlap");
-    field(&P::gain_rate, "gain_rate", "1", "share of the way to the gains that a panorama asks for, each panorama",
+    field(&P::compensate_gains, "compensate_gains", "", "equalise the brightness of the heads where they overlap");
+    field(&P::gain_rate, "gain_rate", "1", "fraction of the difference to the target gains applied with each panorama",
           0.001, 1.0);
-    field(&P::gain_limit, "gain_limit", "1", "gains stay from 1 / limit to limit", 1.0, 3.9);
-    field(&P::tolerance_ms, "tolerance_ms", "ms", "largest difference of stamps of images that belong together", 0.0,
-          500.0);
+    field(&P::gain_limit, "gain_limit", "1", "gains are limited to 1 / limit ... limit", 1.0, 3.9);
+    field(&P::tolerance_ms, "tolerance_ms", "ms", "largest stamp difference of the images in a set", 0.0, 500.0);
     field(&P::missing_after, "missing_after", "1",
-          "so many sets without a head, or dark images of it, before the panorama goes on without it", 1, 1000);
+          "consecutive sets in which a head is missing or dark before it is left out", 1, 1000);
     field(&P::publish_transform, "publish_transform", "",
-          "say on /tf_static where the panorama's frame is on the first head's; off where somebody else does");
+          "publish the panorama frame relative to the first head on /tf_static; false if another node does");
   }
 };
 
-/// panorama/head_N/image_raw -> panorama/image, of the heads' stamp; /diagnostics of the heads.
+/// panorama/head_N/image_raw -> panorama/image, with the stamp of the heads; /diagnostics of the heads.
 class PanoramaStitcherComponent final : public runtime::Component {
  public:
   explicit PanoramaStitcherComponent(runtime::Context& context)
@@ -75,7 +73,7 @@ class PanoramaStitcherComponent final : public runtime::Component {
   static PanoramaStitcher make_stitcher(const Parameters& parameters) {
     if (parameters.rig.empty())
       throw runtime::ConfigError(
-          "parameter rig: which one? Name a rig file such as config/rigs/dual_fisheye/panorama.yaml");
+          "parameter rig is empty; set it to a rig file such as config/rigs/dual_fisheye/panorama.yaml");
     try {
       const auto file = read_rig_file(parameters.rig);
       const StitchSettings settings{
@@ -84,7 +82,7 @@ class PanoramaStitcherComponent final : public runtime::Component {
         return {file.rig, settings};
       } catch (const std::invalid_argument& error) {
         throw runtime::ConfigError(
-            fmt::format("{}: {}; correct where the heads look and how wide, or narrow this down to what must be seen",
+            fmt::format("{}: {}; correct the poses and fields of view of the heads, or narrow the required range",
                         file.seen_elevation_at, error.what()));
       }
     } catch (const RigFileError& error) {
@@ -98,7 +96,7 @@ class PanoramaStitcherComponent final : public runtime::Component {
     if (const auto fault = find_fault(index, *image)) {
       ++rejected_;
       const auto& topic = topics::kPanoramaHeadImageRaw.at(index);
-      context_.log().warn_throttled(fmt::format("{} {}", topic.name, *fault), "{} {}; it is left out",
+      context_.log().warn_throttled(fmt::format("{} {}", topic.name, *fault), "{} {}; image discarded",
                                     context_.resolved_name(topic), *fault);
       faults_[index] = *fault;
     } else {
@@ -143,8 +141,7 @@ class PanoramaStitcherComponent final : public runtime::Component {
         context_.log().info_throttled(name + " is seen", "head '{}' is seen again", name);
       } else {
         context_.log().warn_throttled(
-            name, "head '{}' is {}; the panorama goes on without it: look after its cable, power and lens cap", name,
-            watch_.state(i));
+            name, "head '{}' is {}; continuing without it: check its cable, power and lens cap", name, watch_.state(i));
       }
     }
     usable_ = watch_.usable();
@@ -173,7 +170,7 @@ class PanoramaStitcherComponent final : public runtime::Component {
     panoramas_.publish(ImagePtr(message));
   }
 
-  /// The panorama's frame hangs on that of the first head, wherever that is on the vehicle.
+  /// Publishes the panorama frame as a child of the first head's frame.
   void publish_transform(const sensor_msgs::msg::Image& image) {
     const auto& parent = image.header().frame_id();
     const auto& child = stitcher_.rig().frame_id;
@@ -190,10 +187,10 @@ class PanoramaStitcherComponent final : public runtime::Component {
   void say_mixed(const std::string& one, const std::string& other) {
     ++rejected_;
     context_.log().warn_throttled(
-        "mixed", "the heads' images are of {} and of {}; set all cameras to the same encoding", one, other);
+        "mixed", "the heads' images have encodings {} and {}; set all cameras to the same encoding", one, other);
   }
 
-  /// One status for the rig, as ROS 2's diagnostic tools show it.
+  /// Publishes one diagnostic status for the rig.
   void report(std::int64_t stamp_ns) {
     last_report_ns_ = stamp_ns;
     diagnostic_msgs::msg::DiagnosticStatus status;
@@ -205,7 +202,7 @@ class PanoramaStitcherComponent final : public runtime::Component {
       entry.value(value);
       status.values().push_back(entry);
     };
-    add("panoramas", fmt::format("{} stitched of {} images, {} rejected", stitched_, received_, rejected_));
+    add("panoramas", fmt::format("{} stitched from {} images, {} rejected", stitched_, received_, rejected_));
     std::vector<std::string> bad;
     const auto& heads = stitcher_.rig().heads;
     for (std::size_t i = 0; i < heads.size(); ++i) {
@@ -218,7 +215,7 @@ class PanoramaStitcherComponent final : public runtime::Component {
     }
     for (std::size_t i = 0; i < faults_.size(); ++i)
       add(fmt::format("{} unpaired", topics::kPanoramaHeadImageRaw.at(i).name), std::to_string(sets_.unpaired(i)));
-    constexpr std::uint8_t kOk = 0, kWarning = 1;  // diagnostic_msgs/msg/DiagnosticStatus's values
+    constexpr std::uint8_t kOk = 0, kWarning = 1;  // as in diagnostic_msgs/msg/DiagnosticStatus
     status.level(bad.empty() ? kOk : kWarning);
     status.message(bad.empty() ? "all heads are seen" : fmt::format("heads: {}", fmt::join(bad, "; ")));
     diagnostic_msgs::msg::DiagnosticArray array;

@@ -14,7 +14,7 @@ constexpr int kTileColumns = 32, kTileRows = 32;
 constexpr std::size_t kMostSamples = 4000;
 constexpr int kFraction = vision::kLookupFraction;
 
-/// A place in a head's image in 1/32 px.
+/// A position in a head's image in 1/32 px.
 struct Place {
   std::uint8_t head = kNoHead;
   int x = 0, y = 0;
@@ -25,7 +25,7 @@ struct Place {
 
 struct Choice {
   Place first, second;
-  std::uint8_t weight = 0;  ///< of the second, 1/256
+  std::uint8_t weight = 0;  ///< of the second, in 1/256
 };
 
 class TableMaker {
@@ -62,7 +62,7 @@ class TableMaker {
     }
   }
 
-  /// The two heads that see a direction farthest from their borders, and their weights.
+  /// Selects the two heads that see a direction farthest from their borders, and the weight of the second.
   Choice choose(int row, int column) {
     const Eigen::Vector3d direction = panorama_.unproject({column, row});
     Seen first, second;
@@ -86,7 +86,8 @@ class TableMaker {
     return {first.place, is_blended ? second.place : Place{}, weight};
   }
 
-  /// One half at the seam, nothing at the border of the second head's view or blend_rad away from the seam.
+  /// One half at the seam, falling to zero across the blended strip, whose width is blend_rad or less at a view's
+  /// border.
   std::uint8_t weight_of_second(const Seen& first, const Seen& second) const {
     if (second.place.head == kNoHead) return 0;
     const double width_rad = std::min(rig_.blend_rad, first.margin_rad + second.margin_rad);
@@ -104,7 +105,7 @@ class TableMaker {
     return static_cast<std::uint32_t>(place.row() * rig_.heads[place.head].image_size_px.width + place.column());
   }
 
-  /// Adds the run that begins with a choice; returns where the next one begins.
+  /// Adds the run that starts at choice `begin`. Returns the start of the next one.
   std::size_t add_run(std::size_t begin, std::uint32_t row_destination_px) {
     const auto& head = choices_[begin];
     StitchTable::Run run;
@@ -134,7 +135,7 @@ class TableMaker {
     return end;
   }
 
-  /// Offsets of a run, as far as they fit into look-ups that count from the lowest.
+  /// Range of the offsets of a run; take() refuses an offset that does not fit into look-ups relative to the lowest.
   struct Extent {
     std::uint32_t low = 0, high = 0;
     bool is_empty = true;
@@ -205,7 +206,7 @@ class TableMaker {
     table_.gap = gap_;
   }
 
-  /// Evenly, so that every pair of heads keeps its part.
+  /// Thins evenly, so that each pair of heads keeps its share.
   void thin_samples() {
     const std::size_t step = table_.samples.size() / kMostSamples + 1;
     std::size_t kept = 0;

@@ -44,7 +44,7 @@ TEST(GainCompensator, IsNotMovedByAHandfulOfPixels) {
   EXPECT_EQ(gains.gain(0), 1.0);
 }
 
-/// Around a ring the ratios need not agree; the error is spread.
+/// Around a ring the ratios may be inconsistent; the error is distributed.
 TEST(GainCompensator, SpreadsWhatDoesNotAgree) {
   GainCompensator gains(3, {});
   settle(gains, {{0, 1, 1100.0, 1000.0, 100}, {1, 2, 1100.0, 1000.0, 100}, {2, 0, 1100.0, 1000.0, 100}});

@@ -33,7 +33,7 @@ TEST(HeadSets, DropsAndCountsWhatFindsNoSet) {
   sets.push(0, 2000, 2);
   ASSERT_THAT(sets.push(1, 2005, 3), SizeIs(1));
   EXPECT_EQ(sets.unpaired(0), 1u);
-  EXPECT_THAT(sets.push(1, 1001, 4), IsEmpty()) << "its set is gone";
+  EXPECT_THAT(sets.push(1, 1001, 4), IsEmpty()) << "its set has been dropped";
   EXPECT_EQ(sets.unpaired(1), 1u);
   EXPECT_FALSE(sets.is_missing(1));
 }
@@ -51,14 +51,14 @@ TEST(HeadSets, GoesOnWithoutAHeadThatStaysAway) {
   std::size_t complete = 0;
   for (int i = 0; i < 10; ++i) complete += sets.push(0, 1000 * i, i).size();
   EXPECT_TRUE(sets.is_missing(1));
-  EXPECT_EQ(sets.unpaired(0), 2u) << "two sets without it are given up";
+  EXPECT_EQ(sets.unpaired(0), 2u) << "two sets without it are dropped";
   EXPECT_EQ(complete, 8u);
 }
 
 TEST(HeadSets, WaitsForAHeadThatCameBack) {
   Sets sets(2, kSettings);
   for (int i = 0; i < 10; ++i) sets.push(0, 1000 * i, i);
-  EXPECT_THAT(sets.push(1, 9000, 99), IsEmpty()) << "its set went without it";
+  EXPECT_THAT(sets.push(1, 9000, 99), IsEmpty()) << "its set has been taken without it";
   EXPECT_FALSE(sets.is_missing(1));
   EXPECT_EQ(sets.unpaired(1), 1u);
   EXPECT_THAT(sets.push(0, 10'000, 10), IsEmpty());

@@ -6,12 +6,12 @@
 #include "panvo/panorama_stitcher/panorama_rig.hpp"
 #include "panvo/vision/pose.hpp"
 
-/// Rigs as people own them.
+/// Typical rigs.
 namespace panvo::panorama_stitcher {
 
 inline constexpr double kDegree = std::numbers::pi / 180.0;
 
-/// Turned to the right, then upwards, then about its own axis; `outwards_m` from the middle along its own axis.
+/// Pose panorama_from_head: turned right, then up, then about its axis; `outwards_m` from the centre along its axis.
 inline Eigen::Isometry3d looking(double right_deg, double up_deg, double roll_deg, double outwards_m) {
   Eigen::Isometry3d panorama_from_head = Eigen::Isometry3d::Identity();
   panorama_from_head.linear() = vision::so3_exp({0.0, right_deg * kDegree, 0.0}) *
@@ -38,7 +38,7 @@ inline PanoramaRig rig_of(std::vector<Head> heads, double blend_deg = 6.0) {
   return rig;
 }
 
-/// Two fisheyes of 195 degrees back to back, each with an image of its own.
+/// Two fisheyes of 195 degrees back to back, each with its own image.
 inline PanoramaRig two_fisheyes(int size = 480) {
   const double focal_px = size / (196.0 * kDegree);
   const vision::LensCamera lens{{focal_px, focal_px, 0.5 * size - 0.3, 0.5 * size + 0.4, size, size},
@@ -48,7 +48,7 @@ inline PanoramaRig two_fisheyes(int size = 480) {
                  head_of("back", 1, lens, 190.0, looking(180.0, 0.4, 90.0, 0.01))});
 }
 
-/// Five around and one upwards, on their sides, as in a Ladybug; nothing is seen below -40 degrees.
+/// Five heads around, rotated by 90 degrees, and one upwards, as in a Ladybug; they do not see below -40 degrees.
 inline PanoramaRig six_heads(int width = 404, int height = 308) {
   const double focal_px = width / (124.0 * kDegree);
   const vision::LensCamera lens{{focal_px, focal_px, 0.5 * width, 0.5 * height, width, height},

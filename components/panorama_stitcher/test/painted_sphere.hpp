@@ -7,10 +7,10 @@
 
 #include "panvo/panorama_stitcher/panorama_rig.hpp"
 
-/// A sphere with a smooth painting that can be evaluated in any direction: what heads show of it, and what a panorama must show.
+/// A sphere with a smooth analytic texture: renders the images of heads and the true panorama.
 namespace panvo::panorama_stitcher {
 
-/// 48 to 208, different in each channel; changes by up to 8 grey levels a degree.
+/// Grey level 48 to 208, different in each channel; changes by up to 8 levels per degree.
 inline double paint(const Eigen::Vector3d& direction, int channel) {
   const Eigen::Vector3d d = direction.normalized();
   return 128.0 + 30.0 * std::sin(9.0 * d.x() + 2.0 * d.y() + channel) +
@@ -38,7 +38,7 @@ inline cv::Mat true_panorama(int columns, int channels) {
                      [&](const Eigen::Vector2d& pixel) { return std::optional(panorama.unproject(pixel)); });
 }
 
-/// Where on the sphere of the rig's radius a ray of a head ends, in the panorama's frame.
+/// Intersection of a head's ray with the sphere of the rig's radius, in the panorama frame.
 inline Eigen::Vector3d seen_point(const Head& head, const Eigen::Vector3d& ray_in_head, double radius_m) {
   const Eigen::Vector3d ray = head.panorama_from_head.linear() * ray_in_head;
   if (!(radius_m > 0.0)) return ray;
@@ -47,7 +47,7 @@ inline Eigen::Vector3d seen_point(const Head& head, const Eigen::Vector3d& ray_i
   return from + (std::sqrt(along * along + radius_m * radius_m - from.squaredNorm()) - along) * ray;
 }
 
-/// The images of a rig in the middle of the sphere; gains: one a head, or none.
+/// Images of a rig at the centre of the sphere. `gains`: one for each head, or empty.
 inline std::vector<cv::Mat> paint_heads(const PanoramaRig& rig, int channels, const std::vector<double>& gains = {}) {
   std::vector<cv::Mat> images(rig.images());
   for (std::size_t i = 0; i < rig.heads.size(); ++i) {

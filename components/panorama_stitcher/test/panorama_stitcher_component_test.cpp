@@ -54,7 +54,7 @@ heads:
         conversions::make_image(stamp_ns, "panorama_head_" + std::to_string(head) + "_optical", encoding, size, size);
     cv::Mat pixels = conversions::pixels(*image);
     pixels.setTo(cv::Scalar::all(grey));
-    pixels.row(0).setTo(cv::Scalar::all(grey / 2));  // that it is not constant
+    pixels.row(0).setTo(cv::Scalar::all(grey / 2));  // so that it is not constant
     harness_.publish(topics::kPanoramaHeadImageRaw[head], std::shared_ptr<const sensor_msgs::msg::Image>(image));
   }
 
@@ -154,11 +154,11 @@ TEST_F(PanoramaStitcherComponentTest, GoesOnWithoutAHeadThatStaysDarkAndNamesIt)
     publish(0, i * kPeriod_ns, 100);
     publish(1, i * kPeriod_ns, 3);
     if (i == 2) {
-      EXPECT_EQ(grey_at(*panoramas_.back(), 0), 3) << "a dark moment is no dark head";
+      EXPECT_EQ(grey_at(*panoramas_.back(), 0), 3) << "a single dark image does not make a head dark";
     }
   }
   EXPECT_EQ(grey_at(*panoramas_.back(), 0), 0);
-  EXPECT_EQ(grey_at(*panoramas_.back(), 48), 100) << "what the other sees of it, too";
+  EXPECT_EQ(grey_at(*panoramas_.back(), 48), 100) << "the other head covers this direction";
   EXPECT_TRUE(harness_.log_contains("head 'back' is dark, is black"));
   EXPECT_THAT(newest_report(), HasSubstr("'back' dark"));
 }
@@ -170,8 +170,8 @@ TEST_F(PanoramaStitcherComponentTest, LeavesOutImagesOfAnotherCalibration) {
   publish(1, kPeriod_ns, 100);
   EXPECT_THAT(panoramas_, IsEmpty());
   EXPECT_TRUE(harness_.log_contains(
-      "panorama/head_0/image_raw is of 32 x 32 px, but the head 'front' is calibrated for images of 64 x 64 px"));
-  EXPECT_EQ(harness_.log().size(), 1u) << "said once";
+      "panorama/head_0/image_raw is 32 x 32 px, but head 'front' is calibrated for images of 64 x 64 px"));
+  EXPECT_EQ(harness_.log().size(), 1u) << "logged once";
   publish(0, 3 * kPeriod_ns, 100);
   publish(1, 3 * kPeriod_ns, 100);
   EXPECT_THAT(panoramas_, SizeIs(1));
@@ -182,14 +182,14 @@ TEST_F(PanoramaStitcherComponentTest, RefusesHeadsOfDifferentEncodings) {
   publish(0, kPeriod_ns, 100, kSize, "rgb8");
   publish(1, kPeriod_ns, 100, kSize, "bgr8");
   EXPECT_THAT(panoramas_, IsEmpty());
-  EXPECT_TRUE(harness_.log_contains("are of bgr8 and of rgb8"));
+  EXPECT_TRUE(harness_.log_contains("have encodings bgr8 and rgb8"));
 }
 
 TEST_F(PanoramaStitcherComponentTest, RefusesRigsThatCannotBeStitched) {
   write("panorama.yaml", "panorama:\n  seen_elevation_deg: [-90, 90]\nheads: [{camera_info: lens.yaml}]\n");
   EXPECT_THAT(refusal(), AllOf(HasSubstr("panorama.yaml:2: seen_elevation_deg: no head sees"), HasSubstr("narrow")));
   write("panorama.yaml", "heads: [{camera_info: lens.yaml, yaw: 3}]\n");
-  EXPECT_THAT(refusal(), HasSubstr("panorama.yaml:1: yaw is not known here"));
+  EXPECT_THAT(refusal(), HasSubstr("panorama.yaml:1: yaw is not a known key"));
 }
 
 TEST_F(PanoramaStitcherComponentTest, AsksForARig) {

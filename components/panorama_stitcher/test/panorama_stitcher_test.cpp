@@ -26,7 +26,7 @@ struct Difference {
   double mean = 0.0, largest = 0.0;
 };
 
-/// Between elevations (downwards positive) that the rig sees.
+/// Compares rows above elevation `lowest_rad` (downwards positive).
 Difference difference_to_truth(const cv::Mat& panorama, double lowest_rad = 10.0) {
   const cv::Mat truth = true_panorama(panorama.cols, panorama.channels());
   const int rows = std::min(panorama.rows, static_cast<int>(kPanorama.row(lowest_rad)));
@@ -35,7 +35,7 @@ Difference difference_to_truth(const cv::Mat& panorama, double lowest_rad = 10.0
   return {cv::norm(found, wanted, cv::NORM_L1) / values, cv::norm(found, wanted, cv::NORM_INF)};
 }
 
-/// Which heads a pixel comes from, first in the low byte; 0xFFFF: none.
+/// Source heads of each pixel, the first in the low byte; 0xFFFF: none.
 cv::Mat heads_of(const StitchTable& table) {
   cv::Mat heads(table.rows, table.columns, CV_16UC1, cv::Scalar(0xFFFF));
   for (const auto& run : table.runs) {
@@ -68,7 +68,7 @@ TEST(PanoramaStitcher, MakesThePanoramaOfSixHeads) {
   EXPECT_LT(difference.largest, 4.0);
 }
 
-/// Five centimetres make five pixels at three metres; with the right radius they make none.
+/// A head offset of 5 cm shifts the image by several pixels at 0.6 m; the correct radius removes the shift.
 TEST(PanoramaStitcher, CorrectsForThePlacesOfTheHeads) {
   PanoramaRig rig = six_heads();
   rig.radius_m = 0.6;
@@ -107,10 +107,10 @@ TEST(PanoramaStitcher, TurnsAnEquirectangularImage) {
   stitcher.stitch(paint_heads(stitcher.rig(), 3), panorama);
   const auto difference = difference_to_truth(panorama);
   EXPECT_LT(difference.mean, 0.5);
-  EXPECT_LT(difference.largest, 5.0) << "where the image closes, too";
+  EXPECT_LT(difference.largest, 5.0) << "also at the wrap-around";
 }
 
-/// Turned by half a pixel, every pixel is the mean of two, where the image closes as well.
+/// Rotated by half a pixel, each pixel is the mean of two, also at the wrap-around.
 TEST(PanoramaStitcher, JoinsTheEndsOfAnEquirectangularImage) {
   const Head head{"camera",
                   0,
@@ -145,7 +145,7 @@ TEST(PanoramaStitcher, UnrollsAMirror) {
   EXPECT_EQ(cv::countNonZero(panorama.row(static_cast<int>(kPanorama.row(-65.0 * kDegree)))), 0) << "the blind spot";
 }
 
-/// Of two equal fisheyes back to back the seam is where both look 90 degrees off their axes, straight to the left and right.
+/// The seam of two equal fisheyes back to back is 90 degrees off both axes, to the left and right.
 TEST(StitchTable, HasItsSeamHalfWayBetweenTheHeadsAndBlendsAboutIt) {
   PanoramaRig rig = two_fisheyes();
   rig.heads[0].panorama_from_head = looking(0.0, 0.0, 0.0, 0.0);
@@ -200,7 +200,7 @@ TEST(PanoramaStitcher, GoesOnWithoutAHead) {
   EXPECT_EQ(without.at<cv::Vec3b>(row, column(144.0)), cv::Vec3b(0, 0, 0)) << "what only the third head sees";
   EXPECT_EQ(without.at<cv::Vec3b>(row, column(0.0)), whole.at<cv::Vec3b>(row, column(0.0)));
   const cv::Vec3b neighbours =
-      without.at<cv::Vec3b>(row, column(144.0 - 34.0));  // the second head sees 38 degrees there
+      without.at<cv::Vec3b>(row, column(144.0 - 34.0));  // the second head sees it 38 degrees off its axis
   const cv::Vec3b truth = whole.at<cv::Vec3b>(row, column(144.0 - 34.0));
   EXPECT_LT(cv::norm(neighbours, truth, cv::NORM_INF), 4.0) << "its neighbour sees it, too";
   stitcher.use(std::vector<bool>(6, true));

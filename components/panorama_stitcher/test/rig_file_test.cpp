@@ -75,7 +75,7 @@ heads:
   EXPECT_NEAR(lens.widest_rad(), 95.0 * kDegree, 1e-12);
 }
 
-/// Axes of the rig: x forward, y left, z up; of the panorama: right, down, forward.
+/// Rig axes: x forward, y left, z up. Panorama axes: x right, y down, z forward.
 TEST_F(RigFileTest, TurnsHeadsAsCamerasOfTheVehicleAre) {
   const auto rig = read(R"(heads:
 - {camera_info: lens.yaml, yaw_deg: 90, position_m: [0.1, 0.2, 0.3]}
@@ -106,7 +106,7 @@ heads:
 - name: lost
 )");
   EXPECT_THAT(text, AllOf(HasSubstr("panorama.yaml:2: blend_deg must be a number from 0 to 90"),
-                          HasSubstr("panorama.yaml:3: blent_deg is not known here"),
+                          HasSubstr("panorama.yaml:3: blent_deg is not a known key"),
                           HasSubstr("panorama.yaml:6: pitch_deg must be"),
                           HasSubstr("panorama.yaml:7: camera_info is missing; add it")));
 }
@@ -147,14 +147,14 @@ TEST_F(RigFileTest, RefusesPosesThatContradictOrAreNone) {
   EXPECT_THAT(
       refusal(
           "heads:\n- {camera_info: lens.yaml, yaw_deg: 3, panorama_from_head: [1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1]}\n"),
-      HasSubstr("yaw_deg says what panorama_from_head says"));
+      HasSubstr("yaw_deg conflicts with panorama_from_head"));
   EXPECT_THAT(refusal("heads:\n- {camera_info: lens.yaml, panorama_from_head: [2,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1]}\n"),
-              HasSubstr("is no rotation"));
+              HasSubstr("is not a rigid transform"));
 }
 
 TEST_F(RigFileTest, RefusesWhatIsNoRig) {
   EXPECT_THAT(refusal("heads: []\n"), HasSubstr("heads must be a list of at least one head"));
-  EXPECT_THAT(refusal("- a\n- b\n"), HasSubstr("holds no `key: value` lines"));
+  EXPECT_THAT(refusal("- a\n- b\n"), HasSubstr("contains no `key: value` lines"));
   EXPECT_THAT(refusal("a: [1\n"), HasSubstr("is not YAML"));
 }
 

@@ -226,7 +226,7 @@ TEST_P(LostBag, StaysWhereItWasMovedTo) {
       error_of_next_batch(),
       testing::AllOf(HasSubstr("was moved away"), HasSubstr((folder_ / "moved" / file_.filename().string()).string())));
   writer_.close();
-  EXPECT_FALSE(std::filesystem::exists(bag_)) << "nothing is written where it was";
+  EXPECT_FALSE(std::filesystem::exists(bag_)) << "nothing is written to the old path";
   EXPECT_EQ(count_messages(folder_ / "moved"), 4u);
 }
 

@@ -31,5 +31,17 @@ TEST(RateLimit, TakesALateJoinersHistoryAtOnce) {
   EXPECT_EQ(taken(limit, kSecond_ns, 0, 20'000), 10'000);
 }
 
+TEST(RateLimit, WithoutABurstAllowsOneSecondsMessagesAtOnceAndThenTheRate) {
+  RateLimit limit(3.0, 1.0);
+  EXPECT_EQ(taken(limit, 5 * kSecond_ns, 0, 10), 3);
+  EXPECT_FALSE(limit.take(5 * kSecond_ns + kSecond_ns / 4));
+  EXPECT_TRUE(limit.take(5 * kSecond_ns + kSecond_ns / 2));
+}
+
+TEST(RateLimit, OfZeroAllowsNothing) {
+  RateLimit limit(0.0, 1.0);
+  EXPECT_FALSE(limit.take(kSecond_ns));
+}
+
 }  // namespace
 }  // namespace panvo::runtime::dds

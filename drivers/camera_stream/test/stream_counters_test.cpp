@@ -83,10 +83,10 @@ TEST(StreamCounters, AreAnErrorWhileNothingComes) {
   auto report = report_of({});
   report.is_streaming = false;
   report.serial.clear();
-  report.state = "not connected: there is no camera GVL";
+  report.state = "not connected: camera 'GVL' not found";
   const auto status = to_status("aravis_camera", report, {}, 0, 1.0);
   EXPECT_EQ(status.level(), 2);
-  EXPECT_EQ(status.message(), "not connected: there is no camera GVL");
+  EXPECT_EQ(status.message(), "not connected: camera 'GVL' not found");
   EXPECT_EQ(status.hardware_id(), "none");
   EXPECT_EQ(value_of(status, "age of the newest frame"), "no frame yet");
 }

@@ -8,7 +8,7 @@
 namespace panvo::dataset_player {
 namespace {
 
-/// Elements of one file, found by name; failures name file and line.
+/// Reads elements of an XML file by name. Errors give file and line.
 class XmlReader {
  public:
   explicit XmlReader(std::filesystem::path file) : file_(std::move(file)) {
@@ -21,7 +21,7 @@ class XmlReader {
 
   const tinyxml2::XMLElement& root() const {
     if (document_.RootElement() == nullptr)
-      throw DatasetError(file_.string() + ": holds no element; was the file cut off?");
+      throw DatasetError(file_.string() + ": contains no element; was the file cut off?");
     return *document_.RootElement();
   }
 
@@ -29,7 +29,7 @@ class XmlReader {
     return parent.FirstChildElement(name);
   }
 
-  /// The child of that name in either spelling: BoofCV changed the case of some names between versions.
+  /// The child with either name; BoofCV changed the case of some names between versions.
   const tinyxml2::XMLElement& child(const tinyxml2::XMLElement& parent, const char* name,
                                     const char* other_name = nullptr) const {
     const auto* element = parent.FirstChildElement(name);
@@ -40,7 +40,7 @@ class XmlReader {
 
   double number(const tinyxml2::XMLElement& element) const {
     double value = 0.0;
-    if (element.QueryDoubleText(&value) != tinyxml2::XML_SUCCESS) fail(element, "must hold a number");
+    if (element.QueryDoubleText(&value) != tinyxml2::XML_SUCCESS) fail(element, "must contain a number");
     return value;
   }
 
@@ -55,7 +55,7 @@ class XmlReader {
 
   [[noreturn]] void fail(const tinyxml2::XMLElement& element, const std::string& what) const {
     throw DatasetError(file_.string() + ":" + std::to_string(element.GetLineNum()) + ": <" + element.Name() + "> " +
-                       what + "; a BoofCV StereoParameters file is expected");
+                       what + "; expected a BoofCV StereoParameters file");
   }
 
  private:
@@ -78,7 +78,7 @@ vision::LensCamera read_camera(const XmlReader& xml, const tinyxml2::XMLElement&
   if (const auto* radial = xml.find(element, "radial")) {
     const auto k = xml.list(*radial);
     if (k.size() > 3) xml.fail(*radial, "has more than three coefficients; calibrate with two or three");
-    constexpr std::array<std::size_t, 3> kPlaces{0, 1, 4};  // k1, k2, k3 among k1 k2 p1 p2 k3
+    constexpr std::array<std::size_t, 3> kPlaces{0, 1, 4};  // indices of k1, k2, k3 in k1 k2 p1 p2 k3
     for (std::size_t i = 0; i < k.size(); ++i) camera.distortion[kPlaces[i]] = k[i];
   }
   if (xml.find(element, "t1") != nullptr) camera.distortion[2] = value("t1");
@@ -89,7 +89,7 @@ vision::LensCamera read_camera(const XmlReader& xml, const tinyxml2::XMLElement&
 Eigen::Isometry3d read_right_to_left(const XmlReader& xml, const tinyxml2::XMLElement& element) {
   const auto& rotation = xml.child(element, "R", "r");
   const auto values = xml.list(xml.child(rotation, "data"));
-  if (values.size() != 9) xml.fail(rotation, "must hold nine numbers");
+  if (values.size() != 9) xml.fail(rotation, "must contain nine numbers");
   const auto& translation = xml.child(element, "T", "t");
   Eigen::Isometry3d left_from_right = Eigen::Isometry3d::Identity();
   left_from_right.linear() = Eigen::Map<const RowMajor3d>(values.data());

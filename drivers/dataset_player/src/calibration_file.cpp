@@ -24,7 +24,7 @@ vision::LensCamera lens(const YamlFile& file, const std::string& key, const std:
 
 void expect_no_problems(const std::vector<std::string>& problems, const std::filesystem::path& file) {
   if (problems.empty()) return;
-  std::string message = file.string() + ": the calibration cannot be used; correct the file or calibrate again:";
+  std::string message = file.string() + ": invalid calibration; correct the file or recalibrate:";
   for (const auto& problem : problems) message += "\n  - " + problem;
   throw DatasetError(message);
 }
@@ -35,7 +35,7 @@ vision::RectifiedStereo rectified_geometry(const vision::StereoCalibration& cali
   try {
     const auto rectified = vision::rectify(calibration);
     expect_no_problems(vision::validate(rectified),
-                       file);  // of cameras that see nothing in common, numbers that are none
+                       file);  // e.g. cameras without a common view, non-finite numbers
     return rectified;
   } catch (const std::invalid_argument& error) {
     expect_no_problems({error.what()}, file);

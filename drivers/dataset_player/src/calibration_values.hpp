@@ -9,7 +9,7 @@
 #include "panvo/vision/lens.hpp"
 #include "yaml_file.hpp"
 
-/// Values of calibration files as vision types; shared by the readers of the formats.
+/// Conversion of calibration values to vision types, shared by the readers.
 namespace panvo::dataset_player {
 
 using RowMajor3d = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
@@ -19,12 +19,12 @@ using RowMajor34d = Eigen::Matrix<double, 3, 4, Eigen::RowMajor>;
 /// Pinhole of a row-major 3x3 camera matrix.
 vision::PinholeCamera pinhole(const std::vector<double>& matrix, ImageSize size);
 
-/// The camera with the coefficients that are the value `key`. `model` is what the file calls its lens model: one of
-/// vision::lens_camera's names, or none.
+/// The lens with the distortion coefficients of `key`. `model`: the file's name of the lens model, as accepted by
+/// vision::lens_camera(), or "none".
 vision::LensCamera lens(const YamlFile& file, const std::string& key, const std::string& model,
                         const vision::PinholeCamera& pinhole);
 
-/// Throws DatasetError naming `file` and every problem.
+/// Throws DatasetError with `file` and every problem, if there are any.
 void expect_no_problems(const std::vector<std::string>& problems, const std::filesystem::path& file);
 
 }  // namespace panvo::dataset_player

@@ -13,16 +13,16 @@ namespace panvo::dataset_player {
 namespace fs = std::filesystem;
 
 Dataset open_dataset(const fs::path& directory, const ReadOptions& options) {
-  if (directory.empty()) throw DatasetError("no data set given; name its folder");
-  if (!fs::exists(directory)) throw DatasetError(fmt::format("{}: is not there; check the path", directory.string()));
+  if (directory.empty()) throw DatasetError("no data set given; specify its folder");
+  if (!fs::exists(directory)) throw DatasetError(fmt::format("{}: does not exist; check the path", directory.string()));
   if (!fs::is_directory(directory)) {
-    throw DatasetError(fmt::format("{}: is a file; name the folder that holds the data set", directory.string()));
+    throw DatasetError(fmt::format("{}: is a file; specify the folder of the data set", directory.string()));
   }
   if (looks_like_euroc(directory)) return read_euroc(directory, options);
   if (looks_like_kitti(directory)) return read_kitti(directory, options);
   if (looks_like_folders(directory)) return read_folders(directory, options);
   throw DatasetError(
-      fmt::format("{}: holds no data set of a known layout; looked for\n"
+      fmt::format("{}: contains no data set of a known layout; looked for\n"
                   "  - EuRoC/ASL: mav0/cam0/data.csv\n"
                   "  - KITTI odometry: calib.txt, image_0 and image_1 (or image_2 and image_3)\n"
                   "  - left/right folders: left/*.png or *.jpg, right/*, and a calibration (stereo_params.xml, "
@@ -40,7 +40,7 @@ Eigen::Isometry3d base_from_optical() {
 }
 
 ImageSize stereo_image_size(const std::vector<StereoFrame>& frames) {
-  constexpr std::size_t kTries = 10;  // a damaged first image does not make a recording worthless
+  constexpr std::size_t kTries = 10;  // pairs to try, since the first images may be damaged
   ImageDecoder decoder;
   std::string first_problem;
   const auto decode = [&](const fs::path& file, cv::Mat& image) {
@@ -53,12 +53,12 @@ ImageSize stereo_image_size(const std::vector<StereoFrame>& frames) {
     if (!decode(frames[i].left, left) || !decode(frames[i].right, right)) continue;
     if (left.size() != right.size()) {
       throw DatasetError(
-          fmt::format("{}: is {} x {} px, but {} is {} x {} px; both cameras of a pair must record one size",
+          fmt::format("{}: is {} x {} px, but {} is {} x {} px; the images of both cameras must have one size",
                       frames[i].left.string(), left.cols, left.rows, frames[i].right.string(), right.cols, right.rows));
     }
     return {left.cols, left.rows};
   }
-  throw DatasetError(first_problem + "; nor can any other of the first pairs be decoded: copy the data set again");
+  throw DatasetError(first_problem + "; none of the first pairs can be decoded: copy the data set again");
 }
 
 void expect_image_size(const vision::PinholeCamera& camera, const fs::path& calibration_file,
@@ -66,24 +66,24 @@ void expect_image_size(const vision::PinholeCamera& camera, const fs::path& cali
   const auto size = stereo_image_size(frames);
   if (size.width == camera.width && size.height == camera.height) return;
   throw DatasetError(fmt::format(
-      "{}: the calibration is for images of {} x {} px, but those of {} are {} x {} px; use the calibration "
-      "of this camera at this size",
+      "{}: the calibration is for images of {} x {} px, but those in {} are {} x {} px; use the calibration of "
+      "this camera for this size",
       calibration_file.string(), camera.width, camera.height, frames.front().left.parent_path().string(), size.width,
       size.height));
 }
 
 namespace {
 
-/// Images of one folder by number; each must have one of its own.
+/// The images of a folder by number. Throws DatasetError for images without a number or with equal numbers.
 std::vector<ImageFile> numbered_images(const fs::path& folder) {
   if (!fs::is_directory(folder))
-    throw DatasetError(fmt::format("{}: is missing; both eyes are needed", folder.string()));
+    throw DatasetError(fmt::format("{}: is missing; both cameras are needed", folder.string()));
   auto images = list_images(folder);
   if (images.empty())
-    throw DatasetError(fmt::format("{}: holds no image (png, jpg, pgm, ppm, bmp, tif)", folder.string()));
+    throw DatasetError(fmt::format("{}: contains no images (png, jpg, pgm, ppm, bmp, tif)", folder.string()));
   for (std::size_t i = 0; i < images.size(); ++i) {
     if (!images[i].number) {
-      throw DatasetError(fmt::format("{}: its name ends in no number; number the images of both folders alike",
+      throw DatasetError(fmt::format("{}: the name does not end in a number; use equal numbers in both folders",
                                      images[i].path.string()));
     }
     if (i > 0 && images[i].number == images[i - 1].number) {
@@ -115,11 +115,11 @@ PairedFolders pair_by_number(const fs::path& left_folder, const fs::path& right_
     if (take_right) ++r;
   }
   if (folders.pairs.empty()) {
-    throw DatasetError(fmt::format("{}: no image has the number of one in {}; number the images of both folders alike",
+    throw DatasetError(fmt::format("{}: no image has the number of an image in {}; use equal numbers in both folders",
                                    left_folder.string(), right_folder.string()));
   }
   if (alone > 0) {
-    notes.push_back(fmt::format("{} of {} frames have one image only and are left out, the first: {}", alone,
+    notes.push_back(fmt::format("{} of {} frames have only one image and are skipped, the first: {}", alone,
                                 folders.places, first_alone.string()));
   }
   return folders;

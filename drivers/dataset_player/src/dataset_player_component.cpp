@@ -24,33 +24,33 @@
 namespace panvo::dataset_player {
 
 struct Parameters {
-  std::string directory;        // the data set; its kind is found by its layout
-  std::string calibration;      // of left/right folders that hold none
-  std::string cameras = "all";  // which of its cameras are played
-  bool grey = false;            // decode colour images as grey
-  double rate_hz = 0.0;         // 0: what is usual for the layout
+  std::string directory;
+  std::string calibration;
+  std::string cameras = "all";
+  bool grey = false;
+  double rate_hz = 0.0;
   double start_s = 0.0;
-  double duration_s = 0.0;  // 0: to the end
-  int passes = 1;           // forward, backward, forward, ...
+  double duration_s = 0.0;
+  int passes = 1;
   template <class Field>
   static void describe(Field&& field) {
     using P = Parameters;
     field.path(&P::directory, "directory",
                "folder of the data set: KITTI odometry, EuRoC/ASL, or left/right folders with a calibration");
     field.path(&P::calibration, "calibration",
-               "folder of the calibration of left/right folders, as in config/rigs; empty: the data set's own");
-    field(&P::cameras, "cameras", "", "which cameras are played", {"all", "stereo", "panorama"});
+               "calibration folder for left/right folders, as in config/rigs; empty: the data set's own");
+    field(&P::cameras, "cameras", "", "cameras to play", {"all", "stereo", "panorama"});
     field(&P::grey, "grey", "", "decode the stereo images as grey even if they are stored in colour");
     field(&P::rate_hz, "rate_hz", "Hz", "frame rate of data sets without times; 0: KITTI 10, folders 30", 0.0, 1000.0);
-    field(&P::start_s, "start_s", "s", "where to begin, after the first image", 0.0, 1e6);
-    field(&P::duration_s, "duration_s", "s", "how much to play; 0: to the end", 0.0, 1e6);
-    field(&P::passes, "passes", "", "how often to play it: forward, backward, forward, ... with increasing stamps", 1,
+    field(&P::start_s, "start_s", "s", "start, after the first image", 0.0, 1e6);
+    field(&P::duration_s, "duration_s", "s", "duration to play; 0: to the end", 0.0, 1e6);
+    field(&P::passes, "passes", "", "number of passes: forward, backward, forward, ... with increasing stamps", 1,
           1'000'000);
   }
 };
 
-/// Plays a data set as if it were cameras: image_raw and camera_info of each eye, the panorama, the ground truth, and
-/// first of all where the cameras are on the vehicle.
+/// Plays a data set as if it were live cameras: static transforms of the cameras first, then image_raw and camera_info
+/// of each stereo camera, the panorama and the ground truth.
 class DatasetPlayerComponent final : public runtime::Component, public runtime::Source {
  public:
   explicit DatasetPlayerComponent(runtime::Context& context);
@@ -60,7 +60,7 @@ class DatasetPlayerComponent final : public runtime::Component, public runtime::
   Progress progress() const override { return {steps_done_, steps_total_}; }
 
  private:
-  /// A camera as it is played.
+  /// Output of one camera.
   struct Camera {
     std::string frame_id;
     runtime::Output<sensor_msgs::msg::Image> images;
@@ -73,7 +73,7 @@ class DatasetPlayerComponent final : public runtime::Component, public runtime::
     conversions::PairedCamera geometry;
   };
   using ImagePtr = std::shared_ptr<const sensor_msgs::msg::Image>;
-  /// Of a stereo frame both eyes, of a panorama one, of else none; nullptr where a file could not be used.
+  /// Left and right image of a stereo frame, or one panorama; nullptr for none or if the file is unusable.
   using Images = std::array<ImagePtr, 2>;
 
   void open(const Parameters& parameters);
@@ -91,13 +91,13 @@ class DatasetPlayerComponent final : public runtime::Component, public runtime::
   Dataset dataset_;
   Passes events_;
   std::uint64_t next_ = 0;
-  std::deque<Images> ahead_;  ///< of the events from the next one on
+  std::deque<Images> ahead_;  ///< preloaded images of the events from next_ on
   std::optional<Eye> left_, right_;
   std::optional<Camera> panorama_;
   std::optional<runtime::Output<nav_msgs::msg::Odometry>> ground_truth_;
   runtime::Output<tf2_msgs::msg::TFMessage> static_transforms_;
   ImageDecoder decoder_;
-  bool is_placed_ = false;  ///< the static transforms are out
+  bool is_placed_ = false;  ///< the static transforms have been published
   TimelineEvent::Kind step_kind_ = TimelineEvent::Kind::kStereo;
   std::uint64_t steps_done_ = 0, steps_total_ = 0;
   std::uint64_t unreadable_ = 0;
@@ -194,11 +194,11 @@ void DatasetPlayerComponent::emit() {
   }
   load_ahead();
   if (next_ == events_.size() && unreadable_ > 0) {
-    context_.log().warn("{} of {} frames could not be read and were left out", unreadable_, steps_total_);
+    context_.log().warn("{} of {} frames could not be read and were skipped", unreadable_, steps_total_);
   }
 }
 
-/// What the next step publishes, so that it is published at its time and not when it is decoded.
+/// Loads the images of the next step in advance, so that decoding does not delay their publication.
 void DatasetPlayerComponent::load_ahead() {
   for (std::uint64_t i = next_ + ahead_.size(); i < events_.size() && events_[i].stamp_ns == events_[next_].stamp_ns;
        ++i)
@@ -225,7 +225,7 @@ void DatasetPlayerComponent::publish_ground_truth(const GroundTruthPose& pose, s
   message.header().frame_id("map");
   message.child_frame_id("base_link");
   message.pose().pose(conversions::to_pose(pose.map_from_base));
-  // The velocity is not recorded: the usual way to say so is a variance beyond all use.
+  // The velocity is not recorded, which is conventionally expressed by a huge variance.
   constexpr double kNotMeasured = 1e6;
   message.twist().covariance(conversions::to_array(kNotMeasured * vision::Matrix6d::Identity()));
   ground_truth_->publish(std::move(message));
@@ -252,7 +252,7 @@ DatasetPlayerComponent::Images DatasetPlayerComponent::load(const TimelineEvent&
   return {left, left ? load(right_->camera, frame.right, event.stamp_ns) : nullptr};
 }
 
-/// The image of a file as a message. nullptr if it cannot be used: then that is reported.
+/// Loads a file as an image message. Reports an unusable file and returns nullptr.
 DatasetPlayerComponent::ImagePtr DatasetPlayerComponent::load(const Camera& camera, const std::filesystem::path& file,
                                                               std::int64_t stamp_ns) {
   const runtime::StageTimer timer(context_.times(), "decode");
@@ -262,7 +262,7 @@ DatasetPlayerComponent::ImagePtr DatasetPlayerComponent::load(const Camera& came
     return nullptr;
   }
   if (pixels.cols != camera.width || pixels.rows != camera.height) {
-    report_unreadable(fmt::format("{}: is {} x {} px, the images before are {} x {} px", file.string(), pixels.cols,
+    report_unreadable(fmt::format("{}: is {} x {} px, the previous images are {} x {} px", file.string(), pixels.cols,
                                   pixels.rows, camera.width, camera.height));
     return nullptr;
   }
@@ -274,7 +274,7 @@ DatasetPlayerComponent::ImagePtr DatasetPlayerComponent::load(const Camera& came
 
 void DatasetPlayerComponent::report_unreadable(const std::string& what) {
   ++unreadable_;
-  context_.log().warn_throttled("unreadable", "{}; the frame is left out", what);
+  context_.log().warn_throttled("unreadable", "{}; frame skipped", what);
 }
 
 PANVO_REGISTER_COMPONENT(DatasetPlayerComponent)

@@ -24,7 +24,7 @@ fs::path mav0(const fs::path& directory) {
   return fs::is_directory(directory / "mav0") ? directory / "mav0" : directory;
 }
 
-/// The images that data.csv lists, in order of time, whether their files are there or not.
+/// The images listed in data.csv in order of time, whether their files exist or not.
 std::vector<StampedImage> read_image_list(const fs::path& camera_folder) {
   const TextFile file(camera_folder / "data.csv", TextFile::Separator::kComma);
   std::vector<StampedImage> images;
@@ -32,20 +32,20 @@ std::vector<StampedImage> read_image_list(const fs::path& camera_folder) {
     const auto stamp_ns = file.nanoseconds(line, 0);
     if (!images.empty()) file.expect_later(line, images.back().stamp_ns, stamp_ns);
     const auto& name = file.text(line, 1);
-    if (name.empty()) file.fail(line, "names no image file in field 2; correct or remove the line");
+    if (name.empty()) file.fail(line, "has no image file name in field 2; correct or remove the line");
     images.push_back({stamp_ns, camera_folder / "data" / name});
   }
-  if (images.empty()) throw DatasetError(file.path().string() + ": lists no image; copy the data set again");
+  if (images.empty()) throw DatasetError(file.path().string() + ": lists no images; copy the data set again");
   return images;
 }
 
-/// T_BS: base_link (EuRoC's body B) from a sensor.
+/// Reads T_BS: pose of the sensor in base_link (EuRoC's body frame B).
 Eigen::Isometry3d read_base_from_sensor(const YamlFile& sensor) {
   const RowMajor4d matrix = Eigen::Map<const RowMajor4d>(sensor.numbers("T_BS", 16).data());
   const Eigen::Matrix3d rotation = matrix.topLeftCorner<3, 3>();
   if (!((rotation * rotation.transpose() - Eigen::Matrix3d::Identity()).norm() < 1e-3) ||
       rotation.determinant() < 0.0 || !matrix.allFinite()) {
-    sensor.fail("T_BS", "is no rigid transform: its upper left 3 x 3 block must be a rotation; correct it");
+    sensor.fail("T_BS", "is not a rigid transform: its upper left 3 x 3 block must be a rotation; correct it");
   }
   Eigen::Isometry3d base_from_sensor = Eigen::Isometry3d::Identity();
   base_from_sensor.linear() = Eigen::Quaterniond(rotation).normalized().toRotationMatrix();
@@ -87,8 +87,8 @@ std::size_t nearest(const std::vector<StampedImage>& images, std::int64_t stamp_
   return index;
 }
 
-/// Pairs of images that are each other's nearest and less than half a period apart; both get the left one's stamp.
-/// Images of equal stamp are the usual case; some recorders stamp each camera on its own.
+/// Pairs images that are mutually nearest in time and less than half a period apart; both get the left stamp. Usually
+/// the stamps are equal, but some recorders stamp each camera separately.
 std::vector<StereoFrame> pair_by_stamp(const std::vector<StampedImage>& left, const std::vector<StampedImage>& right,
                                        std::vector<std::string>& notes) {
   const auto period_ns = median_period_ns(left);
@@ -113,14 +113,14 @@ std::vector<StereoFrame> pair_by_stamp(const std::vector<StampedImage>& left, co
     frames.push_back({left[l].stamp_ns, left[l].file, right[r].file});
   }
   if (alone > 0)
-    notes.push_back(fmt::format("{} images of cam0 and cam1 have no partner of their time and are left out", alone));
+    notes.push_back(fmt::format("{} images of cam0 and cam1 have no partner at the same time and are skipped", alone));
   if (missing_files > 0) {
-    notes.push_back(fmt::format("{} pairs lack an image file and are left out, the first: {}", missing_files,
+    notes.push_back(fmt::format("{} pairs lack an image file and are skipped, the first: {}", missing_files,
                                 first_missing.string()));
   }
   if (largest_gap_ns > 0) {
     notes.push_back(
-        fmt::format("the stamps of left and right differ by up to {:.3f} ms; both images of a pair get the left one's",
+        fmt::format("left and right stamps differ by up to {:.3f} ms; both images of a pair get the left stamp",
                     static_cast<double>(largest_gap_ns) * 1e-6));
   }
   return frames;
@@ -129,7 +129,7 @@ std::vector<StereoFrame> pair_by_stamp(const std::vector<StampedImage>& left, co
 StereoRecording read_stereo(const fs::path& root, std::vector<std::string>& notes) {
   for (const char* camera : {"cam0", "cam1"}) {
     if (!fs::is_directory(root / camera)) {
-      throw DatasetError((root / camera).string() + ": is missing; both eyes (cam0 left, cam1 right) are needed");
+      throw DatasetError((root / camera).string() + ": is missing; both cameras (cam0 left, cam1 right) are needed");
     }
   }
   const YamlFile left(root / "cam0" / "sensor.yaml");
@@ -137,8 +137,8 @@ StereoRecording read_stereo(const fs::path& root, std::vector<std::string>& note
   StereoRecording stereo;
   stereo.frames = pair_by_stamp(read_image_list(root / "cam0"), read_image_list(root / "cam1"), notes);
   if (stereo.frames.empty()) {
-    throw DatasetError((root / "cam0" / "data.csv").string() + ": no image has a partner of the same time in " +
-                       (root / "cam1" / "data.csv").string() + " with both files there; copy the data set again");
+    throw DatasetError((root / "cam0" / "data.csv").string() + ": no image has a partner at the same time in " +
+                       (root / "cam1" / "data.csv").string() + " with both files present; copy the data set again");
   }
   stereo.base_from_left = read_base_from_sensor(left);
   stereo.calibration.left = read_eye(left);
@@ -172,9 +172,9 @@ std::optional<PanoramaRecording> read_panorama(const fs::path& folder, std::vect
     }
   }
   if (panorama.frames.empty())
-    throw DatasetError((folder / "data").string() + ": holds none of the images that data.csv lists; copy it again");
+    throw DatasetError((folder / "data").string() + ": contains none of the images listed in data.csv; copy it again");
   if (missing_files > 0)
-    notes.push_back(fmt::format("{} panoramas of {} are not there and are left out", missing_files, folder.string()));
+    notes.push_back(fmt::format("{} panoramas of {} are missing and are skipped", missing_files, folder.string()));
   cv::Mat first;
   ImageDecoder decoder;
   if (const auto problem = decoder.decode(panorama.frames.front().image, Colour::kAsStored, first))
@@ -187,9 +187,10 @@ std::optional<PanoramaRecording> read_panorama(const fs::path& folder, std::vect
   return panorama;
 }
 
-/// Lines of stamp, position, quaternion w x y z of a sensor S in the reference frame R.
+/// Reads lines of stamp, position and quaternion (w x y z) of a sensor S in the reference frame R.
 std::vector<GroundTruthPose> read_poses(const fs::path& folder) {
-  Eigen::Isometry3d sensor_from_base = Eigen::Isometry3d::Identity();  // the state is that of the body itself
+  Eigen::Isometry3d sensor_from_base =
+      Eigen::Isometry3d::Identity();  // identity for the state, which is that of the body
   if (fs::exists(folder / "sensor.yaml")) {
     const YamlFile sensor(folder / "sensor.yaml");
     if (sensor.has("T_BS")) sensor_from_base = read_base_from_sensor(sensor).inverse();
@@ -202,7 +203,7 @@ std::vector<GroundTruthPose> read_poses(const fs::path& folder) {
     const auto value = [&](std::size_t field) { return file.number(line, field); };
     const Eigen::Quaterniond rotation(value(4), value(5), value(6), value(7));
     if (std::abs(rotation.norm() - 1.0) > 1e-2)
-      file.fail(line, "holds a quaternion that is not of length 1; correct or remove the line");
+      file.fail(line, "contains a quaternion whose norm is not 1; correct or remove the line");
     Eigen::Isometry3d map_from_sensor = Eigen::Isometry3d::Identity();
     map_from_sensor.linear() = rotation.normalized().toRotationMatrix();
     map_from_sensor.translation() = Eigen::Vector3d(value(1), value(2), value(3));
@@ -216,7 +217,7 @@ std::vector<GroundTruthPose> read_ground_truth(const fs::path& root, std::vector
     if (fs::exists(root / folder / "data.csv")) return read_poses(root / folder);
   }
   if (fs::exists(root / "leica0")) {
-    notes.push_back("leica0 measures where a prism is, not how the body stands: it is not published as ground truth");
+    notes.push_back("leica0 holds positions of a prism, not poses of the body: it is not published as ground truth");
   }
   return {};
 }
@@ -234,7 +235,7 @@ Dataset read_euroc(const fs::path& directory, const ReadOptions&) {
   dataset.kind = "EuRoC/ASL";
   dataset.directory = directory;
   dataset.panorama = read_panorama(root / "cam2", dataset.notes);
-  // A recording of panoramas alone is one too; with neither eye nor panorama, read_stereo says what is missing.
+  // Panoramas alone are a valid recording. Without any camera, read_stereo() reports what is missing.
   if (!dataset.panorama || fs::exists(root / "cam0") || fs::exists(root / "cam1"))
     dataset.stereo = read_stereo(root, dataset.notes);
   dataset.ground_truth = read_ground_truth(root, dataset.notes);

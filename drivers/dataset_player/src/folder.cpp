@@ -17,7 +17,7 @@ struct FoundCalibration {
   fs::path file;
 };
 
-/// The calibration in a folder, in the first of the formats that is there.
+/// Reads the calibration in a folder, in the first format found.
 FoundCalibration find_calibration(const fs::path& directory, const std::vector<StereoFrame>& frames) {
   const auto path = [&](const char* name) { return directory / name; };
   if (fs::exists(path("stereo_params.xml"))) {
@@ -34,7 +34,7 @@ FoundCalibration find_calibration(const fs::path& directory, const std::vector<S
             path("intrinsics.yml")};
   }
   throw DatasetError(
-      fmt::format("{}: holds no calibration; looked for stereo_params.xml (BoofCV), left.yaml and right.yaml (ROS "
+      fmt::format("{}: contains no calibration; looked for stereo_params.xml (BoofCV), left.yaml and right.yaml (ROS "
                   "camera_info), stereo.yaml or "
                   "stereo.yml (OpenCV: M1 D1 M2 D2 R T), intrinsics.yml and extrinsics.yml (OpenCV's sample)",
                   directory.string()));

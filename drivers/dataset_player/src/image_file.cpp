@@ -25,11 +25,11 @@ bool read_bytes(const std::filesystem::path& file, std::vector<std::uint8_t>& by
   return static_cast<bool>(stream.read(reinterpret_cast<char*>(bytes.data()), size));
 }
 
-/// A JPEG without its end marker. The decoder would fill up what is missing with grey and call it a success.
+/// Whether the file is a JPEG without its end marker. The decoder fills the missing part with grey and reports success.
 bool is_cut_off_jpeg(const std::vector<std::uint8_t>& bytes) {
   constexpr std::array<std::uint8_t, 2> kStart{0xff, 0xd8}, kEnd{0xff, 0xd9};
   if (bytes.size() < 4 || !std::equal(kStart.begin(), kStart.end(), bytes.begin())) return false;
-  // Some cameras append padding or data of their own; entropy-coded data cannot hold the marker.
+  // Some cameras append padding or other data; entropy-coded data cannot contain the marker.
   return std::find_end(bytes.begin() + 2, bytes.end(), kEnd.begin(), kEnd.end()) == bytes.end();
 }
 
@@ -56,20 +56,20 @@ std::optional<std::string> ImageDecoder::decode(const std::filesystem::path& fil
     return file.string() + ": " + what;
   };
   std::error_code error;
-  // A folder or a device has no size by which memory could be taken.
+  // Folders and devices have no meaningful size for allocation.
   if (!std::filesystem::is_regular_file(file, error) || !read_bytes(file, bytes_)) return fail("cannot be read");
   if (bytes_.empty()) return fail("is empty");
   if (is_cut_off_jpeg(bytes_)) return fail("is a JPEG that was cut off");
   const int flags =
       (colour == Colour::kGrey ? cv::IMREAD_GRAYSCALE : cv::IMREAD_ANYCOLOR) | cv::IMREAD_IGNORE_ORIENTATION;
-  // Not into the image that is there: OpenCV leaves that untouched when it finds no decoder, which looks like success.
+  // Release first: OpenCV leaves an existing image untouched if it finds no decoder, which would look like success.
   image.release();
   try {
     image = cv::imdecode(bytes_, flags);
   } catch (const cv::Exception&) {
-    return fail("is no image that can be decoded");
+    return fail("cannot be decoded as an image");
   }
-  if (image.empty()) return fail("is no image that can be decoded");
+  if (image.empty()) return fail("cannot be decoded as an image");
   return std::nullopt;
 }
 

@@ -25,7 +25,7 @@ struct Eyes {
 constexpr Eyes kGrey{"image_0", "image_1", "P0:", "P1:"};
 constexpr Eyes kColoured{"image_2", "image_3", "P2:", "P3:"};
 
-/// The projection matrices of calib.txt: pixels of each rectified camera from points of camera 0.
+/// Reads the projection matrices of calib.txt, from the frame of camera 0 to pixels of each rectified camera.
 std::map<std::string, RowMajor34d> read_projections(const TextFile& file) {
   std::map<std::string, RowMajor34d> projections;
   for (const auto& line : file.lines()) {
@@ -39,12 +39,12 @@ std::map<std::string, RowMajor34d> read_projections(const TextFile& file) {
   return projections;
 }
 
-/// Where camera 0 lies in the frame of the camera of that matrix, m.
+/// Position of camera 0 in the frame of the camera with this projection, m.
 Eigen::Vector3d translation(const RowMajor34d& projection) {
   return projection.leftCols<3>().inverse() * projection.col(3);
 }
 
-/// Camera geometry. The pair is rectified as it is; base_link stands at camera 0, to which poses.txt refers.
+/// Reads the camera geometry. The pair is already rectified; base_link is at camera 0, to which poses.txt refers.
 void read_calibration(const fs::path& path, const Eyes& eyes, StereoRecording& stereo) {
   const TextFile file(path, TextFile::Separator::kBlank);
   const auto projections = read_projections(file);
@@ -61,8 +61,8 @@ void read_calibration(const fs::path& path, const Eyes& eyes, StereoRecording& s
   auto& calibration = stereo.calibration;
   calibration.left.pinhole = camera(left);
   calibration.right.pinhole = camera(right);
-  // The colour cameras stand some mm off camera 0's row and plane. The images are rectified nonetheless: only X
-  // separates the two.
+  // The colour cameras are a few mm off camera 0's row and plane, but their images are rectified: they differ only in
+  // X.
   calibration.right_from_left.translation().x() = translation(right).x() - translation(left).x();
   stereo.rectified = rectified_geometry(calibration, path);
   stereo.base_from_left = base_from_optical() * Eigen::Translation3d(-translation(left));
@@ -79,14 +79,15 @@ std::vector<std::int64_t> read_times(const fs::path& path) {
   return stamps_ns;
 }
 
-/// When each pair was taken: as times.txt says, line i for image i, or at the frame rate where there is no such file.
+/// Returns a function for the stamp of a pair: from times.txt, line i for image i, or from the frame rate without that
+/// file.
 std::function<std::int64_t(const NumberedPair&)> read_clock(const fs::path& times_path, const ReadOptions& options,
                                                             std::vector<std::string>& notes) {
   if (fs::exists(times_path)) {
     return [times_path, stamps_ns = read_times(times_path)](const NumberedPair& pair) {
       if (pair.number < stamps_ns.size()) return stamps_ns[pair.number];
       throw DatasetError(
-          fmt::format("{}: has {} times, none for image {}; copy the file again, or remove it to play at {} Hz",
+          fmt::format("{}: has {} times, but none for image {}; copy the file again, or remove it to play at {} Hz",
                       times_path.string(), stamps_ns.size(), pair.left.filename().string(), kUsualRateHz));
     };
   }
@@ -97,12 +98,11 @@ std::function<std::int64_t(const NumberedPair&)> read_clock(const fs::path& time
     constexpr std::uint64_t kMostImages = 100'000'000;
     if (pair.number < kMostImages) return std::llround(static_cast<double>(pair.number) * 1e9 / rate_hz);
     throw DatasetError(pair.left.string() +
-                       ": its number counts no frames; number the images from 000000, or add times.txt");
+                       ": its number is too large for a frame number; number the images from 000000, or add times.txt");
   };
 }
 
-/// base_from_camera_0 turns the axes of poses.txt (first camera frame, X right, Y down) into those of a vehicle, on
-/// both sides.
+/// Reads poses.txt (axes of the first camera: X right, Y down) and converts both frames of each pose to vehicle axes.
 std::vector<Eigen::Isometry3d> read_poses(const fs::path& path) {
   const TextFile file(path, TextFile::Separator::kBlank);
   const auto base_from_camera = base_from_optical();
@@ -112,7 +112,7 @@ std::vector<Eigen::Isometry3d> read_poses(const fs::path& path) {
     for (int i = 0; i < 12; ++i) matrix(i / 4, i % 4) = file.number(line, static_cast<std::size_t>(i));
     const Eigen::Matrix3d rotation = matrix.leftCols<3>();
     if ((rotation * rotation.transpose() - Eigen::Matrix3d::Identity()).norm() > 1e-3 || rotation.determinant() < 0.0) {
-      file.fail(line, "is no pose: its first three columns are no rotation; copy the file again");
+      file.fail(line, "is not a pose: its first three columns are not a rotation; copy the file again");
     }
     Eigen::Isometry3d first_from_camera = Eigen::Isometry3d::Identity();
     first_from_camera.linear() = Eigen::Quaterniond(rotation).normalized().toRotationMatrix();
@@ -159,7 +159,7 @@ Dataset read_kitti(const fs::path& directory, const ReadOptions& options) {
     if (pair.number < poses.size()) dataset.ground_truth.push_back({stamp_ns, poses[pair.number]});
   }
   if (poses_path && dataset.ground_truth.size() < stereo.frames.size()) {
-    dataset.notes.push_back(fmt::format("{} has {} poses: the last {} of {} frames are without ground truth",
+    dataset.notes.push_back(fmt::format("{} has {} poses: the last {} of {} frames have no ground truth",
                                         poses_path->string(), poses.size(),
                                         stereo.frames.size() - dataset.ground_truth.size(), stereo.frames.size()));
   }

@@ -6,12 +6,12 @@
 namespace panvo::dataset_player {
 namespace {
 
-/// The key of a matrix under one of its usual names.
+/// The first of `names` that is a key of the file. Throws DatasetError if there is none.
 std::string require(const YamlFile& file, std::initializer_list<const char*> names) {
   if (const auto key = file.first_of(names)) return *key;
   std::string list;
   for (const char* name : names) list += (list.empty() ? "" : ", ") + std::string(name);
-  throw DatasetError(file.path().string() + ": none of the keys " + list + " is there; add the one that is missing");
+  throw DatasetError(file.path().string() + ": has none of the keys " + list + "; add one of them");
 }
 
 ImageSize image_size(const YamlFile& file, ImageSize when_absent) {
@@ -38,7 +38,7 @@ CalibratedStereo read_opencv_calibration(const std::filesystem::path& intrinsics
   const auto right_matrix = require(intrinsics, {"M2", "K2", "cameraMatrix2", "camera_matrix_2"});
   const auto left_distortion = require(intrinsics, {"D1", "distCoeffs1", "distortion_coefficients_1"});
   const auto right_distortion = require(intrinsics, {"D2", "distCoeffs2", "distortion_coefficients_2"});
-  // OpenCV does not write the model: it is in the number of coefficients, but for its fisheye's four.
+  // OpenCV does not write the model: the number of coefficients determines it, except for its fisheye with four.
   const auto model = intrinsics.text("distortion_model", "rational_polynomial");
   left = lens(intrinsics, left_distortion, model, pinhole(intrinsics.numbers(left_matrix, 9), size));
   right = lens(intrinsics, right_distortion, model, pinhole(intrinsics.numbers(right_matrix, 9), size));

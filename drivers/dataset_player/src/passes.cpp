@@ -13,7 +13,7 @@ Passes::Passes(std::vector<TimelineEvent> events, std::uint64_t count) : first_(
   begin_ns_ = std::find_if(first_.begin(), first_.end(), is_image)->stamp_ns;
   const std::int64_t end_ns = std::find_if(first_.rbegin(), first_.rend(), is_image)->stamp_ns;
   length_ns_ = end_ns - begin_ns_;
-  // Ground truth beyond the last image would come after the next pass has begun.
+  // Ground truth after the last image would overlap with the next pass.
   std::erase_if(first_, [&](const TimelineEvent& event) { return event.stamp_ns > end_ns; });
   for (auto event : first_) {
     if (event.stamp_ns <= begin_ns_) continue;
@@ -25,7 +25,7 @@ Passes::Passes(std::vector<TimelineEvent> events, std::uint64_t count) : first_(
     event.stamp_ns = end_ns - event.stamp_ns;
     back_.push_back(event);
   }
-  // Stable: at equal stamps ground truth comes first, then stereo, in this direction too.
+  // Stable, so that at equal stamps ground truth comes first, then stereo, in this direction too.
   std::stable_sort(back_.begin(), back_.end(),
                    [](const TimelineEvent& a, const TimelineEvent& b) { return a.stamp_ns < b.stamp_ns; });
   size_ = first_.size() + (count / 2) * back_.size() + ((count - 1) / 2) * forth_.size();

@@ -43,7 +43,7 @@ CalibratedStereo read_ros_calibration(const std::filesystem::path& left_file, co
   }
   expect_no_problems(problems, right_file);
 
-  // In the rectified frames the right camera stands baseline_m along +X of the left one, with the same axes.
+  // In the rectified frames the right camera is at baseline_m along +X of the left one, with the same axes.
   const Eigen::Vector3d rectified_right_from_rectified_left(-rectified.baseline_m, 0.0, 0.0);
   auto& [left_camera, right_camera, right_from_left] = stereo.calibration;
   left_camera = left.raw;

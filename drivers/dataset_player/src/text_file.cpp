@@ -31,7 +31,7 @@ std::vector<std::string> split(std::string_view text, TextFile::Separator separa
   return fields;
 }
 
-/// Whether all of `text` is one value of that type.
+/// Parses all of `text` as one value. Returns whether that succeeds.
 template <class Value>
 bool parse(std::string_view text, Value& value) {
   if (text.starts_with('+')) text.remove_prefix(1);
@@ -43,7 +43,7 @@ bool parse(std::string_view text, Value& value) {
 
 TextFile::TextFile(std::filesystem::path path, Separator separator) : path_(std::move(path)) {
   std::ifstream file(path_);
-  if (!file) throw DatasetError(path_.string() + ": cannot be opened; is it there, and may you read it?");
+  if (!file) throw DatasetError(path_.string() + ": cannot be opened; check that it exists and is readable");
   std::string line;
   for (int number = 1; std::getline(file, line); ++number) {
     const auto content = trim(line);
@@ -69,7 +69,7 @@ std::int64_t TextFile::nanoseconds(const TextLine& line, std::size_t field) cons
 }
 
 std::int64_t TextFile::seconds_as_ns(const TextLine& line, std::size_t field) const {
-  long double seconds = 0.0L;  // a double would lose hundreds of ns of a time since 1970
+  long double seconds = 0.0L;  // a double loses hundreds of ns of a time since 1970
   if (!parse(text(line, field), seconds) || !(seconds >= 0.0L && seconds < 9.2e9L)) {
     fail(line, "time '" + line.fields[field] + "' is not a number of seconds; correct or remove the line");
   }
@@ -86,9 +86,9 @@ const std::string& TextFile::text(const TextLine& line, std::size_t field) const
 
 void TextFile::expect_later(const TextLine& line, std::int64_t previous_ns, std::int64_t stamp_ns) const {
   if (stamp_ns > previous_ns) return;
-  fail(line, "stamp " + std::to_string(stamp_ns) + " ns is not later than the one before it (" +
+  fail(line, "stamp " + std::to_string(stamp_ns) + " ns is not later than the previous one (" +
                  std::to_string(previous_ns) +
-                 " ns); times must increase: sort the file, or cut the recording where its clock was set");
+                 " ns); times must increase: sort the file, or split the recording where its clock was set");
 }
 
 void TextFile::fail(const TextLine& line, std::string_view what) const {

@@ -11,13 +11,13 @@
 
 namespace panvo::dataset_player {
 
-/// A line of a text table, cut into its fields, trimmed.
+/// A line of a text table, split into trimmed fields.
 struct TextLine {
   int number = 0;  ///< from 1
   std::vector<std::string> fields;
 };
 
-/// A text file of fields between commas or blanks. Empty lines and those that begin with '#' are left out.
+/// A text file with fields separated by commas or spaces. Skips empty lines and lines that begin with '#'.
 class TextFile {
  public:
   enum class Separator { kComma, kBlank };
@@ -26,14 +26,14 @@ class TextFile {
   const std::vector<TextLine>& lines() const noexcept { return lines_; }
   const std::filesystem::path& path() const noexcept { return path_; }
 
-  /// A finite number, a stamp in whole nanoseconds, a time in seconds as nanoseconds. Throw DatasetError naming the
-  /// line.
+  /// Parse a field: a finite number, a stamp in integer nanoseconds, a time in seconds (returned in ns). Throw
+  /// DatasetError with the line.
   double number(const TextLine& line, std::size_t field) const;
   std::int64_t nanoseconds(const TextLine& line, std::size_t field) const;
   std::int64_t seconds_as_ns(const TextLine& line, std::size_t field) const;
   const std::string& text(const TextLine& line, std::size_t field) const;
 
-  /// Throws DatasetError unless `stamp_ns` is later than the one before it.
+  /// Throws DatasetError unless `stamp_ns` is later than `previous_ns`.
   void expect_later(const TextLine& line, std::int64_t previous_ns, std::int64_t stamp_ns) const;
 
   [[noreturn]] void fail(const TextLine& line, std::string_view what) const;

@@ -26,8 +26,8 @@ std::vector<TimelineEvent> timeline(const Dataset& dataset, const Selection& sel
   };
   std::sort(images.begin(), images.end(), earlier);
   if (images.empty()) {
-    throw DatasetError(fmt::format("{}: has no image of the cameras that are to be played (parameter cameras)",
-                                   dataset.directory.string()));
+    throw DatasetError(
+        fmt::format("{}: has no images of the selected cameras (parameter cameras)", dataset.directory.string()));
   }
 
   const auto length_ns = images.back().stamp_ns - images.front().stamp_ns;
@@ -37,9 +37,9 @@ std::vector<TimelineEvent> timeline(const Dataset& dataset, const Selection& sel
   std::erase_if(images,
                 [&](const TimelineEvent& event) { return event.stamp_ns < begin_ns || event.stamp_ns > end_ns; });
   if (images.empty()) {
-    throw DatasetError(fmt::format(
-        "{}: no image is left between start_s = {} and the end of what is to be played; the recording lasts {} s",
-        dataset.directory.string(), selection.start_s, static_cast<double>(length_ns) * 1e-9));
+    throw DatasetError(
+        fmt::format("{}: has no images between start_s = {} and the end of the selected part; the recording lasts {} s",
+                    dataset.directory.string(), selection.start_s, static_cast<double>(length_ns) * 1e-9));
   }
 
   const auto& poses = dataset.ground_truth;

@@ -14,11 +14,11 @@ namespace {
 
 std::string read_text(const std::filesystem::path& path) {
   std::ifstream file(path);
-  if (!file) throw DatasetError(path.string() + ": cannot be opened; is it there, and may you read it?");
+  if (!file) throw DatasetError(path.string() + ": cannot be opened; check that it exists and is readable");
   std::ostringstream text;
   text << file.rdbuf();
   std::string content = text.str();
-  // OpenCV's directive is no YAML 1.x one: as a comment it keeps the line numbers.
+  // OpenCV's directive is not valid YAML 1.x; turning it into a comment keeps the line numbers.
   if (content.starts_with("%YAML:")) content[0] = '#';
   return content;
 }
@@ -45,7 +45,8 @@ YamlFile::YamlFile(std::filesystem::path path) : path_(std::move(path)) {
   } catch (const YAML::ParserException& error) {
     throw DatasetError(path_.string() + ":" + std::to_string(error.mark.line + 1) + ": is not YAML: " + error.msg);
   }
-  if (!root_.IsMap()) throw DatasetError(path_.string() + ": holds no `key: value` lines; is it the right file?");
+  if (!root_.IsMap())
+    throw DatasetError(path_.string() + ": contains no `key: value` lines; check that it is the right file");
 }
 
 std::optional<std::string> YamlFile::first_of(std::initializer_list<const char*> keys) const {
@@ -70,7 +71,7 @@ std::vector<double> YamlFile::numbers(const std::string& key) const {
   if (!append_numbers(at(key), values)) fail(key, "must be a list of numbers or a matrix (rows, cols, data)");
   for (const double value : values) {
     if (!(std::abs(value) <= interfaces::kFarthest_m)) {
-      fail(key, "has a number that is not finite or of no plausible size; correct it, or calibrate again");
+      fail(key, "contains a number that is not finite or not plausible; correct it, or recalibrate");
     }
   }
   return values;

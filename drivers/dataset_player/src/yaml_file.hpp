@@ -14,8 +14,8 @@
 
 namespace panvo::dataset_player {
 
-/// A YAML file of calibration values, plain or as OpenCV writes it (%YAML:1.0, !!opencv-matrix). Failures throw
-/// DatasetError that names file, line and key.
+/// A YAML file of calibration values, plain or in OpenCV's form (%YAML:1.0, !!opencv-matrix). Errors throw DatasetError
+/// with file, line and key.
 class YamlFile {
  public:
   explicit YamlFile(std::filesystem::path path);
@@ -23,12 +23,12 @@ class YamlFile {
   const std::filesystem::path& path() const noexcept { return path_; }
 
   bool has(const std::string& key) const { return static_cast<bool>(root_[key]); }
-  /// The first of `keys` that is there: the same thing under the names that several tools give it.
+  /// The first of `keys` that exists; used for keys whose names differ between tools.
   std::optional<std::string> first_of(std::initializer_list<const char*> keys) const;
 
   int integer(const std::string& key) const;
   std::string text(const std::string& key, const std::string& when_absent) const;
-  /// All numbers of a value: a list, a list of lists, or a matrix (a map with `data`).
+  /// All numbers of a value: a list, nested lists, or a matrix (a map with `data`). `count`: required number.
   std::vector<double> numbers(const std::string& key) const;
   std::vector<double> numbers(const std::string& key, std::size_t count) const;
 

@@ -104,7 +104,7 @@ TEST_F(CalibrationFile, OfRosKeepsItsRectification) {
   EXPECT_DOUBLE_EQ(stereo.rectified.camera.cy, 20.0);
   EXPECT_DOUBLE_EQ(stereo.calibration.left.pinhole.fx, 50.0);
   EXPECT_DOUBLE_EQ(stereo.rectified.rectified_left_from_left(0, 2), 0.6);
-  // Here both cameras turn alike, so that the right one stands along the rectified X axis as the left camera sees it.
+  // Both cameras have the same rotation, so the right one is displaced along the rectified X axis in the left frame.
   EXPECT_TRUE(stereo.calibration.right_from_left.linear().isIdentity(1e-12));
   EXPECT_TRUE(stereo.calibration.right_from_left.translation().isApprox(-0.12 * Eigen::Vector3d(0.8, 0, 0.6), 1e-12));
 }
@@ -115,8 +115,8 @@ TEST_F(CalibrationFile, OfRosTellsHowTheRawCamerasStand) {
   write("left.yaml", left);
   write("right.yaml", camera_info(-4.8));
   const auto pair = read_ros_calibration(root_ / "left.yaml", root_ / "right.yaml").calibration;
-  // A point straight ahead of the left camera, whose raw frame is the rectified one, seen from 12 cm to the right and
-  // turned back.
+  // A point straight ahead of the left camera, whose raw and rectified frames are equal, in the raw frame of the right
+  // camera, which is displaced by 12 cm and rotated.
   const Eigen::Vector3d point_in_right = pair.right_from_left * Eigen::Vector3d(0, 0, 1);
   EXPECT_TRUE(point_in_right.isApprox(Eigen::Vector3d(-0.12 * 0.8 - 0.6, 0, -0.12 * 0.6 + 0.8), 1e-12))
       << point_in_right;

@@ -135,9 +135,8 @@ TEST_F(DatasetPlayer, LeavesOutAFrameThatCannotBeDecodedAndGoesOn) {
   ASSERT_THAT(left_, SizeIs(3));
   EXPECT_THAT(right_, SizeIs(3));
   EXPECT_EQ(conversions::stamp_ns(*left_[1]), 1'100'000'000);
-  EXPECT_TRUE(
-      harness_.log_contains("cam1/data/1050000000.png: is no image that can be decoded; the frame is left out"));
-  EXPECT_TRUE(harness_.log_contains("1 of 4 frames could not be read and were left out"));
+  EXPECT_TRUE(harness_.log_contains("cam1/data/1050000000.png: cannot be decoded as an image; frame skipped"));
+  EXPECT_TRUE(harness_.log_contains("1 of 4 frames could not be read and were skipped"));
 }
 
 TEST_F(DatasetPlayer, LeavesOutAFrameOfAnotherSizeAndGoesOn) {
@@ -145,7 +144,7 @@ TEST_F(DatasetPlayer, LeavesOutAFrameOfAnotherSizeAndGoesOn) {
   write_image("mav0/cam0/data/1050000000.png", 32, 24);
   play();
   EXPECT_THAT(left_, SizeIs(2));
-  EXPECT_TRUE(harness_.log_contains("cam0/data/1050000000.png: is 32 x 24 px, the images before are 64 x 48 px"));
+  EXPECT_TRUE(harness_.log_contains("cam0/data/1050000000.png: is 32 x 24 px, the previous images are 64 x 48 px"));
 }
 
 TEST_F(DatasetPlayer, BearsGreyAndColourImagesInOneRecording) {
@@ -169,7 +168,7 @@ TEST_F(DatasetPlayer, RefusesADatasetThatIsNotThere) {
   root_ /= "nowhere";
   EXPECT_THROW(
       try { play(); } catch (const runtime::ConfigError& error) {
-        EXPECT_THAT(error.what(), AllOf(HasSubstr(root_.string()), HasSubstr("is not there")));
+        EXPECT_THAT(error.what(), AllOf(HasSubstr(root_.string()), HasSubstr("does not exist")));
         throw;
       },
       runtime::ConfigError);

@@ -14,13 +14,13 @@ using OpenDataset = testing::WrittenDataset;
 
 TEST_F(OpenDataset, SaysThatAMissingFolderIsMissing) {
   root_ /= "nowhere";
-  EXPECT_THAT(error(), AllOf(HasSubstr(root_.string()), HasSubstr("is not there")));
+  EXPECT_THAT(error(), AllOf(HasSubstr(root_.string()), HasSubstr("does not exist")));
 }
 
 TEST_F(OpenDataset, SaysThatAFileIsNoFolder) {
   write("readme.txt", "text");
   root_ /= "readme.txt";
-  EXPECT_THAT(error(), HasSubstr("is a file; name the folder"));
+  EXPECT_THAT(error(), HasSubstr("is a file; specify the folder"));
 }
 
 TEST_F(OpenDataset, NamesAllItLookedForInAnEmptyFolder) {
@@ -64,7 +64,7 @@ TEST_F(OpenDataset, OutlivesADamagedFirstImage) {
 TEST_F(OpenDataset, RefusesImagesOfWhichNoneCanBeDecoded) {
   write_kitti();
   for (int i = 0; i < 3; ++i) write("image_0/00000" + std::to_string(i) + ".png", "no image");
-  EXPECT_THAT(error(), AllOf(HasSubstr("image_0/000000.png"), HasSubstr("no image that can be decoded")));
+  EXPECT_THAT(error(), AllOf(HasSubstr("image_0/000000.png"), HasSubstr("cannot be decoded as an image")));
 }
 
 }  // namespace

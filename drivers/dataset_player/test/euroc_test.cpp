@@ -79,7 +79,7 @@ TEST_F(EurocDataset, LeavesOutPairsThatLackAFile) {
 TEST_F(EurocDataset, RefusesToBeWithoutAnEye) {
   write_euroc();
   fs::remove_all(root_ / "mav0/cam1");
-  EXPECT_THAT(error(), AllOf(HasSubstr("mav0/cam1: is missing"), HasSubstr("both eyes")));
+  EXPECT_THAT(error(), AllOf(HasSubstr("mav0/cam1: is missing"), HasSubstr("both cameras")));
 }
 
 TEST_F(EurocDataset, RefusesAnEmptyFolder) {
@@ -110,7 +110,7 @@ TEST_F(EurocDataset, NamesTheLineOfAResolutionThatIsNot) {
 TEST_F(EurocDataset, NamesTheLineOfAnImageWithoutAName) {
   write_euroc();
   write("mav0/cam0/data.csv", "1000000000,1000000000.png\n1050000000,\n");
-  EXPECT_THAT(error(), AllOf(HasSubstr("cam0/data.csv:2:"), HasSubstr("names no image file")));
+  EXPECT_THAT(error(), AllOf(HasSubstr("cam0/data.csv:2:"), HasSubstr("has no image file name")));
 }
 
 TEST_F(EurocDataset, RefusesATransformThatIsNone) {

@@ -39,20 +39,20 @@ TEST_F(Folders, KeepTheTimeOfFramesAfterAGap) {
 TEST_F(Folders, NeedBothEyes) {
   write_folders(2);
   fs::remove_all(root_ / "right");
-  EXPECT_THAT(error(), AllOf(HasSubstr("right: is missing"), HasSubstr("both eyes")));
+  EXPECT_THAT(error(), AllOf(HasSubstr("right: is missing"), HasSubstr("both cameras")));
 }
 
 TEST_F(Folders, MustNotBeEmpty) {
   write_folders(2);
   fs::remove_all(root_ / "left");
   fs::create_directories(root_ / "left");
-  EXPECT_THAT(error(), HasSubstr("left: holds no image"));
+  EXPECT_THAT(error(), HasSubstr("left: contains no images"));
 }
 
 TEST_F(Folders, MustShareTheirNumbers) {
   write_folders(1);
   fs::rename(root_ / "right/right1.jpg", root_ / "right/right7.jpg");
-  EXPECT_THAT(error(), AllOf(HasSubstr("no image has the number"), HasSubstr("alike")));
+  EXPECT_THAT(error(), AllOf(HasSubstr("no image has the number"), HasSubstr("equal numbers")));
 }
 
 TEST_F(Folders, MustNumberEachImageOnce) {
@@ -64,7 +64,7 @@ TEST_F(Folders, MustNumberEachImageOnce) {
 TEST_F(Folders, MustNumberTheirImages) {
   write_folders(2);
   write_image("left/portrait.jpg");
-  EXPECT_THAT(error(), AllOf(HasSubstr("portrait.jpg"), HasSubstr("ends in no number")));
+  EXPECT_THAT(error(), AllOf(HasSubstr("portrait.jpg"), HasSubstr("does not end in a number")));
 }
 
 TEST_F(Folders, NameTheCalibrationsLookedFor) {

@@ -25,10 +25,10 @@ TEST_F(ImageFiles, AreDecodedAsTheyAreOrGrey) {
 TEST_F(ImageFiles, ThatCannotBeDecodedAreNamed) {
   write("text.png", "no image");
   write("empty.png", "");
-  cv::Mat image(kHeight, kWidth, CV_8UC1);  // of the frame before: must not pass for this one
+  cv::Mat image(kHeight, kWidth, CV_8UC1);  // of the previous frame: must not be returned
   ImageDecoder decoder;
   EXPECT_THAT(*decoder.decode(root_ / "text.png", Colour::kAsStored, image),
-              AllOf(HasSubstr("text.png"), HasSubstr("no image")));
+              AllOf(HasSubstr("text.png"), HasSubstr("cannot be decoded")));
   EXPECT_TRUE(image.empty());
   EXPECT_THAT(*decoder.decode(root_ / "empty.png", Colour::kAsStored, image), HasSubstr("is empty"));
   EXPECT_THAT(*decoder.decode(root_ / "nowhere.png", Colour::kAsStored, image), HasSubstr("cannot be read"));

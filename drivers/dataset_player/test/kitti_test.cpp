@@ -18,7 +18,7 @@ TEST_F(KittiDataset, IsRectifiedWithTheBaselineOfItsProjections) {
   EXPECT_DOUBLE_EQ(stereo.rectified.camera.fx, 50.0);
   EXPECT_TRUE(stereo.rectified.rectified_left_from_left.isIdentity());
   EXPECT_EQ(stereo.frames.size(), 3u);
-  // base_link at the left camera, x forward: the right camera stands to the right, at negative y.
+  // base_link is at the left camera, x forward: the right camera is at negative y.
   EXPECT_TRUE(stereo.base_from_left.translation().isZero());
   EXPECT_TRUE(stereo.base_from_right().translation().isApprox(Eigen::Vector3d(0.0, -0.2, 0.0)));
   EXPECT_TRUE((stereo.base_from_left.linear() * Eigen::Vector3d::UnitZ()).isApprox(Eigen::Vector3d::UnitX()));
@@ -76,13 +76,13 @@ TEST_F(KittiDataset, FindsItsPosesInTheFolderOfAllSequences) {
   write("poses/07.txt", "1 0 0 0 0 1 0 0 0 0 1 0\n1 0 0 0 0 1 0 0 0 0 1 1\n");
   const auto dataset = open_dataset(all / "sequences" / "07" / "");
   EXPECT_EQ(dataset.ground_truth.size(), 2u);
-  EXPECT_THAT(dataset.notes.back(), HasSubstr("the last 1 of 3 frames are without ground truth"));
+  EXPECT_THAT(dataset.notes.back(), HasSubstr("the last 1 of 3 frames have no ground truth"));
 }
 
 TEST_F(KittiDataset, RefusesAPoseThatIsNoRotation) {
   write_kitti();
   write("poses.txt", "1 0 0 0 0 1 0 0 0 0 1 0\n2 0 0 0 0 1 0 0 0 0 1 1\n");
-  EXPECT_THAT(error(), AllOf(HasSubstr("poses.txt:2:"), HasSubstr("no rotation")));
+  EXPECT_THAT(error(), AllOf(HasSubstr("poses.txt:2:"), HasSubstr("not a rotation")));
 }
 
 TEST_F(KittiDataset, PlaysTheColourCamerasWhereThereIsNoGreyOne) {
@@ -92,7 +92,7 @@ TEST_F(KittiDataset, PlaysTheColourCamerasWhereThereIsNoGreyOne) {
   for (const char* eye : {"image_2", "image_3"}) write_image(fs::path(eye) / "000000.png", kWidth, kHeight, 3);
   const auto stereo = open_dataset(root_).stereo.value();
   EXPECT_NEAR(stereo.rectified.baseline_m, 0.5, 1e-3);
-  // Its left camera stands about 6 cm to the left of camera 0, where base_link is.
+  // Its left camera is about 6 cm to the left of camera 0, where base_link is.
   EXPECT_NEAR(stereo.base_from_left.translation().y(), 0.06, 3e-3);
 }
 
@@ -108,13 +108,13 @@ TEST_F(KittiDataset, LeavesOutFramesThatLackAnEye) {
 TEST_F(KittiDataset, RefusesToBeWithoutTheRightEye) {
   write_kitti();
   fs::remove_all(root_ / "image_1");
-  EXPECT_THAT(error(), AllOf(HasSubstr("image_1: is missing"), HasSubstr("both eyes")));
+  EXPECT_THAT(error(), AllOf(HasSubstr("image_1: is missing"), HasSubstr("both cameras")));
 }
 
 TEST_F(KittiDataset, RefusesAnEmptyFolderOfImages) {
   write("calib.txt", "P0: 50 0 32 0 0 50 24 0 0 0 1 0\n");
   fs::create_directories(root_ / "image_0");
-  EXPECT_THAT(error(), HasSubstr("image_0: holds no image"));
+  EXPECT_THAT(error(), HasSubstr("image_0: contains no images"));
 }
 
 TEST_F(KittiDataset, RefusesAMissingCalibration) {

@@ -6,7 +6,7 @@
 
 namespace panvo::dataset_player::testing {
 
-/// Folder of a recording: in $PANVO_DATA, else in shared/data beside the checkout. May not be there.
+/// Folder of a recording in $PANVO_DATA, or in shared/data next to the checkout. It may not exist.
 inline std::filesystem::path recorded_data(const char* name) {
   const char* root = std::getenv("PANVO_DATA");
   return (root != nullptr ? std::filesystem::path(root) : std::filesystem::path(PANVO_SHARED_DATA)) / name;
@@ -14,7 +14,7 @@ inline std::filesystem::path recorded_data(const char* name) {
 
 }  // namespace panvo::dataset_player::testing
 
-/// Skips the test, saying so, where the recording is not there.
+/// Skips the test with a message if the recording is missing.
 #define PANVO_NEEDS_RECORDING(path)   \
   if (!std::filesystem::exists(path)) \
-  GTEST_SKIP() << (path).string() << " is not here; set PANVO_DATA to the folder of recordings"
+  GTEST_SKIP() << (path).string() << " is missing; set PANVO_DATA to the folder of recordings"

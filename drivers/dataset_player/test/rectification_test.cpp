@@ -15,7 +15,7 @@
 namespace panvo::dataset_player {
 namespace {
 
-/// Absolute differences in row of features that match between the two images, px.
+/// Absolute row differences of matched features between the two images, px.
 std::vector<double> row_errors_px(const cv::Mat& left, const cv::Mat& right) {
   const auto orb = cv::ORB::create(800, 1.2F, 4);
   std::vector<cv::KeyPoint> left_keypoints, right_keypoints;
@@ -28,14 +28,14 @@ std::vector<double> row_errors_px(const cv::Mat& left, const cv::Mat& right) {
   for (const auto& match : matches) {
     const auto& a = left_keypoints[static_cast<std::size_t>(match.queryIdx)].pt;
     const auto& b = right_keypoints[static_cast<std::size_t>(match.trainIdx)].pt;
-    // What differs by more is no match; so wide a gate favours neither image pair.
+    // Larger differences are mismatches; the gate is wide enough not to favour either image pair.
     if (match.distance < 40 && std::abs(a.y - b.y) < 10 && a.x - b.x > -10 && a.x - b.x < 80)
       errors.push_back(std::abs(a.y - b.y));
   }
   return errors;
 }
 
-// The features stand on whole pixels of a level of the image pyramid: the mean tells more than the median.
+// Features lie on integer pixels of a pyramid level, so the mean is more informative than the median.
 double mean(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }

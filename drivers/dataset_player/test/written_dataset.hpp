@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 
 namespace panvo::dataset_player::testing {
 
-/// A folder of this test's own, empty at first, gone at the end; with small data sets of each layout to fill it.
+/// Fixture with a temporary folder, initially empty, and functions that write small data sets of each layout.
 class WrittenDataset : public ::testing::Test {
  protected:
   static constexpr int kWidth = 64, kHeight = 48;
@@ -36,7 +36,7 @@ class WrittenDataset : public ::testing::Test {
     std::ofstream(root_ / name) << text;
   }
 
-  /// An image whose every pixel has the value `grey`.
+  /// Writes an image with all pixels equal to `grey`.
   void write_image(const fs::path& name, int width = kWidth, int height = kHeight, int channels = 1,
                    int grey = 100) const {
     fs::create_directories((root_ / name).parent_path());
@@ -57,7 +57,7 @@ class WrittenDataset : public ::testing::Test {
 
   static std::string euroc_sensor(double x_m, double y_m, const std::string& model = "pinhole",
                                   const std::string& distortion = "[0, 0, 0, 0]") {
-    // A camera that looks along +x of the body.
+    // A camera that looks along +x of the body frame.
     return "#Default camera sensor yaml file\nsensor_type: camera\ncomment: VI-Sensor cam (MT9M034)\n\nT_BS:\n  cols: "
            "4\n  rows: 4\n  data: "
            "[0, 0, 1, " +
@@ -67,7 +67,7 @@ class WrittenDataset : public ::testing::Test {
            distortion + "\n";
   }
 
-  /// Stamps 1000000000 + i * 50 ms, those of the right eye later by `right_delay_ns`.
+  /// Stamps: 1 s + i * 50 ms; those of the right camera later by `right_delay_ns`.
   void write_euroc(int frames = 3, std::int64_t right_delay_ns = 0) const {
     write("mav0/cam0/sensor.yaml", euroc_sensor(2.0, 0.1));
     write("mav0/cam1/sensor.yaml", euroc_sensor(2.0, -0.1));
@@ -105,7 +105,7 @@ class WrittenDataset : public ::testing::Test {
     }
   }
 
-  /// What open_dataset says is wrong; fails the test if it finds nothing wrong.
+  /// Message of the error of open_dataset(); fails the test if there is none.
   std::string error() const {
     try {
       open_dataset(root_);

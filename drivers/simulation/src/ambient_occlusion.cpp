@@ -15,21 +15,21 @@
 namespace panvo::simulation {
 namespace {
 
-constexpr int kMostPackets = 2;                   // of sixteen rays a place
-constexpr std::size_t kManyPlaces = 4'000;        // a mesh of more gets half the rays
+constexpr int kMostPackets = 2;                   // of sixteen rays, per place
+constexpr std::size_t kManyPlaces = 4'000;        // larger meshes get half the rays
 constexpr int kChunk = 128;                       // places that a thread takes at a time
 constexpr float kCell = 0.15f;                    // m: vertices nearer than this share their light
-constexpr float kLift = 0.02f, kInwards = 0.05f;  // m: out of the surface, and away from the corner it may lie in
-constexpr float kFromWalls = 0.12f;               // light that gets everywhere: what shuts out the sky is itself bright
+constexpr float kLift = 0.02f, kInwards = 0.05f;  // m: ray origin off the surface, and away from corners
+constexpr float kFromWalls = 0.12f;               // minimum light: occluders reflect light, too
 
-/// Vertices that look about the same: near one place, facing about the same way.
+/// Vertices with nearly equal position and normal.
 struct Place {
   Eigen::Vector3f position = Eigen::Vector3f::Zero(), normal = Eigen::Vector3f::UnitZ();
   Eigen::Vector3f middle = Eigen::Vector3f::Zero();  // of its triangles, summed
   int triangles = 0;
 };
 
-/// Cosine-weighted directions about +z: equal areas of the disc [the golden angle's spiral].
+/// Cosine-weighted directions around +z: equal areas of the disc (golden-angle spiral).
 std::vector<Eigen::Vector3f> hemisphere(int packets) {
   std::vector<Eigen::Vector3f> directions;
   for (int i = 0; i < 16 * packets; ++i) {
@@ -42,7 +42,7 @@ std::vector<Eigen::Vector3f> hemisphere(int packets) {
   return directions;
 }
 
-/// Joins the vertices of a mesh; gives the number of each vertex's place.
+/// Merges the vertices of a mesh into places; returns the index of each vertex's place.
 std::vector<std::uint32_t> join(const Mesh& mesh, std::vector<Place>& places) {
   const auto key = [&](std::uint32_t i) {
     const auto& vertex = mesh.vertices[i];

@@ -22,7 +22,7 @@ BuildingUse building_use(PlotUse use) {
   }
 }
 
-/// Plain walls: what a junction with weak texture is to have about it.
+/// Makes walls plain, for junctions with weak texture.
 void make_plain(FacadeStyle& style, double weakness) {
   style.contrast = static_cast<float>(1.0 - weakness);
   if (weakness < 0.3) return;
@@ -34,7 +34,7 @@ void make_plain(FacadeStyle& style, double weakness) {
   style.grime = 0.1f;
 }
 
-/// Where a plot's ground is highest and lowest (m): the floor lies on the one, the walls reach below the other.
+/// Lowest and highest ground (m) of a plot: the walls reach below the lowest, the floor lies on the highest.
 std::pair<float, float> ground_range(const Site& site, const Plot& plot) {
   double low = 1e9, high = -1e9;
   for (const auto& probe : probes_of(plot)) {
@@ -45,7 +45,7 @@ std::pair<float, float> ground_range(const Site& site, const Plot& plot) {
   return {static_cast<float>(low), static_cast<float>(high)};
 }
 
-/// A body on a part of the plot: `x`, `y` of its middle in the plot's frame.
+/// A body on a part of the plot; `x`, `y`: its centre in the plot's frame.
 Body body_on(const Site& site, const Plot& plot, float x, float y, float width, float depth) {
   const auto [low, high] = ground_range(site, plot);
   Body body;
@@ -72,7 +72,7 @@ void build_on(const Site& site, const PlannedPlot& planned, const FacadeStyle& s
   const bool is_big = planned.use == PlotUse::kInstitute;
   if (width < 11.0f || planned.use == PlotUse::kHall || shape < 0.45) {
     add(style, 0.0f, 0.0f, width, depth, planned.use == PlotUse::kHouse && width < 12.0f && random.chance(0.4), 1);
-  } else if (shape < 0.75) {  // a wing that stands back, lower by a floor
+  } else if (shape < 0.75) {  // a recessed wing, one floor lower
     FacadeStyle wing = style;
     wing.floors = std::max(1, style.floors - 1);
     const float share = static_cast<float>(random.uniform(0.3, 0.45));
@@ -80,7 +80,7 @@ void build_on(const Site& site, const PlannedPlot& planned, const FacadeStyle& s
     const float back = is_big ? 3.0f : 1.5f;
     add(style, -side * 0.5f * share * width, 0.0f, (1.0f - share) * width, depth, false, 1);
     add(wing, side * 0.5f * (1.0f - share) * width, 0.5f * back, share * width, depth - back, false, 2);
-  } else {  // a middle that stands forward, with a gable to the road
+  } else {  // a protruding centre with a gable to the road
     const float forward = is_big ? 2.0f : 1.2f;
     const float middle = std::clamp(style.bay * (is_big ? 4.0f : 3.0f), 5.0f, 0.6f * width);
     FacadeStyle centre = style;
@@ -103,8 +103,8 @@ std::vector<Plot> build_buildings(const Site& site, Scene& scene) {
   PlotUse last_use = PlotUse::kOpen;
   for (const auto& planned : plan_plots(site)) {
     Random own = random.part(++number);
-    if (planned.use == PlotUse::kOpen) continue;  // lawns, and what furniture makes of them
-    // now and then a twin of the neighbour
+    if (planned.use == PlotUse::kOpen) continue;  // left to build_furniture()
+    // sometimes a twin of the neighbour
     const bool is_twin = planned.use == last_use && own.chance(0.22);
     if (!is_twin) style_number = number;
     last_use = planned.use;

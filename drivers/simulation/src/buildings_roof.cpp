@@ -7,7 +7,7 @@
 namespace panvo::simulation {
 namespace {
 
-/// A roof while it is being built, in coordinates of its ridge: a along it, b square to it, both from the middle.
+/// Builds a roof in coordinates of its ridge: a along it, b perpendicular to it, both from the centre.
 class RoofBuilder {
  public:
   RoofBuilder(const FacadeStyle& style, const BuildingMaterials& materials, const Body& body, Random random, Mesh& mesh)
@@ -52,7 +52,7 @@ class RoofBuilder {
   }
 
   void slope_strip(float a0, float a1, float low_b, float low_z, float high_b, float high_z, float top0, float top1) {
-    // from the eaves between a0 and a1 up to the ridge between top0 and top1; turned so that it looks outwards
+    // from the eaves between a0 and a1 up to the ridge between top0 and top1, facing outwards
     const float side = low_b < 0.0f ? 1.0f : -1.0f;
     const Eigen::Vector3f low0 = at(side * a0, low_b, low_z), low1 = at(side * a1, low_b, low_z);
     const Eigen::Vector3f high0 = at(side * top0, high_b, high_z), high1 = at(side * top1, high_b, high_z);
@@ -85,7 +85,7 @@ class RoofBuilder {
              shaded(style_.roof_tint, 0.8f), true);
   }
 
-  /// The board below the eaves' edge, and the soffit behind it.
+  /// The board below the edge of the eaves, and the soffit behind it.
   void add_fascia(float side, float reach, float b, float z) {
     const Tint tint = shaded(style_.trim_tint, 0.9f);
     const float left = -side * reach;
@@ -107,7 +107,7 @@ class RoofBuilder {
     mesh_.add_polygon({vertex(-left, top_), vertex(0, top_), vertex(0, ridge_)}, style_.wall);
     mesh_.add_polygon({vertex(0, top_), vertex(left, top_), vertex(0, ridge_)}, style_.wall);
     if (ridge_ - top_ < 2.6f || style_.use == BuildingUse::kHall) return;
-    WallFrame frame;  // stands a little before the wall, so that the window's glass is seen
+    WallFrame frame;  // slightly in front of the wall, so that the window's glass is visible
     frame.outwards = normal;
     frame.right = side * beside_;
     frame.origin = at(a, 0, top_) + (style_.recess - 0.02f) * normal;
@@ -123,7 +123,7 @@ class RoofBuilder {
     }
   }
 
-  /// The boards along the gable's slanting edges.
+  /// The boards along the gable's sloping edges.
   void add_barge(float side, float reach, float b, float z) {
     const Eigen::Vector3f drop(0, 0, -0.2f);
     const Eigen::Vector3f ridge = at(side * reach, 0, ridge_);

@@ -13,7 +13,7 @@ namespace panvo::simulation {
 namespace {
 
 constexpr int kNewtonSteps = 40;
-constexpr double kConverged = 1e-12;      // of the normalised image plane: far below a thousandth of a pixel
+constexpr double kConverged = 1e-12;      // on the normalised image plane: far below 1e-3 px
 constexpr double kWidestTangent = 100.0;  // 89.4 degrees off the axis
 
 void check_camera(const vision::PinholeCamera& camera) {
@@ -49,7 +49,7 @@ struct Distortion {
             y * radial + p1 * (r2 + 2.0 * y * y) + 2.0 * p2 * x * y};
   }
 
-  /// The place of the ideal image plane that is seen at `distorted`, by Newton's method; throws where there is none.
+  /// The undistorted position on the normalised image plane, by Newton's method; throws if there is none.
   Eigen::Vector2d undistort(const Eigen::Vector2d& distorted) const {
     Eigen::Vector2d ideal = distorted;
     Eigen::Matrix2d jacobian;
@@ -89,7 +89,7 @@ CameraRays empty_rays(int width, int height) {
 }  // namespace
 
 Eigen::Vector3f CameraRays::direction(float column, float row) const {
-  // beyond the border the table is continued straight on
+  // beyond the border, the table is extrapolated linearly
   const auto cell = [](float place, int size) { return std::clamp(static_cast<int>(std::floor(place)), 0, size - 2); };
   const int left = wraps ? static_cast<int>(std::floor(column)) : width > 1 ? cell(column, width) : 0;
   const int top = height > 1 ? cell(row, height) : 0;
@@ -106,7 +106,7 @@ Eigen::Vector3f CameraRays::direction(float column, float row) const {
   const Eigen::Vector3f& bottom_left = entry(left, top + 1);
   const Eigen::Vector3f& bottom_right = entry(left + 1, top + 1);
   if (top_left.isZero() || top_right.isZero() || bottom_left.isZero() || bottom_right.isZero()) {
-    return entry(left + (across > 0.5f ? 1 : 0), top + (down > 0.5f ? 1 : 0));  // the border of what a fisheye sees
+    return entry(left + (across > 0.5f ? 1 : 0), top + (down > 0.5f ? 1 : 0));  // at the edge of a fisheye's view
   }
   const Eigen::Vector3f upper = top_left + across * (top_right - top_left);
   const Eigen::Vector3f lower = bottom_left + across * (bottom_right - bottom_left);
@@ -172,7 +172,7 @@ CameraRays fisheye_rays(const FisheyeCamera& camera) {
     if (!(slope(widest * i / 100.0) > 0.0)) {
       throw std::invalid_argument(
           fmt::format("fisheye: the distortion folds the image over at {:.2f} rad off the axis; use coefficients that "
-                      "hold to half of the field of view, {:.2f} rad",
+                      "are valid to half of the field of view, {:.2f} rad",
                       widest * i / 100.0, widest));
     }
   }
@@ -183,7 +183,7 @@ CameraRays fisheye_rays(const FisheyeCamera& camera) {
       const Eigen::Vector2d place = camera.pinhole.unproject({column, row}).head<2>();
       const double distance = place.norm();
       if (distance > radius(widest)) continue;
-      // r(t) rises all the way: bisection first, so that Newton's method starts near the root
+      // r(t) is monotonic: bisection first, so that Newton's method starts near the root
       double low = 0.0;
       double high = widest;
       for (int i = 0; i < 8; ++i) (radius(0.5 * (low + high)) < distance ? low : high) = 0.5 * (low + high);

@@ -24,7 +24,7 @@ struct PlannedJunction {
 struct PlannedRoad {
   const char *from, *to;
   double width_m;
-  std::vector<Vector2d> bends;  // that it passes on its way
+  std::vector<Vector2d> bends;  // points on the way
 };
 
 // Rows from north to south, each from west to east.
@@ -99,7 +99,7 @@ double angle_between(const Vector2d& a, const Vector2d& b) {
   return std::atan2(a.x() * b.y() - a.y() * b.x(), a.dot(b));
 }
 
-// Directions in which a curve through `points` passes them: as a circle through three neighbours would.
+// Directions of a curve at each of `points`: those of the circle through three neighbours.
 std::vector<Vector2d> ways_through(const std::vector<Vector2d>& points) {
   std::vector<Vector2d> ways(points.size());
   for (std::size_t i = 1; i + 1 < points.size(); ++i) {
@@ -116,13 +116,13 @@ std::vector<Vector2d> ways_through(const std::vector<Vector2d>& points) {
   return ways;
 }
 
-// A smooth curve through `points` in these directions, with points evenly apart, at most a metre.
+// A smooth curve through `points` with these directions, as evenly spaced points at most a metre apart.
 std::vector<Vector2d> curve(const std::vector<Vector2d>& points, const std::vector<Vector2d>& ways) {
-  constexpr int kFine = 400;  // per piece: their chords are as long as the curve to a millimetre
+  constexpr int kFine = 400;  // per piece: the chords' length equals the curve's to a millimetre
   std::vector<Vector2d> fine{points.front()};
   for (std::size_t i = 0; i + 1 < points.size(); ++i) {
     const double length = (points[i + 1] - points[i]).norm();
-    // an arc's Hermite tangents are longer than its chord, the more it turns
+    // the Hermite tangents of an arc are longer than its chord, increasingly with its angle
     const double turn = std::abs(angle_between(ways[i], ways[i + 1])) / 4.0;
     const double speed = length / (std::cos(turn) * std::cos(turn));
     for (int k = 1; k <= kFine; ++k) {
@@ -146,7 +146,7 @@ std::vector<Vector2d> curve(const std::vector<Vector2d>& points, const std::vect
   return even;
 }
 
-// The plan with everything moved by up to some metres, times `scale`.
+// The plan with everything moved by up to several metres, times `scale`.
 RoadNetwork moved_plan(const Random& random, double scale) {
   constexpr double kJunctionShift_m = 6.0, kBendShift_m = 2.5, kStraightBend_m = 2.5, kArmTurn_rad = 0.035;
   RoadNetwork network;
@@ -180,7 +180,7 @@ RoadNetwork moved_plan(const Random& random, double scale) {
       points.insert(points.begin() + 1, middle);
     }
     std::vector<Vector2d> ways = ways_through(points);
-    // arms keep near to their planned directions, on which the angles of the routes' revisits depend
+    // arms stay near their planned directions, which determine the routes' entrance angles at revisits
     for (const bool at_start : {true, false}) {
       Vector2d& way = at_start ? ways.front() : ways.back();
       const Vector2d& plan = at_start ? planned_ways.front() : planned_ways.back();

@@ -24,13 +24,13 @@ DriftingOdometry::Pose DriftingOdometry::step(const Eigen::Isometry3d& true_worl
   vision::Vector6d per_metre;
   per_metre << Eigen::Vector3d::Constant(parameters_.motion_error_ratio),
       Eigen::Vector3d::Constant(parameters_.rotation_error_rad_per_m);
-  vision::Vector6d measured;  // beside what persists: of the measurement of each step
+  vision::Vector6d measured;  // independent error of each step, in addition to the persisting one
   measured << Eigen::Vector3d::Constant(1e-4), Eigen::Vector3d::Constant(1e-5);
   const vision::Vector6d error = moved_m * per_metre.cwiseProduct(persisting_) + measured.cwiseProduct(noise());
   move.translation() = (1.0 + parameters_.scale_error) * move.translation() + error.head<3>();
   const Eigen::Vector3d turned(0.0, 0.0, parameters_.yaw_error_rad_per_m * moved_m);
   move.linear() = vision::so3_exp(error.tail<3>() + turned) * move.linear();
-  // Variances of independent stretches add up, so that along the way they grow with it, not with its square.
+  // Variances of independent sections add up: the variance grows with the distance, not with its square.
   const vision::Vector6d variance = moved_m * parameters_.persistence_m * per_metre.cwiseAbs2() + measured.cwiseAbs2();
   pose_.covariance =
       vision::compose_covariance(pose_.odom_from_base, pose_.covariance, move, vision::Matrix6d(variance.asDiagonal()));

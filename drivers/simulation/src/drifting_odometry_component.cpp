@@ -16,11 +16,11 @@ struct DriftingOdometryParameters {
   static void describe(Field&& field) {
     using P = DriftingOdometryParameters;
     field.group(&P::drift, "drift");
-    field(&P::seed, "seed", "1", "of the errors", 0, 1'000'000'000);
+    field(&P::seed, "seed", "1", "seed of the errors", 0, 1'000'000'000);
   }
 };
 
-/// ground_truth/odometry -> odometry/binocular, as an odometry that drifts would have it.
+/// ground_truth/odometry -> odometry/binocular with modelled drift.
 class DriftingOdometryComponent final : public runtime::Component {
  public:
   explicit DriftingOdometryComponent(runtime::Context& context)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// From a route to the line a vehicle drives: right-hand lanes, joined by arcs at the junctions, all smoothed.
+// Converts a route to the vehicle's path: right-hand lanes, connected by arcs at the junctions, all smoothed.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -16,11 +16,11 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr double kStep_m = 0.1;              // of the path's points
+constexpr double kStep_m = 0.1;              // between the path's points
 constexpr double kLeastRadius_m = 5.0;       // of turns
-constexpr double kMostUsed = 0.45;           // of a road, by the turn at one of its ends
-constexpr double kSmoothing_m = 1.2;         // deviation: curvature comes and goes over some 4 m
-constexpr double kClearOfCrossing_m = 12.0;  // where the path begins and ends, off the first and the last junction
+constexpr double kMostUsed = 0.45;           // fraction of a road that the turn at one end may use
+constexpr double kSmoothing_m = 1.2;         // standard deviation: curvature changes over about 4 m
+constexpr double kClearOfCrossing_m = 12.0;  // distance of the path's ends from the first and last junction
 constexpr double kClearOfEnd_m = 3.0;        // the same in a cul-de-sac
 
 Vector2d left_of(const Vector2d& way) { return {-way.y(), way.x()}; }
@@ -29,15 +29,15 @@ double angle_between(const Vector2d& a, const Vector2d& b) {
   return std::atan2(a.x() * b.y() - a.y() * b.x(), a.dot(b));
 }
 
-// One road as it is driven.
+// One road of the route, in driving direction.
 struct Leg {
   int road = 0, from = 0, to = 0;
-  std::vector<Vector2d> lane, ways;  // and its unit direction at each point
+  std::vector<Vector2d> lane, ways;  // points of the lane and unit directions at them
   double length_m = 0.0;
   double offset_m = 0.0;  // right of the centre line
   double begin_m = 0.0, end_m = 0.0;
 
-  // `along` may lie before the beginning or after the end, where the lane goes on straight.
+  // `along` may lie outside the lane, which is extended straight at both ends.
   Vector2d at(double along) const {
     const auto [i, share] = place(along);
     return (1.0 - share) * lane[i] + share * lane[i + 1];
@@ -91,7 +91,7 @@ std::vector<Leg> legs_of(const RoadNetwork& roads, const Route& route) {
     const auto number = roads.find(name);
     if (!number) {
       throw std::invalid_argument(
-          fmt::format("route {}: there is no junction {}; there are {}", route.name, name, names_of(roads)));
+          fmt::format("route {}: unknown junction {}; known: {}", route.name, name, names_of(roads)));
     }
     numbers.push_back(*number);
   }
@@ -114,7 +114,7 @@ std::vector<Leg> legs_of(const RoadNetwork& roads, const Route& route) {
     if (!legs.empty() && legs.back().road == *joining && from != to &&
         roads.junctions[static_cast<std::size_t>(from)].roads.size() > 1) {
       throw std::invalid_argument(
-          fmt::format("route {}: turns back at {}, which is no cul-de-sac; go on to another of {}", route.name,
+          fmt::format("route {}: turns back at {}, which is not a cul-de-sac; continue to another of {}", route.name,
                       route.junctions[i], neighbours));
     }
     legs.push_back(leg_of(roads, *joining, from));
@@ -130,8 +130,8 @@ void add_arc(std::vector<Vector2d>& points, const Vector2d& centre, const Vector
   }
 }
 
-// Where a circle of this radius touches both lanes, on their `side` (+1 left, -1 right): nullopt if nowhere within
-// reach. Both lanes moved by the radius cross at its centre.
+// The circle of this radius that touches both lanes on their `side` (+1 left, -1 right); nullopt if there is none
+// within reach. Its centre is the intersection of both lanes offset by the radius.
 struct Touch {
   Vector2d centre;
   double on_in_m, on_out_m;
@@ -161,9 +161,9 @@ std::optional<Touch> touching_circle(const Leg& in, const Leg& out, double radiu
   return std::nullopt;
 }
 
-// Nearly straight on: a cubic from lane to lane.
+// Almost straight ahead: a cubic from lane to lane.
 std::vector<Vector2d> straight_on(Leg& in, Leg& out, double angle) {
-  const double blend = angle < 0.0 ? 6.0 : 9.0;  // m; to the right the kerb is near
+  const double blend = angle < 0.0 ? 6.0 : 9.0;  // m; shorter to the right, where the kerb is near
   in.end_m = in.length_m - std::min(blend, kMostUsed * in.length_m);
   out.begin_m = std::min(blend, kMostUsed * out.length_m);
   const Vector2d a = in.at(in.end_m), b = out.at(out.begin_m);
@@ -178,7 +178,7 @@ std::vector<Vector2d> straight_on(Leg& in, Leg& out, double angle) {
   return points;
 }
 
-// Through a junction, as an arc. A right turn keeps close to the kerb, whose corner is rounded; a left turn is wider.
+// An arc through a junction. A right turn follows the rounded kerb closely; a left turn is wider.
 std::vector<Vector2d> turn(Leg& in, Leg& out) {
   constexpr double kStraight_rad = 0.7, kRightReach_m = 6.0, kLeftReach_m = 8.5, kMost_m = 16.0;
   const double angle = angle_between(in.way(in.length_m - 5.0), out.way(5.0));
@@ -201,7 +201,7 @@ std::vector<Vector2d> turn(Leg& in, Leg& out) {
   return points;
 }
 
-// Back at the end of a cul-de-sac: a swing to the right, most of a circle to the left, a swing to the right again.
+// A U-turn at the end of a cul-de-sac: an arc to the right, most of a circle to the left, an arc to the right.
 std::vector<Vector2d> turn_back(Leg& in, Leg& out) {
   constexpr double kCircle_m = 5.2, kSwing_m = 8.0;
   const double from_axis = in.offset_m + kSwing_m, both = kCircle_m + kSwing_m;
@@ -220,7 +220,7 @@ std::vector<Vector2d> turn_back(Leg& in, Leg& out) {
   return points;
 }
 
-// At even steps of about kStep_m along the line through `points`.
+// Points at equal distances of about kStep_m on the line through `points`.
 std::vector<Vector2d> evenly(const std::vector<Vector2d>& points) {
   std::vector<double> along(points.size(), 0.0);
   for (std::size_t i = 1; i < points.size(); ++i) along[i] = along[i - 1] + (points[i] - points[i - 1]).norm();
@@ -237,7 +237,7 @@ std::vector<Vector2d> evenly(const std::vector<Vector2d>& points) {
   return even;
 }
 
-// Convolved with a Gaussian; before its beginning and after its end the line goes on as its point reflection.
+// Convolution with a Gaussian; the line is extended at both ends by its point reflection.
 std::vector<Vector2d> smoothed(const std::vector<Vector2d>& points) {
   const auto reach = static_cast<int>(std::ceil(4.0 * kSmoothing_m / kStep_m));
   std::vector<double> weights;
@@ -293,7 +293,7 @@ DrivenPath drive(const RoadNetwork& roads, const Route& route) {
   for (std::size_t i = 1; i < count; ++i) {
     path.along_m[i] = path.along_m[i - 1] + (path.points[i] - path.points[i - 1]).norm();
   }
-  // over two points on each side: the path's steps are so short that rounding would show
+  // from points two steps away: with single steps, rounding errors would be visible
   constexpr std::size_t kApart = 2;
   for (std::size_t i = kApart; i + kApart < count; ++i) {
     const Vector2d before = path.points[i] - path.points[i - kApart], after = path.points[i + kApart] - path.points[i];

@@ -11,9 +11,9 @@ namespace panvo::simulation {
 namespace {
 
 constexpr int kSameDirection = static_cast<int>(0.906 * 127 * 127);  // cosine of 25 degrees
-constexpr float kRangeJump = 0.02f;  // of the inverse range, off the line of its neighbours
-constexpr float kContrast = 0.04f;   // of the sum of both
-constexpr float kDarkness = 0.004f;  // radiance: below it nothing stands out
+constexpr float kRangeJump = 0.02f;  // relative deviation of the inverse range from its neighbours' line
+constexpr float kContrast = 0.04f;   // relative to the sum of both
+constexpr float kDarkness = 0.004f;  // radiance below which differences are not visible
 
 float brightness(const float* colour) { return 0.25f * colour[0] + 0.5f * colour[1] + 0.25f * colour[2]; }
 
@@ -25,7 +25,7 @@ bool faces_elsewhere(std::uint32_t a, std::uint32_t b) {
   return cosine < kSameDirection;
 }
 
-/// A row of what is seen.
+/// A row of SeenSurfaces.
 struct Row {
   Row(const SeenSurfaces& seen, int row)
       : radiance(seen.radiance.ptr<float>(row)),
@@ -66,7 +66,7 @@ void find_edges(const SeenSurfaces& seen, int first_row, int end_row, cv::Mat& i
 
       const float light = brightness(here.radiance + 3 * column);
       bool found = false;
-      std::uint32_t sun = key == 0 ? 3u : (normal & kSunny) != 0 ? 1u : 2u;  // bit 0: all in the sun, bit 1: none
+      std::uint32_t sun = key == 0 ? 3u : (normal & kSunny) != 0 ? 1u : 2u;  // bit 0: all sunlit, bit 1: all in shadow
       const auto compare = [&](const Row& other, int at) {
         if (other.key[at] != 0) sun &= (other.normal[at] & kSunny) != 0 ? 1u : 2u;
         const bool differs = jumps || other.key[at] != key || ((normal ^ other.normal[at]) & kSunny) != 0 ||

@@ -9,11 +9,11 @@
 namespace panvo::simulation {
 namespace {
 
-constexpr float kSharpness = 0.5f;  // an edge's sample stands for about half of the pixel's width and of the time
-constexpr float kSameSurface = 0.85f * 127.0f;  // cosine of the angle up to which a surface is taken for the same
+constexpr float kSharpness = 0.5f;              // an edge sample covers about half of the pixel's width and of the time
+constexpr float kSameSurface = 0.85f * 127.0f;  // cosine of the largest angle within the same surface
 constexpr float kSameRange = 0.08f;
 
-/// Which of the samples are traced among leaves, where fewer will do: sets that pixels take in turns.
+/// Sets of samples used among leaves, where fewer samples suffice; neighbouring pixels use different sets.
 std::vector<std::vector<std::size_t>> samples_among_leaves(std::size_t count) {
   if (count == 3) return {{0, 1}, {1, 2}, {2, 0}};
   const std::size_t stride = count > 1 ? 2 : 1;
@@ -38,7 +38,7 @@ std::vector<EdgeSample> edge_samples(int count) {
     const bool is_ring = count <= kMostInARing;
     const double angle = kTurn + (is_ring ? 2.0 * std::numbers::pi * i / count : i * kGoldenAngle);
     const double radius = is_ring ? 0.41 : 0.56 * std::sqrt((i + 0.5) / count);
-    // every other moment first, lest place and time go together
+    // alternate moments, so that position and time are not correlated
     const int order = (2 * i) % count + (count % 2 == 0 && 2 * i >= count ? 1 : 0);
     samples.push_back({static_cast<float>(radius * std::cos(angle)), static_cast<float>(radius * std::sin(angle)),
                        static_cast<float>((order + 0.5) / count)});
@@ -93,7 +93,7 @@ void EdgeTracer::trace(int top, cv::Mat& radiance) {
         const auto& offset = offsets_[number];
         const Eigen::Vector3f direction =
             blocks_.at(column, row) + offset.column * steps.across + offset.row * steps.down;
-        auto& queue = is_leaf ? leaves_ : asked_;  // no leaf is like the next
+        auto& queue = is_leaf ? leaves_ : asked_;  // leaves differ too much to reuse radiance
         add(queue, pending, direction, static_cast<int>(number) + 1,
             {kSharpness * steps.across, kSharpness * steps.down});
         if (asked_.count == kPacket) ask();
@@ -116,7 +116,7 @@ void EdgeTracer::add(Queue& queue, const Pending& pending, const Eigen::Vector3f
   queue.pending[lane] = pending;
 }
 
-/// Completes the packet; false if nothing is in it.
+/// Completes the packet; false if it is empty.
 bool EdgeTracer::close(Queue& queue) const {
   if (queue.count == 0) return false;
   queue.samples.lanes = (1u << queue.count) - 1u;
@@ -168,8 +168,8 @@ void EdgeTracer::shade(Queue& queue) {
   queue.count = 0;
 }
 
-/// Adds the light of the same surface at the centre of the pixel or of its neighbours; false where none of them sees
-/// it, or some see it in the sun and some in the shadow.
+/// Adds the radiance of the same surface at the centre of the pixel or its neighbours; false if none of them sees it,
+/// or if some see it sunlit and others in shadow.
 bool EdgeTracer::borrow(const Pending& pending, const SeenSurface& surface) const {
   const int width = rays_.width;
   const int left = pending.column > 0 ? pending.column - 1 : rays_.wraps ? width - 1 : 0;
@@ -190,10 +190,10 @@ bool EdgeTracer::borrow(const Pending& pending, const SeenSurface& surface) cons
     const auto normal = centres_.normal.at<std::uint32_t>(row, column);
     if (surface.key != 0 && unpacked(normal).dot(surface.normal) < kSameSurface) continue;
     const float nearness = centres_.inverse_range.at<float>(row, column);
-    if (std::abs(surface.inverse_range - nearness) > kSameRange * nearness) continue;  // behind, or before
+    if (std::abs(surface.inverse_range - nearness) > kSameRange * nearness) continue;  // at another distance
     is_sunny = is_sunny || (normal & kSunny) != 0;
     is_shady = is_shady || (normal & kSunny) == 0;
-    if (is_centre) continue;  // nearest, the others only tell of the sun
+    if (is_centre) continue;  // the nearest; the others only indicate sunlight
     is_centre = i == 0;
     sum += Eigen::Map<const Eigen::Vector3f>(centres_.radiance.ptr<float>(row, column));
     count += 1.0f;

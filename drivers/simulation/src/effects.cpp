@@ -10,19 +10,19 @@
 namespace panvo::simulation {
 
 const std::array<EffectName, 8> kEffectNames{{
-    {"sudden_light", "a cloud takes or gives back the sun within half a second", &Effects::sudden_light},
-    {"sun_drift", "the sun goes on by two hours of the day over the journey", &Effects::sun_drift},
-    {"movers", "cars and people, some of which fill half of the stereo view", &Effects::movers},
-    {"weak_texture", "even asphalt and plain walls about some junctions", &Effects::weak_texture},
+    {"sudden_light", "clouds hide or reveal the sun within half a second", &Effects::sudden_light},
+    {"sun_drift", "the sun moves by two hours during the journey", &Effects::sun_drift},
+    {"movers", "cars and people, some filling half of the stereo view", &Effects::movers},
+    {"weak_texture", "plain asphalt and walls at some junctions", &Effects::weak_texture},
     {"rain", "streaks of drops", &Effects::rain},
     {"smear", "dirt on the lenses", &Effects::smear},
-    {"dropped_frames", "one stereo frame and one panorama in fifty are missing", &Effects::dropped_frames},
+    {"dropped_frames", "2 % of stereo frames and panoramas are missing", &Effects::dropped_frames},
     {"time_offset", "panoramas are stamped 20 ms late", &Effects::time_offset},
 }};
 
 namespace {
 
-/// "rain,smear" and "rain smear" are two names.
+/// Splits "rain,smear" and "rain smear" into two names.
 std::vector<std::string> split(const std::vector<std::string>& names) {
   std::vector<std::string> parts;
   for (const auto& name : names) {
@@ -48,7 +48,7 @@ Effects effects_of(const std::vector<std::string>& names) {
     if (std::none_of(kEffectNames.begin(), kEffectNames.end(), is_meant)) {
       std::string known;
       for (const auto& effect : kEffectNames) known += fmt::format("{}, ", effect.name);
-      throw std::invalid_argument(fmt::format("there is no effect '{}'; there are {}all, none", name, known));
+      throw std::invalid_argument(fmt::format("unknown effect '{}'; known: {}all, none", name, known));
     }
     for (const auto& effect : kEffectNames) {
       if (is_meant(effect)) effects.*effect.member = true;

@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Of a data set that is not whole yet: what it will be of, and how far it has come.
+// Files of an incomplete data set: its description, and its progress.
 constexpr auto kAsked = "rendering.yaml", kJournal = "rendered.csv";
 
 void write_text(const fs::path& file, const std::string& text) {
@@ -37,12 +37,12 @@ std::string read_text(const fs::path& file) {
 void make_folder(const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
-  if (error) throw std::runtime_error(folder.string() + ": cannot be made (" + error.message() + ")");
+  if (error) throw std::runtime_error(folder.string() + ": cannot be created (" + error.message() + ")");
 }
 
 const char* extension(ImageFormat format) { return format == ImageFormat::kJpeg ? "jpg" : "png"; }
 
-/// The first lines in which two texts differ.
+/// The first pair of lines that differ between two texts.
 std::optional<std::pair<std::string, std::string>> first_difference(const std::string& a, const std::string& b) {
   std::istringstream lines_a(a), lines_b(b);
   for (std::string line_a, line_b; lines_a || lines_b;) {
@@ -92,7 +92,7 @@ std::string sensor_yaml(const std::string& comment, const Eigen::Isometry3d& bas
 std::string eye_yaml(const std::string& side, const vision::LensCamera& eye, const Eigen::Isometry3d& base_from_camera,
                      double rate_hz) {
   const auto& p = eye.pinhole;
-  // the layout has no place for k3 unless there is one
+  // the layout has no k3: written only if it is not zero
   const auto coefficients = list(std::span(eye.distortion).first(eye.distortion[4] == 0.0 ? 4 : 5));
   return sensor_yaml(side + " eye of the stereo camera", base_from_camera, rate_hz, p.width, p.height, "pinhole",
                      fmt::format("intrinsics: [{}]  # fx fy cx cy; pixel centres at integer coordinates\n"
@@ -122,7 +122,7 @@ std::string head_yaml(const PanoramicCamera& panorama, const PanoramaHead& head)
 }  // namespace
 
 std::uint64_t estimated_bytes(const Simulation& simulation, std::size_t first_instant, ImageFormat format) {
-  // Measured on street scenes: what the two formats make of a pixel of one channel.
+  // Bytes per pixel and channel, measured on street scenes.
   const double bytes_per_sample = format == ImageFormat::kJpeg ? 0.35 : 0.75;
   const auto& rig = simulation.parameters().rig;
   const auto& eye = rig.stereo.calibration.left.pinhole;
@@ -162,7 +162,7 @@ EurocWriter::EurocWriter(fs::path directory, const Simulation& simulation, Image
 
 EurocWriter::~EurocWriter() = default;
 
-/// Says of what simulation the data set is, all that decides about a pixel, before there is one: two are not mixed.
+/// Before the first image, writes everything that determines the pixels, so that two simulations are not mixed.
 void EurocWriter::describe() {
   const auto& parameters = simulation_.parameters();
   std::string asked = fmt::format("format: {}\nassets: {}\nvibration: {:g}\n{}", extension(format_),
@@ -175,14 +175,14 @@ void EurocWriter::describe() {
     fs::rename(file.string() + ".new", file);
   } else if (const auto difference = first_difference(read_text(file), asked)) {
     throw std::runtime_error(
-        fmt::format("{}: is the begun data set of another simulation ('{}' there, '{}' asked for); ask for the same, "
-                    "remove the folder, or name another",
+        fmt::format("{}: is an incomplete data set of another simulation ('{}' there, '{}' requested); use the same "
+                    "arguments, remove the folder, or choose another",
                     directory_.string(), difference->first, difference->second));
   }
 }
 
-/// Lists the images that are there. A process that was killed leaves whole files; a computer without power may leave
-/// empty ones, and it goes on from the first of these.
+/// Lists the existing images. A killed process leaves complete files; a power failure may leave empty ones, and
+/// rendering resumes at the first of them.
 void EurocWriter::find_what_is_written() {
   for (auto& camera : cameras_) {
     make_folder(camera.folder / "data");

@@ -10,7 +10,7 @@ namespace {
 
 enum class Cell { kBlank, kWindow, kDoor, kShop, kBalcony, kGate };
 
-/// One facade while it is being built.
+/// Builds one facade.
 class FacadeBuilder {
  public:
   FacadeBuilder(const FacadeStyle& style, const BuildingMaterials& materials, const WallFrame& frame, FacadeSide side,
@@ -42,7 +42,7 @@ class FacadeBuilder {
 
  private:
   bool is_simple() const { return side_ == FacadeSide::kBack; }
-  /// Away from the road, window frames are flat.
+  /// Window frames are flat on sides that do not face the road.
   bool is_flat() const { return side_ != FacadeSide::kFront; }
 
   Cell cell_kind(int floor, int bay) const {
@@ -95,7 +95,7 @@ class FacadeBuilder {
   }
 
   Tint wall_tint(float u, float z) const {
-    // darker at the foot and uneven in patches of a bay or so
+    // darker at the base, and uneven in patches of about a bay
     const auto cell = static_cast<std::uint64_t>(static_cast<std::int64_t>(std::lround(2.0f * u)) * 7919 +
                                                  static_cast<std::int64_t>(std::lround(2.0f * z)));
     const float uneven = static_cast<float>(mix(cell) % 256) / 255.0f;
@@ -172,7 +172,7 @@ class FacadeBuilder {
     }
   }
 
-  /// Sill, surround, lintel, pediment, shutters about an opening.
+  /// Sill, surround, lintel, pediment and shutters of an opening.
   void trim(const Opening& opening, int floor, Cell kind) {
     const float top = opening.top + opening.rise;
     const bool is_window = kind == Cell::kWindow;
@@ -253,7 +253,7 @@ class FacadeBuilder {
 
   static void add_wall_box(Mesh& mesh, const WallFrame& frame, float u0, float u1, float z0, float z1, float behind,
                            float front, std::uint16_t material, Tint tint, int parts = 1) {
-    // long ones in parts, so that shading by vertex has somewhere to vary
+    // long ones in parts, so that shading per vertex can vary
     for (int part = 0; part < parts; ++part) {
       const float left = u0 + (u1 - u0) * static_cast<float>(part) / static_cast<float>(parts);
       const float right = u0 + (u1 - u0) * static_cast<float>(part + 1) / static_cast<float>(parts);
@@ -312,7 +312,7 @@ class FacadeBuilder {
     }
   }
 
-  /// What stands at the wall's ends: quoins and downpipes.
+  /// Quoins and downpipes at the wall's ends.
   void add_ends() {
     const float top = wall_height(style_);
     if (style_.quoins && side_ != FacadeSide::kBack) {

@@ -14,7 +14,7 @@ constexpr float kStep = 0.15f;  // height of a stair, m
 
 void add_wall_box(Mesh& mesh, const WallFrame& frame, float u0, float u1, float z0, float z1, float behind, float front,
                   std::uint16_t material, Tint tint) {
-  constexpr float kAboveEyes = 3.2f, kBelowEyes = 0.6f;  // of those who drive by: what looks away is left out
+  constexpr float kAboveEyes = 3.2f, kBelowEyes = 0.6f;  // m: tops above and undersides below are out of view
   const auto at = [&](float u, float out, float z) { return frame.at(u, out, z); };
   const Eigen::Vector2f low(u0, z0);
   mesh.add_quad(at(u0, front, z0), at(u1, front, z0), at(u1, front, z1), at(u0, front, z1), material, low, tint);

@@ -14,7 +14,7 @@ T pick(Random& random, const std::array<T, N>& choices) {
 
 float between(Random& random, double low, double high) { return static_cast<float>(random.uniform(low, high)); }
 
-/// A tint near to white, warmer or cooler by chance.
+/// A tint close to white, randomly warmer or cooler.
 Tint weathered(Random& random, double low, double high) {
   const float brightness = between(random, low, high);
   return tint_of(brightness, brightness * between(random, 0.92, 1.0), brightness * between(random, 0.84, 1.0));

@@ -9,7 +9,7 @@ namespace {
 
 constexpr int kArchSegments = 8;
 
-/// The outline drawn in by `inset` on all sides.
+/// The outline shrunk by `inset` on all sides.
 std::vector<Eigen::Vector2f> drawn_in(const std::vector<Eigen::Vector2f>& outline, float inset) {
   Eigen::Vector2f low = outline.front(), high = outline.front();
   for (const auto& point : outline) {
@@ -39,7 +39,7 @@ void add_flat(Mesh& mesh, const WallFrame& frame, float u0, float u1, float z0, 
                 {u0, z0}, tint);
 }
 
-/// The frame that goes round an opening: its face and the edge towards the glass.
+/// The frame around an opening: its face and the edge towards the glass.
 void add_outer_frame(Mesh& mesh, const WallFrame& frame, const std::vector<Eigen::Vector2f>& outer,
                      const std::vector<Eigen::Vector2f>& inner, float glass_out, float face_out, bool has_edges,
                      std::uint16_t material, Tint tint) {
@@ -54,7 +54,7 @@ void add_outer_frame(Mesh& mesh, const WallFrame& frame, const std::vector<Eigen
   }
 }
 
-/// What hangs behind the glass: drawn on it, since glass is what reflects.
+/// Curtains and blinds behind the glass, drawn on its surface, because the glass is what reflects.
 void add_curtains(const BuildingMaterials& materials, const WallFrame& frame, const Opening& pane, float out,
                   Random& lights, Mesh& mesh) {
   const float width = pane.right - pane.left, height = pane.top - pane.bottom;
@@ -68,7 +68,7 @@ void add_curtains(const BuildingMaterials& materials, const WallFrame& frame, co
              cloth);
     add_flat(mesh, frame, pane.right - share * width, pane.right, pane.bottom, pane.top, out, materials.curtain_light,
              cloth);
-  } else if (kind < 0.42) {  // a blind some way down
+  } else if (kind < 0.42) {  // a partly lowered blind
     const float share = static_cast<float>(lights.uniform(0.2, 0.75));
     add_flat(mesh, frame, pane.left, pane.right, pane.top - share * height, pane.top, out, materials.curtain_light,
              cloth);
@@ -82,7 +82,7 @@ void add_curtains(const BuildingMaterials& materials, const WallFrame& frame, co
 
 struct Bars {
   int columns = 1, rows = 1;  ///< panes
-  float transom = 0.0f;       ///< share of the height where a single crossbar sits; 0: rows are even
+  float transom = 0.0f;       ///< height of a single crossbar, as a fraction; 0: equal rows
 };
 
 Bars bars_of(WindowKind kind) {

@@ -21,8 +21,8 @@ std::array<Vector2d, 4> corners(const Footprint& box) {
           Vector2d(box.centre - along - across), Vector2d(box.centre + along - across)};
 }
 
-// How far the other's corners keep off this box, to its front, rear or sides at best: positive if an edge of it parts
-// both.
+// Largest distance of the other's corners beyond the front, rear or sides of this box: positive if one of its edges
+// separates both.
 double gap(const Footprint& box, const std::array<Vector2d, 4>& others) {
   const Vector2d along = axis(box), across(-along.y(), along.x());
   double widest = -std::numeric_limits<double>::infinity();

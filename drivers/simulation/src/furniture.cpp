@@ -6,7 +6,7 @@ namespace panvo::simulation {
 void build_furniture(const Site& site, const std::vector<Plot>& plots, Scene& scene) {
   const FurnitureModels models = build_furniture_models(*site.palette, site.parameters.seed, scene);
   FurniturePlanner planner(site, plots, models, scene);
-  // what has the least choice of places comes first
+  // objects with the fewest possible positions come first
   planner.furnish_open_plots();
   planner.furnish_kerbs();
   planner.fill_drives();

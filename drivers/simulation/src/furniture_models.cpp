@@ -246,14 +246,14 @@ Mesh build_fence(const FurnitureMaterials& materials, FenceKind kind, Random ran
     case FenceKind::kBrickWall: {
       const bool is_brick = kind == FenceKind::kBrickWall;
       const float height = is_brick ? 1.1f : 0.75f;
-      for (int part = 0; part < 4; ++part) {  // in parts, for shading by vertex
+      for (int part = 0; part < 4; ++part) {  // in parts, for shading per vertex
         const float x = -1.0f + 0.5f * static_cast<float>(part);
         add_block(mesh, {x, -0.15f, -0.4f}, {x + 0.5f, 0.15f, 0.3f},
                   is_brick ? materials.brick_red : materials.stone_rubble, grey(0.8f));
         add_block(mesh, {x, -0.15f, 0.3f}, {x + 0.5f, 0.15f, height},
                   is_brick ? materials.brick_red : materials.stone_rubble, grey(0.95f));
       }
-      // textures run on from part to part
+      // textures continue from part to part
       for (auto& vertex : mesh.vertices) {
         if (std::abs(vertex.normal.y()) > 0.5f)
           vertex.uv = {-vertex.normal.y() * vertex.position.x(), vertex.position.z()};

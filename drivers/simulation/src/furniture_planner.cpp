@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kCell_m = 8.0, kLargestDisc_m = 4.0;
 
-/// As cars are painted: mostly white, grey and black.
+/// A random car colour: mostly white, grey and black.
 Tint car_colour(Random& random) {
   const double kind = random.uniform();
   if (kind < 0.7) {
@@ -28,7 +28,7 @@ Tint car_colour(Random& random) {
   return tint_of(between(random, 0.1, 0.6), between(random, 0.25, 0.45), between(random, 0.1, 0.2));
 }
 
-/// Heading of what looks along -y, so that it looks to the road.
+/// Heading at which a model's -y side faces the road.
 double facing_road(const Roadside& place) { return std::atan2(-place.outwards.x(), place.outwards.y()); }
 
 double heading_of(const Eigen::Vector2d& direction) { return std::atan2(direction.y(), direction.x()); }
@@ -165,7 +165,7 @@ void FurniturePlanner::furnish_kerbs() {
         const Roadside place = roadside(site_.roads, road, along, is_left);
         try_to_stand(lamp, place.at(0.55), facing_road(place), 0.4, 0.45);
       }
-      // for those who come to the junction on the right-hand side
+      // for drivers who approach the junction on the right-hand side
       const double sign_along = is_left ? 9.0 : length - 9.0;
       const Roadside sign_place = roadside(site_.roads, road, sign_along, is_left);
       const double to_driver = heading_of(sign_place.along) + (is_left ? 0.5 : -0.5) * std::numbers::pi;
@@ -207,7 +207,7 @@ void FurniturePlanner::furnish_kerbs() {
 double FurniturePlanner::pavement_m(const Eigen::Vector2d& point) const {
   const GroundZones::Place place = zones_.at(point);
   double width_m = kPavementWidth_m;
-  // near a crossing its own pavement counts too
+  // near a crossing, its own pavement counts, too
   for (const int number : {place.street, place.into_street_m < 3.0 ? place.crossing : -1}) {
     if (number < 0) continue;
     const Zone& zone = zones_.zone(number);
@@ -226,7 +226,7 @@ bool FurniturePlanner::has_room_for_car(const Eigen::Vector2d& point, double hea
 }
 
 void FurniturePlanner::park_along(int road, bool is_left, double length_m, Random& random) {
-  // at the kerb where the road is wide, else on the verge behind the pavement, and there fewer
+  // at the kerb of wide roads, else on the verge behind the pavement, and less often
   const bool is_wide = site_.roads.roads[static_cast<std::size_t>(road)].width_m >= 8.0;
   const Roadside halfway = roadside(site_.roads, road, 0.5 * length_m, is_left);
   const double from_kerb = is_wide ? -1.0 : pavement_m(halfway.at(1.0)) + 1.15;
@@ -363,7 +363,7 @@ void FurniturePlanner::scatter_trees() {
     for (double y = low.y() - kBelt_m; y < high.y() + kBelt_m; y += kSpacing_m) {
       const Eigen::Vector2d point(x + random.uniform(-4.0, 4.0), y + random.uniform(-4.0, 4.0));
       const double from_kerb = site_.distance_from_kerb(point);
-      // a belt of wood behind the outermost buildings, single trees inside
+      // a belt of forest behind the outermost buildings, single trees inside
       const double density = from_kerb > 38.0 ? 0.8 : from_kerb > 6.0 ? 0.45 : 0.3;
       Random own = random.part(
           static_cast<std::uint64_t>(static_cast<std::int64_t>(x * 8.0) * 100003 + static_cast<std::int64_t>(y * 8.0)));

@@ -12,7 +12,7 @@
 namespace panvo::simulation {
 namespace {
 
-constexpr double kLidRadius_m = 0.335;  // the material's picture shows a lid of this radius
+constexpr double kLidRadius_m = 0.335;  // radius of the lid in the material's picture
 constexpr double kLidPeriod_m = 0.7;
 
 class Coverer {
@@ -27,7 +27,7 @@ class Coverer {
 
   void manhole(const Eigen::Vector2d& middle, const Eigen::Vector2d& forward, Random random) {
     if (is_bare(site_, middle)) return;
-    // set into its own asphalt or concrete, square or round
+    // set into a square or round frame of asphalt or concrete
     Cloth frame = frame_;
     frame.origin = middle;
     frame.tint = Eigen::Vector3f::Constant(static_cast<float>(random.uniform(0.7, 1.0)));
@@ -45,7 +45,7 @@ class Coverer {
     drape_.disc(middle, kLidRadius_m, 24, iron_);
   }
 
-  // A small iron plate.
+  // Adds a small iron plate.
   void plate(const Rectangle& where, double lift_m, Random random) {
     if (is_bare(site_, where.middle)) return;
     Cloth iron = iron_;
@@ -56,7 +56,7 @@ class Coverer {
     drape_.rectangle(where, iron);
   }
 
-  // Bars over a dark pit, against the kerb; `forward` runs along the kerb.
+  // Adds bars over a dark pit at the kerb; `forward` runs along the kerb.
   void grate(const Eigen::Vector2d& middle, const Eigen::Vector2d& forward, Random random) {
     if (is_bare(site_, middle)) return;
     const Rectangle where{middle, forward, 0.25, 0.18};
@@ -100,7 +100,7 @@ void lay_covers(const Site& site, const GroundZones& zones, Drape& drape) {
                  to_m = std::min(zones.mouths_m(number)[1], line.length_m() - 1.0);
     const double half_m = 0.5 * road.width_m;
 
-    const double sewer_m = random.uniform(-1.2, 1.2);  // to the left of the middle
+    const double sewer_m = random.uniform(-1.2, 1.2);  // left of the centre line
     for (double m = from_m + random.uniform(2.0, 20.0); m < to_m - 1.0; m += random.uniform(18.0, 42.0)) {
       coverer.manhole(line.beside(m, sewer_m + random.uniform(-0.2, 0.2)), line.forward(m),
                       random.part(static_cast<std::uint64_t>(m)));

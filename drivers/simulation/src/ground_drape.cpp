@@ -66,7 +66,7 @@ void Drape::disc(const Eigen::Vector2d& middle, double radius_m, int sides, cons
 void Drape::ragged(const Rectangle& where, double ragged_m, const Cloth& cloth, Random random) {
   const int steps = std::max(3, static_cast<int>(std::ceil(2.0 * where.half_length_m / 0.45)));
   std::vector<Eigen::Vector2d> right, left;
-  // the saw cuts straight, the edges break: skewed as a whole and ragged from step to step
+  // cut straight with broken edges: skewed as a whole, ragged from step to step
   const double skew_m = random.uniform(-0.12, 0.12) * where.half_width_m;
   const double taper = random.uniform(-0.06, 0.06);
   for (int i = 0; i <= steps; ++i) {

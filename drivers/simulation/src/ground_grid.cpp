@@ -8,8 +8,9 @@
 namespace panvo::simulation {
 namespace {
 
-// Places of the finest lattice. A triangle is halved at the middle of its longest edge; a lattice place is the middle
-// of the longest edge of two triangles, whose other corners are its two parents: both must be in use before it.
+// A point of the finest lattice. A triangle is halved at the midpoint of its longest edge. A lattice point is the
+// midpoint of the longest edge of two triangles; their other corners are its two parents, which must be in use before
+// it.
 struct Place {
   int x, y;
 };
@@ -61,10 +62,10 @@ class Halving {
       if (p.x < 0 || p.y < 0 || p.x > size_ || p.y > size_ || used_[index(p)]) continue;
       const int bits = p.x | p.y;
       const int s = bits & -bits;
-      if (s >= size_) continue;  // a corner of the whole
+      if (s >= size_) continue;  // a corner of the square
       used_[index(p)] = 1;
       if (p.x & s && p.y & s) {
-        // the middle of a square: its parents are the corners that are middles of edges one size up
+        // the centre of a square: its parents are the corners that are midpoints of edges one size up
         if (2 * s >= size_) continue;
         const bool is_rising = ((p.x - s) / (2 * s) + (p.y - s) / (2 * s)) % 2 == 1;
         const int turn = is_rising ? 1 : -1;

@@ -9,7 +9,7 @@
 namespace panvo::simulation {
 namespace {
 
-// Places along a closed line, evenly apart by about `step_m`.
+// Points on a closed line at equal distances of about `step_m`.
 std::vector<Eigen::Vector2d> evenly(const std::vector<Eigen::Vector2d>& line, double step_m) {
   std::vector<double> along{0.0};
   for (std::size_t i = 0; i < line.size(); ++i)
@@ -26,7 +26,7 @@ std::vector<Eigen::Vector2d> evenly(const std::vector<Eigen::Vector2d>& line, do
   return places;
 }
 
-// A stone's outline from the road's side over its top, across the kerb: {outwards, up} m.
+// A stone's profile across the kerb, from the road side over the top: {outwards, up} m.
 constexpr std::array<std::array<double, 2>, 4> kProfile{
     {{0.0, -0.03}, {0.008, 0.097}, {0.03, 0.124}, {kKerbStoneWidth_m + 0.01, 0.126}}};
 
@@ -37,7 +37,7 @@ Mesh kerb_stones(const Site& site, const GroundPaint& paint) {
   const std::uint16_t kerb = site.palette->find("kerb");
   Random random(site.parameters.seed, "kerb stones");
   for (const std::vector<Eigen::Vector2d>& line : site.kerbs->kerb_lines()) {
-    // half stones, two of which are one where the kerb runs straight
+    // half stones; two form a whole one where the kerb is straight
     const std::vector<Eigen::Vector2d> places = evenly(line, 0.5);
     const std::size_t count = places.size();
     double along_m = 0.0;
@@ -46,7 +46,7 @@ Mesh kerb_stones(const Site& site, const GroundPaint& paint) {
       const bool is_straight = i + 2 <= count && (0.5 * (start + over) - next).norm() < 0.004;
       const Eigen::Vector2d& end = is_straight ? over : next;
       i += is_straight ? 2 : 1;
-      // not laid quite true
+      // slightly misaligned
       const double sunk_m = random.uniform(-0.003, 0.002), out_m = random.uniform(-0.004, 0.004);
       const float shade = static_cast<float>(random.uniform(0.78, 1.0));
       const float length_m = static_cast<float>((end - start).norm());
@@ -62,7 +62,7 @@ Mesh kerb_stones(const Site& site, const GroundPaint& paint) {
           const Eigen::Vector3d normal =
               (Eigen::Vector3d(0.0, 0.0, across.x()) - across.y() * Eigen::Vector3d(out.x(), out.y(), 0.0))
                   .normalized();
-          // darker at the foot, where water stands
+          // darker at the base, where water collects
           const float dirt = profile[1] < 0.0 ? 0.62f : 1.0f;
           Vertex vertex;
           vertex.position =
@@ -73,7 +73,7 @@ Mesh kerb_stones(const Site& site, const GroundPaint& paint) {
           vertex.tint = paint.laid(point, dirt * shade * Eigen::Vector3f(1.0f, 0.99f, 0.97f));
           mesh.vertices.push_back(vertex);
         }
-        // the road is on the line's left, outwards on its right
+        // the road is on the left of the line, outwards on the right
         mesh.triangles.push_back({{base, base + 2, base + 1}, kerb});
         mesh.triangles.push_back({{base, base + 3, base + 2}, kerb});
       }

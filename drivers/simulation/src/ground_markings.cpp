@@ -25,7 +25,7 @@ class Marker {
     const Zone& zone = zones_.zone(zones_.street_of(number));
     const RoadLine line(road.centre_line);
     Random random = random_.part(static_cast<std::uint64_t>(number));
-    // of one age along a street
+    // equally old along a street
     Random age = random_.part(5000 + static_cast<std::uint64_t>(zones_.street_of(number)));
     const double brightness = age.uniform(0.72, 1.0);
     paint_.tint = {static_cast<float>(brightness), static_cast<float>(brightness),
@@ -33,7 +33,7 @@ class Marker {
 
     std::array<double, 2> reach = zones_.mouths_m(number);
     const bool starts_at_crossing = zones_.has_crossing(road.from), ends_at_crossing = zones_.has_crossing(road.to);
-    // an arm's end takes some metres at each crossing
+    // the end of an arm takes several metres at each crossing
     if (starts_at_crossing) reach[0] = mark_arm(road, line, zone, reach[0], 1.0, random.part(1));
     if (ends_at_crossing) reach[1] = mark_arm(road, line, zone, reach[1], -1.0, random.part(2));
     if (!starts_at_crossing) reach[0] = 0.0;
@@ -49,7 +49,7 @@ class Marker {
   }
 
  private:
-  // A painted strip along the road, a line `side_m` to the left of its middle.
+  // Paints a strip along the road, `side_m` left of its centre line.
   void strip(const RoadLine& line, double from_m, double to_m, double side_m, double width_m) {
     if (to_m <= from_m) return;
     const int steps = std::max(1, static_cast<int>(std::ceil(to_m - from_m)));
@@ -97,9 +97,9 @@ class Marker {
     }
   }
 
-  // What is painted where a road comes to a crossing at `mouth_m`; `inwards` is the sign of the way into the street.
-  // Cars keep right, so those that come to the crossing drive on the left of the way into the street. Returns where the
-  // street's own lines begin.
+  // Paints the markings where a road meets a crossing at `mouth_m`; `inwards`: sign of the direction into the street.
+  // Cars keep right, so cars approaching the crossing are on the left when looking into the street. Returns the
+  // position at which the street's own lines start.
   double mark_arm(const Road& road, const RoadLine& line, const Zone& zone, double mouth_m, double inwards,
                   Random random) {
     const double half_m = 0.5 * road.width_m;
@@ -135,7 +135,7 @@ class Marker {
     return at_m + 0.5 * inwards;
   }
 
-  // Polygons in the driver's frame: x towards the crossing, y left.
+  // Paints a polygon in the driver's frame: x towards the crossing, y left.
   void shape(const RoadLine& line, double along_m, double side_m, double inwards,
              const std::vector<Eigen::Vector2d>& outline) {
     const Eigen::Vector2d middle = line.beside(along_m, side_m);
@@ -171,7 +171,7 @@ class Marker {
     if (kind == 2) turn(1.0);
   }
 
-  // "30", as tall as drivers see it well.
+  // Paints "30", elongated for drivers.
   void limit(const RoadLine& line, double along_m, double side_m, double inwards) {
     const auto bar = [&](double x, double y, double length_m, double width_m) {
       shape(line, along_m, side_m, -inwards,

@@ -8,7 +8,7 @@
 namespace panvo::simulation {
 namespace {
 
-// Across a lane, from the kerb: gutter, wheels, middle, wheels, the road's middle.
+// Wear across a lane, from the road's centre to the kerb; 1 in the wheel tracks.
 struct Knot {
   double kerb_m, wear;
 };
@@ -60,7 +60,7 @@ Tint GroundPaint::carriageway(const Eigen::Vector2d& point, double kerb_m, doubl
   const double strength = 1.0 - site_.weakness(point);
   const double lanes = std::clamp(into_street_m / 8.0, 0.0, 1.0) * zone.wear;
   const double tracks = lanes * wear_at(kerb_m) * (0.11 + 0.05 * medium_.at(point));
-  // dirt gathers against the kerb, more in some places
+  // dirt collects at the kerb, with local variation
   const double gutter =
       std::clamp(1.0 + kerb_m / 0.7, 0.0, 1.0) * (0.2 + 0.12 * fine_.at(point) + 0.12 * dirt_.at(point));
   const double brightness = 0.93 + strength * (unevenness(point) + tracks - gutter);
@@ -78,7 +78,7 @@ Tint GroundPaint::beside(const Eigen::Vector2d& point, double kerb_m, const Eige
 }
 
 Tint GroundPaint::grass(const Eigen::Vector2d& point, double kerb_m) const {
-  // lush and dry patches; worn where people cut the corner
+  // lush and dry patches; worn near the pavement
   const double dry = std::clamp(0.35 + 0.5 * medium_.at(point) + 0.5 * coarse_.at(point), 0.0, 1.0);
   const double trodden = std::clamp(1.0 - (kerb_m - 1.5) / 1.6, 0.0, 1.0) * std::clamp(0.3 + dirt_.at(point), 0.0, 1.0);
   const auto b = static_cast<float>(0.82 + 0.14 * fine_.at(point) + 0.04 * dry);
@@ -90,7 +90,7 @@ Tint GroundPaint::field(const Eigen::Vector2d& point, double kerb_m) const {
   const Tint near = grass(point, kerb_m);
   const Eigen::Vector3f as_grass =
       far_from_grass_.cwiseProduct(Eigen::Vector3f(near.red, near.green, near.blue)) / 255.0f;
-  // crops: hard-edged by the steepness, soft enough for a coarse grid
+  // crops with steep transitions, but smooth enough for a coarse grid
   const double crop = field_.at(point) + 0.25 * medium_.at(point);
   const Eigen::Vector3f other = crop > 0.25   ? Eigen::Vector3f(1.0f, 0.9f, 0.62f)
                                 : crop < -0.3 ? Eigen::Vector3f(0.62f, 0.72f, 0.55f)

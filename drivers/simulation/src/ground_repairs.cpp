@@ -23,7 +23,7 @@ class RoadMender {
     tar_.lift_m = 0.003;
   }
 
-  /// A filled hole or trench. `layer` counts up: later ones lie on earlier ones.
+  /// Adds a filled hole or trench. Higher `layer`s lie on lower ones.
   void fill(const Rectangle& where, int layer, Random random) {
     if (is_bare(site_, where.middle)) return;
     const bool is_new = random.chance(0.6);
@@ -38,14 +38,14 @@ class RoadMender {
     if (random.chance(0.45)) seal(where, random.part(1));
   }
 
-  /// A crack, or a joint, filled with tar, from `start` on, until it meets a kerb or is `length_m` long.
+  /// Adds a crack or joint filled with tar, from `start` to a kerb or to `length_m`.
   void crack(const Eigen::Vector2d& start, double heading_rad, double length_m, double waver_rad, double width_m,
              Random random, int branches) {
     constexpr double kStep_m = 0.16;
     std::vector<Eigen::Vector2d> line{start};
     double heading = heading_rad;
     for (double m = 0.0; m < length_m; m += kStep_m) {
-      // wanders, and comes back to its course
+      // random heading that returns to the main direction
       heading += waver_rad * random.gaussian() - 0.15 * std::remainder(heading - heading_rad, 2.0 * kPi);
       const Eigen::Vector2d next = line.back() + kStep_m * Eigen::Vector2d(std::cos(heading), std::sin(heading));
       if (site_.kerbs->distance_m(next) > -0.1 || is_bare(site_, next)) break;
@@ -61,7 +61,7 @@ class RoadMender {
   }
 
  private:
-  // A band of tar around a patch.
+  // Adds a band of tar around a patch.
   void seal(const Rectangle& where, Random random) {
     tar_.tint = Eigen::Vector3f::Constant(static_cast<float>(random.uniform(0.35, 0.65)));
     const double a = where.half_length_m, b = where.half_width_m;
@@ -101,7 +101,7 @@ void mend_road(const Site& site, const GroundZones& zones, int number, RoadMende
   for (int i = 0; i < fills; ++i) {
     const double kind = random.uniform();
     Rectangle where;
-    if (kind < 0.3) {  // a trench across, the whole road or one lane
+    if (kind < 0.3) {  // a trench across the whole road or one lane
       const double along_m = random.uniform(from_m + 1.0, to_m - 1.0);
       const double lane = random.uniform() < 0.5 ? 0.0 : random.chance(0.5) ? 0.5 : -0.5;
       where.middle = line.beside(along_m, lane * half_m);
@@ -111,7 +111,7 @@ void mend_road(const Site& site, const GroundZones& zones, int number, RoadMende
       where.half_length_m = lane == 0.0 ? half_m : 0.5 * half_m;
       where.half_width_m = random.uniform(0.25, 0.8);
       mender.fill(where, i % 5, random.part(static_cast<std::uint64_t>(i)));
-    } else if (kind < 0.5) {  // a trench along, in pieces that follow the road
+    } else if (kind < 0.5) {  // a trench along the road, in pieces that follow it
       const double trench_m = std::min(random.uniform(5.0, 28.0), length_m - 2.0);
       const double start_m = random.uniform(from_m + 1.0, to_m - trench_m - 0.5);
       const double half_width_m = random.uniform(0.3, 0.75);
@@ -120,7 +120,7 @@ void mend_road(const Site& site, const GroundZones& zones, int number, RoadMende
       for (int k = 0; k < pieces; ++k) {
         const double along_m = start_m + trench_m * (k + 0.5) / pieces;
         where = {line.beside(along_m, side_m), line.forward(along_m), 0.5 * trench_m / pieces, half_width_m};
-        // one filling along the whole trench
+        // the same layer and random numbers for all pieces: one filling
         mender.fill(where, i % 5, random.part(static_cast<std::uint64_t>(i)));
       }
     } else {  // a hole
@@ -142,7 +142,7 @@ void mend_road(const Site& site, const GroundZones& zones, int number, RoadMende
     mender.crack(line.beside(along_m, side_m), way, random.uniform(1.5, is_across ? 6.5 : 12.0), 0.26,
                  random.uniform(0.02, 0.045), random.part(1000 + static_cast<std::uint64_t>(i)), 3);
   }
-  // the joint between the two lanes' asphalt, sealed here and there
+  // the joint between the lanes' asphalt, sealed in places
   if (random.chance(0.6)) {
     const double joint_m = random.uniform(-0.3, 0.3);
     for (double m = from_m + random.uniform(0.0, 8.0); m < to_m - 3.0; m += random.uniform(6.0, 22.0)) {

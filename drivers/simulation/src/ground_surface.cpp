@@ -13,23 +13,23 @@
 namespace panvo::simulation {
 namespace {
 
-constexpr double kStepUp_m = 0.08;  // from the kerb: under its stones
+constexpr double kStepUp_m = 0.08;  // from the kerb: hidden by the kerb stones
 constexpr double kGutter_m = -0.3;
-// lines along the carriageway at which its tint bends
+// lines along the carriageway at which the slope of its tint changes
 constexpr std::array kCarriagewayLines_m{-3.0, -2.3, -1.6, -0.9, kGutter_m};
-constexpr double kStreetNear_m = 8.0;  // no street's bands reach farther from the kerb
+constexpr double kStreetNear_m = 8.0;  // upper limit of the width of all streets' bands, from the kerb
 
-// A corner of a piece of ground, with the distances that it is cut at.
+// A corner of a piece of ground, with the distances at which pieces are cut.
 struct Corner {
   Eigen::Vector2d point;
   double kerb_m, into_street_m, off_crossing_m;
 };
 using Piece = std::vector<Corner>;
 
-// How the texture lies.
+// The orientation of the texture.
 struct Chart {
   std::int32_t road = -1;      // along this road
-  std::int32_t crossing = -1;  // as this crossing lies
+  std::int32_t crossing = -1;  // as this crossing
 };
 
 class Surface {
@@ -67,7 +67,7 @@ class Surface {
       low = low.cwiseMin(junction.position);
       high = high.cwiseMax(junction.position);
     }
-    // turned, so that no straight road runs along the grid
+    // rotated, so that no straight road is aligned with the grid
     return adaptive_grid(0.5 * (low + high), 0.37, 1.0, 10, [this](const Eigen::Vector2d& middle, double edge_m) {
       const double near_m = std::max(0.0, site_.kerbs->distance_m(middle) - 0.5 * edge_m);
       const double longest_m = near_m < 3.5    ? 1.5
@@ -79,7 +79,7 @@ class Surface {
     });
   }
 
-  // Cuts where `value` passes `at`: below and above.
+  // Cuts the piece where `value` equals `at`; returns the parts below and above.
   std::array<Piece, 2> cut(const Piece& piece, double Corner::*value, double at) const {
     std::array<Piece, 2> parts;
     for (std::size_t i = 0; i < piece.size(); ++i) {
@@ -96,12 +96,12 @@ class Surface {
     return parts;
   }
 
-  // The same place bit for bit from either side of the edge.
+  // The cut point on an edge, identical bit for bit from both sides of the edge.
   Corner crossing_of(const Corner& first, const Corner& second, double Corner::*value, double at) const {
     const bool is_ordered = first.*value < second.*value;
     const Corner &a = is_ordered ? first : second, &b = is_ordered ? second : first;
     double share = (at - a.*value) / (b.*value - a.*value);
-    if (value == &Corner::kerb_m) {  // kerbs curve: once more, between the cut and the end beyond it
+    if (value == &Corner::kerb_m) {  // kerbs are curved: refine between the cut and the end beyond it
       const double there = site_.kerbs->distance_m(a.point + share * (b.point - a.point));
       const double better = there < at ? share + (1.0 - share) * (at - there) / (b.kerb_m - there)
                                        : share * (at - a.kerb_m) / (there - a.kerb_m);
@@ -224,7 +224,7 @@ class Surface {
             site_.terrain.normal(corner.point).cast<float>(), uv, tint};
   }
 
-  // Vertices are shared among triangles of the same layer.
+  // Triangles of the same layer share vertices.
   static std::uint64_t layer(std::uint16_t material, const Chart& chart, int zone) {
     return mix(mix(mix(material + 1u) + static_cast<std::uint64_t>(chart.road + 1)) +
                (static_cast<std::uint64_t>(chart.crossing + 1) << 20) + static_cast<std::uint64_t>(zone + 1));
@@ -254,7 +254,7 @@ class Surface {
   std::uint16_t grass_, far_land_;
   std::vector<Corner> corners_;
   Mesh mesh_;
-  std::unordered_map<std::uint64_t, std::uint32_t> numbers_;  // looked up only, never gone through
+  std::unordered_map<std::uint64_t, std::uint32_t> numbers_;  // only looked up, never iterated
 };
 
 }  // namespace

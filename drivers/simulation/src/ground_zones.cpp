@@ -19,7 +19,7 @@ Eigen::Vector3f grey(double value, double warmth = 0.0) {
           static_cast<float>(value * (1.0 - warmth))};
 }
 
-// Which roads make one street: those joined by a bend are numbered as the first of them.
+// The street of each road: roads connected by a bend form one street, numbered as the first of them.
 std::vector<int> streets(const RoadNetwork& roads) {
   std::vector<int> street(roads.roads.size());
   std::iota(street.begin(), street.end(), 0);
@@ -35,7 +35,7 @@ std::vector<int> streets(const RoadNetwork& roads) {
   return street;
 }
 
-// Pavements as towns have them: slabs to the kerb, a verge first, setts, gravel, asphalt.
+// A random pavement: slabs to the kerb, or after a verge, setts, gravel, asphalt.
 std::vector<Band> pavement(const Palette& palette, Random random, bool is_wide) {
   const double end = (is_wide ? 3.4 : 1.9) + random.uniform(0.0, 0.5);
   const Eigen::Vector3f tint = grey(random.uniform(0.78, 1.0), random.uniform(-0.01, 0.03));
@@ -126,7 +126,7 @@ GroundZones::GroundZones(const Site& site) : site_(site) {
     crossing_of_.push_back(site.roads.junctions[i].is_crossing() ? static_cast<int>(zones_.size()) : -1);
     if (crossing_of_.back() >= 0) zones_.push_back(crossing_zone(site, static_cast<int>(i), random));
   }
-  // a mouth is where both kerbs run beside the road again
+  // a mouth is the point where both kerbs are parallel to the road again
   for (const Road& road : site.roads.roads) {
     const RoadLine line(road.centre_line);
     const double longest_m = 0.45 * line.length_m();
@@ -142,7 +142,7 @@ GroundZones::GroundZones(const Site& site) : site_(site) {
     };
     mouths_m_.push_back({mouth(false), line.length_m() - mouth(true)});
   }
-  // the same for all roads of a crossing: where two of them are equally near, both are as far from it
+  // equal for all roads of a crossing: where two of them are equally near, both give the same distance from it
   std::vector<double> reach_of_crossing(site.roads.junctions.size(), 0.0);
   for (std::size_t i = 0; i < site.roads.roads.size(); ++i) {
     const Road& road = site.roads.roads[i];

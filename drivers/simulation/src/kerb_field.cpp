@@ -11,7 +11,7 @@ namespace panvo::simulation {
 namespace {
 
 constexpr double kStep_m = 0.5;     // of the grid
-constexpr double kMargin_m = 70.0;  // of the grid about the roads
+constexpr double kMargin_m = 70.0;  // of the grid around the roads
 
 }  // namespace
 
@@ -36,7 +36,7 @@ KerbField::KerbField(const RoadNetwork& roads) {
     }
     lengths_m_.push_back(along_m);
   }
-  if (segments_.empty()) throw std::invalid_argument("a site needs roads: the road network given has none");
+  if (segments_.empty()) throw std::invalid_argument("a site needs roads, but the road network has none");
 
   Eigen::Vector2d low = segments_.front().start, high = low;
   for (const Segment& segment : segments_) {
@@ -51,7 +51,7 @@ KerbField::KerbField(const RoadNetwork& roads) {
   columns_ = static_cast<int>(size.x() / kStep_m) + 2;
   rows_ = static_cast<int>(size.y() / kStep_m) + 2;
 
-  // dead ends: a turning circle is a segment of no length
+  // dead ends: a turning circle is a segment of zero length
   for (const Junction& junction : roads.junctions) {
     if (junction.roads.size() != 1) continue;
     const auto road = static_cast<std::size_t>(junction.roads.front());
@@ -69,7 +69,8 @@ KerbField::KerbField(const RoadNetwork& roads) {
     }
   }
 
-  // close: a place nearer than the radius to the strips is as far from the kerb as it is from the line at that radius
+  // closing: for points within the radius of the strips, the distance from the kerb follows from the distance to the
+  // line at that radius
   std::vector<Segment> line;
   march(distance_m_, static_cast<float>(kCornerRadius_m),
         [&](const Crossing&, const Crossing&, const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
@@ -87,8 +88,8 @@ KerbField::KerbField(const RoadNetwork& roads) {
   }
 }
 
-// The segment nearest to each node (-1: none within reach), handed on from node to node: first to the nodes about each
-// segment, then in sweeps over the grid.
+// The nearest segment of each node (-1: none within reach), propagated from node to node: first to the nodes around
+// each segment, then in sweeps over the grid.
 std::vector<std::int32_t> KerbField::nearest_segments(const std::vector<Segment>& segments, double reach_m) const {
   std::vector<std::int32_t> nearest(static_cast<std::size_t>(columns_) * rows_, -1);
   std::vector<float> distance(nearest.size(), std::numeric_limits<float>::infinity());
@@ -136,13 +137,13 @@ std::vector<std::int32_t> KerbField::nearest_segments(const std::vector<Segment>
   return nearest;
 }
 
-// A crossing of the level with an edge of the grid: the node at its lower end, and whether it goes up or right.
+// A crossing of the level with a grid edge: the node at the edge's lower end, and whether the edge goes up or right.
 struct KerbField::Crossing {
   std::size_t node;
   bool is_upright;
 };
 
-// Marching squares: visits the pieces of the line where `field` has the level, lower values on their left.
+// Marching squares: visits the pieces of the level line of `field`, with lower values on the left.
 template <typename Visit>
 void KerbField::march(const std::vector<float>& field, float level, const Visit& visit) const {
   constexpr std::array<std::array<int, 2>, 4> kCorners{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}};
@@ -155,7 +156,7 @@ void KerbField::march(const std::vector<float>& field, float level, const Visit&
         below += value[i] < 0.0f;
       }
       if (below == 0 || below == 4) continue;
-      // the line runs from where the border, counter-clockwise, rises to where it next falls
+      // counter-clockwise on the border, the line runs from a rising crossing to the next falling one
       struct End {
         Crossing crossing;
         Eigen::Vector2d point;
@@ -174,7 +175,7 @@ void KerbField::march(const std::vector<float>& field, float level, const Visit&
         (value[i] < 0.0f ? rising[rises++] : falling[falls++]) = end;
       }
       for (std::size_t i = 0; i < rises; ++i) {
-        // two pieces in one square: join each to the next crossing along the border
+        // two pieces in one square: connect each to the next crossing along the border
         visit(rising[i].crossing, falling[i].crossing, rising[i].point, falling[i].point);
       }
     }
@@ -226,7 +227,7 @@ RoadNetwork::Nearest KerbField::nearest_road(const Eigen::Vector2d& point) const
 }
 
 std::vector<std::vector<Eigen::Vector2d>> KerbField::kerb_lines() const {
-  // each crossing starts one piece: follow them round
+  // each crossing starts one piece: follow them to closed lines
   const std::size_t nodes = distance_m_.size();
   constexpr auto kNone = static_cast<std::uint32_t>(-1);
   std::vector<std::uint32_t> piece_from(2 * nodes, kNone);

@@ -9,7 +9,7 @@ namespace {
 
 constexpr int kPeople = 8;
 
-/// What the rig stands on: a rack with the panorama's foot in its middle.
+/// The rack that carries the rig, with the panoramic camera's mast in the middle.
 void add_rig_rack(Mesh& mesh, const CarShape& shape, const MoverMaterials& materials) {
   const float roof = shape.roof;
   for (const float x : {-1.05f, 0.1f}) {
@@ -81,7 +81,7 @@ std::vector<CarShape> car_shapes() {
   small.rear_wheel = -1.15f;
   small.wheel_radius = 0.28f;
   small.panes = {{0.08f, 0.4f}, {0.45f, 0.9f}};
-  CarShape tall = estate;  // goes where there is no road
+  CarShape tall = estate;  // an off-road vehicle
   tall.length = 4.4f;
   tall.width = 1.84f;
   tall.roof = 1.72f;

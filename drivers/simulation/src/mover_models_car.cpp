@@ -17,7 +17,7 @@ float smooth(float from, float to, float x) {
 
 float mixed(float a, float b, float share) { return a + (b - a) * share; }
 
-/// A car while it is being built: a lofted lower body, and a glasshouse on it.
+/// Builds a car: a lofted lower body and a glasshouse.
 class CarBuilder {
  public:
   CarBuilder(const CarShape& shape, const MoverMaterials& materials)
@@ -37,7 +37,7 @@ class CarBuilder {
   }
 
  private:
-  /// How far the ends are rounded: 1 in the middle, less towards them.
+  /// Rounding of the ends in plan view: 1 in the middle, less towards the ends.
   float plan(float x) const {
     const float front = smooth(half_length_, half_length_ - 0.55f, x),
                 rear = smooth(-half_length_, -half_length_ + 0.4f, x);
@@ -106,7 +106,7 @@ class CarBuilder {
     places.push_back(shape_.rear_foot);
     for (float x = -half_length_ + 0.8f; x < half_length_ - 0.6f; x += 0.35f) places.push_back(x);
     std::sort(places.begin(), places.end());
-    // nearly equal ones would make slivers
+    // nearly equal positions would make slivers
     places.erase(std::unique(places.begin(), places.end(), [](float a, float b) { return b - a < 0.006f; }),
                  places.end());
     return places;
@@ -259,7 +259,7 @@ class CarBuilder {
     const float x = half_length_;
     const float width = half_width(x);
     const float low = bottom(x), high = top(x), rise = high - low;
-    // grille, intake, plate, lamps round the corner
+    // grille, intake, plate, wrap-around lamps
     add_block(mesh_, {x - 0.05f, -0.5f * width, low + 0.66f * rise}, {x + 0.012f, 0.5f * width, low + 0.88f * rise},
               materials_.car_trim, grey(0.55f));
     add_block(mesh_, {x - 0.05f, -0.03f, low + 0.7f * rise}, {x + 0.025f, 0.03f, low + 0.84f * rise}, materials_.rim,
@@ -281,7 +281,7 @@ class CarBuilder {
     const float width = half_width(x);
     const float low = bottom(x), high = top(x), rise = high - low;
     for (const float side : {-1.0f, 1.0f}) {
-      // a tall lamp that goes round the corner
+      // a tall wrap-around lamp
       const Vector3f lamp(x + 0.1f, side * 0.93f * width, low + 0.74f * rise);
       add_block(mesh_, lamp - Vector3f(0.115f, 0.075f, 0.17f * rise), lamp + Vector3f(0.12f, 0.075f, 0.17f * rise),
                 materials_.lamp_rear, grey(1.0f));
@@ -307,7 +307,7 @@ class CarBuilder {
       for (const auto& [from, to] : shape_.panes) {
         for (const float t : {from, to}) {
           const float x = glass_x(t);
-          if (bottom(x) > shape_.sill + 0.05f) continue;  // a wheel is there
+          if (bottom(x) > shape_.sill + 0.05f) continue;  // at a wheel arch
           std::vector<Vector3f> points;
           std::vector<float> radii;
           const auto profile = section(x);

@@ -15,7 +15,7 @@ struct Ring {
   float deep, wide;  ///< half axes along x and y, m
 };
 
-/// A body through oval rings, from below upwards.
+/// A body through oval rings, from bottom to top.
 void add_rings(Mesh& mesh, const std::vector<Ring>& rings, int sides, std::uint16_t material, Tint tint) {
   std::vector<Vector3f> grid;
   for (const auto& ring : rings) {
@@ -37,7 +37,7 @@ Mesh build_person(const MoverMaterials& materials, Random random) {
     return std::array{materials.cloth_a, materials.cloth_b,
                       materials.cloth_c}[static_cast<std::size_t>(random.below(3))];
   };
-  // what people wear: mostly muted, now and then bright
+  // clothes: mostly muted, sometimes bright
   const auto colour = [&] {
     constexpr std::array<std::array<float, 3>, 10> kColours{{{0.07f, 0.09f, 0.16f},
                                                              {0.05f, 0.05f, 0.055f},

@@ -17,12 +17,12 @@ void standardise(cv::Mat1f& picture) {
 
 cv::Mat1f unscaled_smooth_noise(int size, cv::Size cells, Random random) {
   cells = {std::min(cells.width, size), std::min(cells.height, size)};
-  constexpr int kMargin = 3;  // cells, so that the cubic kernel sees the other side
+  constexpr int kMargin = 3;  // cells, so that the cubic kernel wraps around
   cv::Mat1f lattice(cells);
   for (float& value : lattice) value = static_cast<float>(random.uniform(-1.0, 1.0));
   cv::Mat1f padded;
   cv::copyMakeBorder(lattice, padded, kMargin, kMargin, kMargin, kMargin, cv::BORDER_WRAP);
-  // Sampled by an affine map and not resized: cells need not divide the size.
+  // An affine map instead of resizing: the number of cells need not divide the size.
   const double scale_x = static_cast<double>(cells.width) / size;
   const double scale_y = static_cast<double>(cells.height) / size;
   const cv::Matx23d lattice_from_picture(scale_x, 0.0, 0.5 * scale_x - 0.5 + kMargin, 0.0, scale_y,
@@ -33,7 +33,7 @@ cv::Mat1f unscaled_smooth_noise(int size, cv::Size cells, Random random) {
   return result;
 }
 
-/// Twice as large, around the borders.
+/// Enlarged by two, wrapping around the borders.
 cv::Mat1f enlarged(const cv::Mat1f& picture) {
   cv::Mat1f padded;
   cv::copyMakeBorder(picture, padded, 1, 1, 1, 1, cv::BORDER_WRAP);
@@ -41,7 +41,8 @@ cv::Mat1f enlarged(const cv::Mat1f& picture) {
   return padded(cv::Rect(2, 2, 2 * picture.cols, 2 * picture.rows));
 }
 
-/// The sum of octaves, not yet scaled. Those that are smooth at half the size are made there: it saves most of the time.
+/// The unscaled sum of octaves. Octaves that are smooth at half the size are computed there, which saves most of the
+/// time.
 cv::Mat1f octaves_from(int first, int octaves, int size, cv::Size cells, float gain, const Random& random) {
   int coarse = first;
   while (coarse < octaves && std::max(cells.width, cells.height) << coarse <= size / 8) ++coarse;
@@ -104,7 +105,7 @@ Paving crazy_paving(int size, int cells, float jitter, Random random) {
     float x, y;
     int number;
   };
-  // Seeds with a margin of two cells, those beyond the border being the other side's.
+  // Seeds with a margin of two cells, wrapped around the border.
   const int padded = cells + 4;
   std::vector<Seed> seeds(static_cast<std::size_t>(padded) * padded);
   for (int row = -2; row < cells + 2; ++row) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Arithmetic on sixteen rays at a time. Included once per instruction set, inside a namespace of its own, under
-// "#pragma GCC target": the compiler then makes the best of the vector types in each. PANVO_PACKET_ISA is 512 for AVX-512, 2 for AVX2,
-// else 0: the compiler's own macros do not follow the pragma. No includes here.
+// Arithmetic on sixteen rays at a time. Included once per instruction set, in its own namespace and under "#pragma GCC
+// target", so that the compiler uses that instruction set for the vector types. PANVO_PACKET_ISA is 512 for AVX-512, 2
+// for AVX2, else 0, because the compiler's own macros do not follow the pragma. No includes here.
 
 #define PANVO_ALWAYS __attribute__((always_inline))
 #define PANVO_INLINE inline PANVO_ALWAYS
@@ -102,7 +102,7 @@ PANVO_INLINE Float gather(const float* from, const Word& index) {
   return bits_of(gather((const std::uint32_t*)from, index));
 }
 
-/// Largest whole number not above; |value| < 2^31.
+/// Largest whole number not above `value`; |value| < 2^31.
 PANVO_INLINE Int floored(const Float& value) {
   const Int whole = truncated(value);
   return whole + (to_float(whole) > value);  // a true comparison is -1
@@ -145,7 +145,7 @@ PANVO_INLINE void store3(float (*to)[16], const Vector3& value) {
   store(to[1], value.y);
   store(to[2], value.z);
 }
-/// Three neighbouring numbers of a table.
+/// Three adjacent values of a table.
 PANVO_INLINE Vector3 gather3(const float* from, const Word& index) {
   return {gather(from, index), gather(from + 1, index), gather(from + 2, index)};
 }

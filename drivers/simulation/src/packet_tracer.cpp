@@ -8,8 +8,8 @@
 namespace panvo::simulation {
 namespace {
 
-constexpr float kEvenSky = 0.015f;   // of its brightness: less cannot be seen
-constexpr float kSunSpread = 0.01f;  // rad: the sun's disc, so that far leaves cast soft-edged gaps of its size
+constexpr float kEvenSky = 0.015f;   // relative brightness difference: smaller ones are not visible
+constexpr float kSunSpread = 0.01f;  // rad: the sun's disc, so that gaps between distant leaves have soft edges
 
 TraceContext trace_context(float spread, RTCIntersectContextFlags flags) {
   TraceContext context;
@@ -147,11 +147,11 @@ void PacketTracer::see_sky(const SampleRays& samples, const RTCRay16& rays, std:
   };
   const std::uint32_t missed = samples.lanes & ~hit;
   if (samples.is_block && missed == 0xffffu) {
-    // where a block's middle looks as its corners tell, so does the rest
+    // if the centre of a block matches the interpolation of its corners, so does the rest
     constexpr std::array<std::size_t, 4> kCorners{0, 3, 12, 15};
     for (const auto corner : kCorners) see(corner);
     const auto brightness = [&](std::size_t i) { return results.radiance[i][0] + results.radiance[i][2]; };
-    const auto lies_between = [&](std::size_t lane, std::size_t near, std::size_t far) {  // a third of the way
+    const auto lies_between = [&](std::size_t lane, std::size_t near, std::size_t far) {  // at a third of the distance
       see(lane);
       const float expected =
           (4.0f * brightness(near) + 2.0f * (brightness(3) + brightness(12)) + brightness(far)) / 9.0f;

@@ -12,7 +12,7 @@ namespace {}  // namespace
 cv::Mat3f paint_asphalt(float mm_per_px, const Colour& stone, const Colour& binder, float contrast, Random random) {
   constexpr int kSize = 1024;
   const float width_mm = mm_per_px * kSize;
-  // Chippings of two sizes in the binder; which of them show is uneven over decimetres: the road is worn unevenly.
+  // Chippings of two sizes in the binder; their visibility varies over decimetres with the wear of the road.
   const Paving large = crazy_paving(kSize, static_cast<int>(width_mm / 15.0f), 0.95f, random.part(0));
   const Paving small = crazy_paving(kSize, static_cast<int>(width_mm / 7.0f), 0.95f, random.part(1));
   const cv::Mat1f wear = fractal_noise(kSize, {9, 9}, 4, 0.8f, random.part(2));
@@ -29,7 +29,7 @@ cv::Mat3f paint_asphalt(float mm_per_px, const Colour& stone, const Colour& bind
     const float exposed = share + 0.10f * wear(row, column);
     if (luck > exposed) return 0.0f;
     const float shade = chance_of(chances, number, 1);
-    // Most chippings are grey like the rest, a few of them pale quartz or black basalt.
+    // Most chippings are grey, a few are pale quartz or black basalt.
     brightness = shade > 0.93f ? 1.35f + 9.0f * (shade - 0.93f) : 0.5f + 0.95f * shade;
     brightness *= 1.15f - 0.35f * paving.to_seed(row, column);
     return smooth_step(0.0f, 0.26f, paving.to_edge(row, column));
@@ -193,7 +193,7 @@ cv::Mat3f paint_grass(Random random) {
       picture(row, column) = thatch + (soil - thatch) * earth;
     }
   }
-  // Blades from dark ones below to bright ones on top.
+  // Blades, from dark ones at the bottom to bright ones on top.
   Random blades = random.part(4);
   constexpr int kBlades = 60000;
   constexpr int kShift = 3;
@@ -253,7 +253,7 @@ cv::Mat3f paint_marking(Random random) {
       const float tip = 3.5f * (road(row, column)[1] - 0.11f);
       const float worn = smooth_step(1.5f, 1.9f, flakes(row, column) + 0.4f * areas(row, column) + tip);
       const float dirt = 1.0f - 0.12f * smooth_step(-0.5f, 2.0f, areas(row, column)) - 0.08f * flakes(row, column);
-      // The road's grain shows through the thin paint as shading.
+      // The road's grain is visible through the thin paint as shading.
       const float grain = 0.75f + 1.6f * road(row, column)[1];
       const Colour paint =
           Colour(0.62f, 0.61f, 0.57f) * dirt * std::min(grain, 1.15f) * (0.93f + 0.14f * sand(row, column));
@@ -268,7 +268,7 @@ cv::Mat3f paint_manhole(Random random) {
   const cv::Mat1f rust = fractal_noise(kSize, {6, 6}, 6, 0.65f, random.part(0));
   const cv::Mat1f sand = white_noise(kSize, random.part(1));
   cv::Mat1f height = cv::Mat1f::zeros(kSize, kSize);
-  // The lid lies in the middle, its rim at the picture's borders: rings, and a field of studs.
+  // The lid is centred, with its rim at the picture's borders: rings and a field of studs.
   const cv::Point2f centre(255.5f, 255.5f);
   cv::circle(height, centre, 250, 1.0, 10);
   cv::circle(height, centre, 226, 1.0, 6);

@@ -49,7 +49,7 @@ struct Ink {
   }
 };
 
-/// Darkens what is already painted below a leaf: its shadow.
+/// Darkens the picture below a leaf, as its shadow.
 void shade_below(cv::Mat3f& colour, const std::vector<cv::Point>& outline, float factor) {
   const cv::Rect all(0, 0, colour.cols, colour.rows);
   std::vector<cv::Point> whole;
@@ -70,14 +70,14 @@ void shade_below(cv::Mat3f& colour, const std::vector<cv::Point>& outline, float
 
 Cutout paint_leaves(const LeafShape& shape, const Colour& colour, Random random) {
   constexpr int kSize = 512;
-  constexpr int kFine = 2 * kSize;  // painted twice as large, then averaged: soft edges
+  constexpr int kFine = 2 * kSize;  // painted at twice the size, then averaged, for soft edges
   cv::Mat3f paint(kFine, kFine, Colour(0.0f, 0.0f, 0.0f));
   cv::Mat1f alpha = cv::Mat1f::zeros(kFine, kFine);
   const Ink ink{paint, alpha};
   const cv::Point2f stem(kFine * 0.5f, kFine * 0.96f);
   const Colour bark(0.075f, 0.055f, 0.035f);
 
-  // Twigs fan out from the card's lower middle and carry the leaves.
+  // Twigs fan out from the bottom centre of the card and carry the leaves.
   Random random_twigs = random.part(0);
   std::vector<std::vector<cv::Point2f>> twigs;
   const int twig_count = shape.needles > 0 ? 26 : 16;
@@ -127,12 +127,12 @@ Cutout paint_leaves(const LeafShape& shape, const Colour& colour, Random random)
       const auto shadow = half_leaf(base + cv::Point2f(5.0f, 10.0f), direction, length, width, bend, half);
       shade_below(paint, shadow, 0.6f);
     }
-    // The halves of a leaf catch the light differently; between them runs the pale vein.
+    // The halves of a leaf are lit differently; the pale vein runs between them.
     ink.fill(half_leaf(base, direction, length, width, bend, 1.0f), own * 1.14f);
     ink.fill(half_leaf(base, direction, length, width, bend, -1.0f), own * 0.86f);
     ink.line(base, base + (tip - base) * 0.8f, own * 1.3f, 1);
   }
-  // Average by two with the colour of the covered part only; holes take the leaves' mean.
+  // Average over 2 x 2 pixels with the colour of the covered part only; holes get the leaves' mean.
   const Colour mean = colour * 0.8f;
   Cutout result{cv::Mat3f(kSize, kSize), cv::Mat1f(kSize, kSize)};
   for (int row = 0; row < kSize; ++row) {
@@ -189,7 +189,7 @@ cv::Mat3f paint_flowers(Random random) {
   const Colour petals[] = {
       {0.55f, 0.06f, 0.07f}, {0.62f, 0.48f, 0.06f}, {0.6f, 0.58f, 0.55f}, {0.35f, 0.1f, 0.42f}, {0.6f, 0.2f, 0.3f}};
   for (int flower = 0; flower < 260; ++flower) {
-    const cv::Point centre{places.below(size), places.below(size)};  // braces: in that order
+    const cv::Point centre{places.below(size), places.below(size)};  // braces: guaranteed order
     const int kind = places.below(5);
     const Colour petal = varied(petals[kind], 0.25f, 0.1f, random.part(100 + flower));
     const int radius = 7 + places.below(9);
@@ -215,7 +215,7 @@ cv::Mat3f paint_bark(const Colour& colour, Random random) {
   constexpr int kSize = 512;
   const cv::Mat1f bend_x = 7.0f * fractal_noise(kSize, {5, 7}, 3, 0.5f, random.part(0));
   const cv::Mat1f bend_y = 10.0f * fractal_noise(kSize, {9, 5}, 2, 0.5f, random.part(4));
-  // Plates of cork, long and upright, between furrows: a paving pressed together.
+  // Long upright cork plates between furrows: a compressed paving.
   const Paving plates = crazy_paving(kSize, 12, 0.9f, random.part(1));
   cv::Mat1f tall;
   cv::resize(plates.to_edge, tall, {kSize / 2, kSize}, 0.0, 0.0, cv::INTER_AREA);

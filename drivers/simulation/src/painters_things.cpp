@@ -15,7 +15,7 @@ constexpr int kSize = 256;
 
 cv::Scalar ink(const Colour& colour) { return {colour[0], colour[1], colour[2]}; }
 
-/// Weathers a painted face: blotches, streaks of rain, grain.
+/// Weathers a painted surface: blotches, rain streaks, grain.
 void weather(cv::Mat3f& picture, float strength, Random random) {
   const cv::Mat1f broad = fractal_noise(picture.cols, {4, 4}, 5, 0.6f, random.part(0));
   const cv::Mat1f rain = fractal_noise(picture.cols, {40, 3}, 3, 0.6f, random.part(1));
@@ -45,7 +45,7 @@ cv::Mat3f paint_plain(const Colour& colour, float blotches, float grain, Random 
 }
 
 cv::Mat3f paint_glass(Random random) {
-  // What is behind a pane by day: a dark room, a little less dark near the sill and where something pale stands.
+  // Behind a pane by day: a dark room, slightly brighter near the sill and at pale objects.
   const cv::Mat1f room = fractal_noise(kSize, {3, 2}, 3, 0.5f, random.part(0));
   const cv::Mat1f dust = fractal_noise(kSize, {8, 8}, 5, 0.7f, random.part(1));
   cv::Mat3f picture(kSize, kSize);
@@ -76,7 +76,7 @@ cv::Mat3f paint_door(const Colour& colour, Random random) {
   cv::Mat3f wood = paint_boards(colour, 6, true, random.part(0));
   cv::Mat1f height = cv::Mat1f::zeros(wood.size());
   const int size = wood.cols;
-  // Four sunk panels with a bead around each.
+  // Four recessed panels with a bead around each.
   for (int row = 0; row < 2; ++row) {
     for (int column = 0; column < 2; ++column) {
       const cv::Rect panel(column * size / 2 + size / 14, row * size / 2 + size / 14, size / 2 - size / 7,
@@ -172,7 +172,7 @@ cv::Mat3f paint_poster(Random random) {
 
 cv::Mat3f paint_plate(Random random) {
   cv::Mat3f picture(kSize, kSize, Colour(0.6f, 0.6f, 0.58f));
-  // Plates one above the other: whatever part a car's plate takes of the period, it shows letters.
+  // Rows of plates, so that any part of the period shows letters.
   constexpr int kRow = 64;
   for (int row = 0; row < kSize / kRow; ++row) {
     Random letters = random.part(row);

@@ -28,7 +28,7 @@ cv::Mat3f paint_bricks(const Colour& brick, const Colour& mortar, float variety,
   for (int row = 0; row < kSize; ++row) {
     const int course = std::min(static_cast<int>(static_cast<float>(row) / kHeight), kCourses - 1);
     const float y = static_cast<float>(row) - static_cast<float>(course) * kHeight;
-    // English bond: courses of stretchers and of headers in turn.
+    // English bond: alternating courses of stretchers and headers.
     const bool headers = course % 2 == 1;
     const float width = headers ? 0.5f * kWidth : kWidth;
     for (int column = 0; column < kSize; ++column) {
@@ -83,7 +83,7 @@ cv::Mat3f paint_stone_blocks(const Colour& colour, Random random) {
   const cv::Mat1f hewn = fractal_noise(kSize, {30, 40}, 5, 0.7f, random.part(1));
   const cv::Mat1f broad = fractal_noise(kSize, {6, 6}, 6, 0.6f, random.part(2));
   const Random of_block = random.part(3);
-  // Each course's joints: blocks of differing lengths that end at the period.
+  // The joints of each course: blocks of different lengths that end at the period.
   std::vector<std::vector<float>> joints(kCourses);
   for (int course = 0; course < kCourses; ++course) {
     Random lengths = random.part(100 + course);
@@ -165,7 +165,7 @@ cv::Mat3f paint_concrete_panels(const Colour& colour, Random random) {
       const int pore = pores.stone(row, column);
       const bool hole = chance_of(of_pore, pore) < 0.1f;
       const float pit = hole ? 1.0f - smooth_step(0.1f, 0.22f, pores.to_seed(row, column)) : 0.0f;
-      // Four holes of the formwork's ties in each panel.
+      // Four holes of formwork ties in each panel.
       const float tie_x = static_cast<float>(std::abs(std::abs(x - kPanel / 2) - 150));
       const float tie_y = static_cast<float>(std::abs(std::abs(y - kPanel / 2) - 150));
       const float tie = 1.0f - smooth_step(7.0f, 9.5f, std::sqrt(tie_x * tie_x + tie_y * tie_y));
@@ -276,14 +276,14 @@ cv::Mat3f paint_roof_tiles(const Colour& colour, int rows, int columns, bool sla
                          (0.7f + 0.6f * chance_of(of_tile, number)) * (0.86f + 0.28f * sand(row, column)) *
                          (1.0f + 0.1f * fine(row, column));
       float shade = 1.0f;
-      // The tile above throws its shadow on the top of each; the lower edge catches the light.
+      // The tile above shadows the top of each tile; the lower edge is bright.
       const float lip = 0.03f * (chance_of(of_tile, number, 2) - 0.5f);
       shade *= 0.35f + 0.65f * smooth_step(0.0f, 0.16f + lip, y);
       if (y > 0.93f) shade *= 1.18f;
       if (slate) {
         shade *= 0.45f + 0.55f * smooth_step(0.0f, 0.03f, std::min(x, 1.0f - x));
       } else {
-        // A pantile's wave: a round crest, and the trough in which the neighbour overlaps.
+        // The wave of a pantile: a round crest, and a trough that overlaps the neighbour.
         shade *= 0.62f + 0.45f * std::sin(std::numbers::pi_v<float> * std::min(x / 0.7f, 1.0f)) +
                  0.12f * smooth_step(0.75f, 1.0f, x);
         shade *= 0.5f + 0.5f * smooth_step(0.0f, 0.05f, x);

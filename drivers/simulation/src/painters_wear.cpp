@@ -9,7 +9,7 @@
 namespace panvo::simulation {
 namespace {
 
-/// Softens a picture of marks near its borders towards 0, for overlays whose periods are turned by chance.
+/// Fades a picture of marks to 0 at its borders, for overlays whose periods are rotated randomly.
 void fade_at_borders(cv::Mat1f& deviation, float border_share) {
   const auto size = static_cast<float>(deviation.cols);
   for (int row = 0; row < deviation.rows; ++row) {
@@ -38,7 +38,7 @@ cv::Mat1f paint_road_wear(float amount, Random random) {
           -0.16f * smooth_step(1.1f, 2.2f, stain(row, column)) + 0.12f * smooth_step(1.2f, 2.4f, pale(row, column));
     }
   }
-  // Drips: small dark spots in swarms.
+  // Drips: clusters of small dark spots.
   cv::Mat1f drips = cv::Mat1f::zeros(kSize, kSize);
   Random places = random.part(4);
   for (int swarm = 0; swarm < 7; ++swarm) {
@@ -53,7 +53,7 @@ cv::Mat1f paint_road_wear(float amount, Random random) {
   }
   deviation -= blurred(drips, 1.2);
 
-  // Cracks with branches, and seams sealed with tar.
+  // Branching cracks, and seams sealed with tar.
   cv::Mat1f cracks = cv::Mat1f::zeros(kSize, kSize);
   cv::Mat1f seams = cv::Mat1f::zeros(kSize, kSize);
   Random lines = random.part(5);
@@ -81,7 +81,7 @@ cv::Mat1f paint_road_wear(float amount, Random random) {
     const auto seam = wandering_line(start, direction, length, 7.0f, 0.11f, random.part(50 + number));
     draw_line(seams, seam, 1.0f, static_cast<float>(lines.uniform(4.0, 7.0)));
   }
-  // Alligator cracks where the ground below gave way.
+  // Alligator cracks where the base failed.
   const Paving scales = crazy_paving(kSize, 60, 0.9f, random.part(6));
   const cv::Mat1f weak = fractal_noise(kSize, {4, 4}, 3, 0.5f, random.part(7));
   for (int row = 0; row < kSize; ++row) {
@@ -95,7 +95,7 @@ cv::Mat1f paint_road_wear(float amount, Random random) {
   const cv::Mat1f seam_soft = blurred(seams, 1.0);
   deviation -= 0.45f * seam_soft;
 
-  // Skid marks: pairs of dark arcs, worn off here and there.
+  // Skid marks: pairs of dark arcs, partly worn off.
   cv::Mat1f skids = cv::Mat1f::zeros(kSize, kSize);
   for (int number = 0; number < 2; ++number) {
     const auto direction = static_cast<float>(lines.uniform(0.0, kTurn));
@@ -141,7 +141,7 @@ cv::Mat1f paint_ground_wear(float amount, Random random) {
 }
 
 cv::Mat1f paint_wall_wear(float streaks, float repairs, Random random) {
-  constexpr int kSize = 1024;  // over 16 m, its lowest row at the ground
+  constexpr int kSize = 1024;  // covers 16 m, lowest row at the ground
   const cv::Mat1f broad = fractal_noise(kSize, {4, 4}, 6, 0.55f, random.part(0));
   const cv::Mat1f rain = fractal_noise(kSize, {70, 3}, 3, 0.65f, random.part(1));
   const cv::Mat1f where = fractal_noise(kSize, {6, 4}, 4, 0.5f, random.part(2));
@@ -152,14 +152,14 @@ cv::Mat1f paint_wall_wear(float streaks, float repairs, Random random) {
     for (int column = 0; column < kSize; ++column) {
       const float streak = smooth_step(0.1f, 2.0f, rain(row, column)) * smooth_step(-0.3f, 1.3f, where(row, column));
       const float pale = smooth_step(0.4f, 2.2f, -rain(row, column)) * smooth_step(0.0f, 1.5f, -where(row, column));
-      // Rain splashes earth on the lowest half metre; damp climbs unevenly.
+      // Rain splashes soil on the lowest half metre; damp rises unevenly.
       const float reach_m = 0.55f + 0.3f * splash(row, column);
       const float dirt = 1.0f - smooth_step(0.0f, std::max(reach_m, 0.1f), height_m);
       deviation(row, column) =
           0.05f * broad(row, column) - 0.22f * streaks * streak + 0.08f * streaks * pale - 0.28f * dirt;
     }
   }
-  // Repairs: patches of another batch of plaster, with a rim.
+  // Repairs: patches of slightly different plaster, with a rim.
   Random places = random.part(4);
   const int patches = static_cast<int>(6.0f * repairs);
   for (int patch = 0; patch < patches; ++patch) {

@@ -19,7 +19,7 @@ namespace {
 
 enum class Wear { kNone, kRoad, kNewRoad, kGround, kWall, kPlaster };
 
-/// How a material is made.
+/// The recipe of a material.
 struct Recipe {
   std::string name;
   float period_m = 1.0f;
@@ -32,7 +32,7 @@ struct Recipe {
 
 std::vector<Recipe> make_recipes() {
   std::vector<Recipe> recipes;
-  // Colours are varied by the seed before the painter gets them.
+  // The seed varies the colours before they are passed to the painter.
   using Painter = std::function<cv::Mat3f(const Colour&, Random)>;
   const auto add = [&recipes](std::string name, float period_m, const Colour& colour, Painter paint,
                               Wear wear = Wear::kNone, float gloss = 0.0f) {
@@ -149,7 +149,7 @@ std::vector<Recipe> make_recipes() {
   add("hedge", 1.4f, {0.06f, 0.105f, 0.028f}, [](const Colour& c, const Random& r) { return paint_hedge(c, r); });
   add("flowers", 1.4f, {}, [](const Colour&, const Random& r) { return paint_flowers(r); });
 
-  // Things; paint, cloth and the like are pale, for the models' tints to colour.
+  // Objects; paint, cloth and similar materials are pale, so that the models' tints colour them.
   add("car_paint", 2.0f, {0.72f, 0.72f, 0.72f}, plain(0.012f, 0.02f), Wear::kNone, 0.05f);
   add("car_glass", 1.0f, {0.018f, 0.02f, 0.021f}, plain(0.15f, 0.02f), Wear::kNone, 0.08f);
   add("car_trim", 0.5f, {0.03f, 0.03f, 0.032f}, plain(0.08f, 0.1f), Wear::kNone, 0.01f);
@@ -222,7 +222,7 @@ cv::Mat read_photograph(const std::filesystem::path& file) {
   cv::Mat picture = cv::imread(file.string(), cv::IMREAD_UNCHANGED);
   if (picture.empty() || picture.depth() != CV_8U) {
     throw std::runtime_error(
-        fmt::format("{}: cannot be read as a picture of 8 bits per channel; save it as JPEG or PNG", file.string()));
+        fmt::format("{}: cannot be read as an image with 8 bits per channel; save it as JPEG or PNG", file.string()));
   }
   switch (picture.channels()) {
     case 1:
@@ -236,27 +236,27 @@ cv::Mat read_photograph(const std::filesystem::path& file) {
   }
   const cv::Size size(nearest_power_of_two(picture.cols), nearest_power_of_two(picture.rows));
   cv::resize(picture, picture, size, 0.0, 0.0, size.width < picture.cols ? cv::INTER_AREA : cv::INTER_LINEAR);
-  cv::flip(picture, picture, 0);  // v grows upwards
+  cv::flip(picture, picture, 0);  // v points up
   return picture;
 }
 
-/// The photographs of the folder by the material's name.
+/// The photographs of the folder, by material name.
 std::map<std::string, cv::Mat> read_photographs(const std::filesystem::path& assets,
                                                 const std::vector<Recipe>& recipes) {
   std::map<std::string, cv::Mat> photographs;
   if (assets.empty()) return photographs;
   if (!std::filesystem::is_directory(assets)) {
-    throw std::runtime_error(fmt::format("{}: no such folder of photographs", assets.string()));
+    throw std::runtime_error(fmt::format("{}: no such folder", assets.string()));
   }
   for (const auto& entry : std::filesystem::directory_iterator(assets)) {
     const std::filesystem::path& file = entry.path();
     if (file.extension() != ".jpg" && file.extension() != ".png") continue;
     const std::string name = file.stem().string();
     if (std::ranges::none_of(recipes, [&](const Recipe& recipe) { return recipe.name == name; })) {
-      throw std::runtime_error(fmt::format("{}: there is no material named '{}'", file.string(), name));
+      throw std::runtime_error(fmt::format("{}: unknown material '{}'", file.string(), name));
     }
     if (!photographs.emplace(name, read_photograph(file)).second) {
-      throw std::runtime_error(fmt::format("{}: there is another photograph of '{}'; remove one", file.string(), name));
+      throw std::runtime_error(fmt::format("{}: second photograph of '{}'; remove one", file.string(), name));
     }
   }
   return photographs;
@@ -271,7 +271,7 @@ Palette::Palette(std::uint64_t seed, const std::filesystem::path& assets) {
   std::vector<Overlay> overlays(kWears.size());
   materials_.resize(recipes.size());
 
-  // Every picture depends on the seed and its own name only; large ones are spread over the pool's threads.
+  // Each picture depends only on the seed and its name; they are distributed over the thread pool.
   const int jobs = static_cast<int>(overlays.size() + recipes.size());
   const auto make = [&](int job) {
     if (job < static_cast<int>(overlays.size())) {
@@ -317,7 +317,7 @@ Palette::Palette(std::uint64_t seed, const std::filesystem::path& assets) {
 
 std::uint16_t Palette::find(std::string_view name) const {
   const auto found = std::ranges::find(materials_, name, &Material::name);
-  if (found == materials_.end()) throw std::out_of_range(fmt::format("there is no material named '{}'", name));
+  if (found == materials_.end()) throw std::out_of_range(fmt::format("unknown material '{}'", name));
   return static_cast<std::uint16_t>(found - materials_.begin());
 }
 

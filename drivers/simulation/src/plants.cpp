@@ -26,11 +26,11 @@ struct Cluster {
 struct Foliage {
   std::uint16_t material;
   float period_m;
-  float card_m;        ///< edge of a card
-  float droop = 0.0f;  ///< 0: cards lie anyhow; 1: they hang
+  float card_m;        ///< edge length of a card
+  float droop = 0.0f;  ///< 0: random orientation of the cards; 1: they hang
 };
 
-/// Cards over the clusters, shaded as the crown's hull: lighter outside and above.
+/// Distributes cards over the clusters, shaded like the crown's hull: brighter outside and at the top.
 void add_crown(Mesh& mesh, const std::vector<Cluster>& clusters, const Vector3f& crown, float crown_radius, int cards,
                const Foliage& foliage, Random& random) {
   float total = 0.0f;
@@ -46,7 +46,7 @@ void add_crown(Mesh& mesh, const std::vector<Cluster>& clusters, const Vector3f&
     const Vector3f place = cluster.centre + reach * outwards.cwiseProduct(cluster.radii);
     const Vector3f from_crown = (place - crown) / crown_radius;
     Vector3f normal = (0.75f * from_crown + 0.4f * outwards + Vector3f(0, 0, 0.25f)).normalized();
-    // cards lie roughly across the way out, so that the crown looks closed from outside
+    // cards are roughly perpendicular to the outward direction, so that the crown looks closed
     Vector3f facing = (normal + 0.9f * direction(random)).normalized();
     if (foliage.droop > 0.0f) facing = (facing - foliage.droop * facing.z() * Vector3f::UnitZ()).normalized();
     Vector3f right = facing.cross(Vector3f::UnitZ());
@@ -65,7 +65,7 @@ void add_crown(Mesh& mesh, const std::vector<Cluster>& clusters, const Vector3f&
   }
 }
 
-/// A trunk from the origin to `top`, somewhat bent.
+/// A slightly bent trunk from the origin to `top`.
 void add_trunk(Mesh& mesh, const Vector3f& top, float radius, std::uint16_t material, Tint tint, Random& random) {
   const Vector3f bend(between(random, -0.25, 0.25), between(random, -0.25, 0.25), 0.0f);
   const Vector3f points[] = {
@@ -82,7 +82,7 @@ void add_branch(Mesh& mesh, const Vector3f& from, const Vector3f& to, float radi
 }
 
 struct BroadShape {
-  float height, trunk, crown_radius, crown_height;  ///< trunk: up to where the crown begins
+  float height, trunk, crown_radius, crown_height;  ///< trunk: height up to the crown
   int clusters, cards;
   float trunk_radius;
 };
@@ -97,7 +97,7 @@ Mesh build_broad(const BroadShape& shape, const Foliage& foliage, std::uint16_t 
   clusters.push_back({crown, Vector3f(0.7f * shape.crown_radius, 0.7f * shape.crown_radius, 0.8f * half_height)});
   const float start = between(random, 0.0, 2.0 * kPi);
   for (int i = 0; i < shape.clusters; ++i) {
-    // round and round, from below upwards
+    // in a spiral from bottom to top
     const float angle = start + 2.4f * static_cast<float>(i);
     const float share = (static_cast<float>(i) + 0.5f) / static_cast<float>(shape.clusters);
     const float level = 1.7f * share - 0.8f;
@@ -114,7 +114,7 @@ Mesh build_broad(const BroadShape& shape, const Foliage& foliage, std::uint16_t 
   return mesh;
 }
 
-/// A conifer: whorls of branches, each a few overlapping cards that sink outwards.
+/// A conifer: whorls of branches, each with several overlapping cards that droop outwards.
 Mesh build_conifer(float height, float radius, float bare, int whorls, const PlantMaterials& materials,
                    Random& random) {
   Mesh mesh;
@@ -229,7 +229,7 @@ Mesh build_hedge(const PlantMaterials& materials, float height_m, float width_m,
   Mesh mesh;
   constexpr int kStations = 9, kAround = 11;
   std::vector<Vector3f> grid;
-  // an arch-like cross section, bumpy but at the ends
+  // an arched cross section, bumpy except at the ends
   for (int station = 0; station < kStations; ++station) {
     const float x = -1.0f + 2.0f * static_cast<float>(station) / (kStations - 1);
     const bool is_end = station == 0 || station == kStations - 1;

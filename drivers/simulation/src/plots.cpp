@@ -42,7 +42,7 @@ class Planner {
   explicit Planner(const Site& site) : site_(site), random_(site.parameters.seed, "plots") {}
 
   std::vector<PlannedPlot> plan() {
-    // the big ones first, while there is room
+    // large ones first, while there is room
     place_some(PlotUse::kInstitute, 0.28, 1);
     place_some(PlotUse::kHall, 0.12, 2);
     place_some(PlotUse::kOpen, 0.2, 3);
@@ -51,7 +51,7 @@ class Planner {
   }
 
  private:
-  /// One to a road's side, with that probability.
+  /// Places at most one per side of a road, with that probability.
   void place_some(PlotUse use, double probability, std::uint64_t purpose) {
     for (int road = 0; road < static_cast<int>(site_.roads.roads.size()); ++road) {
       for (const bool is_left : {false, true}) {
@@ -67,7 +67,7 @@ class Planner {
     }
   }
 
-  /// Houses and town houses side by side along each road; whole neighbourhoods are of one kind.
+  /// Places houses and town houses side by side along each road; whole neighbourhoods are of one kind.
   void line_roads() {
     for (int road = 0; road < static_cast<int>(site_.roads.roads.size()); ++road) {
       const double length = length_of(site_.roads.roads[static_cast<std::size_t>(road)]);
@@ -92,7 +92,7 @@ class Planner {
   }
 
   bool is_town(const Eigen::Vector2d& point) const {
-    // neighbourhoods of some 120 m: two slow waves with phases by chance
+    // neighbourhoods of about 120 m: two slow waves with random phases
     Random random = random_.part(5);
     const double east = random.uniform(0.0, 6.28), north = random.uniform(0.0, 6.28);
     return std::sin(point.x() / 38.0 + east) + std::sin(point.y() / 31.0 + north) > -0.35;
@@ -145,7 +145,7 @@ Roadside roadside(const RoadNetwork& roads, int road, double along_m, bool is_le
     const double length = step.norm();
     if (length <= 0.0) continue;
     if (passed + length >= place.along_m || i + 1 == line.centre_line.size()) {
-      // the direction over some metres, so that what stands side by side is turned alike
+      // the direction over several metres, so that neighbours have similar headings
       const std::size_t before = i >= 4 ? i - 4 : 0, after = std::min(i + 3, line.centre_line.size() - 1);
       place.along = (line.centre_line[after] - line.centre_line[before]).normalized();
       place.middle = line.centre_line[i - 1] + std::min(1.0, (place.along_m - passed) / length) * step;
@@ -180,7 +180,7 @@ std::vector<Eigen::Vector2d> probes_of(const Plot& plot) {
 }
 
 bool overlap(const Plot& first, const Plot& second, double margin_m) {
-  // two rectangles are apart exactly if one of their sides' directions separates them
+  // separating axis theorem: two rectangles are disjoint exactly if the direction of one of their sides separates them
   const Eigen::Vector2d between = second.centre - first.centre;
   const auto first_axes = axes_of(first), second_axes = axes_of(second);
   for (const auto& axes : {first_axes, second_axes}) {

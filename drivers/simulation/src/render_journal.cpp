@@ -16,7 +16,7 @@
 namespace panvo::simulation {
 namespace {
 
-/// Gains in hexadecimal: to the last bit, or the pixels would not be the same.
+/// Gains in hexadecimal, which is exact: otherwise pixels would differ.
 std::string line_of(const RenderJournal::Entry& entry) {
   return fmt::format("{},{:a},{:a}\n", entry.stamp_ns, entry.exposure.stereo_gain, entry.exposure.panorama_gain);
 }
@@ -30,7 +30,7 @@ std::vector<RenderJournal::Entry> read_entries(const std::filesystem::path& file
     if (std::sscanf(line.c_str(), "%lld,%la,%la", &stamp_ns, &exposure.stereo_gain, &exposure.panorama_gain) != 3)
       break;
     const RenderJournal::Entry entry{stamp_ns, exposure};
-    if (stream.eof() || line + '\n' != line_of(entry)) break;  // written in part, or not by us
+    if (stream.eof() || line + '\n' != line_of(entry)) break;  // incomplete, or of another origin
     entries.push_back(entry);
   }
   return entries;
@@ -43,7 +43,7 @@ RenderJournal::RenderJournal(std::filesystem::path file)
   if (file_ < 0) fail_to_write(path_);
   if (flock(file_, LOCK_EX | LOCK_NB) != 0) {
     close(file_);
-    throw std::runtime_error(path_.string() + ": another process renders there; wait for it, or name another folder");
+    throw std::runtime_error(path_.string() + ": another process renders there; wait for it, or choose another folder");
   }
   found_ = read_entries(path_);
 }

@@ -24,7 +24,7 @@ namespace {
 
 constexpr int kMostEdgeSamples = 16;
 
-/// Numbers too small to be normal count as zero meanwhile: Embree asks for it, and every thread must do the same.
+/// Treats denormal numbers as zero during its lifetime, as Embree recommends, and equally in every thread.
 class FlushDenormals {
  public:
 #if defined(__SSE__)
@@ -61,7 +61,7 @@ ShutterPose pose_at(const Shot& shot, double time) {
 
 std::array<float, 3> to_array(const Eigen::Vector3f& vector) { return {vector.x(), vector.y(), vector.z()}; }
 
-/// What is needed to find the edges.
+/// Per-pixel data for finding edges.
 struct Picture {
   Picture(int height, int width)
       : radiance(height, width, CV_32FC3, cv::Scalar::all(0.0)),
@@ -109,7 +109,7 @@ struct Renderer::State {
 
   static const Scene& checked(const State& state) {
     if (!state.scene || !state.scene->palette || !state.scene->sky) {
-      throw std::invalid_argument("renderer: the scene lacks its palette or its sky");
+      throw std::invalid_argument("renderer: the scene has no palette or no sky");
     }
     return *state.scene;
   }

@@ -21,7 +21,7 @@ double heading_at(const VehicleMotion& motion, double t_s) {
   return std::atan2(rotation(1, 0), rotation(0, 0));
 }
 
-// When the distance passes `radius_m`, between two instants on either side of that; to a microsecond.
+// The time at which the distance equals `radius_m`, between two instants on either side; to a microsecond.
 double passing(const VehicleMotion& motion, const Eigen::Vector2d& centre, double radius_m, double from_s,
                double to_s) {
   const auto inside = [&](double t_s) { return (position_at(motion, t_s) - centre).norm() <= radius_m; };
@@ -33,7 +33,7 @@ double passing(const VehicleMotion& motion, const Eigen::Vector2d& centre, doubl
   return 0.5 * (from_s + to_s);
 }
 
-// When it is nearest, within a step about the nearest sample; by thirds, to some 10 microseconds.
+// The time of closest approach, within a step around the nearest sample; by ternary search, to about 10 microseconds.
 double nearest(const VehicleMotion& motion, const Eigen::Vector2d& centre, double about_s) {
   const auto distance = [&](double t_s) { return (position_at(motion, t_s) - centre).norm(); };
   double from = about_s - kStep_s, to = about_s + kStep_s;
@@ -62,7 +62,7 @@ std::vector<Visit> find_visits(const RoadNetwork& roads, const VehicleMotion& mo
       for (; out < samples && distance(out) <= radius_m; ++out) {
         if (distance(out) < distance(closest)) closest = out;
       }
-      if (out == samples) break;  // the journey ends here: no pass
+      if (out == samples) break;  // the journey ends here: not a pass
       const auto time = [](std::size_t k) { return kStep_s * static_cast<double>(k); };
       Visit visit;
       visit.junction = static_cast<int>(number);

@@ -54,11 +54,11 @@ StereoCamera build(const StereoSettings& settings) {
   stereo.rate_hz = settings.rate_hz;
   stereo.exposure_s = 1e-3 * settings.exposure_ms;
   stereo.sensor.colour = settings.colour;
-  stereo.sensor.metered_from = 0.35;  // the road and what stands beside it
+  stereo.sensor.metered_from = 0.35;  // the road and its surroundings
   return stereo;
 }
 
-/// Five heads around and one up, as in a Ladybug; the centres lie on a circle, as lenses do that cannot be in one place.
+/// Five heads around and one up, as in a Ladybug; the lens centres lie on a circle, because they cannot coincide.
 std::vector<PanoramaHead> six_heads(const PanoramaSettings& settings, const Eigen::Isometry3d& base_from_mount) {
   std::vector<PanoramaHead> heads;
   for (int i = 0; i < 6; ++i) {
@@ -71,7 +71,7 @@ std::vector<PanoramaHead> six_heads(const PanoramaSettings& settings, const Eige
     head.base_from_head =
         i < 5 ? base_from_mount * looking(settings.head_radius_m * outwards, yaw_rad, 0.0, 0.0)
               : base_from_mount * looking({0.0, 0.0, settings.head_radius_m}, 0.0, -0.5 * std::numbers::pi, 0.0);
-    // 72 degrees from head to head, the diagonal into the corners, and some overlap to blend.
+    // 72 degrees between heads, plus the diagonal to the corners and some overlap for blending.
     const double focal_px = settings.width / (100.0 * kRadians);
     head.fisheye.pinhole = {focal_px,       focal_px,       0.5 * (settings.width - 1), 0.5 * (settings.height - 1),
                             settings.width, settings.height};
@@ -81,7 +81,7 @@ std::vector<PanoramaHead> six_heads(const PanoramaSettings& settings, const Eige
   return heads;
 }
 
-/// Two fisheyes back to back that each see a little more than half of everything.
+/// Two fisheyes back to back, each with a field of view slightly larger than a hemisphere.
 std::vector<PanoramaHead> two_fisheyes(const PanoramaSettings& settings, const Eigen::Isometry3d& base_from_mount) {
   constexpr double kFieldOfViewRad = 200.0 * kRadians;
   std::vector<PanoramaHead> heads;
@@ -108,7 +108,7 @@ PanoramicCamera build(const PanoramaSettings& settings) {
   panorama.rate_hz = settings.rate_hz;
   panorama.exposure_s = 1e-3 * settings.exposure_ms;
   panorama.sensor.colour = settings.colour;
-  if (settings.kind == PanoramaKind::kEquirectangular) {  // neither the sky nor the vehicle's own roof
+  if (settings.kind == PanoramaKind::kEquirectangular) {  // excludes the sky and the vehicle's roof
     panorama.sensor.metered_from = 0.38;
     panorama.sensor.metered_to = 0.62;
   }

@@ -12,7 +12,7 @@
 namespace panvo::simulation {
 namespace {
 
-/// One group of a rig file (`stereo`, `panorama`): reads its values, and remembers what is wrong and what was asked for.
+/// One group of a rig file (`stereo`, `panorama`): reads its values, and records problems and the keys that were read.
 class Group {
  public:
   Group(std::string file, const std::string& name, YAML::Node node, std::string& problems)
@@ -73,14 +73,14 @@ class Group {
 
   void reject(const char* key, const std::string& what) { report(node_ ? node_[key] : YAML::Node(), key, what); }
 
-  /// Reports the keys that were never asked for.
+  /// Reports unknown keys.
   void finish() {
     if (!node_) return;
     std::string known;
     for (const auto& key : asked_) known += (known.empty() ? "" : ", ") + key;
     for (const auto& entry : node_) {
       const auto key = entry.first.as<std::string>();
-      if (!asked_.contains(key)) report(entry.first, key, "is not known here; there are " + known);
+      if (!asked_.contains(key)) report(entry.first, key, "is not known here; known keys: " + known);
     }
   }
 
@@ -94,7 +94,7 @@ class Group {
     try {
       is_good = reader(node);
     } catch (const YAML::Exception&) {
-      is_good = false;  // not of that type: told as the rule
+      is_good = false;  // wrong type: reported with the rule
     }
     if (!is_good) report(node, key, rule);
   }
@@ -157,16 +157,16 @@ RigSettings read_rig_settings(const std::filesystem::path& file) {
   try {
     root = YAML::LoadFile(file.string());
   } catch (const YAML::BadFile&) {
-    throw std::runtime_error(file.string() + ": cannot be read; name a rig file such as config/rigs/paper/rig.yaml");
+    throw std::runtime_error(file.string() + ": cannot be read; use a rig file such as config/rigs/paper/rig.yaml");
   } catch (const YAML::ParserException& error) {
-    throw std::runtime_error(fmt::format("{}:{}: is no YAML: {}", file.string(), error.mark.line + 1, error.msg));
+    throw std::runtime_error(fmt::format("{}:{}: is not YAML: {}", file.string(), error.mark.line + 1, error.msg));
   }
   if (!root.IsMap()) throw std::runtime_error(file.string() + ": must be a map with stereo and panorama");
   std::string problems;
   for (const auto& entry : root) {
     const auto key = entry.first.as<std::string>();
     if (key != "stereo" && key != "panorama") {
-      problems += fmt::format("{}:{}: {} is not known here; there are stereo, panorama\n", file.string(),
+      problems += fmt::format("{}:{}: {} is not known here; known keys: stereo, panorama\n", file.string(),
                               entry.first.Mark().line + 1, key);
     }
   }

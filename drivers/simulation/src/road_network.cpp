@@ -11,7 +11,7 @@ namespace panvo::simulation {
 
 namespace {
 
-// In [0, 2 pi), of the road as it leaves the junction. Measured some metres out, where the road has its own direction.
+// Direction of a road as it leaves the junction, in [0, 2 pi), measured several metres away from it.
 double leaving_angle(const Road& road, bool at_its_start) {
   const auto& line = road.centre_line;
   const std::size_t out = std::min<std::size_t>(line.size() - 1, 5);
@@ -21,8 +21,8 @@ double leaving_angle(const Road& road, bool at_its_start) {
   return angle < 0.0 ? angle + 2.0 * std::numbers::pi : angle;
 }
 
-// The point of one road that is nearest, better than `best`. The distance to a centre line changes by at most a metre
-// per metre along it, so that points far away allow long steps.
+// Updates `best` with the nearest point of one road. The distance to a centre line changes by at most a metre per metre
+// along it, so that distant points allow long steps.
 void search_road(const Road& road, int number, const Eigen::Vector2d& point, RoadNetwork::Nearest& best) {
   const auto& line = road.centre_line;
   double along = 0.0;

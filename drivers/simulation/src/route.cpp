@@ -16,7 +16,7 @@ namespace panvo::simulation {
 
 namespace {
 
-// One place in a route file, for messages.
+// A route file, for messages with file and line.
 class RouteFile {
  public:
   explicit RouteFile(const std::filesystem::path& file) : file_(file) {}
@@ -28,7 +28,7 @@ class RouteFile {
 
   YAML::Node load() const {
     std::error_code error;
-    if (std::filesystem::is_directory(file_, error)) fail(YAML::Mark::null_mark(), "is a folder; name a route file");
+    if (std::filesystem::is_directory(file_, error)) fail(YAML::Mark::null_mark(), "is a folder, not a route file");
     std::ifstream stream(file_, std::ios::binary);
     std::ostringstream content;
     content << stream.rdbuf();
@@ -41,7 +41,7 @@ class RouteFile {
   }
 
   std::string text(const YAML::Node& value, const std::string& key) const {
-    if (!value.IsScalar() || value.Scalar().empty()) fail(value.Mark(), key + ": must be a text of one line");
+    if (!value.IsScalar() || value.Scalar().empty()) fail(value.Mark(), key + ": must be a string");
     return value.Scalar();
   }
 
@@ -63,7 +63,7 @@ Route read_route(const std::filesystem::path& file) {
     const std::string key = entry.first.IsScalar() ? entry.first.Scalar() : "";
     const YAML::Node& value = entry.second;
     if (std::find(seen.begin(), seen.end(), key) != seen.end()) {
-      route_file.fail(entry.first.Mark(), key + ": is there twice; remove one");
+      route_file.fail(entry.first.Mark(), key + ": is duplicated; remove one");
     }
     seen.push_back(key);
     if (key == "name") {
@@ -72,11 +72,11 @@ Route read_route(const std::filesystem::path& file) {
       route.description = route_file.text(value, key);
     } else if (key == "junctions") {
       if (!value.IsSequence() || value.size() < 2) {
-        route_file.fail(entry.first.Mark(), "junctions: must be a list of at least two junctions' names");
+        route_file.fail(entry.first.Mark(), "junctions: must be a list of at least two junction names");
       }
       for (const auto& junction : value) route.junctions.push_back(route_file.text(junction, key));
     } else {
-      route_file.fail(entry.first.Mark(), fmt::format("{}: is no key of a route; there are name, junctions and "
+      route_file.fail(entry.first.Mark(), fmt::format("{}: is not known here; known keys: name, junctions and "
                                                       "description",
                                                       key));
     }
@@ -96,7 +96,7 @@ Route random_route(const RoadNetwork& roads, int junctions, std::uint64_t seed) 
   for (std::size_t i = 0; i < roads.junctions.size(); ++i) {
     if (!roads.junctions[i].roads.empty()) starts.push_back(static_cast<int>(i));
   }
-  if (starts.empty()) throw std::invalid_argument("a route cannot be drawn: the network has no roads");
+  if (starts.empty()) throw std::invalid_argument("no random route is possible: the network has no roads");
 
   Route route;
   route.name = fmt::format("random_{}", seed);

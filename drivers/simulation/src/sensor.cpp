@@ -20,7 +20,7 @@ constexpr float kCurveSteps = kCurveEntries - 1;
 constexpr int kRowsPerStripe = 32;
 constexpr std::array<float, 3> kLuminance{0.2126f, 0.7152f, 0.0722f};  // of linear RGB [ITU-R BT.709]
 
-/// The value that a standard normal variable stays below with that probability, by Newton's method.
+/// Quantile of the standard normal distribution, by Newton's method.
 double normal_quantile(double probability) {
   double value = 0.0;
   for (int i = 0; i < 60; ++i) {
@@ -31,7 +31,7 @@ double normal_quantile(double probability) {
   return value;
 }
 
-/// Equally likely values of a standard normal variable, of variance one.
+/// Equally likely values of a standard normal variable, scaled to variance one.
 const std::array<float, kQuantiles>& normal_values() {
   static const auto values = [] {
     std::array<float, kQuantiles> table{};
@@ -47,7 +47,7 @@ const std::array<float, kQuantiles>& normal_values() {
   return values;
 }
 
-/// The 8-bit value by the square root of the light, where the curve is all but straight.
+/// The 8-bit value as a function of the square root of the light, which is almost linear.
 std::array<std::uint8_t, kCurveEntries> curve_by_root(double gamma) {
   std::array<std::uint8_t, kCurveEntries> table{};
   for (int i = 0; i < kCurveEntries; ++i) {
@@ -71,7 +71,7 @@ cv::Mat vignetting_map(cv::Size size, double loss) {
   return map;
 }
 
-/// How much each pixel is smudged, 0..1: some round spots, and wiped streaks.
+/// Degree of smudging of each pixel, 0..1: round spots and wiped streaks.
 cv::Mat smear_map(cv::Size size, double amount, std::uint64_t seed) {
   cv::Mat map(size, CV_32FC1, cv::Scalar::all(0.0));
   Random random(seed, "smear on the lens");
@@ -97,14 +97,14 @@ cv::Mat smear_map(cv::Size size, double amount, std::uint64_t seed) {
   return map;
 }
 
-/// Drops that fall past the lens while the shutter is open: short, bright, almost upright streaks.
+/// Adds falling drops as short, bright, almost vertical streaks.
 void add_rain(cv::Mat& light, double amount, Random random) {
   const int channels = light.channels();
   const int streaks = static_cast<int>(amount * 0.0008 * static_cast<double>(light.total()));
   const double slant = random.uniform(-0.12, 0.12);
   const auto mean = cv::mean(light);
   for (int i = 0; i < streaks; ++i) {
-    const double distance = random.uniform(0.15, 1.0);  // of the farthest drop that is seen
+    const double distance = random.uniform(0.15, 1.0);  // relative to the farthest visible drop
     const double length = 0.03 * light.rows / distance;
     const double width = 0.45 / distance;
     const double opacity = std::min(0.5, 0.12 / distance);
@@ -224,7 +224,7 @@ cv::Mat Sensor::expose(cv::Mat& radiance, std::uint64_t frame) {
           electrons[i + 2] *= shade[x];
         }
       }
-      // each hash has numbers for four values
+      // each hash yields four values
       for (int i = 0; i < width; i += 4) {
         const std::uint64_t bits =
             mix(noise + static_cast<std::uint64_t>(row) * 0x9e3779b97f4a7c15ULL + static_cast<std::uint64_t>(i));

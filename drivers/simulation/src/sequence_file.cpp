@@ -76,13 +76,12 @@ std::string sequence_yaml(const Simulation& simulation) {
 
   std::string text =
       "%YAML:1.0\n"
-      "# what is true of this recording; headings in degrees, counter-clockwise, 0 = +x of the world; times in ns like "
-      "the images' stamps\n";
+      "# ground truth of this recording; headings in degrees, counter-clockwise, 0 = +x of the world; times in ns as "
+      "image stamps\n";
   text += fmt::format(
       "route: {}\nseed: {}\nhilliness: {:g}\ncalibration_error: {:g}\nhour: {:g}\neffects: [{}]\ntraveled_m: "
       "{:.3f}\nduration_s: {:.2f}\n"
-      "stereo_frames: {}\npanorama_frames: {}\npanorama_clock_offset_ns: {}  # what stamps of panoramas are ahead of "
-      "the truth's\n"
+      "stereo_frames: {}\npanorama_frames: {}\npanorama_clock_offset_ns: {}  # panorama stamps minus true times\n"
       "start_ns: {}\nplace_kind: road junction\n",
       p.route.name, p.seed, p.hilliness, p.calibration_error, p.hour, fmt::join(names_of(p.effects), ", "),
       simulation.motion().travelled_m(to_s) - simulation.motion().travelled_m(from_s), to_s - from_s, stereo_frames,
@@ -91,7 +90,7 @@ std::string sequence_yaml(const Simulation& simulation) {
   text += junctions_yaml(roads);
 
   auto visits = find_visits(roads, simulation.motion());
-  // Of a journey in part there is no truth elsewhere.
+  // Restrict the ground truth to the rendered part of the journey.
   const auto is_outside = [&](double begin_s, double end_s) { return end_s < from_s || begin_s > to_s; };
   std::erase_if(visits, [&](const Visit& visit) { return is_outside(visit.closest_s, visit.closest_s); });
   text += visits_yaml(visits, stamp);

@@ -29,7 +29,7 @@ void shade_packet(const ShadingTables& tables, const TracedPacket& traced, Shade
 #endif
 
 void copy_lane(const TracedPacket& from, std::size_t lane, TracedPacket& to, std::size_t to_lane) {
-  // all members of Embree's packets are arrays of sixteen words
+  // Embree's packets consist of arrays of sixteen words
   static_assert(sizeof(RTCRayHit16) % (kPacket * sizeof(std::uint32_t)) == 0);
   constexpr std::size_t kWords = sizeof(RTCRayHit16) / (kPacket * sizeof(std::uint32_t));
   const auto* source = reinterpret_cast<const unsigned char*>(&from.rays);

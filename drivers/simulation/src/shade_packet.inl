@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Shades sixteen hits. Included once per instruction set; see packet_math.inl.
 
-/// A place on a texture with the pixel's footprint there, in periods.
+/// A position on a texture with the pixel's footprint, in periods.
 struct Footprint {
   Float u, v;
-  Float ux, uy, vx, vy, mx, my;  ///< steps along the image's columns, its rows, and while the shutter is open
+  Float ux, uy, vx, vy, mx, my;  ///< steps along image columns and rows, and while the shutter is open
 };
 
 PANVO_INLINE Vector3 texel(const std::uint32_t* texels, const Word& index) {
@@ -15,7 +15,7 @@ PANVO_INLINE Vector3 texel(const std::uint32_t* texels, const Word& index) {
   return {red * red, green * green, blue * blue};
 }
 
-/// 255^2 times the colour.
+/// The colour times 255^2.
 PANVO_INLINE Vector3 bilinear(const std::uint32_t* texels, const Word& offset, const Word& log2_width,
                               const Word& log2_height, const Float& u, const Float& v) {
   const Word width = all_word(1) << log2_width;
@@ -26,7 +26,7 @@ PANVO_INLINE Vector3 bilinear(const std::uint32_t* texels, const Word& offset, c
   const Int row = floored(y);
   const Float right = x - to_float(column);
   const Float low = y - to_float(row);
-  // texels lie in tiles of 4 x 4, a cache line each, wherever the level is that large
+  // texels are stored in tiles of 4 x 4, one cache line each, if the level is large enough
   const Word tile = (Word)((log2_width > 1u) & (log2_height > 1u)) & 2u;
   const Word inside = (all_word(1) << tile) - 1u;
   const auto column_part = [&](const Word& at) PANVO_ALWAYS { return ((at >> tile) << (tile + tile)) + (at & inside); };
@@ -45,7 +45,7 @@ PANVO_INLINE Vector3 bilinear(const std::uint32_t* texels, const Word& offset, c
 }
 
 /// The colour averaged over the footprint, an ellipse whose squared half axes are the eigenvalues of J J': trilinear,
-/// with probes along the longer axis as many as its length calls for.
+/// with a number of probes along the longer axis that depends on its length.
 PANVO_INLINE Vector3 sample(const ShadingTables& tables, const Word& texture, const Footprint& at, int taps) {
   const auto* records = &tables.textures->log2_width;
   const Word record = texture * (std::uint32_t)(sizeof(TextureRecord) / 4);
@@ -66,7 +66,7 @@ PANVO_INLINE Vector3 sample(const ShadingTables& tables, const Word& texture, co
   const Float probes = to_float(truncated(minimum(ratio + 0.99f, all((float)taps))));
   const Float one_probe = maximum(shorter, longer / (probes * probes));
   const Float detail = minimum(maximum(0.5f * rough_log2(maximum(all(1.0f), one_probe)), all(0.0f)), last_level);
-  // two levels are mixed about half way between them only; elsewhere the nearer one is all there is to fetch
+  // two levels are mixed only about half way between them; elsewhere only the nearer one is fetched
   const Float below = to_float(truncated(detail));
   const Float mixed = clamped((detail - below - 0.3f) * 2.5f, 0.0f, 1.0f);
   const Int is_coarse = mixed >= 1.0f;
@@ -83,7 +83,7 @@ PANVO_INLINE Vector3 sample(const ShadingTables& tables, const Word& texture, co
   const Word fine_width = at_level(log2_width, fine), fine_height = at_level(log2_height, fine);
   const Word coarse_width = at_level(log2_width, coarse), coarse_height = at_level(log2_height, coarse);
 
-  // the longer axis: of the eigenvector's two forms the one that does not cancel
+  // the longer axis: the form of the eigenvector without cancellation
   const Int is_wide = half_difference >= 0.0f;
   const Float axis_x = choose(is_wide, half_difference + spread, xy);
   const Float axis_y = choose(is_wide, xy, spread - half_difference);
@@ -109,7 +109,7 @@ PANVO_INLINE Vector3 sample(const ShadingTables& tables, const Word& texture, co
   return (1.0f / (65025.0f * probes)) * sum;
 }
 
-/// Mirrors and turns each period by chance.
+/// Mirrors and rotates each period randomly.
 PANVO_INLINE void scatter(const Int& mask, Footprint& at) {
   const Int column = floored(at.u);
   const Int row = floored(at.v);
@@ -125,7 +125,7 @@ PANVO_INLINE void scatter(const Int& mask, Footprint& at) {
   const Float y = choose(flips_v, 1.0f - v, v);
   at.u = choose(turns, y, x);
   at.v = choose(turns, x, y);
-  // the footprint's size matters more here than its signs: an overlay is coarse
+  // signs are ignored: for a coarse overlay, only the footprint's size matters
   const auto turn = [&](Float& a, Float& b) PANVO_ALWAYS {
     const Float was = a;
     a = choose(turns, b, a);
@@ -136,7 +136,7 @@ PANVO_INLINE void scatter(const Int& mask, Footprint& at) {
   turn(at.mx, at.my);
 }
 
-/// Of three corners, octahedral.
+/// Unpacks octahedral normals.
 PANVO_INLINE Vector3 unpacked_normal(const Word& packed) {
   const Float x = to_float((Int)(packed << 16) >> 16) * (1.0f / 32767.0f);
   const Float y = to_float((Int)packed >> 16) * (1.0f / 32767.0f);
@@ -181,7 +181,7 @@ void shade_packet(const ShadingTables& tables, const TracedPacket& traced, Shade
   const Float third = load<Float>(hits.v);
   const Float first = 1.0f - second - third;
 
-  // whose surface it is
+  // the object of the surface
   const Word instance = load<Word>(hits.instID[0]);
   const Int is_fixed = instance == RTC_INVALID_GEOMETRY_ID;
   Word object = (Word)(is_fixed ? (Int)(geometry >> 1) : (Int)instance);
@@ -213,7 +213,7 @@ void shade_packet(const ShadingTables& tables, const TracedPacket& traced, Shade
                                       turn[6] * direction.x + turn[7] * direction.y + turn[8] * direction.z};
   Vector3 object_tint{all(1.0f), all(1.0f), all(1.0f)};
 
-  const Int is_instance = ~is_fixed & is_hit;  // a mover; what stands was copied to its place
+  const Int is_instance = ~is_fixed & is_hit;  // a mover; standing models are copies, not instances
   const Int is_placed = ((Int)gather(object_words + 30, object_index) != 0) & is_hit;
   if (any(is_placed)) {
     const Int moves = (Int)gather(object_words + 29, object_index) != 0;
@@ -246,10 +246,10 @@ void shade_packet(const ShadingTables& tables, const TracedPacket& traced, Shade
   }
   flat = normalized(flat);
   normal = normalized(normal);
-  flat = choose(dot(flat, direction) > 0.0f, all(-1.0f) * flat, flat);  // surfaces have two sides
+  flat = choose(dot(flat, direction) > 0.0f, all(-1.0f) * flat, flat);  // surfaces are two-sided
   normal = choose(dot(normal, flat) < 0.0f, all(-1.0f) * normal, normal);
 
-  // the material, the tint and how much of the sky is open
+  // material, tint and ambient light
   const Word material_light = gather(surface_words + 12, surface);
   const Word material = material_light & 0xffu;
   const Word material_index = material * 16u;
@@ -272,7 +272,8 @@ void shade_packet(const ShadingTables& tables, const TracedPacket& traced, Shade
                      interpolated(tint_0 >> 16, tint_1 >> 16, tint_2 >> 16)};
   const Float contrast = interpolated(tint_0 >> 24, tint_1 >> 24, tint_2 >> 24);
 
-  // the texture over the pixel's footprint: its neighbours' rays and its own later rays meet the surface's plane
+  // the pixel's footprint on the texture: the rays of its neighbours and its own later ray, intersected with the
+  // surface's plane
   const Float slope = minimum(dot(direction, flat), all(-0.02f));
   const Float per_slope = 1.0f / slope;
   const auto on_plane = [&](const Vector3& change)
@@ -295,7 +296,7 @@ void shade_packet(const ShadingTables& tables, const TracedPacket& traced, Shade
                      metres.vx * s, metres.vy * s, metres.mx * s, metres.my * s};
   };
   Footprint place = in_periods(gather(material_numbers + 8, material_index));
-  place.u = place.u - to_float(floored(place.u));  // keeps the texels' numbers small, and exact
+  place.u = place.u - to_float(floored(place.u));  // keeps texel indices small and exact
   place.v = place.v - to_float(floored(place.v));
   const Vector3 mean = gather3(material_numbers + 4, material_index);
   const Vector3 colour = sample(tables, gather(material_words + 3, material_index), place, tables.texture_taps);
@@ -310,7 +311,7 @@ void shade_packet(const ShadingTables& tables, const TracedPacket& traced, Shade
     albedo = choose(has_overlay, all(2.0f) * (overlay * albedo), albedo);
   }
 
-  // light: the sky's and the ground's where they are seen, the sun's from the front or through a leaf
+  // light: sky and ground as far as visible, sun from the front or through a leaf
   const Vector3 to_sun = all(tables.to_sun);
   const Float upwards = 0.5f + 0.5f * normal.z;
   const Vector3 indirect = open * (upwards * all(tables.sky) + (1.0f - upwards) * all(tables.ground));

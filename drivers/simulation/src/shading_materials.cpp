@@ -14,11 +14,11 @@
 namespace panvo::simulation {
 namespace {
 
-constexpr std::size_t kMostMaterials = 256;  // a surface record has eight bits for it
-constexpr std::uint32_t kOpaque = 181;       // the square root of 0.5, of 255
-constexpr float kEnvironmentSpread = 0.05f;  // rad: about an entry
+constexpr std::size_t kMostMaterials = 256;  // a surface record has eight bits for the index
+constexpr std::uint32_t kOpaque = 181;       // 255 times the square root of 0.5
+constexpr float kEnvironmentSpread = 0.05f;  // rad: about the size of an entry
 
-/// A level of a texture's pyramid: its texels lie in tiles of 4 x 4, a cache line each, where it is that large.
+/// A level of a texture's pyramid, stored in tiles of 4 x 4 texels, one cache line each, if it is large enough.
 struct LevelShape {
   LevelShape(const TextureRecord& texture, std::uint32_t level)
       : log2_width(std::max(texture.log2_width, level) - level),
@@ -33,7 +33,7 @@ struct LevelShape {
   }
 
   std::uint32_t log2_width, log2_height, tile;
-  std::uint32_t columns, rows;  ///< less one: masks
+  std::uint32_t columns, rows;  ///< masks: number minus one
 };
 
 }  // namespace
@@ -95,7 +95,7 @@ std::uint32_t ShadingMaterials::add(const Texture& texture) {
   }
   const auto& bytes = texture.texels();
   const std::size_t first = texels_.size();
-  if (first + bytes.size() / 4 != offset) throw std::logic_error("renderer: a texture's pyramid is not as it says");
+  if (first + bytes.size() / 4 != offset) throw std::logic_error("renderer: a texture's pyramid has a wrong size");
   static_assert(std::endian::native == std::endian::little, "red is the low byte");
   texels_.resize(offset);
   const std::uint8_t* from = bytes.data();
@@ -139,7 +139,7 @@ bool ShadingMaterials::is_hole(std::uint32_t material, const Eigen::Vector2f& uv
         first[shape.index(static_cast<std::uint32_t>(i) & shape.columns, static_cast<std::uint32_t>(j) & shape.rows)];
     return static_cast<float>(texel >> 24);
   };
-  // far away the nearest texel will do
+  // far away, the nearest texel suffices
   if (level > 0) return alpha(floored(x + 0.5f), floored(y + 0.5f)) < static_cast<float>(kOpaque);
   const float right = x - static_cast<float>(column);
   const float low = y - static_cast<float>(row);

@@ -4,12 +4,12 @@
 namespace panvo::simulation {
 namespace {
 
-/// A direction far from that of `axis`: the same all along a tube, or its rows would be twisted.
+/// A direction not parallel to `axis`. It must be constant along a tube so that its rows are not twisted.
 Eigen::Vector3f aside_of(const Eigen::Vector3f& axis) {
   return std::abs(axis.normalized().z()) < 0.7f ? Eigen::Vector3f::UnitZ() : Eigen::Vector3f::UnitX();
 }
 
-/// Two unit vectors square to `axis` (unit) and to each other; right x forward = axis.
+/// Two unit vectors perpendicular to `axis` (unit) and to each other; right x forward = axis.
 std::pair<Eigen::Vector3f, Eigen::Vector3f> square_to(const Eigen::Vector3f& axis, const Eigen::Vector3f& aside) {
   const Eigen::Vector3f right = aside.cross(axis).normalized();
   return {right, axis.cross(right)};
@@ -43,7 +43,7 @@ void add_bent_tube(Mesh& mesh, std::span<const Eigen::Vector3f> points, std::spa
                    std::uint16_t material, Tint tint) {
   std::vector<Eigen::Vector3f> grid;
   const Eigen::Vector3f aside = aside_of(points.back() - points.front());
-  // one row to a point; a row's direction is such that columns x rows points outwards
+  // one row per point; the row direction is such that columns x rows points outwards
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Eigen::Vector3f axis = (points[std::min(i + 1, points.size() - 1)] - points[i > 0 ? i - 1 : 0]).normalized();
     const auto [right, forward] = square_to(axis, aside);

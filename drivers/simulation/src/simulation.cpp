@@ -16,7 +16,7 @@ constexpr double kDroppedShare = 1.0 / 50.0;
 
 std::int64_t nanoseconds(double seconds) { return static_cast<std::int64_t>(std::llround(seconds * 1e9)); }
 
-/// Numbers of the exposures of a camera of `rate_hz` between two times.
+/// Frame numbers of a camera with `rate_hz` between two times.
 std::vector<std::uint64_t> frames_between(double from_s, double to_s, double rate_hz) {
   std::vector<std::uint64_t> frames;
   constexpr double kRounding = 1e-9;
@@ -27,8 +27,8 @@ std::vector<std::uint64_t> frames_between(double from_s, double to_s, double rat
   return frames;
 }
 
-/// What the stereo camera has become since its calibration was written: as far off as a good calibration is after some
-/// months of driving (focal length 0.1 %, principal point half a pixel, the right eye turned by a fiftieth of a degree).
+/// The actual stereo camera, which deviates from its published calibration as after some months of driving (focal
+/// length 0.1 %, principal point half a pixel, right eye rotated by a fiftieth of a degree), times `error`.
 vision::StereoCalibration aged(const vision::StereoCalibration& published, double error, std::uint64_t seed) {
   const double focal_length = 1e-3 * error, principal_point_px = 0.5 * error, distortion = 2e-3 * error;
   const double rotation_deviation_rad = 3.5e-4 * error;
@@ -51,7 +51,7 @@ vision::StereoCalibration aged(const vision::StereoCalibration& published, doubl
 }  // namespace
 
 Simulation::Simulation(const SimulationParameters& parameters) : parameters_(parameters) {
-  // Everything that may be refused comes before the campus, which takes its time.
+  // Everything that may be rejected comes before building the campus, which takes time.
   const auto& [route, rig, effects, motion, seed, hilliness, calibration_error, hour, assets, start_s, duration_s,
                stereo, panorama, stamp, quality] = parameters_;
   const auto path = drive(campus_roads(seed), route);
@@ -112,7 +112,7 @@ void Simulation::plan_instants() {
   }
   if (instants_.empty()) {
     throw std::invalid_argument(
-        fmt::format("nothing to render: the journey lasts {:.1f} s and the part asked for begins at "
+        fmt::format("nothing to render: the journey lasts {:.1f} s and the requested part starts at "
                     "{:.1f} s with {}; choose another start or duration",
                     motion_->duration_s(), p.start_s, p.stereo || p.panorama ? "its cameras" : "no camera"));
   }
@@ -171,7 +171,7 @@ std::vector<cv::Mat> Simulation::render_panorama(const Instant& instant) {
   return images;
 }
 
-// The first of a group decides for all of it.
+// The first camera of a group determines the exposure of the group.
 Exposure Simulation::exposure() const {
   Exposure exposure;
   if (!eyes_.empty()) exposure.stereo_gain = eyes_.front().sensor.gain();

@@ -19,10 +19,10 @@
 namespace panvo::simulation {
 
 struct ComponentParameters {
-  std::string route;                   // a route file
-  std::vector<std::string> junctions;  // or a route of one's own
-  int random_junctions = 0;            // or one drawn from the seed
-  std::string rig;                     // a rig file
+  std::string route;                   // route file
+  std::vector<std::string> junctions;  // or a custom route
+  int random_junctions = 0;            // or a random route
+  std::string rig;                     // rig file
   std::vector<std::string> effects;
   std::string assets;
   std::string cameras = "all";
@@ -36,26 +36,23 @@ struct ComponentParameters {
   template <class Field>
   static void describe(Field&& field) {
     using P = ComponentParameters;
-    field.path(&P::route, "route", "route file, as those in config/routes");
-    field(&P::junctions, "junctions", "", "a route of one's own: junctions of the campus, neighbours joined by a road");
-    field(&P::random_junctions, "random_junctions", "1", "a route through that many junctions, drawn from the seed", 0,
-          1000);
+    field.path(&P::route, "route", "route file, as in config/routes");
+    field(&P::junctions, "junctions", "", "custom route: junctions of the campus, successive ones joined by a road");
+    field(&P::random_junctions, "random_junctions", "1", "number of junctions of a random route, drawn from the seed",
+          0, 1000);
     field.path(&P::rig, "rig", "rig file, as config/rigs/paper/rig.yaml; empty: the paper's rig");
-    field(
-        &P::effects, "effects", "",
-        "what makes it hard: sudden_light, sun_drift, movers, weak_texture, rain, smear, dropped_frames, time_offset, "
-        "all");
+    field(&P::effects, "effects", "",
+          "difficulties: sudden_light, sun_drift, movers, weak_texture, rain, smear, dropped_frames, time_offset, all");
     field.path(&P::assets, "assets", "folder of photographs, MATERIAL.jpg, in place of painted textures");
-    field(&P::cameras, "cameras", "", "which are rendered", {"all", "stereo", "panorama"});
-    field(&P::seed, "seed", "1", "of the world, the motion and the noise", 0, 1'000'000'000);
-    field(&P::hilliness, "hilliness", "1", "0 flat ... 1 hills of 8 m", 0.0, 2.0);
-    field(&P::hour, "hour", "h", "of the day at the start", 6.0, 18.0);
-    field(&P::vibration, "vibration", "1", "of the vehicle; 0: as on rails", 0.0, 10.0);
+    field(&P::cameras, "cameras", "", "cameras to render", {"all", "stereo", "panorama"});
+    field(&P::seed, "seed", "1", "seed of the world, the motion and the noise", 0, 1'000'000'000);
+    field(&P::hilliness, "hilliness", "1", "0: flat, 1: hills of 8 m", 0.0, 2.0);
+    field(&P::hour, "hour", "h", "hour of the day at the start", 6.0, 18.0);
+    field(&P::vibration, "vibration", "1", "scale of the vehicle's vibration; 0: none", 0.0, 10.0);
     field(&P::calibration_error, "calibration_error", "1",
-          "of what is published of the stereo camera; 0: exact, 1: as of a good calibration after months of driving",
-          0.0, 100.0);
-    field(&P::start_s, "start_s", "s", "where on the journey to begin", 0.0, 1e6);
-    field(&P::duration_s, "duration_s", "s", "how much of it; 0: to the end", 0.0, 1e6);
+          "error of the published stereo calibration; 0: exact, 1: a good one after months of driving", 0.0, 100.0);
+    field(&P::start_s, "start_s", "s", "start time on the journey", 0.0, 1e6);
+    field(&P::duration_s, "duration_s", "s", "duration; 0: to the end", 0.0, 1e6);
   }
 };
 
@@ -67,8 +64,7 @@ Route route_of(const ComponentParameters& parameters) {
   const auto seed = static_cast<std::uint64_t>(parameters.seed);
   if (parameters.random_junctions > 1) return random_route(campus_roads(seed), parameters.random_junctions, seed);
   throw std::runtime_error(
-      "parameter route: which one? Name a route file in route, junctions in junctions, or a number in "
-      "random_junctions");
+      "parameter route: no route is given; set route to a file, junctions to a list, or random_junctions to a number");
 }
 
 SimulationParameters to_simulation(const ComponentParameters& parameters) {
@@ -91,7 +87,7 @@ SimulationParameters to_simulation(const ComponentParameters& parameters) {
 
 }  // namespace
 
-/// The simulated vehicle: publishes what a robot with this rig would, and the truth, on a simulated clock.
+/// The simulated vehicle: publishes what a vehicle with this rig would, and the ground truth, on a simulated clock.
 class SimulationComponent final : public runtime::Component, public runtime::Source {
  public:
   explicit SimulationComponent(runtime::Context& context);
@@ -105,8 +101,8 @@ class SimulationComponent final : public runtime::Component, public runtime::Sou
   struct Camera {
     std::string frame_id;
     runtime::Output<sensor_msgs::msg::Image> images;
-    std::optional<runtime::Output<sensor_msgs::msg::CameraInfo>> infos;  // none: a panorama needs no calibration
-    sensor_msgs::msg::CameraInfo info;                                   // all but the stamp
+    std::optional<runtime::Output<sensor_msgs::msg::CameraInfo>> infos;  // nullopt: not needed for a panorama
+    sensor_msgs::msg::CameraInfo info;                                   // without stamp
   };
 
   void open_stereo(const StereoCamera& stereo);

@@ -10,7 +10,7 @@ namespace panvo::simulation {
 namespace {
 
 constexpr double kKerbHeight_m = 0.12;
-constexpr double kWeakRadius_m = 20.0, kWeakFade_m = 14.0;  // about a junction with weak texture
+constexpr double kWeakRadius_m = 20.0, kWeakFade_m = 14.0;  // around a junction with weak texture
 
 }  // namespace
 

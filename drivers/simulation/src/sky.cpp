@@ -12,7 +12,7 @@ namespace panvo::simulation {
 namespace {
 
 constexpr float kPi = std::numbers::pi_v<float>;
-constexpr float kHighestSun = 56.0f * kPi / 180.0f;  ///< at noon, a summer's day in middle latitudes
+constexpr float kHighestSun = 56.0f * kPi / 180.0f;  ///< at noon on a summer day at middle latitudes
 constexpr float kSunRadius = 0.0047f;                ///< rad
 constexpr float kCloudPeriods = 0.40f;               ///< of the cloud plane, per unit of its height
 constexpr float kCloudCurve = 0.10f;                 ///< keeps the cloud plane finite at the horizon
@@ -23,13 +23,13 @@ Eigen::Array3f mixed(const Eigen::Array3f& from, const Eigen::Array3f& to, float
   return from + (to - from) * share;
 }
 
-/// Clouds on a plane: billows that are dense and grey in the middle, bright and ragged at their borders.
+/// Clouds on a plane: billows, dense and grey in the middle, bright and ragged at the edges.
 cv::Mat paint_clouds(const Random& random) {
   constexpr int kSize = 1024;
   const cv::Mat1f shapes = fractal_noise(kSize, {5, 5}, 6, 0.5f, random.part(0));
   const cv::Mat1f groups = fractal_noise(kSize, {2, 2}, 3, 0.5f, random.part(1));
   const cv::Mat1f veil = fractal_noise(kSize, {3, 9}, 5, 0.55f, random.part(2));
-  // Folded noise bulges upwards like cumulus does.
+  // Folded noise bulges upwards like cumulus clouds.
   const cv::Mat1f billow = fractal_noise(kSize, {11, 11}, 5, 0.5f, random.part(3));
   cv::Mat3f picture(kSize, kSize);
   cv::Mat1f density(kSize, kSize);
@@ -45,7 +45,7 @@ cv::Mat paint_clouds(const Random& random) {
       picture(row, column)[0] = lit;
     }
   }
-  // Green and blue: how the density grows along x and y (v grows as rows fall), from which side the sun lights it.
+  // Green and blue: gradient of the density along x and y (v decreases with the row), to light the side facing the sun.
   const cv::Mat1f soft = blurred(density, 2.5);
   for (int row = 0; row < kSize; ++row) {
     for (int column = 0; column < kSize; ++column) {
@@ -60,7 +60,7 @@ cv::Mat paint_clouds(const Random& random) {
   return encoded_picture(picture, density);
 }
 
-/// Hills with woods and, before them, the crowns of a line of trees; alpha where they cover the sky.
+/// Wooded hills and, in front of them, the crowns of a row of trees; alpha: where they cover the sky.
 cv::Mat paint_horizon(const Random& random) {
   constexpr int kWidth = 2048;
   constexpr int kHeight = 64;
@@ -100,14 +100,14 @@ Light light_at(double hour, double cloud_cover) {
   light.to_sun = {std::cos(day), -std::sin(day) * std::cos(kHighestSun), std::sin(day) * std::sin(kHighestSun)};
   const float up = std::max(light.to_sun.z(), 0.0f);
 
-  // Air masses by Kasten and Young 1989; the optical depths are a clear summer sky's, blue scattered most.
+  // Air mass by Kasten and Young 1989; optical depths of a clear summer sky, with blue scattered most.
   const float elevation_deg = std::asin(std::min(up, 1.0f)) * 180.0f / kPi;
   const float air = 1.0f / (up + 0.50572f * std::pow(elevation_deg + 6.07995f, -1.6364f));
   const Eigen::Array3f depth(0.12f, 0.17f, 0.27f);
   const Eigen::Array3f clear_sun = 0.98f * (-depth * air).exp();
   const Eigen::Array3f scattered = (0.98f - clear_sun) * std::sqrt(up + 0.02f);
   const Eigen::Array3f clear_sky = 0.04f * std::sqrt(up + 0.01f) + scattered * Eigen::Array3f(1.12f, 1.14f, 1.17f);
-  // A cloud lets a third of the light through, to all sides.
+  // A cloud scatters half of the light in all directions.
   const float all = (clear_sun * up + clear_sky).mean();
   const Eigen::Array3f clouded = 0.5f * all * Eigen::Array3f(0.97f, 1.0f, 1.05f);
   light.sun = (clear_sun * (1.0f - 0.97f * cover)).matrix();
@@ -118,7 +118,7 @@ Light light_at(double hour, double cloud_cover) {
 }
 
 Eigen::Vector3f haze(const Light& light) {
-  // A long path of air: whiter and brighter than the sky overhead.
+  // Because of the long path through air, whiter and brighter than the sky overhead.
   const float grey = light.sky.mean();
   return (mixed(light.sky.array(), Eigen::Array3f::Constant(grey), 0.45f) * 1.9f + 0.16f * light.sun.array()).matrix();
 }
@@ -141,14 +141,14 @@ Eigen::Vector3f Sky::radiance(const Eigen::Vector3f& direction, const Light& lig
     const Eigen::Array3f zenith = sky * Eigen::Array3f(0.66f, 0.80f, 0.98f);
     const float fall = lower * lower * lower;
     colour = mixed(zenith, far, fall * (0.35f + 0.65f * lower * lower));
-    // Light scattered forward around the sun, wide and narrow.
+    // Forward scattering around the sun, wide and narrow.
     const float forward = std::max(cosine, 0.0f);
     const float squared = forward * forward;
     const float wide = squared * squared;
     colour += light.sun.array() *
               (0.05f * wide + 0.16f * std::exp(-(1.0f - cosine) * 60.0f) + 0.9f * std::exp(-(1.0f - cosine) * 1200.0f));
 
-    // Clouds: seen edge-on towards the horizon, where they drown in the haze.
+    // Clouds, seen edge-on towards the horizon, where they fade into the haze.
     const float scale = kCloudPeriods / (height + kCloudCurve);
     const Eigen::Vector2f uv = direction.head<2>() * scale;
     const float across = spread_rad * scale;
@@ -156,7 +156,7 @@ Eigen::Vector3f Sky::radiance(const Eigen::Vector3f& direction, const Light& lig
     const Eigen::Vector2f outwards = direction.head<2>().normalized();
     const Eigen::Vector2f sideways(-outwards.y(), outwards.x());
     const Eigen::Vector4f cloud = clouds_->sample(uv, outwards * along, sideways * across, 1);
-    // The side towards the sun is lit, the far one lies in the cloud's own shadow.
+    // The side facing the sun is lit, the other is in the cloud's own shadow.
     const float sunward = (cloud.y() - 0.5f) * light.to_sun.x() + (cloud.z() - 0.5f) * light.to_sun.y();
     const float lit = std::clamp(cloud.x() - 0.9f * sunward, 0.2f, 1.2f);
     const Eigen::Array3f white = light.sun.array() * (0.95f + 0.4f * wide * wide) + sky;
@@ -164,7 +164,7 @@ Eigen::Vector3f Sky::radiance(const Eigen::Vector3f& direction, const Light& lig
     const Eigen::Array3f of_cloud = mixed(shaded, white, std::clamp(1.4f * lit - 0.4f, 0.0f, 1.0f));
     colour = mixed(colour, of_cloud, cloud.w() * std::min(1.0f, 6.0f * height));
 
-    // The disc itself, spread over what the pixel covers; behind a cloud it is gone.
+    // The sun's disc, spread over the pixel; hidden by clouds.
     const float spread = std::max(spread_rad, kSunRadius);
     const float from_sun = std::sqrt(std::max(2.0f * (1.0f - cosine), 0.0f));
     if (from_sun < 2.0f * spread + kSunRadius) {
@@ -173,7 +173,7 @@ Eigen::Vector3f Sky::radiance(const Eigen::Vector3f& direction, const Light& lig
           light.sun.array() * (400.0f * (kSunRadius / spread) * (kSunRadius / spread) * inside * (1.0f - cloud.w()));
     }
   } else {
-    // Below the horizon, should nothing stand there: land that fades into the haze.
+    // Below the horizon, if no object is there: land that fades into the haze.
     const float depth = std::min(-up * 12.0f, 1.0f);
     colour = mixed(far, light.ground.array() * 0.9f, depth);
   }
@@ -182,7 +182,7 @@ Eigen::Vector3f Sky::radiance(const Eigen::Vector3f& direction, const Light& lig
     constexpr float kRange = kHorizonTop - kHorizonBottom;
     const Eigen::Vector2f uv(azimuth, (up - kHorizonBottom) / kRange);
     const Eigen::Vector4f land = horizon_->sample(uv, {spread_rad * 0.5f / kPi, 0.0f}, {0.0f, spread_rad / kRange}, 2);
-    // The farther hills are painted pale already; a fifth of all that is so far is the air before it.
+    // Farther hills are painted pale already; the air in front contributes about a fifth.
     const Eigen::Array3f lit = land.head<3>().array() * (light.sun.array() * 0.5f + sky);
     const float inside = std::min(1.0f, (kHorizonTop - up) / (0.05f * kRange));
     const float lower = up < 0.0f ? 1.0f + up / kHorizonBottom * -1.0f : 1.0f;

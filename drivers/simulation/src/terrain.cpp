@@ -10,8 +10,8 @@
 namespace panvo::simulation {
 namespace {
 
-/// Lengths and heights of the waves at hilliness 1. Their slopes would add up to 0.11 if all were steepest at one place
-/// and in one direction, which they are not: roads stay at some 0.08.
+/// Lengths and heights of the waves at hilliness 1. The sum of their steepest slopes is 0.11, but these do not
+/// coincide: road grades stay at about 0.08.
 struct Swell {
   double length_m, height_m;
 };
@@ -22,7 +22,7 @@ constexpr std::array<Swell, 5> kSwells{{{420.0, 1.7}, {310.0, 1.3}, {240.0, 0.85
 Terrain::Terrain(std::uint64_t seed, double hilliness) {
   if (hilliness == 0.0) return;
   Random random(seed, "terrain");
-  // directions spread evenly, so that no seed is a washboard
+  // evenly spread directions, so that no seed gives parallel waves
   const double first_rad = random.uniform(0.0, std::numbers::pi);
   for (std::size_t i = 0; i < kSwells.size(); ++i) {
     const double heading_rad =

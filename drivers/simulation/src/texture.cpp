@@ -12,7 +12,7 @@
 namespace panvo::simulation {
 namespace {
 
-/// sRGB's transfer function, from 0..255 to linear 0..1.
+/// The sRGB transfer function, from 0..255 to linear 0..1.
 std::array<float, 256> make_linear_from_srgb() {
   std::array<float, 256> table{};
   for (int value = 0; value < 256; ++value) {
@@ -30,7 +30,7 @@ cv::Mat4f premultiplied(const cv::Mat& albedo) {
     const auto* from = albedo.ptr<cv::Vec4b>(row);
     auto* to = result.ptr<cv::Vec4f>(row);
     for (int column = 0; column < albedo.cols; ++column) {
-      // A trace of weight even in holes, so that a level of nothing but holes still has their colour.
+      // A small weight even in holes, so that a level that consists only of holes keeps their colour.
       const float alpha = std::max(from[column][3] / 255.0f, 1e-4f);
       to[column] = cv::Vec4f(linear[from[column][0]], linear[from[column][1]], linear[from[column][2]], 1.0f) * alpha;
     }
@@ -59,9 +59,9 @@ double coverage(const cv::Mat4f& level, float threshold) {
   return static_cast<double>(covered) / static_cast<double>(level.total());
 }
 
-/// The alpha that as large a share of the level, seen between its texels too, reaches as of the whole picture reaches
-/// 0.5: leaves that are averaged with the gaps between them would else fall below it, and the tree dissolve with
-/// distance [Castano 2010].
+/// The alpha threshold at which the interpolated level has the same coverage as the full picture at 0.5. Otherwise,
+/// leaves averaged with the gaps between them would fall below it and trees would dissolve with distance [Castano
+/// 2010].
 float threshold_of_coverage(const cv::Mat4f& level, double wanted) {
   constexpr int kFiner = 4;
   cv::Mat1f alpha;
@@ -78,12 +78,12 @@ float threshold_of_coverage(const cv::Mat4f& level, double wanted) {
   return std::clamp(*place, 0.02f, 1.0f);
 }
 
-/// Colour and alpha as square roots in 8 bits: as fine as sRGB in the dark, and squaring is all the decoding it takes.
+/// Colour and alpha as square roots in 8 bits: as fine as sRGB in dark areas, and decoded by squaring.
 std::uint8_t encoded(float value) {
   return static_cast<std::uint8_t>(255.0f * std::sqrt(std::clamp(value, 0.0f, 1.0f)) + 0.5f);
 }
 
-/// The bytes of level 0, straight through tables.
+/// Encodes level 0 by table lookup.
 void encode_finest(const cv::Mat& albedo, std::uint8_t* to) {
   static const auto tables = [] {
     const std::array<float, 256> linear = make_linear_from_srgb();
@@ -144,7 +144,7 @@ cv::v_float32x4 bilinear(const std::uint8_t* texels, int column_mask, int row_ma
 Texture::Texture(const cv::Mat& albedo) {
   if (albedo.type() != CV_8UC4 || !std::has_single_bit(static_cast<unsigned>(albedo.cols)) ||
       !std::has_single_bit(static_cast<unsigned>(albedo.rows))) {
-    throw std::invalid_argument("a texture must be CV_8UC4 with width and height powers of two");
+    throw std::invalid_argument("a texture must be CV_8UC4 with powers of two as width and height");
   }
   cv::Mat4f level = premultiplied(albedo);
   const bool has_holes = coverage(level, 0.5f) < 1.0;
@@ -176,7 +176,7 @@ Texture::Texture(const cv::Mat& albedo) {
 
 Eigen::Vector4f Texture::sample(const Eigen::Vector2f& uv, const Eigen::Vector2f& du, const Eigen::Vector2f& dv,
                                 int taps) const {
-  // The pixel's parallelogram as an ellipse: the eigenvalues of J J' are its squared half axes, in texels.
+  // Approximate the pixel's parallelogram by an ellipse: the eigenvalues of J J' are its squared half axes, in texels.
   const auto columns = static_cast<float>(levels_.front().column_mask + 1);
   const auto rows = static_cast<float>(levels_.front().row_mask + 1);
   const float ux = du.x() * columns, uy = du.y() * rows, vx = dv.x() * columns, vy = dv.y() * rows;
@@ -186,12 +186,12 @@ Eigen::Vector4f Texture::sample(const Eigen::Vector2f& uv, const Eigen::Vector2f
   const float middle = 0.5f * (xx + yy);
   const float half_difference = 0.5f * (xx - yy);
   const float spread = std::sqrt(half_difference * half_difference + xy * xy);
-  const float longer = std::min(1e12f, middle + spread);  // bounds first: they stand in for a NaN too
+  const float longer = std::min(1e12f, middle + spread);  // bounds as first arguments: they replace NaN, too
   const float shorter = std::max(1e-12f, middle - spread);
 
   int probes = 1;
-  float width = longer;  // squared, of what one probe must cover
-  // What spans many periods is the mean, whatever its shape.
+  float width = longer;  // squared width covered by one probe
+  // A footprint over many periods gives the mean for any shape.
   constexpr float kVeryLong = 1e9f;
   if (taps > 1 && longer > shorter && longer < kVeryLong) {
     const float ratio = std::sqrt(longer / shorter);
@@ -209,7 +209,7 @@ Eigen::Vector4f Texture::sample(const Eigen::Vector2f& uv, const Eigen::Vector2f
   float step_u = 0.0f;
   float step_v = 0.0f;
   if (probes > 1) {
-    // Of the two forms of the eigenvector the one that does not cancel.
+    // The form of the eigenvector without cancellation.
     const float x = half_difference >= 0.0f ? half_difference + spread : xy;
     const float y = half_difference >= 0.0f ? xy : spread - half_difference;
     const float scale = std::sqrt(longer / std::max(x * x + y * y, 1e-20f)) / static_cast<float>(probes);

@@ -33,7 +33,7 @@ SurfaceRecord surface_record(const Mesh& mesh, const Triangle& triangle) {
   record.uv = {first.uv.x(), first.uv.y(), to_second.x(), to_second.y(), to_third.x(), to_third.y()};
   record.tints = {pack_tint(first.tint), pack_tint(second.tint), pack_tint(third.tint)};
   record.material_light = triangle.material | 0xffffff00u;
-  // the barycentric coordinates' gradients: perpendicular to the opposite edge, in the triangle's plane
+  // gradients of the barycentric coordinates: perpendicular to the opposite edge, in the triangle's plane
   const Eigen::Vector3f edge1 = second.position - first.position;
   const Eigen::Vector3f edge2 = third.position - first.position;
   const Eigen::Vector3f normal = edge1.cross(edge2);
@@ -47,7 +47,7 @@ SurfaceRecord surface_record(const Mesh& mesh, const Triangle& triangle) {
   return record;
 }
 
-/// Whether a, b, c, d, the corners of one surface, form a parallelogram over which everything changes evenly.
+/// Whether the corners a, b, c, d of a surface form a parallelogram with linearly varying attributes.
 bool is_even(const Mesh& mesh, const std::array<std::uint32_t, 4>& corners, bool has_holes) {
   const auto& a = mesh.vertices[corners[0]];
   const auto& b = mesh.vertices[corners[1]];
@@ -56,7 +56,7 @@ bool is_even(const Mesh& mesh, const std::array<std::uint32_t, 4>& corners, bool
   const Eigen::Vector3f gap = a.position - b.position + c.position - d.position;
   if (gap.norm() > 1e-3f * (c.position - a.position).norm()) return false;
   if ((a.uv - b.uv + c.uv - d.uv).norm() > 1e-3f * (c.uv - a.uv).norm()) return false;
-  if (has_holes) return true;  // nobody sees how a single leaf is lit
+  if (has_holes) return true;  // the lighting of single leaves is not visible
   if ((a.normal - b.normal + c.normal - d.normal).norm() > 0.05f) return false;
   const auto differs = [](int p, int q, int r, int s) { return std::abs(p - q + r - s) > 3; };
   return !differs(a.tint.red, b.tint.red, c.tint.red, d.tint.red) &&
@@ -98,15 +98,15 @@ Eigen::Vector3f unpack_normal(std::uint32_t packed) {
 
 struct TracedScene::Part {
   const Mesh* mesh = nullptr;
-  std::vector<Eigen::Vector3f> positions;             // and one more, for Embree reads 16 bytes at each
-  std::vector<std::array<std::uint32_t, 4>> corners;  // of parallelograms; a triangle's last is there twice
+  std::vector<Eigen::Vector3f> positions;             // with an extra one at the end: Embree reads 16 bytes at each
+  std::vector<std::array<std::uint32_t, 4>> corners;  // of parallelograms; a triangle repeats its last corner
   std::vector<std::uint16_t> of_material;
   const std::vector<SurfaceRecord>* surfaces = nullptr;
   const ShadingMaterials* materials = nullptr;
   std::uint32_t first_surface = 0;
   bool has_holes = false;
 
-  /// Embree's filter: takes away the hits that lie in a hole.
+  /// Embree filter that removes hits in holes.
   static void let_through_holes(const RTCFilterFunctionNArguments* arguments) {
     const auto& part = *static_cast<const Part*>(arguments->geometryUserPtr);
     const float spread = reinterpret_cast<const TraceContext*>(arguments->context)->spread;
@@ -127,7 +127,7 @@ struct TracedScene::Part {
 TracedScene::TracedScene(std::shared_ptr<const Scene> scene, const ShadingMaterials& materials)
     : scene_(std::move(scene)), materials_(materials) {
   device_.reset(rtcNewDevice(nullptr));
-  if (!device_) throw std::runtime_error("renderer: Embree has no device");
+  if (!device_) throw std::runtime_error("renderer: Embree could not create a device");
   std::size_t surface_count = 0;
   for (const auto& mesh : scene_->fixed) surface_count += mesh.triangles.size();
   for (const auto& mesh : scene_->models) surface_count += mesh.triangles.size();
@@ -144,7 +144,7 @@ TracedScene::TracedScene(std::shared_ptr<const Scene> scene, const ShadingMateri
   }
   standing_.reset(rtcNewScene(device_.get()));
   rtcSetSceneBuildQuality(standing_.get(), RTC_BUILD_QUALITY_HIGH);
-  // Embree's numbers: 2 i for the surfaces without holes of object i, 2 i + 1 for those with
+  // Embree geometry ids: 2 i for surfaces of object i without holes, 2 i + 1 for those with holes
   for (const auto& mesh : scene_->fixed) {
     ObjectRecord object;
     object.first_surface = add_mesh(mesh, standing_.get(), static_cast<std::uint32_t>(2 * objects_.size()));
@@ -152,7 +152,7 @@ TracedScene::TracedScene(std::shared_ptr<const Scene> scene, const ShadingMateri
     objects_.push_back(object);
     triangle_count_ += mesh.triangles.size();
   }
-  // models that stand are copied, not instanced: packets stay together, which is worth the memory
+  // standing models are copied, not instanced: packets stay coherent, which is worth the memory
   for (const auto& placement : scene_->standing) {
     const auto first_geometry = static_cast<std::uint32_t>(2 * objects_.size());
     objects_.push_back(placed(placement));
@@ -179,7 +179,7 @@ void TracedScene::bake_ambient_light() {
   for (std::size_t i = 0; i < scene_->fixed.size(); ++i) {
     set_ambient_light(scene_->fixed[i], ambient_light(standing_.get(), scene_->fixed[i]));
   }
-  // a model stands alone on a plain: it is the same wherever it stands
+  // ambient light of a model is computed on an empty plain: it is the same for all placements
   alignas(16) const std::array<float, 13> plain_corners{-50, -50, 0, 50, -50, 0, 50, 50, 0, -50, 50, 0, 0};
   const std::array<std::uint32_t, 4> plain_quad{0, 1, 2, 3};
   const RTCGeometry plain = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_QUAD);
@@ -204,7 +204,7 @@ void TracedScene::set_ambient_light(const Mesh& mesh, const std::vector<std::uin
     if (part->mesh != &mesh) continue;
     for (std::size_t i = 0; i < part->corners.size(); ++i) {
       const auto [a, b, c, d] = part->corners[i];
-      // of a triangle the parallelogram that goes on as it does
+      // for a triangle, the extrapolated fourth corner
       const int opposite = c == d ? light[b] + light[c] - light[a] : light[c];
       std::uint32_t word = part->of_material[i];
       const std::array<int, 4> corners{light[a], light[b], light[d], opposite};
@@ -230,7 +230,7 @@ std::array<std::uint32_t, 2> TracedScene::add_mesh(const Mesh& mesh, RTCScene sc
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
       const auto& triangle = mesh.triangles[i];
       if (triangle.material >= materials.size()) {
-        throw std::invalid_argument(fmt::format("renderer: a triangle is of material {}, the palette has {}",
+        throw std::invalid_argument(fmt::format("renderer: a triangle has material {}, the palette has {}",
                                                 triangle.material, materials.size()));
       }
       if (materials[triangle.material].has_holes != has_holes) continue;
@@ -238,7 +238,7 @@ std::array<std::uint32_t, 2> TracedScene::add_mesh(const Mesh& mesh, RTCScene sc
       surfaces_.push_back(surface_record(mesh, triangle));
       part->corners.push_back({a, b, c, c});
       part->of_material.push_back(triangle.material);
-      // a, b, c and a, c, d: half as much to trace
+      // merge a, b, c and a, c, d: half as many surfaces to trace
       if (i + 1 == mesh.triangles.size()) continue;
       const auto& next = mesh.triangles[i + 1];
       const std::uint32_t d = next.corners[2];

@@ -11,7 +11,7 @@ namespace panvo::simulation {
 
 namespace {
 
-constexpr double kSight_m = 180.0;  // farther away nobody is looked at
+constexpr double kSight_m = 180.0;  // movers farther away are omitted
 
 double smooth_step(double share) {
   const double inside = std::clamp(share, 0.0, 1.0);
@@ -34,7 +34,7 @@ GroundPlace ground_place(const Mover& mover, const VehicleMotion& motion, double
   const auto i = static_cast<std::size_t>(after - mover.along_m.begin());
   const Eigen::Vector2d step = mover.path[i] - mover.path[i - 1];
   const double share = (inside - mover.along_m[i - 1]) / (mover.along_m[i] - mover.along_m[i - 1]);
-  // between the directions at both points, so that it does not jerk
+  // interpolated between the directions at both points, for smooth turns
   const Eigen::Vector2d next = i + 1 < mover.path.size() ? Eigen::Vector2d(mover.path[i + 1] - mover.path[i]) : step;
   const Eigen::Vector2d way = (1.0 - share) * step.normalized() + share * next.normalized();
   return {mover.path[i - 1] + share * step, std::atan2(way.y(), way.x())};

@@ -14,9 +14,9 @@ using Eigen::Vector2d;
 
 constexpr double kStep_s = 0.1;
 constexpr double kOwnLength_m = 4.3, kOwnWidth_m = 1.85;
-constexpr double kAbout_m = 75.0;        // movers live while they are so near
-constexpr double kHidden_m = 42.0;       // and may begin or end no nearer than that
-constexpr double kLeastHidden_m = 26.0;  // or, ahead on our own winding road, than that
+constexpr double kAbout_m = 75.0;        // movers exist within this distance
+constexpr double kHidden_m = 42.0;       // smallest distance at which they may appear or vanish
+constexpr double kLeastHidden_m = 26.0;  // the same for a mover ahead on our own winding road
 
 Vector2d left_of(double heading) { return {-std::sin(heading), std::cos(heading)}; }
 Vector2d along(double heading) { return {std::cos(heading), std::sin(heading)}; }
@@ -101,7 +101,7 @@ bool TrafficPlanner::accept(const std::optional<Mover>& mover, double of_vehicle
       episode.from_s = std::min(episode.from_s, t);
       episode.to_s = t;
     }
-    if (!(episode.from_s < episode.to_s)) return false;  // it would not be met at all
+    if (!(episode.from_s < episode.to_s)) return false;  // never near the vehicle
     episodes.push_back(episode);
   }
   movers.push_back(*mover);
@@ -174,7 +174,7 @@ void TrafficPlanner::live_waiting(Mover& mover, double at_m, double t_s) const {
   mover.start_m = at_m - mover.speed_m_per_s * (t_s - from);
 }
 
-// Along these junctions, so that it is at the point of its path that is nearest to `meeting` at that time.
+// A mover along these junctions that reaches the point of its path nearest to `meeting` at `meeting_s`.
 std::optional<Mover> TrafficPlanner::passing(const std::vector<int>& junctions, const Vector2d& meeting,
                                              double meeting_s, bool is_van, Random random) const {
   Route route;
@@ -189,22 +189,22 @@ std::optional<Mover> TrafficPlanner::passing(const std::vector<int>& junctions, 
   return mover;
 }
 
-// --- ahead of the vehicle, in its lane
+// --- ahead of the vehicle in its lane
 
 std::optional<Mover> TrafficPlanner::ahead(double near_middle_s, Random random) const {
   Mover mover = vehicle_of(random.chance(0.75), random);
   mover.keeps_ahead = true;
-  // its rear 2.5 to 4 m before our front: it hides about half of what a forward camera sees
+  // its rear is 2.5 to 4 m ahead of our front: it hides about half of a forward camera's view
   mover.near_m = 0.5 * mover.length_m + 0.5 * kOwnLength_m + random.uniform(2.5, 4.0);
   const double stays = random.uniform(8.0, 12.0);
   mover.near_from_s = near_middle_s - 0.5 * stays;
   mover.near_to_s = near_middle_s + 0.5 * stays;
   mover.far_m = random.uniform(46.0, 55.0);
-  // no faster towards us than we drive in turns, or it would go backwards
+  // the gap must not close faster than our speed in turns, or the mover would drive backwards
   mover.from_s = mover.near_from_s - (mover.far_m - mover.near_m) / 1.9;
   mover.to_s = mover.near_to_s + (mover.far_m - mover.near_m) / 3.2;
 
-  // our own path, and the roads on from where it ends
+  // our own path, extended along the road on which it ends
   const DrivenPath& path = motion_.path();
   mover.path = path.points;
   const RoadNetwork::Nearest end = site_.roads.nearest_road(path.points.back());
@@ -235,7 +235,7 @@ std::optional<Mover> TrafficPlanner::ahead(double near_middle_s, Random random) 
 
 void TrafficPlanner::plan_ahead() {
   constexpr double kApart_s = 55.0;
-  // first where it is worst for a camera: in sharp turns, those at weak texture before all others
+  // first where it is hardest for a camera: in sharp turns, with those at weak texture first
   std::vector<std::pair<int, double>> wishes;
   for (const Visit& visit : visits_) {
     const double turn =
@@ -259,7 +259,7 @@ void TrafficPlanner::plan_ahead() {
   }
 }
 
-// --- across the vehicle's way at junctions
+// --- across the vehicle's path at junctions
 
 void TrafficPlanner::plan_crossing() {
   for (std::size_t i = 0; i < visits_.size(); ++i) {
@@ -323,7 +323,8 @@ void TrafficPlanner::plan_oncoming() {
 
 // --- on foot
 
-// From pavement to pavement before the vehicle: in the middle of its lane when it still has 6 to 10 m to go.
+// A pedestrian who crosses the road in front of the vehicle, and is in the middle of its lane when the vehicle is 6 to
+// 10 m away.
 std::optional<Mover> TrafficPlanner::road_crosser(double t_s, Random random) const {
   const double gap = 0.5 * kOwnLength_m + random.uniform(6.0, 10.0);
   const double at_m = motion_.travelled_m(t_s) + gap;
@@ -337,12 +338,12 @@ std::optional<Mover> TrafficPlanner::road_crosser(double t_s, Random random) con
   const double heading = std::atan2(way.y(), way.x());
   const Vector2d middle = path.points[i] + std::abs(nearest.side_m) * left_of(heading);
   const double half = 0.5 * road.width_m + 1.1;
-  const double side = random.chance(0.5) ? 1.0 : -1.0;  // where it comes from
+  const double side = random.chance(0.5) ? 1.0 : -1.0;  // side on which the pedestrian starts
   const double before = random.chance(0.5) ? 1.0 : -1.0, after = random.chance(0.5) ? 1.0 : -1.0;
 
   Mover mover = person(random);
   mover.speed_m_per_s = random.uniform(1.4, 1.9);
-  // along the pavement, round a corner, across, round a corner, along the other pavement
+  // along the pavement, around a corner, across, around a corner, along the other pavement
   constexpr double kWalk_m = 25.0, kRound_m = 1.0;
   const Vector2d a = middle + side * half * left_of(heading), b = middle - side * half * left_of(heading);
   const Vector2d start = a - before * kWalk_m * along(heading), end = b + after * kWalk_m * along(heading);
@@ -359,7 +360,7 @@ std::optional<Mover> TrafficPlanner::road_crosser(double t_s, Random random) con
   bend(a, b, end);
   mover.path.push_back(end);
   measure(mover);
-  // the pavement must go along so far, and there must be no other road
+  // the pavement must extend along the walk, without another road
   for (double walked = 0.0; walked <= 12.0; walked += 3.0) {
     for (const Vector2d& point :
          {Vector2d(a - before * walked * along(heading)), Vector2d(b + after * walked * along(heading))}) {
@@ -385,7 +386,7 @@ void TrafficPlanner::plan_road_crossers() {
   }
 }
 
-// On the pavement of the road that the vehicle will be on, or of a side road.
+// A pedestrian on the pavement of the vehicle's road or of a side road.
 std::optional<Mover> TrafficPlanner::stroller(double t_s, Random random) const {
   const Footprint here = own(t_s);
   const RoadNetwork::Nearest nearest =

@@ -38,9 +38,10 @@ class TrafficPlanner {
 
   Mover vehicle_of(bool is_van, Random& random) const;
   Mover person(Random& random) const;
-  /// Appends up to `count` junctions to a walk of at least two junctions.
+  /// Appends up to `count` junctions to a walk of at least two; stops at a dead end.
   void walk_on(std::vector<int>& junctions, int count, Random& random) const;
-  /// Sets from_s, to_s and start_m so that the mover is at `along` at `t_s` and exists while it is near.
+  /// Sets from_s, to_s and start_m so that the mover is at `along` at `t_s` and exists while it is near. False if it
+  /// would appear or vanish within sight.
   bool live(Mover& mover, double along, double t_s) const;
 
   /// The same for a pedestrian, who waits at the path's ends.

@@ -16,12 +16,12 @@ namespace panvo::simulation {
 namespace {
 
 constexpr double kTimeStep_s = 0.02;
-constexpr int kSmoothingHalf = 7;  // steps to either side, three times over: acceleration changes within 0.4 s
+constexpr int kSmoothingHalf = 7;  // steps to each side, applied three times: acceleration changes within 0.4 s
 constexpr double kWheelBase_m = 2.6, kTrack_m = 1.5;
 constexpr std::size_t kWaves = 6;
 
-// A uniform cubic B-spline: its value and derivatives by its parameter. Controls beyond the ends are the point
-// reflections of those before, so that it begins and ends at the first and the last one.
+// A uniform cubic B-spline: value and derivatives with respect to its parameter. Control points beyond the ends are
+// point reflections of those inside, so that it starts and ends at the first and last control point.
 template <typename Value>
 struct SplineValue {
   Value value, first;
@@ -59,17 +59,17 @@ void check(const DrivenPath& path, const MotionParameters& parameters) {
   const std::size_t count = path.points.size();
   if (count < 2 || path.along_m.size() != count || path.curvature_per_m.size() != count) {
     throw std::invalid_argument(
-        "vehicle motion: the path needs two or more points, each with arc length and curvature");
+        "vehicle motion: the path needs at least two points, each with arc length and curvature");
   }
   const double step = path.along_m.back() / static_cast<double>(count - 1);
   for (std::size_t i = 0; i < count; ++i) {
     if (!(std::abs(path.along_m[i] - step * static_cast<double>(i)) < 0.5 * step)) {
-      throw std::invalid_argument("vehicle motion: the path's points must lie evenly apart");
+      throw std::invalid_argument("vehicle motion: the path's points must be evenly spaced");
     }
   }
 }
 
-// Sinusoids of incommensurate frequencies between `low` and `high` that sum up to `rms`.
+// Sinusoids with incommensurate frequencies between `low` and `high` whose sum has the given `rms`.
 template <typename Wave>
 std::vector<Wave> waves(Random random, double low_hz, double high_hz, double rms) {
   constexpr std::array<double, kWaves> kRoots{1.41421356, 1.73205081, 2.23606798, 2.64575131, 3.31662479, 3.60555128};
@@ -97,8 +97,8 @@ VehicleMotion::VehicleMotion(const DrivenPath& path, const Terrain& terrain, con
   height_ = waves<Wave>(random.part(2), 1.1, 3.0, parameters.vibration * parameters.height_rms_m);
 }
 
-// The fastest motion within all limits: what curvature allows, then what acceleration allows going forwards and
-// braking allows going backwards; at last smoothed in time, which keeps to the same limits.
+// The fastest motion within all limits: limited by curvature, then by acceleration in a forward pass and by braking in
+// a backward pass, then smoothed in time, which keeps the limits.
 void VehicleMotion::plan_speed(const MotionParameters& parameters) {
   const std::size_t count = path_.points.size();
   const double step = path_step_m_;
@@ -117,7 +117,7 @@ void VehicleMotion::plan_speed(const MotionParameters& parameters) {
     speed[i - 1] = std::min(speed[i - 1], std::sqrt(speed[i] * speed[i] + gain));
   }
 
-  // standing: as long as asked for, and as long as smoothing reaches, before and after
+  // standstill before and after: as configured, plus the reach of the smoothing
   constexpr int kReach = 3 * kSmoothingHalf;
   const int before = static_cast<int>(std::ceil(parameters.standstill_s / kTimeStep_s)) + kReach;
   arc_m_.assign(static_cast<std::size_t>(before), 0.0);
@@ -191,7 +191,7 @@ Eigen::Isometry3d VehicleMotion::world_from_base(double t_s) const {
   return pose;
 }
 
-// From the poses just before and after: twice differentiable as the motion is, that is exact to some 1e-6.
+// From the poses just before and after: exact to about 1e-6, because the motion is twice differentiable.
 vision::Vector6d VehicleMotion::twist(double t_s) const {
   constexpr double kApart_s = 1e-4;
   const double from = std::clamp(t_s - kApart_s, 0.0, duration_s_), to = std::clamp(t_s + kApart_s, 0.0, duration_s_);

@@ -28,7 +28,7 @@ TEST(Plots, OverlapExactlyWhenNoSideSeparatesThem) {
   EXPECT_TRUE(overlap(plot, plot_at(9.9, 0, 10, 10, 0.0), 0.0));
   EXPECT_FALSE(overlap(plot, plot_at(10.1, 0, 10, 10, 0.0), 0.0));
   EXPECT_TRUE(overlap(plot, plot_at(10.1, 0, 10, 10, 0.0), 0.2));
-  // a turned square reaches 5 sqrt(2) along x
+  // a rotated square extends 5 sqrt(2) along x
   EXPECT_TRUE(overlap(plot, plot_at(12.0, 0, 10, 10, std::numbers::pi / 4.0), 0.0));
   EXPECT_FALSE(overlap(plot, plot_at(12.1, 0, 10, 10, std::numbers::pi / 4.0), 0.0));
 }
@@ -60,7 +60,7 @@ TEST(Buildings, StandOnTheirPlotsOnly) {
   for (std::size_t i = 0; i < plots.size(); ++i) {
     ASSERT_FALSE(scene.fixed[i].triangles.empty());
     for (const auto& vertex : scene.fixed[i].vertices) {
-      // ledges, eaves, balconies and steps stand out
+      // ledges, eaves, balconies and steps protrude
       ASSERT_TRUE(plots[i].contains(vertex.position.head<2>().cast<double>(), 2.3)) << "building " << i;
       ASSERT_TRUE(vertex.position.allFinite());
       ASSERT_NEAR(vertex.normal.norm(), 1.0f, 1e-3f) << "building " << i;

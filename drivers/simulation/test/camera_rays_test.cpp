@@ -68,8 +68,8 @@ TEST(PinholeRays, AreRefusedForCamerasThatCannotBe) {
 TEST(PanoramaRays, FollowThePaper) {  // [Lu2015 Eqs. 9, 10]
   const auto rays = panorama_rays(1080, 540);
   EXPECT_TRUE(rays.wraps);
-  EXPECT_TRUE(at(rays, 540, 270).isApprox(Eigen::Vector3f(0, 0, 1), 1e-6f));  // the middle looks ahead
-  EXPECT_TRUE(at(rays, 810, 270).isApprox(Eigen::Vector3f(1, 0, 0), 1e-6f));  // a quarter on: to the right
+  EXPECT_TRUE(at(rays, 540, 270).isApprox(Eigen::Vector3f(0, 0, 1), 1e-6f));  // the centre looks ahead
+  EXPECT_TRUE(at(rays, 810, 270).isApprox(Eigen::Vector3f(1, 0, 0), 1e-6f));  // a quarter further: to the right
   EXPECT_LT(at(rays, 540, 180).y(), 0.0f);
   EXPECT_NEAR(std::asin(-at(rays, 540, 180).y()), std::numbers::pi / 6.0, 1e-6);  // row 180: 30 degrees up
   for (const auto& direction : {at(rays, 3, 17), at(rays, 700, 400), at(rays, 1079, 539)}) {

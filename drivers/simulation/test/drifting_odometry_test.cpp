@@ -8,7 +8,7 @@
 namespace panvo::simulation {
 namespace {
 
-/// Round a circle of 300 m, a metre a step.
+/// A pose on a circle of 300 m, one metre per step.
 Eigen::Isometry3d truth(int step) {
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
   const double turn = step * 2.0 * M_PI / 300.0;

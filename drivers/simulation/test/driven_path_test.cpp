@@ -21,7 +21,7 @@ std::string problem_of(const std::vector<std::string>& junctions) {
 }
 
 TEST(DrivenPath, ProblemsNameTheJunctions) {
-  EXPECT_NE(problem_of({"library", "moon"}).find("no junction moon; there are stadium, library"), std::string::npos);
+  EXPECT_NE(problem_of({"library", "moon"}).find("unknown junction moon; known: stadium, library"), std::string::npos);
   EXPECT_NE(problem_of({"library", "gate"}).find("no road joins library and gate"), std::string::npos);
   EXPECT_NE(problem_of({"library", "theatre", "library"}).find("turns back at theatre"), std::string::npos);
   EXPECT_NE(problem_of({"library"}).find("at least two"), std::string::npos);
@@ -32,7 +32,7 @@ TEST(DrivenPath, KeepsToTheRightHandLane) {
   const DrivenPath path = drive(roads, {"test", {"clock_tower", "bookshop"}, ""});
   for (std::size_t i = 0; i < path.points.size(); i += 50) {
     const auto nearest = roads.nearest_road(path.points[i]);
-    EXPECT_NEAR(nearest.side_m, -2.0, 0.1);  // the road leads that way and is 8 m wide
+    EXPECT_NEAR(nearest.side_m, -2.0, 0.1);  // the road runs in this direction and is 8 m wide
   }
   const DrivenPath back = drive(roads, {"test", {"bookshop", "clock_tower"}, ""});
   EXPECT_NEAR(roads.nearest_road(back.points[300]).side_m, 2.0, 0.1);
@@ -71,7 +71,7 @@ TEST(DrivenPath, IsEvenAndItsCurvatureIsContinuous) {
     }
     turned += path.curvature_per_m[i] * step;
   }
-  // what curvature says must be what the path does
+  // the integrated curvature must equal the path's change of direction
   const Eigen::Vector2d first = path.points[1] - path.points[0], last = path.points.back() - *(path.points.end() - 2);
   const double expected = std::atan2(first.x() * last.y() - first.y() * last.x(), first.dot(last));
   EXPECT_NEAR(std::remainder(turned - expected, 2.0 * M_PI), 0.0, 0.01);

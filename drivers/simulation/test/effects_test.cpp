@@ -33,7 +33,7 @@ TEST(Effects, AllMeansEveryOneAndNoneMeansNoOne) {
 TEST(Effects, AnUnknownOneIsNamedWithThoseThereAre) {
   try {
     effects_of({"rain", "snow"});
-    FAIL() << "snow was taken";
+    FAIL() << "snow was accepted";
   } catch (const std::invalid_argument& error) {
     EXPECT_THAT(error.what(), AllOf(HasSubstr("'snow'"), HasSubstr("sudden_light"), HasSubstr("time_offset")));
   }

@@ -99,7 +99,7 @@ TEST(Trees, HaveACrownOfCardsShadedOutwardsAndATrunkInTheGround) {
       low = low.cwiseMin(vertex.position);
       high = high.cwiseMax(vertex.position);
     }
-    EXPECT_GE(leaves, 180);  // two triangles a card
+    EXPECT_GE(leaves, 180);  // two triangles per card
     EXPECT_LE(leaves, 1300);
     EXPECT_GT(outwards, 0.7 * leaves);
     EXPECT_LT(low.z(), 0.0f);
@@ -111,7 +111,7 @@ TEST(Trees, HaveACrownOfCardsShadedOutwardsAndATrunkInTheGround) {
 TEST(Hedges, FitEachOther) {
   const Site site = crossroads();
   const PlantMaterials materials(*site.palette);
-  // the outline at the one's end is that at the other's beginning
+  // the outline at the end of one equals that at the start of the other
   const auto outline_at = [&](const Mesh& mesh, float x) {
     std::vector<Eigen::Vector2f> points;
     for (const auto& triangle : mesh.triangles) {

@@ -33,7 +33,7 @@ Scene ground_of(const Site& site) {
   return scene;
 }
 
-// Triangles by the squares of a grid over the plan.
+// Triangles indexed by the squares of a grid over the plan.
 class Plan {
  public:
   explicit Plan(const Mesh& mesh) : mesh_(mesh), squares_(kSize * kSize) {
@@ -83,7 +83,7 @@ class Plan {
 
 TEST(GroundGrid, CoversItsSquareOnceHoweverUneven) {
   const GroundGrid grid = adaptive_grid({3.0, 4.0}, 0.3, 1.0, 6, [](const Vector2d& middle, double edge_m) {
-    return (middle - Vector2d(10.0, -5.0)).norm() < 0.5 * edge_m + 0.01;  // only what the point lies in
+    return (middle - Vector2d(10.0, -5.0)).norm() < 0.5 * edge_m + 0.01;  // only triangles around the point
   });
   double area = 0.0;
   std::set<std::pair<std::uint32_t, std::uint32_t>> edges;
@@ -94,7 +94,7 @@ TEST(GroundGrid, CoversItsSquareOnceHoweverUneven) {
     for (std::size_t i = 0; i < 3; ++i) EXPECT_TRUE(edges.insert({t[i], t[(i + 1) % 3]}).second);
   }
   EXPECT_NEAR(area, 64.0 * 64.0, 1e-6);
-  // each edge has a neighbour, but for those of the border: no corner lies on another triangle's edge
+  // each edge has a neighbour, except at the border: no corner lies on another triangle's edge
   int at_border = 0;
   for (const auto& [from, to] : edges) {
     if (edges.count({to, from})) continue;
@@ -109,7 +109,7 @@ TEST(GroundGrid, CoversItsSquareOnceHoweverUneven) {
   EXPECT_LT(grid.triangles.size(), 200u);
 }
 
-// Each of the tests below paints a palette of its own, which takes seconds: they are few.
+// Each test below paints its own palette, which takes seconds, so there are few of them.
 
 void expect_whole(const Site& site, const Scene& scene) {
   Mesh all = scene.fixed[0];

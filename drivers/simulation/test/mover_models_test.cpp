@@ -81,7 +81,7 @@ TEST_F(MoverModelsTest, PeopleAreAsBigAsPeopleAndDifferent) {
 }
 
 TEST_F(MoverModelsTest, OwnVehicleLiesBelowThePanoramaAndOutOfTheStereoView) {
-  // the stereo camera is at x 1.9 m, z 1.3 m, looks 12 degrees down and sees 31 degrees more
+  // the stereo camera is at x 1.9 m, z 1.3 m, pitched down by 12 degrees, and sees 31 degrees further down
   const float lowest_sight = std::tan((12.0f + 31.0f) * std::numbers::pi_v<float> / 180.0f);
   const Mesh& mesh = scene.models[models.own_vehicle];
   const Extent extent(mesh);

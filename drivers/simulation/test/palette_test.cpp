@@ -21,7 +21,7 @@ const Palette& palette() {
 
 const Material& material(std::string_view name) { return palette().materials()[palette().find(name)]; }
 
-/// A folder of this test's own, empty.
+/// An empty folder for this test.
 std::filesystem::path empty_folder(const std::string& name) {
   const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / ("panvo_palette_" + name);
   std::filesystem::remove_all(folder);
@@ -86,7 +86,7 @@ TEST(Palette, ReflectsAsMuchLightAsRealSurfacesDo) {
   for (const Material& one : palette().materials()) EXPECT_LT(one.albedo->mean().maxCoeff(), 1.001f) << one.name;
 }
 
-/// Mean difference between the texels of a column and those of the next, in level 0.
+/// Mean difference between the texels of adjacent columns, in level 0.
 double step_between(const Texture& texture, int column, bool along_rows) {
   const int width = texture.width();
   const auto& texels = texture.texels();
@@ -116,7 +116,7 @@ TEST(Palette, PaintsPicturesThatRepeatWithoutASeam) {
 }
 
 TEST(Palette, HasFineContrastOnRoadsForTheirMotionToBeSeen) {
-  // A texel of about 5 mm, what a camera sees two to three metres ahead.
+  // Texels of about 5 mm, the resolution of a camera two to three metres ahead.
   const Texture& texture = *material("asphalt").albedo;
   const float step = 2.0f / static_cast<float>(texture.width());
   double sum = 0.0;
@@ -184,7 +184,7 @@ TEST(Palette, DarkensWallsAtTheirFoot) {
 
 TEST(Palette, TakesPhotographsInsteadAndLeavesTheRestAsItWas) {
   const auto folder = empty_folder("photographs");
-  // As one sees it: bright above, dark below; its size is no power of two.
+  // Bright at the top, dark at the bottom; its size is not a power of two.
   cv::Mat photograph(50, 60, CV_8UC3, cv::Scalar(20, 20, 20));
   photograph.rowRange(0, 25).setTo(cv::Scalar(40, 80, 200));  // blue, green, red
   cv::imwrite((folder / "brick_red.png").string(), photograph);

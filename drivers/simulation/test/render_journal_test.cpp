@@ -70,7 +70,7 @@ TEST_F(RenderedBefore, BelongsToOneWriterAtATime) {
   const RenderJournal first(file_);
   try {
     const RenderJournal second(file_);
-    FAIL() << "two writers of one rendering";
+    FAIL() << "two writers opened one rendering";
   } catch (const std::runtime_error& error) {
     EXPECT_THAT(error.what(), HasSubstr("another process renders there"));
     EXPECT_THAT(error.what(), HasSubstr(file_.string()));

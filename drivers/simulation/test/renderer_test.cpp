@@ -22,7 +22,7 @@ std::shared_ptr<const Palette> campus_palette() {
 }
 std::uint16_t campus_material(std::string_view name) { return campus_palette()->find(name); }
 
-/// Matte and even but for its texture.
+/// A matte, even material, apart from its texture.
 std::uint16_t plain_material() {
   const auto& all = campus_palette()->materials();
   const auto found = std::find_if(all.begin(), all.end(), [](const Material& one) {
@@ -41,7 +41,7 @@ std::shared_ptr<Scene> empty_scene() {
   return scene;
 }
 
-/// A square of `side` m facing along `normal`, turned by `angle` in its plane.
+/// A square of `side` m facing along `normal`, rotated by `angle` in its plane.
 void add_square(Mesh& mesh, const Eigen::Vector3f& middle, const Eigen::Vector3f& normal, float side, Tint tint,
                 float angle = 0.0f, std::string_view name = {}) {
   const Eigen::Vector3f across =
@@ -51,7 +51,7 @@ void add_square(Mesh& mesh, const Eigen::Vector3f& middle, const Eigen::Vector3f
                 name.empty() ? plain_material() : campus_material(name), Eigen::Vector2f::Zero(), tint);
 }
 
-/// A camera at `place` that looks along the world's +x, turned left by `yaw`.
+/// A camera at `place` that looks along world +x, turned left by `yaw`.
 Eigen::Isometry3d looking(const Eigen::Vector3d& place, double yaw = 0.0) {
   Eigen::Matrix3d world_from_ahead;
   world_from_ahead << 0, 0, 1, -1, 0, 0, 0, -1, 0;
@@ -69,7 +69,7 @@ vision::LensCamera camera() {
   return camera;
 }
 
-/// Where that camera sees a point.
+/// The pixel at which the camera sees a point.
 Eigen::Vector2d pixel_of(const Eigen::Vector3d& point_in_camera) {
   return vision::CameraModel(camera()).project(point_in_camera).value();
 }
@@ -79,7 +79,7 @@ float grey(const cv::Mat& image, int row, int column) {
   return (colour[0] + colour[1] + colour[2]) / 3.0f;
 }
 
-/// Centre of what is bright, px.
+/// Centroid of the bright pixels, px.
 Eigen::Vector2d centroid(const cv::Mat& image) {
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();
   double weight = 0.0;
@@ -93,7 +93,7 @@ Eigen::Vector2d centroid(const cv::Mat& image) {
   return sum / weight;
 }
 
-/// A white square before a black wall all round.
+/// A white square surrounded by a black wall.
 std::shared_ptr<Scene> marker_scene(const Eigen::Vector3f& middle, const Eigen::Vector3f& normal, float side) {
   auto scene = empty_scene();
   Mesh mesh;
@@ -118,7 +118,7 @@ TEST(Renderer, ShowsAMarkerWhereItsCameraProjectsIt) {
     const Eigen::Vector3d point = pose * in_camera;
     const Eigen::Vector3f normal = (-(pose.linear() * in_camera)).normalized().cast<float>();
     Renderer renderer(marker_scene(point.cast<float>(), normal, 0.25f));
-    // of the square's middle, averaged over the square as the lens shows it
+    // the square's centre in the image, averaged over the square
     Eigen::Vector2d expected = Eigen::Vector2d::Zero();
     const Eigen::Vector3d across = in_camera.unitOrthogonal();
     const Eigen::Vector3d along = in_camera.normalized().cross(across);
@@ -225,7 +225,7 @@ TEST(Renderer, ShadesAWhiteSurfaceAsTheLightSays) {
   for (int c = 0; c < 3; ++c) EXPECT_NEAR(image.at<cv::Vec3f>(120, 160)[c], expected[c], 0.01);
 }
 
-/// Brightness of the ground at a place, relative to the same without anything above it.
+/// Brightness of the ground at a place, relative to open ground.
 double relative_brightness(Renderer& renderer, const Eigen::Vector3d& place, const Light& light,
                            std::span<const MovingPlacement> movers = {}) {
   static const auto bare = [] {
@@ -248,7 +248,7 @@ double relative_brightness(Renderer& renderer, const Eigen::Vector3d& place, con
 TEST(Renderer, CastsShadowsWhereTheSunSaysSo) {
   Renderer renderer(yard());
   Light light = plain_light();
-  light.to_sun = Eigen::Vector3f(0.0f, 1.0f, 1.0f).normalized();  // the box of 2 m throws 2 m towards -y
+  light.to_sun = Eigen::Vector3f(0.0f, 1.0f, 1.0f).normalized();  // the box of 2 m casts a shadow of 2 m towards -y
   EXPECT_LT(relative_brightness(renderer, {8.0, -1.2, 0.0}, light), 0.5);
   EXPECT_LT(relative_brightness(renderer, {8.0, -2.2, 0.0}, light), 0.5);
   EXPECT_GT(relative_brightness(renderer, {8.0, -2.9, 0.0}, light), 0.8);
@@ -292,7 +292,7 @@ TEST(Renderer, LetsAnUnseenMoverCastItsShadow) {
 TEST(Renderer, SeesThroughTheHolesOfLeaves) {
   const auto& leaves = campus_palette()->materials()[campus_material("leaves_broad")];
   ASSERT_TRUE(leaves.has_holes);
-  // somewhere in the middle of a hole, and somewhere in the middle of a leaf
+  // a position in the middle of a hole, or of a leaf
   const auto place_of = [&](bool is_hole) {
     Eigen::Vector2f best = Eigen::Vector2f::Zero();
     float found = is_hole ? 1e9f : -1e9f;

@@ -39,13 +39,13 @@ TEST(Visits, AreThePassesThroughCrossings) {
   const RoadNetwork roads = ladder();
   const VehicleMotion motion = motion_on(roads, {"a", "b", "c", "f", "e", "d"});
   const auto visits = find_visits(roads, motion);
-  ASSERT_EQ(visits.size(), 2U);  // c and f are bends; the journey begins behind a and ends before d
+  ASSERT_EQ(visits.size(), 2U);  // c and f are bends; the journey starts after a and ends before d
   EXPECT_EQ(visits[0].junction, 1);
   EXPECT_EQ(visits[1].junction, 4);
   const Visit& straight = visits[0];
   EXPECT_NEAR(straight.closest_m, 1.5, 0.01);
   EXPECT_NEAR(straight.position.x(), 60.0, 0.01);
-  EXPECT_NEAR(straight.travelled_m, 48.0, 0.05);  // it begins 12 m behind a
+  EXPECT_NEAR(straight.travelled_m, 48.0, 0.05);  // it starts 12 m after a
   for (const double heading : {straight.heading_entered_rad, straight.heading_closest_rad, straight.heading_left_rad}) {
     EXPECT_NEAR(heading, 0.0, 1e-3);
   }
@@ -83,7 +83,7 @@ TEST(Revisits, CompareWithTheFirstVisit) {
   EXPECT_EQ(revisits[0].first_visit, 0);
   EXPECT_NEAR(revisits[0].entrance_angle_rad, -kPi / 2.0, 0.15);     // now southwards, then eastwards
   EXPECT_NEAR(std::abs(revisits[1].entrance_angle_rad), kPi, 0.15);  // e: now eastwards, then westwards
-  EXPECT_EQ(revisits[2].first_visit, 0);                             // not the second one
+  EXPECT_EQ(revisits[2].first_visit, 0);                             // not 1
   EXPECT_NEAR(revisits[2].offset_m, (visits[4].position - visits[0].position).norm(), 1e-12);
 }
 

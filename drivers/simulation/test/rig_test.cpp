@@ -95,7 +95,7 @@ TEST_F(RigFile, TwoFisheyesSeeEverythingTwiceAtTheSeam) {
   EXPECT_EQ(rays.width, 960);
   float backwards = 0.0f;
   for (const auto& direction : rays.directions) backwards = std::min(backwards, direction.z());
-  EXPECT_LT(backwards, -0.1f);  // beyond 90 degrees from the axis
+  EXPECT_LT(backwards, -0.1f);  // more than 90 degrees off the axis
 }
 
 TEST_F(RigFile, EveryProblemIsToldWithItsLineAndKey) {
@@ -108,7 +108,7 @@ TEST_F(RigFile, EveryProblemIsToldWithItsLineAndKey) {
 }
 
 TEST_F(RigFile, AFileThatIsNotThereOrNoYamlIsNamed) {
-  EXPECT_THAT(refusal("stereo: [\n"), HasSubstr("is no YAML"));
+  EXPECT_THAT(refusal("stereo: [\n"), HasSubstr("is not YAML"));
   EXPECT_THROW(read_rig("/nowhere/rig.yaml"), std::runtime_error);
 }
 

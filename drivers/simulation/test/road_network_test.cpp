@@ -44,8 +44,8 @@ TEST(RoadNetwork, KnowsTheNearestRoadAndItsSide) {
   const auto nearest = tee().nearest_road({10.25, -3.0});
   EXPECT_EQ(nearest.road, 2);
   EXPECT_NEAR(nearest.distance_m, 3.0, 1e-12);
-  EXPECT_NEAR(nearest.along_m, 29.75, 1e-12);  // the road comes from the east
-  EXPECT_NEAR(nearest.side_m, 3.0, 1e-12);     // so that south is left of it
+  EXPECT_NEAR(nearest.along_m, 29.75, 1e-12);  // the road starts in the east
+  EXPECT_NEAR(nearest.side_m, 3.0, 1e-12);     // so south is left of it
   EXPECT_NEAR(tee().nearest_road({10.25, 3.0}).side_m, -3.0, 1e-12);
 }
 

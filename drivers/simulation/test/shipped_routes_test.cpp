@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The routes that come with panvo hold what they promise on every seed.
+// The shipped routes have their documented properties for every seed.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -64,7 +64,7 @@ TEST_F(SimulationComponent, PublishesWhatAVehicleWithThisRigWould) {
     EXPECT_EQ(conversions::stamp_ns(*left[i]), conversions::to_ns(clock[i]->clock()));
   }
   EXPECT_EQ(conversions::stamp_ns(*left[1]) - conversions::stamp_ns(*left[0]), 40'000'000);
-  // It drives at some metres a second, along its own x axis.
+  // It drives at several metres per second along its own x axis.
   EXPECT_GT(truth[5]->twist().twist().linear().x(), 2.0);
   EXPECT_NEAR(truth[5]->twist().twist().linear().y(), 0.0, 0.2);
 

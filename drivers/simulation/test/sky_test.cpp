@@ -105,7 +105,7 @@ TEST(Sky, EndsInHillsBelowFiveDegreesAndInHazeAboveThem) {
   const Eigen::Vector3f far = haze(light);
   EXPECT_LT((around(0.1f, light) - far).norm(), 0.35f * far.norm());
   EXPECT_LT(around(0.008f, light).mean(), 0.75f * far.mean());
-  // Nothing jumps where the picture of the horizon begins, and at the horizon itself.
+  // No steps at the edge of the horizon picture and at the horizon itself.
   for (float azimuth = 0.0f; azimuth < 6.28f; azimuth += 0.2f) {
     const auto at = [&](float elevation) { return sky().radiance(towards(azimuth, elevation), light, kPixel); };
     EXPECT_LT((at(0.0799f) - at(0.0805f)).norm(), 0.05);

@@ -9,7 +9,7 @@
 
 namespace panvo::simulation {
 
-/// Straight roads of one width from the origin to these ends, 60 m away say; "middle" and "end 0", "end 1", ...
+/// Straight roads of equal width from the origin to these ends; junctions "middle", "end 0", "end 1", ...
 inline RoadNetwork star_network(const std::vector<Eigen::Vector2d>& ends, double width_m) {
   RoadNetwork network;
   network.junctions.push_back({"middle", Eigen::Vector2d::Zero(), {}, true});

@@ -14,7 +14,7 @@ namespace {
 
 using Uv = Eigen::Vector2f;
 
-constexpr float kLinearOf128 = 0.2158605f;  // by IEC 61966-2-1
+constexpr float kLinearOf128 = 0.2158605f;  // IEC 61966-2-1
 
 cv::Mat grey_picture(int size, auto&& value_at) {
   cv::Mat4b picture(size, size);
@@ -55,7 +55,7 @@ TEST(Texture, RepeatsAfterEachPeriod) {
   Random random(3, "texture");
   const Texture texture(grey_picture(16, [&](int, int) { return random.below(256); }));
   for (int trial = 0; trial < 100; ++trial) {
-    // Sixteenths of texels, so that the shifted places are the same floats.
+    // Sixteenths of texels, so that the shifted positions are exact floats.
     const Uv uv(static_cast<float>(random.below(256)) / 256.0f, static_cast<float>(random.below(256)) / 256.0f);
     const Uv step(0.05f, 0.0f);
     const Uv other_step(0.0f, 0.08f);
@@ -71,7 +71,7 @@ TEST(Texture, AveragesLightAndNotItsEncoding) {
   EXPECT_NEAR(texture.mean().x(), 0.5, 1e-3);
 }
 
-/// Contrast that is left of stripes along `across`, seen with a footprint long along them.
+/// Remaining contrast of stripes seen with a footprint elongated along them.
 float contrast_of_stripes(bool diagonal, int taps) {
   const Texture texture(grey_picture(
       128, [=](int row, int column) { return (diagonal ? row + column : column) / 8 % 2 == 0 ? 255 : 0; }));
@@ -92,7 +92,7 @@ TEST(Texture, StaysSharpAcrossALongFootprintWithEnoughProbes) {
 }
 
 TEST(Texture, AveragesAlongTheLongFootprint) {
-  // Stripes square to the footprint's long axis, which spans two whole periods of them.
+  // Stripes perpendicular to the footprint's long axis, which spans two whole periods.
   const Texture texture(grey_picture(128, [](int row, int) { return row / 4 % 2 == 0 ? 255 : 0; }));
   for (float row = 0.0f; row < 8.0f; row += 0.7f) {
     const float seen = texture.sample({0.5f, row / 128.0f}, {1.0f / 128.0f, 0.0f}, {0.0f, 16.0f / 128.0f}, 16).x();
@@ -101,7 +101,7 @@ TEST(Texture, AveragesAlongTheLongFootprint) {
 }
 
 cv::Mat leafy_picture() {
-  cv::Mat4b picture(128, 128, cv::Vec4b(255, 0, 255, 0));  // holes of a colour that must never show
+  cv::Mat4b picture(128, 128, cv::Vec4b(255, 0, 255, 0));  // holes of a colour that must never be visible
   Random random(5, "leaves");
   for (int leaf = 0; leaf < 220; ++leaf) {
     const cv::Rect box(random.below(124), random.below(124), 5, 3);

@@ -7,7 +7,7 @@
 
 namespace panvo::simulation {
 
-/// Two roads that cross, 120 m each way, the one 8 m wide; the palette is made once for all tests.
+/// Two crossing roads, 120 m in each direction, one of them 8 m wide; all tests share one palette.
 inline Site crossroads(std::uint64_t seed = 1, double hilliness = 0.0) {
   static const auto palette = std::make_shared<const Palette>(1, std::filesystem::path{});
   RoadNetwork roads;

@@ -23,7 +23,7 @@ MoverModels some_models() {
   return models;
 }
 
-// What a journey consists of; Traffic refers to it.
+// The parts of a journey, to which Traffic keeps references.
 struct TrafficDrive {
   TrafficDrive(const std::string& name, std::uint64_t seed)
       : site({seed, 0.6, false}, campus_roads(seed), nullptr),
@@ -131,8 +131,8 @@ TEST(Footprint, DistancesAreThoseOfTheRectangles) {
   EXPECT_NEAR(distance(car, {{0.0, 3.0}, M_PI / 2.0, 2.0, 4.0}), 1.0, 1e-12);
   EXPECT_NEAR(distance(car, {{5.0, 5.0}, 0.0, 4.0, 2.0}), std::hypot(1.0, 3.0), 1e-12);
   EXPECT_NEAR(distance(car, {{4.0, 0.0}, M_PI / 4.0, 2.0, 2.0}), 2.0 - std::sqrt(2.0), 1e-12);
-  EXPECT_EQ(distance(car, {{0.0, 0.0}, M_PI / 2.0, 8.0, 0.5}), 0.0);  // crossed, no corner inside the other
-  EXPECT_EQ(distance(car, {{0.0, 0.0}, 0.3, 1.0, 0.5}), 0.0);         // one within the other
+  EXPECT_EQ(distance(car, {{0.0, 0.0}, M_PI / 2.0, 8.0, 0.5}), 0.0);  // crossing, no corner inside the other
+  EXPECT_EQ(distance(car, {{0.0, 0.0}, 0.3, 1.0, 0.5}), 0.0);         // one inside the other
 }
 
 }  // namespace

@@ -29,7 +29,7 @@ TEST(VehicleMotion, TwistIsTheDerivativeOfThePose) {
 
 TEST(VehicleMotion, IsTwiceDifferentiable) {
   MotionParameters parameters;
-  parameters.vibration = 0.0;  // whose jerk would hide that of the path
+  parameters.vibration = 0.0;  // its jerk would mask that of the path
   const VehicleMotion motion(turning_path(), Terrain(1, 1.0), parameters, 1);
   const auto acceleration = [&](double t) -> Eigen::Vector3d {
     constexpr double kApart_s = 2e-3;
@@ -90,7 +90,7 @@ TEST(VehicleMotion, FollowsItsPathAndTheLand) {
     EXPECT_NEAR(pose.translation().z(), terrain.height_m(pose.translation().head<2>()), 0.01);
     EXPECT_GT(pose.linear().col(2).dot(terrain.normal(pose.translation().head<2>())), std::cos(0.005));
     const vision::Vector6d twist = motion.twist(t);
-    EXPECT_NEAR(twist[0], motion.speed_m_per_s(t), 0.01);  // forwards only, but for the land's curvature
+    EXPECT_NEAR(twist[0], motion.speed_m_per_s(t), 0.01);  // forward only, except for the terrain's curvature
     EXPECT_NEAR(twist[1], 0.0, 0.02);
   }
 }

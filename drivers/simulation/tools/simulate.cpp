@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// panvo_simulate: renders a journey through the simulated campus into a data set, or a few pictures of it.
+// panvo_simulate: renders a journey through the simulated campus as a data set, or single pictures of it.
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -35,10 +35,10 @@ struct Options {
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-/// The line that says how far it is: rewritten in place on a terminal, a line every tenth of the way elsewhere.
+/// Progress output: one line rewritten in place on a terminal, else a line every 10 %.
 class Progress {
  public:
-  /// Of what is to be rendered from instant `first` on.
+  /// Starts at instant `first`.
   Progress(const Simulation& simulation, std::size_t first)
       : from_s_(simulation.instants().front().t_s),
         length_s_(std::max(simulation.instants().back().t_s - from_s_, 1e-3)),
@@ -51,12 +51,12 @@ class Progress {
     if (is_terminal_ ? wall_s - last_wall_s_ < 0.5 : share - last_share_ < 0.1) return;
     last_wall_s_ = wall_s;
     last_share_ = share;
-    fmt::print(stderr, "{}  rendered {:5.1f} of {:.1f} s, {:.0f} s to go{}", is_terminal_ ? "\r" : "", t_s - from_s_,
+    fmt::print(stderr, "{}  rendered {:5.1f} of {:.1f} s, {:.0f} s left{}", is_terminal_ ? "\r" : "", t_s - from_s_,
                length_s_, t_s > begun_s_ ? wall_s / (t_s - begun_s_) * (from_s_ + length_s_ - t_s) : 0.0,
                is_terminal_ ? "   " : "\n");
   }
 
-  /// Ends the line; how long it took.
+  /// Ends the line; returns the elapsed time in s.
   double finish() {
     if (is_terminal_) fmt::print(stderr, "\r\033[K");
     return seconds_since(start_);
@@ -70,44 +70,42 @@ class Progress {
 
 void describe_options(CLI::App& app, Options& options) {
   auto& s = options.simulation;
-  app.add_option("--route", options.route, "route file, as those in config/routes");
-  app.add_option("--junctions", options.junctions, "a route of one's own: junctions with commas between them")
-      ->delimiter(',');
-  app.add_option("--random", options.random_junctions, "a route through that many junctions, drawn from the seed")
+  app.add_option("--route", options.route, "route file, as in config/routes");
+  app.add_option("--junctions", options.junctions, "custom route: comma-separated junctions")->delimiter(',');
+  app.add_option("--random", options.random_junctions, "random route over this number of junctions")
       ->check(CLI::Range(2, 1000));
-  app.add_option("--out", options.out,
-                 "the folder to make; asked for again after an interruption, it goes on where it was");
-  app.add_option("--seed", s.seed, "of the world, the motion and the noise")->capture_default_str();
-  app.add_option("--effects", options.effects, "what makes it hard, with commas between; all, none")->delimiter(',');
+  app.add_option("--out", options.out, "output folder; an interrupted run resumes with the same arguments");
+  app.add_option("--seed", s.seed, "seed of the world, the motion and the noise")->capture_default_str();
+  app.add_option("--effects", options.effects, "comma-separated difficulties; all, none")->delimiter(',');
   app.add_option("--rig", options.rig, "rig file, as config/rigs/paper/rig.yaml");
-  app.add_option("--hilliness", s.hilliness, "0 flat ... 1 hills of 8 m")
+  app.add_option("--hilliness", s.hilliness, "0: flat, 1: hills of 8 m")
       ->check(CLI::Range(0.0, 2.0))
       ->capture_default_str();
-  app.add_option("--hour", s.hour, "of the day at the start, 6 to 18")->check(CLI::Range(6.0, 18.0));
-  app.add_option("--vibration", s.motion.vibration, "of the vehicle; 0: as on rails")
+  app.add_option("--hour", s.hour, "hour of the day at the start, 6 to 18")->check(CLI::Range(6.0, 18.0));
+  app.add_option("--vibration", s.motion.vibration, "scale of the vehicle's vibration; 0: none")
       ->check(CLI::Range(0.0, 10.0))
       ->capture_default_str();
   app.add_option("--calibration-error", s.calibration_error,
-                 "of the published stereo calibration; 1: as of a good one after months of driving")
+                 "error of the published stereo calibration; 1: a good one after months of driving")
       ->check(CLI::Range(0.0, 100.0))
       ->capture_default_str();
   app.add_option("--assets", s.assets, "folder of photographs, MATERIAL.jpg, in place of painted textures")
       ->check(CLI::ExistingDirectory);
-  app.add_option("--start", s.start_s, "where to begin, s")->check(CLI::Range(0.0, 1e6));
-  app.add_option("--duration", s.duration_s, "how much, s; 0: to the end")->check(CLI::Range(0.0, 1e6));
-  app.add_option("--cameras", options.cameras, "which are rendered")
+  app.add_option("--start", s.start_s, "start time on the journey, s")->check(CLI::Range(0.0, 1e6));
+  app.add_option("--duration", s.duration_s, "duration, s; 0: to the end")->check(CLI::Range(0.0, 1e6));
+  app.add_option("--cameras", options.cameras, "cameras to render")
       ->check(CLI::IsMember({"all", "stereo", "panorama"}))
       ->capture_default_str();
-  app.add_option("--format", options.format, "of the images: jpg (quality 95) or png (lossless, twice the size)")
+  app.add_option("--format", options.format, "image format: jpg (quality 95) or png (lossless, twice the size)")
       ->check(CLI::IsMember({"jpg", "png"}))
       ->capture_default_str();
-  app.add_option("--pictures", options.pictures_s, "only pictures of these times (s), as PNG, into the folder")
+  app.add_option("--pictures", options.pictures_s, "only write single views as PNG, at these times (s)")
       ->delimiter(',');
-  app.add_flag("--map", options.map, "only plan.png: the campus from above with the route");
-  app.add_flag("--truth-only", options.truth_only, "only sequence.yaml: what is true of the journey");
+  app.add_flag("--map", options.map, "only write plan.png: a map of the campus with the route");
+  app.add_flag("--truth-only", options.truth_only, "only write sequence.yaml: the ground truth");
 }
 
-/// Puts together what the options say. Throws with what cannot be.
+/// Combines the options. Throws if they are invalid.
 void complete(Options& options) {
   auto& s = options.simulation;
   s.effects = effects_of(options.effects);
@@ -121,7 +119,7 @@ void complete(Options& options) {
   } else if (!options.route.empty()) {
     s.route = read_route(options.route);
   } else {
-    throw std::runtime_error("which route? Name a file with --route, junctions with --junctions, or --random N");
+    throw std::runtime_error("no route is given; use --route FILE, --junctions LIST or --random N");
   }
 }
 
@@ -131,7 +129,7 @@ void write_picture(const fs::path& file, const cv::Mat& image) {
   if (!cv::imwrite(file.string(), bgr)) throw std::runtime_error(file.string() + ": cannot be written");
 }
 
-/// Single views: each is exposed a few times, so that exposure control has settled.
+/// Writes single views. Each is exposed several times so that exposure control settles.
 void write_pictures(Simulation& simulation, const Options& options) {
   constexpr int kExposures = 8;
   fs::create_directories(options.out);
@@ -154,14 +152,14 @@ void write_pictures(Simulation& simulation, const Options& options) {
   }
 }
 
-/// Asks for room before anything is rendered.
+/// Checks the disk space before rendering.
 void check_space(const Simulation& simulation, std::size_t first_instant, const fs::path& folder, ImageFormat format) {
   const auto needed = estimated_bytes(simulation, first_instant, format);
   std::error_code error;
   const auto space = fs::space(fs::absolute(folder).parent_path(), error);
   if (!error && space.available < needed) {
     throw std::runtime_error(
-        fmt::format("{}: about {} MB are needed, {} MB are free; name another folder, --cameras stereo or "
+        fmt::format("{}: about {} MB are needed, {} MB are free; use another folder, --cameras stereo or "
                     "a shorter --duration",
                     folder.string(), needed / 1'000'000, space.available / 1'000'000));
   }
@@ -169,14 +167,13 @@ void check_space(const Simulation& simulation, std::size_t first_instant, const 
 
 void write_data_set(Simulation& simulation, const Options& options) {
   const auto format = options.format == "jpg" ? ImageFormat::kJpeg : ImageFormat::kPng;
-  // Under another name until it is whole: whoever finds the folder finds all of it.
+  // Under another name until it is complete, so that a folder of the final name is always complete.
   const fs::path partial = options.out.string() + ".partial";
   EurocWriter writer(partial, simulation, format);
   const auto& instants = simulation.instants();
   const auto first = writer.written_before();
   check_space(simulation, first, options.out, format);
-  if (first > 0)
-    fmt::print(stderr, "  {} is there, with {} of {} instants: goes on\n", partial.string(), first, instants.size());
+  if (first > 0) fmt::print(stderr, "  {} has {} of {} instants: resuming\n", partial.string(), first, instants.size());
   simulation.set_exposure(writer.exposure_before());
   Progress progress(simulation, first);
   for (std::size_t i = first; i < instants.size(); ++i) {
@@ -188,13 +185,13 @@ void write_data_set(Simulation& simulation, const Options& options) {
   }
   writer.finish();
   const double wall_s = progress.finish();
-  fs::remove(options.out);  // an empty folder that was there
+  fs::remove(options.out);  // an empty folder, if there is one
   fs::rename(partial, options.out);
 
   const double length_s = instants.back().t_s - instants[std::min(first, instants.size() - 1)].t_s;
   const auto statistics = simulation.statistics();
   fmt::print(
-      "{}: {} s of {} in {:.0f} s ({:.1f} s a second): {:.2f} million pixels and {:.2f} million rays a second, "
+      "{}: {} s of {} in {:.0f} s ({:.1f} s per second): {:.2f} million pixels and {:.2f} million rays per second, "
       "{:.2f} million triangles\n",
       options.out.string(), fmt::format("{:.1f}", length_s), options.simulation.route.name, wall_s,
       wall_s / std::max(length_s, 1e-3), 1e-6 * static_cast<double>(statistics.pixels) / wall_s,
@@ -204,16 +201,16 @@ void write_data_set(Simulation& simulation, const Options& options) {
 
 void run(Options& options) {
   complete(options);
-  if (options.out.empty()) throw std::runtime_error("where to? Name a new folder with --out");
-  if (options.out.filename().empty()) options.out = options.out.parent_path();  // a slash at the end
+  if (options.out.empty()) throw std::runtime_error("no output folder is given; use --out");
+  if (options.out.filename().empty()) options.out = options.out.parent_path();  // removes a trailing slash
   if (options.pictures_s.empty() && !options.truth_only && !options.map && fs::exists(options.out) &&
       !(fs::is_directory(options.out) && fs::is_empty(options.out))) {
-    throw std::runtime_error(options.out.string() + ": is there already and not empty; name a new folder");
+    throw std::runtime_error(options.out.string() + ": exists and is not empty; choose a new folder");
   }
   if (const auto parent = fs::absolute(options.out).parent_path(); !fs::is_directory(parent)) {
     std::error_code error;
     fs::create_directories(parent, error);
-    if (error) throw std::runtime_error(parent.string() + ": cannot be made (" + error.message() + ")");
+    if (error) throw std::runtime_error(parent.string() + ": cannot be created (" + error.message() + ")");
   }
   if (options.map) {
     fs::create_directories(options.out);
@@ -244,7 +241,7 @@ void run(Options& options) {
 
 int main(int argc, char** argv) {
   CLI::App app(
-      "Renders a journey through a simulated campus: stereo pairs, panoramas and the truth, as an EuRoC/ASL data set");
+      "Renders a journey through a simulated campus (stereo pairs, panoramas, ground truth) as a EuRoC/ASL data set");
   panvo::simulation::Options options;
   panvo::simulation::describe_options(app, options);
   CLI11_PARSE(app, argc, argv);

@@ -241,7 +241,7 @@ TEST(DeviceList, TellsFormatsSizesRatesAndWhatCannotBeOpened) {
   VideoNode metadata = kNode;
   metadata.path = "/dev/video2";
   metadata.index = 1;
-  usb.plug_in(metadata)->open_error = DeviceError(DeviceError::Kind::kOther, "is no camera");
+  usb.plug_in(metadata)->open_error = DeviceError(DeviceError::Kind::kOther, "is not a camera");
   const auto found = find_devices(usb.devices());
   ASSERT_EQ(found.size(), 2u);
   EXPECT_EQ(found[0].serial, "S1");

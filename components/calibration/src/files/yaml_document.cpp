@@ -56,7 +56,7 @@ void YamlDocument::fail(const char* key, const std::string& what) const {
 
 std::string YamlDocument::text(const char* key) const {
   const auto node = at(key);
-  if (!node.IsScalar() || node.Scalar().empty()) fail(key, "must be a word");
+  if (!node.IsScalar() || node.Scalar().empty()) fail(key, "must be a non-empty string");
   return node.Scalar();
 }
 

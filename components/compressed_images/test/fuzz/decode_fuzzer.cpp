@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// For libFuzzer: the bytes are a JPEG or PNG file, or none. They become an image that is whole, or a reason.
+// libFuzzer target: decodes the input. The result must be a valid image or a reason.
 #include <cstdint>
 #include <cstdlib>
 

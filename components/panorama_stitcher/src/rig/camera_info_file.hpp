@@ -10,8 +10,8 @@
 
 namespace panvo::panorama_stitcher {
 
-/// The lens of a ROS camera_info file (image_width, image_height, camera_matrix, distortion_model, distortion_coefficients; what concerns
-/// stereo pairs is not looked at). What is wrong is added to `problems`.
+/// Reads the lens of a ROS camera_info file: image_width, image_height, camera_matrix, distortion_model and
+/// distortion_coefficients; other keys are ignored. Returns nullopt and appends to `problems` if it is invalid.
 std::optional<vision::LensCamera> read_camera_info(const std::filesystem::path& file,
                                                    std::vector<std::string>& problems);
 

@@ -18,14 +18,14 @@ constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr int kMostImages = 6;
 constexpr int kMostPixels = 1 << 16;
 
-/// Axes of a rig (x forward, y left, z up) in those of an optical frame that looks forward.
+/// Rotation from rig axes (x forward, y left, z up) to those of a forward-looking optical frame.
 Eigen::Matrix3d optical_from_rig() {
   Eigen::Matrix3d rotation;
   rotation << 0, -1, 0, 0, 0, -1, 1, 0, 0;
   return rotation;
 }
 
-/// A head turned left by yaw, downwards by pitch, clockwise by roll, as a camera of the vehicle is.
+/// Reads a pose from yaw (to the left), pitch (down) and roll (clockwise), as for cameras on the vehicle.
 Eigen::Isometry3d read_turned(YamlMap& map) {
   const double yaw = kDegree * map.number("yaw_deg", 0.0, -360.0, 360.0);
   const double pitch = kDegree * map.number("pitch_deg", 0.0, -180.0, 180.0);
@@ -41,7 +41,7 @@ Eigen::Isometry3d read_turned(YamlMap& map) {
   return panorama_from_head;
 }
 
-/// A matrix as calibration tools write it.
+/// Reads a 4 x 4 matrix, as written by calibration tools.
 Eigen::Isometry3d read_matrix(YamlMap& map) {
   Eigen::Isometry3d panorama_from_head = Eigen::Isometry3d::Identity();
   const auto values = map.numbers("panorama_from_head", 16);
@@ -50,7 +50,7 @@ Eigen::Isometry3d read_matrix(YamlMap& map) {
   const Eigen::Matrix3d rotation = matrix.topLeftCorner<3, 3>();
   if ((rotation * rotation.transpose() - Eigen::Matrix3d::Identity()).norm() > 1e-3 || rotation.determinant() < 0.0 ||
       (matrix.row(3) - Eigen::RowVector4d(0, 0, 0, 1)).norm() > 1e-9) {
-    map.reject("panorama_from_head", "is no rotation and translation; give the 4 x 4 matrix row by row");
+    map.reject("panorama_from_head", "is not a rigid transform; give the 4 x 4 matrix row by row");
     return panorama_from_head;
   }
   panorama_from_head.linear() = vision::nearest_rotation(rotation);
@@ -61,7 +61,7 @@ Eigen::Isometry3d read_matrix(YamlMap& map) {
 Eigen::Isometry3d read_pose(YamlMap& map) {
   if (!map.has("panorama_from_head")) return read_turned(map);
   for (const char* key : {"position_m", "yaw_deg", "pitch_deg", "roll_deg"}) {
-    if (map.has(key)) map.reject(key, "says what panorama_from_head says; leave one of them out");
+    if (map.has(key)) map.reject(key, "conflicts with panorama_from_head; remove one of them");
   }
   return read_matrix(map);
 }
@@ -70,13 +70,13 @@ std::optional<std::variant<vision::CameraModel, vision::Equirectangular>> read_l
   const double field_of_view_deg = map.number("field_of_view_deg", 0.0, 1.0, 360.0);
   if (map.has("equirectangular_px")) {
     const auto size = map.numbers("equirectangular_px", 2);
-    if (map.has("camera_info")) map.reject("camera_info", "is of no use to an equirectangular picture; leave it out");
+    if (map.has("camera_info")) map.reject("camera_info", "does not apply to an equirectangular image; remove it");
     if (size.empty()) return std::nullopt;
     size_px = {static_cast<int>(size[0]), static_cast<int>(size[1])};
     if (size_px.height >= 2 && size_px.width == 2 * size_px.height && size_px.width <= kMostPixels)
       return vision::Equirectangular{size_px.width, size_px.height};
     map.reject("equirectangular_px",
-               "must be twice as wide as high; crop or fill the camera's picture up to the whole sphere");
+               "must be twice as wide as high; crop or pad the camera's image to the full sphere");
     return std::nullopt;
   }
   map.require("camera_info");
@@ -93,7 +93,7 @@ std::optional<std::variant<vision::CameraModel, vision::Equirectangular>> read_l
   return std::nullopt;
 }
 
-/// Where the head's picture is in its image: all of it, if nothing else is said.
+/// Reads the head's region in its image; default: the whole image.
 void read_region(YamlMap& map, cv::Size lens_px, Head& head) {
   head.image_size_px = lens_px;
   head.region_px = {{0, 0}, lens_px};
@@ -102,9 +102,9 @@ void read_region(YamlMap& map, cv::Size lens_px, Head& head) {
   if (region.empty() && size.empty()) return;
   if (region.empty() || size.empty()) {
     if (region.empty()) {
-      map.reject("image_size_px", "needs region_px: [left, top, width, height] beside it");
+      map.reject("image_size_px", "needs region_px: [left, top, width, height] as well");
     } else {
-      map.reject("region_px", "needs image_size_px: [width, height] beside it");
+      map.reject("region_px", "needs image_size_px: [width, height] as well");
     }
     return;
   }
@@ -112,8 +112,8 @@ void read_region(YamlMap& map, cv::Size lens_px, Head& head) {
   head.region_px = {static_cast<int>(region[0]), static_cast<int>(region[1]), static_cast<int>(region[2]),
                     static_cast<int>(region[3])};
   if (head.region_px.size() != lens_px) {
-    map.reject("region_px", fmt::format("is of {} x {} px, but the lens is calibrated for {} x {} px; calibrate it on "
-                                        "pictures of the region's size",
+    map.reject("region_px", fmt::format("is {} x {} px, but the lens is calibrated for {} x {} px; calibrate it with "
+                                        "images of the region's size",
                                         head.region_px.width, head.region_px.height, lens_px.width, lens_px.height));
   }
   if ((head.region_px & cv::Rect({0, 0}, head.image_size_px)) != head.region_px)
@@ -157,7 +157,7 @@ void read_panorama(YamlMap& map, RigFile& file) {
   map.finish();
 }
 
-/// Heads that share an image must agree about its size, and no image may be left out.
+/// Heads that share an image must state the same size, and image numbers must have no gaps.
 void check_images(const std::filesystem::path& file, const PanoramaRig& rig, std::vector<std::string>& problems) {
   for (std::size_t image = 0; image < rig.images(); ++image) {
     const Head* first = nullptr;
@@ -165,14 +165,14 @@ void check_images(const std::filesystem::path& file, const PanoramaRig& rig, std
       if (head.image != image) continue;
       if (first != nullptr && first->image_size_px != head.image_size_px) {
         problems.push_back(
-            fmt::format("{}: heads: '{}' and '{}' share image {}, but say different sizes of it; correct image_size_px",
+            fmt::format("{}: heads: '{}' and '{}' share image {}, but state different sizes; correct image_size_px",
                         file.string(), first->name, head.name, image));
       }
       first = &head;
     }
     if (first == nullptr)
       problems.push_back(
-          fmt::format("{}: heads: no head has image {}, though there is a higher one; number them without gaps",
+          fmt::format("{}: heads: no head has image {}, but one has a higher number; number images without gaps",
                       file.string(), image));
   }
 }

@@ -16,11 +16,12 @@ YAML::Node load_yaml(const std::filesystem::path& file) {
   try {
     root = YAML::LoadFile(file.string());
   } catch (const YAML::BadFile&) {
-    throw RigFileError(file.string() + ": cannot be opened; is it there, and may you read it?");
+    throw RigFileError(file.string() + ": cannot be opened; check that it exists and is readable");
   } catch (const YAML::Exception& error) {
     throw RigFileError(fmt::format("{}:{}: is not YAML: {}", file.string(), error.mark.line + 1, error.msg));
   }
-  if (!root.IsMap()) throw RigFileError(file.string() + ": holds no `key: value` lines; is it the right file?");
+  if (!root.IsMap())
+    throw RigFileError(file.string() + ": contains no `key: value` lines; check that it is the right file");
   return root;
 }
 
@@ -61,7 +62,7 @@ std::string YamlMap::text(const char* key, const std::string& instead) {
   const YAML::Node node = find(key);
   if (!node.IsDefined()) return instead;
   if (node.IsScalar() && !node.Scalar().empty()) return node.Scalar();
-  reject(key, "must be a word");
+  reject(key, "must be a non-empty string");
   return instead;
 }
 
@@ -96,7 +97,7 @@ void YamlMap::finish() {
   for (const auto& item : node_) {
     const auto& key = item.first.Scalar();
     if (!asked_.contains(key))
-      reject(key.c_str(), fmt::format("is not known here; there are {}", fmt::join(asked_, ", ")));
+      reject(key.c_str(), fmt::format("is not a known key; known keys: {}", fmt::join(asked_, ", ")));
   }
 }
 

@@ -10,11 +10,11 @@
 
 namespace panvo::panorama_stitcher {
 
-/// What a YAML file holds; throws RigFileError when it cannot be read or holds no keys.
+/// Loads a YAML file. Throws RigFileError if it cannot be read or is not a map.
 YAML::Node load_yaml(const std::filesystem::path& file);
 
-/// A map of a YAML file: reads its values, and notes what is wrong and which keys were asked for. A value that is missing or wrong reads as
-/// the one given instead.
+/// Reads the values of a YAML map; collects problems and the requested keys. Missing or invalid values give the
+/// argument `instead`.
 class YamlMap {
  public:
   YamlMap(std::filesystem::path file, YAML::Node node, std::vector<std::string>& problems);
@@ -23,14 +23,15 @@ class YamlMap {
   double number(const char* key, double instead, double low, double high);
   int integer(const char* key, int instead, int low, int high);
   std::string text(const char* key, const std::string& instead);
-  /// A list of so many numbers (0: any count), or a matrix with `data`; empty when missing or wrong.
+  /// Reads a list, or the list `data` of a map. `count`: required number of values (0: any). Empty if missing or
+  /// invalid.
   std::vector<double> numbers(const char* key, std::size_t count);
   void require(const char* key);
 
-  /// "rig.yaml:17: blend_deg"; the map's own line where the key is not there.
+  /// "rig.yaml:17: blend_deg"; with the line of the map if the key is missing.
   std::string where(const char* key) const;
   void reject(const char* key, const std::string& what);
-  /// Notes keys that nobody asked for.
+  /// Reports unknown keys, i.e. those that were not requested.
   void finish();
 
   const std::filesystem::path& file() const { return file_; }

@@ -30,7 +30,7 @@ void read_mutations(const char* name, const std::string& file, std::uint64_t cou
     ASSERT_LE(messages, 50u * 64) << "seed " << seed;
     readable += messages > 0 ? 1 : 0;
   }
-  EXPECT_GT(readable, count / 20) << "damage so heavy that nothing can be read tests little";
+  EXPECT_GT(readable, count / 20) << "too few of the damaged bags are readable";
 }
 
 TEST(MutatedBag, OfMcapWithoutCompressionIsReadOrRefused) {

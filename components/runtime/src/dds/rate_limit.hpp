@@ -7,7 +7,7 @@
 namespace panvo::runtime::dds {
 
 /// Token bucket: `rate_hz` messages per second, with bursts of up to one second's messages or `burst`, whichever is
-/// larger.
+/// larger. A rate of 0 allows none.
 class RateLimit {
  public:
   RateLimit(double rate_hz, double burst) : rate_hz_(rate_hz), full_(std::max(rate_hz, burst)), left_(full_) {}
@@ -16,7 +16,7 @@ class RateLimit {
   bool take(std::int64_t now_ns) {
     left_ = std::min(full_, left_ + 1e-9 * static_cast<double>(now_ns - last_ns_) * rate_hz_);
     last_ns_ = now_ns;
-    if (left_ < 1.0) return false;
+    if (rate_hz_ <= 0.0 || left_ < 1.0) return false;
     left_ -= 1.0;
     return true;
   }

@@ -62,7 +62,7 @@ ServiceServer::ServiceServer(const ServiceDescription& service, ServiceHandler h
       notifier_(std::move(notifier)),
       request_topic_(readers_->topic(request_topic(service))),
       reply_topic_(writers_->topic(reply_topic(service))),
-      rate_(limits.per_s) {
+      rate_(limits.per_s, 1.0) {
   const TopicDescription described{service.name, service.type_name, kServiceQos, nullptr};
   fdds::DataWriterQos writer_qos = writers_->publisher().get_default_datawriter_qos();
   apply(described, writer_qos);
@@ -122,7 +122,7 @@ void ServiceServer::on_data_available(fdds::DataReader* reader) {
 bool ServiceServer::is_over_limits(const Incoming& incoming) {
   if (incoming.bytes.size() > limits_.size) {
     notifier_->warn(fmt::format("service {}: a request of more than {} bytes was dropped", name_, limits_.size));
-  } else if (!rate_.lets_pass(clocks::monotonic_ns())) {
+  } else if (!rate_.take(clocks::monotonic_ns())) {
     notifier_->warn(
         fmt::format("service {}: more than {} requests per second, some were dropped; see requests_per_s in the "
                     "system file",

@@ -14,6 +14,7 @@
 #include "notifier.hpp"
 #include "panvo/runtime/service.hpp"
 #include "participant.hpp"
+#include "rate_limit.hpp"
 #include "request_limits.hpp"
 #include "sample_data_type.hpp"
 #include "service_queue.hpp"
@@ -65,7 +66,7 @@ class ServiceServer final : public BridgeService, private eprosima::fastdds::dds
   const std::shared_ptr<eprosima::fastdds::dds::Topic> request_topic_, reply_topic_;
 
   std::mutex taking_mutex_;  // guards the two below
-  RequestRate rate_;
+  RateLimit rate_;
   bool closed_ = false;
   std::atomic<std::uint64_t> received_ = 0, answered_ = 0, malformed_ = 0, dropped_ = 0, refused_ = 0, unanswered_ = 0;
   std::deque<Kept> kept_;  // oldest first; this and the next are used on the service thread only

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// For libFuzzer: the first byte says of which kind the calibration is, the rest is its file. It is refused with a sentence, or describes a pair that
-// can be rectified to numbers.
+// libFuzzer target: the first byte selects the kind of calibration, the rest is the file. It must be rejected with a
+// DatasetError or give a pair whose rectification is finite.
 #include <unistd.h>
 
 #include <cmath>

@@ -27,8 +27,8 @@ using MotionCovariances = std::map<std::int64_t, MotionCovariance>;  // by stamp
 // the twist's, 6 of the twist. Throws InputError.
 MotionCovariances read_motion_covariances(const std::filesystem::path& file);
 
-// Normalised estimation error squared, e' C^-1 e. Its mean is `dimension` if the covariances are correct, larger if they
-// are too small, smaller if they are too large.
+// Normalised estimation error squared, e' C^-1 e. Its mean is `dimension` if the covariances are correct, larger if
+// they are too small, smaller if they are too large.
 struct Nees {
   int dimension = 0;
   std::size_t samples = 0;
@@ -55,10 +55,10 @@ struct Consistency {
   std::size_t unusable = 0;  // skipped steps: no line for a stamp, or a covariance that is not positive definite
 };
 
-// Evaluates the relative motion D over `steps` poses. Error: D_true^-1 D_estimated, as translation and rotation vector in
-// the axes of base_link at the end. Covariance: twist covariance times dt^2, propagated over the steps by the adjoint,
-// assuming independent steps, plus the noise of the ground truth at both ends. Intervals do not overlap. nullopt if none
-// is usable; throws InputError for 0 steps.
+// Evaluates the relative motion D over `steps` poses. Error: D_true^-1 D_estimated, as translation and rotation vector
+// in the axes of base_link at the end. Covariance: twist covariance times dt^2, propagated over the steps by the
+// adjoint, assuming independent steps, plus the noise of the ground truth at both ends. Intervals do not overlap.
+// nullopt if none is usable; throws InputError for 0 steps.
 std::optional<Consistency> consistency(std::span<const PosePair> pairs, const MotionCovariances& covariances,
                                        const ConsistencyOptions& options = {});
 

@@ -10,8 +10,8 @@
 
 namespace panvo::evaluation {
 
-/// A segment with degraded stereo vision and the azimuth error of each source in it [Lu2015 7.2, Fig. 9]. Errors in rad, left
-/// positive; nullopt if a source has no data there.
+/// A segment with degraded stereo vision and the azimuth error of each source in it [Lu2015 7.2, Fig. 9]. Errors in
+/// rad, left positive; nullopt if a source has no data there.
 struct AzimuthEpisode {
   std::string kind;  ///< "unreliable" (reported by the odometry) or the kind of a Disturbance
   std::int64_t from_ns = 0;
@@ -31,7 +31,8 @@ struct AzimuthKind {
   std::optional<double> binocular_worst_rad, compass_worst_rad, enhanced_worst_rad;
 };
 
-/// Azimuths during an episode and shortly before and after, 0 at its start. The error is the azimuth minus the true one.
+/// Azimuths during an episode and shortly before and after, 0 at its start. The error is the azimuth minus the true
+/// one.
 struct AzimuthCurve {
   struct Point {
     double time_s = 0.0;

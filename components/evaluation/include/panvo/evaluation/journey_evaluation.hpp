@@ -13,7 +13,8 @@
 
 namespace panvo::evaluation {
 
-/// A stage of panvo and the corresponding line of the paper's Table 3. Further stages of the same line have no `paper_ms`.
+/// A stage of panvo and the corresponding line of the paper's Table 3. Further stages of the same line have no
+/// `paper_ms`.
 struct StageRow {
   std::string group, item;
   std::optional<double> paper_ms;
@@ -57,7 +58,8 @@ std::string journey_table(const JourneyReport& report);
 /// journey.json: every figure, null if unknown, units in the names.
 std::string journey_json(const JourneyReport& report);
 
-/// Writes journey_paths.png, journey_error.png and journey_azimuth.png, and their gnuplot scripts, into `folder`. Throws PlotError.
+/// Writes journey_paths.png, journey_error.png and journey_azimuth.png, and their gnuplot scripts, into `folder`.
+/// Throws PlotError.
 void draw_journey(const JourneyReport& report, const std::filesystem::path& folder);
 
 }  // namespace panvo::evaluation

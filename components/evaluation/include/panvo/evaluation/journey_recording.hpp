@@ -50,8 +50,8 @@ struct JourneyRecording {
   Eigen::Isometry3d base_from_panorama = Eigen::Isometry3d::Identity();
 };
 
-/// Reads a data set in EuRoC/ASL layout, with sequence.yaml and cam2 if present; a run folder, of which only ground_truth.tum is
-/// used; or a trajectory. Throws InputError (file, line, remedy).
+/// Reads a data set in EuRoC/ASL layout, with sequence.yaml and cam2 if present; a run folder, of which only
+/// ground_truth.tum is used; or a trajectory. Throws InputError (file, line, remedy).
 JourneyRecording read_journey_recording(const std::filesystem::path& folder);
 
 /// Ground truth with the distance travelled along it.

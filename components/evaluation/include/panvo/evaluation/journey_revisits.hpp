@@ -23,8 +23,8 @@ struct JourneyFrames {
   Eigen::Isometry3d world_from_odom = Eigen::Isometry3d::Identity();
 };
 
-/// Aligns the starts of both paths with the ground truth. With `earlier`, the origin of the map is the start of that journey.
-/// Throws InputError if run and ground truth do not overlap in time.
+/// Aligns the starts of both paths with the ground truth. With `earlier`, the origin of the map is the start of that
+/// journey. Throws InputError if run and ground truth do not overlap in time.
 JourneyFrames journey_frames(const JourneyRun& run, const JourneyRecording& recording, const JourneyRecording* earlier);
 
 enum class RevisitResult {
@@ -36,7 +36,8 @@ enum class RevisitResult {
 };
 std::string_view to_string(RevisitResult result);
 
-/// An applied correction with the errors before and after it. Positions are horizontal, in the world frame of the ground truth.
+/// An applied correction with the errors before and after it. Positions are horizontal, in the world frame of the
+/// ground truth.
 struct AppliedCorrection {
   std::int64_t stamp_ns = 0;
   std::int64_t landmark = 0;
@@ -61,14 +62,13 @@ struct Revisit {
   double travelled_m = 0.0;
   double entrance_rad = 0.0;  ///< heading on entering minus that of the first visit, left positive
   std::optional<std::int64_t> landmark;
-  std::optional<std::int64_t>
-      landmark_stamp_ns;              ///< of its panorama; of the first visit if nothing was recognised
-  bool landmark_was_earlier = false;  ///< `landmark_stamp_ns` is in the earlier journey
-  std::optional<double> heading_rad;  ///< estimated yaw now minus yaw at the landmark
-  double true_heading_rad = 0.0;      ///< true yaw now minus yaw at the landmark
-  double distance_m = 0.0;            ///< true distance between the two viewpoints
-  int corrections = 0;                ///< applied during this visit
-  std::optional<double> binocular_m;  ///< 2D errors at `stamp_ns`
+  std::optional<std::int64_t> landmark_stamp_ns;  ///< of its panorama; of the first visit if nothing was recognised
+  bool landmark_was_earlier = false;              ///< `landmark_stamp_ns` is in the earlier journey
+  std::optional<double> heading_rad;              ///< estimated yaw now minus yaw at the landmark
+  double true_heading_rad = 0.0;                  ///< true yaw now minus yaw at the landmark
+  double distance_m = 0.0;                        ///< true distance between the two viewpoints
+  int corrections = 0;                            ///< applied during this visit
+  std::optional<double> binocular_m;              ///< 2D errors at `stamp_ns`
   std::optional<double> before_m, after_m;
   std::optional<double> binocular_heading_rad, before_heading_rad, after_heading_rad;
   std::optional<double> landmark_m, landmark_heading_rad;  ///< error of the landmark at its creation
@@ -86,8 +86,8 @@ struct RevisitScore {
   int before_start = 0;  ///< skipped outcomes outside the time span of the ground truth
 };
 
-/// With a list of visits: one row per revisit, and one per other place that corrected the pose. Without a list: rows from
-/// outcomes.csv.
+/// With a list of visits: one row per revisit, and one per other place that corrected the pose. Without a list: rows
+/// from outcomes.csv.
 RevisitScore score_revisits(const JourneyFrames& frames);
 
 }  // namespace panvo::evaluation

@@ -19,7 +19,8 @@ struct JourneySettings {
   landmarks::KeypointParameters keypoints;
   position_corrector::MatchingParameters matching;
   std::uint64_t seed = 1;
-  /// Standard deviation of the noisy position passed to the matcher, m; nullopt: no position, the matcher searches all landmarks.
+  /// Standard deviation of the noisy position passed to the matcher, m; nullopt: no position, the matcher searches all
+  /// landmarks.
   std::optional<double> position_sigma_m;
 };
 
@@ -41,8 +42,9 @@ struct JourneyScore {
   int wrong = 0;
 };
 
-/// Builds landmarks at the first visits of `first`, with points from the neighbouring panoramas, and matches all panoramas of `then`.
-/// If both are the same recording, a landmark is known only after its first visit. Calls `on_panorama(i, count)` before each panorama.
+/// Builds landmarks at the first visits of `first`, with points from the neighbouring panoramas, and matches all
+/// panoramas of `then`. If both are the same recording, a landmark is known only after its first visit. Calls
+/// `on_panorama(i, count)` before each panorama.
 JourneyScore match_journey(const PlaceTask& task, const PlaceRecording& first, const PlaceRecording& then,
                            const JourneySettings& settings,
                            const std::function<void(std::size_t, std::size_t)>& on_panorama);

@@ -32,7 +32,8 @@ class PlaceMethod {
   virtual ~PlaceMethod() = default;
 
   virtual std::string name() const = 0;
-  /// Describes a panorama, CV_8UC1, 1080x540, as landmark or as query; some methods use different descriptors for the two.
+  /// Describes a panorama, CV_8UC1, 1080x540, as landmark or as query; some methods use different descriptors for the
+  /// two.
   virtual std::unique_ptr<PlaceDescriptor> describe_landmark(const cv::Mat& panorama) const = 0;
   virtual std::unique_ptr<PlaceDescriptor> describe_query(const cv::Mat& panorama) const {
     return describe_landmark(panorama);

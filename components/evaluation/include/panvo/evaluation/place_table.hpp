@@ -28,8 +28,8 @@ struct PlaceTask {
   std::vector<PlaceRevisit> revisits;
 };
 
-/// The places are the first visits in `first`. The revisits are later visits in `first` or, with `then`, all visits in `then` to
-/// these places. Each revisit uses the panorama nearest to the known one.
+/// The places are the first visits in `first`. The revisits are later visits in `first` or, with `then`, all visits in
+/// `then` to these places. Each revisit uses the panorama nearest to the known one.
 PlaceTask place_task(const PlaceRecording& first, const PlaceRecording* then = nullptr);
 
 /// Result of comparing one panorama with the library.
@@ -41,7 +41,8 @@ struct PlaceSample {
   bool is_right = false;
 };
 
-/// A line of Table 1 [Lu2015 7.1]. Negatives are the known places, each compared with all others; positives are the revisits.
+/// A line of Table 1 [Lu2015 7.1]. Negatives are the known places, each compared with all others; positives are the
+/// revisits.
 struct PlaceScore {
   std::string method;
   double separation = 0.0;  ///< V_sc = mean of negatives - mean of positives [Lu2015 Eqs. 13, 14]

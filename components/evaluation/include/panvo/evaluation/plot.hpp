@@ -19,8 +19,8 @@ class PlotError : public std::runtime_error {
 // Deterministic; names and titles are escaped so that they cannot act as commands.
 std::string plot_script(const Report& report);
 
-// Writes `folder`/evaluation.gp and runs gnuplot there. Throws PlotError, with the remedy, if gnuplot is not installed or
-// fails.
+// Writes `folder`/evaluation.gp and runs gnuplot there. Throws PlotError, with the remedy, if gnuplot is not installed
+// or fails.
 void draw_plot(const Report& report, const std::filesystem::path& folder);
 
 }  // namespace panvo::evaluation

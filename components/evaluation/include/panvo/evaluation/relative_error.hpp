@@ -45,7 +45,8 @@ struct RelativePoseError {
   Summary rotation_deg;  // degrees per step, or degrees per metre
 };
 
-// From each pair to the next. Pairs more than 1.5 median periods apart are skipped, because frames are missing between them.
+// From each pair to the next. Pairs more than 1.5 median periods apart are skipped, because frames are missing between
+// them.
 std::optional<RelativePoseError> relative_error_per_frame(std::span<const PosePair> pairs);
 
 // From each pair to the first pair at least 1 m further, divided by the true length.

@@ -9,7 +9,8 @@
 
 namespace panvo::evaluation {
 
-// Permitted difference of a run from the expected one. Both zero: files must be bit-identical, as for replays on one machine.
+// Permitted difference of a run from the expected one. Both zero: files must be bit-identical, as for replays on one
+// machine.
 struct RunTolerance {
   double position_m = 0.0;
   double rotation_deg = 0.0;
@@ -24,9 +25,9 @@ struct FileComparison {
   std::optional<double> worst_deg;
 };
 
-// Compares the result files of a run (trajectories *.tum, events *.csv) with those of an earlier one, in order of name. With a
-// tolerance, poses of equal stamps may differ by it, and of events only stamps, ids and states must be equal, not measured
-// numbers. Throws InputError if a folder has no such files or a trajectory cannot be read.
+// Compares the result files of a run (trajectories *.tum, events *.csv) with those of an earlier one, in order of name.
+// With a tolerance, poses of equal stamps may differ by it, and of events only stamps, ids and states must be equal,
+// not measured numbers. Throws InputError if a folder has no such files or a trajectory cannot be read.
 std::vector<FileComparison> compare_runs(const std::filesystem::path& run, const std::filesystem::path& expected,
                                          const RunTolerance& tolerance = {});
 

@@ -38,14 +38,15 @@ struct TrustScore {
 
   /// Longest time in state tracking with an error over 3 sigma, s.
   double longest_misleading_s = 0.0;
-  /// Largest time from the start of an error over 3 sigma or beyond the level to the alarm, or the duration of such an error if it ended without an
-  /// alarm; errors without alarm of at most kAlarmTime_s do not count. nullopt: no alarm was due.
+  /// Largest time from the start of an error over 3 sigma or beyond the level to the alarm, or the duration of such an
+  /// error if it ended without an alarm; errors without alarm of at most kAlarmTime_s do not count. nullopt: no alarm
+  /// was due.
   std::optional<double> time_to_alarm_s;
   /// From the start of the disturbance to the first alarm, whether due or not. nullopt: no alarm, or no disturbance.
   std::optional<double> noticed_s;
   bool is_never_noticed = false;
-  /// From the end of the disturbance to the end of the last alarm or the last error over 3 sigma longer than kAlarmTime_s. nullopt for a disturbance
-  /// without an end.
+  /// From the end of the disturbance to the end of the last alarm or the last error over 3 sigma longer than
+  /// kAlarmTime_s. nullopt for a disturbance without an end.
   std::optional<double> time_to_recover_s;
   bool is_never_recovered = false;
   std::vector<double> levels_while_tracking_m;
@@ -57,8 +58,8 @@ constexpr double kAlarmTime_s = 0.5;
 /// Errors above this are misleading.
 constexpr double kMisleadingSigmas = 3.0;
 
-/// Samples must be in order of stamp. A pose is valid until the next one, at most for kAlarmTime_s. An alarm is a pose that is not tracking or not
-/// usable, or more than kAlarmTime_s without a pose.
+/// Samples must be in order of stamp. A pose is valid until the next one, at most for kAlarmTime_s. An alarm is a pose
+/// that is not tracking or not usable, or more than kAlarmTime_s without a pose.
 TrustScore score_trust(std::span<const TrustSample> samples, const std::optional<Disturbance>& disturbance);
 
 }  // namespace panvo::evaluation

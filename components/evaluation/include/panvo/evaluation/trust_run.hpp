@@ -18,9 +18,9 @@ struct TrustRun {
   std::size_t without_sigma = 0;     ///< poses whose covariance is missing or not positive definite
 };
 
-/// Compares each pose of odometry_enhanced.tum with ground_truth.tum, both in `folder`, with aligned starts, and adds the latest states
-/// from states.csv and integrity.csv (optional) at its stamp. Stamps need not increase here, because clock jumps are among the faults.
-/// Throws InputError (file, line, remedy).
+/// Compares each pose of odometry_enhanced.tum with ground_truth.tum, both in `folder`, with aligned starts, and adds
+/// the latest states from states.csv and integrity.csv (optional) at its stamp. Stamps need not increase here, because
+/// clock jumps are among the faults. Throws InputError (file, line, remedy).
 TrustRun read_trust_run(const std::filesystem::path& folder);
 
 }  // namespace panvo::evaluation

@@ -8,17 +8,17 @@
 namespace panvo::panorama_stitcher {
 
 struct GainSettings {
-  double rate = 0.05;  ///< share of the way to the gains that a panorama asks for, each panorama
-  double limit = 2.0;  ///< gains stay from 1 / limit to limit
+  double rate = 0.05;  ///< fraction of the difference to the target (log) gain applied with each panorama
+  double limit = 2.0;  ///< gains are limited to [1 / limit, limit]
 };
 
-/// Gains by which heads of different exposure show the same brightness where they overlap: least squares over all pairs of heads, their
-/// logarithms zero on average. Slow and bounded, so that the panorama does not flicker; the same for the same images.
+/// Estimates gains that equalise the brightness of the heads where they overlap: least squares over all pairs of heads,
+/// with a mean log gain of zero. Smoothed and bounded to avoid flicker; deterministic.
 class GainCompensator {
  public:
   GainCompensator(std::size_t heads, const GainSettings& settings) : settings_(settings), log_gains_(heads, 0.0) {}
 
-  /// What two heads show of the same places.
+  /// Brightness of two heads at common directions.
   struct Overlap {
     std::size_t first = 0, second = 0;
     double first_sum = 0.0, second_sum = 0.0;  ///< grey levels

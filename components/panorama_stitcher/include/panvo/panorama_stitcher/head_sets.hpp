@@ -11,31 +11,33 @@
 
 namespace panvo::panorama_stitcher {
 
-/// Brings together the images that the heads of a rig took at one moment, their stamps within a tolerance. A head that fails to come several
-/// times in a row is missing: the others go on without it until its next image. What finds no set is dropped and counted.
+/// Groups simultaneous images of the heads of a rig, whose stamps differ by at most a tolerance. A head absent from
+/// several consecutive sets is considered missing; sets are completed without it until its next image. Unpaired images
+/// are dropped and counted.
 template <class Item>
 class HeadSets {
  public:
   struct Settings {
-    std::int64_t tolerance_ns = 5'000'000;  ///< to be less than half the time between two images of a head
-    std::size_t depth = 8;                  ///< sets that wait to be complete; the oldest goes
-    int missing_after = 5;                  ///< sets in a row that lacked a head
+    std::int64_t tolerance_ns = 5'000'000;  ///< must be less than half the image period of a head
+    std::size_t depth = 8;                  ///< maximum number of incomplete sets; the oldest is dropped
+    int missing_after = 5;                  ///< consecutive sets without a head until it is missing
   };
   struct Set {
-    std::int64_t stamp_ns = 0;  ///< of its first image, in order of the heads
+    std::int64_t stamp_ns = 0;  ///< of the first image, in head order
     std::vector<std::optional<Item>> items;
   };
 
   HeadSets(std::size_t heads, const Settings& settings) : settings_(settings), heads_(heads) {
     if (heads == 0 || settings.depth == 0 || settings.missing_after < 1 || settings.tolerance_ns < 0)
-      throw std::invalid_argument("sets need a head, a depth, a patience and a tolerance that is not negative");
+      throw std::invalid_argument(
+          "HeadSets needs heads, depth and missing_after of at least 1, and tolerance_ns of at least 0");
   }
 
-  /// The sets that this image completes, oldest first.
+  /// Adds an image. Returns the sets that it completes, oldest first.
   std::vector<Set> push(std::size_t head, std::int64_t stamp_ns, Item item) {
     heads_.at(head).is_missing = false;
     if (last_ns_ && stamp_ns <= *last_ns_ + settings_.tolerance_ns) {
-      ++heads_[head].unpaired;  // its set went without it
+      ++heads_[head].unpaired;  // its set is already complete or dropped
       return {};
     }
     auto& waiting = set_of(stamp_ns)[head];
@@ -44,20 +46,20 @@ class HeadSets {
     auto complete = take_complete();
     while (waiting_.size() > settings_.depth) {
       drop_oldest();
-      auto more = take_complete();  // a head that is missing from now on is not waited for
+      auto more = take_complete();  // sets may be complete without a head that is now missing
       std::move(more.begin(), more.end(), std::back_inserter(complete));
     }
     return complete;
   }
 
   bool is_missing(std::size_t head) const { return heads_.at(head).is_missing; }
-  /// Images of that head that were dropped for want of a set.
+  /// Number of dropped images of the head.
   std::uint64_t unpaired(std::size_t head) const { return heads_.at(head).unpaired; }
 
  private:
   struct Head {
     bool is_missing = false;
-    int absent = 0;  ///< sets in a row
+    int absent = 0;  ///< consecutive sets without it
     std::uint64_t unpaired = 0;
   };
   struct Stamped {
@@ -88,7 +90,7 @@ class HeadSets {
           std::find_if(waiting_.begin(), waiting_.end(), [&](const auto& entry) { return is_complete(entry.second); });
       if (complete == waiting_.end()) return sets;
       const std::int64_t key_ns = complete->first;
-      while (waiting_.begin()->first != key_ns) drop_oldest();  // each head's images come in order
+      while (waiting_.begin()->first != key_ns) drop_oldest();  // since each head's images arrive in order
       sets.push_back(take(std::move(waiting_.begin()->second)));
       last_ns_ = key_ns;
       waiting_.erase(waiting_.begin());
@@ -124,8 +126,8 @@ class HeadSets {
 
   Settings settings_;
   std::vector<Head> heads_;
-  std::map<std::int64_t, Waiting> waiting_;  ///< by the stamp of their first image to come
-  std::optional<std::int64_t> last_ns_;      ///< of the newest set that is no longer waited for
+  std::map<std::int64_t, Waiting> waiting_;  ///< by the stamp of the first image to arrive
+  std::optional<std::int64_t> last_ns_;      ///< key of the newest set taken or dropped
 };
 
 }  // namespace panvo::panorama_stitcher

@@ -15,34 +15,35 @@
 
 namespace panvo::panorama_stitcher {
 
-/// Where a head shows a direction.
+/// Projection of a direction into a head.
 struct HeadView {
-  Eigen::Vector2d pixel;    ///< of the image the head is in; pixel centres at integer coordinates
-  double margin_rad = 0.0;  ///< how far from the border of what the head sees
+  Eigen::Vector2d pixel;    ///< in the head's image; pixel centres at integer coordinates
+  double margin_rad = 0.0;  ///< angle to the border of the head's field of view
 };
 
-/// One camera of a panoramic rig: a lens, where it looks, and where in which image its picture is.
+/// One camera of a panoramic rig: lens, pose, and region in an image.
 struct Head {
   std::string name;
-  std::size_t image = 0;   ///< heads may share one: two fisheyes side by side, six pictures stacked
+  std::size_t image = 0;   ///< index; heads may share an image, e.g. two fisheyes side by side, six views stacked
   cv::Size image_size_px;  ///< of that image
-  cv::Rect region_px;      ///< the head's part of it; of the size that the lens was calibrated for
-  std::variant<vision::CameraModel, vision::Equirectangular> lens;  ///< an equirectangular one sees all round
-  double blind_spot_rad = 0.0;  ///< what a mirror does not show about its axis: the largest angle from it
-  /// Of the head's optical frame in the panorama's (both X right, Y down, Z forward).
+  cv::Rect region_px;      ///< the head's part of the image, of the size the lens was calibrated for
+  std::variant<vision::CameraModel, vision::Equirectangular> lens;  ///< an equirectangular one sees all directions
+  double blind_spot_rad = 0.0;  ///< half angle of the blind spot around a mirror's axis
+  /// Pose of the head's optical frame in the panorama frame (both X right, Y down, Z forward).
   Eigen::Isometry3d panorama_from_head = Eigen::Isometry3d::Identity();
 
-  /// Where it shows the point `radius_m` (0: infinitely far) away in a direction (unit, panorama's frame); nullopt: it does not.
+  /// Projects the point at distance `radius_m` (0: infinity) in a direction (unit vector, panorama frame); nullopt if
+  /// the head does not see it.
   std::optional<HeadView> see(const Eigen::Vector3d& direction_in_panorama, double radius_m) const;
 };
 
-/// Heads whose pictures together make a panorama.
+/// Heads that together make a panorama.
 struct PanoramaRig {
   std::string frame_id = "panorama_optical";
   std::vector<Head> heads;
-  double blend_rad = 0.1;  ///< width of the strip along a seam in which both heads are seen
-  double radius_m = 0.0;   ///< what is so far away joins without a step; 0: infinitely far
-  /// Elevations, rad, downwards positive, all of which must be seen by some head; the rest may stay black.
+  double blend_rad = 0.1;  ///< width of the blended strip along a seam
+  double radius_m = 0.0;   ///< distance at which objects join without a step; 0: infinity
+  /// Elevation range, rad, downwards positive, that the heads must cover; the rest may stay black.
   double highest_rad = 0.0, lowest_rad = 0.0;
 
   std::size_t images() const;  ///< one more than the largest Head::image

@@ -14,28 +14,28 @@
 namespace panvo::panorama_stitcher {
 
 struct StitchSettings {
-  int columns = 1080;  ///< of the panorama; half as many rows
+  int columns = 1080;  ///< width of the panorama, px; the height is half
   bool compensates_gains = false;
   GainSettings gains;
 };
 
-/// Makes one equirectangular panorama (vision::Equirectangular, [Lu2015 Eq. 10]) of the pictures of a rig's heads.
+/// Stitches the images of a rig's heads into an equirectangular panorama (vision::Equirectangular, [Lu2015 Eq. 10]).
 class PanoramaStitcher {
  public:
-  /// Throws std::invalid_argument for a rig without heads or with more than 254, a size that is odd or not positive, and for directions
-  /// that must be seen and that no head sees, saying how many and where.
+  /// Throws std::invalid_argument for a rig without heads or with more than 254, for an odd or non-positive width, and
+  /// for required directions that no head sees, with their share and an example.
   PanoramaStitcher(PanoramaRig rig, const StitchSettings& settings);
 
-  /// Which heads to use from now on; the others see nothing, and what no other head sees is black. Makes a new table if it is another
-  /// choice than before, which takes some tenths of a second.
+  /// Selects the heads to use, one flag for each; directions that only other heads see become black. A changed
+  /// selection recomputes the table, which takes a few tenths of a second.
   void use(const std::vector<bool>& heads);
 
-  /// What keeps an image from being that of the rig, in words that follow its name; nullopt: nothing.
+  /// Describes why an image does not match the rig, as text to follow its name; nullopt if it matches.
   std::optional<std::string> find_fault(std::size_t image, const cv::Mat& pixels) const;
 
-  /// Stitches images of 8 bits and 1 or 3 channels, one for each image of the rig; those of heads that are not used may be empty.
-  /// Writes into `panorama` (allocated when size or type differ). Throws std::invalid_argument where find_fault() finds one, and for
-  /// images of different types.
+  /// Stitches 8-bit images with 1 or 3 channels, one for each image of the rig; images of unused heads may be empty.
+  /// Writes to `panorama` (reallocated if size or type differ). Throws std::invalid_argument if find_fault() reports a
+  /// fault or the images differ in type.
   void stitch(std::span<const cv::Mat> images, cv::Mat& panorama);
 
   const PanoramaRig& rig() const { return rig_; }
@@ -52,7 +52,7 @@ class PanoramaStitcher {
   std::vector<bool> is_used_;
   StitchTable table_;
   GainCompensator gains_;
-  std::vector<int> factors_;  ///< of each head's pixels, 256: as they are
+  std::vector<int> factors_;  ///< brightness factor of each head; 256: unchanged
 };
 
 }  // namespace panvo::panorama_stitcher

@@ -9,7 +9,7 @@
 
 namespace panvo::panorama_stitcher {
 
-/// A rig file that cannot be used: a line for each problem, naming file, line, key and what to do.
+/// An invalid rig file. The message has a line for each problem with file, line, key and remedy.
 class RigFileError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -17,11 +17,11 @@ class RigFileError : public std::runtime_error {
 
 struct RigFile {
   PanoramaRig rig;
-  std::string
-      seen_elevation_at;  ///< "rig.yaml:5: seen_elevation_deg": what to name when a part of it is seen by no head
+  std::string seen_elevation_at;  ///< "rig.yaml:5: seen_elevation_deg": location for errors about uncovered elevations
 };
 
-/// Reads a rig (config/rigs shows some, the README every key). Calibrations are ROS camera_info files beside it. Throws RigFileError.
+/// Reads a rig file (examples in config/rigs, keys in the README) and the ROS camera_info files in its folder. Throws
+/// RigFileError.
 RigFile read_rig_file(const std::filesystem::path& file);
 
 }  // namespace panvo::panorama_stitcher

@@ -5,7 +5,7 @@
 
 #include "panvo/vision/stereo_calibration.hpp"
 
-/// Stereo calibrations as the tools that people use write them. All throw DatasetError, naming file, line and key.
+/// Readers of stereo calibrations from common tools. All throw DatasetError with file, line and key.
 namespace panvo::dataset_player {
 
 struct CalibratedStereo {
@@ -13,25 +13,25 @@ struct CalibratedStereo {
   vision::RectifiedStereo rectified;
 };
 
-/// Image size of cameras whose calibration does not state one; px.
+/// Image size, px, for calibrations that do not state one.
 struct ImageSize {
   int width = 0, height = 0;
 };
 
-/// BoofCV's StereoParameters as XML. Its rightToLeft takes points of the right camera to the left one.
+/// Reads BoofCV's StereoParameters (XML). Its rightToLeft maps points from the right to the left camera frame.
 CalibratedStereo read_boofcv_calibration(const std::filesystem::path& file);
 
-/// A pair of ROS camera_info files as camera_calibration writes them; its R and P are kept as they are.
+/// Reads a pair of ROS camera_info files as written by camera_calibration; keeps their R and P.
 CalibratedStereo read_ros_calibration(const std::filesystem::path& left_file, const std::filesystem::path& right_file);
 
-/// OpenCV stereo calibration: M1 D1 M2 D2 R T (also spelt K1, cameraMatrix1, distCoeffs1 ...) in one file, or
-/// intrinsics and extrinsics in two as OpenCV's stereo_calib sample leaves them. `image_size` is used where the file
-/// has none.
+/// Reads an OpenCV stereo calibration: M1 D1 M2 D2 R T (or K1, cameraMatrix1, distCoeffs1 ...) in one file, or
+/// intrinsics and extrinsics in two files as in OpenCV's stereo_calib sample. `image_size`: default if the file has
+/// none.
 CalibratedStereo read_opencv_calibration(const std::filesystem::path& intrinsics_file,
                                          const std::filesystem::path& extrinsics_file, ImageSize image_size);
 
-/// The pair that `calibration` rectifies to: itself when it is rectified already. Throws DatasetError naming `file`
-/// and every problem of the calibration.
+/// The rectified pair of `calibration`; unchanged if it is already rectified. Throws DatasetError with `file` and every
+/// problem of the calibration.
 vision::RectifiedStereo rectified_geometry(const vision::StereoCalibration& calibration,
                                            const std::filesystem::path& file);
 

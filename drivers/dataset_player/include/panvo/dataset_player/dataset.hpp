@@ -11,10 +11,10 @@
 
 #include "panvo/vision/stereo_calibration.hpp"
 
-/// Recorded data sets, whatever their layout, as one description: which images, when, from which cameras.
+/// Description of recorded data sets of any layout: images, capture times and cameras.
 namespace panvo::dataset_player {
 
-/// The two images of one instant. A data set that states no capture times gets them from its frame rate.
+/// Two simultaneous images. If a data set has no capture times, stamps are derived from the frame rate.
 struct StereoFrame {
   std::int64_t stamp_ns = 0;
   std::filesystem::path left, right;
@@ -25,7 +25,7 @@ struct StereoFrame {
 struct StereoRecording {
   vision::StereoCalibration calibration;  ///< the images as they are stored
   vision::RectifiedStereo
-      rectified;  ///< the pair they are to be rectified to; rotations are identity if they are already
+      rectified;  ///< the target of the rectification; its rotations are identity for rectified images
   Eigen::Isometry3d base_from_left = Eigen::Isometry3d::Identity();
   std::vector<StereoFrame> frames;  ///< stamps increase
 
@@ -54,25 +54,25 @@ struct Dataset {
   std::filesystem::path directory;
   std::optional<StereoRecording> stereo;
   std::optional<PanoramaRecording> panorama;
-  std::vector<GroundTruthPose> ground_truth;  ///< stamps increase; empty where there is none
-  std::vector<std::string> notes;             ///< what people should know: frames left out, a frame rate assumed
+  std::vector<GroundTruthPose> ground_truth;  ///< stamps increase; may be empty
+  std::vector<std::string> notes;             ///< warnings for the user: skipped frames, assumed frame rate
 };
 
-/// A data set that cannot be used. what() names the file, the line where there is one, and what to do.
+/// An unusable data set. what() gives the file, the line if any, and the remedy.
 class DatasetError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
 struct ReadOptions {
-  /// Frame rate of data sets that state no capture times; 0: what is usual for the layout (KITTI 10, folders 30).
+  /// Frame rate of data sets without capture times; 0: default of the layout (KITTI 10, folders 30).
   double rate_hz = 0.0;
-  /// Folder of the calibration of left/right folders; empty: the data set's own.
+  /// Calibration folder for left/right folders; empty: the data set's own.
   std::filesystem::path calibration = {};
 };
 
-/// Reads the description of the data set in `directory`, its kind found by its layout, and checks all of it but the
-/// pixels of images after the first. Throws DatasetError.
+/// Reads the description of the data set in `directory`; detects the layout. Validates everything except the pixels of
+/// images after the first. Throws DatasetError.
 Dataset open_dataset(const std::filesystem::path& directory, const ReadOptions& options = {});
 
 }  // namespace panvo::dataset_player

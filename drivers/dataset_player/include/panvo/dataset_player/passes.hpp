@@ -8,12 +8,12 @@
 
 namespace panvo::dataset_player {
 
-/// A recording played forward, backward, forward, ... with stamps that go on increasing: the vehicle returns on its own path, so that no pass begins
-/// with a jump. The frame at a turning point is played once.
+/// Repeats a recording forward, backward, forward, ... with increasing stamps. The vehicle returns on its own path, so
+/// that no pass begins with a jump. The frame at a turning point is played once.
 class Passes {
  public:
   Passes() = default;
-  /// `events` as timeline() returns them; `count` of passes, at least 1. One pass is `events` unchanged.
+  /// `events`: from timeline(). `count`: number of passes, at least 1; one pass is `events` unchanged.
   Passes(std::vector<TimelineEvent> events, std::uint64_t count);
 
   std::uint64_t size() const noexcept { return size_; }
@@ -22,7 +22,7 @@ class Passes {
 
  private:
   std::vector<TimelineEvent> first_;         // pass 0
-  std::vector<TimelineEvent> back_, forth_;  // every odd, every other even pass; stamps from the pass's begin
+  std::vector<TimelineEvent> back_, forth_;  // odd passes, even passes from 2 on; stamps relative to the pass's start
   std::int64_t begin_ns_ = 0, length_ns_ = 0;
   std::uint64_t size_ = 0;
 };

@@ -8,7 +8,7 @@
 
 namespace panvo::dataset_player {
 
-/// Something of a data set that is to be published, and when.
+/// An item of a data set to be published, and its time.
 struct TimelineEvent {
   enum class Kind { kGroundTruth, kStereo, kPanorama };
   std::int64_t stamp_ns = 0;
@@ -16,7 +16,7 @@ struct TimelineEvent {
   std::size_t index = 0;  ///< into the data set's frames or poses of that kind
 };
 
-/// Which part of a data set is played, and what of it.
+/// Part of a data set to play.
 struct Selection {
   double start_s = 0.0;     ///< after the first image
   double duration_s = 0.0;  ///< 0: to the end
@@ -24,9 +24,9 @@ struct Selection {
   bool panorama = true;
 };
 
-/// The selected images in order of time, and the ground truth from the last pose before the first of them to the
-/// first pose after the last. At equal stamps ground truth comes first, then stereo. Throws DatasetError when no
-/// image is left.
+/// The selected images in order of time, with the ground truth from the last pose at or before the first image to the
+/// first pose at or after the last. At equal stamps ground truth comes first, then stereo. Throws DatasetError if no
+/// images are selected.
 std::vector<TimelineEvent> timeline(const Dataset& dataset, const Selection& selection);
 
 }  // namespace panvo::dataset_player
