@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Runs a command for a long time and judges its memory, file descriptors and threads: `panvo bench endurance`.
+"""Runs a command for a long time and checks its memory, file descriptors and threads: `panvo bench endurance`.
 
-The samples go to samples.csv, a plot of them to samples.png (where gnuplot is installed), the verdict to standard output.
-Exit status: 0 all hold, 1 one does not, 2 the command line is wrong.
+Writes the samples to samples.csv, a plot to samples.png (if gnuplot is installed) and the verdicts to standard output.
+Exit status: 0 all conditions hold, 1 one does not, 2 wrong usage.
 """
 
 from __future__ import annotations
@@ -20,16 +20,16 @@ import subprocess
 import sys
 import time
 
-# The first part of a run fills caches and queues; it is not compared.
+# The first part of a run fills caches and queues and is ignored.
 WARM_UP_SHARE = 0.2
-# The parts that are compared: after the warm-up, and at the end.
+# Length of the two compared parts: after the warm-up, and at the end.
 COMPARED_SHARE = 0.2
 STOP_LIMIT_S = 30.0
 
 
 @dataclasses.dataclass
 class Sample:
-    """What /proc says of a process at one moment."""
+    """State of a process from /proc."""
 
     elapsed_s: float
     memory_mb: float
@@ -39,7 +39,7 @@ class Sample:
 
 
 def sample(pid: int, begin: float) -> Sample | None:
-    """None when the process has ended."""
+    """None if the process has ended."""
     try:
         status = pathlib.Path(f"/proc/{pid}/status").read_text(encoding="ascii", errors="replace")
         stat = pathlib.Path(f"/proc/{pid}/stat").read_text(encoding="ascii", errors="replace")
@@ -60,7 +60,7 @@ def sample(pid: int, begin: float) -> Sample | None:
 
 
 def watch(command: list[str], period_s: float, log: pathlib.Path) -> tuple[int, list[Sample]]:
-    """Runs the command to its end: its exit status and the samples."""
+    """Runs the command to its end. Returns its exit status and the samples."""
     samples: list[Sample] = []
     with open(log, "wb") as output:
         begin = time.monotonic()
@@ -87,7 +87,7 @@ def watch(command: list[str], period_s: float, log: pathlib.Path) -> tuple[int, 
 
 @dataclasses.dataclass
 class Verdict:
-    """One thing that must hold."""
+    """A condition and its result."""
 
     name: str
     holds: bool
@@ -95,7 +95,7 @@ class Verdict:
 
 
 def judge(status: int, samples: list[Sample], tolerance: float) -> list[Verdict]:
-    """Compares the part after the warm-up with the end."""
+    """Compares the part after the warm-up with the last part."""
     verdicts = [Verdict("ends well", status == 0, f"exit status {status}")]
     length_s = samples[-1].elapsed_s if samples else 0.0
     after = [s for s in samples if s.elapsed_s >= WARM_UP_SHARE * length_s]
@@ -114,7 +114,7 @@ def judge(status: int, samples: list[Sample], tolerance: float) -> list[Verdict]
 
 
 def write(samples: list[Sample], out: pathlib.Path) -> None:
-    """samples.csv and, where gnuplot is installed, samples.png."""
+    """Writes samples.csv and, if gnuplot is installed, samples.png."""
     table = out / "samples.csv"
     with open(table, "w", newline="", encoding="ascii") as file:
         writer = csv.writer(file)
@@ -135,13 +135,13 @@ plot '{table}' every ::1 using ($1/60):2 with lines lw 2 title 'memory', \\
 def main(arguments: list[str]) -> int:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0], formatter_class=argparse.ArgumentDefaultsHelpFormatter)
     parser.add_argument("--out", type=pathlib.Path, required=True, help="folder for samples.csv, samples.png and output.log")
-    parser.add_argument("--period", type=float, default=5.0, help="time between two samples, s")
-    parser.add_argument("--tolerance", type=float, default=0.05, help="share by which memory may differ between the begin and the end")
+    parser.add_argument("--period", type=float, default=5.0, help="sampling period, s")
+    parser.add_argument("--tolerance", type=float, default=0.05, help="permitted relative change of memory between the two parts")
     parser.add_argument("command", nargs=argparse.REMAINDER, help="-- COMMAND [ARGUMENT...]")
     options = parser.parse_args(arguments)
     command = options.command[1:] if options.command[:1] == ["--"] else options.command
     if not command:
-        parser.error("no command: write it after --")
+        parser.error("no command given; write it after --")
     options.out.mkdir(parents=True, exist_ok=True)
     status, samples = watch(command, options.period, options.out / "output.log")
     write(samples, options.out)

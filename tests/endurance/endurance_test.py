@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Tests of endurance.py: what it says of a run that is known."""
+"""Tests of endurance.py on synthetic runs."""
 
 import pathlib
 import sys

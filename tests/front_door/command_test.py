@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The front door by itself: what it says, and with which exit status."""
+"""Output and exit status of the `panvo` command."""
 import fcntl
 import os
 import pathlib
@@ -184,7 +184,7 @@ def install(folder):
 
 
 class WhatIsBuilt(unittest.TestCase):
-    """In a checkout whose programs say how they were called; building it would fail."""
+    """Commands in a checkout whose programs print their arguments; a build would fail."""
     LOOKING = (("node", "list"), ("topic", "list"), ("param", "list"), ("service", "list"), ("component", "list"), ("component", "running"),
                ("bag", "info", "b"), ("landmarks", "info", "l"), ("evaluate", "a", "b"), ("devices",), ("run", "demo"))
     PROGRAMS = ("run", "graph", "component", "bag", "landmarks", "evaluate", "devices_v4l2")
@@ -290,10 +290,10 @@ class Interrupted(unittest.TestCase):
 
     def assert_ends_without_orphans(self, number):
         pids = self.folder / "pids"
-        # A shell has what it starts in the background ignore SIGINT: panvo_run does not.
+        # Background processes of a shell ignore SIGINT; panvo_run does not.
         begin, wait = ("sleep 1000 & echo $$ $!", "wait") if number == signal.SIGTERM else ("echo $$", "exec sleep 1000")
         write_program(self.programs / "panvo_run", f"{begin} >'{pids}.new'; mv '{pids}.new' '{pids}'", wait)
-        # As a terminal starts it; a test may have been started with SIGINT ignored, which is inherited.
+        # As from a terminal: an ignored SIGINT is inherited, and the test may have been started with it.
         demo = subprocess.Popen(self.demo(), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
                                 preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL))
         give_up = time.monotonic() + 60

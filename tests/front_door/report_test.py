@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The count at the end of `panvo test`."""
+"""The summary at the end of `panvo test`."""
 import contextlib
 import io
 import pathlib

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Every file by itself: licence line, include guard, no path of somebody's machine, no waiting in a test."""
+"""Rules for single files: licence line, include guard, no machine-specific paths, no sleeping in tests."""
 import re
 
 import workspace
@@ -7,7 +7,7 @@ import workspace
 LICENCE = "SPDX-License-Identifier: Apache-2.0"
 TEXT_SUFFIXES = {".cpp", ".hpp", ".py", ".sh", ".md", ".txt", ".cmake", ".xml", ".yaml", ".yml", ".json", ".meta", ".idl", ".in", ".supp", ""}
 MACHINE_PATH = re.compile(r"(?<![\w.$}/-])/(?:work|home|root|Users)/\w|/tmp/[p]anvo\b|file:/[/]/")
-# Looking again every few milliseconds whether something has happened, with a limit, is no waiting for time.
+# Polling every few milliseconds with a limit is permitted.
 POLLING = r"(?!\(std::chrono::milliseconds\((?:[1-9]|10)\)\))"
 WAITING = re.compile(rf"\bsleep_(?:for|until)\b{POLLING}|\b(?:u|nano)?sleep\s*\(|--repeat until-pass")
 
@@ -28,18 +28,18 @@ def check(root):
         if needs_licence(path) and not any(LICENCE in line for line in lines[:2]):
             complaints.append(f"{path}:1: the file must begin with: {LICENCE}")
         if path.suffix == ".hpp" and "#pragma once" not in lines[:12]:
-            complaints.append(f"{path}:1: a header has #pragma once at its top")
+            complaints.append(f"{path}:1: a header must start with #pragma once")
         if lines and not text.endswith("\n"):
-            complaints.append(f"{path}:{len(lines)}: the last line has no end")
+            complaints.append(f"{path}:{len(lines)}: no newline at end of file")
         is_a_test = path.parts[0] != "launch_scripts" and path.suffix in (".cpp", ".hpp") and ("test" in path.parts or path.parts[0] == "tests")
         code = workspace.without_comments(text).splitlines() if is_a_test else []
         for number, line in enumerate(lines, 1):
             if MACHINE_PATH.search(line):
-                complaints.append(f"{path}:{number}: a path of one machine: {MACHINE_PATH.search(line)[0]}")
+                complaints.append(f"{path}:{number}: machine-specific path: {MACHINE_PATH.search(line)[0]}")
             if line != line.rstrip() and path.suffix != ".md":
-                complaints.append(f"{path}:{number}: blanks at the end of the line")
+                complaints.append(f"{path}:{number}: trailing white space")
             if is_a_test and WAITING.search(code[number - 1]):
-                complaints.append(f"{path}:{number}: a test waits for an event, not for time: {WAITING.search(code[number - 1])[0]}")
+                complaints.append(f"{path}:{number}: a test must wait for an event, not for time: {WAITING.search(code[number - 1])[0]}")
     return complaints
 
 

@@ -16,7 +16,7 @@ class FilesTest(sample.RuleTest):
         self.assert_finds(files, "#pragma once", {"components/vision/src/a.hpp": L + "int a;\n"})
 
     def test_a_path_of_one_machine(self):
-        self.assert_finds(files, "a path of one machine", {"README.md": "see /" + "home/somebody/panvo\n"})
+        self.assert_finds(files, "machine-specific path", {"README.md": "see /" + "home/somebody/panvo\n"})
         self.assertEqual(self.complaints(files, {"README.md": "runs/work/a, ../shared/data and https://example.org/home/a\n"}), [])
 
     def test_a_test_that_sleeps(self):
@@ -29,8 +29,8 @@ class FilesTest(sample.RuleTest):
         self.assertEqual(self.complaints(files, {"components/vision/test/a_test.cpp": L + line}), [])
 
     def test_blanks_at_the_end_and_a_last_line_without_end(self):
-        self.assert_finds(files, "blanks at the end", {"components/vision/src/a.cpp": L + "int a; \n"})
-        self.assert_finds(files, "has no end", {"components/vision/src/a.cpp": L + "int a;"})
+        self.assert_finds(files, "trailing white space", {"components/vision/src/a.cpp": L + "int a; \n"})
+        self.assert_finds(files, "no newline at end", {"components/vision/src/a.cpp": L + "int a;"})
 
     def test_what_a_build_leaves_is_no_source(self):
         self.assertEqual(self.complaints(files, {"build/a.cpp": "int a;", "install/a.cpp": "int a;"}), [])

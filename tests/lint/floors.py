@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Who may know whom: every #include against the floors of the architecture, and threads and clocks where there may be none.
+"""Layers of the architecture (here: floors): checks every #include, and threads and clocks where they are forbidden.
 
-The link graph enforces much of this; headers that need no linking, and what a library drags in, only show here.
+The link graph enforces much of this, but not header-only use and headers of indirect dependencies.
 """
 import dataclasses
 import pathlib
@@ -9,7 +9,7 @@ import re
 
 import workspace
 
-# What an include path belongs to, by its first part.
+# Library of an include path, by its first part.
 LIBRARIES = {
     "Eigen": "eigen", "unsupported": "eigen", "opencv2": "opencv", "ceres": "ceres", "opengv": "opengv",
     "fastdds": "fastdds", "fastrtps": "fastdds", "fastcdr": "fastdds",
@@ -29,7 +29,7 @@ INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
 @dataclasses.dataclass(frozen=True)
 class Floor:
     name: str
-    packages: frozenset  # of ours, beside its own
+    packages: frozenset  # panvo packages, besides its own
     libraries: frozenset  # third-party, and "messages" for generated types
     threads_and_clocks: bool = True
 
@@ -46,15 +46,15 @@ RUNTIME_CONFIG = floor("runtime's config", "interfaces", "messages, yaml, log, j
 CONVERSIONS = floor("conversions", "interfaces vision runtime", "messages, eigen, opencv")
 ALGORITHM = floor("algorithm", "vision landmarks", "eigen, opencv, ceres, opengv", False)
 WRAPPER = floor("component wrapper", "runtime interfaces conversions vision landmarks", "messages, eigen, opencv", False)
-# places, the store that keeps them and their messages
+# places, their store and their messages
 LANDMARKS = floor("landmarks", "vision interfaces conversions runtime", "messages, eigen, opencv, sqlite, json", False)
-# programs of a package, beside its algorithm and its component
+# programs of a package
 TOOL = floor("tool", "vision landmarks", "eigen, opencv, yaml, json, command line")
-# rig files of a stitcher, beside its algorithm
+# readers of rig files
 RIG_FILE = floor("rig file", "vision", "eigen, opencv, yaml", False)
-# images of a bag, beside an algorithm that takes files
+# readers of images from a bag
 BAG_IMAGES = floor("images of a bag", "recorder interfaces conversions", "messages, opencv, command line", False)
-# and of live topics
+# readers of images from live topics
 LIVE_IMAGES = floor("images of topics", "runtime interfaces conversions", "messages, opencv")
 RECORDER = floor("recorder", "runtime interfaces", "messages, fastdds, yaml, sqlite, log, json, command line")
 DRIVER = floor("driver", "runtime interfaces conversions vision", "messages, eigen, opencv, yaml, xml, json, log")
@@ -62,7 +62,7 @@ CAMERA_DRIVER = floor("camera driver", "runtime interfaces conversions vision ca
 SIMULATION = floor("simulation", "runtime interfaces conversions vision", "messages, eigen, opencv, embree, yaml, log, command line")
 EVALUATION = None  # may include anything
 
-# Folders whose files are not an algorithm and its wrapper.
+# Folders that do not consist of an algorithm and its wrapper; the first match counts.
 FLOORS = [
     ("components/vision", VISION),
     ("interfaces", INTERFACES),
@@ -92,7 +92,7 @@ OWN_FLOOR = {folder for folder, _ in FLOORS}
 
 
 def wrapper_sources(root):
-    """What the components' CMakeLists.txt compile into plugins, without suffix, so that a header goes with its source."""
+    """Sources that CMakeLists.txt files of components compile into plugins, without suffix, so that headers match, too."""
     found = set()
     for lists in pathlib.Path(root).glob("components/*/CMakeLists.txt"):
         for sources in re.findall(r"panvo_add_component\([^)]*?SOURCES((?:\s+[\w/.-]+)+?)(?:\s+(?:LINK|NO_INSTALL)\b|\s*\))", lists.read_text(encoding="utf-8")):
@@ -123,7 +123,7 @@ def message_packages(root):
 
 
 def belongs_to(include, messages):
-    """("package", name), ("library", name) or ("standard", header) of an include path; None for one nobody knows."""
+    """("package", name), ("library", name) or ("standard", header) of an include path; None if unknown."""
     first = include.split("/")[0]
     if first == "panvo":
         return "package", include.split("/")[1]
@@ -137,7 +137,7 @@ def belongs_to(include, messages):
 
 
 def is_local(root, path, include):
-    """A file beside the one that includes it, or in one of the folders of its own package."""
+    """Whether the file is in the folder of the including file or in a source folder of its package."""
     depth = 2 if path.parts[0] in ("components", "drivers") else 1
     package = pathlib.Path(root, *path.parts[:depth])
     folders = [pathlib.Path(root) / path.parent, *(package / name for name in ("src", "test", "tools"))]
@@ -153,28 +153,28 @@ def complaint_of_include(root, path, its_floor, quoted, include, messages):
     if quoted and is_local(root, path, include):
         return None
     if quoted and ".." in include.split("/"):
-        return 'climbs out of its package; public headers are "panvo/<package>/..."'
+        return 'leaves its package; public headers are "panvo/<package>/..."'
     kind = belongs_to(include, messages)
     if kind is None:
-        return "belongs to no known library; add it to LIBRARIES in tests/lint/floors.py, on the floors that may use it"
+        return "unknown library; add it to LIBRARIES in tests/lint/floors.py and to the layers that may use it"
     what, name = kind
     if what == "package":
         if name == its_package or is_test(path):
             return None
         if name in NOBODY_INCLUDES:
-            return f"nothing includes {name}"
+            return f"nothing may include {name}"
         if name not in its_floor.packages:
-            return f"the floor '{its_floor.name}' may include of ours only: {', '.join(sorted(its_floor.packages)) or 'nothing'}"
+            return f"layer '{its_floor.name}' may include only these panvo packages: {', '.join(sorted(its_floor.packages)) or 'none'}"
     elif what == "library":
         if name == "command line" and path.name == "main.cpp" or is_test(path):
             return None
         if name not in its_floor.libraries:
-            return f"the floor '{its_floor.name}' does not use {name}; it may use: {', '.join(sorted(its_floor.libraries))}"
+            return f"layer '{its_floor.name}' may not use {name}; it may use: {', '.join(sorted(its_floor.libraries))}"
     elif not its_floor.threads_and_clocks and not is_test(path):
         if name in THREAD_HEADERS:
-            return f"the floor '{its_floor.name}' has no threads of its own: the runtime gives each component one"
+            return f"layer '{its_floor.name}' may not use threads: the runtime gives each component one"
         if name in CLOCK_HEADERS:
-            return f"the floor '{its_floor.name}' reads no clock: time is the stamp of what is being processed"
+            return f"layer '{its_floor.name}' may not read clocks: time is the stamp of the processed message"
     return None
 
 
@@ -195,7 +195,7 @@ def check(root):
                     complaints.append(f"{path}:{number}: {match[2]}: {why}")
             elif not its_floor.threads_and_clocks and not is_test(path) and THREADS_OR_CLOCKS.search(code[number - 1]):
                 found = THREADS_OR_CLOCKS.search(code[number - 1])[0]
-                complaints.append(f"{path}:{number}: {found}: the floor '{its_floor.name}' has no threads of its own and reads no clock")
+                complaints.append(f"{path}:{number}: {found}: layer '{its_floor.name}' may not use threads or read clocks")
     return complaints
 
 

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Names, as far as they can be read off the text: the quick half of the naming rules, on every run of the tests.
+"""Fast text-based check of the naming rules, on every test run.
 
-`panvo lint --naming` has clang-tidy judge all names by .clang-tidy; that takes minutes, this takes a second.
+`panvo lint --naming` checks all names with clang-tidy and .clang-tidy, which takes minutes; this takes a second.
 """
 import re
 
@@ -39,7 +39,7 @@ def check_text(path, text):
             expect(CONSTEXPR.search(line), CONSTANT, "constants are kName")
         if line[:1].isalpha() and "operator" not in line and not re.match(r"(?:TEST|BENCHMARK|MATCHER|PANVO|INSTANTIATE|TYPED)\w*\(", line):
             function = FUNCTION.match(line)
-            # Constructors and destructors carry their type's name.
+            # Constructors and destructors have the name of their type.
             if function and not CONSTANT.fullmatch(function[1]) and not re.search(rf"\b{function[1]}::~?{function[1]}\(|~{function[1]}\(", line):
                 expect(function, SNAKE, "functions are snake_case")
         access = ACCESS.match(line)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Every package is whole: known to plain CMake, to colcon and its variants, and its two descriptions say the same."""
+"""Every package is complete: known to CMake and colcon, with consistent package.xml and CMakeLists.txt."""
 import pathlib
 import re
 import xml.etree.ElementTree as ElementTree
@@ -7,7 +7,7 @@ import xml.etree.ElementTree as ElementTree
 import workspace
 
 METAS = ["colcon.meta", "config/build/asan.meta", "config/build/ubsan.meta", "config/build/tsan.meta"]
-# CMake's name of a library -> the Debian package that brings it.
+# CMake name of a library -> Debian package.
 DEBIAN = {
     "Eigen3": "libeigen3-dev", "OpenCV": "libopencv-dev", "Ceres": "libceres-dev", "opengv": "libopengv-dev", "fastrtps": "libfastrtps-dev",
     "fastcdr": "libfastcdr-dev", "yaml-cpp": "libyaml-cpp-dev", "spdlog": "libspdlog-dev", "CLI11": "libcli11-dev",
@@ -18,7 +18,7 @@ DEBIAN = {
 
 
 def cmake_text(root, folder):
-    """The CMakeLists.txt of a package and of the folders in it, without comments."""
+    """Text of the CMakeLists.txt files of a package, without comments."""
     files = sorted((root / folder).rglob("CMakeLists.txt"))
     return re.sub(r"#[^\n]*", "", "\n".join(file.read_text(encoding="utf-8") for file in files))
 
@@ -29,19 +29,19 @@ def check_package(root, folder, order, version):
     manifest, lists = root / folder / "package.xml", root / folder / "CMakeLists.txt"
     for file in (manifest, lists):
         if not file.is_file():
-            complaints.append(f"{folder}: has no {file.name}: every folder of code is a package of its own")
+            complaints.append(f"{folder}: has no {file.name}: every folder of code is a package")
     if complaints:
         return complaints
     described = ElementTree.parse(manifest).getroot()
     if described.findtext("name") != name:
-        complaints.append(f"{folder}/package.xml: is called {described.findtext('name')}, must be {name}")
+        complaints.append(f"{folder}/package.xml: name is {described.findtext('name')}, must be {name}")
     if described.findtext("export/build_type") != "cmake":
         complaints.append(f"{folder}/package.xml: build_type must be cmake")
     if described.findtext("version") != version:
-        complaints.append(f"{folder}/package.xml: version {described.findtext('version')}, the workspace is {version}")
+        complaints.append(f"{folder}/package.xml: version {described.findtext('version')}, that of the workspace is {version}")
     project = re.search(r"project\(\s*(\S+)\s+VERSION\s+([\d.]+)", lists.read_text(encoding="utf-8"))
     if not project or project.groups() != (name, version):
-        complaints.append(f"{folder}/CMakeLists.txt: must say project({name} VERSION {version} ...)")
+        complaints.append(f"{folder}/CMakeLists.txt: must contain project({name} VERSION {version} ...)")
     if folder.parts[0] in ("components", "drivers") and not (root / folder / "README.md").is_file():
         complaints.append(f"{folder}: has no README.md")
 
@@ -51,27 +51,27 @@ def check_package(root, folder, order, version):
     tags = [(tag.tag, tag.text) for tag in described if tag.tag.endswith("depend") and tag.text]
     depends = {text for _, text in tags}
     for tag, text in sorted({pair for pair in tags if tags.count(pair) > 1}):
-        complaints.append(f"{folder}/package.xml: says <{tag}>{text} twice; colcon then ignores the whole file")
+        complaints.append(f"{folder}/package.xml: has <{tag}>{text} twice; colcon then ignores the whole file")
     found = set(re.findall(r"find_package\(\s*([\w-]+)", cmake_text(root, folder)))
     for used in sorted(found - depends):
         if used.startswith("panvo_"):
-            complaints.append(f"{folder}/package.xml: CMakeLists.txt finds {used}, which no depend tag names; colcon would build in any order")
+            complaints.append(f"{folder}/package.xml: CMakeLists.txt finds {used}, which has no depend tag; colcon would build in any order")
     by_name = {"panvo_" + pathlib.Path(other).name: position for position, other in enumerate(order)}
     for used in sorted(depends):
         if used.startswith("panvo_") and used not in by_name:
-            complaints.append(f"{folder}/package.xml: depends on {used}, which is no package here")
+            complaints.append(f"{folder}/package.xml: depends on {used}, which is not a package of the workspace")
         elif used.startswith("panvo_") and by_name[used] >= by_name[name]:
             complaints.append(f"CMakeLists.txt: package_folders has {folder} before {used}, which it needs")
     return complaints
 
 
 def check_test_folders(root):
-    """Each folder of tests/ with a CMakeLists.txt is named in the one above: a folder forgotten would be tests that never run."""
+    """Each folder in tests/ with a CMakeLists.txt must be listed in tests/CMakeLists.txt; otherwise its tests would never run."""
     top = root / "tests" / "CMakeLists.txt"
     if not top.is_file():
         return []
     named = set(re.findall(r"[\w]+", " ".join(re.findall(r"foreach\(folder IN ITEMS([^)]*)\)", top.read_text(encoding="utf-8")))))
-    return [f"tests/CMakeLists.txt: does not name the folder {lists.parent.name}"
+    return [f"tests/CMakeLists.txt: does not list the folder {lists.parent.name}"
             for lists in sorted((root / "tests").glob("*/CMakeLists.txt")) if lists.parent.name not in named]
 
 
@@ -103,7 +103,7 @@ def check(root):
         complaints += check_package(root, folder, order, version)
     for folder in order:
         if pathlib.Path(folder) not in folders:
-            complaints.append(f"CMakeLists.txt: package_folders names {folder}, which is not there")
+            complaints.append(f"CMakeLists.txt: package_folders lists {folder}, which does not exist")
     for meta in METAS:
         text = (root / meta).read_text(encoding="utf-8") if (root / meta).is_file() else ""
         for folder in folders:

@@ -25,11 +25,11 @@ class PackagesTest(sample.RuleTest):
         self.assert_finds(packages, "components/compass before panvo_vision", {"CMakeLists.txt": top})
 
     def test_a_dependency_that_package_xml_does_not_name(self):
-        self.assert_finds(packages, "finds panvo_vision, which no depend tag names",
+        self.assert_finds(packages, "finds panvo_vision, which has no depend tag",
                           {"components/compass/package.xml": sample.package_xml("panvo_compass")})
 
     def test_a_dependency_named_twice(self):
-        self.assert_finds(packages, "says <depend>panvo_vision twice",
+        self.assert_finds(packages, "has <depend>panvo_vision twice",
                           {"components/compass/package.xml": sample.package_xml("panvo_compass", ["panvo_vision", "panvo_vision"])})
 
     def test_a_package_the_sanitizer_builds_do_not_know(self):
@@ -43,5 +43,5 @@ class PackagesTest(sample.RuleTest):
         self.assert_finds(packages, "components/compass: has no README.md", {"components/compass/README.md": None})
 
     def test_a_folder_of_tests_that_nobody_adds(self):
-        self.assert_finds(packages, "does not name the folder faults", {
+        self.assert_finds(packages, "does not list the folder faults", {
             "tests/CMakeLists.txt": "foreach(folder IN ITEMS lint)\n", "tests/faults/CMakeLists.txt": "", "tests/lint/CMakeLists.txt": ""})

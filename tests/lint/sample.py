@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Small workspaces for the tests of the rules: whole ones, to be broken in one place."""
+"""Small valid workspaces for the tests of the rules; each test breaks one rule."""
 import pathlib
 import tempfile
 import unittest
@@ -20,7 +20,7 @@ def cmake_lists(name, finds=()):
 
 
 def whole_workspace():
-    """path -> text of a workspace that breaks no rule: a ground floor and a component on it."""
+    """path -> text of a workspace that breaks no rule: a library and a component that uses it."""
     meta = "names:\n  panvo_vision: {}\n  panvo_compass: {}\n"
     return {
         "CMakeLists.txt": f"{TOP}set(package_folders\n  config/build\n  components/vision\n  components/compass\n  launch_scripts)\n",
@@ -44,7 +44,7 @@ def whole_workspace():
 
 
 class RuleTest(unittest.TestCase):
-    """complaints(rule, changes): of a whole workspace with some files added, replaced (text) or taken away (None)."""
+    """complaints(rule, changes): for a valid workspace with files added, replaced (text) or removed (None)."""
 
     def complaints(self, rule, changes=None):
         files = {**whole_workspace(), **(changes or {})}

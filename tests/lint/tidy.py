@@ -1,10 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
-"""clang-tidy over many sources at once.
+"""Runs clang-tidy on many sources at once.
 
-Nearly all of clang-tidy's time goes into the headers of Eigen, OpenCV and the standard library, over and over for every source.
-So sources compiled with the same flags are joined into few translation units, as unity builds do. Sources that would clash in one
-unit (the same name at file scope) go into different ones; should a clash remain, the unit is taken apart and tried again in halves.
-What is checked, and how, is .clang-tidy's business alone.
+clang-tidy spends most of its time in the headers of Eigen, OpenCV and the standard library, again for every source. Therefore
+sources with the same flags are joined into few translation units, as in unity builds. Sources that define the same name at file
+scope go into different units; if a clash remains, the unit is split into halves. The checks are configured in .clang-tidy only.
 """
 import argparse
 import concurrent.futures
@@ -16,15 +15,15 @@ import subprocess
 import sys
 import threading
 
-WITHOUT_MEANING = re.compile(r"-fno-gnu-unique|-f(?:PIC|PIE)|-O\d|-g|-W.*|-D\w+_EXPORTS")  # for the check, or for clang at all
+WITHOUT_MEANING = re.compile(r"-fno-gnu-unique|-f(?:PIC|PIE)|-O\d|-g|-W.*|-D\w+_EXPORTS")  # irrelevant for the check, or unknown to clang
 # At column 0: a type, or a function or constant whose name is not qualified (Class::member clashes with nothing).
 FILE_SCOPE_TYPE = re.compile(r"^(?:struct|class|enum(?: class)?|union)\s+(\w+)", re.MULTILINE)
 FILE_SCOPE_NAME = re.compile(r"^(?!namespace|using|template|class|struct|enum|#|//|TEST|return|extern)\w[\w:<>,&* ]*?[ &*](\w+)\s*[(={\[]", re.MULTILINE)
-LARGEST_UNIT = 30  # sources; more would only make the last unit the one that all wait for
+LARGEST_UNIT = 30  # sources; larger units would be distributed badly over the jobs
 
 
 def commands(build):
-    """source -> the flags it is compiled with, for clang: no compiler, no -c, no output."""
+    """source -> its compile flags for clang, without compiler, -c and output."""
     found = {}
     for entry in json.loads((build / "compile_commands.json").read_text(encoding="utf-8")):
         words = shlex.split(entry["command"])
@@ -43,7 +42,7 @@ def commands(build):
 
 
 def file_scope_names(text):
-    """Names that a source defines at column 0, where two sources of one unit could clash."""
+    """Names that a source defines at column 0, which could clash within a unit."""
     return set(FILE_SCOPE_TYPE.findall(text)) | set(FILE_SCOPE_NAME.findall(text))
 
 
@@ -52,7 +51,7 @@ def is_search_path(flag):
 
 
 def units(sources, flags_of):
-    """Sources in lists that can be one translation unit each: the same flags but for the search paths, no name twice."""
+    """Groups sources into translation units with equal flags (except search paths) and without duplicate names."""
     made = []  # [flags, names, sources]
     for source in sources:
         names = file_scope_names(source.read_text(encoding="utf-8"))
@@ -68,7 +67,7 @@ def units(sources, flags_of):
 
 
 def run_unit(sources, flags_of, folder, checks, root):
-    """clang-tidy's complaints on a unit: {(file, line, column, text)}."""
+    """Complaints of clang-tidy on a unit: {(file, line, column, text)}."""
     flags = list(dict.fromkeys(flag for source in sources for flag in flags_of[source]))
     file = sources[0]
     if len(sources) > 1:
@@ -87,7 +86,7 @@ def run_unit(sources, flags_of, folder, checks, root):
 
 
 def sources_of(files, known):
-    """The compiled ones among the files; for a header, the sources that include it by its last two names."""
+    """The compiled files; for a header, a source that includes it (matched by its last two path components)."""
     wanted = set()
     for file in files:
         if file in known:
@@ -102,19 +101,19 @@ def sources_of(files, known):
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--build", type=pathlib.Path, required=True, help="folder with compile_commands.json")
-    parser.add_argument("--naming", action="store_true", help="the naming rules only")
+    parser.add_argument("--naming", action="store_true", help="only the naming rules")
     parser.add_argument("--jobs", type=int, default=1)
     parser.add_argument("files", type=pathlib.Path, nargs="+")
     arguments = parser.parse_args()
 
     root = pathlib.Path(__file__).resolve().parents[2]
     flags_of = commands(arguments.build)
-    # All files are asked for together: headers then come along with the sources that include them.
+    # If all files are given, headers are covered by the sources that include them.
     everything = len(arguments.files) > len(flags_of)
     files = [file.resolve() for file in arguments.files]
     sources = sorted(set(files) & set(flags_of)) if everything else sources_of(files, flags_of)
     if not sources:
-        sys.exit("none of these files is compiled, or included by one that is")
+        sys.exit("none of these files is compiled or included by a compiled file")
     folder = arguments.build / "lint"
     folder.mkdir(exist_ok=True)
     checks = ["--checks=-*,readability-identifier-naming"] if arguments.naming else []

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The files of a workspace as the rules see them, and how a rule reports."""
+"""Lists and reads the files of a workspace for the rules, and reports complaints."""
 import os
 import pathlib
 import re
@@ -10,7 +10,7 @@ CPP_SUFFIXES = {".cpp", ".hpp"}
 
 
 def source_files(root):
-    """Every file of the workspace, as paths relative to its root, sorted: nothing that a build or a run leaves."""
+    """All files of the workspace, sorted, as paths relative to its root; without results of builds and runs."""
     root = pathlib.Path(root)
     found = []
     for folder, folders, names in os.walk(root):
@@ -31,7 +31,7 @@ def read(root, path):
 
 
 def package_folders(root):
-    """Folders that must be packages: each below components/ and drivers/, and those that stand alone."""
+    """Folders that must be packages: all in components/ and drivers/, and some at the root."""
     root = pathlib.Path(root)
     folders = [pathlib.Path(name) for name in ("config/build", "interfaces", "launch_scripts", "tests") if (root / name).is_dir()]
     for group in ("components", "drivers"):
@@ -41,7 +41,7 @@ def package_folders(root):
 
 
 def without_comments(text):
-    """C++ text with comments and the insides of string literals blanked; lines keep their numbers."""
+    """C++ text with comments and contents of string literals replaced by spaces; line numbers are preserved."""
 
     def blank(match):
         token = match.group(0)
@@ -53,11 +53,11 @@ def without_comments(text):
 
 
 def run(check):
-    """As a program: check(root), its complaints on stderr, and the exit status of a test."""
+    """Runs check(root) as a program: complaints on stderr, exit status 1 if there are any."""
     root = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else ".").resolve()
     complaints = check(root)
     for complaint in complaints:
         print(complaint, file=sys.stderr)
     if complaints:
-        print(f"{len(complaints)} places break a rule", file=sys.stderr)
+        print(f"{len(complaints)} violations", file=sys.stderr)
     sys.exit(1 if complaints else 0)

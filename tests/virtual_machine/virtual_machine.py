@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Runs a command of this machine under another kernel: Debian's own, in QEMU, with its simulated cameras and its USB.
+"""Runs a command in QEMU under Debian's kernel, with the kernel's simulated cameras and USB.
 
-    virtual_machine.py check                         says what is missing; prepares the kernel where it is not there yet
-    virtual_machine.py run [--limit S] FOLDER WORDS  the command WORDS, with FOLDER as /exchange; its exit status, 124 when it took too long
+    virtual_machine.py check                         reports missing requirements; prepares the kernel if needed
+    virtual_machine.py run [--limit S] FOLDER WORDS  runs the command WORDS with FOLDER as /exchange; returns its exit status, 124 on timeout
 
-The command sees all files of this machine; what it writes is gone afterwards, but for what it writes into /exchange. The kernel is downloaded with
-apt-get once (70 MB), and what is needed of it (about 70 MB) is kept in the user's cache. Module arguments: --module vivid=n_devs=1;node_types=1; none of it: --module vivid=none
+The command sees all files of this machine. Its changes are discarded, except in /exchange. The kernel is downloaded once with apt-get (70 MB); the
+parts needed (about 70 MB) are kept in the user's cache. Module arguments: --module vivid=n_devs=1;node_types=1; to skip a module: --module vivid=none
 """
 import argparse
 import contextlib
@@ -29,12 +29,12 @@ WANTED = ["./boot/vmlinuz*", "./lib/modules/*/modules.*"] + [f"./lib/modules/*/k
     "drivers/media", "drivers/virtio", "drivers/usb", "drivers/char", "net/9p", "fs", "lib")]
 DOWNLOAD_S, UNPACK_S = 150, 100
 TOO_LONG = 124
-# A camera that sleeps between two openings answers late: USB's autosuspend is a matter of its own.
+# USB autosuspend is not under test; with it, a camera answers late after it was closed.
 ALWAYS = ["module.usbcore=autosuspend=-1"]
 
 
 class CannotBe(Exception):
-    """There can be no virtual machine here; the text says why and what to do."""
+    """A virtual machine cannot run here; the message names cause and remedy."""
 
 
 def find_tool(name):
@@ -43,22 +43,22 @@ def find_tool(name):
 
 def require_tools():
     if platform.machine() != "x86_64":
-        raise CannotBe(f"the virtual machine's kernel is for x86_64, this is {platform.machine()}")
+        raise CannotBe(f"the kernel of the virtual machine needs x86_64, this is {platform.machine()}")
     missing = sorted({package for tool, package in TOOLS.items() if not find_tool(tool)})
     if missing:
         raise CannotBe("apt-get install --no-install-recommends " + " ".join(missing))
 
 
 def output_of(words, **options):
-    """What a tool says; CannotBe with its last line when it fails."""
+    """Output of a tool; raises CannotBe with its last line if it fails."""
     environment = dict(os.environ, PATH=os.environ.get("PATH", "") + ":/usr/sbin:/sbin", LC_ALL="C")
     try:
         done = subprocess.run(words, capture_output=True, text=True, env=environment, check=False, **options)
     except subprocess.TimeoutExpired as error:
-        raise CannotBe(f"{words[0]} took more than {error.timeout:.0f} s: the download is slow? Try again") from error
+        raise CannotBe(f"{words[0]} took more than {error.timeout:.0f} s, maybe because of a slow download; try again") from error
     if done.returncode != 0:
         said = (done.stderr or done.stdout).strip().splitlines()
-        raise CannotBe(f"{shlex.join(words[:3])} fails: {said[-1] if said else 'it does not say why'}")
+        raise CannotBe(f"{shlex.join(words[:3])} failed: {said[-1] if said else 'no message'}")
     return done.stdout
 
 
@@ -66,19 +66,19 @@ def kernel_package():
     for line in output_of(["apt-cache", "depends", "linux-image-amd64"], timeout=60).splitlines():
         if "Depends: linux-image-" in line:
             return line.split()[-1]
-    raise CannotBe("apt knows no linux-image-amd64: run apt-get update; Debian's kernel is needed")
+    raise CannotBe("apt does not find linux-image-amd64 (Debian's kernel): run apt-get update")
 
 
 def unpacked_kernel(compressed):
-    """The ELF file in a vmlinuz: an emulated processor would take seconds to unpack it at each start."""
+    """The ELF file in a vmlinuz, because an emulated processor would need seconds to unpack it at each start."""
     start = compressed.find(b"\xfd7zXZ\0")
     if start < 0:
-        raise CannotBe("Debian's kernel is not packed with xz any more; tests/virtual_machine must learn its new form")
+        raise CannotBe("Debian's kernel is no longer compressed with xz; tests/virtual_machine must be adapted")
     return lzma.LZMADecompressor().decompress(compressed[start:])
 
 
 def module_files(root, version):
-    """The wanted modules and those that they need, each after what it needs."""
+    """The modules and their dependencies in load order."""
     files = []
     for module in MODULES:
         said = output_of(["modprobe", "-d", str(root), "-S", version, "--show-depends", module], timeout=60)
@@ -108,7 +108,7 @@ def prepare_kernel(target):
     with tempfile.TemporaryDirectory(prefix="panvo_kernel_", dir=target.parent) as name:
         work = pathlib.Path(name)
         package = kernel_package()
-        print(f"virtual_machine: downloading {package}, once", file=sys.stderr)
+        print(f"virtual_machine: downloading {package} (only once)", file=sys.stderr)
         output_of(["apt-get", "-qq", "download", package], cwd=work, timeout=DOWNLOAD_S)
         archive = next(work.glob("*.deb"))
         with subprocess.Popen(["dpkg-deb", "--fsys-tarfile", str(archive)], stdout=subprocess.PIPE) as unpacker:
@@ -123,10 +123,10 @@ def prepare_kernel(target):
 
 
 def kernel_folder():
-    """The folder with vmlinux and modules.gz, made where it is not there."""
+    """The folder with vmlinux and modules.gz; created if missing."""
     cache = pathlib.Path(os.environ.get("XDG_CACHE_HOME") or pathlib.Path.home() / ".cache") / "panvo" / "virtual_machine"
     cache.mkdir(parents=True, exist_ok=True)
-    target = cache / ("kernel_" + "_".join(MODULES))  # another list is another kernel
+    target = cache / ("kernel_" + "_".join(MODULES))  # a different module list needs a different folder
     with open(cache / "lock", "w", encoding="utf-8") as lock:
         fcntl.flock(lock, fcntl.LOCK_EX)
         if not target.is_dir():
@@ -135,13 +135,13 @@ def kernel_folder():
 
 
 def accelerator():
-    """The processor's own virtualisation where it is the real one; KVM on top of another machine's may not start a stock kernel."""
+    """KVM on physical machines only, because nested KVM may fail to start a stock kernel; otherwise emulation."""
     is_real = any(pathlib.Path("/sys/module", module).is_dir() for module in ("kvm_intel", "kvm_amd"))
     return ["-accel", "kvm", "-cpu", "host"] if is_real and os.access("/dev/kvm", os.W_OK) else ["-accel", "tcg,thread=multi", "-cpu", "Nehalem"]
 
 
 def initrd_with_init(kernel, folder):
-    """The modules and this folder's init, in two archives one after the other, as the kernel reads them."""
+    """Initrd of two concatenated archives, as the kernel allows: the modules, and the init of this folder."""
     init = pathlib.Path(__file__).with_name("init")
     root = folder / "first"
     root.mkdir()
@@ -157,7 +157,7 @@ def run(arguments):
     kernel = kernel_folder()
     exchange = pathlib.Path(arguments.exchange).resolve()
     (exchange / "command").write_text(f"cd {shlex.quote(os.getcwd())}\nexec {shlex.join(arguments.words)}\n", encoding="utf-8")
-    begun, output, status = (exchange / name for name in ("begun", "output", "status"))  # left by init
+    begun, output, status = (exchange / name for name in ("begun", "output", "status"))  # written by init
     for file in (begun, output, status):
         file.unlink(missing_ok=True)
     modules = " ".join(["module." + module for module in arguments.module] + ALWAYS)
@@ -169,16 +169,16 @@ def run(arguments):
                    "-monitor", "none", "-device", "virtio-rng-pci",
                    "-virtfs", "local,path=/,mount_tag=host,security_model=none,readonly=on,multidevs=remap",
                    "-virtfs", f"local,path={exchange},mount_tag=exchange,security_model=none"]
-        # One start, with all the time there is: 8 s on a quiet machine, over a minute where ten others want its cores.
+        # A start takes 8 s on an idle machine, over a minute on a heavily loaded one.
         with open(console, "wb") as file, contextlib.suppress(subprocess.TimeoutExpired):
             subprocess.run(machine, stdin=subprocess.DEVNULL, stdout=file, stderr=subprocess.STDOUT, timeout=arguments.limit, check=False)
         said = console.read_text(encoding="utf-8", errors="replace")
     result = int(status.read_text(encoding="utf-8")) if status.is_file() else TOO_LONG
     sys.stdout.write(output.read_text(encoding="utf-8", errors="replace") if output.is_file() else "")
     if not status.is_file():
-        print(f"virtual_machine: it did not end within {arguments.limit} s, its command {'had' if begun.exists() else 'had not'} begun")
+        print(f"virtual_machine: not finished within {arguments.limit} s; its command {'had' if begun.exists() else 'had not'} started")
     if result != 0:
-        print(f"virtual_machine: what its kernel said\n{said}")
+        print(f"virtual_machine: kernel log\n{said}")
     return result
 
 
@@ -187,7 +187,7 @@ def main():
     verbs = parser.add_subparsers(dest="verb", required=True)
     verbs.add_parser("check")
     runner = verbs.add_parser("run")
-    runner.add_argument("--limit", type=float, default=90.0, metavar="S", help="seconds; then it is switched off")
+    runner.add_argument("--limit", type=float, default=90.0, metavar="S", help="time limit in seconds; then the machine is stopped")
     runner.add_argument("--module", action="append", default=[], metavar="NAME=ARGUMENTS", help="arguments of a kernel module, separated by ;")
     runner.add_argument("exchange")
     runner.add_argument("words", nargs=argparse.REMAINDER)

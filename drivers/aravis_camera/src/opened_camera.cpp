@@ -111,8 +111,7 @@ void OpenedCamera::open(const std::string& id, const std::optional<Identity>& kn
   is_gige_ = arv_camera_is_gv_device(camera_.get()) != FALSE;
   take_in_identity(id);
   if (known && identity_.serial != known->serial) {
-    throw OpenError(
-        fmt::format("the camera at {} is now {}; waiting for {}", id, identity_.serial, known->serial));
+    throw OpenError(fmt::format("the camera at {} is now {}; waiting for {}", id, identity_.serial, known->serial));
   }
   ArvDevice* device = arv_camera_get_device(camera_.get());
   if (is_gige_ && !arv_gv_device_is_controller(ARV_GV_DEVICE(device))) {

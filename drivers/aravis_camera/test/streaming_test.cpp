@@ -93,8 +93,7 @@ TEST_F(GigECameras, CountTheFramesWhoseNumbersAreLeftOut) {
   ASSERT_TRUE(eventually([&] { return counter("camera", "frames") >= 150; })) << log();
   const auto frames = counter("camera", "frames"), dropped = counter("camera", "dropped");
   EXPECT_NEAR(static_cast<double>(dropped), static_cast<double>(frames) / 10.0, 1.0);
-  EXPECT_LE(missing(seen(kMono)), counter("camera", "incomplete") + 1)
-      << "only numbers are skipped, not pictures";
+  EXPECT_LE(missing(seen(kMono)), counter("camera", "incomplete") + 1) << "only numbers are skipped, not pictures";
   EXPECT_EQ(diagnostics("camera")["level"], "1");
   EXPECT_THAT(diagnostics("camera")["message"], HasSubstr("dropped"));
 }

@@ -17,8 +17,7 @@ Layout layout_of(std::string_view name) {
 
 std::vector<CameraRole> roles_of(Layout layout, std::size_t cameras) {
   const auto expect = [&](std::size_t least, std::size_t most, const char* what) {
-    if (cameras < least || cameras > most)
-      throw std::invalid_argument(fmt::format("{}; {} given", what, cameras));
+    if (cameras < least || cameras > most) throw std::invalid_argument(fmt::format("{}; {} given", what, cameras));
   };
   std::vector<CameraRole> roles;
   switch (layout) {

@@ -7,7 +7,6 @@
 #include "painters.hpp"
 
 namespace panvo::simulation {
-namespace {}  // namespace
 
 cv::Mat3f paint_asphalt(float mm_per_px, const Colour& stone, const Colour& binder, float contrast, Random random) {
   constexpr int kSize = 1024;

@@ -58,8 +58,7 @@ conversions::Result<std::int64_t> control_value(const Control& control, const st
   if (*number < control.least || *number > control.most)
     return Reason{fmt::format("is out of range, {} to {}", control.least, control.most)};
   if (control.step > 1 && (*number - control.least) % control.step != 0)
-    return Reason{
-        fmt::format("is not a valid step: use {} plus a multiple of {}", control.least, control.step)};
+    return Reason{fmt::format("is not a valid step: use {} plus a multiple of {}", control.least, control.step)};
   return *number;
 }
 

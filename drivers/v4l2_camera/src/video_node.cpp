@@ -87,8 +87,7 @@ std::vector<VideoNode> list_nodes(const fs::path& classes, const fs::path& devic
 FoundNode find_node(const std::vector<VideoNode>& nodes, const std::string& selector) {
   const auto cameras = cameras_of(nodes);
   if (selector.empty()) {
-    if (cameras.empty())
-      return {std::nullopt, "no camera is connected: plug one in (`panvo devices` lists cameras)"};
+    if (cameras.empty()) return {std::nullopt, "no camera is connected: plug one in (`panvo devices` lists cameras)"};
     return {cameras.front(), ""};
   }
   if (const auto at_path = that(nodes, [&](const VideoNode& node) { return is_same_file(selector, node.path); });

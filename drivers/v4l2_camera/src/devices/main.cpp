@@ -9,8 +9,7 @@ int main(int argc, char** argv) {
   CLI::App app("Lists the V4L2 cameras: USB cameras, frame grabbers.", "panvo_devices_v4l2");
   bool as_json = false, simulated = false;
   app.add_flag("--json", as_json, "print a JSON list, for scripts");
-  app.add_flag("--simulated", simulated,
-               "no effect: load the kernel module vivid for simulated V4L2 cameras");
+  app.add_flag("--simulated", simulated, "no effect: load the kernel module vivid for simulated V4L2 cameras");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
