@@ -38,7 +38,7 @@ ensure_packages() {
   ((${#missing[@]} == 0)) || install_packages "${missing[@]}"
 }
 
-# install_if_possible GROUP...: like ensure_packages, but only says what is missing where nobody may install it.
+# install_if_possible GROUP...: like ensure_packages, but only reports missing packages if they cannot be installed without a password.
 install_if_possible() {
   local -a missing
   command -v dpkg-query >/dev/null || return 0

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the panoramic compass costs a panorama, one thread (the paper: 100 ms [Lu2015 Table 3]). On panoramas of the recording
-// campus_journey.
+// Time of the panoramic compass per panorama, one thread (paper: 100 ms [Lu2015 Table 3]). Uses panoramas of the
+// recording campus_journey.
 #include <benchmark/benchmark.h>
 
 #include <string>
@@ -20,7 +20,7 @@ void compass(benchmark::State& state, const std::string& method) {
   std::int64_t i = 0;
   int valid = 0;
   for (auto _ : state) {
-    // there and back again, so that no panorama follows upon one of another place
+    // Forward and backward, so that consecutive panoramas are always from neighbouring places.
     const auto count = static_cast<std::int64_t>(recorded_panoramas().size());
     const std::int64_t at = i % (2 * count) < count ? i % (2 * count) : 2 * count - 1 - i % (2 * count);
     const auto change = compass.track(++i, recorded_panoramas()[static_cast<std::size_t>(at)]);

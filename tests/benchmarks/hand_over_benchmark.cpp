@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What it costs to hand an image to another thread: by a container, beside a bare shared_ptr through a queue. Time is from publishing
-// to the reader having it.
+// Latency of passing an image to another thread, from publishing to reception: with a container, and with a plain
+// shared_ptr through a queue.
 #include <benchmark/benchmark.h>
 
 #include <condition_variable>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A library of 10,000 landmarks with all they have: opening its store, finding those around a position, reading the SIFT
-// features of one, and the memory that the library takes; and the same for landmarks that come as messages.
+// A library of 10,000 complete landmarks: time to open its store, to find the landmarks around a position, and to read
+// the SIFT features of one; memory of the library. The same for landmarks from messages.
 #include <benchmark/benchmark.h>
 #include <malloc.h>
 
@@ -19,13 +19,13 @@ using namespace panvo::landmarks;
 
 constexpr std::uint32_t kLandmarks = 10'000;
 constexpr std::size_t kKeypoints = 250;
-constexpr double kExtent_m = 3000.0;  // a landmark every 30 m or so, as on a campus of roads
+constexpr double kExtent_m = 3000.0;  // a landmark about every 30 m, as on campus roads
 
-/// A store of made-up landmarks that all benchmarks read.
+/// A store of synthetic landmarks, shared by all benchmarks.
 const std::filesystem::path& store_file() {
   static const panvo::test::TemporaryFolder folder;
   static const std::filesystem::path file = [] {
-    // Added to one and put into the other at once: a commit each would take minutes.
+    // Landmarks are added to a small store and copied to the large one together: one commit each would take minutes.
     const std::filesystem::path part = folder / "part", whole = folder / "whole";
     {
       LandmarkStore store(part, test::made_up_settings());
@@ -33,7 +33,7 @@ const std::filesystem::path& store_file() {
         auto landmark = test::made_up_landmark(id, kKeypoints, kExtent_m);
         landmark.thumbnail.resize(25'000);
         for (auto* features : {&landmark.description.large, &landmark.description.small}) {
-          features->insert(features->end(), features->begin(), features->end());  // to the 200 that are the default
+          features->insert(features->end(), features->begin(), features->end());  // to 200, the default
         }
         store.add(landmark);
       }
@@ -71,7 +71,7 @@ void open_and_load(benchmark::State& state) {
 }
 BENCHMARK(open_and_load)->Unit(benchmark::kMillisecond);
 
-/// As position_corrector keeps them: keypoints in a file of its own.
+/// As in position_corrector: keypoints are kept in a separate file.
 void take_from_messages(benchmark::State& state) {
   const LandmarkStore store(store_file());
   for (auto _ : state) {

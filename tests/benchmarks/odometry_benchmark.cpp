@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// CPU time a stereo frame of each part of the odometry, on a recording: decoding, tracking, motion, both, for each front end.
+// CPU time per stereo frame of the parts of odometry on a recording: decoding, tracking, motion, both, for each front
+// end.
 #include <benchmark/benchmark.h>
 
 #include <map>
@@ -42,7 +43,7 @@ struct Clip {
   }
 };
 
-/// A clip, or nullptr with the benchmark told so.
+/// Returns the clip, or marks the benchmark as skipped and returns nullptr.
 const Clip* find(benchmark::State& state, const std::string& name) {
   const Clip& clip = Clip::of(name);
   if (!clip.frames.empty()) return &clip;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What places cost, one thread: describing a panorama, comparing it with many, its SIFT features, the pose from them, and the
-// road junction detector. On panoramas of the recording campus_journey.
+// Time of place recognition, one thread: description of a panorama, comparison with many, SIFT features, pose from
+// them, and the road junction detector. Uses panoramas of the recording campus_journey.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -31,7 +31,7 @@ void describe(benchmark::State& state) {
 }
 BENCHMARK(describe)->Unit(benchmark::kMillisecond);
 
-/// The panorama's own description for the search, and the large scale at all headings of so many candidates.
+/// Description of the query panorama, and large-scale comparison at all headings with many candidates.
 void search(benchmark::State& state) {
   if (lack_panoramas(state)) return;
   std::vector<landmarks::PanoramaDescription> known;
@@ -48,7 +48,7 @@ void search(benchmark::State& state) {
 }
 BENCHMARK(search)->Arg(0)->Arg(100)->Arg(10'000)->Unit(benchmark::kMillisecond);
 
-/// Algorithm 1 and what refines it, one landmark.
+/// Algorithm 1 and its refinement, for one landmark.
 void small_scale(benchmark::State& state) {
   if (lack_panoramas(state)) return;
   const auto known = describer().describe(recorded_panoramas()[0]);

@@ -10,7 +10,8 @@
 #include <opencv2/imgcodecs.hpp>
 #include <vector>
 
-/// The first half minute of the recording campus_journey, a corner within; empty where there are no recordings. Sets OpenCV to one thread.
+/// The first half minute of the recording campus_journey, including a corner; empty if the recording is missing. Sets
+/// OpenCV to one thread.
 inline const std::vector<cv::Mat>& recorded_panoramas() {
   static const std::vector<cv::Mat> all = [] {
     constexpr std::size_t kMost = 150;
@@ -29,7 +30,7 @@ inline const std::vector<cv::Mat>& recorded_panoramas() {
   return all;
 }
 
-/// True, and the benchmark is marked as skipped, where there are none.
+/// If there are no panoramas, marks the benchmark as skipped and returns true.
 inline bool lack_panoramas(benchmark::State& state) {
   if (!recorded_panoramas().empty()) return false;
   state.SkipWithError("no panoramas: set PANVO_DATA to a folder that holds campus_journey");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What rectifying a stereo pair and stitching a panorama of 1080 x 540 px cost, one thread. Each image is used once and then others are,
-// as with a camera, so that it comes out of memory and not out of a cache.
+// Time of rectifying a stereo pair and of stitching a panorama of 1080 x 540 px, one thread. Different images are used
+// in turn, as with a camera, so that they are read from memory and not from a cache.
 #include <benchmark/benchmark.h>
 
 #include <opencv2/core/utility.hpp>

@@ -8,7 +8,8 @@
 
 namespace panvo::bench {
 
-/// What is sent: an odometry of 720 B, reliable, or an image, best effort: a gray one of 307 KB, a colour panorama of 1.75 MB.
+/// Message types: odometry of 720 B, reliable; or an image, best effort: grey with 307 KB, or a colour panorama with
+/// 1.75 MB.
 enum class Message : std::uint8_t { kOdometry, kGray, kPanorama };
 
 struct ImageFormat {
@@ -21,12 +22,12 @@ constexpr ImageFormat image_format(Message message) {
   return message == Message::kGray ? ImageFormat{"mono8", 640, 480, 1} : ImageFormat{"rgb8", 1080, 540, 3};
 }
 
-constexpr int kOdometryDepth = 50, kImageDepth = 5;  // of the topics, as panvo has them
+constexpr int kOdometryDepth = 50, kImageDepth = 5;  // as for the topics of panvo
 constexpr const char* kOdometryTopic = "rt/bench/odometry";
 constexpr const char* kImageTopic = "rt/bench/image";
 
-/// One process's side of a topic, by one implementation. The messages carry the time at which they were sent; `arrived` is called with it once
-/// the message is there as a struct, whole.
+/// One side of a topic in one process, by one implementation. Messages carry the time of sending; `arrived` is called
+/// with it once the complete message is available as a struct.
 class Transport {
  public:
   using Arrived = std::function<void(std::int64_t sent_ns)>;
@@ -39,12 +40,12 @@ class Transport {
   virtual void write(std::int64_t sent_ns) = 0;
 };
 
-/// Both ends of a process in a container of panvo's: pointers within the process, else what the bridge makes of it. `shared_image_bytes`: up to
-/// which size processes share images; 0: they send them.
+/// A panvo container: pointers within the process, the DDS bridge between processes. `shared_image_bytes`: largest
+/// image shared between processes; 0: images are sent.
 std::unique_ptr<Transport> make_panvo_transport(Message message, int domain, std::uint32_t shared_image_bytes);
 /// One participant, generated types, shared memory and socket buffers as large as panvo's, listener threads.
 std::unique_ptr<Transport> make_fastdds_transport(Message message, int domain);
-/// The same with another vendor's DDS, which knows no shared memory as built for Debian; nullptr where it is not installed.
+/// The same with Cyclone DDS, without shared memory in Debian's build; nullptr if it is not installed.
 std::unique_ptr<Transport> make_cyclone_transport(Message message, int domain);
 
 }  // namespace panvo::bench

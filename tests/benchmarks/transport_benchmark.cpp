@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// What it costs to get a message to another component: within a process, to another process, to another host (network namespaces, MTU 1400;
-// needs root); by panvo, by panvo with shared images, by bare Fast DDS and by Cyclone DDS. Counters: latency from writing to having the message as
-// a struct (p50, p95, p99), processor time of both sides a message, and the share of messages that got lost. An odometry or a gray image every
-// 10 ms, a panorama every 40 ms.
+// Cost of sending a message to another component: within a process, to another process, to another host (network
+// namespaces, MTU 1400; needs root); with panvo, panvo with shared images, bare Fast DDS and Cyclone DDS. Counters:
+// latency from writing to having the message as a struct (p50, p95, p99), CPU time of both sides per message, and
+// fraction of lost messages. An odometry message or a grey image every 10 ms, a panorama every 40 ms.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>

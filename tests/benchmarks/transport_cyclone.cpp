@@ -18,7 +18,7 @@ dds_entity_t checked(dds_entity_t entity, const char* what) {
   return entity;
 }
 
-/// As large as panvo's: with its own 1 MB no panorama arrives.
+/// As large as in panvo: with the default of 1 MB no panorama arrives.
 constexpr const char* kSocketBuffers =
     "<CycloneDDS><Domain><Internal><SocketReceiveBufferSize min=\"4MB\"/><SocketSendBufferSize min=\"4MB\"/></Internal>"
     "</Domain></CycloneDDS>";

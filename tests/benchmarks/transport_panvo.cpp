@@ -75,7 +75,7 @@ class PanvoTransport final : public Transport {
 
   const interfaces::Topic<Type> topic_;
   Container container_;
-  std::shared_ptr<Type> message_;  // messages are so far apart that the last one has been dealt with
+  std::shared_ptr<Type> message_;  // messages are far enough apart that the previous one has been processed
   std::shared_ptr<UntypedOutput> output_;
   bool has_reader_ = false;
 };

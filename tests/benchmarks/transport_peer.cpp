@@ -36,7 +36,7 @@ Message message_called(const std::string& name) {
   return name == "gray" ? Message::kGray : Message::kPanorama;
 }
 
-/// A clock that all processes of a machine share.
+/// Time of a clock common to all processes of the machine.
 std::int64_t now_ns() {
   timespec time{};
   clock_gettime(CLOCK_MONOTONIC, &time);
@@ -59,7 +59,7 @@ std::unique_ptr<Transport> make_transport(const std::string& stack, Message mess
   return make_cyclone_transport(message, domain);
 }
 
-/// Collects latencies, and the processor time between the first and the last message that count.
+/// Collects latencies, and the CPU time between the first and the last measured message.
 class Log {
  public:
   void arrived(std::int64_t sent_ns) {
@@ -93,22 +93,22 @@ sigset_t end_signal() {
   return end;
 }
 
-/// Until then, or until it is asked to end.
+/// Sleeps until the time; throws on SIGTERM.
 void rest(steady_clock::time_point until) {
   const sigset_t end = end_signal();
   const auto left = std::chrono::nanoseconds(until - steady_clock::now()).count();
   if (left <= 0) return;
   const timespec time{static_cast<time_t>(left / 1'000'000'000), static_cast<long>(left % 1'000'000'000)};
-  if (sigtimedwait(&end, nullptr, &time) == SIGTERM) throw std::runtime_error("was asked to end");
+  if (sigtimedwait(&end, nullptr, &time) == SIGTERM) throw std::runtime_error("terminated");
 }
 
 void write_all(Transport& transport, Message message) {
   const auto give_up = steady_clock::now() + kMatchLimit;
   while (!transport.is_matched()) {
-    if (steady_clock::now() > give_up) throw std::runtime_error("nobody reads");
+    if (steady_clock::now() > give_up) throw std::runtime_error("no reader found");
     rest(steady_clock::now() + milliseconds(10));
   }
-  rest(steady_clock::now() + kSettle);  // the reader must know the writer, too
+  rest(steady_clock::now() + kSettle);  // the reader must also discover the writer
   const auto [count, period] = rhythm(message);
   double start_cpu_us = 0;
   auto next = steady_clock::now();
@@ -125,7 +125,7 @@ void write_all(Transport& transport, Message message) {
 }  // namespace
 
 void Measured::add(const std::string& output) {
-  std::istringstream lines(output);  // with warnings between them
+  std::istringstream lines(output);  // may contain warnings
   for (std::string line; std::getline(lines, line);) {
     std::istringstream words(line);
     std::string what;
@@ -140,7 +140,7 @@ void Measured::add(const std::string& output) {
 int run_peer(const std::vector<std::string>& words) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   const sigset_t end = end_signal();
-  pthread_sigmask(SIG_BLOCK, &end, nullptr);  // before any thread is there
+  pthread_sigmask(SIG_BLOCK, &end, nullptr);  // before threads are created
   const std::string &role = words.at(0), &stack = words.at(1);
   const Message message = message_called(words.at(2));
   const auto transport = make_transport(stack, message, std::stoi(words.at(3)));
@@ -154,7 +154,7 @@ int run_peer(const std::vector<std::string>& words) {
   } else {
     write_all(*transport, message);
   }
-  log.say(role == "read");  // of both, the writer's processor time is the process's
+  log.say(role == "read");  // for role `both`, the writer reports the CPU time of the process
   return 0;
 }
 

@@ -7,7 +7,7 @@
 
 namespace panvo::bench {
 
-/// What one process does in a measurement; `write` and `read` are two processes', `both` is one's.
+/// Role of a process in a measurement: `write` and `read` for two processes, `both` for one.
 struct PeerTask {
   std::string role, stack, message;
   int domain = 0;
@@ -15,7 +15,7 @@ struct PeerTask {
   std::vector<std::string> words() const { return {"--peer", role, stack, message, std::to_string(domain)}; }
 };
 
-/// What the peers of a measurement say, read from their output.
+/// Results of a measurement, parsed from the output of the peers.
 struct Measured {
   std::vector<double> latencies_us;
   double cpu_us = 0;
@@ -24,7 +24,8 @@ struct Measured {
   void add(const std::string& output);
 };
 
-/// Does the task: a writer ends when all is written and has had time to arrive, a reader at SIGTERM. Says what it has measured.
+/// Runs the task and prints the measurements. A writer ends after all messages have been written and had time to
+/// arrive, a reader at SIGTERM.
 int run_peer(const std::vector<std::string>& words);
 
 }  // namespace panvo::bench

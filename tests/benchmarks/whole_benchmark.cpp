@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The whole, as a user runs it: `panvo run stereo` on a recording. CPU of the process, everything included: start, decoding, rectifier, odometry, files.
+// `panvo run stereo` on a recording: CPU time of the whole process, including start, decoding, rectifier, odometry and
+// files.
 #include <benchmark/benchmark.h>
 
 #include <nlohmann/json.hpp>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// From cameras to odometry: two simulated GigE cameras show a rendered walk; what comes of it is compared with the same pictures played from files.
+// Two simulated GigE cameras show a rendered walk; the odometry is compared with that from the same images in files.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 namespace panvo::test {
 namespace {
 
-/// Runs a command line in a network of its own with 127.0.0.1 and 127.0.0.2.
+/// Command that runs `command` in a separate network namespace with 127.0.0.1 and 127.0.0.2.
 std::vector<std::string> in_own_network(const std::string& command) {
   return {find_program("unshare"),
           "--user",
@@ -25,9 +25,9 @@ std::vector<std::string> in_own_network(const std::string& command) {
 }
 
 TEST(CamerasToOdometry, GiveThePathThatTheSamePicturesGiveFromFiles) {
-  if (find_program("unshare").empty() || find_program("ip").empty()) GTEST_SKIP() << "there is no unshare or no ip";
+  if (find_program("unshare").empty() || find_program("ip").empty()) GTEST_SKIP() << "unshare or ip is not installed";
   if (const Finished tried = run(in_own_network("true")); tried.status != 0)
-    GTEST_SKIP() << "no network namespace can be made here: " << tried.output;
+    GTEST_SKIP() << "cannot create a network namespace: " << tried.output;
 
   const TemporaryFolder folder;
   const std::string walk = folder / "walk", direct = folder / "direct", live = folder / "live";
@@ -41,8 +41,8 @@ TEST(CamerasToOdometry, GiveThePathThatTheSamePicturesGiveFromFiles) {
   ASSERT_EQ(expected.size(), 30u);
   ASSERT_GT(expected.back().x, 2.5) << "29 steps of 0.1 m";
 
-  // Simulated cameras take a picture when the machine gives them time to: within half a period it is of one moment.
-  // The simulator ends with the shell, the shell when panvo has ended.
+  // Simulated cameras take images whenever they are scheduled, so images within half a period form a pair.
+  // The shell ends after panvo, and the simulator with the shell.
   const std::string simulator = std::string(GIGE_SIMULATOR) + " --pictures " + walk +
                                 " --pictures-hz 5 GVL@127.0.0.1 GVR@127.0.0.2 >/dev/null & simulator=$!; ";
   const std::string panvo =
@@ -65,7 +65,7 @@ TEST(CamerasToOdometry, GiveThePathThatTheSamePicturesGiveFromFiles) {
   const double largest_m = largest_distance(seen, expected);
   const auto came =
       std::count_if(expected.begin(), expected.end(), [&](const auto& point) { return distance(point, seen) < 0.02; });
-  std::printf("from cameras %zu poses, from files %zu, of which %td came; the paths differ by at most %.1f mm\n",
+  std::printf("%zu poses from cameras, %zu from files, %td of them matched; largest difference of the paths %.1f mm\n",
               seen.size(), expected.size(), came, 1e3 * largest_m);
   EXPECT_LT(largest_m, 0.02);
   EXPECT_EQ(came, std::ssize(expected)) << cameras.output();

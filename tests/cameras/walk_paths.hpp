@@ -12,7 +12,7 @@
 
 namespace panvo::test {
 
-/// A point of a path, m.
+/// Position on a path, m.
 struct Position {
   double x, y, z;
 };
@@ -31,21 +31,22 @@ inline std::vector<Position> read_tum(const std::string& file) {
 
 inline double distance(const Position& a, const Position& b) { return std::hypot(a.x - b.x, a.y - b.y, a.z - b.z); }
 
-/// How far a point is from the nearest of a path, m.
+/// Distance of a point from the nearest point of a path, m.
 inline double distance(const Position& point, const std::vector<Position>& path) {
   double nearest_m = 1e9;
   for (const auto& other : path) nearest_m = std::min(nearest_m, distance(point, other));
   return nearest_m;
 }
 
-/// How far the point of `points` that is furthest from all of a path is from the nearest of it, m.
+/// Largest distance of a point of `points` from a path, m.
 inline double largest_distance(const std::vector<Position>& points, const std::vector<Position>& path) {
   double largest_m = 0.0;
   for (const auto& point : points) largest_m = std::max(largest_m, distance(point, path));
   return largest_m;
 }
 
-/// The rendered walk's camera as a camera_info file; `tx` is the last number of the projection's first row.
+/// Writes the camera of the rendered walk as a camera_info file; `tx` is the last value in the first row of the
+/// projection matrix.
 inline void write_calibration(const std::string& file, double tx) {
   std::ofstream(file) << "image_width: 320\nimage_height: 240\ncamera_name: rendered\n"
                          "camera_matrix: {rows: 3, cols: 3, data: [240, 0, 160, 0, 240, 120, 0, 0, 1]}\n"

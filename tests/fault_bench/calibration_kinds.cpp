@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A rig that is not what its calibration says.
+// Faults of the calibration.
 #include <cmath>
 #include <numbers>
 #include <opencv2/imgproc.hpp>
@@ -12,13 +12,14 @@ namespace {
 
 using sensor_msgs::msg::CameraInfo;
 
-/// Both stereo cameras are said to look elsewhere than they do.
+/// Wrong extrinsics of the stereo rig: a yaw error of 3 degrees.
 Fault rig_turned(Draw& draw, const FaultWindow&) {
   const double half_angle = 0.5 * draw.sign() * 3.0 * std::numbers::pi / 180.0;
   return {.static_transforms = altered<tf2_msgs::msg::TFMessage>([half_angle](auto& message, const Moment&) {
             for (auto& transform : message.transforms()) {
               if (transform.child_frame_id().find("stereo") == std::string::npos) continue;
-              // Turned about the vehicle's vertical axis: (cos, 0, 0, sin) times what it was, at its place.
+              // Rotation about the vehicle's vertical axis: (cos, 0, 0, sin) times the rotation; the position is
+              // unchanged.
               auto& q = transform.transform().rotation();
               const double c = std::cos(half_angle), s = std::sin(half_angle);
               const double w = q.w(), x = q.x(), y = q.y(), z = q.z();
@@ -30,13 +31,13 @@ Fault rig_turned(Draw& draw, const FaultWindow&) {
           })};
 }
 
-/// One eye gets a knock and looks elsewhere from then on, about its vertical axis.
+/// One camera is rotated about its vertical axis from some moment on.
 Fault eye_turned(Draw& draw, const FaultWindow&) {
   const double angle = draw.sign() * 3.0 * std::numbers::pi / 180.0;
   const int turned_eye = draw.chance(0.5) ? 0 : 1;
   return {.pairs = both_eyes([angle, turned_eye](cv::Mat& image, const Moment&, int eye) {
             if (eye != turned_eye) return;
-            // Of a lens of 70 degrees, which is near enough.
+            // Approximation: a field of view of 70 degrees.
             const double f = 0.714 * image.cols, cx = 0.5 * image.cols, cy = 0.5 * image.rows;
             const cv::Matx33d k(f, 0, cx, 0, f, cy, 0, 0, 1);
             const cv::Matx33d turn(std::cos(angle), 0, std::sin(angle), 0, 1, 0, -std::sin(angle), 0, std::cos(angle));
@@ -44,7 +45,7 @@ Fault eye_turned(Draw& draw, const FaultWindow&) {
           })};
 }
 
-/// One eye's rows are 1.5 px lower: the pair is no longer rectified.
+/// One image is shifted vertically by 1.5 px: the pair is no longer rectified.
 Fault rows_off(Draw& draw, const FaultWindow&) {
   const double by_px = draw.sign() * 1.5;
   return {.pairs = both_eyes([by_px](cv::Mat& image, const Moment&, int eye) {
@@ -54,7 +55,7 @@ Fault rows_off(Draw& draw, const FaultWindow&) {
           })};
 }
 
-/// The baseline stands in the projection of the right eye: Tx = -f b.
+/// The baseline is in the projection matrix of the right camera: Tx = -f b.
 Fault baseline_wrong(Draw& draw, const FaultWindow&) {
   const double factor = 1.0 + draw.sign() * 0.02;
   return {.right_infos = altered<CameraInfo>([factor](CameraInfo& info, const Moment&) { info.p()[3] *= factor; })};
@@ -73,11 +74,11 @@ Fault focal_wrong(Draw& draw, const FaultWindow&) {
 
 std::vector<FaultKind> calibration_kinds() {
   return {
-      {"rig_turned", "the stereo rig is mounted 3 degrees off", Lasting::kWhole, rig_turned},
-      {"eye_turned", "one eye is turned by 3 degrees", Lasting::kOnward, eye_turned},
-      {"rows_off", "the right eye is 1.5 px too low or high", Lasting::kOnward, rows_off},
-      {"baseline_wrong", "the baseline is 2 % off", Lasting::kWhole, baseline_wrong},
-      {"focal_wrong", "the focal length is 1 % off", Lasting::kWhole, focal_wrong},
+      {"rig_turned", "yaw error of 3 degrees in the extrinsics of the stereo rig", Lasting::kWhole, rig_turned},
+      {"eye_turned", "one camera is rotated by 3 degrees", Lasting::kOnward, eye_turned},
+      {"rows_off", "the right image is shifted vertically by 1.5 px", Lasting::kOnward, rows_off},
+      {"baseline_wrong", "baseline error of 2 %", Lasting::kWhole, baseline_wrong},
+      {"focal_wrong", "focal length error of 1 %", Lasting::kWhole, focal_wrong},
   };
 }
 

@@ -8,7 +8,8 @@
 
 namespace panvo::test {
 
-/// Random numbers that are the same for the same seed and name with every compiler: the distributions of the standard library are not.
+/// Random numbers that depend only on seed and name, not on the compiler, unlike the distributions of the standard
+/// library.
 class Draw {
  public:
   Draw(std::uint64_t seed, std::string_view name) : engine_(mix(seed, name)) {}
@@ -21,7 +22,7 @@ class Draw {
   double sign() { return chance(0.5) ? 1.0 : -1.0; }
   std::uint64_t seed() { return engine_(); }
 
-  /// For noise over a whole image.
+  /// Generator for image noise.
   cv::RNG image_noise() { return cv::RNG(engine_()); }
 
  private:

@@ -18,7 +18,7 @@
 
 namespace panvo::test {
 
-/// The two images of one instant; a fault may give them stamps of their own.
+/// A stereo pair; a fault may change the stamps separately.
 struct StereoPair {
   std::int64_t left_ns = 0, right_ns = 0;
   cv::Mat left, right;
@@ -29,7 +29,7 @@ struct Panorama {
   cv::Mat pixels;
 };
 
-/// When a fault acts, s after the first message.
+/// Time interval of a fault, s after the first message.
 struct FaultWindow {
   double from_s = 0.0;
   double to_s = 0.0;
@@ -37,19 +37,19 @@ struct FaultWindow {
   bool contains(double t_s) const { return t_s >= from_s && t_s < to_s; }
 };
 
-/// When a message passes, as the undisturbed recording has it.
+/// Time of a message in the undisturbed recording.
 struct Moment {
   double t_s = 0.0;
   bool is_on = false;  ///< within the fault's window
 };
 
-/// What becomes of a message: nothing, itself, another one, several. Called for every message in order, also outside the window: a fault that delays
-/// has to remember.
+/// Maps a message to the messages that replace it: none, itself, another one, or several. Called for every message in
+/// order, also outside the window, because a fault may have to store messages.
 template <class Message>
 using Passage = std::function<std::vector<Message>(const Message& message, const Moment& moment)>;
 
-/// What a fault does to each stream between the recording and the system. A stream without a function passes untouched. Images must not be
-/// written into: they are shared.
+/// The function of a fault for each stream between recording and system. A stream without a function passes unchanged.
+/// Input images are shared and must not be modified.
 struct Fault {
   Passage<StereoPair> pairs{};
   Passage<Panorama> panoramas{};
@@ -65,12 +65,12 @@ struct Fault {
 
 /// How long a fault lasts.
 enum class Lasting {
-  kWhile,   ///< some seconds in the first half, so that it is seen whether and when the system recovers
-  kOnward,  ///< from some moment in the first half to the end
+  kWhile,   ///< some seconds in the first half, to observe the recovery
+  kOnward,  ///< from a time in the first half to the end
   kWhole,   ///< from the first message to the last
 };
 
-/// A kind of fault. What it does in detail is drawn from the seed.
+/// A kind of fault. Details depend on the seed.
 struct FaultKind {
   std::string_view name;
   std::string_view description;
@@ -78,13 +78,13 @@ struct FaultKind {
   Fault (*make)(Draw& draw, const FaultWindow& window) = nullptr;
 };
 
-/// Every kind, in the order of the table; the first is "none".
+/// All kinds in the order of the table; the first is "none".
 const std::vector<FaultKind>& fault_kinds();
 
-/// Throws std::invalid_argument that names those there are.
+/// Throws std::invalid_argument, listing the kinds, for an unknown name.
 const FaultKind& fault_kind(std::string_view name);
 
-/// When the fault of this kind and seed acts in a recording of `span_s`.
+/// Time interval of the fault in a recording of duration `span_s`.
 FaultWindow fault_window(const FaultKind& kind, std::uint64_t seed, double span_s);
 
 Fault make_fault(const FaultKind& kind, std::uint64_t seed, double span_s);

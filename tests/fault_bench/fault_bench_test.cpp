@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The whole bench on a recording of three seconds that is made on the spot.
+// The whole bench on a rendered recording of three seconds.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

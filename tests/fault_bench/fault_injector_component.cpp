@@ -24,14 +24,14 @@ struct InjectorParameters {
   template <class Field>
   static void describe(Field&& field) {
     using P = InjectorParameters;
-    field(&P::kind, "kind", "", "of the fault");
-    field(&P::seed, "seed", "1", "when the fault acts, and how, is drawn from it", 0, 1'000'000'000);
-    field(&P::span_s, "span_s", "s", "how long the recording is", 0.0, 1e6);
+    field(&P::kind, "kind", "", "kind of fault");
+    field(&P::seed, "seed", "1", "random seed of time and details of the fault", 0, 1'000'000'000);
+    field(&P::span_s, "span_s", "s", "duration of the recording", 0.0, 1e6);
   }
 };
 
-/// Stands between a recording and the system, and between the system's components: passes each stream from clean/... to its own name, disturbed as
-/// the fault of this kind and seed wants it.
+/// Runs between a recording and the system, and between components: forwards each stream from clean/... to its usual
+/// name, disturbed by the fault of this kind and seed.
 class FaultInjectorComponent final : public runtime::Component {
  public:
   explicit FaultInjectorComponent(runtime::Context& context)
@@ -77,7 +77,8 @@ class FaultInjectorComponent final : public runtime::Component {
     pass("clean/sightings", topics::kCorrection, fault_.corrections, false);
   }
 
-  /// What comes from the recording (`tells_time`) moves the injector's clock; what the system made of it passes at that time, whatever its stamp.
+  /// Messages from the recording (`tells_time`) advance the injector's clock. Messages from the system pass at that
+  /// time, whatever their stamps.
   template <class Message>
   void pass(const char* name, const Topic<Message>& topic, const Passage<Message>& passage, bool tells_time) {
     const auto output = std::make_shared<runtime::Output<Message>>(context_.output(topic));
@@ -118,12 +119,12 @@ class FaultInjectorComponent final : public runtime::Component {
     }
   }
 
-  /// A fault may hold images longer than their message lives.
+  /// Copies the images, because a fault may keep them longer than the message lives.
   static StereoPair keep(const StereoPair& pair) {
     return {pair.left_ns, pair.right_ns, pair.left.clone(), pair.right.clone()};
   }
 
-  /// Frame and encoding as those of `like`. Nothing for an image that is lost.
+  /// Publishes with frame and encoding of `like`; nothing if the image is empty, that is lost.
   static void publish(runtime::Output<Image>& output, const cv::Mat& pixels, std::int64_t stamp_ns, const Image& like) {
     if (pixels.empty()) return;
     const auto image =

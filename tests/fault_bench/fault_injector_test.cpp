@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The injector between made-up topics: what passes and under what name.
+// The injector on synthetic topics: which messages pass, and under which name.
 #include <gtest/gtest.h>
 
 #include "fault.hpp"
@@ -38,7 +38,7 @@ struct FaultInjector : testing::Test {
     }
   }
 
-  /// The middle of the time in which the fault acts.
+  /// Middle of the fault's time interval.
   static double middle_s(const char* kind) {
     const auto window = fault_window(fault_kind(kind), 1, kSpan_s);
     return 0.5 * (window.from_s + window.to_s);
@@ -87,7 +87,7 @@ TEST_F(FaultInjector, StopsAComponentByTheTimeOfTheRecordingWhateverItsMessagesS
 TEST_F(FaultInjector, RefusesAKindThatThereIsNotAndNamesThoseThereAre) {
   try {
     load("melted");
-    FAIL() << "there is no such kind";
+    FAIL() << "an unknown kind was accepted";
   } catch (const runtime::ConfigError& error) {
     EXPECT_NE(std::string(error.what()).find("both_frozen"), std::string::npos) << error.what();
   }

@@ -11,7 +11,7 @@ namespace {
 Fault nothing(Draw&, const FaultWindow&) { return {}; }
 
 std::vector<FaultKind> all_kinds() {
-  std::vector<FaultKind> kinds{{"none", "the recording as it is", Lasting::kWhole, nothing}};
+  std::vector<FaultKind> kinds{{"none", "undisturbed recording", Lasting::kWhole, nothing}};
   for (const auto& part : {image_kinds(), optics_kinds(), timing_kinds(), panorama_kinds(), calibration_kinds(),
                            message_kinds(), mixed_kinds()}) {
     kinds.insert(kinds.end(), part.begin(), part.end());
@@ -40,7 +40,7 @@ const FaultKind& fault_kind(std::string_view name) {
   if (found != kinds.end()) return *found;
   std::string there;
   for (const auto& kind : kinds) there += (there.empty() ? "" : ", ") + std::string(kind.name);
-  throw std::invalid_argument("there is no fault '" + std::string(name) + "'; there are: " + there);
+  throw std::invalid_argument("unknown fault '" + std::string(name) + "'; available: " + there);
 }
 
 FaultWindow fault_window(const FaultKind& kind, std::uint64_t seed, double span_s) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What each kind of fault does to small images and messages.
+// Effect of each kind of fault on small images and messages.
 #include "fault.hpp"
 
 #include <gmock/gmock.h>
@@ -19,7 +19,7 @@ constexpr double kSpan_s = 40.0;
 constexpr std::uint64_t kSeed = 3;
 constexpr std::int64_t kPeriod_ns = 40'000'000;
 
-/// A picture that is another one for each number and eye.
+/// A random image, different for each number and camera.
 cv::Mat picture(int number, int eye = 0) {
   cv::RNG rng(static_cast<std::uint64_t>(100 * number + eye + 1));
   cv::Mat image(48, 64, CV_8UC3);
@@ -41,7 +41,7 @@ double mean(const cv::Mat& image) {
   return (channels[0] + channels[1] + channels[2]) / 3.0;
 }
 
-/// A fault, and what comes of pairs 0, 1, ... of which those from 10 to 19 are within its window.
+/// Applies a fault to pairs 0, 1, ..., of which 10 to 19 are within its window.
 struct Played {
   explicit Played(const std::string& kind, std::uint64_t seed = kSeed)
       : window(fault_window(fault_kind(kind), seed, kSpan_s)), fault(make_fault(fault_kind(kind), seed, kSpan_s)) {}
@@ -133,7 +133,7 @@ TEST(FaultKinds, NeverWriteIntoTheImagesTheyAreGiven) {
 TEST(FaultKinds, ThatIsNotThereIsNamedWithThoseThatAre) {
   try {
     fault_kind("melted");
-    FAIL() << "there is no such kind";
+    FAIL() << "an unknown kind was accepted";
   } catch (const std::invalid_argument& error) {
     EXPECT_THAT(error.what(), testing::AllOf(testing::HasSubstr("melted"), testing::HasSubstr("both_frozen")));
   }
@@ -178,7 +178,8 @@ TEST(TheMover, IsSeenByBothEyesAtOneDistance) {
   Played played("mover");
   const auto passed = played.fault.pairs(pair_of(15), {0.5 * (played.window.from_s + played.window.to_s), true}).at(0);
   EXPECT_FALSE(is_same(passed.left, picture(15, 0)));
-  // The left eye's view moved to the left by some disparity is the right eye's: nearly nothing differs for the best, much for none.
+  // The right view is the left view shifted left by the disparity: the difference is small for the best disparity,
+  // large for none.
   const cv::Rect middle(20, 8, 40, 32);
   double best = 1e9, at_none = 0.0;
   for (int disparity = 0; disparity <= 6; ++disparity) {
@@ -270,7 +271,7 @@ TEST(SpoiltPanoramas, AreFlippedTurnedCoveredOrLate) {
                 picture(15).colRange(0, turned.cols - columns), moved);
     is_found = is_found || is_same(turned, moved);
   }
-  EXPECT_TRUE(is_found) << "not the same columns moved round";
+  EXPECT_TRUE(is_found) << "not the same columns, shifted cyclically";
   EXPECT_EQ(cv::countNonZero(Played("panorama_covered").panorama(15).reshape(1) == 20), 3 * 48 * 32);
   Played late("panorama_clock");
   const auto stamp_ns = late.fault.panoramas({0, picture(1)}, late.moment(15)).at(0).stamp_ns;
@@ -302,7 +303,7 @@ TEST(WrongCalibrations, AreOffByWhatTheySay) {
 TEST(MixedFaults, ActForThreeSecondsOfEachTwenty) {
   Played played("mixed");
   int disturbed = 0;
-  for (int i = 0; i < 20 * 200; ++i) {  // 10 a second
+  for (int i = 0; i < 20 * 200; ++i) {  // 10 per second
     const double t_s = 0.1 * i, in_period_s = std::fmod(t_s, 20.0);
     const auto passed = played.fault.pairs(pair_of(i), {t_s, false});
     const bool is_as_it_was = passed.size() == 1 && passed[0].left_ns == i * kPeriod_ns &&
@@ -329,7 +330,7 @@ TEST(WrongMessages, AreStoppedFarAwayOrNoNumbers) {
   Played far("odometry_absurd");
   EXPECT_GE(far.fault.odometry(odometry, far.moment(10)).at(0).pose().pose().position().x(), 5e3);
   EXPECT_EQ(far.fault.odometry(odometry, far.moment(11)).at(0).pose().pose().position().x(), 0.0)
-      << "only now and then";
+      << "only some messages are invalid";
   Played landmark("landmark_wrong");
   const auto moved = landmark.fault.landmarks({}, landmark.moment(15)).at(0).pose().pose().position();
   EXPECT_GT(std::hypot(moved.x(), moved.y()), 2.8);

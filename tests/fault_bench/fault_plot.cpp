@@ -8,7 +8,7 @@
 namespace panvo::test {
 namespace {
 
-/// Rows from above as in the table: position, name, value.
+/// Data block with position, name and value; rows in the order of the table, from the top.
 template <class Value>
 std::string block(const std::string& name, const FaultTable& table, Value value) {
   std::string text = "$" + name + " << EOD\n";
@@ -28,7 +28,7 @@ struct Panel {
   bool is_logarithmic = false;
 };
 
-/// Bars beside each other, with a line at the goal; the first panel has the names.
+/// Horizontal bars with a line at the goal; the first panel has the names.
 std::string commands(const Panel& panel, bool is_first) {
   std::string text = fmt::format("set title '{}'\nset xrange {}\n", panel.title, panel.range);
   text += panel.is_logarithmic ? "set logscale x\n" : "unset logscale x\n";
@@ -57,7 +57,7 @@ std::string plot_script(const FaultTable& table, const std::string& stem) {
   text += fmt::format("set output '{}.png'\n", stem);
   text += fmt::format("set yrange [0.4:{}.6]\nunset key\nset grid x\nset ytics scale 0\n", rows);
   text += fmt::format(
-      "set multiplot layout 1,4 title 'Faults: the worst of all runs; dashed: the goal; no bar: nothing to tell' "
+      "set multiplot layout 1,4 title 'Faults: worst of all runs; dashed: goal; no bar: not applicable' "
       "margins 0.12,0.99,{},{} "
       "spacing 0.02,0\n",
       bottom, top);

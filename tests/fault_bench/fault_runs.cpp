@@ -31,7 +31,7 @@ bool is_done(const fs::path& folder, const std::string& key) {
   return fs::exists(folder / kDone) && read_file(folder / kDone) == key;
 }
 
-/// Plays one run; what went wrong, empty when nothing did.
+/// Plays one run. Returns the error, or an empty string.
 std::string play(const FaultRun& run, const FaultRunOptions& options, const fs::path& folder) {
   const std::string key = key_of(run, options);
   if (is_done(folder, key)) return {};
@@ -101,7 +101,7 @@ std::string FaultRun::name() const { return fmt::format("{}/{}-{}", input->name,
 FaultInput open_input(const fs::path& folder) {
   const auto dataset = dataset_player::open_dataset(folder);
   if (!dataset.stereo || dataset.ground_truth.empty()) {
-    throw std::runtime_error(folder.string() + ": has no stereo pairs or no truth; name another recording");
+    throw std::runtime_error(folder.string() + ": has no stereo pairs or no ground truth; name another recording");
   }
   const auto events = dataset_player::timeline(dataset, {});
   const fs::path whole = fs::canonical(folder);

@@ -14,15 +14,15 @@
 
 namespace panvo::test {
 
-/// A recording with truth that faults are put into.
+/// A recording with ground truth into which faults are injected.
 struct FaultInput {
   std::filesystem::path folder;
-  std::string name;           ///< of its runs' folder
-  std::int64_t begin_ns = 0;  ///< of the first thing played
+  std::string name;           ///< name of the folder of its runs
+  std::int64_t begin_ns = 0;  ///< stamp of the first message
   double span_s = 0.0;
 };
 
-/// Throws std::runtime_error for a folder that is no recording with stereo pairs and truth.
+/// Throws std::runtime_error unless the folder is a recording with stereo pairs and ground truth.
 FaultInput open_input(const std::filesystem::path& folder);
 
 struct FaultRun {
@@ -36,18 +36,19 @@ struct FaultRun {
 struct FaultResult {
   FaultRun run;
   std::optional<evaluation::TrustScore> score;
-  std::size_t unscored_poses = 0;  ///< of a time that the truth does not tell of, or with a covariance that is none
+  std::size_t unscored_poses = 0;  ///< outside the time span of the ground truth, or with an invalid covariance
   std::string failure;             ///< why there is no score
 };
 
 struct FaultRunOptions {
   std::filesystem::path program, system;  ///< panvo_run, and the system with the injector
   std::filesystem::path out;
-  std::string key;  ///< of what is run: a run that another one left is not taken for this one's
+  std::string key;  ///< identifies programs and settings; runs with another key are repeated
   int jobs = 1;
 };
 
-/// Plays every run, `jobs` at once, except those that `out` has already from the same key, and scores them. `tell` gets a line for people now and then.
+/// Plays all runs, `jobs` in parallel, except those that `out` already has with the same key, and scores them. `tell`
+/// receives progress messages.
 std::vector<FaultResult> play_faults(const std::vector<FaultRun>& runs, const FaultRunOptions& options,
                                      const std::function<void(const std::string&)>& tell);
 

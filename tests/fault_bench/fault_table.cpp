@@ -33,7 +33,7 @@ std::string percent(const std::optional<double>& value) {
   return value ? fmt::format("{:.2f} %", 100.0 * *value) : "-";
 }
 
-/// The longest time, and in how many runs it never ended.
+/// The longest time, and the number of runs in which it never ended.
 std::string time_or_never(const std::optional<double>& longest_s, std::size_t never) {
   if (never == 0) return number(longest_s, 2);
   return longest_s ? fmt::format("{:.2f}, {}x never", *longest_s, never) : "never";
@@ -156,11 +156,11 @@ std::vector<FaultGoal> FaultTable::goals() const {
   return {
       {"error beyond the protection level in at most 0.1 % of all poses", percent(beyond),
        at_most(beyond, kMostBeyond)},
-      {"never beyond twice the level", number(all_rows.worst_over_level, 2) + " times at most",
+      {"error at most twice the level", number(all_rows.worst_over_level, 2) + " times at most",
        at_most(all_rows.worst_over_level, kMostOverLevel)},
       {"every alarm within 0.5 s", number(all_rows.time_to_alarm_s.value_or(0.0), 2) + " s at most",
        all_rows.time_to_alarm_s.value_or(0.0) <= evaluation::kAlarmTime_s},
-      {"never tracking while the error is over 3 sigma for longer than 1 s",
+      {"tracking while the error is over 3 sigma for at most 1 s",
        number(all_rows.longest_misleading_s, 2) + " s at most", all_rows.longest_misleading_s <= kLongestMisleading_s},
       {"median level below 1 m while tracking", number(median_m, 2) + " m", at_most(median_m, kHighestMedian_m)},
   };
@@ -185,12 +185,11 @@ std::string to_text(const FaultTable& table) {
     for (std::size_t i = 1; i < line.size(); ++i) text += fmt::format("  {:>{}}", line[i], widths[i]);
     text += '\n';
   }
-  text +=
-      fmt::format("\n{} poses; {} more are left out: of a time without truth, or with a covariance that is none\n\n",
-                  table.all().poses, table.all().unscored_poses);
+  text += fmt::format("\n{} poses; {} more were skipped: no ground truth at their stamp, or invalid covariance\n\n",
+                      table.all().poses, table.all().unscored_poses);
   for (const auto& goal : table.goals()) {
     text += fmt::format("{:<15}{}: {}\n",
-                        !goal.holds   ? "cannot be told"
+                        !goal.holds   ? "undetermined"
                         : *goal.holds ? "holds"
                                       : "does not hold",
                         goal.name, goal.outcome);

@@ -11,18 +11,18 @@
 
 namespace panvo::test {
 
-/// A line of the table: one kind of fault over all its runs.
+/// A line of the table: all runs of one kind of fault.
 struct FaultRow {
   std::string kind;
   std::size_t runs = 0, failed = 0;
   std::size_t unscored_poses =
-      0;  ///< that the figures leave out: of a time without truth, or with a covariance that is none
+      0;  ///< skipped poses: outside the time span of the ground truth, or with an invalid covariance
   std::size_t poses = 0, outside_95 = 0, outside_999 = 0, with_level = 0, beyond_level = 0;
   double largest_error_m = 0.0, largest_error_over_sigma = 0.0, longest_misleading_s = 0.0;
   std::optional<double> worst_over_level;
-  std::optional<double> time_to_alarm_s;    ///< the longest; nullopt: none was due
-  std::optional<double> noticed_s;          ///< the longest of those that were
-  std::size_t unnoticed = 0;                ///< runs without any alarm
+  std::optional<double> time_to_alarm_s;    ///< the longest; nullopt: no alarm was due
+  std::optional<double> noticed_s;          ///< the longest among runs with an alarm
+  std::size_t unnoticed = 0;                ///< runs without an alarm
   std::optional<double> time_to_recover_s;  ///< the longest
   std::size_t never_recovered = 0;
   std::vector<double> levels_while_tracking_m;
@@ -32,10 +32,10 @@ struct FaultRow {
   std::optional<double> median_level_m() const;
 };
 
-/// One of the goals, and what came out.
+/// A goal and its result.
 struct FaultGoal {
   std::string name, outcome;
-  std::optional<bool> holds;  ///< nullopt: nothing to tell it by
+  std::optional<bool> holds;  ///< nullopt: undetermined
 };
 
 struct FaultTable {
@@ -49,7 +49,7 @@ std::string to_text(const FaultTable& table);
 std::string to_csv(const FaultTable& table);
 std::string to_json(const FaultTable& table);
 
-/// The gnuplot program, data included, that writes `stem`.png into its working folder.
+/// gnuplot script, including the data, that writes `stem`.png into its working folder.
 std::string plot_script(const FaultTable& table, const std::string& stem);
 
 }  // namespace panvo::test

@@ -76,7 +76,7 @@ TEST(FaultTable, SaysWhichGoalsHoldAndOfWhichNothingCanBeTold) {
 TEST(FaultTable, IsTheSameAsTextAndAsJsonAndAsLinesOfOneLength) {
   const auto text = to_text(table());
   EXPECT_THAT(text, HasSubstr("both_frozen"));
-  EXPECT_THAT(text, HasSubstr("cannot be told"));
+  EXPECT_THAT(text, HasSubstr("undetermined"));
   const auto json = nlohmann::json::parse(to_json(table()));
   EXPECT_EQ(json.at("rows").at(0).at("largest_error_over_sigma"), 9.0);
   EXPECT_TRUE(json.at("rows").at(1).at("time_to_alarm_s").is_null());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What cameras give when they or their cables fail.
+// Faults of cameras and cables.
 #include <opencv2/imgproc.hpp>
 
 #include "kinds.hpp"
@@ -8,7 +8,7 @@
 namespace panvo::test {
 namespace {
 
-/// The images of one or both eyes stay what they were when the fault began; stamps go on.
+/// The images of one or both cameras freeze at the start of the fault; stamps continue.
 Passage<StereoPair> frozen(bool left, bool right) {
   return [left, right, held = StereoPair{}](const StereoPair& pair, const Moment& moment) mutable {
     StereoPair passed = pair;
@@ -39,7 +39,7 @@ Fault one_black(Draw& draw, const FaultWindow&) {
           })};
 }
 
-/// So little light that the sensor's noise is most of the picture.
+/// Little light, so that sensor noise dominates.
 Fault dark_noise(Draw& draw, const FaultWindow&) {
   return {.pairs = both_eyes([rng = draw.image_noise()](cv::Mat& image, const Moment&, int) mutable {
             cv::Mat noise(image.size(), CV_MAKETYPE(CV_16S, image.channels()));
@@ -60,7 +60,7 @@ Fault salt_and_pepper(Draw& draw, const FaultWindow&) {
           })};
 }
 
-/// The brightness of each frame is another one.
+/// Random brightness in each frame.
 Fault flicker(Draw& draw, const FaultWindow&) {
   return {.pairs = altered<StereoPair>([draw](StereoPair& pair, const Moment&) mutable {
             const double gain = draw.uniform(0.3, 1.8);
@@ -75,7 +75,7 @@ Fault eyes_swapped(Draw&, const FaultWindow&) {
   return {.pairs = altered<StereoPair>([](StereoPair& pair, const Moment&) { std::swap(pair.left, pair.right); })};
 }
 
-/// One eye's images come a frame late under the stamp of the other's.
+/// The images of one camera are late by a frame, with the stamps of the other camera.
 Fault eye_delayed(Draw& draw, const FaultWindow&) {
   const bool is_left = draw.chance(0.5);
   return {.pairs = [is_left, before = cv::Mat()](const StereoPair& pair, const Moment& moment) mutable {
@@ -92,17 +92,17 @@ Fault eye_delayed(Draw& draw, const FaultWindow&) {
 
 std::vector<FaultKind> image_kinds() {
   return {
-      {"both_frozen", "both eyes give the same image again and again", Lasting::kWhile, both_frozen},
-      {"left_frozen", "the left eye gives the same image again and again", Lasting::kWhile, left_frozen},
-      {"right_frozen", "the right eye gives the same image again and again", Lasting::kWhile, right_frozen},
-      {"both_black", "both eyes are black", Lasting::kWhile, both_black},
-      {"one_black", "one eye is black", Lasting::kWhile, one_black},
-      {"saturated", "both eyes are white", Lasting::kWhile, both_saturated},
-      {"dark_noise", "so dark that noise is most of the image", Lasting::kWhile, dark_noise},
+      {"both_frozen", "both cameras repeat the same image", Lasting::kWhile, both_frozen},
+      {"left_frozen", "the left camera repeats the same image", Lasting::kWhile, left_frozen},
+      {"right_frozen", "the right camera repeats the same image", Lasting::kWhile, right_frozen},
+      {"both_black", "both images are black", Lasting::kWhile, both_black},
+      {"one_black", "one image is black", Lasting::kWhile, one_black},
+      {"saturated", "both images are white", Lasting::kWhile, both_saturated},
+      {"dark_noise", "dark images dominated by noise", Lasting::kWhile, dark_noise},
       {"salt_and_pepper", "single pixels are black or white", Lasting::kWhile, salt_and_pepper},
-      {"flicker", "the brightness of each frame is another one", Lasting::kWhile, flicker},
+      {"flicker", "random brightness in each frame", Lasting::kWhile, flicker},
       {"eyes_swapped", "left and right are swapped", Lasting::kWhile, eyes_swapped},
-      {"eye_delayed", "one eye is a frame late", Lasting::kWhile, eye_delayed},
+      {"eye_delayed", "one camera is late by a frame", Lasting::kWhile, eye_delayed},
   };
 }
 

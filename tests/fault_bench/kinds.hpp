@@ -5,7 +5,7 @@
 
 #include "fault.hpp"
 
-/// The kinds by what they spoil; fault_kinds() is all of them.
+/// Kinds of faults by affected part; fault_kinds() returns all.
 namespace panvo::test {
 
 std::vector<FaultKind> image_kinds();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What `panvo bench faults` runs.
+// Program of `panvo bench faults`.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -22,19 +22,22 @@ struct Options {
   FaultRunOptions run{PANVO_RUN, FAULT_SYSTEM, "faults", "", 1};
 };
 
-/// The exit status where there is nothing to run.
+/// Returns an exit status if there is nothing to run.
 std::optional<int> parse(int argc, char** argv, Options& options) {
-  CLI::App app("Plays recordings with faults through the whole system and tells how far its poses were to be trusted.",
+  CLI::App app("Plays recordings with injected faults through the whole system and evaluates errors and integrity.",
                "panvo bench faults");
-  app.add_option("--inputs", options.inputs, "recordings with stereo pairs, panoramas and truth")->delimiter(',');
-  app.add_option("--only", options.only, "kinds of fault, with commas between; else all")->delimiter(',');
-  app.add_option("--seeds", options.seeds, "how often each fault is played on each recording, drawn anew")
+  app.add_option("--inputs", options.inputs, "recordings with stereo pairs, panoramas and ground truth")
+      ->delimiter(',');
+  app.add_option("--only", options.only, "kinds of fault, separated by commas (default: all)")->delimiter(',');
+  app.add_option("--seeds", options.seeds, "number of random variants of each fault per recording")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
-  app.add_option("--out", options.run.out, "folder of the results")->capture_default_str();
-  app.add_option("--jobs", options.run.jobs, "runs at once")->check(CLI::Range(1, 64))->capture_default_str();
-  app.add_option("--key", options.run.key, "of what is run: with another one all is run anew");
-  app.add_option("--run", options.run.program, "the program that runs the system");
+  app.add_option("--out", options.run.out, "folder for the results")->capture_default_str();
+  app.add_option("--jobs", options.run.jobs, "number of parallel runs")
+      ->check(CLI::Range(1, 64))
+      ->capture_default_str();
+  app.add_option("--key", options.run.key, "identifies programs and settings; runs with another key are repeated");
+  app.add_option("--run", options.run.program, "program that runs the system");
   app.add_flag("--list", options.lists, "list the kinds of fault");
   try {
     app.parse(argc, argv);
@@ -49,7 +52,7 @@ std::vector<FaultRun> plan(const Options& options, const std::vector<FaultInput>
   const auto add = [&](const FaultKind& kind) {
     const bool is_disturbed = &kind != &fault_kinds().front();
     for (const auto& input : inputs) {
-      // Without a fault nothing is drawn: one run is like another.
+      // Runs without a fault do not depend on the seed, so one suffices.
       for (int seed = 1; seed <= (is_disturbed ? options.seeds : 1); ++seed) {
         runs.push_back({&kind, &input, static_cast<std::uint64_t>(seed)});
       }
@@ -82,12 +85,12 @@ FaultTable table_of(const std::vector<FaultResult>& results) {
   return table;
 }
 
-/// Each file whole or not at all would be too much here: the runs are kept, and the table is made again in a moment.
+/// Not atomic: the runs are kept, and the table can be recreated quickly.
 void write(const std::filesystem::path& file, const std::string& text) {
   std::ofstream stream(file);
   stream << text;
   stream.close();
-  if (!stream) throw std::runtime_error(file.string() + " cannot be written; is the disk full, the folder yours?");
+  if (!stream) throw std::runtime_error(file.string() + " cannot be written; check disk space and permissions");
 }
 
 void write_results(const FaultTable& table, const std::filesystem::path& folder) {
@@ -106,7 +109,7 @@ int run_bench(const Options& options) {
     for (const auto& kind : fault_kinds()) std::cout << fmt::format("{:<22}{}\n", kind.name, kind.description);
     return 0;
   }
-  if (options.inputs.empty()) throw std::runtime_error("there is no recording to play; name some with --inputs");
+  if (options.inputs.empty()) throw std::runtime_error("no recordings given; name them with --inputs");
   std::vector<FaultInput> inputs;
   for (const auto& folder : options.inputs) inputs.push_back(open_input(folder));
   const auto runs = plan(options, inputs);

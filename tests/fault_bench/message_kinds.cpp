@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Components that stop, and messages that no sound component sends.
+// Stopped components and invalid messages.
 #include <cmath>
 #include <limits>
 
@@ -24,7 +24,7 @@ Fault compass_stopped(Draw&, const FaultWindow&) { return {.azimuths = stopped<A
 Fault builder_stopped(Draw&, const FaultWindow&) { return {.landmarks = stopped<PanoramicLandmark>()}; }
 Fault corrector_stopped(Draw&, const FaultWindow&) { return {.corrections = stopped<PositionCorrection>()}; }
 
-/// Every few messages one that is no pose comes instead.
+/// Replaces every seventh message by an invalid one.
 template <class Spoil>
 Passage<Odometry> now_and_then(Spoil spoil) {
   return altered<Odometry>([spoil, count = 0](Odometry& odometry, const Moment&) mutable {
@@ -54,7 +54,7 @@ Fault odometry_absurd(Draw& draw, const FaultWindow&) {
           })};
 }
 
-/// A covariance that is none: variances below zero.
+/// Invalid covariance with negative variances.
 Fault odometry_indefinite(Draw&, const FaultWindow&) {
   return {.odometry = now_and_then([](Odometry& odometry) {
             for (auto* covariance : {&odometry.pose().covariance(), &odometry.twist().covariance()}) {
@@ -63,7 +63,7 @@ Fault odometry_indefinite(Draw&, const FaultWindow&) {
           })};
 }
 
-/// A landmark is said to be metres from where it was made, and as sure as ever.
+/// Landmark poses with an error of some metres and an unchanged covariance.
 Fault landmark_wrong(Draw& draw, const FaultWindow&) {
   const double x_m = draw.sign() * draw.uniform(2.0, 6.0), y_m = draw.sign() * draw.uniform(2.0, 6.0);
   return {.landmarks = altered<PanoramicLandmark>([x_m, y_m](PanoramicLandmark& landmark, const Moment&) {
@@ -73,7 +73,7 @@ Fault landmark_wrong(Draw& draw, const FaultWindow&) {
           })};
 }
 
-/// A sighting is said to be metres from where it was.
+/// Sightings with a position error of some metres.
 Fault correction_wrong(Draw& draw, const FaultWindow&) {
   const double x_m = draw.sign() * draw.uniform(2.0, 6.0);
   return {.corrections = altered<PositionCorrection>([x_m](PositionCorrection& correction, const Moment&) {
@@ -82,7 +82,7 @@ Fault correction_wrong(Draw& draw, const FaultWindow&) {
           })};
 }
 
-/// The compass turns on its own.
+/// Constant error in each azimuth change.
 Fault azimuth_wrong(Draw& draw, const FaultWindow&) {
   const double by_rad = draw.sign() * draw.uniform(0.05, 0.2);
   return {.azimuths = altered<AzimuthChange>([by_rad](AzimuthChange& change, const Moment&) {
@@ -94,18 +94,18 @@ Fault azimuth_wrong(Draw& draw, const FaultWindow&) {
 
 std::vector<FaultKind> message_kinds() {
   return {
-      {"odometry_stopped", "the stereo odometry is gone", Lasting::kWhile, odometry_stopped},
-      {"quality_stopped", "the odometry's quality is not told", Lasting::kWhile, quality_stopped},
-      {"compass_stopped", "the compass is gone", Lasting::kWhile, compass_stopped},
-      {"builder_stopped", "the landmark builder is gone", Lasting::kWhile, builder_stopped},
-      {"corrector_stopped", "the position corrector is gone", Lasting::kOnward, corrector_stopped},
-      {"odometry_nan", "now and then an odometry message with NaN", Lasting::kWhile, odometry_nan},
-      {"odometry_absurd", "now and then an odometry message far away", Lasting::kWhile, odometry_absurd},
-      {"odometry_indefinite", "now and then an odometry message with negative variances", Lasting::kWhile,
+      {"odometry_stopped", "no messages of the stereo odometry", Lasting::kWhile, odometry_stopped},
+      {"quality_stopped", "no odometry quality messages", Lasting::kWhile, quality_stopped},
+      {"compass_stopped", "no messages of the compass", Lasting::kWhile, compass_stopped},
+      {"builder_stopped", "no messages of the landmark builder", Lasting::kWhile, builder_stopped},
+      {"corrector_stopped", "no messages of the position corrector", Lasting::kOnward, corrector_stopped},
+      {"odometry_nan", "occasional odometry messages with NaN", Lasting::kWhile, odometry_nan},
+      {"odometry_absurd", "occasional odometry messages with a far position", Lasting::kWhile, odometry_absurd},
+      {"odometry_indefinite", "occasional odometry messages with negative variances", Lasting::kWhile,
        odometry_indefinite},
-      {"landmark_wrong", "landmarks are metres from where they are", Lasting::kOnward, landmark_wrong},
-      {"correction_wrong", "sightings of landmarks are metres off", Lasting::kOnward, correction_wrong},
-      {"azimuth_wrong", "the compass is 3 to 11 degrees off a panorama", Lasting::kWhile, azimuth_wrong},
+      {"landmark_wrong", "landmark poses with an error of some metres", Lasting::kOnward, landmark_wrong},
+      {"correction_wrong", "landmark sightings with an error of some metres", Lasting::kOnward, correction_wrong},
+      {"azimuth_wrong", "compass error of 3 to 11 degrees per panorama", Lasting::kWhile, azimuth_wrong},
   };
 }
 

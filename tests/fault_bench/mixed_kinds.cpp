@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One fault after another, as in hours of bad luck.
+// A sequence of different faults, for long runs.
 #include <cmath>
 #include <iterator>
 #include <memory>
@@ -9,10 +9,10 @@
 namespace panvo::test {
 namespace {
 
-constexpr double kPeriod_s = 20.0;             // another fault in each
-constexpr double kFrom_s = 8.0, kTo_s = 11.0;  // of it: the system has time to recover
+constexpr double kPeriod_s = 20.0;             // one fault in each
+constexpr double kFrom_s = 8.0, kTo_s = 11.0;  // within the period; leaves time to recover
 
-/// Those that begin and end, and leave the stamps of what follows alone.
+/// Kinds that start and end and do not change later stamps.
 std::vector<FaultKind> passing_kinds() {
   std::vector<FaultKind> kinds;
   for (const auto& part : {image_kinds(), optics_kinds(), timing_kinds(), panorama_kinds(), message_kinds()}) {
@@ -22,7 +22,7 @@ std::vector<FaultKind> passing_kinds() {
   return kinds;
 }
 
-/// The fault whose turn it is. Only one is held, however many come in hours.
+/// Provides the current fault; keeps only one at a time.
 class Sequence {
  public:
   explicit Sequence(std::uint64_t seed) : seed_(seed), kinds_(passing_kinds()) {}
@@ -75,7 +75,7 @@ Fault mixed(Draw& draw, const FaultWindow&) {
 }  // namespace
 
 std::vector<FaultKind> mixed_kinds() {
-  return {{"mixed", "every 20 s another of the faults that begin and end, for 3 s", Lasting::kWhole, mixed}};
+  return {{"mixed", "every 20 s a different temporary fault, for 3 s", Lasting::kWhole, mixed}};
 }
 
 }  // namespace panvo::test

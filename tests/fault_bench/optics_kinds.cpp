@@ -10,7 +10,7 @@
 namespace panvo::test {
 namespace {
 
-/// Smooth blotches of 0..255 with the size that is asked for.
+/// Smooth random blotches with values 0..255.
 cv::Mat blotches(cv::RNG& rng, cv::Size size, int blotch_px, int type) {
   cv::Mat coarse(std::max(2, size.height / blotch_px), std::max(2, size.width / blotch_px),
                  CV_MAKETYPE(CV_8U, CV_MAT_CN(type)));
@@ -20,11 +20,12 @@ cv::Mat blotches(cv::RNG& rng, cv::Size size, int blotch_px, int type) {
   return fine;
 }
 
-/// A textured plane, as the side of a bus, passes before both eyes and fills most of the view; what each sees of it agrees with one distance.
+/// A textured plane, like the side of a bus, passes in front of both cameras and fills most of the view, with
+/// consistent disparity.
 Fault mover(Draw& draw, const FaultWindow& window) {
   struct Plane {
-    double disparity_share;  // of the width
-    double speed_shares_s;   // widths a second
+    double disparity_share;  // of the image width
+    double speed_shares_s;   // image widths per second
     double width_shares;
     cv::Mat texture;
   };
@@ -37,7 +38,7 @@ Fault mover(Draw& draw, const FaultWindow& window) {
               const cv::Size whole(static_cast<int>(plane.width_shares * size.width), size.height);
               plane.texture = blotches(rng, whole, 6, image.type());
             }
-            // Of an image's width of it; it is over the middle half-way through the fault.
+            // In image widths; the plane is centred at half time of the fault.
             const double middle_s = 0.5 * (window.from_s + window.to_s);
             const double centre = 0.5 + plane.speed_shares_s * (moment.t_s - middle_s);
             const double left_edge = (centre - 0.5 * plane.width_shares) * size.width;
@@ -47,7 +48,7 @@ Fault mover(Draw& draw, const FaultWindow& window) {
             cv::warpAffine(plane.texture, seen, place, size, cv::INTER_LINEAR, cv::BORDER_CONSTANT);
             cv::warpAffine(cv::Mat(plane.texture.size(), CV_8U, cv::Scalar(255)), mask, place, size, cv::INTER_NEAREST,
                            cv::BORDER_CONSTANT);
-            // A strip of the world stays in sight below and above.
+            // Strips at the top and bottom stay uncovered.
             mask.rowRange(0, size.height / 10) = 0;
             mask.rowRange(size.height - size.height / 10, size.height) = 0;
             seen.copyTo(image, mask);
@@ -69,7 +70,7 @@ Fault rain(Draw& draw, const FaultWindow&) {
           })};
 }
 
-/// The contrast goes, most at the horizon, where the way through it is longest.
+/// Reduces contrast, most at the horizon, where the path through the fog is longest.
 Fault fog(Draw& draw, const FaultWindow&) {
   const double densest = draw.uniform(0.85, 0.98);
   return {.pairs = both_eyes([densest](cv::Mat& image, const Moment&, int) {
@@ -82,7 +83,7 @@ Fault fog(Draw& draw, const FaultWindow&) {
           })};
 }
 
-/// Smudges that stay at their places, on each lens others.
+/// Static smudges, different on each lens.
 Fault lens_dirt(Draw& draw, const FaultWindow&) {
   const auto seed = draw.seed();
   const double covered = draw.uniform(0.3, 0.6);
@@ -107,11 +108,11 @@ Fault blurred(Draw& draw, const FaultWindow&) {
 
 std::vector<FaultKind> optics_kinds() {
   return {
-      {"mover", "a textured plane passes and fills the view of both eyes", Lasting::kWhile, mover},
-      {"rain", "streaks of rain, in each eye others", Lasting::kWhile, rain},
+      {"mover", "a passing textured plane fills the view of both cameras", Lasting::kWhile, mover},
+      {"rain", "rain streaks, different in each camera", Lasting::kWhile, rain},
       {"fog", "dense fog", Lasting::kWhile, fog},
       {"lens_dirt", "smudges on both lenses", Lasting::kOnward, lens_dirt},
-      {"blurred", "both eyes are out of focus", Lasting::kWhile, blurred},
+      {"blurred", "both cameras are out of focus", Lasting::kWhile, blurred},
   };
 }
 

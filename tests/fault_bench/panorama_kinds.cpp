@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What happens to the panoramic camera.
+// Faults of the panoramic camera.
 #include <opencv2/imgproc.hpp>
 
 #include "kinds.hpp"
@@ -19,7 +19,7 @@ Fault black(Draw&, const FaultWindow&) {
   return {.panoramas = each_panorama([](cv::Mat& image, const Moment&) { image.setTo(cv::Scalar::all(0)); })};
 }
 
-/// The camera hangs from its mount: turned by half a turn about the axis ahead.
+/// The camera hangs from its mount: rotated by 180 degrees about the forward axis.
 Fault upside_down(Draw&, const FaultWindow&) {
   return {.panoramas = each_panorama([](cv::Mat& image, const Moment&) { cv::flip(image, image, -1); })};
 }
@@ -28,7 +28,7 @@ Fault mirrored(Draw&, const FaultWindow&) {
   return {.panoramas = each_panorama([](cv::Mat& image, const Moment&) { cv::flip(image, image, 1); })};
 }
 
-/// The camera was turned on its mount: columns move round.
+/// The camera is rotated on its mount: columns are shifted cyclically.
 Fault turned(Draw& draw, const FaultWindow&) {
   const double turns = draw.sign() * draw.uniform(5.0, 60.0) / 360.0;
   return {.panoramas = each_panorama([turns](cv::Mat& image, const Moment&) {
@@ -59,12 +59,12 @@ Fault missing(Draw&, const FaultWindow&) { return {.panoramas = stopped<Panorama
 
 std::vector<FaultKind> panorama_kinds() {
   return {
-      {"panorama_frozen", "the panorama stays the same", Lasting::kWhile, frozen},
+      {"panorama_frozen", "the panoramic camera repeats the same image", Lasting::kWhile, frozen},
       {"panorama_black", "the panorama is black", Lasting::kWhile, black},
       {"panorama_missing", "no panoramas", Lasting::kWhile, missing},
       {"panorama_upside_down", "the panorama is upside down", Lasting::kWhile, upside_down},
       {"panorama_mirrored", "the panorama is mirrored", Lasting::kWhile, mirrored},
-      {"panorama_turned", "the panoramic camera is turned on its mount by 5 to 60 degrees", Lasting::kOnward, turned},
+      {"panorama_turned", "the panoramic camera is rotated on its mount by 5 to 60 degrees", Lasting::kOnward, turned},
       {"panorama_clock", "panoramas are stamped 200 ms early or late", Lasting::kOnward, clock_off},
       {"panorama_covered", "half of the panorama is covered", Lasting::kOnward, half_covered},
   };

@@ -6,7 +6,7 @@
 
 #include "fault.hpp"
 
-/// Makes passages of smaller functions.
+/// Helpers to create passages from simpler functions.
 namespace panvo::test {
 
 /// `alter(message, moment)` changes a copy of each message within the window.
@@ -19,7 +19,7 @@ Passage<Message> altered(Alter alter) {
   };
 }
 
-/// `is_dropped(moment)` decides on each message within the window.
+/// Drops each message within the window for which `is_dropped(moment)` returns true.
 template <class Message, class IsDropped>
 Passage<Message> dropped(IsDropped is_dropped) {
   return [is_dropped](const Message& message, const Moment& moment) mutable {
@@ -28,13 +28,13 @@ Passage<Message> dropped(IsDropped is_dropped) {
   };
 }
 
-/// None passes within the window.
+/// Drops all messages within the window.
 template <class Message>
 Passage<Message> stopped() {
   return dropped<Message>([](const Moment&) { return true; });
 }
 
-/// `change(image, moment, eye)` changes a copy of the left (0) and of the right image (1) within the window.
+/// `change(image, moment, eye)` changes copies of the left (0) and right (1) images within the window.
 template <class Change>
 Passage<StereoPair> both_eyes(Change change) {
   return altered<StereoPair>([change](StereoPair& pair, const Moment& moment) mutable {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What clocks, buses and drivers do to the stereo images, and a recording that was cut.
+// Faults of clocks, buses and drivers, and a cut recording.
 #include <cmath>
 
 #include "kinds.hpp"
@@ -21,7 +21,7 @@ Fault half_dropped(Draw& draw, const FaultWindow&) {
   return {.pairs = dropped<StereoPair>([draw](const Moment&) mutable { return draw.chance(0.5); })};
 }
 
-/// A second is half taken up by a burst of lost frames.
+/// Bursts of lost frames during half of each period.
 Fault bursts_dropped(Draw& draw, const FaultWindow& window) {
   const double period_s = draw.uniform(0.5, 1.2);
   return {.pairs = dropped<StereoPair>([period_s, window](const Moment& moment) {
@@ -41,7 +41,7 @@ Fault one_eye_missing(Draw& draw, const FaultWindow&) {
               [is_left](StereoPair& pair, const Moment&) { (is_left ? pair.left : pair.right) = cv::Mat(); })};
 }
 
-/// Up to 40 % of a frame's time, and never so much that the order changes.
+/// Up to 40 % of the frame period, so that the order does not change.
 Fault stamp_jitter(Draw& draw, const FaultWindow&) {
   return {.pairs = altered<StereoPair>([draw](StereoPair& pair, const Moment&) mutable {
             constexpr double kMost_s = 0.016;
@@ -49,7 +49,7 @@ Fault stamp_jitter(Draw& draw, const FaultWindow&) {
           })};
 }
 
-/// Every other frame comes twice, the second time under a new stamp.
+/// Every other frame is repeated in place of the next one, with the next stamp.
 Fault duplicates(Draw&, const FaultWindow&) {
   return {.pairs = [is_second = false, before = StereoPair{}](const StereoPair& pair, const Moment& moment) mutable {
     StereoPair passed = pair;
@@ -67,7 +67,7 @@ Passage<StereoPair> stepped(double by_s) {
 Fault stamps_ahead(Draw&, const FaultWindow&) { return {.pairs = stepped(10.0)}; }
 Fault stamps_back(Draw& draw, const FaultWindow&) { return {.pairs = stepped(-draw.uniform(1.0, 3.0))}; }
 
-/// A single pair of an absurd time.
+/// A single pair with a stamp far in the future.
 Fault one_stamp_ahead(Draw& draw, const FaultWindow&) {
   const double by_s = draw.chance(0.5) ? 10.0 : 3.6e8;
   return {.pairs = altered<StereoPair>([by_s, is_done = false](StereoPair& pair, const Moment&) mutable {
@@ -76,7 +76,7 @@ Fault one_stamp_ahead(Draw& draw, const FaultWindow&) {
           })};
 }
 
-/// Each two frames come in the wrong order.
+/// Swaps the order of consecutive frames in pairs.
 Fault out_of_order(Draw&, const FaultWindow&) {
   return {.pairs = [held = std::vector<StereoPair>{}](const StereoPair& pair, const Moment& moment) mutable {
     if (moment.is_on && held.empty()) {
@@ -90,7 +90,8 @@ Fault out_of_order(Draw&, const FaultWindow&) {
   }};
 }
 
-/// A part of the recording is cut out and the clock runs on as if nothing had been: the vehicle was carried away. The truth goes with it.
+/// Cuts out a part of the recording and makes the stamps continuous, as if the vehicle had been carried away. Applies
+/// to the ground truth, too.
 Fault kidnapped(Draw&, const FaultWindow& window) {
   const std::int64_t cut_ns = to_ns(window.to_s - window.from_s);
   const auto is_after = [window](const Moment& moment) { return moment.t_s >= window.to_s; };
@@ -123,18 +124,18 @@ Fault kidnapped(Draw&, const FaultWindow& window) {
 
 std::vector<FaultKind> timing_kinds() {
   return {
-      {"half_dropped", "every second stereo pair is lost, by chance", Lasting::kWhile, half_dropped},
+      {"half_dropped", "half of the stereo pairs are lost at random", Lasting::kWhile, half_dropped},
       {"bursts_dropped", "stereo pairs are lost in bursts", Lasting::kWhile, bursts_dropped},
-      {"long_gap", "no stereo pair at all", Lasting::kWhile, long_gap},
+      {"long_gap", "no stereo pairs", Lasting::kWhile, long_gap},
       {"all_silent", "neither stereo pairs nor panoramas", Lasting::kWhile, all_silent},
-      {"eye_missing", "the images of one eye are lost", Lasting::kWhile, one_eye_missing},
-      {"stamp_jitter", "stamps are off by up to 16 ms", Lasting::kWhile, stamp_jitter},
-      {"duplicates", "every other stereo pair is the one before once more", Lasting::kWhile, duplicates},
+      {"eye_missing", "the images of one camera are lost", Lasting::kWhile, one_eye_missing},
+      {"stamp_jitter", "stamp errors of up to 16 ms", Lasting::kWhile, stamp_jitter},
+      {"duplicates", "every other stereo pair repeats the previous one", Lasting::kWhile, duplicates},
       {"stamps_ahead", "stereo pairs are stamped 10 s ahead", Lasting::kWhile, stamps_ahead},
       {"stamps_back", "stereo pairs are stamped 1 to 3 s late", Lasting::kWhile, stamps_back},
       {"one_stamp_ahead", "one stereo pair is stamped 10 s or 11 years ahead", Lasting::kWhile, one_stamp_ahead},
-      {"out_of_order", "each two stereo pairs come in the wrong order", Lasting::kWhile, out_of_order},
-      {"kidnapped", "the vehicle is carried some metres further between two frames", Lasting::kWhile, kidnapped},
+      {"out_of_order", "consecutive stereo pairs are swapped", Lasting::kWhile, out_of_order},
+      {"kidnapped", "the vehicle is moved by some metres between two frames", Lasting::kWhile, kidnapped},
   };
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a user gets who gives the whole something wrong: an error that names it, or poses that say they are unreliable; never a crash or a NaN.
+// Wrong input to the whole system gives an error that names it, or poses marked as unreliable, but never a crash or a
+// NaN.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -42,7 +43,7 @@ struct Fault : testing::Test {
     return run(words);
   }
 
-  /// Messages of a topic that can be read from a bag, by its `info`.
+  /// Number of readable messages of a topic in a bag, from `panvo bag info`.
   static std::size_t count_messages(const std::string& bag, const std::string& topic) {
     const Finished info = run({PANVO_BAG, "info", "--json", bag});
     const auto json =
@@ -54,7 +55,7 @@ struct Fault : testing::Test {
     return 0;
   }
 
-  /// Lines of the trajectory; fails on a number that is none.
+  /// Number of lines of the trajectory; fails if a number is not finite.
   std::size_t count_sound_poses() const {
     std::istringstream lines(read_file(folder.path() / "out" / "odometry_binocular.tum"));
     std::size_t count = 0;
@@ -137,7 +138,7 @@ TEST_F(Fault, ATopicThatIsAwaitedAndThatNobodyHereHasIsNamed) {
   EXPECT_THAT(finished.output, AllOf(HasSubstr("/nothing"), HasSubstr("/odometry/binocular")));
 }
 
-/// Frames 8 to 11 of 20 are spoilt; the odometry must say so of those, and be right again by the end.
+/// Frames 8 to 11 of 20 are spoilt; the odometry must report them as unreliable and be correct again at the end.
 struct SpoiltFrames : Fault,
                       testing::WithParamInterface<std::pair<const char*, std::function<void(cv::Mat&, cv::Mat&)>>> {};
 
@@ -155,7 +156,7 @@ TEST_P(SpoiltFrames, AreCarriedWithoutNaNAndTheOdometryRecovers) {
   std::istringstream words(last);
   double stamp = 0, x = 0, y = 0, z = 0;
   words >> stamp >> x >> y >> z;
-  EXPECT_NEAR(x, 1.9, 0.1);  // carried by the motion model over the gap: this walk is steady
+  EXPECT_NEAR(x, 1.9, 0.1);  // the motion model bridges the gap, because the motion is steady
   EXPECT_NEAR(y, 0, 0.1);
   EXPECT_NEAR(z, 0, 0.1);
 }
@@ -198,8 +199,7 @@ TEST_F(Fault, SigkillWhileRecordingLeavesAReadableBag) {
   const std::string data = write_walk({.frames = 60});
   const std::string bag = folder / "bag";
   Process recording({PANVO_RUN, SYSTEMS "/record.yaml", "output:=" + bag, "--dataset", data, "--local", "--rate", "1"});
-  // Killed once a first batch is committed: the database has grown beyond its empty tables, and the journal of that
-  // commit is empty again.
+  // Killed after the first commit: the database has grown beyond its empty tables, and the journal is empty again.
   const auto size_of = [&](const char* file) {
     std::error_code error;
     const auto size = std::filesystem::file_size(std::filesystem::path(bag) / file, error);
@@ -229,8 +229,8 @@ TEST_F(Fault, ABagCutOffInItsMiddleIsPlayedAsFarAsItGoes) {
   EXPECT_THAT(played.output, HasSubstr(".db3"));
   const std::size_t pairs =
       std::min(count_messages(bag, "/stereo/left/image_raw"), count_messages(bag, "/stereo/right/image_raw"));
-  EXPECT_GE(pairs, 8U) << "half of the file holds half of the 20 pairs, less what leads to them";
-  EXPECT_EQ(count_sound_poses(), pairs) << "every pair that can be read gives a pose";
+  EXPECT_GE(pairs, 8U) << "half of the file holds half of the 20 pairs, minus the overhead at its start";
+  EXPECT_EQ(count_sound_poses(), pairs) << "every readable pair gives a pose";
 }
 
 TEST_F(Fault, SigintEndsARunSoonAndLeavesItsResults) {
@@ -270,12 +270,12 @@ TEST_F(Fault, AFolderOfSomebodyElseIsNotWrittenTo) {
   EXPECT_THAT(refused.output, AllOf(HasSubstr("contains odometry_binocular.tum"), HasSubstr("--overwrite")));
   EXPECT_EQ(read_file(folder.path() / "out" / "odometry_binocular.tum"), "precious");
   EXPECT_EQ(replay(data, {"--overwrite"}).status, 0);
-  EXPECT_EQ(replay(data).status, 0) << "an earlier run of ours is replaced";
+  EXPECT_EQ(replay(data).status, 0) << "an earlier run is replaced";
 }
 
 TEST_F(Fault, ARunThatWritesNothingFails) {
   const std::string data = write_walk({.frames = 3});
-  std::filesystem::remove(folder.path() / "walk" / "poses.txt");  // whose poses would be written
+  std::filesystem::remove(folder.path() / "walk" / "poses.txt");  // otherwise ground truth would be written
   const Finished finished = run({PANVO_RUN, SYSTEMS "/record.yaml", "output:=" + folder / "bag", "topics:=/tf_static",
                                  "--dataset", data, "--out", folder / "out", "--replay"});
   EXPECT_EQ(finished.status, kRunFailed) << finished.output;
@@ -300,7 +300,7 @@ TEST_F(Fault, ARecordingWhoseFileIsRemovedEndsWithAnErrorAndKeepsWhatItHas) {
     std::error_code error;
     return std::filesystem::file_size(bag + "/bag_0.db3", error) >= 1'500'000 && !error;
   })) << recording.output();
-  ASSERT_TRUE(std::filesystem::remove(bag + "/bag_0.db3"));  // in one step: the recorder may put it back at any time
+  ASSERT_TRUE(std::filesystem::remove(bag + "/bag_0.db3"));  // in one step: the recorder may recreate it at any time
   EXPECT_EQ(recording.wait(std::chrono::seconds(60)), kRunFailed) << recording.output();
   EXPECT_THAT(recording.output(), HasSubstr("was removed while it was being recorded"));
   const Finished info = run({PANVO_BAG, "info", bag});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a killed process leaves in /dev/shm is freed by the next that starts, and nothing else is.
+// The next process frees what a killed process has left in /dev/shm, and nothing else.
 #include "panvo/runtime/shm_leftovers.hpp"
 
 #include <gmock/gmock.h>
@@ -19,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 using runtime::remove_shm_leftovers;
 
-/// The shared memory for images that a process has, by path.
+/// Paths of the shared memory segments for images that a process has mapped.
 std::set<std::string> segments_of(const Process& process) {
   std::set<std::string> segments;
   std::ifstream maps("/proc/" + std::to_string(process.id()) + "/maps");
@@ -37,19 +37,19 @@ bool is_gone(const std::set<std::string>& segments) {
   return true;
 }
 
-/// A container that reads images and runs until it is told to end, in a domain nobody else is in.
+/// A container that reads images and runs until it is terminated, in a separate DDS domain.
 std::vector<std::string> live_system() {
   return {PANVO_RUN, SYSTEMS "/stereo.yaml", "--domain", std::to_string(runtime::test_domain())};
 }
 
 TEST(ShmLeftovers, AreFreedByTheNextRunWhichSaysSo) {
-  if (!fs::is_directory("/dev/shm")) GTEST_SKIP() << "there is no /dev/shm";
+  if (!fs::is_directory("/dev/shm")) GTEST_SKIP() << "/dev/shm does not exist";
   Process killed(live_system());
   ASSERT_TRUE(eventually([&] { return segments_of(killed).size() >= 2; })) << killed.output();
   const auto left = segments_of(killed);
   killed.signal(SIGKILL);
   killed.wait();
-  ASSERT_TRUE(eventually([&] {  // not before it is some seconds old
+  ASSERT_TRUE(eventually([&] {  // segments younger than some seconds are not freed
     Process next(live_system());
     const bool has_begun = eventually([&] { return segments_of(next).size() >= 2; });
     return has_begun && is_gone(left) && next.output().find("freed") != std::string::npos;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Processes of a system that are killed, come again or stand still: the others go on, and data flow again.
+// Processes of a system are killed, restarted or stopped: the others continue, and data flows again.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -21,9 +21,9 @@ using testing::HasSubstr;
 using Words = std::vector<std::string>;
 
 constexpr std::chrono::seconds kLimit(100);
-constexpr int kFrames = 150;  // at their own pace, fifteen seconds
+constexpr int kFrames = 150;  // fifteen seconds at recorded speed
 
-/// The process that `parent` started with `word` in its command line; 0: there is none.
+/// The child process of `parent` with `word` in its command line; 0 if there is none.
 pid_t child_of(const Process& parent, const std::string& word) {
   const std::string id = std::to_string(parent.id());
   std::istringstream children(read_file("/proc/" + id + "/task/" + id + "/children"));
@@ -33,7 +33,7 @@ pid_t child_of(const Process& parent, const std::string& word) {
   return 0;
 }
 
-/// Whether nothing in a folder was written for so long.
+/// Whether no file in the folder was written within `time`.
 bool is_untouched(const std::filesystem::path& folder, std::chrono::seconds time) {
   const auto since = std::filesystem::file_time_type::clock::now() - time;
   return std::ranges::none_of(std::filesystem::directory_iterator(folder), [&](const auto& entry) {
@@ -81,7 +81,7 @@ class SplitFaults : public testing::Test {
   std::string shared_images_ = "shared_images_mb:=64";
 };
 
-/// Images are sent, or lie in memory that both processes share.
+/// With images sent, or in memory shared by both processes.
 class SplitFaultsOfImages : public SplitFaults, public testing::WithParamInterface<const char*> {
  protected:
   SplitFaultsOfImages() { shared_images_ = GetParam(); }
@@ -116,10 +116,11 @@ TEST_P(SplitFaultsOfImages, KilledCamerasLeaveTheOdometryRunningAndTheirSuccesso
 
 TEST_F(SplitFaults, AKilledDiscoveryServerStopsNoDataAndWithABackupItsSuccessorBringsNewcomersTogether) {
   const std::string program = find_program("fast-discovery-server");
-  if (program.empty()) GTEST_SKIP() << "there is no fast-discovery-server (package fastdds-tools)";
+  if (program.empty()) GTEST_SKIP() << "fast-discovery-server is not installed (package fastdds-tools)";
   const std::string port = std::to_string(11811 + getpid() % 1000);
   const std::string env = find_program("env");
-  // With a backup it keeps in its folder whom it knows: those cannot tell its successor from it, and do not introduce themselves again.
+  // With a backup, the server stores its clients in its folder: they do not notice its replacement and do not register
+  // again.
   const auto kept = folder_.path() / "server";
   std::filesystem::create_directory(kept);
   const Words serve{env, "--chdir=" + kept.string(), program, "-i", "0", "-l", "127.0.0.1", "-p", port, "-b"};
@@ -128,12 +129,13 @@ TEST_F(SplitFaults, AKilledDiscoveryServerStopsNoDataAndWithABackupItsSuccessorB
   Process first(odometry("first"));
   Process source(cameras());
   ASSERT_TRUE(gets_poses("first", 10)) << first.output() << source.output();
-  // Fast DDS 2.9's server writes all it knows anew whenever somebody comes; killed while it does, it may have forgotten everybody.
+  // The server of Fast DDS 2.9 rewrites its files whenever a client joins; if killed meanwhile, it may lose all
+  // clients.
   ASSERT_TRUE(eventually([&] { return is_untouched(kept, std::chrono::seconds(1)); }));
   server.signal(SIGKILL);
   server.wait();
   const std::size_t before = poses_in("first");
-  EXPECT_TRUE(gets_poses("first", before + 10)) << "without its server nothing flows\n" << first.output();
+  EXPECT_TRUE(gets_poses("first", before + 10)) << "no data without the server\n" << first.output();
   const Process successor(serve);
   const Finished newcomer =
       run({before_[0], before_[1], "ROS_DOMAIN_ID=" + std::to_string(runtime::test_domain()), PANVO_GRAPH, "topic",
@@ -144,7 +146,7 @@ TEST_F(SplitFaults, AKilledDiscoveryServerStopsNoDataAndWithABackupItsSuccessorB
 
 TEST_F(SplitFaults, ASubscriberOfEverythingThatStandsStillStopsNothing) {
   Process recorder(command({SYSTEMS "/record.yaml", "output:=" + (folder_ / "bag")}));
-  // At rate 0 a frame is played when the one before is done with, and none is dropped.
+  // At rate 0, a frame is played after the previous one has been processed, and none is dropped.
   Process computing(command({SYSTEMS "/stereo.yaml", "--dataset", *data_ / "walk", "--rate", "0", "--out",
                              folder_ / "out", "--await", "/stereo/left/image_rect", "--await", "/odometry/binocular"}));
   ASSERT_TRUE(gets_poses("out", 10)) << computing.output();
@@ -157,14 +159,14 @@ TEST_F(SplitFaults, ASubscriberOfEverythingThatStandsStillStopsNothing) {
   EXPECT_EQ(recorder.wait(kLimit), 0) << recorder.output();
 }
 
-/// Containers, Docker's with 64 MB, have less of it than a host has; what is written where there is none ends the process.
+/// Docker containers have a small /dev/shm (64 MB); writing to memory without space behind it kills the process.
 class SplitFaultsOfSmallMemory : public SplitFaults, public testing::WithParamInterface<const char*> {};
 INSTANTIATE_TEST_SUITE_P(Sizes, SplitFaultsOfSmallMemory, testing::Values("4k", "64k", "1m"),
                          [](const auto& size) { return std::string(size.param); });
 
 TEST_P(SplitFaultsOfSmallMemory, ImagesAreSentWhereThereIsNoRoomToShareThemAndThatIsSaid) {
   const std::string unshare = find_program("unshare");
-  if (unshare.empty() || geteuid() != 0) GTEST_SKIP() << "a /dev/shm of one's own needs root and the program unshare";
+  if (unshare.empty() || geteuid() != 0) GTEST_SKIP() << "a separate /dev/shm needs root and the program unshare";
   before_ = {unshare,
              "--mount",
              "sh",
@@ -205,7 +207,7 @@ TEST_F(SplitFaults, AContainerThatIsKilledIsStartedAgainWhereAskedFor) {
   EXPECT_TRUE(gets_poses("out/odometry_2", 10)) << system.output();
   EXPECT_EQ(system.wait(kLimit), 0) << system.output();
   EXPECT_THAT(system.output(), HasSubstr("restarting container odometry"));
-  // What both had to say is there, each by itself.
+  // The results of both processes are kept separately.
   EXPECT_GE(poses_in("out"), 10U);
   EXPECT_FALSE(read_file(folder_.path() / "out" / "odometry_2_odometry_binocular.tum").empty());
 }

@@ -15,7 +15,7 @@
 namespace panvo::test::cyclone {
 namespace {
 
-/// Goes over the fields of a message and puts the known answers into them.
+/// Fills the fields of a message with the known values.
 class Filler {
  public:
   template <class Number, class Value>
@@ -34,7 +34,7 @@ class Filler {
   }
 };
 
-/// Goes over the fields of a message and remembers the first that is not the known answer.
+/// Compares the fields of a message with the known values and stores the first difference.
 class Checker {
  public:
   template <class Number, class Value>
@@ -50,7 +50,7 @@ class Checker {
   void resize(const std::string& name, Sequence& sequence, std::size_t size) {
     if (sequence._length == size) return;
     note(name + " length", std::to_string(sequence._length), std::to_string(size));
-    throw *this;  // there is nothing to compare the rest with
+    throw *this;  // the remaining fields cannot be compared
   }
 
   const std::string& first() const { return first_; }
@@ -190,7 +190,7 @@ void fields(Visit& visit, panvo_msgs_msg_PanoramicLandmark& landmark, int n) {
   bytes(visit, "thumbnail", landmark.thumbnail, answer::kThumbnailSize, n);
 }
 
-/// idlc took the types' names from the IDL as it stands; ROS 2 marks them on the wire.
+/// idlc uses the type names of the IDL; ROS 2 mangles them on the wire.
 dds_topic_descriptor_t named(dds_topic_descriptor_t descriptor, const char* wire_name) {
   descriptor.m_typename = wire_name;
   return descriptor;

@@ -8,16 +8,17 @@
 
 namespace panvo::test::cyclone {
 
-/// A message type as Cyclone DDS knows it, and the known answers (known_answers.hpp) in the structs that Cyclone's idlc made of interfaces/idl.
+/// A message type of Cyclone DDS, and the known values (known_answers.hpp) in the structs that Cyclone's idlc generated
+/// from interfaces/idl.
 struct MessageKind {
   std::string_view name;              ///< "nav_msgs/msg/Odometry"
-  dds_topic_descriptor_t descriptor;  ///< named as ROS 2 names the type on the wire
-  void* (*make)(int n);               ///< to be freed by dds_sample_free with `descriptor`
+  dds_topic_descriptor_t descriptor;  ///< with the type name of ROS 2 on the wire
+  void* (*make)(int n);               ///< result must be freed by dds_sample_free with `descriptor`
   std::string (*wrong)(const void*,
-                       int n);  ///< the first field that is not as in message `n`, and its value; empty: all are
+                       int n);  ///< first field that differs from message `n`, and its value; empty: none
 };
 
-/// nullptr for a type that is not here.
+/// nullptr for an unknown type.
 const MessageKind* find_message_kind(std::string_view name);
 
 }  // namespace panvo::test::cyclone

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// A process of another vendor's DDS, which the tests start: writes the known answers, or reads messages and compares them with these.
+// A Cyclone DDS process started by the tests: writes the known messages, or reads messages and compares them with the
+// known ones.
 //   panvo_cyclone_peer DOMAIN write|read TYPE TOPIC COUNT reliable|best_effort volatile|transient_local
-// COUNT messages, numbered from 0; one numbered COUNT may come before them. Says `matched` when what it reads has a writer, `right N` or
-// `wrong N: FIELD` for each message it reads, `written` when all are out.
+// COUNT messages, numbered from 0; one numbered COUNT may precede them. Prints `matched` when its reader has a writer,
+// `right N` or `wrong N: FIELD` for each message it reads, `written` when all are written.
 #include <sys/prctl.h>
 #include <unistd.h>
 
@@ -39,7 +40,7 @@ void say(const std::string& line) {
 class Peer {
  public:
   explicit Peer(const Order& order) : order_(order), kind_(find_message_kind(order.type)) {
-    if (!kind_) throw std::runtime_error("no such type here: " + order.type);
+    if (!kind_) throw std::runtime_error("unknown type: " + order.type);
     participant_ = checked(dds_create_participant(order.domain, nullptr, nullptr), "participant");
     topic_ = checked(dds_create_topic(participant_, &kind_->descriptor, ("rt" + order.topic).c_str(), nullptr, nullptr),
                      "topic");
@@ -68,7 +69,7 @@ class Peer {
       dds_sample_free(message, &kind_->descriptor, DDS_FREE_ALL);
     }
     say("written");
-    if (order_.transient_local) pause();  // for those who come late, until the test ends this process
+    if (order_.transient_local) pause();  // for late-joining readers, until the test ends this process
     checked(dds_wait_for_acks(writer, kLimit), "acknowledgments");
   }
 
@@ -100,7 +101,7 @@ class Peer {
     const dds_entity_t waitset = checked(dds_create_waitset(participant_), "waitset");
     checked(dds_waitset_attach(waitset, entity, 0), "waitset");
     if (checked(dds_waitset_wait(waitset, nullptr, 0, kLimit), "wait") == 0) {
-      throw std::runtime_error(order_.topic + ": nobody came");
+      throw std::runtime_error(order_.topic + ": no peer found");
     }
     std::uint32_t taken = 0;
     dds_take_status(entity, &taken, status);
@@ -117,7 +118,7 @@ class Peer {
 }  // namespace panvo::test::cyclone
 
 int main(int argc, char** argv) {
-  prctl(PR_SET_PDEATHSIG, SIGKILL);  // a test that crashes leaves nobody behind
+  prctl(PR_SET_PDEATHSIG, SIGKILL);  // no orphans after a crash of the test
   if (argc != 8) return 2;
   const std::string reliability = argv[6], durability = argv[7];
   const panvo::test::cyclone::Order order{static_cast<dds_domainid_t>(std::stoul(argv[1])),

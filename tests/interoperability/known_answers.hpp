@@ -5,11 +5,11 @@
 #include <cstdint>
 #include <string>
 
-/// What is in the messages that the two vendors send each other: every field of message `n` has a value of its own, so that a field that
-/// is left out, swapped with another or read at the wrong place is noticed.
+/// Contents of the messages exchanged with the other vendor: every field of message `n` has a different value, so that
+/// omitted, swapped or misaligned fields are detected.
 namespace panvo::test::answer {
 
-/// Exact in a float too.
+/// Exactly representable as float.
 constexpr double number(int field, int n) { return field * 0.25 - n * 64.0; }
 
 constexpr std::uint32_t count(int field, int n) { return static_cast<std::uint32_t>(field * 1000 + n); }
@@ -18,7 +18,7 @@ constexpr std::uint8_t byte(std::size_t position, int n) {
   return static_cast<std::uint8_t>(position * 7 + position / 253 + static_cast<std::size_t>(n));
 }
 
-/// Of another length each time, so that what follows is aligned differently.
+/// Different length for each message, so that the following fields are aligned differently.
 inline std::string text(const char* start, int n) { return start + std::string(static_cast<std::size_t>(n % 5), '_'); }
 
 // A panorama of 1.75 MB.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A cable between two interfaces that loses some of the packets, where the kernel has no network emulator (tc netem).
+// A link between two interfaces that loses some packets; replaces the kernel's network emulator (tc netem).
 //   panvo_lossy_link INTERFACE INTERFACE SHARE
-// Says `ready`, and at its end, on SIGTERM, `lost N of M packets`. The same packets get lost each time, counted from the first.
+// Prints `ready` and, at its end on SIGTERM, `lost N of M packets`. Losses are deterministic by packet number.
 #include <arpa/inet.h>
 #include <linux/if_ether.h>
 #include <linux/if_packet.h>
@@ -26,10 +26,10 @@ void set(int socket, int option, int value) { setsockopt(socket, SOL_PACKET, opt
 
 int open_interface(const char* name) {
   const int packets = socket(AF_PACKET, SOCK_RAW, htons(ETH_P_ALL));
-  // With what the kernel has left undone for a real network card (checksums, cutting large packets), so that it can be done at the far end.
+  // Forwards the offload information (checksums, segmentation), so that the other end can complete the work.
   set(packets, PACKET_VNET_HDR, 1);
   set(packets, PACKET_IGNORE_OUTGOING, 1);
-  const int buffer = 64 * 1024 * 1024;  // nothing is to get lost but what shall
+  const int buffer = 64 * 1024 * 1024;  // avoids unintended losses
   setsockopt(packets, SOL_SOCKET, SO_RCVBUFFORCE, &buffer, sizeof buffer);
   setsockopt(packets, SOL_SOCKET, SO_SNDBUFFORCE, &buffer, sizeof buffer);
   sockaddr_ll address{};
@@ -46,7 +46,7 @@ int open_interface(const char* name) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  prctl(PR_SET_PDEATHSIG, SIGKILL);  // a test that crashes leaves nobody behind
+  prctl(PR_SET_PDEATHSIG, SIGKILL);  // no orphans after a crash of the test
   if (argc != 4) return 2;
   struct sigaction stop {};
   stop.sa_handler = [](int) { is_asked_to_stop = 1; };

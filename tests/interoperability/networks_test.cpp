@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A system split over two hosts gives the odometry of one container: on one subnet, across a router, and where packets get lost.
+// A system on two hosts gives the same odometry as one container: on one subnet, across a router, and with packet loss.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -20,10 +20,10 @@ namespace {
 using Words = std::vector<std::string>;
 
 constexpr std::chrono::seconds kLimit(100);
-// Images that a reader is too slow for are replaced by newer ones. What the network does is to be seen here, also on a machine that is kept
-// from working for hundreds of milliseconds at a time: three frames a second.
+// Newer images replace those for which a reader is too slow. Three frames per second, so that only the network matters,
+// even on a machine that stalls for hundreds of milliseconds.
 constexpr auto kSlowly = "0.3";
-// Both sides must know of each other before the first image is sent.
+// Both sides must have discovered each other before the first image is sent.
 const Words kAwaitReaders{"--await", "/stereo/left/image_rect", "--await", "/stereo/right/image_rect",
                           "--await", "/stereo/left/camera_info"};
 
@@ -31,7 +31,7 @@ struct Position {
   double x, y, z;
 };
 
-/// stamp as written -> position.
+/// Stamp, as written in the file -> position.
 std::map<std::string, Position> read_tum(const std::filesystem::path& file) {
   std::map<std::string, Position> positions;
   std::istringstream lines(read_file(file));
@@ -55,7 +55,8 @@ class AcrossHosts : public testing::Test {
     ASSERT_EQ(replayed.status, 0) << replayed.output;
   }
 
-  /// stereo_split with its cameras on host a and its odometry on host b. `before`: words before the command, for its environment.
+  /// Runs stereo_split with cameras on host a and odometry on host b. `before`: command prefix that sets the
+  /// environment.
   void run_split(const TwoHosts& hosts, const Words& before, const Words& more) {
     const auto words = [&](const Words& own) {
       Words all = before;
@@ -75,8 +76,9 @@ class AcrossHosts : public testing::Test {
     said_ = cameras.output() + odometry.output();
   }
 
-  /// As tests/recorded_topics has it for two processes: a frame or two may get lost, which changes the path by less than 5 cm. Of the first
-  /// `late` frames some may be missing, for a writer cannot see when a reader has found it; that is where the path then begins.
+  /// As for two processes in tests/recorded_topics: one or two frames may be lost, which changes the path by less than
+  /// 5 cm. Some of the first `late` frames may be missing, because a writer does not know when a reader has discovered
+  /// it; the path then starts later.
   void expect_the_odometry_of_one_container(std::size_t late = 3) {
     const auto expected = read_tum(folder_.path() / "one" / "odometry_binocular.tum");
     const auto got = read_tum(folder_.path() / "split" / "odometry_binocular.tum");
@@ -110,7 +112,7 @@ TEST_F(AcrossHosts, OnOneSubnetGiveTheOdometryOfOneContainerWithoutAnySetting) {
 
 TEST_F(AcrossHosts, ThroughARouterGiveTheOdometryOfOneContainerByADiscoveryServer) {
   const std::string server_program = find_program("fast-discovery-server");
-  if (server_program.empty()) GTEST_SKIP() << "there is no fast-discovery-server (package fastdds-tools)";
+  if (server_program.empty()) GTEST_SKIP() << "fast-discovery-server is not installed (package fastdds-tools)";
   const TwoHosts hosts({.routed = true});
   const Process server(hosts.on_a({server_program, "-i", "0", "-l", hosts.address_of_a(), "-p", "11811"}));
   run_split(hosts, {find_program("env"), "ROS_DISCOVERY_SERVER=" + hosts.address_of_a() + ":11811"}, {});
@@ -120,7 +122,7 @@ TEST_F(AcrossHosts, ThroughARouterGiveTheOdometryOfOneContainerByADiscoveryServe
 TEST_F(AcrossHosts, ThatLoseOnePacketOfAHundredGiveTheOdometryOfOneContainer) {
   TwoHosts hosts({.loss = 0.01});
   run_split(hosts, {}, {"--dds-profiles", CONFIG "/dds/lossy_network.xml"});
-  // Where the announcement of a topic is lost, it comes with the next one, after a second or so.
+  // A lost announcement of a topic is repeated after about a second.
   expect_the_odometry_of_one_container(6);
   const std::string losses = hosts.say_losses();
   RecordProperty("losses", losses);
@@ -134,8 +136,8 @@ TEST_F(AcrossHosts, ThatLoseOnePacketOfAHundredHaveEveryPoseOnBoth) {
             "namespace:=" + bag};
   };
   Process near(hosts.on_a(record("near"))), far(hosts.on_b(record("far")));
-  // Slowly: a recorder whose announcement of the topic was lost hears of it with the next, after a second, and is then sent what it has missed
-  // of the newest ten poses, which are of two seconds.
+  // At low rate: if the announcement of the topic is lost, a recorder receives the next one after a second, and then
+  // the missed ones among the newest ten poses, which cover two seconds.
   const Finished odometry = run(hosts.on_a({PANVO_RUN, CONFIG "/systems/stereo.yaml", "--dataset", walk_, "--rate",
                                             "0.4", "--await", "/odometry/binocular:2"}),
                                 kLimit);

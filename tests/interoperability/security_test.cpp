@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Keys made by `panvo secure`: who has them hears and is heard; who has none, or another's, neither reads nor writes.
+// Keys created by `panvo secure`: only processes with keys of the same keystore can read and write.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -24,7 +24,7 @@ constexpr const char* kTopic = "/odometry/binocular";
 class Security : public testing::Test {
  protected:
   void SetUp() override {
-    if (find_program("openssl").empty()) GTEST_SKIP() << "there is no program openssl (package openssl)";
+    if (find_program("openssl").empty()) GTEST_SKIP() << "openssl is not installed (package openssl)";
     make_keystore("keys");
     RenderedWalk{.frames = 20}.write(folder_.path() / "walk");
   }
@@ -34,7 +34,7 @@ class Security : public testing::Test {
     ASSERT_EQ(made.status, 0) << made.output;
   }
 
-  /// One enclave for each container of stereo_split, with no more rights than it needs.
+  /// One enclave per container of stereo_split, with minimal permissions.
   void make_system_keystore(const std::string& name) const {
     const Finished made = run({PANVO, "secure", folder_ / name, "--system", CONFIG "/systems/stereo_split.yaml",
                                "--dataset", folder_ / "walk"});
@@ -50,24 +50,25 @@ class Security : public testing::Test {
     return {"--secure", folder_ / keystore, "--enclave", enclave};
   }
 
-  /// Records the odometry that it hears; `name` of the bag.
+  /// Command that records received odometry into the bag `name`.
   Words listener(const std::string& name, const Words& with_keys) const {
     return joined({PANVO_RUN, CONFIG "/systems/record.yaml", "output:=" + (folder_ / name),
                    std::string("topics:=") + kTopic, "namespace:=/" + name, "--domain", domain_},
                   with_keys);
   }
 
-  /// Publishes twenty poses once somebody listens.
+  /// Command that publishes twenty poses once a reader is connected.
   Words talker(const Words& with_keys) const {
     return joined({PANVO_RUN, CONFIG "/systems/stereo.yaml", "--dataset", folder_ / "walk", "--rate", "1", "--await",
                    kTopic, "--domain", domain_},
                   with_keys);
   }
 
-  /// Whether it heard anything. How much is not asked: who exchanges keys may miss the first messages.
+  /// Checks whether the listener received anything. The count does not matter: the first messages may be lost during
+  /// the key exchange.
   static void expect_heard(Process& listener, bool is_heard) {
     listener.signal(SIGINT);
-    EXPECT_EQ(listener.wait(kLimit), is_heard ? 0 : 1) << listener.output();  // 1: a recorder that recorded nothing
+    EXPECT_EQ(listener.wait(kLimit), is_heard ? 0 : 1) << listener.output();  // 1: nothing recorded
     EXPECT_THAT(listener.output(), ContainsRegex(is_heard ? "recorded [1-9][0-9]* messages" : "recorded 0 messages"));
   }
 
@@ -96,8 +97,8 @@ TEST_F(Security, WhatIsWrittenWithoutKeysIsReadOnlyByWhoHasNone) {
   expect_heard(with_keys, false);
 }
 
-/// What a whole system in one process makes of the walk: its poses, and what it says of them. Its own readers and writers must not meet over
-/// DDS, where they would hand everything over a second time.
+/// Results of a whole system in one process on the walk. Its own readers and writers must not connect over DDS, which
+/// would deliver every message twice.
 struct WholeRun {
   std::string poses, qualities, output;
   int status = -1;
@@ -113,7 +114,8 @@ WholeRun run_whole(const std::filesystem::path& out, Words words) {
 TEST_F(Security, AWholeSystemWithKeysGivesWhatItGivesWithout) {
   const Words system{PANVO_RUN, CONFIG "/systems/stereo.yaml", "--dataset", folder_ / "walk", "--rate", "1", "--domain",
                      domain_};
-  // Somebody listens, so that what is written goes out, to the system's own readers too if it does not know them.
+  // A listener makes the system write to DDS, which would also reach the system's own readers if they were not
+  // excluded.
   Process plain_listener(listener("plain_bag", {}));
   const WholeRun plain = run_whole(folder_ / "plain", joined(system, {"--await", kTopic}));
   expect_heard(plain_listener, true);
@@ -157,7 +159,7 @@ TEST_F(Security, AnEnclaveMayNotPublishWhatItsContainerDoesNot) {
   EXPECT_THAT(rights, AllOf(HasSubstr("<topic>rt/stereo/left/image_rect</topic>"),
                             HasSubstr("<topic>rq/stereo_rectifier/*Request</topic>"),
                             testing::Not(HasSubstr("rt/odometry")), testing::Not(HasSubstr("<topic>*</topic>"))));
-  // The container of stereo.yaml has another name, and the odometry too.
+  // The container and the odometry of stereo.yaml have other names than this enclave permits.
   const Finished refused =
       run(joined({PANVO_RUN, CONFIG "/systems/stereo.yaml", "--dataset", folder_ / "walk", "--domain", domain_},
                  keys("least", "/stereo_split/cameras")),
@@ -172,7 +174,7 @@ TEST_F(Security, WhoseKeysWereRevokedIsNotHeardAndOthersAre) {
   const Finished revoked = run({PANVO, "secure", "revoke", folder_ / "keys", "/talker"});
   ASSERT_EQ(revoked.status, 0) << revoked.output;
   {
-    Process before(listener("before", keys("stolen", "/listener")));  // knows nothing of it yet
+    Process before(listener("before", keys("stolen", "/listener")));  // has the old files, without the revocation
     Process after(listener("after", keys("keys", "/listener")));
     const Finished talked = run(talker(keys("stolen", "/talker")), kLimit);
     EXPECT_EQ(talked.status, 0) << talked.output;
@@ -190,7 +192,8 @@ TEST_F(Security, KeysThatAreNotThereAreNamedWithTheRemedy) {
   const Finished run_without = run(talker(keys("keys", "/nobody")), kLimit);
   EXPECT_EQ(run_without.status, 2);
   EXPECT_THAT(run_without.output, AllOf(HasSubstr("enclaves/nobody/"), HasSubstr("panvo secure")));
-  EXPECT_EQ(run_without.output.find("panvo secure"), run_without.output.rfind("panvo secure")) << "is said once";
+  EXPECT_EQ(run_without.output.find("panvo secure"), run_without.output.rfind("panvo secure"))
+      << "the remedy is printed once";
 }
 
 TEST_F(Security, KeysThatAreThereAreKept) {
@@ -213,7 +216,7 @@ TEST_F(Security, AKeyThatOthersMayReadIsRefusedWithTheRemedy) {
 
 TEST_F(Security, KeysMadeInACheckoutAreNotSeenByGit) {
   const std::string git = find_program("git");
-  if (git.empty()) GTEST_SKIP() << "there is no program git";
+  if (git.empty()) GTEST_SKIP() << "git is not installed";
   ASSERT_EQ(run({git, "-C", folder_.path(), "init", "--quiet"}).status, 0);
   make_keystore("in_checkout");
   const Finished seen = run({git, "-C", folder_.path(), "status", "--porcelain", "--untracked-files=all"});

@@ -25,16 +25,16 @@ void ip(const Words& arguments) {
 
 std::string host_name(const char* which) { return "panvo_" + std::to_string(getpid()) + "_" + which; }
 
-/// Interfaces have the same names on every host.
+/// Names of the interfaces, equal on all hosts.
 constexpr const char *kInterface = "net0", *kOtherInterface = "net1";
 
 }  // namespace
 
 std::string TwoHosts::why_not() {
-  if (find_program("ip").empty()) return "there is no program ip (package iproute2)";
+  if (find_program("ip").empty()) return "the program ip is not installed (package iproute2)";
   if (geteuid() != 0) return "network namespaces need root";
   const Words make{find_program("ip"), "netns", "add", host_name("try")};
-  if (const Finished made = run(make); made.status != 0) return "no network namespace can be made: " + made.output;
+  if (const Finished made = run(make); made.status != 0) return "cannot create a network namespace: " + made.output;
   const Finished joined = run({find_program("ip"), "-n", host_name("try"), "link", "add", kInterface, "type", "veth",
                                "peer", "name", kOtherInterface});
   ip({"netns", "del", host_name("try")});
@@ -80,7 +80,7 @@ void TwoHosts::make_one_subnet() {
     link_ = std::make_unique<Process>(
         command_on(between_, {LOSSY_LINK, kInterface, kOtherInterface, std::to_string(network_.loss)}));
     if (!eventually([this] { return link_->output().starts_with("ready"); })) {
-      throw std::runtime_error("the lossy network does not begin: " + link_->output());
+      throw std::runtime_error("the lossy network does not start: " + link_->output());
     }
   } else {
     join(a_, kInterface, b_, kInterface);

@@ -9,32 +9,33 @@
 
 namespace panvo::test {
 
-/// Two hosts with a network between them, made of network namespaces; each has a /dev/shm of its own. They go with this object.
+/// Two hosts with a network between them, simulated by network namespaces; each has its own /dev/shm. The destructor
+/// removes them.
 class TwoHosts {
  public:
   struct Network {
-    bool routed = false;  ///< two subnets with a router between them, which multicast does not pass; else one
-    double loss = 0;      ///< share of packets that get lost; one subnet only
+    bool routed = false;  ///< true: two subnets with a router that does not forward multicast; false: one subnet
+    double loss = 0;      ///< fraction of lost packets; only with one subnet
     int mtu = 1400;
   };
 
-  /// Why this machine cannot have such hosts; empty: it can.
+  /// Reason why the hosts cannot be created on this machine; empty: they can.
   static std::string why_not();
 
-  /// Throws std::runtime_error with the command that failed.
+  /// Throws std::runtime_error, naming the failed command.
   explicit TwoHosts(const Network& network);
   ~TwoHosts();
   TwoHosts(const TwoHosts&) = delete;
   TwoHosts& operator=(const TwoHosts&) = delete;
 
-  /// The command line that runs `words` on host 'a' or 'b'.
+  /// Command that runs `words` on a host.
   static std::vector<std::string> command_on(const std::string& name_space, const std::vector<std::string>& words);
   std::vector<std::string> on_a(const std::vector<std::string>& words) const { return command_on(a_, words); }
   std::vector<std::string> on_b(const std::vector<std::string>& words) const { return command_on(b_, words); }
 
   const std::string& address_of_a() const noexcept { return address_of_a_; }
 
-  /// How many packets the network has carried and lost; only where it was made to lose some.
+  /// Number of lost and of all packets, as text; only for a network with losses.
   std::string say_losses();
 
  private:

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A journey with one revisit, recorded once into a bag and played through places, compass and localizer: replayed, live, and split over
-// two processes. Its odometry is made of the truth and a drift, so that the bag needs no stereo images and there is much to correct.
+// A journey with one revisit, recorded into a bag and played through places, compass and localizer: replayed, live, and
+// in two processes. The odometry is ground truth plus a drift, so the bag needs no stereo images and there is a large
+// error to correct.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -18,7 +19,7 @@ using std::chrono::seconds;
 using Json = nlohmann::json;
 
 const std::string kSystem = CONFIG "/systems/modelled_odometry.yaml";
-// A hundredth too long, and bending to the left by 2 degrees in 100 m: some metres off at the revisit.
+// Scale error of 1 % and heading drift of 2 degrees per 100 m to the left: an error of some metres at the revisit.
 const std::vector<std::string> kDrift{"--set", "drifting_odometry.drift.scale_error=0.01", "--set",
                                       "drifting_odometry.drift.yaw_error_rad_per_m=0.00035"};
 
@@ -98,7 +99,7 @@ void RecordedJourney::gets_its_position_back() {
     EXPECT_LT(row.at("beyond_landmark_m").get<double>(), 0.30) << row;
   }
   const Json& paths = journey.at("paths");
-  EXPECT_GT(paths.at("binocular").at("final_m").get<double>(), 2.0) << "there was something to correct";
+  EXPECT_GT(paths.at("binocular").at("final_m").get<double>(), 2.0) << "there is an error to correct";
   EXPECT_LT(paths.at("enhanced").at("final_m").get<double>(), 0.5 * paths.at("binocular").at("final_m").get<double>());
   const std::string page = read_file(out("report") / "report.html");
   EXPECT_THAT(page, testing::HasSubstr("</html>"));
@@ -107,9 +108,9 @@ void RecordedJourney::gets_its_position_back() {
 void RecordedJourney::ends_at_the_same_place_live() {
   const Finished live = play("live", {"--local", "--rate", "0"});
   ASSERT_EQ(live.status, 0) << live.output;
-  // What a panorama says comes some frames later than in replay and is put at its own time all the same. What remains: it was looked for with
-  // odometry that had not been corrected yet, so that a sighting more or less may be taken up, of a pass of which many are: they differ by some
-  // centimetres.
+  // Results of a panorama arrive some frames later than in replay but are inserted at their own stamps. A difference
+  // remains, because the matcher used odometry that was not yet corrected: the accepted sightings of a pass may differ,
+  // and sightings differ by some centimetres.
   EXPECT_LT(distance(last_position(out("replayed") / "odometry_enhanced.tum"),
                      last_position(out("live") / "odometry_enhanced.tum")),
             0.05)
@@ -120,15 +121,15 @@ void RecordedJourney::ends_at_the_same_place_in_two_processes() {
   const std::string domain = std::to_string(runtime::test_domain());
   const Finished split = play("split", {"--rate", "2", "--domain", domain}, HERE "/two_processes.yaml");
   ASSERT_EQ(split.status, 0) << split.output;
-  // Panoramas may be lost on the way when the machine is busy, and with each a sighting or a turn; others of the pass say the same to some
-  // centimetres. Without a loss it is 1 mm.
+  // On a busy machine, panoramas may be lost in transport, each with a sighting or an azimuth change; the other
+  // sightings of the pass agree to some centimetres. Without losses the difference is 1 mm.
   EXPECT_LT(distance(last_position(out("replayed") / "odometry_enhanced.tum"),
                      last_position(out("split") / "odometry_enhanced.tum")),
             0.05)
       << split.output;
 }
 
-// One test, for the journey is rendered for it, which takes a minute.
+// A single test, because rendering the journey takes a minute.
 TEST_F(RecordedJourney, IsTheSameReplayedLiveAndInTwoProcessesAndGetsItsPositionBack) {
   ASSERT_NO_FATAL_FAILURE(replays_to_the_same_bit_for_bit());
   gets_its_position_back();

@@ -124,7 +124,7 @@ class OwnPackage(unittest.TestCase):
         with_recorder = self.folder / "recorded.yaml"
         with_recorder.write_text(system.read_text(encoding="utf-8") +
                                  "    - pkg: panvo_recorder\n      plugin: RecorderComponent\n      name: recorder\n      param:\n"
-                                 f"      - {{name: folder, value: {self.folder}/bag}}\n      - {{name: topics, value: [/{NAME}/distance]}}\n",
+                                 f"      - {{name: output, value: {self.folder}/bag}}\n      - {{name: topics, value: [/{NAME}/distance]}}\n",
                                  encoding="utf-8")
         self.run_command("panvo", "run", with_recorder, "--dataset", recording, "--out", "run")
         said = self.run_command("panvo", "bag", "check", "bag")

@@ -25,7 +25,7 @@ std::vector<float> gradient_magnitudes(const cv::Mat& image) {
   return {magnitude.begin<float>(), magnitude.end<float>()};
 }
 
-/// Least-squares slope of log power over log frequency; the power averaged over directions in rings of an octave's third.
+/// Least-squares slope of log power over log frequency, with power averaged over directions in rings of a third octave.
 double spectrum_slope(const cv::Mat& image) {
   constexpr int kSide = 256;
   double sum_x = 0, sum_y = 0, sum_xx = 0, sum_xy = 0, rings = 0;

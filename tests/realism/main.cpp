@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// panvo_image_statistics: what the left images of data sets are made of, side by side: is the simulation like a street?
+// panvo_image_statistics: compares image statistics of the left images of data sets, simulated and real.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -25,7 +25,7 @@ Range range_of(std::vector<double> values) {
   return {values.front(), values[values.size() / 2], values.back()};
 }
 
-/// The values of one data set, a frame or a pair of frames each.
+/// Statistics of one data set, for single frames and for pairs of frames.
 class Measurement {
  public:
   explicit Measurement(const std::string& directory) {
@@ -86,8 +86,8 @@ void print(const std::vector<std::string>& directories) {
   const auto single = [&](const std::string& name, int digits, double ImageStatistics::*value) {
     row(name, digits, [=](const Measurement& m) { return m.of([=](const ImageStatistics& s) { return s.*value; }); });
   };
-  single("FAST corners a megapixel", 0, &ImageStatistics::fast_per_megapixel);
-  single("SIFT keypoints a megapixel", 0, &ImageStatistics::sift_per_megapixel);
+  single("FAST corners per megapixel", 0, &ImageStatistics::fast_per_megapixel);
+  single("SIFT keypoints per megapixel", 0, &ImageStatistics::sift_per_megapixel);
   single("gradient, median", 2, &ImageStatistics::gradient_median);
   single("gradient, 90 %", 2, &ImageStatistics::gradient_90);
   single("slope of the spectrum", 2, &ImageStatistics::spectrum_slope);
@@ -96,7 +96,7 @@ void print(const std::vector<std::string>& directories) {
         [=](const Measurement& m) { return m.of([=](const ImageStatistics& s) { return s.octaves[octave]; }); });
   }
   for (std::size_t gap = 0; gap < Measurement::kGaps.size(); ++gap) {
-    row(fmt::format("SIFT that survive {} frames", Measurement::kGaps[gap]), 3,
+    row(fmt::format("SIFT matched after {} frames", Measurement::kGaps[gap]), 3,
         [=](const Measurement& m) { return m.survival_after(gap); });
   }
 }

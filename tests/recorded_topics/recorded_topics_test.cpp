@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The whole on recorded topics: from a data set into a bag, from the bag into odometry; replayed, live, and split over two processes.
+// The system on recorded topics: from a data set to a bag, and from the bag to odometry; replayed, live, and in two
+// processes.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -22,7 +23,7 @@ struct Position {
   double x, y, z;
 };
 
-/// stamp as written -> position.
+/// Stamp, as written in the file -> position.
 std::map<std::string, Position> read_tum(const std::filesystem::path& file) {
   std::map<std::string, Position> positions;
   std::istringstream lines(read_file(file));
@@ -38,7 +39,7 @@ std::map<std::string, Position> read_tum(const std::filesystem::path& file) {
 
 double distance(const Position& a, const Position& b) { return std::hypot(a.x - b.x, a.y - b.y, a.z - b.z); }
 
-/// A bag of the raw images of a recording; made once for all tests of this process.
+/// Records the raw images of a recording into a bag.
 class RecordedTopics : public testing::TestWithParam<std::string> {
  protected:
   void SetUp() override {
@@ -93,8 +94,8 @@ TEST_P(RecordedTopics, GiveTheSameOdometryInTwoProcessesOverDds) {
   ASSERT_EQ(split.status, 0) << split.output;
   const auto expected = read_tum(folder_.path() / "replayed" / "odometry_binocular.tum");
   const auto got = read_tum(folder_.path() / "split" / "odometry_binocular.tum");
-  // Between processes a frame may be lost when the machine is busy, and the path then differs by what a frame more or less changes:
-  // less than 5 cm over these metres. The first must be there, for it is the origin, and nine of ten in all.
+  // On a busy machine, a frame may be lost between processes, which changes the path by less than 5 cm over this
+  // distance. The first frame, the origin, must be present, and nine of ten frames in all.
   EXPECT_TRUE(got.contains(expected.begin()->first)) << split.output;
   EXPECT_GE(got.size(), expected.size() * 9 / 10) << split.output;
   for (const auto& [stamp, position] : got) {
@@ -125,7 +126,7 @@ TEST_P(RecordedTopics, RecordedTwiceAreTheSameBagMessageForMessage) {
       run({PANVO_RUN, SYSTEMS "/record.yaml", "output:=" + again, "--dataset", data_.string(), "--replay"});
   ASSERT_EQ(recorded.status, 0) << recorded.output;
   const Finished compared =
-      run({PANVO_BAG, "diff", bag_, again, "--times", "--exclude", "/rosout"});  // which names the folder
+      run({PANVO_BAG, "diff", bag_, again, "--times", "--exclude", "/rosout"});  // it contains the folder name
   EXPECT_EQ(compared.status, 0) << compared.output;
 }
 
@@ -140,8 +141,8 @@ TEST(RenderedWalk, IsMeasuredToAFewCentimetres) {
   const auto path = read_tum(folder.path() / "out" / "odometry_binocular.tum");
   ASSERT_EQ(path.size(), 40U);
   for (const auto& [stamp, position] :
-       path) {  // base_link: x forward; 0.1 m every 0.1 s, so that x in m is the stamp in s
-    EXPECT_LT(distance(position, {std::stod(stamp), 0, 0}), 0.04) << stamp;  // 1 % of the whole way
+       path) {  // base_link: x forward; 0.1 m every 0.1 s, so that x in m equals the stamp in s
+    EXPECT_LT(distance(position, {std::stod(stamp), 0, 0}), 0.04) << stamp;  // 1 % of the whole distance
   }
 }
 

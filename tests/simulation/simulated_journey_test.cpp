@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The simulated campus as people use it: from the command line into a data set that the other programs read.
+// The simulated campus from the command line, rendered into a data set that the other programs read.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -23,7 +23,7 @@ using ::testing::HasSubstr;
 
 const std::string kShort = CONFIG "/routes/short.yaml";
 
-/// Every file of a folder by its path in there.
+/// Contents of all files of a folder, by relative path.
 std::map<std::string, std::string> contents(const fs::path& folder) {
   std::map<std::string, std::string> files;
   for (const auto& entry : fs::recursive_directory_iterator(folder)) {
@@ -44,7 +44,7 @@ class SimulatedJourney : public ::testing::Test {
     return run(options, seconds(500));
   }
 
-  /// A rig that renders in no time.
+  /// A rig with small images, for fast rendering.
   std::string small_rig() {
     return write("small.yaml", "stereo: {size_px: [80, 60]}\npanorama: {size_px: [128, 64]}\n");
   }
@@ -74,10 +74,10 @@ TEST_F(SimulatedJourney, OfOneSeedIsTheSameByteForByteEvenWhereItWasKilledAndOfA
     process.signal(SIGKILL);
     ASSERT_EQ(process.wait(), 128 + SIGKILL) << process.output();
   }
-  EXPECT_FALSE(fs::exists(folder_ / "killed")) << "a data set in part must not look like a whole one";
+  EXPECT_FALSE(fs::exists(folder_ / "killed")) << "an incomplete data set must not look complete";
 
   const auto other = simulate(words("killed", "2"));
-  EXPECT_NE(other.status, 0) << "two worlds in one data set";
+  EXPECT_NE(other.status, 0) << "a data set must not mix two worlds";
   EXPECT_THAT(other.output, HasSubstr("'seed: 1' there, 'seed: 2' requested"));
 
   const auto resumed = simulate(words("killed", "1"));
@@ -97,7 +97,7 @@ TEST_F(SimulatedJourney, OfOneSeedIsTheSameByteForByteEvenWhereItWasKilledAndOfA
   });
   ASSERT_NE(image, first.end());
   EXPECT_FALSE(contents(folder_.path() / "another").at(image->first) == image->second)
-      << "two seeds gave the same picture";
+      << "two seeds gave the same image";
 }
 
 TEST_F(SimulatedJourney, IsADataSetThatOdometryFollowsToTheCentimetre) {
@@ -119,16 +119,16 @@ TEST_F(SimulatedJourney, IsADataSetThatOdometryFollowsToTheCentimetre) {
       {PANVO_RUN, CONFIG "/systems/stereo.yaml", "--dataset", out, "--out", folder_ / "run", "--replay"}, seconds(200));
   ASSERT_EQ(played.status, 0) << played.output;
   const auto evaluated = run({PANVO_EVALUATE, folder_ / "run", out});
-  ASSERT_TRUE(evaluated.status == 0 || evaluated.status == 3) << evaluated.output;  // 3: no gnuplot to draw with
+  ASSERT_TRUE(evaluated.status == 0 || evaluated.status == 3) << evaluated.output;  // 3: gnuplot is missing
   const auto positions = read_file(fs::path(folder_ / "run") / "odometry_binocular.tum");
   EXPECT_EQ(std::count(positions.begin(), positions.end(), '\n'), 76);
-  // Exact calibration and an exact truth: a pixel's error in either would be centimetres here.
+  // Calibration and ground truth are exact: an error of one pixel in either would cause centimetres here.
   const auto report = nlohmann::json::parse(read_file(fs::path(folder_ / "run") / "evaluation.json"));
   EXPECT_LT(report.at("estimates").at(0).at("ate_se3_m").at("rmse").get<double>(), 0.02) << report.dump(1);
 }
 
 TEST_F(SimulatedJourney, InPartListsWhatIsTrueOfThatPart) {
-  // The route comes by its crossing twice, the second time in its last third.
+  // The route passes its junction twice, the second time in its last third.
   constexpr std::int64_t kFrom_s = 30, kFor_s = 20;
   constexpr std::int64_t kFrom_ns = (1'700'000'000 + kFrom_s) * 1'000'000'000,
                          kTo_ns = kFrom_ns + kFor_s * 1'000'000'000;
@@ -140,7 +140,7 @@ TEST_F(SimulatedJourney, InPartListsWhatIsTrueOfThatPart) {
   ASSERT_EQ(sequence["visits"].size(), 1u);
   EXPECT_GE(sequence["visits"][0]["t_ns"].as<std::int64_t>(), kFrom_ns);
   EXPECT_LE(sequence["visits"][0]["t_ns"].as<std::int64_t>(), kTo_ns);
-  EXPECT_EQ(sequence["revisits"].size(), 0u) << "the first visit is not in it";
+  EXPECT_EQ(sequence["revisits"].size(), 0u) << "the first visit is outside this part";
   ASSERT_GT(sequence["movers"].size(), 0u);
   for (const auto* list : {"movers", "illumination_events"}) {
     for (const auto& event : sequence[list]) {

@@ -20,7 +20,7 @@ namespace {
 
 fs::path temporary_path(const char* pattern) {
   std::string path = (fs::temp_directory_path() / pattern).string();
-  if (!mkdtemp(path.data())) throw std::runtime_error("cannot make a temporary folder " + path);
+  if (!mkdtemp(path.data())) throw std::runtime_error("cannot create a temporary folder " + path);
   return path;
 }
 

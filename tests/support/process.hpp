@@ -11,22 +11,22 @@
 
 namespace panvo::test {
 
-/// A program started with its output going to a file.
+/// A child process whose output goes to a file.
 class Process {
  public:
-  /// `words[0]` is the program's path. Throws std::runtime_error when it cannot be started.
+  /// `words[0]` is the path of the program. Throws std::runtime_error if it cannot be started.
   explicit Process(const std::vector<std::string>& words);
-  ~Process();  // kills what still runs
+  ~Process();  // kills the process if it still runs
   Process(const Process&) = delete;
   Process& operator=(const Process&) = delete;
 
   void signal(int number) const;
   pid_t id() const noexcept { return pid_; }
 
-  /// Exit status, or 128 + signal. Kills the process and returns -1 when `limit` has passed.
+  /// Waits for the end. Returns the exit status, or 128 + signal; kills the process and returns -1 after `limit`.
   int wait(std::chrono::seconds limit = std::chrono::seconds(100));
 
-  /// All it has written so far, standard output and error together.
+  /// Its standard output and error so far.
   std::string output() const;
 
  private:
@@ -42,14 +42,14 @@ struct Finished {
 /// Runs a program to its end.
 Finished run(const std::vector<std::string>& words, std::chrono::seconds limit = std::chrono::seconds(100));
 
-/// Looks every few milliseconds whether `condition` holds; false when it did not before the limit.
+/// Polls `condition` every few milliseconds; false if it does not hold within the limit.
 [[nodiscard]] bool eventually(const std::function<bool()>& condition,
                               std::chrono::seconds limit = std::chrono::seconds(60));
 
-/// The path of a program of the system's, looked for in $PATH and where administrators have theirs; empty: not installed.
+/// Path of an installed program, searched in $PATH, /usr/sbin and /sbin; empty if not installed.
 std::string find_program(const std::string& name);
 
-/// A folder that is removed with its owner.
+/// A temporary folder, deleted by the destructor.
 class TemporaryFolder {
  public:
   TemporaryFolder();
@@ -66,7 +66,7 @@ class TemporaryFolder {
 
 std::string read_file(const std::filesystem::path& file);
 
-/// The folder of recordings, $PANVO_DATA or shared/data beside the checkout, with `name` in it; empty if there is none.
+/// Path of the recording `name` in $PANVO_DATA, else in shared/data beside the checkout; empty if it does not exist.
 std::filesystem::path recording(const std::string& name);
 
 }  // namespace panvo::test

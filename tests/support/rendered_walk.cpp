@@ -14,7 +14,7 @@ constexpr int kWidth = 320, kHeight = 240;
 constexpr double kFocal_px = 240, kBaseline_m = 0.2, kStep_m = 0.1, kInterval_s = 0.1;
 constexpr double kTexel_m = 0.02;
 
-/// Smooth random speckles, the same every time.
+/// Smooth random speckles; deterministic.
 cv::Mat texture(int seed) {
   cv::Mat noise(1024, 1024, CV_8U);
   cv::RNG random(seed);

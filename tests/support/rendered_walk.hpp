@@ -7,8 +7,8 @@
 
 namespace panvo::test {
 
-/// A small KITTI-like recording made on the spot: a rectified stereo pair, 320x240, f 240 px, baseline 0.2 m, that moves forward 0.1 m a frame
-/// along a textured floor between textured walls. Its answer is known exactly.
+/// A small rendered recording in KITTI layout: a rectified stereo pair, 320x240, f 240 px, baseline 0.2 m, moving
+/// forward by 0.1 m per frame on a textured floor between textured walls. The true path is known exactly.
 struct RenderedWalk {
   int frames = 20;
   /// Changes a pair before it is written: frame number, left, right.

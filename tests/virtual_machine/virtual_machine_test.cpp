@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The V4L2 driver on another kernel's cameras: each test starts Debian's kernel in QEMU and runs many scenarios there. Skipped, with the reason, where
-// QEMU, the kernel or what prepares it is not to be had.
+// The V4L2 driver on cameras of another kernel: each test starts Debian's kernel in QEMU and runs many scenarios there.
+// Skipped with a reason if QEMU, the kernel or a tool to prepare it is missing.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -22,10 +22,10 @@ class VirtualMachine : public ::testing::Test {
     if (!std::string(SANITIZER).empty())
       GTEST_SKIP() << "an emulated processor is too slow for the sanitizer " << SANITIZER;
     const Finished checked = run({PYTHON, "-B", VIRTUAL_MACHINE, "check"}, std::chrono::seconds(290));
-    if (checked.status != 0) GTEST_SKIP() << "there can be no virtual machine here: " << checked.output;
+    if (checked.status != 0) GTEST_SKIP() << "no virtual machine available: " << checked.output;
   }
 
-  /// Runs a program inside; the machine is switched off after `limit`.
+  /// Runs a program in the virtual machine, which is stopped after `limit`.
   Finished inside(const std::vector<std::string>& modules, const std::vector<std::string>& words,
                   std::chrono::seconds limit) {
     std::vector<std::string> command{PYTHON, "-B", VIRTUAL_MACHINE, "run", "--limit", std::to_string(limit.count())};
@@ -40,14 +40,14 @@ class VirtualMachine : public ::testing::Test {
   TemporaryFolder exchange_;
 };
 
-/// The poses that images showed. A camera that was kept from working sends a picture again, which is no measurement: its pose is extrapolated.
+/// The poses measured from images. A delayed camera repeats an image; such a pose is extrapolated, not measured.
 std::vector<Position> measured(const std::vector<Position>& poses, const std::string& quality_file) {
   std::ifstream file(quality_file);
   std::vector<Position> shown;
   std::string line;
-  std::getline(file, line);  // the names of the columns: stamp_ns,reliable,...
+  std::getline(file, line);  // column names: stamp_ns,reliable,...
   for (const auto& pose : poses) {
-    EXPECT_TRUE(std::getline(file, line)) << quality_file << " has fewer lines than there are poses";
+    EXPECT_TRUE(std::getline(file, line)) << quality_file << " has fewer lines than the trajectory has poses";
     if (line.find(",1,") == line.find(',')) shown.push_back(pose);
   }
   return shown;
@@ -87,11 +87,11 @@ TEST_F(VirtualMachine, UsbCameraGivesThePathThatTheSamePicturesGiveFromFiles) {
   const auto missing = std::count_if(expected.begin(), expected.end(),
                                      [&](const Position& step) { return distance(step, seen) > kSame_m; });
   std::printf(
-      "from the USB camera %zu poses, from files %zu; the paths differ by at most %.1f mm; %td steps not seen\n",
+      "%zu poses from the USB camera, %zu from files; largest difference of the paths %.1f mm; %td steps not seen\n",
       seen.size(), expected.size(), 1e3 * largest_m, missing);
   EXPECT_LT(largest_m, kSame_m) << finished.output;
-  EXPECT_LE(missing, 6) << "of which a machine that is kept from working loses the pictures\n" << finished.output;
-  EXPECT_LT(distance(expected.back(), seen), kSame_m) << "where the walk ends";
+  EXPECT_LE(missing, 6) << "steps whose images a stalled machine loses\n" << finished.output;
+  EXPECT_LT(distance(expected.back(), seen), kSame_m) << "end of the walk";
 }
 
 }  // namespace

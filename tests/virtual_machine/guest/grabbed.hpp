@@ -13,14 +13,14 @@
 
 namespace panvo::test {
 
-/// What a grabber delivers of one of the kernel's cameras.
+/// Collects the frames that a grabber delivers from a camera.
 class Grabbed {
  public:
   using Frame = v4l2_camera::CameraGrabber::Frame;
 
   explicit Grabbed(v4l2_camera::CameraSettings settings);
 
-  /// The newest frames, at most some hundred; all are counted.
+  /// The newest frames, at most some hundred; count() counts all.
   std::vector<Frame> frames() const;
   std::size_t count() const;
   std::string log() const;
@@ -29,7 +29,7 @@ class Grabbed {
   camera_stream::StreamCounters counters() const { return report().counters; }
   v4l2_camera::CameraGrabber& grabber() { return *grabber_; }
 
-  /// Waits until that many more frames than now have come; false when they did not.
+  /// Waits until `frames` more frames have arrived; false if they do not.
   bool more_come(std::size_t frames) const;
 
  private:
@@ -41,17 +41,17 @@ class Grabbed {
   std::unique_ptr<v4l2_camera::CameraGrabber> grabber_;  // last: it uses the others
 };
 
-/// Settings with a name and as many frames of reference as images come of a frame.
+/// Settings with a name and one frame id per image of a frame.
 v4l2_camera::CameraSettings camera(const std::string& selector,
                                    v4l2_camera::ImageParts parts = v4l2_camera::ImageParts::kOne);
 
-/// The mean of a region of an image in its first, second and third channel: relative to width and height, from 0 to 1.
+/// Mean of each channel over the columns from `left` to `right`, given as fractions of the width.
 std::vector<double> mean_of(const sensor_msgs::msg::Image& image, double left, double right);
 
-/// Sets a control past the grabber, as another program would.
+/// Sets a control without the grabber, like another program.
 void set_control(const std::string& node, const std::string& name, std::int64_t value);
 
-/// Looks every few milliseconds; false when it did not come true within 20 s.
+/// Polls the condition every few milliseconds; false if it does not hold within 20 s.
 bool soon(const std::function<bool()>& condition);
 
 }  // namespace panvo::test

@@ -13,7 +13,7 @@ constexpr int kStripes = 6;
 static_assert(NumberedPictures::kCount == 1U << kStripes);
 const cv::Scalar kBlack(16, 16, 16), kWhite(240, 240, 240);
 
-/// The part of an eye that holds a stripe; -1: that above them.
+/// Region of a stripe in the image of one eye; -1: region above the stripes.
 cv::Rect place(cv::Size eye, int stripe) {
   const int half = eye.height / 2;
   if (stripe < 0) return {0, 0, eye.width, half};
@@ -44,7 +44,7 @@ std::optional<NumberedPicture> read_number(const sensor_msgs::msg::Image& eye) {
   for (int stripe = -1; stripe < kStripes; ++stripe) {
     cv::Scalar mean, deviation;
     const cv::Rect whole = place(pixels->size(), stripe);
-    constexpr int kEdge = 4;  // JPEG's blocks are seen across edges
+    constexpr int kEdge = 4;  // JPEG blocks blur across edges
     cv::meanStdDev(
         (*pixels)(cv::Rect(whole.x + kEdge, whole.y + kEdge, whole.width - 2 * kEdge, whole.height - 2 * kEdge)), mean,
         deviation);

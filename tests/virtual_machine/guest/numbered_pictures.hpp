@@ -10,12 +10,13 @@
 
 namespace panvo::test {
 
-/// JPEG files of both eyes side by side, in which a number can be read again: as stripes of black and white below, with the eye above.
+/// JPEG files of both views side by side that encode a number, as black and white stripes in the lower half, and the
+/// eye in the upper half.
 class NumberedPictures {
  public:
-  static constexpr std::uint32_t kCount = 64;  ///< then they repeat
+  static constexpr std::uint32_t kCount = 64;  ///< numbers repeat after these
 
-  /// `width` of both eyes, px.
+  /// `width` of the whole image with both views, px.
   NumberedPictures(int width, int height);
 
   const Bytes& file(std::uint32_t number) const { return files_.at(number % kCount); }
@@ -24,13 +25,13 @@ class NumberedPictures {
   std::vector<Bytes> files_;
 };
 
-/// What a picture of one eye shows.
+/// Decoded contents of the image of one eye.
 struct NumberedPicture {
   std::uint32_t number = 0;
   bool is_right = false;
 };
 
-/// nullopt: it is none.
+/// nullopt if the image is not a numbered picture.
 std::optional<NumberedPicture> read_number(const sensor_msgs::msg::Image& eye);
 
 }  // namespace panvo::test

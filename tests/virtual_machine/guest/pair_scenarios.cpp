@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The component in a container that runs live, on two USB cameras that make a stereo pair: sets under one stamp, diagnostics, a half that is away.
+// The component in a live container with two USB cameras as a stereo pair: image sets with one stamp, diagnostics, a
+// missing camera.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -18,7 +19,7 @@ constexpr int kWidth = 320, kHeight = 120;
 constexpr const char* kLeft = "/stereo/left/image_raw";
 constexpr const char* kRight = "/stereo/right/image_raw";
 
-/// What the component publishes.
+/// Collects the messages that the component publishes.
 class LivePair : public ::testing::Test {
  protected:
   void SetUp() override {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The driver on USB cameras that are simulated in user space and driven by the kernel's own uvcvideo: plugged in, set, damaged, pulled out.
+// The driver on USB cameras simulated in user space, through the kernel's uvcvideo: plugged in, configured, damaged,
+// unplugged.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -25,7 +26,7 @@ class UsbStereoCamera : public ::testing::Test {
 
   UsbStereoCamera() { plug_in(); }
 
-  /// The next test must not find this one's camera, whose node goes a little later than it does.
+  /// Waits until the node of the camera has disappeared, so that the next test does not find it.
   ~UsbStereoCamera() override {
     unplug();
     EXPECT_TRUE(soon([] { return v4l2_camera::find_devices().empty(); }));
@@ -51,11 +52,12 @@ class UsbStereoCamera : public ::testing::Test {
     return pictures;
   }
 
-  std::vector<std::int64_t> began_ns_;  // the camera's thread's, until it is unplugged
+  std::vector<std::int64_t> began_ns_;  // used by the camera's thread until it is unplugged
   std::unique_ptr<UsbCamera> camera_;
 };
 
-/// The numbers of the pictures, counted on where they begin anew, from when the camera was plugged in; empty: one shows no number, or another eye's.
+/// Numbers of the images since the camera was plugged in, unwrapped; empty if an image has no number or is from the
+/// wrong eye.
 std::vector<std::uint32_t> numbers(const std::vector<Grabbed::Frame>& frames) {
   std::vector<std::uint32_t> numbers;
   std::uint32_t next = 0;
@@ -69,7 +71,7 @@ std::vector<std::uint32_t> numbers(const std::vector<Grabbed::Frame>& frames) {
   return numbers;
 }
 
-/// How many of the pictures from the first to the last one were not delivered.
+/// Number of images between the first and the last that were not delivered.
 std::size_t missing(const std::vector<std::uint32_t>& numbers) {
   return numbers.back() - numbers.front() + 1 - numbers.size();
 }
@@ -80,7 +82,8 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-/// How far the stamps are from when the camera began their frames, ms: by how much half of them scatter about what is common to all.
+/// Scatter of the stamps relative to the start of the frames in the camera, ms: median absolute deviation from the
+/// median delay.
 double scatter_ms(const std::vector<Grabbed::Frame>& frames, const std::vector<std::int64_t>& began_ns) {
   std::vector<double> late_ms;
   for (std::size_t i = 0; i < frames.size(); ++i)
@@ -104,10 +107,10 @@ TEST_F(UsbStereoCamera, DeliversSixtyImagesAtThirtyHertzAndCountsWhatABusyMachin
   EXPECT_EQ(camera_->value("gain"), 42);
   unplug();
   const auto shown = numbers(sixty);
-  ASSERT_FALSE(shown.empty()) << "an image shows what another eye or another time has";
+  ASSERT_FALSE(shown.empty()) << "an image is from another eye or another time";
   const std::size_t lost = missing(shown);
   EXPECT_LE(lost, report.counters.dropped + report.counters.damaged + report.counters.incomplete) << grabbed.log();
-  // None where the emulated processor is left to work; a third where it gets half a real one.
+  // None on an idle machine; a third if the emulated processor gets half a real one.
   constexpr std::size_t kOfABusyMachine = 30;
   EXPECT_LE(lost, kOfABusyMachine) << grabbed.log();
   EXPECT_EQ(report.serial, "SBS001");
@@ -119,7 +122,7 @@ TEST_F(UsbStereoCamera, DeliversSixtyImagesAtThirtyHertzAndCountsWhatABusyMachin
   const double apart_ms = scatter_ms(sixty, begun_ns);
   std::printf("60 of %zu in %.2f s, %zu delivered; stamps %.1f ms from when the camera began\n", 60 + lost, seconds,
               all.size(), apart_ms);
-  EXPECT_LT(apart_ms, 1e3 / 30.0 / 2) << "a stamp is nearer to its own frame's beginning than to another's";
+  EXPECT_LT(apart_ms, 1e3 / 30.0 / 2) << "a stamp must be nearer to the start of its own frame than to another";
 }
 
 TEST_F(UsbStereoCamera, IsListedByItsSerialNumberWithFormatsAndRates) {
@@ -154,7 +157,7 @@ TEST_F(UsbStereoCamera, SurvivesFramesThatAreDamaged) {
     return Bytes(file.begin(), file.begin() + static_cast<std::ptrdiff_t>(bytes));
   };
   const NumberedPictures small(320, 120);
-  // Four of sixteen, ten times: each kind comes through also where a busy machine loses a third of all.
+  // Four of sixteen frames, ten times: each kind occurs even if a busy machine loses a third of the frames.
   constexpr std::uint32_t kRound = 16, kRounds = 10, kCut = 4, kSmall = 8, kHeader = 10, kNoise = 12;
   static_assert(NumberedPictures::kCount % kRound == 0);
   unplug();
@@ -182,7 +185,7 @@ TEST_F(UsbStereoCamera, SurvivesFramesThatAreDamaged) {
   ASSERT_TRUE(grabbed.more_come(kRound * kRounds / 2)) << grabbed.log();
   const auto frames = grabbed.frames();
   const auto shown = numbers(frames);
-  ASSERT_FALSE(shown.empty()) << "a picture is a damaged one";
+  ASSERT_FALSE(shown.empty()) << "an image is damaged";
   EXPECT_LE(missing(shown), lost()) << grabbed.log();
   for (const std::uint32_t number : shown) {
     const std::uint32_t kind = number % kRound;
@@ -194,9 +197,9 @@ TEST_F(UsbStereoCamera, SurvivesFramesThatAreDamaged) {
   EXPECT_TRUE(grabbed.log_contains("is a damaged JPEG file: it ends before the image data")) << grabbed.log();
   EXPECT_TRUE(grabbed.log_contains("is not a JPEG file")) << grabbed.log();
   EXPECT_EQ(grabbed.counters().reconnects, 0u);
-  // One that uvcvideo knows to be damaged is thrown away by it, and missing in its count.
+  // uvcvideo discards a frame that it knows to be damaged, which leaves a gap in its frame count.
   ASSERT_TRUE(soon([&] { return camera_->sent() > kRound * kRounds; }));
-  ASSERT_TRUE(grabbed.more_come(2)) << "all that were damaged are counted";
+  ASSERT_TRUE(grabbed.more_come(2)) << "all damaged frames are counted";
   const auto before = lost();
   camera_->damage_next();
   EXPECT_TRUE(soon([&] { return lost() > before; })) << grabbed.log();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The driver on two of the kernel's own simulated cameras (vivid): what they show is known, and they have every fault on command.
+// The driver on two simulated cameras of the kernel (vivid), with known images and faults on command.
 #include <unistd.h>
 
 #include "grabbed.hpp"
@@ -18,7 +18,7 @@ using v4l2_camera::ImageParts;
 constexpr const char* kFirst = "/dev/video0";
 constexpr const char* kSecond = "/dev/video1";
 
-/// Small pictures of one colour or of bars, without the clock that vivid writes into them.
+/// Small images of one colour or of bars, without vivid's clock overlay.
 CameraSettings vivid(const std::string& pixel_format, const std::string& pattern = "75% Colorbar",
                      ImageParts parts = ImageParts::kOne) {
   auto settings = camera(kFirst, parts);
@@ -27,12 +27,12 @@ CameraSettings vivid(const std::string& pixel_format, const std::string& pattern
   return settings;
 }
 
-/// Under an emulated processor the simulated camera keeps its rate on the whole, not from frame to frame, and leaves out frames that it has no
-/// time for: they are missing between its stamps, and must be in our count.
+/// On an emulated processor, the simulated camera keeps its average rate but skips frames when it has no time. These
+/// gaps in its stamps must be counted as dropped.
 void expect_all_counted(const std::vector<Grabbed::Frame>& frames, const camera_stream::StreamCounters& counters) {
   const double seconds = static_cast<double>(frames.back().stamp_ns - frames.front().stamp_ns) * 1e-9;
   const auto counted = static_cast<double>(frames.size() - 1 + counters.dropped);
-  constexpr double kComeInBetween = 5.0;  // frames, while one after the other is asked for
+  constexpr double kComeInBetween = 5.0;  // frames that arrive between both queries
   EXPECT_NEAR(counted, seconds * 30.0, kComeInBetween) << counters.dropped << " dropped";
 }
 
@@ -77,7 +77,7 @@ TEST_F(VividCamera, ShowsTheBarsOfItsLeftAndRightHalfToTheEyes) {
   const auto images = grabbed.frames().back().images;
   ASSERT_EQ(images.size(), 2u);
   ASSERT_EQ(images[1]->width(), 160u);
-  // White, yellow, cyan, green | magenta, red, blue, black, each at three quarters.
+  // White, yellow, cyan, green | magenta, red, blue, black, each at 75 %.
   const auto is_rgb = [](const std::vector<double>& colour, double red, double green, double blue) {
     for (const auto& [value, expected] : {std::pair{colour[0], red}, {colour[1], green}, {colour[2], blue}})
       EXPECT_NEAR(value, 191.0 * expected, 4.0);
@@ -128,7 +128,7 @@ TEST_F(VividCamera, IsToldToBeInUseAndTakenWhenItIsFree) {
   ASSERT_TRUE(first->more_come(1)) << first->log();
   const Grabbed second(vivid("GREY"));
   EXPECT_TRUE(soon([&] { return second.log_contains("/dev/video0 is in use by another program"); })) << second.log();
-  EXPECT_TRUE(first->more_come(10)) << "it is not disturbed";
+  EXPECT_TRUE(first->more_come(10)) << "the first user is not disturbed";
   EXPECT_EQ(second.count(), 0u);
   first.reset();
   EXPECT_TRUE(second.more_come(3)) << second.log();
@@ -154,7 +154,7 @@ TEST_F(VividCamera, CountsFramesThatItDrops) {
   ASSERT_TRUE(grabbed.more_come(60)) << grabbed.log();
   const auto frames = grabbed.frames();
   const auto counters = grabbed.counters();
-  EXPECT_GE(counters.dropped, 5u) << "of a fifth of some 75 frames";
+  EXPECT_GE(counters.dropped, 5u) << "a fifth of about 75 frames";
   expect_all_counted(frames, counters);
   set_control(kFirst, "percentage_of_dropped_buffers", 0);
 }
@@ -203,7 +203,7 @@ TEST_F(VividCamera, IsListedWithWhatItCanDo) {
               AllOf(Contains("YUYV"), Contains("GREY"), Contains("RGGB"), Contains(HasSubstr("not supported"))));
   EXPECT_THAT(found[1].sizes, HasSubstr("320 x 180, 640 x 360"));
   EXPECT_EQ(found[1].address, kSecond);
-  EXPECT_TRUE(grabbed.more_come(3)) << "it streams on while it is looked at";
+  EXPECT_TRUE(grabbed.more_come(3)) << "streaming continues during the listing";
 }
 
 TEST_F(VividCamera, ComesBackEachTimeItWasAway) {
@@ -211,7 +211,7 @@ TEST_F(VividCamera, ComesBackEachTimeItWasAway) {
   constexpr std::uint64_t kTimes = 20;
   for (std::uint64_t time = 1; time <= kTimes; ++time) {
     ASSERT_TRUE(grabbed.more_come(2)) << grabbed.log();
-    set_control(kFirst, "disconnect", 1);  // until the last one who has it open closes it
+    set_control(kFirst, "disconnect", 1);  // until the last process that has it open closes it
     ASSERT_TRUE(soon([&] { return grabbed.counters().reconnects == time; })) << time << "\n" << grabbed.log();
   }
   EXPECT_TRUE(grabbed.log_contains("/dev/video0 does not exist or was disconnected")) << grabbed.log();

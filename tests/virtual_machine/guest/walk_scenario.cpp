@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A USB stereo camera shows the rendered walk that lies in /exchange/walk, both eyes in one JPEG image; what the driver makes of it goes into a bag.
+// A USB stereo camera shows the rendered walk in /exchange/walk, both views in one JPEG image; the output of the driver
+// is recorded into a bag.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -34,7 +35,7 @@ std::vector<Bytes> side_by_side(const fs::path& walk) {
 TEST(Walk, IsRecordedThroughAUsbStereoCamera) {
   const auto pictures = side_by_side("/exchange/walk");
   ASSERT_FALSE(pictures.empty());
-  constexpr std::uint32_t kBefore = 5, kAfter = 3;  // frames of the first and the last picture
+  constexpr std::uint32_t kBefore = 5, kAfter = 3;  // number of frames that show the first and the last image
   std::atomic<std::uint32_t> begin = std::numeric_limits<std::uint32_t>::max();  // the frame of the first step
   UsbCamera camera(0, {.serial = "SBS001", .width = 640, .height = 240, .rate_hz = 10}, [&](std::uint32_t number) {
     return pictures.at(std::min<std::size_t>(number - std::min(number, begin.load()), pictures.size() - 1));

@@ -13,7 +13,7 @@ void append(Bytes& bytes, const Bytes& more) {
   for (const std::uint8_t byte : more) bytes.push_back(byte);
 }
 
-/// With its own length in front.
+/// Prepends the length.
 Bytes sized(const Bytes& content) {
   Bytes bytes;
   bytes.push_back(static_cast<std::uint8_t>(content.size() + 1));
@@ -30,8 +30,8 @@ Bytes frame_sizes(const CameraModel& model, std::uint8_t subtype, const std::vec
   Bytes content{kClassInterface, subtype, 1, 0};
   put(content, static_cast<std::uint64_t>(model.width), 2);
   put(content, static_cast<std::uint64_t>(model.height), 2);
-  put(content, size * 8U * kSlowest_hz, 4);                                // least and
-  put(content, size * 8U * static_cast<std::uint32_t>(model.rate_hz), 4);  // most bits a second
+  put(content, size * 8U * kSlowest_hz, 4);                                // lowest and
+  put(content, size * 8U * static_cast<std::uint32_t>(model.rate_hz), 4);  // highest bit rate
   put(content, size, 4);
   put(content, interval_of(rates_hz.front()), 4);
   content.push_back(static_cast<std::uint8_t>(rates_hz.size()));
@@ -47,7 +47,7 @@ Bytes formats(const CameraModel& model) {
   append(bytes, sized({kClassInterface, kMjpg, kMjpgFormat, 1, 1, 1, 0, 0, 0, 0}));
   append(bytes, frame_sizes(model, kMjpgFrame, {model.rate_hz, model.rate_hz / 2, kSlowest_hz}));
   append(bytes, colours());
-  // A format's name is its four characters and this.
+  // The format GUID consists of the four characters and this suffix.
   append(bytes, sized({kClassInterface,
                        kUncompressed,
                        kYuy2Format,

@@ -9,10 +9,10 @@ namespace panvo::test {
 
 using Bytes = std::vector<std::uint8_t>;
 
-/// Appends a number of so many bytes, the lowest first, as USB has them.
+/// Appends a number of `size` bytes, little-endian as in USB.
 void put(Bytes& bytes, std::uint64_t number, int size);
 
-/// A simulated camera: MJPG at `rate_hz` and half of it, YUY2 at 5 Hz, in one size.
+/// A simulated camera with one image size: MJPG at `rate_hz` and half of it, YUY2 at 5 Hz.
 struct CameraModel {
   std::string serial = "SERIAL";
   std::string product = "Stereo Camera";
@@ -20,19 +20,20 @@ struct CameraModel {
   int rate_hz = 30;
 };
 
-inline constexpr std::uint8_t kMjpgFormat = 1, kYuy2Format = 2;          // by their place among the descriptors
+inline constexpr std::uint8_t kMjpgFormat = 1, kYuy2Format = 2;          // by order of the descriptors
 inline constexpr std::uint8_t kCameraTerminal = 1, kProcessingUnit = 2;  // entities of the control interface
 inline constexpr std::uint32_t kSlowest_hz = 5;
-/// Bytes of a transfer, header and all.
+/// Bytes of a transfer, including the header.
 inline constexpr std::uint32_t kPayloadBytes = 32 * 512;
 
-/// Time between two frames as UVC tells it, 100 ns.
+/// Frame interval in the unit of UVC, 100 ns.
 inline std::uint32_t interval_of(int rate_hz) { return 10'000'000U / static_cast<std::uint32_t>(rate_hz); }
 
 Bytes device_descriptor();
-/// The one configuration: a video control interface and a streaming interface with a bulk endpoint, as in USB Video Class 1.1.
+/// The only configuration: a video control interface and a streaming interface with a bulk endpoint, as in USB Video
+/// Class 1.1.
 Bytes configuration_descriptor(const CameraModel& model);
-/// A text by its number in the device descriptor; empty: there is none of that number.
+/// String descriptor with a number from the device descriptor; empty for an unknown number.
 Bytes text_descriptor(const CameraModel& model, int number);
 
 }  // namespace panvo::test

@@ -9,7 +9,7 @@
 namespace panvo::test {
 namespace {
 
-// Requests of USB and of its video class.
+// Requests of USB and of the video class.
 constexpr int kGetDescriptor = 6, kSetCurrent = 0x01, kGetCurrent = 0x81, kGetLeast = 0x82, kGetMost = 0x83,
               kGetResolution = 0x84, kGetLength = 0x85, kGetInfo = 0x86, kGetStandard = 0x87;
 constexpr int kProbe = 1, kCommit = 2;
@@ -77,7 +77,7 @@ void UsbCamera::serve(const UsbRequest& request) {
 
 void UsbCamera::serve_standard(const UsbRequest& request) {
   if (!is_to_host(request)) return link_.answer_taken(request.number, 0);
-  if (request.setup[1] != kGetDescriptor) return reply(request, {0, 0});  // states and settings: as they are
+  if (request.setup[1] != kGetDescriptor) return reply(request, {0, 0});  // status and configuration: unchanged
   const int kind = request.setup[3], number = request.setup[2];
   const Bytes descriptor = kind == 1   ? device_descriptor()
                            : kind == 2 ? configuration_descriptor(model_)
@@ -144,7 +144,7 @@ Bytes UsbCamera::negotiated() const {
   Bytes bytes;
   put(bytes, 1, 2);
   put(bytes, format_, 1);
-  put(bytes, 1, 1);  // the one size
+  put(bytes, 1, 1);  // the only size
   put(bytes, interval_, 4);
   put(bytes, 0, 10);
   put(bytes, static_cast<std::uint64_t>(model_.width * model_.height * 2), 4);
@@ -179,7 +179,7 @@ void UsbCamera::begin_frame() {
   constexpr std::int64_t kLate_ns = 1'000'000'000;
   next_ns_ += std::int64_t{interval_} * 100;
   if (now_ns() > next_ns_ + kLate_ns) next_ns_ = now_ns();
-  // A raw picture of one grey level, by its number.
+  // MJPG: the picture with this number; YUY2: uniform grey.
   frame_ = format_ == kMjpgFormat ? picture_(number_)
                                   : Bytes(static_cast<std::size_t>(model_.width * model_.height * 2), 128);
   ++number_;
@@ -187,7 +187,7 @@ void UsbCamera::begin_frame() {
   is_damaged_ = is_next_damaged_.exchange(false);
 }
 
-/// A part of the frame with its header: which frame it is of, whether it is the last.
+/// The next part of the frame with its header, which contains the frame toggle and marks the last part.
 Bytes UsbCamera::next_payload(std::uint32_t room) {
   const std::size_t size = std::min<std::size_t>(room - kHeaderBytes, frame_.size() - position_);
   const bool is_last = position_ + size == frame_.size();

@@ -14,19 +14,20 @@
 
 namespace panvo::test {
 
-/// A USB Video Class camera in user space: the kernel's own USB and uvcvideo drivers see it as one that was plugged in. Its destruction unplugs it.
+/// A USB Video Class camera in user space, which the kernel's USB and uvcvideo drivers see as plugged in. The
+/// destructor unplugs it.
 class UsbCamera {
  public:
-  /// The JPEG file of the frame of that number, counted from when it was plugged in; on the camera's thread.
+  /// Returns the JPEG file of a frame, numbered since plugging in; called on the camera's thread.
   using Picture = std::function<Bytes(std::uint32_t number)>;
 
   UsbCamera(int port, CameraModel model, Picture picture);
 
-  /// The value of a control as the host has set it: "brightness" or "gain".
+  /// Value of a control ("brightness" or "gain") as set by the host.
   int value(const std::string& name) const;
-  /// Sends the next frame with the bit that says that it is damaged.
+  /// Sends the next frame with its error bit set.
   void damage_next() { is_next_damaged_ = true; }
-  /// Frames that were sent to their end.
+  /// Number of completely sent frames.
   std::uint32_t sent() const { return sent_; }
 
  private:
@@ -55,14 +56,14 @@ class UsbCamera {
   std::atomic<bool> is_next_damaged_ = false;
   std::atomic<std::uint32_t> sent_ = 0;
 
-  // The thread's own.
+  // Used by the thread only.
   std::uint8_t format_ = kMjpgFormat;
   std::uint32_t interval_;  // 100 ns
   bool is_streaming_ = false, is_damaged_ = false;
   std::int64_t next_ns_ = 0;
   std::uint32_t number_ = 0;
-  std::uint8_t toggle_ = 0;                                        // tells frames apart
-  std::deque<std::pair<std::uint32_t, std::uint32_t>> transfers_;  // that wait for data: number, length
+  std::uint8_t toggle_ = 0;                                        // changes with each frame
+  std::deque<std::pair<std::uint32_t, std::uint32_t>> transfers_;  // waiting for data: number, length
   Bytes frame_;
   std::size_t position_ = 0;
   std::jthread thread_;  // last: it uses all of the above

@@ -17,7 +17,7 @@
 namespace panvo::test {
 namespace {
 
-// Messages of USB/IP: twelve big-endian words, the first of which says what it is.
+// Messages of USB/IP: twelve big-endian words; the first is the command.
 constexpr std::size_t kWords = 12, kSetupAt = 10;
 constexpr std::uint32_t kSubmit = 1, kUnlink = 2, kSubmitted = 3, kUnlinked = 4;
 constexpr int kHighSpeed = 3;
@@ -25,7 +25,7 @@ using Words = std::array<std::uint32_t, kWords>;
 
 bool attach(int port, int socket) {
   const int file = open("/sys/devices/platform/vhci_hcd.0/attach", O_WRONLY | O_CLOEXEC);
-  if (file < 0) throw std::runtime_error("there is no virtual USB controller: vhci-hcd is not loaded");
+  if (file < 0) throw std::runtime_error("no virtual USB controller: vhci-hcd is not loaded");
   const std::string text = std::to_string(port) + " " + std::to_string(socket) + " " + std::to_string(0x10002 + port) +
                            " " + std::to_string(kHighSpeed);
   const bool is_attached = ::write(file, text.data(), text.size()) == static_cast<ssize_t>(text.size());
@@ -46,14 +46,14 @@ UsbipLink::UsbipLink(int port) {
   while (true) {
     std::array<int, 2> ends{};
     if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0)
-      throw std::runtime_error("no socket can be made");
+      throw std::runtime_error("cannot create a socket");
     const bool is_attached = attach(port, ends[1]);
-    close(ends[1]);  // the kernel has its own hold of it
+    close(ends[1]);  // the kernel holds its own reference
     socket_ = ends[0];
     if (is_attached) return;
     close(socket_);
     if (std::chrono::steady_clock::now() > give_up)
-      throw std::runtime_error("the USB port " + std::to_string(port) + " stays taken");
+      throw std::runtime_error("the USB port " + std::to_string(port) + " remains in use");
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }
 }
@@ -78,7 +78,7 @@ std::optional<UsbRequest> UsbipLink::receive(std::chrono::milliseconds limit) {
     request.unlinked = ntohl(words[5]);
     return request;
   }
-  if (ntohl(words[0]) != kSubmit) throw std::runtime_error("USB/IP: a message of no known kind");
+  if (ntohl(words[0]) != kSubmit) throw std::runtime_error("USB/IP: unknown message");
   request.length = ntohl(words[6]);
   std::memcpy(request.setup, &words[kSetupAt], sizeof request.setup);
   if (!request.is_in && request.length > 0) {
