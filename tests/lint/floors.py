@@ -118,8 +118,9 @@ def package_of(path):
 
 
 def message_packages(root):
-    idl = pathlib.Path(root) / "interfaces" / "idl"
-    return {entry.name for entry in idl.iterdir() if entry.is_dir()} if idl.is_dir() else set()
+    """Packages of messages: those of panvo, the other ones of ROS 2, and those of tests."""
+    folders = [pathlib.Path(root) / "interfaces" / name for name in ("idl", "common", "test/packages")]
+    return {entry.name for folder in folders if folder.is_dir() for entry in folder.iterdir() if entry.is_dir()}
 
 
 def belongs_to(include, messages):
