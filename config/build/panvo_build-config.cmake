@@ -13,30 +13,24 @@ if(PANVO_FUZZ AND NOT CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
   message(FATAL_ERROR "PANVO_FUZZ is for clang, this is ${CMAKE_CXX_COMPILER_ID}: configure with -DCMAKE_CXX_COMPILER=clang++ in a build folder of its own")
 endif()
 
-# Half of a compiler's time here goes into the headers of gtest, Eigen, OpenCV and Fast DDS: sources that are compiled together read them once.
-# For a build from nothing; who edits a file has less to wait with OFF (as the preset debug has it, which is clang-tidy's and clangd's too).
-option(PANVO_UNITY "Compile the sources of a test together, some at a time" ON)
-set(CMAKE_UNITY_BUILD_BATCH_SIZE 8)
+# Half of the compile time goes into the headers of gtest, Eigen, OpenCV and Fast DDS: sources that are compiled together read them once. This suits a
+# build from scratch; for daily edits OFF is faster (as in the preset debug, which clang-tidy and clangd use too).
+option(PANVO_UNITY "Compile the sources of a test together, eight at a time" ON)
 
-if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
-  set(CMAKE_BUILD_TYPE Release CACHE STRING "Release, RelWithDebInfo or Debug" FORCE)
-endif()
-
-# Compiling the same file twice is free where ccache is there; a launcher of the caller's own choice stands.
 find_program(PANVO_CCACHE ccache)
 mark_as_advanced(PANVO_CCACHE)
-if(PANVO_CCACHE AND NOT DEFINED CMAKE_CXX_COMPILER_LAUNCHER)
-  set(CMAKE_CXX_COMPILER_LAUNCHER ${PANVO_CCACHE})
-endif()
 
-# Plugins and libraries find each other next to where they were installed, whatever the prefix.
-set(CMAKE_INSTALL_RPATH "$ORIGIN;$ORIGIN/..;$ORIGIN/../${CMAKE_INSTALL_LIBDIR};$ORIGIN/../../${CMAKE_INSTALL_LIBDIR}")
-set(CMAKE_INSTALL_RPATH_USE_LINK_PATH ON)
-set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
-
+# Whatever a target needs is set on the target: find_package(panvo_build) changes no variable that other targets of the caller are built by.
 function(_panvo_compile_settings target)
   target_compile_features(${target} PUBLIC cxx_std_20)
-  set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF POSITION_INDEPENDENT_CODE ON)
+  # Installed plugins and libraries find each other relative to themselves, whatever the prefix.
+  set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF POSITION_INDEPENDENT_CODE ON EXPORT_COMPILE_COMMANDS ON
+    INSTALL_RPATH "$ORIGIN;$ORIGIN/..;$ORIGIN/../${CMAKE_INSTALL_LIBDIR};$ORIGIN/../../${CMAKE_INSTALL_LIBDIR}" INSTALL_RPATH_USE_LINK_PATH ON)
+  if(PANVO_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+    set_target_properties(${target} PROPERTIES CXX_COMPILER_LAUNCHER ${PANVO_CCACHE})
+  endif()
+  # Without a build type: as Release.
+  target_compile_options(${target} PRIVATE $<$<CONFIG:>:-O3> $<$<CONFIG:>:-DNDEBUG>)
   # -ffp-contract=off: the same sums on every machine, so that a replay is the same bit for bit.
   # -Wno-restrict: GCC 12 sees strings overlap that do not (GCC bug 105651).
   # -fno-gnu-unique: a STB_GNU_UNIQUE symbol would pin a plugin in memory and unloading would do nothing.
@@ -113,9 +107,9 @@ function(panvo_add_component target)
   endif()
 endfunction()
 
-# What runs once (a command line, a test) costs more to optimise than that gains.
+# Command-line tools and tests run briefly: more optimisation costs more than it gains.
 function(_panvo_optimise_little target)
-  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+  target_compile_options(${target} PRIVATE $<$<OR:$<CONFIG:Release>,$<CONFIG:>>:-O1>)
 endfunction()
 
 # panvo_add_executable(<name> SOURCES ... [LINK ...] [NO_INSTALL]): a program; <name>_benchmark is one that `panvo bench` runs.
@@ -138,7 +132,7 @@ endfunction()
 
 # panvo_add_test(<name> SOURCES ... [LINK ...] [LABELS ...] [TIMEOUT seconds] [DEFINITIONS ...] [ENVIRONMENT ...]
 # [ALONE] [APART]): each TEST() becomes a ctest; ALONE: no other runs beside it; APART: its sources define the same names.
-# Only tests are compiled together: elsewhere a call must never find the function of another file that fits it better.
+# Only tests are compiled together: elsewhere a call could silently bind to a function of another file.
 # The tests read recordings from $PANVO_DATA, or from the folder shared/data beside the checkout.
 function(panvo_add_test target)
   if(NOT BUILD_TESTING)
@@ -152,7 +146,7 @@ function(panvo_add_test target)
   target_compile_definitions(${target} PRIVATE ${arg_DEFINITIONS})
   _panvo_compile_settings(${target})
   if(PANVO_UNITY AND NOT arg_APART)
-    set_target_properties(${target} PROPERTIES UNITY_BUILD ON)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
   endif()
   _panvo_optimise_little(${target})
   if(NOT arg_TIMEOUT)
@@ -171,7 +165,7 @@ function(panvo_add_test target)
   gtest_discover_tests(${target} DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60 PROPERTIES ${properties})
 endfunction()
 
-# panvo_add_fuzzer(<name>_fuzzer SOURCES ... [LINK ...]): with PANVO_FUZZ, a program of libFuzzer's; <name>_fuzzer -runs=1000000 CORPUS.
+# panvo_add_fuzzer(<name>_fuzzer SOURCES ... [LINK ...]): with PANVO_FUZZ, a libFuzzer program; <name>_fuzzer -runs=1000000 CORPUS.
 function(panvo_add_fuzzer target)
   if(NOT PANVO_FUZZ)
     return()
