@@ -128,7 +128,7 @@ class OwnPackage(unittest.TestCase):
                                  encoding="utf-8")
         self.run_command("panvo", "run", with_recorder, "--dataset", recording, "--out", "run")
         said = self.run_command("panvo", "bag", "check", "bag")
-        self.assertRegex(said, rf"/{NAME}/distance +{NAME}_msgs/msg/Distance +99 readable, all decode")
+        self.assertRegex(said, rf"/{NAME}/distance +{NAME}_msgs/msg/Distance +99 readable, all decodable")
         self.start("panvo", "play", "bag", "--rate", "5", "--await", f"/{NAME}/distance")
         echoed = self.run_command("panvo", "topic", "echo", f"/{NAME}/distance", "--once", "--timeout", str(LIMIT_S))
         distance_m = float(re.search(r"^distance_m: (\S+)$", echoed, re.MULTILINE).group(1))
