@@ -8,8 +8,11 @@
 #include <array>
 #include <chrono>
 #include <iterator>
+#include <mutex>
 #include <utility>
 #include <vector>
+
+#include "announcement.hpp"
 
 namespace panvo::runtime::dds {
 
@@ -71,6 +74,8 @@ class Transport final : public ChainingTransport {
 
   void receive(TransportReceiverInterface* receiver, const rtps::octet* bytes, std::uint32_t size,
                const rtps::Locator_t& local, const rtps::Locator_t& remote) override {
+    std::unique_lock one_at_a_time(announcements_, std::defer_lock);
+    if (is_announcement({bytes, size})) one_at_a_time.lock();
     std::vector<rtps::GuidPrefix_t> replaced;
     auto* const outer = std::exchange(replaced_here, &replaced);
     receiver->OnDataReceived(bytes, size, local, remote);
@@ -83,6 +88,9 @@ class Transport final : public ChainingTransport {
 
  private:
   const std::shared_ptr<TransportDescriptorInterface> udp_;
+  // Each socket has a thread. The security manager of Fast DDS 2.9 keeps the participant it connects to in a member
+  // without a lock: of two participants announced at the same time, one was connected twice and the other never.
+  std::recursive_mutex announcements_;
 };
 
 struct Descriptor final : ChainingTransportDescriptor {

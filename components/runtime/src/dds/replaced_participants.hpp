@@ -14,7 +14,7 @@ namespace panvo::runtime::dds {
 /// never completed. ROS 2's reader (Fast DDS 2.14) then stalls for good.
 ///
 /// Therefore a participant is removed as soon as another one announces itself at its ports: `transport` injects the
-/// missing departure message into Fast DDS.
+/// missing departure message into Fast DDS. It also lets Fast DDS handle announcements one at a time.
 std::shared_ptr<eprosima::fastdds::rtps::TransportDescriptorInterface> with_goodbyes_for_replaced(
     std::shared_ptr<eprosima::fastdds::rtps::TransportDescriptorInterface> udp);
 
