@@ -78,10 +78,10 @@ void Container::Implementation::meet_others() {
 }
 
 Container::Implementation::~Implementation() {
-  services_.clear();  // no loading or unloading from now on
+  stop_housekeeping();  // which reads the counters of the services
+  services_.clear();    // no loading or unloading from now on
   rosout_.close();
   if (runner_) runner_->stop();
-  stop_housekeeping();
   while (!entries_.empty()) take_last();  // in reverse order of loading
 }
 

@@ -147,9 +147,9 @@ void Context::State::stop() {
   if (taps) host.bus.remove_tap(this);
   taps = false;
   host.services.remove_of(this);
-  for (const auto& caller : callers) caller->close();
   // Stages first: the component's own thread may be blocked on a full stage.
   for (auto worker = workers.rbegin(); worker != workers.rend(); ++worker) (*worker)->stop();
+  for (const auto& caller : callers) caller->close();  // no callback of the component can call any more
   trust_files(std::numeric_limits<std::int64_t>::max());  // a regular end counts as success, however short the run
 }
 
