@@ -149,7 +149,7 @@ void Context::State::stop() {
   host.services.remove_of(this);
   // Stages first: the component's own thread may be blocked on a full stage.
   for (auto worker = workers.rbegin(); worker != workers.rend(); ++worker) (*worker)->stop();
-  for (const auto& caller : callers) caller->close();  // no callback of the component can call any more
+  for (const auto& caller : callers) caller->close();     // no callback of the component can call any more
   trust_files(std::numeric_limits<std::int64_t>::max());  // a regular end counts as success, however short the run
 }
 
