@@ -9,6 +9,7 @@
 #include <semaphore>
 #include <thread>
 
+#include "panvo/interfaces/topics.hpp"
 #include "panvo/runtime/container.hpp"
 
 namespace {

@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "panvo/interfaces/topic.hpp"
 #include "panvo/runtime/container.hpp"
 #include "transport.hpp"
 #include "transport_image.hpp"

@@ -23,6 +23,7 @@ THREADS_OR_CLOCKS = re.compile(
     r"\bstd::(?:jthread|thread|async|mutex)\b|\bpthread_create\b|\bsleep_(?:for|until)\b|\b(?:steady|system|high_resolution)_clock\b"
     r"|\bclock_gettime\b|\bgettimeofday\b|\bgetTickCount\b|\bstd::(?:time|clock)\s*\(")
 POSIX = re.compile(r"^(?:[a-z_0-9]+/)*[a-z_0-9]+\.h$")
+PRODUCT = re.compile(r"panvo_msgs/|panvo/interfaces/topics\.hpp")
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
 
 
@@ -40,9 +41,10 @@ def floor(name, packages="", libraries="", threads_and_clocks=True):
 
 VISION = floor("vision", "", "eigen, opencv", False)
 INTERFACES = floor("interfaces", "", "messages, fastdds")
-RUNTIME = floor("runtime", "interfaces", "messages, log, json, command line")
-RUNTIME_DDS = floor("runtime's dds", "interfaces", "messages, fastdds, log, json")
-RUNTIME_CONFIG = floor("runtime's config", "interfaces", "messages, yaml, log, json, command line")
+RUNTIME = floor("runtime", "interfaces", "messages, log, command line")
+RUNTIME_DDS = floor("runtime's dds", "interfaces", "messages, fastdds, log")
+RUNTIME_CONFIG = floor("runtime's config", "interfaces", "messages, yaml, log, command line")
+RUNNER = floor("runner", "runtime interfaces", "messages, log, json, command line")
 CONVERSIONS = floor("conversions", "interfaces vision runtime", "messages, eigen, opencv")
 ALGORITHM = floor("algorithm", "vision landmarks", "eigen, opencv, ceres, opengv", False)
 WRAPPER = floor("component wrapper", "runtime interfaces conversions vision landmarks", "messages, eigen, opencv", False)
@@ -69,6 +71,7 @@ FLOORS = [
     ("components/runtime/src/dds", RUNTIME_DDS),
     ("components/runtime/src/config", RUNTIME_CONFIG),
     ("components/runtime", RUNTIME),
+    ("components/runner", RUNNER),
     ("components/conversions", CONVERSIONS),
     ("components/landmarks", LANDMARKS),
     ("components/panorama_stitcher/src/rig", RIG_FILE),
@@ -155,6 +158,8 @@ def complaint_of_include(root, path, its_floor, quoted, include, messages):
         return None
     if quoted and ".." in include.split("/"):
         return 'leaves its package; public headers are "panvo/<package>/..."'
+    if its_floor in (RUNTIME, RUNTIME_DDS, RUNTIME_CONFIG) and PRODUCT.match(include) and not is_test(path):
+        return "the runtime knows no topic and no message of panvo's components"
     kind = belongs_to(include, messages)
     if kind is None:
         return "unknown library; add it to LIBRARIES in tests/lint/floors.py and to the layers that may use it"

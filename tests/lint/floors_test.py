@@ -54,6 +54,12 @@ class FloorsTest(sample.RuleTest):
         self.assert_finds(floors, "may not use yaml", {"components/runtime/src/dds/bridge.cpp": yaml})
         self.assertEqual(self.complaints(floors, {"components/runtime/src/dds/bridge.cpp": dds, "components/runtime/src/config/file.cpp": yaml}), [])
 
+    def test_the_runtime_knows_no_topic_of_a_component(self):
+        for include in ("panvo/interfaces/topics.hpp", "panvo_msgs/msg/LandmarkMatch.h"):
+            text = L + f'#include "{include}"\n'
+            self.assert_finds(floors, "knows no topic", {"components/runtime/src/context.cpp": text})
+            self.assertEqual(self.complaints(floors, {"components/runtime/test/context_test.cpp": text}), [])
+
     def test_a_driver_includes_no_component(self):
         self.assert_finds(floors, "layer 'driver'", {"drivers/camera/src/camera.cpp": L + '#include "panvo/stereo_rectifier/x.hpp"\n'})
 

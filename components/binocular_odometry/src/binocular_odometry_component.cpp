@@ -9,6 +9,7 @@
 #include "panvo/conversions/stage_timer.hpp"
 #include "panvo/conversions/static_transforms.hpp"
 #include "panvo/conversions/time.hpp"
+#include "panvo/interfaces/topics.hpp"
 #include "panvo/runtime/component.hpp"
 
 namespace panvo::binocular_odometry {

@@ -8,6 +8,7 @@
 #include "panvo/conversions/image.hpp"
 #include "panvo/conversions/pose.hpp"
 #include "panvo/conversions/time.hpp"
+#include "panvo/interfaces/topics.hpp"
 #include "panvo/runtime/testing.hpp"
 #include "synthetic_scene.hpp"
 

@@ -11,6 +11,7 @@
 #include "panvo/conversions/stage_timer.hpp"
 #include "panvo/conversions/static_transforms.hpp"
 #include "panvo/conversions/time.hpp"
+#include "panvo/interfaces/topics.hpp"
 #include "panvo/landmark_builder/landmark_builder.hpp"
 #include "panvo/landmarks/description_settings.hpp"
 #include "panvo/landmarks/landmark_messages.hpp"

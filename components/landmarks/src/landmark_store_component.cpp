@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "panvo/interfaces/topics.hpp"
 #include "panvo/landmarks/landmark_messages.hpp"
 #include "panvo/landmarks/landmark_store.hpp"
 #include "panvo/runtime/component.hpp"

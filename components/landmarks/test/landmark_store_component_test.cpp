@@ -4,6 +4,7 @@
 #include <sqlite3.h>
 
 #include "made_up_landmark.hpp"
+#include "panvo/interfaces/topics.hpp"
 #include "panvo/landmarks/landmark_messages.hpp"
 #include "panvo/landmarks/landmark_store.hpp"
 #include "panvo/runtime/testing.hpp"

@@ -19,6 +19,7 @@
 #include "panvo/conversions/pose.hpp"
 #include "panvo/conversions/stage_timer.hpp"
 #include "panvo/conversions/time.hpp"
+#include "panvo/interfaces/topics.hpp"
 #include "panvo/localizer/localizer.hpp"
 #include "panvo/localizer/odometry_origin.hpp"
 #include "panvo/localizer/soundness.hpp"

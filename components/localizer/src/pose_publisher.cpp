@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pose_publisher.hpp"
+#include "panvo/interfaces/topics.hpp"
 
 #include <fmt/format.h>
 

@@ -11,6 +11,7 @@
 
 #include "panvo/conversions/pose.hpp"
 #include "panvo/conversions/time.hpp"
+#include "panvo/interfaces/topics.hpp"
 #include "panvo/runtime/testing.hpp"
 
 namespace panvo::localizer {

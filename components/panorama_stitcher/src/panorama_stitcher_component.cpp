@@ -13,6 +13,7 @@
 #include "panvo/conversions/image.hpp"
 #include "panvo/conversions/static_transforms.hpp"
 #include "panvo/conversions/time.hpp"
+#include "panvo/interfaces/node_topics.hpp"
 #include "panvo/interfaces/topics.hpp"
 #include "panvo/panorama_stitcher/head_sets.hpp"
 #include "panvo/panorama_stitcher/panorama_stitcher.hpp"

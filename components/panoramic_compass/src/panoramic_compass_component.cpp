@@ -10,6 +10,7 @@
 #include "panvo/conversions/stage_timer.hpp"
 #include "panvo/conversions/static_transforms.hpp"
 #include "panvo/conversions/time.hpp"
+#include "panvo/interfaces/topics.hpp"
 #include "panvo/panoramic_compass/panoramic_compass.hpp"
 #include "panvo/runtime/component.hpp"
 #include "panvo/vision/panorama_watch.hpp"

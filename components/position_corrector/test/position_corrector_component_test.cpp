@@ -9,6 +9,7 @@
 #include "panvo/conversions/pose.hpp"
 #include "panvo/conversions/static_transforms.hpp"
 #include "panvo/conversions/time.hpp"
+#include "panvo/interfaces/topics.hpp"
 #include "panvo/landmarks/landmark_messages.hpp"
 #include "panvo/runtime/testing.hpp"
 #include "synthetic_place.hpp"

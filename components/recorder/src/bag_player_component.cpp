@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "panvo/interfaces/topics.hpp"
 #include "panvo/recorder/bag_reader.hpp"
 #include "panvo/recorder/topic_filter.hpp"
 #include "panvo/runtime/component.hpp"

@@ -11,6 +11,7 @@
 #include "panvo/recorder/bag_writer.hpp"
 #include "panvo/recorder/topic_filter.hpp"
 #include "panvo/runtime/component.hpp"
+#include "rcl_interfaces/msg/Log.h"
 
 namespace panvo::recorder {
 namespace {

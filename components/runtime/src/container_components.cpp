@@ -5,6 +5,7 @@
 
 #include "clocks.hpp"
 #include "container_implementation.hpp"
+#include "panvo/interfaces/node_topics.hpp"
 #include "panvo/runtime/errors.hpp"
 #include "panvo/runtime/graph.hpp"
 #include "steering/parameter_events.hpp"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
+#include "panvo/interfaces/node_topics.hpp"
 
 #include <algorithm>
 #include <chrono>

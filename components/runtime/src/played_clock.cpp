@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "played_clock.hpp"
 
-#include "panvo/interfaces/topics.hpp"
+#include "panvo/interfaces/node_topics.hpp"
 
 namespace panvo::runtime {
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "panvo/runtime/container.hpp"
+#include "panvo/interfaces/topics.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -12,6 +12,7 @@
 #include <stdexcept>
 
 #include "config/temporary_folder.hpp"
+#include "panvo/interfaces/topics.hpp"
 #include "panvo/runtime/testing.hpp"
 
 namespace panvo::runtime {

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "bus.hpp"
+#include "panvo/interfaces/topics.hpp"
 #include "panvo/runtime/testing.hpp"
 
 namespace panvo::runtime {

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "panvo/interfaces/topics.hpp"
 #include "panvo/runtime/errors.hpp"
 #include "panvo/runtime/testing.hpp"
 

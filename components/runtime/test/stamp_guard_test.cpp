@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "panvo/interfaces/topics.hpp"
 #include "panvo/runtime/testing.hpp"
 
 namespace panvo::runtime {

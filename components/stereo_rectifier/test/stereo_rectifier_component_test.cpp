@@ -6,6 +6,7 @@
 #include "panvo/conversions/camera_info.hpp"
 #include "panvo/conversions/image.hpp"
 #include "panvo/conversions/time.hpp"
+#include "panvo/interfaces/topics.hpp"
 #include "panvo/runtime/testing.hpp"
 
 namespace panvo::stereo_rectifier {

@@ -11,6 +11,7 @@
 #include "image_publisher.hpp"
 #include "panvo/camera_stream/stamp_pairing.hpp"
 #include "panvo/conversions/time.hpp"
+#include "panvo/interfaces/node_topics.hpp"
 
 namespace panvo::camera_group {
 

@@ -7,6 +7,7 @@
 
 #include "panvo/camera_group/camera_component.hpp"
 #include "panvo/conversions/time.hpp"
+#include "panvo/interfaces/topics.hpp"
 #include "panvo/runtime/testing.hpp"
 
 namespace panvo::camera_group {

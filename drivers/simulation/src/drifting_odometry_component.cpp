@@ -3,6 +3,7 @@
 
 #include "panvo/conversions/pose.hpp"
 #include "panvo/conversions/time.hpp"
+#include "panvo/interfaces/topics.hpp"
 #include "panvo/runtime/component.hpp"
 #include "panvo/simulation/drifting_odometry.hpp"
 

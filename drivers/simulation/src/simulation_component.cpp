@@ -12,6 +12,7 @@
 #include "panvo/conversions/pose.hpp"
 #include "panvo/conversions/static_transforms.hpp"
 #include "panvo/conversions/time.hpp"
+#include "panvo/interfaces/node_topics.hpp"
 #include "panvo/interfaces/topics.hpp"
 #include "panvo/runtime/component.hpp"
 #include "panvo/simulation/simulation.hpp"

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "panvo/interfaces/topics.hpp"
+#include "panvo/interfaces/topic.hpp"
 #include "panvo/runtime/parameters.hpp"
 #include "rcl_interfaces/msg/ParameterEvent.h"
 

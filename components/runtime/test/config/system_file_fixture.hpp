@@ -17,7 +17,7 @@ namespace panvo::runtime {
 inline constexpr const char* kStereo = R"(launch:
 - arg: {name: rig, default: kitti, description: folder of the calibration}
 - node_container:
-    pkg: panvo_runtime
+    pkg: panvo_runner
     exec: panvo_run
     name: stereo
     namespace: ""

@@ -12,6 +12,7 @@
 #include "inbox.hpp"
 #include "lifecycle_msgs/srv/ChangeState.h"
 #include "lifecycle_msgs/srv/GetState.h"
+#include "panvo/interfaces/topic.hpp"
 #include "panvo/runtime/bridge.hpp"
 #include "panvo/runtime/graph.hpp"
 #include "peer_process.hpp"

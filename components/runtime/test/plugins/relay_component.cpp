@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "panvo/interfaces/topics.hpp"
 #include "panvo/runtime/component.hpp"
 
 namespace {

@@ -2,13 +2,11 @@
 #pragma once
 
 #include <array>
-#include <string_view>
 
-#include "diagnostic_msgs/msg/DiagnosticArray.h"
 #include "geometry_msgs/msg/PoseWithCovarianceStamped.h"
 #include "nav_msgs/msg/Odometry.h"
 #include "nav_msgs/msg/Path.h"
-#include "panvo/interfaces/qos.hpp"
+#include "panvo/interfaces/topic.hpp"
 #include "panvo_msgs/msg/AzimuthChange.h"
 #include "panvo_msgs/msg/CorrectionOutcome.h"
 #include "panvo_msgs/msg/Integrity.h"
@@ -18,25 +16,11 @@
 #include "panvo_msgs/msg/OdometryQuality.h"
 #include "panvo_msgs/msg/PanoramicLandmark.h"
 #include "panvo_msgs/msg/PositionCorrection.h"
-#include "rcl_interfaces/msg/Log.h"
-#include "rosgraph_msgs/msg/Clock.h"
 #include "sensor_msgs/msg/CameraInfo.h"
 #include "sensor_msgs/msg/Image.h"
 #include "tf2_msgs/msg/TFMessage.h"
 
-namespace panvo::interfaces {
-
-/// A topic: name, message type and quality of service as one thing. The name is relative and may be remapped by a deployment.
-template <class MessageT>
-struct Topic {
-  using Message = MessageT;
-  std::string_view name;
-  Qos qos = qos::kDefault;
-};
-
-}  // namespace panvo::interfaces
-
-/// Every topic of panvo. Components refer to these, never to names of their own.
+/// The topics of panvo's components. Components use these constants instead of names of their own.
 namespace panvo::topics {
 
 using interfaces::Topic;
@@ -50,7 +34,7 @@ inline constexpr Topic<sensor_msgs::msg::CameraInfo> kStereoLeftCameraInfo{"ster
 inline constexpr Topic<sensor_msgs::msg::CameraInfo> kStereoRightCameraInfo{"stereo/right/camera_info",
                                                                             qos::kSensorData};
 inline constexpr Topic<sensor_msgs::msg::Image> kPanorama{"panorama/image", qos::kSensorData};
-/// The raw images of a panoramic camera of several heads, from which a stitcher makes the panorama.
+/// Raw images of the heads of a panoramic camera; the stitcher makes the panorama from them.
 inline constexpr std::array<Topic<sensor_msgs::msg::Image>, 6> kPanoramaHeadImageRaw{
     {{"panorama/head_0/image_raw", qos::kSensorData},
      {"panorama/head_1/image_raw", qos::kSensorData},
@@ -70,17 +54,17 @@ inline constexpr Topic<nav_msgs::msg::Odometry> kOdometryBinocular{"odometry/bin
 inline constexpr Topic<panvo_msgs::msg::OdometryQuality> kOdometryQuality{"odometry/quality", qos::kResult};
 inline constexpr Topic<nav_msgs::msg::Odometry> kOdometryEnhanced{"odometry/enhanced", qos::kResult};
 inline constexpr Topic<panvo_msgs::msg::AzimuthChange> kAzimuthChange{"compass/azimuth_change", qos::kResult};
-/// Places that can be recognised, each when it is made.
+/// Each landmark once, when it is built.
 inline constexpr Topic<panvo_msgs::msg::PanoramicLandmark> kLandmarks{"landmarks", qos::kHistory};
 inline constexpr Topic<panvo_msgs::msg::LandmarkMatch> kLandmarkMatch{"landmarks/match", qos::kResult};
-/// Where they are known to be by now.
+/// Current poses of all landmarks.
 inline constexpr Topic<panvo_msgs::msg::LandmarkPoses> kLandmarkPoses{"landmarks/poses", qos::kLatched};
 inline constexpr Topic<panvo_msgs::msg::PositionCorrection> kCorrection{"correction", qos::kResult};
 inline constexpr Topic<panvo_msgs::msg::CorrectionOutcome> kCorrectionOutcome{"correction/outcome", qos::kResult};
 inline constexpr Topic<panvo_msgs::msg::LocalizationState> kLocalizationState{"localization/state", qos::kState};
-/// How far the published pose may be off at a stated risk, and whether it may be used.
+/// Protection level of the published pose at a stated risk, and whether the pose may be used.
 inline constexpr Topic<panvo_msgs::msg::Integrity> kIntegrity{"localization/integrity", qos::kState};
-/// Where somebody says that the vehicle is: RViz's "2D Pose Estimate".
+/// A pose given by an operator: RViz's "2D Pose Estimate".
 inline constexpr Topic<geometry_msgs::msg::PoseWithCovarianceStamped> kInitialPose{"/initialpose", qos::kDefault};
 inline constexpr Topic<nav_msgs::msg::Path> kPathBinocular{"path/binocular", qos::kResult};
 inline constexpr Topic<nav_msgs::msg::Path> kPathEnhanced{"path/enhanced", qos::kResult};
@@ -88,9 +72,5 @@ inline constexpr Topic<nav_msgs::msg::Odometry> kGroundTruth{"ground_truth/odome
 
 inline constexpr Topic<tf2_msgs::msg::TFMessage> kTf{"/tf", {.depth = 100}};
 inline constexpr Topic<tf2_msgs::msg::TFMessage> kTfStatic{"/tf_static", qos::kLatched};
-inline constexpr Topic<diagnostic_msgs::msg::DiagnosticArray> kDiagnostics{"/diagnostics", qos::kDefault};
-/// Simulated time, for ROS 2 nodes with use_sim_time.
-inline constexpr Topic<rosgraph_msgs::msg::Clock> kClock{"/clock", qos::kSensorData};
-inline constexpr Topic<rcl_interfaces::msg::Log> kRosout{"/rosout", qos::kLog};
 
 }  // namespace panvo::topics

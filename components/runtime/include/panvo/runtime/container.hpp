@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "panvo/runtime/component.hpp"
-#include "panvo/runtime/run_files.hpp"
+#include "panvo/runtime/stage_times.hpp"
 #include "panvo/runtime/system_file.hpp"
 
 namespace panvo::runtime {
@@ -33,6 +33,13 @@ struct ContainerOptions {
   std::string name_space = "/";
   ServiceAccess services = ServiceAccess::kByHost;
   std::filesystem::path files_below{};  ///< folder for files named by service requests; empty: none allowed
+};
+
+/// Message counts of one input of a component.
+struct QueueCounters {
+  std::string component;
+  std::string input;  ///< resolved topic name
+  std::uint64_t received = 0, handled = 0, dropped = 0;
 };
 
 /// Runs the components of one process. With a bridge, other processes see each component as a ROS 2 node with services

@@ -13,7 +13,7 @@
 #include <utility>
 
 #include "panvo/interfaces/service.hpp"
-#include "panvo/interfaces/topics.hpp"
+#include "panvo/interfaces/topic.hpp"
 #include "panvo/runtime/bridge.hpp"
 #include "panvo/runtime/client.hpp"
 #include "panvo/runtime/compiled_type.hpp"

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <mutex>
 #include <string>
@@ -44,6 +45,9 @@ class StageTimes {
   mutable std::mutex mutex_;
   std::map<std::string, Times, std::less<>> stages_;
 };
+
+/// Stage times by component and stage.
+using ComponentTimes = std::map<std::string, std::map<std::string, StageTimes::Times, std::less<>>>;
 
 /// Measures wall time and this thread's CPU time from construction to destruction and adds them to a stage.
 class StageTimer {

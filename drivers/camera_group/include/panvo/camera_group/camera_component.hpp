@@ -10,6 +10,7 @@
 
 #include "panvo/camera_group/camera_group.hpp"
 #include "panvo/camera_group/mounting.hpp"
+#include "panvo/interfaces/topics.hpp"
 #include "panvo/runtime/component.hpp"
 
 namespace panvo::camera_group {

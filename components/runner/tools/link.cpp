@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "link.hpp"
+
+#include <unistd.h>
+
+#include <cerrno>
+#include <chrono>
+#include <sstream>
+#include <stdexcept>
+
+namespace panvo::runner {
+
+std::optional<std::string> read_pipe_line(int pipe) {
+  std::string line;
+  for (char letter = 0;;) {
+    const ssize_t count = read(pipe, &letter, 1);
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0) return std::nullopt;
+    if (letter == '\n') return line;
+    line += letter;
+  }
+}
+
+bool write_pipe_line(int pipe, const std::string& line) {
+  const std::string text = line + "\n";
+  for (std::size_t written = 0; written < text.size();) {
+    const ssize_t count = write(pipe, text.data() + written, text.size() - written);
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0) return false;
+    written += static_cast<std::size_t>(count);
+  }
+  return true;
+}
+
+void Link::meet(runtime::Container& container, const runtime::Logger::Write& log) {
+  const runtime::Container::Links links = container.links();
+  for (const auto& topic : links.published) write_line("publishes " + topic);
+  for (const auto& topic : links.subscribed) write_line("subscribes " + topic);
+  if (links.has_source) write_line("has_source");
+  write_line("loaded");
+  std::map<std::string, runtime::Container::Peers> peers;
+  for (std::string line = read_line(); line != "connect"; line = read_line()) {
+    std::istringstream words(line);
+    std::string verb, topic;
+    runtime::Container::Peers wanted;
+    words >> verb >> topic >> wanted.readers >> wanted.writers;
+    peers[topic] = wanted;
+  }
+  constexpr std::chrono::seconds kLimit(10);  // discovery takes well under 1 s, and never succeeds behind a firewall
+  if (!container.wait_for_peers(peers, kLimit)) {
+    log(runtime::LogLevel::kWarning, "container",
+        fmt::format(
+            "another container of this system did not connect within {} s: is multicast or shared memory blocked?",
+            kLimit.count()));
+  }
+  write_line("connected");
+  while (read_line() != "start") {
+  }
+}
+
+std::string Link::read_line() {
+  auto line = read_pipe_line(in_);
+  if (!line) throw std::runtime_error("the launching process is gone");
+  return std::move(*line);
+}
+
+void Link::write_line(const std::string& line) {
+  if (!write_pipe_line(out_, line)) throw std::runtime_error("the launching process is gone");
+}
+
+}  // namespace panvo::runner

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "options.hpp"
+
+#include <CLI/CLI.hpp>
+#include <cstdlib>
+#include <filesystem>
+#include <iostream>
+
+#include "panvo/runtime/errors.hpp"
+
+namespace panvo::runner {
+namespace {
+
+/// Sets ROS 2's environment variables, which child processes inherit.
+void use_keystore(const std::string& keystore, const std::string& enclave) {
+  setenv("ROS_SECURITY_KEYSTORE", std::filesystem::absolute(keystore).c_str(), 1);
+  setenv("ROS_SECURITY_ENABLE", "true", 1);
+  setenv("ROS_SECURITY_STRATEGY", "Enforce", 1);
+  if (!enclave.empty()) setenv("ROS_SECURITY_ENCLAVE_OVERRIDE", enclave.c_str(), 1);
+}
+
+}  // namespace
+
+std::optional<int> RunOptions::parse(int argc, char** argv, RunOptions& options) {
+  try {
+    options.dds = runtime::dds_settings_from_environment();
+  } catch (const runtime::ConfigError& error) {
+    std::cerr << "panvo run: " << error.what() << "\n";
+    return static_cast<int>(ExitStatus::kBadConfiguration);
+  }
+  CLI::App app("Runs a system of components live, or on a data set or bag.", "panvo run");
+  std::vector<std::string> arguments;
+  app.add_option("SYSTEM", options.system_file,
+                 "system file (ROS 2 launch YAML: node_container, composable_node, param, remap)")
+      ->required();
+  app.add_option("ARGUMENT", arguments, "name:=value, an argument that the system file declares");
+  auto* dataset =
+      app.add_option("--dataset", options.dataset,
+                     "play this data set: EuRoC/ASL, KITTI odometry, or left/right folders with a calibration");
+  app.add_option("--bag", options.bag, "play this bag: a rosbag2 folder, or one .db3 or .mcap file")->excludes(dataset);
+  app.add_option("--out", options.out, "write trajectories, timing.json, summary.json and run.log to this folder");
+  app.add_flag("--overwrite", options.overwrite, "let --out replace files that are not from a run");
+  auto* replay = app.add_flag("--replay", options.replay,
+                              "deterministic: one thread, messages in stamp order, as fast as possible");
+  app.add_option("--rate", options.rate, "live: 1 as recorded, 2 twice as fast, 0 as fast as the components allow")
+      ->excludes(replay)
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  app.add_option("--set", options.settings, "component.parameter=value; may be repeated")->expected(1)->take_all();
+  app.add_option("--seed", options.seed, "seed of all random numbers")->capture_default_str();
+  app.add_option("--domain", options.dds.domain, "DDS domain; overrides ROS_DOMAIN_ID")
+      ->check(CLI::Range(0, 232))
+      ->capture_default_str();
+  app.add_option("--ros-distro", options.dds.ros_distro,
+                 "ROS 2 distribution of other nodes; overrides ROS_DISTRO: humble, or jazzy for all later ones")
+      ->capture_default_str();
+  app.add_option("--dds-profiles", options.dds.profiles, "Fast DDS XML profile file, see config/dds")
+      ->check(CLI::ExistingFile);
+  app.add_flag("--local", options.local, "stay within this process: no DDS");
+  app.add_flag("--verbose", options.verbose, "also show debug messages");
+  app.add_option("--container", options.container, "run only this container of the system");
+  auto* respawn = app.add_flag("--respawn", options.respawn,
+                               "restart containers that crash or fail; those with respawn: true are always restarted")
+                      ->excludes(replay);
+  app.add_option("--respawn-delay", options.respawn_delay_s,
+                 "delay before a restart, s, unless the system file sets it")
+      ->needs(respawn)
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  std::string keystore, enclave;
+  auto* secure =
+      app.add_option("--secure", keystore, "communicate only with holders of keys of this keystore (see panvo secure)")
+          ->check(CLI::ExistingDirectory);
+  app.add_option("--enclave", enclave,
+                 "enclave in the keystore to use; default: each container's own (panvo secure --system), or /panvo")
+      ->needs(secure);
+  app.add_option("--await", options.awaited,
+                 "TOPIC or TOPIC:COUNT: wait until COUNT other processes (default 1) are connected to this topic; may "
+                 "be repeated. For systems on several computers")
+      ->expected(1)
+      ->take_all()
+      ->excludes(replay);
+  app.add_flag("--describe", options.describe, "print the topics and nodes of each container and exit")
+      ->excludes(replay);
+  app.add_option("--link-in", options.link_in)->group("");
+  app.add_option("--link-out", options.link_out)->group("");
+  app.add_flag("--again", options.again)->group("");
+  app.footer(
+      "ROS_DOMAIN_ID, ROS_DISTRO, ROS_LOCALHOST_ONLY and ROS_DISCOVERY_SERVER are honoured. Exit status: 0 success, 1 "
+      "the run failed, 2 invalid configuration or command line, 130 or 143 interrupted (Ctrl-C, SIGTERM) before the "
+      "end of the data.");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? static_cast<int>(ExitStatus::kOk) : static_cast<int>(ExitStatus::kBadConfiguration);
+  }
+  if (!keystore.empty()) use_keystore(keystore, enclave);
+  for (const auto& argument : arguments) {
+    const auto separator = argument.find(":=");
+    if (separator == std::string::npos || separator == 0) {
+      std::cerr << "panvo run: \"" << argument << "\" is not an argument: write name:=value\n";
+      return static_cast<int>(ExitStatus::kBadConfiguration);
+    }
+    options.arguments[argument.substr(0, separator)] = argument.substr(separator + 2);
+  }
+  return std::nullopt;
+}
+
+runtime::SystemDescription describe_system(const RunOptions& options) {
+  runtime::SystemDescription system = runtime::read_system_file(options.system_file, options.arguments);
+  if (system.containers.empty())
+    throw runtime::ConfigError(options.system_file + ": has no node_container: nothing to run");
+  const auto add_player = [&](const std::string& package, const std::string& plugin, const std::string& name,
+                              const std::string& option, const std::string& directory) {
+    runtime::ComponentDescription player;
+    player.package = package;
+    player.plugin = plugin;
+    player.name = name;
+    player.where = {option, 0};
+    player.parameters["directory"] = {{std::filesystem::absolute(directory).string()}, false, player.where};
+    // Same namespace as the first component, so a system in a namespace plays data sets unchanged.
+    auto& components = system.containers.front().components;
+    if (!components.empty()) player.name_space = components.front().name_space;
+    components.push_back(std::move(player));  // last: a bag player skips topics that others publish
+  };
+  if (!options.dataset.empty()) {
+    add_player("panvo_dataset_player", "DatasetPlayerComponent", "dataset_player", "--dataset", options.dataset);
+  }
+  if (!options.bag.empty()) add_player("panvo_recorder", "BagPlayerComponent", "bag_player", "--bag", options.bag);
+  for (const auto& setting : options.settings) runtime::apply_setting(system, setting);
+  return system;
+}
+
+}  // namespace panvo::runner

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "taken_names.hpp"
+
+#include <spdlog/fmt/fmt.h>
+#include <spdlog/fmt/ranges.h>
+
+#include <algorithm>
+#include <chrono>
+#include <set>
+#include <thread>
+
+#include "panvo/runtime/errors.hpp"
+#include "panvo/runtime/graph.hpp"
+#include "panvo/runtime/names.hpp"
+
+namespace panvo::runner {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::steady_clock;
+
+constexpr milliseconds kPollPeriod{5};
+// Our processes announce themselves twice per second and answer announcements; their endpoints follow within
+// milliseconds.
+constexpr milliseconds kFirstLook{600}, kQuiet{100}, kLongestLook{2000};
+constexpr const char* kNodesTopic = "ros_discovery_info";
+constexpr std::size_t kPrefixDigits = 24;  // participant part of an endpoint's GID
+
+std::vector<std::string> taken_of(const std::vector<std::string>& wanted, const runtime::Graph& graph) {
+  std::set<std::string> there;
+  for (const auto& node : graph.nodes) there.insert(runtime::full_name(node.name_space, node.name));
+  std::vector<std::string> taken;
+  std::ranges::copy_if(wanted, std::back_inserter(taken), [&](const auto& name) { return there.contains(name); });
+  return taken;
+}
+
+/// Whether all participants that publish node lists have sent one.
+bool have_all_told(const runtime::Graph& graph) {
+  std::set<std::string> told;
+  for (const auto& node : graph.nodes) {
+    for (const auto& gid : node.writers) told.insert(gid.substr(0, kPrefixDigits));
+  }
+  return std::ranges::all_of(graph.endpoints, [&](const auto& endpoint) {
+    return !endpoint.is_writer || endpoint.name != kNodesTopic || told.contains(endpoint.gid.substr(0, kPrefixDigits));
+  });
+}
+
+std::vector<std::string> look(runtime::Bridge& bridge, const std::vector<std::string>& wanted) {
+  const auto start = steady_clock::now();
+  auto changed = start;
+  runtime::Graph graph = bridge.graph();
+  for (auto now = start; now - start < kLongestLook; now = steady_clock::now()) {
+    if (auto taken = taken_of(wanted, graph); !taken.empty()) return taken;
+    if (now - start >= kFirstLook && now - changed >= kQuiet && have_all_told(graph)) break;
+    std::this_thread::sleep_for(kPollPeriod);
+    runtime::Graph next = bridge.graph();
+    if (next.endpoints.size() != graph.endpoints.size() || next.nodes.size() != graph.nodes.size()) changed = now;
+    graph = std::move(next);
+  }
+  return {};
+}
+
+}  // namespace
+
+TakenNames::TakenNames(const runtime::DdsSettings& dds, std::vector<std::string> wanted)
+    : bridge_(runtime::make_dds_bridge(dds)),
+      taken_(std::async(std::launch::async, [this, names = std::move(wanted)] { return look(*bridge_, names); })) {}
+
+void TakenNames::refuse() {
+  const auto taken = taken_.get();
+  bridge_.reset();
+  if (taken.empty()) return;
+  throw runtime::ConfigError(
+      fmt::format("another process in this DDS domain already has a node named {}: the two runs would mix their "
+                  "images and poses. Remedy: end the other one; or run this one in another domain (ROS_DOMAIN_ID, "
+                  "--domain), without DDS (--local), or with another node name or namespace in its system file",
+                  fmt::join(taken, ", ")));
+}
+
+}  // namespace panvo::runner
