@@ -7,8 +7,8 @@
 #include "panvo/conversions/camera_info.hpp"
 #include "panvo/conversions/image.hpp"
 #include "panvo/conversions/stage_timer.hpp"
-#include "panvo/conversions/static_transforms.hpp"
 #include "panvo/conversions/time.hpp"
+#include "panvo/conversions/transform_listener.hpp"
 #include "panvo/interfaces/topics.hpp"
 #include "panvo/runtime/component.hpp"
 
@@ -40,8 +40,8 @@ class BinocularOdometryComponent final : public runtime::Component {
         timer_(context.times()),
         odometry_(context.output(topics::kOdometryBinocular)),
         quality_(context.output(topics::kOdometryQuality)),
-        tracked_(context.stage<TrackedFrame>("motion", 2, [this](const TrackedFrame& frame) { on_tracked(frame); })) {
-    context.input(topics::kTfStatic, [this](const auto& message) { on_transforms(*message); });
+        tracked_(context.stage<TrackedFrame>("motion", 2, [this](const TrackedFrame& frame) { on_tracked(frame); })),
+        transforms_(context) {
     context.input(topics::kStereoLeftCameraInfo,
                   [this](const auto& info) { on_camera(left_, *info, topics::kStereoLeftCameraInfo); });
     context.input(topics::kStereoRightCameraInfo,
@@ -64,12 +64,6 @@ class BinocularOdometryComponent final : public runtime::Component {
     std::string frame_id;
     std::optional<conversions::PairedCamera> camera;
   };
-
-  void on_transforms(const tf2_msgs::msg::TFMessage& message) {
-    for (const auto& problem : transforms_.add(message)) {
-      context_.log().warn_throttled(problem, "{}: {}", context_.resolved_name(topics::kTfStatic), problem);
-    }
-  }
 
   void on_camera(Camera& camera, const sensor_msgs::msg::CameraInfo& info,
                  const interfaces::Topic<sensor_msgs::msg::CameraInfo>& topic) {
@@ -130,13 +124,9 @@ class BinocularOdometryComponent final : public runtime::Component {
                                     context_.resolved_name(topics::kStereoRightCameraInfo), stereo.reason());
       return false;
     }
-    const auto base_from_raw_left = transforms_.lookup(parameters_.base_frame, left_.frame_id);
-    if (!base_from_raw_left) {
-      context_.log().warn_throttled(
-          "no mounting", "{} has no transform from {} to {} yet: publish the pose of the left camera on the vehicle",
-          context_.resolved_name(topics::kTfStatic), parameters_.base_frame, left_.frame_id);
-      return false;
-    }
+    const auto base_from_raw_left = transforms_.lookup(parameters_.base_frame, left_.frame_id,
+                                                       "publish the pose of the left camera on the vehicle");
+    if (!base_from_raw_left) return false;
     const Eigen::Isometry3d raw_from_rectified(left_.camera->rectified_from_raw.transpose());
     stages_.emplace(Stages{TrackingStage(*stereo, parameters_.tracking, &timer_),
                            MotionStage(*stereo, parameters_.motion, &timer_),
@@ -161,7 +151,7 @@ class BinocularOdometryComponent final : public runtime::Component {
   runtime::Output<panvo_msgs::msg::OdometryQuality> quality_;
   runtime::Stage<TrackedFrame> tracked_;
 
-  conversions::StaticTransforms transforms_;
+  conversions::TransformListener transforms_;
   Camera left_, right_;
   std::optional<Stages> stages_;
 

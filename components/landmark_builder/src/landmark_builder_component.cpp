@@ -9,8 +9,8 @@
 #include "panvo/conversions/image.hpp"
 #include "panvo/conversions/pose.hpp"
 #include "panvo/conversions/stage_timer.hpp"
-#include "panvo/conversions/static_transforms.hpp"
 #include "panvo/conversions/time.hpp"
+#include "panvo/conversions/transform_listener.hpp"
 #include "panvo/interfaces/topics.hpp"
 #include "panvo/landmark_builder/landmark_builder.hpp"
 #include "panvo/landmarks/description_settings.hpp"
@@ -61,9 +61,9 @@ class LandmarkBuilderComponent final : public runtime::Component {
         settings_(landmarks::description_settings(parameters_.description,
                                                   static_cast<std::uint64_t>(parameters_.description_seed))),
         timer_(context.times()),
-        landmarks_(context.output(topics::kLandmarks)) {
+        landmarks_(context.output(topics::kLandmarks)),
+        transforms_(context) {
     context.give_way();  // landmarks are not urgent, poses are
-    context.input(topics::kTfStatic, [this](const auto& message) { on_transforms(*message); });
     context.input(topics::kLandmarks, [this](const auto& message) { on_landmark(*message); });
     context.input(topics::kLandmarkPoses, [this](const auto& message) { on_poses(*message); });
     context.input(topics::kOdometryEnhanced, [this](const auto& message) { on_enhanced(*message); });
@@ -82,12 +82,6 @@ class LandmarkBuilderComponent final : public runtime::Component {
   static constexpr std::size_t kMostOdometry = 200;  // poses kept for late panoramas
   static constexpr std::size_t kMostWaiting = 10;    // panoramas waiting for odometry
   static constexpr std::int64_t kLongestGap_ns = 1'000'000'000;
-
-  void on_transforms(const tf2_msgs::msg::TFMessage& message) {
-    for (const auto& problem : transforms_.add(message)) {
-      context_.log().warn_throttled(problem, "{}: {}", context_.resolved_name(topics::kTfStatic), problem);
-    }
-  }
 
   void on_landmark(const panvo_msgs::msg::PanoramicLandmark& message) {
     set_landmark(message.id(), message.pose().pose().position());
@@ -204,13 +198,9 @@ class LandmarkBuilderComponent final : public runtime::Component {
   bool make_builder(const sensor_msgs::msg::Image& message, cv::Size size) {
     if (builder_) return true;
     const std::string& frame = message.header().frame_id();
-    const auto base_from_panorama = transforms_.lookup(parameters_.base_frame, frame);
-    if (!base_from_panorama) {
-      context_.log().warn_throttled("no mounting",
-                                    "{} has no chain from {} to {} yet: publish the extrinsics of the panoramic camera",
-                                    context_.resolved_name(topics::kTfStatic), parameters_.base_frame, frame);
-      return false;
-    }
+    const auto base_from_panorama =
+        transforms_.lookup(parameters_.base_frame, frame, "publish the extrinsics of the panoramic camera");
+    if (!base_from_panorama) return false;
     try {
       builder_.emplace(parameters_, static_cast<std::uint64_t>(parameters_.description_seed), *base_from_panorama, size,
                        &timer_);
@@ -229,7 +219,7 @@ class LandmarkBuilderComponent final : public runtime::Component {
   conversions::StageTimer timer_;
   runtime::Output<panvo_msgs::msg::PanoramicLandmark> landmarks_;
 
-  conversions::StaticTransforms transforms_;
+  conversions::TransformListener transforms_;
   vision::PanoramaWatch watch_;
   std::optional<LandmarkBuilder> builder_;
   cv::Size size_;

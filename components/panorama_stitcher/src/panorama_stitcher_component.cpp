@@ -11,8 +11,8 @@
 
 #include "head_watch.hpp"
 #include "panvo/conversions/image.hpp"
-#include "panvo/conversions/static_transforms.hpp"
 #include "panvo/conversions/time.hpp"
+#include "panvo/conversions/transform_buffer.hpp"
 #include "panvo/interfaces/node_topics.hpp"
 #include "panvo/interfaces/topics.hpp"
 #include "panvo/panorama_stitcher/head_sets.hpp"

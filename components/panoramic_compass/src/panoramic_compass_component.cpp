@@ -8,8 +8,8 @@
 
 #include "panvo/conversions/image.hpp"
 #include "panvo/conversions/stage_timer.hpp"
-#include "panvo/conversions/static_transforms.hpp"
 #include "panvo/conversions/time.hpp"
+#include "panvo/conversions/transform_listener.hpp"
 #include "panvo/interfaces/topics.hpp"
 #include "panvo/panoramic_compass/panoramic_compass.hpp"
 #include "panvo/runtime/component.hpp"
@@ -49,19 +49,13 @@ class PanoramicCompassComponent final : public runtime::Component {
       : context_(context),
         parameters_(context.parameters<ComponentParameters>()),
         timer_(context.times()),
-        azimuth_change_(context.output(topics::kAzimuthChange)) {
-    context.input(topics::kTfStatic, [this](const auto& message) { on_transforms(*message); });
+        azimuth_change_(context.output(topics::kAzimuthChange)),
+        transforms_(context) {
     context.input(topics::kPanorama, [this](const auto& message) { on_panorama(*message); });
     make_compass(upright_base_from_panorama());
   }
 
  private:
-  void on_transforms(const tf2_msgs::msg::TFMessage& message) {
-    for (const auto& problem : transforms_.add(message)) {
-      context_.log().warn_throttled(problem, "{}: {}", context_.resolved_name(topics::kTfStatic), problem);
-    }
-  }
-
   void make_compass(const Eigen::Matrix3d& base_from_panorama) {
     base_from_panorama_ = base_from_panorama;
     try {
@@ -97,13 +91,10 @@ class PanoramicCompassComponent final : public runtime::Component {
 
   /// Recreates the compass if the camera mounting in /tf_static differs from the current one.
   void take_mounting(const std::string& frame) {
-    const auto base_from_panorama = transforms_.lookup(parameters_.base_frame, frame);
-    if (!base_from_panorama) {
-      return context_.log().warn_throttled(
-          "no mounting", "{} has no transform from {} to {}: assuming an upright, forward-looking panoramic camera",
-          context_.resolved_name(topics::kTfStatic), parameters_.base_frame, frame);
-    }
-    if (!base_from_panorama->linear().isApprox(base_from_panorama_, 1e-9)) make_compass(base_from_panorama->linear());
+    const auto base_from_panorama =
+        transforms_.lookup(parameters_.base_frame, frame, "assuming an upright, forward-looking panoramic camera");
+    if (base_from_panorama && !base_from_panorama->linear().isApprox(base_from_panorama_, 1e-9))
+      make_compass(base_from_panorama->linear());
   }
 
   void tell(const AzimuthChange& change, const std::string& frame) {
@@ -129,7 +120,7 @@ class PanoramicCompassComponent final : public runtime::Component {
   conversions::StageTimer timer_;
   runtime::Output<panvo_msgs::msg::AzimuthChange> azimuth_change_;
 
-  conversions::StaticTransforms transforms_;
+  conversions::TransformListener transforms_;
   Eigen::Matrix3d base_from_panorama_;
   vision::PanoramaWatch watch_;
   std::optional<PanoramicCompass> compass_;

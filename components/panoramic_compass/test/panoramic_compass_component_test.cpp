@@ -5,8 +5,8 @@
 
 #include "painted_panorama.hpp"
 #include "panvo/conversions/image.hpp"
-#include "panvo/conversions/static_transforms.hpp"
 #include "panvo/conversions/time.hpp"
+#include "panvo/conversions/transform_buffer.hpp"
 #include "panvo/interfaces/topics.hpp"
 #include "panvo/panoramic_compass/panoramic_compass.hpp"
 #include "panvo/runtime/testing.hpp"

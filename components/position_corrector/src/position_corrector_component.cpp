@@ -14,8 +14,8 @@
 #include "panvo/conversions/image.hpp"
 #include "panvo/conversions/pose.hpp"
 #include "panvo/conversions/stage_timer.hpp"
-#include "panvo/conversions/static_transforms.hpp"
 #include "panvo/conversions/time.hpp"
+#include "panvo/conversions/transform_listener.hpp"
 #include "panvo/interfaces/topics.hpp"
 #include "panvo/landmarks/description_settings.hpp"
 #include "panvo/landmarks/landmark_messages.hpp"
@@ -92,8 +92,8 @@ class PositionCorrectorComponent final : public runtime::Component {
         library_(keypoints_, describer_.basis().limits()),
         matcher_(parameters_.matching, parameters_.keypoints, describer_, &timer_),
         match_(context.output(topics::kLandmarkMatch)),
-        correction_(context.output(topics::kCorrection)) {
-    context.input(topics::kTfStatic, [this](const auto& message) { on_transforms(*message); });
+        correction_(context.output(topics::kCorrection)),
+        transforms_(context) {
     context.input(topics::kLandmarks, [this](const auto& message) { on_landmark(*message); });
     context.input(topics::kLandmarkPoses, [this](const auto& message) { on_poses(*message); });
     context.input(topics::kOdometryBinocular, [this](const auto& message) { on_odometry(*message); });
@@ -101,12 +101,6 @@ class PositionCorrectorComponent final : public runtime::Component {
   }
 
  private:
-  void on_transforms(const tf2_msgs::msg::TFMessage& message) {
-    for (const auto& problem : transforms_.add(message)) {
-      context_.log().warn_throttled(problem, "{}: {}", context_.resolved_name(topics::kTfStatic), problem);
-    }
-  }
-
   void on_landmark(const panvo_msgs::msg::PanoramicLandmark& message) {
     const auto read = landmarks::to_landmark(message, settings_);
     if (!read) {
@@ -225,12 +219,8 @@ class PositionCorrectorComponent final : public runtime::Component {
   }
 
   Mountings mountings_of(const landmarks::PanoramicLandmark& landmark, const std::string& panorama_frame) {
-    const auto now = transforms_.lookup(parameters_.base_frame, panorama_frame);
-    if (!now) {
-      context_.log().warn_throttled("no mounting",
-                                    "{} has no chain from {} to {} yet: using the extrinsics stored with the landmark",
-                                    context_.resolved_name(topics::kTfStatic), parameters_.base_frame, panorama_frame);
-    }
+    const auto now =
+        transforms_.lookup(parameters_.base_frame, panorama_frame, "using the extrinsics stored with the landmark");
     return {landmark.base_from_panorama, now.value_or(landmark.base_from_panorama)};
   }
 
@@ -246,7 +236,7 @@ class PositionCorrectorComponent final : public runtime::Component {
   runtime::Output<panvo_msgs::msg::LandmarkMatch> match_;
   runtime::Output<panvo_msgs::msg::PositionCorrection> correction_;
 
-  conversions::StaticTransforms transforms_;
+  conversions::TransformListener transforms_;
   std::map<std::uint32_t, landmarks::LandmarkPose> moved_;  // poses of landmarks not received yet
   OdometryTrail trail_;
 };

@@ -7,8 +7,8 @@
 
 #include "panvo/conversions/image.hpp"
 #include "panvo/conversions/pose.hpp"
-#include "panvo/conversions/static_transforms.hpp"
 #include "panvo/conversions/time.hpp"
+#include "panvo/conversions/transform_buffer.hpp"
 #include "panvo/interfaces/topics.hpp"
 #include "panvo/landmarks/landmark_messages.hpp"
 #include "panvo/runtime/testing.hpp"

@@ -2,10 +2,10 @@
 #include "panvo/runtime/context.hpp"
 
 #include <limits>
-#include <map>
 
 #include "clocks.hpp"
 #include "context_state.hpp"
+#include "pairing.hpp"
 #include "panvo/runtime/errors.hpp"
 #include "panvo/runtime/names.hpp"
 
@@ -63,51 +63,6 @@ class WorkerStage final : public StageQueue {
  private:
   Worker& worker_;
   Port& port_;
-};
-
-/// Pairs messages of two topics by equal stamps.
-class Pairing {
- public:
-  Pairing(Worker& worker, Port& port) : worker_(worker), port_(port) {}
-
-  void take(int side, const SamplePtr& sample) {
-    const std::int64_t stamp = stamp_of(*sample);
-    SamplePtr partner;
-    {
-      const std::lock_guard lock(mutex_);
-      auto& own = waiting_[side];
-      auto& other = waiting_[1 - side];
-      if (const auto found = other.find(stamp); found != other.end()) {
-        partner = found->second;
-        other.erase(found);
-        // Older waiting messages have no partner: topics arrive in order.
-        give_up_before(own, stamp);
-        give_up_before(other, stamp);
-      } else {
-        own[stamp] = sample;
-        if (own.size() > port_.depth) {
-          own.erase(own.begin());
-          worker_.count_dropped(port_);
-        }
-      }
-    }
-    if (!partner) return;
-    Task task{.first = side == 0 ? sample : partner, .second = side == 0 ? partner : sample, .stamp_ns = stamp};
-    worker_.push(port_, std::move(task));
-  }
-
- private:
-  void give_up_before(std::map<std::int64_t, SamplePtr>& waiting, std::int64_t stamp) {
-    while (!waiting.empty() && waiting.begin()->first < stamp) {
-      waiting.erase(waiting.begin());
-      worker_.count_dropped(port_);
-    }
-  }
-
-  Worker& worker_;
-  Port& port_;
-  std::mutex mutex_;
-  std::map<std::int64_t, SamplePtr> waiting_[2];
 };
 
 }  // namespace
@@ -214,19 +169,21 @@ void Context::open_input(const TopicDescription& topic, std::function<void(const
 }
 
 void Context::open_input_pair(const TopicDescription& first, const TopicDescription& second,
+                              std::chrono::nanoseconds tolerance,
                               std::function<void(const SamplePtr&, const SamplePtr&)> callback) {
   try {
+    if (tolerance.count() < 0) throw ConfigError("the tolerance of a pair of inputs is negative");
     Channel* channels[2] = {&state_->host.bus.channel(state_->resolve(first)),
                             &state_->host.bus.channel(state_->resolve(second))};
     Worker& worker = state_->main_worker();
     Port& port = worker.add_port(first.name + ", " + second.name, first.qos.depth, false,
                                  [callback = std::move(callback)](Task& task) { callback(task.first, task.second); });
-    const auto pairing = std::make_shared<Pairing>(worker, port);
+    const auto pairing = std::make_shared<Pairing>(worker, port, tolerance.count());
     for (int side = 0; side < 2; ++side) {
       state_->inputs.push_back(channels[side]);
       channels[side]->add_reader(
           state_.get(), [state = state_.get(), pairing, side](const TopicDescription& there, const SamplePtr& sample) {
-            if (state->active && state->admits_stamp(there, *sample)) pairing->take(side, sample);
+            if (state->active && state->admits_stamp(there, *sample)) pairing->take(side, stamp_of(*sample), sample);
           });
     }
   } catch (const ConfigError& error) {

@@ -10,7 +10,7 @@
 #include <stdexcept>
 
 #include "panvo/conversions/camera_info.hpp"
-#include "panvo/conversions/static_transforms.hpp"
+#include "panvo/conversions/transform_buffer.hpp"
 
 namespace panvo::camera_group {
 namespace {

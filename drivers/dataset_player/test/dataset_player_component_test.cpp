@@ -6,8 +6,8 @@
 
 #include "panvo/conversions/camera_info.hpp"
 #include "panvo/conversions/pose.hpp"
-#include "panvo/conversions/static_transforms.hpp"
 #include "panvo/conversions/time.hpp"
+#include "panvo/conversions/transform_buffer.hpp"
 #include "panvo/interfaces/topics.hpp"
 #include "panvo/runtime/testing.hpp"
 #include "recorded_data.hpp"
@@ -69,8 +69,8 @@ TEST_F(DatasetPlayer, PublishesWhatARobotWithTheseCamerasWould) {
   EXPECT_NEAR(stereo->baseline_m, 0.2, 1e-9);
 
   ASSERT_THAT(tf_, SizeIs(1));
-  conversions::StaticTransforms transforms;
-  EXPECT_THAT(transforms.add(*tf_[0]), IsEmpty());
+  conversions::TransformBuffer transforms;
+  EXPECT_THAT(transforms.add_static(*tf_[0]), IsEmpty());
   EXPECT_TRUE(transforms.lookup("base_link", left_[0]->header().frame_id())
                   ->translation()
                   .isApprox(Eigen::Vector3d(2.0, 0.1, 1.5)));

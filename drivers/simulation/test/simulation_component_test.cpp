@@ -5,8 +5,8 @@
 #include <fstream>
 
 #include "panvo/conversions/camera_info.hpp"
-#include "panvo/conversions/static_transforms.hpp"
 #include "panvo/conversions/time.hpp"
+#include "panvo/conversions/transform_buffer.hpp"
 #include "panvo/interfaces/node_topics.hpp"
 #include "panvo/interfaces/topics.hpp"
 #include "panvo/runtime/testing.hpp"
@@ -75,8 +75,8 @@ TEST_F(SimulationComponent, PublishesWhatAVehicleWithThisRigWould) {
   ASSERT_TRUE(stereo);
   EXPECT_NEAR(stereo->baseline_m, 0.12, 1e-9);
   ASSERT_THAT(tf, SizeIs(1));
-  conversions::StaticTransforms transforms;
-  EXPECT_THAT(transforms.add(*tf[0]), IsEmpty());
+  conversions::TransformBuffer transforms;
+  EXPECT_THAT(transforms.add_static(*tf[0]), IsEmpty());
   EXPECT_TRUE(transforms.lookup("base_link", left[0]->header().frame_id())
                   ->translation()
                   .isApprox(Eigen::Vector3d(1.9, 0.06, 1.3)));

@@ -70,11 +70,13 @@ class Context {
     });
   }
 
-  /// Calls `callback(first, second)` for each pair of messages with equal header stamps (a stereo pair). Messages
-  /// without a partner are dropped and counted.
+  /// Calls `callback(first, second)` for each pair of messages with equal header stamps (a stereo pair), or with stamps
+  /// that differ by at most `tolerance`, which should be below half the period of both topics: a message is paired as
+  /// soon as a partner is there. Messages without a partner are dropped and counted.
   template <class First, class Second, class Callback>
-  void input_pair(const interfaces::Topic<First>& first, const interfaces::Topic<Second>& second, Callback callback) {
-    open_input_pair(describe(first), describe(second),
+  void input_pair(const interfaces::Topic<First>& first, const interfaces::Topic<Second>& second, Callback callback,
+                  std::chrono::nanoseconds tolerance = std::chrono::nanoseconds(0)) {
+    open_input_pair(describe(first), describe(second), tolerance,
                     [callback = std::move(callback)](const SamplePtr& a, const SamplePtr& b) mutable {
                       callback(Sample::as<First>(a), Sample::as<Second>(b));
                     });
@@ -194,6 +196,7 @@ class Context {
   void take_parameters(std::function<std::function<void()>(ParameterReader&)> take);
   void open_input(const TopicDescription& topic, std::function<void(const SamplePtr&)> callback);
   void open_input_pair(const TopicDescription& first, const TopicDescription& second,
+                       std::chrono::nanoseconds tolerance,
                        std::function<void(const SamplePtr&, const SamplePtr&)> callback);
   std::shared_ptr<StageQueue> open_stage(const std::string& stage_name, std::size_t capacity,
                                          std::function<void(std::any&)> callback);
