@@ -5,13 +5,14 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "../config/temporary_folder.hpp"
 #include "panvo/runtime/run_files.hpp"
+#include "panvo/test/temporary_folder.hpp"
 #include "run_samples.hpp"
 
 namespace panvo::runtime {
 namespace {
 
+using panvo::test::TemporaryFolder;
 using testing::ElementsAre;
 
 TEST(MergeRunFiles, MakesOneRunOfSeveralContainers) {

@@ -13,7 +13,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "../config/temporary_folder.hpp"
+#include "panvo/test/temporary_folder.hpp"
 #include "panvo_msgs/msg/AzimuthChange.h"
 #include "panvo_msgs/msg/CorrectionOutcome.h"
 #include "panvo_msgs/msg/LandmarkMatch.h"
@@ -26,6 +26,7 @@
 namespace panvo::runtime {
 namespace {
 
+using panvo::test::TemporaryFolder;
 using testing::_;
 using testing::ElementsAre;
 using testing::HasSubstr;

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <fstream>
 
 #include "panvo/runtime/errors.hpp"
 #include "panvo/runtime/run_files.hpp"
+#include "panvo/test/temporary_folder.hpp"
 
 namespace panvo::runtime {
 namespace {
@@ -15,11 +15,6 @@ using testing::HasSubstr;
 
 class RunFolder : public testing::Test {
  protected:
-  RunFolder() : folder_(std::filesystem::temp_directory_path() / ("panvo_run_folder_" + std::to_string(getpid()))) {
-    std::filesystem::remove_all(folder_);
-  }
-  ~RunFolder() override { std::filesystem::remove_all(folder_); }
-
   std::string refusal(bool overwrite = false) const {
     try {
       claim_run_folder(folder_, overwrite);
@@ -29,7 +24,8 @@ class RunFolder : public testing::Test {
     return "";
   }
 
-  const std::filesystem::path folder_;
+  const panvo::test::TemporaryFolder temporary_;
+  const std::filesystem::path folder_ = temporary_ / "run";  // does not exist yet
 };
 
 TEST_F(RunFolder, IsTakenWhenItIsNewOrEmptyOrOfAnEarlierRun) {
