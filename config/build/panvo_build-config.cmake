@@ -20,6 +20,17 @@ option(PANVO_UNITY "Compile the sources of a test together, eight at a time" ON)
 find_program(PANVO_CCACHE ccache)
 mark_as_advanced(PANVO_CCACHE)
 
+# Headers for tests: beside this file in the source tree, one folder higher in the installed tree.
+if(NOT TARGET panvo::test_headers)
+  add_library(panvo::test_headers INTERFACE IMPORTED)
+  if(EXISTS ${CMAKE_CURRENT_LIST_DIR}/test_support)
+    target_include_directories(panvo::test_headers INTERFACE ${CMAKE_CURRENT_LIST_DIR}/test_support)
+  else()
+    target_include_directories(panvo::test_headers INTERFACE ${CMAKE_CURRENT_LIST_DIR}/../test_support)
+  endif()
+  set_target_properties(panvo::test_headers PROPERTIES SYSTEM FALSE)  # they are panvo's own: with warnings
+endif()
+
 # Whatever a target needs is set on the target: find_package(panvo_build) changes no variable that other targets of the caller are built by.
 function(_panvo_compile_settings target)
   target_compile_features(${target} PUBLIC cxx_std_20)
@@ -133,7 +144,7 @@ endfunction()
 # panvo_add_test(<name> SOURCES ... [LINK ...] [LABELS ...] [TIMEOUT seconds] [DEFINITIONS ...] [ENVIRONMENT ...]
 # [ALONE] [APART]): each TEST() becomes a ctest; ALONE: no other runs beside it; APART: its sources define the same names.
 # Only tests are compiled together: elsewhere a call could silently bind to a function of another file.
-# The tests read recordings from $PANVO_DATA, or from the folder shared/data beside the checkout.
+# The tests have the headers "panvo/test/...": temporary folders and recordings.
 function(panvo_add_test target)
   if(NOT BUILD_TESTING)
     return()
@@ -142,7 +153,7 @@ function(panvo_add_test target)
   find_package(GTest REQUIRED)
   include(GoogleTest)
   add_executable(${target} ${arg_SOURCES})
-  target_link_libraries(${target} PRIVATE ${arg_LINK} GTest::gmock GTest::gtest_main)
+  target_link_libraries(${target} PRIVATE ${arg_LINK} panvo::test_headers GTest::gmock GTest::gtest_main)
   target_compile_definitions(${target} PRIVATE ${arg_DEFINITIONS})
   _panvo_compile_settings(${target})
   if(PANVO_UNITY AND NOT arg_APART)
@@ -172,7 +183,7 @@ function(panvo_add_fuzzer target)
   endif()
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;LINK")
   add_executable(${target} ${arg_SOURCES})
-  target_link_libraries(${target} PRIVATE ${arg_LINK})
+  target_link_libraries(${target} PRIVATE ${arg_LINK} panvo::test_headers)
   _panvo_compile_settings(${target})
   target_link_options(${target} PRIVATE -fsanitize=fuzzer)
   set_target_properties(${target} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/panvo_bin)

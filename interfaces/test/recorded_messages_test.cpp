@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Our messages against those in bags that ROS 2 tools wrote: bytes, type hashes and definitions.
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 #include <memory>
 #include <set>
@@ -16,6 +15,7 @@
 #include "cdr_layout.hpp"
 #include "common_packages.hpp"
 #include "panvo/interfaces/message_type.hpp"
+#include "panvo/test/recorded_data.hpp"
 
 namespace panvo::interfaces {
 namespace {
@@ -55,19 +55,13 @@ class Query {
   std::unique_ptr<sqlite3_stmt, decltype([](sqlite3_stmt* s) { sqlite3_finalize(s); })> statement_;
 };
 
-fs::path bag_folder() {
-  const char* data = std::getenv("PANVO_DATA");
-  return fs::path(data != nullptr ? data : PANVO_DEFAULT_DATA) / "bags";
-}
-
 class RecordedMessages : public testing::Test {
  protected:
   void SetUp() override {
     load_common_packages();
-    if (!fs::is_directory(bag_folder())) {
-      GTEST_SKIP() << "no recordings at " << bag_folder() << "; set PANVO_DATA to the folder that holds bags/";
-    }
-    for (const auto& entry : fs::recursive_directory_iterator(bag_folder())) {
+    const auto folder = panvo::test::recorded_data("bags");
+    PANVO_NEEDS_RECORDING(folder);
+    for (const auto& entry : fs::recursive_directory_iterator(folder)) {
       if (entry.path().extension() == ".db3") {
         bags_.insert(entry.path());
       }

@@ -11,7 +11,7 @@
 #include "panvo/landmarks/landmark_library.hpp"
 #include "panvo/landmarks/landmark_store.hpp"
 #include "panvo/position_corrector/spilled_keypoints.hpp"
-#include "process.hpp"
+#include "panvo/test/temporary_folder.hpp"
 
 namespace {
 

@@ -9,7 +9,7 @@
 #include "panvo/binocular_odometry/binocular_odometry.hpp"
 #include "panvo/dataset_player/dataset.hpp"
 #include "panvo/dataset_player/image_file.hpp"
-#include "process.hpp"
+#include "panvo/test/recorded_data.hpp"
 
 namespace {
 
@@ -24,8 +24,8 @@ struct Clip {
   std::vector<StereoFrame> frames;
 
   explicit Clip(const std::string& name) {
-    const auto folder = test::recording(name);
-    if (folder.empty()) return;
+    const auto folder = test::recorded_data(name);
+    if (!std::filesystem::exists(folder)) return;
     dataset = dataset_player::open_dataset(folder);
     dataset_player::ImageDecoder decoder;
     for (const auto& files : dataset.stereo->frames) {
@@ -47,7 +47,7 @@ struct Clip {
 const Clip* find(benchmark::State& state, const std::string& name) {
   const Clip& clip = Clip::of(name);
   if (!clip.frames.empty()) return &clip;
-  state.SkipWithError(("no recording " + name + " in $PANVO_DATA or shared/data beside the checkout").c_str());
+  state.SkipWithError(test::missing_recording(test::recorded_data(name)).c_str());
   return nullptr;
 }
 

@@ -4,11 +4,12 @@
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 #include <opencv2/core/utility.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <vector>
+
+#include "panvo/test/recorded_data.hpp"
 
 /// The first half minute of the recording campus_journey, including a corner; empty if the recording is missing. Sets
 /// OpenCV to one thread.
@@ -16,8 +17,7 @@ inline const std::vector<cv::Mat>& recorded_panoramas() {
   static const std::vector<cv::Mat> all = [] {
     constexpr std::size_t kMost = 150;
     std::vector<cv::Mat> images;
-    const char* const data = std::getenv("PANVO_DATA");
-    const auto folder = std::filesystem::path(data != nullptr ? data : "") / "campus_journey/mav0/cam2/data";
+    const auto folder = panvo::test::recorded_data("campus_journey/mav0/cam2/data");
     std::vector<std::filesystem::path> files;
     std::error_code error;
     for (const auto& entry : std::filesystem::directory_iterator(folder, error)) files.push_back(entry.path());
@@ -33,6 +33,6 @@ inline const std::vector<cv::Mat>& recorded_panoramas() {
 /// If there are no panoramas, marks the benchmark as skipped and returns true.
 inline bool lack_panoramas(benchmark::State& state) {
   if (!recorded_panoramas().empty()) return false;
-  state.SkipWithError("no panoramas: set PANVO_DATA to a folder that holds campus_journey");
+  state.SkipWithError(panvo::test::missing_recording(panvo::test::recorded_data("campus_journey")).c_str());
   return true;
 }

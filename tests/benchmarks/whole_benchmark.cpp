@@ -5,6 +5,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "panvo/test/recorded_data.hpp"
+#include "panvo/test/temporary_folder.hpp"
 #include "process.hpp"
 
 namespace {
@@ -12,9 +14,9 @@ namespace {
 using namespace panvo::test;
 
 void whole(benchmark::State& state, const std::string& name, const std::string& front_end, bool replay) {
-  const auto data = recording(name);
-  if (data.empty()) {
-    state.SkipWithError(("no recording " + name + " in $PANVO_DATA or shared/data beside the checkout").c_str());
+  const auto data = recorded_data(name);
+  if (!std::filesystem::exists(data)) {
+    state.SkipWithError(missing_recording(data).c_str());
     return;
   }
   const TemporaryFolder folder;
@@ -35,8 +37,8 @@ void whole(benchmark::State& state, const std::string& name, const std::string& 
       state.SkipWithError(finished.output.c_str());
       return;
     }
-    summary = nlohmann::json::parse(read_file(folder.path() / "out" / "summary.json"));
-    timing = nlohmann::json::parse(read_file(folder.path() / "out" / "timing.json"));
+    summary = nlohmann::json::parse(read_file(folder / "out" / "summary.json"));
+    timing = nlohmann::json::parse(read_file(folder / "out" / "timing.json"));
     state.SetIterationTime(summary.at("cpu_s").get<double>());
   }
   const double frames = summary.at("frames_in").get<double>();

@@ -6,6 +6,7 @@
 #include <csignal>
 #include <vector>
 
+#include "panvo/test/temporary_folder.hpp"
 #include "process.hpp"
 #include "rendered_walk.hpp"
 #include "walk_paths.hpp"

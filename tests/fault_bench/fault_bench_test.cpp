@@ -6,6 +6,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "panvo/test/temporary_folder.hpp"
 #include "process.hpp"
 #include "rendered_walk.hpp"
 
@@ -16,7 +17,7 @@ using testing::HasSubstr;
 using testing::Not;
 
 struct FaultBench : testing::Test {
-  void SetUp() override { RenderedWalk{.frames = 30}.write(folder.path() / "walk"); }
+  void SetUp() override { RenderedWalk{.frames = 30}.write(folder / "walk"); }
 
   Finished bench(const std::vector<std::string>& more) const {
     std::vector<std::string> words{FAULT_BENCH, "--inputs", folder / "walk", "--out", folder / "out"};
@@ -32,19 +33,19 @@ TEST_F(FaultBench, PlaysTheFaultsItIsAskedForAndLeavesItsTable) {
   ASSERT_EQ(finished.status, 0) << finished.output;
   EXPECT_THAT(finished.output, HasSubstr("2 of 2 runs"));
   for (const char* file : {"faults.txt", "faults.csv", "faults.json"}) {
-    EXPECT_THAT(read_file(folder.path() / "out" / file), HasSubstr("both_black")) << file;
+    EXPECT_THAT(read_file(folder / "out" / file), HasSubstr("both_black")) << file;
   }
-  const auto json = nlohmann::json::parse(read_file(folder.path() / "out" / "faults.json"));
+  const auto json = nlohmann::json::parse(read_file(folder / "out" / "faults.json"));
   EXPECT_EQ(json.at("rows").size(), 2U);
   EXPECT_EQ(json.at("rows").at(0).at("poses"), 30);
   EXPECT_LT(json.at("rows").at(0).at("largest_error_m"), 0.1);
-  const auto qualities = read_file(folder.path() / "out" / "runs" / "walk" / "both_black-1" / "quality.csv");
+  const auto qualities = read_file(folder / "out" / "runs" / "walk" / "both_black-1" / "quality.csv");
   EXPECT_THAT(qualities, HasSubstr(",0,")) << "nothing was unreliable";
 }
 
 TEST_F(FaultBench, DoesNotPlayAgainWhatIsThereUnlessSomethingElseIsRun) {
   ASSERT_EQ(bench({"--only", "none", "--key", "first"}).status, 0);
-  const auto log = folder.path() / "out" / "runs" / "walk" / "none-1" / "output.log";
+  const auto log = folder / "out" / "runs" / "walk" / "none-1" / "output.log";
   std::ofstream(log) << "kept";
   ASSERT_EQ(bench({"--only", "none", "--key", "first"}).status, 0);
   EXPECT_EQ(read_file(log), "kept");

@@ -11,6 +11,7 @@
 #include <sstream>
 
 #include "panvo/runtime/test_domain.hpp"
+#include "panvo/test/temporary_folder.hpp"
 #include "process.hpp"
 #include "rendered_walk.hpp"
 
@@ -28,14 +29,11 @@ struct Fault : testing::Test {
   TemporaryFolder folder;
 
   std::string write_walk(const RenderedWalk& walk) const {
-    walk.write(folder.path() / "walk");
+    walk.write(folder / "walk");
     return folder / "walk";
   }
 
-  std::string write(const std::string& name, const std::string& text) const {
-    std::ofstream(folder.path() / name) << text;
-    return folder / name;
-  }
+  std::string write(const std::string& name, const std::string& text) const { return folder.write(name, text); }
 
   Finished replay(const std::string& data, const std::vector<std::string>& more = {}) const {
     std::vector<std::string> words{PANVO_RUN, kStereo, "--dataset", data, "--out", folder / "out", "--replay"};
@@ -57,7 +55,7 @@ struct Fault : testing::Test {
 
   /// Number of lines of the trajectory; fails if a number is not finite.
   std::size_t count_sound_poses() const {
-    std::istringstream lines(read_file(folder.path() / "out" / "odometry_binocular.tum"));
+    std::istringstream lines(read_file(folder / "out" / "odometry_binocular.tum"));
     std::size_t count = 0;
     for (std::string line; std::getline(lines, line); ++count) {
       EXPECT_THAT(line, AllOf(Not(HasSubstr("nan")), Not(HasSubstr("inf"))));
@@ -73,7 +71,7 @@ TEST_F(Fault, AMissingDataSetIsNamed) {
 }
 
 TEST_F(Fault, AnEmptyDataSetIsToldWhatWasLookedFor) {
-  std::filesystem::create_directories(folder.path() / "empty");
+  std::filesystem::create_directories(folder / "empty");
   const Finished finished = replay(folder / "empty");
   EXPECT_EQ(finished.status, kBadConfiguration);
   EXPECT_THAT(finished.output, AllOf(HasSubstr("empty"), HasSubstr("calib.txt"), HasSubstr("mav0")));
@@ -81,7 +79,7 @@ TEST_F(Fault, AnEmptyDataSetIsToldWhatWasLookedFor) {
 
 TEST_F(Fault, ACalibrationWithoutBaselineIsRefused) {
   const std::string data = write_walk({.frames = 2});
-  std::ofstream(folder.path() / "walk" / "calib.txt")
+  std::ofstream(folder / "walk" / "calib.txt")
       << "P0: 240 0 160 0 0 240 120 0 0 0 1 0\nP1: 240 0 160 0 0 240 120 0 0 0 1 0\n";
   const Finished finished = replay(data);
   EXPECT_EQ(finished.status, kBadConfiguration);
@@ -150,7 +148,7 @@ TEST_P(SpoiltFrames, AreCarriedWithoutNaNAndTheOdometryRecovers) {
   const Finished finished = replay(write_walk(walk));
   EXPECT_EQ(finished.status, 0) << finished.output;
   EXPECT_EQ(count_sound_poses(), 20U);
-  std::istringstream lines(read_file(folder.path() / "out" / "odometry_binocular.tum"));
+  std::istringstream lines(read_file(folder / "out" / "odometry_binocular.tum"));
   std::string line, last;
   while (std::getline(lines, line)) last = line;
   std::istringstream words(last);
@@ -171,7 +169,7 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST_F(Fault, AnUndecodableImageIsNamedAndSkipped) {
   const std::string data = write_walk({});
-  std::ofstream(folder.path() / "walk" / "image_0" / "000005.png") << "this is no picture";
+  std::ofstream(folder / "walk" / "image_0" / "000005.png") << "this is no picture";
   const Finished finished = replay(data);
   EXPECT_EQ(finished.status, 0) << finished.output;
   EXPECT_THAT(finished.output, HasSubstr("000005.png"));
@@ -180,7 +178,7 @@ TEST_F(Fault, AnUndecodableImageIsNamedAndSkipped) {
 
 TEST_F(Fault, OneEyeMissingInAPairIsNamedAndThePairLeftOut) {
   const std::string data = write_walk({});
-  std::filesystem::remove(folder.path() / "walk" / "image_1" / "000007.png");
+  std::filesystem::remove(folder / "walk" / "image_1" / "000007.png");
   const Finished finished = replay(data);
   EXPECT_EQ(finished.status, 0) << finished.output;
   EXPECT_THAT(finished.output, HasSubstr("000007.png"));
@@ -189,7 +187,7 @@ TEST_F(Fault, OneEyeMissingInAPairIsNamedAndThePairLeftOut) {
 
 TEST_F(Fault, TimestampsThatGoBackwardsAreRefusedWithTheirLine) {
   const std::string data = write_walk({.frames = 4});
-  std::ofstream(folder.path() / "walk" / "times.txt") << "0\n0.1\n0.05\n0.3\n";
+  std::ofstream(folder / "walk" / "times.txt") << "0\n0.1\n0.05\n0.3\n";
   const Finished finished = replay(data);
   EXPECT_EQ(finished.status, kBadConfiguration);
   EXPECT_THAT(finished.output, HasSubstr("times.txt:3"));
@@ -236,19 +234,19 @@ TEST_F(Fault, ABagCutOffInItsMiddleIsPlayedAsFarAsItGoes) {
 TEST_F(Fault, SigintEndsARunSoonAndLeavesItsResults) {
   const std::string data = write_walk({.frames = 100});
   Process running({PANVO_RUN, kStereo, "--dataset", data, "--out", folder / "out", "--local", "--rate", "1"});
-  ASSERT_TRUE(eventually([&] { return !read_file(folder.path() / "out" / "odometry_binocular.tum").empty(); }))
+  ASSERT_TRUE(eventually([&] { return !read_file(folder / "out" / "odometry_binocular.tum").empty(); }))
       << running.output();
   running.signal(SIGINT);
   EXPECT_EQ(running.wait(std::chrono::seconds(30)), 128 + SIGINT) << running.output();
   EXPECT_GT(count_sound_poses(), 0U);
-  EXPECT_THAT(read_file(folder.path() / "out" / "summary.json"),
+  EXPECT_THAT(read_file(folder / "out" / "summary.json"),
               AllOf(HasSubstr("\"interrupted\": true"), HasSubstr("\"exit_status\": 130")));
 }
 
 TEST_F(Fault, ARunThatIsPlayedToItsEndIsNotInterrupted) {
   const Finished finished = replay(write_walk({.frames = 3}));
   EXPECT_EQ(finished.status, 0) << finished.output;
-  EXPECT_THAT(read_file(folder.path() / "out" / "summary.json"), HasSubstr("\"interrupted\": false"));
+  EXPECT_THAT(read_file(folder / "out" / "summary.json"), HasSubstr("\"interrupted\": false"));
 }
 
 TEST_F(Fault, SigintEndsALiveSystemWithoutComplaint) {
@@ -262,24 +260,23 @@ TEST_F(Fault, SigintEndsALiveSystemWithoutComplaint) {
 }
 
 TEST_F(Fault, AFolderOfSomebodyElseIsNotWrittenTo) {
-  std::filesystem::create_directories(folder.path() / "out");
   write("out/odometry_binocular.tum", "precious");
   const std::string data = write_walk({.frames = 3});
   const Finished refused = replay(data);
   EXPECT_EQ(refused.status, kBadConfiguration);
   EXPECT_THAT(refused.output, AllOf(HasSubstr("contains odometry_binocular.tum"), HasSubstr("--overwrite")));
-  EXPECT_EQ(read_file(folder.path() / "out" / "odometry_binocular.tum"), "precious");
+  EXPECT_EQ(read_file(folder / "out" / "odometry_binocular.tum"), "precious");
   EXPECT_EQ(replay(data, {"--overwrite"}).status, 0);
   EXPECT_EQ(replay(data).status, 0) << "an earlier run is replaced";
 }
 
 TEST_F(Fault, ARunThatWritesNothingFails) {
   const std::string data = write_walk({.frames = 3});
-  std::filesystem::remove(folder.path() / "walk" / "poses.txt");  // otherwise ground truth would be written
-  const Finished finished = run({PANVO_RUN, SYSTEMS "/record.yaml", "output:=" + folder / "bag", "topics:=/tf_static",
-                                 "--dataset", data, "--out", folder / "out", "--replay"});
+  std::filesystem::remove(folder / "walk" / "poses.txt");  // otherwise ground truth would be written
+  const Finished finished = run({PANVO_RUN, SYSTEMS "/record.yaml", "output:=" + (folder / "bag").string(),
+                                 "topics:=/tf_static", "--dataset", data, "--out", folder / "out", "--replay"});
   EXPECT_EQ(finished.status, kRunFailed) << finished.output;
-  EXPECT_THAT(finished.output, HasSubstr("nothing was written to " + folder / "out"));
+  EXPECT_THAT(finished.output, HasSubstr("nothing was written to " + (folder / "out").string()));
 }
 
 TEST_F(Fault, ARunThatPlaysNothingFails) {

@@ -11,6 +11,7 @@
 #include <sstream>
 
 #include "panvo/runtime/test_domain.hpp"
+#include "panvo/test/temporary_folder.hpp"
 #include "process.hpp"
 
 namespace panvo::test {

@@ -11,6 +11,7 @@
 #include <sstream>
 
 #include "panvo/runtime/test_domain.hpp"
+#include "panvo/test/temporary_folder.hpp"
 #include "process.hpp"
 #include "rendered_walk.hpp"
 
@@ -68,7 +69,7 @@ class SplitFaults : public testing::Test {
   }
 
   std::size_t poses_in(const std::string& out) const {
-    const std::string poses = read_file(folder_.path() / out / "odometry_binocular.tum");
+    const std::string poses = read_file(folder_ / out / "odometry_binocular.tum");
     return static_cast<std::size_t>(std::count(poses.begin(), poses.end(), '\n'));
   }
   bool gets_poses(const std::string& out, std::size_t count) const {
@@ -121,7 +122,7 @@ TEST_F(SplitFaults, AKilledDiscoveryServerStopsNoDataAndWithABackupItsSuccessorB
   const std::string env = find_program("env");
   // With a backup, the server stores its clients in its folder: they do not notice its replacement and do not register
   // again.
-  const auto kept = folder_.path() / "server";
+  const auto kept = folder_ / "server";
   std::filesystem::create_directory(kept);
   const Words serve{env, "--chdir=" + kept.string(), program, "-i", "0", "-l", "127.0.0.1", "-p", port, "-b"};
   before_ = {env, "ROS_DISCOVERY_SERVER=127.0.0.1:" + port};
@@ -145,7 +146,7 @@ TEST_F(SplitFaults, AKilledDiscoveryServerStopsNoDataAndWithABackupItsSuccessorB
 }
 
 TEST_F(SplitFaults, ASubscriberOfEverythingThatStandsStillStopsNothing) {
-  Process recorder(command({SYSTEMS "/record.yaml", "output:=" + (folder_ / "bag")}));
+  Process recorder(command({SYSTEMS "/record.yaml", "output:=" + (folder_ / "bag").string()}));
   // At rate 0, a frame is played after the previous one has been processed, and none is dropped.
   Process computing(command({SYSTEMS "/stereo.yaml", "--dataset", *data_ / "walk", "--rate", "0", "--out",
                              folder_ / "out", "--await", "/stereo/left/image_rect", "--await", "/odometry/binocular"}));
@@ -209,11 +210,11 @@ TEST_F(SplitFaults, AContainerThatIsKilledIsStartedAgainWhereAskedFor) {
   EXPECT_THAT(system.output(), HasSubstr("restarting container odometry"));
   // The results of both processes are kept separately.
   EXPECT_GE(poses_in("out"), 10U);
-  EXPECT_FALSE(read_file(folder_.path() / "out" / "odometry_2_odometry_binocular.tum").empty());
+  EXPECT_FALSE(read_file(folder_ / "out" / "odometry_2_odometry_binocular.tum").empty());
 }
 
 TEST_F(SplitFaults, AContainerIsStartedAgainWhereItsSystemFileSaysSo) {
-  std::ofstream(folder_.path() / "again.yaml") << R"(launch:
+  std::ofstream(folder_ / "again.yaml") << R"(launch:
 - node_container:
     name: both
     respawn: true
@@ -229,7 +230,7 @@ TEST_F(SplitFaults, AContainerIsStartedAgainWhereItsSystemFileSaysSo) {
   EXPECT_TRUE(gets_poses("out/both_2", 10)) << system.output();
   system.signal(SIGINT);
   EXPECT_EQ(system.wait(kLimit), 128 + SIGINT) << system.output();
-  EXPECT_THAT(read_file(folder_.path() / "out" / "summary.json"), HasSubstr("\"interrupted\": true"));
+  EXPECT_THAT(read_file(folder_ / "out" / "summary.json"), HasSubstr("\"interrupted\": true"));
 }
 
 TEST_F(SplitFaults, ALoneContainerIsStartedAgainToo) {
@@ -240,7 +241,7 @@ TEST_F(SplitFaults, ALoneContainerIsStartedAgainToo) {
   EXPECT_TRUE(gets_poses("out/panvo_2", 10)) << system.output();
   system.signal(SIGINT);
   EXPECT_EQ(system.wait(kLimit), 128 + SIGINT) << system.output();
-  EXPECT_THAT(read_file(folder_.path() / "out" / "summary.json"), HasSubstr("\"interrupted\": true"));
+  EXPECT_THAT(read_file(folder_ / "out" / "summary.json"), HasSubstr("\"interrupted\": true"));
 }
 
 TEST_F(SplitFaults, WithoutTheProcessOfPlacesTheOdometryGoesOnAndTheEndSaysWhatWasLost) {
@@ -254,7 +255,7 @@ TEST_F(SplitFaults, WithoutTheProcessOfPlacesTheOdometryGoesOnAndTheEndSaysWhatW
   EXPECT_THAT(system.output(), HasSubstr("container places is lost"));
   EXPECT_THAT(system.output(), HasSubstr(std::to_string(kFrames) + "/" + std::to_string(kFrames) + " frames"));
   EXPECT_GE(poses_in("out"), std::size_t{kFrames - 10}) << system.output();
-  EXPECT_FALSE(read_file(folder_.path() / "out" / "odometry_enhanced.tum").empty());
+  EXPECT_FALSE(read_file(folder_ / "out" / "odometry_enhanced.tum").empty());
 }
 
 TEST_F(SplitFaults, TheProcessOfPlacesIsStartedAgainWhereAskedFor) {

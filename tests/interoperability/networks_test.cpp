@@ -10,6 +10,7 @@
 #include <map>
 #include <sstream>
 
+#include "panvo/test/temporary_folder.hpp"
 #include "process.hpp"
 #include "rendered_walk.hpp"
 #include "two_hosts.hpp"
@@ -49,7 +50,7 @@ class AcrossHosts : public testing::Test {
  protected:
   void SetUp() override {
     if (const auto reason = TwoHosts::why_not(); !reason.empty()) GTEST_SKIP() << reason;
-    RenderedWalk{.frames = 30}.write(folder_.path() / "walk");
+    RenderedWalk{.frames = 30}.write(folder_ / "walk");
     const Finished replayed =
         run({PANVO_RUN, CONFIG "/systems/stereo.yaml", "--dataset", walk_, "--out", folder_ / "one", "--replay"});
     ASSERT_EQ(replayed.status, 0) << replayed.output;
@@ -80,8 +81,8 @@ class AcrossHosts : public testing::Test {
   /// 5 cm. Some of the first `late` frames may be missing, because a writer does not know when a reader has discovered
   /// it; the path then starts later.
   void expect_the_odometry_of_one_container(std::size_t late = 3) {
-    const auto expected = read_tum(folder_.path() / "one" / "odometry_binocular.tum");
-    const auto got = read_tum(folder_.path() / "split" / "odometry_binocular.tum");
+    const auto expected = read_tum(folder_ / "one" / "odometry_binocular.tum");
+    const auto got = read_tum(folder_ / "split" / "odometry_binocular.tum");
     ASSERT_EQ(expected.size(), 30U);
     EXPECT_GE(got.size(), (expected.size() - late) * 9 / 10) << said_;
     ASSERT_FALSE(got.empty());
@@ -132,8 +133,8 @@ TEST_F(AcrossHosts, ThatLoseOnePacketOfAHundredGiveTheOdometryOfOneContainer) {
 TEST_F(AcrossHosts, ThatLoseOnePacketOfAHundredHaveEveryPoseOnBoth) {
   TwoHosts hosts({.loss = 0.01});
   const auto record = [&](const std::string& bag) -> Words {
-    return {PANVO_RUN, CONFIG "/systems/record.yaml", "output:=" + (folder_ / bag), "topics:=/odometry/binocular",
-            "namespace:=" + bag};
+    return {PANVO_RUN, CONFIG "/systems/record.yaml", "output:=" + (folder_ / bag).string(),
+            "topics:=/odometry/binocular", "namespace:=" + bag};
   };
   Process near(hosts.on_a(record("near"))), far(hosts.on_b(record("far")));
   // At low rate: if the announcement of the topic is lost, a recorder receives the next one after a second, and then

@@ -7,6 +7,7 @@
 #include <csignal>
 
 #include "panvo/runtime/test_domain.hpp"
+#include "panvo/test/temporary_folder.hpp"
 #include "process.hpp"
 #include "rendered_walk.hpp"
 
@@ -26,7 +27,7 @@ class Security : public testing::Test {
   void SetUp() override {
     if (find_program("openssl").empty()) GTEST_SKIP() << "openssl is not installed (package openssl)";
     make_keystore("keys");
-    RenderedWalk{.frames = 20}.write(folder_.path() / "walk");
+    RenderedWalk{.frames = 20}.write(folder_ / "walk");
   }
 
   void make_keystore(const std::string& name) const {
@@ -52,7 +53,7 @@ class Security : public testing::Test {
 
   /// Command that records received odometry into the bag `name`.
   Words listener(const std::string& name, const Words& with_keys) const {
-    return joined({PANVO_RUN, CONFIG "/systems/record.yaml", "output:=" + (folder_ / name),
+    return joined({PANVO_RUN, CONFIG "/systems/record.yaml", "output:=" + (folder_ / name).string(),
                    std::string("topics:=") + kTopic, "namespace:=/" + name, "--domain", domain_},
                   with_keys);
   }
@@ -138,7 +139,7 @@ TEST_F(Security, ASplitSystemWithKeysComputesItsOdometry) {
                                     keys("keys", "/talker")),
                              kLimit);
   EXPECT_EQ(split.status, 0) << split.output;
-  const std::string poses = read_file(folder_.path() / "out" / "odometry_binocular.tum");
+  const std::string poses = read_file(folder_ / "out" / "odometry_binocular.tum");
   EXPECT_GE(std::count(poses.begin(), poses.end(), '\n'), 18) << split.output;
 }
 
@@ -149,13 +150,13 @@ TEST_F(Security, ASystemWithNoMoreRightsThanItNeedsComputesItsOdometry) {
                                     {"--secure", folder_ / "least"}),
                              kLimit);
   EXPECT_EQ(split.status, 0) << split.output;
-  const std::string poses = read_file(folder_.path() / "out" / "odometry_binocular.tum");
+  const std::string poses = read_file(folder_ / "out" / "odometry_binocular.tum");
   EXPECT_GE(std::count(poses.begin(), poses.end(), '\n'), 18) << split.output;
 }
 
 TEST_F(Security, AnEnclaveMayNotPublishWhatItsContainerDoesNot) {
   make_system_keystore("least");
-  const std::string rights = read_file(folder_.path() / "least/enclaves/stereo_split/cameras/permissions.xml");
+  const std::string rights = folder_.read("least/enclaves/stereo_split/cameras/permissions.xml");
   EXPECT_THAT(rights, AllOf(HasSubstr("<topic>rt/stereo/left/image_rect</topic>"),
                             HasSubstr("<topic>rq/stereo_rectifier/*Request</topic>"),
                             testing::Not(HasSubstr("rt/odometry")), testing::Not(HasSubstr("<topic>*</topic>"))));
@@ -169,7 +170,7 @@ TEST_F(Security, AnEnclaveMayNotPublishWhatItsContainerDoesNot) {
 }
 
 TEST_F(Security, WhoseKeysWereRevokedIsNotHeardAndOthersAre) {
-  std::filesystem::copy(folder_.path() / "keys", folder_.path() / "stolen",
+  std::filesystem::copy(folder_ / "keys", folder_ / "stolen",
                         std::filesystem::copy_options::recursive | std::filesystem::copy_options::copy_symlinks);
   const Finished revoked = run({PANVO, "secure", "revoke", folder_ / "keys", "/talker"});
   ASSERT_EQ(revoked.status, 0) << revoked.output;
@@ -197,7 +198,7 @@ TEST_F(Security, KeysThatAreNotThereAreNamedWithTheRemedy) {
 }
 
 TEST_F(Security, KeysThatAreThereAreKept) {
-  const auto key = folder_.path() / "keys" / "enclaves" / "talker" / "key.pem";
+  const auto key = folder_ / "keys" / "enclaves" / "talker" / "key.pem";
   const std::string before = read_file(key);
   ASSERT_FALSE(before.empty());
   make_keystore("keys");
@@ -207,7 +208,7 @@ TEST_F(Security, KeysThatAreThereAreKept) {
 }
 
 TEST_F(Security, AKeyThatOthersMayReadIsRefusedWithTheRemedy) {
-  const auto key = folder_.path() / "keys" / "enclaves" / "talker" / "key.pem";
+  const auto key = folder_ / "keys" / "enclaves" / "talker" / "key.pem";
   std::filesystem::permissions(key, std::filesystem::perms::group_read, std::filesystem::perm_options::add);
   const Finished refused = run(talker(keys("keys", "/talker")), kLimit);
   EXPECT_EQ(refused.status, 2) << refused.output;

@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "panvo/runtime/test_domain.hpp"
+#include "panvo/test/temporary_folder.hpp"
 #include "process.hpp"
 
 namespace panvo::test {
@@ -54,7 +55,7 @@ class RecordedJourney : public testing::Test {
     ASSERT_EQ(recorded.status, 0) << recorded.output;
   }
   std::string bag() const { return folder_ / "bag"; }
-  std::filesystem::path out(const std::string& name) const { return folder_.path() / name; }
+  std::filesystem::path out(const std::string& name) const { return folder_ / name; }
 
   Finished play(const std::string& name, const std::vector<std::string>& more,
                 const std::string& system = kSystem) const {

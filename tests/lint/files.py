@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Rules for single files: licence line, include guard, no machine-specific paths, no sleeping in tests."""
+"""Rules for single files: licence line, include guard, no machine-specific paths, no sleeping and no shared files in tests."""
 import re
 
 import workspace
@@ -10,6 +10,8 @@ MACHINE_PATH = re.compile(r"(?<![\w.$}/-])/(?:work|home|root|Users)/\w|/tmp/[p]a
 # Polling every few milliseconds with a limit is permitted.
 POLLING = r"(?!\(std::chrono::milliseconds\((?:[1-9]|10)\)\))"
 WAITING = re.compile(rf"\bsleep_(?:for|until)\b{POLLING}|\b(?:u|nano)?sleep\s*\(|--repeat until-pass")
+# Tests of one program run as several processes at the same time, which would share a file of a fixed name.
+FIXED_NAME = re.compile(r"\btemp_directory_path\(\) /|\bTempDir\(\)")
 
 
 def needs_licence(path):
@@ -40,6 +42,8 @@ def check(root):
                 complaints.append(f"{path}:{number}: trailing white space")
             if is_a_test and WAITING.search(code[number - 1]):
                 complaints.append(f"{path}:{number}: a test must wait for an event, not for time: {WAITING.search(code[number - 1])[0]}")
+            if is_a_test and FIXED_NAME.search(code[number - 1]):
+                complaints.append(f"{path}:{number}: tests run at the same time: take a folder from panvo/test/temporary_folder.hpp")
     return complaints
 
 

@@ -28,6 +28,10 @@ class FilesTest(sample.RuleTest):
         line = "void look() { std::this_thread::sleep_for(std::chrono::milliseconds(5)); }\n"
         self.assertEqual(self.complaints(files, {"components/vision/test/a_test.cpp": L + line}), [])
 
+    def test_a_test_that_shares_a_file_with_others(self):
+        for place in ("std::filesystem::temp_directory_path() / ", "testing::TempDir() + "):
+            self.assert_finds(files, "at the same time", {"components/vision/test/a_test.cpp": L + f'const auto file = {place}"a.txt";\n'})
+
     def test_blanks_at_the_end_and_a_last_line_without_end(self):
         self.assert_finds(files, "trailing white space", {"components/vision/src/a.cpp": L + "int a; \n"})
         self.assert_finds(files, "no newline at end", {"components/vision/src/a.cpp": L + "int a;"})

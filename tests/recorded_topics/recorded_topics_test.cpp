@@ -9,6 +9,8 @@
 #include <sstream>
 
 #include "panvo/runtime/test_domain.hpp"
+#include "panvo/test/recorded_data.hpp"
+#include "panvo/test/temporary_folder.hpp"
 #include "process.hpp"
 #include "rendered_walk.hpp"
 
@@ -43,10 +45,13 @@ double distance(const Position& a, const Position& b) { return std::hypot(a.x - 
 class RecordedTopics : public testing::TestWithParam<std::string> {
  protected:
   void SetUp() override {
-    data_ = GetParam() == "rendered" ? folder_.path() / "rendered" : recording(GetParam());
-    if (data_.empty())
-      GTEST_SKIP() << "no recording " << GetParam() << " in $PANVO_DATA or shared/data beside the checkout";
-    if (GetParam() == "rendered") RenderedWalk{}.write(data_);
+    if (GetParam() == "rendered") {
+      data_ = folder_ / "rendered";
+      RenderedWalk{}.write(data_);
+    } else {
+      data_ = recorded_data(GetParam());
+      PANVO_NEEDS_RECORDING(data_);
+    }
     const Finished recorded =
         run({PANVO_RUN, SYSTEMS "/record.yaml", "output:=" + bag_, "--dataset", data_.string(), "--replay"});
     ASSERT_EQ(recorded.status, 0) << recorded.output;
@@ -69,9 +74,9 @@ TEST_P(RecordedTopics, ReplayToTheSameOdometryBitForBit) {
     ASSERT_EQ(played.status, 0) << played.output;
   }
   for (const char* file : {"odometry_binocular.tum", "odometry_binocular_covariance.csv"}) {
-    const std::string first = read_file(folder_.path() / "first" / file);
+    const std::string first = read_file(folder_ / "first" / file);
     EXPECT_FALSE(first.empty()) << file;
-    EXPECT_EQ(first, read_file(folder_.path() / "second" / file)) << file;
+    EXPECT_EQ(first, read_file(folder_ / "second" / file)) << file;
   }
 }
 
@@ -80,8 +85,8 @@ TEST_P(RecordedTopics, GiveTheSameOdometryLiveInOneContainerWhenNothingIsDropped
   ASSERT_EQ(replayed.status, 0) << replayed.output;
   const Finished live = play("live", {"--local", "--rate", "0"});
   ASSERT_EQ(live.status, 0) << live.output;
-  EXPECT_EQ(read_file(folder_.path() / "replayed" / "odometry_binocular.tum"),
-            read_file(folder_.path() / "live" / "odometry_binocular.tum"));
+  EXPECT_EQ(read_file(folder_ / "replayed" / "odometry_binocular.tum"),
+            read_file(folder_ / "live" / "odometry_binocular.tum"));
 }
 
 TEST_P(RecordedTopics, GiveTheSameOdometryInTwoProcessesOverDds) {
@@ -92,8 +97,8 @@ TEST_P(RecordedTopics, GiveTheSameOdometryInTwoProcessesOverDds) {
                               "--rate", "1", "--domain", domain},
                              seconds(200));
   ASSERT_EQ(split.status, 0) << split.output;
-  const auto expected = read_tum(folder_.path() / "replayed" / "odometry_binocular.tum");
-  const auto got = read_tum(folder_.path() / "split" / "odometry_binocular.tum");
+  const auto expected = read_tum(folder_ / "replayed" / "odometry_binocular.tum");
+  const auto got = read_tum(folder_ / "split" / "odometry_binocular.tum");
   // On a busy machine, a frame may be lost between processes, which changes the path by less than 5 cm over this
   // distance. The first frame, the origin, must be present, and nine of ten frames in all.
   EXPECT_TRUE(got.contains(expected.begin()->first)) << split.output;
@@ -115,9 +120,9 @@ TEST_P(RecordedTopics, CompressedWithoutLossGiveTheSameOdometryBitForBit) {
   const Finished decoded =
       run({PANVO_RUN, kStereo, "compressed:=true", "--bag", compressed, "--out", folder_ / "decoded", "--replay"});
   ASSERT_EQ(decoded.status, 0) << decoded.output;
-  const std::string expected = read_file(folder_.path() / "replayed" / "odometry_binocular.tum");
+  const std::string expected = read_file(folder_ / "replayed" / "odometry_binocular.tum");
   EXPECT_FALSE(expected.empty());
-  EXPECT_EQ(expected, read_file(folder_.path() / "decoded" / "odometry_binocular.tum"));
+  EXPECT_EQ(expected, read_file(folder_ / "decoded" / "odometry_binocular.tum"));
 }
 
 TEST_P(RecordedTopics, RecordedTwiceAreTheSameBagMessageForMessage) {
@@ -135,10 +140,10 @@ INSTANTIATE_TEST_SUITE_P(, RecordedTopics, testing::Values("rendered", "kitti_03
 
 TEST(RenderedWalk, IsMeasuredToAFewCentimetres) {
   TemporaryFolder folder;
-  RenderedWalk{.frames = 40}.write(folder.path() / "walk");
+  RenderedWalk{.frames = 40}.write(folder / "walk");
   const Finished played = run({PANVO_RUN, kStereo, "--dataset", folder / "walk", "--out", folder / "out", "--replay"});
   ASSERT_EQ(played.status, 0) << played.output;
-  const auto path = read_tum(folder.path() / "out" / "odometry_binocular.tum");
+  const auto path = read_tum(folder / "out" / "odometry_binocular.tum");
   ASSERT_EQ(path.size(), 40U);
   for (const auto& [stamp, position] :
        path) {  // base_link: x forward; 0.1 m every 0.1 s, so that x in m equals the stamp in s

@@ -7,11 +7,11 @@
 
 #include <algorithm>
 #include <csignal>
-#include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
 
 #include "panvo/dataset_player/dataset.hpp"
+#include "panvo/test/temporary_folder.hpp"
 #include "process.hpp"
 
 namespace panvo::test {
@@ -34,10 +34,7 @@ std::map<std::string, std::string> contents(const fs::path& folder) {
 
 class SimulatedJourney : public ::testing::Test {
  protected:
-  std::string write(const std::string& name, const std::string& text) {
-    std::ofstream(folder_.path() / name) << text;
-    return folder_ / name;
-  }
+  std::string write(const std::string& name, const std::string& text) { return folder_.write(name, text); }
 
   Finished simulate(std::vector<std::string> options) {
     options.insert(options.begin(), PANVO_SIMULATE);
@@ -62,7 +59,7 @@ TEST_F(SimulatedJourney, OfOneSeedIsTheSameByteForByteEvenWhereItWasKilledAndOfA
   };
   const auto whole = simulate(words("whole", "1"));
   ASSERT_EQ(whole.status, 0) << whole.output;
-  const auto first = contents(folder_.path() / "whole");
+  const auto first = contents(folder_ / "whole");
 
   auto to_be_killed = words("killed", "1");
   to_be_killed.insert(to_be_killed.begin(), PANVO_SIMULATE);
@@ -83,7 +80,7 @@ TEST_F(SimulatedJourney, OfOneSeedIsTheSameByteForByteEvenWhereItWasKilledAndOfA
   const auto resumed = simulate(words("killed", "1"));
   ASSERT_EQ(resumed.status, 0) << resumed.output;
   EXPECT_THAT(resumed.output, HasSubstr("of 76 instants: resuming"));
-  const auto again = contents(folder_.path() / "killed");
+  const auto again = contents(folder_ / "killed");
   ASSERT_EQ(first.size(), again.size());
   for (const auto& [name, bytes] : first) {
     ASSERT_TRUE(again.contains(name)) << name;
@@ -96,8 +93,7 @@ TEST_F(SimulatedJourney, OfOneSeedIsTheSameByteForByteEvenWhereItWasKilledAndOfA
     return file.first.starts_with("mav0/cam0/data/") && file.first.ends_with(".png");
   });
   ASSERT_NE(image, first.end());
-  EXPECT_FALSE(contents(folder_.path() / "another").at(image->first) == image->second)
-      << "two seeds gave the same image";
+  EXPECT_FALSE(contents(folder_ / "another").at(image->first) == image->second) << "two seeds gave the same image";
 }
 
 TEST_F(SimulatedJourney, IsADataSetThatOdometryFollowsToTheCentimetre) {
@@ -113,17 +109,17 @@ TEST_F(SimulatedJourney, IsADataSetThatOdometryFollowsToTheCentimetre) {
   EXPECT_EQ(dataset.ground_truth.size(), 76u);
   EXPECT_NEAR(dataset.stereo->rectified.baseline_m, 0.12, 1e-9);
   EXPECT_THAT(dataset.notes, ::testing::IsEmpty());
-  EXPECT_THAT(read_file(fs::path(out) / "sequence.yaml"), HasSubstr("first_heading_diff"));
+  EXPECT_THAT(read_file(out / "sequence.yaml"), HasSubstr("first_heading_diff"));
 
   const auto played = run(
       {PANVO_RUN, CONFIG "/systems/stereo.yaml", "--dataset", out, "--out", folder_ / "run", "--replay"}, seconds(200));
   ASSERT_EQ(played.status, 0) << played.output;
   const auto evaluated = run({PANVO_EVALUATE, folder_ / "run", out});
   ASSERT_TRUE(evaluated.status == 0 || evaluated.status == 3) << evaluated.output;  // 3: gnuplot is missing
-  const auto positions = read_file(fs::path(folder_ / "run") / "odometry_binocular.tum");
+  const auto positions = read_file(folder_ / "run" / "odometry_binocular.tum");
   EXPECT_EQ(std::count(positions.begin(), positions.end(), '\n'), 76);
   // Calibration and ground truth are exact: an error of one pixel in either would cause centimetres here.
-  const auto report = nlohmann::json::parse(read_file(fs::path(folder_ / "run") / "evaluation.json"));
+  const auto report = nlohmann::json::parse(read_file(folder_ / "run" / "evaluation.json"));
   EXPECT_LT(report.at("estimates").at(0).at("ate_se3_m").at("rmse").get<double>(), 0.02) << report.dump(1);
 }
 

@@ -18,23 +18,19 @@ namespace fs = std::filesystem;
 
 namespace {
 
-fs::path temporary_path(const char* pattern) {
-  std::string path = (fs::temp_directory_path() / pattern).string();
-  if (!mkdtemp(path.data())) throw std::runtime_error("cannot create a temporary folder " + path);
-  return path;
-}
+constexpr const char* kOutput = "output";
 
 }  // namespace
 
-Process::Process(const std::vector<std::string>& words)
-    : output_file_(temporary_path("panvo_process_XXXXXX") / "output") {
+Process::Process(const std::vector<std::string>& words) {
+  const fs::path output_file = folder_ / kOutput;
   std::vector<char*> arguments;
   for (const auto& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
   arguments.push_back(nullptr);
   pid_ = fork();
   if (pid_ < 0) throw std::runtime_error("cannot start " + words.front());
   if (pid_ == 0) {
-    const int file = open(output_file_.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+    const int file = open(output_file.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
     dup2(file, STDOUT_FILENO);
     dup2(file, STDERR_FILENO);
     execv(arguments[0], arguments.data());
@@ -47,7 +43,6 @@ Process::~Process() {
     kill(pid_, SIGKILL);
     waitpid(pid_, nullptr, 0);
   }
-  fs::remove_all(output_file_.parent_path());
 }
 
 void Process::signal(int number) const { kill(pid_, number); }
@@ -68,7 +63,7 @@ int Process::wait(std::chrono::seconds limit) {
   return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
-std::string Process::output() const { return read_file(output_file_); }
+std::string Process::output() const { return folder_.read(kOutput); }
 
 Finished run(const std::vector<std::string>& words, std::chrono::seconds limit) {
   Process process(words);
@@ -95,22 +90,9 @@ std::string find_program(const std::string& name) {
   return "";
 }
 
-TemporaryFolder::TemporaryFolder() : path_(temporary_path("panvo_test_XXXXXX")) {}
-TemporaryFolder::~TemporaryFolder() {
-  std::error_code ignored;
-  fs::remove_all(path_, ignored);
-}
-
 std::string read_file(const fs::path& file) {
   std::ifstream stream(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(stream), {}};
-}
-
-fs::path recording(const std::string& name) {
-  const char* data = std::getenv("PANVO_DATA");
-  const fs::path folder =
-      (data && *data ? fs::path(data) : fs::path(PANVO_SOURCE_DIR) / ".." / "shared" / "data") / name;
-  return fs::is_directory(folder) ? fs::weakly_canonical(folder) : fs::path();
 }
 
 }  // namespace panvo::test

@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "panvo/test/temporary_folder.hpp"
+
 namespace panvo::test {
 
 /// A child process whose output goes to a file.
@@ -31,7 +33,7 @@ class Process {
 
  private:
   pid_t pid_ = -1;
-  std::filesystem::path output_file_;
+  TemporaryFolder folder_;
 };
 
 struct Finished {
@@ -49,24 +51,6 @@ Finished run(const std::vector<std::string>& words, std::chrono::seconds limit =
 /// Path of an installed program, searched in $PATH, /usr/sbin and /sbin; empty if not installed.
 std::string find_program(const std::string& name);
 
-/// A temporary folder, deleted by the destructor.
-class TemporaryFolder {
- public:
-  TemporaryFolder();
-  ~TemporaryFolder();
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-
-  const std::filesystem::path& path() const noexcept { return path_; }
-  std::string operator/(const std::string& name) const { return (path_ / name).string(); }
-
- private:
-  std::filesystem::path path_;
-};
-
 std::string read_file(const std::filesystem::path& file);
-
-/// Path of the recording `name` in $PANVO_DATA, else in shared/data beside the checkout; empty if it does not exist.
-std::filesystem::path recording(const std::string& name);
 
 }  // namespace panvo::test

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "panvo/test/temporary_folder.hpp"
 #include "process.hpp"
 #include "rendered_walk.hpp"
 #include "walk_paths.hpp"

@@ -4,7 +4,6 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -14,6 +13,7 @@
 #include <sstream>
 
 #include "panvo/binocular_odometry/binocular_odometry.hpp"
+#include "panvo/test/recorded_data.hpp"
 #include "panvo/vision/absolute_orientation.hpp"
 #include "panvo/vision/rectification.hpp"
 #include "panvo/vision/stereo_calibration.hpp"
@@ -22,14 +22,7 @@ namespace panvo::binocular_odometry {
 namespace {
 
 namespace fs = std::filesystem;
-
-fs::path recordings() {
-  const char* root = std::getenv("PANVO_DATA");
-  return root != nullptr ? fs::path(root) : fs::path(PANVO_SHARED_DATA);
-}
-
-#define PANVO_NEEDS_RECORDING(path) \
-  if (!fs::exists(path)) GTEST_SKIP() << (path).string() << " is missing; set PANVO_DATA to the folder of recordings"
+using panvo::test::recorded_data;
 
 // Estimated and true poses of the left camera.
 struct Drive {
@@ -85,7 +78,7 @@ using Disturbance = std::function<bool(int frame, cv::Mat& left, cv::Mat& right)
 /// Calls `take` with each estimate and the true pose.
 template <class Take>
 void step_through_kitti_03(const Parameters& parameters, const Disturbance& disturb, const Take& take) {
-  const fs::path folder = recordings() / "kitti_03";
+  const fs::path folder = recorded_data("kitti_03");
   BinocularOdometry odometry({{721.5377, 721.5377, 609.5593, 172.854, 1242, 375}, 387.5744 / 721.5377}, parameters);
   std::ifstream poses(folder / "poses.txt");
   int frame = 0;
@@ -110,7 +103,7 @@ Drive drive_kitti_03(const Parameters& parameters) {
 }
 
 TEST(RecordedKitti03, KeepsToTheTruePathWithAnHonestCovariance) {
-  PANVO_NEEDS_RECORDING(recordings() / "kitti_03");
+  PANVO_NEEDS_RECORDING(recorded_data("kitti_03"));
   const Drive run = drive_kitti_03({});
   EXPECT_EQ(run.unreliable, 0);
   EXPECT_LT(run.absolute_trajectory_error_m(), 0.09);
@@ -119,7 +112,7 @@ TEST(RecordedKitti03, KeepsToTheTruePathWithAnHonestCovariance) {
 }
 
 TEST(RecordedKitti03, SiftKeepsToItAsWell) {
-  PANVO_NEEDS_RECORDING(recordings() / "kitti_03");
+  PANVO_NEEDS_RECORDING(recorded_data("kitti_03"));
   Parameters parameters;
   parameters.tracking.front_end = "sift";
   const Drive run = drive_kitti_03(parameters);
@@ -129,7 +122,7 @@ TEST(RecordedKitti03, SiftKeepsToItAsWell) {
 
 /// Four seconds with black images, a gap or frozen cameras.
 TEST(RecordedKitti03, ItsErrorLiesWithinItsCovarianceWhenCamerasLie) {
-  PANVO_NEEDS_RECORDING(recordings() / "kitti_03");
+  PANVO_NEEDS_RECORDING(recorded_data("kitti_03"));
   cv::Mat last_left, last_right;
   const auto lie_with = [](const Disturbance& disturb) {
     return [disturb](int frame, cv::Mat& left, cv::Mat& right) {
@@ -183,7 +176,7 @@ TEST(RecordedKitti03, ItsErrorLiesWithinItsCovarianceWhenCamerasLie) {
 }
 
 TEST(RecordedCampusClip, KeepsToTheTruePath) {
-  const fs::path folder = recordings() / "campus_clip" / "mav0";
+  const fs::path folder = recorded_data("campus_clip/mav0");
   PANVO_NEEDS_RECORDING(folder);
   Eigen::Isometry3d body_from_left = Eigen::Isometry3d::Identity();  // T_BS of cam0/sensor.yaml
   body_from_left.matrix().topRows<3>() << 0.0107295935294, -0.213094586795, 0.976972657192, 2.18, -0.99991917156,
@@ -217,7 +210,7 @@ TEST(RecordedCampusClip, KeepsToTheTruePath) {
 class RecordedBoofCv : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(RecordedBoofCv, IsFollowedWithoutLosingAFrame) {
-  const fs::path folder = recordings() / "boofcv_stereo" / GetParam();
+  const fs::path folder = recorded_data("boofcv_stereo/" + GetParam());
   PANVO_NEEDS_RECORDING(folder);
   vision::StereoCalibration calibration;  // stereo_params.xml
   calibration.left = {{262.3070778, 263.4601134, 156.2254286, 123.7008161, 320, 240},

@@ -99,9 +99,9 @@ TEST_F(ImagesOfABag, AreAskedForByTopicsThatAreThere) {
   record();
   const auto refusal = [&](const std::string& arguments) {
     const std::string command =
-        "cd '" + folder_.string() + "' && " PANVO_CALIBRATION_IMAGES " " + arguments + " > out.txt 2> err.txt";
+        "cd '" + folder_.path().string() + "' && " PANVO_CALIBRATION_IMAGES " " + arguments + " > out.txt 2> err.txt";
     const int status = std::system(command.c_str());
-    return fmt::format("{}: {}", WEXITSTATUS(status), text_of("err.txt"));
+    return fmt::format("{}: {}", WEXITSTATUS(status), folder_.read("err.txt"));
   };
   EXPECT_THAT(
       refusal("bag --out images --topics left:=/left"),

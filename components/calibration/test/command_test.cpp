@@ -50,10 +50,10 @@ TEST_F(StereoCommand, GivesBackAPairSeenWithAChessboardAndNoticesWhenItHasMoved)
   EXPECT_LT(epipolar_rms_px(outcome.out), 0.2);
   EXPECT_THAT(outcome.out, AllOf(HasSubstr("std. deviation"), HasSubstr("reprojection rms"),
                                  HasSubstr("rig: left.yaml, right.yaml")));
-  EXPECT_THAT(text_of("rig/report.html"),
+  EXPECT_THAT(folder_.read("rig/report.html"),
               AllOf(HasSubstr("<svg"), HasSubstr("epipolar residual"), HasSubstr("residuals of right")));
-  EXPECT_THAT(text_of("rig/coverage_left.svg"), HasSubstr("<circle"));
-  EXPECT_THAT(text_of("rig/residuals_right.svg"), HasSubstr("<circle"));
+  EXPECT_THAT(folder_.read("rig/coverage_left.svg"), HasSubstr("<circle"));
+  EXPECT_THAT(folder_.read("rig/residuals_right.svg"), HasSubstr("<circle"));
 
   const auto holds = call("check later --calibration rig --board chessboard:9x6:0.04");
   EXPECT_EQ(holds.status, 0) << holds.err;
@@ -77,7 +77,7 @@ TEST_F(StereoCommand, GivesBackTwoFisheyesSeenWithACharucoBoardFromAnEarlierStar
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   expect_calibrated("rig", truth);
   EXPECT_LT(epipolar_rms_px(outcome.out), 0.2);
-  EXPECT_THAT(text_of("rig/left.yaml"), HasSubstr("distortion_model: equidistant"));
+  EXPECT_THAT(folder_.read("rig/left.yaml"), HasSubstr("distortion_model: equidistant"));
   const auto again = call(arguments + "--start rig --out again");
   ASSERT_EQ(again.status, 0) << again.err;
   EXPECT_NEAR(epipolar_rms_px(again.out), epipolar_rms_px(outcome.out), 2e-3);
@@ -105,8 +105,9 @@ TEST_F(RigCommand, GivesBackFourFisheyesAllRoundAndTheirPosesAlone) {
     test::expect_same_focal_lengths(found[i].camera.lens, lens);
     test::expect_same_pose(found[i].camera.camera_from_reference, truth[i].camera_from_reference);
   }
-  EXPECT_THAT(text_of("rig/extrinsics.yaml"), HasSubstr("mount: [0.10000, 0.00000, 1.20000, 0.0000, 0.0000, 0.0000]"));
-  EXPECT_THAT(text_of("rig/panorama.yaml"),
+  EXPECT_THAT(folder_.read("rig/extrinsics.yaml"),
+              HasSubstr("mount: [0.10000, 0.00000, 1.20000, 0.0000, 0.0000, 0.0000]"));
+  EXPECT_THAT(folder_.read("rig/panorama.yaml"),
               AllOf(HasSubstr("panorama_from_head"), HasSubstr("camera_info: head_3.yaml")));
 
   const auto alone = call(
@@ -143,17 +144,17 @@ TEST_F(CalibrateRefuses, FoldersWithoutPairs) {
   const std::string rest = " --board chessboard:9x6:0.04 --out out";
   expect_refusal("stereo nowhere" + rest,
                  AllOf(HasSubstr("nowhere: is not a folder"), HasSubstr("specify the folder")));
-  write("empty/readme.txt", "nothing");
+  folder_.write("empty/readme.txt", "nothing");
   expect_refusal("stereo empty" + rest, AllOf(HasSubstr("0 left and 0 right"), HasSubstr("left*.png")));
-  write("unpaired/left/1.png", "x");
-  write("unpaired/right/001.png", "x");
+  folder_.write("unpaired/left/1.png", "x");
+  folder_.write("unpaired/right/001.png", "x");
   expect_refusal("stereo unpaired" + rest,
                  AllOf(HasSubstr("'1.png' and '001.png'"), HasSubstr("give simultaneous images")));
   expect_refusal("rig unpaired --cameras left,middle" + rest,
                  AllOf(HasSubstr("unpaired/middle"), HasSubstr("a folder for each camera")));
   expect_refusal("rig empty" + rest, AllOf(HasSubstr("found 0 image folders"), HasSubstr("two or more")));
-  write("broken/left/1.png", "x");
-  write("broken/right/1.png", "x");
+  folder_.write("broken/left/1.png", "x");
+  folder_.write("broken/right/1.png", "x");
   expect_refusal("stereo broken" + rest,
                  AllOf(HasSubstr("left: none of its files can be read"), HasSubstr("complete")));
 }
@@ -191,10 +192,10 @@ TEST_F(CalibrateRefuses, CalibrationsThatAreNone) {
                  AllOf(HasSubstr("rig/right.yaml: cannot be opened"), HasSubstr("check that it exists")));
   std::filesystem::copy(folder_ / "rig/left.yaml", folder_ / "rig/right.yaml");
   expect_refusal(check + "rig", AllOf(HasSubstr("rig: baseline is"), HasSubstr("panvo calibrate stereo")));
-  write("rig/left.yaml", "- 1\n- 2\n");
+  folder_.write("rig/left.yaml", "- 1\n- 2\n");
   expect_refusal(check + "rig",
                  AllOf(HasSubstr("rig/left.yaml: contains no `key: value` lines"), HasSubstr("camera_info")));
-  write("rig/left.yaml", "image_width: [\n");
+  folder_.write("rig/left.yaml", "image_width: [\n");
   expect_refusal(check + "rig", AllOf(HasSubstr("rig/left.yaml:"), HasSubstr("is not YAML")));
   expect_refusal("convert rig/right.yaml --out out",
                  AllOf(HasSubstr("rig/right.yaml: cam0 is missing"), HasSubstr("camchain")));
@@ -219,13 +220,13 @@ class OtherCommands : public test::CommandTest {};
 
 TEST_F(OtherCommands, DrawABoard) {
   EXPECT_EQ(call("board --board charuco:7x5:0.04:0.03 --out board.svg").status, 0);
-  EXPECT_THAT(text_of("board.svg"), AllOf(HasSubstr("<svg"), HasSubstr("360.000mm")));
+  EXPECT_THAT(folder_.read("board.svg"), AllOf(HasSubstr("<svg"), HasSubstr("360.000mm")));
   EXPECT_EQ(call("board --board charuco:7x5:0.04:0.03 --out nowhere/board.svg").status, 1);
 }
 
 TEST_F(OtherCommands, TakeKalibrsCamchainAndGiveItBack) {
   const auto truth = test::stereo_pair(test::fisheye());
-  write("camchain.yaml", camchain_text({{"left", truth[0]}, {"right", truth[1]}}));
+  folder_.write("camchain.yaml", camchain_text({{"left", truth[0]}, {"right", truth[1]}}));
   const auto taken = call("convert camchain.yaml --out rig");
   ASSERT_EQ(taken.status, 0) << taken.err;
   EXPECT_THAT(taken.out, HasSubstr("left.yaml (cam0)"));

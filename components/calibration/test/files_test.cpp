@@ -21,7 +21,7 @@ class CalibrationFiles : public test::CommandTest {
  protected:
   template <class Read>
   std::string refusal(const std::string& text, Read read) const {
-    write("file.yaml", text);
+    folder_.write("file.yaml", text);
     try {
       read(folder_ / "file.yaml");
     } catch (const CalibrationError& error) {
@@ -100,7 +100,7 @@ TEST_F(CalibrationFiles, ReadTheExampleOfTheRigs) {
 }
 
 TEST_F(CalibrationFiles, ReadACameraInfoOfASingleCamera) {
-  write("file.yaml", kCameraInfo);
+  folder_.write("file.yaml", kCameraInfo);
   const auto info = read_camera_info(folder_ / "file.yaml");
   EXPECT_EQ(info.name, "file");
   EXPECT_EQ(info.rectified_from_raw, Eigen::Matrix3d::Identity());
@@ -124,7 +124,7 @@ TEST_F(CalibrationFiles, RefuseCameraInfosWithFileLineKeyAndRemedy) {
 }
 
 TEST_F(CalibrationFiles, ReadACamchain) {
-  write("chain.yaml", kCamchain);
+  folder_.write("chain.yaml", kCamchain);
   const auto cameras = read_camchain(folder_ / "chain.yaml");
   ASSERT_THAT(cameras, SizeIs(3));
   EXPECT_EQ(cameras[0].camera.lens.model, LensModel::kPlumbBob);
@@ -141,9 +141,9 @@ TEST_F(CalibrationFiles, ReadACamchain) {
 }
 
 TEST_F(CalibrationFiles, WriteTheCamchainTheyRead) {
-  write("chain.yaml", kCamchain);
+  folder_.write("chain.yaml", kCamchain);
   const auto cameras = read_camchain(folder_ / "chain.yaml");
-  write("again.yaml", camchain_text(cameras));
+  folder_.write("again.yaml", camchain_text(cameras));
   const auto again = read_camchain(folder_ / "again.yaml");
   ASSERT_THAT(again, SizeIs(3));
   for (std::size_t i = 0; i < 3; ++i) {
@@ -189,7 +189,7 @@ TEST_F(CalibrationFiles, KeepExtrinsicsAndRefuseBrokenOnes) {
   for (const auto& [name, camera] : {std::pair("left", truth[0]), std::pair("right", truth[1])})
     write_camera_info(folder_ / (std::string(name) + ".yaml"), single_camera_info(name, camera.lens));
   const auto text = extrinsics_text({{"left", truth[0]}, {"right", truth[1]}}, 0, Eigen::Matrix<double, 6, 1>::Zero());
-  write("extrinsics.yaml", text);
+  folder_.write("extrinsics.yaml", text);
   const auto back = read_extrinsics(folder_ / "extrinsics.yaml");
   ASSERT_THAT(back, SizeIs(2));
   EXPECT_TRUE(back[1].camera.camera_from_reference.isApprox(truth[1].camera_from_reference, 1e-8));

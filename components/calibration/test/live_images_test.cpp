@@ -129,8 +129,8 @@ class LiveCalibration : public test::CommandTest {
 
   /// Starts the command, interrupts it when it prints `words`, and waits for its end.
   test::Outcome interrupt(const std::string& arguments, const std::string& words) const {
-    const std::string command = "cd '" + folder_.string() + "' && echo $$ && exec " PANVO_CALIBRATE " " + arguments +
-                                " 2>&1 > out.txt < /dev/null";
+    const std::string command = "cd '" + folder_.path().string() + "' && echo $$ && exec " PANVO_CALIBRATE " " +
+                                arguments + " 2>&1 > out.txt < /dev/null";
     std::FILE* said = popen(command.c_str(), "r");
     std::string err;
     pid_t process = 0;
@@ -145,7 +145,7 @@ class LiveCalibration : public test::CommandTest {
       if (!is_said && err.find(words) != std::string::npos) kill(process, SIGINT);
     }
     const int status = pclose(said);
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text_of("out.txt"), err};
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, folder_.read("out.txt"), err};
   }
 
   std::unique_ptr<runtime::Bridge> bridge_ =
@@ -177,8 +177,8 @@ TEST_F(LiveCalibration, OfAPairEndsWhenTheBoardWasSeenEnoughAndCanBeRepeatedFrom
   const auto again = call("stereo rig/images --board chessboard:9x6:0.04 --out again");
   ASSERT_EQ(again.status, 0) << again.err;
   for (const char* file : {"left.yaml", "right.yaml", "report.html", "residuals_left.svg", "coverage_right.svg"}) {
-    EXPECT_THAT(text_of(std::string("rig/") + file), ::testing::Not(IsEmpty())) << file;
-    EXPECT_EQ(text_of(std::string("rig/") + file), text_of(std::string("again/") + file)) << file;
+    EXPECT_THAT(folder_.read(std::string("rig/") + file), ::testing::Not(IsEmpty())) << file;
+    EXPECT_EQ(folder_.read(std::string("rig/") + file), folder_.read(std::string("again/") + file)) << file;
   }
 }
 
@@ -265,7 +265,7 @@ TEST_F(LiveCalibrationRefuses, ImagesWithoutTheBoard) {
 TEST_F(LiveCalibrationRefuses, CommandLinesWithNeitherOrBoth) {
   const std::string rest = " --board chessboard:9x6:0.04 --out rig";
   EXPECT_EQ(call("stereo" + rest).status, 2);
-  EXPECT_THAT(text_of("err.txt"), HasSubstr("--topics"));
+  EXPECT_THAT(folder_.read("err.txt"), HasSubstr("--topics"));
   EXPECT_EQ(call("stereo images" + rest + " --topics /a /b").status, 2);
   EXPECT_EQ(call("stereo images --views 3" + rest).status, 2);
 }

@@ -7,11 +7,10 @@
 
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <opencv2/imgcodecs.hpp>
-#include <sstream>
 #include <string>
 
+#include "panvo/test/temporary_folder.hpp"
 #include "rendered_board.hpp"
 #include "simulated_boards.hpp"
 
@@ -26,24 +25,6 @@ struct Outcome {
 /// Fixture that runs the command in a temporary folder.
 class CommandTest : public ::testing::Test {
  protected:
-  void SetUp() override {
-    std::string name = (std::filesystem::temp_directory_path() / "panvo_calibration_XXXXXX").string();
-    ASSERT_NE(mkdtemp(name.data()), nullptr);
-    folder_ = name;
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-
-  void write(const std::string& name, const std::string& text) const {
-    std::filesystem::create_directories((folder_ / name).parent_path());
-    std::ofstream(folder_ / name) << text;
-  }
-
-  std::string text_of(const std::string& name) const {
-    std::ostringstream text;
-    text << std::ifstream(folder_ / name).rdbuf();
-    return text.str();
-  }
-
   /// Renders the boards for each camera to IMAGES/NAME/000.png etc.; skips boards outside the camera's view.
   void photograph(const std::string& images, const Board& board, const std::vector<std::string>& names,
                   const std::vector<RigCamera>& cameras,
@@ -64,13 +45,13 @@ class CommandTest : public ::testing::Test {
   }
 
   Outcome call(const std::string& arguments) const {
-    const std::string command =
-        "cd '" + folder_.string() + "' && " PANVO_CALIBRATE " " + arguments + " > out.txt 2> err.txt < /dev/null";
+    const std::string command = "cd '" + folder_.path().string() + "' && " PANVO_CALIBRATE " " + arguments +
+                                " > out.txt 2> err.txt < /dev/null";
     const int status = std::system(command.c_str());
-    return {WEXITSTATUS(status), text_of("out.txt"), text_of("err.txt")};
+    return {WEXITSTATUS(status), folder_.read("out.txt"), folder_.read("err.txt")};
   }
 
-  std::filesystem::path folder_;
+  panvo::test::TemporaryFolder folder_;
 };
 
 inline void expect_same_focal_lengths(const vision::LensCamera& found, const vision::LensCamera& truth) {

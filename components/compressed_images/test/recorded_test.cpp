@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gmock/gmock.h>
 
-#include <cstdlib>
-#include <filesystem>
 #include <opencv2/imgcodecs.hpp>
 
 #include "panvo/runtime/testing.hpp"
+#include "panvo/test/recorded_data.hpp"
 #include "pictures.hpp"
 #include "sensor_msgs/msg/CompressedImage.h"
 
@@ -15,18 +14,14 @@ namespace {
 using sensor_msgs::msg::CompressedImage;
 using sensor_msgs::msg::Image;
 
-std::filesystem::path bag() {
-  const char* data = std::getenv("PANVO_DATA");
-  return std::filesystem::path(data ? data : PANVO_DEFAULT_DATA) / "bags" / "sample.db3";
-}
-
 TEST(RecordedImages, AreDecodedAsAnotherDecoderDoes) {
-  if (!std::filesystem::exists(bag())) GTEST_SKIP() << bag() << " is missing: set PANVO_DATA";
+  const auto bag = panvo::test::recorded_data("bags/sample.db3");
+  PANVO_NEEDS_RECORDING(bag);
   runtime::ComponentHarness harness;
   const auto& files = harness.collect(interfaces::Topic<CompressedImage>{"/image/compressed"});
   const auto& decoded = harness.collect(interfaces::Topic<Image>{"/image/decoded"});
   harness.load("panvo_compressed_images", "ImageDecoderComponent", {{"topics", "[/image]"}});
-  harness.load("panvo_recorder", "BagPlayerComponent", {{"directory", bag().string()}});
+  harness.load("panvo_recorder", "BagPlayerComponent", {{"directory", bag.string()}});
   ASSERT_THAT(harness.container().run(), testing::IsEmpty());
   ASSERT_THAT(files, testing::SizeIs(1));
   ASSERT_THAT(decoded, testing::SizeIs(1));

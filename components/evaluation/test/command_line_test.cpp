@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "trajectories.hpp"
+#include "panvo/test/temporary_folder.hpp"
 
 namespace panvo::evaluation {
 namespace {
@@ -22,12 +22,11 @@ struct Outcome {
   std::string err;
 };
 
-class CommandLine : public TemporaryFolder {
+class CommandLine : public ::testing::Test {
  protected:
   void SetUp() override {
-    TemporaryFolder::SetUp();
-    write("truth.tum", tum(0.0));
-    write("run/odometry_binocular.tum", tum(0.01));
+    folder_.write("truth.tum", tum(0.0));
+    folder_.write("run/odometry_binocular.tum", tum(0.01));
   }
 
   // 60 m along x with a lateral drift of `drift` times the distance.
@@ -37,18 +36,14 @@ class CommandLine : public TemporaryFolder {
     return text.str();
   }
 
-  std::string text_of(const std::filesystem::path& file) const {
-    std::ostringstream text;
-    text << std::ifstream(file).rdbuf();
-    return text.str();
+  Outcome call(const std::string& arguments, const std::string& before = "") const {
+    const std::string command = "cd '" + folder_.path().string() + "' && " + before + " " PANVO_EVALUATE " " +
+                                arguments + " > out.txt 2> err.txt < /dev/null";
+    const int status = std::system(command.c_str());
+    return {WEXITSTATUS(status), folder_.read("out.txt"), folder_.read("err.txt")};
   }
 
-  Outcome call(const std::string& arguments, const std::string& before = "") const {
-    const std::string command = "cd '" + folder_.string() + "' && " + before + " " PANVO_EVALUATE " " + arguments +
-                                " > out.txt 2> err.txt < /dev/null";
-    const int status = std::system(command.c_str());
-    return {WEXITSTATUS(status), text_of(folder_ / "out.txt"), text_of(folder_ / "err.txt")};
-  }
+  panvo::test::TemporaryFolder folder_;
 };
 
 TEST_F(CommandLine, PrintsATableAndWritesTheFiles) {
@@ -56,9 +51,9 @@ TEST_F(CommandLine, PrintsATableAndWritesTheFiles) {
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_THAT(outcome.err, IsEmpty());
   EXPECT_THAT(outcome.out, HasSubstr("absolute trajectory error"));
-  EXPECT_THAT(text_of(folder_ / "result/errors.csv"), HasSubstr("estimate,stamp_ns"));
-  EXPECT_NEAR(nlohmann::json::parse(text_of(folder_ / "result/evaluation.json"))["estimates"][0]["end_error_percent"],
-              1.0, 1e-6);
+  EXPECT_THAT(folder_.read("result/errors.csv"), HasSubstr("estimate,stamp_ns"));
+  EXPECT_NEAR(nlohmann::json::parse(folder_.read("result/evaluation.json"))["estimates"][0]["end_error_percent"], 1.0,
+              1e-6);
 }
 
 TEST_F(CommandLine, WritesIntoTheRunsFolderIfNotToldWhere) {
@@ -77,7 +72,7 @@ TEST_F(CommandLine, PrintsNothingButJsonWhereAsked) {
 }
 
 TEST_F(CommandLine, FailsOnBadInputNamingIt) {
-  write("broken.tum", "0 0 0 0 0 0 0 1\n1 0 0 nan 0 0 0 1\n");
+  folder_.write("broken.tum", "0 0 0 0 0 0 0 1\n1 0 0 nan 0 0 0 1\n");
   const Outcome outcome = call("broken.tum truth.tum --no-plot");
   EXPECT_EQ(outcome.status, 1);
   EXPECT_THAT(outcome.out, IsEmpty());
@@ -88,7 +83,7 @@ TEST_F(CommandLine, FailsOnBadInputNamingIt) {
 }
 
 TEST_F(CommandLine, WritesNothingIntoTheGroundTruthWhenItsArgumentsAreSwapped) {
-  write("data/poses.txt", "1 0 0 0 0 1 0 0 0 0 1 0\n1 0 0 0 0 1 0 0 0 0 1 1\n");
+  folder_.write("data/poses.txt", "1 0 0 0 0 1 0 0 0 0 1 0\n1 0 0 0 0 1 0 0 0 0 1 1\n");
   const Outcome outcome = call("data run --no-plot");
   EXPECT_EQ(outcome.status, 1);
   EXPECT_THAT(outcome.err, AllOf(HasSubstr("data: is not a run folder"), HasSubstr("--out")));
@@ -96,28 +91,28 @@ TEST_F(CommandLine, WritesNothingIntoTheGroundTruthWhenItsArgumentsAreSwapped) {
 }
 
 TEST_F(CommandLine, ReplacesAnEarlierEvaluationButNoFilesOfSomebodyElse) {
-  write("mine/errors.csv", "precious");
+  folder_.write("mine/errors.csv", "precious");
   const Outcome outcome = call("run truth.tum --no-plot --out mine");
   EXPECT_EQ(outcome.status, 1);
   EXPECT_THAT(outcome.err, HasSubstr("mine/errors.csv: exists"));
-  EXPECT_EQ(text_of(folder_ / "mine/errors.csv"), "precious");
+  EXPECT_EQ(folder_.read("mine/errors.csv"), "precious");
   EXPECT_EQ(call("run truth.tum --no-plot").status, 0);
   EXPECT_EQ(call("run truth.tum --no-plot").status, 0) << "again";
 }
 
 TEST_F(CommandLine, DoesNotTakeAnInterruptedRunForFinished) {
-  write("run/summary.json", R"({"interrupted": true})");
+  folder_.write("run/summary.json", R"({"interrupted": true})");
   const Outcome outcome = call("run truth.tum --no-plot");
   EXPECT_EQ(outcome.status, 1);
   EXPECT_THAT(outcome.err, AllOf(HasSubstr("run/summary.json: the run was interrupted"), HasSubstr("--partial")));
   EXPECT_EQ(call("truth.tum truth.tum --no-plot --also other=run").status, 1);
   EXPECT_EQ(call("run truth.tum --no-plot --partial").status, 0);
-  write("run/summary.json", R"({"interrupted": false})");
+  folder_.write("run/summary.json", R"({"interrupted": false})");
   EXPECT_EQ(call("run truth.tum --no-plot").status, 0);
 }
 
 TEST_F(CommandLine, DoesNotTakeAKilledRunForFinished) {
-  write("run/.panvo_run", "");
+  folder_.write("run/.panvo_run", "");
   const Outcome outcome = call("run truth.tum --no-plot");
   EXPECT_EQ(outcome.status, 1);
   EXPECT_THAT(outcome.err, HasSubstr("it has no summary.json"));

@@ -5,6 +5,7 @@
 
 #include <Eigen/Cholesky>
 
+#include "panvo/test/temporary_folder.hpp"
 #include "trajectories.hpp"
 
 namespace panvo::evaluation {
@@ -175,17 +176,19 @@ TEST(Nees, IsAbsentIfNoCovarianceIsUsable) {
   EXPECT_FALSE(consistency(pairs_of(truth, truth), {}));
 }
 
-class MotionCovarianceFile : public TemporaryFolder {
+class MotionCovarianceFile : public ::testing::Test {
  protected:
   static std::string line(const std::string& stamp, const std::string& value = "0.5") {
     std::string text = stamp;
     for (int i = 0; i < 78; ++i) text += "," + (i == 37 ? std::string("7") : value);
     return text + "\n";
   }
+
+  panvo::test::TemporaryFolder folder_;
 };
 
 TEST_F(MotionCovarianceFile, IsReadByRowsAfterItsHeader) {
-  const auto file = write("odometry_binocular_covariance.csv", "stamp_ns,p00\n" + line("1700021000040000000"));
+  const auto file = folder_.write("odometry_binocular_covariance.csv", "stamp_ns,p00\n" + line("1700021000040000000"));
   const MotionCovariances covariances = read_motion_covariances(file);
   ASSERT_EQ(covariances.size(), 1u);
   EXPECT_EQ(covariances.begin()->first, 1700021000040000000);
@@ -195,12 +198,12 @@ TEST_F(MotionCovarianceFile, IsReadByRowsAfterItsHeader) {
 }
 
 TEST_F(MotionCovarianceFile, NamesTheLineOfAFault) {
-  const auto broken = write("nan.csv", "stamp_ns\n" + line("1") + line("2", "nan"));
+  const auto broken = folder_.write("nan.csv", "stamp_ns\n" + line("1") + line("2", "nan"));
   EXPECT_THAT(input_error_of([&] { read_motion_covariances(broken); }),
               HasSubstr("nan.csv:3: field 2 is not a finite"));
-  const auto few = write("short.csv", "stamp_ns\n1,2,3\n");
+  const auto few = folder_.write("short.csv", "stamp_ns\n1,2,3\n");
   EXPECT_THAT(input_error_of([&] { read_motion_covariances(few); }), HasSubstr("short.csv:2: 3 fields, 79 expected"));
-  const auto twice = write("twice.csv", "stamp_ns\n" + line("1") + line("1"));
+  const auto twice = folder_.write("twice.csv", "stamp_ns\n" + line("1") + line("1"));
   EXPECT_THAT(input_error_of([&] { read_motion_covariances(twice); }), HasSubstr("twice.csv:3: the stamp 1 occurs"));
 }
 

@@ -47,7 +47,7 @@ TEST_F(JourneyFiles, ThatAreMissingAreNamed) {
 }
 
 TEST_F(JourneyFiles, ThatAreEmptyOrCutOffAreRefusedByLine) {
-  write("run/outcomes.csv", "");
+  folder_.write("run/outcomes.csv", "");
   EXPECT_THAT(run_error(), AllOf(HasSubstr("outcomes.csv: is empty"), HasSubstr("run again")));
   write_outcomes(outcome(90, "applied", binocular(90), enhanced(90)) + "1700000091000000000,3,app");
   EXPECT_THAT(run_error(), AllOf(HasSubstr("outcomes.csv:3: does not have the header's 19 fields"),
@@ -58,31 +58,31 @@ TEST_F(JourneyFiles, ThatAreEmptyOrCutOffAreRefusedByLine) {
   write_matches(fmt::format("{},searching,none,,,,,1,0,0,\"\"\n", stamp(1)));
   EXPECT_THAT(run_error(), HasSubstr("matches.csv:2: 'none' is not a whole number"));
   write_matches("");
-  write("run/azimuth.csv", "stamp_ns,from_stamp_ns,valid\n");
+  folder_.write("run/azimuth.csv", "stamp_ns,from_stamp_ns,valid\n");
   EXPECT_THAT(run_error(), HasSubstr("azimuth.csv:1: has no column 'azimuth_change_rad'"));
   std::filesystem::remove(folder_ / "run/azimuth.csv");
-  write("run/summary.json", "{\"version\": ");
+  folder_.write("run/summary.json", "{\"version\": ");
   EXPECT_THAT(run_error(), HasSubstr("summary.json: is not valid JSON"));
-  write("run/odometry_binocular.tum", "");
+  folder_.write("run/odometry_binocular.tum", "");
   EXPECT_THAT(run_error(), HasSubstr("odometry_binocular.tum: is empty"));
 }
 
 TEST_F(JourneyFiles, OfTheRecordingSayWhatThePanoramasClockIsAhead) {
   EXPECT_EQ(read_journey_recording(folder_ / "recording").panoramas.at(0).stamp_ns, stamp(10));
-  write("recording/sequence.yaml", "panorama_clock_offset_ns: -20000000\n");
+  folder_.write("recording/sequence.yaml", "panorama_clock_offset_ns: -20000000\n");
   const auto recording = read_journey_recording(folder_ / "recording");
   EXPECT_EQ(recording.panorama_clock_offset_ns, -20'000'000);
   EXPECT_EQ(recording.panoramas.at(0).stamp_ns, stamp(10) + 20'000'000);
-  write("recording/sequence.yaml", "seed: 4\npanorama_clock_offset_ns: late\n");
+  folder_.write("recording/sequence.yaml", "seed: 4\npanorama_clock_offset_ns: late\n");
   EXPECT_THAT(recording_error(), AllOf(HasSubstr("sequence.yaml:2:"), HasSubstr("a whole number of nanoseconds")));
 }
 
 TEST_F(JourneyFiles, OfTheRecordingAreRefusedByLine) {
-  write("recording/sequence.yaml", "visits:\n  - {id: 7, t_ns: 1800000000000000000}\n");
+  folder_.write("recording/sequence.yaml", "visits:\n  - {id: 7, t_ns: 1800000000000000000}\n");
   EXPECT_THAT(recording_error(), HasSubstr("sequence.yaml:2: a visit is outside the time span"));
-  write("recording/sequence.yaml", "visits:\n  - {id: seven, t_ns: 3}\n");
+  folder_.write("recording/sequence.yaml", "visits:\n  - {id: seven, t_ns: 3}\n");
   EXPECT_THAT(recording_error(), AllOf(HasSubstr("sequence.yaml:2:"), HasSubstr("a visit needs an id and t_ns")));
-  write("recording/sequence.yaml", "movers:\n  - {from_ns: 5}\n");
+  folder_.write("recording/sequence.yaml", "movers:\n  - {from_ns: 5}\n");
   EXPECT_THAT(recording_error(), HasSubstr("an interval needs from_ns and to_ns"));
   std::filesystem::remove(folder_ / "recording/mav0/state_groundtruth_estimate0/data.csv");
   EXPECT_THAT(recording_error(), AllOf(HasSubstr("holds no ground truth"), HasSubstr("--recording")));
@@ -94,7 +94,7 @@ TEST_F(JourneyFiles, OfARunAreTruthEnoughWhereItLeftSome) {
   for (int s = 0; s <= kSeconds; ++s) {
     truth += fmt::format("{}.000000000", stamp(s) / 1'000'000'000) + numbers_of(map_from_base(s), " ") + "\n";
   }
-  write("run/ground_truth.tum", truth);
+  folder_.write("run/ground_truth.tum", truth);
   const auto run = read_journey_run(folder_ / "run");
   const auto recording = read_journey_recording(folder_ / "run");
   EXPECT_TRUE(recording.visits.empty());

@@ -11,6 +11,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <string>
 
+#include "panvo/test/temporary_folder.hpp"
 #include "trajectories.hpp"
 
 namespace panvo::evaluation {
@@ -18,7 +19,7 @@ namespace panvo::evaluation {
 /// The estimates drift to the left by 2 cm and turn by 0.5 mrad per metre. Place 7 is passed after 10 m and, on the way
 /// back, after 90 m, where the enhanced pose is corrected to an error of 0.25 m without heading error. Its landmark has
 /// an error of 0.2 m.
-class MadeJourney : public TemporaryFolder {
+class MadeJourney : public ::testing::Test {
  protected:
   static constexpr int kSeconds = 100;
   static constexpr double kDrift = 0.02, kTurn = 0.0005;
@@ -50,7 +51,6 @@ class MadeJourney : public TemporaryFolder {
   }
 
   void SetUp() override {
-    TemporaryFolder::SetUp();
     write_recording("recording");
     write_run();
   }
@@ -64,19 +64,20 @@ class MadeJourney : public TemporaryFolder {
       truth += fmt::format("{},{:.12f},{:.12f},0,{:.12f},{:.12f},{:.12f},{:.12f}\n", stamp(s), pose.translation().x(),
                            pose.translation().y(), turn.w(), turn.x(), turn.y(), turn.z());
     }
-    write(name + "/mav0/state_groundtruth_estimate0/data.csv", truth);
-    write(name + "/mav0/cam2/sensor.yaml",
-          "%YAML:1.0\nT_BS:\n  data: [0, 0, 1, 0.5, -1, 0, 0, 0, 0, -1, 0, 2, 0, 0, 0, 1]\n");
-    write(name + "/sequence.yaml",
-          fmt::format(
-              "%YAML:1.0\nroute: street\nseed: 4\neffects: [movers]\njunctions:\n  - {{id: 7, name: corner <7>, x: "
-              "100, y: 210}}\nvisits:\n"
-              "  - {{visit: 0, id: 7, t_ns: {}, t_in_ns: {}, t_out_ns: {}, heading_in: 90}}\n"
-              "  - {{visit: 1, id: 7, t_ns: {}, t_in_ns: {}, t_out_ns: {}, heading_in: -90}}\n"
-              "movers:\n  - {{from_ns: {}, to_ns: {}, kind: oncoming}}\n  - {{from_ns: {}, to_ns: {}, kind: "
-              "pedestrian}}\n",
-              stamp(10), stamp(8), stamp(12), stamp(90), stamp(88), stamp(92), stamp(20), stamp(28), stamp(25),
-              stamp(30)));
+    folder_.write(name + "/mav0/state_groundtruth_estimate0/data.csv", truth);
+    folder_.write(name + "/mav0/cam2/sensor.yaml",
+                  "%YAML:1.0\nT_BS:\n  data: [0, 0, 1, 0.5, -1, 0, 0, 0, 0, -1, 0, 2, 0, 0, 0, 1]\n");
+    folder_.write(
+        name + "/sequence.yaml",
+        fmt::format(
+            "%YAML:1.0\nroute: street\nseed: 4\neffects: [movers]\njunctions:\n  - {{id: 7, name: corner <7>, x: "
+            "100, y: 210}}\nvisits:\n"
+            "  - {{visit: 0, id: 7, t_ns: {}, t_in_ns: {}, t_out_ns: {}, heading_in: 90}}\n"
+            "  - {{visit: 1, id: 7, t_ns: {}, t_in_ns: {}, t_out_ns: {}, heading_in: -90}}\n"
+            "movers:\n  - {{from_ns: {}, to_ns: {}, kind: oncoming}}\n  - {{from_ns: {}, to_ns: {}, kind: "
+            "pedestrian}}\n",
+            stamp(10), stamp(8), stamp(12), stamp(90), stamp(88), stamp(92), stamp(20), stamp(28), stamp(25),
+            stamp(30)));
     for (const int second : {10, 90}) {
       cv::Mat noise(540, 1080, CV_8UC3);
       cv::RNG(17).fill(noise, cv::RNG::UNIFORM, 0, 255);
@@ -111,26 +112,26 @@ class MadeJourney : public TemporaryFolder {
                               0.001 + (s == 50 ? std::numbers::pi : 0.0), s == 60 ? 0 : 1);
       qualities += fmt::format("{},{},9,9,9,0.9,0.4,\"\"\n", stamp(s), s >= 41 && s <= 45 ? 0 : 1);
     }
-    write("run/odometry_binocular.tum", poses);
-    write("run/odometry_enhanced.tum", enhanced_poses);
-    write("run/odometry_enhanced_covariance.csv", covariances);
-    write("run/azimuth.csv",
-          "stamp_ns,from_stamp_ns,azimuth_change_rad,sigma_rad,side_parallax_rad,valid,reason\n" + azimuths);
-    write("run/quality.csv",
-          "stamp_ns,reliable,detected,tracked,inliers,inlier_ratio,residual_px,reason\n" + qualities);
-    write("run/landmarks.csv",
-          "stamp_ns,id,is_junction" + pose_columns("") + ",sigma_x_m,sigma_y_m,keypoints,points\n" +
-              fmt::format("{},3,1{},0.1,0.1,250,100\n", stamp(10), numbers_of(binocular(10), ",")));
-    write("run/states.csv",
-          fmt::format("stamp_ns,state,position_sigma_m,heading_sigma_rad,reason\n{},tracking,0.1,0.01,\"\"\n"
-                      "{},compass_only,0.2,,\"few features, \"\"all\"\" moving\"\n",
-                      stamp(0), stamp(41)));
-    write("run/timing.json",
-          R"({"components": {"landmark_builder": {"stages": {"junction": {"count": 4,
+    folder_.write("run/odometry_binocular.tum", poses);
+    folder_.write("run/odometry_enhanced.tum", enhanced_poses);
+    folder_.write("run/odometry_enhanced_covariance.csv", covariances);
+    folder_.write("run/azimuth.csv",
+                  "stamp_ns,from_stamp_ns,azimuth_change_rad,sigma_rad,side_parallax_rad,valid,reason\n" + azimuths);
+    folder_.write("run/quality.csv",
+                  "stamp_ns,reliable,detected,tracked,inliers,inlier_ratio,residual_px,reason\n" + qualities);
+    folder_.write("run/landmarks.csv",
+                  "stamp_ns,id,is_junction" + pose_columns("") + ",sigma_x_m,sigma_y_m,keypoints,points\n" +
+                      fmt::format("{},3,1{},0.1,0.1,250,100\n", stamp(10), numbers_of(binocular(10), ",")));
+    folder_.write("run/states.csv",
+                  fmt::format("stamp_ns,state,position_sigma_m,heading_sigma_rad,reason\n{},tracking,0.1,0.01,\"\"\n"
+                              "{},compass_only,0.2,,\"few features, \"\"all\"\" moving\"\n",
+                              stamp(0), stamp(41)));
+    folder_.write("run/timing.json",
+                  R"({"components": {"landmark_builder": {"stages": {"junction": {"count": 4,
             "wall_ms": {"mean": 8, "median": 7.5, "p95": 9, "p99": 10, "max": 11},
             "cpu_ms": {"mean": 8, "median": 7.5, "p95": 9, "p99": 10, "max": 11}}}}}})");
-    write("run/summary.json",
-          R"({"version": "0.1.0", "system_file": "enhanced_vo.yaml", "replay": true, "seed": 5, "problems": [],
+    folder_.write("run/summary.json",
+                  R"({"version": "0.1.0", "system_file": "enhanced_vo.yaml", "replay": true, "seed": 5, "problems": [],
             "wall_s": 3.5, "changed_parameters": {"landmark_store": {"file": "kept.sqlite"}}})");
     write_matches("");
     write_corrections("");
@@ -138,24 +139,26 @@ class MadeJourney : public TemporaryFolder {
   }
 
   void write_matches(const std::string& lines) const {
-    write("run/matches.csv",
-          "stamp_ns,state,landmark_id,heading_deg,histogram_distance,large_distance,small_distance,candidates,"
-          "kept_after_histogram,kept_after_large,reason\n" +
-              lines);
+    folder_.write("run/matches.csv",
+                  "stamp_ns,state,landmark_id,heading_deg,histogram_distance,large_distance,small_distance,candidates,"
+                  "kept_after_histogram,kept_after_large,reason\n" +
+                      lines);
   }
   void write_corrections(const std::string& lines) const {
-    write("run/corrections.csv", "stamp_ns,landmark_id,state,inliers" + pose_columns("") +
-                                     ",sigma_x_m,sigma_y_m,sigma_yaw_rad,reason\n" + lines);
+    folder_.write("run/corrections.csv", "stamp_ns,landmark_id,state,inliers" + pose_columns("") +
+                                             ",sigma_x_m,sigma_y_m,sigma_yaw_rad,reason\n" + lines);
   }
   void write_outcomes(const std::string& lines) const {
-    write("run/outcomes.csv", "stamp_ns,landmark_id,outcome,chi_square" + pose_columns("before_") +
-                                  pose_columns("after_") + ",reason\n" + lines);
+    folder_.write("run/outcomes.csv", "stamp_ns,landmark_id,outcome,chi_square" + pose_columns("before_") +
+                                          pose_columns("after_") + ",reason\n" + lines);
   }
   static std::string outcome(int second, const std::string& what, const Eigen::Isometry3d& before,
                              const Eigen::Isometry3d& after, const std::string& reason = "") {
     return fmt::format("{},3,{},4.5{}{},\"{}\"\n", stamp(second), what, numbers_of(before, ","), numbers_of(after, ","),
                        reason);
   }
+
+  panvo::test::TemporaryFolder folder_;
 };
 
 }  // namespace panvo::evaluation

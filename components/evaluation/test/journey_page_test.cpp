@@ -5,7 +5,6 @@
 #include <sys/wait.h>
 
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "html_text.hpp"
 #include "journey_fixture.hpp"
@@ -25,13 +24,8 @@ class JourneyPage : public MadeJourney {
     const JourneyReport report{title, evaluate_run(run, recording, nullptr), {}, false};
     return journey_page(report);
   }
-  std::string text_of(const std::filesystem::path& file) const {
-    std::ostringstream text;
-    text << std::ifstream(file).rdbuf();
-    return text.str();
-  }
   int call(const std::string& arguments, const std::string& before = "") const {
-    const std::string command = "cd '" + folder_.string() + "' && " + before + " " PANVO_EVALUATE_JOURNEY " " +
+    const std::string command = "cd '" + folder_.path().string() + "' && " + before + " " PANVO_EVALUATE_JOURNEY " " +
                                 arguments + " > out.txt 2> err.txt < /dev/null";
     return WEXITSTATUS(std::system(command.c_str()));
   }
@@ -90,7 +84,7 @@ TEST_F(JourneyPage, DoesWithoutPicturesWhereThereAreNone) {
 }
 
 TEST_F(JourneyPage, NamesThePictureThatCannotBeDecoded) {
-  write("recording/mav0/cam2/data/" + std::to_string(stamp(90)) + ".png", "no picture");
+  folder_.write("recording/mav0/cam2/data/" + std::to_string(stamp(90)) + ".png", "no picture");
   EXPECT_THAT(input_error_of([&] { page(); }), HasSubstr(std::to_string(stamp(90)) + ".png: cannot be decoded"));
 }
 
@@ -117,25 +111,24 @@ TEST_F(JourneyPage, LeavesPanoramasOfOneHeadingAsTheyAre) {
 }
 
 TEST_F(JourneyPage, IsWrittenByTheProgram) {
-  ASSERT_EQ(call("run --recording recording --out result", "PATH=/nonexistent"), 3) << text_of(folder_ / "err.txt");
-  EXPECT_THAT(text_of(folder_ / "err.txt"), HasSubstr("gnuplot"));
-  EXPECT_THAT(text_of(folder_ / "result/report.html"), HasSubstr("</html>"));
-  const auto json = nlohmann::json::parse(text_of(folder_ / "result/journey.json"));
+  ASSERT_EQ(call("run --recording recording --out result", "PATH=/nonexistent"), 3) << folder_.read("err.txt");
+  EXPECT_THAT(folder_.read("err.txt"), HasSubstr("gnuplot"));
+  EXPECT_THAT(folder_.read("result/report.html"), HasSubstr("</html>"));
+  const auto json = nlohmann::json::parse(folder_.read("result/journey.json"));
   EXPECT_NEAR(json["run"]["revisits"]["rows"][0]["after_m"], 0.25, 1e-6);
   EXPECT_NEAR(json["run"]["paths"]["binocular"]["final_m"], 2.0, 1e-6);
-  EXPECT_THAT(text_of(folder_ / "out.txt"), HasSubstr("1 corrected"));
+  EXPECT_THAT(folder_.read("out.txt"), HasSubstr("1 corrected"));
 }
 
 TEST_F(JourneyPage, IsNotWrittenWhereOnlyTheTableIsWanted) {
-  ASSERT_EQ(call("run --recording recording --only-table --paper-run run"), 0) << text_of(folder_ / "err.txt");
+  ASSERT_EQ(call("run --recording recording --only-table --paper-run run"), 0) << folder_.read("err.txt");
   EXPECT_FALSE(std::filesystem::exists(folder_ / "run/report.html"));
-  EXPECT_THAT(text_of(folder_ / "out.txt"),
-              HasSubstr("7 corner <7>  corrected    1.80   0.25    corrected    1.80   0.25"));
+  EXPECT_THAT(folder_.read("out.txt"), HasSubstr("7 corner <7>  corrected    1.80   0.25    corrected    1.80   0.25"));
 }
 
 TEST_F(JourneyPage, FailsNamingWhatIsAtFault) {
   EXPECT_EQ(call("run"), 1);
-  EXPECT_THAT(text_of(folder_ / "err.txt"), HasSubstr("holds no ground truth"));
+  EXPECT_THAT(folder_.read("err.txt"), HasSubstr("holds no ground truth"));
   EXPECT_EQ(call("nowhere --recording recording"), 1);
   EXPECT_EQ(call("--recording recording"), 2);
 }

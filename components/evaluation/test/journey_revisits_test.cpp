@@ -95,8 +95,9 @@ TEST_F(JourneyRevisits, CountACorrectionThatLeadsAway) {
 
 TEST_F(JourneyRevisits, DoNotBlameACorrectionForItsLandmark) {
   const auto three_off = off(10, 3.0, 0.0);
-  write("run/landmarks.csv", "stamp_ns,id,is_junction" + pose_columns("") + ",sigma_x_m,sigma_y_m,keypoints,points\n" +
-                                 fmt::format("{},3,1{},0.1,0.1,250,100\n", stamp(10), numbers_of(three_off, ",")));
+  folder_.write("run/landmarks.csv",
+                "stamp_ns,id,is_junction" + pose_columns("") + ",sigma_x_m,sigma_y_m,keypoints,points\n" +
+                    fmt::format("{},3,1{},0.1,0.1,250,100\n", stamp(10), numbers_of(three_off, ",")));
   write_outcomes(outcome(90, "applied", binocular(90), off(90, 3.9, 0.0)));
   EXPECT_EQ(score().wrong, 0);
   write_outcomes(outcome(90, "applied", binocular(90), off(90, 4.1, 0.0)));

@@ -2,25 +2,18 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdlib>
-#include <filesystem>
 
 #include "panvo/evaluation/place_journey.hpp"
+#include "panvo/test/recorded_data.hpp"
 
 namespace panvo::evaluation {
 namespace {
 
-std::filesystem::path campus_journey() {
-  const char* const data = std::getenv("PANVO_DATA");
-  return std::filesystem::path(data != nullptr ? data : PANVO_SHARED_DATA) / "campus_journey";
-}
-
 // A rendered town from another source: three revisits, rotated by 88 to 151 degrees, with offsets of 1.4 to 3.1 m.
 TEST(CampusJourney, HasEveryRevisitFoundAndNoneWrong) {
-  if (!std::filesystem::exists(campus_journey())) {
-    GTEST_SKIP() << campus_journey() << " not found; set PANVO_DATA to the folder of recordings";
-  }
-  const auto recording = read_place_recording(campus_journey());
+  const auto folder = panvo::test::recorded_data("campus_journey");
+  PANVO_NEEDS_RECORDING(folder);
+  const auto recording = read_place_recording(folder);
   const auto task = place_task(recording);
   ASSERT_EQ(task.revisits.size(), 3U);
   const auto score = match_journey(task, recording, recording, {}, [](std::size_t, std::size_t) {});

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <fstream>
 #include <opencv2/core.hpp>
 
 #include "panvo/evaluation/input_error.hpp"
@@ -30,8 +31,8 @@ class Brightness final : public PlaceMethod {
 };
 
 TEST(PlaceTask, TakesFirstVisitsForPlacesAndLaterOnesForRevisits) {
-  const PlainRecording made("task", {10, 60, 110, 160, 210}, {{7, 1}, {8, 3}, {7, 4}});
-  const auto recording = read_place_recording(made.folder);
+  const PlainRecording made({10, 60, 110, 160, 210}, {{7, 1}, {8, 3}, {7, 4}});
+  const auto recording = read_place_recording(made.folder.path());
   const auto task = place_task(recording);
   ASSERT_EQ(task.places.size(), 2U);
   EXPECT_EQ(task.places[0].place, 7);
@@ -44,10 +45,10 @@ TEST(PlaceTask, TakesFirstVisitsForPlacesAndLaterOnesForRevisits) {
 }
 
 TEST(PlaceTask, TakesAllVisitsOfALaterRecordingForRevisits) {
-  const PlainRecording first("earlier", {10, 60, 110}, {{1, 0}, {2, 2}});
-  const PlainRecording second("later", {12, 64, 118}, {{2, 2}, {9, 1}});
-  const auto earlier = read_place_recording(first.folder);
-  const auto later = read_place_recording(second.folder);
+  const PlainRecording first({10, 60, 110}, {{1, 0}, {2, 2}});
+  const PlainRecording second({12, 64, 118}, {{2, 2}, {9, 1}});
+  const auto earlier = read_place_recording(first.folder.path());
+  const auto later = read_place_recording(second.folder.path());
   const auto task = place_task(earlier, &later);
   ASSERT_EQ(task.places.size(), 2U);
   ASSERT_EQ(task.revisits.size(), 1U);  // place 9 is not known
@@ -57,10 +58,10 @@ TEST(PlaceTask, TakesAllVisitsOfALaterRecordingForRevisits) {
 TEST(PlaceScore, IsThatOfSeparationsDoneByHand) {
   // Places 10, 100, 200. Revisits: 18 of the first (right), and 160 of the second, which is nearer to the third
   // (wrong).
-  const PlainRecording first("score", {10, 100, 200}, {{1, 0}, {2, 1}, {3, 2}});
-  const PlainRecording second("score_then", {18, 160, 0}, {{1, 0}, {2, 1}});
-  const auto earlier = read_place_recording(first.folder);
-  const auto later = read_place_recording(second.folder);
+  const PlainRecording first({10, 100, 200}, {{1, 0}, {2, 1}, {3, 2}});
+  const PlainRecording second({18, 160, 0}, {{1, 0}, {2, 1}});
+  const auto earlier = read_place_recording(first.folder.path());
+  const auto later = read_place_recording(second.folder.path());
   const auto score = score_places(Brightness(), place_task(earlier, &later), earlier, later);
   // Negatives 90, 90, 100; positives 8, 40: D' = (D - 8) / 92 [Lu2015 Eq. 14]
   EXPECT_NEAR(score.separation, (82.0 + 82.0 + 92.0) / 3.0 / 92.0 - (0.0 + 32.0) / 2.0 / 92.0,
@@ -76,10 +77,10 @@ TEST(PlaceScore, IsThatOfSeparationsDoneByHand) {
 
 TEST(PlaceScore, CountsNegativesThatNoThresholdKeepsOut) {
   // The revisit differs by 40 from its place, but two of the places by only 20 from each other.
-  const PlainRecording first("negatives", {10, 100, 120}, {{1, 0}, {2, 1}, {3, 2}});
-  const PlainRecording second("negatives_then", {50, 0}, {{1, 0}});
-  const auto earlier = read_place_recording(first.folder);
-  const auto later = read_place_recording(second.folder);
+  const PlainRecording first({10, 100, 120}, {{1, 0}, {2, 1}, {3, 2}});
+  const PlainRecording second({50, 0}, {{1, 0}});
+  const auto earlier = read_place_recording(first.folder.path());
+  const auto later = read_place_recording(second.folder.path());
   const auto score = score_places(Brightness(), place_task(earlier, &later), earlier, later);
   EXPECT_EQ(score.true_positives, 1);
   EXPECT_EQ(score.false_positives, 2);
@@ -87,13 +88,13 @@ TEST(PlaceScore, CountsNegativesThatNoThresholdKeepsOut) {
 }
 
 TEST(PlaceRecording, SaysWhatIsMissing) {
-  const PlainRecording made("missing", {10, 60}, {{1, 0}});
+  const PlainRecording made({10, 60}, {{1, 0}});
   const auto error_without = [&](const std::string& file) {
     const auto path = made.folder / file;
     std::filesystem::rename(path, made.folder / "away");
     std::string message;
     try {
-      read_place_recording(made.folder);
+      read_place_recording(made.folder.path());
     } catch (const InputError& error) {
       message = error.what();
     }
@@ -104,12 +105,12 @@ TEST(PlaceRecording, SaysWhatIsMissing) {
   EXPECT_NE(error_without("mav0/cam2/sensor.yaml").find("sensor.yaml: cannot be read"), std::string::npos);
   EXPECT_NE(error_without("mav0/cam2/data").find("holds no image"), std::string::npos);
   EXPECT_NE(error_without("mav0/state_groundtruth_estimate0/data.csv"), "");
-  EXPECT_NO_THROW(read_place_recording(made.folder));
+  EXPECT_NO_THROW(read_place_recording(made.folder.path()));
 }
 
 TEST(PlaceRecording, NamesTheImageThatCannotBeDecoded) {
-  const PlainRecording made("torn", {10, 60}, {{1, 0}});
-  const auto recording = read_place_recording(made.folder);
+  const PlainRecording made({10, 60}, {{1, 0}});
+  const auto recording = read_place_recording(made.folder.path());
   std::ofstream(recording.panoramas[1].file) << "not a picture";
   EXPECT_EQ(read_panorama(recording.panoramas[0]).size(), cv::Size(1080, 540));
   EXPECT_THROW(read_panorama(recording.panoramas[1]), InputError);

@@ -3,8 +3,11 @@
 
 #include <gmock/gmock.h>
 
+#include <fstream>
+
 #include "../src/gnuplot.hpp"
 #include "../src/plot_axes.hpp"
+#include "panvo/test/temporary_folder.hpp"
 #include "reports.hpp"
 
 namespace panvo::evaluation {
@@ -21,23 +24,24 @@ std::string start_of(const std::filesystem::path& file, std::size_t count) {
   return text;
 }
 
-class Plot : public TemporaryFolder {
+class Plot : public ::testing::Test {
  protected:
   void SetUp() override {
-    TemporaryFolder::SetUp();
     if (!gnuplot_is_installed()) GTEST_SKIP() << "gnuplot is not installed: apt-get install gnuplot-nox";
   }
+
+  panvo::test::TemporaryFolder folder_;
 };
 
 TEST_F(Plot, IsDrawnAsPngAndSvg) {
-  draw_plot(small_report(), folder_);
+  draw_plot(small_report(), folder_.path());
   EXPECT_EQ(start_of(folder_ / "evaluation.png", 8), "\x89PNG\r\n\x1a\n");
   EXPECT_THAT(start_of(folder_ / "evaluation.svg", 400), HasSubstr("<svg"));
   EXPECT_GT(std::filesystem::file_size(folder_ / "evaluation.png"), 20000u);
 }
 
 TEST_F(Plot, IsDrawnOfAPathThatStaysInPlace) {
-  draw_plot(still_report(), folder_);
+  draw_plot(still_report(), folder_.path());
   EXPECT_EQ(start_of(folder_ / "evaluation.png", 8), "\x89PNG\r\n\x1a\n");
 }
 
@@ -55,16 +59,16 @@ TEST_F(Plot, RunsNothingThatATitleNameOrFolderSays) {
 }
 
 TEST_F(Plot, IsDrawnWithNamesInAnyBytes) {
-  draw_plot(small_report("Gr\u00fc\u00dfe", "no \xff\xfe UTF-8"), folder_);
+  draw_plot(small_report("Gr\u00fc\u00dfe", "no \xff\xfe UTF-8"), folder_.path());
   EXPECT_EQ(start_of(folder_ / "evaluation.png", 8), "\x89PNG\r\n\x1a\n");
 }
 
 TEST_F(Plot, NamesTheRemedyIfGnuplotIsNotInstalled) {
   const std::string path = std::getenv("PATH");
-  ::setenv("PATH", folder_.c_str(), 1);
+  ::setenv("PATH", folder_.path().c_str(), 1);
   std::string error;
   try {
-    draw_plot(small_report(), folder_);
+    draw_plot(small_report(), folder_.path());
   } catch (const PlotError& e) {
     error = e.what();
   }
@@ -74,9 +78,9 @@ TEST_F(Plot, NamesTheRemedyIfGnuplotIsNotInstalled) {
 }
 
 TEST_F(Plot, SaysWhatGnuplotSaidIfItFails) {
-  write("broken.gp", "plot sin(\n");
+  folder_.write("broken.gp", "plot sin(\n");
   EXPECT_THROW(
-      try { run_gnuplot(folder_, "broken.gp"); } catch (const PlotError& error) {
+      try { run_gnuplot(folder_.path(), "broken.gp"); } catch (const PlotError& error) {
         EXPECT_THAT(error.what(), HasSubstr("line 1"));
         throw;
       },

@@ -4,15 +4,15 @@
 
 #include "panvo/evaluation/evaluation.hpp"
 #include "panvo/evaluation/trajectory_files.hpp"
-#include "trajectories.hpp"
+#include "panvo/test/recorded_data.hpp"
 
 namespace panvo::evaluation {
 namespace {
 
 TEST(RecordedGroundTruth, OfKittiGoesForwardAndTurnsToTheRight) {
-  const auto folder = recorded_data("kitti_03");
-  if (!folder) GTEST_SKIP() << "no recordings: set PANVO_DATA to the folder that holds kitti_03";
-  const Trajectory truth = read_trajectory(*folder);
+  const auto folder = panvo::test::recorded_data("kitti_03");
+  PANVO_NEEDS_RECORDING(folder);
+  const Trajectory truth = read_trajectory(folder);
   ASSERT_EQ(truth.poses.size(), 99u);
   EXPECT_NEAR(path_length_m(truth), 58.3, 0.1);
   const Eigen::Isometry3d& end = truth.poses.back().world_from_base;
@@ -24,9 +24,9 @@ TEST(RecordedGroundTruth, OfKittiGoesForwardAndTurnsToTheRight) {
 }
 
 TEST(RecordedGroundTruth, OfTheCampusClipIsReadToItsEnd) {
-  const auto folder = recorded_data("campus_clip");
-  if (!folder) GTEST_SKIP() << "no recordings: set PANVO_DATA to the folder that holds campus_clip";
-  const Trajectory truth = read_trajectory(*folder);
+  const auto folder = panvo::test::recorded_data("campus_clip");
+  PANVO_NEEDS_RECORDING(folder);
+  const Trajectory truth = read_trajectory(folder);
   EXPECT_EQ(truth.poses.size(), 707u);
   EXPECT_EQ(median_period_ns(truth), 40'000'000);
   EXPECT_NEAR(path_length_m(truth), 92.0, 0.5);
@@ -36,10 +36,10 @@ TEST(RecordedGroundTruth, OfTheCampusClipIsReadToItsEnd) {
 }
 
 TEST(RecordedGroundTruth, EvaluatesAgainstItselfWithoutError) {
-  const auto folder = recorded_data("kitti_03");
-  if (!folder) GTEST_SKIP() << "no recordings: set PANVO_DATA to the folder that holds kitti_03";
-  const Trajectory truth = read_trajectory(*folder);
-  const Evaluation e = evaluate(read_estimate(*folder), truth);
+  const auto folder = panvo::test::recorded_data("kitti_03");
+  PANVO_NEEDS_RECORDING(folder);
+  const Trajectory truth = read_trajectory(folder);
+  const Evaluation e = evaluate(read_estimate(folder), truth);
   EXPECT_LT(e.ate_start_m->max, 1e-9);
   ASSERT_TRUE(e.segments);
   EXPECT_EQ(e.segments->by_length.size(), 5u);

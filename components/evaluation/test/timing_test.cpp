@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 
+#include "panvo/test/temporary_folder.hpp"
 #include "trajectories.hpp"
 
 namespace panvo::evaluation {
@@ -10,7 +11,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-class TimingFile : public TemporaryFolder {
+class TimingFile : public ::testing::Test {
  protected:
   static std::string times(double scale) {
     std::string text = "{";
@@ -22,11 +23,13 @@ class TimingFile : public TemporaryFolder {
   static std::string stage(const std::string& wall) {
     return R"({"count":7,"wall_ms":)" + wall + R"(,"cpu_ms":)" + times(10) + "}";
   }
+
+  panvo::test::TemporaryFolder folder_;
 };
 
 TEST_F(TimingFile, IsReadInItsOwnOrder) {
-  const auto file = write("timing.json", R"({"components":{"vo":{"stages":{"match":)" + stage(times(0)) +
-                                             R"(,"detect":)" + stage(times(1)) + R"(}},"a":{"stages":{}}}})");
+  const auto file = folder_.write("timing.json", R"({"components":{"vo":{"stages":{"match":)" + stage(times(0)) +
+                                                     R"(,"detect":)" + stage(times(1)) + R"(}},"a":{"stages":{}}}})");
   const StageTimes result = read_timing(file);
   ASSERT_EQ(result.size(), 2u);
   EXPECT_EQ(result[0].component, "vo");
@@ -40,7 +43,7 @@ TEST_F(TimingFile, IsReadInItsOwnOrder) {
 
 TEST_F(TimingFile, NamesWhatIsWrong) {
   const auto error = [&](const std::string& text) {
-    return input_error_of([&, file = write("timing.json", text)] { read_timing(file); });
+    return input_error_of([&, file = folder_.write("timing.json", text)] { read_timing(file); });
   };
   EXPECT_THAT(error("{\"components\":"), HasSubstr("timing.json: is not valid JSON"));
   EXPECT_THAT(error("[]"), HasSubstr("no key 'components'"));

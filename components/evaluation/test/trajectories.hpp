@@ -1,15 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Small trajectories with known properties, and a temporary folder per test.
+// Small trajectories with known properties.
 #pragma once
 
-#include <gtest/gtest.h>
-#include <unistd.h>
-
 #include <cmath>
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
-#include <optional>
 #include <random>
 #include <string>
 #include <vector>
@@ -63,34 +56,6 @@ inline Trajectory transformed(Trajectory trajectory, const Eigen::Isometry3d& ne
 inline std::vector<PosePair> pairs_of(const Trajectory& estimate, const Trajectory& ground_truth) {
   return associate(estimate, ground_truth).pairs;
 }
-
-// Path of a recording in $PANVO_DATA, else in shared/data beside the checkout; nullopt if it does not exist.
-inline std::optional<std::filesystem::path> recorded_data(const std::string& name) {
-  const char* folder = std::getenv("PANVO_DATA");
-  const auto beside = std::filesystem::path(__FILE__).parent_path() / "../../../../shared/data";
-  const auto path = (folder ? std::filesystem::path(folder) : beside) / name;
-  return std::filesystem::exists(path) ? std::optional(path.lexically_normal()) : std::nullopt;
-}
-
-class TemporaryFolder : public ::testing::Test {
- protected:
-  void SetUp() override {
-    const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = std::filesystem::temp_directory_path() /
-              ("panvo_" + std::string(test->test_suite_name()) + "_" + test->name() + "_" + std::to_string(::getpid()));
-    std::filesystem::create_directories(folder_);
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-
-  std::filesystem::path write(const std::string& name, const std::string& text) const {
-    const auto file = folder_ / name;
-    std::filesystem::create_directories(file.parent_path());
-    std::ofstream(file, std::ios::binary) << text;
-    return file;
-  }
-
-  std::filesystem::path folder_;
-};
 
 // Message of the InputError thrown by `action`; empty if there was none.
 template <class Action>

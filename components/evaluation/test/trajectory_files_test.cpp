@@ -3,7 +3,10 @@
 
 #include <gmock/gmock.h>
 
+#include <sstream>
+
 #include "panvo/evaluation/run_folder.hpp"
+#include "panvo/test/temporary_folder.hpp"
 #include "trajectories.hpp"
 
 namespace panvo::evaluation {
@@ -15,18 +18,20 @@ using ::testing::IsEmpty;
 
 constexpr const char* kKittiStill = "1 0 0 0 0 1 0 0 0 0 1 0\n";
 
-class TrajectoryFiles : public TemporaryFolder {
+class TrajectoryFiles : public ::testing::Test {
  protected:
   std::string error_of(const std::string& name, const std::string& text) {
-    const auto file = write(name, text);
+    const auto file = folder_.write(name, text);
     return input_error_of([&] { read_trajectory(file); });
   }
+
+  panvo::test::TemporaryFolder folder_;
 };
 
 TEST_F(TrajectoryFiles, TumKeepsNanosecondsAndTheOrderOfTheQuaternion) {
-  const auto file = write("a.tum",
-                          "# a comment\n\n1403636579.763555584 1 2 3 0 0 0.6 0.8\r\n"
-                          "1403636579.8 4 5 6 0 0 0 -1\n");
+  const auto file = folder_.write("a.tum",
+                                  "# a comment\n\n1403636579.763555584 1 2 3 0 0 0.6 0.8\r\n"
+                                  "1403636579.8 4 5 6 0 0 0 -1\n");
   const Trajectory trajectory = read_trajectory(file);
   EXPECT_EQ(trajectory.format, "TUM");
   ASSERT_EQ(trajectory.poses.size(), 2u);
@@ -37,10 +42,10 @@ TEST_F(TrajectoryFiles, TumKeepsNanosecondsAndTheOrderOfTheQuaternion) {
 }
 
 TEST_F(TrajectoryFiles, EurocHasTheScalarOfTheQuaternionFirst) {
-  const auto file = write("data.csv",
-                          "#timestamp [ns], p_RS_R_x [m], ...\n"
-                          "1700021000000000001,1,2,3,0.8,0,0,0.6,0,0,0,0,0,0,0,0,0\n"
-                          "1700021000040000001, 1, 2, 3, 1, 0, 0, 0\n");
+  const auto file = folder_.write("data.csv",
+                                  "#timestamp [ns], p_RS_R_x [m], ...\n"
+                                  "1700021000000000001,1,2,3,0.8,0,0,0.6,0,0,0,0,0,0,0,0,0\n"
+                                  "1700021000040000001, 1, 2, 3, 1, 0, 0, 0\n");
   const Trajectory trajectory = read_trajectory(file);
   EXPECT_EQ(trajectory.format, "EuRoC");
   ASSERT_EQ(trajectory.poses.size(), 2u);
@@ -56,7 +61,7 @@ TEST_F(TrajectoryFiles, KittiIsTurnedFromOpticalToBaseAxes) {
   std::ostringstream second;
   second.precision(17);
   second << c << " 0 " << s << " 1  0 1 0 2  " << -s << " 0 " << c << " 5\n";
-  const auto file = write("poses.txt", kKittiStill + second.str());
+  const auto file = folder_.write("poses.txt", kKittiStill + second.str());
   const Trajectory trajectory = read_trajectory(file);
   EXPECT_EQ(trajectory.format, "KITTI, nominal 10 Hz");
   ASSERT_EQ(trajectory.poses.size(), 2u);
@@ -65,33 +70,33 @@ TEST_F(TrajectoryFiles, KittiIsTurnedFromOpticalToBaseAxes) {
 }
 
 TEST_F(TrajectoryFiles, KittiTakesItsTimesFromBesideThePoses) {
-  write("poses.txt", std::string(kKittiStill) + kKittiStill);
-  write("times.txt", "0.000000e+00\n1.037875e-01\n2.1e-01\n");
-  const Trajectory trajectory = read_trajectory(folder_);
+  folder_.write("poses.txt", std::string(kKittiStill) + kKittiStill);
+  folder_.write("times.txt", "0.000000e+00\n1.037875e-01\n2.1e-01\n");
+  const Trajectory trajectory = read_trajectory(folder_.path());
   EXPECT_EQ(trajectory.format, "KITTI");
   EXPECT_EQ(trajectory.poses.size(), 2u);
   EXPECT_EQ(trajectory.poses[1].stamp_ns, 103'787'500);
 }
 
 TEST_F(TrajectoryFiles, KittiIsFoundInItsOwnLayout) {
-  write("poses/03.txt", std::string(kKittiStill) + kKittiStill);
-  write("sequences/03/times.txt", "0.5\n0.6\n");
+  folder_.write("poses/03.txt", std::string(kKittiStill) + kKittiStill);
+  folder_.write("sequences/03/times.txt", "0.5\n0.6\n");
   EXPECT_EQ(read_trajectory(folder_ / "sequences/03").poses.at(1).stamp_ns, 600'000'000);
   EXPECT_EQ(read_trajectory(folder_ / "sequences/03/").poses.at(1).stamp_ns, 600'000'000);
   EXPECT_EQ(read_trajectory(folder_ / "poses/03.txt").poses.at(1).stamp_ns, 600'000'000);
 }
 
 TEST_F(TrajectoryFiles, ARunsEnhancedOdometryComesFirst) {
-  write("odometry_binocular.tum", "0 1 0 0 0 0 0 1\n");
-  EXPECT_EQ(read_trajectory(folder_).source.filename(), "odometry_binocular.tum");
-  write("odometry_enhanced.tum", "");  // the localizer has not published a pose
-  EXPECT_EQ(read_trajectory(folder_).source.filename(), "odometry_binocular.tum");
-  write("odometry_enhanced.tum", "0 1 0 0 0 0 0 1\n");
-  EXPECT_EQ(read_trajectory(folder_).source.filename(), "odometry_enhanced.tum");
+  folder_.write("odometry_binocular.tum", "0 1 0 0 0 0 0 1\n");
+  EXPECT_EQ(read_trajectory(folder_.path()).source.filename(), "odometry_binocular.tum");
+  folder_.write("odometry_enhanced.tum", "");  // the localizer has not published a pose
+  EXPECT_EQ(read_trajectory(folder_.path()).source.filename(), "odometry_binocular.tum");
+  folder_.write("odometry_enhanced.tum", "0 1 0 0 0 0 0 1\n");
+  EXPECT_EQ(read_trajectory(folder_.path()).source.filename(), "odometry_enhanced.tum");
 }
 
 TEST_F(TrajectoryFiles, AslGroundTruthIsFoundFromAnyOfItsFolders) {
-  write("mav0/state_groundtruth_estimate0/data.csv", "1,0,0,0,1,0,0,0\n");
+  folder_.write("mav0/state_groundtruth_estimate0/data.csv", "1,0,0,0,1,0,0,0\n");
   for (const char* part :
        {"", "mav0", "mav0/state_groundtruth_estimate0", "mav0/state_groundtruth_estimate0/data.csv"}) {
     EXPECT_EQ(read_trajectory(folder_ / part).format, "EuRoC") << part;
@@ -99,8 +104,8 @@ TEST_F(TrajectoryFiles, AslGroundTruthIsFoundFromAnyOfItsFolders) {
 }
 
 TEST_F(TrajectoryFiles, AFolderWithoutTrajectorySaysWhatItLookedFor) {
-  EXPECT_THAT(input_error_of([&] { read_trajectory(folder_); }),
-              AllOf(HasSubstr(folder_.string()), HasSubstr("odometry_binocular.tum"), HasSubstr("poses.txt")));
+  EXPECT_THAT(input_error_of([&] { read_trajectory(folder_.path()); }),
+              AllOf(HasSubstr(folder_.path().string()), HasSubstr("odometry_binocular.tum"), HasSubstr("poses.txt")));
 }
 
 TEST_F(TrajectoryFiles, AMissingFileIsNamed) {
@@ -114,15 +119,15 @@ TEST_F(TrajectoryFiles, AnEmptyFileIsNamed) {
 }
 
 TEST_F(TrajectoryFiles, ARunThatWroteNothingIsNamed) {
-  write("odometry_binocular.tum", "");
-  EXPECT_THAT(input_error_of([&] { read_trajectory(folder_); }), HasSubstr("odometry_binocular.tum: is empty"));
+  folder_.write("odometry_binocular.tum", "");
+  EXPECT_THAT(input_error_of([&] { read_trajectory(folder_.path()); }), HasSubstr("odometry_binocular.tum: is empty"));
 }
 
 TEST_F(TrajectoryFiles, StampsThatGoBackOrStandStillAreNamedByLine) {
   EXPECT_THAT(error_of("a.tum", "2 0 0 0 0 0 0 1\n3 0 0 0 0 0 0 1\n# x\n1 0 0 0 0 0 0 1\n"),
               AllOf(HasSubstr("a.tum:4: the stamp 1000000000 ns is not after"), HasSubstr("sort the file")));
   EXPECT_THAT(error_of("b.csv", "5,0,0,0,1,0,0,0\n5,0,0,0,1,0,0,0\n"), HasSubstr("b.csv:2: the stamp 5 ns"));
-  write("times.txt", "0\n0\n");
+  folder_.write("times.txt", "0\n0\n");
   EXPECT_THAT(error_of("poses.txt", std::string(kKittiStill) + kKittiStill), HasSubstr("poses.txt:2: the stamp 0 ns"));
 }
 
@@ -154,18 +159,18 @@ TEST_F(TrajectoryFiles, LinesOfAnotherLengthAreNamed) {
 }
 
 TEST_F(TrajectoryFiles, TooFewKittiTimesAreNamed) {
-  write("times.txt", "0\n");
+  folder_.write("times.txt", "0\n");
   EXPECT_THAT(error_of("poses.txt", std::string(kKittiStill) + kKittiStill), HasSubstr("1 stamps for the 2 poses"));
 }
 
 TEST_F(TrajectoryFiles, ARunBringsItsTimesAndCovariances) {
-  write("run/odometry_binocular.tum", "0 1 0 0 0 0 0 1\n");
-  write("run/odometry_enhanced.tum", "0 2 0 0 0 0 0 1\n");
-  write("run/timing.json", R"({"components":{}})");
-  write("run/quality.csv", "stamp_ns,reliable,reason\n0,1,\n40,0,left image is black\n80,1,\n");
+  folder_.write("run/odometry_binocular.tum", "0 1 0 0 0 0 0 1\n");
+  folder_.write("run/odometry_enhanced.tum", "0 2 0 0 0 0 0 1\n");
+  folder_.write("run/timing.json", R"({"components":{}})");
+  folder_.write("run/quality.csv", "stamp_ns,reliable,reason\n0,1,\n40,0,left image is black\n80,1,\n");
   std::string covariance = "0";
   for (int i = 0; i < 78; ++i) covariance += ",1";
-  write("run/odometry_binocular_covariance.csv", covariance + "\n");
+  folder_.write("run/odometry_binocular_covariance.csv", covariance + "\n");
   for (const char* path : {"run", "run/", "run/odometry_binocular.tum"}) {
     const Estimate estimate = read_estimate(folder_ / path);
     EXPECT_EQ(estimate.name, std::string(path).ends_with("tum") ? "odometry_binocular" : "run");
@@ -179,8 +184,8 @@ TEST_F(TrajectoryFiles, ARunBringsItsTimesAndCovariances) {
 }
 
 TEST_F(TrajectoryFiles, ALoneTrajectoryHasNeitherTimesNorCovariances) {
-  write("timing.json", "invalid, but unrelated to this trajectory");
-  const Estimate estimate = read_estimate(write("other.tum", "0 1 0 0 0 0 0 1\n"));
+  folder_.write("timing.json", "invalid, but unrelated to this trajectory");
+  const Estimate estimate = read_estimate(folder_.write("other.tum", "0 1 0 0 0 0 0 1\n"));
   EXPECT_EQ(estimate.name, "other");
   EXPECT_FALSE(estimate.timing);
   EXPECT_FALSE(estimate.unreliable);

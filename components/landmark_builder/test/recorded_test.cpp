@@ -2,23 +2,19 @@
 // Junctions of a recorded journey.
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <opencv2/imgcodecs.hpp>
 
 #include "junction_score.hpp"
 #include "panvo/landmark_builder/road_junction_detector.hpp"
+#include "panvo/test/recorded_data.hpp"
 #include "recording.hpp"
 
 namespace panvo::landmark_builder {
 namespace {
 
-namespace fs = std::filesystem;
-
 TEST(RecordedCampusJourney, EveryJunctionIsFoundOnceAndNothingElse) {
-  const char* root = std::getenv("PANVO_DATA");
-  const fs::path folder = fs::path(root != nullptr ? root : PANVO_SHARED_DATA) / "campus_journey";
-  if (!fs::exists(folder))
-    GTEST_SKIP() << folder.string() << " does not exist; set PANVO_DATA to the folder of recordings";
+  const auto folder = panvo::test::recorded_data("campus_journey");
+  PANVO_NEEDS_RECORDING(folder);
   const Recording recording = read_recording(folder);
   RoadJunctionDetector detector({}, recording.base_from_panorama, {1080, 540});
   JunctionFilter filter({});

@@ -12,11 +12,13 @@
 #include "made_up_landmark.hpp"
 #include "panvo/landmarks/landmark_store.hpp"
 #include "panvo/landmarks/panorama_describer.hpp"
+#include "panvo/test/temporary_folder.hpp"
 
 namespace panvo::landmarks {
 namespace {
 
 using namespace test;
+using panvo::test::TemporaryFolder;
 using testing::HasSubstr;
 using testing::Not;
 

@@ -10,11 +10,13 @@
 
 #include "made_up_landmark.hpp"
 #include "panvo/landmarks/landmark_store.hpp"
+#include "panvo/test/temporary_folder.hpp"
 
 namespace panvo::landmarks {
 namespace {
 
 using namespace test;
+using panvo::test::TemporaryFolder;
 using testing::HasSubstr;
 
 /// Runs storing_child and reads its output.

@@ -8,11 +8,13 @@
 #include "panvo/landmarks/landmark_messages.hpp"
 #include "panvo/landmarks/landmark_store.hpp"
 #include "panvo/runtime/testing.hpp"
+#include "panvo/test/temporary_folder.hpp"
 
 namespace panvo::landmarks {
 namespace {
 
 using namespace test;
+using panvo::test::TemporaryFolder;
 using testing::HasSubstr;
 using testing::IsEmpty;
 

@@ -10,11 +10,13 @@
 
 #include "made_up_landmark.hpp"
 #include "panvo/landmarks/landmark_library.hpp"
+#include "panvo/test/temporary_folder.hpp"
 
 namespace panvo::landmarks {
 namespace {
 
 using namespace test;
+using panvo::test::TemporaryFolder;
 using testing::HasSubstr;
 using testing::Not;
 

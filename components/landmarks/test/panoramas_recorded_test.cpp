@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <iostream>
 #include <numbers>
@@ -17,17 +16,13 @@
 #include "panvo/landmarks/heading_search.hpp"
 #include "panvo/landmarks/landmark_distance.hpp"
 #include "panvo/landmarks/panorama_describer.hpp"
+#include "panvo/test/recorded_data.hpp"
 #include "panvo/vision/equirectangular.hpp"
 
 namespace panvo::landmarks {
 namespace {
 
 namespace fs = std::filesystem;
-
-fs::path recordings() {
-  const char* root = std::getenv("PANVO_DATA");
-  return root != nullptr ? fs::path(root) : fs::path(PANVO_SHARED_DATA);
-}
 
 std::vector<cv::Mat> load_panoramas(const fs::path& folder) {
   std::vector<fs::path> files;
@@ -65,8 +60,8 @@ Disturbed disturb(const cv::Mat& panorama, cv::RNG& random) {
 }
 
 TEST(RecordedPanoramas, EachIsFoundAmongAllAtAnyHeadingWhateverLightNoiseAndCover) {
-  const fs::path folder = recordings() / "panoramas";
-  if (!fs::exists(folder)) GTEST_SKIP() << folder << " does not exist; set PANVO_DATA to the folder of recordings";
+  const fs::path folder = panvo::test::recorded_data("panoramas");
+  PANVO_NEEDS_RECORDING(folder);
   const PanoramaDescriber describer({}, 1);
   const std::vector<cv::Mat> panoramas = load_panoramas(folder);
   std::vector<PanoramaDescription> landmarks;

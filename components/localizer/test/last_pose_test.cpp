@@ -2,7 +2,6 @@
 // A restarted process resumes from the pose of the previous one.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -13,6 +12,7 @@
 #include "panvo/conversions/time.hpp"
 #include "panvo/interfaces/topics.hpp"
 #include "panvo/runtime/testing.hpp"
+#include "panvo/test/temporary_folder.hpp"
 
 namespace panvo::localizer {
 namespace {
@@ -69,9 +69,6 @@ class Life {
 
 class LastPoseFile : public ::testing::Test {
  protected:
-  void SetUp() override { std::filesystem::create_directory(folder_); }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-
   /// 51 frames, so that the pose at 10 m is the last one saved.
   void live_once() const {
     Life first(kept_);
@@ -79,8 +76,7 @@ class LastPoseFile : public ::testing::Test {
     ASSERT_NEAR(first.x(), 10.0, 1e-9);
   }
 
-  const std::filesystem::path folder_ =
-      std::filesystem::path(testing::TempDir()) / ("panvo_last_pose_" + std::to_string(::getpid()));
+  const panvo::test::TemporaryFolder folder_;
   const std::string file_ = folder_ / "last_pose.txt";
   const std::map<std::string, std::string> kept_{{"last_pose_file", file_}};
 };

@@ -3,16 +3,15 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cmath>
-#include <filesystem>
 #include <limits>
 
 #include "panvo/conversions/pose.hpp"
 #include "panvo/conversions/time.hpp"
 #include "panvo/interfaces/topics.hpp"
 #include "panvo/runtime/testing.hpp"
+#include "panvo/test/temporary_folder.hpp"
 
 namespace panvo::localizer {
 namespace {
@@ -293,8 +292,8 @@ TEST(LocalizerTime, AfterACrashTheStartIsNotTheMapsOrigin) {
 }
 
 TEST(LocalizerTime, AfterACrashItTellsTheLastKnownPoseThatIsTooOldToGoOnFrom) {
-  const auto file = std::filesystem::path(testing::TempDir()) / fmt::format("panvo_last_{}.txt", ::getpid());
-  const std::map<std::string, std::string> parameters{{"last_pose_file", file}};
+  const panvo::test::TemporaryFolder folder;
+  const std::map<std::string, std::string> parameters{{"last_pose_file", folder / "last_pose.txt"}};
   {
     Vehicle vehicle(parameters);
     vehicle.drive(0, 51);
@@ -305,7 +304,6 @@ TEST(LocalizerTime, AfterACrashItTellsTheLastKnownPoseThatIsTooOldToGoOnFrom) {
     odometry.header().stamp(conversions::to_stamp(Vehicle::stamp(25 * 120 + i)));
     vehicle.harness_.publish(topics::kOdometryBinocular, odometry);
   }
-  std::filesystem::remove(file);
   EXPECT_EQ(vehicle.state(), "unlocated");
   EXPECT_THAT(vehicle.states.back()->reason(), HasSubstr("last known position (10.0, 0.0) m in map"));
   EXPECT_NEAR(vehicle.enhanced.front()->pose().pose().position().x(), 10.0, 1e-9);

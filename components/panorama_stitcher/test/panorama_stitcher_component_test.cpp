@@ -1,16 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gmock/gmock.h>
-#include <unistd.h>
-
-#include <filesystem>
-#include <fstream>
-#include <stdexcept>
 
 #include "panvo/conversions/image.hpp"
 #include "panvo/conversions/time.hpp"
 #include "panvo/interfaces/node_topics.hpp"
 #include "panvo/interfaces/topics.hpp"
 #include "panvo/runtime/testing.hpp"
+#include "panvo/test/temporary_folder.hpp"
 
 namespace panvo::panorama_stitcher {
 namespace {
@@ -27,21 +23,18 @@ constexpr int kSize = 64;
 class PanoramaStitcherComponentTest : public ::testing::Test {
  protected:
   PanoramaStitcherComponentTest() {
-    write("lens.yaml", R"(image_width: 64
+    folder_.write("lens.yaml", R"(image_width: 64
 image_height: 64
 camera_matrix: [18.0, 0.0, 31.5, 0.0, 18.0, 31.5, 0.0, 0.0, 1.0]
 distortion_model: equidistant
 distortion_coefficients: [0.0, 0.0, 0.0, 0.0]
 )");
-    write("panorama.yaml", R"(panorama: {blend_deg: 6}
+    folder_.write("panorama.yaml", R"(panorama: {blend_deg: 6}
 heads:
 - {name: front, camera_info: lens.yaml}
 - {name: back, camera_info: lens.yaml, yaw_deg: 180}
 )");
   }
-  ~PanoramaStitcherComponentTest() override { std::filesystem::remove_all(folder_); }
-
-  void write(const std::string& name, const std::string& text) { std::ofstream(folder_ / name) << text; }
 
   void load(std::map<std::string, std::string> parameters = {}) {
     parameters.emplace("rig", (folder_ / "panorama.yaml").string());
@@ -76,13 +69,7 @@ heads:
     return "accepted";
   }
 
-  static std::filesystem::path make_folder() {
-    std::string name = (std::filesystem::temp_directory_path() / "panvo_stitcher_XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
-    return name;
-  }
-
-  std::filesystem::path folder_ = make_folder();
+  panvo::test::TemporaryFolder folder_;
   runtime::ComponentHarness harness_;
   const std::vector<std::shared_ptr<const sensor_msgs::msg::Image>>& panoramas_ = harness_.collect(topics::kPanorama);
   const std::vector<std::shared_ptr<const diagnostic_msgs::msg::DiagnosticArray>>& reports_ =
@@ -187,9 +174,9 @@ TEST_F(PanoramaStitcherComponentTest, RefusesHeadsOfDifferentEncodings) {
 }
 
 TEST_F(PanoramaStitcherComponentTest, RefusesRigsThatCannotBeStitched) {
-  write("panorama.yaml", "panorama:\n  seen_elevation_deg: [-90, 90]\nheads: [{camera_info: lens.yaml}]\n");
+  folder_.write("panorama.yaml", "panorama:\n  seen_elevation_deg: [-90, 90]\nheads: [{camera_info: lens.yaml}]\n");
   EXPECT_THAT(refusal(), AllOf(HasSubstr("panorama.yaml:2: seen_elevation_deg: no head sees"), HasSubstr("narrow")));
-  write("panorama.yaml", "heads: [{camera_info: lens.yaml, yaw: 3}]\n");
+  folder_.write("panorama.yaml", "heads: [{camera_info: lens.yaml, yaw: 3}]\n");
   EXPECT_THAT(refusal(), HasSubstr("panorama.yaml:1: yaw is not a known key"));
 }
 

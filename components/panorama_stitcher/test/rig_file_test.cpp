@@ -2,14 +2,12 @@
 #include "panvo/panorama_stitcher/rig_file.hpp"
 
 #include <gmock/gmock.h>
-#include <unistd.h>
 
-#include <fstream>
-#include <sstream>
 #include <string>
 
 #include "painted_rigs.hpp"
 #include "panvo/panorama_stitcher/panorama_stitcher.hpp"
+#include "panvo/test/temporary_folder.hpp"
 
 namespace panvo::panorama_stitcher {
 namespace {
@@ -26,15 +24,9 @@ distortion_coefficients: {rows: 1, cols: 4, data: [0.01, -0.002, 0.0, 0.0]}
 
 class RigFileTest : public ::testing::Test {
  protected:
-  RigFileTest() { write("lens.yaml", kLens); }
-  ~RigFileTest() override { std::filesystem::remove_all(folder_); }
+  RigFileTest() { folder_.write("lens.yaml", kLens); }
 
-  void write(const std::string& name, const std::string& text) { std::ofstream(folder_ / name) << text; }
-
-  RigFile read(const std::string& text) {
-    write("panorama.yaml", text);
-    return read_rig_file(folder_ / "panorama.yaml");
-  }
+  RigFile read(const std::string& text) { return read_rig_file(folder_.write("panorama.yaml", text)); }
 
   std::string refusal(const std::string& text) {
     try {
@@ -45,12 +37,7 @@ class RigFileTest : public ::testing::Test {
     return "accepted";
   }
 
-  static std::filesystem::path make_folder() {
-    std::string name = (std::filesystem::temp_directory_path() / "panvo_rig_XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
-    return name;
-  }
-  std::filesystem::path folder_ = make_folder();
+  panvo::test::TemporaryFolder folder_;
 };
 
 TEST_F(RigFileTest, ReadsHeadsThatShareAnImage) {
@@ -112,19 +99,20 @@ heads:
 }
 
 TEST_F(RigFileTest, NamesWhatIsWrongWithACalibration) {
-  write("lens.yaml", "image_width: 480\nimage_height: many\ncamera_matrix: [1, 2]\ndistortion_coefficients: []\n");
+  folder_.write("lens.yaml",
+                "image_width: 480\nimage_height: many\ncamera_matrix: [1, 2]\ndistortion_coefficients: []\n");
   EXPECT_THAT(
       refusal("heads: [{camera_info: lens.yaml}]\n"),
       AllOf(HasSubstr("lens.yaml:2: image_height must be a whole number"),
             HasSubstr("lens.yaml:3: camera_matrix must be a list of 9"), HasSubstr("distortion_model is missing")));
   std::string division = kLens;
   division.replace(division.find("equidistant"), 11, "division");
-  write("lens.yaml", division);
+  folder_.write("lens.yaml", division);
   EXPECT_THAT(refusal("heads: [{camera_info: lens.yaml}]\n"),
               AllOf(HasSubstr("lens.yaml:4: distortion_model"), HasSubstr("'division'")));
   std::string folded = kLens;
   folded.replace(folded.find("0.01"), 4, "-0.3");
-  write("lens.yaml", folded);
+  folder_.write("lens.yaml", folded);
   EXPECT_THAT(refusal("heads: [{camera_info: lens.yaml, field_of_view_deg: 200}]\n"),
               AllOf(HasSubstr("panorama.yaml:1: camera_info"), HasSubstr("not invertible beyond")));
   EXPECT_THAT(refusal("heads: [{camera_info: nowhere.yaml}]\n"), HasSubstr("nowhere.yaml: cannot be opened"));

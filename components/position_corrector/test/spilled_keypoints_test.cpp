@@ -8,8 +8,12 @@
 
 #include <random>
 
+#include "panvo/test/temporary_folder.hpp"
+
 namespace panvo::position_corrector {
 namespace {
+
+using panvo::test::TemporaryFolder;
 
 std::vector<landmarks::Keypoint> some_keypoints(unsigned seed, std::size_t count) {
   std::mt19937_64 random(seed);
@@ -27,7 +31,8 @@ std::vector<landmarks::Keypoint> some_keypoints(unsigned seed, std::size_t count
 }
 
 TEST(SpilledKeypoints, ComeBackBitForBit) {
-  SpilledKeypoints spilled(testing::TempDir());
+  const TemporaryFolder folder;
+  SpilledKeypoints spilled(folder.path());
   ASSERT_EQ(spilled.problem(), "");
   for (unsigned id = 1; id <= 20; ++id) spilled.put(id, some_keypoints(id, 10 * id));
   for (unsigned id = 20; id >= 1; --id) EXPECT_EQ(spilled.keypoints(id), some_keypoints(id, 10 * id)) << id;
@@ -35,7 +40,8 @@ TEST(SpilledKeypoints, ComeBackBitForBit) {
 }
 
 TEST(SpilledKeypoints, AreThoseThatWerePutLast) {
-  SpilledKeypoints spilled(testing::TempDir());
+  const TemporaryFolder folder;
+  SpilledKeypoints spilled(folder.path());
   spilled.put(1, some_keypoints(1, 50));
   spilled.put(2, some_keypoints(2, 50));
   spilled.put(1, some_keypoints(3, 70));
@@ -44,14 +50,16 @@ TEST(SpilledKeypoints, AreThoseThatWerePutLast) {
 }
 
 TEST(SpilledKeypoints, AreNoneOfALandmarkThatHasNoneOrIsNotKnown) {
-  SpilledKeypoints spilled(testing::TempDir());
+  const TemporaryFolder folder;
+  SpilledKeypoints spilled(folder.path());
   spilled.put(1, {});
   EXPECT_TRUE(spilled.keypoints(1).empty());
   EXPECT_TRUE(spilled.keypoints(2).empty());
 }
 
 TEST(SpilledKeypoints, StayInMemoryWhereNoFileCanBeMadeAndSayWhy) {
-  SpilledKeypoints spilled(testing::TempDir() + "/there/is/no/such/folder");
+  const TemporaryFolder folder;
+  SpilledKeypoints spilled(folder / "no/such/folder");
   EXPECT_NE(spilled.problem().find("no/such/folder (No such file or directory)"), std::string::npos)
       << spilled.problem();
   spilled.put(1, some_keypoints(1, 50));
@@ -73,7 +81,8 @@ TEST(SpilledKeypoints, StayInMemoryWhenTheDiskIsFullAndThoseBeforeCanStillBeRead
       ::signal(SIGXFSZ, SIG_DFL);
     }
   };
-  SpilledKeypoints spilled(testing::TempDir());
+  const TemporaryFolder folder;
+  SpilledKeypoints spilled(folder.path());
   spilled.put(1, some_keypoints(1, 50));
   {
     const Limit limit(50 * 164 + 1000);

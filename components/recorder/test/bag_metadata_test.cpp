@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "panvo/test/temporary_folder.hpp"
 #include "test_bag.hpp"
 
 namespace panvo::recorder {
@@ -92,7 +93,7 @@ TEST(BagMetadata, ThatIsBrokenIsRefusedWithFileAndLine) {
 }
 
 TEST(BagMetadata, ReplacesTheFileAtOnceAndLeavesNothingElse) {
-  const test::TemporaryFolder folder;
+  const panvo::test::TemporaryFolder folder;
   write_metadata(folder.path(), example(), false);
   auto changed = example();
   changed.message_count = 4;

@@ -5,12 +5,14 @@
 #include "panvo/interfaces/topics.hpp"
 #include "panvo/recorder/bag_copy.hpp"
 #include "panvo/runtime/testing.hpp"
+#include "panvo/test/temporary_folder.hpp"
 #include "test_bag.hpp"
 
 namespace panvo::recorder {
 namespace {
 
 using namespace test;
+using panvo::test::TemporaryFolder;
 using runtime::ComponentHarness;
 using testing::ElementsAre;
 using testing::HasSubstr;

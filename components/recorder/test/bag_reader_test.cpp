@@ -5,12 +5,14 @@
 #include <gtest/gtest.h>
 #include <sqlite3.h>
 
+#include "panvo/test/temporary_folder.hpp"
 #include "test_bag.hpp"
 
 namespace panvo::recorder {
 namespace {
 
 using namespace test;
+using panvo::test::TemporaryFolder;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;

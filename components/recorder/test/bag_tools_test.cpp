@@ -6,12 +6,14 @@
 #include "panvo/recorder/bag_check.hpp"
 #include "panvo/recorder/bag_copy.hpp"
 #include "panvo/recorder/bag_diff.hpp"
+#include "panvo/test/temporary_folder.hpp"
 #include "test_bag.hpp"
 
 namespace panvo::recorder {
 namespace {
 
 using namespace test;
+using panvo::test::TemporaryFolder;
 using testing::HasSubstr;
 using testing::IsEmpty;
 

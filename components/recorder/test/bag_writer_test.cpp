@@ -6,12 +6,14 @@
 #include <sqlite3.h>
 #include <sys/inotify.h>
 
+#include "panvo/test/temporary_folder.hpp"
 #include "test_bag.hpp"
 
 namespace panvo::recorder {
 namespace {
 
 using namespace test;
+using panvo::test::TemporaryFolder;
 using testing::HasSubstr;
 
 TEST(BagWriter, WritesWhatTheReaderReads) {

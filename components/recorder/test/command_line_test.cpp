@@ -7,12 +7,14 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "panvo/test/temporary_folder.hpp"
 #include "test_bag.hpp"
 
 namespace panvo::recorder {
 namespace {
 
 using namespace test;
+using panvo::test::TemporaryFolder;
 using testing::HasSubstr;
 
 struct Finished {

@@ -5,12 +5,14 @@
 #include <algorithm>
 
 #include "panvo/recorder/bag_reader.hpp"
+#include "panvo/test/temporary_folder.hpp"
 #include "test_bag.hpp"
 
 namespace panvo::recorder {
 namespace {
 
 using namespace test;
+using panvo::test::TemporaryFolder;
 using testing::HasSubstr;
 
 constexpr std::size_t kSize = 3000;

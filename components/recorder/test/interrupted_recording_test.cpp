@@ -9,12 +9,14 @@
 
 #include "panvo/recorder/bag_copy.hpp"
 #include "panvo/recorder/bag_reader.hpp"
+#include "panvo/test/temporary_folder.hpp"
 #include "test_bag.hpp"
 
 namespace panvo::recorder {
 namespace {
 
 using namespace test;
+using panvo::test::TemporaryFolder;
 using testing::HasSubstr;
 
 /// Runs recording_child and reads its output.

@@ -9,12 +9,14 @@
 #include "../src/mcap/mcap_file_reader.hpp"
 #include "../src/mcap/record.hpp"
 #include "panvo/recorder/bag_check.hpp"
+#include "panvo/test/temporary_folder.hpp"
 #include "test_bag.hpp"
 
 namespace panvo::recorder {
 namespace {
 
 using namespace test;
+using panvo::test::TemporaryFolder;
 using testing::HasSubstr;
 using testing::IsEmpty;
 

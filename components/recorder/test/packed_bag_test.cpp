@@ -4,12 +4,14 @@
 #include <gtest/gtest.h>
 
 #include "../src/mcap/compression.hpp"
+#include "panvo/test/temporary_folder.hpp"
 #include "test_bag.hpp"
 
 namespace panvo::recorder {
 namespace {
 
 using namespace test;
+using panvo::test::TemporaryFolder;
 
 interfaces::Bytes packed(const interfaces::Bytes& bytes) { return mcap::compress(Compression::kZstd, bytes); }
 

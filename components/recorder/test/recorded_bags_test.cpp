@@ -3,25 +3,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <optional>
-
 #include "panvo/recorder/bag_reader.hpp"
+#include "panvo/test/recorded_data.hpp"
 #include "test_bag.hpp"
 
 namespace panvo::recorder {
 namespace {
 
 using namespace test;
-
-/// Folder of the bags: $PANVO_DATA/bags, or shared/data/bags next to the checkout.
-std::optional<std::filesystem::path> bag_folder() {
-  const char* data = std::getenv("PANVO_DATA");
-  const auto folder =
-      (data ? std::filesystem::path(data) : std::filesystem::path(__FILE__).parent_path() / "../../../../shared/data") /
-      "bags";
-  return std::filesystem::exists(folder) ? std::optional(folder.lexically_normal()) : std::nullopt;
-}
 
 struct Expected {
   const char* bag;
@@ -32,12 +21,10 @@ struct Expected {
 class RecordedBag : public testing::TestWithParam<Expected> {};
 
 TEST_P(RecordedBag, IsReadWhole) {
-  const auto folder = bag_folder();
-  if (!folder) {
-    GTEST_SKIP() << "no recordings: set PANVO_DATA to the folder that holds bags";
-  }
+  const auto folder = panvo::test::recorded_data("bags");
+  PANVO_NEEDS_RECORDING(folder);
   const auto& [bag, count, warning] = GetParam();
-  BagReader reader(*folder / bag);
+  BagReader reader(folder / bag);
   if (warning) {
     EXPECT_TRUE(any_contains(reader.warnings(), warning));
   } else {

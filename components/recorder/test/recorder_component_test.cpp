@@ -7,12 +7,14 @@
 #include "panvo/interfaces/topics.hpp"
 #include "panvo/recorder/bag_reader.hpp"
 #include "panvo/runtime/testing.hpp"
+#include "panvo/test/temporary_folder.hpp"
 #include "test_bag.hpp"
 
 namespace panvo::recorder {
 namespace {
 
 using namespace test;
+using panvo::test::TemporaryFolder;
 using runtime::ComponentHarness;
 using testing::HasSubstr;
 

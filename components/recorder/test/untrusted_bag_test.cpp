@@ -5,12 +5,14 @@
 
 #include "database.hpp"
 #include "panvo/recorder/bag_reader.hpp"
+#include "panvo/test/temporary_folder.hpp"
 #include "test_bag.hpp"
 
 namespace panvo::recorder {
 namespace {
 
 using namespace test;
+using panvo::test::TemporaryFolder;
 using testing::HasSubstr;
 
 constexpr std::uint64_t kCount = 50;

@@ -11,9 +11,9 @@
 #include <fstream>
 #include <stdexcept>
 
-#include "config/temporary_folder.hpp"
 #include "panvo/interfaces/topics.hpp"
 #include "panvo/runtime/testing.hpp"
+#include "panvo/test/temporary_folder.hpp"
 
 namespace panvo::runtime {
 namespace {
@@ -32,7 +32,7 @@ class FileTrial : public testing::Test {
   void write(const std::string& text) const { std::ofstream(file_) << text; }
   fs::path beside(const std::string& ending) const { return file_.string() + ending; }
 
-  TemporaryFolder folder_;
+  panvo::test::TemporaryFolder folder_;
   const fs::path file_ = folder_.path() / "store.db";
 };
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cstdlib>
 #include <filesystem>
@@ -10,6 +9,7 @@
 #include "panvo/interfaces/topics.hpp"
 #include "panvo/runtime/errors.hpp"
 #include "panvo/runtime/testing.hpp"
+#include "panvo/test/temporary_folder.hpp"
 
 namespace panvo::runtime {
 namespace {
@@ -110,18 +110,16 @@ TEST(Plugin, BuiltWithOtherHeadersIsRefusedAndSaysWhichBeforeAnyOfItsCodeIsCalle
 
 /// Expects that a plugin is found in `folder` of the prefix in an environment variable.
 void expect_found_in(const std::filesystem::path& folder, const char* variable) {
-  const std::filesystem::path install =
-      std::filesystem::temp_directory_path() / ("panvo_install_" + std::to_string(getpid()));
+  const panvo::test::TemporaryFolder install;
   std::filesystem::create_directories(install / folder);
   const std::filesystem::path built =
       std::filesystem::path(std::getenv("PANVO_PLUGIN_PATH")) / "libpanvo_test_relay_component.so";
   std::filesystem::copy(built, install / folder / "libpanvo_moved_relay_component.so");
-  setenv(variable, install.c_str(), 1);
+  setenv(variable, install.path().c_str(), 1);
   ComponentDescription description = relay();
   description.package = "panvo_moved_relay";
   EXPECT_EQ(why_not(description), "loaded");
   unsetenv(variable);
-  std::filesystem::remove_all(install);
 }
 
 TEST(Plugin, IsFoundWhereColconInstallsEachPackageByItself) {

@@ -10,6 +10,7 @@
 
 #include "panvo/runtime/errors.hpp"
 #include "panvo/runtime/testing.hpp"
+#include "sensor_msgs/msg/Image.h"
 
 namespace panvo::runtime {
 namespace {

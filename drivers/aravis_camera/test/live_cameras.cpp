@@ -6,7 +6,9 @@
 #include <chrono>
 #include <thread>
 
+#include "diagnostic_msgs/msg/DiagnosticArray.h"
 #include "panvo/conversions/time.hpp"
+#include "sensor_msgs/msg/Image.h"
 
 namespace panvo::aravis_camera::testing {
 

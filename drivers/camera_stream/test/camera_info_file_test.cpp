@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "panvo/conversions/camera_info.hpp"
+#include "panvo/test/temporary_folder.hpp"
 
 namespace panvo::camera_stream {
 namespace {
@@ -17,12 +18,6 @@ namespace fs = std::filesystem;
 
 class CameraInfoFile : public ::testing::Test {
  protected:
-  CameraInfoFile()
-      : path_(fs::temp_directory_path() / (std::string("panvo_camera_info_") +
-                                           ::testing::UnitTest::GetInstance()->current_test_info()->name() + ".yaml")) {
-  }
-  ~CameraInfoFile() override { fs::remove(path_); }
-
   /// Writes the example's left camera file with one text replaced.
   fs::path example_with(const std::string& text, const std::string& other) const {
     std::ifstream example(fs::path(PANVO_RIGS) / "example" / "left.yaml");
@@ -30,8 +25,7 @@ class CameraInfoFile : public ::testing::Test {
     const auto position = content.find(text);
     EXPECT_NE(position, std::string::npos) << text;
     content.replace(position, text.size(), other);
-    std::ofstream(path_) << content;
-    return path_;
+    return folder_.write("left.yaml", content);
   }
   std::string error_of(const fs::path& file) const {
     try {
@@ -42,7 +36,8 @@ class CameraInfoFile : public ::testing::Test {
     return "accepted";
   }
 
-  const fs::path path_;
+  const panvo::test::TemporaryFolder folder_;
+  const fs::path path_ = folder_ / "left.yaml";
 };
 
 TEST_F(CameraInfoFile, IsReadWhole) {

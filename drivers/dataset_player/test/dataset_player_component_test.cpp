@@ -10,7 +10,7 @@
 #include "panvo/conversions/transform_buffer.hpp"
 #include "panvo/interfaces/topics.hpp"
 #include "panvo/runtime/testing.hpp"
-#include "recorded_data.hpp"
+#include "panvo/test/recorded_data.hpp"
 #include "written_dataset.hpp"
 
 namespace panvo::dataset_player {
@@ -176,7 +176,7 @@ TEST_F(DatasetPlayer, RefusesADatasetThatIsNotThere) {
 }
 
 TEST_F(DatasetPlayer, PlaysARealRecordingToItsEnd) {
-  const auto path = testing::recorded_data("kitti_03");
+  const auto path = panvo::test::recorded_data("kitti_03");
   PANVO_NEEDS_RECORDING(path);
   play({{"directory", path.string()}});
   EXPECT_THAT(left_, SizeIs(99));

@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "recorded_data.hpp"
-
 #include <gmock/gmock.h>
 
 #include "panvo/dataset_player/dataset.hpp"
 #include "panvo/dataset_player/image_file.hpp"
+#include "panvo/test/recorded_data.hpp"
 
 namespace panvo::dataset_player {
 namespace {
 
 TEST(RecordedData, OfKittiIsReadWhole) {
-  const auto path = testing::recorded_data("kitti_03");
+  const auto path = panvo::test::recorded_data("kitti_03");
   PANVO_NEEDS_RECORDING(path);
   const auto dataset = open_dataset(path);
   EXPECT_EQ(dataset.stereo->frames.size(), 99u);
@@ -22,7 +21,7 @@ TEST(RecordedData, OfKittiIsReadWhole) {
 }
 
 TEST(RecordedData, OfACampusHasStereoPanoramaAndGroundTruth) {
-  const auto path = testing::recorded_data("campus_clip");
+  const auto path = panvo::test::recorded_data("campus_clip");
   PANVO_NEEDS_RECORDING(path);
   const auto dataset = open_dataset(path);
   EXPECT_EQ(dataset.stereo->frames.size(), 600u);
@@ -34,7 +33,7 @@ TEST(RecordedData, OfACampusHasStereoPanoramaAndGroundTruth) {
 }
 
 TEST(RecordedData, OfAJourneyHasThePanoramaAlone) {
-  const auto path = testing::recorded_data("campus_journey");
+  const auto path = panvo::test::recorded_data("campus_journey");
   PANVO_NEEDS_RECORDING(path);
   const auto dataset = open_dataset(path);
   EXPECT_FALSE(dataset.stereo);
@@ -43,7 +42,7 @@ TEST(RecordedData, OfAJourneyHasThePanoramaAlone) {
 
 TEST(RecordedData, OfBoofcvIsReadInBothSpellings) {
   for (const auto& [name, frames] : {std::pair{"boofcv_stereo/library", 346u}, {"boofcv_stereo/backyard", 191u}}) {
-    const auto path = testing::recorded_data(name);
+    const auto path = panvo::test::recorded_data(name);
     PANVO_NEEDS_RECORDING(path);
     const auto dataset = open_dataset(path);
     EXPECT_EQ(dataset.stereo->frames.size(), frames) << name;

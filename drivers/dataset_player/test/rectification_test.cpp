@@ -10,7 +10,7 @@
 
 #include "panvo/dataset_player/dataset.hpp"
 #include "panvo/dataset_player/image_file.hpp"
-#include "recorded_data.hpp"
+#include "panvo/test/recorded_data.hpp"
 
 namespace panvo::dataset_player {
 namespace {
@@ -42,7 +42,7 @@ double mean(const std::vector<double>& values) {
 
 TEST(RectificationOfARealPair, BringsMatchingFeaturesToOneRow) {
   for (const char* name : {"boofcv_stereo/library", "boofcv_stereo/backyard"}) {
-    const auto path = testing::recorded_data(name);
+    const auto path = panvo::test::recorded_data(name);
     PANVO_NEEDS_RECORDING(path);
     const auto dataset = open_dataset(path);
     const auto& stereo = *dataset.stereo;

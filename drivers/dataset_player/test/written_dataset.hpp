@@ -11,6 +11,7 @@
 #include <string>
 
 #include "panvo/dataset_player/dataset.hpp"
+#include "panvo/test/temporary_folder.hpp"
 
 namespace panvo::dataset_player {
 namespace fs = std::filesystem;
@@ -22,14 +23,6 @@ namespace panvo::dataset_player::testing {
 class WrittenDataset : public ::testing::Test {
  protected:
   static constexpr int kWidth = 64, kHeight = 48;
-
-  void SetUp() override {
-    const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
-    root_ = fs::temp_directory_path() / ("panvo_" + std::string(test->test_suite_name()) + "_" + test->name());
-    fs::remove_all(root_);
-    fs::create_directories(root_);
-  }
-  void TearDown() override { fs::remove_all(root_); }
 
   void write(const fs::path& name, const std::string& text) const {
     fs::create_directories((root_ / name).parent_path());
@@ -116,7 +109,8 @@ class WrittenDataset : public ::testing::Test {
     return {};
   }
 
-  fs::path root_;
+  const panvo::test::TemporaryFolder folder_;
+  fs::path root_ = folder_.path();  // of the data set
 };
 
 }  // namespace panvo::dataset_player::testing

@@ -5,12 +5,15 @@
 
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <opencv2/imgcodecs.hpp>
 #include <stdexcept>
 
+#include "panvo/test/temporary_folder.hpp"
+
 namespace panvo::simulation {
 namespace {
+
+using panvo::test::TemporaryFolder;
 
 constexpr std::uint64_t kSeed = 11;
 
@@ -20,14 +23,6 @@ const Palette& palette() {
 }
 
 const Material& material(std::string_view name) { return palette().materials()[palette().find(name)]; }
-
-/// An empty folder for this test.
-std::filesystem::path empty_folder(const std::string& name) {
-  const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / ("panvo_palette_" + name);
-  std::filesystem::remove_all(folder);
-  std::filesystem::create_directories(folder);
-  return folder;
-}
 
 TEST(Palette, HasEveryMaterialOfTheCampus) {
   for (const char* name : {"asphalt",      "asphalt_patch", "asphalt_smooth",  "concrete",     "kerb",
@@ -183,13 +178,13 @@ TEST(Palette, DarkensWallsAtTheirFoot) {
 }
 
 TEST(Palette, TakesPhotographsInsteadAndLeavesTheRestAsItWas) {
-  const auto folder = empty_folder("photographs");
+  const TemporaryFolder folder;
   // Bright at the top, dark at the bottom; its size is not a power of two.
   cv::Mat photograph(50, 60, CV_8UC3, cv::Scalar(20, 20, 20));
   photograph.rowRange(0, 25).setTo(cv::Scalar(40, 80, 200));  // blue, green, red
   cv::imwrite((folder / "brick_red.png").string(), photograph);
-  std::ofstream(folder / "README.md") << "where they are from";
-  const Palette with(kSeed, folder);
+  folder.write("README.md", "where they are from");
+  const Palette with(kSeed, folder.path());
   const Texture& bricks = *with.materials()[with.find("brick_red")].albedo;
   EXPECT_EQ(bricks.width(), 64);
   const Eigen::Vector2f none = Eigen::Vector2f::Zero();
@@ -224,12 +219,11 @@ TEST(Palette, NamesThePhotographItCannotUse) {
     }
     return "";
   };
-  const auto unknown = empty_folder("unknown");
+  const TemporaryFolder unknown, broken;
   cv::imwrite((unknown / "marble.png").string(), cv::Mat(8, 8, CV_8UC3, cv::Scalar()));
-  EXPECT_NE(message_of(unknown).find("marble"), std::string::npos);
-  const auto broken = empty_folder("broken");
-  std::ofstream(broken / "grass.jpg") << "no picture";
-  EXPECT_NE(message_of(broken).find("grass.jpg"), std::string::npos);
+  EXPECT_NE(message_of(unknown.path()).find("marble"), std::string::npos);
+  broken.write("grass.jpg", "no picture");
+  EXPECT_NE(message_of(broken.path()).find("grass.jpg"), std::string::npos);
   EXPECT_NE(message_of(broken / "nowhere").find("nowhere"), std::string::npos);
 }
 

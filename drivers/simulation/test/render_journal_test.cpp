@@ -3,28 +3,24 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <fstream>
 #include <stdexcept>
 #include <string>
 
+#include "panvo/test/temporary_folder.hpp"
+
 namespace panvo::simulation {
 namespace {
 
-namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 
 class RenderedBefore : public ::testing::Test {
  protected:
-  RenderedBefore() : file_(fs::temp_directory_path() / ("panvo_rendered_" + std::to_string(getpid()) + ".csv")) {
-    fs::remove(file_);
-  }
-  ~RenderedBefore() override { fs::remove(file_); }
-
   std::vector<RenderJournal::Entry> found() const { return RenderJournal(file_).found(); }
 
-  fs::path file_;
+  const panvo::test::TemporaryFolder folder_;
+  const std::filesystem::path file_ = folder_ / "rendered.csv";
 };
 
 TEST_F(RenderedBefore, IsFoundWithItsExposureToTheLastBit) {

@@ -5,10 +5,11 @@
 
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <numbers>
 #include <stdexcept>
 #include <string>
+
+#include "panvo/test/temporary_folder.hpp"
 
 namespace panvo::simulation {
 namespace {
@@ -19,12 +20,7 @@ using ::testing::Not;
 
 class RigFile : public ::testing::Test {
  protected:
-  std::filesystem::path write(const std::string& text) {
-    const auto file = std::filesystem::path(::testing::TempDir()) /
-                      (std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()) + ".yaml");
-    std::ofstream(file) << text;
-    return file;
-  }
+  std::filesystem::path write(const std::string& text) const { return folder_.write("rig.yaml", text); }
   std::string refusal(const std::string& text) {
     try {
       read_rig(write(text));
@@ -33,6 +29,8 @@ class RigFile : public ::testing::Test {
     }
     return "taken";
   }
+
+  panvo::test::TemporaryFolder folder_;
 };
 
 TEST(PaperRig, IsThatOfThePaper) {

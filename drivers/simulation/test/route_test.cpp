@@ -4,21 +4,18 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <fstream>
 #include <stdexcept>
+
+#include "panvo/test/temporary_folder.hpp"
 
 namespace panvo::simulation {
 namespace {
 
 class RouteFileTest : public testing::Test {
  protected:
-  RouteFileTest() : file_(std::filesystem::path(testing::TempDir()) / "route_test.yaml") {}
-  ~RouteFileTest() override { std::filesystem::remove(file_); }
-
   std::string problem_of(const std::string& content) {
-    std::ofstream(file_) << content;
     try {
-      read_route(file_);
+      read_route(folder_.write("route.yaml", content));
     } catch (const std::runtime_error& error) {
       return error.what();
     }
@@ -26,12 +23,13 @@ class RouteFileTest : public testing::Test {
   }
   std::string at(int line) const { return file_.string() + ":" + std::to_string(line) + ": "; }
 
-  std::filesystem::path file_;
+  const panvo::test::TemporaryFolder folder_;
+  const std::filesystem::path file_ = folder_ / "route.yaml";
 };
 
 TEST_F(RouteFileTest, IsReadWithAllItsKeys) {
-  std::ofstream(file_) << "name: there\njunctions: [gate, library]\ndescription: \"from the gate\"\n";
-  const Route route = read_route(file_);
+  const Route route = read_route(
+      folder_.write("route.yaml", "name: there\njunctions: [gate, library]\ndescription: \"from the gate\"\n"));
   EXPECT_EQ(route.name, "there");
   EXPECT_EQ(route.junctions, (std::vector<std::string>{"gate", "library"}));
   EXPECT_EQ(route.description, "from the gate");
@@ -50,7 +48,6 @@ TEST_F(RouteFileTest, ProblemsNameFileLineAndKey) {
 }
 
 TEST_F(RouteFileTest, AFileThatIsNotThereIsNamed) {
-  std::filesystem::remove(file_);
   try {
     read_route(file_);
     FAIL();

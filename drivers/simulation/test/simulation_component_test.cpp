@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gmock/gmock.h>
 
-#include <filesystem>
-#include <fstream>
-
 #include "panvo/conversions/camera_info.hpp"
 #include "panvo/conversions/time.hpp"
 #include "panvo/conversions/transform_buffer.hpp"
 #include "panvo/interfaces/node_topics.hpp"
 #include "panvo/interfaces/topics.hpp"
 #include "panvo/runtime/testing.hpp"
+#include "panvo/test/temporary_folder.hpp"
 
 namespace panvo::simulation {
 namespace {
@@ -24,17 +22,15 @@ constexpr const char* kPlugin = "SimulationComponent";
 
 class SimulationComponent : public ::testing::Test {
  protected:
-  static std::string rig(const std::string& panorama) {
-    const auto file = std::filesystem::path(::testing::TempDir()) /
-                      (std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()) + "_rig.yaml");
-    std::ofstream(file) << "stereo: {size_px: [80, 60]}\npanorama: " << panorama << "\n";
-    return file.string();
+  std::string rig(const std::string& panorama) const {
+    return folder_.write("rig.yaml", "stereo: {size_px: [80, 60]}\npanorama: " + panorama + "\n");
   }
   std::map<std::string, std::string> parameters(const std::string& panorama) const {
     return {
         {"route", PANVO_CONFIG "/routes/short.yaml"}, {"rig", rig(panorama)}, {"start_s", "8"}, {"duration_s", "0.4"}};
   }
 
+  panvo::test::TemporaryFolder folder_;
   runtime::ComponentHarness harness_;
 };
 

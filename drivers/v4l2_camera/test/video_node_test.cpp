@@ -2,10 +2,10 @@
 #include "panvo/v4l2_camera/video_node.hpp"
 
 #include <gmock/gmock.h>
-#include <unistd.h>
 
 #include <filesystem>
-#include <fstream>
+
+#include "panvo/test/temporary_folder.hpp"
 
 namespace panvo::v4l2_camera {
 namespace {
@@ -18,16 +18,12 @@ using ::testing::SizeIs;
 /// A copy of the kernel's sysfs layout on disk.
 class NodesInFolders : public ::testing::Test {
  protected:
-  NodesInFolders() : root_(fs::temp_directory_path() / ("panvo_nodes_" + std::to_string(getpid()))) {
+  NodesInFolders() {
     fs::create_directories(root_ / "class");
     fs::create_directories(root_ / "dev");
   }
-  ~NodesInFolders() override { fs::remove_all(root_); }
 
-  void write(const fs::path& file, const std::string& text) {
-    fs::create_directories((root_ / file).parent_path());
-    std::ofstream(root_ / file) << text << "\n";
-  }
+  void write(const fs::path& file, const std::string& text) { root_.write(file, text + "\n"); }
   void usb_camera(const std::string& port, const std::string& serial, const std::string& product) {
     const fs::path device = fs::path("usb") / port;
     if (!serial.empty()) write(device / "serial", serial);
@@ -44,7 +40,7 @@ class NodesInFolders : public ::testing::Test {
   std::vector<VideoNode> list() const { return list_nodes(root_ / "class", root_ / "dev"); }
   std::string dev(const std::string& name) const { return (root_ / "dev" / name).string(); }
 
-  fs::path root_;
+  const panvo::test::TemporaryFolder root_;
 };
 
 TEST_F(NodesInFolders, TellSerialNumberNameMakerAndPort) {

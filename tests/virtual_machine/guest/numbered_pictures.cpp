@@ -5,6 +5,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "panvo/conversions/image.hpp"
+#include "sensor_msgs/msg/Image.h"
 
 namespace panvo::test {
 namespace {

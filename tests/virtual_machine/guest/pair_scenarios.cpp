@@ -6,10 +6,12 @@
 #include <map>
 #include <mutex>
 
+#include "diagnostic_msgs/msg/DiagnosticArray.h"
 #include "numbered_pictures.hpp"
 #include "panvo/conversions/time.hpp"
 #include "panvo/runtime/container.hpp"
 #include "process.hpp"
+#include "sensor_msgs/msg/Image.h"
 #include "usb_camera.hpp"
 
 namespace panvo::test {

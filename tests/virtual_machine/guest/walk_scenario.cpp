@@ -11,6 +11,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <vector>
 
+#include "panvo/test/temporary_folder.hpp"
 #include "process.hpp"
 #include "usb_camera.hpp"
 

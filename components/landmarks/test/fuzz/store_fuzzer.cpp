@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // libFuzzer target: byte changes to a store of three landmarks, each an offset (3 bytes) and a value (1 byte). The
 // store must be rejected, or yield landmarks that keep the rules and can be compared.
-#include <unistd.h>
-
-#include <filesystem>
-#include <fstream>
+#include <cstdlib>
 #include <string>
 
 #include "landmark_rules.hpp"
 #include "panvo/landmarks/landmark_store.hpp"
+#include "panvo/test/temporary_folder.hpp"
 #include "places.hpp"
 
 namespace {
@@ -26,25 +24,19 @@ PanoramicLandmark landmark_of(std::uint32_t id) {
   return landmark;
 }
 
-std::string read(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
-
 /// In shared memory, to avoid disk writes.
-const std::filesystem::path& store_file() {
-  static const std::filesystem::path file = "/dev/shm/panvo_store_fuzzer_" + std::to_string(::getpid());
-  return file;
+const panvo::test::TemporaryFolder& folder() {
+  static const panvo::test::TemporaryFolder made("/dev/shm");
+  return made;
 }
 
 const std::string& sound_store() {
   static const std::string bytes = [] {
     {
-      LandmarkStore store(store_file(), fuzz::here().settings);
+      LandmarkStore store(folder() / "store", fuzz::here().settings);
       for (const std::uint32_t id : {1U, 2U, 3U}) store.add(landmark_of(id));
     }
-    std::atexit([] { std::filesystem::remove(store_file()); });
-    return read(store_file());
+    return folder().read("store");
   }();
   return bytes;
 }
@@ -57,9 +49,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const std::size_t place = data[i] | std::size_t{data[i + 1]} << 8 | std::size_t{data[i + 2]} << 16;
     bytes[place % bytes.size()] = static_cast<char>(data[i + 3]);
   }
-  std::ofstream(store_file(), std::ios::binary) << bytes;
+  const auto file = folder().write("store", bytes);
   try {
-    const LandmarkStore store(store_file());
+    const LandmarkStore store(file);
     for (const auto& landmark : store.landmarks()) {
       if (problem_of(landmark, store.settings())) std::abort();
       store.keypoints(landmark.id);

@@ -8,26 +8,16 @@
 #include <filesystem>
 
 #include "panvo/recorder/bag_reader.hpp"
+#include "panvo/test/temporary_folder.hpp"
 
 namespace panvo::recorder::fuzz {
 namespace {
 
 /// A temporary folder, in memory if possible, created once.
 const std::filesystem::path& folder() {
-  static const std::filesystem::path made = [] {
-    const std::filesystem::path memory = "/dev/shm";
-    auto pattern =
-        ((::access(memory.c_str(), W_OK) == 0 ? memory : std::filesystem::temp_directory_path()) / "panvo_fuzz_XXXXXX")
-            .string();
-    return std::filesystem::path(::mkdtemp(pattern.data()));
-  }();
-  static const struct Remover {
-    ~Remover() {
-      std::error_code error;
-      std::filesystem::remove_all(made, error);
-    }
-  } remover;
-  return made;
+  static const panvo::test::TemporaryFolder made(
+      ::access("/dev/shm", W_OK) == 0 ? std::filesystem::path("/dev/shm") : std::filesystem::temp_directory_path());
+  return made.path();
 }
 
 void write_file(const std::filesystem::path& file, const std::uint8_t* data, std::size_t size) {

@@ -4,10 +4,12 @@
 #include <sqlite3.h>
 
 #include "../test_bag.hpp"
+#include "panvo/test/temporary_folder.hpp"
 
 namespace panvo::recorder::fuzz {
 
 using namespace test;
+using panvo::test::TemporaryFolder;
 
 namespace {
 

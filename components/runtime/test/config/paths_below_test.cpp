@@ -4,9 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <fstream>
-
-#include "temporary_folder.hpp"
+#include "panvo/test/temporary_folder.hpp"
 
 namespace panvo::runtime {
 namespace {
@@ -23,7 +21,7 @@ class PathsBelow : public testing::Test {
 
   bool is_allowed(const fs::path& path) const { return !path_problem(path.string(), allowed_); }
 
-  TemporaryFolder folder_;
+  panvo::test::TemporaryFolder folder_;
   const fs::path allowed_ = folder_.path() / "allowed";
 };
 

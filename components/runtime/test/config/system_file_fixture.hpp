@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "panvo/runtime/system_file.hpp"
-#include "temporary_folder.hpp"
+#include "panvo/test/temporary_folder.hpp"
 
 namespace panvo::runtime {
 
@@ -81,7 +81,7 @@ class SystemFile : public testing::Test {
     return read_system_file(folder_.write("stereo.yaml", with(lines))).containers.at(0).components.at(1).parameters;
   }
 
-  TemporaryFolder folder_;
+  panvo::test::TemporaryFolder folder_;
 };
 
 }  // namespace panvo::runtime

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Opening and closing of endpoints, and refusals.
 #include <atomic>
-#include <filesystem>
-#include <fstream>
 #include <thread>
 
 #include "bridge_fixture.hpp"
 #include "panvo/runtime/errors.hpp"
+#include "panvo/test/temporary_folder.hpp"
 
 namespace panvo::runtime::test {
 namespace {
@@ -96,16 +95,15 @@ TEST(DdsBridge, NamesAProfileFileThatIsMissingOrWrong) {
       problem_of([] { make_dds_bridge({.domain = test_domain(), .profiles = "/no/such.xml", .name = ""}); });
   EXPECT_NE(missing.find("/no/such.xml"), std::string::npos) << missing;
 
-  const auto file = std::filesystem::temp_directory_path() / ("panvo_profile_" + std::to_string(getpid()) + ".xml");
+  const panvo::test::TemporaryFolder folder;
   for (const char* content :
        {"no xml at all",
         "<profiles><participant profile_name='p'><rtps><noSuchThing/></rtps></participant></profiles>"}) {
-    std::ofstream(file) << content;
+    const auto file = folder.write("profile.xml", content);
     const auto wrong =
         problem_of([&] { make_dds_bridge({.domain = test_domain(), .profiles = file.string(), .name = ""}); });
     EXPECT_NE(wrong.find(file.string()), std::string::npos) << content << ": " << wrong;
   }
-  std::filesystem::remove(file);
 }
 
 TEST_F(BetweenProcesses, WithTheExampleProfileMeetsOneWithoutAProfile) {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Shared memory in /dev/shm for the ports of our domain that is from another Fast DDS build, damaged or unfinished must
 // be ignored and must not end a process.
-#include <unistd.h>
 
 #include <array>
 #include <filesystem>
@@ -9,6 +8,7 @@
 #include <string_view>
 
 #include "bridge_fixture.hpp"
+#include "panvo/test/temporary_folder.hpp"
 
 namespace panvo::runtime::test {
 namespace {
@@ -140,17 +140,17 @@ INSTANTIATE_TEST_SUITE_P(Ports, BesideForeignMemory,
                          [](const auto& planted) { return planted.param.name; });
 
 TEST_F(BetweenProcesses, AProfileThatNamesSharedMemoryIsTakenWithoutIt) {
-  const auto file = fs::temp_directory_path() / ("panvo_shm_profile_" + std::to_string(getpid()) + ".xml");
-  std::ofstream(file) << R"(<profiles xmlns="http://www.eprosima.com/XMLSchemas/fastRTPS_Profiles">
+  const panvo::test::TemporaryFolder folder;
+  const auto file =
+      folder.write("profile.xml", R"(<profiles xmlns="http://www.eprosima.com/XMLSchemas/fastRTPS_Profiles">
     <transport_descriptors>
       <transport_descriptor><transport_id>shm</transport_id><type>SHM</type></transport_descriptor>
     </transport_descriptors>
     <participant profile_name="shm_only" is_default_profile="true"><rtps>
       <userTransports><transport_id>shm</transport_id></userTransports>
       <useBuiltinTransports>false</useBuiltinTransports>
-    </rtps></participant></profiles>)";
+    </rtps></participant></profiles>)");
   const auto profiled = make_dds_bridge({.domain = domain, .profiles = file.string(), .name = "profiled"});
-  fs::remove(file);
   Inbox<std::string> said;
   profiled->on_warning(said.callback());
   EXPECT_TRUE(said.wait_for([](const std::string& text) { return text.find("UDPv4") != std::string::npos; }));

@@ -1,22 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // For libFuzzer: the first byte selects the kind of the remaining input: a system file, a ROS 2 parameter file, a
 // message or value in YAML, or a command-line setting. It must be read or refused with a ConfigError.
-#include <unistd.h>
-
-#include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <string>
 
 #include "config/message_from_yaml.hpp"
 #include "panvo/interfaces/message_type.hpp"
 #include "panvo/runtime/parameters.hpp"
 #include "panvo/runtime/system_file.hpp"
+#include "panvo/test/temporary_folder.hpp"
 
 namespace {
 
 using namespace panvo::runtime;
-namespace fs = std::filesystem;
 
 struct Parameters {
   std::int64_t count = 1;
@@ -37,13 +33,10 @@ struct Parameters {
   }
 };
 
-fs::path file(const std::string& name) {
-  const fs::path path = "/dev/shm/panvo_config_fuzzer_" + std::to_string(::getpid()) + "_" + name;
-  static const int removed_at_exit = std::atexit([] {
-    for (const char* each : {"system.yaml", "parameters.yaml"}) fs::remove(file(each));
-  });
-  static_cast<void>(removed_at_exit);
-  return path;
+/// In shared memory, to avoid disk writes.
+std::filesystem::path write(const std::string& name, const std::string& text) {
+  static const panvo::test::TemporaryFolder folder("/dev/shm");
+  return folder.write(name, text);
 }
 
 /// Reads the parameters like a component.
@@ -58,22 +51,19 @@ void construct(const SystemDescription& system) {
 }
 
 SystemDescription system_with(const std::string& component_lines) {
-  std::ofstream(file("system.yaml"), std::ios::binary)
-      << "launch:\n- node_container:\n    name: x\n    composable_node:\n"
-         "    - pkg: panvo_a\n      plugin: A\n      name: a\n"
-      << component_lines;
-  return read_system_file(file("system.yaml"));
+  return read_system_file(write("system.yaml",
+                                "launch:\n- node_container:\n    name: x\n    composable_node:\n"
+                                "    - pkg: panvo_a\n      plugin: A\n      name: a\n" +
+                                    component_lines));
 }
 
 void read(std::uint8_t kind, const std::string& text) {
   const auto types = panvo::interfaces::message_types();
   switch (kind % 5) {
     case 0:
-      std::ofstream(file("system.yaml"), std::ios::binary) << text;
-      return construct(read_system_file(file("system.yaml"), {{"rig", text.substr(0, 8)}}));
+      return construct(read_system_file(write("system.yaml", text), {{"rig", text.substr(0, 8)}}));
     case 1:
-      std::ofstream(file("parameters.yaml"), std::ios::binary) << text;
-      return construct(system_with("      param: [{from: " + file("parameters.yaml").string() + "}]\n"));
+      return construct(system_with("      param: [{from: " + write("parameters.yaml", text).string() + "}]\n"));
     case 2:
       message_from_yaml(*types[text.size() % types.size()], text);
       return;
