@@ -59,7 +59,9 @@ Problem problem_of(const panvo_msgs::msg::LandmarkPoses& message) {
 Problem problem_of(const panvo_msgs::msg::LandmarkMatch& message) {
   Check check;
   check_header(check, message.header());
-  check.name("state", message.state()).text("reason", message.reason());
+  check.within("state", message.state(), panvo_msgs::msg::LandmarkMatch_Constants::SEARCHING,
+               panvo_msgs::msg::LandmarkMatch_Constants::UNUSABLE);
+  check.text("reason", message.reason());
   check.finite("heading_rad", {message.heading_rad()});  // the distances of levels that were not compared are NaN
   return check.problem();
 }

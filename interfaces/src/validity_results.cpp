@@ -33,7 +33,9 @@ Problem problem_of(const panvo_msgs::msg::AzimuthChange& message) {
 Problem problem_of(const panvo_msgs::msg::CorrectionOutcome& message) {
   Check check;
   check_header(check, message.header());
-  check.name("outcome", message.outcome()).text("reason", message.reason());
+  check.within("outcome", message.outcome(), panvo_msgs::msg::CorrectionOutcome_Constants::APPLIED,
+               panvo_msgs::msg::CorrectionOutcome_Constants::REJECTED);
+  check.text("reason", message.reason());
   check.finite("chi_square", {message.chi_square()});
   check_pose(check, "before", message.before());
   check_pose(check, "after", message.after());
@@ -57,7 +59,9 @@ Problem problem_of(const panvo_msgs::msg::LocalizationState& message) {
   Check check;
   check_header(check, message.header());
   check_stamp(check, "since", message.since());
-  check.name("state", message.state()).text("reason", message.reason());
+  check.within("state", message.state(), panvo_msgs::msg::LocalizationState_Constants::STARTING,
+               panvo_msgs::msg::LocalizationState_Constants::STALE);
+  check.text("reason", message.reason());
   check.within("position_sigma_m", message.position_sigma_m(), 0.0, kLargestSigma);
   check.within("heading_sigma_rad", message.heading_sigma_rad(), 0.0, kLargestSigma);
   return check.problem();
@@ -75,10 +79,12 @@ Problem problem_of(const panvo_msgs::msg::OdometryQuality& message) {
 Problem problem_of(const panvo_msgs::msg::PositionCorrection& message) {
   Check check;
   check_header(check, message.header());
-  check.name("state", message.state()).text("reason", message.reason());
+  check.within("state", message.state(), panvo_msgs::msg::PositionCorrection_Constants::FULL,
+               panvo_msgs::msg::PositionCorrection_Constants::REJECTED);
+  check.text("reason", message.reason());
   check_pose(check, "landmark_from_base.pose", message.landmark_from_base().pose());
   // What is rejected is told for people: nobody measures with it.
-  const bool measures = message.state() != "rejected";
+  const bool measures = message.state() != panvo_msgs::msg::PositionCorrection_Constants::REJECTED;
   if (measures) {
     check.measured_covariance("landmark_from_base.covariance", message.landmark_from_base().covariance());
   } else {

@@ -275,14 +275,14 @@ TEST(Validity, KnowsWhichStampsAreOfTheTimeOfSending) {
 
 TEST(Validity, OfACorrectionNeedsAnUncertaintyUnlessItIsRejected) {
   panvo_msgs::msg::PositionCorrection message;
-  message.state("full");
+  message.state(panvo_msgs::msg::PositionCorrection_Constants::FULL);
   message.landmark_from_base().covariance(diagonal({1, 1, 1, 1, 1, 1}));
   EXPECT_EQ(problem(message), "");
   message.landmark_from_base().covariance()[1] = message.landmark_from_base().covariance()[6] = 2.0;
   EXPECT_EQ(problem(message), "landmark_from_base.covariance is not positive semidefinite");
   message.landmark_from_base().covariance({});
   EXPECT_EQ(problem(message), "landmark_from_base.covariance has a variance below 1e-12");
-  message.state("rejected");
+  message.state(panvo_msgs::msg::PositionCorrection_Constants::REJECTED);
   EXPECT_EQ(problem(message), "");
 }
 

@@ -104,7 +104,8 @@ class LandmarkBuilderComponent final : public runtime::Component {
   }
 
   void on_match(const panvo_msgs::msg::LandmarkMatch& message) {
-    if (builder_ && message.landmark_id() != 0 && message.state() == "matched") builder_->recognised();
+    const bool is_passed = message.state() == panvo_msgs::msg::LandmarkMatch_Constants::MATCHED;
+    if (builder_ && message.landmark_id() != 0 && is_passed) builder_->recognised();
   }
 
   void on_odometry(const nav_msgs::msg::Odometry& message) {

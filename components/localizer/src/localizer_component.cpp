@@ -204,7 +204,8 @@ class LocalizerComponent final : public runtime::Component {
   }
 
   void on_correction(const panvo_msgs::msg::PositionCorrection& message) {
-    if (!parameters_.use_corrections || message.state() == "rejected") return;
+    if (!parameters_.use_corrections || message.state() == panvo_msgs::msg::PositionCorrection_Constants::REJECTED)
+      return;
     const auto sighting = to_sighting(message);
     if (!sighting) return refuse(context_.resolved_name(topics::kCorrection), sighting.reason());
     const auto fault = fault_of(sighting->landmark_from_base, sighting->covariance);

@@ -22,19 +22,41 @@ geometry_msgs::msg::TransformStamped transform(std::int64_t stamp_ns, const std:
   return stamped;
 }
 
-}  // namespace
-
-std::string to_text(CorrectionKind kind) {
+std::uint8_t to_constant(CorrectionKind kind) {
+  using namespace panvo_msgs::msg::CorrectionOutcome_Constants;
   switch (kind) {
     case CorrectionKind::kApplied:
-      return "applied";
+      return APPLIED;
     case CorrectionKind::kBetterKnown:
-      return "better_known";
+      return BETTER_KNOWN;
     case CorrectionKind::kRejected:
-      return "rejected";
+      return REJECTED;
   }
-  throw std::logic_error("an outcome without a name");
+  throw std::logic_error("an outcome without a constant");
 }
+
+std::uint8_t to_constant(State state) {
+  using namespace panvo_msgs::msg::LocalizationState_Constants;
+  switch (state) {
+    case State::kStarting:
+      return STARTING;
+    case State::kUnlocated:
+      return UNLOCATED;
+    case State::kTracking:
+      return TRACKING;
+    case State::kCompassOnly:
+      return COMPASS_ONLY;
+    case State::kLost:
+      return LOST;
+    case State::kRelocalised:
+      return RELOCALISED;
+    case State::kStale:
+      return STALE;
+  }
+  throw std::logic_error("a state without a constant");
+}
+
+}  // namespace
 
 nav_msgs::msg::Odometry to_odometry(const LocalizedPose& pose, const nav_msgs::msg::Odometry& stereo,
                                     const std::string& map_frame) {
@@ -62,7 +84,7 @@ panvo_msgs::msg::CorrectionOutcome to_message(const Correction& correction, cons
   message.header().stamp(conversions::to_stamp(sighting.stamp_ns));
   message.header().frame_id(map_frame);
   message.landmark_id(sighting.landmark_id);
-  message.outcome(to_text(correction.kind));
+  message.outcome(to_constant(correction.kind));
   message.reason(correction.reason);
   message.chi_square(correction.chi_square);
   message.before(conversions::to_pose(correction.map_from_base_before));
@@ -104,7 +126,7 @@ panvo_msgs::msg::LocalizationState to_state(const LocalizedPose& pose, std::int6
   panvo_msgs::msg::LocalizationState message;
   message.header().stamp(conversions::to_stamp(pose.stamp_ns));
   message.header().frame_id(map_frame);
-  message.state(to_text(pose.state));
+  message.state(to_constant(pose.state));
   message.reason(pose.reason);
   message.since(conversions::to_stamp(since_ns));
   message.position_sigma_m(vision::horizontal_sigma(pose.covariance));
@@ -120,7 +142,7 @@ conversions::Result<LandmarkSighting> to_sighting(const panvo_msgs::msg::Positio
   sighting.landmark_id = message.landmark_id();
   sighting.landmark_from_base = *pose;
   sighting.covariance = conversions::to_matrix(message.landmark_from_base().covariance());
-  sighting.stands_alone = message.state() != "weak";
+  sighting.stands_alone = message.state() != panvo_msgs::msg::PositionCorrection_Constants::WEAK;
   return sighting;
 }
 

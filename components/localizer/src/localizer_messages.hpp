@@ -20,9 +20,6 @@
 /// Conversions between the localizer's types and messages.
 namespace panvo::localizer {
 
-/// applied, better_known or rejected
-std::string to_text(CorrectionKind kind);
-
 /// The pose in the map with the twist of the underlying stereo odometry.
 nav_msgs::msg::Odometry to_odometry(const LocalizedPose& pose, const nav_msgs::msg::Odometry& stereo,
                                     const std::string& map_frame);

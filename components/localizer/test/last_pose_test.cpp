@@ -17,6 +17,8 @@
 namespace panvo::localizer {
 namespace {
 
+namespace states = panvo_msgs::msg::LocalizationState_Constants;
+
 using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::Not;
@@ -86,7 +88,7 @@ TEST_F(LastPoseFile, IsWhereTheNextProcessGoesOn) {
   Life second(kept_);
   second.drive(kBegin_ns + 4 * kSecond_ns, 6);
   EXPECT_NEAR(second.x(), 11.0, 1e-6);
-  EXPECT_EQ(second.state(), "relocalised");
+  EXPECT_EQ(second.state(), states::RELOCALISED);
   EXPECT_NEAR(second.first_variance(), 100.0, 1.0) << "2 s at 5 m/s give 10 m";
   EXPECT_THAT(second.log(), Contains(HasSubstr("resuming from (10.0, 0.0) m, age 2.0 s")));
 }
@@ -97,7 +99,7 @@ TEST_F(LastPoseFile, HoldsAmongLandmarksOfTheProcessBefore) {
   second.know(3, 7.0);
   second.drive(kBegin_ns + 4 * kSecond_ns, 6);
   EXPECT_NEAR(second.x(), 11.0, 1e-6);
-  EXPECT_EQ(second.state(), "relocalised");
+  EXPECT_EQ(second.state(), states::RELOCALISED);
 }
 
 TEST_F(LastPoseFile, IsTooOldAfterAWhile) {

@@ -14,6 +14,9 @@
 namespace panvo::localizer {
 namespace {
 
+namespace states = panvo_msgs::msg::LocalizationState_Constants;
+namespace outcomes = panvo_msgs::msg::CorrectionOutcome_Constants;
+
 using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -79,7 +82,7 @@ class LocalizerComponent : public ::testing::Test {
   }
 
   void publish_correction(std::uint32_t id, std::int64_t stamp_ns, const Eigen::Isometry3d& landmark_from_base,
-                          const std::string& state = "full") {
+                          std::uint8_t state = panvo_msgs::msg::PositionCorrection_Constants::FULL) {
     panvo_msgs::msg::PositionCorrection correction;
     correction.header().stamp(conversions::to_stamp(stamp_ns));
     correction.landmark_id(id);
@@ -130,7 +133,7 @@ TEST_F(LocalizerComponent, PublishesPoseAndFramesWithEachOdometry) {
   ASSERT_THAT(paths_, Not(IsEmpty()));
   EXPECT_EQ(paths_.back()->header().frame_id(), "map");
   ASSERT_THAT(states_, Not(IsEmpty()));
-  EXPECT_EQ(states_.back()->state(), "tracking");
+  EXPECT_EQ(states_.back()->state(), states::TRACKING);
 }
 
 TEST_F(LocalizerComponent, CorrectsThePositionAndSaysByHowMuch) {
@@ -143,7 +146,7 @@ TEST_F(LocalizerComponent, CorrectsThePositionAndSaysByHowMuch) {
   // after 30 m the landmark is seen 24 m behind and 0.5 m to the left: less far than odometry reports
   publish_correction(1, stamp(150), at(24.5, -0.5, 0.0));
   ASSERT_THAT(outcomes_, SizeIs(1));
-  EXPECT_EQ(outcomes_[0]->outcome(), "applied") << outcomes_[0]->reason();
+  EXPECT_EQ(outcomes_[0]->outcome(), outcomes::APPLIED) << outcomes_[0]->reason();
   EXPECT_NEAR(outcomes_[0]->before().position().x(), 30.0, 1e-6);
   EXPECT_NEAR(outcomes_[0]->after().position().x(), 29.5, 0.1);
   EXPECT_NEAR(outcomes_[0]->after().position().y(), -0.5, 0.1);
@@ -180,7 +183,7 @@ TEST_F(LocalizerComponent, GoesOnAfterMessagesThatNoSensorSends) {
   panvo_msgs::msg::PositionCorrection correction;
   correction.header().stamp(conversions::to_stamp(stamp(19)));
   correction.landmark_id(1);
-  correction.state("full");
+  correction.state(panvo_msgs::msg::PositionCorrection_Constants::FULL);
   correction.landmark_from_base().covariance(conversions::to_array(indefinite));
   harness_.publish(topics::kCorrection, correction);
   panvo_msgs::msg::PanoramicLandmark landmark;
@@ -223,7 +226,7 @@ TEST_F(LocalizerComponent, WaitsForNoOdometryWhereAPanoramaIsAMomentLaterThanThe
   publish_landmark(1, stamp(5), at(1.0, 0.0, 0.0));
   publish_correction(1, stamp(12) + 4'000'000, at(1.42, 0.1, 0.0));
   ASSERT_THAT(outcomes_, SizeIs(1));
-  EXPECT_EQ(outcomes_[0]->outcome(), "applied") << outcomes_[0]->reason();
+  EXPECT_EQ(outcomes_[0]->outcome(), outcomes::APPLIED) << outcomes_[0]->reason();
   EXPECT_NEAR(outcomes_[0]->before().position().x(), 2.42, 1e-6) << "4 ms at 5 m/s";
   publish_correction(1, stamp(12) + 8'000'000, at(1.44, 0.1, 0.0));
   EXPECT_THAT(outcomes_, SizeIs(1)) << "no extrapolation beyond 5 ms";
@@ -238,7 +241,7 @@ TEST_F(LocalizerComponent, TakesNoRejectedCorrection) {
   load();
   drive(0, 10);
   publish_landmark(1, stamp(5), at(1.0, 0.0, 0.0));
-  publish_correction(1, stamp(8), at(0.6, 0.0, 0.0), "rejected");
+  publish_correction(1, stamp(8), at(0.6, 0.0, 0.0), panvo_msgs::msg::PositionCorrection_Constants::REJECTED);
   EXPECT_THAT(outcomes_, IsEmpty());
 }
 
@@ -247,15 +250,15 @@ TEST_F(LocalizerComponent, DoesNotKnowWhereItIsInAMapOfAnEarlierDayUntilTwoPanor
   publish_landmark(9, kBegin_ns - 86'400'000'000'000, at(300.0, 100.0, 1.0));
   drive(0, 20);
   ASSERT_THAT(states_, Not(IsEmpty()));
-  EXPECT_EQ(states_.back()->state(), "unlocated");
+  EXPECT_EQ(states_.back()->state(), states::UNLOCATED);
   EXPECT_GT(enhanced_.back()->pose().covariance()[0], 1e6);
   publish_correction(9, stamp(14), at(1.0, 0.0, 0.0));
   publish_correction(9, stamp(19), at(2.0, 0.0, 0.0));
   ASSERT_THAT(outcomes_, SizeIs(2));
-  EXPECT_EQ(outcomes_[0]->outcome(), "rejected");
-  EXPECT_EQ(outcomes_[1]->outcome(), "applied");
+  EXPECT_EQ(outcomes_[0]->outcome(), outcomes::REJECTED);
+  EXPECT_EQ(outcomes_[1]->outcome(), outcomes::APPLIED);
   drive(20, 21);
-  EXPECT_EQ(states_.back()->state(), "relocalised");
+  EXPECT_EQ(states_.back()->state(), states::RELOCALISED);
   const Eigen::Vector3d expected = at(300.0, 100.0, 1.0) * Eigen::Vector3d(2.2, 0.0, 0.0);
   EXPECT_NEAR(enhanced_.back()->pose().pose().position().x(), expected.x(), 0.1);
   EXPECT_NEAR(enhanced_.back()->pose().pose().position().y(), expected.y(), 0.1);
@@ -272,13 +275,13 @@ TEST_F(LocalizerComponent, IsWhereAClickOnTheMapSays) {
   harness_.publish(topics::kInitialPose, click);
   EXPECT_THAT(harness_.log(), Contains(HasSubstr("no odometry received yet")));
   drive(0, 20);
-  EXPECT_EQ(states_.back()->state(), "unlocated");
+  EXPECT_EQ(states_.back()->state(), states::UNLOCATED);
   click.header().frame_id("odom");
   harness_.publish(topics::kInitialPose, click);
   EXPECT_THAT(harness_.log(), Contains(HasSubstr("expected 'map'")));
   click.header().frame_id("map");
   harness_.publish(topics::kInitialPose, click);
-  EXPECT_EQ(states_.back()->state(), "relocalised");
+  EXPECT_EQ(states_.back()->state(), states::RELOCALISED);
   drive(20, 21);
   const Eigen::Vector3d expected = at(310.0, 95.0, 0.5) * Eigen::Vector3d(0.2, 0.0, 0.0);
   EXPECT_NEAR(enhanced_.back()->pose().pose().position().x(), expected.x(), 0.01);
@@ -317,7 +320,7 @@ TEST_F(LocalizerComponent, SaysThatThereIsNoOdometryAnyMore) {
   drive(0, 10);
   for (int i = 1; i < 10; ++i) publish_azimuth(stamp(10 * i), stamp(10 * i + 10), 0.0);
   ASSERT_THAT(states_, Not(IsEmpty()));
-  EXPECT_EQ(states_.back()->state(), "stale");
+  EXPECT_EQ(states_.back()->state(), states::STALE);
   EXPECT_THAT(states_.back()->reason(), HasSubstr("no /odometry/binocular for"));
 }
 
@@ -327,7 +330,7 @@ TEST_F(LocalizerComponent, SaysThatThereAreNoPanoramasAnyMore) {
   publish_azimuth(stamp(0), stamp(5), 0.0);
   drive(10, 300);
   EXPECT_TRUE(harness_.log_contains("no panorama for 10 s"));
-  EXPECT_EQ(states_.back()->state(), "tracking") << "it drifts, but is localised";
+  EXPECT_EQ(states_.back()->state(), states::TRACKING) << "it drifts, but is localised";
 }
 
 TEST_F(LocalizerComponent, TellsOfUnreliableOdometryAndOfTheCompass) {
@@ -336,11 +339,11 @@ TEST_F(LocalizerComponent, TellsOfUnreliableOdometryAndOfTheCompass) {
   drive_with_quality(50, 60, false);
   publish_azimuth(stamp(50), stamp(55), 0.0);
   drive_with_quality(60, 61, false);
-  EXPECT_EQ(states_.back()->state(), "compass_only");
+  EXPECT_EQ(states_.back()->state(), states::COMPASS_ONLY);
   drive_with_quality(61, 120, false);
-  EXPECT_EQ(states_.back()->state(), "lost");
+  EXPECT_EQ(states_.back()->state(), states::LOST);
   drive_with_quality(120, 121, true);
-  EXPECT_EQ(states_.back()->state(), "tracking");
+  EXPECT_EQ(states_.back()->state(), states::TRACKING);
 }
 
 /// Fraction of a turn seen only by the compass that the pose contains two seconds later.

@@ -16,6 +16,9 @@
 namespace panvo::localizer {
 namespace {
 
+namespace states = panvo_msgs::msg::LocalizationState_Constants;
+namespace outcomes = panvo_msgs::msg::CorrectionOutcome_Constants;
+
 using ::testing::HasSubstr;
 using ::testing::Not;
 using ::testing::SizeIs;
@@ -74,7 +77,7 @@ class Vehicle {
     panvo_msgs::msg::PositionCorrection message;
     message.header().stamp(conversions::to_stamp(stamp(frame)));
     message.landmark_id(id);
-    message.state("full");
+    message.state(panvo_msgs::msg::PositionCorrection_Constants::FULL);
     message.landmark_from_base().pose(conversions::to_pose(from));
     message.landmark_from_base().covariance(conversions::to_array(1e-4 * vision::Matrix6d::Identity()));
     return message;
@@ -131,12 +134,12 @@ TEST(LocalizerTime, TellsTheStateTwiceASecondWhateverArrives) {
   vehicle.pass_time_to(0);
   vehicle.pass_time_to(50);
   EXPECT_GE(vehicle.states.size(), 4U) << "in 2 s without odometry";
-  EXPECT_EQ(vehicle.state(), "starting");
+  EXPECT_EQ(vehicle.state(), states::STARTING);
   vehicle.drive(50, 100);
   const auto before = vehicle.states.size();
   vehicle.drive(100, 150);
   EXPECT_GE(vehicle.states.size(), before + 4);
-  EXPECT_EQ(vehicle.state(), "tracking");
+  EXPECT_EQ(vehicle.state(), states::TRACKING);
   EXPECT_EQ(conversions::to_ns(vehicle.states.back()->since()), Vehicle::stamp(50));
 }
 
@@ -146,9 +149,9 @@ TEST(LocalizerTime, SaysThatThePoseIsStaleAndSinceWhen) {
   vehicle.drive(0, 51);
   EXPECT_TRUE(vehicle.integrities.back()->usable()) << vehicle.integrities.back()->reason();
   vehicle.pass_time_to(50 + 12);
-  EXPECT_EQ(vehicle.state(), "tracking") << "0.48 s";
+  EXPECT_EQ(vehicle.state(), states::TRACKING) << "0.48 s";
   vehicle.pass_time_to(50 + 16);
-  EXPECT_EQ(vehicle.state(), "stale") << "0.64 s";
+  EXPECT_EQ(vehicle.state(), states::STALE) << "0.64 s";
   EXPECT_EQ(conversions::to_ns(vehicle.states.back()->since()), Vehicle::stamp(50));
   EXPECT_FALSE(vehicle.integrities.back()->usable());
   EXPECT_THAT(vehicle.integrities.back()->reason(), HasSubstr("stale: no /odometry/binocular for"));
@@ -158,7 +161,7 @@ TEST(LocalizerTime, SaysThatThePoseIsStaleAndSinceWhen) {
   EXPECT_GE(vehicle.states.size(), told + 6) << "twice a second";
   EXPECT_GT(vehicle.states.back()->position_sigma_m(), sigma_m + 10.0) << "the vehicle may have moved";
   vehicle.drive(151, 152);
-  EXPECT_EQ(vehicle.state(), "tracking");
+  EXPECT_EQ(vehicle.state(), states::TRACKING);
 }
 
 TEST(LocalizerTime, TellsACorrectionAtOnceAndWithALaterStamp) {
@@ -170,7 +173,7 @@ TEST(LocalizerTime, TellsACorrectionAtOnceAndWithALaterStamp) {
   const auto poses = vehicle.enhanced.size();
   vehicle.harness_.publish(topics::kCorrection, vehicle.correction(1, 150, ahead(24.5, -0.5)));
   ASSERT_THAT(vehicle.outcomes, SizeIs(1));
-  ASSERT_EQ(vehicle.outcomes[0]->outcome(), "applied") << vehicle.outcomes[0]->reason();
+  ASSERT_EQ(vehicle.outcomes[0]->outcome(), outcomes::APPLIED) << vehicle.outcomes[0]->reason();
   ASSERT_EQ(vehicle.enhanced.size(), poses + 1);
   EXPECT_NEAR(vehicle.x(), before - 0.5, 0.1);
   EXPECT_EQ(conversions::stamp_ns(*vehicle.enhanced.back()), Vehicle::stamp(150) + 1);
@@ -184,15 +187,15 @@ TEST(LocalizerTime, OneLandmarkWithAnOldStampTakesNothingFromAVehicleThatKnowsWh
   vehicle.drive(0, 151);
   vehicle.tell_landmark(9, kBegin_ns - 86'400 * kSecond_ns, ahead(300.0));
   vehicle.drive(151, 201);
-  EXPECT_EQ(vehicle.state(), "tracking");
+  EXPECT_EQ(vehicle.state(), states::TRACKING);
   EXPECT_NEAR(vehicle.x(), 40.0, 1e-6);
   // It is joined when two panoramas agree on it.
   vehicle.harness_.publish(topics::kCorrection, vehicle.correction(9, 195, ahead(1.0)));
-  EXPECT_EQ(vehicle.outcomes.back()->outcome(), "rejected");
+  EXPECT_EQ(vehicle.outcomes.back()->outcome(), outcomes::REJECTED);
   vehicle.harness_.publish(topics::kCorrection, vehicle.correction(9, 200, ahead(2.0)));
-  EXPECT_EQ(vehicle.outcomes.back()->outcome(), "applied") << vehicle.outcomes.back()->reason();
+  EXPECT_EQ(vehicle.outcomes.back()->outcome(), outcomes::APPLIED) << vehicle.outcomes.back()->reason();
   EXPECT_NEAR(vehicle.x(), 302.0, 0.1);
-  EXPECT_EQ(vehicle.state(), "relocalised");
+  EXPECT_EQ(vehicle.state(), states::RELOCALISED);
 }
 
 TEST(LocalizerTime, OneCorrectionOfTheFutureKeepsNoneWaiting) {
@@ -203,7 +206,7 @@ TEST(LocalizerTime, OneCorrectionOfTheFutureKeepsNoneWaiting) {
   vehicle.drive(51, 151);
   vehicle.harness_.publish(topics::kCorrection, vehicle.correction(1, 150, ahead(25.0)));
   ASSERT_THAT(vehicle.outcomes, SizeIs(1));
-  EXPECT_EQ(vehicle.outcomes[0]->outcome(), "applied");
+  EXPECT_EQ(vehicle.outcomes[0]->outcome(), outcomes::APPLIED);
 }
 
 /// Each with a different fault.
@@ -247,7 +250,7 @@ TEST(LocalizerTime, WrongNumbersNeitherStopItNorMoveIt) {
   EXPECT_THAT(vehicle.harness_.log(), Not(testing::Contains(HasSubstr("stopped by an error"))));
   vehicle.drive(51, 52);
   EXPECT_NEAR(vehicle.x(), 10.2, 1e-9);
-  EXPECT_EQ(vehicle.state(), "tracking");
+  EXPECT_EQ(vehicle.state(), states::TRACKING);
 }
 
 TEST(LocalizerTime, OdometryThatCannotBeUsedMakesThePoseStale) {
@@ -257,7 +260,7 @@ TEST(LocalizerTime, OdometryThatCannotBeUsedMakesThePoseStale) {
     vehicle.harness_.publish(topics::kOdometryBinocular, wrong_odometry(i)[0]);
     vehicle.pass_time_to(i);  // rejected messages do not advance time
   }
-  EXPECT_EQ(vehicle.state(), "stale") << "its sigma must grow";
+  EXPECT_EQ(vehicle.state(), states::STALE) << "its sigma must grow";
 }
 
 TEST(LocalizerTime, GoesOnWhenTheClockIsSetBack) {
@@ -273,19 +276,19 @@ TEST(LocalizerTime, GoesOnWhenTheClockIsSetBack) {
   }
   EXPECT_NEAR(vehicle.x(), 35.0, 1e-6);
   EXPECT_EQ(conversions::stamp_ns(*vehicle.enhanced.back()), Vehicle::stamp(175) - hour_ns);
-  EXPECT_EQ(vehicle.state(), "tracking");
+  EXPECT_EQ(vehicle.state(), states::TRACKING);
   auto correction = vehicle.correction(1, 175, ahead(29.5));
   correction.header().stamp(conversions::to_stamp(Vehicle::stamp(175) - hour_ns));
   vehicle.harness_.publish(topics::kCorrection, correction);
   ASSERT_THAT(vehicle.outcomes, SizeIs(1));
-  EXPECT_EQ(vehicle.outcomes[0]->outcome(), "applied") << vehicle.outcomes[0]->reason();
+  EXPECT_EQ(vehicle.outcomes[0]->outcome(), outcomes::APPLIED) << vehicle.outcomes[0]->reason();
   EXPECT_NEAR(vehicle.x(), 34.5, 0.2);
 }
 
 TEST(LocalizerTime, AfterACrashTheStartIsNotTheMapsOrigin) {
   Vehicle vehicle({}, true);
   vehicle.drive(0, 50);
-  EXPECT_EQ(vehicle.state(), "unlocated");
+  EXPECT_EQ(vehicle.state(), states::UNLOCATED);
   EXPECT_THAT(vehicle.states.back()->reason(), HasSubstr("restarted after a crash, no last pose is known"));
   EXPECT_GT(vehicle.states.back()->position_sigma_m(), 1000.0);
   EXPECT_FALSE(vehicle.integrities.back()->usable());
@@ -304,7 +307,7 @@ TEST(LocalizerTime, AfterACrashItTellsTheLastKnownPoseThatIsTooOldToGoOnFrom) {
     odometry.header().stamp(conversions::to_stamp(Vehicle::stamp(25 * 120 + i)));
     vehicle.harness_.publish(topics::kOdometryBinocular, odometry);
   }
-  EXPECT_EQ(vehicle.state(), "unlocated");
+  EXPECT_EQ(vehicle.state(), states::UNLOCATED);
   EXPECT_THAT(vehicle.states.back()->reason(), HasSubstr("last known position (10.0, 0.0) m in map"));
   EXPECT_NEAR(vehicle.enhanced.front()->pose().pose().position().x(), 10.0, 1e-9);
   geometry_msgs::msg::PoseWithCovarianceStamped said;
@@ -313,7 +316,7 @@ TEST(LocalizerTime, AfterACrashItTellsTheLastKnownPoseThatIsTooOldToGoOnFrom) {
   said.pose().covariance()[0] = said.pose().covariance()[7] = 0.25;
   said.pose().covariance()[35] = 0.01;
   vehicle.harness_.publish(topics::kInitialPose, said);
-  EXPECT_EQ(vehicle.state(), "relocalised") << "external pose";
+  EXPECT_EQ(vehicle.state(), states::RELOCALISED) << "external pose";
   EXPECT_NEAR(vehicle.x(), 50.0, 0.01);
 }
 

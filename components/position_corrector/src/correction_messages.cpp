@@ -2,26 +2,31 @@
 #include "correction_messages.hpp"
 
 #include <algorithm>
+#include <cstdint>
 #include <stdexcept>
 
 #include "panvo/conversions/pose.hpp"
 #include "panvo/conversions/time.hpp"
 
 namespace panvo::position_corrector {
+namespace {
 
-std::string to_text(CorrectionState state) {
+std::uint8_t to_constant(CorrectionState state) {
+  using namespace panvo_msgs::msg::PositionCorrection_Constants;
   switch (state) {
     case CorrectionState::kFull:
-      return "full";
+      return FULL;
     case CorrectionState::kWeak:
-      return "weak";
+      return WEAK;
     case CorrectionState::kRotationOnly:
-      return "rotation_only";
+      return ROTATION_ONLY;
     case CorrectionState::kRejected:
-      return "rejected";
+      return REJECTED;
   }
-  throw std::logic_error("a state without a name");
+  throw std::logic_error("a state without a constant");
 }
+
+}  // namespace
 
 panvo_msgs::msg::PositionCorrection to_message(const PositionCorrection& correction,
                                                const std::string& panorama_frame) {
@@ -29,7 +34,7 @@ panvo_msgs::msg::PositionCorrection to_message(const PositionCorrection& correct
   message.header().stamp(conversions::to_stamp(correction.stamp_ns));
   message.header().frame_id(panorama_frame);
   message.landmark_id(correction.landmark_id);
-  message.state(to_text(correction.state));
+  message.state(to_constant(correction.state));
   message.reason(correction.reason);
   message.inliers(static_cast<std::uint32_t>(std::max(0, correction.inliers)));
   message.landmark_from_base().pose(conversions::to_pose(correction.pose.landmark_from_base));

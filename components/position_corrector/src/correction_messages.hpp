@@ -8,9 +8,6 @@
 
 namespace panvo::position_corrector {
 
-/// full, weak, rotation_only or rejected
-std::string to_text(CorrectionState state);
-
 panvo_msgs::msg::PositionCorrection to_message(const PositionCorrection& correction, const std::string& panorama_frame);
 
 }  // namespace panvo::position_corrector

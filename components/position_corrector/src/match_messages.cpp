@@ -1,33 +1,38 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "match_messages.hpp"
 
+#include <cstdint>
 #include <stdexcept>
 
 #include "panvo/conversions/time.hpp"
 
 namespace panvo::position_corrector {
+namespace {
 
-std::string to_text(MatchState state) {
+std::uint8_t to_constant(MatchState state) {
+  using namespace panvo_msgs::msg::LandmarkMatch_Constants;
   switch (state) {
     case MatchState::kSearching:
-      return "searching";
+      return SEARCHING;
     case MatchState::kLocked:
-      return "locked";
+      return LOCKED;
     case MatchState::kMatched:
-      return "matched";
+      return MATCHED;
     case MatchState::kRejected:
-      return "rejected";
+      return REJECTED;
     case MatchState::kUnusable:
-      return "unusable";
+      return UNUSABLE;
   }
-  throw std::logic_error("a state without a name");
+  throw std::logic_error("a state without a constant");
 }
+
+}  // namespace
 
 panvo_msgs::msg::LandmarkMatch to_message(const LandmarkMatch& match, const std::string& panorama_frame) {
   panvo_msgs::msg::LandmarkMatch message;
   message.header().stamp(conversions::to_stamp(match.stamp_ns));
   message.header().frame_id(panorama_frame);
-  message.state(to_text(match.state));
+  message.state(to_constant(match.state));
   message.reason(match.reason);
   message.landmark_id(match.landmark_id);
   message.heading_rad(match.heading_rad);

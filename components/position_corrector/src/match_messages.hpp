@@ -8,9 +8,6 @@
 
 namespace panvo::position_corrector {
 
-/// searching, locked, matched, rejected or unusable
-std::string to_text(MatchState state);
-
 panvo_msgs::msg::LandmarkMatch to_message(const LandmarkMatch& match, const std::string& panorama_frame);
 
 }  // namespace panvo::position_corrector

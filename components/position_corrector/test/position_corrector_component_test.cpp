@@ -200,7 +200,7 @@ TEST_F(PositionCorrectorComponent, SaysWhereTheVehicleIsSeenFromTheLandmark) {
   publish_panorama(turned(place(2), 270));
   ASSERT_EQ(corrections.size(), 1U);
   const auto& correction = *corrections[0];
-  EXPECT_EQ(correction.state(), "full") << correction.reason();
+  EXPECT_EQ(correction.state(), panvo_msgs::msg::PositionCorrection_Constants::FULL) << correction.reason();
   EXPECT_EQ(correction.reason(), "");
   EXPECT_EQ(correction.landmark_id(), 2U);
   EXPECT_GE(correction.inliers(), 12U);
@@ -231,7 +231,7 @@ TEST_F(PositionCorrectorComponent, TakesTheLandmarksMountingForItsOwnAndSaysSoOn
 TEST_F(PositionCorrectorComponent, SendsAPanoramasPoseOnce) {
   publish_landmark(2, 2);
   pass();
-  ASSERT_EQ(matches.back()->state(), "matched");
+  ASSERT_EQ(matches.back()->state(), panvo_msgs::msg::LandmarkMatch_Constants::MATCHED);
   EXPECT_EQ(conversions::to_ns(matches.back()->header().stamp()), 2 * kPeriod_ns);
   ASSERT_GE(corrections.size(), 4U);
   for (std::size_t i = 1; i < corrections.size(); ++i) {
@@ -266,7 +266,7 @@ TEST_F(PositionCorrectorComponent, TellsThatGeometryRejectedALandmark) {
   cv::Mat disturbed = place(2);
   publish_panorama(disturbed);
   ASSERT_EQ(corrections.size(), 1U);
-  EXPECT_EQ(corrections[0]->state(), "rejected");
+  EXPECT_EQ(corrections[0]->state(), panvo_msgs::msg::PositionCorrection_Constants::REJECTED);
   EXPECT_EQ(corrections[0]->landmark_id(), 2U);
   EXPECT_NE(corrections[0]->reason().find("needed"), std::string::npos) << corrections[0]->reason();
 }
@@ -346,10 +346,10 @@ TEST_F(PositionCorrectorComponent, KeepsKeypointsInMemoryWhereThereIsNoFolderFor
 TEST_F(PaperPositionCorrector, CorrectsOnceAPassAtTheNearestPoint) {
   publish_landmark(2, 2);
   pass();
-  ASSERT_EQ(matches.back()->state(), "matched");
+  ASSERT_EQ(matches.back()->state(), panvo_msgs::msg::LandmarkMatch_Constants::MATCHED);
   ASSERT_EQ(corrections.size(), 1U);
   const auto& correction = *corrections[0];
-  EXPECT_NE(correction.state(), "rejected") << correction.reason();
+  EXPECT_NE(correction.state(), panvo_msgs::msg::PositionCorrection_Constants::REJECTED) << correction.reason();
   EXPECT_EQ(conversions::to_ns(correction.header().stamp()), 2 * kPeriod_ns);
   EXPECT_EQ(correction.landmark_id(), 2U);
   const auto pose = conversions::to_isometry(correction.landmark_from_base().pose());

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "csv_fields.hpp"
+#include "state_names.hpp"
 
 namespace panvo::runner {
 namespace {
@@ -66,8 +67,8 @@ std::string correction_header() {
 }
 
 std::optional<std::string> correction_line(const panvo_msgs::msg::PositionCorrection& correction) {
-  std::string line = stamp_of(correction) + ',' + std::to_string(correction.landmark_id()) + ',' + correction.state() +
-                     ',' + std::to_string(correction.inliers());
+  std::string line = stamp_of(correction) + ',' + std::to_string(correction.landmark_id()) + ',' +
+                     name_of(kCorrectionStates, correction.state()) + ',' + std::to_string(correction.inliers());
   if (!append(line, numbers_of(correction.landmark_from_base().pose()))) return std::nullopt;
   const auto& covariance = correction.landmark_from_base().covariance();
   if (!append(line, std::array{std::sqrt(covariance[0]), std::sqrt(covariance[7]), std::sqrt(covariance[35])})) {
@@ -81,8 +82,8 @@ std::string outcome_header() {
 }
 
 std::optional<std::string> outcome_line(const panvo_msgs::msg::CorrectionOutcome& outcome) {
-  std::string line = stamp_of(outcome) + ',' + std::to_string(outcome.landmark_id()) + ',' + outcome.outcome() + ',' +
-                     number_or_nothing(outcome.chi_square());
+  std::string line = stamp_of(outcome) + ',' + std::to_string(outcome.landmark_id()) + ',' +
+                     name_of(kOutcomes, outcome.outcome()) + ',' + number_or_nothing(outcome.chi_square());
   if (!append(line, numbers_of(outcome.before())) || !append(line, numbers_of(outcome.after()))) return std::nullopt;
   return line + ',' + quoted(outcome.reason());
 }
@@ -90,8 +91,9 @@ std::optional<std::string> outcome_line(const panvo_msgs::msg::CorrectionOutcome
 std::string state_header() { return "stamp_ns,state,position_sigma_m,heading_sigma_rad,reason"; }
 
 std::optional<std::string> state_line(const panvo_msgs::msg::LocalizationState& state) {
-  return stamp_of(state) + ',' + state.state() + ',' + number_or_nothing(state.position_sigma_m()) + ',' +
-         number_or_nothing(state.heading_sigma_rad()) + ',' + quoted(state.reason());
+  return stamp_of(state) + ',' + name_of(kLocalizationStates, state.state()) + ',' +
+         number_or_nothing(state.position_sigma_m()) + ',' + number_or_nothing(state.heading_sigma_rad()) + ',' +
+         quoted(state.reason());
 }
 
 std::string integrity_header() { return "stamp_ns,usable,reason,risk,hpl_m,alert_limit_m"; }

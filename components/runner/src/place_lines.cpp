@@ -8,6 +8,7 @@
 
 #include "csv_fields.hpp"
 #include "panvo/runtime/parameters.hpp"
+#include "state_names.hpp"
 
 namespace panvo::runner {
 
@@ -38,7 +39,8 @@ std::string match_header() {
 
 std::optional<std::string> match_line(const panvo_msgs::msg::LandmarkMatch& match) {
   if (!std::isfinite(match.heading_rad())) return std::nullopt;
-  std::string line = stamp_of(match) + ',' + match.state() + ',' + std::to_string(match.landmark_id());
+  std::string line =
+      stamp_of(match) + ',' + name_of(kMatchStates, match.state()) + ',' + std::to_string(match.landmark_id());
   line += ',' +
           (match.landmark_id() != 0 ? runtime::to_text(match.heading_rad() * 180.0 / std::numbers::pi) : std::string());
   for (const double distance : {match.histogram_distance(), match.large_distance(), match.small_distance()}) {

@@ -96,7 +96,7 @@ TEST(RunFiles, WritesLandmarksAndMatches) {
 
   panvo_msgs::msg::LandmarkMatch match;
   match.header().stamp().nanosec(5);
-  match.state("rejected");
+  match.state(panvo_msgs::msg::LandmarkMatch_Constants::REJECTED);
   match.reason("8 inliers, \"12\" needed");
   match.landmark_id(7);
   match.large_distance(0.5);
@@ -127,7 +127,7 @@ TEST(RunFiles, WritesWhatTheLocalizerIsToldAndSays) {
 
   panvo_msgs::msg::PositionCorrection correction;
   correction.landmark_id(4);
-  correction.state("full");
+  correction.state(panvo_msgs::msg::PositionCorrection_Constants::FULL);
   correction.inliers(31);
   correction.landmark_from_base().pose().position().y(-2.0);
   correction.landmark_from_base().pose().orientation().w(1.0);
@@ -137,7 +137,7 @@ TEST(RunFiles, WritesWhatTheLocalizerIsToldAndSays) {
 
   panvo_msgs::msg::CorrectionOutcome outcome;
   outcome.landmark_id(4);
-  outcome.outcome("rejected");
+  outcome.outcome(panvo_msgs::msg::CorrectionOutcome_Constants::REJECTED);
   outcome.reason("too far");
   outcome.chi_square(99.5);
   outcome.after().position().x(1.25);
@@ -148,7 +148,7 @@ TEST(RunFiles, WritesWhatTheLocalizerIsToldAndSays) {
   EXPECT_EQ(columns_of(outcomes[0]), columns_of(outcomes[1]));
 
   panvo_msgs::msg::LocalizationState state;
-  state.state("lost");
+  state.state(panvo_msgs::msg::LocalizationState_Constants::LOST);
   state.position_sigma_m(std::numeric_limits<double>::infinity());
   files.write(topic_of<panvo_msgs::msg::LocalizationState>("/localization/state"), sample_of(state));
   EXPECT_THAT(lines_of(folder.read("states.csv")), ElementsAre(_, "0,lost,,0,\"\""));
