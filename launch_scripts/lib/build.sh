@@ -12,7 +12,9 @@ cmake_arguments() {
     asan) echo -DCMAKE_BUILD_TYPE=RelWithDebInfo -DPANVO_SANITIZE=address ;;
     ubsan) echo -DCMAKE_BUILD_TYPE=RelWithDebInfo -DPANVO_SANITIZE=undefined ;;
     tsan) echo -DCMAKE_BUILD_TYPE=RelWithDebInfo -DPANVO_SANITIZE=thread ;;
-    *) fail "unknown build type '$1'; use release, debug, asan, ubsan or tsan" 2 ;;
+    clang) echo -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_COMPILER=clang++ ;;
+    fuzz) echo -DCMAKE_BUILD_TYPE=RelWithDebInfo -DCMAKE_CXX_COMPILER=clang++ -DPANVO_FUZZ=ON ;;
+    *) fail "unknown build type '$1'; use release, debug, asan, ubsan, tsan, clang or fuzz" 2 ;;
   esac
 }
 
@@ -139,6 +141,7 @@ newer_source() {
 ensure_built() {
   in_checkout || return 0
   ensure_packages build
+  [[ $PANVO_BUILD != @(clang|fuzz) ]] || ensure_packages clang
   build_targets "$@"
 }
 

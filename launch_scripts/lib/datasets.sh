@@ -9,7 +9,7 @@ A recording is a folder in one of these layouts:
   EuRoC/ASL        mav0/cam0/{data.csv,sensor.yaml,data/} mav0/cam1/...; ground truth: mav0/state_groundtruth_estimate0
   left and right   left/ and right/ images (or leftNNN, rightNNN in one folder) and a stereo calibration
 
-For example, download sequence 03 of KITTI odometry (grey images, calibration and poses) or a EuRoC MAV sequence, then run:
+`panvo data` lists public recordings, unpacks and checks downloads. Then run:
   panvo demo --dataset FOLDER
 For the tests, put recordings into one folder and set PANVO_DATA=FOLDER.
 EOT

@@ -16,7 +16,7 @@ Compiles into build/release, or into the folder of another build type:
                     install/asan, ...); all arguments after --colcon are passed to `colcon build`
   TARGET...         build only these ninja targets, for example panvo_run (default: all)
 
-All other commands use build/release unless PANVO_BUILD is set (debug, asan, ubsan, tsan).
+All other commands use build/release unless PANVO_BUILD is set (debug, asan, ubsan, tsan, clang, fuzz).
 EOT
 }
 

@@ -78,7 +78,7 @@ lint_tidy() {
 
 lint_scripts() {
   local -a shell_files
-  mapfile -t shell_files < <(sources -path '*/launch_scripts/panvo' -o -name '*.sh' -o -path '*/.ci/run')
+  mapfile -t shell_files < <(sources -path '*/launch_scripts/panvo' -o -name '*.sh' -o -path '*/.ci/*')
   note "shellcheck on ${#shell_files[@]} scripts"
   (cd "$PANVO_HOME" && shellcheck -x -P "$PANVO_HOME" "${shell_files[@]}")
 }

@@ -61,7 +61,7 @@ verb_main() {
   python3 "$PANVO_SCRIPTS/lib/test_report.py" --status "$status" "$folder/panvo_junit.xml"
 }
 
-# Every sanitizer report fails its test. Suppressions are in config/build, each with its reason.
+# Every sanitizer report fails its test. Suppressions are in config/build, each with its reason. CMakePresets.json has the same options.
 set_sanitizer_options() {
   local suppressions=$PANVO_HOME/config/build/$PANVO_BUILD.supp with=''
   [[ ! -f $suppressions ]] || with=":suppressions=$suppressions"

@@ -3,6 +3,7 @@
 import fcntl
 import os
 import pathlib
+import re
 import shutil
 import signal
 import subprocess
@@ -39,6 +40,10 @@ class Help(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertIn("usage: panvo bench faults", done.stdout)
         self.assertIn("--quick", done.stdout)
+
+    def test_version_is_that_of_the_workspace(self):
+        version = re.search(r"project\(panvo VERSION (\S+)", (ROOT / "CMakeLists.txt").read_text(encoding="utf-8"))[1]
+        self.assertEqual(panvo("--version").stdout, f"panvo {version}\n")
 
     def test_without_a_verb_it_helps_and_fails(self):
         done = panvo()

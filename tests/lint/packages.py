@@ -23,7 +23,7 @@ def cmake_text(root, folder):
     return re.sub(r"#[^\n]*", "", "\n".join(file.read_text(encoding="utf-8") for file in files))
 
 
-def check_package(root, folder, order, version):
+def check_package(root, folder, order):
     complaints = []
     name = "panvo_" + folder.name
     manifest, lists = root / folder / "package.xml", root / folder / "CMakeLists.txt"
@@ -37,11 +37,9 @@ def check_package(root, folder, order, version):
         complaints.append(f"{folder}/package.xml: name is {described.findtext('name')}, must be {name}")
     if described.findtext("export/build_type") != "cmake":
         complaints.append(f"{folder}/package.xml: build_type must be cmake")
-    if described.findtext("version") != version:
-        complaints.append(f"{folder}/package.xml: version {described.findtext('version')}, that of the workspace is {version}")
-    project = re.search(r"project\(\s*(\S+)\s+VERSION\s+([\d.]+)", lists.read_text(encoding="utf-8"))
-    if not project or project.groups() != (name, version):
-        complaints.append(f"{folder}/CMakeLists.txt: must contain project({name} VERSION {version} ...)")
+    project = re.search(r"project\(\s*(\S+)", lists.read_text(encoding="utf-8"))
+    if not project or project[1] != name:
+        complaints.append(f"{folder}/CMakeLists.txt: must contain project({name} ...)")
     if folder.parts[0] in ("components", "drivers") and not (root / folder / "README.md").is_file():
         complaints.append(f"{folder}: has no README.md")
 
@@ -95,12 +93,11 @@ def check_debian_packages(root):
 def check(root):
     root = pathlib.Path(root)
     top = (root / "CMakeLists.txt").read_text(encoding="utf-8")
-    version = re.search(r"project\(panvo VERSION ([\d.]+)", top)[1]
     order = re.search(r"set\(package_folders([^)]*)\)", top)[1].split()
     complaints = []
     folders = workspace.package_folders(root)
     for folder in folders:
-        complaints += check_package(root, folder, order, version)
+        complaints += check_package(root, folder, order)
     for folder in order:
         if pathlib.Path(folder) not in folders:
             complaints.append(f"CMakeLists.txt: package_folders lists {folder}, which does not exist")

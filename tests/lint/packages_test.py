@@ -13,8 +13,8 @@ class PackagesTest(sample.RuleTest):
     def test_a_package_called_otherwise_than_its_folder(self):
         self.assert_finds(packages, "must be panvo_vision", {"components/vision/package.xml": sample.package_xml("panvo_sight")})
 
-    def test_another_version(self):
-        self.assert_finds(packages, "version 0.2.0", {"components/vision/package.xml": sample.package_xml("panvo_vision", version="0.2.0")})
+    def test_a_project_called_otherwise_than_its_folder(self):
+        self.assert_finds(packages, "must contain project(panvo_vision ...)", {"components/vision/CMakeLists.txt": sample.cmake_lists("panvo_sight")})
 
     def test_a_package_the_root_does_not_know(self):
         top = sample.TOP + "set(package_folders config/build components/vision launch_scripts)\n"

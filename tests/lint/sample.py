@@ -43,17 +43,20 @@ def whole_workspace():
     }
 
 
-class RuleTest(unittest.TestCase):
-    """complaints(rule, changes): for a valid workspace with files added, replaced (text) or removed (None)."""
+def write(root, changes):
+    """Writes the valid workspace with files added, replaced (text) or removed (None)."""
+    for path, text in {**whole_workspace(), **changes}.items():
+        if text is not None:
+            file = root / path
+            file.parent.mkdir(parents=True, exist_ok=True)
+            file.write_text(text, encoding="utf-8")
 
+
+class RuleTest(unittest.TestCase):
     def complaints(self, rule, changes=None):
-        files = {**whole_workspace(), **(changes or {})}
+        """What the rule finds in a valid workspace with these changes."""
         with tempfile.TemporaryDirectory() as folder:
-            for path, text in files.items():
-                if text is not None:
-                    file = pathlib.Path(folder, path)
-                    file.parent.mkdir(parents=True, exist_ok=True)
-                    file.write_text(text, encoding="utf-8")
+            write(pathlib.Path(folder), changes or {})
             return rule.check(pathlib.Path(folder))
 
     def assert_finds(self, rule, expected, changes):

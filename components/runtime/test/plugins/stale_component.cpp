@@ -9,8 +9,8 @@ namespace {
 using panvo::runtime::Component;
 using panvo::runtime::Context;
 
-panvo::runtime::ComponentDescriptor stale{"0.1.0 (headers 000000000000, messages 000000000000)", "RelayComponent",
-                                          [](Context&) -> Component* { std::abort(); },
+panvo::runtime::ComponentDescriptor stale{PANVO_RUNTIME_VERSION " (headers 000000000000, messages 000000000000)",
+                                          "RelayComponent", [](Context&) -> Component* { std::abort(); },
                                           [](Component*) { std::abort(); }, nullptr};
 const panvo::runtime::detail::Registrar registrar{stale};
 

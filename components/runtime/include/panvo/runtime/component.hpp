@@ -6,6 +6,7 @@
 #include "panvo/interfaces/fingerprint.hpp"
 #include "panvo/runtime/context.hpp"
 #include "panvo/runtime/fingerprint.hpp"
+#include "panvo/runtime/version.hpp"
 
 namespace panvo::runtime {
 
@@ -28,11 +29,11 @@ struct ComponentDescriptor {
   const ComponentDescriptor* next;  ///< the plugin's other components
 };
 
-inline constexpr std::string_view kRuntimeVersion = "0.1.0";
+inline constexpr std::string_view kRuntimeVersion = PANVO_RUNTIME_VERSION;
 
 /// Distinguishes builds of one version with different headers: their plugins have incompatible memory layouts.
 inline constexpr std::string_view kRuntimeBuild =
-    "0.1.0 (headers " PANVO_RUNTIME_FINGERPRINT ", messages " PANVO_INTERFACES_FINGERPRINT ")";
+    PANVO_RUNTIME_VERSION " (headers " PANVO_RUNTIME_FINGERPRINT ", messages " PANVO_INTERFACES_FINGERPRINT ")";
 
 /// C function through which a container gets a plugin's components.
 inline constexpr const char* kPluginEntryPoint = "panvo_components";
