@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "panvo/interfaces/message_type.hpp"
+#include "panvo/interfaces/node_topics.hpp"
 #include "panvo/interfaces/topics.hpp"
 #include "rmw_dds_common/msg/ParticipantEntitiesInfo.h"
 #include "rosgraph_msgs/msg/Clock.h"
