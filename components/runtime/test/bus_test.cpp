@@ -24,8 +24,10 @@ struct LatchedState : testing::Test {
 
   LatchedState() {
     channel.add_publisher(&publisher, "localizer");
+    LocalizationState state;
+    state.state(panvo_msgs::msg::LocalizationState_Constants::TRACKING);
     channel.publish(Sample::of(interfaces::message_type<LocalizationState>(),
-                               std::make_shared<const LocalizationState>(), 0, nullptr));
+                               std::make_shared<const LocalizationState>(state), 0, nullptr));
   }
   /// Number of messages that a late joiner gets.
   int seen_late() {

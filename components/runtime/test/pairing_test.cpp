@@ -25,6 +25,11 @@ std::int64_t milliseconds_of(const Image& image) { return image.header().stamp()
 
 Image image_at(std::int64_t milliseconds) {
   Image image;
+  image.width(1);
+  image.height(1);
+  image.step(1);
+  image.encoding("mono8");
+  image.data({0});
   image.header().stamp().nanosec(static_cast<std::uint32_t>(1'000'000 * milliseconds));
   return image;
 }
