@@ -21,10 +21,10 @@ std::vector<LocalCurve> local_curves(const std::vector<const PlaceMethod*>& meth
                                      const PlaceRevisit& revisit, const PlaceRecording& first,
                                      const PlaceRecording& then, double reach_m);
 
-/// Writes `folder`/separation.png: each method's positives and negatives [Lu2015 Fig. 6]. Throws PlotError.
+/// Writes separation.png into `folder`: each method's positives and negatives [Lu2015 Fig. 6]. Throws PlotError.
 void draw_separation(const std::vector<PlaceScore>& scores, const std::filesystem::path& folder);
 
-/// Writes `folder`/local_<number>.png [Lu2015 Fig. 7]. Throws PlotError.
+/// Writes local_NUMBER.png into `folder` [Lu2015 Fig. 7]. Throws PlotError.
 void draw_local_curves(const std::vector<LocalCurve>& curves, const std::string& title, int number,
                        const std::filesystem::path& folder);
 
