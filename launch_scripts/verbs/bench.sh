@@ -11,6 +11,8 @@ verb_usage() {
 usage: panvo bench [NAME...] [-- argument...]
        panvo bench faults [option...]           fault injection into the whole system (panvo bench faults --help)
        panvo bench endurance [option...]        hours of driving, checks for leaks (panvo bench endurance --help)
+       panvo bench report [--quick] [--out FILE]  measures accuracy on recordings and all times; writes them as one Markdown page
+                                                (default: runs/report.md)
 
 Runs all programs of tests/benchmarks, or those whose name contains NAME. Arguments after -- are passed to Google Benchmark,
 for example: panvo bench odometry -- --benchmark_filter=klt --benchmark_format=json
@@ -27,6 +29,11 @@ verb_main() {
   if [[ ${1:-} == endurance ]]; then
     shift
     bench_endurance "$@"
+    return
+  fi
+  if [[ ${1:-} == report ]]; then
+    shift
+    bench_report "$@"
     return
   fi
   local -a names=() arguments=()
@@ -61,6 +68,30 @@ verb_main() {
   done
   ((ran)) || fail "no benchmark matches; available: $(list_benchmarks)"
   ((failed == 0)) || fail "$failed of $ran benchmark programs failed"
+}
+
+bench_report() {
+  local out=$PANVO_HOME/runs/report.md data
+  local -a options=()
+  while (($#)); do
+    case $1 in
+      --quick) options+=(--quick) ;;
+      --out)
+        require_value "$@"
+        out=$2
+        shift
+        ;;
+      *) unknown_option "$1" ;;
+    esac
+    shift
+  done
+  data=$(data_folder)
+  [[ -n $data ]] || fail "no recordings: set PANVO_DATA to a folder of recordings (panvo data lists public ones)"
+  ensure_built panvo_programs panvo_benchmarks
+  use_plugins
+  mkdir -p -- "$(dirname -- "$out")" || fail "cannot create the folder of '$out'; name another file with --out"
+  exec python3 -B "$PANVO_HOME/tests/benchmarks/report.py" "${options[@]}" --programs "$(build_folder)/panvo_bin" \
+    --systems "$PANVO_HOME/config/systems" --data "$data" --work "$PANVO_HOME/runs/report" --out "$out" --version-text "$(panvo_version)"
 }
 
 list_benchmarks() { find "$(build_folder)/panvo_bin" -name '*_benchmark' -printf '%f ' 2>/dev/null; }
