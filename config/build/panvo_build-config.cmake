@@ -1,5 +1,5 @@
-# What every panvo package shares: compiler settings, install layout, exported targets, tests.
-# Used from the installed tree (colcon) and straight from the source tree (root CMakeLists.txt) alike.
+# Shared by all panvo packages: compiler settings, install layout, exported targets, tests.
+# Used from the installed tree (colcon) and from the source tree (root CMakeLists.txt).
 include_guard(DIRECTORY)
 include(CMakePackageConfigHelpers)
 include(CTest)
@@ -8,13 +8,13 @@ include(GNUInstallDirs)
 option(PANVO_WARNINGS_AS_ERRORS "Treat compiler warnings as errors" OFF)
 set(PANVO_SANITIZE "" CACHE STRING "Sanitizers to build with: address, undefined, thread, or a comma-separated list")
 
-option(PANVO_FUZZ "Build the fuzzers, everything with libFuzzer's instrumentation and the address and undefined sanitizers: for clang" OFF)
+option(PANVO_FUZZ "Build the fuzzers; all code gets libFuzzer's instrumentation and the address and undefined sanitizers. Needs clang" OFF)
 if(PANVO_FUZZ AND NOT CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
-  message(FATAL_ERROR "PANVO_FUZZ is for clang, this is ${CMAKE_CXX_COMPILER_ID}: configure with -DCMAKE_CXX_COMPILER=clang++ in a build folder of its own")
+  message(FATAL_ERROR "PANVO_FUZZ needs clang, not ${CMAKE_CXX_COMPILER_ID}; configure a separate build folder with -DCMAKE_CXX_COMPILER=clang++")
 endif()
 
-# Half of the compile time goes into the headers of gtest, Eigen, OpenCV and Fast DDS: sources that are compiled together read them once. This suits a
-# build from scratch; for daily edits OFF is faster (as in the preset debug, which clang-tidy and clangd use too).
+# Half of the compile time is spent on the headers of gtest, Eigen, OpenCV and Fast DDS; sources that are compiled together read them once.
+# This is faster for a build from scratch. For daily edits OFF is faster (as in the preset debug, which clang-tidy and clangd use too).
 option(PANVO_UNITY "Compile the sources of a test together, eight at a time" ON)
 
 find_program(PANVO_CCACHE ccache)
@@ -28,10 +28,10 @@ if(NOT TARGET panvo::test_headers)
   else()
     target_include_directories(panvo::test_headers INTERFACE ${CMAKE_CURRENT_LIST_DIR}/../test_support)
   endif()
-  set_target_properties(panvo::test_headers PROPERTIES SYSTEM FALSE)  # they are panvo's own: with warnings
+  set_target_properties(panvo::test_headers PROPERTIES SYSTEM FALSE)  # panvo's own headers: keep warnings
 endif()
 
-# Whatever a target needs is set on the target: find_package(panvo_build) changes no variable that other targets of the caller are built by.
+# All settings are properties of the target, so that find_package(panvo_build) does not affect other targets of the caller.
 function(_panvo_compile_settings target)
   target_compile_features(${target} PUBLIC cxx_std_20)
   # Installed plugins and libraries find each other relative to themselves, whatever the prefix.
@@ -40,16 +40,16 @@ function(_panvo_compile_settings target)
   if(PANVO_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
     set_target_properties(${target} PROPERTIES CXX_COMPILER_LAUNCHER ${PANVO_CCACHE})
   endif()
-  # Without a build type: as Release.
+  # Without a build type: like Release.
   target_compile_options(${target} PRIVATE $<$<CONFIG:>:-O3> $<$<CONFIG:>:-DNDEBUG>)
-  # -ffp-contract=off: the same sums on every machine, so that a replay is the same bit for bit.
-  # -Wno-restrict: GCC 12 sees strings overlap that do not (GCC bug 105651).
-  # -fno-gnu-unique: a STB_GNU_UNIQUE symbol would pin a plugin in memory and unloading would do nothing.
+  # -ffp-contract=off: same rounding on every machine, so that replays are bit-identical.
+  # -Wno-restrict: GCC 12 warns of overlapping strings where there are none (GCC bug 105651).
+  # -fno-gnu-unique: an STB_GNU_UNIQUE symbol would keep a plugin in memory after it is unloaded.
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow $<$<COMPILE_LANGUAGE:CXX>:-Wnon-virtual-dtor>
     -ffp-contract=off
     $<$<CXX_COMPILER_ID:GNU>:-fno-gnu-unique$<SEMICOLON>-Wno-restrict> $<$<BOOL:${PANVO_WARNINGS_AS_ERRORS}>:-Werror>)
   if(PANVO_FUZZ)
-    # Without vptr and function: they need type information that libraries of the distribution do not have.
+    # Without vptr and function, which need type information that the distribution's libraries do not have.
     target_compile_options(${target} PRIVATE -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize=vptr,function
       -fno-sanitize-recover=undefined -fno-omit-frame-pointer -g)
     target_link_options(${target} PRIVATE -fsanitize=fuzzer-no-link,address,undefined)
@@ -60,7 +60,8 @@ function(_panvo_compile_settings target)
   endif()
 endfunction()
 
-# panvo_add_library(panvo_<name> SOURCES ... [LINK ...] [PRIVATE_LINK ...]): a shared library, known to others as panvo::<name>.
+# panvo_add_library(panvo_<name> SOURCES ... [LINK ...] [PRIVATE_LINK ...]): a shared library with the alias panvo::<name>;
+# header-only without SOURCES.
 function(panvo_add_library target)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;LINK;PRIVATE_LINK")
   string(REGEX REPLACE "^panvo_" "" short ${target})
@@ -82,8 +83,8 @@ function(panvo_add_library target)
   set_property(DIRECTORY APPEND PROPERTY PANVO_EXPORTED ${target})
 endfunction()
 
-# panvo_add_fingerprint(panvo_<name> HEADERS ...): generates "panvo/<name>/fingerprint.hpp" with PANVO_<NAME>_FINGERPRINT, by which a binary can tell
-# whether another was compiled with the same headers.
+# panvo_add_fingerprint(panvo_<name> HEADERS ...): generates "panvo/<name>/fingerprint.hpp" with PANVO_<NAME>_FINGERPRINT. By comparing
+# it, a binary detects that another one was compiled with different headers.
 function(panvo_add_fingerprint target)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "HEADERS")
   string(REGEX REPLACE "^panvo_" "" short ${target})
@@ -96,7 +97,7 @@ function(panvo_add_fingerprint target)
     COMMAND ${CMAKE_COMMAND} -DMACRO=${macro} "-DHEADERS=${arg_HEADERS}" -DOUTPUT=${header} -P ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/panvo_fingerprint.cmake
     COMMAND ${CMAKE_COMMAND} -E touch ${folder}/stamp
     DEPENDS ${arg_HEADERS} ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/panvo_fingerprint.cmake
-    COMMENT "Taking the fingerprint of ${target}'s headers"
+    COMMENT "Computing the fingerprint of ${target}'s headers"
     VERBATIM)
   add_custom_target(${target}_fingerprint DEPENDS ${folder}/stamp)
   add_dependencies(${target} ${target}_fingerprint)
@@ -118,12 +119,12 @@ function(panvo_add_component target)
   endif()
 endfunction()
 
-# Command-line tools and tests run briefly: more optimisation costs more than it gains.
+# Command-line tools and tests run briefly: more optimisation would cost more compile time than it saves.
 function(_panvo_optimise_little target)
   target_compile_options(${target} PRIVATE $<$<OR:$<CONFIG:Release>,$<CONFIG:>>:-O1>)
 endfunction()
 
-# panvo_add_executable(<name> SOURCES ... [LINK ...] [NO_INSTALL]): a program; <name>_benchmark is one that `panvo bench` runs.
+# panvo_add_executable(<name> SOURCES ... [LINK ...] [NO_INSTALL]): a program. `panvo bench` runs those named <name>_benchmark.
 function(panvo_add_executable target)
   cmake_parse_arguments(PARSE_ARGV 1 arg "NO_INSTALL" "" "SOURCES;LINK")
   add_executable(${target} ${arg_SOURCES})
@@ -142,9 +143,10 @@ function(panvo_add_executable target)
 endfunction()
 
 # panvo_add_test(<name> SOURCES ... [LINK ...] [LABELS ...] [TIMEOUT seconds] [DEFINITIONS ...] [ENVIRONMENT ...]
-# [ALONE] [APART]): each TEST() becomes a ctest; ALONE: no other runs beside it; APART: its sources define the same names.
-# Only tests are compiled together: elsewhere a call could silently bind to a function of another file.
-# The tests have the headers "panvo/test/...": temporary folders and recordings.
+# [ALONE] [APART]): each TEST() becomes a ctest. ALONE: do not run it in parallel with others. APART: do not compile its sources together,
+# because they define the same names.
+# Only sources of tests are compiled together: elsewhere a call could silently bind to a function of another file.
+# Tests can include "panvo/test/...": temporary folders and recordings.
 function(panvo_add_test target)
   if(NOT BUILD_TESTING)
     return()
@@ -176,7 +178,8 @@ function(panvo_add_test target)
   gtest_discover_tests(${target} DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60 PROPERTIES ${properties})
 endfunction()
 
-# panvo_add_fuzzer(<name>_fuzzer SOURCES ... [LINK ...]): with PANVO_FUZZ, a libFuzzer program; <name>_fuzzer -runs=1000000 CORPUS.
+# panvo_add_fuzzer(<name>_fuzzer SOURCES ... [LINK ...]): a libFuzzer program, only with PANVO_FUZZ.
+# To run it: <name>_fuzzer -runs=1000000 CORPUS
 function(panvo_add_fuzzer target)
   if(NOT PANVO_FUZZ)
     return()
@@ -190,8 +193,9 @@ function(panvo_add_fuzzer target)
   set_property(GLOBAL APPEND PROPERTY PANVO_FUZZERS ${target})
 endfunction()
 
-# panvo_package(DEPENDENCIES <package> ...): installs headers, exports what panvo_add_library made, and writes the package's config file.
-# A dependency may carry components: "OpenCV COMPONENTS core imgproc" as one quoted argument. INCLUDE: files beside the config file that it includes.
+# panvo_package(DEPENDENCIES <package> ...): installs headers, exports the libraries of panvo_add_library, and writes the package's config
+# file. A dependency may have components: "OpenCV COMPONENTS core imgproc" as one quoted argument. INCLUDE: files next to the config file
+# that it includes.
 function(panvo_package)
   cmake_parse_arguments(PARSE_ARGV 0 arg "" "" "DEPENDENCIES;INCLUDE")
   set(destination ${CMAKE_INSTALL_DATADIR}/${PROJECT_NAME}/cmake)
@@ -210,7 +214,7 @@ function(panvo_package)
       string(APPEND includes "include(\${CMAKE_CURRENT_LIST_DIR}/${file})\n")
     endforeach()
     get_property(installs_idl DIRECTORY PROPERTY PANVO_INSTALLS_IDL)
-    if(installs_idl)  # for packages whose messages contain those of this one
+    if(installs_idl)  # for packages whose messages contain messages of this package
       string(APPEND includes "set_property(GLOBAL APPEND PROPERTY PANVO_IDL \${CMAKE_CURRENT_LIST_DIR}/../idl)\n")
     endif()
     file(WRITE ${CMAKE_CURRENT_BINARY_DIR}/${PROJECT_NAME}-config.cmake "include(CMakeFindDependencyMacro)\n${finds}${includes}")

@@ -1,22 +1,23 @@
 # Included by find_package(panvo_interfaces).
 include_guard(DIRECTORY)
 
-# panvo_generate_interfaces(<package> FILE... [RULES header...] [SOURCES file...] [NO_INSTALL]): the library of a package's messages, panvo::<package>, from
-# msg/<Name>.msg, srv/<Name>.srv (ROS 2's notations), msg/<Name>.idl and srv/<Name>.idl. C++ includes "<package>/msg/<Name>.h". Programs that do not link
-# the library find it by the package's name at run time: panvo topic echo, the recorder, the player and the bag tools.
-# Packages whose messages these contain are linked automatically; those of others than panvo need find_package() before.
-# RULES: headers that declare std::optional<std::string> problem_of(const <package>::msg::<Name>&), SOURCES: where they are defined; see README.md.
-# panvo_package() installs and exports it all.
+# panvo_generate_interfaces(<package> FILE... [RULES header...] [SOURCES file...] [NO_INSTALL]): builds the message library panvo::<package>
+# from msg/<Name>.msg, srv/<Name>.srv (ROS 2's notations), msg/<Name>.idl and srv/<Name>.idl. C++ code includes "<package>/msg/<Name>.h".
+# Programs that do not link the library find it by package name at run time: panvo topic echo, the recorder, the player and the bag tools.
+# Packages whose messages are contained are linked automatically; for those outside panvo, call find_package() before.
+# RULES: headers that declare std::optional<std::string> problem_of(const <package>::msg::<Name>&), SOURCES: their definitions; see
+# README.md.
+# panvo_package() installs and exports the library.
 function(panvo_generate_interfaces package)
   cmake_parse_arguments(PARSE_ARGV 1 arg "NO_INSTALL" "" "RULES;SOURCES")
   if(NOT COMMAND panvo_add_library)
-    message(FATAL_ERROR "panvo_generate_interfaces(${package}): find_package(panvo_build REQUIRED) before")
+    message(FATAL_ERROR "panvo_generate_interfaces(${package}): call find_package(panvo_build REQUIRED) before")
   endif()
   if(NOT arg_UNPARSED_ARGUMENTS)
-    message(FATAL_ERROR "panvo_generate_interfaces(${package}): name the files that define its messages: msg/<Name>.msg, srv/<Name>.srv or the same in IDL")
+    message(FATAL_ERROR "panvo_generate_interfaces(${package}): give the definition files: msg/<Name>.msg, srv/<Name>.srv or .idl")
   endif()
   if(NOT package MATCHES "^[a-z][a-z0-9_]*$")
-    message(FATAL_ERROR "panvo_generate_interfaces(${package}): a package is named in lower case, digits and '_', from a letter on")
+    message(FATAL_ERROR "panvo_generate_interfaces(${package}): a package name starts with a letter and has only lower-case letters, digits and '_'")
   endif()
   find_package(Python3 REQUIRED COMPONENTS Interpreter)
   find_program(FASTDDSGEN fastddsgen REQUIRED)
@@ -31,7 +32,7 @@ function(panvo_generate_interfaces package)
   set(generated ${CMAKE_CURRENT_BINARY_DIR}/messages/${package})
   get_property(known GLOBAL PROPERTY PANVO_IDL)
   list(REMOVE_DUPLICATES known)
-  set(known_files "")  # a message's hash and layout are made of those that it contains
+  set(known_files "")  # hash and layout of a message depend on those it contains
   foreach(folder IN LISTS known)
     file(GLOB_RECURSE found ${folder}/*.idl)
     list(APPEND known_files ${found})
@@ -43,7 +44,7 @@ function(panvo_generate_interfaces package)
   if(NOT status EQUAL 0)
     message(FATAL_ERROR "panvo_generate_interfaces(${package}): ${problem}")
   endif()
-  # Two lines: the packages that are needed, and what is made, each a list.
+  # The output has two lines, both lists: the packages needed, and the names of the generated files.
   string(REGEX MATCH "^([^\n]*)\n([^\n]*)$" _ "${prepared}")
   set(needed ${CMAKE_MATCH_1})
   set(names ${CMAKE_MATCH_2})
@@ -51,7 +52,7 @@ function(panvo_generate_interfaces package)
   list(TRANSFORM names REPLACE "(.+)" "${generated}/\\1.cxx" OUTPUT_VARIABLE classes)
   set(linked "")
   foreach(other IN LISTS needed)
-    if(TARGET panvo::${other})  # else the library panvo_interfaces itself holds that package
+    if(TARGET panvo::${other})  # otherwise the package is in the library panvo_interfaces
       list(APPEND linked panvo::${other})
     endif()
   endforeach()
@@ -59,14 +60,14 @@ function(panvo_generate_interfaces package)
   set(rules ${arg_RULES})
   list(TRANSFORM rules PREPEND "--rules=")
   file(GLOB generator CONFIGURE_DEPENDS ${home}/tools/*.py)
-  # Files whose content stays the same keep their time and are not compiled again; the stamp is what make and ninja compare.
+  # make and ninja compare the stamp file. Generated files with unchanged content keep their time stamp and are not recompiled.
   add_custom_command(
     OUTPUT ${generated}/stamp
     BYPRODUCTS ${generated}/message_table.cpp ${classes} ${headers}
     COMMAND ${generate} ${rules} --fastddsgen ${FASTDDSGEN} ${files}
     COMMAND ${CMAKE_COMMAND} -E touch ${generated}/stamp
     DEPENDS ${files} ${known_files} ${generator}
-    COMMENT "Generating the messages of ${package}"
+    COMMENT "Generating message classes of ${package}"
     VERBATIM)
   add_custom_target(${package}_generate DEPENDS ${generated}/stamp)
 
@@ -74,14 +75,14 @@ function(panvo_generate_interfaces package)
   add_dependencies(${package} ${package}_generate)
   target_include_directories(${package} PUBLIC $<BUILD_INTERFACE:${generated}>)
   target_link_options(${package} PRIVATE -Wl,-z,nodelete)  # references to its types stay valid
-  if(NOT PANVO_SANITIZE AND NOT PANVO_FUZZ)  # of those the program brings what is undefined
+  if(NOT PANVO_SANITIZE AND NOT PANVO_FUZZ)  # sanitizers leave symbols for the program to define
     target_link_options(${package} PRIVATE -Wl,-z,defs)
   endif()
   set_target_properties(${package} PROPERTIES
     OUTPUT_NAME ${package}__panvo
     LIBRARY_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/panvo_plugins
     UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 0)
-  set_property(TARGET ${package} PROPERTY VERSION)  # found by its name at run time
+  set_property(TARGET ${package} PROPERTY VERSION)  # loaded by name at run time
   set_property(TARGET ${package} PROPERTY SOVERSION)
   set_source_files_properties(${generated}/message_table.cpp ${arg_SOURCES} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
   set_property(GLOBAL APPEND PROPERTY PANVO_IDL ${generated}/idl)

@@ -10,7 +10,7 @@
 namespace panvo::interfaces {
 namespace {
 
-/// Goes over the bytes of a message member by member. OnGap(begin, end) is told of the bytes that are only there for alignment.
+/// Walks over the bytes of a message member by member. Calls on_gap(begin, end) for each run of alignment padding.
 template <class OnGap>
 class Walk {
  public:
@@ -27,13 +27,13 @@ class Walk {
   void member(const CdrField& field) {
     const std::uint32_t count = field.is_sequence ? length(field) : field.array_size;
     if (field.size > 0) {
-      if (count > 0) {  // an empty sequence is not followed by the alignment of its elements
+      if (count > 0) {  // an empty sequence has no alignment padding after its length
         align(field, field.size);
         skip(field, std::uint64_t{count} * field.size);
       }
       return;
     }
-    // Every element takes at least a byte, so that a length that is too large ends with the bytes.
+    // Every element takes at least one byte, so a length that is too large fails at the end of the data.
     for (std::uint32_t i = 0; i < count; ++i) {
       if (field.is_string) {
         skip(field, length(field));
@@ -62,8 +62,8 @@ class Walk {
 
   void skip(const CdrField& field, std::uint64_t bytes) {
     if (bytes > payload_.size() - position_) {
-      throw DecodeError(std::string(type_name_) + ": cut off or not of this type: member " + std::string(field.name) +
-                        " needs " + std::to_string(bytes) + " bytes at " + std::to_string(position_) + " of " +
+      throw DecodeError(std::string(type_name_) + ": truncated or not of this type: member " + std::string(field.name) +
+                        " needs " + std::to_string(bytes) + " bytes at offset " + std::to_string(position_) + " of " +
                         std::to_string(payload_.size()));
     }
     position_ += bytes;

@@ -10,13 +10,14 @@
 
 namespace panvo::interfaces {
 
-/// Walks through the bytes of a message, without its encapsulation header, and throws DecodeError naming type and member where they end
-/// too early. The decoder allocates what a length says before it looks whether that many bytes are there: this looks first.
+/// Checks that a payload (without encapsulation header) is long enough for its members. Throws DecodeError with type
+/// and member if it is not. Call it before decoding: the decoder allocates memory for a length before it checks that
+/// the data is there.
 void check_cdr(std::string_view type_name, const CdrLayout& layout, std::span<const std::uint8_t> payload,
                std::endian order);
 
-/// Sets the bytes between the members of a little-endian message to zero: the encoder steps over them, and what lay there before would
-/// go out with the message and make equal messages differ.
+/// Zeroes the padding between the members of a little-endian payload. The encoder skips it, so that old memory content
+/// would be sent and equal messages would differ. Throws DecodeError as check_cdr.
 void clear_padding(std::string_view type_name, const CdrLayout& layout, std::span<std::uint8_t> payload);
 
 }  // namespace panvo::interfaces

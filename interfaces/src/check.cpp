@@ -10,9 +10,9 @@ namespace panvo::interfaces {
 namespace {
 
 constexpr std::size_t kLargestCovariance = 6;  // rows
-// Of a correlation: what single precision and the composition of poses leave.
+// Tolerance of a correlation, for rounding by single precision and by the composition of poses.
 constexpr double kRounding = 1e-6;
-// Of the largest variance: what is left of a smaller one where the two were mixed by a rotation.
+// Precision of a small variance, relative to the largest, after a rotation has mixed the two.
 constexpr double kMixed = 1e-15;
 
 template <class Number>
@@ -21,7 +21,7 @@ bool are_finite(std::span<const Number> values) {
 }
 
 bool are_bounded(std::span<const double> values, double largest) {
-  return std::ranges::all_of(values, [&](double value) { return std::abs(value) <= largest; });  // not for a NaN
+  return std::ranges::all_of(values, [&](double value) { return std::abs(value) <= largest; });  // false for NaN
 }
 
 std::string number(double value) {
@@ -62,7 +62,7 @@ class Covariance {
     return difference <= kRounding * largest;
   }
 
-  /// Cholesky's decomposition of the correlations, so that units do not matter: metres, radians and "not known" side by side.
+  /// Cholesky decomposition of the correlations, so that metres, radians and huge "unknown" variances can be mixed.
   bool is_positive_semidefinite() const {
     std::array<double, kLargestCovariance> sigma{};
     for (std::size_t i = 0; i < rows_; ++i) sigma[i] = std::sqrt(std::max(at(i, i), mixed_in()));
@@ -127,14 +127,15 @@ Check& Check::bounded(MemberName name, std::initializer_list<double> values, dou
 
 Check& Check::within(MemberName name, double value, double least, double most) {
   if (problem_ || (value >= least && value <= most)) return *this;
-  return fail(name, std::isfinite(value) ? "is not within " + number(least) + " to " + number(most) : "is not finite");
+  return fail(name,
+              std::isfinite(value) ? "is not between " + number(least) + " and " + number(most) : "is not finite");
 }
 
 Check& Check::quaternion(MemberName name, double x, double y, double z, double w) {
   if (problem_) return *this;
   const double length = std::hypot(std::hypot(x, y), std::hypot(z, w));
   if (std::abs(length - 1.0) <= kUnitTolerance) return *this;
-  return fail(name, std::isfinite(length) ? "is not a quaternion of length 1" : "is not finite");
+  return fail(name, std::isfinite(length) ? "is not a unit quaternion" : "is not finite");
 }
 
 Check& Check::covariance(MemberName name, std::span<const double> row_major) {
@@ -143,7 +144,7 @@ Check& Check::covariance(MemberName name, std::span<const double> row_major) {
   const Covariance covariance(row_major);
   if (covariance.smallest_variance() < -covariance.mixed_in()) return fail(name, "has a negative variance");
   if (covariance.largest_variance() > kLargestVariance) {
-    return fail(name, "has a variance beyond " + number(kLargestVariance));
+    return fail(name, "has a variance above " + number(kLargestVariance));
   }
   if (!covariance.is_symmetric()) return fail(name, "is not symmetric");
   if (!covariance.is_positive_semidefinite()) return fail(name, "is not positive semidefinite");

@@ -20,7 +20,7 @@ void add_prefix(const fs::path& prefix, std::vector<fs::path>& folders) {
   }
 }
 
-/// colcon's default layout: a prefix for each package, below a common one.
+/// colcon's default layout: one prefix per package below a common one.
 void add_isolated_prefixes(const fs::path& common, std::vector<fs::path>& folders) {
   std::set<fs::path> prefixes;
   std::error_code error;
@@ -33,7 +33,7 @@ void add_isolated_prefixes(const fs::path& common, std::vector<fs::path>& folder
   }
 }
 
-/// Empty where /proc is not there.
+/// Empty without /proc.
 fs::path program_folder() {
   std::error_code error;
   return fs::read_symlink("/proc/self/exe", error).parent_path();

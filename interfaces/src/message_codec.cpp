@@ -19,7 +19,7 @@ void encode(const CdrType& type, const void* message, std::span<std::uint8_t> ou
   Cdr cdr(buffer, Cdr::LITTLE_ENDIANNESS, Cdr::DDS_CDR);
   cdr.serialize_encapsulation();
   type.write(message, cdr);
-  // A text that holds a NUL ends there on the wire, so that less than its length is written.
+  // Fast CDR sends a string up to its first NUL, so it may write less than the computed size.
   std::fill(out.begin() + static_cast<std::ptrdiff_t>(cdr.getSerializedDataLength()), out.end(), std::uint8_t{0});
   clear_padding(type.name, *type.layout, out.subspan(kEncapsulationSize));
 }
@@ -29,7 +29,7 @@ std::endian check_encapsulation(std::string_view type_name, std::span<const std:
   if (bytes.size() < kEncapsulationSize) {
     throw DecodeError(name + ": " + std::to_string(bytes.size()) + " bytes are too few for a message");
   }
-  // 00 00: plain CDR, big endian; 00 01: little endian. Others are parameter lists or later encodings.
+  // 00 00: plain CDR, big endian; 00 01: little endian. Other values are parameter lists or newer encodings.
   if (bytes[0] != 0 || bytes[1] > 1) {
     throw DecodeError(name + ": encapsulation " + std::to_string(bytes[0]) + " " + std::to_string(bytes[1]) +
                       " is not plain CDR");

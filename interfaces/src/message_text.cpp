@@ -26,12 +26,12 @@ std::string float_text(Float value) {
   if (std::isnan(value)) return ".nan";
   if (std::isinf(value)) return value > 0 ? ".inf" : "-.inf";
   std::string text = digits(value);
-  // Otherwise it would be read back as a whole number.
+  // Without a point it would be read back as an integer.
   if (text.find_first_of(".e") == std::string::npos) text += ".0";
   return text;
 }
 
-/// With what only double quotes can hold.
+/// In double quotes, the only style that supports escape sequences.
 std::string escaped(std::string_view text) {
   constexpr std::string_view kHex = "0123456789abcdef";
   std::string quoted = "\"";
@@ -50,7 +50,7 @@ std::string escaped(std::string_view text) {
   return quoted + "\"";
 }
 
-/// Plain where YAML takes it for text and nothing else.
+/// Without quotes if YAML reads the text as a string.
 std::string quoted(std::string_view text) {
   constexpr std::string_view kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ_/";
   const auto is_control = [](char letter) { return static_cast<unsigned char>(letter) < 0x20 || letter == 0x7f; };
@@ -68,7 +68,7 @@ std::string quoted(std::string_view text) {
   return quoted + "'";
 }
 
-/// Goes over bytes that check_cdr has found to be right.
+/// Prints a payload that check_cdr has accepted.
 class Printer {
  public:
   Printer(std::span<const std::uint8_t> payload, std::endian order, std::size_t longest)
@@ -102,7 +102,7 @@ class Printer {
     for (std::uint32_t i = 0; i < count; ++i) {
       if (longest_ != 0 && i == longest_) {
         text_ += indent + "- '...'\n";
-        shown_.push_back(std::move(text_));  // the rest is passed over
+        shown_.push_back(std::move(text_));  // the rest is skipped
         text_.clear();
       }
       text_ += indent + "- ";

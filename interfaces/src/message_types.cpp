@@ -16,18 +16,19 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Peers on the network choose the names that are looked up: what was not found is remembered, up to this many packages.
+/// Maximum number of packages to look for. Peers on the network choose the names, so the record of them must be
+/// bounded.
 constexpr std::size_t kMostMissing = 1024;
 
 /// All message types of this process. Types are added when a library is loaded and never removed.
 class Registry {
  public:
   static Registry& instance() {
-    static Registry registry;  // first used by the initialisers of libraries, in whatever order they are loaded
+    static Registry registry;  // static initialisers of libraries use it, in any order
     return registry;
   }
 
-  /// Of a type that two libraries define, the first stays.
+  /// If two libraries define a type, keeps the first.
   void add(std::span<const MessageType* const> types) {
     const std::unique_lock lock(mutex_);
     for (const MessageType* type : types) {
@@ -47,7 +48,7 @@ class Registry {
     return types_;
   }
 
-  /// Libraries whose tables were compiled with other headers, so that they cannot be read.
+  /// Number of libraries that were rejected because their tables were compiled with different headers.
   std::size_t misfits() const { return misfits_; }
   void add_misfit() { ++misfits_; }
 
@@ -59,7 +60,8 @@ class Registry {
   std::atomic<std::size_t> misfits_{0};
 };
 
-/// "my_msgs" of "my_msgs/msg/Thing"; empty for a name that is not a type's. A package is a name in lower case, so that no path can be hidden in it.
+/// "my_msgs" for "my_msgs/msg/Thing"; empty for a name that is not a type name. Package names are restricted to lower
+/// case, digits and '_', so that they cannot contain a path.
 std::string_view package_of(std::string_view name) {
   const std::string_view package = name.substr(0, name.find('/'));
   const auto rest = name.substr(package.size());
@@ -68,7 +70,7 @@ std::string_view package_of(std::string_view name) {
   return is_type && std::ranges::all_of(package, is_allowed) ? package : std::string_view();
 }
 
-/// Loads libraries of messages by the names of their packages, each once.
+/// Loads message libraries by package name, each once.
 class Loader {
  public:
   static Loader& instance() {
@@ -76,7 +78,7 @@ class Loader {
     return loader;
   }
 
-  /// Whether types may have been added.
+  /// Returns whether types may have been added.
   bool load(const std::string& package) {
     const std::lock_guard lock(mutex_);
     if (problems_.contains(package) || problems_.size() >= kMostMissing) return false;
@@ -86,18 +88,18 @@ class Loader {
       std::error_code error;
       if (!fs::is_regular_file(file, error)) continue;
       const auto misfits = Registry::instance().misfits();
-      // What is missing shows now and not in the middle of a run. Its types are referred to for as long as the process lives.
+      // RTLD_NOW: missing symbols show here, not later in the run. RTLD_NODELETE: references to its types stay valid.
       if (!dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE)) {
         problem = dlerror();
       } else if (Registry::instance().misfits() != misfits) {
-        problem = file.string() + " was built with other headers of panvo_interfaces: build it again";
+        problem = file.string() + " was built with different headers of panvo_interfaces; rebuild it";
       }
       return problem.empty();
     }
     return false;
   }
 
-  /// Why the library of a package could not be used; empty if there was none, or nothing was wrong.
+  /// Why the library of a package could not be loaded; empty if it was loaded or does not exist.
   std::string problem_of(const std::string& package) {
     const std::lock_guard lock(mutex_);
     const auto found = problems_.find(package);
@@ -106,7 +108,7 @@ class Loader {
 
  private:
   std::mutex mutex_;
-  std::map<std::string, std::string> problems_;  ///< of every package that was looked for
+  std::map<std::string, std::string> problems_;  ///< by package, for every package looked for
 };
 
 }  // namespace
@@ -128,14 +130,14 @@ const MessageType* find_message_type(std::string_view name) {
 
 std::string why_unknown(std::string_view name) {
   const std::string package(package_of(name));
-  if (package.empty()) return "is not a type name: write package/msg/Type, the package in lower case";
+  if (package.empty()) return "is not a type name; write it as package/msg/Type, the package in lower case";
   const std::string problem = Loader::instance().problem_of(package);
   if (!problem.empty()) return "cannot be loaded: " + problem;
   const auto types = message_types();
   const bool is_package_known =
       std::ranges::any_of(types, [&package](const MessageType* type) { return package_of(type->name) == package; });
-  return (is_package_known ? "is not a type of the package " + package + " that is installed"
-                           : "is unknown: there is no " + message_library_name(package)) +
+  return (is_package_known ? "is unknown: the package " + package + " does not define it"
+                           : "is unknown: cannot find " + message_library_name(package)) +
          "; build the package with panvo_generate_interfaces() and source its workspace, or add its folder to "
          "PANVO_PLUGIN_PATH";
 }

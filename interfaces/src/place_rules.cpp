@@ -10,11 +10,11 @@ namespace panvo::interfaces {
 namespace {
 
 constexpr std::size_t kMostBins = 4096;
-constexpr float kFarthestPoint_m = 1e6F;  // of a point from the panorama: its bearing alone counts long before
-constexpr float kLargestValue = 1e6F;     // of a normalised response, its spread, a size in px
-constexpr double kSumTolerance = 1e-3;    // a float's rounding over many bins
+constexpr float kFarthestPoint_m = 1e6F;  // of point coordinates; that far away only the bearing matters
+constexpr float kLargestValue = 1e6F;     // of a normalised response, its spread, or a size in px
+constexpr double kSumTolerance = 1e-3;    // rounding of floats over many bins
 
-/// The number that a "key=value" line gives; nullopt: there is no such line, or no number in it.
+/// Number in the "key=value" line of `key`; nullopt if there is no such line or it holds no number.
 std::optional<std::size_t> setting(std::string_view settings, std::string_view key) {
   while (!settings.empty()) {
     const auto line = settings.substr(0, settings.find('\n'));
@@ -37,12 +37,13 @@ DescriptionSize description_size(std::string_view settings) {
 
 void check_histogram(Check& check, std::span<const float> histogram, const DescriptionSize& size) {
   check.require(!histogram.empty(), "histogram", "is empty").at_most("histogram", histogram.size(), kMostBins);
-  check.require(!size.bins || histogram.size() == *size.bins, "histogram", "has not as many bins as the settings say");
+  check.require(!size.bins || histogram.size() == *size.bins, "histogram",
+                "does not have as many bins as the settings specify");
   if (!check.holds()) return;
   const bool are_shares = std::ranges::all_of(histogram, [](float share) { return share >= 0.0F; });
   const double sum = std::accumulate(histogram.begin(), histogram.end(), 0.0);
   check.require(are_shares && std::abs(sum - 1.0) <= kSumTolerance, "histogram",
-                "has shares that are negative or do not add up to 1");
+                "has negative values or does not sum to 1");
 }
 
 FeatureRule::FeatureRule(Check& check, std::string_view list, std::size_t count, const DescriptionSize& size)
@@ -51,25 +52,26 @@ FeatureRule::FeatureRule(Check& check, std::string_view list, std::size_t count,
 }
 
 void FeatureRule::check(std::uint16_t row, float value, float scale, float weight) {
-  check_.require(row < rows_, {list_, "row"}, "is beyond the rows of the measurement matrix");
+  check_.require(row < rows_, {list_, "row"}, "is not a row of the measurement matrix");
   check_.require(std::abs(value) <= kLargestValue, {list_, "value"}, "is beyond +-1e+06 or not finite");
-  // 0: the patch looked the same from everywhere around; distances have a smallest spread of their own.
-  check_.require(scale >= 0.0F && scale <= kLargestValue, {list_, "scale"}, "is negative or not finite");
-  check_.require(weight >= 0.0F && weight <= 1.0F, {list_, "weight"}, "is not within 0 to 1");
-  check_.require(!(weight > last_weight_), {list_, "weight"}, "does not descend");
+  // 0 is valid: the patch looked the same from everywhere nearby. Distances use a minimum spread.
+  check_.require(scale >= 0.0F && scale <= kLargestValue, {list_, "scale"}, "is negative, above 1e+06 or not finite");
+  check_.require(weight >= 0.0F && weight <= 1.0F, {list_, "weight"}, "is not between 0 and 1");
+  check_.require(!(weight > last_weight_), {list_, "weight"}, "is not in descending order");
   last_weight_ = weight;
 }
 
 void check_keypoint(Check& check, const std::array<float, 3>& bearing, float size_px, bool has_point,
                     const std::array<float, 3>& point, float inverse_range_sigma) {
   const double length = std::hypot(double{bearing[0]}, double{bearing[1]}, double{bearing[2]});
-  check.require(std::abs(length - 1.0) <= kUnitTolerance, {"keypoints", "bearing"}, "is not of length 1");
-  check.require(size_px >= 0.0F && size_px <= kLargestValue, {"keypoints", "size_px"}, "is negative or not finite");
+  check.require(std::abs(length - 1.0) <= kUnitTolerance, {"keypoints", "bearing"}, "is not a unit vector");
+  check.require(size_px >= 0.0F && size_px <= kLargestValue, {"keypoints", "size_px"},
+                "is negative, above 1e+06 or not finite");
   const bool is_near = std::ranges::all_of(point, [](float value) { return std::abs(value) <= kFarthestPoint_m; });
   check.require(is_near, {"keypoints", "point"}, "is beyond +-1e+06 or not finite");
-  const float least_sigma = has_point ? 0.0F : -kLargestValue;  // without a point nobody reads it
+  const float least_sigma = has_point ? 0.0F : -kLargestValue;  // not used without a point
   check.require(inverse_range_sigma >= least_sigma && inverse_range_sigma <= kLargestValue,
-                {"keypoints", "inverse_range_sigma"}, "is negative or not finite");
+                {"keypoints", "inverse_range_sigma"}, "is negative, above 1e+06 or not finite");
 }
 
 }  // namespace panvo::interfaces

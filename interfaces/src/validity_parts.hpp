@@ -10,11 +10,11 @@
 #include "panvo/interfaces/check.hpp"
 #include "std_msgs/msg/Header.h"
 
-/// The rules of what several messages hold.
+/// Rules of members that several messages have.
 namespace panvo::interfaces {
 
 inline void check_stamp(Check& check, MemberName name, const builtin_interfaces::msg::Time& stamp) {
-  check.require(stamp.nanosec() < 1'000'000'000, name, "has more nanoseconds than a second");
+  check.require(stamp.nanosec() < 1'000'000'000, name, "has a nanosec of 1e+09 or more");
 }
 
 inline void check_header(Check& check, const std_msgs::msg::Header& header) {

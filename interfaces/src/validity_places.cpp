@@ -6,7 +6,7 @@
 namespace panvo::interfaces {
 namespace {
 
-constexpr std::size_t kMostLandmarks = 1'000'000;  // a store of ten thousand is a town
+constexpr std::size_t kMostLandmarks = 1'000'000;  // ten thousand landmarks cover a town
 
 void check_features(Check& check, std::string_view name, const std::vector<panvo_msgs::msg::AdaptiveFeature>& features,
                     const DescriptionSize& size) {
@@ -46,8 +46,8 @@ Problem problem_of(const panvo_msgs::msg::LandmarkPoses& message) {
   Check check;
   check_header(check, message.header());
   check.at_most("ids", message.ids().size(), kMostLandmarks);
-  check.require(message.ids().size() == message.poses().size(), "poses", "are not as many as ids");
-  for (const auto id : message.ids()) check.require(id != 0, "ids", "have a 0");
+  check.require(message.ids().size() == message.poses().size(), "poses", "differ in number from ids");
+  for (const auto id : message.ids()) check.require(id != 0, "ids", "contain 0");
   for (const auto& pose : message.poses()) {
     if (!check.holds()) break;
     check_pose(check, "poses.pose", pose.pose());
@@ -62,7 +62,7 @@ Problem problem_of(const panvo_msgs::msg::LandmarkMatch& message) {
   check.within("state", message.state(), panvo_msgs::msg::LandmarkMatch_Constants::SEARCHING,
                panvo_msgs::msg::LandmarkMatch_Constants::UNUSABLE);
   check.text("reason", message.reason());
-  check.finite("heading_rad", {message.heading_rad()});  // the distances of levels that were not compared are NaN
+  check.finite("heading_rad", {message.heading_rad()});  // distances are NaN for levels that were not compared
   return check.problem();
 }
 

@@ -5,8 +5,8 @@
 namespace panvo::interfaces {
 namespace {
 
-constexpr std::size_t kMostPoses = 1'000'000;    // of a path: a day at 10 Hz
-constexpr std::size_t kMostTransforms = 10'000;  // of one message: ten times the joints of any robot
+constexpr std::size_t kMostPoses = 1'000'000;    // of a path; a day at 10 Hz
+constexpr std::size_t kMostTransforms = 10'000;  // of one message; ten times the joints of any robot
 
 void check(Check& check, std::string_view pose_name, std::string_view covariance_name,
            const geometry_msgs::msg::PoseWithCovariance& pose) {
@@ -49,7 +49,7 @@ Problem problem_of(const nav_msgs::msg::Odometry& message) {
   checked.name("child_frame_id", message.child_frame_id());
   check(checked, "pose.pose", "pose.covariance", message.pose());
   check_twist(checked, "twist.twist", message.twist().twist());
-  // Drivers that know no speed say so with -1 in the first element, as REP 145 has it for IMUs.
+  // Drivers that do not measure velocity set the first element to -1, as REP 145 defines it for IMUs.
   const auto& twist = message.twist().covariance();
   if (twist[0] != -1.0) checked.covariance("twist.covariance", twist);
   return checked.problem();

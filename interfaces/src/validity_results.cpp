@@ -7,9 +7,9 @@
 namespace panvo::interfaces {
 namespace {
 
-constexpr double kMostTurn_rad = std::numbers::pi + 1e-6;  // rounding of a wrapped angle
-constexpr double kLargestAngleVariance = 1e3;              // a turn is all there is; more is "not known"
-constexpr double kLargestSigma = 1e9;                      // of a pose that is not known
+constexpr double kMostTurn_rad = std::numbers::pi + 1e-6;  // allows for rounding of a wrapped angle
+constexpr double kLargestAngleVariance = 1e3;              // larger than any angle squared, so "unknown"
+constexpr double kLargestSigma = 1e9;                      // of an unknown pose
 constexpr double kLargestResidual_px = 1e6;
 constexpr std::size_t kMostStatuses = 10'000;
 constexpr std::size_t kMostValues = 10'000;
@@ -48,7 +48,7 @@ Problem problem_of(const panvo_msgs::msg::Integrity& message) {
   check.text("reason", message.reason());
   check.within("risk", message.risk(), 0.0, 1.0);
   check.within("alert_limit_m", message.alert_limit_m(), 0.0, kLargestSigma);
-  // A level that cannot be told may be infinite, but then the pose is of no use.
+  // The level may be infinite if it is unknown, but then the pose is not usable.
   if (message.usable()) {
     check.within("horizontal_protection_level_m", message.horizontal_protection_level_m(), 0.0, kLargestSigma);
   }
@@ -83,7 +83,7 @@ Problem problem_of(const panvo_msgs::msg::PositionCorrection& message) {
                panvo_msgs::msg::PositionCorrection_Constants::REJECTED);
   check.text("reason", message.reason());
   check_pose(check, "landmark_from_base.pose", message.landmark_from_base().pose());
-  // What is rejected is told for people: nobody measures with it.
+  // A rejected correction is for information only and not used as a measurement.
   const bool measures = message.state() != panvo_msgs::msg::PositionCorrection_Constants::REJECTED;
   if (measures) {
     check.measured_covariance("landmark_from_base.covariance", message.landmark_from_base().covariance());

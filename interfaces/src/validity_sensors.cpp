@@ -13,16 +13,15 @@ namespace panvo::interfaces {
 namespace {
 
 constexpr std::uint32_t kLargestSide_px = 1U << 16;
-constexpr double kLongestFocal_px = 1e6;  // a telescope's
-constexpr double kLargestCoefficient =
-    1e6;  // of a distortion; those of a rational one that fits badly reach some thousand
+constexpr double kLongestFocal_px = 1e6;     // a telescope
+constexpr double kLargestCoefficient = 1e6;  // of a distortion; a poor fit of a rational model reaches thousands
 constexpr std::size_t kMostCoefficients = 32;
 constexpr double kLongestBaseline_m = 1e3;
 constexpr double kRotationTolerance = 1e-3;
 constexpr std::size_t kMostPointFields = 256;
 
-/// Bytes of a pixel in one of sensor_msgs/image_encodings; 0: none of them. In nv21 and nv24 the colours follow
-/// the grey image, which alone is counted.
+/// Bytes per pixel of an encoding in sensor_msgs/image_encodings; 0: unknown encoding. For nv21 and nv24 only the grey
+/// plane counts, which precedes the colour plane.
 std::uint32_t bytes_of_pixel(std::string_view encoding) {
   struct Encoding {
     std::string_view name;
@@ -37,7 +36,7 @@ std::uint32_t bytes_of_pixel(std::string_view encoding) {
   for (const auto& known : kEncodings) {
     if (known.name == encoding) return known.bytes;
   }
-  // OpenCV's types: 8UC1, 32FC3, 64FC(17).
+  // OpenCV types with 1 to 4 channels: 8UC1, 32FC3.
   for (const auto& [depth, bytes] : {Encoding{"8U", 1}, Encoding{"8S", 1}, Encoding{"16U", 2}, Encoding{"16S", 2},
                                      Encoding{"32S", 4}, Encoding{"32F", 4}, Encoding{"64F", 8}}) {
     if (!encoding.starts_with(depth) || encoding.substr(depth.size()).size() != 2) continue;
@@ -50,7 +49,7 @@ std::uint32_t bytes_of_pixel(std::string_view encoding) {
 }
 
 void check_size(Check& check, std::uint32_t width, std::uint32_t height) {
-  check.require(width <= kLargestSide_px && height <= kLargestSide_px, "width or height", "is more than 65536 px");
+  check.require(width <= kLargestSide_px && height <= kLargestSide_px, "width or height", "exceeds 65536 px");
 }
 
 bool is_zero(std::span<const double> values) {
@@ -70,7 +69,7 @@ bool is_rotation(const std::array<double, 9>& r) {
   return determinant > 0.0;
 }
 
-/// REP 145: -1 in the first element says that the quantity is not measured.
+/// REP 145: -1 in the first element marks a quantity that is not measured.
 bool is_measured(const std::array<double, 9>& covariance) { return covariance[0] != -1.0; }
 
 }  // namespace
@@ -81,11 +80,11 @@ Problem problem_of(const sensor_msgs::msg::Image& message) {
   check.require(message.width() > 0 && message.height() > 0, "width or height", "is 0");
   check_size(check, message.width(), message.height());
   const std::uint32_t pixel_bytes = bytes_of_pixel(message.encoding());
-  check.require(pixel_bytes > 0, "encoding", "is none of sensor_msgs/image_encodings");
+  check.require(pixel_bytes > 0, "encoding", "is not in sensor_msgs/image_encodings");
   if (!check.holds()) return check.problem();
   const std::uint64_t row_bytes = std::uint64_t{message.width()} * pixel_bytes;
   const std::uint64_t step = message.step(), size = message.data().size();
-  check.require(step >= row_bytes, "step", "is less than a row needs");
+  check.require(step >= row_bytes, "step", "is too small for a row");
   check.require(size >= step * (message.height() - 1) + row_bytes, "data", "is shorter than height rows of step bytes");
   return check.problem();
 }
@@ -109,7 +108,7 @@ Problem problem_of(const sensor_msgs::msg::CameraInfo& message) {
   const double focal_px = std::abs(p[0]);
   for (const std::size_t i : {0, 1, 2, 4, 5, 6, 8, 9, 10}) check.bounded("p", {p[i]}, kLongestFocal_px);
   for (const std::size_t i : {3, 7, 11}) check.bounded("p", {p[i]}, kLongestBaseline_m * std::max(1.0, focal_px));
-  check.require(is_zero(message.r()) || is_rotation(message.r()), "r", "is not a rotation");
+  check.require(is_zero(message.r()) || is_rotation(message.r()), "r", "is not a rotation matrix");
   return check.problem();
 }
 
@@ -140,9 +139,9 @@ Problem problem_of(const sensor_msgs::msg::PointCloud2& message) {
   if (!check.holds()) return check.problem();
   const std::uint64_t point = message.point_step(), row = message.row_step();
   for (const auto& field : message.fields()) {
-    check.require(field.offset() < point || point == 0, "fields", "has an offset beyond point_step");
+    check.require(field.offset() < point || point == 0, "fields", "contain an offset beyond point_step");
   }
-  check.require(row >= point * message.width(), "row_step", "is less than width points need");
+  check.require(row >= point * message.width(), "row_step", "is too small for width points");
   check.require(message.data().size() >= row * message.height(), "data",
                 "is shorter than height rows of row_step bytes");
   return check.problem();

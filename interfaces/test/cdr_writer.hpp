@@ -10,7 +10,7 @@
 
 namespace panvo::interfaces {
 
-/// Writes messages of a layout with made-up content, from the layout alone: a second opinion on what the generated classes write.
+/// Writes messages with random content from their layout alone, independently of the generated classes.
 class CdrWriter {
  public:
   /// The content depends on the seed only, not on the byte order.
@@ -39,7 +39,7 @@ class CdrWriter {
     } else if (field.is_string) {
       text();
     } else if (field.size == 1) {
-      number(random_() % 2, 1);  // any value would do, but for booleans
+      number(random_() % 2, 1);  // a boolean must be 0 or 1
     } else {
       number(std::uint64_t{random_()} << 32 | random_(), field.size);
     }
@@ -55,7 +55,7 @@ class CdrWriter {
   }
 
   void number(std::uint64_t value, std::size_t size) {
-    constexpr std::size_t kHeader = 4;  // the encapsulation does not count for the alignment
+    constexpr std::size_t kHeader = 4;  // alignment is relative to the end of the encapsulation header
     while ((bytes_.size() - kHeader) % size != 0) {
       bytes_.push_back(0);
     }

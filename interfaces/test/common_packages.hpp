@@ -7,7 +7,7 @@
 
 namespace panvo::interfaces {
 
-/// One message of each package of ROS 2's common_interfaces that has a library of its own.
+/// One message of each package in ROS 2's common_interfaces that has its own library.
 inline constexpr const char* kOneOfEachPackage[] = {
     "std_msgs/msg/ColorRGBA",         "std_srvs/srv/SetBool_Request",
     "actionlib_msgs/msg/GoalID",      "diagnostic_msgs/srv/SelfTest_Request",
@@ -16,7 +16,7 @@ inline constexpr const char* kOneOfEachPackage[] = {
     "stereo_msgs/msg/DisparityImage", "trajectory_msgs/msg/JointTrajectory",
     "visualization_msgs/msg/Marker"};
 
-/// Loads those libraries of this build.
+/// Loads these libraries from the build tree.
 inline void load_common_packages() {
   setenv("PANVO_PLUGIN_PATH", PANVO_TEST_LIBRARIES, 1);
   for (const char* name : kOneOfEachPackage) find_message_type(name);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What holds for every message type, tried with made-up messages.
+// Properties of every message type, tested with random messages.
 #include <algorithm>
 #include <random>
 #include <string>
@@ -16,7 +16,7 @@ namespace {
 
 constexpr unsigned kSeeds = 20;
 
-/// Those of panvo_interfaces and of all packages of ROS 2's common_interfaces.
+/// All types of panvo_interfaces and of ROS 2's common_interfaces.
 std::vector<const MessageType*> every_type() {
   static const bool is_loaded = (load_common_packages(), true);
   static_cast<void>(is_loaded);

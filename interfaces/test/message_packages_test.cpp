@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Packages of messages that this program does not link: found by name, or refused with a reason.
+// Message packages that this program does not link: found by name, or rejected with a reason.
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -19,7 +19,8 @@ namespace {
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 
-/// Little-endian CDR of a lamp: stamp 1.5 s, frame "map", level 7, a name, one switch, an echo of no values, two points, one colour.
+/// Little-endian CDR of a lamp: stamp 1.5 s, frame "map", level 7, a name, one switch, an empty echo, two points, one
+/// colour.
 Bytes lamp(const std::string& name) {
   Bytes bytes{0, 1, 0, 0};
   const auto align = [&bytes](std::size_t to) {
@@ -95,9 +96,9 @@ TEST_F(MessagePackages, HaveTheDefinitionThatBagsCarry) {
 
 TEST_F(MessagePackages, ThatAreNotThereAreNamedWithTheirRemedy) {
   EXPECT_EQ(find_message_type("missing_msgs/msg/Thing"), nullptr);
-  EXPECT_THAT(why_unknown("missing_msgs/msg/Thing"), HasSubstr("there is no libmissing_msgs__panvo.so"));
+  EXPECT_THAT(why_unknown("missing_msgs/msg/Thing"), HasSubstr("cannot find libmissing_msgs__panvo.so"));
   EXPECT_EQ(find_message_type("test_msgs/msg/Candle"), nullptr);
-  EXPECT_THAT(why_unknown("test_msgs/msg/Candle"), HasSubstr("not a type of the package test_msgs"));
+  EXPECT_THAT(why_unknown("test_msgs/msg/Candle"), HasSubstr("the package test_msgs does not define it"));
 }
 
 TEST_F(MessagePackages, CannotBeReachedByAPath) {
@@ -120,7 +121,7 @@ TEST_F(MessagePackages, ThatCannotBeLoadedAreRefusedWithTheReason) {
 
 TEST_F(MessagePackages, ThatWereBuiltWithOtherHeadersAreRefused) {
   EXPECT_EQ(find_message_type("misfit_msgs/msg/Thing"), nullptr);
-  EXPECT_THAT(why_unknown("misfit_msgs/msg/Thing"), HasSubstr("was built with other headers of panvo_interfaces"));
+  EXPECT_THAT(why_unknown("misfit_msgs/msg/Thing"), HasSubstr("was built with different headers of panvo_interfaces"));
 }
 
 TEST_F(MessagePackages, ThatStrangersNameDoNotFillTheMemory) {

@@ -129,7 +129,7 @@ TEST(MessageType, RefusesALengthBeyondTheBytesWithoutAllocatingIt) {
   Bytes bytes = encode(image);
   std::fill(bytes.end() - 4, bytes.end(), std::uint8_t{0xFF});  // the length of data comes last
   EXPECT_THAT(decode_error<sensor_msgs::msg::Image>(bytes),
-              testing::StartsWith("sensor_msgs/msg/Image: cut off or not of this type: member data"));
+              testing::StartsWith("sensor_msgs/msg/Image: truncated or not of this type: member data"));
 
   Bytes path = encode(nav_msgs::msg::Path());
   std::fill(path.end() - 4, path.end(), std::uint8_t{0xFF});

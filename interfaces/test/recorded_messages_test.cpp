@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Our messages against those in bags that ROS 2 tools wrote: bytes, type hashes and definitions.
+// Compares messages with those in bags written by ROS 2 tools: bytes, type hashes and definitions.
 #include <algorithm>
 #include <filesystem>
 #include <memory>
@@ -22,17 +22,17 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A query over a bag's database, row by row.
+/// Rows of a query on a bag's database.
 class Query {
  public:
   Query(const fs::path& database, const char* sql) {
-    // Immutable: the folder may be read-only, and nobody writes to it.
+    // Immutable, because the folder may be read-only. No other process writes to it.
     const std::string uri = "file:" + database.string() + "?mode=ro&immutable=1";
     sqlite3* connection = nullptr;
     const int opened = sqlite3_open_v2(uri.c_str(), &connection, SQLITE_OPEN_READONLY | SQLITE_OPEN_URI, nullptr);
     connection_.reset(connection);
     sqlite3_stmt* statement = nullptr;
-    // A bag of an older schema has not all columns: it then gives no rows.
+    // Bags with an older schema lack some columns; the query then returns no rows.
     if (opened == SQLITE_OK && sqlite3_prepare_v2(connection, sql, -1, &statement, nullptr) == SQLITE_OK) {
       statement_.reset(statement);
     }
@@ -71,7 +71,7 @@ class RecordedMessages : public testing::Test {
   std::set<fs::path> bags_;
 };
 
-/// "sensor_msgs/Image", as the first releases of ROS 2 wrote it, is the same type as "sensor_msgs/msg/Image".
+/// Accepts also "sensor_msgs/Image", as written by the first ROS 2 releases, for "sensor_msgs/msg/Image".
 const MessageType* find(std::string name) {
   if (name.find("/msg/") == std::string::npos && name.find('/') != std::string::npos) {
     name.insert(name.find('/'), "/msg");
@@ -79,7 +79,7 @@ const MessageType* find(std::string name) {
   return find_message_type(name);
 }
 
-/// A definition without what may differ: comments, white space, a default's notation, and a package that goes without saying.
+/// A definition without the parts that may differ: comments, white space, defaults and package names.
 std::string normalised(const std::string& definition) {
   std::istringstream lines(definition);
   std::string line, package, result;
@@ -96,7 +96,7 @@ std::string normalised(const std::string& definition) {
   return result;
 }
 
-/// What a later ROS 2 added to a type, lines in between: all lines of the earlier definition are there, in their order.
+/// Whether `later` has all lines of `earlier` in the same order, possibly with new lines between them.
 bool extends(const std::string& later, const std::string& earlier) {
   std::istringstream later_lines(later), earlier_lines(earlier);
   std::string wanted, line;
@@ -108,9 +108,9 @@ bool extends(const std::string& later, const std::string& earlier) {
   return true;
 }
 
-/// Of Jazzy, where the bags are of Iron: its range has a variance.
+/// Has an additional field, the variance, in Jazzy; the bags are from Iron.
 constexpr std::string_view kGrown = "sensor_msgs/msg/Range";
-/// The tool that wrote the bags has ROS 2's `char` as a type of its own; ROS 2 has it as uint8.
+/// For the tool that wrote the bags, `char` is a type of its own; in ROS 2 it is uint8.
 constexpr std::string_view kHashedOtherwise = "std_msgs/msg/Char";
 
 TEST_F(RecordedMessages, AreWrittenByteForByteAsTheyWereRead) {
@@ -125,7 +125,7 @@ TEST_F(RecordedMessages, AreWrittenByteForByteAsTheyWereRead) {
       const auto message = type->deserialize(recorded);
       Bytes written(type->serialized_size(message.get()));
       type->serialize(message.get(), written);
-      // What lies between members does not matter, and a recorder may keep the padding after the last one.
+      // Padding between members may have any value, and a recorder may keep the padding after the last member.
       ASSERT_LE(written.size(), recorded.size()) << type->name << " in " << bag;
       ASSERT_LE(recorded.size() - written.size(), 3U) << type->name << " in " << bag;
       recorded.resize(written.size());
@@ -144,7 +144,7 @@ TEST_F(RecordedMessages, AreWrittenByteForByteAsTheyWereRead) {
 TEST_F(RecordedMessages, KeepTheRulesOfTheirTypes) {
   std::set<std::string_view> types;
   for (const fs::path& bag : bags_) {
-    // Made up by rosbag2's own tests: random numbers, images of three bytes.
+    // Bags of rosbag2's own tests have random numbers and images of three bytes.
     const std::string name = bag.stem();
     if (name.find("rosbag2_test") != std::string::npos || name.find("test_bag") != std::string::npos) continue;
     Query query(bag, "SELECT topics.type, messages.data FROM messages JOIN topics ON topics.id = messages.topic_id");
@@ -156,7 +156,7 @@ TEST_F(RecordedMessages, KeepTheRulesOfTheirTypes) {
       types.insert(type->name);
     }
   }
-  EXPECT_GE(types.size(), 5U);  // with rules, in bags that robots recorded
+  EXPECT_GE(types.size(), 5U);  // types with rules, in bags recorded on robots
 }
 
 TEST_F(RecordedMessages, HaveOurTypeHashes) {
@@ -177,7 +177,7 @@ TEST_F(RecordedMessages, HaveOurTypeHashes) {
 TEST_F(RecordedMessages, HaveOurDefinitions) {
   std::set<std::string_view> types;
   for (const fs::path& bag : bags_) {
-    // Some of rosbag2's own test bags hold stubs for definitions; those have no type hash.
+    // Some of rosbag2's own test bags have stubs instead of definitions, and then no type hash.
     Query query(bag,
                 "SELECT topic_type, encoded_message_definition FROM message_definitions JOIN topics ON topics.type = "
                 "topic_type "

@@ -88,7 +88,7 @@ TEST(Covariance, MayMixMetresRadiansAndWhatIsNotKnown) {
 }
 
 TEST(Covariance, OfAKnownDirectionIsSemidefinite) {
-  Covariance covariance{};  // of a way along (1, 2): no variance across
+  Covariance covariance{};  // of a position along the line (1, 2), without variance across it
   covariance[0] = 1;
   covariance[1] = covariance[6] = 2;
   covariance[7] = 4;
@@ -106,7 +106,7 @@ TEST(Covariance, IsRefusedWhereASmallPartIsIndefiniteBesideAHugeOne) {
 TEST(Covariance, IsRefusedForEachRuleItBreaks) {
   EXPECT_EQ(problem_of_covariance(diagonal({1, 1, 1, 1, -0.1, 1})), "covariance has a negative variance");
   EXPECT_EQ(problem_of_covariance(diagonal({1, 1, kNaN, 1, 1, 1})), "covariance is not finite");
-  EXPECT_EQ(problem_of_covariance(diagonal({1, 1, 1e308, 1, 1, 1})), "covariance has a variance beyond 1e+15");
+  EXPECT_EQ(problem_of_covariance(diagonal({1, 1, 1e308, 1, 1, 1})), "covariance has a variance above 1e+15");
   Covariance covariance = diagonal({1, 1, 1, 1, 1, 1});
   covariance[1] = 0.5;
   EXPECT_EQ(problem_of_covariance(covariance), "covariance is not symmetric");
@@ -130,7 +130,7 @@ TEST(Validity, IsReachedThroughTheMessageType) {
   EXPECT_EQ(type.problem(&message), std::nullopt);
   message.pose().covariance()[3] = kNaN;
   EXPECT_EQ(type.problem(&message), "pose.covariance is not finite");
-  EXPECT_EQ(message_type<std_msgs::msg::String>().problem, nullptr) << "a text may be any";
+  EXPECT_EQ(message_type<std_msgs::msg::String>().problem, nullptr) << "any text is valid";
 }
 
 TEST(Validity, IsDeclaredForEveryMessageOfOurs) {
@@ -152,10 +152,10 @@ TEST(Validity, OfOdometryNeedsAPoseThatAVehicleCanHave) {
   EXPECT_EQ(problem(message), "pose.pose.position is not finite");
   message = odometry();
   message.pose().pose().orientation().w(0.0);
-  EXPECT_EQ(problem(message), "pose.pose.orientation is not a quaternion of length 1");
+  EXPECT_EQ(problem(message), "pose.pose.orientation is not a unit quaternion");
   message = odometry();
   message.header().stamp().nanosec(1'000'000'000);
-  EXPECT_EQ(problem(message), "header.stamp has more nanoseconds than a second");
+  EXPECT_EQ(problem(message), "header.stamp has a nanosec of 1e+09 or more");
   message = odometry();
   message.child_frame_id(std::string(257, 'x'));
   EXPECT_EQ(problem(message), "child_frame_id is longer than 256");
@@ -175,11 +175,11 @@ TEST(Validity, OfALandmarkNeedsRowsWithinTheMatrixOfItsSettings) {
   for (const std::uint16_t row : {800, 65535}) {
     auto message = landmark();
     message.large_features()[1].row(row);
-    EXPECT_EQ(problem(message), "large_features.row is beyond the rows of the measurement matrix");
+    EXPECT_EQ(problem(message), "large_features.row is not a row of the measurement matrix");
     message = landmark();
     message.small_features()[0].row(row);
-    EXPECT_EQ(problem(message), "small_features.row is beyond the rows of the measurement matrix");
-    message.settings("seed=1\n");  // of a describer that says nothing of rows: the most that any has
+    EXPECT_EQ(problem(message), "small_features.row is not a row of the measurement matrix");
+    message.settings("seed=1\n");  // no number of rows: the maximum applies
     EXPECT_EQ(problem(message).empty(), row == 800);
   }
 }
@@ -187,30 +187,30 @@ TEST(Validity, OfALandmarkNeedsRowsWithinTheMatrixOfItsSettings) {
 TEST(Validity, OfALandmarkNeedsAsManyBinsAsItsSettingsSay) {
   auto message = landmark();
   message.histogram({1.0F});
-  EXPECT_EQ(problem(message), "histogram has not as many bins as the settings say");
+  EXPECT_EQ(problem(message), "histogram does not have as many bins as the settings specify");
   message.histogram({0.5F, 0.5F, 0.5F, -0.5F});
-  EXPECT_EQ(problem(message), "histogram has shares that are negative or do not add up to 1");
+  EXPECT_EQ(problem(message), "histogram has negative values or does not sum to 1");
   message.histogram({0.5F, 0.5F, 0.5F, 0.5F});
-  EXPECT_EQ(problem(message), "histogram has shares that are negative or do not add up to 1");
+  EXPECT_EQ(problem(message), "histogram has negative values or does not sum to 1");
 }
 
 TEST(Validity, OfALandmarkNeedsFeaturesAndKeypointsThatAreSome) {
   auto message = landmark();
   message.large_features()[1].weight(0.6F);
-  EXPECT_EQ(problem(message), "large_features.weight does not descend");
+  EXPECT_EQ(problem(message), "large_features.weight is not in descending order");
   message = landmark();
   message.large_features()[0].value(std::numeric_limits<float>::quiet_NaN());
   EXPECT_EQ(problem(message), "large_features.value is beyond +-1e+06 or not finite");
   message = landmark();
   message.small_features()[0].scale(-1.0F);
-  EXPECT_EQ(problem(message), "small_features.scale is negative or not finite");
+  EXPECT_EQ(problem(message), "small_features.scale is negative, above 1e+06 or not finite");
   message = landmark();
   message.keypoints()[0].bearing({0.0F, 0.0F, 2.0F});
-  EXPECT_EQ(problem(message), "keypoints.bearing is not of length 1");
+  EXPECT_EQ(problem(message), "keypoints.bearing is not a unit vector");
   message = landmark();
   message.keypoints()[0].has_point(true);
   message.keypoints()[0].inverse_range_sigma(-1.0F);
-  EXPECT_EQ(problem(message), "keypoints.inverse_range_sigma is negative or not finite");
+  EXPECT_EQ(problem(message), "keypoints.inverse_range_sigma is negative, above 1e+06 or not finite");
   message = landmark();
   message.pose().pose().position().x(kNaN);
   EXPECT_EQ(problem(message), "pose.pose.position is not finite");
@@ -223,7 +223,7 @@ TEST(Validity, OfLandmarkPosesNeedsOnePoseForEachId) {
   panvo_msgs::msg::LandmarkPoses message;
   message.ids({1, 2});
   message.poses().resize(1);
-  EXPECT_EQ(problem(message), "poses are not as many as ids");
+  EXPECT_EQ(problem(message), "poses differ in number from ids");
   message.poses().resize(2);
   EXPECT_EQ(problem(message), "");
   message.poses()[1].covariance()[0] = -1.0;
@@ -234,7 +234,7 @@ TEST(Validity, OfAnInitialPoseNeedsAPlaceOnEarthAndACovariance) {
   geometry_msgs::msg::PoseWithCovarianceStamped message;
   EXPECT_EQ(problem(message), "");
   message.pose().covariance(diagonal({1e308, 1, 1, 1, 1, 1}));
-  EXPECT_EQ(problem(message), "pose.covariance has a variance beyond 1e+15");
+  EXPECT_EQ(problem(message), "pose.covariance has a variance above 1e+15");
   message.pose().covariance({});
   message.pose().pose().position().y(1e200);
   EXPECT_EQ(problem(message), "pose.pose.position is beyond +-1e+08");
@@ -246,9 +246,9 @@ TEST(Validity, OfTheCompassNeedsAVarianceThatAPanoramaCanGive) {
   message.variance_rad2(1e-6);
   EXPECT_EQ(problem(message), "");
   message.variance_rad2(1e-300);
-  EXPECT_EQ(problem(message), "variance_rad2 is not within 1e-12 to 1000");
+  EXPECT_EQ(problem(message), "variance_rad2 is not between 1e-12 and 1000");
   message.valid(false);
-  EXPECT_EQ(problem(message), "") << "nobody measures with it";
+  EXPECT_EQ(problem(message), "") << "not used as a measurement";
 }
 
 TEST(Validity, OfTheCompassNeedsADirectionThatIsAnAngleOrNotKnown) {
@@ -259,7 +259,7 @@ TEST(Validity, OfTheCompassNeedsADirectionThatIsAnAngleOrNotKnown) {
   message.motion_azimuth_variance_rad2(0.5);
   EXPECT_EQ(problem(message), "");
   message.motion_azimuth_variance_rad2(-1e-3);
-  EXPECT_EQ(problem(message), "motion_azimuth_variance_rad2 is not within 0 to 1000");
+  EXPECT_EQ(problem(message), "motion_azimuth_variance_rad2 is not between 0 and 1000");
   message.motion_azimuth_variance_rad2(0.0);
   message.motion_azimuth_rad(std::numeric_limits<double>::quiet_NaN());
   EXPECT_EQ(problem(message), "motion_azimuth_rad is not finite");
@@ -295,7 +295,7 @@ TEST(Validity, OfAnImageNeedsAKnownEncodingAndAllItsRows) {
                                                                                           {"yuv422_yuy2", 2},
                                                                                           {"rgba16", 8}}) {
     EXPECT_EQ(problem(image(encoding, 10, 4, 10 * bytes + 6)), "") << encoding;
-    EXPECT_EQ(problem(image(encoding, 10, 4, 10 * bytes - 1)), "step is less than a row needs") << encoding;
+    EXPECT_EQ(problem(image(encoding, 10, 4, 10 * bytes - 1)), "step is too small for a row") << encoding;
   }
   auto message = image("mono8", 10, 4, 12);
   message.data().resize(46);  // the last row may lack its padding
@@ -303,11 +303,11 @@ TEST(Validity, OfAnImageNeedsAKnownEncodingAndAllItsRows) {
   message.data().resize(45);
   EXPECT_EQ(problem(message), "data is shorter than height rows of step bytes");
   for (const auto* encoding : {"", "jpeg", "8UC5", "8UC0", "16U", "64FC12", "mono88"}) {
-    EXPECT_EQ(problem(image(encoding, 10, 4, 100)), "encoding is none of sensor_msgs/image_encodings") << encoding;
+    EXPECT_EQ(problem(image(encoding, 10, 4, 100)), "encoding is not in sensor_msgs/image_encodings") << encoding;
   }
   message = image("mono8", 1, 1, 1);
   message.height(0xFFFFFFFF);
-  EXPECT_EQ(problem(message), "width or height is more than 65536 px");
+  EXPECT_EQ(problem(message), "width or height exceeds 65536 px");
   message.height(0);
   EXPECT_EQ(problem(message), "width or height is 0");
 }
@@ -323,7 +323,7 @@ TEST(Validity, OfACameraNeedsNumbersThatALensCanHave) {
   EXPECT_EQ(problem(message), "p is beyond +-500000");
   message = camera_info();
   message.r()[1] = 1.0;
-  EXPECT_EQ(problem(message), "r is not a rotation");
+  EXPECT_EQ(problem(message), "r is not a rotation matrix");
   message = camera_info();
   message.d({kNaN});
   EXPECT_EQ(problem(message), "d is not finite");
@@ -332,7 +332,7 @@ TEST(Validity, OfACameraNeedsNumbersThatALensCanHave) {
 TEST(Validity, OfAnImuLeavesOutWhatItSaysItDoesNotMeasure) {
   sensor_msgs::msg::Imu message;
   message.orientation().w(0.0);
-  EXPECT_EQ(problem(message), "orientation is not a quaternion of length 1");
+  EXPECT_EQ(problem(message), "orientation is not a unit quaternion");
   message.orientation_covariance()[0] = -1.0;
   EXPECT_EQ(problem(message), "");
   message.angular_velocity().x(kNaN);
@@ -345,7 +345,7 @@ TEST(Validity, OfAPointCloudNeedsAllItsRows) {
   message.height(0xFFFFFFFF);
   message.point_step(0xFFFFFFFF);
   message.row_step(0xFFFFFFFF);
-  EXPECT_EQ(problem(message), "row_step is less than width points need");
+  EXPECT_EQ(problem(message), "row_step is too small for width points");
   message.width(1);
   EXPECT_EQ(problem(message), "data is shorter than height rows of row_step bytes");
 }

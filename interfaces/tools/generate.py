@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Generates the library of a package's messages: their C++ classes, the table of their types, and their IDL for packages that contain them."""
+"""Generates the message library of a package: C++ classes, type table, and IDL for packages whose messages contain these."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import argparse
 import sys
 from pathlib import Path
 
-# Bytecode caches have no place in a source tree that may be read-only.
+# No bytecode caches: the source tree may be read-only.
 sys.dont_write_bytecode = True
 
 import idl  # noqa: E402
@@ -19,7 +19,7 @@ import msg_file  # noqa: E402
 
 
 def _write_if_changed(path: Path, text: str) -> None:
-    """Leaves the time stamp of an unchanged file alone, so that nothing is compiled again for it."""
+    """Keeps the time stamp of a file with unchanged text, so that nothing is recompiled for it."""
     if path.exists() and path.read_text(encoding="utf-8") == text:
         return
     path.parent.mkdir(parents=True, exist_ok=True)
@@ -28,7 +28,7 @@ def _write_if_changed(path: Path, text: str) -> None:
 
 def _read_file(path: Path, package: str) -> list[idl.Message]:
     if path.suffix not in (".idl", ".msg", ".srv"):
-        raise idl.IdlError(f"{path}: is not a definition that is understood: .idl, .msg or .srv")
+        raise idl.IdlError(f"{path}: not a supported definition; use .idl, .msg or .srv")
     text = path.read_text(encoding="utf-8")
     return idl.parse_file(path, text, package) if path.suffix == ".idl" else msg_file.parse(path, text, package)
 
@@ -44,7 +44,7 @@ def _read_files(paths: list[Path], package: str) -> dict[str, idl.Message]:
 
 
 def _needed_packages(messages: dict[str, idl.Message], known: dict[str, idl.Message]) -> list[str]:
-    """Of the messages that these contain and other libraries define."""
+    """Packages of other libraries whose messages are contained in `messages`."""
     names = {name for message in messages.values() for name in message.direct_dependencies if name not in messages}
     return sorted({known[name].package for name in names})
 
@@ -61,21 +61,21 @@ def _definitions(messages: dict[str, idl.Message]) -> dict[str, str]:
 
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--tree", type=Path, help="folder of definitions, <package>/{msg,srv}/<Name>.idl, of which the library is made")
-    parser.add_argument("--package", help="the package of FILE...")
-    parser.add_argument("files", metavar="FILE", type=Path, nargs="*", help="definitions of which the library is made: .idl, .msg or .srv")
-    parser.add_argument("--known", type=Path, action="append", default=[], help="folder of definitions that other libraries hold, as of --tree")
-    parser.add_argument("--rules", action="append", default=[], help="header, as it is included, that declares problem_of() for some of the messages")
-    parser.add_argument("--output", type=Path, required=True, help="folder for <package>/{msg,srv}/<Name>.{h,cxx}, idl/ and message_table.cpp")
-    parser.add_argument("--prepare", action="store_true", help="write idl/ only, and print the packages whose messages these contain, then the files' names")
-    parser.add_argument("--fastddsgen", default="fastddsgen", help="the generator of the classes")
+    parser.add_argument("--tree", type=Path, help="folder with the definitions of the library, <package>/{msg,srv}/<Name>.idl")
+    parser.add_argument("--package", help="package of FILE...")
+    parser.add_argument("files", metavar="FILE", type=Path, nargs="*", help="definitions of the library: .idl, .msg or .srv")
+    parser.add_argument("--known", type=Path, action="append", default=[], help="folder with definitions of other libraries, like --tree")
+    parser.add_argument("--rules", action="append", default=[], help="include path of a header that declares problem_of() of messages")
+    parser.add_argument("--output", type=Path, required=True, help="output folder for <package>/{msg,srv}/<Name>.{h,cxx}, idl/ and message_table.cpp")
+    parser.add_argument("--prepare", action="store_true", help="only write idl/; print the packages of contained messages, then the names of the files")
+    parser.add_argument("--fastddsgen", default="fastddsgen", help="program that generates the classes")
     arguments = parser.parse_args()
     try:
         known = idl.read_trees(arguments.known)
         messages = idl.read_trees([arguments.tree]) if arguments.tree else _read_files(arguments.files, arguments.package)
         for name in messages:
             if name in known:
-                raise idl.IdlError(f"{name} is defined by another package already: use that one, or choose another name")
+                raise idl.IdlError(f"{name} is already defined by another library; use that one or choose another name")
         idl.require_definitions(messages, known)
         idl.require_cpp_names(messages)
         if arguments.prepare:

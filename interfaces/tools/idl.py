@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Reads definitions written in the part of OMG IDL that ROS 2 uses: a message is one struct a file, in modules <package>::msg; a service is two,
-<Name>_Request and <Name>_Response, in modules <package>::srv."""
+"""Reads definitions in the subset of OMG IDL that ROS 2 uses. The file of a message has one struct, in modules <package>::msg; that of a
+service has two, <Name>_Request and <Name>_Response, in modules <package>::srv."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from pathlib import Path
 
 PRIMITIVES = ("boolean", "octet", "int8", "uint8", "int16", "uint16", "int32", "uint32", "int64", "uint64", "float", "double")
 
-PLACEHOLDER = "structure_needs_at_least_one_member"  # ROS 2 adds it to a message without members
+PLACEHOLDER = "structure_needs_at_least_one_member"  # ROS 2 adds it to empty messages
 
 _TOKEN = re.compile(
     r"\s+|(?P<comment>//[^\n]*)|(?P<directive>\#[^\n]*)"
@@ -18,18 +18,18 @@ _TOKEN = re.compile(
 
 
 class IdlError(Exception):
-    """A definition that cannot be used; the message names file, line and remedy."""
+    """An unusable definition. The message gives file, line and remedy."""
 
 
 @dataclass(frozen=True)
 class Type:
-    """The type of a field: a primitive, "string" or the name of a message ("std_msgs/msg/Header"), possibly many of it."""
+    """Type of a field: a primitive, "string" or a message ("std_msgs/msg/Header"); or an array or sequence of it."""
 
     base: str
-    string_bound: int = 0  # longest string in bytes; 0: no limit
-    array_size: int = 0  # elements of a fixed array; 0: not an array
+    string_bound: int = 0  # maximum length of a string in bytes; 0: no limit
+    array_size: int = 0  # elements of a fixed-size array; 0: not an array
     is_sequence: bool = False
-    sequence_bound: int = 0  # most elements of a sequence; 0: no limit
+    sequence_bound: int = 0  # maximum number of elements of a sequence; 0: no limit
 
     @property
     def is_message(self) -> bool:
@@ -58,7 +58,7 @@ class Message:
     comment: str = ""
     fields: list[Field] = field(default_factory=list)
     constants: list[Constant] = field(default_factory=list)
-    kind: str = "msg"  # or "srv", of a service's request or response
+    kind: str = "msg"  # "srv" for the request or response of a service
 
     @property
     def full_name(self) -> str:
@@ -66,7 +66,7 @@ class Message:
 
     @property
     def file_name(self) -> str:
-        """Of its definition and its class, without suffix: a service's request and response share one."""
+        """Path of the files with its definition and class, without suffix. Request and response of a service share it."""
         name = self.name if self.kind == "msg" else self.name.rsplit("_", 1)[0]
         return f"{self.package}/{self.kind}/{name}"
 
@@ -76,12 +76,12 @@ class Message:
 
     @property
     def direct_dependencies(self) -> list[str]:
-        """Names of the messages its fields are of, each once, in order of first use."""
+        """Names of the messages among its field types, each once, in order of first use."""
         return list(dict.fromkeys(f.type.base for f in self.fields if f.type.is_message))
 
 
 def dependencies(message: Message, messages: dict[str, Message]) -> list[str]:
-    """Names of all messages it contains, at any depth, each once, in order of first use."""
+    """Names of all messages that it contains at any depth, each once, in order of first use."""
     found: dict[str, None] = {}
 
     def visit(current: Message) -> None:
@@ -107,7 +107,7 @@ class _Parser:
             line += match.group().count("\n")
             end = match.end()
         if end != len(text):
-            raise IdlError(f"{path}:{line}: cannot read {text[end:end + 20]!r}; see README.md for the IDL that is understood")
+            raise IdlError(f"{path}:{line}: cannot read {text[end:end + 20]!r}; README.md describes the supported IDL")
         self.at = 0
 
     def error(self, message: str) -> IdlError:
@@ -115,7 +115,7 @@ class _Parser:
         return IdlError(f"{self.path}:{line}: {message}")
 
     def skip_comments(self) -> str:
-        """Passes over comments and returns their text, a line each."""
+        """Skips comments. Returns their text, one line per comment."""
         lines = []
         while self.at < len(self.tokens) and self.tokens[self.at][0] == "comment":
             lines.append(self.tokens[self.at][1].removeprefix("//").strip())
@@ -129,12 +129,12 @@ class _Parser:
     def take(self, expected: str = "") -> str:
         found = self.peek()
         if not found or (expected and found != expected):
-            raise self.error(f"expected {expected or 'more'}, found {found or 'the end of the file'}")
+            raise self.error(f"expected {expected or 'more'}, found {found or 'end of file'}")
         self.at += 1
         return found
 
     def trailing_comment(self) -> str:
-        """The comment on the line of the token taken last."""
+        """Takes the comment, if any, on the line of the last token."""
         kind, text, line = self.tokens[self.at] if self.at < len(self.tokens) else ("", "", 0)
         if kind != "comment" or line != self.tokens[self.at - 1][2]:
             return ""
@@ -142,7 +142,7 @@ class _Parser:
         return text.removeprefix("//").strip()
 
     def messages(self) -> list[Message]:
-        """The message of a file, or the request and the response of a service."""
+        """Returns the message of the file, or the request and response of a service."""
         self.skip_comments()
         self.take("module")
         package = self.take()
@@ -150,13 +150,13 @@ class _Parser:
         self.take("module")
         kind = self.take()
         if kind not in ("msg", "srv"):
-            raise self.error(f"module {kind} is not understood: msg for messages, srv for services")
+            raise self.error(f"module {kind} is not supported; use msg for messages, srv for services")
         self.take("{")
         messages = [self.struct(package, kind) for _ in range(1 if kind == "msg" else 2)]
         for closing in ("}", ";") * 2:
             self.take(closing)
         if self.peek():
-            raise self.error(f"{self.peek()} after the definition: one message or service a file")
+            raise self.error(f"{self.peek()} after the definition; only one message or service per file is supported")
         return messages
 
     def struct(self, package: str, kind: str) -> Message:
@@ -172,7 +172,7 @@ class _Parser:
         for closing in ("}", ";"):
             self.take(closing)
         if not message.fields:
-            raise self.error("a struct needs a member: ROS 2 puts uint8 structure_needs_at_least_one_member")
+            raise self.error("a struct needs a member; ROS 2 uses uint8 structure_needs_at_least_one_member")
         return message
 
     def skip_comments_before(self, keyword: str) -> str:
@@ -203,13 +203,13 @@ class _Parser:
     def field(self, previous: list[Field]) -> Field:
         default = self.default() if self.peek() == "@" else ""
         base = self.type()
-        name = self.take().removeprefix("_")  # a name that is a word of IDL's bears it
+        name = self.take().removeprefix("_")  # escapes names that are IDL keywords
         if any(name == other.name for other in previous):
-            raise self.error(f"{name} is there twice")
+            raise self.error(f"duplicate field {name}")
         if self.peek() == "[":
             self.take("[")
             if base.is_sequence:
-                raise self.error(f"{name}: an array of sequences is not understood; wrap the sequence in a message of its own")
+                raise self.error(f"{name}: an array of sequences is not supported; wrap the sequence in a message of its own")
             base = Type(base.base, base.string_bound, array_size=self.number())
             self.take("]")
         self.take(";")
@@ -225,7 +225,7 @@ class _Parser:
     def number(self) -> int:
         text = self.take()
         if not text.isdigit() or int(text) == 0:
-            raise self.error(f"{text} is not a size; write it as a number, the generator needs a literal")
+            raise self.error(f"{text} is not a size; the generator needs a positive integer literal")
         return int(text)
 
     def type(self) -> Type:
@@ -234,7 +234,7 @@ class _Parser:
             self.take("<")
             element = self.type()
             if element.is_sequence:
-                raise self.error("a sequence of sequences is not understood; wrap the inner one in a message of its own")
+                raise self.error("a sequence of sequences is not supported; wrap the inner one in a message of its own")
             bound = 0
             if self.peek() == ",":
                 self.take(",")
@@ -252,28 +252,29 @@ class _Parser:
             return Type(base)
         if re.fullmatch(r"\w+::msg::\w+", base):
             return Type(base.replace("::", "/"))
-        raise self.error(f"{base} is not a type that is understood: {', '.join(PRIMITIVES)}, string, sequence<...> or package::msg::Name")
+        raise self.error(f"{base} is not a supported type; use {', '.join(PRIMITIVES)}, string, sequence<...> or package::msg::Name")
 
 
 def parse_file(path: Path, text: str, package: str = "") -> list[Message]:
-    """What a file defines; its place, msg/<Name>.idl or srv/<Name>.idl, must agree, and so must the package if one is given, else the folder above."""
+    """Returns the definitions of a file. They must agree with its path, msg/<Name>.idl or srv/<Name>.idl, and with `package` or, if not
+    given, the folder above. Raises IdlError."""
     messages = _Parser(path, text).messages()
     for message, part in zip(messages, ("_Request", "_Response")):
         if message.kind == "srv" and not message.name.endswith(part):
-            raise IdlError(f"{path}: {message.name} must end in {part}: a service is its request, then its response")
+            raise IdlError(f"{path}: {message.name} must end in {part}; a service consists of a request and a response, in this order")
         found = (package or path.parts[-3], path.parts[-2], path.name)
         if found != (message.package, message.kind, f"{message.file_name.split('/')[-1]}.idl"):
-            raise IdlError(f"{path}: defines {message.full_name}, so it must be {message.file_name}.idl{f', here of {package}' if package else ''}")
+            raise IdlError(f"{path}: defines {message.full_name}, so it must be {message.file_name}.idl{f' (in package {package})' if package else ''}")
     return messages
 
 
 def parse(path: Path, text: str) -> Message:
-    """The message that a file defines."""
+    """Returns the message that a file defines. Raises IdlError."""
     return parse_file(path, text)[0]
 
 
 def read_trees(roots: list[Path]) -> dict[str, Message]:
-    """Every message, request and response in folders <root>/<package>/{msg,srv}, by full name, sorted. Of one that is in two, the first counts."""
+    """Messages, requests and responses in <root>/<package>/{msg,srv}, sorted by full name. If several roots define one, the first counts."""
     messages: dict[str, Message] = {}
     for root in roots:
         for path in sorted(root.glob("*/*/*.idl")):
@@ -282,7 +283,7 @@ def read_trees(roots: list[Path]) -> dict[str, Message]:
     return dict(sorted(messages.items()))
 
 
-# Words that are names of fields in no C++ class.
+# C++ keywords, which cannot name a field of a C++ class.
 _CPP_KEYWORDS = frozenset("""
     alignas alignof and asm auto bool break case catch char class compl concept const consteval constexpr constinit continue decltype default delete do
     double else enum explicit export extern false float for friend goto if inline int long mutable namespace new noexcept not nullptr operator or
@@ -292,15 +293,16 @@ _CPP_KEYWORDS = frozenset("""
 
 
 def require_cpp_names(messages: dict[str, Message]) -> None:
+    """Raises IdlError if the name of a field is a C++ keyword."""
     for message in messages.values():
         for name in (field.name for field in message.fields):
             if name in _CPP_KEYWORDS:
-                raise IdlError(f"{message.full_name}: {name} is a word of C++; give the field another name")
+                raise IdlError(f"{message.full_name}: {name} is a C++ keyword; rename the field")
 
 
 def require_definitions(messages: dict[str, Message], known: dict[str, Message]) -> None:
-    """That all which `messages` contain is there."""
+    """Raises IdlError if a contained message is neither in `messages` nor in `known`."""
     for message in messages.values():
         for name in message.direct_dependencies:
             if name not in messages and name not in known:
-                raise IdlError(f"{message.full_name} contains {name}, which is not defined: correct the name, or find_package({name.split('/')[0]}) first")
+                raise IdlError(f"{message.full_name} contains {name}, which is not defined; correct the name, or call find_package({name.split('/')[0]}) first")

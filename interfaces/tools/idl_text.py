@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Writes messages as IDL: for fastddsgen, and for packages whose messages contain them."""
+"""Writes messages as IDL, for fastddsgen and for packages whose messages contain them."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from collections.abc import Callable
 
 import idl
 
-# Words of IDL 4.2 that ROS 2 allows as names of fields. A '_' before them makes names of them, and is no part of the name.
+# IDL 4.2 keywords that ROS 2 allows as field names. A leading '_' escapes them and is not part of the name.
 _KEYWORDS = frozenset("""
     abstract any alias attribute bitfield bitmask bitset boolean case char component connector const consumes context custom default double emits enum
     eventtype exception factory finder fixed float getraises getter home import in inout interface local long manages map mirrorport module multiple
@@ -30,7 +30,7 @@ def _type(type_: idl.Type) -> str:
 
 
 def _default(field: idl.Field) -> str:
-    """Only of a single value: for arrays fastddsgen has no notation."""
+    """Only for single values: fastddsgen has no notation for defaults of arrays."""
     if not field.default or field.type.array_size or field.type.is_sequence:
         return ""
     value = field.default
@@ -58,7 +58,7 @@ def _struct(message: idl.Message) -> list[str]:
 
 
 def text(messages: list[idl.Message], include: Callable[[str], str] = str) -> str:
-    """The file of a message, or of a service's request and response. `include` gives the name that another message's file is included by."""
+    """IDL file of a message, or of a service's request and response. `include` maps the file name of another message to its include path."""
     first = messages[0]
     guard = first.file_name.replace("/", "__") + "_idl"
     needed = dict.fromkeys(name for message in messages for name in message.direct_dependencies)

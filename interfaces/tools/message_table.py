@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Generates the C++ table of all messages: what panvo::interfaces::MessageType says of each."""
+"""Generates the C++ table with the panvo::interfaces::MessageType of each message."""
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ def _layout(message: idl.Message, messages: dict[str, idl.Message]) -> str:
 
 
 def _time_member(message: idl.Message) -> str | None:
-    """The accessors that lead from a message to its stamp."""
+    """C++ accessors from a message to its stamp; None if it has no stamp."""
     for field in message.fields:
         if field.type == idl.Type(_HEADER) and field.name == "header":
             return "header().stamp()"
@@ -58,7 +58,7 @@ def _time_member(message: idl.Message) -> str | None:
 
 
 def stamp_expression(message: idl.Message, messages: dict[str, idl.Message]) -> str:
-    """C++ that gives the stamp of `message`: of its header, of itself, or of the first of the stamped messages that are all it holds."""
+    """C++ expression for the stamp of `message`: that of its header, its own, or that of the first element if it is only a sequence."""
     member = _time_member(message)
     if member:
         return f"to_ns(message.{member})"
@@ -72,7 +72,7 @@ def stamp_expression(message: idl.Message, messages: dict[str, idl.Message]) -> 
 
 def _facts(message: idl.Message, messages: dict[str, idl.Message]) -> str:
     cpp = f"::{message.cpp_name}"
-    # A JSON string of ASCII text is a C++ string literal too.
+    # A JSON string of ASCII text is also a C++ string literal.
     text = "\n".join(f"      {json.dumps(line)}" for line in definition(message, messages).splitlines(keepends=True))
     stamp = stamp_expression(message, messages)
     argument = "" if stamp == "std::nullopt" else " message"
@@ -90,7 +90,7 @@ struct Facts<{cpp}> {{
 
 
 def table(messages: dict[str, idl.Message], known: dict[str, idl.Message], rules: list[str]) -> str:
-    """The source file of the library that holds `messages`. `known`: those of other libraries, which they may contain. `rules`: headers that declare
+    """Source file for the library of `messages`. `known`: messages of other libraries that they may contain. `rules`: headers that declare
     problem_of()."""
     every = {**known, **messages}
     includes = "".join(f'#include "{name}.h"\n' for name in dict.fromkeys(m.file_name for m in messages.values()))

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from idl import PLACEHOLDER, Constant, Field, IdlError, Message, Type
 
-# ROS 2's names of primitives, and what the type hash and the C++ class know them as. `char` is an unsigned byte there.
+# ROS 2's names of primitives and their IDL names, which type hash and C++ class use. In ROS 2, `char` is an unsigned byte.
 _PRIMITIVES = {
     "bool": "boolean", "byte": "octet", "char": "uint8", "float32": "float", "float64": "double", "int8": "int8", "uint8": "uint8",
     "int16": "int16", "uint16": "uint16", "int32": "int32", "uint32": "uint32", "int64": "int64", "uint64": "uint64",
@@ -19,7 +19,7 @@ _FIELD = re.compile(r"(?P<type>\S+)\s+(?P<name>[A-Za-z]\w*)(?:\s+(?P<default>.+)
 
 
 def _base(name: str, package: str) -> str | None:
-    """The model's name of a type that is neither an array nor bounded; None for one that is not understood."""
+    """IDL name of a type without array and bound; None if it is not supported."""
     if name == "string":
         return name
     if name in _PRIMITIVES:
@@ -38,7 +38,7 @@ class _Part:
     def __init__(self, path: Path, message: Message):
         self.path = path
         self.message = message
-        self.waiting: list[str] = []  # comment lines that belong to what comes next
+        self.waiting: list[str] = []  # comment lines for the next field
 
     def error(self, line: int, text: str) -> IdlError:
         return IdlError(f"{self.path}:{line}: {text}")
@@ -47,11 +47,11 @@ class _Part:
         match = _TYPE.match(text)
         base = _base(match["base"], self.message.package) if match else None
         if base is None or (match["string_bound"] and base != "string"):
-            raise self.error(line, f"{text} is not a type that is understood: {', '.join(_PRIMITIVES)}, string, package/Name, with [], [N] or [<=N]")
+            raise self.error(line, f"{text} is not a supported type; use {', '.join(_PRIMITIVES)}, string, package/Name, with [], [N] or [<=N]")
         return Type(base, int(match["string_bound"] or 0), int(match["size"] or 0), bool(match["many"] and not match["size"]), int(match["bound"] or 0))
 
     def read(self, text: str, line: int) -> None:
-        """Takes in one line without its line end."""
+        """Reads one line, given without its line end."""
         content, _, comment = text.partition("#")
         content, comment = content.strip(), comment.strip()
         if not content:
@@ -72,7 +72,7 @@ class _Part:
         if base.is_message or base.array_size or base.is_sequence:
             raise self.error(line, f"constant {match['name']} must be a number, a bool or a string")
         value = match["value"].strip()
-        if base.base == "string":  # a number sign is part of it
+        if base.base == "string":  # '#' is part of the string
             value = '"' + text.split("=", 1)[1].strip().strip("\"'").replace("\\", "\\\\").replace('"', '\\"') + '"'
         elif base.base == "boolean":
             value = "TRUE" if value.lower() in ("true", "1") else "FALSE"
@@ -81,13 +81,13 @@ class _Part:
     def _field(self, content: str, comment: str, line: int) -> None:
         match = _FIELD.match(content)
         if not match:
-            raise self.error(line, f"cannot read '{content}': a line is 'type name', 'type name default' or 'type NAME=value'")
+            raise self.error(line, f"cannot read '{content}'; a line must be 'type name', 'type name default' or 'type NAME=value'")
         name = match["name"]
         if any(name == other.name for other in self.message.fields):
-            raise self.error(line, f"{name} is there twice")
+            raise self.error(line, f"duplicate field {name}")
         type_ = self.type(match["type"], line)
         if type_.is_message and match["default"]:
-            raise self.error(line, f"{name} is a message, which has no default here")
+            raise self.error(line, f"{name} is a message, which cannot have a default")
         comments = [*self.waiting, comment] if comment else self.waiting
         self.message.fields.append(Field(name, type_, match["default"] or "", " ".join(c for c in comments if c)))
 
@@ -98,7 +98,7 @@ class _Part:
 
 
 def parse(path: Path, text: str, package: str) -> list[Message]:
-    """The message of a .msg file, or the request and the response of a .srv file."""
+    """Returns the message of a .msg file, or the request and response of a .srv file. Raises IdlError."""
     if path.suffix == ".msg":
         parts = [_Part(path, Message(package, path.stem))]
     else:
@@ -108,7 +108,7 @@ def parse(path: Path, text: str, package: str) -> list[Message]:
         if line.strip() == "---":
             at += 1
             if at >= len(parts):
-                raise parts[-1].error(number, "--- separates the request of a service from its response, once, in a .srv file")
+                raise parts[-1].error(number, "--- is allowed once, in a .srv file, between request and response")
             continue
         parts[at].read(line, number)
     if at + 1 != len(parts):

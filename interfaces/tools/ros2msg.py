@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Message definitions in ROS 2's .msg notation, as bags carry them so that tools can read messages of unknown type."""
+"""Message definitions in ROS 2's .msg notation. Bags store them so that tools can read messages of unknown type."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ def _own_definition(message: idl.Message) -> str:
 
 
 def definition(message: idl.Message, messages: dict[str, idl.Message]) -> str:
-    """The message, then each message it contains, separated as rosbag2 does it."""
+    """Definition of a message and of each message that it contains, separated as in rosbag2."""
     parts = [_own_definition(message)]
     for name in idl.dependencies(message, messages):
         other = messages[name]

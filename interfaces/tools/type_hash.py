@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The ROS 2 type description hash (RIHS01): SHA-256 of a canonical JSON description of a message and all it contains."""
+"""The ROS 2 type description hash (RIHS01): SHA-256 of a canonical JSON description of a message and all messages that it contains."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import json
 
 import idl
 
-# Numbers of type_description_interfaces/msg/FieldType.
+# Constants of type_description_interfaces/msg/FieldType.
 _TYPE_IDS = {
     "int8": 2, "uint8": 3, "int16": 4, "uint16": 5, "int32": 6, "uint32": 7, "int64": 8, "uint64": 9,
     "float": 10, "double": 11, "boolean": 15, "octet": 16, "string": 17,
@@ -45,7 +45,7 @@ def _description(message: idl.Message) -> dict:
 
 
 def type_hash(message: idl.Message, messages: dict[str, idl.Message]) -> str:
-    """As ROS 2 prints it: "RIHS01_" and 64 hexadecimal digits. Comments, constants and defaults do not count."""
+    """The hash as ROS 2 prints it: "RIHS01_" and 64 hexadecimal digits. Comments, constants and defaults do not affect it."""
     description = {
         "type_description": _description(message),
         "referenced_type_descriptions": [_description(messages[name]) for name in sorted(idl.dependencies(message, messages))],

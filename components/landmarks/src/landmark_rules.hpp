@@ -8,7 +8,7 @@
 #include "panvo/landmarks/panoramic_landmark.hpp"
 
 /// Validity rules of landmarks, equal to those of their message, for reading and writing files. nullopt if valid; else
-/// the violated rule, e.g. "large_features.row is beyond the rows of the measurement matrix".
+/// the violated rule, e.g. "large_features.row is not a row of the measurement matrix".
 namespace panvo::landmarks {
 
 /// `settings`: those the landmark was described with. Keypoints are checked if present.

@@ -63,15 +63,14 @@ TEST(LandmarkMessages, ThatAreMalformedAreRefusedWithAReason) {
   const Fault faults[] = {
       {"id is 0", [](Message& m) { m.id(0); }},
       {"pose.pose.position is not finite", [=](Message& m) { m.pose().pose().position().x(inf); }},
-      {"panorama_pose.orientation is not a quaternion of length 1",
+      {"panorama_pose.orientation is not a unit quaternion",
        [](Message& m) {
          m.panorama_pose().orientation().w(0.0);
          m.panorama_pose().orientation().x(0.0);
          m.panorama_pose().orientation().y(0.0);
          m.panorama_pose().orientation().z(0.0);
        }},
-      {"pose.pose.orientation is not a quaternion of length 1",
-       [](Message& m) { m.pose().pose().orientation().w(3.0); }},
+      {"pose.pose.orientation is not a unit quaternion", [](Message& m) { m.pose().pose().orientation().w(3.0); }},
       {"pose.covariance is not finite", [=](Message& m) { m.pose().covariance()[7] = inf; }},
       {"not symmetric", [](Message& m) { m.pose().covariance()[1] += 0.5; }},
       {"negative variance", [](Message& m) { m.pose().covariance()[0] = -1.0; }},
@@ -82,12 +81,12 @@ TEST(LandmarkMessages, ThatAreMalformedAreRefusedWithAReason) {
       {"histogram", [=](Message& m) { m.histogram()[3] = nan; }},
       {"large_features.value is beyond +-1e+06 or not finite", [=](Message& m) { m.large_features()[4].value(nan); }},
       {"small_features.scale is negative", [](Message& m) { m.small_features()[0].scale(-1.0f); }},
-      {"small_features.weight is not within 0 to 1", [](Message& m) { m.small_features()[0].weight(1.5f); }},
-      {"small_features.weight does not descend",
+      {"small_features.weight is not between 0 and 1", [](Message& m) { m.small_features()[0].weight(1.5f); }},
+      {"small_features.weight is not in descending order",
        [](Message& m) { m.small_features()[0].weight(m.small_features()[1].weight() - 0.1f); }},
-      {"keypoints.bearing is not of length 1", [=](Message& m) { m.keypoints()[1].bearing()[2] = nan; }},
+      {"keypoints.bearing is not a unit vector", [=](Message& m) { m.keypoints()[1].bearing()[2] = nan; }},
       {"keypoints.point is beyond +-1e+06 or not finite", [=](Message& m) { m.keypoints()[0].point()[0] = nan; }},
-      {"keypoints.bearing is not of length 1",
+      {"keypoints.bearing is not a unit vector",
        [](Message& m) {
          m.keypoints()[0].bearing({0, 0, 0});
        }},

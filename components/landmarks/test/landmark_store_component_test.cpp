@@ -132,7 +132,7 @@ TEST_F(LandmarkStoreComponent, MovesNothingByAMalformedMessageAndSaysWhy) {
   panvo_msgs::msg::LandmarkPoses message;
   message.ids({1});
   session.harness.publish(topics::kLandmarkPoses, message);
-  EXPECT_TRUE(session.harness.log_contains("was dropped: poses are not as many as ids"));
+  EXPECT_TRUE(session.harness.log_contains("was dropped: poses differ in number from ids"));
   auto broken = made_up_landmark(1);
   broken.covariance(2, 2) = -1.0;
   session.publish_poses({broken});

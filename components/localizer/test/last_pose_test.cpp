@@ -134,7 +134,7 @@ TEST_F(LastPoseFile, OfNumbersThatAreNoPoseIsNotBelieved) {
   Life second(kept_);
   second.drive(kBegin_ns + 4 * kSecond_ns, 6);
   EXPECT_NEAR(second.x(), 1.0, 1e-6);
-  EXPECT_THAT(second.log(), Contains(HasSubstr("orientation is not a quaternion of length 1")));
+  EXPECT_THAT(second.log(), Contains(HasSubstr("orientation is not a unit quaternion")));
 }
 
 TEST_F(LastPoseFile, OfACovarianceOrAPlaceThatIsNoneIsNotBelieved) {

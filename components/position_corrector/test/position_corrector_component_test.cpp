@@ -164,8 +164,8 @@ TEST_F(PositionCorrectorComponent, LeavesOutLandmarksThatNoMatrixHereCouldDescri
   publish_panorama(place(2));
   ASSERT_EQ(matches.size(), 1U);
   EXPECT_EQ(matches[0]->candidates(), 0U);
-  EXPECT_TRUE(harness.log_contains("large_features.row is beyond the rows of the measurement matrix"));
-  EXPECT_TRUE(harness.log_contains("histogram has not as many bins as the settings say"));
+  EXPECT_TRUE(harness.log_contains("large_features.row is not a row of the measurement matrix"));
+  EXPECT_TRUE(harness.log_contains("histogram does not have as many bins as the settings specify"));
   EXPECT_TRUE(harness.container().run().empty());
 }
 
@@ -301,7 +301,7 @@ TEST_F(PositionCorrectorComponent, LeavesLandmarksWhereTheyAreWhenTheirPosesAreM
   panvo_msgs::msg::LandmarkPoses message;
   message.ids({2});
   harness.publish(topics::kLandmarkPoses, message);
-  EXPECT_TRUE(harness.log_contains("was dropped: poses are not as many as ids"));
+  EXPECT_TRUE(harness.log_contains("was dropped: poses differ in number from ids"));
   publish_odometry(200.0, 1.0);
   publish_panorama(place(2));
   EXPECT_EQ(matches.back()->candidates(), 1U);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// For libFuzzer: the first two bytes choose the message type, the rest is what somebody sent as one. Whatever it is, it becomes a message that can be
-// sent again, or a DecodeError.
+// libFuzzer target: the first two bytes select the message type, the others are a received message. Decoding must throw
+// DecodeError or return a message that can be sent again.
 #include <cstdint>
 #include <cstdlib>
 #include <span>
@@ -22,7 +22,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   }
   type.stamp_ns(message.get());
   if (type.problem) type.problem(message.get());
-  // A text that holds a NUL ends there when it is sent; from then on nothing changes any more.
+  // The first encoding cuts strings at a NUL; after that, decoding and encoding must not change anything.
   const auto sent = [&type](const std::shared_ptr<void>& read) {
     Bytes out(type.serialized_size(read.get()));
     type.serialize(read.get(), out);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A library of messages that was compiled with a larger MessageType, as one of another version would be.
+// A message library that was compiled with a larger MessageType, like one of another version.
 #include <array>
 
 #include "panvo/interfaces/message_codec.hpp"

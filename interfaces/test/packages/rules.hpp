@@ -8,7 +8,7 @@
 
 namespace test_msgs::msg {
 
-/// A lamp has a name.
+/// A lamp must have a name.
 std::optional<std::string> problem_of(const Lamp& lamp);
 
 }  // namespace test_msgs::msg

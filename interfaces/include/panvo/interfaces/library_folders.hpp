@@ -7,18 +7,19 @@
 
 namespace panvo::interfaces {
 
-/// The folders that an environment variable lists, separated by colons.
+/// Folders in a colon-separated environment variable; none if it is not set.
 std::vector<std::filesystem::path> folders_in(const char* variable);
 
-/// Where libraries of installed packages lie: the library folders of each prefix in COLCON_PREFIX_PATH (its packages' own ones too),
-/// AMENT_PREFIX_PATH and CMAKE_PREFIX_PATH, then of the prefix of the running program. Not all of them need to exist.
+/// Library folders of installed packages, in search order: those of each prefix in COLCON_PREFIX_PATH (and of the
+/// package prefixes below it), AMENT_PREFIX_PATH and CMAKE_PREFIX_PATH, then of the running program's prefix. Some may
+/// not exist.
 std::vector<std::filesystem::path> library_folders();
 
-/// Where libraries of messages are looked for: PANVO_PLUGIN_PATH, library_folders(), and the plugins' folder beside a program that was built and not
-/// installed.
+/// Search path for message libraries: PANVO_PLUGIN_PATH, library_folders(), then the plugin folder next to a program in
+/// a build tree.
 std::vector<std::filesystem::path> message_folders();
 
-/// The name of the file that holds the messages of a package: "libmy_msgs__panvo.so".
+/// File name of a package's message library: "libmy_msgs__panvo.so".
 std::string message_library_name(std::string_view package);
 
 }  // namespace panvo::interfaces

@@ -15,16 +15,16 @@ namespace eprosima::fastcdr {
 class Cdr;
 }  // namespace eprosima::fastcdr
 
-/// For generated tables of messages only: what makes a MessageType of a message's class.
+/// Builds a MessageType from a message class. Only for generated message tables.
 namespace panvo::interfaces {
 
-/// What the generated table says of a message class: name, dds_name, hash, definition, layout and stamp_ns().
+/// Generated for each message class: name, dds_name, hash, definition, layout and stamp_ns().
 template <class Message>
 struct Facts;
 
 inline constexpr std::size_t kEncapsulationSize = 4;
 
-/// What encoding and decoding need to know of a message class.
+/// Data and functions of a message class that encoding and decoding need.
 struct CdrType {
   std::string_view name;
   const CdrLayout* layout;
@@ -32,13 +32,15 @@ struct CdrType {
   void (*read)(void* message, eprosima::fastcdr::Cdr& cdr);
 };
 
-/// Encapsulation header and message, XCDR1 little endian. Every byte of `out` is written.
+/// Writes encapsulation header and message as XCDR1, little endian. Writes every byte of `out`, which must have the
+/// serialised size.
 void encode(const CdrType& type, const void* message, std::span<std::uint8_t> out);
 
-/// The byte order that the encapsulation header tells; throws DecodeError for one that is not plain CDR's.
+/// Byte order according to the encapsulation header. Throws DecodeError if the encapsulation is not plain CDR.
 std::endian check_encapsulation(std::string_view type_name, std::span<const std::uint8_t> bytes);
 
-/// Throws DecodeError for bytes that are not a message of that type.
+/// Decodes `bytes`, which start with the encapsulation header. Throws DecodeError if they are not a message of this
+/// type.
 void decode(const CdrType& type, std::span<const std::uint8_t> bytes, void* message);
 
 std::optional<std::int64_t> to_ns(const builtin_interfaces::msg::Time& time);
@@ -69,7 +71,7 @@ std::shared_ptr<void> deserialize(std::span<const std::uint8_t> bytes) {
   return message;
 }
 
-/// nullptr for a type without rules.
+/// Returns nullptr for a type without rules.
 template <class Message>
 constexpr auto problem_function() -> std::optional<std::string> (*)(const void*) {
   if constexpr (requires(const Message& message) { problem_of(message); }) {
@@ -100,7 +102,8 @@ const MessageType& message_type() {
   return kMessageType<Message>;
 }
 
-/// The types of one library of messages: find_message_type() knows them from when the library is loaded. It must never be unloaded.
+/// Registers the types of one message library with find_message_type() when the library is loaded. The library must
+/// never be unloaded.
 class MessageTable {
  public:
   explicit MessageTable(std::span<const MessageType* const> types)
@@ -108,7 +111,7 @@ class MessageTable {
 
  private:
   friend class MessageTableTest;
-  /// The sizes tell a library that was compiled with other headers from one that fits.
+  /// Different sizes reveal a library that was compiled with different headers; its types are not registered.
   MessageTable(std::span<const MessageType* const> types, std::size_t type_size, std::size_t field_size);
 };
 

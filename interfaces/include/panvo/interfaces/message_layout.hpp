@@ -10,22 +10,22 @@
 
 namespace panvo::interfaces {
 
-/// How the bytes of a primitive are to be understood.
+/// Interpretation of the bytes of a primitive.
 enum class CdrNumber : std::uint8_t { kUnsigned, kSigned, kFloat, kBool };
 
-/// How one member of a message lies in CDR bytes.
+/// Layout of one message member in CDR.
 struct CdrField {
   std::string_view name;
-  std::uint8_t size = 0;  ///< of a primitive, which is also its alignment
+  std::uint8_t size = 0;  ///< of a primitive and its alignment, bytes; 0: not a primitive
   CdrNumber number = CdrNumber::kUnsigned;
   bool is_string = false;
-  const CdrLayout* nested = nullptr;  ///< of a member that is a message
-  std::uint32_t array_size = 1;       ///< elements of a fixed array
-  bool is_array = false;              ///< of one element too
-  bool is_sequence = false;           ///< led by the number of its elements
+  const CdrLayout* nested = nullptr;  ///< of a message member
+  std::uint32_t array_size = 1;       ///< elements of a fixed-size array
+  bool is_array = false;              ///< true also for an array of one element
+  bool is_sequence = false;           ///< preceded by its number of elements
 };
 
-/// The members of a message, in the order of their bytes.
+/// The members of a message in serialisation order.
 struct CdrLayout {
   std::span<const CdrField> fields;
 };

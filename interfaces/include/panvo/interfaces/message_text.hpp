@@ -10,8 +10,9 @@
 
 namespace panvo::interfaces {
 
-/// A serialised message as YAML, a member a line, as `ros2 topic echo` shows it. Of lists and texts that are longer than `longest`, the beginning
-/// and "..."; 0: all. Throws DecodeError for bytes that are no such message.
+/// A serialised message as YAML, one member per line, as `ros2 topic echo` prints it. Lists and strings with more than
+/// `longest` elements or bytes are cut and end in "..."; 0: no limit. Throws DecodeError for bytes that are not a
+/// message of this type.
 std::string to_yaml(const MessageType& type, std::span<const std::uint8_t> bytes, std::size_t longest = 128);
 
 }  // namespace panvo::interfaces

@@ -10,25 +10,26 @@
 
 #include "panvo/interfaces/check.hpp"
 
-/// What the description of a place may hold, whether it is a message or lies in a store.
+/// Rules for the description of a place, in a message or in a store.
 namespace panvo::interfaces {
 
-inline constexpr std::size_t kMostPatches = 10'000;  ///< of a measurement matrix
+inline constexpr std::size_t kMostPatches = 10'000;  ///< rows of a measurement matrix
 inline constexpr std::size_t kMostKeypoints = 20'000;
 inline constexpr std::size_t kLargestThumbnail = 4 << 20;  ///< bytes
 
-/// What the settings of a description say of its size; what they do not say is as large as it may be.
+/// Size of a description according to its settings. The defaults are the maximum.
 struct DescriptionSize {
-  std::size_t rows = 2 * kMostPatches;  ///< of both halves of a measurement matrix: intensities, then gradients
-  std::optional<std::size_t> bins;      ///< of the histogram
+  std::size_t rows = 2 * kMostPatches;  ///< intensity rows, then as many SURF rows
+  std::optional<std::size_t> bins;      ///< of the histogram; nullopt: any number
 };
 
-/// Of "key=value" lines: patches, histogram_bins.
+/// Reads "patches" and "histogram_bins" from "key=value" lines; keeps the default for a missing or invalid one.
 DescriptionSize description_size(std::string_view settings);
 
+/// The histogram has the number of bins of the settings, no negative value, and sum 1.
 void check_histogram(Check& check, std::span<const float> histogram, const DescriptionSize& size);
 
-/// One feature after another, as their weights must descend.
+/// Checks the features of a list one after another; their weights must not increase.
 class FeatureRule {
  public:
   FeatureRule(Check& check, std::string_view list, std::size_t count, const DescriptionSize& size);
@@ -41,6 +42,7 @@ class FeatureRule {
   float last_weight_ = 1.0F;
 };
 
+/// `bearing`: unit vector; `point`: m; `inverse_range_sigma`: 1/m, not used without a point.
 void check_keypoint(Check& check, const std::array<float, 3>& bearing, float size_px, bool has_point,
                     const std::array<float, 3>& point, float inverse_range_sigma);
 

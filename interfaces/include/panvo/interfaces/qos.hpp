@@ -9,36 +9,35 @@ namespace panvo::interfaces {
 enum class Reliability { kBestEffort, kReliable };
 enum class Durability { kVolatile, kTransientLocal };
 
-/// The quality of service of a topic, in ROS 2's terms. A writer always offers reliable, so that it matches every reader; `requested`
-/// is what our readers ask for, so that a camera driver that offers best effort still matches.
+/// Quality of service of a topic, in ROS 2's terms. Writers always offer reliable delivery and so match every reader.
+/// Readers request `requested`; best effort also matches camera drivers that offer no more.
 struct Qos {
   Reliability requested = Reliability::kReliable;
   Durability durability = Durability::kVolatile;
-  /// Keep last; of each input of a component too: what is more is dropped, oldest first, and counted.
+  /// Messages kept per writer, reader and component input. Further ones are dropped, oldest first, and counted.
   std::size_t depth = 10;
-  bool keep_all = false;                  ///< nothing is dropped: `depth` is then the bound at which a writer waits
-  std::chrono::milliseconds deadline{0};  ///< the writer publishes at least this often; 0: no promise
-  std::chrono::milliseconds lifespan{
-      0};  ///< an older message is not delivered, not to late joiners either; 0: no limit
+  bool keep_all = false;                  ///< drop nothing: with `depth` messages pending, a writer waits
+  std::chrono::milliseconds deadline{0};  ///< longest time between messages of a writer; 0: no limit
+  std::chrono::milliseconds lifespan{0};  ///< age beyond which a message is not delivered; 0: no limit
 };
 
 namespace qos {
 /// ROS 2's default.
 inline constexpr Qos kDefault{};
-/// ROS 2's sensor data: the newest few, late ones are worth nothing.
+/// ROS 2's sensor data profile: only the newest messages are useful.
 inline constexpr Qos kSensorData{.requested = Reliability::kBestEffort, .depth = 5};
-/// A result a frame; deep enough that a reader may pause a second or two.
+/// One result per frame; deep enough for a reader that pauses for a second or two.
 inline constexpr Qos kResult{.depth = 50};
-/// What a late joiner must still get, in one message: tf_static.
+/// Also delivered to late joiners: tf_static.
 inline constexpr Qos kLatched{.durability = Durability::kTransientLocal, .depth = 10};
-/// A state that is repeated: a late joiner gets the last one, but never one that its writer stopped confirming.
+/// A state that is repeated. Late joiners get the last message unless its writer has stopped repeating it.
 inline constexpr Qos kState{.durability = Durability::kTransientLocal,
                             .depth = 1,
                             .deadline = std::chrono::milliseconds(1000),
                             .lifespan = std::chrono::milliseconds(3000)};
-/// rosout as ROS 2 has it.
+/// ROS 2's profile of rosout.
 inline constexpr Qos kLog{.durability = Durability::kTransientLocal, .depth = 1000};
-/// Events of which none may be missed, not by late joiners either: landmarks.
+/// Events that every reader must get, late joiners included: landmarks.
 inline constexpr Qos kHistory{.durability = Durability::kTransientLocal, .depth = 10000, .keep_all = true};
 }  // namespace qos
 

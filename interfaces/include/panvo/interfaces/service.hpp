@@ -5,7 +5,8 @@
 
 namespace panvo::interfaces {
 
-/// A service: name, request and response as one thing. The name is relative and may be remapped by a deployment; "~/reset" is below the node's name.
+/// A service: name, request type and response type together. The name is relative; a system file may remap it.
+/// "~/reset" is relative to the node's name.
 ///
 ///     inline constexpr Service<std_srvs::srv::Trigger_Request, std_srvs::srv::Trigger_Response> kReset{"~/reset"};
 template <class RequestT, class ResponseT>

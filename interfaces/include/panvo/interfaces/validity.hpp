@@ -29,12 +29,13 @@
 #include "sensor_msgs/msg/PointCloud2.h"
 #include "tf2_msgs/msg/TFMessage.h"
 
-/// What messages may hold, declared once for each type: MessageType::problem has it for those who do not know the class. The runtime hands no
-/// message to a component for which there is an answer here; stores and files go through the same functions. Stamps are judged by their form
-/// only: what time they may be is known to who has a clock. Pixels and points are not looked at, so that no check costs more than some
-/// microseconds.
+/// Rules for the values of messages, declared once per type; MessageType::problem calls them without the C++ class. The
+/// runtime drops messages that violate a rule before they reach a component; stores and files use the same functions. A
+/// stamp must be well formed; whether its time is plausible cannot be checked without a clock. Pixels and points are
+/// not inspected, so that a check takes microseconds.
 ///
-/// nullopt: nothing is wrong; else what is, without a subject ("pose.covariance is not finite"). Never a value: there are few texts.
+/// Each function returns the first violation, e.g. "pose.covariance is not finite", or nullopt if the message is valid.
+/// The texts contain no values of the message, so that there are few different ones.
 namespace panvo::interfaces {
 
 using Problem = std::optional<std::string>;
@@ -46,14 +47,14 @@ Problem problem_of(const geometry_msgs::msg::PoseWithCovarianceStamped& message)
 Problem problem_of(const geometry_msgs::msg::TwistStamped& message);
 Problem problem_of(const nav_msgs::msg::Odometry& message);
 Problem problem_of(const nav_msgs::msg::Path& message);
-/// One bad transform does not make the others bad: each is judged by who takes it in, with problem_of(TransformStamped).
+/// An invalid transform does not invalidate the others: receivers check each with problem_of(TransformStamped).
 Problem problem_of(const tf2_msgs::msg::TFMessage& message);
 Problem problem_of(const geometry_msgs::msg::TransformStamped& message);
 
 // validity_sensors.cpp
 Problem problem_of(const sensor_msgs::msg::Image& message);
 Problem problem_of(const sensor_msgs::msg::CompressedImage& message);
-/// One of zeros, of a camera that is not calibrated, is none the less a message: its reader says so.
+/// All zeros, from an uncalibrated camera, are valid; readers that need a calibration report them.
 Problem problem_of(const sensor_msgs::msg::CameraInfo& message);
 Problem problem_of(const sensor_msgs::msg::Imu& message);
 Problem problem_of(const sensor_msgs::msg::PointCloud2& message);
@@ -74,10 +75,11 @@ Problem problem_of(const diagnostic_msgs::msg::DiagnosticArray& message);
 Problem problem_of(const rcl_interfaces::msg::Log& message);
 Problem problem_of(const rosgraph_msgs::msg::Clock& message);
 
-/// Stamped by whoever clicked on a map, perhaps by a clock of his own.
+/// Set by an operator on a map, possibly stamped by the clock of another computer.
 template <>
 inline constexpr bool kIsStampedWhenSent<geometry_msgs::msg::PoseWithCovarianceStamped> = false;
-/// These bear the stamp of the panorama that showed the place best, which may lie seconds before the last that was told of.
+/// The stamp is that of the panorama most similar to the landmark, which may be seconds before that of the previous
+/// message.
 template <>
 inline constexpr bool kIsStampedWhenSent<panvo_msgs::msg::LandmarkMatch> = false;
 template <>
