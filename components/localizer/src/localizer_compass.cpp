@@ -53,12 +53,12 @@ AzimuthUse Localizer::add(const AzimuthMeasurement& azimuth) {
                                      .trace();  // as stated by odometry, before it is inflated
   const bool is_contradicted = excess > 1.0;
   const CrossCheck::Stretch stretch{azimuth.from_ns, from_ns, to_ns};
-  const auto wrong = check_.compare_turns(chain_, stretch, disagreement, is_contradicted);
+  const auto wrong = check_.add_turns(chain_, stretch, disagreement, is_contradicted);
   if (wrong == Wrong::kOdometry) {
     chain_.distrust(from_ns, to_ns, disagreement * disagreement / std::max(turn->variance_rad2, 1e-12), kMostElse);
   }
   if (wrong != Wrong::kPanoramas) fuse(from_ns, to_ns, azimuth.change_rad, compass_variance);
-  const auto unsure_since_ns = check_.compare_ways(chain_, stretch, azimuth, way_variance_m2);
+  const auto unsure_since_ns = check_.add_ways(chain_, stretch, azimuth, way_variance_m2);
   if (unsure_since_ns) doubtful_ns_ = to_ns;
 
   std::optional<AzimuthLean::Stretch> lean;
