@@ -118,6 +118,7 @@ class TrackingStage::Implementation {
   std::string check(const StereoFrame& frame) {
     const Stage stage(observer_, "check");
     const auto fault = check_.find_fault(frame);
+    check_.remember(frame);
     // If a recording restarts, only its first frame is lost.
     const std::int64_t before_ns = std::exchange(last_stamp_ns_, frame.stamp_ns);
     if (std::exchange(seen_any_, true) && frame.stamp_ns <= before_ns) {
