@@ -47,18 +47,18 @@ vision::StereoMatcher::Range disparity_range(const vision::RectifiedStereo& ster
 
 class TrackingStage::Implementation {
  public:
-  Implementation(const vision::RectifiedStereo& stereo, const TrackingParameters& parameters,
-                 vision::StageObserver* observer)
+  Implementation(const vision::RectifiedStereo& stereo, const Parameters& parameters, vision::StageObserver* observer)
       : stereo_(stereo),
-        parameters_(parameters),
+        parameters_(parameters.tracking),
+        motion_parameters_(parameters.motion),
         observer_(observer),
         check_(stereo.camera),
-        matcher_(stereo.camera, disparity_range(stereo, parameters), parameters.smallest_correlation),
-        swap_check_(stereo.camera, disparity_range(stereo, parameters), parameters.smallest_correlation),
+        matcher_(stereo.camera, disparity_range(stereo, parameters_), parameters_.smallest_correlation),
+        swap_check_(stereo.camera, disparity_range(stereo, parameters_), parameters_.smallest_correlation),
         alignment_(stereo.camera),
-        front_end_(make_front_end(parameters)),
+        front_end_(make_front_end(parameters_)),
         cell_px_(static_cast<int>(std::ceil(
-            std::sqrt(static_cast<double>(stereo.camera.width) * stereo.camera.height / parameters.max_features)))) {}
+            std::sqrt(static_cast<double>(stereo.camera.width) * stereo.camera.height / parameters_.max_features)))) {}
 
   TrackedFrame track(const StereoFrame& frame) {
     TrackedFrame result;
@@ -226,7 +226,7 @@ class TrackingStage::Implementation {
       pairs.push_back({offset_.without(previous.pixel), offset_.without(current.pixel), current.has_disparity});
     }
     const std::array guesses{expected_motion_, Eigen::Isometry3d::Identity()};
-    const auto motion = estimate_motion(stereo_, pairs, guesses, {});
+    const auto motion = estimate_motion(stereo_, pairs, guesses, motion_parameters_);
     if (!motion || motion->inliers < kGuideInliers) return std::nullopt;
     if (static_cast<double>(motion->inliers) < kGuideRatio * static_cast<double>(pairs.size())) return std::nullopt;
     return motion->current_from_previous;
@@ -359,6 +359,7 @@ class TrackingStage::Implementation {
 
   vision::RectifiedStereo stereo_;
   TrackingParameters parameters_;
+  MotionParameters motion_parameters_;
   vision::StageObserver* observer_;
   PairCheck check_;
   vision::StereoMatcher matcher_;
@@ -390,7 +391,7 @@ class TrackingStage::Implementation {
   std::int64_t attempts_ = 0;
 };
 
-TrackingStage::TrackingStage(const vision::RectifiedStereo& stereo, const TrackingParameters& parameters,
+TrackingStage::TrackingStage(const vision::RectifiedStereo& stereo, const Parameters& parameters,
                              vision::StageObserver* observer) {
   if (const auto problems = vision::validate(stereo); !problems.empty()) {
     std::string message = "invalid rectified calibration:";

@@ -20,7 +20,8 @@ namespace panvo::binocular_odometry {
 class TrackingStage {
  public:
   /// Throws std::invalid_argument, listing each problem, for an invalid calibration or invalid parameters.
-  TrackingStage(const vision::RectifiedStereo& stereo, const TrackingParameters& parameters,
+  /// Uses the RANSAC parameters of the motion stage, too.
+  TrackingStage(const vision::RectifiedStereo& stereo, const Parameters& parameters,
                 vision::StageObserver* observer = nullptr);
   ~TrackingStage();
   TrackingStage(TrackingStage&&) noexcept;
