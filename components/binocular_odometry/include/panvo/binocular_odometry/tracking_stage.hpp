@@ -28,7 +28,8 @@ class TrackingStage {
   TrackingStage& operator=(TrackingStage&&) noexcept;
 
   /// Tracks into the next frame. An unusable frame (size, stamp, no content, left and right swapped) is returned with
-  /// `fault` set and does not change the tracks: the next frame is tracked from the last good one.
+  /// `fault` set and has no effect on the next frames, which are tracked from the last good one. Of a bad frame only the
+  /// stamp and the pixels are kept, to recognise a stamp that goes back and an image that repeats.
   TrackedFrame track(const StereoFrame& frame);
 
  private:
