@@ -154,6 +154,9 @@ class Localizer {
   bool confirms(const Asking& now, const Asking& before) const;
   bool agree(const Asking& before, const Asking& now) const;
   LandmarkSighting with_uncertain_clock(const LandmarkSighting& sighting) const;
+  void take_reference(std::int64_t panorama_stamp_ns);
+  std::optional<AzimuthLean::Stretch> add_to_lean(AzimuthLean::Stretch turn);
+  void straighten(const AzimuthLean::Stretch& lean);
   void fuse(std::int64_t from_ns, std::int64_t to_ns, double change_rad, double variance_rad2);
   void slew(const Eigen::Isometry3d& step);
 
