@@ -77,7 +77,7 @@ void tracking(benchmark::State& state, const std::string& name, const std::strin
   binocular_odometry::Parameters parameters;
   parameters.tracking.front_end = front_end;
   for (auto _ : state) {
-    binocular_odometry::TrackingStage stage(clip->dataset.stereo->rectified, parameters.tracking);
+    binocular_odometry::TrackingStage stage(clip->dataset.stereo->rectified, parameters);
     for (const auto& frame : clip->frames) benchmark::DoNotOptimize(stage.track(frame));
   }
   per_frame(state, *clip);
@@ -89,7 +89,7 @@ void motion(benchmark::State& state, const std::string& name, const std::string&
   binocular_odometry::Parameters parameters;
   parameters.tracking.front_end = front_end;
   std::vector<binocular_odometry::TrackedFrame> tracked;
-  binocular_odometry::TrackingStage stage(clip->dataset.stereo->rectified, parameters.tracking);
+  binocular_odometry::TrackingStage stage(clip->dataset.stereo->rectified, parameters);
   for (const auto& frame : clip->frames) tracked.push_back(stage.track(frame));
   for (auto _ : state) {
     binocular_odometry::MotionStage motion_stage(clip->dataset.stereo->rectified, parameters.motion);

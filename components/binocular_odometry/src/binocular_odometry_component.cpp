@@ -128,7 +128,7 @@ class BinocularOdometryComponent final : public runtime::Component {
                                                        "publish the pose of the left camera on the vehicle");
     if (!base_from_raw_left) return false;
     const Eigen::Isometry3d raw_from_rectified(left_.camera->rectified_from_raw.transpose());
-    stages_.emplace(Stages{TrackingStage(*stereo, parameters_.tracking, &timer_),
+    stages_.emplace(Stages{TrackingStage(*stereo, parameters_, &timer_),
                            MotionStage(*stereo, parameters_.motion, &timer_),
                            *base_from_raw_left * raw_from_rectified});
     return true;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <random>
 
 #include "observation_model.hpp"
@@ -22,8 +23,12 @@ constexpr int kPolishIterations = 3;
 
 class Consensus {
  public:
-  Consensus(const vision::RectifiedStereo& stereo, std::span<const PointPair> pairs, const RansacOptions& options)
-      : stereo_(stereo), pairs_(pairs), options_(options) {
+  Consensus(const vision::RectifiedStereo& stereo, std::span<const PointPair> pairs, const MotionParameters& parameters)
+      : stereo_(stereo),
+        pairs_(pairs),
+        most_iterations_(parameters.ransac_iterations),
+        threshold_px_(parameters.ransac_threshold_px),
+        seed_(static_cast<std::uint32_t>(parameters.seed)) {
     for (size_t i = 0; i < pairs.size(); ++i) {
       points_.push_back(vision::inverse_depth_point(stereo, pairs[i].previous));
       all_votes_ += pairs[i].vote;
@@ -38,8 +43,8 @@ class Consensus {
 
   std::optional<RansacResult> run(std::span<const Eigen::Isometry3d> guesses) {
     for (const auto& guess : guesses) consider(guess);
-    std::mt19937 random(options_.seed);
-    for (int i = 0; i < std::min(options_.max_iterations, iterations_needed()); ++i) {
+    std::mt19937 random(seed_);
+    for (int i = 0; i < std::min(most_iterations_, iterations_needed()); ++i) {
       if (const auto motion = draw(random)) consider(*motion);
     }
     if (best_.inliers < 3) return std::nullopt;
@@ -61,7 +66,7 @@ class Consensus {
 
   // Truncated squared error, which also ranks motions with the same inliers [Torr and Zisserman 2000].
   double score(const Eigen::Isometry3d& motion) const {
-    const double threshold2 = options_.threshold_px * options_.threshold_px;
+    const double threshold2 = threshold_px_ * threshold_px_;
     double sum = 0.0;
     for (size_t i = 0; i < points_.size(); ++i) sum += pairs_[i].vote * std::min(error2(i, motion), threshold2);
     return sum;
@@ -82,7 +87,7 @@ class Consensus {
     best_.inliers = 0;
     inlier_votes_ = 0.0;
     for (size_t i = 0; i < points_.size(); ++i) {
-      if (error2(i, improved) > options_.threshold_px * options_.threshold_px) continue;
+      if (error2(i, improved) > threshold_px_ * threshold_px_) continue;
       best_.is_inlier[i] = true;
       ++best_.inliers;
       inlier_votes_ += pairs_[i].vote;
@@ -91,8 +96,8 @@ class Consensus {
 
   // Gauss-Newton on the reprojection errors within 3 thresholds, with decreasing weight for larger errors.
   Eigen::Isometry3d polish(Eigen::Isometry3d motion) const {
-    const vision::CauchyLoss loss(0.5 * options_.threshold_px);
-    const double reach2 = 9.0 * options_.threshold_px * options_.threshold_px;
+    const vision::CauchyLoss loss(0.5 * threshold_px_);
+    const double reach2 = 9.0 * threshold_px_ * threshold_px_;
     for (int iteration = 0; iteration < kPolishIterations; ++iteration) {
       vision::Matrix6d normal = 1e-6 * vision::Matrix6d::Identity();
       vision::Vector6d gradient = vision::Vector6d::Zero();
@@ -140,14 +145,16 @@ class Consensus {
     if (points_.empty()) return 0;
     const double ratio = inlier_votes_ / all_votes_;
     const double clean = ratio * ratio * ratio;
-    if (clean <= 1e-9) return options_.max_iterations;
+    if (clean <= 1e-9) return most_iterations_;
     if (clean >= 1.0 - 1e-9) return 1;
     return static_cast<int>(std::ceil(std::log(1.0 - kConfidence) / std::log1p(-clean)));
   }
 
   const vision::RectifiedStereo& stereo_;
   std::span<const PointPair> pairs_;
-  const RansacOptions& options_;
+  const int most_iterations_;
+  const double threshold_px_;
+  const std::uint32_t seed_;
   std::vector<Eigen::Vector3d> points_;  // inverse depth, in the previous frame
   std::vector<NearPoint> near_;
   std::vector<double> votes_up_to_;  // cumulative, of near_
@@ -160,8 +167,9 @@ class Consensus {
 }  // namespace
 
 std::optional<RansacResult> estimate_motion(const vision::RectifiedStereo& stereo, std::span<const PointPair> pairs,
-                                            std::span<const Eigen::Isometry3d> guesses, const RansacOptions& options) {
-  return Consensus(stereo, pairs, options).run(guesses);
+                                            std::span<const Eigen::Isometry3d> guesses,
+                                            const MotionParameters& parameters) {
+  return Consensus(stereo, pairs, parameters).run(guesses);
 }
 
 }  // namespace panvo::binocular_odometry

@@ -2,11 +2,11 @@
 #pragma once
 
 #include <Eigen/Geometry>
-#include <cstdint>
 #include <optional>
 #include <span>
 #include <vector>
 
+#include "panvo/binocular_odometry/parameters.hpp"
 #include "panvo/vision/camera.hpp"
 
 namespace panvo::binocular_odometry {
@@ -20,12 +20,6 @@ struct PointPair {
   double vote = 1.0;
 };
 
-struct RansacOptions {
-  int max_iterations = 100;
-  double threshold_px = 2.0;
-  std::uint32_t seed = 1;
-};
-
 struct RansacResult {
   Eigen::Isometry3d current_from_previous;
   std::vector<bool> is_inlier;  ///< per pair
@@ -34,9 +28,10 @@ struct RansacResult {
 
 /// Camera motion between two frames by RANSAC [Fischler and Bolles 1981]: rigid motions of point triples with Horn's
 /// quaternion method [Lu2015 3], scored by the reprojection errors of all points. Each new best motion is refined on
-/// its inliers. `guesses`, e.g. the predicted motion, are scored first. Deterministic. Returns nullopt if no motion has
-/// three inliers.
+/// its inliers. `guesses`, e.g. the predicted motion, are scored first. `parameters`: iterations, threshold and seed.
+/// Deterministic. Returns nullopt if no motion has three inliers.
 std::optional<RansacResult> estimate_motion(const vision::RectifiedStereo& stereo, std::span<const PointPair> pairs,
-                                            std::span<const Eigen::Isometry3d> guesses, const RansacOptions& options);
+                                            std::span<const Eigen::Isometry3d> guesses,
+                                            const MotionParameters& parameters);
 
 }  // namespace panvo::binocular_odometry

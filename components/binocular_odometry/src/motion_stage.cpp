@@ -121,9 +121,7 @@ class MotionStage::Implementation {
     const auto consensus = [&] {
       const Stage stage(observer_, "ransac");
       const std::array guesses{expected, Eigen::Isometry3d::Identity()};
-      return estimate_motion(stereo_, pairs.points, guesses,
-                             {parameters_.ransac_iterations, parameters_.ransac_threshold_px,
-                              static_cast<std::uint32_t>(parameters_.seed)});
+      return estimate_motion(stereo_, pairs.points, guesses, parameters_);
     }();
     quality.inliers = consensus ? consensus->inliers : 0;
     quality.inlier_ratio =

@@ -17,16 +17,21 @@ std::string size_text(int width, int height) { return std::to_string(width) + " 
 
 }  // namespace
 
-std::optional<std::string> PairCheck::find_fault(const StereoFrame& frame) {
-  const auto left_repeats = left_.find_fault(frame.left);
-  const auto right_repeats = right_.find_fault(frame.right);
+std::optional<std::string> PairCheck::find_fault(const StereoFrame& frame) const {
   if (const auto fault = fault_of("left image", frame.left)) return fault;
   if (const auto fault = fault_of("right image", frame.right)) return fault;
+  const auto left_repeats = left_.find_fault(frame.left);
+  const auto right_repeats = right_.find_fault(frame.right);
   if (left_repeats && right_repeats) return "both cameras repeat their images (frozen)";
   if (left_repeats) return "left camera " + *left_repeats;
   if (right_repeats) return "right camera " + *right_repeats;
   if (vision::are_same(frame.left, frame.right)) return "left and right images are identical: both show one camera";
   return std::nullopt;
+}
+
+void PairCheck::remember(const StereoFrame& frame) {
+  left_.remember(frame.left);
+  right_.remember(frame.right);
 }
 
 std::optional<std::string> PairCheck::fault_of(const char* name, const cv::Mat& image) const {

@@ -16,8 +16,11 @@ class PairCheck {
  public:
   explicit PairCheck(const vision::PinholeCamera& camera) : camera_(camera) {}
 
-  /// Returns the fault of a pair; nullopt if there is none. Call for every pair, in order of arrival.
-  std::optional<std::string> find_fault(const StereoFrame& frame);
+  /// Returns the fault of a pair; nullopt if there is none.
+  std::optional<std::string> find_fault(const StereoFrame& frame) const;
+  /// Remembers a pair for the check of the next one. Call for every pair, in order of arrival, including those with
+  /// faults.
+  void remember(const StereoFrame& frame);
 
  private:
   std::optional<std::string> fault_of(const char* name, const cv::Mat& image) const;

@@ -1,395 +1,281 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "panvo/binocular_odometry/tracking_stage.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <span>
 #include <stdexcept>
 #include <utility>
 
+#include "coarse_motion.hpp"
 #include "coarse_turn.hpp"
 #include "disparity_offset.hpp"
 #include "front_end.hpp"
+#include "host_frame.hpp"
 #include "motion_model.hpp"
-#include "motion_ransac.hpp"
 #include "pair_check.hpp"
-#include "panvo/vision/patch_template.hpp"
-#include "panvo/vision/stereo_geometry.hpp"
 #include "panvo/vision/stereo_matcher.hpp"
+#include "stereo_pyramids.hpp"
 #include "swap_check.hpp"
 #include "track.hpp"
+#include "track_search.hpp"
 
 namespace panvo::binocular_odometry {
 namespace {
 
-using vision::PatchTemplate;
 using vision::Stage;
 
-constexpr double kReachPerLevel_px = 6.0;  // half a patch: beyond, alignment may lock on to another structure
-constexpr size_t kScouts = 60;             // seed tracks for the coarse motion, with a margin for outliers
-constexpr double kAstray_px = 3.0;         // deviation from the coarse motion above which a track is searched again
-constexpr double kFarOff_px = 6.0;         // deviation after that above which a track is dropped
+constexpr std::size_t kSeedTracks = 60;         // for the coarse motion, with a margin for outliers
 constexpr double kFarthestDisparity_px = -1.0;  // infinity, with a margin for calibration errors
-constexpr double kLargestZoom = 1.5;            // of a patch relative to its host, before a new host is chosen
-constexpr double kCrowded_px = 8;               // nearer tracks share the same patch
-constexpr double kNoiseFloor_px = 0.15;         // interpolation, calibration, non-planar surfaces
-constexpr int kGuideInliers = 8;                // minimum for a coarse motion
+constexpr int kCrowded_px = 8;                  // nearer tracks share the same patch
 constexpr double kEnough = 0.9;                 // of max_features: above, no new features are detected
-constexpr double kGuideRatio = 0.4;             // minimum ratio of inliers to candidates
+constexpr std::int64_t kUsualInterval_ns = 100'000'000;
 
 vision::StereoMatcher::Range disparity_range(const vision::RectifiedStereo& stereo,
                                              const TrackingParameters& parameters) {
   return {kFarthestDisparity_px, stereo.camera.fx / parameters.nearest_depth_baselines};
 }
 
+/// State after the last good frame. A bad frame does not change it.
+struct TrackingState {
+  TrackingState(const vision::PinholeCamera& camera, const vision::StereoMatcher& aligned)
+      : alignment(camera), matcher(aligned) {}
+
+  std::vector<Track> tracks;                         // ascending id
+  std::int64_t next_id = 1;                          // of a track
+  std::shared_ptr<const vision::ImagePyramid> left;  // null before the first good frame
+  std::int64_t stamp_ns = 0;
+  std::int64_t interval_ns = kUsualInterval_ns;                       // to the good frame before
+  Eigen::Isometry3d guide_from_left = Eigen::Isometry3d::Identity();  // dead reckoning, to predict where features are
+  MotionModel motion_model;
+  DisparityOffset offset;
+  vision::EpipolarCalibration alignment;
+  vision::StereoMatcher matcher;  // allows for the misalignment found so far
+};
+
+/// What the check of the next frame needs of all frames before, good or bad.
+struct Arrivals {
+  explicit Arrivals(const vision::PinholeCamera& camera) : pairs(camera) {}
+
+  PairCheck pairs;
+  std::optional<std::int64_t> last_stamp_ns;
+};
+
+/// Tracks of the last good frame in the next one, and the motion between the two.
+struct Followed {
+  std::vector<Track> tracks;
+  Eigen::Isometry3d current_from_previous = Eigen::Isometry3d::Identity();
+  bool is_measured = false;  // else a guess, and there are no tracks
+  DisparityOffset offset;
+};
+
+int with_disparity(const std::vector<Track>& tracks) {
+  return static_cast<int>(
+      std::count_if(tracks.begin(), tracks.end(), [](const Track& track) { return track.seen.has_disparity; }));
+}
+
+/// Keeps the oldest of tracks that have run together. Ascending id.
+std::vector<Track> thinned_out(std::vector<Track> tracks, cv::Size image_size) {
+  vision::CellGrid grid(image_size, kCrowded_px);
+  std::erase_if(tracks, [&grid](const Track& track) {
+    const Eigen::Vector2d pixel = track.seen.pixel.head<2>();
+    if (!grid.is_free(pixel)) return true;
+    grid.take(pixel);
+    return false;
+  });
+  return tracks;
+}
+
 }  // namespace
 
 class TrackingStage::Implementation {
  public:
-  Implementation(const vision::RectifiedStereo& stereo, const TrackingParameters& parameters,
-                 vision::StageObserver* observer)
+  Implementation(const vision::RectifiedStereo& stereo, const Parameters& parameters, vision::StageObserver* observer)
       : stereo_(stereo),
-        parameters_(parameters),
+        parameters_(parameters.tracking),
+        motion_parameters_(parameters.motion),
         observer_(observer),
-        check_(stereo.camera),
-        matcher_(stereo.camera, disparity_range(stereo, parameters), parameters.smallest_correlation),
-        swap_check_(stereo.camera, disparity_range(stereo, parameters), parameters.smallest_correlation),
-        alignment_(stereo.camera),
-        front_end_(make_front_end(parameters)),
+        swap_check_(stereo.camera, disparity_range(stereo, parameters_), parameters_.smallest_correlation),
+        front_end_(make_front_end(parameters_)),
         cell_px_(static_cast<int>(std::ceil(
-            std::sqrt(static_cast<double>(stereo.camera.width) * stereo.camera.height / parameters.max_features)))) {}
+            std::sqrt(static_cast<double>(stereo.camera.width) * stereo.camera.height / parameters_.max_features)))),
+        arrivals_(stereo.camera),
+        state_(stereo.camera, {stereo.camera, disparity_range(stereo, parameters_), parameters_.smallest_correlation}) {
+  }
 
   TrackedFrame track(const StereoFrame& frame) {
     TrackedFrame result;
     result.stamp_ns = frame.stamp_ns;
-    row_errors_.clear();
-    result.fault = check(frame);
+    result.fault = find_fault(frame).value_or("");
+    remember_arrival(frame);
     if (!result.fault.empty()) return result;
-    build_pyramids(frame);
-    describe();
 
-    const DisparityOffset known_offset = offset_;
+    const StereoPyramids images = build_pyramids(frame);
+    describe(images);
+    const std::int64_t interval_ns = interval_until(frame.stamp_ns);
+    Followed followed = follow(images, interval_ns);
+    result.tracked = static_cast<int>(followed.tracks.size());
+    const int seen_by_both = with_disparity(followed.tracks);
 
-    // Seed tracks are searched in a wide area first; their coarse motion predicts the positions of the others.
-    std::vector<Track> tracks;
-    auto motion = follow_widely(kScouts, tracks);
-    if (!motion && has_tracks()) {  // possibly a jerk: retry all tracks from the global image shift
-      expected_motion_.linear() = coarse_turn(stereo_.camera, *previous_left_, *left_);
-      motion = follow_widely(tracks_.size(), tracks);
-    }
-    if (!motion && has_tracks()) {  // or the predicted translation is wrong: retry without it, to recover
-      const Eigen::Vector3d expected = expected_motion_.translation();
-      expected_motion_.translation().setZero();
-      motion = follow_widely(tracks_.size(), tracks);
-      if (!motion) expected_motion_.translation() = expected;
-    }
-    Eigen::Isometry3d current_from_previous = expected_motion_;
-    if (motion) {
-      match_others(tracks, *motion);
-      current_from_previous = learn_offset(tracks, *motion);
-    } else {
-      tracks.clear();  // no consistent motion: restart with new tracks
-    }
-    result.tracked = static_cast<int>(tracks.size());
-    const int seen_by_both = with_disparity(tracks);
-    guide_from_current_ = guide_from_previous_ * current_from_previous.inverse();
-    thin_out(tracks);
-    renew_hosts(tracks);
-    detect(tracks);
+    std::vector<Track> tracks = thinned_out(std::move(followed.tracks), (*images.left)[0].size());
+    HostFrame host(stereo_, images, state_.matcher, followed.offset,
+                   state_.guide_from_left * followed.current_from_previous.inverse());
+    renew_hosts(host, tracks);
+    const std::size_t tried = detect(host, tracks);
     result.detected = static_cast<int>(tracks.size());
     result.matched = with_disparity(tracks);
-    result.fault = check_for_swap(tracks).value_or("");
-    if (result.fault.empty()) result.fault = find_disagreement(result.tracked, seen_by_both).value_or("");
-    if (!result.fault.empty()) {
-      offset_ = known_offset;
-      return result;
-    }
+    result.fault = find_mismatch(images, result, tried, seen_by_both).value_or("");
+    if (!result.fault.empty()) return result;
 
-    align_eyes();
-    result.row_misalignment_px = alignment_.misalignment().largest_row_shift_px(stereo_.camera);
-    result.disparity_offset_px = offset_.px();
     for (const Track& track : tracks) result.observations.push_back(track.seen);
-    keep(frame.stamp_ns, std::move(tracks), motion ? &current_from_previous : nullptr);
+    align_cameras(host.row_errors());
+    if (followed.is_measured) state_.motion_model.update(followed.current_from_previous, interval_ns);
+    state_.offset = followed.offset;
+    state_.guide_from_left = host.guide_from_current();
+    state_.next_id += static_cast<std::int64_t>(tried);
+    state_.tracks = std::move(tracks);
+    state_.left = images.left;
+    state_.stamp_ns = frame.stamp_ns;
+    state_.interval_ns = interval_ns;
+    result.row_misalignment_px = state_.alignment.misalignment().largest_row_shift_px(stereo_.camera);
+    result.disparity_offset_px = state_.offset.px();
     return result;
   }
 
  private:
-  std::string check(const StereoFrame& frame) {
+  std::optional<std::string> find_fault(const StereoFrame& frame) const {
     const Stage stage(observer_, "check");
-    const auto fault = check_.find_fault(frame);
-    // If a recording restarts, only its first frame is lost.
-    const std::int64_t before_ns = std::exchange(last_stamp_ns_, frame.stamp_ns);
-    if (std::exchange(seen_any_, true) && frame.stamp_ns <= before_ns) {
+    if (arrivals_.last_stamp_ns && frame.stamp_ns <= *arrivals_.last_stamp_ns) {
       return "stamp " + std::to_string(frame.stamp_ns) + " ns is not later than the previous stamp, " +
-             std::to_string(before_ns) + " ns";
+             std::to_string(*arrivals_.last_stamp_ns) + " ns";
     }
-    if (fault) return *fault;
-    // Time since the last good frame; after a jump back in time, the previous interval is kept.
-    if (frame.stamp_ns > good_stamp_ns_) interval_ns_ = frame.stamp_ns - good_stamp_ns_;
-    expected_motion_ = has_tracks() ? motion_model_.predict(interval_ns_) : Eigen::Isometry3d::Identity();
-    return {};
+    return arrivals_.pairs.find_fault(frame);
   }
 
-  bool has_tracks() const { return !tracks_.empty(); }
+  /// Of bad frames, too: if a recording restarts, only its first frame is lost.
+  void remember_arrival(const StereoFrame& frame) {
+    arrivals_.pairs.remember(frame);
+    arrivals_.last_stamp_ns = frame.stamp_ns;
+  }
 
-  void build_pyramids(const StereoFrame& frame) {
+  StereoPyramids build_pyramids(const StereoFrame& frame) const {
     const Stage stage(observer_, "pyramid");
-    left_ = std::make_shared<const vision::ImagePyramid>(frame.left, parameters_.pyramid_levels);
-    right_ = vision::ImagePyramid(frame.right, std::min(2, parameters_.pyramid_levels));
+    return {std::make_shared<const vision::ImagePyramid>(frame.left, parameters_.pyramid_levels),
+            vision::ImagePyramid(frame.right, std::min(2, parameters_.pyramid_levels))};
   }
 
-  void describe() {
+  void describe(const StereoPyramids& images) const {
     const Stage stage(observer_, "describe");
-    front_end_->describe(*left_);
+    front_end_->describe(*images.left);
   }
 
-  std::optional<Eigen::Isometry3d> follow_widely(size_t count, std::vector<Track>& tracks) {
-    tracks = match_widely(count);
-    return coarse_motion(tracks);
+  /// Time since the last good frame; after a jump back in time, the interval before it.
+  std::int64_t interval_until(std::int64_t stamp_ns) const {
+    return state_.left && stamp_ns > state_.stamp_ns ? stamp_ns - state_.stamp_ns : state_.interval_ns;
   }
 
-  // Matches about `count` tracks over all pyramid levels; the rest become others_.
-  std::vector<Track> match_widely(size_t count) {
-    const Stage stage(observer_, "match_widely");
-    const Eigen::Isometry3d current_from_guide = expected_motion_ * guide_from_previous_.inverse();
-    const size_t stride = std::max<size_t>(1, tracks_.size() / std::max<size_t>(1, count));
-    std::vector<Track> found;
-    others_.clear();
-    for (size_t i = 0; i < tracks_.size(); ++i) {
-      Track track = tracks_[i];
-      const auto expected =
-          i % stride == 0 ? expect(stereo_, track, current_from_guide * track.guide_from_host) : std::nullopt;
-      const auto where = expected ? front_end_->match(track, expected->pixel) : std::nullopt;
-      if (where && align(track, *expected, *where)) {
-        found.push_back(std::move(track));
-      } else {
-        others_.push_back(tracks_[i]);
-      }
+  /// Follows the tracks of the last good frame: first some of them, in a wide area; their motion predicts the others.
+  Followed follow(const StereoPyramids& images, std::int64_t interval_ns) const {
+    Followed followed;
+    followed.offset = state_.offset;
+    if (state_.tracks.empty()) return followed;
+    const TrackSearch search(stereo_, parameters_.smallest_correlation, images, state_.matcher, state_.offset.px(),
+                             *front_end_);
+    Eigen::Isometry3d expected = state_.motion_model.predict(interval_ns);
+    Attempt attempt = try_motion(search, expected, kSeedTracks);
+    if (!attempt.motion) {  // possibly a jerk: retry all tracks from the global image shift
+      expected.linear() = coarse_turn(stereo_.camera, *state_.left, *images.left);
+      attempt = try_motion(search, expected, state_.tracks.size());
     }
-    for (Track& track : found) match_left_right(track);
-    return found;
-  }
-
-  // From coarse to fine; levels where alignment fails (near the border, no texture) are skipped.
-  bool align(Track& track, const ExpectedPatch& expected, const Whereabouts& where) const {
-    const Eigen::Matrix2d host_from_current = expected.current_from_host.inverse();
-    Eigen::Vector2d pixel = where.pixel;
-    for (int level = std::min(where.level, left_->levels() - 1); level >= 0; --level) {
-      const double scale = 1 << level;
-      const auto patch = PatchTemplate::sample((*track.host)[level], track.host_pixel / scale, host_from_current);
-      const auto found =
-          patch ? patch->align((*left_)[level], pixel / scale, PatchTemplate::Search::kPlane, kReachPerLevel_px)
-                : std::nullopt;
-      if (found) pixel = found->position * scale;
-      if (level > 0) continue;
-      if (!found || found->correlation < parameters_.smallest_correlation) return false;
-      track.seen.sigma_px = std::sqrt(kNoiseFloor_px * kNoiseFloor_px + 0.5 * found->variance.sum());
+    if (!attempt.motion) {  // or the predicted translation is wrong: retry without it, to recover
+      const Eigen::Isometry3d turn(expected.linear());
+      attempt = try_motion(search, turn, state_.tracks.size());
     }
-    track.seen.pixel.head<2>() = pixel;
-    track.seen.pixel.z() = expected.disparity_px + offset_.px();
-    track.gradient = expected.gradient;
-    return true;
-  }
+    followed.current_from_previous = expected;
+    if (!attempt.motion) return followed;  // no consistent motion: restart with new tracks
 
-  void match_left_right(Track& track) const {
-    const Eigen::Vector2d pixel = track.seen.pixel.head<2>();
-    const auto match = matcher_.refine(*left_, right_, pixel, track.seen.pixel.z(), track.gradient);
-    track.seen.has_disparity = match.has_value();
-    if (match) take(*match, track);
-  }
-
-  static void take(const vision::StereoMatch& match, Track& track) {
-    track.seen.has_disparity = true;
-    track.seen.pixel.z() = match.disparity_px;
-    track.seen.sigma_disparity_px = std::sqrt(kNoiseFloor_px * kNoiseFloor_px + match.variance_px2);
-    track.gradient = match.gradient;
-  }
-
-  // Tracks with a disparity in the last good frame.
-  std::vector<SeenTwice> seen_twice(const std::vector<Track>& tracks) const {
-    std::vector<SeenTwice> points;
-    auto known = tracks_.begin();
-    for (const Track& track : tracks) {
-      while (known->id < track.id) ++known;  // both ascend, and every track is in tracks_
-      if (known->seen.has_disparity) points.push_back({known->seen, track.seen});
+    followed.is_measured = true;
+    {
+      const Stage stage(observer_, "match_others");
+      followed.tracks =
+          search.search_nearby(std::move(attempt.tracks), *attempt.motion * state_.guide_from_left.inverse());
     }
-    return points;
-  }
-
-  // Coarse motion of the tracking stage: only used to predict feature positions.
-  std::optional<Eigen::Isometry3d> coarse_motion(const std::vector<Track>& tracks) const {
-    const Stage stage(observer_, "coarse_motion");
-    std::vector<PointPair> pairs;
-    for (const auto& [previous, current] : seen_twice(tracks)) {
-      pairs.push_back({offset_.without(previous.pixel), offset_.without(current.pixel), current.has_disparity});
-    }
-    const std::array guesses{expected_motion_, Eigen::Isometry3d::Identity()};
-    const auto motion = estimate_motion(stereo_, pairs, guesses, {});
-    if (!motion || motion->inliers < kGuideInliers) return std::nullopt;
-    if (static_cast<double>(motion->inliers) < kGuideRatio * static_cast<double>(pairs.size())) return std::nullopt;
-    return motion->current_from_previous;
-  }
-
-  // Refines the coarse motion with all tracks and updates the disparity offset.
-  Eigen::Isometry3d learn_offset(const std::vector<Track>& tracks, const Eigen::Isometry3d& current_from_previous) {
     const Stage stage(observer_, "learn_offset");
-    std::vector<SeenTwice> points = seen_twice(tracks);
+    std::vector<SeenTwice> points = seen_twice(state_.tracks, followed.tracks);
     std::erase_if(points, [](const SeenTwice& point) { return !point.current.has_disparity; });
-    return offset_.learn(stereo_, points, current_from_previous);
+    followed.current_from_previous = followed.offset.learn(stereo_, points, *attempt.motion);
+    return followed;
   }
 
-  // Matches the remaining tracks at the positions predicted by the coarse motion, and seed tracks that deviate from it
-  // again.
-  void match_others(std::vector<Track>& tracks, const Eigen::Isometry3d& current_from_previous) {
-    const Stage stage(observer_, "match_others");
-    const Eigen::Isometry3d current_from_guide = current_from_previous * guide_from_previous_.inverse();
-    std::vector<Track> kept;
-    for (Track& track : tracks) {
-      const auto expected = expect(stereo_, track, current_from_guide * track.guide_from_host);
-      if (!expected) continue;
-      const bool is_astray = (expected->pixel - track.seen.pixel.head<2>()).norm() > kAstray_px;
-      if (!is_astray || find(track, *expected)) kept.push_back(std::move(track));
+  struct Attempt {
+    TrackSearch::Split tracks;
+    std::optional<Eigen::Isometry3d> motion;  // current_from_previous that they agree on
+  };
+
+  Attempt try_motion(const TrackSearch& search, const Eigen::Isometry3d& expected, std::size_t count) const {
+    Attempt attempt;
+    {
+      const Stage stage(observer_, "match_widely");
+      attempt.tracks = search.search_widely(state_.tracks, count, expected * state_.guide_from_left.inverse());
     }
-    for (Track& track : others_) {
-      const auto expected = expect(stereo_, track, current_from_guide * track.guide_from_host);
-      if (expected && find(track, *expected)) kept.push_back(std::move(track));
-    }
-    std::sort(kept.begin(), kept.end(), [](const Track& a, const Track& b) { return a.id < b.id; });
-    tracks.swap(kept);
+    const Stage stage(observer_, "coarse_motion");
+    attempt.motion = coarse_motion(stereo_, seen_twice(state_.tracks, attempt.tracks.found), state_.offset, expected,
+                                   motion_parameters_);
+    return attempt;
   }
 
-  // The coarse motion is accurate to about a pixel: full resolution finds nearly all tracks, half resolution the rest.
-  bool find(Track& track, const ExpectedPatch& expected) const {
-    if (!align(track, expected, {expected.pixel, 0}) && !align(track, expected, {expected.pixel, 1})) return false;
-    if ((track.seen.pixel.head<2>() - expected.pixel).norm() > kFarOff_px) return false;
-    match_left_right(track);
-    return true;
-  }
-
-  static void thin_out(std::vector<Track>& tracks, cv::Size size) {
-    vision::CellGrid grid(size, static_cast<int>(kCrowded_px));
-    std::erase_if(tracks, [&grid](const Track& track) {  // ascending id: the oldest is kept
-      const Eigen::Vector2d pixel = track.seen.pixel.head<2>();
-      if (!grid.is_free(pixel)) return true;
-      grid.take(pixel);
-      return false;
-    });
-  }
-  void thin_out(std::vector<Track>& tracks) const { thin_out(tracks, (*left_)[0].size()); }
-
-  // After a large change of scale, the host patch is blurred or aliased: the current frame becomes the new host.
-  void renew_hosts(std::vector<Track>& tracks) {
+  void renew_hosts(HostFrame& host, std::vector<Track>& tracks) const {
     const Stage stage(observer_, "renew_hosts");
-    const Eigen::Isometry3d current_from_guide = guide_from_current_.inverse();
-    for (Track& track : tracks) {
-      if (!track.seen.has_disparity) continue;
-      const auto expected = expect(stereo_, track, current_from_guide * track.guide_from_host);
-      const double zoom = expected ? std::sqrt(expected->current_from_host.determinant()) : 0.0;
-      if (zoom < kLargestZoom && zoom > 1.0 / kLargestZoom) continue;
-      const auto match =
-          matcher_.measure(*left_, right_, track.seen.pixel.head<2>(), track.seen.pixel.z(), track.gradient);
-      if (match) host_here(track, *match);
-    }
+    host.renew(tracks);
   }
 
-  void host_here(Track& track, const vision::StereoMatch& match) {
-    take(match, track);
-    row_errors_.push_back(matcher_.row_error(*left_, right_, track.seen.pixel.head<2>(), match));
-    track.host = left_;
-    track.host_pixel = track.seen.pixel.head<2>();
-    track.host_plane = vision::surface_plane(stereo_, offset_.without(track.seen.pixel), match.gradient);
-    track.guide_from_host = guide_from_current_;
-  }
-
-  void detect(std::vector<Track>& tracks) {
+  /// Adds tracks in cells without any. Returns the number of features tried.
+  std::size_t detect(HostFrame& host, std::vector<Track>& tracks) const {
     const Stage stage(observer_, "detect");
-    vision::CellGrid grid((*left_)[0].size(), cell_px_);
+    if (tracks.size() >= static_cast<std::size_t>(kEnough * parameters_.max_features)) return 0;
+    vision::CellGrid grid = empty_grid();
     for (const Track& track : tracks) grid.take(track.seen.pixel.head<2>());
-    attempts_ = 0;
-    const auto enough = static_cast<size_t>(kEnough * parameters_.max_features);
-    if (tracks.size() >= enough) return;
-    for (const Feature& feature : front_end_->detect(grid)) {
-      ++attempts_;
-      const auto match = matcher_.search(*left_, right_, feature.pixel);
-      if (!match) continue;
-      Track track;
-      track.id = next_id_ + static_cast<std::int64_t>(attempts_);
-      track.seen.track_id = track.id;
-      track.seen.pixel.head<2>() = feature.pixel;
-      track.seen.sigma_px = kNoiseFloor_px;
-      track.descriptor = feature.descriptor;
-      host_here(track, *match);
-      tracks.push_back(std::move(track));
-    }
+    const std::vector<Feature> features = front_end_->detect(grid);
+    host.add(features, state_.next_id, tracks);
+    return features.size();
   }
 
-  // Each patch is used once, when it becomes a host: repeated row errors of the same patch are correlated.
-  void align_eyes() {
-    const Stage stage(observer_, "align_eyes");
-    for (const auto& error : row_errors_) {
-      if (error) alignment_.add(error->ideal_right_pixel, error->error_px, std::hypot(kNoiseFloor_px, error->sigma_px));
-    }
-    alignment_.settle();
-    matcher_.allow_for(alignment_.misalignment());
-  }
+  vision::CellGrid empty_grid() const { return {cv::Size(stereo_.camera.width, stereo_.camera.height), cell_px_}; }
 
-  std::optional<std::string> check_for_swap(const std::vector<Track>& tracks) const {
+  /// Left and right images swapped, or not of one scene.
+  std::optional<std::string> find_mismatch(const StereoPyramids& images, const TrackedFrame& frame, std::size_t tried,
+                                           int seen_by_both) const {
     const Stage stage(observer_, "check_for_swap");
-    const auto tried = static_cast<double>(attempts_) + static_cast<double>(tracks_.size());
-    return swap_check_.find_fault(with_disparity(tracks), tried, matcher_, *left_, right_,
-                                  [&] { return front_end_->detect(vision::CellGrid((*left_)[0].size(), cell_px_)); });
+    const auto searched = static_cast<double>(tried + state_.tracks.size());
+    const auto swap = swap_check_.find_fault(frame.matched, searched, state_.matcher, *images.left, images.right,
+                                             [&] { return front_end_->detect(empty_grid()); });
+    return swap ? swap : find_disagreement(frame.tracked, seen_by_both);
   }
 
-  static int with_disparity(const std::vector<Track>& tracks) {
-    return static_cast<int>(
-        std::count_if(tracks.begin(), tracks.end(), [](const Track& track) { return track.seen.has_disparity; }));
+  void align_cameras(std::span<const std::optional<vision::RowError>> row_errors) {
+    const Stage stage(observer_, "align_eyes");
+    for (const auto& error : row_errors) {
+      if (!error) continue;
+      state_.alignment.add(error->ideal_right_pixel, error->error_px, std::hypot(kNoiseFloor_px, error->sigma_px));
+    }
+    state_.alignment.settle();
+    state_.matcher.allow_for(state_.alignment.misalignment());
   }
 
-  // `current_from_previous` is null if no motion was measured: a predicted motion must not update the velocity.
-  void keep(std::int64_t stamp_ns, std::vector<Track> tracks, const Eigen::Isometry3d* current_from_previous) {
-    if (current_from_previous != nullptr) motion_model_.update(*current_from_previous, interval_ns_);
-    guide_from_previous_ = guide_from_current_;
-    next_id_ += attempts_ + 1;
-    good_stamp_ns_ = stamp_ns;
-    tracks_ = std::move(tracks);
-    previous_left_ = left_;
-  }
+  const vision::RectifiedStereo stereo_;
+  const TrackingParameters parameters_;
+  const MotionParameters motion_parameters_;
+  vision::StageObserver* const observer_;
+  const SwapCheck swap_check_;
+  const std::unique_ptr<FrontEnd> front_end_;
+  const int cell_px_;
 
-  vision::RectifiedStereo stereo_;
-  TrackingParameters parameters_;
-  vision::StageObserver* observer_;
-  PairCheck check_;
-  vision::StereoMatcher matcher_;
-  SwapCheck swap_check_;
-  vision::EpipolarCalibration alignment_;
-  std::vector<std::optional<vision::RowError>> row_errors_;
-  std::unique_ptr<FrontEnd> front_end_;
-  int cell_px_;
-
-  // State of the last good frame.
-  std::vector<Track> tracks_;  // ascending id
-  MotionModel motion_model_;
-  DisparityOffset offset_;
-  Eigen::Isometry3d guide_from_previous_ = Eigen::Isometry3d::Identity();
-  std::int64_t good_stamp_ns_ = 0;
-  std::int64_t interval_ns_ = 100'000'000;
-  std::int64_t last_stamp_ns_ = 0;  // of any frame
-  bool seen_any_ = false;
-  std::int64_t next_id_ = 0;
-
-  std::shared_ptr<const vision::ImagePyramid> previous_left_;
-
-  // State of the current frame.
-  std::shared_ptr<const vision::ImagePyramid> left_;
-  vision::ImagePyramid right_;
-  Eigen::Isometry3d expected_motion_ = Eigen::Isometry3d::Identity();
-  Eigen::Isometry3d guide_from_current_ = Eigen::Isometry3d::Identity();
-  std::vector<Track> others_;
-  std::int64_t attempts_ = 0;
+  Arrivals arrivals_;
+  TrackingState state_;
 };
 
-TrackingStage::TrackingStage(const vision::RectifiedStereo& stereo, const TrackingParameters& parameters,
+TrackingStage::TrackingStage(const vision::RectifiedStereo& stereo, const Parameters& parameters,
                              vision::StageObserver* observer) {
   if (const auto problems = vision::validate(stereo); !problems.empty()) {
     std::string message = "invalid rectified calibration:";

@@ -132,6 +132,36 @@ TEST(BinocularOdometry, LearnsNothingFromABadFrame) {
   }
 }
 
+/// The time since the last good frame must not depend on the stamp of a bad frame, even if the clock jumps back.
+TEST(BinocularOdometry, ForgetsTheStampOfABadFrame) {
+  constexpr std::int64_t kSecond_ns = 1'000'000'000;
+  const auto tracked_after = [](StereoFrame bad) {
+    TrackingStage tracking(SyntheticScene::stereo(), {});
+    for (int i = 0; i < 6; ++i) tracking.track(drive()[static_cast<size_t>(i)]);
+    bad.stamp_ns += 60 * kSecond_ns;
+    EXPECT_FALSE(tracking.track(bad).fault.empty());
+    std::vector<TrackedFrame> after;
+    for (size_t i = 6; i < 10; ++i) {
+      StereoFrame earlier = drive()[i];
+      earlier.stamp_ns -= kSecond_ns;
+      after.push_back(tracking.track(earlier));
+    }
+    EXPECT_FALSE(after.front().fault.empty()) << "the first frame after the jump is lost";
+    return after;
+  };
+  StereoFrame black = drive()[6], exchanged = black;
+  black.left = cv::Mat(black.left.size(), CV_8UC1, cv::Scalar(0));
+  std::swap(exchanged.left, exchanged.right);
+  const auto expected = tracked_after(black), found = tracked_after(exchanged);
+  for (size_t k = 1; k < expected.size(); ++k) {
+    EXPECT_EQ(found[k].tracked, expected[k].tracked) << k;
+    ASSERT_EQ(found[k].observations.size(), expected[k].observations.size()) << k;
+    for (size_t i = 0; i < expected[k].observations.size(); ++i) {
+      EXPECT_EQ(found[k].observations[i].pixel, expected[k].observations[i].pixel) << k;
+    }
+  }
+}
+
 /// Counts the restarts of the motion search.
 struct Attempts : vision::StageObserver {
   void enter(std::string_view stage) override { count += stage == "match_widely" ? 1 : 0; }

@@ -279,6 +279,14 @@ TEST(BinocularOdometry, FollowsAJerkThatNothingForetold) {
   EXPECT_LT(vision::so3_log(estimate.odom_from_left.linear() * jerked.linear().transpose()).norm(), 0.003);
 }
 
+TEST(BinocularOdometry, HasOneInlierThresholdForBothStages) {
+  Parameters parameters;
+  parameters.motion.ransac_threshold_px = 1e-4;  // far below the noise of the tracks
+  BinocularOdometry odometry(SyntheticScene::stereo(), parameters);
+  odometry.step(drive()[0]);
+  EXPECT_EQ(odometry.step(drive()[1]).quality.tracked, 0);
+}
+
 TEST(BinocularOdometry, GoesOnThroughAChangeOfLight) {
   BinocularOdometry odometry(SyntheticScene::stereo(), {});
   OdometryEstimate last;

@@ -54,7 +54,7 @@ TEST(MotionRansac, GivesTheSameTwice) {
 TEST(MotionRansac, TakesAGoodGuessWithoutDrawing) {
   const auto points = pairs(60, 10);
   const std::array guesses{kMotion};
-  const auto found = estimate_motion(kStereo, points, guesses, {.max_iterations = 0});
+  const auto found = estimate_motion(kStereo, points, guesses, {.ransac_iterations = 0});
   ASSERT_TRUE(found);
   EXPECT_EQ(found->inliers, 50);
 }

@@ -21,7 +21,7 @@ TEST(FrameSets, AreOfOneStampInWhateverOrderFramesCome) {
 }
 
 TEST(FrameSets, TakeTheNearestFrameWithinTheTolerance) {
-  FrameSets<char> sets(3, 5);
+  FrameSets<char> sets(3, 6);
   EXPECT_FALSE(sets.push(0, 93, 'a'));
   EXPECT_FALSE(sets.push(0, 98, 'b'));
   EXPECT_FALSE(sets.push(2, 104, 'r'));
@@ -39,6 +39,15 @@ TEST(FrameSets, TellHowFarApartTheNearestWere) {
   EXPECT_FALSE(sets.push(1, 120, 'x'));
   EXPECT_FALSE(sets.push(0, 132, 'b'));
   EXPECT_EQ(sets.closest_ns(), 12);
+}
+
+TEST(FrameSets, LieWithinTheToleranceFromTheFirstToTheLast) {
+  FrameSets<char> sets(3, 5);
+  EXPECT_FALSE(sets.push(0, 96, 'a'));
+  EXPECT_FALSE(sets.push(2, 104, 'r'));
+  EXPECT_FALSE(sets.push(1, 100, 'm')) << "4 from each, but 8 between them";
+  EXPECT_EQ(sets.closest_ns(), 8);
+  EXPECT_TRUE(sets.push(0, 101, 'b'));
 }
 
 TEST(FrameSets, HoldNoMoreThanAFewFramesThatStayAlone) {

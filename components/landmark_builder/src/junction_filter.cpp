@@ -41,9 +41,8 @@ std::vector<PassedJunction> JunctionFilter::add(std::int64_t stamp_ns, const Eig
   }
   std::vector<PassedJunction> passed;
   for (auto candidate = candidates_.begin(); candidate != candidates_.end();) {
-    const auto closest = nearest(candidate->centre(), candidate->first_m);
     const double now_m = (position_in_odom - candidate->centre()).norm();
-    const double closest_m = closest ? (closest->position - candidate->centre()).norm() : now_m;
+    const double closest_m = (nearest(candidate->centre()).position - candidate->centre()).norm();
     const bool is_behind = now_m - closest_m >= parameters_.passed_m;
     const bool is_over = travelled_m - candidate->last_m >= parameters_.longest_gap_m || now_m > kOutOfSight_m;
     if (!candidate->is_passed && is_behind && is_over) {
@@ -63,26 +62,33 @@ bool JunctionFilter::is_pending() const {
                      [](const auto& candidate) { return !candidate.is_passed; });
 }
 
-std::optional<JunctionFilter::Place> JunctionFilter::nearest(const Eigen::Vector2d& centre, double since_m) const {
-  std::optional<Place> best;
-  for (const Place& place : path_) {
-    if (place.travelled_m < since_m - kRememberedPath_m) continue;
-    if (!best || (place.position - centre).squaredNorm() < (best->position - centre).squaredNorm()) best = place;
+/// Of several equally near places the first. An earlier visit ended where the junction was out of sight.
+const JunctionFilter::Place& JunctionFilter::nearest(const Eigen::Vector2d& centre) const {
+  const Place* best = &path_.back();
+  double best_m2 = (best->position - centre).squaredNorm();
+  bool was_in_sight = false;
+  for (auto place = path_.rbegin(); place != path_.rend(); ++place) {
+    const double distance_m2 = (place->position - centre).squaredNorm();
+    const bool is_in_sight = distance_m2 <= kOutOfSight_m * kOutOfSight_m;
+    if (was_in_sight && !is_in_sight) break;
+    was_in_sight = is_in_sight;
+    if (distance_m2 > best_m2) continue;
+    best_m2 = distance_m2;
+    best = &*place;
   }
-  return best;
+  return *best;
 }
 
 std::optional<PassedJunction> JunctionFilter::conclude(const Candidate& candidate) const {
   if (candidate.last_m - candidate.first_m < parameters_.least_seen_m) return std::nullopt;
-  const auto closest = nearest(candidate.centre(), candidate.first_m);
-  if (!closest) return std::nullopt;
-  const double nearest_m = (closest->position - candidate.centre()).norm();
+  const Place& closest = nearest(candidate.centre());
+  const double nearest_m = (closest.position - candidate.centre()).norm();
   if (nearest_m > parameters_.farthest_pass_m) return std::nullopt;
   const auto along = std::count_if(path_.begin(), path_.end(), [&](const Place& place) {
     return place.travelled_m >= candidate.first_m && place.travelled_m <= candidate.last_m;
   });
   if (candidate.seen < parameters_.least_share * static_cast<double>(along)) return std::nullopt;
-  return PassedJunction{candidate.centre(), closest->stamp_ns, nearest_m, candidate.seen};
+  return PassedJunction{candidate.centre(), closest.stamp_ns, nearest_m, candidate.seen};
 }
 
 }  // namespace panvo::landmark_builder

@@ -158,7 +158,7 @@ class LandmarkBuilderComponent final : public runtime::Component {
                                            pixels.reason());
     }
     const cv::Mat& panorama = *pixels;
-    const auto unlike_before = watch_.find_fault(panorama);
+    const auto unlike_before = watch_.add(panorama);
     const auto no_content = landmarks::find_fault(panorama);
     if (const auto& fault = no_content ? no_content : unlike_before) {
       return context_.log().warn_throttled(*fault, "{}: {}; no landmark", context_.resolved_name(topics::kPanorama),

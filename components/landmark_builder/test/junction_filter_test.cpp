@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace panvo::landmark_builder {
 namespace {
 
@@ -64,6 +66,21 @@ TEST(JunctionFilter, TellsTwoJunctionsApartAndTheSecondVisitOfOne) {
   EXPECT_THAT(passage.passed, SizeIs(2));
   for (double x = 130.0; x > 0.0; x -= 1.0) passage.step({x, 0.0});
   EXPECT_THAT(passage.passed, SizeIs(4));
+}
+
+TEST(JunctionFilter, ReturnsASecondVisitOnlyOnceItIsPassedToo) {
+  const Eigen::Vector2d junction(40.0, 0.0);
+  Passage passage({junction});
+  passage.drive(0.0, 66.0);  // just out of sight
+  ASSERT_THAT(passage.passed, SizeIs(1));
+  for (double x = 66.0; x > 10.0; x -= 1.0) {  // back on the other side; not detected for some metres on the way
+    const double ahead_m = x - junction.x();
+    const bool is_seen = (ahead_m >= 10.0 && ahead_m <= 13.0) || std::abs(ahead_m) <= 4.0;
+    passage.add({x, 3.0}, is_seen ? std::optional(SeenJunction{junction, 3}) : std::nullopt);
+    ASSERT_TRUE(ahead_m <= 0.0 || passage.passed.size() == 1) << ahead_m << " m before it";
+  }
+  ASSERT_THAT(passage.passed, SizeIs(2));
+  EXPECT_EQ(passage.passed[1].nearest_stamp_ns, 93) << "of the first panorama at 40 m on the way back";
 }
 
 TEST(JunctionFilter, TakesNoNoticeOfWhatShowsForAMoment) {

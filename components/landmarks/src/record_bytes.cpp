@@ -27,7 +27,10 @@ class Reader {
 
   template <class Number>
   Number take() {
-    if (!has(sizeof(Number))) return Number{};
+    if (!has(sizeof(Number))) {
+      fail();
+      return Number{};
+    }
     Unsigned<sizeof(Number)> bits = 0;
     for (std::size_t i = 0; i < sizeof(Number); ++i) {
       bits = static_cast<decltype(bits)>(bits | static_cast<decltype(bits)>(bytes_[i]) << (8 * i));
@@ -43,7 +46,7 @@ class Reader {
     return {x, y, take<float>()};
   }
   void take_bytes(std::span<std::uint8_t> into) {
-    if (!has(into.size())) return;
+    if (!has(into.size())) return fail();
     std::copy_n(bytes_.begin(), into.size(), into.begin());
     bytes_ = bytes_.subspan(into.size());
   }
@@ -52,12 +55,10 @@ class Reader {
   bool is_good() const noexcept { return is_good_; }
 
  private:
-  bool has(std::size_t count) {
-    if (bytes_.size() < count) {
-      is_good_ = false;
-      bytes_ = {};
-    }
-    return bytes_.size() >= count && is_good_;
+  bool has(std::size_t count) const { return is_good_ && bytes_.size() >= count; }
+  void fail() {
+    is_good_ = false;
+    bytes_ = {};
   }
 
   std::span<const std::uint8_t> bytes_;

@@ -14,7 +14,7 @@ constexpr double kSureDirection_rad = 0.006;
 
 }  // namespace
 
-void AlignmentNotices::check_clock(const ClockOffset& clock) {
+void AlignmentNotices::report_clock(const ClockOffset& clock) {
   const bool is_sure = std::sqrt(clock.variance_s2()) < kSureOffset_s;
   if (has_told_offset_ || !is_sure || std::abs(clock.estimate_s()) <= kNotableOffset_s) return;
   has_told_offset_ = true;
@@ -22,7 +22,7 @@ void AlignmentNotices::check_clock(const ClockOffset& clock) {
             1000.0 * std::abs(clock.estimate_s()), clock.estimate_s() > 0.0 ? "ahead of" : "behind");
 }
 
-void AlignmentNotices::check_direction(const DirectionOffset& offset) {
+void AlignmentNotices::report_direction(const DirectionOffset& offset) {
   const bool is_sure = offset.is_measured() && std::sqrt(offset.variance_rad2()) < kSureDirection_rad;
   if (has_told_direction_ || !is_sure || std::abs(offset.estimate_rad()) <= kNotableDirection_rad) return;
   has_told_direction_ = true;
@@ -32,7 +32,7 @@ void AlignmentNotices::check_direction(const DirectionOffset& offset) {
       std::abs(offset.estimate_rad()) * 180.0 / std::numbers::pi, offset.estimate_rad() > 0.0 ? "left" : "right");
 }
 
-void AlignmentNotices::check_mounting(const MountingCheck& mounting) {
+void AlignmentNotices::report_mounting(const MountingCheck& mounting) {
   const auto misalignment = mounting.misalignment();
   if (!misalignment || has_told_mounting_) return;
   has_told_mounting_ = true;

@@ -12,9 +12,9 @@ class AlignmentNotices {
   /// `log` must outlive it.
   explicit AlignmentNotices(const runtime::Logger& log) : log_(log) {}
 
-  void check_clock(const ClockOffset& clock);
-  void check_direction(const DirectionOffset& offset);
-  void check_mounting(const MountingCheck& mounting);
+  void report_clock(const ClockOffset& clock);
+  void report_direction(const DirectionOffset& offset);
+  void report_mounting(const MountingCheck& mounting);
 
  private:
   const runtime::Logger& log_;

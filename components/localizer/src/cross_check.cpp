@@ -75,8 +75,8 @@ void CrossCheck::begin_reference() {
   seen_.reset();
 }
 
-std::optional<Wrong> CrossCheck::compare_turns(const OdometryChain& chain, const Stretch& stretch,
-                                               double disagreement_rad, bool is_too_much) {
+std::optional<Wrong> CrossCheck::add_turns(const OdometryChain& chain, const Stretch& stretch, double disagreement_rad,
+                                           bool is_too_much) {
   if (!is_too_much) {
     turn_dispute_.end();
     return std::nullopt;
@@ -89,12 +89,14 @@ std::optional<Wrong> CrossCheck::compare_turns(const OdometryChain& chain, const
 /// Odometry that contradicts the panoramas followed something else. Its error is at least its component perpendicular
 /// to their direction, and at least its deviation from the previous motion. Not if the panoramic camera was just
 /// rotated.
-std::optional<std::int64_t> CrossCheck::compare_ways(OdometryChain& chain, const Stretch& stretch,
-                                                     const AzimuthMeasurement& azimuth, double way_variance_m2) {
+std::optional<std::int64_t> CrossCheck::add_ways(OdometryChain& chain, const Stretch& stretch,
+                                                 const AzimuthMeasurement& azimuth, double way_variance_m2) {
   if (turn_dispute_.is_on()) chain.allow(stretch.from_ns, stretch.to_ns, 0.0, turn_dispute_.growth(kDoubt));
   const auto odometry = moved(chain, stretch.from_ns, stretch.to_ns);
   if (odometry && azimuth.motion_azimuth_variance_rad2 > 0.0) {
-    const auto off_m = way_off(azimuth, *odometry, way_variance_m2);
+    const auto verdict = judge_way(azimuth, *odometry, way_variance_m2);
+    take(verdict);
+    const auto& off_m = verdict.off_m;
     if (is_camera_turned() || (!off_m && !turn_dispute_.is_on())) {
       way_dispute_.end();
     } else {
@@ -106,7 +108,7 @@ std::optional<std::int64_t> CrossCheck::compare_ways(OdometryChain& chain, const
       chain.allow(stretch.from_ns, stretch.to_ns, way_dispute_.growth(1.0), 0.0);
     }
   }
-  const auto broken_ns = check_break(chain, stretch);
+  const auto broken_ns = settle_break(chain, stretch);
   if (is_disputed()) return std::min(stretch.from_ns, broken_ns.value_or(stretch.from_ns));
   jump_.reset();
   if (!break_) agreed_ns_ = stretch.to_ns;
@@ -194,14 +196,22 @@ Wrong CrossCheck::wrong_turn(const OdometryChain& chain, std::int64_t to_ns, dou
   return is_steady && is_impossible ? Wrong::kPanoramas : Wrong::kOdometry;
 }
 
-/// Deviation of the odometry's path from the panoramas, m; nullopt if they agree.
-std::optional<double> CrossCheck::way_off(const AzimuthMeasurement& azimuth, const TurnAndWay& odometry,
-                                          double way_variance_m2) {
+/// Whether odometry's path agrees with the panoramas. Changes nothing: see take().
+auto CrossCheck::judge_way(const AzimuthMeasurement& azimuth, const TurnAndWay& odometry, double way_variance_m2) const
+    -> WayVerdict {
+  WayVerdict verdict;
+  verdict.lasting = lasting_;
   const double length_m = odometry.way_m.norm();
-  if (std::abs(azimuth.side_parallax_rad) > length_m / kNearest_m + kParallax_rad) return length_m;
-  if (length_m < kShortestWay_m) return std::nullopt;
+  if (std::abs(azimuth.side_parallax_rad) > length_m / kNearest_m + kParallax_rad) {
+    verdict.off_m = length_m;
+    return verdict;
+  }
+  if (length_m < kShortestWay_m) return verdict;
   const bool do_panoramas_stand = azimuth.motion_azimuth_variance_rad2 > kNoDirection_rad2;
-  if (do_panoramas_stand) return length_m > kClearlyMoved_m ? std::optional(length_m) : std::nullopt;
+  if (do_panoramas_stand) {
+    if (length_m > kClearlyMoved_m) verdict.off_m = length_m;
+    return verdict;
+  }
   const double in_bend_rad = kCameraApart_m * odometry.turn_rad / length_m;
   const double variance = azimuth.motion_azimuth_variance_rad2 + kDirectionError_rad * kDirectionError_rad +
                           in_bend_rad * in_bend_rad + way_variance_m2 / (length_m * length_m);
@@ -209,32 +219,46 @@ std::optional<double> CrossCheck::way_off(const AzimuthMeasurement& azimuth, con
   const double difference_rad = wrapped(seen_rad - direction_offset_.estimate_rad());
   const double most_rad = contradiction_sigmas_ * std::sqrt(variance + direction_offset_.variance_rad2());
   if (std::abs(difference_rad) <= most_rad) {
-    if (!turn_dispute_.is_on()) seen_ = Seen{seen_rad, variance};
-    lasting_.reset();
-    return std::nullopt;
+    if (!turn_dispute_.is_on()) verdict.seen = Seen{seen_rad, variance};
+    verdict.lasting.reset();
+    return verdict;
   }
-  if (is_camera_turned()) camera_turned_rad_ = wrapped(camera_turned_rad_ + difference_rad);
-  if (!turn_dispute_.is_on() && lasts(azimuth.from_ns, seen_rad, length_m)) {
-    direction_offset_.restart(seen_rad, variance);
-    return std::nullopt;
+  if (is_camera_turned()) verdict.camera_turned_rad = wrapped(camera_turned_rad_ + difference_rad);
+  if (!turn_dispute_.is_on()) {
+    verdict.lasting = lasting_with(azimuth.from_ns, seen_rad, length_m);
+    if (verdict.lasting->way_m > kLasting_m) {
+      verdict.new_offset = Seen{seen_rad, variance};
+      return verdict;
+    }
   }
-  return length_m * std::sin(std::min(std::abs(difference_rad), 0.5 * std::numbers::pi));
+  verdict.off_m = length_m * std::sin(std::min(std::abs(difference_rad), 0.5 * std::numbers::pi));
+  return verdict;
 }
 
-/// Whether the directions have differed by one angle for so long that the cause must be a camera's mounting.
-bool CrossCheck::lasts(std::int64_t reference_ns, double seen_rad, double length_m) {
+void CrossCheck::take(const WayVerdict& verdict) {
+  if (verdict.seen) seen_ = verdict.seen;
+  lasting_ = verdict.lasting;
+  if (verdict.new_offset)
+    direction_offset_.restart(verdict.new_offset->difference_rad, verdict.new_offset->variance_rad2);
+  if (verdict.camera_turned_rad) camera_turned_rad_ = *verdict.camera_turned_rad;
+}
+
+/// How long the directions have differed by one angle. If for long, the cause must be a camera's mounting.
+auto CrossCheck::lasting_with(std::int64_t reference_ns, double seen_rad, double length_m) const -> Lasting {
   if (!lasting_ || std::abs(wrapped(seen_rad - lasting_->seen_rad)) > kSameAngle_rad) {
-    lasting_ = Lasting{reference_ns, seen_rad, 0.0};
-  } else if (lasting_->reference_ns != reference_ns) {
-    lasting_->reference_ns = reference_ns;
-    lasting_->way_m += length_m;
+    return {reference_ns, seen_rad, 0.0};
   }
-  return lasting_->way_m > kLasting_m;
+  Lasting longer = *lasting_;
+  if (longer.reference_ns != reference_ns) {
+    longer.reference_ns = reference_ns;
+    longer.way_m += length_m;
+  }
+  return longer;
 }
 
 /// Odometry that lost all its points and restarted in the next image did not measure the motion between. Panoramas that
 /// found their points again across the gap confirm it. Otherwise the vehicle may have moved since the returned time.
-std::optional<std::int64_t> CrossCheck::check_break(OdometryChain& chain, const Stretch& stretch) {
+std::optional<std::int64_t> CrossCheck::settle_break(OdometryChain& chain, const Stretch& stretch) {
   if (!break_) return std::nullopt;
   if (stretch.from_ns > break_->vouched_ns) {
     const std::int64_t since_ns = break_->from_ns;

@@ -258,7 +258,7 @@ std::vector<std::size_t> JourneyGraph::journey_order() const {
 
 /// Whether the vehicle was lifted between two times.
 bool JourneyGraph::is_cut(std::int64_t from_ns, std::int64_t to_ns) const {
-  const auto [first_ns, last_ns] = std::minmax(from_ns, to_ns);
+  const std::int64_t first_ns = std::min(from_ns, to_ns), last_ns = std::max(from_ns, to_ns);
   return std::any_of(cuts_ns_.begin(), cuts_ns_.end(),
                      [&](std::int64_t cut_ns) { return first_ns < cut_ns && cut_ns <= last_ns; });
 }

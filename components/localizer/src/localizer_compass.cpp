@@ -27,16 +27,7 @@ AzimuthUse Localizer::add(const AzimuthMeasurement& azimuth) {
   if (fault_of_angle(azimuth.change_rad, azimuth.variance_rad2)) return AzimuthUse::kNotUsed;
   if (!chain_.turn(from_ns, to_ns)) return AzimuthUse::kNotUsed;
   const double yaw_before_rad = yaw_of(chain_.latest().pose.odom_from_base.linear());
-  // Turns against one reference panorama share its error: the latest, longest one replaces those before.
-  if (last_from_ns_ == azimuth.from_ns) {
-    chain_.revert();
-  } else {
-    chain_.mark(from_ns);
-    if (turn_seen_) turn_scale_.add(turn_seen_->disagreement_rad, turn_seen_->turn_rad, turn_seen_->variance_rad2);
-    turn_seen_.reset();
-    check_.begin_reference();
-  }
-  last_from_ns_ = azimuth.from_ns;
+  take_reference(azimuth.from_ns);
   const auto turn = chain_.turn(from_ns, to_ns);
   const double disagreement = wrapped(azimuth.change_rad - turn->change_rad);
   const auto twist_then = chain_.twist(from_ns);
@@ -53,31 +44,25 @@ AzimuthUse Localizer::add(const AzimuthMeasurement& azimuth) {
                                      .trace();  // as stated by odometry, before it is inflated
   const bool is_contradicted = excess > 1.0;
   const CrossCheck::Stretch stretch{azimuth.from_ns, from_ns, to_ns};
-  const auto wrong = check_.compare_turns(chain_, stretch, disagreement, is_contradicted);
+  const auto wrong = check_.add_turns(chain_, stretch, disagreement, is_contradicted);
   if (wrong == Wrong::kOdometry) {
     chain_.distrust(from_ns, to_ns, disagreement * disagreement / std::max(turn->variance_rad2, 1e-12), kMostElse);
   }
   if (wrong != Wrong::kPanoramas) fuse(from_ns, to_ns, azimuth.change_rad, compass_variance);
-  const auto unsure_since_ns = check_.compare_ways(chain_, stretch, azimuth, way_variance_m2);
+  const auto unsure_since_ns = check_.add_ways(chain_, stretch, azimuth, way_variance_m2);
   if (unsure_since_ns) doubtful_ns_ = to_ns;
 
-  std::optional<AzimuthLean::Stretch> lean;
+  bool leans = false;
   if (is_contradicted) {
     lean_.forget();
-  } else if (const auto raw_rad = chain_.raw_turn(from_ns, to_ns)) {
-    const double said_rad = (1.0 - turn_scale_.estimate()) * *raw_rad;
-    lean = lean_.add({from_ns, to_ns, wrapped(azimuth.change_rad - said_rad), azimuth.change_rad,
-                      turn->said_variance_rad2, compass_variance});
-  }
-  if (lean) {
-    const auto leaning = chain_.turn(lean->from_ns, lean->to_ns);
-    const double wrong_rad2 = lean->disagreement_rad * lean->disagreement_rad;
-    if (leaning && leaning->variance_rad2 < wrong_rad2) {
-      chain_.distrust(lean->from_ns, lean->to_ns, wrong_rad2 / std::max(leaning->variance_rad2, 1e-12), kMostElse);
-    }
-    fuse(lean->from_ns, lean->to_ns, lean->compass_rad, lean->compass_variance_rad2);
-    graph_.refresh(chain_, lean->from_ns);
-  } else if (!is_contradicted) {
+  } else if (const auto lean = add_to_lean({.from_ns = from_ns,
+                                            .to_ns = to_ns,
+                                            .compass_rad = azimuth.change_rad,
+                                            .odometry_variance_rad2 = turn->said_variance_rad2,
+                                            .compass_variance_rad2 = compass_variance})) {
+    leans = true;
+    straighten(*lean);
+  } else {
     turn_seen_ = TurnSeen{disagreement, turn->change_rad, kScaleCaution * (compass_variance + turn->variance_rad2)};
     clock_.add(disagreement, rate_change, kClockCaution * (measured_variance + turn->said_variance_rad2));
   }
@@ -86,7 +71,38 @@ AzimuthUse Localizer::add(const AzimuthMeasurement& azimuth) {
   graph_.refresh(chain_, std::min(from_ns, unsure_since_ns.value_or(from_ns)));
   latest_ = localized(chain_.latest().pose);
   if (wrong == Wrong::kPanoramas) return AzimuthUse::kDoubted;
-  return is_contradicted || lean ? AzimuthUse::kContradicted : AzimuthUse::kFused;
+  return is_contradicted || leans ? AzimuthUse::kContradicted : AzimuthUse::kFused;
+}
+
+/// Turns against one reference panorama share its error: the latest, longest one replaces those before.
+void Localizer::take_reference(std::int64_t panorama_stamp_ns) {
+  if (last_from_ns_ == panorama_stamp_ns) return chain_.revert();
+  chain_.mark(in_odometry_time(panorama_stamp_ns));
+  if (turn_seen_) turn_scale_.add(turn_seen_->disagreement_rad, turn_seen_->turn_rad, turn_seen_->variance_rad2);
+  turn_seen_.reset();
+  check_.begin_reference();
+  last_from_ns_ = panorama_stamp_ns;
+}
+
+/// Adds a turn, with the odometry as received, to the sum of small differences. Returns the biased stretch; nullopt if
+/// there is none.
+std::optional<AzimuthLean::Stretch> Localizer::add_to_lean(AzimuthLean::Stretch turn) {
+  const auto raw_rad = chain_.raw_turn(turn.from_ns, turn.to_ns);
+  if (!raw_rad) return std::nullopt;
+  const double said_rad = (1.0 - turn_scale_.estimate()) * *raw_rad;
+  turn.disagreement_rad = wrapped(turn.compass_rad - said_rad);
+  return lean_.add(turn);
+}
+
+/// Replaces the turns of a biased stretch of odometry by the compass.
+void Localizer::straighten(const AzimuthLean::Stretch& lean) {
+  const auto leaning = chain_.turn(lean.from_ns, lean.to_ns);
+  const double wrong_rad2 = lean.disagreement_rad * lean.disagreement_rad;
+  if (leaning && leaning->variance_rad2 < wrong_rad2) {
+    chain_.distrust(lean.from_ns, lean.to_ns, wrong_rad2 / std::max(leaning->variance_rad2, 1e-12), kMostElse);
+  }
+  fuse(lean.from_ns, lean.to_ns, lean.compass_rad, lean.compass_variance_rad2);
+  graph_.refresh(chain_, lean.from_ns);
 }
 
 /// Fuses a turn with the odometry's, by variance. The chain sums variances as if turns had independent errors.

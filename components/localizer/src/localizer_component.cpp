@@ -89,13 +89,10 @@ class LocalizerComponent final : public runtime::Component {
     }
   }
 
-  bool is_quality_told() { return join_.has_quality() || context_.has_publisher(topics::kOdometryQuality); }
+  bool is_quality_told() const { return join_.has_quality() || context_.has_publisher(topics::kOdometryQuality); }
 
-  /// Whether the odometry's clock was set back, i.e. several consecutive messages agree on an earlier time. If so,
-  /// shifts all stored stamps.
-  bool was_set_back(std::int64_t stamp_ns) {
-    const std::int64_t back_ns = localizer_.latest().stamp_ns - stamp_ns;
-    if (!set_back_.add(stamp_ns, back_ns)) return false;
+  /// The odometry's clock was set back: shifts all stored stamps.
+  void set_clock_back(std::int64_t back_ns) {
     const std::int64_t by_ns = back_ns + kInterval_ns;
     localizer_.set_clock_back(by_ns);
     *begin_ns_ -= by_ns;
@@ -103,7 +100,6 @@ class LocalizerComponent final : public runtime::Component {
     publisher_.forget_stamps();
     context_.log().warn("the clock of {} was set back by {:.1f} s: continuing with the new time",
                         context_.resolved_name(topics::kOdometryBinocular), static_cast<double>(back_ns) / kSecond_ns);
-    return true;
   }
 
   /// Reports an unusable message in the log and in diagnostics.
@@ -117,8 +113,13 @@ class LocalizerComponent final : public runtime::Component {
     const auto pose = conversions::to_isometry(message.pose().pose());
     if (!pose) return refuse(context_.resolved_name(topics::kOdometryBinocular), pose.reason());
     const std::int64_t stamp_ns = conversions::stamp_ns(message);
-    if (begin_ns_ && stamp_ns <= localizer_.latest().stamp_ns && !was_set_back(stamp_ns)) {
-      return refuse(context_.resolved_name(topics::kOdometryBinocular), "has a stamp not later than the previous one");
+    if (begin_ns_ && stamp_ns <= localizer_.latest().stamp_ns) {
+      const std::int64_t back_ns = localizer_.latest().stamp_ns - stamp_ns;
+      if (!set_back_.add(stamp_ns, back_ns)) {
+        return refuse(context_.resolved_name(topics::kOdometryBinocular),
+                      "has a stamp not later than the previous one");
+      }
+      set_clock_back(back_ns);
     }
     const OdometryPose told{stamp_ns, *pose, conversions::to_matrix(message.pose().covariance()), joined.is_reliable,
                             joined.outlier_share};
@@ -256,8 +257,8 @@ class LocalizerComponent final : public runtime::Component {
       context_.log().warn("stereo odometry and compass disagree on the rotation: using the compass");
     }
     was_contradicted_ = is_contradicted;
-    notices_.check_clock(localizer_.panorama_clock());
-    notices_.check_direction(localizer_.direction_offset());
+    notices_.report_clock(localizer_.panorama_clock());
+    notices_.report_direction(localizer_.direction_offset());
   }
 
   void take(const LandmarkSighting& sighting) {
@@ -274,7 +275,7 @@ class LocalizerComponent final : public runtime::Component {
       context_.log().warn_throttled(fmt::format("landmark {} not believed", sighting.landmark_id),
                                     "landmark {} seen, not applied: {}", sighting.landmark_id, correction.reason);
     }
-    notices_.check_mounting(localizer_.mounting());
+    notices_.report_mounting(localizer_.mounting());
   }
 
   void take(const Built& built) {

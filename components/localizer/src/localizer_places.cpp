@@ -41,27 +41,32 @@ Correction Localizer::add(const LandmarkSighting& told) {
   const auto landmark = graph_.landmark(sighting.landmark_id);
   if (!landmark) return rejected(fmt::format("landmark {} is not known", sighting.landmark_id));
   correction.map_from_base_before = correction.map_from_base_after = graph_.carried(at->pose).map_from_base;
-  mounting_.add(sighting, *at);
-  const JourneyGraph before = graph_;
-  auto reason = doubt(sighting, *landmark, *at, correction);
-  if (!reason.empty()) return rejected(std::move(reason));
+  mounting_.add(sighting, *at);  // the path along a pass shows the mounting, wherever the landmark is
+  const Verdict verdict = judge(sighting, *landmark, *at);
+  correction.chi_square = verdict.chi_square;
+  if (!verdict.objection.empty()) {
+    take(verdict);
+    return rejected(verdict.objection);
+  }
 
-  const bool was_unknown = !is_located_ || latest_.state == State::kLost;
+  const bool was_unknown = !is_located_ || localized(chain_.latest().pose).state == State::kLost;
   const bool joins = !is_joined_ && graph_.is_known(sighting.landmark_id);
+  JourneyGraph corrected = graph_;
+  if (verdict.cut_ns) corrected.cut(*verdict.cut_ns);
   if (joins) {
     const Eigen::Isometry3d measured = landmark->map_from_base * sighting.landmark_from_base;
-    graph_.place(measured * correction.map_from_base_before.inverse());
+    corrected.place(measured * correction.map_from_base_before.inverse());
   }
-  if (!graph_.add_pass(sighting, *at, parameters_.same_pass_m)) {
-    graph_ = before;
+  if (!corrected.add_pass(sighting, *at, parameters_.same_pass_m)) {
+    if (verdict.cut_ns) return rejected("contradicts a more precise panorama of the same pass");
+    take(verdict);
     correction.kind = CorrectionKind::kBetterKnown;
     correction.reason = "a panorama of the same pass is more precise";
     return correction;
   }
-  if (!graph_.solve()) {
-    graph_ = before;
-    return rejected("the pose graph could not be solved");
-  }
+  if (!corrected.solve()) return rejected("the pose graph could not be solved");
+  graph_ = std::move(corrected);
+  take(verdict);
   if (joins) is_located_ = is_joined_ = true;
   doubtful_ns_.reset();
   dissent_.reset();  // doubts about an earlier one are not confirmed by this one
@@ -86,7 +91,6 @@ LandmarkSighting Localizer::with_uncertain_clock(const LandmarkSighting& sightin
 bool Localizer::add_said(const PoseInMap& pose, std::int64_t stamp_ns) {
   const auto at = chain_.at(stamp_ns);
   if (!at || !pose.map_from_base.matrix().allFinite() || !pose.covariance.allFinite()) return false;
-  const JourneyGraph before = graph_;
   PoseInMap said = pose;
   vision::Vector6d unsaid_sigma;
   unsaid_sigma << kUnsaidHeight_m, kUnsaidHeight_m, kUnsaidHeight_m, kUnsaidTilt_rad, kUnsaidTilt_rad, kUnknownYaw_rad;
@@ -94,16 +98,15 @@ bool Localizer::add_said(const PoseInMap& pose, std::int64_t stamp_ns) {
     if (said.covariance(i, i) == 0.0) said.covariance(i, i) = unsaid_sigma(i) * unsaid_sigma(i);
   }
   if (fault_of(said.map_from_base, said.covariance)) return false;
+  JourneyGraph corrected = graph_;
   if (is_located_ && is_joined_ && !graph_.is_bare()) {
-    graph_.cut(at->pose.stamp_ns);
+    corrected.cut(at->pose.stamp_ns);
   } else {
-    graph_.place(said.map_from_base * graph_.carried(at->pose).map_from_base.inverse());
+    corrected.place(said.map_from_base * graph_.carried(at->pose).map_from_base.inverse());
   }
-  graph_.add_said(said, *at);
-  if (!graph_.solve()) {
-    graph_ = before;
-    return false;
-  }
+  corrected.add_said(said, *at);
+  if (!corrected.solve()) return false;
+  graph_ = std::move(corrected);
   is_located_ = is_joined_ = true;
   doubtful_ns_.reset();
   asking_.reset();
@@ -113,9 +116,11 @@ bool Localizer::add_said(const PoseInMap& pose, std::int64_t stamp_ns) {
   return true;
 }
 
-/// Reason against a sighting; empty if there is none.
-std::string Localizer::doubt(const LandmarkSighting& sighting, const KnownLandmark& landmark, const Remembered& at,
-                             Correction& correction) {
+/// Whether a sighting is to be applied. Changes nothing: see take().
+Localizer::Verdict Localizer::judge(const LandmarkSighting& sighting, const KnownLandmark& landmark,
+                                    const Remembered& at) const {
+  Verdict verdict;
+  verdict.dissent = dissent_;
   const Eigen::Isometry3d measured = landmark.map_from_base * sighting.landmark_from_base;
   const bool is_placed = is_joined_ || !graph_.is_known(sighting.landmark_id);
   double off_m = 0.0;
@@ -125,41 +130,64 @@ std::string Localizer::doubt(const LandmarkSighting& sighting, const KnownLandma
     const vision::Matrix6d spread =
         here.covariance + vision::compose_covariance(landmark.map_from_base, landmark.covariance,
                                                      sighting.landmark_from_base, sighting.covariance);
-    correction.chi_square = error.dot(spread.ldlt().solve(error));
+    verdict.chi_square = error.dot(spread.ldlt().solve(error));
     off_m = error.head<2>().norm();
-    if (sighting.stands_alone && correction.chi_square <= parameters_.gate_chi_square) {
-      asking_.reset();
-      dissent_.reset();
-      return {};
-    }
+  }
+  const bool is_expected = is_placed && verdict.chi_square <= parameters_.gate_chi_square;
+  if (is_expected && sighting.stands_alone) {
+    verdict.dissent.reset();
+    return verdict;
   }
   const bool is_far = is_placed && sighting.stands_alone;
   const Asking now{sighting, measured * at.pose.odom_from_base.inverse(), at.way_m, off_m, is_far, at.pose.stamp_ns};
-  const auto before = std::exchange(asking_, now);
-  const bool is_weaker = before && sighting.stands_alone && !before->sighting.stands_alone;
-  const bool is_asked_twice = before && !is_weaker && before->sighting.landmark_id == sighting.landmark_id &&
-                              before->sighting.stamp_ns < sighting.stamp_ns &&
-                              std::abs(now.way_m - before->way_m) < parameters_.same_pass_m && agree(*before, now);
-  if (!sighting.stands_alone) {
-    if (!is_placed) return "low-inlier match, and the expected position is unknown";
-    if (correction.chi_square > parameters_.gate_chi_square) return "low-inlier match, and outside the gate";
-    return is_asked_twice ? "" : "low-inlier match, waiting for confirmation by the next panorama";
+  verdict.asking = now;
+  const bool is_confirmed = asking_ && confirms(now, *asking_);
+  if (is_far) return judge_far(std::move(verdict), now, is_confirmed);
+  if (sighting.stands_alone) {
+    if (!is_confirmed) verdict.objection = "first sighting, waiting for confirmation by a second panorama";
+  } else if (!is_placed) {
+    verdict.objection = "low-inlier match, and the expected position is unknown";
+  } else if (!is_expected) {
+    verdict.objection = "low-inlier match, and outside the gate";
+  } else if (!is_confirmed) {
+    verdict.objection = "low-inlier match, waiting for confirmation by the next panorama";
+  } else {
+    verdict.dissent.reset();
   }
-  if (!is_placed) return is_asked_twice ? "" : "first sighting, waiting for confirmation by a second panorama";
-  const auto far = fmt::format("chi-square {:.0f}, gate {:.0f}", correction.chi_square, parameters_.gate_chi_square);
-  if (!is_asked_twice) return far + ": waiting for confirmation by a second panorama";
-  if (correction.chi_square <= parameters_.second_look_gate_ratio * parameters_.gate_chi_square) return {};
-  // Odometry has such errors only if it missed a motion of the vehicle. But a misplaced landmark would look the same:
-  // two landmarks must agree.
-  const bool is_other = dissent_ && dissent_->sighting.landmark_id != sighting.landmark_id;
+  return verdict;
+}
+
+/// For a sighting outside the gate. Odometry errs beyond the second gate only if it missed a motion of the vehicle. But
+/// a misplaced landmark would look the same: two landmarks must agree.
+Localizer::Verdict Localizer::judge_far(Verdict verdict, const Asking& now, bool is_confirmed) const {
+  const auto far = fmt::format("chi-square {:.0f}, gate {:.0f}", verdict.chi_square, parameters_.gate_chi_square);
+  if (!is_confirmed) {
+    verdict.objection = far + ": waiting for confirmation by a second panorama";
+    return verdict;
+  }
+  if (verdict.chi_square <= parameters_.second_look_gate_ratio * parameters_.gate_chi_square) return verdict;
+  const bool is_other = dissent_ && dissent_->sighting.landmark_id != now.sighting.landmark_id;
   if (!is_other || !agree(*dissent_, now)) {
-    dissent_ = now;
-    return far + ": waiting for confirmation by a second landmark";
+    verdict.dissent = now;
+    verdict.objection = far + ": waiting for confirmation by a second landmark";
+    return verdict;
   }
-  graph_.cut(doubtful_ns_ ? *doubtful_ns_ : at.pose.stamp_ns);
-  asking_.reset();
-  dissent_.reset();
-  return {};
+  verdict.asking.reset();
+  verdict.cut_ns = std::min(doubtful_ns_.value_or(now.at_ns), now.at_ns);  // the sighting shows the vehicle after it
+  return verdict;
+}
+
+void Localizer::take(const Verdict& verdict) {
+  asking_ = verdict.asking;
+  dissent_ = verdict.dissent;
+}
+
+/// Whether a sighting repeats an earlier one of the same pass. One of few points does not confirm one that stands alone.
+bool Localizer::confirms(const Asking& now, const Asking& before) const {
+  const bool is_weaker = now.sighting.stands_alone && !before.sighting.stands_alone;
+  return !is_weaker && before.sighting.landmark_id == now.sighting.landmark_id &&
+         before.sighting.stamp_ns < now.sighting.stamp_ns &&
+         std::abs(now.way_m - before.way_m) < parameters_.same_pass_m && agree(before, now);
 }
 
 /// Whether two sightings give the same pose of odom in the map, except for the drift between them.

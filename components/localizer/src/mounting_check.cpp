@@ -43,10 +43,11 @@ Eigen::Isometry3d step_between(const Remembered& a, const Remembered& b) {
 void MountingCheck::add(const LandmarkSighting& sighting, const Remembered& at) {
   if (!continues_pass(sighting, at)) {
     ended_passes_ = with_current_pass();
-    pass_.emplace();
-    pass_->first = sighting;
-    pass_->first_at = pass_->last_at = at;
-    pass_->weight = weight_of(sighting);  // its own difference is zero
+    Pass begun;
+    begun.first = sighting;
+    begun.first_at = begun.last_at = at;
+    begun.weight = weight_of(sighting);  // its own difference is zero
+    pass_ = begun;
     return;
   }
   if (way_between(pass_->last_at, at) < kShortest_m) return;

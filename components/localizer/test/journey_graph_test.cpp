@@ -49,5 +49,16 @@ TEST(JourneyGraph, StaysSmallWhereOneRouteIsDrivenAllDay) {
   EXPECT_LT(here.map_from_base.translation().norm(), 0.3);
 }
 
+TEST(JourneyGraph, SaysWhereItCannotBeSolved) {
+  JourneyGraph graph(0.01, 0.001);
+  graph.start({});
+  KnownLandmark known;
+  known.id = 1;
+  known.covariance = variance(std::nan(""));
+  graph.add_known(known);
+  ASSERT_TRUE(graph.add_pass(sighting_in_lap(1), in_lap(1), 20.0));
+  EXPECT_FALSE(graph.solve());
+}
+
 }  // namespace
 }  // namespace panvo::localizer

@@ -78,7 +78,7 @@ class PanoramicCompassComponent final : public runtime::Component {
     }
     const auto before_ns = std::exchange(last_stamp_ns_, stamp_ns);
     take_mounting(message.header().frame_id());
-    if (const auto fault = watch_.find_fault(*panorama); fault && before_ns && !find_fault(*panorama)) {
+    if (const auto fault = watch_.add(*panorama); fault && before_ns && !find_fault(*panorama)) {
       return tell({.from_stamp_ns = *before_ns, .stamp_ns = stamp_ns, .reason = "the panorama " + *fault},
                   message.header().frame_id());
     }

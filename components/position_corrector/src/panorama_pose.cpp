@@ -207,13 +207,13 @@ PanoramaPoseResult estimate_panorama_pose(std::span<const Keypoint> panorama, st
   refined = refine_pose(refined.landmark_from_panorama, guided, sigma_rad);
 
   result.reason = objection(refined.landmark_from_panorama, heading_rad, parameters);
+  if (!result.reason.empty()) return result;
   const PanoramaPose pose{refined.landmark_from_panorama, by_choice(guided.size()) * refined.covariance,
                           heading_of(refined.landmark_from_panorama.linear())};
   if (result.inliers < needed) {
-    if (result.reason.empty()) result.weak_pose = pose;
+    result.weak_pose = pose;
     return few("inliers", result.inliers);
   }
-  if (!result.reason.empty()) return result;
   result.pose = pose;
   return result;
 }

@@ -174,7 +174,7 @@ class PositionCorrectorComponent final : public runtime::Component {
     frame.panorama = *panorama;
     if (here) frame.travelled_m = here->travelled_m;
     if (here && parameters_.use_position) frame.prior = here->prior;
-    const auto fault = watch_.find_fault(*panorama);
+    const auto fault = watch_.add(*panorama);
     const bool is_unlike_before = fault && !landmarks::find_fault(*panorama);
     const auto match = is_unlike_before ? unusable(stamp_ns, *fault) : matcher_.match(frame, library_);
     match_.publish(to_message(match, message.header().frame_id()));

@@ -155,6 +155,17 @@ TEST(PanoramaPose, OfFewPointsIsAWeakOne) {
   EXPECT_FALSE(estimate_panorama_pose(place.panorama, place.landmark, Place::kHeading_rad, {}).weak_pose);
 }
 
+TEST(PanoramaPose, OfFewPointsSaysWhyItIsNotEvenAWeakOne) {
+  Place place;
+  place.panorama.resize(10);
+  PanoramaPoseParameters parameters;
+  parameters.azimuth_window_deg = 90.0;
+  const auto result = estimate_panorama_pose(place.panorama, place.landmark, Place::kHeading_rad + 0.7, parameters);
+  EXPECT_FALSE(result.pose);
+  EXPECT_FALSE(result.weak_pose);
+  EXPECT_NE(result.reason.find("heading"), std::string::npos) << result.reason;
+}
+
 TEST(PanoramaPose, SaysThatALandmarkWithoutPointsGivesNone) {
   Place place;
   for (auto& known : place.landmark) known.has_point = false;

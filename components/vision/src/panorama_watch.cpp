@@ -35,10 +35,11 @@ bool normalize(Thumbnail& thumbnail, double smallest_contrast) {
 
 }  // namespace
 
-std::optional<std::string> PanoramaWatch::find_fault(const cv::Mat& panorama) {
+std::optional<std::string> PanoramaWatch::add(const cv::Mat& panorama) {
   if (auto fault = image_.find_fault(panorama)) return fault;
+  image_.remember(panorama);
   if (const auto now = view_of(panorama)) {
-    if (before_) compare(*before_, *now);
+    if (before_) note_flips(*before_, *now);
     before_ = now;
   }
   // A camera rolled by 180 degrees gives a panorama that is both mirrored and flipped vertically.
@@ -48,7 +49,7 @@ std::optional<std::string> PanoramaWatch::find_fault(const cv::Mat& panorama) {
 }
 
 /// Checks first for a vertical flip, which sky and ground reveal clearly, then for a horizontal flip.
-void PanoramaWatch::compare(const View& before, View now) {
+void PanoramaWatch::note_flips(const View& before, View now) {
   const auto is_exchanged = [](const Likeness& needed, double as_it_was, const auto& otherwise) {
     return as_it_was < needed.alike && otherwise() > std::max(needed.exchanged, as_it_was + needed.margin);
   };

@@ -22,15 +22,18 @@ bool rows_are_same(const cv::Mat& image, const cv::Mat& other, int other_step) {
 
 }  // namespace
 
-std::optional<std::string> RepeatedImage::find_fault(const cv::Mat& image) {
+std::optional<std::string> RepeatedImage::find_fault(const cv::Mat& image) const {
   const bool is_like_before =
       rows_.rows == kept_rows(image) && rows_.cols == image.cols && rows_.type() == image.type() && !image.empty();
   if (is_like_before && rows_are_same(image, rows_, 1)) return "repeats its image (frozen)";
+  return std::nullopt;
+}
+
+void RepeatedImage::remember(const cv::Mat& image) {
   rows_.create(kept_rows(image), image.cols, image.type());
   for (int row = 0; row < image.rows; row += kRowStep) {
     std::memcpy(rows_.ptr(row / kRowStep), image.ptr(row), row_bytes(image));
   }
-  return std::nullopt;
 }
 
 bool are_same(const cv::Mat& a, const cv::Mat& b) {

@@ -36,32 +36,32 @@ cv::Mat flipped(const cv::Mat& panorama, int code) {
 
 TEST(PanoramaWatch, LetsPassWhatADriveShows) {
   PanoramaWatch watch;
-  for (int i = 0; i < 20; ++i) EXPECT_FALSE(watch.find_fault(street(4 * i, i))) << i;
+  for (int i = 0; i < 20; ++i) EXPECT_FALSE(watch.add(street(4 * i, i))) << i;
 }
 
 TEST(PanoramaWatch, FindsACameraThatHangs) {
   PanoramaWatch watch;
-  watch.find_fault(street());
-  EXPECT_EQ(watch.find_fault(street()), "repeats its image (frozen)");
-  EXPECT_FALSE(watch.find_fault(street(0, 2)));
+  watch.add(street());
+  EXPECT_EQ(watch.add(street()), "repeats its image (frozen)");
+  EXPECT_FALSE(watch.add(street(0, 2)));
 }
 
 TEST(PanoramaWatch, FindsACameraThatIsTurnedOver) {
   for (const auto& [code, fault] :
        {std::pair{-1, "is upside down"}, {0, "is upside down and mirrored"}, {1, "is mirrored"}}) {
     PanoramaWatch watch;
-    EXPECT_FALSE(watch.find_fault(street(0, 1)));
-    for (int i = 0; i < 5; ++i) EXPECT_EQ(watch.find_fault(flipped(street(3 * i, 10 + i), code)), fault) << i;
-    EXPECT_FALSE(watch.find_fault(street(15, 2))) << "it is turned back from " << fault;
+    EXPECT_FALSE(watch.add(street(0, 1)));
+    for (int i = 0; i < 5; ++i) EXPECT_EQ(watch.add(flipped(street(3 * i, 10 + i), code)), fault) << i;
+    EXPECT_FALSE(watch.add(street(15, 2))) << "it is turned back from " << fault;
   }
 }
 
 TEST(PanoramaWatch, JudgesByTheLastThatShowedSomething) {
   PanoramaWatch watch;
-  watch.find_fault(street());
-  EXPECT_FALSE(watch.find_fault(cv::Mat::zeros(kRows, kColumns, CV_8UC1)));
-  EXPECT_FALSE(watch.find_fault(cv::Mat()));
-  EXPECT_TRUE(watch.find_fault(flipped(street(2, 5), -1)));
+  watch.add(street());
+  EXPECT_FALSE(watch.add(cv::Mat::zeros(kRows, kColumns, CV_8UC1)));
+  EXPECT_FALSE(watch.add(cv::Mat()));
+  EXPECT_TRUE(watch.add(flipped(street(2, 5), -1)));
 }
 
 TEST(CoveredShare, IsOfTheColumnsThatShowNothing) {

@@ -12,16 +12,18 @@ Reconnection::Action Reconnection::step(std::int64_t now_ns) {
   }
   if (state_ == State::kStreaming) {
     if (is_gone_) return close(Loss::kDeviceGone, now_ns);
-    if (is_silent(now_ns)) return close(Loss::kNoFrames, now_ns);
+    count_silence(now_ns);
+    if (is_silent()) return close(Loss::kNoFrames, now_ns);
   }
   return Action::kNone;
 }
 
-bool Reconnection::is_silent(std::int64_t now_ns) {
+void Reconnection::count_silence(std::int64_t now_ns) {
   silent_ns_ += std::min(now_ns - watched_ns_, settings_.watchdog_ns / 4);
   watched_ns_ = now_ns;
-  return settings_.watchdog_ns > 0 && silent_ns_ > settings_.watchdog_ns;
 }
+
+bool Reconnection::is_silent() const { return settings_.watchdog_ns > 0 && silent_ns_ > settings_.watchdog_ns; }
 
 void Reconnection::sign_of_life(std::int64_t now_ns) {
   watched_ns_ = now_ns;

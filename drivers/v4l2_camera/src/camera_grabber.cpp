@@ -124,10 +124,7 @@ class CameraGrabber::Implementation {
     last_failure_.clear();
     gaps_.restart();
     reader_.emplace(settings_, negotiated.given);
-    constexpr double kFrames = 3.0;  // frame periods without a frame, for slow cameras
-    if (settings_.watchdog_ns > 0 && negotiated.rate_hz > 0)
-      machine_.set_watchdog_ns(
-          std::max(settings_.watchdog_ns, static_cast<std::int64_t>(kFrames / negotiated.rate_hz * 1e9)));
+    machine_.set_watchdog_ns(watchdog_ns(negotiated.rate_hz));
     machine_.opened(steady_ns());
     const std::string image =
         to_text(negotiated.given) + (negotiated.rate_hz > 0 ? fmt::format(", {:.4g} Hz", negotiated.rate_hz) : "");
@@ -143,6 +140,13 @@ class CameraGrabber::Implementation {
     report_.details["camera"] = fmt::format("{} at {}", node.name, node.path);
     report_.details["asked"] = to_text(negotiated.asked);
     report_.details["given"] = image;
+  }
+
+  /// At least three frame periods, for slow cameras. `rate_hz`: 0 if unknown.
+  std::int64_t watchdog_ns(double rate_hz) const {
+    constexpr double kFrames = 3.0;
+    if (settings_.watchdog_ns <= 0 || rate_hz <= 0.0) return settings_.watchdog_ns;
+    return std::max(settings_.watchdog_ns, static_cast<std::int64_t>(kFrames / rate_hz * 1e9));
   }
 
   /// Logs refused settings, except those already logged last time.

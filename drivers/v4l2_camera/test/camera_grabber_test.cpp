@@ -174,6 +174,20 @@ TEST_F(GrabbedCamera, IsOpenedAnewWhenItSendsNothing) {
   }));
 }
 
+TEST_F(GrabbedCamera, IsNotAwaitedAsLongAsAnEarlierSlowerOne) {
+  const auto first = usb_.plug_in(kNode);
+  usb_.with([&](auto&) { first->rate_hz = 0.001; });  // an image in a quarter of an hour
+  CameraSettings settings;
+  settings.watchdog_ns = 50'000'000;
+  grab(settings);
+  ASSERT_TRUE(eventually([&] { return is_streaming(); }));
+  usb_.unplug(kNode.path);
+  ASSERT_TRUE(eventually([&] { return !is_streaming(); }));
+  const auto again = usb_.plug_in(kNode);
+  usb_.with([&](auto&) { again->rate_hz = 0.0; });
+  EXPECT_TRUE(eventually([&] { return usb_.with([&](auto&) { return again->starts; }) >= 2; })) << log();
+}
+
 TEST_F(GrabbedCamera, IsToldToBeInUseAndTakenWhenItIsFree) {
   const auto camera = usb_.plug_in(kNode);
   usb_.with([&](auto&) { camera->open_error = DeviceError(DeviceError::Kind::kBusy, "is in use"); });

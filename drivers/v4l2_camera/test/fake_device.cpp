@@ -21,7 +21,7 @@ class FakeDevice final : public VideoDevice {
   std::vector<OfferedFormat> offered_formats() override { return locked()->formats; }
   ImageFormat format() override { return locked()->format; }
   ImageFormat set_format(const ImageFormat&) override { return locked()->format; }
-  double rate_hz() override { return 30.0; }
+  double rate_hz() override { return locked()->rate_hz; }
   double set_rate_hz(double wanted_hz) override { return wanted_hz; }
   std::vector<Control> controls() override {
     std::vector<Control> controls;

@@ -22,6 +22,7 @@ class FakeUsb {
     std::vector<OfferedFormat> formats{
         {pixel_code('G', 'R', 'E', 'Y'), "Greyscale", {{.width = 4, .height = 2, .rates_hz = {30.0}}}}};
     ImageFormat format{pixel_code('G', 'R', 'E', 'Y'), 4, 2, 4};
+    double rate_hz = 30.0;  ///< 0: unknown
     std::map<std::string, std::int64_t> values{{"gain", 10}, {"brightness", 5}};
     std::optional<DeviceError> open_error{}, start_error{};  ///< thrown while set
     bool is_unplugged = false;

@@ -20,6 +20,7 @@ class FrameSets {
     std::vector<Frame> frames;  ///< by camera
   };
 
+  /// `tolerance_ns`: largest time span of a set, from its first to its last frame.
   FrameSets(std::size_t cameras, std::int64_t tolerance_ns) : waiting_(cameras), tolerance_ns_(tolerance_ns) {}
 
   /// Adds a frame. If it completes a set, returns the set with the nearest frame in time of each other camera, and
@@ -28,17 +29,19 @@ class FrameSets {
     waiting_[camera].emplace_back(stamp_ns, std::move(frame));
     if (waiting_[camera].size() > kMostWaiting) waiting_[camera].pop_front();
     std::vector<std::size_t> places;
-    std::int64_t farthest_ns = 0;
+    std::int64_t first_ns = stamp_ns, last_ns = stamp_ns;
     for (const auto& frames : waiting_) {
       if (frames.empty()) return std::nullopt;
       const auto nearest = std::min_element(frames.begin(), frames.end(), [&](const auto& a, const auto& b) {
         return std::abs(a.first - stamp_ns) < std::abs(b.first - stamp_ns);
       });
       places.push_back(static_cast<std::size_t>(nearest - frames.begin()));
-      farthest_ns = std::max(farthest_ns, std::abs(nearest->first - stamp_ns));
+      first_ns = std::min(first_ns, nearest->first);
+      last_ns = std::max(last_ns, nearest->first);
     }
-    closest_ns_ = std::min(closest_ns_.value_or(farthest_ns), farthest_ns);
-    if (farthest_ns > tolerance_ns_) return std::nullopt;
+    const std::int64_t span_ns = last_ns - first_ns;
+    closest_ns_ = std::min(closest_ns_.value_or(span_ns), span_ns);
+    if (span_ns > tolerance_ns_) return std::nullopt;
     Set set{waiting_.front()[places.front()].first, {}};
     for (std::size_t i = 0; i < waiting_.size(); ++i) {
       set.frames.push_back(std::move(waiting_[i][places[i]].second));
@@ -47,7 +50,8 @@ class FrameSets {
     return set;
   }
 
-  /// Smallest time span of a set so far, whether within the tolerance or not; nullopt if a camera has sent no frame.
+  /// Smallest time span of a set so far, whether within the tolerance or not; nullopt until each camera has sent a
+  /// frame.
   std::optional<std::int64_t> closest_ns() const { return closest_ns_; }
 
  private:

@@ -181,9 +181,9 @@ void check_images(const std::filesystem::path& file, const PanoramaRig& rig, std
 
 RigFile read_rig_file(const std::filesystem::path& path) {
   std::vector<std::string> problems;
-  YamlMap root(path, load_yaml(path), problems);
-  RigFile file;
   const YAML::Node tree = load_yaml(path);
+  YamlMap root(path, tree, problems);
+  RigFile file;
   root.require("heads");
   file.seen_elevation_at = root.where("panorama") + ": seen_elevation_deg";
   file.rig.blend_rad = 6.0 * kDegree;

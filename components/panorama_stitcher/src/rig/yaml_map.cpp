@@ -30,7 +30,7 @@ YamlMap::YamlMap(std::filesystem::path file, YAML::Node node, std::vector<std::s
   if (node_ && node_.IsMap()) return;
   problems_.push_back(
       fmt::format("{}:{}: must be a map of `key: value` lines", file_.string(), node_ ? node_.Mark().line + 1 : 1));
-  node_ = YAML::Node(YAML::NodeType::Map);
+  node_.reset(YAML::Node(YAML::NodeType::Map));  // an assignment would change the document
 }
 
 YAML::Node YamlMap::find(const char* key) {

@@ -17,12 +17,11 @@ std::string_view variable(const char* name) {
 }
 
 int domain_from(std::string_view text) {
-  constexpr int kMaxDomain = 232;  // higher domains would exceed port 65535
   int domain = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), domain);
-  if (error != std::errc{} || end != text.data() + text.size() || domain < 0 || domain > kMaxDomain) {
-    throw ConfigError(
-        fmt::format("ROS_DOMAIN_ID={}: is not a DDS domain; use a whole number from 0 to {}", text, kMaxDomain));
+  if (error != std::errc{} || end != text.data() + text.size() || domain < 0 || domain > DdsSettings::kMaxDomain) {
+    throw ConfigError(fmt::format("ROS_DOMAIN_ID={}: is not a DDS domain; use a whole number from 0 to {}", text,
+                                  DdsSettings::kMaxDomain));
   }
   return domain;
 }

@@ -36,8 +36,6 @@ constexpr std::int32_t kBytesPerPeriod = 256 * 1024;
 // periodic announcement. The default of 3 s was reached in one start of ten.
 constexpr std::int32_t kAnnouncementPeriodNs = 500'000'000;
 
-constexpr int kMaxDomain = 232;  // higher domains would exceed port 65535
-
 // With ROS_DISCOVERY_SERVER, Fast DDS makes a participant a client, which learns only of matching endpoints. Ours must
 // learn of all, for recorders and the graph tools.
 void hear_of_all_topics(eprosima::fastrtps::rtps::DiscoverySettings& discovery) {
@@ -100,9 +98,9 @@ void use_udp(fdds::DomainParticipantQos& qos, const DdsSettings& settings) {
 }  // namespace
 
 void load_profiles(const DdsSettings& settings) {
-  if (settings.domain < 0 || settings.domain > kMaxDomain) {
+  if (settings.domain < 0 || settings.domain > DdsSettings::kMaxDomain) {
     throw ConfigError(
-        fmt::format("DDS domain {}: must be 0 to {}; correct ROS_DOMAIN_ID", settings.domain, kMaxDomain));
+        fmt::format("DDS domain {}: must be 0 to {}; correct ROS_DOMAIN_ID", settings.domain, DdsSettings::kMaxDomain));
   }
   // Reports missing keys once instead of per topic.
   fdds::DomainParticipantQos tried;

@@ -21,7 +21,8 @@ int main(int argc, char** argv) {
   try {
     options.dds = dds_settings_from_environment();
     options.dds.name = "panvo_graph";
-    app.add_option("--domain", options.dds.domain, "DDS domain; overrides ROS_DOMAIN_ID")->check(CLI::Range(0, 232));
+    app.add_option("--domain", options.dds.domain, "DDS domain; overrides ROS_DOMAIN_ID")
+        ->check(CLI::Range(0, DdsSettings::kMaxDomain));
     app.add_option("--dds-profiles", options.dds.profiles, "Fast DDS XML profile file")->check(CLI::ExistingFile);
     app.add_option("--timeout", options.timeout_s, "seconds to wait for discovery, an answer or a first message")
         ->check(CLI::Range(0.1, 3600.0))

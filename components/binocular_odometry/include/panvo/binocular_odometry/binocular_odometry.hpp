@@ -13,7 +13,7 @@ class BinocularOdometry {
   /// Throws std::invalid_argument, listing each problem, for an invalid calibration or invalid parameters.
   BinocularOdometry(const vision::RectifiedStereo& stereo, const Parameters& parameters,
                     vision::StageObserver* observer = nullptr)
-      : tracking_(stereo, parameters.tracking, observer), motion_(stereo, parameters.motion, observer) {}
+      : tracking_(stereo, parameters, observer), motion_(stereo, parameters.motion, observer) {}
 
   /// Processes frames in order of their stamps. For bad frames, the estimate is marked unreliable, with the reason.
   OdometryEstimate step(const StereoFrame& frame) { return motion_.estimate(tracking_.track(frame)); }

@@ -33,7 +33,8 @@ struct TrackingParameters {
   }
 };
 
-/// Parameters of the motion stage: RANSAC and two-stage local binocular bundle adjustment.
+/// Parameters of the motion stage: RANSAC, which the tracking stage uses as well, and two-stage local binocular bundle
+/// adjustment.
 struct MotionParameters {
   int ransac_iterations = 100;
   double ransac_threshold_px = 2.0;
@@ -55,7 +56,8 @@ struct MotionParameters {
   static void describe(Field&& field) {
     using P = MotionParameters;
     field(&P::ransac_iterations, "ransac_iterations", "1", "maximum number of sampled point triples", 10, 10000);
-    field(&P::ransac_threshold_px, "ransac_threshold_px", "px", "maximum reprojection error of an inlier", 0.1, 20.0);
+    field(&P::ransac_threshold_px, "ransac_threshold_px", "px",
+          "maximum reprojection error of an inlier, in both stages", 0.1, 20.0);
     field(&P::min_inliers, "min_inliers", "1", "minimum inliers of a reliable frame", 6, 1000);
     field(&P::min_inlier_ratio, "min_inlier_ratio", "1", "minimum ratio of inliers to candidates", 0.0, 1.0);
     field(&P::loss_scale, "loss_scale", "1", "scale of the Cauchy loss, in standard deviations", 0.5, 20.0);

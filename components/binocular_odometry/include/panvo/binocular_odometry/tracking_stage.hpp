@@ -20,14 +20,16 @@ namespace panvo::binocular_odometry {
 class TrackingStage {
  public:
   /// Throws std::invalid_argument, listing each problem, for an invalid calibration or invalid parameters.
-  TrackingStage(const vision::RectifiedStereo& stereo, const TrackingParameters& parameters,
+  /// Uses the RANSAC parameters of the motion stage, too.
+  TrackingStage(const vision::RectifiedStereo& stereo, const Parameters& parameters,
                 vision::StageObserver* observer = nullptr);
   ~TrackingStage();
   TrackingStage(TrackingStage&&) noexcept;
   TrackingStage& operator=(TrackingStage&&) noexcept;
 
   /// Tracks into the next frame. An unusable frame (size, stamp, no content, left and right swapped) is returned with
-  /// `fault` set and does not change the tracks: the next frame is tracked from the last good one.
+  /// `fault` set and has no effect on the next frames, which are tracked from the last good one. Of a bad frame only the
+  /// stamp and the pixels are kept, to recognise a stamp that goes back and an image that repeats.
   TrackedFrame track(const StereoFrame& frame);
 
  private:

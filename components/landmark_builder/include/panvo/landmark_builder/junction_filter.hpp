@@ -76,7 +76,8 @@ class JunctionFilter {
   };
 
   std::optional<PassedJunction> conclude(const Candidate& candidate) const;
-  std::optional<Place> nearest(const Eigen::Vector2d& centre, double since_m) const;
+  /// The place of the current visit nearest to a junction's centre. Precondition: the path is not empty.
+  const Place& nearest(const Eigen::Vector2d& centre) const;
 
   JunctionFilterParameters parameters_;
   std::deque<Place> path_;

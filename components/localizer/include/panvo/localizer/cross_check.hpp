@@ -35,15 +35,15 @@ class CrossCheck {
   /// The following measurements have a new reference panorama.
   void begin_reference();
 
-  /// Compares turns: `disagreement_rad` is panoramas minus odometry, `is_too_much` whether it exceeds the errors of
-  /// both. Returns which one is wrong; nullopt if neither.
-  std::optional<Wrong> compare_turns(const OdometryChain& chain, const Stretch& stretch, double disagreement_rad,
-                                     bool is_too_much);
+  /// Adds the turns of a stretch: `disagreement_rad` is panoramas minus odometry, `is_too_much` whether it exceeds the
+  /// errors of both. Returns which one is wrong; nullopt if neither.
+  std::optional<Wrong> add_turns(const OdometryChain& chain, const Stretch& stretch, double disagreement_rad,
+                                 bool is_too_much);
 
-  /// To be called after compare_turns and its consequences. `way_variance_m2`: odometry's variance, summed over both
+  /// Adds the ways of a stretch, after add_turns and its consequences. `way_variance_m2`: odometry's variance, summed over both
   /// axes. Returns the time since which the vehicle may have moved differently from odometry; nullopt if it has not.
-  std::optional<std::int64_t> compare_ways(OdometryChain& chain, const Stretch& stretch,
-                                           const AzimuthMeasurement& azimuth, double way_variance_m2);
+  std::optional<std::int64_t> add_ways(OdometryChain& chain, const Stretch& stretch, const AzimuthMeasurement& azimuth,
+                                       double way_variance_m2);
 
   /// Discards measurements of the former clock, except the mounting angles.
   void forget();
@@ -77,6 +77,14 @@ class CrossCheck {
     double way_m;
   };
 
+  struct WayVerdict {                         // on odometry's path along a stretch
+    std::optional<double> off_m;              // deviation from the panoramas; nullopt if they agree
+    std::optional<Seen> seen;                 // a difference of directions within the errors
+    std::optional<Lasting> lasting;           // lasting_ from now on
+    std::optional<Seen> new_offset;           // of the mounting
+    std::optional<double> camera_turned_rad;  // camera_turned_rad_ from now on
+  };
+
   struct Jump {  // of the odometry's speed
     std::int64_t stamp_ns;
     double speed_m_s;
@@ -92,9 +100,10 @@ class CrossCheck {
   std::optional<GoneOn> gone_on(const OdometryChain& chain, std::int64_t to_ns) const;
   bool goes_on_steadily(const OdometryChain& chain, std::int64_t to_ns) const;
   Wrong wrong_turn(const OdometryChain& chain, std::int64_t to_ns, double disagreement_rad) const;
-  std::optional<double> way_off(const AzimuthMeasurement& azimuth, const TurnAndWay& odometry, double way_variance_m2);
-  bool lasts(std::int64_t reference_ns, double seen_rad, double length_m);
-  std::optional<std::int64_t> check_break(OdometryChain& chain, const Stretch& stretch);
+  WayVerdict judge_way(const AzimuthMeasurement& azimuth, const TurnAndWay& odometry, double way_variance_m2) const;
+  void take(const WayVerdict& verdict);
+  Lasting lasting_with(std::int64_t reference_ns, double seen_rad, double length_m) const;
+  std::optional<std::int64_t> settle_break(OdometryChain& chain, const Stretch& stretch);
   bool is_disputed() const noexcept { return turn_dispute_.is_on() || way_dispute_.is_on(); }
   bool is_camera_turned() const noexcept { return turn_dispute_.is_on() && turn_dispute_.wrong() == Wrong::kPanoramas; }
   bool is_fresh(std::int64_t stamp_ns, std::int64_t now_ns) const;

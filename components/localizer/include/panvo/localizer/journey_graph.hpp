@@ -84,7 +84,7 @@ class JourneyGraph {
   /// Shifts all stamps of this journey back.
   void set_clock_back(std::int64_t by_ns);
 
-  /// False if no solution was found; the graph may then have changed and must not be used any more.
+  /// False, without effect, if no solution was found.
   bool solve();
 
  private:

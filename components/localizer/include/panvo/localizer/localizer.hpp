@@ -131,6 +131,14 @@ class Localizer {
     std::int64_t at_ns;
   };
 
+  struct Verdict {                       // on a sighting
+    std::string objection;               // why it is not to be applied; empty if it is
+    double chi_square = 0.0;             // against the expected pose; 0 if that is unknown
+    std::optional<Asking> asking;        // asking_ from now on
+    std::optional<Asking> dissent;       // dissent_ from now on
+    std::optional<std::int64_t> cut_ns;  // odometry missed a motion at this time
+  };
+
   struct TurnSeen {  // by odometry and compass
     double disagreement_rad, turn_rad, variance_rad2;
   };
@@ -140,10 +148,15 @@ class Localizer {
   void tell_state(LocalizedPose& pose) const;
   PoseInMap expected(const OdometryPose& odometry) const;
   vision::Matrix6d common_covariance(const Eigen::Vector3d& position) const;
-  std::string doubt(const LandmarkSighting& sighting, const KnownLandmark& landmark, const Remembered& at,
-                    Correction& correction);
+  Verdict judge(const LandmarkSighting& sighting, const KnownLandmark& landmark, const Remembered& at) const;
+  Verdict judge_far(Verdict verdict, const Asking& now, bool is_confirmed) const;
+  void take(const Verdict& verdict);
+  bool confirms(const Asking& now, const Asking& before) const;
   bool agree(const Asking& before, const Asking& now) const;
   LandmarkSighting with_uncertain_clock(const LandmarkSighting& sighting) const;
+  void take_reference(std::int64_t panorama_stamp_ns);
+  std::optional<AzimuthLean::Stretch> add_to_lean(AzimuthLean::Stretch turn);
+  void straighten(const AzimuthLean::Stretch& lean);
   void fuse(std::int64_t from_ns, std::int64_t to_ns, double change_rad, double variance_rad2);
   void slew(const Eigen::Isometry3d& step);
 

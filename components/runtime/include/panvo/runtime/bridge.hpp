@@ -94,6 +94,8 @@ struct Limits {
 };
 
 struct DdsSettings {
+  static constexpr int kMaxDomain = 232;  ///< higher domains would exceed port 65535
+
   int domain = 0;
   std::string profiles;              ///< XML profile file; empty: built-in defaults
   std::string name = "panvo";        ///< participant name seen by other tools

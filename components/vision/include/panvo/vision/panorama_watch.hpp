@@ -14,9 +14,9 @@ namespace panvo::vision {
 /// Does not detect images without content.
 class PanoramaWatch {
  public:
-  /// Returns the fault of a panorama (CV_8UC1 or CV_8UC3, equirectangular); nullopt if there is none. Call for every
-  /// panorama of a camera, in order. A camera that stays upside down is reported until it is turned back.
-  std::optional<std::string> find_fault(const cv::Mat& panorama);
+  /// Adds the next panorama of a camera (CV_8UC1 or CV_8UC3, equirectangular); returns its fault, nullopt if there is
+  /// none. A camera that stays upside down is reported until it is turned back.
+  std::optional<std::string> add(const cv::Mat& panorama);
 
  private:
   static constexpr int kColumns = 72, kRows = 36;
@@ -28,7 +28,7 @@ class PanoramaWatch {
 
   static std::optional<View> view_of(const cv::Mat& panorama);
   static double likeness(const Thumbnail& before, const Thumbnail& now, double enough = 1.0);
-  void compare(const View& before, View now);
+  void note_flips(const View& before, View now);
 
   RepeatedImage image_;
   std::optional<View> before_;

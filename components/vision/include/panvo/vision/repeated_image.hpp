@@ -11,9 +11,11 @@ namespace panvo::vision {
 /// so no threshold is needed. A noise-free rendered or strongly compressed stream at standstill is reported, too.
 class RepeatedImage {
  public:
-  /// Returns the fault of a repeated image; nullopt if the image is new. Call for every image of a camera, in order,
-  /// including images with other faults. Compares and keeps every eighth row.
-  std::optional<std::string> find_fault(const cv::Mat& image);
+  /// Returns the fault of an image that repeats the one remembered; nullopt if it is new. Compares every eighth row.
+  std::optional<std::string> find_fault(const cv::Mat& image) const;
+  /// Remembers an image instead of the one before. Call for every image of a camera, in order, including images with
+  /// faults.
+  void remember(const cv::Mat& image);
 
  private:
   cv::Mat rows_;  // of the previous image

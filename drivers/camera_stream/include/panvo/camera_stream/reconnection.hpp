@@ -47,7 +47,8 @@ class Reconnection {
 
  private:
   Action close(Loss loss, std::int64_t now_ns);
-  bool is_silent(std::int64_t now_ns);
+  void count_silence(std::int64_t now_ns);
+  bool is_silent() const;
   void sign_of_life(std::int64_t now_ns);
 
   Settings settings_;
