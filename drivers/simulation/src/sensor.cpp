@@ -9,9 +9,13 @@
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
 
-#include "panvo/simulation/random.hpp"
+#include "panvo/simulated_world/random.hpp"
 
 namespace panvo::simulation {
+
+using simulated_world::mix;
+using simulated_world::Random;
+
 namespace {
 
 constexpr int kQuantiles = 4096;

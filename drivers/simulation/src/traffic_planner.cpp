@@ -8,6 +8,10 @@
 
 namespace panvo::simulation {
 
+using simulated_world::Random;
+using simulated_world::Road;
+using simulated_world::RoadNetwork;
+
 namespace {
 
 using Eigen::Vector2d;
@@ -38,8 +42,8 @@ std::size_t nearest_index(const std::vector<Vector2d>& points, const Vector2d& p
 
 }  // namespace
 
-TrafficPlanner::TrafficPlanner(const Site& site, const VehicleMotion& motion, const MoverModels& models,
-                               std::uint64_t seed)
+TrafficPlanner::TrafficPlanner(const simulated_world::Site& site, const VehicleMotion& motion,
+                               const simulated_world::MoverModels& models, std::uint64_t seed)
     : site_(site),
       motion_(motion),
       models_(models),
@@ -266,7 +270,7 @@ void TrafficPlanner::plan_crossing() {
     const Visit& visit = visits_[i];
     Random choice = random_.part(20000 + i);
     if (!choice.chance(0.6)) continue;
-    const Junction& junction = site_.roads.junctions[static_cast<std::size_t>(visit.junction)];
+    const simulated_world::Junction& junction = site_.roads.junctions[static_cast<std::size_t>(visit.junction)];
     const RoadNetwork::Nearest came_by = site_.roads.nearest_road(own(visit.entered_s - 3.0).centre);
     std::vector<int> sides;
     for (const int number : junction.roads) {
