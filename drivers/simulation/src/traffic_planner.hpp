@@ -12,8 +12,13 @@
 
 namespace panvo::simulation {
 
+inline constexpr double kOwnLength_m = 4.3;  ///< of the vehicle that carries the rig
+
+/// Sets along_m from the path.
+void measure(Mover& mover);
+
 /// Draws random movers that the vehicle would meet, and keeps those that collide with nothing and neither appear nor
-/// vanish within its sight.
+/// vanish within its sight (traffic_vehicles.cpp, traffic_pedestrians.cpp).
 class TrafficPlanner {
  public:
   TrafficPlanner(const simulated_world::Site& site, const VehicleMotion& motion,
