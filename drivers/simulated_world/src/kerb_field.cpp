@@ -23,6 +23,23 @@ double KerbField::Segment::distance_to_middle_m(const Eigen::Vector2d& point) co
 Eigen::Vector2d KerbField::node(int column, int row) const { return corner_ + kStep_m * Eigen::Vector2d(column, row); }
 
 KerbField::KerbField(const RoadNetwork& roads) {
+  add_segments(roads);
+  if (segments_.empty()) throw std::invalid_argument("a site needs roads, but the road network has none");
+  size_grid();
+  add_turning_circles(roads);
+  nearest_ = nearest_segments(segments_, std::numeric_limits<double>::infinity());
+  distance_m_.resize(nearest_.size());
+  for (int row = 0; row < rows_; ++row) {
+    for (int column = 0; column < columns_; ++column) {
+      const std::size_t i = index(column, row);
+      distance_m_[i] =
+          static_cast<float>(segments_[static_cast<std::size_t>(nearest_[i])].distance_m(node(column, row)));
+    }
+  }
+  round_corners();
+}
+
+void KerbField::add_segments(const RoadNetwork& roads) {
   for (std::size_t road = 0; road < roads.roads.size(); ++road) {
     const std::vector<Eigen::Vector2d>& line = roads.roads[road].centre_line;
     double along_m = 0.0;
@@ -36,8 +53,9 @@ KerbField::KerbField(const RoadNetwork& roads) {
     }
     lengths_m_.push_back(along_m);
   }
-  if (segments_.empty()) throw std::invalid_argument("a site needs roads, but the road network has none");
+}
 
+void KerbField::size_grid() {
   Eigen::Vector2d low = segments_.front().start, high = low;
   for (const Segment& segment : segments_) {
     for (const Eigen::Vector2d& end :
@@ -50,8 +68,10 @@ KerbField::KerbField(const RoadNetwork& roads) {
   const Eigen::Vector2d size = (high - low).array() + 2.0 * kMargin_m;
   columns_ = static_cast<int>(size.x() / kStep_m) + 2;
   rows_ = static_cast<int>(size.y() / kStep_m) + 2;
+}
 
-  // dead ends: a turning circle is a segment of zero length
+// At a dead end: a segment of zero length.
+void KerbField::add_turning_circles(const RoadNetwork& roads) {
   for (const Junction& junction : roads.junctions) {
     if (junction.roads.size() != 1) continue;
     const auto road = static_cast<std::size_t>(junction.roads.front());
@@ -59,18 +79,11 @@ KerbField::KerbField(const RoadNetwork& roads) {
     segments_.push_back({junction.position, Eigen::Vector2d::UnitX(), 0.0, kTurningCircleRadius_m,
                          is_start ? 0.0 : lengths_m_[road], static_cast<int>(road)});
   }
-  nearest_ = nearest_segments(segments_, std::numeric_limits<double>::infinity());
-  distance_m_.resize(nearest_.size());
-  for (int row = 0; row < rows_; ++row) {
-    for (int column = 0; column < columns_; ++column) {
-      const std::size_t i = index(column, row);
-      distance_m_[i] =
-          static_cast<float>(segments_[static_cast<std::size_t>(nearest_[i])].distance_m(node(column, row)));
-    }
-  }
+}
 
-  // closing: for points within the radius of the strips, the distance from the kerb follows from the distance to the
-  // line at that radius
+// Closing: for points within the radius of the strips, the distance from the kerb follows from the distance to the line
+// at that radius.
+void KerbField::round_corners() {
   std::vector<Segment> line;
   march(distance_m_, static_cast<float>(kCornerRadius_m),
         [&](const Crossing&, const Crossing&, const Eigen::Vector2d& a, const Eigen::Vector2d& b) {

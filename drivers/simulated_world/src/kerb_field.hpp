@@ -49,6 +49,10 @@ class KerbField {
   };
   struct Crossing;
 
+  void add_segments(const RoadNetwork& roads);
+  void size_grid();
+  void add_turning_circles(const RoadNetwork& roads);
+  void round_corners();
   Eigen::Vector2d node(int column, int row) const;
   std::size_t index(int column, int row) const { return static_cast<std::size_t>(row) * columns_ + column; }
   std::vector<std::int32_t> nearest_segments(const std::vector<Segment>& segments, double reach_m) const;

@@ -123,6 +123,64 @@ Eigen::Vector3f haze(const Light& light) {
   return (mixed(light.sky.array(), Eigen::Array3f::Constant(grey), 0.45f) * 1.9f + 0.16f * light.sun.array()).matrix();
 }
 
+namespace {
+
+/// Forward scattering around the sun, wide.
+float wide_glow(float cosine) {
+  const float forward = std::max(cosine, 0.0f);
+  const float squared = forward * forward;
+  return squared * squared;
+}
+
+/// The cloudless sky at height `up` (the sine of the elevation); `cosine` of the angle from the sun.
+Eigen::Array3f clear_sky(float up, float cosine, const Light& light) {
+  // Whitish at the horizon, deeper and bluer overhead.
+  const float lower = 1.0f - std::min(up, 1.0f);
+  const Eigen::Array3f zenith = light.sky.array() * Eigen::Array3f(0.66f, 0.80f, 0.98f);
+  const float fall = lower * lower * lower;
+  Eigen::Array3f colour = mixed(zenith, haze(light).array(), fall * (0.35f + 0.65f * lower * lower));
+  colour += light.sun.array() * (0.05f * wide_glow(cosine) + 0.16f * std::exp(-(1.0f - cosine) * 60.0f) +
+                                 0.9f * std::exp(-(1.0f - cosine) * 1200.0f));
+  return colour;
+}
+
+/// The texel of the clouds, which are seen edge-on towards the horizon.
+Eigen::Vector4f cloud_at(const Texture& clouds, const Eigen::Vector3f& direction, float spread_rad) {
+  const float height = std::min(direction.z(), 1.0f);
+  const float scale = kCloudPeriods / (height + kCloudCurve);
+  const Eigen::Vector2f uv = direction.head<2>() * scale;
+  const float across = spread_rad * scale;
+  const float along = across / (height + kCloudCurve);
+  const Eigen::Vector2f outwards = direction.head<2>().normalized();
+  const Eigen::Vector2f sideways(-outwards.y(), outwards.x());
+  return clouds.sample(uv, outwards * along, sideways * across, 1);
+}
+
+/// The sky with a cloud in front; towards the horizon it fades into the haze.
+Eigen::Array3f with_cloud(const Eigen::Array3f& clear, const Eigen::Vector4f& cloud, float up, float cosine,
+                          const Light& light) {
+  const Eigen::Array3f sky = light.sky.array();
+  const float wide = wide_glow(cosine);
+  // The side facing the sun is lit, the other is in the cloud's own shadow.
+  const float sunward = (cloud.y() - 0.5f) * light.to_sun.x() + (cloud.z() - 0.5f) * light.to_sun.y();
+  const float lit = std::clamp(cloud.x() - 0.9f * sunward, 0.2f, 1.2f);
+  const Eigen::Array3f white = light.sun.array() * (0.95f + 0.4f * wide * wide) + sky;
+  const Eigen::Array3f shaded = sky * 1.3f + 0.16f * light.sun.array();
+  const Eigen::Array3f of_cloud = mixed(shaded, white, std::clamp(1.4f * lit - 0.4f, 0.0f, 1.0f));
+  return mixed(clear, of_cloud, cloud.w() * std::min(1.0f, 6.0f * std::min(up, 1.0f)));
+}
+
+/// The sun's disc, spread over the pixel; hidden by clouds.
+Eigen::Array3f sun_disc(float cosine, float spread_rad, float cloud_density, const Light& light) {
+  const float spread = std::max(spread_rad, kSunRadius);
+  const float from_sun = std::sqrt(std::max(2.0f * (1.0f - cosine), 0.0f));
+  if (!(from_sun < 2.0f * spread + kSunRadius)) return Eigen::Array3f::Zero();
+  const float inside = 1.0f - std::clamp((from_sun - kSunRadius) / (0.7f * spread) + 0.5f, 0.0f, 1.0f);
+  return light.sun.array() * (400.0f * (kSunRadius / spread) * (kSunRadius / spread) * inside * (1.0f - cloud_density));
+}
+
+}  // namespace
+
 Sky::Sky(std::uint64_t seed)
     : clouds_(std::make_shared<const Texture>(paint_clouds(Random(seed, "clouds")))),
       horizon_(std::make_shared<const Texture>(paint_horizon(Random(seed, "horizon")))) {}
@@ -130,48 +188,12 @@ Sky::Sky(std::uint64_t seed)
 Eigen::Vector3f Sky::radiance(const Eigen::Vector3f& direction, const Light& light, float spread_rad) const {
   const float up = direction.z();
   const Eigen::Array3f far = haze(light).array();
-  const Eigen::Array3f sky = light.sky.array();
-  const float cosine = direction.dot(light.to_sun);
-  const float day = std::max(light.sun.maxCoeff(), 1e-3f);
   Eigen::Array3f colour;
   if (up > 0.0f) {
-    // Whitish at the horizon, deeper and bluer overhead.
-    const float height = std::min(up, 1.0f);
-    const float lower = 1.0f - height;
-    const Eigen::Array3f zenith = sky * Eigen::Array3f(0.66f, 0.80f, 0.98f);
-    const float fall = lower * lower * lower;
-    colour = mixed(zenith, far, fall * (0.35f + 0.65f * lower * lower));
-    // Forward scattering around the sun, wide and narrow.
-    const float forward = std::max(cosine, 0.0f);
-    const float squared = forward * forward;
-    const float wide = squared * squared;
-    colour += light.sun.array() *
-              (0.05f * wide + 0.16f * std::exp(-(1.0f - cosine) * 60.0f) + 0.9f * std::exp(-(1.0f - cosine) * 1200.0f));
-
-    // Clouds, seen edge-on towards the horizon, where they fade into the haze.
-    const float scale = kCloudPeriods / (height + kCloudCurve);
-    const Eigen::Vector2f uv = direction.head<2>() * scale;
-    const float across = spread_rad * scale;
-    const float along = across / (height + kCloudCurve);
-    const Eigen::Vector2f outwards = direction.head<2>().normalized();
-    const Eigen::Vector2f sideways(-outwards.y(), outwards.x());
-    const Eigen::Vector4f cloud = clouds_->sample(uv, outwards * along, sideways * across, 1);
-    // The side facing the sun is lit, the other is in the cloud's own shadow.
-    const float sunward = (cloud.y() - 0.5f) * light.to_sun.x() + (cloud.z() - 0.5f) * light.to_sun.y();
-    const float lit = std::clamp(cloud.x() - 0.9f * sunward, 0.2f, 1.2f);
-    const Eigen::Array3f white = light.sun.array() * (0.95f + 0.4f * wide * wide) + sky;
-    const Eigen::Array3f shaded = sky * 1.3f + 0.16f * light.sun.array();
-    const Eigen::Array3f of_cloud = mixed(shaded, white, std::clamp(1.4f * lit - 0.4f, 0.0f, 1.0f));
-    colour = mixed(colour, of_cloud, cloud.w() * std::min(1.0f, 6.0f * height));
-
-    // The sun's disc, spread over the pixel; hidden by clouds.
-    const float spread = std::max(spread_rad, kSunRadius);
-    const float from_sun = std::sqrt(std::max(2.0f * (1.0f - cosine), 0.0f));
-    if (from_sun < 2.0f * spread + kSunRadius) {
-      const float inside = 1.0f - std::clamp((from_sun - kSunRadius) / (0.7f * spread) + 0.5f, 0.0f, 1.0f);
-      colour +=
-          light.sun.array() * (400.0f * (kSunRadius / spread) * (kSunRadius / spread) * inside * (1.0f - cloud.w()));
-    }
+    const float cosine = direction.dot(light.to_sun);
+    const Eigen::Vector4f cloud = cloud_at(*clouds_, direction, spread_rad);
+    colour = with_cloud(clear_sky(up, cosine, light), cloud, up, cosine, light);
+    colour += sun_disc(cosine, spread_rad, cloud.w(), light);
   } else {
     // Below the horizon, if no object is there: land that fades into the haze.
     const float depth = std::min(-up * 12.0f, 1.0f);
@@ -183,11 +205,12 @@ Eigen::Vector3f Sky::radiance(const Eigen::Vector3f& direction, const Light& lig
     const Eigen::Vector2f uv(azimuth, (up - kHorizonBottom) / kRange);
     const Eigen::Vector4f land = horizon_->sample(uv, {spread_rad * 0.5f / kPi, 0.0f}, {0.0f, spread_rad / kRange}, 2);
     // Farther hills are painted pale already; the air in front contributes about a fifth.
-    const Eigen::Array3f lit = land.head<3>().array() * (light.sun.array() * 0.5f + sky);
+    const Eigen::Array3f lit = land.head<3>().array() * (light.sun.array() * 0.5f + light.sky.array());
     const float inside = std::min(1.0f, (kHorizonTop - up) / (0.05f * kRange));
     const float lower = up < 0.0f ? 1.0f + up / kHorizonBottom * -1.0f : 1.0f;
     colour = mixed(colour, mixed(lit, far, 0.22f), land.w() * inside * std::clamp(lower, 0.0f, 1.0f));
   }
+  const float day = std::max(light.sun.maxCoeff(), 1e-3f);
   return (colour * std::min(1.0f, day * 1e3f)).matrix();
 }
 

@@ -3,81 +3,15 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
-#include <memory>
 #include <numbers>
 #include <opencv2/core/utility.hpp>
 #include <stdexcept>
 
-#include "panvo/simulated_world/camera_rays.hpp"
-#include "panvo/vision/camera_model.hpp"
+#include "render_scenes.hpp"
 
 namespace panvo::simulated_world {
 namespace {
-
-std::shared_ptr<const Palette> campus_palette() {
-  static const auto made = std::make_shared<const Palette>(1, "");
-  return made;
-}
-std::uint16_t campus_material(std::string_view name) { return campus_palette()->find(name); }
-
-/// A matte, even material, apart from its texture.
-std::uint16_t plain_material() {
-  const auto& all = campus_palette()->materials();
-  const auto found = std::find_if(all.begin(), all.end(), [](const Material& one) {
-    return !one.overlay && !one.has_holes && one.gloss == 0.0f && one.translucency == 0.0f;
-  });
-  if (found == all.end()) throw std::runtime_error("the palette has no plain material");
-  return static_cast<std::uint16_t>(found - all.begin());
-}
-constexpr Tint kWhite{255, 255, 255, 0}, kBlack{0, 0, 0, 0};  // without texture
-
-std::shared_ptr<Scene> empty_scene() {
-  static const auto sky = std::make_shared<const Sky>(1);
-  auto scene = std::make_shared<Scene>();
-  scene->palette = campus_palette();
-  scene->sky = sky;
-  return scene;
-}
-
-/// A square of `side` m facing along `normal`, rotated by `angle` in its plane.
-void add_square(Mesh& mesh, const Eigen::Vector3f& middle, const Eigen::Vector3f& normal, float side, Tint tint,
-                float angle = 0.0f, std::string_view name = {}) {
-  const Eigen::Vector3f across =
-      Eigen::AngleAxisf(angle, normal.normalized()) * Eigen::Vector3f(normal.unitOrthogonal() * (0.5f * side));
-  const Eigen::Vector3f along = normal.normalized().cross(across);
-  mesh.add_quad(middle - across - along, middle + across - along, middle + across + along, middle - across + along,
-                name.empty() ? plain_material() : campus_material(name), Eigen::Vector2f::Zero(), tint);
-}
-
-/// A camera at `place` that looks along world +x, turned left by `yaw`.
-Eigen::Isometry3d looking(const Eigen::Vector3d& place, double yaw = 0.0) {
-  Eigen::Matrix3d world_from_ahead;
-  world_from_ahead << 0, 0, 1, -1, 0, 0, 0, -1, 0;
-  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
-  pose.linear() = Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ()).toRotationMatrix() * world_from_ahead;
-  pose.translation() = place;
-  return pose;
-}
-Shot still(const Eigen::Isometry3d& pose, std::uint32_t visibility = kToStereo) { return {pose, pose, visibility}; }
-
-vision::LensCamera camera() {
-  vision::LensCamera camera;
-  camera.pinhole = {230.0, 231.0, 162.5, 118.25, 320, 240};
-  camera.distortion = {-0.28, 0.074, 0.0002, -0.0003, 0.0};
-  return camera;
-}
-
-/// The pixel at which the camera sees a point.
-Eigen::Vector2d pixel_of(const Eigen::Vector3d& point_in_camera) {
-  return vision::CameraModel(camera()).project(point_in_camera).value();
-}
-
-float grey(const cv::Mat& image, int row, int column) {
-  const auto colour = image.at<cv::Vec3f>(row, column);
-  return (colour[0] + colour[1] + colour[2]) / 3.0f;
-}
 
 /// Centroid of the bright pixels, px.
 Eigen::Vector2d centroid(const cv::Mat& image) {
@@ -102,12 +36,6 @@ std::shared_ptr<Scene> marker_scene(const Eigen::Vector3f& middle, const Eigen::
   add_square(mesh, middle, normal, side, kWhite, 0.4f);
   scene->fixed.push_back(mesh);
   return scene;
-}
-
-Light plain_light() {
-  Light light;
-  light.haze_per_m = 0.0f;
-  return light;
 }
 
 TEST(Renderer, ShowsAMarkerWhereItsCameraProjectsIt) {
@@ -157,23 +85,6 @@ TEST(Renderer, ShowsAMovingCamerasMarkerWhereItIsHalfWay) {
   EXPECT_LT((centroid(image) - pixel_of(half.inverse() * point)).norm(), 0.1);
 }
 
-/// A plain with a box on it, seen from both cameras of a pair.
-std::shared_ptr<Scene> yard() {
-  auto scene = empty_scene();
-  Mesh mesh;
-  add_square(mesh, Eigen::Vector3f::Zero(), Eigen::Vector3f::UnitZ(), 200.0f, {}, 0.0f, "asphalt");
-  Eigen::Isometry3f box = Eigen::Isometry3f::Identity();
-  box.translation() = Eigen::Vector3f(8.0f, 0.5f, 1.0f);
-  mesh.add_box(box, {1.0f, 2.0f, 2.0f}, campus_material("brick_red"));
-  scene->fixed.push_back(mesh);
-  Mesh car;
-  Eigen::Isometry3f body = Eigen::Isometry3f::Identity();
-  body.translation() = Eigen::Vector3f(0.0f, 0.0f, 0.8f);
-  car.add_box(body, {4.0f, 1.8f, 1.2f}, campus_material("car_paint"));
-  scene->models.push_back(car);
-  return scene;
-}
-
 TEST(Renderer, RangesFitTheDisparityOfAStereoPair) {
   Renderer renderer(yard());
   vision::LensCamera straight = camera();
@@ -208,62 +119,6 @@ TEST(Renderer, RangesFitTheDisparityOfAStereoPair) {
   EXPECT_GT(compared, 500);
 }
 
-TEST(Renderer, ShadesAWhiteSurfaceAsTheLightSays) {
-  auto scene = empty_scene();
-  Mesh mesh;
-  add_square(mesh, Eigen::Vector3f::Zero(), Eigen::Vector3f::UnitZ(), 200.0f, kWhite);
-  scene->fixed.push_back(mesh);
-  Renderer renderer(scene);
-  auto pose = looking({0.0, 0.0, 2.0});
-  pose.rotate(Eigen::AngleAxisd(-1.2, Eigen::Vector3d::UnitX()));  // down
-  Light light = plain_light();
-  light.to_sun = Eigen::Vector3f(0.6f, 0.0f, 0.8f);
-  const auto image = renderer.render(pinhole_rays(camera()), still(pose), light, {}, {});
-  const auto& white = campus_palette()->materials()[plain_material()];
-  const Eigen::Vector3f expected =
-      white.tint.cwiseProduct(white.albedo->mean().head<3>()).cwiseProduct(0.8f * light.sun + light.sky);
-  for (int c = 0; c < 3; ++c) EXPECT_NEAR(image.at<cv::Vec3f>(120, 160)[c], expected[c], 0.01);
-}
-
-/// Brightness of the ground at a place, relative to open ground.
-double relative_brightness(Renderer& renderer, const Eigen::Vector3d& place, const Light& light,
-                           std::span<const MovingPlacement> movers = {}) {
-  static const auto bare = [] {
-    auto scene = empty_scene();
-    Mesh mesh;
-    add_square(mesh, Eigen::Vector3f::Zero(), Eigen::Vector3f::UnitZ(), 200.0f, {}, 0.0f, "asphalt");
-    scene->fixed.push_back(mesh);
-    return std::make_unique<Renderer>(scene);
-  }();
-  auto pose = looking({0.0, 0.0, 1.5});
-  const Eigen::Vector2d pixel = pixel_of(pose.inverse() * place);
-  const auto rays = pinhole_rays(camera());
-  const auto at = [&](Renderer& from, std::span<const MovingPlacement> with) {
-    const auto image = from.render(rays, still(pose), light, with, {});
-    return grey(image, static_cast<int>(std::lround(pixel.y())), static_cast<int>(std::lround(pixel.x())));
-  };
-  return at(renderer, movers) / at(*bare, {});
-}
-
-TEST(Renderer, CastsShadowsWhereTheSunSaysSo) {
-  Renderer renderer(yard());
-  Light light = plain_light();
-  light.to_sun = Eigen::Vector3f(0.0f, 1.0f, 1.0f).normalized();  // the box of 2 m casts a shadow of 2 m towards -y
-  EXPECT_LT(relative_brightness(renderer, {8.0, -1.2, 0.0}, light), 0.5);
-  EXPECT_LT(relative_brightness(renderer, {8.0, -2.2, 0.0}, light), 0.5);
-  EXPECT_GT(relative_brightness(renderer, {8.0, -2.9, 0.0}, light), 0.8);
-  EXPECT_GT(relative_brightness(renderer, {6.5, -1.5, 0.0}, light), 0.8);
-}
-
-MovingPlacement car_at(float x, float y, std::uint32_t visibility = kToAll) {
-  MovingPlacement mover;
-  mover.at_opening.model = 0;
-  mover.at_opening.world_from_model = Eigen::Translation3f(x, y, 0.0f) * Eigen::Affine3f::Identity();
-  mover.at_opening.visibility = visibility;
-  mover.world_from_model_closed = mover.at_opening.world_from_model;
-  return mover;
-}
-
 TEST(Renderer, PutsMoversWhereTheyAreAndThenSomewhereElse) {
   Renderer renderer(yard());
   const auto rays = pinhole_rays(camera());
@@ -277,16 +132,6 @@ TEST(Renderer, PutsMoversWhereTheyAreAndThenSomewhereElse) {
   EXPECT_NEAR(range_with({car_at(12.0f, -4.0f), car_at(20.0f, -4.0f)}), 10.0, 0.01);
   EXPECT_EQ(range_with({car_at(12.0f, -4.0f, kToPanorama)}), range_with({}));
   EXPECT_GT(range_with({}), 50.0);
-}
-
-TEST(Renderer, LetsAnUnseenMoverCastItsShadow) {
-  Renderer renderer(yard());
-  Light light = plain_light();
-  light.to_sun = Eigen::Vector3f(0.0f, 0.0f, 1.0f);
-  const std::vector<MovingPlacement> without{car_at(8.0f, -3.0f, kToPanorama)};
-  const std::vector<MovingPlacement> with{car_at(8.0f, -3.0f, kToShadow)};
-  EXPECT_GT(relative_brightness(renderer, {7.0, -3.0, 0.0}, light, without), 0.9);
-  EXPECT_LT(relative_brightness(renderer, {7.0, -3.0, 0.0}, light, with), 0.5);
 }
 
 TEST(Renderer, SeesThroughTheHolesOfLeaves) {

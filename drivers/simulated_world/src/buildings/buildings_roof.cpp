@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "../shapes.hpp"
-#include "buildings_body.hpp"
+#include "buildings.hpp"
 
 namespace panvo::simulated_world {
 namespace {

@@ -191,7 +191,7 @@ class FacadeBuilder {
     } else if (style_.lintels && opening.rise <= 0.0f) {
       strip(opening.left - 0.15f, opening.right + 0.15f, top, top + 0.22f, 0.02f);
     } else if (opening.rise > 0.0f && (style_.surrounds || style_.lintels)) {
-      add_arch_band(opening);
+      build_arch_band(style_, frame_, opening, mesh_);
     }
     if (style_.keystones) {
       strip(opening.middle() - 0.11f, opening.middle() + 0.11f, top - 0.02f, top + 0.3f, 0.1f);
@@ -209,21 +209,6 @@ class FacadeBuilder {
     }
     if (is_window && side_ == FacadeSide::kSide && lights_.chance(0.05)) {
       build_air_conditioner(materials_, frame_, opening, mesh_);
-    }
-  }
-
-  void add_arch_band(const Opening& opening) {
-    const auto edge = outline(opening);
-    const Eigen::Vector2f centre(opening.middle(), opening.top);
-    for (std::size_t i = 1; i + 2 < edge.size(); ++i) {
-      const auto raised = [&](const Eigen::Vector2f& point) -> Eigen::Vector2f {
-        return point + 0.18f * (point - centre + Eigen::Vector2f(0, 0.05f)).normalized();
-      };
-      const Eigen::Vector2f a = edge[i], b = edge[i + 1], c = raised(b), d = raised(a);
-      mesh_.add_quad(frame_.at(a.x(), 0.05f, a.y()), frame_.at(b.x(), 0.05f, b.y()), frame_.at(c.x(), 0.05f, c.y()),
-                     frame_.at(d.x(), 0.05f, d.y()), style_.trim, {a.x(), a.y()}, style_.trim_tint);
-      mesh_.add_quad(frame_.at(d.x(), 0.05f, d.y()), frame_.at(c.x(), 0.05f, c.y()), frame_.at(c.x(), 0.0f, c.y()),
-                     frame_.at(d.x(), 0.0f, d.y()), style_.trim, {a.x(), a.y()}, style_.trim_tint);
     }
   }
 

@@ -94,13 +94,14 @@ void build_door(const FacadeStyle& style, const BuildingMaterials& materials, co
                 const Opening& opening, Random& lights, Mesh& mesh);
 
 /// Wall fixtures (facade_fixtures.cpp): at a door, steps, a canopy or lamp and a plate; at a shop, a sign, sometimes an
-/// awning or a poster; a balcony with its door, the lowest one deeper; an air conditioner; ivy.
+/// awning or a poster; a balcony with its door, the lowest one deeper; a band over an arch; an air conditioner; ivy.
 void build_entrance(const FacadeStyle& style, const BuildingMaterials& materials, const WallFrame& frame,
                     const Opening& opening, Random& lights, Mesh& mesh);
 void build_shop_sign(const FacadeStyle& style, const BuildingMaterials& materials, const WallFrame& frame,
                      const Opening& opening, Random& lights, Mesh& mesh);
 void build_balcony(const FacadeStyle& style, const BuildingMaterials& materials, const WallFrame& frame,
                    const Opening& opening, bool is_lowest, Mesh& mesh);
+void build_arch_band(const FacadeStyle& style, const WallFrame& frame, const Opening& opening, Mesh& mesh);
 void build_air_conditioner(const BuildingMaterials& materials, const WallFrame& frame, const Opening& opening,
                            Mesh& mesh);
 void build_ivy(const FacadeStyle& style, const BuildingMaterials& materials, const WallFrame& frame, Random& lights,

@@ -112,6 +112,21 @@ void build_balcony(const FacadeStyle& style, const BuildingMaterials& materials,
   }
 }
 
+void build_arch_band(const FacadeStyle& style, const WallFrame& frame, const Opening& opening, Mesh& mesh) {
+  const auto edge = outline(opening);
+  const Eigen::Vector2f centre(opening.middle(), opening.top);
+  for (std::size_t i = 1; i + 2 < edge.size(); ++i) {
+    const auto raised = [&](const Eigen::Vector2f& point) -> Eigen::Vector2f {
+      return point + 0.18f * (point - centre + Eigen::Vector2f(0, 0.05f)).normalized();
+    };
+    const Eigen::Vector2f a = edge[i], b = edge[i + 1], c = raised(b), d = raised(a);
+    mesh.add_quad(frame.at(a.x(), 0.05f, a.y()), frame.at(b.x(), 0.05f, b.y()), frame.at(c.x(), 0.05f, c.y()),
+                  frame.at(d.x(), 0.05f, d.y()), style.trim, {a.x(), a.y()}, style.trim_tint);
+    mesh.add_quad(frame.at(d.x(), 0.05f, d.y()), frame.at(c.x(), 0.05f, c.y()), frame.at(c.x(), 0.0f, c.y()),
+                  frame.at(d.x(), 0.0f, d.y()), style.trim, {a.x(), a.y()}, style.trim_tint);
+  }
+}
+
 void build_air_conditioner(const BuildingMaterials& materials, const WallFrame& frame, const Opening& opening,
                            Mesh& mesh) {
   add_wall_box(mesh, frame, opening.right + 0.15f, opening.right + 0.9f, opening.bottom - 0.5f, opening.bottom + 0.05f,

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "ground_details.hpp"
-#include "ground_surface.hpp"
+#include "ground_parts.hpp"
 #include "panvo/simulated_world/site.hpp"
 
 namespace panvo::simulated_world {

@@ -4,8 +4,7 @@
 #include <numbers>
 
 #include "../kerb_field.hpp"
-#include "ground_details.hpp"
-#include "ground_surface.hpp"
+#include "ground_parts.hpp"
 #include "panvo/simulated_world/random.hpp"
 #include "road_line.hpp"
 

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "../kerb_field.hpp"
-#include "ground_surface.hpp"
+#include "ground_parts.hpp"
 #include "panvo/simulated_world/random.hpp"
 
 namespace panvo::simulated_world {

@@ -3,7 +3,7 @@
 #include <array>
 #include <cmath>
 
-#include "ground_details.hpp"
+#include "ground_parts.hpp"
 #include "panvo/simulated_world/random.hpp"
 #include "road_line.hpp"
 

@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "../kerb_field.hpp"
-#include "ground_details.hpp"
+#include "ground_parts.hpp"
 #include "panvo/simulated_world/random.hpp"
 #include "road_line.hpp"
 
@@ -84,20 +84,22 @@ class RoadMender {
   Cloth patch_, old_patch_, tar_;
 };
 
-void mend_road(const Site& site, const GroundZones& zones, int number, RoadMender& mender, Random random) {
-  const Road& road = site.roads.roads[static_cast<std::size_t>(number)];
-  const Zone& zone = zones.zone(zones.street_of(number));
-  const RoadLine line(road.centre_line);
-  const double from_m = std::max(zones.reach_m(number)[0], 0.0),
-               to_m = std::min(zones.reach_m(number)[1], line.length_m());
-  const double length_m = to_m - from_m, half_m = 0.5 * road.width_m - (zone.has_gutter ? 0.34 : 0.04);
-  if (length_m < 4.0) return;
-  const auto heading = [&](double along_m) {
+/// The part of a road between its crossings.
+struct Stretch {
+  RoadLine line;
+  double from_m, to_m;  ///< along the line
+  double half_m;        ///< width of the asphalt left and right of the line
+
+  double length_m() const { return to_m - from_m; }
+  double heading(double along_m) const {
     const Eigen::Vector2d way = line.forward(along_m);
     return std::atan2(way.y(), way.x());
-  };
+  }
+};
 
-  const int fills = static_cast<int>(std::lround(zone.damage * length_m / 11.0 + random.uniform(0.0, 1.5)));
+void fill_stretch(const Stretch& stretch, double damage, RoadMender& mender, Random& random) {
+  const auto& [line, from_m, to_m, half_m] = stretch;
+  const int fills = static_cast<int>(std::lround(damage * stretch.length_m() / 11.0 + random.uniform(0.0, 1.5)));
   for (int i = 0; i < fills; ++i) {
     const double kind = random.uniform();
     Rectangle where;
@@ -112,7 +114,7 @@ void mend_road(const Site& site, const GroundZones& zones, int number, RoadMende
       where.half_width_m = random.uniform(0.25, 0.8);
       mender.fill(where, i % 5, random.part(static_cast<std::uint64_t>(i)));
     } else if (kind < 0.5) {  // a trench along the road, in pieces that follow it
-      const double trench_m = std::min(random.uniform(5.0, 28.0), length_m - 2.0);
+      const double trench_m = std::min(random.uniform(5.0, 28.0), stretch.length_m() - 2.0);
       const double start_m = random.uniform(from_m + 1.0, to_m - trench_m - 0.5);
       const double half_width_m = random.uniform(0.3, 0.75);
       const double side_m = random.uniform(-half_m + half_width_m, half_m - half_width_m);
@@ -132,25 +134,43 @@ void mend_road(const Site& site, const GroundZones& zones, int number, RoadMende
       mender.fill(where, i % 5, random.part(static_cast<std::uint64_t>(i)));
     }
   }
-  const int cracks = static_cast<int>(std::lround(zone.damage * length_m / 7.0));
+}
+
+void crack_stretch(const Stretch& stretch, double damage, RoadMender& mender, Random& random) {
+  const auto& [line, from_m, to_m, half_m] = stretch;
+  const int cracks = static_cast<int>(std::lround(damage * stretch.length_m() / 7.0));
   for (int i = 0; i < cracks; ++i) {
     const double along_m = random.uniform(from_m, to_m), side_m = random.uniform(-half_m, half_m);
     const bool is_across = random.chance(0.6);
-    const double way = heading(along_m) + (is_across            ? (side_m < 0.0 ? 0.5 : -0.5) * kPi
-                                           : random.chance(0.5) ? 0.0
-                                                                : kPi);
+    const double way = stretch.heading(along_m) + (is_across            ? (side_m < 0.0 ? 0.5 : -0.5) * kPi
+                                                   : random.chance(0.5) ? 0.0
+                                                                        : kPi);
     mender.crack(line.beside(along_m, side_m), way, random.uniform(1.5, is_across ? 6.5 : 12.0), 0.26,
                  random.uniform(0.02, 0.045), random.part(1000 + static_cast<std::uint64_t>(i)), 3);
   }
-  // the joint between the lanes' asphalt, sealed in places
-  if (random.chance(0.6)) {
-    const double joint_m = random.uniform(-0.3, 0.3);
-    for (double m = from_m + random.uniform(0.0, 8.0); m < to_m - 3.0; m += random.uniform(6.0, 22.0)) {
-      const double piece_m = std::min(random.uniform(3.0, 12.0), to_m - m);
-      mender.crack(line.beside(m, joint_m), heading(m + 0.5 * piece_m), piece_m, 0.04, random.uniform(0.025, 0.05),
-                   random.part(2000 + static_cast<std::uint64_t>(m)), 0);
-    }
+}
+
+/// Seals the joint between the lanes' asphalt in places.
+void seal_joint(const Stretch& stretch, RoadMender& mender, Random& random) {
+  const double joint_m = random.uniform(-0.3, 0.3);
+  for (double m = stretch.from_m + random.uniform(0.0, 8.0); m < stretch.to_m - 3.0; m += random.uniform(6.0, 22.0)) {
+    const double piece_m = std::min(random.uniform(3.0, 12.0), stretch.to_m - m);
+    mender.crack(stretch.line.beside(m, joint_m), stretch.heading(m + 0.5 * piece_m), piece_m, 0.04,
+                 random.uniform(0.025, 0.05), random.part(2000 + static_cast<std::uint64_t>(m)), 0);
   }
+}
+
+void mend_road(const Site& site, const GroundZones& zones, int number, RoadMender& mender, Random random) {
+  const Road& road = site.roads.roads[static_cast<std::size_t>(number)];
+  const Zone& zone = zones.zone(zones.street_of(number));
+  const RoadLine line(road.centre_line);
+  const auto [first_m, last_m] = zones.reach_m(number);
+  const Stretch stretch{line, std::max(first_m, 0.0), std::min(last_m, line.length_m()),
+                        0.5 * road.width_m - (zone.has_gutter ? 0.34 : 0.04)};
+  if (stretch.length_m() < 4.0) return;
+  fill_stretch(stretch, zone.damage, mender, random);
+  crack_stretch(stretch, zone.damage, mender, random);
+  if (random.chance(0.6)) seal_joint(stretch, mender, random);
 }
 
 void mend_crossing(const Site& site, const GroundZones& zones, int number, RoadMender& mender, Random random) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "ground_surface.hpp"
+#include "ground_parts.hpp"
 
 #include <algorithm>
 #include <array>

@@ -148,6 +148,37 @@ CarShape own_vehicle_shape() {
   return shape;
 }
 
+Mesh build_lorry(const MoverMaterials& materials) {
+  CarShape cab = van_shapes().front();
+  cab.length = 6.4f;
+  cab.width = 2.05f;
+  cab.roof = 2.2f;
+  cab.front_wheel = 2.35f;
+  cab.rear_wheel = -1.75f;
+  cab.wheel_radius = 0.4f;
+  cab.sill = 0.38f;
+  cab.nose = 1.0f;
+  cab.bonnet = 1.3f;
+  cab.boot = cab.tail = 1.0f;
+  cab.screen_foot = 2.7f;
+  cab.screen_top = 2.1f;
+  cab.rear_foot = 0.9f;
+  cab.rear_top = 1.0f;
+  cab.panes = {{0.3f, 0.92f}};
+  cab.has_rear_window = false;
+  Mesh mesh = build_car(cab, materials);
+  add_block(mesh, {-3.22f, -1.08f, 0.92f}, {0.8f, 1.08f, 2.9f}, materials.car_paint, grey(1.0f));
+  for (const float y : {-1.085f, 1.085f}) {
+    for (const float z : {0.95f, 2.87f})
+      add_tube(mesh, {-3.22f, y, z}, {0.8f, y, z}, 0.03f, 0.03f, 6, materials.car_trim, grey(0.8f));
+    for (const float x : {-3.2f, 0.78f})
+      add_tube(mesh, {x, y, 0.92f}, {x, y, 2.9f}, 0.03f, 0.03f, 6, materials.car_trim, grey(0.8f));
+    add_tube(mesh, {-3.235f, 0.06f * y, 1.0f}, {-3.235f, 0.06f * y, 2.8f}, 0.015f, 0.015f, 5, materials.rim,
+             grey(0.8f));
+  }
+  return mesh;
+}
+
 MoverModels build_mover_models(const Palette& palette, std::uint64_t seed, Scene& scene) {
   const MoverMaterials materials(palette);
   const Random random(seed, "mover models");

@@ -16,6 +16,8 @@ namespace panvo::simulated_world {
 namespace baseline {
 #include "packet_math.inl"
 //
+#include "packet_textures.inl"
+//
 #include "shade_packet.inl"
 }  // namespace baseline
 

@@ -17,6 +17,8 @@
 namespace panvo::simulated_world::avx512 {
 #include "packet_math.inl"
 //
+#include "packet_textures.inl"
+//
 #include "shade_packet.inl"
 }  // namespace panvo::simulated_world::avx512
 #pragma GCC pop_options

@@ -66,77 +66,76 @@ void shade_below(cv::Mat3f& colour, const std::vector<cv::Point>& outline, float
   }
 }
 
-}  // namespace
+using Twig = std::vector<cv::Point2f>;
 
-Cutout paint_leaves(const LeafShape& shape, const Colour& colour, Random random) {
-  constexpr int kSize = 512;
-  constexpr int kFine = 2 * kSize;  // painted at twice the size, then averaged, for soft edges
-  cv::Mat3f paint(kFine, kFine, Colour(0.0f, 0.0f, 0.0f));
-  cv::Mat1f alpha = cv::Mat1f::zeros(kFine, kFine);
-  const Ink ink{paint, alpha};
-  const cv::Point2f stem(kFine * 0.5f, kFine * 0.96f);
+constexpr int kCardSize = 512;
+constexpr int kFineSize = 2 * kCardSize;  // painted at twice the size, then averaged, for soft edges
+
+/// Draws twigs that fan out from the bottom centre of the card and carry the leaves.
+std::vector<Twig> draw_twigs(const Ink& ink, bool has_needles, Random random) {
+  const cv::Point2f stem(kFineSize * 0.5f, kFineSize * 0.96f);
   const Colour bark(0.075f, 0.055f, 0.035f);
-
-  // Twigs fan out from the bottom centre of the card and carry the leaves.
-  Random random_twigs = random.part(0);
-  std::vector<std::vector<cv::Point2f>> twigs;
-  const int twig_count = shape.needles > 0 ? 26 : 16;
+  std::vector<Twig> twigs;
+  const int twig_count = has_needles ? 26 : 16;
   for (int twig = 0; twig < twig_count; ++twig) {
     const float spread = (static_cast<float>(twig) + 0.5f) / static_cast<float>(twig_count) - 0.5f;
-    const float direction = -0.25f * kTurn + (shape.needles > 0 ? 2.3f : 3.3f) * spread;
-    const auto length = static_cast<float>(random_twigs.uniform(0.5, 0.86)) * kFine * (1.0f - 0.5f * std::abs(spread));
-    const cv::Point2f from = stem + cv::Point2f(0.0f, -static_cast<float>(random_twigs.uniform(0.0, 0.5)) * kFine);
-    auto line = wandering_line(from, direction, length, 24.0f, 0.35f, random_twigs.part(twig));
+    const float direction = -0.25f * kTurn + (has_needles ? 2.3f : 3.3f) * spread;
+    const auto length = static_cast<float>(random.uniform(0.5, 0.86)) * kFineSize * (1.0f - 0.5f * std::abs(spread));
+    const cv::Point2f from = stem + cv::Point2f(0.0f, -static_cast<float>(random.uniform(0.0, 0.5)) * kFineSize);
+    auto line = wandering_line(from, direction, length, 24.0f, 0.35f, random.part(twig));
     for (std::size_t corner = 1; corner < line.size(); ++corner) {
       ink.line(line[corner - 1], line[corner], bark, line.size() - corner > 8 ? 5 : 3);
     }
     twigs.push_back(std::move(line));
   }
-  Random leaves = random.part(1);
-  const int count = shape.needles > 0 ? shape.needles * twig_count : shape.leaves * 2;
-  for (int number = 0; number < count; ++number) {
-    const auto& twig = twigs[leaves.below(twig_count)];
-    const int corner = 1 + leaves.below(static_cast<int>(twig.size()) - 1);
-    const cv::Point2f along = twig[corner] - twig[corner - 1];
-    const float twig_direction = std::atan2(along.y, along.x);
-    const float side = leaves.chance(0.5) ? 1.0f : -1.0f;
-    const auto jitter_x = static_cast<float>(leaves.uniform(-14.0, 14.0));
-    const cv::Point2f base = twig[corner] + cv::Point2f(jitter_x, static_cast<float>(leaves.uniform(-14.0, 14.0)));
-    const auto angle = static_cast<float>(leaves.uniform(0.25, 1.5));
-    const auto size = static_cast<float>(leaves.uniform(0.65, 1.25));
-    const auto droop = static_cast<float>(leaves.uniform(-0.2, 0.2));
-    const auto foreshortened = static_cast<float>(leaves.uniform(0.4, 1.0));
-    const auto light = static_cast<float>(leaves.uniform(0.55, 1.45));
-    const auto tone = static_cast<float>(leaves.uniform(-1.0, 1.0));
-    const float depth = static_cast<float>(number) / static_cast<float>(count);
-    const float length = shape.length_m * kFine * size;
-    const float direction = twig_direction + side * (shape.needles > 0 ? 0.5f * angle : angle);
-    const cv::Point2f tip = base + cv::Point2f(std::cos(direction), std::sin(direction)) * length;
-    constexpr float kInset = 6.0f;
-    const cv::Rect2f card(kInset, kInset, kFine - 2.0f * kInset, kFine - 2.0f * kInset);
-    if (!card.contains(tip) || !card.contains(base)) continue;
-    const Colour own = colour.mul(Colour(1.0f + 0.22f * tone, 1.0f + 0.06f * tone, 1.0f - 0.2f * tone)) * light *
-                       (0.45f + 0.65f * depth);
-    if (shape.needles > 0) {
-      ink.line(base, tip, own, 4);
-      continue;
-    }
-    const float width = length * shape.width_share * foreshortened;
-    const float bend = droop * length;
-    for (const float half : {-1.0f, 1.0f}) {
-      const auto shadow = half_leaf(base + cv::Point2f(5.0f, 10.0f), direction, length, width, bend, half);
-      shade_below(paint, shadow, 0.6f);
-    }
-    // The halves of a leaf are lit differently; the pale vein runs between them.
-    ink.fill(half_leaf(base, direction, length, width, bend, 1.0f), own * 1.14f);
-    ink.fill(half_leaf(base, direction, length, width, bend, -1.0f), own * 0.86f);
-    ink.line(base, base + (tip - base) * 0.8f, own * 1.3f, 1);
+  return twigs;
+}
+
+/// Draws a leaf or needle somewhere on a twig if it fits on the card; `depth` 0..1: later ones lie on top and are
+/// brighter.
+void draw_leaf(const Ink& ink, const LeafShape& shape, const Twig& twig, float depth, const Colour& colour,
+               Random& leaves) {
+  const int corner = 1 + leaves.below(static_cast<int>(twig.size()) - 1);
+  const cv::Point2f along = twig[corner] - twig[corner - 1];
+  const float twig_direction = std::atan2(along.y, along.x);
+  const float side = leaves.chance(0.5) ? 1.0f : -1.0f;
+  const auto jitter_x = static_cast<float>(leaves.uniform(-14.0, 14.0));
+  const cv::Point2f base = twig[corner] + cv::Point2f(jitter_x, static_cast<float>(leaves.uniform(-14.0, 14.0)));
+  const auto angle = static_cast<float>(leaves.uniform(0.25, 1.5));
+  const auto size = static_cast<float>(leaves.uniform(0.65, 1.25));
+  const auto droop = static_cast<float>(leaves.uniform(-0.2, 0.2));
+  const auto foreshortened = static_cast<float>(leaves.uniform(0.4, 1.0));
+  const auto light = static_cast<float>(leaves.uniform(0.55, 1.45));
+  const auto tone = static_cast<float>(leaves.uniform(-1.0, 1.0));
+  const float length = shape.length_m * kFineSize * size;
+  const float direction = twig_direction + side * (shape.needles > 0 ? 0.5f * angle : angle);
+  const cv::Point2f tip = base + cv::Point2f(std::cos(direction), std::sin(direction)) * length;
+  constexpr float kInset = 6.0f;
+  const cv::Rect2f card(kInset, kInset, kFineSize - 2.0f * kInset, kFineSize - 2.0f * kInset);
+  if (!card.contains(tip) || !card.contains(base)) return;
+  const Colour own = colour.mul(Colour(1.0f + 0.22f * tone, 1.0f + 0.06f * tone, 1.0f - 0.2f * tone)) * light *
+                     (0.45f + 0.65f * depth);
+  if (shape.needles > 0) {
+    ink.line(base, tip, own, 4);
+    return;
   }
-  // Average over 2 x 2 pixels with the colour of the covered part only; holes get the leaves' mean.
-  const Colour mean = colour * 0.8f;
-  Cutout result{cv::Mat3f(kSize, kSize), cv::Mat1f(kSize, kSize)};
-  for (int row = 0; row < kSize; ++row) {
-    for (int column = 0; column < kSize; ++column) {
+  const float width = length * shape.width_share * foreshortened;
+  const float bend = droop * length;
+  for (const float half : {-1.0f, 1.0f}) {
+    const auto shadow = half_leaf(base + cv::Point2f(5.0f, 10.0f), direction, length, width, bend, half);
+    shade_below(ink.colour, shadow, 0.6f);
+  }
+  // The halves of a leaf are lit differently; the pale vein runs between them.
+  ink.fill(half_leaf(base, direction, length, width, bend, 1.0f), own * 1.14f);
+  ink.fill(half_leaf(base, direction, length, width, bend, -1.0f), own * 0.86f);
+  ink.line(base, base + (tip - base) * 0.8f, own * 1.3f, 1);
+}
+
+/// Averages over 2 x 2 pixels with the colour of the covered part only; holes get `mean`.
+Cutout averaged(const cv::Mat3f& paint, const cv::Mat1f& alpha, const Colour& mean) {
+  Cutout result{cv::Mat3f(kCardSize, kCardSize), cv::Mat1f(kCardSize, kCardSize)};
+  for (int row = 0; row < kCardSize; ++row) {
+    for (int column = 0; column < kCardSize; ++column) {
       Colour sum(0.0f, 0.0f, 0.0f);
       float covered = 0.0f;
       for (const cv::Point& at : {cv::Point(0, 0), cv::Point(1, 0), cv::Point(0, 1), cv::Point(1, 1)}) {
@@ -148,6 +147,23 @@ Cutout paint_leaves(const LeafShape& shape, const Colour& colour, Random random)
     }
   }
   return result;
+}
+
+}  // namespace
+
+Cutout paint_leaves(const LeafShape& shape, const Colour& colour, Random random) {
+  cv::Mat3f paint(kFineSize, kFineSize, Colour(0.0f, 0.0f, 0.0f));
+  cv::Mat1f alpha = cv::Mat1f::zeros(kFineSize, kFineSize);
+  const Ink ink{paint, alpha};
+  const std::vector<Twig> twigs = draw_twigs(ink, shape.needles > 0, random.part(0));
+  const int twig_count = static_cast<int>(twigs.size());
+  Random leaves = random.part(1);
+  const int count = shape.needles > 0 ? shape.needles * twig_count : shape.leaves * 2;
+  for (int number = 0; number < count; ++number) {
+    const Twig& twig = twigs[leaves.below(twig_count)];
+    draw_leaf(ink, shape, twig, static_cast<float>(number) / static_cast<float>(count), colour, leaves);
+  }
+  return averaged(paint, alpha, colour * 0.8f);
 }
 
 cv::Mat3f paint_hedge(const Colour& colour, Random random) {

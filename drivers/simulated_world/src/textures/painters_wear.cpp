@@ -21,28 +21,25 @@ void fade_at_borders(cv::Mat1f& deviation, float border_share) {
   }
 }
 
-}  // namespace
+constexpr int kRoadSize = 1024;
 
-cv::Mat1f paint_road_wear(float amount, Random random) {
-  constexpr int kSize = 1024;
-  const cv::Mat1f broad = fractal_noise(kSize, {3, 3}, 6, 0.55f, random.part(0));
-  const cv::Mat1f fine = fractal_noise(kSize, {24, 24}, 4, 0.7f, random.part(1));
-  cv::Mat1f deviation = 0.09f * broad + 0.06f * fine;
-
-  // Oil and water stains.
-  const cv::Mat1f stain = fractal_noise(kSize, {7, 7}, 5, 0.5f, random.part(2));
-  const cv::Mat1f pale = fractal_noise(kSize, {6, 6}, 6, 0.6f, random.part(3));
-  for (int row = 0; row < kSize; ++row) {
-    for (int column = 0; column < kSize; ++column) {
+/// Adds stains of oil and water.
+void add_stains(cv::Mat1f& deviation, const Random& random) {
+  const cv::Mat1f stain = fractal_noise(kRoadSize, {7, 7}, 5, 0.5f, random.part(2));
+  const cv::Mat1f pale = fractal_noise(kRoadSize, {6, 6}, 6, 0.6f, random.part(3));
+  for (int row = 0; row < kRoadSize; ++row) {
+    for (int column = 0; column < kRoadSize; ++column) {
       deviation(row, column) +=
           -0.16f * smooth_step(1.1f, 2.2f, stain(row, column)) + 0.12f * smooth_step(1.2f, 2.4f, pale(row, column));
     }
   }
-  // Drips: clusters of small dark spots.
-  cv::Mat1f drips = cv::Mat1f::zeros(kSize, kSize);
-  Random places = random.part(4);
+}
+
+/// Clusters of small dark spots.
+cv::Mat1f draw_drips(Random places) {
+  cv::Mat1f drips = cv::Mat1f::zeros(kRoadSize, kRoadSize);
   for (int swarm = 0; swarm < 7; ++swarm) {
-    const cv::Point2f centre = somewhere(kSize, places);
+    const cv::Point2f centre = somewhere(kRoadSize, places);
     const int count = 5 + places.below(18);
     for (int drip = 0; drip < count; ++drip) {
       const auto aside = static_cast<float>(40.0 * places.gaussian());
@@ -51,17 +48,16 @@ cv::Mat1f paint_road_wear(float amount, Random random) {
       cv::circle(drips, at, radius, 0.15 + 0.3 * places.uniform(), cv::FILLED);
     }
   }
-  deviation -= blurred(drips, 1.2);
+  return drips;
+}
 
-  // Branching cracks, and seams sealed with tar.
-  cv::Mat1f cracks = cv::Mat1f::zeros(kSize, kSize);
-  cv::Mat1f seams = cv::Mat1f::zeros(kSize, kSize);
-  Random lines = random.part(5);
-  const int crack_count = static_cast<int>(9 * amount);
-  for (int number = 0; number < crack_count; ++number) {
+/// Branching cracks. `lines` goes on from one kind of line to the next, `random` gives each line its course.
+cv::Mat1f draw_cracks(int count, const Random& random, Random& lines) {
+  cv::Mat1f cracks = cv::Mat1f::zeros(kRoadSize, kRoadSize);
+  for (int number = 0; number < count; ++number) {
     const auto direction = static_cast<float>(lines.uniform(0.0, kTurn));
     const auto length = static_cast<float>(lines.uniform(150.0, 620.0));
-    const cv::Point2f start = somewhere(kSize, lines);
+    const cv::Point2f start = somewhere(kRoadSize, lines);
     const auto trunk = wandering_line(start, direction, length, 6.0f, 0.45f, random.part(100 + number));
     draw_line(cracks, trunk, 1.0f, lines.chance(0.4) ? 2.0f : 1.0f);
     const int branches = lines.below(5);
@@ -74,42 +70,70 @@ cv::Mat1f paint_road_wear(float amount, Random random) {
                 1.0f);
     }
   }
+  return cracks;
+}
+
+/// Seams sealed with tar.
+cv::Mat1f draw_seams(const Random& random, Random& lines) {
+  cv::Mat1f seams = cv::Mat1f::zeros(kRoadSize, kRoadSize);
   for (int number = 0; number < 3; ++number) {
     const auto direction = static_cast<float>(lines.uniform(0.0, kTurn));
-    const cv::Point2f start = somewhere(kSize, lines);
+    const cv::Point2f start = somewhere(kRoadSize, lines);
     const auto length = static_cast<float>(lines.uniform(250.0, 700.0));
     const auto seam = wandering_line(start, direction, length, 7.0f, 0.11f, random.part(50 + number));
     draw_line(seams, seam, 1.0f, static_cast<float>(lines.uniform(4.0, 7.0)));
   }
-  // Alligator cracks where the base failed.
-  const Paving scales = crazy_paving(kSize, 60, 0.9f, random.part(6));
-  const cv::Mat1f weak = fractal_noise(kSize, {4, 4}, 3, 0.5f, random.part(7));
-  for (int row = 0; row < kSize; ++row) {
-    for (int column = 0; column < kSize; ++column) {
+  return seams;
+}
+
+/// Adds alligator cracks where the base failed.
+void add_alligator_cracks(cv::Mat1f& cracks, const Random& random) {
+  const Paving scales = crazy_paving(kRoadSize, 60, 0.9f, random.part(6));
+  const cv::Mat1f weak = fractal_noise(kRoadSize, {4, 4}, 3, 0.5f, random.part(7));
+  for (int row = 0; row < kRoadSize; ++row) {
+    for (int column = 0; column < kRoadSize; ++column) {
       const float there = smooth_step(1.7f, 2.3f, weak(row, column));
       const float line = 1.0f - smooth_step(0.03f, 0.1f, scales.to_edge(row, column));
       cracks(row, column) = std::max(cracks(row, column), there * line);
     }
   }
-  deviation -= 0.5f * blurred(cracks, 0.6) + 0.1f * blurred(cracks, 4.0);
-  const cv::Mat1f seam_soft = blurred(seams, 1.0);
-  deviation -= 0.45f * seam_soft;
+}
 
-  // Skid marks: pairs of dark arcs, partly worn off.
-  cv::Mat1f skids = cv::Mat1f::zeros(kSize, kSize);
+/// Skid marks: pairs of dark arcs.
+cv::Mat1f draw_skids(const Random& random, Random& lines) {
+  cv::Mat1f skids = cv::Mat1f::zeros(kRoadSize, kRoadSize);
   for (int number = 0; number < 2; ++number) {
     const auto direction = static_cast<float>(lines.uniform(0.0, kTurn));
-    const cv::Point2f start = somewhere(kSize, lines);
+    const cv::Point2f start = somewhere(kRoadSize, lines);
     const cv::Point2f aside = cv::Point2f(-std::sin(direction), std::cos(direction)) * 125.0f;
     const auto length = static_cast<float>(lines.uniform(200.0, 500.0));
     for (const cv::Point2f& from : {start, start + aside}) {
       draw_line(skids, wandering_line(from, direction, length, 30.0f, 0.08f, random.part(70 + number)), 1.0f, 14.0f);
     }
   }
-  const cv::Mat1f skid_soft = blurred(skids, 4.0);
-  for (int row = 0; row < kSize; ++row) {
-    for (int column = 0; column < kSize; ++column) {
-      deviation(row, column) -= 0.16f * skid_soft(row, column) * smooth_step(-0.6f, 1.2f, fine(row, column));
+  return skids;
+}
+
+}  // namespace
+
+cv::Mat1f paint_road_wear(float amount, Random random) {
+  const cv::Mat1f broad = fractal_noise(kRoadSize, {3, 3}, 6, 0.55f, random.part(0));
+  const cv::Mat1f fine = fractal_noise(kRoadSize, {24, 24}, 4, 0.7f, random.part(1));
+  cv::Mat1f deviation = 0.09f * broad + 0.06f * fine;
+  add_stains(deviation, random);
+  deviation -= blurred(draw_drips(random.part(4)), 1.2);
+
+  Random lines = random.part(5);
+  cv::Mat1f cracks = draw_cracks(static_cast<int>(9 * amount), random, lines);
+  const cv::Mat1f seams = draw_seams(random, lines);
+  add_alligator_cracks(cracks, random);
+  deviation -= 0.5f * blurred(cracks, 0.6) + 0.1f * blurred(cracks, 4.0);
+  deviation -= 0.45f * blurred(seams, 1.0);
+
+  const cv::Mat1f skids = blurred(draw_skids(random, lines), 4.0);
+  for (int row = 0; row < kRoadSize; ++row) {
+    for (int column = 0; column < kRoadSize; ++column) {  // partly worn off
+      deviation(row, column) -= 0.16f * skids(row, column) * smooth_step(-0.6f, 1.2f, fine(row, column));
     }
   }
   fade_at_borders(deviation, 0.06f);
