@@ -20,7 +20,8 @@ simulated_dataset() {
     rig+=(--effects "$effects")
   fi
   key=$({
-    cat "$route" "$simulate" "$(simulation_library "$simulate")"
+    mapfile -t libraries < <(simulation_libraries "$simulate")
+    cat "$route" "$simulate" "${libraries[@]}"
     echo "${rig[@]}"
   } | sha256sum | cut -c 1-12)
   dataset=$folder/$name-$key
@@ -33,5 +34,5 @@ simulated_dataset() {
   printf '%s' "$dataset"
 }
 
-# simulation_library PROGRAM: path of the simulation library that the program is linked with.
-simulation_library() { ldd "$1" | sed -n 's/.*libpanvo_simulation[^ ]* => \([^ ]*\).*/\1/p'; }
+# simulation_libraries PROGRAM: paths of the libraries of the simulation that the program is linked with, one per line.
+simulation_libraries() { ldd "$1" | sed -nE 's/.*libpanvo_simulat(ion|ed_world)[^ ]* => ([^ ]*).*/\2/p' | sort; }

@@ -61,7 +61,8 @@ LIVE_IMAGES = floor("images of topics", "runtime interfaces conversions", "messa
 RECORDER = floor("recorder", "runtime interfaces", "messages, fastdds, yaml, sqlite, log, json, command line")
 DRIVER = floor("driver", "runtime interfaces conversions vision", "messages, eigen, opencv, yaml, xml, json, log")
 CAMERA_DRIVER = floor("camera driver", "runtime interfaces conversions vision camera_stream camera_group", "messages, eigen, opencv, aravis, yaml, json, log")
-SIMULATION = floor("simulation", "runtime interfaces conversions vision", "messages, eigen, opencv, embree, yaml, log, command line")
+SIMULATED_WORLD = floor("simulated world", "vision", "eigen, opencv, embree")
+SIMULATION = floor("simulation", "runtime interfaces conversions vision simulated_world", "messages, eigen, opencv, yaml, command line")
 EVALUATION = None  # may include anything
 
 # Folders that do not consist of an algorithm and its wrapper; the first match counts.
@@ -81,6 +82,7 @@ FLOORS = [
     ("components/calibration/src/live", LIVE_IMAGES),
     ("components/recorder", RECORDER),
     ("components/evaluation", EVALUATION),
+    ("drivers/simulated_world", SIMULATED_WORLD),
     ("drivers/simulation", SIMULATION),
     ("drivers/camera_group", CAMERA_DRIVER),
     ("drivers/aravis_camera", CAMERA_DRIVER),

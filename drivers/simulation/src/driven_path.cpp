@@ -12,6 +12,9 @@
 
 namespace panvo::simulation {
 
+using simulated_world::Road;
+using simulated_world::RoadNetwork;
+
 namespace {
 
 using Eigen::Vector2d;
@@ -77,7 +80,8 @@ Leg leg_of(const RoadNetwork& roads, int number, int from) {
 
 std::string names_of(const RoadNetwork& roads) {
   std::string names;
-  for (const Junction& junction : roads.junctions) names += (names.empty() ? "" : ", ") + junction.name;
+  for (const simulated_world::Junction& junction : roads.junctions)
+    names += (names.empty() ? "" : ", ") + junction.name;
   return names;
 }
 

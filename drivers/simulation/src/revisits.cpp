@@ -46,14 +46,15 @@ double nearest(const VehicleMotion& motion, const Eigen::Vector2d& centre, doubl
 
 }  // namespace
 
-std::vector<Visit> find_visits(const RoadNetwork& roads, const VehicleMotion& motion, double radius_m) {
+std::vector<Visit> find_visits(const simulated_world::RoadNetwork& roads, const VehicleMotion& motion,
+                               double radius_m) {
   std::vector<Eigen::Vector2d> track;
   const auto samples = static_cast<std::size_t>(motion.duration_s() / kStep_s) + 1;
   for (std::size_t i = 0; i < samples; ++i) track.push_back(position_at(motion, kStep_s * static_cast<double>(i)));
 
   std::vector<Visit> visits;
   for (std::size_t number = 0; number < roads.junctions.size(); ++number) {
-    const Junction& junction = roads.junctions[number];
+    const simulated_world::Junction& junction = roads.junctions[number];
     if (!junction.is_crossing()) continue;
     const auto distance = [&](std::size_t i) { return (track[i] - junction.position).norm(); };
     for (std::size_t i = 1; i < samples; ++i) {

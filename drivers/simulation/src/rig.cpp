@@ -139,9 +139,9 @@ Rig read_rig(const std::filesystem::path& file) {
   return {build(settings.stereo), build(settings.panorama)};
 }
 
-CameraRays rays_of(const PanoramicCamera& camera, const PanoramaHead& head) {
-  return camera.kind == PanoramaKind::kEquirectangular ? panorama_rays(head.width, head.height)
-                                                       : fisheye_rays(head.fisheye);
+simulated_world::CameraRays rays_of(const PanoramicCamera& camera, const PanoramaHead& head) {
+  return camera.kind == PanoramaKind::kEquirectangular ? simulated_world::panorama_rays(head.width, head.height)
+                                                       : simulated_world::fisheye_rays(head.fisheye);
 }
 
 }  // namespace panvo::simulation

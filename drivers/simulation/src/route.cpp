@@ -10,7 +10,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "panvo/simulation/random.hpp"
+#include "panvo/simulated_world/random.hpp"
 
 namespace panvo::simulation {
 
@@ -89,9 +89,9 @@ Route read_route(const std::filesystem::path& file) {
   return route;
 }
 
-Route random_route(const RoadNetwork& roads, int junctions, std::uint64_t seed) {
+Route random_route(const simulated_world::RoadNetwork& roads, int junctions, std::uint64_t seed) {
   if (junctions < 2) throw std::invalid_argument(fmt::format("a route needs at least 2 junctions, not {}", junctions));
-  Random random(seed, "random route");
+  simulated_world::Random random(seed, "random route");
   std::vector<int> starts;
   for (std::size_t i = 0; i < roads.junctions.size(); ++i) {
     if (!roads.junctions[i].roads.empty()) starts.push_back(static_cast<int>(i));
@@ -104,7 +104,7 @@ Route random_route(const RoadNetwork& roads, int junctions, std::uint64_t seed) 
   int here = starts[static_cast<std::size_t>(random.below(static_cast<int>(starts.size())))];
   int came_by = -1;
   while (true) {
-    const Junction& junction = roads.junctions[static_cast<std::size_t>(here)];
+    const simulated_world::Junction& junction = roads.junctions[static_cast<std::size_t>(here)];
     route.junctions.push_back(junction.name);
     if (static_cast<int>(route.junctions.size()) == junctions) return route;
     std::vector<int> ways_on;
@@ -113,7 +113,7 @@ Route random_route(const RoadNetwork& roads, int junctions, std::uint64_t seed) 
     }
     if (ways_on.empty()) ways_on = junction.roads;
     came_by = ways_on[static_cast<std::size_t>(random.below(static_cast<int>(ways_on.size())))];
-    const Road& road = roads.roads[static_cast<std::size_t>(came_by)];
+    const simulated_world::Road& road = roads.roads[static_cast<std::size_t>(came_by)];
     here = road.from == here ? road.to : road.from;
   }
 }

@@ -9,9 +9,13 @@
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
 
-#include "panvo/simulation/random.hpp"
+#include "panvo/simulated_world/random.hpp"
 
 namespace panvo::simulation {
+
+using simulated_world::mix;
+using simulated_world::Random;
+
 namespace {
 
 constexpr int kQuantiles = 4096;
@@ -140,6 +144,100 @@ cv::Mat luminance(const cv::Mat& radiance) {
   return grey;
 }
 
+/// A quarter-size copy of the light, blurred: what a smudge on the lens spreads over its neighbourhood.
+cv::Mat veil_of(const cv::Mat& light) {
+  cv::Mat small, veiled;
+  cv::resize(light, small, {}, 0.25, 0.25, cv::INTER_AREA);
+  cv::GaussianBlur(small, small, {}, 2.5);
+  cv::resize(small, veiled, light.size(), 0, 0, cv::INTER_LINEAR);
+  return veiled;
+}
+
+/// How electrons become pixel values, equal for all rows of a frame.
+struct Conversion {
+  Conversion(const SensorParameters& parameters, std::uint64_t frame_noise)
+      : full_well(static_cast<float>(parameters.full_well)),
+        read_variance(static_cast<float>(parameters.read_noise * parameters.read_noise)),
+        curve(curve_by_root(parameters.gamma)),
+        noise(frame_noise) {}
+
+  float full_well, read_variance;
+  std::array<std::uint8_t, kCurveEntries> curve;
+  std::uint64_t noise;
+};
+
+/// Exposes one row after another.
+class RowExposure {
+ public:
+  RowExposure(int width, int channels)
+      : width_(width * channels),
+        channels_(channels),
+        electrons_(static_cast<std::size_t>(width_) + 4),
+        deviates_(static_cast<std::size_t>(width_) + 4),
+        places_(static_cast<std::size_t>(width_) + 4) {}
+
+  void collect(const float* light, float electrons_per_light) {
+    for (int i = 0; i < width_; ++i) electrons_[i] = light[i] * electrons_per_light;
+  }
+
+  void smear(const float* veil, const float* smudged, float electrons_per_light) {
+    for (int i = 0; i < width_; ++i) {
+      electrons_[i] += smudged[i / channels_] * (veil[i] * electrons_per_light * 1.05f - electrons_[i]);
+    }
+  }
+
+  void vignette(const float* shade) {
+    if (channels_ == 1) {
+      for (int i = 0; i < width_; ++i) electrons_[i] *= shade[i];
+    } else {
+      for (int i = 0, x = 0; i < width_; i += 3, ++x) {
+        electrons_[i] *= shade[x];
+        electrons_[i + 1] *= shade[x];
+        electrons_[i + 2] *= shade[x];
+      }
+    }
+  }
+
+  /// Adds noise and writes the pixel values. Returns their sum.
+  std::uint64_t read_out(int row, const Conversion& conversion, std::uint8_t* to) {
+    draw_deviates(conversion.noise + static_cast<std::uint64_t>(row) * 0x9e3779b97f4a7c15ULL);
+    find_places(conversion);
+    std::uint64_t sum = 0;
+    for (int i = 0; i < width_; ++i) {
+      to[i] = conversion.curve[static_cast<std::size_t>(places_[i])];
+      sum += to[i];
+    }
+    return sum;
+  }
+
+ private:
+  void draw_deviates(std::uint64_t row_noise) {
+    const auto& normal = normal_values();
+    // each hash yields four values
+    for (int i = 0; i < width_; i += 4) {
+      const std::uint64_t bits = mix(row_noise + static_cast<std::uint64_t>(i));
+      for (int k = 0; k < 4; ++k) deviates_[i + k] = normal[(bits >> (16 * k + 4)) & (kQuantiles - 1)];
+    }
+  }
+
+  /// Entries of the curve for the noisy electrons.
+  void find_places(const Conversion& conversion) {
+    const cv::v_float32x4 none = cv::v_setzero_f32();
+    const cv::v_float32x4 most = cv::v_setall_f32(conversion.full_well);
+    const cv::v_float32x4 read = cv::v_setall_f32(conversion.read_variance);
+    const cv::v_float32x4 share = cv::v_setall_f32(kCurveSteps * kCurveSteps / conversion.full_well);
+    for (int i = 0; i < width_; i += 4) {
+      const cv::v_float32x4 mean = cv::v_max(cv::v_load(&electrons_[i]), none);
+      const cv::v_float32x4 value = mean + cv::v_sqrt(mean + read) * cv::v_load(&deviates_[i]);
+      cv::v_store(&places_[i], cv::v_round(cv::v_sqrt(cv::v_min(cv::v_max(value, none), most) * share)));
+    }
+  }
+
+  int width_, channels_;
+  std::vector<float> electrons_, deviates_;
+  std::vector<int> places_;
+};
+
 }  // namespace
 
 Sensor::Sensor(const SensorParameters& parameters, const LensEffects& effects, cv::Size size, std::uint64_t seed)
@@ -172,6 +270,35 @@ cv::Mat Sensor::expose(cv::Mat& radiance, std::uint64_t frame) {
   if (radiance.type() != CV_32FC3 || radiance.size() != vignetting_.size()) {
     throw std::invalid_argument("sensor: the radiance must be CV_32FC3 of the sensor's size");
   }
+  const cv::Mat light = through_lens(radiance, frame);
+  const cv::Mat veiled = smear_.empty() ? cv::Mat() : veil_of(light);
+  const int channels = light.channels();
+  cv::Mat image(light.size(), CV_8UC(channels));
+  const Conversion conversion(parameters_, mix(mix(seed_ ^ 0x6e6f697365ULL) + frame));
+  const auto electrons_per_light = static_cast<float>(gain_ * parameters_.full_well);
+  const int stripes = (light.rows + kRowsPerStripe - 1) / kRowsPerStripe;
+  const cv::Range metered(static_cast<int>(parameters_.metered_from * light.rows),
+                          std::max(1, static_cast<int>(parameters_.metered_to * light.rows)));
+  std::vector<std::uint64_t> sums(static_cast<std::size_t>(stripes), 0);
+  cv::parallel_for_(cv::Range(0, stripes), [&](const cv::Range& range) {
+    RowExposure exposure(light.cols, channels);
+    for (int row = range.start * kRowsPerStripe; row < std::min(light.rows, range.end * kRowsPerStripe); ++row) {
+      exposure.collect(light.ptr<float>(row), electrons_per_light);
+      if (!veiled.empty()) exposure.smear(veiled.ptr<float>(row), smear_.ptr<float>(row), electrons_per_light);
+      exposure.vignette(vignetting_.ptr<float>(row));
+      const std::uint64_t sum = exposure.read_out(row, conversion, image.ptr<std::uint8_t>(row));
+      if (metered.start <= row && row < metered.end) sums[static_cast<std::size_t>(row / kRowsPerStripe)] += sum;
+    }
+  });
+  if (parameters_.exposure_lag > 0.0) {
+    double brightness = 0.0;
+    for (const auto sum : sums) brightness += static_cast<double>(sum);
+    control_exposure(brightness / (255.0 * metered.size() * image.cols * channels));
+  }
+  return image;
+}
+
+cv::Mat Sensor::through_lens(cv::Mat& radiance, std::uint64_t frame) const {
   cv::Mat light = parameters_.colour ? radiance : luminance(radiance);
   if (effects_.rain > 0.0) add_rain(light, effects_.rain, Random(seed_, "rain past the lens").part(frame));
   if (parameters_.blur_px > 0.0) {
@@ -179,84 +306,13 @@ cv::Mat Sensor::expose(cv::Mat& radiance, std::uint64_t frame) {
     cv::GaussianBlur(light, light, cv::Size(2 * reach + 1, 2 * reach + 1), parameters_.blur_px, parameters_.blur_px,
                      cv::BORDER_REFLECT_101);
   }
-  cv::Mat veiled;
-  if (!smear_.empty()) {
-    cv::Mat small;
-    cv::resize(light, small, {}, 0.25, 0.25, cv::INTER_AREA);
-    cv::GaussianBlur(small, small, {}, 2.5);
-    cv::resize(small, veiled, light.size(), 0, 0, cv::INTER_LINEAR);
-  }
+  return light;
+}
 
-  const int channels = light.channels();
-  cv::Mat image(light.size(), CV_8UC(channels));
-  const auto curve = curve_by_root(parameters_.gamma);
-  const auto& normal = normal_values();
-  const auto full_well = static_cast<float>(parameters_.full_well);
-  const auto read_variance = static_cast<float>(parameters_.read_noise * parameters_.read_noise);
-  const auto electrons_per_light = static_cast<float>(gain_ * parameters_.full_well);
-  const std::uint64_t noise = mix(mix(seed_ ^ 0x6e6f697365ULL) + frame);
-  const int stripes = (light.rows + kRowsPerStripe - 1) / kRowsPerStripe;
-  const cv::Range metered(static_cast<int>(parameters_.metered_from * light.rows),
-                          std::max(1, static_cast<int>(parameters_.metered_to * light.rows)));
-  std::vector<std::uint64_t> sums(static_cast<std::size_t>(stripes), 0);
-  cv::parallel_for_(cv::Range(0, stripes), [&](const cv::Range& range) {
-    const int width = light.cols * channels;
-    std::vector<float> electrons(static_cast<std::size_t>(width) + 4);
-    std::vector<float> deviates(static_cast<std::size_t>(width) + 4);
-    std::vector<int> places(static_cast<std::size_t>(width) + 4);
-    for (int row = range.start * kRowsPerStripe; row < std::min(light.rows, range.end * kRowsPerStripe); ++row) {
-      const auto* from = light.ptr<float>(row);
-      const auto* shade = vignetting_.ptr<float>(row);
-      for (int i = 0; i < width; ++i) electrons[i] = from[i] * electrons_per_light;
-      if (!veiled.empty()) {
-        const auto* veil = veiled.ptr<float>(row);
-        const auto* smudged = smear_.ptr<float>(row);
-        for (int i = 0; i < width; ++i) {
-          electrons[i] += smudged[i / channels] * (veil[i] * electrons_per_light * 1.05f - electrons[i]);
-        }
-      }
-      if (channels == 1) {
-        for (int i = 0; i < width; ++i) electrons[i] *= shade[i];
-      } else {
-        for (int i = 0, x = 0; i < width; i += 3, ++x) {
-          electrons[i] *= shade[x];
-          electrons[i + 1] *= shade[x];
-          electrons[i + 2] *= shade[x];
-        }
-      }
-      // each hash yields four values
-      for (int i = 0; i < width; i += 4) {
-        const std::uint64_t bits =
-            mix(noise + static_cast<std::uint64_t>(row) * 0x9e3779b97f4a7c15ULL + static_cast<std::uint64_t>(i));
-        for (int k = 0; k < 4; ++k) deviates[i + k] = normal[(bits >> (16 * k + 4)) & (kQuantiles - 1)];
-      }
-      const cv::v_float32x4 none = cv::v_setzero_f32();
-      const cv::v_float32x4 most = cv::v_setall_f32(full_well);
-      const cv::v_float32x4 read = cv::v_setall_f32(read_variance);
-      const cv::v_float32x4 share = cv::v_setall_f32(kCurveSteps * kCurveSteps / full_well);
-      for (int i = 0; i < width; i += 4) {
-        const cv::v_float32x4 mean = cv::v_max(cv::v_load(&electrons[i]), none);
-        const cv::v_float32x4 value = mean + cv::v_sqrt(mean + read) * cv::v_load(&deviates[i]);
-        cv::v_store(&places[i], cv::v_round(cv::v_sqrt(cv::v_min(cv::v_max(value, none), most) * share)));
-      }
-      auto* to = image.ptr<std::uint8_t>(row);
-      std::uint64_t sum = 0;
-      for (int i = 0; i < width; ++i) {
-        to[i] = curve[static_cast<std::size_t>(places[i])];
-        sum += to[i];
-      }
-      if (metered.start <= row && row < metered.end) sums[static_cast<std::size_t>(row / kRowsPerStripe)] += sum;
-    }
-  });
-
-  if (parameters_.exposure_lag > 0.0) {
-    double brightness = 0.0;
-    for (const auto sum : sums) brightness += static_cast<double>(sum);
-    brightness = std::max(brightness / (255.0 * metered.size() * image.cols * channels), 0.01);
-    gain_ *= std::pow(parameters_.target_brightness / brightness, parameters_.gamma * parameters_.exposure_lag);
-    gain_ = std::clamp(gain_, 0.05, 50.0);
-  }
-  return image;
+void Sensor::control_exposure(double brightness) {
+  gain_ *= std::pow(parameters_.target_brightness / std::max(brightness, 0.01),
+                    parameters_.gamma * parameters_.exposure_lag);
+  gain_ = std::clamp(gain_, 0.05, 50.0);
 }
 
 }  // namespace panvo::simulation

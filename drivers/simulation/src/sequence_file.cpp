@@ -22,7 +22,7 @@ class Stamps {
   std::int64_t start_ns_;
 };
 
-std::string junctions_yaml(const RoadNetwork& roads) {
+std::string junctions_yaml(const simulated_world::RoadNetwork& roads) {
   std::string text = "junctions:\n";
   for (std::size_t i = 0; i < roads.junctions.size(); ++i) {
     const auto& junction = roads.junctions[i];

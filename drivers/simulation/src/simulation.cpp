@@ -7,9 +7,16 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "panvo/simulation/random.hpp"
+#include "panvo/simulated_world/random.hpp"
 
 namespace panvo::simulation {
+
+using simulated_world::kToPanorama;
+using simulated_world::kToStereo;
+using simulated_world::MovingPlacement;
+using simulated_world::pinhole_rays;
+using simulated_world::Random;
+
 namespace {
 
 constexpr double kDroppedShare = 1.0 / 50.0;
@@ -54,14 +61,15 @@ Simulation::Simulation(const SimulationParameters& parameters) : parameters_(par
   // Everything that may be rejected comes before building the campus, which takes time.
   const auto& [route, rig, effects, motion, seed, hilliness, calibration_error, hour, assets, start_s, duration_s,
                stereo, panorama, stamp, quality] = parameters_;
-  const auto path = drive(campus_roads(seed), route);
-  motion_ = std::make_unique<VehicleMotion>(path, Terrain(seed, hilliness), motion, seed);
+  const auto path = drive(simulated_world::campus_roads(seed), route);
+  motion_ = std::make_unique<VehicleMotion>(path, simulated_world::Terrain(seed, hilliness), motion, seed);
   weather_ = std::make_unique<Weather>(hour, motion_->duration_s(), effects, seed);
   plan_instants();
 
   const LensEffects lens{effects.rain ? 0.6 : 0.0, effects.smear ? 0.7 : 0.0};
-  const auto add_camera = [&](std::vector<Camera>& cameras, CameraRays rays, const Eigen::Isometry3d& base_from_camera,
-                              const SensorParameters& sensor, std::string_view name) {
+  const auto add_camera = [&](std::vector<Camera>& cameras, simulated_world::CameraRays rays,
+                              const Eigen::Isometry3d& base_from_camera, const SensorParameters& sensor,
+                              std::string_view name) {
     const cv::Size size(rays.width, rays.height);
     cameras.push_back({std::move(rays), base_from_camera, Sensor(sensor, lens, size, Random(seed, name).bits())});
   };
@@ -76,9 +84,10 @@ Simulation::Simulation(const SimulationParameters& parameters) : parameters_(par
       add_camera(heads_, rays_of(rig.panorama, head), head.base_from_head, rig.panorama.sensor, head.frame_id);
     }
   }
-  campus_ = build_campus({.seed = seed, .hilliness = hilliness, .weak_texture = effects.weak_texture}, assets);
+  campus_ = simulated_world::build_campus({.seed = seed, .hilliness = hilliness, .weak_texture = effects.weak_texture},
+                                          assets);
   if (effects.movers) traffic_.emplace(*campus_.site, *motion_, campus_.movers, seed);
-  renderer_ = std::make_unique<Renderer>(campus_.scene);
+  renderer_ = std::make_unique<simulated_world::Renderer>(campus_.scene);
 }
 
 Simulation::~Simulation() = default;
@@ -131,12 +140,12 @@ cv::Mat Simulation::expose(Camera& camera, double middle_s, double exposure_s, s
   MovingPlacement own;
   own.at_opening.model = campus_.movers.own_vehicle;
   own.at_opening.world_from_model = world_from_base_opened.cast<float>();
-  own.at_opening.visibility = kToPanorama | kToShadow;
+  own.at_opening.visibility = kToPanorama | simulated_world::kToShadow;
   own.world_from_model_closed = world_from_base_closed.cast<float>();
   movers.push_back(own);
 
-  const Shot shot{world_from_base_opened * camera.base_from_camera, world_from_base_closed * camera.base_from_camera,
-                  visibility};
+  const simulated_world::Shot shot{world_from_base_opened * camera.base_from_camera,
+                                   world_from_base_closed * camera.base_from_camera, visibility};
   auto radiance = renderer_->render(camera.rays, shot, weather_->light(middle_s), movers, parameters_.quality);
   const auto traced = renderer_->statistics();
   statistics_.pixels += traced.pixels;

@@ -63,7 +63,8 @@ Route route_of(const ComponentParameters& parameters) {
   if (!parameters.junctions.empty()) return {"custom", parameters.junctions, ""};
   if (!parameters.route.empty()) return read_route(parameters.route);
   const auto seed = static_cast<std::uint64_t>(parameters.seed);
-  if (parameters.random_junctions > 1) return random_route(campus_roads(seed), parameters.random_junctions, seed);
+  if (parameters.random_junctions > 1)
+    return random_route(simulated_world::campus_roads(seed), parameters.random_junctions, seed);
   throw std::runtime_error(
       "parameter route: no route is given; set route to a file, junctions to a list, or random_junctions to a number");
 }

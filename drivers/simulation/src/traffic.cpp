@@ -9,6 +9,8 @@
 
 namespace panvo::simulation {
 
+using simulated_world::MovingPlacement;
+
 namespace {
 
 constexpr double kSight_m = 180.0;  // movers farther away are omitted
@@ -40,7 +42,8 @@ GroundPlace ground_place(const Mover& mover, const VehicleMotion& motion, double
   return {mover.path[i - 1] + share * step, std::atan2(way.y(), way.x())};
 }
 
-Traffic::Traffic(const Site& site, const VehicleMotion& motion, const MoverModels& models, std::uint64_t seed)
+Traffic::Traffic(const simulated_world::Site& site, const VehicleMotion& motion,
+                 const simulated_world::MoverModels& models, std::uint64_t seed)
     : motion_(&motion), site_(&site) {
   if (models.cars.empty() || models.vans.empty() || models.people.empty()) {
     throw std::invalid_argument("traffic: needs models of cars, vans and people");

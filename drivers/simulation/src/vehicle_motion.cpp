@@ -9,9 +9,11 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "panvo/simulation/random.hpp"
+#include "panvo/simulated_world/random.hpp"
 
 namespace panvo::simulation {
+
+using simulated_world::Random;
 
 namespace {
 
@@ -85,8 +87,8 @@ std::vector<Wave> waves(Random random, double low_hz, double high_hz, double rms
 
 }  // namespace
 
-VehicleMotion::VehicleMotion(const DrivenPath& path, const Terrain& terrain, const MotionParameters& parameters,
-                             std::uint64_t seed)
+VehicleMotion::VehicleMotion(const DrivenPath& path, const simulated_world::Terrain& terrain,
+                             const MotionParameters& parameters, std::uint64_t seed)
     : path_(path), terrain_(terrain), cruise_speed_m_per_s_(parameters.cruise_speed_m_per_s) {
   check(path, parameters);
   path_step_m_ = path.along_m.back() / static_cast<double>(path.points.size() - 1);

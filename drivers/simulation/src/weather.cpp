@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "panvo/simulation/random.hpp"
+#include "panvo/simulated_world/random.hpp"
 
 namespace panvo::simulation {
 namespace {
@@ -22,7 +22,7 @@ Weather::Weather(double hour, double duration_s, const Effects& effects, std::ui
   constexpr double kDriftHours = 2.0;
   hours_per_s_ = effects.sun_drift && duration_s > 0.0 ? kDriftHours / duration_s : 0.0;
   if (!effects.sudden_light) return;
-  Random random(seed, "clouds");
+  simulated_world::Random random(seed, "clouds");
   for (double t_s = random.uniform(6.0, 14.0); t_s < duration_s; t_s += random.uniform(12.0, 30.0)) {
     const double length_s = random.uniform(4.0, 12.0);
     clouds_.push_back({t_s, t_s + length_s, random.uniform(0.7, 0.95)});
@@ -42,6 +42,8 @@ double Weather::cloud_cover(double t_s) const {
   return cover;
 }
 
-Light Weather::light(double t_s) const { return light_at(hour(t_s), cloud_cover(t_s)); }
+simulated_world::Light Weather::light(double t_s) const {
+  return simulated_world::light_at(hour(t_s), cloud_cover(t_s));
+}
 
 }  // namespace panvo::simulation

@@ -5,10 +5,13 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "panvo/simulated_world/site.hpp"
 #include "panvo/simulation/route.hpp"
-#include "panvo/simulation/site.hpp"
 
 namespace panvo::simulation {
+
+using simulated_world::campus_roads;
+
 namespace {
 
 std::string problem_of(const std::vector<std::string>& junctions) {
@@ -28,7 +31,7 @@ TEST(DrivenPath, ProblemsNameTheJunctions) {
 }
 
 TEST(DrivenPath, KeepsToTheRightHandLane) {
-  const RoadNetwork roads = campus_roads(2);
+  const simulated_world::RoadNetwork roads = campus_roads(2);
   const DrivenPath path = drive(roads, {"test", {"clock_tower", "bookshop"}, ""});
   for (std::size_t i = 0; i < path.points.size(); i += 50) {
     const auto nearest = roads.nearest_road(path.points[i]);
@@ -40,7 +43,7 @@ TEST(DrivenPath, KeepsToTheRightHandLane) {
 
 TEST(DrivenPath, StaysOnTheRoadWithAVehiclesWidthAndTurnsNoTighterThanItCan) {
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
-    const Site site({seed, 0.0, false}, campus_roads(seed), nullptr);
+    const simulated_world::Site site({seed, 0.0, false}, campus_roads(seed), nullptr);
     for (std::uint64_t walk = 0; walk < 6; ++walk) {
       const Route route = random_route(site.roads, 25, walk);
       const DrivenPath path = drive(site.roads, route);

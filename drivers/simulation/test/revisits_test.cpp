@@ -7,6 +7,9 @@
 #include <numbers>
 
 namespace panvo::simulation {
+
+using simulated_world::RoadNetwork;
+
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -21,7 +24,7 @@ RoadNetwork ladder() {
     }
   }
   for (const auto& [from, to] : {std::pair{0, 1}, {1, 2}, {3, 4}, {4, 5}, {0, 3}, {1, 4}, {2, 5}}) {
-    Road road{from, to, {}, 6.0, 0.0};
+    simulated_world::Road road{from, to, {}, 6.0, 0.0};
     const Eigen::Vector2d a = network.junctions[static_cast<std::size_t>(from)].position;
     const Eigen::Vector2d b = network.junctions[static_cast<std::size_t>(to)].position;
     for (int i = 0; i <= 60; ++i) road.centre_line.emplace_back(a + (b - a) * (i / 60.0));
@@ -32,7 +35,7 @@ RoadNetwork ladder() {
 }
 
 VehicleMotion motion_on(const RoadNetwork& roads, const std::vector<std::string>& junctions) {
-  return {drive(roads, {"test", junctions, ""}), Terrain(1, 0.0), {}, 1};
+  return {drive(roads, {"test", junctions, ""}), simulated_world::Terrain(1, 0.0), {}, 1};
 }
 
 TEST(Visits, AreThePassesThroughCrossings) {

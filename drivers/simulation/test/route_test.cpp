@@ -57,7 +57,7 @@ TEST_F(RouteFileTest, AFileThatIsNotThereIsNamed) {
 }
 
 TEST(RandomRoute, CanBeDrivenAndIsTheSameForTheSameSeed) {
-  const RoadNetwork roads = campus_roads(4);
+  const simulated_world::RoadNetwork roads = simulated_world::campus_roads(4);
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     const Route route = random_route(roads, 12, seed);
     EXPECT_EQ(route.junctions.size(), 12U);

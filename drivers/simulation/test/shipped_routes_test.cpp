@@ -10,6 +10,9 @@
 #include "panvo/simulation/revisits.hpp"
 
 namespace panvo::simulation {
+
+using simulated_world::RoadNetwork;
+
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
@@ -23,10 +26,10 @@ struct Journey {
 };
 
 Journey journey(const std::string& name, std::uint64_t seed) {
-  RoadNetwork roads = campus_roads(seed);
+  RoadNetwork roads = simulated_world::campus_roads(seed);
   const Route route = read_route(std::filesystem::path(PANVO_CONFIG) / "routes" / (name + ".yaml"));
   EXPECT_EQ(route.name, name);
-  VehicleMotion motion(drive(roads, route), Terrain(seed, 0.0), {}, seed);
+  VehicleMotion motion(drive(roads, route), simulated_world::Terrain(seed, 0.0), {}, seed);
   std::vector<Visit> visits = find_visits(roads, motion);
   std::vector<Revisit> revisits = find_revisits(visits);
   return {std::move(roads), std::move(motion), std::move(visits), std::move(revisits)};

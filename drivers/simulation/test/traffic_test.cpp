@@ -12,6 +12,9 @@
 #include "panvo/simulation/revisits.hpp"
 
 namespace panvo::simulation {
+
+using simulated_world::MoverModels;
+
 namespace {
 
 MoverModels some_models() {
@@ -26,7 +29,7 @@ MoverModels some_models() {
 // The parts of a journey, to which Traffic keeps references.
 struct TrafficDrive {
   TrafficDrive(const std::string& name, std::uint64_t seed)
-      : site({seed, 0.6, false}, campus_roads(seed), nullptr),
+      : site({seed, 0.6, false}, simulated_world::campus_roads(seed), nullptr),
         motion(drive(site.roads, read_route(std::filesystem::path(PANVO_CONFIG) / "routes" / (name + ".yaml"))),
                site.terrain, {}, seed),
         traffic(site, motion, some_models(), seed) {}
@@ -40,7 +43,7 @@ struct TrafficDrive {
     return {position, heading, mover.length_m, mover.width_m};
   }
 
-  Site site;
+  simulated_world::Site site;
   VehicleMotion motion;
   Traffic traffic;
 };
@@ -94,7 +97,7 @@ TEST(Traffic, IsTheSameForTheSameSeed) {
 TEST(Traffic, StandsOnTheGroundAndMovesOnSmoothly) {
   const TrafficDrive journey("corner", 1);
   for (double t = 0.0; t < journey.motion.duration_s() - 0.2; t += 0.2) {
-    for (const MovingPlacement& placement : journey.traffic.at(t, t + 0.04)) {
+    for (const simulated_world::MovingPlacement& placement : journey.traffic.at(t, t + 0.04)) {
       const Eigen::Vector3f from = placement.at_opening.world_from_model.translation();
       const Eigen::Vector3f to = placement.world_from_model_closed.translation();
       EXPECT_LT((to - from).norm(), 0.04 * 12.0);

@@ -7,9 +7,14 @@
 #include <stdexcept>
 
 namespace panvo::simulation {
+
+using simulated_world::Terrain;
+
 namespace {
 
-DrivenPath turning_path() { return drive(campus_roads(1), {"test", {"gymnasium", "laboratory", "dormitory"}, ""}); }
+DrivenPath turning_path() {
+  return drive(simulated_world::campus_roads(1), {"test", {"gymnasium", "laboratory", "dormitory"}, ""});
+}
 
 double heading_of(const Eigen::Isometry3d& pose) { return std::atan2(pose.linear()(1, 0), pose.linear()(0, 0)); }
 

@@ -5,6 +5,9 @@
 #include <opencv2/imgproc.hpp>
 
 namespace panvo::simulation {
+
+using simulated_world::RoadNetwork;
+
 namespace {
 
 constexpr double kPixelsPerMetre = 3.0;

@@ -18,6 +18,9 @@
 #include "plan_picture.hpp"
 
 namespace panvo::simulation {
+
+using simulated_world::campus_roads;
+
 namespace {
 
 namespace fs = std::filesystem;

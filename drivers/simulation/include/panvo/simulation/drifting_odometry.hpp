@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "panvo/simulation/random.hpp"
+#include "panvo/simulated_world/random.hpp"
 #include "panvo/vision/pose.hpp"
 
 namespace panvo::simulation {
@@ -53,7 +53,7 @@ class DriftingOdometry {
   vision::Vector6d noise();
 
   const DriftParameters parameters_;
-  Random random_;
+  simulated_world::Random random_;
   vision::Vector6d persisting_;  // current errors, in standard deviations
   double since_change_m_ = 0.0;
   std::optional<Eigen::Isometry3d> last_truth_;

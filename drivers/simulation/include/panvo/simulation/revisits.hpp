@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "panvo/simulation/road_network.hpp"
+#include "panvo/simulated_world/road_network.hpp"
 #include "panvo/simulation/vehicle_motion.hpp"
 
 namespace panvo::simulation {
@@ -26,7 +26,8 @@ struct Revisit {
   double offset_m = 0.0;            ///< between the two closest approaches
 };
 
-std::vector<Visit> find_visits(const RoadNetwork& roads, const VehicleMotion& motion, double radius_m = 8.5);
+std::vector<Visit> find_visits(const simulated_world::RoadNetwork& roads, const VehicleMotion& motion,
+                               double radius_m = 8.5);
 std::vector<Revisit> find_revisits(const std::vector<Visit>& visits);
 
 }  // namespace panvo::simulation

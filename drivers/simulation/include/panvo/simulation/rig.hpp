@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "panvo/simulation/camera_rays.hpp"
+#include "panvo/simulated_world/camera_rays.hpp"
 #include "panvo/simulation/sensor.hpp"
 #include "panvo/vision/pose.hpp"
 #include "panvo/vision/stereo_calibration.hpp"
@@ -30,7 +30,7 @@ struct StereoCamera {
 /// One camera of the panoramic camera: its only one, or one of several heads.
 struct PanoramaHead {
   std::string frame_id;                                              ///< "panorama_optical", "panorama_head_0_optical"
-  FisheyeCamera fisheye;                                             ///< unused by an equirectangular camera
+  simulated_world::FisheyeCamera fisheye;                            ///< unused by an equirectangular camera
   Eigen::Isometry3d base_from_head = Eigen::Isometry3d::Identity();  ///< of its optical frame
   int width = 0, height = 0;                                         ///< px
 };
@@ -59,6 +59,6 @@ Rig paper_rig();
 /// field of view, rates and sizes that are not positive.
 Rig read_rig(const std::filesystem::path& file);
 
-CameraRays rays_of(const PanoramicCamera& camera, const PanoramaHead& head);
+simulated_world::CameraRays rays_of(const PanoramicCamera& camera, const PanoramaHead& head);
 
 }  // namespace panvo::simulation

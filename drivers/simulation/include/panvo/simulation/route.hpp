@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "panvo/simulation/road_network.hpp"
+#include "panvo/simulated_world/road_network.hpp"
 
 namespace panvo::simulation {
 
@@ -27,10 +27,10 @@ struct DrivenPath {
 
 /// The path of a route. Throws std::invalid_argument for an unknown junction (with the valid ones) or for two junctions
 /// without a road between them.
-DrivenPath drive(const RoadNetwork& roads, const Route& route);
+DrivenPath drive(const simulated_world::RoadNetwork& roads, const Route& route);
 
 /// A random route through `junctions` junctions that turns back only in a cul-de-sac.
-Route random_route(const RoadNetwork& roads, int junctions, std::uint64_t seed);
+Route random_route(const simulated_world::RoadNetwork& roads, int junctions, std::uint64_t seed);
 
 /// Reads a route file (YAML: name, junctions, description). Throws std::runtime_error with file, line and key.
 Route read_route(const std::filesystem::path& file);

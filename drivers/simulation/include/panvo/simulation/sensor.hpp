@@ -39,6 +39,9 @@ class Sensor {
   void set_gain(double gain) { gain_ = gain; }
 
  private:
+  cv::Mat through_lens(cv::Mat& radiance, std::uint64_t frame) const;  // grey or RGB, with rain and blur
+  void control_exposure(double brightness);                            // mean of the metered rows, 0..1
+
   SensorParameters parameters_;
   LensEffects effects_;
   std::uint64_t seed_;

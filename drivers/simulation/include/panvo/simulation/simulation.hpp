@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "panvo/simulation/campus.hpp"
+#include "panvo/simulated_world/campus.hpp"
+#include "panvo/simulated_world/renderer.hpp"
 #include "panvo/simulation/effects.hpp"
-#include "panvo/simulation/renderer.hpp"
 #include "panvo/simulation/revisits.hpp"
 #include "panvo/simulation/rig.hpp"
 #include "panvo/simulation/route.hpp"
@@ -33,7 +33,7 @@ struct SimulationParameters {
   double duration_s = 0.0;         ///< duration; 0: to the end
   bool stereo = true, panorama = true;
   std::int64_t start_stamp_ns = 1'700'000'000'000'000'000;
-  Renderer::Quality quality;
+  simulated_world::Renderer::Quality quality;
 };
 
 /// An exposure of the stereo camera, the panoramic camera or both. The middle of the exposure is at `t_s`, except that
@@ -58,7 +58,7 @@ class Simulation {
   ~Simulation();
 
   const SimulationParameters& parameters() const { return parameters_; }
-  const Campus& campus() const { return campus_; }
+  const simulated_world::Campus& campus() const { return campus_; }
   const VehicleMotion& motion() const { return *motion_; }
   const Weather& weather() const { return *weather_; }
   const Traffic* traffic() const { return traffic_ ? &*traffic_ : nullptr; }  ///< null: the effect is off
@@ -79,11 +79,11 @@ class Simulation {
   void set_exposure(const Exposure& exposure);
 
   /// Statistics of everything rendered so far.
-  const Renderer::Statistics& statistics() const { return statistics_; }
+  const simulated_world::Renderer::Statistics& statistics() const { return statistics_; }
 
  private:
   struct Camera {
-    CameraRays rays;
+    simulated_world::CameraRays rays;
     Eigen::Isometry3d base_from_camera;
     Sensor sensor;
   };
@@ -91,12 +91,12 @@ class Simulation {
   cv::Mat expose(Camera& camera, double middle_s, double exposure_s, std::uint32_t visibility, std::uint64_t frame);
 
   SimulationParameters parameters_;
-  Campus campus_;
+  simulated_world::Campus campus_;
   std::unique_ptr<VehicleMotion> motion_;
   std::unique_ptr<Weather> weather_;
   std::optional<Traffic> traffic_;
-  std::unique_ptr<Renderer> renderer_;
-  Renderer::Statistics statistics_;
+  std::unique_ptr<simulated_world::Renderer> renderer_;
+  simulated_world::Renderer::Statistics statistics_;
   std::vector<Camera> eyes_, heads_;
   std::vector<Instant> instants_;
 };

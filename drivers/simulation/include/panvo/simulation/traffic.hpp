@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "panvo/simulation/renderer.hpp"
-#include "panvo/simulation/road_network.hpp"
-#include "panvo/simulation/site.hpp"
+#include "panvo/simulated_world/renderer.hpp"
+#include "panvo/simulated_world/road_network.hpp"
+#include "panvo/simulated_world/site.hpp"
 #include "panvo/simulation/vehicle_motion.hpp"
 
 namespace panvo::simulation {
@@ -15,7 +15,7 @@ namespace panvo::simulation {
 /// A vehicle or person that moves along a path, in closed form.
 struct Mover {
   std::uint32_t model = 0;
-  Tint tint;
+  simulated_world::Tint tint;
   double length_m = 4.5, width_m = 1.8;  ///< of its bounding box, centred at the model's origin
   double from_s = 0.0, to_s = 0.0;       ///< time span in which it exists
 
@@ -37,7 +37,8 @@ struct Mover {
 class Traffic {
  public:
   /// Keeps references to `site` and `motion`. Throws std::invalid_argument if a kind has no models.
-  Traffic(const Site& site, const VehicleMotion& motion, const MoverModels& models, std::uint64_t seed);
+  Traffic(const simulated_world::Site& site, const VehicleMotion& motion, const simulated_world::MoverModels& models,
+          std::uint64_t seed);
 
   /// A period in which a mover is near the vehicle, for the ground truth file.
   struct Episode {
@@ -49,7 +50,7 @@ class Traffic {
   const std::vector<Mover>& movers() const { return movers_; }
 
   /// The movers near the vehicle while a shutter is open from `opened_s` to `closed_s`.
-  std::vector<MovingPlacement> at(double opened_s, double closed_s) const;
+  std::vector<simulated_world::MovingPlacement> at(double opened_s, double closed_s) const;
 
  private:
   Eigen::Affine3f place(const Mover& mover, double t_s) const;
@@ -57,7 +58,7 @@ class Traffic {
   std::vector<Mover> movers_;
   std::vector<Episode> episodes_;
   const VehicleMotion* motion_;
-  const Site* site_;
+  const simulated_world::Site* site_;
 };
 
 /// A mover's pose on the ground: its centre and heading.

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "panvo/simulated_world/terrain.hpp"
 #include "panvo/simulation/route.hpp"
-#include "panvo/simulation/terrain.hpp"
 #include "panvo/vision/pose.hpp"
 
 namespace panvo::simulation {
@@ -27,7 +27,8 @@ struct MotionParameters {
 class VehicleMotion {
  public:
   /// Throws std::invalid_argument for an invalid parameter or a path whose points are not evenly spaced.
-  VehicleMotion(const DrivenPath& path, const Terrain& terrain, const MotionParameters& parameters, std::uint64_t seed);
+  VehicleMotion(const DrivenPath& path, const simulated_world::Terrain& terrain, const MotionParameters& parameters,
+                std::uint64_t seed);
 
   double duration_s() const;
   /// base_link (x forward, y left, z up, on the ground below the vehicle's centre) in the world, t in [0, duration].
@@ -51,7 +52,7 @@ class VehicleMotion {
   void plan_speed(const MotionParameters& parameters);
 
   DrivenPath path_;
-  Terrain terrain_;
+  simulated_world::Terrain terrain_;
   double cruise_speed_m_per_s_;
   double path_step_m_ = 0.0;
   double duration_s_ = 0.0;

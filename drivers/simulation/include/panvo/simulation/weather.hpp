@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "panvo/simulated_world/sky.hpp"
 #include "panvo/simulation/effects.hpp"
-#include "panvo/simulation/sky.hpp"
 
 namespace panvo::simulation {
 
@@ -15,7 +15,7 @@ class Weather {
   /// `hour` of the day at the start (see light_at).
   Weather(double hour, double duration_s, const Effects& effects, std::uint64_t seed);
 
-  Light light(double t_s) const;
+  simulated_world::Light light(double t_s) const;
   double hour(double t_s) const;
   double cloud_cover(double t_s) const;  ///< 0..1: fraction of the sun covered by a cloud
 

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#if defined(__x86_64__)
+#include <immintrin.h>
+
+#include <array>
+#include <cstdint>
+#include <limits>
+
+#include "panvo/simulated_world/scene.hpp"
+#include "shade_packet.hpp"
+#include "traced_scene.hpp"
+
+#define PANVO_PACKET_ISA 512
+#pragma GCC diagnostic ignored "-Wpsabi"
+#pragma GCC push_options
+#pragma GCC target("avx512f,avx512dq,avx512vl,avx512bw,avx512cd,avx2,fma,bmi,bmi2")
+namespace panvo::simulated_world::avx512 {
+#include "packet_math.inl"
+//
+#include "packet_textures.inl"
+//
+#include "shade_packet.inl"
+}  // namespace panvo::simulated_world::avx512
+#pragma GCC pop_options
+#endif
