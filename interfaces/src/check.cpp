@@ -9,7 +9,7 @@
 namespace panvo::interfaces {
 namespace {
 
-constexpr std::size_t kLargestCovariance = 6;  // rows
+constexpr std::size_t kMaxCovariance = 6;  // rows
 // Tolerance of a correlation, for rounding by single precision and by the composition of poses.
 constexpr double kRounding = 1e-6;
 // Precision of a small variance, relative to the largest, after a rotation has mixed the two.
@@ -43,12 +43,12 @@ class Covariance {
     for (std::size_t i = 0; i < rows_; ++i) largest_ = std::max(largest_, at(i, i));
   }
 
-  double smallest_variance() const {
+  double min_variance() const {
     double smallest = largest_;
     for (std::size_t i = 0; i < rows_; ++i) smallest = std::min(smallest, at(i, i));
     return smallest;
   }
-  double largest_variance() const noexcept { return largest_; }
+  double max_variance() const noexcept { return largest_; }
   double mixed_in() const noexcept { return kMixed * largest_; }
 
   bool is_symmetric() const {
@@ -64,9 +64,9 @@ class Covariance {
 
   /// Cholesky decomposition of the correlations, so that metres, radians and huge "unknown" variances can be mixed.
   bool is_positive_semidefinite() const {
-    std::array<double, kLargestCovariance> sigma{};
+    std::array<double, kMaxCovariance> sigma{};
     for (std::size_t i = 0; i < rows_; ++i) sigma[i] = std::sqrt(std::max(at(i, i), mixed_in()));
-    std::array<std::array<double, kLargestCovariance>, kLargestCovariance> lower{};
+    std::array<std::array<double, kMaxCovariance>, kMaxCovariance> lower{};
     for (std::size_t i = 0; i < rows_; ++i) {
       for (std::size_t j = 0; j <= i; ++j) {
         double rest = i == j ? 1.0 + kRounding : 0.5 * (at(i, j) + at(j, i)) / (sigma[i] * sigma[j]);
@@ -142,9 +142,9 @@ Check& Check::covariance(MemberName name, std::span<const double> row_major) {
   if (problem_ || are_zero(row_major)) return *this;
   if (!are_finite(row_major)) return fail(name, "is not finite");
   const Covariance covariance(row_major);
-  if (covariance.smallest_variance() < -covariance.mixed_in()) return fail(name, "has a negative variance");
-  if (covariance.largest_variance() > kLargestVariance) {
-    return fail(name, "has a variance above " + number(kLargestVariance));
+  if (covariance.min_variance() < -covariance.mixed_in()) return fail(name, "has a negative variance");
+  if (covariance.max_variance() > kMaxVariance) {
+    return fail(name, "has a variance above " + number(kMaxVariance));
   }
   if (!covariance.is_symmetric()) return fail(name, "is not symmetric");
   if (!covariance.is_positive_semidefinite()) return fail(name, "is not positive semidefinite");
@@ -153,8 +153,8 @@ Check& Check::covariance(MemberName name, std::span<const double> row_major) {
 
 Check& Check::measured_covariance(MemberName name, std::span<const double> row_major) {
   covariance(name, row_major);
-  if (problem_ || Covariance(row_major).smallest_variance() >= kSmallestVariance) return *this;
-  return fail(name, "has a variance below " + number(kSmallestVariance));
+  if (problem_ || Covariance(row_major).min_variance() >= kMinVariance) return *this;
+  return fail(name, "has a variance below " + number(kMinVariance));
 }
 
 Check& Check::at_most(MemberName name, std::size_t size, std::size_t most) {

@@ -18,7 +18,7 @@ namespace {
 
 /// Maximum number of packages to look for. Peers on the network choose the names, so the record of them must be
 /// bounded.
-constexpr std::size_t kMostMissing = 1024;
+constexpr std::size_t kMaxMissing = 1024;
 
 /// All message types of this process. Types are added when a library is loaded and never removed.
 class Registry {
@@ -81,7 +81,7 @@ class Loader {
   /// Returns whether types may have been added.
   bool load(const std::string& package) {
     const std::lock_guard lock(mutex_);
-    if (problems_.contains(package) || problems_.size() >= kMostMissing) return false;
+    if (problems_.contains(package) || problems_.size() >= kMaxMissing) return false;
     std::string& problem = problems_[package];
     for (const auto& folder : message_folders()) {
       const fs::path file = folder / message_library_name(package);

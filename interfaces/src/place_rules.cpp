@@ -9,10 +9,10 @@
 namespace panvo::interfaces {
 namespace {
 
-constexpr std::size_t kMostBins = 4096;
-constexpr float kFarthestPoint_m = 1e6F;  // of point coordinates; that far away only the bearing matters
-constexpr float kLargestValue = 1e6F;     // of a normalised response, its spread, or a size in px
-constexpr double kSumTolerance = 1e-3;    // rounding of floats over many bins
+constexpr std::size_t kMaxBins = 4096;
+constexpr float kMaxPoint_m = 1e6F;     // of point coordinates; that far away only the bearing matters
+constexpr float kMaxValue = 1e6F;       // of a normalised response, its spread, or a size in px
+constexpr double kSumTolerance = 1e-3;  // rounding of floats over many bins
 
 /// Number in the "key=value" line of `key`; nullopt if there is no such line or it holds no number.
 std::optional<std::size_t> setting(std::string_view settings, std::string_view key) {
@@ -31,12 +31,12 @@ std::optional<std::size_t> setting(std::string_view settings, std::string_view k
 }  // namespace
 
 DescriptionSize description_size(std::string_view settings) {
-  const auto patches = setting(settings, "patches").value_or(kMostPatches);
-  return {2 * std::min(patches, kMostPatches), setting(settings, "histogram_bins")};
+  const auto patches = setting(settings, "patches").value_or(kMaxPatches);
+  return {2 * std::min(patches, kMaxPatches), setting(settings, "histogram_bins")};
 }
 
 void check_histogram(Check& check, std::span<const float> histogram, const DescriptionSize& size) {
-  check.require(!histogram.empty(), "histogram", "is empty").at_most("histogram", histogram.size(), kMostBins);
+  check.require(!histogram.empty(), "histogram", "is empty").at_most("histogram", histogram.size(), kMaxBins);
   check.require(!size.bins || histogram.size() == *size.bins, "histogram",
                 "does not have as many bins as the settings specify");
   if (!check.holds()) return;
@@ -53,9 +53,9 @@ FeatureRule::FeatureRule(Check& check, std::string_view list, std::size_t count,
 
 void FeatureRule::check(std::uint16_t row, float value, float scale, float weight) {
   check_.require(row < rows_, {list_, "row"}, "is not a row of the measurement matrix");
-  check_.require(std::abs(value) <= kLargestValue, {list_, "value"}, "is beyond +-1e+06 or not finite");
+  check_.require(std::abs(value) <= kMaxValue, {list_, "value"}, "is beyond +-1e+06 or not finite");
   // 0 is valid: the patch looked the same from everywhere nearby. Distances use a minimum spread.
-  check_.require(scale >= 0.0F && scale <= kLargestValue, {list_, "scale"}, "is negative, above 1e+06 or not finite");
+  check_.require(scale >= 0.0F && scale <= kMaxValue, {list_, "scale"}, "is negative, above 1e+06 or not finite");
   check_.require(weight >= 0.0F && weight <= 1.0F, {list_, "weight"}, "is not between 0 and 1");
   check_.require(!(weight > last_weight_), {list_, "weight"}, "is not in descending order");
   last_weight_ = weight;
@@ -65,12 +65,12 @@ void check_keypoint(Check& check, const std::array<float, 3>& bearing, float siz
                     const std::array<float, 3>& point, float inverse_range_sigma) {
   const double length = std::hypot(double{bearing[0]}, double{bearing[1]}, double{bearing[2]});
   check.require(std::abs(length - 1.0) <= kUnitTolerance, {"keypoints", "bearing"}, "is not a unit vector");
-  check.require(size_px >= 0.0F && size_px <= kLargestValue, {"keypoints", "size_px"},
+  check.require(size_px >= 0.0F && size_px <= kMaxValue, {"keypoints", "size_px"},
                 "is negative, above 1e+06 or not finite");
-  const bool is_near = std::ranges::all_of(point, [](float value) { return std::abs(value) <= kFarthestPoint_m; });
+  const bool is_near = std::ranges::all_of(point, [](float value) { return std::abs(value) <= kMaxPoint_m; });
   check.require(is_near, {"keypoints", "point"}, "is beyond +-1e+06 or not finite");
-  const float least_sigma = has_point ? 0.0F : -kLargestValue;  // not used without a point
-  check.require(inverse_range_sigma >= least_sigma && inverse_range_sigma <= kLargestValue,
+  const float min_sigma = has_point ? 0.0F : -kMaxValue;  // not used without a point
+  check.require(inverse_range_sigma >= min_sigma && inverse_range_sigma <= kMaxValue,
                 {"keypoints", "inverse_range_sigma"}, "is negative, above 1e+06 or not finite");
 }
 

@@ -6,7 +6,7 @@
 namespace panvo::interfaces {
 namespace {
 
-constexpr std::size_t kMostLandmarks = 1'000'000;  // ten thousand landmarks cover a town
+constexpr std::size_t kMaxLandmarks = 1'000'000;  // ten thousand landmarks cover a town
 
 void check_features(Check& check, std::string_view name, const std::vector<panvo_msgs::msg::AdaptiveFeature>& features,
                     const DescriptionSize& size) {
@@ -27,8 +27,8 @@ Problem problem_of(const panvo_msgs::msg::PanoramicLandmark& message) {
   check.covariance("pose.covariance", message.pose().covariance());
   check_pose(check, "panorama_pose", message.panorama_pose());
   check.text("settings", message.settings());
-  check.at_most("thumbnail", message.thumbnail().size(), kLargestThumbnail);
-  check.at_most("keypoints", message.keypoints().size(), kMostKeypoints);
+  check.at_most("thumbnail", message.thumbnail().size(), kMaxThumbnail);
+  check.at_most("keypoints", message.keypoints().size(), kMaxKeypoints);
   if (!check.holds()) return check.problem();
   const auto size = description_size(message.settings());
   check_histogram(check, message.histogram(), size);
@@ -45,7 +45,7 @@ Problem problem_of(const panvo_msgs::msg::PanoramicLandmark& message) {
 Problem problem_of(const panvo_msgs::msg::LandmarkPoses& message) {
   Check check;
   check_header(check, message.header());
-  check.at_most("ids", message.ids().size(), kMostLandmarks);
+  check.at_most("ids", message.ids().size(), kMaxLandmarks);
   check.require(message.ids().size() == message.poses().size(), "poses", "differ in number from ids");
   for (const auto id : message.ids()) check.require(id != 0, "ids", "contain 0");
   for (const auto& pose : message.poses()) {

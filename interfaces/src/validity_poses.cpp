@@ -5,8 +5,8 @@
 namespace panvo::interfaces {
 namespace {
 
-constexpr std::size_t kMostPoses = 1'000'000;    // of a path; a day at 10 Hz
-constexpr std::size_t kMostTransforms = 10'000;  // of one message; ten times the joints of any robot
+constexpr std::size_t kMaxPoses = 1'000'000;    // of a path; a day at 10 Hz
+constexpr std::size_t kMaxTransforms = 10'000;  // of one message; ten times the joints of any robot
 
 void check(Check& check, std::string_view pose_name, std::string_view covariance_name,
            const geometry_msgs::msg::PoseWithCovariance& pose) {
@@ -58,7 +58,7 @@ Problem problem_of(const nav_msgs::msg::Odometry& message) {
 Problem problem_of(const nav_msgs::msg::Path& message) {
   Check check;
   check_header(check, message.header());
-  check.at_most("poses", message.poses().size(), kMostPoses);
+  check.at_most("poses", message.poses().size(), kMaxPoses);
   if (!check.holds()) return check.problem();
   for (const auto& pose : message.poses()) check_pose(check, "poses.pose", pose.pose());
   return check.problem();
@@ -69,14 +69,14 @@ Problem problem_of(const geometry_msgs::msg::TransformStamped& message) {
   check_header(check, message.header());
   check.name("child_frame_id", message.child_frame_id());
   const auto& translation = message.transform().translation();
-  check.bounded({"transform", "translation"}, {translation.x(), translation.y(), translation.z()}, kFarthest_m);
+  check.bounded({"transform", "translation"}, {translation.x(), translation.y(), translation.z()}, kMax_m);
   check_rotation(check, {"transform", "rotation"}, message.transform().rotation());
   return check.problem();
 }
 
 Problem problem_of(const tf2_msgs::msg::TFMessage& message) {
   Check check;
-  check.at_most("transforms", message.transforms().size(), kMostTransforms);
+  check.at_most("transforms", message.transforms().size(), kMaxTransforms);
   return check.problem();
 }
 

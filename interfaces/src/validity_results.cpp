@@ -7,12 +7,12 @@
 namespace panvo::interfaces {
 namespace {
 
-constexpr double kMostTurn_rad = std::numbers::pi + 1e-6;  // allows for rounding of a wrapped angle
-constexpr double kLargestAngleVariance = 1e3;              // larger than any angle squared, so "unknown"
-constexpr double kLargestSigma = 1e9;                      // of an unknown pose
-constexpr double kLargestResidual_px = 1e6;
-constexpr std::size_t kMostStatuses = 10'000;
-constexpr std::size_t kMostValues = 10'000;
+constexpr double kMaxTurn_rad = std::numbers::pi + 1e-6;  // allows for rounding of a wrapped angle
+constexpr double kMaxAngleVariance = 1e3;                 // larger than any angle squared, so "unknown"
+constexpr double kMaxSigma = 1e9;                         // of an unknown pose
+constexpr double kMaxResidual_px = 1e6;
+constexpr std::size_t kMaxStatuses = 10'000;
+constexpr std::size_t kMaxValues = 10'000;
 
 }  // namespace
 
@@ -22,11 +22,11 @@ Problem problem_of(const panvo_msgs::msg::AzimuthChange& message) {
   check_stamp(check, "from_stamp", message.from_stamp());
   check.text("reason", message.reason());
   if (!message.valid()) return check.problem();
-  check.bounded("azimuth_change_rad", {message.azimuth_change_rad()}, kMostTurn_rad);
-  check.within("variance_rad2", message.variance_rad2(), kSmallestVariance, kLargestAngleVariance);
+  check.bounded("azimuth_change_rad", {message.azimuth_change_rad()}, kMaxTurn_rad);
+  check.within("variance_rad2", message.variance_rad2(), kMinVariance, kMaxAngleVariance);
   check.finite("side_parallax_rad", {message.side_parallax_rad()});
-  check.bounded("motion_azimuth_rad", {message.motion_azimuth_rad()}, kMostTurn_rad);
-  check.within("motion_azimuth_variance_rad2", message.motion_azimuth_variance_rad2(), 0.0, kLargestAngleVariance);
+  check.bounded("motion_azimuth_rad", {message.motion_azimuth_rad()}, kMaxTurn_rad);
+  check.within("motion_azimuth_variance_rad2", message.motion_azimuth_variance_rad2(), 0.0, kMaxAngleVariance);
   return check.problem();
 }
 
@@ -47,10 +47,10 @@ Problem problem_of(const panvo_msgs::msg::Integrity& message) {
   check_header(check, message.header());
   check.text("reason", message.reason());
   check.within("risk", message.risk(), 0.0, 1.0);
-  check.within("alert_limit_m", message.alert_limit_m(), 0.0, kLargestSigma);
+  check.within("alert_limit_m", message.alert_limit_m(), 0.0, kMaxSigma);
   // The level may be infinite if it is unknown, but then the pose is not usable.
   if (message.usable()) {
-    check.within("horizontal_protection_level_m", message.horizontal_protection_level_m(), 0.0, kLargestSigma);
+    check.within("horizontal_protection_level_m", message.horizontal_protection_level_m(), 0.0, kMaxSigma);
   }
   return check.problem();
 }
@@ -62,8 +62,8 @@ Problem problem_of(const panvo_msgs::msg::LocalizationState& message) {
   check.within("state", message.state(), panvo_msgs::msg::LocalizationState_Constants::STARTING,
                panvo_msgs::msg::LocalizationState_Constants::STALE);
   check.text("reason", message.reason());
-  check.within("position_sigma_m", message.position_sigma_m(), 0.0, kLargestSigma);
-  check.within("heading_sigma_rad", message.heading_sigma_rad(), 0.0, kLargestSigma);
+  check.within("position_sigma_m", message.position_sigma_m(), 0.0, kMaxSigma);
+  check.within("heading_sigma_rad", message.heading_sigma_rad(), 0.0, kMaxSigma);
   return check.problem();
 }
 
@@ -72,7 +72,7 @@ Problem problem_of(const panvo_msgs::msg::OdometryQuality& message) {
   check_header(check, message.header());
   check.text("reason", message.reason());
   check.within("inlier_ratio", message.inlier_ratio(), 0.0, 1.0);
-  check.within("residual_px", message.residual_px(), 0.0, kLargestResidual_px);
+  check.within("residual_px", message.residual_px(), 0.0, kMaxResidual_px);
   return check.problem();
 }
 
@@ -96,11 +96,11 @@ Problem problem_of(const panvo_msgs::msg::PositionCorrection& message) {
 Problem problem_of(const diagnostic_msgs::msg::DiagnosticArray& message) {
   Check check;
   check_header(check, message.header());
-  check.at_most("status", message.status().size(), kMostStatuses);
+  check.at_most("status", message.status().size(), kMaxStatuses);
   if (!check.holds()) return check.problem();
   for (const auto& status : message.status()) {
     check.text("status.name", status.name()).text("status.message", status.message());
-    check.at_most("status.values", status.values().size(), kMostValues);
+    check.at_most("status.values", status.values().size(), kMaxValues);
   }
   return check.problem();
 }

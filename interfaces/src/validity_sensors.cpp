@@ -12,13 +12,13 @@
 namespace panvo::interfaces {
 namespace {
 
-constexpr std::uint32_t kLargestSide_px = 1U << 16;
-constexpr double kLongestFocal_px = 1e6;     // a telescope
-constexpr double kLargestCoefficient = 1e6;  // of a distortion; a poor fit of a rational model reaches thousands
-constexpr std::size_t kMostCoefficients = 32;
-constexpr double kLongestBaseline_m = 1e3;
+constexpr std::uint32_t kMaxSide_px = 1U << 16;
+constexpr double kMaxFocal_px = 1e6;     // a telescope
+constexpr double kMaxCoefficient = 1e6;  // of a distortion; a poor fit of a rational model reaches thousands
+constexpr std::size_t kMaxCoefficients = 32;
+constexpr double kMaxBaseline_m = 1e3;
 constexpr double kRotationTolerance = 1e-3;
-constexpr std::size_t kMostPointFields = 256;
+constexpr std::size_t kMaxPointFields = 256;
 
 /// Bytes per pixel of an encoding in sensor_msgs/image_encodings; 0: unknown encoding. For nv21 and nv24 only the grey
 /// plane counts, which precedes the colour plane.
@@ -49,7 +49,7 @@ std::uint32_t bytes_of_pixel(std::string_view encoding) {
 }
 
 void check_size(Check& check, std::uint32_t width, std::uint32_t height) {
-  check.require(width <= kLargestSide_px && height <= kLargestSide_px, "width or height", "exceeds 65536 px");
+  check.require(width <= kMaxSide_px && height <= kMaxSide_px, "width or height", "exceeds 65536 px");
 }
 
 bool is_zero(std::span<const double> values) {
@@ -101,13 +101,13 @@ Problem problem_of(const sensor_msgs::msg::CameraInfo& message) {
   check_header(check, message.header());
   check_size(check, message.width(), message.height());
   check.name("distortion_model", message.distortion_model());
-  check.at_most("d", message.d().size(), kMostCoefficients).bounded("d", message.d(), kLargestCoefficient);
-  check.bounded("k", message.k(), kLongestFocal_px);
+  check.at_most("d", message.d().size(), kMaxCoefficients).bounded("d", message.d(), kMaxCoefficient);
+  check.bounded("k", message.k(), kMaxFocal_px);
   check.finite("r", message.r()).finite("p", message.p());
   const auto& p = message.p();
   const double focal_px = std::abs(p[0]);
-  for (const std::size_t i : {0, 1, 2, 4, 5, 6, 8, 9, 10}) check.bounded("p", {p[i]}, kLongestFocal_px);
-  for (const std::size_t i : {3, 7, 11}) check.bounded("p", {p[i]}, kLongestBaseline_m * std::max(1.0, focal_px));
+  for (const std::size_t i : {0, 1, 2, 4, 5, 6, 8, 9, 10}) check.bounded("p", {p[i]}, kMaxFocal_px);
+  for (const std::size_t i : {3, 7, 11}) check.bounded("p", {p[i]}, kMaxBaseline_m * std::max(1.0, focal_px));
   check.require(is_zero(message.r()) || is_rotation(message.r()), "r", "is not a rotation matrix");
   return check.problem();
 }
@@ -121,12 +121,12 @@ Problem problem_of(const sensor_msgs::msg::Imu& message) {
   }
   if (is_measured(message.angular_velocity_covariance())) {
     const auto& rate = message.angular_velocity();
-    check.bounded("angular_velocity", {rate.x(), rate.y(), rate.z()}, kFastest);
+    check.bounded("angular_velocity", {rate.x(), rate.y(), rate.z()}, kMax);
     check.covariance("angular_velocity_covariance", message.angular_velocity_covariance());
   }
   if (is_measured(message.linear_acceleration_covariance())) {
     const auto& acceleration = message.linear_acceleration();
-    check.bounded("linear_acceleration", {acceleration.x(), acceleration.y(), acceleration.z()}, kFastest);
+    check.bounded("linear_acceleration", {acceleration.x(), acceleration.y(), acceleration.z()}, kMax);
     check.covariance("linear_acceleration_covariance", message.linear_acceleration_covariance());
   }
   return check.problem();
@@ -135,7 +135,7 @@ Problem problem_of(const sensor_msgs::msg::Imu& message) {
 Problem problem_of(const sensor_msgs::msg::PointCloud2& message) {
   Check check;
   check_header(check, message.header());
-  check.at_most("fields", message.fields().size(), kMostPointFields);
+  check.at_most("fields", message.fields().size(), kMaxPointFields);
   if (!check.holds()) return check.problem();
   const std::uint64_t point = message.point_step(), row = message.row_step();
   for (const auto& field : message.fields()) {

@@ -15,14 +15,14 @@
 /// OpenCV to one thread.
 inline const std::vector<cv::Mat>& recorded_panoramas() {
   static const std::vector<cv::Mat> all = [] {
-    constexpr std::size_t kMost = 150;
+    constexpr std::size_t kMax = 150;
     std::vector<cv::Mat> images;
     const auto folder = panvo::test::recorded_data("campus_journey/mav0/cam2/data");
     std::vector<std::filesystem::path> files;
     std::error_code error;
     for (const auto& entry : std::filesystem::directory_iterator(folder, error)) files.push_back(entry.path());
     std::sort(files.begin(), files.end());
-    files.resize(std::min(files.size(), kMost));
+    files.resize(std::min(files.size(), kMax));
     for (const auto& file : files) images.push_back(cv::imread(file.string()));
     cv::setNumThreads(1);
     return images;

@@ -63,12 +63,12 @@ TEST(CamerasToOdometry, GiveThePathThatTheSamePicturesGiveFromFiles) {
   ASSERT_TRUE(is_there) << cameras.output() << read_file(path);
 
   const auto seen = read_tum(path);
-  const double largest_m = largest_distance(seen, expected);
+  const double max_m = max_distance(seen, expected);
   const auto came =
       std::count_if(expected.begin(), expected.end(), [&](const auto& point) { return distance(point, seen) < 0.02; });
   std::printf("%zu poses from cameras, %zu from files, %td of them matched; largest difference of the paths %.1f mm\n",
-              seen.size(), expected.size(), came, 1e3 * largest_m);
-  EXPECT_LT(largest_m, 0.02);
+              seen.size(), expected.size(), came, 1e3 * max_m);
+  EXPECT_LT(max_m, 0.02);
   EXPECT_EQ(came, std::ssize(expected)) << cameras.output();
 }
 

@@ -39,10 +39,10 @@ inline double distance(const Position& point, const std::vector<Position>& path)
 }
 
 /// Largest distance of a point of `points` from a path, m.
-inline double largest_distance(const std::vector<Position>& points, const std::vector<Position>& path) {
-  double largest_m = 0.0;
-  for (const auto& point : points) largest_m = std::max(largest_m, distance(point, path));
-  return largest_m;
+inline double max_distance(const std::vector<Position>& points, const std::vector<Position>& path) {
+  double max_m = 0.0;
+  for (const auto& point : points) max_m = std::max(max_m, distance(point, path));
+  return max_m;
 }
 
 /// Writes the camera of the rendered walk as a camera_info file; `tx` is the last value in the first row of the

@@ -38,7 +38,7 @@ TEST_F(FaultBench, PlaysTheFaultsItIsAskedForAndLeavesItsTable) {
   const auto json = nlohmann::json::parse(read_file(folder / "out" / "faults.json"));
   EXPECT_EQ(json.at("rows").size(), 2U);
   EXPECT_EQ(json.at("rows").at(0).at("poses"), 30);
-  EXPECT_LT(json.at("rows").at(0).at("largest_error_m"), 0.1);
+  EXPECT_LT(json.at("rows").at(0).at("max_error_m"), 0.1);
   const auto qualities = read_file(folder / "out" / "runs" / "walk" / "both_black-1" / "quality.csv");
   EXPECT_THAT(qualities, HasSubstr(",0,")) << "nothing was unreliable";
 }

@@ -20,10 +20,10 @@ std::vector<FaultKind> all_kinds() {
 }
 
 FaultWindow draw_window(Lasting lasting, Draw& draw, double span_s) {
-  constexpr double kShortest_s = 2.0, kLongest_s = 5.0, kLongestShare = 0.25;
+  constexpr double kMin_s = 2.0, kMax_s = 5.0, kMaxShare = 0.25;
   if (lasting == Lasting::kWhole) return {0.0, span_s};
   const double from_s = draw.uniform(0.25, 0.45) * span_s;
-  const double length_s = std::min(draw.uniform(kShortest_s, kLongest_s), kLongestShare * span_s);
+  const double length_s = std::min(draw.uniform(kMin_s, kMax_s), kMaxShare * span_s);
   return {from_s, lasting == Lasting::kOnward ? span_s : from_s + length_s};
 }
 

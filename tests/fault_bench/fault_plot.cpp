@@ -46,9 +46,9 @@ std::string commands(const Panel& panel, bool is_first) {
 
 std::string plot_script(const FaultTable& table, const std::string& stem) {
   const std::size_t rows = table.rows.size();
-  std::string text = block(
-      "sigmas", table, [](const FaultRow& row) { return std::optional(std::max(0.1, row.largest_error_over_sigma)); });
-  text += block("misleading", table, [](const FaultRow& row) { return std::optional(row.longest_misleading_s); });
+  std::string text = block("sigmas", table,
+                           [](const FaultRow& row) { return std::optional(std::max(0.1, row.max_error_over_sigma)); });
+  text += block("misleading", table, [](const FaultRow& row) { return std::optional(row.max_misleading_s); });
   text += block("alarms", table, [](const FaultRow& row) { return row.time_to_alarm_s; });
   text += block("levels", table, [](const FaultRow& row) { return row.worst_over_level; });
   const std::size_t height_px = 110 + 22 * rows;

@@ -34,9 +34,9 @@ std::string percent(const std::optional<double>& value) {
 }
 
 /// The longest time, and the number of runs in which it never ended.
-std::string time_or_never(const std::optional<double>& longest_s, std::size_t never) {
-  if (never == 0) return number(longest_s, 2);
-  return longest_s ? fmt::format("{:.2f}, {}x never", *longest_s, never) : "never";
+std::string time_or_never(const std::optional<double>& max_s, std::size_t never) {
+  if (never == 0) return number(max_s, 2);
+  return max_s ? fmt::format("{:.2f}, {}x never", *max_s, never) : "never";
 }
 
 Json or_null(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
@@ -53,11 +53,11 @@ const std::vector<Column>& columns() {
        [](const FaultRow& row) {
          return row.failed == 0 ? std::to_string(row.runs) : fmt::format("{}, {} failed", row.runs, row.failed);
        }},
-      {"error m", [](const FaultRow& row) { return number(row.largest_error_m, 2); }},
-      {"error/sigma", [](const FaultRow& row) { return number(row.largest_error_over_sigma, 1); }},
+      {"error m", [](const FaultRow& row) { return number(row.max_error_m, 2); }},
+      {"error/sigma", [](const FaultRow& row) { return number(row.max_error_over_sigma, 1); }},
       {"outside 95 %", [](const FaultRow& row) { return percent(share(row.outside_95, row.poses)); }},
       {"99.9 %", [](const FaultRow& row) { return percent(share(row.outside_999, row.poses)); }},
-      {"misleading s", [](const FaultRow& row) { return number(row.longest_misleading_s, 2); }},
+      {"misleading s", [](const FaultRow& row) { return number(row.max_misleading_s, 2); }},
       {"to alarm s", [](const FaultRow& row) { return number(row.time_to_alarm_s, 2); }},
       {"noticed s", [](const FaultRow& row) { return time_or_never(row.noticed_s, row.unnoticed); }},
       {"recovered s", [](const FaultRow& row) { return time_or_never(row.time_to_recover_s, row.never_recovered); }},
@@ -74,11 +74,11 @@ Json row_json(const FaultRow& row) {
           {"failed", row.failed},
           {"poses", row.poses},
           {"unscored_poses", row.unscored_poses},
-          {"largest_error_m", row.largest_error_m},
-          {"largest_error_over_sigma", row.largest_error_over_sigma},
+          {"max_error_m", row.max_error_m},
+          {"max_error_over_sigma", row.max_error_over_sigma},
           {"outside_95_share", share(row.outside_95, row.poses)},
           {"outside_999_share", share(row.outside_999, row.poses)},
-          {"longest_misleading_s", row.longest_misleading_s},
+          {"max_misleading_s", row.max_misleading_s},
           {"time_to_alarm_s", or_null(row.time_to_alarm_s)},
           {"noticed_s", or_null(row.noticed_s)},
           {"unnoticed_runs", row.unnoticed},
@@ -98,9 +98,9 @@ void FaultRow::add(const evaluation::TrustScore& score) {
   row.outside_999 = score.outside_999;
   row.with_level = score.with_level;
   row.beyond_level = score.beyond_level;
-  row.largest_error_m = score.largest_error_m;
-  row.largest_error_over_sigma = score.largest_error_over_sigma;
-  row.longest_misleading_s = score.longest_misleading_s;
+  row.max_error_m = score.max_error_m;
+  row.max_error_over_sigma = score.max_error_over_sigma;
+  row.max_misleading_s = score.max_misleading_s;
   row.worst_over_level = score.worst_over_level;
   row.time_to_alarm_s = score.time_to_alarm_s;
   row.noticed_s = score.noticed_s;
@@ -120,9 +120,9 @@ void FaultRow::merge(const FaultRow& other) {
   outside_999 += other.outside_999;
   with_level += other.with_level;
   beyond_level += other.beyond_level;
-  largest_error_m = std::max(largest_error_m, other.largest_error_m);
-  largest_error_over_sigma = std::max(largest_error_over_sigma, other.largest_error_over_sigma);
-  longest_misleading_s = std::max(longest_misleading_s, other.longest_misleading_s);
+  max_error_m = std::max(max_error_m, other.max_error_m);
+  max_error_over_sigma = std::max(max_error_over_sigma, other.max_error_over_sigma);
+  max_misleading_s = std::max(max_misleading_s, other.max_misleading_s);
   take_larger(worst_over_level, other.worst_over_level);
   take_larger(time_to_alarm_s, other.time_to_alarm_s);
   take_larger(noticed_s, other.noticed_s);
@@ -146,7 +146,7 @@ FaultRow FaultTable::all() const {
 }
 
 std::vector<FaultGoal> FaultTable::goals() const {
-  constexpr double kMostBeyond = 1e-3, kMostOverLevel = 2.0, kLongestMisleading_s = 1.0, kHighestMedian_m = 1.0;
+  constexpr double kMaxBeyond = 1e-3, kMaxOverLevel = 2.0, kMaxMisleading_s = 1.0, kMaxMedian_m = 1.0;
   const FaultRow all_rows = all();
   const auto beyond = beyond_share(all_rows);
   const auto median_m = all_rows.median_level_m();
@@ -154,15 +154,14 @@ std::vector<FaultGoal> FaultTable::goals() const {
     return value ? std::optional(*value <= most) : std::nullopt;
   };
   return {
-      {"error beyond the protection level in at most 0.1 % of all poses", percent(beyond),
-       at_most(beyond, kMostBeyond)},
+      {"error beyond the protection level in at most 0.1 % of all poses", percent(beyond), at_most(beyond, kMaxBeyond)},
       {"error at most twice the level", number(all_rows.worst_over_level, 2) + " times at most",
-       at_most(all_rows.worst_over_level, kMostOverLevel)},
+       at_most(all_rows.worst_over_level, kMaxOverLevel)},
       {"every alarm within 0.5 s", number(all_rows.time_to_alarm_s.value_or(0.0), 2) + " s at most",
        all_rows.time_to_alarm_s.value_or(0.0) <= evaluation::kAlarmTime_s},
-      {"tracking while the error is over 3 sigma for at most 1 s",
-       number(all_rows.longest_misleading_s, 2) + " s at most", all_rows.longest_misleading_s <= kLongestMisleading_s},
-      {"median level below 1 m while tracking", number(median_m, 2) + " m", at_most(median_m, kHighestMedian_m)},
+      {"tracking while the error is over 3 sigma for at most 1 s", number(all_rows.max_misleading_s, 2) + " s at most",
+       all_rows.max_misleading_s <= kMaxMisleading_s},
+      {"median level below 1 m while tracking", number(median_m, 2) + " m", at_most(median_m, kMaxMedian_m)},
   };
 }
 

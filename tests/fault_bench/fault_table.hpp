@@ -18,7 +18,7 @@ struct FaultRow {
   std::size_t unscored_poses =
       0;  ///< skipped poses: outside the time span of the ground truth, or with an invalid covariance
   std::size_t poses = 0, outside_95 = 0, outside_999 = 0, with_level = 0, beyond_level = 0;
-  double largest_error_m = 0.0, largest_error_over_sigma = 0.0, longest_misleading_s = 0.0;
+  double max_error_m = 0.0, max_error_over_sigma = 0.0, max_misleading_s = 0.0;
   std::optional<double> worst_over_level;
   std::optional<double> time_to_alarm_s;    ///< the longest; nullopt: no alarm was due
   std::optional<double> noticed_s;          ///< the longest among runs with an alarm

@@ -14,7 +14,7 @@ using testing::HasSubstr;
 evaluation::TrustScore score(double over_sigma, std::optional<double> alarm_s, std::optional<double> recover_s) {
   evaluation::TrustScore score;
   score.poses = 1000;
-  score.largest_error_over_sigma = over_sigma;
+  score.max_error_over_sigma = over_sigma;
   score.time_to_alarm_s = alarm_s;
   score.noticed_s = alarm_s;
   score.is_never_noticed = !alarm_s;
@@ -46,7 +46,7 @@ const FaultGoal& goal(const std::vector<FaultGoal>& goals, const std::string& wo
 TEST(FaultTable, TakesTheWorstOfAllRuns) {
   const auto row = table().rows[0];
   EXPECT_EQ(row.poses, 3000U);
-  EXPECT_EQ(row.largest_error_over_sigma, 9.0);
+  EXPECT_EQ(row.max_error_over_sigma, 9.0);
   EXPECT_EQ(row.time_to_alarm_s, 0.4);
   EXPECT_EQ(row.time_to_recover_s, 1.5);
   EXPECT_EQ(table().rows[1].unnoticed, 1U);
@@ -59,7 +59,7 @@ TEST(FaultTable, SaysWhichGoalsHoldAndOfWhichNothingCanBeTold) {
   EXPECT_EQ(goal(goals, "tracking while").holds, true);
   EXPECT_EQ(goal(goals, "twice the level").holds, std::nullopt) << "the runs have no level";
   auto bad = score(50.0, 0.51, 0.0);
-  bad.longest_misleading_s = 1.2;
+  bad.max_misleading_s = 1.2;
   bad.with_level = 1000;
   bad.beyond_level = 4;
   bad.worst_over_level = 2.5;
@@ -78,7 +78,7 @@ TEST(FaultTable, IsTheSameAsTextAndAsJsonAndAsLinesOfOneLength) {
   EXPECT_THAT(text, HasSubstr("both_frozen"));
   EXPECT_THAT(text, HasSubstr("undetermined"));
   const auto json = nlohmann::json::parse(to_json(table()));
-  EXPECT_EQ(json.at("rows").at(0).at("largest_error_over_sigma"), 9.0);
+  EXPECT_EQ(json.at("rows").at(0).at("max_error_over_sigma"), 9.0);
   EXPECT_TRUE(json.at("rows").at(1).at("time_to_alarm_s").is_null());
   const auto csv = to_csv(table());
   const auto header = csv.substr(0, csv.find('\n'));

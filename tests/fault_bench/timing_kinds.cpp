@@ -44,8 +44,8 @@ Fault one_eye_missing(Draw& draw, const FaultWindow&) {
 /// Up to 40 % of the frame period, so that the order does not change.
 Fault stamp_jitter(Draw& draw, const FaultWindow&) {
   return {.pairs = altered<StereoPair>([draw](StereoPair& pair, const Moment&) mutable {
-            constexpr double kMost_s = 0.016;
-            shift(pair, to_ns(draw.uniform(-kMost_s, kMost_s)));
+            constexpr double kMax_s = 0.016;
+            shift(pair, to_ns(draw.uniform(-kMax_s, kMax_s)));
           })};
 }
 

@@ -6,7 +6,7 @@ L = sample.LICENCE
 GOOD = L + """#pragma once
 #define PANVO_MAGIC 1
 namespace panvo::vision {
-constexpr int kLargest = 3;
+constexpr int kMax = 3;
 inline constexpr double kMargin_px = 2.0;
 enum class Kind { kFirst };
 class PoseGraph : public Base {
@@ -45,7 +45,7 @@ class NamesTest(sample.RuleTest):
         self.assert_finds(names, "kind: types", self.with_change("enum class Kind", "enum class kind"))
 
     def test_a_constant_without_its_k(self):
-        self.assert_finds(names, "a.hpp:5: largest: constants", self.with_change("kLargest", "largest"))
+        self.assert_finds(names, "a.hpp:5: largest: constants", self.with_change("kMax", "largest"))
         self.assert_finds(names, "kdepth: constants", self.with_change("kDepth", "kdepth"))
 
     def test_a_function_in_another_case(self):

@@ -97,7 +97,7 @@ class OwnPackage(unittest.TestCase):
 
     def test_parameters_are_shown(self):
         said = self.run_command("panvo", "component", "show", NAME)
-        self.assertIn("smallest_step_m", said)
+        self.assertIn("min_step_m", said)
         self.assertIn("shorter steps are noise", said)
 
     def test_its_service_answers_and_its_message_is_known(self):

@@ -103,8 +103,8 @@ double survival(const cv::Mat& first, const cv::Mat& second) {
   cv::Mat descriptors_there, descriptors_here;
   sift->detectAndCompute(first, {}, there, descriptors_there);
   sift->detectAndCompute(second, {}, here, descriptors_here);
-  constexpr std::size_t kLeast = 16;
-  if (there.size() < kLeast || here.size() < kLeast) return 0.0;
+  constexpr std::size_t kMin = 16;
+  if (there.size() < kMin || here.size() < kMin) return 0.0;
   std::vector<std::vector<cv::DMatch>> forward, backward;
   const cv::BFMatcher matcher(cv::NORM_L2);
   matcher.knnMatch(descriptors_there, descriptors_here, forward, 2);
@@ -116,7 +116,7 @@ double survival(const cv::Mat& first, const cv::Mat& second) {
     from.push_back(there[static_cast<std::size_t>(match[0].queryIdx)].pt);
     to.push_back(here[static_cast<std::size_t>(match[0].trainIdx)].pt);
   }
-  if (from.size() < kLeast) return 0.0;
+  if (from.size() < kMin) return 0.0;
   cv::Mat inliers;
   cv::setRNGSeed(1);
   cv::findFundamentalMat(from, to, cv::FM_RANSAC, 1.5, 0.999, inliers);

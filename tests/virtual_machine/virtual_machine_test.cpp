@@ -84,13 +84,13 @@ TEST_F(VirtualMachine, UsbCameraGivesThePathThatTheSamePicturesGiveFromFiles) {
   ASSERT_EQ(replayed.status, 0) << replayed.output;
   const auto seen = measured(read_tum(through + "/odometry_binocular.tum"), through + "/quality.csv");
   constexpr double kSame_m = 0.01;
-  const double largest_m = largest_distance(seen, expected);
+  const double max_m = max_distance(seen, expected);
   const auto missing = std::count_if(expected.begin(), expected.end(),
                                      [&](const Position& step) { return distance(step, seen) > kSame_m; });
   std::printf(
       "%zu poses from the USB camera, %zu from files; largest difference of the paths %.1f mm; %td steps not seen\n",
-      seen.size(), expected.size(), 1e3 * largest_m, missing);
-  EXPECT_LT(largest_m, kSame_m) << finished.output;
+      seen.size(), expected.size(), 1e3 * max_m, missing);
+  EXPECT_LT(max_m, kSame_m) << finished.output;
   EXPECT_LE(missing, 6) << "steps whose images a stalled machine loses\n" << finished.output;
   EXPECT_LT(distance(expected.back(), seen), kSame_m) << "end of the walk";
 }

@@ -17,7 +17,7 @@ using vision::Matrix6d;
 using Matrix63d = Eigen::Matrix<double, 6, 3>;
 
 constexpr double kFirstDamping = 1e-5;
-constexpr double kLargestDamping = 1e3;
+constexpr double kMaxDamping = 1e3;
 constexpr double kPointPrior = 1e-6;  // regularises points seen along one ray; negligible for others
 
 /// Unknowns are the free poses (six each), the disparity offset (one) and the points (three each). Points are coupled
@@ -43,11 +43,11 @@ class Solver {
     for (bool settled = false; summary.iterations < options_.max_iterations && !settled;) {
       ++summary.iterations;
       build_normal_equations();
-      for (settled = true; damping < kLargestDamping; damping *= 10.0) {
+      for (settled = true; damping < kMaxDamping; damping *= 10.0) {
         if (!try_step(damping)) continue;
         const double improved = cost(moved_);
         if (!(improved <= summary.final_cost)) continue;
-        settled = summary.final_cost - improved < options_.smallest_improvement * summary.final_cost;
+        settled = summary.final_cost - improved < options_.min_improvement * summary.final_cost;
         std::swap(problem_.left_from_world, moved_.left_from_world);
         std::swap(problem_.points, moved_.points);
         problem_.disparity_offset_px = moved_.disparity_offset_px;

@@ -41,8 +41,8 @@ struct BundleProblem {
 
 struct BundleOptions {
   int max_iterations = 8;
-  double loss_scale = 2.0;             ///< of the Cauchy loss, in standard deviations
-  double smallest_improvement = 1e-4;  ///< relative decrease of the cost below which iteration stops
+  double loss_scale = 2.0;        ///< of the Cauchy loss, in standard deviations
+  double min_improvement = 1e-4;  ///< relative decrease of the cost below which iteration stops
 };
 
 struct BundleSummary {

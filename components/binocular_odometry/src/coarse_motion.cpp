@@ -8,13 +8,13 @@
 namespace panvo::binocular_odometry {
 namespace {
 
-constexpr int kFewestInliers = 8;
-constexpr double kSmallestRatio = 0.4;  // of inliers to points
+constexpr int kMinInliers = 8;
+constexpr double kMinRatio = 0.4;  // of inliers to points
 
 }  // namespace
 
-std::vector<SeenTwice> seen_twice(std::span<const Track> before, std::span<const Track> now) {
-  std::vector<SeenTwice> points;
+std::vector<FramePair> seen_twice(std::span<const Track> before, std::span<const Track> now) {
+  std::vector<FramePair> points;
   auto known = before.begin();
   for (const Track& track : now) {
     while (known != before.end() && known->id < track.id) ++known;
@@ -24,7 +24,7 @@ std::vector<SeenTwice> seen_twice(std::span<const Track> before, std::span<const
   return points;
 }
 
-std::optional<Eigen::Isometry3d> coarse_motion(const vision::RectifiedStereo& stereo, std::span<const SeenTwice> points,
+std::optional<Eigen::Isometry3d> coarse_motion(const vision::RectifiedStereo& stereo, std::span<const FramePair> points,
                                                const DisparityOffset& offset, const Eigen::Isometry3d& expected,
                                                const MotionParameters& parameters) {
   std::vector<PointPair> pairs;
@@ -33,8 +33,8 @@ std::optional<Eigen::Isometry3d> coarse_motion(const vision::RectifiedStereo& st
   }
   const std::array guesses{expected, Eigen::Isometry3d::Identity()};
   const auto motion = estimate_motion(stereo, pairs, guesses, parameters);
-  if (!motion || motion->inliers < kFewestInliers) return std::nullopt;
-  if (static_cast<double>(motion->inliers) < kSmallestRatio * static_cast<double>(pairs.size())) return std::nullopt;
+  if (!motion || motion->inliers < kMinInliers) return std::nullopt;
+  if (static_cast<double>(motion->inliers) < kMinRatio * static_cast<double>(pairs.size())) return std::nullopt;
   return motion->current_from_previous;
 }
 

@@ -11,7 +11,7 @@ namespace panvo::binocular_odometry {
 namespace {
 
 constexpr int kWidth_px = 40;
-constexpr double kLargestShift = 0.4;  // of the image size: beyond, the overlap is too small
+constexpr double kMaxShift = 0.4;  // of the image size: beyond, the overlap is too small
 
 cv::Mat tiny(const vision::ImagePyramid& image) {
   const cv::Mat& coarsest = image[image.levels() - 1];
@@ -39,8 +39,7 @@ double correlation(const cv::Mat& previous, const cv::Mat& current, cv::Point sh
 Eigen::Matrix3d coarse_turn(const vision::PinholeCamera& camera, const vision::ImagePyramid& previous,
                             const vision::ImagePyramid& current) {
   const cv::Mat before = tiny(previous), now = tiny(current);
-  const int reach_u = static_cast<int>(kLargestShift * before.cols),
-            reach_v = static_cast<int>(kLargestShift * before.rows);
+  const int reach_u = static_cast<int>(kMaxShift * before.cols), reach_v = static_cast<int>(kMaxShift * before.rows);
   cv::Point best(0, 0);
   double highest = -1.0;
   for (int v = -reach_v; v <= reach_v; ++v) {

@@ -8,10 +8,10 @@
 namespace panvo::binocular_odometry {
 namespace {
 
-constexpr double kStep_s = 0.05;     // integration step; the path within is nearly straight
-constexpr double kMostSteps = 1000;  // limit for gaps of minutes, after which the pose is unknown anyway
+constexpr double kStep_s = 0.05;    // integration step; the path within is nearly straight
+constexpr double kMaxSteps = 1000;  // limit for gaps of minutes, after which the pose is unknown anyway
 // Standard deviation of a uniformly distributed direction; upper bound of the heading error.
-constexpr double kLargestAngle_rad = std::numbers::pi / std::numbers::sqrt3;
+constexpr double kMaxAngle_rad = std::numbers::pi / std::numbers::sqrt3;
 // Standard deviations for an urban vehicle: m/s and rad/s.
 constexpr double kAnySpeed = 10.0, kAnyTurn = 0.5;
 
@@ -32,7 +32,7 @@ void DeadReckoning::begin(Velocity velocity) {
 
 void DeadReckoning::go_on(const vision::Vector6d& twist, std::int64_t duration_ns) {
   const double duration_s = 1e-9 * static_cast<double>(duration_ns);
-  const double steps = std::clamp(std::ceil(duration_s / kStep_s), 1.0, kMostSteps);
+  const double steps = std::clamp(std::ceil(duration_s / kStep_s), 1.0, kMaxSteps);
   const Eigen::Isometry3d step = vision::se3_exp(twist / steps);
   for (int i = 0; i < static_cast<int>(steps); ++i) advance(step, duration_s / steps);
 }
@@ -53,9 +53,9 @@ void DeadReckoning::advance(const Eigen::Isometry3d& previous_from_current, doub
     covariance_.block<3, 3>(part + 6, part) += meets.transpose();
   }
   const double angle_rad = std::sqrt(covariance_.diagonal().segment<3>(3).maxCoeff());
-  if (angle_rad > kLargestAngle_rad) {
-    covariance_.middleRows<3>(3) *= kLargestAngle_rad / angle_rad;
-    covariance_.middleCols<3>(3) *= kLargestAngle_rad / angle_rad;
+  if (angle_rad > kMaxAngle_rad) {
+    covariance_.middleRows<3>(3) *= kMaxAngle_rad / angle_rad;
+    covariance_.middleCols<3>(3) *= kMaxAngle_rad / angle_rad;
   }
   begin_from_current_ = begin_from_current_ * previous_from_current;
   begin_from_current_.linear() = vision::nearest_rotation(begin_from_current_.linear());

@@ -25,7 +25,7 @@ constexpr double kLossScale = 2.0;    // standard deviations
 
 }  // namespace
 
-Eigen::Isometry3d DisparityOffset::learn(const vision::RectifiedStereo& stereo, std::span<const SeenTwice> points,
+Eigen::Isometry3d DisparityOffset::learn(const vision::RectifiedStereo& stereo, std::span<const FramePair> points,
                                          Eigen::Isometry3d current_from_previous) {
   variance_px2_ += kStep_px * kStep_px;
   const vision::CauchyLoss loss(kLossScale);
@@ -63,7 +63,7 @@ Eigen::Isometry3d DisparityOffset::learn(const vision::RectifiedStereo& stereo, 
     current_from_previous = vision::se3_exp(step.head<6>()) * current_from_previous;
     offset_px += step[kOffset];
   }
-  px_ = std::clamp(offset_px, -kLargest_px, kLargest_px);
+  px_ = std::clamp(offset_px, -kMax_px, kMax_px);
   variance_px2_ = 1.0 / (1.0 / variance_px2_ + information);
   return current_from_previous;
 }

@@ -10,7 +10,7 @@
 namespace panvo::binocular_odometry {
 
 /// Observations of one point in two consecutive frames.
-struct SeenTwice {
+struct FramePair {
   Observation previous;
   Observation current;
 };
@@ -20,7 +20,7 @@ struct SeenTwice {
 /// Kalman filter, estimated together with the motion between two frames.
 class DisparityOffset {
  public:
-  static constexpr double kLargest_px = 2.0;  ///< more indicates a wrong calibration
+  static constexpr double kMax_px = 2.0;  ///< more indicates a wrong calibration
 
   double px() const noexcept { return px_; }
 
@@ -29,7 +29,7 @@ class DisparityOffset {
 
   /// Updates the offset from points with disparities in both frames; some of them may move. Returns the motion between
   /// the frames, refined together with the offset from the given initial motion.
-  Eigen::Isometry3d learn(const vision::RectifiedStereo& stereo, std::span<const SeenTwice> points,
+  Eigen::Isometry3d learn(const vision::RectifiedStereo& stereo, std::span<const FramePair> points,
                           Eigen::Isometry3d current_from_previous);
 
  private:

@@ -20,7 +20,7 @@ struct Feature {
 };
 
 /// Search start for a track: a pixel, and the coarsest pyramid level required by its uncertainty.
-struct Whereabouts {
+struct SearchStart {
   Eigen::Vector2d pixel;
   int level = 0;
 };
@@ -35,7 +35,7 @@ class FrontEnd {
 
   /// Search start for a track near its expected pixel; nullopt if it is not found. May update the descriptor of the
   /// track.
-  virtual std::optional<Whereabouts> match(Track& track, const Eigen::Vector2d& expected_pixel) = 0;
+  virtual std::optional<SearchStart> match(Track& track, const Eigen::Vector2d& expected_pixel) = 0;
 
   /// New features, at most one per free cell.
   virtual std::vector<Feature> detect(const vision::CellGrid& grid) = 0;

@@ -11,22 +11,22 @@
 namespace panvo::binocular_odometry {
 namespace {
 
-constexpr double kLargestZoom = 1.5;  // of a patch relative to its host
+constexpr double kMaxZoom = 1.5;  // of a patch relative to its host
 
 }  // namespace
 
 HostFrame::HostFrame(const vision::RectifiedStereo& stereo, const StereoPyramids& images,
                      const vision::StereoMatcher& matcher, const DisparityOffset& offset,
-                     const Eigen::Isometry3d& guide_from_current)
-    : stereo_(stereo), images_(images), matcher_(matcher), offset_(offset), guide_from_current_(guide_from_current) {}
+                     const Eigen::Isometry3d& odom_from_current)
+    : stereo_(stereo), images_(images), matcher_(matcher), offset_(offset), odom_from_current_(odom_from_current) {}
 
 void HostFrame::renew(std::vector<Track>& tracks) {
-  const Eigen::Isometry3d current_from_guide = guide_from_current_.inverse();
+  const Eigen::Isometry3d current_from_odom = odom_from_current_.inverse();
   for (Track& track : tracks) {
     if (!track.seen.has_disparity) continue;
-    const auto expected = expect(stereo_, track, current_from_guide * track.guide_from_host);
+    const auto expected = expect(stereo_, track, current_from_odom * track.odom_from_host);
     const double zoom = expected ? std::sqrt(expected->current_from_host.determinant()) : 0.0;
-    if (zoom < kLargestZoom && zoom > 1.0 / kLargestZoom) continue;
+    if (zoom < kMaxZoom && zoom > 1.0 / kMaxZoom) continue;
     const auto match = matcher_.measure(*images_.left, images_.right, track.seen.pixel.head<2>(), track.seen.pixel.z(),
                                         track.gradient);
     if (match) host(track, *match);
@@ -54,7 +54,7 @@ void HostFrame::host(Track& track, const vision::StereoMatch& match) {
   track.host = images_.left;
   track.host_pixel = track.seen.pixel.head<2>();
   track.host_plane = vision::surface_plane(stereo_, offset_.without(track.seen.pixel), match.gradient);
-  track.guide_from_host = guide_from_current_;
+  track.odom_from_host = odom_from_current_;
 }
 
 }  // namespace panvo::binocular_odometry

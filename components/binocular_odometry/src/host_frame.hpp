@@ -18,10 +18,10 @@ namespace panvo::binocular_odometry {
 /// A frame as the host of tracks: of new ones, and of those whose patch has changed too much.
 class HostFrame {
  public:
-  /// All references must outlive it. `guide_from_current`: pose of the frame in the dead-reckoning frame of the
+  /// All references must outlive it. `odom_from_current`: pose of the frame in the dead-reckoning frame of the
   /// tracking stage.
   HostFrame(const vision::RectifiedStereo& stereo, const StereoPyramids& images, const vision::StereoMatcher& matcher,
-            const DisparityOffset& offset, const Eigen::Isometry3d& guide_from_current);
+            const DisparityOffset& offset, const Eigen::Isometry3d& odom_from_current);
 
   /// Takes over the tracks whose scale has changed so much that their patch is blurred or aliased.
   void renew(std::vector<Track>& tracks);
@@ -30,7 +30,7 @@ class HostFrame {
   /// feature.
   void add(std::span<const Feature> features, std::int64_t first_id, std::vector<Track>& tracks);
 
-  const Eigen::Isometry3d& guide_from_current() const noexcept { return guide_from_current_; }
+  const Eigen::Isometry3d& odom_from_current() const noexcept { return odom_from_current_; }
   /// Row errors of the tracks renewed and added; nullopt without vertical texture. Repeated row errors of one patch are
   /// correlated: each patch gives one, when it gets its host.
   const std::vector<std::optional<vision::RowError>>& row_errors() const noexcept { return row_errors_; }
@@ -42,7 +42,7 @@ class HostFrame {
   const StereoPyramids& images_;
   const vision::StereoMatcher& matcher_;
   const DisparityOffset& offset_;
-  Eigen::Isometry3d guide_from_current_;
+  Eigen::Isometry3d odom_from_current_;
   std::vector<std::optional<vision::RowError>> row_errors_;
 };
 

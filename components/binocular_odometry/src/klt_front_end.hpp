@@ -12,13 +12,13 @@ class KltFrontEnd final : public FrontEnd {
 
   void describe(const vision::ImagePyramid& image) override { image_ = image; }
 
-  std::optional<Whereabouts> match(Track&, const Eigen::Vector2d& expected_pixel) override {
-    return Whereabouts{expected_pixel, image_.levels() - 1};
+  std::optional<SearchStart> match(Track&, const Eigen::Vector2d& expected_pixel) override {
+    return SearchStart{expected_pixel, image_.levels() - 1};
   }
 
   std::vector<Feature> detect(const vision::CellGrid& grid) override {
     std::vector<Feature> features;
-    for (const auto& corner : vision::detect_corners(image_, grid, parameters_.smallest_gradient, kMargin_px)) {
+    for (const auto& corner : vision::detect_corners(image_, grid, parameters_.min_gradient, kMargin_px)) {
       features.push_back({corner.position, {}});
     }
     return features;

@@ -17,8 +17,8 @@
 namespace panvo::binocular_odometry {
 namespace {
 
-constexpr double kConfidence = 0.999;       // of having drawn at least one triple without outliers
-constexpr double kSmallestDisparity = 1.0;  // px: the depth of farther points is too uncertain for 3D alignment
+constexpr double kConfidence = 0.999;  // of having drawn at least one triple without outliers
+constexpr double kMinDisparity = 1.0;  // px: the depth of farther points is too uncertain for 3D alignment
 constexpr int kPolishIterations = 3;
 
 class Consensus {
@@ -26,14 +26,14 @@ class Consensus {
   Consensus(const vision::RectifiedStereo& stereo, std::span<const PointPair> pairs, const MotionParameters& parameters)
       : stereo_(stereo),
         pairs_(pairs),
-        most_iterations_(parameters.ransac_iterations),
+        max_iterations_(parameters.ransac_iterations),
         threshold_px_(parameters.ransac_threshold_px),
         seed_(static_cast<std::uint32_t>(parameters.seed)) {
     for (size_t i = 0; i < pairs.size(); ++i) {
       points_.push_back(vision::inverse_depth_point(stereo, pairs[i].previous));
       all_votes_ += pairs[i].vote;
-      if (!pairs[i].has_current_disparity || pairs[i].current.z() < kSmallestDisparity) continue;
-      if (pairs[i].previous.z() < kSmallestDisparity) continue;
+      if (!pairs[i].has_current_disparity || pairs[i].current.z() < kMinDisparity) continue;
+      if (pairs[i].previous.z() < kMinDisparity) continue;
       near_.push_back(
           {*vision::triangulate(stereo, pairs[i].previous), *vision::triangulate(stereo, pairs[i].current)});
       votes_ += pairs[i].vote;
@@ -44,7 +44,7 @@ class Consensus {
   std::optional<RansacResult> run(std::span<const Eigen::Isometry3d> guesses) {
     for (const auto& guess : guesses) consider(guess);
     std::mt19937 random(seed_);
-    for (int i = 0; i < std::min(most_iterations_, iterations_needed()); ++i) {
+    for (int i = 0; i < std::min(max_iterations_, iterations_needed()); ++i) {
       if (const auto motion = draw(random)) consider(*motion);
     }
     if (best_.inliers < 3) return std::nullopt;
@@ -145,14 +145,14 @@ class Consensus {
     if (points_.empty()) return 0;
     const double ratio = inlier_votes_ / all_votes_;
     const double clean = ratio * ratio * ratio;
-    if (clean <= 1e-9) return most_iterations_;
+    if (clean <= 1e-9) return max_iterations_;
     if (clean >= 1.0 - 1e-9) return 1;
     return static_cast<int>(std::ceil(std::log(1.0 - kConfidence) / std::log1p(-clean)));
   }
 
   const vision::RectifiedStereo& stereo_;
   std::span<const PointPair> pairs_;
-  const int most_iterations_;
+  const int max_iterations_;
   const double threshold_px_;
   const std::uint32_t seed_;
   std::vector<Eigen::Vector3d> points_;  // inverse depth, in the previous frame

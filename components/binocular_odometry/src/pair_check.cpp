@@ -8,7 +8,7 @@
 namespace panvo::binocular_odometry {
 namespace {
 
-constexpr int kFewestSeen = 20;
+constexpr int kMinSeen = 20;
 // Recordings have at least 0.75, mostly 0.9. A half-covered camera gives 0.5; a camera that is one frame late gives
 // less at 5 m/s.
 constexpr double kSeenByBoth = 0.5;
@@ -43,7 +43,7 @@ std::optional<std::string> PairCheck::fault_of(const char* name, const cv::Mat& 
 
 std::optional<std::string> find_disagreement(int seen, int seen_by_both) {
   const int needed = static_cast<int>(std::ceil(kSeenByBoth * seen));
-  if (seen < kFewestSeen || seen_by_both >= needed) return std::nullopt;
+  if (seen < kMinSeen || seen_by_both >= needed) return std::nullopt;
   return "left and right images do not match: of " + std::to_string(seen) + " features tracked in the left image, " +
          std::to_string(seen_by_both) + " were found in the right image, " + std::to_string(needed) + " needed";
 }

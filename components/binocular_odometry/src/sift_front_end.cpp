@@ -7,11 +7,11 @@
 namespace panvo::binocular_odometry {
 namespace {
 
-constexpr int kLayers = 2;               // scales per octave; Lowe's 3 cost a quarter more without benefit here
-constexpr double kContrast = 0.02;       // half of Lowe's value, for low-contrast roads
-constexpr double kRadius = 0.12;         // of the image width: an unpredicted turn of about 10 degrees
-constexpr float kLargestRatio2 = 0.64F;  // Lowe's ratio of 0.8, squared
-constexpr float kLargestDistance2 = 300.0F * 300.0F;  // for descriptors of length 512
+constexpr int kLayers = 2;           // scales per octave; Lowe's 3 cost a quarter more without benefit here
+constexpr double kContrast = 0.02;   // half of Lowe's value, for low-contrast roads
+constexpr double kRadius = 0.12;     // of the image width: an unpredicted turn of about 10 degrees
+constexpr float kMaxRatio2 = 0.64F;  // Lowe's ratio of 0.8, squared
+constexpr float kMaxDistance2 = 300.0F * 300.0F;  // for descriptors of length 512
 
 float squared_distance(const cv::Mat& a, const cv::Mat& b, int row) {
   return static_cast<float>(cv::norm(a, b.row(row), cv::NORM_L2SQR));
@@ -36,7 +36,7 @@ void SiftFrontEnd::describe(const vision::ImagePyramid& image) {
   }
 }
 
-std::optional<Whereabouts> SiftFrontEnd::match(Track& track, const Eigen::Vector2d& expected_pixel) {
+std::optional<SearchStart> SiftFrontEnd::match(Track& track, const Eigen::Vector2d& expected_pixel) {
   if (track.descriptor.empty()) return std::nullopt;
   float best = std::numeric_limits<float>::max(), second = best;
   size_t found = 0;
@@ -54,9 +54,9 @@ std::optional<Whereabouts> SiftFrontEnd::match(Track& track, const Eigen::Vector
       second = distance;
     }
   }
-  if (best > kLargestDistance2 || best > kLargestRatio2 * second) return std::nullopt;
+  if (best > kMaxDistance2 || best > kMaxRatio2 * second) return std::nullopt;
   track.descriptor = descriptors_.row(static_cast<int>(found)).clone();
-  return Whereabouts{pixels_[found], 1};
+  return SearchStart{pixels_[found], 1};
 }
 
 std::vector<Feature> SiftFrontEnd::detect(const vision::CellGrid& grid) {

@@ -15,7 +15,7 @@ class SiftFrontEnd final : public FrontEnd {
   explicit SiftFrontEnd(const TrackingParameters& parameters);
 
   void describe(const vision::ImagePyramid& image) override;
-  std::optional<Whereabouts> match(Track& track, const Eigen::Vector2d& expected_pixel) override;
+  std::optional<SearchStart> match(Track& track, const Eigen::Vector2d& expected_pixel) override;
   std::vector<Feature> detect(const vision::CellGrid& grid) override;
 
  private:

@@ -7,7 +7,7 @@ namespace panvo::binocular_odometry {
 namespace {
 
 constexpr int kSamples = 80;
-constexpr int kFewestMatches = 20;
+constexpr int kMinMatches = 20;
 constexpr double kFewMatches = 0.4;  // of the features searched in the right image
 
 }  // namespace
@@ -22,7 +22,7 @@ std::optional<std::string> SwapCheck::find_fault(int matched, double tried, cons
     if (matcher.search(left, right, feature.pixel)) ++right_way;
     if (swapped_matcher_.search(left, right, feature.pixel)) ++wrong_way;
   }
-  if (wrong_way < kFewestMatches || wrong_way < 2 * right_way) return std::nullopt;
+  if (wrong_way < kMinMatches || wrong_way < 2 * right_way) return std::nullopt;
   std::ostringstream text;
   text << "left and right images appear to be swapped: " << wrong_way << " features match with negative disparity, "
        << right_way << " with positive";

@@ -16,8 +16,8 @@ namespace panvo::binocular_odometry {
 class SwapCheck {
  public:
   /// `range`: search range of a correct pair.
-  SwapCheck(const vision::PinholeCamera& camera, vision::StereoMatcher::Range range, double smallest_correlation)
-      : swapped_matcher_(camera, {-range.to_px, -1.0}, smallest_correlation) {}
+  SwapCheck(const vision::PinholeCamera& camera, vision::StereoMatcher::Range range, double min_correlation)
+      : swapped_matcher_(camera, {-range.to_px, -1.0}, min_correlation) {}
 
   /// `matched` of `tried` features match with positive disparity; the check only runs if these are few. `features`:
   /// features of the left image.

@@ -5,7 +5,7 @@
 
 namespace panvo::binocular_odometry {
 namespace {
-constexpr double kLargestArea = 9.0;  // three times the side length
+constexpr double kMaxArea = 9.0;  // three times the side length
 }
 
 std::optional<ExpectedPatch> expect(const vision::RectifiedStereo& stereo, const Track& track,
@@ -25,7 +25,7 @@ std::optional<ExpectedPatch> expect(const vision::RectifiedStereo& stereo, const
     expected.current_from_host(1, axis) = camera.fy * (d.y() - h.y() / h.z() * d.z()) / h.z();
   }
   const double area = expected.current_from_host.determinant();
-  if (!(area > 1.0 / kLargestArea && area < kLargestArea)) return std::nullopt;
+  if (!(area > 1.0 / kMaxArea && area < kMaxArea)) return std::nullopt;
 
   const auto plane = vision::transform_plane(current_from_host, track.host_plane);
   if (!plane) return std::nullopt;

@@ -18,11 +18,11 @@ struct Track {
   std::int64_t id = 0;
   std::shared_ptr<const vision::ImagePyramid> host;  ///< left image of the host frame
   Eigen::Vector2d host_pixel;
-  Eigen::Vector3d host_plane;         ///< tangent plane n with n . X = 1, in the host's left frame
-  Eigen::Isometry3d guide_from_host;  ///< in the dead-reckoning frame of the tracking stage
-  Eigen::Vector2d gradient;           ///< expected disparity gradient in the last frame
-  Observation seen;                   ///< in the last frame
-  cv::Mat descriptor;                 ///< empty for features without descriptor
+  Eigen::Vector3d host_plane;        ///< tangent plane n with n . X = 1, in the host's left frame
+  Eigen::Isometry3d odom_from_host;  ///< in the dead-reckoning frame of the tracking stage
+  Eigen::Vector2d gradient;          ///< expected disparity gradient in the last frame
+  Observation seen;                  ///< in the last frame
+  cv::Mat descriptor;                ///< empty for features without descriptor
 };
 
 /// Expected position and warp of a track's patch in another image.

@@ -26,24 +26,23 @@ void set_disparity(Track& track, const vision::StereoMatch& match) {
   track.gradient = match.gradient;
 }
 
-TrackSearch::TrackSearch(const vision::RectifiedStereo& stereo, double smallest_correlation,
-                         const StereoPyramids& images, const vision::StereoMatcher& matcher, double disparity_offset_px,
-                         FrontEnd& front_end)
+TrackSearch::TrackSearch(const vision::RectifiedStereo& stereo, double min_correlation, const StereoPyramids& images,
+                         const vision::StereoMatcher& matcher, double disparity_offset_px, FrontEnd& front_end)
     : stereo_(stereo),
-      smallest_correlation_(smallest_correlation),
+      min_correlation_(min_correlation),
       images_(images),
       matcher_(matcher),
       disparity_offset_px_(disparity_offset_px),
       front_end_(front_end) {}
 
 TrackSearch::Split TrackSearch::search_widely(const std::vector<Track>& tracks, std::size_t count,
-                                              const Eigen::Isometry3d& current_from_guide) const {
+                                              const Eigen::Isometry3d& current_from_odom) const {
   const std::size_t stride = std::max<std::size_t>(1, tracks.size() / std::max<std::size_t>(1, count));
   Split split;
   for (std::size_t i = 0; i < tracks.size(); ++i) {
     Track track = tracks[i];
     const auto expected =
-        i % stride == 0 ? expect(stereo_, track, current_from_guide * track.guide_from_host) : std::nullopt;
+        i % stride == 0 ? expect(stereo_, track, current_from_odom * track.odom_from_host) : std::nullopt;
     const auto where = expected ? front_end_.match(track, expected->pixel) : std::nullopt;
     if (where && align(track, *expected, *where)) {
       split.found.push_back(std::move(track));
@@ -55,16 +54,16 @@ TrackSearch::Split TrackSearch::search_widely(const std::vector<Track>& tracks, 
   return split;
 }
 
-std::vector<Track> TrackSearch::search_nearby(Split tracks, const Eigen::Isometry3d& current_from_guide) const {
+std::vector<Track> TrackSearch::search_nearby(Split tracks, const Eigen::Isometry3d& current_from_odom) const {
   std::vector<Track> kept;
   for (Track& track : tracks.found) {
-    const auto expected = expect(stereo_, track, current_from_guide * track.guide_from_host);
+    const auto expected = expect(stereo_, track, current_from_odom * track.odom_from_host);
     if (!expected) continue;
     const bool is_astray = (expected->pixel - track.seen.pixel.head<2>()).norm() > kAstray_px;
     if (!is_astray || find(track, *expected)) kept.push_back(std::move(track));
   }
   for (Track& track : tracks.remaining) {
-    const auto expected = expect(stereo_, track, current_from_guide * track.guide_from_host);
+    const auto expected = expect(stereo_, track, current_from_odom * track.odom_from_host);
     if (expected && find(track, *expected)) kept.push_back(std::move(track));
   }
   std::sort(kept.begin(), kept.end(), [](const Track& a, const Track& b) { return a.id < b.id; });
@@ -81,7 +80,7 @@ bool TrackSearch::find(Track& track, const ExpectedPatch& expected) const {
 }
 
 /// From coarse to fine; levels where alignment fails (near the border, no texture) are skipped.
-bool TrackSearch::align(Track& track, const ExpectedPatch& expected, const Whereabouts& where) const {
+bool TrackSearch::align(Track& track, const ExpectedPatch& expected, const SearchStart& where) const {
   const vision::ImagePyramid& left = *images_.left;
   const Eigen::Matrix2d host_from_current = expected.current_from_host.inverse();
   Eigen::Vector2d pixel = where.pixel;
@@ -93,7 +92,7 @@ bool TrackSearch::align(Track& track, const ExpectedPatch& expected, const Where
                            : std::nullopt;
     if (found) pixel = found->position * scale;
     if (level > 0) continue;
-    if (!found || found->correlation < smallest_correlation_) return false;
+    if (!found || found->correlation < min_correlation_) return false;
     track.seen.sigma_px = std::sqrt(kNoiseFloor_px * kNoiseFloor_px + 0.5 * found->variance.sum());
   }
   track.seen.pixel.head<2>() = pixel;

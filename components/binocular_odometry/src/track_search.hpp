@@ -23,7 +23,7 @@ void set_disparity(Track& track, const vision::StereoMatch& match);
 class TrackSearch {
  public:
   /// All references must outlive it. `disparity_offset_px`: known common error of the disparities.
-  TrackSearch(const vision::RectifiedStereo& stereo, double smallest_correlation, const StereoPyramids& images,
+  TrackSearch(const vision::RectifiedStereo& stereo, double min_correlation, const StereoPyramids& images,
               const vision::StereoMatcher& matcher, double disparity_offset_px, FrontEnd& front_end);
 
   struct Split {
@@ -33,19 +33,19 @@ class TrackSearch {
 
   /// Searches about `count` tracks, evenly spread over the list, in a wide area: over all pyramid levels.
   Split search_widely(const std::vector<Track>& tracks, std::size_t count,
-                      const Eigen::Isometry3d& current_from_guide) const;
+                      const Eigen::Isometry3d& current_from_odom) const;
 
   /// Searches the remaining tracks near the positions predicted by a known motion, and those found again that deviate
   /// from it. Returns all found, ascending id.
-  std::vector<Track> search_nearby(Split tracks, const Eigen::Isometry3d& current_from_guide) const;
+  std::vector<Track> search_nearby(Split tracks, const Eigen::Isometry3d& current_from_odom) const;
 
  private:
   bool find(Track& track, const ExpectedPatch& expected) const;
-  bool align(Track& track, const ExpectedPatch& expected, const Whereabouts& where) const;
+  bool align(Track& track, const ExpectedPatch& expected, const SearchStart& where) const;
   void match_left_right(Track& track) const;
 
   const vision::RectifiedStereo& stereo_;
-  double smallest_correlation_;
+  double min_correlation_;
   const StereoPyramids& images_;
   const vision::StereoMatcher& matcher_;
   double disparity_offset_px_;

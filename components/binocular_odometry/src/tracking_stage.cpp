@@ -26,15 +26,15 @@ namespace {
 
 using vision::Stage;
 
-constexpr std::size_t kSeedTracks = 60;         // for the coarse motion, with a margin for outliers
-constexpr double kFarthestDisparity_px = -1.0;  // infinity, with a margin for calibration errors
-constexpr int kCrowded_px = 8;                  // nearer tracks share the same patch
-constexpr double kEnough = 0.9;                 // of max_features: above, no new features are detected
+constexpr std::size_t kSeedTracks = 60;    // for the coarse motion, with a margin for outliers
+constexpr double kMaxDisparity_px = -1.0;  // infinity, with a margin for calibration errors
+constexpr int kCrowded_px = 8;             // nearer tracks share the same patch
+constexpr double kEnough = 0.9;            // of max_features: above, no new features are detected
 constexpr std::int64_t kUsualInterval_ns = 100'000'000;
 
 vision::StereoMatcher::Range disparity_range(const vision::RectifiedStereo& stereo,
                                              const TrackingParameters& parameters) {
-  return {kFarthestDisparity_px, stereo.camera.fx / parameters.nearest_depth_baselines};
+  return {kMaxDisparity_px, stereo.camera.fx / parameters.nearest_depth_baselines};
 }
 
 /// State after the last good frame. A bad frame does not change it.
@@ -46,8 +46,8 @@ struct TrackingState {
   std::int64_t next_id = 1;                          // of a track
   std::shared_ptr<const vision::ImagePyramid> left;  // null before the first good frame
   std::int64_t stamp_ns = 0;
-  std::int64_t interval_ns = kUsualInterval_ns;                       // to the good frame before
-  Eigen::Isometry3d guide_from_left = Eigen::Isometry3d::Identity();  // dead reckoning, to predict where features are
+  std::int64_t interval_ns = kUsualInterval_ns;                      // to the good frame before
+  Eigen::Isometry3d odom_from_left = Eigen::Isometry3d::Identity();  // dead reckoning, to predict where features are
   MotionModel motion_model;
   DisparityOffset offset;
   vision::EpipolarCalibration alignment;
@@ -96,13 +96,12 @@ class TrackingStage::Implementation {
         parameters_(parameters.tracking),
         motion_parameters_(parameters.motion),
         observer_(observer),
-        swap_check_(stereo.camera, disparity_range(stereo, parameters_), parameters_.smallest_correlation),
+        swap_check_(stereo.camera, disparity_range(stereo, parameters_), parameters_.min_correlation),
         front_end_(make_front_end(parameters_)),
         cell_px_(static_cast<int>(std::ceil(
             std::sqrt(static_cast<double>(stereo.camera.width) * stereo.camera.height / parameters_.max_features)))),
         arrivals_(stereo.camera),
-        state_(stereo.camera, {stereo.camera, disparity_range(stereo, parameters_), parameters_.smallest_correlation}) {
-  }
+        state_(stereo.camera, {stereo.camera, disparity_range(stereo, parameters_), parameters_.min_correlation}) {}
 
   TrackedFrame track(const StereoFrame& frame) {
     TrackedFrame result;
@@ -120,8 +119,8 @@ class TrackingStage::Implementation {
 
     std::vector<Track> tracks = thinned_out(std::move(followed.tracks), (*images.left)[0].size());
     HostFrame host(stereo_, images, state_.matcher, followed.offset,
-                   state_.guide_from_left * followed.current_from_previous.inverse());
-    renew_hosts(host, tracks);
+                   state_.odom_from_left * followed.current_from_previous.inverse());
+    reanchor_tracks(host, tracks);
     const std::size_t tried = detect(host, tracks);
     result.detected = static_cast<int>(tracks.size());
     result.matched = with_disparity(tracks);
@@ -132,13 +131,13 @@ class TrackingStage::Implementation {
     align_cameras(host.row_errors());
     if (followed.is_measured) state_.motion_model.update(followed.current_from_previous, interval_ns);
     state_.offset = followed.offset;
-    state_.guide_from_left = host.guide_from_current();
+    state_.odom_from_left = host.odom_from_current();
     state_.next_id += static_cast<std::int64_t>(tried);
     state_.tracks = std::move(tracks);
     state_.left = images.left;
     state_.stamp_ns = frame.stamp_ns;
     state_.interval_ns = interval_ns;
-    result.row_misalignment_px = state_.alignment.misalignment().largest_row_shift_px(stereo_.camera);
+    result.row_misalignment_px = state_.alignment.misalignment().max_row_shift_px(stereo_.camera);
     result.disparity_offset_px = state_.offset.px();
     return result;
   }
@@ -180,7 +179,7 @@ class TrackingStage::Implementation {
     Followed followed;
     followed.offset = state_.offset;
     if (state_.tracks.empty()) return followed;
-    const TrackSearch search(stereo_, parameters_.smallest_correlation, images, state_.matcher, state_.offset.px(),
+    const TrackSearch search(stereo_, parameters_.min_correlation, images, state_.matcher, state_.offset.px(),
                              *front_end_);
     Eigen::Isometry3d expected = state_.motion_model.predict(interval_ns);
     Attempt attempt = try_motion(search, expected, kSeedTracks);
@@ -199,11 +198,11 @@ class TrackingStage::Implementation {
     {
       const Stage stage(observer_, "match_others");
       followed.tracks =
-          search.search_nearby(std::move(attempt.tracks), *attempt.motion * state_.guide_from_left.inverse());
+          search.search_nearby(std::move(attempt.tracks), *attempt.motion * state_.odom_from_left.inverse());
     }
     const Stage stage(observer_, "learn_offset");
-    std::vector<SeenTwice> points = seen_twice(state_.tracks, followed.tracks);
-    std::erase_if(points, [](const SeenTwice& point) { return !point.current.has_disparity; });
+    std::vector<FramePair> points = seen_twice(state_.tracks, followed.tracks);
+    std::erase_if(points, [](const FramePair& point) { return !point.current.has_disparity; });
     followed.current_from_previous = followed.offset.learn(stereo_, points, *attempt.motion);
     return followed;
   }
@@ -217,7 +216,7 @@ class TrackingStage::Implementation {
     Attempt attempt;
     {
       const Stage stage(observer_, "match_widely");
-      attempt.tracks = search.search_widely(state_.tracks, count, expected * state_.guide_from_left.inverse());
+      attempt.tracks = search.search_widely(state_.tracks, count, expected * state_.odom_from_left.inverse());
     }
     const Stage stage(observer_, "coarse_motion");
     attempt.motion = coarse_motion(stereo_, seen_twice(state_.tracks, attempt.tracks.found), state_.offset, expected,
@@ -225,8 +224,8 @@ class TrackingStage::Implementation {
     return attempt;
   }
 
-  void renew_hosts(HostFrame& host, std::vector<Track>& tracks) const {
-    const Stage stage(observer_, "renew_hosts");
+  void reanchor_tracks(HostFrame& host, std::vector<Track>& tracks) const {
+    const Stage stage(observer_, "reanchor_tracks");
     host.renew(tracks);
   }
 

@@ -11,10 +11,10 @@ namespace panvo::binocular_odometry {
 namespace {
 
 constexpr double kContradiction2 = 25.0;  // whitened squared error, five standard deviations
-constexpr int kFewestShared = 10;         // points shared by head and window
+constexpr int kMinShared = 10;            // points shared by head and window
 // Lower bound of the residual variance, relative to the stated one: 1/40 of a standard deviation, less than grey levels
 // resolve. At standstill the errors of all points repeat and do not show in the residuals.
-constexpr double kLeastVariance = 1.0 / (40.0 * 40.0);
+constexpr double kMinVariance = 1.0 / (40.0 * 40.0);
 
 Eigen::Vector3d inverse_sigma(const Observation& seen) {
   return {1.0 / seen.sigma_px, 1.0 / seen.sigma_px, seen.has_disparity ? 1.0 / seen.sigma_disparity_px : 0.0};
@@ -60,8 +60,7 @@ MeasuredMotion TwoStageLocalBundleAdjuster::refine_motion(std::span<const Observ
   const BundleSummary summary = solve(stereo_, problem, options);
   MeasuredMotion motion;
   motion.current_from_previous = problem.left_from_world[1];
-  if (summary.covariance.rows() == 6)
-    motion.covariance = std::max(kLeastVariance, summary.variance) * summary.covariance;
+  if (summary.covariance.rows() == 6) motion.covariance = std::max(kMinVariance, summary.variance) * summary.covariance;
   motion.residual_px = root_mean_square_px(stereo_, problem);
   return motion;
 }
@@ -114,7 +113,7 @@ std::optional<MeasuredMotion> TwoStageLocalBundleAdjuster::refine_window(Keyfram
   const int head_frame = static_cast<int>(keyframes_.size());
   const auto shared = std::count_if(problem.observations.begin(), problem.observations.end(),
                                     [head_frame](const auto& seen) { return seen.frame == head_frame; });
-  if (shared < kFewestShared) return std::nullopt;
+  if (shared < kMinShared) return std::nullopt;
 
   BundleOptions options;
   options.loss_scale = parameters_.loss_scale;
@@ -125,8 +124,7 @@ std::optional<MeasuredMotion> TwoStageLocalBundleAdjuster::refine_window(Keyfram
     keyframes_[frame].left_from_odom = problem.left_from_world[frame];
   }
   head.left_from_odom = problem.left_from_world.back();
-  disparity_offset_px_ =
-      std::clamp(problem.disparity_offset_px, -DisparityOffset::kLargest_px, DisparityOffset::kLargest_px);
+  disparity_offset_px_ = std::clamp(problem.disparity_offset_px, -DisparityOffset::kMax_px, DisparityOffset::kMax_px);
   for (size_t i = 0; i < ids.size(); ++i) points_.at(ids[i]).point = problem.points[i];
 
   for (const auto& observation : problem.observations) {
@@ -158,7 +156,7 @@ std::optional<MeasuredMotion> TwoStageLocalBundleAdjuster::refine_window(Keyfram
       motion.covariance +=
           by_last * last_last * by_last.transpose() + head_last * by_last.transpose() + by_last * head_last.transpose();
     }
-    motion.covariance *= std::max(kLeastVariance, summary.variance);
+    motion.covariance *= std::max(kMinVariance, summary.variance);
   }
   return motion;
 }

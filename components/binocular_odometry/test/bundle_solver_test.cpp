@@ -75,7 +75,7 @@ class Drive {
 BundleOptions thorough() {
   BundleOptions options;
   options.max_iterations = 50;
-  options.smallest_improvement = 1e-12;
+  options.min_improvement = 1e-12;
   return options;
 }
 

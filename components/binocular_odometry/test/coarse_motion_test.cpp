@@ -16,7 +16,7 @@ Track track(std::int64_t id, double u, bool has_disparity = true) {
   return track;
 }
 
-TEST(SeenTwice, PairsTracksOfBothFramesThatHadADisparityInTheFirst) {
+TEST(FramePair, PairsTracksOfBothFramesThatHadADisparityInTheFirst) {
   const std::vector<Track> before{track(1, 10.0), track(3, 30.0), track(4, 40.0, false), track(6, 60.0)};
   const std::vector<Track> now{track(2, 21.0), track(3, 31.0, false), track(4, 41.0), track(6, 61.0), track(9, 91.0)};
   const auto points = seen_twice(before, now);
@@ -28,7 +28,7 @@ TEST(SeenTwice, PairsTracksOfBothFramesThatHadADisparityInTheFirst) {
   EXPECT_EQ(points[1].current.pixel.x(), 61.0);
 }
 
-TEST(SeenTwice, IsEmptyForAnEmptyFrame) {
+TEST(FramePair, IsEmptyForAnEmptyFrame) {
   const std::vector<Track> some{track(1, 10.0)};
   EXPECT_TRUE(seen_twice({}, some).empty());
   EXPECT_TRUE(seen_twice(some, {}).empty());

@@ -17,7 +17,7 @@ const Eigen::Isometry3d kMotion = vision::se3_exp((vision::Vector6d() << 0.01, 0
 
 /// Points of a street before and after `motion`, all disparities too large by `offset_px`; the first `movers` move with
 /// the camera.
-std::vector<SeenTwice> points(std::mt19937& random, const Eigen::Isometry3d& motion, double offset_px, int movers = 0) {
+std::vector<FramePair> points(std::mt19937& random, const Eigen::Isometry3d& motion, double offset_px, int movers = 0) {
   const auto uniform = [&random](double from, double to) {
     return from + (to - from) * static_cast<double>(random() % 100000) / 1e5;
   };
@@ -30,7 +30,7 @@ std::vector<SeenTwice> points(std::mt19937& random, const Eigen::Isometry3d& mot
     seen.has_disparity = true;
     return seen;
   };
-  std::vector<SeenTwice> points;
+  std::vector<FramePair> points;
   for (int i = 0; i < 200; ++i) {
     const double z = uniform(5.0, 50.0);
     const Eigen::Vector3d point(uniform(-0.6, 0.6) * z, uniform(-0.4, 0.4) * z, z);

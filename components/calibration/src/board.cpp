@@ -11,9 +11,9 @@
 namespace panvo::calibration {
 namespace {
 
-constexpr int kFewest = 3;
-constexpr int kMost = 100;
-constexpr double kLargestSquare_m = 10.0;
+constexpr int kMin = 3;
+constexpr int kMax = 100;
+constexpr double kMaxSquare_m = 10.0;
 
 [[noreturn]] void refuse(std::string_view text, const std::string& what) {
   throw CalibrationError(
@@ -35,16 +35,16 @@ std::vector<std::string_view> split(std::string_view text, char separator) {
 int read_count(std::string_view whole, std::string_view word) {
   int value = 0;
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  if (error != std::errc() || end != word.data() + word.size() || value < kFewest || value > kMost)
-    refuse(whole, fmt::format("'{}' is not a count from {} to {}", word, kFewest, kMost));
+  if (error != std::errc() || end != word.data() + word.size() || value < kMin || value > kMax)
+    refuse(whole, fmt::format("'{}' is not a count from {} to {}", word, kMin, kMax));
   return value;
 }
 
 double read_side(std::string_view whole, std::string_view word) {
   double value = 0.0;
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  if (error != std::errc() || end != word.data() + word.size() || !(value > 0.0) || value > kLargestSquare_m)
-    refuse(whole, fmt::format("'{}' is not a side length in metres above 0 and up to {}", word, kLargestSquare_m));
+  if (error != std::errc() || end != word.data() + word.size() || !(value > 0.0) || value > kMaxSquare_m)
+    refuse(whole, fmt::format("'{}' is not a side length in metres above 0 and up to {}", word, kMaxSquare_m));
   return value;
 }
 

@@ -13,7 +13,7 @@
 namespace panvo::calibration {
 namespace {
 
-constexpr std::size_t kFewestCorners = 8;    // of a ChArUco board: twice the minimum for a pose
+constexpr std::size_t kMinCorners = 8;       // of a ChArUco board: twice the minimum for a pose
 constexpr double kNarrowestWindow_px = 2.0;  // half side of the refinement window
 constexpr double kWidestWindow_px = 11.0;
 constexpr double kWindowShare = 0.35;  // of a square's side in the image, to exclude other corners
@@ -111,10 +111,10 @@ Sighting BoardDetector::detect_charuco(const cv::Mat& grey) const {
     rows.insert(id / board_.columns);
     columns.insert(id % board_.columns);
   }
-  if (ids.size() < kFewestCorners || rows.size() < 2 || columns.size() < 2)
+  if (ids.size() < kMinCorners || rows.size() < 2 || columns.size() < 2)
     return {{},
             fmt::format("{} markers and {} corners found; at least {} corners in two rows and columns are needed",
-                        marker_ids.size(), ids.size(), kFewestCorners)};
+                        marker_ids.size(), ids.size(), kMinCorners)};
   Sighting sighting;
   for (std::size_t i = 0; i < ids.size(); ++i) sighting.corners.push_back({ids[i], {corners[i].x, corners[i].y}});
   refine(grey, board_, sighting.corners);

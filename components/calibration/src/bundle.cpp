@@ -16,9 +16,9 @@ namespace {
 using vision::LensModel;
 using Pose = std::array<double, 6>;  // rotation vector, translation
 
-constexpr int kMostSteps = 200;
+constexpr int kMaxSteps = 200;
 constexpr double kNotSeen_px = 1e3;
-constexpr double kMostTrust =
+constexpr double kMaxTrust =
     1e12;  // limits the trust region: slight damping of weakly determined parameters keeps the equations solvable
 
 Pose to_pose(const Eigen::Isometry3d& a_from_b) {
@@ -108,8 +108,8 @@ class Bundle {
       options.linear_solver_ordering->AddElementToGroup(lenses_[i].data(), ++group);
       options.linear_solver_ordering->AddElementToGroup(poses_[i].data(), ++group);
     }
-    options.max_num_iterations = kMostSteps;
-    options.max_trust_region_radius = kMostTrust;
+    options.max_num_iterations = kMaxSteps;
+    options.max_trust_region_radius = kMaxTrust;
     options.function_tolerance = 1e-10;
     options.num_threads = 1;
     options.logging_type = ceres::SILENT;

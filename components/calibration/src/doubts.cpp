@@ -12,7 +12,7 @@ constexpr std::size_t kManyViews = 15;
 constexpr double kSharp_px = 0.8;      // reprojection rms above which the lens model or the images are poor
 constexpr double kKnownFocal = 0.002;  // largest relative standard deviation of the focal length
 constexpr double kRowsAgree_px = 0.3;  // row error that matching along rows tolerates without loss
-constexpr double kMostRejected = 0.3;
+constexpr double kMaxRejected = 0.3;
 
 void doubt_camera(const Report& report, std::size_t camera, std::vector<std::string>& found) {
   const auto& [rig, used, residuals, rejections, strays, sigmas] = report.calibration;
@@ -26,7 +26,7 @@ void doubt_camera(const Report& report, std::size_t camera, std::vector<std::str
         "{}: corners are {:.2f} px off (rms): check that the board is flat, its dimensions are correct and the images "
         "are sharp, or try another --model than {}",
         name, rms, vision::ros_name(lens.model)));
-  if (static_cast<double>(seen - views) > kMostRejected * static_cast<double>(seen))
+  if (static_cast<double>(seen - views) > kMaxRejected * static_cast<double>(seen))
     found.push_back(fmt::format(
         "{}: {} of {} images are inconsistent: keep board and cameras still, and trigger the cameras together", name,
         seen - views, seen));

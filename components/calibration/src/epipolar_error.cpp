@@ -49,7 +49,7 @@ EpipolarSummary summarise(const std::vector<EpipolarError>& errors) {
   for (const auto& error : errors) {
     summary.mean_px += error.row_error_px;
     squares += error.row_error_px * error.row_error_px;
-    summary.largest_px = std::max(summary.largest_px, std::abs(error.row_error_px));
+    summary.max_px = std::max(summary.max_px, std::abs(error.row_error_px));
   }
   summary.corners = errors.size();
   summary.mean_px /= static_cast<double>(errors.size());

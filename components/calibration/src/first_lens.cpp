@@ -11,11 +11,11 @@
 namespace panvo::calibration {
 namespace {
 
-constexpr double kShortest = 0.12;  // focal length over the longer side of the image
-constexpr double kLongest = 5.0;
+constexpr double kMin = 0.12;  // focal length over the longer side of the image
+constexpr double kMax = 5.0;
 constexpr double kStep = 1.08;
-constexpr std::size_t kMostViews = 24;  // sufficient for an initial value
-constexpr double kNotSeen_px = 1e3;     // error of a corner that does not project into the image
+constexpr std::size_t kMaxViews = 24;  // sufficient for an initial value
+constexpr double kNotSeen_px = 1e3;    // error of a corner that does not project into the image
 
 /// nullopt if the lens is invalid: the image border would be more than 180 degrees off the axis.
 std::optional<vision::CameraModel> model_of(const vision::LensCamera& lens) {
@@ -51,10 +51,10 @@ std::optional<vision::LensCamera> first_lens(const std::vector<std::vector<Corne
   lens.model = model;
   lens.xi = model == vision::LensModel::kMei ? 1.0 : 0.0;
   const double longer = std::max(image_size.width, image_size.height);
-  const std::size_t stride = std::max<std::size_t>(1, views.size() / kMostViews);
+  const std::size_t stride = std::max<std::size_t>(1, views.size() / kMaxViews);
   std::optional<vision::LensCamera> best;
   double smallest = 0.0;
-  for (double share = kShortest; share < kLongest; share *= kStep) {
+  for (double share = kMin; share < kMax; share *= kStep) {
     const double focal = share * longer;
     lens.pinhole = {
         focal, focal, 0.5 * (image_size.width - 1), 0.5 * (image_size.height - 1), image_size.width, image_size.height};

@@ -13,7 +13,7 @@ constexpr double kStraySigmas = 5.0;          // one good corner in 270 000
 constexpr double kStrayAlways_px = 0.5;       // smaller errors are never outliers
 constexpr double kBadViewTimes = 4.0;         // ratio of a view's median to its camera's median
 constexpr double kBadViewAlways_px = 0.5;
-constexpr double kMostStrays = 0.3;  // fraction of outliers above which the whole sighting is rejected
+constexpr double kMaxStrays = 0.3;  // fraction of outliers above which the whole sighting is rejected
 
 double median(std::vector<double> values) {
   if (values.empty()) return 0.0;
@@ -59,7 +59,7 @@ bool reject_sightings(Observations& observations, Rig& rig, std::vector<Rejectio
       const double limit_px = std::max(kBadViewAlways_px, kBadViewTimes * usual_px[camera]);
       const auto strays = std::count_if(off.begin(), off.end(),
                                         [&](double distance) { return distance > stray_limit_px(usual_px[camera]); });
-      if (of_view_px <= limit_px && static_cast<double>(strays) <= kMostStrays * static_cast<double>(off.size()))
+      if (of_view_px <= limit_px && static_cast<double>(strays) <= kMaxStrays * static_cast<double>(off.size()))
         continue;
       rejections.push_back(
           {camera, view,

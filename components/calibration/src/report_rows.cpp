@@ -98,7 +98,7 @@ std::string epipolar_sentence(const Report& report) {
   const auto summary = summarise(report.epipolar);
   return fmt::format(
       "epipolar residual: rms {:.3f} px, mean {:+.3f} px, largest {:.2f} px, of {} corners in the rectified images",
-      summary.rms_px, summary.mean_px, summary.largest_px, summary.corners);
+      summary.rms_px, summary.mean_px, summary.max_px, summary.corners);
 }
 
 }  // namespace panvo::calibration

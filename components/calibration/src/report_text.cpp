@@ -9,7 +9,7 @@
 namespace panvo::calibration {
 namespace {
 
-constexpr std::size_t kMostListed = 40;  // images not used; the page lists all
+constexpr std::size_t kMaxListed = 40;  // images not used; the page lists all
 
 /// Formats a table: first column left-aligned, others right-aligned; all left-aligned if `is_last_text`.
 std::string table(const Rows& rows, bool is_last_text = false) {
@@ -39,7 +39,7 @@ std::string to_text(const Report& report) {
   // in a rig most cameras do not see the board in most views
   auto rejected = rejection_rows(report, calibration.used.cameras.size() <= 2);
   if (rejected.size() > 1) {
-    const std::size_t left_out = rejected.size() - std::min(rejected.size(), kMostListed + 1);
+    const std::size_t left_out = rejected.size() - std::min(rejected.size(), kMaxListed + 1);
     rejected.resize(rejected.size() - left_out);
     text += "\nnot used\n" + table(rejected, true);
     if (left_out > 0) text += fmt::format("  ... and {} more (report.html lists all)\n", left_out);

@@ -15,9 +15,9 @@
 namespace panvo::calibration {
 namespace {
 
-constexpr std::size_t kFewestViews = 5;  // to estimate a lens
-constexpr double kLoss_px = 1.0;         // while outliers are being removed
-constexpr int kMostRounds = 8;
+constexpr std::size_t kMinViews = 5;  // to estimate a lens
+constexpr double kLoss_px = 1.0;      // while outliers are being removed
+constexpr int kMaxRounds = 8;
 
 /// The observations of one camera.
 Observations only(const Observations& all, std::size_t camera) {
@@ -62,7 +62,7 @@ void pose_boards(const Observations& one, Rig& rig) {
 void settle(Observations& observations, BundleOptions options, Rig& rig, std::vector<Rejection>& rejections,
             std::vector<std::size_t>& strays, const std::string& who) {
   options.loss_px = kLoss_px;
-  for (int round = 0; round < kMostRounds; ++round) {
+  for (int round = 0; round < kMaxRounds; ++round) {
     if (!adjust(observations, options, rig))
       throw CalibrationError(
           who + ": no lens and poses fit the corners; check the description of the board and that it is flat");
@@ -76,7 +76,7 @@ void settle(Observations& observations, BundleOptions options, Rig& rig, std::ve
 }
 
 void check_count(const Observations& one, const RigOptions& options) {
-  const std::size_t needed = options.are_lenses_held ? 1 : kFewestViews;
+  const std::size_t needed = options.are_lenses_held ? 1 : kMinViews;
   const std::size_t count = seen_views(one);
   if (count >= needed) return;
   throw CalibrationError(fmt::format(

@@ -147,7 +147,7 @@ TEST(EpipolarErrors, AreTheRowsByWhichTheRightImageIsLower) {
   const auto pair = rectify(rig[0], rig[1]);
   const auto good = summarise(epipolar_errors(observations, rig[0].lens, rig[1].lens, pair));
   ASSERT_GT(good.corners, 200U);
-  EXPECT_LT(good.largest_px, 1e-6);
+  EXPECT_LT(good.max_px, 1e-6);
   auto lower = rig[1].lens;
   lower.pinhole.cy -= 1.0;  // places its corners one pixel too low
   const auto bad = summarise(epipolar_errors(observations, rig[0].lens, lower, pair));

@@ -31,7 +31,7 @@ RigOptions unknown_lenses(std::size_t count, LensModel model) {
 }
 
 /// Largest distance between the projections of the same directions by two lenses, px.
-double largest_difference_px(const vision::LensCamera& a, const vision::LensCamera& b) {
+double max_difference_px(const vision::LensCamera& a, const vision::LensCamera& b) {
   const vision::CameraModel model_a(a), model_b(b);
   double largest = 0.0;
   for (int v = 20; v < a.pinhole.height - 20; v += 20) {
@@ -56,7 +56,7 @@ void expect_same_lens(const vision::LensCamera& found, const vision::LensCamera&
   EXPECT_NEAR(ratio.y(), 1.0, 1e-3);
   EXPECT_NEAR(found.pinhole.cx, truth.pinhole.cx, 1e-3 * truth.pinhole.width);
   EXPECT_NEAR(found.pinhole.cy, truth.pinhole.cy, 1e-3 * truth.pinhole.height);
-  EXPECT_LT(largest_difference_px(truth, found), 1e-3 * truth.pinhole.width);
+  EXPECT_LT(max_difference_px(truth, found), 1e-3 * truth.pinhole.width);
 }
 
 void expect_same_pose(const Eigen::Isometry3d& found, const Eigen::Isometry3d& truth) {

@@ -143,7 +143,7 @@ bool check_stereo(const Arguments& arguments) {
     throw CalibrationError(fmt::format("{}: no pair shows the board in both images; check the counts of --board",
                                        arguments.images.string()));
   std::printf("epipolar residual: rms %.3f px, mean %+.3f px, largest %.2f px, of %zu corners\n", summary.rms_px,
-              summary.mean_px, summary.largest_px, summary.corners);
+              summary.mean_px, summary.max_px, summary.corners);
   if (summary.rms_px <= arguments.limit_px) {
     std::printf("%s is still valid (limit %.2f px)\n", arguments.calibration.c_str(), arguments.limit_px);
     return true;

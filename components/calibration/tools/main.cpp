@@ -37,7 +37,7 @@ void add_sources(CLI::App& command, Arguments& arguments, const std::string& wha
                                      "in OUT/images")
                      ->delimiter(',')
                      ->excludes(images);
-  command.add_option("--views", live.most_views, "live topics: maximum number of views")
+  command.add_option("--views", live.max_views, "live topics: maximum number of views")
       ->check(CLI::Range(1, 10000))
       ->needs(option)
       ->capture_default_str();

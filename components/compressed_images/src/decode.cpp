@@ -24,13 +24,13 @@ using ImagePtr = std::shared_ptr<const Image>;
 
 /// Empty if the size is acceptable. Limits memory, since a small file can state a huge size.
 std::string size_problem(std::uint64_t width, std::uint64_t height) {
-  constexpr std::uint64_t kMostPixels = 100'000'000;
-  constexpr std::uint64_t kLongestSide = 65'535;
-  if (width > 0 && height > 0 && width <= kLongestSide && height <= kLongestSide && width * height <= kMostPixels) {
+  constexpr std::uint64_t kMaxPixels = 100'000'000;
+  constexpr std::uint64_t kMaxSide = 65'535;
+  if (width > 0 && height > 0 && width <= kMaxSide && height <= kMaxSide && width * height <= kMaxPixels) {
     return "";
   }
   return fmt::format("states a size of {} x {} px; at most {} million are supported", width, height,
-                     kMostPixels / 1'000'000);
+                     kMaxPixels / 1'000'000);
 }
 
 std::shared_ptr<Image> make_image(const CompressedImage& message, const char* encoding, int width, int height) {

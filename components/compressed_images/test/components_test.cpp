@@ -75,7 +75,7 @@ TEST(ImageEncoderComponent, PublishesWhatADecoderReads) {
   ASSERT_THAT(compressed, SizeIs(1));
   EXPECT_EQ(compressed[0]->format(), "mono16; png compressed ");
   ASSERT_THAT(decoded, SizeIs(1));
-  EXPECT_EQ(largest_difference(*decoded[0], *image), 0);
+  EXPECT_EQ(max_difference(*decoded[0], *image), 0);
 }
 
 }  // namespace

@@ -45,7 +45,7 @@ TEST(Decode, GivesThePixelsOfAJpegUpToItsLosses) {
   const auto grey = picture("mono8");
   const auto image = decode(message(*grey, ".jpg", "mono8; jpeg compressed ", kBest), Output::kSame);
   ASSERT_TRUE(image) << image.reason();
-  EXPECT_THAT(largest_difference(**image, *grey), ::testing::AllOf(::testing::Ge(0), ::testing::Le(2)));
+  EXPECT_THAT(max_difference(**image, *grey), ::testing::AllOf(::testing::Ge(0), ::testing::Le(2)));
 }
 
 TEST(Decode, GivesColoursInTheOrderTheyHadBefore) {
@@ -68,7 +68,7 @@ TEST(Decode, GivesEveryPixelOfAPng) {
     const auto before = picture(encoding);
     const auto image = decode(message(*before, ".png", std::string(encoding) + "; png compressed "), Output::kSame);
     ASSERT_TRUE(image) << image.reason();
-    EXPECT_EQ(largest_difference(**image, *before), 0) << encoding;
+    EXPECT_EQ(max_difference(**image, *before), 0) << encoding;
   }
 }
 
@@ -132,7 +132,7 @@ TEST(Decode, TakesFilesThatUsbCamerasPad) {
   padded.data().insert(padded.data().end() - 2, 5, std::uint8_t{0});
   const auto image = decode(padded, Output::kSame);
   ASSERT_TRUE(image) << image.reason();
-  EXPECT_EQ(largest_difference(**image, **decode(whole, Output::kSame)), 0);
+  EXPECT_EQ(max_difference(**image, **decode(whole, Output::kSame)), 0);
 }
 
 TEST(Decode, DoesNotTurnThePictureAsExifSays) {

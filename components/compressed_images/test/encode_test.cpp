@@ -32,7 +32,7 @@ TEST(Encode, MakesFilesThatAnotherProgramReads) {
       const auto image = picture(encoding);
       const auto file = encode(*image, way);
       ASSERT_TRUE(file) << file.reason();
-      EXPECT_EQ(largest_difference(*image, *picture(encoding)), 0) << "a published image must not be changed";
+      EXPECT_EQ(max_difference(*image, *picture(encoding)), 0) << "a published image must not be changed";
       const cv::Mat read = cv::imdecode((*file)->data(), cv::IMREAD_UNCHANGED);
       ASSERT_EQ(read.size(), cv::Size(64, 48));
       const int red = std::string(encoding) == "rgb8" ? 0 : 2;
@@ -46,7 +46,7 @@ TEST(Encode, KeepsEveryPixelAsPng) {
     const auto image = picture(encoding);
     const auto file = encode(*image, kPng);
     ASSERT_TRUE(file) << file.reason();
-    EXPECT_EQ(largest_difference(**decode(**file, Output::kSame), *image), 0) << encoding;
+    EXPECT_EQ(max_difference(**decode(**file, Output::kSame), *image), 0) << encoding;
   }
 }
 
@@ -57,7 +57,7 @@ TEST(Encode, LosesLittleAsJpeg) {
     ASSERT_TRUE(file) << file.reason();
     const auto again = decode(**file, Output::kSame);
     ASSERT_TRUE(again) << again.reason();
-    EXPECT_THAT(largest_difference(**again, *image), ::testing::AllOf(::testing::Ge(0), ::testing::Le(8))) << encoding;
+    EXPECT_THAT(max_difference(**again, *image), ::testing::AllOf(::testing::Ge(0), ::testing::Le(8))) << encoding;
     EXPECT_LT((*file)->data().size(), image->data().size() / 2);
   }
 }

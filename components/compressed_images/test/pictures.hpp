@@ -37,7 +37,7 @@ inline std::shared_ptr<sensor_msgs::msg::Image> picture(const std::string& encod
 }
 
 /// Largest difference of two images' pixel bytes; -1 if size or encoding differ.
-inline int largest_difference(const sensor_msgs::msg::Image& one, const sensor_msgs::msg::Image& other) {
+inline int max_difference(const sensor_msgs::msg::Image& one, const sensor_msgs::msg::Image& other) {
   if (one.encoding() != other.encoding() || one.width() != other.width() || one.height() != other.height()) return -1;
   int largest = 0;
   for (std::size_t i = 0; i < one.data().size(); ++i) {

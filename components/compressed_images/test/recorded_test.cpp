@@ -32,7 +32,7 @@ TEST(RecordedImages, AreDecodedAsAnotherDecoderDoes) {
   ASSERT_EQ(witness.size(), cv::Size(640, 480));
   auto expected = conversions::make_image(0, "", "bgr8", witness.cols, witness.rows);
   witness.copyTo(conversions::pixels(*expected));
-  EXPECT_THAT(largest_difference(*decoded[0], *expected), testing::AllOf(testing::Ge(0), testing::Le(4)));
+  EXPECT_THAT(max_difference(*decoded[0], *expected), testing::AllOf(testing::Ge(0), testing::Le(4)));
 }
 
 }  // namespace

@@ -7,7 +7,7 @@ namespace panvo::evaluation {
 namespace {
 
 // A path with a smaller extent has no meaningful direction.
-constexpr double kSmallestExtentM = 1e-6;
+constexpr double kMinExtentM = 1e-6;
 
 double extent_m(const Eigen::Matrix3Xd& points) {
   const Eigen::Vector3d centre = points.rowwise().mean();  // evaluated once, not per column
@@ -22,7 +22,7 @@ std::optional<MapFromOdom> align_positions(std::span<const PosePair> pairs, bool
     in_odom.col(i) = pairs[static_cast<std::size_t>(i)].odom_from_base.translation();
     in_map.col(i) = pairs[static_cast<std::size_t>(i)].map_from_base.translation();
   }
-  if (extent_m(in_odom) < kSmallestExtentM || extent_m(in_map) < kSmallestExtentM) return std::nullopt;
+  if (extent_m(in_odom) < kMinExtentM || extent_m(in_map) < kMinExtentM) return std::nullopt;
   const Eigen::Matrix4d similarity = Eigen::umeyama(in_odom, in_map, with_scale);
   MapFromOdom result;
   result.scale = with_scale ? similarity.topLeftCorner<3, 3>().col(0).norm() : 1.0;

@@ -79,9 +79,9 @@ Association associate(const Trajectory& estimate, const Trajectory& ground_truth
       continue;
     }
     result.pairs.push_back({pose.stamp_ns, i, match->map_from_base, pose.world_from_base});
-    result.largest_difference_ns = std::max(result.largest_difference_ns, match->difference_ns);
+    result.max_difference_ns = std::max(result.max_difference_ns, match->difference_ns);
   }
-  if (result.pairs.size() < kFewestPairs) {
+  if (result.pairs.size() < kMinPairs) {
     throw InputError(estimate.source,
                      "only " + std::to_string(result.pairs.size()) + " of its " +
                          std::to_string(estimate.poses.size()) + " poses overlap the ground truth in time (it covers " +

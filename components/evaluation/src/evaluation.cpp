@@ -9,7 +9,7 @@ namespace panvo::evaluation {
 namespace {
 
 // For shorter paths, errors in percent of the path length are meaningless.
-constexpr double kShortestPathM = 1e-3;
+constexpr double kMinPathM = 1e-3;
 
 std::optional<std::vector<PoseError>> aligned_errors(std::span<const PosePair> pairs, Alignment alignment) {
   const auto map_from_odom = align(pairs, alignment);
@@ -23,7 +23,7 @@ void evaluate_absolute(Evaluation& evaluation, std::span<const PosePair> pairs) 
     evaluation.rotation_start_deg = absolute_rotation_error_deg(*errors);
     evaluation.end_error_m = errors->back().translation_m.norm();
     evaluation.end_rotation_deg = errors->back().rotation_rad.norm() * 180.0 / std::numbers::pi;
-    if (evaluation.path_length_m > kShortestPathM) {
+    if (evaluation.path_length_m > kMinPathM) {
       evaluation.end_error_percent = 100.0 * *evaluation.end_error_m / evaluation.path_length_m;
     }
   }
@@ -55,7 +55,7 @@ Evaluation evaluate(const Estimate& estimate, const Trajectory& ground_truth, co
   evaluation.pairs = pairs.size();
   evaluation.association = association.method;
   evaluation.tolerance_ns = association.tolerance_ns;
-  evaluation.largest_difference_ns = association.largest_difference_ns;
+  evaluation.max_difference_ns = association.max_difference_ns;
   evaluation.duration_s = static_cast<double>(pairs.back().stamp_ns - pairs.front().stamp_ns) * 1e-9;
   evaluation.path_length_m = distances_m(pairs).back();
   const double whole_length_m = path_length_m(ground_truth);

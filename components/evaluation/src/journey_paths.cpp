@@ -24,7 +24,7 @@ std::vector<PosePair> located(const std::vector<PosePair>& pairs, const JourneyR
     if (!is_unlocated) kept.push_back(pairs[i]);
     if (is_unlocated && i + 1 < pairs.size()) unlocated_m += way_m[i + 1] - way_m[i];
   }
-  if (kept.size() < kFewestPairs) {
+  if (kept.size() < kMinPairs) {
     throw InputError(run.folder / "states.csv", "the vehicle was never localised in the map",
                      "use a landmark library of the same area, or none");
   }

@@ -9,7 +9,7 @@
 namespace panvo::evaluation {
 namespace {
 
-constexpr std::size_t kMostRows = 4000;
+constexpr std::size_t kMaxRows = 4000;
 
 std::string head(const std::string& file, int width_px, int height_px, const std::string& title) {
   return fmt::format(
@@ -22,7 +22,7 @@ std::string head(const std::string& file, int width_px, int height_px, const std
 template <class Rows, class Write>
 std::string block(const std::string& name, const Rows& rows, const Write& write) {
   std::string text = fmt::format("${} << E\n", name);
-  const std::size_t stride = rows.size() / kMostRows + 1;
+  const std::size_t stride = rows.size() / kMaxRows + 1;
   for (std::size_t i = 0; i < rows.size(); i += stride) text += write(rows[i]) + "\n";
   if (rows.empty()) text += "NaN NaN\n";  // gnuplot needs at least one row
   return text + "E\n";

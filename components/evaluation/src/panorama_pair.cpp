@@ -102,11 +102,11 @@ PanoramaPair panorama_pair(const std::filesystem::path& landmark, const std::fil
 
 const RecordedPanorama* panorama_near(const JourneyRecording& recording, std::int64_t stamp_ns) {
   const RecordedPanorama* nearest = nullptr;
-  std::int64_t smallest_ns = kSamePanorama_ns;
+  std::int64_t min_ns = kSamePanorama_ns;
   for (const auto& panorama : recording.panoramas) {
     const auto difference_ns = std::abs(panorama.stamp_ns - stamp_ns);
-    if (difference_ns > smallest_ns) continue;
-    smallest_ns = difference_ns;
+    if (difference_ns > min_ns) continue;
+    min_ns = difference_ns;
     nearest = &panorama;
   }
   return nearest;

@@ -17,7 +17,7 @@ namespace {
 constexpr double kSamePlace_m = 15.0;        // a match with a landmark within this distance is right
 constexpr double kSamePass_m = 20.0;         // distance travelled from the nearest point
 constexpr double kNearestNeighbour_m = 0.7;  // distance travelled between panoramas used for triangulation
-constexpr double kFarthestNeighbour_m = 4.5;
+constexpr double kMaxNeighbour_m = 4.5;
 
 double yaw(const Eigen::Isometry3d& world_from_base) {
   return std::atan2(world_from_base.linear()(1, 0), world_from_base.linear()(0, 0));
@@ -117,7 +117,7 @@ landmarks::PanoramicLandmark recorded_landmark(const PlaceRecording& recording, 
   const auto consider = [&](std::size_t i) {
     const auto& near = recording.panoramas[i];
     const double way_m = std::abs(near.travelled_m - at.travelled_m);
-    if (way_m < kNearestNeighbour_m || way_m > kFarthestNeighbour_m) return way_m <= kFarthestNeighbour_m;
+    if (way_m < kNearestNeighbour_m || way_m > kMaxNeighbour_m) return way_m <= kMaxNeighbour_m;
     const Eigen::Isometry3d world_from_landmark = at.world_from_base * recording.base_from_panorama;
     neighbours.push_back({world_from_landmark.inverse() * near.world_from_base * recording.base_from_panorama,
                           detect_keypoints(read_panorama(near), keypoints)});

@@ -20,10 +20,10 @@ double round_number_below(double value) {
 }
 
 PlanRanges equal_scale(const Range& x, const Range& y, const Box& box, double margin) {
-  constexpr double kSmallestM = 0.1;  // minimum size of the axes, for a path that does not move
+  constexpr double kMinM = 0.1;  // minimum size of the axes, for a path that does not move
   const double free = 1.0 - 2.0 * margin;
   const double m_per_px =
-      std::max({x.size() / (free * box.width()), y.size() / (free * box.height()), kSmallestM / box.width()});
+      std::max({x.size() / (free * box.width()), y.size() / (free * box.height()), kMinM / box.width()});
   const double half_width = 0.5 * m_per_px * box.width();
   const double half_height = 0.5 * m_per_px * box.height();
   return {{x.centre() - half_width, x.centre() + half_width}, {y.centre() - half_height, y.centre() + half_height}};

@@ -27,13 +27,13 @@ class PlotCanvas {
   const std::string& text() const { return text_; }
   PlotCanvas& line(const std::string& text);
 
-  // `$name << E ... E` with `size` rows, each from a call of write(canvas, i); decimated evenly to about kMostRows
+  // `$name << E ... E` with `size` rows, each from a call of write(canvas, i); decimated evenly to about kMaxRows
   // rows, including the last.
   template <class Write>
   void data_block(const std::string& name, std::size_t size, const Write& write) {
-    constexpr std::size_t kMostRows = 3000;
+    constexpr std::size_t kMaxRows = 3000;
     line(std::string("$").append(name).append(" << E"));
-    const std::size_t stride = size / kMostRows + 1;
+    const std::size_t stride = size / kMaxRows + 1;
     for (std::size_t i = 0; i < size; i += stride) write(*this, i);
     if (size > 0 && (size - 1) % stride != 0) write(*this, size - 1);
     line("E");

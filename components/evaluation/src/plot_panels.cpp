@@ -12,8 +12,8 @@
 namespace panvo::evaluation {
 namespace {
 
-constexpr std::size_t kMostStages = 14;
-constexpr std::size_t kMostLengths = 8;
+constexpr std::size_t kMaxStages = 14;
+constexpr std::size_t kMaxLengths = 8;
 
 // Centimetres for small errors, else metres.
 struct LengthUnit {
@@ -22,12 +22,12 @@ struct LengthUnit {
 };
 
 LengthUnit error_unit(const Report& report) {
-  constexpr double kLargestInCentimetresM = 0.5;
-  double largest_m = 0.0;
+  constexpr double kMaxInCentimetresM = 0.5;
+  double max_m = 0.0;
   for (const Evaluation& e : report.evaluations) {
-    for (const PoseError& error : e.errors) largest_m = std::max(largest_m, error.translation_m.norm());
+    for (const PoseError& error : e.errors) max_m = std::max(max_m, error.translation_m.norm());
   }
-  return largest_m < kLargestInCentimetresM ? LengthUnit{"cm", 100.0} : LengthUnit{"m", 1.0};
+  return max_m < kMaxInCentimetresM ? LengthUnit{"cm", 100.0} : LengthUnit{"m", 1.0};
 }
 
 // `column` of a data block, times `factor`.
@@ -36,10 +36,10 @@ std::string scaled(int column, double factor) {
 }
 
 std::string shortened(const std::string& name) {
-  constexpr std::size_t kLongest = 38;
+  constexpr std::size_t kMax = 38;
   constexpr std::size_t kEnd = 17;
-  if (name.size() <= kLongest) return name;
-  return name.substr(0, kLongest - kEnd - 2) + ".." + name.substr(name.size() - kEnd);
+  if (name.size() <= kMax) return name;
+  return name.substr(0, kMax - kEnd - 2) + ".." + name.substr(name.size() - kEnd);
 }
 
 std::string rectangle(double from_y, double to_y, double length, const char* fill) {
@@ -89,7 +89,7 @@ void add_segments(PlotCanvas& canvas, const Report& report, const Box& box, cons
   }
   canvas.y_from_zero(highest);
   canvas.line("set xrange [0:" + number(1.08 * *lengths.rbegin()) + "]");
-  if (lengths.size() <= kMostLengths) {
+  if (lengths.size() <= kMaxLengths) {
     std::string ticks;
     for (const double length : lengths) {
       ticks += (ticks.empty() ? "'" : ", '") + to_text(length, 3, std::chars_format::general) + "' " + number(length);
@@ -132,7 +132,7 @@ void add_times(PlotCanvas& canvas, StageTimes times, const Box& box) {
   std::stable_sort(times.begin(), times.end(),
                    [](const StageTime& a, const StageTime& b) { return a.wall.median_ms > b.wall.median_ms; });
   const std::size_t told = times.size();
-  if (told > kMostStages) times.resize(kMostStages);
+  if (told > kMaxStages) times.resize(kMaxStages);
   const bool all = told == times.size();
   canvas.panel(box,
                std::string(all ? "Time of each stage" : "Time of the slowest stages") + ": median (dark), 95 % (light)",

@@ -14,7 +14,7 @@ namespace {
 
 // Rounding can make a sum of steps slightly too short, which would extend a segment by a whole frame.
 constexpr double kLengthToleranceM = 1e-9;
-constexpr double kShortestKittiLengthM = 100.0;
+constexpr double kMinKittiLengthM = 100.0;
 
 struct RelativeError {
   double translation_m = 0.0;
@@ -69,7 +69,7 @@ std::optional<SegmentErrors> segment_errors(std::span<const PosePair> pairs, con
     }
   }
   if (lengths.empty()) return std::nullopt;
-  const bool as_kitti = *std::min_element(lengths.begin(), lengths.end()) >= kShortestKittiLengthM;
+  const bool as_kitti = *std::min_element(lengths.begin(), lengths.end()) >= kMinKittiLengthM;
   const std::size_t step = options.step > 0 ? options.step : as_kitti ? 10 : 1;
 
   SegmentErrors result;
@@ -103,10 +103,10 @@ std::optional<RelativePoseError> relative_error_per_frame(std::span<const PosePa
   if (periods.empty()) return std::nullopt;
   std::vector<std::int64_t> sorted = periods;
   std::sort(sorted.begin(), sorted.end());
-  const double longest_ns = 1.5 * static_cast<double>(sorted[sorted.size() / 2]);
+  const double max_ns = 1.5 * static_cast<double>(sorted[sorted.size() / 2]);
   std::vector<RelativeError> errors;
   for (std::size_t i = 1; i < pairs.size(); ++i) {
-    if (static_cast<double>(periods[i - 1]) <= longest_ns) errors.push_back(relative_error(pairs[i - 1], pairs[i]));
+    if (static_cast<double>(periods[i - 1]) <= max_ns) errors.push_back(relative_error(pairs[i - 1], pairs[i]));
   }
   return summarize_errors(errors);
 }

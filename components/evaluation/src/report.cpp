@@ -96,7 +96,7 @@ Json to_json(const Evaluation& e) {
       {"frames_unreliable", or_null(e.unreliable)},
       {"association", e.association == AssociationMethod::kInterpolate ? "interpolate" : "nearest"},
       {"association_tolerance_s", static_cast<double>(e.tolerance_ns) * 1e-9},
-      {"association_largest_difference_s", static_cast<double>(e.largest_difference_ns) * 1e-9},
+      {"association_largest_difference_s", static_cast<double>(e.max_difference_ns) * 1e-9},
       {"duration_s", e.duration_s},
       {"path_length_m", e.path_length_m},
       {"coverage_percent", e.coverage_percent},

@@ -11,7 +11,7 @@
 namespace panvo::evaluation {
 namespace {
 
-constexpr double kSmallestStep_px = 0.7;  // points nearer to the last one are dropped
+constexpr double kMinStep_px = 0.7;  // points nearer to the last one are dropped
 
 std::string tip_of(const std::string& tip) { return tip.empty() ? "" : "<title>" + html(tip) + "</title>"; }
 
@@ -53,7 +53,7 @@ void SvgChart::curve(const std::vector<Eigen::Vector2d>& points, const std::stri
   Eigen::Vector2d last(-1e9, -1e9);
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Eigen::Vector2d at(x(points[i].x()), y(points[i].y()));
-    if ((at - last).norm() < kSmallestStep_px && i + 1 < points.size()) continue;
+    if ((at - last).norm() < kMinStep_px && i + 1 < points.size()) continue;
     path += fmt::format("{}{:.1f} {:.1f}", path.empty() ? "M" : " ", at.x(), at.y());
     last = at;
   }

@@ -223,7 +223,7 @@ std::string describe_association(const Evaluation& evaluation) {
   return std::string(interpolated ? "interpolated at the estimate's stamps, over gaps up to "
                                   : "the pose nearest in time, within ") +
          to_text(static_cast<double>(evaluation.tolerance_ns) * 1e-6, 1) + " ms (largest difference " +
-         to_text(static_cast<double>(evaluation.largest_difference_ns) * 1e-6, 1) + " ms)";
+         to_text(static_cast<double>(evaluation.max_difference_ns) * 1e-6, 1) + " ms)";
 }
 
 }  // namespace

@@ -71,24 +71,24 @@ std::optional<std::int64_t> alarm_after_ns(const std::vector<Standing>& all, con
 }
 
 std::optional<double> time_to_alarm_s(const std::vector<Standing>& all) {
-  std::optional<double> longest_s;
+  std::optional<double> max_s;
   for (const auto& stretch :
        stretches(all, [](const TrustSample& sample) { return is_over_sigma(sample) || is_beyond_level(sample); })) {
     const auto alarm_ns = alarm_after_ns(all, stretch);
     const std::int64_t waited_ns = alarm_ns.value_or(length_ns(all, stretch));
     if (!alarm_ns && waited_ns <= kAlarmTime_ns) continue;
-    longest_s = std::max(longest_s.value_or(0.0), seconds(waited_ns));
+    max_s = std::max(max_s.value_or(0.0), seconds(waited_ns));
   }
-  return longest_s;
+  return max_s;
 }
 
-double longest_misleading_s(const std::vector<Standing>& all) {
-  std::int64_t longest_ns = 0;
+double max_misleading_s(const std::vector<Standing>& all) {
+  std::int64_t max_ns = 0;
   for (const auto& stretch :
        stretches(all, [](const TrustSample& sample) { return is_over_sigma(sample) && sample.is_tracking; })) {
-    longest_ns = std::max(longest_ns, length_ns(all, stretch));
+    max_ns = std::max(max_ns, length_ns(all, stretch));
   }
-  return seconds(longest_ns);
+  return seconds(max_ns);
 }
 
 std::optional<double> noticed_s(const std::vector<Standing>& all, std::int64_t from_ns) {
@@ -121,8 +121,8 @@ void count(TrustScore& score, const TrustSample& sample) {
   ++score.poses;
   score.outside_95 += squared > bound_95;
   score.outside_999 += squared > bound_999;
-  score.largest_error_m = std::max(score.largest_error_m, sample.error_m);
-  score.largest_error_over_sigma = std::max(score.largest_error_over_sigma, sample.error_over_sigma);
+  score.max_error_m = std::max(score.max_error_m, sample.error_m);
+  score.max_error_over_sigma = std::max(score.max_error_over_sigma, sample.error_over_sigma);
   if (!sample.protection_level_m) return;
   ++score.with_level;
   score.beyond_level += is_beyond_level(sample);
@@ -139,7 +139,7 @@ TrustScore score_trust(std::span<const TrustSample> samples, const std::optional
   TrustScore score;
   for (const auto& sample : samples) count(score, sample);
   const auto all = standings(samples);
-  score.longest_misleading_s = longest_misleading_s(all);
+  score.max_misleading_s = max_misleading_s(all);
   score.time_to_alarm_s = time_to_alarm_s(all);
   if (!disturbance) return score;
   score.noticed_s = noticed_s(all, disturbance->from_ns);

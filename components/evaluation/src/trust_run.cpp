@@ -84,12 +84,12 @@ Timeline<Integrity> read_integrity(const fs::path& file) {
 
 /// Ground truth at a stamp, interpolated over gaps of at most one second; nullopt outside its time span.
 std::optional<Eigen::Isometry3d> truth_at(const std::vector<StampedPose>& truth, std::int64_t stamp_ns) {
-  constexpr std::int64_t kLongestGap_ns = 1'000'000'000;
+  constexpr std::int64_t kMaxGap_ns = 1'000'000'000;
   const auto after = std::lower_bound(truth.begin(), truth.end(), stamp_ns,
                                       [](const StampedPose& pose, std::int64_t ns) { return pose.stamp_ns < ns; });
   if (after == truth.end()) return std::nullopt;
   if (after->stamp_ns == stamp_ns) return after->world_from_base;
-  if (after == truth.begin() || after->stamp_ns - std::prev(after)->stamp_ns > kLongestGap_ns) return std::nullopt;
+  if (after == truth.begin() || after->stamp_ns - std::prev(after)->stamp_ns > kMaxGap_ns) return std::nullopt;
   return interpolate(*std::prev(after), *after, stamp_ns);
 }
 

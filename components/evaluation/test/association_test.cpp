@@ -33,7 +33,7 @@ TEST(Association, InterpolatesTheGroundTruthAtTheEstimatesStamps) {
   const Association result = associate(shifted(straight_line(10), 30'000'000), truth);
   ASSERT_EQ(result.pairs.size(), 10u);
   EXPECT_EQ(result.unmatched, 0u);
-  EXPECT_EQ(result.largest_difference_ns, 30'000'000);
+  EXPECT_EQ(result.max_difference_ns, 30'000'000);
   EXPECT_NEAR(result.pairs[4].map_from_base.translation().x(), 4.3, 1e-12);
 }
 

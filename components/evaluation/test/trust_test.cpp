@@ -31,9 +31,9 @@ const Disturbance kFourToSix{at(4.0), at(6.0)};
 TEST(TrustScore, OfPosesThatKeepWhatTheyPromiseHasNothingToSay) {
   const auto score = score_trust(timeline([](double, TrustSample&) {}), kFourToSix);
   EXPECT_EQ(score.poses, 101U);
-  EXPECT_DOUBLE_EQ(score.largest_error_over_sigma, 0.5);
+  EXPECT_DOUBLE_EQ(score.max_error_over_sigma, 0.5);
   EXPECT_EQ(score.outside_95, 0U);
-  EXPECT_EQ(score.longest_misleading_s, 0.0);
+  EXPECT_EQ(score.max_misleading_s, 0.0);
   EXPECT_FALSE(score.time_to_alarm_s);
   EXPECT_TRUE(score.is_never_noticed);
   EXPECT_EQ(score.time_to_recover_s, 0.0);
@@ -59,7 +59,7 @@ TEST(TrustScore, OfAnAlarmThatComesLateTellsHowLateAndForHowLongItMisled) {
                                  }),
                                  kFourToSix);
   EXPECT_NEAR(*score.time_to_alarm_s, 1.2, 1e-9);
-  EXPECT_NEAR(score.longest_misleading_s, 1.2, 1e-9);
+  EXPECT_NEAR(score.max_misleading_s, 1.2, 1e-9);
   EXPECT_NEAR(*score.noticed_s, 2.2, 1e-9) << "from the start of the disturbance";
   EXPECT_NEAR(*score.time_to_recover_s, 3.0, 1e-9) << "from its end";
 }
@@ -72,7 +72,7 @@ TEST(TrustScore, TakesWhatTheIntegritySaysForAnAlarmButNotForAState) {
                                  }),
                                  kFourToSix);
   EXPECT_EQ(*score.time_to_alarm_s, 0.0);
-  EXPECT_NEAR(score.longest_misleading_s, 2.0, 1e-9);
+  EXPECT_NEAR(score.max_misleading_s, 2.0, 1e-9);
 }
 
 TEST(TrustScore, HasNoAlarmDueForAMomentaryExcursion) {
@@ -81,7 +81,7 @@ TEST(TrustScore, HasNoAlarmDueForAMomentaryExcursion) {
                                  }),
                                  std::nullopt);
   EXPECT_FALSE(score.time_to_alarm_s);
-  EXPECT_NEAR(score.longest_misleading_s, 0.5, 1e-9);
+  EXPECT_NEAR(score.max_misleading_s, 0.5, 1e-9);
 }
 
 TEST(TrustScore, TakesTheWholeStretchWhereNoAlarmComes) {
@@ -101,7 +101,7 @@ TEST(TrustScore, TakesSilenceForAnAlarmAndDoesNotBlameThePoseBeforeItForLonger) 
   std::erase_if(samples, [](const TrustSample& sample) { return is_within(sample.stamp_ns * 1e-9, 4.0, 7.0); });
   const auto score = score_trust(samples, kFourToSix);
   EXPECT_NEAR(*score.time_to_alarm_s, kAlarmTime_s, 1e-9);
-  EXPECT_NEAR(score.longest_misleading_s, kAlarmTime_s, 1e-9);
+  EXPECT_NEAR(score.max_misleading_s, kAlarmTime_s, 1e-9);
   EXPECT_NEAR(*score.noticed_s, 0.4, 1e-9);
   EXPECT_NEAR(*score.time_to_recover_s, 1.0, 1e-9) << "poses resume one second after the end";
 }

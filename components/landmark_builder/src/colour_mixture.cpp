@@ -22,8 +22,8 @@ float squared_distance(const ColourMixture::Gaussian& gaussian, const GroundColo
 
 }  // namespace
 
-ColourMixture::ColourMixture(int gaussians, GroundColour smallest_variance)
-    : most_(static_cast<std::size_t>(gaussians)), smallest_variance_(smallest_variance) {}
+ColourMixture::ColourMixture(int gaussians, GroundColour min_variance)
+    : most_(static_cast<std::size_t>(gaussians)), min_variance_(min_variance) {}
 
 void ColourMixture::learn(std::span<const GroundColour> samples, double rate) {
   if (samples.empty()) return;
@@ -44,7 +44,7 @@ void ColourMixture::learn(std::span<const GroundColour> samples, double rate) {
                                           [](const auto& a, const auto& b) { return a.weight < b.weight; }));
       }
       Gaussian added{sample, {}, 0.0};
-      for (std::size_t i = 0; i < sample.size(); ++i) added.variance[i] = kWideVariance * smallest_variance_[i];
+      for (std::size_t i = 0; i < sample.size(); ++i) added.variance[i] = kWideVariance * min_variance_[i];
       gaussians_.push_back(added);
       best = std::prev(gaussians_.end());
     }
@@ -56,20 +56,20 @@ void ColourMixture::learn(std::span<const GroundColour> samples, double rate) {
       const float difference = sample[i] - best->mean[i];
       best->mean[i] += share * difference;
       best->variance[i] =
-          std::max(smallest_variance_[i], best->variance[i] + share * (difference * difference - best->variance[i]));
+          std::max(min_variance_[i], best->variance[i] + share * (difference * difference - best->variance[i]));
     }
   }
   std::stable_sort(gaussians_.begin(), gaussians_.end(),
                    [](const auto& a, const auto& b) { return a.weight > b.weight; });
 }
 
-void ColourMixture::log_density(const std::array<const float*, 3>& planes, int count, double least_weight,
+void ColourMixture::log_density(const std::array<const float*, 3>& planes, int count, double min_weight,
                                 float* out) const {
   std::fill(out, out + count, std::numeric_limits<float>::lowest());
   double sum = 0.0;
   for (const auto& gaussian : gaussians_) sum += gaussian.weight;
   for (const auto& gaussian : gaussians_) {
-    if (gaussian.weight < least_weight * sum) continue;
+    if (gaussian.weight < min_weight * sum) continue;
     const auto constant = static_cast<float>(
         std::log(gaussian.weight / sum) -
         0.5 * std::log(static_cast<double>(gaussian.variance[0]) * gaussian.variance[1] * gaussian.variance[2]));

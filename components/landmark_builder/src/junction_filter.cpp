@@ -9,7 +9,7 @@ namespace {
 constexpr double kRememberedPath_m = 60.0;
 constexpr double kOutOfSight_m = 25.0;
 constexpr double kStandingStep_m = 0.01;
-constexpr std::size_t kMostPlaces = 2000;  // limit while the vehicle stands still
+constexpr std::size_t kMaxPlaces = 2000;  // limit while the vehicle stands still
 
 }  // namespace
 
@@ -18,7 +18,7 @@ std::vector<PassedJunction> JunctionFilter::add(std::int64_t stamp_ns, const Eig
   const double step_m = path_.empty() ? 0.0 : (position_in_odom - path_.back().position).norm();
   const double travelled_m = path_.empty() ? 0.0 : path_.back().travelled_m + step_m;
   path_.push_back({stamp_ns, position_in_odom, travelled_m});
-  while (path_.size() > kMostPlaces || travelled_m - path_.front().travelled_m > kRememberedPath_m) path_.pop_front();
+  while (path_.size() > kMaxPlaces || travelled_m - path_.front().travelled_m > kRememberedPath_m) path_.pop_front();
 
   Candidate* shown = nullptr;
   if (seen) {
@@ -44,7 +44,7 @@ std::vector<PassedJunction> JunctionFilter::add(std::int64_t stamp_ns, const Eig
     const double now_m = (position_in_odom - candidate->centre()).norm();
     const double closest_m = (nearest(candidate->centre()).position - candidate->centre()).norm();
     const bool is_behind = now_m - closest_m >= parameters_.passed_m;
-    const bool is_over = travelled_m - candidate->last_m >= parameters_.longest_gap_m || now_m > kOutOfSight_m;
+    const bool is_over = travelled_m - candidate->last_m >= parameters_.max_gap_m || now_m > kOutOfSight_m;
     if (!candidate->is_passed && is_behind && is_over) {
       if (const auto junction = conclude(*candidate)) {
         passed.push_back(*junction);
@@ -80,14 +80,14 @@ const JunctionFilter::Place& JunctionFilter::nearest(const Eigen::Vector2d& cent
 }
 
 std::optional<PassedJunction> JunctionFilter::conclude(const Candidate& candidate) const {
-  if (candidate.last_m - candidate.first_m < parameters_.least_seen_m) return std::nullopt;
+  if (candidate.last_m - candidate.first_m < parameters_.min_seen_m) return std::nullopt;
   const Place& closest = nearest(candidate.centre());
   const double nearest_m = (closest.position - candidate.centre()).norm();
-  if (nearest_m > parameters_.farthest_pass_m) return std::nullopt;
+  if (nearest_m > parameters_.max_pass_m) return std::nullopt;
   const auto along = std::count_if(path_.begin(), path_.end(), [&](const Place& place) {
     return place.travelled_m >= candidate.first_m && place.travelled_m <= candidate.last_m;
   });
-  if (candidate.seen < parameters_.least_share * static_cast<double>(along)) return std::nullopt;
+  if (candidate.seen < parameters_.min_share * static_cast<double>(along)) return std::nullopt;
   return PassedJunction{candidate.centre(), closest.stamp_ns, nearest_m, candidate.seen};
 }
 

@@ -15,7 +15,7 @@ using landmarks::Keypoint;
 
 constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kMatchWindow_rad = 40.0 * kDegree;  // parallax of very near points
-constexpr int kMostSteps = 10;
+constexpr int kMaxSteps = 10;
 
 /// A neighbour's bearing of the keypoint and the neighbour's position, in the landmark's frame.
 struct Observation {
@@ -48,7 +48,7 @@ std::optional<Range> fit(const Eigen::Vector3d& bearing, const std::vector<Obser
   Range range;
   double information = 0.0;
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  for (int step = 0; step < kMostSteps; ++step) {
+  for (int step = 0; step < kMaxSteps; ++step) {
     double gradient = 0.0;
     information = 0.0;
     sum.setZero();
@@ -70,8 +70,8 @@ std::optional<Range> fit(const Eigen::Vector3d& bearing, const std::vector<Obser
   return range;
 }
 
-double largest_error(const Eigen::Vector3d& bearing, const std::vector<Observation>& seen, double inverse,
-                     std::size_t& worst) {
+double max_error(const Eigen::Vector3d& bearing, const std::vector<Observation>& seen, double inverse,
+                 std::size_t& worst) {
   double largest = -1.0;
   for (std::size_t i = 0; i < seen.size(); ++i) {
     const auto term = residual(bearing, seen[i], inverse);
@@ -112,12 +112,12 @@ int triangulate_keypoints(std::span<Keypoint> landmark, std::span<const Neighbou
     auto range = fit(bearing, seen, sigma_rad);
     // drop outliers one by one, so that one wrong match does not cost the point
     std::size_t worst = 0;
-    while (range && seen.size() > 2 && largest_error(bearing, seen, range->inverse, worst) > gate_rad) {
+    while (range && seen.size() > 2 && max_error(bearing, seen, range->inverse, worst) > gate_rad) {
       seen.erase(seen.begin() + static_cast<std::ptrdiff_t>(worst));
       range = fit(bearing, seen, sigma_rad);
     }
-    if (!range || largest_error(bearing, seen, range->inverse, worst) > gate_rad) continue;
-    if (range->inverse < parameters.fewest_sigmas * range->sigma || range->inverse * parameters.farthest_m < 1.0) {
+    if (!range || max_error(bearing, seen, range->inverse, worst) > gate_rad) continue;
+    if (range->inverse < parameters.min_sigmas * range->sigma || range->inverse * parameters.max_m < 1.0) {
       continue;
     }
     keypoint.has_point = true;

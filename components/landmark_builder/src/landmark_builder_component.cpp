@@ -38,7 +38,7 @@ struct ComponentParameters : BuilderParameters {
     field.group(static_cast<landmarks::KeypointParameters P::*>(&P::keypoints), "keypoints");
     field(static_cast<int P::*>(&P::neighbours), "neighbours", "1",
           "panoramas before and after a landmark's that triangulate its keypoints", 0, 20);
-    field(static_cast<double P::*>(&P::farthest_neighbour_m), "farthest_neighbour_m", "m",
+    field(static_cast<double P::*>(&P::max_neighbour_m), "max_neighbour_m", "m",
           "distance of the farthest of them from the landmark", 0.5, 50.0);
     field(static_cast<int P::*>(&P::thumbnail_quality), "thumbnail_quality", "1",
           "JPEG quality of a landmark's thumbnail; 0: no thumbnail", 0, 100);
@@ -63,7 +63,7 @@ class LandmarkBuilderComponent final : public runtime::Component {
         timer_(context.times()),
         landmarks_(context.output(topics::kLandmarks)),
         transforms_(context) {
-    context.give_way();  // landmarks are not urgent, poses are
+    context.set_background();  // landmarks are not urgent, poses are
     context.input(topics::kLandmarks, [this](const auto& message) { on_landmark(*message); });
     context.input(topics::kLandmarkPoses, [this](const auto& message) { on_poses(*message); });
     context.input(topics::kOdometryEnhanced, [this](const auto& message) { on_enhanced(*message); });
@@ -79,9 +79,9 @@ class LandmarkBuilderComponent final : public runtime::Component {
     vision::Matrix6d covariance;
   };
 
-  static constexpr std::size_t kMostOdometry = 200;  // poses kept for late panoramas
-  static constexpr std::size_t kMostWaiting = 10;    // panoramas waiting for odometry
-  static constexpr std::int64_t kLongestGap_ns = 1'000'000'000;
+  static constexpr std::size_t kMaxOdometry = 200;  // poses kept for late panoramas
+  static constexpr std::size_t kMaxWaiting = 10;    // panoramas waiting for odometry
+  static constexpr std::int64_t kMaxGap_ns = 1'000'000'000;
 
   void on_landmark(const panvo_msgs::msg::PanoramicLandmark& message) {
     set_landmark(message.id(), message.pose().pose().position());
@@ -117,14 +117,14 @@ class LandmarkBuilderComponent final : public runtime::Component {
     const std::int64_t stamp_ns = conversions::stamp_ns(message);
     if (!odometry_.empty() && stamp_ns <= odometry_.back().stamp_ns) return;
     odometry_.push_back({stamp_ns, *pose, conversions::to_matrix(message.pose().covariance())});
-    if (odometry_.size() > kMostOdometry) odometry_.pop_front();
+    if (odometry_.size() > kMaxOdometry) odometry_.pop_front();
     work_off();
   }
 
   void on_panorama(const std::shared_ptr<const sensor_msgs::msg::Image>& message) {
     waiting_.push_back(message);
     work_off();
-    if (waiting_.size() <= kMostWaiting) return;
+    if (waiting_.size() <= kMaxWaiting) return;
     waiting_.pop_front();
     context_.log().warn_throttled("no odometry",
                                   "panoramas received, but nothing on {} for their stamps: no landmarks are built",
@@ -187,8 +187,7 @@ class LandmarkBuilderComponent final : public runtime::Component {
                                     [&](const Odometry& odometry) { return odometry.stamp_ns >= stamp_ns; });
     if (after == odometry_.end()) return std::nullopt;
     if (after->stamp_ns == stamp_ns) return *after;
-    if (after == odometry_.begin() || after->stamp_ns - std::prev(after)->stamp_ns > kLongestGap_ns)
-      return std::nullopt;
+    if (after == odometry_.begin() || after->stamp_ns - std::prev(after)->stamp_ns > kMaxGap_ns) return std::nullopt;
     const auto before = std::prev(after);
     const double share =
         static_cast<double>(stamp_ns - before->stamp_ns) / static_cast<double>(after->stamp_ns - before->stamp_ns);

@@ -21,8 +21,8 @@ bool LandmarkRule::takes(const Eigen::Vector2d& position, double place_travelled
 }
 
 bool LandmarkRule::is_due(double travelled_m) const {
-  if (parameters_.longest_without_m <= 0.0) return false;
-  return travelled_m - last_m_ >= (positions_.empty() ? parameters_.first_m : parameters_.longest_without_m);
+  if (parameters_.max_spacing_m <= 0.0) return false;
+  return travelled_m - last_m_ >= (positions_.empty() ? parameters_.first_m : parameters_.max_spacing_m);
 }
 
 }  // namespace panvo::landmark_builder

@@ -20,7 +20,7 @@ cv::Mat grow(const cv::Mat& mask, double radius_m, double resolution_m) {
   return distance <= radius_m / resolution_m;
 }
 
-void fill_small_holes(cv::Mat& mask, double smallest_px) {
+void fill_small_holes(cv::Mat& mask, double min_px) {
   cv::Mat labels, stats, centres;
   const int count = cv::connectedComponentsWithStats(~mask, labels, stats, centres, 4, CV_32S);
   std::vector<std::uint8_t> is_small(static_cast<std::size_t>(count), 0);
@@ -28,7 +28,7 @@ void fill_small_holes(cv::Mat& mask, double smallest_px) {
     const cv::Rect box(stats.at<int>(i, cv::CC_STAT_LEFT), stats.at<int>(i, cv::CC_STAT_TOP),
                        stats.at<int>(i, cv::CC_STAT_WIDTH), stats.at<int>(i, cv::CC_STAT_HEIGHT));
     const bool touches_border = box.x == 0 || box.y == 0 || box.br().x == mask.cols || box.br().y == mask.rows;
-    is_small[static_cast<std::size_t>(i)] = !touches_border && stats.at<int>(i, cv::CC_STAT_AREA) < smallest_px;
+    is_small[static_cast<std::size_t>(i)] = !touches_border && stats.at<int>(i, cv::CC_STAT_AREA) < min_px;
   }
   for (int row = 0; row < mask.rows; ++row) {
     const auto* label = labels.ptr<int>(row);
@@ -49,7 +49,7 @@ cv::Mat passable_region(const cv::Mat& road, cv::Point vehicle, double resolutio
   if (!cv::Rect(0, 0, road.cols, road.rows).contains(vehicle)) return nothing;
   cv::Mat mask;
   cv::morphologyEx(road, mask, cv::MORPH_CLOSE, disc(parameters.close_m, resolution_m));
-  fill_small_holes(mask, parameters.smallest_hole_m2 / (resolution_m * resolution_m));
+  fill_small_holes(mask, parameters.min_hole_m2 / (resolution_m * resolution_m));
   // opening: keep pixels within half the width of a pixel that has this much room
   cv::Mat room;
   cv::distanceTransform(mask, room, cv::DIST_L2, cv::DIST_MASK_3);

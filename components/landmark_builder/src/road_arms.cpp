@@ -20,7 +20,7 @@ constexpr double kBeyondArm = 1.45;  // length of the half-lines, in arm lengths
 /// Pixel offsets of the steps along all half-lines, shared by all centres.
 class RayTable {
  public:
-  RayTable(int directions, double farthest_px) : directions_(directions), steps_(static_cast<int>(farthest_px)) {
+  RayTable(int directions, double max_px) : directions_(directions), steps_(static_cast<int>(max_px)) {
     offsets_.reserve(static_cast<std::size_t>(directions_) * static_cast<std::size_t>(steps_));
     for (int direction = 0; direction < directions_; ++direction) {
       const double angle = 2.0 * std::numbers::pi * direction / directions_;
@@ -32,8 +32,7 @@ class RayTable {
   }
 
   /// Length of the road in each direction, m.
-  void reach(const cv::Mat& mask, cv::Point centre, int longest_gap, std::vector<float>& out,
-             double resolution_m) const {
+  void reach(const cv::Mat& mask, cv::Point centre, int max_gap, std::vector<float>& out, double resolution_m) const {
     out.resize(static_cast<std::size_t>(directions_));
     const cv::Point* offset = offsets_.data();
     for (int direction = 0; direction < directions_; ++direction, offset += steps_) {
@@ -43,7 +42,7 @@ class RayTable {
         if (column < 0 || row < 0 || column >= mask.cols || row >= mask.rows) break;
         if (mask.ptr<std::uint8_t>(row)[column] != 0) {
           last_road = step;
-        } else if (step - last_road > longest_gap) {
+        } else if (step - last_road > max_gap) {
           break;
         }
       }
@@ -69,11 +68,11 @@ cv::Point nearest_pixel(const Eigen::Vector2d& place) {
 }  // namespace
 
 std::vector<float> ray_radon(const cv::Mat& mask, const Eigen::Vector2d& centre_px, double resolution_m, int directions,
-                             double farthest_m, double longest_gap_m) {
+                             double max_m, double max_gap_m) {
   check(mask);
   std::vector<float> reach_m;
-  RayTable(directions, farthest_m / resolution_m)
-      .reach(mask, nearest_pixel(centre_px), in_pixels(longest_gap_m, resolution_m), reach_m, resolution_m);
+  RayTable(directions, max_m / resolution_m)
+      .reach(mask, nearest_pixel(centre_px), in_pixels(max_gap_m, resolution_m), reach_m, resolution_m);
   return reach_m;
 }
 
@@ -91,7 +90,7 @@ std::vector<RoadArm> find_arms(const std::vector<float>& reach_m, const RoadArms
     int first, last;
   };
   std::vector<Run> runs;
-  const double gap_steps = parameters.smallest_gap_m / (parameters.arm_length_m * step_rad);
+  const double gap_steps = parameters.min_gap_m / (parameters.arm_length_m * step_rad);
   // two runs are one arm if the gap between them is narrow or almost as long as the arms
   const auto is_one_arm = [&](int last, int next) {
     float shortest = std::numeric_limits<float>::max();
@@ -137,7 +136,7 @@ RoadArms find_best_centre(const cv::Mat& mask, const Eigen::Vector2d& vehicle_px
   cv::Mat room;
   cv::distanceTransform(mask, room, cv::DIST_L2, cv::DIST_MASK_3);
   const RayTable rays(parameters.directions, kBeyondArm * parameters.arm_length_m / resolution_m);
-  const int gap = in_pixels(parameters.longest_gap_m, resolution_m);
+  const int gap = in_pixels(parameters.max_gap_m, resolution_m);
   const int steps = static_cast<int>(parameters.search_radius_m / parameters.search_step_m);
   const double step_px = parameters.search_step_m / resolution_m;
   RoadArmsParameters farther_out = parameters;
@@ -150,7 +149,7 @@ RoadArms find_best_centre(const cv::Mat& mask, const Eigen::Vector2d& vehicle_px
       const cv::Point pixel = nearest_pixel(centre);
       if (!cv::Rect(0, 0, mask.cols, mask.rows).contains(pixel)) continue;
       const double room_m = room.at<float>(pixel) * resolution_m;
-      if (room_m < parameters.smallest_room_m) continue;
+      if (room_m < parameters.min_room_m) continue;
       rays.reach(mask, pixel, gap, reach_m, resolution_m);
       std::vector<RoadArm> arms = find_arms(reach_m, parameters);
       std::vector<RoadArm> farther = find_arms(reach_m, farther_out);

@@ -92,7 +92,7 @@ void RoadJunctionDetector::judge(JunctionView& view, const PlanarPose& pose) con
   }
   view.arms = find_best_centre(view.passable, view.vehicle_px, map_.resolution_m(), parameters_.arms);
   const int roads = static_cast<int>(view.arms.arms.size());
-  if (roads >= parameters_.fewest_arms) view.seen = {map_.point(view.arms.centre_px), roads};
+  if (roads >= parameters_.min_arms) view.seen = {map_.point(view.arms.centre_px), roads};
 }
 
 void RoadJunctionDetector::remember(const PlanarPose& pose) {
@@ -121,9 +121,8 @@ cv::Mat RoadJunctionDetector::certain_road(const PlanarPose& pose) const {
   }
   // ahead, up to the first ground beyond the body
   double ahead_m = 0.0;
-  const double farthest_m = std::min(parameters_.body.farthest_m, grid.middle() * grid.resolution_m - kAhead_m);
-  while (ahead_m < farthest_m && body_.mask().at<std::uint8_t>(to_pixel({ahead_m, 0.0})) != 0)
-    ahead_m += grid.resolution_m;
+  const double max_m = std::min(parameters_.body.max_m, grid.middle() * grid.resolution_m - kAhead_m);
+  while (ahead_m < max_m && body_.mask().at<std::uint8_t>(to_pixel({ahead_m, 0.0})) != 0) ahead_m += grid.resolution_m;
   cv::line(mask, to_pixel({0.0, 0.0}), to_pixel({ahead_m + kAhead_m, 0.0}), 255, width);
   return mask;
 }

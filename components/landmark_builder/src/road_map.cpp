@@ -8,7 +8,7 @@
 namespace panvo::landmark_builder {
 namespace {
 
-constexpr float kMostEvidence = 8.0F;  // limits the inertia, so that changes are accepted within a few views
+constexpr float kMaxEvidence = 8.0F;  // limits the inertia, so that changes are accepted within a few views
 
 }  // namespace
 
@@ -78,8 +78,8 @@ void RoadMap::add(const cv::Mat& ratio, const cv::Mat& weight, const GroundGrid&
   cv::multiply(ratio, weight, weighted);
   cv::warpAffine(weighted, seen, view_from_map, evidence_.size(), cv::INTER_LINEAR | cv::WARP_INVERSE_MAP);
   evidence_ += seen;
-  cv::min(evidence_, kMostEvidence, evidence_);
-  cv::max(evidence_, -kMostEvidence, evidence_);
+  cv::min(evidence_, kMaxEvidence, evidence_);
+  cv::max(evidence_, -kMaxEvidence, evidence_);
 }
 
 void RoadMap::add_footprint(const PlanarPose& odom_from_base) {
@@ -92,7 +92,7 @@ void RoadMap::add_footprint(const PlanarPose& odom_from_base) {
     const Eigen::Vector2d place = cell(odom_from_base.to_odom({x, y}));
     corners.emplace_back(static_cast<int>(std::lround(place.x())), static_cast<int>(std::lround(place.y())));
   }
-  cv::fillConvexPoly(evidence_, corners, kMostEvidence);
+  cv::fillConvexPoly(evidence_, corners, kMaxEvidence);
 }
 
 }  // namespace panvo::landmark_builder

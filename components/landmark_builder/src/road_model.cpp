@@ -10,12 +10,12 @@
 namespace panvo::landmark_builder {
 namespace {
 
-constexpr float kDark = 10.0F;             // grey levels, added so that noise in dark pixels does not count as colour
-constexpr std::size_t kMostSamples = 500;  // per image
-constexpr float kLimit = 3.0F;             // limits the influence of one image
-constexpr float kMarking = 0.3F;           // log brightness relative to the road's main mode
-constexpr float kColourless = 0.12F;       // log ratio of two colours
-constexpr GroundColour kSmallestVariance{0.06F * 0.06F, 0.015F * 0.015F, 0.02F * 0.02F};
+constexpr float kDark = 10.0F;            // grey levels, added so that noise in dark pixels does not count as colour
+constexpr std::size_t kMaxSamples = 500;  // per image
+constexpr float kLimit = 3.0F;            // limits the influence of one image
+constexpr float kMarking = 0.3F;          // log brightness relative to the road's main mode
+constexpr float kColourless = 0.12F;      // log ratio of two colours
+constexpr GroundColour kMinVariance{0.06F * 0.06F, 0.015F * 0.015F, 0.02F * 0.02F};
 
 struct LogTable {
   std::array<float, 256> values{};
@@ -92,13 +92,13 @@ cv::Mat compare(const Planes& planes, const ColourMixture& road, const ColourMix
   if (road.empty()) return ratio;
   const int count = static_cast<int>(ratio.total());
   auto* out = ratio.ptr<float>();
-  road.log_density(planes.pointers(), count, parameters.least_weight, out);
+  road.log_density(planes.pointers(), count, parameters.min_weight, out);
   const auto& main = road.gaussians().front();
   const double peak = -0.5 * std::log(static_cast<double>(main.variance[0]) * main.variance[1] * main.variance[2]);
   const auto anything = static_cast<float>(peak + parameters.threshold);
   std::vector<float> other(static_cast<std::size_t>(count), anything);
   if (!surroundings.empty()) {
-    surroundings.log_density(planes.pointers(), count, parameters.least_weight, other.data());
+    surroundings.log_density(planes.pointers(), count, parameters.min_weight, other.data());
   }
   const auto values = planes.pointers();
   for (int i = 0; i < count; ++i) {
@@ -116,21 +116,21 @@ cv::Mat compare(const Planes& planes, const ColourMixture& road, const ColourMix
 
 RoadModel::RoadModel(const RoadModelParameters& parameters)
     : parameters_(parameters),
-      road_(parameters.gaussians, kSmallestVariance),
-      surroundings_(2 * parameters.gaussians, kSmallestVariance) {}
+      road_(parameters.gaussians, kMinVariance),
+      surroundings_(2 * parameters.gaussians, kMinVariance) {}
 
 void RoadModel::learn(const cv::Mat& view, const cv::Mat& certain) {
   if (certain.size() != view.size() || certain.type() != CV_8UC1) {
     throw std::invalid_argument("road model: the mask of certain pixels must be 8-bit and of the view's size");
   }
   const Planes planes = to_planes(view);
-  const auto known = samples(planes, certain, kMostSamples);
+  const auto known = samples(planes, certain, kMaxSamples);
   road_.learn(known, road_.empty() ? 1.0 : parameters_.learning_rate);
   if (road_.empty()) return;
   // Pixels that are clearly not road, regardless of the surroundings model, train the surroundings.
-  const cv::Mat ratio = compare(planes, road_, ColourMixture(1, kSmallestVariance), parameters_);
+  const cv::Mat ratio = compare(planes, road_, ColourMixture(1, kMinVariance), parameters_);
   const cv::Mat clear = ratio <= -kLimit;
-  surroundings_.learn(samples(planes, clear, kMostSamples), surroundings_.empty() ? 1.0 : parameters_.learning_rate);
+  surroundings_.learn(samples(planes, clear, kMaxSamples), surroundings_.empty() ? 1.0 : parameters_.learning_rate);
 }
 
 cv::Mat RoadModel::segment(const cv::Mat& view) const {

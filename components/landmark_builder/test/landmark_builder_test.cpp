@@ -95,7 +95,7 @@ TEST(LandmarkBuilder, MakesNoneBesideOneThatIsThere) {
 
 TEST(LandmarkBuilder, MakesOneByDistanceWhereThereIsNoJunction) {  // [Lu2015 4.1]
   BuilderParameters parameters;
-  parameters.rule.longest_without_m = 20.0;
+  parameters.rule.max_spacing_m = 20.0;
   LandmarkBuilder builder = make_builder(parameters);
   builder.set_landmark(5, {-200.0, 0.0});
   const auto built = drive(builder, PaintedTown::star({0.0, M_PI}), -30.0, 18.0);

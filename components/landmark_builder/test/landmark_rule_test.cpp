@@ -33,7 +33,7 @@ TEST(LandmarkRule, IsDueAfterALongWayWithoutOne) {  // [Lu2015 4.1]
   rule.recognised(160.0);
   EXPECT_FALSE(rule.is_due(240.0));
   EXPECT_TRUE(rule.is_due(260.0));
-  EXPECT_FALSE(LandmarkRule({.longest_without_m = 0.0}).is_due(1e6));
+  EXPECT_FALSE(LandmarkRule({.max_spacing_m = 0.0}).is_due(1e6));
 }
 
 TEST(LandmarkRule, TakesTheFirstWhereANewMapBegins) {

@@ -17,7 +17,7 @@ constexpr int kColumns = 720;
 
 struct Drive {
   std::vector<PassedJunction> passed;
-  int most_roads = 0;
+  int max_roads = 0;
   JunctionView last;
 };
 
@@ -32,7 +32,7 @@ Drive drive(const PaintedTown& town, const JunctionDetectorParameters& parameter
     cv::Mat panorama = town.panorama(pose, kColumns);
     if (is_grey) cv::extractChannel(panorama, panorama, 1);
     result.last = detector.detect(panorama, pose);
-    if (result.last.seen) result.most_roads = std::max(result.most_roads, result.last.seen->roads);
+    if (result.last.seen) result.max_roads = std::max(result.max_roads, result.last.seen->roads);
     for (const auto& junction : filter.add(++stamp_ns, {x, -1.5}, result.last.seen)) result.passed.push_back(junction);
   }
   return result;
@@ -43,14 +43,14 @@ TEST(RoadJunctionDetector, FindsACrossing) {  // [Lu2015 4.1]
   ASSERT_THAT(result.passed, SizeIs(1));
   EXPECT_LT(result.passed[0].centre_in_odom.norm(), 3.0);
   EXPECT_NEAR(static_cast<double>(result.passed[0].nearest_stamp_ns), 31.0, 3.0);
-  EXPECT_EQ(result.most_roads, 4);
+  EXPECT_EQ(result.max_roads, 4);
 }
 
 TEST(RoadJunctionDetector, FindsAT) {
   const Drive result = drive(PaintedTown::star({0.0, 0.5 * M_PI, M_PI}));
   ASSERT_THAT(result.passed, SizeIs(1));
   EXPECT_LT(result.passed[0].centre_in_odom.norm(), 3.5);
-  EXPECT_EQ(result.most_roads, 3);
+  EXPECT_EQ(result.max_roads, 3);
 }
 
 TEST(RoadJunctionDetector, FindsNoneOnAStraightRoadNorWhereOneBends) {

@@ -13,11 +13,11 @@ namespace {
 
 constexpr int kIterations = 10;
 constexpr int kHalfStep = 3;  // columns, of the response's derivative
-constexpr double kSmallestSpread = 0.05;
-constexpr double kLossScale = 0.3;    // spreads: typical effect of noise and slight parallax on a response
-constexpr double kParallax = 12.0;    // columns: prior sigma of the parallax shift
-constexpr double kMostChange = 15.0;  // columns per iteration
-constexpr double kReach = 60.0;       // columns from the start: farther is a different heading
+constexpr double kMinSpread = 0.05;
+constexpr double kLossScale = 0.3;   // spreads: typical effect of noise and slight parallax on a response
+constexpr double kParallax = 12.0;   // columns: prior sigma of the parallax shift
+constexpr double kMaxChange = 15.0;  // columns per iteration
+constexpr double kReach = 60.0;      // columns from the start: farther is a different heading
 
 /// A feature and the azimuth of its patch, as an angle over the landmark's columns.
 struct Observation {
@@ -64,7 +64,7 @@ double align_heading(const QueryDescription& query, const PanoramaDescription& l
       const auto read = [&](int du) {
         return static_cast<double>(o.is_intensity ? reader.read_intensity(o.row, du) : reader.read_gradient(o.row, du));
       };
-      const double per_spread = 1.0 / std::max<double>(kSmallestSpread, o.feature->scale);
+      const double per_spread = 1.0 / std::max<double>(kMinSpread, o.feature->scale);
       const double slope = (read(column + kHalfStep) - read(column - kHalfStep)) / (2.0 * kHalfStep) * per_spread;
       const double residual = (read(column) - o.feature->value) * per_spread + slope * (place - column);
       const double ratio = residual / kLossScale;
@@ -74,7 +74,7 @@ double align_heading(const QueryDescription& query, const PanoramaDescription& l
     }
     Eigen::Vector3d change = information.ldlt().solve(-gradient);
     if (!change.allFinite()) return start_rad;
-    change = change.cwiseMax(-kMostChange).cwiseMin(kMostChange);
+    change = change.cwiseMax(-kMaxChange).cwiseMin(kMaxChange);
     shift += change;
     if (change.cwiseAbs().maxCoeff() < 0.02) break;
   }

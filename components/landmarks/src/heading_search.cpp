@@ -15,9 +15,9 @@ namespace {
 constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr int kGridSize = 2;  // [Lu2015 Alg. 1]
 constexpr double kReach_rad = 30.0 * kDegree;
-constexpr double kSmallestStep_rad = 0.5 * kDegree;
+constexpr double kMinStep_rad = 0.5 * kDegree;
 constexpr double kNeighbourhood_rad = 15.0 * kDegree;  // of the start: farther is a different heading
-constexpr int kMostColumns = 16;                       // of the descent: more than the grid's last step
+constexpr int kMaxColumns = 16;                        // of the descent: more than the grid's last step
 
 /// D at a column and its neighbours, for the descent.
 struct Valley {
@@ -28,7 +28,7 @@ struct Valley {
 /// [Alg. 1]; `distance` is D.
 HeadingMatch search_grid(const QueryDescription& query, const PanoramaDescription& landmark, double start_rad) {
   HeadingMatch best{start_rad, small_scale_distance(query, landmark, start_rad), 1.0F};
-  for (double step = kReach_rad / (kGridSize + 1); step > kSmallestStep_rad; step /= kGridSize + 1) {
+  for (double step = kReach_rad / (kGridSize + 1); step > kMinStep_rad; step /= kGridSize + 1) {
     const double start = best.heading_rad;
     for (int i = -kGridSize; i <= kGridSize; ++i) {
       const double heading = start + i * step;
@@ -63,7 +63,7 @@ HeadingMatch search_heading(const QueryDescription& query, const PanoramaDescrip
   const auto at = [&](int u) { return small_scale_distance(query, landmark, u * column_rad); };
   const int nearest = static_cast<int>(std::lround(match.heading_rad / column_rad));
   Valley valley{nearest, at(nearest - 1), at(nearest), at(nearest + 1)};
-  for (int i = 0; i < kMostColumns && (valley.left < valley.here || valley.right < valley.here); ++i) {
+  for (int i = 0; i < kMaxColumns && (valley.left < valley.here || valley.right < valley.here); ++i) {
     if (valley.left < valley.right) {
       valley = {valley.column - 1, at(valley.column - 2), valley.left, valley.here};
     } else {

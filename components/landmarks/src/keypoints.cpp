@@ -18,10 +18,10 @@
 namespace panvo::landmarks {
 namespace {
 
-constexpr int kMargin_px = 32;              // beyond the seam: support of a descriptor in the half-size image
-constexpr int kSectors = 24;                // of the full turn, each with an equal share of the keypoints
-constexpr int kSurplus = 2;                 // detected per keypoint kept, so that every sector has a choice
-constexpr double kSmallestContrast = 0.02;  // of SIFT; OpenCV's 0.04 finds too few under overcast sky
+constexpr int kMargin_px = 32;         // beyond the seam: support of a descriptor in the half-size image
+constexpr int kSectors = 24;           // of the full turn, each with an equal share of the keypoints
+constexpr int kSurplus = 2;            // detected per keypoint kept, so that every sector has a choice
+constexpr double kMinContrast = 0.02;  // of SIFT; OpenCV's 0.04 finds too few under overcast sky
 
 /// The band of the panorama that is searched, with a margin wrapped from the opposite end on each side.
 struct Section {
@@ -127,7 +127,7 @@ std::vector<Keypoint> detect_keypoints(const cv::Mat& panorama, const KeypointPa
   const cv::Mat grey = to_described_size(panorama);
   const vision::Equirectangular sphere{grey.cols, grey.rows};
   const Section section = cut_section(grey, parameters);
-  const auto sift = cv::SIFT::create(kSurplus * parameters.most, 3, kSmallestContrast);
+  const auto sift = cv::SIFT::create(kSurplus * parameters.most, 3, kMinContrast);
   std::vector<cv::KeyPoint> found;
   sift->detect(section.image, found);
   // Computing descriptors costs more than repeating the blur, so only the chosen keypoints are described.

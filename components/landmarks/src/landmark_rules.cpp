@@ -13,7 +13,7 @@ using interfaces::Check;
 
 void check_isometry(Check& check, std::string_view name, const Eigen::Isometry3d& pose) {
   const Eigen::Vector3d position = pose.translation();
-  check.bounded({name, "position"}, std::span<const double>(position.data(), 3), interfaces::kFarthest_m);
+  check.bounded({name, "position"}, std::span<const double>(position.data(), 3), interfaces::kMax_m);
   const Eigen::Matrix3d rotation = pose.linear();
   const double deviation = (rotation * rotation.transpose() - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
   check.require(deviation <= interfaces::kUnitTolerance, {name, "orientation"}, "is not a rotation");
@@ -37,7 +37,7 @@ void check_features(Check& check, std::string_view name, const std::vector<Adapt
 std::array<float, 3> to_array(const Eigen::Vector3f& vector) { return {vector.x(), vector.y(), vector.z()}; }
 
 void check_keypoints(Check& check, const std::vector<Keypoint>& keypoints) {
-  check.at_most("keypoints", keypoints.size(), interfaces::kMostKeypoints);
+  check.at_most("keypoints", keypoints.size(), interfaces::kMaxKeypoints);
   for (const auto& keypoint : keypoints) {
     if (!check.holds()) return;
     interfaces::check_keypoint(check, to_array(keypoint.bearing), keypoint.size_px, keypoint.has_point,
@@ -56,7 +56,7 @@ std::optional<std::string> problem_of(const PanoramicLandmark& landmark, const D
   check_features(check, "large_features", landmark.description.large, size);
   check_features(check, "small_features", landmark.description.small, size);
   check_keypoints(check, landmark.keypoints);
-  check.at_most("thumbnail", landmark.thumbnail.size(), interfaces::kLargestThumbnail);
+  check.at_most("thumbnail", landmark.thumbnail.size(), interfaces::kMaxThumbnail);
   return check.problem();
 }
 

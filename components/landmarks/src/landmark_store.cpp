@@ -295,10 +295,10 @@ std::optional<std::string> LandmarkStore::find_damage() const {
   return guarded([&]() -> std::optional<std::string> {
     auto damage = damage_of(*database_);
     if (!damage.empty()) return damage;  // records of a corrupt page cannot be checked
-    constexpr int kMostTold = 3;
+    constexpr int kMaxTold = 3;
     int found = 0;
     const auto tell = [&](const std::string& problem) {
-      if (++found <= kMostTold) damage += (damage.empty() ? "" : "; ") + problem;
+      if (++found <= kMaxTold) damage += (damage.empty() ? "" : "; ") + problem;
     };
     for (const auto& landmark : landmarks(tell)) {
       try {
@@ -307,7 +307,7 @@ std::optional<std::string> LandmarkStore::find_damage() const {
         tell(error.what());
       }
     }
-    if (found > kMostTold) damage += "; and " + std::to_string(found - kMostTold) + " more";
+    if (found > kMaxTold) damage += "; and " + std::to_string(found - kMaxTold) + " more";
     return damage.empty() ? std::nullopt : std::optional(std::move(damage));
   });
 }

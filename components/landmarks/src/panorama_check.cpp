@@ -13,14 +13,14 @@
 namespace panvo::landmarks {
 namespace {
 
-constexpr int kSmallestColumns = 256;  // px: below, the smallest rectangles have only a few pixels
+constexpr int kMinColumns = 256;  // px: below, the smallest rectangles have only a few pixels
 constexpr int kGridRows = 40, kGridColumns = 120;
 constexpr int kDark = 8;                                   // grey level still recorded with the lens cap on
 constexpr int kBright = 250;                               // grey level: saturation, with a margin for smoothing
 constexpr double kFaultyShare = 0.9;                       // lamps are bright at night, a bright sky fills at most half
-constexpr double kSmallestContrast = 3.0;                  // grey levels, standard deviation: noise on an even wall
+constexpr double kMinContrast = 3.0;                       // grey levels, standard deviation: noise on an even wall
 constexpr double kBandTop = 1.0 / 3.0, kBandBottom = 0.6;  // relevant rows: 30 degrees above the horizon to 18 below
-constexpr double kMostCovered = 1.0 / 3.0;
+constexpr double kMaxCovered = 1.0 / 3.0;
 
 /// Approximate grey level of a pixel of either type.
 int grey_at(const cv::Mat& image, int row, int column) {
@@ -44,7 +44,7 @@ struct Levels {
 }  // namespace
 
 std::optional<std::string> find_fault(const cv::Mat& panorama) {
-  if (auto fault = vision::find_layout_fault(panorama, kSmallestColumns)) return fault;
+  if (auto fault = vision::find_layout_fault(panorama, kMinColumns)) return fault;
   std::ostringstream text;
   text.precision(3);
   Levels all;
@@ -62,10 +62,10 @@ std::optional<std::string> find_fault(const cv::Mat& panorama) {
   } else if (all.bright > kFaultyShare * all.count) {
     text << "is saturated: " << 100.0 * all.bright / all.count << " % of the view near the horizon is at grey level "
          << kBright << " or above";
-  } else if (all.deviation() < kSmallestContrast) {
+  } else if (all.deviation() < kMinContrast) {
     text << "is constant: grey levels near the horizon deviate by " << all.deviation() << " from their mean, "
-         << kSmallestContrast << " required";
-  } else if (covered > kMostCovered) {
+         << kMinContrast << " required";
+  } else if (covered > kMaxCovered) {
     text << "is covered: " << 100.0 * covered << " % of the full turn is blocked";
   } else {
     return std::nullopt;

@@ -70,7 +70,7 @@ TEST(RecordedPanoramas, EachIsFoundAmongAllAtAnyHeadingWhateverLightNoiseAndCove
   cv::RNG random(20);
   int found = 0;
   double worst_deg = 0.0;
-  float farthest_right = 0.0F, nearest_wrong = 1.0F;
+  float max_right = 0.0F, nearest_wrong = 1.0F;
   double sum_right = 0.0, sum_wrong = 0.0;
   for (std::size_t i = 0; i < panoramas.size(); ++i) {
     const Disturbed disturbed = disturb(panoramas[i], random);
@@ -85,7 +85,7 @@ TEST(RecordedPanoramas, EachIsFoundAmongAllAtAnyHeadingWhateverLightNoiseAndCove
     const HeadingMatch match = search_heading(query, landmarks[i], match_large_scale(query, landmarks[i]).heading_rad);
     const double error = vision::wrap(match.heading_rad - disturbed.heading_rad, 2.0 * std::numbers::pi);
     worst_deg = std::max(worst_deg, std::abs(error) * 180.0 / std::numbers::pi);
-    farthest_right = std::max(farthest_right, distances[i]);
+    max_right = std::max(max_right, distances[i]);
     sum_right += distances[i];
     for (std::size_t j = 0; j < distances.size(); ++j) {
       if (j == i) continue;
@@ -95,7 +95,7 @@ TEST(RecordedPanoramas, EachIsFoundAmongAllAtAnyHeadingWhateverLightNoiseAndCove
   }
   const auto count = static_cast<double>(panoramas.size());
   std::cout << panoramas.size() << " places: recall@1 " << found / count << ", heading error at most " << worst_deg
-            << " deg; large-scale D of the right one " << sum_right / count << " on average, at most " << farthest_right
+            << " deg; large-scale D of the right one " << sum_right / count << " on average, at most " << max_right
             << ", of wrong ones " << sum_wrong / count << ", at least " << nearest_wrong << "\n";
   EXPECT_GE(found, 0.99 * count);
   EXPECT_LT(worst_deg, 2.0);

@@ -32,7 +32,7 @@ void AlignmentNotices::report_direction(const DirectionOffset& offset) {
       std::abs(offset.estimate_rad()) * 180.0 / std::numbers::pi, offset.estimate_rad() > 0.0 ? "left" : "right");
 }
 
-void AlignmentNotices::report_mounting(const MountingCheck& mounting) {
+void AlignmentNotices::report_mounting(const ExtrinsicsMonitor& mounting) {
   const auto misalignment = mounting.misalignment();
   if (!misalignment || has_told_mounting_) return;
   has_told_mounting_ = true;

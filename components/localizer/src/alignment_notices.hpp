@@ -14,7 +14,7 @@ class AlignmentNotices {
 
   void report_clock(const ClockOffset& clock);
   void report_direction(const DirectionOffset& offset);
-  void report_mounting(const MountingCheck& mounting);
+  void report_mounting(const ExtrinsicsMonitor& mounting);
 
  private:
   const runtime::Logger& log_;

@@ -6,15 +6,15 @@
 namespace panvo::localizer {
 namespace {
 
-constexpr double kDrift_s2 = 1e-10;        // per measurement: camera clocks drift by some 10 us per second
-constexpr double kLeastRateChange = 0.05;  // rad/s: below, noise of odometry dominates
-constexpr double kOutlier = 4.0 * 4.0;     // squared standard deviations
+constexpr double kDrift_s2 = 1e-10;      // per measurement: camera clocks drift by some 10 us per second
+constexpr double kMinRateChange = 0.05;  // rad/s: below, noise of odometry dominates
+constexpr double kOutlier = 4.0 * 4.0;   // squared standard deviations
 
 }  // namespace
 
 void ClockOffset::add(double disagreement_rad, double yaw_rate_change, double variance_rad2) {
   variance_s2_ += kDrift_s2;
-  if (std::abs(yaw_rate_change) < kLeastRateChange) return;
+  if (std::abs(yaw_rate_change) < kMinRateChange) return;
   // Stamps late by s show a turn that odometry saw s earlier: the turn between them is smaller by s * change of the
   // rate.
   const double slope = -yaw_rate_change;

@@ -13,10 +13,10 @@ namespace {
 constexpr double kDegree = std::numbers::pi / 180.0;
 // Probability that the side considered right in a dispute is wrong: then the pose is off by three standard deviations.
 constexpr double kDoubt = 1.0 / 9.0;
-constexpr double kUnseen_s = 5.0;    // unseen motion of the vehicle is bounded by that of so long a silence
-constexpr double kReach = 3.0;       // standard deviations of that
-constexpr double kMostAtOnce = 2.0;  // m/s: exceeds the change of any vehicle's speed between two images
-constexpr double kAlarm_s = 0.5;     // time until a panorama confirms or refutes the jump
+constexpr double kUnseen_s = 5.0;   // unseen motion of the vehicle is bounded by that of so long a silence
+constexpr double kReach = 3.0;      // standard deviations of that
+constexpr double kMaxAtOnce = 2.0;  // m/s: exceeds the change of any vehicle's speed between two images
+constexpr double kAlarm_s = 0.5;    // time until a panorama confirms or refutes the jump
 
 constexpr double kSteady_s = 0.2;          // interval over which the current motion is measured
 constexpr double kOdometryError_m = 0.03;  // over some tenths of a second
@@ -26,7 +26,7 @@ constexpr double kImpossible = 6.0;        // the same
 constexpr double kDirectionError_rad = 0.01;     // of panoramas, in addition to their stated error
 constexpr double kAlike_rad = 0.005;             // error common to the directions of all panoramas of a journey
 constexpr double kCameraApart_m = 1.0;           // from base_link, which in a bend moves in another direction
-constexpr double kShortestWay_m = 0.1;           // for a defined direction
+constexpr double kMinWay_m = 0.1;                // for a defined direction
 constexpr double kClearlyMoved_m = 0.5;          // far enough to be visible in objects beside the path
 constexpr double kNoDirection_rad2 = 0.5 * 0.5;  // nothing moves: everything is farther than a thousand path lengths
 constexpr double kNearest_m = 0.3, kParallax_rad = 0.02;  // objects beside the path are farther away, in the median
@@ -50,14 +50,14 @@ CrossCheck::CrossCheck(const Parameters& parameters)
       direction_offset_(parameters.mounting_sigma_deg * kDegree) {}
 
 /// If odometry follows something else, its speed changes abruptly, long before a panorama shows it.
-void CrossCheck::add_step(const OdometryChain& chain) {
+void CrossCheck::add_step(const OdometryBuffer& chain) {
   const auto& now = chain.latest().pose;
   const auto before_ns = chain.before_latest_ns();
   const auto twist = chain.twist(now.stamp_ns);
   const auto twist_before = before_ns ? chain.twist(*before_ns) : std::nullopt;
   if (twist && twist_before) {
     const double change_m_s = (twist->head<2>() - twist_before->head<2>()).norm();
-    if (change_m_s > kMostAtOnce) jump_ = Jump{now.stamp_ns, change_m_s};
+    if (change_m_s > kMaxAtOnce) jump_ = Jump{now.stamp_ns, change_m_s};
   }
   if (break_ && !break_->is_over) {
     break_->to_ns = now.stamp_ns;
@@ -75,7 +75,7 @@ void CrossCheck::begin_reference() {
   seen_.reset();
 }
 
-std::optional<Wrong> CrossCheck::add_turns(const OdometryChain& chain, const Stretch& stretch, double disagreement_rad,
+std::optional<Wrong> CrossCheck::add_turns(const OdometryBuffer& chain, const Stretch& stretch, double disagreement_rad,
                                            bool is_too_much) {
   if (!is_too_much) {
     turn_dispute_.end();
@@ -89,7 +89,7 @@ std::optional<Wrong> CrossCheck::add_turns(const OdometryChain& chain, const Str
 /// Odometry that contradicts the panoramas followed something else. Its error is at least its component perpendicular
 /// to their direction, and at least its deviation from the previous motion. Not if the panoramic camera was just
 /// rotated.
-std::optional<std::int64_t> CrossCheck::add_ways(OdometryChain& chain, const Stretch& stretch,
+std::optional<std::int64_t> CrossCheck::add_ways(OdometryBuffer& chain, const Stretch& stretch,
                                                  const AzimuthMeasurement& azimuth, double way_variance_m2) {
   if (turn_dispute_.is_on()) chain.allow(stretch.from_ns, stretch.to_ns, 0.0, turn_dispute_.growth(kDoubt));
   const auto odometry = moved(chain, stretch.from_ns, stretch.to_ns);
@@ -159,7 +159,7 @@ double CrossCheck::direction_sigma_rad() const {
   return std::hypot(turned_rad, std::sqrt(offset.variance_rad2()));
 }
 
-auto CrossCheck::moved(const OdometryChain& chain, std::int64_t from_ns, std::int64_t to_ns)
+auto CrossCheck::moved(const OdometryBuffer& chain, std::int64_t from_ns, std::int64_t to_ns)
     -> std::optional<TurnAndWay> {
   const auto from = chain.at(from_ns), to = chain.at(to_ns);
   if (!from || !to) return std::nullopt;
@@ -168,7 +168,7 @@ auto CrossCheck::moved(const OdometryChain& chain, std::int64_t from_ns, std::in
   return TurnAndWay{yaw_of(from_to.linear()), way.head<2>()};
 }
 
-auto CrossCheck::gone_on(const OdometryChain& chain, std::int64_t to_ns) const -> std::optional<GoneOn> {
+auto CrossCheck::gone_on(const OdometryBuffer& chain, std::int64_t to_ns) const -> std::optional<GoneOn> {
   if (!agreed_ns_) return std::nullopt;
   const auto before = moved(chain, *agreed_ns_ - static_cast<std::int64_t>(kSteady_s * 1e9), *agreed_ns_);
   const auto since = moved(chain, *agreed_ns_, to_ns);
@@ -179,7 +179,7 @@ auto CrossCheck::gone_on(const OdometryChain& chain, std::int64_t to_ns) const -
                 way_sigma_m(motion_, time_s)};
 }
 
-bool CrossCheck::goes_on_steadily(const OdometryChain& chain, std::int64_t to_ns) const {
+bool CrossCheck::goes_on_steadily(const OdometryBuffer& chain, std::int64_t to_ns) const {
   const auto gone = gone_on(chain, to_ns);
   return !gone || gone->more.way_m.norm() < kSteady * (gone->way_sigma_m + kOdometryError_m);
 }
@@ -187,7 +187,7 @@ bool CrossCheck::goes_on_steadily(const OdometryChain& chain, std::int64_t to_ns
 /// Panoramas see all around, and moving objects cover little of them, so usually odometry is the one that followed
 /// something else [Lu2015 6]. If odometry continues the previous motion and the panoramas turn implausibly, their
 /// camera was rotated.
-Wrong CrossCheck::wrong_turn(const OdometryChain& chain, std::int64_t to_ns, double disagreement_rad) const {
+Wrong CrossCheck::wrong_turn(const OdometryBuffer& chain, std::int64_t to_ns, double disagreement_rad) const {
   const auto gone = gone_on(chain, to_ns);
   if (!gone) return Wrong::kOdometry;
   const bool is_steady = std::abs(gone->more.turn_rad) < kSteady * gone->turn_sigma_rad;
@@ -206,7 +206,7 @@ auto CrossCheck::judge_way(const AzimuthMeasurement& azimuth, const TurnAndWay& 
     verdict.off_m = length_m;
     return verdict;
   }
-  if (length_m < kShortestWay_m) return verdict;
+  if (length_m < kMinWay_m) return verdict;
   const bool do_panoramas_stand = azimuth.motion_azimuth_variance_rad2 > kNoDirection_rad2;
   if (do_panoramas_stand) {
     if (length_m > kClearlyMoved_m) verdict.off_m = length_m;
@@ -217,8 +217,8 @@ auto CrossCheck::judge_way(const AzimuthMeasurement& azimuth, const TurnAndWay& 
                           in_bend_rad * in_bend_rad + way_variance_m2 / (length_m * length_m);
   const double seen_rad = wrapped(azimuth.motion_azimuth_rad - azimuth_of(odometry.way_m) - camera_turned_rad_);
   const double difference_rad = wrapped(seen_rad - direction_offset_.estimate_rad());
-  const double most_rad = contradiction_sigmas_ * std::sqrt(variance + direction_offset_.variance_rad2());
-  if (std::abs(difference_rad) <= most_rad) {
+  const double max_rad = contradiction_sigmas_ * std::sqrt(variance + direction_offset_.variance_rad2());
+  if (std::abs(difference_rad) <= max_rad) {
     if (!turn_dispute_.is_on()) verdict.seen = Seen{seen_rad, variance};
     verdict.lasting.reset();
     return verdict;
@@ -258,7 +258,7 @@ auto CrossCheck::lasting_with(std::int64_t reference_ns, double seen_rad, double
 
 /// Odometry that lost all its points and restarted in the next image did not measure the motion between. Panoramas that
 /// found their points again across the gap confirm it. Otherwise the vehicle may have moved since the returned time.
-std::optional<std::int64_t> CrossCheck::settle_break(OdometryChain& chain, const Stretch& stretch) {
+std::optional<std::int64_t> CrossCheck::settle_break(OdometryBuffer& chain, const Stretch& stretch) {
   if (!break_) return std::nullopt;
   if (stretch.from_ns > break_->vouched_ns) {
     const std::int64_t since_ns = break_->from_ns;

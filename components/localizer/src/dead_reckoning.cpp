@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kClimb = 0.1;         // fraction of the path, up or down
 constexpr double kTiltRateRad = 0.02;  // per second
-constexpr double kMostTilt_rad = 0.05;
+constexpr double kMaxTilt_rad = 0.05;
 constexpr double kSlow = 3.0;   // multiple of the usual interval from which a step is a gap
 constexpr double kMean = 0.05;  // weight of a new interval in the usual one
 
@@ -48,7 +48,7 @@ double turn_sigma_rad(const MotionPrior& prior, double seconds) {
 vision::Vector6d DeadReckoning::variance_after(double seconds) const {
   const double way_m = way_sigma_m(prior_, seconds);
   const double turn_rad = turn_sigma_rad(prior_, seconds);
-  const double tilt_rad = std::min(kTiltRateRad * seconds, kMostTilt_rad);
+  const double tilt_rad = std::min(kTiltRateRad * seconds, kMaxTilt_rad);
   vision::Vector6d sigma;
   sigma << way_m, way_m, kClimb * way_m, tilt_rad, tilt_rad, turn_rad;
   return sigma.cwiseAbs2();

@@ -9,7 +9,7 @@
 namespace panvo::localizer {
 namespace {
 
-constexpr double kLeastVariance_rad2 = 1e-6;  // 0.06 deg: play of the mounts
+constexpr double kMinVariance_rad2 = 1e-6;  // 0.06 deg: play of the mounts
 
 double wrapped(double angle_rad) { return vision::wrap(angle_rad, 2.0 * std::numbers::pi); }
 
@@ -20,7 +20,7 @@ void DirectionOffset::add(double difference_rad, double variance_rad2) {
   const double gain = variance_rad2_ / (variance_rad2_ + variance_rad2);
   estimate_rad_ += gain * wrapped(difference_rad - estimate_rad_);
   estimate_rad_ = wrapped(estimate_rad_);
-  variance_rad2_ = std::max(std::min(kLeastVariance_rad2, variance_rad2_), (1.0 - gain) * variance_rad2_);
+  variance_rad2_ = std::max(std::min(kMinVariance_rad2, variance_rad2_), (1.0 - gain) * variance_rad2_);
 }
 
 void DirectionOffset::restart(double estimate_rad, double variance_rad2) {

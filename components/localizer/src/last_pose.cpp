@@ -20,10 +20,10 @@
 namespace panvo::localizer {
 namespace {
 
-constexpr double kLeastSpeed = 0.5;  // m/s: a stationary vehicle may start
-constexpr double kClimb = 0.1;       // fraction of the path, up or down
-constexpr double kTurnRate = 0.3;    // rad/s, of a vehicle in a bend
-constexpr double kTilt = 0.05;       // rad
+constexpr double kMinSpeed = 0.5;  // m/s: a stationary vehicle may start
+constexpr double kClimb = 0.1;     // fraction of the path, up or down
+constexpr double kTurnRate = 0.3;  // rad/s, of a vehicle in a bend
+constexpr double kTilt = 0.05;     // rad
 
 /// Lines of "key value value ...".
 using Lines = std::map<std::string, std::string>;
@@ -57,9 +57,9 @@ std::vector<Number> numbers(const Lines& lines, const std::string& key, std::siz
 /// Applies the rules of odometry messages, the origin of the values.
 void check_numbers(interfaces::Check& check, std::span<const double> position, std::span<const double> covariance,
                    double speed_m_per_s) {
-  check.bounded("position", position, interfaces::kFarthest_m);
+  check.bounded("position", position, interfaces::kMax_m);
   check.covariance("covariance", covariance);
-  check.within("speed_m_per_s", speed_m_per_s, 0.0, interfaces::kFastest);
+  check.within("speed_m_per_s", speed_m_per_s, 0.0, interfaces::kMax);
 }
 
 LastPose from_lines(const Lines& lines) {
@@ -95,7 +95,7 @@ std::string to_text(const LastPose& last) {
 }  // namespace
 
 PoseInMap after_gap(const LastPose& last, double gap_s) {
-  const double way_m = std::max(last.speed_m_per_s, kLeastSpeed) * gap_s;
+  const double way_m = std::max(last.speed_m_per_s, kMinSpeed) * gap_s;
   const double turn_rad = std::min(kTurnRate * gap_s, std::numbers::pi);
   vision::Vector6d sigma;
   sigma << way_m, way_m, kClimb * way_m, kTilt, kTilt, turn_rad;

@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-#include "panvo/localizer/journey_graph.hpp"
+#include "panvo/localizer/local_pose_graph.hpp"
 
 namespace panvo::localizer {
 

@@ -49,7 +49,7 @@ bool LastPoseKeeper::go_on(Localizer& localizer, const LastPose& last, std::int6
     return false;
   }
   const auto now = after_gap(last, gap_s);
-  if (!localizer.add_said(now, stamp_ns)) {
+  if (!localizer.set_initial_pose(now, stamp_ns)) {
     log_.warn("{}: ignored: invalid pose or covariance; delete the file, a new one will be written",
               parameters_.last_pose_file);
     return false;

@@ -98,7 +98,7 @@ bool Localizer::add_known(const KnownLandmark& landmark) {
     is_joined_ = false;
     // A late map, or a single external landmark, does not invalidate a known position: it is joined when two panoramas
     // agree on it.
-    if (!graph_.has_started() || (graph_.is_bare() && way_m() < kAtStart_m)) is_located_ = false;
+    if (!graph_.has_started() || (graph_.has_only_start() && way_m() < kAtStart_m)) is_located_ = false;
   }
   graph_.add_known(landmark);
   if (graph_.has_started()) latest_ = localized(chain_.latest().pose);
@@ -136,7 +136,7 @@ void Localizer::set_clock_back(std::int64_t by_ns) {
   for (auto* stamp_ns : {&unreliable_since_ns_, &doubtful_ns_, &azimuth_ns_}) {
     if (*stamp_ns) **stamp_ns -= by_ns;
   }
-  for (auto* sighting : {&asking_, &dissent_}) {
+  for (auto* sighting : {&asking_, &conflicting_}) {
     if (!*sighting) continue;
     (*sighting)->sighting.stamp_ns -= by_ns;
     (*sighting)->at_ns -= by_ns;
@@ -177,9 +177,10 @@ LocalizedPose Localizer::after_silence(double silence_s) const {
 
 std::vector<Doubt> Localizer::doubts() const {
   auto doubts = check_.doubts(latest_.stamp_ns);
-  if (dissent_) {
-    doubts.push_back({dissent_->off_m, true,
-                      fmt::format("landmark {} was seen at an unexpected position", dissent_->sighting.landmark_id)});
+  if (conflicting_) {
+    doubts.push_back(
+        {conflicting_->off_m, true,
+         fmt::format("landmark {} was seen at an unexpected position", conflicting_->sighting.landmark_id)});
   } else if (asking_ && asking_->is_far && seconds(asking_->at_ns, latest_.stamp_ns) < parameters_.patience_s) {
     doubts.push_back({asking_->off_m, true,
                       fmt::format("landmark {} was seen at an unexpected position", asking_->sighting.landmark_id)});
@@ -235,9 +236,9 @@ void Localizer::tell_state(LocalizedPose& pose) const {
   if (sigma_m > parameters_.lost_sigma_m) {
     return tell(State::kLost, fmt::format("position known only to {:.0f} m", sigma_m));
   }
-  if (doubtful_ns_ && dissent_) {
+  if (doubtful_ns_ && conflicting_) {
     return tell(State::kLost, fmt::format("landmark {} shows that the vehicle was moved while odometry was unreliable",
-                                          dissent_->sighting.landmark_id));
+                                          conflicting_->sighting.landmark_id));
   }
   const bool was_just_found = found_at_way_m_ && chain_.latest().way_m - *found_at_way_m_ < parameters_.same_pass_m;
   tell(was_just_found ? State::kRelocalised : State::kTracking, {});
@@ -245,8 +246,8 @@ void Localizer::tell_state(LocalizedPose& pose) const {
 
 /// Advances the published odom_from_base by an odometry step and applies a part of the pending yaw correction.
 void Localizer::slew(const Eigen::Isometry3d& step) {
-  const double turn_rad = kSlew * owed_rad_;
-  owed_rad_ -= turn_rad;
+  const double turn_rad = kSlew * pending_yaw_correction_rad_;
+  pending_yaw_correction_rad_ -= turn_rad;
   smooth_ = smooth_ * step * Eigen::Isometry3d(vision::so3_exp(Eigen::Vector3d(0.0, 0.0, turn_rad)));
   smooth_.linear() = vision::nearest_rotation(smooth_.linear());
 }

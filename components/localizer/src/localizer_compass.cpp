@@ -13,7 +13,7 @@ namespace panvo::localizer {
 namespace {
 
 constexpr int kYaw = 5;                // index in a twist
-constexpr double kMostElse = 25.0;     // wrong turns also cause wrong translation, by up to five times the stated error
+constexpr double kMaxElse = 25.0;      // wrong turns also cause wrong translation, by up to five times the stated error
 constexpr double kClockCaution = 9.0;  // odometry sometimes errs by more than stated, especially while turning
 constexpr double kScaleCaution = 4.0;  // compass errors are correlated over some seconds, e.g. in a bend
 
@@ -46,7 +46,8 @@ AzimuthUse Localizer::add(const AzimuthMeasurement& azimuth) {
   const CrossCheck::Stretch stretch{azimuth.from_ns, from_ns, to_ns};
   const auto wrong = check_.add_turns(chain_, stretch, disagreement, is_contradicted);
   if (wrong == Wrong::kOdometry) {
-    chain_.distrust(from_ns, to_ns, disagreement * disagreement / std::max(turn->variance_rad2, 1e-12), kMostElse);
+    chain_.inflate_covariance(from_ns, to_ns, disagreement * disagreement / std::max(turn->variance_rad2, 1e-12),
+                              kMaxElse);
   }
   if (wrong != Wrong::kPanoramas) fuse(from_ns, to_ns, azimuth.change_rad, compass_variance);
   const auto unsure_since_ns = check_.add_ways(chain_, stretch, azimuth, way_variance_m2);
@@ -67,7 +68,7 @@ AzimuthUse Localizer::add(const AzimuthMeasurement& azimuth) {
     clock_.add(disagreement, rate_change, kClockCaution * (measured_variance + turn->said_variance_rad2));
   }
   azimuth_ns_ = to_ns;
-  owed_rad_ += wrapped(yaw_of(chain_.latest().pose.odom_from_base.linear()) - yaw_before_rad);
+  pending_yaw_correction_rad_ += wrapped(yaw_of(chain_.latest().pose.odom_from_base.linear()) - yaw_before_rad);
   graph_.refresh(chain_, std::min(from_ns, unsure_since_ns.value_or(from_ns)));
   latest_ = localized(chain_.latest().pose);
   if (wrong == Wrong::kPanoramas) return AzimuthUse::kDoubted;
@@ -86,7 +87,7 @@ void Localizer::take_reference(std::int64_t panorama_stamp_ns) {
 
 /// Adds a turn, with the odometry as received, to the sum of small differences. Returns the biased stretch; nullopt if
 /// there is none.
-std::optional<AzimuthLean::Stretch> Localizer::add_to_lean(AzimuthLean::Stretch turn) {
+std::optional<YawBiasDetector::Stretch> Localizer::add_to_lean(YawBiasDetector::Stretch turn) {
   const auto raw_rad = chain_.raw_turn(turn.from_ns, turn.to_ns);
   if (!raw_rad) return std::nullopt;
   const double said_rad = (1.0 - turn_scale_.estimate()) * *raw_rad;
@@ -95,11 +96,11 @@ std::optional<AzimuthLean::Stretch> Localizer::add_to_lean(AzimuthLean::Stretch 
 }
 
 /// Replaces the turns of a biased stretch of odometry by the compass.
-void Localizer::straighten(const AzimuthLean::Stretch& lean) {
+void Localizer::straighten(const YawBiasDetector::Stretch& lean) {
   const auto leaning = chain_.turn(lean.from_ns, lean.to_ns);
   const double wrong_rad2 = lean.disagreement_rad * lean.disagreement_rad;
   if (leaning && leaning->variance_rad2 < wrong_rad2) {
-    chain_.distrust(lean.from_ns, lean.to_ns, wrong_rad2 / std::max(leaning->variance_rad2, 1e-12), kMostElse);
+    chain_.inflate_covariance(lean.from_ns, lean.to_ns, wrong_rad2 / std::max(leaning->variance_rad2, 1e-12), kMaxElse);
   }
   fuse(lean.from_ns, lean.to_ns, lean.compass_rad, lean.compass_variance_rad2);
   graph_.refresh(chain_, lean.from_ns);
@@ -112,7 +113,7 @@ void Localizer::fuse(std::int64_t from_ns, std::int64_t to_ns, double change_rad
   const double in_sums_rad2 = parameters_.compass_correlation_ratio * variance_rad2;
   const double gain = turn->variance_rad2 / (turn->variance_rad2 + in_sums_rad2);
   const double by_rad = gain * wrapped(change_rad - turn->change_rad);
-  chain_.turn_more(from_ns, to_ns, by_rad, 1.0 - gain);
+  chain_.apply_yaw_correction(from_ns, to_ns, by_rad, 1.0 - gain);
 }
 
 }  // namespace panvo::localizer

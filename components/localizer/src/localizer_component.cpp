@@ -167,7 +167,7 @@ class LocalizerComponent final : public runtime::Component {
       return context_.log().warn("{} ignored: no odometry received yet", context_.resolved_name(topics::kInitialPose));
     // A click on a map refers to the present; its stamp, by another clock, is ignored.
     const PoseInMap said{*pose, conversions::to_matrix(message.pose().covariance())};
-    if (!localizer_.add_said(said, localizer_.latest().stamp_ns)) {
+    if (!localizer_.set_initial_pose(said, localizer_.latest().stamp_ns)) {
       return context_.log().warn("{} ignored: invalid pose or covariance",
                                  context_.resolved_name(topics::kInitialPose));
     }

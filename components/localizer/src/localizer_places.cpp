@@ -18,7 +18,7 @@ namespace {
 constexpr double kDegree = std::numbers::pi / 180.0;
 // Of an image's arrival stamp. Larger clock offsets show in the first bend; until then sightings on straight roads
 // count as well.
-constexpr double kMostStampSigma_s = 0.01;
+constexpr double kMaxStampSigma_s = 0.01;
 constexpr double kUnknownYaw_rad = 3.0;
 // For the components left open by an external pose: a click on a flat map.
 constexpr double kUnsaidHeight_m = 10.0;
@@ -51,7 +51,7 @@ Correction Localizer::add(const LandmarkSighting& told) {
 
   const bool was_unknown = !is_located_ || localized(chain_.latest().pose).state == State::kLost;
   const bool joins = !is_joined_ && graph_.is_known(sighting.landmark_id);
-  JourneyGraph corrected = graph_;
+  LocalPoseGraph corrected = graph_;
   if (verdict.cut_ns) corrected.cut(*verdict.cut_ns);
   if (joins) {
     const Eigen::Isometry3d measured = landmark->map_from_base * sighting.landmark_from_base;
@@ -69,7 +69,7 @@ Correction Localizer::add(const LandmarkSighting& told) {
   take(verdict);
   if (joins) is_located_ = is_joined_ = true;
   doubtful_ns_.reset();
-  dissent_.reset();  // doubts about an earlier one are not confirmed by this one
+  conflicting_.reset();  // doubts about an earlier one are not confirmed by this one
   if (was_unknown || joins) found_at_way_m_ = at->way_m;
   correction.kind = CorrectionKind::kApplied;
   correction.map_from_base_after = graph_.carried(at->pose).map_from_base;
@@ -82,13 +82,13 @@ Correction Localizer::add(const LandmarkSighting& told) {
 LandmarkSighting Localizer::with_uncertain_clock(const LandmarkSighting& sighting) const {
   LandmarkSighting wider = sighting;
   if (const auto twist = chain_.twist(in_odometry_time(sighting.stamp_ns))) {
-    const double sigma_s = std::min(std::sqrt(clock_.variance_s2()), kMostStampSigma_s);
+    const double sigma_s = std::min(std::sqrt(clock_.variance_s2()), kMaxStampSigma_s);
     wider.covariance += 2.0 * vision::stamp_covariance(sighting.landmark_from_base, *twist, sigma_s);
   }
   return wider;
 }
 
-bool Localizer::add_said(const PoseInMap& pose, std::int64_t stamp_ns) {
+bool Localizer::set_initial_pose(const PoseInMap& pose, std::int64_t stamp_ns) {
   const auto at = chain_.at(stamp_ns);
   if (!at || !pose.map_from_base.matrix().allFinite() || !pose.covariance.allFinite()) return false;
   PoseInMap said = pose;
@@ -98,19 +98,19 @@ bool Localizer::add_said(const PoseInMap& pose, std::int64_t stamp_ns) {
     if (said.covariance(i, i) == 0.0) said.covariance(i, i) = unsaid_sigma(i) * unsaid_sigma(i);
   }
   if (fault_of(said.map_from_base, said.covariance)) return false;
-  JourneyGraph corrected = graph_;
-  if (is_located_ && is_joined_ && !graph_.is_bare()) {
+  LocalPoseGraph corrected = graph_;
+  if (is_located_ && is_joined_ && !graph_.has_only_start()) {
     corrected.cut(at->pose.stamp_ns);
   } else {
     corrected.place(said.map_from_base * graph_.carried(at->pose).map_from_base.inverse());
   }
-  corrected.add_said(said, *at);
+  corrected.set_initial_pose(said, *at);
   if (!corrected.solve()) return false;
   graph_ = std::move(corrected);
   is_located_ = is_joined_ = true;
   doubtful_ns_.reset();
   asking_.reset();
-  dissent_.reset();
+  conflicting_.reset();
   found_at_way_m_ = at->way_m;
   latest_ = localized(chain_.latest().pose);
   return true;
@@ -118,9 +118,9 @@ bool Localizer::add_said(const PoseInMap& pose, std::int64_t stamp_ns) {
 
 /// Whether a sighting is to be applied. Changes nothing: see take().
 Localizer::Verdict Localizer::judge(const LandmarkSighting& sighting, const KnownLandmark& landmark,
-                                    const Remembered& at) const {
+                                    const OdometrySample& at) const {
   Verdict verdict;
-  verdict.dissent = dissent_;
+  verdict.dissent = conflicting_;
   const Eigen::Isometry3d measured = landmark.map_from_base * sighting.landmark_from_base;
   const bool is_placed = is_joined_ || !graph_.is_known(sighting.landmark_id);
   double off_m = 0.0;
@@ -139,7 +139,8 @@ Localizer::Verdict Localizer::judge(const LandmarkSighting& sighting, const Know
     return verdict;
   }
   const bool is_far = is_placed && sighting.stands_alone;
-  const Asking now{sighting, measured * at.pose.odom_from_base.inverse(), at.way_m, off_m, is_far, at.pose.stamp_ns};
+  const PendingRelocalization now{sighting,        measured * at.pose.odom_from_base.inverse(), at.way_m, off_m, is_far,
+                                  at.pose.stamp_ns};
   verdict.asking = now;
   const bool is_confirmed = asking_ && confirms(now, *asking_);
   if (is_far) return judge_far(std::move(verdict), now, is_confirmed);
@@ -159,15 +160,15 @@ Localizer::Verdict Localizer::judge(const LandmarkSighting& sighting, const Know
 
 /// For a sighting outside the gate. Odometry errs beyond the second gate only if it missed a motion of the vehicle. But
 /// a misplaced landmark would look the same: two landmarks must agree.
-Localizer::Verdict Localizer::judge_far(Verdict verdict, const Asking& now, bool is_confirmed) const {
+Localizer::Verdict Localizer::judge_far(Verdict verdict, const PendingRelocalization& now, bool is_confirmed) const {
   const auto far = fmt::format("chi-square {:.0f}, gate {:.0f}", verdict.chi_square, parameters_.gate_chi_square);
   if (!is_confirmed) {
     verdict.objection = far + ": waiting for confirmation by a second panorama";
     return verdict;
   }
   if (verdict.chi_square <= parameters_.second_look_gate_ratio * parameters_.gate_chi_square) return verdict;
-  const bool is_other = dissent_ && dissent_->sighting.landmark_id != now.sighting.landmark_id;
-  if (!is_other || !agree(*dissent_, now)) {
+  const bool is_other = conflicting_ && conflicting_->sighting.landmark_id != now.sighting.landmark_id;
+  if (!is_other || !agree(*conflicting_, now)) {
     verdict.dissent = now;
     verdict.objection = far + ": waiting for confirmation by a second landmark";
     return verdict;
@@ -179,11 +180,11 @@ Localizer::Verdict Localizer::judge_far(Verdict verdict, const Asking& now, bool
 
 void Localizer::take(const Verdict& verdict) {
   asking_ = verdict.asking;
-  dissent_ = verdict.dissent;
+  conflicting_ = verdict.dissent;
 }
 
 /// Whether a sighting repeats an earlier one of the same pass. One of few points does not confirm one that stands alone.
-bool Localizer::confirms(const Asking& now, const Asking& before) const {
+bool Localizer::confirms(const PendingRelocalization& now, const PendingRelocalization& before) const {
   const bool is_weaker = now.sighting.stands_alone && !before.sighting.stands_alone;
   return !is_weaker && before.sighting.landmark_id == now.sighting.landmark_id &&
          before.sighting.stamp_ns < now.sighting.stamp_ns &&
@@ -191,7 +192,7 @@ bool Localizer::confirms(const Asking& now, const Asking& before) const {
 }
 
 /// Whether two sightings give the same pose of odom in the map, except for the drift between them.
-bool Localizer::agree(const Asking& before, const Asking& now) const {
+bool Localizer::agree(const PendingRelocalization& before, const PendingRelocalization& now) const {
   const auto at = chain_.at(in_odometry_time(now.sighting.stamp_ns));
   if (!at) return false;
   const auto apart =

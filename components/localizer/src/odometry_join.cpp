@@ -10,11 +10,11 @@
 namespace panvo::localizer {
 namespace {
 
-constexpr std::size_t kMostQualities = 100;
-constexpr std::size_t kMostWaiting = 10;
+constexpr std::size_t kMaxQualities = 100;
+constexpr std::size_t kMaxWaiting = 10;
 // Both are published at the same time; a busy network delays them by a tenth of this.
 constexpr std::int64_t kPatience_ns = 200'000'000;
-constexpr int kMostLacking = 10;  // after this many, quality is no longer expected
+constexpr int kMaxLacking = 10;  // after this many, quality is no longer expected
 
 }  // namespace
 
@@ -24,7 +24,7 @@ void OdometryJoin::add(const panvo_msgs::msg::OdometryQuality& quality) {
   const double ratio = quality.inlier_ratio();
   qualities_[conversions::stamp_ns(quality)] = {quality.reliable(),
                                                 std::isfinite(ratio) ? std::clamp(1.0 - ratio, 0.0, 1.0) : 1.0};
-  if (qualities_.size() > kMostQualities) qualities_.erase(qualities_.begin());
+  if (qualities_.size() > kMaxQualities) qualities_.erase(qualities_.begin());
 }
 
 void OdometryJoin::add(std::shared_ptr<const nav_msgs::msg::Odometry> odometry, std::int64_t now_ns) {
@@ -39,10 +39,10 @@ std::optional<OdometryJoin::Joined> OdometryJoin::next(std::int64_t now_ns, bool
     joined.is_reliable = own->second.is_reliable;
     joined.outlier_share = own->second.outlier_share;
     qualities_.erase(qualities_.begin(), std::next(own));
-  } else if (is_told && lacking_ < kMostLacking) {
+  } else if (is_told && lacking_ < kMaxLacking) {
     // Topics keep their order: a later quality means that this one was lost.
     const bool is_lost = qualities_.upper_bound(stamp_ns) != qualities_.end();
-    const bool is_patient = waiting_.size() <= kMostWaiting && now_ns - waiting_.front().since_ns < kPatience_ns;
+    const bool is_patient = waiting_.size() <= kMaxWaiting && now_ns - waiting_.front().since_ns < kPatience_ns;
     if (!is_lost && is_patient) return std::nullopt;
     if (!is_lost) ++lacking_;
     joined.lacks_quality = true;

@@ -12,7 +12,7 @@ bool PathRecord::add(std::int64_t stamp_ns, const Eigen::Isometry3d& frame_from_
   const bool is_due =
       poses_.empty() || (poses_.back().frame_from_base.translation() - frame_from_base.translation()).norm() >= step_m_;
   if (is_due) poses_.push_back({stamp_ns, frame_from_base});
-  if (poses_.size() > most_poses_) {
+  if (poses_.size() > max_poses_) {
     std::size_t kept = 0;
     for (std::size_t i = 0; i < poses_.size(); i += 2) poses_[kept++] = poses_[i];
     poses_.resize(kept);

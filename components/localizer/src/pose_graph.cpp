@@ -13,7 +13,7 @@ namespace panvo::localizer {
 namespace {
 
 constexpr double kLossScale = 3.0;  // standard deviations
-constexpr int kMostSteps = 50;
+constexpr int kMaxSteps = 50;
 
 /// Translation, then the quaternion in Eigen's order: x y z w.
 using Block = std::array<double, 7>;
@@ -128,7 +128,7 @@ bool PoseGraph::optimise() {
   Problem problem(*this);
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
-  options.max_num_iterations = kMostSteps;
+  options.max_num_iterations = kMaxSteps;
   options.num_threads = 1;
   options.logging_type = ceres::SILENT;
   ceres::Solver::Summary summary;

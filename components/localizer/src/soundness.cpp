@@ -9,13 +9,13 @@
 namespace panvo::localizer {
 namespace {
 
-constexpr double kFarthest_m = 1e7;
-constexpr double kMostVariance = 1e12;
+constexpr double kMax_m = 1e7;
+constexpr double kMaxVariance = 1e12;
 constexpr double kRotationTolerance = 1e-3;
 constexpr double kRounding = 1e-6;  // relative to the largest entry: accumulated rounding of covariances
-constexpr double kMostAngle_rad = 6.0 * std::numbers::pi;
-constexpr double kLeastAngleVariance = 1e-12;
-constexpr double kMostAngleVariance = 1e4;
+constexpr double kMaxAngle_rad = 6.0 * std::numbers::pi;
+constexpr double kMinAngleVariance = 1e-12;
+constexpr double kMaxAngleVariance = 1e4;
 
 }  // namespace
 
@@ -23,9 +23,9 @@ std::optional<std::string> fault_of(const Eigen::Isometry3d& pose, const vision:
   if (!pose.matrix().allFinite() || !covariance.allFinite()) return "has values that are not finite";
   const Eigen::Matrix3d product = pose.linear() * pose.linear().transpose();
   if (!product.isApprox(Eigen::Matrix3d::Identity(), kRotationTolerance)) return "has an invalid rotation";
-  if (pose.translation().cwiseAbs().maxCoeff() > kFarthest_m) return "has a position beyond 10,000 km";
+  if (pose.translation().cwiseAbs().maxCoeff() > kMax_m) return "has a position beyond 10,000 km";
   const double most = covariance.cwiseAbs().maxCoeff();
-  if (most > kMostVariance) return "has a variance above 1e12";
+  if (most > kMaxVariance) return "has a variance above 1e12";
   const vision::Matrix6d skew = covariance - covariance.transpose();
   if (skew.cwiseAbs().maxCoeff() > kRounding * most) return "has a covariance that is not symmetric";
   const Eigen::SelfAdjointEigenSolver<vision::Matrix6d> parts(covariance, Eigen::EigenvaluesOnly);
@@ -35,8 +35,8 @@ std::optional<std::string> fault_of(const Eigen::Isometry3d& pose, const vision:
 
 std::optional<std::string> fault_of_angle(double angle_rad, double variance_rad2) {
   if (!std::isfinite(angle_rad) || !std::isfinite(variance_rad2)) return "has values that are not finite";
-  if (std::abs(angle_rad) > kMostAngle_rad) return "has an angle of more than three turns";
-  if (variance_rad2 < kLeastAngleVariance || variance_rad2 > kMostAngleVariance) {
+  if (std::abs(angle_rad) > kMaxAngle_rad) return "has an angle of more than three turns";
+  if (variance_rad2 < kMinAngleVariance || variance_rad2 > kMaxAngleVariance) {
     return "has an implausible variance";
   }
   return std::nullopt;

@@ -98,7 +98,7 @@ TEST(LocalizerBelief, IsWhereSomebodySaysInTheMapOfAnEarlierDay) {
   for (int i = 0; i < 10; ++i) localizer.add(drive.step());
   ASSERT_EQ(localizer.latest().state, State::kUnlocated);
   const Eigen::Isometry3d map_from_truth = known.map_from_base * drive.truth.inverse();  // vehicle at the landmark
-  ASSERT_TRUE(localizer.add_said(clicked(known.map_from_base), drive.now().stamp_ns));
+  ASSERT_TRUE(localizer.set_initial_pose(clicked(known.map_from_base), drive.now().stamp_ns));
   EXPECT_EQ(localizer.latest().state, State::kRelocalised);
   EXPECT_LT((localizer.latest().map_from_base.translation() - Eigen::Vector3d(500.0, 300.0, 0.0)).norm(), 1e-6);
   for (int i = 0; i < 5; ++i) localizer.add(drive.step());
@@ -119,14 +119,14 @@ TEST(LocalizerBelief, KeepsWhatItFoundWhereSomebodySaidWhenHeSaysAnotherPlace) {
   localizer.add(drive.now());
   Eigen::Isometry3d map_from_truth = Eigen::Isometry3d::Identity();
   map_from_truth.translation() = Eigen::Vector3d(500.0, 300.0, 0.0);
-  ASSERT_TRUE(localizer.add_said(clicked(map_from_truth * drive.truth), drive.now().stamp_ns));
+  ASSERT_TRUE(localizer.set_initial_pose(clicked(map_from_truth * drive.truth), drive.now().stamp_ns));
   for (int i = 0; i < 10; ++i) localizer.add(drive.step());
   const Eigen::Isometry3d place = map_from_truth * drive.truth;
   ASSERT_TRUE(localizer.add_built(1, drive.now().stamp_ns));
   localizer.add(drive.step());
   Eigen::Isometry3d elsewhere = map_from_truth * drive.truth;
   elsewhere.translation().x() -= 60.0;
-  ASSERT_TRUE(localizer.add_said(clicked(elsewhere), drive.now().stamp_ns));
+  ASSERT_TRUE(localizer.set_initial_pose(clicked(elsewhere), drive.now().stamp_ns));
   EXPECT_LT((localizer.latest().map_from_base.translation() - elsewhere.translation()).norm(), 0.5);
   const auto landmarks = localizer.landmarks();
   ASSERT_EQ(landmarks.size(), 1U);
@@ -139,7 +139,7 @@ TEST(LocalizerBelief, TakesAVehicleForMovedWhereSomebodySaysSo) {
   Eigen::Isometry3d elsewhere = round.drive.truth;
   elsewhere.translation() += Eigen::Vector3d(40.0, -25.0, 0.0);
   const auto smooth_before = round.localizer.latest().odom_from_base;
-  ASSERT_TRUE(round.localizer.add_said(clicked(elsewhere), round.drive.now().stamp_ns));
+  ASSERT_TRUE(round.localizer.set_initial_pose(clicked(elsewhere), round.drive.now().stamp_ns));
   const auto& now = round.localizer.latest();
   EXPECT_LT((now.map_from_base.translation() - elsewhere.translation()).head<2>().norm(), 0.05);
   EXPECT_GT(vision::horizontal_sigma(now.covariance), 0.4);
@@ -153,8 +153,9 @@ TEST(LocalizerBelief, IsNotToldWhereItIsByNumbersThatAreNone) {
   Round round(9);
   PoseInMap said = clicked(round.drive.truth);
   said.map_from_base.translation().x() = std::nan("");
-  EXPECT_FALSE(round.localizer.add_said(said, round.drive.now().stamp_ns));
-  EXPECT_FALSE(round.localizer.add_said(clicked(round.drive.truth), round.drive.now().stamp_ns + 1'000'000'000'000));
+  EXPECT_FALSE(round.localizer.set_initial_pose(said, round.drive.now().stamp_ns));
+  EXPECT_FALSE(
+      round.localizer.set_initial_pose(clicked(round.drive.truth), round.drive.now().stamp_ns + 1'000'000'000'000));
 }
 
 TEST(LocalizerBelief, DoesNotFollowALandmarkThatIsInTheWrongPlace) {

@@ -108,18 +108,17 @@ TEST(Localizer, KeepsOdometryFreeOfJumpsWhileTheMapIsCorrected) {
   round.localizer.add(round.drive.sight(1, round.landmark));
   EXPECT_TRUE(round.localizer.latest().odom_from_base.isApprox(last));
   // a turn that odometry missed is applied gradually
-  double largest_rad = 0.0;
+  double max_rad = 0.0;
   for (int i = 0; i < 40; ++i) {
     round.localizer.add(round.drive.step(i == 0 ? 0.1 : 0.0));
     if (i == 0) round.localizer.add(round.drive.azimuth(2.0 * M_PI / 200.0 + 0.1, 0.001));
     const auto& pose = round.localizer.latest();
-    largest_rad =
-        std::max(largest_rad, std::abs(yaw_of((last.inverse() * pose.odom_from_base).linear()) - 2.0 * M_PI / 200.0));
+    max_rad = std::max(max_rad, std::abs(yaw_of((last.inverse() * pose.odom_from_base).linear()) - 2.0 * M_PI / 200.0));
     EXPECT_TRUE((pose.map_from_odom * pose.odom_from_base).isApprox(pose.map_from_base, 1e-9));
     last = pose.odom_from_base;
   }
-  EXPECT_LT(largest_rad, 0.035);
-  EXPECT_GT(largest_rad, 0.015);  // i.e. a correction was needed
+  EXPECT_LT(max_rad, 0.035);
+  EXPECT_GT(max_rad, 0.015);  // i.e. a correction was needed
 }
 
 TEST(Localizer, DoesNotKnowItsScale) {

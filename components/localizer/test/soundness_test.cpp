@@ -70,7 +70,7 @@ TEST(Localizer, IsNotChangedByInputThatHasAFault) {
     sighting.landmark_from_base = pose;
     sighting.covariance = covariance;
     EXPECT_EQ(round.localizer.add(sighting).kind, CorrectionKind::kRejected);
-    EXPECT_FALSE(round.localizer.add_said({pose, covariance}, round.drive.now().stamp_ns)) << covariance;
+    EXPECT_FALSE(round.localizer.set_initial_pose({pose, covariance}, round.drive.now().stamp_ns)) << covariance;
     KnownLandmark known;
     known.id = 7;
     known.map_from_base = pose;

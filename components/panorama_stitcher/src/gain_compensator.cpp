@@ -8,7 +8,7 @@
 namespace panvo::panorama_stitcher {
 namespace {
 
-constexpr std::int64_t kFewestSamples = 20;
+constexpr std::int64_t kMinSamples = 20;
 constexpr double kPrior = 1e-6;  // prior for a gain of 1, for gains that the overlaps do not determine
 
 }  // namespace
@@ -21,7 +21,7 @@ void GainCompensator::update(const std::vector<Overlap>& overlaps) {
   Eigen::VectorXd right = Eigen::VectorXd::Zero(count);
   double weights = 0.0;
   for (const auto& overlap : overlaps) {
-    if (overlap.samples < kFewestSamples || !(overlap.first_sum > 0.0 && overlap.second_sum > 0.0)) continue;
+    if (overlap.samples < kMinSamples || !(overlap.first_sum > 0.0 && overlap.second_sum > 0.0)) continue;
     const auto weight = static_cast<double>(overlap.samples);
     const auto i = static_cast<Eigen::Index>(overlap.first);
     const auto j = static_cast<Eigen::Index>(overlap.second);

@@ -178,7 +178,7 @@ void PanoramaStitcher::compensate(std::span<const cv::Mat> images) {
   gains_.update(overlaps);
   for (std::size_t head = 0; head < heads; ++head) {
     factors_[head] =
-        std::clamp(static_cast<int>(std::lround(vision::kUnitFactor * gains_.gain(head))), 0, vision::kLargestFactor);
+        std::clamp(static_cast<int>(std::lround(vision::kUnitFactor * gains_.gain(head))), 0, vision::kMaxFactor);
   }
 }
 

@@ -11,7 +11,7 @@ namespace panvo::panorama_stitcher {
 namespace {
 
 constexpr int kTileColumns = 32, kTileRows = 32;
-constexpr std::size_t kMostSamples = 4000;
+constexpr std::size_t kMaxSamples = 4000;
 constexpr int kFraction = vision::kLookupFraction;
 
 /// A position in a head's image in 1/32 px.
@@ -143,7 +143,7 @@ class TableMaker {
     bool take(std::uint32_t offset_px) {
       const std::uint32_t new_low = is_empty ? offset_px : std::min(low, offset_px);
       const std::uint32_t new_high = is_empty ? offset_px : std::max(high, offset_px);
-      if (new_high - new_low > vision::kLargestLookupOffset) return false;
+      if (new_high - new_low > vision::kMaxLookupOffset) return false;
       low = new_low;
       high = new_high;
       is_empty = false;
@@ -208,7 +208,7 @@ class TableMaker {
 
   /// Thins evenly, so that each pair of heads keeps its share.
   void thin_samples() {
-    const std::size_t step = table_.samples.size() / kMostSamples + 1;
+    const std::size_t step = table_.samples.size() / kMaxSamples + 1;
     std::size_t kept = 0;
     for (std::size_t i = 0; i < table_.samples.size(); i += step) table_.samples[kept++] = table_.samples[i];
     table_.samples.resize(kept);

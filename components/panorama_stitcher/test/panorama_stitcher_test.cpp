@@ -176,13 +176,13 @@ TEST(StitchTable, BlendsWithoutAStep) {
   PanoramaStitcher stitcher(rig, settings());
   cv::Mat panorama;
   stitcher.stitch(even, panorama);
-  int largest_step = 0;
+  int max_step = 0;
   for (int column = 1; column < kColumns; ++column) {
-    largest_step = std::max(largest_step, std::abs(panorama.at<uchar>(kColumns / 4, column) -
-                                                   panorama.at<uchar>(kColumns / 4, column - 1)));
+    max_step = std::max(
+        max_step, std::abs(panorama.at<uchar>(kColumns / 4, column) - panorama.at<uchar>(kColumns / 4, column - 1)));
   }
-  EXPECT_LE(largest_step, 9) << "60 grey levels over 6 degrees, 9 px";
-  EXPECT_GE(largest_step, 5);
+  EXPECT_LE(max_step, 9) << "60 grey levels over 6 degrees, 9 px";
+  EXPECT_GE(max_step, 5);
 }
 
 TEST(PanoramaStitcher, GoesOnWithoutAHead) {

@@ -20,20 +20,20 @@ namespace {
 constexpr double kPerRadian =
     BandCutter::kColumns / (2.0 * std::numbers::pi);  // columns and rows of the full-size panorama
 constexpr int kHalf = 2;                              // sector patches are matched at half size
-constexpr double kSmallestFoundShare = 0.15;          // of the reference points: fewer may agree by chance
-constexpr int kMostFailures = 3;                      // consecutive failures before a new reference is taken
+constexpr double kMinFoundShare = 0.15;               // of the reference points: fewer may agree by chance
+constexpr int kMaxFailures = 3;                       // consecutive failures before a new reference is taken
 constexpr double kSideSector_rad = 0.6;               // on each side of the lateral direction
-constexpr double kAhead = 0.05;         // sine: closer to the direction of travel, the magnification is undefined
-constexpr double kMostMagnified = 1.6;  // larger changes are clamped
-constexpr double kZenithShare = 0.2;    // of the rows: overhead region
-constexpr double kSkyQuantile = 0.2;    // of the overhead grey levels
-constexpr double kSkyShare = 0.75;      // of that quantile: darker pixels are not sky
+constexpr double kAhead = 0.05;        // sine: closer to the direction of travel, the magnification is undefined
+constexpr double kMaxMagnified = 1.6;  // larger changes are clamped
+constexpr double kZenithShare = 0.2;   // of the rows: overhead region
+constexpr double kSkyQuantile = 0.2;   // of the overhead grey levels
+constexpr double kSkyShare = 0.75;     // of that quantile: darker pixels are not sky
 
 /// Magnification of a point from the sines of its angles to the direction of travel before and after: its distance from
 /// the line of travel is constant.
 double magnified(double sine_then, double sine_now) {
   if (sine_then < kAhead || sine_now < kAhead) return 1.0;
-  return std::clamp(sine_now / sine_then, 1.0 / kMostMagnified, kMostMagnified);
+  return std::clamp(sine_now / sine_then, 1.0 / kMaxMagnified, kMaxMagnified);
 }
 
 /// Lower bound of the sky's grey level; 256 if the overhead region is not brighter than the band.
@@ -74,7 +74,7 @@ class AllRound final : public PanoramicCompass::Method {
     }
     AzimuthChange change = measure(stamp_ns);
     failures_ = change.valid ? 0 : failures_ + 1;
-    if (failures_ >= kMostFailures || needs_reference_) refer_to(stamp_ns);
+    if (failures_ >= kMaxFailures || needs_reference_) refer_to(stamp_ns);
     return change;
   }
 
@@ -102,7 +102,7 @@ class AllRound final : public PanoramicCompass::Method {
     const auto fit = fit_turn(pairs, now_from_reference_, drift_);
     const AgreementParameters& demand = parameters_.agreement;
     const int needed =
-        std::max(demand.fewest_points, static_cast<int>(kSmallestFoundShare * static_cast<double>(field_.size())));
+        std::max(demand.min_points, static_cast<int>(kMinFoundShare * static_cast<double>(field_.size())));
     if (!fit || fit->agreeing < needed) {
       reason << (fit ? fit->agreeing : 0) << " points agree on a turn, " << needed << " needed";
       if (!shifts.reason.empty()) reason << "; " << shifts.reason;
@@ -118,16 +118,16 @@ class AllRound final : public PanoramicCompass::Method {
     change.motion_azimuth_rad = std::atan2(-fit->drift.y(), -fit->drift.x());
     change.motion_azimuth_variance_rad2 = motion_variance(*fit, systematic_rad);
     const double sigma_deg = std::sqrt(change.variance_rad2) * 180.0 / std::numbers::pi;
-    if (share < demand.smallest_share) {
+    if (share < demand.min_share) {
       reason << "the points contradict each other: " << fit->agreeing << " of " << pairs.size() << " agree";
-    } else if (sigma_deg > demand.largest_sigma_deg) {
+    } else if (sigma_deg > demand.max_sigma_deg) {
       reason << "uncertain: standard deviation " << sigma_deg << " deg";
     }
     change.reason = reason.str();
     change.valid = change.reason.empty();
     if (change.valid) now_from_reference_ = fit->now_from_then;
     if (change.valid) drift_ = fit->drift;
-    if (change.valid) needs_reference_ = ++age_ >= demand.longest_reference || has_left(*fit);
+    if (change.valid) needs_reference_ = ++age_ >= demand.max_reference_panoramas || has_left(*fit);
     return change;
   }
 
@@ -135,14 +135,14 @@ class AllRound final : public PanoramicCompass::Method {
   bool has_left(const TurnFit& fit) const {
     const AgreementParameters& demand = parameters_.agreement;
     return fit.agreeing < demand.kept_share * static_cast<double>(points_at_first_) ||
-           fit.typical_parallax > demand.largest_parallax_deg * std::numbers::pi / 180.0;
+           fit.typical_parallax > demand.max_parallax_deg * std::numbers::pi / 180.0;
   }
 
   SectorShifts find_turn() {
     const vision::Stage stage(observer_, "sectors");
-    const double range_px = parameters_.largest_turn_deg * BandCutter::kColumns / 360.0 / kHalf;
+    const double range_px = parameters_.max_turn_deg * BandCutter::kColumns / 360.0 / kHalf;
     return sectors_.track(*features_, expected_rad_ * kPerRadian / kHalf, static_cast<int>(std::ceil(range_px)),
-                          parameters_.patches.largest_distance);
+                          parameters_.patches.max_distance);
   }
 
   std::vector<BearingPair> find_points(const SectorShifts& shifts) {

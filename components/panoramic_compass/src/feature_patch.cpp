@@ -8,7 +8,7 @@
 namespace panvo::panoramic_compass {
 namespace {
 
-constexpr float kSmallestSpread = 0.05F;
+constexpr float kMinSpread = 0.05F;
 
 /// Draws a matrix for the patch and moves it to the position of the patch.
 vision::MeasurementMatrix draw(cv::Size band, const cv::Rect& place, const FeaturePatchParameters& parameters,
@@ -52,7 +52,7 @@ DistanceCurve FeaturePatch::distances(const FeatureBand& band, int first, int co
   for (const vision::SelectedFeature& feature : features_) {
     const bool is_intensity = feature.row < matrix_.rows();
     const int row = is_intensity ? feature.row : feature.row - matrix_.rows();
-    const float per_spread = 1.0F / std::max(kSmallestSpread, feature.spread);
+    const float per_spread = 1.0F / std::max(kMinSpread, feature.spread);
     for (int i = 0; i < count; ++i) {
       const float response =
           is_intensity ? reader.read_intensity(row, first + i, dv) : reader.read_gradient(row, first + i, dv);

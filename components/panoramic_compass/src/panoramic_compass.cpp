@@ -17,10 +17,10 @@
 namespace panvo::panoramic_compass {
 namespace {
 
-constexpr int kSmallestColumns = 256;                  // px: below, the smallest rectangles have only a few pixels
+constexpr int kMinColumns = 256;                       // px: below, the smallest rectangles have only a few pixels
 constexpr double kViewTop = 0.25, kViewBottom = 0.55;  // checked rows: 45 degrees above to 9 below the horizon
 // Front, rear, left and right must be visible: else sideways motion is mistaken for a turn.
-constexpr double kMostCovered = 1.0 / 3.0;
+constexpr double kMaxCovered = 1.0 / 3.0;
 
 cv::Mat to_grey(const cv::Mat& image) {
   if (image.channels() == 1) return image;
@@ -51,7 +51,7 @@ void check(const CompassParameters& parameters) {
 Eigen::Matrix3d upright_base_from_panorama() { return (Eigen::Matrix3d() << 0, 0, 1, -1, 0, 0, 0, -1, 0).finished(); }
 
 std::optional<std::string> find_fault(const cv::Mat& panorama) {
-  if (auto fault = vision::find_layout_fault(panorama, kSmallestColumns)) return fault;
+  if (auto fault = vision::find_layout_fault(panorama, kMinColumns)) return fault;
   // one channel suffices to check darkness and contrast
   cv::Mat view =
       panorama.rowRange(static_cast<int>(kViewTop * panorama.rows), static_cast<int>(kViewBottom * panorama.rows));
@@ -62,10 +62,10 @@ std::optional<std::string> find_fault(const cv::Mat& panorama) {
   }
   if (auto fault = vision::find_fault(view)) return fault;
   const double covered = vision::covered_share(panorama, kViewTop, kViewBottom);
-  if (covered <= kMostCovered) return std::nullopt;
+  if (covered <= kMaxCovered) return std::nullopt;
   std::ostringstream text;
   text.precision(3);
-  text << "is covered: " << 100.0 * covered << " % of the full turn without content, " << 100.0 * kMostCovered
+  text << "is covered: " << 100.0 * covered << " % of the full turn without content, " << 100.0 * kMaxCovered
        << " % allowed";
   return text.str();
 }

@@ -30,7 +30,7 @@ struct ComponentParameters : CompassParameters {
           "several panoramas; two_patches: front and rear patch of the paper, between consecutive panoramas "
           "[Lu2015 6]",
           {"all_round", "two_patches"});
-    field(static_cast<double P::*>(&P::largest_turn_deg), "largest_turn_deg", "deg",
+    field(static_cast<double P::*>(&P::max_turn_deg), "max_turn_deg", "deg",
           "search range on each side between consecutive panoramas; 30: 150 deg/s at 5 Hz", 1.0, 180.0);
     field.group(static_cast<PatchParameters P::*>(&P::patches), "patches");
     field.group(static_cast<PointParameters P::*>(&P::points), "points");

@@ -15,7 +15,7 @@ using vision::PatchTemplate;
 constexpr int kRowMargin_px = 16;  // half-size template with its border
 constexpr double kHalfReach_px = 8.0, kFullReach_px = 3.0;
 constexpr double kPlaceVariance_px2 = 0.03 * 0.03;  // interpolation error of any point
-constexpr int kMostMissed = 3;
+constexpr int kMaxMissed = 3;
 constexpr double kSameSize = 0.01;  // relative; at 6 px, half a template, the shift is below pixel noise
 
 double wrapped(double u, int columns) { return u - columns * std::floor(u / columns); }
@@ -45,7 +45,7 @@ PointField::PointField(const RoundBand& reference, const PointParameters& parame
   reference_ = reference.pyramid[0];
   const vision::CellGrid grid(reference.pyramid[0].size(), parameters.spacing_px);
   for (const vision::Corner& corner :
-       vision::detect_corners(reference.pyramid, grid, parameters.smallest_gradient, kRowMargin_px)) {
+       vision::detect_corners(reference.pyramid, grid, parameters.min_gradient, kRowMargin_px)) {
     const Eigen::Vector2d place = corner.position - Eigen::Vector2d(RoundBand::kMargin_px, 0.0);
     if (place.x() < 0.0 || place.x() >= reference.columns || !is_solid(reference, corner.position)) continue;
     const auto half = PatchTemplate::sample(reference.pyramid[1], 0.5 * corner.position);
@@ -75,13 +75,13 @@ std::vector<FoundPoint> PointField::find(const RoundBand& now, const Magnificati
     magnify(point, magnification(point.then, about - Eigen::Vector2d(RoundBand::kMargin_px, 0.0)));
     if (!point.full) continue;
     const auto fine = point.full->align(now.pyramid[0], about, PatchTemplate::Search::kPlane, kFullReach_px);
-    if (!fine || fine->correlation < parameters_.smallest_correlation) continue;
+    if (!fine || fine->correlation < parameters_.min_correlation) continue;
     point.missed = 0;
     point.at = fine->position - Eigen::Vector2d(RoundBand::kMargin_px, 0.0);
     point.at.x() = wrapped(point.at.x(), now.columns);
     found.push_back({point.then, point.at, fine->variance + Eigen::Vector2d::Constant(kPlaceVariance_px2)});
   }
-  std::erase_if(points_, [](const Point& point) { return point.missed >= kMostMissed; });
+  std::erase_if(points_, [](const Point& point) { return point.missed >= kMaxMissed; });
   return found;
 }
 

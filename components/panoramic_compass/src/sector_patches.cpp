@@ -38,7 +38,7 @@ void SectorPatches::describe(const FeatureBand& band) {
 }
 
 SectorShifts SectorPatches::track(const FeatureBand& band, double expected_px, int range_px,
-                                  double largest_distance) const {
+                                  double max_distance) const {
   const int parallax = static_cast<int>(std::lround(kParallax_deg * band_.width / 360.0));
   const int reach = range_px + parallax;
   const int first = static_cast<int>(std::lround(expected_px)) - reach;
@@ -65,9 +65,8 @@ SectorShifts SectorPatches::track(const FeatureBand& band, double expected_px, i
   shifts.beyond_range = minimum->at_border;
   if (minimum->at_border) {
     reason << "the turn is beyond the search range of " << range_px * 360.0 / band_.width << " deg";
-  } else if (minimum->relative > largest_distance) {
-    reason << "no clear minimum of D: " << minimum->relative << " of its mean, at most " << largest_distance
-           << " needed";
+  } else if (minimum->relative > max_distance) {
+    reason << "no clear minimum of D: " << minimum->relative << " of its mean, at most " << max_distance << " needed";
   }
   shifts.reason = reason.str();
   for (std::size_t s = 0; s < patches_.size(); ++s) {
@@ -75,7 +74,7 @@ SectorShifts SectorPatches::track(const FeatureBand& band, double expected_px, i
     DistanceCurve near{first + static_cast<int>(at), {}};
     near.distances.assign(curves[s].distances.begin() + at, curves[s].distances.begin() + at + 2 * parallax + 1);
     const auto own = find_minimum(near);
-    const bool tells = patches_[s].is_described() && own && !own->at_border && own->relative < largest_distance;
+    const bool tells = patches_[s].is_described() && own && !own->at_border && own->relative < max_distance;
     shifts.sector_px[s] = tells ? own->displacement : shifts.turn_px;
   }
   return shifts;

@@ -32,7 +32,7 @@ class SectorPatches {
   void describe(const FeatureBand& band);
 
   /// Searches `range_px` on each side of `expected_px`; positive shifts are to the right.
-  SectorShifts track(const FeatureBand& band, double expected_px, int range_px, double largest_distance) const;
+  SectorShifts track(const FeatureBand& band, double expected_px, int range_px, double max_distance) const;
 
  private:
   cv::Size band_;

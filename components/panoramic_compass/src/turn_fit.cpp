@@ -20,7 +20,7 @@ using Matrix5d = Eigen::Matrix<double, 5, 5>;
 
 constexpr int kDirections = 4;       // tried drift directions over half a turn; orient() chooses the sign
 constexpr int kTrialIterations = 6;  // enough to rank the trials
-constexpr int kMostIterations = 15;
+constexpr int kMaxIterations = 15;
 constexpr double kEnough = 0.8;  // share of points: the rest are individual moving objects
 constexpr std::array<double, 4> kOtherStarts_rad{-0.08, -0.04, 0.04, 0.08};
 constexpr double kFirstNoise = 1600.0,
@@ -29,11 +29,11 @@ constexpr int kSectors = 16;
 constexpr double kSettled_rad = 1e-6;
 constexpr double kLossScale = 2.0;       // standard deviations
 constexpr double kAgrees = 3.0;          // standard deviations
-constexpr double kMostNoise = 9.0;       // of the stated variances: points farther off are outliers
+constexpr double kMaxNoise = 9.0;        // of the stated variances: points farther off are outliers
 constexpr double kNearPole = 0.05;       // sine: nearer to the drift direction, the great circle is undefined
 constexpr double kTiltSigma_rad = 0.05;  // roll and pitch between two panoramas, road vehicle
 constexpr double kSlopeSigma = 0.2;      // vertical component of the drift, road vehicle
-constexpr double kSmallestSpread_rad = 3e-4;
+constexpr double kMinSpread_rad = 3e-4;
 
 /// State of the fit: rotation and drift direction; the latter is parametrised along two tangents.
 struct Motion {
@@ -121,7 +121,7 @@ class Solver {
     for (int i = 0; i < iterations; ++i) {
       gauge(motion);
       // Initially all residuals may be large; later, large ones are outliers and must not inflate the noise estimate.
-      noise_ = std::min(noise_, std::max(kMostNoise, kFirstNoise * std::pow(kNoiseFall, i)));
+      noise_ = std::min(noise_, std::max(kMaxNoise, kFirstNoise * std::pow(kNoiseFall, i)));
       Matrix5d hessian = Matrix5d::Zero();
       Vector5d gradient = Vector5d::Zero();
       cost = accumulate(motion, hessian, [&](const Deviation&) -> Vector5d& { return gradient; });
@@ -154,7 +154,7 @@ class Solver {
     // 0.455: median of a squared standard normal variable
     noise_ = across.empty() ? 1.0 : std::max(1.0, median(across) / 0.455);
     typical_ = parallax.empty() ? 0.0 : median(parallax);
-    spread_ = std::max(kSmallestSpread_rad, 3.0 * typical_);
+    spread_ = std::max(kMinSpread_rad, 3.0 * typical_);
   }
 
   /// Builds the normal equations at the motion of the last gauge(). `gradient_of` returns the gradient that a deviation
@@ -200,7 +200,7 @@ class Solver {
   /// Best of several short fits, from each start rotation with several drift directions.
   Motion search(const std::vector<Eigen::Matrix3d>& starts) {
     std::vector<Motion> trials;
-    double noise = kMostNoise;
+    double noise = kMaxNoise;
     for (const Eigen::Matrix3d& rotation : starts) {
       for (int i = 0; i < kDirections; ++i) {
         const double azimuth = i * std::numbers::pi / kDirections;
@@ -223,13 +223,13 @@ class Solver {
     if (!std::isfinite(iterate(motion, kTrialIterations))) return false;
     orient(pairs_, motion);
     gauge(motion);
-    return noise_ < kMostNoise && share_that_agrees(motion) >= kEnough;
+    return noise_ < kMaxNoise && share_that_agrees(motion) >= kEnough;
   }
 
   double share_that_agrees(const Motion& motion) const {
     const auto agreeing = std::count_if(pairs_.begin(), pairs_.end(), [&](const BearingPair& pair) {
       const auto d = deviation_of(pair, motion);
-      return !d || disagreement(*d, kMostNoise) < kAgrees * kAgrees;
+      return !d || disagreement(*d, kMaxNoise) < kAgrees * kAgrees;
     });
     return static_cast<double>(agreeing) / static_cast<double>(pairs_.size());
   }
@@ -279,7 +279,7 @@ std::optional<TurnFit> fit_turn(std::span<const BearingPair> pairs, const Eigen:
     const Motion other = solver.search(starts);
     if (solver.share_that_agrees(other) > solver.share_that_agrees(best)) best = other;
   }
-  if (!std::isfinite(solver.iterate(best, kMostIterations))) return std::nullopt;
+  if (!std::isfinite(solver.iterate(best, kMaxIterations))) return std::nullopt;
   orient(pairs, best);
   solver.gauge(best);
 
@@ -290,7 +290,7 @@ std::optional<TurnFit> fit_turn(std::span<const BearingPair> pairs, const Eigen:
   fit.typical_parallax = solver.typical();
   for (const BearingPair& pair : pairs) {
     const auto d = deviation_of(pair, best);
-    const double allowed = std::min(solver.noise(), kMostNoise);
+    const double allowed = std::min(solver.noise(), kMaxNoise);
     const bool agrees = !d || disagreement(*d, allowed) < kAgrees * kAgrees;
     fit.agrees.push_back(agrees);
     fit.agreeing += agrees ? 1 : 0;

@@ -92,7 +92,7 @@ class TwoPatches final : public PanoramicCompass::Method {
 
   /// The smallest D of a patch over (du, dv).
   Found find(const FeaturePatch& patch, const FeatureBand& band) const {
-    const int range = static_cast<int>(std::ceil(parameters_.largest_turn_deg * BandCutter::kColumns / 360.0));
+    const int range = static_cast<int>(std::ceil(parameters_.max_turn_deg * BandCutter::kColumns / 360.0));
     const int first = static_cast<int>(std::lround(expected_rad_ / kPerColumn_rad)) - range;
     Found found;
     DistanceCurve curve = patch.distances(band, first, 2 * range + 1);
@@ -106,7 +106,7 @@ class TwoPatches final : public PanoramicCompass::Method {
     }
     found.minimum.relative = mean > 0.0F ? found.minimum.distance / mean : 1.0;
     found.clear = patch.is_described() && !found.minimum.at_border && found.minimum.curvature > 0.0 &&
-                  found.minimum.relative <= parameters_.patches.largest_distance;
+                  found.minimum.relative <= parameters_.patches.max_distance;
     return found;
   }
 
@@ -130,10 +130,10 @@ class TwoPatches final : public PanoramicCompass::Method {
     if (!patches_[0].is_described() && !patches_[2].is_described()) {
       reason << "neither patch has texture to track";
     } else if (better.minimum.at_border) {
-      reason << "the turn is beyond the search range of " << parameters_.largest_turn_deg << " deg";
+      reason << "the turn is beyond the search range of " << parameters_.max_turn_deg << " deg";
     } else if (!better.clear) {
       reason << "no clear minimum of D: " << better.minimum.relative << " of its mean, at most "
-             << parameters_.patches.largest_distance << " needed";
+             << parameters_.patches.max_distance << " needed";
     }
     change.reason = reason.str();
     change.valid = change.reason.empty();

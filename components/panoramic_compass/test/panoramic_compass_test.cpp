@@ -203,7 +203,7 @@ TEST(PointsAllRound, DoNotMindASuddenShadowOverHalfTheView) {
 TEST(PointsAllRound, AreMeasuredAgainstOneReferenceAsLongAsItLasts) {
   const cv::Mat street = paint_panorama();
   CompassParameters parameters;
-  parameters.agreement.longest_reference = 5;
+  parameters.agreement.max_reference_panoramas = 5;
   PanoramicCompass compass(parameters);
   compass.track(0, street);
   for (int i = 1; i <= 12; ++i) {

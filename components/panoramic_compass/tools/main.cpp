@@ -23,9 +23,9 @@ int main(int argc, char** argv) {
   std::size_t first = 0, count = 0;
   app.add_option("recording", recordings, "folders with mav0/cam2 and mav0/state_groundtruth_estimate0")->required();
   app.add_option("--method", parameters.method, "all_round or two_patches");
-  app.add_option("--longest-reference", parameters.agreement.longest_reference,
+  app.add_option("--longest-reference", parameters.agreement.max_reference_panoramas,
                  "maximum number of panoramas per reference");
-  app.add_option("--largest-parallax", parameters.agreement.largest_parallax_deg,
+  app.add_option("--largest-parallax", parameters.agreement.max_parallax_deg,
                  "median parallax before a new reference is taken, deg");
   app.add_option("--spacing", parameters.points.spacing_px, "spacing of the points, px");
   app.add_option("--late", late_ms, "delay of the exposure after the stamp, ms");

@@ -7,8 +7,8 @@
 namespace panvo::position_corrector {
 namespace {
 
-constexpr int kFewestSamples = 4;      // two determine the line, two more check it
-constexpr double kSmallest_m2 = 0.01;  // variance of the path below which the vehicle stands still
+constexpr int kMinSamples = 4;    // two determine the line, two more check it
+constexpr double kMin_m2 = 0.01;  // variance of the path below which the vehicle stands still
 
 }  // namespace
 
@@ -27,13 +27,13 @@ std::optional<double> curve_slope(std::span<const DistanceSample> curve, double 
     products += away_m * sample.distance;
   }
   const double variance_m2 = squares / count - (way / count) * (way / count);
-  if (count < kFewestSamples || variance_m2 < kSmallest_m2) return std::nullopt;
+  if (count < kMinSamples || variance_m2 < kMin_m2) return std::nullopt;
   return (products / count - way / count * distance / count) / variance_m2;
 }
 
 bool is_steep(std::span<const DistanceSample> curve, const SteepnessParameters& parameters) {
   const auto slope = curve_slope(curve, parameters.way_m);
-  return slope && *slope >= parameters.smallest_slope;
+  return slope && *slope >= parameters.min_slope;
 }
 
 }  // namespace panvo::position_corrector

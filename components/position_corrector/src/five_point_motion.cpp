@@ -25,17 +25,17 @@ double angle_of(const Eigen::Matrix3d& rotation) { return vision::so3_log(rotati
 /// Five-point problem that rejects samples with a large rotation.
 class SmallRotation final : public opengv::sac_problems::relative_pose::CentralRelativePoseSacProblem {
  public:
-  SmallRotation(adapter_t& adapter, double largest_rad)
+  SmallRotation(adapter_t& adapter, double max_rad)
       : CentralRelativePoseSacProblem(adapter, STEWENIUS, false),  // own, constant seed
-        largest_rad_(largest_rad) {}
+        max_rad_(max_rad) {}
 
   bool computeModelCoefficients(const std::vector<int>& indices, model_t& model) const override {
     return CentralRelativePoseSacProblem::computeModelCoefficients(indices, model) && model.allFinite() &&
-           angle_of(vision::nearest_rotation(model.leftCols<3>())) <= largest_rad_;
+           angle_of(vision::nearest_rotation(model.leftCols<3>())) <= max_rad_;
   }
 
  private:
-  double largest_rad_;
+  double max_rad_;
 };
 
 struct Consensus {
@@ -53,7 +53,7 @@ std::optional<Consensus> five_point_ransac(const std::vector<BearingPair>& align
   }
   opengv::relative_pose::CentralRelativeAdapter adapter(landmark, panorama);
   opengv::sac::Ransac<SmallRotation> ransac;
-  ransac.sac_model_.reset(new SmallRotation(adapter, parameters.largest_rotation_deg * kDegree));
+  ransac.sac_model_.reset(new SmallRotation(adapter, parameters.max_rotation_deg * kDegree));
   // the distance measure of opengv adds the terms of both bearings
   ransac.threshold_ = 2.0 * (1.0 - std::cos(parameters.inlier_angle_deg * kDegree));
   ransac.max_iterations_ = parameters.iterations;
@@ -84,18 +84,18 @@ FivePointResult estimate_five_point_motion(std::span<const landmarks::Keypoint> 
   FivePointResult result;
   result.matches = static_cast<int>(aligned.size());
   const auto few = [&](std::string_view what, int count) {
-    result.reason = fmt::format("{} {} of {} needed", count, what, parameters.fewest_inliers);
+    result.reason = fmt::format("{} {} of {} needed", count, what, parameters.min_inliers);
     return result;
   };
-  if (result.matches < std::max(parameters.fewest_inliers, kSample)) return few("matched keypoints", result.matches);
+  if (result.matches < std::max(parameters.min_inliers, kSample)) return few("matched keypoints", result.matches);
   const auto found = five_point_ransac(aligned, parameters);
   result.inliers = found ? static_cast<int>(found->inliers.size()) : 0;
-  if (result.inliers < parameters.fewest_inliers) return few("inliers", result.inliers);
+  if (result.inliers < parameters.min_inliers) return few("inliers", result.inliers);
 
   const auto refined = refine_epipolar_motion(found->motion, found->inliers, parameters.bearing_sigma_deg * kDegree);
-  if (const double angle_deg = angle_of(refined.rotation) / kDegree; angle_deg > parameters.largest_rotation_deg) {
+  if (const double angle_deg = angle_of(refined.rotation) / kDegree; angle_deg > parameters.max_rotation_deg) {
     result.reason = fmt::format("rotated by {:.0f} deg beyond the heading, at most {:.0f} allowed", angle_deg,
-                                parameters.largest_rotation_deg);
+                                parameters.max_rotation_deg);
     return result;
   }
   result.motion = FivePointMotion{refined.rotation * turn, refined.direction, refined.covariance};

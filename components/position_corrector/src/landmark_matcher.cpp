@@ -68,7 +68,7 @@ LandmarkMatch LandmarkMatcher::search(const PanoramaFrame& frame, const landmark
       candidate.histogram_distance = histogram_distance(query, candidate.landmark->description);
     }
     match.kept_after_histogram = keep(near, [&](const Candidate& candidate) {
-      return candidate.histogram_distance <= parameters_.largest_histogram_distance;
+      return candidate.histogram_distance <= parameters_.max_histogram_distance;
     });
   }
   if (near.empty()) {
@@ -79,10 +79,9 @@ LandmarkMatch LandmarkMatcher::search(const PanoramaFrame& frame, const landmark
   {
     const vision::Stage stage(observer_, "large_scale");
     for (auto& candidate : near) candidate.large = match_large_scale(query, candidate.landmark->description);
-    match.kept_after_large = keep(near, [&](const Candidate& candidate) {
-      return candidate.large.distance <= parameters_.largest_large_distance;
-    });
-    const auto most = std::min(near.size(), static_cast<std::size_t>(parameters_.most_verified));
+    match.kept_after_large = keep(
+        near, [&](const Candidate& candidate) { return candidate.large.distance <= parameters_.max_large_distance; });
+    const auto most = std::min(near.size(), static_cast<std::size_t>(parameters_.max_verified));
     std::partial_sort(near.begin(), near.begin() + static_cast<std::ptrdiff_t>(most), near.end(),
                       [](const Candidate& a, const Candidate& b) {
                         return std::pair(a.large.distance, a.landmark->id) <
@@ -112,7 +111,7 @@ LandmarkMatch LandmarkMatcher::search(const PanoramaFrame& frame, const landmark
   };
   tell(near.front());
   if (keep(near, [&](const Candidate& candidate) {
-        return candidate.small.distance <= parameters_.largest_small_distance;
+        return candidate.small.distance <= parameters_.max_small_distance;
       }) == 0) {
     match.reason = "no candidate is similar at the small scale";
     return match;
@@ -179,13 +178,13 @@ LandmarkMatch LandmarkMatcher::follow(const PanoramaFrame& frame, const landmark
         lock.pass.keypoints = std::move(keypoints);
       }
     }
-    if (match.small_distance < lock.smallest_distance) {
-      lock.smallest_distance = match.small_distance;
-      lock.smallest_at_m = frame.travelled_m;
-      lock.smallest_at_ns = frame.stamp_ns;
+    if (match.small_distance < lock.min_distance) {
+      lock.min_distance = match.small_distance;
+      lock.min_at_m = frame.travelled_m;
+      lock.min_at_ns = frame.stamp_ns;
     }
-    const bool is_past = frame.travelled_m - lock.smallest_at_m > parameters_.window_m ||
-                         static_cast<double>(frame.stamp_ns - lock.smallest_at_ns) > parameters_.window_s * kSecond;
+    const bool is_past = frame.travelled_m - lock.min_at_m > parameters_.window_m ||
+                         static_cast<double>(frame.stamp_ns - lock.min_at_ns) > parameters_.window_s * kSecond;
     if (!is_past) return match;
   }
   match = lock.best;

@@ -23,7 +23,7 @@ namespace {
 using landmarks::Keypoint;
 
 constexpr double kDegree = std::numbers::pi / 180.0;
-constexpr int kFewestForRansac = 5;
+constexpr int kMinForRansac = 5;
 constexpr double kPoseFreedom = 6.0;
 constexpr std::size_t kSectors = 12;
 constexpr double kGate = 9.21;              // 99 % of chi-square with two degrees of freedom
@@ -136,18 +136,18 @@ int sectors(std::span<const SightedPoint> sightings) {
 /// Reason to reject a pose; empty if there is none.
 std::string objection(const Eigen::Isometry3d& pose, double heading_rad, const PanoramaPoseParameters& parameters) {
   const double offset_m = pose.translation().norm();
-  if (offset_m > parameters.largest_offset_m) {
-    return fmt::format("{:.1f} m from the landmark, at most {:.0f} allowed", offset_m, parameters.largest_offset_m);
+  if (offset_m > parameters.max_offset_m) {
+    return fmt::format("{:.1f} m from the landmark, at most {:.0f} allowed", offset_m, parameters.max_offset_m);
   }
   const double turn_deg =
       std::abs(vision::wrap(heading_of(pose.linear()) - heading_rad, 2.0 * std::numbers::pi)) / kDegree;
-  if (turn_deg > parameters.largest_turn_deg) {
+  if (turn_deg > parameters.max_turn_deg) {
     return fmt::format("rotated by {:.0f} deg from the heading found, at most {:.0f} allowed", turn_deg,
-                       parameters.largest_turn_deg);
+                       parameters.max_turn_deg);
   }
   const double tilt_deg = std::acos(std::clamp(pose.linear()(1, 1), -1.0, 1.0)) / kDegree;
-  if (tilt_deg > parameters.largest_tilt_deg) {
-    return fmt::format("tilted by {:.0f} deg, at most {:.0f} allowed", tilt_deg, parameters.largest_tilt_deg);
+  if (tilt_deg > parameters.max_tilt_deg) {
+    return fmt::format("tilted by {:.0f} deg, at most {:.0f} allowed", tilt_deg, parameters.max_tilt_deg);
   }
   return {};
 }
@@ -171,13 +171,13 @@ PanoramaPoseResult estimate_panorama_pose(std::span<const Keypoint> panorama, st
   }
   PanoramaPoseResult result;
   result.matches = static_cast<int>(matched.size());
-  const int needed = std::max(parameters.fewest_inliers,
-                              static_cast<int>(std::ceil(parameters.fewest_inliers_share * result.matches)));
+  const int needed =
+      std::max(parameters.min_inliers, static_cast<int>(std::ceil(parameters.min_inliers_share * result.matches)));
   const auto few = [&](std::string_view what, int count) {
     result.reason = fmt::format("{} {} of {} needed", count, what, needed);
     return result;
   };
-  const int needed_weakly = std::min(needed, std::max(parameters.fewest_weak_inliers, kFewestForRansac));
+  const int needed_weakly = std::min(needed, std::max(parameters.min_weak_inliers, kMinForRansac));
   if (result.matches < needed_weakly) return few("matched points", result.matches);
   const auto start = three_point_ransac(matched, parameters);
   if (!start) return few("inliers", 0);
@@ -190,9 +190,9 @@ PanoramaPoseResult estimate_panorama_pose(std::span<const Keypoint> panorama, st
   }
   result.inliers = static_cast<int>(inliers.size());
   if (result.inliers < needed_weakly) return few("inliers", result.inliers);
-  if (const int held = sectors(inliers); held < parameters.fewest_sectors) {
+  if (const int held = sectors(inliers); held < parameters.min_sectors) {
     result.reason = fmt::format("{} inliers, but only in {} of 12 sectors, {} needed", result.inliers, held,
-                                parameters.fewest_sectors);
+                                parameters.min_sectors);
     return result;
   }
 

@@ -34,7 +34,7 @@ PositionCorrection paper_correction(const LandmarkMatch& match, std::span<const 
   if (steep) return correction;
   const auto slope = curve_slope(match.pass->curve, parameters.steepness.way_m);
   correction.reason = slope ? fmt::format("the distance curve is flat: it rises by {:.3f} per metre, {:.3f} needed",
-                                          *slope, parameters.steepness.smallest_slope)
+                                          *slope, parameters.steepness.min_slope)
                             : "the distance curve is too short";
   return correction;
 }

@@ -12,7 +12,7 @@
 namespace panvo::position_corrector {
 namespace {
 
-constexpr int kMostSteps = 20;
+constexpr int kMaxSteps = 20;
 constexpr double kSmallStep = 1e-7;  // m and rad
 constexpr double kLossScale = 2.5;   // standard deviations
 constexpr double kUndetermined = 1e6;
@@ -89,7 +89,7 @@ RefinedPose refine_pose(const Eigen::Isometry3d& start, std::span<const SightedP
   Eigen::Isometry3d pose = start;
   double cost = cost_of(pose, sightings, bearing_sigma_rad, loss);
   double damping = 1e-4;
-  for (int step = 0; step < kMostSteps; ++step) {
+  for (int step = 0; step < kMaxSteps; ++step) {
     vision::Matrix6d information = vision::Matrix6d::Zero();
     vision::Vector6d gradient = vision::Vector6d::Zero();
     for (const auto& sighting : sightings) {

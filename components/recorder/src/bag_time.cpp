@@ -10,7 +10,7 @@ namespace panvo::recorder {
 namespace {
 
 constexpr std::int64_t kNsPerS = 1'000'000'000;
-constexpr std::int64_t kLongestBagS = 100'000'000;  // three years; larger numbers are stamps
+constexpr std::int64_t kMaxBagS = 100'000'000;  // three years; larger numbers are stamps
 constexpr std::int64_t kLatestStampS = std::numeric_limits<std::int64_t>::max() / kNsPerS - 1;
 
 bool is_number(const std::string& text) {
@@ -21,11 +21,11 @@ bool is_number(const std::string& text) {
 }  // namespace
 
 std::int64_t parse_bag_time(const std::string& text, std::int64_t start_ns) {
-  constexpr std::size_t kMostDigits = 18;
+  constexpr std::size_t kMaxDigits = 18;
   const auto point = std::min(text.find('.'), text.size());
   const auto whole = text.substr(0, point);
   auto fraction = point < text.size() ? text.substr(point + 1) : std::string();
-  if (!is_number(text) || whole.size() > kMostDigits + 1) {
+  if (!is_number(text) || whole.size() > kMaxDigits + 1) {
     throw BagError("'" + text +
                    "' is not a valid bag time: use seconds from its start, or a stamp in seconds or nanoseconds");
   }
@@ -36,7 +36,7 @@ std::int64_t parse_bag_time(const std::string& text, std::int64_t start_ns) {
   }
   fraction.resize(9, '0');
   const auto ns = static_cast<std::int64_t>(number) * kNsPerS + std::stoll(fraction);
-  return static_cast<std::int64_t>(number) < kLongestBagS ? start_ns + ns : ns;
+  return static_cast<std::int64_t>(number) < kMaxBagS ? start_ns + ns : ns;
 }
 
 }  // namespace panvo::recorder

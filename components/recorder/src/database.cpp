@@ -9,7 +9,7 @@ namespace {
 
 constexpr int kStepsPerCall = 10'000;        // virtual machine instructions between calls of the progress handler
 constexpr std::uint64_t kStepsPerByte = 10;  // a row has at least ten bytes; sorting it takes fifty steps
-constexpr std::uint64_t kFewestCalls = 100;
+constexpr std::uint64_t kMinCalls = 100;
 
 /// The errno of a failed call. SQLite loses it when a commit fails; errno itself then still holds it, since
 /// forget_errors() cleared it before the call.
@@ -79,9 +79,9 @@ Database::Database(const std::filesystem::path& file, Mode mode, const char* vfs
   sqlite3_extended_result_codes(database, 1);
 }
 
-void Database::distrust(std::uint64_t bytes) {
+void Database::inflate_covariance(std::uint64_t bytes) {
   patience_ = std::make_unique<Patience>();
-  patience_->most = kFewestCalls + bytes / kStepsPerCall * kStepsPerByte;
+  patience_->most = kMinCalls + bytes / kStepsPerCall * kStepsPerByte;
   const auto is_over = [](void* known) {
     const auto& patience = *static_cast<Patience*>(known);
     return patience.spent && ++*patience.spent > patience.most ? 1 : 0;

@@ -43,7 +43,7 @@ class Database {
 
   /// For untrusted files: limits the steps of each statement in proportion to the file size `bytes`. Otherwise a b-tree
   /// whose branches share pages could be walked for years.
-  void distrust(std::uint64_t bytes);
+  void inflate_covariance(std::uint64_t bytes);
 
   /// Runs statements and discards their results.
   void execute(const std::string& sql);

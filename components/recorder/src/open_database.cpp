@@ -44,7 +44,7 @@ std::uint64_t size_of(fs::path file, const char* suffix) {
 Database open_and_look(const fs::path& file, Database::Mode mode) {
   const bool is_cut = mode != Database::Mode::kReadWrite && expected_bytes_if_cut(file) > 0;
   Database database(file, mode, is_cut ? whole_pages_vfs() : nullptr);
-  database.distrust(size_of(file, "") + size_of(file, "-wal"));
+  database.inflate_covariance(size_of(file, "") + size_of(file, "-wal"));
   // writable_schema allows reading a file that is shorter than its header states. The mode prevents writing.
   database.execute("PRAGMA writable_schema=ON; PRAGMA trusted_schema=OFF; PRAGMA cell_size_check=ON;");
   Statement(database, "SELECT count(*) FROM sqlite_master").step();

@@ -17,7 +17,7 @@ bool unpack_message(interfaces::Bytes& data) {
     return true;
   }
   const auto size = ZSTD_getFrameContentSize(data.data(), data.size());
-  if (size == ZSTD_CONTENTSIZE_UNKNOWN || size == ZSTD_CONTENTSIZE_ERROR || size > mcap::kMostChunkBytes) {
+  if (size == ZSTD_CONTENTSIZE_UNKNOWN || size == ZSTD_CONTENTSIZE_ERROR || size > mcap::kMaxChunkBytes) {
     return false;
   }
   auto unpacked = mcap::decompress(Compression::kZstd, data, size);

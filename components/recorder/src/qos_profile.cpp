@@ -116,9 +116,9 @@ interfaces::Qos replay_qos(const std::vector<QosProfile>& offered, std::uint64_t
     qos.depth = std::max(qos.depth, static_cast<std::size_t>(std::clamp<std::int64_t>(profile.depth, 0, 100'000)));
   }
   if (all([](const Profile& p) { return p.durability == Profile::Durability::kTransientLocal; })) {
-    constexpr std::uint64_t kMostLatched = 1000;
+    constexpr std::uint64_t kMaxLatched = 1000;
     qos.durability = interfaces::Durability::kTransientLocal;
-    qos.depth = std::max(qos.depth, static_cast<std::size_t>(std::min(message_count, kMostLatched)));
+    qos.depth = std::max(qos.depth, static_cast<std::size_t>(std::min(message_count, kMaxLatched)));
     qos.keep_all = any([](const Profile& p) { return p.history == Profile::History::kKeepAll; });
   }
   return qos;

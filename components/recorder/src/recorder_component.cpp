@@ -88,8 +88,7 @@ class RecorderComponent final : public runtime::Component {
         filter_(
             as_configuration(context.name(), [this] { return TopicFilter(parameters_.topics, parameters_.exclude); })),
         writer_(as_configuration(context.name(), [this] { return make_writer(parameters_); })),
-        writing_(
-            context.stage<Waiting>("write", kMostWaiting, [this](Waiting message) { write(std::move(message)); })) {
+        writing_(context.stage<Waiting>("write", kMaxWaiting, [this](Waiting message) { write(std::move(message)); })) {
     context.tap([this](const TopicDescription& topic) { return is_wanted(topic); }, kTapDepth,
                 [this](const TopicDescription& topic, const SamplePtr& sample) { take(topic, sample); });
     context.on_end([this] {
@@ -117,8 +116,8 @@ class RecorderComponent final : public runtime::Component {
     std::uint64_t dropped_before = 0;  // messages of this topic dropped since the previous queued one
   };
 
-  static constexpr std::size_t kTapDepth = 10'000;      // not reached, since take() is fast
-  static constexpr std::size_t kMostWaiting = 100'000;  // limit for messages too small to fill queue_mb
+  static constexpr std::size_t kTapDepth = 10'000;     // not reached, since take() is fast
+  static constexpr std::size_t kMaxWaiting = 100'000;  // limit for messages too small to fill queue_mb
 
   static constexpr std::int64_t kRelativeTimes =
       86'400'000'000'000;  // earlier times are relative, not system time: 1 day
@@ -197,7 +196,7 @@ class RecorderComponent final : public runtime::Component {
       context_.log().warn_throttled("max_topics", "{}", describe_left_out());
     }
     if (waiting_bytes_ >= static_cast<std::size_t>(parameters_.queue_mb) * 1'000'000 ||
-        waiting_messages_ + 1 >= kMostWaiting) {
+        waiting_messages_ + 1 >= kMaxWaiting) {
       count_dropped(topic.name);
       return;
     }

@@ -22,7 +22,7 @@ using std::chrono::steady_clock;
 constexpr milliseconds kPollPeriod{5};
 // Our processes announce themselves twice per second and answer announcements; their endpoints follow within
 // milliseconds.
-constexpr milliseconds kFirstLook{600}, kQuiet{100}, kLongestLook{2000};
+constexpr milliseconds kFirstLook{600}, kQuiet{100}, kMaxLook{2000};
 constexpr const char* kNodesTopic = "ros_discovery_info";
 constexpr std::size_t kPrefixDigits = 24;  // participant part of an endpoint's GID
 
@@ -49,7 +49,7 @@ std::vector<std::string> look(runtime::Bridge& bridge, const std::vector<std::st
   const auto start = steady_clock::now();
   auto changed = start;
   runtime::Graph graph = bridge.graph();
-  for (auto now = start; now - start < kLongestLook; now = steady_clock::now()) {
+  for (auto now = start; now - start < kMaxLook; now = steady_clock::now()) {
     if (auto taken = taken_of(wanted, graph); !taken.empty()) return taken;
     if (now - start >= kFirstLook && now - changed >= kQuiet && have_all_told(graph)) break;
     std::this_thread::sleep_for(kPollPeriod);

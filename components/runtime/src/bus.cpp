@@ -124,7 +124,7 @@ void Channel::deliver(const SamplePtr& sample, bool is_valid, bool is_from_here)
   }
 }
 
-Rejections::Count Channel::rejected() const {
+RejectedMessages::Count Channel::rejected() const {
   auto rejected = rejections_.snapshot()[topic_.name];
   for (auto causes = std::exchange(rejected.causes, {}); const auto& [cause, count] : causes) {
     rejected.causes[{shown_sender(cause.first), cause.second}] += count;
@@ -133,7 +133,7 @@ Rejections::Count Channel::rejected() const {
 }
 
 void Channel::tell_rejected() {
-  std::vector<Rejections::Cause> causes;
+  std::vector<RejectedMessages::Cause> causes;
   {
     const std::lock_guard lock(untold_mutex_);
     causes.swap(untold_);

@@ -59,7 +59,7 @@ class Channel {
     std::size_t remote_readers = 0, remote_writers = 0;
   };
   Counters counters() const;
-  Rejections::Count rejected() const;
+  RejectedMessages::Count rejected() const;
   /// Logs messages rejected since the last call, each reason at most once in 10 s. Deferred for topics of other
   /// processes: deliver() may be called while Fast DDS holds locks, where the sender cannot be looked up.
   void tell_rejected();
@@ -89,9 +89,9 @@ class Channel {
   const std::function<std::int64_t()> clock_;
   const Limits limits_;
 
-  Rejections rejections_;
+  RejectedMessages rejections_;
   std::mutex untold_mutex_;
-  std::vector<Rejections::Cause> untold_;
+  std::vector<RejectedMessages::Cause> untold_;
 
   mutable std::shared_mutex mutex_;  // shared: delivery; exclusive: changes of publishers and readers
   std::map<const void*, std::string> publishers_;

@@ -61,7 +61,7 @@ void Container::Implementation::plan_restart(Recipe& recipe, std::int64_t now_ns
   if (recipe.given_up) {
     log(LogLevel::kError, name_of(recipe),
         fmt::format("failed {} times within {} s and stays stopped; the other components continue",
-                    RestartPlan::kMostWithinWindow + 1, RestartPlan::kWindow_ns / 1'000'000'000));
+                    RestartPlan::kMaxWithinWindow + 1, RestartPlan::kWindow_ns / 1'000'000'000));
   } else {
     log(LogLevel::kWarning, name_of(recipe),
         fmt::format("restarting in {:.1f} s", static_cast<double>(*recipe.restart_ns - now_ns) * 1e-9));

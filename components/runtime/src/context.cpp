@@ -121,7 +121,7 @@ Context::~Context() { state_->stop(); }
 const std::string& Context::name() const noexcept { return state_->description.name; }
 const Logger& Context::log() const noexcept { return state_->logger; }
 StageTimes& Context::times() noexcept { return state_->times; }
-Rejections& Context::rejections() noexcept { return state_->rejections; }
+RejectedMessages& Context::rejections() noexcept { return state_->rejections; }
 ParameterReader& Context::parameter_reader() { return state_->reader; }
 const std::vector<ParameterDescription>& Context::declared_parameters() const noexcept {
   return state_->reader.declared();
@@ -218,7 +218,7 @@ void Context::every(std::chrono::nanoseconds period, std::function<void()> callb
   });
 }
 
-void Context::give_way() { state_->gives_way = true; }
+void Context::set_background() { state_->gives_way = true; }
 
 void Context::source(Source& source) { state_->source = &source; }
 

@@ -69,7 +69,7 @@ struct Context::State {
   ParameterReader reader;
   Logger logger;
   StageTimes times;
-  Rejections rejections;
+  RejectedMessages rejections;
   StampGuard stamp_guard;
   std::vector<std::string> problems;             // of topics; `reader` has those of parameters
   std::vector<std::unique_ptr<Worker>> workers;  // the component's own, then its stages

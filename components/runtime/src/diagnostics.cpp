@@ -125,7 +125,7 @@ Diagnostics::Rejected Diagnostics::tell_rejections(const Context::State& compone
 }
 
 void Diagnostics::tell_rejections(const std::string& component, const std::string& topic,
-                                  const Rejections::Count& count, diagnostic_msgs::msg::DiagnosticStatus& status,
+                                  const RejectedMessages::Count& count, diagnostic_msgs::msg::DiagnosticStatus& status,
                                   Rejected& newly) {
   add(status, topic + " rejected", fmt::format("{} messages; the last {}", count.messages, count.last_reason));
   for (const auto& [cause, messages] : count.causes) {

@@ -40,7 +40,7 @@ class Diagnostics {
   Rejected tell_refused(const Context::State& component, diagnostic_msgs::msg::DiagnosticStatus& status);
   /// Messages rejected since the last call, by the component or before delivery, with one of the reasons.
   Rejected tell_rejections(const Context::State& component, diagnostic_msgs::msg::DiagnosticStatus& status);
-  void tell_rejections(const std::string& component, const std::string& topic, const Rejections::Count& count,
+  void tell_rejections(const std::string& component, const std::string& topic, const RejectedMessages::Count& count,
                        diagnostic_msgs::msg::DiagnosticStatus& status, Rejected& newly);
 
   std::map<std::string, Previous> previous_;  // by component and topic

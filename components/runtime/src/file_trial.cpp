@@ -38,7 +38,7 @@ fs::path set_aside(const fs::path& file) {
   if (error) {
     throw std::runtime_error(
         fmt::format("{}: reading it failed {} times in a row, and it cannot be renamed: {}; move it away",
-                    file.string(), kMostFailures, error.message()));
+                    file.string(), kMaxFailures, error.message()));
   }
   for (const char* companion : kCompanions) fs::rename(with(file, companion), with(bad, companion), error);
   return bad;
@@ -53,7 +53,7 @@ std::optional<fs::path> begin_trial(const fs::path& file) {
     return std::nullopt;
   }
   const int failures = count_in(counter_of(file));
-  if (failures >= kMostFailures) {
+  if (failures >= kMaxFailures) {
     auto bad = set_aside(file);
     end_trial(file);
     return bad;

@@ -7,10 +7,10 @@
 namespace panvo::runtime {
 
 /// Number of consecutive failed attempts after which a file is set aside.
-inline constexpr int kMostFailures = 3;
+inline constexpr int kMaxFailures = 3;
 
 /// Call before reading a file that may be bad: counts the attempt in FILE.attempts, which remains after a crash. After
-/// kMostFailures failed attempts the file is renamed to FILE.bad-1 (or -2 ...), which is returned. Nothing is counted
+/// kMaxFailures failed attempts the file is renamed to FILE.bad-1 (or -2 ...), which is returned. Nothing is counted
 /// if the folder is not writable. Throws std::runtime_error if a bad file cannot be renamed.
 std::optional<std::filesystem::path> begin_trial(const std::filesystem::path& file);
 

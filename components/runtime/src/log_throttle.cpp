@@ -28,10 +28,10 @@ std::optional<std::string> LogThrottle::admit(std::string_view key, std::int64_t
 
 LogThrottle::Kind& LogThrottle::kind_of(std::string_view key, std::int64_t now_ns) {
   if (const auto found = kinds_.find(key); found != kinds_.end()) return found->second;
-  if (kinds_.size() >= kMostKeys) {
+  if (kinds_.size() >= kMaxKeys) {
     std::erase_if(kinds_, [now_ns](const auto& kind) { return now_ns - *kind.second.written_ns >= kInterval_ns; });
   }
-  return kinds_[kinds_.size() < kMostKeys ? std::string(key) : std::string()];
+  return kinds_[kinds_.size() < kMaxKeys ? std::string(key) : std::string()];
 }
 
 }  // namespace panvo::runtime

@@ -26,9 +26,9 @@ std::size_t read_utf8(std::string_view text, std::uint32_t& character) {
     if ((byte(i) & 0xc0) != 0x80) return 0;
     character = character << 6 | (byte(i) & 0x3fU);
   }
-  constexpr std::uint32_t kSmallest[] = {0, 0, 0x80, 0x800, 0x10000};
+  constexpr std::uint32_t kMin[] = {0, 0, 0x80, 0x800, 0x10000};
   const bool is_surrogate = character >= 0xd800 && character < 0xe000;
-  return character < kSmallest[size] || is_surrogate || character > 0x10ffff ? 0 : size;
+  return character < kMin[size] || is_surrogate || character > 0x10ffff ? 0 : size;
 }
 
 /// C0 and C1 control characters, and bidirectional formatting characters, which can disguise a text.

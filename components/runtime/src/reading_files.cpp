@@ -25,7 +25,7 @@ void Context::State::begin_reading(const std::filesystem::path& file) {
   logger.error(
       "{}: the last {} runs that read it failed. This run continues without it; repair it and move it back, or "
       "delete it",
-      files_set_aside_.back(), kMostFailures);
+      files_set_aside_.back(), kMaxFailures);
 }
 
 void Context::State::trust_files(std::int64_t now_ns) {

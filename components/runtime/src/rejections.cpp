@@ -10,7 +10,7 @@ constexpr std::string_view kOthers = "for one of many other reasons";
 
 }  // namespace
 
-bool Rejections::add(std::string_view topic, std::string_view reason, std::string_view sender) {
+bool RejectedMessages::add(std::string_view topic, std::string_view reason, std::string_view sender) {
   const std::int64_t now_ns = clocks::monotonic_ns();
   const std::lock_guard lock(mutex_);
   auto found = topics_.find(topic);
@@ -19,7 +19,7 @@ bool Rejections::add(std::string_view topic, std::string_view reason, std::strin
   ++count.messages;
   count.last_reason = reason;
   Cause cause(sender, reason);
-  if (count.causes.size() >= kMostCauses && !count.causes.contains(cause)) cause = Cause("", kOthers);
+  if (count.causes.size() >= kMaxCauses && !count.causes.contains(cause)) cause = Cause("", kOthers);
   ++count.causes[cause];
   const auto told = told_ns.find(cause.second);
   if (told != told_ns.end() && now_ns - told->second < kLogPeriod_ns) return false;
@@ -27,7 +27,7 @@ bool Rejections::add(std::string_view topic, std::string_view reason, std::strin
   return true;
 }
 
-std::map<std::string, Rejections::Count, std::less<>> Rejections::snapshot() const {
+std::map<std::string, RejectedMessages::Count, std::less<>> RejectedMessages::snapshot() const {
   const std::lock_guard lock(mutex_);
   std::map<std::string, Count, std::less<>> counts;
   for (const auto& [name, topic] : topics_) counts.emplace(name, topic.count);

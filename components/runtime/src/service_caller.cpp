@@ -10,9 +10,9 @@ using std::chrono::steady_clock;
 
 namespace {
 
-constexpr std::size_t kMostWaiting = 32;    // calls to other processes, made one at a time
-constexpr std::size_t kMostAnswers = 1024;  // not yet handled by the component
-constexpr milliseconds kSlice{100};         // longest delay until the end of the component is noticed
+constexpr std::size_t kMaxWaiting = 32;    // calls to other processes, made one at a time
+constexpr std::size_t kMaxAnswers = 1024;  // not yet handled by the component
+constexpr milliseconds kSlice{100};        // longest delay until the end of the component is noticed
 
 }  // namespace
 
@@ -30,7 +30,7 @@ RemoteCaller::~RemoteCaller() {
 
 void RemoteCaller::call(interfaces::Bytes request, milliseconds limit, std::shared_ptr<Reply> reply) {
   const std::lock_guard lock(mutex_);
-  if (stopping_ || waiting_.size() >= kMostWaiting) return;
+  if (stopping_ || waiting_.size() >= kMaxWaiting) return;
   waiting_.push_back({std::move(request), steady_clock::now() + limit, std::move(reply)});
   changed_.notify_all();
 }
@@ -63,7 +63,7 @@ ComponentCaller::ComponentCaller(ServiceDescription service, const ServiceDirect
                                  Worker& worker)
     : service_(std::move(service)), directory_(directory) {
   inbox_->worker = &worker;
-  inbox_->port = &worker.add_port("answers of " + service_.name, kMostAnswers, false,
+  inbox_->port = &worker.add_port("answers of " + service_.name, kMaxAnswers, false,
                                   [](Task& task) { std::any_cast<std::function<void()>&>(task.item)(); });
   if (bridge) remote_ = std::make_unique<RemoteCaller>(*bridge, service_);
 }

@@ -8,7 +8,7 @@
 namespace panvo::runtime {
 namespace {
 
-constexpr double kShortestNs = 1000.0;               // bin 0 holds all shorter durations
+constexpr double kMinNs = 1000.0;                    // bin 0 holds all shorter durations
 constexpr double kLogBinWidth = 0.0198026272961797;  // log(1.02)
 
 std::int64_t now_ns(clockid_t clock) noexcept {
@@ -22,7 +22,7 @@ std::int64_t now_ns(clockid_t clock) noexcept {
 void DurationHistogram::add(std::int64_t duration_ns) noexcept {
   duration_ns = std::max<std::int64_t>(duration_ns, 0);
   std::size_t bin = 0;
-  if (const auto ratio = static_cast<double>(duration_ns) / kShortestNs; ratio >= 1.0) {
+  if (const auto ratio = static_cast<double>(duration_ns) / kMinNs; ratio >= 1.0) {
     bin = std::min(kBins - 1, 1 + static_cast<std::size_t>(std::log(ratio) / kLogBinWidth));
   }
   ++bins_[bin];
@@ -50,7 +50,7 @@ double DurationHistogram::quantile_ms(double fraction) const noexcept {
   while ((counted += bins_[bin]) < rank) {
     ++bin;
   }
-  const double middle_ns = kShortestNs * std::exp((static_cast<double>(bin) - 0.5) * kLogBinWidth);
+  const double middle_ns = kMinNs * std::exp((static_cast<double>(bin) - 0.5) * kLogBinWidth);
   return std::min(middle_ns * 1e-6, max_ms());
 }
 

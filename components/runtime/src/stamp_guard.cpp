@@ -62,8 +62,8 @@ StampGuard::Verdict StampGuard::check(const std::string& topic, std::int64_t sta
 
 /// Messages played faster than recorded arrive early by almost one interval.
 std::int64_t StampGuard::allowance_ns(const Topic& topic) const {
-  if (topic.interval_ns == 0) return limits_.most_ahead_ns;
-  return std::clamp(topic.interval_ns * 5 / 2, limits_.ahead_ns, limits_.most_ahead_ns);
+  if (topic.interval_ns == 0) return limits_.max_ahead_ns;
+  return std::clamp(topic.interval_ns * 5 / 2, limits_.ahead_ns, limits_.max_ahead_ns);
 }
 
 /// A topic with rare messages cannot determine the time offset itself when time runs at another rate.

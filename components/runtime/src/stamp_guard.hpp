@@ -16,10 +16,10 @@ namespace panvo::runtime {
 class StampGuard {
  public:
   struct Limits {
-    std::int64_t ahead_ns = 500'000'000;         ///< ahead of the expected stamp
-    std::int64_t back_ns = 500'000'000;          ///< behind the last stamp of the topic
-    std::int64_t most_ahead_ns = 2'500'000'000;  ///< for topics below 1 Hz
-    int confirmations = 5;                       ///< consecutive consistent messages that confirm a new time
+    std::int64_t ahead_ns = 500'000'000;        ///< ahead of the expected stamp
+    std::int64_t back_ns = 500'000'000;         ///< behind the last stamp of the topic
+    std::int64_t max_ahead_ns = 2'500'000'000;  ///< for topics below 1 Hz
+    int confirmations = 5;                      ///< consecutive consistent messages that confirm a new time
   };
   enum class Outcome { kAccepted, kClockStep, kRejected };
   struct Verdict {

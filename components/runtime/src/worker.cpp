@@ -16,7 +16,7 @@ namespace {
 // About a tenth of the CPU time of a competing thread: enough to progress on a busy machine.
 constexpr int kNiceOfThoseThatGiveWay = 10;
 
-constexpr std::int64_t kMostMissed = 100;  // missed ticks caught up in replay
+constexpr std::int64_t kMaxMissed = 100;  // missed ticks caught up in replay
 
 thread_local std::int64_t current_stamp = 0;
 
@@ -44,7 +44,7 @@ bool ReplayOrder::fire_one(std::int64_t now_ns) {
   for (const auto& [worker, timer] : timers_) {
     if (!timer->due_ns) timer->due_ns = now_ns + timer->period_ns;
     // Skips older ticks: a stamp may jump by years.
-    timer->due_ns = std::max(*timer->due_ns, now_ns - kMostMissed * timer->period_ns);
+    timer->due_ns = std::max(*timer->due_ns, now_ns - kMaxMissed * timer->period_ns);
     if (*timer->due_ns > now_ns || (first.second && *first.second->due_ns <= *timer->due_ns)) continue;
     first = {worker, timer};
   }

@@ -161,9 +161,10 @@ TEST(ChannelGate, CountsBySenderAndReason) {
   const auto rejected = channel.rejected();
   EXPECT_EQ(seen, 1);
   EXPECT_EQ(rejected.messages, 3U);
-  EXPECT_THAT(rejected.causes,
-              ElementsAre(testing::Pair(Rejections::Cause("player", "pose.covariance is not finite"), 2U),
-                          testing::Pair(Rejections::Cause("player", "pose.pose.position is beyond +-1e+08"), 1U)));
+  EXPECT_THAT(
+      rejected.causes,
+      ElementsAre(testing::Pair(RejectedMessages::Cause("player", "pose.covariance is not finite"), 2U),
+                  testing::Pair(RejectedMessages::Cause("player", "pose.pose.position is beyond +-1e+08"), 1U)));
 }
 
 TEST(ChannelGate, LeavesBytesThatNobodyHereReadsAsTheyAre) {
@@ -185,12 +186,12 @@ TEST(ChannelGate, ChecksWhatALateReaderGetsToo) {
   EXPECT_EQ(seen, 1);
 }
 
-TEST(Rejections, DoNotGrowWithEverNewReasons) {
-  Rejections rejections;
+TEST(RejectedMessages, DoNotGrowWithEverNewReasons) {
+  RejectedMessages rejections;
   for (int i = 0; i < 1000; ++i) rejections.add("/topic", "reason " + std::to_string(i), "sender");
   const auto count = rejections.snapshot().at("/topic");
   EXPECT_EQ(count.messages, 1000U);
-  EXPECT_EQ(count.causes.size(), Rejections::kMostCauses + 1);
+  EXPECT_EQ(count.causes.size(), RejectedMessages::kMaxCauses + 1);
 }
 
 }  // namespace

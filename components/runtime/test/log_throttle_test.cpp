@@ -65,10 +65,10 @@ TEST(LogThrottle, StaysSilentWhenTimeGoesBack) {
 TEST(LogThrottle, BoundsTheKeysThatItRemembers) {
   LogThrottle throttle;
   std::size_t written = 0;
-  for (std::size_t i = 0; i < 10 * LogThrottle::kMostKeys; ++i) {
+  for (std::size_t i = 0; i < 10 * LogThrottle::kMaxKeys; ++i) {
     written += throttle.admit("landmark " + std::to_string(i), 0) ? 1 : 0;
   }
-  EXPECT_EQ(written, LogThrottle::kMostKeys + 1);
+  EXPECT_EQ(written, LogThrottle::kMaxKeys + 1);
   // After ten seconds new keys are accepted again.
   EXPECT_EQ(throttle.admit("landmark 5000", LogThrottle::kInterval_ns), "");
   EXPECT_EQ(throttle.admit("landmark 6000", LogThrottle::kInterval_ns), "");

@@ -115,7 +115,7 @@ TEST(EyeRectifier, AlignsTheRowsOfAPairToATenthOfAPixel) {
   const auto right_view = conversions::view(**right);
 
   int seen = 0;
-  double largest_raw_row_error_px = 0.0;
+  double max_raw_row_error_px = 0.0;
   for (std::size_t i = 0; i < points_in_left().size(); ++i) {
     const Eigen::Vector3d point_in_rectified = stereo.rectified_left_from_left * points_in_left()[i];
     const auto expected_left = stereo.camera.project(point_in_rectified);
@@ -126,11 +126,11 @@ TEST(EyeRectifier, AlignsTheRowsOfAPairToATenthOfAPixel) {
     const auto right_spot = centre_of_spot(*right_view, expected_right);
     EXPECT_NEAR(left_spot.y(), right_spot.y(), 0.1) << "point " << i;
     EXPECT_NEAR(left_spot.x() - right_spot.x(), disparity_px, 0.15) << "point " << i;
-    largest_raw_row_error_px = std::max(largest_raw_row_error_px, std::abs(left_pixels[i].y() - right_pixels[i].y()));
+    max_raw_row_error_px = std::max(max_raw_row_error_px, std::abs(left_pixels[i].y() - right_pixels[i].y()));
     ++seen;
   }
   EXPECT_GE(seen, 15);
-  EXPECT_GT(largest_raw_row_error_px, 5.0) << "the raw pair must need rectification";
+  EXPECT_GT(max_raw_row_error_px, 5.0) << "the raw pair must need rectification";
 }
 
 /// The same pair with fisheye lenses.

@@ -5,7 +5,7 @@
 
 namespace panvo::vision {
 namespace {
-constexpr double kSmallestGap = 1e-6;  // relative, between the two largest eigenvalues; below, the points are collinear
+constexpr double kMinGap = 1e-6;  // relative, between the two largest eigenvalues; below, the points are collinear
 }
 
 std::optional<Eigen::Isometry3d> absolute_orientation(std::span<const Eigen::Vector3d> points_in_a,
@@ -30,7 +30,7 @@ std::optional<Eigen::Isometry3d> absolute_orientation(std::span<const Eigen::Vec
       s(0, 1) - s(1, 0), s(2, 0) + s(0, 2), s(1, 2) + s(2, 1), s(2, 2) - s(0, 0) - s(1, 1);
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d> solver(n);
   const Eigen::Vector4d& eigenvalues = solver.eigenvalues();  // ascending
-  if (!(eigenvalues(3) - eigenvalues(2) > kSmallestGap * eigenvalues(3))) return std::nullopt;
+  if (!(eigenvalues(3) - eigenvalues(2) > kMinGap * eigenvalues(3))) return std::nullopt;
   const Eigen::Vector4d q = solver.eigenvectors().col(3);
 
   Eigen::Isometry3d a_from_b = Eigen::Isometry3d::Identity();

@@ -36,8 +36,8 @@ struct Discrimination {
   Gaussian positive, negative;
 
   double hellinger() const { return hellinger_distance(positive, negative); }
-  bool varies(double smallest_deviation) const {
-    return positive.deviation >= smallest_deviation || negative.deviation >= smallest_deviation;
+  bool varies(double min_deviation) const {
+    return positive.deviation >= min_deviation || negative.deviation >= min_deviation;
   }
 };
 
@@ -143,7 +143,7 @@ std::vector<SelectedFeature> select_features(const CyclicIntegralImages& images,
     const auto positive = fit(row, nearby);
     const auto negative = fit(row, farther);
     const Discrimination by_intensity{positive[0], negative[0]}, by_gradient{positive[1], negative[1]};
-    if (!by_intensity.varies(parameters.smallest_deviation) && !by_gradient.varies(parameters.smallest_deviation)) {
+    if (!by_intensity.varies(parameters.min_deviation) && !by_gradient.varies(parameters.min_deviation)) {
       continue;  // uniform background, not distinctive
     }
     const CompressiveFeature here = reader.read(row);

@@ -10,22 +10,22 @@
 namespace panvo::vision {
 namespace {
 
-constexpr double kLongest_px = 1e6;  // largest focal length, of a telescope
-constexpr double kLongestBaseline_m = 1e3;
+constexpr double kMax_px = 1e6;  // largest focal length, of a telescope
+constexpr double kMaxBaseline_m = 1e3;
 
 }  // namespace
 
 void check_camera(const std::string& name, const PinholeCamera& camera, std::vector<std::string>& problems) {
   std::ostringstream text;
-  const auto is_focal_length = [](double value) { return is_positive(value) && value <= kLongest_px; };
-  const auto is_place = [](double value) { return std::abs(value) <= kLongest_px; };  // false for NaN
+  const auto is_focal_length = [](double value) { return is_positive(value) && value <= kMax_px; };
+  const auto is_place = [](double value) { return std::abs(value) <= kMax_px; };  // false for NaN
   if (!is_focal_length(camera.fx) || !is_focal_length(camera.fy)) {
     text << name << ": focal lengths fx = " << camera.fx << ", fy = " << camera.fy
-         << " px must be positive numbers, at most " << kLongest_px;
+         << " px must be positive numbers, at most " << kMax_px;
     problems.push_back(text.str());
   } else if (!is_place(camera.cx) || !is_place(camera.cy)) {
     text << name << ": principal point (" << camera.cx << ", " << camera.cy << ") px must be numbers, at most "
-         << kLongest_px;
+         << kMax_px;
     problems.push_back(text.str());
   }
   if (camera.width <= 0 || camera.height <= 0) {
@@ -44,9 +44,9 @@ void check_rotation(const std::string& name, const Eigen::Matrix3d& rotation, st
 }
 
 void check_baseline(double baseline_m, std::vector<std::string>& problems) {
-  if (is_positive(baseline_m) && baseline_m <= kLongestBaseline_m) return;
+  if (is_positive(baseline_m) && baseline_m <= kMaxBaseline_m) return;
   std::ostringstream text;
-  text << "baseline is " << baseline_m << " m; it must be a positive number, at most " << kLongestBaseline_m;
+  text << "baseline is " << baseline_m << " m; it must be a positive number, at most " << kMaxBaseline_m;
   if (baseline_m < 0.0) text << " (are the left and right cameras swapped?)";
   problems.push_back(text.str());
 }

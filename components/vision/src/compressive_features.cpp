@@ -11,8 +11,8 @@
 namespace panvo::vision {
 namespace {
 
-constexpr float kSmallestIntensityScale = 4.0F;  // grey levels: avoids amplifying the noise of a uniform view
-constexpr float kSmallestGradientScale = 0.5F;   // grey levels per px
+constexpr float kMinIntensityScale = 4.0F;  // grey levels: avoids amplifying the noise of a uniform view
+constexpr float kMinGradientScale = 0.5F;   // grey levels per px
 
 constexpr float kSobelSum = 8.0F;  // scale of the integer Sobel responses in the integral images
 constexpr int kSectors = 24;       // 15 degrees each
@@ -61,8 +61,8 @@ BandNormalisation BandNormalisation::of(const cv::Mat& band, const CyclicIntegra
   }
   BandNormalisation normalisation;
   normalisation.offset = median(means);
-  normalisation.intensity_scale = std::max(kSmallestIntensityScale, median(deviations));
-  normalisation.gradient_scale = std::max(kSmallestGradientScale, median(gradients));
+  normalisation.intensity_scale = std::max(kMinIntensityScale, median(deviations));
+  normalisation.gradient_scale = std::max(kMinGradientScale, median(gradients));
   return normalisation;
 }
 

@@ -24,7 +24,7 @@ size_t CellGrid::cell(const Eigen::Vector2d& pixel) const {
 
 int CellGrid::free_cells() const { return static_cast<int>(std::count(taken_.begin(), taken_.end(), false)); }
 
-std::vector<Corner> detect_corners(const ImagePyramid& image, const CellGrid& grid, double smallest_gradient,
+std::vector<Corner> detect_corners(const ImagePyramid& image, const CellGrid& grid, double min_gradient,
                                    int margin_px) {
   if (image.levels() == 0) return {};
   const int level = std::min(1, image.levels() - 1);
@@ -33,7 +33,7 @@ std::vector<Corner> detect_corners(const ImagePyramid& image, const CellGrid& gr
   cv::Mat eigenvalues;
   cv::cornerMinEigenVal(half, eigenvalues, kBlock, 3, cv::BORDER_REPLICATE);
   // OpenCV scales 8-bit images so that a mean square gradient g^2 gives the eigenvalue (2 g / 255)^2.
-  const double threshold = std::pow(2.0 * smallest_gradient / 255.0, 2);
+  const double threshold = std::pow(2.0 * min_gradient / 255.0, 2);
 
   const int margin = static_cast<int>(std::ceil(margin_px / scale));
   const double cell = grid.cell_px() / scale;

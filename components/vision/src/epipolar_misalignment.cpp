@@ -49,15 +49,15 @@ bool EpipolarMisalignment::holds_for_columns() const {
   return parts.cwiseQuotient(expected()).squaredNorm() < kPlausible;
 }
 
-double EpipolarMisalignment::largest_row_shift_px(const PinholeCamera& camera) const {
+double EpipolarMisalignment::max_row_shift_px(const PinholeCamera& camera) const {
   const double right = camera.width - 1.0, bottom = camera.height - 1.0;
-  double largest_px = 0.0;
+  double max_px = 0.0;
   for (const Eigen::Vector2d& at :
        {Eigen::Vector2d(0.0, 0.0), Eigen::Vector2d(right, 0.0), Eigen::Vector2d(0.0, bottom),
         Eigen::Vector2d(right, bottom), Eigen::Vector2d(0.5 * right, 0.5 * bottom)}) {
-    largest_px = std::max(largest_px, std::abs(shift(camera, at).y()));
+    max_px = std::max(max_px, std::abs(shift(camera, at).y()));
   }
-  return largest_px;
+  return max_px;
 }
 
 EpipolarCalibration::EpipolarCalibration(const PinholeCamera& camera)

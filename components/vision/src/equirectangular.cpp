@@ -14,7 +14,7 @@ double wrap(double difference, double turn) {
   return wrapped > 0.5 * turn ? wrapped - turn : wrapped;
 }
 
-std::optional<std::string> find_layout_fault(const cv::Mat& panorama, int smallest_columns) {
+std::optional<std::string> find_layout_fault(const cv::Mat& panorama, int min_columns) {
   std::ostringstream text;
   if (panorama.empty()) {
     text << "is empty";
@@ -22,9 +22,8 @@ std::optional<std::string> find_layout_fault(const cv::Mat& panorama, int smalle
     text << "is not an 8-bit image of 1 or 3 channels";
   } else if (panorama.cols != 2 * panorama.rows) {
     text << "is not twice as wide as high: " << panorama.cols << "x" << panorama.rows << " px";
-  } else if (panorama.cols < smallest_columns) {
-    text << "is too small: " << panorama.cols << "x" << panorama.rows << " px, " << smallest_columns
-         << " columns needed";
+  } else if (panorama.cols < min_columns) {
+    text << "is too small: " << panorama.cols << "x" << panorama.rows << " px, " << min_columns << " columns needed";
   } else {
     return std::nullopt;
   }

@@ -10,10 +10,10 @@ namespace panvo::vision {
 namespace {
 
 constexpr int kGridStep_px = 8;
-constexpr int kDark = 8;                   // grey level: upper limit with a capped lens
-constexpr int kBright = 250;               // grey level: saturation, allowing for smoothing
-constexpr double kFaultyShare = 0.98;      // accepts the lamps of a night scene, a sign against a white sky
-constexpr double kSmallestContrast = 2.0;  // grey levels, standard deviation: noise of a uniform wall
+constexpr int kDark = 8;               // grey level: upper limit with a capped lens
+constexpr int kBright = 250;           // grey level: saturation, allowing for smoothing
+constexpr double kFaultyShare = 0.98;  // accepts the lamps of a night scene, a sign against a white sky
+constexpr double kMinContrast = 2.0;   // grey levels, standard deviation: noise of a uniform wall
 
 }  // namespace
 
@@ -39,8 +39,8 @@ std::optional<std::string> find_fault(const cv::Mat& image) {
     text << "is black: " << 100.0 * dark / count << " % of the pixels at grey level " << kDark << " or below";
   } else if (bright > kFaultyShare * count) {
     text << "is saturated: " << 100.0 * bright / count << " % of the pixels at grey level " << kBright << " or above";
-  } else if (deviation < kSmallestContrast) {
-    text << "is constant: standard deviation of the grey levels is " << deviation << ", at least " << kSmallestContrast
+  } else if (deviation < kMinContrast) {
+    text << "is constant: standard deviation of the grey levels is " << deviation << ", at least " << kMinContrast
          << " required";
   } else {
     return std::nullopt;

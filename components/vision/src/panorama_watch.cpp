@@ -8,9 +8,9 @@
 namespace panvo::vision {
 namespace {
 
-constexpr int kLargestShift = 8;           // of 72 columns: 40 degrees between two panoramas
-constexpr int kSamples = 3;                // per side of a thumbnail pixel
-constexpr double kSmallestContrast = 2.0;  // grey levels, standard deviation; below, panoramas are not comparable
+constexpr int kMaxShift = 8;          // of 72 columns: 40 degrees between two panoramas
+constexpr int kSamples = 3;           // per side of a thumbnail pixel
+constexpr double kMinContrast = 2.0;  // grey levels, standard deviation; below, panoramas are not comparable
 /// Correlation thresholds, -1 to 1. A panorama counts as flipped if its correlation with the previous one is below
 /// `alike`, while that of its flipped version is above `exchanged` and better by `margin`. Panoramas 0.2 s apart
 /// correlate with at least 0.9 (kOfAll) and 0.74 (kOfStructure).
@@ -26,9 +26,9 @@ int level_at(const cv::Mat& image, int row, int column) {
 
 // Scales to norm 1; false if the contrast is too low.
 template <class Thumbnail>
-bool normalize(Thumbnail& thumbnail, double smallest_contrast) {
+bool normalize(Thumbnail& thumbnail, double min_contrast) {
   const float norm = thumbnail.norm();
-  if (norm < smallest_contrast * std::sqrt(static_cast<double>(thumbnail.size()))) return false;
+  if (norm < min_contrast * std::sqrt(static_cast<double>(thumbnail.size()))) return false;
   thumbnail /= norm;
   return true;
 }
@@ -83,18 +83,18 @@ std::optional<PanoramaWatch::View> PanoramaWatch::view_of(const cv::Mat& panoram
   }
   view.grey.array() -= view.grey.mean();
   view.structure = view.grey.colwise() - view.grey.rowwise().mean();
-  if (!normalize(view.grey, kSmallestContrast) || !normalize(view.structure, 0.0)) return std::nullopt;
+  if (!normalize(view.grey, kMinContrast) || !normalize(view.structure, 0.0)) return std::nullopt;
   return view;
 }
 
 /// Largest correlation over shifts to both sides, starting from zero; stops once `enough` is reached.
 double PanoramaWatch::likeness(const Thumbnail& before, const Thumbnail& now, double enough) {
-  Eigen::Matrix<float, kRows, kColumns + 2 * kLargestShift, Eigen::RowMajor> wide;
-  wide << now.rightCols<kLargestShift>(), now, now.leftCols<kLargestShift>();
+  Eigen::Matrix<float, kRows, kColumns + 2 * kMaxShift, Eigen::RowMajor> wide;
+  wide << now.rightCols<kMaxShift>(), now, now.leftCols<kMaxShift>();
   double best = -1.0;
-  for (int i = 0; i <= 2 * kLargestShift && best < enough; ++i) {
+  for (int i = 0; i <= 2 * kMaxShift && best < enough; ++i) {
     const int shift = i % 2 == 0 ? i / 2 : -(i + 1) / 2;
-    best = std::max<double>(best, wide.middleCols<kColumns>(kLargestShift + shift).cwiseProduct(before).sum());
+    best = std::max<double>(best, wide.middleCols<kColumns>(kMaxShift + shift).cwiseProduct(before).sum());
   }
   return best;
 }

@@ -13,11 +13,11 @@ namespace {
 
 constexpr int kMaxIterations = 12;
 constexpr double kSettled_px = 0.01;
-constexpr double kLargestStep_px = 1.5;  // beyond, the linearisation is not valid
+constexpr double kMaxStep_px = 1.5;  // beyond, the linearisation is not valid
 constexpr double kCorrelation =
     3.0;  // interpolation correlates pixel noise: residuals shrink, the position error does not
-constexpr double kSmallestGain = 0.25;     // fainter patches are rejected
-constexpr double kSmallestContrast = 2.0;  // grey levels, standard deviation: noise level of an 8-bit image
+constexpr double kMinGain = 0.25;     // fainter patches are rejected
+constexpr double kMinContrast = 2.0;  // grey levels, standard deviation: noise level of an 8-bit image
 
 // Image positions in fixed point, 1/65536 px: sampling dominates the run time and is fastest with integers.
 constexpr int kPlaceBits = 16;
@@ -91,7 +91,7 @@ bool PatchTemplate::prepare(const std::array<float, (kSize + 2) * (kSize + 2)>& 
     normal += b * b.transpose();
   }
   energy_ = normal(0, 0);
-  if (energy_ < kPixels * kSmallestContrast * kSmallestContrast) return false;
+  if (energy_ < kPixels * kMinContrast * kMinContrast) return false;
   const Eigen::Matrix3d normal_plane = normal.cast<double>();
   // The damping allows a row search for a template without gradient along v (a vertical edge).
   const Eigen::Matrix3d damping = (1e-6 * energy_ * Eigen::Vector3d(0.0, 1.0, 1.0)).asDiagonal();
@@ -147,10 +147,10 @@ std::optional<PatchAlignment> PatchTemplate::align(const cv::Mat& image, const E
       solution.head<2>() = inverse_row_ * seen.on_basis.head<2>();
     }
     const double gain = solution.x();
-    if (!(gain > kSmallestGain)) return std::nullopt;
+    if (!(gain > kMinGain)) return std::nullopt;
     Eigen::Vector2d step = -solution.tail<2>() / gain;
     const double length = step.norm();
-    if (length > kLargestStep_px) step *= kLargestStep_px / length;
+    if (length > kMaxStep_px) step *= kMaxStep_px / length;
     position += step;
     if ((position - start).squaredNorm() > reach_px * reach_px) return std::nullopt;
     if (length > kSettled_px) continue;

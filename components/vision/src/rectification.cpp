@@ -55,7 +55,7 @@ void RectificationMap::map_wide(const LensCamera& raw, const Eigen::Matrix3d& re
 }
 
 void RectificationMap::pack() {
-  if (raw_size_.area() > static_cast<int>(kLargestLookupOffset)) return;
+  if (raw_size_.area() > static_cast<int>(kMaxLookupOffset)) return;
   lookups_.reserve(coordinates_.total());
   for (int v = 0; v < coordinates_.rows; ++v) {
     for (int u = 0; u < coordinates_.cols; ++u) {

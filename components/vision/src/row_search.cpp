@@ -13,16 +13,16 @@ namespace {
 
 constexpr int kWindow = 8;  // px: one vector of 16-bit values per row
 constexpr int kPixels = kWindow * kWindow;
-constexpr double kSmallestVariance = 2.0 * 2.0;  // grey levels squared
-constexpr int kPeakWidth_px = 2;                 // nearer maxima count as one
-constexpr double kSmallestLead = 0.05;           // of the best correlation over the second best position
+constexpr double kMinVariance = 2.0 * 2.0;  // grey levels squared
+constexpr int kPeakWidth_px = 2;            // nearer maxima count as one
+constexpr double kMinLead = 0.05;           // of the best correlation over the second best position
 
 cv::v_int16x8 load(const uchar* pixels) { return cv::v_reinterpret_as_s16(cv::v_load_expand(pixels)); }
 
 }  // namespace
 
 std::optional<int> search_row(const cv::Mat& left, const cv::Mat& right, cv::Point pixel, int rows_below, int from,
-                              int to, double smallest_correlation) {
+                              int to, double min_correlation) {
   const int top = pixel.y - kWindow / 2, column = pixel.x - kWindow / 2;
   if (top < 0 || column < 0 || top + kWindow > left.rows || column + kWindow > left.cols) return std::nullopt;
   const int right_top = top + rows_below;
@@ -41,7 +41,7 @@ std::optional<int> search_row(const cv::Mat& left, const cv::Mat& right, cv::Poi
     square_left += cv::v_reduce_sum(cv::v_dotprod(values, values));
   }
   const double variance_left = square_left / kPixels - sum_left * sum_left / (kPixels * kPixels);
-  if (variance_left < kSmallestVariance) return std::nullopt;
+  if (variance_left < kMinVariance) return std::nullopt;
 
   std::vector<double> correlations;
   correlations.reserve(static_cast<size_t>(to - from + 1));
@@ -56,13 +56,13 @@ std::optional<int> search_row(const cv::Mat& left, const cv::Mat& right, cv::Poi
     const double mean = static_cast<double>(cv::v_reduce_sum(sum)) / kPixels;
     const double variance = static_cast<double>(cv::v_reduce_sum(square)) / kPixels - mean * mean;
     const double covariance = static_cast<double>(cv::v_reduce_sum(product)) / kPixels - mean * sum_left / kPixels;
-    correlations.push_back(variance < kSmallestVariance ? -1.0 : covariance / std::sqrt(variance * variance_left));
+    correlations.push_back(variance < kMinVariance ? -1.0 : covariance / std::sqrt(variance * variance_left));
   }
 
   const auto best = std::max_element(correlations.begin(), correlations.end());
-  if (*best < smallest_correlation) return std::nullopt;
+  if (*best < min_correlation) return std::nullopt;
   for (auto other = correlations.begin(); other != correlations.end(); ++other) {
-    if (std::abs(other - best) > kPeakWidth_px && *other > *best - kSmallestLead) return std::nullopt;
+    if (std::abs(other - best) > kPeakWidth_px && *other > *best - kMinLead) return std::nullopt;
   }
   return from + static_cast<int>(best - correlations.begin());
 }

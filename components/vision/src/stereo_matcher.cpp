@@ -15,14 +15,14 @@ constexpr int kSize = PatchTemplate::kSize;
 constexpr double kHalf = 0.5 * (kSize - 1);
 constexpr int kIterations = 5;
 constexpr double kSettled_px = 0.01;
-constexpr double kLargestStep_px = 2.0;
+constexpr double kMaxStep_px = 2.0;
 constexpr double kGradientSigma =
     0.3;                        // prior: 0 for fronto-parallel walls, baseline / camera height (0.1 to 0.35) for roads
 constexpr double kNoise = 4.0;  // grey levels: weight of that prior against the image
 constexpr double kCoarseCorrelation = 0.6;  // with a window that ignores the slant
 constexpr double kReach_px = 3.0;
-constexpr double kRowReach_px = 3.0;         // from the row predicted by the current misalignment
-constexpr double kLargestRowSigma_px = 0.5;  // above: too little vertical gradient
+constexpr double kRowReach_px = 3.0;     // from the row predicted by the current misalignment
+constexpr double kMaxRowSigma_px = 0.5;  // above: too little vertical gradient
 
 // An image row at a fractional v, linearly interpolated.
 class Row {
@@ -115,7 +115,7 @@ class SlantedPatch {
       const double gain = solution.x();
       if (!(gain > 0.25) || !solution.allFinite()) return false;
       const double step = solution.y() / gain;
-      if (std::abs(step) > kLargestStep_px) return false;
+      if (std::abs(step) > kMaxStep_px) return false;
       match.disparity_px += step;
       match.gradient += solution.tail<2>() / gain;
       const double residual = std::max(0.0, variation - solution.dot(projection));
@@ -221,15 +221,15 @@ std::optional<RowError> StereoMatcher::row_error(const ImagePyramid& left, const
   const Eigen::Vector2d ideal(pixel.x() - match.disparity_px, pixel.y());
   const auto found =
       patch->align(right[0], ideal + shift(pixel, match.disparity_px), PatchTemplate::Search::kPlane, kRowReach_px);
-  if (!found || found->correlation < smallest_correlation_) return std::nullopt;
+  if (!found || found->correlation < min_correlation_) return std::nullopt;
   const double sigma_px = std::sqrt(found->variance.y());
-  if (sigma_px > kLargestRowSigma_px) return std::nullopt;
+  if (sigma_px > kMaxRowSigma_px) return std::nullopt;
   return RowError{ideal, found->position.y() - pixel.y(), sigma_px};
 }
 
 bool StereoMatcher::accepts(const StereoMatch& match) const {
   return match.disparity_px >= range_.from_px && match.disparity_px <= range_.to_px &&
-         match.correlation >= smallest_correlation_;
+         match.correlation >= min_correlation_;
 }
 
 }  // namespace panvo::vision

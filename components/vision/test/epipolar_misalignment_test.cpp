@@ -49,7 +49,7 @@ TEST(EpipolarMisalignment, ShiftsPixelsAsTheCameraWithItsErrorsDoes) {
 
 TEST(EpipolarMisalignment, IsAsLargeAsWhereRowsAreFarthestOff) {
   const Parts roll = 1e-3 * Parts::Unit(3);
-  EXPECT_NEAR(EpipolarMisalignment{roll}.largest_row_shift_px(kCamera), 0.32, 1e-9);  // 320 px from the centre
+  EXPECT_NEAR(EpipolarMisalignment{roll}.max_row_shift_px(kCamera), 0.32, 1e-9);  // 320 px from the centre
 }
 
 TEST(EpipolarCalibration, FindsTheErrorsOfAMisalignedCamera) {

@@ -81,7 +81,7 @@ TEST(PackedLookup, GivesTheSameBytesByAnyInstructionSet) {
     const auto& fast = channels == 1 ? kGreyLookupAvx2 : kColourLookupAvx2;
     const LookupKernels plain = channels == 1 ? LookupKernels{look_up_plain<1>, blend_plain<1>}
                                               : LookupKernels{look_up_plain<3>, blend_plain<3>};
-    for (const int factor : {0, 131, kUnitFactor, 300, kLargestFactor}) {
+    for (const int factor : {0, 131, kUnitFactor, 300, kMaxFactor}) {
       const auto bytes = static_cast<std::size_t>(kCount * channels);
       std::vector<std::uint8_t> expected(bytes), found(bytes + 1, 77);
       plain.one(source(a, factor), lookups_a.data(), kCount, expected.data());

@@ -160,8 +160,8 @@ void OpenedCamera::start(const CameraSettings& settings, bool use_packet_socket)
   if (error) throw OpenError(identity_.serial + " does not report its frame size: " + error.text());
   if (is_gige_) {
     // Kernel buffer for several frames, up to net.core.rmem_max; Aravis's default holds one frame.
-    constexpr guint kFrames = 8, kLeast = 1U << 20;
-    const auto room = static_cast<gint>(std::min(std::max(kFrames * payload, kLeast), kFrames * kLeast * 4));
+    constexpr guint kFrames = 8, kMin = 1U << 20;
+    const auto room = static_cast<gint>(std::min(std::max(kFrames * payload, kMin), kFrames * kMin * 4));
     g_object_set(stream_.get(), "packet-resend",
                  settings.resend ? ARV_GV_STREAM_PACKET_RESEND_ALWAYS : ARV_GV_STREAM_PACKET_RESEND_NEVER,
                  "socket-buffer", ARV_GV_STREAM_SOCKET_BUFFER_FIXED, "socket-buffer-size", room, nullptr);

@@ -37,7 +37,7 @@ bool ClockMapping::was_set(std::int64_t device_ns, std::int64_t arrival_ns) cons
   const auto since_first_ns = static_cast<double>(device_ns - first_device_ns_);
   const double early_ns =
       lag_ns_ + drift_ * since_first_ns - static_cast<double>(arrival_ns - device_ns - first_lag_ns_);
-  const double drifted_ns = settings_.largest_drift * static_cast<double>(device_ns - *last_device_ns_);
+  const double drifted_ns = settings_.max_drift * static_cast<double>(device_ns - *last_device_ns_);
   return early_ns > static_cast<double>(settings_.jump_ns) + drifted_ns;
 }
 
@@ -71,7 +71,7 @@ void ClockMapping::fit() {
     const auto right =
         std::find_if(hull.begin() + 1, hull.end() - 1, [&](const Point& point) { return point.device_ns >= mean_ns; });
     const double slope = (right->lag_ns - (right - 1)->lag_ns) / (right->device_ns - (right - 1)->device_ns);
-    drift_ = std::clamp(slope, -settings_.largest_drift, settings_.largest_drift);
+    drift_ = std::clamp(slope, -settings_.max_drift, settings_.max_drift);
   }
   lag_ns_ = std::numeric_limits<double>::infinity();
   for (const auto& point : points_) lag_ns_ = std::min(lag_ns_, point.lag_ns - drift_ * point.device_ns);

@@ -4,7 +4,7 @@
 namespace panvo::camera_stream {
 namespace {
 
-constexpr std::uint64_t kLargest16 = 65535;
+constexpr std::uint64_t kMax16 = 65535;
 
 constexpr std::int64_t kLate = 16;  // a number further back than this means a restarted device, not a late frame
 
@@ -21,8 +21,8 @@ std::int64_t FrameGaps::missing_before(std::uint64_t number) {
   std::int64_t steps = 1;
   if (last_ && numbering_ == FrameNumbering::kCounter32) {
     steps = steps_on(*last_, number, std::uint64_t{1} << 32);
-  } else if (last_ && numbering_ == FrameNumbering::kGigEVision && number <= kLargest16 && *last_ <= kLargest16) {
-    steps = steps_on(*last_, number, kLargest16);
+  } else if (last_ && numbering_ == FrameNumbering::kGigEVision && number <= kMax16 && *last_ <= kMax16) {
+    steps = steps_on(*last_, number, kMax16);
   } else if (last_) {
     steps = static_cast<std::int64_t>(number - *last_);
   }

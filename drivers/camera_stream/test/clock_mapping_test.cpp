@@ -15,11 +15,11 @@ namespace {
 constexpr std::int64_t kMs = 1'000'000, kSecond = 1000 * kMs;
 
 /// A camera whose clock is `offset_ns` ahead of the host's and runs faster by `drift`. Transfer to the host takes at
-/// least `least_delay_ns`, usually little more, sometimes much more.
+/// least `min_delay_ns`, usually little more, sometimes much more.
 struct Camera {
   std::int64_t offset_ns = 10 * kSecond;
   double drift = 100e-6;
-  std::int64_t least_delay_ns = 0;
+  std::int64_t min_delay_ns = 0;
   std::int64_t began_ns = 1'700'000'000 * kSecond;  // host time of the first frame
   std::mt19937 random{7};
 
@@ -29,12 +29,12 @@ struct Camera {
   std::int64_t arrival_ns(std::int64_t host_ns) {
     const double usual_ns = std::exponential_distribution<double>(1.0 / (0.5 * kMs))(random);
     const bool is_held_up = std::uniform_real_distribution<double>(0, 1)(random) < 0.05;
-    return host_ns + least_delay_ns + static_cast<std::int64_t>(usual_ns) + (is_held_up ? 40 * kMs : 0);
+    return host_ns + min_delay_ns + static_cast<std::int64_t>(usual_ns) + (is_held_up ? 40 * kMs : 0);
   }
 };
 
 /// Largest error of the mapping over the frames from `from_s` to `to_s`, at 60 Hz, ns.
-double largest_error_ns(
+double max_error_ns(
     ClockMapping& mapping, Camera& camera, double from_s, double to_s,
     const std::function<void(int)>& before_frame = [](int) {}) {
   double largest = 0.0;
@@ -52,7 +52,7 @@ TEST(ClockMapping, FollowsAnOffsetAndADriftToWellUnderAMillisecond) {
   for (const double drift : {100e-6, -100e-6, 0.0}) {
     Camera camera{.drift = drift};
     ClockMapping mapping;
-    EXPECT_LT(largest_error_ns(mapping, camera, 10.0, 120.0), 0.5 * kMs) << drift;
+    EXPECT_LT(max_error_ns(mapping, camera, 10.0, 120.0), 0.5 * kMs) << drift;
     EXPECT_NEAR(mapping.drift(), -drift, 20e-6);
     EXPECT_EQ(mapping.resets(), 0u);
   }
@@ -61,19 +61,19 @@ TEST(ClockMapping, FollowsAnOffsetAndADriftToWellUnderAMillisecond) {
 TEST(ClockMapping, IsNotMuchWorseInItsFirstSeconds) {
   Camera camera;
   ClockMapping mapping;
-  EXPECT_LT(largest_error_ns(mapping, camera, 1.0, 10.0), 2.0 * kMs);
+  EXPECT_LT(max_error_ns(mapping, camera, 1.0, 10.0), 2.0 * kMs);
 }
 
 TEST(ClockMapping, LeavesTheLeastDelayInTheStamp) {
-  Camera camera{.least_delay_ns = 5 * kMs};
+  Camera camera{.min_delay_ns = 5 * kMs};
   ClockMapping mapping;
-  EXPECT_NEAR(largest_error_ns(mapping, camera, 10.0, 30.0), 5.0 * kMs, 0.5 * kMs);
+  EXPECT_NEAR(max_error_ns(mapping, camera, 10.0, 30.0), 5.0 * kMs, 0.5 * kMs);
 }
 
 TEST(ClockMapping, IsNotMovedByAHostThatSleptForTwoSeconds) {
   Camera camera;
   ClockMapping mapping;
-  largest_error_ns(mapping, camera, 0.0, 20.0);
+  max_error_ns(mapping, camera, 0.0, 20.0);
   // Three seconds of frames; those of the first two seconds are delivered at once.
   const std::int64_t slept_from_ns = camera.began_ns + 20 * kSecond;
   for (int i = 0; i < 180; ++i) {
@@ -88,7 +88,7 @@ TEST(ClockMapping, IsNotMovedByAHostThatSleptForTwoSeconds) {
 TEST(ClockMapping, BeginsAnewWithAClockThatBeganAnew) {
   Camera camera;
   ClockMapping mapping;
-  const double error_ns = largest_error_ns(mapping, camera, 21.0, 30.0, [&](int i) {
+  const double error_ns = max_error_ns(mapping, camera, 21.0, 30.0, [&](int i) {
     if (i == 20 * 60) camera.offset_ns = -camera.began_ns;  // power cycle: the clock shows 20 s
     if (i == 25 * 60) camera.offset_ns = 3'000 * kSecond;   // set forward
   });
@@ -115,9 +115,9 @@ TEST(ClockMapping, GivesStampsThatIncrease) {
 }
 
 TEST(ClockMapping, TakesStampsALittleAheadAsTheyAre) {
-  Camera camera{.offset_ns = 0, .drift = 0.0, .least_delay_ns = -70 * kMs};  // stamped 70 ms ahead of the arrival
+  Camera camera{.offset_ns = 0, .drift = 0.0, .min_delay_ns = -70 * kMs};  // stamped 70 ms ahead of the arrival
   ClockMapping mapping;
-  largest_error_ns(mapping, camera, 0.0, 10.0);
+  max_error_ns(mapping, camera, 0.0, 10.0);
   EXPECT_EQ(mapping.resets(), 0u);
 }
 

@@ -94,7 +94,7 @@ std::vector<StereoFrame> pair_by_stamp(const std::vector<StampedImage>& left, co
   const auto period_ns = median_period_ns(left);
   std::vector<StereoFrame> frames;
   std::size_t alone = right.size(), missing_files = 0;
-  std::int64_t largest_gap_ns = 0;
+  std::int64_t max_gap_ns = 0;
   fs::path first_missing;
   for (std::size_t l = 0; l < left.size(); ++l) {
     const auto r = nearest(right, left[l].stamp_ns);
@@ -109,7 +109,7 @@ std::vector<StereoFrame> pair_by_stamp(const std::vector<StampedImage>& left, co
       if (missing_files++ == 0) first_missing = left_is_there ? right[r].file : left[l].file;
       continue;
     }
-    largest_gap_ns = std::max(largest_gap_ns, gap_ns);
+    max_gap_ns = std::max(max_gap_ns, gap_ns);
     frames.push_back({left[l].stamp_ns, left[l].file, right[r].file});
   }
   if (alone > 0)
@@ -118,10 +118,10 @@ std::vector<StereoFrame> pair_by_stamp(const std::vector<StampedImage>& left, co
     notes.push_back(fmt::format("{} pairs lack an image file and are skipped, the first: {}", missing_files,
                                 first_missing.string()));
   }
-  if (largest_gap_ns > 0) {
+  if (max_gap_ns > 0) {
     notes.push_back(
         fmt::format("left and right stamps differ by up to {:.3f} ms; both images of a pair get the left stamp",
-                    static_cast<double>(largest_gap_ns) * 1e-6));
+                    static_cast<double>(max_gap_ns) * 1e-6));
   }
   return frames;
 }

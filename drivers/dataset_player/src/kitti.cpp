@@ -95,8 +95,8 @@ std::function<std::int64_t(const NumberedPair&)> read_clock(const fs::path& time
     notes.push_back(fmt::format("no times.txt: {} Hz is assumed (parameter rate_hz)", kUsualRateHz));
   const double rate_hz = options.rate_hz > 0.0 ? options.rate_hz : kUsualRateHz;
   return [rate_hz](const NumberedPair& pair) -> std::int64_t {
-    constexpr std::uint64_t kMostImages = 100'000'000;
-    if (pair.number < kMostImages) return std::llround(static_cast<double>(pair.number) * 1e9 / rate_hz);
+    constexpr std::uint64_t kMaxImages = 100'000'000;
+    if (pair.number < kMaxImages) return std::llround(static_cast<double>(pair.number) * 1e9 / rate_hz);
     throw DatasetError(pair.left.string() +
                        ": its number is too large for a frame number; number the images from 000000, or add times.txt");
   };

@@ -29,8 +29,8 @@ void search_road(const Road& road, int number, const Eigen::Vector2d& point, Roa
   std::size_t i = 0;
   while (i + 1 < line.size()) {
     const double to_point = (point - line[i]).norm();
-    if (road.longest_step_m > 0.0) {
-      const double to_spare = (to_point - best.distance_m) / road.longest_step_m - 1.0;
+    if (road.max_step_m > 0.0) {
+      const double to_spare = (to_point - best.distance_m) / road.max_step_m - 1.0;
       if (to_spare >= 1.0) {
         i += static_cast<std::size_t>(std::min(to_spare, static_cast<double>(line.size())));
         along = -1.0;

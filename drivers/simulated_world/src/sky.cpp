@@ -12,12 +12,12 @@ namespace panvo::simulated_world {
 namespace {
 
 constexpr float kPi = std::numbers::pi_v<float>;
-constexpr float kHighestSun = 56.0f * kPi / 180.0f;  ///< at noon on a summer day at middle latitudes
-constexpr float kSunRadius = 0.0047f;                ///< rad
-constexpr float kCloudPeriods = 0.40f;               ///< of the cloud plane, per unit of its height
-constexpr float kCloudCurve = 0.10f;                 ///< keeps the cloud plane finite at the horizon
-constexpr float kHorizonTop = 0.080f;                ///< rad, highest hill
-constexpr float kHorizonBottom = -0.020f;            ///< rad
+constexpr float kMaxSun = 56.0f * kPi / 180.0f;  ///< at noon on a summer day at middle latitudes
+constexpr float kSunRadius = 0.0047f;            ///< rad
+constexpr float kCloudPeriods = 0.40f;           ///< of the cloud plane, per unit of its height
+constexpr float kCloudCurve = 0.10f;             ///< keeps the cloud plane finite at the horizon
+constexpr float kHorizonTop = 0.080f;            ///< rad, highest hill
+constexpr float kHorizonBottom = -0.020f;        ///< rad
 
 Eigen::Array3f mixed(const Eigen::Array3f& from, const Eigen::Array3f& to, float share) {
   return from + (to - from) * share;
@@ -97,7 +97,7 @@ Light light_at(double hour, double cloud_cover) {
   const float cover = std::clamp(static_cast<float>(cloud_cover), 0.0f, 1.0f);
   const float day = kPi * std::clamp((static_cast<float>(hour) - 6.0f) / 12.0f, 0.0f, 1.0f);
   Light light;
-  light.to_sun = {std::cos(day), -std::sin(day) * std::cos(kHighestSun), std::sin(day) * std::sin(kHighestSun)};
+  light.to_sun = {std::cos(day), -std::sin(day) * std::cos(kMaxSun), std::sin(day) * std::sin(kMaxSun)};
   const float up = std::max(light.to_sun.z(), 0.0f);
 
   // Air mass by Kasten and Young 1989; optical depths of a clear summer sky, with blue scattered most.

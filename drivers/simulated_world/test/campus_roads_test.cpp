@@ -64,7 +64,7 @@ TEST(CampusRoads, RunFromJunctionToJunctionInStepsOfAMetre) {
       for (std::size_t i = 1; i < road.centre_line.size(); ++i) {
         const double step = (road.centre_line[i] - road.centre_line[i - 1]).norm();
         ASSERT_GT(step, 0.95);
-        ASSERT_LE(step, road.longest_step_m);
+        ASSERT_LE(step, road.max_step_m);
       }
     }
   }

@@ -168,7 +168,7 @@ TEST(Renderer, SeesThroughTheHolesOfLeaves) {
   }
 }
 
-double largest_difference(const cv::Mat& a, const cv::Mat& b) { return cv::norm(a, b, cv::NORM_INF); }
+double max_difference(const cv::Mat& a, const cv::Mat& b) { return cv::norm(a, b, cv::NORM_INF); }
 
 TEST(Renderer, GivesTheSamePictureWithAnyNumberOfThreads) {
   auto scene = yard();
@@ -186,11 +186,11 @@ TEST(Renderer, GivesTheSamePictureWithAnyNumberOfThreads) {
   cv::setNumThreads(2);
   const cv::Mat together = picture();
   cv::setNumThreads(threads);
-  EXPECT_EQ(largest_difference(alone, together), 0.0);
+  EXPECT_EQ(max_difference(alone, together), 0.0);
   Renderer renderer(scene);
-  EXPECT_EQ(largest_difference(alone, renderer.render(rays, shot, Light{}, movers, {})), 0.0);
+  EXPECT_EQ(max_difference(alone, renderer.render(rays, shot, Light{}, movers, {})), 0.0);
   renderer.render(rays, shot, Light{}, {}, {});
-  EXPECT_EQ(largest_difference(alone, renderer.render(rays, shot, Light{}, movers, {})), 0.0);
+  EXPECT_EQ(max_difference(alone, renderer.render(rays, shot, Light{}, movers, {})), 0.0);
 }
 
 TEST(Renderer, CountsWhatItTraces) {

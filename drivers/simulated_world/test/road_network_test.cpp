@@ -52,7 +52,7 @@ TEST(RoadNetwork, KnowsTheNearestRoadAndItsSide) {
 TEST(RoadNetwork, LongStepsSkipNothing) {
   const RoadNetwork skipping = campus_roads(3);
   RoadNetwork walking = skipping;
-  for (Road& road : walking.roads) road.longest_step_m = 0.0;
+  for (Road& road : walking.roads) road.max_step_m = 0.0;
   for (double x = -230.0; x < 230.0; x += 17.3) {
     for (double y = -180.0; y < 180.0; y += 13.7) {
       const auto expected = walking.nearest_road({x, y}), found = skipping.nearest_road({x, y});

@@ -20,8 +20,8 @@ namespace {
 using Eigen::Vector2d;
 
 constexpr double kStep_m = 0.1;              // between the path's points
-constexpr double kLeastRadius_m = 5.0;       // of turns
-constexpr double kMostUsed = 0.45;           // fraction of a road that the turn at one end may use
+constexpr double kMinRadius_m = 5.0;         // of turns
+constexpr double kMaxUsed = 0.45;            // fraction of a road that the turn at one end may use
 constexpr double kSmoothing_m = 1.2;         // standard deviation: curvature changes over about 4 m
 constexpr double kClearOfCrossing_m = 12.0;  // distance of the path's ends from the first and last junction
 constexpr double kClearOfEnd_m = 3.0;        // the same in a cul-de-sac
@@ -145,7 +145,7 @@ std::optional<Touch> touching_circle(const Leg& in, const Leg& out, double radiu
   const auto moved = [&](const Leg& leg, double along) -> Vector2d {
     return leg.at(along) + side * radius * left_of(leg.way(along));
   };
-  const double reach_in = kMostUsed * in.length_m, reach_out = kMostUsed * out.length_m;
+  const double reach_in = kMaxUsed * in.length_m, reach_out = kMaxUsed * out.length_m;
   std::vector<Vector2d> line_in, line_out;
   for (double back = -kBeyond_m; back < reach_in; back += kStride_m) line_in.push_back(moved(in, in.length_m - back));
   for (double on = -kBeyond_m; on < reach_out; on += kStride_m) line_out.push_back(moved(out, on));
@@ -168,8 +168,8 @@ std::optional<Touch> touching_circle(const Leg& in, const Leg& out, double radiu
 // Almost straight ahead: a cubic from lane to lane.
 std::vector<Vector2d> straight_on(Leg& in, Leg& out, double angle) {
   const double blend = angle < 0.0 ? 6.0 : 9.0;  // m; shorter to the right, where the kerb is near
-  in.end_m = in.length_m - std::min(blend, kMostUsed * in.length_m);
-  out.begin_m = std::min(blend, kMostUsed * out.length_m);
+  in.end_m = in.length_m - std::min(blend, kMaxUsed * in.length_m);
+  out.begin_m = std::min(blend, kMaxUsed * out.length_m);
   const Vector2d a = in.at(in.end_m), b = out.at(out.begin_m);
   const double length = (b - a).norm();
   const Vector2d at_a = length * in.way(in.end_m), at_b = length * out.way(out.begin_m);
@@ -184,15 +184,15 @@ std::vector<Vector2d> straight_on(Leg& in, Leg& out, double angle) {
 
 // An arc through a junction. A right turn follows the rounded kerb closely; a left turn is wider.
 std::vector<Vector2d> turn(Leg& in, Leg& out) {
-  constexpr double kStraight_rad = 0.7, kRightReach_m = 6.0, kLeftReach_m = 8.5, kMost_m = 16.0;
+  constexpr double kStraight_rad = 0.7, kRightReach_m = 6.0, kLeftReach_m = 8.5, kMax_m = 16.0;
   const double angle = angle_between(in.way(in.length_m - 5.0), out.way(5.0));
   if (std::abs(angle) < kStraight_rad) return straight_on(in, out, angle);
   const double side = angle > 0.0 ? 1.0 : -1.0;
   const double reach = angle > 0.0 ? kLeftReach_m : kRightReach_m;
-  double radius = std::clamp(reach / std::tan(std::abs(angle) / 2.0), kLeastRadius_m, kMost_m);
+  double radius = std::clamp(reach / std::tan(std::abs(angle) / 2.0), kMinRadius_m, kMax_m);
   std::optional<Touch> touch;
-  while (!(touch = touching_circle(in, out, radius, side)) && radius > kLeastRadius_m) {
-    radius = std::max(0.9 * radius, kLeastRadius_m);
+  while (!(touch = touching_circle(in, out, radius, side)) && radius > kMinRadius_m) {
+    radius = std::max(0.9 * radius, kMinRadius_m);
   }
   if (!touch) return straight_on(in, out, angle);
   in.end_m = touch->on_in_m;
@@ -277,7 +277,7 @@ DrivenPath drive(const RoadNetwork& roads, const Route& route) {
   }
   const auto clear_of = [&](int junction, double length) {
     const bool end = roads.junctions[static_cast<std::size_t>(junction)].roads.size() == 1;
-    return std::min(end ? kClearOfEnd_m : kClearOfCrossing_m, kMostUsed * length);
+    return std::min(end ? kClearOfEnd_m : kClearOfCrossing_m, kMaxUsed * length);
   };
   legs.front().begin_m = clear_of(legs.front().from, legs.front().length_m);
   legs.back().end_m = legs.back().length_m - clear_of(legs.back().to, legs.back().length_m);

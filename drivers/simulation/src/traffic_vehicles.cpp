@@ -16,7 +16,7 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr double kLeastHidden_m = 26.0;  // smallest distance at which one ahead may appear or vanish: our road winds
+constexpr double kMinHidden_m = 26.0;  // smallest distance at which one ahead may appear or vanish: our road winds
 
 std::size_t nearest_index(const std::vector<Vector2d>& points, const Vector2d& point) {
   std::size_t best = 0;
@@ -108,7 +108,7 @@ std::optional<Mover> TrafficPlanner::ahead(double near_middle_s, Random random) 
   if (mover.near_from_s < 0.0 || mover.near_to_s > motion_.duration_s()) return std::nullopt;
   for (const double t : {mover.from_s, mover.to_s}) {
     const bool is_seen = t >= 0.0 && t <= motion_.duration_s();
-    if (is_seen && (of(mover, t).centre - own(t).centre).norm() < kLeastHidden_m) return std::nullopt;
+    if (is_seen && (of(mover, t).centre - own(t).centre).norm() < kMinHidden_m) return std::nullopt;
   }
   const double last = motion_.travelled_m(std::min(mover.to_s, motion_.duration_s())) + mover.far_m;
   if (last > mover.along_m.back() && mover.to_s < motion_.duration_s()) return std::nullopt;

@@ -47,16 +47,16 @@ TEST(DrivenPath, StaysOnTheRoadWithAVehiclesWidthAndTurnsNoTighterThanItCan) {
     for (std::uint64_t walk = 0; walk < 6; ++walk) {
       const Route route = random_route(site.roads, 25, walk);
       const DrivenPath path = drive(site.roads, route);
-      double nearest_kerb = -1e9, most_curved = 0.0;
+      double nearest_kerb = -1e9, max_curved = 0.0;
       std::size_t where = 0;
       for (std::size_t i = 0; i < path.points.size(); ++i) {
         const double off = site.distance_from_kerb(path.points[i]);
         if (off > nearest_kerb) where = i;
         nearest_kerb = std::max(nearest_kerb, off);
-        most_curved = std::max(most_curved, std::abs(path.curvature_per_m[i]));
+        max_curved = std::max(max_curved, std::abs(path.curvature_per_m[i]));
       }
       EXPECT_LT(nearest_kerb, -0.9) << "seed " << seed << " walk " << walk << " at " << path.points[where].transpose();
-      EXPECT_LT(most_curved, 1.0 / 4.5) << "seed " << seed << " walk " << walk;
+      EXPECT_LT(max_curved, 1.0 / 4.5) << "seed " << seed << " walk " << walk;
     }
   }
 }

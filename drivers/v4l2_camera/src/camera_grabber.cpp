@@ -177,8 +177,8 @@ class CameraGrabber::Implementation {
 
   void receive() {
     try {
-      constexpr auto kLongest = std::chrono::milliseconds(50);
-      const auto frame = device_->receive(kLongest);
+      constexpr auto kMax = std::chrono::milliseconds(50);
+      const auto frame = device_->receive(kMax);
       if (!frame) return;
       const HostTime arrival{steady_ns(), system_ns()};
       machine_.frame(arrival.monotonic_ns);

@@ -13,7 +13,7 @@ namespace {
 
 std::string text_of(const OfferedSize& size) {
   if (size.step_x == 0 && size.step_y == 0) return fmt::format("{} x {}", size.width, size.height);
-  return fmt::format("{} x {} to {} x {}", size.least_width, size.least_height, size.width, size.height);
+  return fmt::format("{} x {} to {} x {}", size.min_width, size.min_height, size.width, size.height);
 }
 
 /// "MJPG 1280 x 480, 640 x 240 px; YUYV 640 x 240 px": formats with equal sizes are grouped.

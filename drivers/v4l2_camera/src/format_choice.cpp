@@ -68,7 +68,7 @@ bool OfferedSize::includes(int wanted_width, int wanted_height) const {
   const auto fits = [](int wanted, int least, int most, int step) {
     return wanted >= least && wanted <= most && (step <= 1 || (wanted - least) % step == 0);
   };
-  return fits(wanted_width, least_width, width, step_x) && fits(wanted_height, least_height, height, step_y);
+  return fits(wanted_width, min_width, width, step_x) && fits(wanted_height, min_height, height, step_y);
 }
 
 std::string to_text(const ImageFormat& format) {

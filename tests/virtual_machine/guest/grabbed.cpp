@@ -19,10 +19,10 @@ Grabbed::Grabbed(CameraSettings settings)
              text_ += text + "\n";
            }),
       grabber_(std::make_unique<CameraGrabber>(std::move(settings), log_, [this](Frame frame) {
-        constexpr std::size_t kMost = 400;
+        constexpr std::size_t kMax = 400;
         const std::lock_guard lock(mutex_);
         ++count_;
-        if (frames_.size() == kMost) frames_.erase(frames_.begin());
+        if (frames_.size() == kMax) frames_.erase(frames_.begin());
         frames_.push_back(std::move(frame));
       })) {}
 

@@ -208,7 +208,7 @@ TEST_F(UsbStereoCamera, SurvivesFramesThatAreDamaged) {
 TEST_F(UsbStereoCamera, ComesBackEachTimeItIsPluggedInAgain) {
   const Grabbed grabbed(settings());
   constexpr std::uint64_t kTimes = 20;
-  double longest_s = 0.0;
+  double max_s = 0.0;
   for (std::uint64_t time = 1; time <= kTimes; ++time) {
     ASSERT_TRUE(grabbed.more_come(3)) << grabbed.log();
     unplug();
@@ -217,12 +217,12 @@ TEST_F(UsbStereoCamera, ComesBackEachTimeItIsPluggedInAgain) {
     ASSERT_TRUE(soon([] { return !v4l2_camera::list_nodes().empty(); }));
     const auto there = Steady::now();
     ASSERT_TRUE(soon([&] { return grabbed.counters().reconnects == time; })) << time << "\n" << grabbed.log();
-    longest_s = std::max(longest_s, std::chrono::duration<double>(Steady::now() - there).count());
+    max_s = std::max(max_s, std::chrono::duration<double>(Steady::now() - there).count());
     EXPECT_EQ(camera_->value("gain"), 42) << "set again";
     EXPECT_EQ(grabbed.report().serial, "SBS001");
   }
   std::printf("plugged in again %d times; streaming at most %.2f s after its node was there\n",
-              static_cast<int>(kTimes), longest_s);
+              static_cast<int>(kTimes), max_s);
   const auto frames = grabbed.frames();
   for (std::size_t i = 1; i < frames.size(); ++i) ASSERT_GT(frames[i].stamp_ns, frames[i - 1].stamp_ns);
   EXPECT_EQ(grabbed.counters().damaged, 0u) << grabbed.log();

@@ -15,7 +15,7 @@ namespace {
 using RowMajor3d = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
 using RowMajor34d = Eigen::Matrix<double, 3, 4, Eigen::RowMajor>;
 
-constexpr int kLargestSize_px = 1 << 16;
+constexpr int kMaxSize_px = 1 << 16;
 constexpr double kSame_px = 1e-3;
 
 std::string list_of(const double* values, std::size_t count) {
@@ -70,8 +70,8 @@ vision::RectifiedStereo rectified_pair(const CameraInfo& left, const CameraInfo&
 CameraInfo read_camera_info(const std::filesystem::path& file) {
   const YamlDocument yaml(file, "a ROS camera_info file");
   vision::PinholeCamera pinhole;
-  pinhole.width = yaml.integer("image_width", 1, kLargestSize_px);
-  pinhole.height = yaml.integer("image_height", 1, kLargestSize_px);
+  pinhole.width = yaml.integer("image_width", 1, kMaxSize_px);
+  pinhole.height = yaml.integer("image_height", 1, kMaxSize_px);
   const auto matrix = yaml.numbers("camera_matrix", 9);
   pinhole.fx = matrix[0];
   pinhole.fy = matrix[4];

@@ -27,7 +27,7 @@ class FrameSets {
   /// drops these and all earlier frames.
   std::optional<Set> push(std::size_t camera, std::int64_t stamp_ns, Frame frame) {
     waiting_[camera].emplace_back(stamp_ns, std::move(frame));
-    if (waiting_[camera].size() > kMostWaiting) waiting_[camera].pop_front();
+    if (waiting_[camera].size() > kMaxWaiting) waiting_[camera].pop_front();
     std::vector<std::size_t> places;
     std::int64_t first_ns = stamp_ns, last_ns = stamp_ns;
     for (const auto& frames : waiting_) {
@@ -55,7 +55,7 @@ class FrameSets {
   std::optional<std::int64_t> closest_ns() const { return closest_ns_; }
 
  private:
-  static constexpr std::size_t kMostWaiting = 10;  // of a camera: a third of a second at 30 Hz
+  static constexpr std::size_t kMaxWaiting = 10;  // of a camera: a third of a second at 30 Hz
 
   std::vector<std::deque<std::pair<std::int64_t, Frame>>> waiting_;  // by camera
   std::int64_t tolerance_ns_;

@@ -111,7 +111,7 @@ const char* gather(ImageStream& stream, const LiveImages& settings, Gathering& g
   const auto end = Clock::now() + seconds(settings.limit_s);
   bool has_come = false;
   while (!gathering.is_enough()) {
-    if (gathering.kept() >= settings.most_views) return "limit of --views reached";
+    if (gathering.kept() >= settings.max_views) return "limit of --views reached";
     const auto set = stream.next(std::min(end, Clock::now() + seconds(settings.timeout_s)));
     if (Interruption::came()) return "stopped by Ctrl-C";
     if (Clock::now() >= end) return "time limit of --for reached";

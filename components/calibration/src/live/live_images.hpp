@@ -16,7 +16,7 @@ struct LiveImages {
   std::vector<std::string> names;   ///< camera names for topics without NAME; empty: the part before /image_raw
   std::filesystem::path out;        ///< images are written to OUT/NAME/STAMP.png
   ViewGoals goals;
-  std::size_t most_views = 60;
+  std::size_t max_views = 60;
   double limit_s = 300.0;     ///< total time
   double timeout_s = 5.0;     ///< for publishers, and for images
   double tolerance_ms = 5.0;  ///< largest stamp difference of simultaneous images

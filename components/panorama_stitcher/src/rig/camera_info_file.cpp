@@ -9,7 +9,7 @@
 namespace panvo::panorama_stitcher {
 namespace {
 
-constexpr int kLargestSize_px = 1 << 16;
+constexpr int kMaxSize_px = 1 << 16;
 
 }  // namespace
 
@@ -22,8 +22,8 @@ std::optional<vision::LensCamera> read_camera_info(const std::filesystem::path& 
          {"image_width", "image_height", "camera_matrix", "distortion_model", "distortion_coefficients"})
       map.require(key);
     vision::PinholeCamera pinhole;
-    pinhole.width = map.integer("image_width", 0, 1, kLargestSize_px);
-    pinhole.height = map.integer("image_height", 0, 1, kLargestSize_px);
+    pinhole.width = map.integer("image_width", 0, 1, kMaxSize_px);
+    pinhole.height = map.integer("image_height", 0, 1, kMaxSize_px);
     const auto matrix = map.numbers("camera_matrix", 9);
     const auto model = map.text("distortion_model", "");
     const auto coefficients = map.numbers("distortion_coefficients", 0);

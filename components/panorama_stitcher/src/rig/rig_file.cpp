@@ -15,8 +15,8 @@ namespace panvo::panorama_stitcher {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
-constexpr int kMostImages = 6;
-constexpr int kMostPixels = 1 << 16;
+constexpr int kMaxImages = 6;
+constexpr int kMaxPixels = 1 << 16;
 
 /// Rotation from rig axes (x forward, y left, z up) to those of a forward-looking optical frame.
 Eigen::Matrix3d optical_from_rig() {
@@ -73,7 +73,7 @@ std::optional<std::variant<vision::CameraModel, vision::Equirectangular>> read_l
     if (map.has("camera_info")) map.reject("camera_info", "does not apply to an equirectangular image; remove it");
     if (size.empty()) return std::nullopt;
     size_px = {static_cast<int>(size[0]), static_cast<int>(size[1])};
-    if (size_px.height >= 2 && size_px.width == 2 * size_px.height && size_px.width <= kMostPixels)
+    if (size_px.height >= 2 && size_px.width == 2 * size_px.height && size_px.width <= kMaxPixels)
       return vision::Equirectangular{size_px.width, size_px.height};
     map.reject("equirectangular_px",
                "must be twice as wide as high; crop or pad the camera's image to the full sphere");
@@ -123,7 +123,7 @@ void read_region(YamlMap& map, cv::Size lens_px, Head& head) {
 
 std::optional<Head> read_head(YamlMap& map, std::size_t index) {
   const auto name = map.text("name", fmt::format("head_{}", index));
-  const int image = map.integer("image", static_cast<int>(index), 0, kMostImages - 1);
+  const int image = map.integer("image", static_cast<int>(index), 0, kMaxImages - 1);
   cv::Size lens_px;
   const auto lens = read_lens(map, lens_px);
   const double blind_spot_deg = map.number("blind_spot_deg", 0.0, 0.0, 359.0);

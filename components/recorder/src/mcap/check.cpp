@@ -4,7 +4,7 @@
 namespace panvo::recorder::mcap {
 namespace {
 
-constexpr std::size_t kMostComplaints = 20;
+constexpr std::size_t kMaxComplaints = 20;
 
 class Check {
  public:
@@ -31,7 +31,7 @@ class Check {
 
  private:
   void complain(std::string what) {
-    if (complaints_.size() < kMostComplaints) {
+    if (complaints_.size() < kMaxComplaints) {
       complaints_.push_back(std::move(what));
     }
   }

@@ -13,7 +13,7 @@ namespace {
 
 // INT64_MAX is the start time of bags without messages.
 constexpr auto kNoTime = static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max());
-constexpr std::uint64_t kMostIndexBytes = 256u << 20;  // of all message indexes after one chunk
+constexpr std::uint64_t kMaxIndexBytes = 256u << 20;  // of all message indexes after one chunk
 
 /// Parses the record at `at` and advances `at` past it. Returns false if there is no complete record.
 bool take_record(Chunk& chunk, std::size_t& at) {
@@ -57,9 +57,9 @@ std::vector<MessageIndex> read_message_indexes(const InputFile& file, std::uint6
   std::vector<MessageIndex> indexes;
   std::uint64_t read = 0;
   try {
-    while (read < kMostIndexBytes) {
+    while (read < kMaxIndexBytes) {
       const auto head = parse_record_head(file.read(offset, RecordHead::kBytes));
-      if (head.opcode != Opcode::kMessageIndex || head.length > kMostIndexBytes) {
+      if (head.opcode != Opcode::kMessageIndex || head.length > kMaxIndexBytes) {
         break;
       }
       indexes.push_back(parse_message_index(file.read(offset + RecordHead::kBytes, head.length)));
@@ -107,7 +107,7 @@ void decompress_records(Chunk& chunk, Bytes stored) {
     chunk.fault = "has the unknown compression '" + chunk.head.compression + "'";
     return;
   }
-  if (chunk.head.uncompressed_size > kMostChunkBytes) {
+  if (chunk.head.uncompressed_size > kMaxChunkBytes) {
     chunk.fault = "states an excessive size of " + std::to_string(chunk.head.uncompressed_size) + " bytes";
     return;
   }

@@ -13,7 +13,7 @@ namespace panvo::recorder::mcap {
 
 /// Largest accepted chunk; a larger stated size is treated as damage. (ROS 2 writes chunks of 0.8 MB, or of one
 /// message.)
-inline constexpr std::uint64_t kMostChunkBytes = std::uint64_t{1} << 30;
+inline constexpr std::uint64_t kMaxChunkBytes = std::uint64_t{1} << 30;
 
 /// Location of a message in a chunk or directly in the file.
 struct StoredMessage {

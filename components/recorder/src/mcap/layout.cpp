@@ -7,8 +7,8 @@
 namespace panvo::recorder::mcap {
 namespace {
 
-constexpr std::uint64_t kMostLoneMessages = 4096;    // in one block
-constexpr std::uint64_t kMostLoneBytes = 16u << 20;  // of one block with several messages
+constexpr std::uint64_t kMaxLoneMessages = 4096;    // in one block
+constexpr std::uint64_t kMaxLoneBytes = 16u << 20;  // of one block with several messages
 
 std::uint64_t sum_of(const std::map<std::uint16_t, std::uint64_t>& by_channel) {
   return std::accumulate(by_channel.begin(), by_channel.end(), std::uint64_t{0},
@@ -43,8 +43,8 @@ std::vector<StoredMessage> read_lone_messages(const InputFile& file, const Block
 
 void add_lone_message(Layout& layout, const StoredMessage& message, std::uint64_t begin, std::uint64_t end) {
   const auto fits = [&](const Block& block) {
-    return !block.is_chunk && block.end == begin && block.message_count() < kMostLoneMessages &&
-           end - block.begin <= kMostLoneBytes;
+    return !block.is_chunk && block.end == begin && block.message_count() < kMaxLoneMessages &&
+           end - block.begin <= kMaxLoneBytes;
   };
   if (layout.blocks.empty() || !fits(layout.blocks.back())) {
     layout.blocks.push_back({.begin = begin, .first_ns = message.log_time, .last_ns = message.log_time});

@@ -13,7 +13,7 @@
 
 namespace panvo::recorder::mcap {
 
-inline constexpr std::uint64_t kMostRecordBytes = 64u << 20;  ///< of schemas, metadata etc.; larger ones are damaged
+inline constexpr std::uint64_t kMaxRecordBytes = 64u << 20;  ///< of schemas, metadata etc.; larger ones are damaged
 
 /// A part of an MCAP file that holds messages: a chunk, or consecutive message records outside chunks.
 struct Block {

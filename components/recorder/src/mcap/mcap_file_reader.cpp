@@ -40,8 +40,8 @@ bool McapFileReader::OpenBlock::comes_before(const OpenBlock& other) const {
 }
 
 McapFileReader::McapFileReader(std::filesystem::path file, std::vector<std::string>& warnings,
-                               std::size_t most_held_bytes)
-    : BagFileReader(std::move(file), warnings), most_held_bytes_(most_held_bytes), file_(path_) {
+                               std::size_t max_held_bytes)
+    : BagFileReader(std::move(file), warnings), max_held_bytes_(max_held_bytes), file_(path_) {
   std::string reason;
   if (auto layout = read_summary(file_, reason)) {
     layout_ = std::move(*layout);
@@ -244,7 +244,7 @@ void McapFileReader::limit_held_bytes(const OpenBlock& keep) {
       return sum + (block.bytes ? block.bytes->size() : 0);
     });
   };
-  while (held() > most_held_bytes_) {
+  while (held() > max_held_bytes_) {
     OpenBlock* oldest = nullptr;
     for (auto& block : open_) {
       if (&block != &keep && block.bytes && (!oldest || block.used < oldest->used)) {

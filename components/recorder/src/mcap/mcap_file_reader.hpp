@@ -15,14 +15,14 @@ namespace panvo::recorder::mcap {
 /// Reads a .mcap file by its index, or by scanning it if the index is missing or damaged.
 ///
 /// A chunk is read when its first message is due. For chunks that overlap in time the reader holds the message
-/// locations, 32 bytes each, and at most kMostHeldBytes of data; released data is read again when needed.
+/// locations, 32 bytes each, and at most kMaxHeldBytes of data; released data is read again when needed.
 class McapFileReader final : public BagFileReader {
  public:
-  static constexpr std::size_t kMostHeldBytes = 256u << 20;
+  static constexpr std::size_t kMaxHeldBytes = 256u << 20;
 
   /// Throws BagError if nothing in the file is readable.
   McapFileReader(std::filesystem::path file, std::vector<std::string>& warnings,
-                 std::size_t most_held_bytes = kMostHeldBytes);
+                 std::size_t max_held_bytes = kMaxHeldBytes);
 
   Storage storage() const noexcept override { return Storage::kMcap; }
   bool damaged() const noexcept override { return !layout_.is_whole; }
@@ -60,7 +60,7 @@ class McapFileReader final : public BagFileReader {
   bool read_data(OpenBlock& block, const StoredMessage& message, interfaces::Bytes& data);
   void limit_held_bytes(const OpenBlock& keep);
 
-  const std::size_t most_held_bytes_;
+  const std::size_t max_held_bytes_;
   InputFile file_;
   Layout layout_;
   std::vector<std::size_t> order_;                // block indices by time

@@ -35,7 +35,7 @@ class Scan {
 
  private:
   Bytes content(std::uint64_t at, const RecordHead& head) const {
-    if (head.length > kMostRecordBytes) {
+    if (head.length > kMaxRecordBytes) {
       throw FormatError("is too large");
     }
     auto bytes = file_.read(at + RecordHead::kBytes, head.length);

@@ -9,7 +9,7 @@ namespace panvo::recorder::mcap {
 namespace {
 
 constexpr std::uint64_t kFooterAndMagic = RecordHead::kBytes + Footer::kBytes + kMagic.size();
-constexpr std::uint64_t kMostSummaryBytes = std::uint64_t{1} << 30;
+constexpr std::uint64_t kMaxSummaryBytes = std::uint64_t{1} << 30;
 
 /// The summary lacks data that the format allows to omit.
 class SparseSummary : public FormatError {
@@ -42,7 +42,7 @@ Bytes read_summary_bytes(const InputFile& file, const Footer& footer) {
     throw SparseSummary("it has no summary");
   }
   if (footer.summary_start < kMagic.size() || footer.summary_start > end ||
-      end - footer.summary_start > kMostSummaryBytes) {
+      end - footer.summary_start > kMaxSummaryBytes) {
     throw FormatError("its footer states an invalid position of the summary, byte " +
                       std::to_string(footer.summary_start));
   }
@@ -138,7 +138,7 @@ void take_record_between(const InputFile& file, std::uint64_t& at, std::uint64_t
       throw FormatError("it has an invalid message at byte " + std::to_string(at));
     }
     add_lone_message(layout, message, at, content_begin + head.length);
-  } else if (head.opcode == Opcode::kMetadata && head.length <= kMostRecordBytes) {
+  } else if (head.opcode == Opcode::kMetadata && head.length <= kMaxRecordBytes) {
     take_metadata(layout, file.read(content_begin, head.length));
   }
   at = content_begin + head.length;

@@ -12,7 +12,7 @@
 namespace panvo::runtime {
 namespace {
 
-constexpr int kMostRequests = 100'000;  // per second
+constexpr int kMaxRequests = 100'000;  // per second
 
 template <class Choice>
 using Choices = std::vector<std::pair<std::string, Choice>>;
@@ -44,7 +44,7 @@ void read_policies(YamlMap& map, const Scope& scope, Findings& findings, Contain
       {"look", ServiceAccess::kLook}, {"steer", ServiceAccess::kSteer}, {"off", ServiceAccess::kOff}};
   container.services = read_choice(map, "services", kAccess, ServiceAccess::kByHost, findings);
   container.requests_per_s = read_number(
-      map, "requests_per_s", fmt::format("requests per second, 0 to {}", kMostRequests), kMostRequests, findings);
+      map, "requests_per_s", fmt::format("requests per second, 0 to {}", kMaxRequests), kMaxRequests, findings);
   container.required = map.flag("required", true);
   if (const auto folder = map.text("files_below")) {
     const auto path = beside(scope.file, *folder);

@@ -17,10 +17,10 @@ namespace {
 /// ROS 2's keys of processes and nodes that have no effect on our containers.
 const std::vector<std::string> kContainerKeysWithoutEffect = {
     "args", "ros_args", "output", "respawn_max_retries", "env", "param", "launch-prefix", "remap"};
-constexpr int kLongestDelayS = 3600;
-constexpr int kLargestImageMb = 64;
-constexpr int kLargestMessageMb = 2000;  // Fast DDS counts the bytes of a message in 31 bits
-constexpr int kHighestRateHz = 1'000'000;
+constexpr int kMaxDelayS = 3600;
+constexpr int kMaxImageMb = 64;
+constexpr int kMaxMessageMb = 2000;  // Fast DDS counts the bytes of a message in 31 bits
+constexpr int kMaxRateHz = 1'000'000;
 const std::vector<std::string> kActions = {"node_container", "arg", "let", "include", "group", "push_ros_namespace"};
 
 class SystemReader {
@@ -187,16 +187,15 @@ class SystemReader {
     const OnError on_error = read_on_error(map, OnError::kRestart, findings_);
     container.respawn = map.flag("respawn", false);
     container.respawn_delay_s =
-        read_number(map, "respawn_delay", fmt::format("seconds, 0 to {}", kLongestDelayS), kLongestDelayS);
+        read_number(map, "respawn_delay", fmt::format("seconds, 0 to {}", kMaxDelayS), kMaxDelayS);
     container.shared_images_mb =
-        read_number(map, "shared_images_mb", fmt::format("megabytes, 0 (off) to {}", kLargestImageMb), kLargestImageMb)
-            .value_or(kLargestImageMb);
+        read_number(map, "shared_images_mb", fmt::format("megabytes, 0 (off) to {}", kMaxImageMb), kMaxImageMb)
+            .value_or(kMaxImageMb);
     container.max_message_mb =
-        read_number(map, "max_message_mb", fmt::format("megabytes, 0 to {}", kLargestMessageMb), kLargestMessageMb)
+        read_number(map, "max_message_mb", fmt::format("megabytes, 0 to {}", kMaxMessageMb), kMaxMessageMb)
             .value_or(container.max_message_mb);
     container.max_topic_rate_hz =
-        read_number(map, "max_topic_rate_hz", fmt::format("messages per second, 0 to {}", kHighestRateHz),
-                    kHighestRateHz)
+        read_number(map, "max_topic_rate_hz", fmt::format("messages per second, 0 to {}", kMaxRateHz), kMaxRateHz)
             .value_or(container.max_topic_rate_hz);
     if (!map.has("composable_node")) {
       findings_.problems.add(map.where(),

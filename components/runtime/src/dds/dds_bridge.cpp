@@ -57,7 +57,7 @@ class DdsBridge final : public Bridge {
 
   std::unique_ptr<BridgeService> serve(const ServiceDescription& service, ServiceHandler handler,
                                        ServiceGuard guard) override {
-    const dds::RequestLimits limits{settings_.requests_per_s, settings_.largest_request};
+    const dds::RequestLimits limits{settings_.requests_per_s, settings_.max_request};
     return std::make_unique<dds::ServiceServer>(service, std::move(handler), std::move(guard), limits,
                                                 participant(dds::Role::kReaders), participant(dds::Role::kWriters),
                                                 services_, notifier_);

@@ -59,7 +59,7 @@ constexpr auto kAnySize = eprosima::fastrtps::rtps::DYNAMIC_REUSABLE_MEMORY_MODE
 
 }  // namespace
 
-std::uint32_t largest_shared(const DdsSettings& settings, const std::string& wire_type_name) {
+std::uint32_t max_shared(const DdsSettings& settings, const std::string& wire_type_name) {
   const bool is_wanted = settings.shared_image_bytes > 0 &&
                          wire_type_name == interfaces::message_type<sensor_msgs::msg::Image>().dds_name &&
                          has_shared_memory() && !security_settings_from_environment().is_enabled;

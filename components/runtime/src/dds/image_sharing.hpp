@@ -21,7 +21,7 @@ namespace panvo::runtime::dds {
 /// while being read is dropped and counted.
 
 /// Largest serialised size of messages of that type that the process shares; 0: no sharing, as with encryption.
-std::uint32_t largest_shared(const DdsSettings& settings, const std::string& wire_type_name);
+std::uint32_t max_shared(const DdsSettings& settings, const std::string& wire_type_name);
 
 /// Warning if image sharing is requested but impossible.
 std::optional<std::string> sharing_warning(const DdsSettings& settings);

@@ -45,8 +45,8 @@ void Participant::register_type(const std::string& wire_type_name) {
   fdds::TypeSupport(new SampleDataType(wire_type_name, limits().max_message_bytes)).register_type(participant_);
 }
 
-std::uint32_t Participant::largest_shared(const std::string& wire_type_name) const {
-  return dds::largest_shared(settings_, wire_type_name);
+std::uint32_t Participant::max_shared(const std::string& wire_type_name) const {
+  return dds::max_shared(settings_, wire_type_name);
 }
 
 SampleDataType& Participant::type_of(const fdds::Topic& topic) const {

@@ -37,7 +37,7 @@ class Participant : public std::enable_shared_from_this<Participant> {
 
   eprosima::fastrtps::rtps::GUID_t guid() const { return participant_->guid(); }
   /// Largest serialised size of messages of that type that are shared on this machine; 0: no sharing.
-  std::uint32_t largest_shared(const std::string& wire_type_name) const;
+  std::uint32_t max_shared(const std::string& wire_type_name) const;
   const Limits& limits() const noexcept { return settings_.limits; }
   /// Whether a reader on this machine shares memory with us on the topic.
   bool has_sharing_reader(const std::string& wire_name) const { return discovery_->has_sharing_reader(wire_name); }

@@ -65,7 +65,7 @@ Transports::value_type our_udp(const DdsSettings& settings) {
 }
 
 /// Largest receive buffer of a socket; 0: unknown.
-std::uint32_t largest_socket_buffer() {
+std::uint32_t max_socket_buffer() {
   std::uint32_t bytes = 0;
   std::ifstream("/proc/sys/net/core/rmem_max") >> bytes;
   return bytes;
@@ -76,7 +76,7 @@ std::uint32_t largest_socket_buffer() {
 std::shared_ptr<rtps::FlowControllerDescriptor> image_pace() {
   auto pace = std::make_shared<rtps::FlowControllerDescriptor>();
   pace->name = kImagePace;
-  pace->max_bytes_per_period = largest_socket_buffer() < kSocketBufferSize ? kBytesPerPeriod : 0;
+  pace->max_bytes_per_period = max_socket_buffer() < kSocketBufferSize ? kBytesPerPeriod : 0;
   pace->period_ms = 1;
   return pace;
 }

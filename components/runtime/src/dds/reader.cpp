@@ -21,7 +21,7 @@ using eprosima::fastrtps::types::ReturnCode_t;
 namespace {
 
 // A sharing reader needs a size bound; its value does not limit what it reads.
-constexpr std::uint32_t kLeastShared = 1024;
+constexpr std::uint32_t kMinShared = 1024;
 
 }  // namespace
 
@@ -36,7 +36,7 @@ Reader::Reader(const TopicDescription& topic, const WireTopic& wire, OnSample on
       rate_limit_(participant_->limits().max_topic_rate_hz, static_cast<double>(topic.qos.depth)) {
   fdds::DataReaderQos qos = participant_->subscriber().get_default_datareader_qos();
   apply(topic, qos);
-  const bool is_to_share = topic.type && participant_->largest_shared(wire.type_name) > 0;
+  const bool is_to_share = topic.type && participant_->max_shared(wire.type_name) > 0;
   shares_ = is_to_share && has_room_to_share(kRoomForReader);
   if (is_to_share && !shares_) {
     notifier_->warn(fmt::format(
@@ -46,7 +46,7 @@ Reader::Reader(const TopicDescription& topic, const WireTopic& wire, OnSample on
         topic.name));
   }
   if (shares_) share(qos);
-  reader_ = participant_->make_reader(*topic_, qos, *this, shares_ ? kLeastShared : 0);
+  reader_ = participant_->make_reader(*topic_, qos, *this, shares_ ? kMinShared : 0);
   if (!reader_)
     throw ConfigError(fmt::format("topic {}: Fast DDS created no reader, see its message above", topic.name));
   if (shares_) segment_.emplace(reader_->guid());

@@ -36,7 +36,7 @@ SharingWriter::SharingWriter(const TopicDescription& topic, const WireTopic& wir
       wire_(wire),
       participant_(std::move(participant)),
       notifier_(std::move(notifier)),
-      largest_(participant_->largest_shared(wire.type_name)),
+      largest_(participant_->max_shared(wire.type_name)),
       writer_(std::make_shared<Writer>(topic_, wire_, participant_, notifier_)) {}
 
 bool SharingWriter::write(const SamplePtr& sample) {
@@ -112,7 +112,7 @@ std::unique_ptr<BridgeWriter> open_writer(const TopicDescription& topic, const W
                                           const std::shared_ptr<Participant>& participant,
                                           const std::shared_ptr<Notifier>& notifier) {
   const bool keeps_for_late_joiners = topic.qos.durability == interfaces::Durability::kTransientLocal;
-  if (participant->largest_shared(wire.type_name) > 0 && !keeps_for_late_joiners)
+  if (participant->max_shared(wire.type_name) > 0 && !keeps_for_late_joiners)
     return std::make_unique<SharingWriter>(topic, wire, participant, notifier);
   return std::make_unique<Writer>(topic, wire, participant, notifier);
 }

@@ -15,17 +15,17 @@ namespace fdds = eprosima::fastdds::dds;
 using eprosima::fastrtps::types::ReturnCode_t;
 
 Writer::Writer(const TopicDescription& topic, const WireTopic& wire, std::shared_ptr<Participant> participant,
-               std::shared_ptr<Notifier> notifier, std::uint32_t largest_shared)
+               std::shared_ptr<Notifier> notifier, std::uint32_t max_shared)
     : name_(topic.name),
       keeps_for_late_joiners_(topic.qos.durability == interfaces::Durability::kTransientLocal),
-      largest_shared_(largest_shared),
+      max_shared_(max_shared),
       participant_(std::move(participant)),
       notifier_(std::move(notifier)),
       topic_(participant_->topic(wire)) {
   fdds::DataWriterQos qos = participant_->publisher().get_default_datawriter_qos();
   apply(topic, qos);
   if (shares()) share(qos);
-  writer_ = participant_->make_writer(*topic_, qos, *this, largest_shared_);
+  writer_ = participant_->make_writer(*topic_, qos, *this, max_shared_);
   if (!writer_) throw ConfigError(fmt::format("topic {}: Fast DDS created no writer, see its message above", name_));
   if (shares()) segment_.emplace(writer_->guid());
   participant_->endpoints().add(wire.name, writer_->guid(), true);

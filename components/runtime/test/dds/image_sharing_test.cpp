@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uint32_t kLargestShared = 2'000'000;
+constexpr std::uint32_t kMaxShared = 2'000'000;
 constexpr std::size_t kGraySize = 640 * 480, kPanoramaSize = 1080 * 540 * 3, kTooLarge = 3'000'000;
 
 /// Paths of the shared-image segments that a process has mapped.
@@ -46,7 +46,7 @@ constexpr std::uint32_t kFirstSeed = 1000;  // of images sent before the actual 
 
 class SharedImages : public BetweenProcesses {
  protected:
-  SharedImages() : BetweenProcesses(kLargestShared) {}
+  SharedImages() : BetweenProcesses(kMaxShared) {}
 
   void SetUp() override {
     if (access("/dev/shm", W_OK) != 0) GTEST_SKIP() << "there is no /dev/shm";
@@ -95,9 +95,9 @@ class SharedImages : public BetweenProcesses {
 
 TEST_F(SharedImages, ArrivePixelForPixelUpToTheLargest) {
   const auto name = unique_topic("image");
-  const auto reader = read_from_peer(topic(name, kImageType, interfaces::qos::kSensorData), kLargestShared);
+  const auto reader = read_from_peer(topic(name, kImageType, interfaces::qos::kSensorData), kMaxShared);
   std::size_t count = 0;
-  for (const std::size_t size : {std::size_t{4}, kGraySize, kPanoramaSize, std::size_t{kLargestShared}}) {
+  for (const std::size_t size : {std::size_t{4}, kGraySize, kPanoramaSize, std::size_t{kMaxShared}}) {
     const auto seed = static_cast<std::uint32_t>(count);
     ASSERT_EQ(peer.ask(write_image(name, size, seed)), "written");
     const auto samples = inbox.wait_for_count(++count);

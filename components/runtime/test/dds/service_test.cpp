@@ -185,7 +185,7 @@ TEST_F(BetweenProcesses, WhatTheGuardAnswersIsSentInsteadAndCountedAsRefused) {
 TEST_F(BetweenProcesses, RequestsThatAreTooLargeOrTooManyAreDroppedAndCounted) {
   const auto name = unique_topic("service");
   const auto strict = make_dds_bridge(
-      {.domain = domain, .profiles = "", .name = "panvo_test", .requests_per_s = 1e-6, .largest_request = 40});
+      {.domain = domain, .profiles = "", .name = "panvo_test", .requests_per_s = 1e-6, .max_request = 40});
   strict->on_warning(warnings.callback());
   const auto server = strict->serve(service(name), echo);
   peer.ask("open_raw_client " + name);

@@ -15,7 +15,7 @@ struct GroundGrid {
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< counter-clockwise
 };
 
-/// Halves two triangles (and neighbours as needed to avoid gaps) until `wants_finer(middle, longest_edge_m)` is false
+/// Halves two triangles (and neighbours as needed to avoid gaps) until `wants_finer(middle, max_edge_m)` is false
 /// or the short edges are `finest_m` long. The square has edges of finest_m times 2^levels, is centred at `centre` and
 /// rotated by `heading_rad`.
 GroundGrid adaptive_grid(const Eigen::Vector2d& centre, double heading_rad, double finest_m, int levels,

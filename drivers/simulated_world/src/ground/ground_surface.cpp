@@ -70,12 +70,8 @@ class Surface {
     // rotated, so that no straight road is aligned with the grid
     return adaptive_grid(0.5 * (low + high), 0.37, 1.0, 10, [this](const Eigen::Vector2d& middle, double edge_m) {
       const double near_m = std::max(0.0, site_.kerbs->distance_m(middle) - 0.5 * edge_m);
-      const double longest_m = near_m < 3.5    ? 1.5
-                               : near_m < 8.0  ? 3.0
-                               : near_m < 25.0 ? 6.0
-                               : near_m < 90.0 ? 12.0
-                                               : 24.0;
-      return edge_m > longest_m;
+      const double max_m = near_m < 3.5 ? 1.5 : near_m < 8.0 ? 3.0 : near_m < 25.0 ? 6.0 : near_m < 90.0 ? 12.0 : 24.0;
+      return edge_m > max_m;
     });
   }
 

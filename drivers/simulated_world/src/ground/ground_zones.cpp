@@ -129,16 +129,16 @@ GroundZones::GroundZones(const Site& site) : site_(site) {
   // a mouth is the point where both kerbs are parallel to the road again
   for (const Road& road : site.roads.roads) {
     const RoadLine line(road.centre_line);
-    const double longest_m = 0.45 * line.length_m();
+    const double max_m = 0.45 * line.length_m();
     const auto mouth = [&](bool from_end) {
       double last_curved_m = 0.0;
-      for (double m = 0.0; m < longest_m; m += 0.5) {
+      for (double m = 0.0; m < max_m; m += 0.5) {
         const double along_m = from_end ? line.length_m() - m : m;
         for (const double side_m : {-0.5 * road.width_m, 0.5 * road.width_m}) {
           if (std::abs(site.kerbs->distance_m(line.beside(along_m, side_m))) > 0.06) last_curved_m = m;
         }
       }
-      return std::min(last_curved_m + 1.0, longest_m);
+      return std::min(last_curved_m + 1.0, max_m);
     };
     mouths_m_.push_back({mouth(false), line.length_m() - mouth(true)});
   }
@@ -153,9 +153,9 @@ GroundZones::GroundZones(const Site& site) : site_(site) {
   }
   for (std::size_t i = 0; i < site.roads.roads.size(); ++i) {
     const Road& road = site.roads.roads[i];
-    const double length_m = site.kerbs->length_m(static_cast<int>(i)), longest_m = 0.48 * length_m;
+    const double length_m = site.kerbs->length_m(static_cast<int>(i)), max_m = 0.48 * length_m;
     const auto reach = [&](int junction) {
-      return has_crossing(junction) ? std::min(longest_m, reach_of_crossing[static_cast<std::size_t>(junction)]) : -1e6;
+      return has_crossing(junction) ? std::min(max_m, reach_of_crossing[static_cast<std::size_t>(junction)]) : -1e6;
     };
     reach_m_.push_back({reach(road.from), length_m - reach(road.to)});
   }

@@ -11,7 +11,7 @@
 namespace panvo::simulated_world {
 namespace {
 
-constexpr double kCell_m = 8.0, kLargestDisc_m = 4.0;
+constexpr double kCell_m = 8.0, kMaxDisc_m = 4.0;
 
 /// A random car colour: mostly white, grey and black.
 Tint car_colour(Random& random) {
@@ -48,8 +48,8 @@ FurniturePlanner::Cell FurniturePlanner::cell_of(const Eigen::Vector2d& point) {
   return {static_cast<int>(std::floor(point.x() / kCell_m)), static_cast<int>(std::floor(point.y() / kCell_m))};
 }
 
-bool FurniturePlanner::has_room(const Eigen::Vector2d& point, double radius_m, double least_from_kerb_m) const {
-  if (site_.distance_from_kerb(point) < least_from_kerb_m) return false;
+bool FurniturePlanner::has_room(const Eigen::Vector2d& point, double radius_m, double min_from_kerb_m) const {
+  if (site_.distance_from_kerb(point) < min_from_kerb_m) return false;
   for (const auto& plot : plots_) {
     if (plot.contains(point, radius_m)) return false;
   }
@@ -67,7 +67,7 @@ bool FurniturePlanner::has_room(const Eigen::Vector2d& point, double radius_m, d
 }
 
 void FurniturePlanner::occupy(const Eigen::Vector2d& point, double radius_m) {
-  taken_[cell_of(point)].push_back({point, std::min(radius_m, kLargestDisc_m)});
+  taken_[cell_of(point)].push_back({point, std::min(radius_m, kMaxDisc_m)});
 }
 
 void FurniturePlanner::stand(std::uint32_t model, const Eigen::Vector2d& point, double heading_rad, double scale,
@@ -83,18 +83,18 @@ void FurniturePlanner::stand(std::uint32_t model, const Eigen::Vector2d& point, 
 }
 
 bool FurniturePlanner::try_to_stand(std::uint32_t model, const Eigen::Vector2d& point, double heading_rad,
-                                    double radius_m, double least_from_kerb_m, double scale, Tint tint) {
-  if (!has_room(point, radius_m, least_from_kerb_m)) return false;
+                                    double radius_m, double min_from_kerb_m, double scale, Tint tint) {
+  if (!has_room(point, radius_m, min_from_kerb_m)) return false;
   stand(model, point, heading_rad, scale, tint);
   occupy(point, radius_m);
   return true;
 }
 
 void FurniturePlanner::plant(const std::vector<std::uint32_t>& kinds, const Eigen::Vector2d& point,
-                             double least_from_kerb_m, double spacing_m, Random& random) {
+                             double min_from_kerb_m, double spacing_m, Random& random) {
   const float bright = between(random, 0.78, 1.0);
   const Tint tint = tint_of(bright * between(random, 0.85, 1.0), bright, bright * between(random, 0.8, 1.0));
-  try_to_stand(pick(random, kinds), point, random.uniform(0.0, 6.28), spacing_m, least_from_kerb_m,
+  try_to_stand(pick(random, kinds), point, random.uniform(0.0, 6.28), spacing_m, min_from_kerb_m,
                random.uniform(0.8, 1.2), tint);
 }
 
@@ -171,10 +171,10 @@ double FurniturePlanner::pavement_m(const Eigen::Vector2d& point) const {
 }
 
 bool FurniturePlanner::has_room_for_car(const Eigen::Vector2d& point, double heading_rad,
-                                        double least_from_kerb_m) const {
+                                        double min_from_kerb_m) const {
   const Eigen::Vector2d along(std::cos(heading_rad), std::sin(heading_rad));
   for (const double offset : {-1.5, 0.0, 1.5}) {
-    if (!has_room(point + offset * along, 1.0, least_from_kerb_m)) return false;
+    if (!has_room(point + offset * along, 1.0, min_from_kerb_m)) return false;
   }
   return true;
 }

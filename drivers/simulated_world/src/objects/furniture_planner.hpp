@@ -50,8 +50,8 @@ class FurniturePlanner {
 
  private:
   /// Whether an object of that radius (m) fits: off the road, outside buildings, clear of other objects.
-  bool has_room(const Eigen::Vector2d& point, double radius_m, double least_from_kerb_m) const;
-  bool has_room_for_car(const Eigen::Vector2d& point, double heading_rad, double least_from_kerb_m) const;
+  bool has_room(const Eigen::Vector2d& point, double radius_m, double min_from_kerb_m) const;
+  bool has_room_for_car(const Eigen::Vector2d& point, double heading_rad, double min_from_kerb_m) const;
   /// Width (m) of the pavement at that point.
   double pavement_m(const Eigen::Vector2d& point) const;
   void occupy(const Eigen::Vector2d& point, double radius_m);
@@ -59,8 +59,8 @@ class FurniturePlanner {
   void stand(std::uint32_t model, const Eigen::Vector2d& point, double heading_rad, double scale = 1.0, Tint tint = {});
   /// As stand() if there is room, and marks the area as occupied.
   bool try_to_stand(std::uint32_t model, const Eigen::Vector2d& point, double heading_rad, double radius_m,
-                    double least_from_kerb_m, double scale = 1.0, Tint tint = {});
-  void plant(const std::vector<std::uint32_t>& kinds, const Eigen::Vector2d& point, double least_from_kerb_m,
+                    double min_from_kerb_m, double scale = 1.0, Tint tint = {});
+  void plant(const std::vector<std::uint32_t>& kinds, const Eigen::Vector2d& point, double min_from_kerb_m,
              double spacing_m, Random& random);
   void park_car(const Eigen::Vector2d& point, double heading_rad, Random& random);
   void park_along(int road, bool is_left, double length_m, Random& random);

@@ -15,7 +15,7 @@
 namespace panvo::simulated_world {
 namespace {
 
-constexpr int kMostPackets = 2;                   // of sixteen rays, per place
+constexpr int kMaxPackets = 2;                    // of sixteen rays, per place
 constexpr std::size_t kManyPlaces = 4'000;        // larger meshes get half the rays
 constexpr int kChunk = 128;                       // places that a thread takes at a time
 constexpr float kCell = 0.15f;                    // m: vertices nearer than this share their light
@@ -135,7 +135,7 @@ float open_share(RTCScene scene, const Place& place, const std::vector<Eigen::Ve
 std::vector<std::uint8_t> ambient_light(RTCScene scene, const Mesh& mesh, float reach_m) {
   std::vector<Place> places;
   const auto place_of = join(mesh, places);
-  const auto directions = hemisphere(places.size() > kManyPlaces ? kMostPackets / 2 : kMostPackets);
+  const auto directions = hemisphere(places.size() > kManyPlaces ? kMaxPackets / 2 : kMaxPackets);
   std::vector<std::uint8_t> shares(places.size());
   const int chunks = (static_cast<int>(places.size()) + kChunk - 1) / kChunk;
   cv::parallel_for_(cv::Range(0, chunks), [&](const cv::Range& range) {

@@ -30,12 +30,12 @@ Eigen::Vector3f unpacked(std::uint32_t normal) {
 }  // namespace
 
 std::vector<EdgeSample> edge_samples(int count) {
-  constexpr int kMostInARing = 5;
+  constexpr int kMaxInARing = 5;
   constexpr double kTurn = std::numbers::pi / 12.0;
   constexpr double kGoldenAngle = 2.399963229728653;
   std::vector<EdgeSample> samples;
   for (int i = 0; i < count; ++i) {
-    const bool is_ring = count <= kMostInARing;
+    const bool is_ring = count <= kMaxInARing;
     const double angle = kTurn + (is_ring ? 2.0 * std::numbers::pi * i / count : i * kGoldenAngle);
     const double radius = is_ring ? 0.41 : 0.56 * std::sqrt((i + 0.5) / count);
     // alternate moments, so that position and time are not correlated

@@ -38,7 +38,7 @@ PacketTracer::PacketTracer(const TracedScene& scene, const Sky& sky, const Light
       tables_(tables),
       visibility_(visibility),
       moments_(std::move(moments)),
-      shade_(fastest_shade_packet()) {}
+      shade_(max_shade_packet()) {}
 
 void PacketTracer::intersect(const SampleRays& samples, TracedPacket& packet) const {
   auto& rays = packet.rays.ray;

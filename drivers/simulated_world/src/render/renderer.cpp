@@ -22,7 +22,7 @@
 namespace panvo::simulated_world {
 namespace {
 
-constexpr int kMostEdgeSamples = 16;
+constexpr int kMaxEdgeSamples = 16;
 
 /// Treats denormal numbers as zero during its lifetime, as Embree recommends, and equally in every thread.
 class FlushDenormals {
@@ -153,7 +153,7 @@ cv::Mat Renderer::render(const CameraRays& rays, const Shot& shot, const Light& 
     tables.camera_rotation[static_cast<std::size_t>(i)] = static_cast<float>(turned(i / 3, i % 3));
   }
 
-  const auto offsets = edge_samples(std::clamp(quality.edge_samples, 0, kMostEdgeSamples));
+  const auto offsets = edge_samples(std::clamp(quality.edge_samples, 0, kMaxEdgeSamples));
   std::vector<ShutterPose> moments{pose_at(shot, 0.5)};
   for (const auto& offset : offsets) moments.push_back(pose_at(shot, offset.time));
   const PacketTracer tracer(state.traced, *state.scene->sky, light, tables, shot.visibility, std::move(moments));

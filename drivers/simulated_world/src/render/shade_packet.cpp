@@ -47,7 +47,7 @@ void copy_lane(const TracedPacket& from, std::size_t lane, TracedPacket& to, std
   to.motion_share = from.motion_share;
 }
 
-ShadePacket fastest_shade_packet() {
+ShadePacket max_shade_packet() {
 #if defined(__x86_64__)
   if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl") &&
       __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512cd")) {

@@ -12,13 +12,13 @@ struct SurfaceRecord;
 struct ObjectRecord;
 
 inline constexpr int kPacket = 16;           ///< rays traced and shaded together
-inline constexpr int kMostLevels = 16;       ///< of a texture's pyramid
+inline constexpr int kMaxLevels = 16;        ///< of a texture's pyramid
 inline constexpr int kEnvironmentSide = 64;  ///< entries along a side of the reflection map
 
 /// A texture in the pool: sizes are powers of two.
 struct TextureRecord {
   std::uint32_t log2_width = 0, log2_height = 0, last_level = 0, padding = 0;
-  std::array<std::uint32_t, kMostLevels> offsets{};  ///< of each level's first texel in the pool
+  std::array<std::uint32_t, kMaxLevels> offsets{};  ///< of each level's first texel in the pool
 };
 static_assert(sizeof(TextureRecord) == 20 * sizeof(std::uint32_t));
 
@@ -79,6 +79,6 @@ struct alignas(64) ShadedPacket {
 using ShadePacket = void (*)(const ShadingTables& tables, const TracedPacket& traced, ShadedPacket& shaded);
 
 /// The fastest version that this processor supports.
-ShadePacket fastest_shade_packet();
+ShadePacket max_shade_packet();
 
 }  // namespace panvo::simulated_world

@@ -14,7 +14,7 @@
 namespace panvo::simulated_world {
 namespace {
 
-constexpr std::size_t kMostMaterials = 256;  // a surface record has eight bits for the index
+constexpr std::size_t kMaxMaterials = 256;   // a surface record has eight bits for the index
 constexpr std::uint32_t kOpaque = 181;       // 255 times the square root of 0.5
 constexpr float kEnvironmentSpread = 0.05f;  // rad: about the size of an entry
 
@@ -39,9 +39,9 @@ struct LevelShape {
 }  // namespace
 
 ShadingMaterials::ShadingMaterials(const Palette& palette) {
-  if (palette.materials().size() > kMostMaterials) {
-    throw std::invalid_argument(fmt::format("renderer: the palette has {} materials, more than {}",
-                                            palette.materials().size(), kMostMaterials));
+  if (palette.materials().size() > kMaxMaterials) {
+    throw std::invalid_argument(
+        fmt::format("renderer: the palette has {} materials, more than {}", palette.materials().size(), kMaxMaterials));
   }
   std::map<const Texture*, std::uint32_t> numbers;  // materials share textures
   const auto number_of = [&](const Texture& texture) {
@@ -87,7 +87,7 @@ std::uint32_t ShadingMaterials::add(const Texture& texture) {
   record.log2_width = static_cast<std::uint32_t>(std::countr_zero(static_cast<unsigned>(texture.width())));
   record.log2_height = static_cast<std::uint32_t>(std::countr_zero(static_cast<unsigned>(texture.height())));
   record.last_level = std::max(record.log2_width, record.log2_height);
-  if (record.last_level >= kMostLevels) throw std::invalid_argument("renderer: a texture is wider than 32768 texels");
+  if (record.last_level >= kMaxLevels) throw std::invalid_argument("renderer: a texture is wider than 32768 texels");
   auto offset = static_cast<std::uint32_t>(texels_.size());
   for (std::uint32_t level = 0; level <= record.last_level; ++level) {
     record.offsets[level] = offset;

@@ -12,21 +12,21 @@ namespace panvo::interfaces {
 
 /// Limit of coordinates, m. Beyond any map or projected frame on Earth (UTM: 1e7 m); a double still resolves 15 nm
 /// there.
-inline constexpr double kFarthest_m = 1e8;
+inline constexpr double kMax_m = 1e8;
 /// Limit of the components of twists (m/s, rad/s) and accelerations (m/s^2). No vehicle reaches it.
-inline constexpr double kFastest = 1e4;
+inline constexpr double kMax = 1e4;
 /// Largest valid variance, the square of 3e7 m or rad. ROS nodes write 1e6 to 1e12 for "unknown"; DBL_MAX would
 /// overflow in every product.
-inline constexpr double kLargestVariance = 1e15;
+inline constexpr double kMaxVariance = 1e15;
 /// Smallest valid variance of a measurement, the square of a micrometre or microradian. A smaller one would outweigh
 /// all other measurements.
-inline constexpr double kSmallestVariance = 1e-12;
+inline constexpr double kMinVariance = 1e-12;
 /// Allowed deviation of the length of a quaternion or bearing from 1.
 inline constexpr double kUnitTolerance = 1e-3;
 /// Maximum length of a name (of a frame, state or encoding), bytes.
-inline constexpr std::size_t kLongestName = 256;
+inline constexpr std::size_t kMaxName = 256;
 /// Maximum length of an explanatory text, bytes.
-inline constexpr std::size_t kLongestText = 65536;
+inline constexpr std::size_t kMaxText = 65536;
 
 /// Path of a value in a message: "pose.covariance" is member "covariance" of "pose".
 struct MemberName {
@@ -54,14 +54,14 @@ class Check {
   Check& within(MemberName name, double value, double least, double most);
   /// Length 1 up to kUnitTolerance.
   Check& quaternion(MemberName name, double x, double y, double z, double w);
-  /// Row-major, at most 6x6: symmetric, positive semidefinite up to rounding, no variance above kLargestVariance. All
+  /// Row-major, at most 6x6: symmetric, positive semidefinite up to rounding, no variance above kMaxVariance. All
   /// zeros are valid and mean unknown, as in ROS.
   Check& covariance(MemberName name, std::span<const double> row_major);
-  /// A covariance whose variances are all at least kSmallestVariance.
+  /// A covariance whose variances are all at least kMinVariance.
   Check& measured_covariance(MemberName name, std::span<const double> row_major);
   Check& at_most(MemberName name, std::size_t size, std::size_t most);
-  Check& name(MemberName name, std::string_view text) { return at_most(name, text.size(), kLongestName); }
-  Check& text(MemberName name, std::string_view text) { return at_most(name, text.size(), kLongestText); }
+  Check& name(MemberName name, std::string_view text) { return at_most(name, text.size(), kMaxName); }
+  Check& text(MemberName name, std::string_view text) { return at_most(name, text.size(), kMaxText); }
 
   /// Whether there is no violation so far. Ask before a loop that relies on checked sizes.
   bool holds() const noexcept { return !problem_; }

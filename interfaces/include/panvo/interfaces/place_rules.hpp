@@ -13,14 +13,14 @@
 /// Rules for the description of a place, in a message or in a store.
 namespace panvo::interfaces {
 
-inline constexpr std::size_t kMostPatches = 10'000;  ///< rows of a measurement matrix
-inline constexpr std::size_t kMostKeypoints = 20'000;
-inline constexpr std::size_t kLargestThumbnail = 4 << 20;  ///< bytes
+inline constexpr std::size_t kMaxPatches = 10'000;  ///< rows of a measurement matrix
+inline constexpr std::size_t kMaxKeypoints = 20'000;
+inline constexpr std::size_t kMaxThumbnail = 4 << 20;  ///< bytes
 
 /// Size of a description according to its settings. The defaults are the maximum.
 struct DescriptionSize {
-  std::size_t rows = 2 * kMostPatches;  ///< intensity rows, then as many SURF rows
-  std::optional<std::size_t> bins;      ///< of the histogram; nullopt: any number
+  std::size_t rows = 2 * kMaxPatches;  ///< intensity rows, then as many SURF rows
+  std::optional<std::size_t> bins;     ///< of the histogram; nullopt: any number
 };
 
 /// Reads "patches" and "histogram_bins" from "key=value" lines; keeps the default for a missing or invalid one.

@@ -46,12 +46,11 @@ int UsbCamera::value(const std::string& name) const {
 
 void UsbCamera::run(const std::stop_token& stop) {
   while (!stop.stop_requested() && link_.is_alive()) {
-    constexpr std::int64_t kLongest_ms = 20;
+    constexpr std::int64_t kMax_ms = 20;
     const bool is_due_next = is_streaming_ && !transfers_.empty();
     const std::int64_t until_due_ms =
-        is_due_next ? std::max<std::int64_t>(0, (next_ns_ - now_ns()) / 1'000'000) : kLongest_ms;
-    if (const auto request = link_.receive(std::chrono::milliseconds(std::min(until_due_ms, kLongest_ms))))
-      serve(*request);
+        is_due_next ? std::max<std::int64_t>(0, (next_ns_ - now_ns()) / 1'000'000) : kMax_ms;
+    if (const auto request = link_.receive(std::chrono::milliseconds(std::min(until_due_ms, kMax_ms)))) serve(*request);
     send_frames();
   }
 }
@@ -155,12 +154,12 @@ Bytes UsbCamera::negotiated() const {
 }
 
 void UsbCamera::take_negotiation(const Bytes& data) {
-  constexpr std::size_t kFormatAt = 2, kIntervalAt = 4, kLeast = 8;
-  if (data.size() < kLeast) return;
+  constexpr std::size_t kFormatAt = 2, kIntervalAt = 4, kMin = 8;
+  if (data.size() < kMin) return;
   format_ = std::clamp(data[kFormatAt], kMjpgFormat, kYuy2Format);
   std::memcpy(&interval_, &data[kIntervalAt], sizeof interval_);
-  const int fastest_hz = format_ == kMjpgFormat ? model_.rate_hz : static_cast<int>(kSlowest_hz);
-  interval_ = std::clamp(interval_, interval_of(fastest_hz), interval_of(static_cast<int>(kSlowest_hz)));
+  const int max_hz = format_ == kMjpgFormat ? model_.rate_hz : static_cast<int>(kSlowest_hz);
+  interval_ = std::clamp(interval_, interval_of(max_hz), interval_of(static_cast<int>(kSlowest_hz)));
 }
 
 void UsbCamera::send_frames() {

@@ -10,8 +10,8 @@ struct TrackingParameters {
   std::string front_end = "klt";
   int max_features = 300;
   int pyramid_levels = 4;
-  double smallest_gradient = 1.5;
-  double smallest_correlation = 0.8;
+  double min_gradient = 1.5;
+  double min_correlation = 0.8;
   double nearest_depth_baselines = 5.0;
 
   template <class Field>
@@ -25,9 +25,9 @@ struct TrackingParameters {
           "features per frame; determines the size of the cells, which hold one each", 50, 5000);
     field(&P::pyramid_levels, "pyramid_levels", "1",
           "image pyramid levels; each doubles the largest unpredicted motion that can be tracked", 2, 6);
-    field(&P::smallest_gradient, "smallest_gradient", "1/px",
+    field(&P::min_gradient, "min_gradient", "1/px",
           "minimum gradient of a corner along its weakest direction, grey levels per pixel", 0.1, 50.0);
-    field(&P::smallest_correlation, "smallest_correlation", "1", "minimum normalised correlation of a match", 0.0, 1.0);
+    field(&P::min_correlation, "min_correlation", "1", "minimum normalised correlation of a match", 0.0, 1.0);
     field(&P::nearest_depth_baselines, "nearest_depth_baselines", "1",
           "depth of the nearest point, in baselines; limits the disparity", 1.0, 100.0);
   }

@@ -25,7 +25,7 @@ struct EpipolarSummary {
   std::size_t corners = 0;
   double mean_px = 0.0;
   double rms_px = 0.0;
-  double largest_px = 0.0;
+  double max_px = 0.0;
 };
 
 EpipolarSummary summarise(const std::vector<EpipolarError>& errors);

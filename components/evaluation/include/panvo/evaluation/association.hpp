@@ -32,18 +32,18 @@ struct AssociationOptions {
 struct Association {
   std::vector<PosePair> pairs;
   AssociationMethod method = AssociationMethod::kInterpolate;
-  std::int64_t tolerance_ns = 0;           // that was applied
-  std::int64_t largest_difference_ns = 0;  // between an estimate's stamp and the nearest ground-truth pose used
-  std::size_t unmatched = 0;               // poses of the estimate without ground truth
+  std::int64_t tolerance_ns = 0;       // that was applied
+  std::int64_t max_difference_ns = 0;  // between an estimate's stamp and the nearest ground-truth pose used
+  std::size_t unmatched = 0;           // poses of the estimate without ground truth
 };
 
 // Stamps of the same instant differ by less than this if they were rounded differently.
 constexpr std::int64_t kSameStampNs = 100'000;
 
 // Minimum number of pairs for an evaluation.
-constexpr std::size_t kFewestPairs = 3;
+constexpr std::size_t kMinPairs = 3;
 
-// Returns pairs in order of time. Throws InputError, naming both time spans, if there are fewer than kFewestPairs.
+// Returns pairs in order of time. Throws InputError, naming both time spans, if there are fewer than kMinPairs.
 Association associate(const Trajectory& estimate, const Trajectory& ground_truth,
                       const AssociationOptions& options = {});
 

@@ -34,7 +34,7 @@ struct Evaluation {
   std::optional<std::size_t> unreliable;  // frames without measured motion
   AssociationMethod association = AssociationMethod::kInterpolate;
   std::int64_t tolerance_ns = 0;
-  std::int64_t largest_difference_ns = 0;
+  std::int64_t max_difference_ns = 0;
   double duration_s = 0.0;        // from the first pair to the last
   double path_length_m = 0.0;     // of the ground truth at the pairs
   double coverage_percent = 0.0;  // of the whole length of the ground truth

@@ -28,8 +28,8 @@ struct Disturbance {
 /// Integrity scores of a run, over all poses as published.
 struct TrustScore {
   std::size_t poses = 0;
-  double largest_error_m = 0.0;
-  double largest_error_over_sigma = 0.0;
+  double max_error_m = 0.0;
+  double max_error_over_sigma = 0.0;
   std::size_t outside_95 = 0;   ///< poses with an error beyond the 95 % chi-square bound, 2 degrees of freedom
   std::size_t outside_999 = 0;  ///< the same for 99.9 %
   std::size_t with_level = 0;   ///< poses with a protection level
@@ -37,7 +37,7 @@ struct TrustScore {
   std::optional<double> worst_over_level;  ///< largest ratio of error to protection level
 
   /// Longest time in state tracking with an error over 3 sigma, s.
-  double longest_misleading_s = 0.0;
+  double max_misleading_s = 0.0;
   /// Largest time from the start of an error over 3 sigma or beyond the level to the alarm, or the duration of such an
   /// error if it ended without an alarm; errors without alarm of at most kAlarmTime_s do not count. nullopt: no alarm
   /// was due.

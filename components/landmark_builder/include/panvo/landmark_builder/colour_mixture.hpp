@@ -18,8 +18,8 @@ class ColourMixture {
     double weight = 0.0;  ///< fraction of the samples
   };
 
-  /// `smallest_variance` keeps a Gaussian from shrinking to the noise of one image.
-  ColourMixture(int gaussians, GroundColour smallest_variance);
+  /// `min_variance` keeps a Gaussian from shrinking to the noise of one image.
+  ColourMixture(int gaussians, GroundColour min_variance);
 
   /// Learns from the samples of one image, which together change the weights by `rate`. A sample that no Gaussian
   /// explains replaces the one with the least weight. Deterministic; depends on the order of the samples.
@@ -29,12 +29,12 @@ class ColourMixture {
   std::span<const Gaussian> gaussians() const noexcept { return gaussians_; }
 
   /// Log density of each colour, approximated by its best Gaussian; `planes` are the three values of `count` pixels.
-  /// Gaussians below `least_weight` are ignored.
-  void log_density(const std::array<const float*, 3>& planes, int count, double least_weight, float* out) const;
+  /// Gaussians below `min_weight` are ignored.
+  void log_density(const std::array<const float*, 3>& planes, int count, double min_weight, float* out) const;
 
  private:
   std::size_t most_;
-  GroundColour smallest_variance_;
+  GroundColour min_variance_;
   std::vector<Gaussian> gaussians_;  // by descending weight
 };
 

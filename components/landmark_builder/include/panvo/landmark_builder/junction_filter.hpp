@@ -12,10 +12,10 @@ namespace panvo::landmark_builder {
 struct JunctionFilterParameters {
   double merge_radius_m = 20.0;
   double passed_m = 5.0;
-  double longest_gap_m = 3.0;
-  double farthest_pass_m = 9.0;
-  double least_seen_m = 2.0;
-  double least_share = 0.5;
+  double max_gap_m = 3.0;
+  double max_pass_m = 9.0;
+  double min_seen_m = 2.0;
+  double min_share = 0.5;
 
   template <class Field>
   static void describe(Field&& field) {
@@ -23,13 +23,11 @@ struct JunctionFilterParameters {
     field(&P::merge_radius_m, "merge_radius_m", "m", "centres closer to each other are one junction", 1.0, 50.0);
     field(&P::passed_m, "passed_m", "m", "a junction is passed when this much farther away than at its nearest", 0.5,
           50.0);
-    field(&P::longest_gap_m, "longest_gap_m", "m", "path without a detection after which a passed junction is complete",
-          0.0, 50.0);
-    field(&P::farthest_pass_m, "farthest_pass_m", "m", "junctions passed at a larger distance are discarded", 0.5,
+    field(&P::max_gap_m, "max_gap_m", "m", "path without a detection after which a passed junction is complete", 0.0,
           50.0);
-    field(&P::least_seen_m, "least_seen_m", "m", "minimum path along which a junction is detected", 0.0, 50.0);
-    field(&P::least_share, "least_share", "1", "minimum fraction of the panoramas along that path that show it", 0.0,
-          1.0);
+    field(&P::max_pass_m, "max_pass_m", "m", "junctions passed at a larger distance are discarded", 0.5, 50.0);
+    field(&P::min_seen_m, "min_seen_m", "m", "minimum path along which a junction is detected", 0.0, 50.0);
+    field(&P::min_share, "min_share", "1", "minimum fraction of the panoramas along that path that show it", 0.0, 1.0);
   }
 };
 

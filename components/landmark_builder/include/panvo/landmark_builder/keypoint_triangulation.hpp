@@ -13,8 +13,8 @@ struct TriangulationParameters {
   double descriptor_ratio = 0.8;
   double bearing_sigma_deg = 0.25;
   double gate_sigmas = 3.0;
-  double farthest_m = 200.0;
-  double fewest_sigmas = 3.0;
+  double max_m = 200.0;
+  double min_sigmas = 3.0;
 
   template <class Field>
   static void describe(Field&& field) {
@@ -24,9 +24,8 @@ struct TriangulationParameters {
     field(&P::bearing_sigma_deg, "bearing_sigma_deg", "deg", "standard deviation of a keypoint's bearing", 0.01, 2.0);
     field(&P::gate_sigmas, "gate_sigmas", "1", "largest deviation of a bearing from its point, in standard deviations",
           1.0, 10.0);
-    field(&P::farthest_m, "farthest_m", "m", "points farther away are discarded", 5.0, 10000.0);
-    field(&P::fewest_sigmas, "fewest_sigmas", "1", "smallest inverse range of a point, in standard deviations", 1.0,
-          20.0);
+    field(&P::max_m, "max_m", "m", "points farther away are discarded", 5.0, 10000.0);
+    field(&P::min_sigmas, "min_sigmas", "1", "smallest inverse range of a point, in standard deviations", 1.0, 20.0);
   }
 };
 

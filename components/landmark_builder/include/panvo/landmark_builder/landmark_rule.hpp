@@ -9,7 +9,7 @@
 namespace panvo::landmark_builder {
 
 struct LandmarkRuleParameters {
-  double longest_without_m = 100.0;
+  double max_spacing_m = 100.0;
   double first_m = 4.0;
   double nearby_m = 15.0;
   double known_m = 12.0;
@@ -17,7 +17,7 @@ struct LandmarkRuleParameters {
   template <class Field>
   static void describe(Field&& field) {
     using P = LandmarkRuleParameters;
-    field(&P::longest_without_m, "longest_without_m", "m",
+    field(&P::max_spacing_m, "max_spacing_m", "m",
           "path without a landmark after which one is built anywhere; 0: only at junctions", 0.0, 10000.0);
     field(&P::first_m, "first_m", "m",
           "path after which the first landmark of a new map is built, to recognise a return to the start", 0.0,

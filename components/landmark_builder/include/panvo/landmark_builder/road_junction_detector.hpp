@@ -23,7 +23,7 @@ namespace panvo::landmark_builder {
 struct JunctionDetectorParameters {
   std::string criterion = "arms";
   bool gather = true;
-  int fewest_arms = 3;
+  int min_arms = 3;
   double radon_share = 0.6;
   double radon_separation_deg = 25.0;
   double driven_half_width_m = 0.9;
@@ -43,7 +43,7 @@ struct JunctionDetectorParameters {
         "leave one centre)",
         {"radon", "arms"});
     field(&P::gather, "gather", "", "accumulate the road over panoramas; false: each panorama individually");
-    field(&P::fewest_arms, "fewest_arms", "1", "fewest roads of a junction", 3, 8);
+    field(&P::min_arms, "min_arms", "1", "fewest roads of a junction", 3, 8);
     field(&P::radon_share, "radon_share", "1", "smallest maximum of the Radon field, fraction of the largest", 0.1,
           1.0);
     field(&P::radon_separation_deg, "radon_separation_deg", "deg", "smallest angle between two maxima", 5.0, 90.0);

@@ -10,7 +10,7 @@ namespace panvo::landmark_builder {
 struct RoadModelParameters {
   int gaussians = 5;
   double learning_rate = 0.05;
-  double least_weight = 0.02;
+  double min_weight = 0.02;
   double threshold = -4.5;
 
   template <class Field>
@@ -19,7 +19,7 @@ struct RoadModelParameters {
     field(&P::gaussians, "gaussians", "1", "modes of the road's colour: asphalt in sun and shadow, patches, markings",
           1, 20);
     field(&P::learning_rate, "learning_rate", "1", "fraction of the model that one panorama replaces", 0.001, 1.0);
-    field(&P::least_weight, "least_weight", "1", "fraction of the samples below which a mode is ignored", 0.0, 0.5);
+    field(&P::min_weight, "min_weight", "1", "fraction of the samples below which a mode is ignored", 0.0, 0.5);
     field(&P::threshold, "threshold", "1",
           "log density, relative to the best road colour, below which a colour is not road", -50.0, 0.0);
   }

@@ -13,7 +13,7 @@
 #include "panvo/localizer/dispute.hpp"
 #include "panvo/localizer/doubt.hpp"
 #include "panvo/localizer/localizer_parameters.hpp"
-#include "panvo/localizer/odometry_chain.hpp"
+#include "panvo/localizer/odometry_buffer.hpp"
 
 namespace panvo::localizer {
 
@@ -30,19 +30,19 @@ class CrossCheck {
   explicit CrossCheck(const Parameters& parameters);
 
   /// Processes the latest odometry step.
-  void add_step(const OdometryChain& chain);
+  void add_step(const OdometryBuffer& chain);
 
   /// The following measurements have a new reference panorama.
   void begin_reference();
 
   /// Adds the turns of a stretch: `disagreement_rad` is panoramas minus odometry, `is_too_much` whether it exceeds the
   /// errors of both. Returns which one is wrong; nullopt if neither.
-  std::optional<Wrong> add_turns(const OdometryChain& chain, const Stretch& stretch, double disagreement_rad,
+  std::optional<Wrong> add_turns(const OdometryBuffer& chain, const Stretch& stretch, double disagreement_rad,
                                  bool is_too_much);
 
   /// Adds the ways of a stretch, after add_turns and its consequences. `way_variance_m2`: odometry's variance, summed over both
   /// axes. Returns the time since which the vehicle may have moved differently from odometry; nullopt if it has not.
-  std::optional<std::int64_t> add_ways(OdometryChain& chain, const Stretch& stretch, const AzimuthMeasurement& azimuth,
+  std::optional<std::int64_t> add_ways(OdometryBuffer& chain, const Stretch& stretch, const AzimuthMeasurement& azimuth,
                                        double way_variance_m2);
 
   /// Discards measurements of the former clock, except the mounting angles.
@@ -96,14 +96,14 @@ class CrossCheck {
     bool is_over;
   };
 
-  static std::optional<TurnAndWay> moved(const OdometryChain& chain, std::int64_t from_ns, std::int64_t to_ns);
-  std::optional<GoneOn> gone_on(const OdometryChain& chain, std::int64_t to_ns) const;
-  bool goes_on_steadily(const OdometryChain& chain, std::int64_t to_ns) const;
-  Wrong wrong_turn(const OdometryChain& chain, std::int64_t to_ns, double disagreement_rad) const;
+  static std::optional<TurnAndWay> moved(const OdometryBuffer& chain, std::int64_t from_ns, std::int64_t to_ns);
+  std::optional<GoneOn> gone_on(const OdometryBuffer& chain, std::int64_t to_ns) const;
+  bool goes_on_steadily(const OdometryBuffer& chain, std::int64_t to_ns) const;
+  Wrong wrong_turn(const OdometryBuffer& chain, std::int64_t to_ns, double disagreement_rad) const;
   WayVerdict judge_way(const AzimuthMeasurement& azimuth, const TurnAndWay& odometry, double way_variance_m2) const;
   void take(const WayVerdict& verdict);
   Lasting lasting_with(std::int64_t reference_ns, double seen_rad, double length_m) const;
-  std::optional<std::int64_t> settle_break(OdometryChain& chain, const Stretch& stretch);
+  std::optional<std::int64_t> settle_break(OdometryBuffer& chain, const Stretch& stretch);
   bool is_disputed() const noexcept { return turn_dispute_.is_on() || way_dispute_.is_on(); }
   bool is_camera_turned() const noexcept { return turn_dispute_.is_on() && turn_dispute_.wrong() == Wrong::kPanoramas; }
   bool is_fresh(std::int64_t stamp_ns, std::int64_t now_ns) const;

@@ -7,18 +7,18 @@
 #include <string>
 #include <vector>
 
-#include "panvo/localizer/azimuth_lean.hpp"
 #include "panvo/localizer/azimuth_measurement.hpp"
 #include "panvo/localizer/clock_offset.hpp"
 #include "panvo/localizer/cross_check.hpp"
 #include "panvo/localizer/dead_reckoning.hpp"
 #include "panvo/localizer/doubt.hpp"
-#include "panvo/localizer/journey_graph.hpp"
+#include "panvo/localizer/extrinsics_monitor.hpp"
+#include "panvo/localizer/local_pose_graph.hpp"
 #include "panvo/localizer/localizer_parameters.hpp"
-#include "panvo/localizer/mounting_check.hpp"
-#include "panvo/localizer/odometry_chain.hpp"
+#include "panvo/localizer/odometry_buffer.hpp"
 #include "panvo/localizer/odometry_origin.hpp"
-#include "panvo/localizer/turn_scale.hpp"
+#include "panvo/localizer/yaw_bias_detector.hpp"
+#include "panvo/localizer/yaw_scale_filter.hpp"
 
 namespace panvo::localizer {
 
@@ -101,7 +101,7 @@ class Localizer {
   /// External pose of the vehicle at a time (odometry clock); variances of 0 mean unknown. If the vehicle was
   /// localised, it means that the vehicle was moved. Returns false, without effect, if odometry of that time is no
   /// longer stored or the pose has a fault.
-  bool add_said(const PoseInMap& pose, std::int64_t stamp_ns);
+  bool set_initial_pose(const PoseInMap& pose, std::int64_t stamp_ns);
 
   /// The odometry's clock was set back: shifts all stored stamps by this much.
   void set_clock_back(std::int64_t by_ns);
@@ -118,11 +118,11 @@ class Localizer {
   /// Current poses of the landmarks of this journey and of those seen on it, by ascending id.
   std::vector<KnownLandmark> landmarks() const;
   const ClockOffset& panorama_clock() const noexcept { return clock_; }
-  const MountingCheck& mounting() const noexcept { return mounting_; }
+  const ExtrinsicsMonitor& mounting() const noexcept { return mounting_; }
   const DirectionOffset& direction_offset() const noexcept { return check_.direction_offset(); }
 
  private:
-  struct Asking {  // a sighting that was not accepted
+  struct PendingRelocalization {  // a sighting that was not accepted
     LandmarkSighting sighting;
     Eigen::Isometry3d map_from_odom;
     double way_m;
@@ -131,12 +131,12 @@ class Localizer {
     std::int64_t at_ns;
   };
 
-  struct Verdict {                       // on a sighting
-    std::string objection;               // why it is not to be applied; empty if it is
-    double chi_square = 0.0;             // against the expected pose; 0 if that is unknown
-    std::optional<Asking> asking;        // asking_ from now on
-    std::optional<Asking> dissent;       // dissent_ from now on
-    std::optional<std::int64_t> cut_ns;  // odometry missed a motion at this time
+  struct Verdict {                                 // on a sighting
+    std::string objection;                         // why it is not to be applied; empty if it is
+    double chi_square = 0.0;                       // against the expected pose; 0 if that is unknown
+    std::optional<PendingRelocalization> asking;   // asking_ from now on
+    std::optional<PendingRelocalization> dissent;  // conflicting_ from now on
+    std::optional<std::int64_t> cut_ns;            // odometry missed a motion at this time
   };
 
   struct TurnSeen {  // by odometry and compass
@@ -148,44 +148,44 @@ class Localizer {
   void tell_state(LocalizedPose& pose) const;
   PoseInMap expected(const OdometryPose& odometry) const;
   vision::Matrix6d common_covariance(const Eigen::Vector3d& position) const;
-  Verdict judge(const LandmarkSighting& sighting, const KnownLandmark& landmark, const Remembered& at) const;
-  Verdict judge_far(Verdict verdict, const Asking& now, bool is_confirmed) const;
+  Verdict judge(const LandmarkSighting& sighting, const KnownLandmark& landmark, const OdometrySample& at) const;
+  Verdict judge_far(Verdict verdict, const PendingRelocalization& now, bool is_confirmed) const;
   void take(const Verdict& verdict);
-  bool confirms(const Asking& now, const Asking& before) const;
-  bool agree(const Asking& before, const Asking& now) const;
+  bool confirms(const PendingRelocalization& now, const PendingRelocalization& before) const;
+  bool agree(const PendingRelocalization& before, const PendingRelocalization& now) const;
   LandmarkSighting with_uncertain_clock(const LandmarkSighting& sighting) const;
   void take_reference(std::int64_t panorama_stamp_ns);
-  std::optional<AzimuthLean::Stretch> add_to_lean(AzimuthLean::Stretch turn);
-  void straighten(const AzimuthLean::Stretch& lean);
+  std::optional<YawBiasDetector::Stretch> add_to_lean(YawBiasDetector::Stretch turn);
+  void straighten(const YawBiasDetector::Stretch& lean);
   void fuse(std::int64_t from_ns, std::int64_t to_ns, double change_rad, double variance_rad2);
   void slew(const Eigen::Isometry3d& step);
 
   const Parameters parameters_;
   OdometryOrigin origin_;
-  OdometryChain chain_;
+  OdometryBuffer chain_;
   ClockOffset clock_;
-  TurnScale turn_scale_;
-  AzimuthLean lean_;
+  YawScaleFilter turn_scale_;
+  YawBiasDetector lean_;
   CrossCheck check_;
   DeadReckoning dead_reckoning_;
-  JourneyGraph graph_;
-  MountingCheck mounting_;
+  LocalPoseGraph graph_;
+  ExtrinsicsMonitor mounting_;
 
   Eigen::Isometry3d last_raw_ = Eigen::Isometry3d::Identity();
   Eigen::Isometry3d smooth_ = Eigen::Isometry3d::Identity();  // published odom_from_base
-  double owed_rad_ = 0.0;                                     // yaw correction not yet applied to it
+  double pending_yaw_correction_rad_ = 0.0;                   // yaw correction not yet applied to it
 
   bool is_located_ = true;
   bool is_joined_ = true;  // the map is that of the known landmarks, if any
   std::string unlocated_reason_ = "not localised in the loaded map yet";
   std::optional<std::int64_t> unreliable_since_ns_;  // odometry, up to now
-  std::optional<std::int64_t> doubtful_ns_;   // last time since a correction when odometry may have missed a motion
-  std::optional<std::int64_t> azimuth_ns_;    // last one used
-  std::optional<std::int64_t> last_from_ns_;  // its reference panorama
-  std::optional<TurnSeen> turn_seen_;         // last, against that panorama
-  std::optional<double> found_at_way_m_;      // where it was last located after being unlocated or lost
-  std::optional<Asking> asking_;              // last sighting not accepted
-  std::optional<Asking> dissent_;             // last one seen twice, but beyond the second-look gate
+  std::optional<std::int64_t> doubtful_ns_;      // last time since a correction when odometry may have missed a motion
+  std::optional<std::int64_t> azimuth_ns_;       // last one used
+  std::optional<std::int64_t> last_from_ns_;     // its reference panorama
+  std::optional<TurnSeen> turn_seen_;            // last, against that panorama
+  std::optional<double> found_at_way_m_;         // where it was last located after being unlocated or lost
+  std::optional<PendingRelocalization> asking_;  // last sighting not accepted
+  std::optional<PendingRelocalization> conflicting_;  // last one seen twice, but beyond the second-look gate
   LocalizedPose latest_;
 };
 

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "panvo/localizer/odometry_chain.hpp"
+#include "panvo/localizer/odometry_buffer.hpp"
 
 namespace panvo::localizer {
 

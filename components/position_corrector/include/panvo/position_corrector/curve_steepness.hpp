@@ -10,13 +10,13 @@ namespace panvo::position_corrector {
 
 struct SteepnessParameters {
   double way_m = 3.0;
-  double smallest_slope = 0.08;
+  double min_slope = 0.08;
 
   template <class Field>
   static void describe(Field&& field) {
     using P = SteepnessParameters;
     field(&P::way_m, "way_m", "m", "length of the curve evaluated on either side of its minimum", 0.5, 20.0);
-    field(&P::smallest_slope, "smallest_slope", "1/m",
+    field(&P::min_slope, "min_slope", "1/m",
           "smallest rise of the distance per metre of a steep curve: landmarks passed within 2 m have "
           "more, farther ones less",
           0.0, 1.0);

@@ -18,8 +18,8 @@ struct FivePointParameters {
   double bearing_sigma_deg = 0.25;
   double inlier_angle_deg = 0.8;
   int iterations = 1000;
-  int fewest_inliers = 20;
-  double largest_rotation_deg = 15.0;
+  int min_inliers = 20;
+  double max_rotation_deg = 15.0;
 
   template <class Field>
   static void describe(Field&& field) {
@@ -34,11 +34,11 @@ struct FivePointParameters {
           "largest angle between the bearing of an inlier and its triangulated point: three standard deviations", 0.05,
           5.0);
     field(&P::iterations, "iterations", "1", "maximum number of RANSAC samples", 10, 100000);
-    field(&P::fewest_inliers, "fewest_inliers", "1",
+    field(&P::min_inliers, "min_inliers", "1",
           "smallest number of inliers; an epipolar plane is a weaker constraint than a point, so more than "
           "with points",
           6, 1000);
-    field(&P::largest_rotation_deg, "largest_rotation_deg", "deg",
+    field(&P::max_rotation_deg, "max_rotation_deg", "deg",
           "largest rotation beyond the heading: tilt of the road and heading error", 1.0, 180.0);
   }
 };

@@ -24,10 +24,10 @@ namespace panvo::position_corrector {
 struct MatchingParameters {
   double radius_m = 15.0;
   double radius_sigmas = 3.0;
-  double largest_histogram_distance = 0.6;  ///< T_h
-  double largest_large_distance = 0.85;     ///< T_fl
-  double largest_small_distance = 0.9;      ///< T_fs
-  int most_verified = 3;
+  double max_histogram_distance = 0.6;  ///< T_h
+  double max_large_distance = 0.85;     ///< T_fl
+  double max_small_distance = 0.9;      ///< T_fs
+  int max_verified = 3;
   double window_m = 3.0;
   double window_s = 3.0;
   double leave_m = 30.0;
@@ -40,14 +40,14 @@ struct MatchingParameters {
           "search radius for an exactly known position: distance at which a place can be recognised", 1.0, 1000.0);
     field(&P::radius_sigmas, "radius_sigmas", "1",
           "addition to the search radius, in standard deviations of the position", 0.0, 10.0);
-    field(&P::largest_histogram_distance, "largest_histogram_distance", "1", "T_h [Lu2015 5.1]", 0.0, 1.0);
-    field(&P::largest_large_distance, "largest_large_distance", "1",
+    field(&P::max_histogram_distance, "max_histogram_distance", "1", "T_h [Lu2015 5.1]", 0.0, 1.0);
+    field(&P::max_large_distance, "max_large_distance", "1",
           "T_fl, large-scale distance relative to its mean over all headings [Lu2015 5.1]; other places have 0.9 +- "
           "0.05",
           0.0, 1.0);
-    field(&P::largest_small_distance, "largest_small_distance", "1",
-          "T_fs, the same for the small-scale features [Lu2015 5.1]", 0.0, 1.0);
-    field(&P::most_verified, "most_verified", "1",
+    field(&P::max_small_distance, "max_small_distance", "1", "T_fs, the same for the small-scale features [Lu2015 5.1]",
+          0.0, 1.0);
+    field(&P::max_verified, "max_verified", "1",
           "largest number of candidates per panorama whose geometry is verified, most similar first", 1, 100);
     field(&P::window_m, "window_m", "m", "a minimum is final after this path without a smaller distance", 0.2, 50.0);
     field(&P::window_s, "window_s", "s", "or after this time, if the vehicle stands still", 0.1, 60.0);
@@ -136,9 +136,9 @@ class LandmarkMatcher {
     double heading_rad = 0.0;
     LandmarkMatch best;  ///< among those with a pose, the one with the smallest small-scale distance
     /// Smallest distance of all panoramas, with or without a pose, and where and when it occurred.
-    double smallest_distance = 1.0;
-    double smallest_at_m = 0.0;
-    std::int64_t smallest_at_ns = 0;
+    double min_distance = 1.0;
+    double min_at_m = 0.0;
+    std::int64_t min_at_ns = 0;
     LandmarkPass pass;  // with the keypoints of `best`
   };
 

@@ -17,13 +17,13 @@ struct PanoramaPoseParameters {
   double bearing_sigma_deg = 0.25;
   double inlier_angle_deg = 0.8;
   int iterations = 200;
-  int fewest_inliers = 12;
-  int fewest_weak_inliers = 7;
-  double fewest_inliers_share = 0.25;
-  int fewest_sectors = 4;
-  double largest_turn_deg = 25.0;
-  double largest_tilt_deg = 20.0;
-  double largest_offset_m = 25.0;
+  int min_inliers = 12;
+  int min_weak_inliers = 7;
+  double min_inliers_share = 0.25;
+  int min_sectors = 4;
+  double max_turn_deg = 25.0;
+  double max_tilt_deg = 20.0;
+  double max_offset_m = 25.0;
 
   template <class Field>
   static void describe(Field&& field) {
@@ -37,20 +37,19 @@ struct PanoramaPoseParameters {
     field(&P::inlier_angle_deg, "inlier_angle_deg", "deg",
           "largest angle between the bearing of an inlier and its matched point: three standard deviations", 0.05, 5.0);
     field(&P::iterations, "iterations", "1", "maximum number of RANSAC samples", 10, 10000);
-    field(&P::fewest_inliers, "fewest_inliers", "1",
+    field(&P::min_inliers, "min_inliers", "1",
           "smallest number of inliers; other places of the same building style reach 10", 4, 1000);
-    field(&P::fewest_weak_inliers, "fewest_weak_inliers", "1",
+    field(&P::min_weak_inliers, "min_weak_inliers", "1",
           "the same for a weak pose, which the next panorama and the expected position must confirm", 4, 1000);
-    field(&P::fewest_inliers_share, "fewest_inliers_share", "1",
-          "smallest fraction of inliers among the matched points", 0.0, 1.0);
-    field(&P::fewest_sectors, "fewest_sectors", "1",
+    field(&P::min_inliers_share, "min_inliers_share", "1", "smallest fraction of inliers among the matched points", 0.0,
+          1.0);
+    field(&P::min_sectors, "min_sectors", "1",
           "smallest number of sectors, of twelve per turn, with inliers: a single building may repeat elsewhere", 1,
           12);
-    field(&P::largest_turn_deg, "largest_turn_deg", "deg",
+    field(&P::max_turn_deg, "max_turn_deg", "deg",
           "largest difference between the pose's heading and that of the compressive features", 1.0, 180.0);
-    field(&P::largest_tilt_deg, "largest_tilt_deg", "deg", "largest tilt of the vehicle relative to the landmark", 1.0,
-          90.0);
-    field(&P::largest_offset_m, "largest_offset_m", "m", "largest distance of a pose from the landmark", 1.0, 200.0);
+    field(&P::max_tilt_deg, "max_tilt_deg", "deg", "largest tilt of the vehicle relative to the landmark", 1.0, 90.0);
+    field(&P::max_offset_m, "max_offset_m", "m", "largest distance of a pose from the landmark", 1.0, 200.0);
   }
 };
 

@@ -105,8 +105,8 @@ struct DdsSettings {
   /// The memory is sized by the received images. 0: no sharing.
   std::uint32_t shared_image_bytes = 0;
   Limits limits{};
-  double requests_per_s = 1000;               ///< per service; excess requests are dropped and counted
-  std::uint32_t largest_request = 1'000'000;  ///< bytes; larger requests are dropped and counted
+  double requests_per_s = 1000;           ///< per service; excess requests are dropped and counted
+  std::uint32_t max_request = 1'000'000;  ///< bytes; larger requests are dropped and counted
 };
 
 /// Settings from ROS 2's environment variables ROS_DOMAIN_ID, ROS_DISTRO, ROS_LOCALHOST_ONLY and

@@ -116,7 +116,7 @@ class Context {
   void every(std::chrono::nanoseconds period, std::function<void()> callback);
 
   /// Marks the component as low priority: live, its threads run at nice +10.
-  void give_way();
+  void set_background();
 
   /// Lets the runtime play `source`, which must live as long as the component.
   void source(Source& source);
@@ -149,7 +149,7 @@ class Context {
   StageTimes& times() noexcept;
 
   /// Records messages that the component cannot use.
-  Rejections& rejections() noexcept;
+  RejectedMessages& rejections() noexcept;
 
   /// Whether the component was restarted after a crash of itself or its process: its previous state is lost.
   bool is_again() const noexcept;

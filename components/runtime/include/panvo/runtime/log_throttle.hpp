@@ -15,7 +15,7 @@ class LogThrottle {
  public:
   static constexpr std::int64_t kInterval_ns = 10'000'000'000;
   /// Maximum number of keys; further keys share one entry while all of these are younger than the interval.
-  static constexpr std::size_t kMostKeys = 50;
+  static constexpr std::size_t kMaxKeys = 50;
 
   /// Returns the suffix for the log line, "" or " (3 more like this in the last 12 s)", or nullopt if the line is
   /// suppressed. A `now_ns` before the last line (recorded stamps may jump) counts as within the interval.

@@ -11,11 +11,11 @@
 namespace panvo::runtime {
 
 /// Counts unusable messages by topic, sender and reason, for the diagnostics. Thread-safe.
-class Rejections {
+class RejectedMessages {
  public:
   static constexpr std::int64_t kLogPeriod_ns = 10'000'000'000;
   /// Per topic; further causes share one entry, which bounds the memory.
-  static constexpr std::size_t kMostCauses = 64;
+  static constexpr std::size_t kMaxCauses = 64;
 
   using Cause = std::pair<std::string, std::string>;  ///< sender ("" if unknown) and reason
   struct Count {

@@ -29,8 +29,7 @@ struct SelectionParameters {
   double upright = 1.0;    ///< ratio of vertical to horizontal displacement; 1: circles, as in the paper
   int sectors = 1;   ///< of the full turn; the best kept/sectors features of each are taken first, to cover all sides
   int samples = 16;  ///< per set
-  double smallest_deviation =
-      0.02;  ///< of normalised responses; a patch is dropped if its four Gaussians are all narrower
+  double min_deviation = 0.02;  ///< of normalised responses; a patch is dropped if its four Gaussians are all narrower
 };
 
 /// One selected feature.

@@ -37,9 +37,8 @@ struct Corner {
 };
 
 /// Returns the strongest corner of each free cell [Shi and Tomasi 1994], in row-major order, with a gradient of at
-/// least `smallest_gradient` and at least `margin_px` from the border. Detection runs on the half-size image: texture
+/// least `min_gradient` and at least `margin_px` from the border. Detection runs on the half-size image: texture
 /// there can be tracked through the pyramid, and the exact position of a corner does not matter.
-std::vector<Corner> detect_corners(const ImagePyramid& image, const CellGrid& grid, double smallest_gradient,
-                                   int margin_px);
+std::vector<Corner> detect_corners(const ImagePyramid& image, const CellGrid& grid, double min_gradient, int margin_px);
 
 }  // namespace panvo::vision

@@ -25,7 +25,7 @@ struct EpipolarMisalignment {
   Eigen::Vector2d shift(const PinholeCamera& camera, const Eigen::Vector2d& ideal_right_pixel) const;
 
   /// Largest absolute row shift over the corners and the centre of the image (px).
-  double largest_row_shift_px(const PinholeCamera& camera) const;
+  double max_row_shift_px(const PinholeCamera& camera) const;
 };
 
 /// Estimates the misalignment online from row errors: linear least squares with exponential forgetting per point, to

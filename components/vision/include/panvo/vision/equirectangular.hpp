@@ -29,9 +29,9 @@ struct Equirectangular {
   double row(double elevation_rad) const;
 };
 
-/// Returns why an image is not an 8-bit equirectangular panorama of at least `smallest_columns` columns, as text to
+/// Returns why an image is not an 8-bit equirectangular panorama of at least `min_columns` columns, as text to
 /// follow its name ("is not twice as wide as high: ..."); nullopt if it is one.
-std::optional<std::string> find_layout_fault(const cv::Mat& panorama, int smallest_columns);
+std::optional<std::string> find_layout_fault(const cv::Mat& panorama, int min_columns);
 
 /// Wraps a difference of columns or angles to (-turn/2, turn/2].
 double wrap(double difference, double turn);

@@ -10,10 +10,10 @@
 /// A value is the mean of four neighbours with weights in steps of 1/32 px, as in OpenCV's remap, times factor / 256.
 namespace panvo::vision {
 
-inline constexpr int kLookupFraction = 32;                             ///< steps per pixel
-inline constexpr std::uint32_t kLargestLookupOffset = (1U << 22) - 1;  ///< px
+inline constexpr int kLookupFraction = 32;                         ///< steps per pixel
+inline constexpr std::uint32_t kMaxLookupOffset = (1U << 22) - 1;  ///< px
 inline constexpr int kUnitFactor = 256;
-inline constexpr int kLargestFactor = 1023;
+inline constexpr int kMaxFactor = 1023;
 
 /// Offset of the upper left of the four neighbours from LookupSource::begin, in pixels, and the fractional position in
 /// 1/32 px.
@@ -31,7 +31,7 @@ constexpr bool may_be_looked_up(int x, int y, int width, int height) {
 struct LookupSource {
   const std::uint8_t* begin = nullptr;
   int row_px = 0;
-  int factor = kUnitFactor;  ///< 0 to kLargestFactor
+  int factor = kUnitFactor;  ///< 0 to kMaxFactor
 };
 
 /// Looks up `count` pixels of `channels` bytes each, 1 or 3. Throws std::invalid_argument for other numbers of

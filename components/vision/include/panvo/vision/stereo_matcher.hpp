@@ -33,8 +33,8 @@ class StereoMatcher {
     double to_px = 0.0;
   };
 
-  StereoMatcher(const PinholeCamera& camera, Range range, double smallest_correlation)
-      : camera_(camera), range_(range), smallest_correlation_(smallest_correlation) {}
+  StereoMatcher(const PinholeCamera& camera, Range range, double min_correlation)
+      : camera_(camera), range_(range), min_correlation_(min_correlation) {}
 
   /// Compensates this misalignment of the right image from now on. Disparities refer to an aligned right image.
   void allow_for(const EpipolarMisalignment& misalignment) { misalignment_ = misalignment; }
@@ -65,7 +65,7 @@ class StereoMatcher {
   PinholeCamera camera_;
   EpipolarMisalignment misalignment_;
   Range range_;
-  double smallest_correlation_;
+  double min_correlation_;
 };
 
 }  // namespace panvo::vision

@@ -20,7 +20,7 @@ class ClockMapping {
     std::int64_t window_ns = 16'000'000'000;    ///< age of the oldest frame used
     int parts = 32;                             ///< parts of the window, one point each; bounds the memory
     std::int64_t rate_from_ns = 3'000'000'000;  ///< smallest time span of the points for a drift estimate
-    double largest_drift = 500e-6;              ///< between two intact clocks; the estimate is limited to it
+    double max_drift = 500e-6;                  ///< between two intact clocks; the estimate is limited to it
     /// A stamp further than this ahead of the arrival means that the device clock was set or restarted. Smaller
     /// differences are accepted, because some drivers stamp slightly ahead.
     std::int64_t jump_ns = 100'000'000;

@@ -25,9 +25,9 @@ struct Junction {
 struct Road {
   int from = 0, to = 0;  ///< junctions
   std::vector<Eigen::Vector2d>
-      centre_line;              ///< m; smooth, with a point about every metre, including both junctions' positions
-  double width_m = 6.5;         ///< between the kerbs
-  double longest_step_m = 0.0;  ///< between neighbouring points of the centre line; 0: unknown, searches are slower
+      centre_line;          ///< m; smooth, with a point about every metre, including both junctions' positions
+  double width_m = 6.5;     ///< between the kerbs
+  double max_step_m = 0.0;  ///< between neighbouring points of the centre line; 0: unknown, searches are slower
 };
 
 struct RoadNetwork {

@@ -11,9 +11,9 @@ namespace panvo::v4l2_camera {
 
 /// An image size of a camera or, if `step_x` or `step_y` is not 0, the largest size of a range.
 struct OfferedSize {
-  int width = 0, height = 0;                                      ///< px
-  int least_width = 0, least_height = 0, step_x = 0, step_y = 0;  ///< of a range, px
-  std::vector<double> rates_hz{};                                 ///< descending; empty: not known
+  int width = 0, height = 0;                                  ///< px
+  int min_width = 0, min_height = 0, step_x = 0, step_y = 0;  ///< of a range, px
+  std::vector<double> rates_hz{};                             ///< descending; empty: not known
 
   bool includes(int wanted_width, int wanted_height) const;
 };

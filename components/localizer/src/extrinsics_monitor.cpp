@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "panvo/localizer/mounting_check.hpp"
+#include "panvo/localizer/extrinsics_monitor.hpp"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
@@ -8,13 +8,13 @@
 namespace panvo::localizer {
 namespace {
 
-constexpr double kShortest_m = 0.3;      // between two compared sightings
-constexpr double kLongestGap_m = 5.0;    // within a pass
-constexpr double kLongestPass_m = 40.0;  // beyond, odometry drift reaches the size of the effect
+constexpr double kMin_m = 0.3;       // between two compared sightings
+constexpr double kMaxGap_m = 5.0;    // within a pass
+constexpr double kMaxPass_m = 40.0;  // beyond, odometry drift reaches the size of the effect
 
 // Sightings with a larger deviation than a camera rotated by a dozen degrees would cause are ignored.
-constexpr double kMostTurned = 0.25;
-constexpr double kMostElse_m = 1.0;
+constexpr double kMaxTurned = 0.25;
+constexpr double kMaxElse_m = 1.0;
 
 constexpr double kOdometry_m = 0.02;  // over a few metres
 // The sightings of a pass share points and hence errors: three count as one. With this factor the estimates for
@@ -32,15 +32,15 @@ double weight_of(const LandmarkSighting& sighting) {
   return 1.0 / (kAlike * (variance + kOdometry_m * kOdometry_m));
 }
 
-double way_between(const Remembered& a, const Remembered& b) { return std::abs(b.way_m - a.way_m); }
+double way_between(const OdometrySample& a, const OdometrySample& b) { return std::abs(b.way_m - a.way_m); }
 
-Eigen::Isometry3d step_between(const Remembered& a, const Remembered& b) {
+Eigen::Isometry3d step_between(const OdometrySample& a, const OdometrySample& b) {
   return a.pose.odom_from_base.inverse() * b.pose.odom_from_base;
 }
 
 }  // namespace
 
-void MountingCheck::add(const LandmarkSighting& sighting, const Remembered& at) {
+void ExtrinsicsMonitor::add(const LandmarkSighting& sighting, const OdometrySample& at) {
   if (!continues_pass(sighting, at)) {
     ended_passes_ = with_current_pass();
     Pass begun;
@@ -50,14 +50,14 @@ void MountingCheck::add(const LandmarkSighting& sighting, const Remembered& at) 
     pass_ = begun;
     return;
   }
-  if (way_between(pass_->last_at, at) < kShortest_m) return;
+  if (way_between(pass_->last_at, at) < kMin_m) return;
   pass_->last_at = at;
   const Eigen::Isometry3d by_odometry = step_between(pass_->first_at, at);
   const Eigen::Vector3d way = by_odometry.translation();
   const Eigen::Vector3d by_panoramas =
       pass_->first.landmark_from_base.inverse() * sighting.landmark_from_base.translation();
   const Eigen::Vector3d difference = by_panoramas - way;
-  if (difference.norm() > kMostElse_m + kMostTurned * way.norm()) return;
+  if (difference.norm() > kMaxElse_m + kMaxTurned * way.norm()) return;
   // The panoramas measure a base_link displaced by t and rotated by w relative to the true one:
   // path seen = path + path x w + (turn - 1) t.
   Matrix34d jacobian;
@@ -72,7 +72,7 @@ void MountingCheck::add(const LandmarkSighting& sighting, const Remembered& at) 
   pass_->d += weight * difference;
 }
 
-std::optional<MountingCheck::Misalignment> MountingCheck::misalignment() const {
+std::optional<ExtrinsicsMonitor::Misalignment> ExtrinsicsMonitor::misalignment() const {
   const auto equations = with_current_pass();
   const Matrix4d prior = kPriorSigma.cwiseAbs2().cwiseInverse().asDiagonal();
   const Matrix4d covariance = (equations.left + prior).inverse();
@@ -80,8 +80,8 @@ std::optional<MountingCheck::Misalignment> MountingCheck::misalignment() const {
   const auto is_notable = [&](Eigen::Index first, double notable) {
     const Eigen::Vector2d size = found.segment<2>(first);
     const Eigen::Matrix2d spread = covariance.block<2, 2>(first, first);
-    const double least_known = std::sqrt(Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(spread).eigenvalues()(1));
-    return size.norm() > notable && least_known < kWellKnown * notable &&
+    const double min_known = std::sqrt(Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(spread).eigenvalues()(1));
+    return size.norm() > notable && min_known < kWellKnown * notable &&
            size.dot(spread.ldlt().solve(size)) > kSureSigmas * kSureSigmas;
   };
   Misalignment misalignment{found(0), found(1), found(2), found(3)};
@@ -91,13 +91,13 @@ std::optional<MountingCheck::Misalignment> MountingCheck::misalignment() const {
   return misalignment;
 }
 
-bool MountingCheck::continues_pass(const LandmarkSighting& sighting, const Remembered& at) const {
-  return pass_ && pass_->first.landmark_id == sighting.landmark_id && way_between(pass_->last_at, at) < kLongestGap_m &&
-         way_between(pass_->first_at, at) < kLongestPass_m;
+bool ExtrinsicsMonitor::continues_pass(const LandmarkSighting& sighting, const OdometrySample& at) const {
+  return pass_ && pass_->first.landmark_id == sighting.landmark_id && way_between(pass_->last_at, at) < kMaxGap_m &&
+         way_between(pass_->first_at, at) < kMaxPass_m;
 }
 
 /// Sum over all passes, eliminating for each the common error of its first sighting.
-MountingCheck::NormalEquations MountingCheck::with_current_pass() const {
+ExtrinsicsMonitor::NormalEquations ExtrinsicsMonitor::with_current_pass() const {
   NormalEquations all = ended_passes_;
   if (!pass_) return all;
   all.left += pass_->jtj - pass_->j.transpose() * pass_->j / pass_->weight;

@@ -9,7 +9,7 @@ namespace panvo::localizer {
 
 /// Detects a bias of the odometry: small turns that differ from the compass repeatedly in one direction, e.g. due to
 /// moving objects that fill half of the view. Each turn is within its error, their sum is not.
-class AzimuthLean {
+class YawBiasDetector {
  public:
   struct Stretch {
     std::int64_t from_ns = 0, to_ns = 0;
@@ -19,7 +19,7 @@ class AzimuthLean {
   };
 
   /// `window_s`: time over which disagreements are summed; `sigmas`: threshold for their sum.
-  AzimuthLean(double window_s, double sigmas) : window_s_(window_s), sigmas_(sigmas) {}
+  YawBiasDetector(double window_s, double sigmas) : window_s_(window_s), sigmas_(sigmas) {}
 
   /// Adds a turn; of several against one reference panorama the last counts. Returns the whole biased stretch; nullopt
   /// while there is no bias. Turns that are not consecutive restart the sum.

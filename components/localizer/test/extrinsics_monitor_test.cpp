@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "panvo/localizer/mounting_check.hpp"
+#include "panvo/localizer/extrinsics_monitor.hpp"
 
 #include <gtest/gtest.h>
 
@@ -18,8 +18,8 @@ struct Mounted {  // deviation of the panoramic camera from its extrinsics
 
 /// Passes by landmarks, 12 m each, in which the vehicle turns by `turn_rad` to the left, to the right and not at all in
 /// turn; sightings err by kSighting_m.
-MountingCheck after_passes(int passes, const Mounted& mounted, double turn_rad = 0.0) {
-  MountingCheck check;
+ExtrinsicsMonitor after_passes(int passes, const Mounted& mounted, double turn_rad = 0.0) {
+  ExtrinsicsMonitor check;
   std::mt19937_64 random(1);
   std::normal_distribution<double> noise(0.0, kSighting_m);
   Eigen::Isometry3d true_from_said = Eigen::Isometry3d::Identity();
@@ -27,7 +27,7 @@ MountingCheck after_passes(int passes, const Mounted& mounted, double turn_rad =
                              Eigen::AngleAxisd(mounted.pitch_rad, Eigen::Vector3d::UnitY()))
                                 .toRotationMatrix();
   true_from_said.translation() = Eigen::Vector3d(mounted.forward_m, mounted.left_m, 0.0);
-  Remembered at;
+  OdometrySample at;
   for (int pass = 0; pass < passes; ++pass) {
     // each landmark was built at another heading
     const Eigen::AngleAxisd heading(1.1 * pass, Eigen::Vector3d::UnitZ());
@@ -60,7 +60,7 @@ constexpr double kDegree = M_PI / 180.0;
 
 constexpr double kQuarterTurn = M_PI / 2.0;
 
-TEST(MountingCheck, FindsACameraThatIsTurnedByFiveDegrees) {
+TEST(ExtrinsicsMonitor, FindsACameraThatIsTurnedByFiveDegrees) {
   for (const double sign : {1.0, -1.0}) {
     const auto found = after_passes(3, {.yaw_rad = sign * 5.0 * kDegree}).misalignment();
     ASSERT_TRUE(found && found->is_turned);
@@ -70,13 +70,13 @@ TEST(MountingCheck, FindsACameraThatIsTurnedByFiveDegrees) {
   }
 }
 
-TEST(MountingCheck, FindsACameraThatIsTiltedByFiveDegrees) {
+TEST(ExtrinsicsMonitor, FindsACameraThatIsTiltedByFiveDegrees) {
   const auto down = after_passes(3, {.pitch_rad = 5.0 * kDegree}).misalignment();
   ASSERT_TRUE(down && down->is_turned);
   EXPECT_NEAR(down->pitch_rad, 5.0 * kDegree, 1.0 * kDegree);
 }
 
-TEST(MountingCheck, FindsACameraThatSitsElsewhereByWhereItSwingsInTurns) {
+TEST(ExtrinsicsMonitor, FindsACameraThatSitsElsewhereByWhereItSwingsInTurns) {
   const auto found = after_passes(9, {.forward_m = -0.16, .left_m = 0.12}, kQuarterTurn).misalignment();
   ASSERT_TRUE(found && found->is_displaced);
   EXPECT_NEAR(found->forward_m, -0.16, 0.05);
@@ -84,21 +84,21 @@ TEST(MountingCheck, FindsACameraThatSitsElsewhereByWhereItSwingsInTurns) {
   EXPECT_FALSE(found->is_turned);
 }
 
-TEST(MountingCheck, TellsTurnedFromDisplaced) {
+TEST(ExtrinsicsMonitor, TellsTurnedFromDisplaced) {
   const auto found = after_passes(8, {.yaw_rad = 5.0 * kDegree, .left_m = 0.2}, kQuarterTurn).misalignment();
   ASSERT_TRUE(found && found->is_turned && found->is_displaced);
   EXPECT_NEAR(found->yaw_rad, 5.0 * kDegree, 1.0 * kDegree);
   EXPECT_NEAR(found->left_m, 0.2, 0.06);
 }
 
-TEST(MountingCheck, FindsNothingInCamerasThatSitAsIsSaid) {
+TEST(ExtrinsicsMonitor, FindsNothingInCamerasThatSitAsIsSaid) {
   for (int passes = 1; passes < 8; ++passes) {
     EXPECT_FALSE(after_passes(passes, {}).misalignment()) << passes;
     EXPECT_FALSE(after_passes(passes, {}, kQuarterTurn).misalignment()) << passes;
   }
 }
 
-TEST(MountingCheck, SaysNothingOfWhatItCannotHaveSeen) {
+TEST(ExtrinsicsMonitor, SaysNothingOfWhatItCannotHaveSeen) {
   // on a straight road a displacement is not observable
   EXPECT_FALSE(after_passes(8, {.left_m = 0.5}).misalignment());
   // in a single curve, a forward displacement looks like a rotation

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "panvo/localizer/azimuth_lean.hpp"
+#include "panvo/localizer/yaw_bias_detector.hpp"
 
 namespace panvo::localizer {
 
-std::optional<AzimuthLean::Stretch> AzimuthLean::add(const Stretch& turn) {
+std::optional<YawBiasDetector::Stretch> YawBiasDetector::add(const Stretch& turn) {
   if (!turns_.empty() && turns_.back().from_ns == turn.from_ns) {
     turns_.back() = turn;
   } else {

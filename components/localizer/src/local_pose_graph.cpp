@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "panvo/localizer/journey_graph.hpp"
+#include "panvo/localizer/local_pose_graph.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -12,8 +12,8 @@ namespace panvo::localizer {
 namespace {
 
 // Per landmark. Eight reduce the error of a single sighting to a third; the rest is common to all sightings.
-constexpr int kMostPasses = 8;
-constexpr double kLeastVariance = 1e-8;  // of an edge: 0.1 mm, 0.1 mrad
+constexpr int kMaxPasses = 8;
+constexpr double kMinVariance = 1e-8;  // of an edge: 0.1 mm, 0.1 mrad
 // Remaining odometry constraint across a cut: moved within a kilometre, any yaw, nearly upright.
 constexpr double kCutPosition_m = 1000.0;
 constexpr double kCutTilt_rad = 0.2;
@@ -28,15 +28,15 @@ vision::Matrix6d cut_covariance() {
 }
 
 vision::Matrix6d at_least(const vision::Matrix6d& covariance) {
-  return covariance + kLeastVariance * vision::Matrix6d::Identity();
+  return covariance + kMinVariance * vision::Matrix6d::Identity();
 }
 
 }  // namespace
 
-JourneyGraph::JourneyGraph(double start_sigma_m, double start_sigma_rad)
+LocalPoseGraph::LocalPoseGraph(double start_sigma_m, double start_sigma_rad)
     : start_sigma_m_(start_sigma_m), start_sigma_rad_(start_sigma_rad) {}
 
-void JourneyGraph::start(const Remembered& at) {
+void LocalPoseGraph::start(const OdometrySample& at) {
   Node node;
   node.at = at;
   node.map_from_base = at.pose.odom_from_base;
@@ -45,7 +45,7 @@ void JourneyGraph::start(const Remembered& at) {
   nodes_.push_back(node);
 }
 
-void JourneyGraph::add_built(std::uint32_t id, const Remembered& at) {
+void LocalPoseGraph::add_built(std::uint32_t id, const OdometrySample& at) {
   Node node;
   node.landmark_id = id;
   node.at = at;
@@ -55,7 +55,7 @@ void JourneyGraph::add_built(std::uint32_t id, const Remembered& at) {
   nodes_.push_back(node);
 }
 
-void JourneyGraph::add_said(const PoseInMap& pose, const Remembered& at) {
+void LocalPoseGraph::set_initial_pose(const PoseInMap& pose, const OdometrySample& at) {
   Node node;
   node.at = at;
   node.said = pose;
@@ -64,7 +64,7 @@ void JourneyGraph::add_said(const PoseInMap& pose, const Remembered& at) {
   nodes_.push_back(node);
 }
 
-bool JourneyGraph::add_pass(const LandmarkSighting& sighting, const Remembered& at, double same_pass_m) {
+bool LocalPoseGraph::add_pass(const LandmarkSighting& sighting, const OdometrySample& at, double same_pass_m) {
   Node node;
   node.landmark_id = sighting.landmark_id;
   node.is_pass = true;
@@ -98,7 +98,7 @@ bool JourneyGraph::add_pass(const LandmarkSighting& sighting, const Remembered& 
 }
 
 /// The odometry before and after a removed pass needs no merging: edges are derived from the existing nodes.
-void JourneyGraph::forget_least_precise_pass(std::uint32_t landmark_id) {
+void LocalPoseGraph::forget_least_precise_pass(std::uint32_t landmark_id) {
   auto worst = nodes_.end();
   int passes = 0;
   for (auto node = nodes_.begin(); node != std::prev(nodes_.end()); ++node) {  // the last one is the newest
@@ -108,10 +108,10 @@ void JourneyGraph::forget_least_precise_pass(std::uint32_t landmark_id) {
                           position_variance(node->sighting.covariance) > position_variance(worst->sighting.covariance);
     if (is_worse) worst = node;
   }
-  if (passes >= kMostPasses) nodes_.erase(worst);
+  if (passes >= kMaxPasses) nodes_.erase(worst);
 }
 
-std::optional<KnownLandmark> JourneyGraph::landmark(std::uint32_t id) const {
+std::optional<KnownLandmark> LocalPoseGraph::landmark(std::uint32_t id) const {
   if (const auto* const node = landmark_node(id)) {
     return KnownLandmark{id, node->at.pose.stamp_ns, node->map_from_base, node->covariance};
   }
@@ -119,7 +119,7 @@ std::optional<KnownLandmark> JourneyGraph::landmark(std::uint32_t id) const {
   return known == known_.end() ? std::nullopt : std::optional(known->second);
 }
 
-std::vector<KnownLandmark> JourneyGraph::landmarks() const {
+std::vector<KnownLandmark> LocalPoseGraph::landmarks() const {
   std::vector<KnownLandmark> all;
   for (const auto& node : nodes_) {
     if (node.landmark_id == 0 || node.is_pass) continue;
@@ -131,7 +131,7 @@ std::vector<KnownLandmark> JourneyGraph::landmarks() const {
   return all;
 }
 
-PoseInMap JourneyGraph::carried(const OdometryPose& odometry) const {
+PoseInMap LocalPoseGraph::carried(const OdometryPose& odometry) const {
   const auto& from = anchor(odometry.stamp_ns);
   const bool is_back = odometry.stamp_ns < from.at.pose.stamp_ns;  // before the journey's first node
   const Eigen::Isometry3d way = from.at.pose.odom_from_base.inverse() * odometry.odom_from_base;
@@ -140,8 +140,8 @@ PoseInMap JourneyGraph::carried(const OdometryPose& odometry) const {
   return {from.map_from_base * way, vision::compose_covariance(from.map_from_base, from.covariance, way, covariance)};
 }
 
-vision::Matrix6d JourneyGraph::common_covariance(const Eigen::Vector3d& position, double scale_sigma,
-                                                 double direction_sigma_rad) const {
+vision::Matrix6d LocalPoseGraph::common_covariance(const Eigen::Vector3d& position, double scale_sigma,
+                                                   double direction_sigma_rad) const {
   const Node* last = nullptr;
   for (const auto& node : nodes_) {
     if (!node.is_pass || !known_.contains(node.landmark_id)) continue;
@@ -158,7 +158,7 @@ vision::Matrix6d JourneyGraph::common_covariance(const Eigen::Vector3d& position
   return covariance;
 }
 
-void JourneyGraph::place(const Eigen::Isometry3d& map_from_former_map) {
+void LocalPoseGraph::place(const Eigen::Isometry3d& map_from_former_map) {
   is_placed_ = true;
   for (auto& node : nodes_) {
     if (node.is_of_earlier_day) continue;
@@ -167,14 +167,14 @@ void JourneyGraph::place(const Eigen::Isometry3d& map_from_former_map) {
   }
 }
 
-void JourneyGraph::refresh(const OdometryChain& chain, std::int64_t since_ns) {
+void LocalPoseGraph::refresh(const OdometryBuffer& chain, std::int64_t since_ns) {
   for (auto& node : nodes_) {
     if (node.is_of_earlier_day || node.at.pose.stamp_ns <= since_ns) continue;
     if (const auto at = chain.at(node.at.pose.stamp_ns)) node.at = *at;
   }
 }
 
-void JourneyGraph::set_clock_back(std::int64_t by_ns) {
+void LocalPoseGraph::set_clock_back(std::int64_t by_ns) {
   for (auto& node : nodes_) {
     if (node.is_of_earlier_day) continue;
     node.at.pose.stamp_ns -= by_ns;
@@ -183,7 +183,7 @@ void JourneyGraph::set_clock_back(std::int64_t by_ns) {
   for (auto& cut_ns : cuts_ns_) cut_ns -= by_ns;
 }
 
-bool JourneyGraph::solve() {
+bool LocalPoseGraph::solve() {
   PoseGraph graph;
   for (const auto& node : nodes_) graph.poses.push_back(node.map_from_base);
   const auto order = journey_order();
@@ -226,14 +226,14 @@ bool JourneyGraph::solve() {
   return true;
 }
 
-const JourneyGraph::Node* JourneyGraph::landmark_node(std::uint32_t id) const {
+const LocalPoseGraph::Node* LocalPoseGraph::landmark_node(std::uint32_t id) const {
   const auto found = std::find_if(nodes_.begin(), nodes_.end(),
                                   [&](const Node& node) { return node.landmark_id == id && id != 0 && !node.is_pass; });
   return found == nodes_.end() ? nullptr : &*found;
 }
 
 /// The last node of this journey up to a time, else its first node.
-const JourneyGraph::Node& JourneyGraph::anchor(std::int64_t stamp_ns) const {
+const LocalPoseGraph::Node& LocalPoseGraph::anchor(std::int64_t stamp_ns) const {
   const Node* last = nullptr;
   const Node* first = nullptr;
   for (const auto& node : nodes_) {
@@ -245,7 +245,7 @@ const JourneyGraph::Node& JourneyGraph::anchor(std::int64_t stamp_ns) const {
   return last != nullptr ? *last : *first;
 }
 
-std::vector<std::size_t> JourneyGraph::journey_order() const {
+std::vector<std::size_t> LocalPoseGraph::journey_order() const {
   std::vector<std::size_t> order;
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
     if (!nodes_[i].is_of_earlier_day) order.push_back(i);
@@ -257,14 +257,14 @@ std::vector<std::size_t> JourneyGraph::journey_order() const {
 }
 
 /// Whether the vehicle was lifted between two times.
-bool JourneyGraph::is_cut(std::int64_t from_ns, std::int64_t to_ns) const {
+bool LocalPoseGraph::is_cut(std::int64_t from_ns, std::int64_t to_ns) const {
   const std::int64_t first_ns = std::min(from_ns, to_ns), last_ns = std::max(from_ns, to_ns);
   return std::any_of(cuts_ns_.begin(), cuts_ns_.end(),
                      [&](std::int64_t cut_ns) { return first_ns < cut_ns && cut_ns <= last_ns; });
 }
 
 /// Covariance gained by odometry between two times, in the axes of the first.
-vision::Matrix6d JourneyGraph::way_covariance(const OdometryPose& from, const OdometryPose& to) const {
+vision::Matrix6d LocalPoseGraph::way_covariance(const OdometryPose& from, const OdometryPose& to) const {
   const vision::Matrix6d gained = gained_covariance(from, to, 0.0);
   return is_cut(from.stamp_ns, to.stamp_ns) ? vision::Matrix6d(gained + cut_covariance()) : gained;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "panvo/localizer/odometry_chain.hpp"
+#include "panvo/localizer/odometry_buffer.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
@@ -12,7 +12,7 @@ namespace panvo::localizer {
 namespace {
 
 constexpr double kSecond_ns = 1e9;
-constexpr double kLeastStepVariance = 1e-12;  // for rounding errors
+constexpr double kMinStepVariance = 1e-12;  // for rounding errors
 constexpr int kYaw = 5;
 // A panorama of the same instant as the last stereo pair may be stamped slightly later due to clock differences.
 // Waiting for the next pair would cost 40 ms; constant motion for that time is accurate to less than a millimetre.
@@ -24,7 +24,7 @@ double between(std::int64_t stamp_ns, std::int64_t from_ns, std::int64_t to_ns) 
 
 }  // namespace
 
-vision::Matrix6d gained_covariance(const OdometryPose& a, const OdometryPose& b, double least_variance) {
+vision::Matrix6d gained_covariance(const OdometryPose& a, const OdometryPose& b, double min_variance) {
   const Eigen::Isometry3d a_from_b = a.odom_from_base.inverse() * b.odom_from_base;
   const vision::Matrix6d inherited =
       vision::compose_covariance(a.odom_from_base, a.covariance, a_from_b, vision::Matrix6d::Zero());
@@ -32,7 +32,7 @@ vision::Matrix6d gained_covariance(const OdometryPose& a, const OdometryPose& b,
       vision::rotate_covariance(a.odom_from_base.linear().transpose(), b.covariance - inherited);
   // clamped, as rounding and reset covariances can make it negative
   const Eigen::SelfAdjointEigenSolver<vision::Matrix6d> parts(0.5 * (difference + difference.transpose()));
-  return parts.eigenvectors() * parts.eigenvalues().cwiseMax(least_variance).asDiagonal() *
+  return parts.eigenvectors() * parts.eigenvalues().cwiseMax(min_variance).asDiagonal() *
          parts.eigenvectors().transpose();
 }
 
@@ -45,8 +45,8 @@ Eigen::Isometry3d turned_more(const Eigen::Isometry3d& step, double by_rad) {
   return turned;
 }
 
-bool OdometryChain::add(const OdometryPose& odometry, double turn_share, double turn_scale,
-                        const vision::Matrix6d& least) {
+bool OdometryBuffer::add(const OdometryPose& odometry, double turn_share, double turn_scale,
+                         const vision::Matrix6d& least) {
   if (!odometry.odom_from_base.matrix().allFinite() || !odometry.covariance.allFinite()) return false;
   if (!entries_.empty() && odometry.stamp_ns <= entries_.back().raw.stamp_ns) return false;
   Entry entry;
@@ -56,7 +56,7 @@ bool OdometryChain::add(const OdometryPose& odometry, double turn_share, double 
     const auto& before = entries_.back();
     const Eigen::Isometry3d said = before.raw.odom_from_base.inverse() * odometry.odom_from_base;
     entry.step.motion = turned_more(said, -turn_scale * yaw_of(said.linear()));
-    entry.step.covariance = gained_covariance(before.raw, odometry, kLeastStepVariance);
+    entry.step.covariance = gained_covariance(before.raw, odometry, kMinStepVariance);
     entry.step.turn_share = turn_share;
     entry.step.covariance.row(kYaw) *= std::sqrt(turn_share);
     entry.step.covariance.col(kYaw) *= std::sqrt(turn_share);
@@ -71,18 +71,18 @@ bool OdometryChain::add(const OdometryPose& odometry, double turn_share, double 
   return true;
 }
 
-std::optional<std::int64_t> OdometryChain::before_latest_ns() const {
+std::optional<std::int64_t> OdometryBuffer::before_latest_ns() const {
   if (entries_.size() < 2) return std::nullopt;
   return entries_[entries_.size() - 2].raw.stamp_ns;
 }
 
-std::optional<Remembered> OdometryChain::at(std::int64_t stamp_ns) const {
+std::optional<OdometrySample> OdometryBuffer::at(std::int64_t stamp_ns) const {
   const auto place = place_of(stamp_ns);
   if (!place) return std::nullopt;
   const auto& after = entries_[place->after].now;
   if (after.pose.stamp_ns == stamp_ns) return after;
   const auto& before = entries_[place->after - 1].now;
-  Remembered here = after;
+  OdometrySample here = after;
   here.pose.stamp_ns = stamp_ns;
   here.pose.odom_from_base = vision::interpolate(before.pose.odom_from_base, after.pose.odom_from_base, place->share);
   here.pose.covariance = (1.0 - place->share) * before.pose.covariance + place->share * after.pose.covariance;
@@ -90,7 +90,7 @@ std::optional<Remembered> OdometryChain::at(std::int64_t stamp_ns) const {
   return here;
 }
 
-std::optional<Turn> OdometryChain::turn(std::int64_t from_ns, std::int64_t to_ns) const {
+std::optional<Turn> OdometryBuffer::turn(std::int64_t from_ns, std::int64_t to_ns) const {
   const auto from = at(from_ns);
   const auto to = at(to_ns);
   if (!from || !to || from_ns >= to_ns) return std::nullopt;
@@ -106,14 +106,14 @@ std::optional<Turn> OdometryChain::turn(std::int64_t from_ns, std::int64_t to_ns
   return turn;
 }
 
-std::optional<double> OdometryChain::raw_turn(std::int64_t from_ns, std::int64_t to_ns) const {
+std::optional<double> OdometryBuffer::raw_turn(std::int64_t from_ns, std::int64_t to_ns) const {
   const auto from = raw_at(from_ns);
   const auto to = raw_at(to_ns);
   if (!from || !to) return std::nullopt;
   return yaw_of((from->inverse() * *to).linear());
 }
 
-std::optional<Eigen::Isometry3d> OdometryChain::raw_at(std::int64_t stamp_ns) const {
+std::optional<Eigen::Isometry3d> OdometryBuffer::raw_at(std::int64_t stamp_ns) const {
   const auto place = place_of(stamp_ns);
   if (!place) return std::nullopt;
   const auto& after = entries_[place->after].raw;
@@ -121,7 +121,7 @@ std::optional<Eigen::Isometry3d> OdometryChain::raw_at(std::int64_t stamp_ns) co
   return vision::interpolate(entries_[place->after - 1].raw.odom_from_base, after.odom_from_base, place->share);
 }
 
-std::optional<vision::Vector6d> OdometryChain::twist(std::int64_t stamp_ns) const {
+std::optional<vision::Vector6d> OdometryBuffer::twist(std::int64_t stamp_ns) const {
   const auto place = place_of(stamp_ns);
   if (!place || place->after == 0) return std::nullopt;
   const auto& entry = entries_[place->after];
@@ -130,13 +130,13 @@ std::optional<vision::Vector6d> OdometryChain::twist(std::int64_t stamp_ns) cons
   return moved * kSecond_ns / static_cast<double>(entry.raw.stamp_ns - entries_[place->after - 1].raw.stamp_ns);
 }
 
-void OdometryChain::distrust(std::int64_t from_ns, std::int64_t to_ns, double factor, double most_else) {
+void OdometryBuffer::inflate_covariance(std::int64_t from_ns, std::int64_t to_ns, double factor, double max_else) {
   const std::size_t first = first_after(from_ns);
   for (std::size_t i = first; i < entries_.size(); ++i) {
     const double part = share(i, from_ns, to_ns);
     if (part <= 0.0) break;
     Step& step = entries_[i].step;
-    const double widened = std::max(step.widened, 1.0 + part * (std::min(factor, most_else) - 1.0));
+    const double widened = std::max(step.widened, 1.0 + part * (std::min(factor, max_else) - 1.0));
     vision::Vector6d scale = vision::Vector6d::Constant(std::sqrt(widened / step.widened));
     scale[kYaw] = std::sqrt(1.0 + part * (factor - 1.0));
     step.covariance = scale.asDiagonal() * step.covariance * scale.asDiagonal();
@@ -145,7 +145,8 @@ void OdometryChain::distrust(std::int64_t from_ns, std::int64_t to_ns, double fa
   compose_from(first);
 }
 
-void OdometryChain::turn_more(std::int64_t from_ns, std::int64_t to_ns, double by_rad, double variance_factor) {
+void OdometryBuffer::apply_yaw_correction(std::int64_t from_ns, std::int64_t to_ns, double by_rad,
+                                          double variance_factor) {
   const auto stretch = turn(from_ns, to_ns);
   if (!stretch || !(stretch->variance_rad2 > 0.0)) return;
   const std::size_t first = first_after(from_ns);
@@ -162,7 +163,7 @@ void OdometryChain::turn_more(std::int64_t from_ns, std::int64_t to_ns, double b
   compose_from(first);
 }
 
-void OdometryChain::allow(std::int64_t from_ns, std::int64_t to_ns, double way_variance_m2, double yaw_variance_rad2) {
+void OdometryBuffer::allow(std::int64_t from_ns, std::int64_t to_ns, double way_variance_m2, double yaw_variance_rad2) {
   const std::size_t first = first_after(from_ns);
   for (std::size_t i = std::max<std::size_t>(first, 1); i < entries_.size(); ++i) {
     const std::int64_t begin_ns = std::max(entries_[i - 1].raw.stamp_ns, from_ns);
@@ -176,7 +177,7 @@ void OdometryChain::allow(std::int64_t from_ns, std::int64_t to_ns, double way_v
   compose_from(first);
 }
 
-void OdometryChain::set_clock_back(std::int64_t by_ns) {
+void OdometryBuffer::set_clock_back(std::int64_t by_ns) {
   for (auto& entry : entries_) {
     entry.raw.stamp_ns -= by_ns;
     entry.now.pose.stamp_ns -= by_ns;
@@ -184,18 +185,18 @@ void OdometryChain::set_clock_back(std::int64_t by_ns) {
   marked_from_ns_ -= by_ns;
 }
 
-void OdometryChain::mark(std::int64_t from_ns) {
+void OdometryBuffer::mark(std::int64_t from_ns) {
   marked_from_ns_ = from_ns;
   for (std::size_t i = first_after(from_ns); i < entries_.size(); ++i) entries_[i].marked = entries_[i].step;
 }
 
-void OdometryChain::revert() {
+void OdometryBuffer::revert() {
   const std::size_t first = first_after(marked_from_ns_);
   for (std::size_t i = first; i < entries_.size(); ++i) entries_[i].step = entries_[i].marked;
   compose_from(first);
 }
 
-std::optional<OdometryChain::Place> OdometryChain::place_of(std::int64_t stamp_ns) const {
+std::optional<OdometryBuffer::Place> OdometryBuffer::place_of(std::int64_t stamp_ns) const {
   std::size_t after = first_after(stamp_ns - 1);  // first entry that is not before
   if (after == entries_.size()) {
     if (entries_.size() < 2 || stamp_ns - entries_.back().raw.stamp_ns > kAhead_ns) return std::nullopt;
@@ -208,7 +209,7 @@ std::optional<OdometryChain::Place> OdometryChain::place_of(std::int64_t stamp_n
 }
 
 /// Index of the first entry later than a time.
-std::size_t OdometryChain::first_after(std::int64_t stamp_ns) const {
+std::size_t OdometryBuffer::first_after(std::int64_t stamp_ns) const {
   const auto found =
       std::upper_bound(entries_.begin(), entries_.end(), stamp_ns,
                        [](std::int64_t at_ns, const Entry& entry) { return at_ns < entry.raw.stamp_ns; });
@@ -216,7 +217,7 @@ std::size_t OdometryChain::first_after(std::int64_t stamp_ns) const {
 }
 
 /// Fraction of a step within a stretch, [0, 1].
-double OdometryChain::share(std::size_t index, std::int64_t from_ns, std::int64_t to_ns) const {
+double OdometryBuffer::share(std::size_t index, std::int64_t from_ns, std::int64_t to_ns) const {
   if (index == 0) return 0.0;
   const std::int64_t begin_ns = entries_[index - 1].raw.stamp_ns;
   const std::int64_t end_ns = entries_[index].raw.stamp_ns;
@@ -225,7 +226,7 @@ double OdometryChain::share(std::size_t index, std::int64_t from_ns, std::int64_
 }
 
 /// Recomputes the composed poses from an entry on.
-void OdometryChain::compose_from(std::size_t index) {
+void OdometryBuffer::compose_from(std::size_t index) {
   for (std::size_t i = std::max<std::size_t>(index, 1); i < entries_.size(); ++i) {
     const auto& before = entries_[i - 1].now;
     auto& entry = entries_[i];

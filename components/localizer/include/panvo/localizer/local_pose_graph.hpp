@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "panvo/localizer/odometry_chain.hpp"
+#include "panvo/localizer/odometry_buffer.hpp"
 #include "panvo/vision/pose.hpp"
 
 namespace panvo::localizer {
@@ -37,29 +37,29 @@ struct PoseInMap {
 
 /// Pose graph of a journey with bounded size: its start, the landmarks built on it, the passes by known landmarks, and
 /// the odometry between them. Solving it corrects landmarks and path [beyond Lu2015 5.2].
-class JourneyGraph {
+class LocalPoseGraph {
  public:
   /// Standard deviations of the initial pose of a map.
-  JourneyGraph(double start_sigma_m, double start_sigma_rad);
+  LocalPoseGraph(double start_sigma_m, double start_sigma_rad);
 
-  void start(const Remembered& at);
+  void start(const OdometrySample& at);
   bool has_started() const noexcept { return !nodes_.empty(); }
   /// Number of nodes: start, landmarks, passes.
   std::size_t size() const noexcept { return nodes_.size(); }
   /// Whether the graph has only the start.
-  bool is_bare() const noexcept { return nodes_.size() == 1; }
+  bool has_only_start() const noexcept { return nodes_.size() == 1; }
 
   /// A landmark of an earlier journey. It enters the graph when it is seen.
   void add_known(const KnownLandmark& landmark) { known_.insert_or_assign(landmark.id, landmark); }
   bool has_known() const noexcept { return !known_.empty(); }
   bool is_known(std::uint32_t id) const { return known_.contains(id); }
 
-  void add_built(std::uint32_t id, const Remembered& at);
+  void add_built(std::uint32_t id, const OdometrySample& at);
   /// An external pose of the vehicle.
-  void add_said(const PoseInMap& pose, const Remembered& at);
+  void set_initial_pose(const PoseInMap& pose, const OdometrySample& at);
   /// Adds a sighting; false if a pass by the same landmark within `same_pass_m` of path has a better one. Keeps the
   /// last and the most precise passes per landmark, 8 in all, which bounds the graph on repeated routes.
-  bool add_pass(const LandmarkSighting& sighting, const Remembered& at, double same_pass_m);
+  bool add_pass(const LandmarkSighting& sighting, const OdometrySample& at, double same_pass_m);
 
   /// Current estimate; nullopt for an unknown id.
   std::optional<KnownLandmark> landmark(std::uint32_t id) const;
@@ -79,7 +79,7 @@ class JourneyGraph {
   /// Cuts the odometry between the nodes around this time, as the vehicle was lifted.
   void cut(std::int64_t stamp_ns) { cuts_ns_.push_back(stamp_ns); }
   /// Updates the nodes after a time from the chain, whose poses have changed.
-  void refresh(const OdometryChain& chain, std::int64_t since_ns);
+  void refresh(const OdometryBuffer& chain, std::int64_t since_ns);
 
   /// Shifts all stamps of this journey back.
   void set_clock_back(std::int64_t by_ns);
@@ -93,7 +93,7 @@ class JourneyGraph {
     std::uint32_t landmark_id = 0;   ///< built or passed there; 0: the start
     bool is_pass = false;            ///< passed
     bool is_of_earlier_day = false;  ///< not on this journey's path
-    Remembered at;                   ///< odometry at that moment
+    OdometrySample at;               ///< odometry at that moment
     LandmarkSighting sighting;       ///< of a pass
     std::optional<PoseInMap> said;   ///< external pose
     Eigen::Isometry3d map_from_base = Eigen::Isometry3d::Identity();

@@ -20,7 +20,7 @@ struct OdometryPose {
 };
 
 /// Odometry pose with the path length up to it.
-struct Remembered {
+struct OdometrySample {
   OdometryPose pose;
   double way_m = 0.0;
 };
@@ -34,9 +34,9 @@ struct Turn {
 
 /// Buffer of the recent odometry steps. Late information, such as another measurement of a turn, is applied where it
 /// belongs, distributed over the steps by their uncertainty.
-class OdometryChain {
+class OdometryBuffer {
  public:
-  explicit OdometryChain(double history_s) : history_s_(history_s) {}
+  explicit OdometryBuffer(double history_s) : history_s_(history_s) {}
 
   /// Appends a pose; false, without effect, if its stamp is not later than the last or it is not finite. `turn_share`:
   /// fraction of the gained yaw variance to keep; `turn_scale`: relative excess of its turns; `least`: lower bound of
@@ -46,12 +46,12 @@ class OdometryChain {
 
   bool empty() const noexcept { return entries_.empty(); }
   /// Precondition: not empty.
-  const Remembered& latest() const { return entries_.back().now; }
+  const OdometrySample& latest() const { return entries_.back().now; }
   /// Stamp of the pose before the latest; nullopt if none is stored.
   std::optional<std::int64_t> before_latest_ns() const;
   /// Interpolated between the two poses around a time, or extrapolated by up to 5 ms after the last; nullopt outside
   /// the buffer.
-  std::optional<Remembered> at(std::int64_t stamp_ns) const;
+  std::optional<OdometrySample> at(std::int64_t stamp_ns) const;
 
   /// Turn between two stored times.
   std::optional<Turn> turn(std::int64_t from_ns, std::int64_t to_ns) const;
@@ -61,10 +61,10 @@ class OdometryChain {
   std::optional<vision::Vector6d> twist(std::int64_t stamp_ns) const;
 
   /// Increases the uncertainty of a stretch: multiplies the yaw variance by `factor`, and the other variances by
-  /// `factor`, limited to `most_else` in total over repeated calls.
-  void distrust(std::int64_t from_ns, std::int64_t to_ns, double factor, double most_else);
+  /// `factor`, limited to `max_else` in total over repeated calls.
+  void inflate_covariance(std::int64_t from_ns, std::int64_t to_ns, double factor, double max_else);
   /// Rotates a stretch by an additional angle, distributed over the steps by variance, and multiplies the yaw variance.
-  void turn_more(std::int64_t from_ns, std::int64_t to_ns, double by_rad, double variance_factor);
+  void apply_yaw_correction(std::int64_t from_ns, std::int64_t to_ns, double by_rad, double variance_factor);
 
   /// Adds variance to a stretch, distributed over the steps by time: to both axes of the plane, and to the yaw.
   void allow(std::int64_t from_ns, std::int64_t to_ns, double way_variance_m2, double yaw_variance_rad2);
@@ -87,8 +87,8 @@ class OdometryChain {
   struct Entry {
     OdometryPose raw;  // as received
     Step step;
-    Step marked;     // the step to restore
-    Remembered now;  // composition of all steps up to this one
+    Step marked;         // the step to restore
+    OdometrySample now;  // composition of all steps up to this one
   };
 
   /// A time between an entry and the previous one: 0 at the previous, 1 at the entry, more after the last.
@@ -108,9 +108,9 @@ class OdometryChain {
   std::int64_t marked_from_ns_ = 0;
 };
 
-/// Covariance of a_from_b gained by odometry between a and b, in the axes of a; at least `least_variance` in every
+/// Covariance of a_from_b gained by odometry between a and b, in the axes of a; at least `min_variance` in every
 /// direction.
-vision::Matrix6d gained_covariance(const OdometryPose& a, const OdometryPose& b, double least_variance);
+vision::Matrix6d gained_covariance(const OdometryPose& a, const OdometryPose& b, double min_variance);
 
 /// The step with an additional turn to the left, half of it before and half after the translation.
 Eigen::Isometry3d turned_more(const Eigen::Isometry3d& step, double by_rad);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "panvo/localizer/journey_graph.hpp"
+#include "panvo/localizer/local_pose_graph.hpp"
 
 #include <gtest/gtest.h>
 
@@ -15,8 +15,8 @@ Eigen::Isometry3d at_x(double x) { return Eigen::Isometry3d(Eigen::Translation3d
 vision::Matrix6d variance(double sigma) { return sigma * sigma * vision::Matrix6d::Identity(); }
 
 /// A vehicle on repeated laps. Odometry returns 0.1 m farther ahead after each lap, with a covariance of that size.
-Remembered in_lap(int lap) {
-  Remembered at;
+OdometrySample in_lap(int lap) {
+  OdometrySample at;
   at.pose.stamp_ns = 1'000'000'000LL * (1 + 40 * lap);
   at.pose.odom_from_base = at_x(0.1 * lap);
   at.pose.covariance = variance(0.1 * std::sqrt(lap + 1.0));
@@ -33,8 +33,8 @@ LandmarkSighting sighting_in_lap(int lap) {
   return sighting;
 }
 
-TEST(JourneyGraph, StaysSmallWhereOneRouteIsDrivenAllDay) {
-  JourneyGraph graph(0.01, 0.001);
+TEST(LocalPoseGraph, StaysSmallWhereOneRouteIsDrivenAllDay) {
+  LocalPoseGraph graph(0.01, 0.001);
   graph.start({});
   graph.add_built(1, in_lap(0));
   std::size_t after_ten = 0;
@@ -49,8 +49,8 @@ TEST(JourneyGraph, StaysSmallWhereOneRouteIsDrivenAllDay) {
   EXPECT_LT(here.map_from_base.translation().norm(), 0.3);
 }
 
-TEST(JourneyGraph, SaysWhereItCannotBeSolved) {
-  JourneyGraph graph(0.01, 0.001);
+TEST(LocalPoseGraph, SaysWhereItCannotBeSolved) {
+  LocalPoseGraph graph(0.01, 0.001);
   graph.start({});
   KnownLandmark known;
   known.id = 1;

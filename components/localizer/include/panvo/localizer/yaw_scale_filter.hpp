@@ -5,10 +5,10 @@ namespace panvo::localizer {
 
 /// Relative excess of odometry's turns. An error of focal length or distortion scales all turns, unnoticed by the
 /// stereo pair; a panorama has no focal length. One-state Kalman filter.
-class TurnScale {
+class YawScaleFilter {
  public:
   /// `sigma`: prior standard deviation.
-  explicit TurnScale(double sigma) : variance_(sigma * sigma) {}
+  explicit YawScaleFilter(double sigma) : variance_(sigma * sigma) {}
 
   /// `disagreement_rad`: turn by panoramas minus turn by odometry between the same two times, the latter corrected by
   /// estimate(); `turn_rad`: turn by odometry; `variance_rad2`: of the disagreement for an exact scale.

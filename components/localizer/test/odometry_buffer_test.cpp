@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "panvo/localizer/odometry_chain.hpp"
+#include "panvo/localizer/odometry_buffer.hpp"
 
 #include <gtest/gtest.h>
 
@@ -12,8 +12,8 @@ namespace {
 constexpr std::int64_t kPeriod_ns = 40'000'000;
 
 /// Straight, 0.2 m per step; each step has its own yaw variance.
-OdometryChain straight(const std::vector<double>& yaw_variances) {
-  OdometryChain chain(60.0);
+OdometryBuffer straight(const std::vector<double>& yaw_variances) {
+  OdometryBuffer chain(60.0);
   OdometryPose pose;
   chain.add(pose);
   for (const double variance : yaw_variances) {
@@ -29,7 +29,7 @@ OdometryChain straight(const std::vector<double>& yaw_variances) {
   return chain;
 }
 
-TEST(OdometryChain, RemembersWhatItWasGivenAndWhatLiesBetween) {
+TEST(OdometryBuffer, RemembersWhatItWasGivenAndWhatLiesBetween) {
   const auto chain = straight({1e-4, 1e-4, 1e-4});
   ASSERT_TRUE(chain.at(kPeriod_ns + kPeriod_ns / 2));
   EXPECT_NEAR(chain.at(kPeriod_ns + kPeriod_ns / 2)->pose.odom_from_base.translation().x(), 0.3, 1e-12);
@@ -39,8 +39,8 @@ TEST(OdometryChain, RemembersWhatItWasGivenAndWhatLiesBetween) {
   EXPECT_FALSE(chain.at(-1));
 }
 
-TEST(OdometryChain, GoesOnForAMomentAsItWent) {
-  OdometryChain chain(60.0);
+TEST(OdometryBuffer, GoesOnForAMomentAsItWent) {
+  OdometryBuffer chain(60.0);
   OdometryPose pose;
   chain.add(pose);
   EXPECT_FALSE(chain.at(1'000'000)) << "motion unknown";
@@ -65,8 +65,8 @@ TEST(OdometryChain, GoesOnForAMomentAsItWent) {
   EXPECT_FALSE(chain.at(kPeriod_ns + kPeriod_ns / 8 + 1)) << "at most 5 ms";
 }
 
-TEST(OdometryChain, ForgetsWhatIsTooLongAgo) {
-  OdometryChain chain(1.0);
+TEST(OdometryBuffer, ForgetsWhatIsTooLongAgo) {
+  OdometryBuffer chain(1.0);
   OdometryPose pose;
   for (int i = 0; i < 100; ++i) {
     pose.stamp_ns = i * kPeriod_ns;
@@ -76,7 +76,7 @@ TEST(OdometryChain, ForgetsWhatIsTooLongAgo) {
   EXPECT_TRUE(chain.at(75 * kPeriod_ns));
 }
 
-TEST(OdometryChain, RefusesWhatIsLateOrNoNumber) {
+TEST(OdometryBuffer, RefusesWhatIsLateOrNoNumber) {
   auto chain = straight({1e-4});
   OdometryPose pose;
   pose.stamp_ns = kPeriod_ns;
@@ -86,13 +86,13 @@ TEST(OdometryChain, RefusesWhatIsLateOrNoNumber) {
   EXPECT_FALSE(chain.add(pose));
 }
 
-TEST(OdometryChain, PutsATurnIntoTheStepThatWasLeastSure) {
+TEST(OdometryBuffer, PutsATurnIntoTheStepThatWasLeastSure) {
   auto chain = straight({1e-6, 1e-6, 1e-2, 1e-6, 1e-6});
   const auto before = chain.turn(0, 5 * kPeriod_ns);
   ASSERT_TRUE(before);
   EXPECT_NEAR(before->change_rad, 0.0, 1e-12);
   EXPECT_NEAR(before->variance_rad2, 1e-2 + 4e-6, 1e-8);
-  chain.turn_more(0, 5 * kPeriod_ns, 0.1, 0.01);
+  chain.apply_yaw_correction(0, 5 * kPeriod_ns, 0.1, 0.01);
   EXPECT_NEAR(chain.turn(0, 5 * kPeriod_ns)->change_rad, 0.1, 1e-9);
   EXPECT_NEAR(chain.turn(0, 2 * kPeriod_ns)->change_rad, 0.0, 1e-4);
   EXPECT_NEAR(chain.turn(2 * kPeriod_ns, 3 * kPeriod_ns)->change_rad, 0.1, 1e-4);
@@ -102,29 +102,29 @@ TEST(OdometryChain, PutsATurnIntoTheStepThatWasLeastSure) {
   EXPECT_NEAR(chain.latest().pose.covariance(5, 5), 0.01 * before->variance_rad2, 1e-6);
 }
 
-TEST(OdometryChain, TakesOnlyThePartOfAStepThatLiesInTheStretch) {
+TEST(OdometryBuffer, TakesOnlyThePartOfAStepThatLiesInTheStretch) {
   auto chain = straight({1e-4, 1e-4});
   EXPECT_NEAR(chain.turn(kPeriod_ns / 2, kPeriod_ns)->variance_rad2, 0.5e-4, 1e-10);
-  chain.turn_more(kPeriod_ns / 2, kPeriod_ns + kPeriod_ns / 2, 0.02, 1.0);
+  chain.apply_yaw_correction(kPeriod_ns / 2, kPeriod_ns + kPeriod_ns / 2, 0.02, 1.0);
   EXPECT_NEAR(chain.turn(0, 2 * kPeriod_ns)->change_rad, 0.02, 1e-9);
   EXPECT_NEAR(chain.turn(0, kPeriod_ns)->change_rad, 0.01, 1e-9);
 }
 
-TEST(OdometryChain, DistrustsAStretch) {
+TEST(OdometryBuffer, DistrustsAStretch) {
   auto chain = straight({1e-4, 1e-4, 1e-4});
   const double before = chain.latest().pose.covariance(2, 2);
-  chain.distrust(kPeriod_ns, 2 * kPeriod_ns, 25.0, 4.0);
+  chain.inflate_covariance(kPeriod_ns, 2 * kPeriod_ns, 25.0, 4.0);
   EXPECT_NEAR(chain.turn(kPeriod_ns, 2 * kPeriod_ns)->variance_rad2, 25e-4, 1e-8);
   EXPECT_NEAR(chain.turn(0, kPeriod_ns)->variance_rad2, 1e-4, 1e-8);
   EXPECT_NEAR(chain.latest().pose.covariance(5, 5), 27e-4, 1e-8);
   EXPECT_NEAR(chain.latest().pose.covariance(2, 2), before + 3.0 * 1e-8 * (1.0 + 0.2 * 0.2),
               1e-10);  // height, and pitch over the following 0.2 m
-  chain.distrust(kPeriod_ns, 2 * kPeriod_ns, 25.0, 4.0);
+  chain.inflate_covariance(kPeriod_ns, 2 * kPeriod_ns, 25.0, 4.0);
   EXPECT_NEAR(chain.turn(kPeriod_ns, 2 * kPeriod_ns)->variance_rad2, 625e-4, 1e-8);
   EXPECT_NEAR(chain.latest().pose.covariance(2, 2), before + 3.0 * 1e-8 * (1.0 + 0.2 * 0.2), 1e-10) << "only once";
 }
 
-TEST(OdometryChain, AllowsForSoMuchInAllOverAStretch) {
+TEST(OdometryBuffer, AllowsForSoMuchInAllOverAStretch) {
   auto chain = straight({1e-4, 1e-4, 1e-4});
   const auto before = chain.latest().pose.covariance;
   chain.allow(kPeriod_ns / 2, 2 * kPeriod_ns + kPeriod_ns / 2, 0.04, 0.02);
@@ -136,13 +136,13 @@ TEST(OdometryChain, AllowsForSoMuchInAllOverAStretch) {
   EXPECT_NEAR(after(2, 2), before(2, 2), 1e-12);
 }
 
-TEST(OdometryChain, TakesBackWhatWasPutRightSinceTheMark) {
+TEST(OdometryBuffer, TakesBackWhatWasPutRightSinceTheMark) {
   auto chain = straight({1e-4, 1e-4, 1e-4, 1e-4});
-  chain.turn_more(0, 2 * kPeriod_ns, 0.02, 0.5);
+  chain.apply_yaw_correction(0, 2 * kPeriod_ns, 0.02, 0.5);
   chain.mark(kPeriod_ns);
-  const Remembered before = chain.latest();
-  chain.distrust(kPeriod_ns, 4 * kPeriod_ns, 9.0, 2.0);
-  chain.turn_more(kPeriod_ns, 4 * kPeriod_ns, 0.1, 0.1);
+  const OdometrySample before = chain.latest();
+  chain.inflate_covariance(kPeriod_ns, 4 * kPeriod_ns, 9.0, 2.0);
+  chain.apply_yaw_correction(kPeriod_ns, 4 * kPeriod_ns, 0.1, 0.1);
   EXPECT_NEAR(chain.turn(0, 4 * kPeriod_ns)->change_rad, 0.12, 1e-9);
   chain.revert();
   EXPECT_NEAR(chain.turn(0, 4 * kPeriod_ns)->change_rad, 0.02, 1e-9) << "changes before the mark remain";
@@ -150,8 +150,8 @@ TEST(OdometryChain, TakesBackWhatWasPutRightSinceTheMark) {
   EXPECT_TRUE(chain.latest().pose.covariance.isApprox(before.pose.covariance, 1e-12));
 }
 
-TEST(OdometryChain, KnowsTheTwist) {
-  OdometryChain chain(60.0);
+TEST(OdometryBuffer, KnowsTheTwist) {
+  OdometryBuffer chain(60.0);
   OdometryPose pose;
   chain.add(pose);
   pose.stamp_ns = kPeriod_ns;

@@ -4,15 +4,15 @@
 #include <Eigen/Geometry>
 #include <optional>
 
-#include "panvo/localizer/journey_graph.hpp"
-#include "panvo/localizer/odometry_chain.hpp"
+#include "panvo/localizer/local_pose_graph.hpp"
+#include "panvo/localizer/odometry_buffer.hpp"
 
 namespace panvo::localizer {
 
 /// Checks the extrinsics of both cameras. Panoramas and odometry measure the same path along a pass by a landmark. A
 /// wrong rotation of the panoramic camera rotates that path; a wrong position moves it sideways when the vehicle turns.
 /// Both are fitted to all passes.
-class MountingCheck {
+class ExtrinsicsMonitor {
  public:
   /// Of the panoramic relative to the stereo camera, in addition to the extrinsics.
   struct Misalignment {
@@ -24,7 +24,7 @@ class MountingCheck {
   };
 
   /// A sighting and the odometry at its stamp.
-  void add(const LandmarkSighting& sighting, const Remembered& at);
+  void add(const LandmarkSighting& sighting, const OdometrySample& at);
 
   /// nullopt if there is no notable misalignment or not enough data to be certain.
   std::optional<Misalignment> misalignment() const;
@@ -39,7 +39,7 @@ class MountingCheck {
   /// Sums of one pass, for the model d = common error of its first sighting + J (yaw, pitch, forward, left).
   struct Pass {
     LandmarkSighting first;
-    Remembered first_at, last_at;
+    OdometrySample first_at, last_at;
     double weight = 0.0;  // sum over its sightings; the sums below are weighted
     Matrix4d jtj = Matrix4d::Zero();
     Eigen::Vector4d jtd = Eigen::Vector4d::Zero();
@@ -51,7 +51,7 @@ class MountingCheck {
     Eigen::Vector4d right = Eigen::Vector4d::Zero();
   };
 
-  bool continues_pass(const LandmarkSighting& sighting, const Remembered& at) const;
+  bool continues_pass(const LandmarkSighting& sighting, const OdometrySample& at) const;
   NormalEquations with_current_pass() const;
 
   std::optional<Pass> pass_;

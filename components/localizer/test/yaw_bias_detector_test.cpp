@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "panvo/localizer/azimuth_lean.hpp"
+#include "panvo/localizer/yaw_bias_detector.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,17 +8,17 @@ namespace {
 
 constexpr std::int64_t kPeriod_ns = 400'000'000;
 
-AzimuthLean::Stretch turn(int i, double disagreement_rad) {
+YawBiasDetector::Stretch turn(int i, double disagreement_rad) {
   return {i * kPeriod_ns, (i + 1) * kPeriod_ns, disagreement_rad, 0.1, 1e-6, 1e-6};
 }
 
-TEST(AzimuthLean, IsNoneWhereErrorsAreOfBothSigns) {
-  AzimuthLean lean(6.0, 3.0);
+TEST(YawBiasDetector, IsNoneWhereErrorsAreOfBothSigns) {
+  YawBiasDetector lean(6.0, 3.0);
   for (int i = 0; i < 100; ++i) EXPECT_FALSE(lean.add(turn(i, i % 2 == 0 ? 0.002 : -0.002))) << i;
 }
 
-TEST(AzimuthLean, IsSeenInErrorsThatAreSmallButAllToOneSide) {
-  AzimuthLean lean(6.0, 3.0);
+TEST(YawBiasDetector, IsSeenInErrorsThatAreSmallButAllToOneSide) {
+  YawBiasDetector lean(6.0, 3.0);
   int seen_at = -1;
   for (int i = 0; i < 15 && seen_at < 0; ++i) {
     const auto found = lean.add(turn(i, 0.0017));  // 1.2 standard deviations each
@@ -33,13 +33,13 @@ TEST(AzimuthLean, IsSeenInErrorsThatAreSmallButAllToOneSide) {
   EXPECT_LE(seen_at, 8);
 }
 
-TEST(AzimuthLean, CountsTheLastOfSeveralTurnsAgainstOnePanorama) {
-  AzimuthLean lean(6.0, 3.0);
+TEST(YawBiasDetector, CountsTheLastOfSeveralTurnsAgainstOnePanorama) {
+  YawBiasDetector lean(6.0, 3.0);
   for (int i = 0; i < 20; ++i) EXPECT_FALSE(lean.add(turn(0, 0.003))) << i;
 }
 
-TEST(AzimuthLean, BeginsAnewAfterAGap) {
-  AzimuthLean lean(6.0, 3.0);
+TEST(YawBiasDetector, BeginsAnewAfterAGap) {
+  YawBiasDetector lean(6.0, 3.0);
   for (int i = 0; i < 3; ++i) lean.add(turn(i, 0.0017));
   for (int i = 5; i < 8; ++i) EXPECT_FALSE(lean.add(turn(i, 0.0017)));
 }
