@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "panvo/runtime/bridge.hpp"
-#include "panvo/runtime/rejections.hpp"
+#include "panvo/runtime/rejected_messages.hpp"
 #include "worker.hpp"
 
 namespace panvo::runtime {

@@ -5,15 +5,15 @@
 
 #include "clocks.hpp"
 #include "container_implementation.hpp"
+#include "node_services/parameter_events.hpp"
 #include "panvo/interfaces/node_topics.hpp"
 #include "panvo/runtime/errors.hpp"
 #include "panvo/runtime/graph.hpp"
-#include "steering/parameter_events.hpp"
 
 namespace panvo::runtime {
 namespace {
 
-std::vector<std::string> names_of(const std::vector<steering::OfferedService>& services, ServiceAccess access) {
+std::vector<std::string> names_of(const std::vector<node_services::OfferedService>& services, ServiceAccess access) {
   std::vector<std::string> names;
   if (access == ServiceAccess::kOff) return names;
   for (const auto& service : services) names.push_back(service.description.name);
@@ -71,8 +71,8 @@ Container::Implementation::Implementation(ContainerOptions options)
 }
 
 void Container::Implementation::meet_others() {
-  parameter_events_ = own_.open_output(describe(steering::kParameterEvents));
-  auto offered = steering::component_services(full_name(), *this);
+  parameter_events_ = own_.open_output(describe(node_services::kParameterEvents));
+  auto offered = node_services::component_services(full_name(), *this);
   own_service_names_ = names_of(offered, options_.services);
   services_ = serve(std::move(offered));
   tell_nodes();
@@ -125,7 +125,7 @@ auto Container::Implementation::put(Recipe recipe) -> Loaded {
   const Loaded loaded{entry->recipe.id, entry->full_name()};
   if (bus_.bridge()) {
     offer_services(*entry);
-    tell_parameters(steering::new_parameters(loaded.full_name, state.parameters(), clocks::system_ns()));
+    tell_parameters(node_services::new_parameters(loaded.full_name, state.parameters(), clocks::system_ns()));
   }
   {
     const std::lock_guard lock(entries_mutex_);
@@ -229,11 +229,11 @@ auto Container::Implementation::loaded_components() const -> std::vector<Loaded>
 }
 
 std::vector<std::unique_ptr<BridgeService>> Container::Implementation::serve(
-    std::vector<steering::OfferedService> offered) {
+    std::vector<node_services::OfferedService> offered) {
   std::vector<std::unique_ptr<BridgeService>> services;
   if (options_.services == ServiceAccess::kOff) return services;
   for (auto& service : offered) {
-    auto guard = steering::guard_of(service, options_.services);
+    auto guard = node_services::guard_of(service, options_.services);
     services.push_back(bus_.bridge()->serve(service.description, std::move(service.handler), std::move(guard)));
   }
   return services;
@@ -246,11 +246,11 @@ void Container::Implementation::offer_services(LoadedComponent& entry) {
     to_unload_.push_back(id);
   };
   const auto parameters_set = [this, &state, name = entry.full_name()](const WrittenValues& set) {
-    tell_parameters(steering::changed_parameters(name, state.parameters(), set, clocks::system_ns()));
+    tell_parameters(node_services::changed_parameters(name, state.parameters(), set, clocks::system_ns()));
   };
-  entry.node = std::make_unique<steering::ComponentNode>(state, shut_down, parameters_set);
-  entry.services = serve(steering::parameter_services(entry.full_name(), *entry.node));
-  for (auto& service : serve(steering::lifecycle_services(entry.full_name(), *entry.node)))
+  entry.node = std::make_unique<node_services::ComponentNode>(state, shut_down, parameters_set);
+  entry.services = serve(node_services::parameter_services(entry.full_name(), *entry.node));
+  for (auto& service : serve(node_services::lifecycle_services(entry.full_name(), *entry.node)))
     entry.services.push_back(std::move(service));
   // Services of the component itself are not guarded: "services" covers only the standard ones.
   for (const auto& [description, serve_here] : state.services)
@@ -279,8 +279,8 @@ void Container::Implementation::tell_nodes() {
     Context::State& state = entry->context->state();
     NodeDescription node{state.description.name_space, state.description.name, {}, {}, {}};
     add_topics(node, state.description.name, &state);
-    node.serves = names_of(steering::parameter_services(entry->full_name(), *entry->node), options_.services);
-    for (auto& name : names_of(steering::lifecycle_services(entry->full_name(), *entry->node), options_.services))
+    node.serves = names_of(node_services::parameter_services(entry->full_name(), *entry->node), options_.services);
+    for (auto& name : names_of(node_services::lifecycle_services(entry->full_name(), *entry->node), options_.services))
       node.serves.push_back(std::move(name));
     for (const auto& [service, serve_here] : state.services) node.serves.push_back(service.name);
     nodes.push_back(std::move(node));

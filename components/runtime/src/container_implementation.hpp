@@ -13,19 +13,19 @@
 
 #include "diagnostics.hpp"
 #include "loaded_component.hpp"
+#include "node_services/controlled.hpp"
 #include "panvo/runtime/container.hpp"
 #include "played_clock.hpp"
 #include "rcl_interfaces/msg/ParameterEvent.h"
 #include "rosout.hpp"
 #include "service_totals.hpp"
 #include "source_runner.hpp"
-#include "steering/steered.hpp"
 
 namespace panvo::runtime {
 
 /// container_components.cpp: loading, unloading and announcing components. container_run.cpp: replay and live runs.
 /// container_housekeeping.cpp: periodic tasks. container_restarts.cpp: failed components.
-class Container::Implementation final : public steering::SteeredContainer {
+class Container::Implementation final : public node_services::ControlledContainer {
  public:
   explicit Implementation(ContainerOptions options);
   ~Implementation() override;
@@ -66,7 +66,7 @@ class Container::Implementation final : public steering::SteeredContainer {
   Entries::iterator find(const std::string& name);
   bool unload_if(const std::function<bool(const LoadedComponent&)>& is_it);
   void take_last();
-  std::vector<std::unique_ptr<BridgeService>> serve(std::vector<steering::OfferedService> offered);
+  std::vector<std::unique_ptr<BridgeService>> serve(std::vector<node_services::OfferedService> offered);
   void offer_services(LoadedComponent& entry);
   void tell_parameters(rcl_interfaces::msg::ParameterEvent event);
   void tell_nodes();

@@ -10,10 +10,10 @@
 
 #include "context_state.hpp"
 #include "library.hpp"
+#include "node_services/component_node.hpp"
 #include "panvo/runtime/bridge.hpp"
 #include "panvo/runtime/names.hpp"
 #include "restart_plan.hpp"
-#include "steering/component_node.hpp"
 
 namespace panvo::runtime {
 
@@ -38,7 +38,7 @@ struct LoadedComponent {
   Recipe recipe;
   std::unique_ptr<Context> context;
   std::unique_ptr<Component, void (*)(Component*)> component{nullptr, nullptr};
-  std::unique_ptr<steering::ComponentNode> node;
+  std::unique_ptr<node_services::ComponentNode> node;
   std::vector<std::unique_ptr<BridgeService>> services;  // use `node`
 
   ~LoadedComponent() {

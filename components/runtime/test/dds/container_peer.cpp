@@ -8,7 +8,7 @@
 
 #include "panvo/runtime/container.hpp"
 #include "panvo/runtime/errors.hpp"
-#include "steering_topics.hpp"
+#include "node_service_topics.hpp"
 
 namespace panvo::runtime::test {
 namespace {
@@ -46,9 +46,9 @@ int main(int argc, char** argv) {
   using namespace panvo::runtime;
   prctl(PR_SET_PDEATHSIG, SIGKILL);  // ends with a crashed test
   if (argc != 2) return 2;
-  DdsSettings dds{.domain = std::stoi(argv[1]), .profiles = "", .name = "steered"};
+  DdsSettings dds{.domain = std::stoi(argv[1]), .profiles = "", .name = "controlled"};
   dds.limits.max_topic_rate_hz = 1e6;  // tests write as fast as they can
-  Container container({.dds = dds, .name = "steered"});
+  Container container({.dds = dds, .name = "controlled"});
   ComponentDescription echo;
   echo.name = "echo";
   echo.name_space = "/robot";

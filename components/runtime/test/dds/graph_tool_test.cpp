@@ -53,13 +53,13 @@ class GraphTool : public testing::Test {
 };
 
 TEST_F(GraphTool, ListsNodesTopicsServicesAndContainers) {
-  EXPECT_EQ(eventually_says("node list", "/steered"), "/robot/echo\n/steered\n");
+  EXPECT_EQ(eventually_says("node list", "/controlled"), "/robot/echo\n/controlled\n");
   EXPECT_THAT(eventually_says("node info robot/echo", "Service Servers"),
               HasSubstr("/robot/echoed: std_msgs/msg/String"));
   EXPECT_THAT(eventually_says("topic list -t", "/rosout"), HasSubstr("/robot/to_echo [std_msgs/msg/String]\n"));
   EXPECT_THAT(eventually_says("topic info /robot/to_echo -v", "Node"), HasSubstr("Node: /robot/echo\n"));
-  EXPECT_THAT(eventually_says("service list", "list_nodes"), HasSubstr("/steered/_container/load_node\n"));
-  EXPECT_EQ(eventually_says("component running", "echo"), "/steered\n  1  /robot/echo\n");
+  EXPECT_THAT(eventually_says("service list", "list_nodes"), HasSubstr("/controlled/_container/load_node\n"));
+  EXPECT_EQ(eventually_says("component running", "echo"), "/controlled\n  1  /robot/echo\n");
 }
 
 TEST_F(GraphTool, GetsDescribesAndSetsParameters) {
@@ -76,13 +76,13 @@ TEST_F(GraphTool, GetsDescribesAndSetsParameters) {
 }
 
 TEST_F(GraphTool, LoadsAndUnloads) {
-  ASSERT_EQ(eventually_says("component running", "echo"), "/steered\n  1  /robot/echo\n");  // the peer has started
-  const auto loaded = run("component load /steered panvo_test_relay RelayComponent -n second -p copies:=5");
+  ASSERT_EQ(eventually_says("component running", "echo"), "/controlled\n  1  /robot/echo\n");  // the peer has started
+  const auto loaded = run("component load /controlled panvo_test_relay RelayComponent -n second -p copies:=5");
   EXPECT_EQ(loaded.status, 0);
   EXPECT_EQ(loaded.said, "2  /second\n");
   EXPECT_EQ(run("param get /second copies").said, "5\n");
-  EXPECT_EQ(run("component unload /steered 2").said, "unloaded 2\n");
-  const auto refused = run("component load /steered panvo_nothing Nothing");
+  EXPECT_EQ(run("component unload /controlled 2").said, "unloaded 2\n");
+  const auto refused = run("component load /controlled panvo_nothing Nothing");
   EXPECT_EQ(refused.status, 1);
   EXPECT_THAT(refused.said, HasSubstr("panvo_nothing has no plugin"));
 }

@@ -6,18 +6,18 @@
 
 #include "commands.hpp"
 #include "config/message_from_yaml.hpp"
+#include "node_services/parameter_values.hpp"
 #include "panvo/interfaces/message_text.hpp"
 #include "rcl_interfaces/srv/DescribeParameters.h"
 #include "rcl_interfaces/srv/GetParameters.h"
 #include "rcl_interfaces/srv/ListParameters.h"
 #include "rcl_interfaces/srv/SetParameters.h"
-#include "steering/parameter_values.hpp"
 
 namespace panvo::runtime::graph {
 namespace {
 
 using namespace rcl_interfaces::srv;  // NOLINT(google-build-using-namespace): the requests and responses of this file
-using steering::ParameterType;
+using node_services::ParameterType;
 
 const char* type_name(std::uint8_t type) {
   constexpr const char* kNames[] = {"not set",    "boolean",       "integer",       "double",       "string",
@@ -27,7 +27,7 @@ const char* type_name(std::uint8_t type) {
 
 /// In the notation of a system file.
 std::string shown(const rcl_interfaces::msg::ParameterValue& value) {
-  const auto written = steering::written_value(value);
+  const auto written = node_services::written_value(value);
   if (!written) return "not set";
   return written->is_list ? to_text(written->items) : written->items.at(0);
 }

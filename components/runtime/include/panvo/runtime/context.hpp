@@ -20,7 +20,7 @@
 #include "panvo/runtime/logger.hpp"
 #include "panvo/runtime/output.hpp"
 #include "panvo/runtime/parameters.hpp"
-#include "panvo/runtime/rejections.hpp"
+#include "panvo/runtime/rejected_messages.hpp"
 #include "panvo/runtime/sample.hpp"
 #include "panvo/runtime/source.hpp"
 #include "panvo/runtime/stage.hpp"

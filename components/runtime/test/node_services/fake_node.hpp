@@ -3,13 +3,13 @@
 
 #include <stdexcept>
 
+#include "node_services/controlled.hpp"
 #include "panvo/runtime/errors.hpp"
-#include "steering/steered.hpp"
 
-namespace panvo::runtime::steering {
+namespace panvo::runtime::node_services {
 
 /// A node with parameters of every type; `tracker.gain` and `mode` are settable.
-class FakeNode final : public SteeredNode {
+class FakeNode final : public ControlledNode {
  public:
   FakeNode() {
     all.push_back(parameter("tracker.max_features", "integer", {{"500"}, false, {}}, 1, 5000));
@@ -72,4 +72,4 @@ Response ask(const std::vector<OfferedService>& services, const std::string& end
   throw std::runtime_error("there is no service " + end);
 }
 
-}  // namespace panvo::runtime::steering
+}  // namespace panvo::runtime::node_services

@@ -11,12 +11,12 @@
 #include "panvo/runtime/service.hpp"
 #include "panvo/runtime/system_file.hpp"
 
-namespace panvo::runtime::steering {
+namespace panvo::runtime::node_services {
 
 /// Operations of service requests on a component.
-class SteeredNode {
+class ControlledNode {
  public:
-  virtual ~SteeredNode() = default;
+  virtual ~ControlledNode() = default;
   virtual std::vector<ParameterDescription> parameters() const = 0;
   /// Sets all values or none; returns the problems.
   virtual std::vector<std::string> set_parameters(const WrittenValues& wanted) = 0;
@@ -29,9 +29,9 @@ class SteeredNode {
 };
 
 /// Operations of service requests on a container.
-class SteeredContainer {
+class ControlledContainer {
  public:
-  virtual ~SteeredContainer() = default;
+  virtual ~ControlledContainer() = default;
   struct Loaded {
     std::uint64_t id = 0;  ///< never reused
     std::string full_name;
@@ -61,17 +61,17 @@ auto refusal_of(Response (*refuse)(const Request&, const std::string& why)) {
 }
 
 /// Why the caller may not make changes; nullopt if allowed.
-std::optional<std::string> steering_problem(ServiceAccess access, const Caller& caller);
+std::optional<std::string> control_problem(ServiceAccess access, const Caller& caller);
 
 /// Guard that refuses unauthorised callers; empty for a service that changes nothing.
 ServiceGuard guard_of(const OfferedService& service, ServiceAccess access);
 
 /// Parameter and lifecycle services of a node as in ROS 2: `~/get_parameters` etc., `~/get_state` etc. `node` must
 /// outlive them.
-std::vector<OfferedService> parameter_services(const std::string& full_name, SteeredNode& node);
-std::vector<OfferedService> lifecycle_services(const std::string& full_name, SteeredNode& node);
+std::vector<OfferedService> parameter_services(const std::string& full_name, ControlledNode& node);
+std::vector<OfferedService> lifecycle_services(const std::string& full_name, ControlledNode& node);
 
 /// `~/_container/load_node`, `unload_node`, `list_nodes`. `container` must outlive them.
-std::vector<OfferedService> component_services(const std::string& full_name, SteeredContainer& container);
+std::vector<OfferedService> component_services(const std::string& full_name, ControlledContainer& container);
 
-}  // namespace panvo::runtime::steering
+}  // namespace panvo::runtime::node_services

@@ -8,9 +8,9 @@
 #include "lifecycle_msgs/srv/GetAvailableStates.h"
 #include "lifecycle_msgs/srv/GetAvailableTransitions.h"
 #include "lifecycle_msgs/srv/GetState.h"
-#include "steering/steered.hpp"
+#include "node_services/controlled.hpp"
 
-namespace panvo::runtime::steering {
+namespace panvo::runtime::node_services {
 namespace {
 
 using namespace lifecycle_msgs::srv;  // NOLINT(google-build-using-namespace): as in parameter_services.cpp
@@ -38,22 +38,22 @@ lifecycle_msgs::msg::State message_of(State state) {
   return message;
 }
 
-State state_of(const SteeredNode& node) { return node.is_active() ? State::kActive : State::kInactive; }
+State state_of(const ControlledNode& node) { return node.is_active() ? State::kActive : State::kInactive; }
 
-GetState_Response get_state(SteeredNode& node, const GetState_Request&) {
+GetState_Response get_state(ControlledNode& node, const GetState_Request&) {
   GetState_Response response;
   response.current_state(message_of(state_of(node)));
   return response;
 }
 
-GetAvailableStates_Response get_states(SteeredNode&, const GetAvailableStates_Request&) {
+GetAvailableStates_Response get_states(ControlledNode&, const GetAvailableStates_Request&) {
   GetAvailableStates_Response response;
   for (const State state : {State::kInactive, State::kActive, State::kFinalized})
     response.available_states().push_back(message_of(state));
   return response;
 }
 
-GetAvailableTransitions_Response get_transitions(SteeredNode& node, const GetAvailableTransitions_Request&) {
+GetAvailableTransitions_Response get_transitions(ControlledNode& node, const GetAvailableTransitions_Request&) {
   GetAvailableTransitions_Response response;
   for (const auto& transition : kTransitions) {
     if (transition.from != state_of(node)) continue;
@@ -67,12 +67,12 @@ GetAvailableTransitions_Response get_transitions(SteeredNode& node, const GetAva
   return response;
 }
 
-bool carry_out(SteeredNode& node, Change change) {
+bool carry_out(ControlledNode& node, Change change) {
   return change == Change::kShutDown ? node.shut_down() : node.set_active(change == Change::kActivate);
 }
 
 /// Selects by label if given, as in rcl_lifecycle.
-ChangeState_Response change_state(SteeredNode& node, const ChangeState_Request& request) {
+ChangeState_Response change_state(ControlledNode& node, const ChangeState_Request& request) {
   const auto& wanted = request.transition();
   const auto found = std::ranges::find_if(kTransitions, [&](const Transition& transition) {
     const bool is_it = wanted.label().empty() ? transition.id == wanted.id() : transition.label == wanted.label();
@@ -91,8 +91,8 @@ ChangeState_Response refuse_to_change(const ChangeState_Request&, const std::str
 }
 
 template <class Request, class Response>
-OfferedService offer(const std::string& name, const char* type, SteeredNode& node,
-                     Response (*answer)(SteeredNode&, const Request&)) {
+OfferedService offer(const std::string& name, const char* type, ControlledNode& node,
+                     Response (*answer)(ControlledNode&, const Request&)) {
   return {
       {name, std::string("lifecycle_msgs/srv/") + type},
       service_handler<Request, Response>([&node, answer](const Request& request) { return answer(node, request); })};
@@ -100,7 +100,7 @@ OfferedService offer(const std::string& name, const char* type, SteeredNode& nod
 
 }  // namespace
 
-std::vector<OfferedService> lifecycle_services(const std::string& full_name, SteeredNode& node) {
+std::vector<OfferedService> lifecycle_services(const std::string& full_name, ControlledNode& node) {
   auto changes = offer(full_name + "/change_state", "ChangeState", node, change_state);
   changes.refuse = refusal_of(refuse_to_change);
   return {std::move(changes), offer(full_name + "/get_state", "GetState", node, get_state),
@@ -108,4 +108,4 @@ std::vector<OfferedService> lifecycle_services(const std::string& full_name, Ste
           offer(full_name + "/get_available_transitions", "GetAvailableTransitions", node, get_transitions)};
 }
 
-}  // namespace panvo::runtime::steering
+}  // namespace panvo::runtime::node_services

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "steering/parameter_events.hpp"
+#include "node_services/parameter_events.hpp"
 
-#include "steering/parameter_values.hpp"
+#include "node_services/parameter_values.hpp"
 
-namespace panvo::runtime::steering {
+namespace panvo::runtime::node_services {
 
 using rcl_interfaces::msg::Parameter;
 using rcl_interfaces::msg::ParameterEvent;
@@ -44,4 +44,4 @@ ParameterEvent changed_parameters(const std::string& full_name, const std::vecto
   return event;
 }
 
-}  // namespace panvo::runtime::steering
+}  // namespace panvo::runtime::node_services

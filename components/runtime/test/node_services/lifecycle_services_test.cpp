@@ -8,7 +8,7 @@
 #include "lifecycle_msgs/srv/GetAvailableTransitions.h"
 #include "lifecycle_msgs/srv/GetState.h"
 
-namespace panvo::runtime::steering {
+namespace panvo::runtime::node_services {
 namespace {
 
 using namespace lifecycle_msgs::srv;
@@ -84,4 +84,4 @@ TEST_F(LifecycleServices, TellTheStatesThereAre) {
 }
 
 }  // namespace
-}  // namespace panvo::runtime::steering
+}  // namespace panvo::runtime::node_services

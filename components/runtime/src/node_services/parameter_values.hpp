@@ -8,7 +8,7 @@
 #include "rcl_interfaces/msg/ParameterDescriptor.h"
 #include "rcl_interfaces/msg/ParameterValue.h"
 
-namespace panvo::runtime::steering {
+namespace panvo::runtime::node_services {
 
 /// The constants of rcl_interfaces/msg/ParameterType.
 enum class ParameterType : std::uint8_t {
@@ -36,4 +36,4 @@ std::optional<WrittenValue> written_value(const rcl_interfaces::msg::ParameterVa
 std::optional<std::string> type_problem(const ParameterDescription& parameter,
                                         const rcl_interfaces::msg::ParameterValue& value);
 
-}  // namespace panvo::runtime::steering
+}  // namespace panvo::runtime::node_services

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "steering/parameter_values.hpp"
+#include "node_services/parameter_values.hpp"
 
 #include <array>
 #include <string_view>
 
-namespace panvo::runtime::steering {
+namespace panvo::runtime::node_services {
 namespace {
 
 struct TypeNames {
@@ -142,4 +142,4 @@ std::optional<std::string> type_problem(const ParameterDescription& parameter,
          std::string(kShownTypes[static_cast<std::size_t>(given)]) + " was given";
 }
 
-}  // namespace panvo::runtime::steering
+}  // namespace panvo::runtime::node_services

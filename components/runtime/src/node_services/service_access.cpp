@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // The only place that decides on the rights of service requests.
-#include "steering/steered.hpp"
+#include "node_services/controlled.hpp"
 
-namespace panvo::runtime::steering {
+namespace panvo::runtime::node_services {
 
-std::optional<std::string> steering_problem(ServiceAccess access, const Caller& caller) {
+std::optional<std::string> control_problem(ServiceAccess access, const Caller& caller) {
   if (access == ServiceAccess::kSteer) return std::nullopt;
   if (access == ServiceAccess::kByHost && caller.is_on_this_host) return std::nullopt;
   if (access == ServiceAccess::kByHost) {
@@ -18,9 +18,9 @@ ServiceGuard guard_of(const OfferedService& service, ServiceAccess access) {
   if (!service.refuse) return nullptr;
   return [refuse = service.refuse, access](const interfaces::Bytes& request,
                                            const Caller& caller) -> std::optional<interfaces::Bytes> {
-    const auto why = steering_problem(access, caller);
+    const auto why = control_problem(access, caller);
     return why ? std::optional(refuse(request, *why)) : std::nullopt;
   };
 }
 
-}  // namespace panvo::runtime::steering
+}  // namespace panvo::runtime::node_services

@@ -2,16 +2,16 @@
 // Parameter services of a node, compatible with rclcpp.
 #include <algorithm>
 
+#include "node_services/controlled.hpp"
+#include "node_services/parameter_values.hpp"
 #include "rcl_interfaces/srv/DescribeParameters.h"
 #include "rcl_interfaces/srv/GetParameterTypes.h"
 #include "rcl_interfaces/srv/GetParameters.h"
 #include "rcl_interfaces/srv/ListParameters.h"
 #include "rcl_interfaces/srv/SetParameters.h"
 #include "rcl_interfaces/srv/SetParametersAtomically.h"
-#include "steering/parameter_values.hpp"
-#include "steering/steered.hpp"
 
-namespace panvo::runtime::steering {
+namespace panvo::runtime::node_services {
 namespace {
 
 using namespace rcl_interfaces::srv;  // NOLINT(google-build-using-namespace): the requests and responses of this file
@@ -26,7 +26,7 @@ const ParameterDescription* find(const std::vector<ParameterDescription>& parame
 }
 
 /// An unknown name gets a value without type, so values match the names in order.
-GetParameters_Response get(const SteeredNode& node, const GetParameters_Request& request) {
+GetParameters_Response get(const ControlledNode& node, const GetParameters_Request& request) {
   const auto parameters = node.parameters();
   GetParameters_Response response;
   for (const auto& name : request.names()) {
@@ -36,7 +36,7 @@ GetParameters_Response get(const SteeredNode& node, const GetParameters_Request&
   return response;
 }
 
-GetParameterTypes_Response get_types(const SteeredNode& node, const GetParameterTypes_Request& request) {
+GetParameterTypes_Response get_types(const ControlledNode& node, const GetParameterTypes_Request& request) {
   const auto parameters = node.parameters();
   GetParameterTypes_Response response;
   for (const auto& name : request.names()) {
@@ -46,7 +46,7 @@ GetParameterTypes_Response get_types(const SteeredNode& node, const GetParameter
   return response;
 }
 
-DescribeParameters_Response describe(const SteeredNode& node, const DescribeParameters_Request& request) {
+DescribeParameters_Response describe(const ControlledNode& node, const DescribeParameters_Request& request) {
   const auto parameters = node.parameters();
   DescribeParameters_Response response;
   for (const auto& name : request.names()) {
@@ -72,7 +72,7 @@ bool is_listed(const std::string& name, const ListParameters_Request& request) {
   });
 }
 
-ListParameters_Response list(const SteeredNode& node, const ListParameters_Request& request) {
+ListParameters_Response list(const ControlledNode& node, const ListParameters_Request& request) {
   ListParameters_Response response;
   auto& prefixes = response.result().prefixes();
   for (const auto& parameter : node.parameters()) {
@@ -86,7 +86,7 @@ ListParameters_Response list(const SteeredNode& node, const ListParameters_Reque
   return response;
 }
 
-SetParametersResult set_together(SteeredNode& node, const std::vector<Parameter>& wanted) {
+SetParametersResult set_together(ControlledNode& node, const std::vector<Parameter>& wanted) {
   const auto parameters = node.parameters();
   WrittenValues values;
   std::string problems;
@@ -111,13 +111,13 @@ SetParametersResult set_together(SteeredNode& node, const std::vector<Parameter>
   return result;
 }
 
-SetParameters_Response set(SteeredNode& node, const SetParameters_Request& request) {
+SetParameters_Response set(ControlledNode& node, const SetParameters_Request& request) {
   SetParameters_Response response;
   for (const auto& parameter : request.parameters()) response.results().push_back(set_together(node, {parameter}));
   return response;
 }
 
-SetParametersAtomically_Response set_atomically(SteeredNode& node, const SetParametersAtomically_Request& request) {
+SetParametersAtomically_Response set_atomically(ControlledNode& node, const SetParametersAtomically_Request& request) {
   SetParametersAtomically_Response response;
   response.result(set_together(node, request.parameters()));
   return response;
@@ -152,8 +152,8 @@ OfferedService offer(const std::string& name, const char* type, Node& node, Resp
 
 }  // namespace
 
-std::vector<OfferedService> parameter_services(const std::string& full_name, SteeredNode& node) {
-  const SteeredNode& constant = node;
+std::vector<OfferedService> parameter_services(const std::string& full_name, ControlledNode& node) {
+  const ControlledNode& constant = node;
   auto sets = offer(full_name + "/set_parameters", "SetParameters", node, set);
   auto sets_atomically =
       offer(full_name + "/set_parameters_atomically", "SetParametersAtomically", node, set_atomically);
@@ -167,4 +167,4 @@ std::vector<OfferedService> parameter_services(const std::string& full_name, Ste
           std::move(sets_atomically)};
 }
 
-}  // namespace panvo::runtime::steering
+}  // namespace panvo::runtime::node_services

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "panvo/runtime/rejections.hpp"
+#include "panvo/runtime/rejected_messages.hpp"
 
 #include "clocks.hpp"
 

@@ -10,7 +10,7 @@
 #include "rcl_interfaces/srv/SetParameters.h"
 #include "rcl_interfaces/srv/SetParametersAtomically.h"
 
-namespace panvo::runtime::steering {
+namespace panvo::runtime::node_services {
 namespace {
 
 using namespace rcl_interfaces::srv;
@@ -178,4 +178,4 @@ TEST_F(ParameterServices, RefuseBytesThatAreNoRequest) {
 }
 
 }  // namespace
-}  // namespace panvo::runtime::steering
+}  // namespace panvo::runtime::node_services

@@ -19,7 +19,7 @@
 #include "rcl_interfaces/msg/ParameterEvent.h"
 #include "rcl_interfaces/srv/GetParameters.h"
 #include "rcl_interfaces/srv/SetParameters.h"
-#include "steering_topics.hpp"
+#include "node_service_topics.hpp"
 
 namespace panvo::runtime::test {
 namespace {
@@ -32,7 +32,7 @@ using composition_interfaces::srv::UnloadNode_Request;
 using composition_interfaces::srv::UnloadNode_Response;
 using testing::HasSubstr;
 
-class Steering : public testing::Test {
+class NodeServices : public testing::Test {
  protected:
   /// The other process answers once its container exists, and loads components on request once it runs.
   void SetUp() override {
@@ -51,16 +51,16 @@ class Steering : public testing::Test {
     return from_bytes<Response>(*answer);
   }
   LoadNode_Response load(const LoadNode_Request& request) {
-    return ask<LoadNode_Response>("/steered/_container/load_node", "composition_interfaces/srv/LoadNode", request);
+    return ask<LoadNode_Response>("/controlled/_container/load_node", "composition_interfaces/srv/LoadNode", request);
   }
   UnloadNode_Response unload(std::uint64_t id) {
     UnloadNode_Request request;
     request.unique_id(id);
-    return ask<UnloadNode_Response>("/steered/_container/unload_node", "composition_interfaces/srv/UnloadNode",
+    return ask<UnloadNode_Response>("/controlled/_container/unload_node", "composition_interfaces/srv/UnloadNode",
                                     request);
   }
   std::vector<std::string> loaded() {
-    return ask<ListNodes_Response>("/steered/_container/list_nodes", "composition_interfaces/srv/ListNodes",
+    return ask<ListNodes_Response>("/controlled/_container/list_nodes", "composition_interfaces/srv/ListNodes",
                                    ListNodes_Request())
         .full_node_names();
   }
@@ -120,7 +120,7 @@ class Steering : public testing::Test {
   std::unique_ptr<BridgeWriter> writer;
 };
 
-TEST_F(Steering, LoadsListsAndUnloads) {
+TEST_F(NodeServices, LoadsListsAndUnloads) {
   auto request = relay();
   request.node_namespace("/robot");
   request.parameters().resize(1);
@@ -144,7 +144,7 @@ TEST_F(Steering, LoadsListsAndUnloads) {
   EXPECT_THAT(unload(response.unique_id()).error_message(), HasSubstr("no component"));
 }
 
-TEST_F(Steering, SaysWhyAComponentCannotBeLoaded) {
+TEST_F(NodeServices, SaysWhyAComponentCannotBeLoaded) {
   auto request = relay();
   request.package_name("panvo_nothing");
   EXPECT_THAT(load(request).error_message(), HasSubstr("panvo_nothing has no plugin"));
@@ -160,7 +160,7 @@ TEST_F(Steering, SaysWhyAComponentCannotBeLoaded) {
   EXPECT_THAT(loaded(), testing::ElementsAre("/robot/echo"));
 }
 
-TEST_F(Steering, SetsAParameterBetweenTwoMessages) {
+TEST_F(NodeServices, SetsAParameterBetweenTwoMessages) {
   open_topics();
   ASSERT_TRUE(writer->write(text_sample("one")));
   ASSERT_EQ(echoed.wait_for_count(1).size(), 1U);
@@ -172,7 +172,7 @@ TEST_F(Steering, SetsAParameterBetweenTwoMessages) {
   EXPECT_EQ(text_of(items[1]), "new:two");
 }
 
-TEST_F(Steering, HandsNoMessagesToAnInactiveComponent) {
+TEST_F(NodeServices, HandsNoMessagesToAnInactiveComponent) {
   open_topics();
   ASSERT_TRUE(change_state("deactivate"));
   ASSERT_TRUE(writer->write(text_sample("off")));
@@ -188,7 +188,7 @@ TEST_F(Steering, HandsNoMessagesToAnInactiveComponent) {
   EXPECT_EQ(text_of(echoed.items()[0]), "yes");
 }
 
-TEST_F(Steering, TellsOfParametersThatComeAndThatAreSet) {
+TEST_F(NodeServices, TellsOfParametersThatComeAndThatAreSet) {
   Inbox<SamplePtr> events;
   const auto listener = bridge->open_reader(
       test::topic("/parameter_events", "rcl_interfaces/msg/ParameterEvent", {.depth = 1000}), events.callback());
@@ -216,12 +216,12 @@ TEST_F(Steering, TellsOfParametersThatComeAndThatAreSet) {
   EXPECT_TRUE(unload(id).success());
 }
 
-TEST_F(Steering, ShutsAComponentDownAfterItsAnswer) {
+TEST_F(NodeServices, ShutsAComponentDownAfterItsAnswer) {
   EXPECT_TRUE(change_state("shutdown"));
   EXPECT_TRUE(eventually([&] { return loaded().empty(); }));
 }
 
-TEST_F(Steering, TellsRos2WhichNodesThereAreAndWhatTheyHave) {
+TEST_F(NodeServices, TellsRos2WhichNodesThereAreAndWhatTheyHave) {
   open_topics();
   const auto node = [&](const std::string& name) {
     const auto nodes = bridge->graph().nodes;
@@ -230,7 +230,8 @@ TEST_F(Steering, TellsRos2WhichNodesThereAreAndWhatTheyHave) {
   };
   // Ten services each; the component's two topics, /rosout, /diagnostics and /parameter_events of the container.
   EXPECT_TRUE(eventually([&] { return node("echo").readers.size() == 11 && node("echo").writers.size() == 11; }));
-  EXPECT_TRUE(eventually([&] { return node("steered").readers.size() == 3 && node("steered").writers.size() == 6; }));
+  EXPECT_TRUE(
+      eventually([&] { return node("controlled").readers.size() == 3 && node("controlled").writers.size() == 6; }));
   EXPECT_EQ(node("echo").name_space, "/robot");
   const auto id = load(relay()).unique_id();
   EXPECT_TRUE(eventually([&] { return node("relay").name == "relay"; }));
@@ -238,7 +239,7 @@ TEST_F(Steering, TellsRos2WhichNodesThereAreAndWhatTheyHave) {
   EXPECT_TRUE(eventually([&] { return node("relay").name.empty(); }));
 }
 
-TEST_F(Steering, LosesNothingElsewhereAndKeepsNoMemoryWhileComponentsComeAndGo) {
+TEST_F(NodeServices, LosesNothingElsewhereAndKeepsNoMemoryWhileComponentsComeAndGo) {
   open_topics();
   constexpr std::size_t kCycles = 600, kMessagesEach = 10;
   std::size_t sent = 0;

@@ -7,7 +7,7 @@
 #include "composition_interfaces/srv/UnloadNode.h"
 #include "fake_node.hpp"
 
-namespace panvo::runtime::steering {
+namespace panvo::runtime::node_services {
 namespace {
 
 using namespace composition_interfaces::srv;
@@ -15,7 +15,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-class FakeContainer final : public SteeredContainer {
+class FakeContainer final : public ControlledContainer {
  public:
   Loaded load_component(const ComponentDescription& description) override {
     if (!refusal.empty()) throw ConfigError(std::vector<std::string>{refusal, "and more"});
@@ -111,4 +111,4 @@ TEST_F(ComponentServices, ListAndUnloadByUniqueId) {
 }
 
 }  // namespace
-}  // namespace panvo::runtime::steering
+}  // namespace panvo::runtime::node_services

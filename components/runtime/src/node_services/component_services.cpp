@@ -3,12 +3,12 @@
 #include "composition_interfaces/srv/ListNodes.h"
 #include "composition_interfaces/srv/LoadNode.h"
 #include "composition_interfaces/srv/UnloadNode.h"
+#include "node_services/controlled.hpp"
+#include "node_services/parameter_values.hpp"
 #include "panvo/runtime/errors.hpp"
 #include "panvo/runtime/names.hpp"
-#include "steering/parameter_values.hpp"
-#include "steering/steered.hpp"
 
-namespace panvo::runtime::steering {
+namespace panvo::runtime::node_services {
 namespace {
 
 using namespace composition_interfaces::srv;  // NOLINT(google-build-using-namespace): as in parameter_services.cpp
@@ -67,7 +67,7 @@ std::string joined(const std::vector<std::string>& lines) {
   return text;
 }
 
-LoadNode_Response load(SteeredContainer& container, const LoadNode_Request& request) {
+LoadNode_Response load(ControlledContainer& container, const LoadNode_Request& request) {
   LoadNode_Response response;
   std::vector<std::string> problems;
   const auto description = description_of(request, problems);
@@ -83,7 +83,7 @@ LoadNode_Response load(SteeredContainer& container, const LoadNode_Request& requ
   return response;
 }
 
-UnloadNode_Response unload(SteeredContainer& container, const UnloadNode_Request& request) {
+UnloadNode_Response unload(ControlledContainer& container, const UnloadNode_Request& request) {
   UnloadNode_Response response;
   try {
     container.unload_component(request.unique_id());
@@ -94,7 +94,7 @@ UnloadNode_Response unload(SteeredContainer& container, const UnloadNode_Request
   return response;
 }
 
-ListNodes_Response list(SteeredContainer& container, const ListNodes_Request&) {
+ListNodes_Response list(ControlledContainer& container, const ListNodes_Request&) {
   ListNodes_Response response;
   for (const auto& [id, full_name] : container.loaded_components()) {
     response.unique_ids().push_back(id);
@@ -111,8 +111,8 @@ Response refuse(const Request&, const std::string& why) {
 }
 
 template <class Request, class Response>
-OfferedService offer(const std::string& name, const char* type, SteeredContainer& container,
-                     Response (*answer)(SteeredContainer&, const Request&)) {
+OfferedService offer(const std::string& name, const char* type, ControlledContainer& container,
+                     Response (*answer)(ControlledContainer&, const Request&)) {
   return {{name, std::string("composition_interfaces/srv/") + type},
           service_handler<Request, Response>(
               [&container, answer](const Request& request) { return answer(container, request); })};
@@ -120,7 +120,7 @@ OfferedService offer(const std::string& name, const char* type, SteeredContainer
 
 }  // namespace
 
-std::vector<OfferedService> component_services(const std::string& full_name, SteeredContainer& container) {
+std::vector<OfferedService> component_services(const std::string& full_name, ControlledContainer& container) {
   const std::string prefix = full_name + "/_container/";
   auto loads = offer(prefix + "load_node", "LoadNode", container, load);
   auto unloads = offer(prefix + "unload_node", "UnloadNode", container, unload);
@@ -129,4 +129,4 @@ std::vector<OfferedService> component_services(const std::string& full_name, Ste
   return {std::move(loads), std::move(unloads), offer(prefix + "list_nodes", "ListNodes", container, list)};
 }
 
-}  // namespace panvo::runtime::steering
+}  // namespace panvo::runtime::node_services

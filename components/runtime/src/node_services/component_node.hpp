@@ -4,12 +4,12 @@
 #include <functional>
 
 #include "context_state.hpp"
-#include "steering/steered.hpp"
+#include "node_services/controlled.hpp"
 
-namespace panvo::runtime::steering {
+namespace panvo::runtime::node_services {
 
 /// Gives service requests access to a loaded component.
-class ComponentNode final : public SteeredNode {
+class ComponentNode final : public ControlledNode {
  public:
   /// `shut_down` schedules unloading; `parameters_set` is called with the parameters that were set.
   ComponentNode(Context::State& state, std::function<void()> shut_down,
@@ -48,4 +48,4 @@ class ComponentNode final : public SteeredNode {
   const std::function<void(const WrittenValues&)> parameters_set_;
 };
 
-}  // namespace panvo::runtime::steering
+}  // namespace panvo::runtime::node_services

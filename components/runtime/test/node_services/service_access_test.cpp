@@ -11,7 +11,7 @@
 #include "rcl_interfaces/srv/SetParameters.h"
 #include "rcl_interfaces/srv/SetParametersAtomically.h"
 
-namespace panvo::runtime::steering {
+namespace panvo::runtime::node_services {
 namespace {
 
 using testing::AllOf;
@@ -19,7 +19,7 @@ using testing::HasSubstr;
 
 constexpr Caller kHere{.is_on_this_host = true}, kElsewhere{.is_on_this_host = false};
 
-class NoContainer final : public SteeredContainer {
+class NoContainer final : public ControlledContainer {
  public:
   Loaded load_component(const ComponentDescription&) override { return {}; }
   void unload_component(std::uint64_t) override {}
@@ -54,14 +54,14 @@ class ServiceAccessTo : public testing::Test {
 };
 
 TEST_F(ServiceAccessTo, ThisHostMaySteerAndOthersLookWhereNothingIsSaid) {
-  EXPECT_FALSE(steering_problem(ServiceAccess::kByHost, kHere));
-  EXPECT_THAT(steering_problem(ServiceAccess::kByHost, kElsewhere).value_or(""), HasSubstr("services: steer"));
+  EXPECT_FALSE(control_problem(ServiceAccess::kByHost, kHere));
+  EXPECT_THAT(control_problem(ServiceAccess::kByHost, kElsewhere).value_or(""), HasSubstr("services: steer"));
 }
 
 TEST_F(ServiceAccessTo, WhatTheSystemFileSaysHoldsForAllHosts) {
   for (const Caller& caller : {kHere, kElsewhere}) {
-    EXPECT_TRUE(steering_problem(ServiceAccess::kLook, caller));
-    EXPECT_FALSE(steering_problem(ServiceAccess::kSteer, caller));
+    EXPECT_TRUE(control_problem(ServiceAccess::kLook, caller));
+    EXPECT_FALSE(control_problem(ServiceAccess::kSteer, caller));
   }
 }
 
@@ -102,4 +102,4 @@ TEST_F(ServiceAccessTo, WhoMayIsNotRefused) {
 }
 
 }  // namespace
-}  // namespace panvo::runtime::steering
+}  // namespace panvo::runtime::node_services

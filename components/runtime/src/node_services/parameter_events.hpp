@@ -9,7 +9,7 @@
 #include "panvo/runtime/parameters.hpp"
 #include "rcl_interfaces/msg/ParameterEvent.h"
 
-namespace panvo::runtime::steering {
+namespace panvo::runtime::node_services {
 
 /// ROS 2's topic for parameter changes of all nodes.
 inline constexpr interfaces::Topic<rcl_interfaces::msg::ParameterEvent> kParameterEvents{"/parameter_events",
@@ -25,4 +25,4 @@ rcl_interfaces::msg::ParameterEvent changed_parameters(const std::string& full_n
                                                        const std::vector<ParameterDescription>& parameters,
                                                        const WrittenValues& set, std::int64_t stamp_ns);
 
-}  // namespace panvo::runtime::steering
+}  // namespace panvo::runtime::node_services
