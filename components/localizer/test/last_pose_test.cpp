@@ -58,7 +58,7 @@ class Life {
 
   double x() const { return enhanced_.back()->pose().pose().position().x(); }
   double first_variance() const { return enhanced_.front()->pose().covariance()[0]; }
-  std::string state() const { return states_.back()->state(); }
+  std::uint8_t state() const { return states_.back()->state(); }
   auto log() { return harness_.log(); }
 
  private:

@@ -90,7 +90,7 @@ class Vehicle {
     harness_.publish(topics::kAzimuthChange, change);
   }
   double x() const { return enhanced.back()->pose().pose().position().x(); }
-  std::string state() const { return states.back()->state(); }
+  std::uint8_t state() const { return states.back()->state(); }
 
   runtime::ComponentHarness harness_;
   const std::vector<std::shared_ptr<const nav_msgs::msg::Odometry>>& enhanced =

@@ -115,9 +115,9 @@ TEST_F(PositionCorrectorComponent, TellsOfEachPanoramaWhatItShows) {
   publish_panorama(place(80));
   publish_panorama(turned(place(2), 270));
   ASSERT_EQ(matches.size(), 2U);
-  EXPECT_NE(matches[0]->state(), "locked");
+  EXPECT_NE(matches[0]->state(), panvo_msgs::msg::LandmarkMatch_Constants::LOCKED);
   EXPECT_FALSE(matches[0]->reason().empty());
-  EXPECT_EQ(matches[1]->state(), "locked") << matches[1]->reason();
+  EXPECT_EQ(matches[1]->state(), panvo_msgs::msg::LandmarkMatch_Constants::LOCKED) << matches[1]->reason();
   EXPECT_EQ(matches[1]->landmark_id(), 2U);
   EXPECT_EQ(matches[1]->candidates(), 1U);
   EXPECT_NEAR(matches[1]->heading_rad(), M_PI / 2.0, 0.01);
@@ -173,7 +173,7 @@ TEST_F(PositionCorrectorComponent, SaysThatAPanoramaIsOfNoUse) {
   publish_landmark(1, 1);
   publish_panorama(cv::Mat(540, 1080, CV_8UC1, cv::Scalar(0)));
   ASSERT_EQ(matches.size(), 1U);
-  EXPECT_EQ(matches[0]->state(), "unusable");
+  EXPECT_EQ(matches[0]->state(), panvo_msgs::msg::LandmarkMatch_Constants::UNUSABLE);
   EXPECT_TRUE(harness.log_contains("panorama/image"));
 }
 
@@ -186,10 +186,10 @@ TEST_F(PositionCorrectorComponent, UsesNoPanoramaThatIsTheLastAgainOrUpsideDown)
   cv::flip(place(2), turned_over, -1);
   publish_panorama(turned_over);
   ASSERT_EQ(matches.size(), 3U);
-  EXPECT_NE(matches[0]->state(), "unusable") << matches[0]->reason();
-  EXPECT_EQ(matches[1]->state(), "unusable");
+  EXPECT_NE(matches[0]->state(), panvo_msgs::msg::LandmarkMatch_Constants::UNUSABLE) << matches[0]->reason();
+  EXPECT_EQ(matches[1]->state(), panvo_msgs::msg::LandmarkMatch_Constants::UNUSABLE);
   EXPECT_EQ(matches[1]->reason(), "repeats its image (frozen)");
-  EXPECT_EQ(matches[2]->state(), "unusable");
+  EXPECT_EQ(matches[2]->state(), panvo_msgs::msg::LandmarkMatch_Constants::UNUSABLE);
   EXPECT_EQ(matches[2]->reason(), "is upside down");
   EXPECT_EQ(corrections.size(), 1U);
 }
@@ -285,7 +285,7 @@ TEST_F(PositionCorrectorComponent, LooksForALandmarkWhereItWasMovedTo) {
   EXPECT_EQ(matches.back()->candidates(), 0U);
   publish_odometry(500.0, 1.0);
   publish_panorama(place(2));
-  EXPECT_EQ(matches.back()->state(), "locked") << matches.back()->reason();
+  EXPECT_EQ(matches.back()->state(), panvo_msgs::msg::LandmarkMatch_Constants::LOCKED) << matches.back()->reason();
 }
 
 TEST_F(PositionCorrectorComponent, MovesALandmarkThatComesAfterItsPose) {
@@ -323,7 +323,7 @@ TEST_F(PositionCorrectorComponent, LooksWhereTheVehicleWasWhenALatePanoramaWasTa
   publish_odometry(400.0, 1.0, 20.0);
   frames -= 20;
   publish_panorama(place(2));
-  EXPECT_EQ(matches.back()->state(), "locked") << matches.back()->reason();
+  EXPECT_EQ(matches.back()->state(), panvo_msgs::msg::LandmarkMatch_Constants::LOCKED) << matches.back()->reason();
 }
 
 TEST_F(PositionCorrectorComponent, KeepsKeypointsInMemoryWhereThereIsNoFolderForThem) {
@@ -339,7 +339,7 @@ TEST_F(PositionCorrectorComponent, KeepsKeypointsInMemoryWhereThereIsNoFolderFor
   place(2).copyTo(conversions::pixels(*message));
   other.publish(topics::kPanorama, std::shared_ptr<const sensor_msgs::msg::Image>(message));
   ASSERT_EQ(found.size(), 1U);
-  EXPECT_EQ(found[0]->state(), "locked") << found[0]->reason();
+  EXPECT_EQ(found[0]->state(), panvo_msgs::msg::LandmarkMatch_Constants::LOCKED) << found[0]->reason();
 }
 
 // [Lu2015 5.2]

@@ -49,7 +49,7 @@ std::optional<int> RunOptions::parse(int argc, char** argv, RunOptions& options)
   app.add_option("--set", options.settings, "component.parameter=value; may be repeated")->expected(1)->take_all();
   app.add_option("--seed", options.seed, "seed of all random numbers")->capture_default_str();
   app.add_option("--domain", options.dds.domain, "DDS domain; overrides ROS_DOMAIN_ID")
-      ->check(CLI::Range(0, DdsSettings::kMaxDomain))
+      ->check(CLI::Range(0, runtime::DdsSettings::kMaxDomain))
       ->capture_default_str();
   app.add_option("--ros-distro", options.dds.ros_distro,
                  "ROS 2 distribution of other nodes; overrides ROS_DISTRO: humble, or jazzy for all later ones")
