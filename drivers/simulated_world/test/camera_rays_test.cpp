@@ -20,7 +20,7 @@ vision::LensCamera street_camera() {
   return camera;
 }
 
-Eigen::Vector2d pixel_of(const vision::CameraModel& camera, const Eigen::Vector3d& direction) {
+Eigen::Vector2d image_point(const vision::CameraModel& camera, const Eigen::Vector3d& direction) {
   return camera.project(direction).value();
 }
 
@@ -37,7 +37,7 @@ TEST(PinholeRays, AreSeenAtTheirPixels) {
     for (int column = 0; column < rays.width; column += 9) {
       const Eigen::Vector3d direction = at(rays, column, row).cast<double>();
       EXPECT_NEAR(direction.norm(), 1.0, 1e-6);
-      worst = std::max(worst, (pixel_of(model, direction) - Eigen::Vector2d(column, row)).norm());
+      worst = std::max(worst, (image_point(model, direction) - Eigen::Vector2d(column, row)).norm());
     }
   }
   EXPECT_LT(worst, 1e-3);  // single precision
@@ -49,7 +49,7 @@ TEST(PinholeRays, AreExactBetweenPixelsToo) {
   for (const Eigen::Vector2f& place : {Eigen::Vector2f(-0.5f, -0.5f), Eigen::Vector2f(0.5f, 0.5f),
                                        Eigen::Vector2f(320.25f, 200.75f), Eigen::Vector2f(639.5f, 479.5f)}) {
     const Eigen::Vector3d direction = rays.direction(place.x(), place.y()).cast<double>();
-    EXPECT_LT((pixel_of(model, direction) - place.cast<double>()).norm(), 3e-3) << place.transpose();
+    EXPECT_LT((image_point(model, direction) - place.cast<double>()).norm(), 3e-3) << place.transpose();
   }
 }
 

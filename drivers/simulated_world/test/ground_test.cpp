@@ -17,13 +17,13 @@ namespace {
 
 using Eigen::Vector2d;
 
-std::shared_ptr<const Palette> palette() {
+std::shared_ptr<const Palette> ground_palette() {
   static const auto kPalette = std::make_shared<const Palette>(1, "");
   return kPalette;
 }
 
 Site crossing(const SiteParameters& parameters) {
-  return Site(parameters, star_network({{60, 0}, {0, 60}, {-60, 0}, {20, -55}}, 7.0), palette());
+  return Site(parameters, star_network({{60, 0}, {0, 60}, {-60, 0}, {20, -55}}, 7.0), ground_palette());
 }
 
 Scene ground_of(const Site& site) {
@@ -161,7 +161,7 @@ void expect_materials(const Site& site, const Scene& scene) {
   for (int i = 0; i < 3000; ++i) {
     const Vector2d point(random.uniform(-120.0, 120.0), random.uniform(-120.0, 120.0));
     const double kerb_m = site.distance_from_kerb(point);
-    const std::string name = palette()->materials()[plan.highest(point)->material].name;
+    const std::string name = ground_palette()->materials()[plan.highest(point)->material].name;
     const char* expected = kerb_m < -0.4                   ? "asphalt"
                            : kerb_m > 6.5 && kerb_m < 40.0 ? "grass"
                            : kerb_m > 50.0                 ? "far_land"
@@ -199,7 +199,7 @@ TEST(Ground, IsPlainAtTheHeartOfAJunctionWithWeakTextureAndTheSameForTheSameSeed
   }
   for (const Vertex& vertex : scene.fixed[2].vertices) ASSERT_GT(vertex.position.head<2>().norm(), 18.0f);
   const Plan plan(scene.fixed[0]);
-  EXPECT_EQ(plan.highest({2.0, 1.0})->material, palette()->find("asphalt_smooth"));
+  EXPECT_EQ(plan.highest({2.0, 1.0})->material, ground_palette()->find("asphalt_smooth"));
 
   const auto look = [](std::uint64_t seed) {
     const Scene ground = ground_of(crossing({.seed = seed}));
@@ -221,13 +221,13 @@ TEST(Ground, IsPlainAtTheHeartOfAJunctionWithWeakTextureAndTheSameForTheSameSeed
 }
 
 TEST(Ground, OfTheWholeCampusKeepsToItsShareOfTriangles) {
-  const Site site({.seed = 1}, campus_roads(1), palette());
+  const Site site({.seed = 1}, campus_roads(1), ground_palette());
   const Scene scene = ground_of(site);
   std::size_t triangles = 0;
   std::set<std::string> names;
   for (const Mesh& mesh : scene.fixed) {
     triangles += mesh.triangles.size();
-    for (const Triangle& triangle : mesh.triangles) names.insert(palette()->materials()[triangle.material].name);
+    for (const Triangle& triangle : mesh.triangles) names.insert(ground_palette()->materials()[triangle.material].name);
   }
   EXPECT_LT(triangles, 600000u);
   for (const char* name : {"asphalt", "asphalt_patch", "concrete", "kerb", "slabs", "cobbles", "grass", "marking",
