@@ -5,8 +5,10 @@
 #include <string>
 #include <utility>
 
+#include "nav_msgs/msg/Odometry.h"
 #include "panvo/interfaces/topic.hpp"
 #include "panvo/runtime/container.hpp"
+#include "sensor_msgs/msg/Image.h"
 #include "transport.hpp"
 #include "transport_image.hpp"
 
