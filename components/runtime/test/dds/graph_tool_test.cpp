@@ -53,7 +53,7 @@ class GraphTool : public testing::Test {
 };
 
 TEST_F(GraphTool, ListsNodesTopicsServicesAndContainers) {
-  EXPECT_EQ(eventually_says("node list", "/controlled"), "/robot/echo\n/controlled\n");
+  EXPECT_EQ(eventually_says("node list", "/controlled"), "/controlled\n/robot/echo\n");
   EXPECT_THAT(eventually_says("node info robot/echo", "Service Servers"),
               HasSubstr("/robot/echoed: std_msgs/msg/String"));
   EXPECT_THAT(eventually_says("topic list -t", "/rosout"), HasSubstr("/robot/to_echo [std_msgs/msg/String]\n"));
