@@ -83,7 +83,7 @@ TEST_F(PanoramicCompassComponent, TakesColour) {
 TEST_F(PanoramicCompassComponent, SaysThatItDoesNotKnowHowTheCameraSits) {
   load();
   publish(street);
-  EXPECT_TRUE(harness.log_contains("no transform from base_link to panorama"));
+  EXPECT_TRUE(harness.log_contains("no chain from base_link to panorama"));
 }
 
 TEST_F(PanoramicCompassComponent, SaysWhyThereIsNoTurnAndWhenThereIsAgain) {

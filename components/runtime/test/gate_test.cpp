@@ -129,7 +129,7 @@ TEST(MessageGate, FindsBytesThatAreNoMessage) {
   auto bytes = bytes_of(odometry(1.0));
   EXPECT_EQ(problem_of(*from_bytes(bytes), kAnySize), std::nullopt);
   bytes.resize(bytes.size() / 2);
-  EXPECT_THAT(problem_of(*from_bytes(bytes), kAnySize).value_or(""), HasSubstr("nav_msgs/msg/Odometry: cut off"));
+  EXPECT_THAT(problem_of(*from_bytes(bytes), kAnySize).value_or(""), HasSubstr("nav_msgs/msg/Odometry: truncated"));
 }
 
 TEST(MessageGate, FindsWhatIsTooLargeBeforeItIsDecoded) {
