@@ -129,7 +129,7 @@ show_results() {
     "$(program panvo_evaluate)" "$out" "$truth" || status=$?
     # 3: evaluated, but the plot could not be drawn.
     ((status == 0 || status == 3)) || fail "evaluation failed; the run itself is in $out"
-    if [[ -d $dataset/mav0/cam2 ]]; then
+    if [[ -n $(dataset_panorama "$dataset") ]]; then
       printf '\n'
       "$(program panvo_evaluate_journey)" "$out" --recording "$dataset" --out "$out" "${earlier[@]}" || status=$?
       ((status == 0 || status == 3)) || fail "evaluation of the journey failed; the run itself is in $out"

@@ -3,6 +3,7 @@
 # summary: regression test: replay a recording and compare with stored results
 
 source "$PANVO_SCRIPTS/lib/build.sh"
+source "$PANVO_SCRIPTS/lib/bags.sh"
 source "$PANVO_SCRIPTS/lib/supervise.sh"
 source "$PANVO_SCRIPTS/lib/systems.sh"
 
@@ -69,7 +70,7 @@ replay_and_compare() {
     trap "rm -rf '$out'" EXIT
   fi
   local kind=--bag
-  is_dataset "$bag" && kind=--dataset
+  [[ ! -d $bag ]] || is_bag "$bag" || kind=--dataset
   note "replaying $bag through $(basename "$system" .yaml)"
   run_to_its_end "$out" "$system" "$kind" "$bag" --replay "${settings[@]}" >&2
   if [[ -n $recorded ]]; then
@@ -77,10 +78,4 @@ replay_and_compare() {
     return
   fi
   "$(program panvo_compare_runs)" "$out" "$expected" "${tolerances[@]}"
-}
-
-# is_dataset PATH: true for a folder that is not a bag (no metadata.yaml, .db3 or .mcap in it).
-is_dataset() {
-  [[ -d $1 ]] || return 1
-  ! compgen -G "$1/metadata.yaml" >/dev/null && ! compgen -G "$1/*.db3" >/dev/null && ! compgen -G "$1/*.mcap" >/dev/null
 }

@@ -198,6 +198,8 @@ class Check(DataTest):
         done = self.panvo("check", "dataset")
         self.assert_says(done, 0, "note: no ground truth")
         self.assertNotIn("panvo evaluate", done.stdout)
+        self.write({"dataset/sequences/poses/03.txt": "1 0 0 0 0 1 0 0 0 0 1 0\n"})
+        self.assert_says(self.panvo("check", "dataset"), 0, "ground truth: 1 poses", "run: panvo evaluate runs/03 dataset/sequences/03")
 
     def test_images_of_euroc(self):
         first = f"{10**18}.png"
@@ -225,6 +227,15 @@ class Check(DataTest):
         self.assert_says(self.euroc({name: "5,0,0,0,1,0,0,0\n6,0,0,0,1,0,0,0\n"}), 1, "covers none of the images: it is of another time")
         self.assert_says(self.euroc({name: f"{10**18},0,0,0,1,0,0,0\n"}), 0, "note: 2 of 3 images are before or after the ground truth")
         self.assert_says(self.euroc({name: f"{10**18},0,0,0,1,0,0\n"}), 1, "data.csv:1: is not 'stamp in ns, position, quaternion'")
+
+    def test_ground_truth_of_euroc_from_motion_capture(self):
+        poses = "".join(f"{10**18 + i * 10**8},0,0,0,1,0,0,0\n" for i in range(3))
+        for system in ("vicon0", "mocap0"):
+            with self.subTest(system):
+                self.euroc({f"mav0/{system}/data.csv": poses})
+                (self.folder / "mav0/state_groundtruth_estimate0/data.csv").unlink()
+                self.assert_says(self.panvo("check", "."), 0, "ground truth: 3 poses, 0.2 s", "run: panvo evaluate")
+                shutil.rmtree(self.folder / "mav0")
 
     def test_left_and_right_folders(self):
         members = {f"pair/{eye}/{eye}{i}.jpg": jpeg() for eye in ("left", "right") for i in range(2)}

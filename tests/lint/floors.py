@@ -51,7 +51,7 @@ WRAPPER = floor("component wrapper", "runtime interfaces conversions vision land
 # places, their store and their messages
 LANDMARKS = floor("landmarks", "vision interfaces conversions runtime", "messages, eigen, opencv, sqlite, json", False)
 # programs of a package
-TOOL = floor("tool", "vision landmarks", "eigen, opencv, yaml, json, command line")
+TOOL = floor("tool", "vision", "eigen, opencv, command line")
 # readers of rig files
 RIG_FILE = floor("rig file", "vision", "eigen, opencv, yaml", False)
 # readers of images from a bag

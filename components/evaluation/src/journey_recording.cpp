@@ -6,6 +6,8 @@
 #include <numbers>
 
 #include "angle_units.hpp"
+#include "of_data_set.hpp"
+#include "panvo/dataset_player/ground_truth.hpp"
 #include "panvo/evaluation/input_error.hpp"
 #include "panvo/evaluation/trajectory_files.hpp"
 #include "recording_files.hpp"
@@ -24,7 +26,8 @@ void read_places(JourneyRecording& recording, const fs::path& file, const YAML::
   for (const auto& entry : listed) {
     try {
       recording.places[entry["id"].as<int>()] = {entry["name"].as<std::string>(""),
-                                                 {entry["x"].as<double>(), entry["y"].as<double>()}};
+                                                 {entry["x"].as<double>(), entry["y"].as<double>()},
+                                                 entry["degree"].as<int>(0)};
     } catch (const YAML::Exception& error) {
       fail(file, entry, error, "a junction needs an id, x and y");
     }
@@ -110,9 +113,8 @@ void read_sequence(JourneyRecording& recording, const fs::path& file) {
 
 Trajectory read_truth(const fs::path& folder) {
   if (fs::exists(folder / "ground_truth.tum")) return read_tum(folder / "ground_truth.tum");
-  const auto euroc = folder / "mav0/state_groundtruth_estimate0/data.csv";
-  if (fs::exists(euroc)) return read_euroc(euroc);
-  if (fs::exists(folder / "odometry_enhanced.tum") || fs::exists(folder / "mav0")) {
+  const bool is_without = fs::exists(folder / "mav0") && !dataset_player::find_ground_truth(folder);
+  if (is_without || fs::exists(folder / "odometry_enhanced.tum")) {
     throw InputError(folder, "holds no ground truth", "name the recording that was played with --recording");
   }
   return read_trajectory(folder);
@@ -125,13 +127,29 @@ JourneyRecording read_journey_recording(const fs::path& folder) {
   recording.folder = folder;
   recording.truth = read_truth(folder);
   if (fs::exists(folder / "sequence.yaml")) read_sequence(recording, folder / "sequence.yaml");
-  const auto panoramas = folder / "mav0/cam2";
-  if (fs::exists(panoramas / "data")) {
-    recording.base_from_panorama = read_extrinsics(panoramas / "sensor.yaml");
-    recording.panoramas = list_panoramas(panoramas / "data", recording.panorama_clock_offset_ns);
+  std::vector<std::string> notes;  // the player prints them
+  if (const auto panorama = of_data_set([&] { return dataset_player::open_panorama(folder, notes); })) {
+    recording.base_from_panorama = panorama->base_from_panorama;
+    recording.panoramas = list_panoramas(*panorama, recording.panorama_clock_offset_ns);
     locate(recording.panoramas, recording.truth);
   }
   return recording;
+}
+
+std::vector<RecordedPanorama> panoramas_as_stamped(const JourneyRecording& recording, std::int64_t late_ns) {
+  std::vector<RecordedPanorama> panoramas;
+  for (RecordedPanorama panorama : recording.panoramas) {
+    panorama.stamp_ns += recording.panorama_clock_offset_ns;
+    const auto pose = pose_at(recording.truth.poses, panorama.stamp_ns + late_ns);
+    if (!pose) continue;
+    panorama.world_from_base = *pose;
+    panoramas.push_back(panorama);
+  }
+  if (panoramas.empty()) {
+    throw InputError(recording.folder, "contains no panorama covered by the ground truth",
+                     "use a data set with equirectangular images in cam2");
+  }
+  return panoramas;
 }
 
 TruePath::TruePath(const Trajectory& truth) : truth_(truth) {
@@ -143,15 +161,7 @@ TruePath::TruePath(const Trajectory& truth) : truth_(truth) {
   }
 }
 
-std::optional<Eigen::Isometry3d> TruePath::pose(std::int64_t stamp_ns) const {
-  const auto& poses = truth_.poses;
-  const auto after = std::lower_bound(poses.begin(), poses.end(), stamp_ns,
-                                      [](const StampedPose& pose, std::int64_t at) { return pose.stamp_ns < at; });
-  if (after == poses.end()) return std::nullopt;
-  if (after->stamp_ns == stamp_ns) return after->world_from_base;
-  if (after == poses.begin()) return std::nullopt;
-  return interpolate(*std::prev(after), *after, stamp_ns);
-}
+std::optional<Eigen::Isometry3d> TruePath::pose(std::int64_t stamp_ns) const { return pose_at(truth_.poses, stamp_ns); }
 
 double TruePath::travelled_m(std::int64_t stamp_ns) const {
   const auto& poses = truth_.poses;

@@ -2,7 +2,6 @@
 #include "recording_files.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <fstream>
 #include <iterator>
 #include <string>
@@ -15,11 +14,8 @@ namespace {
 namespace fs = std::filesystem;
 
 Eigen::Isometry3d nearest_pose(const Trajectory& truth, std::int64_t stamp_ns) {
-  const auto after = std::lower_bound(truth.poses.begin(), truth.poses.end(), stamp_ns,
-                                      [](const StampedPose& pose, std::int64_t at) { return pose.stamp_ns < at; });
-  if (after == truth.poses.end()) return truth.poses.back().world_from_base;
-  if (after == truth.poses.begin() || after->stamp_ns == stamp_ns) return after->world_from_base;
-  return interpolate(*std::prev(after), *after, stamp_ns);
+  if (const auto pose = pose_at(truth.poses, stamp_ns)) return *pose;
+  return (stamp_ns < truth.poses.front().stamp_ns ? truth.poses.front() : truth.poses.back()).world_from_base;
 }
 
 }  // namespace
@@ -36,18 +32,6 @@ YAML::Node read_yaml(const fs::path& file) {
   }
 }
 
-Eigen::Isometry3d read_extrinsics(const fs::path& file) {
-  const auto values = read_yaml(file)["T_BS"]["data"];
-  if (!values || !values.IsSequence() || values.size() != 16) {
-    throw InputError(file, "has no T_BS with 16 numbers", "add the pose of the panoramic camera on the vehicle");
-  }
-  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
-  for (std::size_t i = 0; i < 12; ++i) {
-    pose.matrix()(static_cast<int>(i / 4), static_cast<int>(i % 4)) = values[i].as<double>();
-  }
-  return pose;
-}
-
 std::int64_t panorama_clock_offset_ns(const fs::path& file, const YAML::Node& sequence) {
   const auto offset = sequence["panorama_clock_offset_ns"];
   if (!offset) return 0;
@@ -59,22 +43,10 @@ std::int64_t panorama_clock_offset_ns(const fs::path& file, const YAML::Node& se
   }
 }
 
-std::vector<RecordedPanorama> list_panoramas(const fs::path& folder, std::int64_t clock_offset_ns) {
+std::vector<RecordedPanorama> list_panoramas(const dataset_player::PanoramaRecording& recorded,
+                                             std::int64_t clock_offset_ns) {
   std::vector<RecordedPanorama> panoramas;
-  std::error_code error;
-  for (const auto& entry : fs::directory_iterator(folder, error)) {
-    RecordedPanorama panorama;
-    panorama.file = entry.path();
-    const auto stem = panorama.file.stem().string();
-    const auto read = std::from_chars(stem.data(), stem.data() + stem.size(), panorama.stamp_ns);
-    if (read.ptr != stem.data() + stem.size() || stem.empty()) continue;
-    panorama.stamp_ns -= clock_offset_ns;
-    panoramas.push_back(panorama);
-  }
-  if (panoramas.empty()) {
-    throw InputError(folder, "holds no image named by its stamp", "use a recording with panoramas");
-  }
-  std::sort(panoramas.begin(), panoramas.end(), [](const auto& a, const auto& b) { return a.stamp_ns < b.stamp_ns; });
+  for (const auto& [stamp_ns, image] : recorded.frames) panoramas.push_back({stamp_ns - clock_offset_ns, image});
   return panoramas;
 }
 

@@ -2,6 +2,7 @@
 #include "panvo/evaluation/trajectory.hpp"
 
 #include <algorithm>
+#include <iterator>
 
 namespace panvo::evaluation {
 
@@ -36,6 +37,15 @@ Eigen::Isometry3d interpolate(const StampedPose& before, const StampedPose& afte
   pose.translation() =
       (1.0 - share) * before.world_from_base.translation() + share * after.world_from_base.translation();
   return pose;
+}
+
+std::optional<Eigen::Isometry3d> pose_at(const std::vector<StampedPose>& poses, std::int64_t stamp_ns) {
+  const auto after = std::lower_bound(poses.begin(), poses.end(), stamp_ns,
+                                      [](const StampedPose& pose, std::int64_t at) { return pose.stamp_ns < at; });
+  if (after == poses.end()) return std::nullopt;
+  if (after->stamp_ns == stamp_ns) return after->world_from_base;
+  if (after == poses.begin()) return std::nullopt;
+  return interpolate(*std::prev(after), *after, stamp_ns);
 }
 
 Eigen::Vector3d rotation_vector(const Eigen::Matrix3d& rotation) {

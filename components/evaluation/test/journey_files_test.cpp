@@ -77,6 +77,17 @@ TEST_F(JourneyFiles, OfTheRecordingSayWhatThePanoramasClockIsAhead) {
   EXPECT_THAT(recording_error(), AllOf(HasSubstr("sequence.yaml:2:"), HasSubstr("a whole number of nanoseconds")));
 }
 
+TEST_F(JourneyFiles, OfTheRecordingKeepTheStampsOfItsPanoramasForTheirOwnScores) {
+  folder_.write("recording/sequence.yaml", "panorama_clock_offset_ns: -20000000\n");
+  const auto panoramas = panoramas_as_stamped(read_journey_recording(folder_ / "recording"), 500'000'000);
+  ASSERT_EQ(panoramas.size(), 2U);
+  EXPECT_EQ(panoramas[0].stamp_ns, stamp(10));
+  EXPECT_TRUE(panoramas[0].world_from_base.isApprox(world_from_map() * make_pose(10.5, 0.0, 0.0), 1e-9));
+  folder_.write("recording/mav0/cam2/data.csv", fmt::format("{},{}.png\n", stamp(kSeconds + 1), stamp(10)));
+  EXPECT_THAT(input_error_of([&] { panoramas_as_stamped(read_journey_recording(folder_ / "recording")); }),
+              HasSubstr("no panorama covered by the ground truth"));
+}
+
 TEST_F(JourneyFiles, OfTheRecordingAreRefusedByLine) {
   folder_.write("recording/sequence.yaml", "visits:\n  - {id: 7, t_ns: 1800000000000000000}\n");
   EXPECT_THAT(recording_error(), HasSubstr("sequence.yaml:2: a visit is outside the time span"));

@@ -66,7 +66,9 @@ class MadeJourney : public ::testing::Test {
     }
     folder_.write(name + "/mav0/state_groundtruth_estimate0/data.csv", truth);
     folder_.write(name + "/mav0/cam2/sensor.yaml",
-                  "%YAML:1.0\nT_BS:\n  data: [0, 0, 1, 0.5, -1, 0, 0, 0, 0, -1, 0, 2, 0, 0, 0, 1]\n");
+                  "%YAML:1.0\nT_BS:\n  data: [0, 0, 1, 0.5, -1, 0, 0, 0, 0, -1, 0, 2, 0, 0, 0, 1]\n"
+                  "resolution: [1080, 540]\ncamera_model: equirectangular\n");
+    folder_.write(name + "/mav0/cam2/data.csv", fmt::format("{0},{0}.png\n{1},{1}.png\n", stamp(10), stamp(90)));
     folder_.write(
         name + "/sequence.yaml",
         fmt::format(

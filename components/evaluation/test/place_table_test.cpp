@@ -101,9 +101,9 @@ TEST(PlaceRecording, SaysWhatIsMissing) {
     std::filesystem::rename(made.folder / "away", path);
     return message;
   };
-  EXPECT_NE(error_without("sequence.yaml").find("sequence.yaml: cannot be read"), std::string::npos);
-  EXPECT_NE(error_without("mav0/cam2/sensor.yaml").find("sensor.yaml: cannot be read"), std::string::npos);
-  EXPECT_NE(error_without("mav0/cam2/data").find("holds no image"), std::string::npos);
+  EXPECT_NE(error_without("sequence.yaml").find("sequence.yaml: lists no visits"), std::string::npos);
+  EXPECT_NE(error_without("mav0/cam2/sensor.yaml").find("holds no panoramas"), std::string::npos);
+  EXPECT_NE(error_without("mav0/cam2/data").find("contains none of the images"), std::string::npos);
   EXPECT_NE(error_without("mav0/state_groundtruth_estimate0/data.csv"), "");
   EXPECT_NO_THROW(read_place_recording(made.folder.path()));
 }

@@ -103,6 +103,30 @@ TEST_F(TrajectoryFiles, AslGroundTruthIsFoundFromAnyOfItsFolders) {
   }
 }
 
+TEST_F(TrajectoryFiles, GroundTruthIsFoundWhereThePlayerFindsIt) {
+  folder_.write("one/poses/03.txt", std::string(kKittiStill) + kKittiStill);
+  folder_.write("one/03/times.txt", "0.5\n0.6\n");
+  EXPECT_EQ(read_trajectory(folder_ / "one/03").poses.at(1).stamp_ns, 600'000'000);
+  EXPECT_EQ(read_trajectory(folder_ / "one/poses/03.txt").poses.at(1).stamp_ns, 600'000'000);
+  for (const char* system : {"vicon0", "mocap0"}) {
+    // The marker is 0.5 m above the body.
+    const std::string place = std::string(system) + "/mav0/" + system;
+    folder_.write(place + "/sensor.yaml", "T_BS:\n  data: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0.5, 0, 0, 0, 1]\n");
+    folder_.write(place + "/data.csv", "1,1,2,3,1,0,0,0\n");
+    for (const auto& path : {folder_ / system, folder_ / place, folder_ / place / "data.csv"}) {
+      EXPECT_TRUE(read_trajectory(path).poses.at(0).world_from_base.isApprox(make_pose(1, 2, 2.5), 1e-12)) << path;
+    }
+  }
+}
+
+TEST_F(TrajectoryFiles, ErrorsOfADataSetAreThoseOfItsReader) {
+  folder_.write("mav0/vicon0/data.csv", "1,1,2,3,1,0,0,0\n2,1,2,3,0.5,0,0,0\n");
+  EXPECT_THAT(input_error_of([&] { read_trajectory(folder_.path()); }),
+              HasSubstr("vicon0/data.csv:2: contains a quaternion whose norm is not 1"));
+  folder_.write("prism/mav0/leica0/data.csv", "1,1,2,3\n");
+  EXPECT_THAT(input_error_of([&] { read_trajectory(folder_ / "prism"); }), HasSubstr("leica0 holds positions only"));
+}
+
 TEST_F(TrajectoryFiles, AFolderWithoutTrajectorySaysWhatItLookedFor) {
   EXPECT_THAT(input_error_of([&] { read_trajectory(folder_.path()); }),
               AllOf(HasSubstr(folder_.path().string()), HasSubstr("odometry_binocular.tum"), HasSubstr("poses.txt")));
@@ -126,17 +150,18 @@ TEST_F(TrajectoryFiles, ARunThatWroteNothingIsNamed) {
 TEST_F(TrajectoryFiles, StampsThatGoBackOrStandStillAreNamedByLine) {
   EXPECT_THAT(error_of("a.tum", "2 0 0 0 0 0 0 1\n3 0 0 0 0 0 0 1\n# x\n1 0 0 0 0 0 0 1\n"),
               AllOf(HasSubstr("a.tum:4: the stamp 1000000000 ns is not after"), HasSubstr("sort the file")));
-  EXPECT_THAT(error_of("b.csv", "5,0,0,0,1,0,0,0\n5,0,0,0,1,0,0,0\n"), HasSubstr("b.csv:2: the stamp 5 ns"));
+  EXPECT_THAT(error_of("b.csv", "5,0,0,0,1,0,0,0\n5,0,0,0,1,0,0,0\n"), HasSubstr("b.csv:2: stamp 5 ns is not later"));
   folder_.write("times.txt", "0\n0\n");
-  EXPECT_THAT(error_of("poses.txt", std::string(kKittiStill) + kKittiStill), HasSubstr("poses.txt:2: the stamp 0 ns"));
+  EXPECT_THAT(error_of("poses.txt", std::string(kKittiStill) + kKittiStill),
+              HasSubstr("times.txt:2: stamp 0 ns is not later"));
 }
 
 TEST_F(TrajectoryFiles, NumbersThatAreNoneAreNamedByField) {
   EXPECT_THAT(error_of("a.tum", "0 0 nan 0 0 0 0 1\n"), HasSubstr("a.tum:1: field 3 is not a finite number: 'nan'"));
   EXPECT_THAT(error_of("b.tum", "0 0 0 0 0 0 0 1\n1 0 0 inf 0 0 0 1\n"), HasSubstr("b.tum:2: field 4"));
   EXPECT_THAT(error_of("c.tum", "0 0 0 0 0 0 0 1x\n"), HasSubstr("field 8 is not a finite number: '1x'"));
-  EXPECT_THAT(error_of("d.csv", "1.5,0,0,0,1,0,0,0\n"), HasSubstr("field 1 is not a whole number"));
-  EXPECT_THAT(error_of("e.csv", "1,,0,0,1,0,0,0\n"), HasSubstr("field 2 is not a finite number"));
+  EXPECT_THAT(error_of("d.csv", "1.5,0,0,0,1,0,0,0\n"), HasSubstr("stamp '1.5' is not a whole number of nanoseconds"));
+  EXPECT_THAT(error_of("e.csv", "1,,0,0,1,0,0,0\n"), HasSubstr("field 2 '' is not a finite number"));
   EXPECT_THAT(error_of("f.tum", "-1 0 0 0 0 0 0 1\n"), HasSubstr("stamps are seconds from 0"));
 }
 
@@ -148,7 +173,7 @@ TEST_F(TrajectoryFiles, QuaternionsThatAreNoRotationAreNamedByLine) {
 
 TEST_F(TrajectoryFiles, MatricesThatAreNoRotationAreNamedByLine) {
   EXPECT_THAT(error_of("a.txt", std::string(kKittiStill) + "2 0 0 0 0 1 0 0 0 0 1 0\n"),
-              HasSubstr("a.txt:2: the left 3x3 part is not a rotation"));
+              HasSubstr("a.txt:2: is not a pose: its first three columns are not a rotation"));
   EXPECT_THAT(error_of("b.txt", "1 0 0 0 0 1 0 0 0 0 -1 0\n"), HasSubstr("not a rotation"));  // a mirror
 }
 

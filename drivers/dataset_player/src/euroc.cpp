@@ -6,6 +6,7 @@
 
 #include "calibration_values.hpp"
 #include "layouts.hpp"
+#include "panvo/dataset_player/ground_truth.hpp"
 #include "panvo/dataset_player/image_file.hpp"
 #include "text_file.hpp"
 #include "yaml_file.hpp"
@@ -20,10 +21,6 @@ struct StampedImage {
   fs::path file;
 };
 
-fs::path mav0(const fs::path& directory) {
-  return fs::is_directory(directory / "mav0") ? directory / "mav0" : directory;
-}
-
 /// The images listed in data.csv in order of time, whether their files exist or not.
 std::vector<StampedImage> read_image_list(const fs::path& camera_folder) {
   const TextFile file(camera_folder / "data.csv", TextFile::Separator::kComma);
@@ -37,20 +34,6 @@ std::vector<StampedImage> read_image_list(const fs::path& camera_folder) {
   }
   if (images.empty()) throw DatasetError(file.path().string() + ": lists no images; copy the data set again");
   return images;
-}
-
-/// Reads T_BS: pose of the sensor in base_link (EuRoC's body frame B).
-Eigen::Isometry3d read_base_from_sensor(const YamlFile& sensor) {
-  const RowMajor4d matrix = Eigen::Map<const RowMajor4d>(sensor.numbers("T_BS", 16).data());
-  const Eigen::Matrix3d rotation = matrix.topLeftCorner<3, 3>();
-  if (!((rotation * rotation.transpose() - Eigen::Matrix3d::Identity()).norm() < 1e-3) ||
-      rotation.determinant() < 0.0 || !matrix.allFinite()) {
-    sensor.fail("T_BS", "is not a rigid transform: its upper left 3 x 3 block must be a rotation; correct it");
-  }
-  Eigen::Isometry3d base_from_sensor = Eigen::Isometry3d::Identity();
-  base_from_sensor.linear() = Eigen::Quaterniond(rotation).normalized().toRotationMatrix();
-  base_from_sensor.translation() = matrix.topRightCorner<3, 1>();
-  return base_from_sensor;
 }
 
 ImageSize read_resolution(const YamlFile& sensor) {
@@ -149,7 +132,6 @@ StereoRecording read_stereo(const fs::path& root, std::vector<std::string>& note
   return stereo;
 }
 
-/// cam2, if it is an equirectangular panorama.
 std::optional<PanoramaRecording> read_panorama(const fs::path& folder, std::vector<std::string>& notes) {
   if (!fs::exists(folder / "sensor.yaml")) return std::nullopt;
   const YamlFile sensor(folder / "sensor.yaml");
@@ -187,35 +169,8 @@ std::optional<PanoramaRecording> read_panorama(const fs::path& folder, std::vect
   return panorama;
 }
 
-/// Reads lines of stamp, position and quaternion (w x y z) of a sensor S in the reference frame R.
-std::vector<GroundTruthPose> read_poses(const fs::path& folder) {
-  Eigen::Isometry3d sensor_from_base =
-      Eigen::Isometry3d::Identity();  // identity for the state, which is that of the body
-  if (fs::exists(folder / "sensor.yaml")) {
-    const YamlFile sensor(folder / "sensor.yaml");
-    if (sensor.has("T_BS")) sensor_from_base = read_base_from_sensor(sensor).inverse();
-  }
-  const TextFile file(folder / "data.csv", TextFile::Separator::kComma);
-  std::vector<GroundTruthPose> poses;
-  for (const auto& line : file.lines()) {
-    const auto stamp_ns = file.nanoseconds(line, 0);
-    if (!poses.empty()) file.expect_later(line, poses.back().stamp_ns, stamp_ns);
-    const auto value = [&](std::size_t field) { return file.number(line, field); };
-    const Eigen::Quaterniond rotation(value(4), value(5), value(6), value(7));
-    if (std::abs(rotation.norm() - 1.0) > 1e-2)
-      file.fail(line, "contains a quaternion whose norm is not 1; correct or remove the line");
-    Eigen::Isometry3d map_from_sensor = Eigen::Isometry3d::Identity();
-    map_from_sensor.linear() = rotation.normalized().toRotationMatrix();
-    map_from_sensor.translation() = Eigen::Vector3d(value(1), value(2), value(3));
-    poses.push_back({stamp_ns, map_from_sensor * sensor_from_base});
-  }
-  return poses;
-}
-
 std::vector<GroundTruthPose> read_ground_truth(const fs::path& root, std::vector<std::string>& notes) {
-  for (const char* folder : {"state_groundtruth_estimate0", "vicon0"}) {
-    if (fs::exists(root / folder / "data.csv")) return read_poses(root / folder);
-  }
+  if (const auto file = find_euroc_ground_truth(root)) return read_euroc_poses(*file);
   if (fs::exists(root / "leica0")) {
     notes.push_back("leica0 holds positions of a prism, not poses of the body: it is not published as ground truth");
   }
@@ -224,17 +179,38 @@ std::vector<GroundTruthPose> read_ground_truth(const fs::path& root, std::vector
 
 }  // namespace
 
+fs::path euroc_root(const fs::path& directory) {
+  return fs::is_directory(directory / "mav0") ? directory / "mav0" : directory;
+}
+
+Eigen::Isometry3d read_base_from_sensor(const YamlFile& sensor) {
+  const RowMajor4d matrix = Eigen::Map<const RowMajor4d>(sensor.numbers("T_BS", 16).data());
+  const Eigen::Matrix3d rotation = matrix.topLeftCorner<3, 3>();
+  if (!((rotation * rotation.transpose() - Eigen::Matrix3d::Identity()).norm() < 1e-3) ||
+      rotation.determinant() < 0.0 || !matrix.allFinite()) {
+    sensor.fail("T_BS", "is not a rigid transform: its upper left 3 x 3 block must be a rotation; correct it");
+  }
+  Eigen::Isometry3d base_from_sensor = Eigen::Isometry3d::Identity();
+  base_from_sensor.linear() = Eigen::Quaterniond(rotation).normalized().toRotationMatrix();
+  base_from_sensor.translation() = matrix.topRightCorner<3, 1>();
+  return base_from_sensor;
+}
+
+std::optional<PanoramaRecording> open_panorama(const fs::path& directory, std::vector<std::string>& notes) {
+  return read_panorama(euroc_root(directory) / "cam2", notes);
+}
+
 bool looks_like_euroc(const fs::path& directory) {
   return fs::is_directory(directory / "mav0") || fs::exists(directory / "cam0" / "data.csv") ||
          fs::exists(directory / "cam2" / "data.csv");
 }
 
 Dataset read_euroc(const fs::path& directory, const ReadOptions&) {
-  const auto root = mav0(directory);
+  const auto root = euroc_root(directory);
   Dataset dataset;
   dataset.kind = "EuRoC/ASL";
   dataset.directory = directory;
-  dataset.panorama = read_panorama(root / "cam2", dataset.notes);
+  dataset.panorama = open_panorama(directory, dataset.notes);
   // Panoramas alone are a valid recording. Without any camera, read_stereo() reports what is missing.
   if (!dataset.panorama || fs::exists(root / "cam0") || fs::exists(root / "cam1"))
     dataset.stereo = read_stereo(root, dataset.notes);

@@ -7,6 +7,7 @@
 
 #include "calibration_values.hpp"
 #include "layouts.hpp"
+#include "panvo/dataset_player/ground_truth.hpp"
 #include "text_file.hpp"
 
 namespace panvo::dataset_player {
@@ -68,23 +69,12 @@ void read_calibration(const fs::path& path, const Eyes& eyes, StereoRecording& s
   stereo.base_from_left = base_from_optical() * Eigen::Translation3d(-translation(left));
 }
 
-std::vector<std::int64_t> read_times(const fs::path& path) {
-  const TextFile file(path, TextFile::Separator::kBlank);
-  std::vector<std::int64_t> stamps_ns;
-  for (const auto& line : file.lines()) {
-    const auto stamp_ns = file.seconds_as_ns(line, 0);
-    if (!stamps_ns.empty()) file.expect_later(line, stamps_ns.back(), stamp_ns);
-    stamps_ns.push_back(stamp_ns);
-  }
-  return stamps_ns;
-}
-
 /// Returns a function for the stamp of a pair: from times.txt, line i for image i, or from the frame rate without that
 /// file.
 std::function<std::int64_t(const NumberedPair&)> read_clock(const fs::path& times_path, const ReadOptions& options,
                                                             std::vector<std::string>& notes) {
   if (fs::exists(times_path)) {
-    return [times_path, stamps_ns = read_times(times_path)](const NumberedPair& pair) {
+    return [times_path, stamps_ns = read_kitti_times(times_path)](const NumberedPair& pair) {
       if (pair.number < stamps_ns.size()) return stamps_ns[pair.number];
       throw DatasetError(
           fmt::format("{}: has {} times, but none for image {}; copy the file again, or remove it to play at {} Hz",
@@ -100,37 +90,6 @@ std::function<std::int64_t(const NumberedPair&)> read_clock(const fs::path& time
     throw DatasetError(pair.left.string() +
                        ": its number is too large for a frame number; number the images from 000000, or add times.txt");
   };
-}
-
-/// Reads poses.txt (axes of the first camera: X right, Y down) and converts both frames of each pose to vehicle axes.
-std::vector<Eigen::Isometry3d> read_poses(const fs::path& path) {
-  const TextFile file(path, TextFile::Separator::kBlank);
-  const auto base_from_camera = base_from_optical();
-  std::vector<Eigen::Isometry3d> poses;
-  for (const auto& line : file.lines()) {
-    RowMajor34d matrix;
-    for (int i = 0; i < 12; ++i) matrix(i / 4, i % 4) = file.number(line, static_cast<std::size_t>(i));
-    const Eigen::Matrix3d rotation = matrix.leftCols<3>();
-    if ((rotation * rotation.transpose() - Eigen::Matrix3d::Identity()).norm() > 1e-3 || rotation.determinant() < 0.0) {
-      file.fail(line, "is not a pose: its first three columns are not a rotation; copy the file again");
-    }
-    Eigen::Isometry3d first_from_camera = Eigen::Isometry3d::Identity();
-    first_from_camera.linear() = Eigen::Quaterniond(rotation).normalized().toRotationMatrix();
-    first_from_camera.translation() = matrix.col(3);
-    poses.push_back(base_from_camera * first_from_camera * base_from_camera.inverse());
-  }
-  return poses;
-}
-
-std::optional<fs::path> find_poses(const fs::path& directory) {
-  // "sequences/03/" and "sequences/03" name the same folder, but only the latter ends in 03.
-  const auto folder = fs::weakly_canonical(directory);
-  const auto number = folder.filename().string();
-  for (const auto& path : {folder / "poses.txt", folder / ".." / "poses" / (number + ".txt"),
-                           folder / ".." / ".." / "poses" / (number + ".txt")}) {
-    if (fs::exists(path)) return path.lexically_normal();
-  }
-  return std::nullopt;
 }
 
 }  // namespace
@@ -149,8 +108,8 @@ Dataset read_kitti(const fs::path& directory, const ReadOptions& options) {
   const auto folders = pair_by_number(directory / eyes.left_folder, directory / eyes.right_folder, dataset.notes);
 
   const auto stamp_of = read_clock(directory / "times.txt", options, dataset.notes);
-  const auto poses_path = find_poses(directory);
-  const auto poses = poses_path ? read_poses(*poses_path) : std::vector<Eigen::Isometry3d>();
+  const auto poses_path = find_kitti_ground_truth(directory);
+  const auto poses = poses_path ? read_kitti_poses(*poses_path) : std::vector<Eigen::Isometry3d>();
 
   StereoRecording stereo;
   for (const auto& pair : folders.pairs) {

@@ -11,13 +11,21 @@
 /// The layouts supported by open_dataset(), each with a detection and a reader.
 namespace panvo::dataset_player {
 
+class YamlFile;
+
 /// KITTI odometry: calib.txt with image_0 and image_1 (grey) or image_2 and image_3 (colour).
 bool looks_like_kitti(const std::filesystem::path& directory);
 Dataset read_kitti(const std::filesystem::path& directory, const ReadOptions& options);
+std::optional<std::filesystem::path> find_kitti_ground_truth(const std::filesystem::path& directory);
 
 /// EuRoC/ASL: mav0 with cam0, cam1, cam2 and ground truth.
 bool looks_like_euroc(const std::filesystem::path& directory);
 Dataset read_euroc(const std::filesystem::path& directory, const ReadOptions& options);
+std::optional<std::filesystem::path> find_euroc_ground_truth(const std::filesystem::path& directory);
+/// mav0, or `directory` if that is mav0 itself.
+std::filesystem::path euroc_root(const std::filesystem::path& directory);
+/// Reads T_BS of a sensor.yaml: pose of the sensor in base_link (EuRoC's body frame B). Throws DatasetError.
+Eigen::Isometry3d read_base_from_sensor(const YamlFile& sensor);
 
 /// Folders left and right with a calibration file.
 bool looks_like_folders(const std::filesystem::path& directory);

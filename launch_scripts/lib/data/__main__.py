@@ -10,7 +10,7 @@ import catalogue
 import layouts
 
 MARK = ".panvo_unpacked"  # in folders that `prepare` made, which it may write into again
-LOOKED_FOR = "EuRoC/ASL (mav0/cam0), KITTI odometry (image_0, image_1), left/ and right/, and those of `panvo data`"
+LOOKED_FOR = "EuRoC/ASL (mav0/cam0), KITTI odometry (image_0, image_1, or image_2, image_3), left/ and right/, and those of `panvo data`"
 LAST_LINES = """\
 Stereo pair and panorama together, ready to run:
   panvo simulate short --out DIR; panvo run enhanced_vo --dataset DIR --out runs/short

@@ -58,8 +58,7 @@ DATA_SETS = {
         licence="CC BY 4.0",
         size="some GB per sequence of 512 x 512 px",
         member=path(r"dataset-[a-z]+\d+_\d+_\d+/"),
-        missing="mav0/cam0/sensor.yaml and mav0/cam1/sensor.yaml (their values are in dso/camchain.yaml, lens model equidistant); "
-                "the ground truth is expected in mav0/state_groundtruth_estimate0, not mav0/mocap0"),
+        missing="mav0/cam0/sensor.yaml and mav0/cam1/sensor.yaml (their values are in dso/camchain.yaml, lens model equidistant)"),
     "4seasons": DataSet(
         name="4Seasons",
         sensors="stereo pair, grey, undistorted 800 x 400 px, 30 Hz, IMU and RTK GNSS on a car, the same routes in all seasons; "

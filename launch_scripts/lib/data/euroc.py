@@ -93,10 +93,10 @@ def read_list(findings, folder):
 
 
 def check_truth(findings, root, stamps):
-    places = [root / name / "data.csv" for name in ("state_groundtruth_estimate0", "vicon0")]
+    places = [root / name / "data.csv" for name in ("state_groundtruth_estimate0", "vicon0", "mocap0")]
     file = next((place for place in places if place.is_file()), None)
     if not file:
-        findings.notes.append("no ground truth (state_groundtruth_estimate0 or vicon0)" +
+        findings.notes.append("no ground truth (state_groundtruth_estimate0, vicon0 or mocap0)" +
                               ("; leica0 has positions only" if (root / "leica0").is_dir() else ""))
         return
     name, times = f"{file.parent.name}/data.csv", []
@@ -106,7 +106,7 @@ def check_truth(findings, root, stamps):
             findings.problems.append(f"{name}:{line}: is not 'stamp in ns, position, quaternion' with a stamp after the previous one")
             return
         times.append(int(fields[0]))
-    findings.has_truth = bool(times) and file.parent.name != "vicon0"  # `panvo evaluate` does not look there
+    findings.has_truth = bool(times)
     findings.facts.append(f"ground truth: {len(times)} poses, {duration([time * 1e-9 for time in times])}")
     outside = len(stamps) - bisect.bisect_right(stamps, times[-1]) + bisect.bisect_left(stamps, times[0]) if times else len(stamps)
     if stamps and outside == len(stamps):

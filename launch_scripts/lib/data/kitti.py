@@ -88,7 +88,7 @@ def check_calibration(findings, projections):
 
 
 def check_poses(findings, numbers):
-    folder = findings.folder.absolute()
+    folder = findings.folder.resolve()  # as the player does
     beside = f"poses/{folder.name}.txt"
     places = (folder / "poses.txt", folder.parent / beside, folder.parent.parent / beside)
     file = next((place for place in places if place.is_file()), None)
@@ -102,7 +102,7 @@ def check_poses(findings, numbers):
             findings.problems.append(f"{file.name}:{line}: is not a pose of 12 numbers")
             return
         count += 1
-    findings.has_truth = count > 0 and file != places[1]  # `panvo evaluate` does not look there
+    findings.has_truth = count > 0
     findings.facts.append(f"ground truth: {count} poses")
     if numbers and count <= numbers[-1]:
         findings.notes.append(f"{sum(number >= count for number in numbers)} pairs have no ground truth")

@@ -9,15 +9,23 @@
 #include <string>
 #include <vector>
 
-#include "panvo/evaluation/place_recording.hpp"
 #include "panvo/evaluation/trajectory.hpp"
 
 namespace panvo::evaluation {
+
+/// A panorama of a recording with its true pose.
+struct RecordedPanorama {
+  std::int64_t stamp_ns = 0;  ///< in the clock of the ground truth
+  std::filesystem::path file;
+  Eigen::Isometry3d world_from_base = Eigen::Isometry3d::Identity();
+  double travelled_m = 0.0;  ///< since the first panorama
+};
 
 /// A junction of the route, as listed in sequence.yaml.
 struct JourneyPlace {
   std::string name;
   Eigen::Vector2d position_m = Eigen::Vector2d::Zero();  ///< in the world frame of the ground truth
+  int roads = 0;                                         ///< that meet there; 0 if not listed
 };
 
 struct JourneyVisit {
@@ -46,13 +54,17 @@ struct JourneyRecording {
   std::vector<JourneyVisit> visits;           ///< in order of time
   std::vector<Disturbance> disturbances;      ///< adjacent intervals of one kind are merged
   std::int64_t panorama_clock_offset_ns = 0;  ///< clock of the panoramic camera minus clock of the ground truth
-  std::vector<RecordedPanorama> panoramas;
+  std::vector<RecordedPanorama> panoramas;    ///< in order of time
   Eigen::Isometry3d base_from_panorama = Eigen::Isometry3d::Identity();
 };
 
 /// Reads a data set in EuRoC/ASL layout, with sequence.yaml and cam2 if present; a run folder, of which only
 /// ground_truth.tum is used; or a trajectory. Throws InputError (file, line, remedy).
 JourneyRecording read_journey_recording(const std::filesystem::path& folder);
+
+/// Panoramas with the stamps of their own camera, each with the true pose `late_ns` after its stamp; only those for which
+/// the ground truth has one. Throws InputError if there are none.
+std::vector<RecordedPanorama> panoramas_as_stamped(const JourneyRecording& recording, std::int64_t late_ns = 0);
 
 /// Ground truth with the distance travelled along it.
 class TruePath {

@@ -7,17 +7,9 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
-#include "panvo/evaluation/trajectory.hpp"
+#include "panvo/evaluation/journey_recording.hpp"
 
 namespace panvo::evaluation {
-
-/// A panorama of a recording with its true pose.
-struct RecordedPanorama {
-  std::int64_t stamp_ns = 0;  ///< in the clock of the ground truth
-  std::filesystem::path file;
-  Eigen::Isometry3d world_from_base = Eigen::Isometry3d::Identity();
-  double travelled_m = 0.0;  ///< since the first panorama
-};
 
 /// A pass by a junction, as listed in sequence.yaml.
 struct RecordedVisit {

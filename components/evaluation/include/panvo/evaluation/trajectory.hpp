@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,9 @@ std::int64_t median_period_ns(const Trajectory& trajectory);
 // The pose at `stamp_ns` between two poses: position by linear, orientation by spherical linear interpolation.
 // Requires before.stamp_ns < after.stamp_ns.
 Eigen::Isometry3d interpolate(const StampedPose& before, const StampedPose& after, std::int64_t stamp_ns);
+
+// The pose at `stamp_ns`, interpolated between two of `poses`; nullopt outside their time span.
+std::optional<Eigen::Isometry3d> pose_at(const std::vector<StampedPose>& poses, std::int64_t stamp_ns);
 
 // Rotation vector (axis times angle, rad, angle in [0, pi]); exact also for very small angles.
 Eigen::Vector3d rotation_vector(const Eigen::Matrix3d& rotation);

@@ -13,7 +13,8 @@ namespace panvo::evaluation {
 // `t x y z qx qy qz qw`, t in seconds, read digit by digit to preserve nanoseconds.
 Trajectory read_tum(const std::filesystem::path& file);
 
-// state_groundtruth_estimate0/data.csv: stamp in ns, position, quaternion w first; further columns are ignored.
+// Ground truth of EuRoC/ASL: stamp in ns, position, quaternion w first; further columns are ignored. A sensor.yaml beside
+// the file places the sensor on the vehicle, as for the data set player.
 Trajectory read_euroc(const std::filesystem::path& file);
 
 // KITTI odometry: one 3x4 matrix per line, first left optical frame from left optical frame. Converted to REP 103 axes
@@ -22,7 +23,7 @@ Trajectory read_euroc(const std::filesystem::path& file);
 Trajectory read_kitti(const std::filesystem::path& file, const std::filesystem::path& times = {});
 
 // Reads a file in any of these formats (recognised by its first line) or a folder: a run folder (odometry_enhanced.tum,
-// else odometry_binocular.tum), a EuRoC/ASL data set, a KITTI sequence.
+// else odometry_binocular.tum), or a data set, whose ground truth is found where the data set player finds it.
 Trajectory read_trajectory(const std::filesystem::path& file_or_folder);
 
 }  // namespace panvo::evaluation

@@ -75,4 +75,8 @@ struct ReadOptions {
 /// images after the first. Throws DatasetError.
 Dataset open_dataset(const std::filesystem::path& directory, const ReadOptions& options = {});
 
+/// Reads only the panorama of the EuRoC/ASL data set in `directory`: cam2, if it is equirectangular, else nullopt. Appends
+/// warnings for the user to `notes`. Throws DatasetError.
+std::optional<PanoramaRecording> open_panorama(const std::filesystem::path& directory, std::vector<std::string>& notes);
+
 }  // namespace panvo::dataset_player

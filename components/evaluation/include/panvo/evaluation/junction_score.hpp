@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
+#include <map>
 #include <vector>
 
+#include "panvo/evaluation/journey_recording.hpp"
 #include "panvo/landmark_builder/junction_filter.hpp"
-#include "recording.hpp"
 
-namespace panvo::landmark_builder {
+namespace panvo::evaluation {
 
 /// Score of detected junctions against the listed ones. A visit is a stretch of the journey within `radius_m` of a
 /// listed junction where at least three roads meet; bends (two) and road ends (one) do not count. A visit is found by
@@ -21,14 +23,16 @@ struct JunctionScore {
     int detections = 0;
   };
   std::vector<Visit> visits;
-  std::vector<PassedJunction> wrong;
+  std::vector<landmark_builder::PassedJunction> wrong;
   int found = 0, missed = 0;
 
   double precision() const;
   double recall() const;
 };
 
-JunctionScore score_junctions(const Recording& recording, const std::vector<PassedJunction>& detections,
-                              double radius_m);
+/// `panoramas`: with their true poses, in order of time, not empty. `junctions`: the listed ones, by number.
+JunctionScore score_junctions(const std::vector<RecordedPanorama>& panoramas,
+                              const std::map<int, JourneyPlace>& junctions,
+                              const std::vector<landmark_builder::PassedJunction>& detections, double radius_m);
 
-}  // namespace panvo::landmark_builder
+}  // namespace panvo::evaluation

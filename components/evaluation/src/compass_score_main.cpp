@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Accuracy of the compass on recordings with ground truth.
+// panvo_compass_score: accuracy of the compass on recordings with ground truth.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
@@ -9,10 +9,11 @@
 #include <string>
 #include <vector>
 
-#include "compass_recording.hpp"
-#include "compass_score.hpp"
+#include "panvo/evaluation/compass_score.hpp"
+#include "panvo/evaluation/journey_recording.hpp"
 
 int main(int argc, char** argv) {
+  using namespace panvo::evaluation;
   using namespace panvo::panoramic_compass;
   CLI::App app{
       "Accuracy of the panoramic compass: RMS, p95 and largest error, valid changes, and mean error^2 / variance"};
@@ -21,7 +22,7 @@ int main(int argc, char** argv) {
   double late_ms = 0.0;
   bool list = false;
   std::size_t first = 0, count = 0;
-  app.add_option("recording", recordings, "folders with mav0/cam2 and mav0/state_groundtruth_estimate0")->required();
+  app.add_option("recording", recordings, "EuRoC/ASL data sets with cam2 and ground truth")->required();
   app.add_option("--method", parameters.method, "all_round or two_patches");
   app.add_option("--longest-reference", parameters.agreement.max_reference_panoramas,
                  "maximum number of panoramas per reference");
@@ -43,11 +44,11 @@ int main(int argc, char** argv) {
                     std::sqrt(change.variance_rad2) * kDegrees, change.side_parallax_rad, change.valid ? 1 : 0,
                     change.reason.c_str());
       };
-      auto recording = read_compass_recording(folder, static_cast<std::int64_t>(late_ms * 1e6));
-      auto& all = recording.panoramas;
+      const auto recording = read_journey_recording(folder);
+      auto all = panoramas_as_stamped(recording, static_cast<std::int64_t>(late_ms * 1e6));
       all.erase(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(std::min(first, all.size())));
       if (count > 0 && count < all.size()) all.resize(count);
-      const CompassScore s = score(recording, parameters, look);
+      const CompassScore s = score_compass(recording.base_from_panorama.linear(), all, parameters, look);
       std::printf(
           "%s: %d of %d valid, RMS %.4f deg, p95 %.4f, worst %.3f (at %lld), step RMS %.4f, drift over 50 %.4f, "
           "consistency %.2f\n",

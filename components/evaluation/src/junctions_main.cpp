@@ -1,19 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
-// Detects the road junctions of a data set, draws the detector's steps and scores the result.
+// panvo_junctions: detects the road junctions of a data set, draws the detector's steps and scores the result.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <opencv2/core/utility.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <set>
 
-#include "junction_score.hpp"
+#include "panvo/evaluation/journey_recording.hpp"
+#include "panvo/evaluation/junction_score.hpp"
 #include "panvo/landmark_builder/drawing.hpp"
 #include "panvo/landmark_builder/junction_filter.hpp"
 #include "panvo/landmark_builder/road_junction_detector.hpp"
-#include "recording.hpp"
 
-namespace panvo::landmark_builder {
 namespace {
+
+using namespace panvo::evaluation;
+using namespace panvo::landmark_builder;
 
 struct Options {
   std::string dataset, out, criterion = "arms";
@@ -24,7 +26,8 @@ struct Options {
 };
 
 int run(const Options& options) {
-  const Recording recording = read_recording(options.dataset);
+  const JourneyRecording recording = read_journey_recording(options.dataset);
+  const auto panoramas = panoramas_as_stamped(recording);
   if (!options.out.empty()) std::filesystem::create_directories(options.out);
   const std::set<int> chosen(options.frames.begin(), options.frames.end());
   JunctionDetectorParameters parameters;
@@ -34,23 +37,23 @@ int run(const Options& options) {
   std::optional<RoadJunctionDetector> detector;
   std::vector<PassedJunction> detections;
   std::vector<double> times_ms;
-  for (std::size_t i = 0; i < recording.panoramas.size(); ++i) {
-    const auto& frame = recording.panoramas[i];
-    const cv::Mat panorama = cv::imread(frame.image.string(), options.grey ? cv::IMREAD_GRAYSCALE : cv::IMREAD_COLOR);
-    if (panorama.empty()) throw std::runtime_error(frame.image.string() + " is not a readable image");
+  for (std::size_t i = 0; i < panoramas.size(); ++i) {
+    const auto& frame = panoramas[i];
+    const cv::Mat panorama = cv::imread(frame.file.string(), options.grey ? cv::IMREAD_GRAYSCALE : cv::IMREAD_COLOR);
+    if (panorama.empty()) throw std::runtime_error(frame.file.string() + " is not a readable image");
     if (!detector) detector.emplace(parameters, recording.base_from_panorama, panorama.size());
     cv::TickMeter timer;
     timer.start();
-    const JunctionView view = detector->detect(panorama, frame.map_from_base);
-    const auto passed = filter.add(frame.stamp_ns, frame.map_from_base.translation().head<2>(), view.seen);
+    const JunctionView view = detector->detect(panorama, frame.world_from_base);
+    const auto passed = filter.add(frame.stamp_ns, frame.world_from_base.translation().head<2>(), view.seen);
     timer.stop();
     times_ms.push_back(timer.getTimeMilli());
     detections.insert(detections.end(), passed.begin(), passed.end());
     if (options.is_verbose) {
       const SeenJunction seen = view.seen.value_or(SeenJunction{{0.0, 0.0}, 0});
       std::printf("%4zu  %d roads at (%.1f, %.1f), vehicle at (%.1f, %.1f)%s\n", i, seen.roads, seen.centre_in_odom.x(),
-                  seen.centre_in_odom.y(), frame.map_from_base.translation().x(), frame.map_from_base.translation().y(),
-                  passed.empty() ? "" : ", passed");
+                  seen.centre_in_odom.y(), frame.world_from_base.translation().x(),
+                  frame.world_from_base.translation().y(), passed.empty() ? "" : ", passed");
     }
     const bool is_wanted =
         chosen.contains(static_cast<int>(i)) || (options.every > 0 && static_cast<int>(i) % options.every == 0);
@@ -69,8 +72,8 @@ int run(const Options& options) {
   std::sort(times_ms.begin(), times_ms.end());
   std::printf("%zu panoramas, %zu junctions; time per panorama: median %.2f ms, 95 %% %.2f ms\n", times_ms.size(),
               detections.size(), times_ms[times_ms.size() / 2], times_ms[times_ms.size() * 95 / 100]);
-  if (recording.junctions.empty()) return 0;
-  const JunctionScore score = score_junctions(recording, detections, options.radius_m);
+  if (recording.places.empty()) return 0;
+  const JunctionScore score = score_junctions(panoramas, recording.places, detections, options.radius_m);
   for (const auto& visit : score.visits) {
     if (visit.detections == 1 || visit.is_cut) continue;
     std::printf("visit of junction %d, %lld to %lld ns, nearest %.1f m: %s\n", visit.junction,
@@ -87,10 +90,9 @@ int run(const Options& options) {
 }
 
 }  // namespace
-}  // namespace panvo::landmark_builder
 
 int main(int argc, char** argv) {
-  panvo::landmark_builder::Options options;
+  Options options;
   CLI::App app{
       "Finds the road junctions of a data set (EuRoC/ASL: cam2 with ground truth) and scores them against "
       "sequence.yaml.",
@@ -110,7 +112,7 @@ int main(int argc, char** argv) {
   CLI11_PARSE(app, argc, argv);
   cv::setNumThreads(1);
   try {
-    return panvo::landmark_builder::run(options);
+    return run(options);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "panvo landmarks junctions: %s\n", error.what());
     return 1;

@@ -4,17 +4,23 @@
 
 #include <filesystem>
 
-#include "compass_recording.hpp"
-#include "compass_score.hpp"
+#include "panvo/evaluation/compass_score.hpp"
+#include "panvo/evaluation/journey_recording.hpp"
 #include "panvo/test/recorded_data.hpp"
 
-namespace panvo::panoramic_compass {
+namespace panvo::evaluation {
 namespace {
 
 using panvo::test::recorded_data;
 
+CompassScore score_recorded(const std::filesystem::path& folder,
+                            const panoramic_compass::CompassParameters& parameters = {}) {
+  const auto recording = read_journey_recording(folder);
+  return score_compass(recording.base_from_panorama.linear(), panoramas_as_stamped(recording), parameters);
+}
+
 void expect_honest_and_exact(const std::filesystem::path& folder) {
-  const CompassScore all = score(read_compass_recording(folder), CompassParameters{});
+  const CompassScore all = score_recorded(folder);
   EXPECT_EQ(all.valid, all.changes);
   EXPECT_LT(all.rms_deg, 0.03);
   EXPECT_LT(all.worst_deg, 0.15);
@@ -35,12 +41,12 @@ TEST(RecordedCampusJourney, GivesEveryTurnWithAnHonestVariance) {
 
 TEST(RecordedCampusClip, GivesThePapersMethodWhatItCanTell) {
   PANVO_NEEDS_RECORDING(recorded_data("campus_clip"));
-  CompassParameters paper;
+  panoramic_compass::CompassParameters paper;
   paper.method = "two_patches";
-  const CompassScore all = score(read_compass_recording(recorded_data("campus_clip")), paper);
+  const CompassScore all = score_recorded(recorded_data("campus_clip"), paper);
   EXPECT_GT(all.valid, all.changes / 2);
   EXPECT_LT(all.rms_deg, 0.4);
 }
 
 }  // namespace
-}  // namespace panvo::panoramic_compass
+}  // namespace panvo::evaluation

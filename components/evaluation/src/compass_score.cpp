@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "compass_score.hpp"
+#include "panvo/evaluation/compass_score.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,17 +9,23 @@
 
 #include "panvo/vision/equirectangular.hpp"
 
-namespace panvo::panoramic_compass {
+namespace panvo::evaluation {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr std::size_t kDriftPanoramas = 50;
 
+/// Yaw of the vehicle at `now` minus that at `then`, about its upward axis at `then`.
+double true_change_rad(const RecordedPanorama& then, const RecordedPanorama& now) {
+  return yaw_of(then.world_from_base.inverse() * now.world_from_base);
+}
+
 }  // namespace
 
-CompassScore score(const CompassRecording& recording, const CompassParameters& parameters,
-                   const std::function<void(const AzimuthChange&, double)>& look) {
-  PanoramicCompass compass(parameters, 1, recording.base_from_panorama);
+CompassScore score_compass(const Eigen::Matrix3d& base_from_panorama, const std::vector<RecordedPanorama>& panoramas,
+                           const panoramic_compass::CompassParameters& parameters,
+                           const std::function<void(const panoramic_compass::AzimuthChange&, double)>& look) {
+  panoramic_compass::PanoramicCompass compass(parameters, 1, base_from_panorama);
   CompassScore score;
   std::map<std::int64_t, const RecordedPanorama*> by_stamp;
   std::vector<double> errors;
@@ -28,9 +34,9 @@ CompassScore score(const CompassRecording& recording, const CompassParameters& p
   std::int64_t last_from = -1;
   std::map<std::int64_t, double> error_at;  // heading error of the accumulated changes
   std::vector<double> headings;
-  for (const RecordedPanorama& panorama : recording.panoramas) {
+  for (const RecordedPanorama& panorama : panoramas) {
     by_stamp[panorama.stamp_ns] = &panorama;
-    const auto change = compass.track(panorama.stamp_ns, cv::imread(panorama.image.string()));
+    const auto change = compass.track(panorama.stamp_ns, cv::imread(panorama.file.string()));
     if (!change) continue;
     ++score.changes;
     const double truth = true_change_rad(*by_stamp.at(change->from_stamp_ns), panorama);
@@ -73,4 +79,4 @@ CompassScore score(const CompassRecording& recording, const CompassParameters& p
   return score;
 }
 
-}  // namespace panvo::panoramic_compass
+}  // namespace panvo::evaluation

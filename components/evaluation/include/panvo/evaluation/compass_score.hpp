@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <Eigen/Core>
 #include <cstdint>
 #include <functional>
 #include <vector>
 
-#include "compass_recording.hpp"
+#include "panvo/evaluation/journey_recording.hpp"
 #include "panvo/panoramic_compass/panoramic_compass.hpp"
 
-namespace panvo::panoramic_compass {
+namespace panvo::evaluation {
 
 /// Counts, and errors of the valid changes relative to the ground truth.
 struct CompassScore {
@@ -22,8 +23,11 @@ struct CompassScore {
   std::int64_t worst_ns = 0;  ///< stamp of the largest error
 };
 
-/// Runs a compass over a recording; `look` is called with each result and the true change.
-CompassScore score(const CompassRecording& recording, const CompassParameters& parameters,
-                   const std::function<void(const AzimuthChange&, double true_rad)>& look = {});
+/// Runs a compass over panoramas with their true poses, in order of time; `look` is called with each result and the true
+/// change.
+CompassScore score_compass(
+    const Eigen::Matrix3d& base_from_panorama, const std::vector<RecordedPanorama>& panoramas,
+    const panoramic_compass::CompassParameters& parameters,
+    const std::function<void(const panoramic_compass::AzimuthChange&, double true_rad)>& look = {});
 
-}  // namespace panvo::panoramic_compass
+}  // namespace panvo::evaluation

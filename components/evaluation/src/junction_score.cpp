@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "junction_score.hpp"
+#include "panvo/evaluation/junction_score.hpp"
 
 #include <algorithm>
 
-namespace panvo::landmark_builder {
+namespace panvo::evaluation {
 
 double JunctionScore::precision() const {
   const int all = found + static_cast<int>(wrong.size());
@@ -14,19 +14,20 @@ double JunctionScore::recall() const {
   return found + missed == 0 ? 1.0 : static_cast<double>(found) / (found + missed);
 }
 
-JunctionScore score_junctions(const Recording& recording, const std::vector<PassedJunction>& detections,
-                              double radius_m) {
+JunctionScore score_junctions(const std::vector<RecordedPanorama>& panoramas,
+                              const std::map<int, JourneyPlace>& junctions,
+                              const std::vector<landmark_builder::PassedJunction>& detections, double radius_m) {
   JunctionScore score;
-  for (const ListedJunction& junction : recording.junctions) {
-    if (junction.degree < 3) continue;
+  for (const auto& [number, junction] : junctions) {
+    if (junction.roads < 3) continue;
     bool is_inside = false;
-    for (const RecordedPanorama& panorama : recording.panoramas) {
-      const double distance_m = (panorama.map_from_base.translation().head<2>() - junction.position).norm();
+    for (const RecordedPanorama& panorama : panoramas) {
+      const double distance_m = (panorama.world_from_base.translation().head<2>() - junction.position_m).norm();
       if (distance_m > radius_m) {
         is_inside = false;
         continue;
       }
-      if (!is_inside) score.visits.push_back({junction.id, panorama.stamp_ns, panorama.stamp_ns, distance_m, false, 0});
+      if (!is_inside) score.visits.push_back({number, panorama.stamp_ns, panorama.stamp_ns, distance_m, false, 0});
       is_inside = true;
       auto& visit = score.visits.back();
       visit.to_ns = panorama.stamp_ns;
@@ -36,10 +37,9 @@ JunctionScore score_junctions(const Recording& recording, const std::vector<Pass
   std::sort(score.visits.begin(), score.visits.end(),
             [](const auto& a, const auto& b) { return a.from_ns < b.from_ns; });
   for (auto& visit : score.visits) {
-    visit.is_cut =
-        visit.from_ns == recording.panoramas.front().stamp_ns || visit.to_ns == recording.panoramas.back().stamp_ns;
+    visit.is_cut = visit.from_ns == panoramas.front().stamp_ns || visit.to_ns == panoramas.back().stamp_ns;
   }
-  for (const PassedJunction& detection : detections) {
+  for (const auto& detection : detections) {
     const auto visit = std::find_if(score.visits.begin(), score.visits.end(), [&](const auto& candidate) {
       return detection.nearest_stamp_ns >= candidate.from_ns && detection.nearest_stamp_ns <= candidate.to_ns;
     });
@@ -55,4 +55,4 @@ JunctionScore score_junctions(const Recording& recording, const std::vector<Pass
   return score;
 }
 
-}  // namespace panvo::landmark_builder
+}  // namespace panvo::evaluation

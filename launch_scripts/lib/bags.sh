@@ -1,0 +1,44 @@
+# SPDX-License-Identifier: Apache-2.0
+# shellcheck shell=bash
+# Bags, and the run files derived from them. Needs build.sh and systems.sh.
+
+# is_bag PATH: whether PATH is a rosbag2 folder or one file of a bag.
+is_bag() {
+  if [[ -d $1 ]]; then
+    local name
+    for name in metadata.yaml '*.db3' '*.mcap' '*.db3.zstd' '*.mcap.zstd'; do
+      ! compgen -G "$1/$name" >/dev/null || return 0
+    done
+    return 1
+  else
+    [[ -f $1 && $1 == *.@(db3|mcap)?(.zstd) ]]
+  fi
+}
+
+# results_of_bag BAG: derives the files of a run from the messages of BAG and prints their folder: BAG.results, or a new temporary folder if that
+# cannot be written.
+results_of_bag() {
+  local bag out
+  bag=$(readlink -f -- "$1")
+  out=$bag.results
+  if ! { mkdir -p -- "$out" && [[ -w $out ]]; } 2>/dev/null; then
+    out=$(mktemp -d "${TMPDIR:-/tmp}/panvo-results.XXXXXX")
+  elif [[ ! -e $out/.panvo_run && -n $(ls -A -- "$out") ]]; then
+    fail "'$out' is not from panvo, and the results of the bag belong there; move it away"
+  fi
+  note "deriving the results of $1 into $out"
+  # Results need no images, the largest part of most bags.
+  run_to_its_end "$out" "$(system_file play)" "bag:=$bag" 'exclude:=.*/image.*' --replay --local >&2
+  printf '%s' "$out"
+}
+
+# run_of_bag BAG: the same for a bag that must hold odometry.
+run_of_bag() {
+  local out
+  out=$(results_of_bag "$1")
+  if [[ ! -s $out/odometry_enhanced.tum && ! -s $out/odometry_binocular.tum ]]; then
+    fail "'$1' holds no odometry of panvo (odometry/binocular, odometry/enhanced). If it holds images, run a system on it first:
+  panvo run enhanced_vo --bag $(printf %q "$1") --out DIR"
+  fi
+  printf '%s' "$out"
+}
