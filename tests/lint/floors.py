@@ -13,7 +13,8 @@ import workspace
 LIBRARIES = {
     "Eigen": "eigen", "unsupported": "eigen", "opencv2": "opencv", "ceres": "ceres", "opengv": "opengv",
     "fastdds": "fastdds", "fastrtps": "fastdds", "fastcdr": "fastdds",
-    "yaml-cpp": "yaml", "spdlog": "log", "fmt": "text", "CLI": "command line", "nlohmann": "json", "sqlite3.h": "sqlite", "tinyxml2.h": "xml",
+    "yaml-cpp": "yaml", "spdlog": "log", "fmt": "text", "CLI": "command line", "nlohmann": "json",
+    "sqlite3.h": "sqlite", "tinyxml2.h": "xml", "zlib.h": "zlib",
     "embree3": "embree", "arv.h": "aravis", "glib.h": "aravis", "glib-object.h": "aravis",
     "gtest": "test", "gmock": "test", "benchmark": "test",
 }
@@ -41,6 +42,7 @@ def floor(name, packages="", libraries="", threads_and_clocks=True):
 
 VISION = floor("vision", "", "eigen, opencv", False)
 INTERFACES = floor("interfaces", "", "messages, fastdds")
+SQLITE = floor("sqlite", "", "sqlite")
 RUNTIME = floor("runtime", "interfaces", "messages, log, command line")
 RUNTIME_DDS = floor("runtime's dds", "interfaces", "messages, fastdds, log")
 RUNTIME_CONFIG = floor("runtime's config", "interfaces", "messages, yaml, log, command line")
@@ -49,7 +51,7 @@ CONVERSIONS = floor("conversions", "interfaces vision runtime", "messages, eigen
 ALGORITHM = floor("algorithm", "vision landmarks", "eigen, opencv, ceres, opengv", False)
 WRAPPER = floor("component wrapper", "runtime interfaces conversions vision landmarks", "messages, eigen, opencv", False)
 # places, their store and their messages
-LANDMARKS = floor("landmarks", "vision interfaces conversions runtime", "messages, eigen, opencv, sqlite, json", False)
+LANDMARKS = floor("landmarks", "vision interfaces conversions runtime sqlite", "messages, eigen, opencv, sqlite, json", False)
 # programs of a package
 TOOL = floor("tool", "vision", "eigen, opencv, command line")
 # readers of rig files
@@ -58,7 +60,7 @@ RIG_FILE = floor("rig file", "vision", "eigen, opencv, yaml", False)
 BAG_IMAGES = floor("images of a bag", "recorder interfaces conversions", "messages, opencv, command line", False)
 # readers of images from live topics
 LIVE_IMAGES = floor("images of topics", "runtime interfaces conversions", "messages, opencv")
-RECORDER = floor("recorder", "runtime interfaces", "messages, fastdds, yaml, sqlite, log, json, command line")
+RECORDER = floor("recorder", "runtime interfaces sqlite", "messages, fastdds, yaml, sqlite, zlib, log, json, command line")
 DRIVER = floor("driver", "runtime interfaces conversions vision", "messages, eigen, opencv, yaml, xml, json, log")
 CAMERA_DRIVER = floor("camera driver", "runtime interfaces conversions vision camera_stream camera_group", "messages, eigen, opencv, aravis, yaml, json, log")
 SIMULATED_WORLD = floor("simulated world", "vision", "eigen, opencv, embree")
@@ -69,6 +71,7 @@ EVALUATION = None  # may include anything
 FLOORS = [
     ("components/vision", VISION),
     ("interfaces", INTERFACES),
+    ("components/sqlite", SQLITE),
     ("components/runtime/src/dds", RUNTIME_DDS),
     ("components/runtime/src/config", RUNTIME_CONFIG),
     ("components/runtime", RUNTIME),

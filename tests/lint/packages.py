@@ -13,7 +13,8 @@ DEBIAN = {
     "fastcdr": "libfastcdr-dev", "yaml-cpp": "libyaml-cpp-dev", "spdlog": "libspdlog-dev", "CLI11": "libcli11-dev",
     "nlohmann_json": "nlohmann-json3-dev", "SQLite3": "libsqlite3-dev", "GTest": "libgtest-dev", "benchmark": "libbenchmark-dev",
     "fmt": "libfmt-dev", "CycloneDDS": "cyclonedds-dev", "PNG": "libpng-dev",
-    "tinyxml2": "libtinyxml2-dev", "embree": "libembree-dev", "Python3": "python3", "Threads": "g++", "PkgConfig": "pkg-config",
+    "tinyxml2": "libtinyxml2-dev", "embree": "libembree-dev", "ZLIB": "zlib1g-dev",
+    "Python3": "python3", "Threads": "g++", "PkgConfig": "pkg-config",
 }
 
 

@@ -6,14 +6,17 @@
 #include <map>
 #include <stdexcept>
 
-#include "database.hpp"
 #include "landmark_rules.hpp"
+#include "panvo/sqlite/database.hpp"
 #include "record_bytes.hpp"
 #include "store_schema.hpp"
 
 namespace panvo::landmarks {
 namespace {
 
+using sqlite::Database;
+using sqlite::Statement;
+using sqlite::Transaction;
 using RowMajor6d = Eigen::Matrix<double, 6, 6, Eigen::RowMajor>;
 using PoseNumbers = std::array<double, 7>;
 
@@ -92,7 +95,7 @@ template <class Action>
 decltype(auto) LandmarkStore::guarded(Action action) const {
   try {
     return action();
-  } catch (const DatabaseError& error) {
+  } catch (const sqlite::DatabaseError& error) {
     throw StoreError(explain(file_, error, database_.get()));
   } catch (const std::range_error& error) {
     throw StoreError(file_.string() + ": is damaged: " + error.what() + "; restore a copy");

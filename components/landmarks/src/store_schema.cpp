@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "store_schema.hpp"
 
-#include <array>
 #include <cerrno>
-#include <string_view>
 
 #include "panvo/landmarks/landmark_store.hpp"
+#include "panvo/sqlite/file_header.hpp"
 
 namespace panvo::landmarks {
 namespace {
 
 namespace fs = std::filesystem;
+using sqlite::Database;
+using sqlite::DatabaseError;
+using sqlite::Statement;
 
 // The file is complete between commits and can be copied; with a write-ahead log the newest landmarks would be in a
 // second file. There is one landmark every ten seconds or so, so each gets a synchronous commit of its own.
@@ -36,7 +38,7 @@ CREATE TABLE thumbnail(landmark_id INTEGER PRIMARY KEY, jpeg BLOB NOT NULL);
 /// handle: closing a second descriptor of the file would release all its locks (POSIX).
 std::string cut_off(const Database& database) {
   sqlite3_file* file = nullptr;
-  std::array<unsigned char, 100> header{};  // offset 16: page size, offset 28: number of pages, big-endian
+  sqlite::FileHeader header{};
   sqlite3_int64 size = 0;
   if (sqlite3_file_control(database.handle(), "main", SQLITE_FCNTL_FILE_POINTER, &file) != SQLITE_OK || !file ||
       !file->pMethods || file->pMethods->xFileSize(file, &size) != SQLITE_OK ||
@@ -44,11 +46,8 @@ std::string cut_off(const Database& database) {
       file->pMethods->xRead(file, header.data(), static_cast<int>(header.size()), 0) != SQLITE_OK) {
     return "";
   }
-  const int page = header[16] << 8 | header[17];
-  sqlite3_int64 pages = 0;
-  for (std::size_t i = 28; i < 32; ++i) pages = pages << 8 | header[i];
-  const auto expected = (page == 1 ? 65536 : page) * pages;
-  if (size >= expected) return "";
+  const auto expected = sqlite::stated_bytes(header);
+  if (static_cast<std::uint64_t>(size) >= expected) return "";
   return "truncated after " + std::to_string(size) + " of " + std::to_string(expected) + " bytes";
 }
 
@@ -66,7 +65,8 @@ bool needs_rollback(const DatabaseError& error) {
 
 /// Opens and reads a little, as SQLite opens files lazily. Throws DatabaseError, or StoreError for a damaged file.
 std::unique_ptr<Database> open(const fs::path& file, Database::Mode mode) {
-  auto database = std::make_unique<Database>(file, mode, LandmarkStore::kBusy_ms);
+  auto database = std::make_unique<Database>(file, mode);
+  database->wait_for_locks(LandmarkStore::kBusy_ms);
   database->execute(kCareful);
   try {
     database->execute("BEGIN");
@@ -141,7 +141,7 @@ std::unique_ptr<Database> open_to_read(const fs::path& file) {
 std::unique_ptr<Database> open_to_write(const fs::path& file) {
   check_kind(file);
   try {
-    auto database = open(file, Database::Mode::kCreateOrReadWrite);
+    auto database = open(file, Database::Mode::kCreate);
     if (database->is_read_only()) {  // SQLite silently falls back to read-only
       throw StoreError(file.string() + ": is write-protected; make it writable, or use a copy in a writable folder");
     }

@@ -2,7 +2,6 @@
 /// Tests the command line of panvo_landmarks.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sqlite3.h>
 #include <sys/wait.h>
 
 #include <cstdio>
@@ -96,9 +95,9 @@ TEST_F(Command, InfoOfAnEmptyStoreHasNoExtent) {
 
 TEST_F(Command, InfoWithCheckEndsWithOneForADamagedStore) {
   EXPECT_EQ(run("info --check " + store_).status, 0);
-  auto damaged = read_text(store_);
+  auto damaged = folder_.read(store_);
   std::fill(damaged.begin() + static_cast<std::ptrdiff_t>(damaged.size() / 2), damaged.end() - 5000, '\0');
-  write_text(store_, damaged);
+  folder_.write(store_, damaged);
   const auto finished = run("info --check " + store_);
   EXPECT_EQ(finished.status, 1);
   EXPECT_THAT(finished.output, HasSubstr("Damaged:"));
@@ -130,24 +129,24 @@ TEST_F(Command, MergeRefusesOtherSettingsAndLeavesNothingBehind) {
 }
 
 TEST_F(Command, MergeThatFailsHalfWayLosesNothing) {
-  const auto before = read_text(store_);
-  write_text(out_, read_text(other_));
-  auto damaged = read_text(other_);
+  const auto before = folder_.read(store_);
+  folder_.write(out_, folder_.read(other_));
+  auto damaged = folder_.read(other_);
   std::fill(damaged.begin() + static_cast<std::ptrdiff_t>(damaged.size() / 2), damaged.end() - 3000, '\0');
-  write_text(other_, damaged);
+  folder_.write(other_, damaged);
   const auto finished = run("merge --overwrite " + store_ + " " + other_ + " --out " + out_);
   EXPECT_EQ(finished.status, 2) << finished.output;
   EXPECT_THAT(finished.output, HasSubstr("other: is damaged"));
   EXPECT_EQ(LandmarkStore(out_).size(), 3u) << "the store to be replaced must be unchanged";
-  EXPECT_EQ(read_text(store_), before);
+  EXPECT_EQ(folder_.read(store_), before);
   EXPECT_FALSE(std::filesystem::exists(out_ + ".unfinished"));
 }
 
 TEST_F(Command, MergeReplacesOnlyStoresAndOnlyWhenTold) {
-  write_text(out_, "precious");
+  folder_.write(out_, "precious");
   EXPECT_THAT(run("merge " + store_ + " " + other_ + " --out " + out_).output, HasSubstr("out: already exists"));
   EXPECT_EQ(run("merge --overwrite " + store_ + " " + other_ + " --out " + out_).status, 2);
-  EXPECT_EQ(read_text(out_), "precious");
+  EXPECT_EQ(folder_.read(out_), "precious");
   EXPECT_EQ(run("merge --overwrite " + store_ + " " + other_ + " --out " + store_).status, 0)
       << "replacing one of the inputs";
   EXPECT_EQ(LandmarkStore(store_).size(), 7u);

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sqlite3.h>
 
 #include "made_up_landmark.hpp"
 #include "panvo/interfaces/topics.hpp"
 #include "panvo/landmarks/landmark_messages.hpp"
 #include "panvo/landmarks/landmark_store.hpp"
 #include "panvo/runtime/testing.hpp"
+#include "panvo/sqlite/database.hpp"
 #include "panvo/test/temporary_folder.hpp"
 
 namespace panvo::landmarks {
@@ -142,10 +142,10 @@ TEST_F(LandmarkStoreComponent, MovesNothingByAMalformedMessageAndSaysWhy) {
 
 TEST_F(LandmarkStoreComponent, MovesNothingInAStoreThatIsToBeRead) {
   { Session(file_).publish(made_up_landmark(1)); }
-  const auto before = read_text(file_);
+  const auto before = folder_.read(file_);
   Session session(file_, true);
   session.publish_poses({moved(made_up_landmark(1), 2.0)});
-  EXPECT_EQ(read_text(file_), before);
+  EXPECT_EQ(folder_.read(file_), before);
 }
 
 TEST_F(LandmarkStoreComponent, KeepsNothingOfOtherSettingsAndSaysWhatDiffers) {
@@ -160,11 +160,11 @@ TEST_F(LandmarkStoreComponent, KeepsNothingOfOtherSettingsAndSaysWhatDiffers) {
 
 TEST_F(LandmarkStoreComponent, LeavesAStoreAloneThatIsToBeRead) {
   { Session(file_).publish(made_up_landmark(1)); }
-  const auto before = read_text(file_);
+  const auto before = folder_.read(file_);
   Session session(file_, true);
   session.publish(made_up_landmark(2));
   EXPECT_EQ(session.published.size(), 2U);
-  EXPECT_EQ(read_text(file_), before);
+  EXPECT_EQ(folder_.read(file_), before);
 }
 
 TEST_F(LandmarkStoreComponent, LeavesOutAMalformedLandmarkAndSaysWhy) {
@@ -182,13 +182,10 @@ TEST_F(LandmarkStoreComponent, BeginsWithTheOtherLandmarksWhereOneIsNone) {
     LandmarkStore store(file_, made_up_settings());
     for (const std::uint32_t id : {1U, 2U, 3U}) store.add(made_up_landmark(id));
   }
-  sqlite3* database = nullptr;
-  ASSERT_EQ(sqlite3_open(file_.c_str(), &database), SQLITE_OK);
-  const char* const damage =
-      "UPDATE landmark SET small_features = x'ffff0000000000003f000000003f' WHERE id = 1;"
-      "UPDATE keypoints SET data = x'00' WHERE landmark_id = 2;";
-  ASSERT_EQ(sqlite3_exec(database, damage, nullptr, nullptr, nullptr), SQLITE_OK);
-  sqlite3_close(database);
+  sqlite::Database(file_, sqlite::Database::Mode::kReadWrite)
+      .execute(
+          "UPDATE landmark SET small_features = x'ffff0000000000003f000000003f' WHERE id = 1;"
+          "UPDATE keypoints SET data = x'00' WHERE landmark_id = 2;");
 
   const Session session(file_);
   ASSERT_EQ(session.published.size(), 1U);
@@ -198,7 +195,7 @@ TEST_F(LandmarkStoreComponent, BeginsWithTheOtherLandmarksWhereOneIsNone) {
 }
 
 TEST_F(LandmarkStoreComponent, IsRefusedWithAFileThatIsNone) {
-  write_text(file_, "a letter to somebody, longer than the header of a database would be, whatever that may be");
+  folder_.write(file_, "a letter to somebody, longer than the header of a database would be, whatever that may be");
   EXPECT_THAT(error_of<std::runtime_error>([&] { const Session session(file_); }),
               HasSubstr("store: is not a landmark store"));
 }

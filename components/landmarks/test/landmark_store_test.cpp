@@ -3,13 +3,13 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sqlite3.h>
 #include <unistd.h>
 
 #include <limits>
 
 #include "made_up_landmark.hpp"
 #include "panvo/landmarks/landmark_library.hpp"
+#include "panvo/sqlite/database.hpp"
 #include "panvo/test/temporary_folder.hpp"
 
 namespace panvo::landmarks {
@@ -22,10 +22,7 @@ using testing::Not;
 
 /// Runs SQL on a file, like another program would.
 void tamper(const std::filesystem::path& file, const std::string& sql) {
-  sqlite3* database = nullptr;
-  sqlite3_open(file.c_str(), &database);
-  ASSERT_EQ(sqlite3_exec(database, sql.c_str(), nullptr, nullptr, nullptr), SQLITE_OK) << sqlite3_errmsg(database);
-  sqlite3_close(database);
+  sqlite::Database(file, sqlite::Database::Mode::kCreate).execute(sql);
 }
 
 class Store : public testing::Test {
@@ -150,19 +147,19 @@ TEST_F(Store, OfAnotherVersionIsRefused) {
 
 TEST_F(Store, ThatIsNoneIsRefusedAndLeftAlone) {
   tamper(file_, "CREATE TABLE messages(id INTEGER)");
-  const auto before = read_text(file_);
+  const auto before = folder_.read(file_);
   EXPECT_THAT(error_of_reading(), HasSubstr("is a database, but not a landmark store"));
   EXPECT_THAT(error_of_writing(), HasSubstr("is a database, but not a landmark store"));
-  EXPECT_EQ(read_text(file_), before);
-  write_text(file_, "a letter to somebody, longer than the header of a database would be, whatever that may be");
+  EXPECT_EQ(folder_.read(file_), before);
+  folder_.write(file_, "a letter to somebody, longer than the header of a database would be, whatever that may be");
   EXPECT_THAT(error_of_reading(), HasSubstr("is not a landmark store"));
   EXPECT_THAT(error_of_writing(), HasSubstr("is not a landmark store"));
-  EXPECT_THAT(read_text(file_), HasSubstr("a letter"));
+  EXPECT_THAT(folder_.read(file_), HasSubstr("a letter"));
 }
 
 TEST_F(Store, ThatIsMissingOrEmptyIsToldToReadersAndMadeByWriters) {
   EXPECT_THAT(error_of_reading(), HasSubstr("places.landmarks: does not exist"));
-  write_text(file_, "");
+  folder_.write(file_, "");
   EXPECT_THAT(error_of_reading(), HasSubstr("places.landmarks: is empty"));
   EXPECT_EQ(error_of_writing(), "");
   EXPECT_EQ(error_of_reading(), "");
@@ -177,10 +174,10 @@ TEST_F(Store, InAPlaceThatIsNoneIsRefused) {
 
 TEST_F(Store, CutOffAnywhereIsRefusedWithWhatIsLeftToDo) {
   write(5);
-  const auto whole = read_text(file_);
+  const auto whole = folder_.read(file_);
   for (int part = 1; part < 40; ++part) {
     const auto size = whole.size() * static_cast<std::size_t>(part) / 40 + static_cast<std::size_t>(part % 3);
-    write_text(file_, whole.substr(0, size));
+    folder_.write(file_, whole.substr(0, size));
     const auto expected = "is damaged: truncated after " + std::to_string(size) + " of " +
                           std::to_string(whole.size()) + " bytes; restore a copy, or start";
     EXPECT_THAT(error_of_reading(), HasSubstr(expected));
@@ -190,13 +187,13 @@ TEST_F(Store, CutOffAnywhereIsRefusedWithWhatIsLeftToDo) {
 
 TEST_F(Store, WithBytesFlippedNeverCrashesAndNamesTheFile) {
   write(5);
-  const auto whole = read_text(file_);
+  const auto whole = folder_.read(file_);
   std::mt19937_64 random(1);
   int refused = 0;
   for (int round = 0; round < 200; ++round) {
     auto damaged = whole;
     for (int i = 0; i < 100; ++i) damaged[random() % whole.size()] = static_cast<char>(random() >> 56);
-    write_text(file_, damaged);
+    folder_.write(file_, damaged);
     const auto error = error_of_reading();
     if (error.empty()) continue;
     ++refused;
@@ -207,9 +204,9 @@ TEST_F(Store, WithBytesFlippedNeverCrashesAndNamesTheFile) {
 
 TEST_F(Store, WithAHoleIsFoundDamagedByItsCheck) {
   write(20);
-  auto damaged = read_text(file_);
+  auto damaged = folder_.read(file_);
   std::fill(damaged.begin() + static_cast<std::ptrdiff_t>(damaged.size() / 2), damaged.end() - 5000, '\0');
-  write_text(file_, damaged);
+  folder_.write(file_, damaged);
   EXPECT_NE(LandmarkStore(file_).find_damage(), std::nullopt);
 }
 

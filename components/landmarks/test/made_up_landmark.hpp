@@ -3,9 +3,6 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <random>
 #include <string>
 
@@ -85,15 +82,6 @@ inline std::string difference(const PanoramicLandmark& a, const PanoramicLandmar
 }
 
 inline DescriptionSettings made_up_settings() { return {{"band_rows", "150"}, {"seed", "1"}}; }
-
-inline std::string read_text(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
-
-inline void write_text(const std::filesystem::path& file, const std::string& text) {
-  std::ofstream(file, std::ios::binary) << text;
-}
 
 /// The message of the exception thrown by `action`; "" if it throws none.
 template <class Exception, class Action>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Process for interrupted_store_test that is killed while it adds landmarks. Prints the id of each added landmark;
 /// with a file size limit, prints the error and exits. With "lock" it locks a store until it is killed.
-#include <sqlite3.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -11,13 +10,13 @@
 
 #include "made_up_landmark.hpp"
 #include "panvo/landmarks/landmark_store.hpp"
+#include "panvo/sqlite/database.hpp"
 
 namespace {
 
 int lock(const char* file) {
-  sqlite3* database = nullptr;
-  sqlite3_open(file, &database);
-  if (sqlite3_exec(database, "BEGIN EXCLUSIVE", nullptr, nullptr, nullptr) != SQLITE_OK) return 1;
+  panvo::sqlite::Database database(file, panvo::sqlite::Database::Mode::kReadWrite);
+  database.execute("BEGIN EXCLUSIVE");
   std::printf("locked\n");
   std::fflush(stdout);
   ::pause();

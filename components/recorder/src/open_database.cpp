@@ -1,35 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "open_database.hpp"
 
-#include <array>
+#include <cerrno>
 #include <cstring>
 #include <fstream>
-#include <optional>
 
 #include "panvo/recorder/bag_error.hpp"
+#include "panvo/sqlite/file_header.hpp"
 #include "whole_pages_vfs.hpp"
 
 namespace panvo::recorder {
 namespace {
 
 namespace fs = std::filesystem;
-using Header = std::array<char, 100>;  // of the SQLite file format
+using sqlite::Database;
+using sqlite::DatabaseError;
 
-std::size_t read_header(const fs::path& file, Header& header) {
+std::size_t read_header(const fs::path& file, sqlite::FileHeader& header) {
   std::ifstream stream(file, std::ios::binary);
   if (!stream) {
     throw BagError(file.string() + ": cannot be opened (" + std::strerror(errno) + ")");
   }
-  stream.read(header.data(), header.size());
+  stream.read(reinterpret_cast<char*>(header.data()), header.size());
   return static_cast<std::size_t>(stream.gcount());
-}
-
-std::uint32_t big_endian(const Header& header, std::size_t at, std::size_t bytes) {
-  std::uint32_t value = 0;
-  for (std::size_t i = 0; i < bytes; ++i) {
-    value = value << 8 | static_cast<std::uint8_t>(header[at + i]);
-  }
-  return value;
 }
 
 /// Size of `file` with `suffix` appended to its name; 0 if it does not exist.
@@ -44,10 +37,10 @@ std::uint64_t size_of(fs::path file, const char* suffix) {
 Database open_and_look(const fs::path& file, Database::Mode mode) {
   const bool is_cut = mode != Database::Mode::kReadWrite && expected_bytes_if_cut(file) > 0;
   Database database(file, mode, is_cut ? whole_pages_vfs() : nullptr);
-  database.inflate_covariance(size_of(file, "") + size_of(file, "-wal"));
+  database.limit_steps(size_of(file, "") + size_of(file, "-wal"));
   // writable_schema allows reading a file that is shorter than its header states. The mode prevents writing.
   database.execute("PRAGMA writable_schema=ON; PRAGMA trusted_schema=OFF; PRAGMA cell_size_check=ON;");
-  Statement(database, "SELECT count(*) FROM sqlite_master").step();
+  sqlite::Statement(database, "SELECT count(*) FROM sqlite_master").step();
   return database;
 }
 
@@ -58,14 +51,11 @@ bool is_damage(const DatabaseError& error) {
 }  // namespace
 
 std::uint64_t expected_bytes_if_cut(const fs::path& file) {
-  Header header{};
+  sqlite::FileHeader header{};
   if (read_header(file, header) < header.size()) {
     return header.size();
   }
-  const std::uint32_t written_page_size = big_endian(header, 16, 2);
-  const std::uint64_t page_size = written_page_size == 1 ? 65536 : written_page_size;
-  const bool count_is_valid = big_endian(header, 24, 4) == big_endian(header, 92, 4);
-  const std::uint64_t expected = count_is_valid ? page_size * big_endian(header, 28, 4) : 0;
+  const std::uint64_t expected = sqlite::stated_bytes(header);
   return fs::file_size(file) < expected ? expected : 0;
 }
 

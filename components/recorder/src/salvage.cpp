@@ -10,7 +10,7 @@ constexpr std::int64_t kEndOfIds = std::int64_t{1} << 48;
 
 class Scan {
  public:
-  explicit Scan(const Database& database)
+  explicit Scan(const sqlite::Database& database)
       : rows_(database, "SELECT timestamp, id, topic_id, data FROM messages WHERE id >= ? ORDER BY id") {}
 
   /// Whether the first message from `id` on is readable, or there is none.
@@ -19,7 +19,7 @@ class Scan {
     rows_.bind(1, id);
     try {
       return !rows_.step() || rows_.integer(1) >= id;
-    } catch (const DatabaseError&) {
+    } catch (const sqlite::DatabaseError&) {
       return false;
     }
   }
@@ -40,13 +40,13 @@ class Scan {
         id = rows_.integer(1) + 1;
       }
       return true;
-    } catch (const DatabaseError&) {
+    } catch (const sqlite::DatabaseError&) {
       return false;
     }
   }
 
  private:
-  Statement rows_;
+  sqlite::Statement rows_;
 };
 
 /// The first readable id after the unreadable id `bad`, found by steps that double, then by bisecting the last step.
@@ -65,7 +65,7 @@ std::int64_t after_damage(Scan& scan, std::int64_t bad) {
 
 }  // namespace
 
-Salvaged salvage_messages(const Database& database) {
+Salvaged salvage_messages(const sqlite::Database& database) {
   Salvaged found;
   Scan scan(database);
   std::int64_t id = 0;

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "bag_file_reader.hpp"
-#include "database.hpp"
+#include "panvo/sqlite/database.hpp"
 
 namespace panvo::recorder {
 
@@ -16,6 +16,6 @@ struct Salvaged {
 
 /// Reads a damaged messages table by id and skips unreadable ranges. Readable messages within such a range may be
 /// missed. Reads all data once.
-Salvaged salvage_messages(const Database& database);
+Salvaged salvage_messages(const sqlite::Database& database);
 
 }  // namespace panvo::recorder

@@ -10,9 +10,12 @@
 namespace panvo::recorder {
 namespace {
 
+using sqlite::DatabaseError;
+using sqlite::Statement;
+
 /// Stored columns of an ordinary table; empty for views and virtual tables, which may have unlimited rows. Excludes
 /// generated columns, whose values may have any size.
-std::set<std::string> columns_of(const Database& database, std::string_view table) {
+std::set<std::string> columns_of(const sqlite::Database& database, std::string_view table) {
   std::set<std::string> columns;
   Statement statement(
       database,

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "bag_file_reader.hpp"
-#include "database.hpp"
+#include "panvo/sqlite/database.hpp"
 
 namespace panvo::recorder {
 
@@ -31,13 +31,13 @@ class SqliteFileReader final : public BagFileReader {
   bool read_data(std::int64_t id, interfaces::Bytes& data);
   void salvage(const std::string& reason);
 
-  Database database_;
+  sqlite::Database database_;
 
   std::set<std::int64_t> wanted_;
   std::int64_t begin_ns_ = 0;  // stamps before 1970 are damage and could overflow the duration
   std::optional<Entry> last_entry_;
-  std::optional<Statement> entries_;  // of an undamaged file
-  std::optional<Statement> data_;
+  std::optional<sqlite::Statement> entries_;  // of an undamaged file
+  std::optional<sqlite::Statement> data_;
   std::optional<std::vector<Entry>> salvaged_;  // of a damaged one, in order
   std::size_t next_salvaged_ = 0;
   std::uint64_t lost_ = 0;

@@ -5,7 +5,7 @@
 #include <set>
 
 #include "bag_file_writer.hpp"
-#include "database.hpp"
+#include "panvo/sqlite/database.hpp"
 
 namespace panvo::recorder {
 
@@ -19,17 +19,17 @@ class SqliteFileWriter final : public BagFileWriter {
  public:
   SqliteFileWriter(const std::filesystem::path& file, const std::string& ros_distro);
 
-  void begin() override { database_->execute("BEGIN"); }
+  void begin() override;
   void add_topic(int id, const BagTopic& topic, const TypeDefinition& definition) override;
   void insert(int topic_id, std::int64_t timestamp_ns, std::span<const std::uint8_t> data) override;
   void insert_metadata(const std::string& yaml) override;
-  void commit() override { database_->execute("COMMIT"); }
+  void commit() override;
   void rollback() noexcept override;
   void finish() override;
 
  private:
-  std::optional<Database> database_;  // empty after finish()
-  std::optional<Statement> insert_;   // prepared after the tables have been created
+  std::optional<sqlite::Database> database_;  // empty after finish()
+  std::optional<sqlite::Statement> insert_;   // prepared after the tables have been created
   std::set<std::string> defined_types_;
 };
 

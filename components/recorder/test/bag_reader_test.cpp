@@ -3,8 +3,8 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sqlite3.h>
 
+#include "panvo/sqlite/database.hpp"
 #include "panvo/test/temporary_folder.hpp"
 #include "test_bag.hpp"
 
@@ -18,12 +18,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 
 void run_sql(const std::filesystem::path& file, const std::string& sql) {
-  sqlite3* database = nullptr;
-  ASSERT_EQ(sqlite3_open(file.c_str(), &database), SQLITE_OK);
-  char* error = nullptr;
-  EXPECT_EQ(sqlite3_exec(database, sql.c_str(), nullptr, nullptr, &error), SQLITE_OK) << error << "\n" << sql;
-  sqlite3_free(error);
-  sqlite3_close(database);
+  sqlite::Database(file, sqlite::Database::Mode::kCreate).execute(sql);
 }
 
 constexpr const char* kHumbleSchema =
@@ -38,7 +33,8 @@ constexpr const char* kHumbleSchema =
     "INSERT INTO schema VALUES(3,'humble');";
 
 /// Three messages, two with equal times, stored in an order that differs from the reading order.
-void write_humble_bag(const std::filesystem::path& bag) {
+void write_humble_bag(const TemporaryFolder& folder) {
+  const auto bag = folder / "bag";
   std::filesystem::create_directories(bag);
   const std::string qos = to_text({offered_profile(interfaces::qos::kLatched)}, QosNotation::kNumbers);
   run_sql(bag / "humble_0.db3", std::string(kHumbleSchema) + "INSERT INTO topics VALUES(7,'/a','a_msgs/msg/A','cdr','" +
@@ -49,7 +45,7 @@ void write_humble_bag(const std::filesystem::path& bag) {
   for (const char c : qos) {
     text += c == '\n' ? std::string("\\n") : std::string(1, c);
   }
-  write_text(
+  folder.write(
       bag / "metadata.yaml",
       "rosbag2_bagfile_information:\n  version: 5\n  storage_identifier: sqlite3\n  duration:\n    nanoseconds: 10\n"
       "  starting_time:\n    nanoseconds_since_epoch: 20\n  message_count: 3\n  topics_with_message_count:\n"
@@ -68,7 +64,7 @@ const std::vector<Read> kHumbleMessages{{"/b", 20, {2}}, {"/a", 20, {3}}, {"/a",
 
 TEST(BagReader, ReadsABagOfHumbleInOrderOfTimeThenId) {
   const TemporaryFolder folder;
-  write_humble_bag(folder / "bag");
+  write_humble_bag(folder);
   BagReader reader(folder / "bag");
   EXPECT_THAT(reader.warnings(), IsEmpty());
   EXPECT_EQ(read_all(reader), kHumbleMessages);
@@ -81,7 +77,7 @@ TEST(BagReader, ReadsABagOfHumbleInOrderOfTimeThenId) {
 
 TEST(BagReader, ReadsABagWithoutMetadata) {
   const TemporaryFolder folder;
-  write_humble_bag(folder / "bag");
+  write_humble_bag(folder);
   std::filesystem::remove(folder / "bag" / "metadata.yaml");
   BagReader reader(folder / "bag");
   EXPECT_THAT(reader.warnings(), ElementsAre(HasSubstr("metadata.yaml: is missing")));
@@ -92,12 +88,12 @@ TEST(BagReader, ReadsABagWithoutMetadata) {
 
 TEST(BagReader, BelievesTheDatabaseMoreThanAStaleOrBrokenMetadata) {
   const TemporaryFolder folder;
-  write_humble_bag(folder / "bag");
+  write_humble_bag(folder);
   const auto file = folder / "bag" / "metadata.yaml";
-  auto stale = read_text(file);
+  auto stale = folder.read(file);
   stale.replace(stale.find("message_count: 3"), 16, "message_count: 8");
   for (const auto& text : {stale, stale.substr(0, 200), std::string()}) {
-    write_text(file, text);
+    folder.write(file, text);
     BagReader reader(folder / "bag");
     EXPECT_TRUE(any_contains(reader.warnings(), "reindex")) << text;
     EXPECT_EQ(reader.metadata().message_count, 3u);
@@ -108,7 +104,7 @@ TEST(BagReader, BelievesTheDatabaseMoreThanAStaleOrBrokenMetadata) {
 
 TEST(BagReader, ReadsOneDatabaseOfItself) {
   const TemporaryFolder folder;
-  write_humble_bag(folder / "bag");
+  write_humble_bag(folder);
   BagReader reader(folder / "bag" / "humble_0.db3");
   EXPECT_THAT(reader.warnings(), IsEmpty());
   EXPECT_EQ(read_all(reader), kHumbleMessages);
@@ -116,7 +112,7 @@ TEST(BagReader, ReadsOneDatabaseOfItself) {
 
 TEST(BagReader, ReadsWithoutAnIndex) {
   const TemporaryFolder folder;
-  write_humble_bag(folder / "bag");
+  write_humble_bag(folder);
   run_sql(folder / "bag" / "humble_0.db3", "DROP INDEX timestamp_idx");
   BagReader reader(folder / "bag");
   EXPECT_EQ(read_all(reader), kHumbleMessages);
@@ -124,7 +120,7 @@ TEST(BagReader, ReadsWithoutAnIndex) {
 
 TEST(BagReader, ReadsABagLeftInWriteAheadMode) {
   const TemporaryFolder folder;
-  write_humble_bag(folder / "bag");
+  write_humble_bag(folder);
   run_sql(folder / "bag" / "humble_0.db3", "PRAGMA journal_mode=WAL");
   BagReader reader(folder / "bag");
   EXPECT_EQ(read_all(reader), kHumbleMessages);
@@ -132,7 +128,7 @@ TEST(BagReader, ReadsABagLeftInWriteAheadMode) {
 
 TEST(BagReader, MergesFilesWhoseTimesOverlap) {
   const TemporaryFolder folder;
-  write_humble_bag(folder / "bag");
+  write_humble_bag(folder);
   run_sql(folder / "bag" / "humble_1.db3",
           std::string(kHumbleSchema) +
               "INSERT INTO topics VALUES(1,'/b','b_msgs/msg/B','cdr','');"
@@ -162,7 +158,7 @@ TEST(BagReader, OrdersFilesByTheirNumber) {
 
 TEST(BagReader, GivesOnlyWantedTopicsAndBeginsAnew) {
   const TemporaryFolder folder;
-  write_humble_bag(folder / "bag");
+  write_humble_bag(folder);
   BagReader reader(folder / "bag");
   ASSERT_TRUE(reader.next());
   reader.select([](const BagTopic& topic) { return topic.name == "/a"; });
@@ -174,14 +170,14 @@ TEST(BagReader, GivesOnlyWantedTopicsAndBeginsAnew) {
 
 TEST(BagReader, ReadsOnWhenAFileOfASplitBagIsMissing) {
   const TemporaryFolder folder;
-  write_humble_bag(folder / "bag");
+  write_humble_bag(folder);
   const auto file = folder / "bag" / "metadata.yaml";
-  auto text = read_text(file);
+  auto text = folder.read(file);
   text.replace(text.find("message_count: 3"), 16, "message_count: 5");
   text.replace(text.find("    - path: humble_0.db3"), 0,
                "    - path: humble_1.db3\n      starting_time:\n        nanoseconds_since_epoch: 20\n"
                "      duration:\n        nanoseconds: 10\n      message_count: 2\n");
-  write_text(file, text);
+  folder.write(file, text);
   BagReader reader(folder / "bag");
   EXPECT_TRUE(any_contains(reader.warnings(), "humble_1.db3: is missing"));
   EXPECT_EQ(read_all(reader), kHumbleMessages);
@@ -190,11 +186,11 @@ TEST(BagReader, ReadsOnWhenAFileOfASplitBagIsMissing) {
 
 TEST(BagReader, FindsFilesThatEarlyVersionsNamedFromTheParentFolder) {
   const TemporaryFolder folder;
-  write_humble_bag(folder / "bag");
+  write_humble_bag(folder);
   const auto file = folder / "bag" / "metadata.yaml";
-  auto text = read_text(file);
+  auto text = folder.read(file);
   text.replace(text.find("path: humble_0.db3"), 18, "path: bag/humble_0.db3");
-  write_text(file, text);
+  folder.write(file, text);
   BagReader reader(folder / "bag");
   EXPECT_THAT(reader.warnings(), IsEmpty());
   EXPECT_EQ(read_all(reader), kHumbleMessages);
@@ -202,12 +198,12 @@ TEST(BagReader, FindsFilesThatEarlyVersionsNamedFromTheParentFolder) {
 
 TEST(BagReader, NeverLeavesTheBagsFolder) {
   const TemporaryFolder folder;
-  write_humble_bag(folder / "bag");
+  write_humble_bag(folder);
   std::filesystem::rename(folder / "bag" / "humble_0.db3", folder / "secret.db3");
   const auto file = folder / "bag" / "metadata.yaml";
-  auto text = read_text(file);
+  auto text = folder.read(file);
   text.replace(text.find("path: humble_0.db3"), 18, "path: ../secret.db3");
-  write_text(file, text);
+  folder.write(file, text);
   EXPECT_THAT(error_of([&] { BagReader reader(folder / "bag"); }), HasSubstr("none of its files"));
 }
 
@@ -226,15 +222,15 @@ TEST(BagReader, SaysWhatIsWrongWithWhatIsNoBag) {
   EXPECT_THAT(error("none"), testing::AllOf(HasSubstr("none"), HasSubstr("does not exist")));
   std::filesystem::create_directories(folder / "folder");
   EXPECT_THAT(error("folder"), HasSubstr("neither metadata.yaml nor a .db3 or .mcap file"));
-  write_text(folder / "text.db3", "This is no database, though it is long enough to be taken for one.");
+  folder.write(folder / "text.db3", "This is no database, though it is long enough to be taken for one.");
   EXPECT_THAT(error("text.db3"), HasSubstr("neither a SQLite database nor MCAP"));
-  write_text(folder / "empty.db3", "");
+  folder.write(folder / "empty.db3", "");
   EXPECT_THAT(error("empty.db3"), HasSubstr("is empty"));
-  write_text(folder / "bag.mcap", "This is no MCAP file, though its name says so.");
+  folder.write(folder / "bag.mcap", "This is no MCAP file, though its name says so.");
   EXPECT_THAT(error("bag.mcap"), HasSubstr("bag.mcap: nothing in it can be read"));
-  write_text(folder / "bag.db3.zstd", "\x28\xb5\x2f\xfd....");
+  folder.write(folder / "bag.db3.zstd", "\x28\xb5\x2f\xfd....");
   EXPECT_THAT(error("bag.db3.zstd"), HasSubstr("bag.db3.zstd: the compressed content cannot be read"));
-  write_text(folder / "ros1.bag", "#ROSBAG V2.0\n");
+  folder.write(folder / "ros1.bag", "#ROSBAG V2.0\n");
   EXPECT_THAT(error("ros1.bag"), HasSubstr("ROS 1"));
   run_sql(folder / "other.db3", "CREATE TABLE recipes(id INTEGER, text TEXT)");
   EXPECT_THAT(error("other.db3"), HasSubstr("not a bag: it has no table topics"));
@@ -242,13 +238,13 @@ TEST(BagReader, SaysWhatIsWrongWithWhatIsNoBag) {
 
 TEST(BagReader, RefusesOtherStorageAndCompressionWithARemedy) {
   const TemporaryFolder folder;
-  write_humble_bag(folder / "bag");
+  write_humble_bag(folder);
   const auto file = folder / "bag" / "metadata.yaml";
-  const auto text = read_text(file);
+  const auto text = folder.read(file);
   const auto error_with = [&](const std::string& from, const std::string& to) {
     auto changed = text;
     changed.replace(changed.find(from), from.size(), to);
-    write_text(file, changed);
+    folder.write(file, changed);
     return error_of([&] { BagReader reader(folder / "bag"); });
   };
   EXPECT_THAT(error_with("storage_identifier: sqlite3", "storage_identifier: tape"),

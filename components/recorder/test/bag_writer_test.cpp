@@ -3,9 +3,9 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sqlite3.h>
 #include <sys/inotify.h>
 
+#include "panvo/sqlite/database.hpp"
 #include "panvo/test/temporary_folder.hpp"
 #include "test_bag.hpp"
 
@@ -55,15 +55,12 @@ TEST(BagWriter, StoresOurTypesWithHashAndDefinition) {
     writer.add_topic(BagTopic::of("/odom", *type, interfaces::qos::kResult), type->definition);
     writer.add_topic(BagTopic::of("/odom2", *type, interfaces::qos::kResult), type->definition);
   }
-  sqlite3* database = nullptr;
-  ASSERT_EQ(sqlite3_open((folder / "bag" / "bag_0.db3").c_str(), &database), SQLITE_OK);
+  const sqlite::Database database(folder / "bag" / "bag_0.db3", sqlite::Database::Mode::kRead);
   const auto value = [&](const char* sql) {
     std::string text;
-    const auto take = [](void* out, int, char** values, char**) {
-      *static_cast<std::string*>(out) += std::string(values[0]) + ";";
-      return 0;
-    };
-    EXPECT_EQ(sqlite3_exec(database, sql, take, &text, nullptr), SQLITE_OK) << sql;
+    for (sqlite::Statement rows(database, sql); rows.step();) {
+      text += rows.text(0) + ";";
+    }
     return text;
   };
   EXPECT_EQ(value("SELECT schema_version || ros_distro FROM schema"), "4jazzy;");
@@ -74,7 +71,6 @@ TEST(BagWriter, StoresOurTypesWithHashAndDefinition) {
   EXPECT_EQ(value("SELECT encoded_message_definition FROM message_definitions"), std::string(type->definition) + ";");
   EXPECT_THAT(value("SELECT offered_qos_profiles FROM topics LIMIT 1"), HasSubstr("reliability: reliable"));
   EXPECT_THAT(value("SELECT metadata FROM metadata ORDER BY id DESC LIMIT 1"), HasSubstr("version: 9"));
-  sqlite3_close(database);
 }
 
 TEST(BagWriter, KeepsNothingBesideTheDatabaseBetweenCommits) {
@@ -152,7 +148,7 @@ TEST(BagWriter, RefusesAFolderThatIsInUse) {
   const TemporaryFolder folder;
   { BagWriter writer(folder / "bag"); }
   EXPECT_THAT(error_of([&] { BagWriter writer(folder / "bag"); }), HasSubstr("already exists"));
-  write_text(folder / "file", "x");
+  folder.write(folder / "file", "x");
   EXPECT_THAT(error_of([&] { BagWriter writer(folder / "file"); }), HasSubstr("is a file"));
   EXPECT_THAT(error_of([&] { BagWriter writer(folder / "file" / "bag"); }), HasSubstr("cannot be created"));
 }
@@ -168,7 +164,7 @@ TEST(BagWriter, OverwritesABagWhenToldToAndNothingElse) {
     write_numbered(writer, 2, 10);
   }
   EXPECT_EQ(BagReader(folder / "bag").metadata().message_count, 2u);
-  write_text(folder / "bag" / "thesis.tex", "x");
+  folder.write(folder / "bag" / "thesis.tex", "x");
   EXPECT_THAT(error_of([&] { BagWriter writer(folder / "bag", {.overwrite = true}); }), HasSubstr("thesis.tex"));
   EXPECT_EQ(BagReader(folder / "bag").metadata().message_count, 2u);
 }
@@ -234,14 +230,12 @@ TEST_P(LostBag, StaysWhereItWasMovedTo) {
 
 TEST_P(LostBag, IsKeptBesideWhatReplacesIt) {
   std::filesystem::remove(file_);
-  std::ofstream(file_) << "somebody else's";
+  folder_.write(file_, "somebody else's");
   const auto kept = bag_ / ("bag_0_kept1" + file_.extension().string());
   EXPECT_THAT(error_of_next_batch(), testing::AllOf(HasSubstr("was removed and replaced"), HasSubstr(kept.string())));
   writer_.close();
   EXPECT_EQ(count_messages(kept), 4u);
-  std::string content;
-  std::getline(std::ifstream(file_), content);
-  EXPECT_EQ(content, "somebody else's");
+  EXPECT_EQ(folder_.read(file_), "somebody else's");
 }
 
 INSTANTIATE_TEST_SUITE_P(Storages, LostBag, testing::Values(Storage::kSqlite3, Storage::kMcap),

@@ -24,7 +24,7 @@ class DamagedBag : public testing::Test {
     BagWriter writer(bag_, {.batch_bytes = 1'000'000});
     write_numbered(writer, kCount, kSize);
     writer.close();
-    whole_ = read_text(database_);
+    whole_ = folder_.read(database_);
   }
 
   TemporaryFolder folder_;
@@ -39,7 +39,7 @@ TEST_F(DamagedBag, ThatIsCutOffAnywhereIsReadUpToThereOrRefused) {
   for (std::size_t eighth = 0; eighth < 8 * 40; ++eighth) {
     const std::size_t bytes = whole_.size() * eighth / (8 * 40) + eighth % 3;
     std::filesystem::resize_file(database_, 0);
-    write_text(database_, whole_.substr(0, bytes));
+    folder_.write(database_, whole_.substr(0, bytes));
     std::vector<Read> messages;
     const auto error = error_of([&] {
       BagReader reader(bag_);
@@ -66,7 +66,7 @@ TEST_F(DamagedBag, WithAHoleIsReadBeforeAndAfterIt) {
   auto damaged = whole_;
   const std::size_t hole = 65536 * 40;
   std::fill_n(damaged.begin() + hole, 65536 * 3, '\0');
-  write_text(database_, damaged);
+  folder_.write(database_, damaged);
   BagReader reader(bag_);
   const auto messages = read_all(reader);
   EXPECT_GT(reader.lost_messages(), 0u);
@@ -86,7 +86,7 @@ TEST_F(DamagedBag, NeverCrashesWhateverByteIsWrong) {
       const std::size_t range = i % 2 == 0 ? 65536 * 10 : damaged.size();
       damaged[(state >> 16) % range] = static_cast<char>(state >> 8);
     }
-    write_text(database_, damaged);
+    folder_.write(database_, damaged);
     std::size_t count = 0;
     error_of([&] {
       BagReader reader(bag_);

@@ -44,7 +44,7 @@ class Mcap : public testing::TestWithParam<Compression> {
     BagWriter writer(folder_ / "bag", options());
     write_numbered(writer, kMessageCount, kPayloadSize);
     writer.close();
-    whole_ = read_text(file_);
+    whole_ = folder_.read(file_);
   }
   /// Offsets of the chunks.
   std::vector<std::size_t> chunks() const {
@@ -133,7 +133,7 @@ TEST_P(Mcap, WithAFlippedBitLosesNothingOfOtherChunks) {
   for (std::size_t at = offsets[1] + 60; at < offsets[2]; at += 7) {
     auto damaged = whole_;
     damaged[at] = static_cast<char>(damaged[at] ^ 0x10);
-    write_text(file_, damaged);
+    folder_.write(file_, damaged);
     std::uint64_t lost = 0;
     const auto messages = read_file(nullptr, &lost);
     EXPECT_GE(messages.size(), kMessageCount - 2 * kMessageCount / offsets.size()) << at;
@@ -151,7 +151,7 @@ TEST_P(Mcap, TellsOfAChunkWhoseChecksumIsWrong) {
   auto damaged = whole_;
   const auto at = chunks()[1] + 9 + 24;  // the checksum itself
   damaged[at] = static_cast<char>(damaged[at] ^ 1);
-  write_text(file_, damaged);
+  folder_.write(file_, damaged);
   std::vector<std::string> warnings;
   std::uint64_t lost = 0;
   EXPECT_EQ(read_file(&warnings, &lost).size(), kMessageCount);
@@ -165,7 +165,7 @@ TEST_P(Mcap, ReadsThroughAFileWhoseSummaryIsDamaged) {
   auto damaged = whole_;
   const auto at = damaged.size() - 60;
   damaged[at] = static_cast<char>(damaged[at] ^ 1);
-  write_text(file_, damaged);
+  folder_.write(file_, damaged);
   std::vector<std::string> warnings;
   const auto messages = read_file(&warnings);
   EXPECT_EQ(messages.size(), kMessageCount);
@@ -179,7 +179,7 @@ TEST_P(Mcap, FindsWhatLiesBehindAHole) {
   auto damaged = whole_.substr(0, whole_.size() - 50);  // no summary either
   std::fill(damaged.begin() + static_cast<std::ptrdiff_t>(offsets[1]),
             damaged.begin() + static_cast<std::ptrdiff_t>(offsets[2] + 20), '\0');
-  write_text(file_, damaged);
+  folder_.write(file_, damaged);
   std::vector<std::string> warnings;
   const auto messages = read_file(&warnings);
   EXPECT_GE(messages.size(), kMessageCount - 3 * kMessageCount / offsets.size());
@@ -193,7 +193,7 @@ TEST_P(Mcap, TakesNoMemoryForSizesThatAreNotThere) {
   for (const std::size_t field : {std::size_t{1}, std::size_t{9 + 16}}) {  // of the record, and uncompressed
     auto damaged = whole_;
     damaged.replace(offsets[1] + field, 8, std::string("\xff\xff\xff\xff\xff\xff\xff\x0f", 8));
-    write_text(file_, damaged);
+    folder_.write(file_, damaged);
     EXPECT_GE(read_file().size(), kMessageCount - 2 * kMessageCount / offsets.size());
   }
 }
@@ -241,7 +241,7 @@ class ForeignMcap : public testing::Test {
     mcap::append_footer(nothing, {});
     bytes_.insert(bytes_.end(), nothing.begin(), nothing.end());
     bytes_.insert(bytes_.end(), mcap::kMagic.begin(), mcap::kMagic.end());
-    write_text(folder_ / "other.mcap", {bytes_.begin(), bytes_.end()});
+    folder_.write(folder_ / "other.mcap", {bytes_.begin(), bytes_.end()});
     return folder_ / "other.mcap";
   }
 
@@ -281,7 +281,7 @@ TEST(Crc32, IsThatOfZip) {
   const std::string text = "123456789";
   const std::span bytes(reinterpret_cast<const std::uint8_t*>(text.data()), text.size());
   EXPECT_EQ(mcap::crc32(bytes), 0xcbf43926u);
-  EXPECT_EQ(mcap::crc32(bytes.subspan(4), mcap::crc32(bytes.first(4))), 0xcbf43926u);
+  EXPECT_EQ(mcap::crc32({}), 0u);
 }
 
 TEST(McapWriter, RefusesATimeBefore1970) {

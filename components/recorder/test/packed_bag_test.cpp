@@ -21,11 +21,11 @@ class PackedBag : public testing::TestWithParam<Storage> {
     return folder_ / "bag" / (GetParam() == Storage::kMcap ? "bag_0.mcap" : "bag_0.db3");
   }
   void say_in_metadata(const std::string& from, const std::string& to) {
-    auto text = read_text(folder_ / "bag" / "metadata.yaml");
+    auto text = folder_.read(folder_ / "bag" / "metadata.yaml");
     for (auto at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size())) {
       text.replace(at, from.size(), to);
     }
-    write_text(folder_ / "bag" / "metadata.yaml", text);
+    folder_.write(folder_ / "bag" / "metadata.yaml", text);
   }
 
   TemporaryFolder folder_;
@@ -36,9 +36,9 @@ TEST_P(PackedBag, IsReadFileByFile) {
     BagWriter writer(folder_ / "bag", {.storage = GetParam()});
     write_numbered(writer, 50, 1000);
   }
-  const auto text = read_text(written());
+  const auto text = folder_.read(written());
   const auto bytes = packed({text.begin(), text.end()});
-  write_text(written().string() + ".zstd", {bytes.begin(), bytes.end()});
+  folder_.write(written().string() + ".zstd", {bytes.begin(), bytes.end()});
   std::filesystem::remove(written());
   say_in_metadata(written().filename(), written().filename().string() + ".zstd");
   say_in_metadata("compression_format: \"\"", "compression_format: zstd");
@@ -56,9 +56,10 @@ TEST_P(PackedBag, ThatIsCutOffKeepsWhatIsBeforeTheCut) {
     BagWriter writer(folder_ / "bag", {.storage = GetParam(), .chunk_bytes = 10'000});
     write_numbered(writer, 1000, 1000);
   }
-  const auto text = read_text(written());
+  const auto text = folder_.read(written());
   const auto bytes = packed({text.begin(), text.end()});
-  write_text(folder_ / "cut.zstd", {bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(bytes.size() * 3 / 4)});
+  folder_.write(folder_ / "cut.zstd",
+                {bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(bytes.size() * 3 / 4)});
   BagReader reader(folder_ / "cut.zstd");
   ASSERT_FALSE(reader.warnings().empty());
   EXPECT_TRUE(reader.warnings().front().starts_with((folder_ / "cut.zstd").string())) << reader.warnings().front();

@@ -3,8 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "database.hpp"
 #include "panvo/recorder/bag_reader.hpp"
+#include "panvo/sqlite/database.hpp"
 #include "panvo/test/temporary_folder.hpp"
 #include "test_bag.hpp"
 
@@ -13,6 +13,8 @@ namespace {
 
 using namespace test;
 using panvo::test::TemporaryFolder;
+using sqlite::Database;
+using sqlite::Statement;
 using testing::HasSubstr;
 
 constexpr std::uint64_t kCount = 50;
@@ -97,7 +99,7 @@ std::string page_of_branches(std::size_t page_size, std::size_t child) {
 TEST_F(UntrustedBag, WhoseBranchesGrowTogetherAgainIsNotWalkedToItsEnd) {
   change("DROP INDEX timestamp_idx; PRAGMA journal_mode=DELETE; PRAGMA page_size=512; VACUUM");
   const auto root = root_of("messages");
-  auto file = read_text(file_);
+  auto file = folder_.read(file_);
   constexpr std::size_t kPage = 512, kLevels = 10;  // 60^10 rows
   const auto pages = file.size() / kPage;
   const auto leaf = file.substr((root_of("topics") - 1) * kPage, kPage);
@@ -107,7 +109,7 @@ TEST_F(UntrustedBag, WhoseBranchesGrowTogetherAgainIsNotWalkedToItsEnd) {
   }
   file += leaf;
   put(file, 28, file.size() / kPage, 4);
-  write_text(file_, file);
+  folder_.write(file_, file);
   EXPECT_EQ(error_of([&] {
               BagReader reader(file_);
               EXPECT_TRUE(any_contains(reader.warnings(), "longer to read than its size allows"));

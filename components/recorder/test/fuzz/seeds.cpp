@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "seeds.hpp"
 
-#include <sqlite3.h>
+#include <fstream>
 
 #include "../test_bag.hpp"
+#include "panvo/sqlite/database.hpp"
 #include "panvo/test/temporary_folder.hpp"
 
 namespace panvo::recorder::fuzz {
@@ -18,12 +19,9 @@ constexpr std::uint64_t kMessages = 8;
 /// The SQLite file, rewritten without free space and with small pages.
 std::string packed(const std::string& file) {
   const TemporaryFolder folder;
-  write_text(folder / "bag.db3", file);
-  sqlite3* opened = nullptr;
-  sqlite3_open((folder / "bag.db3").c_str(), &opened);
-  sqlite3_exec(opened, "PRAGMA journal_mode=DELETE; PRAGMA page_size=512; VACUUM", nullptr, nullptr, nullptr);
-  sqlite3_close(opened);
-  return read_text(folder / "bag.db3");
+  sqlite::Database(folder.write("bag.db3", file), sqlite::Database::Mode::kReadWrite)
+      .execute("PRAGMA journal_mode=DELETE; PRAGMA page_size=512; VACUUM");
+  return folder.read("bag.db3");
 }
 
 }  // namespace
@@ -46,7 +44,7 @@ std::string written(const BagWriter::Options& options, std::uint64_t messages, b
       writer.write(header, kStart + static_cast<std::int64_t>(i) * 7 * kStep, payload(i, 30));
     }
   }
-  return read_text(folder / "bag" / (options.storage == Storage::kMcap ? "bag_0.mcap" : "bag_0.db3"));
+  return folder.read(options.storage == Storage::kMcap ? "bag/bag_0.mcap" : "bag/bag_0.db3");
 }
 
 std::vector<std::string> seeds(Storage storage) {
@@ -68,7 +66,7 @@ void plant_seeds(Storage storage, int argc, char** argv) {
     }
     const auto files = std::filesystem::is_empty(folder) ? seeds(storage) : std::vector<std::string>();
     for (std::size_t seed = 0; seed < files.size(); ++seed) {
-      write_text(folder / ("seed_" + std::to_string(seed)), files[seed]);
+      std::ofstream(folder / ("seed_" + std::to_string(seed)), std::ios::binary) << files[seed];
     }
     return;
   }

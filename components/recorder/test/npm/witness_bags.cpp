@@ -2,6 +2,7 @@
 /// witness_bags FOLDER: writes the same messages to bags of every storage and compression, and the expected content to
 /// FOLDER/expected.json.
 #include <cstdio>
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "../test_bag.hpp"
@@ -105,6 +106,6 @@ int main(int argc, char** argv) {
   for (const auto compression : {Compression::kNone, Compression::kLz4, Compression::kZstd}) {
     write("mcap_" + to_text(compression), {.storage = Storage::kMcap, .compression = compression});
   }
-  test::write_text(folder / "expected.json", expected.dump(1));
+  std::ofstream(folder / "expected.json") << expected.dump(1);
   return 0;
 }

@@ -17,9 +17,11 @@
 #include "panvo/landmarks/panoramic_landmark.hpp"
 #include "panvo/landmarks/store_error.hpp"
 
-namespace panvo::landmarks {
-
+namespace panvo::sqlite {
 class Database;
+}
+
+namespace panvo::landmarks {
 
 /// Current pose of a landmark.
 struct LandmarkPose {
@@ -88,7 +90,7 @@ class LandmarkStore final : public KeypointSource {
   std::uint32_t insert(const PanoramicLandmark& landmark);
 
   std::filesystem::path file_;
-  std::unique_ptr<Database> database_;
+  std::unique_ptr<sqlite::Database> database_;
   DescriptionSettings settings_;
 };
 

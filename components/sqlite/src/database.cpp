@@ -1,34 +1,30 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "database.hpp"
+#include "panvo/sqlite/database.hpp"
 
 #include <cerrno>
 #include <cstring>
 
-namespace panvo::recorder {
+namespace panvo::sqlite {
 namespace {
 
 constexpr int kStepsPerCall = 10'000;        // virtual machine instructions between calls of the progress handler
 constexpr std::uint64_t kStepsPerByte = 10;  // a row has at least ten bytes; sorting it takes fifty steps
 constexpr std::uint64_t kMinCalls = 100;
 
-/// The errno of a failed call. SQLite loses it when a commit fails; errno itself then still holds it, since
-/// forget_errors() cleared it before the call.
-int system_error_of(sqlite3* database) {
+void forget_errors() { errno = 0; }
+
+/// The errno of a failed call; 0 if the operating system did not cause the failure. SQLite loses it when a commit fails;
+/// errno itself then still holds it, since forget_errors() cleared it before the call.
+int system_error_of(sqlite3* database, int result) {
+  const int primary = result & 0xff;
+  if (primary != SQLITE_IOERR && primary != SQLITE_FULL && primary != SQLITE_CANTOPEN) return 0;
   const int known = database ? sqlite3_system_errno(database) : 0;
   return known != 0 ? known : errno;
 }
 
-void forget_errors() { errno = 0; }
-
 std::string describe(sqlite3* database, int result) {
-  const int error = system_error_of(database);
-  const int primary = result & 0xff;
-  if (primary == SQLITE_INTERRUPT) {
-    return "takes longer to read than its size allows";
-  }
-  if (error != 0 && (primary == SQLITE_IOERR || primary == SQLITE_FULL || primary == SQLITE_CANTOPEN)) {
-    return std::strerror(error);
-  }
+  if ((result & 0xff) == SQLITE_INTERRUPT) return "takes longer to read than its size allows";
+  if (const int error = system_error_of(database, result); error != 0) return std::strerror(error);
   return database ? sqlite3_errmsg(database) : sqlite3_errstr(result);
 }
 
@@ -63,9 +59,9 @@ int flags(Database::Mode mode) {
 }  // namespace
 
 DatabaseError::DatabaseError(sqlite3* database, int result)
-    : StorageError(describe(database, result), (result & 0xff) == SQLITE_FULL || (result & 0xff) == SQLITE_IOERR),
+    : std::runtime_error(describe(database, result)),
       code_(database ? sqlite3_extended_errcode(database) : result),
-      system_error_(system_error_of(database)) {}
+      system_error_(system_error_of(database, result)) {}
 
 Database::Database(const std::filesystem::path& file, Mode mode, const char* vfs) {
   const std::string name = mode == Mode::kImmutable ? immutable_uri(file) : file.string();
@@ -73,39 +69,53 @@ Database::Database(const std::filesystem::path& file, Mode mode, const char* vfs
   forget_errors();
   const int result = sqlite3_open_v2(name.c_str(), &database, flags(mode), vfs);
   handle_.reset(database);  // must be closed even if opening failed
-  if (result != SQLITE_OK) {
-    throw DatabaseError(database, result);
-  }
+  if (result != SQLITE_OK) throw DatabaseError(database, result);
   sqlite3_extended_result_codes(database, 1);
 }
 
-void Database::inflate_covariance(std::uint64_t bytes) {
-  patience_ = std::make_unique<Patience>();
-  patience_->most = kMinCalls + bytes / kStepsPerCall * kStepsPerByte;
+void Database::limit_steps(std::uint64_t bytes) {
+  step_limit_ = std::make_unique<StepLimit>();
+  step_limit_->max_calls = kMinCalls + bytes / kStepsPerCall * kStepsPerByte;
   const auto is_over = [](void* known) {
-    const auto& patience = *static_cast<Patience*>(known);
-    return patience.spent && ++*patience.spent > patience.most ? 1 : 0;
+    const auto& limit = *static_cast<StepLimit*>(known);
+    return limit.spent && ++*limit.spent > limit.max_calls ? 1 : 0;
   };
-  sqlite3_progress_handler(handle_.get(), kStepsPerCall, is_over, patience_.get());
+  sqlite3_progress_handler(handle_.get(), kStepsPerCall, is_over, step_limit_.get());
 }
 
 void Database::execute(const std::string& sql) {
   forget_errors();
   const int result = sqlite3_exec(handle_.get(), sql.c_str(), nullptr, nullptr, nullptr);
-  if (result != SQLITE_OK) {
-    throw DatabaseError(handle_.get(), result);
-  }
+  if (result != SQLITE_OK) throw DatabaseError(handle_.get(), result);
+}
+
+Transaction::Transaction(Database& database) : database_(database) { database_.execute("BEGIN IMMEDIATE"); }
+
+Transaction::~Transaction() {
+  // A failed write may have rolled back already; failures here are ignored.
+  if (is_open_) sqlite3_exec(database_.handle(), "ROLLBACK", nullptr, nullptr, nullptr);
+}
+
+void Transaction::commit() {
+  database_.execute("COMMIT");
+  is_open_ = false;
 }
 
 Statement::Statement(const Database& database, std::string_view sql)
-    : database_(database.handle()), patience_(database.patience()) {
+    : database_(database.handle()), step_limit_(database.step_limit_.get()) {
   sqlite3_stmt* statement = nullptr;
+  forget_errors();  // preparing reads the schema
   check(sqlite3_prepare_v2(database_, sql.data(), static_cast<int>(sql.size()), &statement, nullptr));
   handle_.reset(statement);
 }
 
 Statement& Statement::bind(int parameter, std::int64_t value) {
   check(sqlite3_bind_int64(handle_.get(), parameter, value));
+  return *this;
+}
+
+Statement& Statement::bind(int parameter, double value) {
+  check(sqlite3_bind_double(handle_.get(), parameter, value));
   return *this;
 }
 
@@ -122,18 +132,17 @@ Statement& Statement::bind(int parameter, std::span<const std::uint8_t> value) {
   return *this;
 }
 
+Statement& Statement::bind(int parameter, const Statement& row, int column) {
+  check(sqlite3_bind_value(handle_.get(), parameter, sqlite3_column_value(row.handle_.get(), column)));
+  return *this;
+}
+
 bool Statement::step() {
   forget_errors();
-  if (patience_) {
-    patience_->spent = &spent_;
-  }
+  if (step_limit_) step_limit_->spent = &spent_;
   const int result = sqlite3_step(handle_.get());
-  if (patience_) {
-    patience_->spent = nullptr;
-  }
-  if (result != SQLITE_ROW && result != SQLITE_DONE) {
-    throw DatabaseError(database_, result);
-  }
+  if (step_limit_) step_limit_->spent = nullptr;
+  if (result != SQLITE_ROW && result != SQLITE_DONE) throw DatabaseError(database_, result);
   return result == SQLITE_ROW;
 }
 
@@ -165,9 +174,7 @@ std::span<const std::uint8_t> Statement::blob(int column) const {
 }
 
 void Statement::check(int result) const {
-  if (result != SQLITE_OK) {
-    throw DatabaseError(database_, result);
-  }
+  if (result != SQLITE_OK) throw DatabaseError(database_, result);
 }
 
-}  // namespace panvo::recorder
+}  // namespace panvo::sqlite
