@@ -15,7 +15,6 @@ using testing::HasSubstr;
 
 class RunFolder : public testing::Test {
  protected:
-
   std::string refusal(bool overwrite = false) const {
     try {
       claim_run_folder(folder_, overwrite);

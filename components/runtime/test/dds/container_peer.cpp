@@ -6,9 +6,9 @@
 #include <iostream>
 #include <thread>
 
+#include "node_service_topics.hpp"
 #include "panvo/runtime/container.hpp"
 #include "panvo/runtime/errors.hpp"
-#include "node_service_topics.hpp"
 
 namespace panvo::runtime::test {
 namespace {

@@ -12,6 +12,7 @@
 #include "inbox.hpp"
 #include "lifecycle_msgs/srv/ChangeState.h"
 #include "lifecycle_msgs/srv/GetState.h"
+#include "node_service_topics.hpp"
 #include "panvo/interfaces/topic.hpp"
 #include "panvo/runtime/bridge.hpp"
 #include "panvo/runtime/graph.hpp"
@@ -19,7 +20,6 @@
 #include "rcl_interfaces/msg/ParameterEvent.h"
 #include "rcl_interfaces/srv/GetParameters.h"
 #include "rcl_interfaces/srv/SetParameters.h"
-#include "node_service_topics.hpp"
 
 namespace panvo::runtime::test {
 namespace {
