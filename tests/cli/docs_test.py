@@ -4,12 +4,13 @@ import os
 import pathlib
 import shutil
 import subprocess
+import sys
 import tempfile
 import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PANVO = ROOT / "launch_scripts" / "panvo"
-NEEDED = ("bash", "cat", "cp", "dirname", "env", "find", "ls", "mkdir", "mktemp", "python3", "readlink", "realpath", "rm", "sed", "touch")
+NEEDED = ("bash", "cat", "cp", "dirname", "env", "find", "ls", "mkdir", "mktemp", "readlink", "realpath", "rm", "sed", "touch")
 DOXYGEN = ('while read -r key equals value; do [ "$key" != OUTPUT_DIRECTORY ] || eval "out=$value"; done; '
            'mkdir "$out/api"; touch "$out/api/index.html"')
 MKDOCS = 'while [ "$1" != --site-dir ]; do shift; done; mkdir "$2"; cp "$PANVO_API/api/index.html" "$2/index.html"'
@@ -24,6 +25,7 @@ class Docs(unittest.TestCase):
         self.programs.mkdir()
         for name in NEEDED:
             (self.programs / name).symlink_to(shutil.which(name))
+        (self.programs / "python3").symlink_to(sys.executable)  # the first one on the path may need other programs
         self.out = self.folder / "out"
 
     def make_program(self, name, text):
