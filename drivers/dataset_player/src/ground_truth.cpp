@@ -16,7 +16,8 @@ namespace fs = std::filesystem;
 
 std::optional<fs::path> first_existing(std::initializer_list<fs::path> files) {
   for (const auto& file : files) {
-    if (fs::exists(file)) return file.lexically_normal();
+    const auto normal = file.lexically_normal();  // "poses/../sequences" exists only if "poses" does
+    if (fs::exists(normal)) return normal;
   }
   return std::nullopt;
 }
