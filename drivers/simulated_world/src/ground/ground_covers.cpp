@@ -25,7 +25,7 @@ class Coverer {
   }
 
   void manhole(const Eigen::Vector2d& middle, const Eigen::Vector2d& forward, Random random) {
-    if (has_only_start(site_, middle)) return;
+    if (is_bare(site_, middle)) return;
     // set into a square or round frame of asphalt or concrete
     Cloth frame = frame_;
     frame.origin = middle;
@@ -46,7 +46,7 @@ class Coverer {
 
   // Adds a small iron plate.
   void plate(const Rectangle& where, double lift_m, Random random) {
-    if (has_only_start(site_, where.middle)) return;
+    if (is_bare(site_, where.middle)) return;
     Cloth iron = iron_;
     iron.lift_m = lift_m;
     iron.forward = where.forward;
@@ -57,7 +57,7 @@ class Coverer {
 
   // Adds bars over a dark pit at the kerb; `forward` runs along the kerb.
   void grate(const Eigen::Vector2d& middle, const Eigen::Vector2d& forward, Random random) {
-    if (has_only_start(site_, middle)) return;
+    if (is_bare(site_, middle)) return;
     const Rectangle where{middle, forward, 0.25, 0.18};
     Cloth cloth = iron_;
     cloth.origin = middle;

@@ -67,7 +67,7 @@ class Marker {
       const double along_m = from_m + (to_m - from_m) * i / steps;
       right.push_back(line.beside(along_m, side_m - 0.5 * width_m));
       left.push_back(line.beside(along_m, side_m + 0.5 * width_m));
-      if (has_only_start(site_, right.back())) {
+      if (is_bare(site_, right.back())) {
         right.pop_back();
         left.pop_back();
         lay();
@@ -78,7 +78,7 @@ class Marker {
 
   void box(const RoadLine& line, double along_m, double side_m, double length_m, double width_m) {
     const Eigen::Vector2d middle = line.beside(along_m, side_m);
-    if (has_only_start(site_, middle)) return;
+    if (is_bare(site_, middle)) return;
     paint_.origin = middle;
     paint_.forward = line.forward(along_m);
     drape_.rectangle({middle, paint_.forward, 0.5 * length_m, 0.5 * width_m}, paint_);
@@ -139,7 +139,7 @@ class Marker {
   void shape(const RoadLine& line, double along_m, double side_m, double inwards,
              const std::vector<Eigen::Vector2d>& outline) {
     const Eigen::Vector2d middle = line.beside(along_m, side_m);
-    if (has_only_start(site_, middle)) return;
+    if (is_bare(site_, middle)) return;
     const Eigen::Vector2d forward = -inwards * line.forward(along_m);
     const Rectangle frame{middle, forward, 0.0, 0.0};
     std::vector<Eigen::Vector2d> points;

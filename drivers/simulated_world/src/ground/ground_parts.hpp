@@ -31,6 +31,6 @@ void lay_markings(const Site& site, const GroundZones& zones, Drape& drape);
 void lay_covers(const Site& site, const GroundZones& zones, Drape& drape);
 
 /// Whether the ground has no details here because of weak texture.
-inline bool has_only_start(const Site& site, const Eigen::Vector2d& point) { return site.weakness(point) > 0.3; }
+inline bool is_bare(const Site& site, const Eigen::Vector2d& point) { return site.weakness(point) > 0.3; }
 
 }  // namespace panvo::simulated_world

@@ -25,7 +25,7 @@ class RoadMender {
 
   /// Adds a filled hole or trench. Higher `layer`s lie on lower ones.
   void fill(const Rectangle& where, int layer, Random random) {
-    if (has_only_start(site_, where.middle)) return;
+    if (is_bare(site_, where.middle)) return;
     const bool is_new = random.chance(0.6);
     Cloth cloth = is_new ? patch_ : old_patch_;
     const auto shade = static_cast<float>(is_new ? random.uniform(0.75, 1.0) : random.uniform(0.55, 1.0));
@@ -48,7 +48,7 @@ class RoadMender {
       // random heading that returns to the main direction
       heading += waver_rad * random.gaussian() - 0.15 * std::remainder(heading - heading_rad, 2.0 * kPi);
       const Eigen::Vector2d next = line.back() + kStep_m * Eigen::Vector2d(std::cos(heading), std::sin(heading));
-      if (site_.kerbs->distance_m(next) > -0.1 || has_only_start(site_, next)) break;
+      if (site_.kerbs->distance_m(next) > -0.1 || is_bare(site_, next)) break;
       line.push_back(next);
       if (branches > 0 && random.chance(0.025)) {
         --branches;
