@@ -18,7 +18,7 @@ is_bag() {
 # results_of_bag BAG: derives the files of a run from the messages of BAG and prints their folder: BAG.results, or a new temporary folder if that
 # cannot be written.
 results_of_bag() {
-  local bag out
+  local bag out status=0
   bag=$(readlink -f -- "$1")
   out=$bag.results
   if ! { mkdir -p -- "$out" && [[ -w $out ]]; } 2>/dev/null; then
@@ -28,8 +28,12 @@ results_of_bag() {
   fi
   note "deriving the results of $1 into $out"
   # Results need no images, the largest part of most bags.
-  run_to_its_end "$out" "$(system_file play)" "bag:=$bag" 'exclude:=.*/image.*' --replay --local >&2
-  printf '%s' "$out"
+  "$(program panvo_run)" "$(system_file play)" "bag:=$bag" 'exclude:=.*/image.*' --replay --local --out "$out" >&2 || status=$?
+  case $status in
+    0) printf '%s' "$out" ;;
+    130 | 143) fail "interrupted" "$status" ;;
+    *) fail "'$1' is not a readable bag, or has no odometry of panvo (see above). $(run_first "$1")" ;;
+  esac
 }
 
 # run_of_bag BAG: the same for a bag that must hold odometry.
@@ -37,8 +41,9 @@ run_of_bag() {
   local out
   out=$(results_of_bag "$1")
   if [[ ! -s $out/odometry_enhanced.tum && ! -s $out/odometry_binocular.tum ]]; then
-    fail "'$1' holds no odometry of panvo (odometry/binocular, odometry/enhanced). If it holds images, run a system on it first:
-  panvo run enhanced_vo --bag $(printf %q "$1") --out DIR"
+    fail "'$1' holds no odometry of panvo (odometry/binocular, odometry/enhanced). $(run_first "$1")"
   fi
   printf '%s' "$out"
 }
+
+run_first() { printf 'If it holds images, run a system on it first:\n  panvo run enhanced_vo --bag %q --out DIR' "$1"; }

@@ -138,6 +138,10 @@ class Bags(Scratch):
         done = self.evaluate("monday", "truth.tum")
         self.assertEqual((done.returncode, done.stdout), (1, ""))
         self.assertIn("the bag is damaged", done.stderr)
+        self.assertIn("'monday' is not a readable bag, or has no odometry of panvo", done.stderr)
+        self.assertIn("panvo run enhanced_vo --bag monday --out DIR", done.stderr)
+        write_program(self.programs / "panvo_run", "exit 130")
+        self.assertEqual(self.evaluate("monday", "truth.tum").returncode, 130)
 
 
 if __name__ == "__main__":
