@@ -28,15 +28,15 @@ inline void check_rotation(Check& check, MemberName name, const geometry_msgs::m
 
 inline void check_pose(Check& check, std::string_view name, const geometry_msgs::msg::Pose& pose) {
   const auto& position = pose.position();
-  check.bounded({name, "position"}, {position.x(), position.y(), position.z()}, kMax_m);
+  check.bounded({name, "position"}, {position.x(), position.y(), position.z()}, kMaxCoordinate_m);
   check_rotation(check, {name, "orientation"}, pose.orientation());
 }
 
 inline void check_twist(Check& check, std::string_view name, const geometry_msgs::msg::Twist& twist) {
   const auto& linear = twist.linear();
   const auto& angular = twist.angular();
-  check.bounded({name, "linear"}, {linear.x(), linear.y(), linear.z()}, kMax);
-  check.bounded({name, "angular"}, {angular.x(), angular.y(), angular.z()}, kMax);
+  check.bounded({name, "linear"}, {linear.x(), linear.y(), linear.z()}, kMaxRate);
+  check.bounded({name, "angular"}, {angular.x(), angular.y(), angular.z()}, kMaxRate);
 }
 
 }  // namespace panvo::interfaces

@@ -69,7 +69,7 @@ Problem problem_of(const geometry_msgs::msg::TransformStamped& message) {
   check_header(check, message.header());
   check.name("child_frame_id", message.child_frame_id());
   const auto& translation = message.transform().translation();
-  check.bounded({"transform", "translation"}, {translation.x(), translation.y(), translation.z()}, kMax_m);
+  check.bounded({"transform", "translation"}, {translation.x(), translation.y(), translation.z()}, kMaxCoordinate_m);
   check_rotation(check, {"transform", "rotation"}, message.transform().rotation());
   return check.problem();
 }

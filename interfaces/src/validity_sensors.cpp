@@ -121,12 +121,12 @@ Problem problem_of(const sensor_msgs::msg::Imu& message) {
   }
   if (is_measured(message.angular_velocity_covariance())) {
     const auto& rate = message.angular_velocity();
-    check.bounded("angular_velocity", {rate.x(), rate.y(), rate.z()}, kMax);
+    check.bounded("angular_velocity", {rate.x(), rate.y(), rate.z()}, kMaxRate);
     check.covariance("angular_velocity_covariance", message.angular_velocity_covariance());
   }
   if (is_measured(message.linear_acceleration_covariance())) {
     const auto& acceleration = message.linear_acceleration();
-    check.bounded("linear_acceleration", {acceleration.x(), acceleration.y(), acceleration.z()}, kMax);
+    check.bounded("linear_acceleration", {acceleration.x(), acceleration.y(), acceleration.z()}, kMaxRate);
     check.covariance("linear_acceleration_covariance", message.linear_acceleration_covariance());
   }
   return check.problem();

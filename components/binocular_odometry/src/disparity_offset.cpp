@@ -63,7 +63,7 @@ Eigen::Isometry3d DisparityOffset::learn(const vision::RectifiedStereo& stereo, 
     current_from_previous = vision::se3_exp(step.head<6>()) * current_from_previous;
     offset_px += step[kOffset];
   }
-  px_ = std::clamp(offset_px, -kMax_px, kMax_px);
+  px_ = std::clamp(offset_px, -kMaxOffset_px, kMaxOffset_px);
   variance_px2_ = 1.0 / (1.0 / variance_px2_ + information);
   return current_from_previous;
 }

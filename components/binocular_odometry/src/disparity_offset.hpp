@@ -20,7 +20,7 @@ struct FramePair {
 /// Kalman filter, estimated together with the motion between two frames.
 class DisparityOffset {
  public:
-  static constexpr double kMax_px = 2.0;  ///< more indicates a wrong calibration
+  static constexpr double kMaxOffset_px = 2.0;  ///< more indicates a wrong calibration
 
   double px() const noexcept { return px_; }
 

@@ -66,7 +66,7 @@ struct Arrivals {
 struct Followed {
   std::vector<Track> tracks;
   Eigen::Isometry3d current_from_previous = Eigen::Isometry3d::Identity();
-  bool is_measured = false;  // else a guess, and there are no tracks
+  bool is_measured = false;  // false: predicted only, without tracks
   DisparityOffset offset;
 };
 

@@ -124,7 +124,8 @@ std::optional<MeasuredMotion> TwoStageLocalBundleAdjuster::refine_window(Keyfram
     keyframes_[frame].left_from_odom = problem.left_from_world[frame];
   }
   head.left_from_odom = problem.left_from_world.back();
-  disparity_offset_px_ = std::clamp(problem.disparity_offset_px, -DisparityOffset::kMax_px, DisparityOffset::kMax_px);
+  disparity_offset_px_ =
+      std::clamp(problem.disparity_offset_px, -DisparityOffset::kMaxOffset_px, DisparityOffset::kMaxOffset_px);
   for (size_t i = 0; i < ids.size(); ++i) points_.at(ids[i]).point = problem.points[i];
 
   for (const auto& observation : problem.observations) {

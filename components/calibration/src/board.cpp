@@ -11,8 +11,8 @@
 namespace panvo::calibration {
 namespace {
 
-constexpr int kMin = 3;
-constexpr int kMax = 100;
+constexpr int kMinCount = 3;
+constexpr int kMaxCount = 100;
 constexpr double kMaxSquare_m = 10.0;
 
 [[noreturn]] void refuse(std::string_view text, const std::string& what) {
@@ -35,8 +35,8 @@ std::vector<std::string_view> split(std::string_view text, char separator) {
 int read_count(std::string_view whole, std::string_view word) {
   int value = 0;
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  if (error != std::errc() || end != word.data() + word.size() || value < kMin || value > kMax)
-    refuse(whole, fmt::format("'{}' is not a count from {} to {}", word, kMin, kMax));
+  if (error != std::errc() || end != word.data() + word.size() || value < kMinCount || value > kMaxCount)
+    refuse(whole, fmt::format("'{}' is not a count from {} to {}", word, kMinCount, kMaxCount));
   return value;
 }
 

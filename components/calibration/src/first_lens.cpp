@@ -11,8 +11,8 @@
 namespace panvo::calibration {
 namespace {
 
-constexpr double kMin = 0.12;  // focal length over the longer side of the image
-constexpr double kMax = 5.0;
+constexpr double kMinFocalRatio = 0.12;  // focal length over the longer side of the image
+constexpr double kMaxFocalRatio = 5.0;
 constexpr double kStep = 1.08;
 constexpr std::size_t kMaxViews = 24;  // sufficient for an initial value
 constexpr double kNotSeen_px = 1e3;    // error of a corner that does not project into the image
@@ -54,7 +54,7 @@ std::optional<vision::LensCamera> first_lens(const std::vector<std::vector<Corne
   const std::size_t stride = std::max<std::size_t>(1, views.size() / kMaxViews);
   std::optional<vision::LensCamera> best;
   double smallest = 0.0;
-  for (double share = kMin; share < kMax; share *= kStep) {
+  for (double share = kMinFocalRatio; share < kMaxFocalRatio; share *= kStep) {
     const double focal = share * longer;
     lens.pinhole = {
         focal, focal, 0.5 * (image_size.width - 1), 0.5 * (image_size.height - 1), image_size.width, image_size.height};

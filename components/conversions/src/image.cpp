@@ -51,8 +51,8 @@ Result<cv::Mat> view(const sensor_msgs::msg::Image& image) {
         "to one of them",
         image.encoding())};
   }
-  constexpr std::uint32_t kMax = 1U << 16;
-  if (image.width() == 0 || image.height() == 0 || image.width() > kMax || image.height() > kMax) {
+  constexpr std::uint32_t kMaxSide_px = 1U << 16;
+  if (image.width() == 0 || image.height() == 0 || image.width() > kMaxSide_px || image.height() > kMaxSide_px) {
     return Reason{fmt::format("has an invalid size of {} x {} px", image.width(), image.height())};
   }
   const auto pixel_bytes = static_cast<std::size_t>(CV_ELEM_SIZE(encoding->type));

@@ -15,8 +15,8 @@ std::string place_of(const Revisit& revisit) {
 
 /// Shortens long routes to both ends: "17-16-..-8-17".
 std::string short_route(const std::string& route) {
-  constexpr std::size_t kMax = 24;
-  if (route.size() <= kMax) return route;
+  constexpr std::size_t kMaxRows = 24;
+  if (route.size() <= kMaxRows) return route;
   const auto second = route.find('-', route.find('-') + 1);
   const auto last = route.rfind('-', route.rfind('-') - 1);
   return route.substr(0, second) + "-.." + route.substr(last);

@@ -36,10 +36,10 @@ std::string scaled(int column, double factor) {
 }
 
 std::string shortened(const std::string& name) {
-  constexpr std::size_t kMax = 38;
+  constexpr std::size_t kMaxLength = 38;
   constexpr std::size_t kEnd = 17;
-  if (name.size() <= kMax) return name;
-  return name.substr(0, kMax - kEnd - 2) + ".." + name.substr(name.size() - kEnd);
+  if (name.size() <= kMaxLength) return name;
+  return name.substr(0, kMaxLength - kEnd - 2) + ".." + name.substr(name.size() - kEnd);
 }
 
 std::string rectangle(double from_y, double to_y, double length, const char* fill) {

@@ -37,7 +37,7 @@ BodyMask::BodyMask(const BodyMaskParameters& parameters, const GroundGrid& grid)
       const double along = point.x() / std::max(1e-3, point.x() > 0 ? parameters.ahead_m : parameters.behind_m);
       const double across = point.y() / std::max(1e-3, parameters.side_m);
       if (along * along + across * across <= 1.0) given_.at<std::uint8_t>(row, column) = 255;
-      if (point.norm() <= parameters.max_m) possible_.at<std::uint8_t>(row, column) = 255;
+      if (point.norm() <= parameters.max_distance_m) possible_.at<std::uint8_t>(row, column) = 255;
     }
   }
   given_.copyTo(mask_);

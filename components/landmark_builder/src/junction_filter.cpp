@@ -83,7 +83,7 @@ std::optional<PassedJunction> JunctionFilter::conclude(const Candidate& candidat
   if (candidate.last_m - candidate.first_m < parameters_.min_seen_m) return std::nullopt;
   const Place& closest = nearest(candidate.centre());
   const double nearest_m = (closest.position - candidate.centre()).norm();
-  if (nearest_m > parameters_.max_pass_m) return std::nullopt;
+  if (nearest_m > parameters_.max_pass_distance_m) return std::nullopt;
   const auto along = std::count_if(path_.begin(), path_.end(), [&](const Place& place) {
     return place.travelled_m >= candidate.first_m && place.travelled_m <= candidate.last_m;
   });

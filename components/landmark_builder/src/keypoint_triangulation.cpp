@@ -117,7 +117,7 @@ int triangulate_keypoints(std::span<Keypoint> landmark, std::span<const Neighbou
       range = fit(bearing, seen, sigma_rad);
     }
     if (!range || max_error(bearing, seen, range->inverse, worst) > gate_rad) continue;
-    if (range->inverse < parameters.min_sigmas * range->sigma || range->inverse * parameters.max_m < 1.0) {
+    if (range->inverse < parameters.min_sigmas * range->sigma || range->inverse * parameters.max_range_m < 1.0) {
       continue;
     }
     keypoint.has_point = true;

@@ -53,7 +53,7 @@ std::vector<landmarks::PanoramicLandmark> LandmarkBuilder::step(const PosedPanor
     take(nearest_to_stamp(junction.nearest_stamp_ns), true);
   }
   // by the distance rule, far enough back to have panoramas on both sides; not while a junction is pending
-  const double back_m = travelled_m_ - parameters_.max_neighbour_m;
+  const double back_m = travelled_m_ - parameters_.max_neighbour_distance_m;
   if (!filter_.is_pending() && rule_.is_due(back_m)) take(nearest_to_travelled(back_m), false);
   return built;
 }
@@ -83,10 +83,10 @@ std::vector<const LandmarkBuilder::Kept*> LandmarkBuilder::neighbours_of(const K
   for (int i = 0; i < parameters_.neighbours; ++i) {
     // alternately before and after, the farthest first
     const double pairs = std::ceil(0.5 * parameters_.neighbours);
-    const double distance_m = parameters_.max_neighbour_m * (pairs - i / 2) / pairs;
+    const double distance_m = parameters_.max_neighbour_distance_m * (pairs - i / 2) / pairs;
     const Kept& neighbour = nearest_to_travelled(chosen.travelled_m + (i % 2 == 0 ? -distance_m : distance_m));
     const double apart_m = std::abs(neighbour.travelled_m - chosen.travelled_m);
-    if (apart_m < kNearNeighbour_m || apart_m > parameters_.max_neighbour_m + 1.0) continue;
+    if (apart_m < kNearNeighbour_m || apart_m > parameters_.max_neighbour_distance_m + 1.0) continue;
     if (std::find(neighbours.begin(), neighbours.end(), &neighbour) == neighbours.end())
       neighbours.push_back(&neighbour);
   }

@@ -38,7 +38,7 @@ struct ComponentParameters : BuilderParameters {
     field.group(static_cast<landmarks::KeypointParameters P::*>(&P::keypoints), "keypoints");
     field(static_cast<int P::*>(&P::neighbours), "neighbours", "1",
           "panoramas before and after a landmark's that triangulate its keypoints", 0, 20);
-    field(static_cast<double P::*>(&P::max_neighbour_m), "max_neighbour_m", "m",
+    field(static_cast<double P::*>(&P::max_neighbour_distance_m), "max_neighbour_distance_m", "m",
           "distance of the farthest of them from the landmark", 0.5, 50.0);
     field(static_cast<int P::*>(&P::thumbnail_quality), "thumbnail_quality", "1",
           "JPEG quality of a landmark's thumbnail; 0: no thumbnail", 0, 100);

@@ -121,7 +121,7 @@ cv::Mat RoadJunctionDetector::certain_road(const PlanarPose& pose) const {
   }
   // ahead, up to the first ground beyond the body
   double ahead_m = 0.0;
-  const double max_m = std::min(parameters_.body.max_m, grid.middle() * grid.resolution_m - kAhead_m);
+  const double max_m = std::min(parameters_.body.max_distance_m, grid.middle() * grid.resolution_m - kAhead_m);
   while (ahead_m < max_m && body_.mask().at<std::uint8_t>(to_pixel({ahead_m, 0.0})) != 0) ahead_m += grid.resolution_m;
   cv::line(mask, to_pixel({0.0, 0.0}), to_pixel({ahead_m + kAhead_m, 0.0}), 255, width);
   return mask;

@@ -13,7 +13,7 @@ namespace {
 // Typical distance of landmarks; a search visits (2 radius / cell + 1)^2 cells.
 constexpr double kCell_m = 20.0;
 // Beyond any journey, and well within the range of a cell index.
-constexpr double kMax_m = 1e12;
+constexpr double kMaxCoordinate_m = 1e12;
 
 double horizontal_distance(const PanoramicLandmark& landmark, const Eigen::Vector3d& position) {
   return (landmark.map_from_base.translation() - position).head<2>().norm();
@@ -109,7 +109,7 @@ std::optional<LandmarkLibrary::Near> LandmarkLibrary::nearest(const Eigen::Vecto
   std::vector<const PanoramicLandmark*> candidates;
   for (double radius = kCell_m; candidates.empty(); radius *= 2.0) {
     // Beyond this radius within() visits all landmarks anyway.
-    candidates = within(position, radius > kMax_m ? std::numeric_limits<double>::infinity() : radius);
+    candidates = within(position, radius > kMaxCoordinate_m ? std::numeric_limits<double>::infinity() : radius);
   }
   Near best{nullptr, std::numeric_limits<double>::infinity()};
   for (const auto* candidate : candidates) {
@@ -127,7 +127,7 @@ std::vector<Keypoint> LandmarkLibrary::keypoints(std::uint32_t id) const {
 
 LandmarkLibrary::Cell LandmarkLibrary::cell_of(const Eigen::Vector3d& position) {
   const auto index = [](double coordinate) {
-    return static_cast<std::int64_t>(std::floor(std::clamp(coordinate, -kMax_m, kMax_m) / kCell_m));
+    return static_cast<std::int64_t>(std::floor(std::clamp(coordinate, -kMaxCoordinate_m, kMaxCoordinate_m) / kCell_m));
   };
   return {index(position.x()), index(position.y())};
 }

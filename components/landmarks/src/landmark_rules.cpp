@@ -13,7 +13,7 @@ using interfaces::Check;
 
 void check_isometry(Check& check, std::string_view name, const Eigen::Isometry3d& pose) {
   const Eigen::Vector3d position = pose.translation();
-  check.bounded({name, "position"}, std::span<const double>(position.data(), 3), interfaces::kMax_m);
+  check.bounded({name, "position"}, std::span<const double>(position.data(), 3), interfaces::kMaxCoordinate_m);
   const Eigen::Matrix3d rotation = pose.linear();
   const double deviation = (rotation * rotation.transpose() - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
   check.require(deviation <= interfaces::kUnitTolerance, {name, "orientation"}, "is not a rotation");

@@ -80,7 +80,7 @@ double heading_of(const PanoramicLandmark& landmark) {
 /// Converts map coordinates to pixels.
 struct MapView {
   static constexpr int kMargin_px = 70;
-  static constexpr int kMax_px = 1400;
+  static constexpr int kMaxSide_px = 1400;
   Eigen::Vector2d smallest, largest;
   double px_per_m = 1.0;
 
@@ -91,7 +91,7 @@ struct MapView {
       smallest = smallest.cwiseMin(landmark.map_from_base.translation().head<2>());
       largest = largest.cwiseMax(landmark.map_from_base.translation().head<2>());
     }
-    px_per_m = kMax_px / std::max((largest - smallest).maxCoeff(), 20.0);
+    px_per_m = kMaxSide_px / std::max((largest - smallest).maxCoeff(), 20.0);
   }
   cv::Size size() const {
     const Eigen::Vector2d extent = (largest - smallest) * px_per_m;

@@ -8,13 +8,13 @@
 namespace panvo::localizer {
 namespace {
 
-constexpr double kMin_m = 0.3;       // between two compared sightings
+constexpr double kMinStep_m = 0.3;   // between two compared sightings
 constexpr double kMaxGap_m = 5.0;    // within a pass
 constexpr double kMaxPass_m = 40.0;  // beyond, odometry drift reaches the size of the effect
 
 // Sightings with a larger deviation than a camera rotated by a dozen degrees would cause are ignored.
 constexpr double kMaxTurned = 0.25;
-constexpr double kMaxElse_m = 1.0;
+constexpr double kMaxOffset_m = 1.0;
 
 constexpr double kOdometry_m = 0.02;  // over a few metres
 // The sightings of a pass share points and hence errors: three count as one. With this factor the estimates for
@@ -50,14 +50,14 @@ void ExtrinsicsMonitor::add(const LandmarkSighting& sighting, const OdometrySamp
     pass_ = begun;
     return;
   }
-  if (way_between(pass_->last_at, at) < kMin_m) return;
+  if (way_between(pass_->last_at, at) < kMinStep_m) return;
   pass_->last_at = at;
   const Eigen::Isometry3d by_odometry = step_between(pass_->first_at, at);
   const Eigen::Vector3d way = by_odometry.translation();
   const Eigen::Vector3d by_panoramas =
       pass_->first.landmark_from_base.inverse() * sighting.landmark_from_base.translation();
   const Eigen::Vector3d difference = by_panoramas - way;
-  if (difference.norm() > kMaxElse_m + kMaxTurned * way.norm()) return;
+  if (difference.norm() > kMaxOffset_m + kMaxTurned * way.norm()) return;
   // The panoramas measure a base_link displaced by t and rotated by w relative to the true one:
   // path seen = path + path x w + (turn - 1) t.
   Matrix34d jacobian;

@@ -57,9 +57,9 @@ std::vector<Number> numbers(const Lines& lines, const std::string& key, std::siz
 /// Applies the rules of odometry messages, the origin of the values.
 void check_numbers(interfaces::Check& check, std::span<const double> position, std::span<const double> covariance,
                    double speed_m_per_s) {
-  check.bounded("position", position, interfaces::kMax_m);
+  check.bounded("position", position, interfaces::kMaxCoordinate_m);
   check.covariance("covariance", covariance);
-  check.within("speed_m_per_s", speed_m_per_s, 0.0, interfaces::kMax);
+  check.within("speed_m_per_s", speed_m_per_s, 0.0, interfaces::kMaxRate);
 }
 
 LastPose from_lines(const Lines& lines) {

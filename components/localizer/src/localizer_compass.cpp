@@ -12,8 +12,9 @@
 namespace panvo::localizer {
 namespace {
 
-constexpr int kYaw = 5;                // index in a twist
-constexpr double kMaxElse = 25.0;      // wrong turns also cause wrong translation, by up to five times the stated error
+constexpr int kYaw = 5;  // index in a twist
+constexpr double kMaxInflation =
+    25.0;                              // wrong turns also cause wrong translation, by up to five times the stated error
 constexpr double kClockCaution = 9.0;  // odometry sometimes errs by more than stated, especially while turning
 constexpr double kScaleCaution = 4.0;  // compass errors are correlated over some seconds, e.g. in a bend
 
@@ -47,7 +48,7 @@ AzimuthUse Localizer::add(const AzimuthMeasurement& azimuth) {
   const auto wrong = check_.add_turns(chain_, stretch, disagreement, is_contradicted);
   if (wrong == Wrong::kOdometry) {
     chain_.inflate_covariance(from_ns, to_ns, disagreement * disagreement / std::max(turn->variance_rad2, 1e-12),
-                              kMaxElse);
+                              kMaxInflation);
   }
   if (wrong != Wrong::kPanoramas) fuse(from_ns, to_ns, azimuth.change_rad, compass_variance);
   const auto unsure_since_ns = check_.add_ways(chain_, stretch, azimuth, way_variance_m2);
@@ -100,7 +101,8 @@ void Localizer::straighten(const YawBiasDetector::Stretch& lean) {
   const auto leaning = chain_.turn(lean.from_ns, lean.to_ns);
   const double wrong_rad2 = lean.disagreement_rad * lean.disagreement_rad;
   if (leaning && leaning->variance_rad2 < wrong_rad2) {
-    chain_.inflate_covariance(lean.from_ns, lean.to_ns, wrong_rad2 / std::max(leaning->variance_rad2, 1e-12), kMaxElse);
+    chain_.inflate_covariance(lean.from_ns, lean.to_ns, wrong_rad2 / std::max(leaning->variance_rad2, 1e-12),
+                              kMaxInflation);
   }
   fuse(lean.from_ns, lean.to_ns, lean.compass_rad, lean.compass_variance_rad2);
   graph_.refresh(chain_, lean.from_ns);

@@ -130,13 +130,13 @@ std::optional<vision::Vector6d> OdometryBuffer::twist(std::int64_t stamp_ns) con
   return moved * kSecond_ns / static_cast<double>(entry.raw.stamp_ns - entries_[place->after - 1].raw.stamp_ns);
 }
 
-void OdometryBuffer::inflate_covariance(std::int64_t from_ns, std::int64_t to_ns, double factor, double max_else) {
+void OdometryBuffer::inflate_covariance(std::int64_t from_ns, std::int64_t to_ns, double factor, double max_total) {
   const std::size_t first = first_after(from_ns);
   for (std::size_t i = first; i < entries_.size(); ++i) {
     const double part = share(i, from_ns, to_ns);
     if (part <= 0.0) break;
     Step& step = entries_[i].step;
-    const double widened = std::max(step.widened, 1.0 + part * (std::min(factor, max_else) - 1.0));
+    const double widened = std::max(step.widened, 1.0 + part * (std::min(factor, max_total) - 1.0));
     vision::Vector6d scale = vision::Vector6d::Constant(std::sqrt(widened / step.widened));
     scale[kYaw] = std::sqrt(1.0 + part * (factor - 1.0));
     step.covariance = scale.asDiagonal() * step.covariance * scale.asDiagonal();

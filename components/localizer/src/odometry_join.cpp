@@ -14,7 +14,7 @@ constexpr std::size_t kMaxQualities = 100;
 constexpr std::size_t kMaxWaiting = 10;
 // Both are published at the same time; a busy network delays them by a tenth of this.
 constexpr std::int64_t kPatience_ns = 200'000'000;
-constexpr int kMaxLacking = 10;  // after this many, quality is no longer expected
+constexpr int kMaxMissing = 10;  // consecutive messages without quality, after which none is awaited
 
 }  // namespace
 
@@ -39,7 +39,7 @@ std::optional<OdometryJoin::Joined> OdometryJoin::next(std::int64_t now_ns, bool
     joined.is_reliable = own->second.is_reliable;
     joined.outlier_share = own->second.outlier_share;
     qualities_.erase(qualities_.begin(), std::next(own));
-  } else if (is_told && lacking_ < kMaxLacking) {
+  } else if (is_told && lacking_ < kMaxMissing) {
     // Topics keep their order: a later quality means that this one was lost.
     const bool is_lost = qualities_.upper_bound(stamp_ns) != qualities_.end();
     const bool is_patient = waiting_.size() <= kMaxWaiting && now_ns - waiting_.front().since_ns < kPatience_ns;

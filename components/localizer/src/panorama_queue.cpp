@@ -14,7 +14,7 @@ std::int64_t stamp_of(const PanoramaFact& fact) {
 
 bool PanoramaQueue::push(const PanoramaFact& fact) {
   waiting_.push_back(fact);
-  if (waiting_.size() <= kMax) return true;
+  if (waiting_.size() <= kMaxWaiting) return true;
   waiting_.pop_front();
   return false;
 }

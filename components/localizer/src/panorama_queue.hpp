@@ -32,7 +32,7 @@ class PanoramaQueue {
   std::optional<PanoramaFact> next(const Localizer& localizer);
 
  private:
-  static constexpr std::size_t kMax = 100;
+  static constexpr std::size_t kMaxWaiting = 100;
   static constexpr std::int64_t kFarAhead_ns = 2'000'000'000;
 
   std::deque<PanoramaFact> waiting_;

@@ -11,7 +11,7 @@ class SetBack {
   /// Adds a message `back_ns` before the latest; returns true if the clock was set back.
   bool add(std::int64_t stamp_ns, std::int64_t back_ns) {
     const bool agrees = run_ > 0 && stamp_ns > stamp_ns_;
-    run_ = back_ns < kMin_ns ? 0 : agrees ? run_ + 1 : 1;
+    run_ = back_ns < kMinStep_ns ? 0 : agrees ? run_ + 1 : 1;
     stamp_ns_ = stamp_ns;
     if (run_ < kRun) return false;
     run_ = 0;
@@ -19,7 +19,7 @@ class SetBack {
   }
 
  private:
-  static constexpr std::int64_t kMin_ns = 500'000'000;  // smaller steps are reordering
+  static constexpr std::int64_t kMinStep_ns = 500'000'000;  // smaller steps are reordering
   static constexpr int kRun = 5;
 
   int run_ = 0;

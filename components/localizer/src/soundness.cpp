@@ -9,7 +9,7 @@
 namespace panvo::localizer {
 namespace {
 
-constexpr double kMax_m = 1e7;
+constexpr double kMaxCoordinate_m = 1e7;
 constexpr double kMaxVariance = 1e12;
 constexpr double kRotationTolerance = 1e-3;
 constexpr double kRounding = 1e-6;  // relative to the largest entry: accumulated rounding of covariances
@@ -23,7 +23,7 @@ std::optional<std::string> fault_of(const Eigen::Isometry3d& pose, const vision:
   if (!pose.matrix().allFinite() || !covariance.allFinite()) return "has values that are not finite";
   const Eigen::Matrix3d product = pose.linear() * pose.linear().transpose();
   if (!product.isApprox(Eigen::Matrix3d::Identity(), kRotationTolerance)) return "has an invalid rotation";
-  if (pose.translation().cwiseAbs().maxCoeff() > kMax_m) return "has a position beyond 10,000 km";
+  if (pose.translation().cwiseAbs().maxCoeff() > kMaxCoordinate_m) return "has a position beyond 10,000 km";
   const double most = covariance.cwiseAbs().maxCoeff();
   if (most > kMaxVariance) return "has a variance above 1e12";
   const vision::Matrix6d skew = covariance - covariance.transpose();

@@ -7,8 +7,8 @@
 namespace panvo::position_corrector {
 namespace {
 
-constexpr int kMinSamples = 4;    // two determine the line, two more check it
-constexpr double kMin_m2 = 0.01;  // variance of the path below which the vehicle stands still
+constexpr int kMinSamples = 4;            // two determine the line, two more check it
+constexpr double kMinVariance_m2 = 0.01;  // variance of the path below which the vehicle stands still
 
 }  // namespace
 
@@ -27,7 +27,7 @@ std::optional<double> curve_slope(std::span<const DistanceSample> curve, double 
     products += away_m * sample.distance;
   }
   const double variance_m2 = squares / count - (way / count) * (way / count);
-  if (count < kMinSamples || variance_m2 < kMin_m2) return std::nullopt;
+  if (count < kMinSamples || variance_m2 < kMinVariance_m2) return std::nullopt;
   return (products / count - way / count * distance / count) / variance_m2;
 }
 

@@ -12,8 +12,8 @@ namespace panvo::position_corrector {
 namespace {
 
 constexpr int kSteps = 10;
-constexpr double kLossScale = 2.5;  // standard deviations
-constexpr double kMin = 1e-9;       // both bearings along the baseline: on every epipolar plane
+constexpr double kLossScale = 2.5;   // standard deviations
+constexpr double kMinNormal = 1e-9;  // both bearings along the baseline: on every epipolar plane
 
 using Vector5d = Eigen::Matrix<double, 5, 1>;
 using Matrix5d = Eigen::Matrix<double, 5, 5>;
@@ -41,7 +41,7 @@ Whitened whitened(const BearingPair& pair, const EpipolarMotion& motion, const B
   // derivative of the residual by perpendicular motion of the bearings
   const double slope2 = normal_of_panorama.squaredNorm() + normal_of_landmark.squaredNorm() - 2.0 * residual * residual;
   Whitened result;
-  if (slope2 < kMin) return result;
+  if (slope2 < kMinNormal) return result;
   const double scale = 1.0 / (sigma_rad * std::sqrt(slope2));
   result.residual = scale * residual;
   result.jacobian.head<3>() = scale * turned.cross(normal_of_landmark);

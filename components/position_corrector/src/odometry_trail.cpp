@@ -15,7 +15,7 @@ void OdometryTrail::add(const OdometrySample& sample) {
     travelled_m = last.point.travelled_m + sample.twist.head<3>().norm() * seconds;
   }
   entries_.push_back({sample.stamp_ns, {sample.prior, sample.twist, travelled_m}});
-  if (entries_.size() > kMax) entries_.pop_front();
+  if (entries_.size() > kMaxSamples) entries_.pop_front();
 }
 
 std::optional<TrailPoint> OdometryTrail::at(std::int64_t stamp_ns) const {

@@ -37,7 +37,7 @@ class OdometryTrail {
   std::optional<TrailPoint> at(std::int64_t stamp_ns) const;
 
  private:
-  static constexpr std::size_t kMax = 200;  // 8 s at 25 Hz
+  static constexpr std::size_t kMaxSamples = 200;  // 8 s at 25 Hz
 
   struct Entry {
     std::int64_t stamp_ns;

@@ -222,11 +222,11 @@ TEST(BagReader, SaysWhatIsWrongWithWhatIsNoBag) {
   EXPECT_THAT(error("none"), testing::AllOf(HasSubstr("none"), HasSubstr("does not exist")));
   std::filesystem::create_directories(folder / "folder");
   EXPECT_THAT(error("folder"), HasSubstr("neither metadata.yaml nor a .db3 or .mcap file"));
-  folder.write(folder / "text.db3", "This is no database, though it is long enough to be taken for one.");
+  folder.write(folder / "text.db3", "Plain text instead of a database, long enough to hold a header.");
   EXPECT_THAT(error("text.db3"), HasSubstr("neither a SQLite database nor MCAP"));
   folder.write(folder / "empty.db3", "");
   EXPECT_THAT(error("empty.db3"), HasSubstr("is empty"));
-  folder.write(folder / "bag.mcap", "This is no MCAP file, though its name says so.");
+  folder.write(folder / "bag.mcap", "Plain text in a file named like an MCAP bag.");
   EXPECT_THAT(error("bag.mcap"), HasSubstr("bag.mcap: nothing in it can be read"));
   folder.write(folder / "bag.db3.zstd", "\x28\xb5\x2f\xfd....");
   EXPECT_THAT(error("bag.db3.zstd"), HasSubstr("bag.db3.zstd: the compressed content cannot be read"));

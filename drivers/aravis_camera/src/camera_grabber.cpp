@@ -197,8 +197,8 @@ class CameraGrabber::Implementation {
   }
 
   void receive() {
-    constexpr std::chrono::microseconds kMax(50'000);
-    auto limit = kMax;
+    constexpr std::chrono::microseconds kMaxWait(50'000);
+    auto limit = kMaxWait;
     if (settings_.camera.trigger == Trigger::kSoftware) {
       if (trigger_.is_due(system_ns())) camera_->trigger();
       limit = std::min(limit, std::chrono::microseconds(trigger_.until_due_ns(system_ns()) / 1000 + 1));

@@ -75,8 +75,8 @@ std::shared_ptr<sensor_msgs::msg::Image> make_image(const Format& format, std::s
 }
 
 std::string problem_of(const RawImage& raw, const Format& format) {
-  constexpr int kMax = 1 << 16;
-  if (raw.width <= 0 || raw.height <= 0 || raw.width > kMax || raw.height > kMax)
+  constexpr int kMaxSide_px = 1 << 16;
+  if (raw.width <= 0 || raw.height <= 0 || raw.width > kMaxSide_px || raw.height > kMaxSide_px)
     return fmt::format("is {} x {} px, which is not an image size", raw.width, raw.height);
   if (format.type == CV_8UC2 && raw.width % 2 != 0)
     return fmt::format("is {} px wide, but {} stores pixels in pairs: set an even width", raw.width, format.name);

@@ -53,7 +53,7 @@ TextFile::TextFile(std::filesystem::path path, Separator separator) : path_(std:
 
 double TextFile::number(const TextLine& line, std::size_t field) const {
   double value = 0.0;
-  if (!parse(text(line, field), value) || !(std::abs(value) <= interfaces::kMax_m)) {
+  if (!parse(text(line, field), value) || !(std::abs(value) <= interfaces::kMaxCoordinate_m)) {
     fail(line, "field " + std::to_string(field + 1) + " '" + line.fields[field] +
                    "' is not a finite number of a plausible size; correct or remove the line");
   }

@@ -70,7 +70,7 @@ std::vector<double> YamlFile::numbers(const std::string& key) const {
   std::vector<double> values;
   if (!append_numbers(at(key), values)) fail(key, "must be a list of numbers or a matrix (rows, cols, data)");
   for (const double value : values) {
-    if (!(std::abs(value) <= interfaces::kMax_m)) {
+    if (!(std::abs(value) <= interfaces::kMaxCoordinate_m)) {
       fail(key, "contains a number that is not finite or not plausible; correct it, or recalibrate");
     }
   }

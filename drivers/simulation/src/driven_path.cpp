@@ -184,12 +184,12 @@ std::vector<Vector2d> straight_on(Leg& in, Leg& out, double angle) {
 
 // An arc through a junction. A right turn follows the rounded kerb closely; a left turn is wider.
 std::vector<Vector2d> turn(Leg& in, Leg& out) {
-  constexpr double kStraight_rad = 0.7, kRightReach_m = 6.0, kLeftReach_m = 8.5, kMax_m = 16.0;
+  constexpr double kStraight_rad = 0.7, kRightReach_m = 6.0, kLeftReach_m = 8.5, kMaxRadius_m = 16.0;
   const double angle = angle_between(in.way(in.length_m - 5.0), out.way(5.0));
   if (std::abs(angle) < kStraight_rad) return straight_on(in, out, angle);
   const double side = angle > 0.0 ? 1.0 : -1.0;
   const double reach = angle > 0.0 ? kLeftReach_m : kRightReach_m;
-  double radius = std::clamp(reach / std::tan(std::abs(angle) / 2.0), kMinRadius_m, kMax_m);
+  double radius = std::clamp(reach / std::tan(std::abs(angle) / 2.0), kMinRadius_m, kMaxRadius_m);
   std::optional<Touch> touch;
   while (!(touch = touching_circle(in, out, radius, side)) && radius > kMinRadius_m) {
     radius = std::max(0.9 * radius, kMinRadius_m);

@@ -177,8 +177,8 @@ class CameraGrabber::Implementation {
 
   void receive() {
     try {
-      constexpr auto kMax = std::chrono::milliseconds(50);
-      const auto frame = device_->receive(kMax);
+      constexpr auto kMaxWait = std::chrono::milliseconds(50);
+      const auto frame = device_->receive(kMaxWait);
       if (!frame) return;
       const HostTime arrival{steady_ns(), system_ns()};
       machine_.frame(arrival.monotonic_ns);

@@ -41,9 +41,9 @@ McapFileWriter::~McapFileWriter() {
 }
 
 void McapFileWriter::add_topic(int id, const BagTopic& topic, const TypeDefinition& definition) {
-  constexpr std::size_t kMax = std::numeric_limits<std::uint16_t>::max();
-  if (static_cast<std::size_t>(id) > kMax || schemas_.size() >= kMax) {
-    throw StorageError("MCAP files have at most " + std::to_string(kMax) + " topics; record fewer", false);
+  constexpr std::size_t kMaxIds = std::numeric_limits<std::uint16_t>::max();
+  if (static_cast<std::size_t>(id) > kMaxIds || schemas_.size() >= kMaxIds) {
+    throw StorageError("MCAP files have at most " + std::to_string(kMaxIds) + " topics; record fewer", false);
   }
   auto schema = std::find_if(schemas_.begin(), schemas_.end(), [&](const Schema& s) { return s.name == topic.type; });
   if (schema == schemas_.end()) {

@@ -9,7 +9,7 @@
 namespace panvo::runtime {
 namespace {
 
-constexpr std::size_t kMaxName = 247;  // DDS's limit (255) minus ROS 2's prefixes such as "rt/"
+constexpr std::size_t kMaxNameLength = 247;  // DDS's limit (255) minus ROS 2's prefixes such as "rt/"
 
 // Not <cctype>, which depends on the locale.
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
@@ -61,8 +61,8 @@ std::optional<std::string> topic_name_problem(std::string_view name) {
   if (name.empty()) {
     return "is empty";
   }
-  if (name.size() > kMaxName) {
-    return "is longer than " + std::to_string(kMaxName) + " characters";
+  if (name.size() > kMaxNameLength) {
+    return "is longer than " + std::to_string(kMaxNameLength) + " characters";
   }
   if (name.starts_with("~/")) {
     return words_problem(name.substr(2));
@@ -82,7 +82,7 @@ std::optional<std::string> node_name_problem(std::string_view name) {
 
 std::optional<std::string> package_name_problem(std::string_view name) {
   const auto is_small = [](char c) { return c >= 'a' && c <= 'z'; };
-  const bool is_one = !name.empty() && name.size() <= kMaxName && is_small(name.front()) &&
+  const bool is_one = !name.empty() && name.size() <= kMaxNameLength && is_small(name.front()) &&
                       std::ranges::all_of(name, [&](char c) { return is_small(c) || is_digit(c) || c == '_'; });
   if (is_one) return std::nullopt;
   return "is not a package name; use lower-case letters, digits and '_', starting with a letter";

@@ -70,9 +70,9 @@ class Reader {
     return guids;
   }
   std::string text() {
-    constexpr std::size_t kMax = 256 + 1;
+    constexpr std::size_t kMaxLength = 256 + 1;
     const auto length = count();
-    if (length > kMax) good_ = false;
+    if (length > kMaxLength) good_ = false;
     const auto bytes = take(length);
     std::string text(bytes.begin(), bytes.end());
     if (!text.empty() && text.back() == '\0') text.pop_back();

@@ -12,9 +12,9 @@ namespace panvo::interfaces {
 
 /// Limit of coordinates, m. Beyond any map or projected frame on Earth (UTM: 1e7 m); a double still resolves 15 nm
 /// there.
-inline constexpr double kMax_m = 1e8;
+inline constexpr double kMaxCoordinate_m = 1e8;
 /// Limit of the components of twists (m/s, rad/s) and accelerations (m/s^2). No vehicle reaches it.
-inline constexpr double kMax = 1e4;
+inline constexpr double kMaxRate = 1e4;
 /// Largest valid variance, the square of 3e7 m or rad. ROS nodes write 1e6 to 1e12 for "unknown"; DBL_MAX would
 /// overflow in every product.
 inline constexpr double kMaxVariance = 1e15;
@@ -24,9 +24,9 @@ inline constexpr double kMinVariance = 1e-12;
 /// Allowed deviation of the length of a quaternion or bearing from 1.
 inline constexpr double kUnitTolerance = 1e-3;
 /// Maximum length of a name (of a frame, state or encoding), bytes.
-inline constexpr std::size_t kMaxName = 256;
+inline constexpr std::size_t kMaxNameLength = 256;
 /// Maximum length of an explanatory text, bytes.
-inline constexpr std::size_t kMaxText = 65536;
+inline constexpr std::size_t kMaxTextLength = 65536;
 
 /// Path of a value in a message: "pose.covariance" is member "covariance" of "pose".
 struct MemberName {
@@ -60,8 +60,8 @@ class Check {
   /// A covariance whose variances are all at least kMinVariance.
   Check& measured_covariance(MemberName name, std::span<const double> row_major);
   Check& at_most(MemberName name, std::size_t size, std::size_t most);
-  Check& name(MemberName name, std::string_view text) { return at_most(name, text.size(), kMaxName); }
-  Check& text(MemberName name, std::string_view text) { return at_most(name, text.size(), kMaxText); }
+  Check& name(MemberName name, std::string_view text) { return at_most(name, text.size(), kMaxNameLength); }
+  Check& text(MemberName name, std::string_view text) { return at_most(name, text.size(), kMaxTextLength); }
 
   /// Whether there is no violation so far. Ask before a loop that relies on checked sizes.
   bool holds() const noexcept { return !problem_; }

@@ -31,7 +31,8 @@ class TransformBuffer {
   /// target_from_source along a chain of static transforms; nullopt if there is none.
   std::optional<Eigen::Isometry3d> lookup(const std::string& target, const std::string& source) const;
   /// target_from_source at a stamp, along static and moving transforms; the latter are interpolated at constant twist
-  /// between the two stamps around it. nullopt if there is no chain, or none that covers the stamp.
+  /// between the neighbouring stamps. nullopt if no chain connects the frames, or a moving one has no transforms around
+  /// the stamp.
   std::optional<Eigen::Isometry3d> lookup(const std::string& target, const std::string& source,
                                           std::int64_t stamp_ns) const;
 

@@ -21,8 +21,8 @@ class TransformListener {
 
   const TransformBuffer& buffer() const { return buffer_; }
 
-  /// target_from_source along static transforms. If there is no chain, logs a warning (throttled) that ends in
-  /// `remedy`, and returns nullopt.
+  /// target_from_source along static transforms. Returns nullopt if no chain connects the frames, and logs a throttled
+  /// warning that ends with `remedy`.
   std::optional<Eigen::Isometry3d> lookup(const std::string& target, const std::string& source,
                                           std::string_view remedy) const;
 

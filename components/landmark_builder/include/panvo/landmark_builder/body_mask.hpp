@@ -12,7 +12,7 @@ struct BodyMaskParameters {
   double ahead_m = 3.5;
   double behind_m = 3.5;
   double side_m = 2.0;
-  double max_m = 10.0;
+  double max_distance_m = 10.0;
 
   template <class Field>
   static void describe(Field&& field) {
@@ -22,7 +22,7 @@ struct BodyMaskParameters {
     field(&P::ahead_m, "ahead_m", "m", "minimum extent of the body ahead of the base", 0.0, 20.0);
     field(&P::behind_m, "behind_m", "m", "minimum extent of the body behind the base", 0.0, 20.0);
     field(&P::side_m, "side_m", "m", "minimum extent of the body to either side", 0.0, 20.0);
-    field(&P::max_m, "max_m", "m", "maximum distance of the body from the base", 1.0, 30.0);
+    field(&P::max_distance_m, "max_distance_m", "m", "maximum distance of the body from the base", 1.0, 30.0);
   }
 };
 

@@ -13,7 +13,7 @@ struct JunctionFilterParameters {
   double merge_radius_m = 20.0;
   double passed_m = 5.0;
   double max_gap_m = 3.0;
-  double max_pass_m = 9.0;
+  double max_pass_distance_m = 9.0;
   double min_seen_m = 2.0;
   double min_share = 0.5;
 
@@ -25,7 +25,8 @@ struct JunctionFilterParameters {
           50.0);
     field(&P::max_gap_m, "max_gap_m", "m", "path without a detection after which a passed junction is complete", 0.0,
           50.0);
-    field(&P::max_pass_m, "max_pass_m", "m", "junctions passed at a larger distance are discarded", 0.5, 50.0);
+    field(&P::max_pass_distance_m, "max_pass_distance_m", "m", "junctions passed at a larger distance are discarded",
+          0.5, 50.0);
     field(&P::min_seen_m, "min_seen_m", "m", "minimum path along which a junction is detected", 0.0, 50.0);
     field(&P::min_share, "min_share", "1", "minimum fraction of the panoramas along that path that show it", 0.0, 1.0);
   }

@@ -13,7 +13,7 @@ struct TriangulationParameters {
   double descriptor_ratio = 0.8;
   double bearing_sigma_deg = 0.25;
   double gate_sigmas = 3.0;
-  double max_m = 200.0;
+  double max_range_m = 200.0;
   double min_sigmas = 3.0;
 
   template <class Field>
@@ -24,7 +24,7 @@ struct TriangulationParameters {
     field(&P::bearing_sigma_deg, "bearing_sigma_deg", "deg", "standard deviation of a keypoint's bearing", 0.01, 2.0);
     field(&P::gate_sigmas, "gate_sigmas", "1", "largest deviation of a bearing from its point, in standard deviations",
           1.0, 10.0);
-    field(&P::max_m, "max_m", "m", "points farther away are discarded", 5.0, 10000.0);
+    field(&P::max_range_m, "max_range_m", "m", "points farther away are discarded", 5.0, 10000.0);
     field(&P::min_sigmas, "min_sigmas", "1", "smallest inverse range of a point, in standard deviations", 1.0, 20.0);
   }
 };

@@ -28,7 +28,7 @@ struct BuilderParameters {
   landmarks::DescriptionParameters description;
   landmarks::KeypointParameters keypoints;
   int neighbours = 4;
-  double max_neighbour_m = 3.5;
+  double max_neighbour_distance_m = 3.5;
   int thumbnail_quality = 60;
 
   template <class Field>
@@ -42,7 +42,8 @@ struct BuilderParameters {
     field.group(&P::keypoints, "keypoints");
     field(&P::neighbours, "neighbours", "1", "panoramas before and after a landmark's that triangulate its keypoints",
           0, 20);
-    field(&P::max_neighbour_m, "max_neighbour_m", "m", "distance of the farthest of them from the landmark", 0.5, 50.0);
+    field(&P::max_neighbour_distance_m, "max_neighbour_distance_m", "m",
+          "distance of the farthest of them from the landmark", 0.5, 50.0);
     field(&P::thumbnail_quality, "thumbnail_quality", "1", "JPEG quality of a landmark's thumbnail; 0: no thumbnail", 0,
           100);
   }

@@ -61,8 +61,8 @@ class OdometryBuffer {
   std::optional<vision::Vector6d> twist(std::int64_t stamp_ns) const;
 
   /// Increases the uncertainty of a stretch: multiplies the yaw variance by `factor`, and the other variances by
-  /// `factor`, limited to `max_else` in total over repeated calls.
-  void inflate_covariance(std::int64_t from_ns, std::int64_t to_ns, double factor, double max_else);
+  /// `factor`, limited to `max_total` in total over repeated calls.
+  void inflate_covariance(std::int64_t from_ns, std::int64_t to_ns, double factor, double max_total);
   /// Rotates a stretch by an additional angle, distributed over the steps by variance, and multiplies the yaw variance.
   void apply_yaw_correction(std::int64_t from_ns, std::int64_t to_ns, double by_rad, double variance_factor);
 

@@ -47,7 +47,7 @@ class TemporaryFolder {
     return file;
   }
 
-  /// The bytes of a file; empty if there is no such file.
+  /// Contents of a file; empty if it does not exist.
   std::string read(const std::filesystem::path& name) const {
     std::ifstream stream(path_ / name, std::ios::binary);
     return {std::istreambuf_iterator<char>(stream), {}};
