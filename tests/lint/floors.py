@@ -56,15 +56,15 @@ LANDMARKS = floor("landmarks", "vision interfaces conversions runtime sqlite", "
 # programs of a package
 TOOL = floor("tool", "vision calibration_files", "eigen, opencv, command line")
 # readers of rig files
-RIG_FILE = floor("rig file", "vision calibration_files", "eigen, opencv, yaml", False)
+RIG_FILE = floor("rig file", "vision calibration_files", "eigen, opencv", False)
 # readers of images from a bag
 BAG_IMAGES = floor("images of a bag", "recorder interfaces conversions", "messages, opencv, command line", False)
 # readers of images from live topics
 LIVE_IMAGES = floor("images of topics", "runtime interfaces conversions", "messages, opencv")
 RECORDER = floor("recorder", "runtime interfaces sqlite", "messages, fastdds, yaml, sqlite, zlib, log, json, command line")
-DRIVER = floor("driver", "runtime interfaces conversions vision calibration_files", "messages, eigen, opencv, yaml, xml, json, log")
+DRIVER = floor("driver", "runtime interfaces conversions vision calibration_files", "messages, eigen, opencv, xml, json, log")
 CAMERA_DRIVER = floor("camera driver", "runtime interfaces conversions vision calibration_files camera_stream camera_group",
-                      "messages, eigen, opencv, aravis, yaml, json, log")
+                      "messages, eigen, opencv, aravis, json, log")
 SIMULATED_WORLD = floor("simulated world", "vision", "eigen, opencv, embree")
 SIMULATION = floor("simulation", "runtime interfaces conversions vision calibration_files simulated_world", "messages, eigen, opencv, yaml, command line")
 EVALUATION = None  # may include anything
