@@ -41,6 +41,7 @@ def floor(name, packages="", libraries="", threads_and_clocks=True):
 
 
 VISION = floor("vision", "", "eigen, opencv", False)
+CALIBRATION_FILES = floor("calibration files", "vision", "eigen, yaml", False)
 INTERFACES = floor("interfaces", "", "messages, fastdds")
 SQLITE = floor("sqlite", "", "sqlite")
 RUNTIME = floor("runtime", "interfaces", "messages, log, command line")
@@ -49,27 +50,29 @@ RUNTIME_CONFIG = floor("runtime's config", "interfaces", "messages, yaml, log, c
 RUNNER = floor("runner", "runtime interfaces", "messages, log, json, command line")
 CONVERSIONS = floor("conversions", "interfaces vision runtime", "messages, eigen, opencv")
 ALGORITHM = floor("algorithm", "vision landmarks", "eigen, opencv, ceres, opengv", False)
-WRAPPER = floor("component wrapper", "runtime interfaces conversions vision landmarks", "messages, eigen, opencv", False)
+WRAPPER = floor("component wrapper", "runtime interfaces conversions vision calibration_files landmarks", "messages, eigen, opencv", False)
 # places, their store and their messages
 LANDMARKS = floor("landmarks", "vision interfaces conversions runtime sqlite", "messages, eigen, opencv, sqlite, json", False)
 # programs of a package
-TOOL = floor("tool", "vision", "eigen, opencv, command line")
+TOOL = floor("tool", "vision calibration_files", "eigen, opencv, command line")
 # readers of rig files
-RIG_FILE = floor("rig file", "vision", "eigen, opencv, yaml", False)
+RIG_FILE = floor("rig file", "vision calibration_files", "eigen, opencv", False)
 # readers of images from a bag
 BAG_IMAGES = floor("images of a bag", "recorder interfaces conversions", "messages, opencv, command line", False)
 # readers of images from live topics
 LIVE_IMAGES = floor("images of topics", "runtime interfaces conversions", "messages, opencv")
 RECORDER = floor("recorder", "runtime interfaces sqlite", "messages, fastdds, yaml, sqlite, zlib, log, json, command line")
-DRIVER = floor("driver", "runtime interfaces conversions vision", "messages, eigen, opencv, yaml, xml, json, log")
-CAMERA_DRIVER = floor("camera driver", "runtime interfaces conversions vision camera_stream camera_group", "messages, eigen, opencv, aravis, yaml, json, log")
+DRIVER = floor("driver", "runtime interfaces conversions vision calibration_files", "messages, eigen, opencv, xml, json, log")
+CAMERA_DRIVER = floor("camera driver", "runtime interfaces conversions vision calibration_files camera_stream camera_group",
+                      "messages, eigen, opencv, aravis, json, log")
 SIMULATED_WORLD = floor("simulated world", "vision", "eigen, opencv, embree")
-SIMULATION = floor("simulation", "runtime interfaces conversions vision simulated_world", "messages, eigen, opencv, yaml, command line")
+SIMULATION = floor("simulation", "runtime interfaces conversions vision calibration_files simulated_world", "messages, eigen, opencv, yaml, command line")
 EVALUATION = None  # may include anything
 
 # Folders that do not consist of an algorithm and its wrapper; the first match counts.
 FLOORS = [
     ("components/vision", VISION),
+    ("components/calibration_files", CALIBRATION_FILES),
     ("interfaces", INTERFACES),
     ("components/sqlite", SQLITE),
     ("components/runtime/src/dds", RUNTIME_DDS),

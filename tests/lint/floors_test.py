@@ -16,6 +16,16 @@ class FloorsTest(sample.RuleTest):
     def test_vision_knows_no_yaml_even_in_quotes(self):
         self.assert_finds(floors, "may not use yaml", {"components/vision/src/a.cpp": L + '#include "yaml-cpp/yaml.h"\n'})
 
+    def test_calibration_files_know_yaml_but_no_message_and_no_log(self):
+        file = "components/calibration_files/src/a.cpp"
+        self.assertEqual(self.complaints(floors, {file: L + '#include <yaml-cpp/yaml.h>\n\n#include "panvo/vision/lens.hpp"\n'}), [])
+        self.assert_finds(floors, "layer 'calibration files'", {file: L + '#include "panvo/runtime/logger.hpp"\n'})
+        self.assert_finds(floors, "may not use log", {file: L + "#include <spdlog/spdlog.h>\n"})
+
+    def test_readers_of_rigs_and_drivers_leave_yaml_to_calibration_files(self):
+        for file in ("components/calibration/src/files/a.cpp", "drivers/camera_stream/src/a.cpp"):
+            self.assert_finds(floors, "may not use yaml", {file: L + "#include <yaml-cpp/yaml.h>\n"})
+
     def test_an_algorithm_includes_no_generated_type(self):
         self.assert_finds(floors, "may not use messages", {
             "interfaces/idl/nav_msgs/msg/Odometry.idl": "", "components/compass/src/compass.cpp": L + '#include "nav_msgs/msg/Odometry.h"\n'})

@@ -5,13 +5,16 @@
 #include <regex>
 
 #include "panvo/calibration/camchain_file.hpp"
-#include "panvo/calibration/camera_info_file.hpp"
 #include "panvo/calibration/rig_file.hpp"
+#include "panvo/calibration_files/stereo_pair.hpp"
 #include "written_images.hpp"
 
 namespace panvo::calibration {
 namespace {
 
+using calibration_files::read_camera_info;
+using calibration_files::single_camera_info;
+using calibration_files::write_camera_info;
 using test::camera_at;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
@@ -23,12 +26,10 @@ class StereoCommand : public test::CommandTest {
   void expect_calibrated(const std::string& folder, const std::vector<RigCamera>& truth) const {
     const auto left = read_camera_info(folder_ / folder / "left.yaml");
     const auto right = read_camera_info(folder_ / folder / "right.yaml");
-    test::expect_same_focal_lengths(left.lens, truth[0].lens);
-    test::expect_same_focal_lengths(right.lens, truth[1].lens);
-    const auto pair = rectified_pair(left, right, folder);
-    Eigen::Isometry3d right_from_left(pair.rectified_right_from_right.transpose() * pair.rectified_left_from_left);
-    right_from_left.translation() = -pair.baseline_m * pair.rectified_right_from_right.transpose().col(0);
-    test::expect_same_pose(right_from_left, truth[1].camera_from_reference);
+    test::expect_same_focal_lengths(left.lens(), truth[0].lens);
+    test::expect_same_focal_lengths(right.lens(), truth[1].lens);
+    test::expect_same_pose(calibration_files::stereo_pair(left, right).calibration.right_from_left,
+                           truth[1].camera_from_reference);
   }
 
   static double epipolar_rms_px(const std::string& text) {
@@ -60,11 +61,11 @@ TEST_F(StereoCommand, GivesBackAPairSeenWithAChessboardAndNoticesWhenItHasMoved)
   EXPECT_LT(epipolar_rms_px(holds.out), 0.2);
 
   auto moved = read_camera_info(folder_ / "rig/right.yaml");
-  moved.rectified_from_raw = vision::so3_exp({0.2 * test::kDegree, 0.0, 0.0}) * moved.rectified_from_raw;
+  moved.rectification_matrix = vision::so3_exp({0.2 * test::kDegree, 0.0, 0.0}) * moved.rectification_matrix;
   write_camera_info(folder_ / "rig/right.yaml", moved);
   const auto stale = call("check later --calibration rig --board chessboard:9x6:0.04");
   EXPECT_EQ(stale.status, 3);
-  EXPECT_NEAR(epipolar_rms_px(stale.out), 0.2 * test::kDegree * moved.projection(1, 1), 0.3);
+  EXPECT_NEAR(epipolar_rms_px(stale.out), 0.2 * test::kDegree * moved.projection_matrix(1, 1), 0.3);
   EXPECT_THAT(stale.err, AllOf(HasSubstr("rig"), HasSubstr("stale"), HasSubstr("recalibrate")));
 }
 
@@ -191,14 +192,14 @@ TEST_F(CalibrateRefuses, CalibrationsThatAreNone) {
   expect_refusal(check + "rig",
                  AllOf(HasSubstr("rig/right.yaml: cannot be opened"), HasSubstr("check that it exists")));
   std::filesystem::copy(folder_ / "rig/left.yaml", folder_ / "rig/right.yaml");
-  expect_refusal(check + "rig", AllOf(HasSubstr("rig: baseline is"), HasSubstr("panvo calibrate stereo")));
+  expect_refusal(check + "rig", AllOf(HasSubstr("rig/right.yaml: baseline is"), HasSubstr("panvo calibrate stereo")));
   folder_.write("rig/left.yaml", "- 1\n- 2\n");
   expect_refusal(check + "rig",
                  AllOf(HasSubstr("rig/left.yaml: contains no `key: value` lines"), HasSubstr("camera_info")));
   folder_.write("rig/left.yaml", "image_width: [\n");
   expect_refusal(check + "rig", AllOf(HasSubstr("rig/left.yaml:"), HasSubstr("is not YAML")));
   expect_refusal("convert rig/right.yaml --out out",
-                 AllOf(HasSubstr("rig/right.yaml: cam0 is missing"), HasSubstr("camchain")));
+                 AllOf(HasSubstr("rig/right.yaml:1: cam0 is missing"), HasSubstr("camchain")));
 }
 
 TEST_F(CalibrateRefuses, WhatCannotBeAskedFor) {
@@ -231,7 +232,7 @@ TEST_F(OtherCommands, TakeKalibrsCamchainAndGiveItBack) {
   ASSERT_EQ(taken.status, 0) << taken.err;
   EXPECT_THAT(taken.out, HasSubstr("left.yaml (cam0)"));
   const auto left = read_camera_info(folder_ / "rig/left.yaml");
-  test::expect_same_focal_lengths(left.lens, truth[0].lens);
+  test::expect_same_focal_lengths(left.lens(), truth[0].lens);
   std::filesystem::remove(folder_ / "rig/extrinsics.yaml");  // from R and P alone
   ASSERT_EQ(call("convert rig --out back.yaml").status, 0);
   const auto back = read_camchain(folder_ / "back.yaml");

@@ -3,10 +3,10 @@
 
 #include "panvo/calibration/calibration_error.hpp"
 #include "panvo/calibration/camchain_file.hpp"
-#include "panvo/calibration/camera_info_file.hpp"
 #include "panvo/calibration/lens_parameters.hpp"
 #include "panvo/calibration/rectified_pair.hpp"
 #include "panvo/calibration/rig_file.hpp"
+#include "panvo/calibration_files/camera_info.hpp"
 #include "written_images.hpp"
 
 namespace panvo::calibration {
@@ -24,19 +24,12 @@ class CalibrationFiles : public test::CommandTest {
     folder_.write("file.yaml", text);
     try {
       read(folder_ / "file.yaml");
-    } catch (const CalibrationError& error) {
+    } catch (const calibration_files::FileError& error) {
       return error.what();
     }
     return "read";
   }
 };
-
-constexpr const char* kCameraInfo = R"(image_width: 640
-image_height: 480
-camera_matrix: {rows: 3, cols: 3, data: [400, 0, 320, 0, 400, 240, 0, 0, 1]}
-distortion_model: plumb_bob
-distortion_coefficients: {rows: 1, cols: 5, data: [0.1, 0, 0, 0, 0]}
-)";
 
 constexpr const char* kCamchain = R"(cam0:
   cam_overlaps: [1]
@@ -69,58 +62,6 @@ cam2:
 
 std::string without(std::string text, const std::string& part, const std::string& instead = "") {
   return text.replace(text.find(part), part.size(), instead);
-}
-
-TEST_F(CalibrationFiles, KeepEveryLensAsItIs) {
-  for (const auto& lens :
-       {test::plumb_bob(), test::fisheye(), test::lens(LensModel::kRational, 400.0, {1, 2, 3, 4, 5, 6, 7, 8}),
-        test::lens(LensModel::kMei, 400.0, {0.1, 0.2, 0.3, 0.4, 1.1})}) {
-    const auto truth = test::stereo_pair(lens);
-    const auto infos = stereo_camera_infos(
-        truth[0].lens, truth[1].lens,
-        {truth[0].lens.pinhole, 0.12, Eigen::Matrix3d::Identity(), truth[1].camera_from_reference.linear()});
-    write_camera_info(folder_ / "right.yaml", infos.second);
-    const auto back = read_camera_info(folder_ / "right.yaml");
-    EXPECT_EQ(back.lens.model, lens.model);
-    EXPECT_EQ(back.name, "right");
-    EXPECT_TRUE(lens_parameters(back.lens).isApprox(lens_parameters(truth[1].lens), 1e-11));
-    EXPECT_TRUE(back.rectified_from_raw.isApprox(infos.second.rectified_from_raw, 1e-11));
-    EXPECT_TRUE(back.projection.isApprox(infos.second.projection, 1e-11));
-    EXPECT_NEAR(back.projection(0, 3), -0.12 * lens.pinhole.fx, 1e-9);
-    EXPECT_NEAR(rectified_pair(infos.first, back, "rig").baseline_m, 0.12, 1e-12);
-  }
-}
-
-TEST_F(CalibrationFiles, ReadTheExampleOfTheRigs) {
-  const std::filesystem::path folder = PANVO_RIGS "/example";
-  const auto pair =
-      rectified_pair(read_camera_info(folder / "left.yaml"), read_camera_info(folder / "right.yaml"), folder);
-  EXPECT_NEAR(pair.baseline_m, 0.12, 1e-9);
-  EXPECT_EQ(pair.camera.fx, 500.0);
-}
-
-TEST_F(CalibrationFiles, ReadACameraInfoOfASingleCamera) {
-  folder_.write("file.yaml", kCameraInfo);
-  const auto info = read_camera_info(folder_ / "file.yaml");
-  EXPECT_EQ(info.name, "file");
-  EXPECT_EQ(info.rectified_from_raw, Eigen::Matrix3d::Identity());
-  EXPECT_EQ(info.projection(0, 0), 400.0);
-}
-
-TEST_F(CalibrationFiles, RefuseCameraInfosWithFileLineKeyAndRemedy) {
-  const auto refused = [&](const std::string& text) { return refusal(text, read_camera_info); };
-  EXPECT_THAT(refused(without(kCameraInfo, "image_width: 640\n")),
-              AllOf(HasSubstr("file.yaml:1: image_width is missing"), HasSubstr("add it")));
-  EXPECT_THAT(refused(without(kCameraInfo, "640", "wide")),
-              AllOf(HasSubstr("file.yaml:1: image_width"), HasSubstr("'wide'")));
-  EXPECT_THAT(refused(without(kCameraInfo, "0, 0, 1]", "0, 0]")),
-              AllOf(HasSubstr("file.yaml:3: camera_matrix"), HasSubstr("9 numbers, not 8")));
-  EXPECT_THAT(refused(without(kCameraInfo, "[400", "[0")),
-              AllOf(HasSubstr("file.yaml:3: camera_matrix"), HasSubstr("calibrate")));
-  EXPECT_THAT(refused(without(kCameraInfo, "[0.1", "[.nan")), HasSubstr("file.yaml:5: distortion_coefficients"));
-  EXPECT_THAT(refused(without(kCameraInfo, "plumb_bob", "fov")),
-              AllOf(HasSubstr("file.yaml:4: distortion_model"), HasSubstr("'fov'"), HasSubstr("equidistant")));
-  EXPECT_THAT(refusal("", [](const auto& file) { read_camera_info(file.parent_path()); }), HasSubstr("is a folder"));
 }
 
 TEST_F(CalibrationFiles, ReadACamchain) {
@@ -158,14 +99,17 @@ TEST_F(CalibrationFiles, WriteTheCamchainTheyRead) {
 TEST_F(CalibrationFiles, RefuseCamchainsWithFileLineKeyAndRemedy) {
   const auto refused = [&](const std::string& text) { return refusal(text, read_camchain); };
   EXPECT_THAT(refused(without(kCamchain, "pinhole", "eucm")),
-              AllOf(HasSubstr("file.yaml:3: camera_model"), HasSubstr("'eucm'"), HasSubstr("omni")));
+              AllOf(HasSubstr("file.yaml:3: cam0.camera_model"), HasSubstr("'eucm'"), HasSubstr("omni")));
   EXPECT_THAT(refused(without(kCamchain, "[458.6, ", "[")),
-              AllOf(HasSubstr("file.yaml:6: intrinsics"), HasSubstr("4 numbers, not 3")));
+              AllOf(HasSubstr("file.yaml:6: cam0.intrinsics"), HasSubstr("4 numbers, not of 3")));
   EXPECT_THAT(refused(without(kCamchain, "radtan", "fov")), AllOf(HasSubstr("distortion_model"), HasSubstr("'fov'")));
   EXPECT_THAT(refused(without(kCamchain, "[1.0, 0.0, 0.0, -0.11]", "[2.0, 0.0, 0.0, -0.11]")),
-              HasSubstr("file.yaml:10: T_cn_cnm1 is not a rigid transform"));
-  EXPECT_THAT(refused("cam1: {}\n"), HasSubstr("cam0 is missing"));
-  EXPECT_THAT(refused("cam0: 3\n"), HasSubstr("file.yaml:1: cam0"));
+              HasSubstr("file.yaml:10: cam1.T_cn_cnm1 is not a rigid transform"));
+  EXPECT_THAT(refused("cam1: {}\n"), AllOf(HasSubstr("file.yaml:1: cam0 is missing"), HasSubstr("camchain")));
+  EXPECT_THAT(refused("cam0: 3\n"), HasSubstr("file.yaml:1: cam0 must be a map"));
+  const auto both = without(without(kCamchain, "[752, 480]", "[0, 480]"), "[1.2, 420.0", "[1.2, -420.0");
+  EXPECT_THAT(refused(both), AllOf(HasSubstr("file.yaml:7: cam0.resolution must be [width, height]"),
+                                   HasSubstr("file.yaml:19: cam1.intrinsics must have positive focal lengths")));
 }
 
 TEST_F(CalibrationFiles, TellMountsAsTheDriversTakeThem) {
@@ -187,7 +131,8 @@ TEST_F(CalibrationFiles, TellMountsAsTheDriversTakeThem) {
 TEST_F(CalibrationFiles, KeepExtrinsicsAndRefuseBrokenOnes) {
   const auto truth = test::stereo_pair(test::plumb_bob());
   for (const auto& [name, camera] : {std::pair("left", truth[0]), std::pair("right", truth[1])})
-    write_camera_info(folder_ / (std::string(name) + ".yaml"), single_camera_info(name, camera.lens));
+    calibration_files::write_camera_info(folder_ / (std::string(name) + ".yaml"),
+                                         calibration_files::single_camera_info(name, camera.lens));
   const auto text = extrinsics_text({{"left", truth[0]}, {"right", truth[1]}}, 0, Eigen::Matrix<double, 6, 1>::Zero());
   folder_.write("extrinsics.yaml", text);
   const auto back = read_extrinsics(folder_ / "extrinsics.yaml");
@@ -195,7 +140,7 @@ TEST_F(CalibrationFiles, KeepExtrinsicsAndRefuseBrokenOnes) {
   EXPECT_TRUE(back[1].camera.camera_from_reference.isApprox(truth[1].camera_from_reference, 1e-8));
   EXPECT_EQ(back[1].camera.lens.pinhole.cx, truth[1].lens.pinhole.cx);
   EXPECT_THAT(refusal(without(text, "[1, 0, 0, 0,", "[3, 0, 0, 0,"), read_extrinsics),
-              AllOf(HasSubstr("file.yaml:7: reference_from_camera"), HasSubstr("4 x 4")));
+              AllOf(HasSubstr("file.yaml:7: cameras[0].reference_from_camera"), HasSubstr("4 x 4")));
   EXPECT_THAT(refusal(without(text, "right.yaml", "gone.yaml"), read_extrinsics),
               HasSubstr("gone.yaml: cannot be opened"));
   EXPECT_THAT(refusal("cameras: 4\n", read_extrinsics), HasSubstr("file.yaml:1: cameras"));

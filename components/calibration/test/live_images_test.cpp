@@ -10,9 +10,9 @@
 #include <mutex>
 #include <thread>
 
-#include "panvo/calibration/camera_info_file.hpp"
 #include "panvo/calibration/rig_file.hpp"
 #include "panvo/calibration/view_choice.hpp"
+#include "panvo/calibration_files/stereo_pair.hpp"
 #include "panvo/conversions/image.hpp"
 #include "panvo/interfaces/message_type.hpp"
 #include "panvo/runtime/bridge.hpp"
@@ -166,12 +166,12 @@ TEST_F(LiveCalibration, OfAPairEndsWhenTheBoardWasSeenEnoughAndCanBeRepeatedFrom
               AllOf(HasSubstr("view 1: left ("), HasSubstr("needs"), HasSubstr("views in rig/images: enough")));
   EXPECT_THAT(outcome.out, AllOf(HasSubstr("reprojection rms"), HasSubstr("rig: left.yaml, right.yaml")));
   const auto cameras = truth();
-  const auto left = read_camera_info(folder_ / "rig/left.yaml"), right = read_camera_info(folder_ / "rig/right.yaml");
-  test::expect_same_focal_lengths(left.lens, cameras[0].lens);
-  test::expect_same_focal_lengths(right.lens, cameras[1].lens);
-  const auto pair = rectified_pair(left, right, "rig");
-  Eigen::Isometry3d right_from_left(pair.rectified_right_from_right.transpose() * pair.rectified_left_from_left);
-  right_from_left.translation() = -pair.baseline_m * pair.rectified_right_from_right.transpose().col(0);
+  const auto [left, right, right_from_left] =
+      calibration_files::stereo_pair(calibration_files::read_camera_info(folder_ / "rig/left.yaml"),
+                                     calibration_files::read_camera_info(folder_ / "rig/right.yaml"))
+          .calibration;
+  test::expect_same_focal_lengths(left, cameras[0].lens);
+  test::expect_same_focal_lengths(right, cameras[1].lens);
   test::expect_same_pose(right_from_left, cameras[1].camera_from_reference);
 
   const auto again = call("stereo rig/images --board chessboard:9x6:0.04 --out again");

@@ -10,12 +10,19 @@
 #include "panvo/calibration/calibration_error.hpp"
 #include "panvo/calibration/camchain_file.hpp"
 #include "panvo/calibration/rectified_pair.hpp"
+#include "panvo/calibration_files/stereo_pair.hpp"
+#include "panvo/calibration_files/write_file.hpp"
 #include "steps.hpp"
 
 namespace panvo::calibration {
 namespace {
 
 namespace fs = std::filesystem;
+using calibration_files::CameraInfo;
+using calibration_files::read_camera_info;
+using calibration_files::stereo_camera_infos;
+using calibration_files::write_camera_info;
+using calibration_files::write_file;
 
 RigOptions options_of(const Arguments& arguments, std::size_t cameras) {
   RigOptions options;
@@ -26,8 +33,8 @@ RigOptions options_of(const Arguments& arguments, std::size_t cameras) {
 
 void begin_with(const std::vector<CameraInfo>& infos, RigOptions& options) {
   for (std::size_t i = 0; i < infos.size(); ++i) {
-    options.models[i] = infos[i].lens.model;
-    options.lenses[i] = infos[i].lens;
+    options.lenses[i] = infos[i].lens();
+    options.models[i] = options.lenses[i]->model;
   }
 }
 
@@ -67,8 +74,8 @@ void write_infos(const std::pair<CameraInfo, CameraInfo>& infos, const fs::path&
 
 void write_rig(const std::vector<NamedCamera>& cameras, std::size_t reference, const Arguments& arguments) {
   for (const auto& [name, camera] : cameras)
-    write_camera_info(arguments.out / (name + ".yaml"), single_camera_info(name, camera.lens));
-  write_text(arguments.out / "extrinsics.yaml", extrinsics_text(cameras, reference, mount_of(arguments)));
+    write_camera_info(arguments.out / (name + ".yaml"), calibration_files::single_camera_info(name, camera.lens));
+  write_file(arguments.out / "extrinsics.yaml", extrinsics_text(cameras, reference, mount_of(arguments)));
 }
 
 }  // namespace
@@ -106,7 +113,7 @@ void calibrate_rig(const Arguments& arguments) {
   const auto cameras = named_cameras(report.calibration);
   write_rig(cameras, report.reference, arguments);
   const auto elevations = seen_elevations_deg(cameras);
-  if (elevations) write_text(arguments.out / "panorama.yaml", panorama_text(cameras, report.reference, *elevations));
+  if (elevations) write_file(arguments.out / "panorama.yaml", panorama_text(cameras, report.reference, *elevations));
   write_report(report, arguments.out);
   if (!elevations) std::printf("\nno panorama.yaml: the cameras do not cover the full horizon\n");
   note_written(arguments.out, elevations ? "NAME.yaml of each camera, extrinsics.yaml, panorama.yaml"
@@ -136,8 +143,8 @@ bool check_stereo(const Arguments& arguments) {
   const Board board = parse_board(arguments.board);
   const auto observations = detect(find_stereo_images(arguments.images), board);
   const auto infos = read_calibrations(arguments.calibration, observations);
-  const auto pair = rectified_pair(infos[0], infos[1], arguments.calibration);
-  const auto errors = epipolar_errors(observations, infos[0].lens, infos[1].lens, pair);
+  const auto pair = calibration_files::stereo_pair(infos[0], infos[1]);
+  const auto errors = epipolar_errors(observations, pair.calibration.left, pair.calibration.right, pair.rectified);
   const auto summary = summarise(errors);
   if (summary.corners == 0)
     throw CalibrationError(fmt::format("{}: no pair shows the board in both images; check the counts of --board",
@@ -158,7 +165,7 @@ bool check_stereo(const Arguments& arguments) {
 
 void draw(const Arguments& arguments) {
   const Board board = parse_board(arguments.board);
-  write_text(arguments.out, draw_board(board));
+  write_file(arguments.out, draw_board(board));
   std::printf("written: %s. Print it at 100 %%, measure a square, and give the measured side in --board\n",
               arguments.out.c_str());
 }
@@ -187,15 +194,12 @@ void convert(const Arguments& arguments) {
   if (fs::exists(input / "extrinsics.yaml", error)) {
     cameras = read_extrinsics(input / "extrinsics.yaml");
   } else {
-    const auto left = read_camera_info(input / "left.yaml");
-    const auto right = read_camera_info(input / "right.yaml");
-    const auto pair = rectified_pair(left, right, input);
-    Eigen::Isometry3d right_from_left = Eigen::Isometry3d::Identity();
-    right_from_left.linear() = pair.rectified_right_from_right.transpose() * pair.rectified_left_from_left;
-    right_from_left.translation() = -pair.baseline_m * pair.rectified_right_from_right.transpose().col(0);
-    cameras = {{"left", {left.lens}}, {"right", {right.lens, right_from_left}}};
+    const auto pair =
+        calibration_files::stereo_pair(read_camera_info(input / "left.yaml"), read_camera_info(input / "right.yaml"));
+    const auto& [left, right, right_from_left] = pair.calibration;
+    cameras = {{"left", {left}}, {"right", {right, right_from_left}}};
   }
-  write_text(arguments.out, camchain_text(cameras));
+  write_file(arguments.out, camchain_text(cameras));
   std::printf("written: %s\n", arguments.out.c_str());
 }
 

@@ -10,7 +10,8 @@
 
 namespace panvo::calibration {
 
-/// Parsed command line; each command uses a part of it. All commands throw CalibrationError.
+/// Parsed command line; each command uses a part of it. All commands throw CalibrationError or
+/// calibration_files::FileError.
 struct Arguments {
   std::filesystem::path images;  ///< image folder, or the file to convert; empty: use `live`
   LiveImages live;

@@ -7,6 +7,7 @@
 #include <cstdio>
 
 #include "panvo/calibration/calibration_error.hpp"
+#include "panvo/calibration_files/write_file.hpp"
 
 namespace panvo::calibration {
 
@@ -40,18 +41,18 @@ Observations detect(const ImageSets& images, const Board& board) {
   return observations;
 }
 
-std::vector<CameraInfo> read_calibrations(const fs::path& folder, const Observations& observations) {
-  std::vector<CameraInfo> infos;
+std::vector<calibration_files::CameraInfo> read_calibrations(const fs::path& folder, const Observations& observations) {
+  std::vector<calibration_files::CameraInfo> infos;
   for (std::size_t i = 0; i < observations.cameras.size(); ++i) {
     const fs::path file = folder / (observations.cameras[i] + ".yaml");
-    infos.push_back(read_camera_info(file));
+    infos.push_back(calibration_files::read_camera_info(file));
     const auto& size = observations.image_sizes[i];
-    const auto& pinhole = infos.back().lens.pinhole;
-    if (pinhole.width != size.width || pinhole.height != size.height)
+    const auto& info = infos.back();
+    if (info.width != size.width || info.height != size.height)
       throw CalibrationError(fmt::format(
           "{}: image_width and image_height: the calibration is for {} x {} px, but the images of {} are {} x {} px; "
           "calibrate at the size of the camera's images",
-          file.string(), pinhole.width, pinhole.height, observations.cameras[i], size.width, size.height));
+          file.string(), info.width, info.height, observations.cameras[i], size.width, size.height));
   }
   return infos;
 }
@@ -73,10 +74,10 @@ std::vector<NamedCamera> named_cameras(const RigCalibration& calibration) {
 void write_report(const Report& report, const fs::path& folder) {
   for (std::size_t i = 0; i < report.calibration.used.cameras.size(); ++i) {
     const auto& name = report.calibration.used.cameras[i];
-    write_text(folder / ("coverage_" + name + ".svg"), coverage_svg(report, i));
-    write_text(folder / ("residuals_" + name + ".svg"), residual_svg(report, i));
+    calibration_files::write_file(folder / ("coverage_" + name + ".svg"), coverage_svg(report, i));
+    calibration_files::write_file(folder / ("residuals_" + name + ".svg"), residual_svg(report, i));
   }
-  write_text(folder / "report.html", to_page(report));
+  calibration_files::write_file(folder / "report.html", to_page(report));
   std::fputs(to_text(report).c_str(), stdout);
 }
 

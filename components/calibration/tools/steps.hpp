@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "commands.hpp"
-#include "panvo/calibration/camera_info_file.hpp"
 #include "panvo/calibration/image_sets.hpp"
 #include "panvo/calibration/report.hpp"
 #include "panvo/calibration/rig_file.hpp"
+#include "panvo/calibration_files/camera_info.hpp"
 
 /// Steps shared by several commands.
 namespace panvo::calibration {
@@ -25,7 +25,8 @@ std::filesystem::path images_of(const Arguments& arguments, const Board& board, 
 Observations detect(const ImageSets& images, const Board& board);
 
 /// Reads FOLDER/NAME.yaml of each camera. Throws CalibrationError if its size differs from that of the images.
-std::vector<CameraInfo> read_calibrations(const std::filesystem::path& folder, const Observations& observations);
+std::vector<calibration_files::CameraInfo> read_calibrations(const std::filesystem::path& folder,
+                                                             const Observations& observations);
 
 /// Creates the folder of --out.
 void make_folder(const std::filesystem::path& folder);

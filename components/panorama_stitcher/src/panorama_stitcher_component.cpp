@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "head_watch.hpp"
+#include "panvo/calibration_files/file_error.hpp"
 #include "panvo/conversions/image.hpp"
 #include "panvo/conversions/time.hpp"
 #include "panvo/conversions/transform_buffer.hpp"
@@ -86,7 +87,7 @@ class PanoramaStitcherComponent final : public runtime::Component {
             fmt::format("{}: {}; correct the poses and fields of view of the heads, or narrow the required range",
                         file.seen_elevation_at, error.what()));
       }
-    } catch (const RigFileError& error) {
+    } catch (const calibration_files::FileError& error) {
       throw runtime::ConfigError(error.what());
     }
   }

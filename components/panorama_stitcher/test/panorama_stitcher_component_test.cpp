@@ -175,9 +175,10 @@ TEST_F(PanoramaStitcherComponentTest, RefusesHeadsOfDifferentEncodings) {
 
 TEST_F(PanoramaStitcherComponentTest, RefusesRigsThatCannotBeStitched) {
   folder_.write("panorama.yaml", "panorama:\n  seen_elevation_deg: [-90, 90]\nheads: [{camera_info: lens.yaml}]\n");
-  EXPECT_THAT(refusal(), AllOf(HasSubstr("panorama.yaml:2: seen_elevation_deg: no head sees"), HasSubstr("narrow")));
+  EXPECT_THAT(refusal(),
+              AllOf(HasSubstr("panorama.yaml:2: panorama.seen_elevation_deg: no head sees"), HasSubstr("narrow")));
   folder_.write("panorama.yaml", "heads: [{camera_info: lens.yaml, yaw: 3}]\n");
-  EXPECT_THAT(refusal(), HasSubstr("panorama.yaml:1: yaw is not a known key"));
+  EXPECT_THAT(refusal(), HasSubstr("panorama.yaml:1: heads[0].yaw is not a known key; did you mean yaw_deg?"));
 }
 
 TEST_F(PanoramaStitcherComponentTest, AsksForARig) {

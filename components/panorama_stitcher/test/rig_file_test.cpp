@@ -6,6 +6,7 @@
 #include <string>
 
 #include "painted_rigs.hpp"
+#include "panvo/calibration_files/file_error.hpp"
 #include "panvo/panorama_stitcher/panorama_stitcher.hpp"
 #include "panvo/test/temporary_folder.hpp"
 
@@ -31,7 +32,7 @@ class RigFileTest : public ::testing::Test {
   std::string refusal(const std::string& text) {
     try {
       read(text);
-    } catch (const RigFileError& error) {
+    } catch (const calibration_files::FileError& error) {
       return error.what();
     }
     return "accepted";
@@ -92,19 +93,20 @@ heads:
   pitch_deg: 1000
 - name: lost
 )");
-  EXPECT_THAT(text, AllOf(HasSubstr("panorama.yaml:2: blend_deg must be a number from 0 to 90"),
-                          HasSubstr("panorama.yaml:3: blent_deg is not a known key"),
-                          HasSubstr("panorama.yaml:6: pitch_deg must be"),
-                          HasSubstr("panorama.yaml:7: camera_info is missing; add it")));
+  EXPECT_THAT(text,
+              AllOf(HasSubstr("panorama.yaml:2: panorama.blend_deg must be a number from 0 to 90 degrees, not 'wide'"),
+                    HasSubstr("panorama.yaml:3: panorama.blent_deg is not a known key; did you mean blend_deg?"),
+                    HasSubstr("panorama.yaml:6: heads[0].pitch_deg must be"),
+                    HasSubstr("panorama.yaml:7: heads[1].camera_info is missing; add it")));
 }
 
 TEST_F(RigFileTest, NamesWhatIsWrongWithACalibration) {
   folder_.write("lens.yaml",
-                "image_width: 480\nimage_height: many\ncamera_matrix: [1, 2]\ndistortion_coefficients: []\n");
-  EXPECT_THAT(
-      refusal("heads: [{camera_info: lens.yaml}]\n"),
-      AllOf(HasSubstr("lens.yaml:2: image_height must be a whole number"),
-            HasSubstr("lens.yaml:3: camera_matrix must be a list of 9"), HasSubstr("distortion_model is missing")));
+                "image_width: 480\nimage_height: many\ncamera_matrix: [1, 2]\ndistortion_coefficients: [1]\n");
+  EXPECT_THAT(refusal("heads: [{camera_info: lens.yaml}]\n"),
+              AllOf(HasSubstr("lens.yaml:2: image_height must be a whole number"),
+                    HasSubstr("lens.yaml:3: camera_matrix must be a list of 9 numbers, not of 2"),
+                    HasSubstr("distortion_model is missing")));
   std::string division = kLens;
   division.replace(division.find("equidistant"), 11, "division");
   folder_.write("lens.yaml", division);
@@ -114,7 +116,7 @@ TEST_F(RigFileTest, NamesWhatIsWrongWithACalibration) {
   folded.replace(folded.find("0.01"), 4, "-0.3");
   folder_.write("lens.yaml", folded);
   EXPECT_THAT(refusal("heads: [{camera_info: lens.yaml, field_of_view_deg: 200}]\n"),
-              AllOf(HasSubstr("panorama.yaml:1: camera_info"), HasSubstr("not invertible beyond")));
+              AllOf(HasSubstr("panorama.yaml:1: heads[0].camera_info"), HasSubstr("not invertible beyond")));
   EXPECT_THAT(refusal("heads: [{camera_info: nowhere.yaml}]\n"), HasSubstr("nowhere.yaml: cannot be opened"));
 }
 
@@ -128,7 +130,8 @@ TEST_F(RigFileTest, RefusesRegionsThatDoNotFit) {
   EXPECT_THAT(with("region_px: [500, 0, 480, 480], image_size_px: [960, 480]"),
               HasSubstr("reaches beyond the image of 960 x 480"));
   EXPECT_THAT(with("equirectangular_px: [100, 60]"), HasSubstr("twice as wide as high"));
-  EXPECT_THAT(with("image: 1"), HasSubstr("no head has image 0"));
+  EXPECT_THAT(with("image_size_px: [960, 480]"), HasSubstr("image_size_px needs region_px"));
+  EXPECT_THAT(with("image: 1"), HasSubstr("heads has no head with image 0"));
 }
 
 TEST_F(RigFileTest, RefusesPosesThatContradictOrAreNone) {
@@ -141,7 +144,7 @@ TEST_F(RigFileTest, RefusesPosesThatContradictOrAreNone) {
 }
 
 TEST_F(RigFileTest, RefusesWhatIsNoRig) {
-  EXPECT_THAT(refusal("heads: []\n"), HasSubstr("heads must be a list of at least one head"));
+  EXPECT_THAT(refusal("heads: []\n"), HasSubstr("heads must be a list of at least one map"));
   EXPECT_THAT(refusal("- a\n- b\n"), HasSubstr("contains no `key: value` lines"));
   EXPECT_THAT(refusal("a: [1\n"), HasSubstr("is not YAML"));
 }

@@ -16,7 +16,7 @@ std::vector<GroupImage> images_of(const std::vector<camera_stream::CameraRole>& 
     try {
       images.back().calibration =
           camera_stream::read_camera_info(std::filesystem::path(calibration_folder) / (role.name + ".yaml"));
-    } catch (const camera_stream::CalibrationFileError& error) {
+    } catch (const calibration_files::FileError& error) {
       problems.emplace_back(error.what());
     }
   }

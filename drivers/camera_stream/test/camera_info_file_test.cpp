@@ -30,7 +30,7 @@ class CameraInfoFile : public ::testing::Test {
   std::string error_of(const fs::path& file) const {
     try {
       read_camera_info(file);
-    } catch (const CalibrationFileError& error) {
+    } catch (const calibration_files::FileError& error) {
       return error.what();
     }
     return "accepted";
@@ -61,12 +61,14 @@ TEST_F(CameraInfoFile, NamesFileLineAndKeyOfWhatIsWrong) {
   EXPECT_THAT(error_of("nowhere.yaml"), AllOf(HasSubstr("nowhere.yaml"), HasSubstr("cannot be opened")));
   EXPECT_THAT(error_of(example_with("image_width: 640", "image_width: wide")),
               AllOf(HasSubstr(path_.string() + ":2: "), HasSubstr("image_width must be a whole number")));
-  EXPECT_THAT(error_of(example_with("image_width: 640", "image_width: 0")), HasSubstr("image_width is 0"));
+  EXPECT_THAT(error_of(example_with("image_width: 640", "image_width: 0")),
+              HasSubstr("image_width must be a whole number from 1"));
   EXPECT_THAT(error_of(example_with("image_height", "height")), HasSubstr("image_height is missing"));
   EXPECT_THAT(error_of(example_with("data: [525.0, 0.0", "data: [525.0")),
-              AllOf(HasSubstr(":7: "), HasSubstr("camera_matrix has 8 numbers where 9")));
+              AllOf(HasSubstr(":6: "), HasSubstr("camera_matrix must be a list of 9 numbers, not of 8")));
   EXPECT_THAT(error_of(example_with("[525.0, 0.0", "[.nan, 0.0")),
-              HasSubstr("camera_matrix has a value that is not finite"));
+              HasSubstr("camera_matrix must be a list of 9 numbers from -1e+08 to 1e+08, not nan"));
+  EXPECT_THAT(error_of(example_with("projection_matrix", "projection")), HasSubstr("projection_matrix is missing"));
   EXPECT_THAT(error_of(example_with("[525.0, 0.0", "[0.0, 0.0")), HasSubstr("focal length"));
   EXPECT_THAT(error_of(example_with("rows: 3", "rows: [3")), HasSubstr("is not YAML"));
 }

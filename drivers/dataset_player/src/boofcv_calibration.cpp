@@ -3,10 +3,11 @@
 
 #include "calibration_values.hpp"
 #include "panvo/dataset_player/calibration_file.hpp"
-#include "panvo/dataset_player/dataset.hpp"
 
 namespace panvo::dataset_player {
 namespace {
+
+using calibration_files::FileError;
 
 /// Reads elements of an XML file by name. Errors give file and line.
 class XmlReader {
@@ -14,14 +15,14 @@ class XmlReader {
   explicit XmlReader(std::filesystem::path file) : file_(std::move(file)) {
     if (document_.LoadFile(file_.c_str()) != tinyxml2::XML_SUCCESS) {
       const auto line = document_.ErrorLineNum() > 0 ? ":" + std::to_string(document_.ErrorLineNum()) : std::string();
-      throw DatasetError(file_.string() + line + ": cannot be read as XML (" + document_.ErrorName() +
-                         "); was the file cut off?");
+      throw FileError(file_.string() + line + ": cannot be read as XML (" + document_.ErrorName() +
+                      "); was the file cut off?");
     }
   }
 
   const tinyxml2::XMLElement& root() const {
     if (document_.RootElement() == nullptr)
-      throw DatasetError(file_.string() + ": contains no element; was the file cut off?");
+      throw FileError(file_.string() + ": contains no element; was the file cut off?");
     return *document_.RootElement();
   }
 
@@ -54,8 +55,8 @@ class XmlReader {
   }
 
   [[noreturn]] void fail(const tinyxml2::XMLElement& element, const std::string& what) const {
-    throw DatasetError(file_.string() + ":" + std::to_string(element.GetLineNum()) + ": <" + element.Name() + "> " +
-                       what + "; expected a BoofCV StereoParameters file");
+    throw FileError(file_.string() + ":" + std::to_string(element.GetLineNum()) + ": <" + element.Name() + "> " + what +
+                    "; expected a BoofCV StereoParameters file");
   }
 
  private:

@@ -4,7 +4,6 @@
 #include <stdexcept>
 
 #include "calibration_values.hpp"
-#include "panvo/dataset_player/dataset.hpp"
 
 namespace panvo::dataset_player {
 
@@ -12,13 +11,16 @@ vision::PinholeCamera pinhole(const std::vector<double>& matrix, ImageSize size)
   return {matrix.at(0), matrix.at(4), matrix.at(2), matrix.at(5), size.width, size.height};
 }
 
-vision::LensCamera lens(const YamlFile& file, const std::string& key, const std::string& model,
+vision::LensCamera lens(calibration_files::YamlMap& file, const std::string& key, const std::string& model,
                         const vision::PinholeCamera& pinhole) {
+  const std::size_t problems = file.problems();
   const auto coefficients = model == "none" ? std::vector<double>{} : file.numbers(key);
+  if (file.problems() > problems) return {};
   try {
     return vision::lens_camera(model, coefficients, pinhole);
   } catch (const std::invalid_argument& error) {
-    file.fail(key, std::string("the camera ") + error.what());
+    file.reject(key, std::string("cannot be used: the camera ") + error.what());
+    return {};
   }
 }
 
@@ -26,7 +28,7 @@ void expect_no_problems(const std::vector<std::string>& problems, const std::fil
   if (problems.empty()) return;
   std::string message = file.string() + ": invalid calibration; correct the file or recalibrate:";
   for (const auto& problem : problems) message += "\n  - " + problem;
-  throw DatasetError(message);
+  throw calibration_files::FileError(message);
 }
 
 vision::RectifiedStereo rectified_geometry(const vision::StereoCalibration& calibration,

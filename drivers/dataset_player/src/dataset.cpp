@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "layouts.hpp"
+#include "panvo/calibration_files/mount.hpp"
 #include "panvo/dataset_player/image_file.hpp"
 
 namespace panvo::dataset_player {
@@ -18,9 +19,11 @@ Dataset open_dataset(const fs::path& directory, const ReadOptions& options) {
   if (!fs::is_directory(directory)) {
     throw DatasetError(fmt::format("{}: is a file; specify the folder of the data set", directory.string()));
   }
-  if (looks_like_euroc(directory)) return read_euroc(directory, options);
-  if (looks_like_kitti(directory)) return read_kitti(directory, options);
-  if (looks_like_folders(directory)) return read_folders(directory, options);
+  const auto read = looks_like_euroc(directory)     ? read_euroc
+                    : looks_like_kitti(directory)   ? read_kitti
+                    : looks_like_folders(directory) ? read_folders
+                                                    : nullptr;
+  if (read != nullptr) return with_dataset_error([&] { return read(directory, options); });
   throw DatasetError(
       fmt::format("{}: contains no data set of a known layout; looked for\n"
                   "  - EuRoC/ASL: mav0/cam0/data.csv\n"
@@ -31,13 +34,7 @@ Dataset open_dataset(const fs::path& directory, const ReadOptions& options) {
                   directory.string()));
 }
 
-Eigen::Isometry3d base_from_optical() {
-  Eigen::Isometry3d base_from_camera = Eigen::Isometry3d::Identity();
-  base_from_camera.linear() << 0, 0, 1,  //
-      -1, 0, 0,                          //
-      0, -1, 0;
-  return base_from_camera;
-}
+Eigen::Isometry3d base_from_optical() { return Eigen::Isometry3d(calibration_files::base_from_forward()); }
 
 ImageSize stereo_image_size(const std::vector<StereoFrame>& frames) {
   constexpr std::size_t kTries = 10;  // pairs to try, since the first images may be damaged

@@ -6,15 +6,16 @@
 
 #include "calibration_values.hpp"
 #include "layouts.hpp"
+#include "panvo/calibration_files/rigid_transform.hpp"
 #include "panvo/dataset_player/ground_truth.hpp"
 #include "panvo/dataset_player/image_file.hpp"
 #include "text_file.hpp"
-#include "yaml_file.hpp"
 
 namespace panvo::dataset_player {
 namespace {
 
 namespace fs = std::filesystem;
+using calibration_files::YamlMap;
 
 struct StampedImage {
   std::int64_t stamp_ns = 0;
@@ -36,19 +37,14 @@ std::vector<StampedImage> read_image_list(const fs::path& camera_folder) {
   return images;
 }
 
-ImageSize read_resolution(const YamlFile& sensor) {
-  const auto resolution = sensor.numbers("resolution", 2);
-  return {static_cast<int>(resolution[0]), static_cast<int>(resolution[1])};
-}
-
-vision::LensCamera read_eye(const YamlFile& sensor) {
+vision::LensCamera read_eye(YamlMap& sensor) {
   if (const auto model = sensor.text("camera_model", "pinhole"); model != "pinhole") {
-    sensor.fail("camera_model", "is '" + model + "'; the stereo cameras cam0 and cam1 must be pinhole");
+    sensor.reject("camera_model", "is '" + model + "'; the stereo cameras cam0 and cam1 must be pinhole");
   }
-  const auto size = read_resolution(sensor);
+  const auto [width, height] = sensor.size_px("resolution");
   const auto intrinsics = sensor.numbers("intrinsics", 4);
   return lens(sensor, "distortion_coefficients", sensor.text("distortion_model", "radial-tangential"),
-              {intrinsics[0], intrinsics[1], intrinsics[2], intrinsics[3], size.width, size.height});
+              {intrinsics[0], intrinsics[1], intrinsics[2], intrinsics[3], width, height});
 }
 
 std::int64_t median_period_ns(const std::vector<StampedImage>& images) {
@@ -115,8 +111,8 @@ StereoRecording read_stereo(const fs::path& root, std::vector<std::string>& note
       throw DatasetError((root / camera).string() + ": is missing; both cameras (cam0 left, cam1 right) are needed");
     }
   }
-  const YamlFile left(root / "cam0" / "sensor.yaml");
-  const YamlFile right(root / "cam1" / "sensor.yaml");
+  YamlMap left(root / "cam0" / "sensor.yaml", kSensorFile);
+  YamlMap right(root / "cam1" / "sensor.yaml", kSensorFile);
   StereoRecording stereo;
   stereo.frames = pair_by_stamp(read_image_list(root / "cam0"), read_image_list(root / "cam1"), notes);
   if (stereo.frames.empty()) {
@@ -127,24 +123,27 @@ StereoRecording read_stereo(const fs::path& root, std::vector<std::string>& note
   stereo.calibration.left = read_eye(left);
   stereo.calibration.right = read_eye(right);
   stereo.calibration.right_from_left = read_base_from_sensor(right).inverse() * stereo.base_from_left;
-  stereo.rectified = rectified_geometry(stereo.calibration, right.path());
-  expect_image_size(stereo.calibration.left.pinhole, left.path(), stereo.frames);
+  left.check();
+  right.check();
+  stereo.rectified = rectified_geometry(stereo.calibration, right.file());
+  expect_image_size(stereo.calibration.left.pinhole, left.file(), stereo.frames);
   return stereo;
 }
 
 std::optional<PanoramaRecording> read_panorama(const fs::path& folder, std::vector<std::string>& notes) {
   if (!fs::exists(folder / "sensor.yaml")) return std::nullopt;
-  const YamlFile sensor(folder / "sensor.yaml");
+  YamlMap sensor(folder / "sensor.yaml", kSensorFile);
   if (const auto model = sensor.text("camera_model", "none"); model != "equirectangular") {
     notes.push_back(fmt::format("{}: camera_model is '{}', not 'equirectangular': cam2 is not played",
-                                sensor.path().string(), model));
+                                sensor.file().string(), model));
     return std::nullopt;
   }
   PanoramaRecording panorama;
-  const auto size = read_resolution(sensor);
-  panorama.width = size.width;
-  panorama.height = size.height;
+  const auto [width, height] = sensor.size_px("resolution");
+  panorama.width = width;
+  panorama.height = height;
   panorama.base_from_panorama = read_base_from_sensor(sensor);
+  sensor.check();
   std::size_t missing_files = 0;
   for (const auto& image : read_image_list(folder)) {
     if (fs::exists(image.file)) {
@@ -162,9 +161,10 @@ std::optional<PanoramaRecording> read_panorama(const fs::path& folder, std::vect
   if (const auto problem = decoder.decode(panorama.frames.front().image, Colour::kAsStored, first))
     throw DatasetError(*problem + "; copy it again");
   if (first.cols != panorama.width || first.rows != panorama.height) {
-    sensor.fail("resolution",
-                fmt::format("is {} x {} px, but {} is {} x {} px; correct it", panorama.width, panorama.height,
-                            panorama.frames.front().image.string(), first.cols, first.rows));
+    sensor.reject("resolution",
+                  fmt::format("is {} x {} px, but {} is {} x {} px; correct it", panorama.width, panorama.height,
+                              panorama.frames.front().image.string(), first.cols, first.rows));
+    sensor.check();
   }
   return panorama;
 }
@@ -183,13 +183,9 @@ fs::path euroc_root(const fs::path& directory) {
   return fs::is_directory(directory / "mav0") ? directory / "mav0" : directory;
 }
 
-Eigen::Isometry3d read_base_from_sensor(const YamlFile& sensor) {
-  const RowMajor4d matrix = Eigen::Map<const RowMajor4d>(sensor.numbers("T_BS", 16).data());
+Eigen::Isometry3d read_base_from_sensor(YamlMap& sensor) {
+  const Eigen::Matrix4d matrix = calibration_files::read_rigid_matrix(sensor, "T_BS");
   const Eigen::Matrix3d rotation = matrix.topLeftCorner<3, 3>();
-  if (!((rotation * rotation.transpose() - Eigen::Matrix3d::Identity()).norm() < 1e-3) ||
-      rotation.determinant() < 0.0 || !matrix.allFinite()) {
-    sensor.fail("T_BS", "is not a rigid transform: its upper left 3 x 3 block must be a rotation; correct it");
-  }
   Eigen::Isometry3d base_from_sensor = Eigen::Isometry3d::Identity();
   base_from_sensor.linear() = Eigen::Quaterniond(rotation).normalized().toRotationMatrix();
   base_from_sensor.translation() = matrix.topRightCorner<3, 1>();
@@ -197,7 +193,7 @@ Eigen::Isometry3d read_base_from_sensor(const YamlFile& sensor) {
 }
 
 std::optional<PanoramaRecording> open_panorama(const fs::path& directory, std::vector<std::string>& notes) {
-  return read_panorama(euroc_root(directory) / "cam2", notes);
+  return with_dataset_error([&] { return read_panorama(euroc_root(directory) / "cam2", notes); });
 }
 
 bool looks_like_euroc(const fs::path& directory) {

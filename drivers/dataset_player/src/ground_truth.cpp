@@ -7,7 +7,6 @@
 #include "calibration_values.hpp"
 #include "layouts.hpp"
 #include "text_file.hpp"
-#include "yaml_file.hpp"
 
 namespace panvo::dataset_player {
 namespace {
@@ -46,8 +45,11 @@ std::vector<GroundTruthPose> read_euroc_poses(const fs::path& path) {
   Eigen::Isometry3d sensor_from_base =
       Eigen::Isometry3d::Identity();  // identity for the state, which is that of the body
   if (const auto beside = path.parent_path() / "sensor.yaml"; fs::exists(beside)) {
-    const YamlFile sensor(beside);
-    if (sensor.has("T_BS")) sensor_from_base = read_base_from_sensor(sensor).inverse();
+    with_dataset_error([&] {
+      calibration_files::YamlMap sensor(beside, kSensorFile);
+      if (sensor.has("T_BS")) sensor_from_base = read_base_from_sensor(sensor).inverse();
+      sensor.check();
+    });
   }
   const TextFile file(path, TextFile::Separator::kComma);
   std::vector<GroundTruthPose> poses;

@@ -5,13 +5,25 @@
 #include <string>
 #include <vector>
 
+#include "panvo/calibration_files/yaml_map.hpp"
 #include "panvo/dataset_player/calibration_file.hpp"
 #include "panvo/dataset_player/dataset.hpp"
 
 /// The layouts supported by open_dataset(), each with a detection and a reader.
 namespace panvo::dataset_player {
 
-class YamlFile;
+/// Kind of a sensor.yaml, for messages.
+inline constexpr const char* kSensorFile = "a sensor.yaml of a data set in EuRoC/ASL layout";
+
+/// Calls `read`; the FileError of a calibration file becomes the DatasetError that callers expect.
+template <class Read>
+auto with_dataset_error(Read read) {
+  try {
+    return read();
+  } catch (const calibration_files::FileError& error) {
+    throw DatasetError(error.what());
+  }
+}
 
 /// KITTI odometry: calib.txt with image_0 and image_1 (grey) or image_2 and image_3 (colour).
 bool looks_like_kitti(const std::filesystem::path& directory);
@@ -24,8 +36,8 @@ Dataset read_euroc(const std::filesystem::path& directory, const ReadOptions& op
 std::optional<std::filesystem::path> find_euroc_ground_truth(const std::filesystem::path& directory);
 /// mav0, or `directory` if that is mav0 itself.
 std::filesystem::path euroc_root(const std::filesystem::path& directory);
-/// Reads T_BS of a sensor.yaml: pose of the sensor in base_link (EuRoC's body frame B). Throws DatasetError.
-Eigen::Isometry3d read_base_from_sensor(const YamlFile& sensor);
+/// Reads T_BS of a sensor.yaml: pose of the sensor in base_link (EuRoC's body frame B).
+Eigen::Isometry3d read_base_from_sensor(calibration_files::YamlMap& sensor);
 
 /// Folders left and right with a calibration file.
 bool looks_like_folders(const std::filesystem::path& directory);

@@ -104,7 +104,7 @@ TEST_F(EurocDataset, NamesTheLineOfAResolutionThatIsNot) {
   auto text = euroc_sensor(2.0, 0.1);
   text.replace(text.find("[64, 48]"), 8, "[64]");
   write("mav0/cam0/sensor.yaml", text);
-  EXPECT_THAT(error(), AllOf(HasSubstr("cam0/sensor.yaml:13:"), HasSubstr("resolution has 1 numbers where 2")));
+  EXPECT_THAT(error(), AllOf(HasSubstr("cam0/sensor.yaml:13:"), HasSubstr("resolution must be [width, height]")));
 }
 
 TEST_F(EurocDataset, NamesTheLineOfAnImageWithoutAName) {
@@ -116,7 +116,7 @@ TEST_F(EurocDataset, NamesTheLineOfAnImageWithoutAName) {
 TEST_F(EurocDataset, RefusesATransformThatIsNone) {
   write_euroc();
   write("mav0/cam1/sensor.yaml", euroc_sensor(std::numeric_limits<double>::quiet_NaN(), 0.1));
-  EXPECT_THAT(error(), AllOf(HasSubstr("cam1/sensor.yaml:5:"), HasSubstr("T_BS must be a list of numbers")));
+  EXPECT_THAT(error(), AllOf(HasSubstr("cam1/sensor.yaml:5:"), HasSubstr("T_BS must be a list of 16 numbers")));
 }
 
 TEST_F(EurocDataset, RefusesABaselineOfZero) {

@@ -4,61 +4,61 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <stdexcept>
+
 #include "panvo/calibration/calibration_error.hpp"
-#include "panvo/vision/pose.hpp"
-#include "yaml_document.hpp"
+#include "panvo/calibration_files/rigid_transform.hpp"
 
 namespace panvo::calibration {
 namespace {
 
+using calibration_files::YamlMap;
 using vision::LensModel;
 
-constexpr double kRotationTolerance = 1e-3;
 constexpr const char* kKind = "a Kalibr camchain YAML with cam0, cam1, ...";
 
-vision::LensCamera read_lens(const YamlDocument& camera) {
-  const std::string model = camera.text("camera_model");
-  const bool is_omni = model == "omni";
-  if (!is_omni && model != "pinhole")
-    camera.fail("camera_model", fmt::format("'{}' is not supported; calibrate with pinhole or omni", model));
-  const auto size = camera.numbers("resolution", 2);
-  auto intrinsics = camera.numbers("intrinsics", is_omni ? 5 : 4);
-  double xi = 0.0;
+struct Intrinsics {
+  double xi = 0.0;  ///< omni
+  vision::PinholeCamera pinhole;
+};
+
+Intrinsics read_intrinsics(YamlMap& camera, bool is_omni) {
+  const auto [width, height] = camera.size_px("resolution");
+  const std::size_t problems = camera.problems();
+  auto values = camera.numbers("intrinsics", is_omni ? 5 : 4);
+  Intrinsics intrinsics;
   if (is_omni) {
-    xi = intrinsics.front();
-    intrinsics.erase(intrinsics.begin());
+    intrinsics.xi = values.front();
+    values.erase(values.begin());
   }
-  const vision::PinholeCamera pinhole{
-      intrinsics[0], intrinsics[1], intrinsics[2], intrinsics[3], static_cast<int>(size[0]), static_cast<int>(size[1])};
-  if (pinhole.width <= 0 || pinhole.height <= 0) camera.fail("resolution", "must be width and height in px");
-  if (!(pinhole.fx > 0.0 && pinhole.fy > 0.0)) camera.fail("intrinsics", "must have positive focal lengths");
+  if (camera.problems() == problems && !(values[0] > 0.0 && values[1] > 0.0))
+    camera.reject("intrinsics", "must have positive focal lengths");
+  intrinsics.pinhole = {values[0], values[1], values[2], values[3], width, height};
+  return intrinsics;
+}
+
+vision::LensCamera read_lens(YamlMap& camera) {
+  const std::size_t problems = camera.problems();
+  const bool is_omni = camera.choice("camera_model", {"pinhole", "omni"}) == "omni";
+  const auto intrinsics = read_intrinsics(camera, is_omni);
   const std::string distortion = camera.text("distortion_model");
   auto coefficients = distortion == "none" ? std::vector<double>() : camera.numbers("distortion_coeffs", 4);
   if (is_omni && distortion != "radtan" && distortion != "none")
-    camera.fail("distortion_model",
-                fmt::format("'{}' is not supported with camera_model omni; calibrate with omni-radtan", distortion));
+    camera.reject("distortion_model", fmt::format("is '{}', which is not supported with camera_model omni; calibrate "
+                                                  "with omni-radtan",
+                                                  distortion));
+  if (camera.problems() > problems) return {};
   if (is_omni) {
     coefficients.resize(4, 0.0);
-    coefficients.push_back(xi);
+    coefficients.push_back(intrinsics.xi);
   }
   try {
-    return vision::lens_camera(is_omni ? "mei" : distortion == "none" ? "" : distortion, coefficients, pinhole);
+    const std::string model = is_omni ? "mei" : distortion == "none" ? "" : distortion;
+    return vision::lens_camera(model, coefficients, intrinsics.pinhole);
   } catch (const std::invalid_argument& error) {
-    camera.fail("distortion_model", std::string(": the camera ") + error.what());
+    camera.reject("distortion_model", fmt::format("cannot be used: the camera {}", error.what()));
+    return {};
   }
-}
-
-Eigen::Isometry3d read_step(const YamlDocument& camera) {
-  const auto values = camera.numbers("T_cn_cnm1", 16);
-  const Eigen::Matrix4d matrix = Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(values.data());
-  const Eigen::Matrix3d rotation = matrix.topLeftCorner<3, 3>();
-  if ((rotation * rotation.transpose() - Eigen::Matrix3d::Identity()).norm() > kRotationTolerance ||
-      rotation.determinant() < 0.0)
-    camera.fail("T_cn_cnm1", "is not a rigid transform (4 x 4, row by row)");
-  Eigen::Isometry3d step = Eigen::Isometry3d::Identity();
-  step.linear() = vision::nearest_rotation(rotation);
-  step.translation() = matrix.topRightCorner<3, 1>();
-  return step;
 }
 
 std::string rows_of(const Eigen::Isometry3d& pose) {
@@ -72,19 +72,19 @@ std::string rows_of(const Eigen::Isometry3d& pose) {
 }  // namespace
 
 std::vector<NamedCamera> read_camchain(const std::filesystem::path& file) {
-  const YamlDocument chain(file, kKind);
+  YamlMap chain(file, kKind);
+  if (!chain.has("cam0")) chain.reject("cam0", fmt::format("is missing; expected {}", kKind));
   std::vector<NamedCamera> cameras;
-  for (std::size_t i = 0;; ++i) {
+  for (std::size_t i = 0; chain.has(fmt::format("cam{}", i)); ++i) {
     const std::string name = fmt::format("cam{}", i);
-    if (!chain.has(name.c_str())) break;
-    const YAML::Node node = chain.at(name.c_str());
-    if (!node.IsMap()) chain.fail(name.c_str(), "must be a map of `key: value` lines");
-    const YamlDocument camera(file, node);
+    YamlMap camera = chain.map(name);
     NamedCamera named{name, {read_lens(camera)}};
-    if (i > 0) named.camera.camera_from_reference = read_step(camera) * cameras.back().camera.camera_from_reference;
+    if (i > 0)
+      named.camera.camera_from_reference =
+          calibration_files::read_rigid_transform(camera, "T_cn_cnm1") * cameras.back().camera.camera_from_reference;
     cameras.push_back(named);
   }
-  if (cameras.empty()) throw CalibrationError(fmt::format("{}: cam0 is missing; expected {}", file.string(), kKind));
+  chain.check();
   return cameras;
 }
 

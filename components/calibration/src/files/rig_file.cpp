@@ -7,36 +7,20 @@
 #include <cmath>
 #include <numbers>
 
-#include "panvo/calibration/camera_info_file.hpp"
+#include "panvo/calibration_files/camera_info.hpp"
+#include "panvo/calibration_files/mount.hpp"
+#include "panvo/calibration_files/rigid_transform.hpp"
 #include "panvo/vision/camera_model.hpp"
-#include "panvo/vision/pose.hpp"
-#include "yaml_document.hpp"
 
 namespace panvo::calibration {
 namespace {
 
+using calibration_files::YamlMap;
+
 constexpr double kDegree = std::numbers::pi / 180.0;
 
-/// Body axes forward, left, up are z, -x, -y of the optical frame.
-Eigen::Matrix3d body_from_optical() {
-  Eigen::Matrix3d rotation;
-  rotation << 0, 0, 1, -1, 0, 0, 0, -1, 0;
-  return rotation;
-}
-
-Eigen::Isometry3d base_from_optical(const Eigen::Matrix<double, 6, 1>& mount) {
-  Eigen::Isometry3d base_from_camera = Eigen::Isometry3d::Identity();
-  base_from_camera.translation() = mount.head<3>();
-  base_from_camera.linear() = (Eigen::AngleAxisd(kDegree * mount[5], Eigen::Vector3d::UnitZ()) *
-                               Eigen::AngleAxisd(kDegree * mount[4], Eigen::Vector3d::UnitY()) *
-                               Eigen::AngleAxisd(kDegree * mount[3], Eigen::Vector3d::UnitX()))
-                                  .toRotationMatrix() *
-                              body_from_optical();
-  return base_from_camera;
-}
-
 Eigen::Matrix<double, 6, 1> mount_of(const Eigen::Isometry3d& base_from_camera) {
-  const Eigen::Matrix3d r = base_from_camera.linear() * body_from_optical().transpose();
+  const Eigen::Matrix3d r = base_from_camera.linear() * calibration_files::base_from_forward().transpose();
   Eigen::Matrix<double, 6, 1> mount;
   mount << base_from_camera.translation(), std::atan2(r(2, 1), r(2, 2)) / kDegree,
       std::asin(std::clamp(-r(2, 0), -1.0, 1.0)) / kDegree, std::atan2(r(1, 0), r(0, 0)) / kDegree;
@@ -88,6 +72,8 @@ std::optional<std::pair<double, double>> seen_elevations_deg(const std::vector<N
 
 std::string extrinsics_text(const std::vector<NamedCamera>& cameras, std::size_t reference,
                             const Eigen::Matrix<double, 6, 1>& reference_mount) {
+  const auto& m = reference_mount;
+  const Eigen::Isometry3d base_from_reference = calibration_files::base_from_camera({m.head<3>(), m[5], m[4], m[3]});
   std::string text = fmt::format(
       "# Camera poses. reference_from_camera: 4 x 4, row by row, optical frames (x right, y down, z forward), m.\n"
       "# mount: driver parameter `mount`, on base_link (x forward, y left, z up): x, y, z in m; roll, pitch, yaw in "
@@ -96,7 +82,7 @@ std::string extrinsics_text(const std::vector<NamedCamera>& cameras, std::size_t
       cameras[reference].name);
   for (const auto& [name, camera] : cameras) {
     const Eigen::Isometry3d reference_from_camera = camera.camera_from_reference.inverse();
-    const auto mount = mount_of(base_from_optical(reference_mount) * reference_from_camera);
+    const auto mount = mount_of(base_from_reference * reference_from_camera);
     text += fmt::format(
         "- name: {0}\n  camera_info: {0}.yaml\n  reference_from_camera: {1}\n  mount: [{2:.5f}, {3:.5f}, {4:.5f}, "
         "{5:.4f}, {6:.4f}, {7:.4f}]\n",
@@ -107,24 +93,21 @@ std::string extrinsics_text(const std::vector<NamedCamera>& cameras, std::size_t
 }
 
 std::vector<NamedCamera> read_extrinsics(const std::filesystem::path& file) {
-  const YamlDocument yaml(file, "an extrinsics.yaml of panvo calibrate");
-  const YAML::Node list = yaml.at("cameras");
-  if (!list.IsSequence() || list.size() == 0) yaml.fail("cameras", "must be a list of cameras");
+  YamlMap map(file, "an extrinsics.yaml of panvo calibrate");
   std::vector<NamedCamera> cameras;
-  for (const auto& item : list) {
-    if (!item.IsMap()) yaml.fail("cameras", "must be a list of maps: name, camera_info, reference_from_camera");
-    const YamlDocument entry(file, item);
-    const auto values = entry.numbers("reference_from_camera", 16);
-    const Eigen::Matrix4d matrix = Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(values.data());
-    const Eigen::Matrix3d rotation = matrix.topLeftCorner<3, 3>();
-    if ((rotation * rotation.transpose() - Eigen::Matrix3d::Identity()).norm() > 1e-3 || rotation.determinant() < 0.0)
-      entry.fail("reference_from_camera", "is not a rigid transform; give the 4 x 4 matrix row by row");
-    Eigen::Isometry3d reference_from_camera = Eigen::Isometry3d::Identity();
-    reference_from_camera.linear() = vision::nearest_rotation(rotation);
-    reference_from_camera.translation() = matrix.topRightCorner<3, 1>();
-    const auto info = read_camera_info(file.parent_path() / entry.text("camera_info"));
-    cameras.push_back({entry.text("name"), {info.lens, reference_from_camera.inverse()}});
+  for (auto& entry : map.maps("cameras")) {
+    NamedCamera camera{entry.text("name"), {}};
+    camera.camera.camera_from_reference =
+        calibration_files::read_rigid_transform(entry, "reference_from_camera").inverse();
+    const std::string info = entry.text("camera_info");
+    try {
+      if (!info.empty()) camera.camera.lens = calibration_files::read_camera_info(file.parent_path() / info).lens();
+    } catch (const calibration_files::FileError& error) {
+      entry.include("camera_info", error);
+    }
+    cameras.push_back(camera);
   }
+  map.check();
   return cameras;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // libFuzzer target: the first byte selects the kind of calibration, the rest is the file. It must be rejected with a
-// DatasetError or give a pair whose rectification is finite.
+// FileError or DatasetError, or give a pair whose rectification is finite.
 #include <cmath>
 #include <cstdlib>
 #include <string>
@@ -65,6 +65,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (size < 1) return 0;
   try {
     read(data[0], std::string(reinterpret_cast<const char*>(data + 1), size - 1));
+  } catch (const panvo::calibration_files::FileError&) {
   } catch (const DatasetError&) {
   }
   return 0;

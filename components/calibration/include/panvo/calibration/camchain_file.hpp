@@ -10,8 +10,8 @@
 namespace panvo::calibration {
 
 /// Reads the cameras cam0, cam1, ... of a Kalibr camchain YAML; cam0 is the reference. Supports pinhole with radtan,
-/// equidistant or no distortion, and omni with radtan or no distortion. Throws CalibrationError with file, line and
-/// key.
+/// equidistant or no distortion, and omni with radtan or no distortion. Throws calibration_files::FileError with
+/// all problems.
 std::vector<NamedCamera> read_camchain(const std::filesystem::path& file);
 
 /// The cameras as camchain YAML. Throws CalibrationError for models that Kalibr lacks: rational, or plumb_bob with k3.

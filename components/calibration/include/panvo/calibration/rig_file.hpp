@@ -26,7 +26,7 @@ std::string extrinsics_text(const std::vector<NamedCamera>& cameras, std::size_t
                             const Eigen::Matrix<double, 6, 1>& reference_mount);
 
 /// Reads the cameras of an extrinsics.yaml with the lenses of the camera_info files in its folder. Throws
-/// CalibrationError with file, line and key.
+/// calibration_files::FileError with all problems.
 std::vector<NamedCamera> read_extrinsics(const std::filesystem::path& file);
 
 /// Text of a panorama.yaml for the panorama stitcher: orientation of the reference camera, centred between the cameras.

@@ -3,15 +3,12 @@
 
 #include <filesystem>
 
-#include "panvo/vision/stereo_calibration.hpp"
+#include "panvo/calibration_files/stereo_pair.hpp"
 
-/// Readers of stereo calibrations from common tools. All throw DatasetError with file, line and key.
+/// Readers of stereo calibrations from common tools. All throw calibration_files::FileError.
 namespace panvo::dataset_player {
 
-struct CalibratedStereo {
-  vision::StereoCalibration calibration;
-  vision::RectifiedStereo rectified;
-};
+using calibration_files::CalibratedStereo;
 
 /// Image size, px, for calibrations that do not state one.
 struct ImageSize {
@@ -30,7 +27,7 @@ CalibratedStereo read_ros_calibration(const std::filesystem::path& left_file, co
 CalibratedStereo read_opencv_calibration(const std::filesystem::path& intrinsics_file,
                                          const std::filesystem::path& extrinsics_file, ImageSize image_size);
 
-/// The rectified pair of `calibration`; unchanged if it is already rectified. Throws DatasetError with `file` and every
+/// The rectified pair of `calibration`; unchanged if it is already rectified. Throws FileError with `file` and every
 /// problem of the calibration.
 vision::RectifiedStereo rectified_geometry(const vision::StereoCalibration& calibration,
                                            const std::filesystem::path& file);
