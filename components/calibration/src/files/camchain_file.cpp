@@ -4,6 +4,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+#include <set>
+
 #include "panvo/calibration/calibration_error.hpp"
 #include "panvo/vision/pose.hpp"
 #include "yaml_document.hpp"
@@ -16,33 +19,62 @@ using vision::LensModel;
 constexpr double kRotationTolerance = 1e-3;
 constexpr const char* kKind = "a Kalibr camchain YAML with cam0, cam1, ...";
 
-vision::LensCamera read_lens(const YamlDocument& camera) {
-  const std::string model = camera.text("camera_model");
-  const bool is_omni = model == "omni";
-  if (!is_omni && model != "pinhole")
-    camera.fail("camera_model", fmt::format("'{}' is not supported; calibrate with pinhole or omni", model));
-  const auto size = camera.numbers("resolution", 2);
-  auto intrinsics = camera.numbers("intrinsics", is_omni ? 5 : 4);
-  double xi = 0.0;
-  if (is_omni) {
-    xi = intrinsics.front();
-    intrinsics.erase(intrinsics.begin());
+std::optional<vision::KalibrForm> kalibr_form(LensModel model) {
+  return vision::visit_lens(model, [](const auto& formula) { return formula.kKalibr; });
+}
+
+/// The model with Kalibr's names of a camera. A distortion of "none" stands for any with coefficients that are zero.
+LensModel model_of(const YamlDocument& camera) {
+  const std::string projection = camera.text("camera_model");
+  const std::string distortion = camera.text("distortion_model");
+  std::set<std::string> projections, distortions;
+  for (const auto model : vision::kLensModels) {
+    const auto form = kalibr_form(model);
+    if (!form) continue;
+    projections.emplace(form->camera_model);
+    if (form->camera_model != projection) continue;
+    if (distortion == "none" || form->distortion_model == distortion) return model;
+    distortions.insert(fmt::format("{}-{}", projection, form->distortion_model));
   }
+  if (distortions.empty())
+    camera.fail("camera_model",
+                fmt::format("'{}' is not supported; calibrate with {}", projection, fmt::join(projections, " or ")));
+  camera.fail("distortion_model", fmt::format("'{}' is not supported with camera_model {}; calibrate with {}",
+                                              distortion, projection, fmt::join(distortions, " or ")));
+}
+
+/// How Kalibr writes the lens of a camera. Throws CalibrationError if it cannot.
+vision::KalibrForm checked_form(const NamedCamera& camera) {
+  const auto& lens = camera.camera.lens;
+  const auto form = kalibr_form(lens.model);
+  const auto fail = [&](const std::string& what) {
+    throw CalibrationError(fmt::format("{}: Kalibr {}; calibrate with another --model", camera.name, what));
+  };
+  if (!form) fail(fmt::format("has no lens model {}", vision::ros_name(lens.model)));
+  const auto coefficients = vision::lens_coefficients(lens.model);
+  for (std::size_t i = form->distortion_count + form->intrinsic_count; i < coefficients.size(); ++i) {
+    if (lens.distortion.at(i) == 0.0) continue;
+    fail(fmt::format("has no {} in {}-{}", coefficients[i].name, form->camera_model, form->distortion_model));
+  }
+  return *form;
+}
+
+vision::LensCamera read_lens(const YamlDocument& camera) {
+  const LensModel model = model_of(camera);
+  const auto form = *kalibr_form(model);
+  const bool is_distorted = camera.text("distortion_model") != "none";
+  const auto size = camera.numbers("resolution", 2);
+  const auto intrinsics = camera.numbers("intrinsics", form.intrinsic_count + 4);
+  const auto focal = intrinsics.begin() + static_cast<std::ptrdiff_t>(form.intrinsic_count);
   const vision::PinholeCamera pinhole{
-      intrinsics[0], intrinsics[1], intrinsics[2], intrinsics[3], static_cast<int>(size[0]), static_cast<int>(size[1])};
+      focal[0], focal[1], focal[2], focal[3], static_cast<int>(size[0]), static_cast<int>(size[1])};
   if (pinhole.width <= 0 || pinhole.height <= 0) camera.fail("resolution", "must be width and height in px");
   if (!(pinhole.fx > 0.0 && pinhole.fy > 0.0)) camera.fail("intrinsics", "must have positive focal lengths");
-  const std::string distortion = camera.text("distortion_model");
-  auto coefficients = distortion == "none" ? std::vector<double>() : camera.numbers("distortion_coeffs", 4);
-  if (is_omni && distortion != "radtan" && distortion != "none")
-    camera.fail("distortion_model",
-                fmt::format("'{}' is not supported with camera_model omni; calibrate with omni-radtan", distortion));
-  if (is_omni) {
-    coefficients.resize(4, 0.0);
-    coefficients.push_back(xi);
-  }
+  auto coefficients = is_distorted ? camera.numbers("distortion_coeffs", form.distortion_count)
+                                   : std::vector<double>(form.distortion_count, 0.0);
+  coefficients.insert(coefficients.end(), intrinsics.begin(), focal);
   try {
-    return vision::lens_camera(is_omni ? "mei" : distortion == "none" ? "" : distortion, coefficients, pinhole);
+    return vision::lens_camera(vision::ros_name(model), coefficients, pinhole);
   } catch (const std::invalid_argument& error) {
     camera.fail("distortion_model", std::string(": the camera ") + error.what());
   }
@@ -92,22 +124,19 @@ std::string camchain_text(const std::vector<NamedCamera>& cameras) {
   std::string text;
   for (std::size_t i = 0; i < cameras.size(); ++i) {
     const auto& [lens, camera_from_reference] = cameras[i].camera;
+    const auto form = checked_form(cameras[i]);
     const auto coefficients = vision::ros_coefficients(lens);
-    const bool is_unknown =
-        lens.model == LensModel::kRational || (lens.model == LensModel::kPlumbBob && coefficients[4] != 0.0);
-    if (is_unknown)
-      throw CalibrationError(fmt::format(
-          "{}: Kalibr's radtan has neither k3 nor a rational polynomial; recalibrate without them", cameras[i].name));
-    const bool is_omni = lens.model == LensModel::kMei;
+    const auto intrinsics = coefficients.begin() + static_cast<std::ptrdiff_t>(form.distortion_count);
+    const auto end = intrinsics + static_cast<std::ptrdiff_t>(form.intrinsic_count);
     text += fmt::format("cam{}:\n", i);
     if (i > 0)
       text += "  T_cn_cnm1:\n" + rows_of(camera_from_reference * cameras[i - 1].camera.camera_from_reference.inverse());
     const auto& p = lens.pinhole;
     text += fmt::format("  camera_model: {}\n  distortion_model: {}\n  distortion_coeffs: [{:.12g}]\n",
-                        is_omni ? "omni" : "pinhole", lens.model == LensModel::kEquidistant ? "equidistant" : "radtan",
-                        fmt::join(coefficients.begin(), coefficients.begin() + 4, ", "));
-    text += fmt::format("  intrinsics: [{}{:.12g}, {:.12g}, {:.12g}, {:.12g}]\n  resolution: [{}, {}]\n",
-                        is_omni ? fmt::format("{:.12g}, ", lens.xi) : "", p.fx, p.fy, p.cx, p.cy, p.width, p.height);
+                        form.camera_model, form.distortion_model, fmt::join(coefficients.begin(), intrinsics, ", "));
+    text += fmt::format("  intrinsics: [{:.12g}{}{:.12g}, {:.12g}, {:.12g}, {:.12g}]\n  resolution: [{}, {}]\n",
+                        fmt::join(intrinsics, end, ", "), form.intrinsic_count > 0 ? ", " : "", p.fx, p.fy, p.cx, p.cy,
+                        p.width, p.height);
     text += fmt::format("  rostopic: /{}/image_raw\n", cameras[i].name);
   }
   return text;
