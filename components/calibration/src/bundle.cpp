@@ -36,7 +36,7 @@ Eigen::Isometry3d to_isometry(const Pose& pose) {
 }
 
 /// Reprojection error of a board corner.
-template <LensModel kModel>
+template <vision::LensFormula Formula>
 struct Reprojection {
   Eigen::Vector3d point_in_board;
   Eigen::Vector2d pixel;
@@ -49,29 +49,21 @@ struct Reprojection {
     for (int i = 0; i < 3; ++i) in_reference[i] += reference_from_board[3 + i];
     ceres::AngleAxisRotatePoint(camera_from_reference, in_reference, in_camera);
     for (int i = 0; i < 3; ++i) in_camera[i] += camera_from_reference[3 + i];
-    if (!project_point<kModel>(lens, in_camera, projected)) return false;
+    if (!project_point<Formula>(lens, in_camera, projected)) return false;
     residual[0] = T(pixel.x()) - projected[0];
     residual[1] = T(pixel.y()) - projected[1];
     return true;
   }
 
   static ceres::CostFunction* make(const Eigen::Vector3d& point, const Eigen::Vector2d& pixel) {
-    return new ceres::AutoDiffCostFunction<Reprojection, 2, kLensSize<kModel>, 6, 6>(new Reprojection{point, pixel});
+    return new ceres::AutoDiffCostFunction<Reprojection, 2, kLensSize<Formula>, 6, 6>(new Reprojection{point, pixel});
   }
 };
 
 ceres::CostFunction* reprojection(LensModel model, const Eigen::Vector3d& point, const Eigen::Vector2d& pixel) {
-  switch (model) {
-    case LensModel::kRational:
-      return Reprojection<LensModel::kRational>::make(point, pixel);
-    case LensModel::kEquidistant:
-      return Reprojection<LensModel::kEquidistant>::make(point, pixel);
-    case LensModel::kMei:
-      return Reprojection<LensModel::kMei>::make(point, pixel);
-    case LensModel::kPlumbBob:
-      break;
-  }
-  return Reprojection<LensModel::kPlumbBob>::make(point, pixel);
+  return vision::visit_lens(model, [&]<vision::LensFormula Formula>(const Formula& /*formula*/) {
+    return Reprojection<Formula>::make(point, pixel);
+  });
 }
 
 /// The rig as parameter blocks of a Ceres problem.
@@ -196,26 +188,14 @@ class Bundle {
   ceres::Problem problem_;
 };
 
-template <LensModel kModel>
 std::optional<Eigen::Vector2d> project(const vision::LensCamera& lens, const Eigen::Vector3d& point) {
   const Eigen::VectorXd parameters = lens_parameters(lens);
   Eigen::Vector2d pixel;
-  if (!project_point<kModel>(parameters.data(), point.data(), pixel.data())) return std::nullopt;
+  const bool is_seen = vision::visit_lens(lens.model, [&]<vision::LensFormula Formula>(const Formula& /*formula*/) {
+    return project_point<Formula>(parameters.data(), point.data(), pixel.data());
+  });
+  if (!is_seen) return std::nullopt;
   return pixel;
-}
-
-std::optional<Eigen::Vector2d> project(const vision::LensCamera& lens, const Eigen::Vector3d& point) {
-  switch (lens.model) {
-    case LensModel::kRational:
-      return project<LensModel::kRational>(lens, point);
-    case LensModel::kEquidistant:
-      return project<LensModel::kEquidistant>(lens, point);
-    case LensModel::kMei:
-      return project<LensModel::kMei>(lens, point);
-    case LensModel::kPlumbBob:
-      break;
-  }
-  return project<LensModel::kPlumbBob>(lens, point);
 }
 
 }  // namespace

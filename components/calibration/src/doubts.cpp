@@ -39,7 +39,9 @@ void doubt_camera(const Report& report, std::size_t camera, std::vector<std::str
         fmt::format("{}: corners cover only {:.0f} % of the image: hold the board closer to the borders, or use a "
                     "ChArUco board, which may extend beyond them",
                     name, 100.0 * share));
-  if (sigmas && (*sigmas)[camera].lens[0] > kKnownFocal * lens.pinhole.fx && lens.model != vision::LensModel::kMei)
+  const bool is_focal_correlated =
+      vision::visit_lens(lens.model, [](const auto& formula) { return formula.kIsFocalCorrelated; });
+  if (sigmas && (*sigmas)[camera].lens[0] > kKnownFocal * lens.pinhole.fx && !is_focal_correlated)
     found.push_back(
         fmt::format("{}: the focal length has a standard deviation of {:.2f} %: tilt the board by 30 to 45 degrees and "
                     "move it closer",

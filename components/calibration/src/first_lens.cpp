@@ -49,7 +49,9 @@ std::optional<vision::LensCamera> first_lens(const std::vector<std::vector<Corne
                                              vision::LensModel model) {
   vision::LensCamera lens;
   lens.model = model;
-  lens.xi = model == vision::LensModel::kMei ? 1.0 : 0.0;
+  const auto coefficients = vision::lens_coefficients(model);
+  std::transform(coefficients.begin(), coefficients.end(), lens.distortion.begin(),
+                 [](const vision::LensCoefficient& coefficient) { return coefficient.start; });
   const double longer = std::max(image_size.width, image_size.height);
   const std::size_t stride = std::max<std::size_t>(1, views.size() / kMaxViews);
   std::optional<vision::LensCamera> best;

@@ -3,27 +3,9 @@
 
 namespace panvo::calibration {
 
-using vision::LensModel;
-
-std::vector<std::string> lens_parameter_names(LensModel model) {
+std::vector<std::string> lens_parameter_names(vision::LensModel model) {
   std::vector<std::string> names{"fx", "fy", "cx", "cy"};
-  const auto add = [&](std::initializer_list<const char*> more) {
-    names.insert(names.end(), more.begin(), more.end());
-  };
-  switch (model) {
-    case LensModel::kPlumbBob:
-      add({"k1", "k2", "p1", "p2", "k3"});
-      break;
-    case LensModel::kRational:
-      add({"k1", "k2", "p1", "p2", "k3", "k4", "k5", "k6"});
-      break;
-    case LensModel::kEquidistant:
-      add({"k1", "k2", "k3", "k4"});
-      break;
-    case LensModel::kMei:
-      add({"k1", "k2", "p1", "p2", "xi"});
-      break;
-  }
+  for (const auto& coefficient : vision::lens_coefficients(model)) names.emplace_back(coefficient.name);
   return names;
 }
 
@@ -41,9 +23,8 @@ vision::LensCamera with_parameters(vision::LensCamera lens, const Eigen::VectorX
   lens.pinhole.cx = parameters[2];
   lens.pinhole.cy = parameters[3];
   lens.distortion = {};
-  const Eigen::Index count = parameters.size() - (lens.model == LensModel::kMei ? 5 : 4);
-  for (Eigen::Index i = 0; i < count; ++i) lens.distortion.at(static_cast<std::size_t>(i)) = parameters[4 + i];
-  if (lens.model == LensModel::kMei) lens.xi = parameters[8];
+  for (Eigen::Index i = 4; i < parameters.size(); ++i)
+    lens.distortion.at(static_cast<std::size_t>(i - 4)) = parameters[i];
   return lens;
 }
 

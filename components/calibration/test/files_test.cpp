@@ -72,7 +72,7 @@ TEST_F(CalibrationFiles, ReadACamchain) {
   EXPECT_EQ(cameras[0].camera.lens.distortion[3], 0.0002);
   EXPECT_EQ(cameras[0].camera.lens.pinhole.width, 752);
   EXPECT_EQ(cameras[1].camera.lens.model, LensModel::kMei);
-  EXPECT_EQ(cameras[1].camera.lens.xi, 1.2);
+  EXPECT_EQ(cameras[1].camera.lens.distortion[4], 1.2);
   EXPECT_EQ(cameras[1].camera.lens.pinhole.fy, 421.0);
   EXPECT_EQ(cameras[2].camera.lens.model, LensModel::kEquidistant);
   EXPECT_EQ(cameras[1].camera.camera_from_reference.translation().x(), -0.11);

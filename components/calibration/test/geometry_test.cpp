@@ -22,30 +22,84 @@ using vision::LensModel;
 
 const Board kBoard = parse_board("chessboard:9x6:0.04");
 
-template <LensModel kModel>
-void expect_projected_as_the_camera_model(const vision::LensCamera& lens, double widest_deg) {
+/// A lens of any model, with an initial value and a little distortion in each coefficient.
+vision::LensCamera distorted_lens(LensModel model) {
+  std::vector<double> coefficients;
+  for (const auto& coefficient : vision::lens_coefficients(model))
+    coefficients.push_back(coefficient.start + (coefficients.size() % 2 == 0 ? -0.01 : 0.004));
+  return test::lens(model, 420.0, coefficients);
+}
+
+class ProjectionForCeres : public ::testing::TestWithParam<LensModel> {
+ protected:
+  vision::LensCamera lens = distorted_lens(GetParam());
+  Eigen::VectorXd parameters = lens_parameters(lens);
+  std::vector<Eigen::Vector3d> points{{0.0, 0.0, 1.3}, {0.4, -0.3, 1.7}, {-0.6, 0.2, 1.1}, {1e-8, 0.0, 2.0}};
+};
+
+TEST_P(ProjectionForCeres, HasTheBitsOfTheCameraModel) {
   const vision::CameraModel model(lens);
-  const Eigen::VectorXd parameters = lens_parameters(lens);
-  ASSERT_EQ(parameters.size(), kLensSize<kModel>);
-  EXPECT_EQ(lens_parameter_names(kModel).size(), static_cast<std::size_t>(kLensSize<kModel>));
-  for (double theta = 0.0; theta < widest_deg; theta += 7.0) {
-    const Eigen::Vector3d point =
-        1.7 * (Eigen::AngleAxisd(0.8, Eigen::Vector3d::UnitZ()) *
-               Eigen::AngleAxisd(theta * test::kDegree, Eigen::Vector3d::UnitY()) * Eigen::Vector3d::UnitZ());
-    Eigen::Vector2d pixel;
-    ASSERT_TRUE((project_point<kModel>(parameters.data(), point.data(), pixel.data())));
-    EXPECT_LT((pixel - *model.project(point)).norm(), 1e-9) << theta;
+  EXPECT_EQ(lens_parameter_names(GetParam()).size(), static_cast<std::size_t>(parameters.size()));
+  for (const auto& point : points) {
+    vision::visit_lens(GetParam(), [&]<vision::LensFormula Formula>(const Formula& /*formula*/) {
+      ASSERT_EQ(parameters.size(), kLensSize<Formula>);
+      Eigen::Vector2d pixel;
+      ASSERT_TRUE(project_point<Formula>(parameters.data(), point.data(), pixel.data()));
+      EXPECT_EQ(pixel, *model.project(point)) << point.transpose();
+    });
   }
 }
 
-TEST(LensProjection, IsThatOfTheCameraModel) {
-  expect_projected_as_the_camera_model<LensModel::kPlumbBob>(test::plumb_bob(), 40.0);
-  expect_projected_as_the_camera_model<LensModel::kRational>(
-      test::lens(LensModel::kRational, 420.0, {0.6, -0.1, 0.0004, -0.0003, 0.01, 0.9, -0.02, 0.002}), 40.0);
-  expect_projected_as_the_camera_model<LensModel::kEquidistant>(test::fisheye(), 100.0);
-  expect_projected_as_the_camera_model<LensModel::kMei>(
-      test::lens(LensModel::kMei, 420.0, {-0.1, 0.03, 0.0005, -0.0004, 0.9}), 85.0);
+/// Of the pixel, by each parameter of the lens and each coordinate of the point, on the axis too.
+template <vision::LensFormula Formula>
+void expect_derivatives(const Eigen::VectorXd& parameters, const Eigen::Vector3d& point) {
+  constexpr int kSize = kLensSize<Formula> + 3;
+  constexpr double kStep = 1e-6;
+  using Jet = ceres::Jet<double, kSize>;
+  std::array<Jet, kSize> values;
+  for (int i = 0; i < kSize; ++i)
+    values.at(static_cast<std::size_t>(i)) = Jet(i < kSize - 3 ? parameters[i] : point[i - kSize + 3], i);
+  std::array<Jet, 2> pixel;
+  ASSERT_TRUE(project_point<Formula>(values.data(), values.data() + kSize - 3, pixel.data()));
+  for (int i = 0; i < kSize; ++i) {
+    const auto moved = [&](double step) {
+      Eigen::Matrix<double, kSize, 1> all;
+      all << parameters, point;
+      all[i] += step;
+      Eigen::Vector2d at;
+      EXPECT_TRUE(project_point<Formula>(all.data(), all.data() + kSize - 3, at.data()));
+      return at;
+    };
+    const Eigen::Vector2d difference = (moved(kStep) - moved(-kStep)) / (2.0 * kStep);
+    EXPECT_NEAR(pixel[0].v[i], difference.x(), 1e-6 * (10.0 + difference.norm())) << i << ": " << point.transpose();
+    EXPECT_NEAR(pixel[1].v[i], difference.y(), 1e-6 * (10.0 + difference.norm())) << i << ": " << point.transpose();
+  }
 }
+
+TEST_P(ProjectionForCeres, HasTheDerivativesOfItsDifferences) {
+  for (const auto& point : points) {
+    vision::visit_lens(GetParam(), [&]<vision::LensFormula Formula>(const Formula& /*formula*/) {
+      expect_derivatives<Formula>(parameters, point);
+    });
+  }
+}
+
+TEST_P(ProjectionForCeres, EndsBehindALensWithoutAView) {
+  vision::visit_lens(GetParam(), [&]<vision::LensFormula Formula>(const Formula& /*formula*/) {
+    Eigen::Vector2d pixel;
+    const auto is_seen = [&](const Eigen::Vector3d& point) {
+      return project_point<Formula>(parameters.data(), point.data(), pixel.data());
+    };
+    EXPECT_FALSE(is_seen({0.0, 0.0, -1.0}));
+    EXPECT_FALSE(is_seen({0.0, 0.0, 0.0}));
+    if (Formula::kIsPerspective) {
+      EXPECT_FALSE(is_seen({0.3, 0.1, -1.0}));
+    }
+  });
+}
+
+INSTANTIATE_TEST_SUITE_P(Registered, ProjectionForCeres, ::testing::ValuesIn(vision::kLensModels),
+                         [](const auto& tested) { return std::string(vision::ros_name(tested.param)); });
 
 TEST(PlanarPose, IsExactBeyondNinetyDegreesOffTheAxisToo) {
   const vision::CameraModel model(test::lens(LensModel::kEquidistant, 150.0, {-0.01, 0.002, 0, 0}));

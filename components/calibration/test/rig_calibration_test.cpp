@@ -45,9 +45,11 @@ double max_difference_px(const vision::LensCamera& a, const vision::LensCamera& 
   return largest;
 }
 
-/// Pixels per radian on the axis: the effective focal length of any lens model; for Mei fx grows with xi.
+/// Pixels per radian on the axis: the effective focal lengths of any lens model.
 Eigen::Vector2d focal_lengths_px(const vision::LensCamera& lens) {
-  return Eigen::Vector2d(lens.pinhole.fx, lens.pinhole.fy) / (1.0 + lens.xi);
+  constexpr double kStep = 1e-5;
+  const Eigen::Vector2d centre(lens.pinhole.cx, lens.pinhole.cy);
+  return (*vision::CameraModel(lens).project({kStep, kStep, 1.0}) - centre) / kStep;
 }
 
 void expect_same_lens(const vision::LensCamera& found, const vision::LensCamera& truth) {

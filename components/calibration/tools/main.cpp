@@ -5,6 +5,7 @@
 #include <exception>
 
 #include "commands.hpp"
+#include "panvo/vision/lens_models.hpp"
 
 namespace {
 
@@ -61,11 +62,15 @@ void add_sources(CLI::App& command, Arguments& arguments, const std::string& wha
 }
 
 void add_model(CLI::App& command, Arguments& arguments) {
-  command
-      .add_option("--model", arguments.model,
-                  "lens model: plumb_bob, rational_polynomial, equidistant (fisheye) or mei (very wide, mirrors)")
-      ->check(CLI::IsMember({"plumb_bob", "rational_polynomial", "equidistant", "mei"}))
-      ->capture_default_str();
+  std::vector<std::string> names;
+  std::string help = "lens model:";
+  for (const auto model : panvo::vision::kLensModels) {
+    panvo::vision::visit_lens(model, [&](const auto& formula) {
+      help.append(names.empty() ? " " : ", ").append(formula.kName).append(" (").append(formula.kPurpose).append(")");
+      names.emplace_back(formula.kName);
+    });
+  }
+  command.add_option("--model", arguments.model, help)->check(CLI::IsMember(names))->capture_default_str();
 }
 
 void add_out(CLI::App& command, Arguments& arguments, const std::string& what) {

@@ -14,10 +14,7 @@ namespace panvo::calibration {
 namespace fs = std::filesystem;
 
 vision::LensModel model_of(const Arguments& arguments) {
-  using vision::LensModel;
-  for (const auto model : {LensModel::kPlumbBob, LensModel::kRational, LensModel::kEquidistant, LensModel::kMei}) {
-    if (arguments.model == vision::ros_name(model)) return model;
-  }
+  if (const auto model = vision::find_lens_model(arguments.model)) return *model;
   throw CalibrationError("--model " + arguments.model + ": unknown lens model");
 }
 

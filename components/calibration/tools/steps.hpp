@@ -14,7 +14,7 @@
 /// Steps shared by several commands.
 namespace panvo::calibration {
 
-/// The lens model of --model, which is a ROS distortion model or mei.
+/// The lens model of --model, a name known to vision::find_lens_model().
 vision::LensModel model_of(const Arguments& arguments);
 
 /// The image folder: that of the command line, or OUT/images after collecting images from live topics.

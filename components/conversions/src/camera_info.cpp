@@ -28,9 +28,8 @@ bool all_finite(const std::array<double, size>& values) {
 
 bool PairedCamera::operator==(const PairedCamera& other) const {
   return equal(raw.pinhole, other.raw.pinhole) && raw.model == other.raw.model &&
-         raw.distortion == other.raw.distortion && raw.xi == other.raw.xi &&
-         rectified_from_raw == other.rectified_from_raw && equal(rectified, other.rectified) &&
-         baseline_m == other.baseline_m;
+         raw.distortion == other.raw.distortion && rectified_from_raw == other.rectified_from_raw &&
+         equal(rectified, other.rectified) && baseline_m == other.baseline_m;
 }
 
 bool is_rectified(const PairedCamera& camera) {

@@ -92,10 +92,10 @@ TEST(CameraInfo, ComesBackAsItWasWhateverTheLens) {
   EXPECT_EQ(fisheye.d().size(), 4u);
   EXPECT_TRUE(*to_camera(fisheye) == camera);
   camera.raw.model = vision::LensModel::kMei;
-  camera.raw.xi = 1.1;
+  camera.raw.distortion[4] = 1.1;
   EXPECT_TRUE(*to_camera(to_camera_info(camera, 0, "right")) == camera);
   auto other = camera;
-  other.raw.xi = 1.2;
+  other.raw.distortion[4] = 1.2;
   EXPECT_FALSE(other == camera);
   camera.raw = {camera.raw.pinhole, vision::LensModel::kRational, {0.1, 0.2, 0.0, 0.0, 0.3, 0.4, 0.5, 0.6}};
   EXPECT_TRUE(*to_camera(to_camera_info(camera, 0, "right")) == camera);

@@ -129,7 +129,7 @@ TEST(PanoramaStitcher, JoinsTheEndsOfAnEquirectangularImage) {
 }
 
 TEST(PanoramaStitcher, UnrollsAMirror) {
-  const vision::LensCamera lens{{260, 260, 399.5, 399.5, 800, 800}, vision::LensModel::kMei, {}, 1.0};
+  const vision::LensCamera lens{{260, 260, 399.5, 399.5, 800, 800}, vision::LensModel::kMei, {0, 0, 0, 0, 1.0}};
   Head mirror = head_of("mirror", 0, lens, 220.0, looking(0.0, 90.0, 0.0, 0.0));
   mirror.blind_spot_rad = 30.0 * kDegree;
   PanoramaRig rig = rig_of({mirror});

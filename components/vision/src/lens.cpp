@@ -10,43 +10,46 @@
 namespace panvo::vision {
 namespace {
 
-struct Name {
-  std::string_view text;
-  LensModel model;
-};
-
-constexpr std::array kNames{
-    Name{"plumb_bob", LensModel::kPlumbBob},      Name{"rational_polynomial", LensModel::kRational},
-    Name{"equidistant", LensModel::kEquidistant}, Name{"mei", LensModel::kMei},
-    Name{"radtan", LensModel::kPlumbBob},         Name{"radial-tangential", LensModel::kPlumbBob},
-    Name{"fisheye", LensModel::kEquidistant},     Name{"omni-radtan", LensModel::kMei}};
-
-std::size_t coefficients_of(LensModel model) {
-  switch (model) {
-    case LensModel::kRational:
-      return 8;
-    case LensModel::kEquidistant:
-      return 4;
-    case LensModel::kPlumbBob:
-    case LensModel::kMei:
-      break;
+/// "plumb_bob (k1 k2 p1 p2 k3), ... and mei (k1 k2 p1 p2 xi)"
+std::string supported_models() {
+  std::ostringstream text;
+  for (std::size_t i = 0; i < kLensModels.size(); ++i) {
+    if (i > 0) text << (i + 1 < kLensModels.size() ? ", " : " and ");
+    text << ros_name(kLensModels[i]);
+    const char* before = " (";
+    for (const auto& coefficient : lens_coefficients(kLensModels[i])) {
+      text << before << coefficient.name;
+      before = " ";
+    }
+    text << ")";
   }
-  return 5;
-}
-
-std::optional<LensModel> find(std::string_view name) {
-  const auto* const found =
-      std::find_if(kNames.begin(), kNames.end(), [&](const Name& known) { return known.text == name; });
-  if (found == kNames.end()) return std::nullopt;
-  return found->model;
+  return text.str();
 }
 
 [[noreturn]] void refuse(std::string_view name, std::size_t count) {
   std::ostringstream text;
-  text << "has distortion model '" << name << "' with " << count
-       << " coefficients; supported are plumb_bob (k1 k2 p1 p2 k3), rational_polynomial (k1 k2 p1 p2 k3 k4 k5 k6), "
-          "equidistant (k1 k2 k3 k4) and mei (k1 k2 p1 p2 xi): calibrate with one of them";
+  text << "has distortion model '" << name << "' with " << count << " coefficients; supported are "
+       << supported_models() << ": calibrate with one of them";
   throw std::invalid_argument(text.str());
+}
+
+/// How many coefficients a file must give.
+std::size_t min_count(LensModel model) {
+  const auto all = lens_coefficients(model);
+  const auto last =
+      std::find_if(all.rbegin(), all.rend(), [](const auto& coefficient) { return !coefficient.is_optional; });
+  return static_cast<std::size_t>(all.rend() - last);
+}
+
+/// The simplest model that is the same lens if the coefficients after the first `used` are zero.
+LensModel simplest(LensModel model, std::size_t used) {
+  return visit_lens(model, [&]<class Formula>(const Formula& /*formula*/) {
+    if constexpr (requires { typename Formula::Simpler; }) {
+      using Simpler = typename Formula::Simpler;
+      if (used <= Simpler::kCoefficients.size()) return kLensModel<Simpler>;
+    }
+    return kLensModel<Formula>;
+  });
 }
 
 }  // namespace
@@ -59,35 +62,44 @@ LensCamera lens_camera(std::string_view distortion_model, std::span<const double
     throw std::invalid_argument("has a distortion coefficient that is not a number; calibrate again");
   const auto last = std::find_if(coefficients.rbegin(), coefficients.rend(), [](double value) { return value != 0.0; });
   const auto used = coefficients.first(static_cast<std::size_t>(coefficients.rend() - last));
-  const auto model = find(distortion_model);
+  const auto model = find_lens_model(distortion_model);
   if (!model && used.empty()) return camera;  // no model needed without distortion
-  if (!model || used.size() > coefficients_of(*model)) refuse(distortion_model, coefficients.size());
-  camera.model = *model;
-  if (*model == LensModel::kMei && coefficients.size() < 5) refuse(distortion_model, coefficients.size());  // no xi
+  if (!model || used.size() > lens_coefficients(*model).size() || coefficients.size() < min_count(*model))
+    refuse(distortion_model, coefficients.size());
+  camera.model = simplest(*model, used.size());
   std::copy(used.begin(), used.end(), camera.distortion.begin());
-  if (*model == LensModel::kMei) std::swap(camera.xi, camera.distortion[4]);
-  // without denominator terms it is a plumb_bob lens
-  if (*model == LensModel::kRational && used.size() <= 5) camera.model = LensModel::kPlumbBob;
   return camera;
 }
 
 bool is_straight(const LensCamera& camera) {
-  const bool is_perspective = camera.model == LensModel::kPlumbBob || camera.model == LensModel::kRational;
-  return is_perspective &&
+  return visit_lens(camera.model, [](const auto& formula) { return formula.kIsPerspective; }) &&
          std::all_of(camera.distortion.begin(), camera.distortion.end(), [](double value) { return value == 0.0; });
 }
 
 std::string_view ros_name(LensModel model) {
-  const auto* const found =
-      std::find_if(kNames.begin(), kNames.end(), [&](const Name& known) { return known.model == model; });
-  return found->text;
+  return visit_lens(model, [](const auto& formula) { return formula.kName; });
+}
+
+std::optional<LensModel> find_lens_model(std::string_view name) {
+  const auto* const found = std::find_if(kLensModels.begin(), kLensModels.end(), [&](LensModel model) {
+    return visit_lens(model, [&](const auto& formula) {
+      const auto& aliases = formula.kAliases;
+      return formula.kName == name || std::find(aliases.begin(), aliases.end(), name) != aliases.end();
+    });
+  });
+  if (found == kLensModels.end()) return std::nullopt;
+  return *found;
+}
+
+std::span<const LensCoefficient> lens_coefficients(LensModel model) {
+  return visit_lens(model, []<class Formula>(const Formula& /*formula*/) {
+    return std::span<const LensCoefficient>(Formula::kCoefficients);
+  });
 }
 
 std::vector<double> ros_coefficients(const LensCamera& camera) {
-  std::vector<double> coefficients(camera.distortion.begin(),
-                                   camera.distortion.begin() + static_cast<int>(coefficients_of(camera.model)));
-  if (camera.model == LensModel::kMei) coefficients[4] = camera.xi;
-  return coefficients;
+  const auto count = static_cast<std::ptrdiff_t>(lens_coefficients(camera.model).size());
+  return {camera.distortion.begin(), camera.distortion.begin() + count};
 }
 
 }  // namespace panvo::vision

@@ -14,7 +14,7 @@ namespace {
 
 void check_distortion(const std::string& name, const LensCamera& camera, std::vector<std::string>& problems) {
   const auto is_number = [](double value) { return std::isfinite(value); };
-  if (!std::all_of(camera.distortion.begin(), camera.distortion.end(), is_number) || !is_number(camera.xi))
+  if (!std::all_of(camera.distortion.begin(), camera.distortion.end(), is_number))
     problems.push_back(name + ": a distortion coefficient is not a number");
 }
 

@@ -5,9 +5,10 @@
 
 #include <cmath>
 #include <numbers>
-#include <opencv2/calib3d.hpp>
 #include <stdexcept>
 #include <string>
+
+#include "example_lenses.hpp"
 
 namespace panvo::vision {
 namespace {
@@ -18,17 +19,10 @@ using ::testing::HasSubstr;
 
 constexpr double kDegree = pi / 180.0;
 
-LensCamera plumb_bob() {
-  return {{400, 402, 318, 243, 640, 480}, LensModel::kPlumbBob, {-0.3, 0.11, 0.001, -0.0007, -0.01}};
-}
-LensCamera rational() {
-  return {{330, 331, 322, 238, 640, 480}, LensModel::kRational, {0.9, 0.2, 0.0004, -0.0003, 0.004, 1.25, 0.45, 0.03}};
-}
-LensCamera fisheye() {
-  return {{290, 291, 540, 545, 1088, 1088}, LensModel::kEquidistant, {-0.012, 0.004, -0.002, 0.0002}};
-}
-LensCamera mirror() { return {{380, 381, 512, 515, 1024, 1024}, LensModel::kMei, {-0.1, 0.05, 0.0005, -0.0004}, 1.2}; }
-LensCamera wide_mei() { return {{900, 905, 640, 480, 1280, 960}, LensModel::kMei, {-0.05, 0.02, 0.0, 0.0003}, 0.8}; }
+LensCamera plumb_bob() { return test::example(LensModel::kPlumbBob); }
+LensCamera fisheye() { return test::example(LensModel::kEquidistant); }
+LensCamera mirror() { return test::example(LensModel::kMei); }
+LensCamera wide_mei() { return {{900, 905, 640, 480, 1280, 960}, LensModel::kMei, {-0.05, 0.02, 0.0, 0.0003, 0.8}}; }
 
 std::string refusal(const LensCamera& camera, double field_of_view_rad = 0.0) {
   try {
@@ -86,50 +80,14 @@ TEST_P(AnyLens, SeesNothingBeyondItsWidestAngle) {
   EXPECT_FALSE(model.project(Eigen::Vector3d::Zero()));
 }
 
-INSTANTIATE_TEST_SUITE_P(Lenses, AnyLens, ::testing::Values(plumb_bob(), rational(), fisheye(), mirror(), wide_mei()),
-                         [](const auto& lens) {
-                           const std::string name(ros_name(lens.param.model));
-                           return lens.param.xi > 1.0 ? name + "_mirror" : name;
-                         });
-
-TEST(CameraModel, ProjectsPerspectiveLensesAsOpenCvDoes) {
-  for (const auto& camera : {plumb_bob(), rational()}) {
-    const CameraModel model(camera);
-    const auto& p = camera.pinhole;
-    const std::vector<cv::Point3d> points{{0.3, -0.2, 1.0}, {-0.5, 0.4, 1.1}, {0.0, 0.1, 2.0}};
-    std::vector<cv::Point2d> pixels;
-    cv::projectPoints(points, cv::Vec3d::zeros(), cv::Vec3d::zeros(),
-                      cv::Matx33d(p.fx, 0, p.cx, 0, p.fy, p.cy, 0, 0, 1),
-                      cv::Mat(1, 8, CV_64F, const_cast<double*>(camera.distortion.data())), pixels);
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      const auto pixel = model.project({points[i].x, points[i].y, points[i].z});
-      ASSERT_TRUE(pixel);
-      EXPECT_NEAR(pixel->x(), pixels[i].x, 1e-9);
-      EXPECT_NEAR(pixel->y(), pixels[i].y, 1e-9);
-    }
-  }
-}
-
-TEST(CameraModel, ProjectsFisheyesAsOpenCvDoes) {
-  const auto camera = fisheye();
-  const CameraModel model(camera);
-  const auto& p = camera.pinhole;
-  const std::vector<cv::Point3d> points{{0.3, -0.2, 1.0}, {-2.5, 1.4, 1.1}};
-  std::vector<cv::Point2d> pixels;
-  cv::fisheye::projectPoints(points, pixels, cv::Vec3d::zeros(), cv::Vec3d::zeros(),
-                             cv::Matx33d(p.fx, 0, p.cx, 0, p.fy, p.cy, 0, 0, 1), cv::Vec4d(camera.distortion.data()));
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const auto pixel = model.project({points[i].x, points[i].y, points[i].z});
-    ASSERT_TRUE(pixel);
-    EXPECT_NEAR(pixel->x(), pixels[i].x, 1e-9);
-    EXPECT_NEAR(pixel->y(), pixels[i].y, 1e-9);
-  }
-}
+INSTANTIATE_TEST_SUITE_P(Lenses, AnyLens, ::testing::ValuesIn(test::example_lenses()),
+                         [](const auto& lens) { return std::string(ros_name(lens.param.model)); });
+INSTANTIATE_TEST_SUITE_P(WideMei, AnyLens, ::testing::Values(wide_mei()));
 
 /// [Mei2007, section 2]: projection onto the unit sphere, then from a point xi above its centre.
 TEST(CameraModel, ProjectsThroughMeisSphere) {
   LensCamera camera = mirror();
-  camera.distortion = {};
+  camera.distortion = {0.0, 0.0, 0.0, 0.0, 1.2};
   const auto pixel = CameraModel(camera).project({2.0, -1.0, -0.5});
   ASSERT_TRUE(pixel);
   const double length = std::sqrt(4.0 + 1.0 + 0.25);
@@ -140,7 +98,7 @@ TEST(CameraModel, ProjectsThroughMeisSphere) {
 TEST(CameraModel, IsAPinholeWhereMeisXiIsZero) {
   LensCamera mei = plumb_bob();
   mei.model = LensModel::kMei;
-  mei.distortion[4] = 0.0;
+  mei.distortion[4] = 0.0;  // xi; k3 of the perspective lens
   LensCamera perspective = mei;
   perspective.model = LensModel::kPlumbBob;
   const Eigen::Vector3d point(0.4, -0.3, 1.2);
@@ -168,7 +126,7 @@ TEST(CameraModel, RefusesWhatNoLensIs) {
   camera.pinhole.height = 0;
   EXPECT_THAT(refusal(camera), HasSubstr("1088 x 0 px"));
   camera = mirror();
-  camera.xi = -0.5;
+  camera.distortion[4] = -0.5;
   EXPECT_THAT(refusal(camera), HasSubstr("xi = -0.5"));
 }
 

@@ -86,7 +86,7 @@ TEST(RectificationMap, StraightensARationalLens) {
 }
 
 TEST(RectificationMap, StraightensAnOmnidirectionalCamera) {
-  expect_straight({{380, 381, 322, 238, 640, 480}, LensModel::kMei, {-0.1, 0.05, 0.0005, -0.0004}, 1.2});
+  expect_straight({{380, 381, 322, 238, 640, 480}, LensModel::kMei, {-0.1, 0.05, 0.0005, -0.0004, 1.2}});
 }
 
 /// The image ends 70 px left of its centre, at 27 degrees: column 34 of the rectified image.

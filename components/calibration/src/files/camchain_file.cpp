@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <set>
 #include <stdexcept>
 
 #include "panvo/calibration/calibration_error.hpp"
@@ -17,44 +18,67 @@ using vision::LensModel;
 
 constexpr const char* kKind = "a Kalibr camchain YAML with cam0, cam1, ...";
 
-struct Intrinsics {
-  double xi = 0.0;  ///< omni
-  vision::PinholeCamera pinhole;
-};
+std::optional<vision::KalibrForm> kalibr_form(LensModel model) {
+  return vision::visit_lens(model, [](const auto& formula) { return formula.kKalibr; });
+}
 
-Intrinsics read_intrinsics(YamlMap& camera, bool is_omni) {
-  const auto [width, height] = camera.size_px("resolution");
-  const std::size_t problems = camera.problems();
-  auto values = camera.numbers("intrinsics", is_omni ? 5 : 4);
-  Intrinsics intrinsics;
-  if (is_omni) {
-    intrinsics.xi = values.front();
-    values.erase(values.begin());
+/// The model with Kalibr's names of a camera; nullopt, after a problem is added, if there is none. A distortion of "none"
+/// stands for any with coefficients that are zero.
+std::optional<LensModel> read_model(YamlMap& camera) {
+  std::set<std::string> projections;
+  for (const auto model : vision::kLensModels) {
+    if (const auto form = kalibr_form(model)) projections.emplace(form->camera_model);
   }
-  if (camera.problems() == problems && !(values[0] > 0.0 && values[1] > 0.0))
-    camera.reject("intrinsics", "must have positive focal lengths");
-  intrinsics.pinhole = {values[0], values[1], values[2], values[3], width, height};
-  return intrinsics;
+  const std::string projection = camera.choice("camera_model", {projections.begin(), projections.end()});
+  const std::string distortion = camera.text("distortion_model");
+  std::set<std::string> distortions;
+  for (const auto model : vision::kLensModels) {
+    const auto form = kalibr_form(model);
+    if (!form || form->camera_model != projection) continue;
+    if (distortion == "none" || form->distortion_model == distortion) return model;
+    distortions.insert(fmt::format("{}-{}", projection, form->distortion_model));
+  }
+  if (!distortions.empty() && !distortion.empty())
+    camera.reject("distortion_model", fmt::format("is '{}', which is not supported with camera_model {}; calibrate "
+                                                  "with {}",
+                                                  distortion, projection, fmt::join(distortions, " or ")));
+  return std::nullopt;
+}
+
+/// How Kalibr writes the lens of a camera. Throws CalibrationError if it cannot.
+vision::KalibrForm checked_form(const NamedCamera& camera) {
+  const auto& lens = camera.camera.lens;
+  const auto form = kalibr_form(lens.model);
+  const auto fail = [&](const std::string& what) {
+    throw CalibrationError(fmt::format("{}: Kalibr {}; calibrate with another --model", camera.name, what));
+  };
+  if (!form) fail(fmt::format("has no lens model {}", vision::ros_name(lens.model)));
+  const auto coefficients = vision::lens_coefficients(lens.model);
+  for (std::size_t i = form->distortion_count + form->intrinsic_count; i < coefficients.size(); ++i) {
+    if (lens.distortion.at(i) == 0.0) continue;
+    fail(fmt::format("has no {} in {}-{}", coefficients[i].name, form->camera_model, form->distortion_model));
+  }
+  return *form;
 }
 
 vision::LensCamera read_lens(YamlMap& camera) {
   const std::size_t problems = camera.problems();
-  const bool is_omni = camera.choice("camera_model", {"pinhole", "omni"}) == "omni";
-  const auto intrinsics = read_intrinsics(camera, is_omni);
-  const std::string distortion = camera.text("distortion_model");
-  auto coefficients = distortion == "none" ? std::vector<double>() : camera.numbers("distortion_coeffs", 4);
-  if (is_omni && distortion != "radtan" && distortion != "none")
-    camera.reject("distortion_model", fmt::format("is '{}', which is not supported with camera_model omni; calibrate "
-                                                  "with omni-radtan",
-                                                  distortion));
+  const auto model = read_model(camera);
+  const auto [width, height] = camera.size_px("resolution");
+  if (!model) return {};
+  const auto form = *kalibr_form(*model);
+  const auto intrinsics = camera.numbers("intrinsics", form.intrinsic_count + 4);
+  const auto focal = intrinsics.begin() + static_cast<std::ptrdiff_t>(form.intrinsic_count);
+  if (camera.problems() == problems && !(focal[0] > 0.0 && focal[1] > 0.0))
+    camera.reject("intrinsics", "must have positive focal lengths");
+  const bool is_distorted = camera.text("distortion_model") != "none";
+  auto coefficients = is_distorted ? camera.numbers("distortion_coeffs", form.distortion_count)
+                                   : std::vector<double>(form.distortion_count, 0.0);
   if (camera.problems() > problems) return {};
-  if (is_omni) {
-    coefficients.resize(4, 0.0);
-    coefficients.push_back(intrinsics.xi);
-  }
+  coefficients.insert(coefficients.end(), intrinsics.begin(), focal);
   try {
-    const std::string model = is_omni ? "mei" : distortion == "none" ? "" : distortion;
-    return vision::lens_camera(model, coefficients, intrinsics.pinhole);
+    return vision::lens_camera(vision::ros_name(*model), coefficients,
+                               {focal[0], focal[1], focal[2], focal[3], width, height});
   } catch (const std::invalid_argument& error) {
     camera.reject("distortion_model", fmt::format("cannot be used: the camera {}", error.what()));
     return {};
@@ -92,22 +116,19 @@ std::string camchain_text(const std::vector<NamedCamera>& cameras) {
   std::string text;
   for (std::size_t i = 0; i < cameras.size(); ++i) {
     const auto& [lens, camera_from_reference] = cameras[i].camera;
+    const auto form = checked_form(cameras[i]);
     const auto coefficients = vision::ros_coefficients(lens);
-    const bool is_unknown =
-        lens.model == LensModel::kRational || (lens.model == LensModel::kPlumbBob && coefficients[4] != 0.0);
-    if (is_unknown)
-      throw CalibrationError(fmt::format(
-          "{}: Kalibr's radtan has neither k3 nor a rational polynomial; recalibrate without them", cameras[i].name));
-    const bool is_omni = lens.model == LensModel::kMei;
+    const auto intrinsics = coefficients.begin() + static_cast<std::ptrdiff_t>(form.distortion_count);
+    const auto end = intrinsics + static_cast<std::ptrdiff_t>(form.intrinsic_count);
     text += fmt::format("cam{}:\n", i);
     if (i > 0)
       text += "  T_cn_cnm1:\n" + rows_of(camera_from_reference * cameras[i - 1].camera.camera_from_reference.inverse());
     const auto& p = lens.pinhole;
     text += fmt::format("  camera_model: {}\n  distortion_model: {}\n  distortion_coeffs: [{:.12g}]\n",
-                        is_omni ? "omni" : "pinhole", lens.model == LensModel::kEquidistant ? "equidistant" : "radtan",
-                        fmt::join(coefficients.begin(), coefficients.begin() + 4, ", "));
-    text += fmt::format("  intrinsics: [{}{:.12g}, {:.12g}, {:.12g}, {:.12g}]\n  resolution: [{}, {}]\n",
-                        is_omni ? fmt::format("{:.12g}, ", lens.xi) : "", p.fx, p.fy, p.cx, p.cy, p.width, p.height);
+                        form.camera_model, form.distortion_model, fmt::join(coefficients.begin(), intrinsics, ", "));
+    text += fmt::format("  intrinsics: [{:.12g}{}{:.12g}, {:.12g}, {:.12g}, {:.12g}]\n  resolution: [{}, {}]\n",
+                        fmt::join(intrinsics, end, ", "), form.intrinsic_count > 0 ? ", " : "", p.fx, p.fy, p.cx, p.cy,
+                        p.width, p.height);
     text += fmt::format("  rostopic: /{}/image_raw\n", cameras[i].name);
   }
   return text;

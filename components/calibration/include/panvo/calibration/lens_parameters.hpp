@@ -9,7 +9,7 @@
 
 namespace panvo::calibration {
 
-/// The calibrated parameters of a lens, in this order: fx fy cx cy (px), distortion coefficients, xi for kMei.
+/// The calibrated parameters of a lens, in this order: fx fy cx cy (px), the coefficients of the model.
 std::vector<std::string> lens_parameter_names(vision::LensModel model);
 Eigen::VectorXd lens_parameters(const vision::LensCamera& lens);
 

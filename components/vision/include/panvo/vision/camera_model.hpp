@@ -10,11 +10,7 @@ namespace panvo::vision {
 
 /// Projection of a raw camera and its inverse, limited to the field of view in which the model is valid. Directions are
 /// in the optical frame (X right, Y down, Z forward); wide lenses also see directions with Z < 0. Pixel centres lie at
-/// integer coordinates.
-///
-/// A direction at angle theta from the axis has the radius tan(theta) [perspective], theta
-/// [Kannala2006, as OpenCV's fisheye] or sin(theta) / (cos(theta) + xi) [Mei2007] in the normalised image, before
-/// distortion.
+/// integer coordinates. The lens models are in lens_models/, their list is lens_models.hpp.
 class CameraModel {
  public:
   /// `field_of_view_rad`: full angle; 0: as far as the model is invertible. Throws std::invalid_argument, with a text
@@ -35,13 +31,6 @@ class CameraModel {
   const LensCamera& camera() const { return camera_; }
 
  private:
-  bool is_perspective() const;
-  double radius(double theta_rad) const;
-  double model_limit_rad() const;
-  double fold_rad() const;
-  Eigen::Vector2d distort(const Eigen::Vector2d& ideal, Eigen::Matrix2d* jacobian) const;
-  Eigen::Vector2d first_guess(const Eigen::Vector2d& distorted) const;
-  std::optional<Eigen::Vector2d> undistort(const Eigen::Vector2d& distorted) const;
   void check_numbers() const;
   void check_borders() const;
 
