@@ -80,14 +80,17 @@ $(dataset_layouts)"
 
 # show_all: uses the variables of verb_main.
 show_all() {
-  ensure_built panvo_programs
-  use_plugins
   if [[ -n $dataset ]]; then
+    ensure_built panvo_demo
+    use_plugins
     play_and_show "$dataset" "$out"
   elif [[ -z $full ]]; then
-    dataset=$(simulated_dataset short "${seed:-4}" "${effects:-all}")
+    simulate_while_building short "${seed:-4}" "${effects:-all}"
+    use_plugins
     play_and_show "$dataset" "$out"
   else
+    ensure_built panvo_demo
+    use_plugins
     library=(--set "landmark_store.file=$out/places.sqlite")
     for route in dataset_i dataset_ii; do
       dataset=$(simulated_dataset "$route" "${seed:-1}" "${effects:-none}")
@@ -95,6 +98,20 @@ show_all() {
       earlier=(--earlier "$dataset")
     done
   fi
+}
+
+# simulate_while_building ROUTE SEED EFFECTS: sets `dataset` to the simulated drive. It is rendered during the rest of the build; its messages
+# wait in a file until the build ends, because two progress lines do not fit on one terminal.
+simulate_while_building() {
+  local renderer log=$out/simulation.log
+  ensure_built panvo_simulate
+  simulated_dataset "$@" >"$out/.dataset" 2>"$log" &
+  renderer=$!
+  ensure_built panvo_demo
+  tail --pid="$renderer" -s 0.2 -n +1 -f -- "$log" >&2
+  wait "$renderer" || exit 1
+  dataset=$(<"$out/.dataset")
+  rm -f -- "$out/.dataset" "$log"
 }
 
 # play_and_show DATASET OUT [OPTION...]: runs the system on a recording and prints the results.

@@ -88,7 +88,6 @@ TEST_F(CameraInfoFile, KeepsEveryLensInItsFile) {
     const auto back = info.lens();
     EXPECT_EQ(back.model, lens.model);
     EXPECT_EQ(back.distortion, lens.distortion);
-    EXPECT_EQ(back.xi, lens.xi);
     EXPECT_EQ(back.pinhole.fx, pinhole.fx);
     EXPECT_EQ(back.pinhole.fy, pinhole.fy);
     EXPECT_EQ(back.pinhole.cx, pinhole.cx);
