@@ -4,6 +4,8 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "panvo/vision/grey.hpp"
+
 namespace panvo::landmark_builder {
 namespace {
 
@@ -14,12 +16,7 @@ constexpr double kForget = 0.97;    // decay of the sums per step
 
 cv::Mat detail(const cv::Mat& view) {
   cv::Mat grey, smooth, result;
-  if (view.channels() == 3) {
-    cv::cvtColor(view, grey, cv::COLOR_BGR2GRAY);
-  } else {
-    grey = view;
-  }
-  grey.convertTo(grey, CV_32F);
+  vision::to_grey(view).convertTo(grey, CV_32F);
   cv::blur(grey, smooth, {9, 9});
   cv::subtract(grey, smooth, result);
   return result;

@@ -7,6 +7,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "panvo/landmarks/panorama_check.hpp"
+#include "panvo/vision/grey.hpp"
 
 namespace panvo::landmark_builder {
 namespace {
@@ -16,11 +17,10 @@ constexpr double kKeepPath_m = 35.0;  // a junction is returned only after it is
 constexpr double kNearNeighbour_m = 0.5;
 const cv::Size kThumbnail(540, 270);
 
-cv::Mat to_grey(const cv::Mat& image) {
-  if (image.channels() == 1) return image.clone();
-  cv::Mat grey;
-  cv::cvtColor(image, grey, cv::COLOR_BGR2GRAY);
-  return grey;
+/// Grey levels that outlive the image, whose pixels belong to a message.
+cv::Mat kept_grey(const cv::Mat& image) {
+  cv::Mat grey = vision::to_grey(image);
+  return grey.data == image.data ? grey.clone() : grey;
 }
 
 }  // namespace
@@ -60,7 +60,7 @@ std::vector<landmarks::PanoramicLandmark> LandmarkBuilder::step(const PosedPanor
 
 void LandmarkBuilder::keep(const PosedPanorama& panorama) {
   if (!kept_.empty() && travelled_m_ - kept_.back().travelled_m < kKeepStep_m) return;
-  Kept kept{panorama.stamp_ns, to_grey(panorama.image), {}, panorama.odom_from_base, panorama.covariance, travelled_m_};
+  Kept kept{panorama.stamp_ns, kept_grey(panorama.image), {}, panorama.odom_from_base, panorama.covariance, travelled_m_};
   if (parameters_.thumbnail_quality > 0) cv::resize(panorama.image, kept.thumbnail, kThumbnail, 0, 0, cv::INTER_AREA);
   kept_.push_back(std::move(kept));
   while (travelled_m_ - kept_.front().travelled_m > kKeepPath_m) kept_.pop_front();

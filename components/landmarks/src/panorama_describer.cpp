@@ -8,17 +8,11 @@
 #include <utility>
 
 #include "panvo/landmarks/panorama_check.hpp"
+#include "panvo/vision/grey.hpp"
 #include "panvo/vision/intensity_histogram.hpp"
 
 namespace panvo::landmarks {
 namespace {
-
-cv::Mat to_grey(const cv::Mat& image) {
-  if (image.channels() == 1) return image;
-  cv::Mat grey;
-  cv::cvtColor(image, grey, cv::COLOR_BGR2GRAY);
-  return grey;
-}
 
 /// The band of a panorama, prepared for either description.
 struct Band {
@@ -31,7 +25,7 @@ struct Band {
     const int last_row = basis.first_row + basis.large.band().height;
     const bool is_of_size = panorama.cols == DescriptionBasis::kColumns;  // only the band needs conversion to grey
     const cv::Mat all = is_of_size ? panorama.rowRange(basis.first_row, last_row) : to_described_size(panorama);
-    grey = is_of_size ? to_grey(all) : all.rowRange(basis.first_row, last_row);
+    grey = is_of_size ? vision::to_grey(all) : all.rowRange(basis.first_row, last_row);
     grey = vision::prepare_band(grey);
     images = vision::CyclicIntegralImages(grey, std::max(basis.large.widest(), basis.small.widest()));
     normalisation = vision::BandNormalisation::of(grey, images);
@@ -79,7 +73,7 @@ DescriptionParameters DescriptionParameters::paper() {
 
 cv::Mat to_described_size(const cv::Mat& panorama) {
   const cv::Size size(DescriptionBasis::kColumns, DescriptionBasis::kRows);
-  cv::Mat grey = to_grey(panorama);
+  cv::Mat grey = vision::to_grey(panorama);
   if (grey.size() != size) {
     cv::Mat resized;
     cv::resize(grey, resized, size, 0.0, 0.0, cv::INTER_AREA);

@@ -11,6 +11,7 @@
 
 #include "compass_method.hpp"
 #include "panvo/vision/equirectangular.hpp"
+#include "panvo/vision/grey.hpp"
 #include "panvo/vision/image_check.hpp"
 #include "panvo/vision/panorama_cover.hpp"
 
@@ -21,13 +22,6 @@ constexpr int kMinColumns = 256;                       // px: below, the smalles
 constexpr double kViewTop = 0.25, kViewBottom = 0.55;  // checked rows: 45 degrees above to 9 below the horizon
 // Front, rear, left and right must be visible: else sideways motion is mistaken for a turn.
 constexpr double kMaxCovered = 1.0 / 3.0;
-
-cv::Mat to_grey(const cv::Mat& image) {
-  if (image.channels() == 1) return image;
-  cv::Mat grey;
-  cv::cvtColor(image, grey, cv::COLOR_BGR2GRAY);
-  return grey;
-}
 
 void check(const CompassParameters& parameters) {
   const auto demand = [](bool met, const char* what) {
@@ -77,9 +71,9 @@ BandCutter BandCutter::between(double top_deg, double bottom_deg) {
 }
 
 cv::Mat BandCutter::cut(const cv::Mat& panorama) const {
-  if (panorama.cols == kColumns) return to_grey(panorama.rowRange(first_row, first_row + rows));
+  if (panorama.cols == kColumns) return vision::to_grey(panorama.rowRange(first_row, first_row + rows));
   cv::Mat resized;
-  cv::resize(to_grey(panorama), resized, cv::Size(kColumns, kRows), 0.0, 0.0, cv::INTER_AREA);
+  cv::resize(vision::to_grey(panorama), resized, cv::Size(kColumns, kRows), 0.0, 0.0, cv::INTER_AREA);
   return resized.rowRange(first_row, first_row + rows);
 }
 
