@@ -25,6 +25,21 @@ struct Options {
   double radius_m = 8.5;
 };
 
+void print_score(const JunctionScore& score) {
+  for (const auto& visit : score.visits) {
+    if (visit.detections == 1 || visit.is_cut) continue;
+    std::printf("visit of junction %d, %lld to %lld ns, nearest %.1f m: %s\n", visit.junction,
+                static_cast<long long>(visit.from_ns), static_cast<long long>(visit.to_ns), visit.nearest_m,
+                visit.detections == 0 ? "missed" : "found more than once");
+  }
+  for (const auto& wrong : score.wrong) {
+    std::printf("false: %lld at (%.1f, %.1f)\n", static_cast<long long>(wrong.nearest_stamp_ns),
+                wrong.centre_in_odom.x(), wrong.centre_in_odom.y());
+  }
+  std::printf("%d found, %d missed, %zu false: precision %.3f, recall %.3f\n", score.found, score.missed,
+              score.wrong.size(), score.precision(), score.recall());
+}
+
 int run(const Options& options) {
   const JourneyRecording recording = read_journey_recording(options.dataset);
   const auto panoramas = panoramas_as_stamped(recording);
@@ -72,20 +87,8 @@ int run(const Options& options) {
   std::sort(times_ms.begin(), times_ms.end());
   std::printf("%zu panoramas, %zu junctions; time per panorama: median %.2f ms, 95 %% %.2f ms\n", times_ms.size(),
               detections.size(), times_ms[times_ms.size() / 2], times_ms[times_ms.size() * 95 / 100]);
-  if (recording.places.empty()) return 0;
-  const JunctionScore score = score_junctions(panoramas, recording.places, detections, options.radius_m);
-  for (const auto& visit : score.visits) {
-    if (visit.detections == 1 || visit.is_cut) continue;
-    std::printf("visit of junction %d, %lld to %lld ns, nearest %.1f m: %s\n", visit.junction,
-                static_cast<long long>(visit.from_ns), static_cast<long long>(visit.to_ns), visit.nearest_m,
-                visit.detections == 0 ? "missed" : "found more than once");
-  }
-  for (const auto& wrong : score.wrong) {
-    std::printf("false: %lld at (%.1f, %.1f)\n", static_cast<long long>(wrong.nearest_stamp_ns),
-                wrong.centre_in_odom.x(), wrong.centre_in_odom.y());
-  }
-  std::printf("%d found, %d missed, %zu false: precision %.3f, recall %.3f\n", score.found, score.missed,
-              score.wrong.size(), score.precision(), score.recall());
+  if (!recording.places.empty())
+    print_score(score_junctions(panoramas, recording.places, detections, options.radius_m));
   return 0;
 }
 

@@ -55,82 +55,87 @@ LandmarkMatch LandmarkMatcher::search(const PanoramaFrame& frame, const landmark
                                       const landmarks::LandmarkLibrary& library) {
   LandmarkMatch match;
   match.stamp_ns = frame.stamp_ns;
+  const auto ended = [&match](const char* reason) {
+    match.reason = reason;
+    return match;
+  };
   auto near = candidates(frame, library);
   match.candidates = static_cast<int>(near.size());
-  if (near.empty()) {
-    match.reason = "no landmark near the position";
-    return match;
-  }
-
-  {
-    const vision::Stage stage(observer_, "histogram");
-    for (auto& candidate : near) {
-      candidate.histogram_distance = histogram_distance(query, candidate.landmark->description);
-    }
-    match.kept_after_histogram = keep(near, [&](const Candidate& candidate) {
-      return candidate.histogram_distance <= parameters_.max_histogram_distance;
-    });
-  }
-  if (near.empty()) {
-    match.reason = "no candidate has a similar histogram";
-    return match;
-  }
-
-  {
-    const vision::Stage stage(observer_, "large_scale");
-    for (auto& candidate : near) candidate.large = match_large_scale(query, candidate.landmark->description);
-    match.kept_after_large = keep(
-        near, [&](const Candidate& candidate) { return candidate.large.distance <= parameters_.max_large_distance; });
-    const auto most = std::min(near.size(), static_cast<std::size_t>(parameters_.max_verified));
-    std::partial_sort(near.begin(), near.begin() + static_cast<std::ptrdiff_t>(most), near.end(),
-                      [](const Candidate& a, const Candidate& b) {
-                        return std::pair(a.large.distance, a.landmark->id) <
-                               std::pair(b.large.distance, b.landmark->id);
-                      });
-    near.resize(most);
-  }
-  if (near.empty()) {
-    match.reason = "no candidate is similar at the large scale";
-    return match;
-  }
-
-  {
-    const vision::Stage stage(observer_, "small_scale");
-    for (auto& candidate : near) {
-      candidate.small = search_heading(query, candidate.landmark->description, candidate.large.heading_rad);
-    }
-    std::stable_sort(near.begin(), near.end(),
-                     [](const Candidate& a, const Candidate& b) { return a.small.distance < b.small.distance; });
-  }
-  const auto tell = [&](const Candidate& candidate) {
-    match.landmark_id = candidate.landmark->id;
-    match.heading_rad = candidate.small.heading_rad;
-    match.histogram_distance = candidate.histogram_distance;
-    match.large_distance = candidate.large.distance;
-    match.small_distance = candidate.small.distance;
+  if (near.empty()) return ended("no landmark near the position");
+  match.kept_after_histogram = keep_similar_histograms(query, near);
+  if (near.empty()) return ended("no candidate has a similar histogram");
+  match.kept_after_large = keep_similar_at_large_scale(query, near);
+  if (near.empty()) return ended("no candidate is similar at the large scale");
+  sort_by_small_scale(query, near);
+  describe(near.front(), match);
+  const auto is_similar = [&](const Candidate& candidate) {
+    return candidate.small.distance <= parameters_.max_small_distance;
   };
-  tell(near.front());
-  if (keep(near, [&](const Candidate& candidate) {
-        return candidate.small.distance <= parameters_.max_small_distance;
-      }) == 0) {
-    match.reason = "no candidate is similar at the small scale";
-    return match;
-  }
+  if (keep(near, is_similar) == 0) return ended("no candidate is similar at the small scale");
+  verify(frame, library, near, match);
+  return match;
+}
 
+int LandmarkMatcher::keep_similar_histograms(const landmarks::QueryDescription& query,
+                                             std::vector<Candidate>& near) const {
+  const vision::Stage stage(observer_, "histogram");
+  for (auto& candidate : near) {
+    candidate.histogram_distance = histogram_distance(query, candidate.landmark->description);
+  }
+  return keep(near, [&](const Candidate& candidate) {
+    return candidate.histogram_distance <= parameters_.max_histogram_distance;
+  });
+}
+
+int LandmarkMatcher::keep_similar_at_large_scale(const landmarks::QueryDescription& query,
+                                                 std::vector<Candidate>& near) const {
+  const vision::Stage stage(observer_, "large_scale");
+  for (auto& candidate : near) candidate.large = match_large_scale(query, candidate.landmark->description);
+  const int similar = keep(
+      near, [&](const Candidate& candidate) { return candidate.large.distance <= parameters_.max_large_distance; });
+  const auto most = std::min(near.size(), static_cast<std::size_t>(parameters_.max_verified));
+  std::partial_sort(near.begin(), near.begin() + static_cast<std::ptrdiff_t>(most), near.end(),
+                    [](const Candidate& a, const Candidate& b) {
+                      return std::pair(a.large.distance, a.landmark->id) < std::pair(b.large.distance, b.landmark->id);
+                    });
+  near.resize(most);
+  return similar;
+}
+
+void LandmarkMatcher::sort_by_small_scale(const landmarks::QueryDescription& query,
+                                          std::vector<Candidate>& near) const {
+  const vision::Stage stage(observer_, "small_scale");
+  for (auto& candidate : near) {
+    candidate.small = search_heading(query, candidate.landmark->description, candidate.large.heading_rad);
+  }
+  std::stable_sort(near.begin(), near.end(),
+                   [](const Candidate& a, const Candidate& b) { return a.small.distance < b.small.distance; });
+}
+
+void LandmarkMatcher::describe(const Candidate& candidate, LandmarkMatch& match) {
+  match.landmark_id = candidate.landmark->id;
+  match.heading_rad = candidate.small.heading_rad;
+  match.histogram_distance = candidate.histogram_distance;
+  match.large_distance = candidate.large.distance;
+  match.small_distance = candidate.small.distance;
+}
+
+void LandmarkMatcher::verify(const PanoramaFrame& frame, const landmarks::LandmarkLibrary& library,
+                             const std::vector<Candidate>& near, LandmarkMatch& match) {
   auto keypoints = keypoints_of(frame.panorama);
+  match.state = MatchState::kRejected;
   for (const auto& candidate : near) {
     const vision::Stage stage(observer_, "verify");
     auto found = estimate_panorama_pose(keypoints, library.keypoints(candidate.landmark->id),
                                         candidate.large.heading_rad, parameters_.pose);
     if (!found.pose) {
-      if (match.reason.empty()) {
-        match.reason = fmt::format("landmark {}: {}", candidate.landmark->id, found.reason);
-        match.inliers = found.inliers;
-        match.weak_pose = std::move(found.weak_pose);
-      }
+      if (!match.reason.empty()) continue;  // the first candidate is the most similar one
+      match.reason = fmt::format("landmark {}: {}", candidate.landmark->id, found.reason);
+      match.inliers = found.inliers;
+      match.weak_pose = std::move(found.weak_pose);
       continue;
     }
-    tell(candidate);
+    describe(candidate, match);
     match.weak_pose.reset();
     match.state = MatchState::kLocked;
     match.reason = fmt::format("{} of {} points agree", found.inliers, found.matches);
@@ -140,10 +145,8 @@ LandmarkMatch LandmarkMatcher::search(const PanoramaFrame& frame, const landmark
     lock_ =
         Lock{match.landmark_id, match.heading_rad, match, match.small_distance, frame.travelled_m, frame.stamp_ns, {}};
     lock_->pass = {{{frame.travelled_m, match.small_distance}}, std::move(keypoints)};
-    return match;
+    return;
   }
-  match.state = MatchState::kRejected;
-  return match;
 }
 
 LandmarkMatch LandmarkMatcher::follow(const PanoramaFrame& frame, const landmarks::QueryDescription& query,

@@ -147,6 +147,16 @@ class LandmarkMatcher {
   LandmarkMatch follow(const PanoramaFrame& frame, const landmarks::QueryDescription& query,
                        const landmarks::LandmarkLibrary& library);
   std::vector<Candidate> candidates(const PanoramaFrame& frame, const landmarks::LandmarkLibrary& library) const;
+  /// Levels of the search, cheapest first. The first two return how many candidates were similar enough; of the second,
+  /// only the most similar ones remain.
+  int keep_similar_histograms(const landmarks::QueryDescription& query, std::vector<Candidate>& near) const;
+  int keep_similar_at_large_scale(const landmarks::QueryDescription& query, std::vector<Candidate>& near) const;
+  void sort_by_small_scale(const landmarks::QueryDescription& query, std::vector<Candidate>& near) const;
+  /// Locks the first candidate whose geometry agrees; without one the match is rejected.
+  void verify(const PanoramaFrame& frame, const landmarks::LandmarkLibrary& library, const std::vector<Candidate>& near,
+              LandmarkMatch& match);
+  /// Enters a candidate and its distances in the result.
+  static void describe(const Candidate& candidate, LandmarkMatch& match);
   bool is_left(std::uint32_t id, double travelled_m) const;
   std::vector<landmarks::Keypoint> keypoints_of(const cv::Mat& panorama) const;
 
