@@ -2,9 +2,11 @@
 #include "options.hpp"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <iostream>
+#include <utility>
 
 #include "panvo/runtime/errors.hpp"
 
@@ -17,6 +19,31 @@ void use_keystore(const std::string& keystore, const std::string& enclave) {
   setenv("ROS_SECURITY_ENABLE", "true", 1);
   setenv("ROS_SECURITY_STRATEGY", "Enforce", 1);
   if (!enclave.empty()) setenv("ROS_SECURITY_ENCLAVE_OVERRIDE", enclave.c_str(), 1);
+}
+
+/// Adds a component that publishes the calibration, beside the stereo rectifier and with its topic names. Throws
+/// ConfigError if there is no rectifier.
+void add_calibration(const RunOptions& options, runtime::SystemDescription& system) {
+  runtime::ComponentDescription calibration;
+  calibration.package = "panvo_stereo_rectifier";
+  calibration.plugin = "StereoCalibrationComponent";
+  calibration.name = "stereo_calibration";
+  calibration.where = {"--calibration", 0};
+  const auto folder = std::filesystem::absolute(options.calibration).string();
+  calibration.parameters["folder"] = {{folder}, false, calibration.where};
+  for (auto& container : system.containers) {
+    auto& components = container.components;
+    const auto rectifier = std::find_if(components.begin(), components.end(), [](const auto& component) {
+      return component.plugin == "StereoRectifierComponent";
+    });
+    if (rectifier == components.end()) continue;
+    calibration.name_space = rectifier->name_space;
+    calibration.remaps = rectifier->remaps;
+    components.insert(rectifier, std::move(calibration));
+    return;
+  }
+  throw runtime::ConfigError("--calibration: " + options.system_file +
+                             " has no StereoRectifierComponent that needs it");
 }
 
 }  // namespace
@@ -38,6 +65,10 @@ std::optional<int> RunOptions::parse(int argc, char** argv, RunOptions& options)
       app.add_option("--dataset", options.dataset,
                      "play this data set: EuRoC/ASL, KITTI odometry, or left/right folders with a calibration");
   app.add_option("--bag", options.bag, "play this bag: a rosbag2 folder, or one .db3 or .mcap file")->excludes(dataset);
+  app.add_option("--calibration", options.calibration,
+                 "folder with left.yaml and right.yaml: the calibration of stereo images without camera_info")
+      ->check(CLI::ExistingDirectory)
+      ->excludes(dataset);
   app.add_option("--out", options.out, "write trajectories, timing.json, summary.json and run.log to this folder");
   app.add_flag("--overwrite", options.overwrite, "let --out replace files that are not from a run");
   auto* replay = app.add_flag("--replay", options.replay,
@@ -127,6 +158,7 @@ runtime::SystemDescription describe_system(const RunOptions& options) {
     add_player("panvo_dataset_player", "DatasetPlayerComponent", "dataset_player", "--dataset", options.dataset);
   }
   if (!options.bag.empty()) add_player("panvo_recorder", "BagPlayerComponent", "bag_player", "--bag", options.bag);
+  if (!options.calibration.empty()) add_calibration(options, system);
   for (const auto& setting : options.settings) runtime::apply_setting(system, setting);
   return system;
 }

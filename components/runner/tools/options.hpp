@@ -22,6 +22,7 @@ struct RunOptions {
   std::string system_file;
   std::map<std::string, std::string> arguments;  // name:=value
   std::string dataset, bag, out;
+  std::string calibration;  // folder, for stereo images without camera_info
   bool overwrite = false;  // replace files in `out` that are not from a run
   bool replay = false;
   double rate = 0;
