@@ -135,6 +135,13 @@ TEST_P(RecordedTopics, RecordedTwiceAreTheSameBagMessageForMessage) {
   EXPECT_EQ(compared.status, 0) << compared.output;
 }
 
+TEST_P(RecordedTopics, UnderNamesThatNobodyReadsAreNoticed) {
+  const Finished played = play("idle", {"--replay", "--set", "bag_player.topics=[/tf_static]"});
+  EXPECT_EQ(played.status, 1) << played.output;
+  EXPECT_THAT(played.output, testing::HasSubstr("received nothing on /stereo/left/"));
+  EXPECT_THAT(played.output, testing::HasSubstr("`panvo bag info " + bag_ + "`"));
+}
+
 INSTANTIATE_TEST_SUITE_P(, RecordedTopics, testing::Values("rendered", "kitti_03"),
                          [](const auto& name) { return name.param; });
 

@@ -7,6 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "panvo/recorder/input_proposal.hpp"
+
 namespace panvo::recorder {
 namespace {
 
@@ -52,6 +54,19 @@ std::vector<BagTopic> sorted_topics(const BagReader& bag) {
   return topics;
 }
 
+/// How to play the bag in a system, and what it lacks.
+std::string describe_inputs(const BagReader& bag) {
+  const auto proposal = propose_inputs(bag.metadata().topics);
+  if (!proposal.has_stereo) return {};
+  std::string text = proposal.has_panorama ? "panvo run enhanced_vo" : "panvo run stereo";
+  text += " --bag " + bag.path().string();
+  if (!proposal.has_camera_info) text += " --calibration FOLDER";
+  if (proposal.is_compressed) text += " compressed:=true";
+  for (const auto& rename : proposal.renames)
+    text += " \\\n" + std::string(21, ' ') + "-r " + rename.recorded + ":=" + rename.read_as;
+  return text;
+}
+
 }  // namespace
 
 std::string describe_as_text(const BagReader& bag) {
@@ -86,6 +101,7 @@ std::string describe_as_text(const BagReader& bag) {
   if (metadata.topics.empty()) {
     line(label, "-");
   }
+  if (const auto inputs = describe_inputs(bag); !inputs.empty()) line("Play with:", inputs);
   return text;
 }
 
@@ -119,6 +135,13 @@ std::string describe_as_json(const BagReader& bag) {
                               {"transient_local", latched},
                               {"dropped", dropped_messages(metadata, topic.name)}});
   }
+  const auto proposal = propose_inputs(metadata.topics);
+  json["inputs"] = {{"stereo", proposal.has_stereo},
+                    {"camera_info", proposal.has_camera_info},
+                    {"panorama", proposal.has_panorama},
+                    {"compressed", proposal.is_compressed},
+                    {"renames", nlohmann::ordered_json::object()}};
+  for (const auto& rename : proposal.renames) json["inputs"]["renames"][rename.recorded] = rename.read_as;
   json["custom_data"] = metadata.custom_data;
   json["warnings"] = bag.warnings();
   return json.dump(2) + "\n";

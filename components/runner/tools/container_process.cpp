@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "container_process.hpp"
 
+#include <fmt/ranges.h>
 #include <sys/resource.h>
 
 #include <atomic>
 #include <chrono>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <set>
 
 #include "await_peers.hpp"
 #include "console.hpp"
@@ -117,6 +120,23 @@ std::vector<std::string> find_nothing(const RunOptions& options, const Container
   return problems;
 }
 
+/// Logs the components that received nothing from a bag, as when its topics have other names.
+void log_idle(const std::string& bag, const Container& container, Console& console) {
+  std::map<std::string, std::vector<std::string>> inputs;  // by component
+  std::set<std::string> active;
+  for (const auto& queue : container.queue_counters()) {
+    inputs[queue.component].push_back(queue.input);
+    if (queue.received > 0) active.insert(queue.component);
+  }
+  for (const auto& [component, topics] : inputs) {
+    if (active.contains(component)) continue;
+    console.log(LogLevel::kWarning, component,
+                fmt::format("received nothing on {}; `panvo bag info {}` shows the topics of the bag and how to rename "
+                            "them",
+                            fmt::join(topics, ", "), bag));
+  }
+}
+
 /// Logs the messages that each input dropped; returns their sum.
 std::uint64_t log_dropped(const Container& container, Console& console) {
   std::uint64_t dropped = 0;
@@ -159,6 +179,7 @@ ExitStatus conclude(const RunOptions& options, const Container& container, RunFi
       console.log(LogLevel::kWarning, "container", problem);
       problems.push_back(std::move(problem));
     }
+    if (!options.bag.empty()) log_idle(options.bag, container, console);
   }
   const ExitStatus status = is_interrupted     ? interrupted_by(signal)
                             : problems.empty() ? ExitStatus::kOk

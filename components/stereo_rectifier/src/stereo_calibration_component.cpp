@@ -21,7 +21,7 @@ namespace panvo::stereo_rectifier {
 struct CalibrationParameters {
   std::string folder;
   std::string base_frame = "base_link";
-  std::vector<double> mount;
+  std::vector<double> mount, panorama_mount;
 
   template <class Field>
   static void describe(Field&& field) {
@@ -31,23 +31,21 @@ struct CalibrationParameters {
     field(&P::mount, "mount", "m, deg",
           "pose of the left camera on the vehicle, published on /tf_static: x y z yaw pitch roll, of a camera that "
           "looks forward; empty: another node publishes it");
+    field(&P::panorama_mount, "panorama_mount", "m, deg",
+          "the same for the panoramic camera: of a panorama whose centre looks forward");
   }
 };
 
 /// Publishes the calibration of a stereo pair for images that come without camera_info, as in many bags:
-/// stereo/{left,right}/image_raw -> stereo/{left,right}/camera_info with the same stamp and frame, and /tf_static.
+/// stereo/{left,right}/image_raw -> stereo/{left,right}/camera_info with the same stamp and frame; panorama/image too ->
+/// /tf_static.
 class StereoCalibrationComponent final : public runtime::Component {
  public:
   explicit StereoCalibrationComponent(runtime::Context& context)
       : context_(context), parameters_(context.parameters<CalibrationParameters>()) {
     const auto pair = read_pair();
-    if (!parameters_.mount.empty()) {
-      if (parameters_.mount.size() != 6) {
-        throw runtime::ConfigError(fmt::format("{}: parameter mount has {} numbers; it needs x y z yaw pitch roll",
-                                               context.name(), parameters_.mount.size()));
-      }
-      transforms_.emplace(context.output(topics::kTfStatic));
-    }
+    place(topics::kStereoLeftImageRaw, "mount", parameters_.mount);
+    place(topics::kPanorama, "panorama_mount", parameters_.panorama_mount);
     serve(topics::kStereoLeftImageRaw, topics::kStereoLeftCameraInfo,
           conversions::left_camera(pair.calibration, pair.rectified));
     serve(topics::kStereoRightImageRaw, topics::kStereoRightCameraInfo,
@@ -55,6 +53,8 @@ class StereoCalibrationComponent final : public runtime::Component {
   }
 
  private:
+  using ImagePtr = std::shared_ptr<const sensor_msgs::msg::Image>;
+
   calibration_files::CalibratedStereo read_pair() const {
     using calibration_files::Rectification;
     if (parameters_.folder.empty()) {
@@ -74,32 +74,39 @@ class StereoCalibrationComponent final : public runtime::Component {
 
   void serve(const interfaces::Topic<sensor_msgs::msg::Image>& image,
              const interfaces::Topic<sensor_msgs::msg::CameraInfo>& info, const conversions::PairedCamera& camera) {
-    auto output = context_.output(info);
-    const bool is_left = info.name == topics::kStereoLeftCameraInfo.name;
-    context_.input(image,
-                   [this, output, camera, is_left](const std::shared_ptr<const sensor_msgs::msg::Image>& raw) mutable {
-                     const std::int64_t stamp_ns = conversions::stamp_ns(*raw);
-                     const auto& frame = raw->header().frame_id();
-                     if (is_left) publish_mount(stamp_ns, frame);
-                     output.publish(conversions::to_camera_info(camera, stamp_ns, frame));
-                   });
+    context_.input(image, [output = context_.output(info), camera](const ImagePtr& raw) mutable {
+      output.publish(conversions::to_camera_info(camera, conversions::stamp_ns(*raw), raw->header().frame_id()));
+    });
   }
 
-  void publish_mount(std::int64_t stamp_ns, const std::string& frame) {
-    if (!transforms_ || frame == published_frame_) return;
-    published_frame_ = frame;
-    const auto& m = parameters_.mount;
-    const calibration_files::Mount mount{{m[0], m[1], m[2]}, m[3], m[4], m[5]};
-    tf2_msgs::msg::TFMessage message;
-    message.transforms().push_back(conversions::to_static_transform(stamp_ns, parameters_.base_frame, frame,
-                                                                    calibration_files::base_from_camera(mount)));
-    transforms_->publish(std::move(message));
+  /// Publishes the pose of a camera, whose frame its first image names.
+  void place(const interfaces::Topic<sensor_msgs::msg::Image>& image, const char* name,
+             const std::vector<double>& mount) {
+    if (mount.empty()) return;
+    if (mount.size() != 6) {
+      throw runtime::ConfigError(fmt::format("{}: parameter {} has {} numbers; it needs x y z yaw pitch roll",
+                                             context_.name(), name, mount.size()));
+    }
+    const Eigen::Isometry3d base_from_camera =
+        calibration_files::base_from_camera({.position_m = {mount[0], mount[1], mount[2]},
+                                             .yaw_deg = mount[3],
+                                             .pitch_deg = mount[4],
+                                             .roll_deg = mount[5]});
+    if (!transforms_) transforms_.emplace(context_.output(topics::kTfStatic));
+    context_.input(image, [this, base_from_camera, placed = std::string()](const ImagePtr& raw) mutable {
+      const auto& frame = raw->header().frame_id();
+      if (frame == placed) return;
+      placed = frame;
+      message_.transforms().push_back(conversions::to_static_transform(
+          conversions::stamp_ns(*raw), parameters_.base_frame, frame, base_from_camera));
+      transforms_->publish(message_);  // all of them, because the topic keeps one message for late readers
+    });
   }
 
   runtime::Context& context_;
   const CalibrationParameters parameters_;
   std::optional<runtime::Output<tf2_msgs::msg::TFMessage>> transforms_;
-  std::string published_frame_;
+  tf2_msgs::msg::TFMessage message_;
 };
 
 PANVO_REGISTER_COMPONENT(StereoCalibrationComponent)

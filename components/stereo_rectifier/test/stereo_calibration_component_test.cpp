@@ -84,6 +84,18 @@ TEST_F(StereoCalibration, TellsOnceWhereTheLeftCameraIsMounted) {
   EXPECT_TRUE((base_from_camera->linear() * Eigen::Vector3d::UnitZ()).isApprox(Eigen::Vector3d::UnitY(), 1e-12));
 }
 
+TEST_F(StereoCalibration, TellsWhereBothCamerasAreMounted) {
+  load({{"mount", "[0.5, 0.1, 1.2, 0, 0, 0]"}, {"panorama_mount", "[0, 0, 1.9, 0, 0, 0]"}});
+  publish_image(topics::kStereoLeftImageRaw, 1, "cam0");
+  publish_image(topics::kPanorama, 2, "pano");
+  ASSERT_THAT(transforms_, SizeIs(2));
+  conversions::TransformBuffer buffer;
+  EXPECT_THAT(buffer.add_static(*transforms_[1]), IsEmpty());  // a late reader gets only the last message
+  ASSERT_TRUE(buffer.lookup("base_link", "cam0"));
+  ASSERT_TRUE(buffer.lookup("base_link", "pano"));
+  EXPECT_EQ(buffer.lookup("base_link", "pano")->translation().z(), 1.9);
+}
+
 TEST_F(StereoCalibration, WithoutFilesIsRefusedWithTheRemedy) {
   std::filesystem::remove(folder_ / "right.yaml");
   try {
