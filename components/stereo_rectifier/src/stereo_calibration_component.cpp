@@ -97,6 +97,7 @@ class StereoCalibrationComponent final : public runtime::Component {
       const auto& frame = raw->header().frame_id();
       if (frame == placed) return;
       placed = frame;
+      std::erase_if(message_.transforms(), [&](const auto& known) { return known.child_frame_id() == frame; });
       message_.transforms().push_back(conversions::to_static_transform(
           conversions::stamp_ns(*raw), parameters_.base_frame, frame, base_from_camera));
       transforms_->publish(message_);  // all of them, because the topic keeps one message for late readers
