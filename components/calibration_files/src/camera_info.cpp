@@ -2,9 +2,11 @@
 #include "panvo/calibration_files/camera_info.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <stdexcept>
+#include <string_view>
 
 #include "panvo/calibration_files/write_file.hpp"
 #include "panvo/calibration_files/yaml_map.hpp"
@@ -24,6 +26,12 @@ void read_camera_matrix(YamlMap& map, CameraInfo& info) {
     map.reject("camera_matrix", "must have positive focal lengths; calibrate the camera");
 }
 
+std::vector<std::string_view> lens_names() {
+  std::vector<std::string_view> names;
+  for (const auto model : vision::kLensModels) names.push_back(vision::ros_name(model));
+  return names;
+}
+
 void read_distortion(YamlMap& map, CameraInfo& info) {
   info.distortion_model = map.text("distortion_model", "");
   info.distortion_coefficients = map.numbers("distortion_coefficients");
@@ -31,7 +39,7 @@ void read_distortion(YamlMap& map, CameraInfo& info) {
   const auto& coefficients = info.distortion_coefficients;
   const bool is_distorted = std::any_of(coefficients.begin(), coefficients.end(), [](double k) { return k != 0.0; });
   if (info.distortion_model.empty() && is_distorted)
-    map.reject("distortion_model", "is missing; add it: plumb_bob, rational_polynomial, equidistant or mei");
+    map.reject("distortion_model", fmt::format("is missing; add it: {}", fmt::join(lens_names(), ", ")));
 }
 
 /// P of a single camera: without rectification.

@@ -16,16 +16,16 @@ constexpr double kSureDirection_rad = 0.006;
 
 void AlignmentNotices::report_clock(const ClockOffset& clock) {
   const bool is_sure = std::sqrt(clock.variance_s2()) < kSureOffset_s;
-  if (has_told_offset_ || !is_sure || std::abs(clock.estimate_s()) <= kNotableOffset_s) return;
-  has_told_offset_ = true;
+  if (has_reported_offset_ || !is_sure || std::abs(clock.estimate_s()) <= kNotableOffset_s) return;
+  has_reported_offset_ = true;
   log_.warn("the panoramic camera's clock is {:.0f} ms {} the stereo camera's; compensated",
             1000.0 * std::abs(clock.estimate_s()), clock.estimate_s() > 0.0 ? "ahead of" : "behind");
 }
 
 void AlignmentNotices::report_direction(const DirectionOffset& offset) {
   const bool is_sure = offset.is_measured() && std::sqrt(offset.variance_rad2()) < kSureDirection_rad;
-  if (has_told_direction_ || !is_sure || std::abs(offset.estimate_rad()) <= kNotableDirection_rad) return;
-  has_told_direction_ = true;
+  if (has_reported_direction_ || !is_sure || std::abs(offset.estimate_rad()) <= kNotableDirection_rad) return;
+  has_reported_direction_ = true;
   log_.warn(
       "panoramas show a driving direction {:.1f} deg farther to the {} than stereo odometry: one of the cameras "
       "is rotated relative to /tf_static, and the position is uncertain accordingly",
@@ -34,8 +34,8 @@ void AlignmentNotices::report_direction(const DirectionOffset& offset) {
 
 void AlignmentNotices::report_mounting(const ExtrinsicsMonitor& mounting) {
   const auto misalignment = mounting.misalignment();
-  if (!misalignment || has_told_mounting_) return;
-  has_told_mounting_ = true;
+  if (!misalignment || has_reported_mounting_) return;
+  has_reported_mounting_ = true;
   constexpr double kDegrees = 180.0 / std::numbers::pi;
   if (misalignment->is_turned) {
     log_.warn(

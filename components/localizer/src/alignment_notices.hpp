@@ -18,9 +18,9 @@ class AlignmentNotices {
 
  private:
   const runtime::Logger& log_;
-  bool has_told_offset_ = false;
-  bool has_told_direction_ = false;
-  bool has_told_mounting_ = false;
+  bool has_reported_offset_ = false;
+  bool has_reported_direction_ = false;
+  bool has_reported_mounting_ = false;
 };
 
 }  // namespace panvo::localizer

@@ -57,13 +57,13 @@ Localizer::Localizer(const Parameters& parameters)
       dead_reckoning_(parameters.motion, parameters.gap_s),
       graph_(parameters.start_sigma_m, parameters.start_sigma_deg * kDegree) {}
 
-OdometryOutcome Localizer::add(const OdometryPose& told) {
+OdometryOutcome Localizer::add(const OdometryPose& received) {
   const auto refused = [](std::string reason) { return OdometryOutcome{.reason = std::move(reason)}; };
-  if (const auto fault = fault_of(told.odom_from_base, told.covariance)) return refused(*fault);
-  if (!chain_.empty() && told.stamp_ns <= chain_.latest().pose.stamp_ns) {
+  if (const auto fault = fault_of(received.odom_from_base, received.covariance)) return refused(*fault);
+  if (!chain_.empty() && received.stamp_ns <= chain_.latest().pose.stamp_ns) {
     return refused("has a stamp not later than the previous one");
   }
-  const auto taken = origin_.take(told);
+  const auto taken = origin_.take(received);
   if (!taken.odometry) return refused(taken.reason);
   const OdometryPose& odometry = *taken.odometry;
   const double doubt = std::min(1.0, odometry.outlier_share / parameters_.doubtful_outlier_share);
@@ -196,7 +196,7 @@ LocalizedPose Localizer::localized(const OdometryPose& odometry) const {
   pose.covariance = here.covariance;
   pose.odom_from_base = smooth_;
   pose.map_from_odom = here.map_from_base * smooth_.inverse();
-  tell_state(pose);
+  set_state(pose);
   return pose;
 }
 
@@ -217,7 +217,7 @@ vision::Matrix6d Localizer::common_covariance(const Eigen::Vector3d& position) c
   return covariance;
 }
 
-void Localizer::tell_state(LocalizedPose& pose) const {
+void Localizer::set_state(LocalizedPose& pose) const {
   const auto tell = [&](State state, std::string reason) {
     pose.state = state;
     pose.reason = std::move(reason);

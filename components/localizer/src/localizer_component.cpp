@@ -79,7 +79,7 @@ class LocalizerComponent final : public runtime::Component {
   static constexpr double kUnlocatedFor_m = 500.0;  // by then a mapped place should have been passed
 
   void take_joined() {
-    while (const auto next = join_.next(context_.passing_ns(), is_quality_told())) {
+    while (const auto next = join_.next(context_.passing_ns(), is_quality_published())) {
       if (next->lacks_quality) {
         context_.log().warn_throttled("no quality", "{} has no {} with the same stamp: only its covariance is used",
                                       context_.resolved_name(topics::kOdometryBinocular),
@@ -89,7 +89,7 @@ class LocalizerComponent final : public runtime::Component {
     }
   }
 
-  bool is_quality_told() const { return join_.has_quality() || context_.has_publisher(topics::kOdometryQuality); }
+  bool is_quality_published() const { return join_.has_quality() || context_.has_publisher(topics::kOdometryQuality); }
 
   /// The odometry's clock was set back: shifts all stored stamps.
   void set_clock_back(std::int64_t back_ns) {
@@ -121,11 +121,11 @@ class LocalizerComponent final : public runtime::Component {
       }
       set_clock_back(back_ns);
     }
-    const OdometryPose told{stamp_ns, *pose, conversions::to_matrix(message.pose().covariance()), joined.is_reliable,
-                            joined.outlier_share};
+    const OdometryPose received{stamp_ns, *pose, conversions::to_matrix(message.pose().covariance()),
+                                joined.is_reliable, joined.outlier_share};
     {
       const vision::Stage stage(&timer_, "localize");
-      const auto outcome = localizer_.add(told);
+      const auto outcome = localizer_.add(received);
       if (!outcome.is_taken) return refuse(context_.resolved_name(topics::kOdometryBinocular), outcome.reason);
       if (outcome.has_begun_anew) {
         context_.log().warn("{} restarted from another origin: the pose in the map continues",
@@ -141,8 +141,8 @@ class LocalizerComponent final : public runtime::Component {
       work_off();
     }
     const auto& localized = localizer_.latest();
-    tell_pose(true);
-    tell_paths(stamp_ns, *pose);
+    publish_pose(true);
+    publish_paths(stamp_ns, *pose);
     last_pose_.keep(localized, message.twist().twist());
     if (localized.state == State::kUnlocated && localizer_.way_m() > kUnlocatedFor_m) {
       context_.log().warn_throttled(
@@ -173,7 +173,7 @@ class LocalizerComponent final : public runtime::Component {
     }
     context_.log().info("{}: position set to ({:.1f}, {:.1f}) m in {}", context_.resolved_name(topics::kInitialPose),
                         pose->translation().x(), pose->translation().y(), parameters_.map_frame);
-    tell_pose();
+    publish_pose();
   }
 
   /// Landmarks stamped before the journey come from a store; the others were built from a panorama of this journey.
@@ -224,7 +224,7 @@ class LocalizerComponent final : public runtime::Component {
           context_.resolved_name(topics::kOdometryBinocular));
     }
     work_off();
-    if (has_learned_ || (last_odometry_ && publisher_.is_notable(localizer_.latest()))) tell_pose();
+    if (has_learned_ || (last_odometry_ && publisher_.is_notable(localizer_.latest()))) publish_pose();
   }
 
   void work_off() {
@@ -269,7 +269,7 @@ class LocalizerComponent final : public runtime::Component {
       const Eigen::Vector3d moved =
           correction.map_from_base_after.translation() - correction.map_from_base_before.translation();
       context_.log().info("landmark {} seen: position corrected by {:.2f} m", sighting.landmark_id, moved.norm());
-      tell_landmarks(sighting.stamp_ns);
+      publish_landmarks(sighting.stamp_ns);
       has_learned_ = true;
     } else if (correction.kind == CorrectionKind::kRejected) {
       context_.log().warn_throttled(fmt::format("landmark {} not believed", sighting.landmark_id),
@@ -280,18 +280,18 @@ class LocalizerComponent final : public runtime::Component {
 
   void take(const Built& built) {
     if (localizer_.add_built(built.id, built.stamp_ns)) {
-      tell_landmarks(built.stamp_ns);
+      publish_landmarks(built.stamp_ns);
     } else {
       context_.log().warn_throttled("landmark without odometry", "landmark {}: no odometry stored for its stamp",
                                     built.id);
     }
   }
 
-  void tell_landmarks(std::int64_t stamp_ns) {
+  void publish_landmarks(std::int64_t stamp_ns) {
     poses_.publish(to_message(localizer_.landmarks(), stamp_ns, parameters_.map_frame));
   }
 
-  void tell_paths(std::int64_t stamp_ns, const Eigen::Isometry3d& stereo) {
+  void publish_paths(std::int64_t stamp_ns, const Eigen::Isometry3d& stereo) {
     if (path_binocular_.add(stamp_ns, stereo)) {
       path_binocular_output_.publish(path_binocular_.message(parameters_.odom_frame));
     }
@@ -300,8 +300,8 @@ class LocalizerComponent final : public runtime::Component {
     }
   }
 
-  void tell_pose(bool is_of_new_odometry = false) {
-    publisher_.tell_pose(localizer_, *last_odometry_, is_of_new_odometry);
+  void publish_pose(bool is_of_new_odometry = false) {
+    publisher_.publish_pose(localizer_, *last_odometry_, is_of_new_odometry);
     has_learned_ = false;
   }
 

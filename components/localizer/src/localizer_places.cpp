@@ -27,15 +27,15 @@ constexpr double kDriftRatio = 0.03;  // two landmarks agree within the drift be
 
 }  // namespace
 
-Correction Localizer::add(const LandmarkSighting& told) {
+Correction Localizer::add(const LandmarkSighting& received) {
   Correction correction;
   const auto rejected = [&](std::string reason) {
     correction.kind = CorrectionKind::kRejected;
     correction.reason = std::move(reason);
     return correction;
   };
-  if (const auto fault = fault_of(told.landmark_from_base, told.covariance)) return rejected(*fault);
-  const LandmarkSighting sighting = with_uncertain_clock(told);
+  if (const auto fault = fault_of(received.landmark_from_base, received.covariance)) return rejected(*fault);
+  const LandmarkSighting sighting = with_uncertain_clock(received);
   const auto at = chain_.at(in_odometry_time(sighting.stamp_ns));
   if (!at) return rejected("no odometry stored for that time");
   const auto landmark = graph_.landmark(sighting.landmark_id);

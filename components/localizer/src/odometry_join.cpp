@@ -31,7 +31,7 @@ void OdometryJoin::add(std::shared_ptr<const nav_msgs::msg::Odometry> odometry, 
   waiting_.push_back({std::move(odometry), now_ns});
 }
 
-std::optional<OdometryJoin::Joined> OdometryJoin::next(std::int64_t now_ns, bool is_told) {
+std::optional<OdometryJoin::Joined> OdometryJoin::next(std::int64_t now_ns, bool is_quality_published) {
   if (waiting_.empty()) return std::nullopt;
   const std::int64_t stamp_ns = conversions::stamp_ns(*waiting_.front().odometry);
   Joined joined{.odometry = waiting_.front().odometry};
@@ -39,7 +39,7 @@ std::optional<OdometryJoin::Joined> OdometryJoin::next(std::int64_t now_ns, bool
     joined.is_reliable = own->second.is_reliable;
     joined.outlier_share = own->second.outlier_share;
     qualities_.erase(qualities_.begin(), std::next(own));
-  } else if (is_told && lacking_ < kMaxMissing) {
+  } else if (is_quality_published && lacking_ < kMaxMissing) {
     // Topics keep their order: a later quality means that this one was lost.
     const bool is_lost = qualities_.upper_bound(stamp_ns) != qualities_.end();
     const bool is_patient = waiting_.size() <= kMaxWaiting && now_ns - waiting_.front().since_ns < kPatience_ns;

@@ -26,8 +26,8 @@ class OdometryJoin {
   void add(const panvo_msgs::msg::OdometryQuality& quality);
   void add(std::shared_ptr<const nav_msgs::msg::Odometry> odometry, std::int64_t now_ns);
 
-  /// The next odometry message that need not wait any longer. `is_told`: the quality has a publisher.
-  std::optional<Joined> next(std::int64_t now_ns, bool is_told);
+  /// The next odometry message that need not wait any longer. `is_quality_published`: it has a publisher.
+  std::optional<Joined> next(std::int64_t now_ns, bool is_quality_published);
 
   /// Whether any quality has been received.
   bool has_quality() const noexcept { return has_quality_; }

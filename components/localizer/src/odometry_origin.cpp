@@ -7,8 +7,8 @@
 
 namespace panvo::localizer {
 
-OdometryOrigin::Taken OdometryOrigin::take(const OdometryPose& told) {
-  const Place here{told.stamp_ns, told.odom_from_base};
+OdometryOrigin::Taken OdometryOrigin::take(const OdometryPose& received) {
+  const Place here{received.stamp_ns, received.odom_from_base};
   Taken taken;
   if (last_ && !is_within_reach(*last_, here)) {
     const bool agrees = elsewhere_ && is_within_reach(*elsewhere_, here);
@@ -18,14 +18,14 @@ OdometryOrigin::Taken OdometryOrigin::take(const OdometryPose& told) {
       taken.reason = fmt::format("moves faster than fusion.max_speed_m_s ({:.0f} m/s)", max_speed_m_s_);
       return taken;
     }
-    odom_from_told_ = latest_.odom_from_base * told.odom_from_base.inverse();
+    odom_from_received_ = latest_.odom_from_base * received.odom_from_base.inverse();
     covariance_before_ = latest_.covariance;
     taken.is_new_origin = true;
   }
   last_ = here;
   elsewhere_.reset();
   run_ = 0;
-  latest_ = continued(told);
+  latest_ = continued(received);
   if (taken.is_new_origin) latest_.is_reliable = false;
   taken.odometry = latest_;
   return taken;
@@ -42,11 +42,12 @@ bool OdometryOrigin::is_within_reach(const Place& from, const Place& to) const {
   return way_m <= kSlack_m + max_speed_m_s_ * 1e-9 * static_cast<double>(to.stamp_ns - from.stamp_ns);
 }
 
-OdometryPose OdometryOrigin::continued(const OdometryPose& told) const {
-  if (!odom_from_told_) return told;
-  OdometryPose odometry = told;
-  odometry.odom_from_base = *odom_from_told_ * told.odom_from_base;
-  odometry.covariance = covariance_before_ + vision::rotate_covariance(odom_from_told_->linear(), told.covariance);
+OdometryPose OdometryOrigin::continued(const OdometryPose& received) const {
+  if (!odom_from_received_) return received;
+  OdometryPose odometry = received;
+  odometry.odom_from_base = *odom_from_received_ * received.odom_from_base;
+  odometry.covariance =
+      covariance_before_ + vision::rotate_covariance(odom_from_received_->linear(), received.covariance);
   return odometry;
 }
 

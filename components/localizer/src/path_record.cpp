@@ -18,8 +18,8 @@ bool PathRecord::add(std::int64_t stamp_ns, const Eigen::Isometry3d& frame_from_
     poses_.resize(kept);
     step_m_ *= 2.0;
   }
-  if (told_ns_ && static_cast<double>(std::abs(stamp_ns - *told_ns_)) < period_s_ * 1e9) return false;
-  told_ns_ = stamp_ns;
+  if (published_ns_ && static_cast<double>(std::abs(stamp_ns - *published_ns_)) < period_s_ * 1e9) return false;
+  published_ns_ = stamp_ns;
   return true;
 }
 

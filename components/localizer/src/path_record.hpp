@@ -34,7 +34,7 @@ class PathRecord {
   const double period_s_;
   const std::size_t max_poses_;
   std::vector<Pose> poses_;
-  std::optional<std::int64_t> told_ns_;
+  std::optional<std::int64_t> published_ns_;
 };
 
 }  // namespace panvo::localizer

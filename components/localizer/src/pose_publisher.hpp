@@ -25,7 +25,7 @@ class PosePublisher {
 
   /// Publishes the latest pose. As subscribers treat two poses of one stamp as the same, updates between two odometry
   /// messages are stamped one nanosecond after the last pose; they do not end the state stale.
-  void tell_pose(const Localizer& localizer, const nav_msgs::msg::Odometry& stereo, bool is_of_new_odometry);
+  void publish_pose(const Localizer& localizer, const nav_msgs::msg::Odometry& stereo, bool is_of_new_odometry);
 
   /// Whether the pose has changed so much since it was published that it should not wait for the next odometry.
   bool is_notable(const LocalizedPose& now) const;
@@ -35,25 +35,25 @@ class PosePublisher {
   void tick(const Localizer& localizer, double silence_s, std::int64_t now_ns);
 
   /// To be called after a clock change: the next pose may have an earlier stamp.
-  void forget_stamps() { told_stamp_ns_.reset(); }
+  void forget_stamps() { published_stamp_ns_.reset(); }
 
  private:
-  void tell_state(const LocalizedPose& pose, std::int64_t since_ns);
-  void tell_integrity(const LocalizedPose& pose, const Localizer& localizer);
+  void publish_state(const LocalizedPose& pose, std::int64_t since_ns);
+  void publish_integrity(const LocalizedPose& pose, const Localizer& localizer);
 
   const std::string odometry_topic_;  // as remapped
   const runtime::Logger& log_;
   const ComponentParameters& parameters_;
-  runtime::Output<nav_msgs::msg::Odometry> odometry_;
+  runtime::Output<nav_msgs::msg::Odometry> enhanced_;
   runtime::Output<tf2_msgs::msg::TFMessage> tf_;
   runtime::Output<panvo_msgs::msg::LocalizationState> state_;
   runtime::Output<panvo_msgs::msg::Integrity> integrity_;
 
-  std::optional<State> told_state_;
+  std::optional<State> published_state_;
   std::int64_t state_since_ns_ = 0;
   int ticks_since_state_ = 0;
-  std::optional<std::int64_t> told_stamp_ns_;
-  Eigen::Isometry3d told_map_from_base_ = Eigen::Isometry3d::Identity();
+  std::optional<std::int64_t> published_stamp_ns_;
+  Eigen::Isometry3d published_map_from_base_ = Eigen::Isometry3d::Identity();
 };
 
 }  // namespace panvo::localizer

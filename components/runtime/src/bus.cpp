@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "gate.hpp"
+#include "message_check.hpp"
 #include "panvo/runtime/errors.hpp"
 #include "panvo/runtime/graph.hpp"
 

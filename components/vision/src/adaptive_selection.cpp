@@ -102,6 +102,7 @@ Gaussian fit_gaussian(std::span<const float> samples) {
   return {mean, std::sqrt(square / static_cast<double>(samples.size()))};
 }
 
+// [Lu2015 Eq. 7]
 double hellinger_distance(const Gaussian& a, const Gaussian& b) {
   const double variances = a.deviation * a.deviation + b.deviation * b.deviation;
   const double apart = a.mean - b.mean;

@@ -15,7 +15,7 @@ namespace panvo::vision {
 RectificationMap::RectificationMap(const LensCamera& raw, const Eigen::Matrix3d& rectified_from_raw,
                                    const PinholeCamera& rectified)
     : raw_size_(raw.pinhole.width, raw.pinhole.height) {
-  if (raw.model == LensModel::kPlumbBob) {
+  if (raw.model == LensModel::kPlumbBob) {  // a faster way to the same map; every other lens takes the general one
     map_perspective(raw, rectified_from_raw, rectified);
   } else {
     map_wide(raw, rectified_from_raw, rectified);

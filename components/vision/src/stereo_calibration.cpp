@@ -77,6 +77,7 @@ RectifiedStereo rectify(const StereoCalibration& calibration) {
   }
   const auto& [left, right, right_from_left] = calibration;
   if (is_rectified(calibration)) return {left.pinhole, -right_from_left.translation().x()};
+  // OpenCV's method knows plumb_bob only; every other lens takes the general one
   if (left.model != LensModel::kPlumbBob || right.model != LensModel::kPlumbBob) return rectify_view(calibration);
   const Eigen::Matrix<double, 3, 3, Eigen::RowMajor> rotation = right_from_left.linear();
   const Eigen::Vector3d translation = right_from_left.translation();

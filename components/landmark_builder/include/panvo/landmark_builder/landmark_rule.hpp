@@ -47,6 +47,7 @@ class LandmarkRule {
   /// a landmark without a junction.
   bool is_due(double travelled_m) const;
 
+  /// Id of the next landmark: the largest known one, also of earlier journeys, plus 1.
   std::uint32_t next_id() const { return positions_.empty() ? 1 : positions_.rbegin()->first + 1; }
   bool has(std::uint32_t id) const { return positions_.contains(id); }
 

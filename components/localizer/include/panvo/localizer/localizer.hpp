@@ -78,7 +78,7 @@ class Localizer {
 
   /// Poses in order of stamps. Without effect: a stamp not later than the last, a pose with a fault (fault_of), or one
   /// that no vehicle can reach (OdometryOrigin).
-  OdometryOutcome add(const OdometryPose& told);
+  OdometryOutcome add(const OdometryPose& received);
 
   AzimuthUse add(const AzimuthMeasurement& azimuth);
 
@@ -96,7 +96,7 @@ class Localizer {
   /// stored.
   bool add_built(std::uint32_t id, std::int64_t stamp_ns);
 
-  Correction add(const LandmarkSighting& told);
+  Correction add(const LandmarkSighting& received);
 
   /// External pose of the vehicle at a time (odometry clock); variances of 0 mean unknown. If the vehicle was
   /// localised, it means that the vehicle was moved. Returns false, without effect, if odometry of that time is no
@@ -145,7 +145,7 @@ class Localizer {
 
   std::int64_t in_odometry_time(std::int64_t panorama_stamp_ns) const;
   LocalizedPose localized(const OdometryPose& odometry) const;
-  void tell_state(LocalizedPose& pose) const;
+  void set_state(LocalizedPose& pose) const;
   PoseInMap expected(const OdometryPose& odometry) const;
   vision::Matrix6d common_covariance(const Eigen::Vector3d& position) const;
   Verdict judge(const LandmarkSighting& sighting, const KnownLandmark& landmark, const OdometrySample& at) const;

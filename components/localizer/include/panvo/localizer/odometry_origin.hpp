@@ -25,7 +25,7 @@ class OdometryOrigin {
   };
 
   /// Precondition: stamps increase.
-  Taken take(const OdometryPose& told);
+  Taken take(const OdometryPose& received);
 
   /// Shifts all stamps back.
   void set_clock_back(std::int64_t by_ns);
@@ -37,7 +37,7 @@ class OdometryOrigin {
   };
 
   bool is_within_reach(const Place& from, const Place& to) const;
-  OdometryPose continued(const OdometryPose& told) const;
+  OdometryPose continued(const OdometryPose& received) const;
 
   static constexpr int kRun = 5;           // consecutive messages that agree on another place
   static constexpr double kSlack_m = 5.0;  // for stamp jitter of tens of milliseconds at 50 m/s
@@ -45,7 +45,7 @@ class OdometryOrigin {
   const double max_speed_m_s_;
   std::optional<Place> last_, elsewhere_;  // as received: last accepted, and last rejected since
   int run_ = 0;
-  std::optional<Eigen::Isometry3d> odom_from_told_;  // nullopt: identical
+  std::optional<Eigen::Isometry3d> odom_from_received_;  // nullopt: identical
   vision::Matrix6d covariance_before_ = vision::Matrix6d::Zero();
   OdometryPose latest_;  // as returned
 };

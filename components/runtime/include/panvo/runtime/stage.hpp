@@ -14,7 +14,7 @@ class StageQueue {
   virtual void push(std::any item) = 0;
 };
 
-/// A component's second stage, see Context::stage.
+/// A component's second stage: live on a thread of its own, in replay in sequence. See Context::stage.
 template <class Item>
 class Stage {
  public:

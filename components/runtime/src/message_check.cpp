@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "gate.hpp"
+#include "message_check.hpp"
 
 #include <spdlog/fmt/fmt.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Invalid messages are detected before delivery.
-#include "gate.hpp"
+#include "message_check.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
