@@ -9,12 +9,6 @@
 
 namespace panvo::binocular_odometry {
 
-/// Observations of one point in two consecutive frames.
-struct FramePair {
-  Observation previous;
-  Observation current;
-};
-
 /// Common error of all disparities (px), caused by a residual rotation between the cameras. Static points move in
 /// proportion to their true disparity, so near and far points reveal the offset while the camera moves. One-state
 /// Kalman filter, estimated together with the motion between two frames.

@@ -112,6 +112,11 @@ class MotionStage::Implementation {
       pairs.previous.push_back(*known);
       pairs.current.push_back(seen);
     }
+    for (const auto& [previous, current] : frame.matches) {
+      pairs.points.push_back({previous.pixel - offset, current.pixel - offset, true, vote(0)});
+      pairs.previous.push_back(previous);
+      pairs.current.push_back(current);
+    }
     return pairs;
   }
 
@@ -120,7 +125,8 @@ class MotionStage::Implementation {
     Pairs pairs = pair_up(frame);
     const auto consensus = [&] {
       const Stage stage(observer_, "ransac");
-      const std::array guesses{expected, Eigen::Isometry3d::Identity()};
+      // In a sharp turn the expected motion is far off, and triples of distant points give no other that is near enough.
+      const std::array guesses{frame.current_from_previous.value_or(expected), expected, Eigen::Isometry3d::Identity()};
       return estimate_motion(stereo_, pairs.points, guesses, parameters_);
     }();
     quality.inliers = consensus ? consensus->inliers : 0;

@@ -10,6 +10,7 @@
 
 #include "coarse_motion.hpp"
 #include "coarse_turn.hpp"
+#include "descriptor_motion.hpp"
 #include "disparity_offset.hpp"
 #include "front_end.hpp"
 #include "host_frame.hpp"
@@ -42,9 +43,9 @@ struct TrackingState {
   TrackingState(const vision::PinholeCamera& camera, const vision::StereoMatcher& aligned)
       : alignment(camera), matcher(aligned) {}
 
-  std::vector<Track> tracks;                         // ascending id
-  std::int64_t next_id = 1;                          // of a track
-  std::shared_ptr<const vision::ImagePyramid> left;  // null before the first good frame
+  std::vector<Track> tracks;             // ascending id
+  std::int64_t next_id = 1;              // of a track
+  std::optional<StereoPyramids> images;  // nullopt before the first good frame
   std::int64_t stamp_ns = 0;
   std::int64_t interval_ns = kUsualInterval_ns;                      // to the good frame before
   Eigen::Isometry3d odom_from_left = Eigen::Isometry3d::Identity();  // dead reckoning, to predict where features are
@@ -65,6 +66,7 @@ struct Arrivals {
 /// Tracks of the last good frame in the next one, and the motion between the two.
 struct Followed {
   std::vector<Track> tracks;
+  std::vector<FramePair> matches;  // by descriptors, if the tracks could not be followed
   Eigen::Isometry3d current_from_previous = Eigen::Isometry3d::Identity();
   bool is_measured = false;  // false: predicted only, without tracks
   DisparityOffset offset;
@@ -98,6 +100,7 @@ class TrackingStage::Implementation {
         observer_(observer),
         swap_check_(stereo.camera, disparity_range(stereo, parameters_), parameters_.min_correlation),
         front_end_(make_front_end(parameters_)),
+        descriptor_motion_(stereo, motion_parameters_),
         cell_px_(static_cast<int>(std::ceil(
             std::sqrt(static_cast<double>(stereo.camera.width) * stereo.camera.height / parameters_.max_features)))),
         arrivals_(stereo.camera),
@@ -128,13 +131,15 @@ class TrackingStage::Implementation {
     if (!result.fault.empty()) return result;
 
     for (const Track& track : tracks) result.observations.push_back(track.seen);
+    if (followed.is_measured) result.current_from_previous = followed.current_from_previous;
+    result.matches = apart_from_tracks(std::move(followed.matches), tracks);
     align_cameras(host.row_errors());
     if (followed.is_measured) state_.motion_model.update(followed.current_from_previous, interval_ns);
     state_.offset = followed.offset;
     state_.odom_from_left = host.odom_from_current();
     state_.next_id += static_cast<std::int64_t>(tried);
     state_.tracks = std::move(tracks);
-    state_.left = images.left;
+    state_.images = images;
     state_.stamp_ns = frame.stamp_ns;
     state_.interval_ns = interval_ns;
     result.row_misalignment_px = state_.alignment.misalignment().max_row_shift_px(stereo_.camera);
@@ -171,7 +176,7 @@ class TrackingStage::Implementation {
 
   /// Time since the last good frame; after a jump back in time, the interval before it.
   std::int64_t interval_until(std::int64_t stamp_ns) const {
-    return state_.left && stamp_ns > state_.stamp_ns ? stamp_ns - state_.stamp_ns : state_.interval_ns;
+    return state_.images && stamp_ns > state_.stamp_ns ? stamp_ns - state_.stamp_ns : state_.interval_ns;
   }
 
   /// Follows the tracks of the last good frame: first some of them, in a wide area; their motion predicts the others.
@@ -184,12 +189,20 @@ class TrackingStage::Implementation {
     Eigen::Isometry3d expected = state_.motion_model.predict(interval_ns);
     Attempt attempt = try_motion(search, expected, kSeedTracks);
     if (!attempt.motion) {  // possibly a jerk: retry all tracks from the global image shift
-      expected.linear() = coarse_turn(stereo_.camera, *state_.left, *images.left);
+      expected.linear() = coarse_turn(stereo_.camera, *state_.images->left, *images.left);
       attempt = try_motion(search, expected, state_.tracks.size());
     }
     if (!attempt.motion) {  // or the predicted translation is wrong: retry without it, to recover
       const Eigen::Isometry3d turn(expected.linear());
       attempt = try_motion(search, turn, state_.tracks.size());
+    }
+    if (!attempt.motion) {  // or the frames are too far apart to follow patches: match descriptors
+      if (auto found = match_descriptors(images)) {
+        expected = found->current_from_previous;
+        attempt = try_motion(search, expected, state_.tracks.size());
+        if (!attempt.motion) attempt.motion = expected;
+        followed.matches = std::move(found->matches);
+      }
     }
     followed.current_from_previous = expected;
     if (!attempt.motion) return followed;  // no consistent motion: restart with new tracks
@@ -200,11 +213,24 @@ class TrackingStage::Implementation {
       followed.tracks =
           search.search_nearby(std::move(attempt.tracks), *attempt.motion * state_.odom_from_left.inverse());
     }
+    if (followed.matches.empty() && are_few(followed.tracks.size())) {
+      if (auto found = match_descriptors(images)) followed.matches = std::move(found->matches);
+    }
     const Stage stage(observer_, "learn_offset");
     std::vector<FramePair> points = seen_twice(state_.tracks, followed.tracks);
     std::erase_if(points, [](const FramePair& point) { return !point.current.has_disparity; });
     followed.current_from_previous = followed.offset.learn(stereo_, points, *attempt.motion);
     return followed;
+  }
+
+  std::optional<DescriptorMotion::Found> match_descriptors(const StereoPyramids& images) const {
+    const Stage stage(observer_, "match_descriptors");
+    return descriptor_motion_.find(*state_.images, images, state_.matcher, state_.offset);
+  }
+
+  /// Whether few tracks are left of many, so that, with the wrong ones among them, they may not determine the motion.
+  bool are_few(std::size_t tracks) const {
+    return tracks < 3 * static_cast<std::size_t>(motion_parameters_.min_inliers) && 4 * tracks < state_.tracks.size();
   }
 
   struct Attempt {
@@ -240,6 +266,19 @@ class TrackingStage::Implementation {
     return features.size();
   }
 
+  /// Matches at the place of a track would count its point twice.
+  std::vector<FramePair> apart_from_tracks(std::vector<FramePair> matches, const std::vector<Track>& tracks) const {
+    vision::CellGrid grid(cv::Size(stereo_.camera.width, stereo_.camera.height), kCrowded_px);
+    for (const Track& track : tracks) grid.take(track.seen.pixel.head<2>());
+    std::erase_if(matches, [&](const FramePair& match) {
+      const Eigen::Vector2d pixel = match.current.pixel.head<2>();
+      if (!grid.is_free(pixel)) return true;
+      grid.take(pixel);
+      return false;
+    });
+    return matches;
+  }
+
   vision::CellGrid empty_grid() const { return {cv::Size(stereo_.camera.width, stereo_.camera.height), cell_px_}; }
 
   /// Left and right images swapped, or not of one scene.
@@ -268,6 +307,7 @@ class TrackingStage::Implementation {
   vision::StageObserver* const observer_;
   const SwapCheck swap_check_;
   const std::unique_ptr<FrontEnd> front_end_;
+  const DescriptorMotion descriptor_motion_;
   const int cell_px_;
 
   Arrivals arrivals_;

@@ -13,7 +13,7 @@ constexpr const char* kImage = "sensor_msgs/msg/Image";
 constexpr const char* kCompressedImage = "sensor_msgs/msg/CompressedImage";
 constexpr const char* kInfo = "sensor_msgs/msg/CameraInfo";
 
-BagTopic topic(const std::string& name, const std::string& type, std::uint64_t count = 100) {
+BagTopic recorded(const std::string& name, const std::string& type, std::uint64_t count = 100) {
   BagTopic result;
   result.name = name;
   result.type = type;
@@ -22,10 +22,10 @@ BagTopic topic(const std::string& name, const std::string& type, std::uint64_t c
 }
 
 TEST(InputProposal, RenamesAPairWithItsCameraInfo) {
-  const auto proposal =
-      propose_inputs({topic("/camera/infra1/image_rect_raw", kImage), topic("/camera/infra2/image_rect_raw", kImage),
-                      topic("/camera/infra1/camera_info", kInfo), topic("/camera/infra2/camera_info", kInfo),
-                      topic("/camera/depth/image_rect_raw", kImage), topic("/camera/color/image_raw", kImage)});
+  const auto proposal = propose_inputs(
+      {recorded("/camera/infra1/image_rect_raw", kImage), recorded("/camera/infra2/image_rect_raw", kImage),
+       recorded("/camera/infra1/camera_info", kInfo), recorded("/camera/infra2/camera_info", kInfo),
+       recorded("/camera/depth/image_rect_raw", kImage), recorded("/camera/color/image_raw", kImage)});
   EXPECT_TRUE(proposal.has_stereo);
   EXPECT_TRUE(proposal.has_camera_info);
   EXPECT_FALSE(proposal.has_panorama);
@@ -36,11 +36,13 @@ TEST(InputProposal, RenamesAPairWithItsCameraInfo) {
 }
 
 TEST(InputProposal, PrefersRectifiedGreyImages) {
-  const auto proposal = propose_inputs(
-      {topic("/zed/zed_node/left_raw/image_raw_color", kImage),
-       topic("/zed/zed_node/right_raw/image_raw_color", kImage), topic("/zed/zed_node/left/image_rect_color", kImage),
-       topic("/zed/zed_node/right/image_rect_color", kImage), topic("/zed/zed_node/left/image_rect_gray", kImage),
-       topic("/zed/zed_node/right/image_rect_gray", kImage), topic("/zed/zed_node/depth/depth_registered", kImage)});
+  const auto proposal = propose_inputs({recorded("/zed/zed_node/left_raw/image_raw_color", kImage),
+                                        recorded("/zed/zed_node/right_raw/image_raw_color", kImage),
+                                        recorded("/zed/zed_node/left/image_rect_color", kImage),
+                                        recorded("/zed/zed_node/right/image_rect_color", kImage),
+                                        recorded("/zed/zed_node/left/image_rect_gray", kImage),
+                                        recorded("/zed/zed_node/right/image_rect_gray", kImage),
+                                        recorded("/zed/zed_node/depth/depth_registered", kImage)});
   EXPECT_THAT(proposal.renames,
               ElementsAre(TopicRename{"/zed/zed_node/left/image_rect_gray", "/stereo/left/image_rect"},
                           TopicRename{"/zed/zed_node/right/image_rect_gray", "/stereo/right/image_rect"}));
@@ -48,9 +50,9 @@ TEST(InputProposal, PrefersRectifiedGreyImages) {
 }
 
 TEST(InputProposal, KnowsThePairOfEarlyBagsAndThePanorama) {
-  const auto proposal =
-      propose_inputs({topic("/cam0/image_raw", "sensor_msgs/Image"), topic("/cam1/image_raw", "sensor_msgs/Image"),
-                      topic("/insta360/equirectangular/image", kImage), topic("/insta360/dual_fisheye/image", kImage)});
+  const auto proposal = propose_inputs(
+      {recorded("/cam0/image_raw", "sensor_msgs/Image"), recorded("/cam1/image_raw", "sensor_msgs/Image"),
+       recorded("/insta360/equirectangular/image", kImage), recorded("/insta360/dual_fisheye/image", kImage)});
   EXPECT_THAT(proposal.renames, ElementsAre(TopicRename{"/cam0/image_raw", "/stereo/left/image_raw"},
                                             TopicRename{"/cam1/image_raw", "/stereo/right/image_raw"},
                                             TopicRename{"/insta360/equirectangular/image", "/panorama/image"}));
@@ -58,11 +60,12 @@ TEST(InputProposal, KnowsThePairOfEarlyBagsAndThePanorama) {
 }
 
 TEST(InputProposal, ReadsCompressedImagesOnlyIfTheyAreRaw) {
-  const auto proposal = propose_inputs({topic("/oak/left/image_rect/compressed", kCompressedImage),
-                                        topic("/oak/right/image_rect/compressed", kCompressedImage),
-                                        topic("/oak/left/image_raw/compressed", kCompressedImage),
-                                        topic("/oak/right/image_raw/compressed", kCompressedImage),
-                                        topic("/oak/left/camera_info", kInfo), topic("/oak/right/camera_info", kInfo)});
+  const auto proposal =
+      propose_inputs({recorded("/oak/left/image_rect/compressed", kCompressedImage),
+                      recorded("/oak/right/image_rect/compressed", kCompressedImage),
+                      recorded("/oak/left/image_raw/compressed", kCompressedImage),
+                      recorded("/oak/right/image_raw/compressed", kCompressedImage),
+                      recorded("/oak/left/camera_info", kInfo), recorded("/oak/right/camera_info", kInfo)});
   EXPECT_TRUE(proposal.is_compressed);
   EXPECT_TRUE(proposal.has_camera_info);
   ASSERT_EQ(proposal.renames.size(), 4u);
@@ -71,17 +74,18 @@ TEST(InputProposal, ReadsCompressedImagesOnlyIfTheyAreRaw) {
 
 TEST(InputProposal, LeavesPanvosOwnNamesAlone) {
   const auto proposal =
-      propose_inputs({topic("/stereo/left/image_raw", kImage), topic("/stereo/right/image_raw", kImage),
-                      topic("/stereo/left/camera_info", kInfo), topic("/stereo/right/camera_info", kInfo),
-                      topic("/panorama/image", kImage)});
+      propose_inputs({recorded("/stereo/left/image_raw", kImage), recorded("/stereo/right/image_raw", kImage),
+                      recorded("/stereo/left/camera_info", kInfo), recorded("/stereo/right/camera_info", kInfo),
+                      recorded("/panorama/image", kImage)});
   EXPECT_TRUE(proposal.has_stereo && proposal.has_camera_info && proposal.has_panorama);
   EXPECT_THAT(proposal.renames, IsEmpty());
 }
 
 TEST(InputProposal, DoesNotTakeOneCameraOrAnEmptyTopicForAPair) {
-  EXPECT_FALSE(propose_inputs({topic("/cam0/image_raw", kImage), topic("/cam1/image_raw", kImage, 0)}).has_stereo);
-  EXPECT_FALSE(propose_inputs({topic("/left/image", kImage), topic("/right/camera_info", kInfo)}).has_stereo);
-  EXPECT_FALSE(propose_inputs({topic("/leftover/image", kImage), topic("/rightover/image", kImage)}).has_stereo);
+  EXPECT_FALSE(
+      propose_inputs({recorded("/cam0/image_raw", kImage), recorded("/cam1/image_raw", kImage, 0)}).has_stereo);
+  EXPECT_FALSE(propose_inputs({recorded("/left/image", kImage), recorded("/right/camera_info", kInfo)}).has_stereo);
+  EXPECT_FALSE(propose_inputs({recorded("/leftover/image", kImage), recorded("/rightover/image", kImage)}).has_stereo);
   EXPECT_FALSE(propose_inputs({}).has_stereo);
 }
 

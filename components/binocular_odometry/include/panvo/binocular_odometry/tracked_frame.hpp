@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,16 +18,27 @@ struct Observation {
   double sigma_disparity_px = 1.0;                  ///< standard deviation of the disparity
 };
 
+/// Observations of one point in two consecutive frames.
+struct FramePair {
+  Observation previous;
+  Observation current;
+};
+
 /// Output of the tracking stage, input of the motion stage.
 struct TrackedFrame {
   std::int64_t stamp_ns = 0;
   std::vector<Observation> observations;  ///< ascending track_id
-  int detected = 0;                       ///< features in this frame, new or tracked
-  int tracked = 0;                        ///< of these, tracked from earlier frames
-  int matched = 0;                        ///< of the detected ones, also found in the right image
-  double row_misalignment_px = 0.0;       ///< current estimate of the largest row error of the right image
-  double disparity_offset_px = 0.0;       ///< current estimate of the common disparity error; not subtracted
-  std::string fault;                      ///< why the frame is unusable; empty if it is usable
+  /// Points found in the last good frame and in this one by their descriptors, after a gap over which tracks could not
+  /// be followed; mostly empty. Apart from the tracks, both disparities known; track_id is 0.
+  std::vector<FramePair> matches;
+  /// Motion between the last good frame and this one on which the tracks agree, to start from.
+  std::optional<Eigen::Isometry3d> current_from_previous;
+  int detected = 0;                  ///< features in this frame, new or tracked
+  int tracked = 0;                   ///< of these, tracked from earlier frames
+  int matched = 0;                   ///< of the detected ones, also found in the right image
+  double row_misalignment_px = 0.0;  ///< current estimate of the largest row error of the right image
+  double disparity_offset_px = 0.0;  ///< current estimate of the common disparity error; not subtracted
+  std::string fault;                 ///< why the frame is unusable; empty if it is usable
 };
 
 }  // namespace panvo::binocular_odometry
