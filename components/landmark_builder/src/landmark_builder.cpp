@@ -60,7 +60,8 @@ std::vector<landmarks::PanoramicLandmark> LandmarkBuilder::step(const PosedPanor
 
 void LandmarkBuilder::keep(const PosedPanorama& panorama) {
   if (!kept_.empty() && travelled_m_ - kept_.back().travelled_m < kKeepStep_m) return;
-  Kept kept{panorama.stamp_ns, kept_grey(panorama.image), {}, panorama.odom_from_base, panorama.covariance, travelled_m_};
+  Kept kept{panorama.stamp_ns,       kept_grey(panorama.image), {},
+            panorama.odom_from_base, panorama.covariance,       travelled_m_};
   if (parameters_.thumbnail_quality > 0) cv::resize(panorama.image, kept.thumbnail, kThumbnail, 0, 0, cv::INTER_AREA);
   kept_.push_back(std::move(kept));
   while (travelled_m_ - kept_.front().travelled_m > kKeepPath_m) kept_.pop_front();
