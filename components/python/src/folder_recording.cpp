@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include "panvo/conversions/pose.hpp"
 #include "panvo/dataset_player/image_file.hpp"
 #include "panvo/dataset_player/timeline.hpp"
 #include "recording.hpp"
@@ -11,6 +12,11 @@ namespace {
 using dataset_player::Colour;
 using dataset_player::Dataset;
 using dataset_player::TimelineEvent;
+
+/// A pose as /tf_static carries it, with the last digits of a quaternion, so that results equal those of `panvo run`.
+Eigen::Isometry3d as_transmitted(const Eigen::Isometry3d& pose) {
+  return *conversions::to_isometry(conversions::to_transform(pose));
+}
 
 class FolderReader final : public FrameReader {
  public:
@@ -72,7 +78,7 @@ class FolderRecording final : public Recording {
     notes = dataset_->notes;
     ground_truth = dataset_->ground_truth;
     if (const auto& recorded = dataset_->stereo) {
-      stereo = StereoPair{recorded->calibration, recorded->rectified, recorded->base_from_left};
+      stereo = StereoPair{recorded->calibration, recorded->rectified, as_transmitted(recorded->base_from_left)};
     }
     if (dataset_->panorama) base_from_panorama = dataset_->panorama->base_from_panorama;
   }

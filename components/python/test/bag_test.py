@@ -121,7 +121,8 @@ class Recorded(unittest.TestCase):
                 try:
                     self.assertIsInstance(message.values, dict)
                 except panvo.DecodeError as error:
-                    self.assertIn("the type", str(error), name)
+                    # Not built here, or a type of an older ROS with fewer members.
+                    self.assertRegex(str(error), "the type .* is unknown|Range: truncated or not of this type", name)
                 read += 1
             self.assertEqual(read, bag.message_count, name)
 
