@@ -5,7 +5,7 @@
     cmake --install build/release --prefix PREFIX && make_wheel.py PREFIX --out dist
     pip install dist/panvo-*.whl
 
-The wheel is for this interpreter and this distribution: the libraries of OpenCV and others stay Debian's.
+The wheel is for the interpreter that the module was built for and for this distribution: the libraries of OpenCV and others stay Debian's.
 """
 import argparse
 import base64
@@ -40,18 +40,21 @@ def version_of(prefix):
     return re.search(r"<version>([^<]+)", manifest.read_text(encoding="utf-8"))[1]
 
 
-def metadata(version):
+def metadata(version, tag):
     return {
         "METADATA": f"Metadata-Version: 2.1\nName: panvo\nVersion: {version}\nSummary: Visual odometry with drift correction\n"
                     "License: Apache-2.0\nRequires-Python: >=3.9\nRequires-Dist: numpy\n",
-        "WHEEL": f"Wheel-Version: 1.0\nGenerator: make_wheel.py\nRoot-Is-Purelib: false\nTag: {tag()}\n",
+        "WHEEL": f"Wheel-Version: 1.0\nGenerator: make_wheel.py\nRoot-Is-Purelib: false\nTag: {tag}\n",
         "top_level.txt": "panvo\n",
     }
 
 
-def tag():
-    interpreter = f"cp{sys.version_info.major}{sys.version_info.minor}"
-    return f"{interpreter}-{interpreter}-{re.sub('[-.]', '_', sysconfig.get_platform())}"
+def tag_of(module):
+    """Interpreter, binary interface and platform of a module: "cp311-cp311-linux_x86_64" of _core.cpython-311-x86_64-linux-gnu.so."""
+    interpreter = re.match(r"_core\.cpython-(\d+)-", module.name)
+    if not interpreter:
+        sys.exit(f"make_wheel: {module}: not a module for CPython")
+    return f"cp{interpreter[1]}-cp{interpreter[1]}-{re.sub('[-.]', '_', sysconfig.get_platform())}"
 
 
 def write_wheel(path, contents):
@@ -80,13 +83,13 @@ def main():
     modules = sorted((prefix / PACKAGE).glob("_core*.so"))
     if not modules:
         sys.exit(f"make_wheel: {prefix / PACKAGE}: no module _core; build with pybind11-dev, then cmake --install BUILD --prefix {prefix}")
-    version = version_of(prefix)
+    version, tag = version_of(prefix), tag_of(modules[0])
     contents = {f"panvo/{file.name}": file.read_bytes() for file in (prefix / PACKAGE).iterdir() if file.is_file()}
     for library in needed_libraries(modules[0], prefix):
         contents[f"panvo/{library.name}"] = library.read_bytes()
-    contents.update({f"panvo-{version}.dist-info/{name}": text.encode() for name, text in metadata(version).items()})
+    contents.update({f"panvo-{version}.dist-info/{name}": text.encode() for name, text in metadata(version, tag).items()})
     os.makedirs(arguments.out, exist_ok=True)
-    wheel = arguments.out / f"panvo-{version}-{tag()}.whl"
+    wheel = arguments.out / f"panvo-{version}-{tag}.whl"
     write_wheel(wheel, contents)
     print(wheel)
 

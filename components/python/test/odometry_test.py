@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Stereo odometry on made-up pairs with known motion, and its arguments."""
+import sys
 import threading
 import unittest
 
@@ -80,7 +81,21 @@ class Odometry(unittest.TestCase):
         with self.assertRaisesRegex(TypeError, "expected a dict .* not list"):
             panvo.StereoOdometry(calibration(), ["tracking"])
 
-    def test_may_be_shared_by_threads_and_lets_others_run(self):
+    def test_lets_other_threads_run(self):
+        odometry, pairs, go, ran = panvo.StereoOdometry(calibration()), [Corridor().pair(i) for i in range(2)], threading.Event(), []
+        thread = threading.Thread(target=lambda: (go.wait(), ran.append(True)))
+        self.addCleanup(sys.setswitchinterval, sys.getswitchinterval())
+        thread.start()
+        sys.setswitchinterval(1000)  # the interpreter itself does not switch
+        go.set()
+        for i in range(200):  # NumPy would let others run as well
+            odometry.track(*pairs[i % 2], 0.1 * i)
+            if ran:
+                break
+        self.assertTrue(ran)
+        thread.join()
+
+    def test_may_be_shared_by_threads(self):
         odometry, corridor, ran = panvo.StereoOdometry(calibration()), Corridor(), []
 
         def track():
