@@ -5,6 +5,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <stdexcept>
 
 #include "panvo/conversions/camera_info.hpp"
 #include "panvo/conversions/pose.hpp"
@@ -137,7 +138,8 @@ BagTopics find_topics(const recorder::BagMetadata& bag, const std::map<std::stri
     if (bag_roles().contains(role)) continue;
     std::vector<std::string> known;
     for (const auto& [other, topic] : bag_roles()) known.push_back(other);
-    throw DatasetError(fmt::format("topics: '{}' is not a role; the roles are {}", role, fmt::join(known, ", ")));
+    throw std::invalid_argument(
+        fmt::format("topics: '{}' is not a role; the roles are {}", role, fmt::join(known, ", ")));
   }
   const auto find = [&](const std::string& name) {
     return std::find_if(bag.topics.begin(), bag.topics.end(), [&](const auto& topic) { return topic.name == name; });

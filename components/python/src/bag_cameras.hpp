@@ -22,8 +22,8 @@ struct BagTopics {
   std::string role_of(const std::string& topic) const;
 };
 
-/// Finds the topics by panvo's names, or those in `given` (role to name). Throws DatasetError for an unknown role, a
-/// given topic that the bag lacks, or one of the wrong type.
+/// Finds the topics by panvo's names, or those in `given` (role to name). Throws DatasetError for a given topic
+/// that the bag lacks or one of the wrong type, std::invalid_argument for an unknown role.
 BagTopics find_topics(const recorder::BagMetadata& bag, const std::map<std::string, std::string>& given,
                       const std::filesystem::path& path);
 

@@ -9,7 +9,7 @@
 namespace panvo::python {
 
 void bind_errors(py::module_& module) {
-  static py::exception<void> base(module, "Error", PyExc_RuntimeError);
+  py::exception<void> base(module, "Error", PyExc_RuntimeError);
   base.doc() = "Unusable data; the base of panvo's exceptions. The text names file, problem and remedy.";
   // Later registrations are asked first; none of these types derives from another.
   py::register_exception<calibration_files::FileError>(module, "CalibrationError", base).doc() =

@@ -119,7 +119,7 @@ class Bag(RecordingTest):
             panvo.Recording(self.folder / "run.db3")
         with self.assertRaisesRegex(panvo.RecordingError, "has no topic /robot/c"):
             panvo.Recording(self.folder / "run.db3", topics={"left": "/robot/c"})
-        with self.assertRaisesRegex(panvo.RecordingError, "'front' is not a role"):
+        with self.assertRaisesRegex(ValueError, "topics: 'front' is not a role"):
             panvo.Recording(self.folder / "run.db3", topics={"front": "/robot/a"})
         with self.assertRaisesRegex(panvo.RecordingError, "left must be sensor_msgs/msg/Image"):
             panvo.Recording(self.folder / "run.db3", topics={"left": "/robot/a/camera_info"})
