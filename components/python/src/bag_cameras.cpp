@@ -116,14 +116,14 @@ class Survey {
 }  // namespace
 
 const std::map<std::string, std::string>& bag_roles() {
-  static const std::map<std::string, std::string> roles{{"left", absolute(topics::kStereoLeftImageRaw.name)},
-                                                        {"right", absolute(topics::kStereoRightImageRaw.name)},
-                                                        {"left_info", absolute(topics::kStereoLeftCameraInfo.name)},
-                                                        {"right_info", absolute(topics::kStereoRightCameraInfo.name)},
-                                                        {"panorama", absolute(topics::kPanorama.name)},
-                                                        {"ground_truth", absolute(topics::kGroundTruth.name)},
-                                                        {"tf_static", absolute(topics::kTfStatic.name)}};
-  return roles;
+  static const std::map<std::string, std::string> kRoles{{"left", absolute(topics::kStereoLeftImageRaw.name)},
+                                                         {"right", absolute(topics::kStereoRightImageRaw.name)},
+                                                         {"left_info", absolute(topics::kStereoLeftCameraInfo.name)},
+                                                         {"right_info", absolute(topics::kStereoRightCameraInfo.name)},
+                                                         {"panorama", absolute(topics::kPanorama.name)},
+                                                         {"ground_truth", absolute(topics::kGroundTruth.name)},
+                                                         {"tf_static", absolute(topics::kTfStatic.name)}};
+  return kRoles;
 }
 
 std::string BagTopics::role_of(const std::string& topic) const {

@@ -3,6 +3,11 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
+#include <cmath>
+#include <map>
+#include <string>
+#include <vector>
+
 #include "arrays.hpp"
 #include "bindings.hpp"
 #include "panvo/evaluation/evaluation.hpp"
@@ -36,6 +41,7 @@ template <class Value>
 Value choice(const std::string& name, const std::string& given, const std::map<std::string, Value>& choices) {
   if (const auto found = choices.find(given); found != choices.end()) return found->second;
   std::vector<std::string> names;
+  names.reserve(choices.size());
   for (const auto& [known, value] : choices) names.push_back(known);
   throw py::value_error(fmt::format("{}: expected one of {}, not '{}'", name, fmt::join(names, ", "), given));
 }

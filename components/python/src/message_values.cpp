@@ -124,7 +124,7 @@ py::dict message_values(const interfaces::MessageType& type, const std::shared_p
   const auto payload = interfaces::checked_payload(type, *bytes);
   auto kept = std::make_unique<Kept>(bytes);
   py::capsule owner(kept.get(), [](void* pointer) { delete static_cast<Kept*>(pointer); });
-  kept.release();
+  static_cast<void>(kept.release());  // the capsule owns it
   return Reader(payload, std::move(owner)).message(*type.layout);
 }
 
