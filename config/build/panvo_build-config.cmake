@@ -119,7 +119,7 @@ function(panvo_add_component target)
   endif()
 endfunction()
 
-# Command-line tools and tests run briefly: more optimisation would cost more compile time than it saves.
+# Command-line tools, tests and Python modules run briefly: more optimisation would cost more compile time than it saves.
 function(_panvo_optimise_little target)
   target_compile_options(${target} PRIVATE $<$<OR:$<CONFIG:Release>,$<CONFIG:>>:-O1>)
 endfunction()
@@ -176,6 +176,29 @@ function(panvo_add_test target)
     list(APPEND properties ENVIRONMENT ${arg_ENVIRONMENT})
   endif()
   gtest_discover_tests(${target} DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60 PROPERTIES ${properties})
+endfunction()
+
+# panvo_add_python_module(panvo_<name> PACKAGE package FILES ... SOURCES ... [LINK ...]): the compiled part _core of a Python package, and its
+# other files. Needs find_package(Python COMPONENTS Interpreter Development.Module) and pybind11. The package lies in panvo_python/ of the build
+# folder, ready to import, and is installed to lib/python3/dist-packages.
+function(panvo_add_python_module target)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "PACKAGE" "FILES;SOURCES;LINK")
+  set(folder ${CMAKE_BINARY_DIR}/panvo_python/${arg_PACKAGE})
+  pybind11_add_module(${target} MODULE NO_EXTRAS ${arg_SOURCES})
+  target_link_libraries(${target} PRIVATE ${arg_LINK})
+  _panvo_compile_settings(${target})
+  _panvo_optimise_little(${target})  # it only converts; the algorithms are in libraries
+  set_target_properties(${target} PROPERTIES OUTPUT_NAME _core LIBRARY_OUTPUT_DIRECTORY ${folder}
+    CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
+  set(destination lib/python3/dist-packages)
+  # The libraries lie in the prefix, or, in a wheel, beside the module.
+  set_property(TARGET ${target} PROPERTY INSTALL_RPATH "$ORIGIN;$ORIGIN/../../../../${CMAKE_INSTALL_LIBDIR};$ORIGIN/../../../../lib")
+  foreach(file IN LISTS arg_FILES)
+    cmake_path(GET file FILENAME name)
+    configure_file(${file} ${folder}/${name} COPYONLY)
+  endforeach()
+  install(TARGETS ${target} LIBRARY DESTINATION ${destination}/${arg_PACKAGE})
+  install(FILES ${arg_FILES} DESTINATION ${destination}/${arg_PACKAGE})
 endfunction()
 
 # panvo_add_fuzzer(<name>_fuzzer SOURCES ... [LINK ...]): a libFuzzer program, only with PANVO_FUZZ.

@@ -5,7 +5,8 @@
 #include <cstring>
 #include <string>
 
-#include "panvo/interfaces/message_type.hpp"
+#include "panvo/interfaces/message_codec.hpp"
+#include "panvo/interfaces/message_payload.hpp"
 
 namespace panvo::interfaces {
 namespace {
@@ -88,6 +89,13 @@ void clear_padding(std::string_view type_name, const CdrLayout& layout, std::spa
     std::fill(payload.begin() + static_cast<std::ptrdiff_t>(begin), payload.begin() + static_cast<std::ptrdiff_t>(end),
               std::uint8_t{0});
   }).message(layout);
+}
+
+Payload checked_payload(const MessageType& type, std::span<const std::uint8_t> bytes) {
+  const auto order = check_encapsulation(type.name, bytes);
+  const Payload payload{bytes.subspan(kEncapsulationSize), order};
+  check_cdr(type.name, *type.layout, payload.bytes, order);
+  return payload;
 }
 
 }  // namespace panvo::interfaces

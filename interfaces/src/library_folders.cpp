@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "panvo/interfaces/library_folders.hpp"
 
+#include <dlfcn.h>
+
 #include <algorithm>
 #include <cstdlib>
 #include <set>
@@ -39,6 +41,13 @@ fs::path program_folder() {
   return fs::read_symlink("/proc/self/exe", error).parent_path();
 }
 
+/// Of this library; empty if unknown.
+fs::path own_folder() {
+  Dl_info info{};
+  if (dladdr(reinterpret_cast<const void*>(&message_library_name), &info) == 0 || info.dli_fname == nullptr) return {};
+  return fs::path(info.dli_fname).parent_path();
+}
+
 }  // namespace
 
 std::vector<fs::path> folders_in(const char* variable) {
@@ -68,6 +77,11 @@ std::vector<fs::path> message_folders() {
   std::vector<fs::path> folders = folders_in("PANVO_PLUGIN_PATH");
   std::ranges::copy(library_folders(), std::back_inserter(folders));
   if (const auto folder = program_folder(); !folder.empty()) folders.push_back(folder / ".." / "panvo_plugins");
+  // For programs that are not panvo's own, such as the Python interpreter.
+  if (const auto folder = own_folder(); !folder.empty()) {
+    folders.push_back(folder);
+    folders.push_back(folder / ".." / "panvo_plugins");
+  }
   return folders;
 }
 

@@ -9,8 +9,8 @@
 #include <cstring>
 #include <string_view>
 
-#include "cdr_layout.hpp"
-#include "panvo/interfaces/message_codec.hpp"
+#include "panvo/interfaces/message_layout.hpp"
+#include "panvo/interfaces/message_payload.hpp"
 
 namespace panvo::interfaces {
 namespace {
@@ -170,9 +170,7 @@ class Printer {
 }  // namespace
 
 std::string to_yaml(const MessageType& type, std::span<const std::uint8_t> bytes, std::size_t longest) {
-  const auto order = check_encapsulation(type.name, bytes);
-  const auto payload = bytes.subspan(kEncapsulationSize);
-  check_cdr(type.name, *type.layout, payload, order);
+  const auto [payload, order] = checked_payload(type, bytes);
   Printer printer(payload, order, longest);
   printer.message(*type.layout, "");
   return printer.take();

@@ -14,7 +14,7 @@ DEBIAN = {
     "nlohmann_json": "nlohmann-json3-dev", "SQLite3": "libsqlite3-dev", "GTest": "libgtest-dev", "benchmark": "libbenchmark-dev",
     "fmt": "libfmt-dev", "CycloneDDS": "cyclonedds-dev", "PNG": "libpng-dev",
     "tinyxml2": "libtinyxml2-dev", "embree": "libembree-dev", "ZLIB": "zlib1g-dev",
-    "Python3": "python3", "Threads": "g++", "PkgConfig": "pkg-config",
+    "Python3": "python3", "Python": "python3-dev", "pybind11": "pybind11-dev", "Threads": "g++", "PkgConfig": "pkg-config",
 }
 
 

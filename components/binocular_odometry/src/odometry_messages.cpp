@@ -1,33 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "odometry_messages.hpp"
 
+#include "panvo/binocular_odometry/base_motion.hpp"
 #include "panvo/conversions/pose.hpp"
 #include "panvo/conversions/time.hpp"
 #include "panvo/vision/pose.hpp"
 
 namespace panvo::binocular_odometry {
-namespace {
-
 using vision::Matrix6d;
 using vision::Vector6d;
-
-struct UncertainPose {
-  Eigen::Isometry3d pose;
-  Matrix6d covariance;
-};
-
-/// Converts a camera motion to the motion of the vehicle.
-UncertainPose of_base(const Eigen::Isometry3d& base_from_left, const Eigen::Isometry3d& motion_of_left,
-                      const Matrix6d& covariance) {
-  const Matrix6d exact = Matrix6d::Zero();
-  const Eigen::Isometry3d base_from_moved_left = base_from_left * motion_of_left;
-  const Matrix6d moved_covariance = vision::compose_covariance(base_from_left, exact, motion_of_left, covariance);
-  const Eigen::Isometry3d left_from_base = base_from_left.inverse();
-  return {base_from_moved_left * left_from_base,
-          vision::compose_covariance(base_from_moved_left, moved_covariance, left_from_base, exact)};
-}
-
-}  // namespace
 
 nav_msgs::msg::Odometry to_odometry(const OdometryEstimate& estimate, const Eigen::Isometry3d& base_from_left,
                                     std::optional<std::int64_t> previous_stamp_ns, const std::string& odom_frame,
@@ -38,7 +19,7 @@ nav_msgs::msg::Odometry to_odometry(const OdometryEstimate& estimate, const Eige
   odometry.child_frame_id(base_frame);
 
   const UncertainPose odom_from_base =
-      of_base(base_from_left, estimate.odom_from_left, estimate.odom_from_left_covariance);
+      motion_of_base(base_from_left, estimate.odom_from_left, estimate.odom_from_left_covariance);
   odometry.pose().pose(conversions::to_pose(odom_from_base.pose));
   odometry.pose().covariance(conversions::to_array(odom_from_base.covariance));
 
@@ -46,7 +27,7 @@ nav_msgs::msg::Odometry to_odometry(const OdometryEstimate& estimate, const Eige
       previous_stamp_ns ? static_cast<double>(estimate.stamp_ns - *previous_stamp_ns) * 1e-9 : 0.0;
   if (interval_s <= 0.0) return odometry;
   const UncertainPose motion =
-      of_base(base_from_left, estimate.previous_from_current, estimate.previous_from_current_covariance);
+      motion_of_base(base_from_left, estimate.previous_from_current, estimate.previous_from_current_covariance);
   const Vector6d twist = vision::se3_log(motion.pose) / interval_s;
   // The covariance is in the axes of the previous base_frame, the twist in those of the current one.
   Matrix6d current_from_previous = Matrix6d::Zero();

@@ -7,8 +7,9 @@ namespace panvo::dataset_player {
 CalibratedStereo read_ros_calibration(const std::filesystem::path& left_file, const std::filesystem::path& right_file) {
   using calibration_files::read_camera_info;
   using calibration_files::Rectification;
-  auto stereo = calibration_files::stereo_pair(read_camera_info(left_file, Rectification::kRequired),
-                                               read_camera_info(right_file, Rectification::kRequired));
+  const auto left = read_camera_info(left_file, Rectification::kRequired);
+  const auto right = read_camera_info(right_file, Rectification::kRequired);
+  auto stereo = calibration_files::stereo_pair(left, right);
   expect_no_problems(vision::validate(stereo.calibration), right_file);
   return stereo;
 }

@@ -15,8 +15,8 @@ std::vector<std::filesystem::path> folders_in(const char* variable);
 /// not exist.
 std::vector<std::filesystem::path> library_folders();
 
-/// Search path for message libraries: PANVO_PLUGIN_PATH, library_folders(), then the plugin folder next to a program in
-/// a build tree.
+/// Search path for message libraries: PANVO_PLUGIN_PATH, library_folders(), the plugin folder next to a program in a
+/// build tree, then the folder of this library and the plugin folder next to it.
 std::vector<std::filesystem::path> message_folders();
 
 /// File name of a package's message library: "libmy_msgs__panvo.so".
