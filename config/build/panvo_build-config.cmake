@@ -1,4 +1,5 @@
 # Shared by all panvo packages: compiler settings, install layout, exported targets, tests.
+# What serves to compile against panvo is installed as the component libpanvo-dev, everything else as the default component.
 # Used from the installed tree (colcon) and from the source tree (root CMakeLists.txt).
 include_guard(DIRECTORY)
 include(CMakePackageConfigHelpers)
@@ -102,7 +103,7 @@ function(panvo_add_fingerprint target)
   add_custom_target(${target}_fingerprint DEPENDS ${folder}/stamp)
   add_dependencies(${target} ${target}_fingerprint)
   target_include_directories(${target} PUBLIC $<BUILD_INTERFACE:${folder}>)
-  install(FILES ${header} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/panvo/${short})
+  install(FILES ${header} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/panvo/${short} COMPONENT libpanvo-dev)
 endfunction()
 
 # panvo_add_component(panvo_<name>_component SOURCES ... [LINK ...] [NO_INSTALL]): a plugin that the container loads by file name.
@@ -223,9 +224,9 @@ function(panvo_package)
   cmake_parse_arguments(PARSE_ARGV 0 arg "" "" "DEPENDENCIES;INCLUDE")
   set(destination ${CMAKE_INSTALL_DATADIR}/${PROJECT_NAME}/cmake)
   if(EXISTS ${CMAKE_CURRENT_SOURCE_DIR}/include)
-    install(DIRECTORY include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+    install(DIRECTORY include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT libpanvo-dev)
   endif()
-  install(FILES package.xml DESTINATION ${CMAKE_INSTALL_DATADIR}/${PROJECT_NAME})
+  install(FILES package.xml DESTINATION ${CMAKE_INSTALL_DATADIR}/${PROJECT_NAME} COMPONENT libpanvo-dev)
   get_property(targets DIRECTORY PROPERTY PANVO_EXPORTED)
   if(targets)
     set(finds "")
@@ -243,9 +244,9 @@ function(panvo_package)
     file(WRITE ${CMAKE_CURRENT_BINARY_DIR}/${PROJECT_NAME}-config.cmake "include(CMakeFindDependencyMacro)\n${finds}${includes}")
     write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/${PROJECT_NAME}-config-version.cmake COMPATIBILITY SameMajorVersion)
     install(TARGETS ${targets} EXPORT ${PROJECT_NAME}-targets
-      LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
-    install(EXPORT ${PROJECT_NAME}-targets NAMESPACE panvo:: DESTINATION ${destination})
+      LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} NAMELINK_COMPONENT libpanvo-dev ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+    install(EXPORT ${PROJECT_NAME}-targets NAMESPACE panvo:: DESTINATION ${destination} COMPONENT libpanvo-dev)
     install(FILES ${CMAKE_CURRENT_BINARY_DIR}/${PROJECT_NAME}-config.cmake
-      ${CMAKE_CURRENT_BINARY_DIR}/${PROJECT_NAME}-config-version.cmake DESTINATION ${destination})
+      ${CMAKE_CURRENT_BINARY_DIR}/${PROJECT_NAME}-config-version.cmake DESTINATION ${destination} COMPONENT libpanvo-dev)
   endif()
 endfunction()

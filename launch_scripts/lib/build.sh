@@ -14,7 +14,8 @@ cmake_arguments() {
     tsan) echo -DCMAKE_BUILD_TYPE=RelWithDebInfo -DPANVO_SANITIZE=thread ;;
     clang) echo -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_COMPILER=clang++ ;;
     fuzz) echo -DCMAKE_BUILD_TYPE=RelWithDebInfo -DCMAKE_CXX_COMPILER=clang++ -DPANVO_FUZZ=ON ;;
-    *) fail "unknown build type '$1'; use release, debug, asan, ubsan, tsan, clang or fuzz" 2 ;;
+    package) echo -DCMAKE_BUILD_TYPE=Release -DBUILD_TESTING=OFF -DCMAKE_INSTALL_PREFIX=/usr -DCMAKE_SKIP_INSTALL_RPATH=ON ;;
+    *) fail "unknown build type '$1'; use release, debug, asan, ubsan, tsan, clang, fuzz or package" 2 ;;
   esac
 }
 
@@ -154,9 +155,12 @@ program() {
     candidate=$(readlink -m -- "$PANVO_HOME/../../bin/$1")
     [[ -x $candidate ]] || candidate=$(command -v "$1" || true)
   fi
-  [[ -n $candidate && -x $candidate ]] || fail "$1 not found; $(in_checkout && echo "run 'panvo build'" || echo "source the setup.bash of the installed workspace, or reinstall panvo")"
+  [[ -n $candidate && -x $candidate ]] || fail "$1 not found; $(in_checkout && echo "run 'panvo build'" || echo "$(package_of "$1"), or source the setup.bash of the installed workspace")"
   printf '%s' "$candidate"
 }
+
+# package_of PROGRAM: which Debian package has it.
+package_of() { echo "install the package $([[ $1 == panvo_simulat* ]] && echo panvo-simulation || echo panvo)"; }
 
 # use_plugins: sets PANVO_PLUGIN_PATH and PATH for the build; plugin folders given by the user come first.
 use_plugins() {
@@ -181,7 +185,7 @@ start_program() {
 show_program_help() {
   local path
   path=$(program "$1" 2>/dev/null) || {
-    printf '\n(Run "panvo build" to see all options here.)\n'
+    printf '\n(To see all options here, %s.)\n' "$(if in_checkout; then echo 'run "panvo build"'; else package_of "$1"; fi)"
     return 0
   }
   printf '\n'

@@ -52,6 +52,7 @@ verb_main() {
   [[ $name =~ ^[a-z][a-z0-9]*(_[a-z0-9]+)*$ ]] ||
     fail "'$name' is not a package name: use lower-case letters, digits and single '_', starting with a letter (my_filter)" 2
   [[ -d $folder ]] || fail "folder '$folder' not found" 2
+  [[ -d $PANVO_SCRIPTS/templates ]] || fail "the templates are missing; install the package libpanvo-dev"
   [[ ! -e $folder/$name ]] || fail "$folder/$name already exists; choose another name or folder"
   create_component "$name" "$folder/$name"
   note "created $folder/$name; its README.md says how to build and run it"

@@ -14,7 +14,7 @@ LIBRARIES = {
     "Eigen": "eigen", "unsupported": "eigen", "opencv2": "opencv", "ceres": "ceres", "opengv": "opengv",
     "fastdds": "fastdds", "fastrtps": "fastdds", "fastcdr": "fastdds",
     "yaml-cpp": "yaml", "spdlog": "log", "fmt": "text", "CLI": "command line", "nlohmann": "json",
-    "sqlite3.h": "sqlite", "tinyxml2.h": "xml", "zlib.h": "zlib",
+    "sqlite3.h": "sqlite", "tinyxml2.h": "xml", "systemd": "systemd", "zlib.h": "zlib",
     "embree3": "embree", "arv.h": "aravis", "glib.h": "aravis", "glib-object.h": "aravis",
     "pybind11": "python",
     "gtest": "test", "gmock": "test", "benchmark": "test",
@@ -48,7 +48,7 @@ SQLITE = floor("sqlite", "", "sqlite")
 RUNTIME = floor("runtime", "interfaces", "messages, log, command line")
 RUNTIME_DDS = floor("runtime's dds", "interfaces", "messages, fastdds, log")
 RUNTIME_CONFIG = floor("runtime's config", "interfaces", "messages, yaml, log, command line")
-RUNNER = floor("runner", "runtime interfaces", "messages, log, json, command line")
+RUNNER = floor("runner", "runtime interfaces", "messages, log, json, command line, systemd")
 CONVERSIONS = floor("conversions", "interfaces vision runtime", "messages, eigen, opencv")
 ALGORITHM = floor("algorithm", "vision landmarks", "eigen, opencv, ceres, opengv", False)
 WRAPPER = floor("component wrapper", "runtime interfaces conversions vision calibration_files landmarks", "messages, eigen, opencv", False)

@@ -16,9 +16,11 @@
 #include "console.hpp"
 #include "container_name.hpp"
 #include "link.hpp"
+#include "panvo/runner/queue_watch.hpp"
 #include "panvo/runner/result_writer.hpp"
 #include "panvo/runtime/container.hpp"
 #include "panvo/runtime/names.hpp"
+#include "service_manager.hpp"
 #include "stop_signals.hpp"
 #include "taken_names.hpp"
 
@@ -241,7 +243,11 @@ ExitStatus run_container(const RunOptions& options, const ContainerDescription& 
   container.start();
   if (options.link_in && options.link_out) Link(*options.link_in, *options.link_out).meet(container, log);
   await_peers(container, options.awaited, stop.requested(), log);
+  std::optional<ServiceManager> service;
+  QueueWatch queues;
+  if (!options.link_in) service.emplace([&] { return queues.moves(container.queue_counters()); });
   std::vector<std::string> problems = container.run();
+  service.reset();
   console.end_progress();
   results.finish();
   if (write_problem) problems.push_back(*write_problem);

@@ -20,6 +20,7 @@
 #include "link.hpp"
 #include "panvo/runner/run_files.hpp"
 #include "panvo/runtime/errors.hpp"
+#include "service_manager.hpp"
 #include "stop_signals.hpp"
 
 namespace panvo::runner {
@@ -247,7 +248,11 @@ ExitStatus launch(const RunOptions& given, const runtime::SystemDescription& sys
     stop = true;
   });
   const bool connected = connect(children);
+  std::optional<ServiceManager> service;
+  // supervise() notices containers that end, not ones without progress.
+  if (connected) service.emplace([] { return true; });
   supervise(options, children, stop, !connected);
+  service.reset();
 
   ExitStatus status = ExitStatus::kOk;
   std::vector<std::string> folders;

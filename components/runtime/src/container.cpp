@@ -94,7 +94,7 @@ std::vector<QueueCounters> Container::queue_counters() const {
   implementation_->for_each([&](const std::string& name, const Context::State& state) {
     for (const auto& worker : state.workers) {
       for (const auto& port : worker->counters())
-        all.push_back({name, port.input, port.received, port.handled, port.dropped});
+        all.push_back({name, port.input, port.received, port.handled, port.dropped, port.waiting});
     }
   });
   return all;

@@ -40,11 +40,12 @@ struct QueueCounters {
   std::string component;
   std::string input;  ///< resolved topic name
   std::uint64_t received = 0, handled = 0, dropped = 0;
+  std::size_t waiting = 0;  ///< in the queue now, without the message that is being handled
 };
 
 /// Runs the components of one process. With a bridge, other processes see each component as a ROS 2 node with services
 /// for parameters and states, and the container as a node with services to load and unload components. Loading,
-/// unloading and request_stop() are thread-safe; call the other methods from one thread.
+/// unloading, request_stop() and queue_counters() are thread-safe; call the other methods from one thread.
 class Container {
  public:
   explicit Container(ContainerOptions options);
