@@ -5,8 +5,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <fstream>
+#include <iterator>
 #include <map>
 #include <sstream>
+#include <vector>
 
 #include "panvo/runtime/test_domain.hpp"
 #include "panvo/test/recorded_data.hpp"
@@ -140,6 +143,62 @@ TEST_P(RecordedTopics, UnderNamesThatNobodyReadsAreNoticed) {
   EXPECT_EQ(played.status, 1) << played.output;
   EXPECT_THAT(played.output, testing::HasSubstr("received nothing on stereo/left/"));
   EXPECT_THAT(played.output, testing::HasSubstr("`panvo bag info " + bag_ + "`"));
+}
+
+/// camera_info files of a rectified pair, from a KITTI calibration: P0 and P1, rows of 4.
+void write_calibration(const std::filesystem::path& calib, const std::string& size,
+                       const std::filesystem::path& folder) {
+  std::filesystem::create_directories(folder);
+  std::istringstream lines(read_file(calib));
+  for (const char* name : {"left", "right"}) {
+    std::string label, numbers;
+    lines >> label;
+    std::getline(lines, numbers);
+    std::istringstream words(numbers);
+    std::vector<std::string> p{std::istream_iterator<std::string>(words), {}};
+    ASSERT_EQ(p.size(), 12u) << numbers;
+    std::ofstream(folder / (std::string(name) + ".yaml"))
+        << size << "\ndistortion_model: plumb_bob\ndistortion_coefficients: {rows: 1, cols: 5, data: [0, 0, 0, 0, 0]}\n"
+        << "camera_matrix: {rows: 3, cols: 3, data: [" << p[0] << ", 0, " << p[2] << ", 0, " << p[5] << ", " << p[6]
+        << ", 0, 0, 1]}\nrectification_matrix: {rows: 3, cols: 3, data: [1, 0, 0, 0, 1, 0, 0, 0, 1]}\n"
+        << "projection_matrix: {rows: 3, cols: 4, data: [" << p[0] << ", 0, " << p[2] << ", " << p[3] << ", 0, " << p[5]
+        << ", " << p[6] << ", 0, 0, 0, 1, 0]}\n";
+  }
+}
+
+/// A bag of images alone, under a driver's names, as many are: its command is in `panvo bag info`.
+TEST_P(RecordedTopics, WithOtherNamesAndWithoutCalibrationArePlayedAsBagInfoSays) {
+  const std::string foreign = folder_ / "foreign";
+  const Finished recorded =
+      run({PANVO_RUN, SYSTEMS "/record.yaml", "output:=" + foreign, "topics:=/cam0/image_raw /cam1/image_raw", "-r",
+           "stereo/left/image_raw:=/cam0/image_raw", "-r", "stereo/right/image_raw:=/cam1/image_raw", "--dataset",
+           data_.string(), "--replay"});
+  ASSERT_EQ(recorded.status, 0) << recorded.output;
+  const Finished info = run({PANVO_BAG, "info", foreign});
+  EXPECT_THAT(info.output, testing::HasSubstr("panvo run stereo --bag " + foreign + " --calibration FOLDER"));
+  EXPECT_THAT(info.output, testing::HasSubstr("-r /cam0/image_raw:=/stereo/left/image_raw"));
+  EXPECT_THAT(info.output, testing::HasSubstr("-r /cam1/image_raw:=/stereo/right/image_raw"));
+
+  const bool is_kitti = GetParam() == "kitti_03";
+  write_calibration(data_ / "calib.txt",
+                    is_kitti ? "image_width: 1242\nimage_height: 375" : "image_width: 320\nimage_height: 240",
+                    folder_ / "calibration");
+  const Finished played =
+      run({PANVO_RUN, kStereo, "--bag", foreign, "--calibration", folder_ / "calibration", "-r",
+           "/cam0/image_raw:=/stereo/left/image_raw", "-r", "/cam1/image_raw:=/stereo/right/image_raw", "--set",
+           "stereo_calibration.mount=[0, 0, 0, 0, 0, 0]", "--out", folder_ / "played", "--replay"},
+          seconds(200));
+  ASSERT_EQ(played.status, 0) << played.output;
+  const Finished known = play("known", {"--replay"});
+  ASSERT_EQ(known.status, 0) << known.output;
+  const auto expected = read_tum(folder_ / "known" / "odometry_binocular.tum");
+  const auto got = read_tum(folder_ / "played" / "odometry_binocular.tum");
+  EXPECT_GE(got.size(), expected.size() - 1);  // the first image comes before its camera_info
+  ASSERT_FALSE(got.empty());
+  const auto origin = expected.at(got.begin()->first);
+  const auto end = expected.rbegin()->second, reached = got.rbegin()->second;
+  const double length = distance(end, origin);
+  EXPECT_NEAR(distance(reached, got.begin()->second), length, 0.01 * length);
 }
 
 INSTANTIATE_TEST_SUITE_P(, RecordedTopics, testing::Values("rendered", "kitti_03"),
