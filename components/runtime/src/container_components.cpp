@@ -154,6 +154,7 @@ void Container::Implementation::make(LoadedComponent& entry) {
     problems.insert(problems.end(), more.begin(), more.end());
   };
   append(state.reader.problems());
+  append(state.node.problems());
   append(state.problems);
   if (state.source && running_) {
     problems.push_back(description.name + " plays recorded data and must be loaded before the run starts");
@@ -247,6 +248,7 @@ void Container::Implementation::offer_services(LoadedComponent& entry) {
   };
   const auto parameters_set = [this, &state, name = entry.full_name()](const WrittenValues& set) {
     tell_parameters(node_services::changed_parameters(name, state.parameters(), set, clocks::system_ns()));
+    if (set.contains(std::string(NodeParameters::kUseSimTime))) tell_nodes();
   };
   entry.node = std::make_unique<node_services::ComponentNode>(state, shut_down, parameters_set);
   entry.services = serve(node_services::parameter_services(entry.full_name(), *entry.node));
@@ -279,6 +281,7 @@ void Container::Implementation::tell_nodes() {
     Context::State& state = entry->context->state();
     NodeDescription node{state.description.name_space, state.description.name, {}, {}, {}};
     add_topics(node, state.description.name, &state);
+    if (state.follows_clock()) node.subscribes.emplace_back(topics::kClock.name);
     node.serves = names_of(node_services::parameter_services(entry->full_name(), *entry->node), options_.services);
     for (auto& name : names_of(node_services::lifecycle_services(entry->full_name(), *entry->node), options_.services))
       node.serves.push_back(std::move(name));

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "bus.hpp"
+#include "node_parameters.hpp"
 #include "panvo/runtime/context.hpp"
 #include "panvo/runtime/system_file.hpp"
 #include "passing_time.hpp"
@@ -57,6 +58,10 @@ struct Context::State {
   /// "FILE was set aside as OTHER" for each file set aside.
   std::vector<std::string> files_set_aside() const;
 
+  /// Stamp of a timer's callback: the time of the clock, or of /clock with use_sim_time (0 before its first message).
+  std::int64_t timer_stamp_ns() const;
+  bool follows_clock() const { return follows_clock_; }
+
   /// Declared parameters with current values and whether they can be set.
   std::vector<ParameterDescription> parameters() const;
   /// Sets all values or none; returns the problems. Thread-safe; the component receives them on its own thread, between
@@ -66,6 +71,7 @@ struct Context::State {
   Host& host;
   const ComponentDescription description;
   const std::shared_ptr<const void> library;
+  NodeParameters node;
   ParameterReader reader;
   Logger logger;
   StageTimes times;
@@ -89,11 +95,17 @@ struct Context::State {
   Port* parameter_port = nullptr;
 
  private:
+  std::vector<ParameterDescription> own_parameters() const;
+  std::vector<std::string> set_own_parameters(const WrittenValues& wanted);
   std::vector<std::string> hand_over(std::vector<std::function<void()>> calls);
+  /// Reads /clock, or no longer. No effect in replay.
+  void follow_clock(bool follow);
 
   std::mutex setting_mutex_;               // one request at a time
   mutable std::mutex parameters_mutex_;    // guards set_
   std::vector<ParameterDescription> set_;  // set since construction
+  std::atomic<bool> follows_clock_ = false;
+  std::atomic<std::int64_t> clock_ns_ = 0;  // newest message of /clock
 
   struct FileOnTrial {
     std::filesystem::path file;

@@ -83,7 +83,8 @@ eprosima::fastrtps::Duration_t to_dds(std::chrono::nanoseconds time) {
 void apply(const TopicDescription& topic, fdds::DataWriterQos& qos) {
   apply_common(topic, qos);
   // A reliable writer also serves best-effort readers, without delaying them.
-  qos.reliability().kind = fdds::RELIABLE_RELIABILITY_QOS;
+  qos.reliability().kind =
+      topic.qos.offered == Reliability::kReliable ? fdds::RELIABLE_RELIABILITY_QOS : fdds::BEST_EFFORT_RELIABILITY_QOS;
   qos.reliability().max_blocking_time = to_dds(kMaxBlockingTime);
   // Best-effort topics carry images. They are sent asynchronously, so a network slower than the camera does not block
   // the publisher (at 100 Mbit/s a panorama of 1.75 MB blocked it for 122 ms, now 0.8 ms), and paced for the receiver,

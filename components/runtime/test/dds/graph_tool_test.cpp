@@ -2,13 +2,10 @@
 // Output of `panvo node`, `param`, `topic`, `service` and `component` for a container in another process.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
-#include <array>
-#include <csignal>
-#include <cstdio>
 #include <string>
 
+#include "graph_tool.hpp"
 #include "peer_process.hpp"
 #include "test_messages.hpp"
 
@@ -17,26 +14,9 @@ namespace {
 
 using testing::HasSubstr;
 
-struct Result {
-  int status = -1;
-  std::string said;
-};
-
 class GraphTool : public testing::Test {
  protected:
-  /// Runs the program with these arguments through a shell.
-  Result run(const std::string& arguments) const {
-    const std::string command = std::string(PANVO_GRAPH_TOOL) + " --domain " + std::to_string(domain) + " " +
-                                (arguments.starts_with("--") ? "" : "--timeout 30 ") + arguments + " 2>&1";
-    Result result;
-    FILE* output = popen(command.c_str(), "r");
-    std::array<char, 4096> chunk{};
-    for (std::size_t size = 0; (size = fread(chunk.data(), 1, chunk.size(), output)) > 0;)
-      result.said.append(chunk.data(), size);
-    const int status = pclose(output);
-    result.status = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-    return result;
-  }
+  ToolResult run(const std::string& arguments) const { return run_graph_tool(domain, arguments); }
   /// The output once it contains `wanted`; discovery can be slow on a busy machine.
   std::string eventually_says(const std::string& arguments, const std::string& wanted) const {
     std::string said;
@@ -63,7 +43,8 @@ TEST_F(GraphTool, ListsNodesTopicsServicesAndContainers) {
 }
 
 TEST_F(GraphTool, GetsDescribesAndSetsParameters) {
-  EXPECT_EQ(run("param list /robot/echo").said, "before\nsize\n");
+  EXPECT_THAT(run("param list /robot/echo").said, AllOf(testing::StartsWith("before\nsize\nuse_sim_time\n"),
+                                                        HasSubstr("\nqos_overrides./robot/echoed.publisher.depth\n")));
   EXPECT_EQ(run("param get /robot/echo size").said, "3\n");
   EXPECT_EQ(run("param set /robot/echo size 5").said, "set\n");
   EXPECT_EQ(run("param get /robot/echo size").said, "5\n");

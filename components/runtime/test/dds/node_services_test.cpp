@@ -210,7 +210,7 @@ TEST_F(NodeServices, TellsOfParametersThatComeAndThatAreSet) {
   events.clear();
   const auto id = load(relay()).unique_id();
   EXPECT_TRUE(is_told([](const rcl_interfaces::msg::ParameterEvent& event) {
-    return event.node() == "/relay" && event.new_parameters().size() == 1 &&
+    return event.node() == "/relay" && !event.new_parameters().empty() &&
            event.new_parameters()[0].name() == "copies" && event.new_parameters()[0].value().integer_value() == 1;
   }));
   EXPECT_TRUE(unload(id).success());
