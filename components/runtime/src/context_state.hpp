@@ -86,8 +86,9 @@ struct Context::State {
   bool gives_way = false;
   std::uint64_t restarts = 0;  // number of restarts
   Source* source = nullptr;
-  std::function<void()> end;        // nullptr: nothing to finish
-  std::atomic<bool> active = true;  // receives messages
+  std::function<void()> end;            // nullptr: nothing to finish
+  std::atomic<bool> active = true;      // receives messages
+  std::atomic<bool> finalized = false;  // shut down by a service request: never active again
 
   /// Reads a parameter struct that the component accepts at run time; the returned function passes it on.
   using ParameterTaker = std::function<std::function<void()>(ParameterReader&)>;

@@ -124,6 +124,7 @@ std::vector<std::string> Context::State::hand_over(std::vector<std::function<voi
     return outcome->problems;
   }
   if (failed()) return {"the component was stopped by an error, see its log"};
+  if (finalized) return {"the component is shut down"};
   std::function<void()> task = [outcome, calls = std::move(calls)] {
     const std::lock_guard lock(outcome->mutex);
     if (!outcome->given_up) run(calls, *outcome);
