@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "bus.hpp"
-#include "node_parameters.hpp"
+#include "config/node_parameters.hpp"
 #include "panvo/runtime/context.hpp"
 #include "panvo/runtime/system_file.hpp"
 #include "passing_time.hpp"
