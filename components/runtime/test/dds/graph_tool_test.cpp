@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <future>
 #include <string>
 
 #include "graph_tool.hpp"
@@ -79,6 +80,24 @@ TEST_F(GraphTool, EchoesAndMeasuresTopics) {
   EXPECT_THAT(run("topic echo /diagnostics --once").said, HasSubstr("  name: 'panvo: echo'\n"));
   EXPECT_THAT(run("topic hz /diagnostics -n 3").said, HasSubstr("average rate: "));
   EXPECT_THAT(run("topic bw /diagnostics -n 1").said, testing::ContainsRegex("KB/s from [12] messages"));
+}
+
+TEST_F(GraphTool, SaysThatAPublisherIsGoneInsteadOfItsLastRate) {
+  const auto bridge = make_dds_bridge({.domain = domain, .profiles = "", .name = "panvo_test"});
+  // Latched: what is written before the tool has discovered the writer is not lost.
+  auto writer = bridge->open_writer(test::topic("/leaving", "std_msgs/msg/String",
+                                                {.durability = interfaces::Durability::kTransientLocal, .depth = 10}));
+  for (int i = 0; i < 5; ++i) ASSERT_TRUE(writer->write(text_sample("text")));
+  auto said = std::async(std::launch::async, [&] { return run("topic hz /leaving -n 3").said; });
+  ASSERT_TRUE(eventually([&] { return writer->matched_readers() == 1; }));
+  ASSERT_TRUE(writer->wait_for_acknowledgments(kLimit));
+  writer.reset();
+  EXPECT_THAT(said.get(), testing::ContainsRegex("average rate: .*\nthe publisher is gone\nthe publisher is gone\n$"));
+}
+
+TEST_F(GraphTool, SaysThatDiscoveryHasNotSettled) {
+  EXPECT_THAT(run("--timeout 0.3 topic list").said, HasSubstr("discovery has not settled"));
+  EXPECT_THAT(run("topic list").said, testing::Not(HasSubstr("settled")));
 }
 
 TEST_F(GraphTool, WritesNothingThatSteersATerminal) {

@@ -45,10 +45,15 @@ Graph Session::settled_graph() {
   Graph graph = bridge_->graph();
   while (!is_stopped()) {
     const auto now = steady_clock::now();
-    if (now - start >= timeout_ || (now - start >= kFirstLook && now - changed >= kQuiet)) break;
+    if (now - start >= kFirstLook && now - changed >= kQuiet && is_complete(graph)) break;
+    if (now - start >= timeout_) {
+      std::fprintf(stderr, "panvo: discovery has not settled: something may be missing (--timeout waits longer)\n");
+      break;
+    }
     std::this_thread::sleep_for(kPollPeriod);
     Graph next = bridge_->graph();
-    if (next.endpoints.size() != graph.endpoints.size() || next.nodes.size() != graph.nodes.size())
+    if (next.endpoints.size() != graph.endpoints.size() || next.nodes.size() != graph.nodes.size() ||
+        next.participants.size() != graph.participants.size())
       changed = steady_clock::now();
     graph = std::move(next);
   }

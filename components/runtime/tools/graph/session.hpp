@@ -36,7 +36,8 @@ class Session {
   Bridge& bridge() { return *bridge_; }
   std::chrono::milliseconds timeout() const { return timeout_; }
 
-  /// The graph once nothing new has been discovered for a while.
+  /// The graph once it is complete and nothing new has been discovered for a while. If that is not the case at the
+  /// timeout, says so.
   Graph settled_graph();
   /// The graph as soon as `is_there` holds, or at the timeout or Ctrl-C.
   Graph graph_with(const std::function<bool(const Graph&)>& is_there);
