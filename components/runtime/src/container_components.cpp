@@ -86,6 +86,7 @@ void Container::Implementation::meet_others() {
   own_node_ = make_node(own_.state(), full_name(), [] {});
   auto offered = node_services::component_services(full_name(), *this);
   std::ranges::move(node_services::parameter_services(full_name(), *own_node_), std::back_inserter(offered));
+  std::ranges::move(node_services::type_services(full_name()), std::back_inserter(offered));
   own_service_names_ = names_of(offered, options_.services);
   services_ = serve(std::move(offered));
   tell_parameters(node_services::new_parameters(full_name(), own_.state().parameters(), clocks::system_ns()));
@@ -272,6 +273,7 @@ std::vector<node_services::OfferedService> Container::Implementation::services_o
   };
   std::ranges::move(node_services::lifecycle_services(entry.full_name(), *entry.node, tell),
                     std::back_inserter(services));
+  std::ranges::move(node_services::type_services(entry.full_name()), std::back_inserter(services));
   return services;
 }
 

@@ -51,11 +51,10 @@ ServiceClient::ServiceClient(const ServiceDescription& service, std::shared_ptr<
       writers_(std::move(writers)),
       request_topic_(writers_->topic(request_topic(service))),
       reply_topic_(readers_->topic(reply_topic(service))) {
-  const TopicDescription described{service.name, service.type_name, kServiceQos, nullptr};
   fdds::DataReaderQos reader_qos = readers_->subscriber().get_default_datareader_qos();
-  apply(described, reader_qos);
+  apply(service, reader_qos);
   fdds::DataWriterQos writer_qos = writers_->publisher().get_default_datawriter_qos();
-  apply(described, writer_qos);
+  apply(service, writer_qos);
   // The reader first, so a server discovers it before it gets a request.
   reader_ = readers_->subscriber().create_datareader(reply_topic_.get(), reader_qos, this);
   if (reader_) writer_ = writers_->publisher().create_datawriter(request_topic_.get(), writer_qos, &servers_);

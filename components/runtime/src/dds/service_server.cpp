@@ -63,11 +63,10 @@ ServiceServer::ServiceServer(const ServiceDescription& service, ServiceHandler h
       request_topic_(readers_->topic(request_topic(service))),
       reply_topic_(writers_->topic(reply_topic(service))),
       rate_(limits.per_s, 1.0) {
-  const TopicDescription described{service.name, service.type_name, kServiceQos, nullptr};
   fdds::DataWriterQos writer_qos = writers_->publisher().get_default_datawriter_qos();
-  apply(described, writer_qos);
+  apply(service, writer_qos);
   fdds::DataReaderQos reader_qos = readers_->subscriber().get_default_datareader_qos();
-  apply(described, reader_qos);
+  apply(service, reader_qos);
   writer_ = writers_->publisher().create_datawriter(reply_topic_.get(), writer_qos, &clients_);
   if (writer_) reader_ = readers_->subscriber().create_datareader(request_topic_.get(), reader_qos, this);
   if (!reader_) {

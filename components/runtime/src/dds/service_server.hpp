@@ -93,7 +93,4 @@ class ServiceServer final : public BridgeService, private eprosima::fastdds::dds
 WireTopic request_topic(const ServiceDescription& service);
 WireTopic reply_topic(const ServiceDescription& service);
 
-/// QoS of service topics in ROS 2.
-inline constexpr interfaces::Qos kServiceQos{.depth = 10};
-
 }  // namespace panvo::runtime::dds

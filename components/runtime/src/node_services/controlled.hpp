@@ -76,6 +76,9 @@ using TellTransition = std::function<void(const lifecycle_msgs::msg::TransitionE
 std::vector<OfferedService> parameter_services(const std::string& full_name, ControlledNode& node);
 std::vector<OfferedService> lifecycle_services(const std::string& full_name, ControlledNode& node, TellTransition tell);
 
+/// `~/get_type_description`, for the message types of all loaded libraries.
+std::vector<OfferedService> type_services(const std::string& full_name);
+
 /// `~/_container/load_node`, `unload_node`, `list_nodes`. `container` must outlive them.
 std::vector<OfferedService> component_services(const std::string& full_name, ControlledContainer& container);
 

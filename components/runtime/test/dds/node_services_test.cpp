@@ -272,16 +272,28 @@ TEST_F(NodeServices, TellsRos2WhichNodesThereAreAndWhatTheyHave) {
     const auto found = std::ranges::find(nodes, name, &GraphNode::name);
     return found == nodes.end() ? GraphNode{} : *found;
   };
-  // Services: the component's eleven, the container's nine. Topics: the component's two and its transitions, /rosout and
+  // Services: the component's twelve, the container's ten. Topics: the component's two and its transitions, /rosout and
   // /parameter_events of both, the container's /diagnostics.
-  EXPECT_TRUE(eventually([&] { return node("echo").readers.size() == 12 && node("echo").writers.size() == 15; }));
+  EXPECT_TRUE(eventually([&] { return node("echo").readers.size() == 13 && node("echo").writers.size() == 16; }));
   EXPECT_TRUE(
-      eventually([&] { return node("controlled").readers.size() == 9 && node("controlled").writers.size() == 12; }));
+      eventually([&] { return node("controlled").readers.size() == 10 && node("controlled").writers.size() == 13; }));
   EXPECT_EQ(node("echo").name_space, "/robot");
   const auto id = load(relay()).unique_id();
   EXPECT_TRUE(eventually([&] { return node("relay").name == "relay"; }));
   EXPECT_TRUE(unload(id).success());
   EXPECT_TRUE(eventually([&] { return node("relay").name.empty(); }));
+}
+
+TEST_F(NodeServices, HaveTheTypeHashOfRos2) {
+  std::vector<std::string> hashes;
+  ASSERT_TRUE(eventually([&] {
+    hashes.clear();
+    for (const auto& endpoint : bridge->graph().endpoints) {
+      if (endpoint.name == "/robot/echo/get_parameters") hashes.push_back(endpoint.type_hash);
+    }
+    return hashes.size() == 2;  // requests and replies
+  }));
+  EXPECT_THAT(hashes, testing::Each("RIHS01_bf9803d5c74cf989a5de3e0c2e99444599a627c7ff75f97b8c05b01003675cbc"));
 }
 
 TEST_F(NodeServices, LosesNothingElsewhereAndKeepsNoMemoryWhileComponentsComeAndGo) {
