@@ -96,7 +96,8 @@ std::optional<int> RunOptions::parse(int argc, char** argv, RunOptions& options)
   app.add_option("--link-out", options.link_out)->group("");
   app.add_flag("--again", options.again)->group("");
   app.footer(
-      "ROS_DOMAIN_ID, ROS_DISTRO, ROS_LOCALHOST_ONLY and ROS_DISCOVERY_SERVER are honoured. Exit status: 0 success, 1 "
+      "ROS_DOMAIN_ID, ROS_DISTRO, ROS_LOCALHOST_ONLY, ROS_AUTOMATIC_DISCOVERY_RANGE, ROS_STATIC_PEERS and "
+      "ROS_DISCOVERY_SERVER are honoured. Exit status: 0 success, 1 "
       "the run failed, 2 invalid configuration or command line, 130 or 143 interrupted (Ctrl-C, SIGTERM) before the "
       "end of the data.");
   try {

@@ -156,7 +156,8 @@ void Container::Implementation::make(LoadedComponent& entry) {
   entry.context = std::make_unique<Context>(std::make_unique<Context::State>(host_, description, entry.recipe.library));
   Context::State& state = entry.context->state();
   state.restarts = entry.recipe.restarted;
-  if (bus_.bridge()) entry.transition_events = entry.context->open_output(describe(kTransitionEvents));
+  if (bus_.bridge() && options_.services != ServiceAccess::kOff)
+    entry.transition_events = entry.context->open_output(describe(kTransitionEvents));
   if (entry.recipe.by_request) state.reader.confine_paths(options_.files_below);
   std::vector<std::string> problems;
   try {

@@ -19,6 +19,7 @@ void Container::Implementation::start() {
                                  [](const auto& entry) { return entry->context->state().source != nullptr; });
   if (plays) time_.follow_sources();
   for (const auto& entry : entries_) entry->context->state().start();
+  tell_nodes();  // some now read /clock
   if (!options_.replay) housekeeping_ = std::thread([this] { keep_house(); });
 }
 

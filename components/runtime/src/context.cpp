@@ -101,14 +101,16 @@ void Context::State::follow_clock(bool follow) {
   const auto& type = interfaces::message_type<rosgraph_msgs::msg::Clock>();
   Channel& channel =
       host.bus.channel({std::string(topics::kClock.name), std::string(type.name), topics::kClock.qos, &type});
-  if (follow) {
+  follows_clock_ = follow;
+  if (!follow) return channel.remove_reader(&clock_ns_);
+  try {
     channel.add_reader(&clock_ns_, [this, &type](const TopicDescription&, const SamplePtr& sample) {
       if (const void* clock = sample->message()) clock_ns_ = type.stamp_ns(clock).value_or(0);
     });
-  } else {
-    channel.remove_reader(&clock_ns_);
+  } catch (const ConfigError&) {
+    follow_clock(false);
+    throw;
   }
-  follows_clock_ = follow;
 }
 
 std::int64_t Context::State::timer_stamp_ns() const {

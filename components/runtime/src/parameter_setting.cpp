@@ -96,7 +96,11 @@ std::vector<std::string> Context::State::set_parameters(const WrittenValues& wan
     if (auto wrong = set_own_parameters(own); !wrong.empty()) return wrong;
   }
   if (const auto* follow = std::get_if<bool>(&sim_time)) {
-    follow_clock(*follow);
+    try {
+      follow_clock(*follow);
+    } catch (const ConfigError& error) {  // such as missing rights
+      return error.problems();
+    }
     node.use_sim_time(*follow);
   }
   return {};

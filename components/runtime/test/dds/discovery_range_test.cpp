@@ -61,7 +61,7 @@ TEST_P(DiscoveryRanges, ConnectTwoProcessesOfThisMachine) {
 
 INSTANTIATE_TEST_SUITE_P(, DiscoveryRanges,
                          testing::Values(Ranges{"LOCALHOST", "", DiscoveryRange::kLocalhost, {}},
-                                         Ranges{"LOCALHOST", "", DiscoveryRange::kSubnet, {}},
+                                         Ranges{"SUBNET", "", DiscoveryRange::kLocalhost, {}},
                                          Ranges{"SUBNET", "127.0.0.1", DiscoveryRange::kSubnet, {"localhost"}},
                                          Ranges{"SYSTEM_DEFAULT", "", DiscoveryRange::kSystemDefault, {}}));
 

@@ -36,7 +36,8 @@ class GraphTool : public testing::Test {
 TEST_F(GraphTool, ListsNodesTopicsServicesAndContainers) {
   EXPECT_EQ(eventually_says("node list", "/controlled"), "/controlled\n/robot/echo\n");
   EXPECT_THAT(eventually_says("node info robot/echo", "Service Servers"),
-              HasSubstr("/robot/echoed: std_msgs/msg/String"));
+              AllOf(HasSubstr("/robot/echoed: std_msgs/msg/String"), HasSubstr("/rosout: rcl_interfaces/msg/Log"),
+                    HasSubstr("/parameter_events: rcl_interfaces/msg/ParameterEvent")));
   EXPECT_THAT(eventually_says("topic list -t", "/rosout"), HasSubstr("/robot/to_echo [std_msgs/msg/String]\n"));
   EXPECT_THAT(eventually_says("topic info /robot/to_echo -v", "Node"), HasSubstr("Node: /robot/echo\n"));
   EXPECT_THAT(eventually_says("service list", "list_nodes"), HasSubstr("/controlled/_container/load_node\n"));
@@ -55,6 +56,8 @@ TEST_F(GraphTool, GetsDescribesAndSetsParameters) {
   EXPECT_THAT(run("param set /robot/echo size many").said, HasSubstr("size is an integer, but a text was given"));
   EXPECT_THAT(run("param describe /robot/echo size").said, HasSubstr("integer, 1 .. 9, settable"));
   EXPECT_EQ(run("param get /robot/echo nothing").status, 1);
+  EXPECT_EQ(run("param set /robot/echo use_sim_time true").said, "set\n");
+  eventually_says("node info /robot/echo", "/clock: rosgraph_msgs/msg/Clock");
 }
 
 TEST_F(GraphTool, LoadsAndUnloads) {

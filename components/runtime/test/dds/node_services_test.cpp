@@ -39,7 +39,8 @@ class NodeServices : public testing::Test {
   /// The other process answers once its container exists, and loads components on request once it runs.
   void SetUp() override {
     ASSERT_TRUE(eventually([&] { return !loaded().empty(); }));
-    LoadNode_Request none;
+    auto none = relay();
+    none.package_name("panvo_nothing");
     ASSERT_TRUE(eventually([&] { return load(none).error_message().find("still loading") == std::string::npos; }));
   }
 

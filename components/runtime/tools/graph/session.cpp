@@ -85,10 +85,14 @@ std::string full_name_of(const GraphNode& node) { return full_name(node.name_spa
 
 std::string absolute(const std::string& name) { return name.starts_with('/') ? name : "/" + name; }
 
+bool has(const GraphNode& node, const GraphEndpoint& endpoint) {
+  const auto& gids = endpoint.is_writer ? node.writers : node.readers;
+  return std::find(gids.begin(), gids.end(), endpoint.gid) != gids.end();
+}
+
 std::string node_of(const Graph& graph, const GraphEndpoint& endpoint) {
   for (const auto& node : graph.nodes) {
-    const auto& gids = endpoint.is_writer ? node.writers : node.readers;
-    if (std::find(gids.begin(), gids.end(), endpoint.gid) != gids.end()) return full_name_of(node);
+    if (has(node, endpoint)) return full_name_of(node);
   }
   return "";
 }

@@ -58,7 +58,9 @@ class Session {
 std::string full_name_of(const GraphNode& node);
 /// Adds the leading slash that may be omitted on the command line.
 std::string absolute(const std::string& name);
-/// Full name of the node that owns an endpoint; empty if unknown.
+/// Whether a node has an endpoint. Nodes of one process may share endpoints.
+bool has(const GraphNode& node, const GraphEndpoint& endpoint);
+/// Full name of the node that owns an endpoint, of the first if several share it; empty if unknown.
 std::string node_of(const Graph& graph, const GraphEndpoint& endpoint);
 
 }  // namespace panvo::runtime::graph
