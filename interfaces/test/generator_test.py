@@ -14,7 +14,7 @@ import message_classes  # noqa: E402
 import message_table  # noqa: E402
 import msg_file  # noqa: E402
 from ros2msg import definition  # noqa: E402
-from type_hash import type_hash  # noqa: E402
+from type_hash import service_hash, type_hash  # noqa: E402
 
 
 def wrapped(body: str, package: str = "a_msgs") -> str:
@@ -190,6 +190,17 @@ class Output(unittest.TestCase):
         renamed = parse("struct Thing { double b; };")
         self.assertEqual(type_hash(first, {}), type_hash(commented, {}))
         self.assertNotEqual(type_hash(first, {}), type_hash(renamed, {}))
+
+    def test_hash_of_a_service_is_that_of_ros2(self):
+        tree = idl.read_trees([Path(__file__).parents[1] / "idl"])
+        known = {  # of ROS 2 Jazzy
+            "rcl_interfaces/GetParameters": "RIHS01_bf9803d5c74cf989a5de3e0c2e99444599a627c7ff75f97b8c05b01003675cbc",
+            "rcl_interfaces/DescribeParameters": "RIHS01_845b484d71eb0673dae682f2e3ba3c4851a65a3dcfb97bddd82c5b57e91e4cff",
+            "rcl_interfaces/SetParametersAtomically": "RIHS01_0e192ef259c07fc3c07a13191d27002222e65e00ccec653ca05e856f79285fcd",
+            "type_description_interfaces/GetTypeDescription": "RIHS01_69b9c19c1021405984cc60dbbb1edceb147a6538b411d812ba6afabeed962cd5",
+        }
+        for name, expected in known.items():
+            self.assertEqual(service_hash(*name.split("/"), tree), expected, name)
 
     def test_table_declares_layouts_before_they_are_used(self):
         text = message_table.table(self.messages, {}, [])

@@ -7,7 +7,7 @@ import json
 
 import idl
 from ros2msg import definition
-from type_hash import type_hash
+from type_hash import service_hash, type_hash
 
 _SIZES = {
     "boolean": 1, "octet": 1, "int8": 1, "uint8": 1, "int16": 2, "uint16": 2, "int32": 4, "uint32": 4, "int64": 8, "uint64": 8,
@@ -89,6 +89,15 @@ struct Facts<{cpp}> {{
 """
 
 
+def _services(messages: dict[str, idl.Message], every: dict[str, idl.Message]) -> str:
+    """Table of the services, whose requests and responses are messages."""
+    services = [(m.package, m.name.removesuffix("_Request")) for m in messages.values() if m.kind == "srv" and m.name.endswith("_Request")]
+    if not services:
+        return ""
+    entries = "".join(f'    {{"{package}/srv/{name}", "{service_hash(package, name, every)}"}},\n' for package, name in services)
+    return f"constexpr ServiceType kServiceTypes[] = {{\n{entries}}};\nconst ServiceTable kServices{{kServiceTypes}};\n"
+
+
 def table(messages: dict[str, idl.Message], known: dict[str, idl.Message], rules: list[str]) -> str:
     """Source file for the library of `messages`. `known`: messages of other libraries that they may contain. `rules`: headers that declare
     problem_of()."""
@@ -104,6 +113,7 @@ def table(messages: dict[str, idl.Message], known: dict[str, idl.Message], rules
     entries = "".join(f"    &kMessageType<::{m.cpp_name}>,\n" for m in messages.values())
     return f"""// Generated from the IDL of the messages below.
 {declared_rules}#include "panvo/interfaces/message_codec.hpp"
+#include "panvo/interfaces/service_type.hpp"
 
 {includes}
 namespace panvo::interfaces {{
@@ -118,7 +128,7 @@ namespace {{
 constexpr const MessageType* kMessageTypes[] = {{
 {entries}}};
 const MessageTable kTable{{kMessageTypes}};
-
+{_services(messages, every)}
 }}  // namespace
 }}  // namespace panvo::interfaces
 """

@@ -35,11 +35,11 @@ EOT
 topic_tags() { sort -u <<<"$1" | sed -n 's|..*|<topic>&</topic>|p' | tr -d '\n'; }
 
 # system_rights FILE CONTAINER: sets rights_publish and rights_subscribe from the output of `panvo_run --describe` in FILE. They start with the
-# topics of every process: log, diagnostics, parameter events and node discovery of ROS 2.
+# topics of every process: log, diagnostics, parameter events, clock and node discovery of ROS 2.
 system_rights() {
   local current='' kind name services=on nodes=()
   rights_publish=$'ros_discovery_info\nrt/rosout\nrt/diagnostics\nrt/parameter_events'
-  rights_subscribe='ros_discovery_info'
+  rights_subscribe=$'ros_discovery_info\nrt/clock'
   while read -r kind name; do
     [[ $kind != container ]] || { current=$name; continue; }
     [[ $current == "$2" ]] || continue
@@ -55,7 +55,7 @@ system_rights() {
   [[ $services == on ]] || return 0
   for name in "${nodes[@]}"; do
     rights_subscribe+=$'\n'"rq$name/*Request"
-    rights_publish+=$'\n'"rr$name/*Reply"
+    rights_publish+=$'\n'"rr$name/*Reply"$'\n'"rt$name/transition_event"
   done
 }
 

@@ -2,6 +2,7 @@
 // A Cyclone DDS process started by the tests: writes the known messages, or reads messages and compares them with the
 // known ones.
 //   panvo_cyclone_peer DOMAIN write|read TYPE TOPIC COUNT reliable|best_effort volatile|transient_local
+//   panvo_cyclone_peer DOMAIN call SERVICE COUNT | serve SERVICE, see cyclone_service.hpp
 // COUNT messages, numbered from 0; one numbered COUNT may precede them. Prints `matched` when its reader has a writer,
 // `right N` or `wrong N: FIELD` for each message it reads, `written` when all are written.
 #include <sys/prctl.h>
@@ -13,6 +14,7 @@
 #include <string>
 
 #include "cyclone_messages.hpp"
+#include "cyclone_service.hpp"
 
 namespace panvo::test::cyclone {
 namespace {
@@ -117,8 +119,21 @@ class Peer {
 }  // namespace
 }  // namespace panvo::test::cyclone
 
+static int use_service(int argc, char** argv) {
+  const auto domain = static_cast<dds_domainid_t>(std::stoul(argv[1]));
+  try {
+    argc == 5 ? panvo::test::cyclone::call_service(domain, argv[3], std::stoi(argv[4]))
+              : panvo::test::cyclone::serve(domain, argv[3]);
+    return 0;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "panvo_cyclone_peer: %s\n", error.what());
+    return 1;
+  }
+}
+
 int main(int argc, char** argv) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);  // no orphans after a crash of the test
+  if (argc == 4 || argc == 5) return use_service(argc, argv);
   if (argc != 8) return 2;
   const std::string reliability = argv[6], durability = argv[7];
   const panvo::test::cyclone::Order order{static_cast<dds_domainid_t>(std::stoul(argv[1])),

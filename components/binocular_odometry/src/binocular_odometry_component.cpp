@@ -18,6 +18,7 @@ namespace panvo::binocular_odometry {
 struct ComponentParameters : Parameters {
   std::string odom_frame = "odom";
   std::string base_frame = "base_link";
+  bool publish_tf = false;
 
   template <class Field>
   static void describe(Field&& field) {
@@ -27,12 +28,14 @@ struct ComponentParameters : Parameters {
     field(&P::odom_frame, "odom_frame", "", "parent frame of the poses: base_frame at the first image");
     field(&P::base_frame, "base_frame", "",
           "frame whose motion is published; /tf_static must contain the pose of the left camera in it");
+    field(&P::publish_tf, "publish_tf", "",
+          "publish odom_frame -> base_frame on /tf; only in systems without a localizer, which publishes it too");
   }
 };
 
-/// stereo/{left,right}/image_rect with camera_info, and /tf_static -> odometry/binocular, odometry/quality, with the
-/// image stamps. Tracking runs on the component's thread, motion with the local bundle
-/// adjustment on a second one; in replay both run in sequence.
+/// stereo/{left,right}/image_rect with camera_info, and /tf_static -> odometry/binocular, odometry/quality, optionally
+/// /tf, with the image stamps. Tracking runs on the component's thread, motion with the local bundle adjustment on a
+/// second one; in replay both run in sequence.
 class BinocularOdometryComponent final : public runtime::Component {
  public:
   explicit BinocularOdometryComponent(runtime::Context& context)
@@ -43,6 +46,7 @@ class BinocularOdometryComponent final : public runtime::Component {
         quality_(context.output(topics::kOdometryQuality)),
         tracked_(context.stage<TrackedFrame>("motion", 2, [this](const TrackedFrame& frame) { on_tracked(frame); })),
         transforms_(context) {
+    if (parameters_.publish_tf) tf_.emplace(context.output(topics::kTf));
     context.input(topics::kStereoLeftCameraInfo,
                   [this](const auto& info) { on_camera(left_, *info, topics::kStereoLeftCameraInfo); });
     context.input(topics::kStereoRightCameraInfo,
@@ -105,8 +109,10 @@ class BinocularOdometryComponent final : public runtime::Component {
     // For a late pair only the quality is published, no pose.
     const bool is_late = last_stamp_ns_ && estimate.stamp_ns <= *last_stamp_ns_;
     if (is_late && !estimate.quality.reliable) return;
-    odometry_.publish(
-        to_odometry(estimate, stages_->base_from_left, last_stamp_ns_, parameters_.odom_frame, parameters_.base_frame));
+    const auto odometry =
+        to_odometry(estimate, stages_->base_from_left, last_stamp_ns_, parameters_.odom_frame, parameters_.base_frame);
+    if (tf_) tf_->publish(to_transform(odometry));
+    odometry_.publish(odometry);
     last_stamp_ns_ = estimate.stamp_ns;
   }
 
@@ -150,6 +156,7 @@ class BinocularOdometryComponent final : public runtime::Component {
   conversions::StageTimer timer_;
   runtime::Output<nav_msgs::msg::Odometry> odometry_;
   runtime::Output<panvo_msgs::msg::OdometryQuality> quality_;
+  std::optional<runtime::Output<tf2_msgs::msg::TFMessage>> tf_;
   runtime::Stage<TrackedFrame> tracked_;
 
   conversions::TransformListener transforms_;

@@ -46,6 +46,20 @@ nav_msgs::msg::Odometry to_odometry(const OdometryEstimate& estimate, const Eige
   return odometry;
 }
 
+tf2_msgs::msg::TFMessage to_transform(const nav_msgs::msg::Odometry& odometry) {
+  const auto& pose = odometry.pose().pose();
+  geometry_msgs::msg::TransformStamped stamped;
+  stamped.header(odometry.header());
+  stamped.child_frame_id(odometry.child_frame_id());
+  stamped.transform().translation().x(pose.position().x());
+  stamped.transform().translation().y(pose.position().y());
+  stamped.transform().translation().z(pose.position().z());
+  stamped.transform().rotation(pose.orientation());
+  tf2_msgs::msg::TFMessage message;
+  message.transforms({stamped});
+  return message;
+}
+
 panvo_msgs::msg::OdometryQuality to_quality(const OdometryEstimate& estimate, const std::string& base_frame) {
   panvo_msgs::msg::OdometryQuality quality;
   quality.header().stamp(conversions::to_stamp(estimate.stamp_ns));

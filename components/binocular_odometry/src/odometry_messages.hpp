@@ -8,6 +8,7 @@
 #include "nav_msgs/msg/Odometry.h"
 #include "panvo/binocular_odometry/odometry_estimate.hpp"
 #include "panvo_msgs/msg/OdometryQuality.h"
+#include "tf2_msgs/msg/TFMessage.h"
 
 namespace panvo::binocular_odometry {
 
@@ -17,6 +18,9 @@ namespace panvo::binocular_odometry {
 nav_msgs::msg::Odometry to_odometry(const OdometryEstimate& estimate, const Eigen::Isometry3d& base_from_left,
                                     std::optional<std::int64_t> previous_stamp_ns, const std::string& odom_frame,
                                     const std::string& base_frame);
+
+/// The pose of an odometry message as a transform.
+tf2_msgs::msg::TFMessage to_transform(const nav_msgs::msg::Odometry& odometry);
 
 panvo_msgs::msg::OdometryQuality to_quality(const OdometryEstimate& estimate, const std::string& base_frame);
 

@@ -81,6 +81,8 @@ TEST_F(BinocularOdometryComponent, PublishesTheRobotsMotionUnderTheImagesStamp) 
   for (int i = 0; i < 5; ++i) publish_pair(SyntheticScene::frame(i));
   ASSERT_THAT(odometry_, SizeIs(5));
   ASSERT_THAT(quality_, SizeIs(5));
+  EXPECT_FALSE(harness_.container().links().published.empty());
+  EXPECT_THAT(harness_.container().links().published, testing::Not(testing::Contains("/tf")));
   const auto& last = *odometry_.back();
   EXPECT_EQ(conversions::stamp_ns(last), 1'400'000'000);
   EXPECT_EQ(last.header().frame_id(), "odom");
@@ -94,6 +96,27 @@ TEST_F(BinocularOdometryComponent, PublishesTheRobotsMotionUnderTheImagesStamp) 
   EXPECT_GT(last.pose().covariance()[0], 0.0);
   EXPECT_GT(last.twist().covariance()[0], 0.0);
   EXPECT_TRUE(quality_.back()->reliable()) << quality_.back()->reason();
+}
+
+TEST_F(BinocularOdometryComponent, PublishesThePoseAsATransformOnlyIfAsked) {
+  const auto& tf = harness_.collect(topics::kTf);
+  load({{"publish_tf", "true"}, {"odom_frame", "start"}});
+  publish_infos();
+  publish_mounting();
+  for (int i = 0; i < 3; ++i) publish_pair(SyntheticScene::frame(i));
+  ASSERT_THAT(odometry_, SizeIs(3));
+  ASSERT_THAT(tf, SizeIs(3));
+  const auto& odometry = *odometry_.back();
+  ASSERT_THAT(tf.back()->transforms(), SizeIs(1));
+  const auto& transform = tf.back()->transforms()[0];
+  EXPECT_EQ(transform.header(), odometry.header());
+  EXPECT_EQ(transform.header().frame_id(), "start");
+  EXPECT_EQ(transform.child_frame_id(), "base_link");
+  EXPECT_GT(transform.transform().translation().x(), 0.1);
+  EXPECT_EQ(transform.transform().translation().x(), odometry.pose().pose().position().x());
+  EXPECT_EQ(transform.transform().translation().y(), odometry.pose().pose().position().y());
+  EXPECT_EQ(transform.transform().translation().z(), odometry.pose().pose().position().z());
+  EXPECT_EQ(transform.transform().rotation(), odometry.pose().pose().orientation());
 }
 
 TEST_F(BinocularOdometryComponent, WaitsForTheMountingAndSaysSo) {

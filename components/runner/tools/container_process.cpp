@@ -95,6 +95,7 @@ ContainerOptions make_container_options(const RunOptions& options, const Contain
   if (description.requests_per_s) result.dds->requests_per_s = *description.requests_per_s;
   result.name = node_name(description);
   result.name_space = description.name_space;
+  result.parameters = description.parameters;
   result.services = description.services;
   result.files_below = description.files_below;
   return result;

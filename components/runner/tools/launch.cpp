@@ -53,6 +53,8 @@ std::vector<std::string> command_line(const RunOptions& options, const Child& ch
   add("--out", child.out);
   add("--rate", std::to_string(options.rate));
   for (const auto& setting : options.settings) add("--set", setting);
+  for (const auto& parameter : options.ros_parameters) add("-p", parameter);
+  for (const auto& rule : options.ros_remaps) add("-r", rule);
   add("--seed", std::to_string(options.seed));
   add("--domain", std::to_string(options.dds.domain));
   add("--ros-distro", options.dds.ros_distro);

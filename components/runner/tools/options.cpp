@@ -78,6 +78,16 @@ std::optional<int> RunOptions::parse(int argc, char** argv, RunOptions& options)
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
   app.add_option("--set", options.settings, "component.parameter=value; may be repeated")->expected(1)->take_all();
+  app.add_option("-p,--param", options.ros_parameters,
+                 "[NODE:]NAME:=VALUE, as in ROS 2: a parameter of one node or of all; may be repeated")
+      ->expected(1)
+      ->take_all();
+  app.add_option("-r,--remap", options.ros_remaps,
+                 "[NODE:]FROM:=TO, as in ROS 2: a topic; __node:=NAME: name of the container; __ns:=/NS: namespace of "
+                 "all nodes; may be repeated")
+      ->expected(1)
+      ->take_all();
+  app.add_flag("--ros-args")->group("");  // in front of -p and -r, as ROS 2 needs it
   app.add_option("--seed", options.seed, "seed of all random numbers")->capture_default_str();
   app.add_option("--domain", options.dds.domain, "DDS domain; overrides ROS_DOMAIN_ID")
       ->check(CLI::Range(0, runtime::DdsSettings::kMaxDomain))
@@ -117,7 +127,8 @@ std::optional<int> RunOptions::parse(int argc, char** argv, RunOptions& options)
   app.add_option("--link-out", options.link_out)->group("");
   app.add_flag("--again", options.again)->group("");
   app.footer(
-      "ROS_DOMAIN_ID, ROS_DISTRO, ROS_LOCALHOST_ONLY and ROS_DISCOVERY_SERVER are honoured. Exit status: 0 success, 1 "
+      "ROS_DOMAIN_ID, ROS_DISTRO, ROS_LOCALHOST_ONLY, ROS_AUTOMATIC_DISCOVERY_RANGE, ROS_STATIC_PEERS and "
+      "ROS_DISCOVERY_SERVER are honoured. Exit status: 0 success, 1 "
       "the run failed, 2 invalid configuration or command line, 130 or 143 interrupted (Ctrl-C, SIGTERM) before the "
       "end of the data.");
   try {
@@ -160,6 +171,8 @@ runtime::SystemDescription describe_system(const RunOptions& options) {
   if (!options.bag.empty()) add_player("panvo_recorder", "BagPlayerComponent", "bag_player", "--bag", options.bag);
   if (!options.calibration.empty()) add_calibration(options, system);
   for (const auto& setting : options.settings) runtime::apply_setting(system, setting);
+  for (const auto& parameter : options.ros_parameters) runtime::apply_parameter(system, parameter);
+  for (const auto& rule : options.ros_remaps) runtime::apply_remap(system, rule);
   return system;
 }
 

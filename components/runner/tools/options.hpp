@@ -26,7 +26,8 @@ struct RunOptions {
   bool overwrite = false;  // replace files in `out` that are not from a run
   bool replay = false;
   double rate = 0;
-  std::vector<std::string> settings;  // component.parameter=value
+  std::vector<std::string> settings;                    // component.parameter=value
+  std::vector<std::string> ros_parameters, ros_remaps;  // ROS 2's options -p and -r
   std::uint64_t seed = 1;
   runtime::DdsSettings dds;  // domain, profiles, ROS 2 distribution
   bool local = false;

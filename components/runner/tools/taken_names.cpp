@@ -23,8 +23,6 @@ constexpr milliseconds kPollPeriod{5};
 // Our processes announce themselves twice per second and answer announcements; their endpoints follow within
 // milliseconds.
 constexpr milliseconds kFirstLook{600}, kQuiet{100}, kMaxLook{2000};
-constexpr const char* kNodesTopic = "ros_discovery_info";
-constexpr std::size_t kPrefixDigits = 24;  // participant part of an endpoint's GID
 
 std::vector<std::string> taken_of(const std::vector<std::string>& wanted, const runtime::Graph& graph) {
   std::set<std::string> there;
@@ -34,24 +32,13 @@ std::vector<std::string> taken_of(const std::vector<std::string>& wanted, const 
   return taken;
 }
 
-/// Whether all participants that publish node lists have sent one.
-bool have_all_told(const runtime::Graph& graph) {
-  std::set<std::string> told;
-  for (const auto& node : graph.nodes) {
-    for (const auto& gid : node.writers) told.insert(gid.substr(0, kPrefixDigits));
-  }
-  return std::ranges::all_of(graph.endpoints, [&](const auto& endpoint) {
-    return !endpoint.is_writer || endpoint.name != kNodesTopic || told.contains(endpoint.gid.substr(0, kPrefixDigits));
-  });
-}
-
 std::vector<std::string> look(runtime::Bridge& bridge, const std::vector<std::string>& wanted) {
   const auto start = steady_clock::now();
   auto changed = start;
   runtime::Graph graph = bridge.graph();
   for (auto now = start; now - start < kMaxLook; now = steady_clock::now()) {
     if (auto taken = taken_of(wanted, graph); !taken.empty()) return taken;
-    if (now - start >= kFirstLook && now - changed >= kQuiet && have_all_told(graph)) break;
+    if (now - start >= kFirstLook && now - changed >= kQuiet && is_complete(graph)) break;
     std::this_thread::sleep_for(kPollPeriod);
     runtime::Graph next = bridge.graph();
     if (next.endpoints.size() != graph.endpoints.size() || next.nodes.size() != graph.nodes.size()) changed = now;

@@ -16,12 +16,32 @@ using interfaces::Durability;
 
 Channel::Channel(TopicDescription topic, Bridge* bridge, std::function<void(const std::string&)> warn,
                  std::function<std::int64_t()> clock, Limits limits)
-    : topic_(std::move(topic)), bridge_(bridge), warn_(std::move(warn)), clock_(std::move(clock)), limits_(limits) {}
+    : topic_(std::move(topic)),
+      bridge_(bridge),
+      warn_(std::move(warn)),
+      clock_(std::move(clock)),
+      limits_(limits),
+      offered_(topic_.qos),
+      requested_(topic_.qos) {}
 
-void Channel::add_publisher(const void* owner, const std::string& owner_name) {
+TopicDescription Channel::with(const interfaces::Qos& qos) const {
+  TopicDescription topic = topic_;
+  topic.qos = qos;
+  return topic;
+}
+
+void Channel::add_publisher(const void* owner, const std::string& owner_name,
+                            const std::optional<interfaces::Qos>& qos) {
   const std::unique_lock lock(mutex_);
+  const interfaces::Qos wanted = qos.value_or(topic_.qos);
+  if (!publishers_.empty() && offered_ != wanted) {
+    throw ConfigError("topic " + topic_.name + " is also published by " + publishers_.begin()->second +
+                      " in this container, with another quality of service: set the same qos_overrides." + topic_.name +
+                      ".publisher parameters for both");
+  }
+  offered_ = wanted;
   publishers_[owner] = owner_name;
-  if (bridge_ && !writer_) writer_ = bridge_->open_writer(topic_);
+  if (bridge_ && !writer_) writer_ = bridge_->open_writer(with(offered_));
 }
 
 void Channel::remove_publisher(const void* owner) {
@@ -57,18 +77,33 @@ bool Channel::has_readers() const {
   return !readers_.empty();
 }
 
-void Channel::add_reader(const void* owner, Reader reader, Wants wants) {
+void Channel::agree_on_reading(const std::optional<interfaces::Qos>& qos, Wants wants) {
+  const interfaces::Qos wanted = qos.value_or(topic_.qos);
+  if (readers_.empty()) {
+    requested_ = wanted;
+  } else if (wants == Wants::kValid &&
+             (requested_.requested != wanted.requested || requested_.durability != wanted.durability)) {
+    throw ConfigError("topic " + topic_.name +
+                      " is also read by another component of this container, with another reliability or durability: "
+                      "set the same qos_overrides." +
+                      topic_.name + ".subscription parameters for both");
+  }
+}
+
+void Channel::add_reader(const void* owner, Reader reader, Wants wants, const std::optional<interfaces::Qos>& qos) {
   {
     const std::unique_lock lock(mutex_);
+    agree_on_reading(qos, wants);
+    const bool is_volatile = qos && qos->durability == Durability::kVolatile;
     for (const auto& latched : history_) {
-      if (is_old(latched)) continue;
+      if (is_volatile || is_old(latched)) continue;
       if (wants == Wants::kAll || !topic_.type || !is_rejected(latched.sample)) reader(topic_, latched.sample);
     }
     readers_.push_back({owner, std::move(reader), wants});
   }
   const std::lock_guard lock(bridge_reader_mutex_);
   if (bridge_ && !bridge_reader_)
-    bridge_reader_ = bridge_->open_reader(topic_, [this](const SamplePtr& sample) {
+    bridge_reader_ = bridge_->open_reader(with(requested_), [this](const SamplePtr& sample) {
       deliver(sample, !(is_to_be_checked(*sample) && is_rejected(sample)), false);
     });
 }
@@ -118,7 +153,8 @@ bool Channel::is_rejected(const SamplePtr& sample) {
 void Channel::deliver(const SamplePtr& sample, bool is_valid, bool is_from_here) {
   if (!is_valid && !bridge_) tell_rejected();  // no bridge, so no sender lookup
   const std::shared_lock lock(mutex_);
-  if (is_valid && topic_.qos.durability == Durability::kTransientLocal) remember(sample, is_from_here);
+  const auto& qos = is_from_here ? offered_ : requested_;
+  if (is_valid && qos.durability == Durability::kTransientLocal) remember(sample, is_from_here);
   for (const auto& [owner, reader, wants] : readers_) {
     if (is_valid || wants == Wants::kAll) reader(topic_, sample);
   }

@@ -9,6 +9,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <shared_mutex>
 #include <string>
 #include <vector>
@@ -36,7 +37,9 @@ class Channel {
 
   const TopicDescription& topic() const noexcept { return topic_; }
 
-  void add_publisher(const void* owner, const std::string& owner_name);
+  /// `qos`: overrides that of the topic. Throws ConfigError if another publisher of this process has another one.
+  void add_publisher(const void* owner, const std::string& owner_name,
+                     const std::optional<interfaces::Qos>& qos = std::nullopt);
   void remove_publisher(const void* owner);
   bool has_publisher_other_than(const void* owner) const;
   bool is_published_by(const std::string& owner_name) const;
@@ -44,8 +47,11 @@ class Channel {
 
   bool has_readers() const;
 
-  /// Passes latched messages and then all further messages to `reader`, until remove_reader() returns.
-  void add_reader(const void* owner, Reader reader, Wants wants = Wants::kValid);
+  /// Passes latched messages and then all further messages to `reader`, until remove_reader() returns. `qos`: overrides
+  /// that of the topic. Throws ConfigError if another reader of this process requests another reliability or
+  /// durability; a reader of all messages takes what there is.
+  void add_reader(const void* owner, Reader reader, Wants wants = Wants::kValid,
+                  const std::optional<interfaces::Qos>& qos = std::nullopt);
   void remove_reader(const void* owner);
 
   /// Calls `observer` only for messages published in this process.
@@ -80,6 +86,8 @@ class Channel {
   bool is_rejected(const SamplePtr& sample);
   void deliver(const SamplePtr& sample, bool is_valid, bool is_from_here);
   std::string shown_sender(const std::string& sender) const;
+  TopicDescription with(const interfaces::Qos& qos) const;
+  void agree_on_reading(const std::optional<interfaces::Qos>& qos, Wants wants);
   void remember(const SamplePtr& sample, bool is_from_here);
   bool is_old(const Latched& latched) const;
 
@@ -97,6 +105,7 @@ class Channel {
   std::map<const void*, std::string> publishers_;
   std::vector<Member> readers_;
   std::vector<Reader> observers_;
+  interfaces::Qos offered_, requested_;  // of publishers and readers of this process
   std::unique_ptr<BridgeWriter> writer_;
   std::mutex history_mutex_;
   std::deque<Latched> history_;  // of a transient-local topic

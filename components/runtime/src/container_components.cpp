@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 
 #include "clocks.hpp"
 #include "container_implementation.hpp"
@@ -20,6 +21,8 @@ std::vector<std::string> names_of(const std::vector<node_services::OfferedServic
   return names;
 }
 
+constexpr interfaces::Topic<lifecycle_msgs::msg::TransitionEvent> kTransitionEvents{"~/transition_event"};
+
 template <class Message>
 TopicDescription describe(const interfaces::Topic<Message>& topic) {
   const auto& type = interfaces::message_type<Message>();
@@ -30,9 +33,10 @@ void log_to_stderr(LogLevel level, const std::string& component, const std::stri
   if (level >= LogLevel::kWarning) std::fprintf(stderr, "%s: %s\n", component.c_str(), text.c_str());
 }
 
-ComponentDescription own_description() {
+ComponentDescription own_description(const ContainerOptions& options) {
   ComponentDescription description;
   description.name = "container";
+  description.parameters = options.parameters;
   return description;
 }
 
@@ -58,11 +62,13 @@ Container::Implementation::Implementation(ContainerOptions options)
             .again = options_.again,
             .files_below = options_.files_below,
             .failed = [this](const ComponentDescription& description) { component_failed(description); }},
-      own_(std::make_unique<Context::State>(host_, own_description(), nullptr)),
+      own_(std::make_unique<Context::State>(host_, own_description(options_), nullptr)),
       diagnostics_output_(own_.open_output(describe(topics::kDiagnostics))) {
   rosout_.open(own_.open_output(describe(topics::kRosout)));
   if (!bus_.bridge()) return;
   try {
+    parameter_events_ = own_.open_output(describe(node_services::kParameterEvents));
+    if (auto problems = own_problems(); !problems.empty()) throw ConfigError(std::move(problems));
     meet_others();
   } catch (...) {
     rosout_.close();  // it would outlive the bus
@@ -70,11 +76,20 @@ Container::Implementation::Implementation(ContainerOptions options)
   }
 }
 
+std::vector<std::string> Container::Implementation::own_problems() {
+  auto problems = own_.state().reader.problems();
+  std::ranges::move(own_.state().node.problems(), std::back_inserter(problems));
+  return problems;
+}
+
 void Container::Implementation::meet_others() {
-  parameter_events_ = own_.open_output(describe(node_services::kParameterEvents));
+  own_node_ = make_node(own_.state(), full_name(), [] {});
   auto offered = node_services::component_services(full_name(), *this);
+  std::ranges::move(node_services::parameter_services(full_name(), *own_node_), std::back_inserter(offered));
+  std::ranges::move(node_services::type_services(full_name()), std::back_inserter(offered));
   own_service_names_ = names_of(offered, options_.services);
   services_ = serve(std::move(offered));
+  tell_parameters(node_services::new_parameters(full_name(), own_.state().parameters(), clocks::system_ns()));
   tell_nodes();
 }
 
@@ -141,6 +156,8 @@ void Container::Implementation::make(LoadedComponent& entry) {
   entry.context = std::make_unique<Context>(std::make_unique<Context::State>(host_, description, entry.recipe.library));
   Context::State& state = entry.context->state();
   state.restarts = entry.recipe.restarted;
+  if (bus_.bridge() && options_.services != ServiceAccess::kOff)
+    entry.transition_events = entry.context->open_output(describe(kTransitionEvents));
   if (entry.recipe.by_request) state.reader.confine_paths(options_.files_below);
   std::vector<std::string> problems;
   try {
@@ -154,6 +171,7 @@ void Container::Implementation::make(LoadedComponent& entry) {
     problems.insert(problems.end(), more.begin(), more.end());
   };
   append(state.reader.problems());
+  append(state.node.problems());
   append(state.problems);
   if (state.source && running_) {
     problems.push_back(description.name + " plays recorded data and must be loaded before the run starts");
@@ -239,19 +257,34 @@ std::vector<std::unique_ptr<BridgeService>> Container::Implementation::serve(
   return services;
 }
 
+std::unique_ptr<node_services::ComponentNode> Container::Implementation::make_node(Context::State& state,
+                                                                                   const std::string& full_name,
+                                                                                   std::function<void()> shut_down) {
+  const auto parameters_set = [this, &state, full_name](const WrittenValues& set) {
+    tell_parameters(node_services::changed_parameters(full_name, state.parameters(), set, clocks::system_ns()));
+    if (set.contains(std::string(NodeParameters::kUseSimTime))) tell_nodes();
+  };
+  return std::make_unique<node_services::ComponentNode>(state, std::move(shut_down), parameters_set);
+}
+
+std::vector<node_services::OfferedService> Container::Implementation::services_of(const LoadedComponent& entry) {
+  auto services = node_services::parameter_services(entry.full_name(), *entry.node);
+  const auto tell = [events = entry.transition_events](const lifecycle_msgs::msg::TransitionEvent& event) {
+    events->publish(std::make_shared<const lifecycle_msgs::msg::TransitionEvent>(event));
+  };
+  std::ranges::move(node_services::lifecycle_services(entry.full_name(), *entry.node, tell),
+                    std::back_inserter(services));
+  std::ranges::move(node_services::type_services(entry.full_name()), std::back_inserter(services));
+  return services;
+}
+
 void Container::Implementation::offer_services(LoadedComponent& entry) {
   Context::State& state = entry.context->state();
-  const auto shut_down = [this, id = entry.recipe.id] {
+  entry.node = make_node(state, entry.full_name(), [this, id = entry.recipe.id] {
     const std::lock_guard lock(housekeeping_mutex_);
-    to_unload_.push_back(id);
-  };
-  const auto parameters_set = [this, &state, name = entry.full_name()](const WrittenValues& set) {
-    tell_parameters(node_services::changed_parameters(name, state.parameters(), set, clocks::system_ns()));
-  };
-  entry.node = std::make_unique<node_services::ComponentNode>(state, shut_down, parameters_set);
-  entry.services = serve(node_services::parameter_services(entry.full_name(), *entry.node));
-  for (auto& service : serve(node_services::lifecycle_services(entry.full_name(), *entry.node)))
-    entry.services.push_back(std::move(service));
+    to_finalize_.push_back(id);
+  });
+  entry.services = serve(services_of(entry));
   // Services of the component itself are not guarded: "services" covers only the standard ones.
   for (const auto& [description, serve_here] : state.services)
     entry.services.push_back(bus_.bridge()->serve(description, handler_of(serve_here)));
@@ -274,14 +307,17 @@ void Container::Implementation::tell_nodes() {
   };
   const std::lock_guard lock(entries_mutex_);
   add_topics(nodes.front(), own_.name(), &own_.state());
+  if (own_.state().follows_clock()) nodes.front().subscribes.emplace_back(topics::kClock.name);
   if (clock_) nodes.front().publishes.emplace_back(topics::kClock.name);
   for (const auto& entry : entries_) {
     Context::State& state = entry->context->state();
     NodeDescription node{state.description.name_space, state.description.name, {}, {}, {}};
     add_topics(node, state.description.name, &state);
-    node.serves = names_of(node_services::parameter_services(entry->full_name(), *entry->node), options_.services);
-    for (auto& name : names_of(node_services::lifecycle_services(entry->full_name(), *entry->node), options_.services))
-      node.serves.push_back(std::move(name));
+    // All nodes of the process share the writers of these topics.
+    node.publishes.emplace_back(topics::kRosout.name);
+    node.publishes.emplace_back(node_services::kParameterEvents.name);
+    if (state.follows_clock()) node.subscribes.emplace_back(topics::kClock.name);
+    node.serves = names_of(services_of(*entry), options_.services);
     for (const auto& [service, serve_here] : state.services) node.serves.push_back(service.name);
     nodes.push_back(std::move(node));
   }

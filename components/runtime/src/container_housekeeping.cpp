@@ -11,13 +11,11 @@ void Container::Implementation::keep_house() {
   std::int64_t last_ns = clocks::monotonic_ns();
   std::unique_lock lock(housekeeping_mutex_);
   while (!housekeeping_changed_.wait_for(lock, std::chrono::milliseconds(50), [this] { return housekeeping_ended_; })) {
-    const auto to_unload = std::exchange(to_unload_, {});
+    const auto to_finalize = std::exchange(to_finalize_, {});
     lock.unlock();
     bus_.join_discovered();
     bus_.tell_rejected();
-    for (const std::uint64_t id : to_unload) {
-      unload_if([id](const LoadedComponent& entry) { return entry.recipe.id == id; });
-    }
+    for (const std::uint64_t id : to_finalize) finalize(id);
     restart_failed();
     if (bus_.channels().size() != told_channels_) tell_nodes();  // a recorder has opened topics
     lock.lock();

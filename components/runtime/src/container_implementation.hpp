@@ -67,6 +67,10 @@ class Container::Implementation final : public node_services::ControlledContaine
   bool unload_if(const std::function<bool(const LoadedComponent&)>& is_it);
   void take_last();
   std::vector<std::unique_ptr<BridgeService>> serve(std::vector<node_services::OfferedService> offered);
+  std::vector<std::string> own_problems();
+  std::unique_ptr<node_services::ComponentNode> make_node(Context::State& state, const std::string& full_name,
+                                                          std::function<void()> shut_down);
+  static std::vector<node_services::OfferedService> services_of(const LoadedComponent& entry);
   void offer_services(LoadedComponent& entry);
   void tell_parameters(rcl_interfaces::msg::ParameterEvent event);
   void tell_nodes();
@@ -80,6 +84,8 @@ class Container::Implementation final : public node_services::ControlledContaine
   void fail_source(const std::string& what);
   bool have_all_failed() const;
   std::vector<std::string> end_components();
+  void end(Context::State& state);
+  void finalize(std::uint64_t id);
 
   void component_failed(const ComponentDescription& description);
   void restart_failed();
@@ -110,7 +116,8 @@ class Container::Implementation final : public node_services::ControlledContaine
   std::mutex change_mutex_;           // serialises loading and unloading; also guards unmade_
   mutable std::mutex entries_mutex_;  // guards entries_ and the lifetime of its elements
   Entries entries_;
-  std::vector<Recipe> unmade_;  // failed and could not be restarted
+  std::vector<Recipe> unmade_;             // failed and could not be restarted
+  std::vector<std::string> end_problems_;  // of components; guarded by change_mutex_
   std::uint64_t next_id_ = 1;
   std::atomic<bool> started_ = false;
   std::atomic<bool> running_ = false;
@@ -126,9 +133,10 @@ class Container::Implementation final : public node_services::ControlledContaine
   std::mutex housekeeping_mutex_;
   std::condition_variable housekeeping_changed_;
   bool housekeeping_ended_ = false;
-  std::vector<std::uint64_t> to_unload_;
+  std::vector<std::uint64_t> to_finalize_;
   std::thread housekeeping_;
 
+  std::unique_ptr<node_services::ComponentNode> own_node_;
   std::vector<std::string> own_service_names_;
   std::vector<std::unique_ptr<BridgeService>> services_;  // last: the services use the members above
 };

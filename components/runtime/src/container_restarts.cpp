@@ -46,7 +46,7 @@ auto Container::Implementation::take_failed(std::int64_t now_ns) -> Entries {
     auto& state = entry->context->state();
     state.trust_files(now_ns);
     // A source is not restarted: it has lost its position.
-    if (!state.failed() || state.description.on_error != OnError::kRestart || state.source) continue;
+    if (!state.failed() || state.finalized || state.description.on_error != OnError::kRestart || state.source) continue;
     auto& recipe = entry->recipe;
     if (!recipe.restart_ns && !recipe.given_up) plan_restart(recipe, now_ns);
     if (recipe.restart_ns && *recipe.restart_ns <= now_ns) due.push_back(std::move(entry));

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <utility>
 
 #include "clocks.hpp"
 #include "container_implementation.hpp"
@@ -18,6 +19,7 @@ void Container::Implementation::start() {
                                  [](const auto& entry) { return entry->context->state().source != nullptr; });
   if (plays) time_.follow_sources();
   for (const auto& entry : entries_) entry->context->state().start();
+  tell_nodes();  // some now read /clock
   if (!options_.replay) housekeeping_ = std::thread([this] { keep_house(); });
 }
 
@@ -52,20 +54,33 @@ std::vector<std::string> Container::Implementation::run() {
 
 /// Lets components finish their results, such as a bag; failures are problems of the run.
 std::vector<std::string> Container::Implementation::end_components() {
-  std::vector<std::string> problems;
   const std::lock_guard change(change_mutex_);
-  for (const auto& entry : entries_) {
-    auto& state = entry->context->state();
-    if (!state.end) continue;
-    state.stop();
-    try {
-      state.end();
-    } catch (const std::exception& error) {
-      state.logger.error("{}", error.what());
-      problems.push_back(entry->context->name() + ": " + error.what());
-    }
+  for (const auto& entry : entries_) end(entry->context->state());
+  return std::exchange(end_problems_, {});
+}
+
+/// Requires change_mutex_.
+void Container::Implementation::end(Context::State& state) {
+  const auto finish = std::exchange(state.end, nullptr);
+  if (!finish) return;
+  state.stop();
+  try {
+    finish();
+  } catch (const std::exception& error) {
+    state.logger.error("{}", error.what());
+    end_problems_.push_back(state.description.name + ": " + error.what());
   }
-  return problems;
+}
+
+/// Stops a component for good and lets it finish its results; its node and services stay until it is unloaded.
+void Container::Implementation::finalize(std::uint64_t id) {
+  const std::lock_guard change(change_mutex_);
+  const auto found = std::ranges::find(entries_, id, [](const auto& entry) { return entry->recipe.id; });
+  if (found == entries_.end()) return;
+  Context::State& state = (*found)->context->state();
+  state.stop();
+  end(state);
+  tell_nodes();
 }
 
 bool Container::Implementation::have_all_failed() const {

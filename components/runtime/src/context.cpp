@@ -2,10 +2,12 @@
 #include "panvo/runtime/context.hpp"
 
 #include <limits>
+#include <optional>
 
 #include "clocks.hpp"
 #include "context_state.hpp"
 #include "pairing.hpp"
+#include "panvo/interfaces/node_topics.hpp"
 #include "panvo/runtime/errors.hpp"
 #include "panvo/runtime/names.hpp"
 
@@ -21,12 +23,13 @@ std::int64_t stamp_of(const Sample& sample) {
 
 class ChannelOutput final : public UntypedOutput {
  public:
-  ChannelOutput(Channel& channel, Host& host, std::shared_ptr<const void> library, const std::string& owner)
+  ChannelOutput(Channel& channel, Host& host, std::shared_ptr<const void> library, const std::string& owner,
+                const std::optional<interfaces::Qos>& qos)
       : channel_(channel),
         host_(host),
         library_(std::move(library)),
         sender_(std::make_shared<const std::string>(owner)) {
-    channel_.add_publisher(this, owner);
+    channel_.add_publisher(this, owner, qos);
   }
   ~ChannelOutput() override { channel_.remove_publisher(this); }
 
@@ -71,7 +74,8 @@ Context::State::State(Host& a_host, const ComponentDescription& a_description, s
     : host(a_host),
       description(a_description),
       library(std::move(a_library)),
-      reader(a_description.name, a_description.parameters),
+      node(a_description.name, a_description.parameters),
+      reader(a_description.name, node.others(a_description.parameters)),
       logger(a_description.name, a_host.log, a_host.replay_order ? current_stamp_ns : clocks::monotonic_ns) {
   workers.push_back(make_worker(description.name));
 }
@@ -92,11 +96,36 @@ TopicDescription Context::State::resolve(TopicDescription topic) const {
   return topic;
 }
 
+void Context::State::follow_clock(bool follow) {
+  if (host.replay_order || follow == follows_clock_) return;
+  const auto& type = interfaces::message_type<rosgraph_msgs::msg::Clock>();
+  Channel& channel =
+      host.bus.channel({std::string(topics::kClock.name), std::string(type.name), topics::kClock.qos, &type});
+  follows_clock_ = follow;
+  if (!follow) return channel.remove_reader(&clock_ns_);
+  try {
+    channel.add_reader(&clock_ns_, [this, &type](const TopicDescription&, const SamplePtr& sample) {
+      if (const void* clock = sample->message()) clock_ns_ = type.stamp_ns(clock).value_or(0);
+    });
+  } catch (const ConfigError&) {
+    follow_clock(false);
+    throw;
+  }
+}
+
+std::int64_t Context::State::timer_stamp_ns() const {
+  const bool is_live = host.time.pace() == PassingTime::Pace::kClock && !host.replay_order;
+  if (!is_live) return host.time.now_ns();
+  return follows_clock_ ? clock_ns_.load() : clocks::system_ns();
+}
+
 void Context::State::start() {
+  follow_clock(node.uses_sim_time());
   for (const auto& worker : workers) worker->start(gives_way);
 }
 
 void Context::State::stop() {
+  follow_clock(false);
   for (Channel* channel : inputs) channel->remove_reader(this);
   inputs.clear();
   if (taps) host.bus.remove_tap(this);
@@ -143,8 +172,10 @@ std::uint64_t Context::seed() const noexcept {
 
 std::shared_ptr<UntypedOutput> Context::open_output(const TopicDescription& topic) {
   try {
-    return std::make_shared<ChannelOutput>(state_->host.bus.channel(state_->resolve(topic)), state_->host,
-                                           state_->library, name());
+    const TopicDescription resolved = state_->resolve(topic);
+    const auto qos = state_->node.overriding(resolved.name, NodeParameters::Side::kPublisher, resolved.qos);
+    return std::make_shared<ChannelOutput>(state_->host.bus.channel(resolved), state_->host, state_->library, name(),
+                                           qos);
   } catch (const ConfigError& error) {
     state_->problems.push_back(name() + ": " + error.what());
     return std::make_shared<NoOutput>();
@@ -153,16 +184,20 @@ std::shared_ptr<UntypedOutput> Context::open_output(const TopicDescription& topi
 
 void Context::open_input(const TopicDescription& topic, std::function<void(const SamplePtr&)> callback) {
   try {
-    Channel& channel = state_->host.bus.channel(state_->resolve(topic));
+    const TopicDescription resolved = state_->resolve(topic);
+    Channel& channel = state_->host.bus.channel(resolved);
+    const auto qos = state_->node.overriding(resolved.name, NodeParameters::Side::kSubscription, resolved.qos);
     Worker& worker = state_->main_worker();
-    Port& port = worker.add_port(topic.name, topic.qos.depth, false,
+    Port& port = worker.add_port(topic.name, qos.value_or(topic.qos).depth, false,
                                  [callback = std::move(callback)](Task& task) { callback(task.first); });
     state_->inputs.push_back(&channel);
-    channel.add_reader(state_.get(),
-                       [state = state_.get(), &worker, &port](const TopicDescription& there, const SamplePtr& sample) {
-                         if (!state->active || !state->admits_stamp(there, *sample)) return;
-                         worker.push(port, {.first = sample, .stamp_ns = stamp_of(*sample)});
-                       });
+    channel.add_reader(
+        state_.get(),
+        [state = state_.get(), &worker, &port](const TopicDescription& there, const SamplePtr& sample) {
+          if (!state->active || !state->admits_stamp(there, *sample)) return;
+          worker.push(port, {.first = sample, .stamp_ns = stamp_of(*sample)});
+        },
+        Channel::Wants::kValid, qos);
   } catch (const ConfigError& error) {
     state_->problems.push_back(name() + ": " + error.what());
   }
@@ -173,18 +208,24 @@ void Context::open_input_pair(const TopicDescription& first, const TopicDescript
                               std::function<void(const SamplePtr&, const SamplePtr&)> callback) {
   try {
     if (tolerance.count() < 0) throw ConfigError("the tolerance of a pair of inputs is negative");
-    Channel* channels[2] = {&state_->host.bus.channel(state_->resolve(first)),
-                            &state_->host.bus.channel(state_->resolve(second))};
+    const TopicDescription resolved[2] = {state_->resolve(first), state_->resolve(second)};
+    Channel* channels[2] = {&state_->host.bus.channel(resolved[0]), &state_->host.bus.channel(resolved[1])};
+    std::optional<interfaces::Qos> qos[2];
+    for (int side = 0; side < 2; ++side) {
+      qos[side] = state_->node.overriding(resolved[side].name, NodeParameters::Side::kSubscription, resolved[side].qos);
+    }
     Worker& worker = state_->main_worker();
-    Port& port = worker.add_port(first.name + ", " + second.name, first.qos.depth, false,
+    Port& port = worker.add_port(first.name + ", " + second.name, qos[0].value_or(first.qos).depth, false,
                                  [callback = std::move(callback)](Task& task) { callback(task.first, task.second); });
     const auto pairing = std::make_shared<Pairing>(worker, port, tolerance.count());
     for (int side = 0; side < 2; ++side) {
       state_->inputs.push_back(channels[side]);
       channels[side]->add_reader(
-          state_.get(), [state = state_.get(), pairing, side](const TopicDescription& there, const SamplePtr& sample) {
+          state_.get(),
+          [state = state_.get(), pairing, side](const TopicDescription& there, const SamplePtr& sample) {
             if (state->active && state->admits_stamp(there, *sample)) pairing->take(side, stamp_of(*sample), sample);
-          });
+          },
+          Channel::Wants::kValid, qos[side]);
     }
   } catch (const ConfigError& error) {
     state_->problems.push_back(name() + ": " + error.what());
@@ -212,8 +253,7 @@ void Context::on_end(std::function<void()> callback) { state_->end = std::move(c
 void Context::every(std::chrono::nanoseconds period, std::function<void()> callback) {
   state_->main_worker().add_timer(period.count(), [state = state_.get(), callback = std::move(callback)] {
     if (!state->active) return;
-    const bool is_live = state->host.time.pace() == PassingTime::Pace::kClock && !state->host.replay_order;
-    set_current_stamp_ns(is_live ? clocks::system_ns() : state->host.time.now_ns());
+    set_current_stamp_ns(state->timer_stamp_ns());
     callback();
   });
 }

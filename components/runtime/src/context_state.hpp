@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "bus.hpp"
+#include "config/node_parameters.hpp"
 #include "panvo/runtime/context.hpp"
 #include "panvo/runtime/system_file.hpp"
 #include "passing_time.hpp"
@@ -57,6 +58,10 @@ struct Context::State {
   /// "FILE was set aside as OTHER" for each file set aside.
   std::vector<std::string> files_set_aside() const;
 
+  /// Stamp of a timer's callback: the time of the clock, or of /clock with use_sim_time (0 before its first message).
+  std::int64_t timer_stamp_ns() const;
+  bool follows_clock() const { return follows_clock_; }
+
   /// Declared parameters with current values and whether they can be set.
   std::vector<ParameterDescription> parameters() const;
   /// Sets all values or none; returns the problems. Thread-safe; the component receives them on its own thread, between
@@ -66,6 +71,7 @@ struct Context::State {
   Host& host;
   const ComponentDescription description;
   const std::shared_ptr<const void> library;
+  NodeParameters node;
   ParameterReader reader;
   Logger logger;
   StageTimes times;
@@ -80,8 +86,9 @@ struct Context::State {
   bool gives_way = false;
   std::uint64_t restarts = 0;  // number of restarts
   Source* source = nullptr;
-  std::function<void()> end;        // nullptr: nothing to finish
-  std::atomic<bool> active = true;  // receives messages
+  std::function<void()> end;            // nullptr: nothing to finish
+  std::atomic<bool> active = true;      // receives messages
+  std::atomic<bool> finalized = false;  // shut down by a service request: never active again
 
   /// Reads a parameter struct that the component accepts at run time; the returned function passes it on.
   using ParameterTaker = std::function<std::function<void()>(ParameterReader&)>;
@@ -89,11 +96,17 @@ struct Context::State {
   Port* parameter_port = nullptr;
 
  private:
+  std::vector<ParameterDescription> own_parameters() const;
+  std::vector<std::string> set_own_parameters(const WrittenValues& wanted);
   std::vector<std::string> hand_over(std::vector<std::function<void()>> calls);
+  /// Reads /clock, or no longer. No effect in replay.
+  void follow_clock(bool follow);
 
   std::mutex setting_mutex_;               // one request at a time
   mutable std::mutex parameters_mutex_;    // guards set_
   std::vector<ParameterDescription> set_;  // set since construction
+  std::atomic<bool> follows_clock_ = false;
+  std::atomic<std::int64_t> clock_ns_ = 0;  // newest message of /clock
 
   struct FileOnTrial {
     std::filesystem::path file;

@@ -56,7 +56,7 @@ diagnostic_msgs::msg::DiagnosticArray Diagnostics::collect(const std::vector<con
       status.message(set_aside.front() + ": previous runs that read it failed");
     } else {
       status.level(kOk);
-      status.message(component->active ? "runs" : "inactive: gets no messages");
+      status.message(component->finalized ? "shut down" : component->active ? "runs" : "inactive: gets no messages");
     }
     array.status().push_back(std::move(status));
   }

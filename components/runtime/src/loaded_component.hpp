@@ -38,6 +38,7 @@ struct LoadedComponent {
   Recipe recipe;
   std::unique_ptr<Context> context;
   std::unique_ptr<Component, void (*)(Component*)> component{nullptr, nullptr};
+  std::shared_ptr<UntypedOutput> transition_events;  // nullptr without services
   std::unique_ptr<node_services::ComponentNode> node;
   std::vector<std::unique_ptr<BridgeService>> services;  // use `node`
 

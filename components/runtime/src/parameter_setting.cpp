@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <condition_variable>
+#include <iterator>
 #include <optional>
 
 #include "config/paths_below.hpp"
@@ -67,7 +68,7 @@ void run(const std::vector<std::function<void()>>& calls, Outcome& outcome) {
 
 }  // namespace
 
-std::vector<ParameterDescription> Context::State::parameters() const {
+std::vector<ParameterDescription> Context::State::own_parameters() const {
   std::vector<ParameterDescription> parameters = reader.declared();
   ParameterReader settable(description.name, {});
   for (const auto& take : parameter_takers) take(settable);
@@ -79,12 +80,35 @@ std::vector<ParameterDescription> Context::State::parameters() const {
   return parameters;
 }
 
+std::vector<ParameterDescription> Context::State::parameters() const {
+  auto parameters = own_parameters();
+  std::ranges::move(node.declared(), std::back_inserter(parameters));
+  return parameters;
+}
+
 std::vector<std::string> Context::State::set_parameters(const WrittenValues& wanted) {
   const std::lock_guard one_at_a_time(setting_mutex_);
-  const auto known = parameters();
-  if (auto wrong = not_settable(known, wanted, host.files_below); !wrong.empty()) return wrong;
+  if (auto wrong = not_settable(parameters(), wanted, host.files_below); !wrong.empty()) return wrong;
+  const auto own = node.others(wanted);
+  const auto sim_time = node.wanted_sim_time(wanted);
+  if (const auto* problem = std::get_if<std::string>(&sim_time)) return {*problem};
+  if (!own.empty()) {
+    if (auto wrong = set_own_parameters(own); !wrong.empty()) return wrong;
+  }
+  if (const auto* follow = std::get_if<bool>(&sim_time)) {
+    try {
+      follow_clock(*follow);
+    } catch (const ConfigError& error) {  // such as missing rights
+      return error.problems();
+    }
+    node.use_sim_time(*follow);
+  }
+  return {};
+}
+
+std::vector<std::string> Context::State::set_own_parameters(const WrittenValues& wanted) {
   WrittenValues values = wanted;
-  for (const auto& parameter : known) {
+  for (const auto& parameter : own_parameters()) {
     if (parameter.settable) values.try_emplace(parameter.name, parameter.written);
   }
   ParameterReader trial(description.name, values);
@@ -104,6 +128,7 @@ std::vector<std::string> Context::State::hand_over(std::vector<std::function<voi
     return outcome->problems;
   }
   if (failed()) return {"the component was stopped by an error, see its log"};
+  if (finalized) return {"the component is shut down"};
   std::function<void()> task = [outcome, calls = std::move(calls)] {
     const std::lock_guard lock(outcome->mutex);
     if (!outcome->given_up) run(calls, *outcome);

@@ -99,10 +99,7 @@ ComponentDescription read_component(YamlMap& map, const Scope& scope, OnError on
   component.name_space = read_name_space(map, scope, findings);
   component.on_error = read_on_error(map, on_error, findings);
 
-  ParameterEntries parameters(full_name(component.name_space, component.name), scope, findings, component.parameters);
-  for (const auto& entry : map.list("param")) {
-    parameters.read(entry);
-  }
+  component.parameters = read_parameters(map, full_name(component.name_space, component.name), scope, findings);
   for (const auto& entry : map.list("remap")) {
     YamlMap remap(entry, "remap", scope, findings);
     if (!remap.is_map()) {
@@ -117,6 +114,15 @@ ComponentDescription read_component(YamlMap& map, const Scope& scope, OnError on
   }
   map.finish({"extra_arg"});
   return component;
+}
+
+WrittenValues read_parameters(YamlMap& map, const std::string& node, const Scope& scope, Findings& findings) {
+  WrittenValues read;
+  ParameterEntries parameters(node, scope, findings, read);
+  for (const auto& entry : map.list("param")) {
+    parameters.read(entry);
+  }
+  return read;
 }
 
 std::string read_name(YamlMap& map, const std::string& remedy, Findings& findings) {

@@ -11,6 +11,9 @@ namespace panvo::runtime {
 /// Reads the body of a `composable_node`; `on_error` is the container's setting.
 ComponentDescription read_component(YamlMap& map, const Scope& scope, OnError on_error, Findings& findings);
 
+/// Reads the list `param` of the node with this full name.
+WrittenValues read_parameters(YamlMap& map, const std::string& node, const Scope& scope, Findings& findings);
+
 /// Reads and checks the `name` of a node or container.
 std::string read_name(YamlMap& map, const std::string& remedy, Findings& findings);
 

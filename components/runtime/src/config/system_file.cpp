@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "component_entry.hpp"
+#include "node_parameters.hpp"
 #include "panvo/runtime/names.hpp"
 #include "policies_entry.hpp"
 #include "suggestion.hpp"
@@ -15,8 +16,8 @@ namespace panvo::runtime {
 namespace {
 
 /// ROS 2's keys of processes and nodes that have no effect on our containers.
-const std::vector<std::string> kContainerKeysWithoutEffect = {
-    "args", "ros_args", "output", "respawn_max_retries", "env", "param", "launch-prefix", "remap"};
+const std::vector<std::string> kContainerKeysWithoutEffect = {"args", "ros_args",      "output", "respawn_max_retries",
+                                                              "env",  "launch-prefix", "remap"};
 constexpr int kMaxDelayS = 3600;
 constexpr int kMaxImageMb = 64;
 constexpr int kMaxMessageMb = 2000;  // Fast DDS counts the bytes of a message in 31 bits
@@ -209,9 +210,18 @@ class SystemReader {
         claim_name(full_name(added.name_space, added.name), "component", added.where);
       }
     }
+    read_own_parameters(map, scope, container);
     map.finish(kContainerKeysWithoutEffect);
     claim_name(full_name(container.name_space, container.name), "container", container.where);
     system_.containers.push_back(std::move(container));
+  }
+
+  void read_own_parameters(YamlMap& map, const Scope& scope, ContainerDescription& container) {
+    container.parameters = read_parameters(map, full_name(container.name_space, container.name), scope, findings_);
+    for (const auto& [name, value] : NodeParameters::others(container.parameters)) {
+      findings_.note(value.where, "parameter " + name + " of node_container has no effect here");
+      container.parameters.erase(name);
+    }
   }
 
   std::optional<double> read_number(YamlMap& map, const std::string& key, const std::string& what, double largest) {

@@ -82,7 +82,7 @@ class DdsBridge final : public Bridge {
       const std::lock_guard lock(graph_mutex_);
       graph_->open_reader(participant(dds::Role::kReaders));
     }
-    return {graph_->nodes(), discovery_->endpoints()};
+    return {graph_->nodes(), discovery_->endpoints(), discovery_->participants()};
   }
 
   void on_warning(std::function<void(const std::string&)> callback) override {

@@ -23,6 +23,9 @@ namespace rtps = eprosima::fastrtps::rtps;
 
 namespace {
 
+// Vendor ids of DDS implementations are assigned by the OMG.
+constexpr rtps::VendorId_t kCyclone{0x01, 0x10};
+
 std::string readable_type_name(const std::string& wire_name) {
   return type_name_from_wire(wire_name).value_or(wire_name);
 }
@@ -102,6 +105,22 @@ std::vector<GraphEndpoint> Discovery::endpoints() const {
   return endpoints;
 }
 
+std::vector<std::string> Discovery::participants() const {
+  const std::lock_guard lock(mutex_);
+  std::vector<std::string> participants;
+  for (const auto& [prefix, participant] : remote_participants_) {
+    const rtps::GUID_t guid(prefix, rtps::c_EntityId_RTPSParticipant);
+    if (!is_of_this_process(guid)) participants.push_back(hexadecimal(guid).substr(0, 2 * rtps::GuidPrefix_t::size));
+  }
+  return participants;
+}
+
+bool Discovery::is_of_cyclone(const rtps::GuidPrefix_t& participant) const {
+  const std::lock_guard lock(mutex_);
+  const auto found = remote_participants_.find(participant);
+  return found != remote_participants_.end() && found->second.is_of_cyclone;
+}
+
 bool Discovery::has_sharing_reader(const std::string& wire_name) const {
   const std::lock_guard lock(mutex_);
   return std::ranges::any_of(remote_endpoints_, [&](const auto& known) {
@@ -126,6 +145,7 @@ void Discovery::on_participant_discovery(fdds::DomainParticipant* participant, r
     auto& remote = remote_participants_[prefix];
     remote.seen_by.insert(participant->guid());
     remote.ports = ports;
+    remote.is_of_cyclone = info.info.m_VendorId == kCyclone;
     return;
   }
   auto& seen_by = remote_participants_[prefix].seen_by;

@@ -36,6 +36,10 @@ class Discovery final : public eprosima::fastdds::dds::DomainParticipantListener
   void topic_closed(const std::string& wire_name, const std::string& wire_type_name);
 
   std::vector<GraphEndpoint> endpoints() const;
+  /// Prefixes of other processes' participants, in hexadecimal.
+  std::vector<std::string> participants() const;
+  /// Whether a participant is of Cyclone DDS, by the vendor that it announces.
+  bool is_of_cyclone(const eprosima::fastrtps::rtps::GuidPrefix_t& participant) const;
   /// Whether a reader on this machine shares memory with us on the topic.
   bool has_sharing_reader(const std::string& wire_name) const;
 
@@ -64,6 +68,7 @@ class Discovery final : public eprosima::fastdds::dds::DomainParticipantListener
   struct RemoteParticipant {
     std::set<eprosima::fastrtps::rtps::GUID_t> seen_by;  // own participants
     std::vector<eprosima::fastrtps::rtps::Locator_t> ports;
+    bool is_of_cyclone = false;
   };
 
   /// Drops participants whose ports on the same host are now used by `newcomer`.

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "panvo/interfaces/service_type.hpp"
 #include "participant_qos.hpp"
 
 namespace panvo::runtime::dds {
@@ -24,9 +25,19 @@ namespace {
 constexpr std::chrono::milliseconds kHeartbeatPeriod{20};
 constexpr int kPreallocatedSamples = 4;
 
+// ROS 2's QoS of service topics.
+constexpr interfaces::Qos kServiceQos{.depth = 10};
+
 fdds::DurabilityQosPolicyKind durability_kind(Durability durability) {
   return durability == Durability::kTransientLocal ? fdds::TRANSIENT_LOCAL_DURABILITY_QOS
                                                    : fdds::VOLATILE_DURABILITY_QOS;
+}
+
+/// ROS 2's user data of an endpoint.
+template <class EndpointQos>
+void tell_type_hash(std::string_view type_hash, EndpointQos& qos) {
+  const std::string text = fmt::format("typehash={};", type_hash);
+  qos.user_data().setValue(std::vector<eprosima::fastrtps::rtps::octet>(text.begin(), text.end()));
 }
 
 // QoS common to writers and readers.
@@ -42,10 +53,13 @@ void apply_common(const TopicDescription& topic, EndpointQos& qos) {
   qos.resource_limits().max_samples_per_instance = depth;
   qos.resource_limits().allocated_samples = std::min(depth, kPreallocatedSamples);
   qos.endpoint().history_memory_policy = eprosima::fastrtps::rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
-  if (topic.type) {
-    const std::string hash = fmt::format("typehash={};", topic.type->hash);
-    qos.user_data().setValue(std::vector<eprosima::fastrtps::rtps::octet>(hash.begin(), hash.end()));
-  }
+  if (topic.type) tell_type_hash(topic.type->hash, qos);
+}
+
+template <class EndpointQos>
+void apply_service(const ServiceDescription& service, EndpointQos& qos) {
+  apply(TopicDescription{service.name, service.type_name, kServiceQos, nullptr}, qos);
+  if (const auto hash = interfaces::service_hash(service.type_name); !hash.empty()) tell_type_hash(hash, qos);
 }
 
 struct PolicyText {
@@ -83,7 +97,8 @@ eprosima::fastrtps::Duration_t to_dds(std::chrono::nanoseconds time) {
 void apply(const TopicDescription& topic, fdds::DataWriterQos& qos) {
   apply_common(topic, qos);
   // A reliable writer also serves best-effort readers, without delaying them.
-  qos.reliability().kind = fdds::RELIABLE_RELIABILITY_QOS;
+  qos.reliability().kind =
+      topic.qos.offered == Reliability::kReliable ? fdds::RELIABLE_RELIABILITY_QOS : fdds::BEST_EFFORT_RELIABILITY_QOS;
   qos.reliability().max_blocking_time = to_dds(kMaxBlockingTime);
   // Best-effort topics carry images. They are sent asynchronously, so a network slower than the camera does not block
   // the publisher (at 100 Mbit/s a panorama of 1.75 MB blocked it for 122 ms, now 0.8 ms), and paced for the receiver,
@@ -110,6 +125,9 @@ void apply(const TopicDescription& topic, fdds::DataReaderQos& qos) {
   qos.type_consistency().representation.m_value = {fdds::XCDR_DATA_REPRESENTATION};
   qos.data_sharing().off();
 }
+
+void apply(const ServiceDescription& service, fdds::DataWriterQos& qos) { apply_service(service, qos); }
+void apply(const ServiceDescription& service, fdds::DataReaderQos& qos) { apply_service(service, qos); }
 
 std::string describe_offer_refused(const std::string& topic, fdds::QosPolicyId_t policy) {
   const auto [difference, remedy] = describe(policy);

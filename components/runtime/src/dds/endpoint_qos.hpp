@@ -26,6 +26,10 @@ eprosima::fastrtps::Duration_t to_dds(std::chrono::nanoseconds time);
 void apply(const TopicDescription& topic, eprosima::fastdds::dds::DataWriterQos& qos);
 void apply(const TopicDescription& topic, eprosima::fastdds::dds::DataReaderQos& qos);
 
+/// The same for the topics of a service.
+void apply(const ServiceDescription& service, eprosima::fastdds::dds::DataWriterQos& qos);
+void apply(const ServiceDescription& service, eprosima::fastdds::dds::DataReaderQos& qos);
+
 /// Warning for a writer (or reader) of `topic` that is incompatible with a remote reader (or writer) in that policy:
 /// topic, difference, remedy.
 std::string describe_offer_refused(const std::string& topic, eprosima::fastdds::dds::QosPolicyId_t policy);

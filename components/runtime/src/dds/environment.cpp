@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <string_view>
 
+#include "node_info.hpp"
 #include "panvo/runtime/bridge.hpp"
 #include "panvo/runtime/errors.hpp"
 
@@ -26,11 +27,30 @@ int domain_from(std::string_view text) {
   return domain;
 }
 
-bool localhost_only() {
+bool is_localhost_only() {
   const auto only = variable("ROS_LOCALHOST_ONLY");
   if (!only.empty() && only != "0" && only != "1")
     throw ConfigError(fmt::format("ROS_LOCALHOST_ONLY={}: use 1 to stay on this machine, 0 otherwise", only));
-  return only == "1" || variable("ROS_AUTOMATIC_DISCOVERY_RANGE") == "LOCALHOST";
+  return only == "1";
+}
+
+DiscoveryRange range_from(std::string_view text) {
+  if (text.empty() || text == "SUBNET") return DiscoveryRange::kSubnet;
+  if (text == "OFF") return DiscoveryRange::kOff;
+  if (text == "LOCALHOST") return DiscoveryRange::kLocalhost;
+  if (text == "SYSTEM_DEFAULT") return DiscoveryRange::kSystemDefault;
+  throw ConfigError(
+      fmt::format("ROS_AUTOMATIC_DISCOVERY_RANGE={}: use SUBNET, LOCALHOST, OFF or SYSTEM_DEFAULT", text));
+}
+
+std::vector<std::string> peers_from(std::string_view text) {
+  std::vector<std::string> peers;
+  while (!text.empty()) {
+    const auto end = text.find(';');
+    if (const auto peer = text.substr(0, end); !peer.empty()) peers.emplace_back(peer);
+    text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+  }
+  return peers;
 }
 
 }  // namespace
@@ -39,7 +59,14 @@ DdsSettings dds_settings_from_environment() {
   DdsSettings settings;
   if (const auto domain = variable("ROS_DOMAIN_ID"); !domain.empty()) settings.domain = domain_from(domain);
   if (const auto distro = variable("ROS_DISTRO"); !distro.empty()) settings.ros_distro = distro;
-  settings.localhost_only = localhost_only();
+  // ROS_LOCALHOST_ONLY is older and prevails, as in ROS 2.
+  if (is_localhost_only()) {
+    settings.range = dds::gid_size_of(settings.ros_distro) == dds::kHumbleGidSize ? DiscoveryRange::kLoopback
+                                                                                  : DiscoveryRange::kLocalhost;
+    return settings;
+  }
+  settings.range = range_from(variable("ROS_AUTOMATIC_DISCOVERY_RANGE"));
+  settings.peers = peers_from(variable("ROS_STATIC_PEERS"));
   return settings;
 }
 

@@ -6,6 +6,7 @@
 #include <fastdds/dds/publisher/DataWriter.hpp>
 #include <fastdds/dds/publisher/DataWriterListener.hpp>
 
+#include <algorithm>
 #include <chrono>
 #include <condition_variable>
 #include <functional>
@@ -23,6 +24,12 @@ class MatchedReaders final : public eprosima::fastdds::dds::DataWriterListener {
   bool contains(const Guid& reader) const {
     const std::lock_guard lock(mutex_);
     return readers_.contains(reader);
+  }
+  /// Whether a reader for which `is_wanted` holds is matched.
+  template <class Wanted>
+  bool contains_any(const Wanted& is_wanted) const {
+    const std::lock_guard lock(mutex_);
+    return std::ranges::any_of(readers_, is_wanted);
   }
   bool wait_for_any(std::chrono::milliseconds limit) {
     std::unique_lock lock(mutex_);

@@ -4,6 +4,7 @@
 #include <fastdds/rtps/attributes/ServerAttributes.h>
 #include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
 #include <fastdds/rtps/transport/shared_mem/SharedMemTransportDescriptor.h>
+#include <fastrtps/utils/IPLocator.h>
 #include <spdlog/fmt/fmt.h>
 #include <unistd.h>
 #include <fastdds/dds/domain/DomainParticipantFactory.hpp>
@@ -22,6 +23,7 @@ namespace panvo::runtime::dds {
 namespace fdds = eprosima::fastdds::dds;
 using eprosima::fastrtps::types::ReturnCode_t;
 namespace rtps = eprosima::fastdds::rtps;
+using eprosima::fastrtps::rtps::IPLocator;
 
 namespace {
 
@@ -46,6 +48,50 @@ void hear_of_all_topics(eprosima::fastrtps::rtps::DiscoverySettings& discovery) 
   discovery.m_DiscoveryServers = servers;
 }
 
+// As rmw_fastrtps: number of participants that are looked for on a host without multicast.
+constexpr std::uint32_t kParticipantsPerPeer = 32;
+
+/// Address of a host; its port is left open. Throws ConfigError.
+eprosima::fastrtps::rtps::Locator_t locator_of(const std::string& host) {
+  const auto addresses = IPLocator::resolveNameDNS(host).first;
+  if (addresses.empty()) {
+    throw ConfigError(
+        fmt::format("ROS_STATIC_PEERS: the host {} is unknown; correct its name, or write its IPv4 address", host));
+  }
+  eprosima::fastrtps::rtps::Locator_t locator;
+  IPLocator::setIPv4(locator, *addresses.begin());
+  return locator;
+}
+
+void listen_to_no_multicast(fdds::DomainParticipantQos& qos) {
+  auto& builtin = qos.wire_protocol().builtin;
+  builtin.metatrafficMulticastLocatorList.clear();
+  // Without a unicast locator, Fast DDS adds its default ones, multicast included.
+  if (builtin.metatrafficUnicastLocatorList.empty())
+    builtin.metatrafficUnicastLocatorList.push_back(eprosima::fastrtps::rtps::Locator_t());
+}
+
+/// Discovery as in rmw_fastrtps, except that named peers do not switch multicast off.
+void apply_range(const DdsSettings& settings, fdds::DomainParticipantQos& qos) {
+  auto& builtin = qos.wire_protocol().builtin;
+  const bool is_local = settings.range == DiscoveryRange::kLocalhost || settings.range == DiscoveryRange::kLoopback;
+  if (settings.range == DiscoveryRange::kOff) {
+    builtin.discovery_config.discoveryProtocol = eprosima::fastrtps::rtps::DiscoveryProtocol_t::NONE;
+    return;
+  }
+  if (settings.range == DiscoveryRange::kSystemDefault) return;
+  if (is_local) {
+    listen_to_no_multicast(qos);
+  } else if (!settings.peers.empty() && builtin.initialPeersList.empty()) {
+    eprosima::fastrtps::rtps::Locator_t multicast;
+    IPLocator::setIPv4(multicast, "239.255.0.1");
+    multicast.port = qos.wire_protocol().port.getMulticastPort(static_cast<std::uint32_t>(settings.domain));
+    builtin.initialPeersList.push_back(multicast);
+  }
+  for (const auto& peer : settings.peers) builtin.initialPeersList.push_back(locator_of(peer));
+  if (is_local) builtin.initialPeersList.push_back(locator_of("127.0.0.1"));
+}
+
 using Transports = decltype(fdds::TransportConfigQos::user_transports);
 
 bool is_shared_memory(const Transports::value_type& transport) {
@@ -60,7 +106,8 @@ Transports::value_type our_udp(const DdsSettings& settings) {
   auto udp = std::make_shared<rtps::UDPv4TransportDescriptor>();
   udp->sendBufferSize = kSocketBufferSize;
   udp->receiveBufferSize = kSocketBufferSize;
-  if (settings.localhost_only) udp->interfaceWhiteList.emplace_back("127.0.0.1");
+  if (settings.range == DiscoveryRange::kLoopback) udp->interfaceWhiteList.emplace_back("127.0.0.1");
+  udp->maxInitialPeersRange = kParticipantsPerPeer;
   return udp;
 }
 
@@ -136,6 +183,7 @@ fdds::DomainParticipantQos participant_qos(const DdsSettings& settings, Role rol
   fdds::DomainParticipantQos qos;
   fdds::DomainParticipantFactory::get_instance()->get_default_participant_qos(qos);
   use_udp(qos, settings);
+  apply_range(settings, qos);
   qos.flow_controllers().push_back(image_pace());
   qos.name(settings.name + (role == Role::kWriters ? "_writers" : "_readers"));
 

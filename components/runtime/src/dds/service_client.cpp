@@ -6,7 +6,9 @@
 #include <fastdds/dds/subscriber/SampleInfo.hpp>
 
 #include <algorithm>
+#include <thread>
 
+#include "cyclone_header.hpp"
 #include "endpoint_qos.hpp"
 #include "panvo/runtime/errors.hpp"
 #include "sample_data_type.hpp"
@@ -22,6 +24,21 @@ namespace {
 
 constexpr std::size_t kMaxReplies = 64;
 
+// Cyclone DDS drops what a writer sends before it has discovered the writer, which takes milliseconds.
+constexpr std::chrono::milliseconds kIntroduction{250};
+
+// Keys of replies with a header, apart from those by sequence number.
+constexpr std::int64_t kOfCyclone = std::int64_t{1} << 62;
+
+/// Identifies a client: FNV-1a over the identity of its writer.
+std::uint64_t client_number(const eprosima::fastrtps::rtps::GUID_t& writer) {
+  std::uint64_t hash = 14695981039346656037ULL;
+  const auto add = [&](std::uint8_t byte) { hash = (hash ^ byte) * 1099511628211ULL; };
+  for (const auto byte : writer.guidPrefix.value) add(byte);
+  for (const auto byte : writer.entityId.value) add(byte);
+  return hash;
+}
+
 std::int64_t number(const eprosima::fastrtps::rtps::SampleIdentity& identity) {
   return static_cast<std::int64_t>(identity.sequence_number().to64long());
 }
@@ -34,11 +51,10 @@ ServiceClient::ServiceClient(const ServiceDescription& service, std::shared_ptr<
       writers_(std::move(writers)),
       request_topic_(writers_->topic(request_topic(service))),
       reply_topic_(readers_->topic(reply_topic(service))) {
-  const TopicDescription described{service.name, service.type_name, kServiceQos, nullptr};
   fdds::DataReaderQos reader_qos = readers_->subscriber().get_default_datareader_qos();
-  apply(described, reader_qos);
+  apply(service, reader_qos);
   fdds::DataWriterQos writer_qos = writers_->publisher().get_default_datawriter_qos();
-  apply(described, writer_qos);
+  apply(service, writer_qos);
   // The reader first, so a server discovers it before it gets a request.
   reader_ = readers_->subscriber().create_datareader(reply_topic_.get(), reader_qos, this);
   if (reader_) writer_ = writers_->publisher().create_datawriter(request_topic_.get(), writer_qos, &servers_);
@@ -66,20 +82,50 @@ bool ServiceClient::wait_for_service(std::chrono::milliseconds limit) {
     if (!changed_.wait_until(lock, end, [this] { return matched_servers_ > 0; })) return false;
   }
   const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(end - steady_clock::now());
-  return servers_.wait_for_any(std::max(left, std::chrono::milliseconds(0)));
+  if (!servers_.wait_for_any(std::max(left, std::chrono::milliseconds(0)))) return false;
+  if (is_of_cyclone()) std::this_thread::sleep_until(std::min(end, made_ + kIntroduction));
+  return true;
+}
+
+bool ServiceClient::is_of_cyclone() const {
+  return servers_.contains_any([this](const auto& reader) { return writers_->is_of_cyclone(reader); });
+}
+
+std::optional<std::int64_t> ServiceClient::send(const interfaces::Bytes& request) {
+  eprosima::fastrtps::rtps::WriteParams params;
+  params.related_sample_identity().writer_guid(reader_->guid());
+  if (!is_of_cyclone()) {
+    Outgoing outgoing(request);
+    return writer_->write(&outgoing, params) ? std::optional(number(params.sample_identity())) : std::nullopt;
+  }
+  const CycloneHeader header{client_number(writer_->guid()), ++last_of_cyclone_};
+  const auto bytes = with_header(header, request);
+  Outgoing outgoing(bytes);
+  return writer_->write(&outgoing, params) ? std::optional(kOfCyclone + header.number) : std::nullopt;
 }
 
 std::optional<interfaces::Bytes> ServiceClient::call(const interfaces::Bytes& request,
                                                      std::chrono::milliseconds limit) {
   const auto end = steady_clock::now() + limit;
-  eprosima::fastrtps::rtps::WriteParams params;
-  params.related_sample_identity().writer_guid(reader_->guid());
-  Outgoing outgoing(request);
-  if (!writer_->write(&outgoing, params)) return std::nullopt;
-  const auto mine = number(params.sample_identity());
+  const auto mine = send(request);
+  if (!mine) return std::nullopt;
   std::unique_lock lock(mutex_);
-  if (!changed_.wait_until(lock, end, [&] { return replies_.contains(mine); })) return std::nullopt;
-  return std::move(replies_.extract(mine).mapped());
+  if (!changed_.wait_until(lock, end, [&] { return replies_.contains(*mine); })) return std::nullopt;
+  return std::move(replies_.extract(*mine).mapped());
+}
+
+/// All clients of a service get all replies: nullopt for one to another client.
+std::optional<std::int64_t> ServiceClient::key_of(const fdds::DataReader& reader, const fdds::SampleInfo& info,
+                                                  interfaces::Bytes& reply) {
+  if (readers_->is_of_cyclone(info.sample_identity.writer_guid())) {
+    const auto header = take_header(reply);
+    if (!header || header->client != client_number(own_writer_)) return std::nullopt;
+    return kOfCyclone + header->number;
+  }
+  // Other implementations address the reply to the writer.
+  const auto& asked_by = info.related_sample_identity.writer_guid();
+  if (asked_by != reader.guid() && asked_by != own_writer_) return std::nullopt;
+  return number(info.related_sample_identity);
 }
 
 void ServiceClient::on_data_available(fdds::DataReader* reader) {
@@ -88,10 +134,9 @@ void ServiceClient::on_data_available(fdds::DataReader* reader) {
   for (Incoming incoming; !closed_ && reader->take_next_sample(&incoming, &info) == ReturnCode_t::RETCODE_OK;
        incoming = {}) {
     if (!info.valid_data || !incoming.readable) continue;
-    const auto& asked_by = info.related_sample_identity.writer_guid();
-    // All clients of a service get all replies. Other implementations address the reply to the writer.
-    if (asked_by != reader->guid() && asked_by != own_writer_) continue;
-    replies_.insert_or_assign(number(info.related_sample_identity), std::move(incoming.bytes));
+    const auto key = key_of(*reader, info, incoming.bytes);
+    if (!key) continue;
+    replies_.insert_or_assign(*key, std::move(incoming.bytes));
     if (replies_.size() > kMaxReplies) replies_.erase(replies_.begin());  // its caller has given up
   }
   changed_.notify_all();

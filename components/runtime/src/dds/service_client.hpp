@@ -3,12 +3,15 @@
 
 #include <fastdds/dds/subscriber/DataReader.hpp>
 #include <fastdds/dds/subscriber/DataReaderListener.hpp>
+#include <fastdds/dds/subscriber/SampleInfo.hpp>
 
+#include <atomic>
 #include <condition_variable>
 #include <cstdint>
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 
 #include "matched_readers.hpp"
 #include "panvo/runtime/service.hpp"
@@ -16,7 +19,7 @@
 
 namespace panvo::runtime::dds {
 
-/// Client of a service of another process, compatible with rmw_fastrtps; see ServiceServer.
+/// Client of a service of another process, compatible with rmw_fastrtps and rmw_cyclonedds; see ServiceServer.
 class ServiceClient final : public BridgeClient, private eprosima::fastdds::dds::DataReaderListener {
  public:
   /// Throws ConfigError if Fast DDS refuses its topics.
@@ -28,6 +31,12 @@ class ServiceClient final : public BridgeClient, private eprosima::fastdds::dds:
   std::optional<interfaces::Bytes> call(const interfaces::Bytes& request, std::chrono::milliseconds limit) override;
 
  private:
+  /// Whether the service is of Cyclone DDS.
+  bool is_of_cyclone() const;
+  /// Sends a request. Returns the key of its reply in replies_; nullopt on failure.
+  std::optional<std::int64_t> send(const interfaces::Bytes& request);
+  std::optional<std::int64_t> key_of(const eprosima::fastdds::dds::DataReader& reader,
+                                     const eprosima::fastdds::dds::SampleInfo& info, interfaces::Bytes& reply);
   void on_data_available(eprosima::fastdds::dds::DataReader* reader) override;
   void on_subscription_matched(eprosima::fastdds::dds::DataReader* reader,
                                const eprosima::fastdds::dds::SubscriptionMatchedStatus& status) override;
@@ -35,12 +44,14 @@ class ServiceClient final : public BridgeClient, private eprosima::fastdds::dds:
   const std::shared_ptr<Participant> readers_, writers_;
   const std::shared_ptr<eprosima::fastdds::dds::Topic> request_topic_, reply_topic_;
 
+  const std::chrono::steady_clock::time_point made_ = std::chrono::steady_clock::now();
   std::mutex mutex_;
   std::condition_variable changed_;
   bool closed_ = false;
   int matched_servers_ = 0;
   eprosima::fastrtps::rtps::GUID_t own_writer_;
-  std::map<std::int64_t, interfaces::Bytes> replies_;  // by sequence number of the request; the newest only
+  std::map<std::int64_t, interfaces::Bytes> replies_;  // by number of the request; the newest only
+  std::atomic<std::int64_t> last_of_cyclone_ = 0;      // number of the last request with a header
 
   MatchedReaders servers_;
   eprosima::fastdds::dds::DataReader* reader_ = nullptr;

@@ -63,11 +63,10 @@ ServiceServer::ServiceServer(const ServiceDescription& service, ServiceHandler h
       request_topic_(readers_->topic(request_topic(service))),
       reply_topic_(writers_->topic(reply_topic(service))),
       rate_(limits.per_s, 1.0) {
-  const TopicDescription described{service.name, service.type_name, kServiceQos, nullptr};
   fdds::DataWriterQos writer_qos = writers_->publisher().get_default_datawriter_qos();
-  apply(described, writer_qos);
+  apply(service, writer_qos);
   fdds::DataReaderQos reader_qos = readers_->subscriber().get_default_datareader_qos();
-  apply(described, reader_qos);
+  apply(service, reader_qos);
   writer_ = writers_->publisher().create_datawriter(reply_topic_.get(), writer_qos, &clients_);
   if (writer_) reader_ = readers_->subscriber().create_datareader(request_topic_.get(), reader_qos, this);
   if (!reader_) {
@@ -107,16 +106,31 @@ void ServiceServer::on_data_available(fdds::DataReader* reader) {
     if (!info.valid_data) continue;
     ++received_;
     if (is_over_limits(incoming)) continue;
-    Identity identity = info.sample_identity;
-    const Caller caller{is_on_same_host(reader->guid(), identity.writer_guid())};
-    const GUID_t& reply_reader = info.related_sample_identity.writer_guid();
-    if (reply_reader != GUID_t::unknown()) identity.writer_guid(reply_reader);
-    const bool posted = queue_->post(
-        this, [this, bytes = std::move(incoming.bytes), identity, caller] { answer(bytes, identity, caller); });
+    const auto asker = asker_of(*reader, info, incoming.bytes);
+    if (!asker) {
+      ++malformed_;
+      notifier_->warn(fmt::format("service {}: ignored a request of Cyclone DDS without a header", name_));
+      continue;
+    }
+    const bool posted =
+        queue_->post(this, [this, bytes = std::move(incoming.bytes), asker = *asker] { answer(bytes, asker); });
     if (posted) continue;
     ++dropped_;
     notifier_->warn(fmt::format("service {}: requests arrive faster than they are answered, some were dropped", name_));
   }
+}
+
+std::optional<ServiceServer::Asker> ServiceServer::asker_of(const fdds::DataReader& reader,
+                                                            const fdds::SampleInfo& info,
+                                                            interfaces::Bytes& request) const {
+  Asker asker{info.sample_identity, {is_on_same_host(reader.guid(), info.sample_identity.writer_guid())}};
+  if (readers_->is_of_cyclone(info.sample_identity.writer_guid())) {
+    asker.header = take_header(request);
+    return asker.header ? std::optional(asker) : std::nullopt;
+  }
+  const GUID_t& reply_reader = info.related_sample_identity.writer_guid();
+  if (reply_reader != GUID_t::unknown()) asker.identity.writer_guid(reply_reader);
+  return asker;
 }
 
 bool ServiceServer::is_over_limits(const Incoming& incoming) {
@@ -143,13 +157,13 @@ interfaces::Bytes ServiceServer::response_to(const interfaces::Bytes& request, c
   return std::move(*refusal);
 }
 
-void ServiceServer::answer(const interfaces::Bytes& request, const Identity& identity, const Caller& caller) {
+void ServiceServer::answer(const interfaces::Bytes& request, const Asker& asker) {
   try {
-    auto response = response_to(request, caller);
-    if (is_reachable(identity)) {
-      send(response, identity);
+    auto response = response_to(request, asker.caller);
+    if (is_reachable(asker)) {
+      send(response, asker);
     } else {
-      keep(std::move(response), identity);
+      keep(std::move(response), asker);
     }
   } catch (const interfaces::DecodeError& error) {
     ++malformed_;
@@ -160,31 +174,36 @@ void ServiceServer::answer(const interfaces::Bytes& request, const Identity& ide
   }
 }
 
-bool ServiceServer::is_reachable(const Identity& client) const {
-  return !is_reader(client.writer_guid()) || clients_.contains(client.writer_guid());
+bool ServiceServer::is_reachable(const Asker& asker) const {
+  const GUID_t& client = asker.identity.writer_guid();
+  if (asker.header) {
+    return clients_.contains_any([&](const GUID_t& reader) { return reader.guidPrefix == client.guidPrefix; });
+  }
+  return !is_reader(client) || clients_.contains(client);
 }
 
-void ServiceServer::send(const interfaces::Bytes& response, const Identity& identity) {
+void ServiceServer::send(const interfaces::Bytes& response, const Asker& asker) {
   eprosima::fastrtps::rtps::WriteParams params;
-  params.related_sample_identity(identity);
-  Outgoing outgoing(response);
+  params.related_sample_identity(asker.identity);
+  const auto for_cyclone = asker.header ? with_header(*asker.header, response) : interfaces::Bytes();
+  Outgoing outgoing(asker.header ? for_cyclone : response);
   ++(writer_->write(&outgoing, params) ? answered_ : unanswered_);
 }
 
-void ServiceServer::keep(interfaces::Bytes response, const Identity& identity) {
+void ServiceServer::keep(interfaces::Bytes response, const Asker& asker) {
   if (kept_.size() >= kMaxKept) {
     give_up();
     kept_.pop_front();
   }
-  kept_.push_back({std::move(response), identity, ServiceQueue::Clock::now() + kClientLimit});
+  kept_.push_back({std::move(response), asker, ServiceQueue::Clock::now() + kClientLimit});
   set_alarm();
 }
 
 void ServiceServer::send_kept() {
   const auto now = ServiceQueue::Clock::now();
   std::erase_if(kept_, [&](const Kept& kept) {
-    const bool is_reached = is_reachable(kept.identity);
-    if (is_reached) send(kept.response, kept.identity);
+    const bool is_reached = is_reachable(kept.asker);
+    if (is_reached) send(kept.response, kept.asker);
     if (!is_reached && kept.end <= now) give_up();
     return is_reached || kept.end <= now;
   });

@@ -4,12 +4,15 @@
 #include <fastdds/rtps/common/SampleIdentity.h>
 #include <fastdds/dds/subscriber/DataReader.hpp>
 #include <fastdds/dds/subscriber/DataReaderListener.hpp>
+#include <fastdds/dds/subscriber/SampleInfo.hpp>
 
 #include <atomic>
 #include <deque>
 #include <memory>
 #include <mutex>
+#include <optional>
 
+#include "cyclone_header.hpp"
 #include "matched_readers.hpp"
 #include "notifier.hpp"
 #include "panvo/runtime/service.hpp"
@@ -23,7 +26,8 @@ namespace panvo::runtime::dds {
 
 /// A service compatible with rmw_fastrtps: requests and replies are topics; a reply carries the identity of its request
 /// in `related_sample_identity`, where the client has put the GUID of its reply reader. A reply is kept until that
-/// reader has been discovered, as it would be lost before. Other requests are answered meanwhile.
+/// reader has been discovered, as it would be lost before. Other requests are answered meanwhile. Clients of Cyclone
+/// DDS are answered as by rmw_cyclonedds, with a header in the reply; their reply reader is any of their process.
 class ServiceServer final : public BridgeService, private eprosima::fastdds::dds::DataReaderListener {
  public:
   /// Throws ConfigError if Fast DDS refuses its topics.
@@ -40,11 +44,20 @@ class ServiceServer final : public BridgeService, private eprosima::fastdds::dds
   void on_data_available(eprosima::fastdds::dds::DataReader* reader) override;
   /// Whether a request exceeds the rate or size limit; this is counted and logged.
   bool is_over_limits(const Incoming& incoming);
-  void answer(const interfaces::Bytes& request, const Identity& identity, const Caller& caller);
+  struct Asker {
+    Identity identity;  // of the request; its writer is the reply reader, if known
+    Caller caller;
+    std::optional<CycloneHeader> header{};  // of a client of Cyclone DDS
+  };
+
+  /// nullopt if the request of a Cyclone client lacks its header, which is removed from `request`.
+  std::optional<Asker> asker_of(const eprosima::fastdds::dds::DataReader& reader,
+                                const eprosima::fastdds::dds::SampleInfo& info, interfaces::Bytes& request) const;
+  void answer(const interfaces::Bytes& request, const Asker& asker);
   interfaces::Bytes response_to(const interfaces::Bytes& request, const Caller& caller);
-  bool is_reachable(const Identity& client) const;
-  void send(const interfaces::Bytes& response, const Identity& identity);
-  void keep(interfaces::Bytes response, const Identity& identity);
+  bool is_reachable(const Asker& asker) const;
+  void send(const interfaces::Bytes& response, const Asker& asker);
+  void keep(interfaces::Bytes response, const Asker& asker);
   /// Sends kept replies whose clients are now reachable and discards expired ones.
   void send_kept();
   void set_alarm();  ///< when the oldest kept reply expires
@@ -52,7 +65,7 @@ class ServiceServer final : public BridgeService, private eprosima::fastdds::dds
 
   struct Kept {
     interfaces::Bytes response;
-    Identity identity;
+    Asker asker;
     ServiceQueue::Clock::time_point end;
   };
 
@@ -79,8 +92,5 @@ class ServiceServer final : public BridgeService, private eprosima::fastdds::dds
 /// Topics of a service's requests and replies.
 WireTopic request_topic(const ServiceDescription& service);
 WireTopic reply_topic(const ServiceDescription& service);
-
-/// QoS of service topics in ROS 2.
-inline constexpr interfaces::Qos kServiceQos{.depth = 10};
 
 }  // namespace panvo::runtime::dds

@@ -11,7 +11,7 @@ namespace panvo::runtime::node_services {
 /// Gives service requests access to a loaded component.
 class ComponentNode final : public ControlledNode {
  public:
-  /// `shut_down` schedules unloading; `parameters_set` is called with the parameters that were set.
+  /// `shut_down` schedules stopping it; `parameters_set` is called with the parameters that were set.
   ComponentNode(Context::State& state, std::function<void()> shut_down,
                 std::function<void(const WrittenValues&)> parameters_set)
       : state_(state), shut_down_(std::move(shut_down)), parameters_set_(std::move(parameters_set)) {}
@@ -38,9 +38,13 @@ class ComponentNode final : public ControlledNode {
       state_.logger.warn("cannot be shut down: it plays recorded data");
       return false;
     }
+    state_.active = false;
+    state_.finalized = true;
+    state_.logger.info("shut down: stays until it is unloaded");
     shut_down_();
     return true;
   }
+  bool is_shut_down() const override { return state_.finalized; }
 
  private:
   Context::State& state_;

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "lifecycle_msgs/msg/TransitionEvent.h"
 #include "panvo/runtime/parameters.hpp"
 #include "panvo/runtime/service.hpp"
 #include "panvo/runtime/system_file.hpp"
@@ -24,8 +25,9 @@ class ControlledNode {
   virtual bool is_active() const = 0;
   /// Enables or disables message delivery. False if not possible.
   virtual bool set_active(bool active) = 0;
-  /// Schedules unloading after its services have answered. False if not possible.
+  /// Stops it for good, soon after its services have answered. False if not possible.
   virtual bool shut_down() = 0;
+  virtual bool is_shut_down() const = 0;
 };
 
 /// Operations of service requests on a container.
@@ -66,10 +68,16 @@ std::optional<std::string> control_problem(ServiceAccess access, const Caller& c
 /// Guard that refuses unauthorised callers; empty for a service that changes nothing.
 ServiceGuard guard_of(const OfferedService& service, ServiceAccess access);
 
+/// Receives the transitions of a node, for `~/transition_event`.
+using TellTransition = std::function<void(const lifecycle_msgs::msg::TransitionEvent&)>;
+
 /// Parameter and lifecycle services of a node as in ROS 2: `~/get_parameters` etc., `~/get_state` etc. `node` must
 /// outlive them.
 std::vector<OfferedService> parameter_services(const std::string& full_name, ControlledNode& node);
-std::vector<OfferedService> lifecycle_services(const std::string& full_name, ControlledNode& node);
+std::vector<OfferedService> lifecycle_services(const std::string& full_name, ControlledNode& node, TellTransition tell);
+
+/// `~/get_type_description`, for the message types of all loaded libraries.
+std::vector<OfferedService> type_services(const std::string& full_name);
 
 /// `~/_container/load_node`, `unload_node`, `list_nodes`. `container` must outlive them.
 std::vector<OfferedService> component_services(const std::string& full_name, ControlledContainer& container);

@@ -11,6 +11,7 @@ namespace panvo::runtime {
 namespace {
 
 using testing::ElementsAre;
+using testing::HasSubstr;
 
 struct Tracker {
   int max_features = 400;

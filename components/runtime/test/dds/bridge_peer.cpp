@@ -24,9 +24,7 @@ namespace {
 class Peer {
  public:
   Peer(int domain, std::uint32_t shared_image_bytes)
-      : domain_(domain),
-        bridge_(make_dds_bridge(
-            {.domain = domain, .profiles = "", .name = "peer", .shared_image_bytes = shared_image_bytes})) {}
+      : domain_(domain), bridge_(make_dds_bridge(settings(domain, shared_image_bytes))) {}
 
   void run() {
     for (std::string line; std::getline(std::cin, line);) {
@@ -39,6 +37,14 @@ class Peer {
   }
 
  private:
+  static DdsSettings settings(int domain, std::uint32_t shared_image_bytes) {
+    DdsSettings settings{.domain = domain, .profiles = "", .name = "peer", .shared_image_bytes = shared_image_bytes};
+    const auto environment = dds_settings_from_environment();
+    settings.range = environment.range;
+    settings.peers = environment.peers;
+    return settings;
+  }
+
   std::string obey(const std::string& line) {
     std::istringstream words(line);
     std::string verb, name;
@@ -53,11 +59,11 @@ class Peer {
     } else if (verb == "close_reader") {
       readers_.erase(name);
     } else if (verb == "open_raw_writer") {
-      std::string type_name, reliability, durability;
-      words >> type_name >> reliability >> durability;
+      std::string type_name, reliability, durability, range;
+      words >> type_name >> reliability >> durability >> range;
       raw_writers_[name] = std::make_unique<RawWriter>(
           domain_, dds::wire_topic_name(name), dds::wire_type_name(type_name).value_or(type_name),
-          RawWriter::Offer{reliability == "reliable", durability == "transient_local"});
+          RawWriter::Offer{reliability == "reliable", durability == "transient_local", range == "localhost"});
     } else if (verb == "write_image") {
       std::size_t size = 0;
       std::uint32_t seed = 0;

@@ -14,7 +14,8 @@ namespace panvo::runtime {
 namespace {
 
 DdsSettings settings_with(const std::map<std::string, std::string>& variables) {
-  for (const char* name : {"ROS_DOMAIN_ID", "ROS_DISTRO", "ROS_LOCALHOST_ONLY", "ROS_AUTOMATIC_DISCOVERY_RANGE"}) {
+  for (const char* name :
+       {"ROS_DOMAIN_ID", "ROS_DISTRO", "ROS_LOCALHOST_ONLY", "ROS_AUTOMATIC_DISCOVERY_RANGE", "ROS_STATIC_PEERS"}) {
     unsetenv(name);
   }
   for (const auto& [name, value] : variables) setenv(name.c_str(), value.c_str(), 1);
@@ -25,7 +26,8 @@ TEST(Environment, WithoutVariablesGivesTheDefaults) {
   const auto settings = settings_with({});
   EXPECT_EQ(settings.domain, 0);
   EXPECT_EQ(settings.ros_distro, "jazzy");
-  EXPECT_FALSE(settings.localhost_only);
+  EXPECT_EQ(settings.range, DiscoveryRange::kSubnet);
+  EXPECT_THAT(settings.peers, testing::IsEmpty());
 }
 
 TEST(Environment, IsRead) {
@@ -33,9 +35,30 @@ TEST(Environment, IsRead) {
       settings_with({{"ROS_DOMAIN_ID", "232"}, {"ROS_DISTRO", "humble"}, {"ROS_LOCALHOST_ONLY", "1"}});
   EXPECT_EQ(settings.domain, 232);
   EXPECT_EQ(settings.ros_distro, "humble");
-  EXPECT_TRUE(settings.localhost_only);
-  EXPECT_FALSE(settings_with({{"ROS_LOCALHOST_ONLY", "0"}}).localhost_only);
-  EXPECT_TRUE(settings_with({{"ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST"}}).localhost_only);
+  EXPECT_EQ(settings.range, DiscoveryRange::kLoopback);  // as Humble does
+}
+
+TEST(Environment, GivesTheRangeOfDiscoveryAsInRos2) {
+  using enum DiscoveryRange;
+  const auto range = [](const std::string& name) {
+    return settings_with({{"ROS_AUTOMATIC_DISCOVERY_RANGE", name}}).range;
+  };
+  EXPECT_EQ(range("SUBNET"), kSubnet);
+  EXPECT_EQ(range("LOCALHOST"), kLocalhost);
+  EXPECT_EQ(range("OFF"), kOff);
+  EXPECT_EQ(range("SYSTEM_DEFAULT"), kSystemDefault);
+  EXPECT_THROW(range("HOUSE"), ConfigError);
+  EXPECT_EQ(settings_with({{"ROS_LOCALHOST_ONLY", "1"}}).range, kLocalhost);
+  EXPECT_EQ(settings_with({{"ROS_LOCALHOST_ONLY", "0"}, {"ROS_AUTOMATIC_DISCOVERY_RANGE", "OFF"}}).range, kOff);
+}
+
+TEST(Environment, GivesThePeersUnlessLocalhostOnly) {
+  EXPECT_THAT(settings_with({{"ROS_STATIC_PEERS", "robot.local;10.0.0.2;"}}).peers,
+              testing::ElementsAre("robot.local", "10.0.0.2"));
+  const auto local = settings_with(
+      {{"ROS_STATIC_PEERS", "10.0.0.2"}, {"ROS_LOCALHOST_ONLY", "1"}, {"ROS_AUTOMATIC_DISCOVERY_RANGE", "SUBNET"}});
+  EXPECT_THAT(local.peers, testing::IsEmpty());
+  EXPECT_EQ(local.range, DiscoveryRange::kLocalhost);
 }
 
 TEST(Environment, OfADomainThatIsNoneIsRefusedWithTheRange) {

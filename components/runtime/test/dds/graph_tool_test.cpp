@@ -2,13 +2,11 @@
 // Output of `panvo node`, `param`, `topic`, `service` and `component` for a container in another process.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
-#include <array>
-#include <csignal>
-#include <cstdio>
+#include <future>
 #include <string>
 
+#include "graph_tool.hpp"
 #include "peer_process.hpp"
 #include "test_messages.hpp"
 
@@ -17,26 +15,9 @@ namespace {
 
 using testing::HasSubstr;
 
-struct Result {
-  int status = -1;
-  std::string said;
-};
-
 class GraphTool : public testing::Test {
  protected:
-  /// Runs the program with these arguments through a shell.
-  Result run(const std::string& arguments) const {
-    const std::string command = std::string(PANVO_GRAPH_TOOL) + " --domain " + std::to_string(domain) + " " +
-                                (arguments.starts_with("--") ? "" : "--timeout 30 ") + arguments + " 2>&1";
-    Result result;
-    FILE* output = popen(command.c_str(), "r");
-    std::array<char, 4096> chunk{};
-    for (std::size_t size = 0; (size = fread(chunk.data(), 1, chunk.size(), output)) > 0;)
-      result.said.append(chunk.data(), size);
-    const int status = pclose(output);
-    result.status = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-    return result;
-  }
+  ToolResult run(const std::string& arguments) const { return run_graph_tool(domain, arguments); }
   /// The output once it contains `wanted`; discovery can be slow on a busy machine.
   std::string eventually_says(const std::string& arguments, const std::string& wanted) const {
     std::string said;
@@ -55,7 +36,8 @@ class GraphTool : public testing::Test {
 TEST_F(GraphTool, ListsNodesTopicsServicesAndContainers) {
   EXPECT_EQ(eventually_says("node list", "/controlled"), "/controlled\n/robot/echo\n");
   EXPECT_THAT(eventually_says("node info robot/echo", "Service Servers"),
-              HasSubstr("/robot/echoed: std_msgs/msg/String"));
+              AllOf(HasSubstr("/robot/echoed: std_msgs/msg/String"), HasSubstr("/rosout: rcl_interfaces/msg/Log"),
+                    HasSubstr("/parameter_events: rcl_interfaces/msg/ParameterEvent")));
   EXPECT_THAT(eventually_says("topic list -t", "/rosout"), HasSubstr("/robot/to_echo [std_msgs/msg/String]\n"));
   EXPECT_THAT(eventually_says("topic info /robot/to_echo -v", "Node"), HasSubstr("Node: /robot/echo\n"));
   EXPECT_THAT(eventually_says("service list", "list_nodes"), HasSubstr("/controlled/_container/load_node\n"));
@@ -63,7 +45,8 @@ TEST_F(GraphTool, ListsNodesTopicsServicesAndContainers) {
 }
 
 TEST_F(GraphTool, GetsDescribesAndSetsParameters) {
-  EXPECT_EQ(run("param list /robot/echo").said, "before\nsize\n");
+  EXPECT_THAT(run("param list /robot/echo").said, AllOf(testing::StartsWith("before\nsize\nuse_sim_time\n"),
+                                                        HasSubstr("\nqos_overrides./robot/echoed.publisher.depth\n")));
   EXPECT_EQ(run("param get /robot/echo size").said, "3\n");
   EXPECT_EQ(run("param set /robot/echo size 5").said, "set\n");
   EXPECT_EQ(run("param get /robot/echo size").said, "5\n");
@@ -73,6 +56,8 @@ TEST_F(GraphTool, GetsDescribesAndSetsParameters) {
   EXPECT_THAT(run("param set /robot/echo size many").said, HasSubstr("size is an integer, but a text was given"));
   EXPECT_THAT(run("param describe /robot/echo size").said, HasSubstr("integer, 1 .. 9, settable"));
   EXPECT_EQ(run("param get /robot/echo nothing").status, 1);
+  EXPECT_EQ(run("param set /robot/echo use_sim_time true").said, "set\n");
+  eventually_says("node info /robot/echo", "/clock: rosgraph_msgs/msg/Clock");
 }
 
 TEST_F(GraphTool, LoadsAndUnloads) {
@@ -98,6 +83,24 @@ TEST_F(GraphTool, EchoesAndMeasuresTopics) {
   EXPECT_THAT(run("topic echo /diagnostics --once").said, HasSubstr("  name: 'panvo: echo'\n"));
   EXPECT_THAT(run("topic hz /diagnostics -n 3").said, HasSubstr("average rate: "));
   EXPECT_THAT(run("topic bw /diagnostics -n 1").said, testing::ContainsRegex("KB/s from [12] messages"));
+}
+
+TEST_F(GraphTool, SaysThatAPublisherIsGoneInsteadOfItsLastRate) {
+  const auto bridge = make_dds_bridge({.domain = domain, .profiles = "", .name = "panvo_test"});
+  // Latched: what is written before the tool has discovered the writer is not lost.
+  auto writer = bridge->open_writer(test::topic("/leaving", "std_msgs/msg/String",
+                                                {.durability = interfaces::Durability::kTransientLocal, .depth = 10}));
+  for (int i = 0; i < 5; ++i) ASSERT_TRUE(writer->write(text_sample("text")));
+  auto said = std::async(std::launch::async, [&] { return run("topic hz /leaving -n 3").said; });
+  ASSERT_TRUE(eventually([&] { return writer->matched_readers() == 1; }));
+  ASSERT_TRUE(writer->wait_for_acknowledgments(kLimit));
+  writer.reset();
+  EXPECT_THAT(said.get(), testing::ContainsRegex("average rate: .*\nthe publisher is gone\nthe publisher is gone\n$"));
+}
+
+TEST_F(GraphTool, SaysThatDiscoveryHasNotSettled) {
+  EXPECT_THAT(run("--timeout 0.3 topic list").said, HasSubstr("discovery has not settled"));
+  EXPECT_THAT(run("topic list").said, testing::Not(HasSubstr("settled")));
 }
 
 TEST_F(GraphTool, WritesNothingThatSteersATerminal) {

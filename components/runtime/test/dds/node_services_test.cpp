@@ -10,6 +10,7 @@
 #include "composition_interfaces/srv/LoadNode.h"
 #include "composition_interfaces/srv/UnloadNode.h"
 #include "inbox.hpp"
+#include "lifecycle_msgs/msg/TransitionEvent.h"
 #include "lifecycle_msgs/srv/ChangeState.h"
 #include "lifecycle_msgs/srv/GetState.h"
 #include "node_service_topics.hpp"
@@ -19,6 +20,7 @@
 #include "peer_process.hpp"
 #include "rcl_interfaces/msg/ParameterEvent.h"
 #include "rcl_interfaces/srv/GetParameters.h"
+#include "rcl_interfaces/srv/ListParameters.h"
 #include "rcl_interfaces/srv/SetParameters.h"
 
 namespace panvo::runtime::test {
@@ -37,7 +39,8 @@ class NodeServices : public testing::Test {
   /// The other process answers once its container exists, and loads components on request once it runs.
   void SetUp() override {
     ASSERT_TRUE(eventually([&] { return !loaded().empty(); }));
-    LoadNode_Request none;
+    auto none = relay();
+    none.package_name("panvo_nothing");
     ASSERT_TRUE(eventually([&] { return load(none).error_message().find("still loading") == std::string::npos; }));
   }
 
@@ -77,6 +80,12 @@ class NodeServices : public testing::Test {
     return ask<lifecycle_msgs::srv::ChangeState_Response>("/robot/echo/change_state", "lifecycle_msgs/srv/ChangeState",
                                                           request)
         .success();
+  }
+  std::string state() {
+    return ask<lifecycle_msgs::srv::GetState_Response>("/robot/echo/get_state", "lifecycle_msgs/srv/GetState",
+                                                       lifecycle_msgs::srv::GetState_Request())
+        .current_state()
+        .label();
   }
   std::string set_before(const std::string& text) {
     rcl_interfaces::srv::SetParameters_Request request;
@@ -177,11 +186,7 @@ TEST_F(NodeServices, HandsNoMessagesToAnInactiveComponent) {
   ASSERT_TRUE(change_state("deactivate"));
   ASSERT_TRUE(writer->write(text_sample("off")));
   ASSERT_TRUE(writer->wait_for_acknowledgments(kLimit));
-  EXPECT_EQ(ask<lifecycle_msgs::srv::GetState_Response>("/robot/echo/get_state", "lifecycle_msgs/srv/GetState",
-                                                        lifecycle_msgs::srv::GetState_Request())
-                .current_state()
-                .label(),
-            "inactive");
+  EXPECT_EQ(state(), "inactive");
   ASSERT_TRUE(change_state("activate"));
   ASSERT_TRUE(writer->write(text_sample("yes")));
   ASSERT_EQ(echoed.wait_for_count(1).size(), 1U);
@@ -210,15 +215,55 @@ TEST_F(NodeServices, TellsOfParametersThatComeAndThatAreSet) {
   events.clear();
   const auto id = load(relay()).unique_id();
   EXPECT_TRUE(is_told([](const rcl_interfaces::msg::ParameterEvent& event) {
-    return event.node() == "/relay" && event.new_parameters().size() == 1 &&
+    return event.node() == "/relay" && !event.new_parameters().empty() &&
            event.new_parameters()[0].name() == "copies" && event.new_parameters()[0].value().integer_value() == 1;
   }));
   EXPECT_TRUE(unload(id).success());
 }
 
-TEST_F(NodeServices, ShutsAComponentDownAfterItsAnswer) {
+TEST_F(NodeServices, KeepsTheNodeOfAComponentThatIsShutDown) {
+  open_topics();
+  Inbox<SamplePtr> events;
+  const auto listener = bridge->open_reader(
+      test::topic("/robot/echo/transition_event", "lifecycle_msgs/msg/TransitionEvent"), events.callback());
+  ASSERT_TRUE(eventually([&] { return listener->matched_writers() == 1; }));
+  // A match here does not imply a match there.
+  ASSERT_TRUE(
+      eventually([&] { return change_state("deactivate") && change_state("activate") && !events.items().empty(); }));
   EXPECT_TRUE(change_state("shutdown"));
-  EXPECT_TRUE(eventually([&] { return loaded().empty(); }));
+  EXPECT_EQ(state(), "finalized");
+  EXPECT_FALSE(change_state("activate"));
+  EXPECT_TRUE(events.wait_for([](const SamplePtr& sample) {
+    const auto event = Sample::as<lifecycle_msgs::msg::TransitionEvent>(sample);
+    return event->start_state().label() == "shuttingdown" && event->goal_state().label() == "finalized";
+  }));
+  EXPECT_TRUE(eventually([&] { return writer->matched_readers() == 0; }));  // its inputs are closed
+  EXPECT_THAT(set_before("new"), HasSubstr("shut down"));
+  EXPECT_THAT(loaded(), testing::ElementsAre("/robot/echo"));
+  const auto is_listed = [&] {
+    const auto nodes = bridge->graph().nodes;
+    return std::ranges::find(nodes, "echo", &GraphNode::name) != nodes.end();
+  };
+  EXPECT_TRUE(eventually(is_listed));
+  EXPECT_TRUE(unload(1).success());
+  EXPECT_TRUE(eventually([&] { return !is_listed(); }));
+}
+
+TEST_F(NodeServices, HasParametersInTheContainerToo) {
+  rcl_interfaces::srv::ListParameters_Response listed = ask<rcl_interfaces::srv::ListParameters_Response>(
+      "/controlled/list_parameters", "rcl_interfaces/srv/ListParameters",
+      rcl_interfaces::srv::ListParameters_Request());
+  EXPECT_THAT(listed.result().names(), testing::Contains("use_sim_time"));
+  EXPECT_THAT(listed.result().names(), testing::Contains("qos_overrides./parameter_events.publisher.depth"));
+  rcl_interfaces::srv::SetParameters_Request request;
+  request.parameters().resize(1);
+  request.parameters()[0].name("use_sim_time");
+  request.parameters()[0].value().type(1);  // a bool
+  request.parameters()[0].value().bool_value(true);
+  const auto results = ask<rcl_interfaces::srv::SetParameters_Response>("/controlled/set_parameters",
+                                                                        "rcl_interfaces/srv/SetParameters", request)
+                           .results();
+  EXPECT_TRUE(results.at(0).successful()) << results.at(0).reason();
 }
 
 TEST_F(NodeServices, TellsRos2WhichNodesThereAreAndWhatTheyHave) {
@@ -228,15 +273,28 @@ TEST_F(NodeServices, TellsRos2WhichNodesThereAreAndWhatTheyHave) {
     const auto found = std::ranges::find(nodes, name, &GraphNode::name);
     return found == nodes.end() ? GraphNode{} : *found;
   };
-  // Ten services each; the component's two topics, /rosout, /diagnostics and /parameter_events of the container.
-  EXPECT_TRUE(eventually([&] { return node("echo").readers.size() == 11 && node("echo").writers.size() == 11; }));
+  // Services: the component's twelve, the container's ten. Topics: the component's two and its transitions, /rosout and
+  // /parameter_events of both, the container's /diagnostics.
+  EXPECT_TRUE(eventually([&] { return node("echo").readers.size() == 13 && node("echo").writers.size() == 16; }));
   EXPECT_TRUE(
-      eventually([&] { return node("controlled").readers.size() == 3 && node("controlled").writers.size() == 6; }));
+      eventually([&] { return node("controlled").readers.size() == 10 && node("controlled").writers.size() == 13; }));
   EXPECT_EQ(node("echo").name_space, "/robot");
   const auto id = load(relay()).unique_id();
   EXPECT_TRUE(eventually([&] { return node("relay").name == "relay"; }));
   EXPECT_TRUE(unload(id).success());
   EXPECT_TRUE(eventually([&] { return node("relay").name.empty(); }));
+}
+
+TEST_F(NodeServices, HaveTheTypeHashOfRos2) {
+  std::vector<std::string> hashes;
+  ASSERT_TRUE(eventually([&] {
+    hashes.clear();
+    for (const auto& endpoint : bridge->graph().endpoints) {
+      if (endpoint.name == "/robot/echo/get_parameters") hashes.push_back(endpoint.type_hash);
+    }
+    return hashes.size() == 2;  // requests and replies
+  }));
+  EXPECT_THAT(hashes, testing::Each("RIHS01_bf9803d5c74cf989a5de3e0c2e99444599a627c7ff75f97b8c05b01003675cbc"));
 }
 
 TEST_F(NodeServices, LosesNothingElsewhereAndKeepsNoMemoryWhileComponentsComeAndGo) {

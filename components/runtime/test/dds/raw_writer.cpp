@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "raw_writer.hpp"
 
+#include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
+#include <fastrtps/utils/IPLocator.h>
 #include <fastdds/dds/domain/DomainParticipant.hpp>
 #include <fastdds/dds/domain/DomainParticipantFactory.hpp>
 #include <fastdds/dds/publisher/DataWriter.hpp>
@@ -14,6 +16,23 @@ namespace panvo::runtime::test {
 
 using namespace eprosima::fastdds::dds;
 
+namespace {
+
+void look_on_localhost(DomainParticipantQos& qos) {
+  using eprosima::fastrtps::rtps::Locator_t;
+  auto& builtin = qos.wire_protocol().builtin;
+  builtin.metatrafficUnicastLocatorList.push_back(Locator_t());  // no multicast
+  Locator_t this_machine;
+  eprosima::fastrtps::rtps::IPLocator::setIPv4(this_machine, "127.0.0.1");
+  builtin.initialPeersList.push_back(this_machine);
+  auto udp = std::make_shared<eprosima::fastdds::rtps::UDPv4TransportDescriptor>();
+  udp->maxInitialPeersRange = 32;
+  qos.transport().user_transports.push_back(udp);
+  qos.transport().use_builtin_transports = false;
+}
+
+}  // namespace
+
 struct RawWriter::Entities {
   DomainParticipant* participant;
   Publisher* publisher;
@@ -26,6 +45,7 @@ RawWriter::RawWriter(int domain, const std::string& wire_topic_name, const std::
   auto& [participant, publisher, topic, writer] = *entities_;
   DomainParticipantQos participant_qos = PARTICIPANT_QOS_DEFAULT;
   participant_qos.wire_protocol().builtin.discovery_config.leaseDuration = eprosima::fastrtps::c_TimeInfinite;
+  if (offer.on_localhost) look_on_localhost(participant_qos);
   participant =
       DomainParticipantFactory::get_instance()->create_participant(static_cast<DomainId_t>(domain), participant_qos);
   TypeSupport(new RawType(wire_type_name)).register_type(participant);

@@ -15,6 +15,7 @@ class RawWriter {
   struct Offer {
     bool reliable = true;
     bool transient_local = false;
+    bool on_localhost = false;  ///< looks for others on this machine only, as rmw_fastrtps with range LOCALHOST
   };
   RawWriter(int domain, const std::string& wire_topic_name, const std::string& wire_type_name, Offer offer);
   ~RawWriter();

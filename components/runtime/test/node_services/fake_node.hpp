@@ -40,14 +40,16 @@ class FakeNode final : public ControlledNode {
     return true;
   }
   bool shut_down() override {
-    is_shut_down = true;
+    is_over = true;
     return true;
   }
+
+  bool is_shut_down() const override { return is_over; }
 
   std::vector<ParameterDescription> all;
   std::vector<WrittenValues> asked;
   std::string refusal;
-  bool active = true, is_shut_down = false;
+  bool active = true, is_over = false;
 
  private:
   static ParameterDescription parameter(const std::string& name, const std::string& type, WrittenValue written,

@@ -29,7 +29,7 @@ class NoContainer final : public ControlledContainer {
 class ServiceAccessTo : public testing::Test {
  protected:
   ServiceAccessTo() {
-    for (auto& service : lifecycle_services("/node", node)) services.push_back(std::move(service));
+    for (auto& service : lifecycle_services("/node", node, [](const auto&) {})) services.push_back(std::move(service));
     for (auto& service : component_services("/container", container)) services.push_back(std::move(service));
   }
 

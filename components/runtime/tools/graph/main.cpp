@@ -16,7 +16,8 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   app.fallthrough();
   app.footer(
-      "ROS_DOMAIN_ID, ROS_DISTRO, ROS_LOCALHOST_ONLY and ROS_DISCOVERY_SERVER are honoured. Exit status: 0 success, 1 "
+      "ROS_DOMAIN_ID, ROS_DISTRO, ROS_LOCALHOST_ONLY, ROS_AUTOMATIC_DISCOVERY_RANGE, ROS_STATIC_PEERS and "
+      "ROS_DISCOVERY_SERVER are honoured. Exit status: 0 success, 1 "
       "not found, no answer or refused, 2 invalid command line, 130 interrupted.");
   try {
     options.dds = dds_settings_from_environment();

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <iostream>
 #include <map>
 #include <memory>
 #include <set>
+#include <vector>
 
 #include "commands.hpp"
 
@@ -31,11 +33,11 @@ void info(const SessionOptions& options, const std::string& name) {
   Session session(options);
   const Graph graph = session.settled_graph();
   Lines subscribed, published, served, called;
-  bool is_there = false;
-  for (const auto& node : graph.nodes) is_there |= full_name_of(node) == name;
-  if (!is_there) throw Failure("there is no node " + name + " (panvo node list)");
+  std::vector<GraphNode> nodes = graph.nodes;
+  std::erase_if(nodes, [&](const GraphNode& node) { return full_name_of(node) != name; });
+  if (nodes.empty()) throw Failure("there is no node " + name + " (panvo node list)");
   for (const auto& endpoint : graph.endpoints) {
-    if (node_of(graph, endpoint) != name) continue;
+    if (std::ranges::none_of(nodes, [&](const GraphNode& node) { return has(node, endpoint); })) continue;
     const std::string line = endpoint.name + ": " + endpoint.type_name;
     if (endpoint.kind == EndpointKind::kTopic) (endpoint.is_writer ? published : subscribed).insert(line);
     if (endpoint.kind == EndpointKind::kRequest) (endpoint.is_writer ? called : served).insert(line);

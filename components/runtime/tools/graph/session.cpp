@@ -45,10 +45,15 @@ Graph Session::settled_graph() {
   Graph graph = bridge_->graph();
   while (!is_stopped()) {
     const auto now = steady_clock::now();
-    if (now - start >= timeout_ || (now - start >= kFirstLook && now - changed >= kQuiet)) break;
+    if (now - start >= kFirstLook && now - changed >= kQuiet && is_complete(graph)) break;
+    if (now - start >= timeout_) {
+      std::fprintf(stderr, "panvo: discovery has not settled: something may be missing (--timeout waits longer)\n");
+      break;
+    }
     std::this_thread::sleep_for(kPollPeriod);
     Graph next = bridge_->graph();
-    if (next.endpoints.size() != graph.endpoints.size() || next.nodes.size() != graph.nodes.size())
+    if (next.endpoints.size() != graph.endpoints.size() || next.nodes.size() != graph.nodes.size() ||
+        next.participants.size() != graph.participants.size())
       changed = steady_clock::now();
     graph = std::move(next);
   }
@@ -80,10 +85,14 @@ std::string full_name_of(const GraphNode& node) { return full_name(node.name_spa
 
 std::string absolute(const std::string& name) { return name.starts_with('/') ? name : "/" + name; }
 
+bool has(const GraphNode& node, const GraphEndpoint& endpoint) {
+  const auto& gids = endpoint.is_writer ? node.writers : node.readers;
+  return std::find(gids.begin(), gids.end(), endpoint.gid) != gids.end();
+}
+
 std::string node_of(const Graph& graph, const GraphEndpoint& endpoint) {
   for (const auto& node : graph.nodes) {
-    const auto& gids = endpoint.is_writer ? node.writers : node.readers;
-    if (std::find(gids.begin(), gids.end(), endpoint.gid) != gids.end()) return full_name_of(node);
+    if (has(node, endpoint)) return full_name_of(node);
   }
   return "";
 }

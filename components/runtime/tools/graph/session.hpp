@@ -36,7 +36,8 @@ class Session {
   Bridge& bridge() { return *bridge_; }
   std::chrono::milliseconds timeout() const { return timeout_; }
 
-  /// The graph once nothing new has been discovered for a while.
+  /// The graph once it is complete and nothing new has been discovered for a while. If that is not the case at the
+  /// timeout, says so.
   Graph settled_graph();
   /// The graph as soon as `is_there` holds, or at the timeout or Ctrl-C.
   Graph graph_with(const std::function<bool(const Graph&)>& is_there);
@@ -57,7 +58,9 @@ class Session {
 std::string full_name_of(const GraphNode& node);
 /// Adds the leading slash that may be omitted on the command line.
 std::string absolute(const std::string& name);
-/// Full name of the node that owns an endpoint; empty if unknown.
+/// Whether a node has an endpoint. Nodes of one process may share endpoints.
+bool has(const GraphNode& node, const GraphEndpoint& endpoint);
+/// Full name of the node that owns an endpoint, of the first if several share it; empty if unknown.
 std::string node_of(const Graph& graph, const GraphEndpoint& endpoint);
 
 }  // namespace panvo::runtime::graph

@@ -47,6 +47,8 @@ class Stream {
     return arrival;
   }
 
+  bool has_writer() const { return reader_->matched_writers() > 0; }
+
   const interfaces::MessageType* type() const { return type_; }
   const std::string& type_name() const { return type_name_; }
   std::uint64_t skipped() const { return skipped_; }
@@ -109,7 +111,7 @@ constexpr milliseconds kReportPeriod{1000};
   throw Failure("no message received on " + reading.topic + " in time (--timeout waits longer)");
 }
 
-/// Collects messages and reports on the newest `window` of them once per second.
+/// Collects messages and reports on the newest `window` of them once per second; after a silence anew.
 template <class Report>
 void watch(const SessionOptions& options, const TopicReading& reading, const Report& report) {
   Session session(options);
@@ -121,12 +123,19 @@ void watch(const SessionOptions& options, const TopicReading& reading, const Rep
   for (std::size_t reports = 0; (reading.count == 0 || reports < reading.count) && !is_stopped(); ++reports) {
     const auto end = steady_clock::now() + kReportPeriod;
     const auto left = [&] { return std::chrono::duration_cast<milliseconds>(end - steady_clock::now()); };
+    bool is_silent = reports > 0;  // the first message counts for the first report
     while (auto arrival = stream.next(left())) {
+      is_silent = false;
       window.push_back(std::move(*arrival));
       if (window.size() > reading.window) window.pop_front();
     }
     if (is_stopped()) return;
-    report(window, stream.skipped());
+    if (is_silent) {
+      std::printf(stream.has_writer() ? "no new messages\n" : "the publisher is gone\n");
+      window.clear();
+    } else {
+      report(window, stream.skipped());
+    }
     std::fflush(stdout);
   }
 }

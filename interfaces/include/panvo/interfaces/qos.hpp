@@ -9,16 +9,19 @@ namespace panvo::interfaces {
 enum class Reliability { kBestEffort, kReliable };
 enum class Durability { kVolatile, kTransientLocal };
 
-/// Quality of service of a topic, in ROS 2's terms. Writers always offer reliable delivery and so match every reader.
-/// Readers request `requested`; best effort also matches camera drivers that offer no more.
+/// Quality of service of a topic, in ROS 2's terms. Writers offer reliable delivery and so match every reader, unless
+/// `offered` is overridden. Readers request `requested`; best effort also matches camera drivers that offer no more.
 struct Qos {
   Reliability requested = Reliability::kReliable;
   Durability durability = Durability::kVolatile;
   /// Messages kept per writer, reader and component input. Further ones are dropped, oldest first, and counted.
   std::size_t depth = 10;
-  bool keep_all = false;                  ///< drop nothing: with `depth` messages pending, a writer waits
-  std::chrono::milliseconds deadline{0};  ///< longest time between messages of a writer; 0: no limit
-  std::chrono::milliseconds lifespan{0};  ///< age beyond which a message is not delivered; 0: no limit
+  bool keep_all = false;                         ///< drop nothing: with `depth` messages pending, a writer waits
+  std::chrono::milliseconds deadline{0};         ///< longest time between messages of a writer; 0: no limit
+  std::chrono::milliseconds lifespan{0};         ///< age beyond which a message is not delivered; 0: no limit
+  Reliability offered = Reliability::kReliable;  ///< by writers
+
+  bool operator==(const Qos&) const = default;
 };
 
 namespace qos {

@@ -93,6 +93,15 @@ struct Limits {
   double max_topic_rate_hz = 1000.0;           ///< per topic, averaged over about 1 s: the rate of the fastest IMUs
 };
 
+/// Where to look for other processes, as ROS_AUTOMATIC_DISCOVERY_RANGE of ROS 2.
+enum class DiscoveryRange : std::uint8_t {
+  kOff,            ///< nowhere: nothing is exchanged with other processes
+  kLocalhost,      ///< on this machine, without multicast
+  kLoopback,       ///< the same by 127.0.0.1 only, as ROS_LOCALHOST_ONLY up to ROS 2 Humble
+  kSubnet,         ///< by multicast
+  kSystemDefault,  ///< as the DDS profile says
+};
+
 struct DdsSettings {
   static constexpr int kMaxDomain = 232;  ///< higher domains would exceed port 65535
 
@@ -100,7 +109,8 @@ struct DdsSettings {
   std::string profiles;              ///< XML profile file; empty: built-in defaults
   std::string name = "panvo";        ///< participant name seen by other tools
   std::string ros_distro = "jazzy";  ///< of the ROS 2 nodes: "humble" uses another ros_discovery_info format
-  bool localhost_only = false;       ///< no traffic beyond this machine
+  DiscoveryRange range = DiscoveryRange::kSubnet;
+  std::vector<std::string> peers{};  ///< hosts to look for, by name or address; not with kOff and kSystemDefault
   /// Largest image (bytes of pixels) that is shared in memory with processes of this machine that also share images.
   /// The memory is sized by the received images. 0: no sharing.
   std::uint32_t shared_image_bytes = 0;
@@ -109,8 +119,9 @@ struct DdsSettings {
   std::uint32_t max_request = 1'000'000;  ///< bytes; larger requests are dropped and counted
 };
 
-/// Settings from ROS 2's environment variables ROS_DOMAIN_ID, ROS_DISTRO, ROS_LOCALHOST_ONLY and
-/// ROS_AUTOMATIC_DISCOVERY_RANGE. ROS_DISCOVERY_SERVER is read by Fast DDS. Throws ConfigError on an invalid value.
+/// Settings from ROS 2's environment variables ROS_DOMAIN_ID, ROS_DISTRO, ROS_LOCALHOST_ONLY,
+/// ROS_AUTOMATIC_DISCOVERY_RANGE and ROS_STATIC_PEERS. ROS_DISCOVERY_SERVER is read by Fast DDS. Throws ConfigError on
+/// an invalid value.
 DdsSettings dds_settings_from_environment();
 
 /// Creates a bridge over Fast DDS. Throws ConfigError if no participant can be created (invalid profile file, no

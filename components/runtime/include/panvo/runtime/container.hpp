@@ -31,6 +31,7 @@ struct ContainerOptions {
   /// Name and namespace of the container's ROS 2 node; must differ from those of all components.
   std::string name = "container";
   std::string name_space = "/";
+  WrittenValues parameters{};  ///< of that node: use_sim_time, qos_overrides
   ServiceAccess services = ServiceAccess::kByHost;
   std::filesystem::path files_below{};  ///< folder for files named by service requests; empty: none allowed
 };

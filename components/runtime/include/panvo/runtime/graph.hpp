@@ -41,6 +41,11 @@ struct GraphNode {
 struct Graph {
   std::vector<GraphNode> nodes;
   std::vector<GraphEndpoint> endpoints;
+  std::vector<std::string> participants;  ///< prefixes of their gids
 };
+
+/// Whether nothing known of is missing: each participant has endpoints, those that publish nodes have done so, and the
+/// endpoints of all nodes are known. Participants that are not yet discovered cannot be missed.
+bool is_complete(const Graph& graph);
 
 }  // namespace panvo::runtime

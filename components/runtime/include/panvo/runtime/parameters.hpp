@@ -79,9 +79,13 @@ class ParameterReader {
   /// Returns the struct: defaults overridden by the configured values. Problems are recorded, see problems().
   template <class Parameters>
   Parameters read() {
-    Parameters parameters{};
-    Parameters::describe(Field<Parameters>{*this, parameters, ""});
-    add_conflicts(parameters, "");
+    return read(Parameters{}, "");
+  }
+  /// The same with other defaults, and a prefix ("motion.") in front of each name.
+  template <class Parameters>
+  Parameters read(Parameters parameters, const std::string& prefix) {
+    Parameters::describe(Field<Parameters>{*this, parameters, prefix});
+    add_conflicts(parameters, prefix);
     return parameters;
   }
 

@@ -30,6 +30,7 @@ struct ContainerDescription {
   std::string name;
   std::string name_space;  ///< absolute, root "/"
   std::vector<ComponentDescription> components;
+  WrittenValues parameters;               ///< of its own node: use_sim_time, qos_overrides
   bool respawn = false;                   ///< restart after a crash or failure
   std::optional<double> respawn_delay_s;  ///< delay before the restart
   double shared_images_mb = 0;            ///< largest shared image, MB; 0: no sharing
@@ -84,5 +85,14 @@ SystemDescription read_system_file(const std::filesystem::path& file,
 /// 2]". A component in a namespace may be given by its full name; a short name selects all components of that name.
 /// Throws ConfigError if there is none.
 void apply_setting(SystemDescription& system, const std::string& setting);
+
+/// Sets a parameter by ROS 2's option -p: "use_sim_time:=true" for all nodes, "NODE:NAME:=VALUE" for one. Throws
+/// ConfigError if there is no such node.
+void apply_parameter(SystemDescription& system, const std::string& assignment);
+
+/// Applies a rule of ROS 2's option -r: "__ns:=/NS" puts all nodes into a namespace, "__node:=NAME" names the container,
+/// "FROM:=TO" remaps a topic for all components. With "NODE:" in front, a rule applies to that node only. Throws
+/// ConfigError on an invalid rule, or if two nodes have the same name afterwards.
+void apply_remap(SystemDescription& system, const std::string& rule);
 
 }  // namespace panvo::runtime

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cyclone_service.hpp"
+
+#include <cstdint>
+#include <cstdio>
+#include <cstring>
+#include <stdexcept>
+
+#include "cyclone_services.h"
+
+namespace panvo::test::cyclone {
+namespace {
+
+using Request = cyclone_services_SetBool_Request;
+using Response = cyclone_services_SetBool_Response;
+
+constexpr dds_duration_t kLimit = DDS_SECS(60);
+
+dds_entity_t checked(dds_entity_t entity, const std::string& what) {
+  if (entity < 0) throw std::runtime_error(what + ": " + dds_strretcode(-entity));
+  return entity;
+}
+
+/// Writer of one topic of a service and reader of the other.
+class Ends {
+ public:
+  Ends(dds_domainid_t domain, const std::string& name, bool is_client)
+      : participant_(checked(dds_create_participant(domain, nullptr, nullptr), "participant")) {
+    dds_qos_t* qos = dds_create_qos();
+    dds_qset_reliability(qos, DDS_RELIABILITY_RELIABLE, DDS_SECS(1));
+    dds_qset_history(qos, DDS_HISTORY_KEEP_LAST, 10);
+    const auto requests =
+        topic(cyclone_services_SetBool_Request_desc, "std_srvs::srv::dds_::SetBool_Request_", "rq" + name + "Request");
+    const auto replies =
+        topic(cyclone_services_SetBool_Response_desc, "std_srvs::srv::dds_::SetBool_Response_", "rr" + name + "Reply");
+    writer = checked(dds_create_writer(participant_, is_client ? requests : replies, qos, nullptr), "writer");
+    reader = checked(dds_create_reader(participant_, is_client ? replies : requests, qos, nullptr), "reader");
+    dds_delete_qos(qos);
+  }
+  ~Ends() { dds_delete(participant_); }
+  Ends(const Ends&) = delete;
+  Ends& operator=(const Ends&) = delete;
+
+  void wait_for(dds_entity_t entity, std::uint32_t status) const {
+    checked(dds_set_status_mask(entity, status), "status mask");
+    const dds_entity_t waitset = checked(dds_create_waitset(participant_), "waitset");
+    checked(dds_waitset_attach(waitset, entity, 0), "waitset");
+    const auto triggered = checked(dds_waitset_wait(waitset, nullptr, 0, kLimit), "wait");
+    dds_delete(waitset);
+    if (triggered == 0) throw std::runtime_error("nothing came");
+    std::uint32_t taken = 0;
+    dds_take_status(entity, &taken, status);
+  }
+
+  /// Takes the next message; it must be returned with dds_return_loan.
+  void* take() const {
+    void* messages[1] = {nullptr};
+    dds_sample_info_t info[1];
+    while (true) {
+      const int taken = checked(dds_take(reader, messages, info, 1, 1), "take");
+      if (taken > 0 && info[0].valid_data) return messages[0];
+      if (taken > 0) dds_return_loan(reader, messages, taken);
+      if (taken == 0) wait_for(reader, DDS_DATA_AVAILABLE_STATUS);
+      messages[0] = nullptr;
+    }
+  }
+
+  dds_entity_t writer = 0, reader = 0;
+
+ private:
+  dds_entity_t topic(dds_topic_descriptor_t descriptor, const char* wire_type, const std::string& name) const {
+    descriptor.m_typename = wire_type;
+    return checked(dds_create_topic(participant_, &descriptor, name.c_str(), nullptr, nullptr), "topic");
+  }
+
+  dds_entity_t participant_;
+};
+
+}  // namespace
+
+void call_service(dds_domainid_t domain, const std::string& name, int count) {
+  const Ends ends(domain, name, true);
+  ends.wait_for(ends.writer, DDS_PUBLICATION_MATCHED_STATUS);
+  ends.wait_for(ends.reader, DDS_SUBSCRIPTION_MATCHED_STATUS);
+  Request request{};
+  request.client = 0x1122334455667788;
+  for (int n = 1; n <= count; ++n) {
+    request.number = n;
+    request.data = n % 2 == 1;
+    checked(dds_write(ends.writer, &request), "write");
+    void* message = ends.take();
+    const auto& response = *static_cast<const Response*>(message);
+    if (response.client != request.client) throw std::runtime_error("the reply has another client");
+    std::printf("answer %lld %d %s\n", static_cast<long long>(response.number), response.success, response.message);
+    std::fflush(stdout);
+    dds_return_loan(ends.reader, &message, 1);
+  }
+}
+
+void serve(dds_domainid_t domain, const std::string& name) {
+  const Ends ends(domain, name, false);
+  std::puts("serving");
+  std::fflush(stdout);
+  ends.wait_for(ends.writer, DDS_PUBLICATION_MATCHED_STATUS);  // a reply to an undiscovered reader is lost
+  std::string text = "cyclone";
+  while (true) {
+    void* message = nullptr;
+    try {
+      message = ends.take();
+    } catch (const std::runtime_error&) {
+      return;
+    }
+    const auto& request = *static_cast<const Request*>(message);
+    Response response{request.client, request.number, request.data, text.data()};
+    checked(dds_write(ends.writer, &response), "write");
+    dds_return_loan(ends.reader, &message, 1);
+  }
+}
+
+}  // namespace panvo::test::cyclone
