@@ -23,7 +23,7 @@ struct RunOptions {
   std::map<std::string, std::string> arguments;  // name:=value
   std::string dataset, bag, out;
   std::string calibration;  // folder, for stereo images without camera_info
-  bool overwrite = false;  // replace files in `out` that are not from a run
+  bool overwrite = false;   // replace files in `out` that are not from a run
   bool replay = false;
   double rate = 0;
   std::vector<std::string> settings;                    // component.parameter=value
