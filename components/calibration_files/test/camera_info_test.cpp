@@ -71,7 +71,7 @@ TEST_F(CameraInfoFile, MayHaveAnyLens) {
   EXPECT_NO_THROW(read(with(kText, "plumb_bob", "division"))) << "only its lens is refused";
   EXPECT_EQ(refused("plumb_bob", "''\n#"), folder_.path().string() +
                                                "/left.yaml:4: distortion_model is missing; add it: plumb_bob, "
-                                               "rational_polynomial, equidistant or mei");
+                                               "rational_polynomial, equidistant, mei");
   auto straight = with(kText, "0.1", "0");
   EXPECT_TRUE(vision::is_straight(read(with(straight, "distortion_model: plumb_bob\n", "")).lens()));
 }
