@@ -19,7 +19,7 @@ set(depends_panvo "python3, systemd-standalone-sysusers | systemd-sysusers")
 set(depends_panvo-simulation "panvo ${same_version}")
 set(depends_libpanvo-dev "panvo ${same_version}, panvo-simulation ${same_version}, cmake, fastddsgen, libceres-dev, libcli11-dev, libeigen3-dev, \
 libfastrtps-dev, libfmt-dev, libopencv-dev, libsqlite3-dev, libspdlog-dev, python3")
-set(recommends_panvo "gnuplot-nox")
+set(recommends_panvo "gnuplot-nox, python3-numpy")
 set(suggests_panvo "openssl, panvo-simulation")
 
 set(CPACK_GENERATOR DEB)
