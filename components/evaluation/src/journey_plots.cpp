@@ -15,7 +15,7 @@ std::string head(const std::string& file, int width_px, int height_px, const std
   return fmt::format(
       "set terminal pngcairo noenhanced size {},{} font 'sans,11'\nset output '{}'\nset title {}\nset grid lc rgb "
       "'{}'\nset key "
-      "outside bottom center horizontal\n",
+      "outside bottom center horizontal\nset bmargin 5.5\n",
       width_px, height_px, file, gnuplot_quoted(title), kGridColour);
 }
 
