@@ -18,7 +18,7 @@ import sys
 import sysconfig
 import zipfile
 
-PACKAGE = pathlib.Path("lib/python3/dist-packages/panvo")
+PACKAGE = "lib/python3*/*-packages/panvo"  # dist-packages from a Debian package
 
 
 def needed_libraries(module, prefix):
@@ -80,11 +80,11 @@ def main():
     parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("dist"), help="folder for the wheel (default: dist)")
     arguments = parser.parse_args()
     prefix = arguments.prefix.resolve()
-    modules = sorted((prefix / PACKAGE).glob("_core*.so"))
+    modules = sorted(prefix.glob(f"{PACKAGE}/_core*.so"))
     if not modules:
-        sys.exit(f"make_wheel: {prefix / PACKAGE}: no module _core; build with pybind11-dev, then cmake --install BUILD --prefix {prefix}")
+        sys.exit(f"make_wheel: {prefix}/{PACKAGE}: no module _core; build with pybind11-dev, then cmake --install BUILD --prefix {prefix}")
     version, tag = version_of(prefix), tag_of(modules[0])
-    contents = {f"panvo/{file.name}": file.read_bytes() for file in (prefix / PACKAGE).iterdir() if file.is_file()}
+    contents = {f"panvo/{file.name}": file.read_bytes() for file in modules[0].parent.iterdir() if file.is_file()}
     for library in needed_libraries(modules[0], prefix):
         contents[f"panvo/{library.name}"] = library.read_bytes()
     contents.update({f"panvo-{version}.dist-info/{name}": text.encode() for name, text in metadata(version, tag).items()})

@@ -181,7 +181,7 @@ endfunction()
 
 # panvo_add_python_module(panvo_<name> PACKAGE package FILES ... SOURCES ... [LINK ...]): the compiled part _core of a Python package, and its
 # other files. Needs find_package(Python COMPONENTS Interpreter Development.Module) and pybind11. The package lies in panvo_python/ of the build
-# folder, ready to import, and is installed to lib/python3/dist-packages.
+# folder, ready to import, and is installed where Debian packages (prefix /usr) or colcon (other prefixes) expect it.
 function(panvo_add_python_module target)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "PACKAGE" "FILES;SOURCES;LINK")
   set(folder ${CMAKE_BINARY_DIR}/panvo_python/${arg_PACKAGE})
@@ -191,7 +191,10 @@ function(panvo_add_python_module target)
   _panvo_optimise_little(${target})  # it only converts; the algorithms are in libraries
   set_target_properties(${target} PROPERTIES OUTPUT_NAME _core LIBRARY_OUTPUT_DIRECTORY ${folder}
     CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
-  set(destination lib/python3/dist-packages)
+  set(destination lib/python${Python_VERSION_MAJOR}.${Python_VERSION_MINOR}/site-packages)
+  if(CMAKE_INSTALL_PREFIX STREQUAL "/usr")
+    set(destination lib/python3/dist-packages)
+  endif()
   # The libraries lie in the prefix, or, in a wheel, beside the module.
   set_property(TARGET ${target} PROPERTY INSTALL_RPATH "$ORIGIN;$ORIGIN/../../../../${CMAKE_INSTALL_LIBDIR};$ORIGIN/../../../../lib")
   foreach(file IN LISTS arg_FILES)

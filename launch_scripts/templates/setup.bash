@@ -5,5 +5,7 @@
 _panvo_prefix=$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")/../.." && pwd)
 export PATH="$_panvo_prefix/bin${PATH:+:$PATH}"
 export CMAKE_PREFIX_PATH="$_panvo_prefix${CMAKE_PREFIX_PATH:+:$CMAKE_PREFIX_PATH}"
-[[ ! -d $_panvo_prefix/lib/python3/dist-packages/panvo ]] || export PYTHONPATH="$_panvo_prefix/lib/python3/dist-packages${PYTHONPATH:+:$PYTHONPATH}"
-unset _panvo_prefix
+for _panvo_module in "$_panvo_prefix"/lib/python3*/*-packages/panvo; do
+  [[ ! -d $_panvo_module ]] || export PYTHONPATH="${_panvo_module%/panvo}${PYTHONPATH:+:$PYTHONPATH}"
+done
+unset _panvo_prefix _panvo_module

@@ -3,12 +3,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <cstdlib>
+#include <atomic>
 #include <memory>
 #include <string>
 
-#include "panvo/runtime/bridge.hpp"
-#include "panvo/runtime/test_domain.hpp"
+#include "beside_cyclone.hpp"
 #include "process.hpp"
 #include "std_srvs/srv/SetBool.h"
 
@@ -24,27 +23,18 @@ using testing::HasSubstr;
 constexpr std::chrono::seconds kLimit(60);
 const runtime::ServiceDescription kService{"/light", "std_srvs/srv/SetBool"};
 
-class CycloneService : public testing::Test {
+class CycloneService : public BesideCyclone {
  protected:
-  void SetUp() override {
-    if (std::string_view(CYCLONE_PEER).empty()) GTEST_SKIP() << "built without Cyclone DDS (package cyclonedds-dev)";
-    setenv("CYCLONEDDS_URI", ("file://" + std::string(CONFIG) + "/dds/cyclone_localhost.xml").c_str(), 1);
-    bridge_ = runtime::make_dds_bridge(
-        {.domain = domain_, .profiles = CONFIG "/dds/localhost.xml", .name = "panvo_interoperability"});
-  }
-
-  std::unique_ptr<runtime::BridgeService> serve() {
+  std::unique_ptr<runtime::BridgeService> serve(runtime::ServiceGuard guard = {}) {
     return bridge_->serve(kService,
                           runtime::service_handler<SetBool_Request, SetBool_Response>([](const auto& request) {
                             SetBool_Response response;
                             response.success(request.data());
                             response.message(request.data() ? "on" : "off");
                             return response;
-                          }));
+                          }),
+                          std::move(guard));
   }
-
-  const int domain_ = runtime::test_domain();
-  std::unique_ptr<runtime::Bridge> bridge_;
 };
 
 TEST_F(CycloneService, IsAnsweredByUsWithTheNumbersOfItsRequests) {
@@ -53,6 +43,18 @@ TEST_F(CycloneService, IsAnsweredByUsWithTheNumbersOfItsRequests) {
   EXPECT_EQ(calling.wait(kLimit), 0) << calling.output();
   EXPECT_THAT(calling.output(), HasSubstr("answer 1 1 on\nanswer 2 0 off\nanswer 3 1 on\n"));
   EXPECT_EQ(service->counters().malformed, 0U);
+}
+
+TEST_F(CycloneService, IsKnownToCallFromThisHost) {
+  std::atomic<int> from_here = 0, from_elsewhere = 0;
+  const auto service = serve([&](const auto&, const runtime::Caller& caller) {
+    ++(caller.is_on_this_host ? from_here : from_elsewhere);
+    return std::nullopt;
+  });
+  Process calling({CYCLONE_PEER, std::to_string(domain_), "call", kService.name, "3"});
+  EXPECT_EQ(calling.wait(kLimit), 0) << calling.output();
+  EXPECT_EQ(from_here, 3);
+  EXPECT_EQ(from_elsewhere, 0);
 }
 
 TEST_F(CycloneService, AnswersUs) {

@@ -6,12 +6,10 @@
 
 #include <algorithm>
 #include <condition_variable>
-#include <cstdlib>
 #include <mutex>
 
+#include "beside_cyclone.hpp"
 #include "panvo/interfaces/topics.hpp"
-#include "panvo/runtime/bridge.hpp"
-#include "panvo/runtime/test_domain.hpp"
 #include "panvo_messages.hpp"
 #include "process.hpp"
 
@@ -50,16 +48,8 @@ Subject subject(const interfaces::Topic<Message>& topic) {
 
 std::ostream& operator<<(std::ostream& out, const Subject& subject) { return out << subject.topic; }
 
-/// This process with panvo's bridge, and one with Cyclone DDS, on the loopback interface only.
-class Cyclone : public testing::TestWithParam<Subject> {
+class Cyclone : public BesideCyclone, public testing::WithParamInterface<Subject> {
  protected:
-  void SetUp() override {
-    if (std::string_view(CYCLONE_PEER).empty()) GTEST_SKIP() << "built without Cyclone DDS (package cyclonedds-dev)";
-    setenv("CYCLONEDDS_URI", ("file://" + std::string(CONFIG) + "/dds/cyclone_localhost.xml").c_str(), 1);
-    bridge_ = runtime::make_dds_bridge(
-        {.domain = domain_, .profiles = CONFIG "/dds/localhost.xml", .name = "panvo_interoperability"});
-  }
-
   runtime::TopicDescription topic() const {
     const Subject& subject = GetParam();
     return {subject.topic, subject.type, subject.qos, interfaces::find_message_type(subject.type)};
@@ -104,11 +94,9 @@ class Cyclone : public testing::TestWithParam<Subject> {
     for (int n = 0; n < kMessages; ++n) EXPECT_TRUE(GetParam().equals(received_[n], n)) << "message " << n;
   }
 
-  const int domain_ = runtime::test_domain();
   std::mutex mutex_;
   std::condition_variable arrived_;
   std::vector<SamplePtr> received_;
-  std::unique_ptr<runtime::Bridge> bridge_;  // last: destroyed first
 };
 
 TEST_P(Cyclone, ReadsWhatWeWrite) {

@@ -15,8 +15,7 @@ constexpr int kFeatures = 1000;     // most of them are in one frame only
 constexpr int kLayers = 3;          // scales per octave [Lowe 2004]: the scale of a point may double
 constexpr double kContrast = 0.02;  // half of Lowe's value, for low-contrast roads
 constexpr float kMaxRatio = 0.8F;   // Lowe's, to the second best
-// Without a prediction, chance agreement must be excluded: of the matches left by the ratio test about one in four is
-// wrong, and wrong ones agree with no motion.
+// Without a prediction, chance agreement must be excluded. Wrong matches agree with no common motion.
 constexpr int kMinInliers = 15;
 constexpr double kMinRatio = 0.3;
 constexpr double kSigma_px = 0.5;    // of a SIFT feature in half-size images

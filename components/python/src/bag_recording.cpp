@@ -6,6 +6,7 @@
 #include "bag_cameras.hpp"
 #include "panvo/conversions/image.hpp"
 #include "panvo/conversions/time.hpp"
+#include "panvo/recorder/bag_reader.hpp"
 #include "recording.hpp"
 
 namespace panvo::python {
@@ -110,17 +111,6 @@ class BagRecording final : public Recording {
   BagTopics topics_;
 };
 
-bool is_bag(const std::filesystem::path& path) {
-  std::error_code error;
-  if (!std::filesystem::is_directory(path, error)) return std::filesystem::exists(path, error);
-  if (std::filesystem::exists(path / "metadata.yaml", error)) return true;
-  for (const auto& entry : std::filesystem::directory_iterator(path, error)) {
-    const auto name = entry.path().filename().string();
-    if (name.ends_with(".db3") || name.ends_with(".mcap") || name.ends_with(".zstd")) return true;
-  }
-  return false;
-}
-
 }  // namespace
 
 std::shared_ptr<const Recording> open_bag(const std::filesystem::path& path,
@@ -129,7 +119,7 @@ std::shared_ptr<const Recording> open_bag(const std::filesystem::path& path,
 }
 
 std::shared_ptr<const Recording> open_recording(const std::filesystem::path& path, const RecordingOptions& options) {
-  if (is_bag(path)) return open_bag(path, options.topics);
+  if (recorder::is_bag(path)) return open_bag(path, options.topics);
   return open_folder(path, options.folder);
 }
 

@@ -21,7 +21,7 @@ class Wheel(unittest.TestCase):
         scratch = tempfile.TemporaryDirectory()
         self.addCleanup(scratch.cleanup)
         self.prefix = pathlib.Path(scratch.name) / "prefix"
-        self.package = self.prefix / "lib/python3/dist-packages/panvo"
+        self.package = self.prefix / "lib/python3.11/site-packages/panvo"
 
     def install(self):
         """The module of the build folder, with panvo's libraries in the prefix as far as ldd finds them there."""

@@ -66,6 +66,14 @@ fs::path locate(const fs::path& bag, const std::string& written) {
 
 }  // namespace
 
+bool is_bag(const fs::path& path) {
+  std::error_code error;
+  if (!fs::is_directory(path, error)) return fs::exists(path, error) && is_bag_file(path);
+  if (fs::exists(path / kMetadataFile, error)) return true;
+  return std::ranges::any_of(fs::directory_iterator(path, error),
+                             [](const auto& entry) { return is_bag_file(entry.path()); });
+}
+
 BagFiles find_bag_files(const fs::path& bag, bool use_metadata, std::vector<std::string>& warnings) {
   if (!fs::exists(bag)) {
     throw BagError(bag.string() + ": does not exist");

@@ -62,6 +62,21 @@ void write_humble_bag(const TemporaryFolder& folder) {
 
 const std::vector<Read> kHumbleMessages{{"/b", 20, {2}}, {"/a", 20, {3}}, {"/a", 30, {1}}};
 
+TEST(IsBag, NeedsMetadataOrABagFile) {
+  const TemporaryFolder folder;
+  EXPECT_FALSE(is_bag(folder / "missing.db3"));
+  for (const auto* name : {"one/metadata.yaml", "two/bag_0.db3", "three/bag_0.mcap.zstd", "four/times.txt"}) {
+    std::filesystem::create_directories((folder / name).parent_path());
+    folder.write(folder / name, "");
+  }
+  EXPECT_TRUE(is_bag(folder / "one"));
+  EXPECT_TRUE(is_bag(folder / "two"));
+  EXPECT_TRUE(is_bag(folder / "two/bag_0.db3"));
+  EXPECT_TRUE(is_bag(folder / "three"));
+  EXPECT_FALSE(is_bag(folder / "four"));
+  EXPECT_FALSE(is_bag(folder / "four/times.txt"));
+}
+
 TEST(BagReader, ReadsABagOfHumbleInOrderOfTimeThenId) {
   const TemporaryFolder folder;
   write_humble_bag(folder);

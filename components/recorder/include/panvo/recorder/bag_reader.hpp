@@ -15,6 +15,9 @@
 
 namespace panvo::recorder {
 
+/// Whether `path` looks like a bag: a .db3 or .mcap file, also compressed, or a folder with one or with metadata.yaml.
+bool is_bag(const std::filesystem::path& path);
+
 struct BagMessage {
   std::size_t topic = 0;          ///< index into BagReader::metadata().topics
   std::int64_t timestamp_ns = 0;  ///< recording time, ns since 1970
