@@ -61,9 +61,9 @@ std::vector<std::string> Container::Implementation::end_components() {
 
 /// Requires change_mutex_.
 void Container::Implementation::end(Context::State& state) {
+  state.stop();
   const auto finish = std::exchange(state.end, nullptr);
   if (!finish) return;
-  state.stop();
   try {
     finish();
   } catch (const std::exception& error) {
@@ -77,9 +77,7 @@ void Container::Implementation::finalize(std::uint64_t id) {
   const std::lock_guard change(change_mutex_);
   const auto found = std::ranges::find(entries_, id, [](const auto& entry) { return entry->recipe.id; });
   if (found == entries_.end()) return;
-  Context::State& state = (*found)->context->state();
-  state.stop();
-  end(state);
+  end((*found)->context->state());
   tell_nodes();
 }
 

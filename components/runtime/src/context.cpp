@@ -6,6 +6,7 @@
 
 #include "clocks.hpp"
 #include "context_state.hpp"
+#include "fnv1a.hpp"
 #include "pairing.hpp"
 #include "panvo/interfaces/node_topics.hpp"
 #include "panvo/runtime/errors.hpp"
@@ -164,10 +165,7 @@ std::int64_t Context::passing_ns() const { return state_->host.time.now_ns(); }
 std::int64_t Context::now_ns() const noexcept { return current_stamp_ns(); }
 
 std::uint64_t Context::seed() const noexcept {
-  std::uint64_t hash = 14695981039346656037ULL ^ state_->host.seed;  // FNV-1a over the name: platform-independent
-  for (const char letter : state_->description.name)
-    hash = (hash ^ static_cast<unsigned char>(letter)) * 1099511628211ULL;
-  return hash;
+  return fnv1a(state_->description.name, kFnv1aStart ^ state_->host.seed);
 }
 
 std::shared_ptr<UntypedOutput> Context::open_output(const TopicDescription& topic) {

@@ -7,7 +7,6 @@
 namespace panvo::runtime {
 namespace {
 
-constexpr const char* kNodesTopic = "ros_discovery_info";
 constexpr std::size_t kPrefixDigits = 24;  // participant part of a gid
 
 }  // namespace

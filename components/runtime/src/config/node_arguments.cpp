@@ -114,7 +114,7 @@ void apply_parameter(SystemDescription& system, const std::string& assignment) {
         if (is_for_containers) container.parameters[parts.name] = value;
       },
       [&](ComponentDescription& component) { component.parameters[parts.name] = value; });
-  if (count == 0) refuse("-p", assignment, "there is no node " + parts.node + " in " + system.file);
+  if (count == 0) refuse("-p", assignment, system.file + " has no node " + parts.node);
 }
 
 void apply_remap(SystemDescription& system, const std::string& rule) {
@@ -132,7 +132,7 @@ void apply_remap(SystemDescription& system, const std::string& rule) {
         system, parts.node, [](const ContainerDescription&) {},
         [&](ComponentDescription& component) { component.remaps[parts.name] = parts.value; });
   }
-  if (count == 0) refuse("-r", rule, "there is no node " + parts.node + " in " + system.file);
+  if (count == 0) refuse("-r", rule, system.file + " has no node " + parts.node);
   check_names(system, rule);
 }
 

@@ -11,6 +11,7 @@
 #include <fstream>
 #include <string_view>
 
+#include "fnv1a.hpp"
 #include "panvo/interfaces/message_type.hpp"
 #include "participant_qos.hpp"
 #include "security_qos.hpp"
@@ -24,12 +25,6 @@ namespace fdds = eprosima::fastdds::dds;
 namespace {
 
 constexpr std::uint32_t kRoomBesidePixels = 1024;  // for frame name, encoding and numbers
-
-std::uint64_t fnv1a(std::string_view text) {
-  std::uint64_t hash = 14695981039346656037ULL;
-  for (const char letter : text) hash = (hash ^ static_cast<unsigned char>(letter)) * 1099511628211ULL;
-  return hash;
-}
 
 /// Changes at each boot of the kernel; the same in all its containers.
 std::string boot_id() {

@@ -69,12 +69,13 @@ std::optional<std::string> control_problem(ServiceAccess access, const Caller& c
 ServiceGuard guard_of(const OfferedService& service, ServiceAccess access);
 
 /// Receives the transitions of a node, for `~/transition_event`.
-using TellTransition = std::function<void(const lifecycle_msgs::msg::TransitionEvent&)>;
+using PublishTransition = std::function<void(const lifecycle_msgs::msg::TransitionEvent&)>;
 
 /// Parameter and lifecycle services of a node as in ROS 2: `~/get_parameters` etc., `~/get_state` etc. `node` must
 /// outlive them.
 std::vector<OfferedService> parameter_services(const std::string& full_name, ControlledNode& node);
-std::vector<OfferedService> lifecycle_services(const std::string& full_name, ControlledNode& node, TellTransition tell);
+std::vector<OfferedService> lifecycle_services(const std::string& full_name, ControlledNode& node,
+                                               PublishTransition publish);
 
 /// `~/get_type_description`, for the message types of all loaded libraries.
 std::vector<OfferedService> type_services(const std::string& full_name);

@@ -112,7 +112,7 @@ TransitionEvent event_of(const Transition& transition) {
 }
 
 /// Selects by label if given, as in rcl_lifecycle.
-ChangeState_Response change_state(ControlledNode& node, const TellTransition& tell,
+ChangeState_Response change_state(ControlledNode& node, const PublishTransition& publish,
                                   const ChangeState_Request& request) {
   const auto& wanted = request.transition();
   const auto found = std::ranges::find_if(kTransitions, [&](const Transition& transition) {
@@ -122,8 +122,8 @@ ChangeState_Response change_state(ControlledNode& node, const TellTransition& te
   ChangeState_Response response;
   response.success(found != kTransitions.end() && carry_out(node, found->to));
   if (response.success()) {
-    tell(event_of(*found));
-    tell(event_of(*std::ranges::find(kTransitions, found->to, &Transition::from)));
+    publish(event_of(*found));
+    publish(event_of(*std::ranges::find(kTransitions, found->to, &Transition::from)));
   }
   return response;
 }
@@ -146,11 +146,11 @@ OfferedService offer(const std::string& name, const char* type, ControlledNode& 
 }  // namespace
 
 std::vector<OfferedService> lifecycle_services(const std::string& full_name, ControlledNode& node,
-                                               TellTransition tell) {
+                                               PublishTransition publish) {
   OfferedService changes{{full_name + "/change_state", "lifecycle_msgs/srv/ChangeState"},
                          service_handler<ChangeState_Request, ChangeState_Response>(
-                             [&node, tell = std::move(tell)](const ChangeState_Request& request) {
-                               return change_state(node, tell, request);
+                             [&node, publish = std::move(publish)](const ChangeState_Request& request) {
+                               return change_state(node, publish, request);
                              })};
   changes.refuse = refusal_of(refuse_to_change);
   return {std::move(changes), offer(full_name + "/get_state", "GetState", node, get_state),

@@ -35,7 +35,7 @@ void info(const SessionOptions& options, const std::string& name) {
   Lines subscribed, published, served, called;
   std::vector<GraphNode> nodes = graph.nodes;
   std::erase_if(nodes, [&](const GraphNode& node) { return full_name_of(node) != name; });
-  if (nodes.empty()) throw Failure("there is no node " + name + " (panvo node list)");
+  if (nodes.empty()) throw Failure("no node named " + name + "; `panvo node list` shows the nodes");
   for (const auto& endpoint : graph.endpoints) {
     if (std::ranges::none_of(nodes, [&](const GraphNode& node) { return has(node, endpoint); })) continue;
     const std::string line = endpoint.name + ": " + endpoint.type_name;

@@ -111,7 +111,7 @@ constexpr milliseconds kReportPeriod{1000};
   throw Failure("no message received on " + reading.topic + " in time (--timeout waits longer)");
 }
 
-/// Collects messages and reports on the newest `window` of them once per second; after a silence anew.
+/// Collects messages and reports on the newest `window` of them once per second. After a silence it starts over.
 template <class Report>
 void watch(const SessionOptions& options, const TopicReading& reading, const Report& report) {
   Session session(options);

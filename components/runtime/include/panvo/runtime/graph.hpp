@@ -9,6 +9,9 @@
 
 namespace panvo::runtime {
 
+/// Topic on which ROS 2 participants publish their nodes.
+inline constexpr const char* kNodesTopic = "ros_discovery_info";
+
 /// A node of this process as seen by others. Names are resolved.
 struct NodeDescription {
   std::string name_space;  ///< "/" or "/robot"
@@ -44,8 +47,8 @@ struct Graph {
   std::vector<std::string> participants;  ///< prefixes of their gids
 };
 
-/// Whether nothing known of is missing: each participant has endpoints, those that publish nodes have done so, and the
-/// endpoints of all nodes are known. Participants that are not yet discovered cannot be missed.
+/// Whether the graph is consistent: each participant has endpoints, every participant with a writer of kNodesTopic has
+/// published its nodes, and all endpoints of these nodes are known. Undiscovered participants are not noticed.
 bool is_complete(const Graph& graph);
 
 }  // namespace panvo::runtime
