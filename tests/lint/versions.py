@@ -24,6 +24,7 @@ def places(root):
     for folder in workspace.package_folders(root):
         yield folder / "CMakeLists.txt", PROJECT
         yield folder / "package.xml", MANIFEST
+    yield pathlib.Path("interfaces/idl/panvo_msgs/package.xml"), MANIFEST
     yield pathlib.Path("CONTRIBUTING.md"), PROJECT  # its example of a package
 
 
