@@ -21,10 +21,8 @@
 namespace panvo::runtime {
 namespace {
 
-/// Writers and readers belong to separate participants, which both ignore participants of their own process. Fast DDS
-/// 2.9 has no other means to keep endpoints of one process apart. (With encryption it cannot identify them; our readers
-/// and writers then ignore own endpoints, see own_participants.hpp.) A participant has nine threads, so each is created
-/// on first use.
+/// All endpoints belong to one participant, so ROS 2 finds the node of each. Readers and writers of this process ignore
+/// each other, see remote_only_filter.hpp. A participant has nine threads and is created on first use.
 class DdsBridge final : public Bridge {
  public:
   explicit DdsBridge(const DdsSettings& settings) : settings_(settings) {
@@ -32,6 +30,9 @@ class DdsBridge final : public Bridge {
     for (const auto& warning : {dds::profile_warning(), dds::sharing_warning(settings_)}) {
       if (warning) notifier_->warn(*warning);
     }
+    discovery_->on_nodes_reader([graph = std::weak_ptr(graph_)](const auto& reader, auto what) {
+      if (const auto known = graph.lock()) known->nodes_reader(reader, what);
+    });
     discovery_->on_participant_gone([graph = std::weak_ptr(graph_)](const auto& prefix) {
       if (const auto known = graph.lock()) known->participant_gone(prefix);
     });
@@ -41,38 +42,35 @@ class DdsBridge final : public Bridge {
   ~DdsBridge() override { notifier_->stop(); }
 
   std::unique_ptr<BridgeWriter> open_writer(const TopicDescription& topic) override {
-    return dds::open_writer(topic, dds::wire_topic(topic), participant(dds::Role::kWriters), notifier_);
+    return dds::open_writer(topic, dds::wire_topic(topic), participant(), notifier_);
   }
 
   std::unique_ptr<BridgeReader> open_reader(const TopicDescription& topic,
                                             std::function<void(SamplePtr)> on_sample) override {
-    return std::make_unique<dds::Reader>(topic, dds::wire_topic(topic), std::move(on_sample),
-                                         participant(dds::Role::kReaders), notifier_);
+    return std::make_unique<dds::Reader>(topic, dds::wire_topic(topic), std::move(on_sample), participant(), notifier_);
   }
 
   void watch_topics(std::function<void(const TopicDescription&)> on_topic) override {
     discovery_->watch(on_topic);
-    participant(dds::Role::kReaders);
+    participant();
   }
 
   std::unique_ptr<BridgeService> serve(const ServiceDescription& service, ServiceHandler handler,
                                        ServiceGuard guard) override {
     const dds::RequestLimits limits{settings_.requests_per_s, settings_.max_request};
-    return std::make_unique<dds::ServiceServer>(service, std::move(handler), std::move(guard), limits,
-                                                participant(dds::Role::kReaders), participant(dds::Role::kWriters),
+    return std::make_unique<dds::ServiceServer>(service, std::move(handler), std::move(guard), limits, participant(),
                                                 services_, notifier_);
   }
 
   std::unique_ptr<BridgeClient> open_client(const ServiceDescription& service) override {
-    return std::make_unique<dds::ServiceClient>(service, participant(dds::Role::kReaders),
-                                                participant(dds::Role::kWriters));
+    return std::make_unique<dds::ServiceClient>(service, participant());
   }
 
   void set_nodes(std::vector<NodeDescription> nodes) override {
     {
       const std::lock_guard lock(graph_mutex_);
-      graph_->open_writer(participant(dds::Role::kWriters));
-      graph_->open_reader(participant(dds::Role::kReaders));
+      graph_->open_writer(participant());
+      graph_->open_reader(participant());
     }
     graph_->set_nodes(std::move(nodes));
   }
@@ -80,7 +78,7 @@ class DdsBridge final : public Bridge {
   Graph graph() override {
     {
       const std::lock_guard lock(graph_mutex_);
-      graph_->open_reader(participant(dds::Role::kReaders));
+      graph_->open_reader(participant());
     }
     return {graph_->nodes(), discovery_->endpoints(), discovery_->participants()};
   }
@@ -90,11 +88,10 @@ class DdsBridge final : public Bridge {
   }
 
  private:
-  std::shared_ptr<dds::Participant> participant(dds::Role role) {
+  std::shared_ptr<dds::Participant> participant() {
     const std::lock_guard lock(mutex_);
-    auto& participant = role == dds::Role::kWriters ? writers_ : readers_;
-    if (!participant) participant = std::make_shared<dds::Participant>(settings_, role, discovery_, endpoints_);
-    return participant;
+    if (!participant_) participant_ = std::make_shared<dds::Participant>(settings_, discovery_, endpoints_);
+    return participant_;
   }
 
   const DdsSettings settings_;
@@ -103,11 +100,11 @@ class DdsBridge final : public Bridge {
   const std::shared_ptr<dds::LocalEndpoints> endpoints_ = std::make_shared<dds::LocalEndpoints>();
   const std::shared_ptr<dds::ServiceQueue> services_ = std::make_shared<dds::ServiceQueue>();
   std::mutex mutex_;
-  std::shared_ptr<dds::Participant> writers_, readers_;
+  std::shared_ptr<dds::Participant> participant_;
   std::mutex graph_mutex_;
-  // After the participants: destroyed before them.
+  // After the participant: destroyed before it.
   const std::shared_ptr<dds::NodeGraph> graph_ =
-      std::make_shared<dds::NodeGraph>(notifier_, endpoints_, dds::gid_size_of(settings_.ros_distro));
+      std::make_shared<dds::NodeGraph>(notifier_, endpoints_, dds::is_until_humble(settings_.ros_distro));
 };
 
 }  // namespace

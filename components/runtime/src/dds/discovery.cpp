@@ -88,14 +88,13 @@ void Discovery::watch(const Watcher& watcher) {
 void Discovery::topic_opened(const std::string& wire_name, const std::string& wire_type_name) {
   const std::lock_guard lock(mutex_);
   const TypedTopic local{wire_name, wire_type_name};
-  ++open_here_[local];
+  open_here_.insert(local);
   for (const auto& [guid, remote] : remote_endpoints_) warn_if_types_differ(local, remote.topic);
 }
 
 void Discovery::topic_closed(const std::string& wire_name, const std::string& wire_type_name) {
   const std::lock_guard lock(mutex_);
-  const auto open = open_here_.find({wire_name, wire_type_name});
-  if (--open->second == 0) open_here_.erase(open);
+  open_here_.erase({wire_name, wire_type_name});
 }
 
 std::vector<GraphEndpoint> Discovery::endpoints() const {
@@ -121,6 +120,12 @@ bool Discovery::is_of_cyclone(const rtps::GuidPrefix_t& participant) const {
   return found != remote_participants_.end() && found->second.is_of_cyclone;
 }
 
+bool Discovery::is_of_cyclone_here(const rtps::GuidPrefix_t& participant) const {
+  const std::lock_guard lock(mutex_);
+  const auto found = remote_participants_.find(participant);
+  return found != remote_participants_.end() && found->second.is_here;
+}
+
 bool Discovery::has_sharing_reader(const std::string& wire_name) const {
   const std::lock_guard lock(mutex_);
   return std::ranges::any_of(remote_endpoints_, [&](const auto& known) {
@@ -134,7 +139,7 @@ void Discovery::on_participant_gone(std::function<void(const rtps::GuidPrefix_t&
   on_participant_gone_ = std::move(callback);
 }
 
-void Discovery::on_participant_discovery(fdds::DomainParticipant* participant, rtps::ParticipantDiscoveryInfo&& info) {
+void Discovery::on_participant_discovery(fdds::DomainParticipant*, rtps::ParticipantDiscoveryInfo&& info) {
   using Info = rtps::ParticipantDiscoveryInfo;
   const auto prefix = info.info.m_guid.guidPrefix;
   const std::lock_guard lock(mutex_);
@@ -143,14 +148,11 @@ void Discovery::on_participant_discovery(fdds::DomainParticipant* participant, r
     const std::vector<rtps::Locator_t> ports(listened.begin(), listened.end());
     let_go_replaced_by(info.info.m_guid, ports);
     auto& remote = remote_participants_[prefix];
-    remote.seen_by.insert(participant->guid());
     remote.ports = ports;
     remote.is_of_cyclone = info.info.m_VendorId == kCyclone;
+    remote.is_here = remote.is_of_cyclone && are_on_this_host(ports);
     return;
   }
-  auto& seen_by = remote_participants_[prefix].seen_by;
-  seen_by.erase(participant->guid());
-  if (!seen_by.empty()) return;
   remote_participants_.erase(prefix);
   if (on_participant_gone_) on_participant_gone_(prefix);
 }
@@ -179,19 +181,36 @@ void Discovery::on_publisher_discovery(fdds::DomainParticipant*, rtps::WriterDis
 }
 
 void Discovery::on_subscriber_discovery(fdds::DomainParticipant*, rtps::ReaderDiscoveryInfo&& info) {
-  if (is_of_this_process(info.info.guid())) return;
-  const std::lock_guard lock(mutex_);
-  if (info.status == rtps::ReaderDiscoveryInfo::REMOVED_READER) {
-    remote_endpoints_.erase(info.info.guid());
-    return;
-  }
-  remember(info.info.guid(), {{info.info.topicName().to_string(), info.info.typeName().to_string()},
+  const auto guid = info.info.guid();
+  if (is_of_this_process(guid)) return;
+  const RemoteEndpoint remote{{info.info.topicName().to_string(), info.info.typeName().to_string()},
                               shown(info.info, false),
-                              is_in_neighbourhood(info.info.m_qos.data_sharing)});
+                              is_in_neighbourhood(info.info.m_qos.data_sharing)};
+  const bool is_gone = info.status == rtps::ReaderDiscoveryInfo::REMOVED_READER;
+  std::function<void(const rtps::GUID_t&, NodesReader)> on_nodes_reader;
+  {
+    const std::lock_guard lock(mutex_);
+    if (is_gone) {
+      remote_endpoints_.erase(guid);
+    } else {
+      remember(guid, remote);
+    }
+    on_nodes_reader = on_nodes_reader_;
+  }
+  if (remote.topic.name != kNodesTopic || !on_nodes_reader) return;
+  // Distributions since Iron put type hashes into the user data of their endpoints.
+  on_nodes_reader(guid, is_gone                          ? NodesReader::kGone
+                        : remote.shown.type_hash.empty() ? NodesReader::kOfHumble
+                                                         : NodesReader::kOfLaterDistribution);
+}
+
+void Discovery::on_nodes_reader(std::function<void(const rtps::GUID_t&, NodesReader)> callback) {
+  const std::lock_guard lock(mutex_);
+  on_nodes_reader_ = std::move(callback);
 }
 
 void Discovery::remember(const rtps::GUID_t& guid, RemoteEndpoint remote) {
-  for (const auto& [local, participants] : open_here_) warn_if_types_differ(local, remote.topic);
+  for (const auto& local : open_here_) warn_if_types_differ(local, remote.topic);
   remote_endpoints_.insert_or_assign(guid, std::move(remote));
 }
 

@@ -22,7 +22,7 @@
 namespace panvo::runtime::dds {
 
 /// Tracks the endpoints of other processes: reports each published topic to watchers, and warns if the types of a topic
-/// differ, which DDS ignores silently. Listens to both participants of a bridge. Thread-safe.
+/// differ, which DDS ignores silently. Thread-safe.
 class Discovery final : public eprosima::fastdds::dds::DomainParticipantListener {
  public:
   using Watcher = std::function<void(const TopicDescription&)>;
@@ -40,11 +40,18 @@ class Discovery final : public eprosima::fastdds::dds::DomainParticipantListener
   std::vector<std::string> participants() const;
   /// Whether a participant is of Cyclone DDS, by the vendor that it announces.
   bool is_of_cyclone(const eprosima::fastrtps::rtps::GuidPrefix_t& participant) const;
+  /// Whether a participant of Cyclone DDS is on this host, by its addresses.
+  bool is_of_cyclone_here(const eprosima::fastrtps::rtps::GuidPrefix_t& participant) const;
   /// Whether a reader on this machine shares memory with us on the topic.
   bool has_sharing_reader(const std::string& wire_name) const;
 
-  /// Sets the callback for a participant that no participant of this process sees any more. It may run inside Fast DDS.
+  /// Sets the callback for a participant that has left. It may run inside Fast DDS.
   void on_participant_gone(std::function<void(const eprosima::fastrtps::rtps::GuidPrefix_t&)> callback);
+
+  /// What becomes known of a reader of ros_discovery_info of another process.
+  enum class NodesReader { kOfHumble, kOfLaterDistribution, kGone };
+  /// Sets the callback for these readers. It runs inside Fast DDS, before our writer meets the reader.
+  void on_nodes_reader(std::function<void(const eprosima::fastrtps::rtps::GUID_t&, NodesReader)> callback);
 
   void on_participant_discovery(eprosima::fastdds::dds::DomainParticipant* participant,
                                 eprosima::fastrtps::rtps::ParticipantDiscoveryInfo&& info) override;
@@ -66,9 +73,9 @@ class Discovery final : public eprosima::fastdds::dds::DomainParticipantListener
   };
 
   struct RemoteParticipant {
-    std::set<eprosima::fastrtps::rtps::GUID_t> seen_by;  // own participants
     std::vector<eprosima::fastrtps::rtps::Locator_t> ports;
     bool is_of_cyclone = false;
+    bool is_here = false;  // of Cyclone DDS and on this host
   };
 
   /// Drops participants whose ports on the same host are now used by `newcomer`.
@@ -80,10 +87,11 @@ class Discovery final : public eprosima::fastdds::dds::DomainParticipantListener
 
   const std::shared_ptr<Notifier> notifier_;
   mutable std::mutex mutex_;
-  std::map<TypedTopic, int> open_here_;  // number of participants that opened it
+  std::set<TypedTopic> open_here_;
   std::map<eprosima::fastrtps::rtps::GUID_t, RemoteEndpoint> remote_endpoints_;
   std::map<eprosima::fastrtps::rtps::GuidPrefix_t, RemoteParticipant> remote_participants_;
   std::function<void(const eprosima::fastrtps::rtps::GuidPrefix_t&)> on_participant_gone_;
+  std::function<void(const eprosima::fastrtps::rtps::GUID_t&, NodesReader)> on_nodes_reader_;
   std::map<std::string, TopicDescription> written_;  // by other processes, now or before
   std::vector<Watcher> watchers_;
 };

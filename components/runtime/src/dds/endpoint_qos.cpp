@@ -35,7 +35,7 @@ fdds::DurabilityQosPolicyKind durability_kind(Durability durability) {
 
 /// ROS 2's user data of an endpoint.
 template <class EndpointQos>
-void tell_type_hash(std::string_view type_hash, EndpointQos& qos) {
+void set_type_hash(std::string_view type_hash, EndpointQos& qos) {
   const std::string text = fmt::format("typehash={};", type_hash);
   qos.user_data().setValue(std::vector<eprosima::fastrtps::rtps::octet>(text.begin(), text.end()));
 }
@@ -53,13 +53,13 @@ void apply_common(const TopicDescription& topic, EndpointQos& qos) {
   qos.resource_limits().max_samples_per_instance = depth;
   qos.resource_limits().allocated_samples = std::min(depth, kPreallocatedSamples);
   qos.endpoint().history_memory_policy = eprosima::fastrtps::rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
-  if (topic.type) tell_type_hash(topic.type->hash, qos);
+  if (topic.type) set_type_hash(topic.type->hash, qos);
 }
 
 template <class EndpointQos>
 void apply_service(const ServiceDescription& service, EndpointQos& qos) {
   apply(TopicDescription{service.name, service.type_name, kServiceQos, nullptr}, qos);
-  if (const auto hash = interfaces::service_hash(service.type_name); !hash.empty()) tell_type_hash(hash, qos);
+  if (const auto hash = interfaces::service_hash(service.type_name); !hash.empty()) set_type_hash(hash, qos);
 }
 
 struct PolicyText {
@@ -109,6 +109,8 @@ void apply(const TopicDescription& topic, fdds::DataWriterQos& qos) {
   }
   qos.reliable_writer_qos().times.heartbeatPeriod = to_dds(kHeartbeatPeriod);
   qos.representation().m_value = {fdds::XCDR_DATA_REPRESENTATION};
+  // Readers filter, see remote_only_filter.hpp: a writer would send the result with each message.
+  qos.writer_resource_limits().reader_filters_allocation = {0, 0, 0};
   if (topic.qos.deadline.count() > 0) qos.deadline().period = to_dds(topic.qos.deadline);
   if (topic.qos.lifespan.count() > 0) qos.lifespan().duration = to_dds(topic.qos.lifespan);
   // Data sharing is off, as in ROS 2: samples of a reader slower than the writer would change.

@@ -61,8 +61,7 @@ DdsSettings dds_settings_from_environment() {
   if (const auto distro = variable("ROS_DISTRO"); !distro.empty()) settings.ros_distro = distro;
   // ROS_LOCALHOST_ONLY is older and prevails, as in ROS 2.
   if (is_localhost_only()) {
-    settings.range = dds::gid_size_of(settings.ros_distro) == dds::kHumbleGidSize ? DiscoveryRange::kLoopback
-                                                                                  : DiscoveryRange::kLocalhost;
+    settings.range = dds::is_until_humble(settings.ros_distro) ? DiscoveryRange::kLoopback : DiscoveryRange::kLocalhost;
     return settings;
   }
   settings.range = range_from(variable("ROS_AUTOMATIC_DISCOVERY_RANGE"));

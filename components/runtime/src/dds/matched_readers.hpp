@@ -14,9 +14,11 @@
 #include <set>
 #include <utility>
 
+#include "own_participants.hpp"
+
 namespace panvo::runtime::dds {
 
-/// The readers matched with a writer. Thread-safe.
+/// The readers of other processes matched with a writer. Thread-safe.
 class MatchedReaders final : public eprosima::fastdds::dds::DataWriterListener {
  public:
   using Guid = eprosima::fastrtps::rtps::GUID_t;
@@ -46,6 +48,7 @@ class MatchedReaders final : public eprosima::fastdds::dds::DataWriterListener {
   void on_publication_matched(eprosima::fastdds::dds::DataWriter*,
                               const eprosima::fastdds::dds::PublicationMatchedStatus& status) override {
     const auto reader = eprosima::fastrtps::rtps::iHandle2GUID(status.last_subscription_handle);
+    if (is_of_this_process(reader)) return;
     const std::lock_guard lock(mutex_);
     if (status.current_count_change > 0) {
       readers_.insert(reader);

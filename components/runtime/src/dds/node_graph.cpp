@@ -14,22 +14,20 @@
 namespace panvo::runtime::dds {
 namespace {
 
-constexpr const char* kTopic = "ros_discovery_info";
-
 // Only the newest message of each participant counts; a reader must hold those of all participants.
 constexpr interfaces::Qos kWriterQos{.durability = interfaces::Durability::kTransientLocal, .depth = 1};
 constexpr interfaces::Qos kReaderQos{
     .durability = interfaces::Durability::kTransientLocal, .depth = 1000, .keep_all = true};
 
-// The type hash applies to 16-byte GIDs; Humble has no hashes.
-TopicDescription topic(const interfaces::Qos& qos, std::size_t gid_size) {
+// Its type hash is that of later distributions; Humble has none.
+TopicDescription topic(const interfaces::Qos& qos) {
   const auto& type = interfaces::message_type<rmw_dds_common::msg::ParticipantEntitiesInfo>();
-  return {kTopic, std::string(type.name), qos, gid_size == kGidSize ? &type : nullptr};
+  return {kNodesTopic, std::string(type.name), qos, &type};
 }
 
 WireTopic wire() {
   const auto& type = interfaces::message_type<rmw_dds_common::msg::ParticipantEntitiesInfo>();
-  return {kTopic, std::string(type.dds_name), kTopic};
+  return {kNodesTopic, std::string(type.dds_name), kNodesTopic};
 }
 
 void append(std::vector<NodeInfo::Guid>& guids, const std::vector<NodeInfo::Guid>& more) {
@@ -38,22 +36,27 @@ void append(std::vector<NodeInfo::Guid>& guids, const std::vector<NodeInfo::Guid
 
 }  // namespace
 
-void NodeGraph::open_writer(const std::shared_ptr<Participant>& writers) {
+void NodeGraph::open_writer(const std::shared_ptr<Participant>& participant) {
   if (writer_) return;
   {
     const std::lock_guard lock(mutex_);
-    own_participant_ = writers->guid();
+    own_participant_ = participant->guid();
   }
-  writer_ = std::make_unique<Writer>(topic(kWriterQos, gid_size_), wire(), writers, notifier_);
+  auto writer = std::make_unique<Writer>(topic(kWriterQos), wire(), participant, notifier_);
+  {
+    // Not while the writer is created: it meets readers then, inside nodes_reader().
+    const std::lock_guard lock(format_mutex_);
+    writer_ = std::move(writer);
+  }
   endpoints_->on_change([self = weak_from_this()] {
     if (const auto graph = self.lock()) graph->tell_soon();
   });
 }
 
-void NodeGraph::open_reader(const std::shared_ptr<Participant>& readers) {
+void NodeGraph::open_reader(const std::shared_ptr<Participant>& participant) {
   if (reader_) return;
   reader_ = std::make_unique<Reader>(
-      topic(kReaderQos, gid_size_), wire(), [this](const SamplePtr& sample) { take(sample); }, readers, notifier_);
+      topic(kReaderQos), wire(), [this](const SamplePtr& sample) { take(sample); }, participant, notifier_);
 }
 
 void NodeGraph::set_nodes(std::vector<NodeDescription> nodes) {
@@ -82,7 +85,27 @@ void NodeGraph::tell() {
     will_tell_ = false;
     info = own_info();
   }
-  writer_->write(Sample::from_bytes(nullptr, "", encode(info, gid_size_), 0));
+  const std::lock_guard lock(format_mutex_);
+  const bool is_humbles = is_for_humble_ || !humble_readers_.empty();
+  writer_->write(Sample::from_bytes(nullptr, "", encode(info, is_humbles ? kHumbleGidSize : kGidSize), 0));
+}
+
+void NodeGraph::nodes_reader(const eprosima::fastrtps::rtps::GUID_t& reader, Discovery::NodesReader what) {
+  const std::lock_guard lock(format_mutex_);
+  const bool had_humble = !humble_readers_.empty();
+  humble_readers_.erase(reader);
+  later_readers_.erase(reader);
+  if (what == Discovery::NodesReader::kOfHumble) humble_readers_.insert(reader);
+  if (what == Discovery::NodesReader::kOfLaterDistribution) later_readers_.insert(reader);
+  if (is_for_humble_) return;
+  if (!humble_readers_.empty() && !later_readers_.empty()) {
+    notifier_->warn(
+        "nodes of ROS 2 Humble and of a later distribution are in this DDS domain, which need different messages about "
+        "nodes; the later ones do not list the nodes of this process. Remedy: separate them by ROS_DOMAIN_ID.");
+  }
+  if (had_humble == !humble_readers_.empty() || !writer_) return;
+  if (!had_humble) writer_->forget_messages();
+  tell_soon();
 }
 
 NodeInfo NodeGraph::own_info() const {
@@ -103,7 +126,7 @@ NodeInfo NodeGraph::own_info() const {
 void NodeGraph::take(const SamplePtr& sample) {
   auto info = decode_node_info(sample->bytes());
   if (!info) {
-    notifier_->warn(fmt::format("topic {}: ignored a malformed message; some nodes may not be listed", kTopic));
+    notifier_->warn(fmt::format("topic {}: ignored a malformed message; some nodes may not be listed", kNodesTopic));
     return;
   }
   const std::lock_guard lock(mutex_);

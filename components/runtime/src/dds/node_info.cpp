@@ -125,10 +125,10 @@ std::optional<NodeInfo> decode(std::span<const std::uint8_t> bytes, std::size_t 
 
 }  // namespace
 
-std::size_t gid_size_of(const std::string& ros_distro) {
+bool is_until_humble(const std::string& ros_distro) {
   constexpr std::array<std::string_view, 6> kUntilHumble{"humble",   "galactic", "foxy",
                                                          "eloquent", "dashing",  "crystal"};
-  return std::ranges::find(kUntilHumble, ros_distro) != kUntilHumble.end() ? kHumbleGidSize : kGidSize;
+  return std::ranges::find(kUntilHumble, ros_distro) != kUntilHumble.end();
 }
 
 interfaces::Bytes encode(const NodeInfo& info, std::size_t gid_size) {

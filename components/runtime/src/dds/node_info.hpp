@@ -26,7 +26,7 @@ struct NodeInfo {
 /// Size of a GID: 24 bytes up to ROS 2 Humble, 16 bytes since Iron. The message is otherwise the same.
 inline constexpr std::size_t kHumbleGidSize = 24;
 inline constexpr std::size_t kGidSize = 16;
-std::size_t gid_size_of(const std::string& ros_distro);
+bool is_until_humble(const std::string& ros_distro);
 
 /// Serialises as rmw_dds_common/msg/ParticipantEntitiesInfo, with encapsulation.
 interfaces::Bytes encode(const NodeInfo& info, std::size_t gid_size);

@@ -9,19 +9,19 @@
 #include "names.hpp"
 #include "own_participants.hpp"
 #include "panvo/runtime/errors.hpp"
+#include "remote_only_filter.hpp"
 
 namespace panvo::runtime::dds {
 
 namespace fdds = eprosima::fastdds::dds;
 
-Participant::Participant(const DdsSettings& settings, Role role, std::shared_ptr<Discovery> discovery,
+Participant::Participant(const DdsSettings& settings, std::shared_ptr<Discovery> discovery,
                          std::shared_ptr<LocalEndpoints> endpoints)
     : settings_(settings), discovery_(std::move(discovery)), endpoints_(std::move(endpoints)) {
   auto* factory = fdds::DomainParticipantFactory::get_instance();
   // The mask is empty, as endpoints have their own listeners. Discovery is called anyway.
-  participant_ =
-      factory->create_participant(static_cast<fdds::DomainId_t>(settings.domain), participant_qos(settings, role),
-                                  discovery_.get(), fdds::StatusMask::none());
+  participant_ = factory->create_participant(static_cast<fdds::DomainId_t>(settings.domain), participant_qos(settings),
+                                             discovery_.get(), fdds::StatusMask::none());
   if (!participant_) {
     throw ConfigError(fmt::format(
         "cannot create a DDS participant in domain {}: check that there is a network interface (lo suffices) and that "
@@ -29,6 +29,7 @@ Participant::Participant(const DdsSettings& settings, Role role, std::shared_ptr
         settings.domain));
   }
   add_own_participant(participant_->guid());
+  participant_->register_content_filter_factory(kRemoteOnlyClass, &remote_only_filters());
   publisher_ = participant_->create_publisher(fdds::PUBLISHER_QOS_DEFAULT);
   subscriber_ = participant_->create_subscriber(fdds::SUBSCRIBER_QOS_DEFAULT);
 }
@@ -64,7 +65,7 @@ fdds::DataReader* Participant::make_reader(fdds::Topic& topic, const fdds::DataR
                                            fdds::DataReaderListener& listener, std::uint32_t max_size) {
   const std::lock_guard lock(making_mutex_);
   type_of(topic).bound(max_size);
-  return subscriber_->create_datareader(&topic, qos, &listener);
+  return subscriber_->create_datareader(remote_only(topic), qos, &listener);
 }
 
 WireTopic wire_topic(const TopicDescription& description) {
@@ -99,11 +100,22 @@ std::shared_ptr<fdds::Topic> Participant::topic(const WireTopic& topic) {
   return {open.topic, [self = shared_from_this(), name = topic.name](fdds::Topic*) { self->delete_topic(name); }};
 }
 
+fdds::ContentFilteredTopic* Participant::remote_only(fdds::Topic& topic) {
+  const std::lock_guard lock(mutex_);
+  auto*& filtered = topics_.at(topic.get_name()).remote_only;
+  if (!filtered) {
+    filtered = participant_->create_contentfilteredtopic(topic.get_name() + "/remote_only", &topic,
+                                                         kRemoteOnlyExpression, {}, kRemoteOnlyClass);
+  }
+  return filtered;
+}
+
 void Participant::delete_topic(const std::string& wire_name) {
   const std::lock_guard lock(mutex_);
   const auto open = topics_.find(wire_name);
   if (--open->second.users > 0) return;
   discovery_->topic_closed(wire_name, open->second.topic->get_type_name());
+  if (open->second.remote_only) participant_->delete_contentfilteredtopic(open->second.remote_only);
   participant_->delete_topic(open->second.topic);
   topics_.erase(open);
 }

@@ -4,6 +4,7 @@
 #include <fastdds/dds/domain/DomainParticipant.hpp>
 #include <fastdds/dds/publisher/Publisher.hpp>
 #include <fastdds/dds/subscriber/Subscriber.hpp>
+#include <fastdds/dds/topic/ContentFilteredTopic.hpp>
 #include <fastdds/dds/topic/Topic.hpp>
 
 #include <cstdint>
@@ -17,6 +18,7 @@
 #include "names.hpp"
 #include "panvo/runtime/bridge.hpp"
 #include "participant_qos.hpp"
+#include "same_host.hpp"
 #include "sample_data_type.hpp"
 
 namespace panvo::runtime::dds {
@@ -26,7 +28,7 @@ namespace panvo::runtime::dds {
 class Participant : public std::enable_shared_from_this<Participant> {
  public:
   /// Throws ConfigError if it cannot be created.
-  Participant(const DdsSettings& settings, Role role, std::shared_ptr<Discovery> discovery,
+  Participant(const DdsSettings& settings, std::shared_ptr<Discovery> discovery,
               std::shared_ptr<LocalEndpoints> endpoints);
   ~Participant();
   Participant(const Participant&) = delete;
@@ -47,16 +49,22 @@ class Participant : public std::enable_shared_from_this<Participant> {
     return discovery_->is_of_cyclone(endpoint.guidPrefix);
   }
 
+  /// Whether an endpoint of another process claims to be on this host; never with DDS Security. See same_host.hpp.
+  bool is_on_this_host(const eprosima::fastrtps::rtps::GUID_t& endpoint) const {
+    return is_on_same_host(guid(), endpoint) ||
+           (tells_host(guid()) && discovery_->is_of_cyclone_here(endpoint.guidPrefix));
+  }
+
   /// Creates an endpoint of a topic; nullptr if Fast DDS refuses it. `max_size`: largest message of an endpoint that
-  /// shares memory; 0: no sharing.
+  /// shares memory; 0: no sharing. Readers do not receive what this participant writes, see remote_only_filter.hpp.
   eprosima::fastdds::dds::DataWriter* make_writer(eprosima::fastdds::dds::Topic& topic,
                                                   const eprosima::fastdds::dds::DataWriterQos& qos,
                                                   eprosima::fastdds::dds::DataWriterListener& listener,
-                                                  std::uint32_t max_size);
+                                                  std::uint32_t max_size = 0);
   eprosima::fastdds::dds::DataReader* make_reader(eprosima::fastdds::dds::Topic& topic,
                                                   const eprosima::fastdds::dds::DataReaderQos& qos,
                                                   eprosima::fastdds::dds::DataReaderListener& listener,
-                                                  std::uint32_t max_size);
+                                                  std::uint32_t max_size = 0);
   /// Registry of its endpoints.
   LocalEndpoints& endpoints() { return *endpoints_; }
 
@@ -67,6 +75,7 @@ class Participant : public std::enable_shared_from_this<Participant> {
  private:
   void register_type(const std::string& wire_type_name);
   void delete_topic(const std::string& wire_name);
+  eprosima::fastdds::dds::ContentFilteredTopic* remote_only(eprosima::fastdds::dds::Topic& topic);
   SampleDataType& type_of(const eprosima::fastdds::dds::Topic& topic) const;
 
   const DdsSettings settings_;
@@ -78,6 +87,7 @@ class Participant : public std::enable_shared_from_this<Participant> {
 
   struct OpenTopic {
     eprosima::fastdds::dds::Topic* topic = nullptr;
+    eprosima::fastdds::dds::ContentFilteredTopic* remote_only = nullptr;  // for readers
     int users = 0;
   };
   std::mutex mutex_;

@@ -179,13 +179,13 @@ std::optional<std::string> profile_warning() {
          "Remedy: use UDPv4 only.";
 }
 
-fdds::DomainParticipantQos participant_qos(const DdsSettings& settings, Role role) {
+fdds::DomainParticipantQos participant_qos(const DdsSettings& settings) {
   fdds::DomainParticipantQos qos;
   fdds::DomainParticipantFactory::get_instance()->get_default_participant_qos(qos);
   use_udp(qos, settings);
   apply_range(settings, qos);
   qos.flow_controllers().push_back(image_pace());
-  qos.name(settings.name + (role == Role::kWriters ? "_writers" : "_readers"));
+  qos.name(settings.name);
 
   // rmw also sends the terminating zero.
   constexpr std::string_view kEnclave("enclave=/;\0", 11);
@@ -199,7 +199,7 @@ fdds::DomainParticipantQos participant_qos(const DdsSettings& settings, Role rol
   if (discovery.leaseDuration_announcementperiod == default_period) {
     discovery.leaseDuration_announcementperiod = eprosima::fastrtps::Duration_t(0, kAnnouncementPeriodNs);
   }
-  if (role == Role::kReaders) hear_of_all_topics(discovery);
+  hear_of_all_topics(discovery);
   // With security, a GUID does not identify the process and may match another one by chance.
   if (has_keys) return qos;
   auto& flags = discovery.ignoreParticipantFlags;

@@ -10,9 +10,6 @@
 
 namespace panvo::runtime::dds {
 
-/// Whether a participant sends messages or receives them.
-enum class Role { kWriters, kReaders };
-
 /// Loads the user's profiles into Fast DDS: those named by its environment variables, then `settings.profiles`. Throws
 /// ConfigError if the file cannot be read or is invalid (naming it), or if the domain is out of range.
 void load_profiles(const DdsSettings& settings);
@@ -30,7 +27,7 @@ bool has_shared_memory();
 std::optional<std::string> profile_warning();
 
 /// QoS of a participant, from a profile or our defaults: UDP with buffers for images, ROS 2's user data, and ignoring
-/// participants of the same process as far as Fast DDS can identify them (see own_participants.hpp).
-eprosima::fastdds::dds::DomainParticipantQos participant_qos(const DdsSettings& settings, Role role);
+/// other participants of the same process as far as Fast DDS can identify them (see own_participants.hpp).
+eprosima::fastdds::dds::DomainParticipantQos participant_qos(const DdsSettings& settings);
 
 }  // namespace panvo::runtime::dds

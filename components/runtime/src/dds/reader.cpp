@@ -75,6 +75,7 @@ void Reader::on_data_available(fdds::DataReader* reader) {
     // Fast DDS drops a sample overwritten while being read and continues with the next.
     overwritten_ += incoming.reads - (is_taken && info.valid_data ? 1 : 0);
     if (!is_taken) return;
+    // The filter is for messages of the same participant; a process may have several.
     if (info.valid_data && !is_of_this_process(info.sample_identity.writer_guid())) deliver(std::move(incoming), info);
   }
 }

@@ -2,17 +2,22 @@
 #pragma once
 
 #include <fastdds/rtps/common/Guid.h>
+#include <fastdds/rtps/common/Locator.h>
+
+#include <vector>
 
 namespace panvo::runtime::dds {
 
-/// Whether `other` claims to be on the host of `own`. A Fast DDS GUID starts with the vendor's number and a number
-/// derived from the host's addresses; GUIDs of other vendors never match. DDS Security puts a hash there, so nothing
-/// matches. GUIDs can be forged: this prevents mistakes, not attacks.
-inline bool is_on_same_host(const eprosima::fastrtps::rtps::GUID_t& own,
-                            const eprosima::fastrtps::rtps::GUID_t& other) {
-  constexpr eprosima::fastrtps::rtps::octet kEprosima[2]{0x01, 0x0f};
-  const auto* prefix = own.guidPrefix.value;
-  return prefix[0] == kEprosima[0] && prefix[1] == kEprosima[1] && own.is_on_same_host_as(other);
-}
+// What follows believes what others say of themselves: it prevents mistakes, not attacks.
+
+/// Whether GUIDs tell the host: a Fast DDS GUID starts with the vendor's number and a number derived from the host's
+/// addresses. DDS Security puts a hash there.
+bool tells_host(const eprosima::fastrtps::rtps::GUID_t& own);
+
+/// Whether `other` claims to be on the host of `own`. GUIDs of other vendors never match.
+bool is_on_same_host(const eprosima::fastrtps::rtps::GUID_t& own, const eprosima::fastrtps::rtps::GUID_t& other);
+
+/// Whether a participant that listens at these addresses is on this host: all of them belong to it. False for none.
+bool are_on_this_host(const std::vector<eprosima::fastrtps::rtps::Locator_t>& addresses);
 
 }  // namespace panvo::runtime::dds

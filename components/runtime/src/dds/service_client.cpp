@@ -6,10 +6,13 @@
 #include <fastdds/dds/subscriber/SampleInfo.hpp>
 
 #include <algorithm>
+#include <string_view>
 #include <thread>
 
 #include "cyclone_header.hpp"
 #include "endpoint_qos.hpp"
+#include "fnv1a.hpp"
+#include "own_participants.hpp"
 #include "panvo/runtime/errors.hpp"
 #include "sample_data_type.hpp"
 #include "service_server.hpp"
@@ -30,13 +33,12 @@ constexpr std::chrono::milliseconds kIntroduction{250};
 // Keys of replies with a header, apart from those by sequence number.
 constexpr std::int64_t kOfCyclone = std::int64_t{1} << 62;
 
-/// Identifies a client: FNV-1a over the identity of its writer.
+/// Identifies a client by the hash of its writer's GUID.
 std::uint64_t client_number(const eprosima::fastrtps::rtps::GUID_t& writer) {
-  std::uint64_t hash = 14695981039346656037ULL;
-  const auto add = [&](std::uint8_t byte) { hash = (hash ^ byte) * 1099511628211ULL; };
-  for (const auto byte : writer.guidPrefix.value) add(byte);
-  for (const auto byte : writer.entityId.value) add(byte);
-  return hash;
+  const auto bytes = [](const auto& value) {
+    return std::string_view(reinterpret_cast<const char*>(value), sizeof(value));
+  };
+  return fnv1a(bytes(writer.entityId.value), fnv1a(bytes(writer.guidPrefix.value)));
 }
 
 std::int64_t number(const eprosima::fastrtps::rtps::SampleIdentity& identity) {
@@ -45,21 +47,20 @@ std::int64_t number(const eprosima::fastrtps::rtps::SampleIdentity& identity) {
 
 }  // namespace
 
-ServiceClient::ServiceClient(const ServiceDescription& service, std::shared_ptr<Participant> readers,
-                             std::shared_ptr<Participant> writers)
-    : readers_(std::move(readers)),
-      writers_(std::move(writers)),
-      request_topic_(writers_->topic(request_topic(service))),
-      reply_topic_(readers_->topic(reply_topic(service))) {
-  fdds::DataReaderQos reader_qos = readers_->subscriber().get_default_datareader_qos();
+ServiceClient::ServiceClient(const ServiceDescription& service, std::shared_ptr<Participant> participant)
+    : participant_(std::move(participant)),
+      request_topic_(participant_->topic(request_topic(service))),
+      reply_topic_(participant_->topic(reply_topic(service))) {
+  fdds::DataReaderQos reader_qos = participant_->subscriber().get_default_datareader_qos();
   apply(service, reader_qos);
-  fdds::DataWriterQos writer_qos = writers_->publisher().get_default_datawriter_qos();
+  fdds::DataWriterQos writer_qos = participant_->publisher().get_default_datawriter_qos();
   apply(service, writer_qos);
   // The reader first, so a server discovers it before it gets a request.
-  reader_ = readers_->subscriber().create_datareader(reply_topic_.get(), reader_qos, this);
-  if (reader_) writer_ = writers_->publisher().create_datawriter(request_topic_.get(), writer_qos, &servers_);
+  // Unfiltered: a filter sees the identity of the request in a reply, which is ours.
+  reader_ = participant_->subscriber().create_datareader(reply_topic_.get(), reader_qos, this);
+  if (reader_) writer_ = participant_->make_writer(*request_topic_, writer_qos, servers_);
   if (!writer_) {
-    if (reader_) readers_->subscriber().delete_datareader(reader_);
+    if (reader_) participant_->subscriber().delete_datareader(reader_);
     throw ConfigError(fmt::format("service {}: Fast DDS created no client, see its message above", service.name));
   }
   const std::lock_guard lock(mutex_);
@@ -71,8 +72,8 @@ ServiceClient::~ServiceClient() {
     const std::lock_guard lock(mutex_);
     closed_ = true;
   }
-  writers_->publisher().delete_datawriter(writer_);
-  readers_->subscriber().delete_datareader(reader_);
+  participant_->publisher().delete_datawriter(writer_);
+  participant_->subscriber().delete_datareader(reader_);
 }
 
 bool ServiceClient::wait_for_service(std::chrono::milliseconds limit) {
@@ -88,7 +89,7 @@ bool ServiceClient::wait_for_service(std::chrono::milliseconds limit) {
 }
 
 bool ServiceClient::is_of_cyclone() const {
-  return servers_.contains_any([this](const auto& reader) { return writers_->is_of_cyclone(reader); });
+  return servers_.contains_any([this](const auto& reader) { return participant_->is_of_cyclone(reader); });
 }
 
 std::optional<std::int64_t> ServiceClient::send(const interfaces::Bytes& request) {
@@ -117,7 +118,7 @@ std::optional<interfaces::Bytes> ServiceClient::call(const interfaces::Bytes& re
 /// All clients of a service get all replies: nullopt for one to another client.
 std::optional<std::int64_t> ServiceClient::key_of(const fdds::DataReader& reader, const fdds::SampleInfo& info,
                                                   interfaces::Bytes& reply) {
-  if (readers_->is_of_cyclone(info.sample_identity.writer_guid())) {
+  if (participant_->is_of_cyclone(info.sample_identity.writer_guid())) {
     const auto header = take_header(reply);
     if (!header || header->client != client_number(own_writer_)) return std::nullopt;
     return kOfCyclone + header->number;
@@ -143,8 +144,9 @@ void ServiceClient::on_data_available(fdds::DataReader* reader) {
 }
 
 void ServiceClient::on_subscription_matched(fdds::DataReader*, const fdds::SubscriptionMatchedStatus& status) {
+  if (is_of_this_process(eprosima::fastrtps::rtps::iHandle2GUID(status.last_publication_handle))) return;
   const std::lock_guard lock(mutex_);
-  matched_servers_ = status.current_count;
+  matched_servers_ += status.current_count_change;
   changed_.notify_all();
 }
 

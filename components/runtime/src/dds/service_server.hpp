@@ -32,7 +32,7 @@ class ServiceServer final : public BridgeService, private eprosima::fastdds::dds
  public:
   /// Throws ConfigError if Fast DDS refuses its topics.
   ServiceServer(const ServiceDescription& service, ServiceHandler handler, ServiceGuard guard,
-                const RequestLimits& limits, std::shared_ptr<Participant> readers, std::shared_ptr<Participant> writers,
+                const RequestLimits& limits, std::shared_ptr<Participant> participant,
                 std::shared_ptr<ServiceQueue> queue, std::shared_ptr<Notifier> notifier);
   ~ServiceServer() override;
 
@@ -51,8 +51,7 @@ class ServiceServer final : public BridgeService, private eprosima::fastdds::dds
   };
 
   /// nullopt if the request of a Cyclone client lacks its header, which is removed from `request`.
-  std::optional<Asker> asker_of(const eprosima::fastdds::dds::DataReader& reader,
-                                const eprosima::fastdds::dds::SampleInfo& info, interfaces::Bytes& request) const;
+  std::optional<Asker> asker_of(const eprosima::fastdds::dds::SampleInfo& info, interfaces::Bytes& request) const;
   void answer(const interfaces::Bytes& request, const Asker& asker);
   interfaces::Bytes response_to(const interfaces::Bytes& request, const Caller& caller);
   bool is_reachable(const Asker& asker) const;
@@ -73,7 +72,7 @@ class ServiceServer final : public BridgeService, private eprosima::fastdds::dds
   const ServiceHandler handler_;
   const ServiceGuard guard_;
   const RequestLimits limits_;
-  const std::shared_ptr<Participant> readers_, writers_;
+  const std::shared_ptr<Participant> participant_;
   const std::shared_ptr<ServiceQueue> queue_;
   const std::shared_ptr<Notifier> notifier_;
   const std::shared_ptr<eprosima::fastdds::dds::Topic> request_topic_, reply_topic_;

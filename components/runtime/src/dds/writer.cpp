@@ -3,10 +3,13 @@
 
 #include <spdlog/fmt/fmt.h>
 
+#include <chrono>
+
 #include "endpoint_qos.hpp"
 #include "image_sharing.hpp"
 #include "own_participants.hpp"
 #include "panvo/runtime/errors.hpp"
+#include "remote_only_filter.hpp"
 #include "sample_data_type.hpp"
 
 namespace panvo::runtime::dds {
@@ -40,11 +43,13 @@ bool Writer::write(const SamplePtr& sample) {
   if (matched_readers_ == 0 && !keeps_for_late_joiners_) return true;
   Outgoing outgoing(*sample);
   for (int attempt = 0; attempt < kWriteAttempts; ++attempt) {
-    const auto result = writer_->write(&outgoing, fdds::HANDLE_NIL);
-    if (result == ReturnCode_t::RETCODE_OK) return true;
+    const auto begin = std::chrono::steady_clock::now();
+    auto params = written_by(writer_->guid());
+    if (writer_->write(&outgoing, params)) return true;
     // Fast DDS 2.9 never removes a message acknowledged while another reader joins, and shared memory is freed in order
-    // only: without this, writing would fail from then on.
-    if (shares() && result == ReturnCode_t::RETCODE_OUT_OF_RESOURCES) forget_messages();
+    // only: without this, writing would fail from then on. Without memory it fails at once, otherwise after the
+    // blocking time.
+    if (shares() && std::chrono::steady_clock::now() - begin < kMaxBlockingTime) forget_messages();
   }
   return false;
 }
@@ -59,8 +64,6 @@ bool Writer::wait_for_acknowledgments(std::chrono::milliseconds limit) {
 }
 
 void Writer::on_publication_matched(fdds::DataWriter*, const fdds::PublicationMatchedStatus& status) {
-  // With a discovery server or encryption, Fast DDS does not keep participants of one process apart; our readers ignore
-  // own messages.
   if (is_of_this_process(eprosima::fastrtps::rtps::iHandle2GUID(status.last_subscription_handle))) return;
   matched_readers_ += static_cast<std::size_t>(status.current_count_change);  // unsigned wrap-around intended
 }

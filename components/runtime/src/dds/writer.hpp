@@ -32,10 +32,10 @@ class Writer final : public BridgeWriter, private eprosima::fastdds::dds::DataWr
   bool shares() const { return max_shared_ > 0; }
   /// Whether all shared memory is reserved. If not, it must not be written to.
   bool has_memory() const { return segment_ && segment_->is_there(); }
-
- private:
+  /// Messages kept for late joiners or not yet acknowledged are not sent any more.
   void forget_messages();
 
+ private:
   void on_publication_matched(eprosima::fastdds::dds::DataWriter* writer,
                               const eprosima::fastdds::dds::PublicationMatchedStatus& status) override;
   void on_offered_incompatible_qos(eprosima::fastdds::dds::DataWriter* writer,

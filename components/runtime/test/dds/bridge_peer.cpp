@@ -12,9 +12,12 @@
 
 #include "dds/names.hpp"
 #include "late_client.hpp"
+#include "panvo/interfaces/message_type.hpp"
 #include "panvo/runtime/bridge.hpp"
 #include "panvo/runtime/graph.hpp"
+#include "raw_reader.hpp"
 #include "raw_writer.hpp"
+#include "rmw_dds_common/msg/ParticipantEntitiesInfo.h"
 #include "service_messages.hpp"
 #include "test_messages.hpp"
 
@@ -56,6 +59,15 @@ class Peer {
         say("received " + name + " " + std::to_string(sample->bytes().size()) + " " +
             std::to_string(hash(sample->bytes())));
       });
+    } else if (verb == "open_nodes_reader") {  // like one of ROS 2: of Humble without user data, of Jazzy with a hash
+      std::string user_data;
+      words >> user_data;
+      const auto& type = interfaces::message_type<rmw_dds_common::msg::ParticipantEntitiesInfo>();
+      raw_readers_[name] = std::make_unique<RawReader>(
+          domain_, kNodesTopic, std::string(type.dds_name), user_data,
+          [this, name](const auto& bytes) { say("received " + name + " " + std::to_string(bytes.size())); });
+    } else if (verb == "close_nodes_reader") {
+      raw_readers_.erase(name);
     } else if (verb == "close_reader") {
       readers_.erase(name);
     } else if (verb == "open_raw_writer") {
@@ -163,6 +175,7 @@ class Peer {
   std::map<std::string, std::unique_ptr<BridgeWriter>> writers_;
   std::map<std::string, std::unique_ptr<BridgeReader>> readers_;
   std::map<std::string, std::unique_ptr<RawWriter>> raw_writers_;
+  std::map<std::string, std::unique_ptr<RawReader>> raw_readers_;
   std::map<std::string, std::unique_ptr<LateClient>> late_clients_;
   std::map<std::string, std::unique_ptr<BridgeService>> services_;
   std::map<std::string, std::unique_ptr<BridgeClient>> clients_;

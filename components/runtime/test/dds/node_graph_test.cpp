@@ -35,7 +35,7 @@ void expect_equal(const std::optional<dds::NodeInfo>& found, const dds::NodeInfo
 
 TEST(NodeInfo, OfJazzyIsWhatTheGeneratedClassWrites) {
   const auto& type = interfaces::message_type<rmw_dds_common::msg::ParticipantEntitiesInfo>();
-  const auto bytes = dds::encode(some_info(), dds::gid_size_of("jazzy"));
+  const auto bytes = dds::encode(some_info(), dds::kGidSize);
   const auto message = type.deserialize(bytes);
   interfaces::Bytes again(type.serialized_size(message.get()));
   type.serialize(message.get(), again);
@@ -43,15 +43,15 @@ TEST(NodeInfo, OfJazzyIsWhatTheGeneratedClassWrites) {
 }
 
 TEST(NodeInfo, IsReadAsJazzyAndAsHumbleWriteIt) {
-  for (const char* distro : {"jazzy", "humble"}) {
-    const auto bytes = dds::encode(some_info(), dds::gid_size_of(distro));
+  for (const auto size : {dds::kGidSize, dds::kHumbleGidSize}) {
+    const auto bytes = dds::encode(some_info(), size);
     expect_equal(dds::decode_node_info(bytes), some_info());
     auto padded = bytes;
     padded.resize((bytes.size() + 3) / 4 * 4);
     expect_equal(dds::decode_node_info(padded), some_info());
   }
-  EXPECT_EQ(dds::encode(some_info(), dds::gid_size_of("humble")).size(),
-            dds::encode(some_info(), dds::gid_size_of("jazzy")).size() + 4 * 8);
+  EXPECT_EQ(dds::encode(some_info(), dds::kHumbleGidSize).size(),
+            dds::encode(some_info(), dds::kGidSize).size() + 4 * 8);
 }
 
 TEST(NodeInfo, OfNoNodesIsReadInEitherSize) {
@@ -93,7 +93,6 @@ TEST_F(Nodes, OfAnotherProcessAreListedOnceWithWhatTheyHave) {
   peer.ask("open_writer " + published + " " + kStringType + " reliable transient_local 10");
   peer.ask("serve " + served);
   peer.ask("set_node talker " + published + " " + served);
-  // The request reader belongs to one participant, the other two endpoints to another.
   ASSERT_TRUE(eventually([&] {
     const auto found = nodes_called("talker");
     return found.size() == 1 && found[0].readers.size() == 1 && found[0].writers.size() == 2;
@@ -105,7 +104,10 @@ TEST_F(Nodes, OfAnotherProcessAreListedOnceWithWhatTheyHave) {
     return endpoints.size() == 3;
   }));
   const auto node = nodes_called("talker").at(0);
+  // ROS 2 looks up the node of an endpoint in the list of the endpoint's participant.
+  const auto participant = node.readers.at(0).substr(0, 2 * eprosima::fastrtps::rtps::GuidPrefix_t::size);
   for (const auto& endpoint : endpoints) {
+    EXPECT_TRUE(endpoint.gid.starts_with(participant)) << endpoint.name;
     const auto& gids = endpoint.is_writer ? node.writers : node.readers;
     EXPECT_NE(std::ranges::find(gids, endpoint.gid), gids.end()) << endpoint.name;
     if (endpoint.name == published) {
@@ -140,6 +142,23 @@ TEST_F(Nodes, AreToldAsHumbleReadsThem) {
   const auto humble = make_dds_bridge({.domain = domain, .profiles = "", .name = "humble", .ros_distro = "humble"});
   humble->set_nodes({{"/robot", "old", {}, {}, {}}});
   EXPECT_TRUE(eventually([&] { return peer.ask("nodes") == "nodes /robot old 0 0"; }));
+}
+
+TEST_F(Nodes, AreToldToHumblesNodesOnlyAsTheyReadThem) {
+  dds::NodeInfo info;
+  info.nodes = {{"/robot", "tracker", {}, {}}};
+  const auto size = [&](std::size_t gid_size) { return std::to_string(dds::encode(info, gid_size).size()); };
+  bridge->set_nodes({{"/robot", "tracker", {}, {}, {}}});
+  peer.ask("open_nodes_reader jazzy typehash=RIHS01_0;");
+  EXPECT_EQ(peer.next_received("jazzy"), size(dds::kGidSize));
+  // The message for Jazzy is kept for late readers. One of Humble would be killed by it.
+  PeerProcess humble_peer(domain);
+  humble_peer.ask("open_nodes_reader humble");
+  EXPECT_EQ(humble_peer.next_received("humble"), size(dds::kHumbleGidSize));
+  EXPECT_EQ(peer.next_received("jazzy"), size(dds::kHumbleGidSize));
+  EXPECT_TRUE(is_warned_of("Humble", "Remedy"));
+  humble_peer.ask("close_nodes_reader humble");
+  EXPECT_EQ(peer.next_received("jazzy"), size(dds::kGidSize));
 }
 
 TEST_F(Nodes, AreGoneWithTheirProcess) {
