@@ -190,7 +190,7 @@ def install(folder):
 
 class WhatIsBuilt(unittest.TestCase):
     """Commands in a checkout whose programs print their arguments; a build would fail."""
-    LOOKING = (("node", "list"), ("topic", "list"), ("param", "list"), ("service", "list"), ("component", "list"), ("component", "running"),
+    LOOKING = (("node", "list"), ("topic", "list"), ("param", "list"), ("service", "list"), ("component", "list"), ("component", "running"), ("doctor",),
                ("bag", "info", "b"), ("landmarks", "info", "l"), ("evaluate", "a", "b"), ("devices",), ("run", "demo"))
     PROGRAMS = ("run", "graph", "component", "bag", "landmarks", "evaluate", "devices_v4l2")
 

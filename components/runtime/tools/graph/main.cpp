@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <exception>
 
+#include "../doctor/doctor_command.hpp"
 #include "commands.hpp"
 #include "panvo/runtime/errors.hpp"
 #include "printable_output.hpp"
@@ -33,6 +34,7 @@ int main(int argc, char** argv) {
     graph::add_topic_commands(app, options);
     graph::add_service_commands(app, options);
     graph::add_component_commands(app, options);
+    doctor::add_doctor_command(app, options);
     graph::watch_for_stop();
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
