@@ -46,7 +46,7 @@ struct Ticking : Component {
 
 WrittenValues value(const std::string& name, const std::string& text) { return {{name, {{text}, false, {}}}}; }
 
-ParameterDescription parameter(const std::string& name) {
+ParameterDescription parameter_named(const std::string& name) {
   for (auto& one : Ticking::last->state->parameters()) {
     if (one.name == name) return one;
   }
@@ -74,10 +74,10 @@ TEST(NodeParameters, UseSimTimeCanBeSetAtRunTime) {
   harness.container().start();
   const auto is_host_time = [](std::int64_t stamp_ns) { return stamp_ns > 1'000'000'000'000'000'000; };
   EXPECT_TRUE(Ticking::last->reaches(is_host_time));
-  EXPECT_EQ(parameter("use_sim_time").value, "false");
-  EXPECT_TRUE(parameter("use_sim_time").settable);
+  EXPECT_EQ(parameter_named("use_sim_time").value, "false");
+  EXPECT_TRUE(parameter_named("use_sim_time").settable);
   EXPECT_THAT(Ticking::last->state->set_parameters(value("use_sim_time", "true")), testing::IsEmpty());
-  EXPECT_EQ(parameter("use_sim_time").value, "true");
+  EXPECT_EQ(parameter_named("use_sim_time").value, "true");
   harness.publish(topics::kClock, clock_at(kSimulated_ns));
   EXPECT_TRUE(Ticking::last->reaches([](std::int64_t stamp_ns) { return stamp_ns == kSimulated_ns; }));
   EXPECT_THAT(Ticking::last->state->set_parameters(value("use_sim_time", "false")), testing::IsEmpty());
@@ -89,18 +89,18 @@ TEST(NodeParameters, UseSimTimeCanBeSetAtRunTime) {
 TEST(NodeParameters, OfAReplayAreAcceptedAndIgnoreTheClock) {
   ComponentHarness harness;
   harness.add<Ticking>("ticking", {{"use_sim_time", "true"}});
-  EXPECT_EQ(parameter("use_sim_time").value, "true");
+  EXPECT_EQ(parameter_named("use_sim_time").value, "true");
   EXPECT_FALSE(Ticking::last->state->follows_clock());
 }
 
 TEST(NodeParameters, QosOverridesAreDeclaredReadOnlyWithTheValuesInUse) {
   ComponentHarness harness;
   harness.add<Ticking>("ticking", {{"qos_overrides./text.publisher.depth", "7"}});
-  EXPECT_EQ(parameter("qos_overrides./text.publisher.depth").value, "7");
-  EXPECT_EQ(parameter("qos_overrides./text.publisher.depth").default_value, "3");
-  EXPECT_EQ(parameter("qos_overrides./text.publisher.reliability").value, "reliable");
-  EXPECT_EQ(parameter("qos_overrides./text.publisher.durability").value, "volatile");
-  EXPECT_EQ(parameter("qos_overrides./text.publisher.history").value, "keep_last");
+  EXPECT_EQ(parameter_named("qos_overrides./text.publisher.depth").value, "7");
+  EXPECT_EQ(parameter_named("qos_overrides./text.publisher.depth").default_value, "3");
+  EXPECT_EQ(parameter_named("qos_overrides./text.publisher.reliability").value, "reliable");
+  EXPECT_EQ(parameter_named("qos_overrides./text.publisher.durability").value, "volatile");
+  EXPECT_EQ(parameter_named("qos_overrides./text.publisher.history").value, "keep_last");
   EXPECT_THAT(Ticking::last->state->set_parameters(value("qos_overrides./text.publisher.depth", "9")),
               testing::ElementsAre(HasSubstr("read-only")));
 }
