@@ -6,13 +6,15 @@ import unittest
 from pathlib import Path
 
 sys.dont_write_bytecode = True
-sys.path.insert(0, str(Path(__file__).parent.parent / "tools"))
+INTERFACES = Path(__file__).parent.parent
+sys.path[:0] = [str(INTERFACES / "tools"), str(INTERFACES / "idl" / "panvo_msgs")]
 
 import idl  # noqa: E402
 import idl_text  # noqa: E402
 import message_classes  # noqa: E402
 import message_table  # noqa: E402
 import msg_file  # noqa: E402
+import msg_from_idl  # noqa: E402
 from ros2msg import definition  # noqa: E402
 from type_hash import service_hash, type_hash  # noqa: E402
 
@@ -211,6 +213,28 @@ class Output(unittest.TestCase):
     def test_failure_of_the_generator_is_reported(self):
         with self.assertRaisesRegex(message_classes.GeneratorError, "failed with status 1"):
             message_classes._run_fastddsgen("false", Path("x.idl"), Path("."))
+
+
+class RosPackage(unittest.TestCase):
+    """The definitions that ROS 2 gets of panvo's own messages."""
+
+    def test_is_what_the_idl_defines(self):
+        messages = idl.read_trees([INTERFACES / "idl"])
+        files = sorted((INTERFACES / "idl" / "panvo_msgs" / "msg").glob("*.idl"))
+        self.assertGreater(len(files), 10)
+        for file in files:
+            with self.subTest(file.stem):
+                lines = map(msg_from_idl.converted, map(str.strip, file.read_text(encoding="utf-8").splitlines()))
+                text = "\n".join(line for line in lines if line is not None)
+                ours = messages[f"panvo_msgs/msg/{file.stem}"]
+                theirs, = msg_file.parse(file.with_suffix(".msg"), text, "panvo_msgs")
+                self.assertEqual([(field.name, field.type) for field in theirs.fields], [(field.name, field.type) for field in ours.fields])
+                self.assertEqual(theirs.constants, ours.constants)
+
+    def test_refuses_a_line_that_it_does_not_know(self):
+        for line in ("union Thing switch (long) {", "string<12> label;", "double a, b;"):
+            with self.assertRaises(ValueError):
+                msg_from_idl.converted(line)
 
 
 if __name__ == "__main__":
