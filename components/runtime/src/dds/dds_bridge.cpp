@@ -5,6 +5,7 @@
 
 #include "discovery.hpp"
 #include "image_sharing.hpp"
+#include "image_writer.hpp"
 #include "local_endpoints.hpp"
 #include "node_graph.hpp"
 #include "node_info.hpp"
@@ -16,7 +17,6 @@
 #include "service_client.hpp"
 #include "service_queue.hpp"
 #include "service_server.hpp"
-#include "sharing_writer.hpp"
 
 namespace panvo::runtime {
 namespace {

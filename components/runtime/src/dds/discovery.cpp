@@ -13,8 +13,9 @@
 #include "names.hpp"
 #include "node_info.hpp"
 #include "own_participants.hpp"
-#include "replaced_participants.hpp"
+#include "remote_only_filter.hpp"
 #include "same_host.hpp"
+#include "udp_transport.hpp"
 
 namespace panvo::runtime::dds {
 
@@ -134,6 +135,14 @@ bool Discovery::has_sharing_reader(const std::string& wire_name) const {
   });
 }
 
+bool Discovery::has_foreign_reader(const std::string& wire_name) const {
+  const std::lock_guard lock(mutex_);
+  return std::ranges::any_of(remote_endpoints_, [&](const auto& known) {
+    const RemoteEndpoint& endpoint = known.second;
+    return endpoint.is_foreign && endpoint.topic.name == wire_name;
+  });
+}
+
 void Discovery::on_participant_gone(std::function<void(const rtps::GuidPrefix_t&)> callback) {
   const std::lock_guard lock(mutex_);
   on_participant_gone_ = std::move(callback);
@@ -185,7 +194,8 @@ void Discovery::on_subscriber_discovery(fdds::DomainParticipant*, rtps::ReaderDi
   if (is_of_this_process(guid)) return;
   const RemoteEndpoint remote{{info.info.topicName().to_string(), info.info.typeName().to_string()},
                               shown(info.info, false),
-                              is_in_neighbourhood(info.info.m_qos.data_sharing)};
+                              is_in_neighbourhood(info.info.m_qos.data_sharing),
+                              std::string_view(info.info.content_filter().filter_class_name) != kRemoteOnlyClass};
   const bool is_gone = info.status == rtps::ReaderDiscoveryInfo::REMOVED_READER;
   std::function<void(const rtps::GUID_t&, NodesReader)> on_nodes_reader;
   {

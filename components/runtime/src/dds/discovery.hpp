@@ -45,6 +45,9 @@ class Discovery final : public eprosima::fastdds::dds::DomainParticipantListener
   /// Whether a reader on this machine shares memory with us on the topic.
   bool has_sharing_reader(const std::string& wire_name) const;
 
+  /// Whether a program other than panvo reads the topic.
+  bool has_foreign_reader(const std::string& wire_name) const;
+
   /// Sets the callback for a participant that has left. It may run inside Fast DDS.
   void on_participant_gone(std::function<void(const eprosima::fastrtps::rtps::GuidPrefix_t&)> callback);
 
@@ -69,7 +72,8 @@ class Discovery final : public eprosima::fastdds::dds::DomainParticipantListener
   struct RemoteEndpoint {
     TypedTopic topic;
     GraphEndpoint shown;
-    bool shares = false;  // memory with us
+    bool shares = false;      // memory with us
+    bool is_foreign = false;  // a reader of another program
   };
 
   struct RemoteParticipant {

@@ -101,12 +101,9 @@ void apply(const TopicDescription& topic, fdds::DataWriterQos& qos) {
       topic.qos.offered == Reliability::kReliable ? fdds::RELIABLE_RELIABILITY_QOS : fdds::BEST_EFFORT_RELIABILITY_QOS;
   qos.reliability().max_blocking_time = to_dds(kMaxBlockingTime);
   // Best-effort topics carry images. They are sent asynchronously, so a network slower than the camera does not block
-  // the publisher (at 100 Mbit/s a panorama of 1.75 MB blocked it for 122 ms, now 0.8 ms), and paced for the receiver,
-  // see participant_qos(). Other messages are small and sent at once.
-  if (topic.qos.requested == Reliability::kBestEffort) {
-    qos.publish_mode().kind = fdds::ASYNCHRONOUS_PUBLISH_MODE;
-    qos.publish_mode().flow_controller_name = kImagePace;
-  }
+  // the publisher (at 100 Mbit/s a panorama of 1.75 MB blocked it for 122 ms, now 0.8 ms). Other messages are small and
+  // sent at once.
+  if (topic.qos.requested == Reliability::kBestEffort) qos.publish_mode().kind = fdds::ASYNCHRONOUS_PUBLISH_MODE;
   qos.reliable_writer_qos().times.heartbeatPeriod = to_dds(kHeartbeatPeriod);
   qos.representation().m_value = {fdds::XCDR_DATA_REPRESENTATION};
   // Readers filter, see remote_only_filter.hpp: a writer would send the result with each message.

@@ -10,6 +10,7 @@
 #include "own_participants.hpp"
 #include "panvo/runtime/errors.hpp"
 #include "remote_only_filter.hpp"
+#include "udp_transport.hpp"
 
 namespace panvo::runtime::dds {
 
@@ -20,8 +21,9 @@ Participant::Participant(const DdsSettings& settings, std::shared_ptr<Discovery>
     : settings_(settings), discovery_(std::move(discovery)), endpoints_(std::move(endpoints)) {
   auto* factory = fdds::DomainParticipantFactory::get_instance();
   // The mask is empty, as endpoints have their own listeners. Discovery is called anyway.
-  participant_ = factory->create_participant(static_cast<fdds::DomainId_t>(settings.domain), participant_qos(settings),
-                                             discovery_.get(), fdds::StatusMask::none());
+  const auto qos = participant_qos(settings);
+  participant_ = factory->create_participant(static_cast<fdds::DomainId_t>(settings.domain), qos, discovery_.get(),
+                                             fdds::StatusMask::none());
   if (!participant_) {
     throw ConfigError(fmt::format(
         "cannot create a DDS participant in domain {}: check that there is a network interface (lo suffices) and that "
@@ -29,6 +31,7 @@ Participant::Participant(const DdsSettings& settings, std::shared_ptr<Discovery>
         settings.domain));
   }
   add_own_participant(participant_->guid());
+  start_reception(qos);
   participant_->register_content_filter_factory(kRemoteOnlyClass, &remote_only_filters());
   publisher_ = participant_->create_publisher(fdds::PUBLISHER_QOS_DEFAULT);
   subscriber_ = participant_->create_subscriber(fdds::SUBSCRIBER_QOS_DEFAULT);

@@ -44,6 +44,9 @@ class Participant : public std::enable_shared_from_this<Participant> {
   /// Whether a reader on this machine shares memory with us on the topic.
   bool has_sharing_reader(const std::string& wire_name) const { return discovery_->has_sharing_reader(wire_name); }
 
+  /// Whether a program other than panvo reads the topic.
+  bool has_foreign_reader(const std::string& wire_name) const { return discovery_->has_foreign_reader(wire_name); }
+
   /// Whether an endpoint of another process is of Cyclone DDS.
   bool is_of_cyclone(const eprosima::fastrtps::rtps::GUID_t& endpoint) const {
     return discovery_->is_of_cyclone(endpoint.guidPrefix);

@@ -16,9 +16,13 @@ void load_profiles(const DdsSettings& settings);
 
 inline constexpr const char* kSharedMemoryFolder = "/dev/shm";
 
-/// Flow controller of image writers. It limits the data per millisecond to what fits into a receiver's socket buffer at
-/// the system default (208 KB), to avoid losses.
-inline constexpr const char* kImagePace = "panvo_images";
+/// Flow controller of paced writers. It limits the data per millisecond to what fits into a receiver's socket buffer at
+/// the system default (208 KB), to avoid losses. Once used, it wakes up 1000 times per second: 2 % of a core.
+inline constexpr const char* kPace = "panvo_pace";
+
+/// Whether sockets of panvo's own processes have smaller buffers than they ask for, so that image writers must be paced
+/// for them.
+bool has_small_socket_buffers();
 
 /// False in containers or sandboxes where it is missing or not writable.
 bool has_shared_memory();

@@ -9,6 +9,7 @@
 #include "image_sharing.hpp"
 #include "own_participants.hpp"
 #include "panvo/runtime/errors.hpp"
+#include "participant_qos.hpp"
 #include "remote_only_filter.hpp"
 #include "sample_data_type.hpp"
 
@@ -18,17 +19,18 @@ namespace fdds = eprosima::fastdds::dds;
 using eprosima::fastrtps::types::ReturnCode_t;
 
 Writer::Writer(const TopicDescription& topic, const WireTopic& wire, std::shared_ptr<Participant> participant,
-               std::shared_ptr<Notifier> notifier, std::uint32_t max_shared)
+               std::shared_ptr<Notifier> notifier, ImageTransport transport)
     : name_(topic.name),
       keeps_for_late_joiners_(topic.qos.durability == interfaces::Durability::kTransientLocal),
-      max_shared_(max_shared),
+      transport_(transport),
       participant_(std::move(participant)),
       notifier_(std::move(notifier)),
       topic_(participant_->topic(wire)) {
   fdds::DataWriterQos qos = participant_->publisher().get_default_datawriter_qos();
   apply(topic, qos);
+  if (is_paced()) qos.publish_mode().flow_controller_name = kPace;
   if (shares()) share(qos);
-  writer_ = participant_->make_writer(*topic_, qos, *this, max_shared_);
+  writer_ = participant_->make_writer(*topic_, qos, *this, transport_.max_shared);
   if (!writer_) throw ConfigError(fmt::format("topic {}: Fast DDS created no writer, see its message above", name_));
   if (shares()) segment_.emplace(writer_->guid());
   participant_->endpoints().add(wire.name, writer_->guid(), true);

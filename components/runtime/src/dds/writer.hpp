@@ -16,20 +16,27 @@
 
 namespace panvo::runtime::dds {
 
+/// How a writer of images sends them.
+struct ImageTransport {
+  std::uint32_t max_shared = 0;  ///< messages up to this size are shared with readers on this machine, larger ones
+                                 ///< cannot be written; 0: all messages are sent
+  bool is_paced = false;         ///< for readers with small socket buffers
+};
+
 /// Publishes a topic of this process to other processes.
 class Writer final : public BridgeWriter, private eprosima::fastdds::dds::DataWriterListener {
  public:
-  /// Throws ConfigError if Fast DDS refuses the topic. `wire` holds its wire names. `max_shared`: messages up to
-  /// this size are shared with readers on this machine, larger ones cannot be written; 0: all messages are sent.
+  /// Throws ConfigError if Fast DDS refuses the topic. `wire` holds its wire names.
   Writer(const TopicDescription& topic, const WireTopic& wire, std::shared_ptr<Participant> participant,
-         std::shared_ptr<Notifier> notifier, std::uint32_t max_shared = 0);
+         std::shared_ptr<Notifier> notifier, ImageTransport transport = {});
   ~Writer() override;
 
   bool write(const SamplePtr& sample) override;
   std::size_t matched_readers() const override { return matched_readers_; }
   bool wait_for_acknowledgments(std::chrono::milliseconds limit) override;
-  bool takes(std::size_t size) const { return max_shared_ == 0 || size <= max_shared_; }
-  bool shares() const { return max_shared_ > 0; }
+  bool takes(std::size_t size) const { return !shares() || size <= transport_.max_shared; }
+  bool shares() const { return transport_.max_shared > 0; }
+  bool is_paced() const { return transport_.is_paced; }
   /// Whether all shared memory is reserved. If not, it must not be written to.
   bool has_memory() const { return segment_ && segment_->is_there(); }
   /// Messages kept for late joiners or not yet acknowledged are not sent any more.
@@ -43,7 +50,7 @@ class Writer final : public BridgeWriter, private eprosima::fastdds::dds::DataWr
 
   const std::string name_;
   const bool keeps_for_late_joiners_;
-  const std::uint32_t max_shared_;
+  const ImageTransport transport_;
   const std::shared_ptr<Participant> participant_;
   const std::shared_ptr<Notifier> notifier_;
   const std::shared_ptr<eprosima::fastdds::dds::Topic> topic_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "replaced_participants.hpp"
+#include "udp_transport.hpp"
 
 #include <fastdds/rtps/transport/ChainingTransport.h>
 #include <fastdds/rtps/transport/ChainingTransportDescriptor.h>
@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <condition_variable>
 #include <iterator>
 #include <mutex>
 #include <utility>
@@ -55,10 +56,32 @@ Message goodbye_of(const rtps::GuidPrefix_t& participant) {
   return message;
 }
 
+/// Holds received messages back until the participant can handle them.
+class Gate {
+ public:
+  void open() {
+    const std::lock_guard lock(mutex_);
+    is_open_ = true;
+    opened_.notify_all();
+  }
+  void wait() {
+    // If creating a participant fails, it waits for the threads that wait here.
+    constexpr std::chrono::seconds kLimit{1};
+    std::unique_lock lock(mutex_);
+    opened_.wait_for(lock, kLimit, [this] { return is_open_; });
+    is_open_ = true;
+  }
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable opened_;
+  bool is_open_ = false;
+};
+
 class Transport final : public ChainingTransport {
  public:
-  explicit Transport(const ChainingTransportDescriptor& descriptor)
-      : ChainingTransport(descriptor), udp_(descriptor.low_level_descriptor) {}
+  Transport(const ChainingTransportDescriptor& descriptor, std::shared_ptr<Gate> gate)
+      : ChainingTransport(descriptor), udp_(descriptor.low_level_descriptor), gate_(std::move(gate)) {}
 
   TransportDescriptorInterface* get_configuration() override { return udp_.get(); }
 
@@ -74,6 +97,7 @@ class Transport final : public ChainingTransport {
 
   void receive(TransportReceiverInterface* receiver, const rtps::octet* bytes, std::uint32_t size,
                const rtps::Locator_t& local, const rtps::Locator_t& remote) override {
+    gate_->wait();
     std::unique_lock one_at_a_time(announcements_, std::defer_lock);
     if (is_announcement({bytes, size})) one_at_a_time.lock();
     std::vector<rtps::GuidPrefix_t> replaced;
@@ -88,6 +112,7 @@ class Transport final : public ChainingTransport {
 
  private:
   const std::shared_ptr<TransportDescriptorInterface> udp_;
+  const std::shared_ptr<Gate> gate_;
   // Each socket has a thread. The security manager of Fast DDS 2.9 keeps the participant it connects to in a member
   // without a lock: of two participants announced at the same time, one was connected twice and the other never.
   std::recursive_mutex announcements_;
@@ -95,14 +120,21 @@ class Transport final : public ChainingTransport {
 
 struct Descriptor final : ChainingTransportDescriptor {
   using ChainingTransportDescriptor::ChainingTransportDescriptor;
-  TransportInterface* create_transport() const override { return new Transport(*this); }
+  TransportInterface* create_transport() const override { return new Transport(*this, gate); }
+
+  const std::shared_ptr<Gate> gate = std::make_shared<Gate>();
 };
 
 }  // namespace
 
-std::shared_ptr<TransportDescriptorInterface> with_goodbyes_for_replaced(
-    std::shared_ptr<TransportDescriptorInterface> udp) {
+std::shared_ptr<TransportDescriptorInterface> mended_udp(std::shared_ptr<TransportDescriptorInterface> udp) {
   return std::make_shared<Descriptor>(std::move(udp));
+}
+
+void start_reception(const eprosima::fastdds::dds::DomainParticipantQos& qos) {
+  for (const auto& transport : qos.transport().user_transports) {
+    if (const auto mended = std::dynamic_pointer_cast<Descriptor>(transport)) mended->gate->open();
+  }
 }
 
 void let_go_replaced(const rtps::GuidPrefix_t& participant) {

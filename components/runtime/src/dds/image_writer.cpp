@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sharing_writer.hpp"
+#include "image_writer.hpp"
 
 #include <spdlog/fmt/fmt.h>
 
@@ -9,6 +9,8 @@
 
 #include "endpoint_qos.hpp"
 #include "image_sharing.hpp"
+#include "participant_qos.hpp"
+#include "sensor_msgs/msg/Image.h"
 
 namespace panvo::runtime::dds {
 
@@ -30,53 +32,67 @@ void wait_for_readers(const Writer& wanted, const Writer& old) {
 
 }  // namespace
 
-SharingWriter::SharingWriter(const TopicDescription& topic, const WireTopic& wire,
-                             std::shared_ptr<Participant> participant, std::shared_ptr<Notifier> notifier)
+ImageWriter::ImageWriter(const TopicDescription& topic, const WireTopic& wire, std::shared_ptr<Participant> participant,
+                         std::shared_ptr<Notifier> notifier)
     : topic_(topic),
       wire_(wire),
       participant_(std::move(participant)),
       notifier_(std::move(notifier)),
       largest_(participant_->max_shared(wire.type_name)),
-      writer_(std::make_shared<Writer>(topic_, wire_, participant_, notifier_)) {}
+      writer_(std::make_shared<Writer>(topic_, wire_, participant_, notifier_,
+                                       ImageTransport{.is_paced = has_small_socket_buffers()})) {}
 
-bool SharingWriter::write(const SamplePtr& sample) {
+bool ImageWriter::write(const SamplePtr& sample) {
   const auto writer = current();
   if (writer->matched_readers() == 0) return writer->write(sample);
   return writer_for(sample->serialized_size())->write(sample);
 }
 
-std::size_t SharingWriter::matched_readers() const { return current()->matched_readers(); }
+std::size_t ImageWriter::matched_readers() const { return current()->matched_readers(); }
 
-bool SharingWriter::wait_for_acknowledgments(milliseconds limit) { return current()->wait_for_acknowledgments(limit); }
+bool ImageWriter::wait_for_acknowledgments(milliseconds limit) { return current()->wait_for_acknowledgments(limit); }
 
-std::shared_ptr<Writer> SharingWriter::current() const {
+std::shared_ptr<Writer> ImageWriter::current() const {
   const std::lock_guard lock(mutex_);
   return writer_;
 }
 
-std::shared_ptr<Writer> SharingWriter::writer_for(std::size_t size) {
+std::shared_ptr<Writer> ImageWriter::writer_for(std::size_t size) {
   const std::lock_guard lock(mutex_);
   if (next_ && is_known_to_readers(*next_)) put_in_place(std::exchange(next_, nullptr));
   if (!writer_->takes(size)) {
     auto larger = make_shared_writer(size);
-    if (!larger) larger = std::make_shared<Writer>(topic_, wire_, participant_, notifier_);
+    if (!larger) larger = make_writer(0);
     wait_for_readers(*larger, *writer_);
     put_in_place(std::move(larger));
-  } else if (!writer_->shares() && !next_ && participant_->has_sharing_reader(wire_.name)) {
-    next_ = make_shared_writer(size);
+  } else if (!next_ && (is_to_share() != writer_->shares() || is_to_pace() != writer_->is_paced())) {
+    if (is_to_share()) next_ = make_shared_writer(size);
+    if (!next_ && is_to_pace() != writer_->is_paced()) next_ = make_writer(0);
     next_matched_ = {};
   }
   return writer_;
 }
 
-bool SharingWriter::is_known_to_readers(const Writer& writer) {
+// A writer that shares or is paced remains so.
+bool ImageWriter::is_to_share() const {
+  return writer_->shares() || (largest_ > 0 && participant_->has_sharing_reader(wire_.name));
+}
+
+bool ImageWriter::is_to_pace() const { return writer_->is_paced() || participant_->has_foreign_reader(wire_.name); }
+
+std::shared_ptr<Writer> ImageWriter::make_writer(std::size_t shared_size) const {
+  const ImageTransport transport{static_cast<std::uint32_t>(shared_size), is_to_pace()};
+  return std::make_shared<Writer>(topic_, wire_, participant_, notifier_, transport);
+}
+
+bool ImageWriter::is_known_to_readers(const Writer& writer) {
   if (writer.matched_readers() < writer_->matched_readers()) return false;
   const auto now = steady_clock::now();
   if (next_matched_ == steady_clock::time_point()) next_matched_ = now;
   return now - next_matched_ >= kIntroduction;
 }
 
-std::shared_ptr<Writer> SharingWriter::make_shared_writer(std::size_t size) {
+std::shared_ptr<Writer> ImageWriter::make_shared_writer(std::size_t size) {
   if (has_given_up_) return nullptr;
   if (size > largest_) {
     give_up(fmt::format(
@@ -88,7 +104,7 @@ std::shared_ptr<Writer> SharingWriter::make_shared_writer(std::size_t size) {
   const auto max_size = static_cast<std::uint32_t>(size);
   const auto room = room_for_writer(topic_.qos.depth, max_size);
   std::shared_ptr<Writer> writer;
-  if (has_room_to_share(room)) writer = std::make_shared<Writer>(topic_, wire_, participant_, notifier_, max_size);
+  if (has_room_to_share(room)) writer = make_writer(size);
   if (writer && writer->has_memory()) return writer;
   give_up(
       fmt::format("/dev/shm has no {:.1f} MB left to share them. Remedy: enlarge /dev/shm (Docker: --shm-size=256m), "
@@ -97,13 +113,13 @@ std::shared_ptr<Writer> SharingWriter::make_shared_writer(std::size_t size) {
   return nullptr;
 }
 
-void SharingWriter::give_up(const std::string& reason) {
+void ImageWriter::give_up(const std::string& reason) {
   has_given_up_ = true;
   notifier_->warn(
       fmt::format("topic {}: images are sent to other processes on this machine by UDP: {}.", topic_.name, reason));
 }
 
-void SharingWriter::put_in_place(std::shared_ptr<Writer> writer) {
+void ImageWriter::put_in_place(std::shared_ptr<Writer> writer) {
   writer_->wait_for_acknowledgments(kWriteAttempts * kMaxBlockingTime);  // reliable readers only
   writer_ = std::move(writer);
 }
@@ -112,8 +128,8 @@ std::unique_ptr<BridgeWriter> open_writer(const TopicDescription& topic, const W
                                           const std::shared_ptr<Participant>& participant,
                                           const std::shared_ptr<Notifier>& notifier) {
   const bool keeps_for_late_joiners = topic.qos.durability == interfaces::Durability::kTransientLocal;
-  if (participant->max_shared(wire.type_name) > 0 && !keeps_for_late_joiners)
-    return std::make_unique<SharingWriter>(topic, wire, participant, notifier);
+  const bool is_of_images = wire.type_name == interfaces::message_type<sensor_msgs::msg::Image>().dds_name;
+  if (is_of_images && !keeps_for_late_joiners) return std::make_unique<ImageWriter>(topic, wire, participant, notifier);
   return std::make_unique<Writer>(topic, wire, participant, notifier);
 }
 

@@ -10,14 +10,16 @@
 
 namespace panvo::runtime::dds {
 
-/// Writer of a topic that shares messages with readers on this machine where possible and sends them to all others. It
-/// starts as a sending writer. When a reader shares memory with us, it is replaced by a writer with memory for messages
-/// of the current size, and again when larger messages come. Without memory, or above the user's size limit, it keeps
-/// sending and warns. Thread-safe.
-class SharingWriter final : public BridgeWriter {
+/// Writer of an image topic: shares images with readers on this machine where possible, and sends them to all others. It
+/// starts as a sending writer and is replaced
+/// - when a reader shares memory with us: by a writer with memory for messages of the current size, and again when larger
+///   messages come. Without memory, or above the user's size limit, it keeps sending and warns.
+/// - when another program reads the topic: by a paced writer, as other programs have the system's small socket buffers.
+/// Thread-safe.
+class ImageWriter final : public BridgeWriter {
  public:
-  SharingWriter(const TopicDescription& topic, const WireTopic& wire, std::shared_ptr<Participant> participant,
-                std::shared_ptr<Notifier> notifier);
+  ImageWriter(const TopicDescription& topic, const WireTopic& wire, std::shared_ptr<Participant> participant,
+              std::shared_ptr<Notifier> notifier);
 
   bool write(const SamplePtr& sample) override;
   std::size_t matched_readers() const override;
@@ -26,7 +28,11 @@ class SharingWriter final : public BridgeWriter {
  private:
   std::shared_ptr<Writer> current() const;
   std::shared_ptr<Writer> writer_for(std::size_t size);
+  std::shared_ptr<Writer> make_writer(std::size_t shared_size) const;
+  /// nullptr if there is no memory, or images are not shared any more.
   std::shared_ptr<Writer> make_shared_writer(std::size_t size);
+  bool is_to_share() const;
+  bool is_to_pace() const;
   void give_up(const std::string& reason);
   void put_in_place(std::shared_ptr<Writer> writer);
   bool is_known_to_readers(const Writer& writer);
@@ -42,7 +48,7 @@ class SharingWriter final : public BridgeWriter {
   bool has_given_up_ = false;
 };
 
-/// Opens the writer of a topic: a sharing one if the participant shares messages of that type.
+/// Opens the writer of a topic.
 std::unique_ptr<BridgeWriter> open_writer(const TopicDescription& topic, const WireTopic& wire,
                                           const std::shared_ptr<Participant>& participant,
                                           const std::shared_ptr<Notifier>& notifier);
