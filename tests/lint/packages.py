@@ -18,9 +18,14 @@ DEBIAN = {
 }
 
 
+def is_of_inner_package(package, file):
+    """Whether a file belongs to a package inside another, such as the one of messages for ROS 2."""
+    return any((folder / "package.xml").is_file() for folder in file.parents if folder != package and folder.is_relative_to(package))
+
+
 def cmake_text(root, folder):
     """Text of the CMakeLists.txt files of a package, without comments."""
-    files = sorted((root / folder).rglob("CMakeLists.txt"))
+    files = sorted(file for file in (root / folder).rglob("CMakeLists.txt") if not is_of_inner_package(root / folder, file))
     return re.sub(r"#[^\n]*", "", "\n".join(file.read_text(encoding="utf-8") for file in files))
 
 

@@ -23,6 +23,9 @@ namespace {
 
 /// All endpoints belong to one participant, so ROS 2 finds the node of each. Readers and writers of this process ignore
 /// each other, see remote_only_filter.hpp. A participant has nine threads and is created on first use.
+///
+/// With a discovery server, readers have a participant of their own, which hears of all topics: newcomers do not find
+/// the writers of such a participant after the server has been replaced.
 class DdsBridge final : public Bridge {
  public:
   explicit DdsBridge(const DdsSettings& settings) : settings_(settings) {
@@ -42,35 +45,37 @@ class DdsBridge final : public Bridge {
   ~DdsBridge() override { notifier_->stop(); }
 
   std::unique_ptr<BridgeWriter> open_writer(const TopicDescription& topic) override {
-    return dds::open_writer(topic, dds::wire_topic(topic), participant(), notifier_);
+    return dds::open_writer(topic, dds::wire_topic(topic), participant(Role::kWrites), notifier_);
   }
 
   std::unique_ptr<BridgeReader> open_reader(const TopicDescription& topic,
                                             std::function<void(SamplePtr)> on_sample) override {
-    return std::make_unique<dds::Reader>(topic, dds::wire_topic(topic), std::move(on_sample), participant(), notifier_);
+    return std::make_unique<dds::Reader>(topic, dds::wire_topic(topic), std::move(on_sample), participant(Role::kReads),
+                                         notifier_);
   }
 
   void watch_topics(std::function<void(const TopicDescription&)> on_topic) override {
     discovery_->watch(on_topic);
-    participant();
+    participant(Role::kReads);
   }
 
   std::unique_ptr<BridgeService> serve(const ServiceDescription& service, ServiceHandler handler,
                                        ServiceGuard guard) override {
     const dds::RequestLimits limits{settings_.requests_per_s, settings_.max_request};
-    return std::make_unique<dds::ServiceServer>(service, std::move(handler), std::move(guard), limits, participant(),
-                                                services_, notifier_);
+    return std::make_unique<dds::ServiceServer>(service, std::move(handler), std::move(guard), limits,
+                                                participant(Role::kReads), participant(Role::kWrites), services_,
+                                                notifier_);
   }
 
   std::unique_ptr<BridgeClient> open_client(const ServiceDescription& service) override {
-    return std::make_unique<dds::ServiceClient>(service, participant());
+    return std::make_unique<dds::ServiceClient>(service, participant(Role::kReads), participant(Role::kWrites));
   }
 
   void set_nodes(std::vector<NodeDescription> nodes) override {
     {
       const std::lock_guard lock(graph_mutex_);
-      graph_->open_writer(participant());
-      graph_->open_reader(participant());
+      graph_->open_writer(participant(Role::kWrites));
+      graph_->open_reader(participant(Role::kReads));
     }
     graph_->set_nodes(std::move(nodes));
   }
@@ -78,7 +83,7 @@ class DdsBridge final : public Bridge {
   Graph graph() override {
     {
       const std::lock_guard lock(graph_mutex_);
-      graph_->open_reader(participant());
+      graph_->open_reader(participant(Role::kReads));
     }
     return {graph_->nodes(), discovery_->endpoints(), discovery_->participants()};
   }
@@ -88,19 +93,27 @@ class DdsBridge final : public Bridge {
   }
 
  private:
-  std::shared_ptr<dds::Participant> participant() {
+  enum class Role { kWrites, kReads };
+
+  std::shared_ptr<dds::Participant> participant(Role role) {
     const std::lock_guard lock(mutex_);
-    if (!participant_) participant_ = std::make_shared<dds::Participant>(settings_, discovery_, endpoints_);
+    if (has_server_ && role == Role::kReads) {
+      if (!hearing_) hearing_ = std::make_shared<dds::Participant>(settings_, dds::Hears::kAll, discovery_, endpoints_);
+      return hearing_;
+    }
+    if (!participant_)
+      participant_ = std::make_shared<dds::Participant>(settings_, dds::Hears::kMatching, discovery_, endpoints_);
     return participant_;
   }
 
   const DdsSettings settings_;
+  const bool has_server_ = dds::has_discovery_server();
   const std::shared_ptr<dds::Notifier> notifier_ = std::make_shared<dds::Notifier>();
   const std::shared_ptr<dds::Discovery> discovery_ = std::make_shared<dds::Discovery>(notifier_);
   const std::shared_ptr<dds::LocalEndpoints> endpoints_ = std::make_shared<dds::LocalEndpoints>();
   const std::shared_ptr<dds::ServiceQueue> services_ = std::make_shared<dds::ServiceQueue>();
   std::mutex mutex_;
-  std::shared_ptr<dds::Participant> participant_;
+  std::shared_ptr<dds::Participant> participant_, hearing_;
   std::mutex graph_mutex_;
   // After the participant: destroyed before it.
   const std::shared_ptr<dds::NodeGraph> graph_ =

@@ -73,7 +73,7 @@ class Discovery final : public eprosima::fastdds::dds::DomainParticipantListener
     TypedTopic topic;
     GraphEndpoint shown;
     bool shares = false;      // memory with us
-    bool is_foreign = false;  // a reader of another program
+    bool is_foreign = false;  // a reader of another program, or with a discovery server any
   };
 
   struct RemoteParticipant {

@@ -30,6 +30,9 @@ void wait_for_readers(const Writer& wanted, const Writer& old) {
     std::this_thread::sleep_for(milliseconds(1));
 }
 
+/// Fast DDS paces only what is sent asynchronously; lost parts of other images are sent again.
+bool can_pace(const TopicDescription& topic) { return topic.qos.requested == interfaces::Reliability::kBestEffort; }
+
 }  // namespace
 
 ImageWriter::ImageWriter(const TopicDescription& topic, const WireTopic& wire, std::shared_ptr<Participant> participant,
@@ -40,7 +43,7 @@ ImageWriter::ImageWriter(const TopicDescription& topic, const WireTopic& wire, s
       notifier_(std::move(notifier)),
       largest_(participant_->max_shared(wire.type_name)),
       writer_(std::make_shared<Writer>(topic_, wire_, participant_, notifier_,
-                                       ImageTransport{.is_paced = has_small_socket_buffers()})) {}
+                                       ImageTransport{.is_paced = can_pace(topic_) && has_small_socket_buffers()})) {}
 
 bool ImageWriter::write(const SamplePtr& sample) {
   const auto writer = current();
@@ -78,7 +81,9 @@ bool ImageWriter::is_to_share() const {
   return writer_->shares() || (largest_ > 0 && participant_->has_sharing_reader(wire_.name));
 }
 
-bool ImageWriter::is_to_pace() const { return writer_->is_paced() || participant_->has_foreign_reader(wire_.name); }
+bool ImageWriter::is_to_pace() const {
+  return writer_->is_paced() || (can_pace(topic_) && participant_->has_foreign_reader(wire_.name));
+}
 
 std::shared_ptr<Writer> ImageWriter::make_writer(std::size_t shared_size) const {
   const ImageTransport transport{static_cast<std::uint32_t>(shared_size), is_to_pace()};

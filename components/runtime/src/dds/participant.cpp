@@ -16,12 +16,12 @@ namespace panvo::runtime::dds {
 
 namespace fdds = eprosima::fastdds::dds;
 
-Participant::Participant(const DdsSettings& settings, std::shared_ptr<Discovery> discovery,
+Participant::Participant(const DdsSettings& settings, Hears hears, std::shared_ptr<Discovery> discovery,
                          std::shared_ptr<LocalEndpoints> endpoints)
     : settings_(settings), discovery_(std::move(discovery)), endpoints_(std::move(endpoints)) {
   auto* factory = fdds::DomainParticipantFactory::get_instance();
   // The mask is empty, as endpoints have their own listeners. Discovery is called anyway.
-  const auto qos = participant_qos(settings);
+  const auto qos = participant_qos(settings, hears);
   participant_ = factory->create_participant(static_cast<fdds::DomainId_t>(settings.domain), qos, discovery_.get(),
                                              fdds::StatusMask::none());
   if (!participant_) {
@@ -68,7 +68,11 @@ fdds::DataReader* Participant::make_reader(fdds::Topic& topic, const fdds::DataR
                                            fdds::DataReaderListener& listener, std::uint32_t max_size) {
   const std::lock_guard lock(making_mutex_);
   type_of(topic).bound(max_size);
-  return subscriber_->create_datareader(remote_only(topic), qos, &listener);
+  // A discovery server with a backup loses clients whose readers have filters when it is replaced. With a server, own
+  // writers are in another participant, see DdsBridge.
+  fdds::TopicDescription* described = &topic;
+  if (!has_discovery_server()) described = remote_only(topic);
+  return subscriber_->create_datareader(described, qos, &listener);
 }
 
 WireTopic wire_topic(const TopicDescription& description) {

@@ -28,7 +28,7 @@ namespace panvo::runtime::dds {
 class Participant : public std::enable_shared_from_this<Participant> {
  public:
   /// Throws ConfigError if it cannot be created.
-  Participant(const DdsSettings& settings, std::shared_ptr<Discovery> discovery,
+  Participant(const DdsSettings& settings, Hears hears, std::shared_ptr<Discovery> discovery,
               std::shared_ptr<LocalEndpoints> endpoints);
   ~Participant();
   Participant(const Participant&) = delete;

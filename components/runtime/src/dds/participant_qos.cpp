@@ -38,14 +38,17 @@ constexpr std::int32_t kBytesPerPeriod = 128 * 1024;
 // periodic announcement. The default of 3 s was reached in one start of ten.
 constexpr std::int32_t kAnnouncementPeriodNs = 500'000'000;
 
-// With ROS_DISCOVERY_SERVER, Fast DDS makes a participant a client, which learns only of matching endpoints. Ours must
-// learn of all, for recorders and the graph tools.
-void hear_of_all_topics(eprosima::fastrtps::rtps::DiscoverySettings& discovery) {
+eprosima::fastdds::rtps::RemoteServerList_t servers() {
   eprosima::fastdds::rtps::RemoteServerList_t servers;
+  rtps::load_environment_server_info(servers);
+  return servers;
+}
+
+// With ROS_DISCOVERY_SERVER, Fast DDS makes a participant a client, which learns only of matching endpoints.
+void hear_of_all_topics(eprosima::fastrtps::rtps::DiscoverySettings& discovery) {
   if (discovery.discoveryProtocol != eprosima::fastrtps::rtps::DiscoveryProtocol_t::SIMPLE) return;  // set by a profile
-  if (!rtps::load_environment_server_info(servers) || servers.empty()) return;
   discovery.discoveryProtocol = eprosima::fastrtps::rtps::DiscoveryProtocol_t::SUPER_CLIENT;
-  discovery.m_DiscoveryServers = servers;
+  discovery.m_DiscoveryServers = servers();
 }
 
 // As rmw_fastrtps: number of participants that are looked for on a host without multicast.
@@ -166,6 +169,8 @@ void load_profiles(const DdsSettings& settings) {
   factory->set_default_participant_qos(fdds::PARTICIPANT_QOS_DEFAULT);
 }
 
+bool has_discovery_server() { return !servers().empty(); }
+
 bool has_small_socket_buffers() { return max_socket_buffer() < kSocketBufferSize; }
 
 bool has_shared_memory() { return access(kSharedMemoryFolder, R_OK | W_OK | X_OK) == 0; }
@@ -179,7 +184,7 @@ std::optional<std::string> profile_warning() {
          "Remedy: use UDPv4 only.";
 }
 
-fdds::DomainParticipantQos participant_qos(const DdsSettings& settings) {
+fdds::DomainParticipantQos participant_qos(const DdsSettings& settings, Hears hears) {
   fdds::DomainParticipantQos qos;
   fdds::DomainParticipantFactory::get_instance()->get_default_participant_qos(qos);
   use_udp(qos, settings);
@@ -199,7 +204,7 @@ fdds::DomainParticipantQos participant_qos(const DdsSettings& settings) {
   if (discovery.leaseDuration_announcementperiod == default_period) {
     discovery.leaseDuration_announcementperiod = eprosima::fastrtps::Duration_t(0, kAnnouncementPeriodNs);
   }
-  hear_of_all_topics(discovery);
+  if (hears == Hears::kAll && has_discovery_server()) hear_of_all_topics(discovery);
   // With security, a GUID does not identify the process and may match another one by chance.
   if (has_keys) return qos;
   auto& flags = discovery.ignoreParticipantFlags;

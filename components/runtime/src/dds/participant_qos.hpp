@@ -30,8 +30,17 @@ bool has_shared_memory();
 /// Warning about the loaded profiles, if any.
 std::optional<std::string> profile_warning();
 
+/// What a participant learns from a discovery server. Without a server, all learn of all endpoints.
+enum class Hears {
+  kMatching,  ///< of endpoints that match its own
+  kAll        ///< of all endpoints
+};
+
+/// Whether participants meet by means of the server in ROS_DISCOVERY_SERVER.
+bool has_discovery_server();
+
 /// QoS of a participant, from a profile or our defaults: UDP with buffers for images, ROS 2's user data, and ignoring
 /// other participants of the same process as far as Fast DDS can identify them (see own_participants.hpp).
-eprosima::fastdds::dds::DomainParticipantQos participant_qos(const DdsSettings& settings);
+eprosima::fastdds::dds::DomainParticipantQos participant_qos(const DdsSettings& settings, Hears hears);
 
 }  // namespace panvo::runtime::dds

@@ -47,20 +47,22 @@ std::int64_t number(const eprosima::fastrtps::rtps::SampleIdentity& identity) {
 
 }  // namespace
 
-ServiceClient::ServiceClient(const ServiceDescription& service, std::shared_ptr<Participant> participant)
-    : participant_(std::move(participant)),
-      request_topic_(participant_->topic(request_topic(service))),
-      reply_topic_(participant_->topic(reply_topic(service))) {
-  fdds::DataReaderQos reader_qos = participant_->subscriber().get_default_datareader_qos();
+ServiceClient::ServiceClient(const ServiceDescription& service, std::shared_ptr<Participant> readers,
+                             std::shared_ptr<Participant> writers)
+    : readers_(std::move(readers)),
+      writers_(std::move(writers)),
+      request_topic_(writers_->topic(request_topic(service))),
+      reply_topic_(readers_->topic(reply_topic(service))) {
+  fdds::DataReaderQos reader_qos = readers_->subscriber().get_default_datareader_qos();
   apply(service, reader_qos);
-  fdds::DataWriterQos writer_qos = participant_->publisher().get_default_datawriter_qos();
+  fdds::DataWriterQos writer_qos = writers_->publisher().get_default_datawriter_qos();
   apply(service, writer_qos);
   // The reader first, so a server discovers it before it gets a request.
   // Unfiltered: a filter sees the identity of the request in a reply, which is ours.
-  reader_ = participant_->subscriber().create_datareader(reply_topic_.get(), reader_qos, this);
-  if (reader_) writer_ = participant_->make_writer(*request_topic_, writer_qos, servers_);
+  reader_ = readers_->subscriber().create_datareader(reply_topic_.get(), reader_qos, this);
+  if (reader_) writer_ = writers_->make_writer(*request_topic_, writer_qos, servers_);
   if (!writer_) {
-    if (reader_) participant_->subscriber().delete_datareader(reader_);
+    if (reader_) readers_->subscriber().delete_datareader(reader_);
     throw ConfigError(fmt::format("service {}: Fast DDS created no client, see its message above", service.name));
   }
   const std::lock_guard lock(mutex_);
@@ -72,8 +74,8 @@ ServiceClient::~ServiceClient() {
     const std::lock_guard lock(mutex_);
     closed_ = true;
   }
-  participant_->publisher().delete_datawriter(writer_);
-  participant_->subscriber().delete_datareader(reader_);
+  writers_->publisher().delete_datawriter(writer_);
+  readers_->subscriber().delete_datareader(reader_);
 }
 
 bool ServiceClient::wait_for_service(std::chrono::milliseconds limit) {
@@ -89,7 +91,7 @@ bool ServiceClient::wait_for_service(std::chrono::milliseconds limit) {
 }
 
 bool ServiceClient::is_of_cyclone() const {
-  return servers_.contains_any([this](const auto& reader) { return participant_->is_of_cyclone(reader); });
+  return servers_.contains_any([this](const auto& reader) { return readers_->is_of_cyclone(reader); });
 }
 
 std::optional<std::int64_t> ServiceClient::send(const interfaces::Bytes& request) {
@@ -118,7 +120,7 @@ std::optional<interfaces::Bytes> ServiceClient::call(const interfaces::Bytes& re
 /// All clients of a service get all replies: nullopt for one to another client.
 std::optional<std::int64_t> ServiceClient::key_of(const fdds::DataReader& reader, const fdds::SampleInfo& info,
                                                   interfaces::Bytes& reply) {
-  if (participant_->is_of_cyclone(info.sample_identity.writer_guid())) {
+  if (readers_->is_of_cyclone(info.sample_identity.writer_guid())) {
     const auto header = take_header(reply);
     if (!header || header->client != client_number(own_writer_)) return std::nullopt;
     return kOfCyclone + header->number;

@@ -23,7 +23,8 @@ namespace panvo::runtime::dds {
 class ServiceClient final : public BridgeClient, private eprosima::fastdds::dds::DataReaderListener {
  public:
   /// Throws ConfigError if Fast DDS refuses its topics.
-  ServiceClient(const ServiceDescription& service, std::shared_ptr<Participant> participant);
+  ServiceClient(const ServiceDescription& service, std::shared_ptr<Participant> readers,
+                std::shared_ptr<Participant> writers);
   ~ServiceClient() override;
 
   bool wait_for_service(std::chrono::milliseconds limit) override;
@@ -40,7 +41,7 @@ class ServiceClient final : public BridgeClient, private eprosima::fastdds::dds:
   void on_subscription_matched(eprosima::fastdds::dds::DataReader* reader,
                                const eprosima::fastdds::dds::SubscriptionMatchedStatus& status) override;
 
-  const std::shared_ptr<Participant> participant_;
+  const std::shared_ptr<Participant> readers_, writers_;
   const std::shared_ptr<eprosima::fastdds::dds::Topic> request_topic_, reply_topic_;
 
   const std::chrono::steady_clock::time_point made_ = std::chrono::steady_clock::now();

@@ -48,30 +48,32 @@ WireTopic reply_topic(const ServiceDescription& service) {
 }
 
 ServiceServer::ServiceServer(const ServiceDescription& service, ServiceHandler handler, ServiceGuard guard,
-                             const RequestLimits& limits, std::shared_ptr<Participant> participant,
-                             std::shared_ptr<ServiceQueue> queue, std::shared_ptr<Notifier> notifier)
+                             const RequestLimits& limits, std::shared_ptr<Participant> readers,
+                             std::shared_ptr<Participant> writers, std::shared_ptr<ServiceQueue> queue,
+                             std::shared_ptr<Notifier> notifier)
     : name_(service.name),
       handler_(std::move(handler)),
       guard_(std::move(guard)),
       limits_(limits),
-      participant_(std::move(participant)),
+      readers_(std::move(readers)),
+      writers_(std::move(writers)),
       queue_(std::move(queue)),
       notifier_(std::move(notifier)),
-      request_topic_(participant_->topic(request_topic(service))),
-      reply_topic_(participant_->topic(reply_topic(service))),
+      request_topic_(readers_->topic(request_topic(service))),
+      reply_topic_(writers_->topic(reply_topic(service))),
       rate_(limits.per_s, 1.0) {
-  fdds::DataWriterQos writer_qos = participant_->publisher().get_default_datawriter_qos();
+  fdds::DataWriterQos writer_qos = writers_->publisher().get_default_datawriter_qos();
   apply(service, writer_qos);
-  fdds::DataReaderQos reader_qos = participant_->subscriber().get_default_datareader_qos();
+  fdds::DataReaderQos reader_qos = readers_->subscriber().get_default_datareader_qos();
   apply(service, reader_qos);
-  writer_ = participant_->make_writer(*reply_topic_, writer_qos, clients_);
-  if (writer_) reader_ = participant_->make_reader(*request_topic_, reader_qos, *this);
+  writer_ = writers_->make_writer(*reply_topic_, writer_qos, clients_);
+  if (writer_) reader_ = readers_->make_reader(*request_topic_, reader_qos, *this);
   if (!reader_) {
-    if (writer_) participant_->publisher().delete_datawriter(writer_);
+    if (writer_) writers_->publisher().delete_datawriter(writer_);
     throw ConfigError(fmt::format("service {}: Fast DDS did not create it, see its message above", name_));
   }
-  participant_->endpoints().add(reply_topic_->get_name(), writer_->guid(), true);
-  participant_->endpoints().add(request_topic_->get_name(), reader_->guid(), false);
+  writers_->endpoints().add(reply_topic_->get_name(), writer_->guid(), true);
+  readers_->endpoints().add(request_topic_->get_name(), reader_->guid(), false);
   clients_.on_match([this] { queue_->post_at(this, ServiceQueue::Clock::now(), [this] { send_kept(); }); });
 }
 
@@ -82,13 +84,13 @@ ServiceServer::~ServiceServer() {
   }
   clients_.on_match(nullptr);
   queue_->forget(this);
-  participant_->endpoints().remove(reader_->guid());
-  participant_->endpoints().remove(writer_->guid());
-  participant_->subscriber().delete_datareader(reader_);
+  readers_->endpoints().remove(reader_->guid());
+  writers_->endpoints().remove(writer_->guid());
+  readers_->subscriber().delete_datareader(reader_);
   // A client drops an answer if it learns first that the writer is gone, which happens when a request ends the service
   // itself. Does not wait if nothing is unacknowledged.
   writer_->wait_for_acknowledgments(to_dds(kLastAnswerLimit));
-  participant_->publisher().delete_datawriter(writer_);
+  writers_->publisher().delete_datawriter(writer_);
 }
 
 ServiceCounters ServiceServer::counters() const {
@@ -119,8 +121,8 @@ void ServiceServer::on_data_available(fdds::DataReader* reader) {
 
 std::optional<ServiceServer::Asker> ServiceServer::asker_of(const fdds::SampleInfo& info,
                                                             interfaces::Bytes& request) const {
-  Asker asker{info.sample_identity, {participant_->is_on_this_host(info.sample_identity.writer_guid())}};
-  if (participant_->is_of_cyclone(info.sample_identity.writer_guid())) {
+  Asker asker{info.sample_identity, {readers_->is_on_this_host(info.sample_identity.writer_guid())}};
+  if (readers_->is_of_cyclone(info.sample_identity.writer_guid())) {
     asker.header = take_header(request);
     return asker.header ? std::optional(asker) : std::nullopt;
   }

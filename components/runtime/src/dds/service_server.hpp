@@ -32,7 +32,7 @@ class ServiceServer final : public BridgeService, private eprosima::fastdds::dds
  public:
   /// Throws ConfigError if Fast DDS refuses its topics.
   ServiceServer(const ServiceDescription& service, ServiceHandler handler, ServiceGuard guard,
-                const RequestLimits& limits, std::shared_ptr<Participant> participant,
+                const RequestLimits& limits, std::shared_ptr<Participant> readers, std::shared_ptr<Participant> writers,
                 std::shared_ptr<ServiceQueue> queue, std::shared_ptr<Notifier> notifier);
   ~ServiceServer() override;
 
@@ -72,7 +72,7 @@ class ServiceServer final : public BridgeService, private eprosima::fastdds::dds
   const ServiceHandler handler_;
   const ServiceGuard guard_;
   const RequestLimits limits_;
-  const std::shared_ptr<Participant> participant_;
+  const std::shared_ptr<Participant> readers_, writers_;
   const std::shared_ptr<ServiceQueue> queue_;
   const std::shared_ptr<Notifier> notifier_;
   const std::shared_ptr<eprosima::fastdds::dds::Topic> request_topic_, reply_topic_;

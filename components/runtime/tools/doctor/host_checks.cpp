@@ -2,7 +2,6 @@
 #include "host_checks.hpp"
 
 #include <arpa/inet.h>
-#include <fastrtps/config.h>
 #include <ifaddrs.h>
 #include <net/if.h>
 #include <netinet/in.h>
@@ -19,6 +18,7 @@
 #include <memory>
 #include <thread>
 
+#include "dds/library_version.hpp"
 #include "panvo/runtime/version.hpp"
 
 namespace panvo::runtime::doctor {
@@ -85,7 +85,8 @@ std::optional<bool> is_clock_synchronised() {
 }
 
 Finding check_versions() {
-  return {Severity::kOk, "versions", fmt::format("panvo {}, Fast DDS {}", PANVO_RUNTIME_VERSION, FASTRTPS_VERSION_STR)};
+  return {Severity::kOk, "versions",
+          fmt::format("panvo {}, Fast DDS {}", PANVO_RUNTIME_VERSION, dds::library_version())};
 }
 
 Finding check_machine(const fs::path& root) {
