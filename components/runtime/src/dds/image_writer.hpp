@@ -29,7 +29,7 @@ class ImageWriter final : public BridgeWriter {
   std::shared_ptr<Writer> current() const;
   std::shared_ptr<Writer> writer_for(std::size_t size);
   std::shared_ptr<Writer> make_writer(std::size_t shared_size) const;
-  /// nullptr if there is no memory, or images are not shared any more.
+  /// Returns nullptr if memory is lacking or sharing has been given up.
   std::shared_ptr<Writer> make_shared_writer(std::size_t size);
   bool is_to_share() const;
   bool is_to_pace() const;

@@ -9,7 +9,7 @@
 #include <string>
 #include <utility>
 
-#include "panvo/runtime/names.hpp"
+#include "../graph/session.hpp"
 
 namespace panvo::runtime::doctor {
 namespace {
@@ -17,18 +17,14 @@ namespace {
 using interfaces::Durability;
 using interfaces::Reliability;
 
-/// Name of the node that owns an endpoint.
 std::string owner(const Graph& graph, const GraphEndpoint& endpoint) {
-  for (const auto& node : graph.nodes) {
-    const auto& own = endpoint.is_writer ? node.writers : node.readers;
-    if (std::ranges::find(own, endpoint.gid) != own.end()) return full_name(node.name_space, node.name);
-  }
-  return "a node without a name";
+  const auto node = graph::node_of(graph, endpoint);
+  return node.empty() ? "an unknown node" : node;
 }
 
 void check_names(const Graph& graph, Findings& findings) {
   std::map<std::string, int> count;
-  for (const auto& node : graph.nodes) ++count[full_name(node.name_space, node.name)];
+  for (const auto& node : graph.nodes) ++count[graph::full_name_of(node)];
   for (const auto& [name, times] : count) {
     if (times == 1) continue;
     findings.push_back({Severity::kProblem, "nodes",

@@ -147,7 +147,7 @@ Finding check_network(const std::vector<NetworkInterface>& interfaces) {
             "no multicast on " + joined(without_multicast) + ": other machines are not found",
             "ip link set NAME multicast on, or name the other machines in ROS_STATIC_PEERS"};
   }
-  return {Severity::kWarning, "network", "only the loopback interface is up: there are no other machines",
+  return {Severity::kWarning, "network", "only the loopback interface is up: other machines cannot be reached",
           "connect a network, if other machines take part"};
 }
 
