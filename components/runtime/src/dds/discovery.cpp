@@ -95,7 +95,7 @@ void Discovery::topic_opened(const std::string& wire_name, const std::string& wi
 
 void Discovery::topic_closed(const std::string& wire_name, const std::string& wire_type_name) {
   const std::lock_guard lock(mutex_);
-  open_here_.erase({wire_name, wire_type_name});
+  open_here_.erase(open_here_.find({wire_name, wire_type_name}));
 }
 
 std::vector<GraphEndpoint> Discovery::endpoints() const {
@@ -148,7 +148,7 @@ void Discovery::on_participant_gone(std::function<void(const rtps::GuidPrefix_t&
   on_participant_gone_ = std::move(callback);
 }
 
-void Discovery::on_participant_discovery(fdds::DomainParticipant*, rtps::ParticipantDiscoveryInfo&& info) {
+void Discovery::on_participant_discovery(fdds::DomainParticipant* participant, rtps::ParticipantDiscoveryInfo&& info) {
   using Info = rtps::ParticipantDiscoveryInfo;
   const auto prefix = info.info.m_guid.guidPrefix;
   const std::lock_guard lock(mutex_);
@@ -157,11 +157,15 @@ void Discovery::on_participant_discovery(fdds::DomainParticipant*, rtps::Partici
     const std::vector<rtps::Locator_t> ports(listened.begin(), listened.end());
     let_go_replaced_by(info.info.m_guid, ports);
     auto& remote = remote_participants_[prefix];
+    remote.seen_by.insert(participant->guid());
     remote.ports = ports;
     remote.is_of_cyclone = info.info.m_VendorId == kCyclone;
     remote.is_here = remote.is_of_cyclone && are_on_this_host(ports);
     return;
   }
+  auto& seen_by = remote_participants_[prefix].seen_by;
+  seen_by.erase(participant->guid());
+  if (!seen_by.empty()) return;
   remote_participants_.erase(prefix);
   if (on_participant_gone_) on_participant_gone_(prefix);
 }

@@ -48,7 +48,7 @@ class Discovery final : public eprosima::fastdds::dds::DomainParticipantListener
   /// Whether a program other than panvo reads the topic.
   bool has_foreign_reader(const std::string& wire_name) const;
 
-  /// Sets the callback for a participant that has left. It may run inside Fast DDS.
+  /// Sets the callback for a participant that no participant of this process sees any longer. It may run inside Fast DDS.
   void on_participant_gone(std::function<void(const eprosima::fastrtps::rtps::GuidPrefix_t&)> callback);
 
   /// What becomes known of a reader of ros_discovery_info of another process.
@@ -77,6 +77,7 @@ class Discovery final : public eprosima::fastdds::dds::DomainParticipantListener
   };
 
   struct RemoteParticipant {
+    std::set<eprosima::fastrtps::rtps::GUID_t> seen_by;  // own participants: with a discovery server there are two
     std::vector<eprosima::fastrtps::rtps::Locator_t> ports;
     bool is_of_cyclone = false;
     bool is_here = false;  // of Cyclone DDS and on this host
@@ -91,7 +92,7 @@ class Discovery final : public eprosima::fastdds::dds::DomainParticipantListener
 
   const std::shared_ptr<Notifier> notifier_;
   mutable std::mutex mutex_;
-  std::set<TypedTopic> open_here_;
+  std::multiset<TypedTopic> open_here_;  // once for each participant that opened it
   std::map<eprosima::fastrtps::rtps::GUID_t, RemoteEndpoint> remote_endpoints_;
   std::map<eprosima::fastrtps::rtps::GuidPrefix_t, RemoteParticipant> remote_participants_;
   std::function<void(const eprosima::fastrtps::rtps::GuidPrefix_t&)> on_participant_gone_;
