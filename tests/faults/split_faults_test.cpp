@@ -59,9 +59,9 @@ class SplitFaults : public testing::Test {
     return all;
   }
 
-  Words cameras() const {
+  Words cameras(const std::string& rate = "1") const {
     return command({SYSTEMS "/stereo_split.yaml", shared_images_, "--container", "cameras", "--dataset",
-                    *data_ / "walk", "--rate", "1", "--await", "/stereo/left/image_rect", "--await",
+                    *data_ / "walk", "--rate", rate, "--await", "/stereo/left/image_rect", "--await",
                     "/stereo/right/image_rect"});
   }
   Words odometry(const std::string& out) const {
@@ -128,7 +128,9 @@ TEST_F(SplitFaults, AKilledDiscoveryServerStopsNoDataAndWithABackupItsSuccessorB
   before_ = {env, "ROS_DISCOVERY_SERVER=127.0.0.1:" + port};
   Process server(serve);
   Process first(odometry("first"));
-  Process source(cameras());
+  // Slow, so that the cameras play to the end of this test: newcomers may get nothing from a server of Fast DDS 2.9 whose backup holds
+  // a client that has left since.
+  Process source(cameras("0.2"));
   ASSERT_TRUE(gets_poses("first", 10)) << first.output() << source.output();
   // The server of Fast DDS 2.9 rewrites its files whenever a client joins; if killed meanwhile, it may lose all
   // clients.
