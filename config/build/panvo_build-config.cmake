@@ -39,7 +39,8 @@ function(_panvo_compile_settings target)
   set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF POSITION_INDEPENDENT_CODE ON EXPORT_COMPILE_COMMANDS ON
     INSTALL_RPATH "$ORIGIN;$ORIGIN/..;$ORIGIN/../${CMAKE_INSTALL_LIBDIR};$ORIGIN/../../${CMAKE_INSTALL_LIBDIR}" INSTALL_RPATH_USE_LINK_PATH ON)
   if(PANVO_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
-    set_target_properties(${target} PROPERTIES CXX_COMPILER_LAUNCHER ${PANVO_CCACHE})
+    set_target_properties(${target} PROPERTIES CXX_COMPILER_LAUNCHER
+      "${CMAKE_COMMAND};-E;env;CCACHE_SLOPPINESS=pch_defines,time_macros;${PANVO_CCACHE}")
   endif()
   # Without a build type: like Release.
   target_compile_options(${target} PRIVATE $<$<CONFIG:>:-O3> $<$<CONFIG:>:-DNDEBUG>)
@@ -61,6 +62,18 @@ function(_panvo_compile_settings target)
   endif()
 endfunction()
 
+# Uses the precompiled headers of libraries, programs or tests where they exist, see panvo_precompiled_headers.cmake.
+function(_panvo_use_precompiled_headers target kind)
+  set(headers panvo_headers_of_${kind})
+  if(TARGET ${headers})
+    target_precompile_headers(${target} REUSE_FROM ${headers})
+    # GCC takes the code of precompiled headers for ours and then warns of overruns in std::string where there are none.
+    target_compile_options(${target} PRIVATE -Wno-array-bounds -Wno-stringop-overflow)
+    # Macros that the headers test must be equal.
+    target_compile_definitions(${target} PRIVATE $<TARGET_PROPERTY:${headers},COMPILE_DEFINITIONS>)
+  endif()
+endfunction()
+
 # panvo_add_library(panvo_<name> SOURCES ... [LINK ...] [PRIVATE_LINK ...]): a shared library with the alias panvo::<name>;
 # header-only without SOURCES.
 function(panvo_add_library target)
@@ -73,6 +86,7 @@ function(panvo_add_library target)
     target_link_libraries(${target} PUBLIC ${arg_LINK} PRIVATE ${arg_PRIVATE_LINK})
     set_target_properties(${target} PROPERTIES VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR})
     _panvo_compile_settings(${target})
+    _panvo_use_precompiled_headers(${target} libraries)
   else()
     add_library(${target} INTERFACE)
     target_include_directories(${target} INTERFACE
@@ -131,6 +145,7 @@ function(panvo_add_executable target)
   add_executable(${target} ${arg_SOURCES})
   target_link_libraries(${target} PRIVATE ${arg_LINK})
   _panvo_compile_settings(${target})
+  _panvo_use_precompiled_headers(${target} programs)
   set_target_properties(${target} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/panvo_bin)
   if(target MATCHES "_benchmark$")
     set_property(GLOBAL APPEND PROPERTY PANVO_BENCHMARKS ${target})
@@ -159,6 +174,7 @@ function(panvo_add_test target)
   target_link_libraries(${target} PRIVATE ${arg_LINK} panvo::test_headers GTest::gmock GTest::gtest_main)
   target_compile_definitions(${target} PRIVATE ${arg_DEFINITIONS})
   _panvo_compile_settings(${target})
+  _panvo_use_precompiled_headers(${target} tests)
   if(PANVO_UNITY AND NOT arg_APART)
     set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
   endif()

@@ -51,7 +51,7 @@ std::string escaped(std::string_view text) {
 }
 
 /// Without quotes if YAML reads the text as a string.
-std::string quoted(std::string_view text) {
+std::string in_quotes(std::string_view text) {
   constexpr std::string_view kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ_/";
   const auto is_control = [](char letter) { return static_cast<unsigned char>(letter) < 0x20 || letter == 0x7f; };
   if (std::ranges::any_of(text, is_control)) return escaped(text);
@@ -145,8 +145,8 @@ class Printer {
     std::string_view text(reinterpret_cast<const char*>(payload_.data() + position_), length);
     position_ += length;
     if (!text.empty() && text.back() == '\0') text.remove_suffix(1);
-    if (longest_ != 0 && text.size() > longest_) return quoted(std::string(text.substr(0, longest_)) + "...");
-    return quoted(text);
+    if (longest_ != 0 && text.size() > longest_) return in_quotes(std::string(text.substr(0, longest_)) + "...");
+    return in_quotes(text);
   }
 
   template <class Number>
