@@ -67,8 +67,8 @@ function(_panvo_use_precompiled_headers target kind)
   set(headers panvo_headers_of_${kind})
   if(TARGET ${headers})
     target_precompile_headers(${target} REUSE_FROM ${headers})
-    # GCC takes the code of precompiled headers for ours and then warns of overruns in std::string where there are none.
-    target_compile_options(${target} PRIVATE -Wno-array-bounds -Wno-stringop-overflow)
+    # GCC takes the code of precompiled headers for ours and then warns of reads and writes beyond std::string where there are none.
+    target_compile_options(${target} PRIVATE -Wno-array-bounds -Wno-stringop-overflow -Wno-stringop-overread)
     # Macros that the headers test must be equal.
     target_compile_definitions(${target} PRIVATE $<TARGET_PROPERTY:${headers},COMPILE_DEFINITIONS>)
   endif()
