@@ -3,6 +3,7 @@
 
 #include <civetweb.h>
 
+#include <algorithm>
 #include <array>
 #include <cstring>
 #include <utility>
@@ -24,6 +25,24 @@ std::string token_of(const mg_connection* connection) {
   std::array<char, kMaxToken> token{};
   if (!query || mg_get_var(query, std::strlen(query), "token", token.data(), token.size()) <= 0) return "";
   return token.data();
+}
+
+/// Whether a client asks for one of the server's subprotocols. civetweb's own answer may be that of an earlier connection.
+bool asks_for_one_of(const mg_connection* connection, const std::vector<std::string>& subprotocols) {
+  constexpr std::string_view kBlank = " \t";
+  const auto* const request = mg_get_request_info(connection);
+  for (int i = 0; i < request->num_headers; ++i) {
+    if (mg_strcasecmp(request->http_headers[i].name, "Sec-WebSocket-Protocol") != 0) continue;
+    std::string_view rest = request->http_headers[i].value;
+    while (!rest.empty()) {
+      std::string_view name = rest.substr(0, rest.find(','));
+      rest.remove_prefix(std::min(rest.size(), name.size() + 1));
+      name.remove_prefix(std::min(name.size(), name.find_first_not_of(kBlank)));
+      name = name.substr(0, name.find_last_not_of(kBlank) + 1);
+      if (std::ranges::find(subprotocols, name) != subprotocols.end()) return true;
+    }
+  }
+  return false;
 }
 
 /// mg_send_http_error() leaves out the head of its answer to a request for a WebSocket.
@@ -49,7 +68,7 @@ struct WebSocketServer::Handlers {
     auto* const writable = const_cast<mg_connection*>(connection);  // for the answer
     try {
       const auto& self = *static_cast<const WebSocketServer*>(server);
-      if (!mg_get_request_info(connection)->acceptedWebSocketSubprotocol) {
+      if (!asks_for_one_of(connection, self.settings_.subprotocols)) {
         answer(writable, 400, "the WebSocket subprotocol is missing or not supported");
         return 1;
       }

@@ -168,8 +168,12 @@ TEST_F(WebView, PresentsItselfUnderBothNamesOfTheProtocol) {
     EXPECT_EQ(info["name"], "panvo");
     EXPECT_EQ(info["capabilities"], json::array());
   }
-  EXPECT_EQ(WebSocketClient(port(), {.path = "/", .headers = ""}).status(), 400);
-  EXPECT_EQ(WebSocketClient(port(), {.path = "/", .headers = "Sec-WebSocket-Protocol: other\r\n"}).status(), 400);
+  // Often enough that every thread of the server gets one that asks and one that does not.
+  for (int i = 0; i < 30; ++i) {
+    EXPECT_EQ(WebSocketClient(port(), {.path = "/", .headers = ""}).status(), 400);
+    EXPECT_EQ(WebSocketClient(port(), {.path = "/", .headers = "Sec-WebSocket-Protocol: other\r\n"}).status(), 400);
+    EXPECT_NE(WebSocketClient(port()).status(), 400);
+  }
 }
 
 TEST_F(WebView, SendsWhatAClientSubscribesTo) {
