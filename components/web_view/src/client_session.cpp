@@ -25,11 +25,12 @@ ClientSession::ClientSession(View& view, WebSocketServer::Connection& connection
       connection_(connection),
       assembly_(kMaxRequestBytes),
       sender_(connection, {view.settings().queue_bytes, kMaxWaiting}, [this] {
-        view_.log().warn("client {} does not read what it subscribed to: closed, {} messages were dropped before",
-                         connection_.address(), sender_.dropped());
+        view_.log().warn_throttled(
+            "stalled", "client {} does not read what it subscribed to: closed, {} messages were dropped before",
+            connection_.address(), sender_.dropped());
       }) {
   view_.join(*this);
-  view_.log().info("client {} connected", connection_.address());
+  view_.log().debug("client {} connected", connection_.address());
 }
 
 ClientSession::~ClientSession() {
@@ -40,7 +41,9 @@ ClientSession::~ClientSession() {
     ended.swap(subscriptions_);
   }
   ended.clear();
-  view_.log().info("client {} disconnected, {} messages were dropped", connection_.address(), sender_.dropped());
+  if (const auto dropped = sender_.dropped(); dropped > 0)
+    view_.log().info("client {}: {} large messages were dropped because it read too slowly", connection_.address(),
+                     dropped);
 }
 
 void ClientSession::welcome(const std::vector<Channel>& channels) {

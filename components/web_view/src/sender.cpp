@@ -1,11 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sender.hpp"
 
+#include <chrono>
 #include <utility>
 
 #include "server_message.hpp"
 
 namespace panvo::web_view {
+namespace {
+
+// A failure to send after a shorter time means that the client has left.
+constexpr std::chrono::seconds kStall{3};
+
+}  // namespace
 
 Sender::Sender(WebSocketServer::Connection& connection, Limits limits, std::function<void()> on_stalled)
     : connection_(connection),
@@ -35,7 +42,7 @@ void Sender::send_message(std::uint32_t subscription, const runtime::SamplePtr& 
 void Sender::push(SendQueue::Item item) {
   {
     const std::lock_guard lock(mutex_);
-    if (is_full_) return;
+    if (is_full_ || is_broken_) return;
     is_full_ = !queue_.push(std::move(item));
   }
   changed_.notify_one();
@@ -52,21 +59,23 @@ std::uint64_t Sender::dropped() const {
 }
 
 void Sender::loop() {
+  bool is_stalled = false;
   std::unique_lock lock(mutex_);
-  bool is_sent = true;
-  while (is_sent) {
-    changed_.wait(lock, [this] { return is_ending_ || is_full_ || !queue_.is_empty(); });
+  while (true) {
+    changed_.wait(lock, [this] { return is_ending_ || is_full_ || is_broken_ || !queue_.is_empty(); });
     if (is_ending_) return;
-    if (is_full_) break;
+    is_stalled = is_stalled || is_full_;
+    if (is_full_ || is_broken_) break;
     const auto item = queue_.pop();
     lock.unlock();
-    is_sent = send(*item);
+    const auto start = std::chrono::steady_clock::now();
+    const bool is_sent = send(*item);
+    is_stalled = !is_sent && std::chrono::steady_clock::now() - start >= kStall;
     lock.lock();
-    is_full_ = is_full_ || !is_sent;
+    is_broken_ = !is_sent;
   }
-  if (is_ending_) return;
   lock.unlock();
-  on_stalled_();
+  if (is_stalled) on_stalled_();
   connection_.close();
 }
 

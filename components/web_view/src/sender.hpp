@@ -25,8 +25,8 @@ class Sender {
     std::size_t max_items;
   };
 
-  /// `on_stalled` is called once, on the sender's thread, when the queue is full or the client no longer reads; the
-  /// connection is closed afterwards.
+  /// `on_stalled` is called at most once, on the sender's thread, when the queue is full or the client has not read for
+  /// the timeout of the connection, which is then closed. Not called for a client that has left.
   Sender(WebSocketServer::Connection& connection, Limits limits, std::function<void()> on_stalled);
   ~Sender();
   Sender(const Sender&) = delete;
@@ -53,6 +53,7 @@ class Sender {
   std::condition_variable changed_;
   SendQueue queue_;
   bool is_full_ = false, is_ending_ = false;
+  bool is_broken_ = false;           // nothing can be sent any more
   std::vector<std::uint8_t> frame_;  // of the thread
   std::thread thread_;               // last: uses the members above
 };
