@@ -2,161 +2,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <condition_variable>
-#include <map>
-#include <mutex>
-#include <nlohmann/json.hpp>
-#include <thread>
+#include "web_view_fixture.hpp"
 
-#include "geometry_msgs/msg/PoseWithCovarianceStamped.h"
-#include "nav_msgs/msg/Odometry.h"
-#include "panvo/interfaces/topics.hpp"
-#include "panvo/runtime/container.hpp"
-#include "panvo/runtime/errors.hpp"
-#include "sensor_msgs/msg/Image.h"
-#include "web_socket_client.hpp"
-
-namespace panvo::web_view {
+namespace panvo::web_view::test {
 namespace {
 
-using nlohmann::json;
-using test::WebSocketClient;
-using testing::HasSubstr;
-
-runtime::ComponentDescription description(const std::string& name,
-                                          const std::map<std::string, std::string>& parameters = {}) {
-  runtime::ComponentDescription description;
-  description.name = name;
-  description.name_space = "/";
-  for (const auto& [key, text] : parameters)
-    description.parameters[key] = runtime::WrittenValue{.items = {text}, .is_list = false, .where = {"test", 0}};
-  return description;
-}
-
-nav_msgs::msg::Odometry odometry(std::int32_t sec) {
-  nav_msgs::msg::Odometry message;
-  message.header().stamp().sec(sec);
-  message.header().frame_id("odom");
-  message.pose().pose().position().x(1.5);
-  return message;
-}
-
-sensor_msgs::msg::Image image() {
-  sensor_msgs::msg::Image message;
-  message.encoding("mono8");
-  message.width(1000);
-  message.height(2000);
-  message.step(1000);
-  message.data().resize(2'000'000);
-  return message;
-}
-
-std::vector<std::uint8_t> u32(std::uint32_t value) {
-  std::vector<std::uint8_t> bytes;
-  for (int i = 0; i < 4; ++i) bytes.push_back(static_cast<std::uint8_t>(value >> (8 * i)));
-  return bytes;
-}
-
-/// A web view in a live container without DDS, which also publishes odometry and images.
-class WebView : public testing::Test {
- protected:
-  void start(std::map<std::string, std::string> parameters = {}) {
-    container_.emplace(runtime::ContainerOptions{
-        .log = [this](runtime::LogLevel, const std::string&, const std::string& text) { take_log(text); }});
-    container_->add(description("camera"), [this](runtime::Context& context) {
-      odometry_.emplace(context.output(topics::kOdometryBinocular));
-      images_.emplace(context.output(topics::kPanorama));
-      return std::make_unique<runtime::Component>();
-    });
-    container_->add(description("listener"), [this](runtime::Context& context) {
-      context.input(topics::kInitialPose,
-                    [this](const std::shared_ptr<const geometry_msgs::msg::PoseWithCovarianceStamped>& pose) {
-                      take_log("pose in " + pose->header().frame_id());
-                    });
-      return std::make_unique<runtime::Component>();
-    });
-    parameters.emplace("port", "0");
-    auto view = description("web_view", parameters);
-    view.package = "panvo_web_view";
-    view.plugin = "WebViewComponent";
-    container_->load(view);
-    container_->start();
-  }
-
-  void TearDown() override {
-    odometry_.reset();
-    images_.reset();
-    container_.reset();
-  }
-
-  void take_log(const std::string& text) {
-    {
-      const std::lock_guard lock(mutex_);
-      log_ += text + "\n";
-    }
-    logged_.notify_all();
-  }
-  [[nodiscard]] bool is_logged(const std::string& text) {
-    std::unique_lock lock(mutex_);
-    return logged_.wait_for(lock, std::chrono::seconds(30), [&] { return log_.find(text) != std::string::npos; });
-  }
-
-  int port() {
-    const std::string start = "listening on ws://127.0.0.1:";
-    EXPECT_TRUE(is_logged(start));
-    const std::lock_guard lock(mutex_);
-    return std::stoi(log_.substr(log_.find(start) + start.size()));
-  }
-
-  /// Next text of this operation; others are skipped.
-  static json next_text(WebSocketClient& client, const std::string& operation) {
-    while (const auto frame = client.receive()) {
-      if (frame->operation != 1) continue;
-      auto object = json::parse(frame->text());
-      if (object["op"] == operation) return object;
-    }
-    return {};
-  }
-  static std::string next_status(WebSocketClient& client) {
-    return next_text(client, "status").value("message", "no status");
-  }
-  /// Id of a topic's channel according to the next list of channels.
-  static std::uint32_t channel_of(WebSocketClient& client, const std::string& topic) {
-    const json channels = next_text(client, "advertise")["channels"];
-    for (const auto& channel : channels) {
-      if (channel["topic"] == topic) return channel["id"];
-    }
-    ADD_FAILURE() << topic << " is not offered";
-    return 0;
-  }
-  static void subscribe(WebSocketClient& client, std::uint32_t id, std::uint32_t channel) {
-    client.send_text(json{{"op", "subscribe"}, {"subscriptions", {{{"id", id}, {"channelId", channel}}}}}.dump());
-  }
-  /// Returns once the server has handled what was sent before.
-  static void settle(WebSocketClient& client) {
-    client.send_text(R"({"op":"settle"})");
-    EXPECT_EQ(next_status(client), "operation settle is not supported");
-  }
-  /// The next message of any subscription.
-  static std::vector<std::uint8_t> next_message(WebSocketClient& client) {
-    while (auto frame = client.receive()) {
-      if (frame->operation == 2) return std::move(frame->data);
-    }
-    return {};
-  }
-  static nav_msgs::msg::Odometry decoded(const std::vector<std::uint8_t>& frame) {
-    constexpr std::size_t kHead = 13;
-    if (frame.size() < kHead) throw std::runtime_error("no message came");
-    return runtime::from_bytes<nav_msgs::msg::Odometry>({frame.begin() + kHead, frame.end()});
-  }
-
-  std::mutex mutex_;
-  std::condition_variable logged_;
-  std::string log_;
-  std::optional<runtime::Output<nav_msgs::msg::Odometry>> odometry_;
-  std::optional<runtime::Output<sensor_msgs::msg::Image>> images_;
-  std::optional<runtime::Container> container_;
-};
+using ::testing::HasSubstr;
 
 TEST_F(WebView, PresentsItselfUnderBothNamesOfTheProtocol) {
   start();
@@ -191,7 +42,7 @@ TEST_F(WebView, SendsWhatAClientSubscribesTo) {
   odometry_->publish(odometry(12));
   const auto frame = next_message(client);
   EXPECT_EQ(decoded(frame), odometry(12));
-  EXPECT_THAT(std::vector<std::uint8_t>(frame.begin(), frame.begin() + 5), testing::ElementsAre(1, 77, 0, 0, 0));
+  EXPECT_THAT(std::vector<std::uint8_t>(frame.begin(), frame.begin() + 5), ::testing::ElementsAre(1, 77, 0, 0, 0));
 }
 
 TEST_F(WebView, SendsNothingAfterTheClientUnsubscribed) {
@@ -245,57 +96,10 @@ TEST_F(WebView, AnswersRubbishWithAStatus) {
   settle(client);
 }
 
-TEST_F(WebView, OutlivesClientsThatSendRubbishAndVanish) {
-  start();
-  std::uint32_t random = 1;
-  for (int i = 0; i < 50; ++i) {
-    WebSocketClient client(port());
-    std::vector<std::uint8_t> rubbish(200);
-    for (auto& byte : rubbish) byte = static_cast<std::uint8_t>((random = random * 1'664'525 + 1'013'904'223) >> 24);
-    client.send_raw(rubbish);
-  }
-  for (bool is_in = false; !is_in;) {  // until the threads of those that vanished have noticed
-    WebSocketClient client(port());
-    is_in = client.status() == 101;
-    if (is_in) {
-      settle(client);
-    } else {
-      EXPECT_EQ(client.status(), 503);
-    }
-  }
-}
-
-TEST_F(WebView, AsksForItsToken) {
-  start({{"token", "sesame"}});
-  EXPECT_EQ(WebSocketClient(port()).status(), 401);
-  EXPECT_EQ(WebSocketClient(port(), {.path = "/?token=sesam"}).status(), 401);
-  EXPECT_EQ(WebSocketClient(port(), {.path = "/?token=sesame"}).status(), 101);
-  const std::string header = "Sec-WebSocket-Protocol: foxglove.sdk.v1\r\nAuthorization: Bearer sesame\r\n";
-  EXPECT_EQ(WebSocketClient(port(), {.path = "/", .headers = header}).status(), 101);
-}
-
-TEST_F(WebView, IsRefusedOnOtherAddressesWithoutAToken) {
-  EXPECT_THROW(start({{"host", "0.0.0.0"}}), runtime::ConfigError);
-}
-
-TEST_F(WebView, IsRefusedOnAPortInUse) {
-  start();
-  auto second = description("second", {{"port", std::to_string(port())}});
-  second.package = "panvo_web_view";
-  second.plugin = "WebViewComponent";
-  try {
-    container_->load(second);
-    FAIL() << "a second server on the same port";
-  } catch (const runtime::ConfigError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("cannot listen on 127.0.0.1:"));
-  }
-}
-
-TEST_F(WebView, LetsInNoMoreThanTheMostClients) {
-  start({{"max_clients", "1"}});
-  WebSocketClient client(port());
-  next_text(client, "serverInfo");
-  EXPECT_EQ(WebSocketClient(port()).status(), 503);
+std::vector<std::uint8_t> u32(std::uint32_t value) {
+  std::vector<std::uint8_t> bytes;
+  for (int i = 0; i < 4; ++i) bytes.push_back(static_cast<std::uint8_t>(value >> (8 * i)));
+  return bytes;
 }
 
 constexpr const char* kAdvertisePose =
@@ -334,48 +138,5 @@ TEST_F(WebView, PublishesForAClientThatMayControl) {
   EXPECT_EQ(next_status(client), "there is no channel 4 of this client");
 }
 
-TEST_F(WebView, ClosesAClientThatDoesNotReadAndServesTheOthers) {
-  start({{"queue_mb", "1"}});
-  WebSocketClient stuck(port(), {.receive_buffer = 4096}), reading(port());
-  const auto channel = channel_of(stuck, "/odometry/binocular");
-  subscribe(stuck, 1, channel);
-  settle(stuck);
-  subscribe(reading, 1, channel_of(reading, "/odometry/binocular"));
-  settle(reading);
-  // More than the sockets and the queue hold, while the other client gets every message in turn.
-  for (int i = 0; i < 20'000; ++i) {
-    odometry_->publish(odometry(i));
-    ASSERT_EQ(decoded(next_message(reading)).header().stamp().sec(), i);
-  }
-  EXPECT_TRUE(is_logged("does not read what it subscribed to: closed"));
-}
-
-TEST_F(WebView, DropsImagesForASlowClientAndNoPoses) {
-  start();
-  WebSocketClient client(port(), {.receive_buffer = 4096});
-  const json channels = next_text(client, "advertise")["channels"];
-  for (const auto& channel : channels) {
-    if (channel["topic"] == "/panorama/image") subscribe(client, 1, channel["id"]);
-    if (channel["topic"] == "/odometry/binocular") subscribe(client, 2, channel["id"]);
-  }
-  settle(client);
-  constexpr int kCount = 40;  // images of 2 MB: more than queue and sockets hold
-  for (int i = 0; i < kCount; ++i) {
-    images_->publish(image());
-    odometry_->publish(odometry(i));
-  }
-  int images = 0;
-  for (int next = 0; next < kCount;) {
-    const auto frame = next_message(client);
-    ASSERT_GT(frame.size(), 13u);
-    if (frame[1] == 1) {
-      ++images;
-    } else {
-      EXPECT_EQ(decoded(frame).header().stamp().sec(), next++);
-    }
-  }
-  EXPECT_LT(images, kCount / 2);
-}
-
 }  // namespace
-}  // namespace panvo::web_view
+}  // namespace panvo::web_view::test
