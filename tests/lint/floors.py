@@ -15,7 +15,7 @@ LIBRARIES = {
     "fastdds": "fastdds", "fastrtps": "fastdds", "fastcdr": "fastdds",
     "yaml-cpp": "yaml", "spdlog": "log", "fmt": "text", "CLI": "command line", "nlohmann": "json",
     "sqlite3.h": "sqlite", "tinyxml2.h": "xml", "systemd": "systemd", "zlib.h": "zlib",
-    "embree3": "embree", "arv.h": "aravis", "glib.h": "aravis", "glib-object.h": "aravis",
+    "civetweb.h": "civetweb", "embree3": "embree", "arv.h": "aravis", "glib.h": "aravis", "glib-object.h": "aravis",
     "pybind11": "python",
     "gtest": "test", "gmock": "test", "benchmark": "test",
 }
@@ -63,6 +63,8 @@ BAG_IMAGES = floor("images of a bag", "recorder interfaces conversions", "messag
 # readers of images from live topics
 LIVE_IMAGES = floor("images of topics", "runtime interfaces conversions", "messages, opencv")
 RECORDER = floor("recorder", "runtime interfaces sqlite", "messages, fastdds, yaml, sqlite, zlib, log, json, command line")
+# a server, with the threads of its connections
+WEB_VIEW = floor("web view", "runtime interfaces", "messages, json, civetweb")
 DRIVER = floor("driver", "runtime interfaces conversions vision calibration_files", "messages, eigen, opencv, xml, json, log")
 CAMERA_DRIVER = floor("camera driver", "runtime interfaces conversions vision calibration_files camera_stream camera_group",
                       "messages, eigen, opencv, aravis, json, log")
@@ -91,6 +93,7 @@ FLOORS = [
     ("components/calibration/src/messages", BAG_IMAGES),
     ("components/calibration/src/live", LIVE_IMAGES),
     ("components/recorder", RECORDER),
+    ("components/web_view", WEB_VIEW),
     ("components/evaluation", EVALUATION),
     ("components/python", PYTHON),
     ("drivers/simulated_world", SIMULATED_WORLD),

@@ -11,6 +11,7 @@
 #include "panvo/interfaces/node_topics.hpp"
 #include "panvo/runtime/errors.hpp"
 #include "panvo/runtime/names.hpp"
+#include "topic_access.hpp"
 
 namespace panvo::runtime {
 namespace {
@@ -271,6 +272,13 @@ void Context::tap(std::function<bool(const TopicDescription&)> wanted, std::size
                          if (!state->active) return;
                          worker.push(port, {.topic = &topic, .first = sample, .stamp_ns = sample->time_ns()});
                        });
+}
+
+std::unique_ptr<TopicAccess> Context::topic_access() {
+  return make_topic_access(state_->host, [this](const TopicDescription& topic) -> std::shared_ptr<UntypedOutput> {
+    return std::make_shared<ChannelOutput>(state_->host.bus.channel(topic), state_->host, state_->library, name(),
+                                           std::nullopt);
+  });
 }
 
 bool Context::is_published(const std::string& resolved_name) const {

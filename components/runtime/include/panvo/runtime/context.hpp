@@ -25,6 +25,7 @@
 #include "panvo/runtime/source.hpp"
 #include "panvo/runtime/stage.hpp"
 #include "panvo/runtime/stage_times.hpp"
+#include "panvo/runtime/topic_access.hpp"
 
 namespace panvo::runtime {
 
@@ -125,6 +126,9 @@ class Context {
   /// samples. For recorders. Drops messages only if more than `depth` are waiting.
   void tap(std::function<bool(const TopicDescription&)> wanted, std::size_t depth,
            std::function<void(const TopicDescription&, const SamplePtr&)> callback);
+
+  /// Access to all topics by name, opened and closed at any time. For viewers.
+  std::unique_ptr<TopicAccess> topic_access();
 
   /// Opens an output for a type known only by name. For bag players.
   std::shared_ptr<UntypedOutput> open_output(const TopicDescription& topic);

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+namespace panvo::web_view {
+
+// What a client of Foxglove's WebSocket protocol sends, one struct for each supported operation. Ids are chosen by the
+// client, except those of the server's channels.
+
+struct Subscribe {
+  struct One {
+    std::uint32_t id, channel;
+  };
+  std::vector<One> subscriptions;
+};
+struct Unsubscribe {
+  std::vector<std::uint32_t> subscriptions;
+};
+/// Channels on which the client will publish.
+struct Advertise {
+  struct One {
+    std::uint32_t id;
+    std::string topic, encoding, schema_name;
+  };
+  std::vector<One> channels;
+};
+struct Unadvertise {
+  std::vector<std::uint32_t> channels;
+};
+/// A message on a channel of the client. `payload` is a part of the parsed frame.
+struct Publish {
+  std::uint32_t channel;
+  std::span<const std::uint8_t> payload;
+};
+using ClientRequest = std::variant<Subscribe, Unsubscribe, Advertise, Unadvertise, Publish>;
+
+/// Reads a text frame. Throws ProtocolError.
+ClientRequest parse_text(std::string_view frame);
+
+/// Reads a binary frame; the result refers to it. Throws ProtocolError.
+ClientRequest parse_binary(std::span<const std::uint8_t> frame);
+
+}  // namespace panvo::web_view

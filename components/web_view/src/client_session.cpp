@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "client_session.hpp"
+
+#include <exception>
+#include <set>
+#include <string_view>
+#include <utility>
+#include <variant>
+
+#include "protocol_error.hpp"
+#include "view.hpp"
+
+namespace panvo::web_view {
+namespace {
+
+constexpr std::size_t kMaxRequestBytes = 4'000'000;  // of one message of a client
+constexpr std::size_t kMaxWaiting = 20'000;          // messages, too small to fill the queue's bytes
+constexpr std::size_t kMaxSubscriptions = 5000;
+constexpr std::size_t kMaxPublications = 100;
+
+}  // namespace
+
+ClientSession::ClientSession(View& view, WebSocketServer::Connection& connection)
+    : view_(view),
+      connection_(connection),
+      assembly_(kMaxRequestBytes),
+      sender_(connection, {view.settings().queue_bytes, kMaxWaiting}, [this] {
+        view_.log().warn_throttled(
+            "stalled", "client {} does not read what it subscribed to: closed, {} messages were dropped before",
+            connection_.address(), sender_.dropped());
+      }) {
+  view_.join(*this);
+  view_.log().debug("client {} connected", connection_.address());
+}
+
+ClientSession::~ClientSession() {
+  view_.leave(*this);
+  std::map<std::uint32_t, Subscription> ended;
+  {
+    const std::lock_guard lock(mutex_);
+    ended.swap(subscriptions_);
+  }
+  ended.clear();
+  if (const auto dropped = sender_.dropped(); dropped > 0)
+    view_.log().info("client {}: {} large messages were dropped because it read too slowly", connection_.address(),
+                     dropped);
+}
+
+void ClientSession::welcome(const std::vector<Channel>& channels) {
+  std::vector<std::string> capabilities;
+  if (view_.settings().allow_control) capabilities.emplace_back("clientPublish");
+  sender_.send_text(server_info("panvo", capabilities, view_.session()));
+  sender_.send_text(web_view::advertise(channels));
+}
+
+void ClientSession::tell(const ChannelTable::Change& change, std::vector<std::shared_ptr<void>>& ended) {
+  if (!change.removed.empty()) sender_.send_text(unadvertise(change.removed));
+  if (!change.added.empty()) sender_.send_text(web_view::advertise(change.added));
+  const std::set<std::uint32_t> removed(change.removed.begin(), change.removed.end());
+  const std::lock_guard lock(mutex_);
+  std::erase_if(subscriptions_, [&](auto& entry) {
+    if (!removed.contains(entry.second.channel)) return false;
+    ended.push_back(std::move(entry.second.reading));
+    return true;
+  });
+}
+
+void ClientSession::receive(std::uint8_t head, std::span<const std::uint8_t> data) {
+  try {
+    const auto message = assembly_.add(head, data);
+    if (!message) return;
+    const std::span<const std::uint8_t> bytes = message->data;
+    const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    std::visit([this](const auto& request) { handle(request); },
+               message->is_text ? parse_text(text) : parse_binary(bytes));
+  } catch (const std::exception& error) {  // of the protocol, of a topic, or of a message's bytes
+    complain(error.what());
+  }
+}
+
+void ClientSession::complain(const std::string& why) { sender_.send_text(status(StatusLevel::kError, why)); }
+
+void ClientSession::handle(const Subscribe& request) {
+  for (const auto& wanted : request.subscriptions) {
+    try {
+      subscribe(wanted);
+    } catch (const std::exception& error) {
+      complain("subscription " + std::to_string(wanted.id) + ": " + error.what());
+    }
+  }
+}
+
+void ClientSession::subscribe(const Subscribe::One& wanted) {
+  const auto topic = view_.find(wanted.channel);
+  if (!topic) throw ProtocolError("there is no channel " + std::to_string(wanted.channel));
+  {
+    const std::lock_guard lock(mutex_);
+    if (subscriptions_.contains(wanted.id)) throw ProtocolError("the id is in use");
+    if (subscriptions_.size() >= kMaxSubscriptions) throw ProtocolError("there are too many subscriptions");
+  }
+  auto reading = view_.topics().read(
+      *topic, [this, id = wanted.id](const runtime::SamplePtr& sample) { sender_.send_message(id, sample); });
+  {
+    const std::lock_guard lock(mutex_);
+    subscriptions_.emplace(wanted.id, Subscription{wanted.channel, std::move(reading)});
+  }
+  // The channel may have been removed meanwhile, before the subscription was there to be ended with it.
+  if (!view_.find(wanted.channel)) take_subscription(wanted.id);
+}
+
+std::shared_ptr<void> ClientSession::take_subscription(std::uint32_t id) {
+  const std::lock_guard lock(mutex_);
+  const auto node = subscriptions_.extract(id);
+  return node ? std::move(node.mapped().reading) : nullptr;
+}
+
+void ClientSession::handle(const Unsubscribe& request) {
+  for (const std::uint32_t id : request.subscriptions) {
+    auto reading = take_subscription(id);
+    if (!reading) {
+      complain("there is no subscription " + std::to_string(id));
+      continue;
+    }
+    reading.reset();
+    sender_.forget(id);
+  }
+}
+
+void ClientSession::refuse_without_control() const {
+  if (!view_.settings().allow_control)
+    throw ProtocolError("clients may only read here: the parameter allow_control of the web view is false");
+}
+
+void ClientSession::handle(const Advertise& request) {
+  refuse_without_control();
+  for (const auto& wanted : request.channels) {
+    try {
+      advertise(wanted);
+    } catch (const std::exception& error) {
+      complain("topic " + wanted.topic + ": " + error.what());
+    }
+  }
+}
+
+void ClientSession::advertise(const Advertise::One& wanted) {
+  if (wanted.encoding != "cdr") throw ProtocolError("the encoding is not cdr");
+  if (!wanted.topic.starts_with('/')) throw ProtocolError("the name does not begin with a slash");
+  if (publications_.contains(wanted.id)) throw ProtocolError("the id is in use");
+  if (publications_.size() >= kMaxPublications) throw ProtocolError("the client publishes too many topics");
+  const auto* type = interfaces::find_message_type(wanted.schema_name);
+  if (!type) throw ProtocolError("the type " + wanted.schema_name + " " + interfaces::why_unknown(wanted.schema_name));
+  auto output = view_.topics().write({wanted.topic, wanted.schema_name, interfaces::qos::kDefault, type});
+  publications_.emplace(wanted.id, Publication{type, std::move(output)});
+  view_.log().info("client {} publishes {}", connection_.address(), wanted.topic);
+}
+
+void ClientSession::handle(const Unadvertise& request) {
+  refuse_without_control();
+  for (const std::uint32_t id : request.channels) {
+    if (publications_.erase(id) == 0) complain("there is no channel " + std::to_string(id) + " of this client");
+  }
+}
+
+void ClientSession::handle(const Publish& request) {
+  refuse_without_control();
+  const auto found = publications_.find(request.channel);
+  if (found == publications_.end())
+    throw ProtocolError("there is no channel " + std::to_string(request.channel) + " of this client");
+  // As an object, so that the rules of its type are checked before anybody gets it.
+  found->second.output->publish(std::shared_ptr<const void>(found->second.type->deserialize(request.payload)));
+}
+
+}  // namespace panvo::web_view

@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "web_socket_server.hpp"
+
+#include <civetweb.h>
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <utility>
+
+#include "access.hpp"
+
+namespace panvo::web_view {
+namespace {
+
+constexpr const char* kSendTimeout = "5000";  // ms without progress, after which a client counts as gone
+constexpr const char* kPingPeriod = "2000";   // ms of silence, after which a client is asked whether it is there
+constexpr std::size_t kMaxToken = 1024;
+
+std::string token_of(const mg_connection* connection) {
+  if (const char* header = mg_get_header(connection, "Authorization")) {
+    if (const auto token = bearer_token(header); !token.empty()) return std::string(token);
+  }
+  const char* const query = mg_get_request_info(connection)->query_string;
+  std::array<char, kMaxToken> token{};
+  if (!query || mg_get_var(query, std::strlen(query), "token", token.data(), token.size()) <= 0) return "";
+  return token.data();
+}
+
+/// Whether a client asks for one of the server's subprotocols. civetweb's own answer may be that of an earlier connection.
+bool asks_for_one_of(const mg_connection* connection, const std::vector<std::string>& subprotocols) {
+  constexpr std::string_view kBlank = " \t";
+  const auto* const request = mg_get_request_info(connection);
+  for (int i = 0; i < request->num_headers; ++i) {
+    if (mg_strcasecmp(request->http_headers[i].name, "Sec-WebSocket-Protocol") != 0) continue;
+    std::string_view rest = request->http_headers[i].value;
+    while (!rest.empty()) {
+      std::string_view name = rest.substr(0, rest.find(','));
+      rest.remove_prefix(std::min(rest.size(), name.size() + 1));
+      name.remove_prefix(std::min(name.size(), name.find_first_not_of(kBlank)));
+      name = name.substr(0, name.find_last_not_of(kBlank) + 1);
+      if (std::ranges::find(subprotocols, name) != subprotocols.end()) return true;
+    }
+  }
+  return false;
+}
+
+/// mg_send_http_error() leaves out the head of its answer to a request for a WebSocket.
+void answer(mg_connection* connection, int http_status, const std::string& text) {
+  mg_printf(connection,
+            "HTTP/1.1 %d %s\r\nContent-Type: text/plain\r\nContent-Length: %zu\r\nConnection: close\r\n\r\n%s\n",
+            http_status, mg_get_response_code_text(connection, http_status), text.size() + 1, text.c_str());
+}
+
+}  // namespace
+
+/// A connection with its session.
+struct WebSocketServer::Open {
+  explicit Open(mg_connection* handle) : connection(handle) {}
+  Connection connection;
+  std::unique_ptr<Session> session;  // destroyed before the connection, which it uses
+};
+
+/// The callbacks of civetweb, which is written in C: no exception may pass through it.
+struct WebSocketServer::Handlers {
+  /// 0: accepted.
+  static int connect(const mg_connection* connection, void* server) {
+    auto* const writable = const_cast<mg_connection*>(connection);  // for the answer
+    try {
+      const auto& self = *static_cast<const WebSocketServer*>(server);
+      if (!asks_for_one_of(connection, self.settings_.subprotocols)) {
+        answer(writable, 400, "the WebSocket subprotocol is missing or not supported");
+        return 1;
+      }
+      if (const auto refusal = self.callbacks_.admit(token_of(connection))) {
+        answer(writable, refusal->http_status, refusal->reason);
+        return 1;
+      }
+      return 0;
+    } catch (const std::exception&) {
+      return 1;
+    }
+  }
+
+  static void ready(mg_connection* connection, void* server) {
+    try {
+      const auto& self = *static_cast<const WebSocketServer*>(server);
+      auto open = std::make_unique<Open>(connection);
+      open->session = self.callbacks_.open(open->connection);
+      mg_set_user_connection_data(connection, open.release());
+    } catch (const std::exception&) {  // without a session the first frame ends the connection
+    }
+  }
+
+  /// 1: keep the connection.
+  static int data(mg_connection* connection, int head, char* data, std::size_t size, void*) {
+    constexpr int kOperation = 0x0f, kClose = 8;
+    auto* const open = static_cast<Open*>(mg_get_user_connection_data(connection));
+    if (!open || (head & kOperation) == kClose) return 0;
+    try {
+      open->session->receive(static_cast<std::uint8_t>(head), {reinterpret_cast<const std::uint8_t*>(data), size});
+      return 1;
+    } catch (const std::exception&) {
+      return 0;
+    }
+  }
+
+  static void close(const mg_connection* connection, void*) {
+    delete static_cast<Open*>(mg_get_user_connection_data(connection));
+    mg_set_user_connection_data(connection, nullptr);
+  }
+
+  /// civetweb's own messages are about single requests.
+  static int log(const mg_connection*, const char*) { return 1; }
+
+  static int page(mg_connection* connection, void*) {
+    answer(connection, 426, "this address speaks Foxglove's WebSocket protocol");
+    return 426;
+  }
+};
+
+bool WebSocketServer::Connection::send_text(std::string_view text) {
+  return mg_websocket_write(connection_, MG_WEBSOCKET_OPCODE_TEXT, text.data(), text.size()) > 0;
+}
+
+bool WebSocketServer::Connection::send_binary(std::span<const std::uint8_t> frame) {
+  return mg_websocket_write(connection_, MG_WEBSOCKET_OPCODE_BINARY, reinterpret_cast<const char*>(frame.data()),
+                            frame.size()) > 0;
+}
+
+void WebSocketServer::Connection::close() { mg_close_connection(connection_); }
+
+std::string WebSocketServer::Connection::address() const {
+  const auto* const request = mg_get_request_info(connection_);
+  return std::string(request->remote_addr) + ":" + std::to_string(request->remote_port);
+}
+
+WebSocketServer::WebSocketServer(Settings settings, Callbacks callbacks)
+    : settings_(std::move(settings)), callbacks_(std::move(callbacks)) {
+  for (const auto& name : settings_.subprotocols) subprotocol_names_.push_back(name.c_str());
+  subprotocols_ = std::make_unique<mg_websocket_subprotocols>(
+      mg_websocket_subprotocols{static_cast<int>(subprotocol_names_.size()), subprotocol_names_.data()});
+  mg_init_library(MG_FEATURES_WEBSOCKET);
+  try {
+    listen();
+  } catch (...) {
+    mg_exit_library();
+    throw;
+  }
+}
+
+void WebSocketServer::listen() {
+  const std::string address = settings_.host + ":" + std::to_string(settings_.port);
+  const std::string threads = std::to_string(settings_.threads);
+  const std::array<const char*, 15> options{"listening_ports",
+                                            address.c_str(),
+                                            "num_threads",
+                                            threads.c_str(),
+                                            "request_timeout_ms",
+                                            kSendTimeout,
+                                            "websocket_timeout_ms",
+                                            kPingPeriod,
+                                            "enable_websocket_ping_pong",
+                                            "yes",
+                                            "tcp_nodelay",
+                                            "1",
+                                            "enable_directory_listing",
+                                            "no",
+                                            nullptr};
+  mg_callbacks callbacks{};
+  callbacks.log_message = Handlers::log;
+  std::array<char, 256> reason{};
+  unsigned code = 0;
+  mg_init_data init{&callbacks, this, const_cast<const char**>(options.data())};
+  mg_error_data error{&code, reason.data(), reason.size()};
+  context_ = mg_start2(&init, &error);
+  if (!context_) throw ServerError("cannot listen on " + address + ": " + reason.data());
+  mg_server_port port{};
+  if (mg_get_server_ports(context_, 1, &port) == 1) port_ = port.port;
+  mg_set_websocket_handler_with_subprotocols(context_, "/", subprotocols_.get(), Handlers::connect, Handlers::ready,
+                                             Handlers::data, Handlers::close, this);
+  mg_set_request_handler(context_, "/", Handlers::page, this);
+}
+
+WebSocketServer::~WebSocketServer() {
+  mg_stop(context_);
+  mg_exit_library();
+}
+
+}  // namespace panvo::web_view

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+struct mg_connection;
+struct mg_context;
+struct mg_websocket_subprotocols;
+
+namespace panvo::web_view {
+
+/// Thrown if the server cannot start: the port is in use, the address does not exist.
+class ServerError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// WebSocket connections of civetweb, each with its own thread, which calls its Session. No exception leaves a callback.
+class WebSocketServer {
+ public:
+  /// An open connection. Thread-safe.
+  class Connection {
+   public:
+    explicit Connection(mg_connection* connection) : connection_(connection) {}
+    /// Sends one message, waiting as long as the client reads. False if it read nothing for kSendTimeout, or is gone.
+    bool send_text(std::string_view text);
+    bool send_binary(std::span<const std::uint8_t> frame);
+    /// Ends the connection soon; its Session is then destroyed.
+    void close();
+    /// "192.168.1.7:43210".
+    std::string address() const;
+
+   private:
+    mg_connection* const connection_;
+  };
+
+  /// What an application does for a connection. Created, called and destroyed by the thread of the connection.
+  class Session {
+   public:
+    virtual ~Session() = default;
+    /// A frame; `head` is its first byte.
+    virtual void receive(std::uint8_t head, std::span<const std::uint8_t> data) = 0;
+  };
+
+  struct Settings {
+    std::string host = "127.0.0.1";
+    int port = 0;  ///< 0: any free port
+    int threads = 10;
+    std::vector<std::string> subprotocols;  ///< a client must ask for one of them
+  };
+  struct Refusal {
+    int http_status;
+    std::string reason;
+  };
+  struct Callbacks {
+    /// Called with the token of the request, empty if it has none; nullopt: accepted.
+    std::function<std::optional<Refusal>(const std::string& token)> admit;
+    std::function<std::unique_ptr<Session>(Connection&)> open;
+  };
+
+  /// Throws ServerError.
+  WebSocketServer(Settings settings, Callbacks callbacks);
+  /// Closes all connections and destroys their sessions.
+  ~WebSocketServer();
+  WebSocketServer(const WebSocketServer&) = delete;
+  WebSocketServer& operator=(const WebSocketServer&) = delete;
+
+  int port() const { return port_; }
+
+ private:
+  struct Handlers;
+  struct Open;
+
+  void listen();
+
+  const Settings settings_;
+  const Callbacks callbacks_;
+  std::vector<const char*> subprotocol_names_;
+  std::unique_ptr<mg_websocket_subprotocols> subprotocols_;  // civetweb keeps the address
+  mg_context* context_ = nullptr;
+  int port_ = 0;
+};
+
+}  // namespace panvo::web_view

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <chrono>
+#include <memory>
+#include <string>
+
+#include "access.hpp"
+#include "panvo/runtime/component.hpp"
+#include "panvo/runtime/errors.hpp"
+#include "view.hpp"
+
+namespace panvo::web_view {
+namespace {
+
+constexpr std::chrono::milliseconds kRefreshPeriod{500};
+
+struct Parameters {
+  std::string host = "127.0.0.1";
+  int port = 8765;
+  std::string token;
+  bool allow_control = false;
+  int max_clients = 8;
+  int queue_mb = 32;
+
+  template <class Field>
+  static void describe(Field&& field) {
+    using P = Parameters;
+    field(&P::host, "host", "",
+          "address to listen on; 0.0.0.0: all networks of this machine. Needs a token if not local");
+    field(&P::port, "port", "", "TCP port; 0: any free one", 0, 65'535);
+    field(&P::token, "token", "", "secret that clients must give: ws://HOST:PORT?token=TOKEN; empty: none");
+    field(&P::allow_control, "allow_control", "", "clients may publish, such as /initialpose");
+    field(&P::max_clients, "max_clients", "", "further clients are refused; each takes two threads", 1, 100);
+    field(&P::queue_mb, "queue_mb", "MB",
+          "messages waiting for one client; beyond it large messages are dropped, then the client is closed", 1, 1000);
+  }
+};
+
+/// Shows all topics to Foxglove and other viewers that speak its WebSocket protocol.
+class WebViewComponent final : public runtime::Component {
+ public:
+  explicit WebViewComponent(runtime::Context& context) {
+    const auto parameters = context.parameters<Parameters>();
+    if (!is_local(parameters.host) && parameters.token.empty()) {
+      throw runtime::ConfigError(context.name() + ": host " + parameters.host +
+                                 " is reached from other machines; set the parameter token, or host 127.0.0.1");
+    }
+    View::Settings settings;
+    settings.host = parameters.host;
+    settings.port = parameters.port;
+    settings.token = parameters.token;
+    settings.allow_control = parameters.allow_control;
+    settings.max_clients = static_cast<std::size_t>(parameters.max_clients);
+    settings.queue_bytes = static_cast<std::size_t>(parameters.queue_mb) * 1'000'000;
+    try {
+      view_ = std::make_unique<View>(context, settings);
+    } catch (const ServerError& error) {
+      throw runtime::ConfigError(context.name() + ": " + error.what() + "; set the parameter port or host");
+    }
+    context.every(kRefreshPeriod, [this] { view_->refresh(); });
+    context.log().info("listening on ws://{}:{}; open this address in Foxglove or Lichtblick as a Foxglove WebSocket",
+                       parameters.host, view_->port());
+  }
+
+ private:
+  std::unique_ptr<View> view_;
+};
+
+}  // namespace
+}  // namespace panvo::web_view
+
+namespace {
+using panvo::web_view::WebViewComponent;
+}
+PANVO_REGISTER_COMPONENT(WebViewComponent)
