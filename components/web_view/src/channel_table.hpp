@@ -25,7 +25,7 @@ class ChannelTable {
   Change update(const std::vector<runtime::TopicDescription>& topics);
 
   std::vector<Channel> channels() const;
-  /// nullptr if there is no such channel (any more). Valid until the next update.
+  /// Returns nullptr for an unknown or removed channel. Valid until the next update.
   const runtime::TopicDescription* find(std::uint32_t channel) const;
   std::size_t left_out() const { return left_out_; }
 

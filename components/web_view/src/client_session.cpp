@@ -92,7 +92,7 @@ void ClientSession::handle(const Subscribe& request) {
 
 void ClientSession::subscribe(const Subscribe::One& wanted) {
   const auto topic = view_.find(wanted.channel);
-  if (!topic) throw ProtocolError("there is no channel " + std::to_string(wanted.channel));
+  if (!topic) throw ProtocolError("unknown channel " + std::to_string(wanted.channel));
   {
     const std::lock_guard lock(mutex_);
     if (subscriptions_.contains(wanted.id)) throw ProtocolError("the id is in use");
@@ -118,7 +118,7 @@ void ClientSession::handle(const Unsubscribe& request) {
   for (const std::uint32_t id : request.subscriptions) {
     auto reading = take_subscription(id);
     if (!reading) {
-      complain("there is no subscription " + std::to_string(id));
+      complain("unknown subscription " + std::to_string(id));
       continue;
     }
     reading.reset();
@@ -157,7 +157,7 @@ void ClientSession::advertise(const Advertise::One& wanted) {
 void ClientSession::handle(const Unadvertise& request) {
   refuse_without_control();
   for (const std::uint32_t id : request.channels) {
-    if (publications_.erase(id) == 0) complain("there is no channel " + std::to_string(id) + " of this client");
+    if (publications_.erase(id) == 0) complain("channel " + std::to_string(id) + " is not advertised by this client");
   }
 }
 
@@ -165,7 +165,7 @@ void ClientSession::handle(const Publish& request) {
   refuse_without_control();
   const auto found = publications_.find(request.channel);
   if (found == publications_.end())
-    throw ProtocolError("there is no channel " + std::to_string(request.channel) + " of this client");
+    throw ProtocolError("channel " + std::to_string(request.channel) + " is not advertised by this client");
   // As an object, so that the rules of its type are checked before anybody gets it.
   found->second.output->publish(std::shared_ptr<const void>(found->second.type->deserialize(request.payload)));
 }

@@ -45,7 +45,7 @@ class SendQueue {
   /// Both bounds are of all waiting items together.
   SendQueue(std::size_t max_bytes, std::size_t max_items) : max_bytes_(max_bytes), max_items_(max_items) {}
 
-  /// False if there is no room although all droppable messages were dropped: the client does not read.
+  /// Returns false if the queue is full even after dropping all droppable messages: the client does not read.
   [[nodiscard]] bool push(Item item);
   std::optional<Item> pop();
 

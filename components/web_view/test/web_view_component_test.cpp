@@ -77,7 +77,7 @@ TEST_F(WebView, TellsOfTopicsThatComeAndGo) {
   container_->unload("late");
   EXPECT_EQ(next_text(client, "unadvertise")["channelIds"], json::array({channel}));
   subscribe(client, 1, channel);
-  EXPECT_EQ(next_status(client), "subscription 1: there is no channel " + std::to_string(channel));
+  EXPECT_EQ(next_status(client), "subscription 1: unknown channel " + std::to_string(channel));
 }
 
 TEST_F(WebView, AnswersRubbishWithAStatus) {
@@ -88,9 +88,9 @@ TEST_F(WebView, AnswersRubbishWithAStatus) {
   client.send_binary(std::vector<std::uint8_t>{99});
   EXPECT_EQ(next_status(client), "binary operation 99 is not supported");
   subscribe(client, 1, 4711);
-  EXPECT_EQ(next_status(client), "subscription 1: there is no channel 4711");
+  EXPECT_EQ(next_status(client), "subscription 1: unknown channel 4711");
   client.send_text(R"({"op":"unsubscribe","subscriptionIds":[5]})");
-  EXPECT_EQ(next_status(client), "there is no subscription 5");
+  EXPECT_EQ(next_status(client), "unknown subscription 5");
   client.send_binary(std::vector<std::uint8_t>(4'000'001));
   EXPECT_EQ(next_status(client), "a message is larger than 4000000 bytes");
   settle(client);
@@ -135,7 +135,7 @@ TEST_F(WebView, PublishesForAClientThatMayControl) {
   client.send_binary(std::vector<std::uint8_t>{1, 3, 0, 0, 0, 0, 1, 0, 0, 9});
   EXPECT_NE(next_status(client), "no status");
   client.send_binary(std::vector<std::uint8_t>{1, 4, 0, 0, 0, 0, 1, 0, 0, 9});
-  EXPECT_EQ(next_status(client), "there is no channel 4 of this client");
+  EXPECT_EQ(next_status(client), "channel 4 is not advertised by this client");
 }
 
 }  // namespace
