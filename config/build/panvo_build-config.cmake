@@ -14,9 +14,10 @@ if(PANVO_FUZZ AND NOT CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
   message(FATAL_ERROR "PANVO_FUZZ needs clang, not ${CMAKE_CXX_COMPILER_ID}; configure a separate build folder with -DCMAKE_CXX_COMPILER=clang++")
 endif()
 
-# Half of the compile time is spent on the headers of gtest, Eigen, OpenCV and Fast DDS; sources that are compiled together read them once.
+# Most of the compile time is spent on the headers of Eigen, OpenCV, Fast DDS and gtest; sources that are compiled together read them once.
 # This is faster for a build from scratch. For daily edits OFF is faster (as in the preset debug, which clang-tidy and clangd use too).
-option(PANVO_UNITY "Compile the sources of a test together, eight at a time" ON)
+# ON in panvo itself, whose sources of one target never define the same internal name (tests/lint).
+option(PANVO_UNITY "Compile the sources of a target together, eight at a time" OFF)
 
 find_program(PANVO_CCACHE ccache)
 mark_as_advanced(PANVO_CCACHE)
@@ -62,6 +63,14 @@ function(_panvo_compile_settings target)
   endif()
 endfunction()
 
+function(_panvo_unity_build target)
+  if(PANVO_UNITY)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
+    # A class of one source may have members of types that are internal to it.
+    target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
+  endif()
+endfunction()
+
 # Uses the precompiled headers of libraries, programs or tests where they exist, see panvo_precompiled_headers.cmake.
 function(_panvo_use_precompiled_headers target kind)
   set(headers panvo_headers_of_${kind})
@@ -86,6 +95,7 @@ function(panvo_add_library target)
     target_link_libraries(${target} PUBLIC ${arg_LINK} PRIVATE ${arg_PRIVATE_LINK})
     set_target_properties(${target} PROPERTIES VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR})
     _panvo_compile_settings(${target})
+    _panvo_unity_build(${target})
     _panvo_use_precompiled_headers(${target} libraries)
   else()
     add_library(${target} INTERFACE)
@@ -128,6 +138,7 @@ function(panvo_add_component target)
   set_target_properties(${target} PROPERTIES CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON
     LIBRARY_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/panvo_plugins)
   _panvo_compile_settings(${target})
+  _panvo_unity_build(${target})
   if(NOT arg_NO_INSTALL)
     install(TARGETS ${target} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/panvo)
     set_property(GLOBAL APPEND PROPERTY PANVO_PROGRAMS ${target})
@@ -145,6 +156,7 @@ function(panvo_add_executable target)
   add_executable(${target} ${arg_SOURCES})
   target_link_libraries(${target} PRIVATE ${arg_LINK})
   _panvo_compile_settings(${target})
+  _panvo_unity_build(${target})
   _panvo_use_precompiled_headers(${target} programs)
   set_target_properties(${target} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/panvo_bin)
   if(target MATCHES "_benchmark$")
@@ -161,7 +173,6 @@ endfunction()
 # panvo_add_test(<name> SOURCES ... [LINK ...] [LABELS ...] [TIMEOUT seconds] [DEFINITIONS ...] [ENVIRONMENT ...]
 # [ALONE] [APART]): each TEST() becomes a ctest. ALONE: do not run it in parallel with others. APART: do not compile its sources together,
 # because they define the same names.
-# Only sources of tests are compiled together: elsewhere a call could silently bind to a function of another file.
 # Tests can include "panvo/test/...": temporary folders and recordings.
 function(panvo_add_test target)
   if(NOT BUILD_TESTING)
@@ -175,8 +186,8 @@ function(panvo_add_test target)
   target_compile_definitions(${target} PRIVATE ${arg_DEFINITIONS})
   _panvo_compile_settings(${target})
   _panvo_use_precompiled_headers(${target} tests)
-  if(PANVO_UNITY AND NOT arg_APART)
-    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
+  if(NOT arg_APART)
+    _panvo_unity_build(${target})
   endif()
   _panvo_optimise_little(${target})
   if(NOT arg_TIMEOUT)
@@ -204,6 +215,7 @@ function(panvo_add_python_module target)
   pybind11_add_module(${target} MODULE NO_EXTRAS ${arg_SOURCES})
   target_link_libraries(${target} PRIVATE ${arg_LINK})
   _panvo_compile_settings(${target})
+  _panvo_unity_build(${target})
   _panvo_optimise_little(${target})  # it only converts; the algorithms are in libraries
   set_target_properties(${target} PROPERTIES OUTPUT_NAME _core LIBRARY_OUTPUT_DIRECTORY ${folder}
     CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)

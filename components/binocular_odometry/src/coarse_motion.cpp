@@ -8,8 +8,8 @@
 namespace panvo::binocular_odometry {
 namespace {
 
-constexpr int kMinInliers = 8;
-constexpr double kMinRatio = 0.4;  // of inliers to points
+constexpr int kMinPatchInliers = 8;
+constexpr double kMinPatchRatio = 0.4;  // of inliers to points
 
 }  // namespace
 
@@ -33,8 +33,8 @@ std::optional<Eigen::Isometry3d> coarse_motion(const vision::RectifiedStereo& st
   }
   const std::array guesses{expected, Eigen::Isometry3d::Identity()};
   const auto motion = estimate_motion(stereo, pairs, guesses, parameters);
-  if (!motion || motion->inliers < kMinInliers) return std::nullopt;
-  if (static_cast<double>(motion->inliers) < kMinRatio * static_cast<double>(pairs.size())) return std::nullopt;
+  if (!motion || motion->inliers < kMinPatchInliers) return std::nullopt;
+  if (static_cast<double>(motion->inliers) < kMinPatchRatio * static_cast<double>(pairs.size())) return std::nullopt;
   return motion->current_from_previous;
 }
 

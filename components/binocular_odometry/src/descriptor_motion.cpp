@@ -11,10 +11,10 @@
 namespace panvo::binocular_odometry {
 namespace {
 
-constexpr int kFeatures = 1000;     // most of them are in one frame only
-constexpr int kLayers = 3;          // scales per octave [Lowe 2004]: the scale of a point may double
-constexpr double kContrast = 0.02;  // half of Lowe's value, for low-contrast roads
-constexpr float kMaxRatio = 0.8F;   // Lowe's, to the second best
+constexpr int kFeatures = 1000;               // most of them are in one frame only
+constexpr int kDescriptorLayers = 3;          // scales per octave [Lowe 2004]: the scale of a point may double
+constexpr double kDescriptorContrast = 0.02;  // half of Lowe's value, for low-contrast roads
+constexpr float kMaxRatio = 0.8F;             // Lowe's, to the second best
 // Without a prediction, chance agreement must be excluded. Wrong matches agree with no common motion.
 constexpr int kMinInliers = 15;
 constexpr double kMinRatio = 0.3;
@@ -52,7 +52,9 @@ std::optional<Observation> locate(const StereoPyramids& images, const vision::St
 }  // namespace
 
 DescriptorMotion::DescriptorMotion(const vision::RectifiedStereo& stereo, const MotionParameters& parameters)
-    : stereo_(stereo), parameters_(parameters), detector_(cv::SIFT::create(kFeatures, kLayers, kContrast)) {
+    : stereo_(stereo),
+      parameters_(parameters),
+      detector_(cv::SIFT::create(kFeatures, kDescriptorLayers, kDescriptorContrast)) {
   parameters_.ransac_iterations = std::max(parameters_.ransac_iterations, kMinIterations);
 }
 

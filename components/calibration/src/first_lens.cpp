@@ -18,7 +18,7 @@ constexpr std::size_t kMaxViews = 24;  // sufficient for an initial value
 constexpr double kNotSeen_px = 1e3;    // error of a corner that does not project into the image
 
 /// nullopt if the lens is invalid: the image border would be more than 180 degrees off the axis.
-std::optional<vision::CameraModel> model_of(const vision::LensCamera& lens) {
+std::optional<vision::CameraModel> first_model(const vision::LensCamera& lens) {
   try {
     return vision::CameraModel(lens);
   } catch (const std::invalid_argument&) {
@@ -60,7 +60,7 @@ std::optional<vision::LensCamera> first_lens(const std::vector<std::vector<Corne
     const double focal = share * longer;
     lens.pinhole = {
         focal, focal, 0.5 * (image_size.width - 1), 0.5 * (image_size.height - 1), image_size.width, image_size.height};
-    const auto camera = model_of(lens);
+    const auto camera = first_model(lens);
     if (!camera) continue;
     double sum = 0.0;
     std::size_t count = 0;

@@ -36,7 +36,7 @@ std::string html(std::string_view text) {
   return result;
 }
 
-std::string table(const Rows& rows, const char* kind = "") {
+std::string html_table(const Rows& rows, const char* kind = "") {
   std::string text = fmt::format("<table class=\"{}\">\n", kind);
   for (std::size_t i = 0; i < rows.size(); ++i) {
     text += "<tr>";
@@ -59,7 +59,7 @@ std::string camera_section(const Report& report, std::size_t camera) {
   return fmt::format("<h2>{}</h2>\n<p class=\"lead\">{}, {} x {} px</p>\n<figure>{}</figure>\n<figure>{}</figure>\n{}",
                      html(report.calibration.used.cameras[camera]), vision::ros_name(lens.model), lens.pinhole.width,
                      lens.pinhole.height, coverage_svg(report, camera), residual_svg(report, camera),
-                     table(parameter_rows(report, camera)));
+                     html_table(parameter_rows(report, camera)));
 }
 
 }  // namespace
@@ -71,16 +71,16 @@ std::string to_page(const Report& report) {
       "<h1>{0}</h1>\n<p class=\"lead\">Board {2}</p>\n",
       html(report.title), kStyle, html(to_string(report.board)));
   page += doubts_section(report);
-  page += "<h2>Cameras</h2>\n" + table(camera_rows(report));
+  page += "<h2>Cameras</h2>\n" + html_table(camera_rows(report));
   page += fmt::format("<h2>Poses</h2>\n<p class=\"lead\">In the frame of {}: x right, y down, z forward.</p>\n{}",
-                      html(report.calibration.used.cameras[report.reference]), table(pose_rows(report)));
+                      html(report.calibration.used.cameras[report.reference]), html_table(pose_rows(report)));
   if (report.pair)
     page += fmt::format("<h2>Rectified pair</h2>\n<p>Focal length {:.2f} px, baseline {:.5f} m; {}.</p>\n",
                         report.pair->camera.fx, report.pair->baseline_m, epipolar_sentence(report));
   for (std::size_t camera = 0; camera < report.calibration.used.cameras.size(); ++camera)
     page += camera_section(report, camera);
   if (const auto rejected = rejection_rows(report, true); rejected.size() > 1)
-    page += "<h2>Images not used</h2>\n" + table(rejected, "words");
+    page += "<h2>Images not used</h2>\n" + html_table(rejected, "words");
   return page + "</main>\n</body>\n</html>\n";
 }
 

@@ -7,12 +7,12 @@
 #include <numbers>
 #include <opencv2/imgcodecs.hpp>
 
+#include "panvo/vision/angle.hpp"
 #include "panvo/vision/equirectangular.hpp"
 
 namespace panvo::evaluation {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr std::size_t kDriftPanoramas = 50;
 
 /// Yaw of the vehicle at `now` minus that at `then`, about its upward axis at `then`.
@@ -65,17 +65,17 @@ CompassScore score_compass(const Eigen::Matrix3d& base_from_panorama, const std:
   if (errors.empty()) return score;
   const auto count = static_cast<double>(errors.size());
   std::sort(errors.begin(), errors.end());
-  score.rms_deg = std::sqrt(squares / count) / kDegree;
-  score.p95_deg = errors[errors.size() * 95 / 100] / kDegree;
-  score.worst_deg = errors.back() / kDegree;
+  score.rms_deg = std::sqrt(squares / count) / vision::kDegree;
+  score.p95_deg = errors[errors.size() * 95 / 100] / vision::kDegree;
+  score.worst_deg = errors.back() / vision::kDegree;
   score.consistency = whitened / count;
   double drift = 0.0;
   for (std::size_t i = kDriftPanoramas; i < headings.size(); ++i) {
     drift += std::pow(headings[i] - headings[i - kDriftPanoramas], 2);
   }
   const auto windows = static_cast<double>(std::max(headings.size(), kDriftPanoramas + 1) - kDriftPanoramas);
-  score.drift_rms_deg = std::sqrt(drift / windows) / kDegree;
-  score.step_rms_deg = std::sqrt(step_squares / steps) / kDegree;
+  score.drift_rms_deg = std::sqrt(drift / windows) / vision::kDegree;
+  score.step_rms_deg = std::sqrt(step_squares / steps) / vision::kDegree;
   return score;
 }
 

@@ -10,12 +10,12 @@
 namespace panvo::evaluation {
 namespace {
 
-constexpr std::size_t kTiles = 36;
+constexpr std::size_t kRoundTiles = 36;
 constexpr int kStep_px = 12;  // the band at a height of 60 px has 432 columns
 constexpr double kTurn_rad = 2.0 * std::numbers::pi;
 
 struct Ring final : PlaceDescriptor {
-  std::array<BriefPattern::Bits, kTiles> bits;
+  std::array<BriefPattern::Bits, kRoundTiles> bits;
 };
 
 /// Minimum of the parabola through three values one step apart, in steps from the middle one.
@@ -31,9 +31,9 @@ class CyclicBriefGist final : public PlaceMethod {
   std::string name() const override { return "BRIEF-Gist, cyclic"; }
 
   std::unique_ptr<PlaceDescriptor> describe_landmark(const cv::Mat& panorama) const override {
-    const cv::Mat smoothed = smoothed_band(panorama, static_cast<int>(kTiles) * kStep_px);
+    const cv::Mat smoothed = smoothed_band(panorama, static_cast<int>(kRoundTiles) * kStep_px);
     auto ring = std::make_unique<Ring>();
-    for (std::size_t i = 0; i < kTiles; ++i) {
+    for (std::size_t i = 0; i < kRoundTiles; ++i) {
       ring->bits[i] = pattern_.describe(smoothed, static_cast<int>(i) * kStep_px);
     }
     return ring;
@@ -42,20 +42,20 @@ class CyclicBriefGist final : public PlaceMethod {
   PlaceDistance distance(const PlaceDescriptor& query, const PlaceDescriptor& landmark) const override {
     const auto& seen = static_cast<const Ring&>(query).bits;
     const auto& known = static_cast<const Ring&>(landmark).bits;
-    std::array<int, kTiles> different{};
-    for (std::size_t shift = 0; shift < kTiles; ++shift) {
+    std::array<int, kRoundTiles> different{};
+    for (std::size_t shift = 0; shift < kRoundTiles; ++shift) {
       // A left turn of the vehicle moves the scene right: tile i becomes tile i + shift.
-      for (std::size_t i = 0; i < kTiles; ++i) {
-        different[shift] += hamming_distance(seen[(i + shift) % kTiles], known[i]);
+      for (std::size_t i = 0; i < kRoundTiles; ++i) {
+        different[shift] += hamming_distance(seen[(i + shift) % kRoundTiles], known[i]);
       }
     }
     const auto best =
         static_cast<std::size_t>(std::min_element(different.begin(), different.end()) - different.begin());
     const double shift =
-        static_cast<double>(best) +
-        lowest_of_parabola(different[(best + kTiles - 1) % kTiles], different[best], different[(best + 1) % kTiles]);
-    return {static_cast<double>(different[best]) / (kTiles * BriefPattern::kBits),
-            vision::wrap(shift * kTurn_rad / kTiles, kTurn_rad)};
+        static_cast<double>(best) + lowest_of_parabola(different[(best + kRoundTiles - 1) % kRoundTiles],
+                                                       different[best], different[(best + 1) % kRoundTiles]);
+    return {static_cast<double>(different[best]) / (kRoundTiles * BriefPattern::kBits),
+            vision::wrap(shift * kTurn_rad / kRoundTiles, kTurn_rad)};
   }
 
  private:

@@ -14,17 +14,17 @@ namespace panvo::evaluation {
 namespace {
 
 constexpr std::size_t kRows = 15, kHarmonics = 15;
-constexpr int kColumns = 360;  // one degree each
-constexpr double kTurn_rad = 2.0 * std::numbers::pi;
+constexpr int kDegrees = 360;  // one degree each
+constexpr double kRound_rad = 2.0 * std::numbers::pi;
 
 struct Signature final : PlaceDescriptor {
   std::array<std::array<std::complex<double>, kHarmonics>, kRows> harmonics{};  // [row][k - 1]
 };
 
 /// e^(-2 pi i n / columns).
-std::array<std::complex<double>, kColumns> unit_roots() {
-  std::array<std::complex<double>, kColumns> roots;
-  for (int n = 0; n < kColumns; ++n) roots[static_cast<std::size_t>(n)] = std::polar(1.0, -kTurn_rad * n / kColumns);
+std::array<std::complex<double>, kDegrees> unit_roots() {
+  std::array<std::complex<double>, kDegrees> roots;
+  for (int n = 0; n < kDegrees; ++n) roots[static_cast<std::size_t>(n)] = std::polar(1.0, -kRound_rad * n / kDegrees);
   return roots;
 }
 
@@ -43,7 +43,7 @@ class FourierSignature final : public PlaceMethod {
 
   std::unique_ptr<PlaceDescriptor> describe_landmark(const cv::Mat& panorama) const override {
     cv::Mat rows;
-    cv::resize(described_band(panorama), rows, {kColumns, static_cast<int>(kRows)}, 0.0, 0.0, cv::INTER_AREA);
+    cv::resize(described_band(panorama), rows, {kDegrees, static_cast<int>(kRows)}, 0.0, 0.0, cv::INTER_AREA);
     cv::Scalar mean, deviation;
     cv::meanStdDev(rows, mean, deviation);
     const double scale = 1.0 / std::max(deviation[0], 1.0);
@@ -52,8 +52,8 @@ class FourierSignature final : public PlaceMethod {
       const auto* values = rows.ptr<std::uint8_t>(static_cast<int>(row));
       for (std::size_t k = 1; k <= kHarmonics; ++k) {
         std::complex<double> sum = 0.0;  // the mean does not contribute to a harmonic
-        for (std::size_t x = 0; x < kColumns; ++x) sum += static_cast<double>(values[x]) * roots_[k * x % kColumns];
-        signature->harmonics[row][k - 1] = scale / kColumns * sum;
+        for (std::size_t x = 0; x < kDegrees; ++x) sum += static_cast<double>(values[x]) * roots_[k * x % kDegrees];
+        signature->harmonics[row][k - 1] = scale / kDegrees * sum;
       }
     }
     return signature;
@@ -78,7 +78,7 @@ class FourierSignature final : public PlaceMethod {
  private:
   static double best_heading(const std::array<std::complex<double>, kHarmonics>& products) {
     // A left turn by a moves the scene right by a, which multiplies harmonic k by e^(-i k a).
-    constexpr double kStep_rad = kTurn_rad / 360.0;
+    constexpr double kStep_rad = kRound_rad / 360.0;
     double best = 0.0, most = agreement(products, 0.0);
     for (int i = 1; i < 360; ++i) {
       const double value = agreement(products, i * kStep_rad);
@@ -90,10 +90,10 @@ class FourierSignature final : public PlaceMethod {
     const double before = agreement(products, best - kStep_rad), after = agreement(products, best + kStep_rad);
     const double curvature = before - 2.0 * most + after;
     const double refined = curvature < 0.0 ? best + 0.5 * kStep_rad * (before - after) / curvature : best;
-    return vision::wrap(refined, kTurn_rad);
+    return vision::wrap(refined, kRound_rad);
   }
 
-  std::array<std::complex<double>, kColumns> roots_ = unit_roots();
+  std::array<std::complex<double>, kDegrees> roots_ = unit_roots();
 };
 
 }  // namespace

@@ -12,7 +12,7 @@ namespace {
 
 using Curve = std::vector<AzimuthCurve::Point>;
 
-std::vector<Eigen::Vector2d> in_degrees(const Curve& curve, double AzimuthCurve::Point::*member) {
+std::vector<Eigen::Vector2d> curve_in_degrees(const Curve& curve, double AzimuthCurve::Point::*member) {
   std::vector<Eigen::Vector2d> points;
   for (const auto& point : curve) points.emplace_back(point.time_s, point.*member * kDegreesPerRadian);
   return points;
@@ -36,7 +36,7 @@ std::string diagram(const AzimuthCurve& curve, double AzimuthCurve::Point::*memb
   SvgChart chart(1060.0, 260.0, {46.0, 24.0, 1048.0, 218.0}, x, {y.low - margin, y.high + margin}, label);
   chart.band(0.0, end_s, "episode", "the episode");
   chart.grid("time since its start (s)", label);
-  for (const auto& [points, style] : curves) chart.curve(in_degrees(*points, member), style);
+  for (const auto& [points, style] : curves) chart.curve(curve_in_degrees(*points, member), style);
   return chart.text();
 }
 

@@ -35,11 +35,12 @@ SvgChart plan_of(const std::vector<const Points*>& paths) {
       y.add(point.y());
     }
   }
-  constexpr double kWidth_px = 1060.0;
-  const double height_px = std::clamp(kWidth_px * (y.size() + 1.0) / (x.size() + 1.0), 360.0, 860.0);
-  const Box box{0.0, 0.0, kWidth_px, height_px};
+  constexpr double kPlanWidth_px = 1060.0;
+  const double height_px = std::clamp(kPlanWidth_px * (y.size() + 1.0) / (x.size() + 1.0), 360.0, 860.0);
+  const Box box{0.0, 0.0, kPlanWidth_px, height_px};
   const auto ranges = equal_scale(x, y, box, 0.05);
-  return {kWidth_px, height_px, box, ranges.x, ranges.y, "Plan view of ground truth and both estimated trajectories"};
+  return {kPlanWidth_px, height_px, box,
+          ranges.x,      ranges.y,  "Plan view of ground truth and both estimated trajectories"};
 }
 
 void add_scale(SvgChart& plan, const Points& truth) {

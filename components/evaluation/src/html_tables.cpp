@@ -20,7 +20,7 @@ std::string chip(const Revisit& revisit) {
                      to_string(revisit.result), revisit.is_wrong ? ", wrong" : "");
 }
 
-std::string place_of(const Revisit& revisit) {
+std::string place_number(const Revisit& revisit) {
   if (!revisit.place) return "<span class=\"soft\">elsewhere</span>";
   return fmt::format("{} {}", *revisit.place, html(revisit.name));
 }
@@ -28,7 +28,7 @@ std::string place_of(const Revisit& revisit) {
 std::string revisits_table(const RevisitScore& score, const std::string& caption) {
   Rows rows;
   for (const auto& revisit : score.revisits) {
-    rows.push_back({std::to_string(revisit.number), place_of(revisit), chip(revisit),
+    rows.push_back({std::to_string(revisit.number), place_number(revisit), chip(revisit),
                     revisit.landmark ? std::to_string(*revisit.landmark) : "-", degrees(revisit.entrance_rad, 0),
                     metres(revisit.binocular_m), metres(revisit.before_m), metres(revisit.after_m),
                     degrees(revisit.before_heading_rad), degrees(revisit.after_heading_rad), metres(revisit.landmark_m),
@@ -43,7 +43,7 @@ std::string revisits_table(const RevisitScore& score, const std::string& caption
 std::string compared_table(const JourneyReport& report) {
   Rows rows;
   for (const auto& [ours, papers] : side_by_side(report)) {
-    rows.push_back({std::to_string(ours->number), place_of(*ours), chip(*ours), metres(ours->before_m),
+    rows.push_back({std::to_string(ours->number), place_number(*ours), chip(*ours), metres(ours->before_m),
                     metres(ours->after_m), chip(*papers), metres(papers->before_m), metres(papers->after_m)});
   }
   return html_table({"", "place", "ours", "before<br>m", "after<br>m", "the paper's", "before<br>m", "after<br>m"},

@@ -4,10 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numbers>
 
 #include "journey_errors.hpp"
-#include "panvo/vision/equirectangular.hpp"
+#include "panvo/vision/angle.hpp"
 
 namespace panvo::evaluation {
 namespace {
@@ -15,8 +14,6 @@ namespace {
 constexpr std::int64_t kSecond_ns = 1'000'000'000;
 constexpr std::int64_t kSameEpisode_ns = 2 * kSecond_ns;  // shorter reliable intervals do not end an episode
 constexpr std::int64_t kAround_ns = 3 * kSecond_ns;       // shown by a curve before and after the episode
-
-double wrapped(double angle_rad) { return vision::wrap(angle_rad, 2.0 * std::numbers::pi); }
 
 /// Intervals of consecutive unreliable frames; each starts at the frame before, where the first unreliable motion
 /// starts.
@@ -46,13 +43,13 @@ std::optional<Disturbance> covered(Disturbance stretch, const JourneyFrames& fra
 
 std::optional<double> gained(const std::optional<FlatError>& before, const std::optional<FlatError>& after) {
   if (!before || !after) return std::nullopt;
-  return wrapped(after->heading_rad - before->heading_rad);
+  return vision::wrapped(after->heading_rad - before->heading_rad);
 }
 
 double true_change(const TruePath& truth, std::int64_t from_ns, std::int64_t to_ns) {
   const auto from = truth.pose(from_ns);
   const auto to = truth.pose(to_ns);
-  return from && to ? wrapped(yaw_of(*to) - yaw_of(*from)) : 0.0;
+  return from && to ? vision::wrapped(yaw_of(*to) - yaw_of(*from)) : 0.0;
 }
 
 /// Adds the errors of the compass changes within the episode, each over its own time span. Missing changes are skipped.
@@ -61,7 +58,7 @@ void add_compass(AzimuthEpisode& episode, const JourneyFrames& frames, const Tru
   std::int64_t told_ns = 0;
   for (const auto& azimuth : frames.run.azimuths) {
     if (!azimuth.change_rad || azimuth.from_ns < episode.from_ns || azimuth.stamp_ns > episode.to_ns) continue;
-    error_rad += wrapped(*azimuth.change_rad - true_change(truth, azimuth.from_ns, azimuth.stamp_ns));
+    error_rad += vision::wrapped(*azimuth.change_rad - true_change(truth, azimuth.from_ns, azimuth.stamp_ns));
     told_ns += azimuth.stamp_ns - azimuth.from_ns;
   }
   if (told_ns == 0) return;
@@ -128,10 +125,11 @@ std::vector<AzimuthCurve::Point> curve_of(const Trajectory& path, const Eigen::I
     const auto now = truth.pose(pose.stamp_ns);
     if (!now) continue;
     const double true_yaw_rad = yaw_of(*now);
-    true_azimuth_rad =
-        last_rad ? true_azimuth_rad + wrapped(true_yaw_rad - *last_rad) : wrapped(true_yaw_rad - yaw_of(*true_zero));
+    true_azimuth_rad = last_rad ? true_azimuth_rad + vision::wrapped(true_yaw_rad - *last_rad)
+                                : vision::wrapped(true_yaw_rad - yaw_of(*true_zero));
     last_rad = true_yaw_rad;
-    const double error_rad = wrapped(yaw_of(world_from_path * pose.world_from_base) - true_yaw_rad - offset_rad);
+    const double error_rad =
+        vision::wrapped(yaw_of(world_from_path * pose.world_from_base) - true_yaw_rad - offset_rad);
     points.push_back(
         {static_cast<double>(pose.stamp_ns - episode.from_ns) * 1e-9, true_azimuth_rad + error_rad, error_rad});
   }
@@ -146,7 +144,7 @@ std::vector<AzimuthCurve::Point> compass_curve(const JourneyFrames& frames, cons
   for (const auto& azimuth : frames.run.azimuths) {
     if (azimuth.from_ns < episode.from_ns || azimuth.stamp_ns > episode.to_ns + kAround_ns) continue;
     const double true_rad = true_change(truth, azimuth.from_ns, azimuth.stamp_ns);
-    if (azimuth.change_rad) error_rad += wrapped(*azimuth.change_rad - true_rad);
+    if (azimuth.change_rad) error_rad += vision::wrapped(*azimuth.change_rad - true_rad);
     azimuth_rad += true_rad;
     points.push_back(
         {static_cast<double>(azimuth.stamp_ns - episode.from_ns) * 1e-9, azimuth_rad + error_rad, error_rad});

@@ -20,7 +20,7 @@ std::string head(const std::string& file, int width_px, int height_px, const std
 }
 
 template <class Rows, class Write>
-std::string block(const std::string& name, const Rows& rows, const Write& write) {
+std::string data_block(const std::string& name, const Rows& rows, const Write& write) {
   std::string text = fmt::format("${} << E\n", name);
   const std::size_t stride = rows.size() / kMaxRows + 1;
   for (std::size_t i = 0; i < rows.size(); i += stride) text += write(rows[i]) + "\n";
@@ -37,7 +37,7 @@ std::string error_row(const PoseError& error) {
 }
 
 std::string landmark_rows(const RunEvaluation& run) {
-  return block("landmarks", run.frames.run.landmarks, [&](const RunLandmark& landmark) {
+  return data_block("landmarks", run.frames.run.landmarks, [&](const RunLandmark& landmark) {
     const Eigen::Vector3d at = (run.frames.world_from_map * landmark.map_from_base).translation();
     return fmt::format("{:.3f} {:.3f}", at.x(), at.y());
   });
@@ -48,20 +48,20 @@ std::string paths_script(const JourneyReport& report) {
   const auto& run = report.run;
   return head("journey_paths.png", 1100, 900, report.title) +
          "set size ratio -1\nset xlabel 'x (m)'\nset ylabel 'y (m)'\n" +
-         block("truth", run.frames.recording.truth.poses,
-               [](const StampedPose& pose) {
-                 const auto at = pose.world_from_base.translation();
-                 return fmt::format("{:.3f} {:.3f}", at.x(), at.y());
-               }) +
-         block("binocular", run.paths.binocular.errors, place_row) +
-         block("enhanced", run.paths.enhanced.errors, place_row) + landmark_rows(run) +
-         block("corrections", run.revisits.applied,
-               [](const AppliedCorrection& applied) {
-                 return fmt::format("{:.3f} {:.3f} {:.3f} {:.3f}", applied.before_position_m.x(),
-                                    applied.before_position_m.y(),
-                                    applied.after_position_m.x() - applied.before_position_m.x(),
-                                    applied.after_position_m.y() - applied.before_position_m.y());
-               }) +
+         data_block("truth", run.frames.recording.truth.poses,
+                    [](const StampedPose& pose) {
+                      const auto at = pose.world_from_base.translation();
+                      return fmt::format("{:.3f} {:.3f}", at.x(), at.y());
+                    }) +
+         data_block("binocular", run.paths.binocular.errors, place_row) +
+         data_block("enhanced", run.paths.enhanced.errors, place_row) + landmark_rows(run) +
+         data_block("corrections", run.revisits.applied,
+                    [](const AppliedCorrection& applied) {
+                      return fmt::format("{:.3f} {:.3f} {:.3f} {:.3f}", applied.before_position_m.x(),
+                                         applied.before_position_m.y(),
+                                         applied.after_position_m.x() - applied.before_position_m.x(),
+                                         applied.after_position_m.y() - applied.before_position_m.y());
+                    }) +
          fmt::format(
              "plot $truth with lines lw 7 lc rgb '{}' title 'ground truth', $binocular with lines lw 2 lc rgb '{}' "
              "title 'binocular', $enhanced with lines lw 2 lc rgb '{}' title 'enhanced', $landmarks with points pt 7 "
@@ -75,12 +75,12 @@ std::string error_script(const JourneyReport& report) {
   const auto& run = report.run;
   return head("journey_error.png", 1100, 480, "Horizontal error over distance travelled") +
          "set xlabel 'distance travelled (m)'\nset ylabel 'error (m)'\nset yrange [0:*]\n" +
-         block("binocular", run.paths.binocular.errors, error_row) +
-         block("enhanced", run.paths.enhanced.errors, error_row) +
-         block("corrections", run.revisits.applied,
-               [](const AppliedCorrection& applied) {
-                 return fmt::format("{:.2f} {:.4f}", applied.travelled_m, applied.after_m);
-               }) +
+         data_block("binocular", run.paths.binocular.errors, error_row) +
+         data_block("enhanced", run.paths.enhanced.errors, error_row) +
+         data_block("corrections", run.revisits.applied,
+                    [](const AppliedCorrection& applied) {
+                      return fmt::format("{:.2f} {:.4f}", applied.travelled_m, applied.after_m);
+                    }) +
          fmt::format(
              "plot $binocular with lines lw 2 lc rgb '{}' title 'binocular', $enhanced with lines lw 2 lc rgb '{}' "
              "title "
@@ -97,8 +97,8 @@ std::string azimuth_script(const AzimuthCurve& curve) {
   const double length_s = static_cast<double>(curve.episode.to_ns - curve.episode.from_ns) * 1e-9;
   std::string script =
       head("journey_azimuth.png", 1100, 640, fmt::format("Azimuth during an episode: {}", curve.episode.kind)) +
-      block("truth", curve.truth, row) + block("binocular", curve.binocular, row) +
-      block("compass", curve.compass, row) + block("enhanced", curve.enhanced, row) +
+      data_block("truth", curve.truth, row) + data_block("binocular", curve.binocular, row) +
+      data_block("compass", curve.compass, row) + data_block("enhanced", curve.enhanced, row) +
       fmt::format("set object 1 rect from 0,graph 0 to {:.3f},graph 1 fc rgb '{}' behind fs solid noborder\n", length_s,
                   kGridColour) +
       "set multiplot layout 2,1\nset ylabel 'azimuth (deg)'\n";

@@ -5,11 +5,10 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <numbers>
 
 #include "journey_errors.hpp"
 #include "panvo/evaluation/input_error.hpp"
-#include "panvo/vision/equirectangular.hpp"
+#include "panvo/vision/angle.hpp"
 
 namespace panvo::evaluation {
 namespace {
@@ -18,8 +17,6 @@ namespace {
 // its junction and is recognised some metres before and after. Junctions in a town are two or three times as far apart.
 constexpr double kReach_m = 25.0;
 constexpr double kWrong_m = 1.0;  // tolerance of a correction, in addition to the landmark's own error
-
-double wrapped(double angle_rad) { return vision::wrap(angle_rad, 2.0 * std::numbers::pi); }
 
 /// A pass by a known place.
 struct ListedRevisit {
@@ -53,7 +50,7 @@ std::vector<ListedRevisit> listed_revisits(const JourneyFrames& frames) {
     const auto [found, is_new] = known.try_emplace(visit.place, First{visit.stamp_ns, visit.heading_in_rad, false, ""});
     if (!is_new) {
       revisits.push_back({visit.place, visit.stamp_ns, found->second.stamp_ns, found->second.was_earlier,
-                          wrapped(visit.heading_in_rad - found->second.heading_rad), found->second.route});
+                          vision::wrapped(visit.heading_in_rad - found->second.heading_rad), found->second.route});
     }
     found->second.route = number;
   }
@@ -272,7 +269,7 @@ class Scorer {
                           ? errors_.truth(*revisit.landmark_stamp_ns, revisit.landmark_was_earlier)
                           : std::nullopt;
     if (then && now) {
-      revisit.true_heading_rad = wrapped(yaw_of(*now) - yaw_of(*then));
+      revisit.true_heading_rad = vision::wrapped(yaw_of(*now) - yaw_of(*then));
       revisit.distance_m = (now->translation() - then->translation()).head<2>().norm();
     }
     for (const auto& match : frames_.run.matches) {

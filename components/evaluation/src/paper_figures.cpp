@@ -30,7 +30,7 @@ constexpr std::array kTable4{
 using Names = std::string_view;
 constexpr std::array<Names, 1> kJunction{"junction"};
 constexpr std::array<Names, 1> kDescribe{"describe"};
-constexpr std::array<Names, 1> kKeypoints{"keypoints"};
+constexpr std::array<Names, 1> kKeypointStages{"keypoints"};
 constexpr std::array<Names, 1> kHistogram{"histogram"};
 constexpr std::array<Names, 1> kLarge{"large_scale"};
 constexpr std::array<Names, 1> kSmall{"small_scale"};
@@ -42,7 +42,7 @@ constexpr std::array<Names, 2> kOdometry{"stereo/left/image_rect, stereo/right/i
 constexpr std::array kTable3{
     Stage{"Building landmarks online", "Landmark detection", 70, "landmark_builder", kJunction},
     Stage{"Building landmarks online", "Multi-level feature", 80, "landmark_builder", kDescribe},
-    Stage{"Building landmarks online", "SIFT", 40, "landmark_builder", kKeypoints},
+    Stage{"Building landmarks online", "SIFT", 40, "landmark_builder", kKeypointStages},
     Stage{"Global position correction", "Matching, h", 3, "position_corrector", kHistogram},
     Stage{"Global position correction", "Matching, f_l", 8, "position_corrector", kLarge},
     Stage{"Global position correction", "Matching, f_s", 7, "position_corrector", kSmall},

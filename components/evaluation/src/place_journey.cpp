@@ -19,10 +19,6 @@ constexpr double kSamePass_m = 20.0;         // distance travelled from the near
 constexpr double kNearestNeighbour_m = 0.7;  // distance travelled between panoramas used for triangulation
 constexpr double kMaxNeighbour_m = 4.5;
 
-double yaw(const Eigen::Isometry3d& world_from_base) {
-  return std::atan2(world_from_base.linear()(1, 0), world_from_base.linear()(0, 0));
-}
-
 double flat_norm(const Eigen::Vector3d& vector) { return vector.head<2>().norm(); }
 
 JourneyMatch judged(const position_corrector::LandmarkMatch& match, std::size_t panorama, std::size_t known,
@@ -33,8 +29,8 @@ JourneyMatch judged(const position_corrector::LandmarkMatch& match, std::size_t 
   judged.known = known;
   judged.offset_m = flat_norm(now.world_from_base.translation() - landmark.map_from_base.translation());
   judged.is_right = judged.offset_m <= kSamePlace_m;
-  judged.heading_error_rad = vision::wrap(match.heading_rad - (yaw(now.world_from_base) - yaw(landmark.map_from_base)),
-                                          2.0 * std::numbers::pi);
+  judged.heading_error_rad = vision::wrap(
+      match.heading_rad - (yaw_of(now.world_from_base) - yaw_of(landmark.map_from_base)), 2.0 * std::numbers::pi);
   if (match.pose) {
     const Eigen::Isometry3d map_from_base = landmark.map_from_base * landmark.base_from_panorama *
                                             match.pose->landmark_from_panorama * landmark.base_from_panorama.inverse();

@@ -18,16 +18,12 @@ namespace {
 constexpr double kNearby_m =
     15.0;  // distance travelled from the closest approach within which the nearest panorama is searched
 
-double yaw(const Eigen::Isometry3d& world_from_base) {
-  return std::atan2(world_from_base.linear()(1, 0), world_from_base.linear()(0, 0));
-}
-
 double flat_distance(const RecordedPanorama& a, const RecordedPanorama& b) {
   return (a.world_from_base.translation() - b.world_from_base.translation()).head<2>().norm();
 }
 
-double turn(const RecordedPanorama& now, const RecordedPanorama& then) {
-  return vision::wrap(yaw(now.world_from_base) - yaw(then.world_from_base), 2.0 * std::numbers::pi);
+double true_turn(const RecordedPanorama& now, const RecordedPanorama& then) {
+  return vision::wrap(yaw_of(now.world_from_base) - yaw_of(then.world_from_base), 2.0 * std::numbers::pi);
 }
 
 /// The panorama of the same pass that is nearest to the known one.
@@ -90,7 +86,7 @@ PlaceTask place_task(const PlaceRecording& first, const PlaceRecording* then) {
     const auto& then_panorama = first.panoramas[task.places[index].panorama];
     const auto panorama = nearest_of_pass(recording, visit, then_panorama);
     const auto& now = recording.panoramas[panorama];
-    task.revisits.push_back({index, panorama, turn(now, then_panorama), flat_distance(now, then_panorama)});
+    task.revisits.push_back({index, panorama, true_turn(now, then_panorama), flat_distance(now, then_panorama)});
   };
   for (const auto& visit : first.visits) {
     const auto [found, is_new] = known.try_emplace(visit.place, task.places.size());

@@ -98,7 +98,7 @@ void print_journey(const JourneyScore& score, const PlaceTask& task, const Place
   std::cout << fmt::format("revisits found {} of {}, wrong matches {}\n", found, task.revisits.size(), score.wrong);
 }
 
-nlohmann::json to_json(const std::vector<PlaceScore>& scores, const std::optional<JourneyScore>& journey,
+nlohmann::json json_of(const std::vector<PlaceScore>& scores, const std::optional<JourneyScore>& journey,
                        const PlaceTask& task) {
   nlohmann::json json;
   json["places"] = task.places.size();
@@ -163,7 +163,7 @@ int run(const Arguments& arguments) {
 
   const fs::path out = arguments.out;
   fs::create_directories(out);
-  std::ofstream(out / "places.json") << to_json(scores, journey, task).dump(2) << '\n';
+  std::ofstream(out / "places.json") << json_of(scores, journey, task).dump(2) << '\n';
   draw_separation(scores, out);
   std::vector<const PlaceMethod*> compared;
   for (const auto& method : methods) compared.push_back(method.get());

@@ -12,7 +12,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json to_json(const Summary& summary) {
+Json json_of(const Summary& summary) {
   return {{"count", summary.count},
           {"rmse", summary.rmse},
           {"mean", summary.mean},
@@ -20,7 +20,7 @@ Json to_json(const Summary& summary) {
           {"max", summary.max}};
 }
 
-Json to_json(const SegmentErrors& errors) {
+Json json_of(const SegmentErrors& errors) {
   Json lengths = Json::array();
   for (const SegmentError& error : errors.by_length) {
     lengths.push_back({{"length_m", error.length_m},
@@ -34,23 +34,23 @@ Json to_json(const SegmentErrors& errors) {
           {"by_length", std::move(lengths)}};
 }
 
-Json to_json(const Nees& nees) {
+Json json_of(const Nees& nees) {
   return {{"samples", nees.samples},   {"expected", nees.dimension}, {"mean", nees.mean},
           {"lower_95", nees.lower_95}, {"upper_95", nees.upper_95},  {"inside_95", nees.inside_95}};
 }
 
-Json to_json(const Consistency& consistency) {
+Json json_of(const Consistency& consistency) {
   return {{"steps", consistency.options.steps},
           {"truth_noise_m", consistency.options.truth_noise_m},
           {"truth_noise_deg", consistency.options.truth_noise_rad * kDegrees},
           {"unusable", consistency.unusable},
-          {"motion", to_json(consistency.motion)},
-          {"motion_translation", to_json(consistency.motion_translation)},
-          {"motion_rotation", to_json(consistency.motion_rotation)},
-          {"pose", consistency.pose ? to_json(*consistency.pose) : Json(nullptr)}};
+          {"motion", json_of(consistency.motion)},
+          {"motion_translation", json_of(consistency.motion_translation)},
+          {"motion_rotation", json_of(consistency.motion_rotation)},
+          {"pose", consistency.pose ? json_of(*consistency.pose) : Json(nullptr)}};
 }
 
-Json to_json(const TimeSummary& time) {
+Json json_of(const TimeSummary& time) {
   return {{"mean", time.mean_ms},
           {"median", time.median_ms},
           {"p95", time.p95_ms},
@@ -58,14 +58,14 @@ Json to_json(const TimeSummary& time) {
           {"max", time.max_ms}};
 }
 
-Json to_json(const StageTimes& times) {
+Json json_of(const StageTimes& times) {
   Json stages = Json::array();
   for (const StageTime& time : times) {
     stages.push_back({{"component", time.component},
                       {"stage", time.stage},
                       {"count", time.count},
-                      {"wall_ms", to_json(time.wall)},
-                      {"cpu_ms", to_json(time.cpu)}});
+                      {"wall_ms", json_of(time.wall)},
+                      {"cpu_ms", json_of(time.cpu)}});
   }
   return stages;
 }
@@ -76,18 +76,18 @@ Json or_null(const std::optional<Value>& value) {
   if constexpr (std::is_arithmetic_v<Value>) {
     return *value;
   } else {
-    return to_json(*value);
+    return json_of(*value);
   }
 }
 
 Json relative_to_json(const std::optional<RelativePoseError>& error, const std::string& translation_unit,
                       const std::string& rotation_unit) {
   if (!error) return nullptr;
-  return {{"translation_" + translation_unit, to_json(error->translation)},
-          {"rotation_" + rotation_unit, to_json(error->rotation_deg)}};
+  return {{"translation_" + translation_unit, json_of(error->translation)},
+          {"rotation_" + rotation_unit, json_of(error->rotation_deg)}};
 }
 
-Json to_json(const Evaluation& e) {
+Json json_of(const Evaluation& e) {
   return {
       {"name", e.name},
       {"source", e.source.string()},
@@ -119,7 +119,7 @@ Json to_json(const Evaluation& e) {
 
 std::string to_json(const Report& report) {
   Json evaluations = Json::array();
-  for (const Evaluation& evaluation : report.evaluations) evaluations.push_back(to_json(evaluation));
+  for (const Evaluation& evaluation : report.evaluations) evaluations.push_back(json_of(evaluation));
   const Trajectory& truth = report.ground_truth;
   const Json document = {
       {"title", report.title},

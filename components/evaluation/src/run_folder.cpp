@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view kOdometry = "odometry_binocular.tum";
+constexpr std::string_view kOdometryFile = "odometry_binocular.tum";
 constexpr std::string_view kEnhanced = "odometry_enhanced.tum";
 constexpr std::string_view kCovariances = "odometry_binocular_covariance.csv";
 constexpr std::string_view kTiming = "timing.json";
@@ -38,7 +38,9 @@ std::size_t count_unreliable(const fs::path& file) {
 
 }  // namespace
 
-bool is_run_folder(const fs::path& folder) { return fs::exists(folder / kOdometry) || fs::exists(folder / kEnhanced); }
+bool is_run_folder(const fs::path& folder) {
+  return fs::exists(folder / kOdometryFile) || fs::exists(folder / kEnhanced);
+}
 
 void require_finished(const fs::path& file_or_folder) {
   const fs::path folder = fs::is_directory(file_or_folder) ? file_or_folder : file_or_folder.parent_path();
@@ -58,14 +60,14 @@ Estimate read_estimate(const fs::path& file_or_folder) {
   estimate.trajectory = read_trajectory(file_or_folder);
   estimate.name = name_of(file_or_folder);
   const fs::path file = estimate.trajectory.source;
-  if (file.filename() != kOdometry && file.filename() != kEnhanced) return estimate;
+  if (file.filename() != kOdometryFile && file.filename() != kEnhanced) return estimate;
 
   const fs::path folder = file.parent_path();
   if (fs::exists(folder / kQuality)) estimate.unreliable = count_unreliable(folder / kQuality);
   if (fs::exists(folder / kTiming)) estimate.timing = read_timing(folder / kTiming);
-  if (fs::exists(folder / kCovariances) && fs::exists(folder / kOdometry)) {
+  if (fs::exists(folder / kCovariances) && fs::exists(folder / kOdometryFile)) {
     estimate.covariances = read_motion_covariances(folder / kCovariances);
-    estimate.odometry = file.filename() == kOdometry ? estimate.trajectory : read_tum(folder / kOdometry);
+    estimate.odometry = file.filename() == kOdometryFile ? estimate.trajectory : read_tum(folder / kOdometryFile);
   }
   return estimate;
 }

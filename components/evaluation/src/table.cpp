@@ -194,7 +194,7 @@ void add_consistency(Table& table, const std::vector<Evaluation>& evaluations) {
   });
 }
 
-void add_times(Table& table, const std::vector<Evaluation>& evaluations) {
+void add_stage_times(Table& table, const std::vector<Evaluation>& evaluations) {
   std::vector<std::string> stages;  // in the order of first appearance
   for (const Evaluation& e : evaluations) {
     if (!e.timing) continue;
@@ -234,7 +234,7 @@ std::string to_table(const Report& report) {
   add_absolute(table);
   add_relative(table, report.evaluations);
   add_consistency(table, report.evaluations);
-  add_times(table, report.evaluations);
+  add_stage_times(table, report.evaluations);
   const Trajectory& truth = report.ground_truth;
   return report.title + "\nground truth: " + truth.source.string() + " (" + truth.format + ", " +
          std::to_string(truth.poses.size()) + " poses, " + to_text(path_length_m(truth), 1) + " m), " +

@@ -22,7 +22,7 @@ std::string_view trim(std::string_view text) {
 }
 
 template <class Number>
-std::optional<Number> parse(std::string_view text) {
+std::optional<Number> parse_number(std::string_view text) {
   Number value{};
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
@@ -32,7 +32,7 @@ std::optional<Number> parse(std::string_view text) {
 // Plain decimals only: "12.345" -> 12'345'000'000. nullopt for anything else, such as an exponent.
 std::optional<std::int64_t> decimal_seconds_as_ns(std::string_view text) {
   const auto point = text.find('.');
-  const auto whole = parse<std::int64_t>(text.substr(0, point));
+  const auto whole = parse_number<std::int64_t>(text.substr(0, point));
   const std::string_view digits = point == std::string_view::npos ? "" : text.substr(point + 1);
   if (!whole || *whole < 0 || digits.find_first_not_of("0123456789") != std::string_view::npos) return std::nullopt;
   if (*whole >= std::numeric_limits<std::int64_t>::max() / 1'000'000'000) return std::nullopt;
@@ -90,7 +90,7 @@ void Fields::expect(std::size_t count, bool or_more, std::string_view layout) co
 }
 
 double Fields::number(std::size_t index) const {
-  const auto value = parse<double>(fields_[index]);
+  const auto value = parse_number<double>(fields_[index]);
   if (!value || !std::isfinite(*value)) {
     fail("field " + std::to_string(index + 1) + " is not a finite number: '" + std::string(fields_[index]) + "'",
          "remove the line, or find out how it was written");
@@ -99,7 +99,7 @@ double Fields::number(std::size_t index) const {
 }
 
 std::int64_t Fields::integer(std::size_t index) const {
-  const auto value = parse<std::int64_t>(fields_[index]);
+  const auto value = parse_number<std::int64_t>(fields_[index]);
   if (!value) {
     fail("field " + std::to_string(index + 1) + " is not a whole number: '" + std::string(fields_[index]) + "'",
          "stamps in this format are nanoseconds");

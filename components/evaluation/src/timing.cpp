@@ -12,7 +12,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr const char* kRemedy = "write the file again with `panvo run`, or remove it to evaluate without times";
+constexpr const char* kTimingRemedy = "write the file again with `panvo run`, or remove it to evaluate without times";
 
 // A node of the document, with its path for error messages.
 struct Node {
@@ -22,19 +22,19 @@ struct Node {
 
   Node at(const std::string& name) const {
     if (!json.is_object() || !json.contains(name)) {
-      throw InputError(file, "no key '" + name + "' in '" + key + "'", kRemedy);
+      throw InputError(file, "no key '" + name + "' in '" + key + "'", kTimingRemedy);
     }
     return {file, json.at(name), key.empty() ? name : key + "." + name};
   }
 
   const Json& object() const {
-    if (!json.is_object()) throw InputError(file, "'" + key + "' is not an object", kRemedy);
+    if (!json.is_object()) throw InputError(file, "'" + key + "' is not an object", kTimingRemedy);
     return json;
   }
 
   double milliseconds() const {
     if (!json.is_number() || !(json.get<double>() >= 0.0) || !std::isfinite(json.get<double>())) {
-      throw InputError(file, "'" + key + "' is not a number of milliseconds", kRemedy);
+      throw InputError(file, "'" + key + "' is not a number of milliseconds", kTimingRemedy);
     }
     return json.get<double>();
   }
@@ -52,7 +52,7 @@ StageTimes read_timing(const std::filesystem::path& file) {
   try {
     document = Json::parse(read_text(file));
   } catch (const Json::parse_error& error) {
-    throw InputError(file, std::string("is not valid JSON: ") + error.what(), kRemedy);
+    throw InputError(file, std::string("is not valid JSON: ") + error.what(), kTimingRemedy);
   }
   StageTimes times;
   const Node components = Node{file, document, ""}.at("components");
@@ -61,7 +61,8 @@ StageTimes read_timing(const std::filesystem::path& file) {
     for (const auto& stage : stages.object().items()) {
       const Node node = stages.at(stage.key());
       const Node count = node.at("count");
-      if (!count.json.is_number_integer()) throw InputError(file, "'" + count.key + "' is not a whole number", kRemedy);
+      if (!count.json.is_number_integer())
+        throw InputError(file, "'" + count.key + "' is not a whole number", kTimingRemedy);
       times.push_back({component.key(), stage.key(), count.json.get<std::int64_t>(), node.at("wall_ms").summary(),
                        node.at("cpu_ms").summary()});
     }

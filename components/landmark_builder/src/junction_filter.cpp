@@ -6,7 +6,7 @@
 namespace panvo::landmark_builder {
 namespace {
 
-constexpr double kRememberedPath_m = 60.0;
+constexpr double kFilteredPath_m = 60.0;
 constexpr double kOutOfSight_m = 25.0;
 constexpr double kStandingStep_m = 0.01;
 constexpr std::size_t kMaxPlaces = 2000;  // limit while the vehicle stands still
@@ -18,7 +18,7 @@ std::vector<PassedJunction> JunctionFilter::add(std::int64_t stamp_ns, const Eig
   const double step_m = path_.empty() ? 0.0 : (position_in_odom - path_.back().position).norm();
   const double travelled_m = path_.empty() ? 0.0 : path_.back().travelled_m + step_m;
   path_.push_back({stamp_ns, position_in_odom, travelled_m});
-  while (path_.size() > kMaxPlaces || travelled_m - path_.front().travelled_m > kRememberedPath_m) path_.pop_front();
+  while (path_.size() > kMaxPlaces || travelled_m - path_.front().travelled_m > kFilteredPath_m) path_.pop_front();
 
   Candidate* shown = nullptr;
   if (seen) {

@@ -7,14 +7,14 @@
 #include <optional>
 
 #include "panvo/landmarks/keypoints.hpp"
+#include "panvo/vision/angle.hpp"
 
 namespace panvo::landmark_builder {
 namespace {
 
 using landmarks::Keypoint;
 
-constexpr double kDegree = std::numbers::pi / 180.0;
-constexpr double kMatchWindow_rad = 40.0 * kDegree;  // parallax of very near points
+constexpr double kMatchWindow_rad = 40.0 * vision::kDegree;  // parallax of very near points
 constexpr int kMaxSteps = 10;
 
 /// A neighbour's bearing of the keypoint and the neighbour's position, in the landmark's frame.
@@ -89,7 +89,7 @@ double yaw_of(const Eigen::Matrix3d& rotation) { return -std::atan2(rotation(0, 
 
 int triangulate_keypoints(std::span<Keypoint> landmark, std::span<const NeighbourPanorama> neighbours,
                           const TriangulationParameters& parameters) {
-  const double sigma_rad = parameters.bearing_sigma_deg * kDegree;
+  const double sigma_rad = parameters.bearing_sigma_deg * vision::kDegree;
   const double gate_rad = parameters.gate_sigmas * std::numbers::sqrt2 * sigma_rad;
   std::vector<std::vector<Observation>> observations(landmark.size());
   for (const auto& neighbour : neighbours) {

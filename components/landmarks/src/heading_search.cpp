@@ -3,21 +3,20 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "heading_alignment.hpp"
+#include "panvo/vision/angle.hpp"
 #include "panvo/vision/equirectangular.hpp"
 #include "turn.hpp"
 
 namespace panvo::landmarks {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr int kGridSize = 2;  // [Lu2015 Alg. 1]
-constexpr double kReach_rad = 30.0 * kDegree;
-constexpr double kMinStep_rad = 0.5 * kDegree;
-constexpr double kNeighbourhood_rad = 15.0 * kDegree;  // of the start: farther is a different heading
-constexpr int kMaxColumns = 16;                        // of the descent: more than the grid's last step
+constexpr double kReach_rad = 30.0 * vision::kDegree;
+constexpr double kMinStep_rad = 0.5 * vision::kDegree;
+constexpr double kNeighbourhood_rad = 15.0 * vision::kDegree;  // of the start: farther is a different heading
+constexpr int kMaxColumns = 16;                                // of the descent: more than the grid's last step
 
 /// D at a column and its neighbours, for the descent.
 struct Valley {

@@ -16,13 +16,13 @@ namespace {
 
 constexpr float kTruncation =
     1.0F;  // spreads: larger differences mean an occluded or displaced patch and are truncated
-constexpr float kMinSpread = 0.05F;
+constexpr float kMinFeatureSpread = 0.05F;
 constexpr float kMinMean = 0.01F;
 constexpr int kMeanHeadings = 12;
-constexpr double kNeighbourhood_rad = 20.0 * std::numbers::pi / 180.0;  // of a minimum over the headings
+constexpr double kMinimumReach_rad = 20.0 * std::numbers::pi / 180.0;  // of a minimum over the headings
 
 float difference(float value, float landmark_value, float scale) {
-  return std::min(1.0F, std::abs(value - landmark_value) / (kTruncation * std::max(kMinSpread, scale)));
+  return std::min(1.0F, std::abs(value - landmark_value) / (kTruncation * std::max(kMinFeatureSpread, scale)));
 }
 
 /// [Lu2015 Eq. 11] of one feature at all headings: adds weight * min(1, |response - value| * factor) to the sums.
@@ -80,7 +80,7 @@ HeadingMatch match_large_scale(const QueryDescription& query, const PanoramaDesc
   std::vector<float> sums(headings, 0.0F);
   for (const AdaptiveFeature& feature : landmark.large) {
     const float* responses = &query.large_responses[feature.row * headings];
-    const float factor = 1.0F / (kTruncation * std::max(kMinSpread, feature.scale));
+    const float factor = 1.0F / (kTruncation * std::max(kMinFeatureSpread, feature.scale));
     add_differences(responses, feature.value, factor, feature.weight, sums);
   }
   const float mean = std::accumulate(sums.begin(), sums.end(), 0.0F) / static_cast<float>(headings);
@@ -92,7 +92,7 @@ HeadingMatch match_large_scale(const QueryDescription& query, const PanoramaDesc
   HeadingMatch match{heading(best), sums[best] / mean, 1.0F};
   for (std::size_t i = 0; i < headings; ++i) {
     const double apart = vision::wrap(heading(i) - match.heading_rad, 2.0 * std::numbers::pi);
-    if (std::abs(apart) > kNeighbourhood_rad) match.second_distance = std::min(match.second_distance, sums[i] / mean);
+    if (std::abs(apart) > kMinimumReach_rad) match.second_distance = std::min(match.second_distance, sums[i] / mean);
   }
   return match;
 }

@@ -19,7 +19,8 @@ void check_isometry(Check& check, std::string_view name, const Eigen::Isometry3d
   check.require(deviation <= interfaces::kUnitTolerance, {name, "orientation"}, "is not a rotation");
 }
 
-void check_pose(Check& check, const Eigen::Isometry3d& map_from_base, const Eigen::Matrix<double, 6, 6>& covariance) {
+void check_landmark_pose(Check& check, const Eigen::Isometry3d& map_from_base,
+                         const Eigen::Matrix<double, 6, 6>& covariance) {
   check_isometry(check, "pose.pose", map_from_base);
   // The storage order does not matter: an asymmetric matrix is rejected anyway.
   check.covariance("pose.covariance", std::span<const double>(covariance.data(), 36));
@@ -49,7 +50,7 @@ void check_keypoints(Check& check, const std::vector<Keypoint>& keypoints) {
 
 std::optional<std::string> problem_of(const PanoramicLandmark& landmark, const DescriptionSettings& settings) {
   Check check;
-  check_pose(check, landmark.map_from_base, landmark.covariance);
+  check_landmark_pose(check, landmark.map_from_base, landmark.covariance);
   check_isometry(check, "panorama_pose", landmark.base_from_panorama);
   const auto size = interfaces::description_size(to_text(settings));
   check_histogram(check, landmark.description.histogram, size);
@@ -63,7 +64,7 @@ std::optional<std::string> problem_of(const PanoramicLandmark& landmark, const D
 std::optional<std::string> problem_of_pose(const Eigen::Isometry3d& map_from_base,
                                            const Eigen::Matrix<double, 6, 6>& covariance) {
   Check check;
-  check_pose(check, map_from_base, covariance);
+  check_landmark_pose(check, map_from_base, covariance);
   return check.problem();
 }
 

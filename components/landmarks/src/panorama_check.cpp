@@ -18,7 +18,7 @@ constexpr int kGridRows = 40, kGridColumns = 120;
 constexpr int kDark = 8;                                   // grey level still recorded with the lens cap on
 constexpr int kBright = 250;                               // grey level: saturation, with a margin for smoothing
 constexpr double kFaultyShare = 0.9;                       // lamps are bright at night, a bright sky fills at most half
-constexpr double kMinContrast = 3.0;                       // grey levels, standard deviation: noise on an even wall
+constexpr double kMinGreyContrast = 3.0;                   // grey levels, standard deviation: noise on an even wall
 constexpr double kBandTop = 1.0 / 3.0, kBandBottom = 0.6;  // relevant rows: 30 degrees above the horizon to 18 below
 constexpr double kMaxCovered = 1.0 / 3.0;
 
@@ -62,9 +62,9 @@ std::optional<std::string> find_fault(const cv::Mat& panorama) {
   } else if (all.bright > kFaultyShare * all.count) {
     text << "is saturated: " << 100.0 * all.bright / all.count << " % of the view near the horizon is at grey level "
          << kBright << " or above";
-  } else if (all.deviation() < kMinContrast) {
+  } else if (all.deviation() < kMinGreyContrast) {
     text << "is constant: grey levels near the horizon deviate by " << all.deviation() << " from their mean, "
-         << kMinContrast << " required";
+         << kMinGreyContrast << " required";
   } else if (covered > kMaxCovered) {
     text << "is covered: " << 100.0 * covered << " % of the full turn is blocked";
   } else {

@@ -5,12 +5,12 @@
 #include <cmath>
 #include <numbers>
 
-#include "panvo/vision/equirectangular.hpp"
+#include "panvo/vision/angle.hpp"
+#include "seconds.hpp"
 
 namespace panvo::localizer {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 // Probability that the side considered right in a dispute is wrong: then the pose is off by three standard deviations.
 constexpr double kDoubt = 1.0 / 9.0;
 constexpr double kUnseen_s = 5.0;   // unseen motion of the vehicle is bounded by that of so long a silence
@@ -33,13 +33,9 @@ constexpr double kNearest_m = 0.3, kParallax_rad = 0.02;  // objects beside the 
 constexpr double kSameAngle_rad = 0.1;
 constexpr double kLasting_m = 30.0;
 // A stereo camera mounted so far askew shows it in its path; a panoramic camera looks the same at any rotation.
-constexpr double kNoStereoMount_rad = 10.0 * kDegree;
-
-double wrapped(double angle_rad) { return vision::wrap(angle_rad, 2.0 * std::numbers::pi); }
+constexpr double kNoStereoMount_rad = 10.0 * vision::kDegree;
 
 double azimuth_of(const Eigen::Vector2d& way) { return std::atan2(way.y(), way.x()); }
-
-double seconds(std::int64_t from_ns, std::int64_t to_ns) { return static_cast<double>(to_ns - from_ns) * 1e-9; }
 
 }  // namespace
 
@@ -47,7 +43,7 @@ CrossCheck::CrossCheck(const Parameters& parameters)
     : contradiction_sigmas_(parameters.contradiction_sigmas),
       patience_s_(parameters.patience_s),
       motion_(parameters.motion),
-      direction_offset_(parameters.mounting_sigma_deg * kDegree) {}
+      direction_offset_(parameters.mounting_sigma_deg * vision::kDegree) {}
 
 /// If odometry follows something else, its speed changes abruptly, long before a panorama shows it.
 void CrossCheck::add_step(const OdometryBuffer& chain) {
@@ -174,7 +170,7 @@ auto CrossCheck::gone_on(const OdometryBuffer& chain, std::int64_t to_ns) const 
   const auto since = moved(chain, *agreed_ns_, to_ns);
   if (!before || !since) return std::nullopt;
   const double time_s = seconds(*agreed_ns_, to_ns), times = time_s / kSteady_s;
-  return GoneOn{{wrapped(since->turn_rad - times * before->turn_rad), since->way_m - times * before->way_m},
+  return GoneOn{{vision::wrapped(since->turn_rad - times * before->turn_rad), since->way_m - times * before->way_m},
                 turn_sigma_rad(motion_, time_s),
                 way_sigma_m(motion_, time_s)};
 }
@@ -192,7 +188,7 @@ Wrong CrossCheck::wrong_turn(const OdometryBuffer& chain, std::int64_t to_ns, do
   if (!gone) return Wrong::kOdometry;
   const bool is_steady = std::abs(gone->more.turn_rad) < kSteady * gone->turn_sigma_rad;
   const bool is_impossible =
-      std::abs(wrapped(gone->more.turn_rad + disagreement_rad)) > kImpossible * gone->turn_sigma_rad;
+      std::abs(vision::wrapped(gone->more.turn_rad + disagreement_rad)) > kImpossible * gone->turn_sigma_rad;
   return is_steady && is_impossible ? Wrong::kPanoramas : Wrong::kOdometry;
 }
 
@@ -215,15 +211,15 @@ auto CrossCheck::judge_way(const AzimuthMeasurement& azimuth, const TurnAndWay& 
   const double in_bend_rad = kCameraApart_m * odometry.turn_rad / length_m;
   const double variance = azimuth.motion_azimuth_variance_rad2 + kDirectionError_rad * kDirectionError_rad +
                           in_bend_rad * in_bend_rad + way_variance_m2 / (length_m * length_m);
-  const double seen_rad = wrapped(azimuth.motion_azimuth_rad - azimuth_of(odometry.way_m) - camera_turned_rad_);
-  const double difference_rad = wrapped(seen_rad - direction_offset_.estimate_rad());
+  const double seen_rad = vision::wrapped(azimuth.motion_azimuth_rad - azimuth_of(odometry.way_m) - camera_turned_rad_);
+  const double difference_rad = vision::wrapped(seen_rad - direction_offset_.estimate_rad());
   const double max_rad = contradiction_sigmas_ * std::sqrt(variance + direction_offset_.variance_rad2());
   if (std::abs(difference_rad) <= max_rad) {
     if (!turn_dispute_.is_on()) verdict.seen = Seen{seen_rad, variance};
     verdict.lasting.reset();
     return verdict;
   }
-  if (is_camera_turned()) verdict.camera_turned_rad = wrapped(camera_turned_rad_ + difference_rad);
+  if (is_camera_turned()) verdict.camera_turned_rad = vision::wrapped(camera_turned_rad_ + difference_rad);
   if (!turn_dispute_.is_on()) {
     verdict.lasting = lasting_with(azimuth.from_ns, seen_rad, length_m);
     if (verdict.lasting->way_m > kLasting_m) {
@@ -245,7 +241,7 @@ void CrossCheck::take(const WayVerdict& verdict) {
 
 /// How long the directions have differed by one angle. If for long, the cause must be a camera's mounting.
 auto CrossCheck::lasting_with(std::int64_t reference_ns, double seen_rad, double length_m) const -> Lasting {
-  if (!lasting_ || std::abs(wrapped(seen_rad - lasting_->seen_rad)) > kSameAngle_rad) {
+  if (!lasting_ || std::abs(vision::wrapped(seen_rad - lasting_->seen_rad)) > kSameAngle_rad) {
     return {reference_ns, seen_rad, 0.0};
   }
   Lasting longer = *lasting_;

@@ -20,10 +20,10 @@
 namespace panvo::localizer {
 namespace {
 
-constexpr double kMinSpeed = 0.5;  // m/s: a stationary vehicle may start
-constexpr double kClimb = 0.1;     // fraction of the path, up or down
-constexpr double kTurnRate = 0.3;  // rad/s, of a vehicle in a bend
-constexpr double kTilt = 0.05;     // rad
+constexpr double kMinSpeed = 0.5;     // m/s: a stationary vehicle may start
+constexpr double kParkedClimb = 0.1;  // fraction of the path, up or down
+constexpr double kTurnRate = 0.3;     // rad/s, of a vehicle in a bend
+constexpr double kTilt = 0.05;        // rad
 
 /// Lines of "key value value ...".
 using Lines = std::map<std::string, std::string>;
@@ -83,7 +83,7 @@ LastPose from_lines(const Lines& lines) {
 }
 
 /// Numbers in the shortest form that reads back exactly.
-std::string to_text(const LastPose& last) {
+std::string file_text(const LastPose& last) {
   const Eigen::Vector3d position = last.pose.map_from_base.translation();
   const Eigen::Quaterniond rotation(last.pose.map_from_base.linear());
   return fmt::format(
@@ -98,7 +98,7 @@ PoseInMap after_gap(const LastPose& last, double gap_s) {
   const double way_m = std::max(last.speed_m_per_s, kMinSpeed) * gap_s;
   const double turn_rad = std::min(kTurnRate * gap_s, std::numbers::pi);
   vision::Vector6d sigma;
-  sigma << way_m, way_m, kClimb * way_m, kTilt, kTilt, turn_rad;
+  sigma << way_m, way_m, kParkedClimb * way_m, kTilt, kTilt, turn_rad;
   PoseInMap now = last.pose;
   now.covariance.diagonal() += sigma.cwiseAbs2();
   return now;
@@ -114,7 +114,7 @@ void write_last_pose(const std::filesystem::path& file, const LastPose& last) {
   std::filesystem::path part = file;
   part += ".part";
   std::ofstream stream(part);
-  stream << to_text(last);
+  stream << file_text(last);
   stream.close();
   std::error_code error;
   if (stream) std::filesystem::rename(part, file, error);

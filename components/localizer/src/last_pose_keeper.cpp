@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "last_pose_keeper.hpp"
+#include "seconds.hpp"
 
 #include <fmt/format.h>
 
@@ -10,10 +11,7 @@
 namespace panvo::localizer {
 namespace {
 
-constexpr double kSecond_ns = 1e9;
 constexpr double kKeepPeriod_s = 1.0;
-
-double seconds(std::int64_t from_ns, std::int64_t to_ns) { return static_cast<double>(to_ns - from_ns) / kSecond_ns; }
 
 }  // namespace
 

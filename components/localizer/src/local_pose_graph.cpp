@@ -27,7 +27,7 @@ vision::Matrix6d cut_covariance() {
   return sigma.cwiseAbs2().asDiagonal();
 }
 
-vision::Matrix6d at_least(const vision::Matrix6d& covariance) {
+vision::Matrix6d with_least_variance(const vision::Matrix6d& covariance) {
   return covariance + kMinVariance * vision::Matrix6d::Identity();
 }
 
@@ -190,8 +190,8 @@ bool LocalPoseGraph::solve() {
   for (std::size_t i = 1; i < order.size(); ++i) {
     const auto& a = nodes_[order[i - 1]].at.pose;
     const auto& b = nodes_[order[i]].at.pose;
-    graph.edges.push_back(
-        {order[i - 1], order[i], a.odom_from_base.inverse() * b.odom_from_base, at_least(way_covariance(a, b)), false});
+    graph.edges.push_back({order[i - 1], order[i], a.odom_from_base.inverse() * b.odom_from_base,
+                           with_least_variance(way_covariance(a, b)), false});
   }
   bool is_anchored = is_placed_;  // by something other than the start of the journey
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
@@ -199,12 +199,13 @@ bool LocalPoseGraph::solve() {
     if (node.is_of_earlier_day) {
       is_anchored = true;
       const auto& known = known_.at(node.landmark_id);
-      graph.priors.push_back({i, known.map_from_base, at_least(known.covariance)});
+      graph.priors.push_back({i, known.map_from_base, with_least_variance(known.covariance)});
     }
-    if (node.said) graph.priors.push_back({i, node.said->map_from_base, at_least(node.said->covariance)});
+    if (node.said) graph.priors.push_back({i, node.said->map_from_base, with_least_variance(node.said->covariance)});
     if (!node.is_pass) continue;
     const auto seen = static_cast<std::size_t>(landmark_node(node.landmark_id) - nodes_.data());
-    graph.edges.push_back({seen, i, node.sighting.landmark_from_base, at_least(node.sighting.covariance), true});
+    graph.edges.push_back(
+        {seen, i, node.sighting.landmark_from_base, with_least_variance(node.sighting.covariance), true});
   }
   if (!is_anchored) {  // the map starts with the journey
     vision::Vector6d sigma;

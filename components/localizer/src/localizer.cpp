@@ -5,24 +5,21 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
 #include <utility>
 
 #include "panvo/localizer/soundness.hpp"
+#include "panvo/vision/angle.hpp"
+#include "seconds.hpp"
 
 namespace panvo::localizer {
 namespace {
 
-constexpr double kSecond_ns = 1e9;
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kSlew = 0.2;  // fraction of the pending yaw correction per step: applied within half a second at 25 Hz
 constexpr double kUnknownPosition_m = 1e4;  // standard deviation of an unknown start
 constexpr double kUnknownYaw_rad = 3.0;
 constexpr double kMistakenFor_s = 5.0;  // larger shifts between two times are unambiguous
 constexpr double kAtStart_m = 10.0;     // a loaded map may arrive late within this path, as its process starts as well
-
-double seconds(std::int64_t from_ns, std::int64_t to_ns) { return static_cast<double>(to_ns - from_ns) / kSecond_ns; }
 
 }  // namespace
 
@@ -55,7 +52,7 @@ Localizer::Localizer(const Parameters& parameters)
       lean_(parameters.lean_window_s, parameters.lean_sigmas),
       check_(parameters),
       dead_reckoning_(parameters.motion, parameters.gap_s),
-      graph_(parameters.start_sigma_m, parameters.start_sigma_deg * kDegree) {}
+      graph_(parameters.start_sigma_m, parameters.start_sigma_deg * vision::kDegree) {}
 
 OdometryOutcome Localizer::add(const OdometryPose& received) {
   const auto refused = [](std::string reason) { return OdometryOutcome{.reason = std::move(reason)}; };

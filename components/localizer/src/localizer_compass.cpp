@@ -3,22 +3,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "panvo/localizer/soundness.hpp"
-#include "panvo/vision/equirectangular.hpp"
+#include "panvo/vision/angle.hpp"
 
 /// Processing of the panoramic compass.
 namespace panvo::localizer {
 namespace {
 
-constexpr int kYaw = 5;  // index in a twist
 constexpr double kMaxInflation =
     25.0;                              // wrong turns also cause wrong translation, by up to five times the stated error
 constexpr double kClockCaution = 9.0;  // odometry sometimes errs by more than stated, especially while turning
 constexpr double kScaleCaution = 4.0;  // compass errors are correlated over some seconds, e.g. in a bend
-
-double wrapped(double angle_rad) { return vision::wrap(angle_rad, 2.0 * std::numbers::pi); }
 
 }  // namespace
 
@@ -30,10 +26,10 @@ AzimuthUse Localizer::add(const AzimuthMeasurement& azimuth) {
   const double yaw_before_rad = yaw_of(chain_.latest().pose.odom_from_base.linear());
   take_reference(azimuth.from_ns);
   const auto turn = chain_.turn(from_ns, to_ns);
-  const double disagreement = wrapped(azimuth.change_rad - turn->change_rad);
+  const double disagreement = vision::wrapped(azimuth.change_rad - turn->change_rad);
   const auto twist_then = chain_.twist(from_ns);
   const auto twist_now = chain_.twist(to_ns);
-  const double rate_change = twist_then && twist_now ? (*twist_now)[kYaw] - (*twist_then)[kYaw] : 0.0;
+  const double rate_change = twist_then && twist_now ? (*twist_now)[vision::kYaw] - (*twist_then)[vision::kYaw] : 0.0;
   const double missed_rad = parameters_.compass_turn_error_ratio * azimuth.change_rad;
   const double measured_variance = azimuth.variance_rad2 + missed_rad * missed_rad;
   const double compass_variance = measured_variance + rate_change * rate_change * clock_.variance_s2();
@@ -69,7 +65,7 @@ AzimuthUse Localizer::add(const AzimuthMeasurement& azimuth) {
     clock_.add(disagreement, rate_change, kClockCaution * (measured_variance + turn->said_variance_rad2));
   }
   azimuth_ns_ = to_ns;
-  pending_yaw_correction_rad_ += wrapped(yaw_of(chain_.latest().pose.odom_from_base.linear()) - yaw_before_rad);
+  pending_yaw_correction_rad_ += vision::wrapped(yaw_of(chain_.latest().pose.odom_from_base.linear()) - yaw_before_rad);
   graph_.refresh(chain_, std::min(from_ns, unsure_since_ns.value_or(from_ns)));
   latest_ = localized(chain_.latest().pose);
   if (wrong == Wrong::kPanoramas) return AzimuthUse::kDoubted;
@@ -92,7 +88,7 @@ std::optional<YawBiasDetector::Stretch> Localizer::add_to_lean(YawBiasDetector::
   const auto raw_rad = chain_.raw_turn(turn.from_ns, turn.to_ns);
   if (!raw_rad) return std::nullopt;
   const double said_rad = (1.0 - turn_scale_.estimate()) * *raw_rad;
-  turn.disagreement_rad = wrapped(turn.compass_rad - said_rad);
+  turn.disagreement_rad = vision::wrapped(turn.compass_rad - said_rad);
   return lean_.add(turn);
 }
 
@@ -114,7 +110,7 @@ void Localizer::fuse(std::int64_t from_ns, std::int64_t to_ns, double change_rad
   if (!turn) return;
   const double in_sums_rad2 = parameters_.compass_correlation_ratio * variance_rad2;
   const double gain = turn->variance_rad2 / (turn->variance_rad2 + in_sums_rad2);
-  const double by_rad = gain * wrapped(change_rad - turn->change_rad);
+  const double by_rad = gain * vision::wrapped(change_rad - turn->change_rad);
   chain_.apply_yaw_correction(from_ns, to_ns, by_rad, 1.0 - gain);
 }
 

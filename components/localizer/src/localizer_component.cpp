@@ -26,17 +26,12 @@
 #include "panvo/runtime/component.hpp"
 #include "path_record.hpp"
 #include "pose_publisher.hpp"
+#include "seconds.hpp"
 #include "set_back.hpp"
 
 namespace panvo::localizer {
 
-namespace {
-
-constexpr double kSecond_ns = 1e9;
-
-double seconds(std::int64_t from_ns, std::int64_t to_ns) { return static_cast<double>(to_ns - from_ns) / kSecond_ns; }
-
-}  // namespace
+namespace {}  // namespace
 
 /// odometry/binocular, odometry/quality, compass/azimuth_change, correction, landmarks, /initialpose ->
 /// odometry/enhanced, /tf, localization/state, localization/integrity, correction/outcome, landmarks/poses, path/*.

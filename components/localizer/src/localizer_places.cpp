@@ -6,20 +6,19 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 #include "panvo/localizer/soundness.hpp"
+#include "panvo/vision/angle.hpp"
 
 /// Processing of landmark sightings and external poses.
 namespace panvo::localizer {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 // Of an image's arrival stamp. Larger clock offsets show in the first bend; until then sightings on straight roads
 // count as well.
 constexpr double kMaxStampSigma_s = 0.01;
-constexpr double kUnknownYaw_rad = 3.0;
+constexpr double kUnsaidYaw_rad = 3.0;
 // For the components left open by an external pose: a click on a flat map.
 constexpr double kUnsaidHeight_m = 10.0;
 constexpr double kUnsaidTilt_rad = 0.2;
@@ -93,7 +92,7 @@ bool Localizer::set_initial_pose(const PoseInMap& pose, std::int64_t stamp_ns) {
   if (!at || !pose.map_from_base.matrix().allFinite() || !pose.covariance.allFinite()) return false;
   PoseInMap said = pose;
   vision::Vector6d unsaid_sigma;
-  unsaid_sigma << kUnsaidHeight_m, kUnsaidHeight_m, kUnsaidHeight_m, kUnsaidTilt_rad, kUnsaidTilt_rad, kUnknownYaw_rad;
+  unsaid_sigma << kUnsaidHeight_m, kUnsaidHeight_m, kUnsaidHeight_m, kUnsaidTilt_rad, kUnsaidTilt_rad, kUnsaidYaw_rad;
   for (Eigen::Index i = 0; i < 6; ++i) {
     if (said.covariance(i, i) == 0.0) said.covariance(i, i) = unsaid_sigma(i) * unsaid_sigma(i);
   }
@@ -199,7 +198,7 @@ bool Localizer::agree(const PendingRelocalization& before, const PendingRelocali
       vision::pose_error(before.map_from_odom * at->pose.odom_from_base, now.map_from_odom * at->pose.odom_from_base);
   const double drift_m = kDriftRatio * std::abs(now.way_m - before.way_m);
   return apart.head<3>().norm() < parameters_.second_look_m + drift_m &&
-         apart.tail<3>().norm() < parameters_.second_look_deg * kDegree;
+         apart.tail<3>().norm() < parameters_.second_look_deg * vision::kDegree;
 }
 
 }  // namespace panvo::localizer

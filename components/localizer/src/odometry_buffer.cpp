@@ -7,13 +7,12 @@
 #include <iterator>
 
 #include "panvo/localizer/dead_reckoning.hpp"
+#include "seconds.hpp"
 
 namespace panvo::localizer {
 namespace {
 
-constexpr double kSecond_ns = 1e9;
 constexpr double kMinStepVariance = 1e-12;  // for rounding errors
-constexpr int kYaw = 5;
 // A panorama of the same instant as the last stereo pair may be stamped slightly later due to clock differences.
 // Waiting for the next pair would cost 40 ms; constant motion for that time is accurate to less than a millimetre.
 constexpr std::int64_t kAhead_ns = 5'000'000;
@@ -58,8 +57,8 @@ bool OdometryBuffer::add(const OdometryPose& odometry, double turn_share, double
     entry.step.motion = turned_more(said, -turn_scale * yaw_of(said.linear()));
     entry.step.covariance = gained_covariance(before.raw, odometry, kMinStepVariance);
     entry.step.turn_share = turn_share;
-    entry.step.covariance.row(kYaw) *= std::sqrt(turn_share);
-    entry.step.covariance.col(kYaw) *= std::sqrt(turn_share);
+    entry.step.covariance.row(vision::kYaw) *= std::sqrt(turn_share);
+    entry.step.covariance.col(vision::kYaw) *= std::sqrt(turn_share);
     entry.step.covariance = at_least(entry.step.covariance, least);
     entry.marked = entry.step;
   }
@@ -100,8 +99,8 @@ std::optional<Turn> OdometryBuffer::turn(std::int64_t from_ns, std::int64_t to_n
     const double part = share(i, from_ns, to_ns);
     if (part <= 0.0) break;
     const Step& step = entries_[i].step;
-    turn.variance_rad2 += part * step.covariance(kYaw, kYaw);
-    turn.said_variance_rad2 += part * step.covariance(kYaw, kYaw) / step.turn_share;
+    turn.variance_rad2 += part * step.covariance(vision::kYaw, vision::kYaw);
+    turn.said_variance_rad2 += part * step.covariance(vision::kYaw, vision::kYaw) / step.turn_share;
   }
   return turn;
 }
@@ -138,7 +137,7 @@ void OdometryBuffer::inflate_covariance(std::int64_t from_ns, std::int64_t to_ns
     Step& step = entries_[i].step;
     const double widened = std::max(step.widened, 1.0 + part * (std::min(factor, max_total) - 1.0));
     vision::Vector6d scale = vision::Vector6d::Constant(std::sqrt(widened / step.widened));
-    scale[kYaw] = std::sqrt(1.0 + part * (factor - 1.0));
+    scale[vision::kYaw] = std::sqrt(1.0 + part * (factor - 1.0));
     step.covariance = scale.asDiagonal() * step.covariance * scale.asDiagonal();
     step.widened = widened;
   }
@@ -154,11 +153,11 @@ void OdometryBuffer::apply_yaw_correction(std::int64_t from_ns, std::int64_t to_
     const double part = share(i, from_ns, to_ns);
     if (part <= 0.0) break;
     auto& entry = entries_[i];
-    const double weight = part * entry.step.covariance(kYaw, kYaw) / stretch->variance_rad2;
+    const double weight = part * entry.step.covariance(vision::kYaw, vision::kYaw) / stretch->variance_rad2;
     entry.step.motion = turned_more(entry.step.motion, weight * by_rad);
     const double scale = std::sqrt(1.0 + part * (variance_factor - 1.0));
-    entry.step.covariance.row(kYaw) *= scale;
-    entry.step.covariance.col(kYaw) *= scale;
+    entry.step.covariance.row(vision::kYaw) *= scale;
+    entry.step.covariance.col(vision::kYaw) *= scale;
   }
   compose_from(first);
 }
@@ -172,7 +171,7 @@ void OdometryBuffer::allow(std::int64_t from_ns, std::int64_t to_ns, double way_
     const double part = static_cast<double>(end_ns - begin_ns) / static_cast<double>(to_ns - from_ns);
     auto& covariance = entries_[i].step.covariance;
     covariance.topLeftCorner<2, 2>() += part * way_variance_m2 * Eigen::Matrix2d::Identity();
-    covariance(kYaw, kYaw) += part * yaw_variance_rad2;
+    covariance(vision::kYaw, vision::kYaw) += part * yaw_variance_rad2;
   }
   compose_from(first);
 }

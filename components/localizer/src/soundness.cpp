@@ -12,7 +12,7 @@ namespace {
 constexpr double kMaxCoordinate_m = 1e7;
 constexpr double kMaxVariance = 1e12;
 constexpr double kRotationTolerance = 1e-3;
-constexpr double kRounding = 1e-6;  // relative to the largest entry: accumulated rounding of covariances
+constexpr double kMessageRounding = 1e-6;  // relative to the largest entry: accumulated rounding of covariances
 constexpr double kMaxAngle_rad = 6.0 * std::numbers::pi;
 constexpr double kMinAngleVariance = 1e-12;
 constexpr double kMaxAngleVariance = 1e4;
@@ -27,9 +27,9 @@ std::optional<std::string> fault_of(const Eigen::Isometry3d& pose, const vision:
   const double most = covariance.cwiseAbs().maxCoeff();
   if (most > kMaxVariance) return "has a variance above 1e12";
   const vision::Matrix6d skew = covariance - covariance.transpose();
-  if (skew.cwiseAbs().maxCoeff() > kRounding * most) return "has a covariance that is not symmetric";
+  if (skew.cwiseAbs().maxCoeff() > kMessageRounding * most) return "has a covariance that is not symmetric";
   const Eigen::SelfAdjointEigenSolver<vision::Matrix6d> parts(covariance, Eigen::EigenvaluesOnly);
-  if (parts.eigenvalues()[0] < -kRounding * most) return "has a covariance that is not positive semidefinite";
+  if (parts.eigenvalues()[0] < -kMessageRounding * most) return "has a covariance that is not positive semidefinite";
   return std::nullopt;
 }
 

@@ -19,7 +19,7 @@ namespace {
 
 constexpr double kPerRadian =
     BandCutter::kColumns / (2.0 * std::numbers::pi);  // columns and rows of the full-size panorama
-constexpr int kHalf = 2;                              // sector patches are matched at half size
+constexpr int kScale = 2;                             // sector patches are matched at half size
 constexpr double kMinFoundShare = 0.15;               // of the reference points: fewer may agree by chance
 constexpr int kMaxFailures = 3;                       // consecutive failures before a new reference is taken
 constexpr double kSideSector_rad = 0.6;               // on each side of the lateral direction
@@ -59,7 +59,7 @@ class AllRound final : public PanoramicCompass::Method {
       : parameters_(parameters),
         cutter_(BandCutter::between(parameters.points.top_deg, parameters.points.bottom_deg)),
         base_from_panorama_(base_from_panorama),
-        sectors_({BandCutter::kColumns / kHalf, cutter_.rows / kHalf}, parameters.patches, seed),
+        sectors_({BandCutter::kColumns / kScale, cutter_.rows / kScale}, parameters.patches, seed),
         observer_(observer) {}
 
   std::optional<AzimuthChange> track(std::int64_t stamp_ns, const cv::Mat& panorama,
@@ -84,8 +84,8 @@ class AllRound final : public PanoramicCompass::Method {
     cv::Mat band = cutter_.cut(panorama);
     now_ = RoundBand(band, darkest_sky(panorama, band));
     const cv::Mat& half = now_.pyramid[1];
-    const int margin = RoundBand::kMargin_px / kHalf;
-    features_.emplace(sectors_.prepare(half.colRange(margin, margin + band.cols / kHalf)));
+    const int margin = RoundBand::kMargin_px / kScale;
+    features_.emplace(sectors_.prepare(half.colRange(margin, margin + band.cols / kScale)));
     return band;
   }
 
@@ -94,7 +94,7 @@ class AllRound final : public PanoramicCompass::Method {
     reason.precision(3);
     const SectorShifts shifts = find_turn();
     if (shifts.beyond_range) return invalid(stamp_ns, shifts.reason);
-    const double turned_rad = kHalf * shifts.turn_px / kPerRadian;
+    const double turned_rad = kScale * shifts.turn_px / kPerRadian;
     now_from_reference_ = vision::so3_exp({0.0, 0.0, -turned_rad}) * now_from_reference_;
     const std::vector<BearingPair> pairs = find_points(shifts);
     describe_sectors(stamp_ns);
@@ -140,8 +140,8 @@ class AllRound final : public PanoramicCompass::Method {
 
   SectorShifts find_turn() {
     const vision::Stage stage(observer_, "sectors");
-    const double range_px = parameters_.max_turn_deg * BandCutter::kColumns / 360.0 / kHalf;
-    return sectors_.track(*features_, expected_rad_ * kPerRadian / kHalf, static_cast<int>(std::ceil(range_px)),
+    const double range_px = parameters_.max_turn_deg * BandCutter::kColumns / 360.0 / kScale;
+    return sectors_.track(*features_, expected_rad_ * kPerRadian / kScale, static_cast<int>(std::ceil(range_px)),
                           parameters_.patches.max_distance);
   }
 
@@ -150,7 +150,7 @@ class AllRound final : public PanoramicCompass::Method {
     constexpr int kSectors = SectorShifts::kSectors;
     const auto shift_px = [&](double u) {
       const int sector = std::clamp(static_cast<int>(u * kSectors / BandCutter::kColumns), 0, kSectors - 1);
-      return kHalf * shifts.sector_px[static_cast<std::size_t>(sector)];
+      return kScale * shifts.sector_px[static_cast<std::size_t>(sector)];
     };
     const auto magnification = [this, drift_then = Eigen::Vector3d(now_from_reference_.transpose() * drift_)](
                                    const Eigen::Vector2d& then, const Eigen::Vector2d& now) {

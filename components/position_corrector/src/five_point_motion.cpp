@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <numbers>
 #include <opengv/relative_pose/CentralRelativeAdapter.hpp>
 #include <opengv/sac/Ransac.hpp>
 #include <opengv/sac_problems/relative_pose/CentralRelativePoseSacProblem.hpp>
@@ -12,12 +11,12 @@
 
 #include "epipolar_refinement.hpp"
 #include "panvo/landmarks/keypoints.hpp"
+#include "panvo/vision/angle.hpp"
 #include "panvo/vision/pose.hpp"
 
 namespace panvo::position_corrector {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr int kSample = 8;  // five for the motion, three to choose among its solutions
 
 double angle_of(const Eigen::Matrix3d& rotation) { return vision::so3_log(rotation).norm(); }
@@ -53,9 +52,9 @@ std::optional<Consensus> five_point_ransac(const std::vector<BearingPair>& align
   }
   opengv::relative_pose::CentralRelativeAdapter adapter(landmark, panorama);
   opengv::sac::Ransac<SmallRotation> ransac;
-  ransac.sac_model_.reset(new SmallRotation(adapter, parameters.max_rotation_deg * kDegree));
+  ransac.sac_model_.reset(new SmallRotation(adapter, parameters.max_rotation_deg * vision::kDegree));
   // the distance measure of opengv adds the terms of both bearings
-  ransac.threshold_ = 2.0 * (1.0 - std::cos(parameters.inlier_angle_deg * kDegree));
+  ransac.threshold_ = 2.0 * (1.0 - std::cos(parameters.inlier_angle_deg * vision::kDegree));
   ransac.max_iterations_ = parameters.iterations;
   if (!ransac.computeModel()) return std::nullopt;
   Consensus found;
@@ -73,7 +72,7 @@ FivePointResult estimate_five_point_motion(std::span<const landmarks::Keypoint> 
                                            const FivePointParameters& parameters) {
   // a left turn by the heading is a rotation about -Y, as Y points down
   const Eigen::Matrix3d turn = vision::so3_exp(Eigen::Vector3d(0.0, -heading_rad, 0.0));
-  const landmarks::AzimuthWindow window{heading_rad, parameters.azimuth_window_deg * kDegree};
+  const landmarks::AzimuthWindow window{heading_rad, parameters.azimuth_window_deg * vision::kDegree};
   std::vector<BearingPair> aligned;
   for (const auto& match :
        match_keypoints(panorama, landmark, static_cast<float>(parameters.descriptor_ratio), window)) {
@@ -92,8 +91,9 @@ FivePointResult estimate_five_point_motion(std::span<const landmarks::Keypoint> 
   result.inliers = found ? static_cast<int>(found->inliers.size()) : 0;
   if (result.inliers < parameters.min_inliers) return few("inliers", result.inliers);
 
-  const auto refined = refine_epipolar_motion(found->motion, found->inliers, parameters.bearing_sigma_deg * kDegree);
-  if (const double angle_deg = angle_of(refined.rotation) / kDegree; angle_deg > parameters.max_rotation_deg) {
+  const auto refined =
+      refine_epipolar_motion(found->motion, found->inliers, parameters.bearing_sigma_deg * vision::kDegree);
+  if (const double angle_deg = angle_of(refined.rotation) / vision::kDegree; angle_deg > parameters.max_rotation_deg) {
     result.reason = fmt::format("rotated by {:.0f} deg beyond the heading, at most {:.0f} allowed", angle_deg,
                                 parameters.max_rotation_deg);
     return result;

@@ -9,7 +9,7 @@
 namespace panvo::position_corrector {
 namespace {
 
-std::uint8_t to_constant(MatchState state) {
+std::uint8_t match_constant(MatchState state) {
   using namespace panvo_msgs::msg::LandmarkMatch_Constants;
   switch (state) {
     case MatchState::kSearching:
@@ -32,7 +32,7 @@ panvo_msgs::msg::LandmarkMatch to_message(const LandmarkMatch& match, const std:
   panvo_msgs::msg::LandmarkMatch message;
   message.header().stamp(conversions::to_stamp(match.stamp_ns));
   message.header().frame_id(panorama_frame);
-  message.state(to_constant(match.state));
+  message.state(match_constant(match.state));
   message.reason(match.reason);
   message.landmark_id(match.landmark_id);
   message.heading_rad(match.heading_rad);

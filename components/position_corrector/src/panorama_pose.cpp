@@ -15,6 +15,7 @@
 
 #include "panvo/landmarks/keypoints.hpp"
 #include "panvo/position_corrector/pose_refinement.hpp"
+#include "panvo/vision/angle.hpp"
 #include "panvo/vision/equirectangular.hpp"
 
 namespace panvo::position_corrector {
@@ -22,7 +23,6 @@ namespace {
 
 using landmarks::Keypoint;
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr int kMinForRansac = 5;
 constexpr double kPoseFreedom = 6.0;
 constexpr std::size_t kSectors = 12;
@@ -55,7 +55,7 @@ std::optional<Eigen::Isometry3d> three_point_ransac(std::span<const SightedPoint
   opengv::sac::Ransac<Problem> ransac;
   auto copy = adapter;
   ransac.sac_model_.reset(new Problem(copy, Problem::KNEIP, false));  // own, constant seed
-  ransac.threshold_ = 1.0 - std::cos(parameters.inlier_angle_deg * kDegree);
+  ransac.threshold_ = 1.0 - std::cos(parameters.inlier_angle_deg * vision::kDegree);
   ransac.max_iterations_ = parameters.iterations;
   if (!ransac.computeModel() || !ransac.model_coefficients_.allFinite()) return std::nullopt;
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
@@ -77,8 +77,8 @@ double descriptor_distance(const Keypoint& a, const Keypoint& b) {
 std::vector<SightedPoint> guided_sightings(std::span<const Keypoint> panorama, std::span<const Keypoint> landmark,
                                            const Eigen::Isometry3d& landmark_from_panorama,
                                            const PanoramaPoseParameters& parameters) {
-  const double sigma_rad = parameters.bearing_sigma_deg * kDegree;
-  const double near = std::cos(3.0 * parameters.inlier_angle_deg * kDegree);
+  const double sigma_rad = parameters.bearing_sigma_deg * vision::kDegree;
+  const double near = std::cos(3.0 * parameters.inlier_angle_deg * vision::kDegree);
   const Eigen::Isometry3d panorama_from_landmark = landmark_from_panorama.inverse();
   std::vector<double> best_of(panorama.size(), kSureDescriptors);
   std::vector<int> point_of(panorama.size(), -1);
@@ -140,12 +140,12 @@ std::string objection(const Eigen::Isometry3d& pose, double heading_rad, const P
     return fmt::format("{:.1f} m from the landmark, at most {:.0f} allowed", offset_m, parameters.max_offset_m);
   }
   const double turn_deg =
-      std::abs(vision::wrap(heading_of(pose.linear()) - heading_rad, 2.0 * std::numbers::pi)) / kDegree;
+      std::abs(vision::wrap(heading_of(pose.linear()) - heading_rad, 2.0 * std::numbers::pi)) / vision::kDegree;
   if (turn_deg > parameters.max_turn_deg) {
     return fmt::format("rotated by {:.0f} deg from the heading found, at most {:.0f} allowed", turn_deg,
                        parameters.max_turn_deg);
   }
-  const double tilt_deg = std::acos(std::clamp(pose.linear()(1, 1), -1.0, 1.0)) / kDegree;
+  const double tilt_deg = std::acos(std::clamp(pose.linear()(1, 1), -1.0, 1.0)) / vision::kDegree;
   if (tilt_deg > parameters.max_tilt_deg) {
     return fmt::format("tilted by {:.0f} deg, at most {:.0f} allowed", tilt_deg, parameters.max_tilt_deg);
   }
@@ -161,8 +161,8 @@ double heading_of(const Eigen::Matrix3d& landmark_from_panorama) {
 
 PanoramaPoseResult estimate_panorama_pose(std::span<const Keypoint> panorama, std::span<const Keypoint> landmark,
                                           double heading_rad, const PanoramaPoseParameters& parameters) {
-  const double sigma_rad = parameters.bearing_sigma_deg * kDegree;
-  const landmarks::AzimuthWindow window{heading_rad, parameters.azimuth_window_deg * kDegree};
+  const double sigma_rad = parameters.bearing_sigma_deg * vision::kDegree;
+  const landmarks::AzimuthWindow window{heading_rad, parameters.azimuth_window_deg * vision::kDegree};
   std::vector<SightedPoint> matched;
   for (const auto& match :
        match_keypoints(panorama, landmark, static_cast<float>(parameters.descriptor_ratio), window)) {
@@ -183,7 +183,7 @@ PanoramaPoseResult estimate_panorama_pose(std::span<const Keypoint> panorama, st
   if (!start) return few("inliers", 0);
 
   std::vector<SightedPoint> inliers;
-  const double cosine = std::cos(parameters.inlier_angle_deg * kDegree);
+  const double cosine = std::cos(parameters.inlier_angle_deg * vision::kDegree);
   for (const auto& seen : matched) {
     const Eigen::Vector3d expected = (start->inverse() * seen.point).normalized();
     if (expected.dot(seen.bearing) > cosine) inliers.push_back(seen);

@@ -54,7 +54,7 @@ py::tuple rectify(const StereoPair& pair, const py::object& left, const py::obje
   return py::make_tuple(to_array(rectified.first), to_array(rectified.second));
 }
 
-std::string repr(const StereoPair& pair) {
+std::string pair_text(const StereoPair& pair) {
   const auto& camera = pair.rectified.camera;
   return fmt::format("<panvo.StereoCalibration {} x {} px, {}, fx {:.2f} px, baseline {:.4f} m>", camera.width,
                      camera.height, pair.is_rectified() ? "rectified" : "raw", camera.fx, pair.rectified.baseline_m);
@@ -95,7 +95,7 @@ void bind_calibration(py::module_& module) {
           "the recording places the camera")
       .def("rectify", &rectify, py::arg("left"), py::arg("right"),
            "The rectified grey images of a stored pair, (height, width) uint8.")
-      .def("__repr__", &repr);
+      .def("__repr__", &pair_text);
 }
 
 }  // namespace panvo::python

@@ -48,7 +48,7 @@ class Compass {
   std::optional<std::int64_t> last_stamp_ns_;
 };
 
-std::string repr(const AzimuthChange& turn) {
+std::string turn_text(const AzimuthChange& turn) {
   constexpr double kDegrees = 180.0 / 3.14159265358979323846;
   return fmt::format("<panvo.Turn {:.3f} s to {:.3f} s: {}>", seconds(turn.from_stamp_ns), seconds(turn.stamp_ns),
                      turn.valid ? fmt::format("{:.3f} deg", turn.change_rad * kDegrees) : "invalid: " + turn.reason);
@@ -71,7 +71,7 @@ void bind_compass(py::module_& module) {
       .def_readonly("motion_azimuth_variance_rad2", &AzimuthChange::motion_azimuth_variance_rad2, "0: unknown")
       .def_readonly("valid", &AzimuthChange::valid)
       .def_readonly("reason", &AzimuthChange::reason, "why not valid; else empty")
-      .def("__repr__", &repr);
+      .def("__repr__", &turn_text);
 
   py::class_<Compass>(module, "Compass",
                       "Measures turns from panoramas alone, as the panoramic compass of `panvo run`. Threads may share "

@@ -72,7 +72,7 @@ class StereoOdometry {
 
 TumRow tum(const Estimate& estimate) { return tum_row(estimate.stamp_ns, estimate.odom_from_base.pose); }
 
-std::string repr(const Estimate& estimate) {
+std::string estimate_text(const Estimate& estimate) {
   const Eigen::Vector3d at = estimate.odom_from_base.pose.translation();
   return fmt::format("<panvo.OdometryEstimate {:.3f} s: {:.3f} {:.3f} {:.3f} m, {}>", seconds(estimate.stamp_ns),
                      at.x(), at.y(), at.z(),
@@ -111,7 +111,7 @@ void bind_estimate(py::module_& module) {
                     "largest row error of the right image; above 1 the calibration is stale")
       .def_readonly("disparity_offset_px", &Estimate::disparity_offset_px, "common error of the disparities")
       .def_property_readonly("tum", &tum, "stamp_s x y z qx qy qz qw of the pose: a row of a trajectory")
-      .def("__repr__", &repr);
+      .def("__repr__", &estimate_text);
 }
 
 }  // namespace

@@ -24,7 +24,7 @@ PlaceMatch match(const PlaceRecogniser& recogniser, const py::object& panorama, 
   return recogniser.match(image, described);
 }
 
-std::string repr(const PlaceMatch& match) {
+std::string match_text(const PlaceMatch& match) {
   if (!match.is_known) return fmt::format("<panvo.PlaceMatch unknown: {}>", match.reason);
   return fmt::format("<panvo.PlaceMatch {}: heading {:.3f} rad, score {:.2f}, {} inliers>", match.index,
                      match.heading_rad, 1.0 - match.distance, match.inliers);
@@ -52,7 +52,7 @@ void bind_places(py::module_& module) {
           "unknown")
       .def_readonly("inliers", &PlaceMatch::inliers, "keypoints that agree on one motion")
       .def_readonly("reason", &PlaceMatch::reason, "why unknown, with figures; else empty")
-      .def("__repr__", &repr)
+      .def("__repr__", &match_text)
       .def("__bool__", [](const PlaceMatch& match) { return match.is_known; });
 
   py::class_<PlaceRecogniser>(

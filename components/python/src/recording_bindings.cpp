@@ -81,7 +81,7 @@ std::unique_ptr<Frames> frames_of(const RecordingHandle& handle, double start_s,
   return frames(handle, {.start_s = start_s, .duration_s = duration_s, .stereo = stereo, .panoramas = panoramas});
 }
 
-std::string repr(const RecordingHandle& handle) {
+std::string recording_text(const RecordingHandle& handle) {
   const auto& recording = *handle.recording;
   return fmt::format("<panvo.Recording {}: {}{}{}{}>", recording.path.string(), recording.kind,
                      recording.stereo ? ", stereo" : "", recording.base_from_panorama ? ", panoramas" : "",
@@ -142,7 +142,7 @@ void bind_recording(py::module_& module) {
       .def("panoramas", &frames_of<false, true>, start, duration, "Panorama frames, likewise.")
       .def("frames", &frames_of<true, true>, start, duration, "Both, likewise.")
       .def("__iter__", [](const RecordingHandle& handle) { return frames(handle, {}); })
-      .def("__repr__", &repr);
+      .def("__repr__", &recording_text);
 }
 
 }  // namespace panvo::python

@@ -13,14 +13,14 @@
 namespace panvo::recorder {
 namespace {
 
-struct Parameters {
+struct PlayerParameters {
   std::string directory;
   std::vector<std::string> topics;
   std::vector<std::string> exclude;
 
   template <class Field>
   static void describe(Field&& field) {
-    using P = Parameters;
+    using P = PlayerParameters;
     field.path(&P::directory, "directory", "folder of the bag, or one .db3 or .mcap file");
     field(&P::topics, "topics", "", "topics to play: names or regular expressions for whole names; empty: all");
     field(&P::exclude, "exclude", "", "topics not to play: names or regular expressions for whole names");
@@ -44,7 +44,7 @@ std::string listed(const std::vector<std::string>& names) {
 class BagPlayerComponent final : public runtime::Component, public runtime::Source {
  public:
   explicit BagPlayerComponent(runtime::Context& context) : context_(context) {
-    const auto parameters = context.parameters<Parameters>();
+    const auto parameters = context.parameters<PlayerParameters>();
     if (parameters.directory.empty()) {
       throw runtime::ConfigError(context.name() + ": parameter directory is empty; set directory: FOLDER");
     }
@@ -76,7 +76,7 @@ class BagPlayerComponent final : public runtime::Component, public runtime::Sour
   Progress progress() const override { return progress_; }
 
  private:
-  void open(const Parameters& parameters) {
+  void open(const PlayerParameters& parameters) {
     bag_ = std::make_unique<BagReader>(parameters.directory);
     for (const auto& warning : bag_->warnings()) {
       context_.log().warn("{}", warning);

@@ -46,7 +46,7 @@ void read_policy(const YAML::Node& node, const std::array<std::string_view, N>& 
   policy = static_cast<Policy>(value);
 }
 
-YAML::Node write_duration(const Profile::Duration& duration) {
+YAML::Node write_qos_duration(const Profile::Duration& duration) {
   YAML::Node node;
   node["sec"] = duration.sec;
   node["nsec"] = duration.nsec;
@@ -82,10 +82,10 @@ YAML::Node write_profile(const Profile& profile, QosNotation notation) {
   node["depth"] = profile.depth;
   node["reliability"] = write_policy(profile.reliability, kReliability, notation);
   node["durability"] = write_policy(profile.durability, kDurability, notation);
-  node["deadline"] = write_duration(profile.deadline);
-  node["lifespan"] = write_duration(profile.lifespan);
+  node["deadline"] = write_qos_duration(profile.deadline);
+  node["lifespan"] = write_qos_duration(profile.lifespan);
   node["liveliness"] = write_policy(profile.liveliness, kLiveliness, notation);
-  node["liveliness_lease_duration"] = write_duration(profile.liveliness_lease_duration);
+  node["liveliness_lease_duration"] = write_qos_duration(profile.liveliness_lease_duration);
   node["avoid_ros_namespace_conventions"] = profile.avoid_ros_namespace_conventions;
   return node;
 }

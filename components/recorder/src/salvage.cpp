@@ -8,9 +8,9 @@ namespace {
 
 constexpr std::int64_t kEndOfIds = std::int64_t{1} << 48;
 
-class Scan {
+class SalvageScan {
  public:
-  explicit Scan(const sqlite::Database& database)
+  explicit SalvageScan(const sqlite::Database& database)
       : rows_(database, "SELECT timestamp, id, topic_id, data FROM messages WHERE id >= ? ORDER BY id") {}
 
   /// Whether the first message from `id` on is readable, or there is none.
@@ -50,7 +50,7 @@ class Scan {
 };
 
 /// The first readable id after the unreadable id `bad`, found by steps that double, then by bisecting the last step.
-std::int64_t after_damage(Scan& scan, std::int64_t bad) {
+std::int64_t after_damage(SalvageScan& scan, std::int64_t bad) {
   std::int64_t good = bad + 1;
   for (std::int64_t leap = 1; good < kEndOfIds && !scan.is_readable_from(good); leap *= 2) {
     bad = good;
@@ -67,7 +67,7 @@ std::int64_t after_damage(Scan& scan, std::int64_t bad) {
 
 Salvaged salvage_messages(const sqlite::Database& database) {
   Salvaged found;
-  Scan scan(database);
+  SalvageScan scan(database);
   std::int64_t id = 0;
   while (id < kEndOfIds && !scan.collect(id, found.entries)) {
     id = after_damage(scan, id);

@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct FreeZstd {
+struct FreeZstdContext {
   void operator()(ZSTD_DCtx* context) const noexcept { ZSTD_freeDCtx(context); }
 };
 
@@ -54,7 +54,7 @@ UnpackedFile::~UnpackedFile() {
 void UnpackedFile::unpack(const fs::path& packed) {
   std::ifstream from(packed, std::ios::binary);
   std::ofstream to(path_, std::ios::binary);
-  const std::unique_ptr<ZSTD_DCtx, FreeZstd> context(ZSTD_createDCtx());
+  const std::unique_ptr<ZSTD_DCtx, FreeZstdContext> context(ZSTD_createDCtx());
   std::vector<char> in(ZSTD_DStreamInSize());
   std::vector<char> out(ZSTD_DStreamOutSize());
   while (from.read(in.data(), static_cast<std::streamsize>(in.size())), from.gcount() > 0) {

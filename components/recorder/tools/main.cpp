@@ -31,7 +31,7 @@ int info(const std::string& path, bool as_json) {
   return kWell;
 }
 
-int check(const std::string& path) {
+int print_check(const std::string& path) {
   const auto found = check_bag(path);
   for (const auto& topic : found.topics) {
     std::printf("%-40s %-36s %8llu readable", printable(topic.name).c_str(), printable(topic.type).c_str(),
@@ -200,7 +200,7 @@ int main(int argc, char** argv) {
       return info(arguments.bag, arguments.as_json);
     }
     if (*check_command) {
-      return check(arguments.bag);
+      return print_check(arguments.bag);
     }
     if (*reindex_command) {
       return reindex(arguments.bag);

@@ -26,7 +26,7 @@ std::string pose_columns(std::string_view prefix) {
 
 /// False if a number is not finite.
 template <class Numbers>
-bool append(std::string& line, const Numbers& numbers) {
+bool append_numbers(std::string& line, const Numbers& numbers) {
   for (const double number : numbers) {
     if (!std::isfinite(number)) return false;
     line += ',' + runtime::to_text(number);
@@ -69,9 +69,10 @@ std::string correction_header() {
 std::optional<std::string> correction_line(const panvo_msgs::msg::PositionCorrection& correction) {
   std::string line = stamp_of(correction) + ',' + std::to_string(correction.landmark_id()) + ',' +
                      name_of(kCorrectionStates, correction.state()) + ',' + std::to_string(correction.inliers());
-  if (!append(line, numbers_of(correction.landmark_from_base().pose()))) return std::nullopt;
+  if (!append_numbers(line, numbers_of(correction.landmark_from_base().pose()))) return std::nullopt;
   const auto& covariance = correction.landmark_from_base().covariance();
-  if (!append(line, std::array{std::sqrt(covariance[0]), std::sqrt(covariance[7]), std::sqrt(covariance[35])})) {
+  if (!append_numbers(line,
+                      std::array{std::sqrt(covariance[0]), std::sqrt(covariance[7]), std::sqrt(covariance[35])})) {
     return std::nullopt;
   }
   return line + ',' + quoted(correction.reason());
@@ -84,7 +85,8 @@ std::string outcome_header() {
 std::optional<std::string> outcome_line(const panvo_msgs::msg::CorrectionOutcome& outcome) {
   std::string line = stamp_of(outcome) + ',' + std::to_string(outcome.landmark_id()) + ',' +
                      name_of(kOutcomes, outcome.outcome()) + ',' + number_or_nothing(outcome.chi_square());
-  if (!append(line, numbers_of(outcome.before())) || !append(line, numbers_of(outcome.after()))) return std::nullopt;
+  if (!append_numbers(line, numbers_of(outcome.before())) || !append_numbers(line, numbers_of(outcome.after())))
+    return std::nullopt;
   return line + ',' + quoted(outcome.reason());
 }
 

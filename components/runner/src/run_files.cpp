@@ -15,19 +15,19 @@
 namespace panvo::runner {
 namespace {
 
-using Line = std::optional<std::string>;
+using OptionalLine = std::optional<std::string>;
 
 /// Result file of a topic, and the conversion of its messages to lines.
 struct FileKind {
   std::string_view topic_ending;
   std::string_view type_name;
   std::string_view file_stem, file_ending;
-  std::string (*header)();                  ///< nullptr: no header
-  Line (*line)(const runtime::SamplePtr&);  ///< nullopt: not writable; throws DecodeError
+  std::string (*header)();                          ///< nullptr: no header
+  OptionalLine (*line)(const runtime::SamplePtr&);  ///< nullopt: not writable; throws DecodeError
 };
 
-template <class Message, Line (*kLine)(const Message&)>
-Line line_of(const runtime::SamplePtr& sample) {
+template <class Message, OptionalLine (*kLine)(const Message&)>
+OptionalLine line_of(const runtime::SamplePtr& sample) {
   return kLine(*runtime::Sample::as<Message>(sample));
 }
 
@@ -93,7 +93,7 @@ struct RunFiles::TopicFile {
   }
 
   void append(const runtime::SamplePtr& sample) {
-    Line line;
+    OptionalLine line;
     try {
       line = kind->line(sample);
     } catch (const interfaces::DecodeError&) {  // undecodable

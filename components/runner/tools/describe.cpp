@@ -12,7 +12,7 @@ namespace {
 
 void say_nothing(runtime::LogLevel, const std::string&, const std::string&) {}
 
-void describe(const runtime::ContainerDescription& description) {
+void describe_container(const runtime::ContainerDescription& description) {
   runtime::Container container({.replay = true, .log = say_nothing});
   container.load_all(description.components);
   const auto links = container.links();
@@ -30,7 +30,7 @@ void describe(const runtime::ContainerDescription& description) {
 }  // namespace
 
 void describe(const runtime::SystemDescription& system) {
-  for (const auto& container : system.containers) describe(container);
+  for (const auto& container : system.containers) describe_container(container);
 }
 
 }  // namespace panvo::runner

@@ -24,7 +24,7 @@ std::vector<std::string> names_of(const std::vector<node_services::OfferedServic
 constexpr interfaces::Topic<lifecycle_msgs::msg::TransitionEvent> kTransitionEvents{"~/transition_event"};
 
 template <class Message>
-TopicDescription describe(const interfaces::Topic<Message>& topic) {
+TopicDescription described_topic(const interfaces::Topic<Message>& topic) {
   const auto& type = interfaces::message_type<Message>();
   return {std::string(topic.name), std::string(type.name), topic.qos, &type};
 }
@@ -63,11 +63,11 @@ Container::Implementation::Implementation(ContainerOptions options)
             .files_below = options_.files_below,
             .failed = [this](const ComponentDescription& description) { component_failed(description); }},
       own_(std::make_unique<Context::State>(host_, own_description(options_), nullptr)),
-      diagnostics_output_(own_.open_output(describe(topics::kDiagnostics))) {
-  rosout_.open(own_.open_output(describe(topics::kRosout)));
+      diagnostics_output_(own_.open_output(described_topic(topics::kDiagnostics))) {
+  rosout_.open(own_.open_output(described_topic(topics::kRosout)));
   if (!bus_.bridge()) return;
   try {
-    parameter_events_ = own_.open_output(describe(node_services::kParameterEvents));
+    parameter_events_ = own_.open_output(described_topic(node_services::kParameterEvents));
     if (auto problems = own_problems(); !problems.empty()) throw ConfigError(std::move(problems));
     meet_others();
   } catch (...) {
@@ -157,7 +157,7 @@ void Container::Implementation::make(LoadedComponent& entry) {
   Context::State& state = entry.context->state();
   state.restarts = entry.recipe.restarted;
   if (bus_.bridge() && options_.services != ServiceAccess::kOff)
-    entry.transition_events = entry.context->open_output(describe(kTransitionEvents));
+    entry.transition_events = entry.context->open_output(described_topic(kTransitionEvents));
   if (entry.recipe.by_request) state.reader.confine_paths(options_.files_below);
   std::vector<std::string> problems;
   try {

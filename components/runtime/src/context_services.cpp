@@ -6,7 +6,7 @@
 namespace panvo::runtime {
 namespace {
 
-constexpr int kMaxRequests = 32;  // waiting per component
+constexpr int kMaxWaitingRequests = 32;  // waiting per component
 
 struct WaitingRequest {
   interfaces::Bytes bytes;
@@ -19,15 +19,15 @@ struct WaitingRequest {
 void Context::open_service(ServiceDescription service, ServiceHandler handler) {
   service.name = resolved_name(service.name);
   Worker& worker = state_->main_worker();
-  Port& port =
-      worker.add_port("service " + service.name, kMaxRequests, false, [handler = std::move(handler)](Task& task) {
-        auto& request = *std::any_cast<std::shared_ptr<WaitingRequest>&>(task.item);
-        request.reply->send(handler(request.bytes));
-      });
+  Port& port = worker.add_port("service " + service.name, kMaxWaitingRequests, false,
+                               [handler = std::move(handler)](Task& task) {
+                                 auto& request = *std::any_cast<std::shared_ptr<WaitingRequest>&>(task.item);
+                                 request.reply->send(handler(request.bytes));
+                               });
   const auto waiting = std::make_shared<std::atomic<int>>(0);
   ServiceDirectory::Serve serve = [&worker, &port, waiting](interfaces::Bytes bytes, std::shared_ptr<Reply> reply) {
     const std::shared_ptr<void> place(nullptr, [waiting](void*) { --*waiting; });
-    if (++*waiting > kMaxRequests) return worker.count_dropped(port);
+    if (++*waiting > kMaxWaitingRequests) return worker.count_dropped(port);
     worker.push(port, {.item = std::make_shared<WaitingRequest>(std::move(bytes), std::move(reply), place),
                        .stamp_ns = current_stamp_ns()});
   };

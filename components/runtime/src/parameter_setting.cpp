@@ -26,8 +26,8 @@ struct Outcome {
   std::vector<std::string> problems;
 };
 
-std::vector<ParameterDescription>::const_iterator find(const std::vector<ParameterDescription>& parameters,
-                                                       const std::string& name) {
+std::vector<ParameterDescription>::const_iterator find_parameter(const std::vector<ParameterDescription>& parameters,
+                                                                 const std::string& name) {
   return std::ranges::find(parameters, name, &ParameterDescription::name);
 }
 
@@ -37,7 +37,7 @@ std::vector<std::string> not_settable(const std::vector<ParameterDescription>& k
   std::vector<std::string> names, problems;
   for (const auto& parameter : known) names.push_back(parameter.name);
   for (const auto& [name, value] : wanted) {
-    const auto parameter = find(known, name);
+    const auto parameter = find_parameter(known, name);
     if (parameter == known.end()) {
       problems.push_back("there is no parameter \"" + name + "\"" + suggestion(name, names));
     } else if (!parameter->settable) {
@@ -74,8 +74,8 @@ std::vector<ParameterDescription> Context::State::own_parameters() const {
   for (const auto& take : parameter_takers) take(settable);
   const std::lock_guard lock(parameters_mutex_);
   for (auto& parameter : parameters) {
-    if (const auto set = find(set_, parameter.name); set != set_.end()) parameter = *set;
-    parameter.settable = find(settable.declared(), parameter.name) != settable.declared().end();
+    if (const auto set = find_parameter(set_, parameter.name); set != set_.end()) parameter = *set;
+    parameter.settable = find_parameter(settable.declared(), parameter.name) != settable.declared().end();
   }
   return parameters;
 }

@@ -12,7 +12,7 @@ namespace panvo::runtime {
 namespace {
 
 // After this time the request stays unanswered; the client may call again.
-constexpr std::chrono::seconds kLimit{5};
+constexpr std::chrono::seconds kServiceLimit{5};
 
 /// Passes an answer from one thread to a waiting one.
 class Waiting {
@@ -28,7 +28,7 @@ class Waiting {
 
   std::optional<interfaces::Bytes> wait() {
     std::unique_lock lock(mutex_);
-    changed_.wait_for(lock, kLimit, [this] { return is_there_; });
+    changed_.wait_for(lock, kServiceLimit, [this] { return is_there_; });
     return std::move(bytes_);
   }
 

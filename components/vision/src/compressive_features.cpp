@@ -24,7 +24,7 @@ float median(std::array<float, kSectors> values) {
   return 0.5F * (values[kSectors / 2 - 1] + values[kSectors / 2]);
 }
 
-int wrapped(int du, int columns) {
+int wrapped_column(int du, int columns) {
   if (du >= 0 && du < columns) return du;
   const int remainder = du % columns;
   return remainder < 0 ? remainder + columns : remainder;
@@ -104,7 +104,7 @@ inline cv::v_float32x4 ResponseReader::gradient_sums(const Cell& cell) const {
 }
 
 float ResponseReader::read_intensity(int row, int du, int dv) const {
-  const int shift = wrapped(du, images_.columns());
+  const int shift = wrapped_column(du, images_.columns());
   float response = 0.0F;
   for (const MeasurementMatrix::Element& element : matrix_.row(row)) {
     const float mean = intensity_sum(displace(element, shift, dv)) * element.share;
@@ -114,7 +114,7 @@ float ResponseReader::read_intensity(int row, int du, int dv) const {
 }
 
 float ResponseReader::read_gradient(int row, int du, int dv) const {
-  const int shift = wrapped(du, images_.columns());
+  const int shift = wrapped_column(du, images_.columns());
   cv::v_float32x4 response = cv::v_setzero_f32();
   for (const MeasurementMatrix::Element& element : matrix_.row(row)) {
     const cv::v_float32x4 sums = gradient_sums(displace(element, shift, dv));
@@ -125,7 +125,7 @@ float ResponseReader::read_gradient(int row, int du, int dv) const {
 }
 
 CompressiveFeature ResponseReader::read(int row, int du, int dv) const {
-  const int shift = wrapped(du, images_.columns());
+  const int shift = wrapped_column(du, images_.columns());
   float intensity = 0.0F;
   cv::v_float32x4 gradient = cv::v_setzero_f32();
   for (const MeasurementMatrix::Element& element : matrix_.row(row)) {

@@ -8,9 +8,9 @@
 namespace panvo::vision {
 namespace {
 
-constexpr int kMaxShift = 8;          // of 72 columns: 40 degrees between two panoramas
-constexpr int kSamples = 3;           // per side of a thumbnail pixel
-constexpr double kMinContrast = 2.0;  // grey levels, standard deviation; below, panoramas are not comparable
+constexpr int kMaxShift = 8;                  // of 72 columns: 40 degrees between two panoramas
+constexpr int kSamples = 3;                   // per side of a thumbnail pixel
+constexpr double kMinPanoramaContrast = 2.0;  // grey levels, standard deviation; below, panoramas are not comparable
 /// Correlation thresholds, -1 to 1. A panorama counts as flipped if its correlation with the previous one is below
 /// `alike`, while that of its flipped version is above `exchanged` and better by `margin`. Panoramas 0.2 s apart
 /// correlate with at least 0.9 (kOfAll) and 0.74 (kOfStructure).
@@ -83,7 +83,7 @@ std::optional<PanoramaWatch::View> PanoramaWatch::view_of(const cv::Mat& panoram
   }
   view.grey.array() -= view.grey.mean();
   view.structure = view.grey.colwise() - view.grey.rowwise().mean();
-  if (!normalize(view.grey, kMinContrast) || !normalize(view.structure, 0.0)) return std::nullopt;
+  if (!normalize(view.grey, kMinPanoramaContrast) || !normalize(view.structure, 0.0)) return std::nullopt;
   return view;
 }
 

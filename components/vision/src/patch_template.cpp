@@ -16,8 +16,8 @@ constexpr double kSettled_px = 0.01;
 constexpr double kMaxStep_px = 1.5;  // beyond, the linearisation is not valid
 constexpr double kCorrelation =
     3.0;  // interpolation correlates pixel noise: residuals shrink, the position error does not
-constexpr double kMinGain = 0.25;     // fainter patches are rejected
-constexpr double kMinContrast = 2.0;  // grey levels, standard deviation: noise level of an 8-bit image
+constexpr double kMinGain = 0.25;          // fainter patches are rejected
+constexpr double kMinPatchContrast = 2.0;  // grey levels, standard deviation: noise level of an 8-bit image
 
 // Image positions in fixed point, 1/65536 px: sampling dominates the run time and is fastest with integers.
 constexpr int kPlaceBits = 16;
@@ -91,7 +91,7 @@ bool PatchTemplate::prepare(const std::array<float, (kSize + 2) * (kSize + 2)>& 
     normal += b * b.transpose();
   }
   energy_ = normal(0, 0);
-  if (energy_ < kPixels * kMinContrast * kMinContrast) return false;
+  if (energy_ < kPixels * kMinPatchContrast * kMinPatchContrast) return false;
   const Eigen::Matrix3d normal_plane = normal.cast<double>();
   // The damping allows a row search for a template without gradient along v (a vertical edge).
   const Eigen::Matrix3d damping = (1e-6 * energy_ * Eigen::Vector3d(0.0, 1.0, 1.0)).asDiagonal();

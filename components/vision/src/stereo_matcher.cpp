@@ -14,8 +14,8 @@ namespace {
 constexpr int kSize = PatchTemplate::kSize;
 constexpr double kHalf = 0.5 * (kSize - 1);
 constexpr int kIterations = 5;
-constexpr double kSettled_px = 0.01;
-constexpr double kMaxStep_px = 2.0;
+constexpr double kDisparitySettled_px = 0.01;
+constexpr double kMaxDisparityStep_px = 2.0;
 constexpr double kGradientSigma =
     0.3;                        // prior: 0 for fronto-parallel walls, baseline / camera height (0.1 to 0.35) for roads
 constexpr double kNoise = 4.0;  // grey levels: weight of that prior against the image
@@ -115,12 +115,12 @@ class SlantedPatch {
       const double gain = solution.x();
       if (!(gain > 0.25) || !solution.allFinite()) return false;
       const double step = solution.y() / gain;
-      if (std::abs(step) > kMaxStep_px) return false;
+      if (std::abs(step) > kMaxDisparityStep_px) return false;
       match.disparity_px += step;
       match.gradient += solution.tail<2>() / gain;
       const double residual = std::max(0.0, variation - solution.dot(projection));
       match.variance_px2 = residual / ((kSize * kSize - 5) * gain * gain) * inverse(1, 1);
-      if (std::abs(step) < kSettled_px) break;
+      if (std::abs(step) < kDisparitySettled_px) break;
     }
     return true;
   }

@@ -14,21 +14,21 @@ constexpr const char* kEncoding = "cdr";
 constexpr const char* kSchemaEncoding = "ros2msg";
 
 /// Names of other processes may be invalid UTF-8, which is replaced.
-std::string text_of(const json& object) { return object.dump(-1, ' ', false, json::error_handler_t::replace); }
+std::string serialized(const json& object) { return object.dump(-1, ' ', false, json::error_handler_t::replace); }
 
 }  // namespace
 
 std::string server_info(std::string_view name, const std::vector<std::string>& capabilities, std::string_view session) {
-  return text_of({{"op", "serverInfo"},
-                  {"name", name},
-                  {"capabilities", capabilities},
-                  {"supportedEncodings", {kEncoding}},
-                  {"metadata", json::object()},
-                  {"sessionId", session}});
+  return serialized({{"op", "serverInfo"},
+                     {"name", name},
+                     {"capabilities", capabilities},
+                     {"supportedEncodings", {kEncoding}},
+                     {"metadata", json::object()},
+                     {"sessionId", session}});
 }
 
 std::string status(StatusLevel level, std::string_view message) {
-  return text_of({{"op", "status"}, {"level", static_cast<int>(level)}, {"message", message}});
+  return serialized({{"op", "status"}, {"level", static_cast<int>(level)}, {"message", message}});
 }
 
 std::string advertise(std::span<const Channel> channels) {
@@ -41,11 +41,11 @@ std::string advertise(std::span<const Channel> channels) {
                     {"schema", channel.schema},
                     {"schemaEncoding", kSchemaEncoding}});
   }
-  return text_of({{"op", "advertise"}, {"channels", list}});
+  return serialized({{"op", "advertise"}, {"channels", list}});
 }
 
 std::string unadvertise(std::span<const std::uint32_t> channels) {
-  return text_of({{"op", "unadvertise"}, {"channelIds", std::vector(channels.begin(), channels.end())}});
+  return serialized({{"op", "unadvertise"}, {"channelIds", std::vector(channels.begin(), channels.end())}});
 }
 
 std::vector<std::uint8_t> message_head(std::uint32_t subscription, std::int64_t time_ns) {

@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kUsualRateHz = 10.0;
+constexpr double kKittiRateHz = 10.0;
 
 struct Eyes {
   const char* left_folder;
@@ -78,12 +78,12 @@ std::function<std::int64_t(const NumberedPair&)> read_clock(const fs::path& time
       if (pair.number < stamps_ns.size()) return stamps_ns[pair.number];
       throw DatasetError(
           fmt::format("{}: has {} times, but none for image {}; copy the file again, or remove it to play at {} Hz",
-                      times_path.string(), stamps_ns.size(), pair.left.filename().string(), kUsualRateHz));
+                      times_path.string(), stamps_ns.size(), pair.left.filename().string(), kKittiRateHz));
     };
   }
   if (options.rate_hz <= 0.0)
-    notes.push_back(fmt::format("no times.txt: {} Hz is assumed (parameter rate_hz)", kUsualRateHz));
-  const double rate_hz = options.rate_hz > 0.0 ? options.rate_hz : kUsualRateHz;
+    notes.push_back(fmt::format("no times.txt: {} Hz is assumed (parameter rate_hz)", kKittiRateHz));
+  const double rate_hz = options.rate_hz > 0.0 ? options.rate_hz : kKittiRateHz;
   return [rate_hz](const NumberedPair& pair) -> std::int64_t {
     constexpr std::uint64_t kMaxImages = 100'000'000;
     if (pair.number < kMaxImages) return std::llround(static_cast<double>(pair.number) * 1e9 / rate_hz);

@@ -19,7 +19,7 @@ constexpr float kCloudCurve = 0.10f;             ///< keeps the cloud plane fini
 constexpr float kHorizonTop = 0.080f;            ///< rad, highest hill
 constexpr float kHorizonBottom = -0.020f;        ///< rad
 
-Eigen::Array3f mixed(const Eigen::Array3f& from, const Eigen::Array3f& to, float share) {
+Eigen::Array3f mixed_light(const Eigen::Array3f& from, const Eigen::Array3f& to, float share) {
   return from + (to - from) * share;
 }
 
@@ -111,7 +111,7 @@ Light light_at(double hour, double cloud_cover) {
   const float all = (clear_sun * up + clear_sky).mean();
   const Eigen::Array3f clouded = 0.5f * all * Eigen::Array3f(0.97f, 1.0f, 1.05f);
   light.sun = (clear_sun * (1.0f - 0.97f * cover)).matrix();
-  light.sky = mixed(clear_sky, clouded, cover).matrix();
+  light.sky = mixed_light(clear_sky, clouded, cover).matrix();
   const Eigen::Array3f earth(0.15f, 0.14f, 0.115f);
   light.ground = (earth * (light.sun.array() * up + light.sky.array())).matrix();
   return light;
@@ -120,7 +120,8 @@ Light light_at(double hour, double cloud_cover) {
 Eigen::Vector3f haze(const Light& light) {
   // Because of the long path through air, whiter and brighter than the sky overhead.
   const float grey = light.sky.mean();
-  return (mixed(light.sky.array(), Eigen::Array3f::Constant(grey), 0.45f) * 1.9f + 0.16f * light.sun.array()).matrix();
+  return (mixed_light(light.sky.array(), Eigen::Array3f::Constant(grey), 0.45f) * 1.9f + 0.16f * light.sun.array())
+      .matrix();
 }
 
 namespace {
@@ -138,7 +139,7 @@ Eigen::Array3f clear_sky(float up, float cosine, const Light& light) {
   const float lower = 1.0f - std::min(up, 1.0f);
   const Eigen::Array3f zenith = light.sky.array() * Eigen::Array3f(0.66f, 0.80f, 0.98f);
   const float fall = lower * lower * lower;
-  Eigen::Array3f colour = mixed(zenith, haze(light).array(), fall * (0.35f + 0.65f * lower * lower));
+  Eigen::Array3f colour = mixed_light(zenith, haze(light).array(), fall * (0.35f + 0.65f * lower * lower));
   colour += light.sun.array() * (0.05f * wide_glow(cosine) + 0.16f * std::exp(-(1.0f - cosine) * 60.0f) +
                                  0.9f * std::exp(-(1.0f - cosine) * 1200.0f));
   return colour;
@@ -166,8 +167,8 @@ Eigen::Array3f with_cloud(const Eigen::Array3f& clear, const Eigen::Vector4f& cl
   const float lit = std::clamp(cloud.x() - 0.9f * sunward, 0.2f, 1.2f);
   const Eigen::Array3f white = light.sun.array() * (0.95f + 0.4f * wide * wide) + sky;
   const Eigen::Array3f shaded = sky * 1.3f + 0.16f * light.sun.array();
-  const Eigen::Array3f of_cloud = mixed(shaded, white, std::clamp(1.4f * lit - 0.4f, 0.0f, 1.0f));
-  return mixed(clear, of_cloud, cloud.w() * std::min(1.0f, 6.0f * std::min(up, 1.0f)));
+  const Eigen::Array3f of_cloud = mixed_light(shaded, white, std::clamp(1.4f * lit - 0.4f, 0.0f, 1.0f));
+  return mixed_light(clear, of_cloud, cloud.w() * std::min(1.0f, 6.0f * std::min(up, 1.0f)));
 }
 
 /// The sun's disc, spread over the pixel; hidden by clouds.
@@ -197,7 +198,7 @@ Eigen::Vector3f Sky::radiance(const Eigen::Vector3f& direction, const Light& lig
   } else {
     // Below the horizon, if no object is there: land that fades into the haze.
     const float depth = std::min(-up * 12.0f, 1.0f);
-    colour = mixed(far, light.ground.array() * 0.9f, depth);
+    colour = mixed_light(far, light.ground.array() * 0.9f, depth);
   }
   if (up > kHorizonBottom && up < kHorizonTop) {
     const float azimuth = std::atan2(direction.y(), direction.x()) * (0.5f / kPi);
@@ -208,7 +209,7 @@ Eigen::Vector3f Sky::radiance(const Eigen::Vector3f& direction, const Light& lig
     const Eigen::Array3f lit = land.head<3>().array() * (light.sun.array() * 0.5f + light.sky.array());
     const float inside = std::min(1.0f, (kHorizonTop - up) / (0.05f * kRange));
     const float lower = up < 0.0f ? 1.0f + up / kHorizonBottom * -1.0f : 1.0f;
-    colour = mixed(colour, mixed(lit, far, 0.22f), land.w() * inside * std::clamp(lower, 0.0f, 1.0f));
+    colour = mixed_light(colour, mixed_light(lit, far, 0.22f), land.w() * inside * std::clamp(lower, 0.0f, 1.0f));
   }
   const float day = std::max(light.sun.maxCoeff(), 1e-3f);
   return (colour * std::min(1.0f, day * 1e3f)).matrix();

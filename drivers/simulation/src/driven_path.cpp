@@ -78,7 +78,7 @@ Leg leg_of(const RoadNetwork& roads, int number, int from) {
   return leg;
 }
 
-std::string names_of(const RoadNetwork& roads) {
+std::string route_names(const RoadNetwork& roads) {
   std::string names;
   for (const simulated_world::Junction& junction : roads.junctions)
     names += (names.empty() ? "" : ", ") + junction.name;
@@ -95,7 +95,7 @@ std::vector<Leg> legs_of(const RoadNetwork& roads, const Route& route) {
     const auto number = roads.find(name);
     if (!number) {
       throw std::invalid_argument(
-          fmt::format("route {}: unknown junction {}; known: {}", route.name, name, names_of(roads)));
+          fmt::format("route {}: unknown junction {}; known: {}", route.name, name, route_names(roads)));
     }
     numbers.push_back(*number);
   }

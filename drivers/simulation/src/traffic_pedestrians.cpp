@@ -14,7 +14,7 @@ namespace {
 
 using Eigen::Vector2d;
 
-Vector2d left_of(double heading) { return {-std::sin(heading), std::cos(heading)}; }
+Vector2d left_normal(double heading) { return {-std::sin(heading), std::cos(heading)}; }
 Vector2d along(double heading) { return {std::cos(heading), std::sin(heading)}; }
 
 }  // namespace
@@ -40,7 +40,7 @@ std::optional<Mover> TrafficPlanner::road_crosser(double t_s, Random random) con
   const Road& road = site_.roads.roads[static_cast<std::size_t>(nearest.road)];
   const Vector2d way = (path.points[i] - path.points[i - 1]).normalized();
   const double heading = std::atan2(way.y(), way.x());
-  const Vector2d middle = path.points[i] + std::abs(nearest.side_m) * left_of(heading);
+  const Vector2d middle = path.points[i] + std::abs(nearest.side_m) * left_normal(heading);
   const double half = 0.5 * road.width_m + 1.1;
   const double side = random.chance(0.5) ? 1.0 : -1.0;  // side on which the pedestrian starts
   const double before = random.chance(0.5) ? 1.0 : -1.0, after = random.chance(0.5) ? 1.0 : -1.0;
@@ -49,7 +49,7 @@ std::optional<Mover> TrafficPlanner::road_crosser(double t_s, Random random) con
   mover.speed_m_per_s = random.uniform(1.4, 1.9);
   // along the pavement, around a corner, across, around a corner, along the other pavement
   constexpr double kWalk_m = 25.0, kRound_m = 1.0;
-  const Vector2d a = middle + side * half * left_of(heading), b = middle - side * half * left_of(heading);
+  const Vector2d a = middle + side * half * left_normal(heading), b = middle - side * half * left_normal(heading);
   const Vector2d start = a - before * kWalk_m * along(heading), end = b + after * kWalk_m * along(heading);
   const auto bend = [&](const Vector2d& from, const Vector2d& corner, const Vector2d& to) {
     const Vector2d p = corner + kRound_m * (from - corner).normalized(),

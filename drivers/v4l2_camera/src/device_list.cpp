@@ -11,7 +11,7 @@
 namespace panvo::v4l2_camera {
 namespace {
 
-std::string text_of(const OfferedSize& size) {
+std::string device_text(const OfferedSize& size) {
   if (size.step_x == 0 && size.step_y == 0) return fmt::format("{} x {}", size.width, size.height);
   return fmt::format("{} x {} to {} x {}", size.min_width, size.min_height, size.width, size.height);
 }
@@ -23,7 +23,7 @@ std::string sizes_of(const std::vector<OfferedFormat>& offered) {
   for (const auto& format : offered) {
     std::vector<std::string> sizes;
     sizes.reserve(format.sizes.size());
-    for (const auto& size : format.sizes) sizes.push_back(text_of(size));
+    for (const auto& size : format.sizes) sizes.push_back(device_text(size));
     const std::string text = fmt::format("{}", fmt::join(sizes, ", "));
     if (text.empty()) continue;
     if (!formats_of.contains(text)) order.push_back(text);

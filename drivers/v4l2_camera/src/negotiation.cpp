@@ -9,7 +9,7 @@
 namespace panvo::v4l2_camera {
 namespace {
 
-std::string names_of(const std::vector<Control>& controls) {
+std::string format_names(const std::vector<Control>& controls) {
   std::string text;
   for (const auto& control : controls) text += (text.empty() ? "" : ", ") + control.name;
   return text.empty() ? "none" : text;
@@ -20,7 +20,7 @@ std::optional<std::string> set(VideoDevice& device, const std::vector<Control>& 
                                const camera_group::DeviceSetting& setting) {
   const auto control =
       std::find_if(controls.begin(), controls.end(), [&](const Control& each) { return each.name == setting.name; });
-  if (control == controls.end()) return "the camera has no control of that name; it has " + names_of(controls);
+  if (control == controls.end()) return "the camera has no control of that name; it has " + format_names(controls);
   const auto value = control_value(*control, setting.value);
   if (!value) return value.reason();
   try {

@@ -43,7 +43,7 @@ VideoNode read_node(const fs::path& folder, const fs::path& devices) {
   return node;
 }
 
-std::string text_of(const std::vector<VideoNode>& nodes) {
+std::string nodes_text(const std::vector<VideoNode>& nodes) {
   std::string text;
   for (const auto& node : nodes) {
     if (node.index != 0) continue;
@@ -61,7 +61,7 @@ std::vector<VideoNode> that(const std::vector<VideoNode>& nodes, const std::func
 }
 
 /// The first node of each camera.
-std::vector<VideoNode> cameras_of(const std::vector<VideoNode>& nodes) {
+std::vector<VideoNode> cameras_on(const std::vector<VideoNode>& nodes) {
   return that(nodes, [](const VideoNode& node) { return node.index == 0; });
 }
 
@@ -85,7 +85,7 @@ std::vector<VideoNode> list_nodes(const fs::path& classes, const fs::path& devic
 }
 
 FoundNode find_node(const std::vector<VideoNode>& nodes, const std::string& selector) {
-  const auto cameras = cameras_of(nodes);
+  const auto cameras = cameras_on(nodes);
   if (selector.empty()) {
     if (cameras.empty()) return {std::nullopt, "no camera is connected: plug one in (`panvo devices` lists cameras)"};
     return {cameras.front(), ""};
@@ -99,10 +99,10 @@ FoundNode find_node(const std::vector<VideoNode>& nodes, const std::string& sele
     if (fitting.size() == 1) return {fitting.front(), ""};
     if (fitting.size() > 1) {
       return {std::nullopt, fmt::format("'{}' matches {} cameras: select one by USB port or path; {}", selector,
-                                        fitting.size(), text_of(fitting))};
+                                        fitting.size(), nodes_text(fitting))};
     }
   }
-  return {std::nullopt, fmt::format("camera '{}' not found; {}", selector, text_of(nodes))};
+  return {std::nullopt, fmt::format("camera '{}' not found; {}", selector, nodes_text(nodes))};
 }
 
 FoundNode find_again(const std::vector<VideoNode>& nodes, const VideoNode& known) {
@@ -118,7 +118,7 @@ FoundNode find_again(const std::vector<VideoNode>& nodes, const VideoNode& known
   if (!fitting.empty()) return {fitting.front(), ""};
   return {std::nullopt, fmt::format("{} {} is no longer connected; {}", known.name,
                                     has_serial ? known.serial : "at " + (known.port.empty() ? known.path : known.port),
-                                    text_of(nodes))};
+                                    nodes_text(nodes))};
 }
 
 }  // namespace panvo::v4l2_camera

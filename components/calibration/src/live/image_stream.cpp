@@ -37,7 +37,7 @@ std::map<std::string, std::string> published_topics(runtime::Bridge& bridge) {
   return types;
 }
 
-std::string image_topics(const std::map<std::string, std::string>& types) {
+std::string published_image_topics(const std::map<std::string, std::string>& types) {
   std::vector<std::string> names;
   for (const auto& [name, type] : types) {
     if (is_image_type(type)) names.push_back(name);
@@ -91,7 +91,7 @@ std::vector<std::string> ImageStream::await_publishers(milliseconds timeout) {
           "{}: {} ({}); check that the driver runs on this ROS_DOMAIN_ID", lacking->topic,
           types.contains(lacking->topic) ? "has type " + types.at(lacking->topic) + ", which is not an image"
                                          : "is not published",
-          image_topics(types)));
+          published_image_topics(types)));
     std::this_thread::sleep_for(kLook);
   }
 }

@@ -21,7 +21,7 @@ struct Assignment {
 }
 
 /// "[NODE:]NAME:=VALUE".
-Assignment parse(const char* option, const std::string& text) {
+Assignment parse_assignment(const char* option, const std::string& text) {
   const auto assigned = text.find(":=");
   if (assigned == std::string::npos || assigned == 0) refuse(option, text, "write [NODE:]NAME:=VALUE");
   Assignment parts{"", text.substr(0, assigned), text.substr(assigned + 2)};
@@ -105,7 +105,7 @@ int apply_name(SystemDescription& system, const std::string& rule, const Assignm
 }  // namespace
 
 void apply_parameter(SystemDescription& system, const std::string& assignment) {
-  const Assignment parts = parse("-p", assignment);
+  const Assignment parts = parse_assignment("-p", assignment);
   const WrittenValue value = value_of(assignment, parts.value);
   const bool is_for_containers = !parts.node.empty() || NodeParameters::others({{parts.name, value}}).empty();
   const int count = for_nodes(
@@ -118,7 +118,7 @@ void apply_parameter(SystemDescription& system, const std::string& assignment) {
 }
 
 void apply_remap(SystemDescription& system, const std::string& rule) {
-  const Assignment parts = parse("-r", rule);
+  const Assignment parts = parse_assignment("-r", rule);
   int count = 0;
   if (parts.name == "__ns") {
     count = apply_name_space(system, rule, parts);

@@ -39,11 +39,11 @@ std::string requirement(const ParameterDescription& parameter) {
 }
 
 template <class Value>
-WrittenValue written_value(const Value& value) {
+WrittenValue value_as_written(const Value& value) {
   return {{to_text(value)}, false, {}};
 }
 template <class Item>
-WrittenValue written_value(const std::vector<Item>& values) {
+WrittenValue value_as_written(const std::vector<Item>& values) {
   WrittenValue written{{}, true, {}};
   for (const auto& value : values) written.items.push_back(to_text(value));
   return written;
@@ -111,7 +111,7 @@ void ParameterReader::declare(ParameterDescription parameter, Value& value) {
     }
   }
   parameter.value = to_text(value);
-  parameter.written = written_value(value);
+  parameter.written = value_as_written(value);
 
   const auto same_name = [&parameter](const auto& other) { return other.name == parameter.name; };
   if (std::none_of(declared_.begin(), declared_.end(), same_name)) {  // a struct may be read twice

@@ -6,26 +6,26 @@
 namespace panvo::runtime {
 namespace {
 
-const Location kWhere{"--set", 0};
+const Location kSettingLocation{"--set", 0};
 
-[[noreturn]] void refuse(const std::string& setting, const std::string& why) {
-  throw ConfigError(kWhere.file + " " + setting + ": " + why);
+[[noreturn]] void refuse_setting(const std::string& setting, const std::string& why) {
+  throw ConfigError(kSettingLocation.file + " " + setting + ": " + why);
 }
 
 WrittenValue value_from(const std::string& text, const std::string& setting) {
   if (!text.starts_with('[')) {
-    return {.items = {text}, .is_list = false, .where = kWhere};
+    return {.items = {text}, .is_list = false, .where = kSettingLocation};
   }
   YAML::Node list;
   try {
     list = YAML::Load(text);
   } catch (const YAML::Exception&) {
-    refuse(setting, "the list is not closed; write [1, 2]");
+    refuse_setting(setting, "the list is not closed; write [1, 2]");
   }
   Findings findings;
-  auto value = written_value(list, "of the list", kWhere, nullptr, findings);
+  auto value = written_value(list, "of the list", kSettingLocation, nullptr, findings);
   if (!value) {
-    refuse(setting, "list items must be single values; write [1, 2]");
+    refuse_setting(setting, "list items must be single values; write [1, 2]");
   }
   return std::move(*value);
 }
@@ -36,7 +36,7 @@ void apply_setting(SystemDescription& system, const std::string& setting) {
   const auto equals = setting.find('=');
   const auto dot = setting.find('.');
   if (equals == std::string::npos || dot == std::string::npos || dot == 0 || dot + 1 >= equals) {
-    refuse(setting, "write COMPONENT.PARAMETER=VALUE");
+    refuse_setting(setting, "write COMPONENT.PARAMETER=VALUE");
   }
   const std::string component_name = setting.substr(0, dot);
   const std::string parameter = setting.substr(dot + 1, equals - dot - 1);
@@ -58,8 +58,8 @@ void apply_setting(SystemDescription& system, const std::string& setting) {
     for (const auto& name : known) {
       names += (names.empty() ? "" : ", ") + name;
     }
-    refuse(setting, "there is no component \"" + component_name + "\"; " + system.file + " has " +
-                        (names.empty() ? "none" : names));
+    refuse_setting(setting, "there is no component \"" + component_name + "\"; " + system.file + " has " +
+                                (names.empty() ? "none" : names));
   }
 }
 

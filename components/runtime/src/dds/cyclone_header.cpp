@@ -6,7 +6,7 @@
 namespace panvo::runtime::dds {
 namespace {
 
-constexpr std::size_t kEncapsulationSize = 4, kNumberSize = 8, kHeaderSize = 2 * kNumberSize;
+constexpr std::size_t kCdrHeaderSize = 4, kNumberSize = 8, kHeaderSize = 2 * kNumberSize;
 
 bool is_little_endian(const interfaces::Bytes& message) { return (message[1] & 1) != 0; }
 
@@ -28,21 +28,21 @@ void put_number(std::uint64_t number, bool is_little, interfaces::Bytes& out) {
 }  // namespace
 
 std::optional<CycloneHeader> take_header(interfaces::Bytes& message) {
-  if (message.size() < kEncapsulationSize + kHeaderSize) return std::nullopt;
-  const CycloneHeader header{number_at(message, kEncapsulationSize),
-                             static_cast<std::int64_t>(number_at(message, kEncapsulationSize + kNumberSize))};
-  const auto begin = message.begin() + kEncapsulationSize;
+  if (message.size() < kCdrHeaderSize + kHeaderSize) return std::nullopt;
+  const CycloneHeader header{number_at(message, kCdrHeaderSize),
+                             static_cast<std::int64_t>(number_at(message, kCdrHeaderSize + kNumberSize))};
+  const auto begin = message.begin() + kCdrHeaderSize;
   message.erase(begin, begin + kHeaderSize);
   return header;
 }
 
 interfaces::Bytes with_header(const CycloneHeader& header, const interfaces::Bytes& message) {
   const bool is_little = is_little_endian(message);
-  interfaces::Bytes out(message.begin(), message.begin() + kEncapsulationSize);
+  interfaces::Bytes out(message.begin(), message.begin() + kCdrHeaderSize);
   out.reserve(message.size() + kHeaderSize);
   put_number(header.client, is_little, out);
   put_number(static_cast<std::uint64_t>(header.number), is_little, out);
-  out.insert(out.end(), message.begin() + kEncapsulationSize, message.end());
+  out.insert(out.end(), message.begin() + kCdrHeaderSize, message.end());
   return out;
 }
 

@@ -66,7 +66,7 @@ struct PolicyText {
   std::string_view difference, remedy;
 };
 
-PolicyText describe(fdds::QosPolicyId_t policy) {
+PolicyText policy_text(fdds::QosPolicyId_t policy) {
   switch (policy) {
     case fdds::RELIABILITY_QOS_POLICY_ID:
       return {"the reader requests reliable delivery and the writer offers best effort",
@@ -129,13 +129,13 @@ void apply(const ServiceDescription& service, fdds::DataWriterQos& qos) { apply_
 void apply(const ServiceDescription& service, fdds::DataReaderQos& qos) { apply_service(service, qos); }
 
 std::string describe_offer_refused(const std::string& topic, fdds::QosPolicyId_t policy) {
-  const auto [difference, remedy] = describe(policy);
+  const auto [difference, remedy] = policy_text(policy);
   return fmt::format("topic {}: a reader in another process receives nothing from here: {}. Remedy: {}.", topic,
                      difference, remedy);
 }
 
 std::string describe_request_refused(const std::string& topic, fdds::QosPolicyId_t policy) {
-  const auto [difference, remedy] = describe(policy);
+  const auto [difference, remedy] = policy_text(policy);
   return fmt::format("topic {}: nothing is received from a writer in another process: {}. Remedy: {}.", topic,
                      difference, remedy);
 }

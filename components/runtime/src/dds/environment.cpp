@@ -12,7 +12,7 @@
 namespace panvo::runtime {
 namespace {
 
-std::string_view variable(const char* name) {
+std::string_view environment_variable(const char* name) {
   const char* value = std::getenv(name);
   return value ? value : "";
 }
@@ -28,7 +28,7 @@ int domain_from(std::string_view text) {
 }
 
 bool is_localhost_only() {
-  const auto only = variable("ROS_LOCALHOST_ONLY");
+  const auto only = environment_variable("ROS_LOCALHOST_ONLY");
   if (!only.empty() && only != "0" && only != "1")
     throw ConfigError(fmt::format("ROS_LOCALHOST_ONLY={}: use 1 to stay on this machine, 0 otherwise", only));
   return only == "1";
@@ -57,15 +57,15 @@ std::vector<std::string> peers_from(std::string_view text) {
 
 DdsSettings dds_settings_from_environment() {
   DdsSettings settings;
-  if (const auto domain = variable("ROS_DOMAIN_ID"); !domain.empty()) settings.domain = domain_from(domain);
-  if (const auto distro = variable("ROS_DISTRO"); !distro.empty()) settings.ros_distro = distro;
+  if (const auto domain = environment_variable("ROS_DOMAIN_ID"); !domain.empty()) settings.domain = domain_from(domain);
+  if (const auto distro = environment_variable("ROS_DISTRO"); !distro.empty()) settings.ros_distro = distro;
   // ROS_LOCALHOST_ONLY is older and prevails, as in ROS 2.
   if (is_localhost_only()) {
     settings.range = dds::is_until_humble(settings.ros_distro) ? DiscoveryRange::kLoopback : DiscoveryRange::kLocalhost;
     return settings;
   }
-  settings.range = range_from(variable("ROS_AUTOMATIC_DISCOVERY_RANGE"));
-  settings.peers = peers_from(variable("ROS_STATIC_PEERS"));
+  settings.range = range_from(environment_variable("ROS_AUTOMATIC_DISCOVERY_RANGE"));
+  settings.peers = peers_from(environment_variable("ROS_STATIC_PEERS"));
   return settings;
 }
 

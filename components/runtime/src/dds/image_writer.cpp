@@ -21,7 +21,7 @@ namespace {
 
 /// A writer discovers its readers about one round trip before they discover it, and they miss what it writes in
 /// between. The previous writer serves them meanwhile.
-constexpr milliseconds kIntroduction{250};
+constexpr milliseconds kReaderIntroduction{250};
 
 /// Waits until all readers of `old` also match `wanted`, at most for the limit of a write.
 void wait_for_readers(const Writer& wanted, const Writer& old) {
@@ -94,7 +94,7 @@ bool ImageWriter::is_known_to_readers(const Writer& writer) {
   if (writer.matched_readers() < writer_->matched_readers()) return false;
   const auto now = steady_clock::now();
   if (next_matched_ == steady_clock::time_point()) next_matched_ = now;
-  return now - next_matched_ >= kIntroduction;
+  return now - next_matched_ >= kReaderIntroduction;
 }
 
 std::shared_ptr<Writer> ImageWriter::make_shared_writer(std::size_t size) {

@@ -9,7 +9,7 @@
 namespace panvo::runtime::dds {
 namespace {
 
-constexpr std::size_t kEncapsulationSize = 4;
+constexpr std::size_t kEncapsulationBytes = 4;
 constexpr std::size_t kGuidSize = 16;
 constexpr std::size_t kPrefixSize = 12;
 
@@ -20,9 +20,9 @@ std::array<std::uint8_t, kGuidSize> bytes_of(const NodeInfo::Guid& guid) {
   return bytes;
 }
 
-class Writer {
+class CdrWriter {
  public:
-  explicit Writer(std::size_t gid_size) : gid_size_(gid_size) {}
+  explicit CdrWriter(std::size_t gid_size) : gid_size_(gid_size) {}
 
   void gid(const NodeInfo::Guid& guid) {
     const auto bytes = bytes_of(guid);
@@ -104,11 +104,11 @@ class Reader {
   std::span<const std::uint8_t> bytes_;
   const std::size_t gid_size_;
   const bool is_big_endian_;
-  std::size_t position_ = kEncapsulationSize;
+  std::size_t position_ = kEncapsulationBytes;
   bool good_ = true;
 };
 
-std::optional<NodeInfo> decode(std::span<const std::uint8_t> bytes, std::size_t gid_size) {
+std::optional<NodeInfo> decode_with(std::span<const std::uint8_t> bytes, std::size_t gid_size) {
   Reader reader(bytes, gid_size);
   NodeInfo info;
   info.participant = reader.gid();
@@ -132,7 +132,7 @@ bool is_until_humble(const std::string& ros_distro) {
 }
 
 interfaces::Bytes encode(const NodeInfo& info, std::size_t gid_size) {
-  Writer writer(gid_size);
+  CdrWriter writer(gid_size);
   writer.gid(info.participant);
   writer.count(info.nodes.size());
   for (const auto& node : info.nodes) {
@@ -145,9 +145,9 @@ interfaces::Bytes encode(const NodeInfo& info, std::size_t gid_size) {
 }
 
 std::optional<NodeInfo> decode_node_info(std::span<const std::uint8_t> bytes) {
-  if (bytes.size() < kEncapsulationSize || bytes[0] != 0 || bytes[1] > 1) return std::nullopt;
-  auto info = decode(bytes, kGidSize);
-  return info ? info : decode(bytes, kHumbleGidSize);
+  if (bytes.size() < kEncapsulationBytes || bytes[0] != 0 || bytes[1] > 1) return std::nullopt;
+  auto info = decode_with(bytes, kGidSize);
+  return info ? info : decode_with(bytes, kHumbleGidSize);
 }
 
 std::string hexadecimal(const eprosima::fastrtps::rtps::GUID_t& guid) {

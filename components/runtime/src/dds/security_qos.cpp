@@ -42,7 +42,7 @@ constexpr std::array<std::pair<const char*, const char*>, 3> kPlugins{
      {"dds.sec.access.plugin", "builtin.Access-Permissions"},
      {"dds.sec.crypto.plugin", "builtin.AES-GCM-GMAC"}}};
 
-std::string variable(const char* name) {
+std::string security_variable(const char* name) {
   const char* value = std::getenv(name);
   return value ? value : "";
 }
@@ -62,10 +62,10 @@ void refuse_if_others_may_read(const std::filesystem::path& key) {
 
 SecuritySettings security_settings_from_environment() {
   SecuritySettings settings;
-  settings.is_enabled = variable("ROS_SECURITY_ENABLE") == "true";
-  settings.is_enforced = variable("ROS_SECURITY_STRATEGY") == "Enforce";
-  settings.keystore = variable("ROS_SECURITY_KEYSTORE");
-  if (const auto enclave = variable("ROS_SECURITY_ENCLAVE_OVERRIDE"); !enclave.empty()) {
+  settings.is_enabled = security_variable("ROS_SECURITY_ENABLE") == "true";
+  settings.is_enforced = security_variable("ROS_SECURITY_STRATEGY") == "Enforce";
+  settings.keystore = security_variable("ROS_SECURITY_KEYSTORE");
+  if (const auto enclave = security_variable("ROS_SECURITY_ENCLAVE_OVERRIDE"); !enclave.empty()) {
     settings.enclave = enclave.front() == '/' ? enclave : "/" + enclave;
   }
   return settings;

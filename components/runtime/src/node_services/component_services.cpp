@@ -13,7 +13,7 @@ namespace {
 
 using namespace composition_interfaces::srv;  // NOLINT(google-build-using-namespace): as in parameter_services.cpp
 
-constexpr const char* kWhere = "load_node";
+constexpr const char* kLoadNode = "load_node";
 
 std::string default_name(const std::string& package) {
   constexpr std::string_view kOurs = "panvo_";
@@ -21,13 +21,13 @@ std::string default_name(const std::string& package) {
 }
 
 /// Converts a request to a component description; adds problems to `problems`.
-ComponentDescription description_of(const LoadNode_Request& request, std::vector<std::string>& problems) {
+ComponentDescription requested_component(const LoadNode_Request& request, std::vector<std::string>& problems) {
   ComponentDescription description;
   description.package = request.package_name();
   description.plugin = request.plugin_name();
   description.name = request.node_name().empty() ? default_name(request.package_name()) : request.node_name();
-  description.where = {kWhere, 0};
-  const auto complain = [&](const std::string& what) { problems.push_back(std::string(kWhere) + ": " + what); };
+  description.where = {kLoadNode, 0};
+  const auto complain = [&](const std::string& what) { problems.push_back(std::string(kLoadNode) + ": " + what); };
   if (const auto wrong = package_name_problem(description.package))
     complain("package \"" + description.package + "\" " + *wrong);
   if (const auto wrong = class_name_problem(description.plugin))
@@ -61,16 +61,16 @@ ComponentDescription description_of(const LoadNode_Request& request, std::vector
   return description;
 }
 
-std::string joined(const std::vector<std::string>& lines) {
+std::string joined_lines(const std::vector<std::string>& lines) {
   std::string text;
   for (const auto& line : lines) text += (text.empty() ? "" : "; ") + line;
   return text;
 }
 
-LoadNode_Response load(ControlledContainer& container, const LoadNode_Request& request) {
+LoadNode_Response load_node(ControlledContainer& container, const LoadNode_Request& request) {
   LoadNode_Response response;
   std::vector<std::string> problems;
-  const auto description = description_of(request, problems);
+  const auto description = requested_component(request, problems);
   try {
     if (!problems.empty()) throw ConfigError(problems);
     const auto loaded = container.load_component(description);
@@ -78,23 +78,23 @@ LoadNode_Response load(ControlledContainer& container, const LoadNode_Request& r
     response.full_node_name(loaded.full_name);
     response.unique_id(loaded.id);
   } catch (const ConfigError& error) {
-    response.error_message(joined(error.problems()));
+    response.error_message(joined_lines(error.problems()));
   }
   return response;
 }
 
-UnloadNode_Response unload(ControlledContainer& container, const UnloadNode_Request& request) {
+UnloadNode_Response unload_node(ControlledContainer& container, const UnloadNode_Request& request) {
   UnloadNode_Response response;
   try {
     container.unload_component(request.unique_id());
     response.success(true);
   } catch (const ConfigError& error) {
-    response.error_message(joined(error.problems()));
+    response.error_message(joined_lines(error.problems()));
   }
   return response;
 }
 
-ListNodes_Response list(ControlledContainer& container, const ListNodes_Request&) {
+ListNodes_Response list_nodes(ControlledContainer& container, const ListNodes_Request&) {
   ListNodes_Response response;
   for (const auto& [id, full_name] : container.loaded_components()) {
     response.unique_ids().push_back(id);
@@ -104,15 +104,15 @@ ListNodes_Response list(ControlledContainer& container, const ListNodes_Request&
 }
 
 template <class Request, class Response>
-Response refuse(const Request&, const std::string& why) {
+Response refuse_load(const Request&, const std::string& why) {
   Response response;
   response.error_message(why);
   return response;
 }
 
 template <class Request, class Response>
-OfferedService offer(const std::string& name, const char* type, ControlledContainer& container,
-                     Response (*answer)(ControlledContainer&, const Request&)) {
+OfferedService offer_loading(const std::string& name, const char* type, ControlledContainer& container,
+                             Response (*answer)(ControlledContainer&, const Request&)) {
   return {{name, std::string("composition_interfaces/srv/") + type},
           service_handler<Request, Response>(
               [&container, answer](const Request& request) { return answer(container, request); })};
@@ -122,11 +122,12 @@ OfferedService offer(const std::string& name, const char* type, ControlledContai
 
 std::vector<OfferedService> component_services(const std::string& full_name, ControlledContainer& container) {
   const std::string prefix = full_name + "/_container/";
-  auto loads = offer(prefix + "load_node", "LoadNode", container, load);
-  auto unloads = offer(prefix + "unload_node", "UnloadNode", container, unload);
-  loads.refuse = refusal_of(refuse<LoadNode_Request, LoadNode_Response>);
-  unloads.refuse = refusal_of(refuse<UnloadNode_Request, UnloadNode_Response>);
-  return {std::move(loads), std::move(unloads), offer(prefix + "list_nodes", "ListNodes", container, list)};
+  auto loads = offer_loading(prefix + "load_node", "LoadNode", container, load_node);
+  auto unloads = offer_loading(prefix + "unload_node", "UnloadNode", container, unload_node);
+  loads.refuse = refusal_of(refuse_load<LoadNode_Request, LoadNode_Response>);
+  unloads.refuse = refusal_of(refuse_load<UnloadNode_Request, UnloadNode_Response>);
+  return {std::move(loads), std::move(unloads),
+          offer_loading(prefix + "list_nodes", "ListNodes", container, list_nodes)};
 }
 
 }  // namespace panvo::runtime::node_services

@@ -75,7 +75,7 @@ GetAvailableStates_Response get_states(ControlledNode&, const GetAvailableStates
 }
 
 template <class Wanted>
-GetAvailableTransitions_Response described(const Wanted& is_wanted) {
+GetAvailableTransitions_Response described_transitions(const Wanted& is_wanted) {
   GetAvailableTransitions_Response response;
   for (const auto& transition : kTransitions) {
     if (!is_wanted(transition)) continue;
@@ -90,18 +90,18 @@ GetAvailableTransitions_Response described(const Wanted& is_wanted) {
 }
 
 GetAvailableTransitions_Response get_transitions(ControlledNode& node, const GetAvailableTransitions_Request&) {
-  return described([&](const Transition& transition) { return transition.from == state_of(node); });
+  return described_transitions([&](const Transition& transition) { return transition.from == state_of(node); });
 }
 
 GetAvailableTransitions_Response get_graph(ControlledNode&, const GetAvailableTransitions_Request&) {
-  return described([](const Transition&) { return true; });
+  return described_transitions([](const Transition&) { return true; });
 }
 
 bool carry_out(ControlledNode& node, State passing) {
   return passing == State::kShuttingDown ? node.shut_down() : node.set_active(passing == State::kActivating);
 }
 
-TransitionEvent event_of(const Transition& transition) {
+TransitionEvent transition_event(const Transition& transition) {
   TransitionEvent event;
   event.timestamp(static_cast<std::uint64_t>(clocks::system_ns()));
   event.transition().id(transition.id);
@@ -122,8 +122,8 @@ ChangeState_Response change_state(ControlledNode& node, const PublishTransition&
   ChangeState_Response response;
   response.success(found != kTransitions.end() && carry_out(node, found->to));
   if (response.success()) {
-    publish(event_of(*found));
-    publish(event_of(*std::ranges::find(kTransitions, found->to, &Transition::from)));
+    publish(transition_event(*found));
+    publish(transition_event(*std::ranges::find(kTransitions, found->to, &Transition::from)));
   }
   return response;
 }
@@ -136,8 +136,8 @@ ChangeState_Response refuse_to_change(const ChangeState_Request&, const std::str
 }
 
 template <class Request, class Response>
-OfferedService offer(const std::string& name, const char* type, ControlledNode& node,
-                     Response (*answer)(ControlledNode&, const Request&)) {
+OfferedService offer_lifecycle(const std::string& name, const char* type, ControlledNode& node,
+                               Response (*answer)(ControlledNode&, const Request&)) {
   return {
       {name, std::string("lifecycle_msgs/srv/") + type},
       service_handler<Request, Response>([&node, answer](const Request& request) { return answer(node, request); })};
@@ -153,10 +153,10 @@ std::vector<OfferedService> lifecycle_services(const std::string& full_name, Con
                                return change_state(node, publish, request);
                              })};
   changes.refuse = refusal_of(refuse_to_change);
-  return {std::move(changes), offer(full_name + "/get_state", "GetState", node, get_state),
-          offer(full_name + "/get_available_states", "GetAvailableStates", node, get_states),
-          offer(full_name + "/get_available_transitions", "GetAvailableTransitions", node, get_transitions),
-          offer(full_name + "/get_transition_graph", "GetAvailableTransitions", node, get_graph)};
+  return {std::move(changes), offer_lifecycle(full_name + "/get_state", "GetState", node, get_state),
+          offer_lifecycle(full_name + "/get_available_states", "GetAvailableStates", node, get_states),
+          offer_lifecycle(full_name + "/get_available_transitions", "GetAvailableTransitions", node, get_transitions),
+          offer_lifecycle(full_name + "/get_transition_graph", "GetAvailableTransitions", node, get_graph)};
 }
 
 }  // namespace panvo::runtime::node_services

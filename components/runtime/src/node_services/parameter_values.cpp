@@ -22,13 +22,13 @@ constexpr std::array<std::string_view, 10> kShownTypes{"nothing", "a bool", "an 
                                                        "bytes",   "bools",  "integers",   "numbers",  "texts"};
 
 template <class Items>
-WrittenValue list(const Items& items) {
+WrittenValue list_of(const Items& items) {
   WrittenValue written{{}, true, {}};
   for (const auto& item : items) written.items.push_back(to_text(item));
   return written;
 }
 
-ParameterType type_of(const rcl_interfaces::msg::ParameterValue& value) {
+ParameterType written_type(const rcl_interfaces::msg::ParameterValue& value) {
   return value.type() < kShownTypes.size() ? static_cast<ParameterType>(value.type()) : ParameterType::kNotSet;
 }
 
@@ -100,7 +100,7 @@ rcl_interfaces::msg::ParameterDescriptor ros_descriptor(const ParameterDescripti
 
 std::optional<WrittenValue> written_value(const rcl_interfaces::msg::ParameterValue& value) {
   const auto one = [](std::string text) { return WrittenValue{{std::move(text)}, false, {}}; };
-  switch (type_of(value)) {
+  switch (written_type(value)) {
     case ParameterType::kBool:
       return one(to_text(value.bool_value()));
     case ParameterType::kInteger:
@@ -120,11 +120,11 @@ std::optional<WrittenValue> written_value(const rcl_interfaces::msg::ParameterVa
       return written;
     }
     case ParameterType::kIntegerArray:
-      return list(value.integer_array_value());
+      return list_of(value.integer_array_value());
     case ParameterType::kDoubleArray:
-      return list(value.double_array_value());
+      return list_of(value.double_array_value());
     case ParameterType::kStringArray:
-      return list(value.string_array_value());
+      return list_of(value.string_array_value());
     case ParameterType::kNotSet:
       break;
   }
@@ -133,7 +133,7 @@ std::optional<WrittenValue> written_value(const rcl_interfaces::msg::ParameterVa
 
 std::optional<std::string> type_problem(const ParameterDescription& parameter,
                                         const rcl_interfaces::msg::ParameterValue& value) {
-  const auto wanted = ros_type(parameter), given = type_of(value);
+  const auto wanted = ros_type(parameter), given = written_type(value);
   const bool is_list = wanted == ParameterType::kDoubleArray || wanted == ParameterType::kStringArray;
   if (given == wanted || (is_list && is_empty_list(value))) return std::nullopt;
   if (wanted == ParameterType::kDouble && given == ParameterType::kInteger) return std::nullopt;

@@ -10,7 +10,7 @@ namespace {
 using type_description_interfaces::srv::GetTypeDescription_Request;
 using type_description_interfaces::srv::GetTypeDescription_Response;
 
-GetTypeDescription_Response describe(const GetTypeDescription_Request& request) {
+GetTypeDescription_Response described_type(const GetTypeDescription_Request& request) {
   GetTypeDescription_Response response;
   const auto* type = interfaces::find_message_type(request.type_name());
   if (!type) {
@@ -29,7 +29,7 @@ GetTypeDescription_Response describe(const GetTypeDescription_Request& request) 
 
 std::vector<OfferedService> type_services(const std::string& full_name) {
   return {{{full_name + "/get_type_description", "type_description_interfaces/srv/GetTypeDescription"},
-           service_handler<GetTypeDescription_Request, GetTypeDescription_Response>(describe)}};
+           service_handler<GetTypeDescription_Request, GetTypeDescription_Response>(described_type)}};
 }
 
 }  // namespace panvo::runtime::node_services

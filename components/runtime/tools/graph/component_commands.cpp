@@ -33,13 +33,13 @@ void running(const SessionOptions& options) {
   }
 }
 
-struct Arguments {
+struct ComponentArguments {
   std::string container, package, plugin, name, name_space;
   std::vector<std::string> parameters, remaps;
   std::vector<std::uint64_t> ids;
 };
 
-LoadNode_Request load_request(const Arguments& arguments) {
+LoadNode_Request load_request(const ComponentArguments& arguments) {
   LoadNode_Request request;
   request.package_name(arguments.package);
   request.plugin_name(arguments.plugin);
@@ -57,7 +57,7 @@ LoadNode_Request load_request(const Arguments& arguments) {
   return request;
 }
 
-void load(const SessionOptions& options, const Arguments& arguments) {
+void load(const SessionOptions& options, const ComponentArguments& arguments) {
   const auto request = load_request(arguments);
   Session session(options);
   const auto response = session.call<LoadNode_Response>(absolute(arguments.container) + "/_container/load_node",
@@ -66,7 +66,7 @@ void load(const SessionOptions& options, const Arguments& arguments) {
   std::cout << response.unique_id() << "  " << response.full_node_name() << "\n";
 }
 
-void unload(const SessionOptions& options, const Arguments& arguments) {
+void unload(const SessionOptions& options, const ComponentArguments& arguments) {
   Session session(options);
   for (const auto id : arguments.ids) {
     UnloadNode_Request request;
@@ -83,7 +83,7 @@ void unload(const SessionOptions& options, const Arguments& arguments) {
 void add_component_commands(CLI::App& app, const SessionOptions& options) {
   auto* component = app.add_subcommand("component", "components of running containers");
   component->require_subcommand(1);
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<ComponentArguments>();
   component->add_subcommand("running", "list containers with their components and ids")->callback([&options] {
     running(options);
   });

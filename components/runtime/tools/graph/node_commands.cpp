@@ -24,7 +24,7 @@ void list(const SessionOptions& options) {
 /// Topics or services with their types, sorted.
 using Lines = std::set<std::string>;
 
-void print(const char* title, const Lines& lines) {
+void print_lines(const char* title, const Lines& lines) {
   std::cout << "  " << title << ":\n";
   for (const auto& line : lines) std::cout << "    " << line << "\n";
 }
@@ -43,10 +43,10 @@ void info(const SessionOptions& options, const std::string& name) {
     if (endpoint.kind == EndpointKind::kRequest) (endpoint.is_writer ? called : served).insert(line);
   }
   std::cout << name << "\n";
-  print("Subscribers", subscribed);
-  print("Publishers", published);
-  print("Service Servers", served);
-  print("Service Clients", called);
+  print_lines("Subscribers", subscribed);
+  print_lines("Publishers", published);
+  print_lines("Service Servers", served);
+  print_lines("Service Clients", called);
 }
 
 }  // namespace

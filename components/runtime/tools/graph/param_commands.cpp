@@ -64,7 +64,7 @@ struct Arguments {
   std::vector<std::string> prefixes;
 };
 
-void list(const SessionOptions& options, const Arguments& arguments) {
+void list_parameters(const SessionOptions& options, const Arguments& arguments) {
   Session session(options);
   if (!arguments.node.empty()) {
     for (const auto& name : names_of(session, absolute(arguments.node), arguments.prefixes)) std::cout << name << "\n";
@@ -133,7 +133,7 @@ void add_param_commands(CLI::App& app, const SessionOptions& options) {
     command->callback([&options, arguments, run] { run(options, *arguments); });
     return command;
   };
-  auto* list_command = add("list", "list the parameters of one or all nodes", list);
+  auto* list_command = add("list", "list the parameters of one or all nodes", list_parameters);
   list_command->add_option("NODE", arguments->node, "such as /binocular_odometry");
   list_command->add_option("--prefix", arguments->prefixes, "only parameters below this prefix, such as tracker");
   auto* get_command = add("get", "print the value of a parameter", get);

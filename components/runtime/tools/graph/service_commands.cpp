@@ -13,7 +13,7 @@ namespace {
 
 bool is_server(const GraphEndpoint& endpoint) { return endpoint.kind == EndpointKind::kRequest && !endpoint.is_writer; }
 
-void list(const SessionOptions& options, bool with_types) {
+void list_services(const SessionOptions& options, bool with_types) {
   Session session(options);
   std::map<std::string, std::string> services;
   for (const auto& endpoint : session.settled_graph().endpoints) {
@@ -60,7 +60,7 @@ void add_service_commands(CLI::App& app, const SessionOptions& options) {
   const auto arguments = std::make_shared<Arguments>();
   auto* list_command = service->add_subcommand("list", "list the services");
   list_command->add_flag("-t,--show-types", arguments->with_types, "also show types");
-  list_command->callback([&options, arguments] { list(options, arguments->with_types); });
+  list_command->callback([&options, arguments] { list_services(options, arguments->with_types); });
 
   auto* call_command = service->add_subcommand("call", "call a service and print its response");
   call_command->add_option("SERVICE", arguments->name, "such as /binocular_odometry/get_parameters")->required();

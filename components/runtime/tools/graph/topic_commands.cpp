@@ -27,19 +27,19 @@ std::map<std::string, Counts> topics_of(const Graph& graph) {
   return topics;
 }
 
-std::string joined(const std::set<std::string>& words) {
+std::string joined_names(const std::set<std::string>& words) {
   std::string text;
   for (const auto& word : words) text += (text.empty() ? "" : ", ") + word;
   return text;
 }
 
-void list(const SessionOptions& options, bool with_types) {
+void list_topics(const SessionOptions& options, bool with_types) {
   Session session(options);
   for (const auto& [name, counts] : topics_of(session.settled_graph()))
-    std::cout << name << (with_types ? " [" + joined(counts.types) + "]" : "") << "\n";
+    std::cout << name << (with_types ? " [" + joined_names(counts.types) + "]" : "") << "\n";
 }
 
-void print(const Graph& graph, const GraphEndpoint& endpoint) {
+void print_endpoint(const Graph& graph, const GraphEndpoint& endpoint) {
   const std::string node = node_of(graph, endpoint);
   std::cout << "\nNode: " << (node.empty() ? "(not a ROS 2 node)" : node)
             << "\nEndpoint: " << (endpoint.is_writer ? "publisher" : "subscription") << "\nType: " << endpoint.type_name
@@ -51,19 +51,19 @@ void print(const Graph& graph, const GraphEndpoint& endpoint) {
             << "\n";
 }
 
-void info(const SessionOptions& options, const std::string& name, bool verbose) {
+void topic_info(const SessionOptions& options, const std::string& name, bool verbose) {
   Session session(options);
   const Graph graph = session.settled_graph();
   const auto topics = topics_of(graph);
   const auto found = topics.find(name);
   if (found == topics.end()) throw Failure("there is no topic " + name + " (panvo topic list)");
   const auto& [types, writers, readers] = found->second;
-  std::cout << "Type: " << joined(types) << "\nPublishers: " << writers << "\nSubscriptions: " << readers << "\n";
+  std::cout << "Type: " << joined_names(types) << "\nPublishers: " << writers << "\nSubscriptions: " << readers << "\n";
   if (!verbose) return;
   for (const bool is_writer : {true, false}) {
     for (const auto& endpoint : graph.endpoints) {
       if (endpoint.kind == EndpointKind::kTopic && endpoint.name == name && endpoint.is_writer == is_writer)
-        print(graph, endpoint);
+        print_endpoint(graph, endpoint);
     }
   }
 }
@@ -77,12 +77,12 @@ void add_topic_commands(CLI::App& app, const SessionOptions& options) {
   const auto flag = std::make_shared<bool>(false);
   auto* list_command = topic->add_subcommand("list", "list the topics");
   list_command->add_flag("-t,--show-types", *flag, "also show types");
-  list_command->callback([&options, flag] { list(options, *flag); });
+  list_command->callback([&options, flag] { list_topics(options, *flag); });
 
   auto* info_command = topic->add_subcommand("info", "show type, publishers and subscriptions of a topic");
   info_command->add_option("TOPIC", reading->topic, "such as /odometry/binocular")->required();
   info_command->add_flag("-v,--verbose", *flag, "also show nodes, type hashes and quality of service");
-  info_command->callback([&options, reading, flag] { info(options, absolute(reading->topic), *flag); });
+  info_command->callback([&options, reading, flag] { topic_info(options, absolute(reading->topic), *flag); });
 
   const auto add = [&](const char* name, const char* what, void (*run)(const SessionOptions&, const TopicReading&)) {
     auto* command = topic->add_subcommand(name, what);

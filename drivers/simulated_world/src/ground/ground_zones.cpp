@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kKerbWidth_m = 0.15;
 
-Eigen::Vector3f grey(double value, double warmth = 0.0) {
+Eigen::Vector3f ground_grey(double value, double warmth = 0.0) {
   return {static_cast<float>(value * (1.0 + warmth)), static_cast<float>(value),
           static_cast<float>(value * (1.0 - warmth))};
 }
@@ -38,12 +38,12 @@ std::vector<int> streets(const RoadNetwork& roads) {
 // A random pavement: slabs to the kerb, or after a verge, setts, gravel, asphalt.
 std::vector<Band> pavement(const Palette& palette, Random random, bool is_wide) {
   const double end = (is_wide ? 3.4 : 1.9) + random.uniform(0.0, 0.5);
-  const Eigen::Vector3f tint = grey(random.uniform(0.78, 1.0), random.uniform(-0.01, 0.03));
-  const Eigen::Vector3f edging = grey(random.uniform(0.75, 0.95));
+  const Eigen::Vector3f tint = ground_grey(random.uniform(0.78, 1.0), random.uniform(-0.01, 0.03));
+  const Eigen::Vector3f edging = ground_grey(random.uniform(0.75, 0.95));
   const auto paved = [&](const char* name, double from_m, double to_m, bool follows_road) {
     std::vector<Band> bands;
     if (from_m > 0.3) {
-      bands.push_back({from_m - 0.1, palette.find("grass"), false, grey(0.9)});
+      bands.push_back({from_m - 0.1, palette.find("grass"), false, ground_grey(0.9)});
       bands.push_back({from_m, palette.find("kerb"), true, edging});
     }
     bands.push_back({to_m - 0.1, palette.find(name), follows_road, tint});
@@ -71,7 +71,7 @@ Zone street_zone(const Site& site, int road, const Random& all) {
   Zone zone;
   zone.road = road;
   zone.asphalt = palette.find("asphalt");
-  zone.asphalt_tint = grey(random.uniform(0.78, 1.0), random.uniform(-0.015, 0.03));
+  zone.asphalt_tint = ground_grey(random.uniform(0.78, 1.0), random.uniform(-0.015, 0.03));
   zone.wear = static_cast<float>(random.uniform(-1.0, 1.0));
   zone.damage = static_cast<float>(random.uniform(0.15, 1.0));
   zone.has_gutter = random.chance(0.55);
@@ -96,10 +96,10 @@ Zone crossing_zone(const Site& site, int junction, const Random& all) {
   Zone zone;
   zone.junction = junction;
   zone.asphalt = palette.find(is_weak ? "asphalt_smooth" : "asphalt");
-  zone.asphalt_tint = grey(random.uniform(0.8, 1.0), random.uniform(-0.01, 0.02));
+  zone.asphalt_tint = ground_grey(random.uniform(0.8, 1.0), random.uniform(-0.01, 0.02));
   zone.damage = is_weak ? 0.0f : static_cast<float>(random.uniform(0.2, 1.0));
   zone.gutter = zone.asphalt;
-  zone.beside = is_weak ? std::vector<Band>{{2.2, palette.find("asphalt_smooth"), false, grey(0.95)}}
+  zone.beside = is_weak ? std::vector<Band>{{2.2, palette.find("asphalt_smooth"), false, ground_grey(0.95)}}
                         : pavement(palette, random.part(1), random.chance(0.5));
   zone.origin = here.position;
   const Road& road = site.roads.roads[static_cast<std::size_t>(here.roads.front())];

@@ -19,7 +19,7 @@ TraceContext trace_context(float spread, RTCIntersectContextFlags flags) {
   return context;
 }
 
-float turned(const ShutterPose& pose, std::size_t axis, const Eigen::Vector3f& vector) {
+float turned_ray(const ShutterPose& pose, std::size_t axis, const Eigen::Vector3f& vector) {
   const float* row = &pose.world_from_camera[3 * axis];
   return row[0] * vector.x() + row[1] * vector.y() + row[2] * vector.z();
 }
@@ -56,8 +56,8 @@ void PacketTracer::intersect(const SampleRays& samples, TracedPacket& packet) co
     rays.time[i] = pose.time;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const bool is_known = samples.is_block && i > 0;
-      packet.across[axis][i] = is_known ? packet.across[axis][0] : turned(pose, axis, samples.across[i]);
-      packet.down[axis][i] = is_known ? packet.down[axis][0] : turned(pose, axis, samples.down[i]);
+      packet.across[axis][i] = is_known ? packet.across[axis][0] : turned_ray(pose, axis, samples.across[i]);
+      packet.down[axis][i] = is_known ? packet.down[axis][0] : turned_ray(pose, axis, samples.down[i]);
     }
     rays.tnear[i] = 0.0f;
     rays.tfar[i] = std::numeric_limits<float>::infinity();

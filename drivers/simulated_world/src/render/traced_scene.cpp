@@ -65,7 +65,7 @@ bool is_even(const Mesh& mesh, const std::array<std::uint32_t, 4>& corners, bool
          !differs(a.tint.contrast, b.tint.contrast, c.tint.contrast, d.tint.contrast);
 }
 
-std::array<float, 12> to_array(const Eigen::Affine3f& transform) {
+std::array<float, 12> triangle_array(const Eigen::Affine3f& transform) {
   std::array<float, 12> values{};
   Eigen::Map<Eigen::Matrix<float, 3, 4>>(values.data()) = transform.affine();
   return values;
@@ -148,7 +148,7 @@ TracedScene::TracedScene(std::shared_ptr<const Scene> scene, const ShadingMateri
   for (const auto& mesh : scene_->fixed) {
     ObjectRecord object;
     object.first_surface = add_mesh(mesh, standing_.get(), static_cast<std::uint32_t>(2 * objects_.size()));
-    object.world_from_model = to_array(Eigen::Affine3f::Identity());
+    object.world_from_model = triangle_array(Eigen::Affine3f::Identity());
     objects_.push_back(object);
     triangle_count_ += mesh.triangles.size();
   }
@@ -283,7 +283,7 @@ ObjectRecord TracedScene::placed(const Placement& placement) const {
   }
   ObjectRecord object;
   object.first_surface = prototypes_[placement.model].first_surface;
-  object.world_from_model = to_array(placement.world_from_model);
+  object.world_from_model = triangle_array(placement.world_from_model);
   object.is_placed = 1;
   object.tint = {static_cast<float>(placement.tint.red) / 255.0f, static_cast<float>(placement.tint.green) / 255.0f,
                  static_cast<float>(placement.tint.blue) / 255.0f};
@@ -294,7 +294,8 @@ RTCGeometry TracedScene::instance(const Placement& placement, int time_steps) co
   const RTCGeometry geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_INSTANCE);
   rtcSetGeometryInstancedScene(geometry, prototypes_[placement.model].scene.get());
   rtcSetGeometryTimeStepCount(geometry, static_cast<unsigned>(time_steps));
-  rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, to_array(placement.world_from_model).data());
+  rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR,
+                          triangle_array(placement.world_from_model).data());
   rtcSetGeometryMask(geometry, placement.visibility);
   return geometry;
 }
@@ -306,7 +307,7 @@ void TracedScene::place_movers(std::span<const MovingPlacement> movers) {
   moving_.reset(rtcNewScene(device_.get()));
   for (const auto& mover : movers) {
     ObjectRecord object = placed(mover.at_opening);
-    const auto closed = to_array(mover.world_from_model_closed);
+    const auto closed = triangle_array(mover.world_from_model_closed);
     for (std::size_t i = 0; i < closed.size(); ++i) object.motion[i] = closed[i] - object.world_from_model[i];
     object.moves = 1;
     const RTCGeometry geometry = instance(mover.at_opening, 2);

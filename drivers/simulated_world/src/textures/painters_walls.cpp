@@ -9,7 +9,7 @@
 namespace panvo::simulated_world {
 namespace {
 
-Colour between(const Colour& from, const Colour& to, float share) { return from + (to - from) * share; }
+Colour blended(const Colour& from, const Colour& to, float share) { return from + (to - from) * share; }
 
 }  // namespace
 
@@ -45,7 +45,7 @@ cv::Mat3f paint_bricks(const Colour& brick, const Colour& mortar, float variety,
       const Colour own = brick.mul(Colour(1.0f + 0.12f * tone, 1.0f, 1.0f - 0.25f * tone)) * shade * burnt;
       const Colour fired = own * (0.84f + 0.32f * sand(row, column)) * (1.0f + 0.09f * chips(row, column));
       const Colour joint = mortar * (0.75f + 0.5f * sand(row, column)) * (1.0f + 0.08f * broad(row, column));
-      picture(row, column) = between(joint, fired, face) * (1.0f + 0.05f * broad(row, column));
+      picture(row, column) = blended(joint, fired, face) * (1.0f + 0.05f * broad(row, column));
       height(row, column) = face + 0.1f * chips(row, column);
     }
   }
@@ -121,7 +121,7 @@ cv::Mat3f paint_stone_blocks(const Colour& colour, Random random) {
                            (1.0f + 0.07f * broad(row, column));
       const Colour joint = colour * 0.45f * (0.8f + 0.4f * sand(row, column));
       const float face = smooth_step(2.0f, 5.0f, edge);
-      picture(row, column) = between(joint, stone, face);
+      picture(row, column) = blended(joint, stone, face);
       height(row, column) = face + 0.3f * smooth_step(5.0f, 14.0f, edge) + 0.14f * hewn(row, column);
     }
   }
@@ -291,7 +291,7 @@ cv::Mat3f paint_roof_tiles(const Colour& colour, int rows, int columns, bool sla
       const Colour green(0.07f, 0.085f, 0.04f);
       const float grown = 0.6f * smooth_step(1.0f, 2.2f, moss(row, column) + 0.3f * fine(row, column));
       picture(row, column) =
-          between(own, green * (0.6f + 0.8f * sand(row, column)), grown) * shade * (1.0f + 0.06f * moss(row, column));
+          blended(own, green * (0.6f + 0.8f * sand(row, column)), grown) * shade * (1.0f + 0.06f * moss(row, column));
     }
   }
   return picture;

@@ -9,7 +9,7 @@
 namespace panvo::v4l2_camera::kernel {
 namespace {
 
-std::vector<double> rates_of(const DeviceFile& file, PixelCode pixels, int width, int height) {
+std::vector<double> frame_rates(const DeviceFile& file, PixelCode pixels, int width, int height) {
   std::vector<double> rates_hz;
   v4l2_frmivalenum interval{};
   interval.pixel_format = pixels;
@@ -26,7 +26,7 @@ std::vector<double> rates_of(const DeviceFile& file, PixelCode pixels, int width
   return rates_hz;
 }
 
-std::vector<OfferedSize> sizes_of(const DeviceFile& file, PixelCode pixels) {
+std::vector<OfferedSize> frame_sizes(const DeviceFile& file, PixelCode pixels) {
   std::vector<OfferedSize> sizes;
   v4l2_frmsizeenum size{};
   size.pixel_format = pixels;
@@ -45,7 +45,7 @@ std::vector<OfferedSize> sizes_of(const DeviceFile& file, PixelCode pixels) {
                  std::max(1, static_cast<int>(range.step_height)),
                  {}};
     }
-    offered.rates_hz = rates_of(file, pixels, offered.width, offered.height);
+    offered.rates_hz = frame_rates(file, pixels, offered.width, offered.height);
     sizes.push_back(std::move(offered));
     if (size.type != V4L2_FRMSIZE_TYPE_DISCRETE) break;  // a single range describes all sizes
   }
@@ -64,7 +64,7 @@ std::vector<OfferedFormat> offered_formats(const DeviceFile& file) {
   description.type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
   for (; file.try_request(VIDIOC_ENUM_FMT, &description); ++description.index) {
     formats.push_back({description.pixelformat, text_of(description.description, sizeof description.description),
-                       sizes_of(file, description.pixelformat)});
+                       frame_sizes(file, description.pixelformat)});
   }
   return formats;
 }

@@ -9,6 +9,7 @@ namespace panvo::vision {
 
 using Vector6d = Eigen::Matrix<double, 6, 1>;
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
+inline constexpr int kYaw = 5;  ///< index of the rotation about z in a six-vector
 
 /// Cross-product matrix: skew(v) * w == v.cross(w).
 Eigen::Matrix3d skew(const Eigen::Vector3d& v);

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+namespace panvo::localizer {
+
+inline constexpr double kSecond_ns = 1e9;
+
+inline double seconds(std::int64_t from_ns, std::int64_t to_ns) {
+  return static_cast<double>(to_ns - from_ns) / kSecond_ns;
+}
+
+}  // namespace panvo::localizer
