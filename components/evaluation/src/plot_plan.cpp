@@ -78,8 +78,10 @@ void add_plan(PlotCanvas& canvas, const Report& report, const Box& box) {
   add_scale_bar(canvas, all, ranges);
   std::string plot = "plot ";
   if (!truth.empty()) {
-    add_place(canvas, 101, "start", truth.front(), way_out(truth.begin(), truth.end()), 7);
-    add_place(canvas, 102, "end", truth.back(), way_out(truth.rbegin(), truth.rend()), 5);
+    // The names of a closed drive's ends would overlap.
+    const bool is_closed = (truth.back() - truth.front()).head<2>().norm() < 0.1 * ranges.x.size();
+    add_place(canvas, 101, is_closed ? "start, end" : "start", truth.front(), way_out(truth.begin(), truth.end()), 7);
+    add_place(canvas, 102, is_closed ? "" : "end", truth.back(), way_out(truth.rbegin(), truth.rend()), 5);
     plot += std::string("$truth using 1:2 with lines lw 9 lc rgb '") + kTruthColour + "', ";
   }
   for (std::size_t i = 0; i < report.evaluations.size(); ++i) {

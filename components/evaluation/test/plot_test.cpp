@@ -13,6 +13,7 @@
 namespace panvo::evaluation {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -102,6 +103,17 @@ TEST(PlotScript, ThinsOutALongPathAndKeepsItsEnd) {
   const std::string script = plot_script(report);
   EXPECT_LT(script.size(), 1'000'000u);
   EXPECT_THAT(script, HasSubstr("\n4000 4000 4000 0 0 "));
+}
+
+TEST(PlotScript, NamesTheEndsOfAClosedPathOnce) {
+  const auto script_of = [](const Trajectory& path) {
+    return plot_script({"drive", path, {evaluate({"e", path, std::nullopt, {}, std::nullopt}, path)}});
+  };
+  Trajectory path = straight_line(101);
+  EXPECT_THAT(script_of(path), AllOf(HasSubstr(" 'start' "), HasSubstr(" 'end' ")));
+  for (std::size_t i = 51; i < path.poses.size(); ++i)
+    path.poses[i].world_from_base = path.poses[100 - i].world_from_base;
+  EXPECT_THAT(script_of(path), AllOf(HasSubstr(" 'start, end' "), Not(HasSubstr(" 'end' "))));
 }
 
 TEST(GnuplotQuoted, LeavesNoQuoteAndNoControlCharacterInside) {
