@@ -61,7 +61,7 @@ export class App {
   /** What is read rather than watched: a few times a second. */
   update(): void {
     const silent_s = this.#isLive ? (performance.now() - this.#poseCame_ms) / 1000 : 0;
-    this.#state.update(silent_s);
+    this.#state.update(silent_s, this.#isLive && this.connection.isLost);
     this.connection.update();
     this.mapPanel.update();
     if (this.#tabs.isSeen("cameras")) this.cameras.update();

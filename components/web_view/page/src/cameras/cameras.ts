@@ -11,6 +11,12 @@ import { Thumbnails } from "./thumbnails.ts";
 type Kind = "panorama" | "left";
 type ImageHappening = Extract<Happening, { kind: "image" }>;
 
+/** A tap shows the whole height of the picture, another one its middle again. */
+function pictureFrame(...children: HTMLElement[]): HTMLElement {
+  const frame = h("div.frame", { onclick: () => frame.classList.toggle("whole") }, ...children);
+  return frame;
+}
+
 class Camera {
   picture = new Picture();
   topic: string | undefined;
@@ -30,7 +36,7 @@ class Camera {
       this.topic = this.select.value;
       onChoice();
     };
-    const frame = h("div.frame", {}, this.picture.canvas, this.tape, this.note);
+    const frame = pictureFrame(this.picture.canvas, this.tape, this.note);
     this.element = h("figure.camera", { hidden: true }, h("figcaption", {}, h("b", {}, title), this.select), frame);
     this.element.classList.add(kind);
   }
@@ -62,7 +68,7 @@ export class Cameras {
   ) {
     this.#panorama = new Camera("panorama", "Panorama", () => this.#tellTopics());
     this.#left = new Camera("left", "Left camera", () => this.#tellTopics());
-    this.#placeElement = h("figure.camera.place", { hidden: true }, h("figcaption", {}, this.#placeCaption), h("div.frame", {}, this.#place.canvas));
+    this.#placeElement = h("figure.camera.place", { hidden: true }, h("figcaption", {}, this.#placeCaption), pictureFrame(this.#place.canvas));
     element.append(this.empty, this.#panorama.element, this.#placeElement, this.#left.element);
   }
 
@@ -135,7 +141,7 @@ export class Cameras {
     marks.forEach(({ at, text, name }, i) => {
       const mark = tape.children[i] as HTMLElement;
       mark.className = name;
-      mark.style.left = `${(at * 100).toFixed(2)}%`;
+      mark.style.left = `clamp(1.6em, ${(at * 100).toFixed(2)}%, 100% - 1.6em)`;
       setText(mark, text);
     });
   }

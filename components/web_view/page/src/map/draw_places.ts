@@ -107,7 +107,7 @@ export function drawCorrections(context: CanvasRenderingContext2D, drive: Drive,
     }
     context.stroke();
     const age = drive.now - time;
-    if (age >= 0 && age < 2) pulse(context, to.x, to.y, age / 2, isApplied ? colours.good : colours.caution);
+    if (isApplied && age >= 0 && age < 1.5) pulse(context, to.x, to.y, age / 1.5, colours.good);
   }
 }
 
@@ -115,7 +115,7 @@ export function drawCorrections(context: CanvasRenderingContext2D, drive: Drive,
 function pulse(context: CanvasRenderingContext2D, x: number, y: number, part: number, colour: string): void {
   context.globalAlpha = 1 - part;
   context.beginPath();
-  context.arc(x, y, 8 + 34 * part, 0, 2 * Math.PI);
+  context.arc(x, y, 6 + 18 * part, 0, 2 * Math.PI);
   context.strokeStyle = colour;
   context.stroke();
   context.globalAlpha = 1;

@@ -31,6 +31,7 @@ export class MapView {
   tool: Tool | undefined;
   chosen: number | undefined; // id of a place
   cursor_s: number | undefined; // time of the linked cursor
+  covered_px = (): number => 0; // at the left, by something that lies over the map
   onChange = (): void => {}; // tool, following or chosen place
   frames = 0;
   #colours = readColours();
@@ -102,7 +103,7 @@ export class MapView {
       widen(bounds, right, top);
     }
     for (const { pose } of this.drive.places.all.values()) widen(bounds, pose.x, pose.y);
-    this.view.fit(bounds);
+    this.view.fit(bounds, this.covered_px());
     this.follow(false);
   }
 

@@ -3,6 +3,8 @@ import type { Bounds } from "../model/path.ts";
 
 const most_px_per_m = 400;
 const least_px_per_m = 0.02;
+const margin_px = 64; // around what is shown whole
+const least_m = 10; // across, however short the drive
 
 /** Which part of the map is seen: its centre, m, and the scale. Up is +y. Sizes in CSS pixels. */
 export class View {
@@ -34,15 +36,14 @@ export class View {
     this.y += fixed.y - moved.y;
   }
 
-  /** Shows all of `bounds`, with a margin. */
-  fit({ left, right, bottom, top }: Bounds, margin_px = 60): void {
+  /** Shows all of `bounds`, with a margin; `covered_px` at the left is covered by something else. */
+  fit({ left, right, bottom, top }: Bounds, covered_px = 0): void {
     if (!(right >= left)) return;
-    const least_m = 10;
-    this.x = (left + right) / 2;
-    this.y = (bottom + top) / 2;
-    const across = Math.max(100, this.width - 2 * margin_px) / Math.max(least_m, right - left);
+    const across = Math.max(100, this.width - covered_px - 2 * margin_px) / Math.max(least_m, right - left);
     const up = Math.max(100, this.height - 2 * margin_px) / Math.max(least_m, top - bottom);
     this.px_per_m = Math.min(most_px_per_m, Math.max(least_px_per_m, Math.min(across, up)));
+    this.x = (left + right - covered_px / this.px_per_m) / 2;
+    this.y = (bottom + top) / 2;
   }
 
   /** The visible part of the map, with a margin in pixels. */

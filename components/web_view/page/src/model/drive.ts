@@ -5,7 +5,7 @@ import type { Role } from "../link/roles.ts";
 import { mapFromFrame } from "./anchor.ts";
 import { componentsOf, droppedBy, type Component } from "./components.ts";
 import { composed, distance, ellipseOf, flat, identity, yawOf, type Ellipse, type Pose2 } from "./geometry.ts";
-import { correctionOf, entryOfCorrection, entryOfState, type Correction, type Entry } from "./happenings.ts";
+import { correctionOf, entryOfPass, entryOfState, type Correction, type Entry } from "./happenings.ts";
 import * as m from "./messages.ts";
 import { Odometer } from "./odometer.ts";
 import { Path } from "./path.ts";
@@ -20,6 +20,7 @@ export const seriesNames = [
 export type SeriesName = (typeof seriesNames)[number];
 
 const mostEntries = 500;
+const pass_s = 4; // between two sightings of one pass
 const restart_s = 1; // a stamp that lies further back begins another drive
 
 export class Drive {
@@ -50,6 +51,8 @@ export class Drive {
   version = 0; // changes with the content
   #located_s = -Infinity;
   #odometer = new Odometer();
+  #pass: Correction[] = []; // sightings of one place, one after the other
+  #passEntry: Entry | undefined;
   #turns = new TurnComparison();
   #rates = new Map<SeriesName, Rate>();
 
@@ -171,7 +174,7 @@ export class Drive {
     this.corrections.push(correction);
     const place = this.places.all.get(correction.place);
     if (place && correction.outcome === m.Outcome.applied) ++place.corrections;
-    this.#enter(entryOfCorrection(correction));
+    this.#enterCorrection(correction);
   }
 
   #onState(message: m.LocalizationState): void {
@@ -260,6 +263,14 @@ export class Drive {
 
   #noteState(time: number): void {
     this.states.push({ time, state: this.state?.state ?? 0, usable: this.integrity?.usable ?? true });
+  }
+
+  #enterCorrection(correction: Correction): void {
+    const last = this.#pass[this.#pass.length - 1];
+    const goesOn = last?.place === correction.place && correction.time - last.time < pass_s && this.entries.at(-1) === this.#passEntry;
+    if (goesOn) this.entries.pop();
+    this.#pass = goesOn ? [...this.#pass, correction] : [correction];
+    this.#enter((this.#passEntry = entryOfPass(this.#pass)));
   }
 
   #enter(entry: Entry): void {

@@ -21,13 +21,17 @@ export interface Correction {
   after: Pose2;
 }
 
-export function entryOfCorrection({ time, place, outcome, reason, before, after }: Correction): Entry {
-  const common = { time, at: after };
-  if (outcome === Outcome.applied)
-    return { ...common, level: "good", text: `Place ${place} recognised`, detail: `position corrected by ${metres(distance(before, after))}` };
-  if (outcome === Outcome.betterKnown)
-    return { ...common, level: "idle", text: `Place ${place} recognised`, detail: "the pose was known better already" };
-  return { ...common, at: before, level: "caution", text: `Place ${place} not believed`, detail: reason };
+/** One line for a pass by a place, during which it is seen several times. */
+export function entryOfPass(pass: Correction[]): Entry {
+  const { time, place, after, before, reason } = pass[pass.length - 1]!;
+  const applied = pass.filter(({ outcome }) => outcome === Outcome.applied);
+  if (applied.length > 0) {
+    const steps = applied.map((one) => metres(distance(one.before, one.after))).join(", ");
+    return { time, at: after, level: "good", text: `Place ${place} recognised`, detail: `position corrected by ${steps}` };
+  }
+  if (pass.some(({ outcome }) => outcome === Outcome.betterKnown))
+    return { time, at: after, level: "idle", text: `Place ${place} recognised`, detail: "the pose was known better already" };
+  return { time, at: before, level: "caution", text: `Place ${place} seen, not used`, detail: reason };
 }
 
 export function correctionOf(message: CorrectionOutcome, time: number): Correction {

@@ -16,6 +16,7 @@ export interface Known {
   integrity?: Integrity | undefined;
   quality?: OdometryQuality | undefined;
   silent_s?: number; // since the last pose arrived here
+  isLost?: boolean; // the connection to the server
 }
 
 const silence_s = 3;
@@ -26,20 +27,22 @@ export function metres(value: number): string {
   return value >= 10 ? `${value.toFixed(1)} m` : `${value.toFixed(2)} m`;
 }
 
-function oneIn(risk: number): string {
-  const times = Math.round(1 / risk);
-  return Number.isFinite(times) ? times.toLocaleString("en") : "–";
+/** 0.001: "99.9 %". */
+function confidence(risk: number): string {
+  const digits = Math.min(7, Math.max(0, Math.ceil(-Math.log10(risk) - 1e-9) - 2));
+  return `${(100 * (1 - risk)).toFixed(digits)} %`;
 }
 
 function located(title: string, { reason, position_sigma_m }: LocalizationState, integrity: Integrity | undefined): StateLine {
   if (integrity && !integrity.usable) return { level: "caution", title: "Do not rely on the position", reason: integrity.reason };
   const within = integrity
-    ? `within ${metres(integrity.horizontal_protection_level_m)} of the truth, but for 1 case in ${oneIn(integrity.risk)}`
+    ? `within ${metres(integrity.horizontal_protection_level_m)} at ${confidence(integrity.risk)} confidence`
     : `standard deviation ${metres(position_sigma_m)}`;
   return { level: "good", title, reason: reason === "" ? within : `${within}; ${reason}` };
 }
 
-export function stateLine({ state, integrity, quality, silent_s = 0 }: Known): StateLine {
+export function stateLine({ state, integrity, quality, silent_s = 0, isLost = false }: Known): StateLine {
+  if (isLost) return { level: "bad", title: "Server lost", reason: `what is shown is ${Math.floor(silent_s)} s old` };
   if (!state) {
     if (!quality) return { level: "idle", title: "No vehicle yet", reason: "no localization state is published" };
     return quality.reliable

@@ -10,7 +10,7 @@ export class ConnectionPanel {
   #token = byId<HTMLInputElement>("token");
   #button = byId("link");
   #retry_at = 0;
-  #isLost = false;
+  isLost = false;
   token: string;
 
   constructor(readonly onOpen: (address: string) => void) {
@@ -44,13 +44,13 @@ export class ConnectionPanel {
   }
 
   opened(): void {
-    this.#isLost = false;
+    this.isLost = false;
     this.#dialog.close();
     this.#show("open", "Live");
   }
 
   async lost(wasOpen: boolean, retry_ms: number): Promise<void> {
-    this.#isLost = true;
+    this.isLost = true;
     this.#retry_at = performance.now() + retry_ms;
     this.update();
     if (!wasOpen && (await this.#isRefused())) {
@@ -66,7 +66,7 @@ export class ConnectionPanel {
 
   /** Counts down to the next attempt. */
   update(): void {
-    if (!this.#isLost) return;
+    if (!this.isLost) return;
     const seconds = Math.max(0, Math.ceil((this.#retry_at - performance.now()) / 1000));
     this.#show("lost", `Server lost, again in ${seconds} s`);
   }

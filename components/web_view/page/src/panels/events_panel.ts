@@ -8,7 +8,7 @@ import { glyph } from "../ui/glyph.ts";
 export class EventsPanel {
   #list = h("ol.events");
   #empty = h("p.empty", {}, "Nothing has happened yet. Recognised places and changes of the state will be listed here.");
-  #shown: Entry[] = [];
+  #shown: Entry | undefined; // the newest that is listed
 
   constructor(
     readonly element: HTMLElement,
@@ -21,11 +21,9 @@ export class EventsPanel {
   update(): void {
     const { entries, begin } = this.drive;
     this.#empty.hidden = entries.length > 0;
-    if (entries === this.#shown && this.#list.childElementCount === entries.length) return;
-    // Another drive, or old entries were left out: from scratch.
-    if (entries !== this.#shown || this.#list.childElementCount > entries.length || entries.length === 500) this.#list.replaceChildren();
-    this.#shown = entries;
-    for (const entry of entries.slice(this.#list.childElementCount)) this.#list.prepend(this.#line(entry, begin));
+    if (entries.at(-1) === this.#shown) return;
+    this.#shown = entries.at(-1);
+    this.#list.replaceChildren(...entries.map((entry) => this.#line(entry, begin)).reverse());
   }
 
   #line(entry: Entry, begin: number): HTMLElement {

@@ -41,6 +41,7 @@ export class MapPanel {
     };
     for (const [id, call] of Object.entries(buttons)) byId(id).addEventListener("click", call);
     map.onChange = () => this.#onChange();
+    map.covered_px = () => (byId("legend").offsetWidth < map.view.width / 3 ? byId("legend").offsetWidth : 0);
     this.#onChange();
   }
 
@@ -61,8 +62,9 @@ export class MapPanel {
       uncertainty: drive.ellipse !== undefined || drive.integrity !== undefined,
     };
     for (const [layer, element] of this.#layers) element.hidden = !has[layer];
-    byId("legend").hidden = byId("empty").hidden = !!drive.pose || drive.places.all.size > 0;
-    byId("legend").hidden = !byId("empty").hidden;
+    const isEmpty = !drive.pose && drive.places.all.size === 0;
+    byId("empty").hidden = !isEmpty;
+    byId("legend").hidden = isEmpty;
     this.#showPlace();
   }
 

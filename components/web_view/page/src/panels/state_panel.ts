@@ -26,9 +26,9 @@ export class StatePanel {
   }
 
   /** `silent_s`: since the last pose arrived. */
-  update(silent_s: number): void {
+  update(silent_s: number, isLost: boolean): void {
     const { drive } = this;
-    const { level, title, reason } = stateLine({ state: drive.state, integrity: drive.integrity, quality: drive.quality, silent_s });
+    const { level, title, reason } = stateLine({ state: drive.state, integrity: drive.integrity, quality: drive.quality, silent_s, isLost });
     byId("state").dataset.level = level;
     setGlyph(byId("state-glyph"), level);
     setText(byId("state-title"), title);

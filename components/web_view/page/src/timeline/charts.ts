@@ -49,8 +49,8 @@ export const charts: Chart[] = [
     format: metres,
     curves: of(
       ["1σ", "sigma", "enhanced"],
-      ["protection level", "protection", "ink", [4, 3]],
-      ["true error", "error", "binocular"],
+      ["protection", "protection", "ink", [4, 3]],
+      ["error", "error", "binocular"],
     ),
   },
   { title: "Turn rate", format: degreesPerSecond, curves: of(["odometry", "odometry", "binocular"], ["compass", "compass", "compass"]) },

@@ -92,7 +92,7 @@ export class Plot {
         cursor: { sync: { key: "drive" }, drag: { x: false, y: false }, points: { size: 6 }, y: false },
         scales: { x: { time: false, auto: false }, y: { auto: false } },
         axes: [
-          { ...axis, size: 20, gap: 2, space: 60, grid: { show: false }, values: (_, ticks) => ticks.map((tick) => clock(tick - drive.begin)) },
+          { ...axis, size: 22, gap: 6, space: 60, grid: { show: false }, values: (_, ticks) => ticks.map((tick) => clock(tick - drive.begin)) },
           { ...axis, size: 38, gap: 4, space: 26, grid },
         ],
         series: [
