@@ -3,6 +3,9 @@
 import { parse } from "@foxglove/rosmsg";
 import { MessageReader, MessageWriter } from "@foxglove/rosmsg2-serialization";
 
+/** A request without members: CDR has one byte in their place. */
+const nothing = new Uint8Array([0, 1, 0, 0, 0]);
+
 const readers = new Map<string, MessageReader>();
 const writers = new Map<string, MessageWriter>();
 
@@ -14,10 +17,11 @@ function kept<Value>(map: Map<string, Value>, key: string, make: () => Value): V
 
 /** Throws if the definition is empty or malformed. */
 export function readerOf(schema: string): MessageReader {
-  if (schema === "") throw new Error("the server has no definition of the type");
+  if (schema.trim() === "") throw new Error("the server has no definition of the type");
   return kept(readers, schema, () => new MessageReader(parse(schema, { ros2: true })));
 }
 
-export function writerOf(schema: string): MessageWriter {
-  return kept(writers, schema, () => new MessageWriter(parse(schema, { ros2: true })));
+export function encoded(schema: string, message: unknown): Uint8Array {
+  if (schema.trim() === "") return nothing;
+  return kept(writers, schema, () => new MessageWriter(parse(schema, { ros2: true }))).writeMessage(message);
 }

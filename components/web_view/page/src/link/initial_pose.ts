@@ -17,3 +17,37 @@ export function initialPose({ x, y, yaw }: Pose2) {
     },
   };
 }
+
+const poseStamped = `std_msgs/Header header
+geometry_msgs/PoseWithCovariance pose
+================================================================================
+MSG: std_msgs/Header
+builtin_interfaces/Time stamp
+string frame_id
+================================================================================
+MSG: builtin_interfaces/Time
+int32 sec
+uint32 nanosec
+================================================================================
+MSG: geometry_msgs/PoseWithCovariance
+geometry_msgs/Pose pose
+float64[36] covariance
+================================================================================
+MSG: geometry_msgs/Pose
+geometry_msgs/Point position
+geometry_msgs/Quaternion orientation
+================================================================================
+MSG: geometry_msgs/Point
+float64 x
+float64 y
+float64 z
+================================================================================
+MSG: geometry_msgs/Quaternion
+float64 x
+float64 y
+float64 z
+float64 w
+`;
+
+/** Definitions of what the page itself publishes, by type. */
+export const publishable: Record<string, string> = { "geometry_msgs/msg/PoseWithCovarianceStamped": poseStamped };

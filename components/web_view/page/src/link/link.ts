@@ -2,8 +2,9 @@
 /** The connection to the server: opens it, opens it again when it is lost, and passes on what comes. */
 import { BackOff } from "./back_off.ts";
 import { Channels, type Subscription } from "./channels.ts";
-import { writerOf } from "./codec.ts";
+import { encoded } from "./codec.ts";
 import type { Happening, Order, RoleMessage } from "./events.ts";
+import { publishable } from "./initial_pose.ts";
 import { Requests } from "./requests.ts";
 import { parseBinary, parseText, publishFrame, subprotocols, type ServerText } from "./wire.ts";
 
@@ -167,7 +168,7 @@ export class Link {
       this.#published.set(topic, channel);
       this.#send({ op: "advertise", channels: [{ id: channel, topic, encoding: "cdr", schemaName, schema, schemaEncoding: "ros2msg" }] });
     }
-    this.#socket.send(publishFrame(channel, writerOf(schema).writeMessage(message)));
+    this.#socket.send(publishFrame(channel, encoded(schema, message)));
   }
 
   #send(object: unknown): void {
@@ -181,37 +182,3 @@ function shortened(role: string, message: unknown): unknown {
   const { header, id, pose, is_junction, thumbnail } = message as Record<string, unknown>;
   return { header, id, pose, is_junction, thumbnail: (thumbnail as Uint8Array).slice() };
 }
-
-const poseStamped = `std_msgs/Header header
-geometry_msgs/PoseWithCovariance pose
-================================================================================
-MSG: std_msgs/Header
-builtin_interfaces/Time stamp
-string frame_id
-================================================================================
-MSG: builtin_interfaces/Time
-int32 sec
-uint32 nanosec
-================================================================================
-MSG: geometry_msgs/PoseWithCovariance
-geometry_msgs/Pose pose
-float64[36] covariance
-================================================================================
-MSG: geometry_msgs/Pose
-geometry_msgs/Point position
-geometry_msgs/Quaternion orientation
-================================================================================
-MSG: geometry_msgs/Point
-float64 x
-float64 y
-float64 z
-================================================================================
-MSG: geometry_msgs/Quaternion
-float64 x
-float64 y
-float64 z
-float64 w
-`;
-
-/** Definitions of what the page itself publishes. */
-const publishable: Record<string, string> = { "geometry_msgs/msg/PoseWithCovarianceStamped": poseStamped };

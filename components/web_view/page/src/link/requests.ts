@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /** Parameters and services of a server. */
-import { readerOf, writerOf } from "./codec.ts";
+import { encoded, readerOf } from "./codec.ts";
 import type { Happening, Order } from "./events.ts";
 import { callFrame, type ServerBinary, type ServerText, type Service } from "./wire.ts";
 
@@ -63,7 +63,7 @@ export class Requests {
     const service = [...this.#services.values()].find((one) => one.name === name);
     try {
       if (!service) throw new Error(`there is no service ${name}`);
-      const bytes = writerOf(service.request?.schema ?? service.requestSchema ?? "").writeMessage(request);
+      const bytes = encoded(service.request?.schema ?? service.requestSchema ?? "", request);
       this.#open.set(call, service);
       this.send(callFrame(service.id, call, bytes));
     } catch (error) {

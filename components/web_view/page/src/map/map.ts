@@ -120,6 +120,7 @@ export class MapView {
 
   setTool(tool: Tool | undefined): void {
     this.tool = tool;
+    this.chosen = undefined;
     this.onChange();
     this.draw();
   }

@@ -4,7 +4,7 @@ import type { RoleMessage } from "../link/events.ts";
 import type { Role } from "../link/roles.ts";
 import { mapFromFrame } from "./anchor.ts";
 import { componentsOf, droppedBy, type Component } from "./components.ts";
-import { composed, distance, ellipseOf, flat, identity, yawOf, type Ellipse, type Pose2 } from "./geometry.ts";
+import { composed, distance, ellipseOf, flat, identity, wrapped, yawOf, type Ellipse, type Pose2 } from "./geometry.ts";
 import { correctionOf, entryOfPass, entryOfState, type Correction, type Entry } from "./happenings.ts";
 import * as m from "./messages.ts";
 import { Odometer } from "./odometer.ts";
@@ -173,7 +173,10 @@ export class Drive {
     const correction = correctionOf(message, m.seconds(message.header.stamp));
     this.corrections.push(correction);
     const place = this.places.all.get(correction.place);
-    if (place && correction.outcome === m.Outcome.applied) ++place.corrections;
+    if (place && correction.outcome === m.Outcome.applied) {
+      ++place.corrections;
+      this.recognised = { place: place.id, heading: wrapped(correction.after.yaw - place.pose.yaw), time: correction.time };
+    }
     this.#enterCorrection(correction);
   }
 

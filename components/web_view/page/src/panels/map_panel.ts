@@ -88,7 +88,6 @@ export class MapPanel {
   cancel(): void {
     this.#proposed = undefined;
     this.map.setTool(undefined);
-    this.map.choose(undefined);
   }
 
   #zoom(factor: number): void {
