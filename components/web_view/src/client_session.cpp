@@ -20,7 +20,7 @@ constexpr std::size_t kMaxPublications = 100;
 
 }  // namespace
 
-ClientSession::ClientSession(View& view, WebSocketServer::Connection& connection)
+ClientSession::ClientSession(View& view, WebServer::Connection& connection)
     : view_(view),
       connection_(connection),
       assembly_(kMaxRequestBytes),

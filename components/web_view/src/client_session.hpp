@@ -14,16 +14,16 @@
 #include "frame_assembly.hpp"
 #include "panvo/runtime/output.hpp"
 #include "sender.hpp"
-#include "web_socket_server.hpp"
+#include "web_server.hpp"
 
 namespace panvo::web_view {
 
 class View;
 
 /// One client: its subscriptions and what it publishes. A topic is read only while the client subscribes to it.
-class ClientSession final : public WebSocketServer::Session {
+class ClientSession final : public WebServer::Session {
  public:
-  ClientSession(View& view, WebSocketServer::Connection& connection);
+  ClientSession(View& view, WebServer::Connection& connection);
   ~ClientSession() override;
 
   void receive(std::uint8_t head, std::span<const std::uint8_t> data) override;
@@ -55,7 +55,7 @@ class ClientSession final : public WebSocketServer::Session {
   void complain(const std::string& why);
 
   View& view_;
-  WebSocketServer::Connection& connection_;
+  WebServer::Connection& connection_;
   FrameAssembly assembly_;
   Sender sender_;
   std::map<std::uint32_t, Publication> publications_;  // by id; used by the connection's thread only

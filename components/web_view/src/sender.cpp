@@ -14,7 +14,7 @@ constexpr std::chrono::seconds kStall{3};
 
 }  // namespace
 
-Sender::Sender(WebSocketServer::Connection& connection, Limits limits, std::function<void()> on_stalled)
+Sender::Sender(WebServer::Connection& connection, Limits limits, std::function<void()> on_stalled)
     : connection_(connection),
       on_stalled_(std::move(on_stalled)),
       queue_(limits.max_bytes, limits.max_items),

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "send_queue.hpp"
-#include "web_socket_server.hpp"
+#include "web_server.hpp"
 
 namespace panvo::web_view {
 
@@ -27,7 +27,7 @@ class Sender {
 
   /// `on_stalled` is called at most once, on the sender's thread, when the queue is full or the client has not read for
   /// the timeout of the connection, which is then closed. Not called for a client that has left.
-  Sender(WebSocketServer::Connection& connection, Limits limits, std::function<void()> on_stalled);
+  Sender(WebServer::Connection& connection, Limits limits, std::function<void()> on_stalled);
   ~Sender();
   Sender(const Sender&) = delete;
   Sender& operator=(const Sender&) = delete;
@@ -47,7 +47,7 @@ class Sender {
   void loop();
   bool send(const SendQueue::Item& item);
 
-  WebSocketServer::Connection& connection_;
+  WebServer::Connection& connection_;
   const std::function<void()> on_stalled_;
   mutable std::mutex mutex_;
   std::condition_variable changed_;

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -10,15 +11,16 @@
 #include <string>
 
 #include "channel_table.hpp"
+#include "page.hpp"
 #include "panvo/runtime/context.hpp"
 #include "sender.hpp"
-#include "web_socket_server.hpp"
+#include "web_server.hpp"
 
 namespace panvo::web_view {
 
 class ClientSession;
 
-/// Serves the topics of a runtime to the clients of a WebSocket server. Thread-safe.
+/// Serves the topics of a runtime to the clients of a WebSocket server, and a page that shows them. Thread-safe.
 class View {
  public:
   struct Settings {
@@ -28,6 +30,7 @@ class View {
     bool allow_control = false;  ///< clients may publish
     std::size_t max_clients = 8;
     std::size_t queue_bytes = 32'000'000;  ///< waiting messages of each client
+    std::filesystem::path page;            ///< folder of the web page; empty: none
   };
 
   /// Throws ServerError if it cannot listen.
@@ -51,18 +54,22 @@ class View {
   void leave(ClientSession& session);
 
  private:
-  std::optional<WebSocketServer::Refusal> admit(const std::string& token);
+  bool is_known(const Credentials& credentials) const;
+  std::optional<WebServer::Refusal> admit(const Credentials& credentials);
+  HttpResponse get(const Credentials& credentials, const HttpRequest& request) const;
   void update();
 
   runtime::Context& context_;
   const Settings settings_;
   const std::string session_;
+  const std::string cookie_name_, cookie_;  // let a browser in that has given the token
+  const Page page_;
   const std::unique_ptr<runtime::TopicAccess> topics_;
   std::mutex update_mutex_;   // one update at a time
   mutable std::mutex mutex_;  // guards the next two
   ChannelTable table_;
   std::set<ClientSession*> sessions_;
-  std::unique_ptr<WebSocketServer> server_;  // last: its sessions use the members above
+  std::unique_ptr<WebServer> server_;  // last: its sessions use the members above
 };
 
 }  // namespace panvo::web_view

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "access.hpp"
+#include "page.hpp"
 #include "panvo/runtime/component.hpp"
 #include "panvo/runtime/errors.hpp"
 #include "view.hpp"
@@ -20,6 +21,7 @@ struct Parameters {
   bool allow_control = false;
   int max_clients = 8;
   int queue_mb = 32;
+  std::string page;
 
   template <class Field>
   static void describe(Field&& field) {
@@ -32,6 +34,7 @@ struct Parameters {
     field(&P::max_clients, "max_clients", "", "further clients are refused; each takes two threads", 1, 100);
     field(&P::queue_mb, "queue_mb", "MB",
           "messages waiting for one client; beyond it large messages are dropped, then the client is closed", 1, 1000);
+    field.path(&P::page, "page", "folder of the web page; empty: the one that was built with panvo");
   }
 };
 
@@ -51,14 +54,17 @@ class WebViewComponent final : public runtime::Component {
     settings.allow_control = parameters.allow_control;
     settings.max_clients = static_cast<std::size_t>(parameters.max_clients);
     settings.queue_bytes = static_cast<std::size_t>(parameters.queue_mb) * 1'000'000;
+    settings.page = parameters.page.empty() ? default_page_folder() : std::filesystem::path(parameters.page);
     try {
       view_ = std::make_unique<View>(context, settings);
     } catch (const ServerError& error) {
       throw runtime::ConfigError(context.name() + ": " + error.what() + "; set the parameter port or host");
     }
     context.every(kRefreshPeriod, [this] { view_->refresh(); });
-    context.log().info("listening on ws://{}:{}; open this address in Foxglove or Lichtblick as a Foxglove WebSocket",
-                       parameters.host, view_->port());
+    context.log().info(
+        "listening on ws://{0}:{1}: open http://{0}:{1} in a browser, or this address in Foxglove or "
+        "Lichtblick as a Foxglove WebSocket",
+        parameters.host, view_->port());
   }
 
  private:
