@@ -23,6 +23,7 @@ const poseRoles = ["enhanced", "binocular", "state"];
 
 export class App {
   drive = new Drive();
+  topics: { topic: string; type: string }[] = [];
   map = new MapView(byId("map-canvas"), this.drive);
   send: (order: Order) => void = () => {}; // to the connection
   #poseCame_ms = performance.now();
@@ -92,6 +93,7 @@ export class App {
         this.#onLost(happening.wasOpen, happening.retry_ms);
         break;
       case "topics":
+        this.topics = happening.topics;
         this.cameras.offer(happening.topics);
         break;
       case "services":
