@@ -8,6 +8,7 @@ import { haloText } from "./draw_ground.ts";
 import type { View } from "./view.ts";
 
 const labels_from_px_per_m = 4;
+const pulse_s = 1.5;
 
 function isNear(view: View, x: number, y: number, margin = 20): boolean {
   return x > -margin && y > -margin && x < view.width + margin && y < view.height + margin;
@@ -29,7 +30,7 @@ function mark(context: CanvasRenderingContext2D, place: Place, x: number, y: num
 }
 
 /** All marks in one stroke, so that thousands take a few milliseconds. */
-export function drawPlaces(context: CanvasRenderingContext2D, drive: Drive, view: View, colours: Colours, chosen: number | undefined): void {
+export function drawPlaces(context: CanvasRenderingContext2D, drive: Drive, view: View, colours: Colours): void {
   const small = view.px_per_m < 2;
   const radius = small ? 3.5 : 5.5;
   const declutter = new Declutter(small ? 5 : 3);
@@ -48,6 +49,10 @@ export function drawPlaces(context: CanvasRenderingContext2D, drive: Drive, view
   context.strokeStyle = colours.card;
   context.stroke();
   for (const { text, x, y } of labelled) haloText(context, text, x + 9, y - 7, colours, "left");
+}
+
+/** Rings around the chosen place and the one that is being passed. */
+export function drawRings(context: CanvasRenderingContext2D, drive: Drive, view: View, colours: Colours, chosen: number | undefined): void {
   const place = chosen === undefined ? undefined : drive.places.all.get(chosen);
   if (place) ring(context, view, place, colours.ink, 11);
   const locked = drive.recognised && drive.now - drive.recognised.time < 1 ? drive.places.all.get(drive.recognised.place) : undefined;
@@ -85,7 +90,7 @@ export function drawSightings(context: CanvasRenderingContext2D, drive: Drive, v
 export function drawCorrections(context: CanvasRenderingContext2D, drive: Drive, view: View, colours: Colours): void {
   context.lineWidth = 2.5;
   context.lineCap = "round";
-  for (const { outcome, before, after, time } of drive.corrections) {
+  for (const { outcome, before, after } of drive.corrections) {
     const isApplied = outcome === Outcome.applied;
     if (outcome === Outcome.betterKnown) continue;
     const from = view.toScreen(before.x, before.y);
@@ -106,17 +111,21 @@ export function drawCorrections(context: CanvasRenderingContext2D, drive: Drive,
       context.lineTo(from.x + 4, from.y - 4);
     }
     context.stroke();
-    const age = drive.now - time;
-    if (isApplied && age >= 0 && age < 1.5) pulse(context, to.x, to.y, age / 1.5, colours.good);
   }
 }
 
-/** A ring that grows and fades: it has just happened. */
-function pulse(context: CanvasRenderingContext2D, x: number, y: number, part: number, colour: string): void {
-  context.globalAlpha = 1 - part;
-  context.beginPath();
-  context.arc(x, y, 6 + 18 * part, 0, 2 * Math.PI);
-  context.strokeStyle = colour;
-  context.stroke();
+/** Rings that grow and fade around corrections that have just happened. */
+export function drawPulses(context: CanvasRenderingContext2D, drive: Drive, view: View, colours: Colours): void {
+  context.strokeStyle = colours.good;
+  context.lineWidth = 2.5;
+  for (const { outcome, after, time } of drive.corrections.slice(-10)) {
+    const part = (drive.now - time) / pulse_s;
+    if (outcome !== Outcome.applied || part < 0 || part > 1) continue;
+    const { x, y } = view.toScreen(after.x, after.y);
+    context.globalAlpha = 1 - part;
+    context.beginPath();
+    context.arc(x, y, 6 + 18 * part, 0, 2 * Math.PI);
+    context.stroke();
+  }
   context.globalAlpha = 1;
 }

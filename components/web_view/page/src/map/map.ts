@@ -1,26 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The map: what is drawn in which order, and what a tap hits. */
 import type { Drive } from "../model/drive.ts";
-import { identity, type Pose2 } from "../model/geometry.ts";
 import { nowhere, widen } from "../model/path.ts";
 import type { Place } from "../model/places.ts";
 import { onSchemeChange, readColours } from "../ui/colours.ts";
 import { drawGrid, drawScaleBar } from "./draw_ground.ts";
-import { drawCorrections, drawPlaces, drawSightings } from "./draw_places.ts";
+import { drawPulses, drawRings } from "./draw_places.ts";
 import { drawArrow, drawUncertainty } from "./draw_vehicle.ts";
 import { listen } from "./gestures.ts";
+import type { Layers } from "./scene.ts";
+import { SceneCache } from "./scene_cache.ts";
 import type { Tool } from "./tools.ts";
-import { trace } from "./trace.ts";
 import { View } from "./view.ts";
-
-export interface Layers {
-  enhanced: boolean;
-  binocular: boolean;
-  truth: boolean;
-  places: boolean;
-  corrections: boolean;
-  uncertainty: boolean;
-}
 
 const hit_px = 14;
 
@@ -36,6 +27,7 @@ export class MapView {
   frames = 0;
   #colours = readColours();
   #context: CanvasRenderingContext2D;
+  #scene = new SceneCache();
   #isDue = false;
   #drawn = -1;
 
@@ -167,29 +159,14 @@ export class MapView {
     context.fillStyle = colours.card;
     context.fillRect(0, 0, view.width, view.height);
     drawGrid(context, view, colours);
-    if (layers.truth && drive.mapFromTruth) this.#line(drive.truth, drive.mapFromTruth, colours.truth, 6);
-    const isAlone = drive.enhanced.count === 0;
-    const mapFromOdom = isAlone ? identity : drive.mapFromOdom;
-    if (layers.binocular && mapFromOdom) this.#line(drive.binocular, mapFromOdom, colours.binocular, 1.75);
-    if (layers.corrections) drawSightings(context, drive, view, colours);
-    if (layers.enhanced) this.#line(drive.enhanced, identity, colours.enhanced, 2.75);
-    if (layers.places) drawPlaces(context, drive, view, colours, this.chosen);
-    if (layers.corrections) drawCorrections(context, drive, view, colours);
+    if (this.#scene.draw(context, drive, layers, view, colours, performance.now())) this.draw();
+    if (layers.places) drawRings(context, drive, view, colours, this.chosen);
+    if (layers.corrections) drawPulses(context, drive, view, colours);
     if (layers.uncertainty) drawUncertainty(context, drive, view, colours);
-    if (pose) drawArrow(context, view, pose, isAlone ? colours.binocular : colours.enhanced, colours.card);
+    if (pose) drawArrow(context, view, pose, drive.enhanced.count === 0 ? colours.binocular : colours.enhanced, colours.card);
     this.#drawCursor();
     this.tool?.draw(context, view, colours);
     drawScaleBar(context, view, colours);
-  }
-
-  #line(path: Drive["enhanced"], mapFromOwn: Pose2, colour: string, width: number): void {
-    const context = this.#context;
-    context.beginPath();
-    trace(context, path, this.view, mapFromOwn);
-    context.lineWidth = width;
-    context.lineJoin = context.lineCap = "round";
-    context.strokeStyle = colour;
-    context.stroke();
   }
 
   #drawCursor(): void {

@@ -31,9 +31,9 @@ function ofOwnFrame(seen: Bounds, mapFromOwn: Pose2): Bounds {
 
 /**
  * Draws a path that lies in the map at `mapFromOwn`. Leaves out what is not seen, and points that are nearer to each other than
- * can be seen, so that the time depends on the size of the screen and not on the length of the drive. Returns the number of points.
+ * can be seen. `from`: index of the first pose. Returns the number of points.
  */
-export function trace(pen: Pen, path: Path, view: View, mapFromOwn: Pose2 = identity): number {
+export function trace(pen: Pen, path: Path, view: View, mapFromOwn: Pose2 = identity, from = 0): number {
   const seen = ofOwnFrame(view.seen(20), mapFromOwn);
   const origin = composed(mapFromOwn, identity);
   const cos = Math.cos(origin.yaw) * view.px_per_m;
@@ -44,12 +44,12 @@ export function trace(pen: Pen, path: Path, view: View, mapFromOwn: Pose2 = iden
   let isDown = false;
   let lastX = 0;
   let lastY = 0;
-  for (let chunk = 0; chunk < path.chunks.length; ++chunk) {
+  for (let chunk = Math.floor(from / Path.chunk); chunk < path.chunks.length; ++chunk) {
     if (!isSeen(path.chunks[chunk]!, seen)) {
       isDown = false;
       continue;
     }
-    const begin = Math.max(0, chunk * Path.chunk - 1); // joined to the chunk before
+    const begin = Math.max(from, chunk * Path.chunk - 1); // joined to the chunk before
     const end = Math.min(path.count, (chunk + 1) * Path.chunk);
     for (let i = isDown ? begin + 1 : begin; i < end; ++i) {
       const x = start.x + cos * path.xs[i]! - sin * path.ys[i]!;

@@ -22,6 +22,7 @@ export class Path {
   static readonly chunk = 256; // poses with common bounds
 
   count = 0;
+  revision = 0; // changes when poses are removed
   received = 0; // poses added, whether or not they are still kept
   times = new Float64Array(1024);
   xs = new Float64Array(1024);
@@ -45,6 +46,7 @@ export class Path {
   }
 
   clear(): void {
+    ++this.revision;
     this.count = this.received = 0;
     this.chunks = [];
   }

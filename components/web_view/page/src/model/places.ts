@@ -14,6 +14,7 @@ export interface Place {
 
 export class Places {
   all = new Map<number, Place>();
+  version = 0; // changes with the content
 
   add({ header, id, pose, is_junction, thumbnail }: Landmark): Place {
     const known = this.all.get(id);
@@ -25,11 +26,13 @@ export class Places {
       thumbnail: thumbnail.length > 0 ? thumbnail : undefined,
       corrections: known?.corrections ?? 0,
     };
+    ++this.version;
     this.all.set(id, place);
     return place;
   }
 
   move({ ids, poses }: LandmarkPoses): void {
+    ++this.version;
     poses.forEach(({ pose }, i) => {
       const id = ids[i];
       if (id === undefined) return;

@@ -74,6 +74,7 @@ export function restoreSnapshot(drive: Drive, snapshot: Snapshot): void {
   drive.restoreDriven(driven_m);
   for (const { thumbnail, ...place } of snapshot.places) {
     const bytes = thumbnail === "" ? undefined : Uint8Array.from(atob(thumbnail), (letter) => letter.charCodeAt(0));
+    ++drive.places.version;
     drive.places.all.set(place.id, { ...place, built_s: place.built_s ?? NaN, thumbnail: bytes });
   }
   for (const name of seriesNames) fillSeries(drive.series[name], snapshot.series[name]);

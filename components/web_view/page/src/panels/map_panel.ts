@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /** What lies over the map: layers, buttons, hints, the chosen place, and the vehicle to be placed. */
 import { Thumbnails } from "../cameras/thumbnails.ts";
-import type { Layers, MapView } from "../map/map.ts";
+import type { MapView } from "../map/map.ts";
+import type { Layers } from "../map/scene.ts";
 import { MeasureTool, PlaceTool } from "../map/tools.ts";
 import type { Drive } from "../model/drive.ts";
 import type { Pose2 } from "../model/geometry.ts";
