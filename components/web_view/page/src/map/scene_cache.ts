@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /**
- * A picture of what stands still, larger than the screen. While the map moves or poses come, it is shown again, and only what is new is
- * drawn; so the time of a frame does not depend on the length of the drive.
+ * A picture of what stands still, larger than the screen. While the map moves or poses come, it is shown again, and only the newest poses
+ * are drawn; so the time of a frame does not depend on the length of the drive.
  */
 import type { Drive } from "../model/drive.ts";
 import type { Colours } from "../ui/colours.ts";
@@ -11,6 +11,7 @@ import { View } from "./view.ts";
 const margin = 0.25; // of the screen, on each side
 const settled_ms = 120; // without a change of scale, after which the picture is drawn anew
 const most_scaled = 1.5;
+const most_newest = 500; // poses that are drawn with each frame
 
 export class SceneCache {
   #canvas = document.createElement("canvas");
@@ -30,14 +31,15 @@ export class SceneCache {
     ]);
     const isSharp = this.#view.px_per_m === view.px_per_m;
     const mayBeScaled = now_ms - this.#scaled_ms < settled_ms && Math.abs(Math.log(view.px_per_m / this.#view.px_per_m)) < Math.log(most_scaled);
-    if (content !== this.#content || !this.#covers(view) || !(isSharp || mayBeScaled)) {
+    const newest = lines.reduce((sum, { path }, i) => sum + path.count - (this.#counts[i] ?? 0), 0);
+    if (content !== this.#content || newest > most_newest || !this.#covers(view) || !(isSharp || mayBeScaled)) {
       this.#content = content;
+      this.#counts = lines.map(({ path }) => path.count);
       this.#render(drive, layers, view, colours);
-    } else {
-      lines.forEach((line, i) => line.path.count > this.#counts[i]! && drawLine(this.#context, line, this.#view, colours, this.#counts[i]! - 1));
     }
-    this.#counts = lines.map(({ path }) => path.count);
     this.#show(context, view);
+    // Each line begins a little before the one below it, whose end would cover it.
+    lines.forEach((line, i) => line.path.count > this.#counts[i]! && drawLine(context, line, view, colours, Math.max(0, this.#counts[i]! - 1 - 3 * i)));
     return this.#view.px_per_m !== view.px_per_m;
   }
 
