@@ -80,7 +80,7 @@ class BagPlayerComponent final : public runtime::Component, public runtime::Sour
     const auto stamp_ns = message_->timestamp_ns;
     while (message_ && message_->timestamp_ns == stamp_ns) {
       outputs_[message_->topic]->publish(std::move(message_->data));
-      ++progress_.done;
+      if (progress_.done < progress_.total) ++progress_.done;  // not after it was moved back
       advance();
     }
   }

@@ -29,9 +29,11 @@ bool is_trusted_origin(std::string_view origin, std::span<const std::string> all
                                                      "file://"};
   if (origin.empty() || std::ranges::find(kViewers, origin) != kViewers.end()) return true;
   if (std::ranges::any_of(allowed, [&](const auto& one) { return one == origin || one == "*"; })) return true;
-  const auto scheme = origin.substr(0, origin.find("://"));
-  if (scheme != "http" && scheme != "https") return false;
-  const auto authority = origin.substr(scheme.size() + 3);
+  constexpr std::string_view kSeparator = "://";
+  const auto separator = origin.find(kSeparator);
+  const auto scheme = origin.substr(0, separator);
+  if (separator == std::string_view::npos || (scheme != "http" && scheme != "https")) return false;
+  const auto authority = origin.substr(separator + kSeparator.size());
   // An address in brackets contains colons; elsewhere the first one begins the port.
   const auto end = authority.starts_with('[') ? authority.find(']') + 1 : authority.find(':');
   return is_local(authority.substr(0, end));

@@ -28,7 +28,7 @@ TEST(Access, TrustsPagesOfThisMachineAndOfKnownViewers) {
     EXPECT_TRUE(is_trusted_origin(origin, allowed)) << origin;
   for (const char* origin :
        {"null", "https://example.org", "http://localhost.example.org", "https://app.foxglove.dev.example.org",
-        "http://127.0.0.1.example.org", "ftp://localhost", "http://[::1", "localhost", "http://"})
+        "http://127.0.0.1.example.org", "ftp://localhost", "http://[::1", "localhost", "http://", "https"})
     EXPECT_FALSE(is_trusted_origin(origin, allowed)) << origin;
   EXPECT_TRUE(is_trusted_origin("https://example.org", std::vector<std::string>{"*"}));
 }
