@@ -60,13 +60,15 @@ class Container::Implementation final : public node_services::ControlledContaine
   using Entries = std::vector<std::unique_ptr<LoadedComponent>>;
 
   std::string full_name() const;
+  bool has_services() const;
   void meet_others();
   Loaded put(Recipe recipe);
   void make(LoadedComponent& entry);
   Entries::iterator find(const std::string& name);
   bool unload_if(const std::function<bool(const LoadedComponent&)>& is_it);
   void take_last();
-  std::vector<std::unique_ptr<BridgeService>> serve(std::vector<node_services::OfferedService> offered);
+  std::vector<std::unique_ptr<BridgeService>> serve(std::vector<node_services::OfferedService> offered,
+                                                    const void* owner);
   std::vector<std::string> own_problems();
   std::unique_ptr<node_services::ComponentNode> make_node(Context::State& state, const std::string& full_name,
                                                           std::function<void()> shut_down);
@@ -108,7 +110,7 @@ class Container::Implementation final : public node_services::ControlledContaine
   std::atomic<SourceRunner*> active_runner_ = nullptr;
   Context own_;  // the container's own outputs
   std::shared_ptr<UntypedOutput> diagnostics_output_;
-  std::shared_ptr<UntypedOutput> parameter_events_;  // nullptr without a bridge
+  std::shared_ptr<UntypedOutput> parameter_events_;  // nullptr in a replay
   Diagnostics diagnostics_;
   ServiceTotals service_totals_;
   std::unique_ptr<PlayedClock> clock_;  // nullptr: no /clock

@@ -38,6 +38,7 @@ diagnostic_msgs::msg::DiagnosticArray Diagnostics::collect(const std::vector<con
           fmt::format("mean {:.2f} ms, p95 {:.2f} ms, max {:.2f} ms, CPU mean {:.2f} ms", times.wall.mean_ms(),
                       times.wall.quantile_ms(0.95), times.wall.max_ms(), times.cpu.mean_ms()));
     }
+    for (const auto& [key, value] : component->diagnose()) add(status, key, value);
     if (component->restarts > 0) add(status, "restarted", fmt::format("{} times, after an error", component->restarts));
     const auto set_aside = component->files_set_aside();
     for (const auto& text : set_aside) add(status, "file", text);

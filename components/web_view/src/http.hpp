@@ -11,6 +11,7 @@ namespace panvo::web_view {
 struct Credentials {
   std::string token;   ///< of the address, or of the header Authorization
   std::string cookie;  ///< that this server has set
+  std::string origin;  ///< of the web page that asks, "https://example.org"
 };
 
 /// A GET request for a file.

@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
-#include <fstream>
-#include <iterator>
 #include <utility>
+
+#include "files_below.hpp"
 
 namespace panvo::web_view {
 namespace {
@@ -16,19 +16,11 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view kAlphanumeric = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_";
-constexpr std::uintmax_t kMaxFileBytes = 64'000'000;  // read into memory as a whole
-
-bool is_file_name(std::string_view name) {
-  return !name.empty() && kAlphanumeric.find(name.front()) != std::string_view::npos &&
-         std::ranges::all_of(name, [](char letter) {
-           return letter == '.' || letter == '-' || kAlphanumeric.find(letter) != std::string_view::npos;
-         });
-}
 
 /// Changes with the file.
-std::string version_of(const fs::path& file, std::uintmax_t bytes) {
+std::string version_of(const fs::path& file) {
   const auto written = fs::last_write_time(file).time_since_epoch();
-  return '"' + std::to_string(written.count()) + '-' + std::to_string(bytes) + '"';
+  return '"' + std::to_string(written.count()) + '-' + std::to_string(fs::file_size(file)) + '"';
 }
 
 /// Whether a header Host may be repeated in an answer.
@@ -70,26 +62,6 @@ HttpResponse explanation(const std::string& host) {
 }
 
 }  // namespace
-
-std::optional<fs::path> file_below(const fs::path& folder, std::string_view url_path) {
-  if (!url_path.starts_with('/')) return std::nullopt;
-  fs::path file = folder;
-  while (!url_path.empty()) {
-    url_path.remove_prefix(1);
-    const std::string_view name = url_path.substr(0, url_path.find('/'));
-    url_path.remove_prefix(name.size());
-    const bool is_end = url_path.empty();
-    if (name.empty() && is_end) {
-      file /= "index.html";
-    } else if (is_file_name(name)) {
-      file /= name;
-    } else {
-      return std::nullopt;
-    }
-  }
-  std::error_code error;
-  return fs::is_regular_file(file, error) ? std::optional(file) : std::nullopt;
-}
 
 std::string_view content_type_of(const fs::path& file) {
   constexpr auto kTypes = std::to_array<std::pair<std::string_view, std::string_view>>({
@@ -134,12 +106,11 @@ HttpResponse Page::get(const HttpRequest& request) const {
   if (folder_.empty()) {
     if (request.path == "/") response = explanation(request.host);
   } else if (const auto file = file_below(folder_, request.path)) {
-    const auto bytes = fs::file_size(*file);
-    const std::string version = version_of(*file, bytes);
+    const std::string version = version_of(*file);
     if (request.if_none_match == version) {
       response = {304, "", "", {}};
-    } else if (std::ifstream stream(*file, std::ios::binary); stream && bytes <= kMaxFileBytes) {
-      response = {200, std::string(content_type_of(*file)), {std::istreambuf_iterator(stream), {}}, {}};
+    } else if (auto content = read_file(*file)) {
+      response = {200, std::string(content_type_of(*file)), std::move(*content), {}};
     }
     response.headers.emplace_back("ETag", version);
   }

@@ -2,17 +2,12 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <string_view>
 
 #include "http.hpp"
 
 namespace panvo::web_view {
-
-/// The file that a URL path names below a folder; a path that ends with a slash names index.html. nullopt: none.
-/// Names begin with a letter, digit or underscore and have only these, dots and hyphens, so no path leads out.
-std::optional<std::filesystem::path> file_below(const std::filesystem::path& folder, std::string_view url_path);
 
 /// By the extension of the file name; "application/octet-stream" if it is unknown.
 std::string_view content_type_of(const std::filesystem::path& file);

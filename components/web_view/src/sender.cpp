@@ -34,6 +34,11 @@ void Sender::send_text(std::string json) {
   push({SendQueue::Text{std::move(json)}, bytes});
 }
 
+void Sender::send_binary(std::vector<std::uint8_t> frame) {
+  const std::size_t bytes = frame.size();
+  push({SendQueue::Binary{std::move(frame)}, bytes});
+}
+
 void Sender::send_message(std::uint32_t subscription, const runtime::SamplePtr& sample) {
   const std::size_t bytes = sample->serialized_size();
   push({SendQueue::Message{subscription, sample}, bytes, keeping_of(sample->type_name(), bytes)});
@@ -81,6 +86,7 @@ void Sender::loop() {
 
 bool Sender::send(const SendQueue::Item& item) {
   if (const auto* text = std::get_if<SendQueue::Text>(&item.content)) return connection_.send_text(text->json);
+  if (const auto* binary = std::get_if<SendQueue::Binary>(&item.content)) return connection_.send_binary(binary->frame);
   const auto& message = std::get<SendQueue::Message>(item.content);
   frame_ = message_head(message.subscription, message.sample->time_ns());
   const auto& bytes = message.sample->bytes();

@@ -33,6 +33,7 @@ class Sender {
   Sender& operator=(const Sender&) = delete;
 
   void send_text(std::string json);
+  void send_binary(std::vector<std::uint8_t> frame);
   /// A message of a subscription.
   void send_message(std::uint32_t subscription, const runtime::SamplePtr& sample);
 

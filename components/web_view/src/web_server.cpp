@@ -35,7 +35,7 @@ Credentials credentials_of(const mg_connection* connection, const std::string& c
   std::array<char, kMaxSecret> cookie{};
   const std::string cookies = header_of(connection, "Cookie");
   const int length = mg_get_cookie(cookies.c_str(), cookie_name.c_str(), cookie.data(), cookie.size());
-  return {token_of(connection), length > 0 ? cookie.data() : ""};
+  return {token_of(connection), length > 0 ? cookie.data() : "", header_of(connection, "Origin")};
 }
 
 /// Whether a client asks for one of the server's subprotocols. civetweb's own answer may be that of an earlier connection.

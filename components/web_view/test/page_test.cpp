@@ -20,22 +20,6 @@ std::map<std::string, std::string> headers_of(const HttpResponse& response) {
 
 HttpRequest request(const std::string& path) { return {path, "localhost:8765", ""}; }
 
-TEST(FileBelow, FindsFilesOfTheFolderAndNothingElse) {
-  const test::TemporaryFolder folder;
-  const auto page = folder.path() / "page";
-  folder.write("page/index.html", "page");
-  folder.write("page/sub/a-b_1.js", "script");
-  folder.write("page/.hidden", "hidden");
-  folder.write("secret", "secret");
-  EXPECT_EQ(file_below(page, "/"), page / "index.html");
-  EXPECT_EQ(file_below(page, "/sub/a-b_1.js"), page / "sub" / "a-b_1.js");
-  for (const char* path : {"", "index.html", "/none", "/sub", "/sub/", "/.hidden", "/..", "/../secret",
-                           "/sub/../../secret", "//secret", "/./index.html", "/..\\secret", "/sub//a-b_1.js"})
-    EXPECT_EQ(file_below(page, path), std::nullopt) << path;
-  EXPECT_EQ(file_below(page, folder.path().string() + "/secret"), std::nullopt);
-  EXPECT_EQ(file_below(page, std::string_view("/index.html\0", 12)), std::nullopt);
-}
-
 TEST(Page, GivesFilesWithTheirTypeAndProtectsThem) {
   const test::TemporaryFolder folder;
   folder.write("index.html", "<p>hello");
