@@ -12,7 +12,7 @@ leave_out() {
 }
 
 for program in node npm; do
-  command -v "$program" >/dev/null || leave_out "$program is not installed (Debian: apt install nodejs npm, or panvo setup page)"
+  command -v "$program" >/dev/null || leave_out "$program is not installed (panvo setup page)"
 done
 mkdir -p "$build"
 cd "$build"

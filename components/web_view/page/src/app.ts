@@ -12,6 +12,7 @@ import { ConnectionPanel } from "./panels/connection_panel.ts";
 import { EventsPanel } from "./panels/events_panel.ts";
 import { MapPanel } from "./panels/map_panel.ts";
 import { ParametersPanel } from "./panels/parameters_panel.ts";
+import { PlayerPanel } from "./panels/player_panel.ts";
 import { StatePanel } from "./panels/state_panel.ts";
 import { SystemPanel } from "./panels/system_panel.ts";
 import { Timeline } from "./timeline/timeline.ts";
@@ -50,6 +51,7 @@ export class App {
   });
   #events = new EventsPanel(byId("events"), this.drive, ({ at }) => at && this.#showOnMap(at));
   #system = new SystemPanel(byId("components"), this.drive);
+  #player = new PlayerPanel(byId("player"), this.#call);
   #actions = new ActionsPanel(byId("actions"), this.#call);
   #parameters = new ParametersPanel(byId("parameters"), (order) => this.send(order), this.#call);
   #tabs = new Tabs(() => this.#onTab());
@@ -62,7 +64,7 @@ export class App {
   /** What is read rather than watched: a few times a second. */
   update(): void {
     const silent_s = this.#isLive ? (performance.now() - this.#poseCame_ms) / 1000 : 0;
-    this.#state.update(silent_s, this.#isLive && this.connection.isLost);
+    this.#state.update({ silent_s, isLost: this.#isLive && this.connection.isLost, isPaused: this.#player.isPaused });
     this.connection.update();
     this.mapPanel.update();
     if (this.#tabs.isSeen("cameras")) this.cameras.update();
@@ -98,6 +100,7 @@ export class App {
         break;
       case "services":
         this.#actions.offer(happening.services);
+        this.#player.offer(happening.services);
         break;
       case "parameters":
         this.#parameters.show(happening.parameters);
@@ -106,7 +109,11 @@ export class App {
         this.#onReply(happening);
         break;
       case "status":
-        if (happening.level > 0) this.notify(happening.message);
+        if (happening.level > 1) this.notify(happening.message);
+        else this.#system.setNotice(happening.message);
+        break;
+      case "time":
+        this.#player.time_s = happening.time_s;
         break;
       case "traffic":
         this.#system.setTraffic(happening.traffic, this.#server, shownAddress(this.connection.address));
@@ -137,6 +144,10 @@ export class App {
     }
   }
 
+  togglePlayer(): void {
+    void this.#player.toggle();
+  }
+
   notify(text: string): void {
     const note = byId("note");
     setText(note, text);
@@ -152,14 +163,15 @@ export class App {
     this.#poseCame_ms = performance.now();
     this.connection.opened();
     this.mapPanel.setControl(capabilities.includes("clientPublish"));
-    this.#parameters.setAllowed(capabilities.includes("parameters"));
+    this.#parameters.setAllowed(capabilities.includes("parameters"), capabilities.includes("clientPublish"));
     if (!capabilities.includes("services")) this.#actions.offer([]);
   }
 
   #onLost(wasOpen: boolean, retry_ms: number): void {
     this.mapPanel.setControl(false);
-    this.#parameters.setAllowed(false);
+    this.#parameters.setAllowed(false, false);
     this.#actions.offer([]);
+    this.#player.offer([]);
     void this.connection.lost(wasOpen, retry_ms);
   }
 

@@ -27,6 +27,7 @@ listenForShortcuts({
   m: () => app.mapPanel.toggleMeasure(),
   p: () => app.mapPanel.togglePlace(),
   s: () => void app.takeSnapshot(),
+  " ": () => app.togglePlayer(),
   "?": () => help.showModal(),
   Escape: () => app.mapPanel.cancel(),
 });

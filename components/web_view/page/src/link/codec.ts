@@ -3,6 +3,9 @@
 import { parse } from "@foxglove/rosmsg";
 import { MessageReader, MessageWriter } from "@foxglove/rosmsg2-serialization";
 
+/** Whether a definition has no members. */
+export const isEmpty = (schema: string): boolean => schema.replace(/#.*/g, "").trim() === "";
+
 /** A request without members: CDR has one byte in their place. */
 const nothing = new Uint8Array([0, 1, 0, 0, 0]);
 
@@ -22,6 +25,6 @@ export function readerOf(schema: string): MessageReader {
 }
 
 export function encoded(schema: string, message: unknown): Uint8Array {
-  if (schema.trim() === "") return nothing;
+  if (isEmpty(schema)) return nothing;
   return kept(writers, schema, () => new MessageWriter(parse(schema, { ros2: true }))).writeMessage(message);
 }

@@ -39,4 +39,5 @@ export type Happening =
   | { kind: "status"; level: number; message: string }
   | { kind: "parameters"; parameters: Parameter[] }
   | { kind: "reply"; call: number; response?: unknown; fault?: string }
+  | { kind: "time"; time_s: number } // of the recording that is played
   | { kind: "traffic"; traffic: Traffic };

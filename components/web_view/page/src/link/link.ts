@@ -37,6 +37,7 @@ export class Link {
   #batch: RoleMessage[] = [];
   #bytes = 0;
   #undecodable = 0;
+  #time_s: number | undefined; // of the player
 
   constructor(readonly surroundings: Surroundings) {
     this.#requests = new Requests((data) => this.#socket?.send(data), surroundings.emit);
@@ -66,6 +67,7 @@ export class Link {
   }
 
   tellTraffic(): void {
+    if (this.#time_s !== undefined) this.surroundings.emit({ kind: "time", time_s: this.#time_s });
     const traffic = { bytes: this.#bytes, unknown: this.#channels.unknown, undecodable: this.#undecodable };
     this.surroundings.emit({ kind: "traffic", traffic });
   }
@@ -146,6 +148,7 @@ export class Link {
     this.#bytes += frame.byteLength;
     const message = parseBinary(frame);
     if (message?.op === "reply") this.#requests.reply(message);
+    if (message?.op === "time") this.#time_s = Number(message.timeNs) * 1e-9;
     if (message?.op !== "message") return;
     const subscription = this.#channels.find(message.subscription);
     if (!subscription) return;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /** Parameters and services of a server. */
-import { encoded, readerOf } from "./codec.ts";
+import { encoded, isEmpty, readerOf } from "./codec.ts";
 import type { Happening, Order } from "./events.ts";
 import { callFrame, type ServerBinary, type ServerText, type Service } from "./wire.ts";
 
@@ -52,7 +52,8 @@ export class Requests {
     if (!service) return;
     this.#open.delete(call);
     try {
-      const response = readerOf(service.response?.schema ?? service.responseSchema ?? "").readMessage(payload);
+      const schema = service.response?.schema ?? service.responseSchema ?? "";
+      const response = isEmpty(schema) ? {} : readerOf(schema).readMessage(payload);
       this.emit({ kind: "reply", call, response });
     } catch (error) {
       this.emit({ kind: "reply", call, fault: (error as Error).message });

@@ -56,6 +56,7 @@ export function parseText(text: string): ServerText | undefined {
 
 export type ServerBinary =
   | { op: "message"; subscription: number; timeNs: bigint; payload: Uint8Array }
+  | { op: "time"; timeNs: bigint }
   | { op: "reply"; service: number; call: number; payload: Uint8Array };
 
 const messageHead = 13;
@@ -74,6 +75,7 @@ export function parseBinary(frame: ArrayBuffer): ServerBinary | undefined {
       payload: new Uint8Array(frame, messageHead),
     };
   }
+  if (kind === 2 && frame.byteLength >= 9) return { op: "time", timeNs: view.getBigUint64(1, true) };
   if (kind === 3 && frame.byteLength >= replyHead) {
     const start = replyHead + view.getUint32(9, true); // after the name of the encoding
     if (start > frame.byteLength) return undefined;

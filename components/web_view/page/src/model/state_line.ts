@@ -17,6 +17,7 @@ export interface Known {
   quality?: OdometryQuality | undefined;
   silent_s?: number; // since the last pose arrived here
   isLost?: boolean; // the connection to the server
+  isPaused?: boolean; // the bag that is played
 }
 
 const silence_s = 3;
@@ -41,8 +42,9 @@ function located(title: string, { reason, position_sigma_m }: LocalizationState,
   return { level: "good", title, reason: reason === "" ? within : `${within}; ${reason}` };
 }
 
-export function stateLine({ state, integrity, quality, silent_s = 0, isLost = false }: Known): StateLine {
+export function stateLine({ state, integrity, quality, silent_s = 0, isLost = false, isPaused = false }: Known): StateLine {
   if (isLost) return { level: "bad", title: "Server lost", reason: `what is shown is ${Math.floor(silent_s)} s old` };
+  if (isPaused) return { level: "idle", title: "Paused", reason: "the bag waits" };
   if (!state) {
     if (!quality) return { level: "idle", title: "No vehicle yet", reason: "no localization state is published" };
     return quality.reliable

@@ -9,11 +9,14 @@ export interface Descriptor {
   integer_range: { from_value: number | bigint; to_value: number | bigint }[];
 }
 
-/** "/panvo/localizer.integrity.risk": node and parameter. */
+/** "/panvo/localizer/integrity.risk": node and parameter. Nodes have no dots, but "qos_overrides./tf.depth" has slashes. */
 export function nodeOf(name: string): { node: string; parameter: string } {
-  const dot = name.indexOf(".", name.lastIndexOf("/") + 1);
-  return dot < 0 ? { node: "", parameter: name } : { node: name.slice(0, dot), parameter: name.slice(dot + 1) };
+  const slash = name.split(".", 1)[0]!.lastIndexOf("/");
+  return { node: name.slice(0, Math.max(0, slash)), parameter: name.slice(slash + 1) };
 }
+
+/** Whether a parameter is worth a line: the settings of each topic are too many. */
+export const isListed = (name: string): boolean => !nodeOf(name).parameter.startsWith("qos_overrides.");
 
 export function rangeText({ description, read_only, floating_point_range, integer_range }: Descriptor): string {
   const range = floating_point_range[0] ?? integer_range[0];

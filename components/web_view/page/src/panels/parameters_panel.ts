@@ -3,7 +3,7 @@
 import type { Order } from "../link/events.ts";
 import type { Parameter, ParameterValue } from "../link/wire.ts";
 import { h, setText } from "../ui/dom.ts";
-import { nodeOf, rangeText, readValue, type Descriptor } from "./parameter_values.ts";
+import { isListed, nodeOf, rangeText, readValue, type Descriptor } from "./parameter_values.ts";
 
 type Call = (service: string, request: unknown) => Promise<unknown>;
 
@@ -11,11 +11,12 @@ class Row {
   #input: HTMLInputElement;
   #note = h("small");
   element: HTMLElement;
-  value: ParameterValue | undefined;
+  #value: ParameterValue | undefined;
+  #isReadOnly = false;
 
   constructor(
-    readonly name: string,
     label: string,
+    readonly isAllowed: () => boolean,
     readonly set: (value: ParameterValue) => void,
   ) {
     this.#input = h("input", { spellcheck: false, "aria-label": label });
@@ -24,7 +25,8 @@ class Row {
   }
 
   show(value: ParameterValue | undefined): void {
-    this.value = value;
+    this.#value = value;
+    this.#input.disabled = this.#isReadOnly || !this.isAllowed();
     this.#input.type = typeof value === "boolean" ? "checkbox" : "text";
     if (typeof value === "boolean") this.#input.checked = value;
     else if (document.activeElement !== this.#input) this.#input.value = typeof value === "string" ? value : JSON.stringify(value ?? "");
@@ -33,11 +35,12 @@ class Row {
 
   describe(descriptor: Descriptor): void {
     setText(this.#note, rangeText(descriptor));
-    this.#input.disabled = descriptor.read_only;
+    this.#isReadOnly = descriptor.read_only;
+    this.show(this.#value);
   }
 
   #change(): void {
-    const value = typeof this.value === "boolean" ? this.#input.checked : readValue(this.#input.value, this.value);
+    const value = typeof this.#value === "boolean" ? this.#input.checked : readValue(this.#input.value, this.#value);
     this.#input.setCustomValidity(value === undefined ? "not a value of this parameter's type" : "");
     this.#input.reportValidity();
     if (value === undefined) return;
@@ -50,6 +53,7 @@ export class ParametersPanel {
   #rows = new Map<string, Row>();
   #nodes = new Map<string, HTMLElement>();
   #list = h("div.parameters");
+  #maySet = false;
 
   constructor(
     readonly element: HTMLElement,
@@ -60,17 +64,19 @@ export class ParametersPanel {
     element.append(h("h3", {}, "Parameters"), this.#list);
   }
 
-  setAllowed(isAllowed: boolean): void {
-    this.element.hidden = !isAllowed;
-    if (isAllowed) this.order({ kind: "parameters" });
+  setAllowed(mayRead: boolean, maySet: boolean): void {
+    this.element.hidden = !mayRead;
+    this.#maySet = maySet;
+    if (mayRead) this.order({ kind: "parameters" });
   }
 
   show(parameters: Parameter[]): void {
     const added = new Set<string>();
-    for (const { name, value } of parameters) {
+    for (const { name, value, type } of parameters) {
+      if (!isListed(name)) continue;
       let row = this.#rows.get(name);
       if (!row) {
-        row = this.#add(name);
+        row = this.#add(name, type);
         added.add(nodeOf(name).node);
       }
       row.show(value);
@@ -78,7 +84,7 @@ export class ParametersPanel {
     for (const node of added) void this.#describe(node);
   }
 
-  #add(name: string): Row {
+  #add(name: string, type: string | undefined): Row {
     const { node, parameter } = nodeOf(name);
     let group = this.#nodes.get(node);
     if (!group) {
@@ -86,7 +92,8 @@ export class ParametersPanel {
       this.#nodes.set(node, group);
       this.#list.append(group);
     }
-    const row = new Row(name, parameter, (value) => this.order({ kind: "setParameter", parameter: { name, value } }));
+    const set = (value: ParameterValue) => this.order({ kind: "setParameter", parameter: { name, value, ...(type !== undefined && { type }) } });
+    const row = new Row(parameter, () => this.#maySet, set);
     this.#rows.set(name, row);
     group.append(row.element);
     return row;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The head of the page: the state in one line, and the figures of the moment. */
 import type { Drive } from "../model/drive.ts";
-import { metres, stateLine } from "../model/state_line.ts";
+import { metres, stateLine, type Known } from "../model/state_line.ts";
 import { byId, clock, h, setText } from "../ui/dom.ts";
 import { setGlyph } from "../ui/glyph.ts";
 
@@ -25,10 +25,9 @@ export class StatePanel {
     byId("figures").append(...this.#figures.map(({ element }) => element));
   }
 
-  /** `silent_s`: since the last pose arrived. */
-  update(silent_s: number, isLost: boolean): void {
+  update(reception: Pick<Known, "silent_s" | "isLost" | "isPaused">): void {
     const { drive } = this;
-    const { level, title, reason } = stateLine({ state: drive.state, integrity: drive.integrity, quality: drive.quality, silent_s, isLost });
+    const { level, title, reason } = stateLine({ state: drive.state, integrity: drive.integrity, quality: drive.quality, ...reception });
     byId("state").dataset.level = level;
     setGlyph(byId("state-glyph"), level);
     setText(byId("state-title"), title);

@@ -49,12 +49,18 @@ export class SystemPanel {
   #empty = h("p.empty", {}, "No component publishes /diagnostics.");
   #facts: [string, string][] = [];
   #bytes = 0;
+  #notice = "";
 
   constructor(
     readonly element: HTMLElement,
     readonly drive: Drive,
   ) {
     element.append(h("h3", {}, "Connection"), this.#connection, this.#unknown, h("h3", {}, "Components"), this.#empty, this.#components);
+  }
+
+  /** What the server says without being asked. */
+  setNotice(text: string): void {
+    this.#notice = text;
   }
 
   /** Called once a second. */
@@ -66,6 +72,7 @@ export class SystemPanel {
       ["Server", `${server}, ${address}`],
       ["Receiving", `${megabytes.toFixed(1)} MB/s`],
       ["Not decoded", problems.filter(Boolean).join(", ") || "nothing"],
+      ...(this.#notice ? ([["Notice", this.#notice]] as [string, string][]) : []),
     ];
     this.#unknown.replaceChildren(...unknown.map(({ topic, type, why }) => h("li", {}, `${topic} (${type}): ${why}`)));
   }

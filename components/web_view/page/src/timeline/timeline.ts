@@ -41,7 +41,7 @@ export class Timeline {
       h("button", { onclick: () => this.#choose(seconds), "aria-pressed": String(seconds === this.window_s) }, text),
     );
     element.append(
-      h("div.bar", {}, h("h2", {}, "Time line"), this.#time, h("div.segments", {}, ...this.#buttons)),
+      h("div.bar", {}, h("h2", {}, "Time line"), this.#time, h("div", { id: "player", hidden: true }), h("div.segments", {}, ...this.#buttons)),
       this.#strip,
       h("div.charts", {}, ...this.#plots.map((plot) => plot.element)),
     );

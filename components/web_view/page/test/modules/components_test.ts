@@ -28,7 +28,8 @@ test("what a component says of itself is read", () => {
 });
 
 test("the name of a parameter has a node and a rest", () => {
-  assert.deepEqual(nodeOf("/panvo/localizer.integrity.risk"), { node: "/panvo/localizer", parameter: "integrity.risk" });
+  assert.deepEqual(nodeOf("/panvo/localizer/integrity.risk"), { node: "/panvo/localizer", parameter: "integrity.risk" });
+  assert.deepEqual(nodeOf("/localizer/qos_overrides./tf.publisher.depth"), { node: "/localizer", parameter: "qos_overrides./tf.publisher.depth" });
   assert.deepEqual(nodeOf("rate"), { node: "", parameter: "rate" });
 });
 

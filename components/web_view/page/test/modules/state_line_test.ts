@@ -32,7 +32,8 @@ test("each state has its level, and the reason of the message is shown", () => {
 
 test("old data are called old, whatever they say", () => {
   assert.equal(stateLine({ state: state(State.tracking), silent_s: 4.2 }).reason, "the last pose came 4 s ago");
-  assert.equal(stateLine({ state: state(State.tracking), silent_s: 9, isLost: true }).title, "Server lost");
+  assert.equal(stateLine({ state: state(State.tracking), silent_s: 9, isPaused: true }).title, "Paused");
+  assert.equal(stateLine({ state: state(State.tracking), silent_s: 9, isPaused: true, isLost: true }).title, "Server lost");
 });
 
 test("without a localizer the odometry speaks", () => {
