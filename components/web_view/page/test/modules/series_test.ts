@@ -7,11 +7,13 @@ import { nearestValue } from "../../src/timeline/values.ts";
 import { near } from "./make.ts";
 
 test("a thinned curve keeps its peak", () => {
-  const series = new Series();
-  for (let i = 0; i < 10_000; ++i) series.add(i, i === 5003 ? 100 : 1);
-  const { times, values } = thinned(series, 0, 10_000, 300);
-  assert.ok(values.length <= 301);
-  assert.equal(values[times.indexOf(5003)], 100);
+  for (let peak = 5000; peak < 5050; ++peak) {
+    const series = new Series();
+    for (let i = 0; i < 10_000; ++i) series.add(i, i === peak ? 100 : 1);
+    const { times, values } = thinned(series, 0, 10_000, 300);
+    assert.ok(values.length <= 301);
+    assert.equal(values[times.indexOf(peak)], 100);
+  }
 });
 
 test("only the window is returned, with a neighbour on each side", () => {
