@@ -97,7 +97,7 @@ bool SourceRunner::wait(int limit_ms) {
 
 bool SourceRunner::is_playing() const {
   const std::lock_guard lock(mutex_);
-  return playing_ != 0;
+  return std::ranges::any_of(next_stamp_ns_, [](std::int64_t stamp_ns) { return stamp_ns != kAtEnd; });
 }
 
 void SourceRunner::stop() {

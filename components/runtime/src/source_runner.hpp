@@ -34,7 +34,7 @@ class SourceRunner {
   void start();
   /// Waits until all sources have ended, stop() is called or `limit_ms` has passed; true if they have ended.
   bool wait(int limit_ms);
-  /// Whether a source has not ended.
+  /// Whether a source has not reached its end.
   bool is_playing() const;
   void stop();
 

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "diagnostic_msgs/msg/DiagnosticArray.h"
 #include "panvo/test/temporary_folder.hpp"
 #include "rcl_interfaces/srv/ListParameters.h"
 #include "web_view_fixture.hpp"
@@ -168,6 +169,26 @@ TEST_F(WebViewNodes, GiveAssetsOfTheConfiguredFolder) {
   client.send_text(R"({"op":"fetchAsset","uri":"package://rig/../camera.stl","requestId":8})");
   const auto failure = next_message(client);
   EXPECT_THAT(std::vector<std::uint8_t>(failure.begin(), failure.begin() + 6), ElementsAre(4, 8, 0, 0, 0, 1));
+}
+
+TEST_F(WebViewNodes, LearnOfTheClientsFromDiagnostics) {
+  start();
+  WebSocketClient client(port());
+  subscribe(client, 1, channel_of(client, "/diagnostics"));
+  std::map<std::string, std::string> values;
+  while (!values.contains("clients")) {
+    const auto frame = next_message(client);
+    constexpr std::size_t kHead = 13;
+    ASSERT_GT(frame.size(), kHead);
+    const auto array = runtime::from_bytes<diagnostic_msgs::msg::DiagnosticArray>({frame.begin() + kHead, frame.end()});
+    for (const auto& status : array.status()) {
+      for (const auto& value : status.values()) {
+        if (status.name() == "panvo: web_view") values[value.key()] = value.value();
+      }
+    }
+  }
+  EXPECT_EQ(values["clients"], "1 now, 0 before, 0 messages dropped");
+  EXPECT_THAT(values, Contains(::testing::Pair(HasSubstr("client 127.0.0.1:"), "1 subscriptions, 0 messages dropped")));
 }
 
 TEST_F(WebViewNodes, AreNotShownToPagesOfOtherSites) {
