@@ -18,6 +18,7 @@
 #include "played_clock.hpp"
 #include "rcl_interfaces/msg/ParameterEvent.h"
 #include "rosout.hpp"
+#include "process_use.hpp"
 #include "service_totals.hpp"
 #include "source_runner.hpp"
 
@@ -112,6 +113,7 @@ class Container::Implementation final : public node_services::ControlledContaine
   std::shared_ptr<UntypedOutput> diagnostics_output_;
   std::shared_ptr<UntypedOutput> parameter_events_;  // nullptr in a replay
   Diagnostics diagnostics_;
+  ProcessUse process_use_;
   ServiceTotals service_totals_;
   std::unique_ptr<PlayedClock> clock_;  // nullptr: no /clock
 
