@@ -45,22 +45,32 @@ takes_value() {
   esac
 }
 
+# hand_on ARGUMENT...: adds the first argument, an option of panvo_run or NAME:=VALUE, to the array `handed_on`, with its value if it has
+# one. Sets `handed`, the number of these words.
+hand_on() {
+  handed=1
+  handed_on+=("$1")
+  takes_value "$1" || return 0
+  require_value "$@"
+  handed_on+=("$2")
+  handed=2
+}
+
 # resolve_system ARGUMENT...: sets resolved_arguments, the arguments for panvo_run. The first argument that is not an option is the system.
 resolve_system() {
-  local system=''
-  resolved_arguments=()
+  local system='' handed
+  local -a handed_on=()
   while (($#)); do
-    if takes_value "$1"; then
-      require_value "$@"
-      resolved_arguments+=("$1" "$2")
-      shift
-    elif [[ -z $system && $1 != -* ]]; then
+    handed=1
+    if [[ -z $system && $1 != -* ]]; then
       system=$(system_file "$1")
-      resolved_arguments+=("$system")
+      handed_on+=("$system")
     else
-      resolved_arguments+=("$1")
+      hand_on "$@"
     fi
-    shift
+    shift "$handed"
   done
   [[ -n $system ]] || fail "name a system; available: $(list_systems) (panvo run --help)" 2
+  # shellcheck disable=SC2034 # for the caller
+  resolved_arguments=("${handed_on[@]}")
 }

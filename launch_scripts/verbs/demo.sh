@@ -10,7 +10,7 @@ source "$PANVO_SCRIPTS/lib/simulated.sh"
 
 verb_usage() {
   cat <<'EOT'
-usage: panvo demo [--full] [--seed N] [--effects LIST] [--dataset DIR] [--out DIR] [--replay]
+usage: panvo demo [--full] [--seed N] [--effects LIST] [--dataset DIR] [--out DIR] [--replay] [--live]
 
 Installs and builds what is missing, renders a drive along the route 'short' of the simulated campus (several minutes of compute,
 cached) with an aged stereo calibration, traffic, rain and sudden light changes, and runs the whole system on it in one container:
@@ -25,13 +25,14 @@ and the one corrected at recognised places, and writes an HTML report.
   --out DIR       new folder for the results (default: runs/demo-1, demo-2, ...)
   --replay        one thread, in stamp order, bit-identical results (default: one thread per component, as fast as
                   possible)
+  --live          show the drive in a browser while it is computed (http://127.0.0.1:8765), at the recorded speed unless --replay
 EOT
   printf '\n'
   dataset_layouts
 }
 
 verb_main() {
-  local dataset='' out='' full='' seed='' effects='' route
+  local dataset='' out='' full='' seed='' effects='' live='' route
   local -a mode=() library=() earlier=()
   while (($#)); do
     case $1 in
@@ -59,6 +60,7 @@ verb_main() {
         ;;
       --full) full=yes ;;
       --replay) mode=(--replay) ;;
+      --live) live=yes ;;
       *) unknown_option "$1" ;;
     esac
     shift
@@ -72,6 +74,10 @@ verb_main() {
 
 $(dataset_layouts)"
     dataset=$(readlink -f -- "$dataset")
+  fi
+  if [[ -n $live ]]; then
+    [[ -n ${mode[*]} ]] || mode=(--rate 1)
+    mode+=(--view)
   fi
   out=$(claim_folder "$out")
   ! in_checkout || ensure_packages build  # before supervise, because sudo may ask for a password

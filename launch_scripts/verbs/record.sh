@@ -24,7 +24,8 @@ EOT
 
 verb_main() {
   local bag='' topics='' exclude=''
-  local -a rest=()
+  local handed
+  local -a handed_on=()
   while (($#)); do
     case $1 in
       --exclude)
@@ -34,24 +35,20 @@ verb_main() {
         ;;
       --storage)
         require_value "$@"
-        rest+=("storage:=$2")
+        handed_on+=("storage:=$2")
         shift
         ;;
       --compression)
         require_value "$@"
-        rest+=("compression:=$2")
-        [[ $2 == none ]] || rest+=(storage:=mcap)
+        handed_on+=("compression:=$2")
+        [[ $2 == none ]] || handed_on+=(storage:=mcap)
         shift
         ;;
-      --no-images) rest+=(include_images:=false) ;;
-      --overwrite) rest+=(overwrite:=true) ;;
+      --no-images) handed_on+=(include_images:=false) ;;
+      --overwrite) handed_on+=(overwrite:=true) ;;
       -* | *:=*)
-        rest+=("$1")
-        if takes_value "$1"; then
-          require_value "$@"
-          rest+=("$2")
-          shift
-        fi
+        hand_on "$@"
+        shift $((handed - 1))
         ;;
       *) if [[ -z $bag ]]; then bag=$1; else topics+="${topics:+ }$1"; fi ;;
     esac
@@ -60,5 +57,5 @@ verb_main() {
   [[ -n $bag ]] || fail "name a folder for the bag (panvo record --help)" 2
   local system
   system=$(system_file record)
-  start_program panvo_run "$system" "output:=$bag" "topics:=$topics" "exclude:=$exclude" "${rest[@]}"
+  start_program panvo_run "$system" "output:=$bag" "topics:=$topics" "exclude:=$exclude" "${handed_on[@]}"
 }

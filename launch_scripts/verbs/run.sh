@@ -14,6 +14,7 @@ SYSTEM is a system file, or the name of one in config/systems: `panvo run stereo
   --dataset DIR   play a data set (KITTI, EuRoC/ASL, or left/right folders with a calibration)
   --bag BAG       play a bag: a rosbag2 folder, or one .db3 or .mcap file
   --calibration D calibration of stereo images without camera_info: a folder with left.yaml and right.yaml
+  --view          also show all topics in a browser and in Foxglove (http://127.0.0.1:8765)
   --out DIR       write trajectory, times and summary to DIR: a new folder, or one of an earlier run (--overwrite: any)
   --replay        deterministic: one thread, in stamp order, as fast as possible
   --rate R        play at R times the recorded speed (default 0: as fast as the components can process)

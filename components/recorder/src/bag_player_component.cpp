@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <utility>
@@ -9,6 +10,7 @@
 #include "panvo/recorder/bag_reader.hpp"
 #include "panvo/recorder/topic_filter.hpp"
 #include "panvo/runtime/component.hpp"
+#include "player_services.hpp"
 
 namespace panvo::recorder {
 namespace {
@@ -17,6 +19,8 @@ struct PlayerParameters {
   std::string directory;
   std::vector<std::string> topics;
   std::vector<std::string> exclude;
+  bool wait_at_end = false;
+  bool start_paused = false;
 
   template <class Field>
   static void describe(Field&& field) {
@@ -24,6 +28,8 @@ struct PlayerParameters {
     field.path(&P::directory, "directory", "folder of the bag, or one .db3 or .mcap file");
     field(&P::topics, "topics", "", "topics to play: names or regular expressions for whole names; empty: all");
     field(&P::exclude, "exclude", "", "topics not to play: names or regular expressions for whole names");
+    field(&P::wait_at_end, "wait_at_end", "", "live, the run does not end with the bag, so that seek can go back");
+    field(&P::start_paused, "start_paused", "", "live, nothing is played before ~/resume is called");
   }
 };
 
@@ -40,7 +46,8 @@ std::string listed(const std::vector<std::string>& names) {
 }
 
 /// Plays the messages of a bag, unchanged, at their recorded times. Topics that this container publishes itself are not
-/// played, so that recorded and newly computed messages do not mix.
+/// played, so that recorded and newly computed messages do not mix. Live, services as those of rosbag2's player pause it
+/// and move it to another time.
 class BagPlayerComponent final : public runtime::Component, public runtime::Source {
  public:
   explicit BagPlayerComponent(runtime::Context& context) : context_(context) {
@@ -53,27 +60,33 @@ class BagPlayerComponent final : public runtime::Component, public runtime::Sour
     } catch (const BagError& error) {
       throw runtime::ConfigError(context.name() + ": " + error.what());
     }
+    waits_at_end_ = parameters.wait_at_end;
+    if (parameters.start_paused) context.playback().pause();
     context.source(*this);
+    offer_player_services(context, [this](std::int64_t time_ns) { return seek(time_ns); });
   }
 
   std::optional<std::int64_t> next_stamp_ns() override {
-    if (!begun_) {
-      begun_ = true;
+    const std::lock_guard lock(seek_mutex_);
+    if (const auto time_ns = std::exchange(sought_ns_, std::nullopt)) {
+      bag_->select([this](const BagTopic& topic) { return is_played(topic); }, *time_ns);
       advance();
     }
     return message_ ? std::optional(message_->timestamp_ns) : std::nullopt;
   }
 
   void emit() override {
-    const auto stamp_ns = next_stamp_ns();
+    if (!message_) return;
+    const auto stamp_ns = message_->timestamp_ns;
     while (message_ && message_->timestamp_ns == stamp_ns) {
       outputs_[message_->topic]->publish(std::move(message_->data));
-      ++progress_.done;
+      if (progress_.done < progress_.total) ++progress_.done;  // not after it was moved back
       advance();
     }
   }
 
   Progress progress() const override { return progress_; }
+  bool waits_at_end() const override { return waits_at_end_; }
 
  private:
   void open(const PlayerParameters& parameters) {
@@ -101,17 +114,27 @@ class BagPlayerComponent final : public runtime::Component, public runtime::Sour
     if (progress_.total == 0) {
       throw BagError(bag_->path().string() + ": no messages selected to play; check the parameters topics and exclude");
     }
-    bag_->select([&](const BagTopic& topic) {
-      // By name and type, since a name may have been recorded with two types.
-      for (std::size_t i = 0; i < outputs_.size(); ++i) {
-        if (metadata.topics[i].name == topic.name && metadata.topics[i].type == topic.type) {
-          return outputs_[i] != nullptr;
-        }
-      }
-      return false;
-    });
     context_.log().info("playing {} of {} messages of {}", progress_.total, metadata.message_count,
                         bag_->path().string());
+  }
+
+  bool is_played(const BagTopic& topic) const {
+    // By name and type, since a name may have been recorded with two types.
+    const auto& topics = bag_->metadata().topics;
+    for (std::size_t i = 0; i < outputs_.size(); ++i) {
+      if (topics[i].name == topic.name && topics[i].type == topic.type) return outputs_[i] != nullptr;
+    }
+    return false;
+  }
+
+  /// The player's thread moves the bag when it asks for the next stamp.
+  bool seek(std::int64_t time_ns) {
+    {
+      const std::lock_guard lock(seek_mutex_);
+      sought_ns_ = time_ns;
+    }
+    context_.playback().move_to(time_ns);
+    return true;
   }
 
   void refuse_unmatched(const TopicFilter& filter) const {
@@ -158,7 +181,9 @@ class BagPlayerComponent final : public runtime::Component, public runtime::Sour
   std::unique_ptr<BagReader> bag_;
   std::vector<std::shared_ptr<runtime::UntypedOutput>> outputs_;  // by the bag's topics; nullptr: not played
   BagMessage* message_ = nullptr;                                 // the next one to play
-  bool begun_ = false;
+  std::mutex seek_mutex_;
+  std::optional<std::int64_t> sought_ns_ = INT64_MIN;  // the bag is to be read from there
+  bool waits_at_end_ = false;
   std::size_t warnings_told_ = 0;
   Progress progress_;
 };

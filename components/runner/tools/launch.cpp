@@ -60,6 +60,7 @@ std::vector<std::string> command_line(const RunOptions& options, const Child& ch
   add("--ros-distro", options.dds.ros_distro);
   add("--dds-profiles", options.dds.profiles);
   if (options.local) words.push_back("--local");
+  if (options.view) words.push_back("--view");
   if (child.again) words.push_back("--again");
   if (options.verbose) words.push_back("--verbose");
   add("--container", child.name);

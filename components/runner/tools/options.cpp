@@ -46,6 +46,20 @@ void add_calibration(const RunOptions& options, runtime::SystemDescription& syst
                              " has no StereoRectifierComponent that needs it");
 }
 
+/// Adds the web view to the first container, which has the cameras' images: they are then not sent between processes.
+void add_view(runtime::SystemDescription& system) {
+  const auto is_view = [](const auto& component) { return component.plugin == "WebViewComponent"; };
+  for (const auto& container : system.containers) {
+    if (std::ranges::any_of(container.components, is_view)) return;  // the system has one
+  }
+  runtime::ComponentDescription view;
+  view.package = "panvo_web_view";
+  view.plugin = "WebViewComponent";
+  view.name = "web_view";
+  view.where = {"--view", 0};
+  system.containers.front().components.push_back(std::move(view));
+}
+
 }  // namespace
 
 std::optional<int> RunOptions::parse(int argc, char** argv, RunOptions& options) {
@@ -69,6 +83,9 @@ std::optional<int> RunOptions::parse(int argc, char** argv, RunOptions& options)
                  "folder with left.yaml and right.yaml: the calibration of stereo images without camera_info")
       ->check(CLI::ExistingDirectory)
       ->excludes(dataset);
+  app.add_flag("--view", options.view,
+               "also show all topics in a browser, http://127.0.0.1:8765, and in Foxglove; --set web_view.port=PORT "
+               "and other parameters of WebViewComponent");
   app.add_option("--out", options.out, "write trajectories, timing.json, summary.json and run.log to this folder");
   app.add_flag("--overwrite", options.overwrite, "let --out replace files that are not from a run");
   auto* replay = app.add_flag("--replay", options.replay,
@@ -170,6 +187,7 @@ runtime::SystemDescription describe_system(const RunOptions& options) {
   }
   if (!options.bag.empty()) add_player("panvo_recorder", "BagPlayerComponent", "bag_player", "--bag", options.bag);
   if (!options.calibration.empty()) add_calibration(options, system);
+  if (options.view) add_view(system);
   for (const auto& setting : options.settings) runtime::apply_setting(system, setting);
   for (const auto& parameter : options.ros_parameters) runtime::apply_parameter(system, parameter);
   for (const auto& rule : options.ros_remaps) runtime::apply_remap(system, rule);

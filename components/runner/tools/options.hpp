@@ -23,6 +23,7 @@ struct RunOptions {
   std::map<std::string, std::string> arguments;  // name:=value
   std::string dataset, bag, out;
   std::string calibration;  // folder, for stereo images without camera_info
+  bool view = false;        // serve the topics to a browser
   bool overwrite = false;   // replace files in `out` that are not from a run
   bool replay = false;
   double rate = 0;

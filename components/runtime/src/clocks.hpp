@@ -15,5 +15,6 @@ inline std::int64_t read_ns(clockid_t clock) noexcept {
 
 inline std::int64_t monotonic_ns() noexcept { return read_ns(CLOCK_MONOTONIC); }
 inline std::int64_t system_ns() noexcept { return read_ns(CLOCK_REALTIME); }
+inline std::int64_t process_cpu_ns() noexcept { return read_ns(CLOCK_PROCESS_CPUTIME_ID); }
 
 }  // namespace panvo::runtime::clocks

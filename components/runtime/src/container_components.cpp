@@ -21,6 +21,15 @@ std::vector<std::string> names_of(const std::vector<node_services::OfferedServic
   return names;
 }
 
+/// The handler for callers in this process.
+ServiceHandler guarded(ServiceHandler handler, ServiceGuard guard) {
+  if (!guard) return handler;
+  return [handler = std::move(handler), guard = std::move(guard)](const interfaces::Bytes& request) {
+    auto refusal = guard(request, Caller{.is_on_this_host = true});
+    return refusal ? std::move(*refusal) : handler(request);
+  };
+}
+
 constexpr interfaces::Topic<lifecycle_msgs::msg::TransitionEvent> kTransitionEvents{"~/transition_event"};
 
 template <class Message>
@@ -65,7 +74,7 @@ Container::Implementation::Implementation(ContainerOptions options)
       own_(std::make_unique<Context::State>(host_, own_description(options_), nullptr)),
       diagnostics_output_(own_.open_output(described_topic(topics::kDiagnostics))) {
   rosout_.open(own_.open_output(described_topic(topics::kRosout)));
-  if (!bus_.bridge()) return;
+  if (!has_services()) return;
   try {
     parameter_events_ = own_.open_output(described_topic(node_services::kParameterEvents));
     if (auto problems = own_problems(); !problems.empty()) throw ConfigError(std::move(problems));
@@ -82,13 +91,16 @@ std::vector<std::string> Container::Implementation::own_problems() {
   return problems;
 }
 
+/// A replay has none, as its results must not depend on requests.
+bool Container::Implementation::has_services() const { return bus_.bridge() || !options_.replay; }
+
 void Container::Implementation::meet_others() {
   own_node_ = make_node(own_.state(), full_name(), [] {});
   auto offered = node_services::component_services(full_name(), *this);
   std::ranges::move(node_services::parameter_services(full_name(), *own_node_), std::back_inserter(offered));
   std::ranges::move(node_services::type_services(full_name()), std::back_inserter(offered));
   own_service_names_ = names_of(offered, options_.services);
-  services_ = serve(std::move(offered));
+  services_ = serve(std::move(offered), own_node_.get());
   tell_parameters(node_services::new_parameters(full_name(), own_.state().parameters(), clocks::system_ns()));
   tell_nodes();
 }
@@ -96,6 +108,7 @@ void Container::Implementation::meet_others() {
 Container::Implementation::~Implementation() {
   stop_housekeeping();  // which reads the counters of the services
   services_.clear();    // no loading or unloading from now on
+  host_.withdraw(own_node_.get());
   rosout_.close();
   if (runner_) runner_->stop();
   while (!entries_.empty()) take_last();  // in reverse order of loading
@@ -138,7 +151,7 @@ auto Container::Implementation::put(Recipe recipe) -> Loaded {
   Context::State& state = entry->context->state();
   if (started_) state.start();
   const Loaded loaded{entry->recipe.id, entry->full_name()};
-  if (bus_.bridge()) {
+  if (has_services()) {
     offer_services(*entry);
     tell_parameters(node_services::new_parameters(loaded.full_name, state.parameters(), clocks::system_ns()));
   }
@@ -156,7 +169,7 @@ void Container::Implementation::make(LoadedComponent& entry) {
   entry.context = std::make_unique<Context>(std::make_unique<Context::State>(host_, description, entry.recipe.library));
   Context::State& state = entry.context->state();
   state.restarts = entry.recipe.restarted;
-  if (bus_.bridge() && options_.services != ServiceAccess::kOff)
+  if (has_services() && options_.services != ServiceAccess::kOff)
     entry.transition_events = entry.context->open_output(described_topic(kTransitionEvents));
   if (entry.recipe.by_request) state.reader.confine_paths(options_.files_below);
   std::vector<std::string> problems;
@@ -247,12 +260,17 @@ auto Container::Implementation::loaded_components() const -> std::vector<Loaded>
 }
 
 std::vector<std::unique_ptr<BridgeService>> Container::Implementation::serve(
-    std::vector<node_services::OfferedService> offered) {
+    std::vector<node_services::OfferedService> offered, const void* owner) {
   std::vector<std::unique_ptr<BridgeService>> services;
   if (options_.services == ServiceAccess::kOff) return services;
   for (auto& service : offered) {
     auto guard = node_services::guard_of(service, options_.services);
-    services.push_back(bus_.bridge()->serve(service.description, std::move(service.handler), std::move(guard)));
+    try {
+      host_.services.add(service.description, owner, host_.requests.serve(owner, guarded(service.handler, guard)));
+    } catch (const ConfigError&) {  // of another node of that name, which then answers in this process
+    }
+    if (bus_.bridge())
+      services.push_back(bus_.bridge()->serve(service.description, std::move(service.handler), std::move(guard)));
   }
   return services;
 }
@@ -284,8 +302,9 @@ void Container::Implementation::offer_services(LoadedComponent& entry) {
     const std::lock_guard lock(housekeeping_mutex_);
     to_finalize_.push_back(id);
   });
-  entry.services = serve(services_of(entry));
+  entry.services = serve(services_of(entry), entry.node.get());
   // Services of the component itself are not guarded: "services" covers only the standard ones.
+  if (!bus_.bridge()) return;
   for (const auto& [description, serve_here] : state.services)
     entry.services.push_back(bus_.bridge()->serve(description, handler_of(serve_here)));
 }
@@ -296,7 +315,7 @@ void Container::Implementation::tell_parameters(rcl_interfaces::msg::ParameterEv
 
 /// Announces the nodes of this process and their endpoints through the bridge.
 void Container::Implementation::tell_nodes() {
-  if (!bus_.bridge()) return;
+  if (!has_services()) return;
   const auto channels = bus_.channels();
   std::vector<NodeDescription> nodes{{options_.name_space, options_.name, {}, {}, own_service_names_}};
   const auto add_topics = [&](NodeDescription& node, const std::string& owner_name, const void* reader) {
@@ -322,7 +341,8 @@ void Container::Implementation::tell_nodes() {
     nodes.push_back(std::move(node));
   }
   told_channels_ = channels.size();
-  bus_.bridge()->set_nodes(std::move(nodes));
+  host_.nodes.set(nodes);
+  if (bus_.bridge()) bus_.bridge()->set_nodes(std::move(nodes));
 }
 
 void Container::Implementation::take_last() {

@@ -39,6 +39,7 @@ void Container::Implementation::publish_diagnostics(double interval_s) {
   }
   for (const auto& recipe : unmade_)  // changed on this thread only
     array.status().push_back(Diagnostics::of_unmade(recipe.description.name));
+  array.status().push_back(process_use_.status(options_.name, clocks::process_cpu_ns(), interval_s));
   if (bus_.bridge()) {
     service_totals_.add(services_);
     array.status().push_back(service_totals_.status(options_.name, interval_s));

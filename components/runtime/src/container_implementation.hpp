@@ -18,6 +18,7 @@
 #include "played_clock.hpp"
 #include "rcl_interfaces/msg/ParameterEvent.h"
 #include "rosout.hpp"
+#include "process_use.hpp"
 #include "service_totals.hpp"
 #include "source_runner.hpp"
 
@@ -60,13 +61,15 @@ class Container::Implementation final : public node_services::ControlledContaine
   using Entries = std::vector<std::unique_ptr<LoadedComponent>>;
 
   std::string full_name() const;
+  bool has_services() const;
   void meet_others();
   Loaded put(Recipe recipe);
   void make(LoadedComponent& entry);
   Entries::iterator find(const std::string& name);
   bool unload_if(const std::function<bool(const LoadedComponent&)>& is_it);
   void take_last();
-  std::vector<std::unique_ptr<BridgeService>> serve(std::vector<node_services::OfferedService> offered);
+  std::vector<std::unique_ptr<BridgeService>> serve(std::vector<node_services::OfferedService> offered,
+                                                    const void* owner);
   std::vector<std::string> own_problems();
   std::unique_ptr<node_services::ComponentNode> make_node(Context::State& state, const std::string& full_name,
                                                           std::function<void()> shut_down);
@@ -108,8 +111,9 @@ class Container::Implementation final : public node_services::ControlledContaine
   std::atomic<SourceRunner*> active_runner_ = nullptr;
   Context own_;  // the container's own outputs
   std::shared_ptr<UntypedOutput> diagnostics_output_;
-  std::shared_ptr<UntypedOutput> parameter_events_;  // nullptr without a bridge
+  std::shared_ptr<UntypedOutput> parameter_events_;  // nullptr in a replay
   Diagnostics diagnostics_;
+  ProcessUse process_use_;
   ServiceTotals service_totals_;
   std::unique_ptr<PlayedClock> clock_;  // nullptr: no /clock
 

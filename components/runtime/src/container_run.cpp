@@ -121,6 +121,7 @@ void Container::Implementation::replay(const std::vector<Source*>& sources) {
     if (was_interrupted_) break;
     while (replay_order_.fire_one(earliest_ns)) run_until_quiet();
     set_current_stamp_ns(earliest_ns);
+    host_.pacer.reach(earliest_ns);
     try {
       earliest->emit();
     } catch (const std::exception& error) {
@@ -139,12 +140,17 @@ void Container::Implementation::replay(const std::vector<Source*>& sources) {
 void Container::Implementation::run_live(const std::vector<Source*>& sources) {
   if (!sources.empty()) open_clock();
   runner_ = std::make_unique<SourceRunner>(
-      sources,
+      sources, host_.pacer,
       SourceRunner::Settings{.rate = options_.rate,
                              .queues_are_empty = [this] { return queues_are_empty(); },
+                             .moved =
+                                 [this] {
+                                   if (clock_) clock_->restart();
+                                 },
                              .reached =
                                  [this](std::int64_t stamp_ns) {
                                    time_.reach(stamp_ns);
+                                   host_.pacer.reach(stamp_ns);
                                    if (clock_) clock_->reach(stamp_ns);
                                  },
                              .failed = [this](const std::string& what) { fail_source(what); },

@@ -261,6 +261,10 @@ void Context::set_background() { state_->gives_way = true; }
 
 void Context::source(Source& source) { state_->source = &source; }
 
+Playback& Context::playback() { return state_->host.pacer; }
+
+void Context::on_diagnostics(std::function<DiagnosticValues()> values) { state_->diagnose = std::move(values); }
+
 void Context::tap(std::function<bool(const TopicDescription&)> wanted, std::size_t depth,
                   std::function<void(const TopicDescription&, const SamplePtr&)> callback) {
   Worker& worker = state_->main_worker();

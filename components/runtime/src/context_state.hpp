@@ -11,9 +11,12 @@
 
 #include "bus.hpp"
 #include "config/node_parameters.hpp"
+#include "node_list.hpp"
+#include "pacer.hpp"
 #include "panvo/runtime/context.hpp"
 #include "panvo/runtime/system_file.hpp"
 #include "passing_time.hpp"
+#include "request_thread.hpp"
 #include "service_caller.hpp"
 #include "service_directory.hpp"
 #include "stamp_guard.hpp"
@@ -33,7 +36,17 @@ struct Host {
   std::atomic<std::int64_t> in_flight = 0;
   std::filesystem::path files_below{};  // folder for files named by service requests; empty: none
   std::function<void(const ComponentDescription&)> failed = [](const ComponentDescription&) {};
+  Pacer pacer{};
   ServiceDirectory services{};
+  RequestThread requests{};  // after `services`, which use it no more once it ends
+  NodeList nodes{};
+
+  /// Ends the services of an owner; none of their requests is being answered once this has returned. nullptr: has none.
+  void withdraw(const void* owner) {
+    if (!owner) return;
+    services.remove_of(owner);
+    requests.remove_of(owner);
+  }
 };
 
 /// Internals of a Context: everything a component holds of the container, released at unload.
@@ -86,7 +99,8 @@ struct Context::State {
   bool gives_way = false;
   std::uint64_t restarts = 0;  // number of restarts
   Source* source = nullptr;
-  std::function<void()> end;            // nullptr: nothing to finish
+  std::function<void()> end;  // nullptr: nothing to finish
+  std::function<DiagnosticValues()> diagnose = [] { return DiagnosticValues{}; };
   std::atomic<bool> active = true;      // receives messages
   std::atomic<bool> finalized = false;  // shut down by a service request: never active again
 

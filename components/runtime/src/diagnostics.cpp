@@ -3,6 +3,8 @@
 
 #include <spdlog/fmt/fmt.h>
 
+#include <set>
+#include <string>
 #include <utility>
 
 namespace panvo::runtime {
@@ -33,11 +35,13 @@ diagnostic_msgs::msg::DiagnosticArray Diagnostics::collect(const std::vector<con
     if (const Rejected more = tell_rejections(*component, status); more.messages > 0) {
       rejected = {rejected.messages + more.messages, more.why};
     }
+    tell_cpu(*component, interval_s, status);
     for (const auto& [stage, times] : component->times.snapshot()) {
       add(status, stage + " time",
           fmt::format("mean {:.2f} ms, p95 {:.2f} ms, max {:.2f} ms, CPU mean {:.2f} ms", times.wall.mean_ms(),
                       times.wall.quantile_ms(0.95), times.wall.max_ms(), times.cpu.mean_ms()));
     }
+    for (const auto& [key, value] : component->diagnose()) add(status, key, value);
     if (component->restarts > 0) add(status, "restarted", fmt::format("{} times, after an error", component->restarts));
     const auto set_aside = component->files_set_aside();
     for (const auto& text : set_aside) add(status, "file", text);
@@ -94,6 +98,23 @@ std::uint64_t Diagnostics::tell_inputs(const Context::State& component, double i
     }
   }
   return newly_dropped;
+}
+
+void Diagnostics::tell_cpu(const Context::State& component, double interval_s,
+                           diagnostic_msgs::msg::DiagnosticStatus& status) {
+  const auto times = component.times.snapshot();
+  double cpu_ms = 0;
+  std::set<std::string> inputs;  // that messages of two workers have in common
+  for (const auto& worker : component.workers) {
+    for (const auto& port : worker->counters()) inputs.insert(port.input);
+  }
+  for (const auto& input : inputs) {
+    const auto found = times.find(input);  // the time of a whole message, which contains that of its stages
+    if (found != times.end()) cpu_ms += found->second.cpu.mean_ms() * static_cast<double>(found->second.cpu.count());
+  }
+  Previous& previous = previous_[component.description.name + "\nCPU"];
+  if (cpu_ms < previous.cpu_ms) previous = {};  // replaced by another component of that name
+  add(status, "CPU", fmt::format("{:.1f} %", (cpu_ms - std::exchange(previous.cpu_ms, cpu_ms)) / interval_s / 10));
 }
 
 std::uint64_t Diagnostics::tell_overwritten(const Context::State& component,

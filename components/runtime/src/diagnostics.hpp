@@ -11,7 +11,7 @@
 namespace panvo::runtime {
 
 /// Creates ROS 2 diagnostics of a container's components: one status per component with rate, latency, waiting and
-/// dropped messages of each input, rejected messages with reasons, and stage times. Warning while messages are dropped
+/// dropped messages of each input, rejected messages with reasons, CPU and stage times. Warning while messages are dropped
 /// or rejected; error if the component has stopped.
 class Diagnostics {
  public:
@@ -25,6 +25,7 @@ class Diagnostics {
  private:
   struct Previous {
     std::uint64_t received = 0, handled = 0, dropped = 0, rejected = 0, overwritten = 0, refused = 0;
+    double cpu_ms = 0;
   };
   struct Rejected {
     std::uint64_t messages = 0;
@@ -34,6 +35,8 @@ class Diagnostics {
   /// Number of messages dropped since the last call.
   std::uint64_t tell_inputs(const Context::State& component, double interval_s,
                             diagnostic_msgs::msg::DiagnosticStatus& status);
+  /// CPU time that the component's messages took since the last call, % of one core.
+  void tell_cpu(const Context::State& component, double interval_s, diagnostic_msgs::msg::DiagnosticStatus& status);
   /// Number of messages overwritten in shared memory while being read, since the last call.
   std::uint64_t tell_overwritten(const Context::State& component, diagnostic_msgs::msg::DiagnosticStatus& status);
   /// Messages refused for their size or rate since the last call.

@@ -44,6 +44,7 @@ struct LoadedComponent {
 
   ~LoadedComponent() {
     services.clear();
+    if (context) context->state().host.withdraw(node.get());
     if (context) context->state().stop();
   }
 

@@ -18,8 +18,10 @@ class PlayedClock {
 
   explicit PlayedClock(Bridge& bridge) : writer_(bridge.open_writer(topic())) {}
 
-  /// Thread-safe. With several sources the latest time counts, so the clock never goes back.
+  /// Thread-safe. With several sources the latest time counts, so the clock goes back only at restart().
   void reach(std::int64_t stamp_ns);
+  /// After it the clock may have gone back.
+  void restart() { reached_ns_ = std::numeric_limits<std::int64_t>::min(); }
 
  private:
   const std::unique_ptr<BridgeWriter> writer_;

@@ -26,9 +26,9 @@ class Waiting {
     changed_.notify_all();
   }
 
-  std::optional<interfaces::Bytes> wait() {
+  std::optional<interfaces::Bytes> wait(std::chrono::milliseconds limit) {
     std::unique_lock lock(mutex_);
-    changed_.wait_for(lock, kServiceLimit, [this] { return is_there_; });
+    changed_.wait_for(lock, limit, [this] { return is_there_; });
     return std::move(bytes_);
   }
 
@@ -62,11 +62,23 @@ bool ServiceDirectory::call(const ServiceDescription& service, interfaces::Bytes
   return true;
 }
 
+std::vector<ServiceDescription> ServiceDirectory::services() const {
+  const std::shared_lock lock(mutex_);
+  std::vector<ServiceDescription> services;
+  for (const auto& [name, entry] : entries_) services.push_back({name, entry.type_name});
+  return services;
+}
+
+std::optional<interfaces::Bytes> answer_to(const std::function<void(std::shared_ptr<Reply>)>& ask,
+                                           std::chrono::milliseconds limit) {
+  const auto waiting = std::make_shared<Waiting>();
+  ask(std::make_shared<Reply>([waiting](auto bytes) { waiting->bring(std::move(bytes)); }));
+  return waiting->wait(limit);
+}
+
 ServiceHandler handler_of(ServiceDirectory::Serve serve) {
   return [serve = std::move(serve)](const interfaces::Bytes& request) {
-    const auto waiting = std::make_shared<Waiting>();
-    serve(request, std::make_shared<Reply>([waiting](auto bytes) { waiting->bring(std::move(bytes)); }));
-    auto bytes = waiting->wait();
+    auto bytes = answer_to([&](std::shared_ptr<Reply> reply) { serve(request, std::move(reply)); }, kLimit);
     if (!bytes)
       throw std::runtime_error(
           "the component did not answer: it is busy, was stopped by an error, or could not read the request");

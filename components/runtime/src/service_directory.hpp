@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <chrono>
 #include <functional>
 #include <map>
 #include <memory>
 #include <shared_mutex>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "panvo/runtime/service.hpp"
 
@@ -42,6 +44,9 @@ class ServiceDirectory {
   /// False if no component of this process offers a service of that name and type; `reply` is then unused.
   bool call(const ServiceDescription& service, interfaces::Bytes& request, const std::shared_ptr<Reply>& reply) const;
 
+  /// In order of name.
+  std::vector<ServiceDescription> services() const;
+
  private:
   struct Entry {
     std::string type_name;
@@ -51,6 +56,10 @@ class ServiceDirectory {
   mutable std::shared_mutex mutex_;
   std::map<std::string, Entry> entries_;
 };
+
+/// Waits for the answer to a request; `ask` makes it. nullopt: none within `limit`.
+std::optional<interfaces::Bytes> answer_to(const std::function<void(std::shared_ptr<Reply>)>& ask,
+                                           std::chrono::milliseconds limit);
 
 /// Converts to a handler for the bridge, which waits up to 5 s for the component's answer.
 ServiceHandler handler_of(ServiceDirectory::Serve serve);

@@ -15,14 +15,15 @@ constexpr std::int64_t kAtEnd = std::numeric_limits<std::int64_t>::max();
 
 }  // namespace
 
-SourceRunner::SourceRunner(std::vector<Source*> sources, Settings settings)
-    : sources_(std::move(sources)), settings_(std::move(settings)) {}
+SourceRunner::SourceRunner(std::vector<Source*> sources, Pacer& pacer, Settings settings)
+    : sources_(std::move(sources)), pacer_(pacer), settings_(std::move(settings)) {
+  pacer_.on_change([this] { wake(); }, settings_.moved);
+}
 
 void SourceRunner::start() {
-  first_stamp_ns_ = std::numeric_limits<std::int64_t>::max();
   for (Source* source : sources_) next_stamp_ns_.push_back(source->next_stamp_ns().value_or(kAtEnd));
-  first_stamp_ns_ = sources_.empty() ? 0 : *std::min_element(next_stamp_ns_.begin(), next_stamp_ns_.end());
-  start_ns_ = clocks::monotonic_ns();
+  pacer_.start(sources_.empty() ? 0 : *std::min_element(next_stamp_ns_.begin(), next_stamp_ns_.end()), settings_.rate,
+               clocks::monotonic_ns());
   playing_ = sources_.size();
   for (std::size_t index = 0; index < sources_.size(); ++index) threads_.emplace_back([this, index] { play(index); });
 }
@@ -30,8 +31,13 @@ void SourceRunner::start() {
 void SourceRunner::play(std::size_t index) {
   Source& source = *sources_[index];
   try {
-    while (const auto stamp_ns = source.next_stamp_ns()) {
-      if (!wait_for_turn(index, *stamp_ns)) break;
+    while (true) {
+      const auto version = pacer_.state().version;
+      const auto stamp_ns = source.next_stamp_ns();
+      if (!stamp_ns && !source.waits_at_end()) break;
+      const Turn turn = wait_for_turn(index, stamp_ns.value_or(kAtEnd), version);
+      if (turn == Turn::kStop) break;
+      if (turn == Turn::kAskAgain) continue;
       set_current_stamp_ns(*stamp_ns);
       settings_.reached(*stamp_ns);
       source.emit();
@@ -50,26 +56,37 @@ void SourceRunner::play(std::size_t index) {
   changed_.notify_all();
 }
 
-bool SourceRunner::wait_for_turn(std::size_t index, std::int64_t stamp_ns) {
-  using std::chrono::steady_clock;
+SourceRunner::Turn SourceRunner::wait_for_turn(std::size_t index, std::int64_t stamp_ns, std::uint64_t version) {
   std::unique_lock lock(mutex_);
   next_stamp_ns_[index] = stamp_ns;
   changed_.notify_all();  // another source may be waiting for this one
-  if (settings_.rate > 0) {
-    const auto offset_ns = static_cast<std::int64_t>(static_cast<double>(stamp_ns - first_stamp_ns_) / settings_.rate);
-    const steady_clock::time_point due{std::chrono::nanoseconds(start_ns_ + offset_ns)};
-    changed_.wait_until(lock, due, [&] { return stopping_ || steady_clock::now() >= due; });
-  } else {
-    while (!changed_.wait_for(lock, std::chrono::seconds(10), [&] {
-      const bool is_earliest = stamp_ns <= *std::min_element(next_stamp_ns_.begin(), next_stamp_ns_.end());
-      return stopping_ || (is_earliest && settings_.queues_are_empty());
-    })) {
-      lock.unlock();
-      settings_.warn("no message was handled for 10 s; a component is busy with one message, or stuck");
-      lock.lock();
-    }
+  while (!stopping_) {
+    const auto pace = pacer_.state();
+    if (pace.version != version) return Turn::kAskAgain;
+    if (is_due(stamp_ns, pace)) return Turn::kStep;
+    wait_for_change(lock, stamp_ns, pace);
   }
-  return !stopping_;
+  return Turn::kStop;
+}
+
+/// Requires mutex_.
+bool SourceRunner::is_due(std::int64_t stamp_ns, const Pacer::State& pace) const {
+  if (stamp_ns == kAtEnd || pace.is_paused) return false;
+  if (pace.rate > 0) return clocks::monotonic_ns() >= pace.due_ns(stamp_ns);
+  return stamp_ns <= *std::min_element(next_stamp_ns_.begin(), next_stamp_ns_.end()) && settings_.queues_are_empty();
+}
+
+void SourceRunner::wait_for_change(std::unique_lock<std::mutex>& lock, std::int64_t stamp_ns,
+                                   const Pacer::State& pace) {
+  if (stamp_ns == kAtEnd || pace.is_paused) {
+    changed_.wait(lock);
+  } else if (pace.rate > 0) {
+    changed_.wait_until(lock, std::chrono::steady_clock::time_point(std::chrono::nanoseconds(pace.due_ns(stamp_ns))));
+  } else if (changed_.wait_for(lock, std::chrono::seconds(10)) == std::cv_status::timeout) {
+    lock.unlock();
+    settings_.warn("no message was handled for 10 s; a component is busy with one message, or stuck");
+    lock.lock();
+  }
 }
 
 bool SourceRunner::wait(int limit_ms) {
@@ -80,7 +97,7 @@ bool SourceRunner::wait(int limit_ms) {
 
 bool SourceRunner::is_playing() const {
   const std::lock_guard lock(mutex_);
-  return playing_ != 0;
+  return std::ranges::any_of(next_stamp_ns_, [](std::int64_t stamp_ns) { return stamp_ns != kAtEnd; });
 }
 
 void SourceRunner::stop() {

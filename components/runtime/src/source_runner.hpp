@@ -10,6 +10,7 @@
 #include <thread>
 #include <vector>
 
+#include "pacer.hpp"
 #include "panvo/runtime/source.hpp"
 
 namespace panvo::runtime {
@@ -20,18 +21,20 @@ class SourceRunner {
   struct Settings {
     double rate = 1;  // 0: as fast as the consumers take it
     std::function<bool()> queues_are_empty;
+    std::function<void()> moved = [] {};                              // after a source was moved
     std::function<void(std::int64_t)> reached = [](std::int64_t) {};  // called with the stamp of a source's next step
     std::function<void(const std::string&)> failed;
     std::function<void(const std::string&)> warn;
   };
 
-  SourceRunner(std::vector<Source*> sources, Settings settings);
+  /// `pacer` must outlive it.
+  SourceRunner(std::vector<Source*> sources, Pacer& pacer, Settings settings);
   ~SourceRunner() { stop(); }
 
   void start();
   /// Waits until all sources have ended, stop() is called or `limit_ms` has passed; true if they have ended.
   bool wait(int limit_ms);
-  /// Whether a source has not ended.
+  /// Whether a source has not reached its end.
   bool is_playing() const;
   void stop();
 
@@ -43,12 +46,15 @@ class SourceRunner {
 
  private:
   void play(std::size_t index);
-  bool wait_for_turn(std::size_t index, std::int64_t stamp_ns);
+  enum class Turn { kStep, kAskAgain, kStop };
+  /// `stamp_ns`: of the source's next step, asked for at that version of the pace.
+  Turn wait_for_turn(std::size_t index, std::int64_t stamp_ns, std::uint64_t version);
+  bool is_due(std::int64_t stamp_ns, const Pacer::State& pace) const;
+  void wait_for_change(std::unique_lock<std::mutex>& lock, std::int64_t stamp_ns, const Pacer::State& pace);
 
   const std::vector<Source*> sources_;
+  Pacer& pacer_;
   const Settings settings_;
-  std::int64_t first_stamp_ns_ = 0;  // common to all sources
-  std::int64_t start_ns_ = 0;
   mutable std::mutex mutex_;
   std::vector<std::int64_t> next_stamp_ns_;  // per source: at full speed the earliest steps first
   std::condition_variable changed_;

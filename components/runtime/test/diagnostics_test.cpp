@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "panvo/runtime/graph.hpp"
+#include "process_use.hpp"
 #include "service_totals.hpp"
 
 namespace panvo::runtime {
@@ -65,6 +66,26 @@ TEST_F(Diagnosed, TellsTheRateSinceTheLastTimeAndTheCountsSinceTheStart) {
   EXPECT_EQ(value(status, "image rate"), "5.0 Hz");
   EXPECT_THAT(value(status, "image messages"), HasSubstr("15 received, 15 handled, 0 dropped, 0 waiting"));
   EXPECT_THAT(value(status, "image time"), HasSubstr("CPU mean"));
+}
+
+TEST_F(Diagnosed, TellsTheCpuTimeOfMessagesSinceTheLastTime) {
+  state.main_worker().add_port("image", 5, false, [](Task&) {});
+  state.times.add("image", 40'000'000, 30'000'000);
+  state.times.add("detect", 30'000'000, 20'000'000);  // a part of it
+  EXPECT_EQ(value(collect(0.5), "CPU"), "6.0 %");
+  state.times.add("image", 40'000'000, 30'000'000);
+  EXPECT_EQ(value(collect(2.0), "CPU"), "1.5 %");
+}
+
+TEST(ProcessUse, TellsTheCpuTimeSinceTheLastTimeAndTheMemory) {
+  ProcessUse use;
+  use.status("panvo", 1'000'000'000, 1.0);
+  const auto status = use.status("panvo", 1'500'000'000, 2.0);
+  EXPECT_EQ(status.name(), "panvo: process of panvo");
+  ASSERT_EQ(status.values().size(), 2U);
+  EXPECT_EQ(status.values()[0].value(), "25.0 %");
+  EXPECT_GT(std::stod(status.values()[1].value()), 1.0);
+  EXPECT_THAT(status.values()[1].value(), HasSubstr(" MB"));
 }
 
 TEST_F(Diagnosed, WarnsWhileMessagesAreDroppedAndNoLonger) {

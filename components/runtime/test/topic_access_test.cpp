@@ -4,10 +4,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <map>
 #include <optional>
 
+#include "panvo/runtime/container.hpp"
 #include "panvo/runtime/errors.hpp"
 #include "panvo/runtime/testing.hpp"
+#include "rcl_interfaces/srv/ListParameters.h"
 #include "std_msgs/msg/String.h"
 
 namespace panvo::runtime {
@@ -81,6 +84,44 @@ TEST_F(TopicsByName, GiveEachReadingTheLatchedMessages) {
 TEST_F(TopicsByName, AreNotReadWithAnotherType) {
   harness_.publish(kChat, text("one"));
   EXPECT_THROW(access_->read({"/chat", "std_msgs/msg/Header", {}, nullptr}, [](const SamplePtr&) {}), ConfigError);
+}
+
+TEST_F(TopicsByName, DoNotCallServicesInAReplay) {
+  EXPECT_THROW(
+      access_->call({"/viewer/get_parameters", "rcl_interfaces/srv/GetParameters"}, {}, std::chrono::seconds(1)),
+      ConfigError);
+}
+
+/// Live, without DDS.
+TEST(NodesByName, HaveServicesThatCanBeCalled) {
+  Container container(ContainerOptions{.log = [](LogLevel, const std::string&, const std::string&) {}});
+  std::unique_ptr<TopicAccess> access;
+  ComponentDescription viewer;
+  viewer.name = "viewer";
+  viewer.name_space = "/";
+  container.add(viewer, [&](Context& context) {
+    access = context.topic_access();
+    return std::make_unique<Component>();
+  });
+  container.start();
+  std::vector<std::string> names;
+  for (const auto& node : access->nodes()) names.push_back(node.name);
+  EXPECT_THAT(names, testing::UnorderedElementsAre("container", "viewer"));
+  std::map<std::string, std::string> services;
+  for (const auto& service : access->services()) services[service.name] = service.type_name;
+  EXPECT_EQ(services["/viewer/list_parameters"], "rcl_interfaces/srv/ListParameters");
+
+  const auto call = [&](const std::string& name, const std::string& type) {
+    return access->call({name, type}, to_bytes(rcl_interfaces::srv::ListParameters_Request()),
+                        std::chrono::seconds(20));
+  };
+  const auto answer = call("/viewer/list_parameters", "rcl_interfaces/srv/ListParameters");
+  ASSERT_TRUE(answer);
+  EXPECT_THAT(from_bytes<rcl_interfaces::srv::ListParameters_Response>(*answer).result().names(),
+              testing::Contains("use_sim_time"));
+  EXPECT_FALSE(call("/viewer/list_parameters", "rcl_interfaces/srv/GetParameters"));
+  EXPECT_FALSE(call("/nobody/list_parameters", "rcl_interfaces/srv/ListParameters"));
+  access.reset();
 }
 
 TEST_F(TopicsByName, AreNotWrittenInAReplay) {

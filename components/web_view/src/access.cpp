@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "access.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cstddef>
 
 namespace panvo::web_view {
@@ -19,6 +21,22 @@ bool is_equal_secret(std::string_view expected, std::string_view given) {
     difference = difference | static_cast<unsigned>(static_cast<unsigned char>(given[i] ^ other));
   }
   return difference == 0;
+}
+
+bool is_trusted_origin(std::string_view origin, std::span<const std::string> allowed) {
+  // file: the desktop apps of Foxglove and Lichtblick. Not "null", which any page can make its frames send.
+  constexpr std::array<std::string_view, 3> kViewers{"https://app.foxglove.dev", "https://studio.foxglove.dev",
+                                                     "file://"};
+  if (origin.empty() || std::ranges::find(kViewers, origin) != kViewers.end()) return true;
+  if (std::ranges::any_of(allowed, [&](const auto& one) { return one == origin || one == "*"; })) return true;
+  constexpr std::string_view kSeparator = "://";
+  const auto separator = origin.find(kSeparator);
+  const auto scheme = origin.substr(0, separator);
+  if (separator == std::string_view::npos || (scheme != "http" && scheme != "https")) return false;
+  const auto authority = origin.substr(separator + kSeparator.size());
+  // An address in brackets contains colons; elsewhere the first one begins the port.
+  const auto end = authority.starts_with('[') ? authority.find(']') + 1 : authority.find(':');
+  return is_local(authority.substr(0, end));
 }
 
 std::string_view bearer_token(std::string_view header) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "client_request.hpp"
 
+#include <algorithm>
 #include <limits>
 #include <nlohmann/json.hpp>
 
@@ -33,6 +34,11 @@ std::string text_of(const json& value) {
   return text;
 }
 
+std::string optional_text(const json& object, const char* name) {
+  const auto found = object.find(name);
+  return found == object.end() || found->is_null() ? "" : text_of(*found);
+}
+
 /// Converts each element of a list.
 template <class Convert>
 auto list_of(const json& object, const char* name, Convert convert) {
@@ -46,6 +52,58 @@ auto list_of(const json& object, const char* name, Convert convert) {
 const json& object_of(const json& value) {
   if (!value.is_object()) throw ProtocolError("an element of a list is not an object");
   return value;
+}
+
+std::int64_t integer_of(const json& value) {
+  if (value.is_number_unsigned() && value.get<std::uint64_t>() > std::numeric_limits<std::int64_t>::max())
+    throw ProtocolError("an integer is larger than 9223372036854775807");
+  return value.get<std::int64_t>();
+}
+
+template <class Value>
+std::vector<Value> values_of(const json& list) {
+  std::vector<Value> values;
+  for (const auto& value : list) values.push_back(value.get<Value>());
+  return values;
+}
+
+ParameterValue list_value(const json& list, bool is_double) {
+  const auto all = [&](auto is_it) { return std::ranges::all_of(list, is_it); };
+  const bool are_integers = all([](const json& value) { return value.is_number_integer(); });
+  if (are_integers && !is_double) {
+    std::vector<std::int64_t> integers;
+    for (const auto& value : list) integers.push_back(integer_of(value));
+    return integers;
+  }
+  if (all([](const json& value) { return value.is_number(); })) return values_of<double>(list);
+  if (all([](const json& value) { return value.is_boolean(); })) return values_of<bool>(list);
+  if (all([](const json& value) { return value.is_string(); })) return values_of<std::string>(list);
+  throw ProtocolError("the elements of a parameter's list are not of one type");
+}
+
+/// JavaScript writes 1.0 as 1, so clients name the type of such values.
+Parameter parameter_of(const json& entry) {
+  const json& object = object_of(entry);
+  Parameter parameter{text_of(member(object, "name")), {}};
+  const std::string type = optional_text(object, "type");
+  const bool is_double = type == "float64" || type == "float64_array";
+  const auto found = object.find("value");
+  if (found == object.end() || found->is_null()) return parameter;
+  const json& value = *found;
+  if (value.is_boolean()) {
+    parameter.value = value.get<bool>();
+  } else if (value.is_number_integer() && !is_double) {
+    parameter.value = integer_of(value);
+  } else if (value.is_number()) {
+    parameter.value = value.get<double>();
+  } else if (value.is_string()) {
+    parameter.value = value.get<std::string>();
+  } else if (value.is_array()) {
+    parameter.value = list_value(value, is_double);
+  } else {
+    throw ProtocolError("the value of parameter " + parameter.name + " is an object");
+  }
+  return parameter;
 }
 
 ClientRequest request_of(const json& object) {
@@ -63,6 +121,15 @@ ClientRequest request_of(const json& object) {
     })};
   }
   if (operation == "unadvertise") return Unadvertise{list_of(object, "channelIds", id_of)};
+  if (operation == "getParameters")
+    return GetParameters{list_of(object, "parameterNames", text_of), optional_text(object, "id")};
+  if (operation == "setParameters")
+    return SetParameters{list_of(object, "parameters", parameter_of), optional_text(object, "id")};
+  if (operation == "subscribeParameterUpdates" || operation == "unsubscribeParameterUpdates")
+    return WatchParameters{list_of(object, "parameterNames", text_of), operation == "subscribeParameterUpdates"};
+  if (operation == "subscribeConnectionGraph") return WatchConnectionGraph{true};
+  if (operation == "unsubscribeConnectionGraph") return WatchConnectionGraph{false};
+  if (operation == "fetchAsset") return FetchAsset{text_of(member(object, "uri")), id_of(member(object, "requestId"))};
   throw ProtocolError("operation " + operation.substr(0, 40) + " is not supported");
 }
 
@@ -76,11 +143,24 @@ ClientRequest parse_text(std::string_view frame) {
 }
 
 ClientRequest parse_binary(std::span<const std::uint8_t> frame) {
-  constexpr std::uint8_t kPublish = 1;
+  constexpr std::uint8_t kPublish = 1, kCallService = 2;
   if (frame.empty()) throw ProtocolError("a binary message is empty");
+  const auto need = [&](std::size_t bytes) {
+    if (frame.size() < bytes) throw ProtocolError("a binary message is cut off");
+  };
   if (frame[0] == kPublish) {
-    if (frame.size() < 5) throw ProtocolError("a binary message is cut off");
+    need(5);
     return Publish{read_u32(frame.subspan(1)), frame.subspan(5)};
+  }
+  if (frame[0] == kCallService) {
+    need(13);
+    const std::uint64_t length = read_u32(frame.subspan(9));
+    need(13 + length);
+    const auto encoding = frame.subspan(13, length);
+    return CallService{read_u32(frame.subspan(1)),
+                       read_u32(frame.subspan(5)),
+                       {encoding.begin(), encoding.end()},
+                       frame.subspan(13 + length)};
   }
   throw ProtocolError("binary operation " + std::to_string(frame[0]) + " is not supported");
 }

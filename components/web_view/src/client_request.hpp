@@ -8,10 +8,12 @@
 #include <variant>
 #include <vector>
 
+#include "parameter.hpp"
+
 namespace panvo::web_view {
 
-// What a client of Foxglove's WebSocket protocol sends, one struct for each supported operation. Ids are chosen by the
-// client, except those of the server's channels.
+// What a client of Foxglove's WebSocket protocol sends, one struct for each operation. Ids are chosen by the client,
+// except those of the server's channels and services.
 
 struct Subscribe {
   struct One {
@@ -38,7 +40,34 @@ struct Publish {
   std::uint32_t channel;
   std::span<const std::uint8_t> payload;
 };
-using ClientRequest = std::variant<Subscribe, Unsubscribe, Advertise, Unadvertise, Publish>;
+struct GetParameters {
+  std::vector<std::string> names;  ///< empty: all
+  std::string id;                  ///< to be repeated in the answer; empty: none
+};
+struct SetParameters {
+  std::vector<Parameter> parameters;
+  std::string id;  ///< empty: no answer wanted
+};
+struct WatchParameters {
+  std::vector<std::string> names;
+  bool is_on;
+};
+/// `payload` is a part of the parsed frame.
+struct CallService {
+  std::uint32_t service, call;
+  std::string encoding;
+  std::span<const std::uint8_t> payload;
+};
+struct WatchConnectionGraph {
+  bool is_on;
+};
+struct FetchAsset {
+  std::string uri;  ///< "package://PACKAGE/FILE"
+  std::uint32_t request;
+};
+
+using ClientRequest = std::variant<Subscribe, Unsubscribe, Advertise, Unadvertise, Publish, GetParameters,
+                                   SetParameters, WatchParameters, CallService, WatchConnectionGraph, FetchAsset>;
 
 /// Reads a text frame. Throws ProtocolError.
 ClientRequest parse_text(std::string_view frame);

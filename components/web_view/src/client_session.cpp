@@ -20,7 +20,7 @@ constexpr std::size_t kMaxPublications = 100;
 
 }  // namespace
 
-ClientSession::ClientSession(View& view, WebSocketServer::Connection& connection)
+ClientSession::ClientSession(View& view, WebServer::Connection& connection)
     : view_(view),
       connection_(connection),
       assembly_(kMaxRequestBytes),
@@ -46,11 +46,14 @@ ClientSession::~ClientSession() {
                      dropped);
 }
 
-void ClientSession::welcome(const std::vector<Channel>& channels) {
-  std::vector<std::string> capabilities;
-  if (view_.settings().allow_control) capabilities.emplace_back("clientPublish");
+void ClientSession::welcome(bool has_time) {
+  has_time_ = has_time;
+  const auto& settings = view_.settings();
+  std::vector<std::string> capabilities{"parameters", "parametersSubscribe", "connectionGraph"};
+  if (settings.allow_control) capabilities.insert(capabilities.end(), {"clientPublish", "services"});
+  if (!settings.assets.empty()) capabilities.emplace_back("assets");
+  if (has_time) capabilities.emplace_back("time");
   sender_.send_text(server_info("panvo", capabilities, view_.session()));
-  sender_.send_text(web_view::advertise(channels));
 }
 
 void ClientSession::tell(const ChannelTable::Change& change, std::vector<std::shared_ptr<void>>& ended) {
@@ -63,6 +66,23 @@ void ClientSession::tell(const ChannelTable::Change& change, std::vector<std::sh
     ended.push_back(std::move(entry.second.reading));
     return true;
   });
+}
+
+void ClientSession::tell_time(std::int64_t time_ns) {
+  if (has_time_) sender_.send_binary(time_frame(time_ns));
+}
+
+void ClientSession::tell_drops() {
+  const auto dropped = sender_.dropped();
+  if (dropped == told_drops_) return;
+  sender_.send_text(status(StatusLevel::kWarning, "the connection is slow: " + std::to_string(dropped - told_drops_) +
+                                                      " large messages were left out"));
+  told_drops_ = dropped;
+}
+
+std::size_t ClientSession::subscriptions() const {
+  const std::lock_guard lock(mutex_);
+  return subscriptions_.size();
 }
 
 void ClientSession::receive(std::uint8_t head, std::span<const std::uint8_t> data) {

@@ -5,33 +5,50 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "channel_table.hpp"
 #include "client_request.hpp"
+#include "connection_graph.hpp"
 #include "frame_assembly.hpp"
 #include "panvo/runtime/output.hpp"
+#include "parameter_access.hpp"
 #include "sender.hpp"
-#include "web_socket_server.hpp"
+#include "server_message.hpp"
+#include "slow_requests.hpp"
+#include "web_server.hpp"
 
 namespace panvo::web_view {
 
 class View;
 
 /// One client: its subscriptions and what it publishes. A topic is read only while the client subscribes to it.
-class ClientSession final : public WebSocketServer::Session {
+/// client_session.cpp: topics. client_session_nodes.cpp: parameters, services, connection graph and assets.
+class ClientSession final : public WebServer::Session {
  public:
-  ClientSession(View& view, WebSocketServer::Connection& connection);
+  ClientSession(View& view, WebServer::Connection& connection);
   ~ClientSession() override;
 
   void receive(std::uint8_t head, std::span<const std::uint8_t> data) override;
 
-  /// Tells the client of the server and of its channels.
-  void welcome(const std::vector<Channel>& channels);
+  /// Tells the client of the server. `has_time`: times follow, see tell_time().
+  void welcome(bool has_time);
   /// Tells of new and removed channels; moves the subscriptions of removed ones to `ended`.
   void tell(const ChannelTable::Change& change, std::vector<std::shared_ptr<void>>& ended);
+  void tell(const ServiceTable::Change& change);
+  /// To a client that asked for the graph: what has changed since it was told of it.
+  void tell(const ConnectionGraph& graph);
+  void tell_time(std::int64_t time_ns);
+  /// A warning if messages were dropped since the last call.
+  void tell_drops();
+
+  bool wants_graph() const;
+  /// "127.0.0.1:4711".
+  std::string address() const { return connection_.address(); }
+  std::size_t subscriptions() const;
+  std::uint64_t dropped() const { return sender_.dropped(); }
 
  private:
   struct Subscription {
@@ -48,19 +65,35 @@ class ClientSession final : public WebSocketServer::Session {
   void handle(const Advertise& request);
   void handle(const Unadvertise& request);
   void handle(const Publish& request);
+  void handle(const GetParameters& request);
+  void handle(const SetParameters& request);
+  void handle(const WatchParameters& request);
+  void handle(const CallService& request);
+  void handle(const WatchConnectionGraph& request);
+  void handle(const FetchAsset& request);
   void subscribe(const Subscribe::One& wanted);
   std::shared_ptr<void> take_subscription(std::uint32_t id);
   void advertise(const Advertise::One& wanted);
+  void answer(const ParameterAccess::Result& result, const std::string& id, bool is_answer_wanted);
+  void tell_changed(const runtime::SamplePtr& event);
   void refuse_without_control() const;
   void complain(const std::string& why);
 
   View& view_;
-  WebSocketServer::Connection& connection_;
+  WebServer::Connection& connection_;
   FrameAssembly assembly_;
   Sender sender_;
   std::map<std::uint32_t, Publication> publications_;  // by id; used by the connection's thread only
-  std::mutex mutex_;  // guards the next one; not held while a topic is opened or closed
-  std::map<std::uint32_t, Subscription> subscriptions_;  // by id; last: their callbacks use the sender
+  bool has_time_ = false;
+  std::uint64_t told_drops_ = 0;
+  mutable std::mutex mutex_;  // guards the next five; not held while a topic is opened or closed
+  bool wants_graph_ = false;
+  ConnectionGraph told_graph_;
+  bool watches_all_parameters_ = false;
+  std::set<std::string> watched_parameters_;
+  std::map<std::uint32_t, Subscription> subscriptions_;  // by id; their callbacks use the sender
+  std::shared_ptr<void> parameter_events_;               // so does its callback
+  SlowRequests slow_requests_;                           // last: they use the members above
 };
 
 }  // namespace panvo::web_view

@@ -9,6 +9,7 @@
 #include <string>
 #include <string_view>
 #include <variant>
+#include <vector>
 
 #include "panvo/runtime/sample.hpp"
 
@@ -36,8 +37,11 @@ class SendQueue {
   struct Text {
     std::string json;
   };
+  struct Binary {
+    std::vector<std::uint8_t> frame;
+  };
   struct Item {
-    std::variant<Message, Text> content;
+    std::variant<Message, Text, Binary> content;
     std::size_t bytes;
     Keeping keeping = Keeping::kAll;
   };

@@ -14,7 +14,7 @@ constexpr std::chrono::seconds kStall{3};
 
 }  // namespace
 
-Sender::Sender(WebSocketServer::Connection& connection, Limits limits, std::function<void()> on_stalled)
+Sender::Sender(WebServer::Connection& connection, Limits limits, std::function<void()> on_stalled)
     : connection_(connection),
       on_stalled_(std::move(on_stalled)),
       queue_(limits.max_bytes, limits.max_items),
@@ -32,6 +32,11 @@ Sender::~Sender() {
 void Sender::send_text(std::string json) {
   const std::size_t bytes = json.size();
   push({SendQueue::Text{std::move(json)}, bytes});
+}
+
+void Sender::send_binary(std::vector<std::uint8_t> frame) {
+  const std::size_t bytes = frame.size();
+  push({SendQueue::Binary{std::move(frame)}, bytes});
 }
 
 void Sender::send_message(std::uint32_t subscription, const runtime::SamplePtr& sample) {
@@ -81,6 +86,7 @@ void Sender::loop() {
 
 bool Sender::send(const SendQueue::Item& item) {
   if (const auto* text = std::get_if<SendQueue::Text>(&item.content)) return connection_.send_text(text->json);
+  if (const auto* binary = std::get_if<SendQueue::Binary>(&item.content)) return connection_.send_binary(binary->frame);
   const auto& message = std::get<SendQueue::Message>(item.content);
   frame_ = message_head(message.subscription, message.sample->time_ns());
   const auto& bytes = message.sample->bytes();

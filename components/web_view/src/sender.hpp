@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "send_queue.hpp"
-#include "web_socket_server.hpp"
+#include "web_server.hpp"
 
 namespace panvo::web_view {
 
@@ -27,12 +27,13 @@ class Sender {
 
   /// `on_stalled` is called at most once, on the sender's thread, when the queue is full or the client has not read for
   /// the timeout of the connection, which is then closed. Not called for a client that has left.
-  Sender(WebSocketServer::Connection& connection, Limits limits, std::function<void()> on_stalled);
+  Sender(WebServer::Connection& connection, Limits limits, std::function<void()> on_stalled);
   ~Sender();
   Sender(const Sender&) = delete;
   Sender& operator=(const Sender&) = delete;
 
   void send_text(std::string json);
+  void send_binary(std::vector<std::uint8_t> frame);
   /// A message of a subscription.
   void send_message(std::uint32_t subscription, const runtime::SamplePtr& sample);
 
@@ -47,7 +48,7 @@ class Sender {
   void loop();
   bool send(const SendQueue::Item& item);
 
-  WebSocketServer::Connection& connection_;
+  WebServer::Connection& connection_;
   const std::function<void()> on_stalled_;
   mutable std::mutex mutex_;
   std::condition_variable changed_;

@@ -2,6 +2,7 @@
 #include "server_message.hpp"
 
 #include <nlohmann/json.hpp>
+#include <type_traits>
 
 #include "little_endian.hpp"
 
@@ -15,6 +16,54 @@ constexpr const char* kSchemaEncoding = "ros2msg";
 
 /// Names of other processes may be invalid UTF-8, which is replaced.
 std::string serialized(const json& object) { return object.dump(-1, ' ', false, json::error_handler_t::replace); }
+
+/// JavaScript cannot tell 1.0 from 1, so the type is named where it matters.
+json shown(const Parameter& parameter) {
+  json entry{{"name", parameter.name}};
+  std::visit(
+      [&](const auto& value) {
+        if constexpr (!std::is_same_v<std::decay_t<decltype(value)>, std::monostate>) entry["value"] = value;
+      },
+      parameter.value);
+  if (std::holds_alternative<double>(parameter.value)) entry["type"] = "float64";
+  if (std::holds_alternative<std::vector<double>>(parameter.value)) entry["type"] = "float64_array";
+  return entry;
+}
+
+json message_schema(const std::string& name) {
+  const auto* const type = interfaces::find_message_type(name);
+  return {{"encoding", kEncoding},
+          {"schemaName", name},
+          {"schemaEncoding", kSchemaEncoding},
+          {"schema", type ? type->definition : ""}};
+}
+
+/// Entries that are new or have other nodes; those without nodes left are listed empty unless `is_removed`.
+template <class IsRemoved>
+json changed(const ConnectionGraph::Links& before, const ConnectionGraph::Links& now, const char* ids_key,
+             IsRemoved is_removed) {
+  json list = json::array();
+  for (const auto& [name, nodes] : now) {
+    const auto known = before.find(name);
+    if (known == before.end() || known->second != nodes) list.push_back({{"name", name}, {ids_key, nodes}});
+  }
+  for (const auto& [name, nodes] : before) {
+    if (!now.contains(name) && !is_removed(name)) list.push_back({{"name", name}, {ids_key, json::array()}});
+  }
+  return list;
+}
+
+/// Frame of an asset, successful or not.
+std::vector<std::uint8_t> asset(std::uint32_t request, std::uint8_t status, std::string_view why,
+                                std::string_view content) {
+  std::vector<std::uint8_t> frame{4};
+  append(frame, request);
+  frame.push_back(status);
+  append(frame, static_cast<std::uint32_t>(why.size()));
+  frame.insert(frame.end(), why.begin(), why.end());
+  frame.insert(frame.end(), content.begin(), content.end());
+  return frame;
+}
 
 }  // namespace
 
@@ -35,10 +84,10 @@ std::string advertise(std::span<const Channel> channels) {
   json list = json::array();
   for (const auto& channel : channels) {
     list.push_back({{"id", channel.id},
-                    {"topic", channel.topic},
+                    {"topic", channel.what.name},
                     {"encoding", kEncoding},
-                    {"schemaName", channel.schema_name},
-                    {"schema", channel.schema},
+                    {"schemaName", channel.what.type_name},
+                    {"schema", channel.what.type ? channel.what.type->definition : ""},
                     {"schemaEncoding", kSchemaEncoding}});
   }
   return serialized({{"op", "advertise"}, {"channels", list}});
@@ -48,11 +97,85 @@ std::string unadvertise(std::span<const std::uint32_t> channels) {
   return serialized({{"op", "unadvertise"}, {"channelIds", std::vector(channels.begin(), channels.end())}});
 }
 
+std::string advertise_services(std::span<const OfferedService> services) {
+  json list = json::array();
+  for (const auto& service : services) {
+    list.push_back({{"id", service.id},
+                    {"name", service.what.name},
+                    {"type", service.what.type_name},
+                    {"request", message_schema(service.what.type_name + "_Request")},
+                    {"response", message_schema(service.what.type_name + "_Response")}});
+  }
+  return text_of({{"op", "advertiseServices"}, {"services", list}});
+}
+
+std::string unadvertise_services(std::span<const std::uint32_t> services) {
+  return text_of({{"op", "unadvertiseServices"}, {"serviceIds", std::vector(services.begin(), services.end())}});
+}
+
+std::string parameter_values(std::span<const Parameter> parameters, std::string_view id) {
+  json list = json::array();
+  for (const auto& parameter : parameters) list.push_back(shown(parameter));
+  json object{{"op", "parameterValues"}, {"parameters", list}};
+  if (!id.empty()) object["id"] = id;
+  return text_of(object);
+}
+
+std::string service_failure(std::uint32_t service, std::uint32_t call, std::string_view why) {
+  return text_of({{"op", "serviceCallFailure"}, {"serviceId", service}, {"callId", call}, {"message", why}});
+}
+
+std::string connection_graph_update(const ConnectionGraph& before, const ConnectionGraph& now) {
+  const auto is_removed = [&](const std::string& topic) {
+    return !now.published.contains(topic) && !now.subscribed.contains(topic);
+  };
+  std::set<std::string> removed_topics, removed_services;
+  for (const auto* links : {&before.published, &before.subscribed}) {
+    for (const auto& [topic, nodes] : *links) {
+      if (is_removed(topic)) removed_topics.insert(topic);
+    }
+  }
+  for (const auto& [service, nodes] : before.services) {
+    if (!now.services.contains(service)) removed_services.insert(service);
+  }
+  return text_of({{"op", "connectionGraphUpdate"},
+                  {"publishedTopics", changed(before.published, now.published, "publisherIds", is_removed)},
+                  {"subscribedTopics", changed(before.subscribed, now.subscribed, "subscriberIds", is_removed)},
+                  {"advertisedServices",
+                   changed(before.services, now.services, "providerIds", [](const std::string&) { return true; })},
+                  {"removedTopics", removed_topics},
+                  {"removedServices", removed_services}});
+}
+
 std::vector<std::uint8_t> message_head(std::uint32_t subscription, std::int64_t time_ns) {
   std::vector<std::uint8_t> head{1};
   append(head, subscription);
   append(head, static_cast<std::uint64_t>(time_ns));
   return head;
+}
+
+std::vector<std::uint8_t> service_response_head(std::uint32_t service, std::uint32_t call) {
+  constexpr std::string_view kName = kEncoding;
+  std::vector<std::uint8_t> head{3};
+  append(head, service);
+  append(head, call);
+  append(head, static_cast<std::uint32_t>(kName.size()));
+  head.insert(head.end(), kName.begin(), kName.end());
+  return head;
+}
+
+std::vector<std::uint8_t> time_frame(std::int64_t time_ns) {
+  std::vector<std::uint8_t> frame{2};
+  append(frame, static_cast<std::uint64_t>(time_ns));
+  return frame;
+}
+
+std::vector<std::uint8_t> asset_frame(std::uint32_t request, std::string_view content) {
+  return asset(request, 0, "", content);
+}
+
+std::vector<std::uint8_t> asset_failure(std::uint32_t request, std::string_view why) {
+  return asset(request, 1, why, "");
 }
 
 }  // namespace panvo::web_view

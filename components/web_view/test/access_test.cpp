@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <string>
+#include <vector>
+
 namespace panvo::web_view {
 namespace {
 
@@ -16,6 +19,18 @@ TEST(Access, TellsEqualSecretsFromOthers) {
   for (const char* given : {"", "secreT", "Secret", "secre", "secretsecret", "secret "})
     EXPECT_FALSE(is_equal_secret("secret", given)) << given;
   EXPECT_FALSE(is_equal_secret("", "secret"));
+}
+
+TEST(Access, TrustsPagesOfThisMachineAndOfKnownViewers) {
+  const std::vector<std::string> allowed{"https://viewer.example.org"};
+  for (const char* origin : {"", "http://localhost", "http://localhost:8080", "https://127.0.0.1:1",
+                             "http://[::1]:3000", "https://app.foxglove.dev", "file://", "https://viewer.example.org"})
+    EXPECT_TRUE(is_trusted_origin(origin, allowed)) << origin;
+  for (const char* origin :
+       {"null", "https://example.org", "http://localhost.example.org", "https://app.foxglove.dev.example.org",
+        "http://127.0.0.1.example.org", "ftp://localhost", "http://[::1", "localhost", "http://", "https"})
+    EXPECT_FALSE(is_trusted_origin(origin, allowed)) << origin;
+  EXPECT_TRUE(is_trusted_origin("https://example.org", std::vector<std::string>{"*"}));
 }
 
 TEST(Access, ReadsTheTokenOfAHeader) {

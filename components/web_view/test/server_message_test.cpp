@@ -6,6 +6,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "std_msgs/msg/String.h"
+
 namespace panvo::web_view {
 namespace {
 
@@ -19,12 +21,61 @@ TEST(ServerMessage, PresentsTheServer) {
 }
 
 TEST(ServerMessage, OffersChannels) {
-  const std::vector<Channel> channels{{3, "/chat", "std_msgs/msg/String", "string data\n"}};
-  EXPECT_EQ(json::parse(advertise(channels)), json::parse(R"({
+  const auto& type = interfaces::message_type<std_msgs::msg::String>();
+  const std::vector<Channel> channels{{3, {"/chat", "std_msgs/msg/String", {}, &type}},
+                                      {4, {"/odd", "odd_msgs/msg/Odd", {}, nullptr}}};
+  json expected = json::parse(R"({
     "op": "advertise", "channels": [{"id": 3, "topic": "/chat", "encoding": "cdr", "schemaName": "std_msgs/msg/String",
-    "schema": "string data\n", "schemaEncoding": "ros2msg"}]})"));
+    "schema": "", "schemaEncoding": "ros2msg"}, {"id": 4, "topic": "/odd", "encoding": "cdr",
+    "schemaName": "odd_msgs/msg/Odd", "schema": "", "schemaEncoding": "ros2msg"}]})");
+  expected["channels"][0]["schema"] = type.definition;
+  EXPECT_EQ(json::parse(advertise(channels)), expected);
   EXPECT_EQ(json::parse(unadvertise(std::vector<std::uint32_t>{3, 4})),
             json::parse(R"({"op": "unadvertise", "channelIds": [3, 4]})"));
+}
+
+TEST(ServerMessage, OffersServicesWithBothSchemas) {
+  const std::vector<OfferedService> services{{7, {"/node/list_parameters", "rcl_interfaces/srv/ListParameters"}}};
+  const json service = json::parse(advertise_services(services))["services"].at(0);
+  EXPECT_EQ(service["id"], 7);
+  EXPECT_EQ(service["name"], "/node/list_parameters");
+  EXPECT_EQ(service["type"], "rcl_interfaces/srv/ListParameters");
+  EXPECT_EQ(service["request"]["schemaName"], "rcl_interfaces/srv/ListParameters_Request");
+  EXPECT_THAT(std::string(service["request"]["schema"]), testing::HasSubstr("string[] prefixes"));
+  EXPECT_EQ(service["response"]["encoding"], "cdr");
+  EXPECT_EQ(json::parse(unadvertise_services(std::vector<std::uint32_t>{7})),
+            json::parse(R"({"op": "unadvertiseServices", "serviceIds": [7]})"));
+}
+
+TEST(ServerMessage, NamesTheTypeOfParametersThatJavaScriptWouldTakeForIntegers) {
+  const std::vector<Parameter> parameters{{"/a/on", true},
+                                          {"/a/one", 1.0},
+                                          {"/a/two", std::int64_t{2}},
+                                          {"/a/list", std::vector<double>{1.0}},
+                                          {"/a/gone", {}}};
+  EXPECT_EQ(json::parse(parameter_values(parameters, "x")), json::parse(R"({
+    "op": "parameterValues", "id": "x", "parameters": [{"name": "/a/on", "value": true},
+    {"name": "/a/one", "value": 1.0, "type": "float64"}, {"name": "/a/two", "value": 2},
+    {"name": "/a/list", "value": [1.0], "type": "float64_array"}, {"name": "/a/gone"}]})"));
+  EXPECT_FALSE(json::parse(parameter_values({}, "")).contains("id"));
+}
+
+TEST(ServerMessage, TellsWhatChangedInTheGraph) {
+  const ConnectionGraph before{{{"/a", {"/one"}}, {"/b", {"/one"}}}, {{"/b", {"/two"}}}, {{"/s", {"/one"}}}};
+  const ConnectionGraph now{{{"/a", {"/one", "/two"}}}, {{"/b", {"/two"}}}, {}};
+  EXPECT_EQ(json::parse(connection_graph_update(before, now)), json::parse(R"({
+    "op": "connectionGraphUpdate", "publishedTopics": [{"name": "/a", "publisherIds": ["/one", "/two"]},
+    {"name": "/b", "publisherIds": []}], "subscribedTopics": [], "advertisedServices": [], "removedTopics": [],
+    "removedServices": ["/s"]})"));
+  EXPECT_EQ(json::parse(connection_graph_update(now, {}))["removedTopics"], json::parse(R"(["/a", "/b"])"));
+}
+
+TEST(ServerMessage, WritesBinaryAnswersInLittleEndian) {
+  using testing::ElementsAre;
+  EXPECT_THAT(service_response_head(1, 2), ElementsAre(3, 1, 0, 0, 0, 2, 0, 0, 0, 3, 0, 0, 0, 'c', 'd', 'r'));
+  EXPECT_THAT(time_frame(0x0102), ElementsAre(2, 2, 1, 0, 0, 0, 0, 0, 0));
+  EXPECT_THAT(asset_frame(9, "ab"), ElementsAre(4, 9, 0, 0, 0, 0, 0, 0, 0, 0, 'a', 'b'));
+  EXPECT_THAT(asset_failure(9, "no"), ElementsAre(4, 9, 0, 0, 0, 1, 2, 0, 0, 0, 'n', 'o'));
 }
 
 TEST(ServerMessage, TellsOfProblems) {

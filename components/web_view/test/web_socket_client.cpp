@@ -11,19 +11,39 @@
 
 namespace panvo::web_view::test {
 
-WebSocketClient::WebSocketClient(int port, const Request& request) : socket_(::socket(AF_INET, SOCK_STREAM, 0)) {
+namespace {
+
+int connected_socket(int port, int receive_buffer) {
+  const int socket = ::socket(AF_INET, SOCK_STREAM, 0);
   const timeval patience{20, 0};
-  ::setsockopt(socket_, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof(patience));
-  if (request.receive_buffer > 0)
-    ::setsockopt(socket_, SOL_SOCKET, SO_RCVBUF, &request.receive_buffer, sizeof(request.receive_buffer));
+  ::setsockopt(socket, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof(patience));
+  if (receive_buffer > 0) ::setsockopt(socket, SOL_SOCKET, SO_RCVBUF, &receive_buffer, sizeof(receive_buffer));
   sockaddr_in address{};
   address.sin_family = AF_INET;
   address.sin_port = htons(static_cast<std::uint16_t>(port));
   address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-  if (::connect(socket_, reinterpret_cast<const sockaddr*>(&address), sizeof(address)) != 0) {
-    ::close(socket_);
+  if (::connect(socket, reinterpret_cast<const sockaddr*>(&address), sizeof(address)) != 0) {
+    ::close(socket);
     throw std::runtime_error("cannot connect to port " + std::to_string(port));
   }
+  return socket;
+}
+
+}  // namespace
+
+std::string http_answer(int port, const std::string& request) {
+  const int socket = connected_socket(port, 0);
+  std::string answer;
+  std::array<char, 4096> part{};
+  ::send(socket, request.data(), request.size(), MSG_NOSIGNAL);
+  for (ssize_t count = 0; (count = ::recv(socket, part.data(), part.size(), 0)) > 0;)
+    answer.append(part.data(), static_cast<std::size_t>(count));
+  ::close(socket);
+  return answer;
+}
+
+WebSocketClient::WebSocketClient(int port, const Request& request)
+    : socket_(connected_socket(port, request.receive_buffer)) {
   const std::string text = "GET " + request.path +
                            " HTTP/1.1\r\nHost: localhost\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n"
                            "Sec-WebSocket-Version: 13\r\nSec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n" +

@@ -11,6 +11,9 @@
 
 namespace panvo::web_view::test {
 
+/// Sends an HTTP request to a port of this machine; the answer until the server ends the connection.
+std::string http_answer(int port, const std::string& request);
+
 /// A WebSocket client over a plain socket of this machine, so that tests can also send what no library sends.
 class WebSocketClient {
  public:

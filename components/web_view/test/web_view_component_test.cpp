@@ -7,6 +7,7 @@
 namespace panvo::web_view::test {
 namespace {
 
+using ::testing::Contains;
 using ::testing::HasSubstr;
 
 TEST_F(WebView, PresentsItselfUnderBothNamesOfTheProtocol) {
@@ -17,7 +18,7 @@ TEST_F(WebView, PresentsItselfUnderBothNamesOfTheProtocol) {
     EXPECT_THAT(client.answer(), HasSubstr("Sec-WebSocket-Protocol: " + name + "\r\n"));
     const json info = next_text(client, "serverInfo");
     EXPECT_EQ(info["name"], "panvo");
-    EXPECT_EQ(info["capabilities"], json::array());
+    EXPECT_EQ(info["capabilities"], json::array({"parameters", "parametersSubscribe", "connectionGraph"}));
   }
   // Often enough that every thread of the server gets one that asks and one that does not.
   for (int i = 0; i < 30; ++i) {
@@ -75,7 +76,7 @@ TEST_F(WebView, TellsOfTopicsThatComeAndGo) {
   });
   const auto channel = channel_of(client, "/odometry/enhanced");
   container_->unload("late");
-  EXPECT_EQ(next_text(client, "unadvertise")["channelIds"], json::array({channel}));
+  EXPECT_THAT(next_text(client, "unadvertise")["channelIds"], Contains(channel));
   subscribe(client, 1, channel);
   EXPECT_EQ(next_status(client), "subscription 1: unknown channel " + std::to_string(channel));
 }
@@ -128,7 +129,7 @@ TEST_F(WebView, RefusesControlUnlessAllowed) {
 TEST_F(WebView, PublishesForAClientThatMayControl) {
   start({{"allow_control", "true"}});
   WebSocketClient client(port());
-  EXPECT_EQ(next_text(client, "serverInfo")["capabilities"], json::array({"clientPublish"}));
+  EXPECT_THAT(next_text(client, "serverInfo")["capabilities"], Contains("clientPublish"));
   client.send_text(kAdvertisePose);
   client.send_binary(pose_frame());
   EXPECT_TRUE(is_logged("pose in map"));

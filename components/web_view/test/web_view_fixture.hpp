@@ -24,13 +24,17 @@ namespace panvo::web_view::test {
 
 using nlohmann::json;
 
+/// A list of one element is written "[a]".
 inline runtime::ComponentDescription description(const std::string& name,
                                                  const std::map<std::string, std::string>& parameters = {}) {
   runtime::ComponentDescription description;
   description.name = name;
   description.name_space = "/";
-  for (const auto& [key, text] : parameters)
-    description.parameters[key] = runtime::WrittenValue{.items = {text}, .is_list = false, .where = {"test", 0}};
+  for (const auto& [key, text] : parameters) {
+    const bool is_list = text.starts_with('[');
+    description.parameters[key] = runtime::WrittenValue{
+        .items = {is_list ? text.substr(1, text.size() - 2) : text}, .is_list = is_list, .where = {"test", 0}};
+  }
   return description;
 }
 

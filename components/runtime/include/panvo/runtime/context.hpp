@@ -11,6 +11,7 @@
 #include <string_view>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 #include "panvo/interfaces/service.hpp"
 #include "panvo/interfaces/topic.hpp"
@@ -28,6 +29,9 @@
 #include "panvo/runtime/topic_access.hpp"
 
 namespace panvo::runtime {
+
+/// Names and values for /diagnostics.
+using DiagnosticValues = std::vector<std::pair<std::string, std::string>>;
 
 /// A component's access to its parameters, topics, log and time. The same component code runs live (own thread and
 /// bounded queue) and in replay (one thread, messages in stamp order). Use it in the component's constructor; use time,
@@ -122,6 +126,9 @@ class Context {
   /// Lets the runtime play `source`, which must live as long as the component.
   void source(Source& source);
 
+  /// Controls playing.
+  Playback& playback();
+
   /// Subscribes to all topics that `wanted` accepts, including those of other processes, and gets the messages as
   /// samples. For recorders. Drops messages only if more than `depth` are waiting.
   void tap(std::function<bool(const TopicDescription&)> wanted, std::size_t depth,
@@ -148,6 +155,10 @@ class Context {
     return resolved_name(topic.name);
   }
   std::string resolved_name(std::string_view topic) const;
+
+  /// Adds what `values` returns to the component's entry in /diagnostics, once a second. Called on another thread, not
+  /// after the component is destroyed.
+  void on_diagnostics(std::function<DiagnosticValues()> values);
 
   const Logger& log() const noexcept;
   StageTimes& times() noexcept;

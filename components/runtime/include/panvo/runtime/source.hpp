@@ -25,6 +25,26 @@ class Source {
     std::uint64_t done = 0, total = 0;
   };
   virtual Progress progress() const = 0;
+
+  /// Whether, live, the source waits at its end until it is moved back, see Playback::move_to. Otherwise the run ends.
+  virtual bool waits_at_end() const { return false; }
+};
+
+/// How the sources of this process are played, live. Changes have no effect in replay. Thread-safe.
+class Playback {
+ public:
+  virtual ~Playback() = default;
+  virtual void pause() = 0;
+  virtual void resume() = 0;
+  virtual bool is_paused() const = 0;
+  /// Relative to the recorded speed; 0: as fast as possible.
+  virtual double rate() const = 0;
+  /// Stamp of the newest step, also in replay; nullopt: nothing is played.
+  virtual std::optional<std::int64_t> stamp_ns() const = 0;
+  /// False if the present rate or `rate` is 0.
+  virtual bool set_rate(double rate) = 0;
+  /// Call after a source has moved: what is stamped so is due now. The source is asked for its next stamp again.
+  virtual void move_to(std::int64_t stamp_ns) = 0;
 };
 
 }  // namespace panvo::runtime

@@ -1,17 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <chrono>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "panvo/runtime/bridge.hpp"
+#include "panvo/runtime/graph.hpp"
 #include "panvo/runtime/output.hpp"
 #include "panvo/runtime/sample.hpp"
 
 namespace panvo::runtime {
 
-/// All topics by name, for a viewer that opens them when somebody asks. Thread-safe. Topic names are used
+/// All topics, nodes and services by name, for a viewer that opens them when somebody asks. Thread-safe. Names are used
 /// as given, without remapping. Must be destroyed with the component, after everything it returned.
 class TopicAccess {
  public:
@@ -29,6 +32,17 @@ class TopicAccess {
   /// Publishes a topic until the result is destroyed. Throws ConfigError if the topic has another type here, or in
   /// replay, whose results must not depend on a viewer.
   virtual std::shared_ptr<UntypedOutput> write(const TopicDescription& topic) = 0;
+
+  /// Nodes of this and other processes, with their topics and services.
+  virtual std::vector<NodeDescription> nodes() const = 0;
+
+  /// Services of this and other processes, in order of name.
+  virtual std::vector<ServiceDescription> services() const = 0;
+
+  /// Calls a service and waits for the response; nullopt: none within `limit`. Not from a callback of the component,
+  /// whose own services would wait for it. Throws ConfigError in replay.
+  virtual std::optional<interfaces::Bytes> call(const ServiceDescription& service, interfaces::Bytes request,
+                                                std::chrono::milliseconds limit) = 0;
 };
 
 }  // namespace panvo::runtime

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -11,6 +10,8 @@
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "http.hpp"
 
 struct mg_connection;
 struct mg_context;
@@ -24,8 +25,9 @@ class ServerError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// WebSocket connections of civetweb, each with its own thread, which calls its Session. No exception leaves a callback.
-class WebSocketServer {
+/// civetweb: WebSocket connections, each with its own thread, which calls its Session, and files by GET. No exception
+/// leaves a callback.
+class WebServer {
  public:
   /// An open connection. Thread-safe.
   class Connection {
@@ -55,24 +57,26 @@ class WebSocketServer {
     std::string host = "127.0.0.1";
     int port = 0;  ///< 0: any free port
     int threads = 10;
-    std::vector<std::string> subprotocols;  ///< a client must ask for one of them
+    std::vector<std::string> subprotocols;  ///< a WebSocket client must ask for one of them
+    std::string cookie;                     ///< name of the one that the server sets
   };
   struct Refusal {
     int http_status;
     std::string reason;
   };
   struct Callbacks {
-    /// Called with the token of the request, empty if it has none; nullopt: accepted.
-    std::function<std::optional<Refusal>(const std::string& token)> admit;
+    /// Whether a WebSocket is accepted: nullopt.
+    std::function<std::optional<Refusal>(const Credentials&)> admit;
     std::function<std::unique_ptr<Session>(Connection&)> open;
+    std::function<HttpResponse(const Credentials&, const HttpRequest&)> get;
   };
 
   /// Throws ServerError.
-  WebSocketServer(Settings settings, Callbacks callbacks);
+  WebServer(Settings settings, Callbacks callbacks);
   /// Closes all connections and destroys their sessions.
-  ~WebSocketServer();
-  WebSocketServer(const WebSocketServer&) = delete;
-  WebSocketServer& operator=(const WebSocketServer&) = delete;
+  ~WebServer();
+  WebServer(const WebServer&) = delete;
+  WebServer& operator=(const WebServer&) = delete;
 
   int port() const { return port_; }
 

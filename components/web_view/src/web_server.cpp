@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "web_socket_server.hpp"
+#include "web_server.hpp"
 
 #include <civetweb.h>
 
@@ -15,16 +15,27 @@ namespace {
 
 constexpr const char* kSendTimeout = "5000";  // ms without progress, after which a client counts as gone
 constexpr const char* kPingPeriod = "2000";   // ms of silence, after which a client is asked whether it is there
-constexpr std::size_t kMaxToken = 1024;
+constexpr std::size_t kMaxSecret = 1024;
+
+std::string header_of(const mg_connection* connection, const char* name) {
+  const char* const header = mg_get_header(connection, name);
+  return header ? header : "";
+}
 
 std::string token_of(const mg_connection* connection) {
-  if (const char* header = mg_get_header(connection, "Authorization")) {
-    if (const auto token = bearer_token(header); !token.empty()) return std::string(token);
-  }
+  const std::string header = header_of(connection, "Authorization");
+  if (const auto token = bearer_token(header); !token.empty()) return std::string(token);
   const char* const query = mg_get_request_info(connection)->query_string;
-  std::array<char, kMaxToken> token{};
+  std::array<char, kMaxSecret> token{};
   if (!query || mg_get_var(query, std::strlen(query), "token", token.data(), token.size()) <= 0) return "";
   return token.data();
+}
+
+Credentials credentials_of(const mg_connection* connection, const std::string& cookie_name) {
+  std::array<char, kMaxSecret> cookie{};
+  const std::string cookies = header_of(connection, "Cookie");
+  const int length = mg_get_cookie(cookies.c_str(), cookie_name.c_str(), cookie.data(), cookie.size());
+  return {token_of(connection), length > 0 ? cookie.data() : "", header_of(connection, "Origin")};
 }
 
 /// Whether a client asks for one of the server's subprotocols. civetweb's own answer may be that of an earlier connection.
@@ -46,33 +57,41 @@ bool asks_for_one_of(const mg_connection* connection, const std::vector<std::str
 }
 
 /// mg_send_http_error() leaves out the head of its answer to a request for a WebSocket.
-void answer(mg_connection* connection, int http_status, const std::string& text) {
-  mg_printf(connection,
-            "HTTP/1.1 %d %s\r\nContent-Type: text/plain\r\nContent-Length: %zu\r\nConnection: close\r\n\r\n%s\n",
-            http_status, mg_get_response_code_text(connection, http_status), text.size() + 1, text.c_str());
+void answer(mg_connection* connection, const HttpResponse& response, bool has_body = true) {
+  std::string head = "HTTP/1.1 " + std::to_string(response.status) + ' ' +
+                     mg_get_response_code_text(connection, response.status) + "\r\nConnection: close\r\n";
+  if (!response.content_type.empty()) head += "Content-Type: " + response.content_type + "\r\n";
+  for (const auto& [name, value] : response.headers) head += name + ": " + value + "\r\n";
+  head += "Content-Length: " + std::to_string(response.body.size()) + "\r\n\r\n";
+  if (has_body) head += response.body;
+  mg_write(connection, head.data(), head.size());
+}
+
+void answer(mg_connection* connection, int status, const std::string& text) {
+  answer(connection, HttpResponse{status, "text/plain; charset=utf-8", text + '\n', {}});
 }
 
 }  // namespace
 
 /// A connection with its session.
-struct WebSocketServer::Open {
+struct WebServer::Open {
   explicit Open(mg_connection* handle) : connection(handle) {}
   Connection connection;
   std::unique_ptr<Session> session;  // destroyed before the connection, which it uses
 };
 
 /// The callbacks of civetweb, which is written in C: no exception may pass through it.
-struct WebSocketServer::Handlers {
+struct WebServer::Handlers {
   /// 0: accepted.
   static int connect(const mg_connection* connection, void* server) {
     auto* const writable = const_cast<mg_connection*>(connection);  // for the answer
     try {
-      const auto& self = *static_cast<const WebSocketServer*>(server);
+      const auto& self = *static_cast<const WebServer*>(server);
       if (!asks_for_one_of(connection, self.settings_.subprotocols)) {
         answer(writable, 400, "the WebSocket subprotocol is missing or not supported");
         return 1;
       }
-      if (const auto refusal = self.callbacks_.admit(token_of(connection))) {
+      if (const auto refusal = self.callbacks_.admit(credentials_of(connection, self.settings_.cookie))) {
         answer(writable, refusal->http_status, refusal->reason);
         return 1;
       }
@@ -84,7 +103,7 @@ struct WebSocketServer::Handlers {
 
   static void ready(mg_connection* connection, void* server) {
     try {
-      const auto& self = *static_cast<const WebSocketServer*>(server);
+      const auto& self = *static_cast<const WebServer*>(server);
       auto open = std::make_unique<Open>(connection);
       open->session = self.callbacks_.open(open->connection);
       mg_set_user_connection_data(connection, open.release());
@@ -113,29 +132,45 @@ struct WebSocketServer::Handlers {
   /// civetweb's own messages are about single requests.
   static int log(const mg_connection*, const char*) { return 1; }
 
-  static int page(mg_connection* connection, void*) {
-    answer(connection, 426, "this address speaks Foxglove's WebSocket protocol");
-    return 426;
+  /// Returns the HTTP status.
+  static int get(mg_connection* connection, void* server) {
+    const auto& self = *static_cast<const WebServer*>(server);
+    try {
+      const auto* const info = mg_get_request_info(connection);
+      const std::string_view method = info->request_method;
+      if (method != "GET" && method != "HEAD") {
+        answer(connection, {405, "text/plain", "only GET and HEAD\n", {{"Allow", "GET, HEAD"}}});
+        return 405;
+      }
+      const auto response =
+          self.callbacks_.get(credentials_of(connection, self.settings_.cookie),
+                              {info->local_uri, header_of(connection, "Host"), header_of(connection, "If-None-Match")});
+      answer(connection, response, method == "GET");
+      return response.status;
+    } catch (const std::exception& error) {
+      answer(connection, 500, error.what());
+      return 500;
+    }
   }
 };
 
-bool WebSocketServer::Connection::send_text(std::string_view text) {
+bool WebServer::Connection::send_text(std::string_view text) {
   return mg_websocket_write(connection_, MG_WEBSOCKET_OPCODE_TEXT, text.data(), text.size()) > 0;
 }
 
-bool WebSocketServer::Connection::send_binary(std::span<const std::uint8_t> frame) {
+bool WebServer::Connection::send_binary(std::span<const std::uint8_t> frame) {
   return mg_websocket_write(connection_, MG_WEBSOCKET_OPCODE_BINARY, reinterpret_cast<const char*>(frame.data()),
                             frame.size()) > 0;
 }
 
-void WebSocketServer::Connection::close() { mg_close_connection(connection_); }
+void WebServer::Connection::close() { mg_close_connection(connection_); }
 
-std::string WebSocketServer::Connection::address() const {
+std::string WebServer::Connection::address() const {
   const auto* const request = mg_get_request_info(connection_);
   return std::string(request->remote_addr) + ":" + std::to_string(request->remote_port);
 }
 
-WebSocketServer::WebSocketServer(Settings settings, Callbacks callbacks)
+WebServer::WebServer(Settings settings, Callbacks callbacks)
     : settings_(std::move(settings)), callbacks_(std::move(callbacks)) {
   for (const auto& name : settings_.subprotocols) subprotocol_names_.push_back(name.c_str());
   subprotocols_ = std::make_unique<mg_websocket_subprotocols>(
@@ -149,7 +184,7 @@ WebSocketServer::WebSocketServer(Settings settings, Callbacks callbacks)
   }
 }
 
-void WebSocketServer::listen() {
+void WebServer::listen() {
   const std::string address = settings_.host + ":" + std::to_string(settings_.port);
   const std::string threads = std::to_string(settings_.threads);
   const std::array<const char*, 15> options{"listening_ports",
@@ -179,10 +214,10 @@ void WebSocketServer::listen() {
   if (mg_get_server_ports(context_, 1, &port) == 1) port_ = port.port;
   mg_set_websocket_handler_with_subprotocols(context_, "/", subprotocols_.get(), Handlers::connect, Handlers::ready,
                                              Handlers::data, Handlers::close, this);
-  mg_set_request_handler(context_, "/", Handlers::page, this);
+  mg_set_request_handler(context_, "/", Handlers::get, this);
 }
 
-WebSocketServer::~WebSocketServer() {
+WebServer::~WebServer() {
   mg_stop(context_);
   mg_exit_library();
 }

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pacer.hpp"
+
+#include <cmath>
+#include <utility>
+
+#include "clocks.hpp"
+
+namespace panvo::runtime {
+
+std::int64_t Pacer::State::due_ns(std::int64_t stamp) const {
+  return since_ns + static_cast<std::int64_t>(static_cast<double>(stamp - stamp_ns) / rate);
+}
+
+void Pacer::start(std::int64_t first_stamp_ns, double rate, std::int64_t now_ns) {
+  const std::lock_guard lock(mutex_);
+  state_.stamp_ns = first_stamp_ns;
+  state_.since_ns = now_ns;
+  state_.rate = rate;
+  ++state_.version;
+}
+
+void Pacer::on_change(std::function<void()> changed, std::function<void()> moved) {
+  const std::lock_guard lock(telling_mutex_);
+  changed_ = std::move(changed);
+  moved_ = std::move(moved);
+}
+
+std::optional<std::int64_t> Pacer::stamp_ns() const {
+  const std::int64_t reached_ns = reached_ns_;
+  return reached_ns == kNever ? std::nullopt : std::optional(reached_ns);
+}
+
+Pacer::State Pacer::state() const {
+  const std::lock_guard lock(mutex_);
+  return state_;
+}
+
+void Pacer::go_on_from_here() {
+  const std::int64_t now_ns = clocks::monotonic_ns();
+  if (!state_.is_paused)
+    state_.stamp_ns += static_cast<std::int64_t>(static_cast<double>(now_ns - state_.since_ns) * state_.rate);
+  state_.since_ns = now_ns;
+  ++state_.version;
+}
+
+void Pacer::set_paused(bool is_paused) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (state_.is_paused == is_paused) return;
+    go_on_from_here();
+    state_.is_paused = is_paused;
+  }
+  tell(false);
+}
+
+bool Pacer::set_rate(double rate) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (state_.rate <= 0 || rate <= 0 || !std::isfinite(rate)) return false;
+    go_on_from_here();
+    state_.rate = rate;
+  }
+  tell(false);
+  return true;
+}
+
+void Pacer::move_to(std::int64_t stamp_ns) {
+  {
+    const std::lock_guard lock(mutex_);
+    state_.stamp_ns = stamp_ns;
+    state_.since_ns = clocks::monotonic_ns();
+    ++state_.version;
+  }
+  tell(true);
+}
+
+void Pacer::tell(bool is_move) {
+  const std::lock_guard lock(telling_mutex_);
+  if (is_move) moved_();
+  changed_();
+}
+
+}  // namespace panvo::runtime

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <mutex>
+#include <optional>
+
+#include "panvo/runtime/source.hpp"
+
+namespace panvo::runtime {
+
+/// When the steps of the sources are due: stamps in proportion to the monotonic clock, from the last change on.
+class Pacer final : public Playback {
+ public:
+  /// Read at one time. `version` differs after each change.
+  struct State {
+    std::uint64_t version = 0;
+    bool is_paused = false;
+    double rate = 1;  ///< 0: as fast as possible
+    std::int64_t stamp_ns = 0, since_ns = 0;
+
+    /// Monotonic time at which a stamp is due unless paused. Not for rate 0.
+    std::int64_t due_ns(std::int64_t stamp) const;
+  };
+
+  /// At the begin of a run.
+  void start(std::int64_t first_stamp_ns, double rate, std::int64_t now_ns);
+  /// `changed` is called after each change, `moved` before it after a move.
+  void on_change(std::function<void()> changed, std::function<void()> moved);
+
+  /// A source steps.
+  void reach(std::int64_t stamp_ns) { reached_ns_ = stamp_ns; }
+
+  State state() const;
+
+  void pause() override { set_paused(true); }
+  void resume() override { set_paused(false); }
+  bool is_paused() const override { return state().is_paused; }
+  std::optional<std::int64_t> stamp_ns() const override;
+  double rate() const override { return state().rate; }
+  bool set_rate(double rate) override;
+  void move_to(std::int64_t stamp_ns) override;
+
+ private:
+  void set_paused(bool is_paused);
+  /// Continues from the present stamp.
+  void go_on_from_here();
+  void tell(bool is_move);
+
+  static constexpr std::int64_t kNever = INT64_MIN;
+
+  mutable std::mutex mutex_;
+  State state_;
+  std::atomic<std::int64_t> reached_ns_ = kNever;
+  std::mutex telling_mutex_;
+  std::function<void()> changed_ = [] {}, moved_ = [] {};
+};
+
+}  // namespace panvo::runtime

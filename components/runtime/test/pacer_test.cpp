@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pacer.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace panvo::runtime {
+namespace {
+
+constexpr std::int64_t kSecond = 1'000'000'000;
+
+TEST(Pacer, MakesStampsDueInProportionToTheRate) {
+  Pacer pacer;
+  pacer.start(100 * kSecond, 2, 5 * kSecond);
+  EXPECT_EQ(pacer.state().due_ns(100 * kSecond), 5 * kSecond);
+  EXPECT_EQ(pacer.state().due_ns(104 * kSecond), 7 * kSecond);
+}
+
+TEST(Pacer, ContinuesWhereItWasPaused) {
+  Pacer pacer;
+  pacer.pause();  // before the run, as a component does
+  pacer.start(100 * kSecond, 1, 5 * kSecond);
+  EXPECT_TRUE(pacer.is_paused());
+  pacer.resume();
+  const auto state = pacer.state();
+  EXPECT_FALSE(state.is_paused);
+  EXPECT_EQ(state.stamp_ns, 100 * kSecond);  // time passed, but nothing was played
+  EXPECT_EQ(state.due_ns(101 * kSecond), state.since_ns + kSecond);
+}
+
+TEST(Pacer, ChangesTheRateFromThePresentStampOn) {
+  Pacer pacer;
+  pacer.start(100 * kSecond, 1, 5 * kSecond);
+  pacer.pause();
+  const std::int64_t stamp_ns = pacer.state().stamp_ns;
+  EXPECT_TRUE(pacer.set_rate(4));
+  pacer.resume();
+  const auto state = pacer.state();
+  EXPECT_EQ(state.stamp_ns, stamp_ns);
+  EXPECT_EQ(state.due_ns(stamp_ns + 4 * kSecond), state.since_ns + kSecond);
+}
+
+TEST(Pacer, RefusesRatesThatAreNone) {
+  Pacer pacer;
+  pacer.start(0, 1, 0);
+  for (const double rate :
+       {0.0, -1.0, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()})
+    EXPECT_FALSE(pacer.set_rate(rate)) << rate;
+  EXPECT_EQ(pacer.rate(), 1);
+  pacer.start(0, 0, 0);
+  EXPECT_FALSE(pacer.set_rate(1)) << "played as fast as possible";
+}
+
+TEST(Pacer, TellsOfEachChangeOnce) {
+  Pacer pacer;
+  int changes = 0, moves = 0;
+  pacer.on_change([&] { ++changes; }, [&] { ++moves; });
+  const auto before = pacer.state().version;
+  pacer.pause();
+  pacer.pause();
+  EXPECT_EQ(changes, 1);
+  pacer.move_to(7 * kSecond);
+  EXPECT_EQ(changes, 2);
+  EXPECT_EQ(moves, 1);
+  EXPECT_EQ(pacer.state().stamp_ns, 7 * kSecond);
+  EXPECT_EQ(pacer.state().version, before + 2);
+}
+
+TEST(Pacer, KnowsTheStampThatIsReached) {
+  Pacer pacer;
+  EXPECT_EQ(pacer.stamp_ns(), std::nullopt);
+  pacer.reach(8);
+  EXPECT_EQ(pacer.stamp_ns(), 8);
+}
+
+}  // namespace
+}  // namespace panvo::runtime

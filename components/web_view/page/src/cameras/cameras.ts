@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: Apache-2.0
+/** The panorama with its directions, the recognised place below it, turned to the same heading, and the left image. */
+import type { Happening } from "../link/events.ts";
+import { imageTypes, preferredImage } from "../link/roles.ts";
+import type { Drive } from "../model/drive.ts";
+import { clock, h, setText } from "../ui/dom.ts";
+import { shiftOf, sidesOf, ticksOf } from "./heading_tape.ts";
+import { Picture } from "./picture.ts";
+import { Thumbnails } from "./thumbnails.ts";
+
+type Kind = "panorama" | "left";
+type ImageHappening = Extract<Happening, { kind: "image" }>;
+
+/** A tap shows the whole height of the picture, another one its middle again. */
+function pictureFrame(...children: HTMLElement[]): HTMLElement {
+  const frame = h("div.frame", { onclick: () => frame.classList.toggle("whole") }, ...children);
+  return frame;
+}
+
+class Camera {
+  picture = new Picture();
+  topic: string | undefined;
+  frame = "";
+  stamp_s = NaN;
+  select = h("select", { "aria-label": "Topic of the image" });
+  note = h("p.note");
+  tape = h("div.tape");
+  element: HTMLElement;
+
+  constructor(
+    readonly kind: Kind,
+    title: string,
+    onChoice: () => void,
+  ) {
+    this.select.onchange = () => {
+      this.topic = this.select.value;
+      onChoice();
+    };
+    const frame = pictureFrame(this.picture.canvas, this.tape, this.note);
+    this.element = h("figure.camera", { hidden: true }, h("figcaption", {}, h("b", {}, title), this.select), frame);
+    this.element.classList.add(kind);
+  }
+
+  offer(topics: string[]): void {
+    if (!this.topic || !topics.includes(this.topic)) this.topic = preferredImage(topics, this.kind) ?? this.topic;
+    this.element.hidden = topics.length === 0 && this.picture.isEmpty;
+    const options = [...new Set([...(this.topic ? [this.topic] : []), ...topics])];
+    this.select.replaceChildren(...options.map((topic) => h("option", { value: topic, selected: topic === this.topic }, topic.replace(/^\//, ""))));
+    if (this.picture.isEmpty) setText(this.note, this.topic ? "waiting for the first image" : "no topic chosen");
+  }
+}
+
+export class Cameras {
+  #panorama: Camera;
+  #left: Camera;
+  #place = new Picture();
+  #placeCaption = h("span");
+  #placeElement: HTMLElement;
+  #thumbnails = new Thumbnails(() => (this.#drawnPlace = ""));
+  #drawnPlace = "";
+  #isVisible = true;
+  readonly empty = h("p.empty", {}, "No camera publishes images.");
+
+  constructor(
+    readonly element: HTMLElement,
+    readonly drive: Drive,
+    readonly onTopics: (topics: string[]) => void,
+  ) {
+    this.#panorama = new Camera("panorama", "Panorama", () => this.#tellTopics());
+    this.#left = new Camera("left", "Left camera", () => this.#tellTopics());
+    this.#placeElement = h("figure.camera.place", { hidden: true }, h("figcaption", {}, this.#placeCaption), pictureFrame(this.#place.canvas));
+    element.append(this.empty, this.#panorama.element, this.#placeElement, this.#left.element);
+  }
+
+  offer(topics: { topic: string; type: string }[]): void {
+    const images = topics.filter(({ type }) => imageTypes.includes(type)).map(({ topic }) => topic);
+    this.empty.hidden = images.length > 0;
+    this.#panorama.offer(images);
+    this.#left.offer(images);
+    this.#tellTopics();
+  }
+
+  /** Images are received only while they are seen. */
+  setVisible(isVisible: boolean): void {
+    this.#isVisible = isVisible;
+    this.#tellTopics();
+  }
+
+  show({ topic, frame, stamp_s, bitmap }: ImageHappening): void {
+    const camera = [this.#panorama, this.#left].find((one) => one.topic === topic);
+    if (!camera) return bitmap.close();
+    Object.assign(camera, { frame, stamp_s });
+    camera.picture.show(bitmap);
+    camera.element.hidden = false;
+    setText(camera.note, "");
+  }
+
+  fault(topic: string, why: string): void {
+    for (const camera of [this.#panorama, this.#left]) if (camera.topic === topic) setText(camera.note, why);
+  }
+
+  update(): void {
+    this.#updateTape();
+    this.#updatePlace();
+  }
+
+  /** The last images, for a snapshot. */
+  pictures(): Partial<Record<Kind, string>> {
+    const taken: Partial<Record<Kind, string>> = {};
+    for (const { kind, picture } of [this.#panorama, this.#left]) if (!picture.isEmpty) taken[kind] = picture.canvas.toDataURL("image/jpeg", 0.8);
+    return taken;
+  }
+
+  restore(kind: Kind, picture: HTMLImageElement, frame: string): void {
+    const camera = kind === "left" ? this.#left : this.#panorama;
+    camera.frame = frame;
+    camera.picture.show(picture);
+    camera.element.hidden = false;
+    this.empty.hidden = true;
+  }
+
+  get panoramaFrame(): string {
+    return this.#panorama.frame;
+  }
+
+  #tellTopics(): void {
+    const topics = [this.#panorama, this.#left].map(({ topic }) => topic).filter((topic) => topic !== undefined);
+    this.onTopics(this.#isVisible ? topics : []);
+  }
+
+  #updateTape(): void {
+    const pose = this.drive.pose;
+    const { tape, frame, picture } = this.#panorama;
+    if (!pose || picture.isEmpty) return;
+    const centre = pose.yaw + (this.drive.yawOfFrame.get(frame) ?? 0);
+    const marks = [
+      ...ticksOf(centre).filter(({ isMain }) => isMain).map(({ at, text }) => ({ at, text, name: "azimuth" })),
+      ...sidesOf(pose.yaw, centre).map(({ at, text }) => ({ at, text, name: "side" })),
+    ];
+    while (tape.children.length < marks.length) tape.append(h("span"));
+    marks.forEach(({ at, text, name }, i) => {
+      const mark = tape.children[i] as HTMLElement;
+      mark.className = name;
+      mark.style.left = `clamp(1.6em, ${(at * 100).toFixed(2)}%, 100% - 1.6em)`;
+      setText(mark, text);
+    });
+  }
+
+  #updatePlace(): void {
+    const { recognised, places, now } = this.drive;
+    const place = recognised && places.all.get(recognised.place);
+    this.#placeElement.hidden = !place?.thumbnail;
+    if (!recognised || !place?.thumbnail) return;
+    const degrees = Math.round((Math.abs(recognised.heading) * 180) / Math.PI);
+    const since = now - recognised.time;
+    setText(this.#placeCaption, `Place ${place.id}, ${since < 1 ? "seen now" : `seen ${clock(since)} ago`}, turned by ${degrees}°`);
+    this.#placeElement.classList.toggle("past", since > 3);
+    const key = `${place.id} ${recognised.heading.toFixed(3)}`;
+    const image = this.#thumbnails.get(place);
+    if (!image || key === this.#drawnPlace) return;
+    this.#drawnPlace = key;
+    this.#place.show(image, shiftOf(recognised.heading));
+  }
+}

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+import { App } from "./app.ts";
+import type { Happening, Order } from "./link/events.ts";
+import { byId } from "./ui/dom.ts";
+import { listenForShortcuts } from "./ui/shortcuts.ts";
+import { includedSnapshot } from "./ui/snapshot_file.ts";
+
+const app = new App();
+const snapshot = includedSnapshot();
+const help = byId<HTMLDialogElement>("help");
+
+if (snapshot) {
+  app.show(snapshot);
+} else {
+  const worker = new Worker("worker.js");
+  worker.onmessage = ({ data }: { data: Happening }) => app.on(data);
+  app.send = (order: Order) => worker.postMessage(order);
+  app.connection.open();
+}
+
+byId("snapshot-button").onclick = () => void app.takeSnapshot();
+byId("help-button").onclick = () => help.showModal();
+byId("help-close").onclick = () => help.close();
+listenForShortcuts({
+  f: () => app.map.follow(!app.map.follows),
+  a: () => app.map.fit(),
+  m: () => app.mapPanel.toggleMeasure(),
+  p: () => app.mapPanel.togglePlace(),
+  s: () => void app.takeSnapshot(),
+  " ": () => app.togglePlayer(),
+  "?": () => help.showModal(),
+  Escape: () => app.mapPanel.cancel(),
+});
+
+const frame = () => {
+  app.frame();
+  requestAnimationFrame(frame);
+};
+frame();
+setInterval(() => app.update(), 200);
+
+// For tests and for curious people in the browser's console.
+Object.assign(globalThis, { panvo: app });

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+import type { Pose2 } from "./geometry.ts";
+
+export interface Bounds {
+  left: number;
+  right: number;
+  bottom: number;
+  top: number;
+}
+
+export const nowhere = (): Bounds => ({ left: Infinity, right: -Infinity, bottom: Infinity, top: -Infinity });
+
+export function widen(bounds: Bounds, x: number, y: number): void {
+  bounds.left = Math.min(bounds.left, x);
+  bounds.right = Math.max(bounds.right, x);
+  bounds.bottom = Math.min(bounds.bottom, y);
+  bounds.top = Math.max(bounds.top, y);
+}
+
+/** Poses in order of time, in arrays that grow. When it is full, every other pose is left out. */
+export class Path {
+  static readonly chunk = 256; // poses with common bounds
+
+  count = 0;
+  revision = 0; // changes when poses are removed
+  received = 0; // poses added, whether or not they are still kept
+  times = new Float64Array(1024);
+  xs = new Float64Array(1024);
+  ys = new Float64Array(1024);
+  yaws = new Float64Array(1024);
+  chunks: Bounds[] = [];
+
+  constructor(readonly most = 200_000) {}
+
+  add(time: number, { x, y, yaw }: Pose2): void {
+    ++this.received;
+    if (this.count === this.most) this.#thin();
+    if (this.count === this.xs.length) this.#grow();
+    const at = this.count++;
+    this.times[at] = time;
+    this.xs[at] = x;
+    this.ys[at] = y;
+    this.yaws[at] = yaw;
+    if (at % Path.chunk === 0) this.chunks.push(nowhere());
+    widen(this.chunks[this.chunks.length - 1]!, x, y);
+  }
+
+  clear(): void {
+    ++this.revision;
+    this.count = this.received = 0;
+    this.chunks = [];
+  }
+
+  at(index: number): Pose2 {
+    return { x: this.xs[index]!, y: this.ys[index]!, yaw: this.yaws[index]! };
+  }
+
+  get last(): Pose2 | undefined {
+    return this.count > 0 ? this.at(this.count - 1) : undefined;
+  }
+
+  /** Index of the last pose that is not after `time`; -1: none. */
+  indexAt(time: number): number {
+    let low = 0;
+    let high = this.count;
+    while (low < high) {
+      const middle = (low + high) >> 1;
+      if (this.times[middle]! <= time) low = middle + 1;
+      else high = middle;
+    }
+    return low - 1;
+  }
+
+  /** The pose whose stamp is `time`, to a millisecond. */
+  exactly(time: number): Pose2 | undefined {
+    const index = this.indexAt(time + 1e-3);
+    return index >= 0 && Math.abs(this.times[index]! - time) < 2e-3 ? this.at(index) : undefined;
+  }
+
+  bounds(): Bounds {
+    const bounds = nowhere();
+    for (const chunk of this.chunks) {
+      widen(bounds, chunk.left, chunk.bottom);
+      widen(bounds, chunk.right, chunk.top);
+    }
+    return bounds;
+  }
+
+  #grow(): void {
+    for (const key of ["times", "xs", "ys", "yaws"] as const) {
+      const longer = new Float64Array(2 * this[key].length);
+      longer.set(this[key]);
+      this[key] = longer;
+    }
+  }
+
+  #thin(): void {
+    const half = this.count >> 1;
+    const received = this.received;
+    const poses = Array.from({ length: half }, (_, i) => [this.times[2 * i]!, this.at(2 * i)] as const);
+    this.clear();
+    for (const [time, pose] of poses) this.add(time, pose);
+    this.received = received;
+  }
+}

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+import { wrapped } from "./geometry.ts";
+import { seconds, type AzimuthChange } from "./messages.ts";
+import type { Path } from "./path.ts";
+
+export interface Turn {
+  time: number;
+  compass: number; // degrees per second, left positive
+  odometry: number;
+}
+
+/** Compares the turn between two panoramas with that of the odometry between the poses of the same stamps. */
+export class TurnComparison {
+  #waiting: AzimuthChange[] = [];
+
+  add(change: AzimuthChange): void {
+    if (change.valid) this.#waiting.push(change);
+    if (this.#waiting.length > 50) this.#waiting.shift(); // no odometry comes
+  }
+
+  clear(): void {
+    this.#waiting = [];
+  }
+
+  /** The comparisons for which the odometry is there by now. */
+  take(odometry: Path): Turn[] {
+    const turns: Turn[] = [];
+    const last = odometry.count > 0 ? odometry.times[odometry.count - 1]! : -Infinity;
+    while (this.#waiting.length > 0 && seconds(this.#waiting[0]!.header.stamp) <= last + 1e-3) {
+      const change = this.#waiting.shift()!;
+      const to = seconds(change.header.stamp);
+      const from = seconds(change.from_stamp);
+      const before = odometry.exactly(from);
+      const after = odometry.exactly(to);
+      if (!before || !after || to <= from) continue;
+      const perSecond = 180 / Math.PI / (to - from);
+      turns.push({ time: to, compass: change.azimuth_change_rad * perSecond, odometry: wrapped(after.yaw - before.yaw) * perSecond });
+    }
+    return turns;
+  }
+}

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+/** Which charts there are, and what each shows. */
+import type { Drive, SeriesName } from "../model/drive.ts";
+import type { Series } from "../model/series.ts";
+import { metres } from "../model/state_line.ts";
+import type { Colours } from "../ui/colours.ts";
+
+export interface Curve {
+  label: string;
+  series: Series;
+  colour: keyof Colours;
+  dash?: number[];
+}
+
+export interface Chart {
+  title: string;
+  format(value: number): string;
+  /** Those that have values. Empty: the chart is not shown. */
+  curves(drive: Drive): Curve[];
+}
+
+const perSecond = (value: number) => `${value.toFixed(1)} Hz`;
+const degreesPerSecond = (value: number) => `${value.toFixed(1)} °/s`;
+const whole = (value: number) => String(Math.round(value));
+const palette: (keyof Colours)[] = ["enhanced", "binocular", "compass", "landmark", "bad", "ink", "soft", "caution"];
+
+type Row = [label: string, name: SeriesName, colour: keyof Colours, dash?: number[]];
+
+function of(...rows: Row[]) {
+  return (drive: Drive): Curve[] =>
+    rows
+      .filter(([, name]) => drive.series[name].times.length > 0)
+      .map(([label, name, colour, dash]) => ({ label, series: drive.series[name], colour, ...(dash && { dash }) }));
+}
+
+/** The largest of a group, each component a curve. */
+function each(group: (drive: Drive) => Map<string, Series>, isShown: (series: Series) => boolean = () => true) {
+  return (drive: Drive): Curve[] =>
+    [...group(drive)]
+      .filter(([, series]) => isShown(series))
+      .sort(([, a], [, b]) => (b.last ?? 0) - (a.last ?? 0))
+      .slice(0, palette.length)
+      .map(([label, series], i) => ({ label, series, colour: palette[i]! }));
+}
+
+export const charts: Chart[] = [
+  {
+    title: "Position uncertainty",
+    format: metres,
+    curves: of(
+      ["1σ", "sigma", "enhanced"],
+      ["protection", "protection", "ink", [4, 3]],
+      ["error", "error", "binocular"],
+    ),
+  },
+  { title: "Turn rate", format: degreesPerSecond, curves: of(["odometry", "odometry", "binocular"], ["compass", "compass", "compass"]) },
+  { title: "Features", format: whole, curves: of(["tracked", "tracked", "soft"], ["inliers", "inliers", "enhanced"]) },
+  { title: "Speed", format: (value) => `${value.toFixed(1)} m/s`, curves: of(["speed", "speed", "enhanced"]) },
+  {
+    title: "Rates",
+    format: perSecond,
+    curves: of(["odometry", "odometryRate", "binocular"], ["pose", "poseRate", "enhanced"], ["panorama", "panoramaRate", "compass"]),
+  },
+  { title: "Messages dropped", format: whole, curves: each((drive) => drive.dropped, (series) => (series.last ?? 0) > 0) },
+  { title: "CPU", format: (value) => `${Math.round(value)} %`, curves: each((drive) => drive.cpu) },
+  { title: "Memory", format: (value) => `${Math.round(value)} MB`, curves: each((drive) => drive.memory) },
+];

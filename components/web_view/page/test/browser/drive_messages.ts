@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+/** A short drive to be published: a quarter of a circle to the left, with odometry that drifts, a place, and a correction. */
+import { Outcome, State } from "../../src/model/messages.ts";
+import { covariance, header, odometry, pose } from "../modules/make.ts";
+
+export const topics = {
+  "/odometry/enhanced": "nav_msgs/msg/Odometry",
+  "/odometry/binocular": "nav_msgs/msg/Odometry",
+  "/odometry/quality": "panvo_msgs/msg/OdometryQuality",
+  "/localization/state": "panvo_msgs/msg/LocalizationState",
+  "/localization/integrity": "panvo_msgs/msg/Integrity",
+  "/landmarks/poses": "panvo_msgs/msg/LandmarkPoses",
+  "/correction/outcome": "panvo_msgs/msg/CorrectionOutcome",
+  "/diagnostics": "diagnostic_msgs/msg/DiagnosticArray",
+  "/stereo/left/image_rect": "sensor_msgs/msg/Image",
+};
+
+export const poses = 120;
+export const radius_m = 30;
+const start_s = 1000;
+const rate_hz = 10;
+
+export function poseAt(i: number) {
+  const angle = (i / (poses - 1)) * (Math.PI / 2);
+  return { x: radius_m * Math.sin(angle), y: radius_m * (1 - Math.cos(angle)), yaw: angle };
+}
+
+const full = (xx: number) => {
+  const values = covariance(xx, 0, xx);
+  [values[14], values[21], values[28], values[35]] = [xx, 1e-4, 1e-4, 1e-4];
+  return values;
+};
+
+const odometryAt = (i: number, frame: string, drift: number) => {
+  const message = odometry(start_s + i / rate_hz, { ...poseAt(i), x: poseAt(i).x + drift }, 4);
+  const zero = { x: 0, y: 0, z: 0 };
+  return {
+    header: header(start_s + i / rate_hz, frame),
+    child_frame_id: "base_link",
+    pose: { pose: message.pose.pose, covariance: full(0.0625) },
+    twist: { twist: { linear: { ...zero, x: 4 }, angular: zero }, covariance: full(0.01) },
+  };
+};
+
+/** The messages in the order in which they are published. */
+export function* messages(): Generator<[keyof typeof topics, unknown]> {
+  const end = start_s + (poses - 1) / rate_hz;
+  yield ["/landmarks/poses", { header: header(start_s), ids: [7], poses: [{ pose: pose({ x: 10, y: 20, yaw: 0 }), covariance: full(0.01) }] }];
+  for (let i = 0; i < poses; ++i) {
+    yield ["/odometry/binocular", odometryAt(i, "odom", (i / (poses - 1)) * 1.5)];
+    yield ["/odometry/enhanced", odometryAt(i, "map", 0)];
+    yield ["/odometry/quality", { header: header(start_s + i / rate_hz, "odom"), detected: 300, tracked: 200, matched: 180, inliers: 150, inlier_ratio: 0.8, residual_px: 0.5, reliable: true, reason: "" }];
+  }
+  yield ["/correction/outcome", { header: header(end), landmark_id: 7, outcome: Outcome.applied, reason: "", chi_square: 3, before: pose({ x: 29, y: 30, yaw: 1.57 }), after: pose({ x: 30, y: 30, yaw: 1.57 }) }];
+  yield ["/localization/state", { header: header(end), state: State.tracking, reason: "", since: header(end).stamp, position_sigma_m: 0.25, heading_sigma_rad: 0.01 }];
+  yield ["/localization/integrity", { header: header(end), usable: true, reason: "", risk: 0.001, horizontal_protection_level_m: 1.37, alert_limit_m: 2 }];
+  yield ["/diagnostics", { header: header(end, ""), status: [{ level: 1, name: "panvo: localizer", message: "too slow", hardware_id: "none", values: [{ key: "/correction messages", value: "9 received, 6 handled, 3 dropped, 0 waiting, 0 undecodable" }] }] }];
+  yield ["/stereo/left/image_rect", { header: header(end, "left"), height: 2, width: 2, encoding: "bgr8", is_bigendian: 0, step: 6, data: new Uint8Array([0, 0, 250, 0, 0, 250, 0, 0, 250, 0, 0, 250]) }];
+}

@@ -1,0 +1,255 @@
+// SPDX-License-Identifier: Apache-2.0
+/** The page in a headless Chromium, served by the web view: what it shows is what was published, and clicks do what they say. */
+import assert from "node:assert/strict";
+import fs from "node:fs";
+import os from "node:os";
+import path from "node:path";
+import test, { after, before } from "node:test";
+import puppeteer, { type Browser, type Page } from "puppeteer-core";
+import type { App } from "../../src/app.ts";
+import { near } from "../modules/make.ts";
+import { messages, poseAt, poses, topics } from "./drive_messages.ts";
+import { Publisher } from "./publisher.ts";
+import { Server } from "./server.ts";
+
+declare const panvo: App; // in the page
+
+const server = new Server();
+let browser: Browser;
+let page: Page;
+let publisher: Publisher;
+const requested = new Set<string>();
+
+const textOf = (selector: string, on = page) => on.$eval(selector, (element) => (element as HTMLElement).innerText.trim());
+const becomes = (selector: string, text: string, on = page) =>
+  on.waitForFunction((where, what) => document.querySelector(where)?.textContent?.includes(what), { timeout: 20_000, polling: 100 }, selector, text);
+
+async function opened(url: string, width = 1280, height = 800): Promise<Page> {
+  const made = await browser.newPage();
+  made.on("request", (request) => void requested.add(new URL(request.url()).host));
+  await made.setViewport({ width, height });
+  await made.goto(url);
+  return made;
+}
+
+before(async () => {
+  await server.start();
+  browser = await puppeteer.launch({ executablePath: process.env.CHROMIUM!, headless: true, args: ["--no-sandbox"] });
+  publisher = new Publisher(server.port);
+  await publisher.opened();
+  page = await opened(server.url());
+  await becomes("#link-text", "Live");
+  await publisher.advertise(topics);
+  // The page has subscribed once it knows the topics and asked for the image.
+  await page.waitForFunction((count) => document.querySelectorAll(".camera.left option").length >= count, {}, 1);
+  await page.waitForFunction(() => panvo.topics.length >= 9);
+  for (const [topic, message] of messages()) publisher.publish(topic, message);
+  await page.waitForFunction((count) => panvo.drive.enhanced.received === count && panvo.drive.components.has("localizer"), { timeout: 20_000 }, poses);
+});
+
+after(async () => {
+  publisher?.close();
+  await browser?.close();
+  await server.remove();
+});
+
+test("the state is the one that was published, in words", async () => {
+  await becomes("#state-title", "Position known");
+  assert.equal(await textOf("#state-reason"), "within 1.37 m at 99.9 % confidence");
+  assert.equal(await page.$eval("#state", (element) => (element as HTMLElement).dataset.level), "good");
+});
+
+test("poses, places and corrections are those that were published", async () => {
+  const shown = await page.evaluate(() => ({
+    enhanced: panvo.drive.enhanced.received,
+    binocular: panvo.drive.binocular.received,
+    pose: panvo.drive.pose,
+    drift: panvo.drive.drift_m,
+    place: panvo.drive.places.all.get(7)?.pose,
+    corrections: panvo.drive.corrections.length,
+  }));
+  assert.equal(shown.enhanced, poses);
+  assert.equal(shown.binocular, poses);
+  const last = poseAt(poses - 1);
+  near(shown.pose!.x, last.x, 1e-9);
+  near(shown.pose!.y, last.y, 1e-9);
+  near(shown.pose!.yaw, last.yaw, 1e-9);
+  near(shown.drift, 1.5, 1e-9);
+  assert.deepEqual([shown.place!.x, shown.place!.y, shown.corrections], [10, 20, 1]);
+});
+
+test("the figures in the head are those of the messages", async () => {
+  await becomes("#figures", "Driven");
+  const figures = await page.$$eval("#figures > div:not([hidden])", (elements) => elements.map((element) => [element.children[0]!.textContent, element.children[1]!.textContent]));
+  assert.deepEqual(Object.fromEntries(figures), { Position: "±0.25 m", "Protection level": "1.37 m", "Drift removed": "1.50 m", Speed: "4.0 m/s", Driven: "48.1 m", Time: "0:11" }); // driven: of the odometry
+});
+
+test("the image has the colour that was published", async () => {
+  await page.waitForFunction(() => document.querySelector<HTMLCanvasElement>(".camera.left canvas")!.width === 2);
+  const pixel = await page.$eval(".camera.left canvas", (canvas) => [...(canvas as HTMLCanvasElement).getContext("2d")!.getImageData(0, 0, 1, 1).data]);
+  assert.deepEqual(pixel, [250, 0, 0, 255]);
+});
+
+test("events and components are listed", async () => {
+  await page.click('aside button[data-tab="events"]');
+  await becomes(".events", "Place 7 recognised");
+  assert.match(await textOf(".events li"), /./);
+  await page.click('aside button[data-tab="system"]');
+  await becomes(".components", "localizer");
+  assert.match(await textOf(".components"), /too slow; 3 dropped in all/);
+  await becomes(".facts", "Not decodednothing");
+  await page.click('aside button[data-tab="cameras"]');
+});
+
+/** Pixel of the page where a point of the map is seen. */
+const pixelOf = (x: number, y: number) =>
+  page.evaluate(
+    (mx, my) => {
+      const { left, top } = panvo.map.canvas.getBoundingClientRect();
+      const at = panvo.map.view.toScreen(mx, my);
+      return { x: at.x + left, y: at.y + top };
+    },
+    x,
+    y,
+  );
+
+test("the map draws the vehicle where it is", async () => {
+  await page.click("#fit");
+  const { x, y } = await pixelOf(poseAt(poses - 1).x, poseAt(poses - 1).y);
+  const colour = await page.evaluate(
+    (px, py) =>
+      new Promise<number[]>((resolve) =>
+        requestAnimationFrame(() =>
+          requestAnimationFrame(() => {
+            const { canvas } = panvo.map;
+            const { left, top } = canvas.getBoundingClientRect();
+            resolve([...canvas.getContext("2d")!.getImageData((px - left) * devicePixelRatio, (py - top) * devicePixelRatio, 1, 1).data]);
+          }),
+        ),
+      ),
+    x,
+    y - 2, // ahead of the middle of the arrow, which points up
+  );
+  assert.deepEqual(colour.slice(0, 3), [0x00, 0x72, 0xb2]);
+});
+
+test("a tap on a place shows it", async () => {
+  await page.click("#fit");
+  const { x, y } = await pixelOf(10, 20);
+  await page.mouse.click(x, y);
+  await becomes("#card-title", "Place 7");
+  assert.match(await textOf("#card-text"), /corrected the position once/);
+  await page.click("#card-close");
+  assert.equal(await page.$eval("#card", (card) => (card as HTMLElement).hidden), true);
+});
+
+test("the measure has the length of what was tapped", async () => {
+  await page.click("#fit");
+  await page.click("#measure");
+  for (const [x, y] of [[5, 5], [8, 9]] as const) {
+    const at = await pixelOf(x, y);
+    await page.mouse.click(at.x, at.y);
+  }
+  const length = Number.parseFloat(await textOf("#hint"));
+  near(length, 5, 0.15);
+  await page.keyboard.press("Escape");
+  assert.equal(await page.$eval("#hint", (hint) => (hint as HTMLElement).hidden), true);
+});
+
+test("keys and drags move the map, and end following", async () => {
+  await page.keyboard.press("f");
+  assert.equal(await page.evaluate(() => panvo.map.follows), true);
+  await page.focus("#map-canvas");
+  await page.keyboard.press("ArrowLeft");
+  assert.equal(await page.$eval("#follow", (button) => button.getAttribute("aria-pressed")), "false");
+  const before = await page.evaluate(() => ({ ...panvo.map.view }));
+  await page.mouse.move(400, 300);
+  await page.mouse.down();
+  await page.mouse.move(500, 340, { steps: 5 });
+  await page.mouse.up();
+  const dragged = await page.evaluate(() => ({ ...panvo.map.view }));
+  near((before.x - dragged.x) * before.px_per_m, 100, 7);
+  near((dragged.y - before.y) * before.px_per_m, 40, 7);
+});
+
+async function drawPose(): Promise<{ x: number; y: number }> {
+  await page.click("#fit");
+  await page.click("#place");
+  const at = await pixelOf(12, 4);
+  await page.mouse.move(at.x, at.y);
+  await page.mouse.down();
+  await page.mouse.move(at.x, at.y + 60, { steps: 5 }); // down: heading -90 degrees
+  await page.mouse.up();
+  await becomes("#confirm-text", "heading -90°");
+  return at;
+}
+
+test("the vehicle is placed where it was drawn, and only after it was confirmed", async () => {
+  await drawPose();
+  await page.click("#place-no");
+  await drawPose();
+  await page.click("#place-yes");
+  await publisher.subscribe("/initialpose");
+  await drawPose();
+  await page.click("#place-yes");
+  await publisher.until(() => publisher.received.length > 0);
+  assert.equal(publisher.received.length, 1);
+  const { header, pose } = publisher.received[0]!.message as { header: { frame_id: string }; pose: { pose: { position: { x: number; y: number }; orientation: { z: number; w: number } } } };
+  assert.equal(header.frame_id, "map");
+  near(pose.pose.position.x, 12, 0.1);
+  near(pose.pose.position.y, 4, 0.1);
+  near(2 * Math.atan2(pose.pose.orientation.z, pose.pose.orientation.w), -Math.PI / 2, 0.01);
+});
+
+test("a snapshot is one file that shows the same without a server", async () => {
+  const folder = fs.mkdtempSync(path.join(os.tmpdir(), "page_snapshot_"));
+  const devtools = await page.createCDPSession();
+  await devtools.send("Browser.setDownloadBehavior", { behavior: "allow", downloadPath: folder, eventsEnabled: true });
+  const done = new Promise<void>((resolve) => devtools.on("Browser.downloadProgress", ({ state }) => state === "completed" && resolve()));
+  await page.click("#snapshot-button");
+  await done;
+  const file = path.join(folder, fs.readdirSync(folder)[0]!);
+  const copy = await opened(`file://${file}`);
+  await becomes("#link-text", "Snapshot of", copy);
+  assert.equal(await textOf("#state-title", copy), "Position known");
+  const shown = await copy.evaluate(() => [panvo.drive.enhanced.count, panvo.drive.corrections.length, panvo.drive.driven_m]);
+  assert.deepEqual(shown.slice(0, 2), [poses, 1]);
+  near(shown[2]!, 48.1, 0.1);
+  await copy.waitForFunction(() => document.querySelector<HTMLCanvasElement>(".camera.left canvas")!.width === 2);
+  await copy.close();
+  fs.rmSync(folder, { recursive: true });
+});
+
+test("on a phone nothing is wider than the screen", async () => {
+  const phone = await opened(server.url(), 390, 844);
+  await becomes("#link-text", "Live", phone);
+  for (const tab of ["map", "cameras", "events", "time", "system"]) {
+    await phone.click(`.tabs button[data-tab="${tab}"]`);
+    const wide = await phone.evaluate(() => [...document.querySelectorAll("main *, header, .tabs")].filter((element) => element.getBoundingClientRect().right > innerWidth + 1 && !element.closest("#figures, .values, .tape, .u-wrap")).map((element) => element.outerHTML.slice(0, 80)));
+    assert.deepEqual(wide, [], tab);
+  }
+  await phone.close();
+});
+
+test("a server that is lost is shown, and found again when it is back", async () => {
+  const { port } = server;
+  await server.stop();
+  await becomes("#state-title", "Server lost");
+  await becomes("#link-text", "again in");
+  await server.start({ port });
+  await becomes("#link-text", "Live");
+});
+
+test("a token is asked for, and opens the connection", async () => {
+  const { port } = server;
+  await server.stop();
+  await server.start({ port, token: "secret" });
+  await page.waitForSelector("#connect[open]", { timeout: 20_000 });
+  await page.type("#token", "secret");
+  await page.click("#connect-form .primary");
+  await becomes("#link-text", "Live");
+});
+
+test("nothing was asked of another host", () => {
+  assert.deepEqual([...requested].filter((host) => host !== "" && host !== `127.0.0.1:${server.port}`), []);
+});
