@@ -96,7 +96,7 @@ class OdometryFusion {
   Factor factor_of_gyro(const MotionFilter& filter, const Interval& now) const;
   Factor factor_of_wheels(const MotionFilter& filter, const Interval& now) const;
 
-  const FusionParameters parameters_;
+  FusionParameters parameters_;
   MotionFilter filter_;
   Sensor<GyroSample, GyroTrial> gyro_;
   Sensor<WheelSample, WheelTrial> wheels_;
