@@ -101,7 +101,7 @@ class OdometryFusionComponent final : public runtime::Component {
 
   void on_wheels(std::string_view topic, const std::string& frame, std::int64_t stamp_ns,
                  const geometry_msgs::msg::TwistWithCovariance& twist) {
-    if (wheel_topic_.empty()) wheel_topic_ = topic;
+    if (!wheels_.frame) wheel_topic_ = topic;
     if (wheel_topic_ != topic) {
       context_.log().warn_throttled("two wheel topics", "{} is not used, because {} is received, too", name_of(topic),
                                     name_of(wheel_topic_));
@@ -167,7 +167,7 @@ class OdometryFusionComponent final : public runtime::Component {
   SensorNotices gyro_notices_, wheel_notices_, yaw_notices_;
   conversions::OdometryJoin join_;
   Mount imu_, wheels_;
-  std::string_view wheel_topic_;
+  std::string_view wheel_topic_ = topics::kWheelOdometry.name;  // of the first message
   std::shared_ptr<const nav_msgs::msg::Odometry> last_stereo_;
   std::map<std::int64_t, double> outlier_shares_;  // by stamp, of poses that are not fused yet
   int refused_ = 0;
