@@ -14,6 +14,13 @@ void check(Check& check, std::string_view pose_name, std::string_view covariance
   check.covariance(covariance_name, pose.covariance());
 }
 
+void check(Check& check, std::string_view twist_name, std::string_view covariance_name,
+           const geometry_msgs::msg::TwistWithCovariance& twist) {
+  check_twist(check, twist_name, twist.twist());
+  // Drivers that do not measure velocity set the first element to -1, as REP 145 defines it for IMUs.
+  if (twist.covariance()[0] != -1.0) check.covariance(covariance_name, twist.covariance());
+}
+
 }  // namespace
 
 Problem problem_of(const geometry_msgs::msg::PoseStamped& message) {
@@ -43,15 +50,19 @@ Problem problem_of(const geometry_msgs::msg::TwistStamped& message) {
   return check.problem();
 }
 
+Problem problem_of(const geometry_msgs::msg::TwistWithCovarianceStamped& message) {
+  Check checked;
+  check_header(checked, message.header());
+  check(checked, "twist.twist", "twist.covariance", message.twist());
+  return checked.problem();
+}
+
 Problem problem_of(const nav_msgs::msg::Odometry& message) {
   Check checked;
   check_header(checked, message.header());
   checked.name("child_frame_id", message.child_frame_id());
   check(checked, "pose.pose", "pose.covariance", message.pose());
-  check_twist(checked, "twist.twist", message.twist().twist());
-  // Drivers that do not measure velocity set the first element to -1, as REP 145 defines it for IMUs.
-  const auto& twist = message.twist().covariance();
-  if (twist[0] != -1.0) checked.covariance("twist.covariance", twist);
+  check(checked, "twist.twist", "twist.covariance", message.twist());
   return checked.problem();
 }
 

@@ -14,8 +14,8 @@
 #include "component_parameters.hpp"
 #include "last_pose_keeper.hpp"
 #include "localizer_messages.hpp"
-#include "odometry_join.hpp"
 #include "panorama_queue.hpp"
+#include "panvo/conversions/odometry_join.hpp"
 #include "panvo/conversions/pose.hpp"
 #include "panvo/conversions/stage_timer.hpp"
 #include "panvo/conversions/time.hpp"
@@ -103,7 +103,7 @@ class LocalizerComponent final : public runtime::Component {
     context_.log().warn_throttled(std::string(topic) + reason, "{} {}; message skipped", topic, reason);
   }
 
-  void on_odometry(const OdometryJoin::Joined& joined) {
+  void on_odometry(const conversions::OdometryJoin::Joined& joined) {
     const auto& message = *joined.odometry;
     const auto pose = conversions::to_isometry(message.pose().pose());
     if (!pose) return refuse(context_.resolved_name(topics::kOdometryBinocular), pose.reason());
@@ -313,7 +313,7 @@ class LocalizerComponent final : public runtime::Component {
   Localizer localizer_;
   LastPoseKeeper last_pose_;
   AlignmentNotices notices_;
-  OdometryJoin join_;
+  conversions::OdometryJoin join_;
   SetBack set_back_;
   PathRecord path_binocular_, path_enhanced_;
   PosePublisher publisher_;

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "panvo/localizer/odometry_buffer.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <iterator>
 
 #include "panvo/localizer/dead_reckoning.hpp"
+#include "panvo/vision/step_covariance.hpp"
 #include "seconds.hpp"
 
 namespace panvo::localizer {
@@ -24,15 +24,7 @@ double between(std::int64_t stamp_ns, std::int64_t from_ns, std::int64_t to_ns) 
 }  // namespace
 
 vision::Matrix6d gained_covariance(const OdometryPose& a, const OdometryPose& b, double min_variance) {
-  const Eigen::Isometry3d a_from_b = a.odom_from_base.inverse() * b.odom_from_base;
-  const vision::Matrix6d inherited =
-      vision::compose_covariance(a.odom_from_base, a.covariance, a_from_b, vision::Matrix6d::Zero());
-  const vision::Matrix6d difference =
-      vision::rotate_covariance(a.odom_from_base.linear().transpose(), b.covariance - inherited);
-  // clamped, as rounding and reset covariances can make it negative
-  const Eigen::SelfAdjointEigenSolver<vision::Matrix6d> parts(0.5 * (difference + difference.transpose()));
-  return parts.eigenvectors() * parts.eigenvalues().cwiseMax(min_variance).asDiagonal() *
-         parts.eigenvectors().transpose();
+  return vision::step_covariance(a.odom_from_base, a.covariance, b.odom_from_base, b.covariance, min_variance);
 }
 
 double yaw_of(const Eigen::Matrix3d& rotation) { return std::atan2(rotation(1, 0), rotation(0, 0)); }

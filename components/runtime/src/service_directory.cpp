@@ -78,7 +78,7 @@ std::optional<interfaces::Bytes> answer_to(const std::function<void(std::shared_
 
 ServiceHandler handler_of(ServiceDirectory::Serve serve) {
   return [serve = std::move(serve)](const interfaces::Bytes& request) {
-    auto bytes = answer_to([&](std::shared_ptr<Reply> reply) { serve(request, std::move(reply)); }, kLimit);
+    auto bytes = answer_to([&](std::shared_ptr<Reply> reply) { serve(request, std::move(reply)); }, kServiceLimit);
     if (!bytes)
       throw std::runtime_error(
           "the component did not answer: it is busy, was stopped by an error, or could not read the request");

@@ -22,6 +22,17 @@
 #include "panvo/runtime/component.hpp"
 
 namespace panvo::dataset_player {
+namespace {
+
+geometry_msgs::msg::Vector3 to_message(const Eigen::Vector3d& vector) {
+  geometry_msgs::msg::Vector3 message;
+  message.x(vector.x());
+  message.y(vector.y());
+  message.z(vector.z());
+  return message;
+}
+
+}  // namespace
 
 struct Parameters {
   std::string directory;
@@ -50,7 +61,7 @@ struct Parameters {
 };
 
 /// Plays a data set as if it were live cameras: static transforms of the cameras first, then image_raw and camera_info
-/// of each stereo camera, the panorama and the ground truth.
+/// of each stereo camera, the panorama, inertial measurements and the ground truth.
 class DatasetPlayerComponent final : public runtime::Component, public runtime::Source {
  public:
   explicit DatasetPlayerComponent(runtime::Context& context);
@@ -81,11 +92,14 @@ class DatasetPlayerComponent final : public runtime::Component, public runtime::
   void say_what_is_played() const;
   void publish_static_transforms(std::int64_t stamp_ns);
   void publish_ground_truth(const GroundTruthPose& pose, std::int64_t stamp_ns);
+  void publish_imu(const ImuSample& sample, std::int64_t stamp_ns);
   void publish_stereo(std::int64_t stamp_ns, const Images& images);
   void load_ahead();
   Images load(const TimelineEvent& event);
   ImagePtr load(const Camera& camera, const std::filesystem::path& file, std::int64_t stamp_ns);
   void report_unreadable(const std::string& what);
+
+  static constexpr const char* kImuFrame = "imu";
 
   runtime::Context& context_;
   Dataset dataset_;
@@ -95,6 +109,7 @@ class DatasetPlayerComponent final : public runtime::Component, public runtime::
   std::optional<Eye> left_, right_;
   std::optional<Camera> panorama_;
   std::optional<runtime::Output<nav_msgs::msg::Odometry>> ground_truth_;
+  std::optional<runtime::Output<sensor_msgs::msg::Imu>> imu_;
   runtime::Output<tf2_msgs::msg::TFMessage> static_transforms_;
   ImageDecoder decoder_;
   bool is_placed_ = false;  ///< the static transforms have been published
@@ -130,6 +145,7 @@ void DatasetPlayerComponent::open(const Parameters& parameters) {
                              dataset_.panorama->height});
   }
   if (!dataset_.ground_truth.empty()) ground_truth_.emplace(context_.output(topics::kGroundTruth));
+  if (dataset_.imu) imu_.emplace(context_.output(topics::kImu));
   step_kind_ = left_ ? TimelineEvent::Kind::kStereo : TimelineEvent::Kind::kPanorama;
   for (std::uint64_t i = 0; i < events_.size(); ++i) steps_total_ += events_[i].kind == step_kind_;
 }
@@ -161,7 +177,7 @@ void DatasetPlayerComponent::say_what_is_played() const {
   }
   if (panorama_) content += fmt::format(", panorama of {} x {} px", panorama_->width, panorama_->height);
   log.info("{}: {}, {} frames in {:.2f} s{}{}", dataset_.directory.string(), dataset_.kind, steps_total_, seconds,
-           content, ground_truth_ ? ", ground truth" : "");
+           content, (imu_ ? ", IMU" : std::string()) + (ground_truth_ ? ", ground truth" : ""));
   for (const auto& note : dataset_.notes) log.warn("{}", note);
 }
 
@@ -182,6 +198,9 @@ void DatasetPlayerComponent::emit() {
     switch (kind) {
       case TimelineEvent::Kind::kGroundTruth:
         publish_ground_truth(dataset_.ground_truth[index], stamp_ns);
+        break;
+      case TimelineEvent::Kind::kImu:
+        publish_imu(dataset_.imu->samples[index], stamp_ns);
         break;
       case TimelineEvent::Kind::kStereo:
         publish_stereo(stamp_ns, images);
@@ -216,7 +235,22 @@ void DatasetPlayerComponent::publish_static_transforms(std::int64_t stamp_ns) {
     place(right_->camera.frame_id, dataset_.stereo->base_from_right());
   }
   if (panorama_) place(panorama_->frame_id, dataset_.panorama->base_from_panorama);
+  if (imu_) place(kImuFrame, dataset_.imu->base_from_imu);
   static_transforms_.publish(std::move(message));
+}
+
+void DatasetPlayerComponent::publish_imu(const ImuSample& sample, std::int64_t stamp_ns) {
+  sensor_msgs::msg::Imu message;
+  message.header().stamp(conversions::to_stamp(stamp_ns));
+  message.header().frame_id(kImuFrame);
+  message.orientation_covariance()[0] = -1.0;  // not measured, REP 145
+  message.angular_velocity(to_message(sample.rate_rad_s));
+  message.linear_acceleration(to_message(sample.acceleration_m_s2));
+  for (const std::size_t diagonal : {0, 4, 8}) {
+    message.angular_velocity_covariance()[diagonal] = dataset_.imu->rate_variance;
+    message.linear_acceleration_covariance()[diagonal] = dataset_.imu->acceleration_variance;
+  }
+  imu_->publish(std::move(message));
 }
 
 void DatasetPlayerComponent::publish_ground_truth(const GroundTruthPose& pose, std::int64_t stamp_ns) {

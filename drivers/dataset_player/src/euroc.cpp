@@ -210,6 +210,7 @@ Dataset read_euroc(const fs::path& directory, const ReadOptions&) {
   // Panoramas alone are a valid recording. Without any camera, read_stereo() reports what is missing.
   if (!dataset.panorama || fs::exists(root / "cam0") || fs::exists(root / "cam1"))
     dataset.stereo = read_stereo(root, dataset.notes);
+  dataset.imu = read_euroc_imu(root / "imu0");
   dataset.ground_truth = read_ground_truth(root, dataset.notes);
   return dataset;
 }

@@ -39,6 +39,9 @@ std::filesystem::path euroc_root(const std::filesystem::path& directory);
 /// Reads T_BS of a sensor.yaml: pose of the sensor in base_link (EuRoC's body frame B).
 Eigen::Isometry3d read_base_from_sensor(calibration_files::YamlMap& sensor);
 
+/// The inertial measurements in mav0/imu0; nullopt if there are none.
+std::optional<ImuRecording> read_euroc_imu(const std::filesystem::path& folder);
+
 /// Folders left and right with a calibration file.
 bool looks_like_folders(const std::filesystem::path& directory);
 Dataset read_folders(const std::filesystem::path& directory, const ReadOptions& options);

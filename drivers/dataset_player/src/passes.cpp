@@ -9,6 +9,8 @@ namespace panvo::dataset_player {
 Passes::Passes(std::vector<TimelineEvent> events, std::uint64_t count) : first_(std::move(events)) {
   size_ = first_.size();
   if (count <= 1) return;
+  // An inertial measurement of a drive is none of the drive backward.
+  std::erase_if(first_, [](const TimelineEvent& event) { return event.kind == TimelineEvent::Kind::kImu; });
   const auto is_image = [](const TimelineEvent& event) { return event.kind != TimelineEvent::Kind::kGroundTruth; };
   begin_ns_ = std::find_if(first_.begin(), first_.end(), is_image)->stamp_ns;
   const std::int64_t end_ns = std::find_if(first_.rbegin(), first_.rend(), is_image)->stamp_ns;

@@ -8,6 +8,24 @@
 #include <tuple>
 
 namespace panvo::dataset_player {
+namespace {
+
+/// Appends the events of `all` from the last one at or before the first image to the first one at or after the last.
+template <class Item>
+void append_around(std::vector<TimelineEvent>& events, const std::vector<Item>& all, TimelineEvent::Kind kind,
+                   const std::vector<TimelineEvent>& images) {
+  const auto stamp_before = [](const Item& item, std::int64_t stamp_ns) { return item.stamp_ns < stamp_ns; };
+  const auto stamp_after = [](std::int64_t stamp_ns, const Item& item) { return stamp_ns < item.stamp_ns; };
+  auto first = std::upper_bound(all.begin(), all.end(), images.front().stamp_ns, stamp_after);
+  if (first != all.begin()) --first;
+  auto last = std::lower_bound(all.begin(), all.end(), images.back().stamp_ns, stamp_before);
+  if (last != all.end()) ++last;
+  for (auto item = first; item < last; ++item) {
+    events.push_back({item->stamp_ns, kind, static_cast<std::size_t>(item - all.begin())});
+  }
+}
+
+}  // namespace
 
 std::vector<TimelineEvent> timeline(const Dataset& dataset, const Selection& selection) {
   std::vector<TimelineEvent> images;
@@ -42,18 +60,10 @@ std::vector<TimelineEvent> timeline(const Dataset& dataset, const Selection& sel
                     dataset.directory.string(), selection.start_s, static_cast<double>(length_ns) * 1e-9));
   }
 
-  const auto& poses = dataset.ground_truth;
-  const auto stamp_before = [](const GroundTruthPose& pose, std::int64_t stamp_ns) { return pose.stamp_ns < stamp_ns; };
-  const auto stamp_after = [](std::int64_t stamp_ns, const GroundTruthPose& pose) { return stamp_ns < pose.stamp_ns; };
-  auto first = std::upper_bound(poses.begin(), poses.end(), images.front().stamp_ns, stamp_after);
-  if (first != poses.begin()) --first;
-  auto last = std::lower_bound(poses.begin(), poses.end(), images.back().stamp_ns, stamp_before);
-  if (last != poses.end()) ++last;
   std::vector<TimelineEvent> events;
-  for (auto pose = first; pose < last; ++pose) {
-    events.push_back(
-        {pose->stamp_ns, TimelineEvent::Kind::kGroundTruth, static_cast<std::size_t>(pose - poses.begin())});
-  }
+  append_around(events, dataset.ground_truth, TimelineEvent::Kind::kGroundTruth, images);
+  if (dataset.imu) append_around(events, dataset.imu->samples, TimelineEvent::Kind::kImu, images);
+  std::sort(events.begin(), events.end(), earlier);
   std::vector<TimelineEvent> merged(events.size() + images.size());
   std::merge(events.begin(), events.end(), images.begin(), images.end(), merged.begin(), earlier);
   return merged;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gmock/gmock.h>
 
+#include "panvo/dataset_player/timeline.hpp"
 #include "written_dataset.hpp"
 
 namespace panvo::dataset_player {
@@ -74,6 +75,36 @@ TEST_F(EurocDataset, LeavesOutPairsThatLackAFile) {
   const auto dataset = open_dataset(root_);
   EXPECT_EQ(dataset.stereo->frames.size(), 2u);
   EXPECT_THAT(dataset.notes, ElementsAre(AllOf(HasSubstr("1 pairs lack"), HasSubstr("cam1/data/1050000000.png"))));
+}
+
+TEST_F(EurocDataset, HasInertialMeasurementsAroundItsImages) {
+  write_euroc(3);  // 1.00 to 1.10 s
+  write("mav0/imu0/sensor.yaml",
+        "sensor_type: imu\nT_BS:\n  cols: 4\n  rows: 4\n  data: [0, -1, 0, 0.5, 1, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]\n"
+        "rate_hz: 200\ngyroscope_noise_density: 1.0e-03\n");
+  std::string lines = "#timestamp [ns],w_x,w_y,w_z,a_x,a_y,a_z\n";
+  for (int i = 0; i <= 50; ++i) lines += fmt::format("{},{},0.2,0.3,1,2,9.8\n", 950'000'000 + i * 5'000'000, 0.001 * i);
+  write("mav0/imu0/data.csv", lines);
+  const auto dataset = open_dataset(root_);
+  const auto& imu = dataset.imu.value();
+  ASSERT_EQ(imu.samples.size(), 51u);
+  EXPECT_TRUE(imu.samples[2].rate_rad_s.isApprox(Eigen::Vector3d(0.002, 0.2, 0.3)));
+  EXPECT_TRUE(imu.samples[2].acceleration_m_s2.isApprox(Eigen::Vector3d(1.0, 2.0, 9.8)));
+  EXPECT_TRUE(imu.base_from_imu.linear().col(0).isApprox(Eigen::Vector3d::UnitY()));
+  EXPECT_NEAR(imu.rate_variance, 200e-6, 1e-12);
+  std::vector<std::int64_t> stamps;
+  for (const auto& event : timeline(dataset, {})) {
+    if (event.kind == TimelineEvent::Kind::kImu) stamps.push_back(event.stamp_ns);
+  }
+  ASSERT_EQ(stamps.size(), 21u);
+  EXPECT_EQ(stamps.front(), 1'000'000'000);
+  EXPECT_EQ(stamps.back(), 1'100'000'000);
+}
+
+TEST_F(EurocDataset, RefusesInertialMeasurementsOutOfOrder) {
+  write_euroc(3);
+  write("mav0/imu0/data.csv", "2,0,0,0,0,0,9.8\n1,0,0,0,0,0,9.8\n");
+  EXPECT_THAT(error(), HasSubstr("imu0/data.csv:2"));
 }
 
 TEST_F(EurocDataset, RefusesToBeWithoutAnEye) {

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "geometry_msgs/msg/PoseWithCovarianceStamped.h"
+#include "geometry_msgs/msg/TwistWithCovarianceStamped.h"
 #include "nav_msgs/msg/Odometry.h"
 #include "nav_msgs/msg/Path.h"
 #include "panvo/interfaces/topic.hpp"
@@ -18,6 +19,7 @@
 #include "panvo_msgs/msg/PositionCorrection.h"
 #include "sensor_msgs/msg/CameraInfo.h"
 #include "sensor_msgs/msg/Image.h"
+#include "sensor_msgs/msg/Imu.h"
 #include "tf2_msgs/msg/TFMessage.h"
 
 /// The topics of panvo's components. Components use these constants instead of names of their own.
@@ -50,8 +52,17 @@ inline constexpr std::array<Topic<sensor_msgs::msg::CameraInfo>, 6> kPanoramaHea
      {"panorama/head_4/camera_info", qos::kSensorData},
      {"panorama/head_5/camera_info", qos::kSensorData}}};
 
+/// Sensors of motion, all optional: a tenth of a second at up to 1 kHz. Of wheel/odometry only the velocity is used.
+inline constexpr interfaces::Qos kMotionSensor{.requested = interfaces::Reliability::kBestEffort, .depth = 100};
+inline constexpr Topic<nav_msgs::msg::Odometry> kWheelOdometry{"wheel/odometry", kMotionSensor};
+inline constexpr Topic<geometry_msgs::msg::TwistWithCovarianceStamped> kWheelTwist{"wheel/twist", kMotionSensor};
+inline constexpr Topic<sensor_msgs::msg::Imu> kImu{"imu/data", kMotionSensor};
+
 inline constexpr Topic<nav_msgs::msg::Odometry> kOdometryBinocular{"odometry/binocular", qos::kResult};
 inline constexpr Topic<panvo_msgs::msg::OdometryQuality> kOdometryQuality{"odometry/quality", qos::kResult};
+/// Stereo odometry, gyroscope and wheels in one.
+inline constexpr Topic<nav_msgs::msg::Odometry> kOdometryFused{"odometry/fused", qos::kResult};
+inline constexpr Topic<panvo_msgs::msg::OdometryQuality> kOdometryFusedQuality{"odometry/fused_quality", qos::kResult};
 inline constexpr Topic<nav_msgs::msg::Odometry> kOdometryEnhanced{"odometry/enhanced", qos::kResult};
 inline constexpr Topic<panvo_msgs::msg::AzimuthChange> kAzimuthChange{"compass/azimuth_change", qos::kResult};
 /// Each landmark once, when it is built.

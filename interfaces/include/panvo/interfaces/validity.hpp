@@ -8,6 +8,7 @@
 #include "geometry_msgs/msg/PoseStamped.h"
 #include "geometry_msgs/msg/PoseWithCovarianceStamped.h"
 #include "geometry_msgs/msg/TwistStamped.h"
+#include "geometry_msgs/msg/TwistWithCovarianceStamped.h"
 #include "nav_msgs/msg/Odometry.h"
 #include "nav_msgs/msg/Path.h"
 #include "panvo/interfaces/message_type.hpp"
@@ -45,6 +46,7 @@ Problem problem_of(const geometry_msgs::msg::PoseStamped& message);
 Problem problem_of(const geometry_msgs::msg::PoseWithCovariance& message);
 Problem problem_of(const geometry_msgs::msg::PoseWithCovarianceStamped& message);
 Problem problem_of(const geometry_msgs::msg::TwistStamped& message);
+Problem problem_of(const geometry_msgs::msg::TwistWithCovarianceStamped& message);
 Problem problem_of(const nav_msgs::msg::Odometry& message);
 Problem problem_of(const nav_msgs::msg::Path& message);
 /// An invalid transform does not invalidate the others: receivers check each with problem_of(TransformStamped).

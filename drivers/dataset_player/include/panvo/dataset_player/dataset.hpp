@@ -44,6 +44,19 @@ struct PanoramaRecording {
   std::vector<PanoramaFrame> frames;  ///< stamps increase
 };
 
+/// An inertial measurement in the axes of the IMU.
+struct ImuSample {
+  std::int64_t stamp_ns = 0;
+  Eigen::Vector3d rate_rad_s = Eigen::Vector3d::Zero();
+  Eigen::Vector3d acceleration_m_s2 = Eigen::Vector3d::Zero();
+};
+
+struct ImuRecording {
+  Eigen::Isometry3d base_from_imu = Eigen::Isometry3d::Identity();
+  double rate_variance = 0.0, acceleration_variance = 0.0;  ///< of a sample's noise; 0: not stated
+  std::vector<ImuSample> samples;                           ///< stamps increase
+};
+
 struct GroundTruthPose {
   std::int64_t stamp_ns = 0;
   Eigen::Isometry3d map_from_base = Eigen::Isometry3d::Identity();
@@ -54,6 +67,7 @@ struct Dataset {
   std::filesystem::path directory;
   std::optional<StereoRecording> stereo;
   std::optional<PanoramaRecording> panorama;
+  std::optional<ImuRecording> imu;
   std::vector<GroundTruthPose> ground_truth;  ///< stamps increase; may be empty
   std::vector<std::string> notes;             ///< warnings for the user: skipped frames, assumed frame rate
 };

@@ -10,7 +10,7 @@ namespace panvo::dataset_player {
 
 /// An item of a data set to be published, and its time.
 struct TimelineEvent {
-  enum class Kind { kGroundTruth, kStereo, kPanorama };
+  enum class Kind { kGroundTruth, kImu, kStereo, kPanorama };
   std::int64_t stamp_ns = 0;
   Kind kind = Kind::kStereo;
   std::size_t index = 0;  ///< into the data set's frames or poses of that kind
@@ -24,9 +24,9 @@ struct Selection {
   bool panorama = true;
 };
 
-/// The selected images in order of time, with the ground truth from the last pose at or before the first image to the
-/// first pose at or after the last. At equal stamps ground truth comes first, then stereo. Throws DatasetError if no
-/// images are selected.
+/// The selected images in order of time, with ground truth and inertial measurements from the last ones at or before the
+/// first image to the first ones at or after the last. At equal stamps ground truth comes first, then inertial
+/// measurements, then stereo. Throws DatasetError if no images are selected.
 std::vector<TimelineEvent> timeline(const Dataset& dataset, const Selection& selection);
 
 }  // namespace panvo::dataset_player

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "odometry_join.hpp"
+#include "panvo/conversions/odometry_join.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 
 #include "panvo/conversions/time.hpp"
 
-namespace panvo::localizer {
+namespace panvo::conversions {
 namespace {
 
 constexpr std::size_t kMaxQualities = 100;
@@ -22,7 +22,7 @@ void OdometryJoin::add(const panvo_msgs::msg::OdometryQuality& quality) {
   has_quality_ = true;
   lacking_ = 0;
   const double ratio = quality.inlier_ratio();
-  qualities_[conversions::stamp_ns(quality)] = {quality.reliable(),
+  qualities_[stamp_ns(quality)] = {quality.reliable(),
                                                 std::isfinite(ratio) ? std::clamp(1.0 - ratio, 0.0, 1.0) : 1.0};
   if (qualities_.size() > kMaxQualities) qualities_.erase(qualities_.begin());
 }
@@ -33,15 +33,15 @@ void OdometryJoin::add(std::shared_ptr<const nav_msgs::msg::Odometry> odometry, 
 
 std::optional<OdometryJoin::Joined> OdometryJoin::next(std::int64_t now_ns, bool is_quality_published) {
   if (waiting_.empty()) return std::nullopt;
-  const std::int64_t stamp_ns = conversions::stamp_ns(*waiting_.front().odometry);
+  const std::int64_t wanted_ns = stamp_ns(*waiting_.front().odometry);
   Joined joined{.odometry = waiting_.front().odometry};
-  if (const auto own = qualities_.find(stamp_ns); own != qualities_.end()) {
+  if (const auto own = qualities_.find(wanted_ns); own != qualities_.end()) {
     joined.is_reliable = own->second.is_reliable;
     joined.outlier_share = own->second.outlier_share;
     qualities_.erase(qualities_.begin(), std::next(own));
   } else if (is_quality_published && lacking_ < kMaxMissing) {
     // Topics keep their order: a later quality means that this one was lost.
-    const bool is_lost = qualities_.upper_bound(stamp_ns) != qualities_.end();
+    const bool is_lost = qualities_.upper_bound(wanted_ns) != qualities_.end();
     const bool is_patient = waiting_.size() <= kMaxWaiting && now_ns - waiting_.front().since_ns < kPatience_ns;
     if (!is_lost && is_patient) return std::nullopt;
     if (!is_lost) ++lacking_;
@@ -51,4 +51,4 @@ std::optional<OdometryJoin::Joined> OdometryJoin::next(std::int64_t now_ns, bool
   return joined;
 }
 
-}  // namespace panvo::localizer
+}  // namespace panvo::conversions

@@ -10,7 +10,7 @@
 #include "nav_msgs/msg/Odometry.h"
 #include "panvo_msgs/msg/OdometryQuality.h"
 
-namespace panvo::localizer {
+namespace panvo::conversions {
 
 /// Joins each odometry message with the quality message of the same stamp, whatever the order of arrival. Odometry is
 /// returned in its order of arrival and waits a bounded time for its quality.
@@ -48,4 +48,4 @@ class OdometryJoin {
   int lacking_ = 0;  // consecutive odometry messages whose quality never came
 };
 
-}  // namespace panvo::localizer
+}  // namespace panvo::conversions

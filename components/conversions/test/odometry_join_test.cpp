@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "odometry_join.hpp"
+#include "panvo/conversions/odometry_join.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@
 
 #include "panvo/conversions/time.hpp"
 
-namespace panvo::localizer {
+namespace panvo::conversions {
 namespace {
 
 using testing::ElementsAre;
@@ -99,4 +99,4 @@ TEST(OdometryJoin, HoldsABoundedNumberAndGivesUpOnOneWhoSaysNothing) {
 }
 
 }  // namespace
-}  // namespace panvo::localizer
+}  // namespace panvo::conversions

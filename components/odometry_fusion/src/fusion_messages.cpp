@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "fusion_messages.hpp"
+
+#include <algorithm>
+
+#include "panvo/conversions/pose.hpp"
+#include "panvo/conversions/time.hpp"
+
+namespace panvo::odometry_fusion {
+namespace {
+
+constexpr double kNotMeasured = -1.0;  // in the first element of a covariance, REP 145
+
+geometry_msgs::msg::Vector3 to_message(const Eigen::Vector3d& vector) {
+  geometry_msgs::msg::Vector3 message;
+  message.x(vector.x());
+  message.y(vector.y());
+  message.z(vector.z());
+  return message;
+}
+
+Eigen::Vector3d to_vector(const geometry_msgs::msg::Vector3& message) {
+  return {message.x(), message.y(), message.z()};
+}
+
+}  // namespace
+
+conversions::Result<GyroSample> to_gyro(const sensor_msgs::msg::Imu& message, const Eigen::Isometry3d& base_from_imu) {
+  const auto& covariance = message.angular_velocity_covariance();
+  if (covariance[0] == kNotMeasured) return conversions::Reason{"measures no angular velocity"};
+  return GyroSample{conversions::stamp_ns(message), base_from_imu.linear() * to_vector(message.angular_velocity()),
+                    std::max({0.0, covariance[0], covariance[4], covariance[8]})};
+}
+
+conversions::Result<WheelSample> to_wheels(std::int64_t stamp_ns, const geometry_msgs::msg::TwistWithCovariance& twist,
+                                           const Eigen::Isometry3d& base_from_wheels) {
+  const auto& covariance = twist.covariance();
+  if (covariance[0] == kNotMeasured) return conversions::Reason{"measures no velocity"};
+  const Eigen::Vector3d rate = base_from_wheels.linear() * to_vector(twist.twist().angular());
+  const Eigen::Vector3d velocity = base_from_wheels.linear() * to_vector(twist.twist().linear()) -
+                                   rate.cross(base_from_wheels.translation());
+  return WheelSample{stamp_ns,   velocity.x(), velocity.y(), rate.z(), std::max(0.0, covariance[0]),
+                     std::max(0.0, covariance[35])};
+}
+
+nav_msgs::msg::Odometry to_odometry(const FusedPose& fused, const nav_msgs::msg::Odometry& stereo) {
+  nav_msgs::msg::Odometry odometry;
+  odometry.header().stamp(conversions::to_stamp(fused.stamp_ns));
+  odometry.header().frame_id(stereo.header().frame_id());
+  odometry.child_frame_id(stereo.child_frame_id());
+  odometry.pose().pose(conversions::to_pose(fused.odom_from_base));
+  odometry.pose().covariance(conversions::to_array(fused.covariance));
+  odometry.twist().twist().linear(to_message(fused.twist.head<3>()));
+  odometry.twist().twist().angular(to_message(fused.twist.tail<3>()));
+  odometry.twist().covariance(conversions::to_array(fused.twist_covariance));
+  return odometry;
+}
+
+panvo_msgs::msg::OdometryQuality to_quality(const FusedPose& fused, double outlier_share,
+                                            const std::string& base_frame) {
+  panvo_msgs::msg::OdometryQuality quality;
+  quality.header().stamp(conversions::to_stamp(fused.stamp_ns));
+  quality.header().frame_id(base_frame);
+  quality.reliable(fused.is_reliable);
+  // With a gyroscope, rotations do not depend on which points of the image are inliers.
+  quality.inlier_ratio(fused.uses_gyro ? 1.0 : 1.0 - outlier_share);
+  if (!fused.is_reliable) quality.reason("neither images nor wheels measure the motion");
+  return quality;
+}
+
+}  // namespace panvo::odometry_fusion

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Geometry>
+#include <string>
+
+#include "nav_msgs/msg/Odometry.h"
+#include "panvo/conversions/result.hpp"
+#include "panvo/odometry_fusion/odometry_fusion.hpp"
+#include "panvo_msgs/msg/OdometryQuality.h"
+#include "sensor_msgs/msg/Imu.h"
+
+/// Conversions between messages and the fusion's data. Reasons are sentences without a subject.
+namespace panvo::odometry_fusion {
+
+conversions::Result<GyroSample> to_gyro(const sensor_msgs::msg::Imu& message, const Eigen::Isometry3d& base_from_imu);
+
+/// `base_from_wheels`: the frame of the velocity on the vehicle.
+conversions::Result<WheelSample> to_wheels(std::int64_t stamp_ns, const geometry_msgs::msg::TwistWithCovariance& twist,
+                                           const Eigen::Isometry3d& base_from_wheels);
+
+/// `stereo`: gives the names of the frames.
+nav_msgs::msg::Odometry to_odometry(const FusedPose& fused, const nav_msgs::msg::Odometry& stereo);
+
+/// `outlier_share`: of the stereo odometry.
+panvo_msgs::msg::OdometryQuality to_quality(const FusedPose& fused, double outlier_share,
+                                            const std::string& base_frame);
+
+}  // namespace panvo::odometry_fusion

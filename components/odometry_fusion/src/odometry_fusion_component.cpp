@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "fusion_messages.hpp"
+#include "panvo/conversions/odometry_join.hpp"
+#include "panvo/conversions/pose.hpp"
+#include "panvo/conversions/stage_timer.hpp"
+#include "panvo/conversions/time.hpp"
+#include "panvo/conversions/transform_listener.hpp"
+#include "panvo/interfaces/topics.hpp"
+#include "panvo/odometry_fusion/odometry_fusion.hpp"
+#include "panvo/runtime/component.hpp"
+#include "sensor_notices.hpp"
+
+namespace panvo::odometry_fusion {
+
+/// odometry/binocular, odometry/quality, imu/data, wheel/odometry or wheel/twist, and /tf_static -> odometry/fused,
+/// odometry/fused_quality.
+class OdometryFusionComponent final : public runtime::Component {
+ public:
+  explicit OdometryFusionComponent(runtime::Context& context)
+      : context_(context),
+        parameters_(context.parameters<FusionParameters>()),
+        timer_(context.times()),
+        transforms_(context),
+        odometry_(context.output(topics::kOdometryFused)),
+        quality_(context.output(topics::kOdometryFusedQuality)),
+        fusion_(parameters_),
+        gyro_notices_(context.log()),
+        wheel_notices_(context.log()),
+        yaw_notices_(context.log()) {
+    context.input(topics::kOdometryQuality, [this](const auto& message) {
+      join_.add(*message);
+      take_joined();
+    });
+    context.input(topics::kOdometryBinocular, [this](const auto& message) {
+      join_.add(message, context_.passing_ns());
+      take_joined();
+    });
+    context.input(topics::kImu, [this](const auto& message) { on_imu(*message); });
+    context.input(topics::kWheelOdometry, [this](const auto& message) {
+      on_wheels(topics::kWheelOdometry.name, message->child_frame_id(), conversions::stamp_ns(*message),
+                message->twist());
+    });
+    context.input(topics::kWheelTwist, [this](const auto& message) {
+      on_wheels(topics::kWheelTwist.name, message->header().frame_id(), conversions::stamp_ns(*message),
+                message->twist());
+    });
+    context.every(std::chrono::milliseconds(100), [this] { take_joined(); });
+  }
+
+ private:
+  static constexpr int kMaxRefused = 5;  // consecutive stereo poses, after which their clock counts as set back
+  static constexpr std::size_t kMaxShares = 100;
+
+  /// A sensor's frame is that of its first message; others are another sensor's.
+  struct Mount {
+    std::optional<std::string> frame;
+    bool has_warned = false;
+  };
+
+  void take_joined() {
+    const bool is_quality_published = join_.has_quality() || context_.has_publisher(topics::kOdometryQuality);
+    while (const auto next = join_.next(context_.passing_ns(), is_quality_published)) on_stereo(*next);
+  }
+
+  void on_stereo(const conversions::OdometryJoin::Joined& joined) {
+    const auto pose = conversions::to_isometry(joined.odometry->pose().pose());
+    if (!pose) return refuse(topics::kOdometryBinocular.name, pose.reason());
+    const std::int64_t stamp_ns = conversions::stamp_ns(*joined.odometry);
+    const StereoPose stereo{stamp_ns, *pose, conversions::to_matrix(joined.odometry->pose().covariance()),
+                            joined.is_reliable};
+    if (!fusion_.add(stereo)) {
+      if (++refused_ < kMaxRefused) {
+        return refuse(topics::kOdometryBinocular.name, "is not later than the previous one, or not finite");
+      }
+      context_.log().warn("the clock of {} was set back: beginning anew", name_of(topics::kOdometryBinocular.name));
+      fusion_ = OdometryFusion(parameters_);
+      fusion_.add(stereo);
+    }
+    refused_ = 0;
+    last_stereo_ = joined.odometry;
+    outlier_shares_[stamp_ns] = joined.outlier_share;
+    if (outlier_shares_.size() > kMaxShares) outlier_shares_.erase(outlier_shares_.begin());
+    publish();
+  }
+
+  void on_imu(const sensor_msgs::msg::Imu& message) {
+    const auto base_from_imu = base_from(imu_, topics::kImu.name, message.header().frame_id());
+    if (!base_from_imu) return;
+    const auto sample = to_gyro(message, *base_from_imu);
+    if (!sample) return refuse(topics::kImu.name, sample.reason());
+    if (!fusion_.add(*sample)) return refuse(topics::kImu.name, "is too old, or has the stamp of another one");
+    publish();
+  }
+
+  void on_wheels(std::string_view topic, const std::string& frame, std::int64_t stamp_ns,
+                 const geometry_msgs::msg::TwistWithCovariance& twist) {
+    if (!wheels_.frame) wheel_topic_ = topic;
+    if (wheel_topic_ != topic) {
+      context_.log().warn_throttled("two wheel topics", "{} is not used, because {} is received, too", name_of(topic),
+                                    name_of(wheel_topic_));
+      return;
+    }
+    const auto base_from_wheels = base_from(wheels_, topic, frame);
+    if (!base_from_wheels) return;
+    const auto sample = to_wheels(stamp_ns, twist, *base_from_wheels);
+    if (!sample) return refuse(topic, sample.reason());
+    if (!fusion_.add(*sample)) return refuse(topic, "is too old, or has the stamp of another one");
+    publish();
+  }
+
+  /// Pose of a sensor's frame on the vehicle; without one in /tf_static that of base_link, which the trial against the
+  /// cameras then confirms or refutes. nullopt for the message of another sensor, or before the cameras.
+  std::optional<Eigen::Isometry3d> base_from(Mount& mount, std::string_view topic, const std::string& frame) {
+    if (!last_stereo_) return std::nullopt;
+    if (!mount.frame) mount.frame = frame;
+    if (*mount.frame != frame) {
+      refuse(topic, fmt::format("comes from several sensors, '{}' and '{}': publish one of them", *mount.frame, frame));
+      return std::nullopt;
+    }
+    const std::string& base = last_stereo_->child_frame_id();
+    if (frame.empty() || frame == base) return Eigen::Isometry3d::Identity();
+    if (const auto known = transforms_.buffer().lookup(base, frame)) return known;
+    if (!mount.has_warned) {
+      context_.log().warn("{}: no transform from {} to {} in /tf_static; assuming that their axes are equal",
+                          name_of(topic), base, frame);
+      mount.has_warned = true;
+    }
+    return Eigen::Isometry3d::Identity();
+  }
+
+  void publish() {
+    const vision::Stage stage(&timer_, "fuse");
+    while (const auto fused = fusion_.next()) {
+      const auto share = outlier_shares_.find(fused->stamp_ns);
+      const double outlier_share = share == outlier_shares_.end() ? 1.0 : share->second;
+      outlier_shares_.erase(outlier_shares_.begin(), outlier_shares_.upper_bound(fused->stamp_ns));
+      quality_.publish(to_quality(*fused, outlier_share, last_stereo_->child_frame_id()));
+      odometry_.publish(to_odometry(*fused, *last_stereo_));
+    }
+    gyro_notices_.report(name_of(topics::kImu.name), fusion_.gyro());
+    wheel_notices_.report(name_of(wheel_topic_), fusion_.wheels());
+    yaw_notices_.report("yaw rates of " + name_of(wheel_topic_), fusion_.wheel_yaw());
+  }
+
+  std::string name_of(std::string_view topic) const { return context_.resolved_name(topic); }
+
+  /// Reports an unusable message in the log and in diagnostics.
+  void refuse(std::string_view topic, const std::string& reason) {
+    context_.rejections().add(name_of(topic), reason);
+    context_.log().warn_throttled(std::string(topic) + reason, "{} {}; message skipped", name_of(topic), reason);
+  }
+
+  runtime::Context& context_;
+  const FusionParameters parameters_;
+  conversions::StageTimer timer_;
+  conversions::TransformListener transforms_;
+  runtime::Output<nav_msgs::msg::Odometry> odometry_;
+  runtime::Output<panvo_msgs::msg::OdometryQuality> quality_;
+  OdometryFusion fusion_;
+  SensorNotices gyro_notices_, wheel_notices_, yaw_notices_;
+  conversions::OdometryJoin join_;
+  Mount imu_, wheels_;
+  std::string_view wheel_topic_ = topics::kWheelOdometry.name;  // of the first message
+  std::shared_ptr<const nav_msgs::msg::Odometry> last_stereo_;
+  std::map<std::int64_t, double> outlier_shares_;  // by stamp, of poses that are not fused yet
+  int refused_ = 0;
+};
+
+PANVO_REGISTER_COMPONENT(OdometryFusionComponent)
+
+}  // namespace panvo::odometry_fusion

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "panvo/odometry_fusion/standstill.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace panvo::odometry_fusion {
+namespace {
+
+constexpr double kWheel_m_s = 0.01, kWheel_rad_s = 0.01;  // noise of motor controllers at rest
+// Standard deviation of the rates: noise of a MEMS gyroscope. A rolling vehicle shakes several times as much.
+constexpr double kShaking_rad_s = 0.01;
+constexpr double kTurning_rad_s = 0.005;
+
+}  // namespace
+
+bool is_still(std::span<const WheelSample> samples) {
+  return !samples.empty() && std::ranges::all_of(samples, [](const WheelSample& one) {
+    return std::abs(one.forward_m_s) < kWheel_m_s && std::abs(one.left_m_s) < kWheel_m_s &&
+           std::abs(one.yaw_rate_rad_s) < kWheel_rad_s;
+  });
+}
+
+bool is_still(std::span<const GyroSample> samples, const Eigen::Vector3d& bias_rad_s, double bias_sigma_rad_s) {
+  if (samples.empty()) return false;
+  const auto count = static_cast<double>(samples.size());
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero(), variance = Eigen::Vector3d::Zero();
+  for (const auto& one : samples) mean += one.rate_rad_s / count;
+  for (const auto& one : samples) variance += (one.rate_rad_s - mean).cwiseAbs2() / count;
+  return variance.maxCoeff() < kShaking_rad_s * kShaking_rad_s &&
+         (mean - bias_rad_s).cwiseAbs().maxCoeff() < kTurning_rad_s + 4.0 * bias_sigma_rad_s;
+}
+
+}  // namespace panvo::odometry_fusion
