@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Sources of one library, plugin or program are compiled together, so an internal function must not have the name of another source's, or of a
-function of the package's headers: a call could silently bind to that one. (The compiler itself rejects equal types, constants and signatures.)"""
+"""Sources of one library, plugin or program are compiled together, so an internal function or constant must not have the name of another source's, or
+of a function of the package's headers: a call could silently bind to that one."""
 import collections
 import pathlib
 import re
@@ -15,8 +15,12 @@ FUNCTION = re.compile(r"^(?:\[\[\w+\]\] )?(?! |using|struct|class|enum|template|
 DECLARED = re.compile(r"^(?:\[\[\w+\]\] )?(?! |using|struct|class|enum|template|return)[\w:<>,&* ]+[ &*](\w+)\(", re.MULTILINE)
 
 
-def internal_functions(text):
-    return {name for block in INTERNAL.findall(text) for name in FUNCTION.findall(workspace.without_comments(block))}
+CONSTANT = re.compile(r"^(?:constexpr|const) [\w:<>,* ]+[ *](k[A-Z]\w*)(?:\[\w*\])*(?: =|\{)", re.MULTILINE)
+
+
+def internal_names(text):
+    blocks = [workspace.without_comments(block) for block in INTERNAL.findall(text)]
+    return {name for block in blocks for name in FUNCTION.findall(block) + CONSTANT.findall(block)}
 
 
 def targets(root, lists):
@@ -38,10 +42,10 @@ def check(root):
         for target, sources in targets(root, lists):
             users = collections.defaultdict(list, {name: [path] for name, path in declared.items()})
             for source in sources:
-                for function in internal_functions(workspace.read(root, source)):
-                    users[function].append(source)
-            complaints += [f"{users_of[1]}: the internal function {function} has the name of one in {users_of[0]}, which is compiled together with it "
-                           f"in {target}; rename one, or share it" for function, users_of in sorted(users.items()) if len(users_of) > 1]
+                for name in internal_names(workspace.read(root, source)):
+                    users[name].append(source)
+            complaints += [f"{users_of[1]}: the internal name {name} is that of one in {users_of[0]}, which is compiled together with it "
+                           f"in {target}; rename one, or share it" for name, users_of in sorted(users.items()) if len(users_of) > 1]
     return complaints
 
 

@@ -15,7 +15,7 @@ class UnityTest(sample.RuleTest):
         return {"components/compass/CMakeLists.txt": lists, "components/compass/src/a.cpp": internal(one), "components/compass/src/b.cpp": internal(other)}
 
     def test_overloads_in_two_sources_of_a_library_are_found(self):
-        self.assert_finds(unity, "components/compass/src/b.cpp: the internal function turn has the name of one in components/compass/src/a.cpp",
+        self.assert_finds(unity, "components/compass/src/b.cpp: the internal name turn is that of one in components/compass/src/a.cpp",
                           self.workspace("double turn(double by) { return by; }", "float turn(const Pose& pose, float by) {\n  return by;\n}"))
 
     def test_other_names_calls_and_other_targets_are_not(self):
@@ -26,4 +26,4 @@ class UnityTest(sample.RuleTest):
     def test_an_overload_of_a_function_of_a_header_is_found(self):
         files = self.workspace("double turn(double by, double at = 0.0) { return by + at; }", "float back() { return 0.0f; }")
         header = {"components/compass/src/turn.hpp": L + "#pragma once\n\nfloat turn(float by);\n"}
-        self.assert_finds(unity, "a.cpp: the internal function turn has the name of one in components/compass/src/turn.hpp", {**files, **header})
+        self.assert_finds(unity, "a.cpp: the internal name turn is that of one in components/compass/src/turn.hpp", {**files, **header})

@@ -10,7 +10,7 @@ using std::chrono::steady_clock;
 
 namespace {
 
-constexpr std::size_t kMaxWaiting = 32;    // calls to other processes, made one at a time
+constexpr std::size_t kMaxCalls = 32;      // calls to other processes, made one at a time
 constexpr std::size_t kMaxAnswers = 1024;  // not yet handled by the component
 constexpr milliseconds kSlice{100};        // longest delay until the end of the component is noticed
 
@@ -30,7 +30,7 @@ RemoteCaller::~RemoteCaller() {
 
 void RemoteCaller::call(interfaces::Bytes request, milliseconds limit, std::shared_ptr<Reply> reply) {
   const std::lock_guard lock(mutex_);
-  if (stopping_ || waiting_.size() >= kMaxWaiting) return;
+  if (stopping_ || waiting_.size() >= kMaxCalls) return;
   waiting_.push_back({std::move(request), steady_clock::now() + limit, std::move(reply)});
   changed_.notify_all();
 }

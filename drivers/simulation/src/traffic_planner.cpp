@@ -9,7 +9,7 @@ namespace panvo::simulation {
 
 namespace {
 
-constexpr double kStep_s = 0.1;
+constexpr double kPlanStep_s = 0.1;
 constexpr double kOwnWidth_m = 1.85;
 constexpr double kAbout_m = 75.0;   // movers exist within this distance
 constexpr double kHidden_m = 42.0;  // smallest distance at which they may appear or vanish
@@ -30,7 +30,7 @@ TrafficPlanner::TrafficPlanner(const simulated_world::Site& site, const VehicleM
       models_(models),
       random_(seed, "traffic"),
       visits_(find_visits(site.roads, motion)) {
-  for (double t = 0.0; t <= motion.duration_s() + kStep_s; t += kStep_s) {
+  for (double t = 0.0; t <= motion.duration_s() + kPlanStep_s; t += kPlanStep_s) {
     const Eigen::Isometry3d pose = motion.world_from_base(t);
     own_.push_back({pose.translation().head<2>(), std::atan2(pose.linear()(1, 0), pose.linear()(0, 0)), kOwnLength_m,
                     kOwnWidth_m});
@@ -47,7 +47,7 @@ void TrafficPlanner::plan() {
 }
 
 Footprint TrafficPlanner::own(double t_s) const {
-  const double at = std::round(t_s / kStep_s);
+  const double at = std::round(t_s / kPlanStep_s);
   return own_[static_cast<std::size_t>(std::clamp(at, 0.0, static_cast<double>(own_.size() - 1)))];
 }
 
@@ -62,8 +62,8 @@ bool TrafficPlanner::keeps_clear(const Mover& mover, double of_vehicle_m, double
     if (other.from_s < mover.to_s && mover.from_s < other.to_s && !(other.walks && mover.walks))
       others.push_back(&other);
   }
-  const double first = std::ceil(std::max(0.0, mover.from_s) / kStep_s) * kStep_s;
-  for (double t = first; t <= std::min(mover.to_s, motion_.duration_s()); t += kStep_s) {
+  const double first = std::ceil(std::max(0.0, mover.from_s) / kPlanStep_s) * kPlanStep_s;
+  for (double t = first; t <= std::min(mover.to_s, motion_.duration_s()); t += kPlanStep_s) {
     const Footprint here = of(mover, t);
     if (distance(here, own(t)) < of_vehicle_m) return false;
     for (const Mover* other : others) {
@@ -81,7 +81,7 @@ bool TrafficPlanner::accept(const std::optional<Mover>& mover, double of_vehicle
   if (!mover || !keeps_clear(*mover, of_vehicle_m, of_movers_m)) return false;
   if (kind != nullptr) {
     Traffic::Episode episode{std::numeric_limits<double>::infinity(), 0.0, kind};
-    for (double t = std::max(0.0, mover->from_s); t <= std::min(mover->to_s, motion_.duration_s()); t += kStep_s) {
+    for (double t = std::max(0.0, mover->from_s); t <= std::min(mover->to_s, motion_.duration_s()); t += kPlanStep_s) {
       if (distance(of(*mover, t), own(t)) > episode_m) continue;
       episode.from_s = std::min(episode.from_s, t);
       episode.to_s = t;
@@ -101,8 +101,8 @@ bool TrafficPlanner::live(Mover& mover, double at_m, double t_s) const {
   const double starts = t_s - at_m / mover.speed_m_per_s;
   const double ends = t_s + (mover.along_m.back() - at_m) / mover.speed_m_per_s;
   double from = t_s, to = t_s;
-  while (from > starts && from > -1.0 && metres_off(from) <= kAbout_m) from -= kStep_s;
-  while (to < ends && to < motion_.duration_s() + 1.0 && metres_off(to) <= kAbout_m) to += kStep_s;
+  while (from > starts && from > -1.0 && metres_off(from) <= kAbout_m) from -= kPlanStep_s;
+  while (to < ends && to < motion_.duration_s() + 1.0 && metres_off(to) <= kAbout_m) to += kPlanStep_s;
   mover.from_s = std::max(from, starts);
   mover.to_s = std::min(to, ends);
   mover.start_m = at_m - mover.speed_m_per_s * (t_s - mover.from_s);
@@ -116,8 +116,8 @@ void TrafficPlanner::live_waiting(Mover& mover, double at_m, double t_s) const {
   const Mover fixed = mover;
   const auto near = [&](double t) { return (of(fixed, t).centre - own(t).centre).norm() <= kHidden_m; };
   double from = t_s, to = t_s;
-  while (from > -1.0 && near(from)) from -= kStep_s;
-  while (to < motion_.duration_s() + 1.0 && near(to)) to += kStep_s;
+  while (from > -1.0 && near(from)) from -= kPlanStep_s;
+  while (to < motion_.duration_s() + 1.0 && near(to)) to += kPlanStep_s;
   mover.from_s = from;
   mover.to_s = to;
   mover.start_m = at_m - mover.speed_m_per_s * (t_s - from);
