@@ -106,11 +106,11 @@ std::string advertise_services(std::span<const OfferedService> services) {
                     {"request", message_schema(service.what.type_name + "_Request")},
                     {"response", message_schema(service.what.type_name + "_Response")}});
   }
-  return text_of({{"op", "advertiseServices"}, {"services", list}});
+  return serialized({{"op", "advertiseServices"}, {"services", list}});
 }
 
 std::string unadvertise_services(std::span<const std::uint32_t> services) {
-  return text_of({{"op", "unadvertiseServices"}, {"serviceIds", std::vector(services.begin(), services.end())}});
+  return serialized({{"op", "unadvertiseServices"}, {"serviceIds", std::vector(services.begin(), services.end())}});
 }
 
 std::string parameter_values(std::span<const Parameter> parameters, std::string_view id) {
@@ -118,11 +118,11 @@ std::string parameter_values(std::span<const Parameter> parameters, std::string_
   for (const auto& parameter : parameters) list.push_back(shown(parameter));
   json object{{"op", "parameterValues"}, {"parameters", list}};
   if (!id.empty()) object["id"] = id;
-  return text_of(object);
+  return serialized(object);
 }
 
 std::string service_failure(std::uint32_t service, std::uint32_t call, std::string_view why) {
-  return text_of({{"op", "serviceCallFailure"}, {"serviceId", service}, {"callId", call}, {"message", why}});
+  return serialized({{"op", "serviceCallFailure"}, {"serviceId", service}, {"callId", call}, {"message", why}});
 }
 
 std::string connection_graph_update(const ConnectionGraph& before, const ConnectionGraph& now) {
@@ -138,7 +138,7 @@ std::string connection_graph_update(const ConnectionGraph& before, const Connect
   for (const auto& [service, nodes] : before.services) {
     if (!now.services.contains(service)) removed_services.insert(service);
   }
-  return text_of({{"op", "connectionGraphUpdate"},
+  return serialized({{"op", "connectionGraphUpdate"},
                   {"publishedTopics", changed(before.published, now.published, "publisherIds", is_removed)},
                   {"subscribedTopics", changed(before.subscribed, now.subscribed, "subscriberIds", is_removed)},
                   {"advertisedServices",
