@@ -121,8 +121,11 @@ void ClientSession::subscribe(const Subscribe::One& wanted) {
     if (subscriptions_.contains(wanted.id)) throw ProtocolError("the id is in use");
     if (subscriptions_.size() >= kMaxSubscriptions) throw ProtocolError("there are too many subscriptions");
   }
-  auto reading = view_.topics().read(
-      *topic, [this, id = wanted.id](const runtime::SamplePtr& sample) { sender_.send_message(id, sample); });
+  auto reading = view_.topics().read(*topic, [this, id = wanted.id](const runtime::SamplePtr& sample) {
+    // By the clock of tell_time(), if the client is told the time.
+    const auto time_ns = has_time_ ? view_.time_ns() : std::nullopt;
+    sender_.send_message(id, time_ns.value_or(sample->time_ns()), sample);
+  });
   {
     const std::lock_guard lock(mutex_);
     subscriptions_.emplace(wanted.id, Subscription{wanted.channel, std::move(reading)});
