@@ -16,9 +16,9 @@
 #include "node_services/controlled.hpp"
 #include "panvo/runtime/container.hpp"
 #include "played_clock.hpp"
+#include "process_use.hpp"
 #include "rcl_interfaces/msg/ParameterEvent.h"
 #include "rosout.hpp"
-#include "process_use.hpp"
 #include "service_totals.hpp"
 #include "source_runner.hpp"
 

@@ -17,6 +17,7 @@ constexpr std::size_t kMaxRequestBytes = 4'000'000;  // of one message of a clie
 constexpr std::size_t kMaxWaiting = 20'000;          // messages, too small to fill the queue's bytes
 constexpr std::size_t kMaxSubscriptions = 5000;
 constexpr std::size_t kMaxPublications = 100;
+constexpr std::chrono::seconds kDropsPeriod{10};
 
 }  // namespace
 
@@ -74,7 +75,9 @@ void ClientSession::tell_time(std::int64_t time_ns) {
 
 void ClientSession::tell_drops() {
   const auto dropped = sender_.dropped();
-  if (dropped == told_drops_) return;
+  const auto now = std::chrono::steady_clock::now();
+  if (dropped == told_drops_ || now - drops_told_at_ < kDropsPeriod) return;
+  drops_told_at_ = now;
   sender_.send_text(status(StatusLevel::kWarning, "the connection is slow: " + std::to_string(dropped - told_drops_) +
                                                       " large messages were left out"));
   told_drops_ = dropped;
@@ -118,8 +121,11 @@ void ClientSession::subscribe(const Subscribe::One& wanted) {
     if (subscriptions_.contains(wanted.id)) throw ProtocolError("the id is in use");
     if (subscriptions_.size() >= kMaxSubscriptions) throw ProtocolError("there are too many subscriptions");
   }
-  auto reading = view_.topics().read(
-      *topic, [this, id = wanted.id](const runtime::SamplePtr& sample) { sender_.send_message(id, sample); });
+  auto reading = view_.topics().read(*topic, [this, id = wanted.id](const runtime::SamplePtr& sample) {
+    // By the clock of tell_time(), if the client is told the time.
+    const auto time_ns = has_time_ ? view_.time_ns() : std::nullopt;
+    sender_.send_message(id, time_ns.value_or(sample->time_ns()), sample);
+  });
   {
     const std::lock_guard lock(mutex_);
     subscriptions_.emplace(wanted.id, Subscription{wanted.channel, std::move(reading)});

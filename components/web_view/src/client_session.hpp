@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -41,7 +42,7 @@ class ClientSession final : public WebServer::Session {
   /// To a client that asked for the graph: what has changed since it was told of it.
   void tell(const ConnectionGraph& graph);
   void tell_time(std::int64_t time_ns);
-  /// A warning if messages were dropped since the last call.
+  /// A warning if messages were dropped since the last one, at most every 10 s.
   void tell_drops();
 
   bool wants_graph() const;
@@ -86,6 +87,7 @@ class ClientSession final : public WebServer::Session {
   std::map<std::uint32_t, Publication> publications_;  // by id; used by the connection's thread only
   bool has_time_ = false;
   std::uint64_t told_drops_ = 0;
+  std::chrono::steady_clock::time_point drops_told_at_{};
   mutable std::mutex mutex_;  // guards the next five; not held while a topic is opened or closed
   bool wants_graph_ = false;
   ConnectionGraph told_graph_;

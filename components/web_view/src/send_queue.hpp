@@ -32,6 +32,7 @@ class SendQueue {
   /// A message of a subscription. It is serialised only when it is sent.
   struct Message {
     std::uint32_t subscription;
+    std::int64_t time_ns;  ///< for the client
     runtime::SamplePtr sample;
   };
   struct Text {

@@ -39,9 +39,9 @@ void Sender::send_binary(std::vector<std::uint8_t> frame) {
   push({SendQueue::Binary{std::move(frame)}, bytes});
 }
 
-void Sender::send_message(std::uint32_t subscription, const runtime::SamplePtr& sample) {
+void Sender::send_message(std::uint32_t subscription, std::int64_t time_ns, const runtime::SamplePtr& sample) {
   const std::size_t bytes = sample->serialized_size();
-  push({SendQueue::Message{subscription, sample}, bytes, keeping_of(sample->type_name(), bytes)});
+  push({SendQueue::Message{subscription, time_ns, sample}, bytes, keeping_of(sample->type_name(), bytes)});
 }
 
 void Sender::push(SendQueue::Item item) {
@@ -88,7 +88,7 @@ bool Sender::send(const SendQueue::Item& item) {
   if (const auto* text = std::get_if<SendQueue::Text>(&item.content)) return connection_.send_text(text->json);
   if (const auto* binary = std::get_if<SendQueue::Binary>(&item.content)) return connection_.send_binary(binary->frame);
   const auto& message = std::get<SendQueue::Message>(item.content);
-  frame_ = message_head(message.subscription, message.sample->time_ns());
+  frame_ = message_head(message.subscription, message.time_ns);
   const auto& bytes = message.sample->bytes();
   frame_.insert(frame_.end(), bytes.begin(), bytes.end());
   return connection_.send_binary(frame_);

@@ -34,8 +34,8 @@ class Sender {
 
   void send_text(std::string json);
   void send_binary(std::vector<std::uint8_t> frame);
-  /// A message of a subscription.
-  void send_message(std::uint32_t subscription, const runtime::SamplePtr& sample);
+  /// A message of a subscription, at a time for the client.
+  void send_message(std::uint32_t subscription, std::int64_t time_ns, const runtime::SamplePtr& sample);
 
   /// Drops what waits of a subscription that has ended.
   void forget(std::uint32_t subscription);

@@ -104,8 +104,8 @@ std::vector<runtime::ServiceDescription> View::callable() const {
 
 void View::update() {
   const std::lock_guard updating(update_mutex_);
-  follow_clock();
   const auto published = topics_->published();
+  follow_clock(published);
   const auto callable_now = callable();
   std::vector<std::shared_ptr<void>> ended;  // closed after the lock is released: closing waits for publishers
   const std::lock_guard lock(mutex_);
@@ -125,8 +125,7 @@ void View::update() {
 }
 
 /// Reads /clock while somebody publishes it.
-void View::follow_clock() {
-  const auto published = topics_->published();
+void View::follow_clock(const std::vector<runtime::TopicDescription>& published) {
   const auto found = std::ranges::find(published, topics::kClock.name, &runtime::TopicDescription::name);
   if (found == published.end()) {
     clock_.reset();
@@ -182,7 +181,9 @@ std::optional<runtime::ServiceDescription> View::find_service(std::uint32_t id) 
 void View::join(ClientSession& session) {
   update();
   const std::lock_guard lock(mutex_);
-  session.welcome(time_ns().has_value());
+  const auto now_ns = time_ns();
+  session.welcome(now_ns.has_value());
+  if (now_ns) session.tell_time(*now_ns);
   std::vector<std::shared_ptr<void>> none;
   session.tell(ChannelTable::Change{channels_.all(), {}}, none);
   session.tell(ServiceTable::Change{services_.all(), {}});

@@ -52,6 +52,8 @@ class View {
   runtime::DiagnosticValues diagnostics() const;
 
   // For the sessions of the clients:
+  /// The time of a recording or a simulation; nullopt: that of the system.
+  std::optional<std::int64_t> time_ns() const;
   const Settings& settings() const { return settings_; }
   /// Identifies this run, so that a client that comes back knows whether ids still mean the same.
   const std::string& session() const { return session_; }
@@ -70,8 +72,7 @@ class View {
   HttpResponse get(const Credentials& credentials, const HttpRequest& request) const;
   void update();
   std::vector<runtime::ServiceDescription> callable() const;
-  void follow_clock();
-  std::optional<std::int64_t> time_ns() const;
+  void follow_clock(const std::vector<runtime::TopicDescription>& published);
 
   runtime::Context& context_;
   const Settings settings_;

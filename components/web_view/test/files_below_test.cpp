@@ -30,7 +30,7 @@ TEST(Assets, AreFilesOfPackages) {
   const panvo::test::TemporaryFolder folder;
   folder.write("rig/meshes/camera.stl", "mesh");
   EXPECT_EQ(read_asset(folder.path(), "package://rig/meshes/camera.stl"), "mesh");
-  for (const char* uri : {"package://rig/none.stl", "package://../rig/meshes/camera.stl", "file:///etc/passwd",
+  for (const char* uri : {"package://rig/none.stl", "package://../rig/meshes/camera.stl", "file:/etc/passwd",
                           "package:///etc/passwd", "package:/", ""})
     EXPECT_THROW(read_asset(folder.path(), uri), ProtocolError) << uri;
   EXPECT_THROW(read_asset({}, "package://rig/meshes/camera.stl"), ProtocolError);

@@ -11,7 +11,8 @@ using testing::ElementsAre;
 
 /// A message of `bytes`, recognised by its time.
 SendQueue::Item message(std::uint32_t subscription, std::int64_t time_ns, std::size_t bytes, Keeping keeping) {
-  return {SendQueue::Message{subscription, runtime::Sample::from_bytes(nullptr, "", {0}, time_ns)}, bytes, keeping};
+  return {SendQueue::Message{subscription, time_ns, runtime::Sample::from_bytes(nullptr, "", {0}, time_ns)}, bytes,
+          keeping};
 }
 
 std::vector<std::int64_t> times_of_all(SendQueue& queue) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "diagnostic_msgs/msg/DiagnosticArray.h"
+#include "panvo/interfaces/node_topics.hpp"
 #include "panvo/test/temporary_folder.hpp"
 #include "rcl_interfaces/srv/ListParameters.h"
 #include "web_view_fixture.hpp"
@@ -169,6 +170,34 @@ TEST_F(WebViewNodes, GiveAssetsOfTheConfiguredFolder) {
   client.send_text(R"({"op":"fetchAsset","uri":"package://rig/../camera.stl","requestId":8})");
   const auto failure = next_message(client);
   EXPECT_THAT(std::vector<std::uint8_t>(failure.begin(), failure.begin() + 6), ElementsAre(4, 8, 0, 0, 0, 1));
+}
+
+TEST_F(WebViewNodes, TellTheTimeOfASimulation) {
+  start();
+  std::optional<runtime::Output<rosgraph_msgs::msg::Clock>> clock;
+  container_->add(description("simulation"), [&](runtime::Context& context) {
+    clock.emplace(context.output(topics::kClock));
+    return std::make_unique<runtime::Component>();
+  });
+  WebSocketClient early(port());  // from now on the clock is read
+  EXPECT_THAT(next_text(early, "serverInfo")["capabilities"], Not(Contains("time")));
+  rosgraph_msgs::msg::Clock now;
+  now.clock().sec(1);
+  clock->publish(now);
+  WebSocketClient client(port());
+  EXPECT_THAT(next_text(client, "serverInfo")["capabilities"], Contains("time"));
+  const std::vector<std::uint8_t> second{0x00, 0xca, 0x9a, 0x3b, 0, 0, 0, 0};  // 1e9 ns
+  auto frame = next_message(client);
+  EXPECT_EQ(frame[0], 2);
+  EXPECT_EQ(std::vector<std::uint8_t>(frame.begin() + 1, frame.end()), second);
+  // Messages have the same clock.
+  subscribe(client, 7, channel_of(client, "/odometry/binocular"));
+  settle(client);
+  odometry_->publish(odometry(12));
+  frame = next_message(client);
+  ASSERT_GT(frame.size(), 13u);
+  EXPECT_EQ(std::vector<std::uint8_t>(frame.begin() + 5, frame.begin() + 13), second);
+  clock.reset();
 }
 
 TEST_F(WebViewNodes, LearnOfTheClientsFromDiagnostics) {

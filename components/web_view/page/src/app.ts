@@ -64,7 +64,7 @@ export class App {
   /** What is read rather than watched: a few times a second. */
   update(): void {
     const silent_s = this.#isLive ? (performance.now() - this.#poseCame_ms) / 1000 : 0;
-    this.#state.update({ silent_s, isLost: this.#isLive && this.connection.isLost, isPaused: this.#player.isPaused });
+    this.#state.update({ silent_s, link: this.connection.state, isPaused: this.#player.isPaused });
     this.connection.update();
     this.mapPanel.update();
     if (this.#tabs.isSeen("cameras")) this.cameras.update();

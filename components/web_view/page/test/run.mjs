@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// node test/run.mjs modules|browser: compiles and runs the tests of one kind with node's own test runner.
+// node test/run.mjs modules|browser|figures: compiles and runs the tests of one kind with node's own test runner.
 import { spawnSync } from "node:child_process";
 import fs from "node:fs";
 import { build } from "esbuild";

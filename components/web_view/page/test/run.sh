@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# run.sh BUILD modules|browser: runs the tests of the page that was built in BUILD. Exits with 77 and the reason if they cannot run.
+# run.sh BUILD modules|browser|figures: runs the tests, or measurements, of the page that was built in BUILD. Exits with 77 and the reason if
+# they cannot run.
 set -euo pipefail
 
 cd "$1"
@@ -8,7 +9,7 @@ if ! [[ -f dist/index.html ]] || ! command -v node >/dev/null; then
   echo "skipped: the page was not built, because node, npm or their packages are missing (see the target panvo_page)"
   exit 77
 fi
-if [[ $2 == browser ]]; then
+if [[ $2 != modules ]]; then
   CHROMIUM=$(command -v chromium || command -v google-chrome || true)
   export CHROMIUM
   if [[ -z $CHROMIUM ]]; then

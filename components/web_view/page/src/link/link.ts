@@ -8,6 +8,8 @@ import { publishable } from "./initial_pose.ts";
 import { Requests } from "./requests.ts";
 import { parseBinary, parseText, publishFrame, subprotocols, type ServerText } from "./wire.ts";
 
+const batch_ms = 5;
+
 /** What is used of WebSocket. */
 export interface Socket {
   binaryType: string;
@@ -59,7 +61,7 @@ export class Link {
     }
   }
 
-  /** Passes on what came since the last call. Called a few dozen times a second, so that the page is not woken for each message. */
+  /** Passes on what came since the last call. */
   flush(): void {
     if (this.#batch.length === 0) return;
     this.surroundings.emit({ kind: "messages", messages: this.#batch });
@@ -155,11 +157,16 @@ export class Link {
     try {
       const content = subscription.read(message.payload);
       if (!subscription.role) this.surroundings.showImage(subscription, content);
-      else this.#batch.push({ role: subscription.role, topic: subscription.channel.topic, message: shortened(subscription.role, content) });
+      else this.#collect({ role: subscription.role, topic: subscription.channel.topic, message: shortened(subscription.role, content) });
     } catch {
       ++this.#undecodable;
     }
     if (!this.#channels.keepsWanting(subscription)) this.#settle();
+  }
+
+  /** Messages of the same few milliseconds wake the page once. */
+  #collect(message: RoleMessage): void {
+    if (this.#batch.push(message) === 1) this.surroundings.after(batch_ms, () => this.flush());
   }
 
   #publish(topic: string, schemaName: string, message: unknown): void {

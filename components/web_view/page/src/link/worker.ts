@@ -23,5 +23,4 @@ const link = new Link({
 });
 
 thread.onmessage = ({ data }) => link.obey(data);
-setInterval(() => link.flush(), 25);
 setInterval(() => link.tellTraffic(), 1000);

@@ -10,7 +10,7 @@ import { View } from "./view.ts";
 
 const margin = 0.25; // of the screen, on each side
 const settled_ms = 120; // without a change of scale, after which the picture is drawn anew
-const most_scaled = 1.5;
+const most_scaled = 2.5;
 const most_newest = 500; // poses that are drawn with each frame
 
 export class SceneCache {

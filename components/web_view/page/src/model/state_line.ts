@@ -16,7 +16,7 @@ export interface Known {
   integrity?: Integrity | undefined;
   quality?: OdometryQuality | undefined;
   silent_s?: number; // since the last pose arrived here
-  isLost?: boolean; // the connection to the server
+  link?: "connecting" | "open" | "lost" | "snapshot"; // the connection to the server
   isPaused?: boolean; // the bag that is played
 }
 
@@ -42,8 +42,12 @@ function located(title: string, { reason, position_sigma_m }: LocalizationState,
   return { level: "good", title, reason: reason === "" ? within : `${within}; ${reason}` };
 }
 
-export function stateLine({ state, integrity, quality, silent_s = 0, isLost = false, isPaused = false }: Known): StateLine {
-  if (isLost) return { level: "bad", title: "Server lost", reason: `what is shown is ${Math.floor(silent_s)} s old` };
+export function stateLine({ state, integrity, quality, silent_s = 0, link = "open", isPaused = false }: Known): StateLine {
+  const isKnown = state !== undefined || quality !== undefined;
+  if (isKnown && (link === "lost" || link === "connecting"))
+    return { level: "bad", title: "Server lost", reason: `what is shown is ${Math.floor(silent_s)} s old` };
+  if (link === "lost") return { level: "bad", title: "Server not reached", reason: "nothing was received yet" };
+  if (link === "connecting") return { level: "idle", title: "Connecting", reason: "" };
   if (isPaused) return { level: "idle", title: "Paused", reason: "the bag waits" };
   if (!state) {
     if (!quality) return { level: "idle", title: "No vehicle yet", reason: "no localization state is published" };

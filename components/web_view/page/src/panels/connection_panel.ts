@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The connection: whether there is one, when the next attempt is made, and the dialog for address and token. */
 import { serverAddress } from "../link/address.ts";
+import type { Known } from "../model/state_line.ts";
 import { byId, setText } from "../ui/dom.ts";
 
 const tokenKey = "panvo token";
@@ -10,7 +11,7 @@ export class ConnectionPanel {
   #token = byId<HTMLInputElement>("token");
   #button = byId("link");
   #retry_at = 0;
-  isLost = false;
+  state: NonNullable<Known["link"]> = "connecting";
   token: string;
 
   constructor(readonly onOpen: (address: string) => void) {
@@ -44,13 +45,12 @@ export class ConnectionPanel {
   }
 
   opened(): void {
-    this.isLost = false;
     this.#dialog.close();
     this.#show("open", "Live");
   }
 
   async lost(wasOpen: boolean, retry_ms: number): Promise<void> {
-    this.isLost = true;
+    this.state = "lost";
     this.#retry_at = performance.now() + retry_ms;
     this.update();
     if (!wasOpen && (await this.#isRefused())) {
@@ -66,12 +66,13 @@ export class ConnectionPanel {
 
   /** Counts down to the next attempt. */
   update(): void {
-    if (!this.isLost) return;
+    if (this.state !== "lost") return;
     const seconds = Math.max(0, Math.ceil((this.#retry_at - performance.now()) / 1000));
     this.#show("lost", `Server lost, again in ${seconds} s`);
   }
 
-  #show(state: string, text: string): void {
+  #show(state: typeof this.state, text: string): void {
+    this.state = state;
     document.body.dataset.link = state;
     setText(byId("link-text"), text);
   }

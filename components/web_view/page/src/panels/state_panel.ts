@@ -25,7 +25,7 @@ export class StatePanel {
     byId("figures").append(...this.#figures.map(({ element }) => element));
   }
 
-  update(reception: Pick<Known, "silent_s" | "isLost" | "isPaused">): void {
+  update(reception: Pick<Known, "silent_s" | "link" | "isPaused">): void {
     const { drive } = this;
     const { level, title, reason } = stateLine({ state: drive.state, integrity: drive.integrity, quality: drive.quality, ...reception });
     byId("state").dataset.level = level;

@@ -22,7 +22,7 @@ export interface Chart {
 const perSecond = (value: number) => `${value.toFixed(1)} Hz`;
 const degreesPerSecond = (value: number) => `${value.toFixed(1)} °/s`;
 const whole = (value: number) => String(Math.round(value));
-const palette: (keyof Colours)[] = ["enhanced", "binocular", "compass", "landmark", "bad", "ink", "soft", "caution"];
+const palette: (keyof Colours)[] = ["enhanced", "binocular", "compass", "landmark", "ink", "soft"];
 
 type Row = [label: string, name: SeriesName, colour: keyof Colours, dash?: number[]];
 
@@ -33,14 +33,17 @@ function of(...rows: Row[]) {
       .map(([label, name, colour, dash]) => ({ label, series: drive.series[name], colour, ...(dash && { dash }) }));
 }
 
-/** The largest of a group, each component a curve. */
-function each(group: (drive: Drive) => Map<string, Series>, isShown: (series: Series) => boolean = () => true) {
+const mean = ({ values }: Series) => values.reduce<number>((sum, value) => sum + (value ?? 0), 0) / Math.max(1, values.length);
+
+/** The largest of a group, each component a curve. By their means, so that colours do not change with every value. */
+function each(group: (drive: Drive) => Map<string, Series>, least: number) {
   return (drive: Drive): Curve[] =>
     [...group(drive)]
-      .filter(([, series]) => isShown(series))
-      .sort(([, a], [, b]) => (b.last ?? 0) - (a.last ?? 0))
+      .map(([label, series]) => ({ label, series, mean: mean(series) }))
+      .filter((curve) => curve.mean > least)
+      .sort((a, b) => b.mean - a.mean)
       .slice(0, palette.length)
-      .map(([label, series], i) => ({ label, series, colour: palette[i]! }));
+      .map(({ label, series }, i) => ({ label, series, colour: palette[i]! }));
 }
 
 export const charts: Chart[] = [
@@ -61,7 +64,7 @@ export const charts: Chart[] = [
     format: perSecond,
     curves: of(["odometry", "odometryRate", "binocular"], ["pose", "poseRate", "enhanced"], ["panorama", "panoramaRate", "compass"]),
   },
-  { title: "Messages dropped", format: whole, curves: each((drive) => drive.dropped, (series) => (series.last ?? 0) > 0) },
-  { title: "CPU", format: (value) => `${Math.round(value)} %`, curves: each((drive) => drive.cpu) },
-  { title: "Memory", format: (value) => `${Math.round(value)} MB`, curves: each((drive) => drive.memory) },
+  { title: "Messages dropped", format: whole, curves: each((drive) => drive.dropped, 0) },
+  { title: "CPU", format: (value) => `${Math.round(value)} %`, curves: each((drive) => drive.cpu, 1) },
+  { title: "Memory", format: (value) => `${Math.round(value)} MB`, curves: each((drive) => drive.memory, 0) },
 ];

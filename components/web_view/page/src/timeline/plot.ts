@@ -24,7 +24,7 @@ export class Plot {
   ) {
     this.#values = h("p.values");
     this.#canvas = h("div.canvas");
-    this.element = h("figure.chart", {}, h("figcaption", {}, h("b", {}, chart.title), this.#values), this.#canvas);
+    this.element = h("figure.chart", { hidden: true }, h("figcaption", {}, h("b", {}, chart.title), this.#values), this.#canvas);
   }
 
   /** Shows [from, to] of the drive's stamps; `cursor` is where the values are read, else at the end. */

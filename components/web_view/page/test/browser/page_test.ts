@@ -101,6 +101,15 @@ test("events and components are listed", async () => {
   await page.click('aside button[data-tab="cameras"]');
 });
 
+test("parameters are listed with their ranges, and fixed ones cannot be changed", async () => {
+  await page.click('aside button[data-tab="system"]');
+  await becomes("#parameters", "/web_view");
+  await becomes("#parameters", "TCP port; 0: any free one; 0 to 65535; fixed while it runs");
+  const fields = await page.$$eval("#parameters input", (inputs) => inputs.map((input) => [input.getAttribute("aria-label"), input.value, input.disabled]));
+  assert.ok(fields.some(([label, value, isDisabled]) => label === "max_clients" && value === "8" && isDisabled));
+  await page.click('aside button[data-tab="cameras"]');
+});
+
 /** Pixel of the page where a point of the map is seen. */
 const pixelOf = (x: number, y: number) =>
   page.evaluate(

@@ -33,13 +33,15 @@ test("each state has its level, and the reason of the message is shown", () => {
 test("old data are called old, whatever they say", () => {
   assert.equal(stateLine({ state: state(State.tracking), silent_s: 4.2 }).reason, "the last pose came 4 s ago");
   assert.equal(stateLine({ state: state(State.tracking), silent_s: 9, isPaused: true }).title, "Paused");
-  assert.equal(stateLine({ state: state(State.tracking), silent_s: 9, isPaused: true, isLost: true }).title, "Server lost");
+  assert.equal(stateLine({ state: state(State.tracking), silent_s: 9, isPaused: true, link: "lost" }).title, "Server lost");
 });
 
 test("without a localizer the odometry speaks", () => {
   const quality: OdometryQuality = { header: header(0), tracked: 10, inliers: 2, reliable: false, reason: "2 inliers of 20" };
   assert.deepEqual(stateLine({ quality }), { level: "bad", title: "Stereo odometry unreliable", reason: "2 inliers of 20" });
-  assert.equal(stateLine({}).level, "idle");
+  assert.equal(stateLine({}).title, "No vehicle yet");
+  assert.equal(stateLine({ link: "connecting" }).title, "Connecting");
+  assert.equal(stateLine({ link: "lost" }).title, "Server not reached");
 });
 
 test("lengths have the digits that they deserve", () => {
