@@ -113,13 +113,16 @@ Innovation MotionFilter::innovation(const Factor& factor) const {
   return innovation;
 }
 
-void MotionFilter::update(const Factor& factor) {
+void MotionFilter::update(const Factor& factor) { update(factor, !is_still_); }
+void MotionFilter::learn(const Factor& factor) { update(factor, false); }
+
+void MotionFilter::update(const Factor& factor, bool corrects_motion) {
   const ByAll h = jacobian(factor);
   const Factor::Covariance innovation = h * covariance_ * h.transpose() + factor.noise;
   const Eigen::Matrix<double, kSize, Eigen::Dynamic, 0, kSize, Factor::kMaxRows> cross = covariance_ * h.transpose();
   Eigen::Matrix<double, kSize, Eigen::Dynamic, 0, kSize, Factor::kMaxRows> gain =
       innovation.ldlt().solve(cross.transpose()).transpose();
-  if (is_still_) gain.topRows<kLearnedAt>().setZero();  // Joseph's form below holds for any gain
+  if (!corrects_motion) gain.topRows<kLearnedAt>().setZero();  // Joseph's form below holds for any gain
   const Eigen::Matrix<double, kSize, 1> correction = gain * factor.residual;
   const Matrix kept = Matrix::Identity() - gain * h;
   covariance_ = kept * covariance_ * kept.transpose() + gain * factor.noise * gain.transpose();

@@ -198,27 +198,30 @@ void OdometryFusion::accept_gyro() {
 
 /// Wheels and gyroscope show no motion; without a gyroscope, wheels and cameras.
 bool OdometryFusion::is_standing(const Interval& now) const {
-  const bool may_stand =
-      filter_.interval_s() == 0.0 || filter_.step().translation().norm() < kStanding_m_s * filter_.interval_s();
-  if (!may_stand || now.wheels.empty()) return false;
-  const auto& learned = filter_.learned();
-  const auto still_of = [&](const auto& window, double clock_s) {
-    return window.span(later(now.to_ns, clock_s - kStill_s), later(now.to_ns, clock_s));
+  if (!now.uses_wheels || filter_.step().translation().norm() >= kStanding_m_s * filter_.interval_s()) return false;
+  const auto recent = [&](const auto& window, double late_s) {
+    return window.span(later(now.to_ns, late_s - kStill_s), later(now.to_ns, late_s));
   };
-  if (!is_still(still_of(wheels_.window, wheels_late_s_))) return false;
-  const bool is_seen_still = now.is_reliable && now.seen->translation().norm() < kStanding_m_s * now.dt_s;
-  if (!now.uses_wheels || !now.uses_gyro) return is_seen_still;
-  const double bias_sigma =
-      std::max({filter_.sigma(kGyroBias), filter_.sigma(kGyroBias + 1), filter_.sigma(kGyroBias + 2)});
-  return is_still(still_of(gyro_.window, learned[kGyroClock]), learned.segment<3>(kGyroBias), bias_sigma);
+  if (!is_still(recent(wheels_.window, wheels_late_s_))) return false;
+  if (!now.uses_gyro) return now.is_reliable && now.seen->translation().norm() < kStanding_m_s * now.dt_s;
+  const auto& learned = filter_.learned();
+  const double bias_sigma = std::max({filter_.sigma(kGyroBias), filter_.sigma(kGyroBias + 1), filter_.sigma(kGyroBias + 2)});
+  return is_still(recent(gyro_.window, learned[kGyroClock]), learned.segment<3>(kGyroBias), bias_sigma);
 }
 
 FusedPose OdometryFusion::stand(const Interval& now) {
   FusedPose fused;
-  filter_.begin_still(now.dt_s);
   fused.is_standing = fused.uses_wheels = true;
   fused.uses_gyro = now.uses_gyro;
-  if (fused.uses_gyro) filter_.update(factor_of_gyro(filter_, now));  // shows its bias
+  if (now.uses_gyro) {
+    filter_.begin_still(now.dt_s);
+    filter_.update(factor_of_gyro(filter_, now));  // shows its bias
+  } else {  // rotations by the cameras: a suspension settles while wheels stand
+    filter_.begin_unknown(now.dt_s);
+    filter_.update(stereo_factor(filter_, *now.seen, now.seen_covariance));
+    filter_.update(standstill_factor(filter_));
+    fused.uses_cameras = true;
+  }
   return fused;
 }
 
@@ -239,7 +242,7 @@ FusedPose OdometryFusion::move_seen(const Interval& now) {
   if (now.uses_wheels) {
     const Factor factor = factor_of_wheels(seen, now);
     fused.uses_wheels = of_wheels.add(seen.innovation(factor), now.dt_s, parameters_.gate_sigmas);
-    if (fused.uses_wheels) seen.update(factor);
+    if (fused.uses_wheels) seen.learn(factor);  // to be ready when the cameras fail; slip must not spoil their motion
   }
   const bool are_two_against = now.uses_gyro && now.uses_wheels && !fused.uses_gyro && !fused.uses_wheels;
   if (are_two_against && does_wheel_follow_gyro(now)) return move_blind(now);

@@ -10,7 +10,7 @@ namespace {
 constexpr double kWheel_m_s = 0.01, kWheel_rad_s = 0.01;  // noise of motor controllers at rest
 // Standard deviation of the rates: noise of a MEMS gyroscope. A rolling vehicle shakes several times as much.
 constexpr double kShaking_rad_s = 0.01;
-constexpr double kTurning_rad_s = 0.005;
+constexpr double kTurning_rad_s = 0.001;  // a suspension that settles turns several times as fast
 
 }  // namespace
 
