@@ -8,8 +8,8 @@
 namespace panvo::odometry_fusion {
 namespace {
 
-// A motion that is not known at all; far above any sensor's noise, and small enough for the arithmetic.
-constexpr double kUnknown_m_s = 100.0, kUnknown_rad_s = 30.0;
+// A motion that is not known at all, m/s and rad/s; far above any sensor's noise, and small enough for the arithmetic.
+constexpr double kUnknownSpeed = 100.0, kUnknownRate = 30.0;
 // The calibration of wheels and clocks changes slowly: temperature, load, synchronisation.
 constexpr double kScaleWalk = 2e-5;    // 1/sqrt(s)
 constexpr double kClockWalk_s = 1e-5;  // s/sqrt(s)
@@ -80,8 +80,8 @@ void MotionFilter::begin_continued(double dt_s) {
 void MotionFilter::begin_unknown(double dt_s) {
   begin_continued(dt_s);  // a good point to linearise at
   forget_step();
-  covariance_.diagonal().segment<3>(kStep).setConstant(squared(kUnknown_m_s * dt_s));
-  covariance_.diagonal().segment<3>(kStep + 3).setConstant(squared(kUnknown_rad_s * dt_s));
+  covariance_.diagonal().segment<3>(kStep).setConstant(squared(kUnknownSpeed * dt_s));
+  covariance_.diagonal().segment<3>(kStep + 3).setConstant(squared(kUnknownRate * dt_s));
 }
 
 void MotionFilter::begin_still(double dt_s) {
