@@ -170,6 +170,15 @@ TEST(Validity, OfOdometryLeavesATwistThatIsNotKnownAlone) {
   EXPECT_EQ(problem(message), "");
 }
 
+TEST(Validity, OfATwistIsThatOfOdometry) {
+  geometry_msgs::msg::TwistWithCovarianceStamped message;
+  EXPECT_EQ(problem(message), "");
+  message.twist().covariance()[0] = -1.0;
+  EXPECT_EQ(problem(message), "");
+  message.twist().twist().linear().x(NAN);
+  EXPECT_EQ(problem(message), "twist.twist.linear is not finite");
+}
+
 TEST(Validity, OfALandmarkNeedsRowsWithinTheMatrixOfItsSettings) {
   EXPECT_EQ(problem(landmark()), "");
   for (const std::uint16_t row : {800, 65535}) {

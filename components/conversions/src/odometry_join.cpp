@@ -22,8 +22,7 @@ void OdometryJoin::add(const panvo_msgs::msg::OdometryQuality& quality) {
   has_quality_ = true;
   lacking_ = 0;
   const double ratio = quality.inlier_ratio();
-  qualities_[stamp_ns(quality)] = {quality.reliable(),
-                                                std::isfinite(ratio) ? std::clamp(1.0 - ratio, 0.0, 1.0) : 1.0};
+  qualities_[stamp_ns(quality)] = {quality.reliable(), std::isfinite(ratio) ? std::clamp(1.0 - ratio, 0.0, 1.0) : 1.0};
   if (qualities_.size() > kMaxQualities) qualities_.erase(qualities_.begin());
 }
 

@@ -70,6 +70,15 @@ Factor gyro_factor(const MotionFilter& filter, std::span<const GyroSample> sampl
   return factor;
 }
 
+Factor standstill_factor(const MotionFilter& filter) {
+  constexpr double kSigma_m = 1e-4;
+  Factor factor(3);
+  factor.residual = -filter.step().translation();
+  factor.by_step.leftCols<3>().setIdentity();
+  factor.noise = kSigma_m * kSigma_m * Eigen::Matrix3d::Identity();
+  return factor;
+}
+
 WheelMotion motion_of(std::span<const WheelSample> samples) {
   WheelMotion sum;
   for (std::size_t i = 1; i < samples.size(); ++i) {

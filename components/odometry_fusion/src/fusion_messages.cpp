@@ -37,10 +37,10 @@ conversions::Result<WheelSample> to_wheels(std::int64_t stamp_ns, const geometry
   const auto& covariance = twist.covariance();
   if (covariance[0] == kNotMeasured) return conversions::Reason{"measures no velocity"};
   const Eigen::Vector3d rate = base_from_wheels.linear() * to_vector(twist.twist().angular());
-  const Eigen::Vector3d velocity = base_from_wheels.linear() * to_vector(twist.twist().linear()) -
-                                   rate.cross(base_from_wheels.translation());
-  return WheelSample{stamp_ns,   velocity.x(), velocity.y(), rate.z(), std::max(0.0, covariance[0]),
-                     std::max(0.0, covariance[35])};
+  const Eigen::Vector3d velocity =
+      base_from_wheels.linear() * to_vector(twist.twist().linear()) - rate.cross(base_from_wheels.translation());
+  return WheelSample{
+      stamp_ns, velocity.x(), velocity.y(), rate.z(), std::max(0.0, covariance[0]), std::max(0.0, covariance[35])};
 }
 
 nav_msgs::msg::Odometry to_odometry(const FusedPose& fused, const nav_msgs::msg::Odometry& stereo) {

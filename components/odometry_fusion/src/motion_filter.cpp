@@ -8,8 +8,8 @@
 namespace panvo::odometry_fusion {
 namespace {
 
-// A motion that is not known at all; far above any sensor's noise, and small enough for the arithmetic.
-constexpr double kUnknown_m_s = 100.0, kUnknown_rad_s = 30.0;
+// A motion that is not known at all, m/s and rad/s; far above any sensor's noise, and small enough for the arithmetic.
+constexpr double kUnknownSpeed = 100.0, kUnknownRate = 30.0;
 // The calibration of wheels and clocks changes slowly: temperature, load, synchronisation.
 constexpr double kScaleWalk = 2e-5;    // 1/sqrt(s)
 constexpr double kClockWalk_s = 1e-5;  // s/sqrt(s)
@@ -80,8 +80,8 @@ void MotionFilter::begin_continued(double dt_s) {
 void MotionFilter::begin_unknown(double dt_s) {
   begin_continued(dt_s);  // a good point to linearise at
   forget_step();
-  covariance_.diagonal().segment<3>(kStep).setConstant(square(kUnknown_m_s * dt_s));
-  covariance_.diagonal().segment<3>(kStep + 3).setConstant(square(kUnknown_rad_s * dt_s));
+  covariance_.diagonal().segment<3>(kStep).setConstant(square(kUnknownSpeed * dt_s));
+  covariance_.diagonal().segment<3>(kStep + 3).setConstant(square(kUnknownRate * dt_s));
 }
 
 void MotionFilter::begin_still(double dt_s) {
@@ -113,13 +113,16 @@ Innovation MotionFilter::innovation(const Factor& factor) const {
   return innovation;
 }
 
-void MotionFilter::update(const Factor& factor) {
+void MotionFilter::update(const Factor& factor) { update(factor, !is_still_); }
+void MotionFilter::learn(const Factor& factor) { update(factor, false); }
+
+void MotionFilter::update(const Factor& factor, bool corrects_motion) {
   const ByAll h = jacobian(factor);
   const Factor::Covariance innovation = h * covariance_ * h.transpose() + factor.noise;
   const Eigen::Matrix<double, kSize, Eigen::Dynamic, 0, kSize, Factor::kMaxRows> cross = covariance_ * h.transpose();
   Eigen::Matrix<double, kSize, Eigen::Dynamic, 0, kSize, Factor::kMaxRows> gain =
       innovation.ldlt().solve(cross.transpose()).transpose();
-  if (is_still_) gain.topRows<kLearnedAt>().setZero();  // Joseph's form below holds for any gain
+  if (!corrects_motion) gain.topRows<kLearnedAt>().setZero();  // Joseph's form below holds for any gain
   const Eigen::Matrix<double, kSize, 1> correction = gain * factor.residual;
   const Matrix kept = Matrix::Identity() - gain * h;
   covariance_ = kept * covariance_ * kept.transpose() + gain * factor.noise * gain.transpose();

@@ -17,7 +17,7 @@ constexpr double kWheelGap_s = 0.25;  // 4 Hz
 constexpr double kLost_s = 0.5;       // without samples, a sensor is not waited for
 constexpr std::size_t kMaxWaiting = 20;
 constexpr double kMinStepVariance = 1e-12;  // for rounding errors
-constexpr double kStanding_m_s = 0.1;       // a vehicle that stops is slower in the half second before
+constexpr double kStandingSpeed = 0.1;      // m/s; a vehicle that stops is slower in the half second before
 // Without stereo poses for this time, and three times their usual interval, poses are made without them.
 constexpr double kSilence_s = 0.25;
 constexpr std::int64_t kBlindStep_ns = 50'000'000;
@@ -196,29 +196,37 @@ void OdometryFusion::accept_gyro() {
   filter_.restart(kGyroBias, kCount, value.head<kCount>(), sigma.head<kCount>());
 }
 
+Eigen::Vector3d OdometryFusion::gyro_bias() const {
+  return gyro_.state.is_used ? filter_.learned().segment<3>(kGyroBias) : gyro_.trial.bias();
+}
+
 /// Wheels and gyroscope show no motion; without a gyroscope, wheels and cameras.
 bool OdometryFusion::is_standing(const Interval& now) const {
-  const bool may_stand =
-      filter_.interval_s() == 0.0 || filter_.step().translation().norm() < kStanding_m_s * filter_.interval_s();
-  if (!may_stand || now.wheels.empty()) return false;
-  const auto& learned = filter_.learned();
-  const auto still_of = [&](const auto& window, double clock_s) {
-    return window.span(later(now.to_ns, clock_s - kStill_s), later(now.to_ns, clock_s));
+  if (!now.uses_wheels || filter_.step().translation().norm() >= kStandingSpeed * filter_.interval_s()) return false;
+  const auto recent = [&](const auto& window, double late_s) {
+    return window.span(later(now.to_ns, late_s - kStill_s), later(now.to_ns, late_s));
   };
-  if (!is_still(still_of(wheels_.window, wheels_late_s_))) return false;
-  const bool is_seen_still = now.is_reliable && now.seen->translation().norm() < kStanding_m_s * now.dt_s;
-  if (!now.uses_wheels || !now.uses_gyro) return is_seen_still;
+  if (!is_still(recent(wheels_.window, wheels_late_s_))) return false;
+  if (!now.uses_gyro) return now.is_reliable && now.seen->translation().norm() < kStandingSpeed * now.dt_s;
+  const auto& learned = filter_.learned();
   const double bias_sigma =
       std::max({filter_.sigma(kGyroBias), filter_.sigma(kGyroBias + 1), filter_.sigma(kGyroBias + 2)});
-  return is_still(still_of(gyro_.window, learned[kGyroClock]), learned.segment<3>(kGyroBias), bias_sigma);
+  return is_still(recent(gyro_.window, learned[kGyroClock]), learned.segment<3>(kGyroBias), bias_sigma);
 }
 
 FusedPose OdometryFusion::stand(const Interval& now) {
   FusedPose fused;
-  filter_.begin_still(now.dt_s);
   fused.is_standing = fused.uses_wheels = true;
   fused.uses_gyro = now.uses_gyro;
-  if (fused.uses_gyro) filter_.update(factor_of_gyro(filter_, now));  // shows its bias
+  if (now.uses_gyro) {
+    filter_.begin_still(now.dt_s);
+    filter_.update(factor_of_gyro(filter_, now));  // shows its bias
+  } else {                                         // rotations by the cameras: a suspension settles while wheels stand
+    filter_.begin_unknown(now.dt_s);
+    filter_.update(stereo_factor(filter_, *now.seen, now.seen_covariance));
+    filter_.update(standstill_factor(filter_));
+    fused.uses_cameras = true;
+  }
   return fused;
 }
 
@@ -239,7 +247,7 @@ FusedPose OdometryFusion::move_seen(const Interval& now) {
   if (now.uses_wheels) {
     const Factor factor = factor_of_wheels(seen, now);
     fused.uses_wheels = of_wheels.add(seen.innovation(factor), now.dt_s, parameters_.gate_sigmas);
-    if (fused.uses_wheels) seen.update(factor);
+    if (fused.uses_wheels) seen.learn(factor);  // to be ready when the cameras fail; slip must not spoil their motion
   }
   const bool are_two_against = now.uses_gyro && now.uses_wheels && !fused.uses_gyro && !fused.uses_wheels;
   if (are_two_against && does_wheel_follow_gyro(now)) return move_blind(now);

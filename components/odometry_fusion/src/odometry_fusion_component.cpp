@@ -52,6 +52,7 @@ class OdometryFusionComponent final : public runtime::Component {
                 message->twist());
     });
     context.every(std::chrono::milliseconds(100), [this] { take_joined(); });
+    context.on_end([this] { say_what_was_learned(); });
   }
 
  private:
@@ -147,6 +148,19 @@ class OdometryFusionComponent final : public runtime::Component {
     gyro_notices_.report(name_of(topics::kImu.name), fusion_.gyro());
     wheel_notices_.report(name_of(wheel_topic_), fusion_.wheels());
     yaw_notices_.report("yaw rates of " + name_of(wheel_topic_), fusion_.wheel_yaw());
+  }
+
+  void say_what_was_learned() const {
+    const auto& learned = fusion_.filter().learned();
+    const Eigen::Vector3d bias = fusion_.gyro_bias();
+    if (imu_.frame && fusion_.gyro().fault.empty()) {
+      context_.log().info("gyroscope: bias {:.4f} {:.4f} {:.4f} rad/s{}", bias.x(), bias.y(), bias.z(),
+                          fusion_.gyro().is_used ? "" : "; not used, because the vehicle has not turned enough");
+    }
+    if (fusion_.wheels().is_used) {
+      context_.log().info("wheels: {:+.2f} % farther than they measure, {:.0f} ms late", 100.0 * learned[kWheelScale],
+                          1000.0 * fusion_.wheels_late_s());
+    }
   }
 
   std::string name_of(std::string_view topic) const { return context_.resolved_name(topic); }

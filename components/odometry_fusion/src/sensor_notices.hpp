@@ -8,16 +8,12 @@
 
 namespace panvo::odometry_fusion {
 
-/// Logs when a sensor begins or ceases to be used, and what is wrong with it.
+/// Logs when a sensor begins to be used, and what is wrong with one that is not.
 class SensorNotices {
  public:
   explicit SensorNotices(const runtime::Logger& log) : log_(log) {}
 
-  void report(const std::string& topic, const SensorState& now) {
-    if (now.is_used && !before_.is_used) log_.info("{} agrees with the cameras and is used", topic);
-    if (!now.fault.empty() && now.fault != before_.fault) log_.warn("{}: {}; not used", topic, now.fault);
-    before_ = now;
-  }
+  void report(const std::string& sensor, const SensorState& now);
 
  private:
   const runtime::Logger& log_;

@@ -15,18 +15,18 @@ constexpr double kForget = 0.97;   // weight of a window relative to the next on
 constexpr int kMinWindows = 3;
 constexpr double kTurned_rad2 = 0.1;  // sum of squares: one turn of 20 degrees
 constexpr double kRidge_rad2 = 1e-3;
-constexpr double kMoved_m2 = 1.0;       // sum of squares: four windows of half a metre
-constexpr double kMinMove_m = 0.5;      // of a window
-constexpr double kChanged_m2_s2 = 1.0;  // sum of squares: one start
+constexpr double kMoved_m2 = 1.0;      // sum of squares: four windows of half a metre
+constexpr double kMinMove_m = 0.5;     // of a window
+constexpr double kSpeedChanges = 1.0;  // sum of squares, m^2/s^2: one start
 constexpr double kLate_s = 0.1;
 constexpr double kDegrees = 180.0 / M_PI;
 
 // A good sensor's scale is within the first, which includes the cameras' errors; beyond the second it is wrong.
 constexpr double kGoodGyro = 0.05, kWrongGyro = 0.1;
 constexpr double kGood = 0.15, kWrong = 0.2;
-constexpr double kGoodYaw = 0.35;            // of wheels: the track width in turns is uncertain
-constexpr double kScatter = 0.1;             // of the motion, between the sensors
-constexpr double kGyroScatter_rad_s = 0.02;  // of windows without motion
+constexpr double kGoodYaw = 0.35;      // of wheels: the track width in turns is uncertain
+constexpr double kScatter = 0.1;       // of the motion, between the sensors
+constexpr double kGyroScatter = 0.02;  // rad/s, of windows without motion
 
 bool is_about(double value, double expected) { return std::abs(value / expected - 1.0) < 0.15; }
 
@@ -123,8 +123,7 @@ Verdict GyroTrial::verdict() const {
                                "imu in /tf_static",
                                names[axis], names[strongest], column[strongest])};
   }
-  const double limit =
-      kGyroScatter_rad_s * kGyroScatter_rad_s + kScatter * kScatter * seen_seen_.trace() / (weight_ + 1.0);
+  const double limit = kGyroScatter * kGyroScatter + kScatter * kScatter * seen_seen_.trace() / (weight_ + 1.0);
   const bool is_quiet = windows_ >= kMinWindows && residual_variance().maxCoeff() < limit;
   if (is_any_excited && are_all_good && is_quiet) return {true, ""};
   if (windows_ > 3 * kMinWindows && !is_quiet) {
@@ -169,7 +168,7 @@ void WheelTrial::add(const Rolled& rolled, double seen_forward_m, double seen_ya
   window_seen_m_ = window_seen_rad_ = window_s_ = 0.0;
 }
 
-double WheelTrial::late_s() const { return forward_.change2() > kChanged_m2_s2 ? forward_.solve()[1] : 0.0; }
+double WheelTrial::late_s() const { return forward_.change2() > kSpeedChanges ? forward_.solve()[1] : 0.0; }
 
 Verdict WheelTrial::verdict() const {
   if (forward_.seen2() < kMoved_m2) return {};

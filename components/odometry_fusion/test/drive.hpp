@@ -93,9 +93,9 @@ class Simulator {
       }
     };
     const int count = static_cast<int>(std::lround(drive_.duration_s * 1000.0));
-    for (int ms = 0; ms <= count; ++ms) {
+    for (int ms = 0; ms <= count; ms += kTick_ms) {
       const double t_s = 1e-3 * ms;
-      if (ms % 5 == 0 && drive_.has_gyro) fusion.add(gyro(t_s));
+      if (drive_.has_gyro) fusion.add(gyro(t_s));
       if (ms % 20 == 0 && drive_.has_wheels) fusion.add(wheels(t_s));
       if (ms % 40 == 0) {
         Eigen::Isometry3d move = before.inverse() * truth;
@@ -115,15 +115,16 @@ class Simulator {
         fusion.add(StereoPose{stamp(t_s), stereo, covariance, !is_blind});
       }
       collect();
-      const TrueMotion now = drive_.motion(t_s + 5e-4);
+      const TrueMotion now = drive_.motion(t_s + 5e-4 * kTick_ms);
       vision::Vector6d twist;
       twist << now.forward_m_s, 0.0, 0.0, now.rate_rad_s;
-      truth = truth * vision::se3_exp(1e-3 * twist);
+      truth = truth * vision::se3_exp(1e-3 * kTick_ms * twist);
     }
     return outcomes;
   }
 
  private:
+  static constexpr int kTick_ms = 5;
   static constexpr std::int64_t kBegin_ns = 1'000'000'000'000;
   static constexpr double kPersistence_m = 5.0, kRatio = 0.008, kRad_per_m = 3e-4;
 

@@ -111,8 +111,8 @@ TEST_F(FusionComponent, PassesStereoOdometryOnWithoutOtherSensors) {
 
 TEST_F(FusionComponent, ContinuesByWheelsAndGyroscopeWithoutImages) {
   drive(0.0, 20.0);
-  EXPECT_TRUE(harness_.log_contains("/imu/data agrees with the cameras"));
-  EXPECT_TRUE(harness_.log_contains("/wheel/twist agrees with the cameras"));
+  EXPECT_TRUE(harness_.log_contains("/imu/data: agreement with the cameras"));
+  EXPECT_TRUE(harness_.log_contains("/wheel/twist: agreement with the cameras"));
   drive(20.0, 25.0, false);
   EXPECT_LT(error_m(), 0.35);  // the pose is up to 40 ms old
   EXPECT_TRUE(quality_.back()->reliable());
@@ -122,7 +122,8 @@ TEST_F(FusionComponent, ContinuesByWheelsAndGyroscopeWithoutImages) {
 TEST_F(FusionComponent, NamesAFaultySensorAndItsRemedy) {
   imu_factor_ = 57.3;
   drive(0.0, 10.0);
-  EXPECT_THAT(harness_.log(), Contains(HasSubstr("/imu/data: rates about z are in degrees/s: publish rad/s; not used")));
+  EXPECT_THAT(harness_.log(),
+              Contains(HasSubstr("/imu/data: rates about z are in degrees/s: publish rad/s; not used")));
   EXPECT_LT(error_m(), 0.21);
 }
 
@@ -134,7 +135,7 @@ TEST_F(FusionComponent, UsesTheMountingInTfStatic) {
   transforms.transforms({conversions::to_static_transform(kBegin_ns, "base_link", "imu_link", base_from_imu)});
   harness_.publish(topics::kTfStatic, transforms);
   drive(0.0, 10.0);
-  EXPECT_TRUE(harness_.log_contains("/imu/data agrees with the cameras"));
+  EXPECT_TRUE(harness_.log_contains("/imu/data: agreement with the cameras"));
   EXPECT_FALSE(harness_.log_contains("no transform"));
 }
 

@@ -15,8 +15,10 @@ std::optional<ImuRecording> read_euroc_imu(const fs::path& folder) {
     calibration_files::YamlMap sensor(folder / "sensor.yaml", kSensorFile);
     imu.base_from_imu = read_base_from_sensor(sensor);
     const double rate_hz = sensor.number("rate_hz", {0.0, 1e5, "Hz"}, 0.0);
-    imu.rate_variance = std::pow(sensor.number("gyroscope_noise_density", {0.0, 10.0, "rad/s/sqrt(Hz)"}, 0.0), 2) * rate_hz;
-    imu.acceleration_variance = std::pow(sensor.number("accelerometer_noise_density", {0.0, 100.0, "m/s^2/sqrt(Hz)"}, 0.0), 2) * rate_hz;
+    imu.rate_variance =
+        std::pow(sensor.number("gyroscope_noise_density", {0.0, 10.0, "rad/s/sqrt(Hz)"}, 0.0), 2) * rate_hz;
+    imu.acceleration_variance =
+        std::pow(sensor.number("accelerometer_noise_density", {0.0, 100.0, "m/s^2/sqrt(Hz)"}, 0.0), 2) * rate_hz;
     sensor.check();
   }
   const TextFile file(folder / "data.csv", TextFile::Separator::kComma);

@@ -70,8 +70,8 @@ MotionSensors::Wheels MotionSensors::wheels(std::int64_t stamp_ns, const vision:
                           wheels_.noise_per_sqrt_m * root_m * wheel_random_.gaussian() + rest_m_;
   const double counted_m = wheels_.tick_m * std::floor(rolled_m / wheels_.tick_m);
   rest_m_ = rolled_m - counted_m;
-  const double yaw_rad = yaw_scale_ * twist[5] * interval_s +
-                         wheels_.yaw_noise_rad_per_sqrt_m * root_m * wheel_random_.gaussian();
+  const double yaw_rad =
+      yaw_scale_ * twist[5] * interval_s + wheels_.yaw_noise_rad_per_sqrt_m * root_m * wheel_random_.gaussian();
   return {stamp_ns, counted_m / interval_s, yaw_rad / interval_s};
 }
 

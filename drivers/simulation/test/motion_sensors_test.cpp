@@ -22,14 +22,15 @@ MotionSensors::Samples circle(MotionSensors& sensors, int steps = 2500) {
 }
 
 TEST(MotionSensors, MeasureTheTrueMotionWithoutErrors) {
-  MotionSensors sensors({.noise_rad_s_sqrt_hz = 0.0, .bias_rad_s = 0.0, .bias_walk_rad_s2_sqrt_hz = 0.0, .scale_ratio = 0.0},
-                        {.noise_per_sqrt_m = 0.0,
-                         .yaw_noise_rad_per_sqrt_m = 0.0,
-                         .tick_m = 1e-6,
-                         .scale_ratio = 0.0,
-                         .yaw_scale_ratio = 0.0,
-                         .slips_per_km = 0.0},
-                        1);
+  MotionSensors sensors(
+      {.noise_rad_s_sqrt_hz = 0.0, .bias_rad_s = 0.0, .bias_walk_rad_s2_sqrt_hz = 0.0, .scale_ratio = 0.0},
+      {.noise_per_sqrt_m = 0.0,
+       .yaw_noise_rad_per_sqrt_m = 0.0,
+       .tick_m = 1e-6,
+       .scale_ratio = 0.0,
+       .yaw_scale_ratio = 0.0,
+       .slips_per_km = 0.0},
+      1);
   const auto samples = circle(sensors, 25);
   ASSERT_EQ(samples.gyro.size(), 200U);
   ASSERT_EQ(samples.wheels.size(), 50U);

@@ -21,6 +21,9 @@ Factor gyro_factor(const MotionFilter& filter, std::span<const GyroSample> sampl
 Factor wheel_factor(const MotionFilter& filter, std::span<const WheelSample> samples, const WheelParameters& parameters,
                     bool has_yaw);
 
+/// No translation.
+Factor standstill_factor(const MotionFilter& filter);
+
 /// Integrals of the raw samples.
 Eigen::Vector3d rotation_of(std::span<const GyroSample> samples);  ///< rad; small-angle sum
 struct WheelMotion {

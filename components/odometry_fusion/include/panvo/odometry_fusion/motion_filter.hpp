@@ -71,6 +71,8 @@ class MotionFilter {
   void begin_still(double dt_s);
 
   void update(const Factor& factor);
+  /// Corrects only what is learned, not the motion.
+  void learn(const Factor& factor);
   Innovation innovation(const Factor& factor) const;
   /// Ends the interval: moves the pose.
   void compose();
@@ -96,6 +98,7 @@ class MotionFilter {
   using Matrix = Eigen::Matrix<double, kSize, kSize>;
   using ByAll = Eigen::Matrix<double, Eigen::Dynamic, kSize, 0, Factor::kMaxRows, kSize>;
 
+  void update(const Factor& factor, bool corrects_motion);
   static ByAll jacobian(const Factor& factor);
   void walk(double dt_s);
   void forget_step();

@@ -54,6 +54,8 @@ class OdometryFusion {
   const SensorState& wheels() const noexcept { return wheels_.state; }
   /// Whether wheels are also used for rotations, and why not.
   const SensorState& wheel_yaw() const noexcept { return wheel_yaw_; }
+  /// rad/s; while the gyroscope is on trial, its mean difference to the cameras.
+  Eigen::Vector3d gyro_bias() const;
   /// By how much the stamps of the wheels are late.
   double wheels_late_s() const noexcept { return wheels_late_s_; }
   const MotionFilter& filter() const noexcept { return filter_; }

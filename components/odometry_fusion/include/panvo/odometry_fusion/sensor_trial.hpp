@@ -20,7 +20,7 @@ class GyroTrial {
 
   /// Undecided until the vehicle has turned by some 20 degrees.
   Verdict verdict() const;
-  /// Mean difference of the rates and its standard deviation, rad/s. Precondition: a good verdict.
+  /// Mean difference of the rates and its standard deviation, rad/s: for a good gyroscope, its bias. Zero at first.
   Eigen::Vector3d bias() const { return mean_gyro_ - mean_seen_; }
   double bias_sigma() const;
 
