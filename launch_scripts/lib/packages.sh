@@ -47,7 +47,7 @@ install_if_possible() {
   if may_install; then
     install_packages "${missing[@]}"
   else
-    note "not installed: ${missing[*]}. Tests that need them are skipped; 'panvo setup $*' installs them"
+    note "not installed: ${missing[*]}. What needs them is left out; 'panvo setup $*' installs them"
   fi
 }
 

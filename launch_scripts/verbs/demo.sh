@@ -80,7 +80,10 @@ $(dataset_layouts)"
     mode+=(--view)
   fi
   out=$(claim_folder "$out")
-  ! in_checkout || ensure_packages build  # before supervise, because sudo may ask for a password
+  if in_checkout; then  # before supervise, because sudo may ask for a password
+    ensure_packages build
+    [[ -z $live ]] || install_if_possible page
+  fi
   supervise show_all
 }
 

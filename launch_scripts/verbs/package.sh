@@ -31,7 +31,7 @@ verb_main() {
     esac
     shift
   done
-  ensure_packages package
+  ensure_packages package page
   ensure_built all
   (umask 022 && cd "$(build_folder)" && cpack -G DEB -B "$out" >package.log 2>&1) ||
     fail "making the packages failed; full log: $(build_folder)/package.log"

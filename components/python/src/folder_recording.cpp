@@ -30,7 +30,7 @@ class FolderReader final : public FrameReader {
   std::optional<RecordedFrame> next(std::vector<std::string>& warnings) override {
     while (next_ < events_.size()) {
       const auto& event = events_[next_++];
-      if (event.kind == TimelineEvent::Kind::kGroundTruth) continue;
+      if (event.kind == TimelineEvent::Kind::kGroundTruth || event.kind == TimelineEvent::Kind::kImu) continue;
       if (auto frame = load(event, warnings)) return frame;
     }
     return std::nullopt;
