@@ -20,6 +20,7 @@ import { byId, setText } from "./ui/dom.ts";
 import { download, snapshotPage } from "./ui/snapshot_file.ts";
 import { Tabs } from "./ui/tabs.ts";
 
+const images_ms = 1500; // longest time that a snapshot waits for images
 const poseRoles = ["enhanced", "binocular", "state"];
 
 export class App {
@@ -122,7 +123,7 @@ export class App {
 
   show(snapshot: Snapshot): void {
     restoreSnapshot(this.drive, snapshot);
-    this.#timeline.window_s = Infinity;
+    this.#timeline.choose(Infinity);
     for (const [kind, url] of Object.entries(snapshot.pictures)) {
       const image = new Image();
       image.onload = () => this.cameras.restore(kind as "left" | "panorama", image, snapshot.panoramaFrame);
@@ -130,18 +131,28 @@ export class App {
     }
     this.connection.snapshot(snapshot.taken);
     byId("snapshot-button").hidden = true;
-    this.map.fit();
+    setText(this.cameras.empty, "No image was received before the snapshot.");
     this.update();
+    this.map.fit();
   }
 
   async takeSnapshot(): Promise<void> {
     try {
+      await this.#fetchImages();
       const taken = new Date();
       const snapshot = takeSnapshot(this.drive, this.cameras.pictures(), this.cameras.panoramaFrame, taken);
       download(await snapshotPage(snapshot), `panvo_${taken.toISOString().slice(0, 19).replace(/[:T]/g, "-")}.html`);
     } catch (error) {
       this.notify(`No snapshot: ${(error as Error).message}`);
     }
+  }
+
+  /** On a phone, images are not received while the map is seen. */
+  async #fetchImages(): Promise<void> {
+    this.cameras.setVisible(true);
+    const end = performance.now() + images_ms;
+    while (this.cameras.isWaiting && performance.now() < end) await new Promise((resolve) => setTimeout(resolve, 50));
+    this.#onTab();
   }
 
   togglePlayer(): void {

@@ -104,6 +104,11 @@ export class Cameras {
     this.#updatePlace();
   }
 
+  /** Whether there is a camera of which no image has come yet. */
+  get isWaiting(): boolean {
+    return [this.#panorama, this.#left].some(({ topic, picture }) => topic !== undefined && picture.isEmpty);
+  }
+
   /** The last images, for a snapshot. */
   pictures(): Partial<Record<Kind, string>> {
     const taken: Partial<Record<Kind, string>> = {};

@@ -38,7 +38,7 @@ export class Timeline {
         }),
     );
     this.#buttons = windows.map(([text, seconds]) =>
-      h("button", { onclick: () => this.#choose(seconds), "aria-pressed": String(seconds === this.window_s) }, text),
+      h("button", { onclick: () => this.choose(seconds), "aria-pressed": String(seconds === this.window_s) }, text),
     );
     element.append(
       h("div.bar", {}, h("h2", {}, "Time line"), this.#time, h("div", { id: "player", hidden: true }), h("div.segments", {}, ...this.#buttons)),
@@ -60,9 +60,9 @@ export class Timeline {
     this.#tellTime();
   }
 
-  #choose(seconds: number): void {
-    this.window_s = seconds;
-    this.#buttons.forEach((button, i) => button.setAttribute("aria-pressed", String(windows[i]![1] === seconds)));
+  choose(window_s: number): void {
+    this.window_s = window_s;
+    this.#buttons.forEach((button, i) => button.setAttribute("aria-pressed", String(windows[i]![1] === window_s)));
     this.update();
   }
 
