@@ -37,7 +37,8 @@ class Completion(unittest.TestCase):
         self.assertEqual(completions("component "), {"list", "show", "running", "load", "unload"})
 
     def test_offers_the_options_in_the_help_of_a_command(self):
-        self.assertEqual(completions("demo --"), {"--full", "--live", "--seed", "--effects", "--dataset", "--out", "--replay", "--help"})
+        self.assertEqual(completions("demo --"), {"--full", "--seed", "--effects", "--dataset", "--out", "--replay", "--live",
+                                                  "--help"})
         self.assertLessEqual({"--dataset", "--bag", "--out", "--replay", "--set"}, completions("run stereo --"))
 
     def test_leaves_other_words_to_bash_which_completes_files(self):

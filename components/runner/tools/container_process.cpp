@@ -128,6 +128,7 @@ void log_idle(const std::string& bag, const Container& container, Console& conso
   std::map<std::string, std::vector<std::string>> inputs;  // by component
   std::set<std::string> active;
   for (const auto& queue : container.queue_counters()) {
+    if (queue.input.starts_with("service ")) continue;  // need not be called
     inputs[queue.component].push_back(queue.input);
     if (queue.received > 0) active.insert(queue.component);
   }

@@ -79,6 +79,7 @@ class BusTopicAccess final : public TopicAccess {
     }
     if (Bridge* const bridge = host_.bus.bridge()) add_written(bridge->graph(), topics);
     std::vector<TopicDescription> sorted;
+    sorted.reserve(topics.size());
     for (auto& [name, topic] : topics) sorted.push_back(std::move(topic));
     return sorted;
   }
@@ -109,6 +110,7 @@ class BusTopicAccess final : public TopicAccess {
       }
     }
     std::vector<ServiceDescription> sorted;
+    sorted.reserve(services.size());
     for (auto& [name, service] : services) sorted.push_back(std::move(service));
     return sorted;
   }

@@ -59,11 +59,11 @@ class Inquiry {
   }
 
   void set() {
-    for (const auto& [node, parameters] : wanted_) with(node, [&] { set(node, parameters); });
+    for (const auto& entry : wanted_) with(entry.first, [&] { set(entry.first, entry.second); });
   }
 
   ParameterAccess::Result get() {
-    for (const auto& [node, parameters] : wanted_) with(node, [&] { get(node, parameters); });
+    for (const auto& entry : wanted_) with(entry.first, [&] { get(entry.first, entry.second); });
     return std::move(result_);
   }
 

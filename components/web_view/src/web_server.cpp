@@ -61,7 +61,7 @@ void answer(mg_connection* connection, const HttpResponse& response, bool has_bo
   std::string head = "HTTP/1.1 " + std::to_string(response.status) + ' ' +
                      mg_get_response_code_text(connection, response.status) + "\r\nConnection: close\r\n";
   if (!response.content_type.empty()) head += "Content-Type: " + response.content_type + "\r\n";
-  for (const auto& [name, value] : response.headers) head += name + ": " + value + "\r\n";
+  for (const auto& [name, value] : response.headers) head.append(name).append(": ").append(value).append("\r\n");
   head += "Content-Length: " + std::to_string(response.body.size()) + "\r\n\r\n";
   if (has_body) head += response.body;
   mg_write(connection, head.data(), head.size());
