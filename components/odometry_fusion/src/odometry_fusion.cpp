@@ -64,8 +64,8 @@ bool OdometryFusion::must_wait(std::optional<std::int64_t> latest_ns, std::int64
   return lacking_s > 0.0 && lacking_s < kLost_s && seconds(stamp_ns, newest_ns_) < parameters_.patience_s;
 }
 
-/// End of the next interval without a stereo pose. Silence is measured between samples of the wheels, so that their clock
-/// does not matter.
+/// End of the next interval without a stereo pose. Silence is measured between samples of the wheels, so that their
+/// clock does not matter.
 std::optional<std::int64_t> OdometryFusion::blind_until() const {
   if (!last_ns_ || !wheels_.state.is_used || !wheels_at_stereo_ns_) return std::nullopt;
   const double silence_s = seconds(*wheels_at_stereo_ns_, *wheels_.window.latest_ns());
