@@ -29,11 +29,13 @@ bool Consistency::add(const Innovation& innovation, double dt_s, double gate_sig
     residual_ = noise_variance_ = systematic_sigma_ = Vector::Zero(size);
   }
   const double kept = std::exp(-dt_s / kMemory_s);
-  residual_ = kept * residual_ + innovation.residual;
+  const bool is_plausible = is_within(innovation, gate_sigmas);
+  residual_ *= kept;
+  if (is_plausible) residual_ += innovation.residual;  // others are not used, so do not add up
   noise_variance_ = kept * kept * noise_variance_ + innovation.noise_variance;
   systematic_sigma_ = kept * systematic_sigma_ + innovation.systematic_variance.cwiseSqrt();
   const Vector limit = gate_sigmas * (noise_variance_ + systematic_sigma_.cwiseAbs2()).cwiseSqrt();
-  const bool agrees = is_within(innovation, gate_sigmas) && (residual_.cwiseAbs().array() < limit.array()).all();
+  const bool agrees = is_plausible && (residual_.cwiseAbs().array() < limit.array()).all();
   contradicted_ += std::min(1.0, dt_s / kPatience_s) * ((agrees ? 0.0 : 1.0) - contradicted_);
   return agrees;
 }

@@ -7,6 +7,8 @@
 namespace panvo::odometry_fusion {
 namespace {
 
+constexpr double kTilt = 0.05;  // rad/sqrt(s), of the ground and the suspension
+
 double squared(double value) { return value * value; }
 
 /// Rotation missing in the filter's step, rad, in the axes at its begin.
@@ -105,7 +107,7 @@ Factor wheel_factor(const MotionFilter& filter, std::span<const WheelSample> sam
       scale * (wheels.left_m + learned[kWheelLeft] * wheels.forward_m) + learned[kAxle] * turned.z(),
       scale * learned[kWheelUp] * wheels.forward_m);
 
-  Factor factor(has_yaw ? 4 : 3);
+  Factor factor(has_yaw ? 6 : 3);
   factor.residual.head<3>() = along * rolled - filter.step().translation();
   factor.by_step.topLeftCorner<3, 3>().setIdentity();
   factor.by_step.block<3, 3>(0, 3) = 0.5 * vision::skew(rolled);  // the arc bends with the rotation
@@ -128,6 +130,12 @@ Factor wheel_factor(const MotionFilter& filter, std::span<const WheelSample> sam
     const double sigma2 = squared(parameters.yaw_noise_rad_per_sqrt_m) * way_m +
                           squared(parameters.yaw_error_ratio * wheels.yaw_rad) + squared(parameters.tick_m);
     factor.noise(3, 3) = std::max(sigma2, last.yaw_variance * dt_s * dt_s);
+    // The ground is smooth.
+    for (const int tilt : {0, 1}) {
+      factor.residual[4 + tilt] = -turned[tilt];
+      factor.by_step(4 + tilt, 3 + tilt) = 1.0;
+      factor.noise(4 + tilt, 4 + tilt) = squared(kTilt) * dt_s;
+    }
   }
   return factor;
 }

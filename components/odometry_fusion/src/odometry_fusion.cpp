@@ -64,8 +64,8 @@ bool OdometryFusion::must_wait(std::optional<std::int64_t> latest_ns, std::int64
   return lacking_s > 0.0 && lacking_s < kLost_s && seconds(stamp_ns, newest_ns_) < parameters_.patience_s;
 }
 
-/// End of the next interval without a stereo pose. Silence is measured between samples of the wheels, so that their clock
-/// does not matter.
+/// End of the next interval without a stereo pose. Silence is measured between samples of the wheels, so that their
+/// clock does not matter.
 std::optional<std::int64_t> OdometryFusion::blind_until() const {
   if (!last_ns_ || !wheels_.state.is_used || !wheels_at_stereo_ns_) return std::nullopt;
   const double silence_s = seconds(*wheels_at_stereo_ns_, *wheels_.window.latest_ns());
@@ -155,6 +155,8 @@ void OdometryFusion::try_sensors(Interval& now) {
   if (now.is_reliable) {
     try_gyro(now);
     try_wheels(now);
+  } else if (!gyro_.state.is_used && gyro_.trial.is_plausible()) {
+    accept_gyro();  // better than none
   }
   now.uses_gyro = gyro_.state.is_used && !now.gyro.empty() && !is_stuck(now.gyro);
   now.uses_wheels = wheels_.state.is_used && !now.wheels.empty();
@@ -291,7 +293,7 @@ FusedPose OdometryFusion::move_blind(const Interval& now) {
     if (fused.uses_wheels) blind.update(factor);
   }
   fused.uses_gyro = now.uses_gyro;
-  fused.is_reliable = fused.uses_wheels && (now.uses_gyro || wheel_yaw_.is_used);
+  fused.is_reliable = fused.uses_wheels && (now.uses_gyro || has_wheel_yaw(now));
   // Without wheels the stereo odometry continues its motion itself, and says how uncertain that is.
   if (!now.uses_wheels && now.seen) {
     blind = filter_;
@@ -309,7 +311,12 @@ Factor OdometryFusion::factor_of_gyro(const MotionFilter& filter, const Interval
 }
 
 Factor OdometryFusion::factor_of_wheels(const MotionFilter& filter, const Interval& now) const {
-  return wheel_factor(filter, now.wheels, parameters_.wheels, wheel_yaw_.is_used);
+  return wheel_factor(filter, now.wheels, parameters_.wheels, has_wheel_yaw(now));
+}
+
+/// Without cameras and before the first turn, also unless something speaks against it.
+bool OdometryFusion::has_wheel_yaw(const Interval& now) const {
+  return wheel_yaw_.is_used || (!now.is_reliable && wheel_yaw_.fault.empty() && wheels_.trial.measures_yaw());
 }
 
 }  // namespace panvo::odometry_fusion

@@ -100,6 +100,14 @@ Eigen::Vector3d GyroTrial::residual_variance() const {
 
 double GyroTrial::bias_sigma() const { return std::sqrt(residual_variance().maxCoeff() / weight_) + 1e-4; }
 
+/// Whether the gyroscope follows the cameras on all axes, but for a constant difference.
+bool GyroTrial::is_quiet() const {
+  const double limit = kGyroScatter * kGyroScatter + kScatter * kScatter * seen_seen_.trace() / (weight_ + 1.0);
+  return windows_ >= kMinWindows && residual_variance().maxCoeff() < limit;
+}
+
+bool GyroTrial::is_plausible() const { return is_quiet() && verdict().fault.empty(); }
+
 Verdict GyroTrial::verdict() const {
   const Eigen::Matrix3d shown = response();
   bool is_any_excited = false, are_all_good = true;
@@ -123,10 +131,8 @@ Verdict GyroTrial::verdict() const {
                                "imu in /tf_static",
                                names[axis], names[strongest], column[strongest])};
   }
-  const double limit = kGyroScatter * kGyroScatter + kScatter * kScatter * seen_seen_.trace() / (weight_ + 1.0);
-  const bool is_quiet = windows_ >= kMinWindows && residual_variance().maxCoeff() < limit;
-  if (is_any_excited && are_all_good && is_quiet) return {true, ""};
-  if (windows_ > 3 * kMinWindows && !is_quiet) {
+  if (is_any_excited && are_all_good && is_quiet()) return {true, ""};
+  if (windows_ > 3 * kMinWindows && !is_quiet()) {
     return {false, "rates do not follow the cameras: check the IMU's stamps, axes and units"};
   }
   return {};

@@ -68,6 +68,14 @@ TEST(OdometryFusion, BridgesTenSecondsWithoutImages) {
   }
 }
 
+TEST(OdometryFusion, BridgesTheFirstTurnWithoutImages) {
+  for (const bool has_gyro : {false, true}) {
+    const Drive options{
+        .duration_s = 13.0, .motion = town, .has_gyro = has_gyro, .blind_from_s = 6.5, .blind_to_s = 12.0};
+    EXPECT_LT(error_between_m(drive(options), 6.0, 12.0), has_gyro ? 0.3 : 2.5) << "gyro " << has_gyro;
+  }
+}
+
 TEST(OdometryFusion, ErrsAsItsCovarianceSays) {
   double driven = 0.0, blind = 0.0;
   constexpr unsigned kSeeds = 20;

@@ -17,7 +17,7 @@ Factor stereo_factor(const MotionFilter& filter, const Eigen::Isometry3d& measur
 Factor gyro_factor(const MotionFilter& filter, std::span<const GyroSample> samples, const GyroParameters& parameters);
 
 /// Integrated distance along the arc that the filter's rotation describes, no motion to the side except by the distance
-/// from the axle, none upwards; with `has_yaw`, the rotation as a fourth row.
+/// from the axle, none upwards; with `has_yaw`, also the rotation: as measured about z, little about x and y.
 Factor wheel_factor(const MotionFilter& filter, std::span<const WheelSample> samples, const WheelParameters& parameters,
                     bool has_yaw);
 

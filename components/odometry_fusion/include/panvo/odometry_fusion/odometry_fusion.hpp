@@ -97,6 +97,7 @@ class OdometryFusion {
   void doubt_sensors();
   Factor factor_of_gyro(const MotionFilter& filter, const Interval& now) const;
   Factor factor_of_wheels(const MotionFilter& filter, const Interval& now) const;
+  bool has_wheel_yaw(const Interval& now) const;
 
   FusionParameters parameters_;
   MotionFilter filter_;

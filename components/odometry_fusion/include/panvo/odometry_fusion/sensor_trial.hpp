@@ -20,6 +20,8 @@ class GyroTrial {
 
   /// Undecided until the vehicle has turned by some 20 degrees.
   Verdict verdict() const;
+  /// Whether nothing speaks against the gyroscope after some seconds, though the vehicle may not have turned.
+  bool is_plausible() const;
   /// Mean difference of the rates and its standard deviation, rad/s: for a good gyroscope, its bias. Zero at first.
   Eigen::Vector3d bias() const { return mean_gyro_ - mean_seen_; }
   double bias_sigma() const;
@@ -29,6 +31,7 @@ class GyroTrial {
   /// Row i, column k: rate about axis i that the gyroscope shows when the vehicle turns about axis k at 1 rad/s.
   Eigen::Matrix3d response() const;
   bool is_excited(int axis) const;
+  bool is_quiet() const;
   Eigen::Vector3d residual_variance() const;
 
   double window_s_ = 0.0;
@@ -57,6 +60,7 @@ class WheelTrial {
   /// Of rotations; neither good nor faulty if the wheels do not measure any. Undecided until the vehicle has turned by
   /// some 20 degrees.
   Verdict yaw_verdict() const;
+  bool measures_yaw() const { return yaw_.measured2() > 0.0; }
 
  private:
   /// Least squares of what wheels measured over what was seen: measured = x[0] seen - x[1] change. Changes of speed show
