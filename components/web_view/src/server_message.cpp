@@ -139,12 +139,12 @@ std::string connection_graph_update(const ConnectionGraph& before, const Connect
     if (!now.services.contains(service)) removed_services.insert(service);
   }
   return serialized({{"op", "connectionGraphUpdate"},
-                  {"publishedTopics", changed(before.published, now.published, "publisherIds", is_removed)},
-                  {"subscribedTopics", changed(before.subscribed, now.subscribed, "subscriberIds", is_removed)},
-                  {"advertisedServices",
-                   changed(before.services, now.services, "providerIds", [](const std::string&) { return true; })},
-                  {"removedTopics", removed_topics},
-                  {"removedServices", removed_services}});
+                     {"publishedTopics", changed(before.published, now.published, "publisherIds", is_removed)},
+                     {"subscribedTopics", changed(before.subscribed, now.subscribed, "subscriberIds", is_removed)},
+                     {"advertisedServices",
+                      changed(before.services, now.services, "providerIds", [](const std::string&) { return true; })},
+                     {"removedTopics", removed_topics},
+                     {"removedServices", removed_services}});
 }
 
 std::vector<std::uint8_t> message_head(std::uint32_t subscription, std::int64_t time_ns) {
