@@ -17,7 +17,6 @@ using vision::LensModel;
 using Pose = std::array<double, 6>;  // rotation vector, translation
 
 constexpr int kMaxSteps = 200;
-constexpr double kUnprojected_px = 1e3;
 constexpr double kMaxTrust =
     1e12;  // limits the trust region: slight damping of weakly determined parameters keeps the equations solvable
 
@@ -223,7 +222,7 @@ std::vector<Residual> residuals(const Observations& observations, const Rig& rig
         const auto& point = observations.board_points[static_cast<std::size_t>(corners[i].id)];
         const auto pixel = project(lens, camera_from_reference * *rig.reference_from_board[view] * point);
         const Eigen::Vector2d error =
-            pixel ? Eigen::Vector2d(corners[i].pixel - *pixel) : Eigen::Vector2d::Constant(kUnprojected_px);
+            pixel ? Eigen::Vector2d(corners[i].pixel - *pixel) : Eigen::Vector2d::Constant(kNotSeen_px);
         all.push_back({camera, view, i, corners[i].pixel, error});
       }
     }

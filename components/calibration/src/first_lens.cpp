@@ -5,6 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "lens_projection.hpp"
 #include "panvo/calibration/planar_pose.hpp"
 #include "panvo/vision/camera_model.hpp"
 
@@ -15,7 +16,6 @@ constexpr double kMinFocalRatio = 0.12;  // focal length over the longer side of
 constexpr double kMaxFocalRatio = 5.0;
 constexpr double kStep = 1.08;
 constexpr std::size_t kMaxViews = 24;  // sufficient for an initial value
-constexpr double kNotSeen_px = 1e3;    // error of a corner that does not project into the image
 
 /// nullopt if the lens is invalid: the image border would be more than 180 degrees off the axis.
 std::optional<vision::CameraModel> first_model(const vision::LensCamera& lens) {

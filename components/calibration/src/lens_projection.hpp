@@ -7,6 +7,8 @@
 
 namespace panvo::calibration {
 
+inline constexpr double kNotSeen_px = 1e3;  ///< error of a corner that does not project into the image
+
 /// Number of lens_parameters().
 template <vision::LensFormula Formula>
 constexpr int kLensSize = 4 + static_cast<int>(Formula::kCoefficients.size());

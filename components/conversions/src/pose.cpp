@@ -40,6 +40,16 @@ Result<Eigen::Isometry3d> isometry(const Translation& t, const geometry_msgs::ms
 
 }  // namespace
 
+geometry_msgs::msg::Vector3 to_vector3(const Eigen::Vector3d& vector) {
+  geometry_msgs::msg::Vector3 message;
+  message.x(vector.x());
+  message.y(vector.y());
+  message.z(vector.z());
+  return message;
+}
+
+Eigen::Vector3d to_eigen(const geometry_msgs::msg::Vector3& vector) { return {vector.x(), vector.y(), vector.z()}; }
+
 geometry_msgs::msg::Pose to_pose(const Eigen::Isometry3d& a_from_b) {
   geometry_msgs::msg::Pose pose;
   pose.position().x(a_from_b.translation().x());

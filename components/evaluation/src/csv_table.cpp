@@ -13,7 +13,6 @@ namespace panvo::evaluation {
 namespace {
 
 constexpr const char* kStopped = "the run was stopped while writing: remove the line, or run again";
-constexpr double kRotationTolerance = 1e-3;  // of the norm of a quaternion, for rounded digits
 
 std::vector<std::string> split(const std::string& line) {
   std::vector<std::string> fields(1);

@@ -10,6 +10,8 @@
 
 namespace panvo::evaluation {
 
+inline constexpr double kRotationTolerance = 1e-3;  // of the norm of a quaternion, for rounded digits
+
 // A non-empty line and its number in the file, from 1.
 struct Line {
   std::size_t number = 0;

@@ -15,7 +15,6 @@ namespace {
 namespace fs = std::filesystem;
 
 // Tolerance for rounded digits.
-constexpr double kQuaternionTolerance = 1e-3;
 constexpr std::int64_t kKittiNominalPeriodNs = 100'000'000;
 
 bool has_content(const fs::path& file) {
@@ -58,7 +57,7 @@ Trajectory read_tum(const fs::path& file) {
     fields.expect(8, false, "t x y z qx qy qz qw");
     const Eigen::Vector3d position(fields.number(1), fields.number(2), fields.number(3));
     const Eigen::Quaterniond orientation(fields.number(7), fields.number(4), fields.number(5), fields.number(6));
-    if (std::abs(orientation.norm() - 1.0) > kQuaternionTolerance) {
+    if (std::abs(orientation.norm() - 1.0) > kRotationTolerance) {
       fields.fail("the quaternion has norm " + std::to_string(orientation.norm()) + " instead of 1",
                   "check the order of the columns: qx qy qz qw");
     }

@@ -8,7 +8,6 @@
 namespace panvo::localizer {
 namespace {
 
-constexpr double kClimb = 0.1;         // fraction of the path, up or down
 constexpr double kTiltRateRad = 0.02;  // per second
 constexpr double kMaxTilt_rad = 0.05;
 constexpr double kSlow = 3.0;   // multiple of the usual interval from which a step is a gap

@@ -16,14 +16,14 @@
 #include <vector>
 
 #include "panvo/interfaces/check.hpp"
+#include "panvo/localizer/dead_reckoning.hpp"
 
 namespace panvo::localizer {
 namespace {
 
-constexpr double kMinSpeed = 0.5;     // m/s: a stationary vehicle may start
-constexpr double kParkedClimb = 0.1;  // fraction of the path, up or down
-constexpr double kTurnRate = 0.3;     // rad/s, of a vehicle in a bend
-constexpr double kTilt = 0.05;        // rad
+constexpr double kMinSpeed = 0.5;  // m/s: a stationary vehicle may start
+constexpr double kTurnRate = 0.3;  // rad/s, of a vehicle in a bend
+constexpr double kTilt = 0.05;     // rad
 
 /// Lines of "key value value ...".
 using Lines = std::map<std::string, std::string>;
@@ -98,7 +98,7 @@ PoseInMap after_gap(const LastPose& last, double gap_s) {
   const double way_m = std::max(last.speed_m_per_s, kMinSpeed) * gap_s;
   const double turn_rad = std::min(kTurnRate * gap_s, std::numbers::pi);
   vision::Vector6d sigma;
-  sigma << way_m, way_m, kParkedClimb * way_m, kTilt, kTilt, turn_rad;
+  sigma << way_m, way_m, kClimb * way_m, kTilt, kTilt, turn_rad;
   PoseInMap now = last.pose;
   now.covariance.diagonal() += sigma.cwiseAbs2();
   return now;

@@ -31,8 +31,6 @@
 
 namespace panvo::localizer {
 
-namespace {}  // namespace
-
 /// odometry/binocular, odometry/quality, compass/azimuth_change, correction, landmarks, /initialpose ->
 /// odometry/enhanced, /tf, localization/state, localization/integrity, correction/outcome, landmarks/poses, path/*.
 /// Odometry waits for its quality; measurements of a panorama wait until odometry reaches its stamp.
@@ -99,8 +97,7 @@ class LocalizerComponent final : public runtime::Component {
 
   /// Reports an unusable message in the log and in diagnostics.
   void refuse(std::string_view topic, const std::string& reason) {
-    context_.rejections().add(topic, reason);
-    context_.log().warn_throttled(std::string(topic) + reason, "{} {}; message skipped", topic, reason);
+    if (context_.rejections().add(topic, reason)) context_.log().warn("{} {}; message skipped", topic, reason);
   }
 
   void on_odometry(const conversions::OdometryJoin::Joined& joined) {

@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "squared.hpp"
+
 namespace panvo::odometry_fusion {
 namespace {
 
 constexpr double kTilt = 0.05;  // rad/sqrt(s), of the ground and the suspension
-
-double squared(double value) { return value * value; }
 
 /// Rotation missing in the filter's step, rad, in the axes at its begin.
 Eigen::Vector3d missing(const MotionFilter& filter, const Eigen::Matrix3d& measured) {

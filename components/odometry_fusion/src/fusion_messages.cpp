@@ -11,24 +11,13 @@ namespace {
 
 constexpr double kNotMeasured = -1.0;  // in the first element of a covariance, REP 145
 
-geometry_msgs::msg::Vector3 to_message(const Eigen::Vector3d& vector) {
-  geometry_msgs::msg::Vector3 message;
-  message.x(vector.x());
-  message.y(vector.y());
-  message.z(vector.z());
-  return message;
-}
-
-Eigen::Vector3d to_vector(const geometry_msgs::msg::Vector3& message) {
-  return {message.x(), message.y(), message.z()};
-}
-
 }  // namespace
 
 conversions::Result<GyroSample> to_gyro(const sensor_msgs::msg::Imu& message, const Eigen::Isometry3d& base_from_imu) {
   const auto& covariance = message.angular_velocity_covariance();
   if (covariance[0] == kNotMeasured) return conversions::Reason{"measures no angular velocity"};
-  return GyroSample{conversions::stamp_ns(message), base_from_imu.linear() * to_vector(message.angular_velocity()),
+  return GyroSample{conversions::stamp_ns(message),
+                    base_from_imu.linear() * conversions::to_eigen(message.angular_velocity()),
                     std::max({0.0, covariance[0], covariance[4], covariance[8]})};
 }
 
@@ -36,9 +25,9 @@ conversions::Result<WheelSample> to_wheels(std::int64_t stamp_ns, const geometry
                                            const Eigen::Isometry3d& base_from_wheels) {
   const auto& covariance = twist.covariance();
   if (covariance[0] == kNotMeasured) return conversions::Reason{"measures no velocity"};
-  const Eigen::Vector3d rate = base_from_wheels.linear() * to_vector(twist.twist().angular());
-  const Eigen::Vector3d velocity =
-      base_from_wheels.linear() * to_vector(twist.twist().linear()) - rate.cross(base_from_wheels.translation());
+  const Eigen::Vector3d rate = base_from_wheels.linear() * conversions::to_eigen(twist.twist().angular());
+  const Eigen::Vector3d velocity = base_from_wheels.linear() * conversions::to_eigen(twist.twist().linear()) -
+                                   rate.cross(base_from_wheels.translation());
   return WheelSample{
       stamp_ns, velocity.x(), velocity.y(), rate.z(), std::max(0.0, covariance[0]), std::max(0.0, covariance[35])};
 }
@@ -50,8 +39,8 @@ nav_msgs::msg::Odometry to_odometry(const FusedPose& fused, const nav_msgs::msg:
   odometry.child_frame_id(stereo.child_frame_id());
   odometry.pose().pose(conversions::to_pose(fused.odom_from_base));
   odometry.pose().covariance(conversions::to_array(fused.covariance));
-  odometry.twist().twist().linear(to_message(fused.twist.head<3>()));
-  odometry.twist().twist().angular(to_message(fused.twist.tail<3>()));
+  odometry.twist().twist().linear(conversions::to_vector3(fused.twist.head<3>()));
+  odometry.twist().twist().angular(conversions::to_vector3(fused.twist.tail<3>()));
   odometry.twist().covariance(conversions::to_array(fused.twist_covariance));
   return odometry;
 }

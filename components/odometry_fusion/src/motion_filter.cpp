@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "squared.hpp"
+
 namespace panvo::odometry_fusion {
 namespace {
 
@@ -13,8 +15,6 @@ constexpr double kUnknownSpeed = 100.0, kUnknownRate = 30.0;
 // The calibration of wheels and clocks changes slowly: temperature, load, synchronisation.
 constexpr double kScaleWalk = 2e-5;    // 1/sqrt(s)
 constexpr double kClockWalk_s = 1e-5;  // s/sqrt(s)
-
-double square(double value) { return value * value; }
 
 }  // namespace
 
@@ -69,9 +69,9 @@ void MotionFilter::begin_continued(double dt_s) {
   predicted_ = step_;
   covariance_.middleRows<6>(kStep) *= share;
   covariance_.middleCols<6>(kStep) *= share;
-  covariance_.diagonal().segment<3>(kStep).array() += square(parameters_.acceleration_m_s2_sqrt_hz * dt_s) * dt_s;
+  covariance_.diagonal().segment<3>(kStep).array() += squared(parameters_.acceleration_m_s2_sqrt_hz * dt_s) * dt_s;
   covariance_.diagonal().segment<3>(kStep + 3).array() +=
-      square(parameters_.turn_acceleration_rad_s2_sqrt_hz * dt_s) * dt_s;
+      squared(parameters_.turn_acceleration_rad_s2_sqrt_hz * dt_s) * dt_s;
   dt_s_ = dt_s;
   is_still_ = false;
   walk(dt_s);
@@ -80,8 +80,8 @@ void MotionFilter::begin_continued(double dt_s) {
 void MotionFilter::begin_unknown(double dt_s) {
   begin_continued(dt_s);  // a good point to linearise at
   forget_step();
-  covariance_.diagonal().segment<3>(kStep).setConstant(square(kUnknownSpeed * dt_s));
-  covariance_.diagonal().segment<3>(kStep + 3).setConstant(square(kUnknownRate * dt_s));
+  covariance_.diagonal().segment<3>(kStep).setConstant(squared(kUnknownSpeed * dt_s));
+  covariance_.diagonal().segment<3>(kStep + 3).setConstant(squared(kUnknownRate * dt_s));
 }
 
 void MotionFilter::begin_still(double dt_s) {

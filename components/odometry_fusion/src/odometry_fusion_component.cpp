@@ -80,7 +80,7 @@ class OdometryFusionComponent final : public runtime::Component {
       if (++refused_ < kMaxRefused) {
         return refuse(topics::kOdometryBinocular.name, "is not later than the previous one, or not finite");
       }
-      context_.log().warn("the clock of {} was set back: beginning anew", name_of(topics::kOdometryBinocular.name));
+      context_.log().warn("{}: stamps went backwards; restarting the fusion", name_of(topics::kOdometryBinocular.name));
       fusion_ = OdometryFusion(parameters_);
       fusion_.add(stereo);
     }
@@ -167,8 +167,8 @@ class OdometryFusionComponent final : public runtime::Component {
 
   /// Reports an unusable message in the log and in diagnostics.
   void refuse(std::string_view topic, const std::string& reason) {
-    context_.rejections().add(name_of(topic), reason);
-    context_.log().warn_throttled(std::string(topic) + reason, "{} {}; message skipped", name_of(topic), reason);
+    if (context_.rejections().add(name_of(topic), reason))
+      context_.log().warn("{} {}; message skipped", name_of(topic), reason);
   }
 
   runtime::Context& context_;

@@ -106,7 +106,7 @@ TEST_F(FusionComponent, PassesStereoOdometryOnWithoutOtherSensors) {
   EXPECT_EQ(quality_.back()->header().stamp(), stamp(3.96));
   EXPECT_TRUE(quality_.back()->reliable());
   EXPECT_NEAR(quality_.back()->inlier_ratio(), 0.7, 1e-12);
-  EXPECT_LT(error_m(), 0.21);
+  EXPECT_LT(error_m(), 0.21);  // the pose is 40 ms old, at 5 m/s
 }
 
 TEST_F(FusionComponent, ContinuesByWheelsAndGyroscopeWithoutImages) {

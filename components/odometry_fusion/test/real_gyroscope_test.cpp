@@ -115,7 +115,7 @@ TEST_F(RealGyroscope, FollowsTheTruthFor35SecondsWithItsBias) {
   LearnedVector learned = LearnedVector::Zero();
   learned.segment<3>(kGyroBias) = true_bias();
   MotionFilter filter = filter_with(learned);
-  EXPECT_LT(integrate(filter, false), 0.4);
+  EXPECT_LT(integrate(filter, false), 0.4);  // measured: 0.34; scale and mounting of this gyroscope are not corrected
 }
 
 TEST_F(RealGyroscope, LearnsItsBiasAndScale) {

@@ -9,7 +9,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool is_readable_bag_file(const fs::path& file) {
+bool belongs_to_bag(const fs::path& file) {
   const auto name = file.filename().string();
   return name == kMetadataFile || name.ends_with(".db3") || name.ends_with(".db3-journal") ||
          name.ends_with(".db3-wal") || name.ends_with(".db3-shm") || name.ends_with(".mcap") ||
@@ -19,7 +19,7 @@ bool is_readable_bag_file(const fs::path& file) {
 /// Removes the files of a bag. Throws BagError and removes nothing if the folder holds anything else.
 void remove_bag(const fs::path& bag) {
   for (const auto& entry : fs::directory_iterator(bag)) {
-    if (!entry.is_regular_file() || !is_readable_bag_file(entry.path())) {
+    if (!entry.is_regular_file() || !belongs_to_bag(entry.path())) {
       throw BagError(bag.string() + ": not overwritten: it contains " + entry.path().filename().string() +
                      ", which is not part of a bag; choose another folder");
     }

@@ -10,16 +10,13 @@
 #include <memory>
 #include <vector>
 
+#include "free_zstd.hpp"
 #include "panvo/recorder/bag_error.hpp"
 
 namespace panvo::recorder {
 namespace {
 
 namespace fs = std::filesystem;
-
-struct FreeZstdContext {
-  void operator()(ZSTD_DCtx* context) const noexcept { ZSTD_freeDCtx(context); }
-};
 
 /// "bag_0.db3" for "bag_0.db3.zstd".
 fs::path name_within(const fs::path& packed) {
@@ -54,7 +51,7 @@ UnpackedFile::~UnpackedFile() {
 void UnpackedFile::unpack(const fs::path& packed) {
   std::ifstream from(packed, std::ios::binary);
   std::ofstream to(path_, std::ios::binary);
-  const std::unique_ptr<ZSTD_DCtx, FreeZstdContext> context(ZSTD_createDCtx());
+  const std::unique_ptr<ZSTD_DCtx, FreeZstd> context(ZSTD_createDCtx());
   std::vector<char> in(ZSTD_DStreamInSize());
   std::vector<char> out(ZSTD_DStreamOutSize());
   while (from.read(in.data(), static_cast<std::streamsize>(in.size())), from.gcount() > 0) {

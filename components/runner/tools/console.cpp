@@ -16,7 +16,7 @@ namespace {
 
 std::int64_t now_ns() { return std::chrono::steady_clock::now().time_since_epoch().count(); }
 
-const char* state_text(runtime::LogLevel level) {
+const char* level_text(runtime::LogLevel level) {
   switch (level) {
     case runtime::LogLevel::kDebug:
       return "debug";
@@ -51,14 +51,14 @@ Console::~Console() { end_progress(); }
 void Console::log(runtime::LogLevel level, const std::string& component, const std::string& said) {
   const std::string text = runtime::printable(said);  // may contain text from other processes
   const std::lock_guard lock(mutex_);
-  if (file_) file_->info("{} [{}] {}", state_text(level), component, text);
+  if (file_) file_->info("{} [{}] {}", level_text(level), component, text);
   if (level < show_) return;
   clear_progress();
   const char* colour = !is_terminal_                          ? ""
                        : level == runtime::LogLevel::kError   ? "\033[31m"
                        : level == runtime::LogLevel::kWarning ? "\033[33m"
                                                               : "";
-  std::fprintf(stderr, "%s[%s] %s: %s%s\n%s", colour, component.c_str(), state_text(level), text.c_str(),
+  std::fprintf(stderr, "%s[%s] %s: %s%s\n%s", colour, component.c_str(), level_text(level), text.c_str(),
                *colour ? "\033[0m" : "", progress_line_.c_str());
   std::fflush(stderr);
 }

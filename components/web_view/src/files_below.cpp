@@ -10,17 +10,20 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view kAlphanumeric = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_";
 constexpr std::uintmax_t kMaxFileBytes = 64'000'000;  // read into memory as a whole
 
 bool is_file_name(std::string_view name) {
-  return !name.empty() && kAlphanumeric.find(name.front()) != std::string_view::npos &&
-         std::ranges::all_of(name, [](char letter) {
-           return letter == '.' || letter == '-' || kAlphanumeric.find(letter) != std::string_view::npos;
-         });
+  return !name.empty() && is_word_character(name.front()) && std::ranges::all_of(name, [](char letter) {
+    return letter == '.' || letter == '-' || is_word_character(letter);
+  });
 }
 
 }  // namespace
+
+bool is_word_character(char letter) {
+  constexpr std::string_view kWord = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_";
+  return kWord.find(letter) != std::string_view::npos;
+}
 
 std::optional<fs::path> file_below(const fs::path& folder, std::string_view url_path) {
   if (!url_path.starts_with('/')) return std::nullopt;

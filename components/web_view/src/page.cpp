@@ -15,8 +15,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view kTokenCharacters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_";
-
 /// Changes with the file.
 std::string version_of(const fs::path& file) {
   const auto written = fs::last_write_time(file).time_since_epoch();
@@ -26,8 +24,7 @@ std::string version_of(const fs::path& file) {
 /// Whether a header Host may be repeated in an answer.
 bool is_plain_host(std::string_view host) {
   return !host.empty() && host.size() <= 255 && std::ranges::all_of(host, [](char letter) {
-    return kTokenCharacters.find(letter) != std::string_view::npos ||
-           std::string_view(".-:[]").find(letter) != std::string_view::npos;
+    return is_word_character(letter) || std::string_view(".-:[]").find(letter) != std::string_view::npos;
   });
 }
 

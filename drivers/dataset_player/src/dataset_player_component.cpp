@@ -22,17 +22,6 @@
 #include "panvo/runtime/component.hpp"
 
 namespace panvo::dataset_player {
-namespace {
-
-geometry_msgs::msg::Vector3 to_message(const Eigen::Vector3d& vector) {
-  geometry_msgs::msg::Vector3 message;
-  message.x(vector.x());
-  message.y(vector.y());
-  message.z(vector.z());
-  return message;
-}
-
-}  // namespace
 
 struct Parameters {
   std::string directory;
@@ -244,8 +233,8 @@ void DatasetPlayerComponent::publish_imu(const ImuSample& sample, std::int64_t s
   message.header().stamp(conversions::to_stamp(stamp_ns));
   message.header().frame_id(kImuFrame);
   message.orientation_covariance()[0] = -1.0;  // not measured, REP 145
-  message.angular_velocity(to_message(sample.rate_rad_s));
-  message.linear_acceleration(to_message(sample.acceleration_m_s2));
+  message.angular_velocity(conversions::to_vector3(sample.rate_rad_s));
+  message.linear_acceleration(conversions::to_vector3(sample.acceleration_m_s2));
   for (const std::size_t diagonal : {0, 4, 8}) {
     message.angular_velocity_covariance()[diagonal] = dataset_.imu->rate_variance;
     message.linear_acceleration_covariance()[diagonal] = dataset_.imu->acceleration_variance;

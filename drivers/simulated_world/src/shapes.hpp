@@ -10,10 +10,14 @@
 
 #include "panvo/simulated_world/mesh.hpp"
 #include "panvo/simulated_world/palette.hpp"
+#include "panvo/simulated_world/random.hpp"
 
 namespace panvo::simulated_world {
 
 inline constexpr float kPi = std::numbers::pi_v<float>;
+
+/// A random number in [low, high).
+inline float between(Random& random, double low, double high) { return static_cast<float>(random.uniform(low, high)); }
 
 /// A tint with these factors (0..1) for the albedo and the texture's contrast.
 inline Tint tint_of(float red, float green, float blue, float contrast = 1.0f) {

@@ -3,21 +3,20 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <opencv2/imgproc.hpp>
 
+#include "shapes.hpp"
 #include "textures/painters.hpp"
 
 namespace panvo::simulated_world {
 namespace {
 
-constexpr float kHalfTurn_rad = std::numbers::pi_v<float>;
-constexpr float kMaxSun = 56.0f * kHalfTurn_rad / 180.0f;  ///< at noon on a summer day at middle latitudes
-constexpr float kSunRadius = 0.0047f;                      ///< rad
-constexpr float kCloudPeriods = 0.40f;                     ///< of the cloud plane, per unit of its height
-constexpr float kCloudCurve = 0.10f;                       ///< keeps the cloud plane finite at the horizon
-constexpr float kHorizonTop = 0.080f;                      ///< rad, highest hill
-constexpr float kHorizonBottom = -0.020f;                  ///< rad
+constexpr float kMaxSun = 56.0f * kPi / 180.0f;  ///< at noon on a summer day at middle latitudes
+constexpr float kSunRadius = 0.0047f;            ///< rad
+constexpr float kCloudPeriods = 0.40f;           ///< of the cloud plane, per unit of its height
+constexpr float kCloudCurve = 0.10f;             ///< keeps the cloud plane finite at the horizon
+constexpr float kHorizonTop = 0.080f;            ///< rad, highest hill
+constexpr float kHorizonBottom = -0.020f;        ///< rad
 
 Eigen::Array3f mixed_light(const Eigen::Array3f& from, const Eigen::Array3f& to, float share) {
   return from + (to - from) * share;
@@ -95,13 +94,13 @@ cv::Mat paint_horizon(const Random& random) {
 
 Light light_at(double hour, double cloud_cover) {
   const float cover = std::clamp(static_cast<float>(cloud_cover), 0.0f, 1.0f);
-  const float day = kHalfTurn_rad * std::clamp((static_cast<float>(hour) - 6.0f) / 12.0f, 0.0f, 1.0f);
+  const float day = kPi * std::clamp((static_cast<float>(hour) - 6.0f) / 12.0f, 0.0f, 1.0f);
   Light light;
   light.to_sun = {std::cos(day), -std::sin(day) * std::cos(kMaxSun), std::sin(day) * std::sin(kMaxSun)};
   const float up = std::max(light.to_sun.z(), 0.0f);
 
   // Air mass by Kasten and Young 1989; optical depths of a clear summer sky, with blue scattered most.
-  const float elevation_deg = std::asin(std::min(up, 1.0f)) * 180.0f / kHalfTurn_rad;
+  const float elevation_deg = std::asin(std::min(up, 1.0f)) * 180.0f / kPi;
   const float air = 1.0f / (up + 0.50572f * std::pow(elevation_deg + 6.07995f, -1.6364f));
   const Eigen::Array3f depth(0.12f, 0.17f, 0.27f);
   const Eigen::Array3f clear_sun = 0.98f * (-depth * air).exp();
@@ -201,11 +200,10 @@ Eigen::Vector3f Sky::radiance(const Eigen::Vector3f& direction, const Light& lig
     colour = mixed_light(far, light.ground.array() * 0.9f, depth);
   }
   if (up > kHorizonBottom && up < kHorizonTop) {
-    const float azimuth = std::atan2(direction.y(), direction.x()) * (0.5f / kHalfTurn_rad);
+    const float azimuth = std::atan2(direction.y(), direction.x()) * (0.5f / kPi);
     constexpr float kRange = kHorizonTop - kHorizonBottom;
     const Eigen::Vector2f uv(azimuth, (up - kHorizonBottom) / kRange);
-    const Eigen::Vector4f land =
-        horizon_->sample(uv, {spread_rad * 0.5f / kHalfTurn_rad, 0.0f}, {0.0f, spread_rad / kRange}, 2);
+    const Eigen::Vector4f land = horizon_->sample(uv, {spread_rad * 0.5f / kPi, 0.0f}, {0.0f, spread_rad / kRange}, 2);
     // Farther hills are painted pale already; the air in front contributes about a fifth.
     const Eigen::Array3f lit = land.head<3>().array() * (light.sun.array() * 0.5f + light.sky.array());
     const float inside = std::min(1.0f, (kHorizonTop - up) / (0.05f * kRange));

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "smooth_step.hpp"
 #include "traffic_planner.hpp"
 
 namespace panvo::simulation {
@@ -14,11 +15,6 @@ using simulated_world::MovingPlacement;
 namespace {
 
 constexpr double kSight_m = 180.0;  // movers farther away are omitted
-
-double smooth_step(double share) {
-  const double inside = std::clamp(share, 0.0, 1.0);
-  return inside * inside * (3.0 - 2.0 * inside);
-}
 
 double metres_ahead(const Mover& mover, double t_s) {
   const double coming = smooth_step((t_s - mover.from_s) / (mover.near_from_s - mover.from_s));

@@ -4,17 +4,13 @@
 #include <algorithm>
 
 #include "panvo/simulated_world/random.hpp"
+#include "smooth_step.hpp"
 
 namespace panvo::simulation {
 namespace {
 
 constexpr double kEdgeOfCloud_s = 0.5;
 constexpr double kFairWeatherCover = 0.05;
-
-double smooth_blend(double from, double to, double value) {
-  const double share = std::clamp((value - from) / (to - from), 0.0, 1.0);
-  return share * share * (3.0 - 2.0 * share);
-}
 
 }  // namespace
 
@@ -35,8 +31,8 @@ double Weather::hour(double t_s) const { return hour_ + hours_per_s_ * t_s; }
 double Weather::cloud_cover(double t_s) const {
   double cover = kFairWeatherCover;
   for (const auto& cloud : clouds_) {
-    const double share = smooth_blend(cloud.from_s, cloud.from_s + kEdgeOfCloud_s, t_s) -
-                         smooth_blend(cloud.to_s, cloud.to_s + kEdgeOfCloud_s, t_s);
+    const double share =
+        smooth_step((t_s - cloud.from_s) / kEdgeOfCloud_s) - smooth_step((t_s - cloud.to_s) / kEdgeOfCloud_s);
     cover += share * (cloud.cover - kFairWeatherCover);
   }
   return cover;

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "../free_zstd.hpp"
 #include "storage_error.hpp"
 
 namespace panvo::recorder::mcap {
@@ -39,9 +40,6 @@ class Output {
   std::size_t used_ = 0;
 };
 
-struct FreeZstd {
-  void operator()(ZSTD_DCtx* context) const noexcept { ZSTD_freeDCtx(context); }
-};
 struct FreeLz4 {
   void operator()(LZ4F_dctx* context) const noexcept { LZ4F_freeDecompressionContext(context); }
 };

@@ -58,7 +58,7 @@ void apply_setting(SystemDescription& system, const std::string& setting) {
     for (const auto& name : known) {
       names += (names.empty() ? "" : ", ") + name;
     }
-    refuse_setting(setting, "there is no component \"" + component_name + "\"; " + system.file + " has " +
+    refuse_setting(setting, "unknown component \"" + component_name + "\"; " + system.file + " has " +
                                 (names.empty() ? "none" : names));
   }
 }

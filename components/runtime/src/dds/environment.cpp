@@ -2,20 +2,15 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <charconv>
-#include <cstdlib>
 #include <string_view>
 
+#include "environment_variable.hpp"
 #include "node_info.hpp"
 #include "panvo/runtime/bridge.hpp"
 #include "panvo/runtime/errors.hpp"
 
 namespace panvo::runtime {
 namespace {
-
-std::string_view environment_variable(const char* name) {
-  const char* value = std::getenv(name);
-  return value ? value : "";
-}
 
 int domain_from(std::string_view text) {
   int domain = 0;

@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "environment_variable.hpp"
 #include "panvo/runtime/errors.hpp"
 
 namespace panvo::runtime::dds {
@@ -42,11 +43,6 @@ constexpr std::array<std::pair<const char*, const char*>, 3> kPlugins{
      {"dds.sec.access.plugin", "builtin.Access-Permissions"},
      {"dds.sec.crypto.plugin", "builtin.AES-GCM-GMAC"}}};
 
-std::string security_variable(const char* name) {
-  const char* value = std::getenv(name);
-  return value ? value : "";
-}
-
 /// Anyone who can read the key can act as its owner.
 void refuse_if_others_may_read(const std::filesystem::path& key) {
   using std::filesystem::perms;
@@ -62,10 +58,10 @@ void refuse_if_others_may_read(const std::filesystem::path& key) {
 
 SecuritySettings security_settings_from_environment() {
   SecuritySettings settings;
-  settings.is_enabled = security_variable("ROS_SECURITY_ENABLE") == "true";
-  settings.is_enforced = security_variable("ROS_SECURITY_STRATEGY") == "Enforce";
-  settings.keystore = security_variable("ROS_SECURITY_KEYSTORE");
-  if (const auto enclave = security_variable("ROS_SECURITY_ENCLAVE_OVERRIDE"); !enclave.empty()) {
+  settings.is_enabled = environment_variable("ROS_SECURITY_ENABLE") == "true";
+  settings.is_enforced = environment_variable("ROS_SECURITY_STRATEGY") == "Enforce";
+  settings.keystore = environment_variable("ROS_SECURITY_KEYSTORE");
+  if (const auto enclave = environment_variable("ROS_SECURITY_ENCLAVE_OVERRIDE"); !enclave.empty()) {
     settings.enclave = enclave.front() == '/' ? enclave : "/" + enclave;
   }
   return settings;

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Services to load, unload and list components, compatible with rclcpp_components.
+#include <spdlog/fmt/fmt.h>
+
 #include "composition_interfaces/srv/ListNodes.h"
 #include "composition_interfaces/srv/LoadNode.h"
 #include "composition_interfaces/srv/UnloadNode.h"
@@ -61,12 +63,6 @@ ComponentDescription requested_component(const LoadNode_Request& request, std::v
   return description;
 }
 
-std::string joined_lines(const std::vector<std::string>& lines) {
-  std::string text;
-  for (const auto& line : lines) text += (text.empty() ? "" : "; ") + line;
-  return text;
-}
-
 LoadNode_Response load_node(ControlledContainer& container, const LoadNode_Request& request) {
   LoadNode_Response response;
   std::vector<std::string> problems;
@@ -78,7 +74,7 @@ LoadNode_Response load_node(ControlledContainer& container, const LoadNode_Reque
     response.full_node_name(loaded.full_name);
     response.unique_id(loaded.id);
   } catch (const ConfigError& error) {
-    response.error_message(joined_lines(error.problems()));
+    response.error_message(fmt::format("{}", fmt::join(error.problems(), "; ")));
   }
   return response;
 }
@@ -89,7 +85,7 @@ UnloadNode_Response unload_node(ControlledContainer& container, const UnloadNode
     container.unload_component(request.unique_id());
     response.success(true);
   } catch (const ConfigError& error) {
-    response.error_message(joined_lines(error.problems()));
+    response.error_message(fmt::format("{}", fmt::join(error.problems(), "; ")));
   }
   return response;
 }

@@ -193,7 +193,7 @@ TEST_F(SystemFile, RefusesSettingsOfNoComponentOrNoValue) {
     }
   };
   EXPECT_EQ(refusal("odometry.gain=1"),
-            "--set odometry.gain=1: there is no component \"odometry\"; stereo.yaml has stereo_rectifier, "
+            "--set odometry.gain=1: unknown component \"odometry\"; stereo.yaml has stereo_rectifier, "
             "binocular_odometry");
   for (const char* setting : {"gain", "odometry.gain", "=1", ".gain=1", "odometry.=1", "odometry=a.b"}) {
     EXPECT_THAT(refusal(setting), HasSubstr("write COMPONENT.PARAMETER=VALUE")) << setting;

@@ -48,12 +48,6 @@ std::optional<double> meminfo_mb(const fs::path& root, const std::string& key) {
   return std::nullopt;
 }
 
-std::string joined(const std::vector<std::string>& words) {
-  std::string text;
-  for (const auto& word : words) text += (text.empty() ? "" : ", ") + word;
-  return text;
-}
-
 }  // namespace
 
 std::vector<NetworkInterface> network_interfaces() {
@@ -141,11 +135,13 @@ Finding check_network(const std::vector<NetworkInterface>& interfaces) {
     return {Severity::kProblem, "network", "the loopback interface is down: processes of this machine do not meet",
             "ip link set lo up"};
   }
-  if (!reachable.empty()) return {Severity::kOk, "network", "multicast on " + joined(reachable)};
+  if (!reachable.empty())
+    return {Severity::kOk, "network", "multicast on " + fmt::format("{}", fmt::join(reachable, ", "))};
   if (!without_multicast.empty()) {
-    return {Severity::kWarning, "network",
-            "no multicast on " + joined(without_multicast) + ": other machines are not found",
-            "ip link set NAME multicast on, or name the other machines in ROS_STATIC_PEERS"};
+    return {
+        Severity::kWarning, "network",
+        "no multicast on " + fmt::format("{}", fmt::join(without_multicast, ", ")) + ": other machines are not found",
+        "ip link set NAME multicast on, or name the other machines in ROS_STATIC_PEERS"};
   }
   return {Severity::kWarning, "network", "only the loopback interface is up: other machines cannot be reached",
           "connect a network, if other machines take part"};

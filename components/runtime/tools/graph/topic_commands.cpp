@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "topic_commands.hpp"
 
+#include <spdlog/fmt/fmt.h>
+
 #include <iostream>
 #include <map>
 #include <memory>
@@ -27,16 +29,10 @@ std::map<std::string, Counts> topics_of(const Graph& graph) {
   return topics;
 }
 
-std::string joined_names(const std::set<std::string>& words) {
-  std::string text;
-  for (const auto& word : words) text += (text.empty() ? "" : ", ") + word;
-  return text;
-}
-
 void list_topics(const SessionOptions& options, bool with_types) {
   Session session(options);
   for (const auto& [name, counts] : topics_of(session.settled_graph()))
-    std::cout << name << (with_types ? " [" + joined_names(counts.types) + "]" : "") << "\n";
+    std::cout << name << (with_types ? " [" + fmt::format("{}", fmt::join(counts.types, ", ")) + "]" : "") << "\n";
 }
 
 void print_endpoint(const Graph& graph, const GraphEndpoint& endpoint) {
@@ -58,7 +54,8 @@ void topic_info(const SessionOptions& options, const std::string& name, bool ver
   const auto found = topics.find(name);
   if (found == topics.end()) throw Failure("there is no topic " + name + " (panvo topic list)");
   const auto& [types, writers, readers] = found->second;
-  std::cout << "Type: " << joined_names(types) << "\nPublishers: " << writers << "\nSubscriptions: " << readers << "\n";
+  std::cout << "Type: " << fmt::format("{}", fmt::join(types, ", ")) << "\nPublishers: " << writers
+            << "\nSubscriptions: " << readers << "\n";
   if (!verbose) return;
   for (const bool is_writer : {true, false}) {
     for (const auto& endpoint : graph.endpoints) {

@@ -12,13 +12,10 @@ T drawn_from(Random& random, const std::array<T, N>& choices) {
   return choices[static_cast<std::size_t>(random.below(static_cast<int>(N)))];
 }
 
-float drawn_between(Random& random, double low, double high) { return static_cast<float>(random.uniform(low, high)); }
-
 /// A tint close to white, randomly warmer or cooler.
 Tint weathered(Random& random, double low, double high) {
-  const float brightness = drawn_between(random, low, high);
-  return tint_of(brightness, brightness * drawn_between(random, 0.92, 1.0),
-                 brightness * drawn_between(random, 0.84, 1.0));
+  const float brightness = between(random, low, high);
+  return tint_of(brightness, brightness * between(random, 0.92, 1.0), brightness * between(random, 0.84, 1.0));
 }
 
 Tint paint(Random& random) {
@@ -43,29 +40,29 @@ Tint paint(Random& random) {
 void draw_windows(FacadeStyle& style, Random& random) {
   style.window = drawn_from(random, std::array{WindowKind::kCasement, WindowKind::kCross, WindowKind::kCross,
                                                WindowKind::kSash, WindowKind::kLattice, WindowKind::kPlain});
-  const float proportion = drawn_between(random, 1.15, 1.9);  // height to width
-  style.window_width = drawn_between(random, 0.95, 1.4);
-  style.sill_height = drawn_between(random, 0.75, 1.0);
+  const float proportion = between(random, 1.15, 1.9);  // height to width
+  style.window_width = between(random, 0.95, 1.4);
+  style.sill_height = between(random, 0.75, 1.0);
   style.window_height = std::min(style.window_width * proportion, style.floor_height - style.sill_height - 0.5f);
-  style.bay = style.window_width * drawn_between(random, 1.75, 2.8);
-  style.recess = drawn_between(random, 0.12, 0.25);
+  style.bay = style.window_width * between(random, 1.75, 2.8);
+  style.recess = between(random, 0.12, 0.25);
   style.head = drawn_from(random, std::array{HeadKind::kFlat, HeadKind::kFlat, HeadKind::kFlat, HeadKind::kSegment});
   style.ground_head = random.chance(0.25) ? HeadKind::kArch : style.head;
-  const float white = drawn_between(random, 0.7, 0.95);
+  const float white = between(random, 0.7, 0.95);
   style.frame_tint = random.chance(0.7) ? tint_of(white, white, white * 0.97f) : paint(random);
 }
 
 void draw_house(FacadeStyle& style, const BuildingMaterials& materials, Random& random) {
   style.floors = 1 + random.below(3);
-  style.ground_floor_height = drawn_between(random, 2.8, 3.2);
-  style.floor_height = drawn_between(random, 2.6, 2.9);
+  style.ground_floor_height = between(random, 2.8, 3.2);
+  style.floor_height = between(random, 2.6, 2.9);
   draw_windows(style, random);
   style.roof = random.chance(0.7) ? RoofKind::kGable : RoofKind::kHip;
-  style.roof_slope = drawn_between(random, 0.6, 1.1);
+  style.roof_slope = between(random, 0.6, 1.1);
   style.dormers = random.chance(0.45);
   style.shutters = random.chance(0.45);
   style.lintels = random.chance(0.3);
-  style.eaves = drawn_between(random, 0.35, 0.7);
+  style.eaves = between(random, 0.35, 0.7);
   style.cornice = 0.0f;
   style.balconies = random.chance(0.25);
   style.ivy = random.chance(0.25);
@@ -76,14 +73,14 @@ void draw_house(FacadeStyle& style, const BuildingMaterials& materials, Random& 
 
 void draw_town(FacadeStyle& style, const BuildingMaterials& materials, Random& random) {
   style.floors = 2 + random.below(4);
-  style.ground_floor_height = drawn_between(random, 3.4, 4.2);
-  style.floor_height = drawn_between(random, 2.9, 3.5);
+  style.ground_floor_height = between(random, 3.4, 4.2);
+  style.floor_height = between(random, 2.9, 3.5);
   draw_windows(style, random);
   style.roof = drawn_from(random, std::array{RoofKind::kGable, RoofKind::kHip, RoofKind::kHip, RoofKind::kFlat});
-  style.roof_slope = drawn_between(random, 0.5, 0.9);
+  style.roof_slope = between(random, 0.5, 0.9);
   style.dormers = random.chance(0.5);
   style.ledges = random.chance(0.75);
-  style.cornice = drawn_between(random, 0.18, 0.45);
+  style.cornice = between(random, 0.18, 0.45);
   style.dentils = random.chance(0.35);
   style.surrounds = random.chance(0.55);
   style.lintels = !style.surrounds && random.chance(0.6);
@@ -99,23 +96,23 @@ void draw_town(FacadeStyle& style, const BuildingMaterials& materials, Random& r
 
 void draw_institute(FacadeStyle& style, const BuildingMaterials& materials, Random& random) {
   style.floors = 2 + random.below(4);
-  style.ground_floor_height = drawn_between(random, 3.6, 4.2);
-  style.floor_height = drawn_between(random, 3.3, 3.7);
-  style.bay = drawn_between(random, 2.6, 4.2);
+  style.ground_floor_height = between(random, 3.6, 4.2);
+  style.floor_height = between(random, 3.3, 3.7);
+  style.bay = between(random, 2.6, 4.2);
   style.window = random.chance(0.6) ? WindowKind::kBand : WindowKind::kCasement;
   const bool is_band = style.window == WindowKind::kBand;
-  style.window_width = style.bay - (is_band ? drawn_between(random, 0.25, 0.5) : drawn_between(random, 0.9, 1.4));
-  style.window_height = drawn_between(random, 1.5, 2.0);
-  style.sill_height = drawn_between(random, 0.85, 1.0);
-  style.recess = drawn_between(random, 0.14, 0.25);
+  style.window_width = style.bay - (is_band ? between(random, 0.25, 0.5) : between(random, 0.9, 1.4));
+  style.window_height = between(random, 1.5, 2.0);
+  style.sill_height = between(random, 0.85, 1.0);
+  style.recess = between(random, 0.14, 0.25);
   style.roof = RoofKind::kFlat;
   style.chimneys = false;
   style.ledges = random.chance(0.5);
   style.pilasters = random.chance(0.45);
-  style.cornice = drawn_between(random, 0.08, 0.2);
+  style.cornice = between(random, 0.08, 0.2);
   style.gutters = false;
   style.blank_bays = 0.3f;
-  const float dark = drawn_between(random, 0.25, 0.9);
+  const float dark = between(random, 0.25, 0.9);
   style.frame_tint = tint_of(dark, dark, dark);
   style.wall = random.chance(0.6) ? materials.concrete_panels : style.wall;
   style.two_tone = random.chance(0.3);
@@ -124,12 +121,12 @@ void draw_institute(FacadeStyle& style, const BuildingMaterials& materials, Rand
 
 void draw_hall(FacadeStyle& style, const BuildingMaterials& materials, Random& random) {
   style.floors = 1;
-  style.ground_floor_height = drawn_between(random, 6.0, 8.5);
-  style.bay = drawn_between(random, 4.5, 6.0);
+  style.ground_floor_height = between(random, 6.0, 8.5);
+  style.bay = between(random, 4.5, 6.0);
   style.window = WindowKind::kBand;
-  style.window_width = style.bay - drawn_between(random, 0.6, 1.6);
-  style.window_height = drawn_between(random, 1.2, 1.8);
-  style.sill_height = style.ground_floor_height - style.window_height - drawn_between(random, 0.8, 1.4);
+  style.window_width = style.bay - between(random, 0.6, 1.6);
+  style.window_height = between(random, 1.2, 1.8);
+  style.sill_height = style.ground_floor_height - style.window_height - between(random, 0.8, 1.4);
   style.recess = 0.12f;
   style.roof = random.chance(0.5) ? RoofKind::kGable : RoofKind::kFlat;
   style.roof_slope = 0.25f;
@@ -139,7 +136,7 @@ void draw_hall(FacadeStyle& style, const BuildingMaterials& materials, Random& r
   style.cornice = 0.1f;
   style.wall = random.chance(0.6) ? materials.metal_sheet : materials.brick_red;
   style.roof_cover = materials.metal_sheet;
-  style.base_height = drawn_between(random, 0.6, 1.2);
+  style.base_height = between(random, 0.6, 1.2);
   style.frame_tint = grey(0.5f);
 }
 
@@ -195,9 +192,9 @@ FacadeStyle draw_style(BuildingUse use, const Palette& palette, const BuildingMa
   style.trim = materials.ledge;
   style.base = drawn_from(
       random, std::array{materials.concrete, materials.stone_blocks, materials.ledge, materials.stone_rubble});
-  style.base_height = drawn_between(random, 0.3, 0.75);
+  style.base_height = between(random, 0.3, 0.75);
   style.roof_cover = random.chance(0.65) ? materials.roof_tiles : materials.roof_slate;
-  style.grime = drawn_between(random, 0.12, 0.38);
+  style.grime = between(random, 0.12, 0.38);
   switch (use) {
     case BuildingUse::kHouse:
       draw_house(style, materials, random);

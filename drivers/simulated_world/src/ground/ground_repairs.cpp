@@ -11,8 +11,6 @@
 namespace panvo::simulated_world {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 class RoadMender {
  public:
   RoadMender(const Site& site, Drape& drape) : site_(site), drape_(drape) {
@@ -32,7 +30,7 @@ class RoadMender {
     cloth.tint = shade * Eigen::Vector3f(1.0f, 0.99f, static_cast<float>(random.uniform(0.94, 1.0)));
     cloth.lift_m = 0.0015 + 0.00025 * layer;
     cloth.origin = where.middle + Eigen::Vector2d(random.uniform(0.0, 3.0), random.uniform(0.0, 3.0));
-    const double angle = random.uniform(-kPi, kPi);
+    const double angle = random.uniform(-std::numbers::pi, std::numbers::pi);
     cloth.forward = {std::cos(angle), std::sin(angle)};
     drape_.ragged(where, random.uniform(0.008, 0.03), cloth, random.part(0));
     if (random.chance(0.45)) seal(where, random.part(1));
@@ -46,7 +44,7 @@ class RoadMender {
     double heading = heading_rad;
     for (double m = 0.0; m < length_m; m += kStep_m) {
       // random heading that returns to the main direction
-      heading += waver_rad * random.gaussian() - 0.15 * std::remainder(heading - heading_rad, 2.0 * kPi);
+      heading += waver_rad * random.gaussian() - 0.15 * std::remainder(heading - heading_rad, 2.0 * std::numbers::pi);
       const Eigen::Vector2d next = line.back() + kStep_m * Eigen::Vector2d(std::cos(heading), std::sin(heading));
       if (site_.kerbs->distance_m(next) > -0.1 || is_bare(site_, next)) break;
       line.push_back(next);
@@ -142,9 +140,9 @@ void crack_stretch(const Stretch& stretch, double damage, RoadMender& mender, Ra
   for (int i = 0; i < cracks; ++i) {
     const double along_m = random.uniform(from_m, to_m), side_m = random.uniform(-half_m, half_m);
     const bool is_across = random.chance(0.6);
-    const double way = stretch.heading(along_m) + (is_across            ? (side_m < 0.0 ? 0.5 : -0.5) * kPi
+    const double way = stretch.heading(along_m) + (is_across            ? (side_m < 0.0 ? 0.5 : -0.5) * std::numbers::pi
                                                    : random.chance(0.5) ? 0.0
-                                                                        : kPi);
+                                                                        : std::numbers::pi);
     mender.crack(line.beside(along_m, side_m), way, random.uniform(1.5, is_across ? 6.5 : 12.0), 0.26,
                  random.uniform(0.02, 0.045), random.part(1000 + static_cast<std::uint64_t>(i)), 3);
   }
@@ -190,8 +188,8 @@ void mend_crossing(const Site& site, const GroundZones& zones, int number, RoadM
     if (random.chance(0.6)) {
       mender.fill(where, i % 5, random.part(static_cast<std::uint64_t>(i)));
     } else {
-      mender.crack(point, random.uniform(-kPi, kPi), random.uniform(3.0, 10.0), 0.2, random.uniform(0.02, 0.045),
-                   random.part(static_cast<std::uint64_t>(i)), 3);
+      mender.crack(point, random.uniform(-std::numbers::pi, std::numbers::pi), random.uniform(3.0, 10.0), 0.2,
+                   random.uniform(0.02, 0.045), random.part(static_cast<std::uint64_t>(i)), 3);
     }
   }
 }

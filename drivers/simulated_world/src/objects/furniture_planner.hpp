@@ -18,8 +18,6 @@ const T& pick(Random& random, const std::vector<T>& choices) {
   return choices[static_cast<std::size_t>(random.below(static_cast<int>(choices.size())))];
 }
 
-inline float between(Random& random, double low, double high) { return static_cast<float>(random.uniform(low, high)); }
-
 /// The point at (x, y) in a plot's frame.
 inline Eigen::Vector2d on(const Plot& plot, double x, double y) {
   const double c = std::cos(plot.heading_rad), s = std::sin(plot.heading_rad);

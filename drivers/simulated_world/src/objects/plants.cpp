@@ -10,10 +10,8 @@ namespace {
 
 using Eigen::Vector3f;
 
-float random_between(Random& random, double low, double high) { return static_cast<float>(random.uniform(low, high)); }
-
 Vector3f direction(Random& random) {
-  const float z = random_between(random, -1.0, 1.0), angle = random_between(random, 0.0, 2.0 * kPi);
+  const float z = between(random, -1.0, 1.0), angle = between(random, 0.0, 2.0 * kPi);
   const float flat = std::sqrt(1.0f - z * z);
   return {flat * std::cos(angle), flat * std::sin(angle), z};
 }
@@ -36,13 +34,13 @@ void add_crown(Mesh& mesh, const std::vector<Cluster>& clusters, const Vector3f&
   float total = 0.0f;
   for (const auto& cluster : clusters) total += cluster.radii.squaredNorm();
   for (int i = 0; i < cards; ++i) {
-    float draw = total * random_between(random, 0.0, 1.0);
+    float draw = total * between(random, 0.0, 1.0);
     std::size_t chosen = 0;
     while (chosen + 1 < clusters.size() && draw > clusters[chosen].radii.squaredNorm())
       draw -= clusters[chosen++].radii.squaredNorm();
     const Cluster& cluster = clusters[chosen];
     const Vector3f outwards = direction(random);
-    const float reach = std::cbrt(random_between(random, 0.3, 1.0));
+    const float reach = std::cbrt(between(random, 0.3, 1.0));
     const Vector3f place = cluster.centre + reach * outwards.cwiseProduct(cluster.radii);
     const Vector3f from_crown = (place - crown) / crown_radius;
     Vector3f normal = (0.75f * from_crown + 0.4f * outwards + Vector3f(0, 0, 0.25f)).normalized();
@@ -52,14 +50,14 @@ void add_crown(Mesh& mesh, const std::vector<Cluster>& clusters, const Vector3f&
     Vector3f right = facing.cross(Vector3f::UnitZ());
     right = right.norm() > 0.05f ? right.normalized() : Vector3f::UnitX();
     const Vector3f up = right.cross(-facing);
-    const float spin = random_between(random, 0.0, 2.0 * kPi) * (1.0f - foliage.droop);
-    const float half = 0.5f * foliage.card_m * random_between(random, 0.75, 1.3);
+    const float spin = between(random, 0.0, 2.0 * kPi) * (1.0f - foliage.droop);
+    const float half = 0.5f * foliage.card_m * between(random, 0.75, 1.3);
     const Vector3f along = half * (std::cos(spin) * right + std::sin(spin) * up),
                    across = half * (std::cos(spin) * up - std::sin(spin) * right);
     const float height = std::clamp(0.5f + 0.5f * from_crown.z(), 0.0f, 1.0f);
     const float depth = std::clamp(from_crown.norm(), 0.0f, 1.0f);
-    const float brightness = (0.45f + 0.3f * depth + 0.25f * height) * random_between(random, 0.85, 1.0);
-    const float warm = random_between(random, 0.85, 1.0);
+    const float brightness = (0.45f + 0.3f * depth + 0.25f * height) * between(random, 0.85, 1.0);
+    const float warm = between(random, 0.85, 1.0);
     add_card(mesh, place, along, across, normal, foliage.period_m, foliage.material,
              tint_of(brightness * warm, brightness, brightness * warm * 0.95f));
   }
@@ -67,7 +65,7 @@ void add_crown(Mesh& mesh, const std::vector<Cluster>& clusters, const Vector3f&
 
 /// A slightly bent trunk from the origin to `top`.
 void add_trunk(Mesh& mesh, const Vector3f& top, float radius, std::uint16_t material, Tint tint, Random& random) {
-  const Vector3f bend(random_between(random, -0.25, 0.25), random_between(random, -0.25, 0.25), 0.0f);
+  const Vector3f bend(between(random, -0.25, 0.25), between(random, -0.25, 0.25), 0.0f);
   const Vector3f points[] = {
       {0, 0, -0.3f}, {0, 0, 0.25f}, 0.15f * top + 0.3f * bend, 0.45f * top + bend, 0.75f * top + 0.6f * bend, top};
   const float radii[] = {1.7f * radius, 1.15f * radius, radius, 0.85f * radius, 0.6f * radius, 0.25f * radius};
@@ -90,21 +88,21 @@ struct BroadShape {
 Mesh build_broad(const BroadShape& shape, const Foliage& foliage, std::uint16_t bark, Tint bark_tint, Random& random) {
   Mesh mesh;
   const Vector3f crown(0, 0, shape.trunk + 0.45f * shape.crown_height);
-  add_trunk(mesh, {random_between(random, -0.2, 0.2), random_between(random, -0.2, 0.2), shape.height * 0.85f},
-            shape.trunk_radius, bark, bark_tint, random);
+  add_trunk(mesh, {between(random, -0.2, 0.2), between(random, -0.2, 0.2), shape.height * 0.85f}, shape.trunk_radius,
+            bark, bark_tint, random);
   std::vector<Cluster> clusters;
   const float half_height = 0.5f * shape.crown_height;
   clusters.push_back({crown, Vector3f(0.7f * shape.crown_radius, 0.7f * shape.crown_radius, 0.8f * half_height)});
-  const float start = random_between(random, 0.0, 2.0 * kPi);
+  const float start = between(random, 0.0, 2.0 * kPi);
   for (int i = 0; i < shape.clusters; ++i) {
     // in a spiral from bottom to top
     const float angle = start + 2.4f * static_cast<float>(i);
     const float share = (static_cast<float>(i) + 0.5f) / static_cast<float>(shape.clusters);
     const float level = 1.7f * share - 0.8f;
-    const float ring = std::sqrt(std::max(0.05f, 1.0f - level * level)) * random_between(random, 0.5, 0.72);
+    const float ring = std::sqrt(std::max(0.05f, 1.0f - level * level)) * between(random, 0.5, 0.72);
     const Vector3f centre = crown + Vector3f(shape.crown_radius * ring * std::cos(angle),
                                              shape.crown_radius * ring * std::sin(angle), level * 0.75f * half_height);
-    const float size = shape.crown_radius * random_between(random, 0.32, 0.5);
+    const float size = shape.crown_radius * between(random, 0.32, 0.5);
     clusters.push_back({centre, Vector3f(size, size, 0.8f * size)});
     add_branch(mesh, {0, 0, std::max(0.6f * shape.trunk, centre.z() - 0.6f * shape.crown_radius)}, centre,
                0.35f * shape.trunk_radius, bark, bark_tint);
@@ -124,22 +122,22 @@ Mesh build_conifer(float height, float radius, float bare, int whorls, const Pla
     const float z = bare + (height - bare) * share;
     const float reach = radius * std::pow(1.0f - share, 0.8f) + 0.25f;
     const int branches = std::max(4, static_cast<int>(std::lround(9.0f * (1.0f - 0.6f * share))));
-    const float turn = random_between(random, 0.0, 2.0 * kPi);
+    const float turn = between(random, 0.0, 2.0 * kPi);
     for (int i = 0; i < branches; ++i) {
-      const float angle = turn + 2.0f * kPi * (static_cast<float>(i) + random_between(random, -0.25, 0.25)) /
-                                     static_cast<float>(branches);
+      const float angle =
+          turn + 2.0f * kPi * (static_cast<float>(i) + between(random, -0.25, 0.25)) / static_cast<float>(branches);
       const Vector3f out(std::cos(angle), std::sin(angle), 0), side(-std::sin(angle), std::cos(angle), 0);
-      const float length = reach * random_between(random, 0.8, 1.1);
-      const float sink = random_between(random, 0.15, 0.4);
+      const float length = reach * between(random, 0.8, 1.1);
+      const float sink = between(random, 0.15, 0.4);
       const int cards = length > 1.1f ? 2 : 1;
       for (int card = 0; card < cards; ++card) {
         const float half = 0.55f * length / static_cast<float>(cards) + 0.12f;
         const float middle = length * (static_cast<float>(card) + 0.5f) / static_cast<float>(cards);
         const Vector3f along = (out - sink * Vector3f::UnitZ()).normalized();
-        const Vector3f across = (side + random_between(random, -0.5, 0.5) * Vector3f::UnitZ()).normalized();
+        const Vector3f across = (side + between(random, -0.5, 0.5) * Vector3f::UnitZ()).normalized();
         const Vector3f normal = (0.8f * out + Vector3f(0, 0, 0.55f)).normalized();
         const float brightness =
-            (0.5f + 0.5f * middle / (reach + 0.01f)) * random_between(random, 0.8, 1.0) * (0.8f + 0.2f * share);
+            (0.5f + 0.5f * middle / (reach + 0.01f)) * between(random, 0.8, 1.0) * (0.8f + 0.2f * share);
         add_card(mesh, Vector3f(0, 0, z) + middle * along, half * along, std::min(half, 0.6f) * across, normal,
                  materials.needle_period_m, materials.leaves_needle, grey(brightness));
       }
@@ -172,7 +170,7 @@ PlantMaterials::PlantMaterials(const Palette& palette) {
 Mesh build_tree(TreeKind kind, const PlantMaterials& materials, Random random) {
   const Foliage broad{materials.leaves_broad, materials.broad_period_m, 1.45f, 0.0f};
   const Foliage small{materials.leaves_small, materials.small_period_m, 1.25f, 0.35f};
-  const Tint bark = grey(random_between(random, 0.75, 1.0));
+  const Tint bark = grey(between(random, 0.75, 1.0));
   switch (kind) {
     case TreeKind::kBroad:
       return build_broad({9.0f, 2.4f, 3.1f, 6.4f, 9, 240, 0.2f}, broad, materials.bark, bark, random);
@@ -188,7 +186,7 @@ Mesh build_tree(TreeKind kind, const PlantMaterials& materials, Random random) {
       return build_broad({5.2f, 2.0f, 1.5f, 3.3f, 5, 95, 0.07f},
                          {materials.leaves_broad, materials.broad_period_m, 1.05f, 0.0f}, materials.bark, bark, random);
     case TreeKind::kSpruce:
-      return build_conifer(random_between(random, 10.5, 12.5), 2.6f, 0.7f, 20, materials, random);
+      return build_conifer(between(random, 10.5, 12.5), 2.6f, 0.7f, 20, materials, random);
     case TreeKind::kPine: {
       Mesh mesh = build_broad({11.5f, 5.2f, 2.6f, 6.0f, 8, 170, 0.2f},
                               {materials.leaves_needle, materials.needle_period_m, 1.35f, 0.1f}, materials.bark,
@@ -205,9 +203,9 @@ Mesh build_shrub(const PlantMaterials& materials, float height_m, bool is_flower
   const Vector3f crown(0, 0, 0.5f * height_m);
   std::vector<Cluster> clusters{{crown, {0.8f * radius, 0.8f * radius, 0.45f * height_m}}};
   for (int i = 0; i < 4; ++i) {
-    const float angle = 1.57f * static_cast<float>(i) + random_between(random, -0.5, 0.5);
+    const float angle = 1.57f * static_cast<float>(i) + between(random, -0.5, 0.5);
     clusters.push_back({crown + Vector3f(0.45f * radius * std::cos(angle), 0.45f * radius * std::sin(angle),
-                                         random_between(random, -0.2, 0.12) * height_m),
+                                         between(random, -0.2, 0.12) * height_m),
                         Vector3f::Constant(0.48f * radius)});
     add_branch(mesh, {0, 0, -0.05f}, clusters.back().centre, 0.03f, materials.bark, grey(0.7f));
   }
@@ -246,7 +244,7 @@ Mesh build_hedge(const PlantMaterials& materials, float height_m, float width_m,
         y = 1.0f - 2.0f * (share - 0.35f) / 0.3f;
         z = 1.0f - 0.08f * std::pow(std::abs(y), 4.0f);
       }
-      const float bump = is_end ? 0.0f : random_between(random, -0.07, 0.07);
+      const float bump = is_end ? 0.0f : between(random, -0.07, 0.07);
       grid.emplace_back(x, (0.5f * width_m + bump) * y, (z + (z > 0.8f ? bump : 0.0f)) * height_m - 0.05f);
     }
   }
@@ -255,8 +253,8 @@ Mesh build_hedge(const PlantMaterials& materials, float height_m, float width_m,
     vertex.tint = grey(0.6f + 0.4f * std::clamp(vertex.position.z() / height_m, 0.0f, 1.0f));
   const int cards = static_cast<int>(46.0f * height_m);
   for (int i = 0; i < cards; ++i) {
-    const float x = random_between(random, -0.95, 0.95);
-    const float around = random_between(random, -1.0, 1.0) * (height_m + 0.5f * width_m);
+    const float x = between(random, -0.95, 0.95);
+    const float around = between(random, -1.0, 1.0) * (height_m + 0.5f * width_m);
     const float side = around > 0.0f ? 1.0f : -1.0f;
     const float up = std::min(std::abs(around), height_m);
     const float over = std::max(0.0f, std::abs(around) - height_m);
@@ -264,9 +262,9 @@ Mesh build_hedge(const PlantMaterials& materials, float height_m, float width_m,
     const Vector3f normal = Vector3f(0, over > 0.02f ? 0.3f * side : side, over > 0.02f ? 1.0f : 0.35f).normalized();
     const Vector3f facing = (normal + 0.7f * direction(random)).normalized();
     const Vector3f right = facing.cross(Vector3f(0.3f, 0.1f, 0.95f)).normalized();
-    const float half = random_between(random, 0.14, 0.25);
+    const float half = between(random, 0.14, 0.25);
     add_card(mesh, place, half * right, half * facing.cross(right), normal, materials.small_period_m,
-             materials.leaves_small, grey((0.55f + 0.4f * up / height_m) * random_between(random, 0.8, 1.0)));
+             materials.leaves_small, grey((0.55f + 0.4f * up / height_m) * between(random, 0.8, 1.0)));
   }
   return mesh;
 }
@@ -275,12 +273,9 @@ Mesh build_flower_bed(const PlantMaterials& materials, Random random) {
   Mesh mesh;
   add_block(mesh, {-1.0f, -0.5f, -0.1f}, {1.0f, 0.5f, 0.06f}, materials.soil, grey(0.9f));
   for (int i = 0; i < 26; ++i) {
-    const Vector3f place(random_between(random, -0.9, 0.9), random_between(random, -0.42, 0.42),
-                         random_between(random, 0.1, 0.2));
-    add_ellipsoid(
-        mesh, place,
-        {random_between(random, 0.08, 0.16), random_between(random, 0.08, 0.16), random_between(random, 0.08, 0.15)}, 6,
-        4, random.chance(0.7) ? materials.flowers : materials.hedge, grey(random_between(random, 0.7, 1.0)));
+    const Vector3f place(between(random, -0.9, 0.9), between(random, -0.42, 0.42), between(random, 0.1, 0.2));
+    add_ellipsoid(mesh, place, {between(random, 0.08, 0.16), between(random, 0.08, 0.16), between(random, 0.08, 0.15)},
+                  6, 4, random.chance(0.7) ? materials.flowers : materials.hedge, grey(between(random, 0.7, 1.0)));
   }
   return mesh;
 }

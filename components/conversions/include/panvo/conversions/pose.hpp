@@ -6,12 +6,16 @@
 
 #include "geometry_msgs/msg/Pose.h"
 #include "geometry_msgs/msg/Transform.h"
+#include "geometry_msgs/msg/Vector3.h"
 #include "panvo/conversions/result.hpp"
 #include "panvo/vision/pose.hpp"
 
-/// Conversion of poses and covariances. The Pose of frame b in frame a, and the Transform from parent a to child b, are
+/// Conversion of vectors, poses and covariances. The Pose of frame b in frame a, and the Transform from parent a to child b, are
 /// a_from_b.
 namespace panvo::conversions {
+
+geometry_msgs::msg::Vector3 to_vector3(const Eigen::Vector3d& vector);
+Eigen::Vector3d to_eigen(const geometry_msgs::msg::Vector3& vector);
 
 geometry_msgs::msg::Pose to_pose(const Eigen::Isometry3d& a_from_b);
 geometry_msgs::msg::Transform to_transform(const Eigen::Isometry3d& parent_from_child);

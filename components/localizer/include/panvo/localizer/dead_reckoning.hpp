@@ -5,6 +5,8 @@
 
 namespace panvo::localizer {
 
+inline constexpr double kClimb = 0.1;  ///< standard deviation of the height, fraction of the path
+
 /// Possible motion of a vehicle while it is not measured.
 struct MotionPrior {
   double acceleration_m_s2 = 1.5;

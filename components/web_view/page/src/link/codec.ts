@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/** Messages to and from CDR, by the definition that the server sends with each channel. */
+/** Encodes and decodes CDR messages, using the definition that the server sends with each channel. */
 import { parse } from "@foxglove/rosmsg";
 import { MessageReader, MessageWriter } from "@foxglove/rosmsg2-serialization";
 
@@ -20,7 +20,7 @@ function kept<Value>(map: Map<string, Value>, key: string, make: () => Value): V
 
 /** Throws if the definition is empty or malformed. */
 export function readerOf(schema: string): MessageReader {
-  if (schema.trim() === "") throw new Error("the server has no definition of the type");
+  if (schema.trim() === "") throw new Error("the server sent no definition of this type");
   return kept(readers, schema, () => new MessageReader(parse(schema, { ros2: true })));
 }
 

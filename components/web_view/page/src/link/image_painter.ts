@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/** Turns image messages into bitmaps. Of each topic one at a time; of those that come meanwhile only the newest is kept. */
+/** Decodes image messages to bitmaps, one at a time per topic. While one is decoded, only the newest other one is kept. */
 import type { Happening } from "./events.ts";
 import { toRgba, type RawImage } from "./pixels.ts";
 

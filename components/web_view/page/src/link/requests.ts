@@ -63,7 +63,7 @@ export class Requests {
   #call(call: number, name: string, request: unknown): void {
     const service = [...this.#services.values()].find((one) => one.name === name);
     try {
-      if (!service) throw new Error(`there is no service ${name}`);
+      if (!service) throw new Error(`unknown service ${name}`);
       const bytes = encoded(service.request?.schema ?? service.requestSchema ?? "", request);
       this.#open.set(call, service);
       this.send(callFrame(service.id, call, bytes));

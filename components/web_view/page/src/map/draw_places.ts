@@ -86,7 +86,7 @@ export function drawSightings(context: CanvasRenderingContext2D, drive: Drive, v
   context.setLineDash([]);
 }
 
-/** Corrections: from where the vehicle was thought to be to where it was found; those given up are a cross. */
+/** Corrections, from the estimated to the corrected position. Rejected ones are crosses. */
 export function drawCorrections(context: CanvasRenderingContext2D, drive: Drive, view: View, colours: Colours): void {
   context.lineWidth = 2.5;
   context.lineCap = "round";

@@ -9,17 +9,17 @@ import { drawLine, drawScene, linesOf, type Layers } from "./scene.ts";
 import { View } from "./view.ts";
 
 const margin = 0.25; // of the screen, on each side
-const settled_ms = 120; // without a change of scale, after which the picture is drawn anew
+const settled_ms = 120; // after the last change of scale, until the picture is redrawn sharply
 const most_scaled = 2.5;
-const most_newest = 500; // poses that are drawn with each frame
+const most_newest = 500; // poses drawn on top of the picture in each frame
 
 export class SceneCache {
   #canvas = document.createElement("canvas");
   #context = this.#canvas.getContext("2d")!;
   #view = new View(); // of the picture
-  #content = ""; // what the picture shows, but for the newest poses
+  #content = ""; // key of what the picture shows, without the newest poses
   #counts: number[] = []; // poses in the picture, by line
-  #scaled_ms = 0; // when the scale was changed last
+  #scaled_ms = 0; // time of the last change of scale
   #scale = 0;
 
   /** Draws; returns whether it must be called again soon, for a sharper picture. */

@@ -9,8 +9,8 @@ export interface Pen {
   lineTo(x: number, y: number): void;
 }
 
-const least_px = 1.5; // between the points of a line
-const jump_m = 100; // between neighbours, beyond which no line is drawn
+const least_px = 1.5; // smallest distance between two points of a line
+const jump_m = 100; // neighbours farther apart are not joined by a line
 
 function isSeen(chunk: Bounds, seen: Bounds): boolean {
   return chunk.right >= seen.left && chunk.left <= seen.right && chunk.top >= seen.bottom && chunk.bottom <= seen.top;

@@ -45,7 +45,7 @@ export interface Ellipse {
   angle: number;
 }
 
-/** Of the position in a row-major 6x6 covariance. Undefined: it is no covariance. */
+/** Horizontal error ellipse from a row-major 6x6 pose covariance. Undefined if the matrix is not a valid covariance. */
 export function ellipseOf(covariance: ArrayLike<number>): Ellipse | undefined {
   const xx = covariance[0] ?? NaN;
   const xy = covariance[1] ?? NaN;

@@ -2,7 +2,7 @@
 import { distance, type Pose2 } from "./geometry.ts";
 import type { Path } from "./path.ts";
 
-const step_m = 0.1; // shorter movements are noise of a vehicle that stands
+const step_m = 0.1; // shorter movements are noise at standstill
 
 /** Length of the way driven. */
 export class Odometer {

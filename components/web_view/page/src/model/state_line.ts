@@ -2,7 +2,7 @@
 /** The state in one line, for somebody who drives: what to do with the position, and why. */
 import { State, type Integrity, type LocalizationState, type OdometryQuality } from "./messages.ts";
 
-/** good: use the position; caution: with care; bad: do not; idle: there is none to judge. */
+/** good: use the position; caution: use it with care; bad: do not use it; idle: no position yet. */
 export type Level = "good" | "caution" | "bad" | "idle";
 
 export interface StateLine {

@@ -22,7 +22,7 @@ export class TurnComparison {
     this.#waiting = [];
   }
 
-  /** The comparisons for which the odometry is there by now. */
+  /** Comparisons whose odometry has arrived. */
   take(odometry: Path): Turn[] {
     const turns: Turn[] = [];
     const last = odometry.count > 0 ? odometry.times[odometry.count - 1]! : -Infinity;

@@ -15,7 +15,7 @@ export function nodeOf(name: string): { node: string; parameter: string } {
   return { node: name.slice(0, Math.max(0, slash)), parameter: name.slice(slash + 1) };
 }
 
-/** Whether a parameter is worth a line: the settings of each topic are too many. */
+/** Whether to list a parameter. QoS overrides, several per topic, are not listed. */
 export const isListed = (name: string): boolean => !nodeOf(name).parameter.startsWith("qos_overrides.");
 
 export function rangeText({ description, read_only, floating_point_range, integer_range }: Descriptor): string {
@@ -24,7 +24,7 @@ export function rangeText({ description, read_only, floating_point_range, intege
   return parts.filter(Boolean).join("; ");
 }
 
-/** What was typed, as a value of the same type as the one before. Undefined: it is none. */
+/** Parses what was typed as the type of the previous value. Undefined if it cannot be parsed. */
 export function readValue(text: string, before: ParameterValue | undefined): ParameterValue | undefined {
   if (typeof before === "string") return text;
   if (typeof before === "number") {

@@ -59,7 +59,7 @@ export class PlayerPanel {
     await this.#refresh();
   }
 
-  /** Shows what the player says, not what was wished. */
+  /** Shows the state that the player reports, not the one requested. */
   async #refresh(): Promise<void> {
     const { paused } = ((await this.#ask("is_paused", {})) ?? { paused: false }) as { paused: boolean };
     const { rate } = ((await this.#ask("get_rate", {})) ?? { rate: 1 }) as { rate: number };

@@ -5,7 +5,7 @@ import { componentsOf, droppedBy } from "../../src/model/components.ts";
 import { nodeOf, rangeText, readValue } from "../../src/panels/parameter_values.ts";
 import { header } from "./make.ts";
 
-test("what a component says of itself is read", () => {
+test("the diagnostics of a component are parsed", () => {
   const values = [
     { key: "/panorama/image rate", value: "5.0 Hz" },
     { key: "/panorama/image latency", value: "median 0.05 ms, p95 1.25 ms, max 9.00 ms" },
@@ -42,7 +42,7 @@ test("typed values keep the type", () => {
   assert.equal(readValue("{}", [0]), undefined);
 });
 
-test("a range is put in words", () => {
+test("a range is described in words", () => {
   const range = { description: "gate", read_only: false, floating_point_range: [{ from_value: 0, to_value: 100 }], integer_range: [] };
   assert.equal(rangeText(range), "gate; 0 to 100");
 });

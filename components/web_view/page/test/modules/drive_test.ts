@@ -39,7 +39,7 @@ test("drift and error count from where the paths began together", () => {
   near(drive.error_m, 0.2, 1e-6);
 });
 
-test("the past that a path message brings is put before the poses that came", () => {
+test("poses of a path message are inserted before those already received", () => {
   const drive = driven(3);
   const poses = [90, 91, 100.05].map((time, i) => ({ header: header(time), pose: pose({ x: i - 10, y: 0, yaw: 0 }) }));
   take(drive, "pathEnhanced", { header: header(101), poses });
@@ -101,7 +101,7 @@ test("a change of the state is listed once", () => {
   assert.deepEqual(drive.states.map(({ time }) => time), [100, 101]);
 });
 
-test("a bag that is played again is another drive", () => {
+test("replaying a bag begins a new drive", () => {
   const drive = driven(50);
   take(drive, "binocular", odometry(100, { x: 0, y: 0, yaw: 0 }));
   take(drive, "enhanced", odometry(100, { x: 0, y: 0, yaw: 0 }));
@@ -110,7 +110,7 @@ test("a bag that is played again is another drive", () => {
   assert.equal(drive.now, 100);
 });
 
-test("a snapshot gives the drive back", () => {
+test("a snapshot restores the drive", () => {
   const drive = driven(30);
   take(drive, "landmark", landmark(1, 3, 100.5));
   take(drive, "outcome", outcome(101.2, Outcome.applied, 1, 1.5));

@@ -38,7 +38,7 @@ test("the ellipse of a turned covariance has its axes and direction", () => {
   near(ellipse.angle, Math.PI / 6);
 });
 
-test("what is no covariance has no ellipse", () => {
+test("an invalid covariance has no ellipse", () => {
   assert.equal(ellipseOf(covariance(-1, 0, 1)), undefined);
   assert.equal(ellipseOf(covariance(NaN, 0, 1)), undefined);
   assert.equal(ellipseOf([]), undefined);

@@ -102,7 +102,7 @@ test("topics without a usable definition are counted, not subscribed to", () => 
   assert.deepEqual(traffic.unknown.map(({ topic }) => topic), ["/landmarks", "/correction/outcome"]);
 });
 
-test("a lost server is tried again, later each time, until it answers", () => {
+test("a lost server is retried with growing delays until it answers", () => {
   const { sockets, timers, happenings } = started();
   for (let i = 0; i < 3; ++i) {
     sockets[i]!.onclose?.();
@@ -136,7 +136,7 @@ test("a pose is advertised once and published as CDR", () => {
   assert.equal(pose.covariance[0], 0.25);
 });
 
-test("a call of a service is answered, or says why not", () => {
+test("a service call gets its response or the reason of the failure", () => {
   const { link, socket, happenings } = started();
   socket.say({ op: "advertiseServices", services: [{ id: 5, name: "/save", type: "std_srvs/srv/Trigger", request: { schemaName: "", schema: "" }, response: { schemaName: "", schema: "bool success\nstring message\n" } }] });
   link.obey({ kind: "call", call: 1, service: "/save", request: {} });
@@ -147,12 +147,12 @@ test("a call of a service is answered, or says why not", () => {
   socket.onmessage?.({ data: reply.buffer });
   const replies = happenings.filter(({ kind }) => kind === "reply");
   assert.deepEqual(replies, [
-    { kind: "reply", call: 2, fault: "there is no service /other" },
+    { kind: "reply", call: 2, fault: "unknown service /other" },
     { kind: "reply", call: 1, response: { success: true, message: "ok" } },
   ]);
 });
 
-test("what is not of the protocol is ignored", () => {
+test("messages outside the protocol are ignored", () => {
   for (const text of ["", "{", "null", "[]", '{"op":3}']) assert.equal(parseText(text), undefined);
   assert.equal(parseBinary(new ArrayBuffer(0)), undefined);
   assert.equal(parseBinary(new Uint8Array([1, 2, 3]).buffer), undefined);

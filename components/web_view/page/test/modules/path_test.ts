@@ -57,7 +57,7 @@ test("a long path is drawn with no more points than the screen can show, up to i
   near(y, end.y, 1e-6);
 });
 
-test("what is not seen is not drawn", () => {
+test("parts outside the view are not drawn", () => {
   const view = Object.assign(new View(), { width: 800, height: 600, x: 0, y: 1e6 });
   assert.equal(trace(new Pen(), straight(10_000), view), 0);
 });
@@ -73,7 +73,7 @@ test("a path in another frame is drawn where that frame lies", () => {
   near(pen.lines[pen.lines.length - 1]![1], end.y, 1e-6);
 });
 
-test("a frame is laid onto the first common stamp", () => {
+test("a frame is aligned at the first common stamp", () => {
   const mapFromOwn = { x: 10, y: 20, yaw: 1 };
   const own = straight(50);
   const reference = new Path();

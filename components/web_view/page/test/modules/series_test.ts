@@ -22,7 +22,7 @@ test("only the window is returned, with a neighbour on each side", () => {
   assert.deepEqual(thinned(series, 10, 12, 100).times, [9, 10, 11, 12]);
 });
 
-test("a series stays bounded, and values that are no numbers are gaps", () => {
+test("a series stays bounded, and NaN values are gaps", () => {
   const series = new Series(100);
   for (let i = 0; i < 1000; ++i) series.add(i, i);
   assert.ok(series.times.length <= 100);

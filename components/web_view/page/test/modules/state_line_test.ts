@@ -9,7 +9,7 @@ import { header } from "./make.ts";
 const state = (value: number, reason = ""): LocalizationState => ({ header: header(0), state: value, reason, position_sigma_m: 0.123, heading_sigma_rad: 0 });
 const integrity = (usable: boolean, reason = ""): Integrity => ({ header: header(0), usable, reason, risk: 0.001, horizontal_protection_level_m: 0.78, alert_limit_m: 2 });
 
-test("a known position comes with how well it is known", () => {
+test("a known position is shown with its uncertainty", () => {
   assert.deepEqual(stateLine({ state: state(State.tracking), integrity: integrity(true) }), {
     level: "good", title: "Position known", reason: "within 0.78 m at 99.9 % confidence",
   });
@@ -30,13 +30,13 @@ test("each state has its level, and the reason of the message is shown", () => {
   assert.equal(stateLine({ state: state(99) }).level, "idle");
 });
 
-test("old data are called old, whatever they say", () => {
+test("old data are marked old, whatever their state", () => {
   assert.equal(stateLine({ state: state(State.tracking), silent_s: 4.2 }).reason, "the last pose came 4 s ago");
   assert.equal(stateLine({ state: state(State.tracking), silent_s: 9, isPaused: true }).title, "Paused");
   assert.equal(stateLine({ state: state(State.tracking), silent_s: 9, isPaused: true, link: "lost" }).title, "Server lost");
 });
 
-test("without a localizer the odometry speaks", () => {
+test("without a localizer the state is that of the odometry", () => {
   const quality: OdometryQuality = { header: header(0), tracked: 10, inliers: 2, reliable: false, reason: "2 inliers of 20" };
   assert.deepEqual(stateLine({ quality }), { level: "bad", title: "Stereo odometry unreliable", reason: "2 inliers of 20" });
   assert.equal(stateLine({}).title, "No vehicle yet");
@@ -44,7 +44,7 @@ test("without a localizer the odometry speaks", () => {
   assert.equal(stateLine({ link: "lost" }).title, "Server not reached");
 });
 
-test("lengths have the digits that they deserve", () => {
+test("lengths are rounded to significant digits", () => {
   assert.deepEqual([0.051, 12.34, 345.6, NaN].map(metres), ["0.05 m", "12.3 m", "346 m", "–"]);
 });
 

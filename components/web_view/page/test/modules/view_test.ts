@@ -27,7 +27,7 @@ test("zooming keeps what is under the pointer", () => {
   near(view.px_per_m, 33);
 });
 
-test("what is fitted is seen, beside what is covered", () => {
+test("the fitted bounds are visible beside the covered part", () => {
   const view = made();
   view.fit({ left: -100, right: 300, bottom: 0, top: 50 }, 200);
   const left = view.toScreen(-100, 0).x;
@@ -46,7 +46,7 @@ test("lengths of the scale are 1, 2 or 5 times a power of ten", () => {
   assert.deepEqual([0.2, 5, 2000].map(lengthText), ["20 cm", "5 m", "2 km"]);
 });
 
-test("of marks that would cover each other one is drawn", () => {
+test("only one of overlapping marks is drawn", () => {
   const declutter = new Declutter(5);
   assert.ok(declutter.takes(100, 100));
   assert.ok(!declutter.takes(101, 101));
