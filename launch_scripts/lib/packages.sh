@@ -16,13 +16,19 @@ packages_of() {
 
 package_groups() { sed -n 's/^\[\(.*\)\].*/\1/p' "$PANVO_SCRIPTS/packages.txt"; }
 
-# missing_packages GROUP...: packages that are not installed. One dpkg-query for all, because this runs before every command that builds.
+# missing_packages GROUP...: packages that are neither installed nor provided by an installed one.
 missing_packages() {
   local -a wanted
   mapfile -t wanted < <(packages_of "$@")
   ((${#wanted[@]})) || fail "packages.txt lists nothing for: $*"
-  comm -23 <(printf '%s\n' "${wanted[@]}" | sort -u) \
-    <(dpkg-query -W -f '${db:Status-Status} ${Package}\n' "${wanted[@]}" 2>/dev/null | sed -n 's/^installed //p' | sort -u)
+  comm -23 <(printf '%s\n' "${wanted[@]}" | sort -u) <(present_packages)
+}
+
+# Sorted names of installed packages and of what they provide: a nodejs from elsewhere than Debian provides npm and excludes Debian's.
+# One dpkg-query for all, because this runs before every command that builds.
+present_packages() {
+  dpkg-query -W -f '${db:Status-Status} ${Package}, ${Provides}\n' |
+    sed -n 's/^installed //p' | tr ',' '\n' | awk 'NF { print $1 }' | sort -u
 }
 
 # ensure_packages GROUP...: installs missing packages; silent if there are none.

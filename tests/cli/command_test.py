@@ -150,6 +150,20 @@ class Setup(unittest.TestCase):
         self.assertEqual(sorted(names), sorted(set(names)))
         self.assertFalse([name for name in names if not name.replace("+", "").replace("-", "").replace(".", "").isalnum()])
 
+    def check_page(self, *known):
+        with tempfile.TemporaryDirectory() as folder:
+            write_program(pathlib.Path(folder, "dpkg-query"), "printf '%s\\n' " + " ".join(f"'{line}'" for line in known))
+            return panvo("setup", "--check", "page", PATH=f"{folder}:{os.environ['PATH']}")
+
+    def test_takes_a_package_for_present_that_an_installed_one_provides(self):
+        done = self.check_page("installed nodejs, nodejs-doc (= 20.1), npm")
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+
+    def test_takes_a_package_for_missing_whose_provider_was_removed(self):
+        done = self.check_page("installed nodejs, ", "config-files other-nodejs, npm")
+        self.assertEqual(done.returncode, 1, done.stdout + done.stderr)
+        self.assertIn("npm", done.stdout + done.stderr)
+
 
 class Anywhere(unittest.TestCase):
     def test_from_another_folder_through_a_chain_of_links(self):
