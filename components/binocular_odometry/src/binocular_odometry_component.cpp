@@ -33,8 +33,8 @@ struct ComponentParameters : Parameters {
   }
 };
 
-/// stereo/{left,right}/image_rect with camera_info, and /tf_static -> odometry/binocular, odometry/quality, optionally
-/// /tf, with the image stamps. Tracking runs on the component's thread, motion with the local bundle adjustment on a
+/// stereo/{left,right}/image_rect with camera_info, and /tf_static -> odometry/binocular, odometry/quality,
+/// odometry/points if anybody reads them, optionally /tf, with the image stamps. Tracking runs on the component's thread, motion with the local bundle adjustment on a
 /// second one; in replay both run in sequence.
 class BinocularOdometryComponent final : public runtime::Component {
  public:
@@ -44,6 +44,7 @@ class BinocularOdometryComponent final : public runtime::Component {
         timer_(context.times()),
         odometry_(context.output(topics::kOdometryBinocular)),
         quality_(context.output(topics::kOdometryQuality)),
+        points_(context.output(topics::kOdometryPoints)),
         tracked_(context.stage<TrackedFrame>("motion", 2, [this](const TrackedFrame& frame) { on_tracked(frame); })),
         transforms_(context) {
     if (parameters_.publish_tf) tf_.emplace(context.output(topics::kTf));
@@ -113,6 +114,10 @@ class BinocularOdometryComponent final : public runtime::Component {
         to_odometry(estimate, stages_->base_from_left, last_stamp_ns_, parameters_.odom_frame, parameters_.base_frame);
     if (tf_) tf_->publish(to_transform(odometry));
     odometry_.publish(odometry);
+    if (context_.has_reader(topics::kOdometryPoints)) {
+      points_.publish(
+          to_point_cloud(stages_->motion.points(), stages_->base_from_left, estimate.stamp_ns, parameters_.odom_frame));
+    }
     last_stamp_ns_ = estimate.stamp_ns;
   }
 
@@ -156,6 +161,7 @@ class BinocularOdometryComponent final : public runtime::Component {
   conversions::StageTimer timer_;
   runtime::Output<nav_msgs::msg::Odometry> odometry_;
   runtime::Output<panvo_msgs::msg::OdometryQuality> quality_;
+  runtime::Output<sensor_msgs::msg::PointCloud2> points_;
   std::optional<runtime::Output<tf2_msgs::msg::TFMessage>> tf_;
   runtime::Stage<TrackedFrame> tracked_;
 

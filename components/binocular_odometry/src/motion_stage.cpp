@@ -78,6 +78,14 @@ class MotionStage::Implementation {
     return result;
   }
 
+  std::vector<ScenePoint> points() const {
+    std::vector<ScenePoint> points;
+    if (!was_reliable_) return points;
+    const Eigen::Isometry3d odom_from_left = head_.left_from_odom.inverse();
+    for (const Observation& seen : reference_) points.push_back(adjuster_.scene_point(seen, odom_from_left));
+    return points;
+  }
+
  private:
   static constexpr std::int64_t kUsualInterval_ns = 100'000'000;
   static constexpr double kPersistence_m = 1.0;  // calibration errors are correlated until other points are in view
@@ -319,5 +327,7 @@ MotionStage::MotionStage(MotionStage&&) noexcept = default;
 MotionStage& MotionStage::operator=(MotionStage&&) noexcept = default;
 
 OdometryEstimate MotionStage::estimate(const TrackedFrame& frame) { return implementation_->estimate(frame); }
+
+std::vector<ScenePoint> MotionStage::points() const { return implementation_->points(); }
 
 }  // namespace panvo::binocular_odometry

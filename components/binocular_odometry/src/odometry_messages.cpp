@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "odometry_messages.hpp"
 
+#include <algorithm>
+#include <cstddef>
+#include <cstring>
+#include <limits>
+
 #include "panvo/binocular_odometry/base_motion.hpp"
 #include "panvo/conversions/pose.hpp"
 #include "panvo/conversions/time.hpp"
@@ -9,6 +14,51 @@
 namespace panvo::binocular_odometry {
 using vision::Matrix6d;
 using vision::Vector6d;
+
+namespace {
+
+/// Layout of the points in a PointCloud2.
+struct PackedPoint {
+  float x, y, z, u, v;
+  std::uint32_t track;  // the low bits of the id
+  std::uint8_t state;
+};
+
+std::vector<sensor_msgs::msg::PointField> point_fields() {
+  namespace types = sensor_msgs::msg::PointField_Constants;
+  std::vector<sensor_msgs::msg::PointField> fields;
+  const auto add = [&](const char* name, std::size_t offset, std::uint8_t datatype) {
+    auto& field = fields.emplace_back();
+    field.name(name);
+    field.offset(static_cast<std::uint32_t>(offset));
+    field.datatype(datatype);
+    field.count(1);
+  };
+  add("x", offsetof(PackedPoint, x), types::FLOAT32);
+  add("y", offsetof(PackedPoint, y), types::FLOAT32);
+  add("z", offsetof(PackedPoint, z), types::FLOAT32);
+  add("u", offsetof(PackedPoint, u), types::FLOAT32);
+  add("v", offsetof(PackedPoint, v), types::FLOAT32);
+  add("track", offsetof(PackedPoint, track), types::UINT32);
+  add("state", offsetof(PackedPoint, state), types::UINT8);
+  return fields;
+}
+
+PackedPoint pack(const ScenePoint& point, const Eigen::Isometry3d& base_from_left) {
+  constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+  const Eigen::Vector3d known = point.in_odom ? base_from_left * *point.in_odom : Eigen::Vector3d::Constant(kUnknown);
+  const Eigen::Vector3f at = known.cast<float>();
+  const Eigen::Vector2f pixel = point.pixel.cast<float>();
+  return {at.x(),
+          at.y(),
+          at.z(),
+          pixel.x(),
+          pixel.y(),
+          static_cast<std::uint32_t>(point.track_id),
+          static_cast<std::uint8_t>(point.state)};
+}
+
+}  // namespace
 
 nav_msgs::msg::Odometry to_odometry(const OdometryEstimate& estimate, const Eigen::Isometry3d& base_from_left,
                                     std::optional<std::int64_t> previous_stamp_ns, const std::string& odom_frame,
@@ -58,6 +108,28 @@ tf2_msgs::msg::TFMessage to_transform(const nav_msgs::msg::Odometry& odometry) {
   tf2_msgs::msg::TFMessage message;
   message.transforms({stamped});
   return message;
+}
+
+sensor_msgs::msg::PointCloud2 to_point_cloud(const std::vector<ScenePoint>& points,
+                                             const Eigen::Isometry3d& base_from_left, std::int64_t stamp_ns,
+                                             const std::string& odom_frame) {
+  sensor_msgs::msg::PointCloud2 cloud;
+  cloud.header().stamp(conversions::to_stamp(stamp_ns));
+  cloud.header().frame_id(odom_frame);
+  cloud.fields(point_fields());
+  cloud.height(1);
+  cloud.width(static_cast<std::uint32_t>(points.size()));
+  cloud.point_step(sizeof(PackedPoint));
+  cloud.row_step(cloud.point_step() * cloud.width());
+  cloud.data().resize(cloud.row_step());
+  cloud.is_dense(std::ranges::all_of(points, [](const ScenePoint& point) { return point.in_odom.has_value(); }));
+  std::uint8_t* place = cloud.data().data();
+  for (const ScenePoint& point : points) {
+    const PackedPoint packed = pack(point, base_from_left);
+    std::memcpy(place, &packed, sizeof packed);
+    place += sizeof packed;
+  }
+  return cloud;
 }
 
 panvo_msgs::msg::OdometryQuality to_quality(const OdometryEstimate& estimate, const std::string& base_frame) {

@@ -4,10 +4,13 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "nav_msgs/msg/Odometry.h"
 #include "panvo/binocular_odometry/odometry_estimate.hpp"
+#include "panvo/binocular_odometry/scene_point.hpp"
 #include "panvo_msgs/msg/OdometryQuality.h"
+#include "sensor_msgs/msg/PointCloud2.h"
 #include "tf2_msgs/msg/TFMessage.h"
 
 namespace panvo::binocular_odometry {
@@ -21,6 +24,12 @@ nav_msgs::msg::Odometry to_odometry(const OdometryEstimate& estimate, const Eige
 
 /// The pose of an odometry message as a transform.
 tf2_msgs::msg::TFMessage to_transform(const nav_msgs::msg::Odometry& odometry);
+
+/// Points in odom_frame with the fields x, y, z (m; NaN if unknown), u, v (px, left rectified image), track and state
+/// (ScenePoint::State).
+sensor_msgs::msg::PointCloud2 to_point_cloud(const std::vector<ScenePoint>& points,
+                                             const Eigen::Isometry3d& base_from_left, std::int64_t stamp_ns,
+                                             const std::string& odom_frame);
 
 panvo_msgs::msg::OdometryQuality to_quality(const OdometryEstimate& estimate, const std::string& base_frame);
 

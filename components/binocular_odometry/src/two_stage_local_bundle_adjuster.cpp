@@ -10,8 +10,9 @@
 namespace panvo::binocular_odometry {
 namespace {
 
-constexpr double kContradiction2 = 25.0;  // whitened squared error, five standard deviations
-constexpr int kMinShared = 10;            // points shared by head and window
+constexpr double kContradiction2 = 25.0;          // whitened squared error, five standard deviations
+constexpr double kMinInverseDepth = 1.0 / 200.0;  // 1/m; of farther ones a pair on a vehicle measures no useful depth
+constexpr int kMinShared = 10;                    // points shared by head and window
 // Lower bound of the residual variance, relative to the stated one: 1/40 of a standard deviation, less than grey levels
 // resolve. At standstill the errors of all points repeat and do not show in the residuals.
 constexpr double kMinVariance = 1.0 / (40.0 * 40.0);
@@ -35,6 +36,14 @@ double root_mean_square_px(const vision::RectifiedStereo& stereo, const BundlePr
     count += 1.0;
   }
   return count > 0.0 ? std::sqrt(sum / count) : 0.0;
+}
+
+/// nullopt if the point is too far to have a position.
+std::optional<Eigen::Vector3d> position(const BundlePoint& point) {
+  const double inverse_depth = point.inverse_depth.z();
+  if (inverse_depth < kMinInverseDepth) return std::nullopt;
+  const Eigen::Vector3d bearing(point.inverse_depth.x(), point.inverse_depth.y(), 1.0);
+  return point.world_from_anchor * Eigen::Vector3d(bearing / inverse_depth);
 }
 
 }  // namespace
@@ -177,6 +186,21 @@ std::optional<int> TwoStageLocalBundleAdjuster::standing(std::int64_t track_id) 
   const auto known = points_.find(track_id);
   if (known == points_.end()) return 0;
   return known->second.is_refuted ? std::nullopt : std::optional(known->second.keyframes);
+}
+
+ScenePoint TwoStageLocalBundleAdjuster::scene_point(const Observation& seen,
+                                                    const Eigen::Isometry3d& odom_from_left) const {
+  using State = ScenePoint::State;
+  ScenePoint point{.track_id = seen.track_id, .pixel = seen.pixel.head<2>()};
+  const auto keyframes = standing(seen.track_id);
+  point.state = !keyframes ? State::kOutlier : *keyframes > 1 ? State::kInlier : State::kNew;
+  const auto known = points_.find(seen.track_id);
+  if (known != points_.end()) {
+    point.in_odom = position(known->second.point);
+  } else if (seen.has_disparity) {
+    point.in_odom = position({odom_from_left, point_of(seen)});
+  }
+  return point;
 }
 
 void TwoStageLocalBundleAdjuster::forget_unseen_points() {

@@ -11,6 +11,7 @@
 
 #include "bundle_solver.hpp"
 #include "panvo/binocular_odometry/parameters.hpp"
+#include "panvo/binocular_odometry/scene_point.hpp"
 #include "panvo/binocular_odometry/tracked_frame.hpp"
 
 namespace panvo::binocular_odometry {
@@ -60,6 +61,10 @@ class TwoStageLocalBundleAdjuster {
   /// Number of keyframes in which a static point was observed, 0 if none; nullopt for a point that contradicts the
   /// camera motion.
   std::optional<int> standing(std::int64_t track_id) const;
+
+  /// An observed point, with its adjusted position if it is one of the window. `odom_from_left`: pose of the observing
+  /// frame.
+  ScenePoint scene_point(const Observation& seen, const Eigen::Isometry3d& odom_from_left) const;
 
   bool is_empty() const { return keyframes_.empty(); }
   const Keyframe& last_keyframe() const { return keyframes_.back(); }

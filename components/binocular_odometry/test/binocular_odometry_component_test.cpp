@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstring>
 
 #include "panvo/conversions/camera_info.hpp"
 #include "panvo/conversions/image.hpp"
@@ -10,6 +11,7 @@
 #include "panvo/conversions/time.hpp"
 #include "panvo/interfaces/topics.hpp"
 #include "panvo/runtime/testing.hpp"
+#include "panvo/vision/stereo_geometry.hpp"
 #include "synthetic_scene.hpp"
 
 namespace panvo::binocular_odometry {
@@ -96,6 +98,37 @@ TEST_F(BinocularOdometryComponent, PublishesTheRobotsMotionUnderTheImagesStamp) 
   EXPECT_GT(last.pose().covariance()[0], 0.0);
   EXPECT_GT(last.twist().covariance()[0], 0.0);
   EXPECT_TRUE(quality_.back()->reliable()) << quality_.back()->reason();
+}
+
+/// A value of a point in a cloud.
+float value(const sensor_msgs::msg::PointCloud2& cloud, std::size_t point, const std::string& name) {
+  const auto field = std::ranges::find_if(cloud.fields(), [&](const auto& one) { return one.name() == name; });
+  float read = 0.0F;
+  std::memcpy(&read, cloud.data().data() + point * cloud.point_step() + field->offset(), sizeof read);
+  return read;
+}
+
+TEST_F(BinocularOdometryComponent, PublishesItsPointsWhereTheyAreSeen) {
+  const auto& clouds = harness_.collect(topics::kOdometryPoints);
+  load();
+  publish_infos();
+  publish_mounting();
+  for (int i = 0; i < 5; ++i) publish_pair(SyntheticScene::frame(i));
+  ASSERT_THAT(clouds, SizeIs(5));
+  const auto& cloud = *clouds.back();
+  EXPECT_EQ(cloud.header(), odometry_.back()->header());
+  EXPECT_EQ(cloud.data().size(), std::size_t{cloud.width()} * cloud.point_step());
+  ASSERT_GT(cloud.width(), 50U);
+  const Eigen::Isometry3d odom_from_left =
+      *conversions::to_isometry(odometry_.back()->pose().pose()) * base_from_left();
+  std::size_t seen = 0;
+  for (std::size_t i = 0; i < cloud.width(); ++i) {
+    const Eigen::Vector3d in_odom(value(cloud, i, "x"), value(cloud, i, "y"), value(cloud, i, "z"));
+    if (!in_odom.allFinite()) continue;
+    const Eigen::Vector3d pixel = vision::observe(SyntheticScene::stereo(), odom_from_left.inverse() * in_odom);
+    seen += (pixel.head<2>() - Eigen::Vector2d(value(cloud, i, "u"), value(cloud, i, "v"))).norm() < 1.0;
+  }
+  EXPECT_GT(seen, cloud.width() * 9 / 10);
 }
 
 TEST_F(BinocularOdometryComponent, PublishesThePoseAsATransformOnlyIfAsked) {

@@ -67,6 +67,15 @@ class DriveBehindACar {
     return tracked;
   }
 
+  /// nullopt: not a point of the static scene.
+  std::optional<Eigen::Vector3d> in_world(std::int64_t id) const {
+    for (const auto* points : {&near_, &far_}) {
+      const auto found = std::ranges::find(*points, id, &Point::id);
+      if (found != points->end()) return found->in_world;
+    }
+    return std::nullopt;
+  }
+
  private:
   struct Point {
     std::int64_t id = 0;
@@ -239,6 +248,46 @@ TEST(MotionStage, IsNotTakenAlongByACarThatMostOfThePointsAreOn) {
     const Eigen::Isometry3d error = DriveBehindACar::world_from_left(i).inverse() * estimate.odom_from_left;
     ASSERT_LT(error.translation().norm(), 0.05 + 0.02 * 0.12 * i) << "frame " << i;
   }
+}
+
+TEST(MotionStage, KnowsThePointsOfTheStaticSceneAndWhereTheyAre) {
+  DriveBehindACar drive;
+  MotionStage stage(kStereo, {}, nullptr);
+  EXPECT_TRUE(stage.points().empty());
+  int inliers = 0;
+  for (int i = 0; i < DriveBehindACar::kFrames; ++i) {
+    const TrackedFrame frame = drive.frame(i);
+    const auto estimate = stage.estimate(frame);
+    const auto points = stage.points();
+    ASSERT_EQ(points.size(), frame.observations.size());
+    for (std::size_t at = 0; at < points.size(); ++at) {
+      EXPECT_EQ(points[at].track_id, frame.observations[at].track_id);
+      EXPECT_EQ(points[at].pixel, frame.observations[at].pixel.head<2>());
+      const auto truth = drive.in_world(points[at].track_id);
+      if (points[at].state == ScenePoint::State::kOutlier) EXPECT_FALSE(truth) << "only the car contradicts the motion";
+      if (points[at].state != ScenePoint::State::kInlier) continue;
+      ++inliers;
+      ASSERT_TRUE(truth) << "a point on the car was taken for one of the scene";
+      ASSERT_TRUE(points[at].in_odom);
+      const Eigen::Isometry3d left_from_world = DriveBehindACar::world_from_left(i).inverse();
+      const double depth_m = (left_from_world * *truth).z();
+      const double sigma_m = 0.1 * depth_m * depth_m / (kStereo.camera.fx * kStereo.baseline_m);  // 0.1 px of disparity
+      const Eigen::Vector3d error = left_from_world * *truth - estimate.odom_from_left.inverse() * *points[at].in_odom;
+      EXPECT_LT(error.norm(), 0.1 + 4.0 * sigma_m) << "frame " << i << ", depth " << depth_m;
+    }
+  }
+  EXPECT_GT(inliers, 60 * 100) << "most of the 65 points, in most of the 120 frames";
+}
+
+TEST(MotionStage, HasNoPointsWithoutAMotion) {
+  DriveBehindACar drive;
+  MotionStage stage(kStereo, {}, nullptr);
+  stage.estimate(drive.frame(0));
+  TrackedFrame black;
+  black.stamp_ns = drive.frame(1).stamp_ns;
+  black.fault = "black";
+  stage.estimate(black);
+  EXPECT_TRUE(stage.points().empty());
 }
 
 }  // namespace

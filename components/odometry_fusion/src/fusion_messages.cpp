@@ -32,11 +32,11 @@ conversions::Result<WheelSample> to_wheels(std::int64_t stamp_ns, const geometry
       stamp_ns, velocity.x(), velocity.y(), rate.z(), std::max(0.0, covariance[0]), std::max(0.0, covariance[35])};
 }
 
-nav_msgs::msg::Odometry to_odometry(const FusedPose& fused, const nav_msgs::msg::Odometry& stereo) {
+nav_msgs::msg::Odometry to_odometry(const FusedPose& fused, const nav_msgs::msg::Odometry& frames) {
   nav_msgs::msg::Odometry odometry;
   odometry.header().stamp(conversions::to_stamp(fused.stamp_ns));
-  odometry.header().frame_id(stereo.header().frame_id());
-  odometry.child_frame_id(stereo.child_frame_id());
+  odometry.header().frame_id(frames.header().frame_id());
+  odometry.child_frame_id(frames.child_frame_id());
   odometry.pose().pose(conversions::to_pose(fused.odom_from_base));
   odometry.pose().covariance(conversions::to_array(fused.covariance));
   odometry.twist().twist().linear(conversions::to_vector3(fused.twist.head<3>()));

@@ -19,8 +19,8 @@ conversions::Result<GyroSample> to_gyro(const sensor_msgs::msg::Imu& message, co
 conversions::Result<WheelSample> to_wheels(std::int64_t stamp_ns, const geometry_msgs::msg::TwistWithCovariance& twist,
                                            const Eigen::Isometry3d& base_from_wheels);
 
-/// `stereo`: gives the names of the frames.
-nav_msgs::msg::Odometry to_odometry(const FusedPose& fused, const nav_msgs::msg::Odometry& stereo);
+/// `frames`: gives their names.
+nav_msgs::msg::Odometry to_odometry(const FusedPose& fused, const nav_msgs::msg::Odometry& frames);
 
 /// `outlier_share`: of the stereo odometry.
 panvo_msgs::msg::OdometryQuality to_quality(const FusedPose& fused, double outlier_share,

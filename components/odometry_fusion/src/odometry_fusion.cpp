@@ -16,13 +16,10 @@ constexpr double kGyroGap_s = 0.05;   // slower gyroscopes miss vibration
 constexpr double kWheelGap_s = 0.25;  // 4 Hz
 constexpr double kLost_s = 0.5;       // without samples, a sensor is not waited for
 constexpr std::size_t kMaxWaiting = 20;
-constexpr double kMinStepVariance = 1e-12;  // for rounding errors
-constexpr double kStandingSpeed = 0.1;      // m/s; a vehicle that stops is slower in the half second before
+constexpr double kStandingSpeed = 0.1;  // m/s; a vehicle that stops is slower in the half second before
 // Without stereo poses for this time, and three times their usual interval, poses are made without them.
 constexpr double kSilence_s = 0.25;
 constexpr std::int64_t kBlindStep_ns = 50'000'000;
-
-std::int64_t later(std::int64_t stamp_ns, double by_s) { return stamp_ns + std::llround(by_s / kNanosecond_s); }
 
 /// A gyroscope whose samples are exactly equal is stuck: a working one is noisy.
 bool is_stuck(const std::vector<GyroSample>& samples) {
@@ -32,6 +29,15 @@ bool is_stuck(const std::vector<GyroSample>& samples) {
 
 }  // namespace
 
+void FusedPose::take_motion(const MotionFilter& filter) {
+  const double dt_s = filter.interval_s();
+  odom_from_base = filter.odom_from_base();
+  covariance = filter.covariance();
+  twist = vision::se3_log(filter.step()) / dt_s;
+  twist_covariance =
+      vision::rotate_covariance(filter.step().linear().transpose(), filter.step_covariance()) / (dt_s * dt_s);
+}
+
 OdometryFusion::OdometryFusion(const FusionParameters& parameters)
     : parameters_(parameters),
       filter_(parameters),
@@ -40,7 +46,7 @@ OdometryFusion::OdometryFusion(const FusionParameters& parameters)
 
 bool OdometryFusion::add(const StereoPose& stereo) {
   if (!stereo.odom_from_base.matrix().allFinite() || !stereo.covariance.allFinite()) return false;
-  if (last_ns_ && stereo.stamp_ns <= *last_ns_) return false;
+  if (latest_ && stereo.stamp_ns <= latest_->stamp_ns) return false;
   if (!waiting_.empty() && stereo.stamp_ns <= waiting_.back().stamp_ns) return false;
   if (waiting_.size() == kMaxWaiting) waiting_.pop_front();
   waiting_.push_back(stereo);
@@ -67,12 +73,12 @@ bool OdometryFusion::must_wait(std::optional<std::int64_t> latest_ns, std::int64
 /// End of the next interval without a stereo pose. Silence is measured between samples of the wheels, so that their
 /// clock does not matter.
 std::optional<std::int64_t> OdometryFusion::blind_until() const {
-  if (!last_ns_ || !wheels_.state.is_used || !wheels_at_stereo_ns_) return std::nullopt;
+  if (!latest_ || !wheels_.state.is_used || !wheels_at_stereo_ns_) return std::nullopt;
   const double silence_s = seconds(*wheels_at_stereo_ns_, *wheels_.window.latest_ns());
-  const double from_stereo_s = seconds(previous_stereo_->stamp_ns, *last_ns_ + kBlindStep_ns);
+  const double from_stereo_s = seconds(previous_stereo_->stamp_ns, latest_->stamp_ns + kBlindStep_ns);
   if (silence_s < std::max({kSilence_s, 3.0 * usual_s_, from_stereo_s}) + parameters_.patience_s) return std::nullopt;
-  const std::int64_t until_ns = *last_ns_ + kBlindStep_ns;
-  if (wheels_.window.span(later(*last_ns_, wheels_late_s_), later(until_ns, wheels_late_s_)).empty())
+  const std::int64_t until_ns = latest_->stamp_ns + kBlindStep_ns;
+  if (wheels_.window.span(later(latest_->stamp_ns, wheels_late_s_), later(until_ns, wheels_late_s_)).empty())
     return std::nullopt;
   return until_ns;
 }
@@ -89,9 +95,8 @@ std::optional<FusedPose> OdometryFusion::next() {
   }
   const StereoPose stereo = waiting_.front();
   waiting_.pop_front();
-  if (last_ns_) return step(stamp_ns, stereo);
+  if (latest_) return step(stamp_ns, stereo);
   filter_.begin_at(stereo.odom_from_base, stereo.covariance);
-  last_ns_ = stamp_ns;
   previous_stereo_ = stereo;
   FusedPose first;
   first.stamp_ns = stamp_ns;
@@ -99,51 +104,47 @@ std::optional<FusedPose> OdometryFusion::next() {
   first.covariance = stereo.covariance;
   first.is_reliable = stereo.is_reliable;
   first.uses_cameras = true;
+  latest_ = first;
   return first;
 }
 
-OdometryFusion::Interval OdometryFusion::interval(std::int64_t to_ns, const std::optional<StereoPose>& stereo) const {
-  Interval now{.from_ns = *last_ns_,
-               .to_ns = to_ns,
-               .dt_s = seconds(*last_ns_, to_ns),
-               .seen = {},
-               .seen_covariance = vision::Matrix6d::Zero(),
-               .gyro = {},
-               .wheels = {}};
-  if (stereo && previous_stereo_->stamp_ns == now.from_ns) {
-    const Eigen::Isometry3d seen = previous_stereo_->odom_from_base.inverse() * stereo->odom_from_base;
-    if (seen.translation().norm() < parameters_.max_speed_m_s * now.dt_s) {
-      now.seen = seen;
-      now.seen_covariance = vision::step_covariance(previous_stereo_->odom_from_base, previous_stereo_->covariance,
-                                                    stereo->odom_from_base, stereo->covariance, kMinStepVariance);
-      now.is_reliable = stereo->is_reliable && previous_stereo_->is_reliable;
-    }
-  }
-  const auto& learned = filter_.learned();
-  now.gyro = gyro_.window.span(later(now.from_ns, learned[kGyroClock]), later(to_ns, learned[kGyroClock]));
-  now.wheels = wheels_.window.span(later(now.from_ns, wheels_late_s_), later(to_ns, wheels_late_s_));
-  return now;
+OdometryFusion::Interval OdometryFusion::interval(std::int64_t from_ns, std::int64_t to_ns) const {
+  const double gyro_late_s = filter_.learned()[kGyroClock];
+  return {.from_ns = from_ns,
+          .to_ns = to_ns,
+          .dt_s = seconds(from_ns, to_ns),
+          .seen = {},
+          .seen_covariance = vision::Matrix6d::Zero(),
+          .gyro = gyro_.window.span(later(from_ns, gyro_late_s), later(to_ns, gyro_late_s)),
+          .wheels = wheels_.window.span(later(from_ns, wheels_late_s_), later(to_ns, wheels_late_s_))};
+}
+
+/// Adds what the cameras saw, unless their odometry restarted elsewhere.
+void OdometryFusion::see(Interval& now, const StereoPose& stereo) const {
+  if (previous_stereo_->stamp_ns != now.from_ns) return;
+  const Eigen::Isometry3d seen = previous_stereo_->odom_from_base.inverse() * stereo.odom_from_base;
+  if (seen.translation().norm() >= parameters_.max_speed_m_s * now.dt_s) return;
+  now.seen = seen;
+  now.seen_covariance = vision::step_covariance(previous_stereo_->odom_from_base, previous_stereo_->covariance,
+                                                stereo.odom_from_base, stereo.covariance);
+  now.is_reliable = stereo.is_reliable && previous_stereo_->is_reliable;
 }
 
 FusedPose OdometryFusion::step(std::int64_t to_ns, const std::optional<StereoPose>& stereo) {
-  Interval now = interval(to_ns, stereo);
+  Interval now = interval(latest_->stamp_ns, to_ns);
+  if (stereo) see(now, *stereo);
   try_sensors(now);
   FusedPose fused = is_standing(now) ? stand(now) : move(now);
   filter_.compose();
+  fused.take_motion(filter_);
   fused.stamp_ns = to_ns;
-  fused.odom_from_base = filter_.odom_from_base();
-  fused.covariance = filter_.covariance();
-  const Eigen::Matrix3d base_from_before = filter_.step().linear().transpose();
-  fused.twist = vision::se3_log(filter_.step()) / now.dt_s;
-  fused.twist_covariance =
-      vision::rotate_covariance(base_from_before, filter_.step_covariance()) / (now.dt_s * now.dt_s);
 
   if (stereo) {
     fused.is_reliable |= stereo->is_reliable;
     usual_s_ += (usual_s_ == 0.0 ? 1.0 : 0.05) * (seconds(previous_stereo_->stamp_ns, to_ns) - usual_s_);
     previous_stereo_ = stereo;
   }
-  last_ns_ = to_ns;
+  latest_ = fused;
   const std::int64_t keep_ns = later(to_ns, -2.0 * kStill_s);
   gyro_.window.forget_before(keep_ns);
   wheels_.window.forget_before(keep_ns);
@@ -158,6 +159,10 @@ void OdometryFusion::try_sensors(Interval& now) {
   } else if (!gyro_.state.is_used && gyro_.trial.is_plausible()) {
     accept_gyro();  // better than none
   }
+  choose_sensors(now);
+}
+
+void OdometryFusion::choose_sensors(Interval& now) const {
   now.uses_gyro = gyro_.state.is_used && !now.gyro.empty() && !is_stuck(now.gyro);
   now.uses_wheels = wheels_.state.is_used && !now.wheels.empty();
 }
@@ -202,18 +207,22 @@ Eigen::Vector3d OdometryFusion::gyro_bias() const {
   return gyro_.state.is_used ? filter_.learned().segment<3>(kGyroBias) : gyro_.trial.bias();
 }
 
-/// Wheels and gyroscope show no motion; without a gyroscope, wheels and cameras.
-bool OdometryFusion::is_standing(const Interval& now) const {
-  if (!now.uses_wheels || filter_.step().translation().norm() >= kStandingSpeed * filter_.interval_s()) return false;
-  const auto recent = [&](const auto& window, double late_s) {
-    return window.span(later(now.to_ns, late_s - kStill_s), later(now.to_ns, late_s));
-  };
-  if (!is_still(recent(wheels_.window, wheels_late_s_))) return false;
-  if (!now.uses_gyro) return now.is_reliable && now.seen->translation().norm() < kStandingSpeed * now.dt_s;
+bool OdometryFusion::is_gyro_still(std::int64_t to_ns) const {
   const auto& learned = filter_.learned();
   const double bias_sigma =
       std::max({filter_.sigma(kGyroBias), filter_.sigma(kGyroBias + 1), filter_.sigma(kGyroBias + 2)});
-  return is_still(recent(gyro_.window, learned[kGyroClock]), learned.segment<3>(kGyroBias), bias_sigma);
+  const double late_s = learned[kGyroClock];
+  return is_still(gyro_.window.span(later(to_ns, late_s - kStill_s), later(to_ns, late_s)),
+                  learned.segment<3>(kGyroBias), bias_sigma);
+}
+
+/// Wheels and gyroscope show no motion; without a gyroscope, wheels and cameras.
+bool OdometryFusion::is_standing(const Interval& now) const {
+  if (!now.uses_wheels || filter_.step().translation().norm() >= kStandingSpeed * filter_.interval_s()) return false;
+  if (!is_still(wheels_.window.span(later(now.to_ns, wheels_late_s_ - kStill_s), later(now.to_ns, wheels_late_s_))))
+    return false;
+  if (now.uses_gyro) return is_gyro_still(now.to_ns);
+  return now.is_reliable && now.seen->translation().norm() < kStandingSpeed * now.dt_s;
 }
 
 FusedPose OdometryFusion::stand(const Interval& now) {
@@ -283,26 +292,30 @@ bool OdometryFusion::does_wheel_follow_gyro(const Interval& now) const {
 }
 
 FusedPose OdometryFusion::move_blind(const Interval& now) {
+  if (now.uses_wheels || !now.seen) return continue_blind(now, filter_);
+  // Without wheels the stereo odometry continues its motion itself, and says how uncertain that is.
   FusedPose fused;
-  MotionFilter blind = filter_;
-  blind.begin_continued(now.dt_s);
-  if (now.uses_gyro) blind.update(factor_of_gyro(blind, now));
+  filter_.begin_unknown(now.dt_s);
+  filter_.update(stereo_factor(filter_, *now.seen, now.seen_covariance));
+  if (now.uses_gyro) filter_.update(factor_of_gyro(filter_, now));
+  fused.uses_gyro = now.uses_gyro;
+  fused.is_reliable = false;
+  fused.uses_cameras = true;
+  return fused;
+}
+
+/// Moves a filter by gyroscope and wheels, at constant velocity where they do not measure.
+FusedPose OdometryFusion::continue_blind(const Interval& now, MotionFilter& filter) const {
+  FusedPose fused;
+  filter.begin_continued(now.dt_s);
+  if (now.uses_gyro) filter.update(factor_of_gyro(filter, now));
   if (now.uses_wheels) {
-    const Factor factor = factor_of_wheels(blind, now);
-    fused.uses_wheels = is_within(blind.innovation(factor), parameters_.gate_sigmas);
-    if (fused.uses_wheels) blind.update(factor);
+    const Factor factor = factor_of_wheels(filter, now);
+    fused.uses_wheels = is_within(filter.innovation(factor), parameters_.gate_sigmas);
+    if (fused.uses_wheels) filter.update(factor);
   }
   fused.uses_gyro = now.uses_gyro;
   fused.is_reliable = fused.uses_wheels && (now.uses_gyro || has_wheel_yaw(now));
-  // Without wheels the stereo odometry continues its motion itself, and says how uncertain that is.
-  if (!now.uses_wheels && now.seen) {
-    blind = filter_;
-    blind.begin_unknown(now.dt_s);
-    blind.update(stereo_factor(blind, *now.seen, now.seen_covariance));
-    if (now.uses_gyro) blind.update(factor_of_gyro(blind, now));
-    fused.uses_cameras = true;
-  }
-  filter_ = blind;
   return fused;
 }
 

@@ -13,6 +13,7 @@
 #include "panvo/conversions/time.hpp"
 #include "panvo/conversions/transform_listener.hpp"
 #include "panvo/interfaces/topics.hpp"
+#include "panvo/odometry_fusion/map_anchor.hpp"
 #include "panvo/odometry_fusion/odometry_fusion.hpp"
 #include "panvo/runtime/component.hpp"
 #include "sensor_notices.hpp"
@@ -20,7 +21,7 @@
 namespace panvo::odometry_fusion {
 
 /// odometry/binocular, odometry/quality, imu/data, wheel/odometry or wheel/twist, and /tf_static -> odometry/fused,
-/// odometry/fused_quality.
+/// odometry/fused_quality; with odometry/enhanced also -> odometry/fast, in the map.
 class OdometryFusionComponent final : public runtime::Component {
  public:
   explicit OdometryFusionComponent(runtime::Context& context)
@@ -30,6 +31,7 @@ class OdometryFusionComponent final : public runtime::Component {
         transforms_(context),
         odometry_(context.output(topics::kOdometryFused)),
         quality_(context.output(topics::kOdometryFusedQuality)),
+        fast_(context.output(topics::kOdometryFast)),
         fusion_(parameters_),
         gyro_notices_(context.log()),
         wheel_notices_(context.log()),
@@ -51,6 +53,7 @@ class OdometryFusionComponent final : public runtime::Component {
       on_wheels(topics::kWheelTwist.name, message->header().frame_id(), conversions::stamp_ns(*message),
                 message->twist());
     });
+    context.input(topics::kOdometryEnhanced, [this](const auto& message) { on_enhanced(message); });
     context.every(std::chrono::milliseconds(100), [this] { take_joined(); });
     context.on_end([this] { say_what_was_learned(); });
   }
@@ -80,8 +83,10 @@ class OdometryFusionComponent final : public runtime::Component {
       if (++refused_ < kMaxRefused) {
         return refuse(topics::kOdometryBinocular.name, "is not later than the previous one, or not finite");
       }
-      context_.log().warn("{}: stamps went backwards; restarting the fusion", name_of(topics::kOdometryBinocular.name));
+      context_.log().warn("the clock of {} was set back: restarting the fusion",
+                          name_of(topics::kOdometryBinocular.name));
       fusion_ = OdometryFusion(parameters_);
+      predicted_ns_ = INT64_MIN;
       fusion_.add(stereo);
     }
     refused_ = 0;
@@ -98,6 +103,15 @@ class OdometryFusionComponent final : public runtime::Component {
     if (!sample) return refuse(topics::kImu.name, sample.reason());
     if (!fusion_.add(*sample)) return refuse(topics::kImu.name, "is too old, or has the stamp of another one");
     publish();
+    publish_prediction();
+  }
+
+  void on_enhanced(const std::shared_ptr<const nav_msgs::msg::Odometry>& message) {
+    const auto pose = conversions::to_isometry(message->pose().pose());
+    if (!pose) return refuse(topics::kOdometryEnhanced.name, pose.reason());
+    // What the localizer publishes between two poses of the odometry has none to start from.
+    if (map_anchor_.set(conversions::stamp_ns(*message), *pose, conversions::to_matrix(message->pose().covariance())))
+      enhanced_ = message;
   }
 
   void on_wheels(std::string_view topic, const std::string& frame, std::int64_t stamp_ns,
@@ -139,6 +153,7 @@ class OdometryFusionComponent final : public runtime::Component {
   void publish() {
     const vision::Stage stage(&timer_, "fuse");
     while (const auto fused = fusion_.next()) {
+      map_anchor_.add(*fused);
       const auto share = outlier_shares_.find(fused->stamp_ns);
       const double outlier_share = share == outlier_shares_.end() ? 1.0 : share->second;
       outlier_shares_.erase(outlier_shares_.begin(), outlier_shares_.upper_bound(fused->stamp_ns));
@@ -148,6 +163,15 @@ class OdometryFusionComponent final : public runtime::Component {
     gyro_notices_.report(name_of(topics::kImu.name), fusion_.gyro());
     wheel_notices_.report(name_of(wheel_topic_), fusion_.wheels());
     yaw_notices_.report("yaw rates of " + name_of(wheel_topic_), fusion_.wheel_yaw());
+  }
+
+  void publish_prediction() {
+    const auto predicted = fusion_.predicted();
+    if (!predicted || predicted->stamp_ns <= predicted_ns_) return;
+    const auto in_map = map_anchor_.in_map(*predicted);
+    if (!in_map) return;
+    predicted_ns_ = predicted->stamp_ns;
+    fast_.publish(to_odometry(*in_map, *enhanced_));
   }
 
   void say_what_was_learned() const {
@@ -177,7 +201,11 @@ class OdometryFusionComponent final : public runtime::Component {
   conversions::TransformListener transforms_;
   runtime::Output<nav_msgs::msg::Odometry> odometry_;
   runtime::Output<panvo_msgs::msg::OdometryQuality> quality_;
+  runtime::Output<nav_msgs::msg::Odometry> fast_;
   OdometryFusion fusion_;
+  MapAnchor map_anchor_;
+  std::shared_ptr<const nav_msgs::msg::Odometry> enhanced_;  // of which map_anchor_ is
+  std::int64_t predicted_ns_ = INT64_MIN;                    // stamp of the last prediction
   SensorNotices gyro_notices_, wheel_notices_, yaw_notices_;
   conversions::OdometryJoin join_;
   Mount imu_, wheels_;

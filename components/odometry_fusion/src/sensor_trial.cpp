@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Cholesky>
+
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <random>
 #include <vector>
@@ -27,9 +28,13 @@ struct Drive {
   double wheel_scale = 1.01, wheel_yaw_scale = 1.05;
   Eigen::Vector3d gyro_bias{0.004, -0.006, 0.01};
   double gyro_late_s = 0.0, wheels_late_s = 0.0;
+  int stereo_delay_ms = 0;  // from the image to the pose
   std::function<void(double t_s, GyroSample&)> gyro_fault = [](double, GyroSample&) {};
   std::function<void(double t_s, WheelSample&)> wheel_fault = [](double, WheelSample&) {};
   std::function<void(double t_s, Eigen::Isometry3d& step)> stereo_fault = [](double, Eigen::Isometry3d&) {};
+  /// Called after each sample of the gyroscope with the true pose at it.
+  std::function<void(const OdometryFusion&, double t_s, const Eigen::Isometry3d& truth)> watch =
+      [](const OdometryFusion&, double, const Eigen::Isometry3d&) {};
 };
 
 /// Truth and estimate at one stereo pose.
@@ -81,6 +86,7 @@ class Simulator {
     Eigen::Isometry3d stereo = truth;
     vision::Matrix6d covariance = vision::Matrix6d::Zero();
     std::vector<Outcome> frames;
+    std::deque<StereoPose> waiting;
     redraw();
     const auto collect = [&] {
       while (const auto fused = fusion.next()) {
@@ -112,9 +118,14 @@ class Simulator {
             vision::compose_covariance(stereo, covariance, move, vision::Matrix6d(sigma.cwiseAbs2().asDiagonal()));
         stereo = stereo * move;
         frames.push_back({t_s, truth, stereo, covariance, {}});
-        fusion.add(StereoPose{stamp(t_s), stereo, covariance, !is_blind});
+        waiting.push_back({stamp(t_s), stereo, covariance, !is_blind});
+      }
+      while (!waiting.empty() && waiting.front().stamp_ns <= stamp(t_s - 1e-3 * drive_.stereo_delay_ms)) {
+        fusion.add(waiting.front());
+        waiting.pop_front();
       }
       collect();
+      drive_.watch(fusion, t_s, truth);
       const TrueMotion now = drive_.motion(t_s + 5e-4 * kTick_ms);
       vision::Vector6d twist;
       twist << now.forward_m_s, 0.0, 0.0, now.rate_rad_s;
@@ -123,12 +134,13 @@ class Simulator {
     return outcomes;
   }
 
+  static std::int64_t stamp(double t_s) { return kBegin_ns + std::llround(t_s * 1e9); }
+
  private:
   static constexpr int kTick_ms = 5;
   static constexpr std::int64_t kBegin_ns = 1'000'000'000'000;
   static constexpr double kPersistence_m = 5.0, kRatio = 0.008, kRad_per_m = 3e-4;
 
-  static std::int64_t stamp(double t_s) { return kBegin_ns + std::llround(t_s * 1e9); }
   /// Each sensor has its own, so that a drive without one of them is otherwise the same.
   struct Noise {
     explicit Noise(unsigned seed) : random(seed) {}

@@ -87,6 +87,7 @@ class FusionComponent : public ::testing::Test {
   const std::vector<std::shared_ptr<const nav_msgs::msg::Odometry>>& fused_ = harness_.collect(topics::kOdometryFused);
   const std::vector<std::shared_ptr<const panvo_msgs::msg::OdometryQuality>>& quality_ =
       harness_.collect(topics::kOdometryFusedQuality);
+  const std::vector<std::shared_ptr<const nav_msgs::msg::Odometry>>& fast_ = harness_.collect(topics::kOdometryFast);
   bool has_imu_ = true, has_wheels_ = true;
   std::string imu_frame_ = "imu_link";
   Eigen::Matrix3d imu_from_base_ = Eigen::Matrix3d::Identity();
@@ -144,6 +145,28 @@ TEST_F(FusionComponent, UsesOneOfTwoSensorsOnATopic) {
   imu_frame_ = "other_imu";
   drive(1.0, 2.0);
   EXPECT_THAT(harness_.log(), Contains(HasSubstr("comes from several sensors, 'imu_link' and 'other_imu'")));
+}
+
+TEST_F(FusionComponent, CarriesTheEnhancedPoseOnToEachSampleOfTheGyroscope) {
+  drive(0.0, 20.0);
+  EXPECT_TRUE(fast_.empty()) << "no pose in the map yet";
+  // The localizer puts the odometry's origin at 100 m, turned by 90 degrees.
+  Eigen::Isometry3d map_from_odom(Eigen::AngleAxisd(M_PI / 2.0, Eigen::Vector3d::UnitZ()));
+  map_from_odom.translation().x() = 100.0;
+  auto enhanced = *fused_.back();
+  enhanced.header().frame_id("map");
+  enhanced.pose().pose(conversions::to_pose(map_from_odom * *conversions::to_isometry(fused_.back()->pose().pose())));
+  harness_.publish(topics::kOdometryEnhanced, enhanced);
+  drive(20.0, 20.5);
+  ASSERT_GE(fast_.size(), 90U) << "of 100; a new pose of the stereo odometry waits for the next sample";
+  EXPECT_EQ(fast_.back()->header().frame_id(), "map");
+  EXPECT_EQ(fast_.back()->child_frame_id(), "base_link");
+  EXPECT_EQ(fast_.back()->header().stamp(), stamp(20.495));
+  Eigen::Isometry3d before = truth_;
+  before.translation() -= 0.005 * 5.0 * truth_.linear().col(0);
+  const auto pose = conversions::to_isometry(fast_.back()->pose().pose());
+  EXPECT_LT(((map_from_odom * before).translation() - pose->translation()).norm(), 0.02);
+  EXPECT_NEAR(fast_.back()->twist().twist().angular().z(), yaw_rate(20.495), 0.02);
 }
 
 TEST_F(FusionComponent, BeginsAnewWhenTheClockIsSetBack) {

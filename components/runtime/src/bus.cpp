@@ -77,6 +77,11 @@ bool Channel::has_readers() const {
   return !readers_.empty();
 }
 
+bool Channel::has_observers() const {
+  const std::shared_lock lock(mutex_);
+  return !observers_.empty();
+}
+
 void Channel::agree_on_reading(const std::optional<interfaces::Qos>& qos, Wants wants) {
   const interfaces::Qos wanted = qos.value_or(topic_.qos);
   if (readers_.empty()) {

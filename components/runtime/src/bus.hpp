@@ -46,6 +46,7 @@ class Channel {
   bool is_read_by(const void* owner) const;
 
   bool has_readers() const;
+  bool has_observers() const;
 
   /// Passes latched messages and then all further messages to `reader`, until remove_reader() returns. `qos`: overrides
   /// that of the topic. Throws ConfigError if another reader of this process requests another reliability or

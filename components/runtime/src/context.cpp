@@ -297,4 +297,9 @@ bool Context::has_publisher(const TopicDescription& topic) const {
   return channel.has_publisher_other_than(nullptr) || channel.counters().remote_writers > 0;
 }
 
+bool Context::has_reader(const TopicDescription& topic) const {
+  const Channel& channel = state_->host.bus.channel(state_->resolve(topic));
+  return channel.has_readers() || channel.has_observers() || channel.counters().remote_readers > 0;
+}
+
 }  // namespace panvo::runtime

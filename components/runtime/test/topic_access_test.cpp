@@ -128,5 +128,22 @@ TEST_F(TopicsByName, AreNotWrittenInAReplay) {
   EXPECT_THROW(access_->write({"/chat", "std_msgs/msg/String", {}, nullptr}), ConfigError);
 }
 
+TEST_F(TopicsByName, AreReadFromThePublishersPointOfView) {
+  Context* publisher = nullptr;
+  ComponentDescription chatting;
+  chatting.name = "chatting";
+  chatting.name_space = "/";
+  harness_.container().add(chatting, [&](Context& context) {
+    publisher = &context;
+    context.output(kChat);
+    return std::make_unique<Component>();
+  });
+  EXPECT_FALSE(publisher->has_reader(kChat));
+  auto reading = read("/chat");
+  EXPECT_TRUE(publisher->has_reader(kChat));
+  reading.reset();
+  EXPECT_FALSE(publisher->has_reader(kChat));
+}
+
 }  // namespace
 }  // namespace panvo::runtime

@@ -60,10 +60,14 @@ inline constexpr Topic<sensor_msgs::msg::Imu> kImu{"imu/data", kMotionSensor};
 
 inline constexpr Topic<nav_msgs::msg::Odometry> kOdometryBinocular{"odometry/binocular", qos::kResult};
 inline constexpr Topic<panvo_msgs::msg::OdometryQuality> kOdometryQuality{"odometry/quality", qos::kResult};
+/// Points that the odometry tracks: x, y, z in the odometry's frame, u, v in the left image. Only made for readers.
+inline constexpr Topic<sensor_msgs::msg::PointCloud2> kOdometryPoints{"odometry/points", qos::kSensorData};
 /// Stereo odometry, gyroscope and wheels in one.
 inline constexpr Topic<nav_msgs::msg::Odometry> kOdometryFused{"odometry/fused", qos::kResult};
 inline constexpr Topic<panvo_msgs::msg::OdometryQuality> kOdometryFusedQuality{"odometry/fused_quality", qos::kResult};
 inline constexpr Topic<nav_msgs::msg::Odometry> kOdometryEnhanced{"odometry/enhanced", qos::kResult};
+/// The enhanced pose, carried on to each sample of the gyroscope.
+inline constexpr Topic<nav_msgs::msg::Odometry> kOdometryFast{"odometry/fast", kMotionSensor};
 inline constexpr Topic<panvo_msgs::msg::AzimuthChange> kAzimuthChange{"compass/azimuth_change", qos::kResult};
 /// Each landmark once, when it is built.
 inline constexpr Topic<panvo_msgs::msg::PanoramicLandmark> kLandmarks{"landmarks", qos::kHistory};

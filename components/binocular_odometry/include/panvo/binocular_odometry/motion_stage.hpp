@@ -2,9 +2,11 @@
 #pragma once
 
 #include <memory>
+#include <vector>
 
 #include "panvo/binocular_odometry/odometry_estimate.hpp"
 #include "panvo/binocular_odometry/parameters.hpp"
+#include "panvo/binocular_odometry/scene_point.hpp"
 #include "panvo/binocular_odometry/tracked_frame.hpp"
 #include "panvo/vision/camera.hpp"
 #include "panvo/vision/stage_observer.hpp"
@@ -25,6 +27,9 @@ class MotionStage {
   /// Pose and motion of the next frame. If the motion cannot be estimated, the pose is predicted with the last motion,
   /// marked unreliable with the reason, and its covariance grows; the next frame is matched with the last good frame.
   OdometryEstimate estimate(const TrackedFrame& frame);
+
+  /// Points of the last frame; empty if its motion could not be estimated.
+  std::vector<ScenePoint> points() const;
 
  private:
   class Implementation;

@@ -27,6 +27,9 @@ struct FusedPose {
   bool is_reliable = true;  ///< measured by cameras or wheels
   bool is_standing = false;
   bool uses_cameras = false, uses_gyro = false, uses_wheels = false;
+
+  /// Takes pose and twist, with covariances, from a filter at the end of an interval.
+  void take_motion(const MotionFilter& filter);
 };
 
 /// State of an optional sensor.
@@ -49,6 +52,13 @@ class OdometryFusion {
   /// The next pose, of a stereo pose or, if none come, of the wheels' and gyroscope's samples. nullopt: none yet. Call it
   /// until then after each add().
   std::optional<FusedPose> next();
+
+  /// The latest pose of next().
+  const std::optional<FusedPose>& latest() const noexcept { return latest_; }
+
+  /// The pose at the gyroscope's newest sample: the latest one, carried on by gyroscope and wheels, at constant
+  /// velocity where they do not measure. nullopt: no later sample, or one more than half a second later.
+  std::optional<FusedPose> predicted() const;
 
   const SensorState& gyro() const noexcept { return gyro_.state; }
   const SensorState& wheels() const noexcept { return wheels_.state; }
@@ -82,17 +92,22 @@ class OdometryFusion {
 
   bool must_wait(std::optional<std::int64_t> latest_ns, std::int64_t stamp_ns, double clock_s) const;
   std::optional<std::int64_t> blind_until() const;
-  Interval interval(std::int64_t to_ns, const std::optional<StereoPose>& stereo) const;
+  Interval interval(std::int64_t from_ns, std::int64_t to_ns) const;
+  void see(Interval& now, const StereoPose& stereo) const;
   FusedPose step(std::int64_t to_ns, const std::optional<StereoPose>& stereo);
   void try_sensors(Interval& now);
   void try_gyro(const Interval& now);
   void try_wheels(const Interval& now);
   void accept_gyro();
+  void choose_sensors(Interval& now) const;
+  bool is_gyro_still(std::int64_t to_ns) const;
   bool is_standing(const Interval& now) const;
   FusedPose stand(const Interval& now);
   FusedPose move(const Interval& now);
   FusedPose move_seen(const Interval& now);
   FusedPose move_blind(const Interval& now);
+  FusedPose continue_blind(const Interval& now, MotionFilter& filter) const;
+  FusedPose move_ahead(MotionFilter& ahead, std::int64_t to_ns) const;
   bool does_wheel_follow_gyro(const Interval& now) const;
   void doubt_sensors();
   Factor factor_of_gyro(const MotionFilter& filter, const Interval& now) const;
@@ -106,7 +121,7 @@ class OdometryFusion {
   SensorState wheel_yaw_;
   std::deque<StereoPose> waiting_;
   std::optional<StereoPose> previous_stereo_;
-  std::optional<std::int64_t> last_ns_;              // of the fused pose
+  std::optional<FusedPose> latest_;
   std::int64_t newest_ns_ = INT64_MIN;               // stamp of a stereo pose
   double wheels_late_s_ = 0.0;                       // their stamps
   std::optional<std::int64_t> wheels_at_stereo_ns_;  // latest wheel sample when the last stereo pose arrived

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <cmath>
 #include <cstdint>
 
 #include "panvo/vision/pose.hpp"
@@ -36,6 +37,8 @@ inline constexpr double kNanosecond_s = 1e-9;
 inline double seconds(std::int64_t from_ns, std::int64_t to_ns) {
   return static_cast<double>(to_ns - from_ns) * kNanosecond_s;
 }
+
+inline std::int64_t later(std::int64_t stamp_ns, double by_s) { return stamp_ns + std::llround(by_s / kNanosecond_s); }
 
 /// Linear interpolation between two samples; `share` in [0, 1].
 inline GyroSample between(const GyroSample& a, const GyroSample& b, double share) {

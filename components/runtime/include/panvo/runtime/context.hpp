@@ -149,6 +149,12 @@ class Context {
     return has_publisher(describe(topic));
   }
 
+  /// Whether anybody in this or another process reads the topic, so that messages for viewers only need not be made.
+  template <class Message>
+  bool has_reader(const interfaces::Topic<Message>& topic) const {
+    return has_reader(describe(topic));
+  }
+
   /// Name of a topic after namespace and remaps ("/robot/odometry/binocular"), for use in messages to users.
   template <class Message>
   std::string resolved_name(const interfaces::Topic<Message>& topic) const {
@@ -205,6 +211,7 @@ class Context {
   }
 
   bool has_publisher(const TopicDescription& topic) const;
+  bool has_reader(const TopicDescription& topic) const;
   void open_service(ServiceDescription service, ServiceHandler handler);
   std::shared_ptr<ServiceCaller> open_client(ServiceDescription service);
   ParameterReader& parameter_reader();

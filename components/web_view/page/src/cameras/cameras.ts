@@ -4,6 +4,7 @@ import type { Happening } from "../link/events.ts";
 import { imageTypes, preferredImage } from "../link/roles.ts";
 import type { Drive } from "../model/drive.ts";
 import { clock, h, setText } from "../ui/dom.ts";
+import { FeatureLegend, drawFeatures } from "./features.ts";
 import { shiftOf, sidesOf, ticksOf } from "./heading_tape.ts";
 import { Picture } from "./picture.ts";
 import { Thumbnails } from "./thumbnails.ts";
@@ -58,6 +59,8 @@ export class Cameras {
   #placeElement: HTMLElement;
   #thumbnails = new Thumbnails(() => (this.#drawnPlace = ""));
   #drawnPlace = "";
+  #legend = new FeatureLegend();
+  #drawnFeatures_s = NaN; // stamp of the image into which they are drawn
   #isVisible = true;
   readonly empty = h("p.empty", {}, "No camera publishes images.");
 
@@ -68,6 +71,7 @@ export class Cameras {
   ) {
     this.#panorama = new Camera("panorama", "Panorama", () => this.#tellTopics());
     this.#left = new Camera("left", "Left camera", () => this.#tellTopics());
+    this.#left.element.append(this.#legend.element);
     this.#placeElement = h("figure.camera.place", { hidden: true }, h("figcaption", {}, this.#placeCaption), pictureFrame(this.#place.canvas));
     element.append(this.empty, this.#panorama.element, this.#placeElement, this.#left.element);
   }
@@ -93,6 +97,7 @@ export class Cameras {
     camera.picture.show(bitmap);
     camera.element.hidden = false;
     setText(camera.note, "");
+    if (camera === this.#left) this.#updateFeatures();
   }
 
   fault(topic: string, why: string): void {
@@ -102,6 +107,7 @@ export class Cameras {
   update(): void {
     this.#updateTape();
     this.#updatePlace();
+    this.#updateFeatures();
   }
 
   /** Whether there is a camera of which no image has come yet. */
@@ -149,6 +155,17 @@ export class Cameras {
       mark.style.left = `clamp(1.6em, ${(at * 100).toFixed(2)}%, 100% - 1.6em)`;
       setText(mark, text);
     });
+  }
+
+  /** The points are those of the rectified image, and come shortly before or after it. */
+  #updateFeatures(): void {
+    const { picture, stamp_s, topic } = this.#left;
+    if (stamp_s === this.#drawnFeatures_s || !topic?.includes("image_rect")) return;
+    const trails = this.drive.features.at(stamp_s);
+    if (!trails) return;
+    this.#drawnFeatures_s = stamp_s;
+    picture.draw((context) => drawFeatures(context, trails));
+    this.#legend.show(trails);
   }
 
   #updatePlace(): void {

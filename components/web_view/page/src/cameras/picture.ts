@@ -19,6 +19,11 @@ export class Picture {
     if (x > 0) this.#context.drawImage(bitmap, x - bitmap.width, 0);
   }
 
+  /** Draws over the picture. */
+  draw(paint: (context: CanvasRenderingContext2D) => void): void {
+    paint(this.#context);
+  }
+
   get isEmpty(): boolean {
     return this.bitmap === undefined;
   }

@@ -100,7 +100,8 @@ export class Channels {
   #isWanted(channel: Channel): boolean {
     if (this.#done.has(channel.id) || this.#unknown.has(channel.id)) return false;
     if (imageTypes.includes(channel.schemaName)) return this.#images.has(channel.topic);
-    return roleOf(channel) !== undefined;
+    const role = roleOf(channel);
+    return role === "points" ? this.#images.size > 0 : role !== undefined; // points are drawn into an image
   }
 
   #subscriptionOf(channel: Channel): Subscription | undefined {

@@ -4,6 +4,7 @@ import { BackOff } from "./back_off.ts";
 import { Channels, type Subscription } from "./channels.ts";
 import { encoded } from "./codec.ts";
 import type { Happening, Order, RoleMessage } from "./events.ts";
+import { featuresOf, type PointCloud } from "../model/features.ts";
 import { publishable } from "./initial_pose.ts";
 import { Requests } from "./requests.ts";
 import { parseBinary, parseText, publishFrame, subprotocols, type ServerText } from "./wire.ts";
@@ -186,8 +187,9 @@ export class Link {
   }
 }
 
-/** Without the features of a landmark, which nobody looks at and which are most of its bytes. */
+/** Without the features of a landmark, which nobody looks at and which are most of its bytes; of a point cloud what is drawn. */
 function shortened(role: string, message: unknown): unknown {
+  if (role === "points") return featuresOf(message as PointCloud);
   if (role !== "landmark") return message;
   const { header, id, pose, is_junction, thumbnail } = message as Record<string, unknown>;
   return { header, id, pose, is_junction, thumbnail: (thumbnail as Uint8Array).slice() };

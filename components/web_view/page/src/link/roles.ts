@@ -13,6 +13,7 @@ export const roles = {
   binocular: { name: "odometry/binocular", type: "nav_msgs/msg/Odometry" },
   truth: { name: "ground_truth/odometry", type: "nav_msgs/msg/Odometry" },
   quality: { name: "odometry/quality", type: "panvo_msgs/msg/OdometryQuality" },
+  points: { name: "odometry/points", type: "sensor_msgs/msg/PointCloud2" },
   azimuth: { name: "compass/azimuth_change", type: "panvo_msgs/msg/AzimuthChange" },
   landmark: { name: "landmarks", type: "panvo_msgs/msg/PanoramicLandmark" },
   landmarkPoses: { name: "landmarks/poses", type: "panvo_msgs/msg/LandmarkPoses" },

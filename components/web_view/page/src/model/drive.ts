@@ -4,6 +4,7 @@ import type { RoleMessage } from "../link/events.ts";
 import type { Role } from "../link/roles.ts";
 import { mapFromFrame } from "./anchor.ts";
 import { componentsOf, droppedBy, type Component } from "./components.ts";
+import { FeatureTrails, type Features } from "./features.ts";
 import { composed, distance, ellipseOf, flat, identity, wrapped, yawOf, type Ellipse, type Pose2 } from "./geometry.ts";
 import { correctionOf, entryOfPass, entryOfState, type Correction, type Entry } from "./happenings.ts";
 import * as m from "./messages.ts";
@@ -33,6 +34,7 @@ export class Drive {
   begin = Infinity;
   speed = NaN; // m/s
   ellipse: Ellipse | undefined;
+  features = new FeatureTrails();
   places = new Places();
   corrections: Correction[] = [];
   entries: Entry[] = [];
@@ -101,6 +103,7 @@ export class Drive {
       this.#turns.add(message);
       this.#compareTurns();
     },
+    points: (features: Features | undefined) => features && this.features.add(features),
     landmark: (message: m.Landmark) => this.#onLandmark(message),
     landmarkPoses: (message: m.LandmarkPoses) => this.places.move(message),
     match: (message: m.LandmarkMatch) => this.#onMatch(message),

@@ -13,6 +13,7 @@ class Row {
   element: HTMLElement;
   #value: ParameterValue | undefined;
   #isReadOnly = false;
+  #isWaiting = false; // for the server to say what a changed value is now
 
   constructor(
     label: string,
@@ -29,8 +30,8 @@ class Row {
     this.#input.disabled = this.#isReadOnly || !this.isAllowed();
     this.#input.type = typeof value === "boolean" ? "checkbox" : "text";
     if (typeof value === "boolean") this.#input.checked = value;
-    else if (document.activeElement !== this.#input) this.#input.value = typeof value === "string" ? value : JSON.stringify(value ?? "");
-    this.element.classList.remove("waiting");
+    else if (this.#isWaiting || document.activeElement !== this.#input) this.#input.value = typeof value === "string" ? value : JSON.stringify(value ?? "");
+    this.#wait(false);
   }
 
   describe(descriptor: Descriptor): void {
@@ -44,8 +45,13 @@ class Row {
     this.#input.setCustomValidity(value === undefined ? "not a value of this parameter's type" : "");
     this.#input.reportValidity();
     if (value === undefined) return;
-    this.element.classList.add("waiting"); // until the server says what it is now
+    this.#wait(true);
     this.set(value);
+  }
+
+  #wait(isWaiting: boolean): void {
+    this.#isWaiting = isWaiting;
+    this.element.classList.toggle("waiting", isWaiting);
   }
 }
 

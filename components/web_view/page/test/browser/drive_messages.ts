@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /** A short drive to be published: a quarter of a circle to the left, with odometry that drifts, a place, and a correction. */
 import { Outcome, State } from "../../src/model/messages.ts";
-import { covariance, header, odometry, pose } from "../modules/make.ts";
+import { covariance, header, odometry, pointCloud, pose } from "../modules/make.ts";
 
 export const topics = {
   "/odometry/enhanced": "nav_msgs/msg/Odometry",
@@ -13,8 +13,11 @@ export const topics = {
   "/correction/outcome": "panvo_msgs/msg/CorrectionOutcome",
   "/diagnostics": "diagnostic_msgs/msg/DiagnosticArray",
   "/stereo/left/image_rect": "sensor_msgs/msg/Image",
+  "/odometry/points": "sensor_msgs/msg/PointCloud2",
 };
 
+export const image = { width: 96, height: 72 };
+export const point = { u: 60, v: 40 }; // of the odometry, in the image
 export const poses = 120;
 export const radius_m = 30;
 const start_s = 1000;
@@ -55,5 +58,7 @@ export function* messages(): Generator<[keyof typeof topics, unknown]> {
   yield ["/localization/state", { header: header(end), state: State.tracking, reason: "", since: header(end).stamp, position_sigma_m: 0.25, heading_sigma_rad: 0.01 }];
   yield ["/localization/integrity", { header: header(end), usable: true, reason: "", risk: 0.001, horizontal_protection_level_m: 1.37, alert_limit_m: 2 }];
   yield ["/diagnostics", { header: header(end, ""), status: [{ level: 1, name: "panvo: localizer", message: "too slow", hardware_id: "none", values: [{ key: "/correction messages", value: "9 received, 6 handled, 3 dropped, 0 waiting, 0 undecodable" }] }] }];
-  yield ["/stereo/left/image_rect", { header: header(end, "left"), height: 2, width: 2, encoding: "bgr8", is_bigendian: 0, step: 6, data: new Uint8Array([0, 0, 250, 0, 0, 250, 0, 0, 250, 0, 0, 250]) }];
+  const red = Array.from({ length: image.width * image.height }, () => [0, 0, 250]).flat();
+  yield ["/stereo/left/image_rect", { header: header(end, "left"), ...image, encoding: "bgr8", is_bigendian: 0, step: 3 * image.width, data: new Uint8Array(red) }];
+  yield ["/odometry/points", pointCloud(end, [{ ...point, track: 5, state: 1 }])];
 }

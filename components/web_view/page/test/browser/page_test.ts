@@ -8,7 +8,7 @@ import test, { after, before } from "node:test";
 import puppeteer, { type Browser, type Page } from "puppeteer-core";
 import type { App } from "../../src/app.ts";
 import { near } from "../modules/make.ts";
-import { messages, poseAt, poses, topics } from "./drive_messages.ts";
+import { image, messages, point, poseAt, poses, topics } from "./drive_messages.ts";
 import { Publisher } from "./publisher.ts";
 import { Server } from "./server.ts";
 
@@ -42,7 +42,7 @@ before(async () => {
   await publisher.advertise(topics);
   // The page has subscribed once it knows the topics and asked for the image.
   await page.waitForFunction((count) => document.querySelectorAll(".camera.left option").length >= count, {}, 1);
-  await page.waitForFunction(() => panvo.topics.length >= 9);
+  await page.waitForFunction(() => panvo.topics.length >= 10);
   for (const [topic, message] of messages()) publisher.publish(topic, message);
   await page.waitForFunction((count) => panvo.drive.enhanced.received === count && panvo.drive.components.has("localizer"), { timeout: 20_000 }, poses);
 });
@@ -85,9 +85,20 @@ test("the figures in the head are those of the messages", async () => {
 });
 
 test("the image has the colour that was published", async () => {
-  await page.waitForFunction(() => document.querySelector<HTMLCanvasElement>(".camera.left canvas")!.width === 2);
+  await page.waitForFunction((width) => document.querySelector<HTMLCanvasElement>(".camera.left canvas")!.width === width, {}, image.width);
   const pixel = await page.$eval(".camera.left canvas", (canvas) => [...(canvas as HTMLCanvasElement).getContext("2d")!.getImageData(0, 0, 1, 1).data]);
   assert.deepEqual(pixel, [250, 0, 0, 255]);
+});
+
+test("the points of the odometry are drawn where they are seen, in the colour of their kind", async () => {
+  await becomes(".legend .inlier", "1 follow the motion");
+  const colours = await page.$eval(
+    ".camera.left canvas",
+    (canvas, u, v) => [0, 20].map((away) => [...(canvas as HTMLCanvasElement).getContext("2d")!.getImageData(u + away, v, 1, 1).data]),
+    point.u,
+    point.v,
+  );
+  assert.deepEqual(colours, [[0x35, 0xc9, 0x9b, 255], [250, 0, 0, 255]]);
 });
 
 test("events and components are listed", async () => {
@@ -107,6 +118,32 @@ test("parameters are listed with their ranges, and fixed ones cannot be changed"
   await becomes("#parameters", "TCP port; 0: any free one; 0 to 65535; fixed while it runs");
   const fields = await page.$$eval("#parameters input", (inputs) => inputs.map((input) => [input.getAttribute("aria-label"), input.value, input.disabled]));
   assert.ok(fields.some(([label, value, isDisabled]) => label === "max_clients" && value === "8" && isDisabled));
+  await page.click('aside button[data-tab="cameras"]');
+});
+
+/** Types into a parameter's field, as a user does. */
+async function setParameter(field: string, text: string): Promise<void> {
+  await page.$eval(field, (input) => (input as HTMLInputElement).select());
+  await page.type(field, text);
+  await page.keyboard.press("Enter");
+  await page.waitForFunction((where) => !document.querySelector(where)!.closest(".parameter")!.classList.contains("waiting"), {}, field);
+}
+
+test("a parameter that is set is the component's, and one out of range is refused with the reason", async () => {
+  const field = '#parameters input[aria-label="jpeg_quality"]';
+  const valueOf = (on: Page) => on.$eval(field, (input) => (input as HTMLInputElement).value);
+  await page.click('aside button[data-tab="system"]');
+  await page.waitForSelector(field);
+  await page.$$eval("#parameters details", (nodes) => nodes.forEach((node) => (node.open = true)));
+  await setParameter(field, "40");
+  assert.equal(await valueOf(page), "40");
+  const other = await opened(server.url());
+  await other.waitForSelector(field);
+  assert.equal(await valueOf(other), "40");
+  await other.close();
+  await setParameter(field, "400");
+  assert.equal(await valueOf(page), "40");
+  assert.match(await textOf("#note"), /jpeg_quality was not set/);
   await page.click('aside button[data-tab="cameras"]');
 });
 
@@ -224,7 +261,7 @@ test("a snapshot is one file that shows the same without a server", async () => 
   const shown = await copy.evaluate(() => [panvo.drive.enhanced.count, panvo.drive.corrections.length, panvo.drive.driven_m]);
   assert.deepEqual(shown.slice(0, 2), [poses, 1]);
   near(shown[2]!, 48.1, 0.1);
-  await copy.waitForFunction(() => document.querySelector<HTMLCanvasElement>(".camera.left canvas")!.width === 2);
+  await copy.waitForFunction((width) => document.querySelector<HTMLCanvasElement>(".camera.left canvas")!.width === width, {}, image.width);
   await copy.close();
   fs.rmSync(folder, { recursive: true });
 });

@@ -18,9 +18,10 @@ export class Server {
   async start({ port = 0, token = "" }: Options = {}): Promise<void> {
     const parameters: [string, unknown][] = [["port", port], ["token", token], ["allow_control", true], ["page", path.resolve("dist")]];
     const lines = parameters.map(([name, value]) => `      - {name: ${name}, value: ${JSON.stringify(value)}}`);
+    const encoder = ["    - pkg: panvo_compressed_images", "      plugin: ImageEncoderComponent", "      name: encoder"]; // has parameters that can be set
     const system = path.join(this.#folder, "view.yaml");
     const head = ["launch:", "- node_container:", "    pkg: panvo_runner", "    exec: panvo_run", "    name: viewing", '    namespace: ""', "    composable_node:"];
-    fs.writeFileSync(system, [...head, "    - pkg: panvo_web_view", "      plugin: WebViewComponent", "      name: web_view", "      param:", ...lines, ""].join("\n"));
+    fs.writeFileSync(system, [...head, "    - pkg: panvo_web_view", "      plugin: WebViewComponent", "      name: web_view", "      param:", ...lines, ...encoder, ""].join("\n"));
     this.#process = spawn(process.env.PANVO_RUN!, ["--local", system], { stdio: ["ignore", "pipe", "pipe"] });
     this.port = await portOf(this.#process);
   }

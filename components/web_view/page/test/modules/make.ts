@@ -19,6 +19,31 @@ export function odometry(seconds: number, at: Pose2, speed = 0) {
   return { header: header(seconds), pose: { pose: pose(at), covariance: covariance(0.04, 0, 0.01) }, twist: { twist: { linear: { x: speed, y: 0, z: 0 } } } };
 }
 
+/** Points as the odometry publishes them, in its layout. */
+export function pointCloud(seconds: number, points: { u: number; v: number; track: number; state: number }[]) {
+  const step = 28;
+  const data = new Uint8Array(step * points.length);
+  const view = new DataView(data.buffer);
+  points.forEach(({ u, v, track, state }, i) => {
+    view.setFloat32(i * step + 12, u, true);
+    view.setFloat32(i * step + 16, v, true);
+    view.setUint32(i * step + 20, track, true);
+    view.setUint8(i * step + 24, state);
+  });
+  const fields = [["x", 0, 7], ["y", 4, 7], ["z", 8, 7], ["u", 12, 7], ["v", 16, 7], ["track", 20, 6], ["state", 24, 2]] as const;
+  return {
+    header: header(seconds, "odom"),
+    height: 1,
+    width: points.length,
+    fields: fields.map(([name, offset, datatype]) => ({ name, offset, datatype, count: 1 })),
+    is_bigendian: false,
+    point_step: step,
+    row_step: data.length,
+    data,
+    is_dense: true,
+  };
+}
+
 export function near(actual: number, expected: number, tolerance = 1e-9): void {
   if (!(Math.abs(actual - expected) <= tolerance)) throw new Error(`${actual} is not ${expected} within ${tolerance}`);
 }
