@@ -66,8 +66,8 @@ endfunction()
 function(_panvo_unity_build target)
   if(PANVO_UNITY)
     set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
-    # A class of one source may have members of types that are internal to it.
-    target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
+    # A class of one source may have members of types that are internal to it, and a function a variable named like another source's constant.
+    target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage$<SEMICOLON>-Wno-shadow$<SEMICOLON>-Wshadow=local>)
   endif()
 endfunction()
 

@@ -33,10 +33,10 @@ struct Part {
 
 /// The type itself, then the types that it contains, as in the definition: separated by a line, then "MSG: std_msgs/Header".
 std::vector<Part> parts_of(const interfaces::MessageType& type) {
-  static const std::string kSeparator = "\n" + std::string(80, '=') + "\nMSG: ";
+  static const std::string separator = "\n" + std::string(80, '=') + "\nMSG: ";
   std::vector<Part> parts{{std::string(type.name), type.definition}};
-  for (auto at = std::string_view::npos; (at = parts.back().text.find(kSeparator)) != std::string_view::npos;) {
-    auto rest = parts.back().text.substr(at + kSeparator.size());
+  for (auto at = std::string_view::npos; (at = parts.back().text.find(separator)) != std::string_view::npos;) {
+    auto rest = parts.back().text.substr(at + separator.size());
     parts.back().text = parts.back().text.substr(0, at);
     const auto line = rest.substr(0, rest.find('\n'));
     rest.remove_prefix(std::min(rest.size(), line.size() + 1));

@@ -20,6 +20,7 @@
 #include "sensor_msgs/msg/CameraInfo.h"
 #include "sensor_msgs/msg/Image.h"
 #include "sensor_msgs/msg/Imu.h"
+#include "sensor_msgs/msg/PointCloud2.h"
 #include "tf2_msgs/msg/TFMessage.h"
 
 /// The topics of panvo's components. Components use these constants instead of names of their own.
