@@ -11,7 +11,7 @@ verb_usage() {
   cat <<'EOT'
 usage: panvo devices [--json] [--simulated]
 
-Lists the cameras that the drivers find: serial number (for `cameras` in a rig file), maker, model and address; pixel formats,
+Lists the cameras that the drivers find: serial number (for `cameras`, a parameter of the drivers), maker, model and address; pixel formats,
 image sizes and frame rates. A camera used by another program is listed as in use.
 
   --json       JSON output, one list of objects per driver

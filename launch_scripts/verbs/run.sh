@@ -7,7 +7,7 @@ source "$PANVO_SCRIPTS/lib/systems.sh"
 
 verb_usage() {
   cat <<'EOT'
-usage: panvo run SYSTEM [--dataset DIR | --bag DIR] [--out DIR] [--replay | --rate R] [--set C.P=V ...] [NAME:=VALUE ...]
+usage: panvo run SYSTEM [--dataset DIR | --bag BAG] [--out DIR] [--replay | --rate R] [--set C.P=V ...] [NAME:=VALUE ...]
 
 SYSTEM is a system file, or the name of one in config/systems: `panvo run stereo`.
 

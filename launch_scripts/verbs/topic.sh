@@ -8,7 +8,8 @@ verb_usage() {
   cat <<'EOT'
 usage: panvo topic list [-t] | info TOPIC [-v] | echo TOPIC [--once] | hz TOPIC | bw TOPIC
 
-Topics of all DDS peers that follow the naming convention of ROS 2. echo supports the message types of panvo's interfaces.
+Topics of all DDS peers that follow the naming convention of ROS 2. echo prints messages of panvo's interfaces, and of your own packages if their
+workspace is sourced.
 EOT
   show_program_help panvo_graph
 }

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # shellcheck shell=bash
-# summary: show live topics, or a bag, in Foxglove
+# summary: show live topics, or a bag, in a browser and in Foxglove
 
 source "$PANVO_SCRIPTS/lib/build.sh"
 source "$PANVO_SCRIPTS/lib/systems.sh"

@@ -81,7 +81,7 @@ struct Parameters {
           "published encoding: readable by all components (Bayer and YUV as bgr8), grey, or as sent by the camera",
           {"readable", "grey", "as_sent"});
     field.path(&P::calibration, "calibration",
-               "folder of ROS camera_info files camera.yaml; left.yaml, right.yaml; head_0.yaml ...");
+               "folder of ROS camera_info files: camera.yaml; panorama.yaml; left.yaml, right.yaml; head_0.yaml ...");
     field(&P::mount, "mount", "",
           "camera poses on base_link, for /tf_static: x, y, z in m, roll, pitch, yaw in degrees of each camera, "
           "or of the left camera of a calibrated pair; empty: not published");

@@ -12,6 +12,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "panvo/simulation/effects.hpp"
 #include "panvo/simulation/euroc_writer.hpp"
 #include "panvo/simulation/sequence_file.hpp"
 #include "panvo/simulation/simulation.hpp"
@@ -79,7 +80,7 @@ void describe_options(CLI::App& app, Options& options) {
       ->check(CLI::Range(2, 1000));
   app.add_option("--out", options.out, "output folder; an interrupted run resumes with the same arguments");
   app.add_option("--seed", s.seed, "seed of the world, the motion and the noise")->capture_default_str();
-  app.add_option("--effects", options.effects, "comma-separated difficulties; all, none")->delimiter(',');
+  app.add_option("--effects", options.effects, "comma-separated effects, see below; all, none")->delimiter(',');
   app.add_option("--rig", options.rig, "rig file, as config/rigs/paper/rig.yaml");
   app.add_option("--hilliness", s.hilliness, "0: flat, 1: hills of 8 m")
       ->check(CLI::Range(0.0, 2.0))
@@ -106,6 +107,9 @@ void describe_options(CLI::App& app, Options& options) {
       ->delimiter(',');
   app.add_flag("--map", options.map, "only write plan.png: a map of the campus with the route");
   app.add_flag("--truth-only", options.truth_only, "only write sequence.yaml: the ground truth");
+  std::string effects = "Effects:";
+  for (const auto& effect : kEffectNames) effects += fmt::format("\n  {:<15} {}", effect.name, effect.description);
+  app.footer(effects);
 }
 
 /// Combines the options. Throws if they are invalid.

@@ -70,7 +70,7 @@ struct SystemDescription {
 ///           name: binocular_odometry
 ///           param:
 ///           - from: $(dirname)/../rigs/$(var rig)/odometry.yaml     # a ROS 2 parameter file
-///           - {name: tracker.max_features, value: 500}
+///           - {name: tracking.max_features, value: 500}
 ///           remap:
 ///           - {from: stereo/left/image_rect, to: /camera/left/image_rect}
 ///
@@ -81,7 +81,7 @@ struct SystemDescription {
 SystemDescription read_system_file(const std::filesystem::path& file,
                                    const std::map<std::string, std::string>& arguments = {});
 
-/// Sets one parameter as on the command line: "binocular_odometry.tracker.max_features=500", a list as "name.list=[1,
+/// Sets one parameter as on the command line: "binocular_odometry.tracking.max_features=500", a list as "name.list=[1,
 /// 2]". A component in a namespace may be given by its full name; a short name selects all components of that name.
 /// Throws ConfigError if there is none.
 void apply_setting(SystemDescription& system, const std::string& setting);
