@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <array>
 #include <cmath>
 #include <stdexcept>
