@@ -42,6 +42,12 @@ Points own_bound(const RunEvaluation& run) {
   return points;
 }
 
+/// Largest value of the second chart: the error, and the bound unless it is far larger, as while the start is unknown.
+double highest_shown(const Points& enhanced, const Points& bound) {
+  constexpr double kFarLarger = 4.0;
+  return std::max(highest(enhanced), std::min(highest(bound), kFarLarger * highest(enhanced)));
+}
+
 /// Points above the chart are drawn at its border.
 void mark_corrections(SvgChart& chart, const RevisitScore& score, double highest_m) {
   for (const auto& applied : score.applied) {
@@ -74,11 +80,12 @@ std::string error_section(const JourneyReport& report) {
   both.curve(binocular, "binocular");
   both.curve(enhanced, "enhanced");
 
-  auto close = chart(340.0, run.paths.travelled_m, highest(enhanced),
-                     "Horizontal error of the enhanced odometry, with its corrections");
-  close.grid("distance travelled (m)", "error (m)");
-  const double top_m = from_zero(highest(enhanced)).high;
   auto bound = own_bound(run);
+  const double high_m = highest_shown(enhanced, bound);
+  auto close =
+      chart(340.0, run.paths.travelled_m, high_m, "Horizontal error of the enhanced odometry, with its corrections");
+  close.grid("distance travelled (m)", "error (m)");
+  const double top_m = from_zero(high_m).high;
   for (auto& point : bound) point.y() = std::min(point.y(), top_m);
   close.curve(bound, "sigma");
   if (report.paper_run) {

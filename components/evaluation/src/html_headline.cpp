@@ -49,8 +49,8 @@ std::string page_headline(const JourneyReport& report) {
       tile(metres(paths.enhanced.percent_of_way, 3) + " %",
            "2D rms error over the distance travelled; binocular: " + metres(paths.binocular.percent_of_way, 3) + " %");
   text += tile(fmt::format("{} of {}", revisits.corrected + revisits.heading_only, revisits.listed),
-               fmt::format("revisits corrected the pose; {} given up, {} rejected, {} missed", revisits.given_up,
-                           revisits.rejected, revisits.missed));
+               fmt::format("listed revisits corrected the pose; {} given up, {} rejected, {} missed{}",
+                           revisits.given_up, revisits.rejected, revisits.missed, elsewhere_words(revisits)));
   text += tile(fmt::format("<span class=\"{}\">{}</span>", revisits.wrong == 0 ? "good" : "bad", revisits.wrong),
                fmt::format("of {} applied corrections wrong", revisits.applied.size()));
   text += tile(turn(paths.enhanced.heading_rad.rmse) + "°",

@@ -9,6 +9,8 @@
 namespace panvo::evaluation {
 
 std::string page_style();
+/// "; 2 recognised at places that the recording does not list"; empty if there are none.
+std::string elsewhere_words(const RevisitScore& score);
 std::string page_headline(const JourneyReport& report);
 std::string paths_section(const JourneyReport& report);
 std::string error_section(const JourneyReport& report);

@@ -83,6 +83,12 @@ std::string paths_table(const JourneyReport& report) {
 
 }  // namespace
 
+std::string elsewhere_words(const RevisitScore& score) {
+  if (score.elsewhere == 0) return "";
+  return fmt::format("; {} recognised at {} that the recording does not list", score.elsewhere,
+                     score.elsewhere == 1 ? "a place" : "places");
+}
+
 std::string tables_section(const JourneyReport& report) {
   const int number = report.is_second_journey ? 4 : 2;
   const auto& revisits = report.run.revisits;
@@ -97,12 +103,14 @@ std::string tables_section(const JourneyReport& report) {
   return html_section(
       "Results",
       fmt::format(
-          "{} revisits: {} corrected, {} in heading only, {} given up because the pose was already more accurate, {} "
-          "rejected, {} missed. {} corrections applied, {} wrong: their error exceeds both the previous error and the "
+          "{} listed revisits: {} corrected, {} in heading only, {} given up because the pose was already more "
+          "accurate, "
+          "{} rejected, {} missed{}. {} corrections applied, {} wrong: their error exceeds both the previous error and "
+          "the "
           "landmark's own error by more than 1 m. Errors are horizontal. The landmark's own error is that of its pose "
           "at creation; a revisit can hardly reduce the error below it.{}",
           revisits.listed, revisits.corrected, revisits.heading_only, revisits.given_up, revisits.rejected,
-          revisits.missed, revisits.applied.size(), revisits.wrong,
+          revisits.missed, elsewhere_words(revisits), revisits.applied.size(), revisits.wrong,
           revisits.not_reached > 0
               ? fmt::format(" {} more were not reached: the run covers only part of the recording.",
                             revisits.not_reached)

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
 
 #include "journey_errors.hpp"
 #include "panvo/vision/angle.hpp"
@@ -136,18 +137,20 @@ std::vector<AzimuthCurve::Point> curve_of(const Trajectory& path, const Eigen::I
   return points;
 }
 
+/// The true turn since the start of the episode, plus the errors of the compass. What it does not report is a gap.
 std::vector<AzimuthCurve::Point> compass_curve(const JourneyFrames& frames, const TruePath& truth,
                                                const AzimuthEpisode& episode) {
   std::vector<AzimuthCurve::Point> points;
-  double azimuth_rad = 0.0;
+  double true_azimuth_rad = 0.0;
   double error_rad = 0.0;
+  std::int64_t last_ns = episode.from_ns;
   for (const auto& azimuth : frames.run.azimuths) {
     if (azimuth.from_ns < episode.from_ns || azimuth.stamp_ns > episode.to_ns + kAround_ns) continue;
-    const double true_rad = true_change(truth, azimuth.from_ns, azimuth.stamp_ns);
-    if (azimuth.change_rad) error_rad += vision::wrapped(*azimuth.change_rad - true_rad);
-    azimuth_rad += true_rad;
+    true_azimuth_rad += true_change(truth, std::exchange(last_ns, azimuth.stamp_ns), azimuth.stamp_ns);
+    if (!azimuth.change_rad) continue;
+    error_rad += vision::wrapped(*azimuth.change_rad - true_change(truth, azimuth.from_ns, azimuth.stamp_ns));
     points.push_back(
-        {static_cast<double>(azimuth.stamp_ns - episode.from_ns) * 1e-9, azimuth_rad + error_rad, error_rad});
+        {static_cast<double>(azimuth.stamp_ns - episode.from_ns) * 1e-9, true_azimuth_rad + error_rad, error_rad});
   }
   return points;
 }

@@ -6,6 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "html_sections.hpp"
 #include "html_text.hpp"
 #include "journey_fixture.hpp"
 #include "panorama_pair.hpp"
@@ -67,6 +68,17 @@ TEST_F(JourneyPage, PutsThePapersOwnCorrectionBeside) {
   EXPECT_EQ(compared[0].ours->result, RevisitResult::kCorrected);
   EXPECT_EQ(compared[0].papers->result, RevisitResult::kMissed);
   EXPECT_THAT(journey_page(report), HasSubstr("side by side"));
+}
+
+TEST_F(JourneyPage, CountsListedRevisitsAndOtherPlacesApart) {
+  EXPECT_THAT(
+      page(),
+      HasSubstr("<b>1 of 1</b><small>listed revisits corrected the pose; 0 given up, 0 rejected, 0 missed</small>"));
+  RevisitScore score;
+  score.elsewhere = 1;
+  EXPECT_EQ(elsewhere_words(score), "; 1 recognised at a place that the recording does not list");
+  score.elsewhere = 2;
+  EXPECT_EQ(elsewhere_words(score), "; 2 recognised at places that the recording does not list");
 }
 
 TEST_F(JourneyPage, IsTheSameEveryTime) { EXPECT_EQ(page(), page()); }

@@ -102,6 +102,20 @@ TEST_F(Journey, LeavesOutWhatTheCompassDidNotTell) {
   EXPECT_FALSE(score_azimuth(frames()).episodes[0].compass_rad);
 }
 
+TEST_F(Journey, DrawsTheCompassWithTheTurnsThatItDidNotReport) {
+  recording_.disturbances = {{stamp(45), stamp(55), "fog"}};
+  run_.qualities.clear();
+  std::erase_if(run_.azimuths,
+                [](const auto& azimuth) { return azimuth.stamp_ns == stamp(50); });  // the vehicle turns back
+  const auto curve = worst_episode(frames(), score_azimuth(frames()));
+  ASSERT_TRUE(curve);
+  EXPECT_NEAR(curve->compass[3].time_s, 4.0, 1e-9);
+  EXPECT_NEAR(curve->compass[3].azimuth_rad, 0.004, 1e-6);
+  EXPECT_NEAR(curve->compass[4].time_s, 6.0, 1e-9);
+  EXPECT_NEAR(std::abs(curve->compass[4].azimuth_rad), std::numbers::pi, 0.006);
+  EXPECT_NEAR(curve->compass[4].error_rad, 0.005, 1e-6);
+}
+
 TEST_F(Journey, HasTheTimesBesideThePapers) {
   const auto rows = stage_rows(run_.times);
   ASSERT_EQ(rows.size(), paper::table_3().size());
