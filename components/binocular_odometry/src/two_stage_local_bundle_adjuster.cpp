@@ -191,7 +191,9 @@ std::optional<int> TwoStageLocalBundleAdjuster::standing(std::int64_t track_id) 
 ScenePoint TwoStageLocalBundleAdjuster::scene_point(const Observation& seen,
                                                     const Eigen::Isometry3d& odom_from_left) const {
   using State = ScenePoint::State;
-  ScenePoint point{.track_id = seen.track_id, .pixel = seen.pixel.head<2>()};
+  ScenePoint point;
+  point.track_id = seen.track_id;
+  point.pixel = seen.pixel.head<2>();
   const auto keyframes = standing(seen.track_id);
   point.state = !keyframes ? State::kOutlier : *keyframes > 1 ? State::kInlier : State::kNew;
   const auto known = points_.find(seen.track_id);

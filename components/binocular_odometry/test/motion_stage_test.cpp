@@ -264,7 +264,9 @@ TEST(MotionStage, KnowsThePointsOfTheStaticSceneAndWhereTheyAre) {
       EXPECT_EQ(points[at].track_id, frame.observations[at].track_id);
       EXPECT_EQ(points[at].pixel, frame.observations[at].pixel.head<2>());
       const auto truth = drive.in_world(points[at].track_id);
-      if (points[at].state == ScenePoint::State::kOutlier) EXPECT_FALSE(truth) << "only the car contradicts the motion";
+      if (points[at].state == ScenePoint::State::kOutlier) {
+        EXPECT_FALSE(truth) << "only the car contradicts the motion";
+      }
       if (points[at].state != ScenePoint::State::kInlier) continue;
       ++inliers;
       ASSERT_TRUE(truth) << "a point on the car was taken for one of the scene";
