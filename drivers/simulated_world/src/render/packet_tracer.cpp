@@ -8,6 +8,8 @@
 namespace panvo::simulated_world {
 namespace {
 
+// Where Embree has no packets of 16 (without AVX-512), it ignores the mask of valid lanes. Rays that end before they begin are always left out.
+constexpr float kNotTraced = -std::numeric_limits<float>::infinity();
 constexpr float kEvenSky = 0.015f;   // relative brightness difference: smaller ones are not visible
 constexpr float kSunSpread = 0.01f;  // rad: the sun's disc, so that gaps between distant leaves have soft edges
 
@@ -60,7 +62,7 @@ void PacketTracer::intersect(const SampleRays& samples, TracedPacket& packet) co
       packet.down[axis][i] = is_known ? packet.down[axis][0] : turned_ray(pose, axis, samples.down[i]);
     }
     rays.tnear[i] = 0.0f;
-    rays.tfar[i] = std::numeric_limits<float>::infinity();
+    rays.tfar[i] = (samples.lanes >> i & 1u) != 0 ? std::numeric_limits<float>::infinity() : kNotTraced;
     rays.mask[i] = visibility_;
     rays.flags[i] = 0;
     rays.id[i] = static_cast<unsigned>(i);
@@ -96,19 +98,20 @@ void PacketTracer::shade(const SampleRays& samples, const TracedPacket& packet, 
   }
   hit &= samples.lanes;
   ShadedPacket shaded;
+  std::uint32_t shadow_lanes = 0;
   if (hit != 0) {
     shade_(tables_, packet, shaded);
     alignas(64) std::int32_t valid[kPacket];
     set_lanes(samples.lanes, valid);
-    std::uint32_t shadow_lanes = 0;
     for (unsigned i = 0; i < kPacket; ++i) {
       if (((samples.in_sun | samples.in_shadow) >> i & 1u) != 0) valid[i] = 0;
       if ((samples.in_shadow >> i & 1u) != 0) shaded.wants_shadow[i] = 0;
-      shaded.shadow.tfar[i] = std::numeric_limits<float>::infinity();
       valid[i] &= shaded.wants_shadow[i];
       if (valid[i] != 0) shadow_lanes |= 1u << i;
     }
     if (shadow_lanes != 0) {
+      for (unsigned i = 0; i < kPacket; ++i)
+        shaded.shadow.tfar[i] = valid[i] != 0 ? std::numeric_limits<float>::infinity() : kNotTraced;
       statistics.shadow_rays += static_cast<std::uint64_t>(std::popcount(shadow_lanes));
       auto context = trace_context(kSunSpread, RTC_INTERSECT_CONTEXT_FLAG_COHERENT);
       for (unsigned i = 0; i < kPacket; ++i) shaded.shadow.id[i] = i;
@@ -129,7 +132,8 @@ void PacketTracer::shade(const SampleRays& samples, const TracedPacket& packet, 
       results.normal[i] = 0;
       continue;
     }
-    const bool is_sunny = shaded.wants_shadow[i] != 0 && shaded.shadow.tfar[i] >= 0.0f;
+    const bool is_dark = (shadow_lanes >> i & 1u) != 0 && shaded.shadow.tfar[i] < 0.0f;
+    const bool is_sunny = shaded.wants_shadow[i] != 0 && !is_dark;
     const float sun = is_sunny ? 1.0f : 0.0f;
     for (std::size_t c = 0; c < 3; ++c) radiance[c] = shaded.base[c][i] + sun * shaded.sun[c][i];
     results.distance[i] = rays.tfar[i];
