@@ -42,6 +42,8 @@ class Player final : public runtime::Component, public runtime::Source {
     landmark.id(id);
     landmark.pose().pose(conversions::to_pose(pose));
     landmark.is_junction(is_junction);
+    landmark.settings("histogram_bins=2");
+    landmark.histogram({0.5F, 0.5F});
     at(t_s, [this, landmark] { landmarks_.publish(landmark); });
   }
 

@@ -130,12 +130,13 @@ TEST_F(TopicsByName, AreNotWrittenInAReplay) {
 
 TEST_F(TopicsByName, AreReadFromThePublishersPointOfView) {
   Context* publisher = nullptr;
+  std::optional<Output<std_msgs::msg::String>> output;
   ComponentDescription chatting;
   chatting.name = "chatting";
   chatting.name_space = "/";
   harness_.container().add(chatting, [&](Context& context) {
     publisher = &context;
-    context.output(kChat);
+    output.emplace(context.output(kChat));
     return std::make_unique<Component>();
   });
   EXPECT_FALSE(publisher->has_reader(kChat));

@@ -21,6 +21,7 @@ function pictureFrame(...children: HTMLElement[]): HTMLElement {
 class Camera {
   picture = new Picture();
   topic: string | undefined;
+  #isChosen = false; // by the user; otherwise a better topic that appears later is taken
   frame = "";
   stamp_s = NaN;
   select = h("select", { "aria-label": "Topic of the image" });
@@ -35,6 +36,7 @@ class Camera {
   ) {
     this.select.onchange = () => {
       this.topic = this.select.value;
+      this.#isChosen = true;
       onChoice();
     };
     const frame = pictureFrame(this.picture.canvas, this.tape, this.note);
@@ -43,7 +45,7 @@ class Camera {
   }
 
   offer(topics: string[]): void {
-    if (!this.topic || !topics.includes(this.topic)) this.topic = preferredImage(topics, this.kind) ?? this.topic;
+    if (!this.#isChosen || !this.topic || !topics.includes(this.topic)) this.topic = preferredImage(topics, this.kind) ?? this.topic;
     this.element.hidden = topics.length === 0 && this.picture.isEmpty;
     const options = [...new Set([...(this.topic ? [this.topic] : []), ...topics])];
     this.select.replaceChildren(...options.map((topic) => h("option", { value: topic, selected: topic === this.topic }, topic.replace(/^\//, ""))));
