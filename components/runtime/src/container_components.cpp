@@ -54,7 +54,8 @@ Container::Implementation::Implementation(ContainerOptions options)
             .progressed = [this] { progressed(); },
             .again = options_.again,
             .files_below = options_.files_below,
-            .failed = [this](const ComponentDescription& description) { component_failed(description); }},
+            .failed = [this](const ComponentDescription& description) { component_failed(description); },
+            .pacer = Pacer(options_.rate)},
       own_(std::make_unique<Context::State>(host_, own_description(options_), nullptr)),
       diagnostics_output_(own_.open_output(described_topic(topics::kDiagnostics))) {
   rosout_.open(own_.open_output(described_topic(topics::kRosout)));

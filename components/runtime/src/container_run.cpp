@@ -141,8 +141,7 @@ void Container::Implementation::run_live(const std::vector<Source*>& sources) {
   if (!sources.empty()) open_clock();
   runner_ = std::make_unique<SourceRunner>(
       sources, host_.pacer,
-      SourceRunner::Settings{.rate = options_.rate,
-                             .queues_are_empty = [this] { return queues_are_empty(); },
+      SourceRunner::Settings{.queues_are_empty = [this] { return queues_are_empty(); },
                              .moved =
                                  [this] {
                                    if (clock_) clock_->restart();

@@ -12,11 +12,10 @@ std::int64_t Pacer::State::due_ns(std::int64_t stamp) const {
   return since_ns + static_cast<std::int64_t>(static_cast<double>(stamp - stamp_ns) / rate);
 }
 
-void Pacer::start(std::int64_t first_stamp_ns, double rate, std::int64_t now_ns) {
+void Pacer::start(std::int64_t first_stamp_ns, std::int64_t now_ns) {
   const std::lock_guard lock(mutex_);
   state_.stamp_ns = first_stamp_ns;
   state_.since_ns = now_ns;
-  state_.rate = rate;
   ++state_.version;
 }
 

@@ -25,8 +25,11 @@ class Pacer final : public Playback {
     std::int64_t due_ns(std::int64_t stamp) const;
   };
 
-  /// At the begin of a run.
-  void start(std::int64_t first_stamp_ns, double rate, std::int64_t now_ns);
+  /// `rate` 0: as fast as possible.
+  explicit Pacer(double rate = 1) { state_.rate = rate; }
+
+  /// At the begin of a run. What was requested before it, such as another rate, stays.
+  void start(std::int64_t first_stamp_ns, std::int64_t now_ns);
   /// `changed` is called after each change, `moved` before it after a move.
   void on_change(std::function<void()> changed, std::function<void()> moved);
 

@@ -22,7 +22,7 @@ SourceRunner::SourceRunner(std::vector<Source*> sources, Pacer& pacer, Settings 
 
 void SourceRunner::start() {
   for (Source* source : sources_) next_stamp_ns_.push_back(source->next_stamp_ns().value_or(kAtEnd));
-  pacer_.start(sources_.empty() ? 0 : *std::min_element(next_stamp_ns_.begin(), next_stamp_ns_.end()), settings_.rate,
+  pacer_.start(sources_.empty() ? 0 : *std::min_element(next_stamp_ns_.begin(), next_stamp_ns_.end()),
                clocks::monotonic_ns());
   playing_ = sources_.size();
   for (std::size_t index = 0; index < sources_.size(); ++index) threads_.emplace_back([this, index] { play(index); });

@@ -19,7 +19,6 @@ namespace panvo::runtime {
 class SourceRunner {
  public:
   struct Settings {
-    double rate = 1;  // 0: as fast as the consumers take it
     std::function<bool()> queues_are_empty;
     std::function<void()> moved = [] {};                              // after a source was moved
     std::function<void(std::int64_t)> reached = [](std::int64_t) {};  // called with the stamp of a source's next step

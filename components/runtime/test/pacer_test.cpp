@@ -11,8 +11,8 @@ namespace {
 constexpr std::int64_t kSecond = 1'000'000'000;
 
 TEST(Pacer, MakesStampsDueInProportionToTheRate) {
-  Pacer pacer;
-  pacer.start(100 * kSecond, 2, 5 * kSecond);
+  Pacer pacer(2);
+  pacer.start(100 * kSecond, 5 * kSecond);
   EXPECT_EQ(pacer.state().due_ns(100 * kSecond), 5 * kSecond);
   EXPECT_EQ(pacer.state().due_ns(104 * kSecond), 7 * kSecond);
 }
@@ -20,7 +20,7 @@ TEST(Pacer, MakesStampsDueInProportionToTheRate) {
 TEST(Pacer, ContinuesWhereItWasPaused) {
   Pacer pacer;
   pacer.pause();  // before the run, as a component does
-  pacer.start(100 * kSecond, 1, 5 * kSecond);
+  pacer.start(100 * kSecond, 5 * kSecond);
   EXPECT_TRUE(pacer.is_paused());
   pacer.resume();
   const auto state = pacer.state();
@@ -31,7 +31,7 @@ TEST(Pacer, ContinuesWhereItWasPaused) {
 
 TEST(Pacer, ChangesTheRateFromThePresentStampOn) {
   Pacer pacer;
-  pacer.start(100 * kSecond, 1, 5 * kSecond);
+  pacer.start(100 * kSecond, 5 * kSecond);
   pacer.pause();
   const std::int64_t stamp_ns = pacer.state().stamp_ns;
   EXPECT_TRUE(pacer.set_rate(4));
@@ -43,13 +43,20 @@ TEST(Pacer, ChangesTheRateFromThePresentStampOn) {
 
 TEST(Pacer, RefusesRatesThatAreNone) {
   Pacer pacer;
-  pacer.start(0, 1, 0);
+  pacer.start(0, 0);
   for (const double rate :
        {0.0, -1.0, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()})
     EXPECT_FALSE(pacer.set_rate(rate)) << rate;
   EXPECT_EQ(pacer.rate(), 1);
-  pacer.start(0, 0, 0);
-  EXPECT_FALSE(pacer.set_rate(1)) << "played as fast as possible";
+  EXPECT_FALSE(Pacer(0).set_rate(1)) << "played as fast as possible";
+}
+
+TEST(Pacer, KeepsARateThatWasSetBeforeTheRun) {
+  Pacer pacer(1);
+  EXPECT_TRUE(pacer.set_rate(8));
+  pacer.start(100 * kSecond, 5 * kSecond);
+  EXPECT_EQ(pacer.rate(), 8);
+  EXPECT_EQ(pacer.state().due_ns(108 * kSecond), 6 * kSecond);
 }
 
 TEST(Pacer, TellsOfEachChangeOnce) {
