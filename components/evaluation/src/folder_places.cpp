@@ -77,7 +77,7 @@ void add_heading(FolderScore& score, const FolderPanorama& query, const FolderPa
       std::abs(vision::wrapped(heading_rad - (*query.heading_rad - *place.heading_rad))));
 }
 
-double flat_distance(const FolderPanorama& a, const FolderPanorama& b) {
+double ground_distance_m(const FolderPanorama& a, const FolderPanorama& b) {
   return (a.world_from_base->translation() - b.world_from_base->translation()).head<2>().norm();
 }
 
@@ -119,7 +119,7 @@ std::vector<FolderPanorama> read_folder_panoramas(const fs::path& folder, const 
 
 bool FolderTask::is_same(const FolderPanorama& a, const FolderPanorama& b) const {
   if (!a.place.empty() && !b.place.empty()) return a.place == b.place;
-  return a.world_from_base && b.world_from_base && flat_distance(a, b) <= same_place_m;
+  return a.world_from_base && b.world_from_base && ground_distance_m(a, b) <= same_place_m;
 }
 
 bool FolderTask::is_known(const FolderPanorama& query) const {
@@ -140,7 +140,7 @@ FolderTask folder_task(const std::vector<FolderPanorama>& folder, const std::vec
   const FolderPanorama* last = nullptr;
   for (const auto& panorama : folder) {
     if (last != nullptr && last->world_from_base && panorama.world_from_base)
-      travelled_m += flat_distance(*last, panorama);
+      travelled_m += ground_distance_m(*last, panorama);
     last = &panorama;
     if (!task.is_known(panorama)) {
       task.library.push_back(&panorama);

@@ -59,6 +59,22 @@ TEST(FitPanorama, MasksTheVehicle) {
   EXPECT_EQ(fitted.image.seen.at<uchar>(432, 500), 0);
 }
 
+TEST(ReadPanorama, SeesThatAJpegWithAThumbnailInItsHeaderWasCutOff) {
+  const panvo::test::TemporaryFolder folder;
+  std::vector<uchar> bytes;
+  cv::imencode(".jpg", test::paint_place(1), bytes);
+  const std::vector<uchar> segment{0xff, 0xe1, 0x00, 0x08, 0xff, 0xd8, 0x00, 0x00, 0xff, 0xd9};
+  bytes.insert(bytes.begin() + 2, segment.begin(), segment.end());
+  const auto write = [&](const char* name, std::size_t count) {
+    std::ofstream(folder / name, std::ios::binary)
+        .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(count));
+  };
+  write("whole.jpg", bytes.size());
+  write("cut.jpg", bytes.size() / 2);
+  EXPECT_FALSE(read_panorama(folder / "whole.jpg", {}, {}).fault);
+  EXPECT_EQ(*read_panorama(folder / "cut.jpg", {}, {}).fault, "is a JPEG that was cut off");
+}
+
 TEST(ReadPanorama, SaysWhyAFileCannotBeUsed) {
   const panvo::test::TemporaryFolder folder;
   std::vector<uchar> bytes;
