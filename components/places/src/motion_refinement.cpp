@@ -17,6 +17,8 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
+constexpr double kShared = 2.0;  // keypoints of one thing share its range and the stitching there: two count as one
+
 ViewMotion refine_rotation(const ViewMotion& start, const std::vector<BearingPair>& pairs) {
   Matrix3d sum = Matrix3d::Zero();
   for (const auto& pair : pairs) sum += pair.landmark * pair.panorama.transpose();
@@ -106,7 +108,7 @@ MotionUncertainty motion_uncertainty(const ViewMotion& motion, const std::vector
     squares += (turned - expected).squaredNorm() / (4.0 * sigma_rad * sigma_rad);
   }
   // Residuals beyond the noise of the bearings, of ranges that differ above all, widen it.
-  const double inflation = std::max(1.0, squares / std::max<std::size_t>(1, agreeing.size()));
+  const double inflation = kShared * std::max(1.0, squares / std::max<std::size_t>(1, agreeing.size()));
   const Eigen::Matrix<double, 6, 6> covariance = inflation * information.inverse();
   const Vector3d direction =
       motion.translation.norm() > 0.0 ? motion.translation.normalized().eval() : Vector3d::Zero().eval();

@@ -61,8 +61,9 @@ Judged best_motion(const std::vector<BearingPair>& pairs, double log10_tests, do
   return best;
 }
 
-/// The largest log10 of the expectation after everything within an azimuth window is left out.
-double without_any_object(const std::vector<BearingPair>& pairs, const ViewMotion& motion, double log10_tests,
+/// The largest log10 of the expectation after everything within an azimuth window is left out. The rest must agree as well
+/// as all did: a wrong turn by 15 degrees would be a common, if rough, agreement of everything outside a bonnet.
+double without_any_object(const std::vector<BearingPair>& pairs, const Judged& judged, double log10_tests,
                           double object_rad) {
   double worst = -std::numeric_limits<double>::infinity();
   for (int i = 0; i < kObjectSteps; ++i) {
@@ -71,7 +72,10 @@ double without_any_object(const std::vector<BearingPair>& pairs, const ViewMotio
     for (const auto& pair : pairs) {
       if (std::abs(vision::wrapped(azimuth_of(pair.landmark) - middle)) > 0.5 * object_rad) others.push_back(pair);
     }
-    worst = std::max(worst, judge(motion, others, log10_tests).consensus.log10_expected);
+    auto values = probabilities(others, judged.motion);
+    std::replace_if(
+        values.begin(), values.end(), [&](double p) { return p > judged.consensus.probability; }, 1.0);
+    worst = std::max(worst, least_expected(values, sample_size(judged.motion.model), log10_tests).log10_expected);
   }
   return worst;
 }
@@ -168,7 +172,7 @@ SharedViewResult find_shared_view(std::span<const landmarks::Keypoint> query,
   auto considered = pairs;
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
     const auto best = best_motion(considered, log10_tests, sigma_rad);
-    const double without = without_any_object(considered, best.motion, log10_tests, object_rad);
+    const double without = without_any_object(considered, best, log10_tests, object_rad);
     if (attempt == 0 || std::max(best.consensus.log10_expected, without) <= parameters.log10_false_alarms) {
       result.agreeing = best.consensus.size;
       result.log10_expected = best.consensus.log10_expected;

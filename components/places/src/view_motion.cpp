@@ -12,6 +12,7 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kNoted = 0.1;         // a larger probability by chance is no evidence
+constexpr double kMaxAtPlane = 0.25;   // the same for a plane, which many bearings are near
 constexpr double kMostEvidence = 5.0;  // nats of one pair: less than p = 0.001 says more of the pair than of the motion
 constexpr double kMaxEpipolar_rad = 5.0 * vision::kDegree;  // from the plane: farther is a contradiction
 constexpr double kAlike_rad = 1.0 * vision::kDegree;        // between bearings: below, the sign of the range is noise
@@ -36,7 +37,9 @@ int sample_size(ViewModel model) {
   }
 }
 
-double probability(const BearingPair& pair, const ViewMotion& motion) {
+namespace {
+
+double probability_of_residual(const BearingPair& pair, const ViewMotion& motion) {
   if (motion.model != ViewModel::kEpipolar) {
     const Vector3d expected = (motion.rotation.transpose() * (pair.landmark - motion.translation)).normalized();
     return probability_at_angle(pair.panorama, expected);
@@ -48,6 +51,14 @@ double probability(const BearingPair& pair, const ViewMotion& motion) {
   if (std::abs(pair.panorama.dot(in_query)) > std::sin(kMaxEpipolar_rad)) return 1.0;
   if (!is_ahead(pair.landmark, motion.rotation * pair.panorama, motion.translation)) return 1.0;
   return probability_at_plane(pair.panorama, in_query);
+}
+
+}  // namespace
+
+double probability(const BearingPair& pair, const ViewMotion& motion) {
+  const double p = probability_of_residual(pair, motion);
+  // Many weak agreements would add up wherever the model of chance is a little wrong.
+  return p <= (motion.model == ViewModel::kEpipolar ? kMaxAtPlane : kNoted) ? p : 1.0;
 }
 
 std::vector<double> probabilities(const std::vector<BearingPair>& pairs, const ViewMotion& motion) {

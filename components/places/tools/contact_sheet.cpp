@@ -13,6 +13,7 @@ namespace {
 
 constexpr vision::Equirectangular kView{540, 270};
 constexpr int kTitle_px = 18;
+constexpr int kMostLines = 40;  // more hide the picture
 
 /// The view of the query, turned back by so many columns, as the place's panorama sees it.
 cv::Mat turned_back(const cv::Mat& view, int columns) {
@@ -49,9 +50,11 @@ cv::Mat draw_match(const PanoramaImage& query, const PlaceAnswer& answer, const 
   if (!is_known) return picture.rowRange(0, kTitle_px + kView.rows).clone();
   const cv::Mat known = cv::imdecode(places[*answer.place].thumbnail, cv::IMREAD_GRAYSCALE);
   if (!known.empty()) in_colour(known).copyTo(picture.rowRange(kTitle_px + kView.rows, picture.rows));
+  int drawn = 0;
   for (const auto& pair : answer.shared.agreeing_pairs) {
     const cv::Point from = pixel(pair.panorama, shift, kTitle_px), to = pixel(pair.landmark, 0, kTitle_px + kView.rows);
     if (std::abs(from.x - to.x) > kView.columns / 2) continue;  // across the seam
+    if (++drawn > kMostLines) break;
     cv::line(picture, from, to, cv::Scalar(60, 200, 60), 1, cv::LINE_AA);
   }
   return picture;

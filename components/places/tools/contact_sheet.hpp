@@ -9,7 +9,7 @@
 
 namespace panvo::places {
 
-/// A query above its place, turned to the same heading; lines join the keypoints that agree. BGR.
+/// A query above its place, turned to the same heading; lines join the most similar keypoints that agree. BGR.
 cv::Mat draw_match(const PanoramaImage& query, const PlaceAnswer& answer, const std::vector<KnownPlace>& places,
                    const std::string& title);
 
