@@ -69,7 +69,7 @@ TEST_F(PlacesCommand, FindsAPlaceAndSaysThatAnotherIsUnknown) {
   EXPECT_EQ(matched.status, 0);
   EXPECT_THAT(matched.output, HasSubstr("no metres"));
   EXPECT_THAT(matched.output, HasSubstr("1.png: hall2.jpg, heading +"));
-  EXPECT_THAT(matched.output, HasSubstr("2.png: unknown"));
+  EXPECT_THAT(matched.output, HasSubstr("2.png: unknown ("));
   EXPECT_THAT(matched.output, HasSubstr("2 images: 1 found, 1 unknown, 0 skipped"));
 }
 

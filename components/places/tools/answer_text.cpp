@@ -30,7 +30,9 @@ std::string reason_of(const ImageAnswer& answer, const std::vector<KnownPlace>& 
   if (answer.fault) return *answer.fault;
   const auto& shared = answer.answer.shared;
   if (shared.view) return fmt::format("{} of {} matches agree", shared.agreeing, shared.matches);
-  return places.empty() ? shared.reason : fmt::format("best {}: {}", places[answer.answer.nearest].name, shared.reason);
+  if (places.empty()) return shared.reason;
+  if (shared.agreeing == 0) return "matches with no place agree more than by chance";
+  return fmt::format("best {}: {}", places[answer.answer.nearest].name, shared.reason);
 }
 
 }  // namespace
