@@ -74,7 +74,7 @@ SIMULATION = floor("simulation", "runtime interfaces conversions vision calibrat
 PYTHON = floor("python", "interfaces conversions vision calibration_files recorder dataset_player binocular_odometry landmarks position_corrector"
                " panoramic_compass evaluation", "messages, eigen, opencv, python")
 # recognition in folders of images, with the readers of their files
-PLACES = floor("places", "vision landmarks position_corrector dataset_player sqlite", "eigen, opencv, opengv, sqlite, json, command line", False)
+PLACES = floor("places", "vision landmarks landmark_builder position_corrector dataset_player sqlite", "eigen, opencv, opengv, sqlite, json, command line", False)
 EVALUATION = None  # may include anything
 
 # Folders that do not consist of an algorithm and its wrapper; the first match counts.

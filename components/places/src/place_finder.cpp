@@ -31,7 +31,10 @@ PlaceAnswer PlaceFinder::find(const PanoramaImage& image) const {
     answer.nearest = i;
     answer.shared = std::move(shared);
   }
-  if (answer.shared.view) answer.place = answer.nearest;
+  if (answer.shared.view) {
+    answer.place = answer.nearest;
+    answer.position = metric_position(keypoints, places_[answer.nearest], answer.shared.view->heading_rad);
+  }
   return answer;
 }
 

@@ -51,13 +51,17 @@ std::string line_of(const ImageAnswer& answer, const std::vector<KnownPlace>& pl
   } else {
     text += ", direction not observable";
   }
+  if (const auto& at = answer.answer.position) {
+    const auto& position = at->map_from_base.translation();
+    text += fmt::format(", at {:.2f} {:.2f} +- {:.2f} m", position.x(), position.y(), at->sigma_m);
+  }
   return text + fmt::format(" ({}; chance 1e{:.0f})", reason_of(answer, places), shared.log10_expected);
 }
 
 std::string csv_header() {
   return "image,state,place,heading_deg,heading_sigma_deg,direction_deg,direction_sigma_deg,baseline_per_range,matches,"
          "agreeing,"
-         "log10_by_chance,place_x_m,place_y_m,reason\n";
+         "log10_by_chance,place_x_m,place_y_m,x_m,y_m,sigma_m,reason\n";
 }
 
 std::string csv_line(const ImageAnswer& answer, const std::vector<KnownPlace>& places) {
@@ -80,6 +84,12 @@ std::string csv_line(const ImageAnswer& answer, const std::vector<KnownPlace>& p
     line += fmt::format("{:.3f},{:.3f},", position.x(), position.y());
   } else {
     line += ",,";
+  }
+  if (const auto& at = answer.answer.position) {
+    const auto& position = at->map_from_base.translation();
+    line += fmt::format("{:.3f},{:.3f},{:.3f},", position.x(), position.y(), at->sigma_m);
+  } else {
+    line += ",,,";
   }
   return line + quoted(reason_of(answer, places)) + "\n";
 }
@@ -107,6 +117,11 @@ nlohmann::json json_of(const ImageAnswer& answer, const std::vector<KnownPlace>&
   if (place.map_from_base) {
     const auto& position = place.map_from_base->translation();
     json["place_position_m"] = {position.x(), position.y(), position.z()};
+  }
+  if (const auto& at = answer.answer.position) {
+    const auto& position = at->map_from_base.translation();
+    json["position_m"] = {position.x(), position.y(), position.z()};
+    json["position_sigma_m"] = at->sigma_m;
   }
   return json;
 }

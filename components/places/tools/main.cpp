@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <exception>
@@ -69,8 +70,10 @@ int build(const Arguments& arguments) {
     places.back().map_from_base = image.map_from_base;
   }
   if (places.empty()) throw FolderError(arguments.folder + ": no image can be used; see above");
+  const int metric = triangulate_places(places);
   save_places(arguments.out, places);
-  std::printf("%s: %zu places, %d images skipped\n", arguments.out.c_str(), places.size(), skipped);
+  std::printf("%s: %zu places, %d images skipped; %d places give positions in metres%s\n", arguments.out.c_str(),
+              places.size(), skipped, metric, metric == 0 ? " (that needs poses less than 6 m apart)" : "");
   return skipped == 0 ? kWell : kSkipped;
 }
 
@@ -96,8 +99,12 @@ int match(const Arguments& arguments) {
   const auto images = images_of(arguments.folder);
   if (!arguments.out.empty()) fs::create_directories(arguments.out);
   if (!arguments.as_json) {
-    std::printf(
-        "# bearings only: heading and direction (left positive, from straight ahead of the place), no metres\n");
+    const bool has_metres = std::any_of(finder.places().begin(), finder.places().end(), [](const KnownPlace& place) {
+      return std::any_of(place.keypoints.begin(), place.keypoints.end(),
+                         [](const auto& keypoint) { return keypoint.has_point; });
+    });
+    std::printf("# heading and direction: left positive, from straight ahead of the place; %s\n",
+                has_metres ? "positions in metres by the poses of the library" : "bearings only: no metres");
   }
   auto json = nlohmann::json::array();
   std::string csv = csv_header();
@@ -118,7 +125,7 @@ int match(const Arguments& arguments) {
     csv += csv_line(answer, finder.places());
     if (!arguments.as_json) std::printf("%s\n", line_of(answer, finder.places()).c_str());
   }
-  const nlohmann::json report{{"library", arguments.library}, {"metres", false}, {"images", json}};
+  const nlohmann::json report{{"library", arguments.library}, {"images", json}};
   if (arguments.as_json) {
     std::printf("%s\n", report.dump(2).c_str());
   } else {
@@ -152,10 +159,9 @@ int main(int argc, char** argv) {
   auto* build_command = app.add_subcommand("build", "describe every panorama of a folder and store them as places");
   build_command->add_option("FOLDER", arguments.folder, "folder of panoramas, .jpg or .png")->required();
   build_command->add_option("--out", arguments.out, "the library, one SQLite file; replaced if it exists")->required();
-  build_command->add_option(
-      "--poses", arguments.poses,
-      "poses to repeat with each place: lines image,x_m,y_m,heading_deg, or TUM or KITTI with one line per "
-      "image (default: poses.csv or poses.txt in FOLDER)");
+  build_command->add_option("--poses", arguments.poses,
+                            "poses of the camera: lines image,x_m,y_m,heading_deg, or TUM or KITTI with one line per "
+                            "image (default: poses.csv or poses.txt in FOLDER)");
   add_reading(*build_command, arguments);
 
   auto* match_command =

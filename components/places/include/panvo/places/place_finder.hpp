@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "panvo/places/metric_places.hpp"
 #include "panvo/places/panorama_image.hpp"
 #include "panvo/places/place_library.hpp"
 #include "panvo/places/shared_view.hpp"
@@ -18,11 +19,12 @@ struct PlaceFinderParameters {
 
 /// The place that a panorama shows, or why none.
 struct PlaceAnswer {
-  std::optional<std::size_t> place;  ///< index in the library; nullopt: unknown
-  SharedViewResult shared;           ///< with that place; if unknown, with the one that comes closest
-  std::size_t nearest = 0;           ///< index of the place of `shared`
-  int verified = 0;                  ///< places compared by geometry
-  int agreeing_places = 0;           ///< of these, how many the geometry accepts
+  std::optional<std::size_t> place;        ///< index in the library; nullopt: unknown
+  SharedViewResult shared;                 ///< with that place; if unknown, with the one that comes closest
+  std::size_t nearest = 0;                 ///< index of the place of `shared`
+  std::optional<MetricPosition> position;  ///< if the place has points in metres; bearings alone give none
+  int verified = 0;                        ///< places compared by geometry
+  int agreeing_places = 0;                 ///< of these, how many the geometry accepts
 };
 
 /// Finds places by their compressive features [Lu2015 5.1], which rank, and by geometry, which decides.
