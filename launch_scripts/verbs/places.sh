@@ -9,7 +9,7 @@ verb_usage() {
 usage: panvo places build FOLDER --out LIBRARY [options]
        panvo places match FOLDER|IMAGE --library LIBRARY [options]
 
-Only bearings are measured: the answer is a place, the heading and the direction from the place, never metres.
+Only bearings are measured: the answer is a place, the heading and the direction from the place. Metres come from poses of the library.
 `panvo evaluate places FOLDER` scores recognition in such a folder.
 EOT
   show_program_help panvo_places
