@@ -73,6 +73,8 @@ SIMULATION = floor("simulation", "runtime interfaces conversions vision calibrat
 # the Python module: converts arrays and calls the libraries
 PYTHON = floor("python", "interfaces conversions vision calibration_files recorder dataset_player binocular_odometry landmarks position_corrector"
                " panoramic_compass evaluation", "messages, eigen, opencv, python")
+# recognition in folders of images, with the readers of their files
+PLACES = floor("places", "vision landmarks landmark_builder position_corrector dataset_player sqlite", "eigen, opencv, opengv, sqlite, json, command line", False)
 EVALUATION = None  # may include anything
 
 # Folders that do not consist of an algorithm and its wrapper; the first match counts.
@@ -94,6 +96,7 @@ FLOORS = [
     ("components/calibration/src/live", LIVE_IMAGES),
     ("components/recorder", RECORDER),
     ("components/web_view", WEB_VIEW),
+    ("components/places", PLACES),
     ("components/evaluation", EVALUATION),
     ("components/python", PYTHON),
     ("drivers/simulated_world", SIMULATED_WORLD),

@@ -14,7 +14,6 @@
 namespace panvo::evaluation {
 namespace {
 
-constexpr double kSamePlace_m = 15.0;        // a match with a landmark within this distance is right
 constexpr double kSamePass_m = 20.0;         // distance travelled from the nearest point
 constexpr double kNearestNeighbour_m = 0.7;  // distance travelled between panoramas used for triangulation
 constexpr double kMaxNeighbour_m = 4.5;
@@ -22,13 +21,13 @@ constexpr double kMaxNeighbour_m = 4.5;
 double flat_norm(const Eigen::Vector3d& vector) { return vector.head<2>().norm(); }
 
 JourneyMatch judged(const position_corrector::LandmarkMatch& match, std::size_t panorama, std::size_t known,
-                    const RecordedPanorama& now, const landmarks::PanoramicLandmark& landmark) {
+                    const RecordedPanorama& now, const landmarks::PanoramicLandmark& landmark, double same_place_m) {
   JourneyMatch judged;
   judged.match = match;
   judged.panorama = panorama;
   judged.known = known;
   judged.offset_m = flat_norm(now.world_from_base.translation() - landmark.map_from_base.translation());
-  judged.is_right = judged.offset_m <= kSamePlace_m;
+  judged.is_right = judged.offset_m <= same_place_m;
   judged.heading_error_rad = vision::wrap(
       match.heading_rad - (yaw_of(now.world_from_base) - yaw_of(landmark.map_from_base)), 2.0 * std::numbers::pi);
   if (match.pose) {
@@ -79,8 +78,8 @@ JourneyScore match_journey(const PlaceTask& task, const PlaceRecording& first, c
       const auto at = std::find_if(then.panoramas.begin(), then.panoramas.end(),
                                    [&](const RecordedPanorama& other) { return other.stamp_ns == match.stamp_ns; });
       const auto index = static_cast<std::size_t>(at - then.panoramas.begin());
-      const auto judgement =
-          judged(match, index, known_by_id.at(match.landmark_id), *at, *library.find(match.landmark_id));
+      const auto judgement = judged(match, index, known_by_id.at(match.landmark_id), *at,
+                                    *library.find(match.landmark_id), settings.same_place_m);
       score.matches.push_back(judgement);
       score.wrong += judgement.is_right ? 0 : 1;
       for (std::size_t k = 0; k < task.revisits.size(); ++k) {

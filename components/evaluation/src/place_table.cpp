@@ -132,17 +132,28 @@ PlaceScore score_places(const PlaceMethod& method, const PlaceTask& task, const 
   score.separation = mean_distance(score.negatives) - mean_distance(score.positives);  // [Lu2015 Eq. 13]
 
   double threshold = -std::numeric_limits<double>::infinity();
+  double least_wrong = std::numeric_limits<double>::infinity();
   std::vector<double> errors;
   for (const auto& sample : score.positives) {
-    if (!sample.is_right) continue;
+    if (!sample.is_right) {
+      least_wrong = std::min(least_wrong, sample.distance);
+      continue;
+    }
     ++score.true_positives;
     threshold = std::max(threshold, sample.distance);
     errors.push_back(std::abs(sample.heading_error_rad));
   }
-  for (const auto& sample : score.negatives) score.false_positives += sample.distance <= threshold ? 1 : 0;
+  for (const auto& sample : score.negatives) {
+    score.false_positives += sample.distance <= threshold ? 1 : 0;
+    least_wrong = std::min(least_wrong, sample.distance);
+  }
   score.revisits = static_cast<int>(score.positives.size());
   const int passed = score.true_positives + score.false_positives;
   score.recall = score.revisits > 0 ? static_cast<double>(score.true_positives) / score.revisits : 0.0;
+  const auto sure = std::count_if(score.positives.begin(), score.positives.end(), [&](const PlaceSample& sample) {
+    return sample.is_right && sample.distance < least_wrong;
+  });
+  score.recall_at_full_precision = score.revisits > 0 ? static_cast<double>(sure) / score.revisits : 0.0;
   score.precision = passed > 0 ? static_cast<double>(score.true_positives) / passed : 0.0;
   if (!errors.empty()) {
     std::nth_element(errors.begin(), errors.begin() + static_cast<std::ptrdiff_t>(errors.size() / 2), errors.end());
@@ -152,12 +163,12 @@ PlaceScore score_places(const PlaceMethod& method, const PlaceTask& task, const 
 }
 
 std::string place_table(const std::vector<PlaceScore>& scores) {
-  std::string text = fmt::format("{:<28} {:>6} {:>4} {:>4} {:>7} {:>10} {:>14}\n", "Method", "V_sc", "TP", "FP",
-                                 "Recall", "Precision", "heading (deg)");
+  std::string text = fmt::format("{:<28} {:>6} {:>4} {:>4} {:>7} {:>10} {:>15} {:>14}\n", "Method", "V_sc", "TP", "FP",
+                                 "Recall", "Precision", "Recall at P = 1", "heading (deg)");
   for (const auto& score : scores) {
-    text += fmt::format("{:<28} {:>6.2f} {:>4} {:>4} {:>7.2f} {:>10.2f} {:>14.1f}\n", score.method, score.separation,
-                        score.true_positives, score.false_positives, score.recall, score.precision,
-                        score.median_heading_error_rad * kDegrees);
+    text += fmt::format("{:<28} {:>6.2f} {:>4} {:>4} {:>7.2f} {:>10.2f} {:>15.2f} {:>14.1f}\n", score.method,
+                        score.separation, score.true_positives, score.false_positives, score.recall, score.precision,
+                        score.recall_at_full_precision, score.median_heading_error_rad * kDegrees);
   }
   return text;
 }

@@ -20,6 +20,7 @@
 #include "panvo/evaluation/brief_gist.hpp"
 #include "panvo/evaluation/compressive_places.hpp"
 #include "panvo/evaluation/cyclic_brief_gist.hpp"
+#include "panvo/evaluation/folder_places.hpp"
 #include "panvo/evaluation/fourier_signature.hpp"
 #include "panvo/evaluation/histogram_places.hpp"
 #include "panvo/evaluation/input_error.hpp"
@@ -45,10 +46,14 @@ struct Arguments {
   double position_sigma_m = -1.0;
   bool only_table = false;
   int curves = 3;
+  double same_place_m = 15.0;
+  std::string poses;
 };
 
 void describe(CLI::App& app, Arguments& arguments) {
-  app.add_option("recording", arguments.recording, "EuRoC/ASL data set with cam2, ground truth and sequence.yaml")
+  app.add_option("recording", arguments.recording,
+                 "EuRoC/ASL data set with cam2, ground truth and sequence.yaml; or a plain folder of panoramas with "
+                 "poses or places.csv")
       ->required();
   app.add_option("--library-from", arguments.library_from,
                  "earlier recording of the same area, from which the library is built");
@@ -57,6 +62,11 @@ void describe(CLI::App& app, Arguments& arguments) {
   app.add_option("--position-sigma", arguments.position_sigma_m,
                  "give the matcher the position with this standard deviation, m; negative: search the whole library")
       ->capture_default_str();
+  app.add_option("--same-place", arguments.same_place_m, "distance within which two panoramas show the same place, m")
+      ->check(CLI::Range(0.1, 1000.0))
+      ->capture_default_str();
+  app.add_option("--poses", arguments.poses,
+                 "plain folder: poses, as for panvo places build (default: poses.csv or poses.txt in the folder)");
   app.add_option("--curves", arguments.curves, "maximum number of plots of distances along a pass (Fig. 7)")
       ->capture_default_str();
   app.add_flag("--only-table", arguments.only_table, "only Table 1 and its plots, without matching the whole journey");
@@ -98,6 +108,46 @@ void print_journey(const JourneyScore& score, const PlaceTask& task, const Place
   std::cout << fmt::format("revisits found {} of {}, wrong matches {}\n", found, task.revisits.size(), score.wrong);
 }
 
+void warn_skipped(const std::string& problem) { std::cerr << problem << ": skipped\n"; }
+
+nlohmann::json json_of(const std::vector<FolderScore>& scores) {
+  auto json = nlohmann::json::array();
+  for (const auto& score : scores) {
+    json.push_back({{"method", score.method},
+                    {"known", score.known},
+                    {"unknown", score.unknown},
+                    {"right_first", score.right_first},
+                    {"right_at_full_precision", score.right_at_full_precision}});
+    if (score.answers_unknown) json.back().update({{"right", score.right}, {"wrong", score.wrong}});
+    const auto& errors = score.heading_errors_rad;
+    if (!errors.empty()) json.back()["median_heading_error_deg"] = errors[(errors.size() - 1) / 2] * kDegrees;
+  }
+  return json;
+}
+
+/// A plain folder: places by labels or poses, and the baselines beside `panvo places`.
+int run_folder(const Arguments& arguments) {
+  const auto folder = read_folder_panoramas(arguments.recording, arguments.poses, {}, warn_skipped);
+  std::vector<FolderPanorama> earlier;
+  if (!arguments.library_from.empty()) earlier = read_folder_panoramas(arguments.library_from, {}, {}, warn_skipped);
+  const auto task = folder_task(folder, earlier.empty() ? nullptr : &earlier, arguments.same_place_m);
+  if (task.queries.empty()) {
+    throw InputError(arguments.recording, "shows no place twice",
+                     "name an earlier folder of the same places with --library-from");
+  }
+  std::vector<FolderScore> scores;
+  for (const auto& method : all_methods(arguments.seed)) scores.push_back(score_folder(*method, task));
+  scores.push_back(score_folder(panvo::places::PlaceFinderParameters{}, task));
+  std::cout << fmt::format("{} places, {} panoramas to recognise, of which {} show no known place\n\n",
+                           task.library.size(), task.queries.size(), scores.back().unknown)
+            << folder_table(scores);
+  fs::create_directories(arguments.out);
+  const nlohmann::json json{
+      {"places", task.library.size()}, {"queries", task.queries.size()}, {"methods", json_of(scores)}};
+  std::ofstream(fs::path(arguments.out) / "places.json") << json.dump(2) << '\n';
+  return kSuccess;
+}
+
 nlohmann::json json_of(const std::vector<PlaceScore>& scores, const std::optional<JourneyScore>& journey,
                        const PlaceTask& task) {
   nlohmann::json json;
@@ -110,6 +160,7 @@ nlohmann::json json_of(const std::vector<PlaceScore>& scores, const std::optiona
                                {"false_positives", score.false_positives},
                                {"recall", score.recall},
                                {"precision", score.precision},
+                               {"recall_at_full_precision", score.recall_at_full_precision},
                                {"median_heading_error_deg", score.median_heading_error_rad * kDegrees}});
   }
   if (journey) {
@@ -130,9 +181,15 @@ nlohmann::json json_of(const std::vector<PlaceScore>& scores, const std::optiona
 }
 
 int run(const Arguments& arguments) {
-  const auto recording = read_place_recording(arguments.recording);
+  if (fs::is_directory(arguments.recording) && !fs::exists(fs::path(arguments.recording) / "mav0"))
+    return run_folder(arguments);
+  auto recording = read_place_recording(arguments.recording);
+  drop_unreadable(recording, warn_skipped);
   std::optional<PlaceRecording> earlier;
-  if (!arguments.library_from.empty()) earlier = read_place_recording(arguments.library_from);
+  if (!arguments.library_from.empty()) {
+    earlier = read_place_recording(arguments.library_from);
+    drop_unreadable(*earlier, warn_skipped);
+  }
   const auto& first = earlier ? *earlier : recording;
   const auto task = place_task(first, earlier ? &recording : nullptr);
   if (task.revisits.empty()) {
@@ -152,6 +209,7 @@ int run(const Arguments& arguments) {
   if (!arguments.only_table) {
     JourneySettings settings;
     settings.seed = arguments.seed;
+    settings.same_place_m = arguments.same_place_m;
     if (arguments.position_sigma_m >= 0.0) settings.position_sigma_m = arguments.position_sigma_m;
     const bool is_terminal = isatty(STDERR_FILENO) != 0;
     journey = match_journey(task, first, recording, settings, [&](std::size_t i, std::size_t count) {

@@ -10,6 +10,7 @@
 #include <opencv2/features2d.hpp>
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
+#include <tuple>
 
 #include "panvo/landmarks/panorama_describer.hpp"
 #include "panvo/vision/equirectangular.hpp"
@@ -18,10 +19,10 @@
 namespace panvo::landmarks {
 namespace {
 
-constexpr int kMargin_px = 32;         // beyond the seam: support of a descriptor in the half-size image
-constexpr int kSectors = 24;           // of the full turn, each with an equal share of the keypoints
-constexpr int kSurplus = 2;            // detected per keypoint kept, so that every sector has a choice
-constexpr double kMinContrast = 0.02;  // of SIFT; OpenCV's 0.04 finds too few under overcast sky
+constexpr int kMargin_px = 32;      // beyond the seam: support of a descriptor in the half-size image
+constexpr int kFullMargin_px = 96;  // and of the larger scales of the full image
+constexpr int kSectors = 24;        // of the full turn, each with an equal share of the keypoints
+constexpr int kSurplus = 2;         // detected per keypoint kept, so that every sector has a choice
 
 /// The band of the panorama that is searched, with a margin wrapped from the opposite end on each side.
 struct Section {
@@ -43,9 +44,10 @@ Section cut_section(const cv::Mat& panorama, const KeypointParameters& parameter
   };
   Section section;
   section.top = row_at(-parameters.top_deg);
-  section.left = -kMargin_px;
+  const int margin = parameters.half_size ? kMargin_px : kFullMargin_px;
+  section.left = -margin;
   const cv::Mat band = panorama.rowRange(row_at(-parameters.top_deg), row_at(parameters.bottom_deg));
-  cv::copyMakeBorder(band, section.image, 0, 0, kMargin_px, kMargin_px, cv::BORDER_WRAP | cv::BORDER_ISOLATED);
+  cv::copyMakeBorder(band, section.image, 0, 0, margin, margin, cv::BORDER_WRAP | cv::BORDER_ISOLATED);
   if (parameters.half_size) {
     cv::Mat half;
     cv::resize(section.image, half, section.image.size() / 2, 0.0, 0.0, cv::INTER_AREA);
@@ -89,6 +91,23 @@ std::vector<cv::KeyPoint> choose(const std::vector<cv::KeyPoint>& found, const S
   return strongest;
 }
 
+bool is_masked(const cv::Mat& mask, const Eigen::Vector2d& pixel) {
+  const int u = static_cast<int>(std::lround(pixel.x())), v = static_cast<int>(std::lround(pixel.y()));
+  return mask.at<uchar>(std::clamp(v, 0, mask.rows - 1), ((u % mask.cols) + mask.cols) % mask.cols) == 0;
+}
+
+/// Keypoints with several orientations become one.
+void set_upright(std::vector<cv::KeyPoint>& keypoints) {
+  for (auto& keypoint : keypoints) keypoint.angle = 0.0F;
+  const auto place = [](const cv::KeyPoint& keypoint) {
+    return std::tuple(keypoint.pt.x, keypoint.pt.y, keypoint.size);
+  };
+  std::sort(keypoints.begin(), keypoints.end(), [&](const auto& a, const auto& b) { return place(a) < place(b); });
+  const auto last = std::unique(keypoints.begin(), keypoints.end(),
+                                [&](const auto& a, const auto& b) { return place(a) == place(b); });
+  keypoints.erase(last, keypoints.end());
+}
+
 /// Squared Euclidean distance of two descriptors, exact in integers.
 int squared_distance(const std::array<std::uint8_t, 128>& a, const std::array<std::uint8_t, 128>& b) {
   cv::v_uint32x4 sum = cv::v_setzero_u32();
@@ -119,7 +138,8 @@ struct Nearest {
 
 }  // namespace
 
-std::vector<Keypoint> detect_keypoints(const cv::Mat& panorama, const KeypointParameters& parameters) {
+std::vector<Keypoint> detect_keypoints(const cv::Mat& panorama, const KeypointParameters& parameters,
+                                       const cv::Mat& mask) {
   if (panorama.empty() || (panorama.type() != CV_8UC1 && panorama.type() != CV_8UC3) ||
       panorama.cols != 2 * panorama.rows) {
     throw std::invalid_argument("keypoints: the panorama must be CV_8UC1 or CV_8UC3 and twice as wide as high");
@@ -127,9 +147,12 @@ std::vector<Keypoint> detect_keypoints(const cv::Mat& panorama, const KeypointPa
   const cv::Mat grey = to_described_size(panorama);
   const vision::Equirectangular sphere{grey.cols, grey.rows};
   const Section section = cut_section(grey, parameters);
-  const auto sift = cv::SIFT::create(kSurplus * parameters.most, 3, kMinContrast);
+  const auto sift = cv::SIFT::create(kSurplus * parameters.most, 3, parameters.min_contrast);
   std::vector<cv::KeyPoint> found;
   sift->detect(section.image, found);
+  if (!mask.empty())
+    std::erase_if(found, [&](const auto& keypoint) { return is_masked(mask, section.to_panorama(keypoint.pt)); });
+  if (parameters.upright) set_upright(found);
   // Computing descriptors costs more than repeating the blur, so only the chosen keypoints are described.
   std::vector<cv::KeyPoint> chosen = choose(found, section, grey.cols, parameters.most);
   if (chosen.empty()) return {};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "epipolar_refinement.hpp"
+#include "panvo/position_corrector/epipolar_refinement.hpp"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>

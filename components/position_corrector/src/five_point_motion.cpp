@@ -9,7 +9,7 @@
 #include <opengv/sac_problems/relative_pose/CentralRelativePoseSacProblem.hpp>
 #include <vector>
 
-#include "epipolar_refinement.hpp"
+#include "panvo/position_corrector/epipolar_refinement.hpp"
 #include "panvo/landmarks/keypoints.hpp"
 #include "panvo/vision/angle.hpp"
 #include "panvo/vision/pose.hpp"

@@ -25,12 +25,23 @@ bool read_bytes(const std::filesystem::path& file, std::vector<std::uint8_t>& by
   return static_cast<bool>(stream.read(reinterpret_cast<char*>(bytes.data()), size));
 }
 
+/// Index of the first byte after a JPEG's header segments, which may hold a thumbnail with an end marker of its own.
+std::size_t after_jpeg_header(const std::vector<std::uint8_t>& bytes) {
+  constexpr std::uint8_t kMarker = 0xff, kStartOfScan = 0xda;
+  std::size_t at = 2;
+  while (at + 4 <= bytes.size() && bytes[at] == kMarker && bytes[at + 1] != kStartOfScan) {
+    at += 2U + (static_cast<std::size_t>(bytes[at + 2]) << 8U) + bytes[at + 3];
+  }
+  return std::min(at, bytes.size());
+}
+
 /// Whether the file is a JPEG without its end marker. The decoder fills the missing part with grey and reports success.
 bool is_cut_off_jpeg(const std::vector<std::uint8_t>& bytes) {
   constexpr std::array<std::uint8_t, 2> kStart{0xff, 0xd8}, kEnd{0xff, 0xd9};
   if (bytes.size() < 4 || !std::equal(kStart.begin(), kStart.end(), bytes.begin())) return false;
   // Some cameras append padding or other data; entropy-coded data cannot contain the marker.
-  return std::find_end(bytes.begin() + 2, bytes.end(), kEnd.begin(), kEnd.end()) == bytes.end();
+  const auto data = bytes.begin() + static_cast<std::ptrdiff_t>(after_jpeg_header(bytes));
+  return std::find_end(data, bytes.end(), kEnd.begin(), kEnd.end()) == bytes.end();
 }
 
 std::string lower_case(std::string text) {

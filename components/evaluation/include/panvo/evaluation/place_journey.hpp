@@ -19,6 +19,7 @@ struct JourneySettings {
   landmarks::KeypointParameters keypoints;
   position_corrector::MatchingParameters matching;
   std::uint64_t seed = 1;
+  double same_place_m = 15.0;  ///< a match with a landmark within this distance is right
   /// Standard deviation of the noisy position passed to the matcher, m; nullopt: no position, the matcher searches all
   /// landmarks.
   std::optional<double> position_sigma_m;

@@ -4,7 +4,9 @@
 #include <Eigen/Geometry>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <opencv2/core.hpp>
+#include <string>
 #include <vector>
 
 #include "panvo/evaluation/journey_recording.hpp"
@@ -28,6 +30,10 @@ struct PlaceRecording {
 
 /// Throws InputError (file, problem, remedy) if anything is missing or invalid. Images are not opened.
 PlaceRecording read_place_recording(const std::filesystem::path& folder);
+
+/// Removes panoramas that cannot be read and passes each to `report` with the reason; visits get the nearest that is left.
+/// Throws InputError if none is.
+void drop_unreadable(PlaceRecording& recording, const std::function<void(const std::string&)>& report);
 
 /// Reads a panorama, CV_8UC1, 1080x540. Throws InputError if it cannot be decoded or is not 2:1.
 cv::Mat read_panorama(const RecordedPanorama& panorama);

@@ -50,6 +50,7 @@ struct PlaceScore {
   int false_positives = 0;  ///< negatives accepted by a threshold that keeps all true positives
   int revisits = 0;
   double recall = 0.0, precision = 0.0;
+  double recall_at_full_precision = 0.0;  ///< by a threshold that accepts no wrong place
   double median_heading_error_rad = 0.0;  ///< of the true positives
   std::vector<PlaceSample> positives, negatives;
 };

@@ -11,10 +11,12 @@
 namespace panvo::landmarks {
 
 struct KeypointParameters {
-  int most = 250;            ///< keypoints kept: the strongest, spread over the azimuth
-  bool half_size = true;     ///< detect in the image of half the size: a quarter of the time
-  double top_deg = 35.0;     ///< search band, above the horizon
-  double bottom_deg = 25.0;  ///< below the horizon
+  int most = 250;              ///< keypoints kept: the strongest, spread over the azimuth
+  bool half_size = true;       ///< detect in the image of half the size: a quarter of the time
+  double top_deg = 35.0;       ///< search band, above the horizon
+  double bottom_deg = 25.0;    ///< below the horizon
+  double min_contrast = 0.02;  ///< of SIFT; OpenCV's 0.04 finds too few under overcast sky
+  bool upright = false;  ///< descriptors keep the image's vertical: more distinctive, for tilts up to about 15 degrees
 
   template <class Field>
   static void describe(Field&& field) {
@@ -23,13 +25,18 @@ struct KeypointParameters {
     field(&P::half_size, "half_size", "", "detect SIFT features at half size: a quarter of the time");
     field(&P::top_deg, "top_deg", "deg", "upper limit of the search band, above the horizon", 5.0, 90.0);
     field(&P::bottom_deg, "bottom_deg", "deg", "lower limit of the search band, below the horizon", 0.0, 90.0);
+    field(&P::min_contrast, "min_contrast", "1", "smallest contrast of a SIFT feature", 0.001, 0.2);
+    field(&P::upright, "upright", "",
+          "descriptors keep the image's vertical: more distinctive, for tilts up to 15 degrees");
   }
 };
 
 /// SIFT features of a panorama (CV_8UC1 or CV_8UC3, 2:1), strongest first, with bearings in the panorama frame. The
 /// band is padded across the seam, so features there are found like any other. Throws std::invalid_argument for an
-/// image that is empty, of another type or not 2:1.
-std::vector<Keypoint> detect_keypoints(const cv::Mat& panorama, const KeypointParameters& parameters);
+/// image that is empty, of another type or not 2:1. `mask`: CV_8UC1 of 1080x540, 0 where no keypoint may lie (the vehicle's
+/// body, parts that the camera does not see); empty: none.
+std::vector<Keypoint> detect_keypoints(const cv::Mat& panorama, const KeypointParameters& parameters,
+                                       const cv::Mat& mask = {});
 
 /// A pair of matched keypoints: indices into the two lists.
 struct KeypointMatch {
