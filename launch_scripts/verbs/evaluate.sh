@@ -12,7 +12,7 @@ verb_usage() {
   cat <<'EOT'
 usage: panvo evaluate ESTIMATE GROUND_TRUTH [options]
        panvo evaluate journey RECORDING|RUN [options] (see panvo evaluate journey --help)
-       panvo evaluate places RECORDING [options]      (see panvo evaluate places --help)
+       panvo evaluate places RECORDING|FOLDER [options] (see panvo evaluate places --help)
 
 ESTIMATE is a run folder, a trajectory (TUM, EuRoC csv, KITTI poses) or a bag with panvo's odometry, GROUND_TRUTH a data set, a
 trajectory or a bag with ground_truth/odometry. Prints a table; writes evaluation.json, errors.csv and the plot into the run folder, or

@@ -91,9 +91,16 @@ std::vector<cv::KeyPoint> choose(const std::vector<cv::KeyPoint>& found, const S
   return strongest;
 }
 
-bool is_masked(const cv::Mat& mask, const Eigen::Vector2d& pixel) {
-  const int u = static_cast<int>(std::lround(pixel.x())), v = static_cast<int>(std::lround(pixel.y()));
-  return mask.at<uchar>(std::clamp(v, 0, mask.rows - 1), ((u % mask.cols) + mask.cols) % mask.cols) == 0;
+/// Whether a keypoint lies on a masked pixel, or on the edge of the masked region: that edge would be found anywhere.
+bool is_masked(const cv::Mat& mask, const Eigen::Vector2d& pixel, double size_px) {
+  const int u = static_cast<int>(std::lround(pixel.x()));
+  const auto is_seen = [&](double v, int column) {
+    const int row = std::clamp(static_cast<int>(std::lround(v)), 0, mask.rows - 1);
+    return mask.at<uchar>(row, ((column % mask.cols) + mask.cols) % mask.cols) != 0;
+  };
+  const int reach = static_cast<int>(std::lround(size_px));
+  return !is_seen(pixel.y(), u) || !is_seen(pixel.y() - size_px, u) || !is_seen(pixel.y() + size_px, u) ||
+         !is_seen(pixel.y(), u - reach) || !is_seen(pixel.y(), u + reach);
 }
 
 /// Keypoints with several orientations become one.
@@ -150,8 +157,11 @@ std::vector<Keypoint> detect_keypoints(const cv::Mat& panorama, const KeypointPa
   const auto sift = cv::SIFT::create(kSurplus * parameters.most, 3, parameters.min_contrast);
   std::vector<cv::KeyPoint> found;
   sift->detect(section.image, found);
-  if (!mask.empty())
-    std::erase_if(found, [&](const auto& keypoint) { return is_masked(mask, section.to_panorama(keypoint.pt)); });
+  if (!mask.empty()) {
+    std::erase_if(found, [&](const cv::KeyPoint& keypoint) {
+      return is_masked(mask, section.to_panorama(keypoint.pt), keypoint.size * section.scale);
+    });
+  }
   if (parameters.upright) set_upright(found);
   // Computing descriptors costs more than repeating the blur, so only the chosen keypoints are described.
   std::vector<cv::KeyPoint> chosen = choose(found, section, grey.cols, parameters.most);

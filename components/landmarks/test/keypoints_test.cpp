@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -46,6 +47,21 @@ TEST(MatchKeypoints, FindsThemAgainTurnedByTheHeading) {
 TEST(DetectKeypoints, RefusesWhatIsNoPanorama) {
   EXPECT_THROW(detect_keypoints(cv::Mat(), {}), std::invalid_argument);
   EXPECT_THROW(detect_keypoints(cv::Mat(500, 900, CV_8UC1), {}), std::invalid_argument);
+}
+
+TEST(Keypoints, StayOutOfTheMaskAndOffItsEdge) {
+  cv::Mat mask(540, 1080, CV_8UC1, cv::Scalar(255));
+  mask.rowRange(280, 540).setTo(0);
+  const auto all = detect_keypoints(paint_panorama(5), {});
+  const auto kept = detect_keypoints(paint_panorama(5), {}, mask);
+  const auto lowest_row = [](const Keypoint& keypoint) {
+    return vision::Equirectangular{1080, 540}.project(keypoint.bearing.cast<double>()).y() +
+           static_cast<double>(keypoint.size_px);
+  };
+  const auto is_low = [&](const Keypoint& keypoint) { return lowest_row(keypoint) > 281.0; };
+  EXPECT_TRUE(std::any_of(all.begin(), all.end(), is_low));
+  EXPECT_FALSE(kept.empty());
+  EXPECT_TRUE(std::none_of(kept.begin(), kept.end(), is_low));
 }
 
 }  // namespace

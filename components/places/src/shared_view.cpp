@@ -21,8 +21,9 @@ constexpr int kRefinements = 3;
 constexpr double kModels = 3.0;
 constexpr int kObjectSteps = 24;  // azimuths at which an object is assumed
 constexpr int kAttempts = 2;  // with everything, and without the object on which alone the first one agrees (a bonnet)
-constexpr double kCertainShare = 0.25;  // of the evidence that must remain when ranges may differ
-constexpr double kFar = 0.01;           // rad between two bearings: less is noise of the keypoints
+constexpr double kSky_rad = 10.0 * vision::kDegree;  // above the horizon: higher things may be sky
+constexpr double kCertainShare = 0.25;               // of the evidence that must remain when ranges may differ
+constexpr double kFar = 0.01;                        // rad between two bearings: less is noise of the keypoints
 constexpr double kMaxDirectionSigma_rad = 20.0 * vision::kDegree;  // a less certain direction is not stated
 
 struct Judged {
@@ -61,8 +62,24 @@ Judged best_motion(const std::vector<BearingPair>& pairs, double log10_tests, do
   return best;
 }
 
-/// The largest log10 of the expectation after everything within an azimuth window is left out. The rest must agree as well
-/// as all did: a wrong turn by 15 degrees would be a common, if rough, agreement of everything outside a bonnet.
+/// log10 of the expectation of a part of the pairs. It must agree as well as all did: a wrong turn by 15 degrees would be a
+/// common, if rough, agreement of everything outside a bonnet.
+double log10_expected_of(const std::vector<BearingPair>& part, const Judged& judged, double log10_tests) {
+  auto values = probabilities(part, judged.motion);
+  std::replace_if(
+      values.begin(), values.end(), [&](double p) { return p > judged.consensus.probability; }, 1.0);
+  return least_expected(values, sample_size(judged.motion.model), log10_tests).log10_expected;
+}
+
+/// Clouds and the sun stand at the same bearings everywhere: they tell the heading, not the place.
+std::vector<BearingPair> below_sky(const std::vector<BearingPair>& pairs) {
+  std::vector<BearingPair> below;
+  std::copy_if(pairs.begin(), pairs.end(), std::back_inserter(below),
+               [](const BearingPair& pair) { return -pair.landmark.y() < std::sin(kSky_rad); });
+  return below;
+}
+
+/// The largest log10 of the expectation after everything within an azimuth window is left out.
 double without_any_object(const std::vector<BearingPair>& pairs, const Judged& judged, double log10_tests,
                           double object_rad) {
   double worst = -std::numeric_limits<double>::infinity();
@@ -72,10 +89,7 @@ double without_any_object(const std::vector<BearingPair>& pairs, const Judged& j
     for (const auto& pair : pairs) {
       if (std::abs(vision::wrapped(azimuth_of(pair.landmark) - middle)) > 0.5 * object_rad) others.push_back(pair);
     }
-    auto values = probabilities(others, judged.motion);
-    std::replace_if(
-        values.begin(), values.end(), [&](double p) { return p > judged.consensus.probability; }, 1.0);
-    worst = std::max(worst, least_expected(values, sample_size(judged.motion.model), log10_tests).log10_expected);
+    worst = std::max(worst, log10_expected_of(others, judged, log10_tests));
   }
   return worst;
 }
@@ -172,7 +186,8 @@ SharedViewResult find_shared_view(std::span<const landmarks::Keypoint> query,
   auto considered = pairs;
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
     const auto best = best_motion(considered, log10_tests, sigma_rad);
-    const double without = without_any_object(considered, best, log10_tests, object_rad);
+    const double without_sky = log10_expected_of(below_sky(considered), best, log10_tests);
+    const double without = std::max(without_sky, without_any_object(considered, best, log10_tests, object_rad));
     if (attempt == 0 || std::max(best.consensus.log10_expected, without) <= parameters.log10_false_alarms) {
       result.agreeing = best.consensus.size;
       result.log10_expected = best.consensus.log10_expected;
@@ -186,12 +201,13 @@ SharedViewResult find_shared_view(std::span<const landmarks::Keypoint> query,
       result.view = describe(final, result.agreeing_pairs, sigma_rad);
       return result;
     }
-    considered = outside_object(considered, best, object_rad);
+    considered = without_sky > parameters.log10_false_alarms ? below_sky(considered)
+                                                             : outside_object(considered, best, object_rad);
   }
   result.reason = result.log10_expected > parameters.log10_false_alarms
                       ? fmt::format("{} of {} matches agree, as by chance", result.agreeing, result.matches)
-                      : fmt::format("{} of {} matches agree, but only on one object within {:.0f} deg", result.agreeing,
-                                    result.matches, parameters.object_deg);
+                      : fmt::format("{} of {} matches agree, but only on one object within {:.0f} deg, or the sky",
+                                    result.agreeing, result.matches, parameters.object_deg);
   return result;
 }
 

@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 #include <cstdint>
+#include <numbers>
 #include <random>
 #include <vector>
 
@@ -29,6 +30,17 @@ class MadeUpScene {
       const double elevation = uniform(-30.0, 30.0) * vision::kDegree;
       points_.push_back(range_m * Eigen::Vector3d(std::cos(elevation) * std::sin(azimuth), std::sin(elevation),
                                                   std::cos(elevation) * std::cos(azimuth)));
+      looks_.push_back(new_look());
+    }
+  }
+
+  /// Clouds: so far that they are at the same bearings everywhere.
+  void add_clouds(int count) {
+    for (int i = 0; i < count; ++i) {
+      const double azimuth = uniform(-std::numbers::pi, std::numbers::pi),
+                   elevation = uniform(12.0, 50.0) * vision::kDegree;
+      points_.push_back(1e6 * Eigen::Vector3d(std::cos(elevation) * std::sin(azimuth), -std::sin(elevation),
+                                              std::cos(elevation) * std::cos(azimuth)));
       looks_.push_back(new_look());
     }
   }

@@ -96,6 +96,17 @@ TEST(SharedView, IsNotFoundByOneObjectThatStandsElsewhereAgain) {
   EXPECT_THAT(result.reason, testing::HasSubstr("only on one object"));
 }
 
+TEST(SharedView, IsNotFoundByCloudsThatStandOverOtherPlacesToo) {
+  MadeUpScene sky(50), here(51), there(52);
+  sky.add_clouds(100);
+  const auto place = joined(sky.view(Isometry3d::Identity()), here.others(60));
+  const auto query = joined(sky.view(moved(35.0, 0.0, 50.0, 20.0)), there.others(60));
+  const auto result = find_shared_view(query, place, 2.0, {});
+  EXPECT_LT(result.log10_expected, -10.0) << "the sky itself agrees";
+  EXPECT_FALSE(result.view);
+  EXPECT_THAT(result.reason, testing::HasSubstr("the sky"));
+}
+
 TEST(SharedView, IsFoundPastABonnetThatStaysAhead) {
   MadeUpScene bonnet(40), scene(41);
   bonnet.add_things(80, -25.0, 25.0);
