@@ -6,6 +6,7 @@
 #include <functional>
 #include <map>
 #include <set>
+#include <span>
 #include <utility>
 
 #include "panvo/runtime/names.hpp"
@@ -112,10 +113,17 @@ class Inquiry {
     }
   }
 
-  void get(const std::string& node, const std::vector<Parameter>& parameters) {
+  void get(const std::string& node, std::span<const Parameter> parameters) {
     GetParameters_Request request;
     for (const auto& parameter : parameters) request.names().push_back(parameter.name);
     const auto response = call<GetParameters_Response>(node, "get_parameters", request);
+    // Nodes of rclcpp and rclpy answer with nothing if one of the parameters is unknown or declared without a value.
+    if (response.values().empty() && parameters.size() > 1) {
+      const std::size_t half = parameters.size() / 2;
+      get(node, parameters.first(half));
+      get(node, parameters.subspan(half));
+      return;
+    }
     for (std::size_t i = 0; i < std::min(parameters.size(), response.values().size()); ++i) {
       auto value = value_of(response.values()[i]);
       if (!std::holds_alternative<std::monostate>(value))

@@ -8,6 +8,9 @@
 
 #include "graph_tool.hpp"
 #include "peer_process.hpp"
+#include "rcl_interfaces/srv/DescribeParameters.h"
+#include "rcl_interfaces/srv/GetParameters.h"
+#include "rcl_interfaces/srv/ListParameters.h"
 #include "test_messages.hpp"
 
 namespace panvo::runtime::test {
@@ -58,6 +61,37 @@ TEST_F(GraphTool, GetsDescribesAndSetsParameters) {
   EXPECT_EQ(run("param get /robot/echo nothing").status, 1);
   EXPECT_EQ(run("param set /robot/echo use_sim_time true").said, "set\n");
   eventually_says("node info /robot/echo", "/clock: rosgraph_msgs/msg/Clock");
+}
+
+/// Nodes of rclcpp and rclpy give no value at all if one of the requested parameters has none.
+TEST_F(GraphTool, DescribesTheOtherParametersOfANodeWithOneThatHasNoValue) {
+  using namespace rcl_interfaces::srv;  // NOLINT(google-build-using-namespace): the requests and responses
+  const auto bridge = make_dds_bridge({.domain = domain, .profiles = "", .name = "panvo_test"});
+  const auto listing =
+      bridge->serve({"/talker/list_parameters", "rcl_interfaces/srv/ListParameters"}, [](const interfaces::Bytes&) {
+        ListParameters_Response response;
+        response.result().names({"empty", "size"});
+        return to_bytes(response);
+      });
+  const auto describing = bridge->serve({"/talker/describe_parameters", "rcl_interfaces/srv/DescribeParameters"},
+                                        [](const interfaces::Bytes& request) {
+                                          const auto asked = from_bytes<DescribeParameters_Request>(request);
+                                          DescribeParameters_Response response;
+                                          for (const auto& name : asked.names())
+                                            response.descriptors().emplace_back().name(name);
+                                          return to_bytes(response);
+                                        });
+  const auto getting = bridge->serve(
+      {"/talker/get_parameters", "rcl_interfaces/srv/GetParameters"}, [](const interfaces::Bytes& request) {
+        GetParameters_Response response;
+        if (from_bytes<GetParameters_Request>(request).names() == std::vector<std::string>{"size"}) {
+          response.values().emplace_back().type(2);  // integer
+          response.values()[0].integer_value(3);
+        }
+        return to_bytes(response);
+      });
+  const auto described = run("param describe /talker");
+  EXPECT_THAT(described.said, AllOf(HasSubstr("empty = not set\n"), HasSubstr("size = 3\n")));
 }
 
 TEST_F(GraphTool, LoadsAndUnloads) {

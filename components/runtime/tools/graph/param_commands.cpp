@@ -40,12 +40,19 @@ std::vector<std::string> names_of(Session& session, const std::string& node, con
       .names();
 }
 
+/// In the order of `names`; not set: those that are unknown or have no value.
 std::vector<rcl_interfaces::msg::ParameterValue> values_of(Session& session, const std::string& node,
                                                            const std::vector<std::string>& names) {
   GetParameters_Request request;
   request.names(names);
-  return session.call<GetParameters_Response>(node + "/get_parameters", "rcl_interfaces/srv/GetParameters", request)
-      .values();
+  auto values =
+      session.call<GetParameters_Response>(node + "/get_parameters", "rcl_interfaces/srv/GetParameters", request)
+          .values();
+  // Nodes of rclcpp and rclpy answer with nothing if one of the parameters is unknown or declared without a value.
+  while (values.size() < names.size())
+    values.push_back(names.size() == 1 ? rcl_interfaces::msg::ParameterValue()
+                                       : values_of(session, node, {names[values.size()]}).at(0));
+  return values;
 }
 
 std::set<std::string> nodes_with_parameters(Session& session) {
@@ -80,7 +87,7 @@ void get(const SessionOptions& options, const Arguments& arguments) {
   Session session(options);
   const std::string node = absolute(arguments.node);
   const auto values = values_of(session, node, {arguments.name});
-  if (values.empty() || values[0].type() == static_cast<std::uint8_t>(ParameterType::kNotSet))
+  if (values[0].type() == static_cast<std::uint8_t>(ParameterType::kNotSet))
     throw Failure("node " + node + " has no parameter " + arguments.name + " (panvo param list " + node + ")");
   std::cout << shown(values[0]) << "\n";
 }
