@@ -16,7 +16,10 @@ std::string tile(const std::string& figure, const std::string& words) {
 std::string legible(double value_m) { return metres(value_m, value_m < 1.0 ? 2 : 1); }
 
 std::string what_it_is(const JourneyRecording& recording, const PathScores& paths) {
-  auto text = fmt::format("{:.0f} m in {:.0f} min", paths.travelled_m, paths.duration_s / 60.0);
+  constexpr double kFewMinutes_s = 180.0;
+  const auto duration = paths.duration_s < kFewMinutes_s ? fmt::format("{:.0f} s", paths.duration_s)
+                                                         : fmt::format("{:.0f} min", paths.duration_s / 60.0);
+  auto text = fmt::format("{:.0f} m in {}", paths.travelled_m, duration);
   if (!recording.route.empty()) text = "route " + recording.route + ", " + text;
   if (!recording.effects.empty()) text += "; disturbances: " + joined(recording.effects);
   return text;

@@ -53,6 +53,7 @@ TEST_F(JourneyPage, ShowsEveryRevisitWithBothPanoramas) {
     ++pictures;
   EXPECT_EQ(pictures, 2U);
   EXPECT_THAT(text, HasSubstr("<b>1.80 m &rarr; 0.25 m</b>"));
+  EXPECT_THAT(text, HasSubstr("100 m in 100 s"));
   EXPECT_THAT(text, HasSubstr("landmark_store.file = kept.sqlite"));
 }
 

@@ -9,8 +9,8 @@
 #include <opengv/sac_problems/relative_pose/CentralRelativePoseSacProblem.hpp>
 #include <vector>
 
-#include "panvo/position_corrector/epipolar_refinement.hpp"
 #include "panvo/landmarks/keypoints.hpp"
+#include "panvo/position_corrector/epipolar_refinement.hpp"
 #include "panvo/vision/angle.hpp"
 #include "panvo/vision/pose.hpp"
 
