@@ -34,8 +34,8 @@ struct ComponentParameters : Parameters {
 };
 
 /// stereo/{left,right}/image_rect with camera_info, and /tf_static -> odometry/binocular, odometry/quality,
-/// odometry/points if anybody reads them, optionally /tf, with the image stamps. Tracking runs on the component's thread, motion with the local bundle adjustment on a
-/// second one; in replay both run in sequence.
+/// odometry/points if anybody reads them, optionally /tf, with the image stamps. Tracking runs on the component's
+/// thread, motion with the local bundle adjustment on a second one; in replay both run in sequence.
 class BinocularOdometryComponent final : public runtime::Component {
  public:
   explicit BinocularOdometryComponent(runtime::Context& context)

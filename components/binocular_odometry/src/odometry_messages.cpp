@@ -2,6 +2,7 @@
 #include "odometry_messages.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstring>
 #include <limits>
@@ -17,12 +18,14 @@ using vision::Vector6d;
 
 namespace {
 
-/// Layout of the points in a PointCloud2.
+/// Layout of the points in a PointCloud2. Without padding, whose bytes would differ between replays.
 struct PackedPoint {
   float x, y, z, u, v;
   std::uint32_t track;  // the low bits of the id
   std::uint8_t state;
+  std::array<std::uint8_t, 3> unused;
 };
+static_assert(sizeof(PackedPoint) == 28);
 
 std::vector<sensor_msgs::msg::PointField> point_fields() {
   namespace types = sensor_msgs::msg::PointField_Constants;
@@ -55,7 +58,8 @@ PackedPoint pack(const ScenePoint& point, const Eigen::Isometry3d& base_from_lef
           pixel.x(),
           pixel.y(),
           static_cast<std::uint32_t>(point.track_id),
-          static_cast<std::uint8_t>(point.state)};
+          static_cast<std::uint8_t>(point.state),
+          {}};
 }
 
 }  // namespace

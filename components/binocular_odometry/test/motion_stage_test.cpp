@@ -269,7 +269,7 @@ TEST(MotionStage, KnowsThePointsOfTheStaticSceneAndWhereTheyAre) {
       }
       if (points[at].state != ScenePoint::State::kInlier) continue;
       ++inliers;
-      ASSERT_TRUE(truth) << "a point on the car was taken for one of the scene";
+      ASSERT_TRUE(truth) << "a point on the car is labelled as an inlier";
       ASSERT_TRUE(points[at].in_odom);
       const Eigen::Isometry3d left_from_world = DriveBehindACar::world_from_left(i).inverse();
       const double depth_m = (left_from_world * *truth).z();

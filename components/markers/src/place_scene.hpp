@@ -29,7 +29,7 @@ struct SceneParameters {
     using P = SceneParameters;
     field(&P::size_m, "size_m", "m", "diameter of a place", 0.01, 100.0);
     field(&P::ids, "ids", "", "show the numbers of the places");
-    field(&P::max_sightings, "max_sightings", "", "older sightings are no longer shown", 0, 100000);
+    field(&P::max_sightings, "max_sightings", "", "number of sightings shown; the oldest are dropped", 0, 100000);
   }
 };
 

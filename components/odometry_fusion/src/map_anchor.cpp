@@ -6,6 +6,7 @@
 #include "panvo/vision/step_covariance.hpp"
 
 namespace panvo::odometry_fusion {
+
 void MapAnchor::add(const FusedPose& fused) {
   if (!fused_.empty() && fused.stamp_ns <= fused_.back().stamp_ns) *this = {};
   fused_.push_back(fused);

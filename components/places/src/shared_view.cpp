@@ -79,16 +79,27 @@ std::vector<BearingPair> below_sky(const std::vector<BearingPair>& pairs) {
   return below;
 }
 
+/// Whether a pair is seen from the place within an azimuth window.
+bool is_within(const BearingPair& pair, double middle_rad, double width_rad) {
+  return std::abs(vision::wrapped(azimuth_of(pair.landmark) - middle_rad)) <= 0.5 * width_rad;
+}
+
+std::vector<BearingPair> outside(const std::vector<BearingPair>& pairs, double middle_rad, double width_rad) {
+  std::vector<BearingPair> others;
+  std::copy_if(pairs.begin(), pairs.end(), std::back_inserter(others),
+               [&](const BearingPair& pair) { return !is_within(pair, middle_rad, width_rad); });
+  return others;
+}
+
+/// Middle of the azimuth window number `i` of kObjectSteps.
+double window_middle_rad(int i) { return 2.0 * std::numbers::pi * i / kObjectSteps; }
+
 /// The largest log10 of the expectation after everything within an azimuth window is left out.
 double without_any_object(const std::vector<BearingPair>& pairs, const Judged& judged, double log10_tests,
                           double object_rad) {
   double worst = -std::numeric_limits<double>::infinity();
   for (int i = 0; i < kObjectSteps; ++i) {
-    const double middle = 2.0 * std::numbers::pi * i / kObjectSteps;
-    std::vector<BearingPair> others;
-    for (const auto& pair : pairs) {
-      if (std::abs(vision::wrapped(azimuth_of(pair.landmark) - middle)) > 0.5 * object_rad) others.push_back(pair);
-    }
+    const auto others = outside(pairs, window_middle_rad(i), object_rad);
     worst = std::max(worst, log10_expected_of(others, judged, log10_tests));
   }
   return worst;
@@ -153,23 +164,17 @@ SharedView describe(const Judged& judged, const std::vector<BearingPair>& agreei
 std::vector<BearingPair> outside_object(const std::vector<BearingPair>& pairs, const Judged& judged,
                                         double object_rad) {
   const auto chosen = agreeing(pairs, judged);
-  const auto is_inside = [&](const BearingPair& pair, double middle) {
-    return std::abs(vision::wrapped(azimuth_of(pair.landmark) - middle)) <= 0.5 * object_rad;
-  };
   double densest = 0.0;
   std::ptrdiff_t most = -1;
   for (int i = 0; i < kObjectSteps; ++i) {
-    const double middle = 2.0 * std::numbers::pi * i / kObjectSteps;
-    const auto count =
-        std::count_if(chosen.begin(), chosen.end(), [&](const auto& pair) { return is_inside(pair, middle); });
+    const double middle = window_middle_rad(i);
+    const auto count = std::count_if(chosen.begin(), chosen.end(),
+                                     [&](const auto& pair) { return is_within(pair, middle, object_rad); });
     if (count <= most) continue;
     most = count;
     densest = middle;
   }
-  std::vector<BearingPair> others;
-  std::copy_if(pairs.begin(), pairs.end(), std::back_inserter(others),
-               [&](const auto& pair) { return !is_inside(pair, densest); });
-  return others;
+  return outside(pairs, densest, object_rad);
 }
 
 }  // namespace

@@ -13,7 +13,7 @@ namespace {
 double degrees(double rad) { return rad / vision::kDegree; }
 
 /// Azimuth, left positive as headings are, from straight ahead of the place's panorama.
-double bearing_deg(const Eigen::Vector3d& direction) { return -degrees(std::atan2(direction.x(), direction.z())); }
+double bearing_deg(const Eigen::Vector3d& direction) { return -degrees(azimuth_of(direction)); }
 
 std::string quoted(const std::string& text) {
   std::string result = "\"";

@@ -41,8 +41,8 @@ struct FolderTask {
 };
 
 /// With `earlier`, its panoramas are the library and those of `folder` the queries. Without, the first panorama of each
-/// place is the library, and the others are queries; by poses, those within twice the distance of one place, along the path,
-/// after it was added are left out, as they are no revisits.
+/// place is the library, and the others are queries. With poses, a panorama is not a query until the path since its place was
+/// added is longer than twice `same_place_m`: before that, the camera has not left the place.
 FolderTask folder_task(const std::vector<FolderPanorama>& folder, const std::vector<FolderPanorama>* earlier,
                        double same_place_m);
 

@@ -11,7 +11,7 @@ namespace panvo::odometry_fusion {
 /// Carries the localizer's last pose in the map, which arrives later than fused poses, on by what was fused since.
 class MapAnchor {
  public:
-  /// Adds a fused pose. Earlier stamps than the previous one's start anew.
+  /// Adds a fused pose. A stamp that is not later than the previous one resets the anchor.
   void add(const FusedPose& fused);
 
   /// Takes the pose in the map that belongs to a fused pose. False, without effect: no fused pose has that stamp.

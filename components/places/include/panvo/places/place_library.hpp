@@ -27,7 +27,7 @@ struct KnownPlace {
 /// SIFT features for recognition by bearings alone: more than for a metric landmark, at full size, over more elevations.
 landmarks::KeypointParameters place_keypoints();
 
-/// The describer of all libraries of places: its features only rank, so that there is no need to choose parameters.
+/// Describer with fixed parameters, shared by all libraries. Its features only rank candidates, so they need no tuning.
 const landmarks::PanoramaDescriber& place_describer();
 
 KnownPlace make_place(const std::string& name, const PanoramaImage& image);
