@@ -82,6 +82,12 @@ std::vector<FolderImage> images_of(const std::string& path) {
   return read_image_folder(path, {});
 }
 
+void write(const fs::path& file, const std::string& text) {
+  std::ofstream stream(file, std::ios::binary);
+  if (!(stream << text).flush())
+    throw FolderError(file.string() + ": cannot be written; check the folder and the free disk space");
+}
+
 void write_sheet(const fs::path& folder, std::size_t number, const PanoramaImage& image, const ImageAnswer& answer,
                  const std::vector<KnownPlace>& places) {
   const auto file = folder / fmt::format("match_{:04}.jpg", number);
@@ -133,8 +139,8 @@ int match(const Arguments& arguments) {
                 images.size() - found - skipped, skipped);
   }
   if (!arguments.out.empty()) {
-    std::ofstream(fs::path(arguments.out) / "places.csv") << csv;
-    std::ofstream(fs::path(arguments.out) / "places.json") << report.dump(2) << '\n';
+    write(fs::path(arguments.out) / "places.csv", csv);
+    write(fs::path(arguments.out) / "places.json", report.dump(2) + "\n");
   }
   return skipped == 0 ? kWell : kSkipped;
 }
