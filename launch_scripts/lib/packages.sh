@@ -83,10 +83,10 @@ install_packages() {
   note "packages installed"
 }
 
-# apt_install and refresh_after_failure use the caller's as_root and log.
+# apt_install and refresh_after_failure use the caller's as_root and log. Automatic upgrades hold apt's lock for minutes on a machine that just started.
 apt_install() {
   "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -q --no-install-recommends \
-    -o Dpkg::Use-Pty=0 -o Dpkg::Options::=--force-confold "$@" </dev/null 2>&1 | tee -a "$log" | show_apt_progress
+    -o DPkg::Lock::Timeout=600 -o Dpkg::Use-Pty=0 -o Dpkg::Options::=--force-confold "$@" </dev/null 2>&1 | tee -a "$log" | show_apt_progress
 }
 
 # Old package lists name files that the mirror no longer has.
@@ -104,12 +104,17 @@ package_lists_know() {
 
 # Shows apt's progress: one updated line on a terminal, else a line per 20 %.
 show_apt_progress() {
-  local line total=1 unpacked=0 set_up=0 last=''
+  local line total=1 unpacked=0 set_up=0
+  local -A seen=()
   # Not awk: mawk, Debian's default, waits for a full block of input before it reads the first line.
   while IFS= read -r line; do
     case $line in
       'Need to get '*) show_step "downloading ${line#Need to get }" ;;
       *' newly installed,'*) [[ $line =~ ([0-9]+)' newly installed' ]] && total=${BASH_REMATCH[1]} ;;
+      *'Could not get lock'*)
+        [[ -n ${seen[lock]:-} ]] || show_step "waiting for ${line##*held by }"
+        seen[lock]=yes
+        ;;
       'Get:'*) ! is_terminal || show_step "downloading: ${line#* }" ;;
       'Unpacking '*) unpacked=$((unpacked + 1)) && show_count unpacked "$unpacked" ;;
       'Setting up '*) set_up=$((set_up + 1)) && show_count 'set up' "$set_up" ;;
@@ -122,9 +127,9 @@ show_step() {
   if is_terminal; then printf '\r\033[K  %s' "${1:0:100}" >&2; else printf '  %s\n' "$1" >&2; fi
 }
 
-# show_count WHAT N: N of the caller's total; not on a terminal, only every 20 %.
+# show_count WHAT N: N of the caller's total; not on a terminal, only every 20 % of each WHAT, remembered in the caller's seen.
 show_count() {
-  local step="$1 $((5 * $2 / (total > 0 ? total : 1)))"
-  if is_terminal || [[ $step != "$last" ]]; then show_step "$1 $2 of $total"; fi
-  last=$step
+  local fifth=$((5 * $2 / (total > 0 ? total : 1)))
+  if is_terminal || [[ $fifth != "${seen[$1]:-0}" ]]; then show_step "$1 $2 of $total"; fi
+  seen[$1]=$fifth
 }

@@ -14,8 +14,10 @@ struct ComponentParameters {
   IntegrityParameters integrity;
   bool use_compass = true;
   bool use_corrections = true;
+  bool use_gnss = true;
   std::string map_frame = "map";
   std::string odom_frame = "odom";
+  std::string enu_frame = "enu";
   double stale_after_s = 0.5;
   double path_step_m = 1.0;
   double path_period_s = 2.0;
@@ -30,8 +32,10 @@ struct ComponentParameters {
     field(&P::use_compass, "use_compass", "", "correct the azimuth with the panoramic compass");
     field(&P::use_corrections, "use_corrections", "",
           "correct the position with landmark sightings; false: only keep track of landmarks");
+    field(&P::use_gnss, "use_gnss", "", "correct the path with positions by satellites, if there are any");
     field(&P::map_frame, "map_frame", "", "frame of the corrected pose");
     field(&P::odom_frame, "odom_frame", "", "frame of the continuous pose");
+    field(&P::enu_frame, "enu_frame", "", "frame with axes east, north, up at the first position by satellites");
     field(&P::stale_after_s, "stale_after_s", "s",
           "time without odometry after which the pose is stale: twelve images at 25 Hz, more than a busy computer "
           "misses; a walking robot moves 0.7 m",

@@ -4,16 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <stdexcept>
-
-#include "panvo/localizer/pose_graph.hpp"
 
 namespace panvo::localizer {
 namespace {
 
 // Per landmark. Eight reduce the error of a single sighting to a third; the rest is common to all sightings.
 constexpr int kMaxPasses = 8;
-constexpr double kMinVariance = 1e-8;  // of an edge: 0.1 mm, 0.1 mrad
 // Remaining odometry constraint across a cut: moved within a kilometre, any yaw, nearly upright.
 constexpr double kCutPosition_m = 1000.0;
 constexpr double kCutTilt_rad = 0.2;
@@ -27,14 +23,19 @@ vision::Matrix6d cut_covariance() {
   return sigma.cwiseAbs2().asDiagonal();
 }
 
-vision::Matrix6d with_least_variance(const vision::Matrix6d& covariance) {
-  return covariance + kMinVariance * vision::Matrix6d::Identity();
-}
-
 }  // namespace
 
-LocalPoseGraph::LocalPoseGraph(double start_sigma_m, double start_sigma_rad)
-    : start_sigma_m_(start_sigma_m), start_sigma_rad_(start_sigma_rad) {}
+LocalPoseGraph::LocalPoseGraph(double start_sigma_m, double start_sigma_rad, double scale_sigma,
+                               const GnssParameters& fixes)
+    : start_sigma_m_(start_sigma_m),
+      start_sigma_rad_(start_sigma_rad),
+      scale_sigma_(scale_sigma),
+      fix_parameters_(fixes) {}
+
+bool LocalPoseGraph::has_only_start() const {
+  return has_started() &&
+         std::all_of(std::next(nodes_.begin()), nodes_.end(), [](const Node& node) { return node.fix; });
+}
 
 void LocalPoseGraph::start(const OdometrySample& at) {
   Node node;
@@ -134,14 +135,13 @@ std::vector<KnownLandmark> LocalPoseGraph::landmarks() const {
 PoseInMap LocalPoseGraph::carried(const OdometryPose& odometry) const {
   const auto& from = anchor(odometry.stamp_ns);
   const bool is_back = odometry.stamp_ns < from.at.pose.stamp_ns;  // before the journey's first node
-  const Eigen::Isometry3d way = from.at.pose.odom_from_base.inverse() * odometry.odom_from_base;
+  const Eigen::Isometry3d way = way_between(from.at.pose, odometry);
   const vision::Matrix6d covariance =
       is_back ? vision::Matrix6d(vision::Matrix6d::Zero()) : way_covariance(from.at.pose, odometry);
   return {from.map_from_base * way, vision::compose_covariance(from.map_from_base, from.covariance, way, covariance)};
 }
 
-vision::Matrix6d LocalPoseGraph::common_covariance(const Eigen::Vector3d& position, double scale_sigma,
-                                                   double direction_sigma_rad) const {
+vision::Matrix6d LocalPoseGraph::common_covariance(const Eigen::Vector3d& position, double direction_sigma_rad) const {
   const Node* last = nullptr;
   for (const auto& node : nodes_) {
     if (!node.is_pass || !known_.contains(node.landmark_id)) continue;
@@ -152,6 +152,7 @@ vision::Matrix6d LocalPoseGraph::common_covariance(const Eigen::Vector3d& positi
   const Eigen::Vector3d way = position - nodes_.front().map_from_base.translation();
   const Eigen::Vector3d across = Eigen::Vector3d::UnitZ().cross(way);
   // A direction error also shortens the distance along the path: by 1 - cos.
+  const double scale_sigma = enu_ ? 0.0 : scale_sigma_;  // with satellites it is part of the graph
   const double length_sigma = std::hypot(scale_sigma, 0.5 * direction_sigma_rad * direction_sigma_rad);
   covariance.topLeftCorner<3, 3>() = length_sigma * length_sigma * way * way.transpose() +
                                      direction_sigma_rad * direction_sigma_rad * across * across.transpose();
@@ -165,6 +166,10 @@ void LocalPoseGraph::place(const Eigen::Isometry3d& map_from_former_map) {
     node.map_from_base = map_from_former_map * node.map_from_base;
     node.covariance = vision::rotate_covariance(map_from_former_map.linear(), node.covariance);
   }
+  if (!enu_) return;
+  enu_->map_from_enu = map_from_former_map * enu_->map_from_enu;
+  enu_->covariance = vision::rotate_covariance(map_from_former_map.linear(), enu_->covariance);
+  enu_->cross = vision::rotate_covariance(map_from_former_map.linear(), enu_->cross);
 }
 
 void LocalPoseGraph::refresh(const OdometryBuffer& chain, std::int64_t since_ns) {
@@ -181,50 +186,6 @@ void LocalPoseGraph::set_clock_back(std::int64_t by_ns) {
     node.sighting.stamp_ns -= by_ns;
   }
   for (auto& cut_ns : cuts_ns_) cut_ns -= by_ns;
-}
-
-bool LocalPoseGraph::solve() {
-  PoseGraph graph;
-  for (const auto& node : nodes_) graph.poses.push_back(node.map_from_base);
-  const auto order = journey_order();
-  for (std::size_t i = 1; i < order.size(); ++i) {
-    const auto& a = nodes_[order[i - 1]].at.pose;
-    const auto& b = nodes_[order[i]].at.pose;
-    graph.edges.push_back({order[i - 1], order[i], a.odom_from_base.inverse() * b.odom_from_base,
-                           with_least_variance(way_covariance(a, b)), false});
-  }
-  bool is_anchored = is_placed_;  // by something other than the start of the journey
-  for (std::size_t i = 0; i < nodes_.size(); ++i) {
-    const auto& node = nodes_[i];
-    if (node.is_of_earlier_day) {
-      is_anchored = true;
-      const auto& known = known_.at(node.landmark_id);
-      graph.priors.push_back({i, known.map_from_base, with_least_variance(known.covariance)});
-    }
-    if (node.said) graph.priors.push_back({i, node.said->map_from_base, with_least_variance(node.said->covariance)});
-    if (!node.is_pass) continue;
-    const auto seen = static_cast<std::size_t>(landmark_node(node.landmark_id) - nodes_.data());
-    graph.edges.push_back(
-        {seen, i, node.sighting.landmark_from_base, with_least_variance(node.sighting.covariance), true});
-  }
-  if (!is_anchored) {  // the map starts with the journey
-    vision::Vector6d sigma;
-    sigma << Eigen::Vector3d::Constant(start_sigma_m_), Eigen::Vector3d::Constant(start_sigma_rad_);
-    graph.priors.push_back(
-        {order.front(), nodes_[order.front()].at.pose.odom_from_base, sigma.cwiseAbs2().asDiagonal()});
-  }
-  try {
-    if (!graph.optimise()) return false;
-  } catch (const std::invalid_argument&) {  // a sum of valid covariances that is singular by rounding
-    return false;
-  }
-  const auto covariances = graph.covariances();
-  if (!covariances) return false;
-  for (std::size_t i = 0; i < nodes_.size(); ++i) {
-    nodes_[i].map_from_base = graph.poses[i];
-    nodes_[i].covariance = (*covariances)[i];
-  }
-  return true;
 }
 
 const LocalPoseGraph::Node* LocalPoseGraph::landmark_node(std::uint32_t id) const {
@@ -246,22 +207,18 @@ const LocalPoseGraph::Node& LocalPoseGraph::anchor(std::int64_t stamp_ns) const 
   return last != nullptr ? *last : *first;
 }
 
-std::vector<std::size_t> LocalPoseGraph::journey_order() const {
-  std::vector<std::size_t> order;
-  for (std::size_t i = 0; i < nodes_.size(); ++i) {
-    if (!nodes_[i].is_of_earlier_day) order.push_back(i);
-  }
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return nodes_[a].at.pose.stamp_ns < nodes_[b].at.pose.stamp_ns;
-  });
-  return order;
-}
-
 /// Whether the vehicle was lifted between two times.
 bool LocalPoseGraph::is_cut(std::int64_t from_ns, std::int64_t to_ns) const {
   const std::int64_t first_ns = std::min(from_ns, to_ns), last_ns = std::max(from_ns, to_ns);
   return std::any_of(cuts_ns_.begin(), cuts_ns_.end(),
                      [&](std::int64_t cut_ns) { return first_ns < cut_ns && cut_ns <= last_ns; });
+}
+
+/// Motion between two times by odometry, without its error of scale.
+Eigen::Isometry3d LocalPoseGraph::way_between(const OdometryPose& from, const OdometryPose& to) const {
+  Eigen::Isometry3d way = from.odom_from_base.inverse() * to.odom_from_base;
+  way.translation() /= scale_.value;
+  return way;
 }
 
 /// Covariance gained by odometry between two times, in the axes of the first.

@@ -52,7 +52,8 @@ Localizer::Localizer(const Parameters& parameters)
       lean_(parameters.lean_window_s, parameters.lean_sigmas),
       check_(parameters),
       dead_reckoning_(parameters.motion, parameters.gap_s),
-      graph_(parameters.start_sigma_m, parameters.start_sigma_deg * vision::kDegree) {}
+      graph_(parameters.start_sigma_m, parameters.start_sigma_deg * vision::kDegree, parameters.scale_sigma,
+             parameters.gnss) {}
 
 OdometryOutcome Localizer::add(const OdometryPose& received) {
   const auto refused = [](std::string reason) { return OdometryOutcome{.reason = std::move(reason)}; };
@@ -139,6 +140,7 @@ void Localizer::set_clock_back(std::int64_t by_ns) {
     (*sighting)->at_ns -= by_ns;
   }
   latest_ = localized(chain_.latest().pose);
+  fix_trial_.clear();
   // Measurements between two panoramas would mix two clocks.
   lean_.forget();
   last_from_ns_.reset();
@@ -206,7 +208,7 @@ PoseInMap Localizer::expected(const OdometryPose& odometry) const {
 /// Errors common to all poses of the journey, which sightings of its own landmarks do not reveal.
 vision::Matrix6d Localizer::common_covariance(const Eigen::Vector3d& position) const {
   if (is_located_) {
-    return graph_.common_covariance(position, parameters_.scale_sigma, check_.direction_sigma_rad());
+    return graph_.common_covariance(position, check_.direction_sigma_rad());
   }
   vision::Matrix6d covariance = vision::Matrix6d::Zero();
   covariance.topLeftCorner<3, 3>() = kUnknownPosition_m * kUnknownPosition_m * Eigen::Matrix3d::Identity();

@@ -26,14 +26,15 @@
 #include "panvo/runtime/component.hpp"
 #include "path_record.hpp"
 #include "pose_publisher.hpp"
+#include "satellites.hpp"
 #include "seconds.hpp"
 #include "set_back.hpp"
 
 namespace panvo::localizer {
 
-/// odometry/binocular, odometry/quality, compass/azimuth_change, correction, landmarks, /initialpose ->
-/// odometry/enhanced, /tf, localization/state, localization/integrity, correction/outcome, landmarks/poses, path/*.
-/// Odometry waits for its quality; measurements of a panorama wait until odometry reaches its stamp.
+/// odometry/binocular, odometry/quality, compass/azimuth_change, correction, landmarks, gnss/fix, /initialpose ->
+/// odometry/enhanced, /tf, localization/state, localization/integrity, correction/outcome, landmarks/poses, path/*,
+/// gnss/enhanced. Odometry waits for its quality; measurements of a panorama wait until odometry reaches its stamp.
 class LocalizerComponent final : public runtime::Component {
  public:
   explicit LocalizerComponent(runtime::Context& context)
@@ -46,6 +47,7 @@ class LocalizerComponent final : public runtime::Component {
         path_binocular_(parameters_.path_step_m, parameters_.path_period_s),
         path_enhanced_(parameters_.path_step_m, parameters_.path_period_s),
         publisher_(context, parameters_),
+        satellites_(context, parameters_, localizer_),
         outcome_(context.output(topics::kCorrectionOutcome)),
         poses_(context.output(topics::kLandmarkPoses)),
         path_binocular_output_(context.output(topics::kPathBinocular)),
@@ -134,6 +136,7 @@ class LocalizerComponent final : public runtime::Component {
     }
     const auto& localized = localizer_.latest();
     publish_pose(true);
+    satellites_.publish(stamp_ns, message.child_frame_id());
     publish_paths(stamp_ns, *pose);
     last_pose_.keep(localized, message.twist().twist());
     if (localized.state == State::kUnlocated && localizer_.way_m() > kUnlocatedFor_m) {
@@ -223,6 +226,7 @@ class LocalizerComponent final : public runtime::Component {
     while (const auto fact = waiting_.next(localizer_)) {
       std::visit([this](const auto& one) { take(one); }, *fact);
     }
+    has_learned_ |= satellites_.work_off();
   }
 
   void take(const AzimuthMeasurement& azimuth) {
@@ -314,6 +318,7 @@ class LocalizerComponent final : public runtime::Component {
   SetBack set_back_;
   PathRecord path_binocular_, path_enhanced_;
   PosePublisher publisher_;
+  Satellites satellites_;
   runtime::Output<panvo_msgs::msg::CorrectionOutcome> outcome_;
   runtime::Output<panvo_msgs::msg::LandmarkPoses> poses_;
   runtime::Output<nav_msgs::msg::Path> path_binocular_output_, path_enhanced_output_;

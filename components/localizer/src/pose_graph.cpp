@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 namespace panvo::localizer {
 namespace {
@@ -36,17 +37,18 @@ Eigen::Isometry3d to_pose(const Block& block) {
   return pose;
 }
 
-vision::Matrix6d whitening(const vision::Matrix6d& covariance) {
-  Eigen::LLT<vision::Matrix6d> factor(covariance);
+template <class Matrix>
+Matrix whitening(const Matrix& covariance) {
+  Eigen::LLT<Matrix> factor(covariance);
   if (factor.info() != Eigen::Success && covariance.allFinite()) {
     // Semidefinite, or definite but lost in rounding: eigenvalues are raised to the rounding level.
-    const Eigen::SelfAdjointEigenSolver<vision::Matrix6d> parts(covariance);
+    const Eigen::SelfAdjointEigenSolver<Matrix> parts(covariance);
     const double least = kRounding * parts.eigenvalues().cwiseAbs().maxCoeff();
     factor.compute(parts.eigenvectors() * parts.eigenvalues().cwiseMax(least).asDiagonal() *
                    parts.eigenvectors().transpose());
   }
   if (factor.info() != Eigen::Success) throw std::invalid_argument("pose graph: a covariance is not positive definite");
-  return factor.matrixL().solve(vision::Matrix6d::Identity());
+  return factor.matrixL().solve(Matrix::Identity());
 }
 
 /// Whitened vision::pose_error between the estimated and the measured a_from_b.
@@ -68,11 +70,45 @@ struct EdgeCost {
 
   template <class T>
   bool operator()(const T* from, const T* to, T* residual) const {
+    const T exact(1.0);
+    return (*this)(from, to, &exact, residual);
+  }
+
+  template <class T>
+  bool operator()(const T* from, const T* to, const T* scale, T* residual) const {
     const Eigen::Map<const Eigen::Matrix<T, 3, 1>> from_translation(from), to_translation(to);
     const Eigen::Map<const Eigen::Quaternion<T>> from_rotation(from + 3), to_rotation(to + 3);
     const Eigen::Quaternion<T> back = from_rotation.conjugate();
-    const Eigen::Matrix<T, 3, 1> translation = back * (to_translation - from_translation);
+    const Eigen::Matrix<T, 3, 1> translation = back * (to_translation - from_translation) * *scale;
     whitened_error<T>(translation, back * to_rotation, measured, whiten, residual);
+    return true;
+  }
+};
+
+struct FixCost {
+  Eigen::Vector3d point_in_pose, velocity_in_pose, point_in_frame;
+  Eigen::Matrix3d whiten;
+
+  template <class T>
+  bool operator()(const T* frame, const T* pose, const T* delay, T* residual) const {
+    const Eigen::Map<const Eigen::Matrix<T, 3, 1>> frame_translation(frame), translation(pose);
+    const Eigen::Map<const Eigen::Quaternion<T>> frame_rotation(frame + 3), rotation(pose + 3);
+    const Eigen::Matrix<T, 3, 1> in_pose = point_in_pose.cast<T>() - *delay * velocity_in_pose.cast<T>();
+    const Eigen::Matrix<T, 3, 1> point = rotation * in_pose + translation;
+    const Eigen::Matrix<T, 3, 1> error =
+        frame_rotation.conjugate() * (point - frame_translation) - point_in_frame.cast<T>();
+    Eigen::Map<Eigen::Matrix<T, 3, 1>> result(residual);
+    result = whiten.cast<T>() * error;
+    return true;
+  }
+};
+
+struct NumberPrior {
+  double expected, sigma;
+
+  template <class T>
+  bool operator()(const T* number, T* residual) const {
+    *residual = (*number - T(expected)) / T(sigma);
     return true;
   }
 };
@@ -103,14 +139,22 @@ struct Problem {
       blocks.push_back(to_block(pose));
       problem.AddParameterBlock(blocks.back().data(), 7, new Manifold);
     }
+    add_number(graph.scale, 1.0, graph.scale_sigma, scale);
+    add_number(graph.delay, 0.0, graph.delay_sigma, delay);
     for (const auto& edge : graph.edges) {
       check(edge.from);
       check(edge.to);
-      problem.AddResidualBlock(new ceres::AutoDiffCostFunction<EdgeCost, 6, 7, 7>(
-                                   new EdgeCost{edge.from_from_to, whitening(edge.covariance)}),
-                               edge.is_robust ? new ceres::CauchyLoss(kLossScale) : nullptr, blocks[edge.from].data(),
-                               blocks[edge.to].data());
+      add(edge, graph.scale_sigma > 0.0);
     }
+    for (const auto& fix : graph.fixes) {
+      check(fix.frame);
+      check(fix.pose);
+      problem.AddResidualBlock(
+          new ceres::AutoDiffCostFunction<FixCost, 3, 7, 7, 1>(
+              new FixCost{fix.point_in_pose, fix.velocity_in_pose, fix.point_in_frame, whitening(fix.covariance)}),
+          new ceres::CauchyLoss(kLossScale), blocks[fix.frame].data(), blocks[fix.pose].data(), &delay);
+    }
+    if (!graph.fixes.empty() && graph.delay_sigma == 0.0) problem.SetParameterBlockConstant(&delay);
     for (const auto& prior : graph.priors) {
       check(prior.pose);
       problem.AddResidualBlock(new ceres::AutoDiffCostFunction<PriorCost, 6, 7>(
@@ -119,9 +163,40 @@ struct Problem {
     }
   }
 
+  void add_number(double initial, double expected, double sigma, double& number) {
+    number = initial;
+    if (!(sigma > 0.0)) return;
+    problem.AddResidualBlock(new ceres::AutoDiffCostFunction<NumberPrior, 1, 1>(new NumberPrior{expected, sigma}),
+                             nullptr, &number);
+  }
+
+  void add(const PoseGraph::Edge& edge, bool has_scale) {
+    auto* const cost = new EdgeCost{edge.from_from_to, whitening(edge.covariance)};
+    auto* const loss = edge.is_robust ? new ceres::CauchyLoss(kLossScale) : nullptr;
+    if (edge.is_scaled && has_scale) {
+      problem.AddResidualBlock(new ceres::AutoDiffCostFunction<EdgeCost, 6, 7, 7, 1>(cost), loss,
+                               blocks[edge.from].data(), blocks[edge.to].data(), &scale);
+    } else {
+      problem.AddResidualBlock(new ceres::AutoDiffCostFunction<EdgeCost, 6, 7, 7>(cost), loss, blocks[edge.from].data(),
+                               blocks[edge.to].data());
+    }
+  }
+
   std::vector<Block> blocks;  // never grows, as Ceres stores the addresses
+  double scale = 1.0, delay = 0.0;
   ceres::Problem problem;
 };
+
+/// Covariance of two pose blocks; Ceres' step of a quaternion is half the rotation vector about the map's axes.
+std::optional<vision::Matrix6d> tangent_covariance(const ceres::Covariance& covariance, const Block& a,
+                                                   const Block& b) {
+  Eigen::Matrix<double, 6, 6, Eigen::RowMajor> tangent;
+  if (!covariance.GetCovarianceBlockInTangentSpace(a.data(), b.data(), tangent.data())) return std::nullopt;
+  tangent.bottomRows<3>() *= 2.0;
+  tangent.rightCols<3>() *= 2.0;
+  if (!tangent.allFinite()) return std::nullopt;
+  return tangent;
+}
 
 }  // namespace
 
@@ -140,11 +215,15 @@ bool PoseGraph::optimise() {
     moved.push_back(to_pose(block));
     if (!moved.back().matrix().allFinite()) return false;
   }
+  if (!std::isfinite(problem.scale) || !std::isfinite(problem.delay)) return false;
   poses = std::move(moved);
+  scale = problem.scale;
+  delay = problem.delay;
   return true;
 }
 
-std::optional<std::vector<vision::Matrix6d>> PoseGraph::covariances() const {
+std::optional<PoseGraph::Covariances> PoseGraph::covariances(
+    std::optional<std::pair<std::size_t, std::size_t>> pair) const {
   Problem problem(*this);
   ceres::Covariance::Options options;
   options.algorithm_type = ceres::SPARSE_QR;
@@ -152,17 +231,25 @@ std::optional<std::vector<vision::Matrix6d>> PoseGraph::covariances() const {
   ceres::Covariance covariance(options);
   std::vector<std::pair<const double*, const double*>> wanted;
   for (const auto& block : problem.blocks) wanted.emplace_back(block.data(), block.data());
+  if (pair) wanted.emplace_back(problem.blocks[pair->first].data(), problem.blocks[pair->second].data());
+  if (scale_sigma > 0.0) wanted.emplace_back(&problem.scale, &problem.scale);
+  if (delay_sigma > 0.0) wanted.emplace_back(&problem.delay, &problem.delay);
   if (!covariance.Compute(wanted, &problem.problem)) return std::nullopt;
-  std::vector<vision::Matrix6d> result;
+  Covariances result;
   for (const auto& block : problem.blocks) {
-    Eigen::Matrix<double, 6, 6, Eigen::RowMajor> tangent;
-    if (!covariance.GetCovarianceBlockInTangentSpace(block.data(), block.data(), tangent.data())) return std::nullopt;
-    // Ceres' step of a quaternion is half the rotation vector about the map's axes
-    tangent.bottomRows<3>() *= 2.0;
-    tangent.rightCols<3>() *= 2.0;
-    result.emplace_back(0.5 * (tangent + tangent.transpose()));
-    if (!result.back().allFinite()) return std::nullopt;
+    const auto tangent = tangent_covariance(covariance, block, block);
+    if (!tangent) return std::nullopt;
+    result.poses.emplace_back(0.5 * (*tangent + tangent->transpose()));
   }
+  if (pair) {
+    const auto cross = tangent_covariance(covariance, problem.blocks[pair->first], problem.blocks[pair->second]);
+    if (!cross) return std::nullopt;
+    result.cross = *cross;
+  }
+  if (scale_sigma > 0.0 && !covariance.GetCovarianceBlock(&problem.scale, &problem.scale, &result.scale_variance))
+    return std::nullopt;
+  if (delay_sigma > 0.0 && !covariance.GetCovarianceBlock(&problem.delay, &problem.delay, &result.delay_variance))
+    return std::nullopt;
   return result;
 }
 

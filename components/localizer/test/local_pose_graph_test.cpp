@@ -34,7 +34,7 @@ LandmarkSighting sighting_in_lap(int lap) {
 }
 
 TEST(LocalPoseGraph, StaysSmallWhereOneRouteIsDrivenAllDay) {
-  LocalPoseGraph graph(0.01, 0.001);
+  LocalPoseGraph graph(0.01, 0.001, 0.0, {});
   graph.start({});
   graph.add_built(1, in_lap(0));
   std::size_t after_ten = 0;
@@ -50,7 +50,7 @@ TEST(LocalPoseGraph, StaysSmallWhereOneRouteIsDrivenAllDay) {
 }
 
 TEST(LocalPoseGraph, SaysWhereItCannotBeSolved) {
-  LocalPoseGraph graph(0.01, 0.001);
+  LocalPoseGraph graph(0.01, 0.001, 0.0, {});
   graph.start({});
   KnownLandmark known;
   known.id = 1;

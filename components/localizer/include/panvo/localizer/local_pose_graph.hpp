@@ -8,10 +8,14 @@
 #include <optional>
 #include <vector>
 
+#include "panvo/localizer/gnss_fix.hpp"
+#include "panvo/localizer/localizer_parameters.hpp"
 #include "panvo/localizer/odometry_buffer.hpp"
 #include "panvo/vision/pose.hpp"
 
 namespace panvo::localizer {
+
+class PoseGraph;
 
 /// A landmark with known pose.
 struct KnownLandmark {
@@ -30,6 +34,11 @@ struct LandmarkSighting {
   bool stands_alone = true;  ///< false: from few points, needs confirmation
 };
 
+/// A number with its standard deviation.
+struct Estimate {
+  double value = 0.0, sigma = 0.0;
+};
+
 struct PoseInMap {
   Eigen::Isometry3d map_from_base = Eigen::Isometry3d::Identity();
   vision::Matrix6d covariance = vision::Matrix6d::Zero();
@@ -39,15 +48,15 @@ struct PoseInMap {
 /// the odometry between them. Solving it corrects landmarks and path [beyond Lu2015 5.2].
 class LocalPoseGraph {
  public:
-  /// Standard deviations of the initial pose of a map.
-  LocalPoseGraph(double start_sigma_m, double start_sigma_rad);
+  /// Standard deviations of the initial pose of a map, and of the odometry's scale, which satellites correct.
+  LocalPoseGraph(double start_sigma_m, double start_sigma_rad, double scale_sigma, const GnssParameters& fixes);
 
   void start(const OdometrySample& at);
   bool has_started() const noexcept { return !nodes_.empty(); }
   /// Number of nodes: start, landmarks, passes.
   std::size_t size() const noexcept { return nodes_.size(); }
-  /// Whether the graph has only the start.
-  bool has_only_start() const noexcept { return nodes_.size() == 1; }
+  /// Whether neither landmarks nor external poses joined the start.
+  bool has_only_start() const;
 
   /// A landmark of an earlier journey. It enters the graph when it is seen.
   void add_known(const KnownLandmark& landmark) { known_.insert_or_assign(landmark.id, landmark); }
@@ -61,6 +70,20 @@ class LocalPoseGraph {
   /// last and the most precise passes per landmark, 8 in all, which bounds the graph on repeated routes.
   bool add_pass(const LandmarkSighting& sighting, const OdometrySample& at, double same_pass_m);
 
+  /// Begins the use of satellites, with the approximate pose of their frame in the map. Forgets earlier fixes.
+  void set_enu(const Eigen::Isometry3d& map_from_enu);
+  bool has_enu() const noexcept { return enu_.has_value(); }
+  /// Adds a fix. Keeps 64, evenly spaced along the path. Precondition: has_enu().
+  void add_fix(const GnssFix& fix, const OdometrySample& at);
+  /// Pose of the frame of the satellites in the map; precondition: has_enu().
+  const Eigen::Isometry3d& map_from_enu() const { return enu_->map_from_enu; }
+  /// By satellites: measured over true length of the odometry; 1 without them.
+  const Estimate& scale() const noexcept { return scale_; }
+  /// Of the stamps of fixes behind the odometry's clock, s.
+  const Estimate& fix_delay() const noexcept { return delay_; }
+  /// enu_from_base of an odometry pose. Precondition: has_enu().
+  PoseInMap in_enu(const OdometryPose& odometry) const;
+
   /// Current estimate; nullopt for an unknown id.
   std::optional<KnownLandmark> landmark(std::uint32_t id) const;
   /// Landmarks of this journey and those of earlier journeys that were seen, by ascending id.
@@ -71,8 +94,7 @@ class LocalPoseGraph {
 
   /// Error common to all poses, which the graph cannot contain: that of the earlier journeys' map, taken from its most
   /// recently seen landmark, or else of the scale and direction of this journey relative to its start.
-  vision::Matrix6d common_covariance(const Eigen::Vector3d& position, double scale_sigma,
-                                     double direction_sigma_rad) const;
+  vision::Matrix6d common_covariance(const Eigen::Vector3d& position, double direction_sigma_rad) const;
 
   /// Moves the whole journey in the map, once its place there is known.
   void place(const Eigen::Isometry3d& map_from_former_map);
@@ -96,22 +118,38 @@ class LocalPoseGraph {
     OdometrySample at;               ///< odometry at that moment
     LandmarkSighting sighting;       ///< of a pass
     std::optional<PoseInMap> said;   ///< external pose
+    std::optional<GnssFix> fix;
     Eigen::Isometry3d map_from_base = Eigen::Isometry3d::Identity();
     vision::Matrix6d covariance = vision::Matrix6d::Zero();
   };
 
+  /// Frame of the satellites' positions. Errors of poses in it are smaller than the sum of its own and the pose's in the
+  /// map: `cross` is the covariance of the two, of the journey's last node.
+  struct Enu {
+    Eigen::Isometry3d map_from_enu = Eigen::Isometry3d::Identity();
+    vision::Matrix6d covariance = vision::Matrix6d::Zero(), cross = vision::Matrix6d::Zero();
+    std::int64_t solved_ns = 0;  // of that node
+  };
+
+  void add_fixes(PoseGraph& graph, const std::vector<std::size_t>& order) const;
+  void thin_out_fixes();
   bool is_cut(std::int64_t from_ns, std::int64_t to_ns) const;
   void forget_least_precise_pass(std::uint32_t landmark_id);
   const Node* landmark_node(std::uint32_t id) const;
   const Node& anchor(std::int64_t stamp_ns) const;
   std::vector<std::size_t> journey_order() const;
+  Eigen::Isometry3d way_between(const OdometryPose& from, const OdometryPose& to) const;
   vision::Matrix6d way_covariance(const OdometryPose& from, const OdometryPose& to) const;
 
-  double start_sigma_m_, start_sigma_rad_;
+  double start_sigma_m_, start_sigma_rad_, scale_sigma_;
+  GnssParameters fix_parameters_;
   std::map<std::uint32_t, KnownLandmark> known_;
   std::vector<Node> nodes_;
   std::vector<std::int64_t> cuts_ns_;
   bool is_placed_ = false;  // the map is not the one that began with the journey
+  std::optional<Enu> enu_;
+  Estimate scale_{1.0, 0.0};  // of the odometry
+  Estimate delay_{0.0, 0.0};  // of the fixes, s
 };
 
 }  // namespace panvo::localizer

@@ -13,6 +13,7 @@
 #include "panvo/localizer/dead_reckoning.hpp"
 #include "panvo/localizer/doubt.hpp"
 #include "panvo/localizer/extrinsics_monitor.hpp"
+#include "panvo/localizer/gnss_trial.hpp"
 #include "panvo/localizer/local_pose_graph.hpp"
 #include "panvo/localizer/localizer_parameters.hpp"
 #include "panvo/localizer/odometry_buffer.hpp"
@@ -62,6 +63,19 @@ struct Correction {
   Eigen::Isometry3d map_from_base_after = Eigen::Isometry3d::Identity();
 };
 
+enum class FixUse {
+  kUsed,
+  kBegun,     ///< the first that are used, or used again, from now on
+  kTooClose,  ///< to the one before, along the path
+  kOnTrial,   ///< the path is too short to compare, or its shape differs: see the reason
+  kRejected,
+};
+
+struct FixOutcome {
+  FixUse use = FixUse::kRejected;
+  std::string reason;  ///< why it was not used; may be empty
+};
+
 enum class AzimuthUse {
   kFused,         ///< with odometry's turn, weighted by variances
   kContradicted,  ///< odometry's turn was considered wrong
@@ -97,6 +111,19 @@ class Localizer {
   bool add_built(std::uint32_t id, std::int64_t stamp_ns);
 
   Correction add(const LandmarkSighting& received);
+
+  /// Position by satellites. Used once the fixes of some path have the shape of the odometry's; unused if the pose
+  /// contradicts it. Corrects the path, and shows the scale of the odometry and where on earth the map is.
+  FixOutcome add(const GnssFix& fix);
+  /// Whether there is a frame of the satellites.
+  bool has_enu() const noexcept { return graph_.has_enu(); }
+  /// Latest enu_from_base, and the map in that frame. Precondition: has_enu().
+  PoseInMap latest_in_enu() const { return graph_.in_enu(chain_.latest().pose); }
+  Eigen::Isometry3d enu_from_map() const { return graph_.map_from_enu().inverse(); }
+  /// Odometry's length over the true one, by satellites; 1 without them.
+  const Estimate& scale() const noexcept { return graph_.scale(); }
+  /// Of the stamps of fixes behind the odometry's clock, s.
+  const Estimate& fix_delay() const noexcept { return graph_.fix_delay(); }
 
   /// External pose of the vehicle at a time (odometry clock); variances of 0 mean unknown. If the vehicle was
   /// localised, it means that the vehicle was moved. Returns false, without effect, if odometry of that time is no
@@ -143,6 +170,8 @@ class Localizer {
     double disagreement_rad, turn_rad, variance_rad2;
   };
 
+  FixOutcome try_fixes(const GnssTrial::Sample& sample, double least_m);
+  bool is_expected(const GnssFix& fix, const OdometrySample& at) const;
   std::int64_t in_odometry_time(std::int64_t panorama_stamp_ns) const;
   LocalizedPose localized(const OdometryPose& odometry) const;
   void set_state(LocalizedPose& pose) const;
@@ -170,6 +199,8 @@ class Localizer {
   DeadReckoning dead_reckoning_;
   LocalPoseGraph graph_;
   ExtrinsicsMonitor mounting_;
+  GnssTrial fix_trial_;                      // of fixes that are not used
+  std::optional<double> last_fix_at_way_m_;  // used or on trial
 
   Eigen::Isometry3d last_raw_ = Eigen::Isometry3d::Identity();
   Eigen::Isometry3d smooth_ = Eigen::Isometry3d::Identity();  // published odom_from_base

@@ -5,6 +5,37 @@
 
 namespace panvo::localizer {
 
+/// Positions by satellites.
+struct GnssParameters {
+  double spacing_m = 10.0;
+  double correlation_s = 60.0;
+  double delay_sigma_s = 0.1;
+  double trial_m = 30.0;
+  double gate_chi_square = 16.3;
+  double doubt_m = 300.0;
+
+  template <class Field>
+  static void describe(Field&& field) {
+    using P = GnssParameters;
+    field(&P::spacing_m, "spacing_m", "m", "path between two fixes that are used", 0.5, 1000.0);
+    field(&P::correlation_s, "correlation_s", "s",
+          "time for which errors of fixes persist, by reflections and the atmosphere: fixes within it count as one",
+          0.1, 3600.0);
+    field(&P::delay_sigma_s, "delay_sigma_s", "s",
+          "prior standard deviation of the constant delay of the fixes' stamps, which is estimated; 0: none", 0.0,
+          10.0);
+    field(&P::trial_m, "trial_m", "m",
+          "distance over which the fixes must have the shape of the odometry's path before they are used", 5.0,
+          10000.0);
+    field(&P::gate_chi_square, "gate_chi_square", "1",
+          "squared Mahalanobis distance up to which a fix is used: 99.9 % of three degrees of freedom", 1.0, 1e6);
+    field(&P::doubt_m, "doubt_m", "m",
+          "path over which all fixes were outside the gate after which they are tried anew: longer than a wall or a "
+          "row of trees reflects or hides satellites",
+          10.0, 1e5);
+  }
+};
+
 struct Parameters {
   double gate_chi_square = 22.5;
   double second_look_gate_ratio = 10.0;
@@ -30,6 +61,7 @@ struct Parameters {
   double gap_s = 0.5;
   double max_speed_m_s = 70.0;
   MotionPrior motion;
+  GnssParameters gnss;
 
   template <class Field>
   static void describe(Field&& field) {
@@ -94,6 +126,7 @@ struct Parameters {
     field(&P::max_speed_m_s, "max_speed_m_s", "m/s",
           "faster odometry is rejected; several consecutive messages that agree are restarted odometry", 1.0, 1000.0);
     field.group(&P::motion, "motion");
+    field.group(&P::gnss, "gnss");
   }
 };
 

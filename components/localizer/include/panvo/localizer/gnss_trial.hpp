@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstddef>
+#include <deque>
+#include <optional>
+#include <string>
+
+#include "panvo/localizer/gnss_fix.hpp"
+#include "panvo/localizer/odometry_buffer.hpp"
+
+namespace panvo::localizer {
+
+/// Compares the path by satellites with that of the odometry: fixes count only once both have the same shape.
+class GnssTrial {
+ public:
+  struct Sample {
+    GnssFix fix;
+    OdometrySample at;
+  };
+  struct Result {
+    bool agrees = false;
+    Eigen::Isometry3d odom_from_enu = Eigen::Isometry3d::Identity();  ///< if it agrees
+    std::string reason;                                               ///< why not
+  };
+
+  /// Fixes in order of the path; keeps the last 64.
+  void add(const Sample& sample);
+  /// nullopt while the path is too short to tell: shorter than `least_m`, or not ten standard deviations of a fix wide.
+  std::optional<Result> result(double least_m) const;
+  const std::deque<Sample>& samples() const noexcept { return samples_; }
+  void clear() { samples_.clear(); }
+
+ private:
+  static constexpr std::size_t kMaxSamples = 64;
+
+  std::deque<Sample> samples_;
+};
+
+}  // namespace panvo::localizer

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "gnss_messages.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "panvo/conversions/time.hpp"
+
+namespace panvo::localizer {
+namespace {
+
+namespace constants = sensor_msgs::msg::NavSatFix_Constants;
+namespace status = sensor_msgs::msg::NavSatStatus_Constants;
+
+constexpr double kUsualSigma_m = 5.0;  // of a receiver without corrections, horizontally
+constexpr double kUsualHeight_m = 10.0;
+constexpr double kUnknownHeight_m = 1e4;
+constexpr double kLeastVariance_m2 = 1e-4;  // no receiver is better than a centimetre
+constexpr double kMostVariance_m2 = 1e8;
+constexpr double kMostAltitude_m = 1e5;
+
+Eigen::Matrix3d usual_covariance() {
+  return Eigen::Vector3d(kUsualSigma_m, kUsualSigma_m, kUsualHeight_m).cwiseAbs2().asDiagonal();
+}
+
+}  // namespace
+
+conversions::Result<SatellitePosition> to_position(const sensor_msgs::msg::NavSatFix& message) {
+  if (message.status().status() < status::STATUS_FIX) return conversions::Reason{"has no position: status NO_FIX"};
+  SatellitePosition position{{message.latitude(), message.longitude(), message.altitude()}, usual_covariance()};
+  auto& point = position.point;
+  if (!std::isfinite(point.latitude_deg) || !std::isfinite(point.longitude_deg))
+    return conversions::Reason{"has a latitude or longitude that is not finite"};
+  if (std::abs(point.latitude_deg) > 90.0 || std::abs(point.longitude_deg) > 360.0)
+    return conversions::Reason{"has a latitude beyond 90 or a longitude beyond 360 degrees: are they exchanged?"};
+  if (point.latitude_deg == 0.0 && point.longitude_deg == 0.0)
+    return conversions::Reason{"states latitude and longitude 0: the receiver has no position yet"};
+  const bool has_altitude = std::isfinite(point.altitude_m) && std::abs(point.altitude_m) < kMostAltitude_m;
+  if (!has_altitude) point.altitude_m = 0.0;
+  const Eigen::Matrix3d stated =
+      Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(message.position_covariance().data());
+  const bool is_stated = message.position_covariance_type() != constants::COVARIANCE_TYPE_UNKNOWN && !stated.isZero();
+  if (is_stated) {
+    if (!stated.allFinite() || stated.diagonal().minCoeff() < 0.0 || stated.diagonal().maxCoeff() > kMostVariance_m2)
+      return conversions::Reason{"has a covariance that is not finite, negative or beyond (10 km)^2"};
+    position.covariance = 0.5 * (stated + stated.transpose()) + kLeastVariance_m2 * Eigen::Matrix3d::Identity();
+    if (position.covariance.llt().info() != Eigen::Success)
+      return conversions::Reason{"has a covariance that is not positive semidefinite"};
+  }
+  if (!has_altitude) position.covariance(2, 2) = kUnknownHeight_m * kUnknownHeight_m;
+  return position;
+}
+
+sensor_msgs::msg::NavSatFix to_fix(const PoseInMap& enu_from_base, const vision::TangentPlane& plane,
+                                   std::int64_t stamp_ns, const std::string& base_frame) {
+  const auto point = plane.geodetic(enu_from_base.map_from_base.translation());
+  sensor_msgs::msg::NavSatFix fix;
+  fix.header().stamp(conversions::to_stamp(stamp_ns));
+  fix.header().frame_id(base_frame);
+  fix.status().status(status::STATUS_FIX);
+  fix.latitude(point.latitude_deg);
+  fix.longitude(point.longitude_deg);
+  fix.altitude(point.altitude_m);
+  Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(fix.position_covariance().data()) =
+      enu_from_base.covariance.topLeftCorner<3, 3>();
+  fix.position_covariance_type(constants::COVARIANCE_TYPE_KNOWN);
+  return fix;
+}
+
+}  // namespace panvo::localizer

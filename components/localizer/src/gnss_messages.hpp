@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+
+#include "panvo/conversions/result.hpp"
+#include "panvo/localizer/local_pose_graph.hpp"
+#include "panvo/vision/geodesy.hpp"
+#include "sensor_msgs/msg/NavSatFix.h"
+
+/// Conversions of positions by satellites.
+namespace panvo::localizer {
+
+/// Position of an antenna with its covariance, east, north, up, m^2.
+struct SatellitePosition {
+  vision::GeoPoint point;
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Identity();
+};
+
+/// Without a stated covariance, that of a receiver without corrections. The reason names what is missing or invalid.
+conversions::Result<SatellitePosition> to_position(const sensor_msgs::msg::NavSatFix& message);
+
+/// The vehicle's position, if the frame of the satellites touches the earth at `plane`.
+sensor_msgs::msg::NavSatFix to_fix(const PoseInMap& enu_from_base, const vision::TangentPlane& plane,
+                                   std::int64_t stamp_ns, const std::string& base_frame);
+
+}  // namespace panvo::localizer

@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <stdexcept>
+#include <utility>
+
+#include "panvo/localizer/local_pose_graph.hpp"
+#include "panvo/localizer/pose_graph.hpp"
+
+/// The graph as a least-squares problem, and what satellites contribute to it.
+namespace panvo::localizer {
+namespace {
+
+constexpr double kMinVariance = 1e-8;  // of an edge: 0.1 mm, 0.1 mrad
+constexpr std::size_t kMaxFixes = 64;  // over 3 km every 50 m: errors of satellites change over some hundred metres
+// Before any fix: the frame of the satellites lies anywhere within 1000 km, in any direction. Maps are level to the
+// slope on which the journey began.
+constexpr double kUnknownEnu_m = 1e6;
+constexpr double kUnknownEnuYaw_rad = 3.0;
+constexpr double kEnuTilt_rad = 0.05;
+
+vision::Matrix6d with_least_variance(const vision::Matrix6d& covariance) {
+  return covariance + kMinVariance * vision::Matrix6d::Identity();
+}
+
+vision::Matrix6d unknown_enu() {
+  vision::Vector6d sigma;
+  sigma << kUnknownEnu_m, kUnknownEnu_m, kUnknownEnu_m, kEnuTilt_rad, kEnuTilt_rad, kUnknownEnuYaw_rad;
+  return sigma.cwiseAbs2().asDiagonal();
+}
+
+}  // namespace
+
+bool LocalPoseGraph::solve() {
+  PoseGraph graph;
+  for (const auto& node : nodes_) graph.poses.push_back(node.map_from_base);
+  const auto order = journey_order();
+  for (std::size_t i = 1; i < order.size(); ++i) {
+    const auto& a = nodes_[order[i - 1]].at.pose;
+    const auto& b = nodes_[order[i]].at.pose;
+    graph.edges.push_back({order[i - 1], order[i], a.odom_from_base.inverse() * b.odom_from_base,
+                           with_least_variance(way_covariance(a, b)), false, true});
+  }
+  bool is_anchored = is_placed_;  // by something other than the start of the journey
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    const auto& node = nodes_[i];
+    if (node.is_of_earlier_day) {
+      is_anchored = true;
+      const auto& known = known_.at(node.landmark_id);
+      graph.priors.push_back({i, known.map_from_base, with_least_variance(known.covariance)});
+    }
+    if (node.said) graph.priors.push_back({i, node.said->map_from_base, with_least_variance(node.said->covariance)});
+    if (!node.is_pass) continue;
+    const auto seen = static_cast<std::size_t>(landmark_node(node.landmark_id) - nodes_.data());
+    graph.edges.push_back(
+        {seen, i, node.sighting.landmark_from_base, with_least_variance(node.sighting.covariance), true});
+  }
+  if (!is_anchored) {  // the map starts with the journey
+    vision::Vector6d sigma;
+    sigma << Eigen::Vector3d::Constant(start_sigma_m_), Eigen::Vector3d::Constant(start_sigma_rad_);
+    graph.priors.push_back(
+        {order.front(), nodes_[order.front()].at.pose.odom_from_base, sigma.cwiseAbs2().asDiagonal()});
+  }
+  std::optional<std::pair<std::size_t, std::size_t>> pair;
+  if (enu_) {
+    add_fixes(graph, order);
+    pair = {nodes_.size(), order.back()};
+  }
+  try {
+    if (!graph.optimise()) return false;
+  } catch (const std::invalid_argument&) {  // a sum of valid covariances that is singular by rounding
+    return false;
+  }
+  const auto covariances = graph.covariances(pair);
+  if (!covariances) return false;
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    nodes_[i].map_from_base = graph.poses[i];
+    nodes_[i].covariance = covariances->poses[i];
+  }
+  if (enu_) {
+    enu_ =
+        Enu{graph.poses.back(), covariances->poses.back(), covariances->cross, nodes_[order.back()].at.pose.stamp_ns};
+    scale_ = {graph.scale, std::sqrt(covariances->scale_variance)};
+    delay_ = {graph.delay, std::sqrt(covariances->delay_variance)};
+  }
+  return true;
+}
+
+/// Errors of satellites persist for a time: fixes within it count as one. Each is weighted by its share of the time.
+void LocalPoseGraph::add_fixes(PoseGraph& graph, const std::vector<std::size_t>& order) const {
+  const std::size_t enu = graph.poses.size();
+  graph.poses.push_back(enu_->map_from_enu);
+  Eigen::Isometry3d level = enu_->map_from_enu;
+  level.linear() = vision::so3_exp(Eigen::Vector3d(0.0, 0.0, yaw_of(level.linear())));
+  graph.priors.push_back({enu, level, unknown_enu()});
+  graph.scale = scale_.value;
+  graph.scale_sigma = scale_sigma_;
+  graph.delay = delay_.value;
+  graph.delay_sigma = fix_parameters_.delay_sigma_s;
+  std::vector<std::size_t> fixes;
+  std::copy_if(order.begin(), order.end(), std::back_inserter(fixes),
+               [&](std::size_t i) { return nodes_[i].fix.has_value(); });
+  const auto stamp_ns = [&](std::size_t k) { return nodes_[fixes[k]].at.pose.stamp_ns; };
+  for (std::size_t k = 0; k < fixes.size(); ++k) {
+    const std::int64_t since_ns = stamp_ns(k == 0 ? 0 : k - 1), until_ns = stamp_ns(std::min(k + 1, fixes.size() - 1));
+    const double share_s = 0.5e-9 * static_cast<double>(until_ns - since_ns);
+    const auto& fix = *nodes_[fixes[k]].fix;
+    graph.fixes.push_back({enu, fixes[k], fix.antenna_in_base_m, fix.velocity_in_base_m_s, fix.enu_m,
+                           fix.covariance * std::max(1.0, fix_parameters_.correlation_s / share_s)});
+  }
+}
+
+void LocalPoseGraph::set_enu(const Eigen::Isometry3d& map_from_enu) {
+  std::erase_if(nodes_, [](const Node& node) { return node.fix.has_value(); });
+  enu_ = Enu{};
+  enu_->map_from_enu = map_from_enu;
+}
+
+void LocalPoseGraph::add_fix(const GnssFix& fix, const OdometrySample& at) {
+  Node node;
+  node.fix = fix;
+  node.at = at;
+  const auto here = carried(at.pose);
+  node.map_from_base = here.map_from_base;
+  node.covariance = here.covariance;
+  nodes_.push_back(node);
+  thin_out_fixes();
+}
+
+/// Removes the fix that leaves the smallest gap, but neither the first, which shows the way from the start, nor the
+/// last.
+void LocalPoseGraph::thin_out_fixes() {
+  std::vector<std::size_t> fixes;
+  for (const auto i : journey_order()) {
+    if (nodes_[i].fix) fixes.push_back(i);
+  }
+  if (fixes.size() <= kMaxFixes) return;
+  std::size_t least = 1;
+  const auto gap_m = [&](std::size_t k) { return nodes_[fixes[k + 1]].at.way_m - nodes_[fixes[k - 1]].at.way_m; };
+  for (std::size_t k = 2; k + 1 < fixes.size(); ++k) {
+    if (gap_m(k) < gap_m(least)) least = k;
+  }
+  nodes_.erase(nodes_.begin() + static_cast<std::ptrdiff_t>(fixes[least]));
+}
+
+PoseInMap LocalPoseGraph::in_enu(const OdometryPose& odometry) const {
+  const auto last = std::find_if(nodes_.begin(), nodes_.end(), [&](const Node& node) {
+    return !node.is_of_earlier_day && node.at.pose.stamp_ns == enu_->solved_ns;
+  });
+  const Node& from = last != nodes_.end() ? *last : anchor(odometry.stamp_ns);
+  // Errors as vision::pose_error, of enu_from_base = map_from_enu^-1 * map_from_base to first order.
+  const Eigen::Isometry3d enu_from_map = enu_->map_from_enu.inverse();
+  vision::Matrix6d by_enu = -vision::Matrix6d::Identity();
+  by_enu.topRightCorner<3, 3>() = vision::skew(from.map_from_base.translation() - enu_->map_from_enu.translation());
+  const vision::Matrix6d mixed = by_enu * enu_->cross;
+  const vision::Matrix6d in_map_axes =
+      from.covariance + by_enu * enu_->covariance * by_enu.transpose() + mixed + mixed.transpose();
+  const Eigen::Isometry3d enu_from_node = enu_from_map * from.map_from_base;
+  const Eigen::Isometry3d way = way_between(from.at.pose, odometry);
+  const bool is_back = odometry.stamp_ns < from.at.pose.stamp_ns;
+  const vision::Matrix6d gained =
+      is_back ? vision::Matrix6d(vision::Matrix6d::Zero()) : way_covariance(from.at.pose, odometry);
+  return {enu_from_node * way,
+          vision::compose_covariance(enu_from_node, vision::rotate_covariance(enu_from_map.linear(), in_map_axes), way,
+                                     gained)};
+}
+
+std::vector<std::size_t> LocalPoseGraph::journey_order() const {
+  std::vector<std::size_t> order;
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    if (!nodes_[i].is_of_earlier_day) order.push_back(i);
+  }
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return nodes_[a].at.pose.stamp_ns < nodes_[b].at.pose.stamp_ns;
+  });
+  return order;
+}
+
+}  // namespace panvo::localizer

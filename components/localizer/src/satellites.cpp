@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "satellites.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "localizer_messages.hpp"
+#include "panvo/conversions/pose.hpp"
+#include "panvo/conversions/time.hpp"
+#include "panvo/interfaces/service.hpp"
+#include "robot_localization/srv/FromLL.h"
+#include "robot_localization/srv/ToLL.h"
+
+namespace panvo::localizer {
+namespace {
+
+using namespace robot_localization::srv;  // NOLINT(google-build-using-namespace): the requests and responses
+
+constexpr interfaces::Service<FromLL_Request, FromLL_Response> kFromLL{"fromLL"};
+constexpr interfaces::Service<ToLL_Request, ToLL_Response> kToLL{"toLL"};
+constexpr double kFarthest_m = 100e3;  // from the first position: no vehicle's day
+constexpr double kNotableScale = 0.003;
+constexpr double kSureSigmas = 4.0;
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+
+}  // namespace
+
+Satellites::Satellites(runtime::Context& context, const ComponentParameters& parameters, Localizer& localizer)
+    : context_(context),
+      parameters_(parameters),
+      localizer_(localizer),
+      transforms_(context),
+      enhanced_(context.output(topics::kGnssEnhanced)),
+      tf_(context.output(topics::kTf)) {
+  context.input(topics::kGnssFix, [this](const auto& message) { on_fix(*message); });
+  serve();
+}
+
+void Satellites::on_fix(const sensor_msgs::msg::NavSatFix& message) {
+  if (!parameters_.use_gnss || base_frame_.empty()) return;
+  const auto position = to_position(message);
+  if (!position) return refuse(position.reason());
+  const auto antenna_in_base_m = antenna(message.header().frame_id());
+  if (!antenna_in_base_m) return;
+  if (!plane_) plane_.emplace(position->point);
+  const Eigen::Vector3d enu_m = plane_->enu(position->point);
+  if (!(enu_m.norm() < kFarthest_m)) {
+    return refuse(fmt::format("is {:.0f} km from the first position", 1e-3 * enu_m.norm()));
+  }
+  waiting_.push_back({conversions::stamp_ns(message), enu_m, position->covariance, *antenna_in_base_m});
+  if (waiting_.size() > kMaxWaiting) {
+    waiting_.pop_front();
+    refuse("has a stamp far ahead of the odometry's: are the clocks synchronised?");
+  }
+}
+
+/// Position of the receiver's antenna on the vehicle; nullopt for the message of another receiver.
+std::optional<Eigen::Vector3d> Satellites::antenna(const std::string& frame) {
+  if (frame_.empty()) frame_ = frame;
+  if (frame_ != frame) {
+    refuse(fmt::format("comes from several receivers, '{}' and '{}': publish one of them", frame_, frame));
+    return std::nullopt;
+  }
+  if (frame.empty() || frame == base_frame_) return Eigen::Vector3d::Zero();
+  if (const auto known = transforms_.buffer().lookup(base_frame_, frame)) return known->translation();
+  if (!has_warned_of_frame_) {
+    context_.log().warn("{}: no transform from {} to {} in /tf_static; assuming that the antenna is at {}",
+                        context_.resolved_name(topics::kGnssFix), base_frame_, frame, base_frame_);
+    has_warned_of_frame_ = true;
+  }
+  return Eigen::Vector3d::Zero();
+}
+
+bool Satellites::work_off() {
+  bool has_learned = false;
+  while (!waiting_.empty() && localizer_.latest().stamp_ns >= waiting_.front().stamp_ns) {
+    const auto outcome = localizer_.add(waiting_.front());
+    waiting_.pop_front();
+    tell(outcome);
+    has_learned |= outcome.use == FixUse::kUsed || outcome.use == FixUse::kBegun;
+  }
+  return has_learned;
+}
+
+void Satellites::tell(const FixOutcome& outcome) {
+  const auto topic = context_.resolved_name(topics::kGnssFix);
+  if (outcome.use == FixUse::kBegun) {
+    context_.log().info("{}: agrees with the odometry; used from now on", topic);
+  } else if (outcome.use == FixUse::kOnTrial && !outcome.reason.empty()) {
+    context_.log().warn_throttled("gnss trial", "{} is not used: {}", topic, outcome.reason);
+  } else if (outcome.use == FixUse::kRejected) {
+    context_.log().warn_throttled("gnss rejected", "{}: a position is not used: {}", topic, outcome.reason);
+  }
+  const double excess = localizer_.scale().value - 1.0;
+  const bool is_sure = std::abs(excess) > kSureSigmas * localizer_.scale().sigma;
+  if (has_told_scale_ || !localizer_.has_enu() || std::abs(excess) < kNotableScale || !is_sure) return;
+  has_told_scale_ = true;
+  context_.log().warn(
+      "by satellites, the stereo odometry measures {:.1f} % too {}; compensated: calibrate the stereo camera",
+      100.0 * std::abs(excess), excess > 0.0 ? "far" : "short");
+}
+
+void Satellites::publish(std::int64_t stamp_ns, const std::string& base_frame) {
+  base_frame_ = base_frame;
+  if (!localizer_.has_enu()) return;
+  enhanced_.publish(to_fix(localizer_.latest_in_enu(), *plane_, stamp_ns, base_frame));
+  geometry_msgs::msg::TransformStamped transform;
+  transform.header().stamp(conversions::to_stamp(stamp_ns));
+  transform.header().frame_id(parameters_.enu_frame);
+  transform.child_frame_id(parameters_.map_frame);
+  transform.transform(conversions::to_transform(localizer_.enu_from_map()));
+  tf2_msgs::msg::TFMessage message;
+  message.transforms().push_back(std::move(transform));
+  tf_.publish(std::move(message));
+}
+
+/// Before there are positions by satellites, the answer is NaN: the services have no field for an error.
+void Satellites::serve() {
+  context_.serve(kFromLL, [this](const FromLL_Request& request) {
+    const auto& asked = request.ll_point();
+    Eigen::Vector3d point = Eigen::Vector3d::Constant(kUnknown);
+    if (localizer_.has_enu()) {
+      const double altitude_m = std::isfinite(asked.altitude()) ? asked.altitude() : plane_->origin().altitude_m;
+      point = localizer_.enu_from_map().inverse() * plane_->enu({asked.latitude(), asked.longitude(), altitude_m});
+    }
+    FromLL_Response response;
+    response.map_point().x(point.x());
+    response.map_point().y(point.y());
+    response.map_point().z(point.z());
+    return response;
+  });
+  context_.serve(kToLL, [this](const ToLL_Request& request) {
+    vision::GeoPoint point{kUnknown, kUnknown, kUnknown};
+    const auto& asked = request.map_point();
+    if (localizer_.has_enu())
+      point = plane_->geodetic(localizer_.enu_from_map() * Eigen::Vector3d(asked.x(), asked.y(), asked.z()));
+    ToLL_Response response;
+    response.ll_point().latitude(point.latitude_deg);
+    response.ll_point().longitude(point.longitude_deg);
+    response.ll_point().altitude(point.altitude_m);
+    return response;
+  });
+}
+
+void Satellites::refuse(const std::string& reason) {
+  const auto topic = context_.resolved_name(topics::kGnssFix);
+  if (context_.rejections().add(topic, reason)) context_.log().warn("{} {}; message skipped", topic, reason);
+}
+
+}  // namespace panvo::localizer

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <string>
+
+#include "component_parameters.hpp"
+#include "gnss_messages.hpp"
+#include "panvo/conversions/transform_listener.hpp"
+#include "panvo/interfaces/gnss_topics.hpp"
+#include "panvo/localizer/localizer.hpp"
+#include "panvo/runtime/context.hpp"
+
+namespace panvo::localizer {
+
+/// gnss/fix -> localizer; gnss/enhanced, the transform from the satellites' frame to the map, and the services fromLL
+/// and toLL.
+class Satellites {
+ public:
+  /// All must outlive it.
+  Satellites(runtime::Context& context, const ComponentParameters& parameters, Localizer& localizer);
+
+  /// Adds the fixes whose stamps the odometry has reached. True if the pose changed.
+  bool work_off();
+  /// To be called with each pose of new odometry.
+  void publish(std::int64_t stamp_ns, const std::string& base_frame);
+
+ private:
+  void on_fix(const sensor_msgs::msg::NavSatFix& message);
+  std::optional<Eigen::Vector3d> antenna(const std::string& frame);
+  void tell(const FixOutcome& outcome);
+  void refuse(const std::string& reason);
+  void serve();
+
+  static constexpr std::size_t kMaxWaiting = 200;  // ten seconds of the fastest receivers
+
+  runtime::Context& context_;
+  const ComponentParameters& parameters_;
+  Localizer& localizer_;
+  conversions::TransformListener transforms_;
+  runtime::Output<sensor_msgs::msg::NavSatFix> enhanced_;
+  runtime::Output<tf2_msgs::msg::TFMessage> tf_;
+  std::optional<vision::TangentPlane> plane_;  // at the first position
+  std::deque<GnssFix> waiting_;
+  std::string frame_, base_frame_;
+  bool has_warned_of_frame_ = false;
+  bool has_told_scale_ = false;
+};
+
+}  // namespace panvo::localizer

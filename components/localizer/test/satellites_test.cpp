@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "panvo/conversions/pose.hpp"
+#include "panvo/conversions/time.hpp"
+#include "panvo/interfaces/gnss_topics.hpp"
+#include "panvo/runtime/testing.hpp"
+#include "panvo/vision/geodesy.hpp"
+
+namespace panvo::localizer {
+namespace {
+
+using ::testing::Contains;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::SizeIs;
+
+constexpr std::int64_t kBegin_ns = 1'700'000'000'000'000'000;
+
+/// The localizer with a vehicle that drives 0.5 m per odometry pose along a bend, and a receiver that sees all of it
+/// exactly, from a map whose x axis points north.
+class Satellites : public ::testing::Test {
+ protected:
+  void SetUp() override { harness_.load("panvo_localizer", "LocalizerComponent", {}); }
+
+  static Eigen::Isometry3d pose(int step) {
+    const double angle = 0.5 * step / 80.0;
+    Eigen::Isometry3d map_from_base = Eigen::Isometry3d::Identity();
+    map_from_base.translation() << 80.0 * std::sin(angle), 80.0 * (1.0 - std::cos(angle)), 0.0;
+    map_from_base.linear() = Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+    return map_from_base;
+  }
+  static Eigen::Vector3d in_enu(const Eigen::Vector3d& map_m) { return {-map_m.y(), map_m.x(), map_m.z()}; }
+
+  void publish_odometry(int step) {
+    nav_msgs::msg::Odometry odometry;
+    odometry.header().stamp(conversions::to_stamp(stamp(step)));
+    odometry.header().frame_id("odom");
+    odometry.child_frame_id("base_link");
+    odometry.pose().pose(conversions::to_pose(pose(step)));
+    odometry.pose().covariance(conversions::to_array((1e-5 + 1e-5 * step) * vision::Matrix6d::Identity()));
+    harness_.publish(topics::kOdometryBinocular, odometry);
+  }
+
+  sensor_msgs::msg::NavSatFix fix(int step) const {
+    const auto point = plane_.geodetic(in_enu(pose(step) * antenna_m_));
+    sensor_msgs::msg::NavSatFix fix;
+    fix.header().stamp(conversions::to_stamp(stamp(step)));
+    fix.header().frame_id("gnss");
+    fix.status().status(sensor_msgs::msg::NavSatStatus_Constants::STATUS_FIX);
+    fix.latitude(point.latitude_deg);
+    fix.longitude(point.longitude_deg);
+    fix.altitude(point.altitude_m);
+    fix.position_covariance({0.01, 0.0, 0.0, 0.0, 0.01, 0.0, 0.0, 0.0, 0.01});
+    fix.position_covariance_type(sensor_msgs::msg::NavSatFix_Constants::COVARIANCE_TYPE_KNOWN);
+    return fix;
+  }
+
+  void publish_antenna() {
+    geometry_msgs::msg::TransformStamped transform;
+    transform.header().frame_id("base_link");
+    transform.child_frame_id("gnss");
+    Eigen::Isometry3d base_from_gnss = Eigen::Isometry3d::Identity();
+    base_from_gnss.translation() = antenna_m_;
+    transform.transform(conversions::to_transform(base_from_gnss));
+    tf2_msgs::msg::TFMessage message;
+    message.transforms().push_back(transform);
+    harness_.publish(topics::kTfStatic, message);
+  }
+
+  void drive(int from, int to) {
+    for (int i = from; i < to; ++i) {
+      publish_odometry(i);
+      if (i % 5 == 0) harness_.publish(topics::kGnssFix, fix(i));
+    }
+  }
+
+  static std::int64_t stamp(int step) { return kBegin_ns + step * 100'000'000LL; }
+
+  const vision::TangentPlane plane_{{48.1, 11.6, 520.0}};
+  const Eigen::Vector3d antenna_m_{-0.5, 0.0, 1.8};
+  runtime::ComponentHarness harness_;
+  const std::vector<std::shared_ptr<const sensor_msgs::msg::NavSatFix>>& enhanced_ =
+      harness_.collect(topics::kGnssEnhanced);
+  const std::vector<std::shared_ptr<const tf2_msgs::msg::TFMessage>>& tf_ = harness_.collect(topics::kTf);
+};
+
+TEST_F(Satellites, GiveLatitudeAndLongitudeOfTheVehicleAndTheTransformToTheMap) {
+  publish_antenna();
+  drive(0, 200);
+  EXPECT_TRUE(harness_.log_contains("/gnss/fix: agrees with the odometry; used from now on"));
+  ASSERT_FALSE(enhanced_.empty());
+  const auto& last = *enhanced_.back();
+  EXPECT_EQ(conversions::stamp_ns(last), stamp(199));
+  EXPECT_EQ(last.header().frame_id(), "base_link");
+  const Eigen::Vector3d here_m = plane_.enu({last.latitude(), last.longitude(), last.altitude()});
+  EXPECT_LT((here_m - in_enu(pose(199).translation())).norm(), 0.1);
+  EXPECT_GT(last.position_covariance()[0], 0.0);
+  EXPECT_LT(last.position_covariance()[0], 1.0);
+  const auto is_of_enu = [](const auto& message) { return message->transforms()[0].header().frame_id() == "enu"; };
+  const auto found = std::find_if(tf_.rbegin(), tf_.rend(), is_of_enu);
+  ASSERT_NE(found, tf_.rend());
+  const auto enu_from_map = conversions::to_isometry((*found)->transforms()[0].transform());
+  ASSERT_TRUE(enu_from_map);
+  // The frame begins at the first antenna position.
+  const Eigen::Vector3d first_m = in_enu(pose(0) * antenna_m_);
+  EXPECT_LT((*enu_from_map * Eigen::Vector3d(20, 10, 0) - (Eigen::Vector3d(-10, 20, 0) - first_m)).norm(), 0.2);
+}
+
+TEST_F(Satellites, AreAssumedAtTheVehicleWithoutTransform) {
+  drive(0, 20);
+  EXPECT_TRUE(harness_.log_contains("/gnss/fix: no transform from base_link to gnss in /tf_static"));
+}
+
+TEST_F(Satellites, AreSkippedIfInvalidOrOfAnotherReceiver) {
+  publish_antenna();
+  publish_odometry(0);
+  auto exchanged = fix(0);
+  exchanged.latitude(111.6);
+  harness_.publish(topics::kGnssFix, exchanged);
+  harness_.publish(topics::kGnssFix, fix(0));
+  auto other = fix(0);
+  other.header().frame_id("second");
+  harness_.publish(topics::kGnssFix, other);
+  auto far = fix(0);
+  far.latitude(47.0);
+  harness_.publish(topics::kGnssFix, far);
+  EXPECT_TRUE(harness_.log_contains("are they exchanged?; message skipped"));
+  EXPECT_TRUE(harness_.log_contains("comes from several receivers, 'gnss' and 'second'"));
+  EXPECT_TRUE(harness_.log_contains("is 122 km from the first position"));
+  drive(1, 20);
+  EXPECT_THAT(enhanced_, IsEmpty());
+}
+
+TEST_F(Satellites, AreNotUsedIfTheirPathDiffers) {
+  publish_antenna();
+  for (int i = 0; i < 200; ++i) {
+    publish_odometry(i);
+    harness_.publish(topics::kGnssFix, [&] {
+      auto frozen = fix(0);
+      frozen.header().stamp(conversions::to_stamp(stamp(i)));
+      return frozen;
+    }());
+  }
+  EXPECT_TRUE(harness_.log_contains("/gnss/fix is not used: their path differs from the odometry's"));
+  EXPECT_THAT(enhanced_, IsEmpty());
+}
+
+}  // namespace
+}  // namespace panvo::localizer
