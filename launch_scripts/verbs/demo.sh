@@ -90,7 +90,7 @@ $(dataset_layouts)"
 # show_all: uses the variables of verb_main.
 show_all() {
   if [[ -n $dataset ]]; then
-    ensure_built panvo_demo
+    ensure_built "panvo_demo${live:+_live}"
     use_plugins
     play_and_show "$dataset" "$out"
   elif [[ -z $full ]]; then
@@ -98,7 +98,7 @@ show_all() {
     use_plugins
     play_and_show "$dataset" "$out"
   else
-    ensure_built panvo_demo
+    ensure_built "panvo_demo${live:+_live}"
     use_plugins
     library=(--set "landmark_store.file=$out/places.sqlite")
     for route in dataset_i dataset_ii; do
@@ -116,7 +116,7 @@ simulate_while_building() {
   ensure_built panvo_simulate
   simulated_dataset "$@" >"$out/.dataset" 2>"$log" &
   renderer=$!
-  ensure_built panvo_demo
+  ensure_built "panvo_demo${live:+_live}"
   tail --pid="$renderer" -s 0.2 -n +1 -f -- "$log" >&2
   wait "$renderer" || exit 1
   dataset=$(<"$out/.dataset")

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "encode.hpp"
+#include "panvo/compressed_images/encode.hpp"
 
 #include <fmt/format.h>
 

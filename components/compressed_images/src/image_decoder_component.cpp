@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "decode.hpp"
+#include "panvo/compressed_images/decode.hpp"
 #include "panvo/interfaces/topics.hpp"
 #include "panvo/runtime/component.hpp"
 #include "topic_names.hpp"

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "encode.hpp"
+#include "panvo/compressed_images/encode.hpp"
 #include "panvo/interfaces/topics.hpp"
 #include "panvo/runtime/component.hpp"
 #include "topic_names.hpp"

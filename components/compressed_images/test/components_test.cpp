@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gmock/gmock.h>
 
-#include "decode.hpp"
-#include "encode.hpp"
+#include "panvo/compressed_images/decode.hpp"
+#include "panvo/compressed_images/encode.hpp"
 #include "panvo/conversions/time.hpp"
 #include "panvo/runtime/testing.hpp"
 #include "pictures.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "decode.hpp"
+#include "panvo/compressed_images/decode.hpp"
 
 #include <gmock/gmock.h>
 

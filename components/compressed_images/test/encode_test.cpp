@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "encode.hpp"
+#include "panvo/compressed_images/encode.hpp"
 
 #include <gmock/gmock.h>
 
 #include <opencv2/imgcodecs.hpp>
 
-#include "decode.hpp"
+#include "panvo/compressed_images/decode.hpp"
 #include "panvo/conversions/time.hpp"
 #include "pictures.hpp"
 

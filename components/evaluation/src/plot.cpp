@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <fstream>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include "format.hpp"
 #include "gnuplot.hpp"
@@ -88,6 +91,32 @@ void add_page(PlotCanvas& canvas, const Report& report) {
   canvas.line("unset multiplot");
 }
 
+// Stereo odometry and enhanced odometry have their colours in the report of a journey; others take the next ones that
+// are free.
+std::string colour_variables(const Report& report) {
+  std::vector<std::size_t> taken;
+  const auto is_free = [&](std::size_t index) { return std::find(taken.begin(), taken.end(), index) == taken.end(); };
+  std::vector<std::optional<std::size_t>> colours;
+  for (const auto& evaluation : report.evaluations) {
+    const bool is_enhanced = evaluation.name.find("enhanced") != std::string::npos;
+    const bool is_binocular = evaluation.name.find("binocular") != std::string::npos;
+    const std::size_t own = is_enhanced ? 0 : 1;
+    const bool has_own = (is_enhanced || is_binocular) && is_free(own);
+    colours.push_back(has_own ? std::optional(own) : std::nullopt);
+    if (has_own) taken.push_back(own);
+  }
+  std::string text;
+  for (std::size_t i = 0; i < colours.size(); ++i) {
+    for (std::size_t next = 0; !colours[i] && next < kColours.size(); ++next) {
+      if (is_free(next)) colours[i] = next;
+    }
+    const std::size_t index = colours[i].value_or(i % kColours.size());  // more estimates than colours: also by dashes
+    taken.push_back(index);
+    text += "colour" + std::to_string(i) + " = '" + kColours[index] + "'\n";
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string plot_script(const Report& report) {
@@ -104,7 +133,7 @@ std::string plot_script(const Report& report) {
   const std::string svg =
       "set terminal svg " + size + " dynamic fontscale 1.3" + common + "bold = '" + kFont + "'; marks = 0.6\n";
   return "# Drawn by panvo evaluate. To redraw, run `gnuplot -d evaluation.gp` in this folder.\nset encoding utf8\n" +
-         data.text() + png + "set output 'evaluation.png'\n" + page.text() + svg + "set output 'evaluation.svg'\n" +
+         colour_variables(report) + data.text() + png + "set output 'evaluation.png'\n" + page.text() + svg + "set output 'evaluation.svg'\n" +
          page.text() + "unset output\n";
 }
 

@@ -55,7 +55,7 @@ std::string bold(int size) { return std::string(" font bold.',") + std::to_strin
 
 std::string mark_size(double size) { return " ps marks*" + number(size); }
 
-std::string colour(std::size_t estimate) { return std::string("rgb '") + kColours[estimate % kColours.size()] + "'"; }
+std::string colour(std::size_t estimate) { return "rgb colour" + std::to_string(estimate); }
 
 std::string curve(std::size_t estimate, double width) {
   const std::size_t dashes = 1 + estimate / kColours.size();

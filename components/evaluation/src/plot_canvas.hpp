@@ -58,7 +58,7 @@ class PlotCanvas {
 std::string ink();                                            // colour of text
 std::string bold(int size);                                   // font, from the gnuplot variable `bold`
 std::string mark_size(double size);                           // of points, from the gnuplot variable `marks`
-std::string colour(std::size_t estimate);                     // of an estimate
+std::string colour(std::size_t estimate);                     // of an estimate, from a gnuplot variable
 std::string curve(std::size_t estimate, double width = 2.0);  // line style of an estimate
 std::string block(const char* kind, std::size_t estimate);    // name of a data block
 

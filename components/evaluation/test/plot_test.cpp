@@ -105,6 +105,17 @@ TEST(PlotScript, ThinsOutALongPathAndKeepsItsEnd) {
   EXPECT_THAT(script, HasSubstr("\n4000 4000 4000 0 0 "));
 }
 
+TEST(PlotScript, DrawsStereoAndEnhancedOdometryInTheColoursOfTheReport) {
+  auto report = small_report();
+  const auto any = report.evaluations.front();
+  report.evaluations = {any, any, any};
+  report.evaluations[0].name = "rival";
+  report.evaluations[1].name = "odometry_binocular";
+  report.evaluations[2].name = "odometry_enhanced";
+  EXPECT_THAT(plot_script(report),
+              HasSubstr("colour0 = '#009E73'\ncolour1 = '#D55E00'\ncolour2 = '#0072B2'\n"));
+}
+
 TEST(PlotScript, NamesTheEndsOfAClosedPathOnce) {
   const auto script_of = [](const Trajectory& path) {
     return plot_script({"drive", path, {evaluate({"e", path, std::nullopt, {}, std::nullopt}, path)}});

@@ -25,11 +25,14 @@ ClientSession::ClientSession(View& view, WebServer::Connection& connection)
     : view_(view),
       connection_(connection),
       assembly_(kMaxRequestBytes),
-      sender_(connection, {view.settings().queue_bytes, kMaxWaiting}, [this] {
-        view_.log().warn_throttled(
-            "stalled", "client {} does not read what it subscribed to: closed, {} messages were dropped before",
-            connection_.address(), sender_.dropped());
-      }) {
+      sender_(
+          connection, {view.settings().queue_bytes, kMaxWaiting},
+          [&view](const runtime::SamplePtr& image) { return view.compressor().compressed(image); },
+          [this] {
+            view_.log().warn_throttled(
+                "stalled", "client {} does not read what it subscribed to: closed, {} messages were dropped before",
+                connection_.address(), sender_.dropped());
+          }) {
   view_.join(*this);
   view_.log().debug("client {} connected", connection_.address());
 }
@@ -121,11 +124,13 @@ void ClientSession::subscribe(const Subscribe::One& wanted) {
     if (subscriptions_.contains(wanted.id)) throw ProtocolError("the id is in use");
     if (subscriptions_.size() >= kMaxSubscriptions) throw ProtocolError("there are too many subscriptions");
   }
-  auto reading = view_.topics().read(*topic, [this, id = wanted.id](const runtime::SamplePtr& sample) {
+  const auto source = view_.compressor().source_of(topic->name);
+  const auto send = [this, id = wanted.id, is_to_compress = source.has_value()](const runtime::SamplePtr& sample) {
     // By the clock of tell_time(), if the client is told the time.
     const auto time_ns = has_time_ ? view_.time_ns() : std::nullopt;
-    sender_.send_message(id, time_ns.value_or(sample->time_ns()), sample);
-  });
+    sender_.send_message(id, time_ns.value_or(sample->time_ns()), sample, is_to_compress);
+  };
+  auto reading = view_.topics().read(source.value_or(*topic), send);
   {
     const std::lock_guard lock(mutex_);
     subscriptions_.emplace(wanted.id, Subscription{wanted.channel, std::move(reading)});

@@ -34,6 +34,7 @@ class SendQueue {
     std::uint32_t subscription;
     std::int64_t time_ns;  ///< for the client
     runtime::SamplePtr sample;
+    bool is_to_compress = false;  ///< an image, when it is sent
   };
   struct Text {
     std::string json;

@@ -14,8 +14,10 @@ constexpr std::chrono::seconds kStall{3};
 
 }  // namespace
 
-Sender::Sender(WebServer::Connection& connection, Limits limits, std::function<void()> on_stalled)
+Sender::Sender(WebServer::Connection& connection, Limits limits,
+               std::function<runtime::SamplePtr(const runtime::SamplePtr&)> compress, std::function<void()> on_stalled)
     : connection_(connection),
+      compress_(std::move(compress)),
       on_stalled_(std::move(on_stalled)),
       queue_(limits.max_bytes, limits.max_items),
       thread_([this] { loop(); }) {}
@@ -39,9 +41,10 @@ void Sender::send_binary(std::vector<std::uint8_t> frame) {
   push({SendQueue::Binary{std::move(frame)}, bytes});
 }
 
-void Sender::send_message(std::uint32_t subscription, std::int64_t time_ns, const runtime::SamplePtr& sample) {
+void Sender::send_message(std::uint32_t subscription, std::int64_t time_ns, const runtime::SamplePtr& sample,
+                          bool is_to_compress) {
   const std::size_t bytes = sample->serialized_size();
-  push({SendQueue::Message{subscription, time_ns, sample}, bytes, keeping_of(sample->type_name(), bytes)});
+  push({SendQueue::Message{subscription, time_ns, sample, is_to_compress}, bytes, keeping_of(sample->type_name(), bytes)});
 }
 
 void Sender::push(SendQueue::Item item) {
@@ -87,9 +90,14 @@ void Sender::loop() {
 bool Sender::send(const SendQueue::Item& item) {
   if (const auto* text = std::get_if<SendQueue::Text>(&item.content)) return connection_.send_text(text->json);
   if (const auto* binary = std::get_if<SendQueue::Binary>(&item.content)) return connection_.send_binary(binary->frame);
-  const auto& message = std::get<SendQueue::Message>(item.content);
+  return send(std::get<SendQueue::Message>(item.content));
+}
+
+bool Sender::send(const SendQueue::Message& message) {
+  const auto sample = message.is_to_compress ? compress_(message.sample) : message.sample;
+  if (!sample) return true;  // nothing to send
   frame_ = message_head(message.subscription, message.time_ns);
-  const auto& bytes = message.sample->bytes();
+  const auto& bytes = sample->bytes();
   frame_.insert(frame_.end(), bytes.begin(), bytes.end());
   return connection_.send_binary(frame_);
 }

@@ -25,9 +25,12 @@ class Sender {
     std::size_t max_items;
   };
 
+  /// `compress` makes a compressed image of an image; nullptr: it cannot.
+  ///
   /// `on_stalled` is called at most once, on the sender's thread, when the queue is full or the client has not read for
   /// the timeout of the connection, which is then closed. Not called for a client that has left.
-  Sender(WebServer::Connection& connection, Limits limits, std::function<void()> on_stalled);
+  Sender(WebServer::Connection& connection, Limits limits,
+         std::function<runtime::SamplePtr(const runtime::SamplePtr&)> compress, std::function<void()> on_stalled);
   ~Sender();
   Sender(const Sender&) = delete;
   Sender& operator=(const Sender&) = delete;
@@ -35,7 +38,8 @@ class Sender {
   void send_text(std::string json);
   void send_binary(std::vector<std::uint8_t> frame);
   /// A message of a subscription, at a time for the client.
-  void send_message(std::uint32_t subscription, std::int64_t time_ns, const runtime::SamplePtr& sample);
+  void send_message(std::uint32_t subscription, std::int64_t time_ns, const runtime::SamplePtr& sample,
+                    bool is_to_compress);
 
   /// Drops what waits of a subscription that has ended.
   void forget(std::uint32_t subscription);
@@ -47,8 +51,10 @@ class Sender {
   void push(SendQueue::Item item);
   void loop();
   bool send(const SendQueue::Item& item);
+  bool send(const SendQueue::Message& message);
 
   WebServer::Connection& connection_;
+  const std::function<runtime::SamplePtr(const runtime::SamplePtr&)> compress_;
   const std::function<void()> on_stalled_;
   mutable std::mutex mutex_;
   std::condition_variable changed_;

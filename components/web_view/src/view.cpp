@@ -104,7 +104,7 @@ std::vector<runtime::ServiceDescription> View::callable() const {
 
 void View::update() {
   const std::lock_guard updating(update_mutex_);
-  const auto published = topics_->published();
+  const auto published = compressor_.offer(topics_->published());
   follow_clock(published);
   const auto callable_now = callable();
   std::vector<std::shared_ptr<void>> ended;  // closed after the lock is released: closing waits for publishers

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "image_compressor.hpp"
 #include "page.hpp"
 #include "panvo/runtime/context.hpp"
 #include "parameter_access.hpp"
@@ -60,6 +61,7 @@ class View {
   const runtime::Logger& log() const { return context_.log(); }
   runtime::TopicAccess& topics() { return *topics_; }
   const ParameterAccess& parameters() const { return parameters_; }
+  ImageCompressor& compressor() { return compressor_; }
   std::optional<runtime::TopicDescription> find(std::uint32_t channel) const;
   std::optional<runtime::ServiceDescription> find_service(std::uint32_t service) const;
   /// Tells the session of the server and its channels; later changes follow until leave().
@@ -81,6 +83,7 @@ class View {
   const Page page_;
   const std::unique_ptr<runtime::TopicAccess> topics_;
   const ParameterAccess parameters_;
+  ImageCompressor compressor_;
   std::atomic<std::int64_t> clock_ns_ = 0;  // of /clock; 0: none
   std::shared_ptr<void> clock_;             // reads it; used with update_mutex_ locked
   std::int64_t told_time_ns_ = 0;           // used by tell_time() only

@@ -2,6 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "panvo/compressed_images/decode.hpp"
+#include "sensor_msgs/msg/CompressedImage.h"
 #include "web_view_fixture.hpp"
 
 namespace panvo::web_view::test {
@@ -44,6 +46,36 @@ TEST_F(WebView, SendsWhatAClientSubscribesTo) {
   const auto frame = next_message(client);
   EXPECT_EQ(decoded(frame), odometry(12));
   EXPECT_THAT(std::vector<std::uint8_t>(frame.begin(), frame.begin() + 5), ::testing::ElementsAre(1, 77, 0, 0, 0));
+}
+
+TEST_F(WebView, OffersRawImagesCompressedToo) {
+  start();
+  WebSocketClient client(port()), other(port());
+  const auto channel = channel_of(client, "/panorama/image/compressed");
+  subscribe(client, 3, channel);
+  subscribe(other, 4, channel_of(other, "/panorama/image/compressed"));
+  settle(client);
+  settle(other);
+  sensor_msgs::msg::Image image;
+  image.header().stamp().sec(5);
+  image.width(320);
+  image.height(160);
+  image.step(320);
+  image.encoding("mono8");
+  image.data().assign(std::size_t{320} * 160, 90);
+  images_->publish(image);
+  for (auto* one : {&client, &other}) {
+    const auto frame = next_message(*one);
+    ASSERT_GT(frame.size(), 13U);
+    const auto compressed = runtime::from_bytes<sensor_msgs::msg::CompressedImage>({frame.begin() + 13, frame.end()});
+    EXPECT_EQ(compressed.header().stamp().sec(), 5);
+    EXPECT_EQ(compressed.format(), "mono8; jpeg compressed ");
+    EXPECT_LT(compressed.data().size(), image.data().size() / 10);
+    const auto decoded = compressed_images::decode(compressed, compressed_images::Output::kSame);
+    ASSERT_TRUE(decoded) << decoded.reason();
+    EXPECT_EQ((*decoded)->width(), 320U);
+    EXPECT_NEAR((*decoded)->data()[1000], 90, 2);
+  }
 }
 
 TEST_F(WebView, SendsNothingAfterTheClientUnsubscribed) {

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <cstdlib>
 
-#include "decode.hpp"
+#include "panvo/compressed_images/decode.hpp"
 #include "panvo/conversions/image.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

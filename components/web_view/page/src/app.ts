@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The page: puts the panels together and gives each what comes over the connection. */
 import { Cameras } from "./cameras/cameras.ts";
-import { shownAddress } from "./link/address.ts";
+import { isOfThisMachine, shownAddress } from "./link/address.ts";
 import type { Happening, Order } from "./link/events.ts";
 import { initialPose } from "./link/initial_pose.ts";
 import { MapView } from "./map/map.ts";
@@ -97,7 +97,7 @@ export class App {
         break;
       case "topics":
         this.topics = happening.topics;
-        this.cameras.offer(happening.topics);
+        this.cameras.offer(happening.topics, isOfThisMachine(this.connection.address));
         break;
       case "services":
         this.#actions.offer(happening.services);

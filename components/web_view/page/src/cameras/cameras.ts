@@ -44,8 +44,8 @@ class Camera {
     this.element.classList.add(kind);
   }
 
-  offer(topics: string[]): void {
-    if (!this.#isChosen || !this.topic || !topics.includes(this.topic)) this.topic = preferredImage(topics, this.kind) ?? this.topic;
+  offer(topics: string[], isNear: boolean): void {
+    if (!this.#isChosen || !this.topic || !topics.includes(this.topic)) this.topic = preferredImage(topics, this.kind, isNear) ?? this.topic;
     this.element.hidden = topics.length === 0 && this.picture.isEmpty;
     const options = [...new Set([...(this.topic ? [this.topic] : []), ...topics])];
     this.select.replaceChildren(...options.map((topic) => h("option", { value: topic, selected: topic === this.topic }, topic.replace(/^\//, ""))));
@@ -78,11 +78,12 @@ export class Cameras {
     element.append(this.empty, this.#panorama.element, this.#placeElement, this.#left.element);
   }
 
-  offer(topics: { topic: string; type: string }[]): void {
+  /** `isNear`: the server is on this machine, so that images need not be small. */
+  offer(topics: { topic: string; type: string }[], isNear: boolean): void {
     const images = topics.filter(({ type }) => imageTypes.includes(type)).map(({ topic }) => topic);
     this.empty.hidden = images.length > 0;
-    this.#panorama.offer(images);
-    this.#left.offer(images);
+    this.#panorama.offer(images, isNear);
+    this.#left.offer(images, isNear);
     this.#tellTopics();
   }
 

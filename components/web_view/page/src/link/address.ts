@@ -11,6 +11,11 @@ export function serverAddress(page: string, token: string): string {
   return address.href;
 }
 
+/** Whether the server is on this machine. */
+export function isOfThisMachine(address: string): boolean {
+  return ["localhost", "127.0.0.1", "[::1]"].includes(new URL(address).hostname);
+}
+
 /** For people: without the token. */
 export function shownAddress(address: string): string {
   const { protocol, host } = new URL(address);

@@ -39,11 +39,12 @@ export function roleOf(channel: Pick<Channel, "topic" | "schemaName">): Role | u
 
 export const imageTypes = ["sensor_msgs/msg/Image", "sensor_msgs/msg/CompressedImage"];
 
-/** The image topics to show first: compressed rather than raw, rectified rather than raw. */
-export function preferredImage(topics: string[], kind: "left" | "panorama"): string | undefined {
+/** The image topics to show first: rectified rather than raw; compressed unless the server is on this machine. */
+export function preferredImage(topics: string[], kind: "left" | "panorama", isNear: boolean): string | undefined {
   const stems = kind === "left" ? ["stereo/left/image_rect", "stereo/left/image_raw"] : ["panorama/image"];
   for (const stem of stems) {
-    for (const ending of [`${stem}/compressed`, stem]) {
+    const endings = [`${stem}/compressed`, stem];
+    for (const ending of isNear ? endings.reverse() : endings) {
       const found = topics.find((topic) => `/${topic}`.endsWith(`/${ending}`));
       if (found !== undefined) return found;
     }

@@ -47,9 +47,12 @@ test("topics are recognised by name and type, in any namespace", () => {
   assert.equal(roleOf({ topic: "/other_odometry/enhanced", schemaName: "nav_msgs/msg/Odometry" }), undefined);
 });
 
-test("compressed images are preferred, and rectified ones", () => {
+test("rectified images are preferred, and beyond this machine compressed ones", () => {
   const topics = ["/stereo/left/image_raw", "/stereo/left/image_raw/compressed", "/stereo/left/image_rect", "/panorama/image"];
-  assert.equal(preferredImage(topics, "left"), "/stereo/left/image_rect");
-  assert.equal(preferredImage([...topics, "/panorama/image/compressed"], "panorama"), "/panorama/image/compressed");
-  assert.equal(preferredImage(["/front"], "left"), undefined);
+  assert.equal(preferredImage(topics, "left", false), "/stereo/left/image_rect");
+  const both = [...topics, "/panorama/image/compressed"];
+  assert.equal(preferredImage(both, "panorama", false), "/panorama/image/compressed");
+  assert.equal(preferredImage(both, "panorama", true), "/panorama/image");
+  assert.equal(preferredImage(["/panorama/image/compressed"], "panorama", true), "/panorama/image/compressed");
+  assert.equal(preferredImage(["/front"], "left", false), undefined);
 });
