@@ -2,6 +2,7 @@
 #include "suggestion.hpp"
 
 #include <algorithm>
+#include <span>
 
 namespace panvo::runtime {
 namespace {
@@ -10,6 +11,8 @@ std::string_view last_part(std::string_view name) { return name.substr(name.rfin
 
 /// Names that differ in more than a third of their characters are not suggested.
 std::size_t tolerated_edits(std::string_view name) { return std::max<std::size_t>(1, name.size() / 3); }
+
+constexpr std::size_t kMaxListed = 20;  // a component may have a hundred parameters
 
 }  // namespace
 
@@ -52,9 +55,10 @@ std::string suggestion(std::string_view wrong, const std::vector<std::string>& k
     return "; did you mean \"" + *nearest + "\"?";
   }
   std::string list;
-  for (const auto& name : known) {
+  for (const auto& name : std::span(known).first(std::min(known.size(), kMaxListed))) {
     list += (list.empty() ? "" : ", ") + name;
   }
+  if (known.size() > kMaxListed) list += ", and " + std::to_string(known.size() - kMaxListed) + " more";
   return list.empty() ? "; there are none" : "; known names: " + list;
 }
 

@@ -23,6 +23,8 @@ TEST(Suggestion, IsTheNearestName) {
 
 TEST(Suggestion, ListsAllNamesWhenNoneIsNear) {
   EXPECT_EQ(suggestion("x", {"alpha", "beta"}), "; known names: alpha, beta");
+  const auto many = suggestion("x", std::vector<std::string>(23, "alpha"));
+  EXPECT_TRUE(many.ends_with(", alpha, and 3 more")) << many;
   EXPECT_EQ(suggestion("x", {}), "; there are none");
 }
 

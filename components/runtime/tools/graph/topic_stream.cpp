@@ -107,8 +107,15 @@ class Stream {
 constexpr milliseconds kForEver = std::chrono::hours(24 * 365);
 constexpr milliseconds kReportPeriod{1000};
 
-[[noreturn]] void fail_for_want_of_messages(const TopicReading& reading) {
-  throw Failure("no message received on " + reading.topic + " in time (--timeout waits longer)");
+/// The first message; nullopt after Ctrl-C. Without --count, waits beyond the timeout if there is a publisher, as that of
+/// a paused bag.
+std::optional<Stream::Arrival> first_of(Session& session, Stream& stream, const TopicReading& reading) {
+  auto first = stream.next(session.timeout());
+  if (first || is_stopped()) return first;
+  if (reading.count > 0 || !stream.has_writer())
+    throw Failure("no message received on " + reading.topic + " in time (--timeout waits longer)");
+  std::cerr << "panvo: waiting: " << reading.topic << " has a publisher, which has sent nothing yet\n";
+  return stream.next(kForEver);
 }
 
 /// Collects messages and reports on the newest `window` of them once per second. After a silence it starts over.
@@ -117,8 +124,8 @@ void watch(const SessionOptions& options, const TopicReading& reading, const Rep
   Session session(options);
   Stream stream(session, reading);
   std::deque<Stream::Arrival> window;
-  auto first = stream.next(session.timeout());
-  if (!first) fail_for_want_of_messages(reading);
+  auto first = first_of(session, stream, reading);
+  if (!first) return;
   window.push_back(std::move(*first));
   for (std::size_t reports = 0; (reading.count == 0 || reports < reading.count) && !is_stopped(); ++reports) {
     const auto end = steady_clock::now() + kReportPeriod;
@@ -188,9 +195,8 @@ void echo(const SessionOptions& options, const TopicReading& reading) {
                   ". Without it `panvo topic hz` and `bw` work, echo does not");
   }
   for (std::size_t shown = 0; reading.count == 0 || shown < reading.count;) {
-    const auto arrival = stream.next(shown == 0 ? session.timeout() : kForEver);
-    if (!arrival && is_stopped()) return;
-    if (!arrival) fail_for_want_of_messages(reading);
+    const auto arrival = shown == 0 ? first_of(session, stream, reading) : stream.next(kForEver);
+    if (!arrival) return;
     try {
       std::cout << interfaces::to_yaml(*stream.type(), arrival->sample->bytes(), reading.whole ? 0 : 128) << "---"
                 << std::endl;
