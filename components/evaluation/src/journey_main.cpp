@@ -3,7 +3,6 @@
 #include <CLI/CLI.hpp>
 #include <exception>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
 #include <optional>
 #include <string>
@@ -11,6 +10,7 @@
 #include "panvo/evaluation/input_error.hpp"
 #include "panvo/evaluation/journey_evaluation.hpp"
 #include "panvo/evaluation/journey_page.hpp"
+#include "panvo/evaluation/output_file.hpp"
 #include "panvo/evaluation/plot.hpp"
 #include "panvo/evaluation/run_folder.hpp"
 
@@ -47,11 +47,6 @@ void describe(CLI::App& app, Arguments& arguments) {
   app.add_flag("--only-table", arguments.only_table, "only print the tables, write no files");
 }
 
-void write(const fs::path& file, const std::string& text) {
-  std::ofstream stream(file, std::ios::binary);
-  if (!(stream << text).flush()) throw InputError(file, "cannot be written", "choose a writable folder with --out");
-}
-
 std::string default_title(const JourneyRun& run, const JourneyRecording& recording) {
   const auto name = fs::weakly_canonical(recording.folder).filename().string();
   return name == run.name ? name : name + ", run " + run.name;
@@ -79,8 +74,8 @@ int run(const Arguments& arguments) {
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) throw InputError(folder, "cannot be created: " + error.message(), "choose another folder with --out");
-  write(folder / "journey.json", journey_json(report));
-  write(folder / "report.html", journey_page(report));
+  write_output(folder / "journey.json", journey_json(report));
+  write_output(folder / "report.html", journey_page(report));
   std::cout << "\nwritten: " << (folder / "report.html").string() << " (opens in any browser), journey.json\n"
             << std::flush;
   draw_journey(report, folder);

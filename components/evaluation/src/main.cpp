@@ -4,7 +4,6 @@
 #include <cmath>
 #include <exception>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
 #include <map>
 #include <numbers>
@@ -14,6 +13,7 @@
 
 #include "panvo/evaluation/evaluation.hpp"
 #include "panvo/evaluation/input_error.hpp"
+#include "panvo/evaluation/output_file.hpp"
 #include "panvo/evaluation/plot.hpp"
 #include "panvo/evaluation/report.hpp"
 #include "panvo/evaluation/run_folder.hpp"
@@ -152,11 +152,6 @@ void check(const Arguments& arguments) {
   for (const std::string& also : arguments.also) require_finished(also.substr(also.find('=') + 1));
 }
 
-void write(const fs::path& file, const std::string& text) {
-  std::ofstream stream(file, std::ios::binary);
-  if (!(stream << text).flush()) throw InputError(file, "cannot be written", "choose a writable folder with --out");
-}
-
 int run(const Arguments& arguments) {
   check(arguments);
   Report report;
@@ -172,8 +167,8 @@ int run(const Arguments& arguments) {
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) throw InputError(folder, "cannot be created: " + error.message(), "choose another folder with --out");
-  write(folder / "evaluation.json", json);
-  write(folder / "errors.csv", to_csv(report));
+  write_output(folder / "evaluation.json", json);
+  write_output(folder / "errors.csv", to_csv(report));
   if (!arguments.no_plot) draw_plot(report, folder);
   if (!arguments.json) {
     std::cout << "\nwritten to " << folder.string() << ": evaluation.json, errors.csv"

@@ -8,7 +8,6 @@
 #include <cmath>
 #include <exception>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -24,6 +23,7 @@
 #include "panvo/evaluation/fourier_signature.hpp"
 #include "panvo/evaluation/histogram_places.hpp"
 #include "panvo/evaluation/input_error.hpp"
+#include "panvo/evaluation/output_file.hpp"
 #include "panvo/evaluation/place_journey.hpp"
 #include "panvo/evaluation/place_plots.hpp"
 #include "panvo/evaluation/place_table.hpp"
@@ -144,7 +144,7 @@ int run_folder(const Arguments& arguments) {
   fs::create_directories(arguments.out);
   const nlohmann::json json{
       {"places", task.library.size()}, {"queries", task.queries.size()}, {"methods", json_of(scores)}};
-  std::ofstream(fs::path(arguments.out) / "places.json") << json.dump(2) << '\n';
+  write_output(fs::path(arguments.out) / "places.json", json.dump(2) + '\n');
   return kSuccess;
 }
 
@@ -221,7 +221,7 @@ int run(const Arguments& arguments) {
 
   const fs::path out = arguments.out;
   fs::create_directories(out);
-  std::ofstream(out / "places.json") << json_of(scores, journey, task).dump(2) << '\n';
+  write_output(out / "places.json", json_of(scores, journey, task).dump(2) + '\n');
   draw_separation(scores, out);
   std::vector<const PlaceMethod*> compared;
   for (const auto& method : methods) compared.push_back(method.get());

@@ -133,8 +133,8 @@ std::string plot_script(const Report& report) {
   const std::string svg =
       "set terminal svg " + size + " dynamic fontscale 1.3" + common + "bold = '" + kFont + "'; marks = 0.6\n";
   return "# Drawn by panvo evaluate. To redraw, run `gnuplot -d evaluation.gp` in this folder.\nset encoding utf8\n" +
-         colour_variables(report) + data.text() + png + "set output 'evaluation.png'\n" + page.text() + svg + "set output 'evaluation.svg'\n" +
-         page.text() + "unset output\n";
+         colour_variables(report) + data.text() + png + "set output 'evaluation.png'\n" + page.text() + svg +
+         "set output 'evaluation.svg'\n" + page.text() + "unset output\n";
 }
 
 void draw_plot(const Report& report, const std::filesystem::path& folder) {

@@ -112,8 +112,7 @@ TEST(PlotScript, DrawsStereoAndEnhancedOdometryInTheColoursOfTheReport) {
   report.evaluations[0].name = "rival";
   report.evaluations[1].name = "odometry_binocular";
   report.evaluations[2].name = "odometry_enhanced";
-  EXPECT_THAT(plot_script(report),
-              HasSubstr("colour0 = '#009E73'\ncolour1 = '#D55E00'\ncolour2 = '#0072B2'\n"));
+  EXPECT_THAT(plot_script(report), HasSubstr("colour0 = '#009E73'\ncolour1 = '#D55E00'\ncolour2 = '#0072B2'\n"));
 }
 
 TEST(PlotScript, NamesTheEndsOfAClosedPathOnce) {

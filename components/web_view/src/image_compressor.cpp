@@ -12,7 +12,7 @@ namespace {
 using sensor_msgs::msg::CompressedImage;
 using sensor_msgs::msg::Image;
 
-constexpr int kJpegQuality = 80;      // of pictures to look at: a tenth of the size
+constexpr int kJpegQuality = 80;       // of pictures to look at: a tenth of the size
 constexpr std::size_t kMaxRecent = 8;  // stereo pair and panorama of the last moments
 
 }  // namespace

@@ -44,7 +44,8 @@ void Sender::send_binary(std::vector<std::uint8_t> frame) {
 void Sender::send_message(std::uint32_t subscription, std::int64_t time_ns, const runtime::SamplePtr& sample,
                           bool is_to_compress) {
   const std::size_t bytes = sample->serialized_size();
-  push({SendQueue::Message{subscription, time_ns, sample, is_to_compress}, bytes, keeping_of(sample->type_name(), bytes)});
+  push({SendQueue::Message{subscription, time_ns, sample, is_to_compress}, bytes,
+        keeping_of(sample->type_name(), bytes)});
 }
 
 void Sender::push(SendQueue::Item item) {
