@@ -50,6 +50,8 @@ RUNTIME_DDS = floor("runtime's dds", "interfaces", "messages, fastdds, log")
 RUNTIME_CONFIG = floor("runtime's config", "interfaces", "messages, yaml, log, command line")
 RUNNER = floor("runner", "runtime interfaces", "messages, log, json, command line, systemd")
 CONVERSIONS = floor("conversions", "interfaces vision runtime", "messages, eigen, opencv")
+# from image messages to compressed ones and back
+COMPRESSED_IMAGES = floor("compressed images", "runtime interfaces conversions", "messages, opencv", False)
 ALGORITHM = floor("algorithm", "vision landmarks", "eigen, opencv, ceres, opengv", False)
 WRAPPER = floor("component wrapper", "runtime interfaces conversions vision calibration_files landmarks", "messages, eigen, opencv", False)
 # places, their store and their messages
@@ -64,7 +66,7 @@ BAG_IMAGES = floor("images of a bag", "recorder interfaces conversions", "messag
 LIVE_IMAGES = floor("images of topics", "runtime interfaces conversions", "messages, opencv")
 RECORDER = floor("recorder", "runtime interfaces sqlite", "messages, fastdds, yaml, sqlite, zlib, log, json, command line")
 # a server, with the threads of its connections
-WEB_VIEW = floor("web view", "runtime interfaces", "messages, json, civetweb")
+WEB_VIEW = floor("web view", "runtime interfaces compressed_images", "messages, json, civetweb")
 DRIVER = floor("driver", "runtime interfaces conversions vision calibration_files", "messages, eigen, opencv, xml, json, log")
 CAMERA_DRIVER = floor("camera driver", "runtime interfaces conversions vision calibration_files camera_stream camera_group",
                       "messages, eigen, opencv, aravis, json, log")
@@ -88,6 +90,7 @@ FLOORS = [
     ("components/runtime", RUNTIME),
     ("components/runner", RUNNER),
     ("components/conversions", CONVERSIONS),
+    ("components/compressed_images", COMPRESSED_IMAGES),
     ("components/landmarks", LANDMARKS),
     ("components/panorama_stitcher/src/rig", RIG_FILE),
     ("components/calibration/src/files", RIG_FILE),
