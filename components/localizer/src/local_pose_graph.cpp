@@ -186,6 +186,7 @@ void LocalPoseGraph::set_clock_back(std::int64_t by_ns) {
     node.sighting.stamp_ns -= by_ns;
   }
   for (auto& cut_ns : cuts_ns_) cut_ns -= by_ns;
+  if (enu_) enu_->solved_ns -= by_ns;
 }
 
 const LocalPoseGraph::Node* LocalPoseGraph::landmark_node(std::uint32_t id) const {

@@ -98,6 +98,25 @@ TEST(LocalizerWithSatellites, LearnsTheDelayOfTheFixes) {
   EXPECT_LT(localizer.fix_delay().sigma, 0.05);
 }
 
+TEST(LocalizerWithSatellites, KeepThePositionWhenTheClockIsSetBack) {
+  GnssDrive drive(2, 1.0, 0.5);
+  Localizer localizer(parameters());
+  localizer.add(drive.now());
+  for (int i = 1; i <= 203; ++i) {
+    localizer.add(drive.step());
+    if (i % kFixEvery == 0) localizer.add(drive.fix());
+  }
+  ASSERT_TRUE(localizer.has_enu());
+  ASSERT_TRUE(localizer.add_built(7, drive.stamp_ns() - GnssDrive::kPeriod_ns));  // a node that is not solved yet
+  localizer.add(drive.step());
+  const auto before = localizer.latest_in_enu();
+  localizer.set_clock_back(100'000'000);
+  const auto after = localizer.latest_in_enu();
+  EXPECT_TRUE(after.map_from_base.isApprox(before.map_from_base));
+  // Only what the clock leaves unknown of the last step is added.
+  EXPECT_LT((after.covariance - before.covariance).norm(), 0.1 * before.covariance.norm());
+}
+
 TEST(LocalizerWithSatellites, KnowsThePositionOnEarthAsWellAsTheFixes) {
   double with_m = 0.0, without_m = 0.0, on_earth_m = 0.0;
   for (unsigned seed = 1; seed <= kSeeds; ++seed) {
