@@ -22,6 +22,7 @@ struct ComponentParameters {
   double path_step_m = 1.0;
   double path_period_s = 2.0;
   std::string last_pose_file;
+  std::string georeference_file;
   double last_pose_s = 30.0;
 
   template <class Field>
@@ -46,6 +47,9 @@ struct ComponentParameters {
     field.path(&P::last_pose_file, "last_pose_file",
                "file in which the pose is saved every second, and from which a restarted process resumes; "
                "empty: none");
+    field.path(&P::georeference_file, "georeference_file",
+               "file in which the place of the map on earth is saved, if there are positions by satellites, and from "
+               "which a later run in the stored map is located by them; empty: none");
     field(&P::last_pose_s, "last_pose_s", "s", "largest age of a pose to resume from", 0.0, 3600.0);
   }
 };

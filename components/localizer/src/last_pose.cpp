@@ -5,16 +5,11 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
-#include <fstream>
-#include <map>
 #include <numbers>
 #include <span>
 #include <stdexcept>
-#include <system_error>
-#include <vector>
 
+#include "number_lines.hpp"
 #include "panvo/interfaces/check.hpp"
 #include "panvo/localizer/dead_reckoning.hpp"
 
@@ -24,35 +19,6 @@ namespace {
 constexpr double kMinSpeed = 0.5;  // m/s: a stationary vehicle may start
 constexpr double kTurnRate = 0.3;  // rad/s, of a vehicle in a bend
 constexpr double kTilt = 0.05;     // rad
-
-/// Lines of "key value value ...".
-using Lines = std::map<std::string, std::string>;
-
-template <class Number>
-std::vector<Number> numbers(const Lines& lines, const std::string& key, std::size_t count) {
-  const auto line = lines.find(key);
-  if (line == lines.end()) throw std::runtime_error(fmt::format("'{}' is missing", key));
-  std::vector<Number> values;
-  const char* at = line->second.data();
-  const char* const end = at + line->second.size();
-  while (at != end) {
-    if (*at == ' ') {
-      ++at;
-      continue;
-    }
-    Number value{};
-    const auto [next, error] = std::from_chars(at, end, value);
-    if (error != std::errc())
-      throw std::runtime_error(fmt::format("'{}' contains something that is not a number", key));
-    values.push_back(value);
-    at = next;
-  }
-  const bool are_finite = std::ranges::all_of(values, [](auto value) { return std::isfinite(double(value)); });
-  if (values.size() != count || !are_finite) {
-    throw std::runtime_error(fmt::format("'{}' has {} finite numbers instead of {}", key, values.size(), count));
-  }
-  return values;
-}
 
 /// Applies the rules of odometry messages, the origin of the values.
 void check_numbers(interfaces::Check& check, std::span<const double> position, std::span<const double> covariance,
@@ -111,29 +77,13 @@ void write_last_pose(const std::filesystem::path& file, const LastPose& last) {
   if (check.problem()) {
     throw std::runtime_error(fmt::format("{} not written, invalid pose: {}", file.string(), *check.problem()));
   }
-  std::filesystem::path part = file;
-  part += ".part";
-  std::ofstream stream(part);
-  stream << file_text(last);
-  stream.close();
-  std::error_code error;
-  if (stream) std::filesystem::rename(part, file, error);
-  if (!stream || error) {
-    throw std::runtime_error(
-        fmt::format("cannot write {}: name a file in an existing, writable folder with free space", file.string()));
-  }
+  write_lines(file, file_text(last));
 }
 
 std::optional<LastPose> read_last_pose(const std::filesystem::path& file) {
   if (!std::filesystem::exists(file)) return std::nullopt;
-  std::ifstream stream(file);
-  Lines lines;
-  for (std::string line; std::getline(stream, line);) {
-    const auto space = std::min(line.find(' '), line.size() - 1);
-    lines[line.substr(0, space)] = line.substr(space + 1);
-  }
   try {
-    return from_lines(lines);
+    return from_lines(read_lines(file));
   } catch (const std::runtime_error& error) {
     throw std::runtime_error(fmt::format("{} contains no valid pose: {}; delete the file, a new one will be written",
                                          file.string(), error.what()));

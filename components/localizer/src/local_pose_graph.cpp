@@ -166,7 +166,7 @@ void LocalPoseGraph::place(const Eigen::Isometry3d& map_from_former_map) {
     node.map_from_base = map_from_former_map * node.map_from_base;
     node.covariance = vision::rotate_covariance(map_from_former_map.linear(), node.covariance);
   }
-  if (!enu_) return;
+  if (!enu_ || enu_->known) return;
   enu_->map_from_enu = map_from_former_map * enu_->map_from_enu;
   enu_->covariance = vision::rotate_covariance(map_from_former_map.linear(), enu_->covariance);
   enu_->cross = vision::rotate_covariance(map_from_former_map.linear(), enu_->cross);

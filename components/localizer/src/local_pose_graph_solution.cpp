@@ -79,8 +79,10 @@ bool LocalPoseGraph::solve() {
     nodes_[i].covariance = covariances->poses[i];
   }
   if (enu_) {
-    enu_ =
-        Enu{graph.poses.back(), covariances->poses.back(), covariances->cross, nodes_[order.back()].at.pose.stamp_ns};
+    enu_->map_from_enu = graph.poses.back();
+    enu_->covariance = covariances->poses.back();
+    enu_->cross = covariances->cross;
+    enu_->solved_ns = nodes_[order.back()].at.pose.stamp_ns;
     scale_ = {graph.scale, std::sqrt(covariances->scale_variance)};
     delay_ = {graph.delay, std::sqrt(covariances->delay_variance)};
   }
@@ -91,9 +93,13 @@ bool LocalPoseGraph::solve() {
 void LocalPoseGraph::add_fixes(PoseGraph& graph, const std::vector<std::size_t>& order) const {
   const std::size_t enu = graph.poses.size();
   graph.poses.push_back(enu_->map_from_enu);
-  Eigen::Isometry3d level = enu_->map_from_enu;
-  level.linear() = vision::so3_exp(Eigen::Vector3d(0.0, 0.0, yaw_of(level.linear())));
-  graph.priors.push_back({enu, level, unknown_enu()});
+  if (enu_->known) {
+    graph.priors.push_back({enu, enu_->known->map_from_base, with_least_variance(enu_->known->covariance)});
+  } else {
+    Eigen::Isometry3d level = enu_->map_from_enu;
+    level.linear() = vision::so3_exp(Eigen::Vector3d(0.0, 0.0, yaw_of(level.linear())));
+    graph.priors.push_back({enu, level, unknown_enu()});
+  }
   graph.scale = scale_.value;
   graph.scale_sigma = scale_sigma_;
   graph.delay = delay_.value;
@@ -111,10 +117,11 @@ void LocalPoseGraph::add_fixes(PoseGraph& graph, const std::vector<std::size_t>&
   }
 }
 
-void LocalPoseGraph::set_enu(const Eigen::Isometry3d& map_from_enu) {
+void LocalPoseGraph::set_enu(const Eigen::Isometry3d& map_from_enu, const std::optional<vision::Matrix6d>& covariance) {
   std::erase_if(nodes_, [](const Node& node) { return node.fix.has_value(); });
   enu_ = Enu{};
   enu_->map_from_enu = map_from_enu;
+  if (covariance) enu_->known = PoseInMap{map_from_enu, *covariance};
 }
 
 void LocalPoseGraph::add_fix(const GnssFix& fix, const OdometrySample& at) {

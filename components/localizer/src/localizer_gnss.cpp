@@ -3,6 +3,7 @@
 
 #include <Eigen/Cholesky>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "panvo/localizer/localizer.hpp"
@@ -43,13 +44,25 @@ FixOutcome Localizer::try_fixes(const GnssTrial::Sample& sample, double least_m)
   LocalPoseGraph corrected = graph_;
   const Eigen::Isometry3d map_from_odom =
       graph_.carried(sample.at.pose).map_from_base * sample.at.pose.odom_from_base.inverse();
-  corrected.set_enu(map_from_odom * result->odom_from_enu);
+  // Landmarks that were seen tell more than the satellites of an earlier journey.
+  const bool locates = known_enu_ && graph_.has_known() && !(is_located_ && is_joined_);
+  if (locates) {
+    const Eigen::Isometry3d placed = known_enu_->map_from_base * result->odom_from_enu.inverse();
+    corrected.place(placed * map_from_odom.inverse());
+    corrected.set_enu(known_enu_->map_from_base, known_enu_->covariance);
+  } else {
+    corrected.set_enu(map_from_odom * result->odom_from_enu, std::nullopt);
+  }
   for (const auto& one : fix_trial_.samples()) {
     if (const auto at = chain_.at(one.fix.stamp_ns)) corrected.add_fix(one.fix, *at);
   }
   if (!corrected.solve()) return {FixUse::kOnTrial, "the pose graph could not be solved"};
   graph_ = std::move(corrected);
   fix_trial_.clear();
+  if (locates) {
+    is_located_ = is_joined_ = true;
+    found_at_way_m_ = sample.at.way_m;
+  }
   latest_ = localized(chain_.latest().pose);
   return {FixUse::kBegun, {}};
 }

@@ -5,8 +5,10 @@
 
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 #include <utility>
 
+#include "georeference_file.hpp"
 #include "localizer_messages.hpp"
 #include "panvo/conversions/pose.hpp"
 #include "panvo/conversions/time.hpp"
@@ -24,6 +26,7 @@ constexpr interfaces::Service<ToLL_Request, ToLL_Response> kToLL{"toLL"};
 constexpr double kFarthest_m = 100e3;  // from the first position: no vehicle's day
 constexpr double kNotableScale = 0.003;
 constexpr double kSureSigmas = 4.0;
+constexpr std::int64_t kKeepPeriod_ns = 10'000'000'000;
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 }  // namespace
@@ -37,6 +40,7 @@ Satellites::Satellites(runtime::Context& context, const ComponentParameters& par
       tf_(context.output(topics::kTf)) {
   context.input(topics::kGnssFix, [this](const auto& message) { on_fix(*message); });
   serve();
+  if (!parameters.georeference_file.empty()) read_georeference();
 }
 
 void Satellites::on_fix(const sensor_msgs::msg::NavSatFix& message) {
@@ -111,10 +115,41 @@ void Satellites::publish(std::int64_t stamp_ns, const std::string& base_frame) {
   transform.header().stamp(conversions::to_stamp(stamp_ns));
   transform.header().frame_id(parameters_.enu_frame);
   transform.child_frame_id(parameters_.map_frame);
-  transform.transform(conversions::to_transform(localizer_.enu_from_map()));
+  transform.transform(conversions::to_transform(localizer_.map_from_enu().map_from_base.inverse()));
   tf2_msgs::msg::TFMessage message;
   message.transforms().push_back(std::move(transform));
   tf_.publish(std::move(message));
+  keep_georeference(localizer_.latest());
+}
+
+void Satellites::read_georeference() {
+  const auto& file = parameters_.georeference_file;
+  context_.about_to_read(file);
+  try {
+    const auto known = localizer::read_georeference(file);
+    if (!known) return;
+    if (known->map_frame != parameters_.map_frame) {
+      return context_.log().warn("{}: ignored: of frame '{}'", file, known->map_frame);
+    }
+    plane_.emplace(known->origin);
+    localizer_.set_known_enu(known->map_from_enu);
+    context_.log().info("{}: in the stored map, positions by satellites show where the vehicle is", file);
+  } catch (const std::runtime_error& error) {
+    context_.log().warn("{}", error.what());
+  }
+}
+
+void Satellites::keep_georeference(const LocalizedPose& pose) {
+  const bool is_known = pose.state == State::kTracking || pose.state == State::kRelocalised;
+  if (parameters_.georeference_file.empty() || !is_known) return;
+  if (kept_ns_ && std::abs(pose.stamp_ns - *kept_ns_) < kKeepPeriod_ns) return;
+  kept_ns_ = pose.stamp_ns;
+  try {
+    write_georeference(parameters_.georeference_file,
+                       {parameters_.map_frame, plane_->origin(), localizer_.map_from_enu()});
+  } catch (const std::runtime_error& error) {
+    context_.log().warn_throttled("georeference", "{}", error.what());
+  }
 }
 
 /// Before there are positions by satellites, the answer is NaN: the services have no field for an error.
@@ -124,7 +159,7 @@ void Satellites::serve() {
     Eigen::Vector3d point = Eigen::Vector3d::Constant(kUnknown);
     if (localizer_.has_enu()) {
       const double altitude_m = std::isfinite(asked.altitude()) ? asked.altitude() : plane_->origin().altitude_m;
-      point = localizer_.enu_from_map().inverse() * plane_->enu({asked.latitude(), asked.longitude(), altitude_m});
+      point = localizer_.map_from_enu().map_from_base * plane_->enu({asked.latitude(), asked.longitude(), altitude_m});
     }
     FromLL_Response response;
     response.map_point().x(point.x());
@@ -136,7 +171,8 @@ void Satellites::serve() {
     vision::GeoPoint point{kUnknown, kUnknown, kUnknown};
     const auto& asked = request.map_point();
     if (localizer_.has_enu())
-      point = plane_->geodetic(localizer_.enu_from_map() * Eigen::Vector3d(asked.x(), asked.y(), asked.z()));
+      point = plane_->geodetic(localizer_.map_from_enu().map_from_base.inverse() *
+                               Eigen::Vector3d(asked.x(), asked.y(), asked.z()));
     ToLL_Response response;
     response.ll_point().latitude(point.latitude_deg);
     response.ll_point().longitude(point.longitude_deg);

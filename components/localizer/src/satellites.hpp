@@ -24,7 +24,7 @@ class Satellites {
 
   /// Adds the fixes whose stamps the odometry has reached. True if the pose changed.
   bool work_off();
-  /// To be called with each pose of new odometry.
+  /// To be called with each pose of new odometry, also to keep the georeference.
   void publish(std::int64_t stamp_ns, const std::string& base_frame);
 
  private:
@@ -33,6 +33,8 @@ class Satellites {
   void tell(const FixOutcome& outcome);
   void refuse(const std::string& reason);
   void serve();
+  void read_georeference();
+  void keep_georeference(const LocalizedPose& pose);
 
   static constexpr std::size_t kMaxWaiting = 200;  // ten seconds of the fastest receivers
 
@@ -44,6 +46,7 @@ class Satellites {
   runtime::Output<tf2_msgs::msg::TFMessage> tf_;
   std::optional<vision::TangentPlane> plane_;  // at the first position
   std::deque<GnssFix> waiting_;
+  std::optional<std::int64_t> kept_ns_;
   std::string frame_, base_frame_;
   bool has_warned_of_frame_ = false;
   bool has_told_scale_ = false;

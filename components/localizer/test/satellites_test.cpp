@@ -2,13 +2,18 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <cmath>
+#include <algorithm>
+#include <filesystem>
+#include <stdexcept>
 #include <string>
+
+#include "georeference_file.hpp"
 
 #include "panvo/conversions/pose.hpp"
 #include "panvo/conversions/time.hpp"
 #include "panvo/interfaces/gnss_topics.hpp"
 #include "panvo/runtime/testing.hpp"
+#include "panvo/test/temporary_folder.hpp"
 #include "panvo/vision/geodesy.hpp"
 
 namespace panvo::localizer {
@@ -25,7 +30,9 @@ constexpr std::int64_t kBegin_ns = 1'700'000'000'000'000'000;
 /// exactly, from a map whose x axis points north.
 class Satellites : public ::testing::Test {
  protected:
-  void SetUp() override { harness_.load("panvo_localizer", "LocalizerComponent", {}); }
+  void SetUp() override {
+    harness_.load("panvo_localizer", "LocalizerComponent", {{"georeference_file", file_.string()}});
+  }
 
   static Eigen::Isometry3d pose(int step) {
     const double angle = 0.5 * step / 80.0;
@@ -83,6 +90,8 @@ class Satellites : public ::testing::Test {
 
   const vision::TangentPlane plane_{{48.1, 11.6, 520.0}};
   const Eigen::Vector3d antenna_m_{-0.5, 0.0, 1.8};
+  const test::TemporaryFolder folder_;
+  const std::filesystem::path file_ = folder_.path() / "campus.georeference";
   runtime::ComponentHarness harness_;
   const std::vector<std::shared_ptr<const sensor_msgs::msg::NavSatFix>>& enhanced_ =
       harness_.collect(topics::kGnssEnhanced);
@@ -109,6 +118,37 @@ TEST_F(Satellites, GiveLatitudeAndLongitudeOfTheVehicleAndTheTransformToTheMap) 
   // The frame begins at the first antenna position.
   const Eigen::Vector3d first_m = in_enu(pose(0) * antenna_m_);
   EXPECT_LT((*enu_from_map * Eigen::Vector3d(20, 10, 0) - (Eigen::Vector3d(-10, 20, 0) - first_m)).norm(), 0.2);
+}
+
+TEST_F(Satellites, KeepWhereTheMapIsOnEarth) {
+  publish_antenna();
+  drive(0, 300);
+  const auto kept = read_georeference(file_);
+  ASSERT_TRUE(kept);
+  EXPECT_EQ(kept->map_frame, "map");
+  const Eigen::Vector3d first_m = in_enu(pose(0) * antenna_m_);
+  EXPECT_LT((plane_.enu(kept->origin) - first_m).norm(), 1e-6);
+  const Eigen::Vector3d there_m = kept->map_from_enu.map_from_base * (in_enu({20.0, 10.0, 0.0}) - first_m);
+  EXPECT_LT((there_m - Eigen::Vector3d(20.0, 10.0, 0.0)).norm(), 0.3);
+}
+
+TEST_F(Satellites, NameWhatIsWrongInTheFileOfTheGeoreference) {
+  EXPECT_FALSE(read_georeference(file_));
+  vision::Matrix6d covariance = vision::Matrix6d::Identity();
+  write_georeference(file_, {"map", {48.0, 11.0, 500.0}, {Eigen::Isometry3d::Identity(), covariance}});
+  EXPECT_EQ(read_georeference(file_)->map_from_enu.covariance, covariance);
+  covariance(0, 0) = -1.0;
+  write_georeference(file_, {"map", {48.0, 11.0, 500.0}, {Eigen::Isometry3d::Identity(), covariance}});
+  EXPECT_THROW(
+      {
+        try {
+          read_georeference(file_);
+        } catch (const std::runtime_error& error) {
+          EXPECT_THAT(error.what(), ::testing::AllOf(HasSubstr("campus.georeference"), HasSubstr("covariance")));
+          throw;
+        }
+      },
+      std::runtime_error);
 }
 
 TEST_F(Satellites, AreAssumedAtTheVehicleWithoutTransform) {

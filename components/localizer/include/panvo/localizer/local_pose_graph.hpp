@@ -70,13 +70,14 @@ class LocalPoseGraph {
   /// last and the most precise passes per landmark, 8 in all, which bounds the graph on repeated routes.
   bool add_pass(const LandmarkSighting& sighting, const OdometrySample& at, double same_pass_m);
 
-  /// Begins the use of satellites, with the approximate pose of their frame in the map. Forgets earlier fixes.
-  void set_enu(const Eigen::Isometry3d& map_from_enu);
+  /// Begins the use of satellites, with the approximate pose of their frame in the map, or its pose and covariance from
+  /// an earlier journey. Forgets earlier fixes.
+  void set_enu(const Eigen::Isometry3d& map_from_enu, const std::optional<vision::Matrix6d>& covariance);
   bool has_enu() const noexcept { return enu_.has_value(); }
   /// Adds a fix. Keeps 64, evenly spaced along the path. Precondition: has_enu().
   void add_fix(const GnssFix& fix, const OdometrySample& at);
   /// Pose of the frame of the satellites in the map; precondition: has_enu().
-  const Eigen::Isometry3d& map_from_enu() const { return enu_->map_from_enu; }
+  PoseInMap map_from_enu() const { return {enu_->map_from_enu, enu_->covariance}; }
   /// By satellites: measured over true length of the odometry; 1 without them.
   const Estimate& scale() const noexcept { return scale_; }
   /// Of the stamps of fixes behind the odometry's clock, s.
@@ -128,7 +129,8 @@ class LocalPoseGraph {
   struct Enu {
     Eigen::Isometry3d map_from_enu = Eigen::Isometry3d::Identity();
     vision::Matrix6d covariance = vision::Matrix6d::Zero(), cross = vision::Matrix6d::Zero();
-    std::int64_t solved_ns = 0;  // of that node
+    std::int64_t solved_ns = 0;      // of that node
+    std::optional<PoseInMap> known;  // from an earlier journey
   };
 
   void add_fixes(PoseGraph& graph, const std::vector<std::size_t>& order) const;

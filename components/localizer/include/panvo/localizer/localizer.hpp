@@ -115,11 +115,14 @@ class Localizer {
   /// Position by satellites. Used once the fixes of some path have the shape of the odometry's; unused if the pose
   /// contradicts it. Corrects the path, and shows the scale of the odometry and where on earth the map is.
   FixOutcome add(const GnssFix& fix);
+  /// Where the frame of the satellites is in the map of the known landmarks, from an earlier journey: then fixes show
+  /// where the vehicle is in that map before any landmark is seen.
+  void set_known_enu(const PoseInMap& map_from_enu) { known_enu_ = map_from_enu; }
   /// Whether there is a frame of the satellites.
   bool has_enu() const noexcept { return graph_.has_enu(); }
   /// Latest enu_from_base, and the map in that frame. Precondition: has_enu().
   PoseInMap latest_in_enu() const { return graph_.in_enu(chain_.latest().pose); }
-  Eigen::Isometry3d enu_from_map() const { return graph_.map_from_enu().inverse(); }
+  PoseInMap map_from_enu() const { return graph_.map_from_enu(); }
   /// Odometry's length over the true one, by satellites; 1 without them.
   const Estimate& scale() const noexcept { return graph_.scale(); }
   /// Of the stamps of fixes behind the odometry's clock, s.
@@ -201,6 +204,7 @@ class Localizer {
   ExtrinsicsMonitor mounting_;
   GnssTrial fix_trial_;                      // of fixes that are not used
   std::optional<double> last_fix_at_way_m_;  // used or on trial
+  std::optional<PoseInMap> known_enu_;
 
   Eigen::Isometry3d last_raw_ = Eigen::Isometry3d::Identity();
   Eigen::Isometry3d smooth_ = Eigen::Isometry3d::Identity();  // published odom_from_base

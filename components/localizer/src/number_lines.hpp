@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <stdexcept>
+#include <string>
+#include <system_error>
+#include <vector>
+
+namespace panvo::localizer {
+
+/// Lines of "key value value ...", as the localizer keeps what the next run needs.
+using Lines = std::map<std::string, std::string>;
+
+/// The numbers of a line. Throws std::runtime_error if it is missing or does not hold `count` finite numbers.
+template <class Number>
+std::vector<Number> numbers(const Lines& lines, const std::string& key, std::size_t count) {
+  const auto line = lines.find(key);
+  if (line == lines.end()) throw std::runtime_error(fmt::format("'{}' is missing", key));
+  std::vector<Number> values;
+  const char* at = line->second.data();
+  const char* const end = at + line->second.size();
+  while (at != end) {
+    if (*at == ' ') {
+      ++at;
+      continue;
+    }
+    Number value{};
+    const auto [next, error] = std::from_chars(at, end, value);
+    if (error != std::errc())
+      throw std::runtime_error(fmt::format("'{}' contains something that is not a number", key));
+    values.push_back(value);
+    at = next;
+  }
+  const bool are_finite = std::ranges::all_of(values, [](auto value) { return std::isfinite(double(value)); });
+  if (values.size() != count || !are_finite) {
+    throw std::runtime_error(fmt::format("'{}' has {} finite numbers instead of {}", key, values.size(), count));
+  }
+  return values;
+}
+
+/// Empty if there is no file.
+Lines read_lines(const std::filesystem::path& file);
+
+/// Replaces the file atomically, so that a killed process leaves the old one intact. Throws std::runtime_error naming
+/// the file.
+void write_lines(const std::filesystem::path& file, const std::string& text);
+
+}  // namespace panvo::localizer
