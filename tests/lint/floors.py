@@ -75,6 +75,9 @@ PYTHON = floor("python", "interfaces conversions vision calibration_files record
                " panoramic_compass evaluation", "messages, eigen, opencv, python")
 # recognition in folders of images, with the readers of their files
 PLACES = floor("places", "vision landmarks landmark_builder position_corrector dataset_player sqlite", "eigen, opencv, opengv, sqlite, json, command line", False)
+# places of a stereo camera: their algorithm, and its component
+STEREO_PLACES = floor("stereo places", "vision landmarks position_corrector places", "eigen, opencv", False)
+STEREO_PLACES_WRAPPER = floor("stereo places' wrapper", "runtime interfaces conversions vision landmarks position_corrector", "messages, eigen, opencv", False)
 EVALUATION = None  # may include anything
 
 # Folders that do not consist of an algorithm and its wrapper; the first match counts.
@@ -97,6 +100,8 @@ FLOORS = [
     ("components/recorder", RECORDER),
     ("components/web_view", WEB_VIEW),
     ("components/places", PLACES),
+    ("components/stereo_places/src/stereo_places_component.cpp", STEREO_PLACES_WRAPPER),
+    ("components/stereo_places", STEREO_PLACES),
     ("components/evaluation", EVALUATION),
     ("components/python", PYTHON),
     ("drivers/simulated_world", SIMULATED_WORLD),

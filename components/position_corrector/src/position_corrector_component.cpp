@@ -8,8 +8,8 @@
 #include <string>
 #include <utility>
 
-#include "correction_messages.hpp"
-#include "match_messages.hpp"
+#include "panvo/position_corrector/correction_messages.hpp"
+#include "panvo/position_corrector/match_messages.hpp"
 #include "odometry_trail.hpp"
 #include "panvo/conversions/image.hpp"
 #include "panvo/conversions/pose.hpp"
