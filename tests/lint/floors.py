@@ -130,7 +130,7 @@ def wrapper_sources(root):
 
 def floor_of(path, wrappers=frozenset()):
     if path.parts[0] == "components" and "/".join(path.parts[:2]) not in OWN_FLOOR and (
-            path.stem.endswith("_component") or path.with_suffix("") in wrappers):
+            path.stem.endswith(("_component", "_messages")) or path.with_suffix("") in wrappers):
         return WRAPPER
     if path.parts[0] == "components" and "/".join(path.parts[:2]) not in OWN_FLOOR and path.parts[2:3] == ("tools",):
         return TOOL
