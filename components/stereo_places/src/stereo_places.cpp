@@ -24,7 +24,17 @@ using position_corrector::PositionCorrection;
 
 constexpr double kExpectedSigmas = 2.0;   // a sighting within agrees with the expected pose
 constexpr double kExpected_m = 0.3;       // or within this
+constexpr double kCommonError = 0.02;      // of the distance from the place
 constexpr std::size_t kMinKeypoints = 30;  // a place with fewer points is not recognised anyway
+
+/// Adds what all points of a place have in common, such as a bias of their depths: it does not average out, and grows with
+/// the distance from the place.
+BasePose with_common_errors(const BasePose& pose) {
+  const double sigma_m = kCommonError * pose.landmark_from_base.translation().norm();
+  BasePose wider = pose;
+  wider.covariance.topLeftCorner<3, 3>() += sigma_m * sigma_m * Eigen::Matrix3d::Identity();
+  return wider;
+}
 
 double turn_between(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) {
   return vision::so3_log(a.linear().transpose() * b.linear()).norm();
@@ -49,9 +59,10 @@ StereoPlaces::StereoPlaces(const Parameters& parameters, const vision::Rectified
       base_from_left_(base_from_left),
       observer_(observer),
       picture_(stereo.camera),
+      depths_(stereo),
       keypoints_(std::move(keypoints)),
       library_(keypoints_),
-      search_(parameters.search, stereo.camera, reduction(stereo.camera.width, parameters.keypoints), observer),
+      search_(parameters.search, stereo.camera, reduction(stereo.camera, parameters.keypoints), observer),
       run_(parameters.run) {}
 
 bool StereoPlaces::add(PanoramicLandmark landmark) {
@@ -101,7 +112,7 @@ ViewResult StereoPlaces::step(const StereoView& view) {
   } else if (!run_.landmark(view.way_m)) {
     end_pass(result);
   }
-  if (!found.place && is_new_place(view)) result.built = build(view, keypoints);
+  if (!found.place && is_new_place(view)) build(view, keypoints, result);
   last_ = Compared{view.stamp_ns, view.odom_from_base, view.way_m, std::move(keypoints)};
   return result;
 }
@@ -112,7 +123,9 @@ SearchResult StereoPlaces::search(const StereoView& view, const std::vector<Keyp
     prior = ViewPrior{view.pose.map_from_base * base_from_left_, vision::horizontal_sigma(view.pose.covariance),
                       std::sqrt(std::max(0.0, view.pose.covariance(vision::kYaw, vision::kYaw)))};
   }
-  return search_.find(keypoints, library_, prior, run_.landmark(view.way_m), [&](std::uint32_t id) {
+  // An unexpected pose must be confirmed by a second sighting of the same place.
+  const auto first = is_expected_ && view.pose.is_located ? std::nullopt : run_.landmark(view.way_m);
+  return search_.find(keypoints, library_, prior, first, [&](std::uint32_t id) {
     const auto built = built_at_m_.find(id);
     return built == built_at_m_.end() || view.way_m - built->second >= parameters_.rule.leave_m;
   });
@@ -151,16 +164,16 @@ std::optional<PositionCorrection> StereoPlaces::correct(const StereoView& view, 
       (place.landmark->map_from_base * pose.landmark_from_base).translation() - view.pose.map_from_base.translation();
   const double expected_m =
       std::max(kExpected_m, kExpectedSigmas * vision::horizontal_sigma(pose.covariance));
-  const bool is_expected = view.pose.is_located && off.head<2>().norm() < expected_m;
+  is_expected_ = view.pose.is_located && off.head<2>().norm() < expected_m;
   const bool is_soon = corrected_at_m_ && view.way_m - *corrected_at_m_ < parameters_.rule.correction_m;
-  if (is_expected && is_soon) return std::nullopt;
+  if (is_expected_ && is_soon) return std::nullopt;
   corrected_at_m_ = view.way_m;
   PositionCorrection correction;
   correction.state = position_corrector::CorrectionState::kFull;
   correction.stamp_ns = view.stamp_ns;
   correction.landmark_id = place.landmark->id;
   correction.inliers = place.inliers;
-  correction.pose = pose;
+  correction.pose = with_common_errors(pose);
   return correction;
 }
 
@@ -184,15 +197,19 @@ bool StereoPlaces::is_new_place(const StereoView& view) const {
   });
 }
 
-std::optional<PanoramicLandmark> StereoPlaces::build(const StereoView& view, std::vector<Keypoint> keypoints) {
+void StereoPlaces::build(const StereoView& view, std::vector<Keypoint> keypoints, ViewResult& result) {
   const vision::Stage stage(observer_, "build");
-  keep_measured(keypoints, view.left, view.right, stereo_);
+  const auto detected = keypoints.size();
+  depths_.keep_measured(keypoints, view.left, view.right);
   if (last_) {
     const Eigen::Isometry3d before_from_now = base_from_left_.inverse() * last_->odom_from_base.inverse() *
                                               view.odom_from_base * base_from_left_;
     keypoints = without_own_body(keypoints, last_->keypoints, before_from_now);
   }
-  if (keypoints.size() < kMinKeypoints) return std::nullopt;
+  if (keypoints.size() < kMinKeypoints) {
+    result.not_built = fmt::format("{} of {} keypoints have a point, {} needed", keypoints.size(), detected, kMinKeypoints);
+    return;
+  }
   PanoramicLandmark landmark;
   landmark.id = library_.next_id();
   landmark.stamp_ns = view.stamp_ns;
@@ -205,7 +222,7 @@ std::optional<PanoramicLandmark> StereoPlaces::build(const StereoView& view, std
   set_reference(view.odom_from_base * base_from_left_, landmark.keypoints);
   built_at_m_[landmark.id] = view.way_m;
   keep(landmark);
-  return landmark;
+  result.built = std::move(landmark);
 }
 
 void StereoPlaces::set_reference(const Eigen::Isometry3d& odom_from_view, const std::vector<Keypoint>& keypoints) {

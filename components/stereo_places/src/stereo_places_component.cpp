@@ -219,6 +219,9 @@ class StereoPlacesComponent final : public runtime::Component {
       context_.log().warn_throttled(result.match.reason, "{} {}", context_.resolved_name(topics::kStereoLeftImageRect),
                                     result.match.reason);
     }
+    if (!result.not_built.empty()) {
+      context_.log().warn_throttled("no place", "no place here: {}", result.not_built);
+    }
     if (result.correction) correction_.publish(position_corrector::to_message(*result.correction, frame_id));
     if (!result.built) return;
     if (!keypoints_->problem().empty()) {

@@ -11,8 +11,6 @@
 #include <tuple>
 
 #include "panvo/vision/image_pyramid.hpp"
-#include "panvo/vision/stereo_geometry.hpp"
-#include "panvo/vision/stereo_matcher.hpp"
 
 namespace panvo::stereo_places {
 namespace {
@@ -22,8 +20,10 @@ using landmarks::Keypoint;
 constexpr int kStripes = 8;  // of the image's width, each with an equal share of the keypoints
 constexpr int kSurplus = 2;  // detected per keypoint kept, so that every stripe has a choice
 constexpr int kLevels = 4;
-constexpr double kMinCorrelation = 0.8;      // as of the odometry's matches
+constexpr double kMaxDisparity_px = -1.0;    // infinity, with a margin, as of the odometry's matches
+constexpr double kMinCorrelation = 0.8;      // likewise
 constexpr double kNearestBaselines = 5.0;    // likewise
+constexpr double kRowFloor_px = 0.15;        // of a row error, as of the odometry's features
 constexpr double kDisparityFloor_px = 0.25;  // of a blob's centre, which may lie on an edge of depth
 constexpr double kFarSigmas = 4.0;           // a disparity below is noise
 constexpr double kPanoramaColumns = 1080.0;  // Keypoint::size_px refers to them
@@ -76,8 +76,9 @@ Keypoint to_keypoint(const cv::KeyPoint& found, const float* descriptor, int fac
 
 }  // namespace
 
-int reduction(int width_px, const ViewKeypointParameters& parameters) {
-  return std::max(1, (width_px + parameters.columns - 1) / parameters.columns);
+int reduction(const vision::PinholeCamera& camera, const ViewKeypointParameters& parameters) {
+  const double pixels = static_cast<double>(camera.width) * camera.height;
+  return std::max(1, static_cast<int>(std::ceil(std::sqrt(pixels / parameters.pixels))));
 }
 
 std::vector<Keypoint> detect_view_keypoints(const cv::Mat& left, const vision::PinholeCamera& camera,
@@ -85,10 +86,12 @@ std::vector<Keypoint> detect_view_keypoints(const cv::Mat& left, const vision::P
   if (left.type() != CV_8UC1 || left.cols != camera.width || left.rows != camera.height) {
     throw std::invalid_argument("view keypoints: the image must be CV_8UC1 and of the camera's size");
   }
-  const int factor = reduction(left.cols, parameters);
+  const int factor = reduction(camera, parameters);
   cv::Mat reduced = left;
-  if (factor > 1) cv::resize(left(cv::Rect(0, 0, left.cols / factor * factor, left.rows / factor * factor)), reduced,
-                             {left.cols / factor, left.rows / factor}, 0.0, 0.0, cv::INTER_AREA);
+  if (factor > 1) {
+    const cv::Size size(left.cols / factor, left.rows / factor);
+    cv::resize(left(cv::Rect(0, 0, factor * size.width, factor * size.height)), reduced, size, 0.0, 0.0, cv::INTER_AREA);
+  }
   const auto sift = cv::SIFT::create(kSurplus * parameters.most, 3, parameters.min_contrast);
   std::vector<cv::KeyPoint> found;
   sift->detect(reduced, found);
@@ -104,25 +107,32 @@ std::vector<Keypoint> detect_view_keypoints(const cv::Mat& left, const vision::P
   return keypoints;
 }
 
-void keep_measured(std::vector<Keypoint>& keypoints, const cv::Mat& left, const cv::Mat& right,
-                   const vision::RectifiedStereo& stereo) {
+ViewDepths::ViewDepths(const vision::RectifiedStereo& stereo)
+    : stereo_(stereo),
+      matcher_(stereo.camera, {kMaxDisparity_px, stereo.camera.fx / kNearestBaselines}, kMinCorrelation),
+      alignment_(stereo.camera) {}
+
+void ViewDepths::keep_measured(std::vector<Keypoint>& keypoints, const cv::Mat& left, const cv::Mat& right) {
   const vision::ImagePyramid left_levels(left, kLevels), right_levels(right, kLevels);
-  const vision::StereoMatcher matcher(stereo.camera, {-1.0, stereo.camera.fx / kNearestBaselines}, kMinCorrelation);
+  const double focal_baseline = stereo_.camera.fx * stereo_.baseline_m;
   const auto is_measured = [&](Keypoint& keypoint) {
     const Eigen::Vector3d ray = keypoint.bearing.cast<double>() / static_cast<double>(keypoint.bearing.z());
-    const Eigen::Vector2d pixel = stereo.camera.project(ray);
-    const auto match = matcher.search(left_levels, right_levels, pixel);
+    const Eigen::Vector2d pixel = stereo_.camera.project(ray);
+    const auto match = matcher_.search(left_levels, right_levels, pixel);
     if (!match) return false;
+    if (const auto row = matcher_.row_error(left_levels, right_levels, pixel, *match)) {
+      alignment_.add(row->ideal_right_pixel, row->error_px, std::hypot(kRowFloor_px, row->sigma_px));
+    }
     const double sigma_px = std::hypot(kDisparityFloor_px, std::sqrt(match->variance_px2));
     if (match->disparity_px < kFarSigmas * sigma_px) return false;
-    const double inverse_depth = match->disparity_px / (stereo.camera.fx * stereo.baseline_m);
     keypoint.has_point = true;
-    keypoint.point_in_panorama = (ray / inverse_depth).cast<float>();
-    keypoint.inverse_range_sigma =
-        static_cast<float>(sigma_px / (stereo.camera.fx * stereo.baseline_m * ray.norm()));
+    keypoint.point_in_panorama = (ray * focal_baseline / match->disparity_px).cast<float>();
+    keypoint.inverse_range_sigma = static_cast<float>(sigma_px / (focal_baseline * ray.norm()));
     return true;
   };
   std::erase_if(keypoints, [&](Keypoint& keypoint) { return !is_measured(keypoint); });
+  alignment_.settle();
+  matcher_.allow_for(alignment_.misalignment());
 }
 
 }  // namespace panvo::stereo_places

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
-#include <cstring>
 #include <map>
+#include <memory>
 #include <string>
 
 #include "made_up_keypoints.hpp"
@@ -31,26 +31,26 @@ Eigen::Isometry3d base_from_left() {
 
 class StereoPlacesComponent : public testing::Test {
  protected:
-  void load() { harness.load("panvo_stereo_places", "StereoPlacesComponent", {{"spill_folder", ""}}); }
+  void load() { harness_->load("panvo_stereo_places", "StereoPlacesComponent", {{"spill_folder", ""}}); }
 
   void publish_cameras() {
     vision::StereoCalibration calibration;
     calibration.left.pinhole = calibration.right.pinhole = Street::stereo().camera;
     calibration.right_from_left.translation().x() = -Street::stereo().baseline_m;
-    harness.publish(topics::kStereoLeftCameraInfo,
+    harness_->publish(topics::kStereoLeftCameraInfo,
                     conversions::to_camera_info(conversions::left_camera(calibration, Street::stereo()), 1, "left"));
-    harness.publish(topics::kStereoRightCameraInfo,
+    harness_->publish(topics::kStereoRightCameraInfo,
                     conversions::to_camera_info(conversions::right_camera(calibration, Street::stereo()), 1, "right"));
     tf2_msgs::msg::TFMessage message;
     message.transforms().push_back(conversions::to_static_transform(0, "base_link", "left", base_from_left()));
-    harness.publish(topics::kTfStatic, message);
+    harness_->publish(topics::kTfStatic, message);
   }
 
   void publish_image(const interfaces::Topic<sensor_msgs::msg::Image>& topic, const std::string& frame,
                      const cv::Mat& pixels) {
     auto message = conversions::make_image(stamp_ns, frame, "mono8", pixels.cols, pixels.rows);
     pixels.copyTo(conversions::pixels(*message));
-    harness.publish(topic, std::shared_ptr<const sensor_msgs::msg::Image>(message));
+    harness_->publish(topic, std::shared_ptr<const sensor_msgs::msg::Image>(message));
   }
 
   void publish_images(double z_m) {
@@ -63,7 +63,7 @@ class StereoPlacesComponent : public testing::Test {
     odometry.header().stamp(conversions::to_stamp(stamp_ns));
     odometry.pose().pose(conversions::to_pose(drift * base_from_left() * moved(z_m) * base_from_left().inverse()));
     odometry.pose().covariance(conversions::to_array(vision::Matrix6d(0.04 * vision::Matrix6d::Identity())));
-    harness.publish(topics::kOdometryBinocular, odometry);
+    harness_->publish(topics::kOdometryBinocular, odometry);
   }
 
   void drive(double from_m, double to_m) {
@@ -82,13 +82,13 @@ class StereoPlacesComponent : public testing::Test {
     }
   }
 
-  runtime::ComponentHarness harness;
+  std::unique_ptr<runtime::ComponentHarness> harness_ = std::make_unique<runtime::ComponentHarness>();
   const std::vector<std::shared_ptr<const panvo_msgs::msg::PanoramicLandmark>>& landmarks =
-      harness.collect(topics::kLandmarks);
+      harness_->collect(topics::kLandmarks);
   const std::vector<std::shared_ptr<const panvo_msgs::msg::LandmarkMatch>>& matches =
-      harness.collect(topics::kLandmarkMatch);
+      harness_->collect(topics::kLandmarkMatch);
   const std::vector<std::shared_ptr<const panvo_msgs::msg::PositionCorrection>>& corrections =
-      harness.collect(topics::kCorrection);
+      harness_->collect(topics::kCorrection);
   Street street;
   Eigen::Isometry3d drift = Eigen::Isometry3d::Identity();
   std::int64_t stamp_ns = 0;
@@ -137,7 +137,7 @@ TEST_F(StereoPlacesComponent, SaysThatThereIsNoOdometry) {
     stamp_ns += kPeriod_ns;
     publish_images(0.0);
   }
-  EXPECT_TRUE(harness.log_contains("nothing on /odometry/binocular for their stamps"));
+  EXPECT_TRUE(harness_->log_contains("nothing on /odometry/binocular for their stamps"));
 }
 
 TEST_F(StereoPlacesComponent, RecognisesLandmarksOfAnEarlierSession) {
@@ -145,15 +145,13 @@ TEST_F(StereoPlacesComponent, RecognisesLandmarksOfAnEarlierSession) {
   publish_cameras();
   drive(0.0, 9.0);
   const auto stored = landmarks;
-  runtime::ComponentHarness second;
-  const auto& found = second.collect(topics::kCorrection);
-  second.load("panvo_stereo_places", "StereoPlacesComponent", {{"spill_folder", ""}});
-  for (const auto& landmark : stored) second.publish(topics::kLandmarks, landmark);
-  std::swap(harness, second);
+  harness_ = std::make_unique<runtime::ComponentHarness>();  // the next day
+  const auto& found = harness_->collect(topics::kCorrection);
+  load();
+  for (const auto& landmark : stored) harness_->publish(topics::kLandmarks, landmark);
   publish_cameras();
   stamp_ns += 3600'000'000'000;
   drive(0.0, 9.0);
-  std::swap(harness, second);
   EXPECT_FALSE(found.empty());
 }
 
@@ -164,8 +162,8 @@ TEST_F(StereoPlacesComponent, LeavesOutLandmarksOfPanoramas) {
   auto other = *landmarks.at(0);
   other.id(77);
   other.settings(landmarks::to_text(landmarks::description_settings(landmarks::DescriptionParameters{}, 1)));
-  harness.publish(topics::kLandmarks, other);
-  EXPECT_TRUE(harness.log_contains("landmark 77 was described with other settings"));
+  harness_->publish(topics::kLandmarks, other);
+  EXPECT_TRUE(harness_->log_contains("landmark 77 was described with other settings"));
 }
 
 TEST_F(StereoPlacesComponent, FollowsMovedLandmarks) {
@@ -177,7 +175,7 @@ TEST_F(StereoPlacesComponent, FollowsMovedLandmarks) {
   pose.pose().position().x(500.0);
   poses.ids({1});
   poses.poses({pose});
-  harness.publish(topics::kLandmarkPoses, poses);
+  harness_->publish(topics::kLandmarkPoses, poses);
   drive_around();
   drive(0.0, 0.0);
   EXPECT_EQ(matches.back()->candidates(), 0U);  // it stands elsewhere now

@@ -94,7 +94,7 @@ TEST_F(StereoPlacesTest, CorrectsTheDriftAtTheNextPass) {
     const double z_m = 0.5 + static_cast<double>(i);
     const auto truth = landmark.map_from_base.inverse() * base_at(moved(z_m, 0.02 * std::sin(z_m), 0.4));
     const auto error = vision::pose_error(correction.pose.landmark_from_base, truth);
-    EXPECT_LT(error.head<3>().norm(), 0.08);
+    EXPECT_LT(error.head<3>().norm(), 0.15);  // a pixel is 0.06 m at 14 m
     EXPECT_LT(error.tail<3>().norm(), 0.01);
     EXPECT_LT(error.dot(correction.pose.covariance.ldlt().solve(error)), 40.0);
   }

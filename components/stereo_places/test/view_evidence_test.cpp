@@ -34,7 +34,7 @@ TEST(ViewEvidence, AcceptsThePlaceSeenFromAnotherPose) {
   const auto pose = moved(2.0, 0.1);
   const auto evidence = judged(seen_from(place, pose), place, pose);
   EXPECT_EQ(evidence.objection, "");
-  EXPECT_GT(evidence.agreeing, 80);
+  EXPECT_GT(evidence.agreeing, 60);
   EXPECT_LT(evidence.log10_expected, -100.0);
   EXPECT_LT(evidence.log10_without_object, -50.0);
 }
@@ -52,7 +52,7 @@ TEST(ViewEvidence, ExplainsRandomAgreementByChance) {
 
 TEST(ViewEvidence, RefusesAnObjectThatStandsElsewhereAgain) {
   const auto place = made_up_place(1, 200);
-  const auto pose = moved(2.0);
+  const auto pose = moved(0.3);
   const auto is_beside = [](const landmarks::Keypoint& keypoint) { return keypoint.bearing.x() < 0.15F; };
   const auto evidence = judged(partly_wrong(seen_from(place, pose), is_beside), place, pose);
   EXPECT_LT(evidence.log10_expected, -20.0);

@@ -34,7 +34,7 @@ TEST(ViewKeypoints, AreTheSameAtHalfTheSize) {
   cv::resize(image, twice, image.size() * 2, 0.0, 0.0, cv::INTER_NEAREST);
   const vision::PinholeCamera wide{440.0, 440.0, 319.5, 239.5, 640, 480};
   ViewKeypointParameters parameters;
-  parameters.columns = 320;
+  parameters.pixels = 320 * 240;
   const auto small = detect_view_keypoints(image, kStereo.camera, parameters);
   const auto reduced = detect_view_keypoints(twice, wide, parameters);
   ASSERT_EQ(reduced.size(), small.size());
@@ -53,7 +53,7 @@ TEST(ViewKeypoints, GetTheirPointsFromTheDisparity) {
   const auto left = street.left(moved(0.0));
   auto keypoints = detect_view_keypoints(left, kStereo.camera, {});
   const auto found = keypoints.size();
-  keep_measured(keypoints, left, street.right(moved(0.0)), kStereo);
+  ViewDepths(kStereo).keep_measured(keypoints, left, street.right(moved(0.0)));
   ASSERT_GT(keypoints.size(), found / 2);
   int right = 0;
   for (const auto& keypoint : keypoints) {
@@ -74,10 +74,29 @@ TEST(ViewKeypoints, AreLeftOutWithoutAMatchOrTooFarAway) {
   const auto left = street.left(moved(0.0));
   auto unmatched = detect_view_keypoints(left, kStereo.camera, {});
   auto far = unmatched;
-  keep_measured(unmatched, left, Street::of_seed(7).right(moved(0.0)), kStereo);
+  ViewDepths(kStereo).keep_measured(unmatched, left, Street::of_seed(7).right(moved(0.0)));
   EXPECT_LT(unmatched.size(), far.size() / 10);
-  keep_measured(far, left, left, kStereo);  // no disparity
+  ViewDepths(kStereo).keep_measured(far, left, left);  // no disparity
   EXPECT_TRUE(far.empty());
+}
+
+TEST(ViewKeypoints, AreMeasuredAlthoughTheRowsAreOff) {
+  const Street street;
+  ViewDepths depths(kStereo);
+  const cv::Mat down = (cv::Mat_<double>(2, 3) << 1.0, 0.0, 0.0, 0.0, 1.0, 1.5);
+  std::size_t first = 0, last = 0;
+  for (int i = 0; i < 6; ++i) {
+    const auto left = street.left(moved(i));
+    cv::Mat right;
+    cv::warpAffine(street.right(moved(i)), right, down, left.size());
+    auto keypoints = detect_view_keypoints(left, kStereo.camera, {});
+    const auto found = keypoints.size();
+    depths.keep_measured(keypoints, left, right);
+    last = 100 * keypoints.size() / found;
+    if (i == 0) first = last;
+  }
+  EXPECT_GT(last, first + 10) << "percent";
+  EXPECT_GT(last, 50U);
 }
 
 }  // namespace

@@ -88,7 +88,8 @@ class PlaceSearch {
   /// For each landmark added to the library.
   void add(const landmarks::PanoramicLandmark& landmark);
 
-  /// `first`: place of the last view, compared first. `is_asked`: further condition on places.
+  /// `first`: a place that is compared first, and preferred to others that the view shows as well. `is_asked`: further
+  /// condition on places.
   SearchResult find(std::span<const landmarks::Keypoint> view, const landmarks::LandmarkLibrary& library,
                     const std::optional<ViewPrior>& prior, std::optional<std::uint32_t> first,
                     const std::function<bool(std::uint32_t)>& is_asked) const;

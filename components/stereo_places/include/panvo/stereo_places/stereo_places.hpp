@@ -7,6 +7,7 @@
 #include <memory>
 #include <opencv2/core.hpp>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "panvo/landmarks/description_settings.hpp"
@@ -94,6 +95,7 @@ struct ViewResult {
   std::optional<position_corrector::LandmarkMatch> passed;  ///< a landmark whose pass this view ended
   std::optional<position_corrector::PositionCorrection> correction;
   std::optional<landmarks::PanoramicLandmark> built;
+  std::string not_built;  ///< why a view that was needed as a place is none; else empty
 };
 
 /// Builds places from the left image of a stereo pair, with points in metres from its disparities, and recognises them at
@@ -138,7 +140,7 @@ class StereoPlaces {
                                                                 const position_corrector::BasePose& pose);
   void end_pass(ViewResult& result);
   bool is_new_place(const StereoView& view) const;
-  std::optional<landmarks::PanoramicLandmark> build(const StereoView& view, std::vector<landmarks::Keypoint> keypoints);
+  void build(const StereoView& view, std::vector<landmarks::Keypoint> keypoints, ViewResult& result);
   void set_reference(const Eigen::Isometry3d& odom_from_view, const std::vector<landmarks::Keypoint>& keypoints);
   void keep(landmarks::PanoramicLandmark landmark);
 
@@ -147,6 +149,7 @@ class StereoPlaces {
   Eigen::Isometry3d base_from_left_;
   vision::StageObserver* observer_;
   ViewPicture picture_;
+  ViewDepths depths_;
   std::shared_ptr<position_corrector::SpilledKeypoints> keypoints_;
   landmarks::LandmarkLibrary library_;
   PlaceSearch search_;
@@ -155,6 +158,7 @@ class StereoPlaces {
   std::optional<Reference> reference_;
   std::map<std::uint32_t, double> built_at_m_;  // path length at which a landmark of this journey was built
   std::optional<double> corrected_at_m_;
+  bool is_expected_ = true;  // the last confirmed sighting agreed with the expected pose
   std::optional<position_corrector::LandmarkMatch> pass_;  // the best view of the landmark that is being passed
 };
 
