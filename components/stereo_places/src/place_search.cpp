@@ -65,7 +65,8 @@ bool PlaceSearch::is_near(const PanoramicLandmark& landmark, const ViewPrior& pr
   const Eigen::Isometry3d place = map_from_place(landmark);
   const double radius_m = parameters_.radius_m + parameters_.radius_sigmas * prior.sigma_m;
   if ((place.translation() - prior.map_from_view.translation()).head<2>().norm() > radius_m) return false;
-  const double turn_rad = std::acos(std::clamp(place.linear().col(2).dot(prior.map_from_view.linear().col(2)), -1.0, 1.0));
+  const double turn_rad =
+      std::acos(std::clamp(place.linear().col(2).dot(prior.map_from_view.linear().col(2)), -1.0, 1.0));
   return turn_rad <= parameters_.max_turn_deg * vision::kDegree + parameters_.radius_sigmas * prior.sigma_rad;
 }
 
@@ -87,7 +88,8 @@ SearchResult PlaceSearch::find(std::span<const landmarks::Keypoint> view, const 
     const vision::Stage stage(observer_, "rank");
     const auto most = static_cast<std::size_t>(prior ? parameters_.max_verified : parameters_.max_verified_unlocated);
     if (first && near.contains(*first)) ranked.push_back(*first);
-    for (const auto& one : ranking_.rank(view, [&](std::uint32_t id) { return near.contains(id); }, most)) {
+    for (const auto& one : ranking_.rank(
+             view, [&](std::uint32_t id) { return near.contains(id); }, most)) {
       if (one.id != first) ranked.push_back(one.id);
     }
   }

@@ -22,8 +22,8 @@ using position_corrector::LandmarkMatch;
 using position_corrector::MatchState;
 using position_corrector::PositionCorrection;
 
-constexpr double kExpectedSigmas = 2.0;   // a sighting within agrees with the expected pose
-constexpr double kExpected_m = 0.3;       // or within this
+constexpr double kExpectedSigmas = 2.0;    // a sighting within agrees with the expected pose
+constexpr double kExpected_m = 0.3;        // or within this
 constexpr double kCommonError = 0.02;      // of the distance from the place
 constexpr std::size_t kMinKeypoints = 30;  // a place with fewer points is not recognised anyway
 
@@ -60,6 +60,8 @@ StereoPlaces::StereoPlaces(const Parameters& parameters, const vision::Rectified
       observer_(observer),
       picture_(stereo.camera),
       depths_(stereo),
+      offset_(stereo, parameters.search.bearing_sigma_px * reduction(stereo.camera, parameters.keypoints) /
+                          stereo.camera.fx),
       keypoints_(std::move(keypoints)),
       library_(keypoints_),
       search_(parameters.search, stereo.camera, reduction(stereo.camera, parameters.keypoints), observer),
@@ -101,6 +103,7 @@ ViewResult StereoPlaces::step(const StereoView& view) {
     const vision::Stage stage(observer_, "keypoints");
     return detect_view_keypoints(view.left, stereo_.camera, parameters_.keypoints);
   }();
+  offset_.add(keypoints, view.odom_from_base * base_from_left_);
   const auto found = search(view, keypoints);
   result.match.candidates = found.candidates;
   result.match.kept_after_histogram = result.match.kept_after_large = found.verified;
@@ -145,8 +148,8 @@ void StereoPlaces::recognise(const StereoView& view, const FoundPlace& place, Vi
   match.reason = fmt::format("{} of {} matches agree (1e{:.0f} by chance)", place.evidence.agreeing,
                              place.evidence.matches, place.evidence.log10_expected);
   if (!run_.is_confirmed(view.pose.is_located)) {
-    match.reason += fmt::format("; sighting {} of a run over {:.1f} m, waiting for confirmation", run_.sightings(),
-                                run_.way_m());
+    match.reason +=
+        fmt::format("; sighting {} of a run over {:.1f} m, waiting for confirmation", run_.sightings(), run_.way_m());
     return;
   }
   match.state = MatchState::kLocked;
@@ -162,8 +165,7 @@ std::optional<PositionCorrection> StereoPlaces::correct(const StereoView& view, 
                                                         const BasePose& pose) {
   const Eigen::Vector3d off =
       (place.landmark->map_from_base * pose.landmark_from_base).translation() - view.pose.map_from_base.translation();
-  const double expected_m =
-      std::max(kExpected_m, kExpectedSigmas * vision::horizontal_sigma(pose.covariance));
+  const double expected_m = std::max(kExpected_m, kExpectedSigmas * vision::horizontal_sigma(pose.covariance));
   is_expected_ = view.pose.is_located && off.head<2>().norm() < expected_m;
   const bool is_soon = corrected_at_m_ && view.way_m - *corrected_at_m_ < parameters_.rule.correction_m;
   if (is_expected_ && is_soon) return std::nullopt;
@@ -193,21 +195,23 @@ bool StereoPlaces::is_new_place(const StereoView& view) const {
   const auto& rule = parameters_.rule;
   const auto near = library_.within(view.pose.map_from_base.translation(), rule.nearby_m);
   return std::none_of(near.begin(), near.end(), [&](const PanoramicLandmark* landmark) {
-    return turn_between(landmark->map_from_base, view.pose.map_from_base) < rule.nearby_deg * vision::kDegree;
+    const bool is_in_this_map = view.pose.is_located || built_at_m_.contains(landmark->id);
+    return is_in_this_map && turn_between(landmark->map_from_base, view.pose.map_from_base) < rule.nearby_deg * vision::kDegree;
   });
 }
 
 void StereoPlaces::build(const StereoView& view, std::vector<Keypoint> keypoints, ViewResult& result) {
   const vision::Stage stage(observer_, "build");
   const auto detected = keypoints.size();
-  depths_.keep_measured(keypoints, view.left, view.right);
+  depths_.keep_measured(keypoints, view.left, view.right, offset_.px(), offset_.sigma_px());
   if (last_) {
-    const Eigen::Isometry3d before_from_now = base_from_left_.inverse() * last_->odom_from_base.inverse() *
-                                              view.odom_from_base * base_from_left_;
+    const Eigen::Isometry3d before_from_now =
+        base_from_left_.inverse() * last_->odom_from_base.inverse() * view.odom_from_base * base_from_left_;
     keypoints = without_own_body(keypoints, last_->keypoints, before_from_now);
   }
   if (keypoints.size() < kMinKeypoints) {
-    result.not_built = fmt::format("{} of {} keypoints have a point, {} needed", keypoints.size(), detected, kMinKeypoints);
+    result.not_built =
+        fmt::format("{} of {} keypoints have a point, {} needed", keypoints.size(), detected, kMinKeypoints);
     return;
   }
   PanoramicLandmark landmark;
@@ -219,7 +223,9 @@ void StereoPlaces::build(const StereoView& view, std::vector<Keypoint> keypoints
   landmark.description.histogram = grey_levels(view.left);
   landmark.keypoints = std::move(keypoints);
   landmark.thumbnail = picture_.draw(view.left);
-  set_reference(view.odom_from_base * base_from_left_, landmark.keypoints);
+  const Eigen::Isometry3d odom_from_view = view.odom_from_base * base_from_left_;
+  set_reference(odom_from_view, landmark.keypoints);
+  offset_.begin(landmark.keypoints, odom_from_view);
   built_at_m_[landmark.id] = view.way_m;
   keep(landmark);
   result.built = std::move(landmark);

@@ -197,17 +197,23 @@ class StereoPlacesComponent final : public runtime::Component {
     const auto left = conversions::grey(*pair.left);
     const auto right = conversions::grey(*pair.right);
     if (!left || !right || left->size() != size_ || right->size() != size_) {
-      return context_.log().warn_throttled(
-          "images", "{}: {}; no places", context_.resolved_name(topics::kStereoLeftImageRect),
-          !left ? left.reason() : !right ? right.reason() : "the size is not that of camera_info");
+      return context_.log().warn_throttled("images", "{}: {}; no places",
+                                           context_.resolved_name(topics::kStereoLeftImageRect),
+                                           !left    ? left.reason()
+                                           : !right ? right.reason()
+                                                    : "the size is not that of camera_info");
     }
-    publish(places_->step({odometry.stamp_ns, *left, *right, odometry.odom_from_base, odometry.way_m, pose_of(odometry)}),
-            pair.left->header().frame_id());
+    publish(
+        places_->step({odometry.stamp_ns, *left, *right, odometry.odom_from_base, odometry.way_m, pose_of(odometry)}),
+        pair.left->header().frame_id());
   }
 
   /// In the map of the localizer; without one, in that of the odometry.
   MapPose pose_of(const Odometry& odometry) const {
-    if (!enhanced_) return {odometry.odom_from_base, odometry.covariance, true};
+    if (!enhanced_) {
+      // the localizer, if there is one, has not said yet where the journey starts
+      return {odometry.odom_from_base, odometry.covariance, !context_.has_publisher(topics::kOdometryEnhanced)};
+    }
     const bool is_located = vision::horizontal_sigma(enhanced_->covariance) < kUnlocated_m;
     return {enhanced_->map_from_odom * odometry.odom_from_base, enhanced_->covariance, is_located};
   }

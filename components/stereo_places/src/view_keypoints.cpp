@@ -48,7 +48,8 @@ std::vector<cv::KeyPoint> choose(std::vector<cv::KeyPoint> found, int width, int
   std::array<int, kStripes> taken{};
   std::vector<cv::KeyPoint> chosen, others;
   for (const auto& keypoint : found) {
-    const int stripe = std::clamp(static_cast<int>(keypoint.pt.x * kStripes / static_cast<float>(width)), 0, kStripes - 1);
+    const int stripe =
+        std::clamp(static_cast<int>(keypoint.pt.x * kStripes / static_cast<float>(width)), 0, kStripes - 1);
     (taken[static_cast<std::size_t>(stripe)]++ < share ? chosen : others).push_back(keypoint);
   }
   chosen.insert(chosen.end(), others.begin(), others.end());
@@ -90,7 +91,8 @@ std::vector<Keypoint> detect_view_keypoints(const cv::Mat& left, const vision::P
   cv::Mat reduced = left;
   if (factor > 1) {
     const cv::Size size(left.cols / factor, left.rows / factor);
-    cv::resize(left(cv::Rect(0, 0, factor * size.width, factor * size.height)), reduced, size, 0.0, 0.0, cv::INTER_AREA);
+    cv::resize(left(cv::Rect(0, 0, factor * size.width, factor * size.height)), reduced, size, 0.0, 0.0,
+               cv::INTER_AREA);
   }
   const auto sift = cv::SIFT::create(kSurplus * parameters.most, 3, parameters.min_contrast);
   std::vector<cv::KeyPoint> found;
@@ -112,7 +114,8 @@ ViewDepths::ViewDepths(const vision::RectifiedStereo& stereo)
       matcher_(stereo.camera, {kMaxDisparity_px, stereo.camera.fx / kNearestBaselines}, kMinCorrelation),
       alignment_(stereo.camera) {}
 
-void ViewDepths::keep_measured(std::vector<Keypoint>& keypoints, const cv::Mat& left, const cv::Mat& right) {
+void ViewDepths::keep_measured(std::vector<Keypoint>& keypoints, const cv::Mat& left, const cv::Mat& right,
+                               double offset_px, double offset_sigma_px) {
   const vision::ImagePyramid left_levels(left, kLevels), right_levels(right, kLevels);
   const double focal_baseline = stereo_.camera.fx * stereo_.baseline_m;
   const auto is_measured = [&](Keypoint& keypoint) {
@@ -123,10 +126,11 @@ void ViewDepths::keep_measured(std::vector<Keypoint>& keypoints, const cv::Mat& 
     if (const auto row = matcher_.row_error(left_levels, right_levels, pixel, *match)) {
       alignment_.add(row->ideal_right_pixel, row->error_px, std::hypot(kRowFloor_px, row->sigma_px));
     }
-    const double sigma_px = std::hypot(kDisparityFloor_px, std::sqrt(match->variance_px2));
-    if (match->disparity_px < kFarSigmas * sigma_px) return false;
+    const double sigma_px = std::hypot(kDisparityFloor_px, std::sqrt(match->variance_px2), offset_sigma_px);
+    const double disparity_px = match->disparity_px - offset_px;
+    if (disparity_px < kFarSigmas * sigma_px) return false;
     keypoint.has_point = true;
-    keypoint.point_in_panorama = (ray * focal_baseline / match->disparity_px).cast<float>();
+    keypoint.point_in_panorama = (ray * focal_baseline / disparity_px).cast<float>();
     keypoint.inverse_range_sigma = static_cast<float>(sigma_px / (focal_baseline * ray.norm()));
     return true;
   };

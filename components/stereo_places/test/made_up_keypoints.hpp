@@ -20,8 +20,9 @@ inline std::array<std::uint8_t, 128> made_up_descriptor(std::mt19937_64& random)
     squares += value * value;
   }
   std::array<std::uint8_t, 128> descriptor{};
-  std::transform(values.begin(), values.end(), descriptor.begin(),
-                 [&](double value) { return static_cast<std::uint8_t>(std::min(255.0, 512.0 * value / std::sqrt(squares))); });
+  std::transform(values.begin(), values.end(), descriptor.begin(), [&](double value) {
+    return static_cast<std::uint8_t>(std::min(255.0, 512.0 * value / std::sqrt(squares)));
+  });
   return descriptor;
 }
 
@@ -55,7 +56,8 @@ inline std::vector<landmarks::Keypoint> seen_from(std::vector<landmarks::Keypoin
     keypoint.bearing = seen.normalized().cast<float>();
     keypoint.has_point = false;
     for (auto& value : keypoint.descriptor) {
-      value = static_cast<std::uint8_t>(std::clamp(static_cast<int>(value) + static_cast<int>(random() % 21) - 10, 0, 255));
+      value =
+          static_cast<std::uint8_t>(std::clamp(static_cast<int>(value) + static_cast<int>(random() % 21) - 10, 0, 255));
     }
   }
   return place;

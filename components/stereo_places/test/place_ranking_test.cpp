@@ -39,8 +39,13 @@ TEST(PlaceRanking, FindsAPlaceOfWhichTheViewShowsAThird) {
 TEST(PlaceRanking, RanksOnlyWhatIsAskedFor) {
   const auto ranking = ranking_of(20);
   const auto view = seen_from(made_up_place(5), moved(1.0));
-  for (const auto& one : ranking.rank(view, [](std::uint32_t id) { return id > 5; }, 100)) EXPECT_GT(one.id, 5U);
-  EXPECT_TRUE(ranking.rank(view, [](std::uint32_t) { return false; }, 100).empty());
+  for (const auto& one : ranking.rank(
+           view, [](std::uint32_t id) { return id > 5; }, 100))
+    EXPECT_GT(one.id, 5U);
+  EXPECT_TRUE(ranking
+                  .rank(
+                      view, [](std::uint32_t) { return false; }, 100)
+                  .empty());
 }
 
 TEST(PlaceRanking, RefusesAnIdTwice) {
@@ -48,9 +53,7 @@ TEST(PlaceRanking, RefusesAnIdTwice) {
   EXPECT_THROW(ranking.add(1, made_up_place(3)), std::invalid_argument);
 }
 
-TEST(PlaceRanking, KnowsNothingWithoutPlaces) {
-  EXPECT_TRUE(PlaceRanking().rank(made_up_place(1), kAll, 5).empty());
-}
+TEST(PlaceRanking, KnowsNothingWithoutPlaces) { EXPECT_TRUE(PlaceRanking().rank(made_up_place(1), kAll, 5).empty()); }
 
 }  // namespace
 }  // namespace panvo::stereo_places

@@ -86,8 +86,12 @@ class RecordedPlaces : public testing::Test {
     double way_m = 0.0;
     for (int frame = 0; frame < 99; frame += 2) {
       if (frame > 0) way_m += (kitti.truth(frame).translation() - kitti.truth(frame - 2).translation()).norm();
-      StereoView view{1'000'000'000 + frame * 100'000'000LL, kitti.image("image_0", frame),
-                      kitti.image("image_1", frame),         kitti.truth(frame), way_m, {}};
+      StereoView view{1'000'000'000 + frame * 100'000'000LL,
+                      kitti.image("image_0", frame),
+                      kitti.image("image_1", frame),
+                      kitti.truth(frame),
+                      way_m,
+                      {}};
       view.pose = {kitti.truth(frame), 1e-4 * vision::Matrix6d::Identity(), true};
       if (!places.is_due(view.stamp_ns, view.odom_from_base, view.way_m)) continue;
       if (const auto result = places.step(view); result.built) map.push_back(*result.built);

@@ -38,9 +38,10 @@ class StereoPlacesComponent : public testing::Test {
     calibration.left.pinhole = calibration.right.pinhole = Street::stereo().camera;
     calibration.right_from_left.translation().x() = -Street::stereo().baseline_m;
     harness_->publish(topics::kStereoLeftCameraInfo,
-                    conversions::to_camera_info(conversions::left_camera(calibration, Street::stereo()), 1, "left"));
-    harness_->publish(topics::kStereoRightCameraInfo,
-                    conversions::to_camera_info(conversions::right_camera(calibration, Street::stereo()), 1, "right"));
+                      conversions::to_camera_info(conversions::left_camera(calibration, Street::stereo()), 1, "left"));
+    harness_->publish(
+        topics::kStereoRightCameraInfo,
+        conversions::to_camera_info(conversions::right_camera(calibration, Street::stereo()), 1, "right"));
     tf2_msgs::msg::TFMessage message;
     message.transforms().push_back(conversions::to_static_transform(0, "base_link", "left", base_from_left()));
     harness_->publish(topics::kTfStatic, message);

@@ -50,8 +50,8 @@ class StereoPlacesTest : public testing::Test {
   }
 
   static int corrections(const std::vector<ViewResult>& results) {
-    return static_cast<int>(
-        std::count_if(results.begin(), results.end(), [](const auto& result) { return result.correction.has_value(); }));
+    return static_cast<int>(std::count_if(results.begin(), results.end(),
+                                          [](const auto& result) { return result.correction.has_value(); }));
   }
 
   Parameters parameters;

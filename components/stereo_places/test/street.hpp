@@ -41,7 +41,8 @@ struct Street {
   // Bricks of random grey, of two sizes.
   static double texture(double x, double y, int seed) {
     const auto cell = [](double value) { return static_cast<int>(std::floor(value)); };
-    return 30.0 + 130.0 * noise(cell(1.3 * x), cell(1.7 * y), seed) + 70.0 * noise(cell(4.1 * x), cell(3.7 * y), seed + 50);
+    return 30.0 + 130.0 * noise(cell(1.3 * x), cell(1.7 * y), seed) +
+           70.0 * noise(cell(4.1 * x), cell(3.7 * y), seed + 50);
   }
 
   cv::Mat draw(const Eigen::Isometry3d& world_from_camera) const {

@@ -61,9 +61,8 @@ TEST(ViewKeypoints, GetTheirPointsFromTheDisparity) {
     ASSERT_TRUE(keypoint.has_point);
     EXPECT_LT((point.normalized() - keypoint.bearing.cast<double>()).norm(), 1e-5);
     const double range_sigma = point.squaredNorm() * static_cast<double>(keypoint.inverse_range_sigma);
-    const double off_m =
-        std::min({std::abs(point.y() - 1.3), std::abs(point.x() + 4.0), std::abs(point.x() - 5.0),
-                  std::abs(point.z() - 18.0), std::abs(point.y() + 4.0)});
+    const double off_m = std::min({std::abs(point.y() - 1.3), std::abs(point.x() + 4.0), std::abs(point.x() - 5.0),
+                                   std::abs(point.z() - 18.0), std::abs(point.y() + 4.0)});
     right += off_m < 3.0 * range_sigma ? 1 : 0;
   }
   EXPECT_GT(right, static_cast<int>(0.95 * static_cast<double>(keypoints.size())));

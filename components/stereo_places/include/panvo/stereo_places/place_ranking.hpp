@@ -50,7 +50,7 @@ class PlaceRanking {
   Keys keys_of(const landmarks::Keypoint& keypoint) const;
 
   std::array<std::array<std::uint8_t, kTerms>, kTables * kBits> terms_{};  // indices of descriptor values
-  std::vector<std::uint16_t> places_with_key_;                            // tables x keys
+  std::vector<std::uint16_t> places_with_key_;                             // tables x keys
   std::map<std::uint32_t, std::vector<Keys>> places_;
 };
 

@@ -40,7 +40,8 @@ struct SearchParameters {
     field(&P::radius_sigmas, "radius_sigmas", "1",
           "addition to the search radius and to the heading, in standard deviations", 0.0, 10.0);
     field(&P::max_turn_deg, "max_turn_deg", "deg", "largest difference of the headings of view and place", 1.0, 180.0);
-    field(&P::max_verified, "max_verified", "1", "largest number of places per view whose geometry is verified", 1, 100);
+    field(&P::max_verified, "max_verified", "1", "largest number of places per view whose geometry is verified", 1,
+          100);
     field(&P::max_verified_unlocated, "max_verified_unlocated", "1", "the same while the position is unknown", 1, 100);
     field(&P::max_offset_m, "max_offset_m", "m", "largest distance of a view from the place", 1.0, 200.0);
     field(&P::max_tilt_deg, "max_tilt_deg", "deg", "largest tilt of the camera relative to the place", 1.0, 90.0);

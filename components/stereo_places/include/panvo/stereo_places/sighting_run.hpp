@@ -19,14 +19,15 @@ struct RunParameters {
   template <class Field>
   static void describe(Field&& field) {
     using P = RunParameters;
-    field(&P::sightings, "sightings", "1", "consecutive sightings that must agree before the pose is corrected", 1, 100);
+    field(&P::sightings, "sightings", "1", "consecutive sightings that must agree before the pose is corrected", 1,
+          100);
     field(&P::way_m, "way_m", "m", "path that they must span; ten degrees of turn count as one metre", 0.0, 100.0);
     field(&P::unlocated_sightings, "unlocated_sightings", "1",
           "the same while the position in a stored map is unknown: nothing else excludes an equal place elsewhere", 1,
           100);
     field(&P::unlocated_way_m, "unlocated_way_m", "m", "path that these must span", 0.0, 1000.0);
-    field(&P::agree_m, "agree_m", "m", "largest distance between consecutive sightings that agree, besides 3 % of the path",
-          0.01, 10.0);
+    field(&P::agree_m, "agree_m", "m",
+          "largest distance between consecutive sightings that agree, besides 3 % of the path", 0.01, 10.0);
     field(&P::agree_deg, "agree_deg", "deg", "largest angle between them", 0.1, 30.0);
   }
 };

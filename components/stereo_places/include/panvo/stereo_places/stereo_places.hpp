@@ -16,6 +16,7 @@
 #include "panvo/position_corrector/landmark_matcher.hpp"
 #include "panvo/position_corrector/position_correction.hpp"
 #include "panvo/position_corrector/spilled_keypoints.hpp"
+#include "panvo/stereo_places/disparity_offset.hpp"
 #include "panvo/stereo_places/place_search.hpp"
 #include "panvo/stereo_places/sighting_run.hpp"
 #include "panvo/stereo_places/view_keypoints.hpp"
@@ -30,7 +31,7 @@ struct PlaceRule {
   double step_m = 1.0;
   double step_deg = 8.0;
   double step_s = 0.4;
-  double min_shared = 0.55;
+  double min_shared = 0.45;
   double nearby_m = 2.0;
   double nearby_deg = 15.0;
   double leave_m = 30.0;
@@ -104,8 +105,7 @@ class StereoPlaces {
  public:
   /// `base_from_left`: extrinsics of the left rectified camera. `keypoints`: where those of the landmarks are kept.
   StereoPlaces(const Parameters& parameters, const vision::RectifiedStereo& stereo,
-               const Eigen::Isometry3d& base_from_left,
-               std::shared_ptr<position_corrector::SpilledKeypoints> keypoints,
+               const Eigen::Isometry3d& base_from_left, std::shared_ptr<position_corrector::SpilledKeypoints> keypoints,
                vision::StageObserver* observer = nullptr);
 
   /// A landmark of an earlier journey or another node. False if it is known already: then its pose is updated.
@@ -150,6 +150,7 @@ class StereoPlaces {
   vision::StageObserver* observer_;
   ViewPicture picture_;
   ViewDepths depths_;
+  DisparityOffset offset_;
   std::shared_ptr<position_corrector::SpilledKeypoints> keypoints_;
   landmarks::LandmarkLibrary library_;
   PlaceSearch search_;
@@ -158,7 +159,7 @@ class StereoPlaces {
   std::optional<Reference> reference_;
   std::map<std::uint32_t, double> built_at_m_;  // path length at which a landmark of this journey was built
   std::optional<double> corrected_at_m_;
-  bool is_expected_ = true;  // the last confirmed sighting agreed with the expected pose
+  bool is_expected_ = true;                                // the last confirmed sighting agreed with the expected pose
   std::optional<position_corrector::LandmarkMatch> pass_;  // the best view of the landmark that is being passed
 };
 

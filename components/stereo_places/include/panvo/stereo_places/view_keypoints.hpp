@@ -45,8 +45,9 @@ class ViewDepths {
   explicit ViewDepths(const vision::RectifiedStereo& stereo);
 
   /// Gives keypoints points in metres, and removes those that have none: without a match in the right image, or so far
-  /// away that the disparity is noise.
-  void keep_measured(std::vector<landmarks::Keypoint>& keypoints, const cv::Mat& left, const cv::Mat& right);
+  /// away that the disparity is noise. `offset_px`: by how much disparities are too large, and its standard deviation.
+  void keep_measured(std::vector<landmarks::Keypoint>& keypoints, const cv::Mat& left, const cv::Mat& right,
+                     double offset_px = 0.0, double offset_sigma_px = 0.0);
 
  private:
   vision::RectifiedStereo stereo_;
