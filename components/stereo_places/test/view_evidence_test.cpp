@@ -59,6 +59,22 @@ TEST(ViewEvidence, RefusesAnObjectThatStandsElsewhereAgain) {
   EXPECT_NE(evidence.objection.find("only in one part of the view"), std::string::npos) << evidence.objection;
 }
 
+/// A zebra crossing all over the view, and things that are elsewhere other ones.
+TEST(ViewEvidence, RefusesEqualMarkingsOnTheRoad) {
+  auto place = made_up_place(1, 200);
+  for (std::size_t i = 0; i < place.size(); i += 2) {
+    auto& point = place[i].point_in_panorama;
+    point = Eigen::Vector3f(point.x() * 0.3F, 1.3F, 4.0F + 0.2F * point.z());
+    place[i].bearing = point.normalized();
+  }
+  const auto pose = moved(0.5);
+  int count = 0;
+  const auto is_no_marking = [&](const landmarks::Keypoint&) { return ++count % 2 == 0; };
+  const auto evidence = judged(partly_wrong(seen_from(place, pose), is_no_marking), place, pose);
+  EXPECT_LT(evidence.log10_without_object, -10.0);
+  EXPECT_NE(evidence.objection.find("only on one flat surface"), std::string::npos) << evidence.objection;
+}
+
 TEST(ViewEvidence, AcceptsAPlaceOfWhichHalfHasChangedEverywhere) {
   const auto place = made_up_place(1, 200);
   const auto pose = moved(2.0);

@@ -36,13 +36,15 @@ struct ViewEvidence {
   int agreeing = 0;                   ///< of these, with the pose
   double log10_expected = 0.0;        ///< of the number of equally good agreements by chance
   double log10_without_object = 0.0;  ///< the largest when an object is left out
+  double log10_without_plane = 0.0;   ///< when the flat surface with the most agreeing points is left out
   std::string objection;              ///< why the view does not show the place; empty if it does
 };
 
 /// A-contrario test of a pose [Moisan2004], as panvo_places does without metres: a wrong match joins things that look
 /// alike, often at one height, so chance is a view's bearing at its own elevation and a random azimuth. Objects of which
-/// there are several may stand elsewhere again; so what remains without the part of the view that agrees best must pass
-/// as well. `field_of_view_rad`: horizontal; `log10_places`: of the number of places that the view is compared with.
+/// there are several may stand elsewhere again, as may road markings and tiles. So what remains without the part of the
+/// view that agrees best must pass as well, and what remains without any one flat surface. `field_of_view_rad`:
+/// horizontal; `log10_places`: of the number of places that the view is compared with.
 ViewEvidence judge_view(std::span<const landmarks::Keypoint> view, std::span<const landmarks::Keypoint> place,
                         const Eigen::Isometry3d& place_from_view, double field_of_view_rad, double log10_places,
                         const EvidenceParameters& parameters);
