@@ -10,15 +10,15 @@
 namespace panvo::stereo_places {
 namespace {
 
-constexpr double kPrior_px = 0.5;           // of a calibration months ago
-constexpr double kStep_px = 0.005;          // random walk per view: temperature
-constexpr double kDisparity_px = 0.25;      // of a single disparity
-constexpr double kPathError = 0.012;        // of the odometry over a few metres, relative
+constexpr double kPrior_px = 0.5;       // of a calibration months ago
+constexpr double kStep_px = 0.005;      // random walk per view: temperature
+constexpr double kDisparity_px = 0.25;  // of a single disparity
+constexpr double kPathError = 0.012;    // of the odometry over a few metres, relative
 constexpr double kMinPath_m = 0.5, kMaxPath_m = 10.0;
-constexpr double kAstray = 4.0;             // standard deviations across the direction in which a point moves
-constexpr double kAlike = 3.0;              // views of one place share its disparities: three count as one
+constexpr double kAstray = 4.0;  // standard deviations across the direction in which a point moves
+constexpr double kAlike = 3.0;   // views of one place share its disparities: three count as one
 constexpr std::size_t kMinMatches = 15;
-constexpr double kLossScale = 2.0;          // standard deviations
+constexpr double kLossScale = 2.0;  // standard deviations
 constexpr float kRatio = 0.8F;
 
 Eigen::Vector3d bearing_of(const Eigen::Isometry3d& view_from_place, const Eigen::Vector3d& ray, double depth_m) {

@@ -61,8 +61,8 @@ StereoPlaces::StereoPlaces(const Parameters& parameters, const vision::Rectified
       observer_(observer),
       picture_(stereo.camera),
       depths_(stereo),
-      offset_(stereo, parameters.search.bearing_sigma_px * reduction(stereo.camera, parameters.keypoints) /
-                          stereo.camera.fx),
+      offset_(stereo,
+              parameters.search.bearing_sigma_px * reduction(stereo.camera, parameters.keypoints) / stereo.camera.fx),
       keypoints_(std::move(keypoints)),
       library_(keypoints_),
       search_(parameters.search, stereo.camera, reduction(stereo.camera, parameters.keypoints), observer),
@@ -198,7 +198,8 @@ bool StereoPlaces::is_new_place(const StereoView& view) const {
   const auto near = library_.within(view.pose.map_from_base.translation(), rule.nearby_m);
   return std::none_of(near.begin(), near.end(), [&](const PanoramicLandmark* landmark) {
     const bool is_in_this_map = view.pose.is_located || built_at_m_.contains(landmark->id);
-    return is_in_this_map && turn_between(landmark->map_from_base, view.pose.map_from_base) < rule.nearby_deg * vision::kDegree;
+    return is_in_this_map &&
+           turn_between(landmark->map_from_base, view.pose.map_from_base) < rule.nearby_deg * vision::kDegree;
   });
 }
 

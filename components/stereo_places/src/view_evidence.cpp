@@ -19,9 +19,9 @@ namespace {
 
 using landmarks::Keypoint;
 
-constexpr int kSample = 3;        // points define a pose
-constexpr int kObjectSteps = 12;  // positions of an object across the view
-constexpr int kPlanes = 150;      // tried: finds a surface with a quarter of the points with 90 %
+constexpr int kSample = 3;            // points define a pose
+constexpr int kObjectSteps = 12;      // positions of an object across the view
+constexpr int kPlanes = 150;          // tried: finds a surface with a quarter of the points with 90 %
 constexpr double kRough_m = 0.08;     // of a surface, and the noise of bearings
 constexpr double kOnPlane = 2.5;      // standard deviations
 constexpr double kMinArea_m2 = 0.05;  // of the triangle that defines a plane

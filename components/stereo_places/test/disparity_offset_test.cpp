@@ -32,7 +32,8 @@ class DisparityOffsetTest : public testing::Test {
       const auto place = made_up_place(static_cast<unsigned>(i + 1));
       offset.begin(measured(place, by_px - offset.px()), moved(100.0 * i));
       for (int j = 1; j <= 3; ++j) {
-        offset.add(seen_from(place, moved(1.3 * j, 0.05, 0.2)), moved(100.0 * i) * moved(1.3 * path_scale * j, 0.05, 0.2));
+        offset.add(seen_from(place, moved(1.3 * j, 0.05, 0.2)),
+                   moved(100.0 * i) * moved(1.3 * path_scale * j, 0.05, 0.2));
       }
     }
   }
