@@ -47,7 +47,7 @@ landmarks::DescriptionSettings view_settings(const ViewKeypointParameters& param
   // The tools for landmarks read the settings of a panorama's description; a view has only its histogram.
   auto settings = landmarks::description_settings(landmarks::DescriptionParameters{}, 1);
   settings["camera"] = "stereo";
-  settings["upright"] = landmarks::settings_text(parameters.upright);
+  settings["upright_keypoints"] = landmarks::settings_text(parameters.upright);
   return settings;
 }
 

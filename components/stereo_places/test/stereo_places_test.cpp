@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "made_up_keypoints.hpp"
+#include "panvo/landmarks/panorama_describer.hpp"
 #include "street.hpp"
 
 namespace panvo::stereo_places {
@@ -183,6 +184,14 @@ TEST_F(StereoPlacesTest, ComparesViewsByPathTurnAndTime) {
   EXPECT_TRUE(places.is_due(stamp_ns + 1'000'000'000, base, way_m + 1.1));
   EXPECT_FALSE(places.is_due(stamp_ns + 300'000'000, base, way_m + 1.1));
   EXPECT_TRUE(places.is_due(stamp_ns + 1'000'000'000, base_at(moved(0.0, 0.2)), way_m));
+}
+
+TEST(ViewSettings, AreReadByTheToolsForLandmarksButNotComparedWithPanoramas) {
+  const auto settings = view_settings({});
+  const auto read = landmarks::from_settings<landmarks::DescriptionParameters>(settings);
+  ASSERT_TRUE(read);
+  EXPECT_EQ(read->first, landmarks::DescriptionParameters{});
+  EXPECT_FALSE(landmarks::differences(settings, landmarks::description_settings(read->first, read->second)).empty());
 }
 
 }  // namespace
