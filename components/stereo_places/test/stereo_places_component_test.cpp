@@ -156,6 +156,29 @@ TEST_F(StereoPlacesComponent, RecognisesLandmarksOfAnEarlierSession) {
   EXPECT_FALSE(found.empty());
 }
 
+TEST_F(StereoPlacesComponent, RepeatsItselfBitForBit) {
+  const auto twice = [this] {
+    load();
+    publish_cameras();
+    stamp_ns = 0;
+    drive(0.0, 6.0);
+    drive_around();
+    drive(0.0, 6.0);
+  };
+  twice();
+  const auto built = landmarks;
+  const auto corrected = corrections;
+  ASSERT_FALSE(corrected.empty());
+  harness_ = std::make_unique<runtime::ComponentHarness>();
+  const auto& built_again = harness_->collect(topics::kLandmarks);
+  const auto& corrected_again = harness_->collect(topics::kCorrection);
+  twice();
+  ASSERT_EQ(built.size(), built_again.size());
+  for (std::size_t i = 0; i < built.size(); ++i) EXPECT_TRUE(*built[i] == *built_again[i]);
+  ASSERT_EQ(corrected.size(), corrected_again.size());
+  for (std::size_t i = 0; i < corrected.size(); ++i) EXPECT_TRUE(*corrected[i] == *corrected_again[i]);
+}
+
 TEST_F(StereoPlacesComponent, LeavesOutLandmarksOfPanoramas) {
   load();
   publish_cameras();
