@@ -31,8 +31,8 @@ usage: panvo evaluate journey RECORDING [--out DIR] [--library FILE] [--set C.P=
        panvo evaluate journey RUN [options]
 
 RUN is a run folder, or a bag of a run (see panvo evaluate --help).
-Replays RECORDING through the system enhanced_vo, or reads an existing run, and reports the error before and after each revisit,
-the errors of both trajectories, and the time each stage took: as tables and in report.html.
+Replays RECORDING through the system enhanced_vo, without panoramas stereo_places, or reads an existing run, and reports the error before and
+after each revisit, the errors of both trajectories, and the time each stage took: as tables and in report.html.
 
   --run RUN        evaluate this run of RECORDING instead of a new one
   --library FILE   landmark library of an earlier journey (landmark_store.file); new landmarks are added to it. Also name that
@@ -156,6 +156,7 @@ evaluate_journey() {
 make_run() {
   local system
   system=$(system_file enhanced_vo)
+  [[ -n $(dataset_panorama "$recording") ]] || system=$(system_file stereo_places)
   if [[ -z $out ]]; then
     out=$(runs_folder)/journey-$(basename -- "$(readlink -f -- "$recording")")
   fi

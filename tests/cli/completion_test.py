@@ -25,7 +25,7 @@ class Completion(unittest.TestCase):
 
     def test_offers_only_what_begins_like_the_word(self):
         self.assertEqual(completions("te"), {"test", "test-bag"})
-        self.assertEqual(completions("run stereo_"), {"stereo_split"})
+        self.assertEqual(completions("run stereo_s"), {"stereo_split"})
 
     def test_offers_systems_and_routes_by_name(self):
         self.assertEqual(completions("run "), SYSTEMS)

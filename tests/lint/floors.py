@@ -77,6 +77,9 @@ PYTHON = floor("python", "interfaces conversions vision calibration_files record
                " panoramic_compass evaluation", "messages, eigen, opencv, python")
 # recognition in folders of images, with the readers of their files
 PLACES = floor("places", "vision landmarks landmark_builder position_corrector dataset_player sqlite", "eigen, opencv, opengv, sqlite, json, command line", False)
+# places of a stereo camera: their algorithm, and its component
+STEREO_PLACES = floor("stereo places", "vision landmarks position_corrector places", "eigen, opencv", False)
+STEREO_PLACES_WRAPPER = floor("stereo places' wrapper", "runtime interfaces conversions vision landmarks position_corrector", "messages, eigen, opencv", False)
 EVALUATION = None  # may include anything
 
 # Folders that do not consist of an algorithm and its wrapper; the first match counts.
@@ -100,6 +103,8 @@ FLOORS = [
     ("components/recorder", RECORDER),
     ("components/web_view", WEB_VIEW),
     ("components/places", PLACES),
+    ("components/stereo_places/src/stereo_places_component.cpp", STEREO_PLACES_WRAPPER),
+    ("components/stereo_places", STEREO_PLACES),
     ("components/evaluation", EVALUATION),
     ("components/python", PYTHON),
     ("drivers/simulated_world", SIMULATED_WORLD),
@@ -128,7 +133,7 @@ def wrapper_sources(root):
 
 def floor_of(path, wrappers=frozenset()):
     if path.parts[0] == "components" and "/".join(path.parts[:2]) not in OWN_FLOOR and (
-            path.stem.endswith("_component") or path.with_suffix("") in wrappers):
+            path.stem.endswith(("_component", "_messages")) or path.with_suffix("") in wrappers):
         return WRAPPER
     if path.parts[0] == "components" and "/".join(path.parts[:2]) not in OWN_FLOOR and path.parts[2:3] == ("tools",):
         return TOOL

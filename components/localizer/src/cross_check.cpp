@@ -111,6 +111,10 @@ std::optional<std::int64_t> CrossCheck::add_ways(OdometryBuffer& chain, const St
   return broken_ns;
 }
 
+void CrossCheck::confirm_pose(std::int64_t stamp_ns) {
+  if (break_ && break_->is_over && break_->to_ns <= stamp_ns) break_.reset();
+}
+
 void CrossCheck::forget() {
   turn_dispute_.end();
   way_dispute_.end();
@@ -130,7 +134,7 @@ std::vector<Doubt> CrossCheck::doubts(std::int64_t now_ns) const {
   std::vector<Doubt> doubts;
   if (break_) {
     doubts.push_back({kReach * way_sigma_m(motion_, kUnseen_s), true,
-                      "odometry lost track, and no panorama has confirmed yet that the vehicle was not moved"});
+                      "odometry lost track, and nothing has confirmed yet that the vehicle was not moved"});
   }
   if (jump_ && is_fresh(jump_->stamp_ns, now_ns)) {
     doubts.push_back({jump_->speed_m_s * kAlarm_s, true, "implausible change of the odometry's speed"});

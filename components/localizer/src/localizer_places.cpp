@@ -70,6 +70,7 @@ Correction Localizer::add(const LandmarkSighting& received) {
   doubtful_ns_.reset();
   conflicting_.reset();  // doubts about an earlier one are not confirmed by this one
   if (was_unknown || joins) found_at_way_m_ = at->way_m;
+  if (!azimuth_ns_) check_.confirm_pose(at->pose.stamp_ns);  // with a compass, the panoramas decide
   correction.kind = CorrectionKind::kApplied;
   correction.map_from_base_after = graph_.carried(at->pose).map_from_base;
   latest_ = localized(chain_.latest().pose);

@@ -188,5 +188,19 @@ TEST(LocalizerSightings, ThatAreRejectedStillShowATurnedCamera) {
   EXPECT_NEAR(found->yaw_rad, kTurned_rad, 0.02);
 }
 
+TEST(LocalizerSightings, EndTheDoubtAfterLostOdometryIfThereIsNoCompass) {
+  for (const bool has_compass : {false, true}) {
+    TwoPlaces two(6);
+    if (has_compass) two.localizer.add(two.drive.azimuth(2.0 * M_PI / 200.0, 0.003));
+    auto lost = two.drive.step();
+    lost.is_reliable = false;
+    two.localizer.add(lost);
+    for (int i = 0; i < 5; ++i) two.localizer.add(two.drive.step());
+    ASSERT_EQ(two.localizer.doubts().size(), 1U);
+    ASSERT_EQ(two.see(2).kind, CorrectionKind::kApplied);
+    EXPECT_EQ(two.localizer.doubts().empty(), !has_compass);
+  }
+}
+
 }  // namespace
 }  // namespace panvo::localizer

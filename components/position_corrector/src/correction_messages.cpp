@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "correction_messages.hpp"
+#include "panvo/position_corrector/correction_messages.hpp"
 
 #include <algorithm>
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "match_messages.hpp"
+#include "panvo/position_corrector/match_messages.hpp"
 
 #include <cstdint>
 #include <stdexcept>

@@ -8,8 +8,6 @@
 #include <string>
 #include <utility>
 
-#include "correction_messages.hpp"
-#include "match_messages.hpp"
 #include "odometry_trail.hpp"
 #include "panvo/conversions/image.hpp"
 #include "panvo/conversions/pose.hpp"
@@ -20,7 +18,9 @@
 #include "panvo/landmarks/description_settings.hpp"
 #include "panvo/landmarks/landmark_messages.hpp"
 #include "panvo/landmarks/panorama_check.hpp"
+#include "panvo/position_corrector/correction_messages.hpp"
 #include "panvo/position_corrector/landmark_matcher.hpp"
+#include "panvo/position_corrector/match_messages.hpp"
 #include "panvo/position_corrector/paper_correction.hpp"
 #include "panvo/position_corrector/position_correction.hpp"
 #include "panvo/position_corrector/spilled_keypoints.hpp"

@@ -45,6 +45,10 @@ class CrossCheck {
   std::optional<std::int64_t> add_ways(OdometryBuffer& chain, const Stretch& stretch, const AzimuthMeasurement& azimuth,
                                        double way_variance_m2);
 
+  /// A place confirmed the pose at this time, so that what odometry missed before no longer matters. For systems without
+  /// a compass.
+  void confirm_pose(std::int64_t stamp_ns);
+
   /// Discards measurements of the former clock, except the mounting angles.
   void forget();
 
