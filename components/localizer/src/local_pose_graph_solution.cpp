@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <numeric>
 #include <stdexcept>
 #include <utility>
 
@@ -13,6 +14,8 @@ namespace panvo::localizer {
 namespace {
 
 constexpr double kMinVariance = 1e-8;  // of an edge: 0.1 mm, 0.1 mrad
+// A covariance costs as much as the solution of a system of equations of the graph.
+constexpr std::size_t kMaxAllCovariances = 200, kNearCovariances = 100;
 constexpr std::size_t kMaxFixes = 64;  // over 3 km every 50 m: errors of satellites change over some hundred metres
 // Before any fix: the frame of the satellites lies anywhere within 1000 km, in any direction. Maps are level to the
 // slope on which the journey began.
@@ -72,11 +75,13 @@ bool LocalPoseGraph::solve() {
   } catch (const std::invalid_argument&) {  // a sum of valid covariances that is singular by rounding
     return false;
   }
-  const auto covariances = graph.covariances(pair);
+  auto wanted = wanted_covariances(graph.poses, order.back());
+  if (enu_) wanted.push_back(nodes_.size());
+  const auto covariances = graph.covariances(wanted, pair);
   if (!covariances) return false;
-  for (std::size_t i = 0; i < nodes_.size(); ++i) {
-    nodes_[i].map_from_base = graph.poses[i];
-    nodes_[i].covariance = covariances->poses[i];
+  for (std::size_t i = 0; i < nodes_.size(); ++i) nodes_[i].map_from_base = graph.poses[i];
+  for (std::size_t k = 0; k < wanted.size(); ++k) {
+    if (wanted[k] < nodes_.size()) nodes_[wanted[k]].covariance = covariances->poses[k];
   }
   if (enu_) {
     enu_->map_from_enu = graph.poses.back();
@@ -87,6 +92,19 @@ bool LocalPoseGraph::solve() {
     delay_ = {graph.delay, std::sqrt(covariances->delay_variance)};
   }
   return true;
+}
+
+std::vector<std::size_t> LocalPoseGraph::wanted_covariances(const std::vector<Eigen::Isometry3d>& poses,
+                                                            std::size_t newest) const {
+  std::vector<std::size_t> wanted(nodes_.size());
+  std::iota(wanted.begin(), wanted.end(), std::size_t{0});
+  if (nodes_.size() <= kMaxAllCovariances) return wanted;
+  const Eigen::Vector3d here = poses[newest].translation();
+  const auto distance = [&](std::size_t i) { return (poses[i].translation() - here).squaredNorm(); };
+  std::nth_element(wanted.begin(), wanted.begin() + kNearCovariances, wanted.end(),
+                   [&](std::size_t a, std::size_t b) { return std::pair(distance(a), a) < std::pair(distance(b), b); });
+  wanted.resize(kNearCovariances);
+  return wanted;
 }
 
 /// Errors of satellites persist for a time: fixes within it count as one. Each is weighted by its share of the time.

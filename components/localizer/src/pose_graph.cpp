@@ -223,21 +223,26 @@ bool PoseGraph::optimise() {
 }
 
 std::optional<PoseGraph::Covariances> PoseGraph::covariances(
-    std::optional<std::pair<std::size_t, std::size_t>> pair) const {
+    const std::vector<std::size_t>& of, std::optional<std::pair<std::size_t, std::size_t>> pair) const {
   Problem problem(*this);
+  std::vector<const Block*> asked;
+  for (const std::size_t pose : of) asked.push_back(&problem.blocks.at(pose));
+  if (of.empty()) {
+    for (const auto& block : problem.blocks) asked.push_back(&block);
+  }
   ceres::Covariance::Options options;
   options.algorithm_type = ceres::SPARSE_QR;
   options.num_threads = 1;
   ceres::Covariance covariance(options);
   std::vector<std::pair<const double*, const double*>> wanted;
-  for (const auto& block : problem.blocks) wanted.emplace_back(block.data(), block.data());
+  for (const auto* block : asked) wanted.emplace_back(block->data(), block->data());
   if (pair) wanted.emplace_back(problem.blocks[pair->first].data(), problem.blocks[pair->second].data());
   if (scale_sigma > 0.0) wanted.emplace_back(&problem.scale, &problem.scale);
   if (delay_sigma > 0.0) wanted.emplace_back(&problem.delay, &problem.delay);
   if (!covariance.Compute(wanted, &problem.problem)) return std::nullopt;
   Covariances result;
-  for (const auto& block : problem.blocks) {
-    const auto tangent = tangent_covariance(covariance, block, block);
+  for (const auto* block : asked) {
+    const auto tangent = tangent_covariance(covariance, *block, *block);
     if (!tangent) return std::nullopt;
     result.poses.emplace_back(0.5 * (*tangent + tangent->transpose()));
   }

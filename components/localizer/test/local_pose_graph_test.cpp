@@ -49,6 +49,31 @@ TEST(LocalPoseGraph, StaysSmallWhereOneRouteIsDrivenAllDay) {
   EXPECT_LT(here.map_from_base.translation().norm(), 0.3);
 }
 
+/// A journey of 250 landmarks 10 m apart, with a sighting of the 200th at its end.
+TEST(LocalPoseGraph, RenewsTheCovariancesNearTheVehicleInALargeMap) {
+  constexpr int kLandmarks = 250;
+  LocalPoseGraph graph(0.01, 0.001, 0.0, {});
+  const auto at_metre = [](double x_m) {
+    OdometrySample sample;
+    sample.way_m = x_m;
+    sample.pose = {static_cast<std::int64_t>(x_m * 1e8), at_x(x_m), variance(0.01 * std::sqrt(x_m)), true, 0.0};
+    return sample;
+  };
+  graph.start(at_metre(0.0));
+  for (int i = 1; i <= kLandmarks; ++i) graph.add_built(static_cast<std::uint32_t>(i), at_metre(10.0 * i));
+  const auto sigma_m = [&](std::uint32_t id) { return std::sqrt(graph.landmark(id)->covariance(0, 0)); };
+  const double far_m = sigma_m(20), near_m = sigma_m(245);
+  LandmarkSighting sighting;
+  sighting.stamp_ns = at_metre(10.0 * kLandmarks + 5.0).pose.stamp_ns;
+  sighting.landmark_id = 200;
+  sighting.landmark_from_base = at_x(10.0 * (kLandmarks - 200) + 5.0);
+  sighting.covariance = variance(0.001);
+  ASSERT_TRUE(graph.add_pass(sighting, at_metre(10.0 * kLandmarks + 5.0), 20.0));
+  ASSERT_TRUE(graph.solve());
+  EXPECT_LT(sigma_m(245), 0.98 * near_m);  // better known by the sighting
+  EXPECT_EQ(sigma_m(20), far_m);           // of another part of the map
+}
+
 TEST(LocalPoseGraph, SaysWhereItCannotBeSolved) {
   LocalPoseGraph graph(0.01, 0.001, 0.0, {});
   graph.start({});

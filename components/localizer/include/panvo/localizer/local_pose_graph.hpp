@@ -107,7 +107,8 @@ class LocalPoseGraph {
   /// Shifts all stamps of this journey back.
   void set_clock_back(std::int64_t by_ns);
 
-  /// False, without effect, if no solution was found.
+  /// False, without effect, if no solution was found. In a graph of more than 200 nodes only the covariances of the
+  /// hundred nearest to the newest are renewed; those of others remain, which measurements elsewhere hardly change.
   bool solve();
 
  private:
@@ -133,6 +134,7 @@ class LocalPoseGraph {
     std::optional<PoseInMap> known;  // from an earlier journey
   };
 
+  std::vector<std::size_t> wanted_covariances(const std::vector<Eigen::Isometry3d>& poses, std::size_t newest) const;
   void add_fixes(PoseGraph& graph, const std::vector<std::size_t>& order) const;
   void thin_out_fixes();
   bool is_cut(std::int64_t from_ns, std::int64_t to_ns) const;

@@ -54,14 +54,15 @@ class PoseGraph {
   bool optimise();
 
   struct Covariances {
-    std::vector<vision::Matrix6d> poses;  ///< in the map, as vision::pose_error
+    std::vector<vision::Matrix6d> poses;  ///< of those asked for, in the map, as vision::pose_error
     /// Of the two poses that covariances() was asked for: rows of the first, columns of the second.
     vision::Matrix6d cross = vision::Matrix6d::Zero();
     double scale_variance = 0.0, delay_variance = 0.0;
   };
-  /// At the minimum; nullopt if the measurements do not determine all of them. `pair`: two poses whose errors are
-  /// wanted together.
-  std::optional<Covariances> covariances(std::optional<std::pair<std::size_t, std::size_t>> pair = {}) const;
+  /// At the minimum; nullopt if the measurements do not determine all of them. `of`: poses, without which all are meant;
+  /// each costs in proportion to the size of the graph. `pair`: two poses whose errors are wanted together.
+  std::optional<Covariances> covariances(const std::vector<std::size_t>& of = {},
+                                         std::optional<std::pair<std::size_t, std::size_t>> pair = {}) const;
 };
 
 }  // namespace panvo::localizer
