@@ -24,7 +24,7 @@ using position_corrector::PositionCorrection;
 
 constexpr double kExpectedSigmas = 2.0;    // a sighting within agrees with the expected pose
 constexpr double kExpected_m = 0.3;        // or within this
-constexpr double kPerPlace_m = 0.03;       // between corrections: the localizer's time for one grows with the map
+constexpr double kPerPlace_m = 0.01;       // between corrections: the localizer's time for one grows with the map
 constexpr double kCommonError = 0.02;      // of the distance from the place
 constexpr std::size_t kMinKeypoints = 30;  // a place with fewer points is not recognised anyway
 
