@@ -75,6 +75,9 @@ PYTHON = floor("python", "interfaces conversions vision calibration_files record
                " panoramic_compass evaluation", "messages, eigen, opencv, python")
 # recognition in folders of images, with the readers of their files
 PLACES = floor("places", "vision landmarks landmark_builder position_corrector dataset_player sqlite", "eigen, opencv, opengv, sqlite, json, command line", False)
+# robots that share places; recognition as in the position corrector
+FLEET = floor("fleet", "vision landmarks position_corrector", "eigen, opencv", False)
+FLEET_WRAPPER = floor("fleet's component", "runtime interfaces conversions vision landmarks position_corrector", "messages, eigen, opencv", False)
 EVALUATION = None  # may include anything
 
 # Folders that do not consist of an algorithm and its wrapper; the first match counts.
@@ -97,6 +100,13 @@ FLOORS = [
     ("components/recorder", RECORDER),
     ("components/web_view", WEB_VIEW),
     ("components/places", PLACES),
+    ("components/fleet/include", FLEET),
+    ("components/fleet/src/fleet_component.cpp", FLEET_WRAPPER),
+    ("components/fleet/src/fleet_messages.cpp", FLEET_WRAPPER),
+    ("components/fleet/src/fleet_messages.hpp", FLEET_WRAPPER),
+    ("components/fleet/src/fleet_pose_publisher.cpp", FLEET_WRAPPER),
+    ("components/fleet/src/fleet_pose_publisher.hpp", FLEET_WRAPPER),
+    ("components/fleet", FLEET),
     ("components/evaluation", EVALUATION),
     ("components/python", PYTHON),
     ("drivers/simulated_world", SIMULATED_WORLD),
