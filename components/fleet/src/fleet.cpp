@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <utility>
 
 #include "panvo/vision/angle.hpp"
@@ -22,6 +24,8 @@ constexpr std::size_t kMaxAskedFor = 32;
 constexpr std::size_t kMaxPending = 4;                 // places whose keypoints were asked for and not received
 constexpr std::size_t kMaxEarly = 10'000;
 constexpr std::uint32_t kSlotsPerMap = 32;
+constexpr int kMaxViewsOfPair = 3;
+constexpr double kViewStep_m = 2.0;
 constexpr std::uint32_t kMaxSightedMaps = 64;
 constexpr double kAnchorRadius_m = 60.0;
 constexpr int kDecisionsPerCall = 16;
@@ -134,17 +138,22 @@ void Fleet::use_ready_views() {
   for (auto& sighting : recognition_.sightings(find)) share(std::move(sighting));
 }
 
-/// Sightings of one map are kept in a ring. The same two places have one sighting, the one with the most inliers: many
-/// views of one place are no more evidence than one.
+/// Sightings of one map are kept in a ring. Two places have at most three sightings, some path apart, each the one with
+/// the most inliers: many views of one place are hardly more evidence than a few.
 void Fleet::share(Sighting sighting) {
+  int views = 0;
   for (const auto& [slot, seen] : own_->sightings()) {
     const auto& known = seen.sighting;
     if (known.own_place != sighting.own_place || known.seen != sighting.seen) continue;
-    if (known.inliers >= sighting.inliers) return;
-    sighting.slot = slot;
-    own_->add(sighting);
-    return;
+    if (std::abs(known.travelled_m - sighting.travelled_m) < kViewStep_m) {
+      if (known.inliers >= sighting.inliers) return;
+      sighting.slot = slot;
+      own_->add(sighting);
+      return;
+    }
+    ++views;
   }
+  if (views >= kMaxViewsOfPair) return;
   const auto count = static_cast<std::uint32_t>(sighted_.size());
   if (!sighted_.contains(sighting.seen.map)) {
     news_.push_back(fmt::format("place {} of map {} was recognised, the first one of that map: {} points agree",

@@ -103,6 +103,7 @@ class FleetComponent final : public runtime::Component {
     context.input(topics::kFleetKeypoints, [this](const auto& message) { on_keypoints(*message); });
     context.every(std::chrono::milliseconds(kTick_ms), [this] { on_tick(); });
     context.on_diagnostics([this] { return diagnostics(); });
+    context.on_end([this] { report(); });
     context.log().info("this robot is {}", fleet_.robot());
   }
 
@@ -250,6 +251,16 @@ class FleetComponent final : public runtime::Component {
     robots_ = fleet_.members().present().size();
     joined_ = fleet_.frame().own_from.size();
     state_.publish(std::move(state));
+  }
+
+  void report() const {
+    const auto& counts = fleet_.counts();
+    context_.log().info(
+        "{:.1f} kB sent, {:.1f} kB received; {} panoramas compared with {} places, {} candidates, {} verified, {} "
+        "recognised; {} joins made, {} undone",
+        1e-3 * static_cast<double>(sent_.total()), 1e-3 * static_cast<double>(received_.total()), counts.panoramas,
+        counts.compared, counts.candidates, counts.verified, counts.recognised, fleet_.evidence().made(),
+        fleet_.evidence().undone());
   }
 
   /// Called on another thread.

@@ -108,7 +108,7 @@ panvo_msgs::msg::FleetKeypoints to_message(const KeypointAnswer& answer, const S
   panvo_msgs::msg::FleetKeypoints message;
   fill(message, sender, answer.map);
   message.place(answer.place);
-  message.keypoints(landmarks::to_messages(answer.keypoints));
+  message.keypoints(landmarks::to_keypoint_messages(answer.keypoints));
   return message;
 }
 

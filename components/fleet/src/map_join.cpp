@@ -42,10 +42,10 @@ struct Ends {
   const landmarks::PanoramicLandmark* b = nullptr;
 };
 
-Matrix6d relative_covariance(const landmarks::PanoramicLandmark& i, const landmarks::PanoramicLandmark& j,
-                             const JoinParameters& parameters) {
+Matrix6d between(const landmarks::PanoramicLandmark& i, const landmarks::PanoramicLandmark& j,
+                 const JoinParameters& parameters) {
   if (i.id == j.id) return Matrix6d::Zero();
-  return fleet::relative_covariance(i.map_from_base, i.covariance, j.map_from_base, j.covariance, parameters);
+  return relative_covariance(i.map_from_base, i.covariance, j.map_from_base, j.covariance, parameters);
 }
 
 /// Squared Mahalanobis distance between the two ways from place a of sighting i to place b of sighting j.
@@ -55,10 +55,10 @@ double loop_error(const CrossSighting& i, const Ends& ends_i, const CrossSightin
   const Eigen::Isometry3d through_b = ends_i.b->map_from_base.inverse() * ends_j.b->map_from_base;
   const auto error = vision::pose_error(i.a_from_b * through_b, through_a * j.a_from_b);
   const Matrix6d covariance =
-      vision::compose_covariance(through_a, relative_covariance(*ends_i.a, *ends_j.a, parameters), j.a_from_b,
+      vision::compose_covariance(through_a, between(*ends_i.a, *ends_j.a, parameters), j.a_from_b,
                                  widened(j, parameters)) +
       vision::compose_covariance(i.a_from_b, widened(i, parameters), through_b,
-                                 relative_covariance(*ends_i.b, *ends_j.b, parameters));
+                                 between(*ends_i.b, *ends_j.b, parameters));
   return error.dot(covariance.ldlt().solve(error));
 }
 
@@ -239,8 +239,8 @@ std::optional<MapTransform> fit(const SharedMap& a, const SharedMap& b, const st
       const auto& in_a = ends[i].a->map_from_base;
       const Eigen::Isometry3d measured = in_a * agreed[i].a_from_b;
       const Eigen::Isometry3d predicted = a_from_b * ends[i].b->map_from_base;
-      const Matrix6d drift_a = relative_covariance(*near, *ends[i].a, parameters);
-      const Matrix6d drift_b = relative_covariance(*ends[nearest].b, *ends[i].b, parameters);
+      const Matrix6d drift_a = between(*near, *ends[i].a, parameters);
+      const Matrix6d drift_b = between(*ends[nearest].b, *ends[i].b, parameters);
       const Matrix6d covariance =
           vision::compose_covariance(in_a, vision::rotate_covariance(near->map_from_base.linear(), drift_a),
                                      agreed[i].a_from_b, widened(agreed[i], parameters)) +

@@ -124,7 +124,7 @@ class FleetOfComponents : public testing::Test {
     runtime::ComponentDescription description;
     description.package = "panvo_fleet";
     description.plugin = "FleetComponent";
-    description.name = "fleet";
+    description.name = "fleet_" + name_space;
     description.name_space = "/" + name_space;
     description.parameters["robot"] = {.items = {robot}, .is_list = false, .where = {"test", 0}};
     harness_.container().load(description);

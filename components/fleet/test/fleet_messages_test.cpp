@@ -112,7 +112,7 @@ TEST(FleetMessages, AreRefusedIfTheyAreHuge) {
   const auto message = to_message(*map.since(0, 9, 9), kSender);
   auto broken = message;
   broken.places().resize(interfaces::kMaxFleetPlaces + 1, broken.places()[0]);
-  EXPECT_THAT(problem_of(broken), Optional(HasSubstr("places has")));
+  EXPECT_THAT(problem_of(broken), Optional(HasSubstr("places is longer than 64")));
   broken = message;
   broken.places()[0].keypoints().resize(1);
   EXPECT_THAT(problem_of(broken), Optional(HasSubstr("places have keypoints")));

@@ -8,6 +8,8 @@
 
 namespace panvo::fleet {
 
+inline constexpr std::int64_t kSecond = 1'000'000'000;  ///< ns
+
 /// Flat pose: position and yaw.
 inline Eigen::Isometry3d flat(double x, double y, double yaw_rad) {
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();

@@ -15,7 +15,6 @@ using testing::Contains;
 using testing::HasSubstr;
 using testing::Optional;
 
-constexpr std::int64_t kSecond = 1'000'000'000;
 
 /// Members as robot "me" knows them, and the map of another robot, "two".
 class FleetMembers : public testing::Test {

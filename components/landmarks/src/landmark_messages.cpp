@@ -38,7 +38,7 @@ std::vector<AdaptiveFeature> to_features(const FeatureMessages& messages) {
 
 }  // namespace
 
-std::vector<panvo_msgs::msg::LandmarkKeypoint> to_messages(const std::vector<Keypoint>& keypoints) {
+std::vector<panvo_msgs::msg::LandmarkKeypoint> to_keypoint_messages(const std::vector<Keypoint>& keypoints) {
   std::vector<panvo_msgs::msg::LandmarkKeypoint> messages(keypoints.size());
   for (std::size_t i = 0; i < keypoints.size(); ++i) {
     messages[i].bearing(to_array(keypoints[i].bearing));
@@ -75,7 +75,7 @@ panvo_msgs::msg::PanoramicLandmark to_message(const PanoramicLandmark& landmark,
   message.histogram(landmark.description.histogram);
   message.large_features(to_messages(landmark.description.large));
   message.small_features(to_messages(landmark.description.small));
-  message.keypoints(to_messages(landmark.keypoints));
+  message.keypoints(to_keypoint_messages(landmark.keypoints));
   message.thumbnail(landmark.thumbnail);
   return message;
 }

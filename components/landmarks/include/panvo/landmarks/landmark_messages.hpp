@@ -25,7 +25,7 @@ conversions::Result<PanoramicLandmark> to_landmark(const panvo_msgs::msg::Panora
                                                    const DescriptionSettings& settings);
 
 /// Keypoints alone, as sent between robots; the receiver's message has been checked by its rules.
-std::vector<panvo_msgs::msg::LandmarkKeypoint> to_messages(const std::vector<Keypoint>& keypoints);
+std::vector<panvo_msgs::msg::LandmarkKeypoint> to_keypoint_messages(const std::vector<Keypoint>& keypoints);
 std::vector<Keypoint> to_keypoints(const std::vector<panvo_msgs::msg::LandmarkKeypoint>& messages);
 
 /// Optimised landmark poses. The reason is the result of interfaces::problem_of().
